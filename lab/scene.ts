@@ -5,6 +5,10 @@
  */
 import type { Ask, Description, Method, Problem, Requests, Solution } from './protocol';
 
+/** What a run is computed from. */
+export interface Run {
+  readonly text: string; readonly set: Readonly<Record<string, string>>; readonly methods: readonly string[]; readonly step: string; readonly until: string;
+}
 /** The whole state of the page that an address can hold. Texts are as the reader typed them. */
 export interface State {
   readonly preset: string;                      // a name of models/, or ''
@@ -18,6 +22,8 @@ export interface State {
   readonly place: string;
   /** Absent: the whole page. Else the page as a picture inside another, with these sliders: 'step', and numbers as sliders.ts names them. */
   readonly embed?: readonly string[];
+  /** The run A that stays beside the present one, if there is one. */
+  readonly pinned?: Run;
 }
 export interface View {
   readonly plane: 'time' | 'plane' | 'space' | 'auto';      // what the motion panel shows: x-t, x-y, x-y-z

@@ -9,9 +9,11 @@
  *   l=gallery | step | LESSON.PART.ANSWER   where in the page one is
  *   o=ID,ID              of older addresses, read and ignored: all panels that have an answer are there
  *   embed=1              a picture inside another page        c=step c=NUMBER     with these sliders (repeated)
- * p stands where the text is the preset's, else m; a without p or m's default is left out, and so is all that has its default.
+ *   A=1                  a run A is pinned, and of it            Am=TEXT As=NAME=EXPRESSION Aa=METHODS Ah=STEP AT=UNTIL
+ * p stands where the text is the preset's, else m; a without p or m's default is left out, and so is all that has its default. Am is left out where A has
+ * the text of the address. A pinned run that cannot be read is told; all else of its address is used.
  */
-import type { State, View } from './scene';
+import type { Run, State, View } from './scene';
 import { normal, plain } from './shell/number';
 import { words } from './words';
 
@@ -97,11 +99,24 @@ export function encode(state: State, presets: Presets): string {
   if (state.place) put('l', state.place);
   if (state.embed) put('embed', '1');
   for (const name of state.embed ?? []) put('c', name);
+  const { pinned } = state;
+  if (pinned) {
+    const own = pinned.text === state.text;
+    put('A', '1');
+    if (!own) put('Am', pinned.text);
+    for (const [name, expression] of Object.entries(pinned.set)) put('As', name + '=' + expression);
+    if (!same(pinned.methods, own ? usual : [])) put('Aa', pinned.methods.join(','));
+    if (pinned.step) put('Ah', pinned.step);
+    if (pinned.until) put('AT', pinned.until);
+  }
   return out.join('&');
 }
 
 const once = new Set(['v', 'p', 'm', 'a', 'h', 'T', 'w', 'o', 'e', 'z', 'l', 'embed']);
 const several = new Set(['s', 'q', 'f', 'c']);
+const pins = { once: new Set(['A', 'Am', 'Aa', 'Ah', 'AT']), several: new Set(['As']) };
+/** A field of the pinned run. */
+const isPin = (field: string): boolean => /^A\w?(=|$)/.test(field);
 
 /** What is wrong with an address: thrown and caught in this file only. */
 class Wrong extends Error {}
@@ -116,17 +131,17 @@ function word(value: string, { long, control }: { readonly long: string; readonl
   return value;
 }
 
-function fields(fragment: string): Map<string, string[]> {
+function fields(parts: readonly string[], keys: { readonly once: ReadonlySet<string>; readonly several: ReadonlySet<string> }): Map<string, string[]> {
   const found = new Map<string, string[]>();
-  for (const field of fragment.split('&')) {
+  for (const field of parts) {
     if (field === '') continue;
     const at = field.indexOf('=');
     const key = at < 0 ? field : field.slice(0, at);
-    if (!once.has(key) && !several.has(key)) throw new Wrong(words.address.part(key.slice(0, 20)));
+    if (!keys.once.has(key) && !keys.several.has(key)) throw new Wrong(words.address.part(key.slice(0, 20)));
     const value = unescape(at < 0 ? '' : field.slice(at + 1));
     if (value === null) throw new Wrong(words.address.code);
     const values = found.get(key) ?? [];
-    if (values.length && once.has(key)) throw new Wrong(words.address.twice(key));
+    if (values.length && keys.once.has(key)) throw new Wrong(words.address.twice(key));
     values.push(value);
     found.set(key, values);
   }
@@ -149,27 +164,34 @@ function viewOf(found: Map<string, string[]>): View {
   };
 }
 
-function stateOf(fragment: string, presets: Presets, limit: number): State {
-  if (fragment.length > limit) throw new Wrong(words.address.long(String(limit / 1024)));
-  const found = fields(fragment);
-  const version = found.get('v')?.[0];
-  if (version !== '1') throw new Wrong(version === undefined ? words.address.noVersion : words.address.version);
-  const model = found.get('m')?.[0], name = found.get('p')?.[0] ?? '';
-  const text = model?.replace(/\r\n?/g, '\n') ?? presets.text(name);
-  if (text === undefined) throw new Wrong(name ? words.address.example(name.slice(0, 40)) : words.address.noModel);
-  if (controls.test(text)) throw new Wrong(words.address.modelControl);
-  const sets = found.get('s') ?? [];
+function textOf(typed: string): string {
+  if (controls.test(typed)) throw new Wrong(words.address.modelControl);
+  return typed;
+}
+/** What a run is computed from, but for its text. */
+function runOf(sets: readonly string[], listed: string | undefined, usual: readonly string[], step = '', until = ''): Omit<Run, 'text'> {
   if (sets.length > most.sets) throw new Wrong(words.address.sets);
   const set: [string, string][] = sets.map(item => {
     const at = item.indexOf('=');
     if (at < 1 || at === item.length - 1) throw new Wrong(words.address.setForm);
     return [word(item.slice(0, at), words.address.texts.parameter), word(item.slice(at + 1), words.address.texts.value)];
   });
-  const usual = model === undefined ? presets.methods(name) : [];
-  const listed = found.get('a')?.[0];
   const methods = listed === undefined ? usual : [...new Set(splitList(listed))];
   if (methods.length > most.methods) throw new Wrong(words.address.methods);
   for (const method of methods) word(method, words.address.texts.method);
+  return { set: Object.fromEntries(set), methods, step: word(step, words.address.texts.step), until: word(until, words.address.texts.until) };
+}
+const lines = (text: string | undefined): string | undefined => text?.replace(/\r\n?/g, '\n');
+
+function stateOf(parts: readonly string[], presets: Presets): State {
+  const found = fields(parts, { once, several });
+  const version = found.get('v')?.[0];
+  if (version !== '1') throw new Wrong(version === undefined ? words.address.noVersion : words.address.version);
+  const model = found.get('m')?.[0], name = found.get('p')?.[0] ?? '';
+  const text = lines(model) ?? presets.text(name);
+  if (text === undefined) throw new Wrong(name ? words.address.example(name.slice(0, 40)) : words.address.noModel);
+  textOf(text);
+  const run = runOf(found.get('s') ?? [], found.get('a')?.[0], model === undefined ? presets.methods(name) : [], found.get('h')?.[0], found.get('T')?.[0]);
   const place = found.get('l')?.[0] ?? '';
   if (!/^(gallery|step|[a-z0-9-]{1,40}\.(predict|try|see|why)(\.\d{1,2})?)?$/.test(place)) throw new Wrong(words.address.place);
   const inside = found.get('embed')?.[0] ?? '', sliders = found.get('c') ?? [];
@@ -180,18 +202,33 @@ function stateOf(fragment: string, presets: Presets, limit: number): State {
   if (inside && place) throw new Wrong(words.address.embedPlace);
   return {
     ...(inside ? { embed: [...new Set(sliders)] } : {}),
-    preset: presets.text(name) === undefined ? '' : name, text, set: Object.fromEntries(set), methods,
-    step: word(found.get('h')?.[0] ?? '', words.address.texts.step), until: word(found.get('T')?.[0] ?? '', words.address.texts.until), view: viewOf(found), place,
+    preset: presets.text(name) === undefined ? '' : name, text, ...run, view: viewOf(found), place,
   };
+}
+
+/** The run that is pinned beside a state, if there is one. */
+function pinOf(parts: readonly string[], state: State, presets: Presets): Run | undefined {
+  if (!parts.length) return undefined;
+  const found = fields(parts, pins), text = lines(found.get('Am')?.[0]);
+  if (found.get('A')?.[0] !== '1') throw new Wrong(words.address.pinned);
+  const usual = text === undefined && presets.text(state.preset) === state.text ? presets.methods(state.preset) : [];
+  return { text: textOf(text ?? state.text), ...runOf(found.get('As') ?? [], found.get('Aa')?.[0], usual, found.get('Ah')?.[0], found.get('AT')?.[0]) };
 }
 
 /** The state of a fragment, with or without its '#'; where it is wrong, the first preset and a sentence that says why. */
 export function decode(fragment: string, presets: Presets, limit = longest): Decoded {
+  const whole = fragment.replace(/^#/, ''), why = (wrong: unknown): string => (wrong instanceof Wrong ? wrong.message : words.address.unreadable);
   try {
-    return { state: stateOf(fragment.replace(/^#/, ''), presets, limit), problem: '' };
+    if (whole.length > limit) throw new Wrong(words.address.long(String(limit / 1024)));
+    const parts = whole.split('&'), state = stateOf(parts.filter(part => !isPin(part)), presets);
+    try {
+      const pinned = pinOf(parts.filter(isPin), state, presets);
+      return { state: pinned ? { ...state, pinned } : state, problem: '' };
+    } catch (wrong) {
+      return { state, problem: words.address.noPin(why(wrong)) };
+    }
   } catch (wrong) {
-    const why = wrong instanceof Wrong ? wrong.message : words.address.unreadable;
-    return { state: presetState(presets, presets.first), problem: words.address.unusable(why) };
+    return { state: presetState(presets, presets.first), problem: words.address.unusable(why(wrong)) };
   }
 }
 

@@ -8,7 +8,7 @@
 import { looksOf } from './figure/ink';
 import { brief } from './figure/number';
 import { STEPS_MAX, problem, type Description, type Method, type Problem, type Solution } from './protocol';
-import { Refused, type Client, type Scene, type State, type Store, type View } from './scene';
+import { Refused, type Client, type Run, type Scene, type State, type Store, type View } from './scene';
 import { normal, plain, short } from './shell/number';
 import { words } from './words';
 
@@ -35,6 +35,10 @@ export interface LiveStore extends Store {
   /** Replace the whole state: a preset, an address. */
   load(state: State): void;
   cancel(): void;
+  /** Keeps this run, as A, in the state; null: no longer. */
+  pin(run: Run | null): void;
+  /** A run, computed beside the present state; rejects with what is wrong. */
+  beside(run: Run): Promise<Scene>;
   /** To another place of the page (State.place). */
   go(place: string): void;
   /** The theme has changed. */
@@ -212,7 +216,7 @@ export function createStore(client: Client, initial: State): LiveStore {
     const shown: State = { ...of, methods };
     const finish = (solution: Solution): void => {
       // How it is shown may have changed since.
-      scene = makeScene(state.text === shown.text ? { ...shown, view: state.view } : shown, solution);
+      scene = makeScene({ ...shown, view: state.text === shown.text ? state.view : shown.view, pinned: state.pinned }, solution);
       numbers = { step: asked.step, until: asked.until, start: settings.start };
       tell('scene');
     };
@@ -251,6 +255,16 @@ export function createStore(client: Client, initial: State): LiveStore {
       trouble = { ...trouble, model: inText ? error.problem : null, run: inText ? null : error.problem };
       tell('description');
     }
+  }
+
+  async function beside(run: Run): Promise<Scene> {
+    if (!catalogue.length) catalogue = await client.ask('catalogue', {});
+    const of = { ...state, ...run }, set = Object.entries(run.set).map(([name, expression]) => `${name}=${expression}`);
+    const model = await client.ask('describe', { model: { text: run.text, set: [] } });
+    const { step, until, trouble: wrong } = await measure(of, model), { methods, refused } = admittedMethods(of, model, catalogue);
+    const why = wrong.step || wrong.until || (step === null ? words.trouble.noStep : until === null ? words.trouble.noUntil : '') || (refused[0] ? words.trouble.unknown(refused[0].name) : '');
+    if (why) throw new Refused(failure(why));
+    return makeScene({ ...of, methods }, await client.ask('solve', { model: { text: run.text, set }, methods, step, until, columns: [], rows: rows.settled, truth: true, coarse: true, unexamined: true }));
   }
 
   async function work(): Promise<void> {
@@ -305,6 +319,12 @@ export function createStore(client: Client, initial: State): LiveStore {
     get numbers() { return numbers; },
     change(part: Partial<State>) { state = { ...state, ...part }; tell('state'); ask(); },
     load(next: State) { ownMethod = null; state = next; tell('state'); tell('view'); ask(); },
+    pin(run: Run | null) {
+      state = { ...state, pinned: run ?? undefined };
+      if (scene) scene = { ...scene, state: { ...scene.state, pinned: state.pinned } };
+      tell('view');
+    },
+    beside,
     go(place: string) { state = { ...state, place }; tell('view'); },
     look(part: Partial<View>) {
       state = { ...state, view: { ...state.view, ...part } };

@@ -206,7 +206,7 @@ export function editor(store: LiveStore): HTMLElement {
     offering = true;
     colour();
     size();
-    store.change({ text: area.value, ...(another(store.state.text, area.value) ? { set: {}, step: '', until: '' } : {}) });
+    store.change({ text: area.value, ...(another(store.state.text, area.value) ? { set: {}, step: '', until: '', pinned: undefined } : {}) });
     if (event instanceof InputEvent && event.inputType === 'insertText' && (event.data?.length ?? 0) <= 1 || offers) complete(); else close();
     offer();
     if (timer) wait();
@@ -264,7 +264,7 @@ export function editor(store: LiveStore): HTMLElement {
   function open(text: string): void {
     const small = linesOf(text) === linesOf(area.value) && text !== '' && area.value !== '', at = area.scrollTop, from = area.selectionStart, to = area.selectionEnd;
     area.value = text;
-    if (small) area.setSelectionRange(from, to); else { held = 0; typed = -Infinity; }
+    if (small) area.setSelectionRange(from, to); else { area.setSelectionRange(0, 0); held = 0; typed = -Infinity; }
     colour();
     size();
     const first = linesOf(text) > most ? firstStatement(text) : 0;

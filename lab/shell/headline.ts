@@ -9,7 +9,7 @@ import type { LiveStore } from '../state';
 import { saidOf } from '../scenes';
 import { presetState } from '../share';
 import { words } from '../words';
-import { button, el, icon, say } from '../dom';
+import { button, el, icon, place, say } from '../dom';
 import { editor } from './editor';
 import { toNote } from './note';
 import { described, presets, titleIn, titleOf } from './presets';
@@ -41,7 +41,11 @@ export function headline(store: LiveStore, toasts: Toasts, sees: () => Sees, cha
     own.hidden = !now;
     document.body.classList.toggle('editing', now);
     changed();
-    if (now) own.querySelector('textarea')?.focus({ preventScroll: innerWidth >= 768 }); else pill.focus({ preventScroll: true });
+    if (!now) { pill.focus({ preventScroll: true }); return; }
+    // At its top, where the title and the first lines are.
+    own.querySelector('textarea')?.focus({ preventScroll: true });
+    place('words').scrollTop = 0;
+    place('words').scrollIntoView({ block: 'nearest' });
   }
 
   let shown = '', typeset = '', opened = false;

@@ -6,14 +6,14 @@
 import type { State } from '../scene';
 import type { LiveStore } from '../state';
 import { words } from '../words';
-import { button, icon } from '../dom';
+import { button, el, icon } from '../dom';
 
 const PAUSE = 600, MOST = 200;
 
 export function history(store: LiveStore): HTMLElement {
   const past: State[] = [], future: State[] = [];
   let present = store.state, last = -Infinity, ours = false;
-  const undoButton = button('', () => go(past, future), { class: 'icon-button', 'aria-label': words.top.undo, title: words.top.undoKey, disabled: true }, icon('M8.5 6L4 10.5 8.5 15M4.5 10.5h9.5a5 5 0 0 1 0 10H11'));
+  const undoButton = button('', () => go(past, future), { class: 'icon-button', 'aria-label': words.top.undo, title: words.top.undoKey, disabled: true }, icon('M8.5 6L4 10.5 8.5 15M4.5 10.5h9.5a5 5 0 0 1 0 10H11'), el('span', { class: 'menu-word' }, words.top.undo));
 
   function go(from: State[], to: State[]): void {
     const state = from.pop();

@@ -13,7 +13,7 @@ export const lecturing = (): boolean => document.body.classList.contains('lectur
 /** The button of the header; bar: what stands on the screen meanwhile. */
 export function lecture(store: LiveStore): { readonly opener: HTMLElement; readonly bar: HTMLElement } {
   const help = el('div', { id: 'keys', class: 'sheet', popover: 'auto', role: 'group', 'aria-label': words.lecture.keys }, el('h2', {}, words.lecture.keys), el('dl', {}, ...words.lecture.list.flatMap(([key, what]) => [el('dt', {}, key), el('dd', {}, what)])));
-  const opener = button('', () => turn(!lecturing()), { class: 'icon-button', 'aria-label': words.lecture.open, title: words.lecture.openTitle }, icon('M3 5h18v11H3zM12 16v4M8 20h8'));
+  const opener = button('', () => turn(!lecturing()), { class: 'icon-button', 'aria-label': words.lecture.open, title: words.lecture.openTitle }, icon('M3 5h18v11H3zM12 16v4M8 20h8'), el('span', { class: 'menu-word' }, words.lecture.word));
   const bar = el('div', { class: 'lecture-bar' }, button('?', () => {}, { class: 'icon-button', 'aria-label': words.lecture.keysLabel, popovertarget: 'keys' }),
     button('', () => turn(false), { class: 'icon-button', 'aria-label': words.lecture.leave, title: words.lecture.leaveTitle }, icon('M6 6l12 12M18 6L6 18')), help);
   let full = false;

@@ -10,6 +10,8 @@ export function nav(places: readonly Spot[]): { current(id: string): void } {
   const opener = place('menu-button'), menu = place('menu');
   const toggle = (open: boolean): void => { menu.classList.toggle('open', open); opener.setAttribute('aria-expanded', String(open)); };
   opener.addEventListener('click', () => toggle(!menu.classList.contains('open')));
+  // What was chosen is under it.
+  place('nav-more').addEventListener('click', () => toggle(false));
   menu.addEventListener('keydown', (event) => { if (event.key === 'Escape' && menu.classList.contains('open')) { toggle(false); opener.focus(); } });
   document.addEventListener('pointerdown', ({ target }) => { if (target instanceof Node && !menu.contains(target) && !opener.contains(target)) toggle(false); });
   return {

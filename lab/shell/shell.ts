@@ -63,7 +63,7 @@ export function mountShell(store: LiveStore, stage: Stage, clock: { replay(): vo
   place('methods').append(chosen.element);
   place('scene-note').append(note(store));
   place('dials').append(stepSlider(store), dials(store));
-  place('dock-links').append(dockLinks(store, pin(store, stage), stage.choice));
+  place('dock-links').append(dockLinks(store, pin(store, stage, toasts), stage.choice));
   place('status').append(status(store));
   if (!store.state.embed) {
     const { opener, bar } = lecture(store);

@@ -1,6 +1,6 @@
 /* Light, dark, or as the system has it. Invariant: data-theme of the root says which was chosen; without it the system's choice holds. */
 import type { Theme } from '../scene';
-import { button, icon, svg } from '../dom';
+import { button, el, icon, svg } from '../dom';
 import { words } from '../words';
 import { forget, recall, remember } from './memory';
 
@@ -21,7 +21,7 @@ export function themeButton(changed: () => void): HTMLButtonElement {
   const toggle = button('', () => { theme = next[theme]; apply(); changed(); }, { class: 'icon-button' });
   function apply(): void {
     if (theme === 'auto') { delete document.documentElement.dataset.theme; forget('theme'); } else { document.documentElement.dataset.theme = theme; remember('theme', theme); }
-    toggle.replaceChildren(picture(theme));
+    toggle.replaceChildren(picture(theme), el('span', { class: 'menu-word' }, words.top.theme[theme].now));
     toggle.setAttribute('aria-label', words.top.theme[theme].change);
     toggle.title = words.top.theme[theme].now;
   }

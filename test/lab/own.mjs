@@ -168,7 +168,10 @@ await clean('one’s own model', page);
 
 for (const [name, options] of [['dark', { theme: 'dark' }], ['narrow', { width: 320, height: 640, touch: true }]]) {
   const other = await open(undefined, options);
-  await (await editorOf(other)).fill(start);
+  const field = await editorOf(other);
+  same(`${name}: the editor opens at its top`, await other.evaluate(() => { const title = document.querySelector('#scene-title').getBoundingClientRect(), words = document.querySelector('#words').getBoundingClientRect(), area = document.querySelector('#model-text');
+    return [area.scrollTop, area.selectionEnd, document.activeElement === area, title.top >= words.top && title.bottom <= words.bottom]; }), [0, 0, true, true]);
+  await field.fill(start);
   await told(other);
   same(`${name}: the same lines`, await lines(other), grey);
   judge(`${name}: nothing is wider than the page`, await other.evaluate(() => document.documentElement.scrollWidth <= innerWidth));

@@ -55,6 +55,68 @@ await attempt('share and reload', async () => {
   await clean('share', page);
 });
 
+// --- a pinned run ---------------------------------------------------------------------------------------------------------------------
+await attempt('a pinned run', async () => {
+  const page = await open(singleFile + '#v=1&p=spring'), pin = page.locator('#dock-links [aria-pressed]'), said = () => pin.textContent();
+  const shown = () => page.locator('#stage-figure canvas.stage-still').evaluate((canvas) => canvas.toDataURL());
+  await (await valuesOf(page)).getByLabel('k, as a number', { exact: true }).fill('2.25');
+  await page.keyboard.press('Escape');
+  await page.locator('#step').fill('0.2');
+  await settled(page);
+  await pin.click();
+  await page.locator('#step').fill('0.1');
+  await valuesOf(page);
+  await page.locator('#until').fill('20');
+  await page.keyboard.press('Escape');
+  await settled(page, 1500);
+  same('a pinned run: the address holds it', await fields(page), { v: '1', p: 'spring', s: 'k=2.25', h: '0.1', T: '20', A: '1', As: 'k=2.25', Ah: '0.2' });
+  same('… and it is told', await said(), 'A: h 0.2 ×');
+  const address = page.url(), picture = await shown();
+  await page.reload();
+  await settled(page, 600);
+  await page.waitForFunction(() => /^A: /.test(document.querySelector('#dock-links [aria-pressed]').textContent));
+  same('reload: it is pinned again', [page.url(), await said(), await pin.getAttribute('aria-pressed')], [address, 'A: h 0.2 ×', 'true']);
+  await page.waitForTimeout(200);
+  judge('… and drawn as before', await shown() === picture);
+  await example(page, 'pendulum');
+  same('another example lets it go', [await said(), (await fields(page)).A], ['Pin', undefined]);
+  await page.goBack();
+  await settled(page, 600);
+  await page.waitForFunction(() => /^A: /.test(document.querySelector('#dock-links [aria-pressed]').textContent));
+  same('back: it is there', [page.url(), await said()], [address, 'A: h 0.2 ×']);
+  await page.goForward();
+  await settled(page, 600);
+  same('forward: it is not', [await said(), (await fields(page)).p], ['Pin', 'pendulum']);
+  await page.goBack();
+  await settled(page, 600);
+  await pin.click();
+  same('let go: the address does not hold it', Object.keys(await fields(page)).filter((key) => key.startsWith('A')), []);
+  await page.evaluate(() => document.activeElement?.blur());
+  await page.keyboard.press('Control+z');
+  await settled(page, 600);
+  same('undo: it is there', await said(), 'A: h 0.2 ×');
+  // One's own text: sliders write into it, so A has another.
+  await (await editorOf(page)).fill("k = 1\nx'' = -k x\nx(0) = 1\nstep 0.1\nuntil 20\n");
+  await settled(page, 600);
+  same('another model lets it go', await said(), 'Pin');
+  await pin.click();
+  await page.locator('#model-text').fill("k = 2\nx'' = -k x\nx(0) = 1\nstep 0.1\nuntil 20\n");
+  await settled(page, 600);
+  same('a change of the text: A is the one before', [await said(), (await fields(page)).Am], ['A: k 1 ×', "k = 1\nx'' = -k x\nx(0) = 1\nstep 0.1\nuntil 20\n"]);
+  await page.reload();
+  await settled(page, 600);
+  await page.waitForFunction(() => /^A: /.test(document.querySelector('#dock-links [aria-pressed]').textContent));
+  same('… also after a reload', await said(), 'A: k 1 ×');
+  for (const [part, why] of [['A=1&As=nothing', /name=value/], ['A=1&As=nothing%3D2', /could not be computed.*nothing/], ['A=1&Ah=abc', /“abc” is no number/], ['A=1&Aa=none', /no method “none”/], ['A=1&Am=x', /could not be computed/]]) {
+    await page.evaluate((hash) => { document.querySelector('#toasts').replaceChildren(); location.hash = hash; }, `#v=1&p=spring&h=0.3&${part}`);
+    await settled(page, 600);
+    await page.locator('.toast').first().waitFor();
+    judge(`a faulty pin, ${part}: it is told`, why.test(await page.locator('#toasts').textContent()) && /pinned run A/.test(await page.locator('#toasts').textContent()), await page.locator('#toasts').textContent());
+    same(`… and all else is there (${part})`, [await page.locator('#step').inputValue(), await said(), await page.locator('#scene-title').textContent()], ['0.3', 'Pin', 'Mass on a spring']);
+  }
+  await clean('a pinned run', page);
+});
+
 // --- the menu ---------------------------------------------------------------------------------------------------------------------------
 const shell = (script, folder) => spawnSync('sh', ['-c', `motus() { "$PROGRAM" "$@" $EXTRA; }\n${script}`], {
   encoding: 'utf8', cwd: folder, env: { ...process.env, PROGRAM: program, EXTRA: /^motus compare/.test(script) ? '--json' : '-o - --quiet' }, maxBuffer: 1 << 28,

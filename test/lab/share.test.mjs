@@ -77,6 +77,28 @@ test('an embed and its sliders come back', () => {
   }
 });
 
+test('a pinned run comes back, and one that cannot be read is told', () => {
+  const { text, methods } = start, run = { text, set: {}, methods, step: '', until: '' };
+  const all = [[{}, 'A=1'], [{ step: '0.1' }, 'A=1&Ah=0.1'], [{ set: { g: '(0, -1.62)', "r'(0)": '(1, 2)' }, until: '2 pi', methods: ['rk4'] }, 'A=1&As=g%3D(0,%20-1.62)&As=r%27(0)%3D(1,%202)&Aa=rk4&AT=2%20pi'],
+    [{ text: "x'' = 1\n", methods: ['verlet'] }, 'A=1&Am=x%27%27%20%3D%201%0A&Aa=verlet']];
+  for (const [part, wanted] of all) {
+    const state = { ...start, step: '0.2', pinned: { ...run, ...part } }, fragment = share.encode(state, presets);
+    assert.equal(fragment, 'v=1&p=projectile&h=0.2&' + wanted);
+    assert.deepEqual(share.decode('#' + fragment, presets), { state, problem: '' });
+  }
+  for (const text of nasty) {
+    const one = /[\n\t\u2028]/.test(text) || text.trim() !== text || text === '' ? 'y' : text, state = { ...start, text: text + '1', preset: '', methods: [], pinned: { text, set: { x: one }, methods: ['rk4'], step: one, until: one } };
+    assert.deepEqual(share.decode(share.encode(state, presets), presets), { state, problem: '' });
+  }
+  const plain = share.decode('v=1&p=projectile&h=0.2', presets).state;
+  for (const [fragment, why] of [['A=2', /“A” is 1/], ['A', /“A” is 1/], ['Ah=0.1', /“A” is 1/], ['A=1&A=1', /twice/], ['A=1&Ah=1&Ah=2', /twice/], ['A=1&As=g', /name=value/], ['A=1&Am=%00', /control/], ['A=1&Ah=%', /percent/], ['A=1&Az=1', /“Az”/],
+    ['A=1&Ah=' + '1'.repeat(300), /too long/], ['A=1' + '&As=k%3D1'.repeat(300), /too many/], ['A=1&Aa=' + 'a,'.repeat(3), ''], ['A=1&Aa=' + Array.from({ length: 60 }, (_, k) => `m${k}`).join(), /too many/]]) {
+    const { state: { pinned, ...state }, problem } = share.decode('v=1&p=projectile&h=0.2&' + fragment, presets);
+    assert.deepEqual(state, plain);
+    if (why) { assert.match(problem, why, fragment); assert.match(problem, /pinned run A/); assert.equal(pinned, undefined); } else assert.equal(problem, '');
+  }
+});
+
 test('no address is an exception', () => {
   const wrong = ['v=2&p=projectile', 'p=projectile', 'v=1', 'v=1&p=nothing', 'v=1&p=__proto__', 'v=1&p=constructor', 'v=1&m=%', 'v=1&m=%4', 'v=1&m=%GG', 'v=1&m=%FF', 'v=1&m=%C3',
     'v=1&m=%ED%A0%80', 'v=1&m=%00', 'v=1&m=%1B%5B2J', 'v=1&p=spring&zz=1', 'v=1&p=spring&p=spring', 'v=1&p=spring&s=k', 'v=1&p=spring&s==2', 'v=1&p=spring&s=k%3D', 'v=1&p=spring&w=9',
@@ -90,7 +112,7 @@ test('no address is an exception', () => {
   let seed = 7;                                                 // and noise, always the same
   const next = n => (seed = (seed * 48271) % 2147483647) % n;
   for (let i = 0; i < 3000; i++) {
-    const noise = Array.from({ length: next(40) }, () => 'v=1&pmsahTwqfoezc%0123456789ABCDEF()[]\'"<>\u00e9\ud83d'[next(51)] ?? '').join('');
+    const noise = Array.from({ length: next(40) }, () => 'v=1&pmsahTwqfoezcA%0123456789ABCDEF()[]\'"<>\u00e9\ud83d'[next(52)] ?? '').join('');
     assert.equal(typeof share.decode(noise, presets).problem, 'string');
     assert.equal(typeof share.decode('v=1&p=spring&' + noise, presets).state.text, 'string');
   }

@@ -10,6 +10,8 @@ for (const [width, height] of [[390, 844], [844, 390], [820, 1180]]) {
     if (await page.locator('#menu-button').isVisible()) {
       await page.locator('#menu-button').tap();
       await fingers(name('the menu'), page);
+      same(name('the menu: each of its buttons says what it does'), await page.locator('.tools > button, .tools > * > button, .tools .share > button').evaluateAll((all) => all.filter((b) => b.checkVisibility()).map((b) => b.innerText.trim())), ['Lessons', 'Equation', 'Undo', 'Share', 'Lecture', 'Colours: automatic']);
+      judge(name('the menu: its names are those that are spoken'), await page.locator('.tools button:visible').evaluateAll((all) => all.every((b) => (b.getAttribute('aria-label') ?? b.innerText).startsWith(b.innerText.trim()))));
       await page.keyboard.press('Escape');
     }
     for (const [button, sheet] of [['All values', '#all-values'], [/ more$/, '#all-methods']]) {
@@ -146,5 +148,26 @@ await attempt('paper', async () => {
   await page.emulateMedia({ media: 'print' });
   judge('paper, in a lesson: its words, the picture and its equation', /pill,math,h1,h2,p,(?:legend,)?stage-figure/.test((await printed()).join()) && !await page.locator('.choice').first().isVisible(), (await printed()).join());
   await clean('paper', page);
+  // From the gallery it is the scene that is printed, whether it was seen before or not.
+  const here = await open(`${singleFile}#v=1&p=spring&l=gallery`, { calm: true, height: 800 });
+  const scenePrinted = async (what, title) => {
+    await here.emulateMedia({ media: 'print' });
+    const names = await here.evaluate(() => [...document.querySelectorAll('h1, canvas, math, table, input, a.motion')].filter((e) => e.checkVisibility({ visibilityProperty: true }) && e.getBoundingClientRect().width > 2).map((e) => e.id || e.className || e.localName));
+    same(`paper, ${what}: title, equation, picture and numbers`, names.filter((name) => name !== 'stage-moving'), ['scene-title', 'math', 'stage-still', 'printed']);
+    same(`paper, ${what}: of the scene`, await here.locator('#scene-title').textContent(), title);
+    judge(`paper, ${what}: the picture is drawn`, await here.locator('canvas.stage-still').evaluate((c) => c.toDataURL().length > 20000 && c.getBoundingClientRect().height > 150));
+    await here.screenshot({ path: join(built, 'shots', `paper-${title.toLowerCase().replace(/ /g, '-')}.png`) });
+    await here.emulateMedia({ media: null });
+    const sheet = await here.pdf({ format: 'A4' });
+    same(`paper, ${what}: one page`, (sheet.toString('latin1').match(/\/Type\s*\/Page\b/g) ?? []).length, 1);
+  };
+  await scenePrinted('the gallery, opened first', 'Mass on a spring');
+  await here.locator('#gallery a.motion', { hasText: 'Pendulum' }).first().click();
+  await settled(here, 600);
+  await here.locator('#nav button', { hasText: 'Gallery' }).click();
+  await here.locator('#gallery a.motion').first().waitFor();
+  await scenePrinted('the gallery, after a scene', 'Pendulum');
+  same('the gallery is as it was', await here.evaluate(() => [document.querySelector('#gallery a.motion').checkVisibility({ visibilityProperty: true }), document.querySelector('#stage').checkVisibility({ visibilityProperty: true }), document.documentElement.scrollWidth - innerWidth <= 0]), [true, false, true]);
+  await clean('paper, the gallery', here);
 });
 await finish();

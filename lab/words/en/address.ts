@@ -14,6 +14,8 @@ export const address = {
   exact: '“e” is 0 or 1', speed: 'the speed of the animation is no number above 0',
   embed: '“embed” is 1', noEmbed: 'it chooses sliders, “c”, without “embed=1”', sliders: 'it chooses too many sliders', noSlider: 'a slider has no name',
   embedPlace: 'an embed shows the stage and no other place',
+  /** Of the run A that is pinned: it alone is left out. */
+  pinned: '“A” is 1', noPin: (why: string) => `The pinned run A of the address could not be used: ${why}.`,
   /** Of a text in the address: that it is too long, that it holds a control character. */
   texts: {
     quantity: { long: 'the name of a quantity is too long', control: 'the name of a quantity holds a control character' },

@@ -30,6 +30,7 @@ export const dock = {
   pin: {
     pin: 'Pin', title: 'Keep this run in the picture while you change things', label: 'Pin this run to compare with it',
     pinned: (what: string) => `A: ${what} ×`, pinnedLabel: (what: string) => `Pinned run A: ${what}. Let it go`,
+    faulty: (why: string) => `The pinned run A could not be computed: ${why}.`,
     /** What the pinned run has that this one has not. */
     same: 'as now', differs: (what: readonly string[]) => what.join(', '),
   },

@@ -1,5 +1,7 @@
 /* The lecture: shell/lecture.ts. */
 export const lecture = {
+  /** In the menu of a phone. */
+  word: 'Lecture',
   open: 'Lecture: full screen, large letters (L)', openTitle: 'Lecture (L)', leave: 'Leave the lecture (L)', leaveTitle: 'Leave (L)',
   keys: 'Keys', keysLabel: 'Keys (?)',
   /** Each key, and what it does. */
