@@ -11,8 +11,8 @@ import { fileURLToPath } from 'node:url';
 
 const lab = new URL('../../lab/', import.meta.url), root = fileURLToPath(new URL('../../', import.meta.url));
 const { buildSync } = createRequire(new URL('package.json', lab))('esbuild');
-const built = buildSync({ stdin: { contents: "export { notes } from './words/en/notes'; export { stagings } from './stage/stagings'; export { scenes } from './scenes';", resolveDir: fileURLToPath(lab), loader: 'ts' }, bundle: true, format: 'esm', write: false, target: 'es2022' });
-const { notes, stagings, scenes } = await import('data:text/javascript;base64,' + Buffer.from(built.outputFiles[0].contents).toString('base64'));
+const built = buildSync({ stdin: { contents: "export { notes } from './words/en/notes'; export { words, html } from './words'; export { stagings } from './stage/stagings'; export { scenes } from './scenes';", resolveDir: fileURLToPath(lab), loader: 'ts' }, bundle: true, format: 'esm', write: false, target: 'es2022' });
+const { notes, stagings, scenes, words: said, html } = await import('data:text/javascript;base64,' + Buffer.from(built.outputFiles[0].contents).toString('base64'));
 
 const motus = (...words) => execFileSync(process.env.MOTUS ?? `${root}build/motus`, words, { cwd: root, encoding: 'utf8', maxBuffer: 1 << 28 });
 /** Columns of a run, by name. */
@@ -49,7 +49,8 @@ claims('projectile', ['0.7357 above', '0.7357 below', 'six hundred steps still l
     assert.ok(all.midpoint < 1e-10 && all.verlet < 1e-10);
   }
 });
-claims('projectile-drag', ['2.62 s for the 43 m up', '53 m far', '3.25 s and 37 m', '25 m/s of the 50 m/s'], () => {
+claims('projectile-drag', ['2.62 s for the 43 m up', '53 m far', '3.25 s and 37 m', 'after 5.87 s, where this scene ends', '25 m/s of the 50 m/s'], () => {
+  assert.equal(scenes.find(({ model }) => model === 'projectile-drag').until, '5.87');
   const { t, 'r.x': x, 'r.y': y, "r'.x": u, "r'.y": v } = run('projectile-drag', ['t', 'r.x', 'r.y', "r'.x", "r'.y"], '--until', '5.8723', '--method', 'rk4', '--step', '0.001'), top = y.indexOf(Math.max(...y));
   near(t[top], '2.62');
   near(y[top], '43');
@@ -59,6 +60,20 @@ claims('projectile-drag', ['2.62 s for the 43 m up', '53 m far', '3.25 s and 37 
   near(Math.hypot(last(u), last(v)), '25');
   near(Math.hypot(u[0], v[0]), '50');
   assert.ok(Math.abs(last(y)) < 0.01);
+});
+claims('spring', ['explicit Euler spirals outward', 'grow by a factor of 1.88 at every step', '2 s is the largest step'], () => {
+  const most = (method, step) => { const { t, x } = run('spring', ['t', 'x'], '--method', method, '--step', step, '--until', '190'); return x.filter((_, i) => Math.abs(t[i] / step - Math.round(t[i] / step)) < 1e-6).map(Math.abs); };
+  const grows = most('explicit-euler', '0.05');
+  assert.ok(last(grows) > 5 * grows[0]);
+  // Of both ends of the range at which they are stable.
+  for (const method of ['symplectic-euler', 'verlet']) {
+    assert.ok(Math.max(...most(method, '1.9')) < 4 && Math.max(...most(method, '1.99')) < 20, method);
+    const far = most(method, '2.1');
+    near(far.at(-1) / far.at(-2), '1.88');
+  }
+  // The slightly tilted ellipse: x² + v² − h x v.
+  const { x, "x'": v } = run('spring', ['x', "x'"]), kept = x.map((q, i) => q * q + v[i] * v[i] - 0.05 * q * v[i]);
+  assert.ok(Math.max(...kept) - Math.min(...kept.slice(0, -1)) < 1e-10);
 });
 claims('damped-spring', ['27 % narrower', '47 % less energy'], () => {
   const { x } = run('damped-spring', ['x'], '--method', 'rk4', '--step', '0.001'), peaks = x.filter((v, i) => i > 0 && v > x[i - 1] && v >= x[i + 1]);
@@ -89,6 +104,13 @@ claims('driven-oscillator', ['swells to 0.81 at t = 15', 'nearly at rest at t = 
   assert.ok(Math.max(...x.map(Math.abs)) < 1);
   near(errors('driven-oscillator', ['verlet']).verlet, '7e-7');
   assert.ok(Math.abs(last(run('driven-oscillator', ['x'], '--set', 'F=0.11', '--until', '68').x)) > 1);
+});
+claims('damped-cubic', ['Half the step leaves a quarter of the error', 'takes 0.40, the fifth 0.84'], () => {
+  const off = errors('damped-cubic', ['verlet'], '--step', '0.001').verlet;
+  near(errors('damped-cubic', ['verlet'], '--step', '0.0005').verlet / off, '0.25');
+  const { t, "x'": v } = run('damped-cubic', ['t', "x'"]), turns = [0, ...t.filter((_, i) => i > 1 && (v[i] > 0) !== (v[i - 1] > 0))];
+  near(turns[1] - turns[0], '0.40');
+  near(turns[5] - turns[4], '0.84');
 });
 claims('van-der-pol', ['From 0.1 as from 4', '2.02', 'a turn to 11.6'], () => {
   for (const start of ['0.1', '4']) {
@@ -204,6 +226,13 @@ claims('thrown-ball-air', ['(10.55, 1.09) m', '(11.81, 1.95) m', 'misses by 1.5 
   near(1000 * errors('thrown-ball-air', ['midpoint'], '--step', '0.1').midpoint, '3.6');
 });
 
+test('what a note names in quotation marks is a question of the page, or a heading of its theory', () => {
+  const theory = readFileSync(new URL('theory/theory.html', lab), 'utf8'), questions = [...Object.values(said.panel), ...Object.values(said.study)].map(part => part?.question).filter(Boolean);
+  const headings = [...questions, html.works, ...[...theory.matchAll(/<h[23][^>]*>(.*?)<\/h[23]>/g)].map(match => match[1])];
+  let named = 0;
+  for (const name of Object.keys(notes)) for (const [, heading] of text(name).matchAll(/“([^”]*)”/g)) { named++; assert.ok(headings.includes(heading), `${name}: ${heading}`); }
+  assert.ok(named > 4);
+});
 test('each note that answers the question of its scene is computed here', () => {
   const source = readFileSync(fileURLToPath(import.meta.url), 'utf8');
   for (const { model } of scenes) if (!stagings[model].ask) assert.ok(source.includes(`claims('${model}'`), model);
