@@ -5,6 +5,7 @@
 import { EigenvalueDecomposition, Matrix } from 'ml-matrix';
 import type { Core } from './core';
 import { QUANTITY, draft, told as toldBy } from './draft';
+import { growthsOf } from './linear';
 import { STEPS_MAX, problem } from './protocol';
 import type {
   Ask, Description, ErrorTrack, Model, Problem, Region, Requests, Solution, Solve, Spectrum, Trace, Track, Truth,
@@ -83,6 +84,7 @@ export class Answers {
       },
       region: (question) => this.region(question),
       growth: ({ method, re, im }) => this.growth(method, Float64Array.from(re), Float64Array.from(im)),
+      linear: ({ method, moments, steps }) => growthsOf(this.core, method, moments, steps),
       spectrum: (question) => this.spectrum(question),
     };
     return all[kind](ask);
@@ -339,7 +341,7 @@ export class Answers {
       }
       const { realEigenvalues, imaginaryEigenvalues } = new EigenvalueDecomposition(matrix);
       out.push({
-        re: Float64Array.from(realEigenvalues), im: Float64Array.from(imaginaryEigenvalues), free: byX.every((d) => d === 0) && byV.every((d) => d === 0), springs: springs(byV, nx, nv),
+        re: Float64Array.from(realEigenvalues), im: Float64Array.from(imaginaryEigenvalues), free: byX.every((d) => d === 0) && byV.every((d) => d === 0), springs: springs(byV, nx, nv), linear: { nx, nv, x: byX, v: byV },
       });
     }
     return out;

@@ -3,8 +3,10 @@ import unpacked from 'virtual:data';
 import type { Lesson } from './lessons/read';
 import type { Staging } from './stage/staging';
 
-/** Parts of a sentence; a button goes to another example. */
-export type Linked = readonly (string | { readonly to: string; readonly label: string })[];
+/** A button within a sentence: it goes to another example, or takes a step. */
+export type NoteLink = { readonly label: string } & ({ readonly to: string } | { readonly step: string });
+/** Parts of a sentence. */
+export type Linked = readonly (string | NoteLink)[];
 /** Paragraphs. */
 export type Note = readonly (string | Linked)[];
 

@@ -152,7 +152,10 @@ export interface Spectrum {
   readonly free: boolean;
   /** Velocities enter by friction alone (∂a/∂v is symmetric), and first-order variables do not act back. */
   readonly springs: boolean;
+  readonly linear: Linear;
 }
+/** The motion linearised: nv accelerations and rates, row by row, by nx positions and by nv velocities and first-order variables. */
+export interface Linear { readonly nx: number; readonly nv: number; readonly x: Float64Array; readonly v: Float64Array }
 
 export interface Requests {
   catalogue: { ask: Record<string, never>; answer: readonly Method[] };
@@ -167,6 +170,8 @@ export interface Requests {
   region: { ask: { method: string; re: readonly [number, number]; im: readonly [number, number]; width: number; height: number }; answer: Region };
   /** Growth of one step at single points z = re[i] + i im[i]. */
   growth: { ask: { method: string; re: readonly number[]; im: readonly number[] }; answer: Float64Array };
+  /** Growth of one step on linearised motions: [i · count + j] at step j of motion i. */
+  linear: { ask: { method: string; moments: readonly Linear[]; steps: readonly (readonly number[])[] }; answer: Float64Array };
   spectrum: { ask: { model: Model; method: string; step: number | null; until: number | null; times: readonly number[] }; answer: readonly Spectrum[] };
 }
 export type Ask = keyof Requests;

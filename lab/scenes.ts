@@ -47,8 +47,9 @@ export type Theme = (typeof themes)[number];
 
 export interface SceneEntry {
   readonly model: string; readonly theme: Theme | ''; readonly methods: readonly string[];
-  /** Numbers of the model that this scene replaces. */
+  /** Numbers of the model that this scene replaces, and its end. */
   readonly set?: Readonly<Record<string, string>>;
+  readonly until?: string;
   readonly picture: Picture;
 }
 
@@ -66,7 +67,7 @@ export const scenes: readonly SceneEntry[] = [
   },
   {
     model: 'projectile-drag', theme: 'first',
-    methods: ['explicit-euler', 'midpoint', 'verlet'],
+    methods: ['explicit-euler', 'midpoint', 'verlet'], until: '5.87',
     picture: { view: 'plane', curves: [['r.x', 'r.y']], until: 5.8723, beside: { model: 'projectile', curve: ['r.x', 'r.y'], set: { "r'(0)": '(30, 40)' }, until: 8.155 } },
   },
   {

@@ -24,6 +24,8 @@ export interface Presets {
   methods(name: string): readonly string[];
   /** Numbers that the preset replaces in its model, if any. */
   set?(name: string): Readonly<Record<string, string>>;
+  /** Where it ends, if not where its model does; ''. */
+  until?(name: string): string;
   readonly first: string;
 }
 export interface Decoded { readonly state: State; readonly problem: string }
@@ -34,7 +36,7 @@ const most = { sets: 256, methods: 40, words: 200, columns: 32 };
 export const defaultView: View = { plane: 'auto', quantities: [], phase: null, exact: true, speed: 1 };
 
 export function presetState(presets: Presets, name: string): State {
-  return { preset: name, text: presets.text(name) ?? '', set: presets.set?.(name) ?? {}, methods: presets.methods(name), step: '', until: '', view: defaultView, place: '' };
+  return { preset: name, text: presets.text(name) ?? '', set: presets.set?.(name) ?? {}, methods: presets.methods(name), step: '', until: presets.until?.(name) ?? '', view: defaultView, place: '' };
 }
 
 const free = /^[A-Za-z0-9\-._~(),*]$/;

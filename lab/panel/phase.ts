@@ -19,7 +19,7 @@ import type { Sees } from '../stage/stage';
 import { words } from '../words';
 import { columnOf, exactAt, movable, positions, states, timeTable, velocityOf } from './columns';
 import { swingsOf } from './swings';
-import { amount, nameAt, timeUnit, unitOf } from './told';
+import { amount, moment, nameAt, timeUnit, unitOf } from './told';
 
 const say = words.panel.phase;
 /** Curves are compared at so many times: those that agree share a name. */
@@ -104,9 +104,10 @@ export const phasePanel = (store: Store, stage: () => Sees): Panel => {
     const [x, y] = pair.map((name) => (exact ? truthOf(name) : null) ?? track(0, name)) as [Float64Array, Float64Array];
     const value = (name: string, v: number): string => amount(v, unitOf(scene!, name)), name = (of: string): Span[] => nameSpans(of, 15);
     const head: Span[] = exact ? [] : [{ text: say.by(nameAt(scene, 0)) }], put = (...rest: Span[]): Said => [...head, ...name(pair[0]), ...rest];
+    const when = (t: number): string => moment(scene!, Number(t.toPrecision(3)));
     const { turns, repeats } = speedOf() ? swingsOf(times, x, y) : { turns: [], repeats: null }, first = turns[0], last = turns[turns.length - 1];
     if (repeats) return put({ text: say.swings(value(pair[0], repeats.low), value(pair[0], repeats.high), amount(repeats.period, timeUnit(scene))) });
-    if (first && last) return put({ text: say.turns(turns.length, value(pair[0], first.at), value(pair[0], last.at)) });
+    if (first && last) return put({ text: say.turns(turns.length, when(first.time), when(last.time)) });
     const [a, b] = extent([x]), [c, d] = extent([y]);
     return put({ text: say.between(value(pair[0], a), value(pair[0], b)) }, ...name(pair[1]), { text: say.andBetween(value(pair[1], c), value(pair[1], d)) });
   }

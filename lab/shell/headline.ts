@@ -51,11 +51,12 @@ export function headline(store: LiveStore, toasts: Toasts, sees: () => Sees, cha
   let shown = '', typeset = '', opened = false;
   function show(): void {
     const { preset, text } = store.state, name = exampleOf(store.state), altered = name === '';
-    const steps = store.scene?.solution.tracks[0]?.total ?? 0, { set, step, until } = store.state, moved = Boolean(Object.keys(set).length || step || until);
-    const alone = store.scene !== null && sees().side !== 'phase', key = `${preset} ${name === '' ? text : ''} ${steps} ${moved} ${alone}`;
+    const steps = store.scene?.solution.tracks[0]?.total ?? 0, { set, step, until, methods } = store.state, moved = Boolean(Object.keys(set).length || step || until);
+    const { ask: lesson, about: subject } = stagingOf(name), asks = subject === undefined || methods.includes(subject);
+    const alone = store.scene !== null && sees().side !== 'phase', key = `${preset} ${name === '' ? text : ''} ${steps} ${moved} ${alone} ${asks}`;
     if (key === shown) return;
     shown = key;
-    const said = saidOf(name), lesson = stagingOf(name).ask, question = said?.question ?? '', about = (moved ? said?.moved : undefined) ?? (alone ? said?.alone : undefined) ?? said?.sentence ?? '';
+    const said = saidOf(name), question = asks ? said?.question ?? '' : '', about = (moved ? said?.moved : undefined) ?? (alone ? said?.alone : undefined) ?? said?.sentence ?? '';
     say(title, titleIn(store.state));
     document.title = words.top.title(title.textContent ?? '');
     // Until steps are made, those of the build stand there.

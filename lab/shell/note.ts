@@ -3,7 +3,7 @@
  *
  * Invariant: what is said of an example holds for its own text only.
  */
-import { data, exampleOf } from '../data';
+import { data, exampleOf, type NoteLink } from '../data';
 import type { LiveStore } from '../state';
 import { presetState } from '../share';
 import { stagingOf } from '../stage/staging';
@@ -29,8 +29,11 @@ export function note(store: LiveStore): HTMLElement {
     if (name === shown) return;
     shown = name;
     const written = Object.hasOwn(data.notes, name) ? data.notes[name] ?? [] : [];
-    const part = (of: string | { readonly to: string; readonly label: string }): string | Node => (typeof of === 'string' ? bound(of)
-      : button(of.label, () => { store.load(presetState(presets, of.to)); scrollTo(0, 0); }, { class: 'text-button' }));
+    const follow = (of: NoteLink): void => {
+      if ('to' in of) store.load(presetState(presets, of.to)); else store.change({ step: of.step });
+      scrollTo(0, 0);
+    };
+    const part = (of: string | NoteLink): string | Node => (typeof of === 'string' ? bound(of) : button(bound(of.label), () => follow(of), { class: 'text-button' }));
     // One paragraph, however it is written down.
     const answers = stagingOf(name).ask ? [] : [el('h3', { tabindex: -1 }, saidOf(name)?.question ?? '')];
     element.replaceChildren(...answers, el('p', {}, ...written.flatMap((piece, k) => [...(k ? [' '] : []), ...(typeof piece === 'string' ? [bound(piece)] : piece.map(part))])));

@@ -14,6 +14,7 @@ export const presets: Presets = {
   text: name => data.presets.find(model => model.name === name)?.text,
   methods: name => sceneOf(name)?.methods ?? [],
   set: name => sceneOf(name)?.set ?? {},
+  until: name => sceneOf(name)?.until ?? '',
 };
 
 /** The first sentence of a model's own comment. */

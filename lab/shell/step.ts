@@ -1,7 +1,8 @@
 /* The step: a slider on a scale of powers whose stops halve, and the number itself as a field.
  *
  * Invariant: what the field shows is what the reader typed; what is wrong with it is said under it, and the last good picture stays. Stops belong to the
- * model, not to the state: they do not move under the reader's hand. A lesson's hold every step that it asks for.
+ * model, not to the state: they do not move under the reader's hand. A lesson's hold every step that it asks for. The knob stands where the step is: one
+ * that is typed beyond the stops widens the range.
  */
 import { data, exampleOf } from '../data';
 import { grouped } from '../figure/number';
@@ -12,6 +13,8 @@ import { words } from '../words';
 import { compact, normal, short } from './number';
 
 const positions = 1000, catching = 6;               // pixels within which a stop catches
+/** Of its range, between two numbers under it. */
+const NARROW = 12;
 
 /** Stops, from large to small, that hold what a lesson asks for. Where it asks for more than halves, they reach no farther than it does, so that stops stand apart. */
 function withAsked(halves: readonly number[], base: number, asked: readonly number[]): number[] {
@@ -35,33 +38,50 @@ export function stepSlider(store: LiveStore): HTMLElement {
   const element = el('div', { class: 'dial step' },
     el('div', { class: 'dial-head' }, el('label', { for: 'step-slider' }, words.dock.step.label, el('i', {}, 'h'), ' ', suggested), value),
     el('div', { class: 'dial-track' }, slider, stops), message);
-  let halves: number[] = [], last = '', empty = '';
+  // The slider goes from `largest` to `least`: over all stops, and as far as a step that was typed beyond them.
+  let halves: number[] = [], largest = 0, least = 0, last = '', empty = '';
 
   const own = (): string => {
     const value = store.description?.settings.step;
     return value === null || value === undefined ? '' : short(value, 15);
   };
-  /** From the largest stop, at the left, to the smallest. */
-  const positionOf = (h: number): number => Math.round(positions * Math.log(halves[0]! / h) / Math.log(halves[0]! / halves[halves.length - 1]!));
-  const stepOf = (position: number): number => halves[0]! * (halves[halves.length - 1]! / halves[0]!) ** (position / positions);
+  /** From the largest step, at the left, to the smallest. */
+  const positionOf = (h: number): number => Math.round(positions * Math.log(largest / h) / Math.log(largest / least));
+  const stepOf = (position: number): number => largest * (least / largest) ** (position / positions);
   const written = (h: number): string => short(Number(h.toPrecision(halves.some((s) => Math.abs(s - h) < 1e-9 * s) ? 6 : 2)));
 
   function limits(): void {
     const { settings } = store.description ?? {};
     if (!settings || settings.step === null) return;
-    const [largest, count] = stagingOf(exampleOf(store.state)).stops ?? [4, 5];
+    const [times, count] = stagingOf(exampleOf(store.state)).stops ?? [4, 5];
     const span = settings.until === null ? Infinity : Math.abs(settings.until - settings.start);
     // A lesson that begins with a step of its own has its stops about that.
     const lesson = data.lessons.find(({ id }) => store.state.place.startsWith(`${id}.`)), base = Number(lesson?.scene.step) || settings.step;
-    let first = base * largest;
+    let first = base * times;
     while (first > span && first > base) first /= 2;
     halves = withAsked(Array.from({ length: count }, (_, k) => first / 2 ** k), base, lesson?.attempt.tasks.flatMap(({ condition: c }) => (c.kind === 'step' ? [c.value] : [])) ?? []);
-    stops.replaceChildren(...halves.map((h) => {
-      const stop = el('span', {}, compact(Number(h.toPrecision(3))));
-      stop.style.left = `${100 * positionOf(h) / positions}%`;
-      return stop;
-    }));
+    largest = halves[0]!;
+    least = halves[halves.length - 1]!;
+    stops.replaceChildren(...halves.map((h) => el('span', {}, compact(Number(h.toPrecision(3))))));
     stops.classList.toggle('long', [...stops.children].some((stop) => (stop.textContent ?? '').length > 7));
+    placed();
+  }
+  /** Stops at their places. The wider the range, the fewer have room for their number. */
+  function placed(): void {
+    const close = largest > halves[0]! || least < halves[halves.length - 1]! ? NARROW : 0;
+    let before = -Infinity;
+    [...stops.children].forEach((stop, k) => {
+      const at = 100 * positionOf(halves[k]!) / positions;
+      (stop as HTMLElement).style.left = `${at}%`;
+      (stop as HTMLElement).hidden = at - before < close;
+      if (!(stop as HTMLElement).hidden) before = at;
+    });
+  }
+  function reaching(h: number): void {
+    if (h <= largest && h >= least) return;
+    largest = Math.max(largest, h);
+    least = Math.min(least, h);
+    placed();
   }
   function refresh(): void {
     const { state, trouble, numbers, description } = store;
@@ -80,6 +100,7 @@ export function stepSlider(store: LiveStore): HTMLElement {
     if (track || Object.values(trouble).some(Boolean)) value.classList.remove('waiting');
     say(steps, track && !wrong ? `\u2009·\u2009${words.dock.step.steps(track.total, grouped(track.total))}` : '');
     if (h === null || !halves.length) return;
+    reaching(h);
     if (document.activeElement !== slider || !slider.matches(':active')) slider.value = String(positionOf(h));
     slider.setAttribute('aria-valuetext', words.dock.step.value(short(h, 4), units?.t ?? '', track ? words.dock.step.steps(track.total, String(track.total)) : ''));
     [...stops.children].forEach((stop, k) => stop.classList.toggle('on', Math.abs(halves[k]! - h) < 1e-6 * h));
@@ -94,7 +115,7 @@ export function stepSlider(store: LiveStore): HTMLElement {
     const width = slider.clientWidth || 400, position = slider.valueAsNumber, near = halves.find((h) => Math.abs(position - positionOf(h)) / positions * width <= catching);
     set(near ?? stepOf(position));
   });
-  slider.addEventListener('change', () => { slider.value = String(positionOf(store.numbers.step ?? halves[0]!)); });
+  slider.addEventListener('change', () => { slider.value = String(positionOf(store.numbers.step ?? largest)); });
   slider.addEventListener('keydown', (event) => {
     const way = event.key === 'ArrowRight' || event.key === 'ArrowUp' ? 1 : event.key === 'ArrowLeft' || event.key === 'ArrowDown' ? -1 : 0;
     if (!way || event.ctrlKey || event.altKey || event.metaKey || !halves.length) return;
@@ -103,6 +124,7 @@ export function stepSlider(store: LiveStore): HTMLElement {
     if (event.shiftKey) { set(h * (way > 0 ? 0.99 : 1.01)); return; }
     const at = way > 0 ? halves.find((s) => s < h * (1 - 1e-9)) : [...halves].reverse().find((s) => s > h * (1 + 1e-9));
     if (at !== undefined) set(at);
+    else if (way < 0 ? largest > h * (1 + 1e-9) : least < h * (1 - 1e-9)) set(way < 0 ? largest : least);
   });
   field.addEventListener('input', () => {
     const text = normal(field.value);

@@ -11,6 +11,8 @@ export type Decor = 'throw' | 'spring' | 'pendulum';
 export interface Staging {
   /** The lesson that answers its question. */
   readonly ask?: string;
+  /** The method that its question is about: while it is not shown, nothing is asked. */
+  readonly about?: string;
   readonly decor?: Decor;
   /** What the frame shows, in the model's numbers; else the exact motion and some room. */
   readonly frame?: { readonly x?: readonly [number, number]; readonly y: readonly [number, number] };

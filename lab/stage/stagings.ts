@@ -24,7 +24,7 @@ export const stagings: Readonly<Record<string, Staging>> = {
     units: metres, dials: [{ name: 'm', unit: 'kg', low: 0.01, high: 2 }, { name: 'c', unit: 'kg/m', low: 0, high: 0.005 }, { name: "r'(0)", part: 1, unit: 'm/s', low: 0, high: 60 }],
   },
   'spring': {
-    ask: 'energy', decor: 'spring', units: metres, frame: { y: [-1.9, 1.9] },
+    ask: 'energy', about: 'symplectic-euler', decor: 'spring', units: metres, frame: { y: [-1.9, 1.9] },
     dials: [{ name: 'k', unit: 'N/m', low: 0.1, high: 4 }, { name: 'm', unit: 'kg', low: 0.1, high: 4 }, { name: 'x(0)', unit: 'm', low: -2, high: 2 }],
   },
   'damped-spring': {
@@ -42,7 +42,6 @@ export const stagings: Readonly<Record<string, Staging>> = {
     dials: [{ name: 'F', low: 0, high: 0.2 }, { name: 'x(0)', low: -0.9, high: 0.9 }, { name: "x'(0)", low: -0.7, high: 0.7 }],
   },
   'damped-cubic': {
-    ask: 'verlets-trick',
     dials: [{ name: 'x(0)', low: -20, high: 20 }, { name: "x'(0)", low: -50, high: 50 }],
   },
   'van-der-pol': {

@@ -112,7 +112,7 @@ await attempt('bodies run', async () => {
 });
 
 /* The page itself: each scene asks on the stage what its card asks, and leads to what answers it. */
-const lessonsOf = { 'thrown-ball': 'Too high, too low', spring: 'Who keeps the energy?', 'damped-cubic': 'Verlet’s trick' };
+const lessonsOf = { 'thrown-ball': 'Too high, too low', spring: 'Who keeps the energy?' };
 for (const [width, height] of [[390, 844], [1280, 800]]) {
   await attempt(`${width} px: questions`, async () => {
     const page = await page_.open(undefined, { width, height, touch: width < 800, calm: true });

@@ -11,8 +11,8 @@ import { fileURLToPath } from 'node:url';
 
 const lab = new URL('../../lab/', import.meta.url), root = fileURLToPath(new URL('../../', import.meta.url));
 const { buildSync } = createRequire(new URL('package.json', lab))('esbuild');
-const built = buildSync({ stdin: { contents: "export { notes } from './words/en/notes'; export { stagings } from './stage/stagings'; export { scenes } from './scenes';", resolveDir: fileURLToPath(lab), loader: 'ts' }, bundle: true, format: 'esm', write: false, target: 'es2022' });
-const { notes, stagings, scenes } = await import('data:text/javascript;base64,' + Buffer.from(built.outputFiles[0].contents).toString('base64'));
+const built = buildSync({ stdin: { contents: "export { notes } from './words/en/notes'; export { words, html } from './words'; export { stagings } from './stage/stagings'; export { scenes } from './scenes';", resolveDir: fileURLToPath(lab), loader: 'ts' }, bundle: true, format: 'esm', write: false, target: 'es2022' });
+const { notes, stagings, scenes, words: said, html } = await import('data:text/javascript;base64,' + Buffer.from(built.outputFiles[0].contents).toString('base64'));
 
 const motus = (...words) => execFileSync(process.env.MOTUS ?? `${root}build/motus`, words, { cwd: root, encoding: 'utf8', maxBuffer: 1 << 28 });
 /** Columns of a run, by name. */
@@ -49,7 +49,8 @@ claims('projectile', ['0.7357 above', '0.7357 below', 'six hundred steps still l
     assert.ok(all.midpoint < 1e-10 && all.verlet < 1e-10);
   }
 });
-claims('projectile-drag', ['2.62 s for the 43 m up', '53 m far', '3.25 s and 37 m', '25 m/s of the 50 m/s'], () => {
+claims('projectile-drag', ['2.62 s for the 43 m up', '53 m far', '3.25 s and 37 m', 'after 5.87 s, where this scene ends', '25 m/s of the 50 m/s'], () => {
+  assert.equal(scenes.find(({ model }) => model === 'projectile-drag').until, '5.87');
   const { t, 'r.x': x, 'r.y': y, "r'.x": u, "r'.y": v } = run('projectile-drag', ['t', 'r.x', 'r.y', "r'.x", "r'.y"], '--until', '5.8723', '--method', 'rk4', '--step', '0.001'), top = y.indexOf(Math.max(...y));
   near(t[top], '2.62');
   near(y[top], '43');
@@ -59,6 +60,20 @@ claims('projectile-drag', ['2.62 s for the 43 m up', '53 m far', '3.25 s and 37 
   near(Math.hypot(last(u), last(v)), '25');
   near(Math.hypot(u[0], v[0]), '50');
   assert.ok(Math.abs(last(y)) < 0.01);
+});
+claims('spring', ['explicit Euler spirals outward', 'grow by a factor of 1.88 at every step', '2 s is the largest step'], () => {
+  const most = (method, step) => { const { t, x } = run('spring', ['t', 'x'], '--method', method, '--step', step, '--until', '190'); return x.filter((_, i) => Math.abs(t[i] / step - Math.round(t[i] / step)) < 1e-6).map(Math.abs); };
+  const grows = most('explicit-euler', '0.05');
+  assert.ok(last(grows) > 5 * grows[0]);
+  // Of both ends of the range at which they are stable.
+  for (const method of ['symplectic-euler', 'verlet']) {
+    assert.ok(Math.max(...most(method, '1.9')) < 4 && Math.max(...most(method, '1.99')) < 20, method);
+    const far = most(method, '2.1');
+    near(far.at(-1) / far.at(-2), '1.88');
+  }
+  // The slightly tilted ellipse: x² + v² − h x v.
+  const { x, "x'": v } = run('spring', ['x', "x'"]), kept = x.map((q, i) => q * q + v[i] * v[i] - 0.05 * q * v[i]);
+  assert.ok(Math.max(...kept) - Math.min(...kept.slice(0, -1)) < 1e-10);
 });
 claims('damped-spring', ['27 % narrower', '47 % less energy'], () => {
   const { x } = run('damped-spring', ['x'], '--method', 'rk4', '--step', '0.001'), peaks = x.filter((v, i) => i > 0 && v > x[i - 1] && v >= x[i + 1]);
@@ -90,6 +105,13 @@ claims('driven-oscillator', ['swells to 0.81 at t = 15', 'nearly at rest at t = 
   near(errors('driven-oscillator', ['verlet']).verlet, '7e-7');
   assert.ok(Math.abs(last(run('driven-oscillator', ['x'], '--set', 'F=0.11', '--until', '68').x)) > 1);
 });
+claims('damped-cubic', ['Half the step leaves a quarter of the error', 'takes 0.40, the fifth 0.84'], () => {
+  const off = errors('damped-cubic', ['verlet'], '--step', '0.001').verlet;
+  near(errors('damped-cubic', ['verlet'], '--step', '0.0005').verlet / off, '0.25');
+  const { t, "x'": v } = run('damped-cubic', ['t', "x'"]), turns = [0, ...t.filter((_, i) => i > 1 && (v[i] > 0) !== (v[i - 1] > 0))];
+  near(turns[1] - turns[0], '0.40');
+  near(turns[5] - turns[4], '0.84');
+});
 claims('van-der-pol', ['From 0.1 as from 4', '2.02', 'a turn to 11.6'], () => {
   for (const start of ['0.1', '4']) {
     const { t, x } = run('van-der-pol', ['t', 'x'], '--set', `x(0)=${start}`, '--until', '60'), peaks = t.filter((_, i) => i > 0 && x[i] > x[i - 1] && x[i] >= x[i + 1]);
@@ -97,14 +119,19 @@ claims('van-der-pol', ['From 0.1 as from 4', '2.02', 'a turn to 11.6'], () => {
     near(last(peaks) - peaks.at(-2), '11.6');
   }
 });
-claims('kepler', ['Kahan–Li 8 is 2×10⁻¹¹', 'by 4° in these turns, one forward and one back', 'Kahan–Li 8 by 2×10⁻¹¹', 'velocity Verlet is off by 0.004'], () => {
+claims('kepler', ['Kahan–Li 8 is 2×10⁻¹¹', 'turns backward, by 0.37° from one far end to the next', 'velocity Verlet ends 0.0016 away, and Kahan–Li 8 only 2×10⁻¹¹', 'lose no energy in the long run'], () => {
   near(errors('kepler', ['kahan-li8'])['kahan-li8'], '2e-11');
-  for (const [method, way] of [['symplectic-euler', 1], ['velocity-verlet', -1]]) {
-    const { 'axis.x': x, 'axis.y': y } = run('kepler', ['axis.x', 'axis.y'], '--method', method);
-    near(way * Math.atan2(last(y), last(x)) * 180 / Math.PI, '4');
+  for (const method of ['symplectic-euler', 'velocity-verlet']) {
+    const { 'axis.x': x, 'axis.y': y, 'r.x': u, 'r.y': v, energy } = run('kepler', ['axis.x', 'axis.y', 'r.x', 'r.y', 'energy'], '--method', method), far = u.map((w, i) => Math.hypot(w, v[i]));
+    const ends = far.map((_, i) => i).filter(i => i > 0 && i + 1 < far.length && far[i] > far[i - 1] && far[i] >= far[i + 1]), at = ends.map(i => Math.atan2(y[i], x[i]) * 180 / Math.PI);
+    assert.equal(ends.length, 10);
+    for (let k = 1; k < at.length; k++) near(at[k - 1] - at[k], '0.37');
+    // Of the same place on the ellipse, the energy is the same on each turn.
+    assert.ok(Math.abs(energy[ends[9]] - energy[ends[0]]) < 1e-4, method);
   }
   const dear = JSON.parse(motus('compare', 'models/kepler.motus', '--methods', 'velocity-verlet,kahan-li8', '--evaluations', '35700', '--json')).rows;
-  near(dear.find(r => r.method === 'velocity-verlet').error_max, '0.004');
+  near(dear.find(r => r.method === 'velocity-verlet').error_final, '0.0016');
+  near(dear.find(r => r.method === 'kahan-li8').error_final, '2e-11');
 });
 claims('comet', ['0.19 au a year', 'sixty times as fast', 'Verlet is 2.3 au off and RK4 4.6 au', '7×10⁻⁶ au', '211 au away'], () => {
   const { "r'.x": u, "r'.y": v } = run('comet', ["r'.x", "r'.y"]), speeds = u.map((w, i) => Math.hypot(w, v[i])), off = errors('comet', ['explicit-euler', 'velocity-verlet', 'rk4', 'kahan-li8']);
@@ -145,11 +172,22 @@ claims('chain', ['by t = 1000 the third wave has 0.3 %', 'down to 97.5 % at t = 
   const tall = run('chain', ['E1', 'E3'], '--set', 'A=2', '--every', '10');
   near(100 * last(tall.E3) / tall.E1[0], '4');
 });
-claims('charged-particle', ['its speed stays 1 to the last digit', 'RK4 loses 1.4×10⁻⁶', '2.7 times as fast'], () => {
-  const speed = method => { const { "r'.x": u, "r'.y": v } = run('charged-particle', ["r'.x", "r'.y"], '--set', 'E=(0, 0, 0)', '--method', method); return Math.hypot(last(u), last(v)); };
-  assert.ok(Math.abs(speed('boris') - 1) < 1e-14);
-  near(1e6 * (1 - speed('rk4')), '1.4');
-  near(speed('explicit-euler'), '2.7');
+claims('charged-particle', ['the speed across the magnetic field is 1', 'RK4 loses 1.4×10⁻⁶', '2.7 times as fast', 'E.x = 0.5', 'swings between 0.82 and 1.30', '= 0.53125', 'RK4 loses 1.5×10⁻⁶ by t = 10', 'it is 3.89', 'the speed 2.99 in place of 1.26'], () => {
+  const of = (method, ...options) => run('charged-particle', ["r'.x", "r'.y", "r'.z", 'energy'], '--method', method, ...options), none = ['--set', 'E=(0, 0, 0)'];
+  const across = method => { const { "r'.x": u, "r'.y": v } = of(method, ...none); return u.map((w, i) => Math.hypot(w, v[i])); };
+  for (const h of ['0.05', '0.4']) for (const v of (() => { const { "r'.x": u, "r'.y": w } = of('boris', ...none, '--step', h); return u.map((a, i) => Math.hypot(a, w[i])); })()) assert.ok(Math.abs(v - 1) < 1e-13, v);
+  near(1e6 * (1 - last(across('rk4'))), '1.4');
+  near(last(across('explicit-euler')), '2.7');
+  // The model's own electric field.
+  const speeds = method => { const { "r'.x": u, "r'.y": v, "r'.z": w } = of(method); return u.map((a, i) => Math.hypot(a, v[i], w[i])); };
+  near(Math.min(...speeds('boris')), '0.82');
+  near(Math.max(...speeds('boris')), '1.30');
+  const energy = method => of(method).energy;
+  for (const e of energy('boris')) assert.ok(Math.abs(e - 0.53125) < 1e-14, e);
+  near(1e6 * (0.53125 - last(energy('rk4'))), '1.5');
+  near(last(energy('explicit-euler')), '3.89');
+  near(last(speeds('explicit-euler')), '2.99');
+  for (const method of ['boris', 'kahan-li8']) near(last(speeds(method)), '1.26');
 });
 claims('crossed-fields', ['1 mm a nanosecond', '0.23 mm off after 150 ns', '28 mm away'], () => {
   const off = errors('crossed-fields', ['explicit-euler', 'boris']);
@@ -188,6 +226,13 @@ claims('thrown-ball-air', ['(10.55, 1.09) m', '(11.81, 1.95) m', 'misses by 1.5 
   near(1000 * errors('thrown-ball-air', ['midpoint'], '--step', '0.1').midpoint, '3.6');
 });
 
+test('what a note names in quotation marks is a question of the page, or a heading of its theory', () => {
+  const theory = readFileSync(new URL('theory/theory.html', lab), 'utf8'), questions = [...Object.values(said.panel), ...Object.values(said.study)].map(part => part?.question).filter(Boolean);
+  const headings = [...questions, html.works, ...[...theory.matchAll(/<h[23][^>]*>(.*?)<\/h[23]>/g)].map(match => match[1])];
+  let named = 0;
+  for (const name of Object.keys(notes)) for (const [, heading] of text(name).matchAll(/“([^”]*)”/g)) { named++; assert.ok(headings.includes(heading), `${name}: ${heading}`); }
+  assert.ok(named > 4);
+});
 test('each note that answers the question of its scene is computed here', () => {
   const source = readFileSync(fileURLToPath(import.meta.url), 'utf8');
   for (const { model } of scenes) if (!stagings[model].ask) assert.ok(source.includes(`claims('${model}'`), model);

@@ -188,6 +188,8 @@ test('on a phone the end of a curve in time is named at its right', () => {
     assert.ok(name && name.left > ball.x && name.right <= place.width, `${size}: from ${name?.left} to ${name?.right}, the ball at ${ball.x}`);
     assert.ok(Math.abs(name.y - ball.y) < 24, `${name.y - ball.y} beside it`);
   }
+  const { texts, marks } = drawn(sceneOf('spring', ['verlet']), undefined, { width: 560, height: 390, column: 548, page: { width: 844, height: 390 } });
+  assert.ok(texts.find((t) => t.text === 'exact').left > marks.filter((m) => m.colour === page.named.ink.exact).at(-1).x, 'also on one that lies on its side');
 });
 test('each of several bodies is named once, beside itself and on nothing that is written', () => {
   const PHONE = { width: 390, height: 397, column: 0, page: { width: 390, height: 844 } }, planets = ['Sun', 'Jupiter', 'Saturn', 'Uranus', 'Neptune', 'Pluto'];

@@ -21,18 +21,18 @@ export const notes: Readonly<Record<string, Note>> = {
     { to: 'thrown-ball-air', label: 'With air drag' }, ' it matters.',
   ]],
   'projectile-drag': [[
-    'The air took it: the drag lowers the speed all the time, so the ball comes down slower and steeper than it went up. It needs 2.62 s for the 43 m up and goes 53 m far on the way, then 3.25 s and 37 m for the way down, and lands with 25 m/s ',
-    'of the 50 m/s that it had. Drag divided by mass is what slows it, so a heavier one flies farther. No formula gives this motion; the green line is a reference, computed with its own error. Back to ',
+    'The air took it: the drag lowers the speed all the time, so the ball comes down slower and steeper than it went up. It needs 2.62 s for the 43 m up and goes 53 m far on the way, then 3.25 s and 37 m for the way down, and lands after 5.87 s, ',
+    'where this scene ends, with 25 m/s of the 50 m/s that it had. Drag divided by mass is what slows it, so a heavier one flies farther. No formula gives this motion; the green line is a reference, computed with its own error. Back to ',
     { to: 'thrown-ball', label: 'the ball without air' }, '.',
   ]],
   spring: [
-    'Here the Eulers part. Overlay explicit and symplectic Euler and look at the phase plane: one spirals outward, the other stays on a slightly tilted ellipse for ever.',
-    'Then choose Verlet and pull the step up past 2: below it the oscillation holds, above it the numbers explode.',
+    'Here the Eulers part: in the picture of how fast against how far explicit Euler spirals outward, while symplectic Euler stays on a slightly tilted ellipse for ever.',
+    ['At a step of ', { step: '1.9', label: '1.9 s' }, ' it still does, and Verlet’s swing stays as well; at ', { step: '2.1', label: '2.1 s' }, ' both grow by a factor of 1.88 at every step, because 2 s is the largest step at which either is stable on this spring.'],
   ],
   'damped-spring': [
     'Each swing is 27 % narrower than the one before, whatever its size, and has 47 % less energy: friction takes a share, so the swing never quite ends.',
     'Set F to 1 and move omega towards omega0 = 2: the steady swing grows, and lags further behind the force.',
-    'In the plane of hλ, under the question how large the step may be, the points now lie to the left of the imaginary axis, where even explicit Euler has a step that is short enough.',
+    'In the plane of hλ, under “How large may the step be?”, the points now lie to the left of the imaginary axis, where even explicit Euler has a step that is short enough.',
   ],
   pendulum: [
     'Because what pulls it back grows with the sine of the angle, and so less than the angle: at 2 it is 0.909, where a spring would pull with 2. The swing takes 8.35, a third longer than the 6.28 of a small one.',
@@ -46,20 +46,21 @@ export const notes: Readonly<Record<string, Note>> = {
   'driven-oscillator': [
     'The spring softens, so a wide swing is slower than the drive and falls out of step with it: pushes that fed the swing then brake it. It swells to 0.81 at t = 15, is nearly at rest at t = 34, and begins anew. Raise F from 0.1 to 0.11 and the '
     + 'mass escapes over the hill at |x| = 1.',
-    'Verlet ends 7×10⁻⁷ away from the motion at t = 100; halve the step and a quarter of that is left. Below it is shown how far off it is.',
+    'Verlet ends 7×10⁻⁷ away from the motion at t = 100; halve the step and a quarter of that is left: see “How far off is each?”.',
   ],
   'damped-cubic': [
-    'The force depends on the velocity, and Verlet’s central difference for it makes the step an equation; being linear in the velocity, it is solved in closed form. The formula is in the theory, under Störmer–Verlet.',
-    'Look at the convergence: the slope is 2, friction and all. The first swings are fast and need a short step; the last ones hardly any.',
+    'No. The friction puts the velocity into the force, and Verlet’s central difference for it makes the step an equation; as the force is linear in the velocity, the equation is solved in closed form: the formula stands in “How it works”, under '
+    + '“Störmer–Verlet”. Half the step leaves a quarter of the error, as without friction: see “What does half the step buy?”.',
+    'The first swing to the other side takes 0.40, the fifth 0.84, more than twice as long: the wider the swing, the faster, and the shorter the step that it needs.',
   ],
   'van-der-pol': [
     'Wide swings are braked and small ones fed, and on one closed curve of the phase plane the two balance over a turn. From 0.1 as from 4 the swing comes to 2.02, and a turn to 11.6. The larger mu, the longer it creeps and the faster it jumps.',
-    'In the plane of hλ the points run far to the left and back on each turn: raise mu, and explicit methods need ever shorter steps.',
+    'In the plane of hλ, under “How large may the step be?”, the points run far to the left and back on each turn: raise mu, and explicit methods need ever shorter steps.',
   ],
   kepler: [
-    'The true one does: after ten turns and a half Kahan–Li 8 is 2×10⁻¹¹ from where the planet should be. Velocity Verlet and symplectic Euler keep the energy, but let the ellipse turn, by 4° in these turns, one forward and one back: a rosette. '
-    + 'Explicit Euler leaves at once.',
-    'High order pays on a smooth orbit: with 35 700 evaluations of the force for these ten turns velocity Verlet is off by 0.004, Kahan–Li 8 by 2×10⁻¹¹.',
+    'The true one does: after ten turns and a half Kahan–Li 8 is 2×10⁻¹¹ from where the planet should be. Velocity Verlet and symplectic Euler lose no energy in the long run, but with both the ellipse turns backward, by 0.37° from one far end to the '
+    + 'next: a rosette. Explicit Euler leaves at once.',
+    'High order pays on a smooth orbit: with 35 700 evaluations of the force for these ten turns and a half velocity Verlet ends 0.0016 away, and Kahan–Li 8 only 2×10⁻¹¹.',
   ],
   comet: [
     'The step. At the far end of its orbit the comet creeps with 0.19 au a year, at the near end it is sixty times as fast, and there a step of two weeks is long. After one turn velocity Verlet is 2.3 au off and RK4 4.6 au; Kahan–Li 8 comes back '
@@ -81,8 +82,10 @@ export const notes: Readonly<Record<string, Note>> = {
     + 'With the amplitude 2 the third wave has 4 % by t = 1000. Plot E1 and E3.',
   ],
   'charged-particle': [
-    'Boris’ method, which turns the velocity by a rotation: its speed stays 1 to the last digit, at any step. RK4 loses 1.4×10⁻⁶ of it by t = 10; explicit Euler’s charge is 2.7 times as fast by then, and its circle as much wider. With an electric field the circle '
-    + 'drifts across both.',
+    'Boris’ method, which turns the velocity by a rotation. Without an electric field, E = 0, the speed across the magnetic field is 1 and should stay so: Boris keeps it to round-off, at any step; RK4 loses 1.4×10⁻⁶ of it by t = 10, and with explicit '
+    + 'Euler the charge is 2.7 times as fast by then, on a circle as much wider.',
+    'With the model’s electric field, E.x = 0.5, the charge drifts across both fields, and its speed swings between 0.82 and 1.30. What stays is the energy, m |r′|²/2 − q E·r = 0.53125: Boris keeps it to round-off, RK4 loses 1.5×10⁻⁶ by t = 10, '
+    + 'and with explicit Euler it is 3.89, and the charge ends with the speed 2.99 in place of 1.26.',
   ],
   'crossed-fields': [
     'On one half of its circle the electric field makes the electron faster, and it turns in a wider arc than on the other: so it drifts sideways, with |E|/B = 1 mm a nanosecond, whatever its charge, mass and start. Boris’ method keeps the energy to the last digits and is '

@@ -82,7 +82,7 @@ export const panel = {
     up: 'Up',
     /** After the name of what swings. */
     swings: (low: string, high: string, period: string) => ` swings between ${low} and ${high}, once in ${period}.`,
-    turns: (count: number, first: string, last: string) => ` turns back ${count === 1 ? 'once' : count === 2 ? 'twice' : `${count} times`}${count === 1 ? `, at ${first}` : `, first at ${first}, last at ${last}`}.`,
+    turns: (count: number, first: string, last: string) => ` turns back ${count === 1 ? `once, at ${first}` : count === 2 ? `twice, at ${first} and ${last}` : `${count} times, first at ${first}, last at ${last}`}.`,
     between: (low: string, high: string) => ` stays between ${low} and ${high}, `,
     andBetween: (low: string, high: string) => ` between ${low} and ${high}.`,
     by: (name: string) => `By ${name}, `,

@@ -90,7 +90,7 @@ export const scenes: Readonly<Record<string, SceneWords>> = {
   },
   'charged-particle': {
     title: 'Charge in a magnet', question: 'Who keeps the circle round?',
-    sentence: 'A charge in a magnetic field: it can only turn. Boris’ method turns the velocity by a rotation.',
+    sentence: 'A charge in a magnetic field, which turns its velocity and no more; an electric field also changes its speed.',
     dials: { 'B.z': 'Field', 'E.x': 'Electric field', q: 'Charge' },
   },
   'crossed-fields': {
