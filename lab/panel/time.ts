@@ -167,7 +167,7 @@ export const timePanel = (store: Store, stage: () => Sees): Panel => {
     return [
       say.span(listed(chosen.map(nameText)), `t = ${brief(tracks[0]?.times[0] ?? 0)}`, brief(end)), final.length ? say.end(nameText(first), listed(final, 5)) : '',
       leaving.length ? begin(words.panel.leave(leaving)) : '',
-      ...tracks.flatMap((track, k) => (track.problem ? [say.stopped(name(k), track.problem.message)] : [])), ...tracks.flatMap((track, k) => (track.singular ? [say.passing(name(k), track.singular.message)] : [])),
+      ...tracks.flatMap((track, k) => (track.problem ? [track.problem.message.startsWith(`${track.method} `) ? say.does(name(k), track.problem.message.slice(track.method.length + 1)) : say.stopped(name(k), track.problem.message)] : [])), ...tracks.flatMap((track, k) => (track.singular ? [say.passing(name(k), track.singular.message)] : [])),
       dropped ? say.most(String(MOST), String(MOST + dropped)) : '',
     ].filter(Boolean).join(' ');
   }

@@ -17,7 +17,7 @@ export const panel = {
     span: (names: string, from: string, to: string) => `${names} from ${from} to ${to}.`,
     end: (name: string, list: string) => `At the end, ${name}: ${list}.`,
     before: (name: string) => `${name} stopped before`,
-    stopped: (name: string, why: string) => `${name} stopped: ${why}.`,
+    stopped: (name: string, why: string) => `${name} stopped: ${why}.`, does: (name: string, what: string) => `${name} ${what}.`,
     passing: (name: string, what: string) => `${name}: ${what}.`,
     most: (shown: string, chosen: string) => `${shown} of ${chosen} chosen quantities are shown.`,
   },
