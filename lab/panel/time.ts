@@ -153,7 +153,7 @@ export const timePanel = (store: Store, stage: () => Sees): Panel => {
     const first = chosen.slice(0, ANSWERED), exact = first.every((name) => truthOf(name)), end = exact ? endTime(scene) : track.times[track.times.length - 1]!;
     const value = (name: string): string => (exact ? shortened(exactText(scene!, name, end, 3)).replace('≈ ', '') : brief(valueAt(track.times, trackColumns(name)[0]!, end), 3));
     const spans = first.flatMap((name, k): Span[] => [...(k ? [{ text: ', ' }] : []), ...nameSpans(name, 15), { text: ` = ${value(name)}${unitOf(scene!, name) && `\u2009${unitOf(scene!, name)}`}` }]);
-    return [{ text: say.at(moment(scene, end), exact ? '' : nameAt(scene, 0)) }, ...spans, { text: '.' }];
+    return [{ text: say.at(moment(scene, end), exact ? '' : nameAt(scene, 0)) }, ...spans, { text: !scene.solution.truth && scene.solution.problem ? say.notKnown : '.' }];
   }
   function summary(): string {
     if (!scene) return '';

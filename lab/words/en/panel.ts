@@ -1,6 +1,4 @@
 /* The pictures that look closer: lab/panel/. Numbers come formatted, with their units; names as the page sets them. */
-/** A number may follow the name of a method that ends in one, Kahan–Li 8. */
-const by = (name: string, number: string): string => `${name} ${/\d$/.test(name) ? 'by ' : ''}${number}`;
 const and = (parts: readonly string[]): string => (parts.length < 2 ? parts.join('') : `${parts.slice(0, -1).join(', ')} and ${parts[parts.length - 1]}`);
 export const panel = {
   and,
@@ -12,6 +10,7 @@ export const panel = {
     question: 'Where is it, and when?',
     /** at: "2 s" or "t = 2"; by: '' where the values are the exact motion's. */
     at: (at: string, by: string) => (by ? `By ${by}, at ${at}: ` : `At ${at}: `),
+    notKnown: '. There is no green curve: these digits are the method’s, and need not be the motion’s.',
     quantities: 'Quantities',
     shown: (names: string) => `Quantities: ${names}`,
     span: (names: string, from: string, to: string) => `${names} from ${from} to ${to}.`,
@@ -25,20 +24,20 @@ export const panel = {
     title: 'Error',
     question: 'How far off is each?',
     answer: (at: string, list: string) => `At ${at}: ${list}.`,
-    inVelocity: (at: string, list: string) => `In the velocity, at ${at}: ${list}.`,
-    inFirst: (at: string, list: string) => `In the first-order variables, at ${at}: ${list}.`,
-    one: by,
+    inVelocity: (at: string, list: string) => `At ${at}, in the velocity: ${list}.`,
+    inFirst: (at: string, list: string) => `At ${at}, in the variables that have first-order equations: ${list}.`,
+    one: (name: string, size: string) => `${name} off by ${size}`, largestOne: (name: string, size: string) => `${size} by ${name}`,
     onIt: (name: string) => `${name} on it`,
-    under: (name: string, by: string) => `${name} less than ${by}`,
+    under: (name: string, by: string) => `${name} off by less than ${by}`,
     leaves: (name: string, at: string) => `${name} leaves at ${at}`,
     waiting: 'A reference is computed to compare with.',
     of: 'Error of the',
     kinds: { x: 'position', v: 'velocity', s: 'first-order variable' },
     axis: { x: 'off by', v: 'velocity off by', s: 'first-order variable off by' },
     roundOff: 'round-off',
-    ownError: 'below the reference’s own error',
+    ownError: 'smaller than the error of the green curve itself',
     largest: (kind: string, list: string) => `Largest error in the ${kind}: ${list}.`,
-    small: (name: string, size: string) => `${name} ${size} (round-off)`,
+    small: (name: string, size: string) => `${size} by ${name} (round-off)`,
     againstExact: 'Measured against the exact motion, which is known up to round-off.',
     against: (name: string, own: string) => `Measured against a reference, ${name}${own ? `, whose own error is about ${own}` : ''}.`,
     zeros: 'Where an error is zero to the last digit, the line runs at the foot of the picture.',
@@ -61,7 +60,8 @@ export const panel = {
     lower: (name: string, by: string) => `${name} ends ${by} lower`,
     times: (name: string, factor: string) => `${name} ends with ${factor} times as much`,
     leaves: (name: string, at: string) => `${name} leaves at ${at}`,
-    also: by,
+    also: (kind: string, name: string, number: string) => `${name} ${kind === 'times' ? 'with' : kind === 'leaves' ? 'at' : 'by'} ${number}`,
+    ofFirst: (size: string) => `${size} of its first value`,
     alsoKeeps: (name: string, to: string) => `${name} to ${to}`,
     rounding: 'round-off',
     join: (parts: readonly string[]) => `${parts.join('; ')}.`,
