@@ -122,7 +122,10 @@ async function start(): Promise<void> {
     if (!scene) return;
     const main = scene.solution.tracks[0];
     const ends = scene.solution.tracks.map(({ times }) => times[times.length - 1] ?? store.numbers.start);
-    const end = store.numbers.until ?? Math.max(...ends);
+    const { start, until } = store.numbers, { tracks, truth, examined } = scene.solution;
+    // Where every method broke off and there is no green curve, nothing is to be seen later.
+    const over = examined && !truth && tracks.length > 0 && tracks.every(({ problem }) => problem), furthest = ends.reduce((a, b) => (Math.abs(b - start) > Math.abs(a - start) ? b : a), start);
+    const end = over ? furthest : until ?? Math.max(...ends);
     nameExports(scene.state.preset || 'model');
     motion.show(scene);
     small.show(scene);

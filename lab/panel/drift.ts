@@ -17,6 +17,8 @@ import { nameSpans, nameText } from '../figure/name';
 import { brief, readable } from '../figure/number';
 import { EXACT_WIDTH, begin, drawTrack, valueAt } from '../figure/track';
 import type { AxisDefinition, Figure, Frame, Ink, Pen, Said, Table } from '../figure/types';
+import { exampleOf } from '../data';
+import { saidOf } from '../scenes';
 import { greenName } from '../stage/motion';
 import { words } from '../words';
 import { columnOf, headName, invariants, timeTable } from './columns';
@@ -115,13 +117,20 @@ export const driftPanel: PanelMaker = (): Panel => {
 
   const isEnergy = (): boolean => chosen === 'energy';
   const question = (): Said => (isEnergy() || !chosen ? say.question : [{ text: say.ask }, ...nameSpans(chosen, 18), { text: say.askEnd }]);
+  /** A change as a percentage, or as a number that says of what. */
+  const changed = (size: number): string => (relative && size < 1e-5 ? say.ofFirst(share(size, relative)) : share(size, relative));
+  /** What the name of an invariant stands for; ''. */
+  function meaning(): string {
+    const keeps = scene ? saidOf(exampleOf(scene.state))?.keeps : undefined, name = chosen.replace(/[.[].*$/, '');
+    return keeps && Object.hasOwn(keeps, name) ? `${keeps[name]!} ` : '';
+  }
   /** What a method does with it, and the number that goes with that. */
   function numberOf(kept: Keeping): string {
     switch (kept.kind) {
       case 'grows': case 'shrinks': case 'adds': case 'takes': return share(kept.rate, true);
       case 'keeps': return kept.most <= ROUNDED ? say.rounding : brief(kept.most, 2);
-      case 'back': case 'strays': return share(kept.most, relative);
-      case 'higher': case 'lower': return share(kept.by, relative);
+      case 'back': case 'strays': return changed(kept.most);
+      case 'higher': case 'lower': return changed(kept.by);
       case 'times': return brief(kept.factor, 3);
       default: return moment(scene!, kept.time);
     }
@@ -133,9 +142,9 @@ export const driftPanel: PanelMaker = (): Panel => {
       const kept = keepingOf(track, values[k] ?? [], changes[k] ?? [], relative), name = nameAt(scene!, k);
       if (!kept) return;
       const said = kinds.get(kept.kind), number = numberOf(kept);
-      if (said) said.push(kept.kind === 'keeps' ? say.alsoKeeps(name, number) : say.also(name, number)); else kinds.set(kept.kind, [say[kept.kind](name, number)]);
+      if (said) said.push(kept.kind === 'keeps' ? say.alsoKeeps(name, number) : say.also(kept.kind, name, number)); else kinds.set(kept.kind, [say[kept.kind](name, number)]);
     });
-    return kinds.size ? begin(say.join([...kinds.values()].map((parts) => several(parts, 5)))) : '';
+    return kinds.size ? `${meaning()}${begin(say.join([...kinds.values()].map((parts) => several(parts, 5))))}` : '';
   }
   function summary(): string {
     if (!scene) return '';
@@ -143,7 +152,7 @@ export const driftPanel: PanelMaker = (): Panel => {
       const [a, b] = extent([d]);
       return { name: nameAt(scene!, k), top: d.length ? Math.max(Math.abs(a), Math.abs(b)) : NaN };
     }).sort((a, b) => a.top - b.top);
-    const said = far.map((w) => (w.top < 1e-14 && w.top > 0 && relative ? words.panel.error.small(w.name, brief(w.top, 2)) : words.panel.error.one(w.name, brief(w.top, 3))));
+    const said = far.map((w) => (w.top < 1e-14 && w.top > 0 && relative ? words.panel.error.small(w.name, brief(w.top, 2)) : words.panel.error.largestOne(w.name, brief(w.top, 3))));
     return [begin(relative ? say.begins(name, brief(first, 6)) : say.zero(name)), said.length ? say.furthest(relative, listed(said, 5)) : ''].filter(Boolean).join(' ');
   }
   const table = (): Table => {

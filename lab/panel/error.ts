@@ -166,7 +166,7 @@ export const errorPanel: PanelMaker = (): Panel => {
       for (const e of errors(k)) if (e > top) top = e;
       return { name: nameAt(scene!, k), top };
     }).sort((a, b) => a.top - b.top);
-    const said = worst.map((w) => (w.top <= 16 * floor && w.top > 0 ? say.small(w.name, brief(w.top, 2)) : say.one(w.name, brief(w.top, 3))));
+    const said = worst.map((w) => (w.top <= 16 * floor && w.top > 0 ? say.small(w.name, brief(w.top, 2)) : say.largestOne(w.name, brief(w.top, 3))));
     return [
       said.length ? say.largest(say.kinds[of], listed(said, 5)) : '', against(), zeros ? say.zeros : '',
       leaving.length ? begin(words.panel.leave(leaving.map((k) => nameAt(scene!, k)))) : '',

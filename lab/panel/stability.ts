@@ -226,6 +226,7 @@ export const stability: PanelMaker = (store): Panel => {
     if (!scene) return '';
     if (trouble) return say.noRates(trouble);
     if (!motion) return '';
+    if ((motion.kind === 'still' || motion.kind === 'rateless') && scene.solution.tracks.some(({ problem }) => problem)) return say.broken;
     if (motion.kind === 'still') return scene.description.smooth ? say.still : say.stillThere(String(motion.moments));
     if (motion.kind === 'rateless') return say.rateless;
     if (motion.kind === 'grows') return say.grows(amount(1 / Math.max(...motion.rates.map((r) => Math.abs(r.re))), unit(), 2));

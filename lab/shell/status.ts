@@ -1,6 +1,7 @@
 /* What the page is doing, where that takes long, and what stopped a motion. Invariant: long work can always be cancelled from here. */
 import type { LiveStore } from '../state';
 import { button, el, say } from '../dom';
+import { begin } from '../figure/track';
 import { words } from '../words';
 
 /** "explicit Euler stopped at t = 1.2: x is no longer finite" of each method that did not reach the end, or passed a singularity; or why nothing could be computed, or no
@@ -10,14 +11,16 @@ function stopped(store: LiveStore): string {
   if (model) return store.scene ? words.trouble.last : words.trouble.model;
   if (store.trouble.step || store.trouble.until) return words.trouble.numbers;
   if (run) return words.trouble.hinted(run.message, run.hint);
-  const { tracks = [], truth, problem } = store.scene?.solution ?? {}, whose = new Map<string, string[]>();
+  const { tracks = [], truth, problem } = store.scene?.solution ?? {}, whose = new Map<string, string[]>(), own = new Map<string, string>();
   tracks.forEach((track, k) => {
     const trouble = track.problem ?? track.singular;
+    // What begins with the program's name of the method is said with the page's.
+    if (trouble?.message.startsWith(`${track.method} `)) own.set(trouble.message, trouble.message.slice(track.method.length + 1));
     if (trouble) whose.set(trouble.message, [...(whose.get(trouble.message) ?? []), store.scene?.looks[k]?.label ?? track.method]);
   });
   // Where no method comes through, why is said of them.
   const missing = problem && !truth && tracks.some((t) => !t.problem && !t.singular) ? [words.trouble.noGreen(problem.message.replace(/^there is no reference solution[^:]*: /, ''))] : [];
-  return words.trouble.all([...[...whose].map(([message, names]) => words.trouble.method(words.panel.and(names), message)), ...missing]);
+  return words.trouble.all([...[...whose].map(([message, names]) => (own.has(message) ? words.trouble.does(begin(words.panel.and(names)), own.get(message)!) : words.trouble.method(words.panel.and(names), message))), ...missing]);
 }
 
 export function status(store: LiveStore): HTMLElement {

@@ -578,6 +578,7 @@ export function pictureOf(setting: Setting): Picture {
       if (problem) {
         // What is undefined at its start stops there.
         const at = brief((times.length > 1 ? problem.time : null) ?? times[times.length - 1] ?? 0);
+        if (problem.kind === 'solve') return words.stage.summary.stopsUnsolved(line.look.label, brief(times[times.length - 1] ?? 0));
         return problem.variable ? words.stage.summary.stopsAs(line.look.label, at, problem.variable) : words.stage.summary.stops(line.look.label, at);
       }
       const c = curves.methods[lines.indexOf(line)]!.find((curve) => curve.exit);
@@ -592,6 +593,7 @@ const SPACING_LADDER = 8, CLEAR = 4;
 function told(motion: Motion, curve: Curve, staging: Staging): string {
   const { track } = curve.line, { truth } = motion, unit = staging.units ? `\u2009${staging.units.t}` : '';
   const end = track.times[track.times.length - 1] ?? 0;
+  if (track.problem?.kind === 'solve') return words.stage.unsolved(`${brief(end, 3)}${unit}`);
   if (track.problem) return words.stage.ends(`${brief(track.problem.time ?? end, 3)}${unit}`);
   if (motion.subject.kind === 'time' && truth) {
     const times = wider(motion, curve, truth);

@@ -9,6 +9,8 @@ export interface SceneWords {
   readonly moved?: string;
   /** Where the stage has no room for the phase plane beside the motion; absent: the same. */
   readonly alone?: string;
+  /** What an invariant is, by its name, where the name alone does not say it. */
+  readonly keeps?: Readonly<Record<string, string>>;
   /** The sliders of the dock, by the name of their number: "k", "x(0)"; of a component "r'(0).y". */
   readonly dials?: Readonly<Record<string, string>>;
   /** The switch that goes to another example. */

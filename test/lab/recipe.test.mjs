@@ -114,7 +114,7 @@ test('the two steps of the concept’s picture', () => {
     return recipe.lines.map((line) => [line.sentence, ...line.sums.map(plain)].join(' '));
   };
   assert.deepEqual(said('midpoint', 0), ['Go half a step with the velocity you have. x = 1 + 0.4 · 0 = 1', 'Read the velocity there. v = 0 + 0.4 · (−1) = −0.4', 'Start again, and go the whole step with it. x = 1 + 0.8 · (−0.4) = 0.680']);
-  assert.deepEqual(said('verlet', 1), ['Keep going: the same stretch once more. 2 · 0.68 − 1 = 0.36', 'Fall: what the force does in a whole step. h²a = 0.64 · (−0.68) = −0.435', 'There you are. No velocity was needed. x = 0.36 − 0.435 = −0.075']);
+  assert.deepEqual(said('verlet', 1), ['Keep going: the same stretch once more. 2 · 0.68 − 1 = 0.36', 'Add what the force does in a whole step. h²a = 0.64 · (−0.68) = −0.435', 'That is the new place. No velocity was needed. x = 0.36 − 0.435 = −0.075']);
   assert.deepEqual(said('kahan-li8', 0).length, 4);
   assert.match(said('kahan-li8', 0)[3], /^And so on, 35 parts\. The last: x = /);
 });

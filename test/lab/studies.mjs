@@ -171,7 +171,7 @@ await attempt('an order that is not seen', async () => {
 await attempt('a field', async () => {
   const page = await page1('charged-particle', 'explicit-euler,boris,rk4');
   // The velocity turns with ω = q B/m = 2: Runge–Kutta methods see λ = ±iω alone, Boris' rotation no rate.
-  same('charged particle: Boris is not judged by a rate', await answerOf(page, 'Stability'), `Below ${digits(Math.sqrt(8) / 2, 3)} for RK4; no step is small enough for explicit Euler; Boris cannot be judged by a rate here.`);
+  same('charged particle: Boris is not judged by a rate', await answerOf(page, 'Stability'), `Below ${digits(Math.sqrt(8) / 2, 3)} for RK4; no step is small enough for explicit Euler; for Boris no largest step can be given here.`);
   await page.evaluate(() => { location.hash = '#v=1&p=charged-particle&a=boris'; });
   await settled(page, 600);
   await page.waitForFunction(() => /rotation/.test(document.querySelector('figure[data-title="Stability"] .figure-answer')?.textContent ?? ''), null, { timeout: 15000 }).catch(() => {});

@@ -63,9 +63,9 @@ export const opened = {
   forces: 'Go the whole step, with both forces.',
   forcesVelocity: 'The velocity, with both as well.',
   keepGoing: 'Keep going: the same stretch once more.',
-  fall: (hidden: boolean, half: boolean) => (hidden ? 'Fall: the force, with (next − before)/2h for the velocity.' : half ? 'Fall: what the force does in a first step.' : 'Fall: what the force does in a whole step.'),
-  fallBeeman: 'Fall: by the force now and the one a step before.',
-  there: (hidden: boolean) => `There you are. ${hidden ? 'Two places were enough' : 'No velocity was needed'}.`, thereFirst: 'There you are. Now two places are enough.', thereBeeman: 'There you are.',
+  fall: (hidden: boolean, half: boolean) => (hidden ? 'Add what the force does, with (next − before)/2h for the velocity.' : half ? 'Add what the force does from the start, where there is no step before.' : 'Add what the force does in a whole step.'),
+  fallBeeman: 'Add what the force does: the one now and the one a step before.',
+  there: (hidden: boolean) => `That is the new place. ${hidden ? 'Two places were enough' : 'No velocity was needed'}.`, thereFirst: 'That is the new place. From now on the last two places are enough for a step.', thereBeeman: 'That is the new place.',
   velocityBeeman: 'The velocity, with the force at the new place too.',
   twoPlaces: 'Two places and one force: that is all it remembers.',
   /** Every part of a step; times come written. */

@@ -17,6 +17,7 @@ export const scenes: Readonly<Record<string, SceneWords>> = {
     title: 'Ball in air', question: 'Where did the symmetry go?',
     sentence: 'Thrown hard, a light ball loses its speed to the air: the way up is long and flat, the way down is short and steep.',
     dials: { m: 'Mass', c: 'Drag', "r'(0).y": 'Upwards' },
+    keeps: { hodograph: 'The hodograph is a number made of the horizontal velocity and the slope of the path, which gravity and this drag leave as it is.' },
   },
   'spring': {
     title: 'Mass on a spring', question: 'Why does the blue one stay?',
@@ -56,32 +57,38 @@ export const scenes: Readonly<Record<string, SceneWords>> = {
     title: 'Van der Pol', question: 'Why do all starts end alike?',
     sentence: 'It feeds itself while it is small and brakes while it is large, so every start ends on one curve.',
     dials: { mu: 'Feeding', 'x(0)': 'Start', "x'(0)": 'Start speed' },
+    keeps: { balance: 'The balance is the energy of the swing less the energy that the friction has supplied so far.' },
   },
   'kepler': {
     title: 'Planet', question: 'Does the ellipse close?',
     sentence: 'A planet and its sun. The ellipse should close, turn after turn.',
     dials: { e: 'Eccentricity', mu: 'Mass of the sun' },
+    keeps: { angular: 'Angular is the angular momentum.', axis: 'Axis is the vector along the long axis of the ellipse, by Laplace, Runge and Lenz; its length is the eccentricity.' },
   },
   'comet': {
     title: 'Comet', question: 'What breaks close to the Sun?',
     sentence: 'Halley’s comet: seventy-five years, and close to the Sun a few days that decide.',
     moved: 'An orbit around the Sun. The longer it is, the more its days close to the Sun decide.',
     dials: { e: 'Eccentricity' },
+    keeps: { angular: 'Angular is the angular momentum.', axis: 'Axis is the vector along the long axis of the ellipse, by Laplace, Runge and Lenz; its length is the eccentricity.' },
   },
   'arenstorf': {
     title: 'Between Earth and Moon', question: 'How small an error loses it?',
     sentence: 'A satellite between Earth and Moon, seen from a frame that turns with them. Its orbit closes, if it is computed well.',
     moved: 'A satellite between Earth and Moon, seen from a frame that turns with them. From another start its orbit need not close.',
     dials: { 'x(0)': 'Start', "y'(0)": 'Start speed' },
+    keeps: { jacobi: 'Jacobi’s constant stands in place of the energy, as the frame turns.' },
   },
   'outer-solar-system': {
     title: 'Outer planets', question: 'Where are they in 500 years?',
     sentence: 'Jupiter, Saturn, Uranus, Neptune and Pluto, for five hundred years.',
     dials: { G: 'Gravity' },
+    keeps: { angular: 'Angular is the angular momentum.' },
   },
   'three-body-figure-eight': {
     title: 'Figure of eight', question: 'Can three bodies take turns?',
     sentence: 'Three equal masses chase each other along one curve.',
+    keeps: { angular: 'Angular is the angular momentum.' },
   },
   'chain': {
     title: 'Chain of springs', question: 'Where does the energy go?',
@@ -92,6 +99,7 @@ export const scenes: Readonly<Record<string, SceneWords>> = {
     title: 'Charge in a magnet', question: 'Who keeps the circle round?',
     sentence: 'A charge in a magnetic field, which turns its velocity and no more; an electric field also changes its speed.',
     dials: { 'B.z': 'Field', 'E.x': 'Electric field', q: 'Charge' },
+    keeps: { momentum: 'The momentum is that of the charge, less what both fields have given it.' },
   },
   'crossed-fields': {
     title: 'Crossed fields', question: 'Why does it drift sideways?',
@@ -103,6 +111,7 @@ export const scenes: Readonly<Record<string, SceneWords>> = {
     sentence: 'A fast circle, an oscillation along the axis, and a slow circle between them.',
     moved: 'In a strong enough magnetic field: a fast circle, an oscillation along the axis, and a slow circle between them.',
     dials: { wc: 'Magnetic field', wz: 'Electric field' },
+    keeps: { angular: 'Angular is the angular momentum about the axis, with the share of the magnetic field.' },
   },
   'double-pendulum': {
     title: 'Double pendulum', question: 'When do two starts part?',

@@ -30,7 +30,7 @@ export const stage = {
   leaves: (method: string) => `${method} leaves`,
   /** One that comes down to the ground, below which nothing is drawn. */
   landed: (method: string) => `${method} lands`, lands: (name: string, time: string) => `${name} lands at ${time}`,
-  ends: (time: string) => `and ends at ${time}, no longer a number`, wide: (times: string, time: string) => `${times} times too wide at ${time}`, at: (time: string) => `at ${time}`,
+  ends: (time: string) => `and ends at ${time}, no longer a number`, unsolved: (time: string) => `and stops at ${time}, its equation unsolved`, wide: (times: string, time: string) => `${times} times too wide at ${time}`, at: (time: string) => `at ${time}`,
   /** The motion in words, for those who do not see it. */
   summary: {
     nothing: 'Nothing to show yet.',
@@ -43,6 +43,8 @@ export const stage = {
     reference: (distances: readonly string[]) => `At the end the distance from the reference is ${distances.join(', ')}.`,
     stops: (method: string, time: string) => `${upper(method)} stops at t = ${time}.`,
     stopsAs: (method: string, time: string, variable: string) => `${upper(method)} stops at t = ${time}: ${variable} is no finite number.`,
+    /** time: of its last state. */
+    stopsUnsolved: (method: string, time: string) => `${upper(method)} stops at t = ${time}: the implicit equation of its next step could not be solved.`,
     leaves: (method: string, time: string) => `${upper(method)} leaves the picture at t = ${time}.`,
     ground: (time: string) => `From ${time} on the motion would be below the ground, where nothing is drawn.`,
     whole: (sentences: readonly string[]) => sentences.join(' '),

@@ -25,7 +25,7 @@ export const study = {
   known: 'Errors are measured against the exact motion.',
   unknown: (name: string, off: string) => `No exact motion is known, so errors are measured against ${name}, itself good to ${off}.`,
   taken: (how: string) => `Taken ${how}.`,
-  error: 'off by, in sizes of the motion',
+  error: 'error ÷ size of the motion',
 
   convergence: {
     title: 'Order',
@@ -99,9 +99,10 @@ export const study = {
     question: 'How large may the step be?',
     waiting: 'Asking where the methods are stable …',
     still: 'The force does not depend on the position: no step is too large.',
-    stillThere: (count: string) => `At the ${count} moments looked at, the force does not depend on the position: there no step is too large.`,
+    stillThere: (count: string) => `At ${count} moments of the run, the force does not depend on the position: there no step is too large.`,
+    broken: 'The run broke off, so it cannot be told which steps are short enough.',
     rateless: 'Nothing here swings, fades or grows at a rate of its own: no step is too large.',
-    grows: (time: string) => `Nothing swings here, the motion itself grows, by the factor e in ${time}: no step runs away from it.`,
+    grows: (time: string) => `Nothing swings here: the motion itself grows, by the factor e in ${time}, so no step is too long to be stable.`,
     noRates: (why: string) => `The motion could not be linearised: ${why}.`,
     /** What goes before the list of limits. */
     fastest: (at: string) => `where it is fastest, near ${at}, `,
@@ -112,7 +113,7 @@ export const study = {
     any: (names: readonly string[]) => `any step for ${people(names)}`,
     never: (names: readonly string[]) => `no step is small enough for ${people(names)}`,
     slow: (names: readonly string[], alone: boolean) => `${alone ? 'no step is small enough for' : 'nor for'} ${people(names)}, though ${names.length > 1 ? 'they grow' : 'it grows'} slowly`,
-    unknown: (names: readonly string[]) => `${people(names)} cannot be judged by a rate here`,
+    unknown: (names: readonly string[]) => `for ${people(names)} no largest step can be given here`,
     answer: (lead: string, limits: readonly string[], rest: readonly string[]) => {
       const sentence = `${lead}${[limits.join(', '), ...rest].filter(Boolean).join('; ')}.`;
       return sentence.charAt(0).toUpperCase() + sentence.slice(1);
@@ -122,7 +123,7 @@ export const study = {
     neverLabel: (name: string) => `${name}: never`,
     slowLabel: (name: string) => `${name}: never, though slowly`,
     anyLabel: (name: string) => `${name}: any step`,
-    unknownLabel: (name: string) => `${name}: not judged by a rate`,
+    unknownLabel: (name: string) => `${name}: no limit given`,
     axis: 'step × frequency',
     stepAxis: 'step h',
     across: 'Re hλ',

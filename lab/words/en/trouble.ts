@@ -17,7 +17,7 @@ export const trouble = {
   last: 'The last motion that could be read, with its sliders.', model: 'The model has an error; see under its text.',
   numbers: 'The step or the end cannot be used, as said beside them; the picture is the last one that could be computed.',
   /** One method that did not reach the end; all of them. */
-  method: (name: string, message: string) => `${name}: ${message}`, all: (sentences: readonly string[]) => sentences.join('. '),
+  method: (name: string, message: string) => `${name}: ${message}`, does: (name: string, what: string) => `${name} ${what}`, all: (sentences: readonly string[]) => sentences.join('. '),
   /** Why nothing could be computed to compare with, as the core says it. */
   noGreen: (why: string) => `There is no green curve: ${why}`,
   /** What the core says, and what would be right, where it says that. */
