@@ -98,7 +98,6 @@ const EXCEPTIONS = [
   // Keys of the keyboard, as events name them.
   [/./, /^(?:Arrow(?:Left|Right|Up|Down)|Home|End|Page(?:Up|Down)|Escape|Enter|Tab)$/],
   // Fields of the address.
-  [/^share\.ts$/, /^A[msah]$/],
   // Kinds of files, as the whole world calls them.
   [/./, /^(?:PNG|SVG|CSV|WebM)$/],
   // The lines of a C program.
