@@ -5,6 +5,8 @@
 import { EigenvalueDecomposition, Matrix } from 'ml-matrix';
 import type { Core } from './core';
 import { QUANTITY, draft, told as toldBy } from './draft';
+import { bodiesOf, distances } from './distance';
+import { growthsOf } from './linear';
 import { STEPS_MAX, problem } from './protocol';
 import type {
   Ask, Description, ErrorTrack, Model, Problem, Region, Requests, Solution, Solve, Spectrum, Trace, Track, Truth,
@@ -83,6 +85,7 @@ export class Answers {
       },
       region: (question) => this.region(question),
       growth: ({ method, re, im }) => this.growth(method, Float64Array.from(re), Float64Array.from(im)),
+      linear: ({ method, moments, steps }) => growthsOf(this.core, method, moments, steps),
       spectrum: (question) => this.spectrum(question),
     };
     return all[kind](ask);
@@ -276,15 +279,11 @@ export class Answers {
   /** states: where in a row of values each position and velocity stands. */
   private errors(track: Track, values: Float64Array, width: number, states: readonly number[], nx: number, nv: number): ErrorTrack {
     const rows = track.times.length, truth = this.truthAt(track.times);
-    /* Of the numbers from … to-1 of a row of `of`, the first of which is the state number `at`. */
-    const largest = (from: number, to: number, of: Float64Array, each: number, at: number): Float64Array => Float64Array.from({ length: to > from ? rows : 0 }, (_, i) => {
-      let worst = 0;
-      for (let k = from; k < to; k++) worst = Math.max(worst, Math.abs((values[i * width + (states[at + k] as number)] as number) - (of[i * each + k] as number)));
-      return worst;
-    });
-    return {
-      method: track.method, x: largest(0, nx, truth.x, nx, 0), v: largest(0, nx, truth.v, nv, nx), s: largest(nx, nv, truth.v, nv, nx),
-    };
+    const bodies = bodiesOf((this.description as Description).columns.slice(1, 1 + nx).map((c) => c.name));
+    const at = (i: number, state: number): number => values[i * width + (states[state] as number)] as number;
+    const x = distances(rows, bodies, (i, k) => at(i, k) - (truth.x[i * nx + k] as number)), v = distances(rows, bodies, (i, k) => at(i, nx + k) - (truth.v[i * nv + k] as number));
+    const s = distances(rows, Array.from({ length: nv - nx }, (_, k) => ({ label: '', parts: [nx + k] })), (i, k) => at(i, nx + k) - (truth.v[i * nv + k] as number));
+    return { method: track.method, x: x.far, v: v.far, s: s.far, which: x.which, bodies: bodies.map((b) => b.label) };
   }
 
   private trace(ask: Requests['trace']['ask']): Trace {
@@ -339,7 +338,7 @@ export class Answers {
       }
       const { realEigenvalues, imaginaryEigenvalues } = new EigenvalueDecomposition(matrix);
       out.push({
-        re: Float64Array.from(realEigenvalues), im: Float64Array.from(imaginaryEigenvalues), free: byX.every((d) => d === 0) && byV.every((d) => d === 0), springs: springs(byV, nx, nv),
+        re: Float64Array.from(realEigenvalues), im: Float64Array.from(imaginaryEigenvalues), free: byX.every((d) => d === 0) && byV.every((d) => d === 0), springs: springs(byV, nx, nv), linear: { nx, nv, x: byX, v: byV },
       });
     }
     return out;

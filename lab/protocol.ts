@@ -94,9 +94,11 @@ export interface Truth {
   readonly milliseconds: number;
 }
 
-/** |x - truth| of one method: the largest component of the positions at each of the track's times, and of the velocities. */
-/** Empty where there are none of a kind; s: of first-order variables. */
-export interface ErrorTrack { readonly method: string; readonly x: Float64Array; readonly v: Float64Array; readonly s: Float64Array }
+/** How far one method is from the truth at each of the track's times (distance.ts): x: the distance of the positions, of several bodies that of the furthest; v: of the velocities;
+ *  s: of first-order variables, the largest difference. Empty where there are none of a kind. which: of x, the body, by its number in bodies. */
+export interface ErrorTrack {
+  readonly method: string; readonly x: Float64Array; readonly v: Float64Array; readonly s: Float64Array; readonly which: Float64Array; readonly bodies: readonly string[];
+}
 
 export interface Solve {
   readonly model: Model; readonly methods: readonly string[];
@@ -152,7 +154,10 @@ export interface Spectrum {
   readonly free: boolean;
   /** Velocities enter by friction alone (∂a/∂v is symmetric), and first-order variables do not act back. */
   readonly springs: boolean;
+  readonly linear: Linear;
 }
+/** The motion linearised: nv accelerations and rates, row by row, by nx positions and by nv velocities and first-order variables. */
+export interface Linear { readonly nx: number; readonly nv: number; readonly x: Float64Array; readonly v: Float64Array }
 
 export interface Requests {
   catalogue: { ask: Record<string, never>; answer: readonly Method[] };
@@ -167,6 +172,8 @@ export interface Requests {
   region: { ask: { method: string; re: readonly [number, number]; im: readonly [number, number]; width: number; height: number }; answer: Region };
   /** Growth of one step at single points z = re[i] + i im[i]. */
   growth: { ask: { method: string; re: readonly number[]; im: readonly number[] }; answer: Float64Array };
+  /** Growth of one step on linearised motions: [i · count + j] at step j of motion i. */
+  linear: { ask: { method: string; moments: readonly Linear[]; steps: readonly (readonly number[])[] }; answer: Float64Array };
   spectrum: { ask: { model: Model; method: string; step: number | null; until: number | null; times: readonly number[] }; answer: readonly Spectrum[] };
 }
 export type Ask = keyof Requests;

@@ -104,19 +104,21 @@ export function encode(state: State, presets: Presets): string {
   const { pinned } = state;
   if (pinned) {
     const own = pinned.text === state.text;
-    put('A', '1');
-    if (!own) put('Am', pinned.text);
-    for (const [name, expression] of Object.entries(pinned.set)) put('As', name + '=' + expression);
-    if (!same(pinned.methods, own ? usual : [])) put('Aa', pinned.methods.join(','));
-    if (pinned.step) put('Ah', pinned.step);
-    if (pinned.until) put('AT', pinned.until);
+    put(pinKey(''), '1');
+    if (!own) put(pinKey('m'), pinned.text);
+    for (const [name, expression] of Object.entries(pinned.set)) put(pinKey('s'), name + '=' + expression);
+    if (!same(pinned.methods, own ? usual : [])) put(pinKey('a'), pinned.methods.join(','));
+    if (pinned.step) put(pinKey('h'), pinned.step);
+    if (pinned.until) put(pinKey('T'), pinned.until);
   }
   return out.join('&');
 }
 
 const once = new Set(['v', 'p', 'm', 'a', 'h', 'T', 'w', 'o', 'e', 'z', 'l', 'embed']);
 const several = new Set(['s', 'q', 'f', 'c']);
-const pins = { once: new Set(['A', 'Am', 'Aa', 'Ah', 'AT']), several: new Set(['As']) };
+/** A key of the pinned run, by that of the present one. */
+const pinKey = (key: string): string => `A${key}`;
+const pins = { once: new Set(['', 'm', 'a', 'h', 'T'].map(pinKey)), several: new Set([pinKey('s')]) };
 /** A field of the pinned run. */
 const isPin = (field: string): boolean => /^A\w?(=|$)/.test(field);
 
@@ -211,10 +213,10 @@ function stateOf(parts: readonly string[], presets: Presets): State {
 /** The run that is pinned beside a state, if there is one. */
 function pinOf(parts: readonly string[], state: State, presets: Presets): Run | undefined {
   if (!parts.length) return undefined;
-  const found = fields(parts, pins), text = lines(found.get('Am')?.[0]);
-  if (found.get('A')?.[0] !== '1') throw new Wrong(words.address.pinned);
+  const found = fields(parts, pins), text = lines(found.get(pinKey('m'))?.[0]);
+  if (found.get(pinKey(''))?.[0] !== '1') throw new Wrong(words.address.pinned);
   const usual = text === undefined && presets.text(state.preset) === state.text ? presets.methods(state.preset) : [];
-  return { text: textOf(text ?? state.text), ...runOf(found.get('As') ?? [], found.get('Aa')?.[0], usual, found.get('Ah')?.[0], found.get('AT')?.[0]) };
+  return { text: textOf(text ?? state.text), ...runOf(found.get(pinKey('s')) ?? [], found.get(pinKey('a'))?.[0], usual, found.get(pinKey('h'))?.[0], found.get(pinKey('T'))?.[0]) };
 }
 
 /** The state of a fragment, with or without its '#'; where it is wrong, the first preset and a sentence that says why. */

@@ -1,4 +1,4 @@
-/* The error of each method, |x − truth|, against time on a logarithmic axis.
+/* How far off each method is (distance.ts), against time on a logarithmic axis.
  *
  * Invariant: nothing is shown as known that is not: below the round-off of the numbers, and below the truth's own error, the picture is shaded; an
  * error of zero stands at the foot of the picture, and is called zero where it is read out.
@@ -15,6 +15,9 @@ import { recoloured } from '../figure/ink';
 import { brief, readable } from '../figure/number';
 import { drawTrack, begin, rowAt } from '../figure/track';
 import type { Figure, Frame, Ink, Pen, Table } from '../figure/types';
+import { exampleOf } from '../data';
+import { furthestOf } from '../stage/motion';
+import { stagingOf } from '../stage/staging';
 import { words } from '../words';
 import { columnOf, timeTable } from './columns';
 import { amount, endTime, listed, moment, nameAt, several, timeUnit, unitOf } from './told';
@@ -142,7 +145,8 @@ export const errorPanel: PanelMaker = (): Panel => {
         return say.leaves(name, moment(scene!, lost));
       }
       if (e <= NONE * floor) return say.onIt(name);
-      return e <= (truth?.error ?? 0) ? say.under(name, amount(truth!.error, unit(), 2)) : say.one(name, amount(e, unit()));
+      const error = scene!.solution.errors.find((row) => row.method === track.method), body = of === 'x' && error ? furthestOf(error, last, stagingOf(exampleOf(scene!.state)).bodies) : '', by = amount(e, unit());
+      return e <= (truth?.error ?? 0) ? say.under(name, amount(truth!.error, unit(), 2)) : say.one(name, body ? say.ofBody(by, body) : by);
     });
     const list = several(parts), sentence = { x: say.answer, v: say.inVelocity, s: say.inFirst }[of];
     return parts.length ? sentence(at, list) : '';

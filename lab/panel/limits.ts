@@ -1,11 +1,11 @@
 /* How large a step may be, method by method: the largest step times frequency of an oscillation without friction, or the largest step for given rates.
  *
- * Invariant: a limit is the catalogue's, which the laws certify, or found from the core's growth of one step; whether a method grows slowly is read off how
+ * Invariant: a limit is the catalogue's, which the laws certify, or found from the core's growth of one step, of methods that are no map of hλ alone on the linearised motion itself; whether a method grows slowly is read off how
  * its growth goes with the step, never off its name.
  */
 import type { Method } from '../protocol';
 import type { Client } from '../scene';
-import type { Rate } from './rates';
+import type { Motion, Rate } from './rates';
 
 export type Limit = { readonly kind: 'upTo'; readonly value: number } | { readonly kind: 'any' | 'never' | 'slow' | 'unknown' };
 
@@ -15,6 +15,9 @@ const LEVEL = 1e-9, AXIS_LEVEL = 1e-7;
 const LEAST = 1e-4, MOST = 1e3, COUNT = 256, FINE = 32, TWICE = 2;
 /** So many rates at most, the largest first; those alike to three digits count once. */
 const RATES = 48;
+
+/** Of linearised motions: rounding, where eigenvalues of several modes meet; so many moments; a step times the largest rate, from and to, in so many; between two of them. */
+const COUPLED_LEVEL = 1e-6, MOMENTS = 16, FROM = 1e-3, TO = 1e3, WAY = 97, BETWEEN = 16;
 
 /** Growth per step above 1 goes with this power of the step, from two small ones; NaN: there is none. */
 const SMALL = [0.05, 0.1] as const;
@@ -59,6 +62,32 @@ export class Limits {
     return value === Infinity ? { kind: 'any' } : value > 0 ? { kind: 'upTo', value } : { kind: 'never' };
   }
 
+  /** Of the step itself: the largest up to which a step of the method on the motion linearised there, frictions and all, makes nothing grow; at all moments. */
+  async linear(name: string, moments: Motion['calm']): Promise<Limit> {
+    const some = differing(moments), count = some.length;
+    if (!count) return { kind: 'unknown' };
+    const level = some.every(({ linear }) => linear.nv === 1) ? LEVEL : COUPLED_LEVEL;
+    const ask = async (steps: readonly (readonly number[])[]): Promise<number[][] | null> => {
+      const grown = await this.client.ask('linear', { method: name, moments: some.map(({ linear }) => linear), steps: steps.map((list, i) => list.map((h) => h * some[i]!.way)) }, { lane: 'study' });
+      return grown.some((g) => Number.isNaN(g)) ? null : steps.map((list, i) => [...grown.subarray(i * list.length, (i + 1) * list.length)]);
+    };
+    const grids = some.map(({ size }) => Array.from({ length: WAY }, (_, k) => FROM * (TO / FROM) ** (k / (WAY - 1)) / size)), grown = await ask(grids);
+    if (!grown) return { kind: 'unknown' };
+    let low = 0, high = Infinity;
+    grids.forEach((grid, i) => {
+      const k = grown[i]!.findIndex((g) => g > 1 + level);
+      if (k >= 0 && grid[k]! < high) [low, high] = [k > 0 ? grid[k - 1]! : 0, grid[k]!];
+    });
+    for (let again = 0; again < 3 && high < Infinity && low > 0; again++) {
+      const from = low, mesh = (high - low) / BETWEEN, fine = Array.from({ length: BETWEEN }, (_, k) => from + (k + 1) * mesh), now = await ask(grids.map(() => fine));
+      if (!now) return { kind: 'unknown' };
+      const k = fine.findIndex((_, j) => now.some((of) => of[j]! > 1 + level));
+      if (k < 0) break;
+      [low, high] = [k > 0 ? fine[k - 1]! : from, fine[k]!];
+    }
+    return low > 0 ? { kind: 'upTo', value: (low + high) / 2 } : { kind: high === Infinity ? 'any' : 'never' };
+  }
+
   /** The largest step up to which growth is 1 or less for all rates; Infinity; NaN: the method has no answer. */
   private async along(name: string, rates: readonly Rate[], level: number): Promise<number> {
     if (!rates.length) return Infinity;
@@ -84,6 +113,13 @@ export class Limits {
     }
     return low > 0 ? (low + high) / 2 : high === Infinity ? Infinity : 0;
   }
+}
+
+/** Moments that differ to three digits, those with the largest rates first, and some of the others. */
+function differing(moments: Motion['calm']): Motion['calm'] {
+  const seen = new Map(moments.map((moment) => [[...moment.linear.x, ...moment.linear.v].map((c) => c.toPrecision(3)).join(), moment])), sorted = [...seen.values()].sort((a, b) => b.size - a.size);
+  if (sorted.length <= MOMENTS) return sorted;
+  return Array.from({ length: MOMENTS }, (_, k) => sorted[Math.floor((k * (sorted.length - 1)) / (MOMENTS - 1))]!);
 }
 
 function chosen(rates: readonly Rate[]): Rate[] {

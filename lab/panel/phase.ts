@@ -8,6 +8,7 @@ import { el as element } from '../dom';
 import { drawEnds, endIn, endOf, endsLayout, type End, type EndsLayout } from '../figure/ends';
 import { nameExports } from '../figure/export';
 import { figure } from '../figure/figure';
+import { bodiesOf, firstMoving } from '../distance';
 import { recoloured } from '../figure/ink';
 import { nameSpans, nameText } from '../figure/name';
 import { brief, readable } from '../figure/number';
@@ -19,7 +20,7 @@ import type { Sees } from '../stage/stage';
 import { words } from '../words';
 import { columnOf, exactAt, movable, positions, states, timeTable, velocityOf } from './columns';
 import { swingsOf } from './swings';
-import { amount, nameAt, timeUnit, unitOf } from './told';
+import { amount, calledOf, moment, nameAt, timeUnit, unitOf } from './told';
 
 const say = words.panel.phase;
 /** Curves are compared at so many times: those that agree share a name. */
@@ -102,11 +103,12 @@ export const phasePanel = (store: Store, stage: () => Sees): Panel => {
     if (!scene || !scene.solution.tracks.length) return '';
     const { truth, tracks } = scene.solution, exact = truthShown() && truth, times = exact ? exact.times : tracks[0]!.times;
     const [x, y] = pair.map((name) => (exact ? truthOf(name) : null) ?? track(0, name)) as [Float64Array, Float64Array];
-    const value = (name: string, v: number): string => amount(v, unitOf(scene!, name)), name = (of: string): Span[] => nameSpans(of, 15);
+    const value = (name: string, v: number): string => amount(v, unitOf(scene!, name)), name = (of: string): Span[] => { const called = calledOf(scene!, of); return called === nameText(of) ? nameSpans(of, 15) : [{ text: called }]; };
     const head: Span[] = exact ? [] : [{ text: say.by(nameAt(scene, 0)) }], put = (...rest: Span[]): Said => [...head, ...name(pair[0]), ...rest];
+    const when = (t: number): string => moment(scene!, Number(t.toPrecision(3)));
     const { turns, repeats } = speedOf() ? swingsOf(times, x, y) : { turns: [], repeats: null }, first = turns[0], last = turns[turns.length - 1];
     if (repeats) return put({ text: say.swings(value(pair[0], repeats.low), value(pair[0], repeats.high), amount(repeats.period, timeUnit(scene))) });
-    if (first && last) return put({ text: say.turns(turns.length, value(pair[0], first.at), value(pair[0], last.at)) });
+    if (first && last) return put({ text: say.turns(turns.length, when(first.time), when(last.time)) });
     const [a, b] = extent([x]), [c, d] = extent([y]);
     return put({ text: say.between(value(pair[0], a), value(pair[0], b)) }, ...name(pair[1]), { text: say.andBetween(value(pair[1], c), value(pair[1], d)) });
   }
@@ -135,12 +137,15 @@ export const phasePanel = (store: Store, stage: () => Sees): Panel => {
       const [low, high] = extent(column ? [column] : []);
       return !!column && high - low > 1e-9 * Math.max(Math.abs(low), Math.abs(high));
     };
-    const all = positions(next).slice(0, 16), [one, two] = states(next), x = all.find(moves) ?? all[0] ?? one ?? names[0] ?? '';
+    const of = next.solution.truth ?? next.solution.tracks[0], bodies = bodiesOf(positions(next)).map(({ parts }) => parts.map((k) => positions(next)[k]!));
+    const first = of ? firstMoving(bodies.map((names) => names.map((n) => of.columns[next.solution.columns.indexOf(n)]))) : 0;
+    // One that nearly rests, as the Sun does, is not the motion.
+    const all = bodies.slice(first).flat().slice(0, 16), [one, two] = states(next), x = all.find(moves) ?? all[0] ?? one ?? names[0] ?? '';
     const v = velocityOf(next, x) ?? (two && two !== x ? two : names.find((n) => n !== x && n !== 't') ?? x);
     pair = wanted && wanted.every((n) => names.includes(n)) ? [wanted[0], wanted[1]] : [x, v];
     if (key !== offered) {
       offered = key;
-      for (const select of [across, up]) select.replaceChildren(...names.slice(0, 400).map((name) => element('option', { value: name }, nameText(name))));
+      for (const select of [across, up]) select.replaceChildren(...names.slice(0, 400).map((name) => element('option', { value: name }, calledOf(next, name))));
     }
     across.value = pair[0];
     up.value = pair[1];

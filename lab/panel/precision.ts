@@ -54,7 +54,7 @@ export function accuracy(rows: readonly ConvergeRow[], names: readonly string[],
     if (same) same.names.push(name); else groups.push({ ratio, names: [name] });
   }
   if (!groups.length) return say.alone(say.digits(digits), best.name, best.need.exact ? count : say.atMost(count), until, rest);
-  return say.answer(say.digits(digits), best.name, (groups.length > COMPARED ? [...groups.slice(0, COMPARED - 1), groups[groups.length - 1]!] : groups).map(({ ratio, names: than }, k) => say.than(ratio, than, k === 0)), rest);
+  return say.answer(say.digits(digits), best.name, (groups.length > COMPARED ? [...groups.slice(0, COMPARED - 1), groups[groups.length - 1]!] : groups).map(({ ratio, names: than }, k) => say.than(ratio, than, k === 0)), until, rest);
 }
 
 /** Whether a line of points passes through a box: at a pixel every so often. */

@@ -3,7 +3,7 @@
  * Invariant: nothing is called constant, or free of friction, that the numbers at these moments do not bear; a rate of growth is the motion's own and asks
  * nothing of a step.
  */
-import type { Spectrum } from '../protocol';
+import type { Linear, Spectrum } from '../protocol';
 
 export interface Rate { readonly time: number; readonly re: number; readonly im: number }
 export interface Motion {
@@ -24,6 +24,8 @@ export interface Motion {
   /** A method that treats velocities in a way of its own can be judged by rates: they enter by friction alone. */
   readonly springs: boolean;
   readonly moments: number;
+  /** The motion linearised where nothing grows, and something swings or fades; size: of the largest rate there; way: -1 for a run backward. */
+  readonly calm: readonly { readonly linear: Linear; readonly size: number; readonly way: number }[];
 }
 
 /** Next to the largest rate, this is zero: where two eigenvalues coincide, rounding parts them by its root. Next to its own size, a part of a rate. */
@@ -32,25 +34,30 @@ const ALIKE = 1e-6, APART = 1e-3;
 
 /** way: -1 for a run backward. pure: the force has no velocities and there are no first-order variables, so that λ² is an eigenvalue of ∂a/∂x. */
 export function motionOf(spectra: readonly Spectrum[], times: readonly number[], pure: boolean, way = 1): Motion {
-  const rates: Rate[] = [], judged: Rate[] = [];
+  const rates: Rate[] = [], judged: Rate[] = [], calm: Motion['calm'][number][] = [];
   const largest = Math.max(0, ...spectra.flatMap(({ re, im }) => Array.from(re, (r, i) => Math.hypot(r, im[i]!))));
   let growing = false, fading = false;
-  spectra.forEach((spectrum, k) => spectrum.re.forEach((r, i) => {
-    const im = spectrum.im[i]!, size = Math.hypot(r, im);
-    if (im < 0) return;
-    // Without velocities a rate is an oscillation or one of a pair of growth and decay.
-    const swings = pure ? im > Math.abs(r) : Math.abs(r) <= PART * size, re = swings ? 0 : way * r, rate = { time: times[k]!, re, im };
-    rates.push(rate);
-    if (size <= ZERO * largest) return;
-    if (!swings && (pure || re > 0)) { growing = true; return; }
-    fading ||= !swings;
-    judged.push(rate);
-  }));
+  spectra.forEach((spectrum, k) => {
+    let grows = false, most = 0;
+    spectrum.re.forEach((r, i) => {
+      const im = spectrum.im[i]!, size = Math.hypot(r, im);
+      if (im < 0) return;
+      // Without velocities a rate is an oscillation or one of a pair of growth and decay.
+      const swings = pure ? im > Math.abs(r) : Math.abs(r) <= PART * size, re = swings ? 0 : way * r, rate = { time: times[k]!, re, im };
+      rates.push(rate);
+      if (size <= ZERO * largest) return;
+      if (!swings && (pure || re > 0)) { growing = grows = true; return; }
+      fading ||= !swings;
+      judged.push(rate);
+      most = Math.max(most, size);
+    });
+    if (!grows && most > 0) calm.push({ linear: spectrum.linear, size: most, way });
+  });
   const size = (rate: Rate): number => Math.hypot(rate.re, rate.im), fastest = (judged.length ? judged : rates).reduce<Rate | null>((best, rate) => (!best || size(rate) > size(best) * (1 + ALIKE) ? rate : best), null);
   const kind = judged.length ? (fading ? 'fades' : 'swings') : growing ? 'grows' : spectra.every((s) => s.free) ? 'still' : 'rateless';
   const at = judged.filter((rate) => rate.time === fastest?.time).map((rate) => rate.im).sort((a, b) => b - a), frequencies: number[] = [];
   for (const f of at) if (f > ZERO * largest && (!frequencies.length || frequencies[frequencies.length - 1]! - f > APART * at[0]!)) frequencies.push(f);
-  return { kind, rates, judged, fastest, steady: steadyIn(spectra, largest), frequencies, growing, springs: spectra.every((s) => s.springs), moments: spectra.length };
+  return { kind, rates, judged, fastest, steady: steadyIn(spectra, largest), frequencies, growing, springs: spectra.every((s) => s.springs), moments: spectra.length, calm };
 }
 
 function steadyIn(spectra: readonly Spectrum[], largest: number): boolean {

@@ -31,6 +31,13 @@ const cardOf = (scene: Scene, name: string): Method | undefined =>
 /** It is a map of hλ alone, whatever the force is made of. */
 const byRates = (card: Method, name: string): boolean => card.family === 'runge-kutta' || (card.family === 'implicit' && name === card.name);
 
+/** By the catalogue where nothing has friction; by its rates where the method is a map of them; else by its own step on the motion linearised. */
+export async function limitOf(limits: Limits, motion: Motion, name: string, card: Method): Promise<Limit> {
+  const maps = byRates(card, name);
+  if (motion.kind === 'swings') return motion.springs || maps ? limits.axis(name, card) : { kind: 'unknown' };
+  return maps ? limits.steps(name, card, motion.judged) : limits.linear(name, motion.calm);
+}
+
 const complex = (re: number, im: number): string => {
   const small = 1e-9 * Math.hypot(re, im);
   if (Math.abs(im) <= small) return brief(re, 3);
@@ -85,6 +92,11 @@ export const stability: PanelMaker = (store): Panel => {
   const boris = (): boolean => main()?.name === 'boris' && motion?.springs === false;
   /** Where there is one, and something to be judged. */
   const drawable = (): boolean => (motion?.kind === 'swings' || motion?.kind === 'fades') && judged.some((j) => j.limit.kind !== 'unknown');
+  /** A rate alone tells what a step of the main method does with it: as a map of hλ, without friction, or as one spring whose two rates are conjugate. */
+  const told = (): boolean => {
+    const card = main(), look = methods()[0];
+    return !!card && !!look && !!motion && (swinging() || byRates(card, look.method) || (motion.springs && motion.calm.every(({ linear }) => linear.nv === 1) && motion.rates.every((rate) => rate.im !== 0)));
+  };
   const waiting = (): boolean => !trouble && (!motion || ((motion.kind === 'swings' || motion.kind === 'fades') && judgedFor === ''));
 
   /* ---- asking ---- */
@@ -137,8 +149,7 @@ export const stability: PanelMaker = (store): Panel => {
     try {
       for (const look of looks) {
         const card = cardOf(at, look.method)!;
-        const told = of.springs || byRates(card, look.method);
-        found.push({ look, limit: !told ? { kind: 'unknown' } : of.kind === 'swings' ? await limits.axis(look.method, card) : await limits.steps(look.method, card, of.judged) });
+        found.push({ look, limit: await limitOf(limits, of, look.method, card) });
         if (motion !== of) return;
       }
     } catch (reason) {
@@ -199,7 +210,7 @@ export const stability: PanelMaker = (store): Panel => {
   const colour = (ink: Ink): string => methods()[0]?.colour ?? ink.text;
   function draw(pen: Pen, ink: Ink): void {
     if (!motion) return;
-    if (whole && plane) { picture.draw(pen, ink, plane, motion.rates, step(), colour(ink), main()?.stability_limit ?? plane.limit); return; }
+    if (whole && plane && told()) { picture.draw(pen, ink, plane, motion.rates, step(), colour(ink), main()?.stability_limit ?? plane.limit); return; }
     picture.frame = null;
     if (!drawable()) return;
     const h = step(), f = frequency();
@@ -221,7 +232,7 @@ export const stability: PanelMaker = (store): Panel => {
     if (motion.kind === 'grows') return say.grows(amount(1 / Math.max(...motion.rates.map((r) => Math.abs(r.re))), unit(), 2));
     if (judgedFor === '') return '';
     if (boris() && judged.length === 1) return say.boris(methods()[0]!.label, brief(main()!.stability_limit, 3));
-    const at = fastest(), lead = !motion.steady && at ? say.fastest(moment(scene, Number(at.time.toPrecision(3)))) : swinging() && motion.frequencies.length > 1 ? say.swing : '';
+    const at = fastest(), lead = !swinging() && !motion.steady ? say.moments(String(motion.moments)) : !motion.steady && at ? say.fastest(moment(scene, Number(at.time.toPrecision(3)))) : swinging() && motion.frequencies.length > 1 ? say.swing : '';
     return largestSteps(judged.map(({ look, limit }) => ({ name: look.label, limit })), swinging() ? frequency() : 1, step(), written, lead);
   }
   function summary(): string {
@@ -229,7 +240,7 @@ export const stability: PanelMaker = (store): Panel => {
     const at = fastest(), h = step(), parts: string[] = [swinging() ? say.inside : say.insideStep];
     if (swinging() && at) parts.push(say.frequency(brief(frequency(), 4), motion.steady ? '' : moment(scene, Number(at.time.toPrecision(3))), brief(h * frequency(), 4), motion.frequencies.length > 1));
     if (!motion.steady) parts.push(say.linear(String(motion.moments)));
-    if (!swinging() && motion.springs) parts.push(say.friction);
+    if (!swinging() && judged.some(({ look }) => { const card = cardOf(scene!, look.method); return card && !byRates(card, look.method); })) parts.push(say.friction);
     if (motion.growing) parts.push(say.own);
     if (whole && plane && !plane.full) parts.push(say.axisOnly(methods()[0]!.label));
     if (boris()) parts.push(say.boris(methods()[0]!.label, brief(main()!.stability_limit, 3)));
@@ -239,7 +250,7 @@ export const stability: PanelMaker = (store): Panel => {
   /** What the main method's step does to these rates. */
   function grown(): string {
     const card = main(), look = methods()[0], h = step();
-    if (!card || !look || !motion || !growth || growth.length !== motion.rates.length || judged[0]?.limit.kind === 'unknown') return '';
+    if (!card || !look || !motion || !growth || growth.length !== motion.rates.length || judged[0]?.limit.kind === 'unknown' || !told()) return '';
     const tolerance = card.symplectic ? 1e-7 : 1e-12;
     let worst = -1;
     motion.rates.forEach((rate, k) => { if (motion!.judged.includes(rate) && !Number.isNaN(growth![k]!) && (worst < 0 || growth![k]! > growth![worst]!)) worst = k; });
@@ -258,7 +269,7 @@ export const stability: PanelMaker = (store): Panel => {
     table: () => {
       const h = step();
       return {
-        head: say.columns, rows: (motion?.rates ?? []).map((rate, k) => [rate.time, rate.re, rate.im, h * rate.re, h * rate.im, judged[0]?.limit.kind === 'unknown' ? NaN : growth?.[k] ?? NaN]),
+        head: say.columns, rows: (motion?.rates ?? []).map((rate, k) => [rate.time, rate.re, rate.im, h * rate.re, h * rate.im, judged[0]?.limit.kind === 'unknown' || !told() ? NaN : growth?.[k] ?? NaN]),
         note: say.note(methods()[0]?.label ?? '', brief(h, 6)),
       };
     },
@@ -272,7 +283,8 @@ export const stability: PanelMaker = (store): Panel => {
     // A sentence alone needs no picture, and no numbers.
     fig.picture.hidden = !seen;
     if (foot && !seen) foot.hidden = true; else if (foot && !waiting() && !(whole && !plane)) foot.hidden = false;
-    toggle.hidden = !drawable();
+    toggle.hidden = !drawable() || !told();
+    if (toggle.hidden) whole = false;
     toggle.textContent = whole ? say.bars : say.whole;
     toggle.setAttribute('aria-pressed', String(whole));
     fig.redraw();

@@ -14,15 +14,16 @@ function turnBetween(times: ArrayLike<number>, x: ArrayLike<number>, v: ArrayLik
   return { time: times[i]! + s * h, at: x[i]! + s * way + s * (1 - s) * ((1 - s) * (h * v[i]! - way) - s * (h * v[i + 1]! - way)) };
 }
 
+/** A start at rest is no turn, since nothing came to it from anywhere; but where the motion repeats, it is one of its ends. */
 export function swingsOf(times: ArrayLike<number>, x: ArrayLike<number>, v: ArrayLike<number>): Swings {
-  const turns: Turn[] = [], n = Math.min(times.length, x.length, v.length);
+  const turns: Turn[] = [], start: Turn[] = [], n = Math.min(times.length, x.length, v.length);
   for (let i = 0; i < n; i++) {
     const here = v[i]!, next = v[i + 1] ?? NaN;
-    // One at rest turns back where it began.
-    if (here === 0 && (i === 0 || v[i - 1]! * next < 0)) turns.push({ time: times[i]!, at: x[i]! });
+    if (here === 0 && i === 0) start.push({ time: times[i]!, at: x[i]! });
+    else if (here === 0 && v[i - 1]! * next < 0) turns.push({ time: times[i]!, at: x[i]! });
     else if (i + 1 < n && here * next < 0) turns.push(turnBetween(times, x, v, i));
   }
-  return { turns, repeats: repeats(turns) };
+  return { turns, repeats: repeats([...start, ...turns]) };
 }
 
 function repeats(turns: readonly Turn[]): Swings['repeats'] {

@@ -3,12 +3,14 @@
  * Invariant: a sentence tells what was computed of the scene on show, and nothing that was not.
  */
 import { exampleOf } from '../data';
+import { bodiesOf } from '../distance';
+import { nameText } from '../figure/name';
 import { brief } from '../figure/number';
 import type { Column } from '../protocol';
 import type { Scene } from '../scene';
 import { stagingOf } from '../stage/staging';
 import { words } from '../words';
-import { columnOf } from './columns';
+import { columnOf, positions } from './columns';
 
 const unitsOf = (scene: Scene) => stagingOf(exampleOf(scene.state)).units;
 /** The unit of time, where the scene gives one; ''. */
@@ -17,6 +19,16 @@ export const timeUnit = (scene: Scene): string => unitsOf(scene)?.t ?? '';
 export function unitOf(scene: Scene, name: string): string {
   const units = unitsOf(scene), kind: Column['kind'] | undefined = name === 't' ? 'time' : columnOf(scene, name)?.kind;
   return !units ? '' : kind === 'time' ? units.t : kind === 'position' ? units.x : kind === 'velocity' ? units.v : '';
+}
+/** A column by its name; of a body that the example names, by that: r[2]'.x is "Jupiter x′". */
+export function calledOf(scene: Scene, name: string): string {
+  const [, body = '', prime = '', part = ''] = /^(\w+\[-?\d+\])('?)\.(\w+)$/u.exec(name) ?? [], of = bodyCalled(scene, positions(scene), body);
+  return of ? `${of} ${nameText(part + prime)}` : nameText(name);
+}
+/** A body by the name that the example gives it; ''. */
+export function bodyCalled(scene: Scene, names: readonly string[], body: string): string {
+  const given = stagingOf(exampleOf(scene.state)).bodies, name = given?.[bodiesOf(names).findIndex(({ label }) => label === body)];
+  return body && name ? words.stage.bodies[name] : '';
 }
 /** A number in a sentence, to three digits, with its unit. */
 export const amount = (value: number, unit = '', digits = 3): string => `${brief(value, digits)}${unit && `\u2009${unit}`}`;

@@ -10,6 +10,7 @@ import { asker, type Opened } from '../panel/steps/ask';
 import { column, type Column } from '../panel/steps/column';
 import { timeDecimals, timeText } from '../panel/steps/figures';
 import { seenBy, seenIn, type Seen } from '../panel/steps/seen';
+import { bodyCalled } from '../panel/told';
 import type { Scene } from '../scene';
 import { stagingOf } from '../stage/staging';
 import type { LiveStore } from '../state';
@@ -28,7 +29,7 @@ const capacity = (): number => (matchMedia('(min-width: 100rem)').matches ? 3 : 
 /** The clock of the page, as far as this place needs it. */
 export interface Clock { time(): number; playing(): boolean; toggle(): void; seek(t: number): void }
 
-/** shows: the columns of the solution that the stage draws, of its first body. */
+/** shows: the columns of the solution that the stage draws, of its first body that does not rest. */
 export function openedPlace(store: LiveStore, clock: Clock, shows: () => readonly string[]): { show(scene: Scene): void; redraw(): void } {
   const root = place('opened');
   let scene: Scene | null = null, seen: Seen | null = null, steps: readonly Opened[] = [], columns: Column[] = [];
@@ -101,7 +102,7 @@ export function openedPlace(store: LiveStore, clock: Clock, shows: () => readonl
   }
   function render(): void {
     if (!scene || !here) return;
-    const names = steps.find((s) => s.trace)?.trace?.names, all = names ? seenIn(names) : [], units = stagingOf(exampleOf(scene.state)).units;
+    const names = steps.find((s) => s.trace)?.trace?.names, all = names ? seenIn(names, (body) => bodyCalled(scene!, names.x, body)) : [], units = stagingOf(exampleOf(scene.state)).units;
     seen = all.find((s) => s.id === chosen) ?? seenBy(all, shows());
     if (choice.options.length !== all.length || all.some((s, k) => choice.options[k]?.value !== s.id)) choice.replaceChildren(...all.map((s) => new Option(s.label, s.id)));
     choice.hidden = all.length < 2;

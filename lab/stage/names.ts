@@ -90,7 +90,7 @@ export function drawNames(pen: Pen, ink: Ink, place: Place, labels: readonly Nam
     const y = place.names ? clear(exact!.y, label.y, heights, 0.95 * lineHeight) : (label.y + exact!.y) / 2;
     return y === null ? [] : [[label, y]];
   }));
-  const lead = upright && exact ? (place.names ? BRACKET * scale : 16) + (place.names ? GAP : 8) : place.ball + 8;
+  const lead = !upright || !exact ? place.ball + 8 : place.names ? BRACKET * scale + GAP : missing.length ? 24 : place.ball + 8;
   const from = Math.max(...sorted.map((l) => l.x)), least = Math.min(...sorted.map((l) => l.x)), reach = (name: Span[]): number => textWidth(name, size) * 1.04;
   const ways = sorted.map((l) => waysOf(l, ink, size, !numbered.has(l), all));
   const widest = place.names ? Math.max(...ways.map((w) => reach(w[w.length - 1]!)), numbered.size ? 116 * scale : 0) : 46;

@@ -3,6 +3,7 @@
  * Invariant: pictures of the screen, of exports and of the build are drawn by these two functions, on whatever pen. What a time shows follows from the
  * scene and that time alone.
  */
+import type { ErrorTrack } from '../protocol';
 import { extent, rangeOf } from '../figure/axes';
 import { shortLabel } from '../figure/ends';
 import { brief } from '../figure/number';
@@ -15,7 +16,7 @@ import { curvesOf, pointAt, type Curve, type Exit, type Point } from './curves';
 import { bodyNames, drawBodies } from './bodies';
 import { person, rod, spring } from './decor';
 import { freePlaces } from './free';
-import { errorsOf, greenName, motionOf, type Line, type Motion, type Rows } from './motion';
+import { errorsOf, furthestOf, greenName, motionOf, type Line, type Motion, type Rows } from './motion';
 import { briefly, drawNames, missText, type Named } from './names';
 import { trail } from './path';
 import { apart, wideEnough, type Box, type Place } from './place';
@@ -301,6 +302,7 @@ export function pictureOf(setting: Setting): Picture {
   const last = (line: Line): number => line.track.times[line.track.times.length - 1] ?? NaN;
   const gone = (curve: Curve, time: number): boolean => (curve.exit !== null && time >= curve.exit.time) || isOver(curve.line.track.times, time);
 
+  const offOf = (of: ErrorTrack, row: number): string => { const body = single ? '' : furthestOf(of, row, staging.bodies); return body ? words.stage.miss.offOf(body) : words.stage.miss.off; };
   /** How far a line is from the exact motion: the core's error at the last step that was made, unless the two are seen at another distance; null: not known. */
   function miss(line: Line, time: number, at: Point, exact: Point): Named['miss'] {
     const of = scene.solution.errors[line.index], errors = of && errorsOf(of);
@@ -312,7 +314,7 @@ export function pictureOf(setting: Setting): Picture {
     const value = single && flat && pixels > 0 && Math.abs(seen - made * pixels) > SEEN ? seen / pixels : made;
     const frame = bounds[subject.kind === 'time' ? 1 : 0]!, size = frame[1] - frame[0], unit = staging.units && single ? `\u2009${staging.units.x}` : '';
     if (value <= 1e-12 * size) return { size: 0, text: words.stage.miss.none, how: '' };
-    return { size: value, text: `${missText(value, flat && upright ? bounds[1]![1] - bounds[1]![0] : size)}${unit}`, how: upright ? (at.y < exact.y ? words.stage.miss.high : words.stage.miss.low) : words.stage.miss.off };
+    return { size: value, text: `${missText(value, flat && upright ? bounds[1]![1] - bounds[1]![0] : size)}${unit}`, how: upright ? (at.y < exact.y ? words.stage.miss.high : words.stage.miss.low) : offOf(of!, part === 1 ? row + 1 : row) };
   }
 
   function moving(pen: Pen, ink: Ink, time: number): void {

@@ -4,6 +4,7 @@
  * move it. What keeps still is drawn once a scene, what moves once a frame; nothing is drawn while it cannot be seen.
  */
 import { exampleOf } from '../data';
+import { firstMoving } from '../distance';
 import { button, el, milestone, say } from '../dom';
 import { captioned, csv, download, downloadText, fileName, savePicture, sheetOf } from '../figure/export';
 import { ink } from '../figure/ink';
@@ -18,7 +19,7 @@ import { boundsFor, pictureOf, sideOf, type Picture, type Side } from './picture
 import { extentOf, suits, type Bounds } from './bounds';
 import { film } from './film';
 import { haste } from './haste';
-import { errorsOf, motionOf } from './motion';
+import { errorsOf, furthestOf, motionOf } from './motion';
 import { placeOf, type Place } from './place';
 import { HOME, turned } from './plot';
 import { stagingOf } from './staging';
@@ -350,8 +351,8 @@ export function stage(store: Store, room: { column(): number }): Stage {
     const seen = subject.kind === 'shape' ? words.stage.summary.shape(subject.bodies[0]?.label ?? '', from, to) : subject.kind === 'time' ? words.stage.summary.time(up, from, to)
       : subject.kind === 'space' ? words.stage.summary.space(from, to) : words.stage.summary.plane(across, up, from, to);
     // One that stopped has no place at the end; the remarks tell when it stopped.
-    const errors = solution.errors.filter((e) => !solution.tracks.find((t) => t.method === e.method)?.problem).map((e) => ({ name: looks.find((l) => l.method === e.method)?.label ?? e.method, last: errorsOf(e).at(-1) ?? NaN })).filter((e) => Number.isFinite(e.last));
-    const distances = errors.map((e) => words.stage.summary.distance(brief(e.last, 3), e.name));
+    const errors = solution.errors.filter((e) => !solution.tracks.find((t) => t.method === e.method)?.problem).map((e) => ({ name: looks.find((l) => l.method === e.method)?.label ?? e.method, last: errorsOf(e).at(-1) ?? NaN, body: furthestOf(e, e.x.length - 1, staging().bodies) })).filter((e) => Number.isFinite(e.last));
+    const distances = errors.map((e) => words.stage.summary.distance(brief(e.last, 3), e.name, e.body));
     const told = distances.length === 0 ? [] : [scene.description.has_exact ? words.stage.summary.exact(distances) : words.stage.summary.reference(distances)];
     return words.stage.summary.whole([seen, ...told, ...picture.remarks()]);
   }
@@ -406,7 +407,10 @@ export function stage(store: Store, room: { column(): number }): Stage {
     },
     redraw() { refresh(true); },
     relayout() { if (scene) refresh(); },
-    shows: () => (subject?.bodies[0]?.columns ?? []).map((k) => scene?.solution.columns[k] ?? ''),
+    shows: () => {
+      const bodies = subject?.bodies ?? [], of = scene?.solution.truth ?? scene?.solution.tracks[0];
+      return (bodies[of ? firstMoving(bodies.map((b) => b.columns.map((k) => of.columns[k]))) : 0]?.columns ?? []).map((k) => scene?.solution.columns[k] ?? '');
+    },
     pin(of) { pinned = of; refresh(true); },
     hide(methods) { if (methods.join() !== hidden.join()) { hidden = methods; refresh(true); } },
     guess(next) {

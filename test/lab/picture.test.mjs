@@ -9,7 +9,7 @@ import test from 'node:test';
 
 const lab = new URL('../../lab/', import.meta.url), { buildSync } = createRequire(new URL('package.json', lab))('esbuild');
 const contents = `export { Answers } from './answers'; export { Core } from './core'; export { looksOf, named } from './figure/ink'; export { textWidth } from './figure/shapes';
-  export { defaultView } from './share'; export * from './stage/picture'; export { extentOf, suits } from './stage/bounds'; export { motionOf } from './stage/motion'; export { placeOf } from './stage/place'; export { HOME } from './stage/plot';
+  export { defaultView } from './share'; export * from './stage/picture'; export { firstMoving } from './distance'; export { seenIn } from './panel/steps/seen'; export { extentOf, suits } from './stage/bounds'; export { motionOf, furthestOf } from './stage/motion'; export { placeOf } from './stage/place'; export { HOME } from './stage/plot';
   export { stagings } from './stage/stagings'; export { subjects } from './stage/subject';`;
 const bundled = buildSync({ stdin: { contents, resolveDir: fileURLToPath(lab), loader: 'ts' }, bundle: true, format: 'esm', write: false, target: 'es2022' });
 const page = await import('data:text/javascript;base64,' + Buffer.from(bundled.outputFiles[0].contents).toString('base64'));
@@ -188,6 +188,8 @@ test('on a phone the end of a curve in time is named at its right', () => {
     assert.ok(name && name.left > ball.x && name.right <= place.width, `${size}: from ${name?.left} to ${name?.right}, the ball at ${ball.x}`);
     assert.ok(Math.abs(name.y - ball.y) < 24, `${name.y - ball.y} beside it`);
   }
+  const { texts, marks } = drawn(sceneOf('spring', ['verlet']), undefined, { width: 560, height: 390, column: 548, page: { width: 844, height: 390 } });
+  assert.ok(texts.find((t) => t.text === 'exact').left > marks.filter((m) => m.colour === page.named.ink.exact).at(-1).x, 'also on one that lies on its side');
 });
 test('each of several bodies is named once, beside itself and on nothing that is written', () => {
   const PHONE = { width: 390, height: 397, column: 0, page: { width: 390, height: 844 } }, planets = ['Sun', 'Jupiter', 'Saturn', 'Uranus', 'Neptune', 'Pluto'];
@@ -214,4 +216,34 @@ test('each of several bodies is named once, beside itself and on nothing that is
   assert.ok(!drawn(sceneOf('kepler', ['velocity-verlet'])).words.includes('r'), 'one body alone needs no name');
   // Numbers and names of axes in space stay on a narrow stage.
   for (const name of ['outer-solar-system', 'charged-particle']) for (const t of drawn(sceneOf(name, ['velocity-verlet', 'boris'].slice(name === 'charged-particle' ? 1 : 0, name === 'charged-particle' ? 2 : 1)), undefined, PHONE).texts) assert.ok(t.left >= 0 && t.right <= 391, `${name}: ${t.text} from ${t.left} to ${t.right}`);
+});
+/** At the last row of a run: the distance of each body, by columns of the truth at the same time. */
+function apartAt(scene, k, bodies) {
+  const { solution: { tracks, truth, columns } } = scene, i = tracks[k].times.length - 1, j = truth.times.length - 1;
+  return bodies.map((parts) => Math.hypot(...parts.map((name) => tracks[k].columns[columns.indexOf(name)][i] - truth.columns[columns.indexOf(name)][j])));
+}
+test('how far off: one distance everywhere, that between the two places; of several bodies the furthest, by its name', () => {
+  const close = (a, b, what) => assert.ok(Math.abs(a - b) <= 1e-6 * b, `${what}: ${a}, not ${b}`);
+  for (const [name, methods, vector] of [['kepler', ['symplectic-euler', 'velocity-verlet'], ['x', 'y']], ['charged-particle', ['verlet', 'boris'], ['x', 'y', 'z']], ['thrown-ball', ['explicit-euler'], ['x', 'y']]]) {
+    const scene = sceneOf(name, methods), names = vector.map((part) => (scene.solution.columns.includes(`r.${part}`) ? `r.${part}` : part));
+    scene.solution.errors.forEach((e, k) => { close(e.x.at(-1), apartAt(scene, k, [names])[0], `${name}, ${methods[k]}`); assert.equal(page.furthestOf(e, e.x.length - 1), ''); });
+  }
+  const scene = sceneOf('outer-solar-system', ['velocity-verlet']), [e] = scene.solution.errors, called = page.stagings['outer-solar-system'].bodies;
+  const each = apartAt(scene, 0, [1, 2, 3, 4, 5, 6].map((n) => ['x', 'y', 'z'].map((part) => `r[${n}].${part}`))), most = Math.max(...each);
+  close(e.x.at(-1), most, 'planets');
+  assert.equal(page.furthestOf(e, e.x.length - 1, called), 'Saturn');
+  assert.equal(each.indexOf(most), called.indexOf('saturn'));
+  // A mass on a spring has one number.
+  const spring = sceneOf('spring', ['explicit-euler']);
+  close(spring.solution.errors[0].x.at(-1), apartAt(spring, 0, [['x']])[0], 'spring');
+});
+test('the body that panels and One step show first: not one that nearly rests, and by its name', () => {
+  const first = (scene) => page.firstMoving(page.subjects(scene.description, scene.solution)[0].bodies.map((b) => b.columns.map((k) => scene.solution.tracks[0].columns[k])));
+  assert.equal(first(sceneOf('outer-solar-system', ['kahan-li8'])), 1, 'Jupiter, not the Sun');
+  assert.equal(first(sceneOf('three-body-figure-eight', ['kahan-li8'])), 0);
+  assert.equal(first(sceneOf('kepler', ['velocity-verlet'])), 0);
+  assert.equal(page.firstMoving([[[1, 1]], [[2, 2]]]), 0, 'all at rest');
+  const names = { x: ['r[1].x', 'r[1].y', 'r[2].x', 'r[2].y'], v: ["r[1]'.x", "r[1]'.y", "r[2]'.x", "r[2]'.y"] };
+  const labels = page.seenIn(names, (body) => ({ 'r[1]': 'Sun', 'r[2]': 'Jupiter' })[body]).map((s) => s.label);
+  assert.ok(labels.some((l) => l.startsWith('Jupiter')) && !labels.some((l) => /r/.test(l.replace('Jupiter', ''))), labels.join(' | '));
 });

@@ -10,9 +10,9 @@ import test from 'node:test';
 
 const lab = new URL('../../lab/', import.meta.url), root = new URL('../../', import.meta.url);
 const { buildSync } = createRequire(new URL('package.json', lab))('esbuild');
-const contents = `export * from './core'; export * from './answers'; export * from './panel/steps/recipe'; export * from './panel/steps/seen'; export * from './panel/steps/figures'; export * from './panel/steps/local_exact';`;
+const contents = `export * from './core'; export * from './answers'; export * from './panel/steps/recipe'; export * from './panel/steps/seen'; export * from './panel/steps/figures'; export * from './panel/steps/closing'; export * from './panel/steps/local_exact';`;
 const built = buildSync({ stdin: { contents, resolveDir: fileURLToPath(lab), loader: 'ts' }, bundle: true, format: 'esm', write: false, target: 'es2022', platform: 'node' });
-const { Core, Answers, recipeOf, seenIn, plain, figure, factor, localExact } = await import('data:text/javascript;base64,' + Buffer.from(built.outputFiles[0].contents).toString('base64'));
+const { Core, Answers, recipeOf, seenIn, plain, figure, factor, localExact, against } = await import('data:text/javascript;base64,' + Buffer.from(built.outputFiles[0].contents).toString('base64'));
 const module = new WebAssembly.Module(readFileSync(new URL('build/lab/motus.wasm', root)));
 
 /** A figure as it is read: the number, and half a unit of its last digit where it was rounded. */
@@ -153,5 +153,23 @@ test('the exact motion from where a step starts: for every model, and no further
       if (way > 0) at.forEach((x, k) => assert.ok(Math.abs(x - of(end)[k]) <= 1e-7 * size, `${what}, ${all[k]}: ${x} is not ${of(end)[k]}`));
       all.forEach((column, k) => assert.equal(found.columns.get(column)?.[0], of(start)[k], `${what}, ${column}: it starts where the step starts`));
     }
+  }
+});
+test('a mantissa is below ten, also after it was rounded', () => {
+  for (const [value, text] of [[9.9999e-5, '1.00×10⁻⁴'], [-9.9999e-5, '−1.00×10⁻⁴'], [9.99e-5, '9.99×10⁻⁵'], [5e-8, '5×10⁻⁸']]) assert.equal(figure(value, { decimals: 7 + (value === 5e-8 ? 3 : 0), most: 1e-4 }).text, text);
+  assert.equal(figure(999999, { decimals: -3, most: 1e6 }).text, '1.00×10⁶');
+});
+test('a miss that the digits of the place do not show is told alone', () => {
+  const kind = { decimals: 10, most: 5e-8 };
+  assert.equal(against([5e-8 + 8.3e-15], [5e-8], kind, 'Verlet', '8.3×10⁻¹⁵ too high', true, false), 'Against the motion computed in small steps, Verlet is 8.3×10⁻¹⁵ too high.');
+  assert.equal(against([5.1e-8], [5e-8], kind, 'Verlet', '1×10⁻⁹ too high', false, true), 'Exact from here is 5.00×10⁻⁸: Verlet is 1×10⁻⁹ too high.');
+  assert.match(against([1], [1], { decimals: 2, most: 1 }, 'Verlet', '', true, true), /Verlet is on it/);
+});
+test('of first order: a rate is read at a place, and the place is calculated', () => {
+  const answers = new Answers(new Core(module)), text = "x' = 10 (y - x)\ny' = x (28 - z) - y\nz' = x y - 8/3 z\nx(0) = 1\ny(0) = 1\nz(0) = 1\nstep 0.01\nuntil 1";
+  const trace = answers.answer('trace', { model: { text, set: [] }, method: 'rk4', step: null, until: null, index: 1 });
+  for (const seen of seenIn(trace.names)) {
+    const said = recipeOf(trace, seen, true).lines.slice(1).map((l) => l.sums.map(plain));
+    said.forEach(([place, rate], k) => { assert.match(place, new RegExp(`^${seen.name}${k + 2} = .* [·].* = `)); assert.match(rate, new RegExp(`^${seen.name}'${k + 2} = `)); });
   }
 });

@@ -5,11 +5,11 @@ import { test } from 'node:test';
 import { fileURLToPath } from 'node:url';
 
 const lab = new URL('../../lab/', import.meta.url), { build } = createRequire(new URL('package.json', lab))('esbuild');
-const contents = `export * from './panel/reading'; export * from './panel/rates'; export { Limits } from './panel/limits'; export { halfStep } from './panel/convergence'; export { accuracy } from './panel/precision'; export { largestSteps } from './panel/stability';`;
+const contents = `export * from './panel/reading'; export * from './panel/rates'; export { swingsOf } from './panel/swings'; export { words } from './words'; export { Limits } from './panel/limits'; export { halfStep } from './panel/convergence'; export { accuracy } from './panel/precision'; export { largestSteps } from './panel/stability';`;
 // What only the build knows: nothing here asks for it.
 const virtual = { name: 'virtual', setup(b) { b.onResolve({ filter: /^virtual:/ }, ({ path }) => ({ path, namespace: 'virtual' })); b.onLoad({ filter: /.*/, namespace: 'virtual' }, () => ({ contents: 'module.exports = {};', loader: 'js' })); } };
 const built = await build({ stdin: { contents, resolveDir: fileURLToPath(lab), loader: 'ts' }, bundle: true, format: 'esm', write: false, target: 'es2022', plugins: [virtual], logLevel: 'error' });
-const { buysOf, needOf, digitsOf, motionOf, Limits, halfStep, accuracy, largestSteps } = await import('data:text/javascript;base64,' + Buffer.from(built.outputFiles[0].contents).toString('base64'));
+const { swingsOf, words, buysOf, needOf, digitsOf, motionOf, Limits, halfStep, accuracy, largestSteps } = await import('data:text/javascript;base64,' + Buffer.from(built.outputFiles[0].contents).toString('base64'));
 
 /** A row whose error is c h^p at halving steps; each step costs `cost`. */
 function row(method, p, { c = 1, cost = 1, from = 1, count = 10, passed = true, observed = p, exact = false, declared = Math.round(p) } = {}) {
@@ -50,6 +50,20 @@ test('so many digits: between two points along the straight line, for good', () 
   assert.deepEqual(needOf(verlet, 1), { work: 1, exact: false });
   assert.deepEqual(needOf({ ...verlet, points: verlet.points.map((point, k) => (k < 3 ? { ...point, error: null } : point)) }, 0.01), { work: 8, exact: false });
   assert.equal(needOf(verlet, 1e-9), null);
+});
+test('accuracy: until when it was measured, for several methods as for one', () => {
+  const said = accuracy([row('euler', 1, { c: 0.5, count: 14 }), row('verlet', 2, { c: 0.5 })], ['symplectic Euler', 'Verlet'], '4.76');
+  assert.match(said, /^For three digits, Verlet needs [\d.]+ times fewer evaluations than symplectic Euler, up to t = 4\.76\.$/);
+});
+test('where it turns back: not at the start, where it was at rest; as one end of what repeats, the start counts', () => {
+  const cosine = (until) => { const t = Array.from({ length: 401 }, (_, k) => (until * k) / 400); return swingsOf(t, t.map(Math.cos), t.map((s) => (s ? -Math.sin(s) : 0))); };
+  const few = cosine(7), many = cosine(12);
+  assert.deepEqual([few.turns.length, few.repeats], [2, null]);
+  few.turns.forEach(({ time }, k) => close(time, (k + 1) * Math.PI, 1e-4, `turn ${k}`));
+  assert.equal(many.turns.length, 3);
+  close(many.repeats.period, 2 * Math.PI, 1e-4, 'period');
+  const { turns } = words.panel.phase;
+  assert.deepEqual([turns(1, 't = 3', 't = 3'), turns(2, 't = 4.17', 't = 8.35'), turns(31, 'a', 'b')], [' turns back once, at t = 3.', ' turns back twice, at t = 4.17 and t = 8.35.', ' turns back 31 times, first at a, last at b.']);
 });
 test('accuracy: who does not come so far, who is exact, one alone, nothing', () => {
   const verlet = row('verlet', 2, { c: 0.5 }), poor = row('euler', 1, { c: 0.5, count: 5 });

@@ -14,6 +14,7 @@ import { methodCard } from '../../theory/cards';
 import { family } from '../../state';
 import { words } from '../../words';
 import type { Opened } from './ask';
+import { against } from './closing';
 import { figure, missed, timeDecimals, timeText } from './figures';
 import type { LocalExact } from './local_exact';
 import { partsList, partsTable } from './parts';
@@ -91,7 +92,7 @@ export function column(method: string, wide: Set<string>): Column {
     // What is left of a difference between numbers of this size is rounding.
     const on = far <= 64 * Number.EPSILON * Math.max(...[...ends, ...is].map(Math.abs)), upright = apart.length === 1 || Math.abs(apart[0]!) <= 1e-6 * Math.abs(up);
     const miss = on ? '' : !upright ? told.off(length) : told.tooFar(length, up > 0, order === 2 && !GREEK.test(nameText(seen.names[seen.names.length - 1]!)));
-    return { exact, miss, says: [told.exact(vector(is.map((x) => figure(x, value, true).text)), bare(look().label), miss, step?.index === 0, setting?.scene.description.has_exact === true), next].filter(Boolean).join(' ') };
+    return { exact, miss, says: [against(ends, is, value, bare(look().label), miss, step?.index === 0, setting?.scene.description.has_exact === true), next].filter(Boolean).join(' ') };
   }
   /** The error of the whole run up to here, where the step's own is not known. */
   function soFar(): string {

@@ -41,9 +41,12 @@ const apart = (text: string): string => text.replace(/^(−?)(\d{5,})/, (_, sign
 /** keep: zeros at the end stay, for a number that is compared. */
 export function figure(value: number, { decimals, most }: Kind, keep = false): Figure {
   if (!Number.isFinite(value)) return { text: readable(value), rounded: false };
-  const size = Math.abs(value), p = power(size);
+  const size = Math.abs(value);
+  let p = power(size);
   if (size <= 1e-13 * most || size === 0) return { text: '0', rounded: false };
   const scaled = size >= 1e5 || most < 1e-3, places = Math.min(15, Math.max(0, scaled ? decimals + p : decimals));
+  // 9.999 may round up to 10, which is 1 of the next power.
+  if (scaled && Math.abs(Number((value / 10 ** p).toFixed(places))) >= 10) p++;
   const fixed = scaled ? (value / 10 ** p).toFixed(places) : value.toFixed(places), rounded = Math.abs(Number(fixed) * (scaled ? 10 ** p : 1) - value) > 1e-12 * size;
   const digits = Number(fixed) === 0 ? fixed.replace('-', '') : fixed, short = rounded || keep ? digits : shortened(digits);
   return { text: apart(minus(short)) + (scaled ? `×10${raised(p)}` : ''), rounded };

@@ -156,9 +156,9 @@ export function recipeOf(trace: Trace, seen: Seen, byVelocity: boolean): Recipe 
       if (order === 1 || k < 0 || row.filter((c) => c !== 0).length > 1) return is(name, kinds.rate, rate(s));
       return sum(name, kinds.rate, rate(start!), [{ by: row[k]! * h, of: force(stages[k]!), kind: kinds.force }], rate(s));
     };
-    const reach = (s: TraceEntry): Sum => {
+    const reach = (s: TraceEntry, name: readonly Token[] = named): Sum => {
       const row = s.row ?? [], k = row.findIndex((c) => c !== 0);
-      return k < 0 || row.filter((c) => c !== 0).length > 1 ? is(named, kinds.value, value(s)) : sum(named, kinds.value, x0, [{ by: row[k]! * h, of: rates[k]!, kind: kinds.rate }], value(s));
+      return k < 0 || row.filter((c) => c !== 0).length > 1 ? is(name, kinds.value, value(s)) : sum(name, kinds.value, x0, [{ by: row[k]! * h, of: rates[k]!, kind: kinds.rate }], value(s));
     };
     const all = (names: boolean): Sum => mean(named, kinds.value, [begun], h, weights, { name: rateName, values: rates, kind: kinds.rate, names }, x1);
     const tries = (k: number): Mark[] => [{ kind: 'probe', from, to: tried[k]! }, { kind: 'stage', at: tried[k]! }];
@@ -182,7 +182,8 @@ export function recipeOf(trace: Trace, seen: Seen, byVelocity: boolean): Recipe 
       const row = s.row ?? [], tried_ = some(row), marks = tried_ ? [...tries(k), stroke(tried[k]!, rates[k]!)] : [stroke(tried[k]!, rates[k]!)], together = n === 4 && k === 3;
       const sentence = !tried_ ? told.atStart(noun) : !solve ? told.tryWith(s.coefficient, row.filter((c) => c !== 0).length > 1 ? -1 : row.findIndex((c) => c !== 0), noun, together)
         : solved === 1 ? told.solveOne(rounds, noun) : k === n - solved ? told.solve(solved, rounds, noun) : told.also(k, n, noun, together);
-      line(sentence, [solve ? is(one(rateName, k + 1), kinds.rate, rate(s)) : speed(s, one(rateName, k + 1)), ...(together ? [all(true)] : [])], [...marks, ...(together ? [go, arrived] : [])], marks[tried_ ? 1 : 0]);
+      // Of a first-order variable the equation gives the rate at a place, so the place is what is calculated.
+      line(sentence, [...(order === 1 && tried_ && !solve ? [reach(s, one(whole, k + 1))] : []), solve ? is(one(rateName, k + 1), kinds.rate, rate(s)) : speed(s, one(rateName, k + 1)), ...(together ? [all(true)] : [])], [...marks, ...(together ? [go, arrived] : [])], marks[tried_ ? 1 : 0]);
     });
     if (n <= 3) line(told.againWith(n, equal, noun), [all(true)], [go, arrived]);
     else if (n > 4) line(told.andSoOnStages(n, noun), [is(named, kinds.value, x1)], [go, arrived]);

@@ -20,13 +20,13 @@ const MOST = 24;
 const low = (name: string): string => nameText(name.replace(/^(.*?)\.(\w+)$/, '$2'));
 const owner = (name: string): string => (name.includes('.') ? name.slice(0, name.lastIndexOf('.')) : '');
 
-/** Everything that can be looked at, planes first. */
-export function seenIn(names: Trace['names']): Seen[] {
+/** Everything that can be looked at, planes first. called: what the example calls a body, ''. */
+export function seenIn(names: Trace['names'], called: (body: string) => string = () => ''): Seen[] {
   const { x } = names, out: Seen[] = [], at = new Map(x.map((name, k) => [name, k]));
-  const several = new Set(x.map(owner)).size > 1, labelOf = (name: string): string => (several && owner(name) ? `${sub(owner(name))} ${low(name)}` : sub(low(name)));
+  const several = new Set(x.map(owner)).size > 1, labelOf = (name: string): string => (several && owner(name) ? `${called(owner(name)) || sub(owner(name))} ${low(name)}` : sub(low(name)));
   const pair = (i: number, k: number): void => {
     const two = [x[i]!, x[k]!], name = owner(two[0]!) === owner(two[1]!) ? owner(two[0]!) : '';
-    out.push({ id: two.join('|'), label: several && name ? words.opened.of(sub(name), words.opened.both(low(two[0]!), low(two[1]!))) : words.opened.both(sub(low(two[0]!)), sub(low(two[1]!))), name, order: 2, indices: [i, k], names: two });
+    out.push({ id: two.join('|'), label: several && name ? words.opened.of(called(name) || sub(name), words.opened.both(low(two[0]!), low(two[1]!))) : words.opened.both(sub(low(two[0]!)), sub(low(two[1]!))), name, order: 2, indices: [i, k], names: two });
   };
   x.forEach((name, i) => {
     if (out.length > MOST) return;

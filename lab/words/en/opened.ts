@@ -30,6 +30,8 @@ export const opened = {
   /** known: a formula gives the motion; first: the start of the run, through which the motion goes. */
   exact: (value: string, method: string, miss: string, first: boolean, known: boolean) =>
     `${known ? 'Exact' : 'Computed in small steps'}${first ? '' : ' from here'}${known ? '' : ' it'} is ${value}: ${method} is ${miss || 'on it'}.`,
+  /** Where the digits of the place do not show the miss. */
+  missOnly: (method: string, miss: string, first: boolean, known: boolean) => `Against the ${known ? 'exact motion' : 'motion computed in small steps'}${first ? '' : ' from here'}, ${method} is ${miss}.`,
   soFar: (miss: string) => `After all steps up to here it is ${miss} off.`,
   newVelocity: (value: string) => `The velocity is now ${value}.`,
   over: 'The run is over: there is no step left to open.',

@@ -27,6 +27,8 @@ export const panel = {
     inVelocity: (at: string, list: string) => `At ${at}, in the velocity: ${list}.`,
     inFirst: (at: string, list: string) => `At ${at}, in the variables that have first-order equations: ${list}.`,
     one: (name: string, size: string) => `${name} off by ${size}`, largestOne: (name: string, size: string) => `${size} by ${name}`,
+    /** Of several bodies, which. */
+    ofBody: (by: string, body: string) => `${by} (${body})`,
     onIt: (name: string) => `${name} on it`,
     under: (name: string, by: string) => `${name} off by less than ${by}`,
     leaves: (name: string, at: string) => `${name} leaves at ${at}`,
@@ -82,7 +84,7 @@ export const panel = {
     up: 'Up',
     /** After the name of what swings. */
     swings: (low: string, high: string, period: string) => ` swings between ${low} and ${high}, once in ${period}.`,
-    turns: (count: number, first: string, last: string) => ` turns back ${count === 1 ? 'once' : count === 2 ? 'twice' : `${count} times`}${count === 1 ? `, at ${first}` : `, first at ${first}, last at ${last}`}.`,
+    turns: (count: number, first: string, last: string) => ` turns back ${count === 1 ? `once, at ${first}` : count === 2 ? `twice, at ${first} and ${last}` : `${count} times, first at ${first}, last at ${last}`}.`,
     between: (low: string, high: string) => ` stays between ${low} and ${high}, `,
     andBetween: (low: string, high: string) => ` between ${low} and ${high}.`,
     by: (name: string) => `By ${name}, `,

@@ -25,7 +25,7 @@ export const stage = {
   /** Between the names of curves that coincide; how many others do. */
   equals: ' = ', several: (count: string) => `${count} methods`,
   /** How a point misses the exact motion; its number stands before. */
-  miss: { none: 'on it', high: 'too high', low: 'too low', off: 'off' },
+  miss: { none: 'on it', high: 'too high', low: 'too low', off: 'off', offOf: (body: string) => `off, ${body}`, furthest: 'the furthest', body: (number: string) => `body ${number}` },
   /** A method that leaves the picture, and how it ends. */
   leaves: (method: string) => `${method} leaves`,
   /** One that comes down to the ground, below which nothing is drawn. */
@@ -38,7 +38,7 @@ export const stage = {
     time: (name: string, from: string, to: string) => `${name} against time, from t = ${from} to ${to}.`,
     space: (from: string, to: string) => `Path in space, from t = ${from} to ${to}.`,
     plane: (across: string, up: string, from: string, to: string) => `Path in the plane of ${across} and ${up}, from t = ${from} to ${to}.`,
-    distance: (value: string, method: string) => `${value} for ${method}`,
+    distance: (value: string, method: string, body: string) => `${value} for ${method}${body ? ` (${body})` : ''}`,
     exact: (distances: readonly string[]) => `At the end the distance from the exact motion is ${distances.join(', ')}.`,
     reference: (distances: readonly string[]) => `At the end the distance from the reference is ${distances.join(', ')}.`,
     stops: (method: string, time: string) => `${upper(method)} stops at t = ${time}.`,
