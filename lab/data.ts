@@ -3,8 +3,8 @@ import unpacked from 'virtual:data';
 import type { Lesson } from './lessons/read';
 import type { Staging } from './stage/staging';
 
-/** A button within a sentence: it goes to another example, or takes a step. */
-export type NoteLink = { readonly label: string } & ({ readonly to: string } | { readonly step: string });
+/** A button within a sentence: it goes to another example, takes a step, or sets the end. */
+export type NoteLink = { readonly label: string } & ({ readonly to: string } | { readonly step: string } | { readonly until: string });
 /** Parts of a sentence. */
 export type Linked = readonly (string | NoteLink)[];
 /** Paragraphs. */

@@ -30,7 +30,7 @@ export function note(store: LiveStore): HTMLElement {
     shown = name;
     const written = Object.hasOwn(data.notes, name) ? data.notes[name] ?? [] : [];
     const follow = (of: NoteLink): void => {
-      if ('to' in of) store.load(presetState(presets, of.to)); else store.change({ step: of.step });
+      if ('to' in of) store.load(presetState(presets, of.to)); else store.change('step' in of ? { step: of.step } : { until: of.until });
       scrollTo(0, 0);
     };
     const part = (of: string | NoteLink): string | Node => (typeof of === 'string' ? bound(of) : button(bound(of.label), () => follow(of), { class: 'text-button' }));

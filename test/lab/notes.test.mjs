@@ -49,7 +49,7 @@ claims('projectile', ['0.7357 above', '0.7357 below', 'six hundred steps still l
     assert.ok(all.midpoint < 1e-10 && all.verlet < 1e-10);
   }
 });
-claims('projectile-drag', ['2.62 s for the 43 m up', '53 m far', '3.25 s and 37 m', 'after 5.87 s, where this scene ends', '25 m/s of the 50 m/s'], () => {
+claims('projectile-drag', ['2.62 s for the 43 m up', '53 m far', '3.25 s and 37 m', 'lands after 5.87 s', '25 m/s of the 50 m/s'], () => {
   assert.equal(scenes.find(({ model }) => model === 'projectile-drag').until, '5.87');
   const { t, 'r.x': x, 'r.y': y, "r'.x": u, "r'.y": v } = run('projectile-drag', ['t', 'r.x', 'r.y', "r'.x", "r'.y"], '--until', '5.8723', '--method', 'rk4', '--step', '0.001'), top = y.indexOf(Math.max(...y));
   near(t[top], '2.62');

@@ -21,8 +21,8 @@ export const notes: Readonly<Record<string, Note>> = {
     { to: 'thrown-ball-air', label: 'With air drag' }, ' it matters.',
   ]],
   'projectile-drag': [[
-    'The air took it: the drag lowers the speed all the time, so the ball comes down slower and steeper than it went up. It needs 2.62 s for the 43 m up and goes 53 m far on the way, then 3.25 s and 37 m for the way down, and lands after 5.87 s, ',
-    'where this scene ends, with 25 m/s of the 50 m/s that it had. Drag divided by mass is what slows it, so a heavier one flies farther. No formula gives this motion; the green line is a reference, computed with its own error. Back to ',
+    'The air took it: the drag lowers the speed all the time, so the ball comes down slower and steeper than it went up. It needs 2.62 s for the 43 m up and goes 53 m far on the way, then 3.25 s and 37 m for the way down, and lands after ',
+    { until: '5.87', label: '5.87 s' }, ' with 25 m/s of the 50 m/s that it had. Drag divided by mass is what slows it, so a heavier one flies farther. No formula gives this motion; the green line is a reference, computed with its own error. Back to ',
     { to: 'thrown-ball', label: 'the ball without air' }, '.',
   ]],
   spring: [
