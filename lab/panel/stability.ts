@@ -232,7 +232,7 @@ export const stability: PanelMaker = (store): Panel => {
     if (motion.kind === 'grows') return say.grows(amount(1 / Math.max(...motion.rates.map((r) => Math.abs(r.re))), unit(), 2));
     if (judgedFor === '') return '';
     if (boris() && judged.length === 1) return say.boris(methods()[0]!.label, brief(main()!.stability_limit, 3));
-    const at = fastest(), lead = !swinging() && !motion.steady ? say.moments(String(motion.moments)) : !motion.steady && at ? say.fastest(moment(scene, Number(at.time.toPrecision(3)))) : swinging() && motion.frequencies.length > 1 ? say.swing : '';
+    const at = fastest(), lead = !swinging() && !motion.steady ? say.moments : !motion.steady && at ? say.fastest(moment(scene, Number(at.time.toPrecision(3)))) : swinging() && motion.frequencies.length > 1 ? say.swing : '';
     return largestSteps(judged.map(({ look, limit }) => ({ name: look.label, limit })), swinging() ? frequency() : 1, step(), written, lead);
   }
   function summary(): string {

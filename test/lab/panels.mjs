@@ -117,6 +117,11 @@ function energies(...words) {
   const [head, ...rows] = readCsv(motus('run', ...words, '-o', '-', '--quiet').split('\n').filter((line) => !line.startsWith('#')).join('\n'));
   return rows.map((row) => Number(row[head.indexOf('energy')]));
 }
+/** Where a run of the program ends, in the plane. */
+function place(...words) {
+  const [head, ...rows] = readCsv(motus('run', ...words, '-o', '-', '--quiet').split('\n').filter((line) => !line.startsWith('#')).join('\n')), last = rows.filter((row) => row.length === head.length).at(-1);
+  return head.flatMap((name, k) => (/^(r\.)?[xy]$/.test(name) ? [Number(last[k])] : []));
+}
 const farthest = (values) => Math.max(...values.map((v) => Math.abs(v - values[0]))) / Math.abs(values[0]);
 
 await attempt('answers are the program’s', async () => {
@@ -131,7 +136,9 @@ await attempt('answers are the program’s', async () => {
     const said = await answerOf(page, 'Error'), energy = await answerOf(page, 'Energy');
     for (const row of compared(model, '--methods', Object.keys(labels).join(','), ...options)) {
       const told = behind(said, `${labels[row.method]} off by`);
-      judge(`${model}: how far off ${row.method} is`, near(told, row.error_final), `${told}, not ${row.error_final}: ${said}`);
+      // In the plane it is the distance of the two places, not the larger of two coordinates.
+      const exact = place(`models/${model}.motus`, ...options, '--method', 'kahan-li8'), off = Math.hypot(...place(`models/${model}.motus`, ...options, '--method', row.method).map((x, k) => x - exact[k]));
+      judge(`${model}: how far off ${row.method} is`, near(told, off), `${told}, not ${off}: ${said}`);
       const values = energies(`models/${model}.motus`, '--method', row.method, ...options);
       const rate = model === 'spring' ? values[1] / values[0] - 1 : Math.abs(values[1] - values[0]) / Math.abs(values[0]);
       const [number, wanted] = row.method === 'explicit-euler' || model === 'thrown-ball' ? [behind(energy.toLowerCase(), `${labels[row.method].toLowerCase()} (?:adds|loses)`), 100 * rate]

@@ -106,7 +106,7 @@ export const study = {
     noRates: (why: string) => `The motion could not be linearised: ${why}.`,
     /** What goes before the list of limits. */
     fastest: (at: string) => `where it is fastest, near ${at}, `,
-    moments: (count: string) => `at ${count} moments of the run, `,
+    moments: 'at the moments of the run that were looked at, ',
     swing: 'for its fastest swing, ',
     tooLarge: (step: string, names: readonly string[]) => `${step} is too large for ${people(names)}: `,
     below: (step: string, names: readonly string[], first: boolean) => `${first ? 'below ' : ''}${step} for ${people(names)}`,
