@@ -152,7 +152,7 @@ export function stage(store: Store, room: { column(): number }): Stage {
     if (!sentence) sentence = window.setTimeout(describe, 150);
   }
   let busy = false, again = false, finished = false, thin = false;
-  const hurried = haste(() => { thin = false; refresh(); });
+  const hurried = haste(() => refresh());
   function drawMoving(): void {
     if (picture) onto(moving, (pen, i) => { picture!.moving(pen, i, time); drawGuess(pen, i); });
   }
