@@ -5,6 +5,8 @@
 #include "step/newton.h"
 #include "step/operators.h"
 #include "step/tableau.h"
+#include "step/pair.h"
+#include "step/collocation.h"
 #define FAMILY_TEXTS
 #include "step/families.def"
 #undef FAMILY_TEXTS

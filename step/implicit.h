@@ -172,8 +172,10 @@ static void implicit_plan(work *w, const double argument[2], coef *unit, coef *c
         implicit_newmark(w, (coef)argument[0], (coef)argument[1], unit, c);
         return;
     }
-    for (int i = 0; i < w->stages; i++) c[i] = m->tableau.c[i];
-    tableau_fill(w, false, m->tableau.a, m->tableau.b, unit);
+    collocation nodes;
+    collocation_make(&nodes, w->stages, false);
+    for (int i = 0; i < w->stages; i++) c[i] = collocation_abscissa(&nodes, i);
+    collocation_fill(w, &nodes, unit);
 }
 #endif
 

@@ -44,7 +44,9 @@ static inline newton_verdict newton_judge(work *w, const real *r, const real *va
     const mask second = last >= 0; /* the first correction has none before it to be compared with */
     if (!SOME(second)) return verdict;
     const mask shrinks = worst < last;
-    const mask small = (shrinks & (worst * (worst / last) < EPSILON / 64)) | (NOT(shrinks) & (worst < SQRT_EPSILON));
+    /* Some ten roundings of the largest number are as many SQRT_EPSILON of the smallest that is judged. */
+    const mask small =
+        (shrinks & (worst * (worst / last) < EPSILON / 64)) | (NOT(shrinks) & (worst < 64 * SQRT_EPSILON));
     verdict.done = NOT(lost) & ((worst == 0) | (second & small));
     verdict.stuck = NOT(lost) & NOT(verdict.done) & second & NOT(shrinks);
     return verdict;

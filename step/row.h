@@ -29,7 +29,8 @@ struct row {
         int count;
         const coef *weight;
     } composition;
-    /* c: abscissae. a, row by row: RUNGE_KUTTA below the diagonal, 1 + 2 + … numbers; IMPLICIT all stages × stages */
+    /* c: abscissae. a, row by row, below the diagonal: 1 + 2 + … numbers. IMPLICIT has the stages alone: its
+     * coefficients are generated (collocation.h) */
     struct {
         int stages;
         const coef *c, *a, *b;

@@ -53,7 +53,7 @@ static void runge_kutta_plan(work *w, const double argument[2], coef *unit, coef
     tableau_sizes(w, m->tableau.stages);
     if (!unit) return;
     for (int i = 0; i < w->stages; i++) c[i] = m->tableau.c[i];
-    tableau_fill(w, true, m->tableau.a, m->tableau.b, unit);
+    tableau_fill(w, m->tableau.a, m->tableau.b, unit);
 }
 #endif
 

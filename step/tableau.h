@@ -34,8 +34,8 @@ static void tableau_sizes(work *w, int stages)
     w->linears = w->squares = stages * stages + stages;
 }
 
-/* Reads a (explicit: below the diagonal alone) and b, and forms aa and bb. */
-static void tableau_fill(work *w, bool explicit, const coef *given_a, const coef *given_b, coef *unit)
+/* Reads a, below the diagonal alone, and b, and forms aa and bb. */
+static void tableau_fill(work *w, const coef *given_a, const coef *given_b, coef *unit)
 {
     const int s = w->stages;
     coef *a = unit, *b = unit + tableau_b(w), *aa = unit + tableau_aa(w, 0), *bb = unit + tableau_bb(w);
@@ -43,7 +43,7 @@ static void tableau_fill(work *w, bool explicit, const coef *given_a, const coef
         b[i] = given_b[i];
         bb[i] = 0;
         for (int j = 0; j < s; j++) {
-            a[i * s + j] = !explicit ? given_a[i * s + j] : j < i ? given_a[i * (i - 1) / 2 + j] : 0;
+            a[i * s + j] = j < i ? given_a[i * (i - 1) / 2 + j] : 0;
             aa[i * s + j] = 0;
         }
     }

@@ -15,7 +15,8 @@
  * another layout in laws_quad.c and laws_coefficients.c. */
 typedef size_t method;
 
-enum { DIMENSIONS = 4, SPLITTING_MAX = 40 }; /* SPLITTING_MAX: stages of a splitting row */
+/* SPLITTING_MAX: stages of a splitting row; COUPLED_MAX: those of an implicit one, and GENERATED_MAX its constants */
+enum { DIMENSIONS = 4, SPLITTING_MAX = 40, COUPLED_MAX = 8, GENERATED_MAX = 3 * COUPLED_MAX * (COUPLED_MAX + 1) };
 
 /* x'' = a(x, v, t), then s' = f, over quads. Polynomial and rational, since no library function has 33 digits. */
 typedef struct quad_problem {
@@ -64,6 +65,9 @@ void quad_reference(const quad_problem *, quad t0, quad t1, quad_state *state);
 quad quad_distance(const quad_problem *, const quad_state *, const quad_state *);
 /* Kicks and drifts in order, kick first; returns their number of stages, 0 for others. */
 int quad_splitting_of(method, quad *kick, quad *drift);
+/* The constants and abscissae of a row whose coefficients are generated, each of at most GENERATED_MAX numbers; returns
+ * its number of stages, 0 for others. */
+int quad_generated_of(method, quad *constants, quad *c);
 /* By how much the sums of kicks and of drifts differ from 1, which measures the known digits. 0 for other rows. */
 quad quad_looseness(method);
 

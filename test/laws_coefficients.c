@@ -42,14 +42,11 @@ static int stored(const row *m, quad *out)
     } else if (m->family == SPLITTING) {
         for (int i = 0; i < m->splitting.stages; i++) out[n++] = m->splitting.kick[i];
         for (int i = 0; i < m->splitting.stages; i++) out[n++] = m->splitting.drift[i];
-    } else if (m->family == RUNGE_KUTTA || (m->family == IMPLICIT && !m->newmark)) {
+    } else if (m->family == RUNGE_KUTTA) {
         const int s = m->tableau.stages;
         for (int i = 0; i < s; i++) out[n++] = m->tableau.c[i];
         for (int i = 0; i < s; i++)
-            for (int j = 0; j < s; j++)
-                out[n++] = m->family == IMPLICIT ? m->tableau.a[i * s + j]
-                           : j < i               ? m->tableau.a[i * (i - 1) / 2 + j]
-                                                 : 0;
+            for (int j = 0; j < s; j++) out[n++] = j < i ? m->tableau.a[i * (i - 1) / 2 + j] : 0;
         for (int i = 0; i < s; i++) out[n++] = m->tableau.b[i];
     }
     return n;
