@@ -125,20 +125,21 @@ static bool add_facts(emit *e, const composition *c, bool structure)
              r->compensated, r->adaptive);
     emit_add(t,
              "#define FACT(w, member) FACT_##member\n#define FACT_velocity %d\n#define FACT_linear %d\n#define "
-             "FACT_constant %d\n",
-             w.velocity, w.linear, w.constant);
+             "FACT_constant %d\n#define FACT_affine %d\n",
+             w.velocity, w.linear, w.constant, w.affine);
     if (structure)
         emit_add(t, "#define FACT_nx %zu\n#define FACT_nv %zu\n", w.nx, w.nv);
     else
         emit_add(t, "#define FACT_nx w->nx\n#define FACT_nv w->nv\n");
     emit_add(t,
-             "#define FACT_carried %d\n#define FACT_stages %d\n#define FACT_known %d\n#define FACT_fsal %d\n#define "
+             "#define FACT_carried %d\n#define FACT_stages %d\n#define FACT_known %d\n#define FACT_kept %d\n#define "
+             "FACT_fsal %d\n#define "
              "FACT_fused %d\n#define FACT_waits %d\n#define FACT_solves %d\n"
              "#define FACT_solves_x %d\n#define FACT_means %d\n#define FACT_direct %d\n#define FACT_order %d\n#define "
              "FACT_linears %d\n"
              "#define FACT_squares %d\n#define DRIFTS_FIRST %d\n",
-             w.carried, stages, w.known, w.fsal, w.fused, w.waits, w.solves, w.solves_x, w.means, w.direct, w.order,
-             w.linears, w.squares, r->family == SPLITTING && w.unit[0] == 0);
+             w.carried, stages, w.known, w.kept, w.fsal, w.fused, w.waits, w.solves, w.solves_x, w.means, w.direct,
+             w.order, w.linears, w.squares, r->family == SPLITTING && w.unit[0] == 0);
     emit_add(t, "#define LIVE(w, k) (fact_unit[k] != 0)\n#define FACT_c fact_c\nstatic const int fact_moment[] = {%d",
              m.moment[0]);
     for (int i = 1; i < stages; i++) emit_add(t, ", %d", m.moment[i]);

@@ -9,13 +9,12 @@
  * Invariant: all is computed in pairs, so a coefficient is the exact one, rounded once.
  */
 #ifdef ROWS
-enum { COLLOCATION_MAX = 8 };
 typedef struct collocation {
     int stages;
-    pair place[COLLOCATION_MAX];                     /* the nodes on [-1, 1], ascending */
-    pair p[COLLOCATION_MAX][COLLOCATION_MAX + 1];    /* p[i][k]: P[k] at node i */
-    pair weight[COLLOCATION_MAX];                    /* b */
-    pair integral[COLLOCATION_MAX][COLLOCATION_MAX]; /* a */
+    pair place[TABLEAU_COUPLED_MAX];                         /* the nodes on [-1, 1], ascending */
+    pair p[TABLEAU_COUPLED_MAX][TABLEAU_COUPLED_MAX + 1];    /* p[i][k]: P[k] at node i */
+    pair weight[TABLEAU_COUPLED_MAX];                        /* b */
+    pair integral[TABLEAU_COUPLED_MAX][TABLEAU_COUPLED_MAX]; /* a */
 } collocation;
 
 /* P[0] … P[last] at y in [-1, 1]. */
@@ -70,7 +69,15 @@ static void collocation_nodes(collocation *n, bool left)
     if (left) n->place[0] = pair_of(-1);
 }
 
-/* ∫ l[j] from 0 to where the Legendre polynomials up to P[s] have the values q. */
+/* l[j] where the Legendre polynomials up to P[s] have the values q, and its integral from 0 to there. */
+static pair collocation_lagrange(const collocation *n, int j, const pair *q)
+{
+    pair sum = pair_of(0);
+    for (int k = 0; k < n->stages; k++)
+        sum = pair_sum(sum, pair_product(pair_of((coef)(2 * k + 1)), pair_product(n->p[j][k], q[k])));
+    return pair_product(n->weight[j], sum);
+}
+
 static pair collocation_integral(const collocation *n, int j, const pair *q)
 {
     pair sum = pair_of(0);
@@ -98,6 +105,17 @@ static void collocation_make(collocation *n, int stages, bool left)
 static coef collocation_abscissa(const collocation *n, int i)
 {
     return pair_product(pair_sum(n->place[i], pair_of(1)), pair_of((coef)1 / 2)).high;
+}
+
+/* l[j] at the nodes of the next step. */
+static void collocation_ahead(const collocation *n, coef *ahead)
+{
+    const int s = n->stages;
+    for (int i = 0; i < s; i++) {
+        pair p[TABLEAU_COUPLED_MAX + 1];
+        collocation_legendre(pair_sum(n->place[i], pair_of(2)), s, p);
+        for (int j = 0; j < s; j++) ahead[i * s + j] = collocation_lagrange(n, j, p).high;
+    }
 }
 
 /* The constants of tableau.h: a and b, aa = A² and bb = bA. */

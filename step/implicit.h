@@ -2,18 +2,31 @@
  * K[j]: collocation at the Gauss nodes, and Newmark's method, whose one implicit stage is the end of the step [HLW06,
  * II.1; Newmark59].
  *
- * Invariant: the unknowns are the stages' accelerations, so the round-off of the solution reaches the state
- * multiplied by h; the iteration ends when they no longer change. Simplified Newton: one matrix a step, evaluated in
+ * Collocation begins each step with the polynomial of the step before, extrapolated, and inserts the stages into their
+ * equation; where that contracts slowly Newton's method takes over. Of an affine equation, whose matrix is factored
+ * once, and of a single stage, the iteration is Newton's from the start. It is simplified: one matrix a step, evaluated in
  * the middle of the stages, and evaluated again where the iteration does not contract.
+ *
+ * Invariant: the unknowns are the stages' accelerations, so the round-off of the solution reaches the state
+ * multiplied by h; the iteration ends when they no longer change. What a step begins with is carried from the step
+ * before.
  */
-static inline void implicit_stage(work *w, int i)
+/* Where in `unit` the values of Lagrange's polynomials at the stages of the next step begin. */
+static inline int implicit_ahead(const work *w) { return tableau_bb(w) + FACT(w, stages); }
+
+static inline void implicit_place_of(work *w, int i)
 {
-    real *restrict X = w->xs, *restrict V = w->vs;
     const real *restrict x = w->x, *restrict v = w->v, *restrict K = w->ks;
-    const int s = FACT(w, stages), a = tableau_a(w, i), aa = tableau_aa(w, i);
+    const int s = FACT(w, stages), aa = tableau_aa(w, i);
     const clock ch = w->c[i] * w->h;
-    EACH(k) X[k] = x[k] + FMA(ch, v[k], tableau_sum(w, aa, false, K, k, s));
-    EACHV(k) V[k] = v[k] + tableau_sum(w, a, false, K, k, s);
+    EACH(k) w->xs[k] = x[k] + FMA(ch, v[k], tableau_sum(w, aa, false, K, k, s));
+}
+
+static inline void implicit_speed_of(work *w, int i)
+{
+    const real *restrict v = w->v, *restrict K = w->ks;
+    const int s = FACT(w, stages), a = tableau_a(w, i);
+    EACHV(k) w->vs[k] = v[k] + tableau_sum(w, a, false, K, k, s);
 }
 
 /* Factors the matrix at the mean of the unknown stages, by Taylor's formula with the present acceleration of the
@@ -40,60 +53,133 @@ static inline int implicit_matrix(work *w, mask *where)
 /* The iteration, from one turn to the next. The parts of a step stand alone, so that lanes may take the turns of many
  * trajectories side by side. */
 typedef struct implicit_iteration {
-    mask open;    /* the equation is not solved yet */
-    real before;  /* newton_judge's */
-    real renewed; /* matrices that were evaluated anew */
-    int turns;
+    mask open;        /* the equation is not solved yet */
+    mask newton;      /* by Newton's method */
+    real before;      /* newton_judge's */
+    real renewed;     /* matrices that were evaluated anew */
+    int turns, begun; /* begun: the turn with which Newton's method began */
 } implicit_iteration;
 
-/* The first guess of all stages is the acceleration at the start. */
+/* w->a: the acceleration at the start of the step. */
+static inline int implicit_start(work *w)
+{
+    EACH(k) w->xs[k] = w->x[k];
+    EACHV(k) w->vs[k] = w->v[k];
+    return accel_now(w, w->xs, w->vs, w->a);
+}
+
+/* The polynomial through the stages of the step before, at those of this one. */
+static inline void implicit_extrapolate(work *w)
+{
+    const int s = FACT(w, stages);
+    const size_t stride = w->stride;
+    const coef *ahead = w->unit + implicit_ahead(w);
+    EACHV(k) {
+        real next[TABLEAU_COUPLED_MAX];
+        for (int i = 0; i < s; i++) {
+            next[i] = ahead[i * s] * w->ks[k];
+            for (int j = 1; j < s; j++) next[i] = FMA(ahead[i * s + j], w->ks[(size_t)j * stride + k], next[i]);
+        }
+        for (int i = 0; i < s; i++) w->ks[(size_t)i * stride + k] = next[i];
+    }
+}
+
 static inline int implicit_begin(work *w, implicit_iteration *it)
 {
-    const size_t stride = w->stride;
-    *it = (implicit_iteration){.open = ALWAYS, .before = (real){0} - 1};
-    if (!FACT(w, known) || FIRST(w)) { /* newmark's last stage is the next step's first */
-        EACH(k) w->xs[k] = w->x[k];
-        EACHV(k) w->vs[k] = w->v[k];
-        int bad = accel_now(w, w->xs, w->vs, w->a);
+    const bool newton = !FACT(w, kept) || FACT(w, affine);
+    *it = (implicit_iteration){.open = ALWAYS, .newton = newton ? ALWAYS : NEVER, .before = (real){0} - 1};
+    if (!FACT(w, kept) || FIRST(w)) {
+        /* newmark's last stage is the next step's first */
+        int bad = !FACT(w, known) || FIRST(w) ? implicit_start(w) : STEP_OK;
         if (bad) return bad;
+        for (int i = 0; i < FACT(w, stages); i++)
+            EACHV(k) w->ks[(size_t)i * w->stride + k] = w->a[k];
+    } else {
+        implicit_extrapolate(w);
     }
-    for (int i = 0; i < FACT(w, stages); i++)
-        EACHV(k) w->ks[(size_t)i * stride + k] = w->a[k];
     mask regular = ALWAYS; /* an equation whose matrix is not will be lost in the first turn */
-    return implicit_matrix(w, &regular);
+    return newton ? implicit_matrix(w, &regular) : STEP_OK;
 }
 
 static inline bool implicit_goes_on(const implicit_iteration *it) { return it->turns < NEWTON_MAX && SOME(it->open); }
 
+/* Corrects K by r, in the lanes of Newton's method by the solution of its equation, and judges the corrections. */
+static inline newton_verdict implicit_correct(work *w, implicit_iteration *it, real *K, int s)
+{
+    newton_verdict all = {NEVER, NEVER, NEVER};
+    for (int way = 0; way < 2; way++) {
+        const mask mine = way ? it->newton : NOT(it->newton);
+        if (!SOME(it->open & mine)) continue;
+        if (way) solve_back(w, w->r);
+        for (int i = 0; i < s; i++)
+            newton_correct(w, it->open & mine, K + (size_t)i * w->stride, w->r + (size_t)i * w->stride);
+        real before = it->before;
+        const newton_verdict now = newton_judge(w, w->r, K, s, w->v, w->per_h, &before);
+        it->before = PICK(mine, before, it->before);
+        all.done = all.done | (mine & now.done);
+        all.stuck = all.stuck | (mine & now.stuck);
+        all.lost = all.lost | (mine & now.lost);
+    }
+    return all;
+}
+
+/* Newton's method takes over in the lanes `slow`; what is lost there begins again. */
+static inline int implicit_hand_over(work *w, implicit_iteration *it, mask slow, mask lost)
+{
+    if (SOME(slow & lost)) {
+        int bad = implicit_start(w);
+        if (bad) return bad;
+        for (int i = 0; i < FACT(w, stages); i++)
+            EACHV(k) {
+                real *K = w->ks + (size_t)i * w->stride + k;
+                *K = PICK(slow & lost, w->a[k], *K);
+            }
+    }
+    it->newton = it->newton | slow;
+    it->before = PICK(slow, (real){0} - 1, it->before);
+    it->begun = it->turns;
+    mask good = slow;
+    int bad = implicit_matrix(w, &good);
+    it->open = it->open & (good == slow);
+    return bad;
+}
+
 static inline int implicit_turn(work *w, implicit_iteration *it)
 {
-    enum { PATIENCE = 8, RENEWALS = 6 };
+    enum { PATIENCE = 8, RENEWALS = 6, INSERTIONS = 24 };
     const int first = FACT(w, known), s = FACT(w, stages) - first, turn = it->turns++;
     const size_t stride = w->stride;
     real *K = w->ks + (size_t)first * stride;
     for (int i = 0; i < s; i++) {
         real *r = w->r + (size_t)i * stride;
-        implicit_stage(w, first + i);
+        implicit_place_of(w, first + i);
+        if (FACT(w, velocity)) implicit_speed_of(w, first + i);
         int bad = accel_in(w, first + i, w->xs, w->vs, r);
         if (bad) return bad;
         EACHV(k) r[k] -= K[(size_t)i * stride + k];
     }
-    solve_back(w, w->r);
+    const real last = it->before;
+    const newton_verdict now = implicit_correct(w, it, K, s);
     w->iterations++;
-    for (int i = 0; i < s; i++) newton_correct(w, it->open, K + (size_t)i * stride, w->r + (size_t)i * stride);
-    const newton_verdict now = newton_judge(w, w->r, K, s, w->v, w->per_h, &it->before);
-    STOP(w, it->open & now.lost, turn == 0 ? STEP_DIVERGED : STEP_SOLVE);
-    it->open = FACT(w, direct) ? NEVER : it->open & NOT(now.lost | now.done);
+    /* one that shrinks less than to a quarter needs more turns than Newton's method costs */
+    const mask weak = (last >= 0) & (4 * it->before > last) & (it->before > 64 * SQRT_EPSILON),
+               slow = it->open & NOT(it->newton) & NOT(now.done) &
+                      (now.lost | weak | (turn >= INSERTIONS ? ALWAYS : NEVER));
+    STOP(w, it->open & it->newton & now.lost, turn == it->begun ? STEP_DIVERGED : STEP_SOLVE);
+    it->open = FACT(w, direct) ? NEVER : it->open & NOT(now.done | (it->newton & now.lost));
     if (!SOME(it->open)) return STEP_OK;
-    const mask stuck = it->open & now.stuck, slow = turn % PATIENCE == PATIENCE - 1 ? it->open : stuck;
-    if (!SOME(slow)) return STEP_OK;
-    const mask renew = slow & (it->renewed < RENEWALS);
-    mask good = renew;
-    it->renewed = PICK(slow, it->renewed + 1, it->renewed);
-    STOP(w, stuck & NOT(renew), STEP_SOLVE);
-    int bad = SOME(renew) ? implicit_matrix(w, &good) : STEP_OK;
-    it->open = it->open & NOT(stuck & NOT(renew)) & (good == renew);
-    return bad;
+    const mask stuck = it->open & it->newton & now.stuck,
+               late = turn % PATIENCE == PATIENCE - 1 ? it->open & it->newton : stuck;
+    if (SOME(late)) {
+        const mask renew = late & (it->renewed < RENEWALS);
+        mask good = renew;
+        it->renewed = PICK(late, it->renewed + 1, it->renewed);
+        STOP(w, stuck & NOT(renew), STEP_SOLVE);
+        int bad = SOME(renew) ? implicit_matrix(w, &good) : STEP_OK;
+        if (bad) return bad;
+        it->open = it->open & NOT(stuck & NOT(renew)) & (good == renew);
+    }
+    return SOME(slow) ? implicit_hand_over(w, it, slow, now.lost) : STEP_OK;
 }
 
 static inline int implicit_end(work *w, const implicit_iteration *it)
@@ -134,6 +220,7 @@ static int implicit_carry(const work *w, real *list[CARRY_MAX])
 {
     int count = work_carry_main(w, list);
     if (FACT(w, known)) list[count++] = w->a;
+    for (int i = 0; i < FACT(w, kept); i++) list[count++] = w->ks + (size_t)i * w->stride;
     return count;
 }
 
@@ -164,6 +251,8 @@ static void implicit_plan(work *w, const double argument[2], coef *unit, coef *c
     const row *m = w->row;
     tableau_sizes(w, m->newmark ? 2 : m->tableau.stages);
     w->known = m->newmark;
+    w->kept = w->stages > 1 && !m->newmark ? w->stages : 0;
+    w->squares += w->kept * w->kept; /* implicit_ahead, which no step multiplies */
     w->solves = w->stages - w->known;
     w->solves_x = !m->newmark || argument[0] != 0;
     w->direct = !w->solves_x && (!w->velocity || w->linear);
@@ -176,6 +265,7 @@ static void implicit_plan(work *w, const double argument[2], coef *unit, coef *c
     collocation_make(&nodes, w->stages, false);
     for (int i = 0; i < w->stages; i++) c[i] = collocation_abscissa(&nodes, i);
     collocation_fill(w, &nodes, unit);
+    if (w->kept) collocation_ahead(&nodes, unit + implicit_ahead(w));
 }
 #endif
 
@@ -186,7 +276,8 @@ static void implicit_trace(work *w, int i)
     if (i < 0) return;
     tell(w, (trace_event){.kind = MOTUS_EVENT_SOLVE, .time = time_now(w)});
     for (int j = 0; j < w->stages; j++) {
-        implicit_stage(w, j);
+        implicit_place_of(w, j);
+        implicit_speed_of(w, j);
         tableau_tell(w, j, w->xs, w->vs, w->ks + (size_t)j * w->stride);
     }
 }

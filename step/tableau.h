@@ -4,6 +4,7 @@
  * a (s × s, row by row) and b are multiplied by h; aa = A² and bb = bA, for positions formed from accelerations [HNW93,
  * II.14], by h².
  */
+enum { TABLEAU_COUPLED_MAX = 8 }; /* stages of collocation */
 static inline int tableau_a(const work *w, int i) { return i * FACT(w, stages); }
 static inline int tableau_b(const work *w) { return FACT(w, stages) * FACT(w, stages); }
 static inline int tableau_aa(const work *w, int i) { return tableau_b(w) + (1 + i) * FACT(w, stages); }

@@ -95,6 +95,7 @@ typedef struct work {
     bool velocity, linear;                  /* the acceleration depends on v; at most linearly */
     bool quadrature;                        /* it does in first-order variables alone, which nothing reads */
     bool constant;                          /* it depends on parameters alone */
+    bool affine;                            /* it is affine in x and v, and does not depend on time */
     bool check;                             /* test after every step whether the state is finite */
     bool finite;                            /* the machine found the state finite after the last steps */
     int threads;                            /* how many may share one evaluation, or the tiles of one sweep */
@@ -117,6 +118,7 @@ typedef struct work {
     clock *scaled, hh, half_hh, per_h;
     clock *matrix; /* room for the coefficients of the coupled stages: 2 solves² */
     int known;     /* stages of an implicit row that are explicit (newmark's first) */
+    int kept;      /* stages that lead to the next step */
     int solves;    /* stages that are coupled in one equation; 0: nothing is solved */
     bool solves_x; /* that equation contains da/dx */
     bool direct;   /* it is linear in the unknowns, so that one solve is exact */
@@ -275,7 +277,7 @@ static inline real *work_array(placing *p, int count)
 #define PLACED(w, name) ((w)->name)
 #endif
 
-/* Copies the numbers of all arrays, of the stages only the first, from one workspace to another. */
+/* Copies the numbers of all arrays, of the stages those that are kept, from one workspace to another. */
 static inline void work_move(work *to, const work *from, size_t count)
 {
 #define MOVE(name) \
@@ -290,10 +292,12 @@ static inline void work_move(work *to, const work *from, size_t count)
     MOVE(delta);
     MOVE(vs);
 #undef MOVE
+    for (int i = 0; i < FACT(to, kept); i++)
+        for (size_t k = 0; k < count; k++) to->ks[(size_t)i * to->stride + k] = from->ks[(size_t)i * from->stride + k];
 }
 
 /* The arrays that lead from a step to the next: name_carry in families.def. */
-enum { CARRY_MAX = 8 };
+enum { CARRY_MAX = 12 };
 static inline int work_carry_main(const work *w, real *list[CARRY_MAX])
 {
     int count = 0;
