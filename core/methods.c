@@ -329,6 +329,16 @@ const row methods_table[] = {
        .use = "Order 16 for every force: energy to round-off over long runs at large steps." },
       .family = IMPLICIT, .compensated = true, .tableau = {.stages = 8} },
 
+    /* Collocation whose first stage is the state. */
+    { .card = { CARD("radau15", "ias15 gauss-radau15", "radau", 15, 8, 0, XVT, 0, 0, 0.0),
+       .title = "Gauss–Radau 15",
+       .cite = "Everhart85, RS15",
+       .formula = "the polynomial of degree 7 through the accelerations at the eight left Radau nodes,\n"
+                  "integrated once for v and twice for x",
+       .use = "Order 15 for any force: positions to round-off, and an energy error that grows like the square root\n"
+              "of time." },
+      .family = RADAU, .compensated = true, .tableau = {.stages = 8} },
+
     { .card = { CARD("exact", "closed-form", "exact", 0, 0, 0, XVT, 1, 1, INFINITY),
        .title = "exact",
        .cite = "",

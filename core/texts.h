@@ -2,6 +2,7 @@
  * work.h lists. Nothing here is an operation on the state, so all includers get the same bits.
  */
 #include "step/dense.h"
+#include "step/judge.h"
 #include "step/newton.h"
 #include "step/operators.h"
 #include "step/tableau.h"

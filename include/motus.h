@@ -578,7 +578,7 @@ MOTUS_API int64_t motus_run_steps_total(const motus_run *);
 MOTUS_API double motus_run_time_of(const motus_run *, int64_t step);
 MOTUS_API double motus_run_last_step(const motus_run *);    /* size of the shorter last step; 0: there is none */
 MOTUS_API int64_t motus_run_evaluations(const motus_run *); /* of the acceleration by steps; observing counts none */
-MOTUS_API int64_t motus_run_iterations(const motus_run *);  /* of Newton's method, in all steps */
+MOTUS_API int64_t motus_run_iterations(const motus_run *);  /* in which implicit equations are solved, in all steps */
 MOTUS_API const char *motus_run_method(const motus_run *);
 MOTUS_API const char *motus_run_machine(const motus_run *); /* "interpreter", "compiled", "callback" */
 /* All that a run has done so far. */
@@ -589,7 +589,7 @@ typedef struct motus_statistics {
     int64_t steps;                /* taken in all legs, shorter last ones included */
     int64_t refused;              /* steps that error control refused; 0 where the step size is fixed */
     int64_t evaluations;          /* of the acceleration by taken and refused steps; observing counts none */
-    int64_t iterations;           /* of Newton's method, by both */
+    int64_t iterations;           /* in which implicit equations are solved, by both */
     double first_step, last_step; /* sizes of the first and of the latest step taken, > 0; NaN before the first */
     /* Of a run that locates switches. How many it has passed; -1: it cannot locate them, or was not asked to. The
      * lowest derivative of the acceleration along the motion that jumped at one of them, or became infinite: 0 the
@@ -675,7 +675,7 @@ typedef enum motus_event {
      *     the end:   v₀ + step Σ weight a,   x₀ + step Σ weight v = x₀ + step v₀ + step² Σ weight_x a
      * (newmark has the forms with row_x and weight_x only). */
     MOTUS_EVENT_STAGE,
-    /* The following stages solve an implicit equation, with `iterations` of Newton's method. */
+    /* The following stages solve an implicit equation, in `iterations`: Newton's, or insertions. */
     MOTUS_EVENT_SOLVE,
     /* The first step of a recurrence, from Taylor's formula: x = x₀ + step v₀ + step²/2 a, with the a of START. */
     MOTUS_EVENT_TAYLOR,
@@ -689,7 +689,7 @@ typedef enum motus_event {
 typedef struct motus_trace_entry {
     motus_event kind;
     int stage, stages;         /* the stage, from 1, and how many there are; START, SOLVE, END: stage 0 */
-    int64_t iterations;        /* of Newton's method, in this step so far */
+    int64_t iterations;        /* of the implicit equation, in this step so far */
     double time, step;         /* step: negative in a run that goes backward; the last one may be shorter */
     double coefficient;        /* of a kick or a drift; of a stage its abscissa: in units of the step */
     double weight, weight_x;   /* of a stage */

@@ -174,7 +174,9 @@ static void add_family(emit_text *t, const composition *c)
 #define TEXT_OF(NAME, name, shared) [NAME] = {"step/" #name ".h", shared},
         FAMILIES(TEXT_OF)};
     const row *r = c->chosen->row;
-    if (stepper_plan(c->problem, c->chosen, NULL).solves)
+    const work plan = stepper_plan(c->problem, c->chosen, NULL);
+    if (plan.solves || plan.iterates) add_text(t, "step/judge.h");
+    if (plan.solves)
         add_text(t, "step/newton.h");
     else
         emit_add(t, "#define NEWTON_NOW (-1)\n#define newton_increment(w, g, s, u, stage) STEP_OK\n#define "
@@ -273,7 +275,8 @@ static void add_operations(emit *e, int width)
 static bool by_number(const composition *c)
 {
     const work plan = stepper_plan(c->problem, c->chosen, NULL);
-    return c->chosen->row->family != EXACT && !c->chosen->row->adaptive && !plan.solves && !plan.means;
+    return c->chosen->row->family != EXACT && !c->chosen->row->adaptive && !plan.solves && !plan.iterates &&
+           !plan.means;
 }
 
 static void add_windows(emit *e)

@@ -4,7 +4,8 @@
  * the left ones of Radau, 0 among them, those of P[s] + P[s-1]. Quadrature at either is exact for products of two
  * polynomials of degree less than s, so Lagrange's polynomials are l[j] = b[j] Σ (2k + 1) P[k](c[j]) P[k], k < s, with
  * 1/b[j] = Σ (2k + 1) P[k](c[j])², and no matrix has to be inverted [HW96, IV.5]. Their integrals follow from
- * (2k + 1) ∫ P[k] = (P[k+1] - P[k-1])/2, where P[-1] stands for -1, which makes the integral begin at 0.
+ * (2k + 1) ∫ P[k] = (P[k+1] - P[k-1])/2, where P[-1] stands for -1, which makes the integral begin at 0; those of the
+ * integrals alike, where the integral of P[-1] is minus that of P[0].
  *
  * Invariant: all is computed in pairs, so a coefficient is the exact one, rounded once.
  */
@@ -86,6 +87,16 @@ static pair collocation_integral(const collocation *n, int j, const pair *q)
     return pair_product(pair_product(n->weight[j], pair_of((coef)1 / 2)), sum);
 }
 
+/* The integral of the integral of l[j], where those of the P[k] have the values `once`. */
+static pair collocation_twice(const collocation *n, int j, const pair *once)
+{
+    pair sum = pair_of(0);
+    for (int k = 0; k < n->stages; k++)
+        sum = pair_sum(sum,
+                       pair_product(n->p[j][k], pair_difference(once[k + 1], k ? once[k - 1] : pair_minus(once[0]))));
+    return pair_product(pair_product(n->weight[j], pair_of((coef)1 / 2)), sum);
+}
+
 static void collocation_make(collocation *n, int stages, bool left)
 {
     n->stages = stages;
@@ -118,17 +129,40 @@ static void collocation_ahead(const collocation *n, coef *ahead)
     }
 }
 
-/* The constants of tableau.h: a and b, aa = A² and bb = bA. */
-static void collocation_fill(const work *w, const collocation *n, coef *unit)
+/* The constants of tableau.h: a and b; for positions the square of a, as the formulas for (x, v)' = (v, a) have it, or
+ * `twice`: the integrals of the integrals of l[j], which belong to the polynomial of a. */
+static void collocation_fill(const work *w, const collocation *n, bool twice, coef *unit)
 {
     const int s = n->stages;
-    for (int i = 0; i <= s; i++) /* the last row is the end of the step */
+    for (int i = 0; i <= s; i++) { /* the last row is the end of the step */
+        const pair *row = i < s ? n->integral[i] : n->weight;
+        pair p[TABLEAU_COUPLED_MAX + 2], once[TABLEAU_COUPLED_MAX + 1];
+        collocation_legendre(i < s ? n->place[i] : pair_of(1), s + 1, p);
+        once[0] = pair_product(pair_sum(p[1], p[0]), pair_of((coef)1 / 2));
+        for (int k = 1; k <= s; k++)
+            once[k] = pair_quotient(pair_difference(p[k + 1], p[k - 1]), pair_of((coef)(4 * k + 2)));
         for (int j = 0; j < s; j++) {
-            const pair *row = i < s ? n->integral[i] : n->weight;
             pair sum = pair_of(0);
-            for (int l = 0; l < s; l++) sum = pair_sum(sum, pair_product(row[l], n->integral[l][j]));
+            for (int l = 0; l < s && !twice; l++) sum = pair_sum(sum, pair_product(row[l], n->integral[l][j]));
             unit[(i < s ? tableau_a(w, i) : tableau_b(w)) + j] = row[j].high;
-            unit[(i < s ? tableau_aa(w, i) : tableau_bb(w)) + j] = sum.high;
+            unit[(i < s ? tableau_aa(w, i) : tableau_bb(w)) + j] =
+                twice ? collocation_twice(n, j, once).high : sum.high;
+        }
+    }
+}
+
+/* By how much the polynomial through the accelerations changes at node j, where node i changes by 1, those before i
+ * stay, and its divided differences beyond i stay [Everhart85]. */
+static void collocation_spread(const collocation *n, coef *spread)
+{
+    const int s = n->stages;
+    for (int i = 0; i < s; i++)
+        for (int j = 0; j < s; j++) {
+            pair product = pair_of(1);
+            for (int l = 0; l < i; l++)
+                product = pair_product(product, pair_quotient(pair_difference(n->place[j], n->place[l]),
+                                                              pair_difference(n->place[i], n->place[l])));
+            spread[i * s + j] = product.high;
         }
 }
 #endif

@@ -4,31 +4,13 @@
  *
  * Collocation begins each step with the polynomial of the step before, extrapolated, and inserts the stages into their
  * equation; where that contracts slowly Newton's method takes over. Of an affine equation, whose matrix is factored
- * once, and of a single stage, the iteration is Newton's from the start. It is simplified: one matrix a step, evaluated in
- * the middle of the stages, and evaluated again where the iteration does not contract.
+ * once, and of a single stage, the iteration is Newton's from the start. It is simplified: one matrix a step,
+ * evaluated in the middle of the stages, and evaluated again where the iteration does not contract.
  *
  * Invariant: the unknowns are the stages' accelerations, so the round-off of the solution reaches the state
  * multiplied by h; the iteration ends when they no longer change. What a step begins with is carried from the step
  * before.
  */
-/* Where in `unit` the values of Lagrange's polynomials at the stages of the next step begin. */
-static inline int implicit_ahead(const work *w) { return tableau_bb(w) + FACT(w, stages); }
-
-static inline void implicit_place_of(work *w, int i)
-{
-    const real *restrict x = w->x, *restrict v = w->v, *restrict K = w->ks;
-    const int s = FACT(w, stages), aa = tableau_aa(w, i);
-    const clock ch = w->c[i] * w->h;
-    EACH(k) w->xs[k] = x[k] + FMA(ch, v[k], tableau_sum(w, aa, false, K, k, s));
-}
-
-static inline void implicit_speed_of(work *w, int i)
-{
-    const real *restrict v = w->v, *restrict K = w->ks;
-    const int s = FACT(w, stages), a = tableau_a(w, i);
-    EACHV(k) w->vs[k] = v[k] + tableau_sum(w, a, false, K, k, s);
-}
-
 /* Factors the matrix at the mean of the unknown stages, by Taylor's formula with the present acceleration of the
  * first. */
 static inline int implicit_matrix(work *w, mask *where)
@@ -55,7 +37,8 @@ static inline int implicit_matrix(work *w, mask *where)
 typedef struct implicit_iteration {
     mask open;        /* the equation is not solved yet */
     mask newton;      /* by Newton's method */
-    real before;      /* newton_judge's */
+    mask contracts;   /* of insertion: judge_doubts */
+    real before;      /* judge_corrections's */
     real renewed;     /* matrices that were evaluated anew */
     int turns, begun; /* begun: the turn with which Newton's method began */
 } implicit_iteration;
@@ -68,26 +51,11 @@ static inline int implicit_start(work *w)
     return accel_now(w, w->xs, w->vs, w->a);
 }
 
-/* The polynomial through the stages of the step before, at those of this one. */
-static inline void implicit_extrapolate(work *w)
-{
-    const int s = FACT(w, stages);
-    const size_t stride = w->stride;
-    const coef *ahead = w->unit + implicit_ahead(w);
-    EACHV(k) {
-        real next[TABLEAU_COUPLED_MAX];
-        for (int i = 0; i < s; i++) {
-            next[i] = ahead[i * s] * w->ks[k];
-            for (int j = 1; j < s; j++) next[i] = FMA(ahead[i * s + j], w->ks[(size_t)j * stride + k], next[i]);
-        }
-        for (int i = 0; i < s; i++) w->ks[(size_t)i * stride + k] = next[i];
-    }
-}
-
 static inline int implicit_begin(work *w, implicit_iteration *it)
 {
     const bool newton = !FACT(w, kept) || FACT(w, affine);
-    *it = (implicit_iteration){.open = ALWAYS, .newton = newton ? ALWAYS : NEVER, .before = (real){0} - 1};
+    *it = (implicit_iteration){
+        .open = ALWAYS, .newton = newton ? ALWAYS : NEVER, .contracts = NEVER, .before = (real){0} - 1};
     if (!FACT(w, kept) || FIRST(w)) {
         /* newmark's last stage is the next step's first */
         int bad = !FACT(w, known) || FIRST(w) ? implicit_start(w) : STEP_OK;
@@ -95,26 +63,30 @@ static inline int implicit_begin(work *w, implicit_iteration *it)
         for (int i = 0; i < FACT(w, stages); i++)
             EACHV(k) w->ks[(size_t)i * w->stride + k] = w->a[k];
     } else {
-        implicit_extrapolate(w);
+        tableau_extrapolate(w, 0);
     }
     mask regular = ALWAYS; /* an equation whose matrix is not will be lost in the first turn */
     return newton ? implicit_matrix(w, &regular) : STEP_OK;
 }
 
-static inline bool implicit_goes_on(const implicit_iteration *it) { return it->turns < NEWTON_MAX && SOME(it->open); }
+/* open: in this iteration, or in any of those whose turns are taken beside it */
+static inline bool implicit_more(const implicit_iteration *it, mask open)
+{
+    return it->turns < JUDGE_TURNS_MAX && SOME(open);
+}
 
 /* Corrects K by r, in the lanes of Newton's method by the solution of its equation, and judges the corrections. */
-static inline newton_verdict implicit_correct(work *w, implicit_iteration *it, real *K, int s)
+static inline judge_verdict implicit_correct(work *w, implicit_iteration *it, real *K, int s)
 {
-    newton_verdict all = {NEVER, NEVER, NEVER};
+    judge_verdict all = {NEVER, NEVER, NEVER};
     for (int way = 0; way < 2; way++) {
         const mask mine = way ? it->newton : NOT(it->newton);
         if (!SOME(it->open & mine)) continue;
         if (way) solve_back(w, w->r);
         for (int i = 0; i < s; i++)
-            newton_correct(w, it->open & mine, K + (size_t)i * w->stride, w->r + (size_t)i * w->stride);
+            judge_correct(w, it->open & mine, K + (size_t)i * w->stride, w->r + (size_t)i * w->stride);
         real before = it->before;
-        const newton_verdict now = newton_judge(w, w->r, K, s, w->v, w->per_h, &before);
+        const judge_verdict now = judge_corrections(w, w->r, K, s, w->v, w->per_h, &before);
         it->before = PICK(mine, before, it->before);
         all.done = all.done | (mine & now.done);
         all.stuck = all.stuck | (mine & now.stuck);
@@ -146,21 +118,22 @@ static inline int implicit_hand_over(work *w, implicit_iteration *it, mask slow,
 
 static inline int implicit_turn(work *w, implicit_iteration *it)
 {
-    enum { PATIENCE = 8, RENEWALS = 6, INSERTIONS = 24 };
+    enum { PATIENCE = 8, RENEWALS = 6, INSERTIONS = 10 };
     const int first = FACT(w, known), s = FACT(w, stages) - first, turn = it->turns++;
     const size_t stride = w->stride;
     real *K = w->ks + (size_t)first * stride;
     for (int i = 0; i < s; i++) {
         real *r = w->r + (size_t)i * stride;
-        implicit_place_of(w, first + i);
-        if (FACT(w, velocity)) implicit_speed_of(w, first + i);
+        tableau_place(w, first + i);
+        if (FACT(w, velocity)) tableau_speed(w, first + i);
         int bad = accel_in(w, first + i, w->xs, w->vs, r);
         if (bad) return bad;
         EACHV(k) r[k] -= K[(size_t)i * stride + k];
     }
     const real last = it->before;
-    const newton_verdict now = implicit_correct(w, it, K, s);
+    judge_verdict now = implicit_correct(w, it, K, s);
     w->iterations++;
+    now.done = now.done & (it->newton | NOT(judge_doubts(it->before, last, turn, &it->contracts)));
     /* one that shrinks less than to a quarter needs more turns than Newton's method costs */
     const mask weak = (last >= 0) & (4 * it->before > last) & (it->before > 64 * SQRT_EPSILON),
                slow = it->open & NOT(it->newton) & NOT(now.done) &
@@ -184,23 +157,13 @@ static inline int implicit_turn(work *w, implicit_iteration *it)
 
 static inline int implicit_end(work *w, const implicit_iteration *it)
 {
-    real *restrict x = w->x, *restrict v = w->v, *restrict ex = w->ex, *restrict ev = w->ev;
-    const real *restrict K = w->ks;
-    const size_t stride = w->stride;
-    const clock h = w->h;
-    const int s = FACT(w, stages), b = tableau_b(w), bb = tableau_bb(w);
-    if (it->turns == NEWTON_MAX) STOP(w, it->open, STEP_SOLVE);
-    for (int i = 0; i < s; i++) SPOIL(w, w->ks + (size_t)i * stride);
+    const int s = FACT(w, stages);
+    if (it->turns == JUDGE_TURNS_MAX) STOP(w, it->open, STEP_SOLVE);
+    for (int i = 0; i < s; i++) SPOIL(w, w->ks + (size_t)i * w->stride);
     TRACE(w, s - 1);
-    if (ROW(w, compensated)) {
-        EACH(k) ADVANCE_COMPENSATED(x[k], ex[k], 1, FMA(h, v[k], tableau_sum(w, bb, false, K, k, s)));
-        EACHV(k) ADVANCE_COMPENSATED(v[k], ev[k], 1, tableau_sum(w, b, false, K, k, s));
-    } else {
-        EACH(k) x[k] += FMA(h, v[k], tableau_sum(w, bb, false, K, k, s));
-        EACHV(k) v[k] += tableau_sum(w, b, false, K, k, s);
-    }
+    tableau_finish(w);
     if (FACT(w, known))
-        EACHV(k) w->a[k] = K[(size_t)(s - 1) * stride + k];
+        EACHV(k) w->a[k] = w->ks[(size_t)(s - 1) * w->stride + k];
     return STEP_OK;
 }
 
@@ -208,7 +171,7 @@ static int implicit_step(work *w)
 {
     implicit_iteration it;
     int bad = implicit_begin(w, &it);
-    while (!bad && implicit_goes_on(&it)) bad = implicit_turn(w, &it);
+    while (!bad && implicit_more(&it, it.open)) bad = implicit_turn(w, &it);
     return bad ? bad : implicit_end(w, &it);
 }
 #define implicit_accept step_is_final
@@ -252,7 +215,8 @@ static void implicit_plan(work *w, const double argument[2], coef *unit, coef *c
     tableau_sizes(w, m->newmark ? 2 : m->tableau.stages);
     w->known = m->newmark;
     w->kept = w->stages > 1 && !m->newmark ? w->stages : 0;
-    w->squares += w->kept * w->kept; /* implicit_ahead, which no step multiplies */
+    w->squares += w->kept * w->kept; /* tableau_ahead */
+    w->iterates = true;
     w->solves = w->stages - w->known;
     w->solves_x = !m->newmark || argument[0] != 0;
     w->direct = !w->solves_x && (!w->velocity || w->linear);
@@ -264,8 +228,8 @@ static void implicit_plan(work *w, const double argument[2], coef *unit, coef *c
     collocation nodes;
     collocation_make(&nodes, w->stages, false);
     for (int i = 0; i < w->stages; i++) c[i] = collocation_abscissa(&nodes, i);
-    collocation_fill(w, &nodes, unit);
-    if (w->kept) collocation_ahead(&nodes, unit + implicit_ahead(w));
+    collocation_fill(w, &nodes, false, unit);
+    if (w->kept) collocation_ahead(&nodes, unit + tableau_ahead(w, 0));
 }
 #endif
 
@@ -274,11 +238,6 @@ static void implicit_plan(work *w, const double argument[2], coef *unit, coef *c
 static void implicit_trace(work *w, int i)
 {
     if (i < 0) return;
-    tell(w, (trace_event){.kind = MOTUS_EVENT_SOLVE, .time = time_now(w)});
-    for (int j = 0; j < w->stages; j++) {
-        implicit_place_of(w, j);
-        implicit_speed_of(w, j);
-        tableau_tell(w, j, w->xs, w->vs, w->ks + (size_t)j * w->stride);
-    }
+    tableau_tell_solved(w);
 }
 #endif

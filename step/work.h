@@ -121,6 +121,7 @@ typedef struct work {
     int kept;      /* stages that lead to the next step */
     int solves;    /* stages that are coupled in one equation; 0: nothing is solved */
     bool solves_x; /* that equation contains da/dx */
+    bool iterates; /* an equation is solved by turns */
     bool direct;   /* it is linear in the unknowns, so that one solve is exact */
     /* first same as last: the closing kick of a step waits for the opening kick of the next */
     bool fsal;

@@ -16,7 +16,7 @@
 typedef size_t method;
 
 /* SPLITTING_MAX: stages of a splitting row; COUPLED_MAX: those of an implicit one, and GENERATED_MAX its constants */
-enum { DIMENSIONS = 4, SPLITTING_MAX = 40, COUPLED_MAX = 8, GENERATED_MAX = 3 * COUPLED_MAX * (COUPLED_MAX + 1) };
+enum { DIMENSIONS = 4, SPLITTING_MAX = 40, COUPLED_MAX = 8, GENERATED_MAX = 4 * COUPLED_MAX * (COUPLED_MAX + 1) };
 
 /* x'' = a(x, v, t), then s' = f, over quads. Polynomial and rational, since no library function has 33 digits. */
 typedef struct quad_problem {

@@ -46,7 +46,7 @@ static void slope(method m, const double *argument, const char *name, int order,
     double errors[POINTS_MAX];
     int points = 0;
     /* High orders leave room for few halvings: they take 2, 3, 4, 6, 8, 12, … steps, each half of the next but one. */
-    const int apart = high ? 2 : 1, needed = 1 + 2 * apart;
+    const int apart = high ? 2 : 1, needed = 3;
     for (int64_t n = high ? 2 : 4; points < POINTS_MAX; n += high ? (n & (n - 1) ? n / 3 : n / 2) : n) {
         quad_state end = start;
         if (quad_run(m, argument, p, 0, span / (quad)n, n, &end).bad) continue;
@@ -61,8 +61,8 @@ static void slope(method m, const double *argument, const char *name, int order,
         judge(false, name, law, "only %d usable steps", points);
         return;
     }
-    const double before = errors[points - 1 - 2 * apart] - errors[points - 1 - apart],
-                 last = errors[points - 1 - apart] - errors[points - 1];
+    const double last = errors[points - 1 - apart] - errors[points - 1],
+                 before = high ? NAN : errors[points - 3] - errors[points - 2];
     const double margin = high ? 0.5 : fmin(0.1, 1.5 * fabs(last - before) + 0.02);
     judge(fabs(last - order) <= margin, name, law, "observed %.3f, declared %d, margin %.3f", last, order, margin);
 }

@@ -205,7 +205,7 @@ quad_count quad_run(method k, const double *argument, const quad_problem *p, qua
 int quad_generated_of(method k, quad *constants, quad *c)
 {
     const row *m = &methods_table[k];
-    if (m->family != IMPLICIT || m->newmark) return 0;
+    if (m->family != RADAU && (m->family != IMPLICIT || m->newmark)) return 0;
     const work *w = plan_of(m, NULL, &quad_problems[FREE_FALL]);
     memcpy(constants, w->unit, work_constants(w) * sizeof *constants);
     memcpy(c, w->c, (size_t)w->stages * sizeof *c);

@@ -96,10 +96,20 @@ static quad limit_of(method m)
     return (quad)INFINITY;
 }
 
+/* Whether what is seen at z is the error of a step, h^(order + 1), which at smaller steps is only too small to be seen:
+ * then the motion grows at every step. */
+static bool creeps(method m, quad z)
+{
+    const quad there = worse(growth_at(m, z)), half = worse(growth_at(m, z / 2));
+    return there > 0 && half > 0 && fabs(quad_log2(there / half) - (row_card(m)->order + 1)) < 0.5;
+}
+
 static void limit(method m)
 {
     const motus_method *card = row_card(m);
-    const double found = (double)limit_of(m), stored = card->stability_limit;
+    const quad first = limit_of(m);
+    const double found = isfinite((double)first) && first > 0 && creeps(m, first) ? 0 : (double)first,
+                 stored = card->stability_limit;
     const bool same = found == stored || (isfinite(found) && fabs(found - stored) <= 2 * DBL_EPSILON * found);
     char right[40];
     snprintf(right, sizeof right, isinf(found) ? "INFINITY" : found == 0 ? "0.0" : "%.17g", found);

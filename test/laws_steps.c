@@ -63,7 +63,7 @@ static bool recurrence(const row *r) { return r->family == VERLET || r->family =
 static bool by_time(method m)
 {
     const row *r = &methods_table[m];
-    return r->family == IMPLICIT || recurrence(r) || (r->family == SPLITTING && takes_v(m));
+    return r->family == IMPLICIT || r->family == RADAU || recurrence(r) || (r->family == SPLITTING && takes_v(m));
 }
 
 /* The tableau of one step, with stages at the places of `as`. Returns the largest violation of what holds for any
@@ -218,7 +218,7 @@ static void as_collocation(method m)
     const quad off = tableau_of(m, NULL, &nodes, &done);
     judge(off <= 64 * QUAD_EPSILON, row_card(m)->name, "steps as a tableau", "%d stages, off by %.1e", done.stages,
           (double)off);
-    proof_of_collocation(row_card(m)->name, &done, row_card(m)->order);
+    proof_of_collocation(row_card(m)->name, &done, methods_table[m].family == RADAU, row_card(m)->order);
     if (trees_count(TREES_ROOTED, row_card(m)->order + 1))
         proof_of_scheme(row_card(m)->name, TREES_ROOTED, &done, row_card(m)->order);
     rounded_once(m);
@@ -229,7 +229,7 @@ void laws_of_steps(void)
     for (method m = 0; m < row_count(); m++) {
         if (methods_table[m].newmark)
             of_newmark(m);
-        else if (methods_table[m].family == IMPLICIT)
+        else if (methods_table[m].family == IMPLICIT || methods_table[m].family == RADAU)
             as_collocation(m);
         else if (recurrence(&methods_table[m]))
             as_recurrence(m);

@@ -21,19 +21,24 @@ static void reversal(method m, const quad_problem *p)
 {
     enum { STEPS = 12 };
     const motus_method *card = row_card(m);
-    const quad h = Q(0.0625);
+    /* The error of a high order shows at long steps alone, as far as its equations have solutions there. */
+    const bool high = !card->reversible && card->order > 8;
     const quad_state start = start_of(p);
     quad_state s = start;
-    quad_count count = quad_run(m, NULL, p, 0, h, STEPS, &s);
-    if (!count.bad) count = quad_run(m, NULL, p, STEPS * h, -h, STEPS, &s);
+    quad_count count = {.bad = 1};
+    for (quad h = high ? Q(1.0) : Q(0.0625); count.bad && h > Q(0.01); h /= 2) {
+        s = start;
+        count = quad_run(m, NULL, p, 0, h, STEPS, &s);
+        if (!count.bad) count = quad_run(m, NULL, p, STEPS * h, -h, STEPS, &s);
+    }
     const quad off = quad_distance(p, &s, &start);
     char law[64];
     snprintf(law, sizeof law, "%s on %s", card->reversible ? "reversal" : "no reversal", p->name);
     /* Reversible rows return up to rounding, and as exactly as their drifts reach the middle of the step, which time-
      * dependent forces depend on. The smallest error of the others, at order 4, is near 1e-9. */
     const quad bound = Q(1e-28) + quad_looseness(m);
-    judge(!count.bad && (card->reversible ? off < bound : off > Q(1e-13)), card->name, law, "returns within %.1e",
-          (double)off);
+    judge(!count.bad && (card->reversible ? off < bound : off > (high ? Q(1e-22) : Q(1e-13))), card->name, law,
+          "returns within %.1e", (double)off);
 }
 
 /* J' S J - S for the map over some steps, J by central differences: truncation d², rounding epsilon/d. Also det J. */
@@ -41,7 +46,7 @@ static void canonical(method m, const quad_problem *p)
 {
     enum { STEPS = 3 };
     const motus_method *card = row_card(m);
-    const quad d = Q(1e-11), h = Q(0.25);
+    const quad d = Q(1e-11), h = !card->symplectic && card->order > 8 ? Q(2.0) : Q(0.25);
     const int n = (int)p->nx;
     quad j[2 * DIMENSIONS][2 * DIMENSIONS], most = 0;
     for (int c = 0; c < 2 * n; c++) {
@@ -64,7 +69,7 @@ static void canonical(method m, const quad_problem *p)
         }
     char law[64];
     snprintf(law, sizeof law, "%s on %s", card->symplectic ? "symplectic" : "not symplectic", p->name);
-    judge(card->symplectic ? most < Q(1e-17) : most > Q(1e-7), card->name, law, "J'SJ - S: %.1e", (double)most);
+    judge(card->symplectic ? most < Q(1e-17) : most > Q(1e-9), card->name, law, "J'SJ - S: %.1e", (double)most);
 }
 
 /* With a force E + v × B implicit kicks preserve volume as drifts do, though they are not symplectic: such a kick is

@@ -169,7 +169,7 @@ static void position(const step *s, const char *name, const double *x, double c,
             add(&by_a, row_x[j] * s->h * s->h, stage[j].a[k]);
         }
         by_a.size += by_v.size;
-        if (strncmp(s->method, "newmark", 7))
+        if (strncmp(s->method, "newmark", 7) && strcmp(s->method, "radau15"))
             reaches(s, name, k, x[k], by_v, (double)by_a.size * ROUNDINGS * DBL_EPSILON / 2);
         reaches(s, name, k, x[k], by_a, 0);
     }
@@ -324,7 +324,7 @@ void trace_replay(const motus_system *system, const motus_method *m, const motus
         splitting(&s, m);
     else if (!strcmp(m->family, "runge-kutta"))
         tableau(&s, m, false);
-    else if (!strcmp(m->family, "implicit"))
+    else if (!strcmp(m->family, "implicit") || !strcmp(m->family, "radau"))
         tableau(&s, m, true);
     else if (!strcmp(m->family, "two-step"))
         recurrence(&s, before_x, before_a);
