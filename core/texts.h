@@ -1,11 +1,11 @@
 /* The texts of step/ in their order, with every family, for an includer that has defined the macros and functions that
  * work.h lists. Nothing here is an operation on the state, so all includers get the same bits.
  */
-#include "step/dense.h"
 #include "step/judge.h"
 #include "step/newton.h"
 #include "step/operators.h"
 #include "step/tableau.h"
+#include "step/dense.h"
 #include "step/pair.h"
 #include "step/collocation.h"
 #define FAMILY_TEXTS

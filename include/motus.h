@@ -635,7 +635,7 @@ MOTUS_API motus_status motus_run_values(motus_run *, const size_t *columns, size
 MOTUS_API motus_status motus_run_jacobian(motus_run *, double *da_dx, double *da_dv, motus_error *);
 /* Columns at given times, which follow the direction of the run and end at or before `until`. The call takes steps as
  * needed; between steps it evaluates the quintic Hermite polynomial through (x, v, a) at both ends of the step (local
- * error h^6), which does not change the run. out: time_count rows of `count` numbers. MOTUS_ARGUMENT: a time lies
+ * error h^6), or of collocation with more than four stages its own, which does not change the run. out: time_count rows of `count` numbers. MOTUS_ARGUMENT: a time lies
  * beyond the end, or before the run's last step. Fails besides as motus_run_step and motus_run_values do. */
 MOTUS_API motus_status motus_run_sample(motus_run *, const double *times, size_t time_count, const size_t *columns,
                                         size_t count, double *out, motus_error *);

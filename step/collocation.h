@@ -151,6 +151,15 @@ static void collocation_fill(const work *w, const collocation *n, bool twice, co
     }
 }
 
+/* (2k + 1) b[j] P[k](c[j]). */
+static void collocation_series(const collocation *n, coef *series)
+{
+    const int s = n->stages;
+    for (int k = 0; k < s; k++)
+        for (int j = 0; j < s; j++)
+            series[k * s + j] = pair_product(pair_of((coef)(2 * k + 1)), pair_product(n->weight[j], n->p[j][k])).high;
+}
+
 /* By how much the polynomial through the accelerations changes at node j, where node i changes by 1, those before i
  * stay, and its divided differences beyond i stay [Everhart85]. */
 static void collocation_spread(const collocation *n, coef *spread)

@@ -177,7 +177,7 @@ static int implicit_step(work *w)
 #define implicit_accept step_is_final
 #define implicit_observe state_is_complete
 #define implicit_sync work_sync_main
-#define implicit_dense dense_hermite
+#define implicit_dense dense_stages
 
 static int implicit_carry(const work *w, real *list[CARRY_MAX])
 {
@@ -215,7 +215,7 @@ static void implicit_plan(work *w, const double argument[2], coef *unit, coef *c
     tableau_sizes(w, m->newmark ? 2 : m->tableau.stages);
     w->known = m->newmark;
     w->kept = w->stages > 1 && !m->newmark ? w->stages : 0;
-    w->squares += w->kept * w->kept; /* tableau_ahead */
+    w->squares += 2 * w->kept * w->kept; /* tableau_ahead, tableau_series */
     w->iterates = true;
     w->solves = w->stages - w->known;
     w->solves_x = !m->newmark || argument[0] != 0;
@@ -229,7 +229,9 @@ static void implicit_plan(work *w, const double argument[2], coef *unit, coef *c
     collocation_make(&nodes, w->stages, false);
     for (int i = 0; i < w->stages; i++) c[i] = collocation_abscissa(&nodes, i);
     collocation_fill(w, &nodes, false, unit);
-    if (w->kept) collocation_ahead(&nodes, unit + tableau_ahead(w, 0));
+    if (!w->kept) return;
+    collocation_ahead(&nodes, unit + tableau_ahead(w, 0));
+    collocation_series(&nodes, unit + tableau_series(w, 0));
 }
 #endif
 

@@ -71,7 +71,7 @@ static int radau_step(work *w)
 #define radau_accept step_is_final
 #define radau_observe state_is_complete
 #define radau_sync work_sync_main
-#define radau_dense dense_hermite
+#define radau_dense dense_stages
 
 static int radau_carry(const work *w, real *list[CARRY_MAX])
 {
@@ -95,13 +95,14 @@ static void radau_plan(work *w, const double argument[2], coef *unit, coef *c)
     tableau_sizes(w, w->row->tableau.stages);
     w->kept = w->stages;
     w->iterates = true;
-    w->squares += 2 * w->stages * w->stages; /* tableau_ahead, tableau_spread */
+    w->squares += 3 * w->stages * w->stages; /* tableau_ahead, tableau_series, tableau_spread */
     if (!unit) return;
     collocation nodes;
     collocation_make(&nodes, w->stages, true);
     for (int i = 0; i < w->stages; i++) c[i] = collocation_abscissa(&nodes, i);
     collocation_fill(w, &nodes, true, unit);
     collocation_ahead(&nodes, unit + tableau_ahead(w, 0));
+    collocation_series(&nodes, unit + tableau_series(w, 0));
     collocation_spread(&nodes, unit + tableau_spread(w, 0));
 }
 #endif

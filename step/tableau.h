@@ -11,10 +11,15 @@ static inline int tableau_aa(const work *w, int i) { return tableau_b(w) + (1 + 
 static inline int tableau_bb(const work *w) { return 2 * tableau_b(w) + FACT(w, stages); }
 /* of coupled stages: the values of Lagrange's polynomials at stage i of the next step, without a factor h */
 static inline int tableau_ahead(const work *w, int i) { return tableau_bb(w) + (1 + i) * FACT(w, stages); }
+/* the coefficient of Legendre's polynomial k in the polynomial through the stages; without a factor h */
+static inline int tableau_series(const work *w, int k)
+{
+    return tableau_ahead(w, 0) + tableau_b(w) + k * FACT(w, stages);
+}
 /* what a change of stage i does to the others, where they are kept on a polynomial; without a factor h */
 static inline int tableau_spread(const work *w, int i)
 {
-    return tableau_ahead(w, 0) + tableau_b(w) + i * FACT(w, stages);
+    return tableau_series(w, 0) + tableau_b(w) + i * FACT(w, stages);
 }
 
 /* Σ c[j] y[j][k] over `count` stages, c the constants from number `from` on; where `sparse`, without those that are 0

@@ -16,7 +16,7 @@
 typedef size_t method;
 
 /* SPLITTING_MAX: stages of a splitting row; COUPLED_MAX: those of an implicit one, and GENERATED_MAX its constants */
-enum { DIMENSIONS = 4, SPLITTING_MAX = 40, COUPLED_MAX = 8, GENERATED_MAX = 4 * COUPLED_MAX * (COUPLED_MAX + 1) };
+enum { DIMENSIONS = 4, SPLITTING_MAX = 40, COUPLED_MAX = 8, GENERATED_MAX = 5 * COUPLED_MAX * (COUPLED_MAX + 1) };
 
 /* x'' = a(x, v, t), then s' = f, over quads. Polynomial and rational, since no library function has 33 digits. */
 typedef struct quad_problem {
@@ -58,6 +58,8 @@ typedef struct quad_count {
 /* Takes `steps` steps from *state at t0; sets *state to the synchronised state. */
 quad_count quad_run(method, const double *argument, const quad_problem *, quad t0, quad h, int64_t steps,
                     quad_state *state);
+/* The state at the fraction `part` of one step from *state at t0, by dense output. */
+quad_count quad_dense(method, const quad_problem *, quad t0, quad h, quad part, quad_state *state);
 /* One step of Verlet's recursion from two given points. */
 void quad_recursion(const quad_problem *, quad t, quad h, const quad *before, const quad *now, quad *after);
 /* The motion by an extrapolated midpoint rule, which shares no code with step/. */
@@ -82,5 +84,6 @@ void laws_of_order(void);
 void laws_of_structure(void);
 void laws_of_stability(void);
 void laws_of_verlet(void);
+void laws_of_dense(void);
 
 #endif

@@ -146,7 +146,7 @@ bool quad_admits(method k, const quad_problem *p)
            !row_admits(&c, &t, NULL);
 }
 
-enum { ARRAYS_MAX = 7 + 3 * COUPLED_MAX, CONSTANTS_MAX = 8 * (COUPLED_MAX + 1) * (COUPLED_MAX + 1) };
+enum { ARRAYS_MAX = 7 + 3 * COUPLED_MAX, CONSTANTS_MAX = 10 * (COUPLED_MAX + 1) * (COUPLED_MAX + 1) };
 
 /* The plan of the row, kept from one run to the next: a row may have to generate its coefficients. */
 static const work *plan_of(const row *m, const double *argument, const quad_problem *p)
@@ -199,6 +199,24 @@ quad_count quad_run(method k, const double *argument, const quad_problem *p, qua
     count.evaluations = w.evaluations;
     count.iterations = w.iterations;
     if (!count.bad) count.bad = advance_sync(&w, state->x, state->v, NULL);
+    return count;
+}
+
+quad_count quad_dense(method k, const quad_problem *p, quad t0, quad h, quad part, quad_state *state)
+{
+    work w;
+    static dense d;
+    quad memory[ARRAYS_MAX * DIMENSIONS];
+    quad_state ends[2] = {*state, *state};
+    quad a[2][DIMENSIONS] = {{0}};
+    begin(&w, &d, memory, &methods_table[k], NULL, p, t0, h);
+    memcpy(w.x, state->x, p->nx * sizeof *w.x);
+    memcpy(w.v, state->v, p->nv * sizeof *w.v);
+    p->accel(t0, ends[0].x, ends[0].v, a[0]);
+    quad_count count = {.bad = advance_run(&w, 1)};
+    if (!count.bad) count.bad = advance_sync(&w, ends[1].x, ends[1].v, a[1]);
+    const dense_end list[2] = {{t0, ends[0].x, ends[0].v, a[0]}, {t0 + h, ends[1].x, ends[1].v, a[1]}};
+    if (!count.bad) family_dense(&w, list, t0 + part * h, state->x, state->v);
     return count;
 }
 
