@@ -1,8 +1,7 @@
-/* Shared by the families with a tableau: the places of the constants of s stages in `unit` and `scaled`, and the sums
- * over stages.
+/* Shared by the families with a tableau: the places of the constants of s stages in `unit`, and the sums over stages.
  *
- * a (s × s, row by row) and b are multiplied by h; aa = A² and bb = bA, for positions formed from accelerations [HNW93,
- * II.14], by h².
+ * a (s × s, row by row) and b belong to h; aa = A² and bb = bA, for positions formed from accelerations [HNW93, II.14],
+ * to h².
  */
 enum { TABLEAU_COUPLED_MAX = 8 }; /* stages of collocation */
 static inline int tableau_a(const work *w, int i) { return i * FACT(w, stages); }
@@ -22,22 +21,35 @@ static inline int tableau_spread(const work *w, int i)
     return tableau_series(w, 0) + tableau_b(w) + i * FACT(w, stages);
 }
 
-/* Σ c[j] y[j][k] over `count` stages, c the constants from number `from` on; where `sparse`, without those that are 0
- * in the row. */
-static inline real tableau_sum(const work *w, int from, bool sparse, const real *restrict y, size_t k, int count)
+/* Σ c[j] y[j][k] over `count` stages, c the scaled constants from number `from` on. */
+static inline real tableau_sum(const work *w, int from, const real *restrict y, size_t k, int count)
 {
-    real sum = {0};
-    bool first = true;
+    real sum = w->scaled[from] * y[k];
+    for (int j = 1; j < count; j++) sum = FMA(w->scaled[from + j], y[(size_t)j * w->stride + k], sum);
+    return sum;
+}
+
+/* The same of the constants themselves, without those that are 0 in the row, added to `sum` where there is one. The
+ * step multiplies the whole sum: h/6 would be rounded alike in every step, and the motion run too fast or too slow. */
+static inline real tableau_weigh(const work *w, int from, const real *restrict y, size_t k, int count, bool more,
+                                 real sum)
+{
     EACH_STAGE(j, count) {
-        if (sparse && !LIVE(w, from + j)) continue;
-        real term = y[(size_t)j * w->stride + k];
-        if (first)
-            sum = w->scaled[from + j] * term;
-        else
-            sum = FMA(w->scaled[from + j], term, sum);
-        first = false;
+        if (!LIVE(w, from + j)) continue;
+        const real term = y[(size_t)j * w->stride + k];
+        const coef c = FACT(w, unit)[from + j];
+        sum = more ? FMA(c, term, sum) : c * term;
+        more = true;
     }
     return sum;
+}
+
+/* Whether some of `count` constants is not 0. */
+static inline bool tableau_any(const work *w, int from, int count)
+{
+    bool any = false;
+    EACH_STAGE(j, count) any = any || LIVE(w, from + j);
+    return any;
 }
 
 /* Coupled stages: position and velocity of stage i from the accelerations of all. */
@@ -46,14 +58,14 @@ static inline void tableau_place(work *w, int i)
     const real *restrict x = w->x, *restrict v = w->v, *restrict K = w->ks;
     const int s = FACT(w, stages), aa = tableau_aa(w, i);
     const clock ch = w->c[i] * w->h;
-    EACH(k) w->xs[k] = x[k] + FMA(ch, v[k], tableau_sum(w, aa, false, K, k, s));
+    EACH(k) w->xs[k] = x[k] + FMA(ch, v[k], tableau_sum(w, aa, K, k, s));
 }
 
 static inline void tableau_speed(work *w, int i)
 {
     const real *restrict v = w->v, *restrict K = w->ks;
     const int s = FACT(w, stages), a = tableau_a(w, i);
-    EACHV(k) w->vs[k] = v[k] + tableau_sum(w, a, false, K, k, s);
+    EACHV(k) w->vs[k] = v[k] + tableau_sum(w, a, K, k, s);
 }
 
 /* The end of the step. */
@@ -64,11 +76,11 @@ static inline void tableau_finish(work *w)
     const clock h = w->h;
     const int s = FACT(w, stages), b = tableau_b(w), bb = tableau_bb(w);
     if (ROW(w, compensated)) {
-        EACH(k) ADVANCE_COMPENSATED(x[k], ex[k], 1, FMA(h, v[k], tableau_sum(w, bb, false, K, k, s)));
-        EACHV(k) ADVANCE_COMPENSATED(v[k], ev[k], 1, tableau_sum(w, b, false, K, k, s));
+        EACH(k) ADVANCE_COMPENSATED(x[k], ex[k], 1, FMA(h, v[k], tableau_sum(w, bb, K, k, s)));
+        EACHV(k) ADVANCE_COMPENSATED(v[k], ev[k], 1, tableau_sum(w, b, K, k, s));
     } else {
-        EACH(k) x[k] += FMA(h, v[k], tableau_sum(w, bb, false, K, k, s));
-        EACHV(k) v[k] += tableau_sum(w, b, false, K, k, s);
+        EACH(k) x[k] += FMA(h, v[k], tableau_sum(w, bb, K, k, s));
+        EACHV(k) v[k] += tableau_sum(w, b, K, k, s);
     }
 }
 
@@ -95,25 +107,22 @@ static void tableau_sizes(work *w, int stages)
     w->linears = w->squares = stages * stages + stages;
 }
 
-/* Reads a, below the diagonal alone, and b, and forms aa and bb. */
-static void tableau_fill(work *w, const coef *given_a, const coef *given_b, coef *unit)
+/* hi + lo += a b, unevaluated: the rounding errors of product and sum go to lo. */
+static void tableau_add(coef *hi, coef *lo, coef a, coef b)
 {
-    const int s = w->stages;
-    coef *a = unit, *b = unit + tableau_b(w), *aa = unit + tableau_aa(w, 0), *bb = unit + tableau_bb(w);
-    for (int i = 0; i < s; i++) {
-        b[i] = given_b[i];
-        bb[i] = 0;
-        for (int j = 0; j < s; j++) {
-            a[i * s + j] = j < i ? given_a[i * (i - 1) / 2 + j] : 0;
-            aa[i * s + j] = 0;
-        }
+    const coef p = a * b, error = FMA(a, b, -p), s = *hi + p, part = s - *hi;
+    *lo += ((*hi - (s - part)) + (p - part)) + error;
+    *hi = s;
+}
+
+/* Row r of s numbers times the s × s matrix a; every entry is rounded once. */
+static void tableau_times(int s, const coef *r, const coef *a, coef *out)
+{
+    for (int j = 0; j < s; j++) {
+        coef hi = 0, lo = 0;
+        for (int l = 0; l < s; l++) tableau_add(&hi, &lo, r[l], a[l * s + j]);
+        out[j] = hi + lo;
     }
-    for (int i = 0; i < s; i++)
-        for (int j = 0; j < s; j++)
-            for (int l = 0; l < s; l++) {
-                aa[i * s + j] += a[i * s + l] * a[l * s + j];
-                if (i == 0) bb[j] += b[l] * a[l * s + j];
-            }
 }
 #endif
 

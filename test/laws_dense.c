@@ -49,7 +49,7 @@ void laws_of_dense(void)
     for (method m = 0; m < row_count(); m++) {
         const row *r = &methods_table[m];
         const bool own = (r->family == IMPLICIT || r->family == RADAU) && r->tableau.stages > 4;
-        if (row_card(m)->order < 8) continue;
+        if (row_card(m)->order < 8 || r->adaptive) continue;
         for (size_t i = 0; i < sizeof problems / sizeof *problems; i++)
             if (quad_admits(m, &quad_problems[problems[i]]))
                 order(m, &quad_problems[problems[i]], own ? r->tableau.stages + 2 : 6, own ? r->tableau.stages + 1 : 5);
