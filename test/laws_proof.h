@@ -57,6 +57,9 @@ quad trees_roundings(const scheme *, int order);
 /* Checks that a tableau, whose numbers are exact up to rounding, has this order and no higher one. */
 void proof_of_scheme(const char *name, trees_kind, const scheme *, int order);
 
+/* The same of collocation, without trees; `twice`: of a polynomial of the acceleration, which is integrated twice. */
+void proof_of_collocation(const char *name, const scheme *, bool twice, int order);
+
 void laws_of_proof(void);
 void laws_of_steps(void);
 
