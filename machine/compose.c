@@ -136,9 +136,9 @@ static bool add_facts(emit *e, const composition *c, bool structure)
              "FACT_fused %d\n#define FACT_waits %d\n#define FACT_solves %d\n"
              "#define FACT_solves_x %d\n#define FACT_means %d\n#define FACT_direct %d\n#define FACT_order %d\n#define "
              "FACT_linears %d\n"
-             "#define FACT_squares %d\n#define DRIFTS_FIRST %d\n",
+             "#define FACT_squares %d\n#define FACT_summed %d\n#define DRIFTS_FIRST %d\n",
              w.carried, stages, w.known, w.fsal, w.fused, w.waits, w.solves, w.solves_x, w.means, w.direct, w.order,
-             w.linears, w.squares, r->family == SPLITTING && w.unit[0] == 0);
+             w.linears, w.squares, w.summed, r->family == SPLITTING && w.unit[0] == 0);
     emit_add(t, "#define LIVE(w, k) (fact_unit[k] != 0)\n#define FACT_c fact_c\nstatic const int fact_moment[] = {%d",
              m.moment[0]);
     for (int i = 1; i < stages; i++) emit_add(t, ", %d", m.moment[i]);
@@ -176,7 +176,7 @@ static void add_family(emit_text *t, const composition *c)
     if (stepper_plan(c->problem, c->chosen, NULL).solves)
         add_text(t, "step/newton.h");
     else
-        emit_add(t, "#define NEWTON_NOW (-1)\n#define newton_increment(w, g, s, u, stage) STEP_OK\n#define "
+        emit_add(t, "#define NEWTON_NOW (-1)\n#define newton_increment(w, g, s, x, u, stage) STEP_OK\n#define "
                     "solve_factor(w, where, s, ax, av, t, x, v) STEP_OK\n"
                     "#define solve_back(w, r) ((void)0)\n#define solve_apply(w, c, y, out) ((void)0)\n");
     if (*families[r->family].shared) add_text(t, families[r->family].shared);
