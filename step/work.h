@@ -181,9 +181,9 @@ typedef struct work {
         (y) = s_;                                               \
     } while (0)
 
-/* What a splitting with compensated addition does with every number (operators.h): a kick, ev += b a, whose rounding
- * goes to `low`, which begins with the first one, where ev is the smaller of the two numbers; a drift, at = x + (way + way_low) v + ex after ex += c ev, in the order in which nothing else waits
- * for ev; the end of a step of h + h_low. */
+/* What a splitting with compensated addition does with every number (operators.h). A kick: ev += b a, whose rounding
+ * goes to `low`, which begins with the first one, where ev is the smaller of the two numbers. A drift: at = x + (way +
+ * way_low) v + ex after ex += c ev, in the order in which nothing else waits for ev. The end of a step of h + h_low. */
 #define APART_KICK(first, ev, low, b, a)                                                          \
     do {                                                                                          \
         __typeof__(ev) before_ = (ev);                                                            \
