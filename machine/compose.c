@@ -15,7 +15,7 @@
 
 enum {
     SMALL_MAX = 16,         /* numbers: what registers, or at least the fastest loads, may hold */
-    WRITTEN_OUT_MAX = 200,  /* operations in all stages of a step, up to which they are written out */
+    WRITTEN_OUT_MAX = 200,  /* operations of the force in all stages of a step, up to which they are written out */
     SOLVES_WRITTEN_MAX = 2, /* implicit kicks, with their drifts: Newton's method is long */
     FORCE_INLINE_MAX = 150, /* operations: a longer force is compiled once, and called */
     FORCE_TURNS_MAX = 40    /* the same of an implicit row: one call more is nothing beside those of the library, which
@@ -109,6 +109,20 @@ static void add_places(emit_text *t, work w)
              w.ex != NULL, w.ev != NULL, w.old != NULL, w.next_x != NULL, w.delta != NULL, w.vs != NULL);
 }
 
+/* The operations of a program; a call of one of the elementary functions counts for those of its text. */
+static size_t length_of(const program *p)
+{
+#define ALL_OF(a, b, c, d) (OPERATION_BIT(a) | OPERATION_BIT(b) | OPERATION_BIT(c) | OPERATION_BIT(d))
+    enum { FUNCTION_LENGTH = 16 };
+    static const uint64_t functions = ALL_OF(SIN, COS, TAN, POW) | ALL_OF(ASIN, ACOS, ATAN, ATAN2) |
+                                      ALL_OF(SINH, COSH, TANH, EXP) | ALL_OF(LOG, CBRT, HYPOT, ERF);
+    size_t length = 0;
+    for (uint32_t i = 0; i < p->graph->count; i++)
+        length += functions >> p->graph->nodes[i].op & 1 ? FUNCTION_LENGTH : 1;
+    return length;
+#undef ALL_OF
+}
+
 /* The constants that ROW and FACT lead to: the same that the plan finds. */
 static bool add_facts(emit *e, const composition *c, bool structure)
 {
@@ -156,7 +170,7 @@ static bool add_facts(emit *e, const composition *c, bool structure)
         add_places(t, w);
     }
     const bool many_solves = r->family == SPLITTING && w.solves && stages > SOLVES_WRITTEN_MAX;
-    if (structure && !many_solves && (size_t)stages * c->model->graph->count <= WRITTEN_OUT_MAX)
+    if (structure && !many_solves && (size_t)stages * length_of(c->programs[0].program) <= WRITTEN_OUT_MAX)
         emit_add(t, "#define EACH_STAGE(i, count) WRITTEN_OUT for (int i = 0; i < (count); i++)\n");
     add_family_names(t, family_names[r->family]);
     return true;

@@ -182,13 +182,13 @@ typedef struct work {
     } while (0)
 
 /* What a splitting with compensated addition does with every number (operators.h). A kick: ev += b a, whose rounding
- * goes to `low`, which begins with the first one, where ev is the smaller of the two numbers. A drift: at = x + (way +
- * way_low) v + ex after ex += c ev, in the order in which nothing else waits for ev. The end of a step of h + h_low. */
-#define APART_KICK(first, ev, low, b, a)                                                          \
-    do {                                                                                          \
-        __typeof__(ev) before_ = (ev);                                                            \
-        ADVANCE(ev, b, a);                                                                        \
-        (low) = (first) ? FMA((b), (a), -(ev)) + before_ : (low) + FMA((b), (a), before_ - (ev)); \
+ * `low` collects from the first kick of a step on. A drift: at = x + (way + way_low) v + ex after ex += c ev, in the
+ * order in which nothing else waits for ev. The end of a step of h + h_low. */
+#define APART_KICK(first, ev, low, b, a)                                                 \
+    do {                                                                                 \
+        __typeof__(ev) before_ = (ev);                                                   \
+        ADVANCE(ev, b, a);                                                               \
+        (low) = ((first) ? (__typeof__(ev)){0} : (low)) + FMA((b), (a), before_ - (ev)); \
     } while (0)
 #define APART_DRIFT(at, x, ex, way, way_low, v, c, ev)                           \
     do {                                                                         \
