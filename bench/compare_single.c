@@ -38,7 +38,7 @@ static double by_bound(void *p)
 
 /* ---- every model ---- */
 
-enum { EACH_STEPS = 200000, EACH_ROUNDS = 9 };
+enum { EACH_STEPS = 20000, EACH_ROUNDS = 31 };
 typedef struct each_job {
     const hand_single *hand;
     volatile double kept;
