@@ -170,7 +170,9 @@ static bool add_facts(emit *e, const composition *c, bool structure)
         add_places(t, w);
     }
     const bool many_solves = r->family == SPLITTING && w.solves && stages > SOLVES_WRITTEN_MAX;
-    if (structure && !many_solves && (size_t)stages * length_of(c->programs[0].program) <= WRITTEN_OUT_MAX)
+    /* an equation's text is longer than its force: as long as the model's derivatives make it */
+    const size_t length = w.solves ? c->model->graph->count : length_of(c->programs[0].program);
+    if (structure && !many_solves && (size_t)stages * length <= WRITTEN_OUT_MAX)
         emit_add(t, "#define EACH_STAGE(i, count) WRITTEN_OUT for (int i = 0; i < (count); i++)\n");
     add_family_names(t, family_names[r->family]);
     return true;
