@@ -1,9 +1,10 @@
 /* One trajectory, ten million steps: against the loop one would write, and against the time that the recursion needs
- * by itself. */
+ * by itself. Then every model of models/ against the plain loop of a physicist. */
 #include "bench/bench.h"
 #include "bench/hand/hand.h"
 
 #include <math.h>
+#include <stdio.h>
 
 enum { STEPS = 10000000, ROUNDS = 5 };
 static const double STEP = 0.001;
@@ -35,6 +36,46 @@ static double by_bound(void *p)
     return (last.multiply + 3 * last.fused + last.add) * 1e-9;
 }
 
+/* ---- every model ---- */
+
+enum { EACH_STEPS = 20000, EACH_ROUNDS = 31 };
+typedef struct each_job {
+    const hand_single *hand;
+    volatile double kept;
+} each_job;
+
+static double by_hand(void *p)
+{
+    each_job *j = p;
+    double start = now();
+    j->kept = j->hand->run(j->hand->step, EACH_STEPS);
+    return (now() - start) / EACH_STEPS;
+}
+
+static double by_motus(void *p)
+{
+    const each_job *j = p;
+    char file[128];
+    snprintf(file, sizeof file, "models/%s.motus", j->hand->model);
+    ours *o = ours_open(file, NULL, j->hand->method, j->hand->step, EACH_STEPS, "compiled", 1);
+    double took = o ? ours_step(o, EACH_STEPS) : NAN;
+    ours_close(o);
+    return took / EACH_STEPS;
+}
+
+static void compare_each(void)
+{
+    report_section("One trajectory of every model, against the plain loop in C, -O2", "per step");
+    for (const hand_single *h = hand_singles; h->model; h++) {
+        each_job job = {.hand = h};
+        side sides[] = {SIDE(by_motus, &job), SIDE(by_hand, &job)};
+        char name[128];
+        measure(sides, 2, EACH_ROUNDS);
+        snprintf(name, sizeof name, "%s, %s", h->model, h->method);
+        report_at_most(name, &sides[0], &sides[1], 1.05, "ns");
+    }
+}
+
 void compare_single(void)
 {
     report_section("One driven oscillator, 1e7 steps of verlet", "per step");
@@ -46,4 +87,5 @@ void compare_single(void)
                 last.multiply, last.fused, last.add);
     report_note("the recursion alone, its drive held constant, takes %.2f ns. The two answers differ by %.0e.",
                 last.chain, fabs(ours_x - plain_x));
+    compare_each();
 }

@@ -15,7 +15,7 @@
 
 enum {
     SMALL_MAX = 16,         /* numbers: what registers, or at least the fastest loads, may hold */
-    WRITTEN_OUT_MAX = 200,  /* operations in all stages of a step, up to which they are written out */
+    WRITTEN_OUT_MAX = 200,  /* operations of the force in all stages of a step, up to which they are written out */
     SOLVES_WRITTEN_MAX = 2, /* implicit kicks, with their drifts: Newton's method is long */
     FORCE_INLINE_MAX = 150, /* operations: a longer force is compiled once, and called */
     FORCE_TURNS_MAX = 40    /* the same of an implicit row: one call more is nothing beside those of the library, which
@@ -123,6 +123,20 @@ static void add_variables(emit_text *t, const work *w, bool structure)
     emit_add(t, "};\n");
 }
 
+/* The operations of a program; a call of one of the elementary functions counts for those of its text. */
+static size_t length_of(const program *p)
+{
+#define ALL_OF(a, b, c, d) (OPERATION_BIT(a) | OPERATION_BIT(b) | OPERATION_BIT(c) | OPERATION_BIT(d))
+    enum { FUNCTION_LENGTH = 16 };
+    static const uint64_t functions = ALL_OF(SIN, COS, TAN, POW) | ALL_OF(ASIN, ACOS, ATAN, ATAN2) |
+                                      ALL_OF(SINH, COSH, TANH, EXP) | ALL_OF(LOG, CBRT, HYPOT, ERF);
+    size_t length = 0;
+    for (uint32_t i = 0; i < p->graph->count; i++)
+        length += functions >> p->graph->nodes[i].op & 1 ? FUNCTION_LENGTH : 1;
+    return length;
+#undef ALL_OF
+}
+
 /* The constants that ROW and FACT lead to: the same that the plan finds. */
 static bool add_facts(emit *e, const composition *c, bool structure)
 {
@@ -153,9 +167,10 @@ static bool add_facts(emit *e, const composition *c, bool structure)
              "FACT_waits %d\n#define FACT_solves %d\n"
              "#define FACT_solves_x %d\n#define FACT_means %d\n#define FACT_direct %d\n#define FACT_order %d\n#define "
              "FACT_linears %d\n"
-             "#define FACT_squares %d\n#define DRIFTS_FIRST %d\n",
+             "#define FACT_squares %d\n#define FACT_summed %d\n#define DRIFTS_FIRST %d\n",
              w.carried, stages, w.known, w.kept, w.fsal, w.ending, w.closing, w.second, w.fused, w.waits, w.solves,
-             w.solves_x, w.means, w.direct, w.order, w.linears, w.squares, r->family == SPLITTING && w.unit[0] == 0);
+             w.solves_x, w.means, w.direct, w.order, w.linears, w.squares, w.summed,
+             r->family == SPLITTING && w.unit[0] == 0);
     emit_add(t, "#define LIVE(w, k) (fact_unit[k] != 0)\n#define FACT_c fact_c\nstatic const int fact_moment[] = {%d",
              m.moment[0]);
     for (int i = 1; i < stages; i++) emit_add(t, ", %d", m.moment[i]);
@@ -174,7 +189,9 @@ static bool add_facts(emit *e, const composition *c, bool structure)
         add_places(t, w);
     }
     const bool many_solves = r->family == SPLITTING && w.solves && stages > SOLVES_WRITTEN_MAX;
-    if (structure && !many_solves && (size_t)stages * c->model->graph->count <= WRITTEN_OUT_MAX)
+    /* an equation's text is longer than its force: as long as the model's derivatives make it */
+    const size_t length = w.solves ? c->model->graph->count : length_of(c->programs[0].program);
+    if (structure && !many_solves && (size_t)stages * length <= WRITTEN_OUT_MAX)
         emit_add(t, "#define EACH_STAGE(i, count) WRITTEN_OUT for (int i = 0; i < (count); i++)\n");
     add_family_names(t, family_names[r->family]);
     return true;
@@ -205,7 +222,7 @@ static void add_family(emit_text *t, const composition *c)
     if (plan.solves)
         add_text(t, "step/newton.h");
     else
-        emit_add(t, "#define NEWTON_NOW (-1)\n#define newton_increment(w, g, s, u, stage) STEP_OK\n#define "
+        emit_add(t, "#define NEWTON_NOW (-1)\n#define newton_increment(w, g, s, x, u, stage) STEP_OK\n#define "
                     "solve_factor(w, where, s, ax, av, t, x, v) STEP_OK\n"
                     "#define solve_back(w, r) ((void)0)\n#define solve_apply(w, c, y, out) ((void)0)\n");
     if (*families[r->family].shared) add_text(t, families[r->family].shared);

@@ -89,19 +89,33 @@ void lanes_block_save(const lanes_block *k)
 
 /* ---- the start ---- */
 
-void lanes_block_begin(const lanes_block *block, const lanes_item *b, const size_t *trajectories)
+/* The values that vary, and the pool in every lane that has one of its own. */
+static inline void begin_values(const lanes_block *block, const lanes_item *b, const size_t *trajectories, size_t width)
 {
     const lanes *l = block->l;
     const model *m = l->def.model;
+    const size_t count = l->def.place_count, numbers = l->own_size ? m->pool_count : 0;
+    double *restrict values = block->saved, *restrict own = block->job.host.own;
+    for (size_t g = 0; g < (size_t)l->groups; g++) {
+        for (size_t k = 0; k < count; k++, values += width)
+            for (size_t i = 0; i < width; i++) values[i] = b->call->values[k][trajectories[g * width + i]];
+        for (size_t k = 0; k < numbers; k++, own += width) {
+            const double number = m->pool[k];
+            for (size_t i = 0; i < width; i++) own[i] = number;
+        }
+    }
+}
+
+void lanes_block_begin(const lanes_block *block, const lanes_item *b, const size_t *trajectories)
+{
+    const lanes *l = block->l;
     lanes_job j = block->job;
     double *values = block->saved;
-    const size_t width = (size_t)l->width, count = l->def.place_count;
-    for (size_t g = 0; g < (size_t)l->groups; g++) {
-        for (size_t k = 0; k < count; k++)
-            for (size_t i = 0; i < width; i++)
-                values[(g * count + k) * width + i] = b->call->values[k][trajectories[g * width + i]];
-        for (size_t k = 0; l->own_size && k < m->pool_count; k++)
-            for (size_t i = 0; i < width; i++) j.host.own[(g * m->pool_count + k) * width + i] = m->pool[k];
+    switch (l->width) { /* with its number known, a lane takes an instruction or less */
+    case 8: begin_values(block, b, trajectories, 8); break;
+    case 4: begin_values(block, b, trajectories, 4); break;
+    case 2: begin_values(block, b, trajectories, 2); break;
+    default: begin_values(block, b, trajectories, (size_t)l->width);
     }
     for (size_t i = 0; i < (size_t)l->block; i++) block->stopped[i] = NAN;
     j.values = values;

@@ -29,7 +29,7 @@ static int literal_observe(work *w)
         solve_back(w, next);
     } else {
         EACHV(k) next[k] = x[k] - old[k];
-        bad = newton_increment(w, hh, w->per_h, next, NEWTON_NOW);
+        bad = newton_increment(w, hh, w->per_h, w->x, next, NEWTON_NOW);
         if (!bad)
             EACHV(k) next[k] = 2 * x[k] - old[k] + w->delta[k];
     }

@@ -4,7 +4,7 @@
  * NEWTON_NOW. Where a is linear in v that is one evaluation and one linear system, (I - (g s/2) da/dv) delta = g
  * a(x, s u, t); else Newton's method with that matrix at every iterate. */
 enum { NEWTON_NOW = -1 };
-static inline int newton_increment(work *w, clock g, clock s, const real *u, int stage)
+static inline int newton_increment(work *w, clock g, clock s, real *x, const real *u, int stage)
 {
     real *restrict delta = w->delta, *restrict r = w->r, *restrict V = w->vs;
     const clock none = {0}, slope = g * s / 2, t = stage == NEWTON_NOW ? time_now(w) : time_in(w, FACT(w, c)[stage]);
@@ -13,10 +13,10 @@ static inline int newton_increment(work *w, clock g, clock s, const real *u, int
     EACHV(k) delta[k] = (real){0};
     for (int i = 0; i < JUDGE_TURNS_MAX && SOME(open); i++) {
         EACHV(k) V[k] = s * FMA(0.5, delta[k], u[k]);
-        int bad = stage == NEWTON_NOW ? accel_now(w, w->x, V, w->a) : accel_in(w, stage, w->x, V, w->a);
+        int bad = stage == NEWTON_NOW ? accel_now(w, x, V, w->a) : accel_in(w, stage, x, V, w->a);
         if (bad) return bad;
         EACHV(k) r[k] = FMA(g, w->a[k], -delta[k]);
-        bad = solve_factor(w, &open, 1, &none, &slope, t, w->x, V);
+        bad = solve_factor(w, &open, 1, &none, &slope, t, x, V);
         if (bad) return bad;
         solve_back(w, r);
         if (FACT(w, linear)) {

@@ -10,6 +10,7 @@ static int splitting_step(work *w)
         int bad = kick(w, i);
         if (bad) return bad;
         drift(w, i);
+        if (i == last_stage(w)) step_end(w);
         TRACE(w, i);
     }
     return STEP_OK;
@@ -37,6 +38,11 @@ static int splitting_sync(work *w, real *x, real *v)
 
 static inline void splitting_place(work *w, placing *p)
 {
+    if (ROW(w, compensated)) {
+        w->xs = work_array(p, 1);
+        w->low = work_array(p, 1);
+        if (FACT(w, solves) || FACT(w, means)) w->us = work_array(p, 1);
+    }
     if (!FACT(w, solves) && !FACT(w, means)) return;
     w->vs = work_array(p, 1);
     if (FACT(w, means)) w->r = work_array(p, 1);
@@ -46,7 +52,8 @@ static inline void splitting_place(work *w, placing *p)
 }
 
 #ifdef ROWS
-/* unit: kicks, drifts, the joint kick of a row that begins and ends with one, and Gauss's node for a quadrature. */
+/* unit: kicks, drifts, the joint kick of a row that begins and ends with one, of a compensated row room for work_sums,
+ * and Gauss's node for a quadrature. */
 static void splitting_plan(work *w, const double argument[2], coef *unit, coef *c)
 {
     const row *m = w->row;
@@ -55,11 +62,13 @@ static void splitting_plan(work *w, const double argument[2], coef *unit, coef *
     w->stages = last + 1;
     w->means = !w->quadrature ? 0 : count || m->splitting.stages <= 2 ? 1 : 2;
     w->solves = w->velocity && !w->means;
-    w->linears = 2 * w->stages + 1 + (w->means > 1);
+    w->linears = 2 * w->stages + 1 + (m->compensated ? 2 * w->stages : 0) + (w->means > 1);
+    w->summed = m->compensated ? w->stages : 0;
     w->fused = !m->compensated && !w->solves && w->nv == w->nx;
     w->fsal = w->waits = !count && !m->adaptive && !w->means && m->splitting.kick[0] != 0 &&
                          m->splitting.kick[last] != 0 && m->splitting.drift[last] == 0;
     if (!unit) return;
+    for (int i = 0; i < w->linears; i++) unit[i] = 0;
     coef *kick = unit, *drift = unit + w->stages, time = 0;
     for (int i = 0; i <= last; i++) {
         kick[i] = count ? 0 : m->splitting.kick[i];
@@ -79,7 +88,7 @@ static void splitting_plan(work *w, const double argument[2], coef *unit, coef *
         time += drift[i];
     }
     unit[2 * w->stages] = kick[0] + kick[last];
-    if (w->means > 1) unit[2 * w->stages + 1] = K(0.21132486540518711774542560974902127218);
+    if (w->means > 1) unit[w->linears - 1] = K(0.21132486540518711774542560974902127218);
 }
 #endif
 
@@ -102,8 +111,14 @@ static void splitting_trace(work *w, int i)
     if (i < 0) return;
     const tracer *to = tracer_of(w);
     const int last = w->stages - 1;
+    const bool within = w->row->compensated && i < last_stage(w); /* x and v are still those at the start */
     if (kicks(w, i)) {
-        const real *a = w->a;
+        const real *a = w->a, *v = w->v;
+        if (within) {
+            real *now = w->us ? w->us : to->v;
+            EACHV(k) now[k] = w->v[k] + w->ev[k];
+            v = now;
+        }
         /* the acceleration that solves the implicit kick: delta = b h a */
         if (w->solves) {
             EACHV(k) to->v[k] = w->delta[k] / kick_size(w, i);
@@ -113,7 +128,7 @@ static void splitting_trace(work *w, int i)
                               .stage = i + 1,
                               .time = time_in(w, w->c[i]),
                               .coefficient = kick_unit(w, i),
-                              .v = w->v,
+                              .v = v,
                               .a = a});
     }
     if (drifts(w, i))
@@ -121,7 +136,7 @@ static void splitting_trace(work *w, int i)
                               .stage = i + 1,
                               .time = time_in(w, i < last ? w->c[i + 1] : 1),
                               .coefficient = drift_unit(w, i),
-                              .x = w->x});
+                              .x = within ? w->xs : w->x});
     if (w->fsal && i == last - 1)
         tell(w, (trace_event){.kind = MOTUS_EVENT_KICK,
                               .stage = last + 1,

@@ -10,7 +10,7 @@ static int verlet_observe(work *w)
 {
     if (FIRST(w)) return accel_now(w, w->x, w->v, w->a);
     if (!FACT(w, velocity)) return accel_now(w, w->x, w->vs, w->a);
-    return newton_increment(w, w->hh, w->per_h, w->v, NEWTON_NOW);
+    return newton_increment(w, w->hh, w->per_h, w->x, w->v, NEWTON_NOW);
 }
 
 static int verlet_step(work *w)

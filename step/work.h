@@ -135,6 +135,7 @@ typedef struct work {
     const coef *unit, *c;
     const unsigned char *live;
     clock *scaled, hh, half_hh, per_h;
+    int summed;    /* of a compensated splitting: its stages; work_sums */
     clock *matrix; /* room for the coefficients of the coupled stages: 2 solves² */
     int known;     /* stages of an implicit row that are explicit (newmark's first) */
     int kept;      /* stages that lead to the next step */
@@ -160,6 +161,8 @@ typedef struct work {
     real *dx, *dv;      /* of a candidate: what it would add to x and v, with their error words */
     real *delta, *r;    /* change of v by an implicit kick; residual */
     real *xs, *vs, *ks; /* stages: positions, velocities, accelerations */
+    /* of a compensated splitting: the roundings of ev; the velocities before a kick, where a force reads them */
+    real *low, *us;
 
     /* the includer's table of what depends on time alone, from step `first` on; NULL: there is none now */
     const clock *table;
@@ -198,11 +201,38 @@ typedef struct work {
 /* y += c z, and the same by compensated addition with the error word e of y: Knuth's two-sum, exact whichever operand
  * is larger. */
 #define ADVANCE(y, c, z) ((y) = FMA((c), (z), (y)))
-#define ADVANCE_COMPENSATED(y, e, c, z)                                      \
-    do {                                                                     \
-        __typeof__(y) p_ = FMA((c), (z), (e)), s_ = (y) + p_, b_ = s_ - (y); \
-        (e) = ((y) - (s_ - b_)) + (p_ - b_);                                 \
-        (y) = s_;                                                            \
+#define ADVANCE_COMPENSATED(y, e, c, z) ADD_COMPENSATED(y, e, FMA((c), (z), (e)))
+#define ADD_COMPENSATED(y, e, sum)                              \
+    do {                                                        \
+        __typeof__(y) p_ = (sum), s_ = (y) + p_, b_ = s_ - (y); \
+        (e) = ((y) - (s_ - b_)) + (p_ - b_);                    \
+        (y) = s_;                                               \
+    } while (0)
+
+/* What a splitting with compensated addition does with every number (operators.h). A kick: ev += b a, whose rounding
+ * `low` collects from the first kick of a step on. A drift: at = x + (way + way_low) v + ex after ex += c ev, in the
+ * order in which nothing else waits for ev. The end of a step of h + h_low. */
+#define APART_KICK(first, ev, low, b, a)                                                 \
+    do {                                                                                 \
+        __typeof__(ev) before_ = (ev);                                                   \
+        ADVANCE(ev, b, a);                                                               \
+        (low) = ((first) ? (__typeof__(ev)){0} : (low)) + FMA((b), (a), before_ - (ev)); \
+    } while (0)
+#define APART_DRIFT(at, x, ex, way, way_low, v, c, ev)                           \
+    do {                                                                         \
+        (at) = (x) + FMA((c), (ev), FMA((way), (v), FMA((way_low), (v), (ex)))); \
+        ADVANCE(ex, c, ev);                                                      \
+    } while (0)
+#define APART_END_X(x, ex, v, h, h_low)                                                         \
+    do {                                                                                        \
+        __typeof__(x) way_ = (h) * (v), rest_ = FMA((h), (v), -way_) + FMA((h_low), (v), (ex)); \
+        ADD_COMPENSATED(x, ex, way_);                                                           \
+        ADD_COMPENSATED(x, ex, (ex) + rest_);                                                   \
+    } while (0)
+#define APART_END_V(v, ev, low)     \
+    do {                            \
+        ADD_COMPENSATED(v, ev, ev); \
+        (ev) += (low);              \
     } while (0)
 
 /* Time ------------------------------------------------------------------------------------------------------------ */
@@ -276,6 +306,49 @@ static inline size_t work_plan_size(const work *w)
     return work_constants(w) + (size_t)w->stages + work_live_size(w) + work_scaled_size(w);
 }
 
+/* The constants from number `from` on, `count` of them, should add up to h. Rounded, they do not, and since they are
+ * rounded alike in every step, the motion would run too fast or too slow. What is missing goes to the smallest of them
+ * but the first and the last, which represents it best, and by halves where it has a mirror image. */
+static inline void work_fit(work *w, int from, int count)
+{
+    const coef *unit = w->unit + from;
+    clock *c = w->scaled + from, missing = w->h, low = CLOCK(0);
+    int first = 0, last = count - 1, least = 0;
+    while (first < last && unit[first] == 0) first++;
+    while (last > first && unit[last] == 0) last--;
+    for (int i = first + 1; i < last; i++)
+        if (unit[i] != 0 && (!least || unit[i] * unit[i] < unit[least] * unit[least])) least = i;
+    for (int i = first; i <= last; i++) {
+        clock error;
+        ADD_COMPENSATED(missing, error, -c[i]);
+        low += error;
+    }
+    const int mirror = first + last - least;
+    if (!least) return;
+    if (mirror == least || unit[mirror] != unit[least]) {
+        c[least] += missing + low;
+    } else {
+        c[least] += (missing + low) / 2;
+        c[mirror] = c[least];
+    }
+}
+
+/* Kicks and drifts of a compensated splitting add up to h; the sums of the drifts, exact, in two numbers each. */
+static inline void work_sums(work *w)
+{
+    const int count = FACT(w, summed);
+    work_fit(w, 0, count);
+    work_fit(w, count, count);
+    clock *way = w->scaled + 2 * count + 1, *way_low = way + count, sum = CLOCK(0), low = CLOCK(0);
+    for (int i = 0; i < count; i++) {
+        clock error;
+        ADD_COMPENSATED(sum, error, w->scaled[count + i]);
+        low += error;
+        way[i] = sum + low;
+        way_low[i] = low - (way[i] - sum);
+    }
+}
+
 /* The step is h from now on. */
 static inline void work_scale(work *w, clock h)
 {
@@ -286,6 +359,7 @@ static inline void work_scale(work *w, clock h)
     const int linears = FACT(w, linears), all = linears + FACT(w, squares);
     for (int i = 0; i < linears; i++) w->scaled[i] = w->unit[i] * w->h;
     for (int i = linears; i < all; i++) w->scaled[i] = w->unit[i] * w->hh;
+    if (FACT(w, summed)) work_sums(w);
 }
 
 /* Memory ---------------------------------------------------------------------------------------------------------- */

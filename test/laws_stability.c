@@ -3,10 +3,12 @@
  */
 #include "core/rows.h"
 #include "core/stepper.h"
+#include "core/stepper_body.h"
 #include "test/laws.h"
 
 #include <math.h>
 #include <stdio.h>
+#include <stdlib.h>
 
 /* A motion is bounded if neither of these is positive [Jury's criterion]: det M - 1 and |trace M| - 1 - det M, where
  * M is one step's matrix over (x, v) on x'' = -x. Beeman's state holds more than x and v, but two successive
@@ -56,7 +58,7 @@ static quad crossing(method m, quad a, quad b)
 
 /* A range of unbounded motion may be narrower than the distance of two samples: where the middle of three is a
  * maximum, the maximum is refined by thirds. Returns its place, or 0 if the motion is bounded there too. */
-static quad window(method m, int saddle, quad a, quad b)
+static quad band(method m, int saddle, quad a, quad b)
 {
     for (int i = 0; i < 160 && b - a > Q(1e-17) * b; i++) {
         const quad p = a + (b - a) / 3, q = b - (b - a) / 3;
@@ -89,7 +91,7 @@ static quad limit_of(method m)
             /* a symplectic row has det M = 1 up to rounding */
             const quad f = either(g[1], saddle);
             const bool top = f >= either(g[0], saddle) && f >= either(g[2], saddle) && quad_abs(f) > visible;
-            const quad peak = top ? window(m, saddle, z[0], z[2]) : 0;
+            const quad peak = top ? band(m, saddle, z[0], z[2]) : 0;
             if (peak > 0) return crossing(m, z[0], peak);
         }
     }
@@ -240,6 +242,39 @@ static void compensation(method m)
           "speed off by %.1e of itself, bound %.1e", miss, bound);
 }
 
+/* The kicks of a compensated splitting add up to the step, and so do its drifts, but for the rounding of the smallest,
+ * by half a unit, below h/4, and that twice; the sums of its drifts are exact. */
+static void fitted(method m)
+{
+    enum { SIZES = 64, CONSTANTS_MAX = 256 };
+    const problem p = {.nx = 1, .nv = 1, .accel = fall, .jvp = no_slope};
+    double memory[CONSTANTS_MAX];
+    chosen c;
+    if (!methods_table[m].compensated || methods_table[m].family != SPLITTING) return;
+    if (row_choose(row_card(m)->name, &c, NULL, NULL)) return;
+    work w = stepper_plan(&p, &c, NULL);
+    if (work_plan_size(&w) > CONSTANTS_MAX) abort();
+    w = stepper_plan(&p, &c, memory);
+    const int n = w.stages;
+    quad off = 0, miss = 0;
+    for (int size = 0; size < SIZES; size++) {
+        const double h = 0.01 * (1 + size) / (size % 2 ? -7 : 3);
+        quad kicks = 0, drifts = 0;
+        work_scale(&w, h);
+        for (int i = 0; i < n; i++) {
+            kicks += w.scaled[i];
+            drifts += w.scaled[n + i];
+            const quad sum = (quad)w.scaled[2 * n + 1 + i] + w.scaled[3 * n + 1 + i];
+            if (quad_abs(sum - drifts) > miss * quad_abs((quad)h)) miss = quad_abs((sum - drifts) / h);
+        }
+        const quad k = quad_abs(kicks / h - 1), d = quad_abs(drifts / h - 1);
+        off = k > off ? k : off;
+        off = d > off ? d : off;
+    }
+    judge(off <= DBL_EPSILON / 4 && miss <= DBL_EPSILON * DBL_EPSILON, row_card(m)->name, "adds up to the step",
+          "off by %.1e, sums of drifts by %.1e", (double)off, (double)miss);
+}
+
 void laws_of_stability(void)
 {
     for (method m = 0; m < row_count(); m++) {
@@ -247,6 +282,7 @@ void laws_of_stability(void)
         /* boris needs a velocity term; without one it is leapfrog */
         if (methods_table[m].family == EXACT || methods_table[m].gyroscopic) continue;
         limit(m);
+        fitted(m);
         if (card->order >= 6 || card->order == 4) compensation(m);
         /* Newmark and Beeman are conjugate to symplectic maps: they are not declared symplectic, and have no trend
          * either. */

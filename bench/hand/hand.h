@@ -46,6 +46,13 @@ int hand_pendulums(size_t count, const double *theta0, double step, int64_t step
 
 /* ONE TRAJECTORY of the oscillator by Verlet's summed recursion, as one writes it down. Returns x. */
 double hand_plain_loop(double F, double step, int64_t steps);
+/* The same for every model: the loop of a physicist, by verlet or rk4; the last one's model is NULL. Returns x[0]. */
+typedef struct hand_single {
+    const char *model, *method;
+    double step;
+    double (*run)(double step, int64_t steps);
+} hand_single;
+extern const hand_single hand_singles[];
 /* The longest chain of the recursion alone, the drive taken as known: ns per step, and what its operations take one
  * by one. */
 typedef struct latencies {

@@ -23,7 +23,7 @@ static void write_update(writer *w, const plan_item *update, const char *partial
     } else {
         snprintf(next, sizeof next, "%s_%d(%s, %s)", operation, how->op, partial, p);
     }
-    if (sum->b) {
+    if (sum->b && !w->skips) {
         emit_operation(w, whole, OP_SELECT);
         emit_operand(w, sum->b, whole, c);
         emit_line(w, "%s = %s_%d(%s, %s, %s);", partial, operation, OP_SELECT, c, next, partial);
@@ -33,6 +33,25 @@ static void write_update(writer *w, const plan_item *update, const char *partial
 }
 
 #define EACH_SUM(k, r) for (uint32_t k = (r)->sums; k != NONE; k = w->plan.sums.at[w->plan.items.at[k].sum].next)
+
+/* Whether all sums of a loop leave out the term at which two indices are equal, as in `j != i`; then a loop that takes
+ * one term at a time goes on without computing it. Its levels. */
+static bool leaves_out(const writer *w, const plan_region *r, int level[2])
+{
+    const graph_node *nodes = w->plan.g->nodes;
+    node condition = 0;
+    EACH_SUM(k, r)
+    {
+        const node b = nodes[w->plan.items.at[k].n].b;
+        if (!b || (condition && condition != b)) return false;
+        condition = b;
+    }
+    const graph_node *c = &nodes[condition];
+    if (!condition || c->op != OP_NE || nodes[c->a].op != OP_INDEX || nodes[c->b].op != OP_INDEX) return false;
+    level[0] = nodes[c->a].level;
+    level[1] = nodes[c->b].level;
+    return level[0] != level[1];
+}
 
 /* Of more than 16 terms, eight at a time: to the partial sums s or, in lanes, to v, which is then copied to s. */
 static void write_eights(writer *w, uint32_t region)
@@ -67,6 +86,9 @@ static void write_sum(writer *w, uint32_t region)
     const uint32_t around = w->region;
     char first[PLACE_MAX], last[PLACE_MAX];
     const int level = r->level;
+    const bool skipping = w->skips;
+    int equal[2];
+    w->skips = false;
     emit_bound(w, &r->range.first, first);
     emit_bound(w, &r->range.last, last);
     EACH_SUM(k, r)
@@ -83,7 +105,10 @@ static void write_sum(writer *w, uint32_t region)
     emit_line(w, "for (; m%d < n%d; m%d++) {", level, level, level);
     w->depth++;
     emit_line(w, "const int64_t j%d = f%d + m%d, k = n%d > 16 ? m%d & 7 : 0;", level, level, level, level, level);
+    w->skips = leaves_out(w, r, equal);
+    if (w->skips) emit_line(w, "if (j%d == j%d) continue;", equal[0], equal[1]);
     emit_region(w, region);
+    w->skips = skipping;
     w->region = around;
     w->depth--;
     emit_line(w, "}");

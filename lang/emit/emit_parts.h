@@ -19,6 +19,7 @@ typedef struct writer {
     uint32_t *term;  /* by node: its place in T, or NONE */
     /* the level whose index differs from lane to lane, while the inside of its loop is written; else -1 */
     int along;
+    bool skips;      /* the terms that a sum's condition leaves out are not computed */
     uint32_t stores; /* outside of loops, so far */
     bool one_by_one; /* lanes are written in a loop over l, and a place is that of lane l */
 } writer;

@@ -47,6 +47,7 @@ __attribute__((flatten)) static bool compiled_small(work *given, whole steps)
     WRITTEN_OUT for (int i = 0; i < CONSTANTS; i++) scaled[i] = given->scaled[i];
     w->scaled = scaled;
     w->ex = w->ev = w->old = w->next_x = w->delta = w->r = w->xs = w->vs = w->ks = w->dx = w->dv = NULL;
+    w->low = w->us = NULL;
     work_place(w, room);
     work_move(w, given, NUMBERS);
     if (compiled_steps(w, steps) || !advance_finite(w)) return false;

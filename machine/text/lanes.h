@@ -66,6 +66,7 @@ static inline void lanes_place(work *w, const compiled_host *host, real *room)
     w->host = host;
     w->matrix = solve_coefficients(host);
     w->ex = w->ev = w->old = w->next_x = w->delta = w->r = w->xs = w->vs = w->ks = w->dx = w->dv = (real *)0;
+    w->low = w->us = (real *)0;
     work_place(w, room);
 }
 

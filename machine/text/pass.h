@@ -53,24 +53,21 @@ __attribute__((noinline)) static void pass_force(work *w, clock t, const clock *
 }
 
 #if !FIRST_ORDER
-#define PASS_MOVE(name, twice)                                                                                       \
-    __attribute__((noinline, flatten)) static void name(const compiled_host *host, clock t, const clock *T, real *x, \
-                                                        real *v, real *a, const window *at, const window_put *how)   \
-    {                                                                                                                \
-        PASS_WINDOW(true, twice, how->b, how->c, how->next, how->ex, how->ev);                                       \
+#define PASS_MOVE(name, twice, ends)                                                                                   \
+    __attribute__((noinline, flatten)) static void name(const compiled_host *host, clock t, const clock *T, real *x,   \
+                                                        real *v, real *a, const window *at, const window_put *how)     \
+    {                                                                                                                  \
+        PASS_WINDOW(true, twice, ends, how->opens, how->b, how->c, how->next, how->way, how->way_low, how->x, how->ex, \
+                    how->ev, how->low);                                                                                \
     }
-PASS_MOVE(pass_move, false)
-PASS_MOVE(pass_move_twice, true)
+PASS_MOVE(pass_move, false, false)
+PASS_MOVE(pass_move_twice, true, ROW(w, compensated))
+PASS_MOVE(pass_move_end, false, true)
 
-/* Stage i: v += b a, x += c v; then the opening drift of the next step, where there is one and that step is in the same
- * tile. */
-#define PASS(w, i, b, c) pass_run(w, i, b, c)
-__attribute__((noinline)) static void pass_run(work *w, int i, clock b, clock c)
+/* Stage i, with the positions `from`; the new ones go to `to`. */
+static inline void pass_sweep(work *w, int i, real *from, real *to, const window_put *move)
 {
-    const bool twice = DRIFTS_FIRST && w->window.more && i == FACT(w, stages) - 1;
-    const window_put move = {true, twice, b, c, DRIFTS_FIRST ? w->scaled[FACT(w, stages)] : 0, w->ex, w->ev};
     const clock t = time_in(w, FACT(w, c)[i]);
-    real *x = w->x, *next = w->a;
     clock room[TERMS + 1];
 #if TERMS
     const clock *T = w->table ? compiled_table(w, fact_moment[i]) : compiled_terms(w->host, t, room);
@@ -79,14 +76,54 @@ __attribute__((noinline)) static void pass_run(work *w, int i, clock b, clock c)
 #endif
     w->evaluations++;
     window_move(w, w->host->tiling->pass);
-    pass_fixed(w, x, w->v, next, &move);
-    if (twice)
-        pass_move_twice(w->host, t, T, x, w->v, next, &w->window, &move);
+    pass_fixed(w, from, w->v, to, move);
+    if (move->twice)
+        pass_move_twice(w->host, t, T, from, w->v, to, &w->window, move);
+    else if (move->ends)
+        pass_move_end(w->host, t, T, from, w->v, to, &w->window, move);
     else
-        pass_move(w->host, t, T, x, w->v, next, &w->window, &move);
+        pass_move(w->host, t, T, from, w->v, to, &w->window, move);
+}
+
+/* v += b a, x += c v; then the opening drift of the next step, where there is one and that step is in the same tile. */
+#define PASS(w, i, b, c) pass_run(w, i, b, c)
+__attribute__((noinline)) static void pass_run(work *w, int i, clock b, clock c)
+{
+    const bool twice = DRIFTS_FIRST && w->window.more && i == FACT(w, stages) - 1;
+    real *x = w->x, *next = w->a;
+    pass_sweep(
+        w, i, x, next,
+        &(window_put){
+            .pass = true, .twice = twice, .b = b, .c = c, .next = DRIFTS_FIRST ? w->scaled[FACT(w, stages)] : 0});
     w->moved += twice ? 2 : 1;
     w->x = next;
     w->a = x;
+}
+
+/* The same of a compensated row, from the positions `at`; and the end of the step. The row has two passes in a step at
+ * least, so x, which neighbours read in the first, may change in the last. */
+#define PASS_APART(w, i, b, c, at, way, way_low, opens, ends) pass_apart(w, i, b, c, at, way, way_low, opens, ends)
+__attribute__((noinline)) static void pass_apart(work *w, int i, clock b, clock c, real *at, clock way, clock way_low,
+                                                 bool opens, bool ends)
+{
+    const bool twice = DRIFTS_FIRST && w->window.more && ends;
+    real *next = at == w->x ? w->xs : w->a;
+    pass_sweep(w, i, at, next,
+               &(window_put){.pass = true,
+                             .twice = twice,
+                             .ends = ends,
+                             .opens = opens,
+                             .b = b,
+                             .c = c,
+                             .next = DRIFTS_FIRST ? w->scaled[FACT(w, stages)] : 0,
+                             .way = way,
+                             .way_low = way_low,
+                             .x = w->x,
+                             .ex = w->ex,
+                             .ev = w->ev,
+                             .low = w->low});
+    w->moved += ends ? 2 + twice : 1;
+    if (next == w->a) w->a = at, w->xs = next;
 }
 #endif
 

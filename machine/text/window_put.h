@@ -11,18 +11,30 @@ static inline void window_number(const window_put *how, real *restrict x, real *
     }
     NUMBER at = NUMBER_AT(x, k), speed = NUMBER_AT(v, k);
     if (ROW(how, compensated)) {
-        NUMBER speed_error = NUMBER_AT(how->ev, k), error = NUMBER_AT(how->ex, k);
-        ADVANCE_COMPENSATED(speed, speed_error, NUMBER_OF(how->b), value);
-        ADVANCE_COMPENSATED(at, error, NUMBER_OF(how->c), speed);
-        if (how->twice) ADVANCE_COMPENSATED(at, error, NUMBER_OF(how->next), speed);
-        NUMBER_AT(how->ev, k) = speed_error;
-        NUMBER_AT(how->ex, k) = error;
+        NUMBER start = NUMBER_AT(how->x, k), ev = NUMBER_AT(how->ev, k), ex = NUMBER_AT(how->ex, k);
+        NUMBER low = how->opens ? NUMBER_OF(0.0) : NUMBER_AT(how->low, k);
+        APART_KICK(how->opens, ev, low, NUMBER_OF(how->b), value);
+        if (how->ends) {
+            ADVANCE(ex, NUMBER_OF(how->c), ev);
+            APART_END_X(start, ex, speed, NUMBER_OF(how->way), NUMBER_OF(how->way_low));
+            APART_END_V(speed, ev, low);
+            NUMBER_AT(how->x, k) = start;
+            NUMBER_AT(v, k) = speed;
+        } else {
+            NUMBER_AT(how->low, k) = low;
+        }
+        const clock c = how->ends ? how->next : how->c, way = how->ends ? how->next : how->way;
+        if (how->twice || !how->ends)
+            APART_DRIFT(at, start, ex, NUMBER_OF(way), NUMBER_OF(how->ends ? 0.0 : how->way_low), speed, NUMBER_OF(c),
+                        ev);
+        NUMBER_AT(how->ev, k) = ev;
+        NUMBER_AT(how->ex, k) = ex;
     } else {
         ADVANCE(speed, NUMBER_OF(how->b), value);
         ADVANCE(at, NUMBER_OF(how->c), speed);
         if (how->twice) ADVANCE(at, NUMBER_OF(how->next), speed);
+        NUMBER_AT(v, k) = speed;
     }
-    NUMBER_AT(v, k) = speed;
     NUMBER_AT(a, k) = at;
 }
 #undef NUMBER
