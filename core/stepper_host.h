@@ -41,6 +41,18 @@ static inline void refresh_at(work *w, clock t, real *x, real *v)
     if (p->refresh) p->refresh(p->ctx, t, x, v);
 }
 
+static inline void series_order(work *w, int n, clock t)
+{
+    const problem *p = w->library->problem;
+    p->series(p->ctx, n, t, w->xs, w->vs, w->a, w->ks);
+}
+
+#define LOG(x) motus_log(x)
+#define EXP(x) motus_exp(x)
+#include "step/functions/core.h"
+#include "step/functions/exponential.h"
+#include "step/functions/logarithm.h"
+#include "step/functions/end.h"
 #include "core/texts.h"
 
 #define STEPPER_BODY(name)                                                                                    \

@@ -5,12 +5,12 @@
 #include "step/newton.h"
 #include "step/operators.h"
 #include "step/tableau.h"
+#include "step/control.h"
 #define FAMILY_TEXTS
 #include "step/families.def"
 #undef FAMILY_TEXTS
 #include "core/family.h"
 #include "step/plan.h"
-#include "step/control.h"
 #include "step/advance.h"
 #include "step/loop.h"
 #include "step/observe.h"

@@ -14,6 +14,7 @@
 #include <string.h>
 
 enum {
+    SERIES_APART = 7,       /* arrays of a row of Taylor series without the series: step/taylor.h */
     SMALL_MAX = 16,         /* numbers: what registers, or at least the fastest loads, may hold */
     WRITTEN_OUT_MAX = 200,  /* operations in all stages of a step, up to which they are written out */
     SOLVES_WRITTEN_MAX = 2, /* implicit kicks, with their drifts: Newton's method is long */
@@ -121,8 +122,10 @@ static bool add_facts(emit *e, const composition *c, bool structure)
     moments m;
     if (!find_moments(&w, t->arena, &m)) return false;
     const int stages = w.stages ? w.stages : 1, constants = (int)work_constants(&w);
-    emit_add(t, "#define ROW(w, member) ROW_##member\n#define ROW_compensated %d\n#define ROW_adaptive %d\n",
-             r->compensated, r->adaptive);
+    emit_add(t,
+             "#define ROW(w, member) ROW_##member\n#define ROW_compensated %d\n#define ROW_adaptive %d\n#define "
+             "ROW_sizes %d\n",
+             r->compensated, r->adaptive, r->sizes);
     emit_add(t,
              "#define FACT(w, member) FACT_##member\n#define FACT_velocity %d\n#define FACT_linear %d\n#define "
              "FACT_constant %d\n",
@@ -147,10 +150,20 @@ static bool add_facts(emit *e, const composition *c, bool structure)
     add_numbers(t, "fact_c", w.c, w.stages);
     add_numbers(t, "fact_at", m.at, m.count);
     e->moments = m.count;
+    emit_add(t, "#define FACT_expands %d\n", w.expands);
+    if (w.expands && (structure || c->width))
+        emit_add(t, "#define FACT_series %zu\n", w.series);
+    else if (w.expands)
+        emit_add(t, "#define FACT_series w->series\n");
     emit_add(t, "#define CARRIED %zu\n#define CONSTANTS %d\n", stepper_carried(w), constants);
     const bool small = compose_small(c->model);
-    emit_add(t, "#define MOMENTS %d\n#define ARRAYS %zu\n#define SMALL %d\n#define NUMBERS %zu\n\n", m.count,
-             stepper_arrays(w), c->width || small, structure ? w.nv : 0);
+    size_t arrays = stepper_arrays(w);
+    if (w.expands && small && !c->width) {
+        arrays = SERIES_APART;
+        emit_add(t, "#define SERIES_PLACED 0\n");
+    }
+    emit_add(t, "#define MOMENTS %d\n#define ARRAYS %zu\n#define SMALL %d\n#define NUMBERS %zu\n\n", m.count, arrays,
+             c->width || small, structure ? w.nv : 0);
     if (small && !c->width) {
         emit_add(t, "#define FIRST(w) false\n#define KNOWN(w) false\n#define CHECKS(w) false\n");
         add_places(t, w);
@@ -179,13 +192,14 @@ static void add_family(emit_text *t, const composition *c)
         emit_add(t, "#define NEWTON_NOW (-1)\n#define newton_increment(w, g, s, u, stage) STEP_OK\n#define "
                     "solve_factor(w, where, s, ax, av, t, x, v) STEP_OK\n"
                     "#define solve_back(w, r) ((void)0)\n#define solve_apply(w, c, y, out) ((void)0)\n");
-    if (*families[r->family].shared) add_text(t, families[r->family].shared);
-    add_text(t, families[r->family].text);
-    add_text(t, "step/plan.h");
     if (r->adaptive)
         add_text(t, "step/control.h");
     else
-        emit_add(t, "#define control_size(w) (w)->h\n#define control_judge(w) EVERY\n");
+        emit_add(t, "#define control_size(w) (w)->h\n#define control_judge(w) EVERY\n#define control_judge_own(w) "
+                    "EVERY\n");
+    if (*families[r->family].shared) add_text(t, families[r->family].shared);
+    add_text(t, families[r->family].text);
+    add_text(t, "step/plan.h");
 }
 
 /* ---- functions and operations ---- */
@@ -265,6 +279,26 @@ static void add_operations(emit *e, int width)
     emit_add(t, "#undef OF\n#undef FUSE\n#undef WHEN\n\n");
 }
 
+/* ---- Taylor series ---- */
+
+/* The functions that recurrences call besides their operations' own, and those by which the step is chosen. */
+static void need_for_series(emit *e)
+{
+    const uint64_t roots = OPERATION_BIT(POW) | OPERATION_BIT(ASIN) | OPERATION_BIT(ACOS);
+    uint64_t *used = e->lanes ? &e->used_lanes : &e->used;
+    *used |= OPERATION_BIT(LOG) | OPERATION_BIT(EXP);
+    if (e->used_series & roots) *used |= OPERATION_BIT(SQRT);
+}
+
+static void add_series(emit *e, int length)
+{
+    emit_add(&e->text, "#define SERIES_OF(f) %s\n#define LOG(x) SERIES_OF(log)(x)\n#define EXP(x) SERIES_OF(exp)(x)\n",
+             e->lanes ? "OF_LANES(f)" : "motus_##f");
+    add_text(&e->text, "step/series.h");
+    emit_add(&e->text, "enum { length = %d };\n", length);
+    emit_series_operations(e, e->lanes ? "ops" : "op");
+}
+
 /* ---- windows ---- */
 
 /* Whether the row moves numbers one by one, so that a window of them can go ahead of the others: nothing is solved,
@@ -306,9 +340,12 @@ bool compose(emit *e, const composition *c)
     for (size_t i = 0; i < c->program_count; i++) {
         e->separate = !i && c->model->graph->count > inlined;
         e->windowed = !i && windowed;
+        e->series = c->programs[i].series ? stepper_plan(c->problem, c->chosen, NULL).expands + 1 : 0;
         emit_program(e, c->programs[i].program, c->programs[i].name, c->programs[i].terms);
     }
     if (lanes) e->used_lanes |= OPERATION_BIT(MIN) | OPERATION_BIT(MAX); /* what is recorded wants them */
+    e->series = stepper_plan(c->problem, c->chosen, NULL).expands;
+    if (e->series) need_for_series(e);
     const emit_text bodies = *t;
     const int own = e->uses_vectors ? compose_width() : e->terms ? 4 : 0, width = lanes ? c->width : own;
     *t = (emit_text){.arena = bodies.arena};
@@ -337,6 +374,7 @@ bool compose(emit *e, const composition *c)
     add_operations(e, width);
     if (lanes) add_text(t, "machine/text/lanes_scalar.h");
     add_text(t, "step/work.h");
+    if (e->series) add_series(e, e->series + 1);
     add_text(t, "machine/text/host.h");
     if (e->wraps)
         emit_add(t, "#define WRAPS\n/* The mathematical k mod n; it mostly is k. */\n"

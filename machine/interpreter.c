@@ -4,16 +4,20 @@
 #include "lang/graph/graph_place.h"
 #include "lang/graph/graph_walk.h"
 #include "lang/read/read.h"
+#include "lang/graph/expansion.h"
 #include "lang/tape/tape.h"
+#include "lang/tape/tape_series.h"
 
 #include <string.h>
 
 struct interpreter {
     model *model;
     tape *accel, *boundary, *exact;
-    tape *jvp[4];         /* along dx (1), dv (2), or both (3) */
-    tape **observed;      /* one per definition, made when it is first observed, and kept while there is room */
-    uint64_t operations;  /* of the observed ones that are kept */
+    tape *jvp[4];        /* along dx (1), dv (2), or both (3) */
+    tape **observed;     /* one per definition, made when it is first observed, and kept while there is room */
+    uint64_t operations; /* of the observed ones that are kept */
+    tape_series *series, *driven_series; /* of the equations and of the driven boundary, `length` numbers each */
+    int length;
     double *acceleration; /* for quantities that contain x'' */
 };
 
@@ -55,6 +59,38 @@ static bool exact_rounding(void *ctx, double t, double *x, double *v)
 {
     interpreter *in = ctx;
     return verify_exact_rounding(in->model, t, x, v);
+}
+
+/* ---- Taylor series ---- */
+
+static tape_series *expand(model *m, const output *outputs, size_t count, int length)
+{
+    const program *p = expansion_program(m->arena, m->graph, outputs, count);
+    tape_series *s = p ? tape_series_create(m->arena, p, length) : NULL;
+    if (s) tape_series_bind(s, &(binding){m->arrays, m->ints, m->pool});
+    return s;
+}
+
+static size_t series_numbers(void *ctx, int length)
+{
+    interpreter *in = ctx;
+    model *m = in->model;
+    if (in->length != length) {
+        in->length = 0;
+        in->series = expand(m, m->accel, m->accel_count, length);
+        in->driven_series = m->driven ? expand(m, m->boundary, m->boundary_count, length) : NULL;
+        if (!in->series || (m->driven && !in->driven_series)) return 0;
+        in->length = length;
+    }
+    return 1 + tape_series_numbers(in->series) + (in->driven_series ? tape_series_numbers(in->driven_series) : 0);
+}
+
+static void series(void *ctx, int n, double t, double *x, double *v, double *a, double *kept)
+{
+    const interpreter *in = ctx;
+    if (in->driven_series)
+        tape_series_run(in->driven_series, &(series_pass){n, t, x, v, a, kept + tape_series_numbers(in->series)});
+    tape_series_run(in->series, &(series_pass){n, t, x, v, a, kept});
 }
 
 enum { ALONG_X = 1, ALONG_V = 2 };
@@ -187,6 +223,8 @@ motus_status interpreter_create(model *m, interpreter **out, problem *p, motus_e
                    .jvp = jvp,
                    .prepare = prepare,
                    .pattern = pattern,
+                   .series_numbers = series_numbers,
+                   .series = series,
                    .refresh = m->driven ? refresh : NULL,
                    .exact = in->exact ? exact : NULL,
                    .exact_rounding = m->exact_given ? exact_rounding : NULL,
@@ -255,6 +293,8 @@ bool interpreter_rebind(interpreter *in)
         if (tapes[k] && !tape_bind(tapes[k], &b)) return false;
     for (uint32_t k = 0; k < m->definition_count; k++)
         if (in->observed[k] && !tape_bind(in->observed[k], &b)) return false;
+    if (in->length) tape_series_bind(in->series, &b);
+    if (in->length && in->driven_series) tape_series_bind(in->driven_series, &b);
     double *base[SPACES] = {[SPACE_X] = m->x0, [SPACE_V] = m->v0};
     if (in->boundary) tape_run(in->boundary, m->start, base);
     return true;

@@ -8,14 +8,14 @@
 #endif
 ADVANCE_STEP int advance_step(work *w)
 {
-    if (ROW(w, adaptive)) work_scale(w, control_size(w));
+    if (ROW(w, adaptive) && !ROW(w, sizes)) work_scale(w, control_size(w));
     int bad = family_step(w);
     if (bad) return bad;
     if (!ROW(w, adaptive)) {
         time_tick(w, EVERY);
         return STEP_OK;
     }
-    const clock_mask good = control_judge(w);
+    const clock_mask good = ROW(w, sizes) ? control_judge_own(w) : control_judge(w);
     family_accept(w, good);
     time_tick(w, good);
     STOP(w, w->stalled, STEP_STALLED);

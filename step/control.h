@@ -10,6 +10,16 @@ static inline clock control_size(work *w)
     return CHOOSE_WHERE(w->ends, left, w->next);
 }
 
+/* Of rows that find their own sizes. */
+static inline clock_mask control_judge_own(work *w)
+{
+    const clock_mask good = w->error <= 1;
+    w->next = CHOOSE_WHERE(good, w->after, w->h / 2);
+    w->stalled = w->t + w->next == w->t;
+    w->refused += NONE(good);
+    return good;
+}
+
 /* An error that is not a number is refused like one that is too large. */
 static inline clock_mask control_judge(work *w)
 {

@@ -16,6 +16,7 @@ struct row {
     bool uniform;     /* every step must have the same size: no shorter last one */
     /* a step is a candidate that is accepted or refused, and the step size follows from its error */
     bool adaptive;
+    bool sizes;      /* adaptive: the step finds its own size */
     bool gyroscopic; /* the kick is implicit in v; only for a = E(x, t) + v × B(x, t) */
     struct {         /* SPLITTING: v += kick[i] h a, then x += drift[i] h v, for i = 0 … stages-1 */
         int stages;
@@ -34,5 +35,11 @@ struct row {
         int stages;
         const coef *c, *a, *b;
     } tableau;
+    /* TAYLOR: the order; the step as a fraction of the series' radius; how far the acceleration at the end of a step
+     * may be from its series, over the step, as a part of the velocity */
+    struct {
+        int order;
+        coef fraction, allowed;
+    } series;
     bool newmark; /* IMPLICIT: the tableau follows from the arguments */
 };

@@ -21,12 +21,13 @@ typedef struct series {
     const real *at;
     int last;
 } series;
+#define SERIES(at, last) ((series){at, last})
 
 #define SERIES_NUMBER(c) ((real){0} + (c))
 #define SERIES_WHERE(x, value) PICK((x) != 0, value, SERIES_NUMBER(0.0))
-#define SERIES_ITSELF ((series){r, SERIES_ALL})
+#define SERIES_ITSELF SERIES(r, SERIES_ALL)
 #define SERIES_HELPER(k) (r + (k) * (size_t)length) /* 1, 2 … */
-#define SERIES_FROM(helper) ((series){helper, SERIES_ALL})
+#define SERIES_FROM(helper) SERIES(helper, SERIES_ALL)
 #define SERIES_KEPT r[length - 1]
 #define SERIES_PART(n) ((coef)1 / (n))
 
@@ -80,7 +81,7 @@ static inline real series_halves(const series f, const int n, const int low)
 static inline series series_rates(real *rate, const series a, const int n)
 {
     if (n <= a.last) rate[n] = (double)n * a.at[n];
-    return (series){rate, a.last};
+    return SERIES(rate, a.last);
 }
 
 /* The coefficient of the integral of f a', which is n times too large; f known below n. */
@@ -337,7 +338,7 @@ static inline real series_erf(real *r, const int length, const series a, const i
     const int last = a.last < SERIES_ALL ? 2 * a.last : SERIES_ALL;
     if (n <= last) rates[n] = -(double)n * series_product(a, a, n);
     const real next = 1.1283791670955126 * series_along(SERIES_FROM(e), series_rates(SERIES_HELPER(3), a, n), n);
-    e[n] = series_along(SERIES_FROM(e), (series){rates, last}, n);
+    e[n] = series_along(SERIES_FROM(e), SERIES(rates, last), n);
     return next;
 }
 

@@ -131,6 +131,10 @@ typedef struct work {
     int moved;                               /* drifts that a machine's PASS has already made together with a kick */
     int order;                               /* adaptive: of the error estimate, which goes with h^(order + 1) */
     clock error;                             /* adaptive: the candidate's error, in units of what is allowed */
+    clock after;   /* adaptive, of rows that find their own sizes: `next` once the candidate is accepted */
+    int expands;   /* the order of the Taylor series that the row needs; 0: none */
+    size_t series; /*   numbers that they keep, as the problem says */
+    int expanded;  /*   how much of them is known at the present state: taylor.h */
 
     real *x, *v, *ex, *ev; /* v: verlet keeps the increment d = x[n] - x[n-1] here once n > 0 */
     real *a, *old, *next_x;

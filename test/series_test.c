@@ -1,8 +1,8 @@
 /* The recurrences of step/series.h, one for each row of lang/base/operations.def, in 113 bits and in double precision.
  *
  * In 113 bits by what defines the operation: its differential equation, or its inverse, multiplied out by plain
- * products of polynomials, which together with the value at 0 determines every coefficient. In double precision by Cauchy's
- * integral of the function over a circle, which knows no recurrence at all.
+ * products of polynomials, which together with the value at 0 determines every coefficient. In double
+ * precision by Cauchy's integral of the function over a circle, which knows no recurrence at all.
  */
 #include "test/given.h"
 
@@ -269,7 +269,7 @@ static void every_recurrence_solves_its_equation(void **unused)
             for (int k = 0; k < HELPERS; k++) all[k] = poly_of(r[k], ORDERS);
             const sides e = equation(op, poly_of(a.at, a.last), poly_of(b.at, b.last), poly_of(c.at, c.last), all);
             for (int n = 0; n < ORDERS; n++) {
-                /* each of n terms twice, a few operations around them, and the tests's own products */
+                /* each of n terms twice, a few operations around them, and the test's own products */
                 const quad bound = 8 * (n + 8) * QUAD_EPSILON * (e.left.size[n] + e.right.size[n]);
                 if (!(magnitude(e.left.c[n] - e.right.c[n]) <= bound))
                     fail_msg("%s: coefficient %d: %.17g is not %.17g, trial %d", rows[op].recurrence, n,

@@ -10,7 +10,7 @@
 
 static const operation_row rows[OPERATIONS] = {
 #define OP(id, arity, spelling, degree, smooth, value, derivative, keeps, recurrence) \
-    [OP_##id] = {spelling, arity, DEGREE_##degree, smooth},
+    [OP_##id] = {spelling, arity, DEGREE_##degree, smooth, keeps},
 #include "lang/base/operations.def"
 #undef OP
 };

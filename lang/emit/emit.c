@@ -50,6 +50,11 @@ static void write_functions(writer *w, const char *name, bool terms)
         emit_region(w, AT_RUN);
         SAY(w, "}\n\n");
     }
+    w->part = RUNNING;
+    if (w->e->series) {
+        emit_series_pass(w, name);
+        return;
+    }
     SAY(w,
         "%s void %s(%sconst double *restrict u, const real *restrict w, real *restrict own, clock t, "
         "const clock *restrict T, real *restrict x, real *restrict v, real *restrict a, real *restrict out%s)\n{\n%s, "
@@ -58,7 +63,6 @@ static void write_functions(writer *w, const char *name, bool terms)
         "(void)out;\n",
         w->e->separate ? "__attribute__((noinline)) static" : "static inline", name, parameters,
         w->e->windowed ? ", const whole from, const whole to, const window_put *move" : "", silence);
-    w->part = RUNNING;
     write_constants(w);
     emit_region(w, AT_RUN);
     SAY(w, "}\n\n");

@@ -5,6 +5,7 @@
 
 #include "lang/emit/emit.h"
 #include "lang/base/operation.h"
+#include "lang/graph/expansion.h"
 #include "lang/graph/plan.h"
 
 typedef struct writer {
@@ -19,8 +20,9 @@ typedef struct writer {
     uint32_t *term;  /* by node: its place in T, or NONE */
     /* the level whose index differs from lane to lane, while the inside of its loop is written; else -1 */
     int along;
-    uint32_t stores; /* outside of loops, so far */
-    bool one_by_one; /* lanes are written in a loop over l, and a place is that of lane l */
+    expansion expansion; /* of a program in series */
+    uint32_t stores;     /* outside of loops, so far */
+    bool one_by_one;     /* lanes are written in a loop over l, and a place is that of lane l */
 } writer;
 
 enum {
@@ -55,5 +57,7 @@ void emit_outputs(writer *, uint32_t first);
 void emit_item(writer *, uint32_t item);
 
 void emit_region(writer *, uint32_t region);
+
+void emit_series_pass(writer *, const char *name);
 
 #endif

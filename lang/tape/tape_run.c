@@ -338,4 +338,4 @@ l_end:
     return;
 }
 
-const tape_machine OF_ISA(tape_run_) = {TEXT(ISA), execute};
+const tape_machine OF_ISA(tape_run_) = {TEXT(ISA), execute, OF_ISA(tape_series_isa_)};
