@@ -219,33 +219,37 @@ int compose_width(void)
 #endif
 }
 
+#define ANY_OF(a, b, c, d) (OPERATION_BIT(a) | OPERATION_BIT(b) | OPERATION_BIT(c) | OPERATION_BIT(d))
+#define ALL_OPERATIONS (~(uint64_t)0)
+#define HYPERBOLIC ANY_OF(SINH, SINH, COSH, TANH)
+#define CIRCULAR ANY_OF(SIN, SIN, COS, TAN)
+#define INVERSE ANY_OF(ASIN, ACOS, ATAN, ATAN2)
+#define ROOT ANY_OF(CBRT, CBRT, HYPOT, HYPOT)
+#define POWER OPERATION_BIT(POW)
+#define ERROR OPERATION_BIT(ERF)
+#define LOGARITHM (OPERATION_BIT(LOG) | POWER)
+#define EXPONENTIAL (OPERATION_BIT(EXP) | POWER | HYPERBOLIC | ERROR)
+#define PLAIN (ANY_OF(SQRT, ABS, FLOOR, MOD) | ANY_OF(MIN, MIN, MAX, SIGN))
+
 /* The texts of the functions that a set of operations needs. */
 static void add_functions(emit_text *t, uint64_t used)
 {
-#define ANY_OF(a, b, c, d) (OPERATION_BIT(a) | OPERATION_BIT(b) | OPERATION_BIT(c) | OPERATION_BIT(d))
-    static const uint64_t hyperbolic = ANY_OF(SINH, SINH, COSH, TANH), circular = ANY_OF(SIN, SIN, COS, TAN),
-                          inverse = ANY_OF(ASIN, ACOS, ATAN, ATAN2), root = ANY_OF(CBRT, CBRT, HYPOT, HYPOT),
-                          power = OPERATION_BIT(POW), error = OPERATION_BIT(ERF),
-                          logarithm = OPERATION_BIT(LOG) | power,
-                          exponential = OPERATION_BIT(EXP) | power | hyperbolic | error,
-                          plain = ANY_OF(SQRT, ABS, FLOOR, MOD) | ANY_OF(MIN, MIN, MAX, SIGN);
-    const struct {
+    static const struct {
         uint64_t needed_by;
         const char *text;
-    } texts[] = {{~(uint64_t)0, "step/functions/core.h"},
-                 {plain, "step/functions/plain.h"},
-                 {exponential, "step/functions/exponential.h"},
-                 {logarithm, "step/functions/logarithm.h"},
-                 {power, "step/functions/power.h"},
-                 {hyperbolic, "step/functions/hyperbolic.h"},
-                 {circular, "step/functions/circular.h"},
-                 {inverse, "step/functions/inverse.h"},
-                 {root, "step/functions/root.h"},
-                 {error, "step/functions/error.h"},
-                 {~(uint64_t)0, "step/functions/end.h"}};
+    } texts[] = {{ALL_OPERATIONS, "step/functions/core.h"},
+                 {PLAIN, "step/functions/plain.h"},
+                 {EXPONENTIAL, "step/functions/exponential.h"},
+                 {LOGARITHM, "step/functions/logarithm.h"},
+                 {POWER, "step/functions/power.h"},
+                 {HYPERBOLIC, "step/functions/hyperbolic.h"},
+                 {CIRCULAR, "step/functions/circular.h"},
+                 {INVERSE, "step/functions/inverse.h"},
+                 {ROOT, "step/functions/root.h"},
+                 {ERROR, "step/functions/error.h"},
+                 {ALL_OPERATIONS, "step/functions/end.h"}};
     for (size_t i = 0; i < sizeof texts / sizeof *texts; i++)
         if (used & texts[i].needed_by) add_text(t, texts[i].text);
-#undef ANY_OF
 }
 
 /* Operations over doubles, op_7, and over vectors of them, ops_7, which are called reals. */
@@ -290,10 +294,33 @@ static void need_for_series(emit *e)
     if (e->used_series & roots) *used |= OPERATION_BIT(SQRT);
 }
 
+/* The functions that the recurrences name. Those whose text no operation of the model needs are not there, and what
+ * names them is not called. */
+static void add_named(emit *e)
+{
+    static const struct {
+        const char *name;
+        uint64_t supplied_by;
+    } functions[] = {{"sqrt", PLAIN},    {"floor", PLAIN},     {"pow", POWER},       {"exp", EXPONENTIAL},
+                     {"log", LOGARITHM}, {"sinh", HYPERBOLIC}, {"cosh", HYPERBOLIC}, {"tanh", HYPERBOLIC},
+                     {"sin", CIRCULAR},  {"cos", CIRCULAR},    {"tan", CIRCULAR},    {"asin", INVERSE},
+                     {"acos", INVERSE},  {"atan", INVERSE},    {"atan2", INVERSE},   {"cbrt", ROOT},
+                     {"hypot", ROOT},    {"erf", ERROR}};
+    for (size_t i = 0; i < sizeof functions / sizeof *functions; i++) {
+        const char *name = functions[i].name;
+        emit_add(&e->text, "#define series_of_%s", name);
+        if ((e->lanes ? e->used_lanes : e->used) & functions[i].supplied_by)
+            emit_add(&e->text, e->lanes ? " OF_LANES(%s)\n" : " motus_%s\n", name);
+        else
+            emit_add(&e->text, "(...) SERIES_NUMBER(0.0)\n");
+    }
+}
+
 static void add_series(emit *e, int length)
 {
-    emit_add(&e->text, "#define SERIES_OF(f) %s\n#define LOG(x) SERIES_OF(log)(x)\n#define EXP(x) SERIES_OF(exp)(x)\n",
-             e->lanes ? "OF_LANES(f)" : "motus_##f");
+    add_named(e);
+    emit_add(&e->text, "#define SERIES_OF(f) series_of_##f\n#define LOG(x) SERIES_OF(log)(x)\n#define EXP(x) "
+                       "SERIES_OF(exp)(x)\n");
     add_text(&e->text, "step/series.h");
     emit_add(&e->text, "enum { length = %d };\n", length);
     emit_series_operations(e, e->lanes ? "ops" : "op");

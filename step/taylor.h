@@ -2,7 +2,8 @@
  * series.h, and a step as long as they allow [JZ05].
  *
  * One series gives both: x[n+2] = a[n]/((n+1)(n+2)), v[n+1] = a[n]/(n+1), where a[n], coefficient n of the
- * acceleration, needs x and v to order n alone. A first-order variable is a velocity without a position. The includer supplies
+ * acceleration, needs x and v to order n alone. A first-order variable is a velocity without a position. The includer
+ * supplies
  *     series_order(w, n, t)    coefficient n of the acceleration to w->a, from those below; the series begin at t
  *     LOG(x), EXP(x)           of real
  * and memory of w->series numbers for what the recurrences keep, at w->ks.
@@ -27,18 +28,21 @@ enum { TAYLOR_NOTHING, TAYLOR_BEGUN, TAYLOR_WHOLE }; /* w->expanded: of the pres
 #endif
 #define TAYLOR_ZERO ((real){0})
 
-/* The series at the present state. */
+/* The series at the present state. Driven boundary cells come from series_order. */
 static inline void taylor_expand(work *w)
 {
     const int length = TAYLOR_LENGTH(w), last = FACT(w, expands);
     real *restrict xs = w->xs, *restrict vs = w->vs, *restrict as = w->r;
     const real *restrict a = w->a;
-    if (w->expanded == TAYLOR_WHOLE) return;
-    EACH(k) TAYLOR_OF(xs, k)[0] = w->x[k], TAYLOR_OF(xs, k)[1] = w->v[k];
+    EACH(k) TAYLOR_OF(xs, k)[0] = w->x[k];
     EACHV(k) TAYLOR_OF(vs, k)[0] = w->v[k];
+    if (w->expanded == TAYLOR_WHOLE) return;
+    if (w->expanded == TAYLOR_NOTHING) series_order(w, 0, time_now(w));
+    EACH(k) w->x[k] = TAYLOR_OF(xs, k)[0], TAYLOR_OF(xs, k)[1] = w->v[k];
+    EACHV(k) w->v[k] = TAYLOR_OF(vs, k)[0];
     for (int n = 0; n <= last - 2; n++) {
         const coef first = (coef)1 / (n + 1), second = (coef)1 / ((coef)(n + 1) * (n + 2));
-        if (n > 0 || w->expanded == TAYLOR_NOTHING) series_order(w, n, time_now(w));
+        if (n > 0) series_order(w, n, time_now(w));
         EACHV(k) TAYLOR_OF(as, k)[n] = a[k], TAYLOR_OF(vs, k)[n + 1] = first * a[k];
         EACH(k) TAYLOR_OF(xs, k)[n + 2] = second * a[k];
     }
@@ -140,7 +144,7 @@ static int taylor_step(work *w)
     w->after = forward * TAYLOR_GROWTH * CHOOSE_WHERE(FINITE(free), free, bound);
     work_scale(w, control_size(w));
     taylor_candidate(w);
-    series_order(w, 0, time_in(w, 1));
+    series_order(w, 0, CHOOSE_WHERE(w->ends, w->until, time_in(w, 1)));
     w->error = taylor_error(w, free);
     w->error = CHOOSE_WHERE(FINITE(w->error) & (ABS(w->h) <= 4 * EPSILON * ABS(w->t)), CLOCK(0), w->error);
     return STEP_OK;
@@ -148,18 +152,19 @@ static int taylor_step(work *w)
 
 static inline void taylor_accept(work *w, clock_mask good)
 {
+    const int length = TAYLOR_LENGTH(w);
     const clock h = w->h;
     w->expanded = NONE(good) ? TAYLOR_WHOLE : NONE(NOT(good)) ? TAYLOR_BEGUN : TAYLOR_NOTHING;
     w->evaluations += NONE(good) ? 1 : FACT(w, expands) - 1; /* orders that were computed */
-#define TAYLOR_MOVE(y, e, increment)                 \
+#define TAYLOR_MOVE(y, e, increment, end)            \
     do {                                             \
         real to = (y), rest = (e);                   \
         ADVANCE_COMPENSATED(to, rest, h, increment); \
-        (y) = CHOOSE_WHERE(good, to, y);             \
+        (y) = CHOOSE_WHERE(good, end, y);            \
         (e) = CHOOSE_WHERE(good, rest, e);           \
     } while (0)
-    EACH(k) TAYLOR_MOVE(w->x[k], w->ex[k], w->next_x[k]);
-    EACHV(k) TAYLOR_MOVE(w->v[k], w->ev[k], w->delta[k]);
+    EACH(k) TAYLOR_MOVE(w->x[k], w->ex[k], w->next_x[k], TAYLOR_OF(w->xs, k)[0]);
+    EACHV(k) TAYLOR_MOVE(w->v[k], w->ev[k], w->delta[k], TAYLOR_OF(w->vs, k)[0]);
 #undef TAYLOR_MOVE
 }
 
