@@ -15,6 +15,7 @@
 
 /* LINE: bytes of a cache line, to which arrays are aligned */
 enum { SNAPSHOT = 64, SNAPSHOT_LARGE = 256, CHECK_ALWAYS = 4096, LINE = 64 };
+enum { SERIES_MOST = 1 << 27 }; /* numbers of a model's Taylor series: a gigabyte */
 
 const stepper_body *stepper_best_body(void)
 {
@@ -81,6 +82,11 @@ motus_status stepper_create(const machine *m, const chosen *method, double t0, d
     if (status) return status;
     const work sizes = stepper_plan(p, method, NULL);
     if (sizes.expands && !sizes.series) return fail(err, MOTUS_MEMORY, "out of memory for the Taylor series");
+    if (sizes.series > SERIES_MOST) {
+        fail(err, MOTUS_LIMIT, "the Taylor series of this model take %.1f GB", 8e-9 * (double)sizes.series);
+        hint(err, "every pair of bodies has series of its own: take fewer bodies, or another method");
+        return MOTUS_LIMIT;
+    }
     const size_t arrays = stepper_arrays(sizes), carried = stepper_carried(sizes) * p->nv + STEPPER_CLOCKS;
     const size_t head = (sizeof(stepper) + LINE - 1) / LINE * LINE, plan = work_plan_size(&sizes);
     if (sizes.stride > (SIZE_MAX - head - LINE) / sizeof(double) / (arrays + CARRY_MAX + 1) - plan)

@@ -200,7 +200,8 @@ static const stepper_body *body_of(compiled *c, const chosen *chosen, int how)
     }
     emit e = {.text = {.arena = c->model->arena}};
     if (!write_text(c, chosen, &e)) return NULL;
-    if (!compose_small(c->model)) how |= COMPILER_LOOPS;
+    /* the loops of Taylor series are short, and their sums run in order */
+    if (!compose_small(c->model) && chosen->row->family != TAYLOR) how |= COMPILER_LOOPS;
     void *handle = cache_load(e.text.bytes, e.text.length, how, c->note, sizeof c->note);
     if (!handle) return NULL;
     void (*bind)(const double *, const int64_t *, double *);
