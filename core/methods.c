@@ -352,5 +352,5 @@ const row methods_taylor =
        .formula = "x₁ = x + h v + h²/2 a + h³/6 a′ + … + h²⁴/24! a⁽²²⁾, with the step that the last coefficients allow",
        .use = "The most digits for the least time, where the force is smooth: each step is as long as the\n"
               "series allow." },
-      .family = TAYLOR, .compensated = true, .adaptive = true, .sizes = true, .series = {24, K(0.2), K(1e-14)} };
+      .family = TAYLOR, .compensated = true, .adaptive = true, .sizes = true, .series = {K(1e-16)} };
 /* clang-format on */

@@ -35,11 +35,10 @@ struct row {
         int stages;
         const coef *c, *a, *b;
     } tableau;
-    /* TAYLOR: the order; the step as a fraction of the series' radius; how far the acceleration at the end of a step
-     * may be from its series, over the step, as a part of the velocity */
+    /* TAYLOR: what a step may lose, as a part of the motion; the order, 0: as the tolerance wants it */
     struct {
+        coef tolerance;
         int order;
-        coef fraction, allowed;
     } series;
     bool newmark; /* IMPLICIT: the tableau follows from the arguments */
 };
