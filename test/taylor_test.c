@@ -237,8 +237,12 @@ static void smooth_motions_refuse_no_step(void **unused)
                                   "x'' = (1 - x^2) x' - x\nx(0) = 2\nx'(0) = 0", "x'' = cos(t)\nx(0) = 0\nx'(0) = 0"};
     for (size_t k = 0; k < sizeof smooth / sizeof *smooth; k++) {
         motus_system *s = given_text(smooth[k]);
-        motus_run *r = run_on(s, "interpreter", 20);
+        motus_run_def def = motus_default_run();
         motus_statistics st = motus_default_statistics();
+        motus_error err = motus_default_error();
+        motus_run *r = NULL;
+        def.method = "taylor", def.machine = "interpreter", def.step = def.until = 20;
+        must(motus_run_create(s, &def, &r, &err), &err, smooth[k]);
         finish(r);
         assert_int_equal(motus_run_statistics(r, &st), MOTUS_OK);
         if (st.refused) fail_msg("%d steps of %d refused: %s", (int)st.refused, (int)st.steps, smooth[k]);
