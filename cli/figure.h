@@ -26,7 +26,7 @@ typedef struct figure {
 } figure;
 
 /* Chooses before the run what will be drawn. */
-motus_status figure_begin(figure *, const load *, const options *, motus_run *, motus_error *);
+motus_status figure_begin(figure *, const load *, const options *, motus_run *, double until, motus_error *);
 /* The observers that record it along the run. */
 void figure_observers(figure *, walk_observer out[FIGURE_OBSERVERS]);
 motus_status figure_draw(figure *, const char *path, file_out *, motus_error *);

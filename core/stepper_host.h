@@ -44,7 +44,7 @@ static inline void refresh_at(work *w, clock t, real *x, real *v)
 static inline void series_order(work *w, int n, clock t)
 {
     const problem *p = w->library->problem;
-    p->series(p->ctx, n, t, w->xs, w->vs, w->a, w->ks);
+    p->series(p->ctx, w->expands + 1, n, t, w->xs, w->vs, w->a, w->ks);
 }
 
 #define LOG(x) motus_log(x)

@@ -38,6 +38,10 @@ typedef struct traits {
 typedef struct problem {
     void *ctx;
     size_t nx, nv;
+    /* Numbers of one variable have one unit, and error control gives them one size: variable g has those from
+     * variables[g] on of v, and of x as far as x goes; variables[variable_count] = nv. NULL: all are one variable. */
+    const size_t *variables;
+    int variable_count;
     traits traits;
     /* a = a(x, v, t); other than 0: the user's callback failed. May refresh driven boundary cells of x and v. */
     int (*accel)(void *ctx, double t, double *x, double *v, double *a);
@@ -53,7 +57,7 @@ typedef struct problem {
      * coefficient n of the acceleration at (t, x, v), to a, from the series of x and v, `length` numbers each. NULL: no
      * formula is known. */
     size_t (*series_numbers)(void *ctx, int length);
-    void (*series)(void *ctx, int n, double t, double *x, double *v, double *a, double *kept);
+    void (*series)(void *ctx, int length, int n, double t, double *x, double *v, double *a, double *kept);
     void (*refresh)(void *ctx, double t, double *x, double *v); /* NULL: no driven boundary */
     int (*exact)(void *ctx, double t, double *x, double *v);    /* NULL: unknown */
     /* How far rounding may carry the exact motion at time t off, in units of EXACT_ROUNDING, written to x and v; false:

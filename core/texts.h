@@ -1,11 +1,12 @@
 /* The texts of step/ in their order, with every family, for an includer that has defined the macros and functions that
  * work.h lists. Nothing here is an operation on the state, so all includers get the same bits.
  */
+#include "step/norm.h"
+#include "step/control.h"
 #include "step/dense.h"
 #include "step/newton.h"
 #include "step/operators.h"
 #include "step/tableau.h"
-#include "step/control.h"
 #define FAMILY_TEXTS
 #include "step/families.def"
 #undef FAMILY_TEXTS

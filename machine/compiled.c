@@ -25,6 +25,7 @@ enum { OBJECTS_MAX = 64, NOTE_MAX = 400 };
 typedef struct object {
     const row *row;
     double argument[2];
+    int expands; /* the order of its Taylor series follows from a tolerance */
     void *handle;
     stepper_body body;
 } object;
@@ -69,9 +70,9 @@ static void pattern(void *ctx, bool in_v, void (*emit)(void *, size_t, size_t), 
     of(ctx)->pattern(of(ctx)->ctx, in_v, emit, arg);
 }
 static size_t series_numbers(void *ctx, int length) { return of(ctx)->series_numbers(of(ctx)->ctx, length); }
-static void series(void *ctx, int n, double t, double *x, double *v, double *a, double *kept)
+static void series(void *ctx, int length, int n, double t, double *x, double *v, double *a, double *kept)
 {
-    of(ctx)->series(of(ctx)->ctx, n, t, x, v, a, kept);
+    of(ctx)->series(of(ctx)->ctx, length, n, t, x, v, a, kept);
 }
 static void refresh(void *ctx, double t, double *x, double *v) { of(ctx)->refresh(of(ctx)->ctx, t, x, v); }
 static int exact(void *ctx, double t, double *x, double *v) { return of(ctx)->exact(of(ctx)->ctx, t, x, v); }
@@ -183,9 +184,10 @@ static bool bind_numbers(compiled *c, const emit *e, void (*bind)(const double *
 
 static const stepper_body *body_of(compiled *c, const chosen *chosen, int how)
 {
+    const int expands = stepper_plan(c->interpreted, chosen, NULL).expands;
     for (int i = 0; i < c->count; i++)
         if (c->objects[i].row == chosen->row && c->objects[i].argument[0] == chosen->argument[0] &&
-            c->objects[i].argument[1] == chosen->argument[1])
+            c->objects[i].argument[1] == chosen->argument[1] && c->objects[i].expands == expands)
             return &c->objects[i].body;
     snprintf(c->note, sizeof c->note, "out of memory");
     if (c->count == OBJECTS_MAX) {
@@ -208,6 +210,7 @@ static const stepper_body *body_of(compiled *c, const chosen *chosen, int how)
     object *o = &c->objects[c->count];
     *o = (object){.row = chosen->row,
                   .argument = {chosen->argument[0], chosen->argument[1]},
+                  .expands = expands,
                   .handle = handle,
                   .body = *stepper_best_body()};
     const stepper_body *library = stepper_best_body();

@@ -10,14 +10,17 @@
 
 #include <string.h>
 
+enum { LENGTHS = 26 }; /* series of up to 25 numbers: taylor_order */
 struct interpreter {
     model *model;
     tape *accel, *boundary, *exact;
     tape *jvp[4];        /* along dx (1), dv (2), or both (3) */
     tape **observed;     /* one per definition, made when it is first observed, and kept while there is room */
     uint64_t operations; /* of the observed ones that are kept */
-    tape_series *series, *driven_series; /* of the equations and of the driven boundary, `length` numbers each */
-    int length;
+    struct expanded {    /* in Taylor series of so many numbers each, once they are wanted */
+        tape_series *equations, *boundary;
+        bool known;
+    } expanded[LENGTHS];
     double *acceleration; /* for quantities that contain x'' */
 };
 
@@ -75,22 +78,23 @@ static size_t series_numbers(void *ctx, int length)
 {
     interpreter *in = ctx;
     model *m = in->model;
-    if (in->length != length) {
-        in->length = 0;
-        in->series = expand(m, m->accel, m->accel_count, length);
-        in->driven_series = m->driven ? expand(m, m->boundary, m->boundary_count, length) : NULL;
-        if (!in->series || (m->driven && !in->driven_series)) return 0;
-        in->length = length;
+    struct expanded *e = &in->expanded[length];
+    if (!e->known) {
+        e->equations = expand(m, m->accel, m->accel_count, length);
+        e->boundary = m->driven ? expand(m, m->boundary, m->boundary_count, length) : NULL;
+        e->known = e->equations && (e->boundary || !m->driven);
     }
-    return 1 + tape_series_numbers(in->series) + (in->driven_series ? tape_series_numbers(in->driven_series) : 0);
+    if (!e->known) return 0;
+    return 1 + tape_series_numbers(e->equations) + (e->boundary ? tape_series_numbers(e->boundary) : 0);
 }
 
-static void series(void *ctx, int n, double t, double *x, double *v, double *a, double *kept)
+static void series(void *ctx, int length, int n, double t, double *x, double *v, double *a, double *kept)
 {
     const interpreter *in = ctx;
-    if (in->driven_series)
-        tape_series_run(in->driven_series, &(series_pass){n, t, x, v, a, kept + tape_series_numbers(in->series)});
-    tape_series_run(in->series, &(series_pass){n, t, x, v, a, kept});
+    const struct expanded *e = &in->expanded[length];
+    if (e->boundary)
+        tape_series_run(e->boundary, &(series_pass){n, t, x, v, a, kept + tape_series_numbers(e->equations)});
+    tape_series_run(e->equations, &(series_pass){n, t, x, v, a, kept});
 }
 
 enum { ALONG_X = 1, ALONG_V = 2 };
@@ -218,6 +222,8 @@ motus_status interpreter_create(model *m, interpreter **out, problem *p, motus_e
     *p = (problem){.ctx = in,
                    .nx = m->nx,
                    .nv = m->nv,
+                   .variables = m->variables,
+                   .variable_count = (int)m->state_count,
                    .traits = m->traits,
                    .accel = accel,
                    .jvp = jvp,
@@ -293,8 +299,10 @@ bool interpreter_rebind(interpreter *in)
         if (tapes[k] && !tape_bind(tapes[k], &b)) return false;
     for (uint32_t k = 0; k < m->definition_count; k++)
         if (in->observed[k] && !tape_bind(in->observed[k], &b)) return false;
-    if (in->length) tape_series_bind(in->series, &b);
-    if (in->length && in->driven_series) tape_series_bind(in->driven_series, &b);
+    for (int k = 0; k < LENGTHS; k++) {
+        if (in->expanded[k].known) tape_series_bind(in->expanded[k].equations, &b);
+        if (in->expanded[k].known && m->driven) tape_series_bind(in->expanded[k].boundary, &b);
+    }
     double *base[SPACES] = {[SPACE_X] = m->x0, [SPACE_V] = m->v0};
     if (in->boundary) tape_run(in->boundary, m->start, base);
     return true;

@@ -8,8 +8,8 @@
  *     LOG(x), EXP(x)           of real
  * and memory of w->series numbers for what the recurrences keep, at w->ks.
  *
- * Step: rho, the radius on which the last coefficients are as large as the motion, times the row's fraction. The
- * smallest of WINDOW radii is taken, because whole residue classes of orders may vanish: x'' = -x³ from x = 0 has every
+ * Step: of each of the last WINDOW coefficients of each variable the radius on which it is as large as the motion, and
+ * of that the fraction on which the first term left out is what a step may lose. The smallest is taken, because whole residue classes of orders may vanish: x'' = -x³ from x = 0 has every
  * fourth alone. The rule knows nothing of what the series do not show: of kinks, of orders beyond the last. So the
  * acceleration at the end of the step is compared with its series. Where they differ the step is refused, halved, and
  * taken again by the same series. Where they agree it is coefficient 0 of the next step. A jump of the acceleration is
@@ -20,6 +20,7 @@
  * of the motion as the last step saw it.
  */
 enum { TAYLOR_WINDOW = 8, TAYLOR_GROWTH = 4 };
+#define TAYLOR_SAFETY 0.93
 enum { TAYLOR_NOTHING, TAYLOR_BEGUN, TAYLOR_WHOLE }; /* w->expanded: of the present state order 0 is known, or all */
 #define TAYLOR_LENGTH(w) (FACT(w, expands) + 1)
 #define TAYLOR_OF(series, k) ((series) + (k) * (size_t)length)
@@ -66,31 +67,43 @@ static inline real taylor_reach(const real *c, real size, const clock time)
     return LARGER(time * time * ABS(c[2]), size);
 }
 
-/* The larger of `most` and -log rho, from coefficient n of size c in a motion of size `reach`. */
-static inline real taylor_radius(const real c, const real reach, const int n, const real most)
+/* The step by one coefficient of a variable of this size, as -log: it makes the term n c h^n as large as the part of
+ * the size that a step may lose, by the radius that the coefficient shows. The larger of it and `most`. */
+static inline real taylor_term(const real c, const real reach, const int n, const real lost, const real most)
 {
-    const real here = LOG((coef)n * c / reach) / (coef)n;
+    const real here = LOG((coef)n * c / reach) / (coef)n - lost;
     return PICK((c > 0) & (reach > 0), LARGER(here, most), most);
 }
 
-/* The step that the series allow; infinite where they have ended. */
+/* log of the part that a step may lose of a variable of this size, over the order. The last coefficients tell those
+ * left out but roughly: a tenth of the tolerance. */
+static inline real taylor_lost(const work *w, const real reach)
+{
+    const real part = 0.1 * LARGER(FMA(w->relative, reach, w->absolute + (real){0}) / reach, (real){0} + EPSILON);
+    return LOG(part) / (coef)FACT(w, expands);
+}
+
+/* The step that the series of all variables allow; infinite where they have ended. */
 static inline clock taylor_size(const work *w, const clock time)
 {
     const int length = TAYLOR_LENGTH(w), last = FACT(w, expands),
               window = last < 2 * TAYLOR_WINDOW ? last / 2 : TAYLOR_WINDOW;
-    const real *const xs = w->xs, *const vs = w->vs;
-    real most = TAYLOR_ZERO - INFINITY, reach = TAYLOR_ZERO;
-    EACH(k) reach = taylor_reach(TAYLOR_OF(xs, k), reach, time);
-    for (int n = last - window + 1; n <= last; n++) {
-        real c = TAYLOR_ZERO;
-        EACH(k) c = LARGER(ABS(TAYLOR_OF(xs, k)[n]), c);
-        most = taylor_radius(c, reach, n, most);
+    real most = TAYLOR_ZERO - INFINITY;
+    EACH_VARIABLE(g)
+    {
+        const size_t from = VARIABLE(w, g), to = VARIABLE(w, g + 1);
+        const bool moves = from < FACT(w, nx); /* it has a position */
+        const real *const series = moves ? w->xs : w->vs;
+        real reach = TAYLOR_ZERO;
+        for (size_t k = from; k < to; k++) reach = taylor_reach(TAYLOR_OF(series, k), reach, time);
+        const real lost = taylor_lost(w, reach);
+        for (int n = last - window + moves; n < last + moves; n++) {
+            real c = TAYLOR_ZERO;
+            for (size_t k = from; k < to; k++) c = LARGER(ABS(TAYLOR_OF(series, k)[n]), c);
+            most = taylor_term(c, reach, n, lost, most);
+        }
     }
-    for (size_t k = FACT(w, nx); k < FACT(w, nv); k++) {
-        const real *s = TAYLOR_OF(vs, k), own = taylor_reach(s, TAYLOR_ZERO, time);
-        for (int n = last - window; n < last; n++) most = taylor_radius(ABS(s[n]), own, n, most);
-    }
-    return FACT(w, c)[0] * EXP(-most);
+    return TAYLOR_SAFETY * EXP(-most);
 }
 
 /* Where the state would be after the step, as coefficient 0 of xs and vs; the increments over h in next_x and delta. */
@@ -110,34 +123,42 @@ static inline void taylor_candidate(work *w)
     }
 }
 
-/* How large the velocity k is in the step, by its ends and its rate. */
-static inline real taylor_speed(const work *w, const size_t k, const real least)
+/* How large a velocity is in the step, by its ends, its rate, and where there is a position the way. */
+static inline real taylor_speed(const work *w, const size_t k, const clock free, const real least)
 {
     const int length = TAYLOR_LENGTH(w);
-    const real speed = LARGER(ABS(TAYLOR_OF(w->vs, k)[0]), least), rate = ABS(w->h) * ABS(TAYLOR_OF(w->r, k)[0]);
-    return LARGER(ABS(w->v[k]), LARGER(rate, speed));
+    const real end = LARGER(ABS(TAYLOR_OF(w->vs, k)[0]), least), rate = ABS(w->h) * ABS(TAYLOR_OF(w->r, k)[0]);
+    const real speed = LARGER(ABS(w->v[k]), LARGER(rate, end));
+    return k < FACT(w, nx) ? LARGER(ABS(w->x[k]) / free, speed) : speed;
 }
 
-/* The difference between the acceleration at the end of the step and its series, over the step, as a part of the
- * velocity; of the positions, the largest. In units of what is allowed; free: the step that the series allow. */
+/* The difference between the acceleration at the end of the step and its series, over the step, in units of what is
+ * allowed of the velocity: 100 times what a step may lose, since the series of the acceleration ends two orders before.
+ * The largest of all variables. free: the step that the series allow. */
 static inline real taylor_error(const work *w, const clock free)
 {
     const int length = TAYLOR_LENGTH(w), last = FACT(w, expands);
-    const clock allowed = FACT(w, c)[1] + CLOCK(0);
-    real error = TAYLOR_ZERO, speed = TAYLOR_ZERO;
-    EACH(k) speed = taylor_speed(w, k, LARGER(ABS(w->x[k]) / free, speed));
-    EACHV(k) {
-        const real apart = ABS(w->h) * ABS(w->a[k] - taylor_sum(TAYLOR_OF(w->r, k), 0, last - 2, w->h));
-        const real own = k < FACT(w, nx) ? speed : taylor_speed(w, k, TAYLOR_ZERO);
-        const real part = PICK(apart == 0, TAYLOR_ZERO, apart / (allowed * own));
-        error = PICK(part <= error, error, part); /* and not a number stays one */
+    real error = TAYLOR_ZERO;
+    EACH_VARIABLE(g)
+    {
+        real speed = TAYLOR_ZERO, apart = TAYLOR_ZERO, none = TAYLOR_ZERO;
+        for (size_t k = VARIABLE(w, g); k < VARIABLE(w, g + 1); k++) {
+            const real off = w->h * (w->a[k] - taylor_sum(TAYLOR_OF(w->r, k), 0, last - 2, w->h));
+            apart = LARGER(ABS(off), apart);
+            none += off - off; /* not a number, where it is not finite */
+            speed = taylor_speed(w, k, free, speed);
+        }
+        const real allowed = 10 * LARGER(FMA(w->relative, speed, w->absolute + TAYLOR_ZERO), EPSILON * speed);
+        const real share = PICK(apart == 0, TAYLOR_ZERO, apart / allowed) + none;
+        error = PICK(share <= error, error, share);
     }
     return error;
 }
 
 static int taylor_step(work *w)
 {
-    const clock bound = ABS(w->next), forward = CHOOSE_WHERE(w->until < w->t, CLOCK(-1), CLOCK(1));
+    const clock bound = CHOOSE_WHERE(ABS(w->next) < w->most, ABS(w->next), w->most),
+                forward = CHOOSE_WHERE(w->until < w->t, CLOCK(-1), CLOCK(1));
     taylor_expand(w);
     const clock free = taylor_size(w, bound / TAYLOR_GROWTH);
     w->next = forward * CHOOSE_WHERE(free < bound, free, bound);
@@ -147,6 +168,7 @@ static int taylor_step(work *w)
     series_order(w, 0, CHOOSE_WHERE(w->ends, w->until, time_in(w, 1)));
     w->error = taylor_error(w, free);
     w->error = CHOOSE_WHERE(FINITE(w->error) & (ABS(w->h) <= 4 * EPSILON * ABS(w->t)), CLOCK(0), w->error);
+    w->fresh = false; /* a is coefficient 0, by equations that are written in another way */
     return STEP_OK;
 }
 
@@ -193,24 +215,21 @@ static inline void taylor_place(work *w, placing *p)
 #ifdef ROWS
 /* Work goes with the square of the order, and the step with tolerance^(1/order): least at 1 - log(tolerance)/2
  * [JZ05, 3.2.1]. Sums of few terms wait for one another as long as sums of some more, which favours a fifth more:
- * 24 orders at 1e-16. */
+ * order 24 for steps that lose 1e-16. */
 static int taylor_order(const coef tolerance)
 {
     const coef order = 2 - (coef)0.6 * LOG(tolerance);
-    return order < 6 ? 6 : order > 40 ? 40 : (int)order;
+    return order < 6 ? 6 : order > 24 ? 24 : (int)order;
 }
 
-/* What stands for abscissae: the step as a fraction of rho, on which the first term that is left out is as large as
- * the tolerance, and a little less since its factor is the order; and how far the acceleration at the end of a step may
- * be from its series, which ends two orders earlier. */
 static void taylor_plan(work *w, const double argument[2], coef *unit, coef *c)
 {
-    const coef tolerance = w->row->series.tolerance;
     (void)argument, (void)unit;
-    w->expands = w->row->series.order ? w->row->series.order : taylor_order(tolerance);
+    const clock tolerance = w->relative > 0 ? w->relative : w->absolute;
+    w->expands = w->row->series ? w->row->series : taylor_order((coef)(0.1 * tolerance));
     w->order = w->expands;
-    w->stages = 2;
-    if (c) c[0] = (coef)0.93 * EXP(LOG(tolerance) / w->expands), c[1] = 100 * tolerance;
+    w->stages = 1;
+    if (c) c[0] = 0;
 }
 #endif
 

@@ -11,8 +11,9 @@ scratch=$(mktemp -d) || exit 1
 trap 'rm -rf "$scratch"' EXIT
 export XDG_CACHE_HOME=$scratch/cache
 
-rows() { "$motus" sweep "$@" --method taylor --step 0.1 --quiet 2>/dev/null | grep -E '^[0-9]' | awk '{ print } END { print NR }'; }
-lanes_of() { rm -f "$scratch/rows"; "$motus" sweep "$@" --method taylor --step 0.1 --json -o "$scratch/rows" 2>&1 | sed -n 's/.*"lanes": \([^,}]*\).*/\1/p'; }
+tolerance=(--tolerance 1e-15)
+rows() { "$motus" sweep "$@" --method taylor "${tolerance[@]}" --quiet 2>/dev/null | grep -E '^[0-9]' | awk '{ print } END { print NR }'; }
+lanes_of() { rm -f "$scratch/rows"; "$motus" sweep "$@" --method taylor "${tolerance[@]}" --json -o "$scratch/rows" 2>&1 | sed -n 's/.*"lanes": \([^,}]*\).*/\1/p'; }
 
 # name, model, how many rows, what is swept and recorded
 agree() {
@@ -27,6 +28,9 @@ agree() {
 }
 
 agree "the eccentricity varies" models/kepler.motus 23 --vary e=0:0.9:23 --until 3 --record 'r.x,max(r.y),mean(t),time_of_min(r.x)'
+tolerance=(--tolerance 1e-6)
+agree "a tolerance that needs fewer orders" models/kepler.motus 23 --vary e=0:0.9:23 --until 3 --record 'r.x'
+tolerance=(--tolerance 1e-15)
 agree "and the end" models/kepler.motus 35 --vary e=0:0.9:5 --vary until=-1:5:7 --every '3 steps' --record 'r.x,max(r.y)'
 printf "k = 1\nc = 0.1\nx'' = -k sin(x) - c x' |x'| + max(x, 0) + cos(2 t/3)\ns' = x^2 - s\nx(0) = 0\nx'(0) = 0\ns(0) = 0\n" >"$scratch/driven.motus"
 agree "kinks, a start at rest, time and a first-order variable" "$scratch/driven.motus" 20 --vary k=0.5:2:20 --until 9 --record "x,s,min(x')"

@@ -129,6 +129,12 @@ static inline void series_order(work *w, int n, clock t)
 }
 #endif
 
+#if DRIVEN
+#define refresh_at(w, t, x, v) BOUNDARY((w)->host, t, x, v, (real *)0)
+#else
+#define refresh_at(w, t, x, v) ((void)0)
+#endif
+
 /* The library computes the exact motion. */
 #define exact_at(w, t, x, v) STEP_OK
 
