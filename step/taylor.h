@@ -9,11 +9,11 @@
  * and memory of w->series numbers for what the recurrences keep, at w->ks.
  *
  * Step: of each of the last WINDOW coefficients of each variable the radius on which it is as large as the motion, and
- * of that the fraction on which the first term left out is what a step may lose. The smallest is taken, because whole residue classes of orders may vanish: x'' = -x³ from x = 0 has every
- * fourth alone. The rule knows nothing of what the series do not show: of kinks, of orders beyond the last. So the
- * acceleration at the end of the step is compared with its series. Where they differ the step is refused, halved, and
- * taken again by the same series. Where they agree it is coefficient 0 of the next step. A jump of the acceleration is
- * refused until the step is a few roundings of the time.
+ * of that the fraction on which the first term left out is what a step may lose. The smallest is taken, because whole
+ * residue classes of orders may vanish: x'' = -x³ from x = 0 has every fourth alone. The rule knows nothing of what the
+ * series do not show: of kinks, of orders beyond the last. So the acceleration at the end of the step is compared with
+ * its series. Where they differ the step is refused, halved, and taken again by the same series. Where they agree it is
+ * coefficient 0 of the next step. A jump of the acceleration is refused until the step is a few roundings of the time.
  *
  * Invariant: xs, vs and r hold the series of x, v and a of the last step, coefficient 0 of x and v excepted, until the
  * next step begins; they are its dense output. |w->next| is a bound on the next candidate, GROWTH times the time scale

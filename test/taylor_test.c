@@ -214,8 +214,8 @@ static void known_motions(void **unused)
     }
 }
 
-/* A taken step computes the orders 0 … 22 of the acceleration, a refused one a single one, and the size of the first step
- * takes one. */
+/* A taken step computes the orders 0 … 22 of the acceleration, a refused one a single one, and the size of the first
+ * step takes one. */
 static void evaluations_are_orders(void **unused)
 {
     (void)unused;
