@@ -47,12 +47,6 @@ static inline void series_order(work *w, int n, clock t)
     p->series(p->ctx, w->expands + 1, n, t, w->xs, w->vs, w->a, w->ks);
 }
 
-#define LOG(x) motus_log(x)
-#define EXP(x) motus_exp(x)
-#include "step/functions/core.h"
-#include "step/functions/exponential.h"
-#include "step/functions/logarithm.h"
-#include "step/functions/end.h"
 #include "core/texts.h"
 
 #define STEPPER_BODY(name)                                                                                    \

@@ -306,12 +306,11 @@ static void add_operations(emit *e, int width)
 
 /* ---- Taylor series ---- */
 
-/* The functions that recurrences call besides their operations' own, and those by which the step is chosen. */
+/* The functions that recurrences call besides their operations' own. */
 static void need_for_series(emit *e)
 {
     const uint64_t roots = OPERATION_BIT(POW) | OPERATION_BIT(ASIN) | OPERATION_BIT(ACOS);
     uint64_t *used = e->lanes ? &e->used_lanes : &e->used;
-    *used |= OPERATION_BIT(LOG) | OPERATION_BIT(EXP);
     if (e->used_series & roots) *used |= OPERATION_BIT(SQRT);
 }
 
@@ -340,8 +339,7 @@ static void add_named(emit *e)
 static void add_series(emit *e, int length)
 {
     add_named(e);
-    emit_add(&e->text, "#define SERIES_OF(f) series_of_##f\n#define LOG(x) SERIES_OF(log)(x)\n#define EXP(x) "
-                       "SERIES_OF(exp)(x)\n");
+    emit_add(&e->text, "#define SERIES_OF(f) series_of_##f\n");
     add_text(&e->text, "step/series.h");
     emit_add(&e->text, "enum { length = %d };\n", length);
     emit_series_operations(e, e->lanes ? "ops" : "op");

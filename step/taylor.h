@@ -5,7 +5,6 @@
  * acceleration, needs x and v to order n alone. A first-order variable is a velocity without a position. The includer
  * supplies
  *     series_order(w, n, t)    coefficient n of the acceleration to w->a, from those below; the series begin at t
- *     LOG(x), EXP(x)           of real
  * and memory of w->series numbers for what the recurrences keep, at w->ks.
  *
  * Step: of each of the last WINDOW coefficients of each variable the radius on which it is as large as the motion, and
@@ -67,20 +66,20 @@ static inline real taylor_reach(const real *c, real size, const clock time)
     return LARGER(time * time * ABS(c[2]), size);
 }
 
-/* The step by one coefficient of a variable of this size, as -log: it makes the term n c h^n as large as the part of
+/* The step by one coefficient of a variable of this size, as -log2: it makes the term n c h^n as large as the part of
  * the size that a step may lose, by the radius that the coefficient shows. The larger of it and `most`. */
 static inline real taylor_term(const real c, const real reach, const int n, const real lost, const real most)
 {
-    const real here = LOG((coef)n * c / reach) / (coef)n - lost;
+    const real here = control_log2((coef)n * c / reach) / (coef)n - lost;
     return PICK((c > 0) & (reach > 0), LARGER(here, most), most);
 }
 
-/* log of the part that a step may lose of a variable of this size, over the order. The last coefficients tell those
+/* log2 of the part that a step may lose of a variable of this size, over the order. The last coefficients tell those
  * left out but roughly: a tenth of the tolerance. */
 static inline real taylor_lost(const work *w, const real reach)
 {
     const real part = 0.1 * LARGER(FMA(w->relative, reach, w->absolute + (real){0}) / reach, (real){0} + EPSILON);
-    return LOG(part) / (coef)FACT(w, expands);
+    return control_log2(part) / (coef)FACT(w, expands);
 }
 
 /* The step that the series of all variables allow; infinite where they have ended. */
@@ -103,7 +102,8 @@ static inline clock taylor_size(const work *w, const clock time)
             most = taylor_term(c, reach, n, lost, most);
         }
     }
-    return TAYLOR_SAFETY * EXP(-most);
+    const clock size = TAYLOR_SAFETY * control_exp2(-CHOOSE_WHERE(ABS(most) < 900, most, CLOCK(900)));
+    return CHOOSE_WHERE(most > -900, size, CLOCK(INFINITY));
 }
 
 /* Where the state would be after the step, as coefficient 0 of xs and vs; the increments over h in next_x and delta. */
@@ -218,7 +218,7 @@ static inline void taylor_place(work *w, placing *p)
  * order 24 for steps that lose 1e-16. */
 static int taylor_order(const coef tolerance)
 {
-    const coef order = 2 - (coef)0.6 * LOG(tolerance);
+    const coef order = 2 - (coef)0.416 * control_log2(tolerance);
     return order < 6 ? 6 : order > 24 ? 24 : (int)order;
 }
 

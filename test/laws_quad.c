@@ -49,8 +49,6 @@ static quad quad_of_bits(uint64_t b)
 #define EACHV(k) for (size_t k = 0; k < w->nv; k++)
 #define TRACE(w, i) ((void)(w), (void)(i))
 /* Taylor series need a formula, and the laws' problems are functions: test/taylor_test.c has the laws of that row. */
-#define LOG(x) (x)
-#define EXP(x) (x)
 #define ROWS
 #include "step/work.h"
 static void series_order(work *w, int n, quad t) { (void)w, (void)n, (void)t; }
