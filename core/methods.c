@@ -376,7 +376,8 @@ const row methods_table[] = {
        .formula = "six stages and a seventh at the end of the step",
        .use = "A Nyström method for forces that depend on the velocity.", .adaptive = 1 },
       .family = RUNGE_KUTTA, .adaptive = true, .compensated = true,
-      .tableau = {6, FINE5_C, FINE5_A, FINE5_B, FINE5_AA, FINE5_BB, FINE5_ERROR, FINE5_ERROR_X, .ending = true, .order = 4} },
+      .tableau = {6, FINE5_C, FINE5_A, FINE5_B, FINE5_AA, FINE5_BB, FINE5_ERROR, FINE5_ERROR_X, .ending = true,
+                  .order = 4} },
 
     /* Implicit: collocation at the Gauss nodes, and Newmark. */
     NEWMARK(2, 1,

@@ -530,8 +530,8 @@ typedef enum motus_switches {
 typedef struct motus_run_def {
     uint32_t size;      /* by motus_default_run() */
     const char *method; /* NULL: the model's, or "verlet" */
-    /* Of a method with steps of one size: > 0; NaN: the model's, or motus_suggest's. Its direction follows from `until`.
-     * Of an adaptive method: NaN. */
+    /* Of a method with steps of one size: > 0; NaN: the model's, or motus_suggest's. Its direction follows from
+     * `until`. Of an adaptive method: NaN. */
     double step;
     /* Of an adaptive method: what one step may be off, by its own estimate; NaN: the model's, or 1e-9. Relative to the
      * size of the variable, which is the largest number of the family or vector at both ends of the step and on the way

@@ -107,7 +107,8 @@ static void volume(method m, const quad_problem *p)
           (double)off);
 }
 
-/* Exactly `evaluations` a step; where a step ends with the first evaluation of the next, one more at the start. A linear velocity term costs neither more nor an iteration. */
+/* Exactly `evaluations` a step, and one more at the start where a step ends with the first evaluation of the next. A
+ * linear velocity term costs neither more nor an iteration. */
 static void evaluations(method m, const quad_problem *p)
 {
     const motus_method *card = row_card(m);
