@@ -1,7 +1,7 @@
 # libmotus, static and shared.
 #
 # A kernel is compiled once for each instruction set, named by the macro ISA; so it is removed from the plain list of sources.
-set(kernels core/stepper_body.c core/solver_band.c lang/tape/tape_kernels.c lang/tape/tape_run.c)
+set(kernels core/stepper_body.c core/solver_band.c lang/tape/tape_kernels.c lang/tape/tape_run.c lang/tape/tape_series_isa.c)
 
 file(GLOB library_sources CONFIGURE_DEPENDS RELATIVE ${PROJECT_SOURCE_DIR}
   base/*.c core/*.c lang/*/*.c machine/*.c api/*.c study/*.c)

@@ -455,3 +455,14 @@ const size_t methods_count = sizeof methods_table / sizeof *methods_table;
 
 const row methods_newmark_damped =
     NEWMARK(1, 0, "Newmark's method with γ other than 1/2: it damps high frequencies (γ > 1/2) and is of order 1.");
+
+/* clang-format off */
+const row methods_taylor =
+    { .card = { CARD("taylor", "", "taylor", 24, 23, 23, XVT, 0, 0, 0.0), .adaptive = 1,
+       .title = "Taylor series",
+       .cite = "JZ05",
+       .formula = "x₁ = x + h v + h²/2 a + h³/6 a′ + … + h²⁴/24! a⁽²²⁾, with the step that the last coefficients allow",
+       .use = "The most digits for the least time, where the force is smooth: each step is as long as the\n"
+              "series allow." },
+      .family = TAYLOR, .compensated = true, .adaptive = true, .sizes = true };
+/* clang-format on */

@@ -15,6 +15,7 @@
 
 /* LINE: bytes of a cache line, to which arrays are aligned */
 enum { SNAPSHOT = 64, SNAPSHOT_LARGE = 256, CHECK_ALWAYS = 4096, LINE = 64 };
+enum { SERIES_MOST = 1 << 27 }; /* numbers of a model's Taylor series: a gigabyte */
 
 const stepper_body *stepper_best_body(void)
 {
@@ -68,6 +69,7 @@ work stepper_plan(const problem *p, const chosen *method, coef *memory)
     if (plan.stride == 0) plan.stride = 8;
     plan.check = p->nx + p->nv <= CHECK_ALWAYS;
     stepper_best_body()->plan(&plan, method->argument, memory);
+    if (plan.expands && p->series) plan.series = p->series_numbers(p->ctx, plan.expands + 1);
     return plan;
 }
 
@@ -86,6 +88,12 @@ motus_status stepper_create(const machine *m, const chosen *method, double t0, d
     motus_status status = row_admits(method, &p->traits, err);
     if (status) return status;
     const work sizes = stepper_plan(p, method, NULL);
+    if (sizes.expands && !sizes.series) return fail(err, MOTUS_MEMORY, "out of memory for the Taylor series");
+    if (sizes.series > SERIES_MOST) {
+        fail(err, MOTUS_LIMIT, "the Taylor series of this model take %.1f GB", 8e-9 * (double)sizes.series);
+        hint(err, "every pair of bodies has series of its own: take fewer bodies, or another method");
+        return MOTUS_LIMIT;
+    }
     const size_t arrays = stepper_arrays(sizes), carried = stepper_carried(sizes) * p->nv + STEPPER_CLOCKS;
     const size_t head = (sizeof(stepper) + LINE - 1) / LINE * LINE, plan = work_plan_size(&sizes);
     if (sizes.stride > (SIZE_MAX - head - LINE) / sizeof(double) / (arrays + CARRY_MAX + 1) - plan)

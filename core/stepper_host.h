@@ -41,6 +41,12 @@ static inline void refresh_at(work *w, clock t, real *x, real *v)
     if (p->refresh) p->refresh(p->ctx, t, x, v);
 }
 
+static inline void series_order(work *w, int n, clock t)
+{
+    const problem *p = w->library->problem;
+    p->series(p->ctx, w->expands + 1, n, t, w->xs, w->vs, w->a, w->ks);
+}
+
 #include "core/texts.h"
 
 #define STEPPER_BODY(name)                                                                                    \

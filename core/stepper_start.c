@@ -175,6 +175,7 @@ void stepper_begin(stepper *s, double t0, double h, const double *x, const doubl
     w->rise = CONTROL_RISE;
     w->fresh = w->stalled = w->ends = false;
     w->moved = 0;
+    w->expanded = 0;
     work_scale(w, h);
     if (s->library.solver) solver_forget(s->library.solver);
 }

@@ -64,6 +64,7 @@ void stepper_put(stepper *s, stepper_count at, const double *carry)
     w->refused = at.refused;
     w->fresh = w->stalled = false;
     w->moved = 0;
+    w->expanded = 0;
     const int count = s->body->carry(w, list);
     for (int i = 0; i < count; i++) memcpy(list[i], carry + (size_t)i * w->nv, w->nv * sizeof *carry);
     if (!w->carried) return;

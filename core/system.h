@@ -24,6 +24,7 @@ typedef struct traits {
     bool gradient;
     bool smooth;
     bool has_exact;
+    bool series;      /* it is a formula, so its Taylor series are known */
     bool first_order; /* there are first-order variables: nv > nx */
     /* v is read by first-order variables alone, which nothing reads: integrals along the motion; velocity holds */
     bool quadrature;
@@ -52,6 +53,11 @@ typedef struct problem {
     /* Structure of da/dv (in_v) or da/dx (!in_v): calls emit(arg, row, column) for every entry that may be nonzero,
      * duplicates allowed. NULL function: dense. */
     void (*pattern)(void *ctx, bool in_v, void (*emit)(void *arg, size_t row, size_t column), void *arg);
+    /* Taylor series of `length` coefficients: how many numbers must be kept while they are computed (0: no memory), and
+     * coefficient n of the acceleration at (t, x, v), to a, from the series of x and v, `length` numbers each. NULL: no
+     * formula is known. */
+    size_t (*series_numbers)(void *ctx, int length);
+    void (*series)(void *ctx, int length, int n, double t, double *x, double *v, double *a, double *kept);
     void (*refresh)(void *ctx, double t, double *x, double *v); /* NULL: no driven boundary */
     int (*exact)(void *ctx, double t, double *x, double *v);    /* NULL: unknown */
     /* How far rounding may carry the exact motion at time t off, in units of EXACT_ROUNDING, written to x and v; false:

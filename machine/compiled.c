@@ -8,6 +8,7 @@
 #include "machine/compiled.h"
 
 #include "core/stepper_body.h"
+#include "lang/graph/expansion.h"
 #include "machine/cache.h"
 #include "machine/compose.h"
 #include "machine/parallel.h"
@@ -24,6 +25,7 @@ enum { OBJECTS_MAX = 64, NOTE_MAX = 400 };
 typedef struct object {
     const row *row;
     double argument[2];
+    int expands; /* the order of its Taylor series follows from a tolerance */
     void *handle;
     stepper_body body;
 } object;
@@ -35,7 +37,7 @@ struct compiled {
     problem problem;            /* the same with the compiled acceleration */
     object objects[OBJECTS_MAX];
     int count;
-    program *force, *boundary;
+    program *force, *boundary, *series, *boundary_series;
     locality locality;
     const tiling *tiling; /* where the outer indices can be divided; else NULL */
     double *u;
@@ -67,6 +69,11 @@ static void pattern(void *ctx, bool in_v, void (*emit)(void *, size_t, size_t), 
 {
     of(ctx)->pattern(of(ctx)->ctx, in_v, emit, arg);
 }
+static size_t series_numbers(void *ctx, int length) { return of(ctx)->series_numbers(of(ctx)->ctx, length); }
+static void series(void *ctx, int length, int n, double t, double *x, double *v, double *a, double *kept)
+{
+    of(ctx)->series(of(ctx)->ctx, length, n, t, x, v, a, kept);
+}
 static void refresh(void *ctx, double t, double *x, double *v) { of(ctx)->refresh(of(ctx)->ctx, t, x, v); }
 static int exact(void *ctx, double t, double *x, double *v) { return of(ctx)->exact(of(ctx)->ctx, t, x, v); }
 static bool exact_rounding(void *ctx, double t, double *x, double *v)
@@ -94,6 +101,8 @@ motus_status compiled_create(model *m, const problem *interpreted, compiled **ou
                            .jvp = interpreted->jvp ? jvp : NULL,
                            .prepare = interpreted->prepare ? prepare : NULL,
                            .pattern = interpreted->pattern ? pattern : NULL,
+                           .series_numbers = interpreted->series_numbers ? series_numbers : NULL,
+                           .series = interpreted->series ? series : NULL,
                            .refresh = interpreted->refresh ? refresh : NULL,
                            .exact = interpreted->exact ? exact : NULL,
                            .exact_rounding = interpreted->exact_rounding ? exact_rounding : NULL,
@@ -125,15 +134,23 @@ static bool write_text(compiled *c, const chosen *chosen, emit *e)
         if (c->locality.divisible) c->tiling = tiles_create(m, &c->locality);
     }
     if (!c->boundary && m->driven) c->boundary = program_create(m->graph, m->boundary, m->boundary_count);
+    const bool expands = stepper_plan(c->interpreted, chosen, NULL).expands > 0;
+    if (expands && !c->series) c->series = expansion_program(m->arena, m->graph, m->accel, m->accel_count);
+    if (expands && m->driven && !c->boundary_series)
+        c->boundary_series = expansion_program(m->arena, m->graph, m->boundary, m->boundary_count);
     if (m->arena->failed) return false;
-    const composed_program programs[] = {{c->force, "compiled_force", !row_adaptive(chosen)},
-                                         {c->boundary, "compiled_boundary", false}};
+    composed_program programs[4] = {{c->force, "compiled_force", !row_adaptive(chosen), false}};
+    size_t count = 1;
+    if (m->driven) programs[count++] = (composed_program){c->boundary, "compiled_boundary", false, false};
+    if (expands) programs[count++] = (composed_program){c->series, "compiled_series", false, true};
+    if (expands && m->driven)
+        programs[count++] = (composed_program){c->boundary_series, "compiled_boundary_series", false, true};
     static const char *const last[] = {"machine/text/compiled_run.h", NULL};
     return compose(e, &(composition){.model = m,
                                      .problem = c->interpreted,
                                      .chosen = chosen,
                                      .programs = programs,
-                                     .program_count = m->driven ? 2 : 1,
+                                     .program_count = count,
                                      .locality = &c->locality,
                                      .last = last});
 }
@@ -169,9 +186,10 @@ static bool bind_numbers(compiled *c, const emit *e, void (*bind)(const double *
 
 static const stepper_body *body_of(compiled *c, const chosen *chosen, int how)
 {
+    const int expands = stepper_plan(c->interpreted, chosen, NULL).expands;
     for (int i = 0; i < c->count; i++)
         if (c->objects[i].row == chosen->row && c->objects[i].argument[0] == chosen->argument[0] &&
-            c->objects[i].argument[1] == chosen->argument[1])
+            c->objects[i].argument[1] == chosen->argument[1] && c->objects[i].expands == expands)
             return &c->objects[i].body;
     snprintf(c->note, sizeof c->note, "out of memory");
     if (c->count == OBJECTS_MAX) {
@@ -186,13 +204,15 @@ static const stepper_body *body_of(compiled *c, const chosen *chosen, int how)
     }
     emit e = {.text = {.arena = c->model->arena}};
     if (!write_text(c, chosen, &e)) return NULL;
-    if (!compose_small(c->model)) how |= COMPILER_LOOPS;
+    /* the loops of Taylor series are short, and their sums run in order */
+    if (!compose_small(c->model) && chosen->row->family != TAYLOR) how |= COMPILER_LOOPS;
     void *handle = cache_load(e.text.bytes, e.text.length, how, c->note, sizeof c->note);
     if (!handle) return NULL;
     void (*bind)(const double *, const int64_t *, double *);
     object *o = &c->objects[c->count];
     *o = (object){.row = chosen->row,
                   .argument = {chosen->argument[0], chosen->argument[1]},
+                  .expands = expands,
                   .handle = handle,
                   .body = *stepper_best_body()};
     const stepper_body *library = stepper_best_body();

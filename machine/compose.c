@@ -14,6 +14,7 @@
 #include <string.h>
 
 enum {
+    SERIES_APART = 7,       /* arrays of a row of Taylor series without the series: step/taylor.h */
     SMALL_MAX = 16,         /* numbers: what registers, or at least the fastest loads, may hold */
     WRITTEN_OUT_MAX = 200,  /* operations of the force in all stages of a step, up to which they are written out */
     SOLVES_WRITTEN_MAX = 2, /* implicit kicks, with their drifts: Newton's method is long */
@@ -149,8 +150,10 @@ static bool add_facts(emit *e, const composition *c, bool structure)
     moments m;
     if (!find_moments(&w, t->arena, &m)) return false;
     const int stages = w.stages ? w.stages : 1, constants = (int)work_constants(&w);
-    emit_add(t, "#define ROW(w, member) ROW_##member\n#define ROW_compensated %d\n#define ROW_adaptive %d\n",
-             r->compensated, r->adaptive);
+    emit_add(t,
+             "#define ROW(w, member) ROW_##member\n#define ROW_compensated %d\n#define ROW_adaptive %d\n#define "
+             "ROW_sizes %d\n",
+             r->compensated, r->adaptive, r->sizes);
     emit_add(t,
              "#define FACT(w, member) FACT_##member\n#define FACT_velocity %d\n#define FACT_linear %d\n#define "
              "FACT_constant %d\n#define FACT_affine %d\n",
@@ -179,11 +182,21 @@ static bool add_facts(emit *e, const composition *c, bool structure)
     add_numbers(t, "fact_c", w.c, w.stages);
     add_numbers(t, "fact_at", m.at, m.count);
     e->moments = m.count;
+    emit_add(t, "#define FACT_expands %d\n", w.expands);
+    if (w.expands && (structure || c->width))
+        emit_add(t, "#define FACT_series %zu\n", w.series);
+    else if (w.expands)
+        emit_add(t, "#define FACT_series w->series\n");
     add_variables(t, &w, structure);
     emit_add(t, "#define CARRIED %zu\n#define CONSTANTS %d\n", stepper_carried(w), w.linears + w.squares);
     const bool small = compose_small(c->model);
-    emit_add(t, "#define MOMENTS %d\n#define ARRAYS %zu\n#define SMALL %d\n#define NUMBERS %zu\n\n", m.count,
-             stepper_arrays(w), c->width || small, structure ? w.nv : 0);
+    size_t arrays = stepper_arrays(w);
+    if (w.expands && small && !c->width) {
+        arrays = SERIES_APART;
+        emit_add(t, "#define SERIES_PLACED 0\n");
+    }
+    emit_add(t, "#define MOMENTS %d\n#define ARRAYS %zu\n#define SMALL %d\n#define NUMBERS %zu\n\n", m.count, arrays,
+             c->width || small, structure ? w.nv : 0);
     if (small && !c->width) {
         emit_add(t, "#define FIRST(w) false\n#define KNOWN(w) (ROW_adaptive && (w)->fresh)\n#define CHECKS(w) false\n");
         add_places(t, w);
@@ -212,10 +225,10 @@ static void add_family(emit_text *t, const composition *c)
         add_text(t, "step/norm.h");
         add_text(t, "step/control.h");
     } else {
-        emit_add(t,
-                 "#define control_first(w) STEP_OK\n#define control_begin(w) STEP_OK\n#define control_known(w, known) "
-                 "((void)0)\n#define control_norm(w, x, v) (CLOCK(0))\n#define control_joint(high, low) (high)\n"
-                 "#define control_size(w) (w)->h\n#define control_judge(w) EVERY\n");
+        emit_add(
+            t, "#define control_first(w) STEP_OK\n#define control_begin(w) STEP_OK\n#define control_known(w, known) "
+               "((void)0)\n#define control_norm(w, x, v) (CLOCK(0))\n#define control_joint(high, low) (high)\n"
+               "#define control_size(w) (w)->h\n#define control_judge(w) EVERY\n#define control_judge_own(w) EVERY\n");
     }
     const work plan = stepper_plan(c->problem, c->chosen, NULL);
     if (plan.solves || plan.iterates) add_text(t, "step/judge.h");
@@ -247,33 +260,37 @@ int compose_width(void)
 #endif
 }
 
+#define ANY_OF(a, b, c, d) (OPERATION_BIT(a) | OPERATION_BIT(b) | OPERATION_BIT(c) | OPERATION_BIT(d))
+#define ALL_OPERATIONS (~(uint64_t)0)
+#define HYPERBOLIC ANY_OF(SINH, SINH, COSH, TANH)
+#define CIRCULAR ANY_OF(SIN, SIN, COS, TAN)
+#define INVERSE ANY_OF(ASIN, ACOS, ATAN, ATAN2)
+#define ROOT ANY_OF(CBRT, CBRT, HYPOT, HYPOT)
+#define POWER OPERATION_BIT(POW)
+#define ERROR OPERATION_BIT(ERF)
+#define LOGARITHM (OPERATION_BIT(LOG) | POWER)
+#define EXPONENTIAL (OPERATION_BIT(EXP) | POWER | HYPERBOLIC | ERROR)
+#define PLAIN (ANY_OF(SQRT, ABS, FLOOR, MOD) | ANY_OF(MIN, MIN, MAX, SIGN))
+
 /* The texts of the functions that a set of operations needs. */
 static void add_functions(emit_text *t, uint64_t used)
 {
-#define ANY_OF(a, b, c, d) (OPERATION_BIT(a) | OPERATION_BIT(b) | OPERATION_BIT(c) | OPERATION_BIT(d))
-    static const uint64_t hyperbolic = ANY_OF(SINH, SINH, COSH, TANH), circular = ANY_OF(SIN, SIN, COS, TAN),
-                          inverse = ANY_OF(ASIN, ACOS, ATAN, ATAN2), root = ANY_OF(CBRT, CBRT, HYPOT, HYPOT),
-                          power = OPERATION_BIT(POW), error = OPERATION_BIT(ERF),
-                          logarithm = OPERATION_BIT(LOG) | power,
-                          exponential = OPERATION_BIT(EXP) | power | hyperbolic | error,
-                          plain = ANY_OF(SQRT, ABS, FLOOR, MOD) | ANY_OF(MIN, MIN, MAX, SIGN);
-    const struct {
+    static const struct {
         uint64_t needed_by;
         const char *text;
-    } texts[] = {{~(uint64_t)0, "step/functions/core.h"},
-                 {plain, "step/functions/plain.h"},
-                 {exponential, "step/functions/exponential.h"},
-                 {logarithm, "step/functions/logarithm.h"},
-                 {power, "step/functions/power.h"},
-                 {hyperbolic, "step/functions/hyperbolic.h"},
-                 {circular, "step/functions/circular.h"},
-                 {inverse, "step/functions/inverse.h"},
-                 {root, "step/functions/root.h"},
-                 {error, "step/functions/error.h"},
-                 {~(uint64_t)0, "step/functions/end.h"}};
+    } texts[] = {{ALL_OPERATIONS, "step/functions/core.h"},
+                 {PLAIN, "step/functions/plain.h"},
+                 {EXPONENTIAL, "step/functions/exponential.h"},
+                 {LOGARITHM, "step/functions/logarithm.h"},
+                 {POWER, "step/functions/power.h"},
+                 {HYPERBOLIC, "step/functions/hyperbolic.h"},
+                 {CIRCULAR, "step/functions/circular.h"},
+                 {INVERSE, "step/functions/inverse.h"},
+                 {ROOT, "step/functions/root.h"},
+                 {ERROR, "step/functions/error.h"},
+                 {ALL_OPERATIONS, "step/functions/end.h"}};
     for (size_t i = 0; i < sizeof texts / sizeof *texts; i++)
         if (used & texts[i].needed_by) add_text(t, texts[i].text);
-#undef ANY_OF
 }
 
 /* Operations over doubles, op_7, and over vectors of them, ops_7, which are called reals. */
@@ -305,6 +322,47 @@ static void add_operations(emit *e, int width)
     }
     if (width) emit_operations(e, e->used_lanes, "reals", "ops");
     emit_add(t, "#undef OF\n#undef FUSE\n#undef WHEN\n\n");
+}
+
+/* ---- Taylor series ---- */
+
+/* The functions that recurrences call besides their operations' own. */
+static void need_for_series(emit *e)
+{
+    const uint64_t roots = OPERATION_BIT(POW) | OPERATION_BIT(ASIN) | OPERATION_BIT(ACOS);
+    uint64_t *used = e->lanes ? &e->used_lanes : &e->used;
+    if (e->used_series & roots) *used |= OPERATION_BIT(SQRT);
+}
+
+/* The functions that the recurrences name. Those whose text no operation of the model needs are not there, and what
+ * names them is not called. */
+static void add_named(emit *e)
+{
+    static const struct {
+        const char *name;
+        uint64_t supplied_by;
+    } functions[] = {{"sqrt", PLAIN},    {"floor", PLAIN},     {"pow", POWER},       {"exp", EXPONENTIAL},
+                     {"log", LOGARITHM}, {"sinh", HYPERBOLIC}, {"cosh", HYPERBOLIC}, {"tanh", HYPERBOLIC},
+                     {"sin", CIRCULAR},  {"cos", CIRCULAR},    {"tan", CIRCULAR},    {"asin", INVERSE},
+                     {"acos", INVERSE},  {"atan", INVERSE},    {"atan2", INVERSE},   {"cbrt", ROOT},
+                     {"hypot", ROOT},    {"erf", ERROR}};
+    for (size_t i = 0; i < sizeof functions / sizeof *functions; i++) {
+        const char *name = functions[i].name;
+        emit_add(&e->text, "#define series_of_%s", name);
+        if ((e->lanes ? e->used_lanes : e->used) & functions[i].supplied_by)
+            emit_add(&e->text, e->lanes ? " OF_LANES(%s)\n" : " motus_%s\n", name);
+        else
+            emit_add(&e->text, "(...) SERIES_NUMBER(0.0)\n");
+    }
+}
+
+static void add_series(emit *e, int length)
+{
+    add_named(e);
+    emit_add(&e->text, "#define SERIES_OF(f) series_of_##f\n");
+    add_text(&e->text, "step/series.h");
+    emit_add(&e->text, "enum { length = %d };\n", length);
+    emit_series_operations(e, e->lanes ? "ops" : "op");
 }
 
 /* ---- windows ---- */
@@ -349,9 +407,12 @@ bool compose(emit *e, const composition *c)
     for (size_t i = 0; i < c->program_count; i++) {
         e->separate = !i && c->model->graph->count > inlined;
         e->windowed = !i && windowed;
+        e->series = c->programs[i].series ? stepper_plan(c->problem, c->chosen, NULL).expands + 1 : 0;
         emit_program(e, c->programs[i].program, c->programs[i].name, c->programs[i].terms);
     }
     if (lanes) e->used_lanes |= OPERATION_BIT(MIN) | OPERATION_BIT(MAX); /* what is recorded wants them */
+    e->series = stepper_plan(c->problem, c->chosen, NULL).expands;
+    if (e->series) need_for_series(e);
     const emit_text bodies = *t;
     const int own = e->uses_vectors ? compose_width() : e->terms ? 4 : 0, width = lanes ? c->width : own;
     *t = (emit_text){.arena = bodies.arena};
@@ -380,6 +441,7 @@ bool compose(emit *e, const composition *c)
     add_operations(e, width);
     if (lanes) add_text(t, "machine/text/lanes_scalar.h");
     add_text(t, "step/work.h");
+    if (e->series) add_series(e, e->series + 1);
     add_text(t, "machine/text/host.h");
     if (e->wraps)
         emit_add(t, "#define WRAPS\n/* The mathematical k mod n; it mostly is k. */\n"

@@ -15,6 +15,7 @@ typedef struct composed_program {
     const program *program;
     const char *name;
     bool terms;
+    bool series; /* in Taylor series */
 } composed_program;
 
 typedef struct composition {

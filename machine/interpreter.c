@@ -4,16 +4,23 @@
 #include "lang/graph/graph_place.h"
 #include "lang/graph/graph_walk.h"
 #include "lang/read/read.h"
+#include "lang/graph/expansion.h"
 #include "lang/tape/tape.h"
+#include "lang/tape/tape_series.h"
 
 #include <string.h>
 
+enum { LENGTHS = 26 }; /* series of up to 25 numbers: taylor_order */
 struct interpreter {
     model *model;
     tape *accel, *boundary, *exact;
-    tape *jvp[4];         /* along dx (1), dv (2), or both (3) */
-    tape **observed;      /* one per definition, made when it is first observed, and kept while there is room */
-    uint64_t operations;  /* of the observed ones that are kept */
+    tape *jvp[4];        /* along dx (1), dv (2), or both (3) */
+    tape **observed;     /* one per definition, made when it is first observed, and kept while there is room */
+    uint64_t operations; /* of the observed ones that are kept */
+    struct expanded {    /* in Taylor series of so many numbers each, once they are wanted */
+        tape_series *equations, *boundary;
+        bool known;
+    } expanded[LENGTHS];
     double *acceleration; /* for quantities that contain x'' */
 };
 
@@ -55,6 +62,39 @@ static bool exact_rounding(void *ctx, double t, double *x, double *v)
 {
     interpreter *in = ctx;
     return verify_exact_rounding(in->model, t, x, v);
+}
+
+/* ---- Taylor series ---- */
+
+static tape_series *expand(model *m, const output *outputs, size_t count, int length)
+{
+    const program *p = expansion_program(m->arena, m->graph, outputs, count);
+    tape_series *s = p ? tape_series_create(m->arena, p, length) : NULL;
+    if (s) tape_series_bind(s, &(binding){m->arrays, m->ints, m->pool});
+    return s;
+}
+
+static size_t series_numbers(void *ctx, int length)
+{
+    interpreter *in = ctx;
+    model *m = in->model;
+    struct expanded *e = &in->expanded[length];
+    if (!e->known) {
+        e->equations = expand(m, m->accel, m->accel_count, length);
+        e->boundary = m->driven ? expand(m, m->boundary, m->boundary_count, length) : NULL;
+        e->known = e->equations && (e->boundary || !m->driven);
+    }
+    if (!e->known) return 0;
+    return 1 + tape_series_numbers(e->equations) + (e->boundary ? tape_series_numbers(e->boundary) : 0);
+}
+
+static void series(void *ctx, int length, int n, double t, double *x, double *v, double *a, double *kept)
+{
+    const interpreter *in = ctx;
+    const struct expanded *e = &in->expanded[length];
+    if (e->boundary)
+        tape_series_run(e->boundary, &(series_pass){n, t, x, v, a, kept + tape_series_numbers(e->equations)});
+    tape_series_run(e->equations, &(series_pass){n, t, x, v, a, kept});
 }
 
 enum { ALONG_X = 1, ALONG_V = 2 };
@@ -189,6 +229,8 @@ motus_status interpreter_create(model *m, interpreter **out, problem *p, motus_e
                    .jvp = jvp,
                    .prepare = prepare,
                    .pattern = pattern,
+                   .series_numbers = series_numbers,
+                   .series = series,
                    .refresh = m->driven ? refresh : NULL,
                    .exact = in->exact ? exact : NULL,
                    .exact_rounding = m->exact_given ? exact_rounding : NULL,
@@ -257,6 +299,10 @@ bool interpreter_rebind(interpreter *in)
         if (tapes[k] && !tape_bind(tapes[k], &b)) return false;
     for (uint32_t k = 0; k < m->definition_count; k++)
         if (in->observed[k] && !tape_bind(in->observed[k], &b)) return false;
+    for (int k = 0; k < LENGTHS; k++) {
+        if (in->expanded[k].known) tape_series_bind(in->expanded[k].equations, &b);
+        if (in->expanded[k].known && m->driven) tape_series_bind(in->expanded[k].boundary, &b);
+    }
     double *base[SPACES] = {[SPACE_X] = m->x0, [SPACE_V] = m->v0};
     if (in->boundary) tape_run(in->boundary, m->start, base);
     return true;

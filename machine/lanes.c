@@ -5,6 +5,7 @@
  */
 #include "machine/lanes_parts.h"
 
+#include "lang/graph/expansion.h"
 #include "machine/cache.h"
 #include "machine/solve_text.h"
 
@@ -26,6 +27,7 @@ static int best_groups(const lanes_def *d, const work *plan)
 {
     const graph *g = d->model->graph;
     const bool implicit = d->chosen->row->family == IMPLICIT;
+    if (plan->expands) return 1;                              /* its sums are many, and independent of one another */
     if (plan->solves && !implicit && !plan->linear) return 1; /* a step of several iterations is long */
     size_t operations = 4 * d->model->nv;
     /* values of time alone come from the table, except with own clocks */
@@ -175,16 +177,24 @@ static bool write_text(lanes *l)
     if (!programs || !names) return false;
     size_t n = 0;
     programs[n++] =
-        (composed_program){program_create(m->graph, m->accel, m->accel_count), "compiled_force", !d->own_clock};
+        (composed_program){program_create(m->graph, m->accel, m->accel_count), "compiled_force", !d->own_clock, false};
     composed_program along[3] = {{0}};
-    const size_t alongs = solve_text_programs(m, d->problem, d->chosen, along);
+    size_t alongs = solve_text_programs(m, d->problem, d->chosen, along);
+    if (l->plan.expands) {
+        along[0] = (composed_program){expansion_program(m->arena, m->graph, m->accel, m->accel_count),
+                                      "compiled_series", false, true};
+        if (m->driven)
+            along[1] = (composed_program){expansion_program(m->arena, m->graph, m->boundary, m->boundary_count),
+                                          "compiled_boundary_series", false, true};
+        alongs = m->driven ? 2 : 1;
+    }
     for (size_t k = 0; k < alongs; k++) programs[n++] = along[k];
     if (m->boundary_count)
-        programs[n++] =
-            (composed_program){program_create(m->graph, m->boundary, m->boundary_count), "compiled_boundary", false};
+        programs[n++] = (composed_program){program_create(m->graph, m->boundary, m->boundary_count),
+                                           "compiled_boundary", false, false};
     for (uint32_t k = 0; k < entries; k++) {
         snprintf(names + n * PROGRAM_NAME, PROGRAM_NAME, "start_%u", k);
-        programs[n] = (composed_program){active[k].program, names + n * PROGRAM_NAME, false};
+        programs[n] = (composed_program){active[k].program, names + n * PROGRAM_NAME, false, false};
         n++;
     }
     for (size_t k = 0; k < observed_count; k++) {
@@ -193,7 +203,7 @@ static bool write_text(lanes *l)
             l->needs_a |= (graph_deps(m->graph, definition->outputs[i].value) & DEP_A) != 0;
         snprintf(names + n * PROGRAM_NAME, PROGRAM_NAME, "quantity_%zu", k);
         programs[n] = (composed_program){program_create(m->graph, definition->outputs, definition->output_count),
-                                         names + n * PROGRAM_NAME, false};
+                                         names + n * PROGRAM_NAME, false, false};
         n++;
     }
     static const char *const last[] = {"machine/text/lanes_ways.h", "step/observe.h", "machine/text/reduce.h",

@@ -31,9 +31,9 @@ size_t solve_text_programs(model *m, const problem *p, const chosen *chosen, com
     size_t count = 0;
     if (!plan.solves) return 0;
     if (plan.solves_x)
-        programs[count++] = (composed_program){interpreter_derivative(m, false), "compiled_along_x", false};
+        programs[count++] = (composed_program){interpreter_derivative(m, false), "compiled_along_x", false, false};
     if (p->traits.velocity)
-        programs[count++] = (composed_program){interpreter_derivative(m, true), "compiled_along_v", false};
+        programs[count++] = (composed_program){interpreter_derivative(m, true), "compiled_along_v", false, false};
     return count;
 }
 

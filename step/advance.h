@@ -11,7 +11,7 @@ ADVANCE_STEP int advance_step(work *w)
     int bad = ROW(w, adaptive) ? control_first(w) : STEP_OK;
     if (bad) return bad;
     if (ROW(w, adaptive)) {
-        work_scale(w, control_size(w));
+        if (!ROW(w, sizes)) work_scale(w, control_size(w));
         TRACE(w, TRACE_CANDIDATE);
     }
     bad = family_step(w);
@@ -20,7 +20,7 @@ ADVANCE_STEP int advance_step(work *w)
         time_tick(w, EVERY);
         return STEP_OK;
     }
-    const clock_mask good = control_judge(w);
+    const clock_mask good = ROW(w, sizes) ? control_judge_own(w) : control_judge(w);
     family_accept(w, good);
     time_tick(w, good);
     STOP(w, w->stalled, STEP_STALLED);

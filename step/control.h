@@ -99,20 +99,39 @@ static inline clock control_factor(const work *w, clock_mask good, clock level)
     return control_exp2(power);
 }
 
+/* Notes the shortest and the longest step; that to the end tells nothing of either. */
+static inline void control_count(work *w, clock_mask good)
+{
+    const clock size = ABS(w->h);
+    const clock_mask whole_step = good & NOT(w->ends);
+    w->shortest = CHOOSE_WHERE(whole_step & ((w->shortest == 0) | (size < w->shortest)), size, w->shortest);
+    w->longest = CHOOSE_WHERE(whole_step & (size > w->longest), size, w->longest);
+}
+
+/* Of rows that find their own sizes. */
+static inline clock_mask control_judge_own(work *w)
+{
+    const clock_mask good = w->error <= 1;
+    control_count(w, good);
+    w->next = CHOOSE_WHERE(good, w->after, w->h / 2);
+    w->stalled = (w->t + w->next == w->t) | (ABS(w->next) < w->least);
+    w->refused += NONE(good);
+    return good;
+}
+
 /* An error that is not a number is refused like one that is too large. */
 static inline clock_mask control_judge(work *w)
 {
-    const clock_mask good = w->error <= 1, whole_step = good & NOT(w->ends);
+    const clock_mask good = w->error <= 1;
     const clock least = LARGER(w->error, CLOCK(0x1p-60)), bounded = CHOOSE_WHERE(least < 0x1p60, least, CLOCK(0x1p60));
-    const clock level = control_log2(bounded), size = ABS(w->h);
+    const clock level = control_log2(bounded);
     const clock next = w->h * control_factor(w, good, level);
     /* a step that was cut short tells nothing of the next one */
     w->next = CHOOSE_WHERE(good & w->ends, w->next,
                            CHOOSE_WHERE(ABS(next) <= w->most, next, CHOOSE_WHERE(next < 0, -w->most, w->most)));
     w->before = CHOOSE_WHERE(good, level, w->before);
     w->rise = CHOOSE_WHERE(good, CLOCK(CONTROL_RISE), CLOCK(0.0));
-    w->shortest = CHOOSE_WHERE(whole_step & ((w->shortest == 0) | (size < w->shortest)), size, w->shortest);
-    w->longest = CHOOSE_WHERE(whole_step & (size > w->longest), size, w->longest);
+    control_count(w, good);
     w->stalled = (w->t + w->next == w->t) | (ABS(w->next) < w->least);
     w->refused += NONE(good);
     return good;

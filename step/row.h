@@ -16,6 +16,7 @@ struct row {
     bool uniform;     /* every step must have the same size: no shorter last one */
     /* a step is a candidate that is accepted or refused, and the step size follows from its error */
     bool adaptive;
+    bool sizes;      /* adaptive: the step finds its own size */
     bool gyroscopic; /* the kick is implicit in v; only for a = E(x, t) + v × B(x, t) */
     struct {         /* SPLITTING: v += kick[i] h a, then x += drift[i] h v, for i = 0 … stages-1 */
         int stages;
@@ -41,5 +42,6 @@ struct row {
         bool ending, closing;
         int order;
     } tableau;
+    int series;   /* TAYLOR: the order; 0: as the tolerance wants it */
     bool newmark; /* IMPLICIT: the tableau follows from the arguments */
 };

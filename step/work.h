@@ -155,6 +155,10 @@ typedef struct work {
     bool fresh; /* the acceleration of the present state is known already, because it was observed */
     whole owed_evaluations, owed_iterations; /* its cost: counted when a step uses it */
     int moved;                               /* drifts that a machine's PASS has already made together with a kick */
+    clock after;   /* adaptive, of rows that find their own sizes: `next` once the candidate is accepted */
+    int expands;   /* the order of the Taylor series that the row needs; 0: none */
+    size_t series; /*   numbers that they keep, as the problem says */
+    int expanded;  /*   how much of them is known at the present state: taylor.h */
 
     real *x, *v, *ex, *ev; /* v: verlet keeps the increment d = x[n] - x[n-1] here once n > 0 */
     real *a, *old, *next_x;

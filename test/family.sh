@@ -13,7 +13,7 @@ export XDG_CACHE_HOME=$copy/cache
 
 git ls-files -z --cached --others --exclude-standard | tar --null -T - -cf - 2>/dev/null | tar -xf - -C "$copy"
 cp test/family/doubling.h "$copy/step/doubling.h"
-sed -i 's|^    X(EXACT, exact, "")$|    X(EXACT, exact, "") \\\n    X(DOUBLING, doubling, "")|; s|^#include "step/exact.h"$|&\n#include "step/doubling.h"|' "$copy/step/families.def"
+sed -i 's|^    X(TAYLOR, taylor, "")$|    X(TAYLOR, taylor, "") \\\n    X(DOUBLING, doubling, "")|; s|^#include "step/taylor.h"$|&\n#include "step/doubling.h"|' "$copy/step/families.def"
 row='    { .card = { CARD("doubling", "", "test", 2, 1, 6, XVT, 0, 0, 0.0), .title = "step doubling", .cite = "", .formula = "", .use = "", .adaptive = 1 },\
       .family = DOUBLING, .adaptive = true },'
 sed -i "/CARD(\"exact\"/i $row" "$copy/core/methods.c"

@@ -30,7 +30,7 @@ typedef enum degree_rule {
 
 typedef struct operation_row {
     const char *spelling;
-    uint8_t arity, degree, smooth;
+    uint8_t arity, degree, smooth, keeps;
 } operation_row;
 
 const operation_row *operation_at(operation);

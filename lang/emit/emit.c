@@ -50,6 +50,11 @@ static void write_functions(writer *w, const char *name, bool terms)
         emit_region(w, AT_RUN);
         SAY(w, "}\n\n");
     }
+    w->part = RUNNING;
+    if (w->e->series) {
+        emit_series_pass(w, name);
+        return;
+    }
     SAY(w,
         "%s void %s(%sconst double *restrict u, const real *restrict w, real *restrict own, clock t, "
         "const clock *restrict T, real *restrict x, real *restrict v, real *restrict a, real *restrict out%s)\n{\n%s, "
@@ -58,7 +63,6 @@ static void write_functions(writer *w, const char *name, bool terms)
         "(void)out;\n",
         w->e->separate ? "__attribute__((noinline)) static" : "static inline", name, parameters,
         w->e->windowed ? ", const whole from, const whole to, const window_put *move" : "", silence);
-    w->part = RUNNING;
     write_constants(w);
     emit_region(w, AT_RUN);
     SAY(w, "}\n\n");
@@ -101,12 +105,12 @@ bool emit_operations(emit *e, uint64_t set, const char *type, const char *prefix
     emit_text *t = &e->text;
 #define LEAF(...)
 #define IN_SET(id) if (set & OPERATION_BIT(id))
-#define UNARY(id, spelling, degree, smooth, value, derivative) \
+#define UNARY(id, spelling, degree, smooth, value, derivative, keeps, recurrence) \
     IN_SET(id) emit_add(t, "static inline %s %s_%d(%s a) { return %s; }\n", type, prefix, OP_##id, type, #value);
-#define BINARY(id, spelling, degree, smooth, value, derivative) \
-    IN_SET(id)                                                  \
+#define BINARY(id, spelling, degree, smooth, value, derivative, keeps, recurrence) \
+    IN_SET(id)                                                                     \
     emit_add(t, "static inline %s %s_%d(%s a, %s b) { return %s; }\n", type, prefix, OP_##id, type, type, #value);
-#define TERNARY(id, spelling, degree, smooth, value, derivative)                                                      \
+#define TERNARY(id, spelling, degree, smooth, value, derivative, keeps, recurrence)                                   \
     IN_SET(id)                                                                                                        \
     emit_add(t, "static inline %s %s_%d(%s a, %s b, %s c) { return %s; }\n", type, prefix, OP_##id, type, type, type, \
              #value);

@@ -44,7 +44,10 @@ typedef struct emit {
     /* loops may take several values of their index at once, by machine/text/index_lanes.h */
     bool vectors;
     bool uses_vectors; /* and some loop does */
-    bool separate;     /* the next program is compiled once, and called */
+    /* the next program is in Taylor series of so many numbers each; 0: it is not. Their operations so far */
+    int series;
+    uint64_t used_series;
+    bool separate; /* the next program is compiled once, and called */
     /* the next program takes a window of outer indices, and PUT(k, value) stands for a[k] = value */
     bool windowed;
     uint32_t terms; /* values of time alone: T[0 … terms) */
@@ -57,6 +60,8 @@ typedef struct emit {
  *                                                       lanes
  *     NAME_terms(pool, q, u, reals t, T)                what depends on time alone, at several times; only with
  *                                                       `terms`, and where e->terms > 0
+ *     NAME(pool, q, u, w, own, n, t, x, v, p, a)        in series: coefficient n of the outputs, as series_pass of
+ *                                                       lang/tape/ describes it; p: the memory, returned behind the end
  *     NAME(pool, q, u, w, own, t, T, x, v, a, out)      outputs, from states; windowed: and `from`, `to`, `move` of
  *                                                       machine/text/window.h
  * A program along a direction has no outputs there: `out` is the direction. The text around it defines real, reals,
@@ -66,6 +71,9 @@ bool emit_program(emit *, const program *, const char *name, bool terms);
 enum { EMIT_NUMBER = 40 };
 /* A double as C text that reads back to the same bits; returns out. */
 const char *emit_number(double, char out[EMIT_NUMBER]);
+/* The recurrences that the programs in series use, as functions series_7(r, a, b, n) over reals, whose operations are
+ * functions of that prefix. They read `length`, a constant. */
+bool emit_series_operations(emit *, const char *prefix);
 /* A set of operations as functions PREFIX_7(a, b) … over a type. */
 bool emit_operations(emit *, uint64_t set, const char *type, const char *prefix);
 /* The value of q[k] for a model's arrays and ints. */

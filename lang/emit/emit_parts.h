@@ -5,6 +5,7 @@
 
 #include "lang/emit/emit.h"
 #include "lang/base/operation.h"
+#include "lang/graph/expansion.h"
 #include "lang/graph/plan.h"
 
 typedef struct writer {
@@ -19,9 +20,10 @@ typedef struct writer {
     uint32_t *term;  /* by node: its place in T, or NONE */
     /* the level whose index differs from lane to lane, while the inside of its loop is written; else -1 */
     int along;
-    bool skips;      /* the terms that a sum's condition leaves out are not computed */
-    uint32_t stores; /* outside of loops, so far */
-    bool one_by_one; /* lanes are written in a loop over l, and a place is that of lane l */
+    bool skips;          /* the terms that a sum's condition leaves out are not computed */
+    expansion expansion; /* of a program in series */
+    uint32_t stores;     /* outside of loops, so far */
+    bool one_by_one;     /* lanes are written in a loop over l, and a place is that of lane l */
 } writer;
 
 enum {
@@ -56,5 +58,7 @@ void emit_outputs(writer *, uint32_t first);
 void emit_item(writer *, uint32_t item);
 
 void emit_region(writer *, uint32_t region);
+
+void emit_series_pass(writer *, const char *name);
 
 #endif

@@ -46,6 +46,7 @@ void analysis_traits(model *m)
                   .affine = true,
                   .constant = true,
                   .smooth = true,
+                  .series = true,
                   .first_order = m->nv > m->nx,
                   .time = m->driven};
     graph_shift shift = {(uint16_t)(3 * m->block_size), (uint16_t)(3 * m->block_size)};

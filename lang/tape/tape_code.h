@@ -10,6 +10,7 @@
 #include "lang/graph/graph_place.h"
 #include "lang/graph/plan.h"
 #include "lang/tape/tape.h"
+#include "lang/tape/tape_series.h"
 
 enum { PARTS = 8, IN_ORDER_MAX = 16 };
 #define BLOCK_BIT (1u << 31) /* in an operand: a block register, not a scalar */
@@ -105,6 +106,7 @@ typedef struct frame {
 typedef struct tape_machine {
     const char *name; /* "avx2" */
     void (*execute)(frame *, const instruction *from);
+    void (*expand)(tape_series *, const series_pass *); /* tape_series_isa.c */
 } tape_machine;
 
 /* tape_code.c: the code of a program; with_blocks false: scalars alone. NULL: the arena failed. */

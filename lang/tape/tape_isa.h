@@ -36,9 +36,10 @@
 #endif
 
 #define EACH_TAPE_MACHINE(X) X(avx512) X(avx2) X(base)
-#define X(isa)                                \
-    extern const tape_machine tape_run_##isa; \
-    extern block_kernel *const tape_kernels_##isa[OPERATIONS * 8];
+#define X(isa)                                                     \
+    extern const tape_machine tape_run_##isa;                      \
+    extern block_kernel *const tape_kernels_##isa[OPERATIONS * 8]; \
+    void tape_series_isa_##isa(tape_series *, const series_pass *);
 EACH_TAPE_MACHINE(X)
 #undef X
 

@@ -116,6 +116,19 @@ __attribute__((noinline)) static void compiled_fill(const compiled_host *host, c
 }
 #endif
 
+#if FACT_expands
+static inline void series_order(work *w, int n, clock t)
+{
+    const compiled_host *host = w->host;
+    real *kept = w->ks;
+#if DRIVEN
+    kept =
+        compiled_boundary_series(host->pool, host->q, host->u, host->bound, host->own, n, t, w->xs, w->vs, kept, w->a);
+#endif
+    compiled_series(host->pool, host->q, host->u, host->bound, host->own, n, t, w->xs, w->vs, kept, w->a);
+}
+#endif
+
 #if DRIVEN
 #define refresh_at(w, t, x, v) BOUNDARY((w)->host, t, x, v, (real *)0)
 #else

@@ -49,6 +49,10 @@ __attribute__((flatten)) static bool compiled_small(work *given, whole steps)
     w->ex = w->ev = w->old = w->next_x = w->delta = w->r = w->xs = w->vs = w->ks = w->dx = w->dv = NULL;
     w->low = w->us = NULL;
     work_place(w, room);
+#if FACT_expands /* they stay where they are, for dense output */
+    w->xs = given->xs, w->vs = given->vs, w->r = given->r, w->ks = given->ks;
+    w->expanded = given->expanded = 0;
+#endif
     work_move(w, given, NUMBERS);
     if (compiled_steps(w, steps) || !advance_finite(w)) return false;
     work_move(given, w, NUMBERS);
@@ -85,6 +89,7 @@ int motus_run(work *given, whole steps)
     work local = *given, *w = &local;
     int bad = STEP_OK;
     w->diagonal = NULL;
+    w->expanded = 0;
 #if LOCAL
     window_open(w);
     if (!w->check)
@@ -92,6 +97,7 @@ int motus_run(work *given, whole steps)
     else
 #endif
         bad = compiled_steps(w, steps);
+    w->expanded = 0;
     *given = local;
     return bad;
 }
@@ -104,5 +110,11 @@ void motus_bind(const double *pool, const int64_t *q, double *u)
     compiled_force_bind(pool, q, u);
 #if DRIVEN
     compiled_boundary_bind(pool, q, u);
+#endif
+#if FACT_expands
+    compiled_series_bind(pool, q, u);
+#if DRIVEN
+    compiled_boundary_series_bind(pool, q, u);
+#endif
 #endif
 }

@@ -1,0 +1,371 @@
+/* TAYLOR SERIES, the recurrences: coefficient n of an operation's result, from the operands' coefficients 0 … n and the
+ * result's own 0 … n-1. lang/base/operations.def says which operation has which.
+ *
+ * Before this text the includer defines real, coef, FMA, PICK and SOME (work.h), and SERIES_OF(f), a function of
+ * step/functions/ over reals.
+ *
+ * Memory: r holds the result's `length` numbers: its coefficients 0 … length-2 and, last, the number that the
+ * recurrence keeps, the reciprocal of a coefficient 0. The helper series that some recurrences need follow, `length`
+ * numbers each. Recurrences that keep something compute coefficient 0 too; of the others it is the operation's value.
+ *
+ * Invariant: the order of the terms is part of a recurrence, so its bits are the same on every machine. A sum of
+ * products f[j] g[n - j] is taken by ascending max(j, n - j), in two chains: the newest coefficients come last, so a
+ * processor computes all that does not wait for them while they are made. The coefficients of a quotient by a
+ * coefficient 0 that is 0 are taken as 0, which is their limit where the operand is 0 throughout.
+ */
+
+/* An operand: its coefficients, and the number of the last one that may differ from 0: 0 of a constant, 1 of time.
+ * Those after it are not stored. */
+enum { SERIES_ALL = 1 << 20 };
+typedef struct series {
+    const real *at;
+    int last;
+} series;
+#define SERIES(at, last) ((series){at, last})
+
+#define SERIES_NUMBER(c) ((real){0} + (c))
+#define SERIES_WHERE(x, value) PICK((x) != 0, value, SERIES_NUMBER(0.0))
+#define SERIES_ITSELF SERIES(r, SERIES_ALL)
+#define SERIES_HELPER(k) (r + (k) * (size_t)length) /* 1, 2 … */
+#define SERIES_FROM(helper) SERIES(helper, SERIES_ALL)
+#define SERIES_KEPT r[length - 1]
+#define SERIES_PART(n) ((coef)1 / (n))
+
+static inline real series_at(const series a, const int n) { return n <= a.last ? a.at[n] : SERIES_NUMBER(0.0); }
+
+/* Sums of products --------------------------------------------------------------------------------------------------*/
+
+/* The sum over j = low … n - high of f[j] g[n - j], where one of the two ends before n. */
+static inline real series_few(const series f, const series g, const int n, const int low, const int high)
+{
+    const int from = n - g.last > low ? n - g.last : low, to = f.last < n - high ? f.last : n - high;
+    real s = SERIES_NUMBER(0.0);
+    if (f.last < n)
+        for (int j = to; j >= from; j--) s = FMA(f.at[j], g.at[n - j], s);
+    else
+        for (int j = from; j <= to; j++) s = FMA(f.at[j], g.at[n - j], s);
+    return s;
+}
+
+/* The same where none ends; low and high are 0 or 1, n is at least 1. */
+static inline real series_sum(const series f, const series g, const int n, const int low, const int high)
+{
+    if (f.last < n || g.last < n) return series_few(f, g, n, low, high);
+    real p = SERIES_NUMBER(0.0), q = p;
+    if (n % 2 == 0) p = f.at[n / 2] * g.at[n / 2];
+    for (int m = (n - 1) / 2; m >= 1; m--) {
+        p = FMA(f.at[m], g.at[n - m], p);
+        q = FMA(f.at[n - m], g.at[m], q);
+    }
+    if (!low) p = FMA(f.at[0], g.at[n], p);
+    if (!high) q = FMA(f.at[n], g.at[0], q);
+    return p + q;
+}
+
+/* The sum over j = low … n - low of f[j] f[n - j]: its first half twice, and the term in the middle. */
+static inline real series_halves(const series f, const int n, const int low)
+{
+    if (f.last < n) return series_few(f, f, n, low, low);
+    real p = SERIES_NUMBER(0.0), q = p;
+    int m = (n - 1) / 2;
+    for (; m > low; m -= 2) {
+        p = FMA(f.at[m], f.at[n - m], p);
+        q = FMA(f.at[m - 1], f.at[n - m + 1], q);
+    }
+    if (m == low) p = FMA(f.at[m], f.at[n - m], p);
+    const real s = 2.0 * (p + q);
+    return n % 2 ? s : FMA(f.at[n / 2], f.at[n / 2], s);
+}
+
+/* k times coefficient k of a, where it is stored. */
+static inline series series_rates(real *rate, const series a, const int n)
+{
+    if (n <= a.last) rate[n] = (double)n * a.at[n];
+    return SERIES(rate, a.last);
+}
+
+/* The coefficient of the integral of f a', which is n times too large; f known below n. */
+static inline real series_along(const series f, const series rates, const int n)
+{
+    return series_sum(f, rates, n, 0, 1) * SERIES_PART(n);
+}
+
+/* Arithmetic --------------------------------------------------------------------------------------------------------*/
+
+static inline real series_product(const series a, const series b, const int n)
+{
+    if (a.last == 0) return a.at[0] * series_at(b, n);
+    if (b.last == 0) return series_at(a, n) * b.at[0];
+    return a.at == b.at ? series_halves(a, n, 0) : series_sum(a, b, n, 0, 0);
+}
+
+static inline real series_quotient(real *r, const int length, const series a, const series b, const int n)
+{
+    if (n == 0) {
+        SERIES_KEPT = 1.0 / b.at[0];
+        return a.at[0] / b.at[0];
+    }
+    const real top = series_at(a, n);
+    return (b.last == 0 ? top : top - series_sum(SERIES_ITSELF, b, n, 0, 1)) * SERIES_KEPT;
+}
+
+/* Powers and roots --------------------------------------------------------------------------------------------------*/
+
+/* Coefficient n of the root r of a series whose coefficient n is top. */
+static inline real series_root(const real *r, const int length, const real top, const int n)
+{
+    return (top - series_halves(SERIES_ITSELF, n, 1)) * SERIES_KEPT;
+}
+
+static inline real series_sqrt(real *r, const int length, const series a, const int n)
+{
+    if (n > 0) return series_root(r, length, series_at(a, n), n);
+    const real root = SERIES_OF(sqrt)(a.at[0]);
+    SERIES_KEPT = SERIES_WHERE(root, 0.5 / root);
+    return root;
+}
+
+static inline real series_hypot(real *r, const int length, const series a, const series b, const int n)
+{
+    if (n > 0) return series_root(r, length, series_product(a, a, n) + series_product(b, b, n), n);
+    const real root = SERIES_OF(hypot)(a.at[0], b.at[0]);
+    SERIES_KEPT = SERIES_WHERE(root, 0.5 / root);
+    return root;
+}
+
+/* r = a^c for a constant c: n a_0 r_n is the sum over j < n of (c (n - j) - j) a_{n-j} r_j. r_0 = `start`. */
+static inline real series_power(real *r, const int length, const series a, const real c, const real start, const int n)
+{
+    real *const da = SERIES_HELPER(1), *const dr = SERIES_HELPER(2);
+    if (n == 0) {
+        SERIES_KEPT = SERIES_WHERE(a.at[0], 1.0 / a.at[0]);
+        return start;
+    }
+    const series rates = series_rates(da, a, n);
+    const real grown = series_sum(SERIES_ITSELF, rates, n, 0, 1), known = series_sum(SERIES_FROM(dr), a, n, 1, 1);
+    const real next = FMA(c, grown, -known) * (SERIES_KEPT * SERIES_PART(n));
+    dr[n] = (double)n * next;
+    return next;
+}
+
+/* a^c. The power of an inverse cube, which is in every force of attraction, is three quick operations. */
+static inline real series_pow(real *r, const int length, const series a, const series c, const int n)
+{
+    real start = SERIES_NUMBER(0.0);
+    if (n == 0) {
+        const real inverse_cube = 1.0 / (a.at[0] * SERIES_OF(sqrt)(a.at[0]));
+        start = inverse_cube;
+        if (SOME(c.at[0] != -1.5)) start = PICK(c.at[0] == -1.5, inverse_cube, SERIES_OF(pow)(a.at[0], c.at[0]));
+    }
+    return series_power(r, length, a, c.at[0], start, n);
+}
+
+static inline real series_cbrt(real *r, const int length, const series a, const int n)
+{
+    const real start = n == 0 ? SERIES_OF(cbrt)(a.at[0]) : SERIES_NUMBER(0.0);
+    return series_power(r, length, a, SERIES_NUMBER(SERIES_PART(3)), start, n);
+}
+
+/* Exponentials and angles -------------------------------------------------------------------------------------------*/
+
+static inline real series_exp(real *r, const int length, const series a, const int n)
+{
+    if (n == 0) return SERIES_OF(exp)(a.at[0]);
+    return series_along(SERIES_ITSELF, series_rates(SERIES_HELPER(1), a, n), n);
+}
+
+/* a r' = a' */
+static inline real series_log(real *r, const int length, const series a, const int n)
+{
+    real *const dr = SERIES_HELPER(1);
+    if (n == 0) {
+        SERIES_KEPT = 1.0 / a.at[0];
+        return SERIES_OF(log)(a.at[0]);
+    }
+    const real known = series_sum(SERIES_FROM(dr), a, n, 1, 1) * SERIES_PART(n);
+    const real next = (series_at(a, n) - known) * SERIES_KEPT;
+    dr[n] = (double)n * next;
+    return next;
+}
+
+/* sin a, with cos a as the first helper; and the other way round. */
+static inline real series_sin(real *r, const int length, const series a, const int n)
+{
+    real *const cosine = SERIES_HELPER(1);
+    if (n == 0) {
+        cosine[0] = SERIES_OF(cos)(a.at[0]);
+        return SERIES_OF(sin)(a.at[0]);
+    }
+    const series rates = series_rates(SERIES_HELPER(2), a, n);
+    const real next = series_along(SERIES_FROM(cosine), rates, n);
+    cosine[n] = -series_along(SERIES_ITSELF, rates, n);
+    return next;
+}
+
+static inline real series_cos(real *r, const int length, const series a, const int n)
+{
+    real *const sine = SERIES_HELPER(1);
+    if (n == 0) {
+        sine[0] = SERIES_OF(sin)(a.at[0]);
+        return SERIES_OF(cos)(a.at[0]);
+    }
+    const series rates = series_rates(SERIES_HELPER(2), a, n);
+    const real next = -series_along(SERIES_FROM(sine), rates, n);
+    sine[n] = series_along(SERIES_ITSELF, rates, n);
+    return next;
+}
+
+static inline real series_sinh(real *r, const int length, const series a, const int n)
+{
+    real *const other = SERIES_HELPER(1);
+    if (n == 0) {
+        other[0] = SERIES_OF(cosh)(a.at[0]);
+        return SERIES_OF(sinh)(a.at[0]);
+    }
+    const series rates = series_rates(SERIES_HELPER(2), a, n);
+    const real next = series_along(SERIES_FROM(other), rates, n);
+    other[n] = series_along(SERIES_ITSELF, rates, n);
+    return next;
+}
+
+static inline real series_cosh(real *r, const int length, const series a, const int n)
+{
+    real *const other = SERIES_HELPER(1);
+    if (n == 0) {
+        other[0] = SERIES_OF(sinh)(a.at[0]);
+        return SERIES_OF(cosh)(a.at[0]);
+    }
+    const series rates = series_rates(SERIES_HELPER(2), a, n);
+    const real next = series_along(SERIES_FROM(other), rates, n);
+    other[n] = series_along(SERIES_ITSELF, rates, n);
+    return next;
+}
+
+/* r' = w a' with w = 1 + r^2, of the hyperbolic tangent 1 - r^2: sign is 1 or -1. r_0 = `start`. */
+static inline real series_slope(real *r, const int length, const series a, const double sign, const real start,
+                                const int n)
+{
+    real *const w = SERIES_HELPER(1);
+    if (n == 0) {
+        w[0] = FMA(sign * start, start, SERIES_NUMBER(1.0));
+        return start;
+    }
+    r[n] = series_along(SERIES_FROM(w), series_rates(SERIES_HELPER(2), a, n), n);
+    w[n] = sign * series_halves(SERIES_ITSELF, n, 0);
+    return r[n];
+}
+
+static inline real series_tan(real *r, const int length, const series a, const int n)
+{
+    return series_slope(r, length, a, 1.0, n == 0 ? SERIES_OF(tan)(a.at[0]) : SERIES_NUMBER(0.0), n);
+}
+
+static inline real series_tanh(real *r, const int length, const series a, const int n)
+{
+    return series_slope(r, length, a, -1.0, n == 0 ? SERIES_OF(tanh)(a.at[0]) : SERIES_NUMBER(0.0), n);
+}
+
+/* w r' = top', w the first helper. */
+static inline real series_inverse(real *r, const int length, const real top, const int n)
+{
+    const real *const w = SERIES_HELPER(1);
+    real *const dr = SERIES_HELPER(2);
+    const real known = series_sum(SERIES_FROM(dr), SERIES_FROM(w), n, 1, 1) * SERIES_PART(n);
+    const real next = (top - known) * SERIES_KEPT;
+    dr[n] = (double)n * next;
+    return next;
+}
+
+/* w = sqrt(1 - a^2); sign 1 of asin, -1 of acos. */
+static inline real series_arc(real *r, const int length, const series a, const double sign, const real start,
+                              const int n)
+{
+    real *const w = SERIES_HELPER(1);
+    if (n == 0) {
+        w[0] = SERIES_OF(sqrt)((1.0 - a.at[0]) * (1.0 + a.at[0]));
+        SERIES_KEPT = SERIES_WHERE(w[0], 1.0 / w[0]);
+        return start;
+    }
+    w[n] = (-series_product(a, a, n) - series_halves(SERIES_FROM(w), n, 1)) * (0.5 * SERIES_KEPT);
+    return series_inverse(r, length, sign * series_at(a, n), n);
+}
+
+static inline real series_asin(real *r, const int length, const series a, const int n)
+{
+    return series_arc(r, length, a, 1.0, n == 0 ? SERIES_OF(asin)(a.at[0]) : SERIES_NUMBER(0.0), n);
+}
+
+static inline real series_acos(real *r, const int length, const series a, const int n)
+{
+    return series_arc(r, length, a, -1.0, n == 0 ? SERIES_OF(acos)(a.at[0]) : SERIES_NUMBER(0.0), n);
+}
+
+static inline real series_atan(real *r, const int length, const series a, const int n)
+{
+    real *const w = SERIES_HELPER(1);
+    if (n == 0) {
+        w[0] = FMA(a.at[0], a.at[0], SERIES_NUMBER(1.0));
+        SERIES_KEPT = 1.0 / w[0];
+        return SERIES_OF(atan)(a.at[0]);
+    }
+    w[n] = series_product(a, a, n);
+    return series_inverse(r, length, series_at(a, n), n);
+}
+
+/* (a^2 + b^2) r' = a' b - b' a */
+static inline real series_atan2(real *r, const int length, const series a, const series b, const int n)
+{
+    real *const w = SERIES_HELPER(1);
+    if (n == 0) {
+        w[0] = FMA(a.at[0], a.at[0], b.at[0] * b.at[0]);
+        SERIES_KEPT = SERIES_WHERE(w[0], 1.0 / w[0]);
+        return SERIES_OF(atan2)(a.at[0], b.at[0]);
+    }
+    const series da = series_rates(SERIES_HELPER(3), a, n), db = series_rates(SERIES_HELPER(4), b, n);
+    w[n] = series_product(a, a, n) + series_product(b, b, n);
+    const real turned = (series_sum(da, b, n, 1, 0) - series_sum(db, a, n, 1, 0)) * SERIES_PART(n);
+    return series_inverse(r, length, turned, n);
+}
+
+/* r' = (2/sqrt pi) e a' with e = exp(-a^2) */
+static inline real series_erf(real *r, const int length, const series a, const int n)
+{
+    real *const e = SERIES_HELPER(1), *const rates = SERIES_HELPER(2);
+    if (n == 0) {
+        e[0] = SERIES_OF(exp)(-(a.at[0] * a.at[0]));
+        return SERIES_OF(erf)(a.at[0]);
+    }
+    const int last = a.last < SERIES_ALL ? 2 * a.last : SERIES_ALL;
+    if (n <= last) rates[n] = -(double)n * series_product(a, a, n);
+    const real next = 1.1283791670955126 * series_along(SERIES_FROM(e), series_rates(SERIES_HELPER(3), a, n), n);
+    e[n] = series_along(SERIES_FROM(e), SERIES(rates, last), n);
+    return next;
+}
+
+/* Choices: coefficient 0 decides ------------------------------------------------------------------------------------*/
+
+static inline real series_abs(const series a, const int n)
+{
+    const real next = series_at(a, n);
+    return PICK(a.at[0] > 0, next, PICK(a.at[0] < 0, -next, SERIES_NUMBER(0.0)));
+}
+
+static inline real series_min(const series a, const series b, const int n)
+{
+    return PICK(a.at[0] <= b.at[0], series_at(a, n), series_at(b, n));
+}
+
+static inline real series_max(const series a, const series b, const int n)
+{
+    return PICK(a.at[0] >= b.at[0], series_at(a, n), series_at(b, n));
+}
+
+static inline real series_mod(const series a, const series b, const int n)
+{
+    return FMA(-SERIES_OF(floor)(a.at[0] / b.at[0]), series_at(b, n), series_at(a, n));
+}
+
+static inline real series_if(const series condition, const series a, const series b, const int n)
+{
+    return PICK(condition.at[0] != 0, series_at(a, n), series_at(b, n));
+}
