@@ -16,7 +16,7 @@
 enum {
     SERIES_APART = 7,       /* arrays of a row of Taylor series without the series: step/taylor.h */
     SMALL_MAX = 16,         /* numbers: what registers, or at least the fastest loads, may hold */
-    WRITTEN_OUT_MAX = 200,  /* operations of the force in all stages of a step, up to which they are written out */
+    WRITTEN_OUT_MAX = 150,  /* operations of the force in all stages of a step, up to which they are written out */
     SOLVES_WRITTEN_MAX = 2, /* implicit kicks, with their drifts: Newton's method is long */
     FORCE_INLINE_MAX = 150, /* operations: a longer force is compiled once, and called */
     FORCE_TURNS_MAX = 40    /* the same of an implicit row: one call more is nothing beside those of the library, which
