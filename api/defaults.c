@@ -45,6 +45,8 @@ static const layout layouts[] = {
         {"motus_statistics", "statistics", SIZES(motus_statistics),
          &(const motus_statistics){
              .first_step = NAN, .last_step = NAN, .jump = -1, .jump_time = NAN, .jump_power = NAN}},
+    [MOTUS_DEF_ESTIMATE] = {"motus_estimate", "estimate", SIZES(motus_estimate),
+                            &(const motus_estimate){.significant_until = NAN, .rate = NAN, .work = NAN, .reason = ""}},
 };
 
 static uint32_t size_now(const layout *l) { return l->sizes[l->count - 1]; }

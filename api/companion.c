@@ -1,0 +1,58 @@
+/* See companion.h.
+ *
+ * Between two landings where the run takes n steps, the companion takes 2 n + 1. Its error is then about 2^-p of the
+ * run's, p the order, so that their distance is nearly the run's error. With 2 n steps every second time of the
+ * companion would be one of the run's, and both could fail in the same way: steps that pass a close encounter at the
+ * same time before and after lead to the same wrong orbit, at every power of 2. With 2 n + 1 the two grids share the
+ * landings alone.
+ *
+ * Why it lands, and does not interpolate: an interpolant has an error of its own, which for a method of high order is
+ * larger than what is measured. A landing costs one more step, and the additions that are compensated stay so.
+ */
+#include "api/companion.h"
+
+#include <math.h>
+
+motus_status companion_begin(companion *c, const motus_run *r, double t, const double *x, const double *v,
+                             motus_error *err)
+{
+    const problem *p = &r->system->problem;
+    if (!c->x) c->x = take(&r->allocator, p->nx + p->nv + 2, sizeof *c->x);
+    if (!c->x) return fail(err, MOTUS_MEMORY, "no memory for a companion of the run");
+    c->v = c->x + p->nx + 1;
+    for (size_t k = 0; k < p->nx; k++) c->x[k] = x[k];
+    for (size_t k = 0; k < p->nv; k++) c->v[k] = v[k];
+    c->t = t;
+    if (c->stepper) return stepper_start(c->stepper, t, r->timing.h, x, v, err);
+    return stepper_create(&c->machine, &r->chosen, t, r->timing.h, x, v, &r->allocator, &c->stepper, err);
+}
+
+motus_status companion_land(companion *c, double t, int64_t steps, motus_error *err)
+{
+    const int64_t mine = 2 * steps + 1;
+    const double h = (t - c->t) / (double)mine;
+    stepper_stop why;
+    if (t == c->t) return MOTUS_OK;
+    motus_status status = stepper_turn(c->stepper, c->t, h, err);
+    if (status == MOTUS_OK) status = pace_advance(&c->pace, c->stepper, (stepper_limit){mine, NAN}, &why, err);
+    if (status == MOTUS_OK) status = stepper_sync(c->stepper, c->x, c->v, NULL, err);
+    if (status == MOTUS_OK) c->t = t;
+    return status;
+}
+
+motus_status companion_repeat(companion *c, const motus_run *r, motus_error *err)
+{
+    const stepper_limit limit = {stepper_steps(r->stepper) - stepper_steps(c->stepper), r->timing.until};
+    stepper_stop why;
+    motus_status status = pace_advance(&c->pace, c->stepper, limit, &why, err);
+    if (status == MOTUS_OK) status = stepper_sync(c->stepper, c->x, c->v, NULL, err);
+    if (status == MOTUS_OK) c->t = stepper_time(c->stepper);
+    return status;
+}
+
+void companion_end(companion *c, const motus_allocator *a)
+{
+    stepper_destroy(c->stepper);
+    give(a, c->x);
+    motus_system_destroy(c->system);
+}
