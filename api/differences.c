@@ -1,7 +1,7 @@
 /* See differences.h.
  *
- * The rules were measured, on 137 518 numbers of 21 problems by 7 methods (an error is in its bar in 99.3 %, and at most
- * 10 times smaller, or the bar at most 4 ulp, in 92 %):
+ * The rules were measured, on 137 518 numbers of 21 problems by 7 methods: 99.3 % of the errors are within their bar,
+ * and 92 % of the bars are at most 10 times the error, or 4 ulp.
  *   - Where truncation rules, d = |run - companion| is e (1 - r), r = 2^-p: 4/3 of it is due at order 2, and 2.5 leaves
  *     room for a companion whose error is not 2^-p of the run's. The envelope, the largest d of the last 3/16 of the
  *     run, covers times at which d passes zero. Never an envelope over other columns: bodies differ in scale.
@@ -167,8 +167,8 @@ static double line(double n, double x, double xx, double y, double yy, double xy
     return sxx > 0 ? syy - sxy * sxy / sxx : INFINITY;
 }
 
-/* An exponential: it leaves a smaller residual than a power of the time, and as a power it would be a steep one. (Found:
- * slopes of 2.9 to 8.4 where the motion is chaotic, of 1.2 to 2.0 where it is regular.) */
+/* An exponential: it leaves a smaller residual than a power of the time, and as a power it would be a steep one: slopes
+ * of 2.9 to 8.4 were found where the motion is chaotic, of 1.2 to 2.0 where it is regular. */
 double differences_rate(const differences *f)
 {
     const differences_growth *g = &f->growth;

@@ -10,6 +10,8 @@ typedef struct record {
     size_t count;
     size_t rows, room; /* a record with room for one row keeps the last */
     int64_t stride;
+    double **errors; /* errors[k][row] of columns[k]; NULL: they are not recorded */
+    bool with_errors;
 } record;
 
 /* For at most `samples` samples of a run of `steps` steps; 1: at the end only. */

@@ -78,6 +78,14 @@ static motus_status save(job *j, motus_error *err)
     return status ? status : file_write(&j->files[STATE], text, length, err);
 }
 
+/* Nothing is computed that nobody sees. */
+static motus_bars bars_wanted(const options *o)
+{
+    const bool seen = !o->quiet || o->json || o->errors || o->plot;
+    if (!seen || (o->error && strcmp(o->error, "none") == 0)) return MOTUS_BARS_NONE;
+    return o->error && strcmp(o->error, "full") == 0 ? MOTUS_BARS_FULL : MOTUS_BARS_CHEAP;
+}
+
 static motus_status begin(job *j, motus_error *err)
 {
     const options *o = j->options;
@@ -94,6 +102,7 @@ static motus_status begin(job *j, motus_error *err)
     j->def.threads = (int)o->threads;
     j->def.progress = stop_progress_hook;
     j->def.context = &j->progress;
+    j->def.error = bars_wanted(o);
     status = motus_run_create(j->model.system, &j->def, &j->run, err);
     if (status) return status;
     if (motus_run_note(j->run)[0] && !o->quiet) complain_note("the interpreter runs this: %s", motus_run_note(j->run));
@@ -101,7 +110,8 @@ static motus_status begin(job *j, motus_error *err)
     j->until = load_until(&j->model);
     status = deviation_begin(&j->deviation, &j->model, j->run, err);
     if (!status && o->restart) status = restart(j, err);
-    if (!status && o->plot) status = figure_begin(&j->figure, &j->model, o, j->run, err);
+    if (!status && o->plot)
+        status = figure_begin(&j->figure, &j->model, o, j->run, j->def.error != MOTUS_BARS_NONE, err);
     const char *const names[FILES] = {o->output, o->plot, o->save_state};
     for (int i = 0; !status && i < FILES; i++)
         if (names[i]) status = file_create(&j->files[i], names[i], err);
@@ -115,7 +125,8 @@ static walk_observer rows_observer(job *j)
     const options *o = j->options;
     motus_settings settings = motus_default_settings();
     motus_settings_of(j->model.system, &settings);
-    walk_observer w = {.columns = j->csv.columns, .count = j->csv.count, .take = csv_row, .context = &j->csv};
+    walk_observer w = {
+        .columns = j->csv.columns, .count = j->csv.count, .errors = o->errors, .take = csv_row, .context = &j->csv};
     bool ours = o->every_time > 0 || o->every_steps > 0;
     double period = ours ? o->every_time : settings.every_time > 0 ? settings.every_time : 0;
     int64_t steps = ours ? o->every_steps : settings.every_steps;
@@ -158,7 +169,10 @@ static motus_status finish(job *j, double seconds, motus_error *err)
                  &j->deviation,
                  j->start,
                  seconds,
-                 j->singular.status == MOTUS_SINGULAR ? j->singular.time : NAN};
+                 j->singular.status == MOTUS_SINGULAR ? j->singular.time : NAN,
+                 j->def.error != MOTUS_BARS_NONE,
+                 motus_default_estimate()};
+    if (!status && s.errors) status = motus_run_estimate(j->run, &s.estimate, err);
     if (!status && o->json)
         status = summary_json(&s, err);
     else if (!status && !o->quiet && !(o->plot && strcmp(o->plot, "-") == 0))

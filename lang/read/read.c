@@ -49,8 +49,7 @@ static motus_status build(model *m, const motus_text_def *def, read_method metho
                          layout_all(m) && equations_all(m);
     forget_trees(m);
     if (lowered) analysis_all(m);
-    const bool claims = !m->source.nudged && !source_failed(&m->source) && !m->graph->too_large;
-    if (claims && verify_claims(m) == MOTUS_MEMORY) m->arena->failed = true;
+    if (!source_failed(&m->source) && !m->graph->too_large && verify_claims(m) == MOTUS_MEMORY) m->arena->failed = true;
     if (m->source.failed) return m->source.status;
     if (m->arena->failed) return MOTUS_MEMORY;
     if (m->graph->too_large)

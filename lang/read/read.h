@@ -9,7 +9,7 @@
 typedef motus_status (*read_method)(const char *name, motus_error *);
 
 /* On failure the error says what and where, and *out is NULL; the arena keeps what was taken. nudged: as in source.h;
- * claims are not checked then, since the text was read before. */
+ * claims are not judged then. */
 motus_status read_model(arena *, const motus_text_def *, bool nudged, read_method, model **out, motus_error *);
 
 /* Checks exact lines and invariants again after numbers have changed. */
