@@ -1,0 +1,81 @@
+/* See bar.h.
+ *
+ * Invariant: the printed value lies within the printed error of all that lies within `error` of `value`.
+ */
+#include "cli/bar.h"
+
+#include <math.h>
+#include <stdbool.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* The power of ten of the first digit. */
+static int power_of(double number)
+{
+    char text[DECIMAL_MAX];
+    snprintf(text, sizeof text, "%.0e", number);
+    const int rounded = atoi(strchr(text, 'e') + 1);
+    /* 9.9 prints as 1e1 */
+    return number < decimal_scaled(1, rounded) ? rounded - 1 : rounded;
+}
+
+/* digits × 10^power: "1.5e-6", "0.03", "200". */
+static void error_text(int digits, int power, char out[DECIMAL_MAX])
+{
+    const int first = power + (digits >= 10);
+    if (first >= -3 && first < 3)
+        snprintf(out, DECIMAL_MAX, "%.*f", power < 0 ? -power : 0, decimal_scaled(digits, power));
+    else if (digits >= 10)
+        snprintf(out, DECIMAL_MAX, "%d.%de%d", digits / 10, digits % 10, first);
+    else
+        snprintf(out, DECIMAL_MAX, "%de%d", digits, first);
+}
+
+/* Without the plus and the zeros of an exponent: 1.5e+07 as 1.5e7. */
+static void tidy(char *number)
+{
+    char *e = strchr(number, 'e');
+    if (e) snprintf(e + 1, DECIMAL_MAX - (size_t)(e + 1 - number), "%d", atoi(e + 1));
+}
+
+/* The value to the decimal 10^power. */
+static void value_text(double value, int power, char out[DECIMAL_MAX])
+{
+    const int first = power_of(fabs(value));
+    if (first >= -5 && first < 15 && power <= 0)
+        snprintf(out, DECIMAL_MAX, "%.*f", -power, value);
+    else
+        snprintf(out, DECIMAL_MAX, "%.*e", first > power ? first - power : 0, value);
+    tidy(out);
+}
+
+/* How many 10^power are at least `error`, and what rounding the value to one of them takes. */
+static int units(double error, int power, double rounding)
+{
+    return (int)ceil(error / decimal_scaled(1, power) * (1 + 0x1p-50) + rounding);
+}
+
+char *bar_text(double value, double error, char out[BAR_MAX])
+{
+    char number[DECIMAL_MAX], bar[DECIMAL_MAX];
+    if (isinf(error)) return strcpy(out, "—");
+    decimal(value, number);
+    if (error == 0 || isnan(error) || !isfinite(value)) {
+        snprintf(out, BAR_MAX, "%s%s", number, error == 0 ? value == 0 ? " (exact)" : "" : " ±?");
+        return out;
+    }
+    const bool zero = fabs(value) <= error;
+    const double whole = zero ? fabs(value) + error : error, rounding = zero ? 0 : 0.5;
+    int power = power_of(whole);
+    if (whole < 3 * decimal_scaled(1, power)) power--;
+    int digits = units(whole, power, rounding);
+    if (digits >= 30) digits = units(whole, ++power, rounding);
+    error_text(digits, power, bar);
+    if (zero)
+        snprintf(number, sizeof number, "0");
+    else
+        value_text(value, power, number);
+    snprintf(out, BAR_MAX, "%s ± %s", number, bar);
+    return out;
+}
