@@ -90,17 +90,6 @@ static motus_status make_half(motus_run *r, motus_error *err)
     return choice_compile(c->system, &r->chosen, false, r->bars->kept, &c->machine, &why, err);
 }
 
-/* Moves every number by an ulp, up or down by a hash of its place [Murmur3's finaliser]. */
-static void jog(double *y, size_t count, uint32_t salt)
-{
-    for (size_t k = 0; k < count; k++) {
-        uint32_t z = (uint32_t)k + salt;
-        z = (z ^ z >> 16) * 0x85ebca6bu;
-        z = (z ^ z >> 13) * 0xc2b2ae35u;
-        if (y[k] != 0) y[k] = nextafter(y[k], (z ^ z >> 16) & 1 ? INFINITY : -INFINITY);
-    }
-}
-
 /* The companion begins where the model says, with its own decimals, or where the run was told to. */
 static motus_status begin_half(motus_run *r, double *x, double *v, motus_error *err)
 {
@@ -140,8 +129,8 @@ static motus_status begin_at(motus_run *r, motus_error *err)
     if (status == MOTUS_OK && b->kind == MOTUS_BARS_FULL) {
         memcpy(x, r->x, p->nx * sizeof *x);
         memcpy(v, r->v, p->nv * sizeof *v);
-        jog(x, p->nx, 0);
-        jog(v, p->nv, (uint32_t)p->nx);
+        companion_move(x, p->nx, NULL, 0);
+        companion_move(v, p->nv, NULL, (uint32_t)p->nx);
         if (p->refresh) p->refresh(p->ctx, r->timing.t0, x, v);
         status = companion_begin(&b->twin, r, r->timing.t0, x, v, err);
     }
@@ -219,6 +208,7 @@ static motus_status land(motus_run *r, double t, double *x, double *v, bool betw
     bars *b = r->bars;
     const int64_t now = motus_run_steps(r), taken = now - b->steps;
     motus_status status = companion_land(&b->half, t, taken > 0 ? taken : 1, err);
+    if (status == MOTUS_OK && !strcmp(r->card->family, "exact")) status = companion_jog(&b->half, r, err);
     if (status == MOTUS_OK && b->kind == MOTUS_BARS_FULL && !between) status = companion_repeat(&b->twin, r, err);
     if (status == MOTUS_OK) status = take_here(r, t, x, v, err);
     b->landed = t;

@@ -40,6 +40,32 @@ motus_status companion_land(companion *c, double t, int64_t steps, motus_error *
     return status;
 }
 
+void companion_move(double *y, size_t count, const double *size, uint32_t salt)
+{
+    for (size_t k = 0; k < count; k++) {
+        uint32_t z = (uint32_t)k + salt; /* Murmur3's finaliser */
+        z = (z ^ z >> 16) * 0x85ebca6bu;
+        z = (z ^ z >> 13) * 0xc2b2ae35u;
+        const double way = (z ^ z >> 16) & 1 ? 1 : -1, to = y[k] + way * (size ? size[k] : 0);
+        if (y[k] != 0) y[k] = to != y[k] ? to : nextafter(y[k], way * INFINITY);
+    }
+}
+
+/* The bound on the rounding of the exact motion's formula, at the run's time. */
+motus_status companion_jog(companion *c, const motus_run *r, motus_error *err)
+{
+    const problem *p = &r->system->problem;
+    double *size = take(&r->allocator, p->nx + p->nv + 1, sizeof *size);
+    if (!size) return fail(err, MOTUS_MEMORY, "no memory for a companion of the run");
+    const bool known = p->exact_rounding && p->exact_rounding(p->ctx, c->t, size, size + p->nx);
+    for (size_t k = 0; k < p->nx + p->nv; k++) size[k] = known ? size[k] * 0x1p-53 : 0;
+    const uint32_t salt = (uint32_t)stepper_steps(r->stepper) * 0x9e3779b9u;
+    companion_move(c->x, p->nx, size, salt);
+    companion_move(c->v, p->nv, size + p->nx, salt + (uint32_t)p->nx);
+    give(&r->allocator, size);
+    return MOTUS_OK;
+}
+
 motus_status companion_repeat(companion *c, const motus_run *r, motus_error *err)
 {
     const stepper_limit limit = {stepper_steps(r->stepper) - stepper_steps(c->stepper), r->timing.until};

@@ -91,7 +91,7 @@ static double distance_of(differences *f, const motus_system *s)
             f->scale[g] = fmax(f->scale[g], fabs(f->values[k]));
             far = fmax(far, f->d[k]);
         }
-        if (far > 0) most = fmax(most, f->scale[g] > 0 ? far / f->scale[g] : 1);
+        if (f->scale[g] > 0) most = fmax(most, far / f->scale[g]);
         from += n;
     }
     return most;
@@ -107,6 +107,18 @@ static void grow(differences *f, double t, double now)
     g->n++;
     g->t += gone, g->tt += gone * gone, g->l += l, g->ll += l * l;
     g->y += y, g->yy += y * y, g->ty += gone * y, g->ly += l * y;
+}
+
+/* A motion that begins at rest, or at 0, has no size of its own at first, so its first part is not judged. */
+static void judge(differences *f, double t, double now)
+{
+    const bool begins = fabs(t - f->start) * PARTS < fabs(f->length) * (1 - 1e-9);
+    if (begins || !f->first_known) f->first = now;
+    f->distance = fmax(begins ? 0 : f->distance, now);
+    f->first_known = !begins;
+    if (begins) return;
+    grow(f, t, now);
+    if (isnan(f->until) && f->distance >= LOST) f->until = t;
 }
 
 motus_status differences_take(differences *f, motus_system *s, double t, double *x, double *v, motus_system *half,
@@ -126,12 +138,7 @@ motus_status differences_take(differences *f, motus_system *s, double t, double 
         for (size_t k = 0; status == MOTUS_OK && k < f->count; k++)
             twin[k] = fmax(twin[k], fabs(f->values[k] - f->other[k]));
     }
-    const double now = distance_of(f, s);
-    grow(f, t, now);
-    f->distance = fmax(f->distance, now);
-    if (isnan(f->until) && f->distance >= LOST) f->until = t;
-    if (!f->first_known) f->first = f->distance;
-    f->first_known = fabs(t - f->start) * PARTS >= fabs(f->length) * (1 - 1e-9);
+    judge(f, t, distance_of(f, s));
     return status;
 }
 

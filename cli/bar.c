@@ -10,6 +10,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+enum { TINIEST = -300 }; /* below this power of ten there are not all digits */
+
 /* The power of ten of the first digit. */
 static int power_of(double number)
 {
@@ -68,6 +70,7 @@ char *bar_text(double value, double error, char out[BAR_MAX])
     const bool zero = fabs(value) <= error;
     const double whole = zero ? fabs(value) + error : error, rounding = zero ? 0 : 0.5;
     int power = power_of(whole);
+    if (power < TINIEST) return snprintf(out, BAR_MAX, "%s ± %.0e", zero ? "0" : number, whole), out;
     if (whole < 3 * decimal_scaled(1, power)) power--;
     int digits = units(whole, power, rounding);
     if (digits >= 30) digits = units(whole, ++power, rounding);
