@@ -145,8 +145,8 @@ static motus_status begin_at(motus_run *r, motus_error *err)
 static motus_status judge(motus_run *r, motus_status status, const motus_error *theirs, motus_error *err)
 {
     if (status == MOTUS_OK) return MOTUS_OK;
-    if (status == MOTUS_MEMORY) return fail(err, status, "%s", theirs->message);
     bars_give_up(r, "a companion run failed: %s", theirs->message);
+    if (status == MOTUS_MEMORY) return fail(err, status, "%s", theirs->message);
     if (status != MOTUS_CANCELLED) return MOTUS_OK;
     char t[DECIMAL_MAX];
     return fail(err, status, "cancelled at t = %s", run_time_text(r, stepper_time(r->stepper), t));

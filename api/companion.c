@@ -13,6 +13,8 @@
 
 #include <math.h>
 
+#define USUAL 0x1p-55
+
 motus_status companion_begin(companion *c, const motus_run *r, double t, const double *x, const double *v,
                              motus_error *err)
 {
@@ -51,14 +53,18 @@ void companion_move(double *y, size_t count, const double *size, uint32_t salt)
     }
 }
 
-/* The bound on the rounding of the exact motion's formula, at the run's time. */
+/* What rounding usually makes of the exact motion's formula: a quarter of the bound, which is in units of 2^-53. */
 motus_status companion_jog(companion *c, const motus_run *r, motus_error *err)
 {
     const problem *p = &r->system->problem;
     double *size = take(&r->allocator, p->nx + p->nv + 1, sizeof *size);
     if (!size) return fail(err, MOTUS_MEMORY, "no memory for a companion of the run");
-    const bool known = p->exact_rounding && p->exact_rounding(p->ctx, c->t, size, size + p->nx);
-    for (size_t k = 0; k < p->nx + p->nv; k++) size[k] = known ? size[k] * 0x1p-53 : 0;
+    const bool known = p->exact_rounding;
+    if (known && !p->exact_rounding(p->ctx, c->t, size, size + p->nx)) {
+        give(&r->allocator, size);
+        return fail(err, MOTUS_MEMORY, "no memory for a companion of the run");
+    }
+    for (size_t k = 0; k < p->nx + p->nv; k++) size[k] = known ? size[k] * USUAL : 0;
     const uint32_t salt = (uint32_t)stepper_steps(r->stepper) * 0x9e3779b9u;
     companion_move(c->x, p->nx, size, salt);
     companion_move(c->v, p->nv, size + p->nx, salt + (uint32_t)p->nx);
