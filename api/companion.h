@@ -23,7 +23,8 @@ motus_status companion_begin(companion *, const motus_run *, double t, const dou
 motus_status companion_land(companion *, double t, int64_t steps, motus_error *);
 /* Moves its state by what rounding may make of it: of exact motions, which steps do not tell apart. */
 motus_status companion_jog(companion *, const motus_run *, motus_error *);
-/* Moves numbers by at least an ulp, and by `size` where it is given, up or down by a hash of their places and `salt`. */
+/* Moves numbers by at least an ulp, and by `size` where it is given; up or down, by a hash of their places and
+ * `salt`. */
 void companion_move(double *y, size_t count, const double *size, uint32_t salt);
 /* Repeats the steps of the run, and so stands where the run stands. */
 motus_status companion_repeat(companion *, const motus_run *, motus_error *);

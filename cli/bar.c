@@ -44,12 +44,17 @@ static void tidy(char *number)
 /* The value to the decimal 10^power. */
 static void value_text(double value, int power, char out[DECIMAL_MAX])
 {
-    const int first = power_of(fabs(value));
-    if (first >= -5 && first < 15 && power <= 0)
+    const int first = power_of(fabs(value)), digits = first > power ? first - power : 0;
+    const bool plain = first >= -5 && first < 15;
+    if (plain && power <= 0) {
         snprintf(out, DECIMAL_MAX, "%.*f", -power, value);
+        return;
+    }
+    snprintf(out, DECIMAL_MAX, "%.*e", digits, value);
+    if (plain)
+        snprintf(out, DECIMAL_MAX, "%.0f", strtod(out, NULL)); /* digits and zeros are a whole number, and a double */
     else
-        snprintf(out, DECIMAL_MAX, "%.*e", first > power ? first - power : 0, value);
-    tidy(out);
+        tidy(out);
 }
 
 /* How many 10^power are at least `error`, and what rounding the value to one of them takes. */

@@ -652,22 +652,23 @@ MOTUS_API motus_status motus_run_sample(motus_run *, const double *times, size_t
                                         size_t count, double *out, motus_error *);
 
 /* The values of `count` columns at the present state, as motus_run_values gives them (values may be NULL), and the bar
- * of each: |value - exact motion| is below it in 99 of 100 numbers, and it is mostly 2 to 4 times that. The bar covers
- * truncation, round-off, and the rounding of decimals, parameters and initial values as they are written, and what the
- * motion makes of all that. It does not cover numbers that are not well known, nor an equation that is not the true one.
+ * of each: |value - exact motion| is below it in about 99 of 100 numbers, and at least a tenth of it in more than 90. It
+ * covers truncation, round-off, the rounding of decimals in a model's text, and what the motion makes of all that. It
+ * does not cover numbers that are not well known, an equation that is not the true one, or numbers that were rounded
+ * before they came here: those of a callback, of `x` and `v` in the definition, of motus_system_set.
  *
  * Every column has a bar by its own difference between the run and its companion. 0: the number is exactly 0, and the
  * companion's was too, at all times that were compared. INFINITY: no digit is significant, since the two have been
  * further apart than a tenth of the motion's size (motus_estimate.significant_until). NaN: there is no bar, as
- * motus_estimate.reason says; then too the values are there.
+ * motus_estimate.reason says; the value is there.
  *
  * The companion goes on when the run does. It costs twice the run's evaluations, and one step more for every time at
- * which it is compared: about 256 times, of a run of less than 4096 steps every 16 steps, of less than 512 steps 32
- * times, and the times of these calls. The bars depend a little on these times. MOTUS_BARS_FULL: the second one costs
- * as much as the run.
+ * which it is compared: about 256 times; of a run of less than 4096 steps every 16 steps, of less than 512 steps 32
+ * times; and the times of these calls. The bars depend a little on these times. The second companion of MOTUS_BARS_FULL
+ * costs as much as the run.
  *
  * MOTUS_ARGUMENT: the definition of the run asks for no bars, or there is no such column. Fails besides as
- * motus_run_values does; and with MOTUS_CANCELLED. What fails in a companion is no failure, but a reason. */
+ * motus_run_values does, and with MOTUS_CANCELLED. What fails in a companion is no failure, but a reason. */
 MOTUS_API motus_status motus_run_errors(motus_run *, const size_t *columns, size_t count, double *values,
                                         double *errors, motus_error *);
 /* The same at given times: motus_run_sample with bars, which cover the error of the interpolation. Both tables have

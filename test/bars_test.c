@@ -169,7 +169,8 @@ static const struct method {
     double finest;
 } methods[] = {{"verlet", 0.25},   {"velocity-verlet", 0.25}, {"heun", 0.25},         {"rk4", 0.5},
                {"pefrl", 0.5},     {"forest-ruth", 0.5},      {"suzuki4", 0.5},       {"gauss4", 0.5},
-               {"kahan-li6", 1.0}, {"kahan-li8", 1.0},        {"blanes-moan6-14", 1}, {"gauss8", 1.0}, {"exact", 1.0}};
+               {"kahan-li6", 1.0}, {"kahan-li8", 1.0},        {"blanes-moan6-14", 1}, {"gauss8", 1.0},
+               {"exact", 1.0}};
 enum { METHODS = sizeof methods / sizeof *methods, SIZES = 5 };
 
 /* Runs that take longer than this are left out: steps times numbers. */
