@@ -12,6 +12,8 @@
  */
 #include "api/differences.h"
 
+#include "lang/base/operation.h"
+
 #include <math.h>
 #include <string.h>
 
@@ -102,7 +104,7 @@ static void grow(differences *f, double t, double now)
 {
     const double gone = fabs(t - f->start);
     if (!(gone > 0) || !(now > 0) || now >= STRAIGHT) return;
-    const double l = log(gone), y = log(now);
+    const double l = operation_value(OP_LOG, gone, 0, 0), y = operation_value(OP_LOG, now, 0, 0);
     differences_growth *g = &f->growth;
     g->n++;
     g->t += gone, g->tt += gone * gone, g->l += l, g->ll += l * l;

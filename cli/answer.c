@@ -5,6 +5,7 @@
 
 #include <math.h>
 
+#define LN_10 2.302585092994046
 #define FAR_APART 1e7 /* by so much errors grow where a motion passes close encounters, or is chaotic */
 
 /* From what time on no digit is significant. */
@@ -16,7 +17,7 @@ static void print_end(const summary *s, FILE *out)
     fprintf(out, "no digit is significant after t = %s", t);
     if (isfinite(e->rate)) {
         text_brief(e->rate, 2, rate);
-        text_brief(log(10) / e->rate, 2, gain);
+        text_brief(LN_10 / e->rate, 2, gain);
         fprintf(out, " (errors grow as e^{%s t}; ten times the accuracy buys %s)", rate, gain);
     }
     putc('\n', out);

@@ -173,6 +173,7 @@ static motus_status finish(job *j, double seconds, motus_error *err)
                  j->def.error != MOTUS_BARS_NONE,
                  motus_default_estimate()};
     if (!status && s.errors) status = motus_run_estimate(j->run, &s.estimate, err);
+    if (j->singular.status) s.estimate.reason = j->singular.message;
     if (!status && o->json)
         status = summary_json(&s, err);
     else if (!status && !o->quiet && !(o->plot && strcmp(o->plot, "-") == 0))

@@ -43,6 +43,7 @@ static motus_status errors_of(const summary *s, size_t first, size_t count, doub
     motus_status status = columns && *out ? MOTUS_OK : complain_memory(err);
     for (size_t k = 0; !status && k < count; k++) columns[k] = first + k;
     if (!status) status = motus_run_errors(s->run, columns, count, NULL, *out, err);
+    for (size_t k = 0; !status && s->estimate.reason[0] && k < count; k++) (*out)[k] = NAN;
     free(columns);
     if (status) {
         free(*out);
@@ -59,7 +60,7 @@ static motus_status final_cell(const summary *s, table *t, size_t column, double
     double error = NAN;
     motus_status status = s->errors ? motus_run_errors(s->run, &column, 1, NULL, &error, err) : MOTUS_OK;
     if (s->errors)
-        table_bar(t, value, error);
+        table_bar(t, value, s->estimate.reason[0] ? NAN : error);
     else
         table_exact(t, value);
     return status;

@@ -652,9 +652,9 @@ MOTUS_API motus_status motus_run_sample(motus_run *, const double *times, size_t
                                         size_t count, double *out, motus_error *);
 
 /* The values of `count` columns at the present state, as motus_run_values gives them (values may be NULL), and the bar
- * of each: |value - exact motion| is below it in about 99 of 100 numbers, and at least a tenth of it in more than 90. It
- * covers truncation, round-off, the rounding of decimals in a model's text, and what the motion makes of all that. It
- * does not cover numbers that are not well known, an equation that is not the true one, or numbers that were rounded
+ * of each: |value - exact motion| is below it in about 99 of 100 numbers, and at least a tenth of it in more than 90.
+ * It covers truncation, round-off, the rounding of decimals in a model's text, and what the motion makes of all that.
+ * It does not cover numbers that are not well known, an equation that is not the true one, or numbers that were rounded
  * before they came here: those of a callback, of `x` and `v` in the definition, of motus_system_set.
  *
  * Every column has a bar by its own difference between the run and its companion. 0: the number is exactly 0, and the

@@ -39,8 +39,9 @@ static void printed_as_the_manual_says(void **state)
     }
 }
 
-/* Whatever lies within the error of the value lies within what is printed; and that is at most 10/7 of it: 3.5
- * units with half a one for rounding the value are rounded up to 5 where they are just above 4; where 0 is printed the value is another error. */
+/* Whatever lies within the error of the value lies within what is printed; and that is at most 10/7 of it: a little
+ * more than 3.5 units, with half a one for rounding the value, become 5. Where 0 is printed the value is another
+ * error. */
 static void printing_covers(void **state)
 {
     (void)state;
