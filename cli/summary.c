@@ -38,7 +38,7 @@ static motus_status values_of(const summary *s, size_t first, size_t count, doub
 /* The errors of columns [first, first + count). */
 static motus_status errors_of(const summary *s, size_t first, size_t count, double **out, motus_error *err)
 {
-    size_t *columns = malloc((count + 1) * sizeof *columns);
+    size_t *columns = calloc(count + 1, sizeof *columns);
     *out = malloc((count + 1) * sizeof **out);
     motus_status status = columns && *out ? MOTUS_OK : complain_memory(err);
     for (size_t k = 0; !status && k < count; k++) columns[k] = first + k;
