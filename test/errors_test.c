@@ -169,16 +169,8 @@ static void decimals_lie_between(void **state)
 static void rounded_parameters_move(void **state)
 {
     (void)state;
-    motus_system *s = given_text("k = 1/3
-l = 3/4
-m = 0.1
-n = 1 - m
-w = sqrt(k)
-x'' = -k x + 0 (l + m + n + w)
-"
-                                 "x(0) = 1
-x'(0) = 0
-"),
+    motus_system *s = given_text("k = 1/3\nl = 3/4\nm = 0.1\nn = 1 - m\nw = sqrt(k)\nx'' = -k x + 0 (l + m + n + w)\n"
+                                 "x(0) = 1\nx'(0) = 0\n"),
                  *shadow = NULL;
     motus_error err = motus_default_error();
     must(shadow_create(s, &shadow, &err), &err, "shadow");
@@ -195,11 +187,11 @@ x'(0) = 0
     for (int m = 0; m < 2; m++)
         for (double step = 0.05; step < 0.5; step *= 2)
             for (double until = 500; until < 5000; until *= 2) {
-        motus_run *r = barred(s, methods[m], step, until, MOTUS_BARS_CHEAP);
-        finish(r);
-        covered += fabsl(value(s, r, "x") - cosl(w * until)) <= bar_of(s, r, "x");
-        covered += fabsl(value(s, r, "x'") + w * sinl(w * until)) <= bar_of(s, r, "x'");
-        motus_run_destroy(r);
+                motus_run *r = barred(s, methods[m], step, until, MOTUS_BARS_CHEAP);
+                finish(r);
+                covered += fabsl(value(s, r, "x") - cosl(w * until)) <= bar_of(s, r, "x");
+                covered += fabsl(value(s, r, "x'") + w * sinl(w * until)) <= bar_of(s, r, "x'");
+                motus_run_destroy(r);
             }
     assert_true(covered >= 63);
     motus_system_destroy(s);
