@@ -5,10 +5,9 @@
 #include "api/system.h"
 
 /* A decimal of a text, 0.1, is read as the double next to it. In the shadow it is the next double on the decimal's
- * other side, and pi likewise, so that what was written lies between the two systems. A parameter or an initial value that was
- * rounded when it was computed, 1/3, is the next double. Numbers that motus_system_set
- * gave are doubles, and stay. Where the shadow would be another system, since such a number decides a size, and of a
- * callback, it is a clone. */
+ * other side, and pi likewise, so that what was written lies between the two systems. A parameter that was rounded when
+ * it was computed, 1/3, is the next double. Numbers that motus_system_set gave are doubles, and stay. Where the shadow
+ * would be another system, since such a number decides a size, and of a callback, it is a clone. */
 motus_status shadow_create(const motus_system *, motus_system **, motus_error *);
 
 #endif

@@ -63,6 +63,24 @@ static int units(double error, int power, double rounding)
     return (int)ceil(error / decimal_scaled(1, power) * (1 + 0x1p-50) + rounding);
 }
 
+/* The power of ten to which an error is rounded, and how many of them it takes. */
+static int round_up(double error, double rounding, int *power)
+{
+    *power = power_of(error);
+    if (error < 3 * decimal_scaled(1, *power)) --*power;
+    const int digits = units(error, *power, rounding);
+    return digits < 30 ? digits : units(error, ++*power, rounding);
+}
+
+char *bar_error(double error, char out[DECIMAL_MAX])
+{
+    int power;
+    if (!(error > 0) || !isfinite(error) || power_of(error) < TINIEST) return decimal(error, out);
+    const int digits = round_up(error, 0, &power);
+    error_text(digits, power, out);
+    return out;
+}
+
 char *bar_text(double value, double error, char out[BAR_MAX])
 {
     char number[DECIMAL_MAX], bar[DECIMAL_MAX];
@@ -74,11 +92,9 @@ char *bar_text(double value, double error, char out[BAR_MAX])
     }
     const bool zero = fabs(value) <= error;
     const double whole = zero ? fabs(value) + error : error, rounding = zero ? 0 : 0.5;
-    int power = power_of(whole);
-    if (power < TINIEST) return snprintf(out, BAR_MAX, "%s ± %.0e", zero ? "0" : number, whole), out;
-    if (whole < 3 * decimal_scaled(1, power)) power--;
-    int digits = units(whole, power, rounding);
-    if (digits >= 30) digits = units(whole, ++power, rounding);
+    int power;
+    if (power_of(whole) < TINIEST) return snprintf(out, BAR_MAX, "%s ± %.0e", zero ? "0" : number, whole), out;
+    const int digits = round_up(whole, rounding, &power);
     error_text(digits, power, bar);
     if (zero)
         snprintf(number, sizeof number, "0");

@@ -7,6 +7,7 @@
 
 #include "base/error.h"
 #include "cli/answer.h"
+#include "cli/bar.h"
 #include "cli/complain.h"
 #include "cli/figure.h"
 #include "cli/settle.h"
@@ -77,8 +78,7 @@ static motus_status worst_cell(const summary *s, table *t, size_t first, size_t 
         if (errors[k] > errors[worst]) worst = k;
     motus_column c = motus_default_column();
     if (errors && isfinite(errors[worst]) && motus_column_at(s->model->system, first + worst, &c) == MOTUS_OK) {
-        text_brief(errors[worst], 2, bar);
-        snprintf(text, sizeof text, "all ± %s or less, most in %s", bar, c.name);
+        snprintf(text, sizeof text, "all ± %s or less, most in %s", bar_error(errors[worst], bar), c.name);
     }
     free(errors);
     if (!status) table_cell(t, text);
