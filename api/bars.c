@@ -155,13 +155,16 @@ static motus_status judge(motus_run *r, motus_status status, const motus_error *
 static motus_status start(motus_run *r, motus_error *err)
 {
     motus_error theirs = motus_default_error();
+    const double began = pace_now();
     r->bars->started = true;
     if (r->locate || r->locating)
         bars_give_up(r, "a run that locates switches has no companion");
     else if (row_adaptive(&r->chosen))
         bars_give_up(r, "a companion of steps that adapt is not made yet");
     if (r->bars->why[0]) return MOTUS_OK;
-    return judge(r, begin_at(r, &theirs), &theirs, err);
+    const motus_status status = begin_at(r, &theirs);
+    r->bars->seconds += pace_now() - began;
+    return judge(r, status, &theirs, err);
 }
 
 void bars_leg(motus_run *r)
@@ -207,12 +210,14 @@ static motus_status land(motus_run *r, double t, double *x, double *v, bool betw
 {
     bars *b = r->bars;
     const int64_t now = motus_run_steps(r), taken = now - b->steps;
+    const double began = pace_now();
     motus_status status = companion_land(&b->half, t, taken > 0 ? taken : 1, err);
     if (status == MOTUS_OK && !strcmp(r->card->family, "exact")) status = companion_jog(&b->half, r, err);
     if (status == MOTUS_OK && b->kind == MOTUS_BARS_FULL && !between) status = companion_repeat(&b->twin, r, err);
     if (status == MOTUS_OK) status = take_here(r, t, x, v, err);
     b->landed = t;
     b->steps = between ? now - 1 : now;
+    b->seconds += pace_now() - began;
     return status;
 }
 

@@ -15,9 +15,10 @@ struct bars {
     bool started;
     companion half, twin; /* of about half the step; a twin of the run from a state that is an ulp away */
     differences differences;
-    double landed; /* time of the last landing */
-    int64_t steps; /* whole steps of the run before it */
-    char why[256]; /* no bar; "": there is one */
+    double landed;  /* time of the last landing */
+    int64_t steps;  /* whole steps of the run before it */
+    double seconds; /* elapsed in all this */
+    char why[256];  /* no bar; "": there is one */
 };
 
 /* Makes r->bars, where the definition asks for them. */

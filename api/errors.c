@@ -82,6 +82,7 @@ motus_status motus_run_estimate(motus_run *r, motus_estimate *out, motus_error *
     ours.growth = differences_ratio(&b->differences);
     ours.significant_until = b->differences.until;
     ours.rate = differences_rate(&b->differences);
+    ours.seconds = b->seconds;
     ours.reason = b->why;
     const int64_t run = stepper_evaluations(r->stepper);
     const int64_t beside = (b->half.stepper ? stepper_evaluations(b->half.stepper) : 0) +

@@ -28,7 +28,8 @@ typedef struct job {
     load model;
     motus_run_def def;
     motus_run *run;
-    motus_error singular; /* its status: what motus_run_singular says of the run */
+    motus_estimate estimate; /* of its errors */
+    motus_error singular;    /* its status: what motus_run_singular says of the run */
     stop_progress progress;
     double start, until;
     csv csv;
@@ -171,8 +172,7 @@ static motus_status finish(job *j, double seconds, motus_error *err)
                  seconds,
                  j->singular.status == MOTUS_SINGULAR ? j->singular.time : NAN,
                  j->def.error != MOTUS_BARS_NONE,
-                 motus_default_estimate()};
-    if (!status && s.errors) status = motus_run_estimate(j->run, &s.estimate, err);
+                 j->estimate};
     if (j->singular.status) s.estimate.reason = j->singular.message;
     if (!status && o->json)
         status = summary_json(&s, err);
@@ -203,13 +203,14 @@ motus_status run_verb(const options *o, motus_error *err)
 {
     if (o->emit_c) return emit(o, err);
     if (o->share) return share_verb(o, err);
-    job j = {.options = o, .singular = motus_default_error()};
+    job j = {.options = o, .estimate = motus_default_estimate(), .singular = motus_default_error()};
     motus_status status = begin(&j, err);
     if (!status) {
         j.progress = stop_progress_begin("run", o->quiet);
         double began = stop_clock();
         status = go(&j, err);
-        double seconds = stop_clock() - began;
+        if (!status && j.def.error != MOTUS_BARS_NONE) status = motus_run_estimate(j.run, &j.estimate, err);
+        double seconds = fmax(0, stop_clock() - began - j.estimate.seconds); /* of the run alone */
         stop_progress_end(&j.progress);
         if (!status && motus_run_singular(j.model.system, &j.def, &j.singular) == MOTUS_MEMORY)
             *err = j.singular, status = MOTUS_MEMORY;

@@ -685,6 +685,7 @@ typedef struct motus_estimate {
     double significant_until; /* from this time on no digit is significant; NaN: up to the present time digits are */
     double rate;              /* the distance grows like e^(rate t); NaN: not as an exponential, or not known */
     double work;              /* evaluations by companions, in units of the run's; NaN: there are none yet */
+    double seconds;           /* elapsed in companions, reading and compiling included */
     const char *reason;       /* why there is no bar, one sentence; "": there is. Owned by the run */
 } motus_estimate;
 /* What the bars at the present state rest on. Fails as motus_run_errors does. */
