@@ -67,18 +67,22 @@ static motus_status final_cell(const summary *s, table *t, size_t column, double
     return status;
 }
 
-/* The largest error of a family, and where it is. */
+/* The errors of a family: their root mean square, the largest, and where it is. */
 static motus_status worst_cell(const summary *s, table *t, size_t first, size_t count, motus_error *err)
 {
     double *errors = NULL;
-    char text[MOTUS_NAME_MAX + 128] = "", bar[DECIMAL_MAX];
+    char text[MOTUS_NAME_MAX + 192] = "", bar[DECIMAL_MAX], rms[DECIMAL_MAX];
     motus_status status = s->errors ? errors_of(s, first, count, &errors, err) : MOTUS_OK;
     size_t worst = 0;
-    for (size_t k = 1; errors && k < count; k++)
+    double squares = 0;
+    for (size_t k = 0; errors && k < count; k++) {
+        squares += errors[k] * errors[k];
         if (errors[k] > errors[worst]) worst = k;
+    }
     motus_column c = motus_default_column();
     if (errors && isfinite(errors[worst]) && motus_column_at(s->model->system, first + worst, &c) == MOTUS_OK) {
-        snprintf(text, sizeof text, "all ± %s or less, most in %s", bar_error(errors[worst], bar), c.name);
+        snprintf(text, sizeof text, "all: rms ± %s, most ± %s in %s", bar_error(sqrt(squares / (double)count), rms),
+                 bar_error(errors[worst], bar), c.name);
     }
     free(errors);
     if (!status) table_cell(t, text);

@@ -545,9 +545,9 @@ typedef struct motus_run_def {
     int (*progress)(void *context, double fraction);
     void *context; /* of `progress` and of `observer` */
     /* NULL, or called by motus_run_step, motus_run_finish and motus_run_sample after every step, the shorter last one
-     * included; not at the start. It may observe the run (state, values, jacobian, statistics, save), and must not
-     * step, restore, set or destroy it. A value other than 0 stops the run after this step: MOTUS_CANCELLED. The bits
-     * are the same; but a large system no longer takes several steps in one pass over memory. */
+     * included; not at the start. It may observe the run (state, values, errors, jacobian, statistics, save), and must
+     * not step, restore, set or destroy it. A value other than 0 stops the run after this step: MOTUS_CANCELLED. The
+     * bits are the same; but a large system no longer takes several steps in one pass over memory. */
     int (*observer)(void *context, motus_run *);
     /* "interpreter"; "compiled": the equations and the method as machine code, which the C compiler of this computer
      * makes and the library keeps in $XDG_CACHE_HOME/motus; NULL or "auto": compiled if there is a compiler and the run

@@ -357,6 +357,41 @@ static void a_restored_run_has_a_reason(void **state)
     motus_system_destroy(s);
 }
 
+static int watch(void *context, motus_run *r)
+{
+    double *worst = context, bar;
+    const size_t k = 1;
+    motus_error err = motus_default_error();
+    must(motus_run_errors(r, &k, 1, NULL, &bar, &err), &err, "in the observer");
+    assert_int_equal(motus_run_sample_errors(r, &bar, 1, &k, 1, NULL, &bar, &err), MOTUS_ARGUMENT);
+    *worst = fmax(*worst, bar);
+    return 0;
+}
+
+/* In its observer, after every step; and across a traced step. */
+static void while_it_runs(void **state)
+{
+    (void)state;
+    motus_system *s = given_text("x'' = -x\nx(0) = 1\nx'(0) = 0\nstep 0.1\nuntil 10\n");
+    motus_run_def def = motus_default_run();
+    motus_error err = motus_default_error();
+    motus_run *r = NULL;
+    double worst = 0;
+    def.error = MOTUS_BARS_CHEAP;
+    def.observer = watch;
+    def.context = &worst;
+    must(motus_run_create(s, &def, &r, &err), &err, "run");
+    const motus_trace_entry *const *entries;
+    size_t count;
+    assert_true(bar_of(s, r, "x") <= 0x1p-50);
+    must(motus_run_trace(r, &entries, &count, &err), &err, "trace");
+    finish(r);
+    assert_true(worst > 1e-4 && worst < 0.1);
+    assert_true(fabs(value(s, r, "x") - cos(10)) <= bar_of(s, r, "x"));
+    motus_run_destroy(r);
+    motus_system_destroy(s);
+}
+
 /* Backward, and from a state of the caller's. */
 static void from_elsewhere(void **state)
 {
@@ -436,6 +471,7 @@ int main(void)
         cmocka_unit_test(callbacks_have_companions),
         cmocka_unit_test(refusals),
         cmocka_unit_test(a_restored_run_has_a_reason),
+        cmocka_unit_test(while_it_runs),
         cmocka_unit_test(from_elsewhere),
         cmocka_unit_test(a_cancelled_companion),
         cmocka_unit_test(a_run_that_fails),
