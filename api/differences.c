@@ -20,8 +20,14 @@
 /* PARTS: of the run; SLOTS: 3/16 of it, KINKED: 3/8 */
 enum { PARTS = 32, SLOTS = 6, SLOTS_KINKED = 12 };
 #define ROUND_OFF 1e-12 /* the distance after the first part, below which round-off rules */
-#define LOST 0.1        /* no digit is significant */
-#define STRAIGHT 0.03   /* up to this distance the growth is fitted */
+/* No digit is significant: from this distance on. Where errors grow no faster than the square of the time does from 1/32
+ * of the run to its end, and not as an exponential, they still tell each other at twice that: of 11673 numbers of the
+ * example models by 19 methods 99.6 % were covered with the first bound alone, of 12060 with both 99.5 %; with 0.5 in
+ * place of 0.25, 99.3 % of 12642. */
+#define LOST 0.1
+#define LOST_SLOWLY 0.25
+#define SLOWLY 3e3
+#define STRAIGHT 0.03 /* up to this distance the growth is fitted */
 
 motus_status differences_create(differences *f, const motus_system *s, bool full, bool kinked, motus_error *err)
 {
@@ -120,7 +126,8 @@ static void judge(differences *f, double t, double now)
     f->first_known = !begins;
     if (begins) return;
     grow(f, t, f->distance);
-    if (isnan(f->until) && f->distance >= LOST) f->until = t;
+    const bool slowly = isnan(differences_rate(f)) && differences_ratio(f) < SLOWLY;
+    if (isnan(f->until) && f->distance >= (slowly ? LOST_SLOWLY : LOST)) f->until = t;
 }
 
 motus_status differences_take(differences *f, motus_system *s, double t, double *x, double *v, motus_system *half,

@@ -28,7 +28,7 @@ typedef struct differences {
     double distance;                  /* the largest |run - companion| / scale so far */
     double first;                     /* the distance when 1/32 of the run was done */
     bool first_known;
-    double until; /* the first time with a distance of a tenth; NaN: none */
+    double until; /* the first time with a distance at which no digit is significant; NaN: none */
     differences_growth growth;
     bool full, kinked;
 } differences;

@@ -659,7 +659,8 @@ MOTUS_API motus_status motus_run_sample(motus_run *, const double *times, size_t
  *
  * Every column has a bar by its own difference between the run and its companion. 0: the number is exactly 0, and the
  * companion's was too, at all times that were compared. INFINITY: no digit is significant, since the two have been
- * further apart than a tenth of the motion's size (motus_estimate.significant_until). NaN: there is no bar, as
+ * further apart than a tenth of the motion's size, or a quarter where errors grow slowly
+ * (motus_estimate.significant_until). NaN: there is no bar, as
  * motus_estimate.reason says; the value is there.
  *
  * The companion goes on when the run does. It costs twice the run's evaluations, and one step more for every time at
