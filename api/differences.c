@@ -20,10 +20,10 @@
 /* PARTS: of the run; SLOTS: 3/16 of it, KINKED: 3/8 */
 enum { PARTS = 32, SLOTS = 6, SLOTS_KINKED = 12 };
 #define ROUND_OFF 1e-12 /* the distance after the first part, below which round-off rules */
-/* No digit is significant: from this distance on. Where errors grow no faster than the square of the time does from 1/32
- * of the run to its end, and not as an exponential, they still tell each other at twice that: of 11673 numbers of the
- * example models by 19 methods 99.6 % were covered with the first bound alone, of 12060 with both 99.5 %; with 0.5 in
- * place of 0.25, 99.3 % of 12642. */
+/* No digit is significant: from this distance on. Where errors grow no faster than the square of the time does from
+ * 1/32 of the run to its end, and not as an exponential, they still tell each other at twice that: of 11673 numbers of
+ * the example models by 19 methods 99.6 % were covered with the first bound alone, of 12060 with both 99.5 %; with 0.5
+ * in place of 0.25, 99.3 % of 12642. */
 #define LOST 0.1
 #define LOST_SLOWLY 0.25
 #define SLOWLY 3e3
