@@ -2,6 +2,7 @@
 #include "api/ensemble.h"
 
 #include "api/choice.h"
+#include "api/control.h"
 #include "api/suggest.h"
 #include "machine/parallel.h"
 #include "machine/reduction.h"
@@ -173,7 +174,10 @@ static motus_status make(motus_ensemble *e, const motus_ensemble_def *d, motus_e
     motus_status status = choice_method(s, d->method, &e->chosen, &card, err);
     if (status == MOTUS_OK) status = find_places(e, d, err);
     double end = d->until;
-    if (status == MOTUS_OK) status = suggest_missing(s, d->method, NAN, &e->step, &end, err);
+    const control_wish wish = {d->method != NULL, e->step,         d->tolerance,
+                               d->shortest_step,  d->longest_step, d->absolute};
+    if (status == MOTUS_OK) status = control_choose(s, &wish, &e->chosen, err);
+    if (status == MOTUS_OK) status = suggest_missing(s, &e->chosen, d->method, NAN, &e->step, &end, err);
     /* where ends vary, each trajectory gets its own timing later */
     const double until = e->until == SIZE_MAX ? end : s->start;
     if (status == MOTUS_OK) status = run_timing(s, &e->chosen, e->step, until, NAN, &e->timing, err);

@@ -18,6 +18,9 @@ motus_status motus_run_statistics(const motus_run *r, motus_statistics *out)
     ours.iterations = stepper_iterations(r->stepper);
     ours.first_step = r->first_step;
     ours.last_step = ours.steps > 0 ? fabs(stepper_last_step(r->stepper)) : NAN;
+    ours.absolute = r->chosen.absolute > 0;
+    if (row_adaptive(&r->chosen)) ours.tolerance = ours.absolute ? r->chosen.absolute : r->chosen.relative;
+    stepper_sizes(r->stepper, &ours.shortest_step, &ours.longest_step);
     locate_statistics(r, &ours);
     motus_struct_write(MOTUS_DEF_STATISTICS, &ours, out);
     return MOTUS_OK;
@@ -40,7 +43,8 @@ static motus_status set_state(motus_run *r, double t, const double *x, const dou
 {
     timing leg;
     const int64_t steps = motus_run_steps(r);
-    motus_status status = run_timing(r->system, &r->chosen, fabs(r->timing.h), r->timing.until, t, &leg, err);
+    const double step = row_adaptive(&r->chosen) ? NAN : fabs(r->timing.h);
+    motus_status status = run_timing(r->system, &r->chosen, step, r->timing.until, t, &leg, err);
     if (status == MOTUS_OK) status = compose(r, t, x, v, err);
     if (status == MOTUS_OK) status = stepper_start(r->stepper, leg.t0, leg.h, r->mid_x, r->mid_v, err);
     if (status != MOTUS_OK) return status;

@@ -27,6 +27,12 @@ motus_status locate_prepare(motus_run *r, motus_switches switches, motus_error *
     if (switches == MOTUS_SWITCHES_STEP) return MOTUS_OK;
     if (switches != MOTUS_SWITCHES_LOCATE && switches != MOTUS_SWITCHES_RESOLVE)
         return fail(err, MOTUS_ARGUMENT, "there is no way to treat switches of number %d", (int)switches);
+    if (row_adaptive(&r->chosen)) {
+        fail(err, MOTUS_UNAVAILABLE, "switches are located in steps of one size, and %s adapts its steps",
+             r->chosen.name);
+        hint(err, "choose another method, or leave `switches` of the definition at MOTUS_SWITCHES_STEP");
+        return MOTUS_UNAVAILABLE;
+    }
     r->locating = true;
     if (!s->model || !strcmp(r->card->family, "exact")) return MOTUS_OK;
     const motus_status status = system_switches(s, err);

@@ -3,6 +3,7 @@
 #include "api/locate.h"
 
 #include "api/choice.h"
+#include "api/control.h"
 #include "api/suggest.h"
 
 #include "machine/cache.h"
@@ -19,7 +20,8 @@ motus_status run_timing(const motus_system *s, const chosen *chosen, double step
 {
     motus_settings set = motus_default_settings();
     motus_settings_of(s, &set);
-    double h = isnan(step) ? set.step : step;
+    const bool adaptive = row_adaptive(chosen);
+    double h = adaptive ? 1 : isnan(step) ? set.step : step; /* adaptive: its sign is the direction */
     *out = (timing){.until = isnan(until) ? set.until : until, .t0 = isnan(start) ? s->start : start};
     if (isnan(h)) {
         fail(err, MOTUS_ARGUMENT, "no step is given");
@@ -34,6 +36,11 @@ motus_status run_timing(const motus_system *s, const chosen *chosen, double step
     }
     if (!isfinite(out->until) || !isfinite(out->t0))
         return fail(err, MOTUS_ARGUMENT, "start and end are finite numbers, not %g and %g", out->t0, out->until);
+    if (adaptive) {
+        out->h = copysign(fmax(1, fabs(out->t0)), out->until - out->t0);
+        out->whole = INT64_MAX;
+        return MOTUS_OK;
+    }
     double q = fabs(out->until - out->t0) / h;
     if (q > STEPS_MAX) {
         fail(err, MOTUS_LIMIT, "from %g to %g in steps of %g are %.3g steps; at most %.0e are taken", out->t0,
@@ -74,7 +81,8 @@ static motus_status choose_machine(motus_run *r, const char *wanted, motus_error
     r->note = "";
     motus_status status = choice_machine(wanted, &automatic, &compiled, err);
     if (status != MOTUS_OK || !s->model || !compiled) return status;
-    const double worth = choice_worth(s, r->card, (double)r->timing.total);
+    /* how many steps an adaptive method takes is not known: as many as repay compiling */
+    const double worth = row_adaptive(&r->chosen) ? 1 : choice_worth(s, r->card, (double)r->timing.total);
     if (automatic && worth < CHOICE_KEPT) return MOTUS_OK;
     const bool kept = r->kept = automatic && worth < 1;
     const char *why;
@@ -249,7 +257,9 @@ motus_status motus_run_create(motus_system *s, const motus_run_def *given, motus
     r->pace = (pace){.seconds = 0.05, .tell = def.progress ? tell : NULL, .ctx = r};
     modes m = modes_enter();
     status = choice_method(s, def.method, &r->chosen, &r->card, err);
-    if (status == MOTUS_OK) status = suggest_missing(s, def.method, def.start, &def.step, &def.until, err);
+    const control_wish wish = control_wish_of_run(&def);
+    if (status == MOTUS_OK) status = control_choose(s, &wish, &r->chosen, err);
+    if (status == MOTUS_OK) status = suggest_missing(s, &r->chosen, def.method, def.start, &def.step, &def.until, err);
     timing leg;
     if (status == MOTUS_OK) status = run_timing(s, &r->chosen, def.step, def.until, def.start, &leg, err);
     if (status == MOTUS_OK) run_leg(r, &leg);
@@ -294,7 +304,7 @@ double motus_run_time_of(const motus_run *r, int64_t step)
                                    : stepper_time_of(r->stepper, step - (r->locate ? locate_steps(r) : 0));
 }
 
-double motus_run_step_size(const motus_run *r) { return r ? fabs(r->timing.h) : NAN; }
+double motus_run_step_size(const motus_run *r) { return r && !row_adaptive(&r->chosen) ? fabs(r->timing.h) : NAN; }
 int64_t motus_run_steps(const motus_run *r)
 {
     return r ? stepper_steps(r->stepper) + (r->locate ? locate_steps(r) : 0) : 0;

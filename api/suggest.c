@@ -349,12 +349,13 @@ motus_status motus_suggest(motus_system *s, motus_settings *set, motus_error *er
     return status;
 }
 
-motus_status suggest_missing(motus_system *s, const char *method, double start, double *step, double *until,
-                             motus_error *err)
+motus_status suggest_missing(motus_system *s, const chosen *chosen, const char *method, double start, double *step,
+                             double *until, motus_error *err)
 {
     motus_settings set = motus_default_settings();
     motus_settings_of(s, &set);
-    const bool no_step = isnan(*step) && isnan(set.step), no_end = isnan(*until) && isnan(set.until);
+    const bool no_step = !row_adaptive(chosen) && isnan(*step) && isnan(set.step),
+               no_end = isnan(*until) && isnan(set.until);
     const bool sound = !isinf(*step) && !(*step <= 0) && !isinf(*until) && !isinf(start); /* else run_timing says so */
     if (!s->model || !sound || (!no_step && !no_end)) return MOTUS_OK;
     if (!isnan(*step)) set.step = *step;

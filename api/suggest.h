@@ -2,11 +2,11 @@
 #ifndef API_SUGGEST_H
 #define API_SUGGEST_H
 
-#include "motus.h"
+#include "core/methods.h"
 
 /* Fills in *step and *until where they are NaN and the model, which is not a callback, has none. start: NaN: the
  * model's. */
-motus_status suggest_missing(motus_system *, const char *method, double start, double *step, double *until,
-                             motus_error *);
+motus_status suggest_missing(motus_system *, const chosen *, const char *method, double start, double *step,
+                             double *until, motus_error *);
 
 #endif

@@ -190,6 +190,8 @@ motus_status motus_settings_of(const motus_system *s, motus_settings *out)
                                 .step = m->step,
                                 .from = m->start,
                                 .until = m->until,
+                                .tolerance = m->tolerance,
+                                .absolute = m->absolute,
                                 .every_time = m->every_time,
                                 .every_steps = m->every_steps};
     motus_struct_write(MOTUS_DEF_SETTINGS, &ours, out);

@@ -14,6 +14,7 @@ typedef struct trace {
     motus_trace_entry *entry;
     const motus_trace_entry **list; /* to each of them: what the caller gets */
     double *next;                   /* the unused room for numbers */
+    double *first;                  /* the same after the start */
 } trace;
 
 /* START and END, which hold the state; the closing kick and the step of a recurrence take numbers from them. */
@@ -98,6 +99,15 @@ static void see(void *ctx, const trace_event *e)
     if (e->before_a) out->before_a = keep_v(t, e->before_a);
 }
 
+/* Forgets a candidate that was refused, and all but the start. */
+static void again(void *ctx, double h)
+{
+    trace *t = ctx;
+    t->count = 1;
+    t->next = t->first;
+    t->step = t->entry->step = h;
+}
+
 /* Adds an entry with the present state. Without the acceleration where it cannot be evaluated: the method may not need
  * it here. */
 static motus_status observe(motus_run *r, motus_event kind, motus_error *err)
@@ -133,11 +143,13 @@ static motus_status walk(motus_run *r, motus_error *err)
 {
     trace *t = make(r);
     if (!t) return fail(err, MOTUS_MEMORY, "no memory for the trace of the step");
+    /* of an adaptive method `again` tells it */
     t->step = motus_run_steps(r) < r->timing.whole ? r->timing.h : r->timing.last;
     motus_status status = observe(r, MOTUS_EVENT_START, err);
+    t->first = t->next;
     if (status == MOTUS_OK)
         status = stepper_trace(r->stepper, r->timing.until,
-                               &(tracer){.ctx = t, .see = see, .x = r->mid_x, .v = r->mid_v}, err);
+                               &(tracer){.ctx = t, .see = see, .again = again, .x = r->mid_x, .v = r->mid_v}, err);
     if (status == MOTUS_OK) status = run_moved(r, err);
     if (status == MOTUS_OK) status = observe(r, MOTUS_EVENT_END, err);
     if (status == MOTUS_OK) complete(t);

@@ -12,6 +12,7 @@
 
 #include <math.h>
 #include <stdlib.h>
+#include <math.h>
 #include <string.h>
 
 motus_status csv_plan(csv *c, const load *model, const options *o, motus_error *err)
@@ -84,11 +85,15 @@ motus_status csv_word(file_out *f, const char *word, motus_error *err)
 static motus_status put_head(csv *c, const options *o, const motus_run *run, motus_error *err)
 {
     char line[256], step[DECIMAL_MAX];
+    motus_statistics done = motus_default_statistics();
+    motus_run_statistics(run, &done);
     motus_status status = file_text(c->file, "# motus", err);
     for (int i = 1; !status && i < o->argc; i++) status = csv_word(c->file, o->argv[i], err);
-    decimal(motus_run_step_size(run), step);
-    snprintf(line, sizeof line, "\n# motus %s, method %s, step %s, machine %s\n", motus_version(),
-             motus_run_method(run), step, motus_run_machine(run));
+    const bool adapts = !isnan(done.tolerance);
+    decimal(adapts ? done.tolerance : motus_run_step_size(run), step);
+    snprintf(line, sizeof line, "\n# motus %s, method %s, %s %s%s, machine %s\n", motus_version(),
+             motus_run_method(run), adapts ? "tolerance" : "step", step, done.absolute ? " absolute" : "",
+             motus_run_machine(run));
     return status ? status : file_text(c->file, line, err);
 }
 

@@ -342,19 +342,25 @@ static motus_status add_plane(figure *f, const char *text, motus_error *err)
     return status;
 }
 
-motus_status figure_begin(figure *f, const load *model, const options *o, motus_run *run, bool errors, motus_error *err)
+motus_status figure_begin(figure *f, const load *model, const options *o, motus_run *run, double until, bool errors,
+                          motus_error *err)
 {
     char step[DECIMAL_MAX];
-    int64_t steps = motus_run_steps_total(run);
+    const int64_t steps = motus_run_steps_total(run);
+    const double way = until - motus_run_time(run);
     *f = (figure){.model = model};
-    f->fine = record_for(steps, FINE_SAMPLES);
-    f->coarse = record_for(steps, COARSE_SAMPLES);
-    f->last = record_for(steps, 1);
+    f->fine = record_for(steps, way, FINE_SAMPLES);
+    f->coarse = record_for(steps, way, COARSE_SAMPLES);
+    f->last = record_for(steps, way, 1);
     text_brief(fabs(motus_run_step_size(run)), 6, step);
-    snprintf(f->plot.title, sizeof f->plot.title, "%.60s: %.40s, step %s", model->title, motus_run_method(run), step);
+    if (isnan(motus_run_step_size(run)))
+        snprintf(f->plot.title, sizeof f->plot.title, "%.60s: %.40s", model->title, motus_run_method(run));
+    else
+        snprintf(f->plot.title, sizeof f->plot.title, "%.60s: %.40s, step %s", model->title, motus_run_method(run),
+                 step);
     f->t = record_add(&f->fine, 0);
     f->coarse_t = record_add(&f->coarse, 0);
-    f->bars = record_for(steps, BAR_SAMPLES);
+    f->bars = record_for(steps, way, BAR_SAMPLES);
     f->bars.with_errors = errors;
     f->bars_t = errors ? record_add(&f->bars, 0) : NULL;
     if (!f->t || !f->coarse_t || (errors && !f->bars_t)) return complain_memory(err);

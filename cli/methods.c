@@ -37,9 +37,9 @@ static void print_json(const motus_method *only)
 
 static motus_status print_catalogue(const options *o, motus_error *err)
 {
-    static const char *const heads[] = {"name",       "order",      "stages",      "evaluations", "forces",
-                                        "symplectic", "reversible", "limit of hω", "citation"};
-    table *t = table_create("lrrrlllrl");
+    static const char *const heads[] = {"name",       "order",      "stages", "evaluations", "forces",
+                                        "symplectic", "reversible", "steps",  "limit of hω", "citation"};
+    table *t = table_create("lrrrllllrl");
     for (size_t i = 0; i < sizeof heads / sizeof *heads; i++) table_cell(t, heads[i]);
     for (size_t k = 0; k < motus_method_count(); k++) {
         const motus_method *m = motus_method_at(k);
@@ -59,6 +59,7 @@ static motus_status print_catalogue(const options *o, motus_error *err)
         table_cell(t, tell_forces(m->forces));
         table_cell(t, m->symplectic ? "yes" : "no");
         table_cell(t, m->reversible ? "yes" : "no");
+        table_cell(t, m->adaptive ? "adaptive" : "of one size");
         table_cell(t, limit);
         table_cell(t, m->cite ? m->cite : "");
     }

@@ -12,6 +12,7 @@
 #include "cli/typed.h"
 
 #include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -25,7 +26,7 @@ enum {
     ANY = MODEL | VERB_METHODS | VERB_CACHE
 };
 
-typedef enum kind { FLAG, WORD, STEP, UNTIL, COUNT, SEED, EVERY, METHOD_LIST, NAMED } kind;
+typedef enum kind { FLAG, WORD, STEP, LENGTH, TOLERANCE, UNTIL, COUNT, SEED, EVERY, METHOD_LIST, NAMED } kind;
 
 typedef struct option {
     const char *name, *brief, *argument;
@@ -42,6 +43,11 @@ static const option table[] = {
     {"--methods", NULL, "A,B,C", METHOD_LIST, AT(methods), STUDY | VERB_LAB,
      "these methods (else every one the model admits; lab: else the model's)"},
     {"--step", NULL, "H", STEP, AT(step), MOTION, "time step: 0.01, 1/64, pi/100"},
+    {"--tolerance", NULL, "E", TOLERANCE, AT(tolerance), ONE | VERB_LAB,
+     "of an adaptive method: what one step may be off, 1e-9 of the motion's size, or \"1e-6 absolute\""},
+    {"--shortest-step", NULL, "H", LENGTH, AT(shortest_step), ONE,
+     "of an adaptive method: stop where a shorter one is needed"},
+    {"--longest-step", NULL, "H", LENGTH, AT(longest_step), ONE, "of an adaptive method: take no longer one"},
     {"--until", NULL, "T", UNTIL, AT(until), MOTION, "end time; before the start: backward"},
     {"--set", NULL, "P=EXPR", NAMED, AT(set), MODEL,
      "replace a parameter or initial value: F=0.2, \"x(0)=1\"; repeatable"},
@@ -150,11 +156,6 @@ static motus_status find(const char *name, unsigned verb, const option **found, 
             hint(err, "%s belongs to: %s", elsewhere->name, verbs);
         return MOTUS_ARGUMENT;
     }
-    if (strcmp(name, "--tolerance") == 0) {
-        fail(err, MOTUS_UNAVAILABLE, "--tolerance would change nothing: every method takes fixed steps");
-        hint(err, "give --step; motus converge shows the error at each step");
-        return MOTUS_UNAVAILABLE;
-    }
     fail(err, MOTUS_ARGUMENT, "unknown option %s", name);
     if (strcmp(name, "--from") == 0)
         hint(err, "the start is the constant c in x(c) = ..., in the model");
@@ -190,6 +191,26 @@ static motus_status read_every(options *o, const option *row, const char *value,
     o->every_time = t;
     o->every_steps = 0;
     return MOTUS_OK;
+}
+
+/* "1e-9", or with the word relative or absolute. */
+static motus_status read_tolerance(options *o, const option *row, const char *value, motus_error *err)
+{
+    static const char *const words[] = {"relative", "absolute"};
+    char number[64];
+    size_t length = strlen(value);
+    o->absolute = false;
+    for (int i = 0; i < 2; i++) {
+        const size_t n = strlen(words[i]);
+        if (length <= n + 1 || strcmp(value + length - n, words[i]) != 0 || value[length - n - 1] != ' ') continue;
+        o->absolute = i == 1;
+        length -= n;
+        while (length > 0 && value[length - 1] == ' ') length--;
+        break;
+    }
+    snprintf(number, sizeof number, "%.*s", (int)length, value);
+    if (length < sizeof number && typed_number(number, &o->tolerance) && o->tolerance > 0) return MOTUS_OK;
+    return bad_value(row, value, "a number above 0, or one as \"1e-6 absolute\"", err);
 }
 
 motus_status options_split(const char *text, const char *option_name, char **copy, options_list *list, motus_error *err)
@@ -255,6 +276,10 @@ static motus_status store(options *o, const option *row, const char *value, motu
     case STEP:
         o->step_typed = value;
         return typed_number(value, &o->step) && o->step > 0 ? MOTUS_OK : bad_value(row, value, "a number above 0", err);
+    case LENGTH:
+        return typed_number(value, place) && *(double *)place > 0 ? MOTUS_OK
+                                                                  : bad_value(row, value, "a number above 0", err);
+    case TOLERANCE: return read_tolerance(o, row, value, err);
     case UNTIL:
         o->until_typed = value;
         return typed_number(value, &o->until) ? MOTUS_OK : bad_value(row, value, "a number", err);
@@ -346,7 +371,7 @@ static motus_status check(const options *o, motus_error *err)
 
 motus_status options_read(options *o, unsigned verb, int argc, char **argv, int first, motus_error *err)
 {
-    *o = (options){.verb = verb, .step = NAN, .until = NAN, .argc = argc, .argv = argv};
+    *o = (options){.verb = verb, .step = NAN, .until = NAN, .tolerance = NAN, .argc = argc, .argv = argv};
     bool only_operands = false;
     for (int i = first; i < argc; i++) {
         char *word = argv[i];

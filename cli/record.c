@@ -4,13 +4,19 @@
  */
 #include "cli/record.h"
 
+#include <math.h>
 #include <stdlib.h>
 
-record record_for(int64_t steps, int64_t samples)
+record record_for(int64_t steps, double way, int64_t samples)
 {
     record r = {0};
     if (samples <= 1) {
         r.room = 1;
+        return r;
+    }
+    if (steps == 0 && way != 0) {
+        r.period = fabs(way) / (double)samples;
+        r.room = (size_t)samples + 2;
         return r;
     }
     r.stride = steps / samples + 1;
@@ -60,6 +66,7 @@ static motus_status take(void *context, const double *values, motus_error *err)
 walk_observer record_observer(record *r)
 {
     return (walk_observer){.stride = r->stride,
+                           .period = r->period,
                            .columns = r->columns,
                            .count = r->count,
                            .errors = r->with_errors,

@@ -98,6 +98,10 @@ static motus_status begin(job *j, motus_error *err)
     j->def = motus_default_run();
     j->def.method = o->method;
     j->def.step = j->model.step;
+    j->def.tolerance = j->options->tolerance;
+    j->def.absolute = j->options->absolute;
+    j->def.shortest_step = j->options->shortest_step;
+    j->def.longest_step = j->options->longest_step;
     j->def.until = j->model.until;
     j->def.machine = o->machine;
     j->def.threads = (int)o->threads;
@@ -111,8 +115,8 @@ static motus_status begin(job *j, motus_error *err)
     j->until = load_until(&j->model);
     status = deviation_begin(&j->deviation, &j->model, j->run, err);
     if (!status && o->restart) status = restart(j, err);
-    if (!status && o->plot)
-        status = figure_begin(&j->figure, &j->model, o, j->run, j->def.error != MOTUS_BARS_NONE, err);
+    const bool errors = j->def.error != MOTUS_BARS_NONE;
+    if (!status && o->plot) status = figure_begin(&j->figure, &j->model, o, j->run, j->until, errors, err);
     const char *const names[FILES] = {o->output, o->plot, o->save_state};
     for (int i = 0; !status && i < FILES; i++)
         if (names[i]) status = file_create(&j->files[i], names[i], err);

@@ -40,7 +40,10 @@ motus_status settle_timing(load *m, const options *o, int needed, const char *me
     motus_settings_of(m->system, &set);
     m->step = o->step;
     m->until = o->until;
-    m->suggested = (isnan(o->step) && isnan(set.step) ? SETTLE_STEP : 0) |
+    const motus_method *card = NULL;
+    const char *name = method ? method : set.method;
+    const bool adaptive = name && motus_method_find(name, &card, NULL) == MOTUS_OK && card->adaptive;
+    m->suggested = (!adaptive && isnan(o->step) && isnan(set.step) ? SETTLE_STEP : 0) |
                    (isnan(o->until) && isnan(set.until) ? SETTLE_UNTIL : 0);
     m->suggested &= needed;
     if (!m->suggested) return MOTUS_OK;

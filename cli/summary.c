@@ -188,18 +188,40 @@ static table *invariant_table(const summary *s, motus_error *err, motus_status *
     return t;
 }
 
+/* "step 0.01"; "tolerance 1e-9, steps 0.02 to 0.3". */
+static void how_steps(const summary *s, char *out, size_t size)
+{
+    char a[DECIMAL_MAX], b[DECIMAL_MAX], c[DECIMAL_MAX];
+    motus_statistics done = motus_default_statistics();
+    motus_run_statistics(s->run, &done);
+    if (isnan(done.tolerance)) {
+        decimal(motus_run_step_size(s->run), a);
+        snprintf(out, size, "step %s", a);
+        return;
+    }
+    decimal(done.tolerance, a);
+    text_brief(done.shortest_step, 3, b);
+    text_brief(done.longest_step, 3, c);
+    const int length = snprintf(out, size, "tolerance %s%s", a, done.absolute ? " absolute" : "");
+    if (!isnan(done.longest_step)) snprintf(out + length, size - (size_t)length, ", steps %s to %s", b, c);
+}
+
 static void head(const summary *s, FILE *out, bool colours)
 {
-    char step[DECIMAL_MAX], from[DECIMAL_MAX], to[DECIMAL_MAX], last[DECIMAL_MAX], spent[DECIMAL_MAX];
-    decimal(fabs(motus_run_step_size(s->run)), step);
+    char from[DECIMAL_MAX], to[DECIMAL_MAX], last[DECIMAL_MAX], spent[DECIMAL_MAX], how[3 * DECIMAL_MAX];
+    how_steps(s, how, sizeof how);
     decimal(s->start, from);
     decimal(motus_run_time(s->run), to);
     text_brief(fabs(motus_run_last_step(s->run)), 6, last);
     text_seconds(s->seconds, spent);
-    fprintf(out, "%s%s%s: %s, step %s, %s\n", colours ? "\033[1m" : "", s->model->title, colours ? "\033[0m" : "",
-            motus_run_method(s->run), step, motus_run_machine(s->run));
+    motus_statistics done = motus_default_statistics();
+    motus_run_statistics(s->run, &done);
+    const int64_t refused = done.refused;
+    fprintf(out, "%s%s%s: %s, %s, %s\n", colours ? "\033[1m" : "", s->model->title, colours ? "\033[0m" : "",
+            motus_run_method(s->run), how, motus_run_machine(s->run));
     fprintf(out, "t = %s to %s in %lld steps", from, to, (long long)motus_run_steps(s->run));
     if (motus_run_last_step(s->run) != 0) fprintf(out, " (the last one %s)", last);
+    if (refused > 0) fprintf(out, " and %lld refused", (long long)refused);
     fprintf(out, ", %lld evaluations", (long long)motus_run_evaluations(s->run));
     if (motus_run_iterations(s->run) > 0)
         fprintf(out, ", %lld iterations of Newton's method", (long long)motus_run_iterations(s->run));
@@ -342,6 +364,22 @@ static motus_status errors_json(json *j, const summary *s, motus_error *err)
     return MOTUS_OK;
 }
 
+/* A step, or what an adaptive method has made of its tolerance. */
+static void steps_json(json *j, const summary *s)
+{
+    motus_statistics done = motus_default_statistics();
+    motus_run_statistics(s->run, &done);
+    if (isnan(done.tolerance)) {
+        json_number(j, "step", motus_run_step_size(s->run));
+        return;
+    }
+    json_number(j, "tolerance", done.tolerance);
+    json_bool(j, "absolute", done.absolute);
+    json_integer(j, "rejected", done.refused);
+    json_number(j, "h_min", done.shortest_step);
+    json_number(j, "h_max", done.longest_step);
+}
+
 motus_status summary_json(const summary *s, motus_error *err)
 {
     double *state = NULL, *quantities = NULL;
@@ -352,7 +390,7 @@ motus_status summary_json(const summary *s, motus_error *err)
         json_string(&j, "model", s->options->operand);
         json_string(&j, "method", motus_run_method(s->run));
         json_string(&j, "machine", motus_run_machine(s->run));
-        json_number(&j, "step", motus_run_step_size(s->run));
+        steps_json(&j, s);
         settle_json(&j, s->model);
         json_integer(&j, "steps", motus_run_steps(s->run));
         json_integer(&j, "evaluations", motus_run_evaluations(s->run));

@@ -83,6 +83,10 @@ static motus_status create(sweep *s, stop_progress *progress, motus_error *err)
     def.records = s->records.items;
     def.record_count = s->records.count;
     def.method = o->method;
+    def.tolerance = s->options->tolerance;
+    def.absolute = s->options->absolute;
+    def.shortest_step = s->options->shortest_step;
+    def.longest_step = s->options->longest_step;
     def.step = s->model.step; /* else the model's, which a number that varies may not decide */
     def.until = s->model.until;
     def.every = s->every;

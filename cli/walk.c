@@ -131,7 +131,8 @@ static motus_status go(walker *w, const walk_observer *observers, size_t count, 
 motus_status walk(motus_run *run, double start, double until, const walk_observer *observers, size_t count,
                   motus_error *err)
 {
-    double size = fabs(motus_run_step_size(run));
+    double size = motus_run_step_size(run);
+    if (isnan(size)) size = 1e-6 * fabs(until - start); /* steps adapt: of it only the sign, and a slack, are used */
     walker w = {.run = run, .start = start, .until = until, .step = until < start ? -size : size};
     size_t widest = 1;
     for (size_t i = 0; i < count; i++) {

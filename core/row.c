@@ -142,7 +142,7 @@ static motus_status read_arguments(const char *name, const char *s, chosen *out,
 
 motus_status row_choose(const char *name, chosen *out, const motus_method **card, motus_error *err)
 {
-    chosen result = {0};
+    chosen result = {.relative = ROW_TOLERANCE, .most = INFINITY};
     if (!name) return fail(err, MOTUS_METHOD, "the name of the method is NULL");
     const char *start = blanks(name);
     size_t length = strcspn(start, "( \t");
@@ -222,7 +222,7 @@ motus_status row_admits(const chosen *method, const traits *traits, motus_error 
     const row *nearest = NULL;
     for (size_t k = 0; k < methods_count; k++) {
         const row *other = &methods_table[k];
-        if (other->family == EXACT || other->uniform || *reason(other, traits)) continue;
+        if (other->family == EXACT || other->uniform || other->adaptive != method->row->adaptive || *reason(other, traits)) continue;
         if (!nearest || unlike(&method->row->card, &other->card) < unlike(&method->row->card, &nearest->card))
             nearest = other;
     }

@@ -56,6 +56,12 @@ work stepper_plan(const problem *p, const chosen *method, coef *memory)
     plan.linear = p->traits.linear_v;
     plan.quadrature = p->traits.quadrature;
     plan.constant = p->traits.constant;
+    plan.relative = method->relative;
+    plan.absolute = method->absolute;
+    plan.least = method->least;
+    plan.most = method->most;
+    plan.variable = p->variables;
+    plan.variables = p->variable_count;
     plan.threads = method->threads > 1 ? method->threads : 1;
     plan.stride = (p->nv + 7) & ~(size_t)7;
     if (plan.stride == 0) plan.stride = 8;
@@ -95,6 +101,11 @@ motus_status stepper_create(const machine *m, const chosen *method, double t0, d
     s->snapshot = memory + arrays * sizes.stride;
     s->work = stepper_plan(p, method, s->snapshot + carried);
     s->library.problem = &s->problem;
+    if (!p->variables) {
+        s->all[1] = p->nv;
+        s->work.variable = s->all;
+        s->work.variables = 1;
+    }
     s->work.library = &s->library;
     s->work.host = m->host;
     s->body->place(&s->work, memory);

@@ -65,6 +65,8 @@ double stepper_time(const stepper *);
 double stepper_time_of(const stepper *, int64_t n); /* of step n of the leg; NaN where steps adapt */
 double stepper_step(const stepper *);               /* size of the present leg's steps, with its sign */
 double stepper_last_step(const stepper *);          /* size of the latest step, with its sign */
+/* The shortest and the longest step of the leg, without one that was cut short at its end; NaN before them. */
+void stepper_sizes(const stepper *, double *shortest, double *longest);
 int64_t stepper_refused(const stepper *);
 /* finished since the start of the leg, a shorter last one included */
 int64_t stepper_steps(const stepper *);

@@ -7,7 +7,7 @@
 #include "core/stepper_body.h"
 #include "core/trace_body.h"
 
-enum { STEPPER_CLOCKS = 3 }; /* numbers of a carried time: t, its rounding error, the next step size */
+enum { STEPPER_CLOCKS = 7 }; /* numbers of a carried time: t, its rounding error, and what error control carries */
 
 struct stepper {
     problem problem;
@@ -15,6 +15,7 @@ struct stepper {
     motus_allocator allocator;
     chosen method;
     work work;
+    size_t all[2]; /* the variable of a problem that names none */
     const stepper_body *body;
     /* step of the leg; work.h differs from it in a shorter last step, and where steps adapt */
     double leg_h;

@@ -165,7 +165,9 @@ void stepper_begin(stepper *s, double t0, double h, const double *x, const doubl
     memcpy(w->v, v, w->nv * sizeof *v);
     w->t0 = w->t = t0;
     w->lost = 0;
-    w->next = h;
+    w->next = copysign(s->method.first, h);
+    w->before = w->shortest = w->longest = 0;
+    w->rise = CONTROL_RISE;
     w->fresh = w->stalled = w->ends = false;
     w->moved = 0;
     work_scale(w, h);

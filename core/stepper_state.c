@@ -1,6 +1,7 @@
 /* The state of a stepper: time and counters, the carried numbers, observation, dense output. See stepper.h. */
 #include "core/stepper_parts.h"
 
+#include <math.h>
 #include <string.h>
 
 double stepper_time(const stepper *s) { return s->arrived ? s->until : time_now(&s->work); }
@@ -14,6 +15,13 @@ double stepper_time_of(const stepper *s, int64_t n)
 
 double stepper_step(const stepper *s) { return s->leg_h; }
 double stepper_last_step(const stepper *s) { return s->work.h; }
+void stepper_sizes(const stepper *s, double *shortest, double *longest)
+{
+    const work *w = &s->work;
+    const bool fixed = !w->carried, any = fixed ? stepper_steps(s) > 0 : w->longest > 0;
+    *shortest = any ? (fixed ? fabs(s->leg_h) : w->shortest) : NAN;
+    *longest = any ? (fixed ? fabs(s->leg_h) : w->longest) : NAN;
+}
 int64_t stepper_refused(const stepper *s) { return s->work.refused; }
 int64_t stepper_steps(const stepper *s) { return s->shortened ? s->at.steps + 1 : s->work.n; }
 int64_t stepper_evaluations(const stepper *s) { return s->work.evaluations; }
@@ -35,7 +43,7 @@ stepper_count stepper_get(const stepper *s, double *carry)
     const work *w = &s->work;
     const int count = s->body->carry(w, list);
     for (int i = 0; i < count; i++) memcpy(carry + (size_t)i * w->nv, list[i], w->nv * sizeof *carry);
-    const double time[STEPPER_CLOCKS] = {w->t, w->lost, w->next};
+    const double time[STEPPER_CLOCKS] = {w->t, w->lost, w->next, w->before, w->rise, w->shortest, w->longest};
     memcpy(carry + (size_t)count * w->nv, time, clocks(w) * sizeof *time);
     return (stepper_count){w->n, w->evaluations, w->iterations, w->refused};
 }
@@ -62,7 +70,8 @@ void stepper_put(stepper *s, stepper_count at, const double *carry)
     const double *time = carry + (size_t)count * w->nv;
     w->t = time[0];
     w->lost = time[1];
-    w->next = time[2];
+    w->next = time[2], w->before = time[3], w->rise = time[4];
+    w->shortest = time[5], w->longest = time[6];
 }
 
 stepper_count stepper_save(const stepper *s, double *carry)

@@ -37,6 +37,10 @@ typedef struct traits {
 typedef struct problem {
     void *ctx;
     size_t nx, nv;
+    /* Numbers of one variable have one unit, and error control gives them one size: variable g has those from
+     * variables[g] on of v, and of x as far as x goes; variables[variable_count] = nv. NULL: all are one variable. */
+    const size_t *variables;
+    int variable_count;
     traits traits;
     /* a = a(x, v, t); other than 0: the user's callback failed. May refresh driven boundary cells of x and v. */
     int (*accel)(void *ctx, double t, double *x, double *v, double *a);

@@ -1,6 +1,8 @@
 /* The texts of step/ in their order, with every family, for an includer that has defined the macros and functions that
  * work.h lists. Nothing here is an operation on the state, so all includers get the same bits.
  */
+#include "step/norm.h"
+#include "step/control.h"
 #include "step/dense.h"
 #include "step/newton.h"
 #include "step/operators.h"
@@ -10,7 +12,6 @@
 #undef FAMILY_TEXTS
 #include "core/family.h"
 #include "step/plan.h"
-#include "step/control.h"
 #include "step/advance.h"
 #include "step/loop.h"
 #include "step/observe.h"

@@ -24,7 +24,8 @@ typedef struct trace_event {
 typedef struct tracer {
     void *ctx;
     void (*see)(void *ctx, const trace_event *);
-    double *x, *v; /* room for nx and nv numbers */
+    void (*again)(void *ctx, double h); /* a candidate of step h begins; the events of one before it count no more */
+    double *x, *v;                      /* room for nx and nv numbers */
 } tracer;
 
 /* The most that one step can report: events, arrays like x and like v in them, and numbers in the rows of stages. */

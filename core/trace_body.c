@@ -10,7 +10,14 @@
 static const tracer *tracer_of(const work *w) { return w->library->tracing->to; }
 static inline void family_trace(work *, int i);
 #undef TRACE
-#define TRACE(w, i) ((w)->library->tracing ? family_trace(w, i) : (void)0)
+#define TRACE(w, i) ((w)->library->tracing ? trace_at(w, i) : (void)0)
+static inline void trace_at(work *w, int i)
+{
+    if (i == TRACE_CANDIDATE)
+        tracer_of(w)->again(tracer_of(w)->ctx, w->h);
+    else
+        family_trace(w, i);
+}
 
 static void tell(const work *w, trace_event e)
 {

@@ -341,6 +341,7 @@ typedef struct motus_settings {
     uint32_t size;      /* by motus_default_settings() */
     const char *method; /* "verlet", "newmark(0.25, 0.5)" */
     double step, from, until;
+    double tolerance;    /* of an adaptive method; NaN: none is set */
     double every_time;   /* every T */
     int64_t every_steps; /* every n steps */
     /* Of motus_suggest alone, where it had to find a number: the fastest rate at the start, in radians per time, 0: the
@@ -349,6 +350,8 @@ typedef struct motus_settings {
     /* Of motus_suggest, of a system with `draft`: why it chose this step and this end, "60 to a swing", "three swings".
      * Else "". */
     char step_why[MOTUS_NAME_MAX], until_why[MOTUS_NAME_MAX];
+    int absolute; /* 1: the tolerance is absolute */
+    int unused;
 } motus_settings;
 MOTUS_API motus_status motus_settings_of(const motus_system *, motus_settings *);
 /* Fills in step, until and method where they are NaN or NULL, for this method, step, start and end where they are
@@ -468,6 +471,7 @@ typedef struct motus_method {
     double stability_limit;     /* the largest stable h ω for x'' = -ω² x; INFINITY: all are; 0: none is */
     const char *cite;           /* key in doc/references.bib, with the place */
     const char *formula, *use;  /* the formula of a step, and when to use the method */
+    int adaptive;               /* 1: it chooses its steps by a tolerance; 0: steps have one size */
 } motus_method;
 MOTUS_API size_t motus_method_count(void);
 MOTUS_API const motus_method *motus_method_at(size_t k);
@@ -534,12 +538,20 @@ typedef enum motus_bars {
 } motus_bars;
 
 typedef struct motus_run_def {
-    uint32_t size;       /* by motus_default_run() */
-    const char *method;  /* NULL: the model's, or "verlet" */
-    double step;         /* > 0; NaN: the model's, or motus_suggest's. Its direction follows from `until` */
-    double until;        /* the end; NaN: likewise. Before the start: the run goes backward */
-    double start;        /* NaN: the model's */
-    const double *x, *v; /* the initial state: nx and nv finite numbers, copied; NULL: the model's */
+    uint32_t size;      /* by motus_default_run() */
+    const char *method; /* NULL: the model's, or "verlet" */
+    /* Of a method with steps of one size: > 0; NaN: the model's, or motus_suggest's. Its direction follows from `until`.
+     * Of an adaptive method: NaN. */
+    double step;
+    /* Of an adaptive method: what one step may be off, by its own estimate; NaN: the model's, or 1e-9. Relative to the
+     * size of the variable, which is the largest number of the family or vector at both ends of the step and on the way
+     * between them; positions and velocities have sizes of their own. Of other methods: NaN. The error of the answer is
+     * the sum of these errors, as the motion has carried them on. */
+    double tolerance;
+    double shortest_step, longest_step; /* of an adaptive method: the limits of its steps, 0: none */
+    double until;                       /* the end; NaN: likewise. Before the start: the run goes backward */
+    double start;                       /* NaN: the model's */
+    const double *x, *v;                /* the initial state: nx and nv finite numbers, copied; NULL: the model's */
     /* NULL, or called from time to time, at most about every 10 ms, with the fraction of the run that is done, 0 … 1.
      * A value other than 0 cancels the call that steps: MOTUS_CANCELLED. */
     int (*progress)(void *context, double fraction);
@@ -557,6 +569,7 @@ typedef struct motus_run_def {
      * system uses one thread in any case. The bits are the same. */
     int threads;
     motus_switches switches;
+    int absolute; /* 1: the tolerance is in the units of the numbers themselves; 0: relative */
     motus_bars error;
 } motus_run_def;
 #define MOTUS_THREADS_MAX 1024
@@ -581,9 +594,9 @@ MOTUS_API motus_status motus_run_finish(motus_run *, motus_error *);
 MOTUS_API int motus_run_done(const motus_run *); /* 1: the run is at `until` */
 
 MOTUS_API double motus_run_time(const motus_run *);
-MOTUS_API double motus_run_step_size(const motus_run *); /* > 0 */
+MOTUS_API double motus_run_step_size(const motus_run *); /* > 0; NaN: the step size adapts */
 MOTUS_API int64_t motus_run_steps(const motus_run *);    /* taken so far */
-/* from the start to `until`, the shorter last one included; where the step size adapts: at its first value */
+/* from the start to `until`, the shorter last one included; 0: not known, because the step size adapts */
 MOTUS_API int64_t motus_run_steps_total(const motus_run *);
 /* the time after `step` steps; `until` from the last one on; NaN: the step size adapts */
 MOTUS_API double motus_run_time_of(const motus_run *, int64_t step);
@@ -602,6 +615,9 @@ typedef struct motus_statistics {
     int64_t evaluations;          /* of the acceleration by taken and refused steps; observing counts none */
     int64_t iterations;           /* of Newton's method, by both */
     double first_step, last_step; /* sizes of the first and of the latest step taken, > 0; NaN before the first */
+    double tolerance;             /* of an adaptive method; NaN: steps have one size */
+    /* The smallest and the largest step of the present leg, without the one that ended at `until`; NaN before them. */
+    double shortest_step, longest_step;
     /* Of a run that locates switches. How many it has passed; -1: it cannot locate them, or was not asked to. The
      * lowest derivative of the acceleration along the motion that jumped at one of them, or became infinite: 0 the
      * acceleration itself; -1: none. The time of the first such jump; NaN: there was none. By how much velocities may
@@ -610,6 +626,8 @@ typedef struct motus_statistics {
      * number of the derivative that jumps; where one is infinite less, as 1/3 of cbrt; NaN: there was none. */
     int64_t switches, jump;
     double jump_time, jump_rounding, jump_power;
+    int absolute; /* 1: the tolerance is absolute */
+    int unused;
 } motus_statistics;
 MOTUS_API motus_status motus_run_statistics(const motus_run *, motus_statistics *);
 /* Whether such a run passes a singularity of the force, which its step does not resolve: the state after it is a finite
@@ -792,8 +810,9 @@ typedef struct motus_ensemble_def {
     size_t vary_count;
     const motus_record *records; /* at least one */
     size_t record_count;
-    const char *method;  /* NULL: the model's, or "verlet" */
-    double step, until;  /* NaN: the model's, or motus_suggest's, the same for all trajectories */
+    const char *method; /* NULL: the model's, or "verlet" */
+    double step, until; /* NaN: the model's, or motus_suggest's, the same for all trajectories */
+    double tolerance, shortest_step, longest_step; /* as in motus_run_def; every trajectory has its own steps */
     int64_t every;       /* steps between two observations, for all records but MOTUS_REDUCE_FINAL; 1 by default */
     const char *machine; /* as in motus_run_def */
     /* How many threads; 0: as many as there are processors, and one for a system from C. With more threads its
@@ -805,6 +824,8 @@ typedef struct motus_ensemble_def {
     int (*progress)(void *context, double fraction); /* of one motus_ensemble_run; as in motus_run_def */
     void *context;
     uint64_t expected; /* how many trajectories will follow in all: "auto" does not compile for few; 0: many */
+    int absolute;      /* as in motus_run_def */
+    int unused;
 } motus_ensemble_def;
 
 /* MOTUS_NAME: a name in `vary` is neither a parameter nor an initial value. MOTUS_SHAPE: it stands for several numbers.

@@ -88,6 +88,8 @@ motus_status compiled_create(model *m, const problem *interpreted, compiled **ou
     c->problem = (problem){.ctx = c,
                            .nx = m->nx,
                            .nv = m->nv,
+                           .variables = interpreted->variables,
+                           .variable_count = interpreted->variable_count,
                            .accel = accel,
                            .jvp = interpreted->jvp ? jvp : NULL,
                            .prepare = interpreted->prepare ? prepare : NULL,

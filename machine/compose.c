@@ -105,8 +105,22 @@ static void add_places(emit_text *t, work w)
     emit_add(t,
              "#define PLACED(w, name) PLACED_##name\n#define PLACED_x 1\n#define PLACED_v 1\n#define PLACED_a 1\n"
              "#define PLACED_ex %d\n#define PLACED_ev %d\n#define PLACED_old %d\n#define PLACED_next_x %d\n"
-             "#define PLACED_delta %d\n#define PLACED_vs %d\n",
-             w.ex != NULL, w.ev != NULL, w.old != NULL, w.next_x != NULL, w.delta != NULL, w.vs != NULL);
+             "#define PLACED_delta %d\n#define PLACED_vs %d\n#define PLACED_ks %d\n",
+             w.ex != NULL, w.ev != NULL, w.old != NULL, w.next_x != NULL, w.delta != NULL, w.vs != NULL, w.ks != NULL);
+}
+
+/* The numbers of each variable, for error control. */
+static void add_variables(emit_text *t, const work *w, bool structure)
+{
+    if (!structure || !w->variable) {
+        emit_add(t, "#define FACT_variables w->variables\n#define FACT_variable w->variable\n");
+        return;
+    }
+    emit_add(t,
+             "#define FACT_variables %d\n#define FACT_variable fact_variable\nstatic const size_t fact_variable[] = {",
+             w->variables);
+    for (int g = 0; g <= w->variables; g++) emit_add(t, "%s%zu", g ? ", " : "", w->variable[g]);
+    emit_add(t, "};\n");
 }
 
 /* The constants that ROW and FACT lead to: the same that the plan finds. */
@@ -133,12 +147,13 @@ static bool add_facts(emit *e, const composition *c, bool structure)
         emit_add(t, "#define FACT_nx w->nx\n#define FACT_nv w->nv\n");
     emit_add(t,
              "#define FACT_carried %d\n#define FACT_stages %d\n#define FACT_known %d\n#define FACT_fsal %d\n#define "
-             "FACT_fused %d\n#define FACT_waits %d\n#define FACT_solves %d\n"
+             "FACT_ending %d\n#define FACT_closing %d\n#define FACT_second %d\n#define FACT_unit fact_unit\n#define FACT_fused %d\n#define "
+             "FACT_waits %d\n#define FACT_solves %d\n"
              "#define FACT_solves_x %d\n#define FACT_means %d\n#define FACT_direct %d\n#define FACT_order %d\n#define "
              "FACT_linears %d\n"
              "#define FACT_squares %d\n#define DRIFTS_FIRST %d\n",
-             w.carried, stages, w.known, w.fsal, w.fused, w.waits, w.solves, w.solves_x, w.means, w.direct, w.order,
-             w.linears, w.squares, r->family == SPLITTING && w.unit[0] == 0);
+             w.carried, stages, w.known, w.fsal, w.ending, w.closing, w.second, w.fused, w.waits, w.solves, w.solves_x, w.means,
+             w.direct, w.order, w.linears, w.squares, r->family == SPLITTING && w.unit[0] == 0);
     emit_add(t, "#define LIVE(w, k) (fact_unit[k] != 0)\n#define FACT_c fact_c\nstatic const int fact_moment[] = {%d",
              m.moment[0]);
     for (int i = 1; i < stages; i++) emit_add(t, ", %d", m.moment[i]);
@@ -147,12 +162,13 @@ static bool add_facts(emit *e, const composition *c, bool structure)
     add_numbers(t, "fact_c", w.c, w.stages);
     add_numbers(t, "fact_at", m.at, m.count);
     e->moments = m.count;
-    emit_add(t, "#define CARRIED %zu\n#define CONSTANTS %d\n", stepper_carried(w), constants);
+    add_variables(t, &w, structure);
+    emit_add(t, "#define CARRIED %zu\n#define CONSTANTS %d\n", stepper_carried(w), w.linears + w.squares);
     const bool small = compose_small(c->model);
     emit_add(t, "#define MOMENTS %d\n#define ARRAYS %zu\n#define SMALL %d\n#define NUMBERS %zu\n\n", m.count,
              stepper_arrays(w), c->width || small, structure ? w.nv : 0);
     if (small && !c->width) {
-        emit_add(t, "#define FIRST(w) false\n#define KNOWN(w) false\n#define CHECKS(w) false\n");
+        emit_add(t, "#define FIRST(w) false\n#define KNOWN(w) (ROW_adaptive && (w)->fresh)\n#define CHECKS(w) false\n");
         add_places(t, w);
     }
     const bool many_solves = r->family == SPLITTING && w.solves && stages > SOLVES_WRITTEN_MAX;
@@ -173,6 +189,15 @@ static void add_family(emit_text *t, const composition *c)
 #define TEXT_OF(NAME, name, shared) [NAME] = {"step/" #name ".h", shared},
         FAMILIES(TEXT_OF)};
     const row *r = c->chosen->row;
+    if (r->adaptive) {
+        add_text(t, "step/norm.h");
+        add_text(t, "step/control.h");
+    } else {
+        emit_add(t,
+                 "#define control_first(w) STEP_OK\n#define control_begin(w) STEP_OK\n#define control_known(w, known) "
+                 "((void)0)\n#define control_norm(w, x, v) (CLOCK(0))\n#define control_joint(high, low) (high)\n"
+                 "#define control_size(w) (w)->h\n#define control_judge(w) EVERY\n");
+    }
     if (stepper_plan(c->problem, c->chosen, NULL).solves)
         add_text(t, "step/newton.h");
     else
@@ -182,10 +207,6 @@ static void add_family(emit_text *t, const composition *c)
     if (*families[r->family].shared) add_text(t, families[r->family].shared);
     add_text(t, families[r->family].text);
     add_text(t, "step/plan.h");
-    if (r->adaptive)
-        add_text(t, "step/control.h");
-    else
-        emit_add(t, "#define control_size(w) (w)->h\n#define control_judge(w) EVERY\n");
 }
 
 /* ---- functions and operations ---- */

@@ -182,6 +182,8 @@ motus_status interpreter_create(model *m, interpreter **out, problem *p, motus_e
     *p = (problem){.ctx = in,
                    .nx = m->nx,
                    .nv = m->nv,
+                   .variables = m->variables,
+                   .variable_count = (int)m->state_count,
                    .traits = m->traits,
                    .accel = accel,
                    .jvp = jvp,

@@ -210,7 +210,7 @@ static void set_lane(apart *s, size_t lane, size_t k)
     }
     const double own[LANES_CLOCKS] = {
         [LANES_T0] = d->t0, [LANES_H] = h,         [LANES_T] = d->t0,
-        [LANES_NEXT] = h,   [LANES_UNTIL] = until, [LANES_STOP] = NAN,
+        [LANES_RISE] = CONTROL_RISE, [LANES_UNTIL] = until, [LANES_STOP] = NAN,
     };
     for (int i = 0; i < LANES_CLOCKS; i++) *clock_of(b, lane, i) = own[i];
     b->trajectories[lane] = (trajectory){.number = k, .whole = way.whole, .last = way.last};

@@ -60,6 +60,9 @@ lanes_block lanes_block_of(const lanes_item *b, size_t block)
                    .first_observation = b->observations == 0,
                    .ends = b->ends,
                    .until = l->def.until};
+    j.relative = l->plan.relative, j.absolute = l->plan.absolute;
+    j.least = l->plan.least, j.most = l->plan.most;
+    j.variables = l->plan.variables, j.variable = l->plan.variable;
     j.own_size = l->own_size ? m->pool_count : 0;
     j.bound_size = l->e.fixed_lanes;
     j.host = (compiled_host){.pool = m->pool, .u = l->u, .q = l->q, .own = p, .bound = p + l->own_size};

@@ -8,8 +8,13 @@
 #endif
 ADVANCE_STEP int advance_step(work *w)
 {
-    if (ROW(w, adaptive)) work_scale(w, control_size(w));
-    int bad = family_step(w);
+    int bad = ROW(w, adaptive) ? control_first(w) : STEP_OK;
+    if (bad) return bad;
+    if (ROW(w, adaptive)) {
+        work_scale(w, control_size(w));
+        TRACE(w, TRACE_CANDIDATE);
+    }
+    bad = family_step(w);
     if (bad) return bad;
     if (!ROW(w, adaptive)) {
         time_tick(w, EVERY);

@@ -1,22 +1,126 @@
 /* THE STEP SIZE of adaptive rows: the size of the next candidate, and whether a candidate is accepted.
  *
- * Invariant: no step passes w->until, and the one that reaches it ends there exactly. Sizes are halved and doubled,
- * so they are exact; the order of the error estimate says when twice the size would do.
+ * A candidate with an error of at most 1 is accepted. The next size follows from this error and that of the step before
+ * (a proportional and integral controller [Gustafsson91]), as if the error went with the power order + 1 of the size;
+ * logarithms are rough, since a size that is one percent off is as good. After a refusal no step grows at once.
+ *
+ * PATTERN_OF and CLOCK_OF read the 64 bits of a number.
+ *
+ * Invariant: no step passes w->until, and the one that reaches it ends there exactly; where two steps would reach it,
+ * both are halves of the way, so that no tiny step is left over.
  */
+/* log2(x) of a positive normal number to 0.001, and 2^y, |y| < 1000, to 0.1 %. */
+static inline clock control_log2(clock x)
+{
+    const clock_bits b = PATTERN_OF(x);
+    const clock m = CLOCK_OF((b & 0x000fffffffffffffu) | 0x3ff0000000000000u);
+    const clock whole = CLOCK_OF((b >> 52) | 0x4330000000000000u) - (0x1p52 + 1023);
+    return whole + (m * (m * (m * 0.158249 - 1.051875) + 3.047884) - 2.153620);
+}
+
+static inline clock control_exp2(clock y)
+{
+    const clock shifted = y + 0x1.8p52, r = y - (shifted - 0x1.8p52);
+    return CLOCK_OF((PATTERN_OF(shifted) + 1023) << 52) * (1 + r * (0.693147 + r * (0.240227 + r * 0.0555)));
+}
+
+/* The acceleration at the start of the step, in w->a. Where it was the last stage of the step before, it has been
+ * counted there, and the driven boundary cells are written here as evaluating it here would have done. */
+static inline int control_begin(work *w)
+{
+    if (work_reuse(w)) {
+        refresh_at(w, time_now(w), w->x, w->v);
+        return STEP_OK;
+    }
+    const whole before = w->evaluations;
+    const int bad = accel_now(w, w->x, w->v, w->a);
+    if ((FACT(w, ending) || FACT(w, closing)) && !NONE(w->n > 0)) w->evaluations = before;
+    return bad;
+}
+
+/* After a candidate w->a holds the acceleration of the next step's start, where `known`. */
+static inline void control_known(work *w, clock_mask known)
+{
+    w->fresh = NONE(NOT(known));
+    w->owed_evaluations = w->owed_iterations = 0;
+}
+
+/* The size of the first step: a hundredth of the time in which positions or velocities would change by their own size.
+ * Refusals correct it. */
+static inline int control_first(work *w)
+{
+    const clock_mask first = w->next == 0;
+    if (NONE(first)) return STEP_OK;
+    const int bad = control_begin(w);
+    if (bad) return bad;
+    control_known(w, EVERY);
+    const clock way = (w->until - w->t) - w->lost;
+    clock h = ABS(way) / 100;
+    EACH_VARIABLE(g)
+    {
+        real x = {0}, v = {0}, a = {0};
+        for (size_t k = VARIABLE(w, g); k < VARIABLE(w, g + 1); k++) {
+            if (k < FACT(w, nx)) x = LARGER(ABS(w->x[k]), x);
+            v = LARGER(ABS(w->v[k]), v);
+            a = LARGER(ABS(w->a[k]), a);
+        }
+        const clock by_v = x / (100 * v), by_a = v / (100 * a);
+        h = CHOOSE_WHERE((by_v > 0) & (by_v < h), by_v, h);
+        h = CHOOSE_WHERE((by_a > 0) & (by_a < h), by_a, h);
+    }
+    h = CHOOSE_WHERE(h < w->most, h, w->most);
+    h = CHOOSE_WHERE(h < 1e300, h, CLOCK(1)); /* neither an end nor a size is known */
+    w->next = CHOOSE_WHERE(first, CHOOSE_WHERE(way < 0, -h, h), w->next);
+    return STEP_OK;
+}
+
 static inline clock control_size(work *w)
 {
     const clock left = (w->until - w->t) - w->lost;
     w->ends = ABS(w->next) >= ABS(left);
-    return CHOOSE_WHERE(w->ends, left, w->next);
+    return CHOOSE_WHERE(w->ends, left, CHOOSE_WHERE(2 * ABS(w->next) > ABS(left), left / 2, w->next));
+}
+
+/* Exponents of the two errors in the next size, and the part of it that is taken, as a power of 2: 0.9. */
+#define CONTROL_NOW 0.7
+#define CONTROL_BEFORE 0.4
+#define CONTROL_SAFETY (-0.152)
+
+/* The next size over the present one: at most 5, and 1 after a refusal; at least 1/5, of a refused step 1/10, and 1/4
+ * where the error is not a number. */
+static inline clock control_factor(const work *w, clock_mask good, clock level)
+{
+    const coef per = (coef)1 / (FACT(w, order) + 1);
+    clock after = (CONTROL_BEFORE * w->before - CONTROL_NOW * level) * per + CONTROL_SAFETY;
+    after = CHOOSE_WHERE(after < w->rise, after, w->rise);
+    clock again = CONTROL_SAFETY - level * per;
+    again = CHOOSE_WHERE(w->error == w->error, again, CLOCK(-2.0));
+    const clock power = CHOOSE_WHERE(good, LARGER(after, CLOCK(-2.3)), LARGER(again, CLOCK(-3.3)));
+    return control_exp2(power);
 }
 
 /* An error that is not a number is refused like one that is too large. */
 static inline clock_mask control_judge(work *w)
 {
-    const clock_mask good = w->error <= 1, ample = w->error * (2 << (FACT(w, order) + 1)) <= 1;
-    const clock kept = CHOOSE_WHERE(good, w->next, w->h / 2);
-    w->next = CHOOSE_WHERE(ample, 2 * kept, kept);
-    w->stalled = w->t + w->next == w->t;
+    const clock_mask good = w->error <= 1, whole_step = good & NOT(w->ends);
+    const clock least = LARGER(w->error, CLOCK(0x1p-60)), bounded = CHOOSE_WHERE(least < 0x1p60, least, CLOCK(0x1p60));
+    const clock level = control_log2(bounded), size = ABS(w->h);
+    const clock next = w->h * control_factor(w, good, level);
+    /* a step that was cut short tells nothing of the next one */
+    w->next = CHOOSE_WHERE(good & w->ends, w->next,
+                           CHOOSE_WHERE(ABS(next) <= w->most, next, CHOOSE_WHERE(next < 0, -w->most, w->most)));
+    w->before = CHOOSE_WHERE(good, level, w->before);
+    w->rise = CHOOSE_WHERE(good, CLOCK(CONTROL_RISE), CLOCK(0.0));
+    w->shortest = CHOOSE_WHERE(whole_step & ((w->shortest == 0) | (size < w->shortest)), size, w->shortest);
+    w->longest = CHOOSE_WHERE(whole_step & (size > w->longest), size, w->longest);
+    w->stalled = (w->t + w->next == w->t) | (ABS(w->next) < w->least);
     w->refused += NONE(good);
     return good;
+}
+
+/* Two estimates of the same error, of a higher and a lower order, as one [HNW93, II.10]. */
+static inline clock control_joint(clock high, clock low)
+{
+    const clock ratio = low / high, square = 1 + 0.01 * (ratio * ratio), root = control_exp2(control_log2(square) / 2);
+    return CHOOSE_WHERE(high == 0, high, high / root) + (low - low);
 }

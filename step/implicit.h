@@ -12,8 +12,8 @@ static inline void implicit_stage(work *w, int i)
     const real *restrict x = w->x, *restrict v = w->v, *restrict K = w->ks;
     const int s = FACT(w, stages), a = tableau_a(w, i), aa = tableau_aa(w, i);
     const clock ch = w->c[i] * w->h;
-    EACH(k) X[k] = x[k] + FMA(ch, v[k], tableau_sum(w, aa, false, K, k, s));
-    EACHV(k) V[k] = v[k] + tableau_sum(w, a, false, K, k, s);
+    EACH(k) X[k] = x[k] + FMA(ch, v[k], tableau_sum(w, aa, K, k, s));
+    EACHV(k) V[k] = v[k] + tableau_sum(w, a, K, k, s);
 }
 
 /* Factors the matrix at the mean of the unknown stages, by Taylor's formula with the present acceleration of the
@@ -107,11 +107,11 @@ static inline int implicit_end(work *w, const implicit_iteration *it)
     for (int i = 0; i < s; i++) SPOIL(w, w->ks + (size_t)i * stride);
     TRACE(w, s - 1);
     if (ROW(w, compensated)) {
-        EACH(k) ADVANCE_COMPENSATED(x[k], ex[k], 1, FMA(h, v[k], tableau_sum(w, bb, false, K, k, s)));
-        EACHV(k) ADVANCE_COMPENSATED(v[k], ev[k], 1, tableau_sum(w, b, false, K, k, s));
+        EACH(k) ADVANCE_COMPENSATED(x[k], ex[k], 1, FMA(h, v[k], tableau_sum(w, bb, K, k, s)));
+        EACHV(k) ADVANCE_COMPENSATED(v[k], ev[k], 1, tableau_sum(w, b, K, k, s));
     } else {
-        EACH(k) x[k] += FMA(h, v[k], tableau_sum(w, bb, false, K, k, s));
-        EACHV(k) v[k] += tableau_sum(w, b, false, K, k, s);
+        EACH(k) x[k] += FMA(h, v[k], tableau_sum(w, bb, K, k, s));
+        EACHV(k) v[k] += tableau_sum(w, b, K, k, s);
     }
     if (FACT(w, known))
         EACHV(k) w->a[k] = K[(size_t)(s - 1) * stride + k];
@@ -173,7 +173,7 @@ static void implicit_plan(work *w, const double argument[2], coef *unit, coef *c
         return;
     }
     for (int i = 0; i < w->stages; i++) c[i] = m->tableau.c[i];
-    tableau_fill(w, false, m->tableau.a, m->tableau.b, unit);
+    tableau_fill(w, m->tableau.a, m->tableau.b, unit);
 }
 #endif
 

@@ -16,7 +16,7 @@ static void work_plan(work *w, const double argument[2], coef *memory)
     w->c = c;
     w->live = live;
     w->scaled = c + w->stages + work_live_size(w);
-    w->matrix = w->scaled + work_constants(w);
+    w->matrix = w->scaled + w->linears + w->squares;
 }
 #endif
 

@@ -1,30 +1,42 @@
-/* Shared by the families with a tableau: the places of the constants of s stages in `unit` and `scaled`, and the sums
- * over stages.
+/* Shared by the families with a tableau: the places of the constants of s stages in `unit`, and the sums over stages.
  *
- * a (s × s, row by row) and b are multiplied by h; aa = A² and bb = bA, for positions formed from accelerations [HNW93,
- * II.14], by h².
+ * a (s × s, row by row) and b belong to h; aa = A² and bb = bA, for positions formed from accelerations [HNW93, II.14],
+ * to h².
  */
 static inline int tableau_a(const work *w, int i) { return i * FACT(w, stages); }
 static inline int tableau_b(const work *w) { return FACT(w, stages) * FACT(w, stages); }
 static inline int tableau_aa(const work *w, int i) { return tableau_b(w) + (1 + i) * FACT(w, stages); }
 static inline int tableau_bb(const work *w) { return 2 * tableau_b(w) + FACT(w, stages); }
 
-/* Σ c[j] y[j][k] over `count` stages, c the constants from number `from` on; where `sparse`, without those that are 0
- * in the row. */
-static inline real tableau_sum(const work *w, int from, bool sparse, const real *restrict y, size_t k, int count)
+/* Σ c[j] y[j][k] over `count` stages, c the scaled constants from number `from` on. */
+static inline real tableau_sum(const work *w, int from, const real *restrict y, size_t k, int count)
 {
-    real sum = {0};
-    bool first = true;
+    real sum = w->scaled[from] * y[k];
+    for (int j = 1; j < count; j++) sum = FMA(w->scaled[from + j], y[(size_t)j * w->stride + k], sum);
+    return sum;
+}
+
+/* The same of the constants themselves, without those that are 0 in the row, added to `sum` where there is one. The
+ * step multiplies the whole sum: h/6 would be rounded alike in every step, and the motion run too fast or too slow. */
+static inline real tableau_weigh(const work *w, int from, const real *restrict y, size_t k, int count, bool more,
+                                 real sum)
+{
     EACH_STAGE(j, count) {
-        if (sparse && !LIVE(w, from + j)) continue;
-        real term = y[(size_t)j * w->stride + k];
-        if (first)
-            sum = w->scaled[from + j] * term;
-        else
-            sum = FMA(w->scaled[from + j], term, sum);
-        first = false;
+        if (!LIVE(w, from + j)) continue;
+        const real term = y[(size_t)j * w->stride + k];
+        const coef c = FACT(w, unit)[from + j];
+        sum = more ? FMA(c, term, sum) : c * term;
+        more = true;
     }
     return sum;
+}
+
+/* Whether some of `count` constants is not 0. */
+static inline bool tableau_any(const work *w, int from, int count)
+{
+    bool any = false;
+    EACH_STAGE(j, count) any = any || LIVE(w, from + j);
+    return any;
 }
 
 #ifdef ROWS
@@ -34,25 +46,33 @@ static void tableau_sizes(work *w, int stages)
     w->linears = w->squares = stages * stages + stages;
 }
 
-/* Reads a (explicit: below the diagonal alone) and b, and forms aa and bb. */
-static void tableau_fill(work *w, bool explicit, const coef *given_a, const coef *given_b, coef *unit)
+/* hi + lo += a b, unevaluated: the rounding errors of product and sum go to lo. */
+static void tableau_add(coef *hi, coef *lo, coef a, coef b)
+{
+    const coef p = a * b, error = FMA(a, b, -p), s = *hi + p, part = s - *hi;
+    *lo += ((*hi - (s - part)) + (p - part)) + error;
+    *hi = s;
+}
+
+/* Row r of s numbers times the s × s matrix a; every entry is rounded once. */
+static void tableau_times(int s, const coef *r, const coef *a, coef *out)
+{
+    for (int j = 0; j < s; j++) {
+        coef hi = 0, lo = 0;
+        for (int l = 0; l < s; l++) tableau_add(&hi, &lo, r[l], a[l * s + j]);
+        out[j] = hi + lo;
+    }
+}
+
+/* Reads a and b, and forms aa and bb. */
+static void tableau_fill(work *w, const coef *given_a, const coef *given_b, coef *unit)
 {
     const int s = w->stages;
-    coef *a = unit, *b = unit + tableau_b(w), *aa = unit + tableau_aa(w, 0), *bb = unit + tableau_bb(w);
-    for (int i = 0; i < s; i++) {
-        b[i] = given_b[i];
-        bb[i] = 0;
-        for (int j = 0; j < s; j++) {
-            a[i * s + j] = !explicit ? given_a[i * s + j] : j < i ? given_a[i * (i - 1) / 2 + j] : 0;
-            aa[i * s + j] = 0;
-        }
-    }
-    for (int i = 0; i < s; i++)
-        for (int j = 0; j < s; j++)
-            for (int l = 0; l < s; l++) {
-                aa[i * s + j] += a[i * s + l] * a[l * s + j];
-                if (i == 0) bb[j] += b[l] * a[l * s + j];
-            }
+    coef *a = unit, *b = unit + tableau_b(w);
+    for (int i = 0; i < s * s; i++) a[i] = given_a[i];
+    for (int i = 0; i < s; i++) b[i] = given_b[i];
+    for (int i = 0; i < s; i++) tableau_times(s, a + tableau_a(w, i), a, unit + tableau_aa(w, i));
+    tableau_times(s, b, a, unit + tableau_bb(w));
 }
 #endif
 

@@ -8,6 +8,8 @@
  *     coef            the type of a row's coefficients
  *     FMA(a, b, c)    a b + c with one rounding
  *     ABS(x), FINITE(x), EPSILON, SQRT_EPSILON    of real
+ *     SMALLEST        a number so small that it is lost beside every number but 0
+ *     clock_bits, PATTERN_OF(x), CLOCK_OF(b)    the 64 bits of a clock, from it and back
  *     EACH(k)         a loop over the positions of `w`
  *     EACHV(k)        a loop over its velocities, then its first-order variables
  *     TRACE(w, i)     called after stage i; of implicit stages when all are solved and not yet summed. Empty unless the
@@ -37,6 +39,12 @@
 #define FACT(w, member) ((w)->member)
 #define LIVE(w, k) ((w)->live[k]) /* constant k of the plan is not 0 */
 #endif
+
+/* log2 of the most by which a step may grow: to 5 times its size. */
+#define CONTROL_RISE 2.3
+
+/* TRACE before a candidate of an adaptive row. */
+enum { TRACE_CANDIDATE = -2 };
 
 enum { STEP_OK, STEP_CALLBACK, STEP_SOLVE, STEP_DIVERGED, STEP_STALLED, STEP_MEMORY };
 
@@ -91,10 +99,13 @@ typedef struct dense_end {
 
 typedef struct work {
     const row *row;
-    size_t nx, nv, stride;                  /* stride: distance of two arrays below; at least nv */
-    bool velocity, linear;                  /* the acceleration depends on v; at most linearly */
-    bool quadrature;                        /* it does in first-order variables alone, which nothing reads */
-    bool constant;                          /* it depends on parameters alone */
+    size_t nx, nv, stride; /* stride: distance of two arrays below; at least nv */
+    bool velocity, linear; /* the acceleration depends on v; at most linearly */
+    bool quadrature;       /* it does in first-order variables alone, which nothing reads */
+    bool constant;         /* it depends on parameters alone */
+    /* the numbers of variable g are variable[g] … variable[g + 1] - 1 of v, and of x those of them that x has */
+    int variables;
+    const size_t *variable;
     bool check;                             /* test after every step whether the state is finite */
     bool finite;                            /* the machine found the state finite after the last steps */
     int threads;                            /* how many may share one evaluation, or the tiles of one sweep */
@@ -107,11 +118,19 @@ typedef struct work {
     clock t0, h;
     ticks n;              /* steps finished since t0 */
     clock t, lost, until; /* carried only; no step passes `until` */
-    clock next;           /* adaptive: the size that the next candidate should have */
+
+    /* Adaptive. What a step may be off: `relative` times the size of its variable, `absolute`, or the larger of both;
+     * between which sizes steps stay. */
+    clock relative, absolute, least, most;
+    clock next;              /* the size that the next candidate should have; 0: the first is not chosen yet */
+    clock error;             /* the candidate's error, in units of what is allowed */
+    clock before, rise;      /* log2 of the error of the step before; of the most that the next may be longer */
+    clock shortest, longest; /* step so far, that to the end apart; 0 before the first */
+    int order;               /* of the error estimate, which goes with h^(order + 1) */
 
     /* The plan, without dimensions, from the row alone: `unit`, constants of which the first `linears` are multiplied
      * by h and the next `squares` by h²; c: the abscissae of the stages. `scaled`: the constants for the present h. */
-    int stages, linears, squares;
+    int stages, linears, squares, plains; /* plains: constants that are not multiplied */
     const coef *unit, *c;
     const unsigned char *live;
     clock *scaled, hh, half_hh, per_h;
@@ -122,18 +141,20 @@ typedef struct work {
     bool direct;   /* it is linear in the unknowns, so that one solve is exact */
     /* first same as last: the closing kick of a step waits for the opening kick of the next */
     bool fsal;
-    int means;  /* of a quadrature: at how many velocities a kick takes its rates */
-    bool fused; /* a kick and the drift after it are made in one pass over memory */
-    bool waits; /* the state between two steps needs one more evaluation before it can be observed */
+    bool closing; /* its last stage is that; else, after the last stage, */
+    bool ending;  /* an adaptive step evaluates the force at the candidate, which is the next step's first stage */
+    bool second;  /* it has a second estimate of the error */
+    int means;    /* of a quadrature: at how many velocities a kick takes its rates */
+    bool fused;   /* a kick and the drift after it are made in one pass over memory */
+    bool waits;   /* the state between two steps needs one more evaluation before it can be observed */
 
     bool fresh; /* the acceleration of the present state is known already, because it was observed */
     whole owed_evaluations, owed_iterations; /* its cost: counted when a step uses it */
     int moved;                               /* drifts that a machine's PASS has already made together with a kick */
-    int order;                               /* adaptive: of the error estimate, which goes with h^(order + 1) */
-    clock error;                             /* adaptive: the candidate's error, in units of what is allowed */
 
     real *x, *v, *ex, *ev; /* v: verlet keeps the increment d = x[n] - x[n-1] here once n > 0 */
     real *a, *old, *next_x;
+    real *dx, *dv;      /* of a candidate: what it would add to x and v, with their error words */
     real *delta, *r;    /* change of v by an implicit kick; residual */
     real *xs, *vs, *ks; /* stages: positions, velocities, accelerations */
 
@@ -156,6 +177,10 @@ typedef struct work {
 #ifndef SMALL
 #define SMALL 0
 #endif
+
+/* A loop over the variables, and the first number of each. */
+#define EACH_VARIABLE(g) for (int g = 0; g < FACT(w, variables); g++)
+#define VARIABLE(w, g) FACT(w, variable)[g]
 
 /* A loop over stages; a compiled model may unroll it, so that every coefficient and every time is a constant. */
 #ifndef EACH_STAGE
@@ -188,7 +213,9 @@ typedef struct work {
 static inline clock time_in(const work *w, coef c)
 {
     if (!FACT(w, carried)) return TIME_FIXED(w, (clock)w->n, c);
-    return c == 0 ? w->t : w->t + (c * w->h + w->lost);
+    if (c == 0) return w->t;
+    const clock t = w->t + (c * w->h + w->lost);
+    return c == 1 ? CHOOSE_WHERE(w->ends, w->until, t) : t;
 }
 
 static inline clock time_now(const work *w) { return time_in(w, 0); }
@@ -232,10 +259,13 @@ static inline bool work_reuse(work *w)
 
 /* The numbers that a plan needs memory for: unit, c and live; then `scaled` and `matrix`, which belong to a step
  * size. */
-static inline size_t work_constants(const work *w) { return (size_t)w->linears + (size_t)w->squares; }
+static inline size_t work_constants(const work *w)
+{
+    return (size_t)w->linears + (size_t)w->squares + (size_t)w->plains;
+}
 static inline size_t work_scaled_size(const work *w)
 {
-    return work_constants(w) + 2 * (size_t)w->solves * (size_t)w->solves;
+    return (size_t)w->linears + (size_t)w->squares + 2 * (size_t)w->solves * (size_t)w->solves;
 }
 static inline size_t work_live_size(const work *w) { return (work_constants(w) + sizeof(coef) - 1) / sizeof(coef); }
 static inline size_t work_plan_size(const work *w)
@@ -290,6 +320,9 @@ static inline void work_move(work *to, const work *from, size_t count)
     MOVE(delta);
     MOVE(vs);
 #undef MOVE
+    /* the stages of the last step, for dense output */
+    for (int i = 0; ROW(to, adaptive) && PLACED(to, ks) && i < FACT(to, stages) + FACT(to, ending); i++)
+        for (size_t k = 0; k < count; k++) to->ks[(size_t)i * to->stride + k] = from->ks[(size_t)i * from->stride + k];
 }
 
 /* The arrays that lead from a step to the next: name_carry in families.def. */

@@ -204,8 +204,16 @@ void study_close(study *s)
     give(s->allocator, s->start);
 }
 
+/* Studies take steps of one size. */
+static bool adaptive(const char *method)
+{
+    const motus_method *card = NULL;
+    return motus_method_find(method, &card, NULL) == MOTUS_OK && card->adaptive;
+}
+
 bool study_admits(study *s, const char *method)
 {
+    if (adaptive(method)) return false;
     motus_status status = motus_method_admits(s->system, method, NULL);
     study_note(s, status);
     return status == MOTUS_OK;
@@ -229,6 +237,11 @@ motus_status study_methods(study *s, const motus_study_def *def, const char ***n
         if (!def->methods[k]) return fail(s->err, MOTUS_ARGUMENT, "name %zu of the methods is NULL", k + 1);
         motus_status status = motus_method_find(def->methods[k], &m, s->err);
         if (status != MOTUS_OK) return status;
+        if (m->adaptive) {
+            fail(s->err, MOTUS_UNAVAILABLE, "%s chooses its steps, and studies take steps of one size", m->name);
+            hint(s->err, "motus run --method %s --tolerance 1e-9 runs it", m->name);
+            return MOTUS_UNAVAILABLE;
+        }
         (*names)[(*count)++] = def->methods[k];
     }
     if (study_broken(s) != MOTUS_OK) return study_broken(s);

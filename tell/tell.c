@@ -39,6 +39,7 @@ static void method(json *j, const motus_method *m)
     json_string(j, "forces", tell_forces(m->forces));
     json_bool(j, "symplectic", m->symplectic);
     json_bool(j, "reversible", m->reversible);
+    json_bool(j, "adaptive", m->adaptive);
     json_number(j, "stability_limit", m->stability_limit); /* null: none */
     json_string(j, "cite", m->cite);
     json_string(j, "formula", m->formula);

@@ -265,7 +265,7 @@ static motus_status travel(motus_system *s, const char *method, uint64_t *result
     assert_true(columns && out && y);
     for (size_t k = 0; k < count; k++) columns[k] = k;
     def.method = method;
-    def.step = 0.025;
+    given_step(&def, 0.025);
     def.until = strcmp(method, "verlet-literal") ? 0.205 : 0.2;
     motus_status status = motus_run_create(s, &def, &r, err);
     if (status != MOTUS_OK) assert_null(r);

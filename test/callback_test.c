@@ -123,8 +123,11 @@ static void calls_are_counted(void **state)
             assert_int_equal(motus_run_state(r, x, v, NULL), MOTUS_OK);
             assert_int_equal(o.calls, calls);
             if (m->evaluations) {
-                int64_t more = used - (int64_t)m->evaluations * STEPS;
-                if (more < 0 || more > 1)
+                motus_statistics done = motus_default_statistics();
+                motus_run_statistics(r, &done);
+                /* a refused step of an adaptive method evaluates all stages but the first again */
+                int64_t more = used - (int64_t)m->evaluations * STEPS - (int64_t)m->evaluations * done.refused;
+                if (more < (m->adaptive ? -done.refused : 0) || more > 1)
                     fail_msg("%s: %lld calls in %d steps, %d a step declared", m->name, (long long)o.calls, STEPS,
                              m->evaluations);
             }

@@ -89,7 +89,7 @@ static motus_ensemble_def define(const motus_record *records, size_t count, cons
     def.records = records;
     def.record_count = count;
     def.method = method;
-    def.step = 0.01;
+    given_ensemble_step(&def, 0.01);
     def.until = until;
     def.every = 4;
     def.threads = threads;
@@ -138,7 +138,7 @@ static void blocks_are_trajectories(void **state)
             motus_error err = motus_default_error();
             motus_run *r = NULL;
             run.method = method;
-            run.step = 0.01;
+            given_step(&run, 0.01);
             run.until = until;
             run.x = x;
             run.v = y;

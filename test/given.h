@@ -85,13 +85,34 @@ UNUSED static motus_system *given_model(const char *name, const char *const *set
 }
 
 /* NULL and NaN: the model's. By the interpreter, so that the test needs no compiler. */
+UNUSED static int given_adaptive(const char *method)
+{
+    const motus_method *card = NULL;
+    return method && motus_method_find(method, &card, NULL) == MOTUS_OK && card->adaptive;
+}
+
+/* Of an adaptive method the longest step, so that it takes about as many. */
+UNUSED static void given_step(motus_run_def *def, double step)
+{
+    const int adaptive = given_adaptive(def->method);
+    def->step = adaptive ? NAN : step;
+    def->longest_step = adaptive ? fabs(step) : 0;
+}
+
+UNUSED static void given_ensemble_step(motus_ensemble_def *def, double step)
+{
+    const int adaptive = given_adaptive(def->method);
+    def->step = adaptive ? NAN : step;
+    def->longest_step = adaptive ? fabs(step) : 0;
+}
+
 UNUSED static motus_run *given_run(motus_system *s, const char *method, double step, double until)
 {
     motus_error err = motus_default_error();
     motus_run_def def = motus_default_run();
     motus_run *r = NULL;
     def.method = method;
-    def.step = step;
+    given_step(&def, step);
     def.until = until;
     def.machine = "interpreter";
     must(motus_run_create(s, &def, &r, &err), &err, method ? method : "run");

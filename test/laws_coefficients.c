@@ -19,7 +19,7 @@ typedef quad coef;
 #undef K
 
 /* sizeof "0.5" is 4: a digit, the point, one decimal, the end; a sign and a second digit make it longer. */
-#define DECIMALS(size, x) ((int)(size)-3 - ((x) < 0) - ((x) >= 10 || (x) <= -10))
+#define DECIMALS(size, x) ((int)(size)-3 - ((x) < 0) - ((x) >= 10 || (x) <= -10) - ((x) >= 100 || (x) <= -100))
 #define TENTH(d, bit, power) (((d) & (bit)) ? power : Q(1.0))
 #define TEN_TO_MINUS(d)                                                                          \
     (TENTH(d, 1, Q(1e-1)) * TENTH(d, 2, Q(1e-2)) * TENTH(d, 4, Q(1e-4)) * TENTH(d, 8, Q(1e-8)) * \
@@ -43,14 +43,12 @@ static int stored(const row *m, quad *out)
         for (int i = 0; i < m->splitting.stages; i++) out[n++] = m->splitting.kick[i];
         for (int i = 0; i < m->splitting.stages; i++) out[n++] = m->splitting.drift[i];
     } else if (m->family == RUNGE_KUTTA || (m->family == IMPLICIT && !m->newmark)) {
-        const int s = m->tableau.stages;
+        const int s = m->tableau.stages, entries = m->family == IMPLICIT ? s * s : s * (s - 1) / 2;
         for (int i = 0; i < s; i++) out[n++] = m->tableau.c[i];
-        for (int i = 0; i < s; i++)
-            for (int j = 0; j < s; j++)
-                out[n++] = m->family == IMPLICIT ? m->tableau.a[i * s + j]
-                           : j < i               ? m->tableau.a[i * (i - 1) / 2 + j]
-                                                 : 0;
+        for (int i = 0; m->tableau.a && i < entries; i++) out[n++] = m->tableau.a[i];
         for (int i = 0; i < s; i++) out[n++] = m->tableau.b[i];
+        for (int i = 0; m->tableau.aa && i < entries; i++) out[n++] = m->tableau.aa[i];
+        for (int i = 0; m->tableau.aa && i < s; i++) out[n++] = m->tableau.bb[i];
     }
     return n;
 }
@@ -59,7 +57,10 @@ static bool fits(const row *m)
 {
     const int splits = m->composition.count ? m->composition.count + 1 : m->splitting.stages;
     const int s = m->family == SPLITTING ? splits : m->tableau.stages;
-    return s <= SCHEME_STAGES_MAX && (m->family == SPLITTING ? 2 * s : s * (s + 2)) <= COEFFICIENTS_MAX;
+    const int tables = m->tableau.aa ? 2 : 1, count = m->family == SPLITTING  ? 2 * s
+                                                      : m->family == IMPLICIT ? s * (s + 2)
+                                                                              : s + tables * (s * (s - 1) / 2 + s);
+    return s <= SCHEME_STAGES_MAX && count <= COEFFICIENTS_MAX;
 }
 
 coefficients coefficients_of(method k)
@@ -128,19 +129,42 @@ static void splitting_scheme(const row *m, const quad *value, scheme *out)
     }
 }
 
-/* A Runge-Kutta method for x' = v, v' = a; the positions use the square of the tableau. */
-static void tableau_scheme(int s, const quad *value, scheme *out)
+/* An explicit tableau is stored below the diagonal alone. */
+static void whole_table(const row *m, const quad **value, quad (*a)[SCHEME_STAGES_MAX])
 {
-    const quad *c = value, *a = c + s, *b = a + s * s;
-    out->stages = s;
+    const int s = m->tableau.stages;
+    const bool explicit = m->family == RUNGE_KUTTA;
+    for (int i = 0; i < s; i++)
+        for (int j = 0; j < (explicit ? i : s); j++) a[i][j] = *(*value)++;
+}
+
+/* A Nyström method as it stands. */
+static void nystrom_scheme(const row *m, const quad *value, scheme *out)
+{
+    const int s = out->stages = m->tableau.stages;
+    out->end = 1;
+    for (int i = 0; i < s; i++) out->c[i] = *value++;
+    if (m->tableau.a) whole_table(m, &value, out->av);
+    for (int i = 0; i < s; i++) out->bv[i] = *value++;
+    whole_table(m, &value, out->a);
+    for (int i = 0; i < s; i++) out->b[i] = *value++;
+}
+
+/* A Runge-Kutta method for x' = v, v' = a; the positions use the square of the tableau. */
+static void tableau_scheme(const row *m, const quad *value, scheme *out)
+{
+    const int s = out->stages = m->tableau.stages;
+    const quad *c = value;
+    value += s;
+    whole_table(m, &value, out->av);
+    const quad *b = value;
     for (int i = 0; i < s; i++) {
         out->c[i] = c[i];
         out->bv[i] = b[i];
         out->end += b[i];
         for (int j = 0; j < s; j++) {
-            out->av[i][j] = a[i * s + j];
-            for (int l = 0; l < s; l++) out->a[i][j] += a[i * s + l] * a[l * s + j];
-            out->b[i] += b[j] * a[j * s + i];
+            for (int l = 0; l < s; l++) out->a[i][j] += out->av[i][l] * out->av[l][j];
+            out->b[i] += b[j] * out->av[j][i];
         }
     }
 }
@@ -151,8 +175,10 @@ void coefficients_scheme(method k, const quad *value, scheme *out)
     *out = (scheme){0};
     if (m->family == SPLITTING)
         splitting_scheme(m, value, out);
+    else if (m->tableau.aa)
+        nystrom_scheme(m, value, out);
     else
-        tableau_scheme(m->tableau.stages, value, out);
+        tableau_scheme(m, value, out);
 }
 
 /* Kicks that depend on v need all Nyström trees, others the special ones; tableaux are methods for s' = f(s). Of
@@ -160,8 +186,31 @@ void coefficients_scheme(method k, const quad *value, scheme *out)
 trees_kind coefficients_trees(method k)
 {
     const row *m = &plain_table[k];
+    if (m->tableau.aa) return m->tableau.a ? TREES_NYSTROM : TREES_SPECIAL;
     if (m->family != SPLITTING) return TREES_ROOTED;
     return m->card.forces == MOTUS_FORCES_XVT && !m->composition.count ? TREES_NYSTROM : TREES_SPECIAL;
 }
 
 bool coefficients_compose(method k) { return plain_table[k].composition.count > 0; }
+
+bool coefficients_nystrom(method k) { return plain_table[k].tableau.aa != NULL; }
+
+/* The estimates of dop853 are of order 5 and 3, though both together go with a higher power of the step. */
+int coefficients_embedded(method k, int which, scheme *m)
+{
+    const row *r = &plain_table[k];
+    const quad *error = which ? r->tableau.second : r->tableau.error, *error_x = r->tableau.error_x;
+    if (!r->adaptive || r->family != RUNGE_KUTTA || !error) return 0;
+    const int s = m->stages;
+    if (r->tableau.ending) { /* one more stage, at the state to which the step leads */
+        m->c[s] = 1;
+        for (int j = 0; j < s; j++) m->a[s][j] = m->b[j], m->av[s][j] = m->bv[j];
+        m->stages++;
+    }
+    for (int j = 0; j < m->stages; j++) {
+        m->bv[j] -= error[j];
+        if (error_x) m->b[j] -= error_x[j];
+        for (int i = 0; !error_x && i < m->stages; i++) m->b[j] -= error[i] * m->av[i][j];
+    }
+    return r->tableau.second ? (which ? 3 : 5) : r->tableau.order;
+}

@@ -10,7 +10,7 @@
 
 #include "test/laws.h"
 
-enum { SCHEME_STAGES_MAX = 24, COEFFICIENTS_MAX = 160 };
+enum { SCHEME_STAGES_MAX = 24, COEFFICIENTS_MAX = 340 };
 typedef struct scheme {
     int stages;
     quad end, c[SCHEME_STAGES_MAX], a[SCHEME_STAGES_MAX][SCHEME_STAGES_MAX], b[SCHEME_STAGES_MAX];
@@ -34,9 +34,13 @@ quad coefficients_unit(method); /* the largest of these units */
 /* The tableau of the row with other values of its coefficients. */
 void coefficients_scheme(method, const quad *value, scheme *);
 trees_kind coefficients_trees(method);
+/* Makes the embedded method of the scheme of an adaptive row, by its first or second estimate; returns its order, 0: there
+ * is none. */
+int coefficients_embedded(method, int which, scheme *);
+bool coefficients_nystrom(method); /* the row gives a and b of the positions themselves */
 bool coefficients_compose(method); /* the row is a composition of leapfrog steps */
 
-enum { TREES_ORDER_MAX = 11, TREES_CONDITIONS_MAX = 1024 };
+enum { TREES_ORDER_MAX = 13, TREES_CONDITIONS_MAX = 4096 };
 /* Condition k holds where left = right; it belongs to the order `order`. */
 typedef struct condition {
     int order;

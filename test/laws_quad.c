@@ -13,6 +13,7 @@ typedef quad coef;
 #define methods_newmark_damped quad_methods_newmark_damped
 #include "core/methods.c"
 
+#include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -25,6 +26,24 @@ typedef int64_t whole;
 #define FINITE(x) ((x) - (x) == 0)
 #define EPSILON QUAD_EPSILON
 #define SQRT_EPSILON Q(0x1p-56)
+#define SMALLEST Q(1e-300)
+/* Logarithms of error control need the bits of a double only. */
+typedef uint64_t clock_bits;
+static uint64_t bits_of_quad(quad x)
+{
+    const double d = (double)x;
+    uint64_t b;
+    memcpy(&b, &d, sizeof b);
+    return b;
+}
+static quad quad_of_bits(uint64_t b)
+{
+    double d;
+    memcpy(&d, &b, sizeof d);
+    return d;
+}
+#define PATTERN_OF(x) bits_of_quad(x)
+#define CLOCK_OF(b) quad_of_bits(b)
 #define EACH(k) for (size_t k = 0; k < w->nx; k++)
 #define EACHV(k) for (size_t k = 0; k < w->nv; k++)
 #define TRACE(w, i) ((void)(w), (void)(i))
@@ -138,7 +157,7 @@ bool quad_admits(method k, const quad_problem *p)
            !row_admits(&c, &t, NULL);
 }
 
-enum { ARRAYS_MAX = 20, CONSTANTS_MAX = 256 };
+enum { ARRAYS_MAX = 40, CONSTANTS_MAX = 1024 };
 static void begin(work *w, dense *d, quad *memory, const row *m, const double *argument, const quad_problem *p, quad t0,
                   quad h)
 {
@@ -153,6 +172,8 @@ static void begin(work *w, dense *d, quad *memory, const row *m, const double *a
                 .linear = p->linear,
                 .quadrature = p->quadrature};
     d->problem = p;
+    static const size_t kinds[DIMENSIONS + 1] = {0};
+    w->variable = kinds;
     work_plan(w, argument ? argument : trapezoid, NULL);
     if (work_plan_size(w) > CONSTANTS_MAX) abort();
     work_plan(w, argument ? argument : trapezoid, memory + ARRAYS_MAX * DIMENSIONS);
@@ -161,16 +182,32 @@ static void begin(work *w, dense *d, quad *memory, const row *m, const double *a
     work_place(w, memory);
 }
 
+/* Of an adaptive row: every candidate is a step, whatever its error, so that steps have one size. */
+static int candidates(work *w, quad h, int64_t steps)
+{
+    w->t = w->t0;
+    w->until = (quad)INFINITY;
+    for (int64_t n = 0; n < steps; n++) {
+        work_scale(w, h);
+        const int bad = family_step(w);
+        if (bad) return bad;
+        family_accept(w, true);
+        time_tick(w, true);
+    }
+    return STEP_OK;
+}
+
 quad_count quad_run(method k, const double *argument, const quad_problem *p, quad t0, quad h, int64_t steps,
                     quad_state *state)
 {
     work w;
     dense d;
+    const row *m = &methods_table[k];
     quad memory[ARRAYS_MAX * DIMENSIONS + CONSTANTS_MAX];
-    begin(&w, &d, memory, &methods_table[k], argument, p, t0, h);
+    begin(&w, &d, memory, m, argument, p, t0, h);
     memcpy(w.x, state->x, p->nx * sizeof *w.x);
     memcpy(w.v, state->v, p->nv * sizeof *w.v);
-    quad_count count = {.bad = advance_run(&w, steps)};
+    quad_count count = {.bad = m->adaptive ? candidates(&w, h, steps) : advance_run(&w, steps)};
     count.evaluations = w.evaluations;
     count.iterations = w.iterations;
     if (!count.bad) count.bad = advance_sync(&w, state->x, state->v, NULL);

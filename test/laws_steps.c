@@ -78,9 +78,9 @@ static quad tableau_of(method m, const double *argument, const scheme *as, schem
         for (int i = 0; i < as->stages; i++) {
             const record *r = &probe.seen[i];
             if (mark == 0)
-                out->c[i] = r->c, widen(&off, r->x - 1), widen(&off, r->v);
+                out->c[i] = r->c, widen(&off, r->x - 1), widen(&off, takes_v(m) ? r->v : 0);
             else if (mark == 1)
-                widen(&off, r->x - out->c[i] * step), widen(&off, r->v - 1);
+                widen(&off, r->x - out->c[i] * step), widen(&off, takes_v(m) ? r->v - 1 : 0);
             else
                 out->a[i][j] = r->x / (step * step), out->av[i][j] = r->v / step;
         }

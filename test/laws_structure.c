@@ -21,7 +21,7 @@ static void reversal(method m, const quad_problem *p)
 {
     enum { STEPS = 12 };
     const motus_method *card = row_card(m);
-    const quad h = Q(0.0625);
+    const quad h = card->order > 9 ? Q(0.25) : Q(0.0625); /* so that the errors of a high order are visible */
     const quad_state start = start_of(p);
     quad_state s = start;
     quad_count count = quad_run(m, NULL, p, 0, h, STEPS, &s);
@@ -30,9 +30,9 @@ static void reversal(method m, const quad_problem *p)
     char law[64];
     snprintf(law, sizeof law, "%s on %s", card->reversible ? "reversal" : "no reversal", p->name);
     /* Reversible rows return up to rounding, and as exactly as their drifts reach the middle of the step, which time-
-     * dependent forces depend on. The smallest error of the others, at order 4, is near 1e-9. */
+     * dependent forces depend on. The others miss by their errors, of which the smallest, at order 12, is far above. */
     const quad bound = Q(1e-28) + quad_looseness(m);
-    judge(!count.bad && (card->reversible ? off < bound : off > Q(1e-13)), card->name, law, "returns within %.1e",
+    judge(!count.bad && (card->reversible ? off < bound : off > Q(1e6) * bound), card->name, law, "returns within %.1e",
           (double)off);
 }
 
@@ -41,7 +41,7 @@ static void canonical(method m, const quad_problem *p)
 {
     enum { STEPS = 3 };
     const motus_method *card = row_card(m);
-    const quad d = Q(1e-11), h = Q(0.25);
+    const quad d = Q(1e-11), h = card->order > 9 ? Q(1.0) : Q(0.25);
     const int n = (int)p->nx;
     quad j[2 * DIMENSIONS][2 * DIMENSIONS], most = 0;
     for (int c = 0; c < 2 * n; c++) {
@@ -64,7 +64,7 @@ static void canonical(method m, const quad_problem *p)
         }
     char law[64];
     snprintf(law, sizeof law, "%s on %s", card->symplectic ? "symplectic" : "not symplectic", p->name);
-    judge(card->symplectic ? most < Q(1e-17) : most > Q(1e-7), card->name, law, "J'SJ - S: %.1e", (double)most);
+    judge(card->symplectic ? most < Q(1e-17) : most > Q(1e-14), card->name, law, "J'SJ - S: %.1e", (double)most);
 }
 
 /* With a force E + v × B implicit kicks preserve volume as drifts do, though they are not symplectic: such a kick is
@@ -103,11 +103,11 @@ static void volume(method m, const quad_problem *p)
     }
     const quad off = quad_abs(determinant - 1);
     const bool keeps = methods_table[m].family == SPLITTING;
-    judge(keeps ? off < Q(1e-17) : off > Q(1e-7), row_card(m)->name, keeps ? "volume" : "no volume", "det J - 1: %.1e",
+    judge(keeps ? off < Q(1e-17) : off > Q(1e-14), row_card(m)->name, keeps ? "volume" : "no volume", "det J - 1: %.1e",
           (double)off);
 }
 
-/* Exactly `evaluations` a step, without the first; a linear velocity term costs neither more nor an iteration. */
+/* Exactly `evaluations` a step; where a step ends with the first evaluation of the next, one more at the start. A linear velocity term costs neither more nor an iteration. */
 static void evaluations(method m, const quad_problem *p)
 {
     const motus_method *card = row_card(m);
@@ -125,7 +125,8 @@ static void evaluations(method m, const quad_problem *p)
     const quad_count count = quad_run(m, NULL, p, 0, Q(0.03125), steps, &s);
     char law[64];
     snprintf(law, sizeof law, "evaluations on %s", p->name);
-    judge(count.evaluations == steps * each && count.iterations == 0, card->name, law,
+    const int64_t first = r->tableau.ending || r->tableau.closing;
+    judge(count.evaluations == steps * each + first && count.iterations == 0, card->name, law,
           "%lld in %lld steps, %lld iterations", (long long)count.evaluations, (long long)steps,
           (long long)count.iterations);
 }

@@ -6,7 +6,7 @@
  */
 #include "test/laws_proof.h"
 
-enum { TREES_MAX = 1024, LINKS_MAX = TREES_ORDER_MAX };
+enum { TREES_MAX = 4096, LINKS_MAX = TREES_ORDER_MAX };
 typedef struct tree {
     int order, leaves, children, child[LINKS_MAX];
     bool velocity[LINKS_MAX]; /* child i enters through v, not x */
@@ -54,7 +54,8 @@ static void grow(forest *f, tree root, int left, int last)
 static const forest *forest_of(trees_kind kind)
 {
     static forest forests[TREES_KINDS];
-    static const int orders[TREES_KINDS] = {[TREES_ROOTED] = 9, [TREES_SPECIAL] = TREES_ORDER_MAX, [TREES_NYSTROM] = 6};
+    static const int orders[TREES_KINDS] = {
+        [TREES_ROOTED] = 10, [TREES_SPECIAL] = TREES_ORDER_MAX, [TREES_NYSTROM] = 6};
     forest *f = &forests[kind];
     if (f->count) return f;
     f->kind = kind;

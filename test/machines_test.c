@@ -75,7 +75,10 @@ static end run_on(motus_system *s, const char *machine, const char *method)
     motus_error err = motus_default_error();
     def.machine = machine;
     def.method = method;
-    def.step = set.step;
+    const motus_method *card = NULL;
+    motus_method_find(method, &card, NULL);
+    def.step = card->adaptive ? NAN : set.step;
+    def.longest_step = card->adaptive ? set.step : 0;
     def.until = set.from + STEPS * set.step;
     motus_run *r = NULL;
     end e = {.count = motus_positions(s) + motus_velocities(s)};
@@ -106,8 +109,8 @@ static void same_bits(motus_system *s, const char *model, const char *method)
 
 static bool chosen(const char *name)
 {
-    static const char *const rows[] = {"verlet",  "blanes-moan6", "boris",    "rk4",
-                                       "newmark", "gauss4",       "leapfrog", "kahan-li8"};
+    static const char *const rows[] = {"verlet",   "blanes-moan6", "boris",  "rk4",    "newmark", "gauss4",
+                                       "leapfrog", "kahan-li8",    "dopri5", "dop853", "dep6",    "fine5"};
     if (getenv("MOTUS_ALL_ROWS")) return true;
 #ifdef SANITIZED
     /* The sanitizers check the library's part, which is the same for every row. */
@@ -180,7 +183,7 @@ static void variables_that_follow(void **state)
         "step 0.05\nuntil 3\n"};
     for (size_t i = 0; i < sizeof texts / sizeof *texts; i++) {
         motus_system *s = open_text(texts[i], NULL);
-        static const char *const rows[] = {"velocity-verlet", "blanes-moan4", "kahan-li8"};
+        static const char *const rows[] = {"velocity-verlet", "blanes-moan4", "kahan-li8", "dopri5", "dop853"};
         for (size_t k = 0; k < sizeof rows / sizeof *rows; k++) {
             assert_int_equal(motus_method_admits(s, rows[k], NULL), MOTUS_OK);
             same_bits(s, texts[i], rows[k]);

@@ -25,6 +25,7 @@ static inline stepper *begin(const problem *p, const char *method, double t0, do
     stepper *s = NULL;
     motus_error err = {0};
     assert_int_equal(row_choose(method, &c, NULL, &err), MOTUS_OK);
+    c.first = c.most = fabs(h); /* of an adaptive method, so that its steps are no longer than those of others */
     if (stepper_create(&(machine){.problem = p}, &c, t0, h, x, v, NULL, &s, &err))
         explain("%s: %s", method, err.message);
     return s;

@@ -165,6 +165,7 @@ typedef struct model {
     uint32_t symbol_size;          /* hash table: name → state or definition */
     uint16_t block[5], block_size; /* array numbers of the X, V, A, DX, DV blocks */
     size_t nx, nv;
+    size_t *variables; /* the first number in v of every state in the order of x and v, then nv */
     double *x0, *v0;
 
     output *accel;
@@ -178,6 +179,8 @@ typedef struct model {
     bool exact_between; /* verify.h: the exact line was checked at and between sampled times */
     traits traits;      /* but gyroscopic and gradient, which api/symmetry.c judges when they are needed */
 
+    double tolerance; /* NaN: none is set */
+    bool absolute;
     double start, step, until, every_time;
     bool start_known, draft; /* draft: as in motus_text_def */
     int64_t every_steps;

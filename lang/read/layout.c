@@ -6,12 +6,14 @@
 bool layout_all(model *m)
 {
     size_t total = 0;
-    uint32_t parts = 0;
+    uint32_t parts = 0, count = 0;
+    m->variables = arena_room(m->arena, (m->state_count + 1) * sizeof *m->variables);
+    if (!m->variables) return false;
     for (int order = 2; order >= 1; order--) {
         for (uint32_t i = 0; i < m->state_count; i++) {
             model_state *s = &m->states[i];
             if (s->order != order) continue;
-            s->base = total;
+            s->base = m->variables[count++] = total;
             s->array = (uint16_t)parts;
             total += s->hull * (size_t)(s->components ? s->components : 1);
             parts += (uint32_t)(s->components ? s->components : 1);
@@ -29,7 +31,7 @@ bool layout_all(model *m)
         }
         if (order == 2) m->nx = total;
     }
-    m->nv = total;
+    m->nv = m->variables[count] = total;
     m->block_size = (uint16_t)parts;
     static const space spaces[5] = {SPACE_X, SPACE_V, SPACE_A, SPACE_DX, SPACE_DV};
     for (int b = 0; b < 5; b++) {

@@ -1,4 +1,4 @@
-/* Reads the settings of a model: method, step, until, every. */
+/* Reads the settings of a model: method, step, tolerance, until, every. */
 #include "lang/read/read_steps.h"
 
 #include "lang/lower/resolve.h"
@@ -23,7 +23,7 @@ static bool set_method(model *m, const statement *s, read_method known)
 bool settings_all(model *m, read_method known)
 {
     bool seen[STATEMENT_EVERY + 1] = {false};
-    m->step = m->until = m->every_time = NAN;
+    m->step = m->until = m->every_time = m->tolerance = NAN;
     for (uint32_t i = 0; i < m->statements.count; i++) {
         const statement *s = &m->statements.item[i];
         if (s->kind < STATEMENT_METHOD) continue;
@@ -38,7 +38,7 @@ bool settings_all(model *m, read_method known)
         }
         double v;
         if (!resolve_constant(m, s->value, s->name, &v)) return false;
-        bool positive = s->kind == STATEMENT_STEP || s->kind == STATEMENT_EVERY;
+        bool positive = s->kind == STATEMENT_STEP || s->kind == STATEMENT_EVERY || s->kind == STATEMENT_TOLERANCE;
         if (positive && !(v > 0)) {
             source_complain(&m->source, MOTUS_ARGUMENT, &s->value->at, "%s is positive, not %g", s->name, v);
             if (s->kind == STATEMENT_STEP)
@@ -47,6 +47,10 @@ bool settings_all(model *m, read_method known)
         }
         switch (s->kind) {
         case STATEMENT_STEP: m->step = v; break;
+        case STATEMENT_TOLERANCE:
+            m->tolerance = v;
+            m->absolute = s->absolute;
+            break;
         case STATEMENT_UNTIL: m->until = v; break;
         case STATEMENT_EVERY:
             if (!s->steps) {

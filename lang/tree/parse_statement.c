@@ -103,7 +103,7 @@ static void parse_method(parser *p, statement *s)
     advance(p);
 }
 
-/* setting = ("step" | "from" | "until") or | "every" or [ "steps" ] */
+/* setting = ("step" | "from" | "until") or | "every" or [ "steps" ] | "tolerance" or [ "absolute" | "relative" ] */
 static void parse_setting(parser *p, statement *s)
 {
     if (is(p, '=')) {
@@ -115,6 +115,10 @@ static void parse_setting(parser *p, statement *s)
     s->value = parse_or(p);
     if (s->kind == STATEMENT_EVERY && !failed(p) && (word(p, "steps") || word(p, "step"))) {
         s->steps = true;
+        advance(p);
+    }
+    if (s->kind == STATEMENT_TOLERANCE && !failed(p) && (word(p, "absolute") || word(p, "relative"))) {
+        s->absolute = word(p, "absolute");
         advance(p);
     }
     end_of_statement(p, source_line(p->source, &s->at));
@@ -246,8 +250,11 @@ static void parse_statement(parser *p, statement *s)
     static const struct {
         const char *word;
         statement_kind kind;
-    } settings[] = {
-        {"step", STATEMENT_STEP}, {"from", STATEMENT_FROM}, {"until", STATEMENT_UNTIL}, {"every", STATEMENT_EVERY}};
+    } settings[] = {{"step", STATEMENT_STEP},
+                    {"tolerance", STATEMENT_TOLERANCE},
+                    {"from", STATEMENT_FROM},
+                    {"until", STATEMENT_UNTIL},
+                    {"every", STATEMENT_EVERY}};
     for (size_t i = 0; i < sizeof settings / sizeof *settings; i++)
         if (word(p, settings[i].word)) {
             s->kind = settings[i].kind;
@@ -266,12 +273,6 @@ static void parse_statement(parser *p, statement *s)
     if (word(p, "when")) {
         source_complain(p->source, MOTUS_UNAVAILABLE, &p->token.at, "events (when …) are not available yet");
         HINT(p, "leave the line out; the motion runs on to `until`");
-        return;
-    }
-    if (word(p, "tolerance")) {
-        source_complain(p->source, MOTUS_UNAVAILABLE, &p->token.at,
-                        "a tolerance would change nothing: every method takes fixed steps");
-        HINT(p, "write `step 0.01` instead; `motus converge` shows the error that a step leaves");
         return;
     }
     bool exact = word(p, "exact"), invariant = word(p, "invariant");

@@ -116,6 +116,12 @@ __attribute__((noinline)) static void compiled_fill(const compiled_host *host, c
 }
 #endif
 
+#if DRIVEN
+#define refresh_at(w, t, x, v) BOUNDARY((w)->host, t, x, v, (real *)0)
+#else
+#define refresh_at(w, t, x, v) ((void)0)
+#endif
+
 /* The library computes the exact motion. */
 #define exact_at(w, t, x, v) STEP_OK
 

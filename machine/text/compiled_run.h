@@ -46,15 +46,17 @@ __attribute__((flatten)) static bool compiled_small(work *given, whole steps)
     w->moved = 0;
     WRITTEN_OUT for (int i = 0; i < CONSTANTS; i++) scaled[i] = given->scaled[i];
     w->scaled = scaled;
-    w->ex = w->ev = w->old = w->next_x = w->delta = w->r = w->xs = w->vs = w->ks = NULL;
+    w->ex = w->ev = w->old = w->next_x = w->delta = w->r = w->xs = w->vs = w->ks = w->dx = w->dv = NULL;
     work_place(w, room);
     work_move(w, given, NUMBERS);
     if (compiled_steps(w, steps) || !advance_finite(w)) return false;
     work_move(given, w, NUMBERS);
     given->n = w->n, given->evaluations = w->evaluations, given->iterations = w->iterations, given->fresh = false;
 #if FACT_carried
-    given->t = w->t, given->lost = w->lost, given->next = w->next, given->refused = w->refused,
-    given->stalled = w->stalled;
+    given->t = w->t, given->lost = w->lost, given->refused = w->refused, given->ends = w->ends;
+    given->next = w->next, given->before = w->before, given->rise = w->rise, given->stalled = w->stalled;
+    given->shortest = w->shortest, given->longest = w->longest, given->fresh = w->fresh;
+    given->owed_evaluations = w->owed_evaluations, given->owed_iterations = w->owed_iterations;
     work_scale(given, w->h);
 #endif
     return true;

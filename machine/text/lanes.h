@@ -47,6 +47,11 @@ static inline void lanes_clock(work *w, const lanes_job *job, size_t group, cloc
     const real *own = job->clocks + group * LANES_CLOCKS;
     w->t0 = own[LANES_T0], w->n = own[LANES_N];
     w->t = own[LANES_T], w->lost = own[LANES_LOST], w->next = own[LANES_NEXT], w->until = own[LANES_UNTIL];
+    w->before = own[LANES_BEFORE], w->rise = own[LANES_RISE];
+    w->shortest = own[LANES_SHORTEST], w->longest = own[LANES_LONGEST];
+    w->relative = CLOCK(job->relative), w->absolute = CLOCK(job->absolute);
+    w->least = CLOCK(job->least), w->most = CLOCK(job->most);
+    w->variables = job->variables, w->variable = job->variable;
     work_scale(w, own[LANES_H]);
 #else
     (void)group;
@@ -60,7 +65,7 @@ static inline void lanes_place(work *w, const compiled_host *host, real *room)
 {
     w->host = host;
     w->matrix = solve_coefficients(host);
-    w->ex = w->ev = w->old = w->next_x = w->delta = w->r = w->xs = w->vs = w->ks = (real *)0;
+    w->ex = w->ev = w->old = w->next_x = w->delta = w->r = w->xs = w->vs = w->ks = w->dx = w->dv = (real *)0;
     work_place(w, room);
 }
 
@@ -231,6 +236,8 @@ static inline void lanes_store_clock(const work *w, const lanes_job *job, size_t
     real *own = job->clocks + group * LANES_CLOCKS;
     own[LANES_N] = w->n, own[LANES_H] = w->h;
     own[LANES_T] = w->t, own[LANES_LOST] = w->lost, own[LANES_NEXT] = w->next;
+    own[LANES_BEFORE] = w->before, own[LANES_RISE] = w->rise;
+    own[LANES_SHORTEST] = w->shortest, own[LANES_LONGEST] = w->longest;
 }
 #else
 #define lanes_store_clock(w, job, group) ((void)0)
@@ -277,6 +284,8 @@ void motus_lanes_first(const lanes_job *job) { lanes_step_once(job, true, true);
 #define LANES_SELECT(g) lanes_place(w, &host_##g, room_##g);
 #define LANES_TICK time_tick(w, EVERY)
 #endif
+/* In an adaptive row w->fresh tells whether the accelerations of a group are known. */
+#define LANES_FRESH(w) ((void)(ROW_adaptive || ((w)->fresh = fresh)))
 #if ROW_adaptive
 #define LANES_ADVANCE(w) advance_step(w)
 #elif OWN_CLOCK
@@ -287,7 +296,7 @@ void motus_lanes_first(const lanes_job *job) { lanes_step_once(job, true, true);
 #define LANES_STEP(g)     \
     {                     \
         LANES_SELECT(g)   \
-        w->fresh = fresh; \
+        LANES_FRESH(w);   \
         LANES_ADVANCE(w); \
     }
 /* Of a row that iterates: the turns of all groups side by side, until all equations of all are solved. A group that is

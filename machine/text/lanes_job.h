@@ -13,16 +13,33 @@ enum { LANES_TIME, LANES_X, LANES_V, LANES_OUT };
 
 /* The clock of a lane, as in work.h. STOP: the number of steps after which motus_lanes_run returns. A lane without a
  * trajectory has NaN in STOP and in UNTIL. */
-enum { LANES_T0, LANES_H, LANES_N, LANES_T, LANES_LOST, LANES_NEXT, LANES_UNTIL, LANES_STOP, LANES_CLOCKS };
+enum {
+    LANES_T0,
+    LANES_H,
+    LANES_N,
+    LANES_T,
+    LANES_LOST,
+    LANES_NEXT,
+    LANES_BEFORE,
+    LANES_RISE,
+    LANES_SHORTEST,
+    LANES_LONGEST,
+    LANES_UNTIL,
+    LANES_STOP,
+    LANES_CLOCKS
+};
 
 typedef struct lanes_job {
-    compiled_host host;          /* `own` and `bound` of the first group */
-    size_t own_size, bound_size; /* elements of each group: 0 where there are none */
-    size_t nx, nv, stride;       /* of a workspace, as in work.h */
-    real *clocks;                /* LANES_CLOCKS of each group, where every lane has its own; */
-    double t0, h;                /*   else the time that all share, */
-    whole n;                     /*   and the steps taken since t0 */
-    const double *table;         /* of the values that depend on time alone, from step `first_row` on */
+    compiled_host host;                     /* `own` and `bound` of the first group */
+    size_t own_size, bound_size;            /* elements of each group: 0 where there are none */
+    size_t nx, nv, stride;                  /* of a workspace, as in work.h */
+    real *clocks;                           /* LANES_CLOCKS of each group, where every lane has its own; */
+    double relative, absolute, least, most; /* of error control, */
+    int variables;
+    const size_t *variable; /* and the variables, as in work.h */
+    double t0, h;           /*   else the time that all share, */
+    whole n;                /*   and the steps taken since t0 */
+    const double *table;    /* of the values that depend on time alone, from step `first_row` on */
     whole first_row;
 
     const real *values;  /* that vary: value_count of each group */

@@ -14,13 +14,20 @@ typedef int64_t whole;
 #define FINITE(x) ((x) - (x) == 0)
 #define EPSILON DBL_EPSILON
 #define SQRT_EPSILON 0x1p-26
+#define SMALLEST 1e-300
 #if WIDTH > 1
 #define ABS(x) ((real)((OF_LANES(bits))(x) & ((OF_LANES(bits)){0} + 0x7fffffffffffffffu)))
 typedef OF_LANES(mask) mask;
 #define ALWAYS ((mask){0} == 0)
 #define PICK(where, a, b) CHOOSE(where, a, b)
 #define SOME(where) OF_LANES(any)(where)
+typedef OF_LANES(bits) clock_bits;
+#define PATTERN_OF(x) ((clock_bits)(x))
+#define CLOCK_OF(b) ((real)(b))
 #else
+typedef uint64_t clock_bits;
+#define PATTERN_OF(x) motus_as_bits(x)
+#define CLOCK_OF(b) motus_as_real(b)
 #define ABS(x) fabs(x)
 typedef bool mask;
 #define ALWAYS true

@@ -26,7 +26,7 @@ static int doubling_step(work *w)
     if (bad) return bad;
     EACH(k) most = CHOOSE_WHERE(ABS(x2[k] - x1[k]) <= most, most, ABS(x2[k] - x1[k]));
     EACHV(k) most = CHOOSE_WHERE(ABS(v2[k] - v1[k]) <= most, most, ABS(v2[k] - v1[k]));
-    w->error = most / (3 * FACT(w, c)[0]);
+    w->error = most / (3 * w->relative);
     return STEP_OK;
 }
 
@@ -49,7 +49,7 @@ static void doubling_plan(work *w, const double argument[2], coef *unit, coef *c
 {
     (void)argument, (void)unit;
     w->stages = 1, w->order = 2;
-    if (c) c[0] = w->row->tableau.c[0]; /* the tolerance of a step */
+    if (c) c[0] = 0;
 }
 #endif
 #ifdef TRACING

@@ -1,0 +1,77 @@
+/* How a run chooses its steps. See control.h.
+ *
+ * Invariant: a number that would change nothing is refused: a step where the method adapts its steps, a tolerance where
+ * it does not. What the model says of its own method is left aside where the caller names another one.
+ */
+#include "api/control.h"
+
+#include <math.h>
+#include <string.h>
+
+#define TOLERANCE_LEAST 1e-15 /* of a relative tolerance: a few roundings */
+
+control_wish control_wish_of_run(const motus_run_def *d)
+{
+    return (control_wish){d->method != NULL, d->step,         d->tolerance,
+                          d->shortest_step,  d->longest_step, d->absolute != 0};
+}
+
+static motus_status refuse_step(const chosen *c, const char *whose, motus_error *err)
+{
+    fail(err, MOTUS_ARGUMENT, "%s a step, and %s chooses its steps by a tolerance", whose, c->name);
+    hint(err, "give `tolerance = 1e-9` of the definition in its place");
+    return MOTUS_ARGUMENT;
+}
+
+static motus_status refuse_tolerance(const chosen *c, const char *what, motus_error *err)
+{
+    fail(err, MOTUS_ARGUMENT, "%s, and the steps of %s have one size", what, c->name);
+    hint(err, "choose an adaptive method, dopri5 or dop853, or give `step = 0.01` of the definition instead");
+    return MOTUS_ARGUMENT;
+}
+
+static motus_status check_tolerance(double tolerance, bool absolute, motus_error *err)
+{
+    if (!(tolerance > 0) || !isfinite(tolerance))
+        return fail(err, MOTUS_ARGUMENT, "a tolerance is a positive number, not %g", tolerance);
+    if (absolute || (tolerance >= TOLERANCE_LEAST && tolerance < 1)) return MOTUS_OK;
+    fail(err, MOTUS_ARGUMENT, "the relative tolerance %g %s", tolerance,
+         tolerance < 1 ? "is below the rounding of the numbers" : "allows errors as large as the motion");
+    hint(err, "give one from %g to 0.1", TOLERANCE_LEAST);
+    return MOTUS_ARGUMENT;
+}
+
+static motus_status check_limits(const control_wish *w, motus_error *err)
+{
+    if (!(w->shortest >= 0) || !(w->longest >= 0) || isinf(w->shortest))
+        return fail(err, MOTUS_ARGUMENT, "the limits of the steps are positive numbers, not %g and %g", w->shortest,
+                    w->longest);
+    if (w->longest == 0 || w->shortest <= w->longest) return MOTUS_OK;
+    return fail(err, MOTUS_ARGUMENT, "the shortest step, %g, is longer than the longest, %g", w->shortest, w->longest);
+}
+
+motus_status control_choose(const motus_system *s, const control_wish *w, chosen *c, motus_error *err)
+{
+    motus_settings set = motus_default_settings();
+    motus_settings_of(s, &set);
+    const bool limits = w->shortest != 0 || w->longest != 0;
+    if (!row_adaptive(c)) {
+        if (!isnan(w->tolerance)) return refuse_tolerance(c, "a tolerance is given", err);
+        if (limits) return refuse_tolerance(c, "limits of the steps are given", err);
+        if (!w->named && !isnan(set.tolerance)) return refuse_tolerance(c, "the model sets a tolerance", err);
+        return MOTUS_OK;
+    }
+    if (!isnan(w->step)) return refuse_step(c, "the definition gives", err);
+    if (!w->named && !isnan(set.step)) return refuse_step(c, "the model sets", err);
+    const bool own = isnan(w->tolerance) && !isnan(set.tolerance);
+    const double tolerance = own ? set.tolerance : isnan(w->tolerance) ? ROW_TOLERANCE : w->tolerance;
+    const bool absolute = own ? set.absolute : w->absolute;
+    motus_status status = check_tolerance(tolerance, absolute, err);
+    if (status == MOTUS_OK) status = check_limits(w, err);
+    if (status != MOTUS_OK) return status;
+    c->relative = absolute ? 0 : tolerance;
+    c->absolute = absolute ? tolerance : 0;
+    c->least = w->shortest;
+    c->most = w->longest > 0 ? w->longest : INFINITY;
+    return MOTUS_OK;
+}

@@ -1,0 +1,67 @@
+/* THE SIZE OF AN ERROR: an error of every number, in units of what the tolerance allows.
+ *
+ * Numbers of one variable share a size, for a component that is nearly zero is no more exact than its vector; different
+ * variables, which may have different units, do not. The size of positions is the largest position at the two ends of
+ * the step, and the way that the step leads; so it is not zero where a motion passes through zero. Of velocities and of
+ * first-order variables likewise. What is allowed of velocities never falls below the rounding of the positions over
+ * the step: at rest in an equilibrium nothing else is left of them.
+ */
+typedef struct norm {
+    real size, way, off; /* the largest of a variable */
+} norm;
+
+static inline norm norm_none(void)
+{
+    const real none = {0};
+    norm n;
+    n.size = n.way = n.off = none;
+    return n;
+}
+
+static inline void norm_take(norm *n, real before, real change, real rate, real off)
+{
+    const real after = before + change;
+    n->size = LARGER(ABS(before), n->size);
+    n->size = LARGER(ABS(after), n->size);
+    n->way = LARGER(ABS(rate), n->way);
+    n->off = LARGER(ABS(off), n->off);
+}
+
+/* The error over what is allowed; 0 where both are 0. */
+static inline clock norm_share(const work *w, const norm *n, clock floor)
+{
+    const clock size = n->size + ABS(w->h) * n->way;
+    const clock least = FMA(8 * EPSILON, size, floor), allowed = FMA(w->relative, size, w->absolute);
+    return n->off / (LARGER(allowed, least) + (clock){0} + SMALLEST);
+}
+
+/* The largest share of all variables; NaN where the candidate or its error is not finite. */
+static inline clock control_norm(const work *w, const real *off_x, const real *off_v)
+{
+    const real *restrict x = w->x, *restrict v = w->v, *restrict a = w->a, *restrict dx = w->dx, *restrict dv = w->dv;
+    const clock per_h = 16 * EPSILON * ABS(w->per_h);
+    clock worst = {0};
+    real none = {0};
+    EACH_VARIABLE(g)
+    {
+        const size_t from = VARIABLE(w, g), to = VARIABLE(w, g + 1);
+        norm place = norm_none(), rate = norm_none();
+        for (size_t k = from; k < to; k++) {
+            norm_take(&rate, v[k], dv[k], a[k], off_v[k]);
+            none += (dv[k] - dv[k]) + (off_v[k] - off_v[k]);
+        }
+        clock floor = {0};
+        if (from < FACT(w, nx)) {
+            for (size_t k = from; k < to; k++) {
+                norm_take(&place, x[k], dx[k], v[k], off_x[k]);
+                none += (dx[k] - dx[k]) + (off_x[k] - off_x[k]);
+            }
+            const clock share = norm_share(w, &place, floor);
+            worst = LARGER(share, worst);
+            floor = per_h * place.size;
+        }
+        const clock share = norm_share(w, &rate, floor);
+        worst = LARGER(share, worst);
+    }
+    return worst + none;
+}
