@@ -157,10 +157,7 @@ static motus_status start(motus_run *r, motus_error *err)
     motus_error theirs = motus_default_error();
     const double began = pace_now();
     r->bars->started = true;
-    if (r->locate || r->locating)
-        bars_give_up(r, "a run that locates switches has no companion");
-    else if (row_adaptive(&r->chosen))
-        bars_give_up(r, "a companion of steps that adapt is not made yet");
+    if (r->locate || r->locating) bars_give_up(r, "a run that locates switches has no companion");
     if (r->bars->why[0]) return MOTUS_OK;
     const motus_status status = begin_at(r, &theirs);
     r->bars->seconds += pace_now() - began;
@@ -180,6 +177,7 @@ void bars_leg(motus_run *r)
 /* Landings are equally far apart; what is left over comes first. */
 static int64_t apart(const motus_run *r)
 {
+    if (row_adaptive(&r->chosen)) return 1; /* every step has its own size */
     const int64_t total = r->timing.total, most = total / LANDINGS_LEAST, far = total / LANDINGS;
     const int64_t near = most < APART ? most : APART;
     return far > near ? far : near > 1 ? near : 1;
@@ -211,7 +209,7 @@ static motus_status land(motus_run *r, double t, double *x, double *v, bool betw
     bars *b = r->bars;
     const int64_t now = motus_run_steps(r), taken = now - b->steps;
     const double began = pace_now();
-    motus_status status = companion_land(&b->half, t, taken > 0 ? taken : 1, err);
+    motus_status status = companion_land(&b->half, r, t, taken > 0 ? taken : 1, err);
     if (status == MOTUS_OK && !strcmp(r->card->family, "exact")) status = companion_jog(&b->half, r, err);
     if (status == MOTUS_OK && b->kind == MOTUS_BARS_FULL && !between) status = companion_repeat(&b->twin, r, err);
     if (status == MOTUS_OK) status = take_here(r, t, x, v, err);

@@ -6,6 +6,8 @@
  * same time before and after lead to the same wrong orbit, at every power of 2. With 2 n + 1 the two grids share the
  * landings alone.
  *
+ * Where steps adapt it takes each accepted step of the run in two halves, with a tolerance by which nothing is refused.
+ *
  * Why it lands, and does not interpolate: an interpolant has an error of its own, which for a method of high order is
  * larger than what is measured. A landing costs one more step, and the additions that are compensated stay so.
  */
@@ -14,6 +16,7 @@
 #include <math.h>
 
 #define USUAL 0x1p-55
+#define ANY_ERROR 1e300 /* a tolerance by which error control accepts every step */
 
 motus_status companion_begin(companion *c, const motus_run *r, double t, const double *x, const double *v,
                              motus_error *err)
@@ -25,21 +28,29 @@ motus_status companion_begin(companion *c, const motus_run *r, double t, const d
     for (size_t k = 0; k < p->nx; k++) c->x[k] = x[k];
     for (size_t k = 0; k < p->nv; k++) c->v[k] = v[k];
     c->t = t;
+    chosen method = r->chosen;
+    if (row_adaptive(&method)) method.absolute = ANY_ERROR, method.least = 0, method.most = INFINITY;
     if (c->stepper) return stepper_start(c->stepper, t, r->timing.h, x, v, err);
-    return stepper_create(&c->machine, &r->chosen, t, r->timing.h, x, v, &r->allocator, &c->stepper, err);
+    return stepper_create(&c->machine, &method, t, r->timing.h, x, v, &r->allocator, &c->stepper, err);
 }
 
-motus_status companion_land(companion *c, double t, int64_t steps, motus_error *err)
+/* To t in so many equal steps. */
+static motus_status go(companion *c, double t, int64_t steps, bool adaptive, motus_error *err)
 {
-    const int64_t mine = 2 * steps + 1;
-    const double h = (t - c->t) / (double)mine;
+    const stepper_limit limit = {steps, adaptive ? t : NAN};
     stepper_stop why;
     if (t == c->t) return MOTUS_OK;
-    motus_status status = stepper_turn(c->stepper, c->t, h, err);
-    if (status == MOTUS_OK) status = pace_advance(&c->pace, c->stepper, (stepper_limit){mine, NAN}, &why, err);
+    motus_status status = stepper_turn(c->stepper, c->t, (t - c->t) / (double)steps, err);
+    if (status == MOTUS_OK) status = pace_advance(&c->pace, c->stepper, limit, &why, err);
     if (status == MOTUS_OK) status = stepper_sync(c->stepper, c->x, c->v, NULL, err);
     if (status == MOTUS_OK) c->t = t;
     return status;
+}
+
+motus_status companion_land(companion *c, const motus_run *r, double t, int64_t steps, motus_error *err)
+{
+    const bool adaptive = row_adaptive(&r->chosen);
+    return go(c, t, adaptive ? 2 * steps : 2 * steps + 1, adaptive, err);
 }
 
 void companion_move(double *y, size_t count, const double *size, uint32_t salt)
@@ -74,6 +85,7 @@ motus_status companion_jog(companion *c, const motus_run *r, motus_error *err)
 
 motus_status companion_repeat(companion *c, const motus_run *r, motus_error *err)
 {
+    if (row_adaptive(&r->chosen)) return go(c, stepper_time(r->stepper), 1, true, err);
     const stepper_limit limit = {stepper_steps(r->stepper) - stepper_steps(c->stepper), r->timing.until};
     stepper_stop why;
     motus_status status = pace_advance(&c->pace, c->stepper, limit, &why, err);

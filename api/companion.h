@@ -20,7 +20,7 @@ typedef struct companion {
 /* From the state x, v at t, where the run stands, with the run's method. The state is copied. */
 motus_status companion_begin(companion *, const motus_run *, double t, const double *x, const double *v, motus_error *);
 /* Lands at t, where the run has taken `steps` steps since the last landing, of which the last may be in part. */
-motus_status companion_land(companion *, double t, int64_t steps, motus_error *);
+motus_status companion_land(companion *, const motus_run *, double t, int64_t steps, motus_error *);
 /* Moves its state by what rounding may make of it: of exact motions, which steps do not tell apart. */
 motus_status companion_jog(companion *, const motus_run *, motus_error *);
 /* Moves numbers by at least an ulp, and by `size` where it is given; up or down, by a hash of their places and

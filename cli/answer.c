@@ -34,12 +34,16 @@ void answer_print(const summary *s, FILE *out)
         putc('\n', out);
         return;
     }
-    text_brief(motus_run_step_size(s->run), 6, step);
+    motus_statistics run = motus_default_statistics();
+    motus_run_statistics(s->run, &run);
+    const bool adaptive = isnan(motus_run_step_size(s->run));
+    text_brief(adaptive ? run.tolerance : motus_run_step_size(s->run), 6, step);
     text_brief(e->work, 2, work);
     if (!isnan(e->significant_until))
         print_end(s, out);
     else
-        fprintf(out, "± is the error of h = %s: how far the exact motion of the equation may be\n", step);
+        fprintf(out, "± is the error of %s %s: how far the exact motion of the equation may be\n",
+                adaptive ? "tolerance" : "h =", step);
     fprintf(out, "error: %s × the work", isnan(e->work) ? "0" : work);
     if (e->kinked) fputs("; the force has kinks, and the errors are wide", out);
     if (isnan(e->significant_until) && e->growth > FAR_APART && s->options->error == NULL) {

@@ -188,6 +188,7 @@ motus_status stepper_turn(stepper *s, double t, double h, motus_error *err)
     if (whole) memcpy(error + nx, w->ev, nv * sizeof *error);
     status = stepper_start(s, t, h, x, v, err);
     if (status) return status;
+    if (w->carried) w->next = h;
     if (words) memcpy(w->ex, error, nx * sizeof *error);
     if (whole) memcpy(w->ev, error + nx, nv * sizeof *error);
     return MOTUS_OK;

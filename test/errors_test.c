@@ -60,8 +60,10 @@ static void the_bits_are_the_same(void **state)
     for (size_t k = 0; k < motus_method_count(); k++) {
         const char *method = motus_method_at(k)->name;
         if (motus_method_admits(s, method, NULL) != MOTUS_OK) continue;
+        const double step = 0.02;
+        if (motus_method_at(k)->adaptive) continue;
         const double until = strcmp(method, "verlet-literal") ? 3.01 : 3;
-        motus_run *with = barred(s, method, 0.02, until, MOTUS_BARS_FULL), *without = given_run(s, method, 0.02, until);
+        motus_run *with = barred(s, method, step, until, MOTUS_BARS_FULL), *without = given_run(s, method, step, until);
         const size_t column = 1;
         const double times[3] = {0.031, 0.04, 1.999};
         double got[3], bars[3], wanted[3];
@@ -76,6 +78,36 @@ static void the_bits_are_the_same(void **state)
         assert_true(motus_run_evaluations(with) == motus_run_evaluations(without));
         motus_run_destroy(with);
         motus_run_destroy(without);
+    }
+    motus_system_destroy(s);
+}
+
+/* The companion of steps that adapt takes each of them in two halves: its work is twice the run's, but for refused steps,
+ * and evaluations that a step shares with the next. */
+static void steps_that_adapt(void **state)
+{
+    (void)state;
+    motus_system *s = given_model("kepler.motus", NULL, 0);
+    static const char *const methods[] = {"dopri5", "dop853"};
+    for (int m = 0; m < 2; m++) {
+        motus_run_def def = motus_default_run();
+        motus_error err = motus_default_error();
+        motus_run *r[2] = {NULL, NULL};
+        def.method = methods[m];
+        def.tolerance = 1e-8;
+        def.machine = "interpreter";
+        for (int i = 0; i < 2; i++) {
+            def.error = i ? MOTUS_BARS_FULL : MOTUS_BARS_NONE;
+            must(motus_run_create(s, &def, &r[i], &err), &err, methods[m]);
+            finish(r[i]);
+        }
+        same_state(s, r[0], r[1], "with bars and without");
+        assert_true(fabs(value(s, r[1], "r.x") + 1.6) <= bar_of(s, r[1], "r.x"));
+        assert_true(fabs(value(s, r[1], "r'.y") + 0.5) <= bar_of(s, r[1], "r'.y"));
+        assert_true(bar_of(s, r[1], "r.x") < 1e-4);
+        assert_true(estimate_of(r[1]).work > 1.5 && estimate_of(r[1]).work < 4);
+        motus_run_destroy(r[0]);
+        motus_run_destroy(r[1]);
     }
     motus_system_destroy(s);
 }
@@ -461,6 +493,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(the_founding_number),
         cmocka_unit_test(the_bits_are_the_same),
+        cmocka_unit_test(steps_that_adapt),
         cmocka_unit_test(bars_are_the_same_on_every_machine),
         cmocka_unit_test(numbers_that_are_exact),
         cmocka_unit_test(decimals_lie_between),
