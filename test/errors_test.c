@@ -82,8 +82,8 @@ static void the_bits_are_the_same(void **state)
     motus_system_destroy(s);
 }
 
-/* The companion of steps that adapt takes each of them in two halves: its work is twice the run's, but for refused steps,
- * and evaluations that a step shares with the next. */
+/* The companion of steps that adapt takes each of them in two halves: its work is twice the run's, but for refused
+ * steps, and evaluations that a step shares with the next. */
 static void steps_that_adapt(void **state)
 {
     (void)state;
