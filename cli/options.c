@@ -43,7 +43,7 @@ static const option table[] = {
     {"--methods", NULL, "A,B,C", METHOD_LIST, AT(methods), STUDY | VERB_LAB,
      "these methods (else every one the model admits; lab: else the model's)"},
     {"--step", NULL, "H", STEP, AT(step), MOTION, "time step: 0.01, 1/64, pi/100"},
-    {"--tolerance", NULL, "E", TOLERANCE, AT(tolerance), ONE | VERB_LAB,
+    {"--tolerance", NULL, "E", TOLERANCE, AT(tolerance), ONE,
      "of an adaptive method: what one step may be off, 1e-9 of the motion's size, or \"1e-6 absolute\""},
     {"--shortest-step", NULL, "H", LENGTH, AT(shortest_step), ONE,
      "of an adaptive method: stop where a shorter one is needed"},

@@ -14,7 +14,7 @@ typedef struct chosen {
     /* Of adaptive rows: what a step may be off, the larger of `relative` times the size of its variable and
      * `absolute`; and between which sizes steps stay. */
     double relative, absolute, least, most;
-    double first; /* the size of the first step; 0: error control chooses it */
+    double first;              /* the size of the first step; 0: error control chooses it */
     int threads;               /* that a large system may use; it changes no bit */
     char name[MOTUS_NAME_MAX]; /* canonical: "verlet", "newmark(0.16666666666666666, 0.5)" */
 } chosen;

@@ -222,7 +222,9 @@ motus_status row_admits(const chosen *method, const traits *traits, motus_error 
     const row *nearest = NULL;
     for (size_t k = 0; k < methods_count; k++) {
         const row *other = &methods_table[k];
-        if (other->family == EXACT || other->uniform || other->adaptive != method->row->adaptive || *reason(other, traits)) continue;
+        if (other->family == EXACT || other->uniform || other->adaptive != method->row->adaptive ||
+            *reason(other, traits))
+            continue;
         if (!nearest || unlike(&method->row->card, &other->card) < unlike(&method->row->card, &nearest->card))
             nearest = other;
     }

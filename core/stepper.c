@@ -38,7 +38,7 @@ void stepper_use_body(stepper *s, const stepper_body *body) { s->body = body; }
 
 bool stepper_fixed(const problem *p, const work *plan)
 {
-    return (p->traits.affine && !p->traits.time) || (!plan->solves_x && p->traits.linear_v && p->traits.constant_jv);
+    return plan->affine || (!plan->solves_x && p->traits.linear_v && p->traits.constant_jv);
 }
 
 static motus_status prepare_solver(stepper *s, motus_error *err)
@@ -56,6 +56,7 @@ work stepper_plan(const problem *p, const chosen *method, coef *memory)
     plan.linear = p->traits.linear_v;
     plan.quadrature = p->traits.quadrature;
     plan.constant = p->traits.constant;
+    plan.affine = p->traits.affine && !p->traits.time;
     plan.relative = method->relative;
     plan.absolute = method->absolute;
     plan.least = method->least;

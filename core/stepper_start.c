@@ -34,8 +34,13 @@ motus_status stepper_report(const stepper *s, int bad, double t, motus_error *er
                       s->method.name, time, name);
         hint(err, "the step is %s; take a smaller one, for which the starting guess is nearer to the solution", step);
     } else if (bad == STEP_STALLED) {
-        status = fail(err, MOTUS_DIVERGED, "the step that error control needs is too small to change t = %s", time);
-        hint(err, "the motion may have a singularity there; otherwise allow a larger error");
+        const bool limited = w->t + w->next != w->t;
+        decimal(s->method.least, step);
+        status = limited ? fail(err, MOTUS_DIVERGED, "at t = %s the tolerance needs a step shorter than %s", time, step)
+                         : fail(err, MOTUS_DIVERGED, "the step that error control needs is too small to change t = %s",
+                                time);
+        hint(err, limited ? "allow shorter steps, or a larger error"
+                          : "the motion may have a singularity there; otherwise allow a larger error");
     } else if (s->problem.returned && *s->problem.returned == 0) {
         fail(err, MOTUS_CALLBACK, "the callback reads the velocity, though its definition says that it does not");
         hint(err, "set depends_on_velocity to 1 in the definition, or do not read v");

@@ -2,8 +2,8 @@
  * them. Every list is a macro, so that it takes the K(…) of the place where it stands.
  *
  * C: abscissae; A, AA: below the diagonal, row by row; B, BB: weights; ERROR, ERROR_X, SECOND: weights of the error
- * (step/row.h). The sources stand in the rows. Numbers have all the digits that are known: as many as 113 bits need, but
- * for DOP853, which is known to 28.
+ * (step/row.h). The sources stand in the rows. Numbers have as many digits as 113 bits need; those of DOP853 are known
+ * to 28.
  */
 #ifndef CORE_TABLES_H
 #define CORE_TABLES_H

@@ -3,10 +3,13 @@
  */
 #include "step/norm.h"
 #include "step/control.h"
-#include "step/dense.h"
+#include "step/judge.h"
 #include "step/newton.h"
 #include "step/operators.h"
 #include "step/tableau.h"
+#include "step/dense.h"
+#include "step/pair.h"
+#include "step/collocation.h"
 #define FAMILY_TEXTS
 #include "step/families.def"
 #undef FAMILY_TEXTS

@@ -11,7 +11,7 @@
 typedef struct trace_event {
     motus_event kind;                     /* but START and END, for which the caller observes the state */
     int stage, stages;                    /* from 1 */
-    int64_t iterations;                   /* of Newton's method, in this step so far */
+    int64_t iterations;                   /* of the implicit equation, in this step so far */
     double time;                          /* of the acceleration; of a drift: after it */
     double coefficient, weight, weight_x; /* in units of the step, all of them exactly as in the row */
     const double *row, *row_x;

@@ -540,8 +540,8 @@ typedef enum motus_bars {
 typedef struct motus_run_def {
     uint32_t size;      /* by motus_default_run() */
     const char *method; /* NULL: the model's, or "verlet" */
-    /* Of a method with steps of one size: > 0; NaN: the model's, or motus_suggest's. Its direction follows from `until`.
-     * Of an adaptive method: NaN. */
+    /* Of a method with steps of one size: > 0; NaN: the model's, or motus_suggest's. Its direction follows from
+     * `until`. Of an adaptive method: NaN. */
     double step;
     /* Of an adaptive method: what one step may be off, by its own estimate; NaN: the model's, or 1e-9. Relative to the
      * size of the variable, which is the largest number of the family or vector at both ends of the step and on the way
@@ -602,7 +602,7 @@ MOTUS_API int64_t motus_run_steps_total(const motus_run *);
 MOTUS_API double motus_run_time_of(const motus_run *, int64_t step);
 MOTUS_API double motus_run_last_step(const motus_run *);    /* size of the shorter last step; 0: there is none */
 MOTUS_API int64_t motus_run_evaluations(const motus_run *); /* of the acceleration by steps; observing counts none */
-MOTUS_API int64_t motus_run_iterations(const motus_run *);  /* of Newton's method, in all steps */
+MOTUS_API int64_t motus_run_iterations(const motus_run *);  /* in which implicit equations are solved, in all steps */
 MOTUS_API const char *motus_run_method(const motus_run *);
 MOTUS_API const char *motus_run_machine(const motus_run *); /* "interpreter", "compiled", "callback" */
 /* All that a run has done so far. */
@@ -613,7 +613,7 @@ typedef struct motus_statistics {
     int64_t steps;                /* taken in all legs, shorter last ones included */
     int64_t refused;              /* steps that error control refused; 0 where the step size is fixed */
     int64_t evaluations;          /* of the acceleration by taken and refused steps; observing counts none */
-    int64_t iterations;           /* of Newton's method, by both */
+    int64_t iterations;           /* in which implicit equations are solved, by both */
     double first_step, last_step; /* sizes of the first and of the latest step taken, > 0; NaN before the first */
     double tolerance;             /* of an adaptive method; NaN: steps have one size */
     /* The smallest and the largest step of the present leg, without the one that ended at `until`; NaN before them. */
@@ -664,8 +664,9 @@ MOTUS_API motus_status motus_run_values(motus_run *, const size_t *columns, size
 MOTUS_API motus_status motus_run_jacobian(motus_run *, double *da_dx, double *da_dv, motus_error *);
 /* Columns at given times, which follow the direction of the run and end at or before `until`. The call takes steps as
  * needed; between steps it evaluates the quintic Hermite polynomial through (x, v, a) at both ends of the step (local
- * error h^6), which does not change the run. out: time_count rows of `count` numbers. MOTUS_ARGUMENT: a time lies
- * beyond the end, or before the run's last step. Fails besides as motus_run_step and motus_run_values do. */
+ * error h^6), or the polynomial of collocation with more than four stages, which does not change the run. out:
+ * time_count rows of `count` numbers. MOTUS_ARGUMENT: a time lies beyond the end, or before the run's last step. Fails
+ * besides as motus_run_step and motus_run_values do. */
 MOTUS_API motus_status motus_run_sample(motus_run *, const double *times, size_t time_count, const size_t *columns,
                                         size_t count, double *out, motus_error *);
 
@@ -745,7 +746,7 @@ typedef enum motus_event {
      *     the end:   v₀ + step Σ weight a,   x₀ + step Σ weight v = x₀ + step v₀ + step² Σ weight_x a
      * (newmark has the forms with row_x and weight_x only). */
     MOTUS_EVENT_STAGE,
-    /* The following stages solve an implicit equation, with `iterations` of Newton's method. */
+    /* The following stages solve an implicit equation, in `iterations`: Newton's, or insertions. */
     MOTUS_EVENT_SOLVE,
     /* The first step of a recurrence, from Taylor's formula: x = x₀ + step v₀ + step²/2 a, with the a of START. */
     MOTUS_EVENT_TAYLOR,
@@ -759,7 +760,7 @@ typedef enum motus_event {
 typedef struct motus_trace_entry {
     motus_event kind;
     int stage, stages;         /* the stage, from 1, and how many there are; START, SOLVE, END: stage 0 */
-    int64_t iterations;        /* of Newton's method, in this step so far */
+    int64_t iterations;        /* of the implicit equation, in this step so far */
     double time, step;         /* step: negative in a run that goes backward; the last one may be shorter */
     double coefficient;        /* of a kick or a drift; of a stage its abscissa: in units of the step */
     double weight, weight_x;   /* of a stage */

@@ -116,9 +116,10 @@ export class Core {
   bytes(): number { return this.exports.memory.buffer.byteLength; }
 
   catalogue(lab: number): Method[] {
-    type Raw = Omit<Method, 'stability_limit'> & { stability_limit: number | null };
+    type Raw = Omit<Method, 'stability_limit'> & { stability_limit: number | null; adaptive: boolean };
     const { methods } = this.json<{ methods: Raw[] }>(this.exports.lab_catalogue(lab));
-    return methods.map((row) => ({ ...row, stability_limit: row.stability_limit ?? Infinity }));
+    // The page's pictures are of steps of one size.
+    return methods.filter((row) => !row.adaptive).map((row) => ({ ...row, stability_limit: row.stability_limit ?? Infinity }));
   }
   open(lab: number, model: Model): void {
     this.texts([model.text], (text, length) => this.texts(model.set, (sets) => {

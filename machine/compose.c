@@ -139,21 +139,23 @@ static bool add_facts(emit *e, const composition *c, bool structure)
              r->compensated, r->adaptive);
     emit_add(t,
              "#define FACT(w, member) FACT_##member\n#define FACT_velocity %d\n#define FACT_linear %d\n#define "
-             "FACT_constant %d\n",
-             w.velocity, w.linear, w.constant);
+             "FACT_constant %d\n#define FACT_affine %d\n",
+             w.velocity, w.linear, w.constant, w.affine);
     if (structure)
         emit_add(t, "#define FACT_nx %zu\n#define FACT_nv %zu\n", w.nx, w.nv);
     else
         emit_add(t, "#define FACT_nx w->nx\n#define FACT_nv w->nv\n");
     emit_add(t,
-             "#define FACT_carried %d\n#define FACT_stages %d\n#define FACT_known %d\n#define FACT_fsal %d\n#define "
-             "FACT_ending %d\n#define FACT_closing %d\n#define FACT_second %d\n#define FACT_unit fact_unit\n#define FACT_fused %d\n#define "
+             "#define FACT_carried %d\n#define FACT_stages %d\n#define FACT_known %d\n#define FACT_kept %d\n#define "
+             "FACT_fsal %d\n#define "
+             "FACT_ending %d\n#define FACT_closing %d\n#define FACT_second %d\n#define FACT_unit fact_unit\n#define "
+             "FACT_fused %d\n#define "
              "FACT_waits %d\n#define FACT_solves %d\n"
              "#define FACT_solves_x %d\n#define FACT_means %d\n#define FACT_direct %d\n#define FACT_order %d\n#define "
              "FACT_linears %d\n"
              "#define FACT_squares %d\n#define DRIFTS_FIRST %d\n",
-             w.carried, stages, w.known, w.fsal, w.ending, w.closing, w.second, w.fused, w.waits, w.solves, w.solves_x, w.means,
-             w.direct, w.order, w.linears, w.squares, r->family == SPLITTING && w.unit[0] == 0);
+             w.carried, stages, w.known, w.kept, w.fsal, w.ending, w.closing, w.second, w.fused, w.waits, w.solves,
+             w.solves_x, w.means, w.direct, w.order, w.linears, w.squares, r->family == SPLITTING && w.unit[0] == 0);
     emit_add(t, "#define LIVE(w, k) (fact_unit[k] != 0)\n#define FACT_c fact_c\nstatic const int fact_moment[] = {%d",
              m.moment[0]);
     for (int i = 1; i < stages; i++) emit_add(t, ", %d", m.moment[i]);
@@ -198,7 +200,9 @@ static void add_family(emit_text *t, const composition *c)
                  "((void)0)\n#define control_norm(w, x, v) (CLOCK(0))\n#define control_joint(high, low) (high)\n"
                  "#define control_size(w) (w)->h\n#define control_judge(w) EVERY\n");
     }
-    if (stepper_plan(c->problem, c->chosen, NULL).solves)
+    const work plan = stepper_plan(c->problem, c->chosen, NULL);
+    if (plan.solves || plan.iterates) add_text(t, "step/judge.h");
+    if (plan.solves)
         add_text(t, "step/newton.h");
     else
         emit_add(t, "#define NEWTON_NOW (-1)\n#define newton_increment(w, g, s, u, stage) STEP_OK\n#define "
@@ -293,7 +297,8 @@ static void add_operations(emit *e, int width)
 static bool by_number(const composition *c)
 {
     const work plan = stepper_plan(c->problem, c->chosen, NULL);
-    return c->chosen->row->family != EXACT && !c->chosen->row->adaptive && !plan.solves && !plan.means;
+    return c->chosen->row->family != EXACT && !c->chosen->row->adaptive && !plan.solves && !plan.iterates &&
+           !plan.means;
 }
 
 static void add_windows(emit *e)

@@ -209,7 +209,7 @@ static void set_lane(apart *s, size_t lane, size_t k)
         way = (stepper_way){1, 0};
     }
     const double own[LANES_CLOCKS] = {
-        [LANES_T0] = d->t0, [LANES_H] = h,         [LANES_T] = d->t0,
+        [LANES_T0] = d->t0,          [LANES_H] = h,         [LANES_T] = d->t0,
         [LANES_RISE] = CONTROL_RISE, [LANES_UNTIL] = until, [LANES_STOP] = NAN,
     };
     for (int i = 0; i < LANES_CLOCKS; i++) *clock_of(b, lane, i) = own[i];

@@ -2,20 +2,15 @@
  * K[j]: collocation at the Gauss nodes, and Newmark's method, whose one implicit stage is the end of the step [HLW06,
  * II.1; Newmark59].
  *
+ * Collocation begins each step with the polynomial of the step before, extrapolated, and inserts the stages into their
+ * equation; where that contracts slowly Newton's method takes over. Of an affine equation, whose matrix is factored
+ * once, and of a single stage, the iteration is Newton's from the start. It is simplified: one matrix a step,
+ * evaluated in the middle of the stages, and evaluated again where the iteration does not contract.
+ *
  * Invariant: the unknowns are the stages' accelerations, so the round-off of the solution reaches the state
- * multiplied by h; the iteration ends when they no longer change. Simplified Newton: one matrix a step, evaluated in
- * the middle of the stages, and evaluated again where the iteration does not contract.
+ * multiplied by h; the iteration ends when they no longer change. What a step begins with is carried from the step
+ * before.
  */
-static inline void implicit_stage(work *w, int i)
-{
-    real *restrict X = w->xs, *restrict V = w->vs;
-    const real *restrict x = w->x, *restrict v = w->v, *restrict K = w->ks;
-    const int s = FACT(w, stages), a = tableau_a(w, i), aa = tableau_aa(w, i);
-    const clock ch = w->c[i] * w->h;
-    EACH(k) X[k] = x[k] + FMA(ch, v[k], tableau_sum(w, aa, K, k, s));
-    EACHV(k) V[k] = v[k] + tableau_sum(w, a, K, k, s);
-}
-
 /* Factors the matrix at the mean of the unknown stages, by Taylor's formula with the present acceleration of the
  * first. */
 static inline int implicit_matrix(work *w, mask *where)
@@ -40,81 +35,135 @@ static inline int implicit_matrix(work *w, mask *where)
 /* The iteration, from one turn to the next. The parts of a step stand alone, so that lanes may take the turns of many
  * trajectories side by side. */
 typedef struct implicit_iteration {
-    mask open;    /* the equation is not solved yet */
-    real before;  /* newton_judge's */
-    real renewed; /* matrices that were evaluated anew */
-    int turns;
+    mask open;        /* the equation is not solved yet */
+    mask newton;      /* by Newton's method */
+    mask contracts;   /* of insertion: judge_doubts */
+    real before;      /* judge_corrections's */
+    real renewed;     /* matrices that were evaluated anew */
+    int turns, begun; /* begun: the turn with which Newton's method began */
 } implicit_iteration;
 
-/* The first guess of all stages is the acceleration at the start. */
-static inline int implicit_begin(work *w, implicit_iteration *it)
+/* w->a: the acceleration at the start of the step. */
+static inline int implicit_start(work *w)
 {
-    const size_t stride = w->stride;
-    *it = (implicit_iteration){.open = ALWAYS, .before = (real){0} - 1};
-    if (!FACT(w, known) || FIRST(w)) { /* newmark's last stage is the next step's first */
-        EACH(k) w->xs[k] = w->x[k];
-        EACHV(k) w->vs[k] = w->v[k];
-        int bad = accel_now(w, w->xs, w->vs, w->a);
-        if (bad) return bad;
-    }
-    for (int i = 0; i < FACT(w, stages); i++)
-        EACHV(k) w->ks[(size_t)i * stride + k] = w->a[k];
-    mask regular = ALWAYS; /* an equation whose matrix is not will be lost in the first turn */
-    return implicit_matrix(w, &regular);
+    EACH(k) w->xs[k] = w->x[k];
+    EACHV(k) w->vs[k] = w->v[k];
+    return accel_now(w, w->xs, w->vs, w->a);
 }
 
-static inline bool implicit_goes_on(const implicit_iteration *it) { return it->turns < NEWTON_MAX && SOME(it->open); }
+static inline int implicit_begin(work *w, implicit_iteration *it)
+{
+    const bool newton = !FACT(w, kept) || FACT(w, affine);
+    *it = (implicit_iteration){
+        .open = ALWAYS, .newton = newton ? ALWAYS : NEVER, .contracts = NEVER, .before = (real){0} - 1};
+    if (!FACT(w, kept) || FIRST(w)) {
+        /* newmark's last stage is the next step's first */
+        int bad = !FACT(w, known) || FIRST(w) ? implicit_start(w) : STEP_OK;
+        if (bad) return bad;
+        for (int i = 0; i < FACT(w, stages); i++)
+            EACHV(k) w->ks[(size_t)i * w->stride + k] = w->a[k];
+    } else {
+        tableau_extrapolate(w, 0);
+    }
+    mask regular = ALWAYS; /* an equation whose matrix is not will be lost in the first turn */
+    return newton ? implicit_matrix(w, &regular) : STEP_OK;
+}
+
+/* open: in this iteration, or in any of those whose turns are taken beside it */
+static inline bool implicit_more(const implicit_iteration *it, mask open)
+{
+    return it->turns < JUDGE_TURNS_MAX && SOME(open);
+}
+
+/* Corrects K by r, in the lanes of Newton's method by the solution of its equation, and judges the corrections. */
+static inline judge_verdict implicit_correct(work *w, implicit_iteration *it, real *K, int s)
+{
+    judge_verdict all = {NEVER, NEVER, NEVER};
+    for (int way = 0; way < 2; way++) {
+        const mask mine = way ? it->newton : NOT(it->newton);
+        if (!SOME(it->open & mine)) continue;
+        if (way) solve_back(w, w->r);
+        for (int i = 0; i < s; i++)
+            judge_correct(w, it->open & mine, K + (size_t)i * w->stride, w->r + (size_t)i * w->stride);
+        real before = it->before;
+        const judge_verdict now = judge_corrections(w, w->r, K, s, w->v, w->per_h, &before);
+        it->before = PICK(mine, before, it->before);
+        all.done = all.done | (mine & now.done);
+        all.stuck = all.stuck | (mine & now.stuck);
+        all.lost = all.lost | (mine & now.lost);
+    }
+    return all;
+}
+
+/* Newton's method takes over in the lanes `slow`; what is lost there begins again. */
+static inline int implicit_hand_over(work *w, implicit_iteration *it, mask slow, mask lost)
+{
+    if (SOME(slow & lost)) {
+        int bad = implicit_start(w);
+        if (bad) return bad;
+        for (int i = 0; i < FACT(w, stages); i++)
+            EACHV(k) {
+                real *K = w->ks + (size_t)i * w->stride + k;
+                *K = PICK(slow & lost, w->a[k], *K);
+            }
+    }
+    it->newton = it->newton | slow;
+    it->before = PICK(slow, (real){0} - 1, it->before);
+    it->begun = it->turns;
+    mask good = slow;
+    int bad = implicit_matrix(w, &good);
+    it->open = it->open & (good == slow);
+    return bad;
+}
 
 static inline int implicit_turn(work *w, implicit_iteration *it)
 {
-    enum { PATIENCE = 8, RENEWALS = 6 };
+    enum { PATIENCE = 8, RENEWALS = 6, INSERTIONS = 10 };
     const int first = FACT(w, known), s = FACT(w, stages) - first, turn = it->turns++;
     const size_t stride = w->stride;
     real *K = w->ks + (size_t)first * stride;
     for (int i = 0; i < s; i++) {
         real *r = w->r + (size_t)i * stride;
-        implicit_stage(w, first + i);
+        tableau_place(w, first + i);
+        if (FACT(w, velocity)) tableau_speed(w, first + i);
         int bad = accel_in(w, first + i, w->xs, w->vs, r);
         if (bad) return bad;
         EACHV(k) r[k] -= K[(size_t)i * stride + k];
     }
-    solve_back(w, w->r);
+    const real last = it->before;
+    judge_verdict now = implicit_correct(w, it, K, s);
     w->iterations++;
-    for (int i = 0; i < s; i++) newton_correct(w, it->open, K + (size_t)i * stride, w->r + (size_t)i * stride);
-    const newton_verdict now = newton_judge(w, w->r, K, s, w->v, w->per_h, &it->before);
-    STOP(w, it->open & now.lost, turn == 0 ? STEP_DIVERGED : STEP_SOLVE);
-    it->open = FACT(w, direct) ? NEVER : it->open & NOT(now.lost | now.done);
+    now.done = now.done & (it->newton | NOT(judge_doubts(it->before, last, turn, &it->contracts)));
+    /* one that shrinks less than to a quarter needs more turns than Newton's method costs */
+    const mask weak = (last >= 0) & (4 * it->before > last) & (it->before > 64 * SQRT_EPSILON),
+               slow = it->open & NOT(it->newton) & NOT(now.done) &
+                      (now.lost | weak | (turn >= INSERTIONS ? ALWAYS : NEVER));
+    STOP(w, it->open & it->newton & now.lost, turn == it->begun ? STEP_DIVERGED : STEP_SOLVE);
+    it->open = FACT(w, direct) ? NEVER : it->open & NOT(now.done | (it->newton & now.lost));
     if (!SOME(it->open)) return STEP_OK;
-    const mask stuck = it->open & now.stuck, slow = turn % PATIENCE == PATIENCE - 1 ? it->open : stuck;
-    if (!SOME(slow)) return STEP_OK;
-    const mask renew = slow & (it->renewed < RENEWALS);
-    mask good = renew;
-    it->renewed = PICK(slow, it->renewed + 1, it->renewed);
-    STOP(w, stuck & NOT(renew), STEP_SOLVE);
-    int bad = SOME(renew) ? implicit_matrix(w, &good) : STEP_OK;
-    it->open = it->open & NOT(stuck & NOT(renew)) & (good == renew);
-    return bad;
+    const mask stuck = it->open & it->newton & now.stuck,
+               late = turn % PATIENCE == PATIENCE - 1 ? it->open & it->newton : stuck;
+    if (SOME(late)) {
+        const mask renew = late & (it->renewed < RENEWALS);
+        mask good = renew;
+        it->renewed = PICK(late, it->renewed + 1, it->renewed);
+        STOP(w, stuck & NOT(renew), STEP_SOLVE);
+        int bad = SOME(renew) ? implicit_matrix(w, &good) : STEP_OK;
+        if (bad) return bad;
+        it->open = it->open & NOT(stuck & NOT(renew)) & (good == renew);
+    }
+    return SOME(slow) ? implicit_hand_over(w, it, slow, now.lost) : STEP_OK;
 }
 
 static inline int implicit_end(work *w, const implicit_iteration *it)
 {
-    real *restrict x = w->x, *restrict v = w->v, *restrict ex = w->ex, *restrict ev = w->ev;
-    const real *restrict K = w->ks;
-    const size_t stride = w->stride;
-    const clock h = w->h;
-    const int s = FACT(w, stages), b = tableau_b(w), bb = tableau_bb(w);
-    if (it->turns == NEWTON_MAX) STOP(w, it->open, STEP_SOLVE);
-    for (int i = 0; i < s; i++) SPOIL(w, w->ks + (size_t)i * stride);
+    const int s = FACT(w, stages);
+    if (it->turns == JUDGE_TURNS_MAX) STOP(w, it->open, STEP_SOLVE);
+    for (int i = 0; i < s; i++) SPOIL(w, w->ks + (size_t)i * w->stride);
     TRACE(w, s - 1);
-    if (ROW(w, compensated)) {
-        EACH(k) ADVANCE_COMPENSATED(x[k], ex[k], 1, FMA(h, v[k], tableau_sum(w, bb, K, k, s)));
-        EACHV(k) ADVANCE_COMPENSATED(v[k], ev[k], 1, tableau_sum(w, b, K, k, s));
-    } else {
-        EACH(k) x[k] += FMA(h, v[k], tableau_sum(w, bb, K, k, s));
-        EACHV(k) v[k] += tableau_sum(w, b, K, k, s);
-    }
+    tableau_finish(w);
     if (FACT(w, known))
-        EACHV(k) w->a[k] = K[(size_t)(s - 1) * stride + k];
+        EACHV(k) w->a[k] = w->ks[(size_t)(s - 1) * w->stride + k];
     return STEP_OK;
 }
 
@@ -122,18 +171,19 @@ static int implicit_step(work *w)
 {
     implicit_iteration it;
     int bad = implicit_begin(w, &it);
-    while (!bad && implicit_goes_on(&it)) bad = implicit_turn(w, &it);
+    while (!bad && implicit_more(&it, it.open)) bad = implicit_turn(w, &it);
     return bad ? bad : implicit_end(w, &it);
 }
 #define implicit_accept step_is_final
 #define implicit_observe state_is_complete
 #define implicit_sync work_sync_main
-#define implicit_dense dense_hermite
+#define implicit_dense dense_stages
 
 static int implicit_carry(const work *w, real *list[CARRY_MAX])
 {
     int count = work_carry_main(w, list);
     if (FACT(w, known)) list[count++] = w->a;
+    for (int i = 0; i < FACT(w, kept); i++) list[count++] = w->ks + (size_t)i * w->stride;
     return count;
 }
 
@@ -164,6 +214,9 @@ static void implicit_plan(work *w, const double argument[2], coef *unit, coef *c
     const row *m = w->row;
     tableau_sizes(w, m->newmark ? 2 : m->tableau.stages);
     w->known = m->newmark;
+    w->kept = w->stages > 1 && !m->newmark ? w->stages : 0;
+    w->plains = 2 * w->kept * w->kept; /* tableau_ahead, tableau_series */
+    w->iterates = true;
     w->solves = w->stages - w->known;
     w->solves_x = !m->newmark || argument[0] != 0;
     w->direct = !w->solves_x && (!w->velocity || w->linear);
@@ -172,8 +225,13 @@ static void implicit_plan(work *w, const double argument[2], coef *unit, coef *c
         implicit_newmark(w, (coef)argument[0], (coef)argument[1], unit, c);
         return;
     }
-    for (int i = 0; i < w->stages; i++) c[i] = m->tableau.c[i];
-    tableau_fill(w, m->tableau.a, m->tableau.b, unit);
+    collocation nodes;
+    collocation_make(&nodes, w->stages, false);
+    for (int i = 0; i < w->stages; i++) c[i] = collocation_abscissa(&nodes, i);
+    collocation_fill(w, &nodes, false, unit);
+    if (!w->kept) return;
+    collocation_ahead(&nodes, unit + tableau_ahead(w, 0));
+    collocation_series(&nodes, unit + tableau_series(w, 0));
 }
 #endif
 
@@ -182,10 +240,6 @@ static void implicit_plan(work *w, const double argument[2], coef *unit, coef *c
 static void implicit_trace(work *w, int i)
 {
     if (i < 0) return;
-    tell(w, (trace_event){.kind = MOTUS_EVENT_SOLVE, .time = time_now(w)});
-    for (int j = 0; j < w->stages; j++) {
-        implicit_stage(w, j);
-        tableau_tell(w, j, w->xs, w->vs, w->ks + (size_t)j * w->stride);
-    }
+    tableau_tell_solved(w);
 }
 #endif

@@ -29,12 +29,12 @@ struct row {
         int count;
         const coef *weight;
     } composition;
-    /* c: abscissae. a, row by row: RUNGE_KUTTA below the diagonal, 1 + 2 + … numbers; IMPLICIT all stages × stages.
-     * RUNGE_KUTTA alone: aa and bb are those of a Nyström method for the positions, the first like a; a NULL: its forces
-     * are free of v. Of adaptive rows: the weights of the error of the velocities, and of the positions (NULL: they
-     * follow from a), b minus that of the embedded method; second: those of another estimate, or NULL; ending: weights
-     * have one more entry, for the acceleration at the end of the step; closing: the last stage is the acceleration
-     * there; order: of the embedded method. */
+    /* c: abscissae. a, row by row, below the diagonal: 1 + 2 + … numbers. IMPLICIT and RADAU have the stages alone:
+     * their coefficients are generated (collocation.h). aa (like a) and bb are those of a Nyström method for the
+     * positions; a NULL: its forces are free of v. Of adaptive rows: the weights of the error of the velocities, and
+     * of the positions (NULL: they follow from a), b minus that of the embedded method; second: those of another
+     * estimate, or NULL; ending: weights have one more entry, for the acceleration at the end of the step; closing: the
+     * last stage is the acceleration there; order: of the embedded method. */
     struct {
         int stages;
         const coef *c, *a, *b, *aa, *bb, *error, *error_x, *second;

@@ -3,10 +3,23 @@
  * a (s × s, row by row) and b belong to h; aa = A² and bb = bA, for positions formed from accelerations [HNW93, II.14],
  * to h².
  */
+enum { TABLEAU_COUPLED_MAX = 8 }; /* stages of collocation */
 static inline int tableau_a(const work *w, int i) { return i * FACT(w, stages); }
 static inline int tableau_b(const work *w) { return FACT(w, stages) * FACT(w, stages); }
 static inline int tableau_aa(const work *w, int i) { return tableau_b(w) + (1 + i) * FACT(w, stages); }
 static inline int tableau_bb(const work *w) { return 2 * tableau_b(w) + FACT(w, stages); }
+/* of coupled stages: the values of Lagrange's polynomials at stage i of the next step, without a factor h */
+static inline int tableau_ahead(const work *w, int i) { return tableau_bb(w) + (1 + i) * FACT(w, stages); }
+/* the coefficient of Legendre's polynomial k in the polynomial through the stages; without a factor h */
+static inline int tableau_series(const work *w, int k)
+{
+    return tableau_ahead(w, 0) + tableau_b(w) + k * FACT(w, stages);
+}
+/* what a change of stage i does to the others, where they are kept on a polynomial; without a factor h */
+static inline int tableau_spread(const work *w, int i)
+{
+    return tableau_series(w, 0) + tableau_b(w) + i * FACT(w, stages);
+}
 
 /* Σ c[j] y[j][k] over `count` stages, c the scaled constants from number `from` on. */
 static inline real tableau_sum(const work *w, int from, const real *restrict y, size_t k, int count)
@@ -39,6 +52,54 @@ static inline bool tableau_any(const work *w, int from, int count)
     return any;
 }
 
+/* Coupled stages: position and velocity of stage i from the accelerations of all. */
+static inline void tableau_place(work *w, int i)
+{
+    const real *restrict x = w->x, *restrict v = w->v, *restrict K = w->ks;
+    const int s = FACT(w, stages), aa = tableau_aa(w, i);
+    const clock ch = w->c[i] * w->h;
+    EACH(k) w->xs[k] = x[k] + FMA(ch, v[k], tableau_sum(w, aa, K, k, s));
+}
+
+static inline void tableau_speed(work *w, int i)
+{
+    const real *restrict v = w->v, *restrict K = w->ks;
+    const int s = FACT(w, stages), a = tableau_a(w, i);
+    EACHV(k) w->vs[k] = v[k] + tableau_sum(w, a, K, k, s);
+}
+
+/* The end of the step. */
+static inline void tableau_finish(work *w)
+{
+    real *restrict x = w->x, *restrict v = w->v, *restrict ex = w->ex, *restrict ev = w->ev;
+    const real *restrict K = w->ks;
+    const clock h = w->h;
+    const int s = FACT(w, stages), b = tableau_b(w), bb = tableau_bb(w);
+    if (ROW(w, compensated)) {
+        EACH(k) ADVANCE_COMPENSATED(x[k], ex[k], 1, FMA(h, v[k], tableau_sum(w, bb, K, k, s)));
+        EACHV(k) ADVANCE_COMPENSATED(v[k], ev[k], 1, tableau_sum(w, b, K, k, s));
+    } else {
+        EACH(k) x[k] += FMA(h, v[k], tableau_sum(w, bb, K, k, s));
+        EACHV(k) v[k] += tableau_sum(w, b, K, k, s);
+    }
+}
+
+/* The polynomial through the stages of the step before, at those of this one from `first` on. */
+static inline void tableau_extrapolate(work *w, int first)
+{
+    const int s = FACT(w, stages);
+    const size_t stride = w->stride;
+    const coef *ahead = w->unit + tableau_ahead(w, 0);
+    EACHV(k) {
+        real next[TABLEAU_COUPLED_MAX];
+        for (int i = first; i < s; i++) {
+            next[i] = ahead[i * s] * w->ks[k];
+            for (int j = 1; j < s; j++) next[i] = FMA(ahead[i * s + j], w->ks[(size_t)j * stride + k], next[i]);
+        }
+        for (int i = first; i < s; i++) w->ks[(size_t)i * stride + k] = next[i];
+    }
+}
+
 #ifdef ROWS
 static void tableau_sizes(work *w, int stages)
 {
@@ -63,17 +124,6 @@ static void tableau_times(int s, const coef *r, const coef *a, coef *out)
         out[j] = hi + lo;
     }
 }
-
-/* Reads a and b, and forms aa and bb. */
-static void tableau_fill(work *w, const coef *given_a, const coef *given_b, coef *unit)
-{
-    const int s = w->stages;
-    coef *a = unit, *b = unit + tableau_b(w);
-    for (int i = 0; i < s * s; i++) a[i] = given_a[i];
-    for (int i = 0; i < s; i++) b[i] = given_b[i];
-    for (int i = 0; i < s; i++) tableau_times(s, a + tableau_a(w, i), a, unit + tableau_aa(w, i));
-    tableau_times(s, b, a, unit + tableau_bb(w));
-}
 #endif
 
 #ifdef TRACING
@@ -91,6 +141,17 @@ static void tableau_tell(const work *w, int i, const real *X, const real *V, con
                           .x = X,
                           .v = V,
                           .a = A});
+}
+
+/* Coupled stages, when their equation is solved. */
+static void tableau_tell_solved(work *w)
+{
+    tell(w, (trace_event){.kind = MOTUS_EVENT_SOLVE, .time = time_now(w)});
+    for (int j = 0; j < w->stages; j++) {
+        tableau_place(w, j);
+        tableau_speed(w, j);
+        tableau_tell(w, j, w->xs, w->vs, w->ks + (size_t)j * w->stride);
+    }
 }
 
 static trace_room tableau_room(const work *w)

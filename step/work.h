@@ -103,6 +103,7 @@ typedef struct work {
     bool velocity, linear; /* the acceleration depends on v; at most linearly */
     bool quadrature;       /* it does in first-order variables alone, which nothing reads */
     bool constant;         /* it depends on parameters alone */
+    bool affine;           /* it is affine in x and v, and does not depend on time */
     /* the numbers of variable g are variable[g] … variable[g + 1] - 1 of v, and of x those of them that x has */
     int variables;
     const size_t *variable;
@@ -136,8 +137,10 @@ typedef struct work {
     clock *scaled, hh, half_hh, per_h;
     clock *matrix; /* room for the coefficients of the coupled stages: 2 solves² */
     int known;     /* stages of an implicit row that are explicit (newmark's first) */
+    int kept;      /* stages that lead to the next step */
     int solves;    /* stages that are coupled in one equation; 0: nothing is solved */
     bool solves_x; /* that equation contains da/dx */
+    bool iterates; /* an equation is solved by turns */
     bool direct;   /* it is linear in the unknowns, so that one solve is exact */
     /* first same as last: the closing kick of a step waits for the opening kick of the next */
     bool fsal;
@@ -305,7 +308,7 @@ static inline real *work_array(placing *p, int count)
 #define PLACED(w, name) ((w)->name)
 #endif
 
-/* Copies the numbers of all arrays, of the stages only the first, from one workspace to another. */
+/* Copies the numbers of all arrays, of the stages those that are kept, from one workspace to another. */
 static inline void work_move(work *to, const work *from, size_t count)
 {
 #define MOVE(name) \
@@ -320,13 +323,15 @@ static inline void work_move(work *to, const work *from, size_t count)
     MOVE(delta);
     MOVE(vs);
 #undef MOVE
+    for (int i = 0; i < FACT(to, kept); i++)
+        for (size_t k = 0; k < count; k++) to->ks[(size_t)i * to->stride + k] = from->ks[(size_t)i * from->stride + k];
     /* the stages of the last step, for dense output */
     for (int i = 0; ROW(to, adaptive) && PLACED(to, ks) && i < FACT(to, stages) + FACT(to, ending); i++)
         for (size_t k = 0; k < count; k++) to->ks[(size_t)i * to->stride + k] = from->ks[(size_t)i * from->stride + k];
 }
 
 /* The arrays that lead from a step to the next: name_carry in families.def. */
-enum { CARRY_MAX = 8 };
+enum { CARRY_MAX = 12 };
 static inline int work_carry_main(const work *w, real *list[CARRY_MAX])
 {
     int count = 0;

@@ -42,6 +42,7 @@
 #define SURVEY_PROBES 8                       /* states of the survey at which the fastest rate is computed */
 #define SURVEY_TRUST 0.1 /* of the motion's size: of a survey with a larger error only the start is used */
 #define REFERENCE_MAX (SOLUTION_TEXT_MAX + 320)
+#define SHOWN_ORDER 8     /* a double has the digits to show orders up to this one */
 #define OVERALL_LARGE 0.1 /* errors above this, or below OVERALL_CLEAR times round-off, tell no order */
 #define OVERALL_CLEAR 30.0
 #define OVERALL_OCTAVES 6.0
@@ -225,7 +226,7 @@ static motus_status measure_all(converge *c, const motus_method *card, const cha
     study *s = &c->s;
     study_grid g = even_grid(s, c->grid.until, intervals);
     double work = 0, bound = WORK, base = s->base, span = s->span, duration = fabs(g.until - g.from);
-    *fit = (fit_order_result){.verdict = FIT_FEW, .observed = NAN, .standard_error = NAN};
+    *fit = (fit_order_result){.verdict = FIT_FEW, .observed = NAN, .standard_error = NAN, .fall = NAN};
     for (size_t i = 0; i < POINTS_MAX; i++) {
         int64_t per = steps_per_interval((int64_t)i, row->declared);
         double next = study_work(s, card, (double)intervals * (double)per, -1), spent;
@@ -260,6 +261,13 @@ static double overall(const converge *c, const motus_converge_row *row, double f
     return octaves >= OVERALL_OCTAVES ? log(first->error / last->error) / log(2) / octaves : NAN;
 }
 
+/* Whether a row of so high an order reaches round-off before its slope settles, and falls there as fast as the highest
+ * order that a double shows. */
+static bool falls(const converge *c, const motus_converge_row *row, const fit_order_result *fit)
+{
+    return row->declared > SHOWN_ORDER && c->allowed == 0 && fit->settled && fit->fall >= SHOWN_ORDER;
+}
+
 static void certify(const converge *c, motus_converge_row *row, const fit_order_result *fit, char *text, size_t size)
 {
     row->observed = fit->observed;
@@ -275,6 +283,13 @@ static void certify(const converge *c, motus_converge_row *row, const fit_order_
     }
     row->passed = row->exact_here || (allowed && fit->verdict == FIT_SLOPE &&
                                       fit_passes(row->observed, fit->standard_error, row->declared));
+    if (!row->passed && falls(c, row, fit)) {
+        row->passed = true;
+        row->observed = fit->fall;
+        row->standard_error = NAN;
+        snprintf(text, size, "observed %.2f, down to round-off, declared %d", row->observed, row->declared);
+        return;
+    }
     switch (fit->verdict) {
     case FIT_EXACT: snprintf(text, size, "exact here, declared %d", row->declared); break;
     case FIT_SLOPE:

@@ -132,7 +132,8 @@ static size_t find_clear(motus_point *points, size_t count, double duration, dou
 
 fit_order_result fit_order(motus_point *points, size_t count, double duration, double noise, double reference_error)
 {
-    fit_order_result r = {.verdict = FIT_FEW, .observed = NAN, .standard_error = NAN, .slope_change = INFINITY};
+    fit_order_result r = {
+        .verdict = FIT_FEW, .observed = NAN, .standard_error = NAN, .fall = NAN, .slope_change = INFINITY};
     for (size_t i = 0; i < count; i++) points[i].used = 0;
     r.floor = fmax(noise, reference_error);
     if (exact_everywhere(points, count, duration, noise, reference_error)) {
@@ -143,6 +144,7 @@ fit_order_result fit_order(motus_point *points, size_t count, double duration, d
     motus_point *clear[FIT_POINTS_MAX];
     size_t n = find_clear(points, count, duration, noise, &r, clear);
     r.above = n;
+    if (n > 1) r.fall = local_slope(clear[0], clear[n - 1]);
     if (n < FIT_POINTS_MIN) return r;
 
     size_t least = n - FIT_POINTS_MIN;

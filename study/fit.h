@@ -24,6 +24,7 @@ typedef struct fit_order_result {
     double observed, standard_error; /* NaN unless FIT_SLOPE */
     size_t above;                    /* points between instability and round-off */
     double floor;                    /* the round-off found, in the errors' units */
+    double fall;                     /* the slope from the first of these to the last; NaN: there is one at most */
     double slope_change;             /* difference of the two finest local slopes in use */
     int settled;                     /* the plateau of round-off has been reached: finer steps add nothing */
 } fit_order_result;

@@ -205,7 +205,9 @@ static motus_status refine(study *s, const study_grid *g, double budget, double 
             }
             if (have) {
                 double theory = ldexp(1, c->card->order);
-                estimate(c, d, isnan(fall) ? 1 : fmin(fmax(fall, SOLUTION_FALL), theory) - 1, step);
+                /* a fall far below the method's own is uneven, and may be any at the next halving */
+                const double most = fall < theory / 4 ? 2 : theory;
+                estimate(c, d, isnan(fall) ? 1 : fmin(fmax(fall, SOLUTION_FALL), most) - 1, step);
                 if (d.scaled <= fmax(2 * s->noise, enough)) {
                     estimate(c, d, 1, step);
                     return MOTUS_OK;

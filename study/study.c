@@ -239,7 +239,7 @@ motus_status study_methods(study *s, const motus_study_def *def, const char ***n
         if (status != MOTUS_OK) return status;
         if (m->adaptive) {
             fail(s->err, MOTUS_UNAVAILABLE, "%s chooses its steps, and studies take steps of one size", m->name);
-            hint(s->err, "motus run --method %s --tolerance 1e-9 runs it", m->name);
+            hint(s->err, "run it by itself, with a tolerance");
             return MOTUS_UNAVAILABLE;
         }
         (*names)[(*count)++] = def->methods[k];

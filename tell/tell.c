@@ -122,6 +122,7 @@ void tell_admissions(json *j, const motus_system *system)
         json_open(j, NULL, '{');
         json_string(j, "name", name);
         json_bool(j, "admitted", admitted);
+        json_bool(j, "adaptive", motus_method_at(k)->adaptive);
         json_string(j, "preserves", tell_geometry(geometry));
         json_string(j, "reason", admitted ? "" : tell_reason(why.message, name));
         json_string(j, "hint", admitted ? "" : why.hint);

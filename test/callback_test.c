@@ -142,8 +142,8 @@ static void calls_are_counted(void **state)
 static void difference_quotients_stand_in_for_a_derivative(void **state)
 {
     (void)state;
-    static const char *const methods[] = {"newmark", "newmark(1/6, 1/2)", "implicit-midpoint", "gauss4", "gauss6",
-                                          "gauss8"};
+    static const char *const methods[] = {
+        "newmark", "newmark(1/6, 1/2)", "implicit-midpoint", "gauss4", "gauss6", "gauss8", "gauss16"};
     const double bound = 1000 * 8 * ROUNDING;
     motus_system *s = given_text(driven_text);
     for (size_t i = 0; i < sizeof methods / sizeof *methods; i++) {
@@ -156,7 +156,8 @@ static void difference_quotients_stand_in_for_a_derivative(void **state)
         finish(given);
         finish(derived);
         finish(quotient);
-        assert_true(with.derivatives > 0 && without.derivatives == 0);
+        /* Of several stages the iteration contracts without one. */
+        assert_true((with.derivatives > 0) == (i < 3) && without.derivatives == 0);
         near(value(p, derived, "x"), value(s, given, "x"), bound, methods[i]);
         near(value(q, quotient, "x"), value(s, given, "x"), bound, methods[i]);
         near(value(q, quotient, "x'"), value(s, given, "x'"), bound, methods[i]);
@@ -254,8 +255,8 @@ static void nonlinear_velocity_terms_and_first_order_variables(void **state)
             near(value(p, derived, names[k][1]), value(s, given, names[k][0]), bound, methods[i]);
             near(value(q, quotient, names[k][1]), value(s, given, names[k][0]), bound, methods[i]);
         }
-        int explicit = !strcmp(methods[i], "rk4");
-        assert_true(explicit ? with.derivatives == 0 : with.derivatives > 0);
+        const int needed = strcmp(methods[i], "rk4") && strncmp(methods[i], "gauss", 5);
+        assert_int_equal(with.derivatives > 0, needed);
         motus_run_destroy(given);
         motus_run_destroy(derived);
         motus_run_destroy(quotient);

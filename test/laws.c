@@ -47,6 +47,7 @@ int main(int count, char **arguments)
     laws_of_structure();
     laws_of_stability();
     laws_of_verlet();
+    laws_of_dense();
     printf("%d passed, %d failed\n", passed, failed);
     return failed != 0;
 }

@@ -15,7 +15,8 @@
  * another layout in laws_quad.c and laws_coefficients.c. */
 typedef size_t method;
 
-enum { DIMENSIONS = 4, SPLITTING_MAX = 40 }; /* SPLITTING_MAX: stages of a splitting row */
+/* SPLITTING_MAX: stages of a splitting row; COUPLED_MAX: those of an implicit one, and GENERATED_MAX its constants */
+enum { DIMENSIONS = 4, SPLITTING_MAX = 40, COUPLED_MAX = 8, GENERATED_MAX = 5 * COUPLED_MAX * (COUPLED_MAX + 1) };
 
 /* x'' = a(x, v, t), then s' = f, over quads. Polynomial and rational, since no library function has 33 digits. */
 typedef struct quad_problem {
@@ -57,6 +58,8 @@ typedef struct quad_count {
 /* Takes `steps` steps from *state at t0; sets *state to the synchronised state. */
 quad_count quad_run(method, const double *argument, const quad_problem *, quad t0, quad h, int64_t steps,
                     quad_state *state);
+/* The state at the fraction `part` of one step from *state at t0, by dense output. */
+quad_count quad_dense(method, const quad_problem *, quad t0, quad h, quad part, quad_state *state);
 /* One step of Verlet's recursion from two given points. */
 void quad_recursion(const quad_problem *, quad t, quad h, const quad *before, const quad *now, quad *after);
 /* The motion by an extrapolated midpoint rule, which shares no code with step/. */
@@ -64,6 +67,9 @@ void quad_reference(const quad_problem *, quad t0, quad t1, quad_state *state);
 quad quad_distance(const quad_problem *, const quad_state *, const quad_state *);
 /* Kicks and drifts in order, kick first; returns their number of stages, 0 for others. */
 int quad_splitting_of(method, quad *kick, quad *drift);
+/* The constants and abscissae of a row whose coefficients are generated, each of at most GENERATED_MAX numbers; returns
+ * its number of stages, 0 for others. */
+int quad_generated_of(method, quad *constants, quad *c);
 /* By how much the sums of kicks and of drifts differ from 1, which measures the known digits. 0 for other rows. */
 quad quad_looseness(method);
 
@@ -78,5 +84,6 @@ void laws_of_order(void);
 void laws_of_structure(void);
 void laws_of_stability(void);
 void laws_of_verlet(void);
+void laws_of_dense(void);
 
 #endif

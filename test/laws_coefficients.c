@@ -42,8 +42,8 @@ static int stored(const row *m, quad *out)
     } else if (m->family == SPLITTING) {
         for (int i = 0; i < m->splitting.stages; i++) out[n++] = m->splitting.kick[i];
         for (int i = 0; i < m->splitting.stages; i++) out[n++] = m->splitting.drift[i];
-    } else if (m->family == RUNGE_KUTTA || (m->family == IMPLICIT && !m->newmark)) {
-        const int s = m->tableau.stages, entries = m->family == IMPLICIT ? s * s : s * (s - 1) / 2;
+    } else if (m->family == RUNGE_KUTTA) {
+        const int s = m->tableau.stages, entries = s * (s - 1) / 2;
         for (int i = 0; i < s; i++) out[n++] = m->tableau.c[i];
         for (int i = 0; m->tableau.a && i < entries; i++) out[n++] = m->tableau.a[i];
         for (int i = 0; i < s; i++) out[n++] = m->tableau.b[i];

@@ -224,7 +224,7 @@ static void gragg(const quad_problem *p, quad t, quad h, int n, const quad_state
 
 void quad_reference(const quad_problem *p, quad t0, quad t1, quad_state *state)
 {
-    enum { PIECES = 64, COLUMNS = 14 };
+    enum { PIECES = 256, COLUMNS = 9 };
     const quad h = (t1 - t0) / PIECES;
     for (int piece = 0; piece < PIECES; piece++) {
         quad_state table[COLUMNS];

@@ -149,7 +149,7 @@ static void census(void)
         }
 }
 
-/* The embedded method has the order that its estimate is said to have, and no higher one, in velocities or positions. */
+/* The embedded method has the order that its estimate is said to have, and no higher one. */
 static void estimate(method m, const scheme *s)
 {
     char name[64];

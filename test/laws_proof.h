@@ -34,8 +34,8 @@ quad coefficients_unit(method); /* the largest of these units */
 /* The tableau of the row with other values of its coefficients. */
 void coefficients_scheme(method, const quad *value, scheme *);
 trees_kind coefficients_trees(method);
-/* Makes the embedded method of the scheme of an adaptive row, by its first or second estimate; returns its order, 0: there
- * is none. */
+/* Makes the embedded method of an adaptive row by its first or second estimate; returns its order, 0: there is
+ * none. */
 int coefficients_embedded(method, int which, scheme *);
 bool coefficients_nystrom(method); /* the row gives a and b of the positions themselves */
 bool coefficients_compose(method); /* the row is a composition of leapfrog steps */
@@ -56,6 +56,9 @@ quad trees_roundings(const scheme *, int order);
 
 /* Checks that a tableau, whose numbers are exact up to rounding, has this order and no higher one. */
 void proof_of_scheme(const char *name, trees_kind, const scheme *, int order);
+
+/* The same of collocation, without trees; `twice`: of a polynomial of the acceleration, which is integrated twice. */
+void proof_of_collocation(const char *name, const scheme *, bool twice, int order);
 
 void laws_of_proof(void);
 void laws_of_steps(void);

@@ -50,11 +50,11 @@ static quad quad_of_bits(uint64_t b)
 #define ROWS
 #include "step/work.h"
 
-enum { UNKNOWNS = 4 * DIMENSIONS };
+enum { UNKNOWNS = COUPLED_MAX * DIMENSIONS };
 struct stepper_host {
     const quad_problem *problem;
-    int n, stages;
-    quad matrix[UNKNOWNS][UNKNOWNS], jv[DIMENSIONS][DIMENSIONS];
+    int n;
+    quad inverse[UNKNOWNS][UNKNOWNS], jv[DIMENSIONS][DIMENSIONS];
 };
 typedef struct stepper_host dense;
 
@@ -65,15 +65,38 @@ static int accel(work *w, quad t, quad *x, quad *v, quad *a)
     return STEP_OK;
 }
 
+/* Gauss-Jordan with row pivoting; systems are tiny. */
+static void invert(quad m[UNKNOWNS][UNKNOWNS], int n, quad inverse[UNKNOWNS][UNKNOWNS])
+{
+    for (int i = 0; i < n; i++)
+        for (int j = 0; j < n; j++) inverse[i][j] = i == j;
+    for (int j = 0; j < n; j++) {
+        int p = j;
+        for (int i = j; i < n; i++)
+            if (ABS(m[i][j]) > ABS(m[p][j])) p = i;
+        for (int c = 0; c < n; c++) {
+            const quad keep = m[j][c], kept = inverse[j][c];
+            m[j][c] = m[p][c], inverse[j][c] = inverse[p][c];
+            m[p][c] = keep, inverse[p][c] = kept;
+        }
+        const quad pivot = m[j][j];
+        for (int c = 0; c < n; c++) m[j][c] /= pivot, inverse[j][c] /= pivot;
+        for (int i = 0; i < n; i++) {
+            const quad f = m[i][j];
+            for (int c = 0; i != j && f != 0 && c < n; c++) m[i][c] -= f * m[j][c], inverse[i][c] -= f * inverse[j][c];
+        }
+    }
+}
+
 static int solve_factor(work *w, mask *where, int s, const quad *ax, const quad *av, quad t, quad *x, quad *v)
 {
     dense *d = w->library;
     const int nv = (int)w->nv;
+    static quad m[UNKNOWNS][UNKNOWNS];
     (void)where;
     d->n = s * nv;
-    d->stages = s;
-    memset(d->matrix, 0, sizeof d->matrix);
-    for (int k = 0; k < d->n; k++) d->matrix[k][k] = 1;
+    for (int i = 0; i < d->n; i++)
+        for (int j = 0; j < d->n; j++) m[i][j] = i == j;
     for (int c = 0; c < nv; c++) {
         quad zero[DIMENSIONS] = {0}, unit[DIMENSIONS] = {0}, jx[DIMENSIONS] = {0}, jv[DIMENSIONS] = {0};
         unit[c] = 1;
@@ -82,39 +105,24 @@ static int solve_factor(work *w, mask *where, int s, const quad *ax, const quad 
         for (int r = 0; r < nv; r++) {
             d->jv[r][c] = jv[r];
             for (int i = 0; i < s; i++)
-                for (int j = 0; j < s; j++)
-                    d->matrix[i * nv + r][j * nv + c] -= ax[i * s + j] * jx[r] + av[i * s + j] * jv[r];
+                for (int j = 0; j < s; j++) m[i * nv + r][j * nv + c] -= ax[i * s + j] * jx[r] + av[i * s + j] * jv[r];
         }
     }
+    invert(m, d->n, d->inverse);
     return STEP_OK;
 }
 
-/* Gauss-Jordan with row pivoting on a copy; systems are tiny. */
 static void solve_back(work *w, quad *r)
 {
     const dense *d = w->library;
-    quad m[UNKNOWNS][UNKNOWNS + 1];
+    quad right[UNKNOWNS];
     const int nv = (int)w->nv, n = d->n;
+    for (int i = 0; i < n; i++) right[i] = r[(size_t)(i / nv) * w->stride + (size_t)(i % nv)];
     for (int i = 0; i < n; i++) {
-        memcpy(m[i], d->matrix[i], sizeof d->matrix[i]);
-        m[i][n] = r[(size_t)(i / nv) * w->stride + (size_t)(i % nv)];
+        quad sum = 0;
+        for (int j = 0; j < n; j++) sum += d->inverse[i][j] * right[j];
+        r[(size_t)(i / nv) * w->stride + (size_t)(i % nv)] = sum;
     }
-    for (int j = 0; j < n; j++) {
-        int p = j;
-        for (int i = j; i < n; i++)
-            if (ABS(m[i][j]) > ABS(m[p][j])) p = i;
-        for (int c = 0; c <= n; c++) {
-            quad keep = m[j][c];
-            m[j][c] = m[p][c];
-            m[p][c] = keep;
-        }
-        for (int i = 0; i < n; i++) {
-            if (i == j) continue;
-            const quad f = m[i][j] / m[j][j];
-            for (int c = j; c <= n; c++) m[i][c] -= f * m[j][c];
-        }
-    }
-    for (int i = 0; i < n; i++) r[(size_t)(i / nv) * w->stride + (size_t)(i % nv)] = m[i][n] / m[i][i];
 }
 
 static void solve_apply(work *w, quad c, const quad *y, quad *out)
@@ -158,26 +166,43 @@ bool quad_admits(method k, const quad_problem *p)
 }
 
 enum { ARRAYS_MAX = 40, CONSTANTS_MAX = 1024 };
+
+/* The plan of the row, kept from one run to the next: a row may have to generate its coefficients. */
+static const work *plan_of(const row *m, const double *argument, const quad_problem *p)
+{
+    static const double trapezoid[2] = {0.25, 0.5};
+    static quad memory[CONSTANTS_MAX];
+    static const size_t kinds[DIMENSIONS + 1] = {0};
+    static double last[2];
+    static work w;
+    if (!argument) argument = trapezoid;
+    if (w.row == m && !memcmp(argument, last, sizeof last) && w.nx == p->nx && w.nv == p->nv &&
+        w.velocity == p->velocity && w.linear == p->linear && w.quadrature == p->quadrature)
+        return &w;
+    w = (work){.row = m,
+               .nx = p->nx,
+               .nv = p->nv,
+               .stride = DIMENSIONS,
+               .velocity = p->velocity,
+               .linear = p->linear,
+               .quadrature = p->quadrature,
+               .variable = kinds};
+    memcpy(last, argument, sizeof last);
+    work_plan(&w, argument, NULL);
+    if (work_plan_size(&w) > CONSTANTS_MAX) abort();
+    work_plan(&w, argument, memory);
+    return &w;
+}
+
 static void begin(work *w, dense *d, quad *memory, const row *m, const double *argument, const quad_problem *p, quad t0,
                   quad h)
 {
-    static const double trapezoid[2] = {0.25, 0.5};
-    *w = (work){.row = m,
-                .nx = p->nx,
-                .nv = p->nv,
-                .stride = DIMENSIONS,
-                .t0 = t0,
-                .library = d,
-                .velocity = p->velocity,
-                .linear = p->linear,
-                .quadrature = p->quadrature};
+    *w = *plan_of(m, argument, p);
+    w->t0 = t0;
+    w->library = d;
     d->problem = p;
-    static const size_t kinds[DIMENSIONS + 1] = {0};
-    w->variable = kinds;
-    work_plan(w, argument ? argument : trapezoid, NULL);
-    if (work_plan_size(w) > CONSTANTS_MAX) abort();
-    work_plan(w, argument ? argument : trapezoid, memory + ARRAYS_MAX * DIMENSIONS);
     work_scale(w, h);
+    if (work_place(w, NULL) > ARRAYS_MAX) abort();
     memset(memory, 0, ARRAYS_MAX * DIMENSIONS * sizeof *memory);
     work_place(w, memory);
 }
@@ -201,9 +226,9 @@ quad_count quad_run(method k, const double *argument, const quad_problem *p, qua
                     quad_state *state)
 {
     work w;
-    dense d;
+    static dense d;
     const row *m = &methods_table[k];
-    quad memory[ARRAYS_MAX * DIMENSIONS + CONSTANTS_MAX];
+    quad memory[ARRAYS_MAX * DIMENSIONS];
     begin(&w, &d, memory, m, argument, p, t0, h);
     memcpy(w.x, state->x, p->nx * sizeof *w.x);
     memcpy(w.v, state->v, p->nv * sizeof *w.v);
@@ -214,11 +239,39 @@ quad_count quad_run(method k, const double *argument, const quad_problem *p, qua
     return count;
 }
 
+quad_count quad_dense(method k, const quad_problem *p, quad t0, quad h, quad part, quad_state *state)
+{
+    work w;
+    static dense d;
+    quad memory[ARRAYS_MAX * DIMENSIONS];
+    quad_state ends[2] = {*state, *state};
+    quad a[2][DIMENSIONS] = {{0}};
+    begin(&w, &d, memory, &methods_table[k], NULL, p, t0, h);
+    memcpy(w.x, state->x, p->nx * sizeof *w.x);
+    memcpy(w.v, state->v, p->nv * sizeof *w.v);
+    p->accel(t0, ends[0].x, ends[0].v, a[0]);
+    quad_count count = {.bad = advance_run(&w, 1)};
+    if (!count.bad) count.bad = advance_sync(&w, ends[1].x, ends[1].v, a[1]);
+    const dense_end list[2] = {{t0, ends[0].x, ends[0].v, a[0]}, {t0 + h, ends[1].x, ends[1].v, a[1]}};
+    if (!count.bad) family_dense(&w, list, t0 + part * h, state->x, state->v);
+    return count;
+}
+
+int quad_generated_of(method k, quad *constants, quad *c)
+{
+    const row *m = &methods_table[k];
+    if (m->family != RADAU && (m->family != IMPLICIT || m->newmark)) return 0;
+    const work *w = plan_of(m, NULL, &quad_problems[FREE_FALL]);
+    memcpy(constants, w->unit, work_constants(w) * sizeof *constants);
+    memcpy(c, w->c, (size_t)w->stages * sizeof *c);
+    return w->stages;
+}
+
 void quad_recursion(const quad_problem *p, quad t, quad h, const quad *before, const quad *now, quad *after)
 {
     work w;
     dense d;
-    quad memory[ARRAYS_MAX * DIMENSIONS + CONSTANTS_MAX];
+    quad memory[ARRAYS_MAX * DIMENSIONS];
     begin(&w, &d, memory, &methods_table[0], NULL, p, t - h, h);
     w.n = 1;
     for (size_t k = 0; k < p->nx; k++) {

@@ -6,7 +6,7 @@
  * every mark has been tried. Times and steps are binary fractions: if the coefficients of a method are too, nothing
  * is rounded and the comparison is exact.
  */
-#include "core/rows.h"
+#include "core/stepper_body.h"
 #include "test/laws_proof.h"
 
 #include <stdio.h>
@@ -63,7 +63,7 @@ static bool recurrence(const row *r) { return r->family == VERLET || r->family =
 static bool by_time(method m)
 {
     const row *r = &methods_table[m];
-    return r->family == IMPLICIT || recurrence(r) || (r->family == SPLITTING && takes_v(m));
+    return r->family == IMPLICIT || r->family == RADAU || recurrence(r) || (r->family == SPLITTING && takes_v(m));
 }
 
 /* The tableau of one step, with stages at the places of `as`. Returns the largest violation of what holds for any
@@ -193,11 +193,44 @@ static void of_newmark(method m)
     }
 }
 
+/* What is generated in double is what is generated in 113 bits, rounded once. */
+static void rounded_once(method m)
+{
+    const problem p = {.nx = 1, .nv = 1};
+    chosen c = {.row = &methods_table[m]};
+    quad constants[GENERATED_MAX], abscissae[COUPLED_MAX];
+    coef memory[4 * GENERATED_MAX];
+    const int s = quad_generated_of(m, constants, abscissae);
+    const work w = stepper_plan(&p, &c, memory);
+    int same = 0, all = (int)work_constants(&w) + s;
+    for (int i = 0; i < all - s; i++) same += w.unit[i] == (double)constants[i];
+    for (int i = 0; i < s; i++) same += w.c[i] == (double)abscissae[i];
+    judge(same == all, row_card(m)->name, "rounded once", "%d of %d coefficients", same, all);
+}
+
+/* The tableau of a row whose coefficients are generated is that of collocation; it is measured, so the step is proved
+ * with it. */
+static void as_collocation(method m)
+{
+    quad constants[GENERATED_MAX];
+    scheme nodes = {0}, done;
+    nodes.stages = quad_generated_of(m, constants, nodes.c);
+    const quad off = tableau_of(m, NULL, &nodes, &done);
+    judge(off <= 64 * QUAD_EPSILON, row_card(m)->name, "steps as a tableau", "%d stages, off by %.1e", done.stages,
+          (double)off);
+    proof_of_collocation(row_card(m)->name, &done, methods_table[m].family == RADAU, row_card(m)->order);
+    if (trees_count(TREES_ROOTED, row_card(m)->order + 1))
+        proof_of_scheme(row_card(m)->name, TREES_ROOTED, &done, row_card(m)->order);
+    rounded_once(m);
+}
+
 void laws_of_steps(void)
 {
     for (method m = 0; m < row_count(); m++) {
         if (methods_table[m].newmark)
             of_newmark(m);
+        else if (methods_table[m].family == IMPLICIT || methods_table[m].family == RADAU)
+            as_collocation(m);
         else if (recurrence(&methods_table[m]))
             as_recurrence(m);
         else if (methods_table[m].family != EXACT)

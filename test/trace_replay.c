@@ -27,7 +27,7 @@ typedef struct step {
     size_t count, nx, nv;
     double h;
     double *a;  /* room of nv */
-    bool apart; /* positions do not follow the tableau of the velocities: newmark, Nyström */
+    bool apart; /* positions do not follow the tableau of the velocities: newmark, Nyström, Radau */
 } step;
 
 #define broken(s, ...)                                                                             \
@@ -318,7 +318,7 @@ void trace_replay(const motus_system *system, const motus_method *m, const motus
     step s = {.system = system,
               .what = what,
               .method = m->name,
-              .apart = !strcmp(m->name, "newmark") || !strcmp(m->family, "nystrom"),
+              .apart = !strcmp(m->name, "newmark") || !strcmp(m->family, "nystrom") || !strcmp(m->family, "radau"),
               .entry = entry,
               .start = entry,
               .end = entry + count - 1,
@@ -342,7 +342,7 @@ void trace_replay(const motus_system *system, const motus_method *m, const motus
         splitting(&s, m);
     else if (!strcmp(m->family, "runge-kutta") || !strcmp(m->family, "nystrom"))
         tableau(&s, m, false);
-    else if (!strcmp(m->family, "implicit"))
+    else if (!strcmp(m->family, "implicit") || !strcmp(m->family, "radau"))
         tableau(&s, m, true);
     else if (!strcmp(m->family, "two-step"))
         recurrence(&s, before_x, before_a);

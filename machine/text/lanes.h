@@ -370,7 +370,7 @@ __attribute__((flatten)) void motus_lanes_run(const lanes_job *job, whole steps,
             EVERY_GROUP(LANES_ITERATION)
             EVERY_GROUP(LANES_BEGIN)
             EVERY_GROUP(LANES_TURN) /* by itself: in the first turn all are open, and nothing is compared */
-            while (iteration_0.turns < NEWTON_MAX && SOME(NEVER EVERY_GROUP(LANES_OPEN))) { EVERY_GROUP(LANES_TURN) }
+            while (implicit_more(&iteration_0, NEVER EVERY_GROUP(LANES_OPEN))) { EVERY_GROUP(LANES_TURN) }
             EVERY_GROUP(LANES_END)
 #else
             EVERY_GROUP(LANES_STEP)
