@@ -51,6 +51,8 @@ static const layout layouts[] = {
                                                         .jump = -1,
                                                         .jump_time = NAN,
                                                         .jump_power = NAN}},
+    [MOTUS_DEF_ESTIMATE] = {"motus_estimate", "estimate", SIZES(motus_estimate),
+                            &(const motus_estimate){.significant_until = NAN, .rate = NAN, .work = NAN, .reason = ""}},
 };
 
 static uint32_t size_now(const layout *l) { return l->sizes[l->count - 1]; }

@@ -1,4 +1,5 @@
 /* The legs of a run: motus_run_set_state begins one at another state, motus_run_statistics counts over all of them. */
+#include "api/bars.h"
 #include "api/locate.h"
 
 #include <math.h>
@@ -49,6 +50,7 @@ static motus_status set_state(motus_run *r, double t, const double *x, const dou
     if (status != MOTUS_OK) return status;
     r->before += steps;
     run_leg(r, &leg);
+    bars_leg(r);
     status = r->locate ? locate_begin(r, err) : MOTUS_OK;
     if (status != MOTUS_OK) return status;
     return run_moved(r, err);

@@ -1,4 +1,5 @@
 /* Runs. See run.h. */
+#include "api/bars.h"
 #include "api/locate.h"
 
 #include "api/choice.h"
@@ -83,7 +84,7 @@ static motus_status choose_machine(motus_run *r, const char *wanted, motus_error
     /* how many steps an adaptive method takes is not known: as many as repay compiling */
     const double worth = row_adaptive(&r->chosen) ? 1 : choice_worth(s, r->card, (double)r->timing.total);
     if (automatic && worth < CHOICE_KEPT) return MOTUS_OK;
-    const bool kept = automatic && worth < 1;
+    const bool kept = r->kept = automatic && worth < 1;
     const char *why;
     status = choice_compile(s, &r->chosen, !automatic, kept, &r->machine, &why, err);
     if (status == MOTUS_OK && why && !kept) r->note = why;
@@ -175,15 +176,32 @@ motus_status run_refuse_located(const char *what, motus_error *err)
     return fail(err, MOTUS_UNAVAILABLE, "a run that locates switches cannot be %s", what);
 }
 
+/* The same, with companions for bars of error: in pieces from one landing to the next. */
+static motus_status advance_beside(motus_run *r, int64_t n, motus_error *err)
+{
+    motus_status status = MOTUS_OK;
+    while (n > 0 && status == MOTUS_OK && !r->arrived) {
+        int64_t room;
+        status = bars_room(r, &room, err);
+        const int64_t piece = n < room ? n : room;
+        if (status != MOTUS_OK) return status;
+        status = advance(r, piece, err);
+        if (status != MOTUS_OK && status != MOTUS_CANCELLED) bars_give_up(r, "the run failed");
+        n -= piece;
+    }
+    return status;
+}
+
 static motus_status go_on(motus_run *r, int64_t n, motus_error *err)
 {
+    motus_status (*const forward)(motus_run *, int64_t, motus_error *) = r->bars && n > 0 ? advance_beside : advance;
     if (r->observing) return run_refuse_move(err);
-    if (n == 0 || (!r->observer && !isnan(r->first_step))) return advance(r, n, err);
+    if (n == 0 || (!r->observer && !isnan(r->first_step))) return forward(r, n, err);
     /* One step at a time where an observer is called; and the first step by itself, because its size is recorded. */
     motus_status status = MOTUS_OK;
     for (; n > 0 && status == MOTUS_OK && !r->arrived; n--) {
-        status = advance(r, 1, err);
-        if (status == MOTUS_OK && !r->observer) return advance(r, n - 1, err);
+        status = forward(r, 1, err);
+        if (status == MOTUS_OK && !r->observer) return forward(r, n - 1, err);
         if (status == MOTUS_OK) status = observe(r, err);
     }
     return status;
@@ -250,6 +268,8 @@ motus_status motus_run_create(motus_system *s, const motus_run_def *given, motus
     r->chosen.threads = def.threads;
     if (status == MOTUS_OK) status = choose_machine(r, def.machine, err);
     if (status == MOTUS_OK) status = locate_prepare(r, def.switches, err);
+    if (status == MOTUS_OK) status = bars_prepare(r, &def, err);
+    if (status == MOTUS_OK && r->bars) r->bars->kept = r->kept;
     if (status == MOTUS_OK) status = begin(r, &def, err);
     modes_leave(m);
     if (status != MOTUS_OK) {
@@ -267,6 +287,7 @@ void motus_run_destroy(motus_run *r)
     motus_system_hold(r->system, false);
     stepper_destroy(r->stepper);
     locate_destroy(r);
+    bars_destroy(r);
     give(&a, r->saved);
     give(&a, r->trace);
     give(&a, r);
@@ -353,7 +374,7 @@ motus_status motus_run_finish(motus_run *r, motus_error *err) { return motus_run
 
 /* ---- between steps ---- */
 
-/* To a time at or after t, with the step that leads there marked for dense output. */
+/* The step that leads there is marked for dense output. */
 static motus_status go_to(motus_run *r, double t, motus_error *err)
 {
     const double way = r->timing.h < 0 ? -1 : 1;
@@ -367,26 +388,31 @@ static motus_status go_to(motus_run *r, double t, motus_error *err)
     return status;
 }
 
-static motus_status sample(motus_run *r, const double *times, size_t n, const size_t *columns, size_t count,
-                           double *out, motus_error *err)
+motus_status run_between(motus_run *r, double t, double **x, double **v, motus_error *err)
 {
     const double way = r->timing.h < 0 ? -1 : 1;
     char a[DECIMAL_MAX], b[DECIMAL_MAX];
-    for (size_t i = 0; i < n; i++, out += count) {
-        const double t = times[i];
-        if (!isfinite(t) || way * (t - r->timing.until) > 0)
-            return fail(err, MOTUS_ARGUMENT, "the time %s lies beyond the end of the run, %s", decimal(t, a),
-                        decimal(r->timing.until, b));
-        motus_status status = go_to(r, t, err);
-        const bool here = stepper_time(r->stepper) == t;
-        if (status == MOTUS_OK)
-            status = here ? run_sync(r, false, err) : stepper_sample(r->stepper, t, r->mid_x, r->mid_v, err);
-        if (status == MOTUS_OK)
-            status =
-                system_values(r->system, t, here ? r->x : r->mid_x, here ? r->v : r->mid_v, columns, count, out, err);
-        if (status != MOTUS_OK) return status;
+    if (!isfinite(t) || way * (t - r->timing.until) > 0)
+        return fail(err, MOTUS_ARGUMENT, "the time %s lies beyond the end of the run, %s", decimal(t, a),
+                    decimal(r->timing.until, b));
+    motus_status status = go_to(r, t, err);
+    const bool here = stepper_time(r->stepper) == t;
+    *x = here ? r->x : r->mid_x;
+    *v = here ? r->v : r->mid_v;
+    if (status != MOTUS_OK) return status;
+    return here ? run_sync(r, false, err) : stepper_sample(r->stepper, t, *x, *v, err);
+}
+
+static motus_status sample(motus_run *r, const double *times, size_t n, const size_t *columns, size_t count,
+                           double *out, motus_error *err)
+{
+    motus_status status = MOTUS_OK;
+    for (size_t i = 0; i < n && status == MOTUS_OK; i++, out += count) {
+        double *x, *v;
+        status = run_between(r, times[i], &x, &v, err);
+        if (status == MOTUS_OK) status = system_values(r->system, times[i], x, v, columns, count, out, err);
     }
-    return MOTUS_OK;
+    return status;
 }
 
 motus_status motus_run_sample(motus_run *r, const double *times, size_t n, const size_t *columns, size_t count,

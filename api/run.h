@@ -17,6 +17,7 @@ typedef struct timing {
 } timing;
 
 struct motus_run;
+typedef struct bars bars; /* api/bars.h */
 /* A time for a message, with the digits that tell it from the ends of the run. Returns out. */
 char *run_time_text(const struct motus_run *, double t, char out[DECIMAL_MAX]);
 
@@ -46,6 +47,8 @@ struct motus_run {
     size_t saved_room;
     bool locating;         /* the definition asks that steps end at switches */
     struct locate *locate; /* NULL: they do not */
+    bars *bars;            /* of error; NULL: none are asked for */
+    bool kept;             /* a compiled object is used only where there is one */
     struct trace *trace;   /* of the last step that was traced; NULL */
 };
 
@@ -53,6 +56,9 @@ struct motus_run {
 motus_status run_timing(const motus_system *, const chosen *, double step, double until, double start, timing *,
                         motus_error *);
 motus_status run_sync(motus_run *, bool with_a, motus_error *);
+/* The state at a time that is not before the last step, in the inside order: where it is kept. Takes steps as needed.
+ * MOTUS_ARGUMENT: t lies beyond the end, or before that step. */
+motus_status run_between(motus_run *, double t, double **x, double **v, motus_error *);
 /* Call it when the stepper was moved: forgets what was observed, and finds out whether the stepper is at the end. */
 motus_status run_moved(motus_run *, motus_error *);
 /* Begins a leg with this timing. */

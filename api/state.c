@@ -11,7 +11,7 @@
  *     …
  *     end 51b0…               hash of all the bytes before, so that a changed byte is found
  */
-#include "api/run.h"
+#include "api/bars.h"
 
 #include "base/decimal.h"
 
@@ -265,6 +265,7 @@ static motus_status restore(motus_run *r, const char *text, size_t length, motus
         status = stepper_load(r->stepper, then, carry, err);
     give(&r->allocator, carry);
     if (status != MOTUS_OK) return status; /* the run has not changed */
+    bars_give_up(r, "the run was restored, and its error up to there is not known");
     return run_moved(r, err);
 }
 

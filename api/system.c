@@ -52,10 +52,8 @@ static bool keep_text(motus_system *s, motus_text_def *def)
 
 static motus_status known_method(const char *name, motus_error *err) { return row_choose(name, NULL, NULL, err); }
 
-motus_status motus_system_from_text(const motus_text_def *given, motus_system **out, motus_error *err)
+motus_status system_read(const motus_text_def *given, bool nudged, motus_system **out, motus_error *err)
 {
-    if (!motus_error_sound(err)) return MOTUS_ARGUMENT;
-    if (!out) return fail(err, MOTUS_ARGUMENT, "motus_system_from_text needs a place for the system");
     *out = NULL;
     motus_text_def def;
     motus_status status = motus_struct_read(MOTUS_DEF_TEXT, given, &def, err);
@@ -64,7 +62,7 @@ motus_status motus_system_from_text(const motus_text_def *given, motus_system **
     motus_system *s = begin(&def.allocator);
     if (!s) return fail(err, MOTUS_MEMORY, "no memory for the system");
     modes m = modes_enter();
-    status = keep_text(s, &def) ? read_model(&s->arena, &def, known_method, &s->model, err)
+    status = keep_text(s, &def) ? read_model(&s->arena, &def, nudged, known_method, &s->model, err)
                                 : fail(err, MOTUS_MEMORY, "no memory for the model");
     if (status == MOTUS_OK) status = interpreter_create(s->model, &s->interpreter, &s->problem, err);
     if (status == MOTUS_OK) {
@@ -86,6 +84,13 @@ motus_status motus_system_from_text(const motus_text_def *given, motus_system **
     }
     *out = s;
     return MOTUS_OK;
+}
+
+motus_status motus_system_from_text(const motus_text_def *given, motus_system **out, motus_error *err)
+{
+    if (!motus_error_sound(err)) return MOTUS_ARGUMENT;
+    if (!out) return fail(err, MOTUS_ARGUMENT, "motus_system_from_text needs a place for the system");
+    return system_read(given, false, out, err);
 }
 
 /* Copies the initial values, and checks that they are finite. */

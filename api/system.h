@@ -61,6 +61,8 @@ struct motus_system {
 /* defaults.c. Whether the size in `made` is valid, when the versions had `sizes`, of which the last is the present. */
 typedef enum defaults_fit { SIZE_FITS, SIZE_MISSING, SIZE_UNKNOWN, SIZE_ASKS_MORE } defaults_fit;
 defaults_fit defaults_judge(const uint32_t *sizes, size_t count, const void *made);
+/* As motus_system_from_text; nudged: as in lang/text/source.h. */
+motus_status system_read(const motus_text_def *, bool nudged, motus_system **, motus_error *);
 /* Copy between the two orders. */
 void system_outside(const motus_system *, const double *x, const double *v, double *out_x, double *out_v);
 void system_inside(const motus_system *, const double *in_x, const double *in_v, double *x, double *v);

@@ -56,8 +56,8 @@ static void times(number *n, uint32_t factor) { times_plus(n, factor, 0); }
 
 static uint64_t bit(const number *n, int k) { return k >= 0 && k < 32 * n->count ? n->word[k / 32] >> k % 32 & 1 : 0; }
 
-/* n × 2^exponent as a double. */
-static double rounded(const number *n, int exponent)
+/* n × 2^exponent as a double, and the double on its other side. */
+static double rounded(const number *n, int exponent, double *other)
 {
     int top = 32 * n->count - 1;
     while (!bit(n, top)) top--;
@@ -67,12 +67,16 @@ static double rounded(const number *n, int exponent)
     for (int k = top; k >= last; k--) mantissa = mantissa << 1 | bit(n, k);
     bool rest = n->more;
     for (int k = last - 2; !rest && k >= 0; k--) rest = bit(n, k);
-    mantissa += bit(n, last - 1) && (rest || mantissa & 1);
-    return ldexp((double)mantissa, last + exponent);
+    const bool half = bit(n, last - 1), up = half && (rest || mantissa & 1);
+    mantissa += up;
+    /* above a power of two the neighbour below is nearer than the last bit says */
+    const double value = ldexp((double)mantissa, last + exponent);
+    *other = !half && !rest ? value : nextafter(value, up ? 0 : INFINITY);
+    return value;
 }
 
-/* n × 10^exponent as a double. */
-static double scaled(number *n, int exponent)
+/* n × 10^exponent as a double, and the double on its other side. */
+static double scaled(number *n, int exponent, double *other)
 {
     int words = 0;
     if (exponent >= 0) {
@@ -86,7 +90,7 @@ static double scaled(number *n, int exponent)
         n->count += words;
         by_fives(n, -exponent, over);
     }
-    return rounded(n, exponent - 32 * words);
+    return rounded(n, exponent - 32 * words, other);
 }
 
 static bool digit(const char *s, size_t length, size_t at) { return at < length && s[at] >= '0' && s[at] <= '9'; }
@@ -105,7 +109,7 @@ static size_t read_exponent(const char *s, size_t length, size_t at, int64_t *ex
     return end;
 }
 
-size_t decimal_read(const char *s, size_t length, double *value)
+size_t decimal_read_between(const char *s, size_t length, double *value, double *other)
 {
     number n = {.count = 0};
     size_t at = 0, digits = 0;
@@ -129,13 +133,21 @@ size_t decimal_read(const char *s, size_t length, double *value)
     }
     if (digits == 0) return 0;
     at = read_exponent(s, length, at, &exponent);
-    if (n.count == 0 || significant + exponent < SMALLEST)
-        *value = 0;
+    if (n.count == 0)
+        *other = *value = 0;
+    else if (significant + exponent < SMALLEST)
+        *value = 0, *other = nextafter(0, 1);
     else if (significant + exponent > LARGEST)
-        *value = INFINITY;
+        *value = INFINITY, *other = nextafter(INFINITY, 0);
     else
-        *value = scaled(&n, (int)exponent);
+        *value = scaled(&n, (int)exponent, other);
     return at;
+}
+
+size_t decimal_read(const char *s, size_t length, double *value)
+{
+    double other;
+    return decimal_read_between(s, length, value, &other);
 }
 
 size_t decimal_read_whole(const char *s, size_t length, uint64_t *value)

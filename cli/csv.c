@@ -10,13 +10,14 @@
 #include "cli/complain.h"
 #include "cli/text.h"
 
+#include <math.h>
 #include <stdlib.h>
 #include <math.h>
 #include <string.h>
 
 motus_status csv_plan(csv *c, const load *model, const options *o, motus_error *err)
 {
-    *c = (csv){.model = model};
+    *c = (csv){.model = model, .errors = o->errors};
     size_t all = motus_column_count(model->system);
     if (!o->columns) {
         c->columns = malloc((all + 1) * sizeof *c->columns);
@@ -110,28 +111,36 @@ motus_status csv_name(file_out *f, const char *name, motus_error *err)
 motus_status csv_begin(csv *c, file_out *file, const options *o, const motus_run *run, motus_error *err)
 {
     c->file = file;
-    c->line = c->count < SIZE_MAX / DECIMAL_MAX - 1 ? malloc((c->count + 1) * DECIMAL_MAX) : NULL;
+    c->line = c->count < SIZE_MAX / DECIMAL_MAX / 2 - 2 ? malloc((2 * c->count + 2) * DECIMAL_MAX) : NULL;
     if (!c->line) return complain_memory(err);
     motus_status status = put_head(c, o, run, err);
-    for (size_t k = 0; !status && k < c->count; k++) {
+    for (size_t k = 0; !status && k < (c->errors ? 2 : 1) * c->count; k++) {
         motus_column column = motus_default_column();
-        status = motus_column_at(c->model->system, c->columns[k], &column);
-        if (status) return fail(err, status, "column %zu has no name", c->columns[k]);
+        const bool error = k >= c->count;
+        status = motus_column_at(c->model->system, c->columns[k % c->count], &column);
+        if (status) return fail(err, status, "column %zu has no name", c->columns[k % c->count]);
+        if (error && column.kind == MOTUS_COLUMN_TIME) continue;
+        char name[sizeof column.name + 16];
+        snprintf(name, sizeof name, "%s%s", column.name, error ? ".error" : "");
         if (k > 0) status = file_text(c->file, ",", err);
-        if (!status) status = csv_name(c->file, column.name, err);
+        if (!status) status = csv_name(c->file, name, err);
     }
-    return status ? status : file_text(c->file, "\n", err);
+    return status ? status : file_text(c->file, c->errors ? ",significant\n" : "\n", err);
 }
 
 motus_status csv_row(void *context, const double *values, motus_error *err)
 {
     csv *c = context;
     char *s = c->line;
-    for (size_t k = 0; k < c->count; k++) {
+    bool significant = true;
+    for (size_t k = 0; k < (c->errors ? 2 : 1) * c->count; k++) {
+        if (k >= c->count && c->columns[k - c->count] == 0) continue; /* t */
         if (k > 0) *s++ = ',';
+        if (k >= c->count && isinf(values[k])) significant = false;
         decimal(values[k], s);
         s += strlen(s);
     }
+    if (c->errors) *s++ = ',', *s++ = significant ? '1' : '0';
     *s++ = '\n';
     c->rows++;
     return file_write(c->file, c->line, (size_t)(s - c->line), err);

@@ -10,7 +10,8 @@ typedef struct csv {
     const load *model;
     size_t *columns; /* the columns of the model, in the order of the file */
     size_t count;
-    char *line; /* room for one row */
+    bool errors; /* the error of every column but t behind them, and `significant` */
+    char *line;  /* room for one row */
     int64_t rows;
 } csv;
 

@@ -16,6 +16,7 @@
 enum {
     FINE_SAMPLES = 200000,
     COARSE_SAMPLES = 400,
+    BAR_SAMPLES = 500,
     MOST_CURVES = 8, /* in a panel: as many as there are styles */
     BUNDLE = 6,      /* a family up to this size is drawn as curves, a larger one as a heat map */
     HEAT_CELLS = 300,
@@ -67,6 +68,14 @@ static bool room_for_panel(figure *f)
     return false;
 }
 
+static bool add_band(figure *f, plot_curve *c, size_t column)
+{
+    c->at = f->bars_t;
+    c->middle = record_add(&f->bars, column);
+    if (c->middle) c->error = f->bars.errors[f->bars.count - 1];
+    return c->middle != NULL;
+}
+
 static bool add_against_t(figure *f, plot_panel *p, size_t column, plot_role role, bool change)
 {
     char label[PLOT_LABEL];
@@ -77,7 +86,7 @@ static bool add_against_t(figure *f, plot_panel *p, size_t column, plot_role rol
     c->role = role;
     c->timelike = true;
     c->change = change;
-    return true;
+    return role == PLOT_EXACT || change || !f->bars.with_errors || add_band(f, c, column);
 }
 
 /* Numbers of a variable against t, at most MOST_CURVES. */
@@ -333,7 +342,7 @@ static motus_status add_plane(figure *f, const char *text, motus_error *err)
     return status;
 }
 
-motus_status figure_begin(figure *f, const load *model, const options *o, motus_run *run, double until,
+motus_status figure_begin(figure *f, const load *model, const options *o, motus_run *run, double until, bool errors,
                           motus_error *err)
 {
     char step[DECIMAL_MAX];
@@ -351,7 +360,10 @@ motus_status figure_begin(figure *f, const load *model, const options *o, motus_
                  step);
     f->t = record_add(&f->fine, 0);
     f->coarse_t = record_add(&f->coarse, 0);
-    if (!f->t || !f->coarse_t) return complain_memory(err);
+    f->bars = record_for(steps, way, BAR_SAMPLES);
+    f->bars.with_errors = errors;
+    f->bars_t = errors ? record_add(&f->bars, 0) : NULL;
+    if (!f->t || !f->coarse_t || (errors && !f->bars_t)) return complain_memory(err);
     if (o->plot_of) return add_plane(f, o->plot_of, err);
     return add_everything(f) ? MOTUS_OK : complain_memory(err);
 }
@@ -361,6 +373,7 @@ void figure_observers(figure *f, walk_observer out[FIGURE_OBSERVERS])
     out[0] = record_observer(&f->fine);
     out[1] = record_observer(&f->coarse);
     out[2] = record_observer(&f->last);
+    out[3] = record_observer(&f->bars);
 }
 
 static bool fill_heat(figure *f, const figure_heat *h)
@@ -387,7 +400,13 @@ static bool fill_heat(figure *f, const figure_heat *h)
 motus_status figure_draw(figure *f, const char *path, file_out *file, motus_error *err)
 {
     for (size_t i = 0; i < f->plot.count; i++)
-        for (size_t k = 0; k < f->plot.panels[i].curve_count; k++) f->plot.panels[i].curves[k].count = f->fine.rows;
+        for (size_t k = 0; k < f->plot.panels[i].curve_count; k++) {
+            plot_curve *c = &f->plot.panels[i].curves[k];
+            c->count = f->fine.rows;
+            /* up to where no digit is significant any more, or no error is known */
+            for (c->band_count = 0; c->at && c->band_count < f->bars.rows; c->band_count++)
+                if (!isfinite(c->error[c->band_count])) break;
+        }
     for (size_t i = 0; i < f->heat_count; i++)
         if (!fill_heat(f, &f->heats[i])) return complain_memory(err);
     return plot_draw(&f->plot, path, file, err);
@@ -399,5 +418,6 @@ void figure_free(figure *f)
     record_free(&f->fine);
     record_free(&f->coarse);
     record_free(&f->last);
+    record_free(&f->bars);
     *f = (figure){0};
 }

@@ -6,7 +6,7 @@
 #include "cli/plot.h"
 #include "cli/record.h"
 
-enum { FIGURE_OBSERVERS = 3, FIGURE_PANELS = 10 };
+enum { FIGURE_OBSERVERS = 4, FIGURE_PANELS = 10 };
 
 typedef struct figure_heat {
     size_t panel, first;  /* first: of its columns in the record */
@@ -19,14 +19,16 @@ typedef struct figure {
     const load *model;
     plot_figure plot;
     record fine, coarse, last; /* curves; heat maps over time; fields at the end */
-    double *t, *coarse_t;
+    record bars;               /* curves with their errors; empty where the run tells none */
+    double *t, *coarse_t, *bars_t;
     figure_heat heats[FIGURE_PANELS];
     size_t heat_count;
     bool left_out; /* some cells or panels are not drawn */
 } figure;
 
-/* Chooses before the run what will be drawn. */
-motus_status figure_begin(figure *, const load *, const options *, motus_run *, double until, motus_error *);
+/* Chooses before the run what will be drawn. errors: the run tells them. */
+motus_status figure_begin(figure *, const load *, const options *, motus_run *, double until, bool errors,
+                          motus_error *);
 /* The observers that record it along the run. */
 void figure_observers(figure *, walk_observer out[FIGURE_OBSERVERS]);
 motus_status figure_draw(figure *, const char *path, file_out *, motus_error *);

@@ -55,6 +55,10 @@ static const option table[] = {
      "equal work: each method's step is chosen to spend N evaluations"},
     {"--output", "-o", "FILE", WORD, AT(output), ONE | VERB_LAB,
      "write the CSV (sweep: .npy as well; lab: the page) to FILE; - is standard output"},
+    {"--error", NULL, "HOW", WORD, AT(error), VERB_RUN,
+     "the error of every final number: cheap (else; by twice the work), full (three times), none"},
+    {"--errors", NULL, NULL, FLAG, AT(errors), VERB_RUN,
+     "add the errors to the CSV: x.error for every column, and whether any digit is significant"},
     {"--columns", NULL, "A,B,C", WORD, AT(columns), VERB_RUN,
      "columns of the CSV: t, r, r'.x, x[3]', energy, \"exact x\""},
     {"--every", NULL, "T", EVERY, AT(every_time), ONE,
@@ -328,6 +332,16 @@ static motus_status check(const options *o, motus_error *err)
         strcmp(machine, "compiled") != 0) {
         fail(err, MOTUS_ARGUMENT, "--machine %s: there is no such machine", machine);
         hint(err, "auto, interpreter or compiled");
+        return MOTUS_ARGUMENT;
+    }
+    if (o->error && strcmp(o->error, "none") != 0 && strcmp(o->error, "cheap") != 0 && strcmp(o->error, "full") != 0) {
+        fail(err, MOTUS_ARGUMENT, "--error %s: there is no such way to tell the error", o->error);
+        hint(err, "cheap, full or none");
+        return MOTUS_ARGUMENT;
+    }
+    if (o->errors && (!o->output || (o->error && strcmp(o->error, "none") == 0))) {
+        fail(err, MOTUS_ARGUMENT, o->output ? "--errors needs errors" : "--errors needs -o, which names the CSV");
+        hint(err, o->output ? "leave --error none out" : "add -o traj.csv");
         return MOTUS_ARGUMENT;
     }
     if (o->threads > MOTUS_THREADS_MAX) {

@@ -27,7 +27,7 @@ typedef struct options_list {
 typedef struct options {
     unsigned verb;
     const char *operand; /* the model, or the method of `methods`; NULL: none */
-    const char *method, *output, *columns, *plot, *plot_of, *save_state, *restart, *machine;
+    const char *method, *error, *output, *columns, *plot, *plot_of, *save_state, *restart, *machine;
     double step, until, tolerance;        /* NaN: the model's */
     bool absolute;                        /* the tolerance is in the units of the numbers */
     double shortest_step, longest_step;   /* 0: not given */
@@ -43,7 +43,7 @@ typedef struct options {
     bool seeded; /* a seed was given */
     bool zip, fast, resume, force;
     char *methods_text; /* the items of `methods` point into it */
-    bool json, quiet, help, markdown, points, emit_c, clear, share, no_open;
+    bool errors, json, quiet, help, markdown, points, emit_c, clear, share, no_open;
     int argc;
     char **argv; /* the command line, for the header of files */
 } options;

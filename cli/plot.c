@@ -22,6 +22,8 @@ enum {
     PATH_MOST = 40000 /* points of a path, about */
 };
 
+#define BAND_LEAST 1e-3 /* of the curve's height: a band of less is no wider than the curve's line */
+
 typedef struct style {
     const char *colour, *dashes;
     int marker;
@@ -162,6 +164,20 @@ static void put_curve(FILE *out, plot_curve *c)
         for (size_t i = 0; i < c->count; i++) put_point(out, c, i);
 }
 
+/* A band that is thinner than a line is not drawn. */
+static bool has_band(const plot_curve *c)
+{
+    double widest = 0;
+    for (size_t i = 0; i < c->band_count; i++) widest = fmax(widest, c->error[i]);
+    return widest > BAND_LEAST * extent(c->y, c->count, c->stride);
+}
+
+static void put_band(FILE *out, const plot_curve *c)
+{
+    for (size_t i = 0; i < c->band_count; i++)
+        fprintf(out, "%.12g %.10g %.10g\n", c->at[i], c->middle[i] - c->error[i], c->middle[i] + c->error[i]);
+}
+
 static void put_heat(FILE *out, const plot_panel *p)
 {
     for (size_t r = 0; r < p->heat_rows; r++)
@@ -186,6 +202,10 @@ static void put_data(FILE *out, plot_figure *f)
         for (size_t k = 0; k < p->curve_count; k++) {
             fprintf(out, "$d%zu_%zu << END_OF_DATA\n", i, k);
             put_curve(out, &p->curves[k]);
+            fputs("END_OF_DATA\n", out);
+            if (!has_band(&p->curves[k])) continue;
+            fprintf(out, "$b%zu_%zu << END_OF_DATA\n", i, k);
+            put_band(out, &p->curves[k]);
             fputs("END_OF_DATA\n", out);
         }
     }
@@ -236,6 +256,13 @@ static void put_curves(FILE *out, const plot_panel *p, size_t panel)
             const plot_curve *c = &p->curves[k];
             size_t own = index;
             index += c->role == PLOT_LINE;
+            if (pass == 0 && has_band(c)) {
+                fprintf(out, "%s$b%zu_%zu using 1:2:3 with filledcurves fc rgb '%s' fs transparent solid 0.25 noborder",
+                        first ? "" : ", ", panel, k, styles[own % STYLES].colour);
+                fputs(" title ", out);
+                quoted(out, "error");
+                first = false;
+            }
             if ((c->role == PLOT_EXACT) != (pass == 0)) continue;
             fprintf(out, "%s$d%zu_%zu using %s", first ? "" : ", ", panel, k, c->z ? "1:2:3" : "1:2");
             put_curve_style(out, p, c, own, lines);

@@ -22,6 +22,9 @@ typedef struct plot_curve {
     bool change;   /* draws y minus its first value */
     bool timelike; /* x grows along the curve, so thinning can go by columns of the picture */
     size_t drawn;  /* points left after thinning; set by plot_draw() */
+    /* NULL, or a band between middle - error and middle + error at the times `at`; of a curve against t */
+    const double *at, *middle, *error;
+    size_t band_count;
 } plot_curve;
 
 typedef struct plot_panel {

@@ -24,6 +24,15 @@ record record_for(int64_t steps, double way, int64_t samples)
     return r;
 }
 
+static bool add_errors(record *r)
+{
+    double **errors = realloc(r->errors, (r->count + 1) * sizeof *errors);
+    if (!errors) return false;
+    r->errors = errors;
+    errors[r->count] = r->room < SIZE_MAX / sizeof **errors ? malloc(r->room * sizeof **errors) : NULL;
+    return errors[r->count] != NULL;
+}
+
 double *record_add(record *r, size_t column)
 {
     size_t *columns = realloc(r->columns, (r->count + 1) * sizeof *columns);
@@ -34,6 +43,10 @@ double *record_add(record *r, size_t column)
     r->values = values;
     double *array = r->room < SIZE_MAX / sizeof *array ? malloc(r->room * sizeof *array) : NULL;
     if (!array) return NULL;
+    if (r->with_errors && !add_errors(r)) {
+        free(array);
+        return NULL;
+    }
     columns[r->count] = column;
     values[r->count++] = array;
     return array;
@@ -45,19 +58,27 @@ static motus_status take(void *context, const double *values, motus_error *err)
     record *r = context;
     if (r->rows == r->room) r->rows--;
     for (size_t k = 0; k < r->count; k++) r->values[k][r->rows] = values[k];
+    for (size_t k = 0; r->with_errors && k < r->count; k++) r->errors[k][r->rows] = values[r->count + k];
     r->rows++;
     return MOTUS_OK;
 }
 
 walk_observer record_observer(record *r)
 {
-    return (walk_observer){
-        .stride = r->stride, .period = r->period, .columns = r->columns, .count = r->count, .take = take, .context = r};
+    return (walk_observer){.stride = r->stride,
+                           .period = r->period,
+                           .columns = r->columns,
+                           .count = r->count,
+                           .errors = r->with_errors,
+                           .take = take,
+                           .context = r};
 }
 
 void record_free(record *r)
 {
     for (size_t k = 0; k < r->count; k++) free(r->values[k]);
+    for (size_t k = 0; r->errors && k < r->count; k++) free(r->errors[k]);
+    free(r->errors);
     free(r->columns);
     free(r->values);
     *r = (record){0};

@@ -10,7 +10,9 @@ typedef struct record {
     size_t count;
     size_t rows, room; /* a record with room for one row keeps the last */
     int64_t stride;
-    double period; /* where steps adapt: of time, in place of a stride of steps */
+    double period;   /* where steps adapt: of time, in place of a stride of steps */
+    double **errors; /* errors[k][row] of columns[k]; NULL: they are not recorded */
+    bool with_errors;
 } record;
 
 /* For at most `samples` samples of a run of `steps` steps over the time `way`; 0: steps adapt. 1: at the end only. */

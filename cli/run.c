@@ -28,7 +28,8 @@ typedef struct job {
     load model;
     motus_run_def def;
     motus_run *run;
-    motus_error singular; /* its status: what motus_run_singular says of the run */
+    motus_estimate estimate; /* of its errors */
+    motus_error singular;    /* its status: what motus_run_singular says of the run */
     stop_progress progress;
     double start, until;
     csv csv;
@@ -78,6 +79,14 @@ static motus_status save(job *j, motus_error *err)
     return status ? status : file_write(&j->files[STATE], text, length, err);
 }
 
+/* Nothing is computed that nobody sees. */
+static motus_bars bars_wanted(const options *o)
+{
+    const bool seen = !o->quiet || o->json || o->errors || o->plot;
+    if (!seen || (o->error && strcmp(o->error, "none") == 0)) return MOTUS_BARS_NONE;
+    return o->error && strcmp(o->error, "full") == 0 ? MOTUS_BARS_FULL : MOTUS_BARS_CHEAP;
+}
+
 static motus_status begin(job *j, motus_error *err)
 {
     const options *o = j->options;
@@ -98,6 +107,7 @@ static motus_status begin(job *j, motus_error *err)
     j->def.threads = (int)o->threads;
     j->def.progress = stop_progress_hook;
     j->def.context = &j->progress;
+    j->def.error = bars_wanted(o);
     status = motus_run_create(j->model.system, &j->def, &j->run, err);
     if (status) return status;
     if (motus_run_note(j->run)[0] && !o->quiet) complain_note("the interpreter runs this: %s", motus_run_note(j->run));
@@ -105,7 +115,8 @@ static motus_status begin(job *j, motus_error *err)
     j->until = load_until(&j->model);
     status = deviation_begin(&j->deviation, &j->model, j->run, err);
     if (!status && o->restart) status = restart(j, err);
-    if (!status && o->plot) status = figure_begin(&j->figure, &j->model, o, j->run, j->until, err);
+    const bool errors = j->def.error != MOTUS_BARS_NONE;
+    if (!status && o->plot) status = figure_begin(&j->figure, &j->model, o, j->run, j->until, errors, err);
     const char *const names[FILES] = {o->output, o->plot, o->save_state};
     for (int i = 0; !status && i < FILES; i++)
         if (names[i]) status = file_create(&j->files[i], names[i], err);
@@ -119,7 +130,8 @@ static walk_observer rows_observer(job *j)
     const options *o = j->options;
     motus_settings settings = motus_default_settings();
     motus_settings_of(j->model.system, &settings);
-    walk_observer w = {.columns = j->csv.columns, .count = j->csv.count, .take = csv_row, .context = &j->csv};
+    walk_observer w = {
+        .columns = j->csv.columns, .count = j->csv.count, .errors = o->errors, .take = csv_row, .context = &j->csv};
     bool ours = o->every_time > 0 || o->every_steps > 0;
     double period = ours ? o->every_time : settings.every_time > 0 ? settings.every_time : 0;
     int64_t steps = ours ? o->every_steps : settings.every_steps;
@@ -162,7 +174,10 @@ static motus_status finish(job *j, double seconds, motus_error *err)
                  &j->deviation,
                  j->start,
                  seconds,
-                 j->singular.status == MOTUS_SINGULAR ? j->singular.time : NAN};
+                 j->singular.status == MOTUS_SINGULAR ? j->singular.time : NAN,
+                 j->def.error != MOTUS_BARS_NONE,
+                 j->estimate};
+    if (j->singular.status) s.estimate.reason = j->singular.message;
     if (!status && o->json)
         status = summary_json(&s, err);
     else if (!status && !o->quiet && !(o->plot && strcmp(o->plot, "-") == 0))
@@ -192,13 +207,14 @@ motus_status run_verb(const options *o, motus_error *err)
 {
     if (o->emit_c) return emit(o, err);
     if (o->share) return share_verb(o, err);
-    job j = {.options = o, .singular = motus_default_error()};
+    job j = {.options = o, .estimate = motus_default_estimate(), .singular = motus_default_error()};
     motus_status status = begin(&j, err);
     if (!status) {
         j.progress = stop_progress_begin("run", o->quiet);
         double began = stop_clock();
         status = go(&j, err);
-        double seconds = stop_clock() - began;
+        if (!status && j.def.error != MOTUS_BARS_NONE) status = motus_run_estimate(j.run, &j.estimate, err);
+        double seconds = fmax(0, stop_clock() - began - j.estimate.seconds); /* of the run alone */
         stop_progress_end(&j.progress);
         if (!status && motus_run_singular(j.model.system, &j.def, &j.singular) == MOTUS_MEMORY)
             *err = j.singular, status = MOTUS_MEMORY;

@@ -6,11 +6,14 @@
 #include "cli/summary.h"
 
 #include "base/error.h"
+#include "cli/answer.h"
+#include "cli/bar.h"
 #include "cli/complain.h"
 #include "cli/figure.h"
 #include "cli/settle.h"
 #include "cli/table.h"
 #include "cli/text.h"
+#include "tell/tell.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -33,7 +36,58 @@ static motus_status values_of(const summary *s, size_t first, size_t count, doub
     return status;
 }
 
+/* The errors of columns [first, first + count). */
+static motus_status errors_of(const summary *s, size_t first, size_t count, double **out, motus_error *err)
+{
+    size_t *columns = calloc(count + 1, sizeof *columns);
+    *out = malloc((count + 1) * sizeof **out);
+    motus_status status = columns && *out ? MOTUS_OK : complain_memory(err);
+    for (size_t k = 0; !status && k < count; k++) columns[k] = first + k;
+    if (!status) status = motus_run_errors(s->run, columns, count, NULL, *out, err);
+    for (size_t k = 0; !status && s->estimate.reason[0] && k < count; k++) (*out)[k] = NAN;
+    free(columns);
+    if (status) {
+        free(*out);
+        *out = NULL;
+    }
+    return status;
+}
+
 /* ---- tables ---- */
+
+/* The value of a column at the end, with its error. */
+static motus_status final_cell(const summary *s, table *t, size_t column, double value, motus_error *err)
+{
+    double error = NAN;
+    motus_status status = s->errors ? motus_run_errors(s->run, &column, 1, NULL, &error, err) : MOTUS_OK;
+    if (s->errors)
+        table_bar(t, value, s->estimate.reason[0] ? NAN : error);
+    else
+        table_exact(t, value);
+    return status;
+}
+
+/* The errors of a family: their root mean square, the largest, and where it is. */
+static motus_status worst_cell(const summary *s, table *t, size_t first, size_t count, motus_error *err)
+{
+    double *errors = NULL;
+    char text[MOTUS_NAME_MAX + 192] = "", bar[DECIMAL_MAX], rms[DECIMAL_MAX];
+    motus_status status = s->errors ? errors_of(s, first, count, &errors, err) : MOTUS_OK;
+    size_t worst = 0;
+    double squares = 0;
+    for (size_t k = 0; errors && k < count; k++) {
+        squares += errors[k] * errors[k];
+        if (errors[k] > errors[worst]) worst = k;
+    }
+    motus_column c = motus_default_column();
+    if (errors && isfinite(errors[worst]) && motus_column_at(s->model->system, first + worst, &c) == MOTUS_OK) {
+        snprintf(text, sizeof text, "all: rms ± %s, most ± %s in %s", bar_error(sqrt(squares / (double)count), rms),
+                 bar_error(errors[worst], bar), c.name);
+    }
+    free(errors);
+    if (!status) table_cell(t, text);
+    return status;
+}
 
 static size_t exact_column(const summary *s, size_t variable, bool velocity, size_t offset)
 {
@@ -59,7 +113,8 @@ static motus_status rows(const summary *s, table *t, size_t first, size_t count,
         status = motus_run_values(s->run, columns, columns[1] ? 2 : 1, value, err);
         if (status) return status;
         table_cell(t, c.name);
-        table_exact(t, value[0]);
+        status = final_cell(s, t, columns[0], value[0], err);
+        if (status) return status;
         if (!exact) continue;
         if (columns[1])
             table_exact(t, value[1]);
@@ -71,7 +126,9 @@ static motus_status rows(const summary *s, table *t, size_t first, size_t count,
         char more[64];
         snprintf(more, sizeof more, "… and %zu more", count - SHOWN);
         table_cell(t, more);
-        for (int i = 0; i < (exact ? 3 : 1); i++) table_cell(t, "");
+        motus_status status = worst_cell(s, t, first, count, err);
+        if (status) return status;
+        for (int i = 0; i < (exact ? 2 : 0); i++) table_cell(t, "");
     }
     return MOTUS_OK;
 }
@@ -112,7 +169,7 @@ static table *quantity_table(const summary *s, motus_error *err, motus_status *s
     return t;
 }
 
-static table *invariant_table(const summary *s)
+static table *invariant_table(const summary *s, motus_error *err, motus_status *status)
 {
     if (s->deviation->count == 0) return NULL;
     table *t = table_create("lllr");
@@ -125,7 +182,7 @@ static table *invariant_table(const summary *s)
         bool known = motus_column_at(s->model->system, s->deviation->columns[k], &c) == MOTUS_OK;
         table_cell(t, known ? c.name : "");
         table_exact(t, s->deviation->initial[k]);
-        table_exact(t, s->deviation->final[k]);
+        if (!*status) *status = final_cell(s, t, s->deviation->columns[k], s->deviation->final[k], err);
         table_number(t, s->deviation->most[k], -2);
     }
     return t;
@@ -181,7 +238,7 @@ motus_status summary_print(const summary *s, motus_error *err)
     table *tables[3] = {NULL, NULL, NULL};
     tables[0] = state_table(s, err, &status);
     if (!status) tables[1] = quantity_table(s, err, &status);
-    if (!status) tables[2] = invariant_table(s);
+    if (!status) tables[2] = invariant_table(s, err, &status);
     if (!status) {
         head(s, out, colours);
         for (int i = 0; i < 3; i++) {
@@ -189,6 +246,7 @@ motus_status summary_print(const summary *s, motus_error *err)
             putc('\n', out);
             printed = table_print(tables[i], out, 2, colours) && printed;
         }
+        if (s->errors) answer_print(s, out);
     }
     for (int i = 0; i < 3; i++) table_destroy(tables[i]);
     return status || printed ? status : complain_memory(err);
@@ -236,11 +294,11 @@ static void variable_json(json *j, const char *key, const double *values, const 
     json_close(j, ']');
 }
 
-static bool state_json(json *j, const summary *s, const double *values)
+/* The numbers of all variables, as members of the open object. True: some are left out. */
+static bool states_json(json *j, const summary *s, const double *values)
 {
     size_t left = SUMMARY_STATE_MAX;
     motus_variable v = motus_default_variable();
-    json_open(j, "state", '{');
     for (size_t k = 0; left > 0 && motus_variable_at(s->model->system, k, &v) == MOTUS_OK; k++)
         for (int prime = 0; prime < (v.order == 2 ? 2 : 1) && left > 0; prime++) {
             char name[MOTUS_NAME_MAX + 1];
@@ -249,7 +307,6 @@ static bool state_json(json *j, const summary *s, const double *values)
             snprintf(name, sizeof name, "%s%s", v.name, prime ? "'" : "");
             variable_json(j, name, values + (p.first - 1), &p, &v, &left);
         }
-    json_close(j, '}');
     return s->model->positions + s->model->velocities > SUMMARY_STATE_MAX;
 }
 
@@ -281,16 +338,30 @@ static void invariants_json(json *j, const summary *s)
     json_close(j, '}');
 }
 
-static void quantities_json(json *j, const summary *s, const double *values)
+/* The numbers of all quantities, or invariants, as members of the open object. */
+static void named_json(json *j, const summary *s, load_naming *name, const double *values)
 {
-    json_open(j, "quantities", '{');
-    for (size_t k = 0; k < motus_quantity_count(s->model->system); k++) {
-        size_t numbers = 0;
-        const char *name = motus_quantity_name(s->model->system, k, &numbers);
-        numbers_json(j, name, values, numbers);
-        values += numbers;
-    }
+    size_t numbers = 0;
+    const char *one;
+    for (size_t k = 0; (one = name(s->model->system, k, &numbers)) != NULL; k++, values += numbers)
+        numbers_json(j, one, values, numbers);
+}
+
+/* error{name: value}: null where it is not known, or where no digit is significant. */
+static motus_status errors_json(json *j, const summary *s, motus_error *err)
+{
+    const size_t quantities = load_quantity_column(s->model), invariants = load_invariant_column(s->model);
+    double *errors = NULL;
+    motus_status status = errors_of(s, 0, invariants + s->model->invariants, &errors, err);
+    if (status) return status;
+    json_open(j, "error", '{');
+    states_json(j, s, errors + 1);
+    named_json(j, s, motus_quantity_name, errors + quantities);
+    named_json(j, s, motus_invariant_name, errors + invariants);
     json_close(j, '}');
+    tell_estimate(j, &s->estimate);
+    free(errors);
+    return MOTUS_OK;
 }
 
 /* A step, or what an adaptive method has made of its tolerance. */
@@ -325,11 +396,17 @@ motus_status summary_json(const summary *s, motus_error *err)
         json_integer(&j, "evaluations", motus_run_evaluations(s->run));
         json_integer(&j, "iterations", motus_run_iterations(s->run));
         json_number(&j, "time", motus_run_time(s->run));
-        if (state_json(&j, s, state)) json_bool(&j, "cut", true);
-        quantities_json(&j, s, quantities);
+        json_open(&j, "state", '{');
+        const bool cut = states_json(&j, s, state);
+        json_close(&j, '}');
+        if (cut) json_bool(&j, "cut", true);
+        json_open(&j, "quantities", '{');
+        named_json(&j, s, motus_quantity_name, quantities);
+        json_close(&j, '}');
         invariants_json(&j, s);
         json_number(&j, "seconds", s->seconds);
         json_number(&j, "singularity", s->singularity);
+        if (s->errors) status = errors_json(&j, s, err);
         json_end(&j);
     }
     free(state);

@@ -14,6 +14,8 @@ typedef struct summary {
     const deviation *deviation;
     double start, seconds;
     double singularity; /* where the run has passed one; NaN: nowhere */
+    bool errors;        /* the run tells the errors of its numbers */
+    motus_estimate estimate;
 } summary;
 
 motus_status summary_print(const summary *, motus_error *);

@@ -5,6 +5,7 @@
  */
 #include "cli/table.h"
 
+#include "cli/bar.h"
 #include "cli/text.h"
 
 #include <stdlib.h>
@@ -72,6 +73,12 @@ void table_exact(table *t, double value)
     char text[DECIMAL_MAX];
     decimal(value, text);
     table_cell(t, text);
+}
+
+void table_bar(table *t, double value, double error)
+{
+    char text[BAR_MAX];
+    table_cell(t, bar_text(value, error, text));
 }
 
 void table_integer(table *t, long long value)

@@ -14,6 +14,7 @@ void table_destroy(table *);
 void table_cell(table *, const char *text);
 void table_number(table *, double value, int digits); /* as text_brief() */
 void table_exact(table *, double value);              /* the shortest decimal that reads back the same */
+void table_bar(table *, double value, double error);  /* as bar_text() */
 void table_integer(table *, long long value);
 /* False: memory ran out while the table was made. */
 bool table_print(const table *, FILE *, int indent, bool colours);

@@ -34,10 +34,20 @@ int64_t walk_steps_of_run(const motus_run *run, double period)
 static motus_status observe(walker *w, const walk_observer *o, motus_error *err)
 {
     if (o->count > 0) {
-        motus_status status = motus_run_values(w->run, o->columns, o->count, w->values, err);
+        motus_status status = o->errors
+                                  ? motus_run_errors(w->run, o->columns, o->count, w->values, w->values + o->count, err)
+                                  : motus_run_values(w->run, o->columns, o->count, w->values, err);
         if (status) return status;
     }
     return o->take(o->context, w->values, err);
+}
+
+/* One time, of which the values and the errors lie side by side. */
+static motus_status sample_errors(walker *w, const walk_observer *o, double t, motus_error *err)
+{
+    motus_status status =
+        motus_run_sample_errors(w->run, &t, 1, o->columns, o->count, w->values, w->values + o->count, err);
+    return status ? status : o->take(o->context, w->values, err);
 }
 
 /* Takes the samples at times start + k period, from *k on, up to `limit`; the end is observed when it is reached. */
@@ -53,8 +63,11 @@ static motus_status sample(walker *w, const walk_observer *o, int64_t *k, double
             if (sign * (times[n] - limit) > 0) break;
         }
         if (n == 0) return MOTUS_OK;
-        motus_status status = motus_run_sample(w->run, times, n, o->columns, o->count, w->values, err);
-        for (size_t i = 0; !status && i < n; i++) status = o->take(o->context, w->values + i * o->count, err);
+        motus_status status = MOTUS_OK;
+        for (size_t i = 0; o->errors && !status && i < n; i++) status = sample_errors(w, o, times[i], err);
+        if (!o->errors) status = motus_run_sample(w->run, times, n, o->columns, o->count, w->values, err);
+        for (size_t i = 0; !o->errors && !status && i < n; i++)
+            status = o->take(o->context, w->values + i * o->count, err);
         if (!status && stop_requested()) status = fail(err, MOTUS_CANCELLED, "cancelled");
         if (status || n < CHUNK) return status;
     }
@@ -123,7 +136,7 @@ motus_status walk(motus_run *run, double start, double until, const walk_observe
     walker w = {.run = run, .start = start, .until = until, .step = until < start ? -size : size};
     size_t widest = 1;
     for (size_t i = 0; i < count; i++) {
-        size_t rows = observers[i].period > 0 ? CHUNK : 1;
+        size_t rows = observers[i].errors ? 2 : observers[i].period > 0 ? CHUNK : 1;
         if (observers[i].count > SIZE_MAX / sizeof(double) / rows) return complain_memory(err);
         widest = observers[i].count * rows > widest ? observers[i].count * rows : widest;
     }

@@ -4,13 +4,16 @@
 
 #include "motus.h"
 
+#include <stdbool.h>
+
 /* Called at steps 0, stride, 2 stride, … and at the end; or, with `period` > 0, at times start + k period (between
- * steps by dense output) and at the end. */
+ * steps by dense output) and at the end. With `errors` the values are followed by as many errors. */
 typedef struct walk_observer {
     int64_t stride;
     double period;
     const size_t *columns;
     size_t count;
+    bool errors;
     motus_status (*take)(void *context, const double *values, motus_error *);
     void *context;
 } walk_observer;

@@ -33,6 +33,10 @@ void stepper_destroy(stepper *);
  * computed. */
 motus_status stepper_start(stepper *, double t0, double h, const double *x, const double *v, motus_error *);
 
+/* Begins a new leg at the present state, which counts as that of time t, with step h, of adaptive rows the first. Where
+ * additions are compensated the rounding errors of the state stay known. */
+motus_status stepper_turn(stepper *, double t, double h, motus_error *);
+
 /* How far: so many steps, or up to a time (NaN: none), whichever comes first; and which it was. */
 typedef struct stepper_limit {
     int64_t steps;

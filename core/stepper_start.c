@@ -180,6 +180,26 @@ void stepper_begin(stepper *s, double t0, double h, const double *x, const doubl
     if (s->library.solver) solver_forget(s->library.solver);
 }
 
+motus_status stepper_turn(stepper *s, double t, double h, motus_error *err)
+{
+    work *w = &s->work;
+    const size_t nx = w->nx, nv = w->nv;
+    if (!stepper_ends(s)) return fail(err, MOTUS_MEMORY, "out of memory for another step size");
+    double *x = s->ends + nx + 2 * nv, *v = x + nx, *error = s->ends;
+    motus_status status = stepper_sync(s, x, v, NULL, err);
+    if (status) return status;
+    /* A velocity that waits for its closing kick gets its error word with it. */
+    const bool words = w->row->compensated && w->n > 0, whole = words && !w->fsal;
+    if (words) memcpy(error, w->ex, nx * sizeof *error);
+    if (whole) memcpy(error + nx, w->ev, nv * sizeof *error);
+    status = stepper_start(s, t, h, x, v, err);
+    if (status) return status;
+    if (w->carried) w->next = h;
+    if (words) memcpy(w->ex, error, nx * sizeof *error);
+    if (whole) memcpy(w->ev, error + nx, nv * sizeof *error);
+    return MOTUS_OK;
+}
+
 motus_status stepper_start(stepper *s, double t0, double h, const double *x, const double *v, motus_error *err)
 {
     motus_status status = check_start(s, t0, h, x, v, err);

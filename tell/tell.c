@@ -212,6 +212,18 @@ void tell_convergence(json *j, const motus_convergence *c)
     json_close(j, ']');
 }
 
+/* Error bars ------------------------------------------------------------------------------------------------------ */
+
+void tell_estimate(json *j, const motus_estimate *e)
+{
+    json_number(j, "significant_until", e->significant_until); /* null: digits are significant up to the end */
+    json_number(j, "error_rate", e->rate);
+    json_number(j, "error_growth", e->growth);
+    json_number(j, "error_work", e->work);
+    json_bool(j, "kinked", e->kinked);
+    json_string(j, "error_reason", e->reason);
+}
+
 /* Errors ---------------------------------------------------------------------------------------------------------- */
 
 void tell_error(json *j, const motus_error *err, const char *message)

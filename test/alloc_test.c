@@ -310,6 +310,47 @@ static motus_status travel(motus_system *s, const char *method, uint64_t *result
     return status;
 }
 
+/* A run with bars of error: sampled, finished, asked for them. */
+static motus_status barred(motus_system *s, const char *method, uint64_t *result, motus_error *err)
+{
+    motus_run_def def = motus_default_run();
+    motus_estimate estimate = motus_default_estimate();
+    motus_run *r = NULL;
+    const size_t count = motus_column_count(s);
+    size_t *columns = malloc(count * sizeof *columns);
+    double *values = malloc(2 * count * sizeof *values);
+    const double time = 0.06;
+    assert_true(columns && values);
+    for (size_t k = 0; k < count; k++) columns[k] = k;
+    def.method = method;
+    def.step = 0.025;
+    def.until = 0.2;
+    def.error = MOTUS_BARS_FULL;
+    motus_status status = motus_run_create(s, &def, &r, err);
+    if (status == MOTUS_OK) status = motus_run_sample_errors(r, &time, 1, columns, count, values, values + count, err);
+    if (status == MOTUS_OK) *result = mix(1, values, 2 * count * sizeof *values);
+    if (status == MOTUS_OK) status = motus_run_finish(r, err);
+    if (status == MOTUS_OK) status = motus_run_errors(r, columns, count, values, values + count, err);
+    if (status == MOTUS_OK) *result = mix(*result, values, 2 * count * sizeof *values);
+    if (status == MOTUS_OK) status = motus_run_estimate(r, &estimate, err);
+    if (status == MOTUS_OK) assert_string_equal(estimate.reason, "");
+    motus_run_destroy(r);
+    free(columns);
+    free(values);
+    return status;
+}
+
+static void bars(void **state)
+{
+    (void)state;
+    for (int i = 0; i <= TEXTS; i++) {
+        const char *text = i < TEXTS ? texts[i] : NULL;
+        assert_true(refuse_each(text, "verlet", barred, "bars") >= 8);
+        if (!strcmp(text ? text : "", rich)) refuse_each(text, "exact", barred, "bars");
+        if (i >= LARGE) refuse_each(text, "gauss6", barred, "bars");
+    }
+}
+
 static void runs(void **state)
 {
     (void)state;
@@ -672,12 +713,19 @@ static void a_pool_without_release(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(systems),    cmocka_unit_test(wrong_texts),
-        cmocka_unit_test(runs),       cmocka_unit_test(runs_across_switches),
-        cmocka_unit_test(admission),  cmocka_unit_test(what_may_be_set),
-        cmocka_unit_test(setting),    cmocka_unit_test(explanations),
-        cmocka_unit_test(statements), cmocka_unit_test(suggestions),
-        cmocka_unit_test(studies),    cmocka_unit_test(a_pool_without_release),
+        cmocka_unit_test(systems),
+        cmocka_unit_test(wrong_texts),
+        cmocka_unit_test(runs),
+        cmocka_unit_test(bars),
+        cmocka_unit_test(runs_across_switches),
+        cmocka_unit_test(admission),
+        cmocka_unit_test(what_may_be_set),
+        cmocka_unit_test(setting),
+        cmocka_unit_test(explanations),
+        cmocka_unit_test(statements),
+        cmocka_unit_test(suggestions),
+        cmocka_unit_test(studies),
+        cmocka_unit_test(a_pool_without_release),
         cmocka_unit_test(ensembles),
     };
     open_cache();

@@ -146,6 +146,41 @@ gives "run for people" 0 "$motus" run models/projectile.motus
 that "... shows the exact motion" says exact
 that "... and the drift of the energy" says energy
 that "... has no colour outside a terminal" eval "! grep -q $'\033' '$out'"
+# --- the error of the answer: the exact motion has x(100) = 0.04778309565760847
+gives "the error of x" 0 "$motus" run $oscillator --json
+that "... has its keys" holds 'has("error") and has("significant_until") and .error_reason == ""'
+that "... covers the exact motion" holds '((.state.x - 0.04778309565760847) | fabs) as $e | .error.x >= $e and .error.x <= 4 * $e'
+that "... at twice the work" holds '.error_work >= 2 and .error_work < 2.02'
+"$motus" run $oscillator --json --error none >"$place/none" 2>&1
+that "--error none: the same numbers, and no key" [ "$(jq -c '[.state, has("error")]' "$place/none")" = "$(jq -c '[.state, false]' "$out")" ]
+gives "run for people says its error" 0 "$motus" run $oscillator
+that "... behind the number" says "0.0477824 ± 1.5e-6"
+that "... that it is the error of the step" says "± is the error of h = 0.001"
+that "... and what it cost" says "error: 2 × the work"
+gives "--error none for people" 0 "$motus" run $oscillator --error none
+that "... prints all digits" says "0.047782398071872206"
+that "... and no error" lacks "±"
+gives "--error full" 0 "$motus" run $oscillator --error full
+that "... costs three times" says "error: 3 × the work"
+gives "chaos" 0 "$motus" run models/henon-heiles.motus --until 900
+that "... has an end" says "no digit is significant after t = 3"
+that "... and a rate" says "errors grow as e^{0.04"
+that "... and prints no digit beyond it" says "x      —"
+gives "chaos in JSON" 0 "$motus" run models/henon-heiles.motus --until 900 --json
+that "... has numbers, and no errors" holds '.significant_until > 200 and .error.x == null and (.state.x | type == "number")'
+gives "a restarted run" 0 "$motus" run $osc --until 1 --save-state half.state
+gives "... does not know its error" 0 "$motus" run $osc --restart half.state
+that "... and says why" says "error: not known, because the run was restored"
+that "... behind the number too" says " ±?"
+gives "--errors" 0 "$motus" run $oscillator -o - --errors --every 10 --columns "t,x" --quiet
+that "... adds columns" says "t,x,x.error,significant"
+that "... that cover the exact motion" eval "awk -F, '\$1 == 100 { e = \$2 - 0.04778309565760847; if (e < 0) e = -e; good = \$3 >= e && \$4 == 1 } END { exit !good }' '$out'"
+gives "--errors beyond the end of significance" 0 "$motus" run models/henon-heiles.motus --until 900 -o - --errors --every 100 --columns "x" --quiet
+that "... keeps the numbers, marked" eval "tail -n 1 '$out' | grep -qE '^-?0\.[0-9]+,inf,0$'"
+refuses "--errors without -o" 2 "needs -o" "$motus" run $osc --errors
+refuses "--errors with --error none" 2 "needs errors" "$motus" run $osc --errors --error none -o e.csv
+refuses "--error of another kind" 2 "no such way" "$motus" run $osc --error some
+
 gives "run --quiet" 0 "$motus" run $osc --quiet
 that "... is quiet" empty "$out"
 that "... on both sides" empty "$err"
@@ -497,6 +532,10 @@ gives "--plot pdf" 0 "$motus" run osc.motus --plot fig.pdf -q
 that "... is a PDF" eval "head -c 5 fig.pdf | grep -q '%PDF-'"
 gives "--plot -" 2 "$motus" run osc.motus --plot -
 refuses "--plot fig.gif" 2 ".svg, .png or .pdf" "$motus" run osc.motus --plot fig.gif
+gives "a coarse run" 0 "$motus" run "$root/$oscillator" --step 0.2 --until 60 --plot band.svg -q
+that "... draws its error" says "fill-opacity = '0.250000'" band.svg
+gives "a fine run" 0 "$motus" run "$root/$oscillator" --plot line.svg -q
+that "... whose error is thinner than the line, does not" lacks "fill-opacity" line.svg
 gives "a phase plane" 0 "$motus" run osc.motus --plot phase.svg --plot-of "x,x'" -q
 that "... names its axes" grep -q "x&apos; against x\|x' against x\|x&#39; against x" phase.svg
 gives "a quantity against time" 0 "$motus" run osc.motus --plot energy.svg --plot-of "t,energy" -q

@@ -114,6 +114,7 @@ declare -A also=(
     [machine/callback.c]='machine_'
     [machine/compiled.c]='machine_'
     [machine/nowhere.c]='compiled_ machine_'            # replaces machine/compiled.c in the page's module
+    [api/barless.c]='bars_'                         # replaces api/bars.c in the page's module
     [api/columns.c]='system_'                       # parts of api/system.h
 )
 archive=$build/libmotus.a

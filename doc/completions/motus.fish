@@ -27,6 +27,8 @@ complete -c motus -n "__fish_seen_subcommand_from run compare converge sweep lab
 complete -c motus -n "__fish_seen_subcommand_from run compare converge sweep check lab" -l set -x -d 'replace a parameter or initial value'
 complete -c motus -n "__fish_seen_subcommand_from compare" -l evaluations -x -d 'equal work'
 complete -c motus -n "__fish_seen_subcommand_from run sweep lab" -s o -l output -r -F -d 'trajectory as CSV, or the page'
+complete -c motus -n "__fish_seen_subcommand_from run" -l error -x -a 'cheap full none' -d 'the error of the answer'
+complete -c motus -n "__fish_seen_subcommand_from run" -l errors -d 'errors as columns of the CSV'
 complete -c motus -n "__fish_seen_subcommand_from run" -l columns -x -d 'columns of the CSV'
 complete -c motus -n "__fish_seen_subcommand_from run sweep" -l every -x -d 'a row every time, or "n steps"'
 complete -c motus -n "__fish_seen_subcommand_from run compare converge" -l plot -r -F -d 'draw with gnuplot'

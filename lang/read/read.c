@@ -58,7 +58,8 @@ static motus_status build(model *m, const motus_text_def *def, read_method metho
     return MOTUS_OK;
 }
 
-motus_status read_model(arena *a, const motus_text_def *def, read_method method, model **out, motus_error *err)
+motus_status read_model(arena *a, const motus_text_def *def, bool nudged, read_method method, model **out,
+                        motus_error *err)
 {
     *out = NULL;
     if (!def->text) return fail(err, MOTUS_ARGUMENT, "the definition has no text");
@@ -70,7 +71,7 @@ motus_status read_model(arena *a, const motus_text_def *def, read_method method,
     memset(m, 0, sizeof *m);
     m->arena = a;
     m->draft = def->draft > 0;
-    m->source = (source){.arena = a, .error = err, .count = (uint32_t)(1 + def->set_count)};
+    m->source = (source){.arena = a, .error = err, .count = (uint32_t)(1 + def->set_count), .nudged = nudged};
     m->source.texts = arena_room(a, (1 + def->set_count) * sizeof *m->source.texts);
     m->graph = graph_create(a);
     if (!m->source.texts || !m->graph || a->failed) return fail(err, MOTUS_MEMORY, "no memory for the model");

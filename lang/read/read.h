@@ -8,8 +8,9 @@
  */
 typedef motus_status (*read_method)(const char *name, motus_error *);
 
-/* On failure the error says what and where, and *out is NULL; the arena keeps what was taken. */
-motus_status read_model(arena *, const motus_text_def *, read_method, model **out, motus_error *);
+/* On failure the error says what and where, and *out is NULL; the arena keeps what was taken. nudged: as in source.h;
+ * claims are not judged then. */
+motus_status read_model(arena *, const motus_text_def *, bool nudged, read_method, model **out, motus_error *);
 
 /* Checks exact lines and invariants again after numbers have changed. */
 motus_status verify_again(model *, motus_error *);

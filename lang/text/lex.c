@@ -88,7 +88,9 @@ static token lex_number(lexer *l, bool blank)
         source_complain(l->source, MOTUS_SYNTAX, &t.at, "a number has one decimal point");
         return stop(l, from);
     }
-    decimal_read(b + from, l->at - from, &t.number);
+    double other;
+    decimal_read_between(b + from, l->at - from, &t.number, &other);
+    if (l->source->nudged) t.number = other;
     if (!isfinite(t.number)) {
         source_complain(l->source, MOTUS_LIMIT, &t.at, "this number is beyond the range of a double (1.8e308)");
         return stop(l, from);

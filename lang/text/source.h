@@ -31,6 +31,8 @@ typedef struct source {
     uint32_t count;
     motus_status status; /* of the first complaint */
     bool failed;
+    /* The numbers that are no doubles are read as the double on their other side: for bars of error (api/shadow.c). */
+    bool nudged;
     struct {
         uint32_t text, at;
         int line;

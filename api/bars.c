@@ -1,0 +1,241 @@
+/* See bars.h. When the companions start, and where they land.
+ *
+ * Landings are apart so many steps of the run that they add little to the work, at most one step in 16 of a run of 512
+ * steps and more, and are enough to find the time from which no digit is significant.
+ */
+#include "api/bars.h"
+
+#include "api/choice.h"
+#include "api/shadow.h"
+
+#include <math.h>
+#include <stdarg.h>
+#include <stdio.h>
+#include <string.h>
+
+/* How many landings a long run has; the steps that are well apart; how many landings a short run has at least. */
+enum { LANDINGS = 256, APART = 16, LANDINGS_LEAST = 32 };
+
+void bars_give_up(motus_run *r, const char *format, ...)
+{
+    va_list list;
+    if (!r->bars || r->bars->why[0]) return;
+    va_start(list, format);
+    vsnprintf(r->bars->why, sizeof r->bars->why, format, list);
+    va_end(list);
+}
+
+motus_status bars_prepare(motus_run *r, const motus_run_def *def, motus_error *err)
+{
+    if ((unsigned)def->error > MOTUS_BARS_FULL)
+        return fail(err, MOTUS_ARGUMENT, "there is no kind of bars %d", (int)def->error);
+    if (def->error == MOTUS_BARS_NONE) return MOTUS_OK;
+    bars *b = r->bars = take(&r->allocator, 1, sizeof *b);
+    if (!b) return fail(err, MOTUS_MEMORY, "no memory for bars of error");
+    *b = (bars){.kind = def->error, .given_x = def->x, .given_v = def->v};
+    const motus_system *s = r->system;
+    const bool kinked = s->model && !s->problem.traits.smooth;
+    return differences_create(&b->differences, s, def->error == MOTUS_BARS_FULL, kinked, err);
+}
+
+void bars_destroy(motus_run *r)
+{
+    if (!r->bars) return;
+    companion_end(&r->bars->half, &r->allocator);
+    companion_end(&r->bars->twin, &r->allocator);
+    differences_destroy(&r->bars->differences, &r->allocator);
+    give(&r->allocator, r->bars);
+}
+
+/* ---- the start ---- */
+
+/* Whether a callback gives the same acceleration twice; else no other run of it is the same motion. */
+static bool repeats(motus_run *r, const double *x, const double *v)
+{
+    const problem *p = &r->system->problem;
+    if (r->system->model) return true;
+    double *room = take(&r->allocator, 2 * p->nv + p->nx + p->nv, sizeof *room);
+    if (!room) return true; /* nothing is told by it */
+    double *a = room, *again = a + p->nv, *at_x = again + p->nv, *at_v = at_x + p->nx;
+    bool same = true;
+    for (int i = 0; i < 2 && same; i++) {
+        memcpy(at_x, x, p->nx * sizeof *x);
+        memcpy(at_v, v, p->nv * sizeof *v);
+        same = !p->accel(p->ctx, r->timing.t0, at_x, at_v, i ? again : a);
+    }
+    for (size_t k = 0; k < p->nv; k++) same = same && (a[k] == again[k] || (isnan(a[k]) && isnan(again[k])));
+    give(&r->allocator, room);
+    return same;
+}
+
+static int tell(void *ctx, double now)
+{
+    motus_run *r = ctx;
+    return r->pace.tell(r, now);
+}
+
+/* Its system, with decimals rounded to their other side, and the machine of the run. */
+static motus_status make_half(motus_run *r, motus_error *err)
+{
+    companion *c = &r->bars->half;
+    if (c->system) return MOTUS_OK;
+    motus_status status = shadow_create(r->system, &c->system, err);
+    if (status != MOTUS_OK) return status;
+    const char *why = NULL;
+    c->machine = c->system->machine;
+    c->pace = (pace){.seconds = r->pace.seconds, .tell = r->pace.tell ? tell : NULL, .ctx = r};
+    r->bars->twin.machine = r->machine;
+    r->bars->twin.pace = c->pace;
+    if (strcmp(r->machine.name, "compiled") != 0) return MOTUS_OK;
+    return choice_compile(c->system, &r->chosen, false, r->bars->kept, &c->machine, &why, err);
+}
+
+/* The companion begins where the model says, with its own decimals, or where the run was told to. */
+static motus_status begin_half(motus_run *r, double *x, double *v, motus_error *err)
+{
+    bars *b = r->bars;
+    const motus_system *s = b->half.system;
+    const problem *p = &s->problem;
+    const double t = stepper_time(r->stepper);
+    if (!b->given_x && p->nx) memcpy(x, s->x0, p->nx * sizeof *x);
+    if (!b->given_v) memcpy(v, s->v0, p->nv * sizeof *v);
+    if (p->refresh) p->refresh(p->ctx, t, x, v);
+    return companion_begin(&b->half, r, t, x, v, err);
+}
+
+static motus_status take_here(motus_run *r, double t, double *x, double *v, motus_error *err)
+{
+    bars *b = r->bars;
+    const bool twin = b->kind == MOTUS_BARS_FULL && t == b->twin.t;
+    return differences_take(&b->differences, r->system, t, x, v, b->half.system, b->half.x, b->half.v,
+                            twin ? b->twin.x : NULL, twin ? b->twin.v : NULL, err);
+}
+
+static motus_status begin_at(motus_run *r, motus_error *err)
+{
+    bars *b = r->bars;
+    motus_status status = make_half(r, err);
+    if (status == MOTUS_OK) status = run_sync(r, false, err);
+    if (status != MOTUS_OK) return status;
+    const problem *p = &r->system->problem;
+    if (!repeats(r, r->x, r->v)) {
+        bars_give_up(r, "the callback gives another acceleration when it is called again with the same numbers");
+        return MOTUS_OK;
+    }
+    double *x = r->mid_x, *v = r->mid_v;
+    memcpy(x, r->x, p->nx * sizeof *x);
+    memcpy(v, r->v, p->nv * sizeof *v);
+    status = begin_half(r, x, v, err);
+    if (status == MOTUS_OK && b->kind == MOTUS_BARS_FULL) {
+        memcpy(x, r->x, p->nx * sizeof *x);
+        memcpy(v, r->v, p->nv * sizeof *v);
+        companion_move(x, p->nx, NULL, 0);
+        companion_move(v, p->nv, NULL, (uint32_t)p->nx);
+        if (p->refresh) p->refresh(p->ctx, r->timing.t0, x, v);
+        status = companion_begin(&b->twin, r, r->timing.t0, x, v, err);
+    }
+    differences_begin(&b->differences, r->timing.t0, r->timing.until);
+    b->landed = stepper_time(r->stepper);
+    b->steps = motus_run_steps(r);
+    if (status == MOTUS_OK) status = take_here(r, b->landed, r->x, r->v, err);
+    return status;
+}
+
+/* What a companion met is no failure of the run, but for what stops both. */
+static motus_status judge(motus_run *r, motus_status status, const motus_error *theirs, motus_error *err)
+{
+    if (status == MOTUS_OK) return MOTUS_OK;
+    bars_give_up(r, "a companion run failed: %s", theirs->message);
+    if (status == MOTUS_MEMORY) return fail(err, status, "%s", theirs->message);
+    if (status != MOTUS_CANCELLED) return MOTUS_OK;
+    char t[DECIMAL_MAX];
+    return fail(err, status, "cancelled at t = %s", run_time_text(r, stepper_time(r->stepper), t));
+}
+
+static motus_status start(motus_run *r, motus_error *err)
+{
+    motus_error theirs = motus_default_error();
+    const double began = pace_now();
+    r->bars->started = true;
+    if (r->locate || r->locating) bars_give_up(r, "a run that locates switches has no companion");
+    if (r->bars->why[0]) return MOTUS_OK;
+    const motus_status status = begin_at(r, &theirs);
+    r->bars->seconds += pace_now() - began;
+    return judge(r, status, &theirs, err);
+}
+
+void bars_leg(motus_run *r)
+{
+    if (!r->bars) return;
+    r->bars->started = false;
+    r->bars->given_x = r->bars->given_v = true;
+    r->bars->why[0] = 0;
+}
+
+/* ---- landings ---- */
+
+/* Landings are equally far apart; what is left over comes first. */
+static int64_t apart(const motus_run *r)
+{
+    if (row_adaptive(&r->chosen)) return 1; /* every step has its own size */
+    const int64_t total = r->timing.total, most = total / LANDINGS_LEAST, far = total / LANDINGS;
+    const int64_t near = most < APART ? most : APART;
+    return far > near ? far : near > 1 ? near : 1;
+}
+
+/* Whether landing makes sense: there are bars to tell. */
+static bool alive(const bars *b) { return !b->why[0] && isnan(b->differences.until); }
+
+/* The step at which the next landing is due. */
+static int64_t due(const motus_run *r)
+{
+    const int64_t size = apart(r), before = r->bars->steps, first = r->timing.total % size;
+    return before == 0 && first ? first : before + size;
+}
+
+motus_status bars_room(motus_run *r, int64_t *steps, motus_error *err)
+{
+    bars *b = r->bars;
+    const int64_t now = motus_run_steps(r);
+    motus_status status = b->started ? MOTUS_OK : start(r, err);
+    *steps = INT64_MAX;
+    if (status == MOTUS_OK && alive(b) && now >= due(r)) status = bars_land(r, err);
+    if (status == MOTUS_OK && alive(b)) *steps = due(r) > now ? due(r) - now : 1;
+    return status;
+}
+
+static motus_status land(motus_run *r, double t, double *x, double *v, bool between, motus_error *err)
+{
+    bars *b = r->bars;
+    const int64_t now = motus_run_steps(r), taken = now - b->steps;
+    const double began = pace_now();
+    motus_status status = companion_land(&b->half, r, t, taken > 0 ? taken : 1, err);
+    if (status == MOTUS_OK && !strcmp(r->card->family, "exact")) status = companion_jog(&b->half, r, err);
+    if (status == MOTUS_OK && b->kind == MOTUS_BARS_FULL && !between) status = companion_repeat(&b->twin, r, err);
+    if (status == MOTUS_OK) status = take_here(r, t, x, v, err);
+    b->landed = t;
+    b->steps = between ? now - 1 : now;
+    b->seconds += pace_now() - began;
+    return status;
+}
+
+motus_status bars_land(motus_run *r, motus_error *err)
+{
+    bars *b = r->bars;
+    const double t = stepper_time(r->stepper), way = r->timing.h < 0 ? -1 : 1;
+    motus_error theirs = motus_default_error();
+    motus_status status = b->started ? MOTUS_OK : start(r, err);
+    if (status != MOTUS_OK || !alive(b) || way * (t - b->landed) <= 0) return status;
+    status = run_sync(r, false, &theirs);
+    if (status == MOTUS_OK) status = land(r, t, r->x, r->v, false, &theirs);
+    return judge(r, status, &theirs, err);
+}
+
+motus_status bars_land_between(motus_run *r, double t, double *x, double *v, motus_error *err)
+{
+    bars *b = r->bars;
+    const double way = r->timing.h < 0 ? -1 : 1;
+    motus_error theirs = motus_default_error();
+    if (!b->started || !alive(b) || way * (t - b->landed) <= 0) return MOTUS_OK;
+    return judge(r, land(r, t, x, v, true, &theirs), &theirs, err);
+}

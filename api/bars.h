@@ -1,0 +1,40 @@
+/* Bars of error: how far the numbers of a run may be from the exact motion, told from its companions.
+ *
+ * Invariant: the run never learns of them; its bits and its counters are the same with and without.
+ */
+#ifndef API_BARS_H
+#define API_BARS_H
+
+#include "api/companion.h"
+#include "api/differences.h"
+
+struct bars {
+    motus_bars kind;
+    bool kept;             /* the companion, as the run, uses a compiled object only where there is one */
+    bool given_x, given_v; /* the run's state at its start is not the model's */
+    bool started;
+    companion half, twin; /* of about half the step; a twin of the run from a state that is an ulp away */
+    differences differences;
+    double landed;  /* time of the last landing */
+    int64_t steps;  /* whole steps of the run before it */
+    double seconds; /* elapsed in all this */
+    char why[256];  /* no bar; "": there is one */
+};
+
+/* Makes r->bars, where the definition asks for them. */
+motus_status bars_prepare(motus_run *, const motus_run_def *, motus_error *);
+/* A leg begins at this state; x and v NULL: the run's start. */
+void bars_leg(motus_run *);
+/* Call it before the run moves on: lands where that is due, and tells how many steps the run may take until it is due
+ * again. Landing waits till then, because times within the last step may be asked for before. MOTUS_CANCELLED,
+ * MOTUS_MEMORY. */
+motus_status bars_room(motus_run *, int64_t *steps, motus_error *);
+/* Lands where the run stands. Fails likewise. */
+motus_status bars_land(motus_run *, motus_error *);
+/* The same at a time within its last step, where its state is x, v in the inside order. */
+motus_status bars_land_between(motus_run *, double t, double *x, double *v, motus_error *);
+/* From now on there are no bars, and why. The first reason stays. */
+void bars_give_up(motus_run *, const char *format, ...) __attribute__((format(printf, 2, 3)));
+void bars_destroy(motus_run *);
+
+#endif

@@ -1,0 +1,102 @@
+/* See companion.h.
+ *
+ * Between two landings where the run takes n steps, the companion takes 2 n + 1. Its error is then about 2^-p of the
+ * run's, p the order, so that their distance is nearly the run's error. With 2 n steps every second time of the
+ * companion would be one of the run's, and both could fail in the same way: steps that pass a close encounter at the
+ * same time before and after lead to the same wrong orbit, at every power of 2. With 2 n + 1 the two grids share the
+ * landings alone.
+ *
+ * Where steps adapt it takes each accepted step of the run in two halves, with a tolerance by which nothing is refused.
+ *
+ * Why it lands, and does not interpolate: an interpolant has an error of its own, which for a method of high order is
+ * larger than what is measured. A landing costs one more step, and the additions that are compensated stay so.
+ */
+#include "api/companion.h"
+
+#include <math.h>
+
+#define USUAL 0x1p-55
+#define ANY_ERROR 1e300 /* a tolerance by which error control accepts every step */
+
+motus_status companion_begin(companion *c, const motus_run *r, double t, const double *x, const double *v,
+                             motus_error *err)
+{
+    const problem *p = &r->system->problem;
+    if (!c->x) c->x = take(&r->allocator, p->nx + p->nv + 2, sizeof *c->x);
+    if (!c->x) return fail(err, MOTUS_MEMORY, "no memory for a companion of the run");
+    c->v = c->x + p->nx + 1;
+    for (size_t k = 0; k < p->nx; k++) c->x[k] = x[k];
+    for (size_t k = 0; k < p->nv; k++) c->v[k] = v[k];
+    c->t = t;
+    chosen method = r->chosen;
+    if (row_adaptive(&method)) method.absolute = ANY_ERROR, method.least = 0, method.most = INFINITY;
+    if (c->stepper) return stepper_start(c->stepper, t, r->timing.h, x, v, err);
+    return stepper_create(&c->machine, &method, t, r->timing.h, x, v, &r->allocator, &c->stepper, err);
+}
+
+/* To t in so many equal steps. */
+static motus_status go(companion *c, double t, int64_t steps, bool adaptive, motus_error *err)
+{
+    const stepper_limit limit = {steps, adaptive ? t : NAN};
+    stepper_stop why;
+    if (t == c->t) return MOTUS_OK;
+    motus_status status = stepper_turn(c->stepper, c->t, (t - c->t) / (double)steps, err);
+    if (status == MOTUS_OK) status = pace_advance(&c->pace, c->stepper, limit, &why, err);
+    if (status == MOTUS_OK) status = stepper_sync(c->stepper, c->x, c->v, NULL, err);
+    if (status == MOTUS_OK) c->t = t;
+    return status;
+}
+
+motus_status companion_land(companion *c, const motus_run *r, double t, int64_t steps, motus_error *err)
+{
+    const bool adaptive = row_adaptive(&r->chosen);
+    return go(c, t, adaptive ? 2 * steps : 2 * steps + 1, adaptive, err);
+}
+
+void companion_move(double *y, size_t count, const double *size, uint32_t salt)
+{
+    for (size_t k = 0; k < count; k++) {
+        uint32_t z = (uint32_t)k + salt; /* Murmur3's finaliser */
+        z = (z ^ z >> 16) * 0x85ebca6bu;
+        z = (z ^ z >> 13) * 0xc2b2ae35u;
+        const double way = (z ^ z >> 16) & 1 ? 1 : -1, to = y[k] + way * (size ? size[k] : 0);
+        if (y[k] != 0) y[k] = to != y[k] ? to : nextafter(y[k], way * INFINITY);
+    }
+}
+
+/* What rounding usually makes of the exact motion's formula: a quarter of the bound, which is in units of 2^-53. */
+motus_status companion_jog(companion *c, const motus_run *r, motus_error *err)
+{
+    const problem *p = &r->system->problem;
+    double *size = take(&r->allocator, p->nx + p->nv + 1, sizeof *size);
+    if (!size) return fail(err, MOTUS_MEMORY, "no memory for a companion of the run");
+    const bool known = p->exact_rounding;
+    if (known && !p->exact_rounding(p->ctx, c->t, size, size + p->nx)) {
+        give(&r->allocator, size);
+        return fail(err, MOTUS_MEMORY, "no memory for a companion of the run");
+    }
+    for (size_t k = 0; k < p->nx + p->nv; k++) size[k] = known ? size[k] * USUAL : 0;
+    const uint32_t salt = (uint32_t)stepper_steps(r->stepper) * 0x9e3779b9u;
+    companion_move(c->x, p->nx, size, salt);
+    companion_move(c->v, p->nv, size + p->nx, salt + (uint32_t)p->nx);
+    give(&r->allocator, size);
+    return MOTUS_OK;
+}
+
+motus_status companion_repeat(companion *c, const motus_run *r, motus_error *err)
+{
+    if (row_adaptive(&r->chosen)) return go(c, stepper_time(r->stepper), 1, true, err);
+    const stepper_limit limit = {stepper_steps(r->stepper) - stepper_steps(c->stepper), r->timing.until};
+    stepper_stop why;
+    motus_status status = pace_advance(&c->pace, c->stepper, limit, &why, err);
+    if (status == MOTUS_OK) status = stepper_sync(c->stepper, c->x, c->v, NULL, err);
+    if (status == MOTUS_OK) c->t = stepper_time(c->stepper);
+    return status;
+}
+
+void companion_end(companion *c, const motus_allocator *a)
+{
+    stepper_destroy(c->stepper);
+    give(a, c->x);
+    motus_system_destroy(c->system);
+}

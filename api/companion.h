@@ -1,0 +1,33 @@
+/* A companion of a run: another computation of the same motion, from whose distance the error of the run is told.
+ *
+ * It lands where it is sent, at times of the run: from one landing to the next it takes a whole number of equal steps
+ * (stepper_turn), so that it is compared without any interpolation. See companion.c for how many.
+ */
+#ifndef API_COMPANION_H
+#define API_COMPANION_H
+
+#include "api/run.h"
+
+typedef struct companion {
+    motus_system *system; /* its own; NULL: the run's */
+    machine machine;
+    stepper *stepper;
+    double *x, *v; /* its state at the last landing, in the inside order */
+    double t;      /* of the last landing */
+    pace pace;
+} companion;
+
+/* From the state x, v at t, where the run stands, with the run's method. The state is copied. */
+motus_status companion_begin(companion *, const motus_run *, double t, const double *x, const double *v, motus_error *);
+/* Lands at t, where the run has taken `steps` steps since the last landing, of which the last may be in part. */
+motus_status companion_land(companion *, const motus_run *, double t, int64_t steps, motus_error *);
+/* Moves its state by what rounding may make of it: of exact motions, which steps do not tell apart. */
+motus_status companion_jog(companion *, const motus_run *, motus_error *);
+/* Moves numbers by at least an ulp, and by `size` where it is given; up or down, by a hash of their places and
+ * `salt`. */
+void companion_move(double *y, size_t count, const double *size, uint32_t salt);
+/* Repeats the steps of the run, and so stands where the run stands. */
+motus_status companion_repeat(companion *, const motus_run *, motus_error *);
+void companion_end(companion *, const motus_allocator *);
+
+#endif

@@ -1,0 +1,13 @@
+/* A copy of a system whose decimals are rounded to the other side, for bars of error. */
+#ifndef API_SHADOW_H
+#define API_SHADOW_H
+
+#include "api/system.h"
+
+/* A decimal of a text, 0.1, is read as the double next to it. In the shadow it is the next double on the decimal's
+ * other side, and pi likewise, so that what was written lies between the two systems. A parameter that was rounded when
+ * it was computed, 1/3, is the next double. Numbers that motus_system_set gave are doubles, and stay. Where the shadow
+ * would be another system, since such a number decides a size, and of a callback, it is a clone. */
+motus_status shadow_create(const motus_system *, motus_system **, motus_error *);
+
+#endif

@@ -1,0 +1,54 @@
+/* See answer.h. */
+#include "cli/answer.h"
+
+#include "cli/text.h"
+
+#include <math.h>
+
+#define LN_10 2.302585092994046
+#define FAR_APART 1e7 /* by so much errors grow where a motion passes close encounters, or is chaotic */
+
+/* From what time on no digit is significant. */
+static void print_end(const summary *s, FILE *out)
+{
+    const motus_estimate *e = &s->estimate;
+    char t[DECIMAL_MAX], rate[DECIMAL_MAX], gain[DECIMAL_MAX];
+    decimal_time(e->significant_until, motus_run_time(s->run) - s->start, t);
+    fprintf(out, "no digit is significant after t = %s", t);
+    if (isfinite(e->rate)) {
+        text_brief(e->rate, 2, rate);
+        text_brief(LN_10 / e->rate, 2, gain);
+        fprintf(out, " (errors grow as e^{%s t}; ten times the accuracy buys %s)", rate, gain);
+    }
+    putc('\n', out);
+}
+
+void answer_print(const summary *s, FILE *out)
+{
+    const motus_estimate *e = &s->estimate;
+    char step[DECIMAL_MAX], work[DECIMAL_MAX], growth[DECIMAL_MAX];
+    putc('\n', out);
+    if (e->reason[0]) {
+        fputs("error: not known, because ", out);
+        text_put(out, e->reason);
+        putc('\n', out);
+        return;
+    }
+    motus_statistics run = motus_default_statistics();
+    motus_run_statistics(s->run, &run);
+    const bool adaptive = isnan(motus_run_step_size(s->run));
+    text_brief(adaptive ? run.tolerance : motus_run_step_size(s->run), 6, step);
+    text_brief(e->work, 2, work);
+    if (!isnan(e->significant_until))
+        print_end(s, out);
+    else
+        fprintf(out, "± is the error of %s %s: how far the exact motion of the equation may be\n",
+                adaptive ? "tolerance" : "h =", step);
+    fprintf(out, "error: %s × the work", isnan(e->work) ? "0" : work);
+    if (e->kinked) fputs("; the force has kinks, and the errors are wide", out);
+    if (isnan(e->significant_until) && e->growth > FAR_APART && s->options->error == NULL) {
+        text_brief(e->growth, 1, growth);
+        fprintf(out, "; errors have grown %s times: --error full is safer", growth);
+    }
+    putc('\n', out);
+}

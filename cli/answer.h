@@ -1,0 +1,9 @@
+/* What the errors of a finished run rest on, in words. */
+#ifndef CLI_ANSWER_H
+#define CLI_ANSWER_H
+
+#include "cli/summary.h"
+
+void answer_print(const summary *, FILE *);
+
+#endif

@@ -1,0 +1,16 @@
+/* A number with its error: 0.0477824 ± 1.5e-6. */
+#ifndef CLI_BAR_H
+#define CLI_BAR_H
+
+#include "base/decimal.h"
+
+enum { BAR_MAX = 2 * DECIMAL_MAX + 16 }; /* room for a value, ±, an error and a 0 */
+
+/* The value to the last decimal that its error leaves, and the error rounded up to one digit, or two where it begins
+ * with 1 or 2, with what rounding the value takes. |value| below the error: "0 ± 2e-5". Error 0: "0 (exact)"; NaN, not
+ * known: all digits and "±?"; infinite: "—", since no digit is significant. Returns out. */
+char *bar_text(double value, double error, char out[BAR_MAX]);
+/* The error alone, rounded up likewise: "1.5e-6". */
+char *bar_error(double error, char out[DECIMAL_MAX]);
+
+#endif

@@ -1,0 +1,230 @@
+/* Bars of error against motions that are known to 22 digits, test/reference.txt: how many errors are within their bar,
+ * and how many bars are tight.
+ *
+ * Counted are all numbers of all cases of smooth forces at all times of the file, by methods of each family and order,
+ * with steps from coarse ones down to those where round-off rules. The motions are those of exact decimals, so the bars
+ * have to cover the rounding of what the model says. A bar is tight where it is at most 10 times the error, or 4 ulp.
+ * Among numbers that are normally distributed 99 % lie within 2.6 standard deviations; a bar that one sample has to set
+ * cannot have more than 99 % of the errors and 90 % of the tightness everywhere, and so all are counted together.
+ */
+#include "test/given.h"
+
+enum { LINES_MAX = 1000, TEXT_ROOM = 4096, COLUMNS_MAX = 40, SETS_MAX = 8, TIMES_MAX = 8, CASES_MAX = 40 };
+
+typedef struct known { /* a time and the numbers then */
+    double t;
+    size_t count;
+    char names[COLUMNS_MAX][24];
+    long double values[COLUMNS_MAX];
+} known;
+
+typedef struct problem_case {
+    char label[64], model[64], text[TEXT_ROOM], set[SETS_MAX][64];
+    size_t set_count, time_count;
+    double step; /* by a method of order 8 */
+    known times[TIMES_MAX];
+} problem_case;
+
+static problem_case cases[CASES_MAX];
+static size_t case_count;
+
+typedef struct tally {
+    long counted, covered, tight, withheld, none;
+} tally;
+
+static const char *after(const char *line, const char *word)
+{
+    size_t n = strlen(word);
+    return !strncmp(line, word, n) && line[n] == ' ' ? line + n + 1 : NULL;
+}
+
+/* Whether a time of the file is a double; else the numbers there are not those of our time. */
+static int is_double(const char *digits)
+{
+    const long double t = strtold(digits, NULL);
+    return t == (long double)(double)t && strlen(digits) < 12;
+}
+
+static void read_line(char *line, known **at)
+{
+    problem_case *c = case_count ? &cases[case_count - 1] : NULL;
+    const char *v;
+    if ((v = after(line, "case"))) {
+        assert_true(case_count < CASES_MAX);
+        c = &cases[case_count++];
+        snprintf(c->label, sizeof c->label, "%s", v);
+        *at = NULL;
+    } else if (!c || line[0] == '#' || !line[0] || after(line, "method")) {
+        if (!line[0]) *at = NULL;
+    } else if ((v = after(line, "model"))) {
+        snprintf(c->model, sizeof c->model, "%s", v);
+    } else if ((v = after(line, "|"))) {
+        const size_t n = strlen(c->text);
+        snprintf(c->text + n, sizeof c->text - n, "%s\n", v);
+    } else if ((v = after(line, "set"))) {
+        snprintf(c->set[c->set_count++], sizeof c->set[0], "%s", v);
+    } else if ((v = after(line, "step"))) {
+        c->step = strtod(v, NULL);
+    } else if ((v = after(line, "at"))) {
+        char digits[64];
+        assert_int_equal(sscanf(v, "%63s", digits), 1);
+        assert_true(c->time_count < TIMES_MAX);
+        static known other;
+        *at = is_double(digits) ? &c->times[c->time_count++] : &other;
+        **at = (known){.t = strtod(digits, NULL)};
+    } else if (*at) {
+        char digits[64];
+        known *k = *at;
+        assert_true(k->count < COLUMNS_MAX);
+        assert_int_equal(sscanf(line, "%23s %63s", k->names[k->count], digits), 2);
+        k->values[k->count++] = strtold(digits, NULL);
+    }
+}
+
+static void read_cases(void)
+{
+    char path[1024];
+    given_path(path, sizeof path, "test", "reference.txt");
+    char *text = given_file(path);
+    known *at = NULL;
+    for (char *p = text, *end; *p; p = end + 1) {
+        end = p + strcspn(p, "\n");
+        if (!*end) break;
+        *end = 0;
+        read_line(p, &at);
+    }
+    free(text);
+}
+
+static motus_system *open_case(const problem_case *c)
+{
+    const char *set[SETS_MAX];
+    for (size_t i = 0; i < c->set_count; i++) set[i] = c->set[i];
+    return c->model[0] ? given_model(c->model, set, c->set_count)
+                       : given_text_with(c->text, set, c->set_count, c->label);
+}
+
+static double ulp_of(double value) { return nextafter(fabs(value), INFINITY) - fabs(value); }
+
+static void count(tally *t, double value, double bar, long double truth)
+{
+    const long double error = fabsl((long double)value - truth);
+    if (isnan(bar)) {
+        t->none++;
+    } else if (isinf(bar)) {
+        t->withheld++;
+    } else {
+        t->counted++;
+        t->covered += error <= (long double)bar;
+        t->tight += (long double)bar <= 10 * error || bar <= 4 * ulp_of(value);
+    }
+}
+
+/* One run, with its errors at all times of the case. False: the method does not admit it, or the run fails. */
+static int one_run(const problem_case *c, motus_system *s, const char *method, double step, double tolerance, tally *t)
+{
+    motus_run_def def = motus_default_run();
+    motus_error err = motus_default_error();
+    motus_run *r = NULL;
+    def.method = method;
+    if (step > 0)
+        def.step = step;
+    else
+        def.tolerance = tolerance;
+    def.until = c->times[c->time_count - 1].t;
+    def.start = 0;
+    def.machine = "interpreter";
+    def.error = MOTUS_BARS_CHEAP;
+    if (motus_run_create(s, &def, &r, &err) != MOTUS_OK) return 0;
+    motus_status status = MOTUS_OK;
+    for (size_t i = 0; i < c->time_count && status == MOTUS_OK; i++) {
+        const known *k = &c->times[i];
+        size_t columns[COLUMNS_MAX];
+        double values[COLUMNS_MAX], errors[COLUMNS_MAX];
+        for (size_t n = 0; n < k->count; n++) columns[n] = column(s, k->names[n]);
+        status = motus_run_sample_errors(r, &k->t, 1, columns, k->count, values, errors, &err);
+        for (size_t n = 0; n < k->count && status == MOTUS_OK; n++) count(t, values[n], errors[n], k->values[n]);
+    }
+    motus_run_destroy(r);
+    return status == MOTUS_OK;
+}
+
+static void add(tally *to, const tally *t)
+{
+    to->counted += t->counted;
+    to->covered += t->covered;
+    to->tight += t->tight;
+    to->withheld += t->withheld;
+    to->none += t->none;
+}
+
+static double percent(long part, long all) { return all ? 100.0 * (double)part / (double)all : 100; }
+
+static void print_tally(const char *name, const tally *t)
+{
+    printf("  %-34s %6ld numbers, %5ld withheld, %3ld without; covered %6.2f %%, tight %6.2f %%\n", name, t->counted,
+           t->withheld, t->none, percent(t->covered, t->counted), percent(t->tight, t->counted));
+}
+
+/* From coarse steps to those of round-off: `finest` times the step of the case, and twice, four times that …; 0: the
+ * method adapts its steps to tolerances from 1e-12 to 1e-4. */
+static const struct method {
+    const char *name;
+    double finest;
+} methods[] = {
+    {"verlet", 0.25},       {"velocity-verlet", 0.25}, {"heun", 0.25},  {"rk4", 0.5},       {"pefrl", 0.5},
+    {"forest-ruth", 0.5},   {"suzuki4", 0.5},          {"gauss4", 0.5}, {"kahan-li6", 1.0}, {"kahan-li8", 1.0},
+    {"blanes-moan6-14", 1}, {"gauss8", 1.0},           {"exact", 1.0},  {"dopri5", 0},      {"dop853", 0}};
+enum { METHODS = sizeof methods / sizeof *methods, SIZES = 5 };
+
+/* Runs that take longer than this are left out: steps times numbers. */
+static const double WORK_MAX = 3e5;
+
+static tally all, by_method[METHODS];
+
+static void one_case(void **state)
+{
+    const problem_case *c = *state;
+    motus_system *s = open_case(c);
+    const known *last = &c->times[c->time_count - 1];
+    tally here = {0};
+    for (int m = 0; m < METHODS; m++)
+        for (int i = 0; i < SIZES; i++) {
+            const double step = c->step * methods[m].finest * (1 << i);
+            const double tolerance = 1e-12 * pow(100, i);
+            tally t = {0};
+            if (step > 0 && last->t / step * (double)last->count > WORK_MAX) continue;
+            if (!one_run(c, s, methods[m].name, step, tolerance, &t)) continue;
+            add(&here, &t);
+            add(&by_method[m], &t);
+        }
+    motus_system_destroy(s);
+    add(&all, &here);
+    print_tally(c->label, &here);
+    assert_true(here.counted > 0);
+    assert_int_equal(here.none, 0);
+    if (percent(here.covered, here.counted) < 97) fail_msg("%s: too few errors are within their bars", c->label);
+}
+
+static void all_together(void **state)
+{
+    (void)state;
+    for (int m = 0; m < METHODS; m++) print_tally(methods[m].name, &by_method[m]);
+    print_tally("all", &all);
+    assert_true(all.counted > 10000);
+    assert_true(percent(all.covered, all.counted) >= 99);
+    assert_true(percent(all.tight, all.counted) >= 90);
+}
+
+int main(void)
+{
+    static struct CMUnitTest tests[CASES_MAX + 1];
+    size_t count = 0;
+    read_cases();
+    for (size_t i = 0; i < case_count; i++)
+        if (cases[i].time_count)
+            tests[count++] =
+                (struct CMUnitTest){.name = cases[i].label, .test_func = one_case, .initial_state = &cases[i]};
+    tests[count++] = (struct CMUnitTest)cmocka_unit_test(all_together);
+    return _cmocka_run_group_tests("bars of error", tests, count, NULL, NULL);
+}
