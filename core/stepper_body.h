@@ -11,6 +11,14 @@
 
 #include "core/scalar.h"
 #define ROWS
+#ifdef ONE_COPY /* the page's module has rows of fixed step alone */
+#define ROW(w, member) ROW_##member(w)
+#define ROW_compensated(w) ((w)->row->compensated)
+#define ROW_adaptive(w) false
+#define ROW_sizes(w) false
+#define FACT(w, member) ((w)->member)
+#define LIVE(w, k) ((w)->live[k])
+#endif
 #include "step/work.h"
 
 /* The data of the library's own bodies, found through work.library. tracing: core/trace_body.h, while a step is

@@ -531,7 +531,8 @@ typedef enum motus_switches {
  * written: bars of error. Its own bits are the same. What it costs: see motus_run_errors. */
 typedef enum motus_bars {
     MOTUS_BARS_NONE,
-    /* By a companion, a run of about half the step, or of two halves of every step that adapts, with every decimal rounded to the other side. */
+    /* By a companion, a run of about half the step, or of two halves of every step that adapts, with every decimal
+     * rounded to the other side. */
     MOTUS_BARS_CHEAP,
     /* By a second companion too, of the same steps, that begins an ulp away: for motions that pass close encounters. */
     MOTUS_BARS_FULL

@@ -162,7 +162,7 @@ static void collocation_series(const collocation *n, coef *series)
 
 /* By how much the polynomial through the accelerations changes at node j, where node i changes by 1, those before i
  * stay, and its divided differences beyond i stay [Everhart85]. */
-static void collocation_spread(const collocation *n, coef *spread)
+static inline void collocation_spread(const collocation *n, coef *spread)
 {
     const int s = n->stages;
     for (int i = 0; i < s; i++)
