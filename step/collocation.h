@@ -142,11 +142,13 @@ static void collocation_fill(const work *w, const collocation *n, bool twice, co
         for (int k = 1; k <= s; k++)
             once[k] = pair_quotient(pair_difference(p[k + 1], p[k - 1]), pair_of((coef)(4 * k + 2)));
         for (int j = 0; j < s; j++) {
-            pair sum = pair_of(0);
+            pair sum = twice ? collocation_twice(n, j, once) : pair_of(0);
             for (int l = 0; l < s && !twice; l++) sum = pair_sum(sum, pair_product(row[l], n->integral[l][j]));
             unit[(i < s ? tableau_a(w, i) : tableau_b(w)) + j] = row[j].high;
-            unit[(i < s ? tableau_aa(w, i) : tableau_bb(w)) + j] =
-                twice ? collocation_twice(n, j, once).high : sum.high;
+            unit[(i < s ? tableau_aa(w, i) : tableau_bb(w)) + j] = sum.high;
+            if (i < s || !w->kept) continue;
+            unit[tableau_rest(w, false) + j] = row[j].low;
+            unit[tableau_rest(w, true) + j] = sum.low;
         }
     }
 }

@@ -215,7 +215,7 @@ static void implicit_plan(work *w, const double argument[2], coef *unit, coef *c
     tableau_sizes(w, m->newmark ? 2 : m->tableau.stages);
     w->known = m->newmark;
     w->kept = w->stages > 1 && !m->newmark ? w->stages : 0;
-    w->plains = 2 * w->kept * w->kept; /* tableau_ahead, tableau_series */
+    w->plains = 2 * w->kept * (w->kept + 1); /* tableau_ahead, tableau_series, tableau_rest */
     w->iterates = true;
     w->solves = w->stages - w->known;
     w->solves_x = !m->newmark || argument[0] != 0;

@@ -95,7 +95,7 @@ static void radau_plan(work *w, const double argument[2], coef *unit, coef *c)
     tableau_sizes(w, w->row->tableau.stages);
     w->kept = w->stages;
     w->iterates = true;
-    w->plains = 3 * w->stages * w->stages; /* tableau_ahead, tableau_series, tableau_spread */
+    w->plains = (3 * w->stages + 2) * w->stages; /* the same, and tableau_spread */
     if (!unit) return;
     collocation nodes;
     collocation_make(&nodes, w->stages, true);

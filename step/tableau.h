@@ -15,10 +15,16 @@ static inline int tableau_series(const work *w, int k)
 {
     return tableau_ahead(w, 0) + tableau_b(w) + k * FACT(w, stages);
 }
+/* what rounding has left of b, or of bb: the end of the step takes both parts, since what is lost there would be lost
+ * alike in every step; without a factor h */
+static inline int tableau_rest(const work *w, bool x)
+{
+    return tableau_series(w, 0) + tableau_b(w) + x * FACT(w, stages);
+}
 /* what a change of stage i does to the others, where they are kept on a polynomial; without a factor h */
 static inline int tableau_spread(const work *w, int i)
 {
-    return tableau_series(w, 0) + tableau_b(w) + i * FACT(w, stages);
+    return tableau_rest(w, false) + 2 * FACT(w, stages) + i * FACT(w, stages);
 }
 
 /* Σ c[j] y[j][k] over `count` stages, c the scaled constants from number `from` on. */
@@ -68,6 +74,14 @@ static inline void tableau_speed(work *w, int i)
     EACHV(k) w->vs[k] = v[k] + tableau_sum(w, a, K, k, s);
 }
 
+/* The mean of the accelerations by the weights of v or of x, unrounded as they are. */
+static inline real tableau_mean(const work *w, bool x, size_t k)
+{
+    const int s = FACT(w, stages), whole = x ? tableau_bb(w) : tableau_b(w);
+    const real none = {0}, rest = tableau_weigh(w, tableau_rest(w, x), w->ks, k, s, false, none);
+    return tableau_weigh(w, whole, w->ks, k, s, true, rest);
+}
+
 /* The end of the step. */
 static inline void tableau_finish(work *w)
 {
@@ -76,8 +90,8 @@ static inline void tableau_finish(work *w)
     const clock h = w->h;
     const int s = FACT(w, stages), b = tableau_b(w), bb = tableau_bb(w);
     if (ROW(w, compensated)) {
-        EACH(k) ADVANCE_COMPENSATED(x[k], ex[k], 1, FMA(h, v[k], tableau_sum(w, bb, K, k, s)));
-        EACHV(k) ADVANCE_COMPENSATED(v[k], ev[k], 1, tableau_sum(w, b, K, k, s));
+        EACH(k) ADVANCE_COMPENSATED(x[k], ex[k], h, v[k] + FMA(h, tableau_mean(w, true, k), ev[k]));
+        EACHV(k) ADVANCE_COMPENSATED(v[k], ev[k], h, tableau_mean(w, false, k));
     } else {
         EACH(k) x[k] += FMA(h, v[k], tableau_sum(w, bb, K, k, s));
         EACHV(k) v[k] += tableau_sum(w, b, K, k, s);

@@ -275,6 +275,54 @@ static void fitted(method m)
           "off by %.1e, sums of drifts by %.1e", (double)off, (double)miss);
 }
 
+static int kepler(void *ctx, double t, double *x, double *v, double *a)
+{
+    (void)ctx, (void)t, (void)v;
+    const double square = x[0] * x[0] + x[1] * x[1], cube = square * sqrt(square);
+    a[0] = -x[0] / cube;
+    a[1] = -x[1] / cube;
+    return 0;
+}
+
+/* The energy of a planet, which is -1/2, off by these numbers after so many steps and after SPREAD times as many. */
+static bool energies(method m, double e, int steps, int spread, double off[2])
+{
+    const problem p = {.nx = 2, .nv = 2, .accel = kepler, .traits = {.gradient = true, .smooth = true}};
+    const double h = 2 * M_PI / 40, x[2] = {1 - e, 0}, v[2] = {0, sqrt((1 + e) / (1 - e))};
+    const double first = (v[0] * v[0] + v[1] * v[1]) / 2 - 1 / x[0];
+    chosen c;
+    stepper *s = NULL;
+    bool ran =
+        !choose(row_card(m)->name, h, &c) && !stepper_create(&(machine){.problem = &p}, &c, 0, h, x, v, NULL, &s, NULL);
+    for (int i = 0; ran && i < 2; i++) {
+        double at[2], speed[2];
+        ran = !stepper_advance(s, (stepper_limit){i ? (int64_t)steps * (spread - 1) : steps, NAN}, NULL, NULL) &&
+              !stepper_sync(s, at, speed, NULL, NULL);
+        off[i] = (speed[0] * speed[0] + speed[1] * speed[1]) / 2 - 1 / hypot(at[0], at[1]) - first;
+    }
+    stepper_destroy(s);
+    return ran;
+}
+
+/* Brouwer's law: where nothing but rounding is left, without bias, the energy errs like a random walk, as the square
+ * root of time. The root mean square of n numbers is known to 1/√(2n) of itself; a bias would give the power 1. */
+static void brouwer(method m)
+{
+    enum { STARTS = 64, STEPS = 1024, SPREAD = 32 };
+    double square[2] = {0, 0};
+    bool ran = true;
+    for (int i = 0; i < STARTS && ran; i++) {
+        double off[2];
+        ran = energies(m, 0.1 + 0.1 * i / STARTS, STEPS, SPREAD, off);
+        for (int k = 0; k < 2; k++) square[k] += off[k] * off[k] / STARTS;
+    }
+    const double power = log(square[1] / square[0]) / 2 / log(SPREAD),
+                 margin = 3 * sqrt(2.0 / (2 * STARTS)) / log(SPREAD);
+    judge(ran && fabs(power - 0.5) < margin, row_card(m)->name, "Brouwer's law",
+          "energy off by %.1e, then %.1e: the power %.3f of time, margin %.3f", sqrt(square[0]), sqrt(square[1]), power,
+          margin);
+}
+
 void laws_of_stability(void)
 {
     for (method m = 0; m < row_count(); m++) {
@@ -287,5 +335,6 @@ void laws_of_stability(void)
         /* Newmark and Beeman are conjugate to symplectic maps: they are not declared symplectic, and have no trend
          * either. */
         if (methods_table[m].family == RUNGE_KUTTA || row_card(m)->symplectic) energy(m);
+        if (methods_table[m].family == RADAU) brouwer(m);
     }
 }
