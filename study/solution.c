@@ -18,6 +18,8 @@
 
 #define NONE "none: " /* begins the text where nothing is known */
 #define SOLUTION_CANDIDATES 3
+/* Halved steps of a higher order reach rounding at once, so that their differences tell nothing of their error. */
+#define SOLUTION_ORDER_MOST 8
 #define SOLUTION_ORDERS_BELOW 2 /* candidates are at most this far below the highest admitted order */
 #define SOLUTION_LEVELS 24      /* halvings of an interval */
 /* a difference that stops falling is round-off if it is below this, else the motion is not yet resolved */
@@ -73,7 +75,8 @@ static size_t candidates(study *s, candidate *out)
     for (int pass = 0; pass < 2; pass++)
         for (size_t k = 0; k < motus_method_count(); k++) {
             const motus_method *m = motus_method_at(k);
-            if (strcmp(m->family, "exact") == 0 || !study_admits(s, m->name)) continue;
+            if (strcmp(m->family, "exact") == 0 || m->order > SOLUTION_ORDER_MOST || !study_admits(s, m->name))
+                continue;
             if (pass == 0) {
                 highest = m->order > highest ? m->order : highest;
                 continue;
@@ -258,7 +261,9 @@ static const motus_method *judge_of(study *s, const motus_method *best, double s
     int rank = 0;
     for (size_t k = 0; k < motus_method_count(); k++) {
         const motus_method *m = motus_method_at(k);
-        if (m == best || strcmp(m->family, "exact") == 0 || m->order < best->order - SOLUTION_ORDERS_BELOW) continue;
+        if (m == best || strcmp(m->family, "exact") == 0 || m->order > SOLUTION_ORDER_MOST ||
+            m->order < best->order - SOLUTION_ORDERS_BELOW)
+            continue;
         const int other = strcmp(m->family, best->family) != 0 ? 2 : 1;
         if (rank > other || (rank == other && judge->order >= m->order)) continue;
         if (too_dear(s, m, steps, most) || !study_admits(s, m->name)) continue;
