@@ -76,7 +76,7 @@ static int radau_step(work *w)
 static int radau_carry(const work *w, real *list[CARRY_MAX])
 {
     int count = work_carry_main(w, list);
-    for (int i = 0; i < FACT(w, kept); i++) list[count++] = w->ks + (size_t)i * w->stride;
+    for (int i = 0; i < FACT(w, kept); i++) list[count++] = w->ks ? w->ks + (size_t)i * w->stride : w->ks;
     return count;
 }
 

@@ -49,12 +49,14 @@ static void use(writer *w, operation op) { *(w->e->lanes ? &w->e->used_lanes : &
 
 static void write_leaf(writer *w, uint32_t item, const graph_node *n)
 {
-    const reference *r = &w->plan.g->references[n->a];
+    const graph *g = w->plan.g;
     char place[PLACE_MAX];
     switch (n->op) {
     case OP_TIME: emit_line(w, "if (n <= 1) z%u[n] = n ? SERIES_NUMBER(1.0) : SERIES_NUMBER(t);", item); break;
     case OP_INDEX: emit_line(w, "if (n == 0) z%u[0] = SERIES_NUMBER((double)j%d);", item, n->level); break;
-    default: emit_address(w, r, r->dims, place); emit_line(w, "if (n == 0) z%u[0] = SERIES_NUMBER(%s);", item, place);
+    default:
+        emit_address(w, &g->references[n->a], g->references[n->a].dims, place);
+        emit_line(w, "if (n == 0) z%u[0] = SERIES_NUMBER(%s);", item, place);
     }
 }
 
