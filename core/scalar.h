@@ -11,24 +11,12 @@ typedef int64_t whole;
 #define SQRT_EPSILON 0x1p-26
 #define SMALLEST 1e-300
 typedef uint64_t clock_bits;
-static inline uint64_t bits_of_clock(double x)
-{
-    const union {
-        double x;
-        uint64_t b;
-    } u = {x};
-    return u.b;
-}
-static inline double clock_of_bits(uint64_t b)
-{
-    const union {
-        uint64_t b;
-        double x;
-    } u = {b};
-    return u.x;
-}
-#define PATTERN_OF(x) bits_of_clock(x)
-#define CLOCK_OF(b) clock_of_bits(b)
+typedef union clock_pattern {
+    double number;
+    uint64_t bits;
+} clock_pattern;
+#define PATTERN_OF(x) (((const clock_pattern){.number = (x)}).bits)
+#define CLOCK_OF(b) (((const clock_pattern){.bits = (b)}).number)
 #define EACH(k) for (size_t k = 0; k < FACT(w, nx); k++)
 #define EACHV(k) for (size_t k = 0; k < FACT(w, nv); k++)
 #define TRACE(w, i) ((void)(w), (void)(i))

@@ -115,7 +115,7 @@ motus_status stepper_create(const machine *m, const chosen *method, double t0, d
         s->work.variable = s->all;
         s->work.variables = 1;
     }
-    s->work.library = &s->library;
+    s->work.services = &s->library;
     s->work.host = m->host;
     s->body->place(&s->work, memory);
     status = stepper_start(s, t0, h, x, v, err);

@@ -21,7 +21,7 @@
 #endif
 #include "step/work.h"
 
-/* The data of the library's own bodies, found through work.library. tracing: core/trace_body.h, while a step is
+/* The data of the library's own bodies, found through work.services. tracing: core/trace_body.h, while a step is
  * traced. */
 struct stepper_host {
     const problem *problem;

@@ -4,7 +4,7 @@
  */
 static inline int accel(work *w, clock t, real *x, real *v, real *a)
 {
-    const problem *p = w->library->problem;
+    const problem *p = w->services->problem;
     w->evaluations++;
     return p->accel(p->ctx, t, x, v, a) ? STEP_CALLBACK : STEP_OK;
 }
@@ -12,7 +12,7 @@ static inline int accel(work *w, clock t, real *x, real *v, real *a)
 static inline int solve_factor(work *w, mask *where, int s, const clock *ax, const clock *av, clock t, real *x, real *v)
 {
     (void)where, (void)s; /* the solver was made for this number of stages */
-    switch (solver_factor(w->library->solver, ax, av, t, x, v, &w->evaluations)) {
+    switch (solver_factor(w->services->solver, ax, av, t, x, v, &w->evaluations)) {
     case 0: return STEP_OK;
     case 1: return STEP_CALLBACK;
     default:
@@ -22,28 +22,28 @@ static inline int solve_factor(work *w, mask *where, int s, const clock *ax, con
     }
 }
 
-static inline void solve_back(work *w, real *r) { solver_back(w->library->solver, r); }
+static inline void solve_back(work *w, real *r) { solver_back(w->services->solver, r); }
 static inline void solve_apply(work *w, clock c, const real *y, real *out)
 {
-    solver_apply(w->library->solver, c, y, out);
+    solver_apply(w->services->solver, c, y, out);
 }
-static const real *solve_diagonal(const work *w) { return solver_diagonal(w->library->solver); }
+static const real *solve_diagonal(const work *w) { return solver_diagonal(w->services->solver); }
 
 static inline int exact_at(work *w, clock t, real *x, real *v)
 {
-    const problem *p = w->library->problem;
+    const problem *p = w->services->problem;
     return p->exact(p->ctx, t, x, v) ? STEP_CALLBACK : STEP_OK;
 }
 
 static inline void refresh_at(work *w, clock t, real *x, real *v)
 {
-    const problem *p = w->library->problem;
+    const problem *p = w->services->problem;
     if (p->refresh) p->refresh(p->ctx, t, x, v);
 }
 
 static inline void series_order(work *w, int n, clock t)
 {
-    const problem *p = w->library->problem;
+    const problem *p = w->services->problem;
     p->series(p->ctx, w->expands + 1, n, t, w->xs, w->vs, w->a, w->ks);
 }
 

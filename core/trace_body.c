@@ -7,10 +7,10 @@
 #include "core/stepper_parts.h"
 
 #define TRACING
-static const tracer *tracer_of(const work *w) { return w->library->tracing->to; }
+static const tracer *tracer_of(const work *w) { return w->services->tracing->to; }
 static inline void family_trace(work *, int i);
 #undef TRACE
-#define TRACE(w, i) ((w)->library->tracing ? trace_at(w, i) : (void)0)
+#define TRACE(w, i) ((w)->services->tracing ? trace_at(w, i) : (void)0)
 static inline void trace_at(work *w, int i)
 {
     if (i == TRACE_CANDIDATE)
@@ -21,7 +21,7 @@ static inline void trace_at(work *w, int i)
 
 static void tell(const work *w, trace_event e)
 {
-    const tracing *in = w->library->tracing;
+    const tracing *in = w->services->tracing;
     e.stages = w->stages;
     e.iterations = w->iterations - in->iterations;
     in->to->see(in->to->ctx, &e);

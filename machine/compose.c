@@ -226,7 +226,8 @@ static void add_family(emit_text *t, const composition *c)
         add_text(t, "step/control.h");
     } else {
         emit_add(
-            t, "#define control_first(w) STEP_OK\n#define control_begin(w) STEP_OK\n#define control_known(w, known) "
+            t, "#define control_first(w) STEP_OK\n#define control_begin(w) STEP_OK\n#define control_last_is_first(w) "
+               "false\n#define control_known(w, known) "
                "((void)0)\n#define control_norm(w, x, v) (CLOCK(0))\n#define control_joint(high, low) (high)\n"
                "#define control_size(w) (w)->h\n#define control_judge(w) EVERY\n#define control_judge_own(w) EVERY\n");
     }

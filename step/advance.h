@@ -8,9 +8,10 @@
 #endif
 ADVANCE_STEP int advance_step(work *w)
 {
-    int bad = ROW(w, adaptive) ? control_first(w) : STEP_OK;
-    if (bad) return bad;
+    int bad = STEP_OK;
     if (ROW(w, adaptive)) {
+        bad = control_first(w);
+        if (bad) return bad;
         if (!ROW(w, sizes)) work_scale(w, control_size(w));
         TRACE(w, TRACE_CANDIDATE);
     }

@@ -24,6 +24,9 @@ static inline clock control_exp2(clock y)
     return CLOCK_OF((PATTERN_OF(shifted) + 1023) << 52) * (1 + r * (0.693147 + r * (0.240227 + r * 0.0555)));
 }
 
+/* Whether a step ends with the evaluation with which the next one begins. */
+static inline bool control_last_is_first(const work *w) { return FACT(w, ending) || FACT(w, closing); }
+
 /* The acceleration at the start of the step, in w->a. Where it was the last stage of the step before, it has been
  * counted there, and the driven boundary cells are written here as evaluating it here would have done. */
 static inline int control_begin(work *w)
@@ -34,7 +37,7 @@ static inline int control_begin(work *w)
     }
     const whole before = w->evaluations;
     const int bad = accel_now(w, w->x, w->v, w->a);
-    if ((FACT(w, ending) || FACT(w, closing)) && !NONE(w->n > 0)) w->evaluations = before;
+    if (control_last_is_first(w) && !NONE(w->n > 0)) w->evaluations = before;
     return bad;
 }
 
@@ -108,14 +111,20 @@ static inline void control_count(work *w, clock_mask good)
     w->longest = CHOOSE_WHERE(whole_step & (size > w->longest), size, w->longest);
 }
 
+/* The candidate is judged, and the next one will be w->next long. */
+static inline void control_settle(work *w, clock_mask good)
+{
+    control_count(w, good);
+    w->stalled = (w->t + w->next == w->t) | (ABS(w->next) < w->least);
+    w->refused += NONE(good);
+}
+
 /* Of rows that find their own sizes. */
 static inline clock_mask control_judge_own(work *w)
 {
     const clock_mask good = w->error <= 1;
-    control_count(w, good);
     w->next = CHOOSE_WHERE(good, w->after, w->h / 2);
-    w->stalled = (w->t + w->next == w->t) | (ABS(w->next) < w->least);
-    w->refused += NONE(good);
+    control_settle(w, good);
     return good;
 }
 
@@ -131,9 +140,7 @@ static inline clock_mask control_judge(work *w)
                            CHOOSE_WHERE(ABS(next) <= w->most, next, CHOOSE_WHERE(next < 0, -w->most, w->most)));
     w->before = CHOOSE_WHERE(good, level, w->before);
     w->rise = CHOOSE_WHERE(good, CLOCK(CONTROL_RISE), CLOCK(0.0));
-    control_count(w, good);
-    w->stalled = (w->t + w->next == w->t) | (ABS(w->next) < w->least);
-    w->refused += NONE(good);
+    control_settle(w, good);
     return good;
 }
 

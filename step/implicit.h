@@ -178,22 +178,8 @@ static int implicit_step(work *w)
 #define implicit_observe state_is_complete
 #define implicit_sync work_sync_main
 #define implicit_dense dense_stages
-
-static int implicit_carry(const work *w, real *list[CARRY_MAX])
-{
-    int count = work_carry_main(w, list);
-    if (FACT(w, known)) list[count++] = w->a;
-    for (int i = 0; i < FACT(w, kept); i++) list[count++] = w->ks ? w->ks + (size_t)i * w->stride : w->ks;
-    return count;
-}
-
-static inline void implicit_place(work *w, placing *p)
-{
-    w->xs = work_array(p, 1);
-    w->vs = work_array(p, 1);
-    w->ks = work_array(p, FACT(w, stages));
-    w->r = work_array(p, FACT(w, stages));
-}
+#define implicit_carry tableau_carry
+#define implicit_place tableau_arrays
 
 #ifdef ROWS
 /* Newmark: x + h v + h² ((1/2 - β) K0 + β K1), v + h ((1 - γ) K0 + γ K1); the second stage is the end of the step. */

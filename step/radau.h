@@ -72,21 +72,8 @@ static int radau_step(work *w)
 #define radau_observe state_is_complete
 #define radau_sync work_sync_main
 #define radau_dense dense_stages
-
-static int radau_carry(const work *w, real *list[CARRY_MAX])
-{
-    int count = work_carry_main(w, list);
-    for (int i = 0; i < FACT(w, kept); i++) list[count++] = w->ks ? w->ks + (size_t)i * w->stride : w->ks;
-    return count;
-}
-
-static inline void radau_place(work *w, placing *p)
-{
-    w->xs = work_array(p, 1);
-    w->vs = work_array(p, 1);
-    w->ks = work_array(p, FACT(w, stages));
-    w->r = work_array(p, FACT(w, stages));
-}
+#define radau_carry tableau_carry
+#define radau_place tableau_arrays
 
 #ifdef ROWS
 static void radau_plan(work *w, const double argument[2], coef *unit, coef *c)

@@ -9,12 +9,13 @@
  * Invariant: the sums over stages, of small numbers, are formed first; h multiplies them, and the state takes them
  * once.
  */
-static inline int runge_kutta_error(const work *w) { return 2 * tableau_b(w) + 2 * FACT(w, stages); }
+/* 1 - Σ b and 1/2 - Σ bb, of the rounded numbers: without them time would run too fast or too slow by as much. */
+static inline int runge_kutta_residual(const work *w) { return tableau_bb(w) + FACT(w, stages); }
+/* of adaptive rows: the weights of the errors */
+static inline int runge_kutta_error(const work *w) { return runge_kutta_residual(w) + 2; }
 static inline int runge_kutta_error_x(const work *w) { return runge_kutta_error(w) + FACT(w, stages) + 1; }
 static inline int runge_kutta_second(const work *w) { return runge_kutta_error_x(w) + FACT(w, stages) + 1; }
 static inline int runge_kutta_second_x(const work *w) { return runge_kutta_second(w) + FACT(w, stages) + 1; }
-/* 1 - Σ b and 1/2 - Σ bb, of the rounded numbers: without them time would run too fast or too slow by as much. */
-static inline int runge_kutta_residual(const work *w) { return runge_kutta_second_x(w) + FACT(w, stages) + 1; }
 
 /* The velocity at stage i. */
 static inline void runge_kutta_velocity(const work *w, int i, real *restrict V)
@@ -74,11 +75,11 @@ static inline int runge_kutta_stage(work *w, int i)
 }
 
 /* y += d where the step is accepted; e: the error word of y, which d has in it already. */
-#define RUNGE_KUTTA_MOVE(good, compensated, y, e, d)                                   \
-    do {                                                                               \
-        const __typeof__(y) p_ = (d), s_ = (y) + p_, b_ = s_ - (y);                    \
-        if (compensated) (e) = CHOOSE_WHERE(good, ((y) - (s_ - b_)) + (p_ - b_), (e)); \
-        (y) = CHOOSE_WHERE(good, s_, (y));                                             \
+#define RUNGE_KUTTA_MOVE(good, compensated, y, e, d)                            \
+    do {                                                                        \
+        const __typeof__(y) p_ = (d), s_ = (y) + p_;                            \
+        if (compensated) (e) = CHOOSE_WHERE(good, ROUNDED_OFF(y, p_, s_), (e)); \
+        (y) = CHOOSE_WHERE(good, s_, (y));                                      \
     } while (0)
 
 /* The acceleration at the candidate, which is a stage of the estimate. */
@@ -139,7 +140,7 @@ static inline void runge_kutta_accept(work *w, clock_mask good)
     real *restrict x = w->x, *restrict v = w->v, *restrict ex = w->ex, *restrict ev = w->ev;
     EACH(k) RUNGE_KUTTA_MOVE(good, ROW(w, compensated), x[k], ex[k], w->dx[k]);
     EACHV(k) RUNGE_KUTTA_MOVE(good, ROW(w, compensated), v[k], ev[k], w->dv[k]);
-    const bool known = FACT(w, ending) || FACT(w, closing);
+    const bool known = control_last_is_first(w);
     const real *end = w->ks + (size_t)(FACT(w, stages) - FACT(w, closing)) * w->stride;
     if (known)
         EACHV(k) w->a[k] = CHOOSE_WHERE(good, end[k], w->a[k]);
@@ -162,6 +163,13 @@ static inline void runge_kutta_place(work *w, placing *p)
 }
 
 #ifdef ROWS
+/* Number j of the row r of s numbers times the s × s matrix a, and `more`; rounded once. */
+static coef runge_kutta_product(int s, const coef *r, const coef *a, int j, pair more)
+{
+    for (int l = 0; l < s; l++) more = pair_sum(more, pair_exact_product(r[l], a[l * s + j]));
+    return more.high;
+}
+
 /* error: weights of the velocities; error_x of the positions, which follow from a where the row does not give them. */
 static void runge_kutta_weights(const work *w, const coef *error, const coef *error_x, coef *unit, int at, int at_x)
 {
@@ -173,20 +181,17 @@ static void runge_kutta_weights(const work *w, const coef *error, const coef *er
         for (int i = 0; i < all; i++) ee[i] = error_x[i];
         return;
     }
-    for (int j = 0; j < s; j++) { /* the stage at the candidate has the weights b of the step itself */
-        coef hi = 0, lo = 0;
-        for (int l = 0; l < s; l++) tableau_add(&hi, &lo, e[l], a[l * s + j]);
-        if (w->ending) tableau_add(&hi, &lo, e[s], b[j]);
-        ee[j] = hi + lo;
-    }
+    /* the stage at the candidate has the weights b of the step itself */
+    for (int j = 0; j < s; j++)
+        ee[j] = runge_kutta_product(s, e, a, j, w->ending ? pair_exact_product(e[s], b[j]) : pair_of(0));
 }
 
 /* whole - Σ c */
 static coef runge_kutta_missing(coef whole, const coef *c, int count)
 {
-    coef hi = whole, lo = 0;
-    for (int i = 0; i < count; i++) tableau_add(&hi, &lo, -1, c[i]);
-    return hi + lo;
+    pair sum = pair_of(whole);
+    for (int i = 0; i < count; i++) sum = pair_sum(sum, pair_of(-c[i]));
+    return sum.high;
 }
 
 static void runge_kutta_plan(work *w, const double argument[2], coef *unit, coef *c)
@@ -198,7 +203,7 @@ static void runge_kutta_plan(work *w, const double argument[2], coef *unit, coef
     w->closing = m->tableau.closing;
     w->second = m->tableau.second != NULL;
     w->order = m->tableau.order;
-    w->plains = runge_kutta_residual(w) + 2;
+    w->plains = m->adaptive ? runge_kutta_second_x(w) + s + 1 : runge_kutta_error(w);
     if (!unit) return;
     coef *b = unit + tableau_b(w), *bb = unit + tableau_bb(w);
     for (int i = 0; i < w->plains; i++) unit[i] = 0;
@@ -209,9 +214,11 @@ static void runge_kutta_plan(work *w, const double argument[2], coef *unit, coef
         for (int j = 0; j < i && m->tableau.aa; j++) unit[tableau_aa(w, i) + j] = m->tableau.aa[i * (i - 1) / 2 + j];
         if (m->tableau.bb) bb[i] = m->tableau.bb[i];
     }
-    for (int i = 0; i < s && !m->tableau.aa; i++)
-        tableau_times(s, unit + tableau_a(w, i), unit, unit + tableau_aa(w, i));
-    if (!m->tableau.bb) tableau_times(s, b, unit, bb);
+    for (int j = 0; j < s; j++) {
+        for (int i = 0; i < s && !m->tableau.aa; i++)
+            unit[tableau_aa(w, i) + j] = runge_kutta_product(s, unit + tableau_a(w, i), unit, j, pair_of(0));
+        if (!m->tableau.bb) bb[j] = runge_kutta_product(s, b, unit, j, pair_of(0));
+    }
     unit[runge_kutta_residual(w)] = runge_kutta_missing(1, b, s);
     unit[runge_kutta_residual(w) + 1] = runge_kutta_missing(K(0.5), bb, s);
     if (!m->adaptive) return;

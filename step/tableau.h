@@ -114,29 +114,27 @@ static inline void tableau_extrapolate(work *w, int first)
     }
 }
 
+static int tableau_carry(const work *w, real *list[CARRY_MAX])
+{
+    int count = work_carry_main(w, list);
+    if (FACT(w, known)) list[count++] = w->a;
+    for (int i = 0; i < FACT(w, kept); i++) list[count++] = w->ks ? w->ks + (size_t)i * w->stride : w->ks;
+    return count;
+}
+
+static inline void tableau_arrays(work *w, placing *p)
+{
+    w->xs = work_array(p, 1);
+    w->vs = work_array(p, 1);
+    w->ks = work_array(p, FACT(w, stages));
+    w->r = work_array(p, FACT(w, stages));
+}
+
 #ifdef ROWS
 static void tableau_sizes(work *w, int stages)
 {
     w->stages = stages;
     w->linears = w->squares = stages * stages + stages;
-}
-
-/* hi + lo += a b, unevaluated: the rounding errors of product and sum go to lo. */
-static void tableau_add(coef *hi, coef *lo, coef a, coef b)
-{
-    const coef p = a * b, error = FMA(a, b, -p), s = *hi + p, part = s - *hi;
-    *lo += ((*hi - (s - part)) + (p - part)) + error;
-    *hi = s;
-}
-
-/* Row r of s numbers times the s × s matrix a; every entry is rounded once. */
-static void tableau_times(int s, const coef *r, const coef *a, coef *out)
-{
-    for (int j = 0; j < s; j++) {
-        coef hi = 0, lo = 0;
-        for (int l = 0; l < s; l++) tableau_add(&hi, &lo, r[l], a[l * s + j]);
-        out[j] = hi + lo;
-    }
 }
 #endif
 

@@ -177,7 +177,7 @@ typedef struct work {
 
     size_t which; /* the number that failed: entry of v, or of x where !in_v */
     bool in_v;
-    struct stepper_host *library;     /* the includer's: what the library's own bodies work with, */
+    struct stepper_host *services;    /* the includer's: what the library's own bodies work with, */
     const struct compiled_host *host; /* and a compiled model's */
     window window;
 } work;
@@ -202,15 +202,17 @@ typedef struct work {
 #define FIRST(w) (!ROW(w, adaptive) && (w)->n == 0)
 #endif
 
-/* y += c z, and the same by compensated addition with the error word e of y: Knuth's two-sum, exact whichever operand
- * is larger. */
+/* What rounding leaves of y + p = sum, exactly, whichever of the two is larger [Knuth69, 4.2.2]. */
+#define ROUNDED_OFF(y, p, sum) (((y) - ((sum) - ((sum) - (y)))) + ((p) - ((sum) - (y))))
+
+/* y += c z, and the same by compensated addition with the error word e of y. */
 #define ADVANCE(y, c, z) ((y) = FMA((c), (z), (y)))
 #define ADVANCE_COMPENSATED(y, e, c, z) ADD_COMPENSATED(y, e, FMA((c), (z), (e)))
-#define ADD_COMPENSATED(y, e, sum)                              \
-    do {                                                        \
-        __typeof__(y) p_ = (sum), s_ = (y) + p_, b_ = s_ - (y); \
-        (e) = ((y) - (s_ - b_)) + (p_ - b_);                    \
-        (y) = s_;                                               \
+#define ADD_COMPENSATED(y, e, sum)               \
+    do {                                         \
+        __typeof__(y) p_ = (sum), s_ = (y) + p_; \
+        (e) = ROUNDED_OFF(y, p_, s_);            \
+        (y) = s_;                                \
     } while (0)
 
 /* What a splitting with compensated addition does with every number (operators.h). A kick: ev += b a, whose rounding
@@ -262,8 +264,8 @@ static inline void time_tick(work *w, clock_mask good)
 {
     if (NONE(good)) return;
     if (FACT(w, carried)) {
-        const clock way = w->h + w->lost, sum = w->t + way, taken = sum - w->t;
-        w->lost = CHOOSE_WHERE(good, (w->t - (sum - taken)) + (way - taken), w->lost);
+        const clock way = w->h + w->lost, sum = w->t + way;
+        w->lost = CHOOSE_WHERE(good, ROUNDED_OFF(w->t, way, sum), w->lost);
         w->t = CHOOSE_WHERE(good, sum, w->t);
         if (!NONE(w->ends)) {
             w->lost = CHOOSE_WHERE(good & w->ends, 0, w->lost);

@@ -64,7 +64,7 @@ typedef struct stepper_host dense;
 static int accel(work *w, quad t, quad *x, quad *v, quad *a)
 {
     w->evaluations++;
-    w->library->problem->accel(t, x, v, a);
+    w->services->problem->accel(t, x, v, a);
     return STEP_OK;
 }
 
@@ -93,7 +93,7 @@ static void invert(quad m[UNKNOWNS][UNKNOWNS], int n, quad inverse[UNKNOWNS][UNK
 
 static int solve_factor(work *w, mask *where, int s, const quad *ax, const quad *av, quad t, quad *x, quad *v)
 {
-    dense *d = w->library;
+    dense *d = w->services;
     const int nv = (int)w->nv;
     static quad m[UNKNOWNS][UNKNOWNS];
     (void)where;
@@ -117,7 +117,7 @@ static int solve_factor(work *w, mask *where, int s, const quad *ax, const quad 
 
 static void solve_back(work *w, quad *r)
 {
-    const dense *d = w->library;
+    const dense *d = w->services;
     quad right[UNKNOWNS];
     const int nv = (int)w->nv, n = d->n;
     for (int i = 0; i < n; i++) right[i] = r[(size_t)(i / nv) * w->stride + (size_t)(i % nv)];
@@ -130,7 +130,7 @@ static void solve_back(work *w, quad *r)
 
 static void solve_apply(work *w, quad c, const quad *y, quad *out)
 {
-    const dense *d = w->library;
+    const dense *d = w->services;
     EACHV(k) {
         out[k] = y[k];
         for (size_t j = 0; j < w->nv; j++) out[k] += c * d->jv[k][j] * y[j];
@@ -202,7 +202,7 @@ static void begin(work *w, dense *d, quad *memory, const row *m, const double *a
 {
     *w = *plan_of(m, argument, p);
     w->t0 = t0;
-    w->library = d;
+    w->services = d;
     d->problem = p;
     work_scale(w, h);
     if (work_place(w, NULL) > ARRAYS_MAX) abort();

@@ -80,6 +80,14 @@ static void write_eights(writer *w, uint32_t region)
     w->e->uses_vectors |= along;
 }
 
+void emit_total(writer *w, uint32_t k, const char *type, const char *first, const char *last)
+{
+    emit_line(w,
+              "const %s r%u = %s - (%s) + 1 > 16 ? ((s%u[0] + s%u[1]) + (s%u[2] + s%u[3])) + ((s%u[4] + s%u[5]) + "
+              "(s%u[6] + s%u[7])) : s%u[0];",
+              type, k, last, first, k, k, k, k, k, k, k, k, k);
+}
+
 static void write_sum(writer *w, uint32_t region)
 {
     const plan_region *r = &w->plan.regions.at[region];
@@ -115,10 +123,7 @@ static void write_sum(writer *w, uint32_t region)
     w->depth--;
     emit_line(w, "}");
     EACH_SUM(k, r)
-    emit_line(w,
-              "const %s r%u = %s - (%s) + 1 > 16 ? ((s%u[0] + s%u[1]) + (s%u[2] + s%u[3])) + ((s%u[4] + s%u[5]) + "
-              "(s%u[6] + s%u[7])) : s%u[0];",
-              emit_type(w, w->plan.items.at[k].n), k, last, first, k, k, k, k, k, k, k, k, k);
+    emit_total(w, k, emit_type(w, w->plan.items.at[k].n), first, last);
 }
 
 static void write_loop(writer *w, uint32_t region)

@@ -42,6 +42,8 @@ bool emit_varies(const writer *, const array *);
 void emit_element(writer *, const reference *, int dims, char out[PLACE_MAX]); /* "q[3] + j0 * q[4] + j1" */
 void emit_address(writer *, const reference *, int dims, char out[PLACE_MAX]); /* "AT(x, ELEMENT)" */
 void emit_bound(writer *, const subscript *, char out[PLACE_MAX]);
+/* The result of sum k from its partial sums: eight of a long range, added in the order that defines its bits. */
+void emit_total(writer *, uint32_t k, const char *type, const char *first, const char *last);
 /* Where the lanes of a wide place are: next to one another; the same except for a wrap, which emit_around writes;
  * or anywhere. */
 typedef enum spread { TOGETHER, AROUND, ANYWHERE } spread;

@@ -182,10 +182,7 @@ static void write_loop(writer *w, uint32_t region)
     w->depth--;
     emit_line(w, "}");
     EACH_SUM(k, r)
-    emit_line(w,
-              "const real r%u = %s - (%s) + 1 > 16 ? ((s%u[0] + s%u[1]) + (s%u[2] + s%u[3])) + ((s%u[4] + s%u[5]) + "
-              "(s%u[6] + s%u[7])) : s%u[0];",
-              k, last, first, k, k, k, k, k, k, k, k, k);
+    emit_total(w, k, "real", first, last);
 }
 
 static void write_region(writer *w, uint32_t region)
