@@ -25,6 +25,12 @@ void bars_give_up(motus_run *r, const char *format, ...)
     va_end(list);
 }
 
+static int tell(void *ctx, double now)
+{
+    motus_run *r = ctx;
+    return r->pace.tell(r, now);
+}
+
 motus_status bars_prepare(motus_run *r, const motus_run_def *def, motus_error *err)
 {
     if ((unsigned)def->error > MOTUS_BARS_FULL)
@@ -47,6 +53,12 @@ void bars_destroy(motus_run *r)
     give(&r->allocator, r->bars);
 }
 
+void bars_move(motus_run *r)
+{
+    r->bars->half.pace = r->bars->twin.pace =
+        (pace){.seconds = r->pace.seconds, .tell = r->pace.tell ? tell : NULL, .ctx = r};
+}
+
 /* ---- the start ---- */
 
 /* Whether a callback gives the same acceleration twice; else no other run of it is the same motion. */
@@ -66,12 +78,6 @@ static bool repeats(motus_run *r, const double *x, const double *v)
     for (size_t k = 0; k < p->nv; k++) same = same && (a[k] == again[k] || (isnan(a[k]) && isnan(again[k])));
     give(&r->allocator, room);
     return same;
-}
-
-static int tell(void *ctx, double now)
-{
-    motus_run *r = ctx;
-    return r->pace.tell(r, now);
 }
 
 /* Its system, with decimals rounded to their other side, and the machine of the run. */

@@ -2,14 +2,30 @@
 #include "api/symmetry.h"
 #include "api/choice.h"
 
+#include "core/stepper_body.h"
+
 #include <string.h>
+
+bool choice_is_auto(const char *method)
+{
+    static const char word[] = CHOICE_AUTO;
+    size_t k = 0;
+    while (method && word[k] && (method[k] | ('a' ^ 'A')) == word[k]) k++;
+    return method && !word[k] && !method[k];
+}
 
 motus_status choice_method(motus_system *s, const char *name, chosen *chosen, const motus_method **card,
                            motus_error *err)
 {
     motus_settings set = motus_default_settings();
     motus_settings_of(s, &set);
-    motus_status status = row_choose(name ? name : set.method ? set.method : "verlet", chosen, card, err);
+    if (!name) name = set.method ? set.method : "verlet";
+    if (choice_is_auto(name)) {
+        fail(err, MOTUS_METHOD, "auto chooses the method of a run, by its equation, its end and its accuracy");
+        hint(err, "name a method here: dop853 suits every force, verlet conserves energy");
+        return MOTUS_METHOD;
+    }
+    motus_status status = row_choose(name, chosen, card, err);
     if (status != MOTUS_OK) return status;
     /* also where Boris is not chosen: it may be the method that the refusal names */
     const bool may_need = (*card)->forces != MOTUS_FORCES_XVT || !strcmp((*card)->name, "boris");
@@ -49,10 +65,15 @@ motus_status choice_compile(motus_system *s, const chosen *chosen, bool must, bo
 /* A compiler's time grows with the text: this much work for each operation in it. */
 #define WORTH_AN_OPERATION 1e6
 
-double choice_worth(const motus_system *s, const motus_method *card, double steps)
+double choice_worth(const motus_system *s, const chosen *chosen, const motus_method *card, double steps)
 {
+    const int orders = stepper_plan(&s->problem, chosen, NULL).expands; /* of a Taylor series: an evaluation each */
+
     const double nodes = (double)s->model->graph->count;
-    const double operations =
-        steps * (card->evaluations ? card->evaluations : 4 * card->stages) * (nodes + 4 * (double)s->problem.nv);
+    const double operations = steps *
+                              (orders              ? orders
+                               : card->evaluations ? card->evaluations
+                                                   : 4 * card->stages) *
+                              (nodes + 4 * (double)s->problem.nv);
     return operations / (WORTH_COMPILING + WORTH_AN_OPERATION * nodes);
 }

@@ -4,6 +4,8 @@
 
 #include "api/system.h"
 
+#define CHOICE_AUTO "auto"
+bool choice_is_auto(const char *method); /* in any letter case */
 /* The method by its name (NULL: the model's, or verlet), if it admits the system. Samples the velocity term first where
  * the answer depends on it. */
 motus_status choice_method(motus_system *, const char *name, chosen *, const motus_method **card, motus_error *);
@@ -15,7 +17,7 @@ motus_status choice_compile(motus_system *, const chosen *, bool must, bool kept
                             motus_error *);
 /* The work of so many steps relative to the compiler's. At 1 and more compiling pays; at CHOICE_KEPT and more it
  * pays to search for an object that was compiled before. */
-double choice_worth(const motus_system *, const motus_method *, double steps);
+double choice_worth(const motus_system *, const chosen *, const motus_method *, double steps);
 #define CHOICE_KEPT 0.01
 
 #endif

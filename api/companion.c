@@ -29,7 +29,10 @@ motus_status companion_begin(companion *c, const motus_run *r, double t, const d
     for (size_t k = 0; k < p->nv; k++) c->v[k] = v[k];
     c->t = t;
     chosen method = r->chosen;
-    if (row_adaptive(&method)) method.absolute = ANY_ERROR, method.least = 0, method.most = INFINITY;
+    if (row_adaptive(&method)) {
+        if (method.relative == 0) method.relative = method.absolute; /* a Taylor series takes its order from it */
+        method.absolute = ANY_ERROR, method.least = 0, method.most = INFINITY;
+    }
     if (c->stepper) return stepper_start(c->stepper, t, r->timing.h, x, v, err);
     return stepper_create(&c->machine, &method, t, r->timing.h, x, v, &r->allocator, &c->stepper, err);
 }

@@ -28,7 +28,8 @@ static const layout layouts[] = {
                             &(const motus_callback_def){
                                 .quantities = 1, .invariants = 1, .depends_on_velocity = 1, .depends_on_time = 1}},
     [MOTUS_DEF_RUN] = {"motus_run_def", "run", SIZES(motus_run_def),
-                       &(const motus_run_def){.step = NAN, .tolerance = NAN, .until = NAN, .start = NAN}},
+                       &(const motus_run_def){
+                           .step = NAN, .accuracy = NAN, .tolerance = NAN, .until = NAN, .start = NAN}},
     [MOTUS_DEF_STUDY] = {"motus_study_def", "study", SIZES(motus_study_def),
                          &(const motus_study_def){.step = NAN, .until = NAN}},
     [MOTUS_DEF_ENSEMBLE] = {"motus_ensemble_def", "ensemble", SIZES(motus_ensemble_def),
@@ -37,15 +38,18 @@ static const layout layouts[] = {
     [MOTUS_DEF_COLUMN] = {"motus_column", "column", SIZES(motus_column), NULL},
     [MOTUS_DEF_PARAMETER] = {"motus_parameter", "parameter", SIZES(motus_parameter), NULL},
     [MOTUS_DEF_INITIAL] = {"motus_initial", "initial", SIZES(motus_initial), NULL},
-    [MOTUS_DEF_SETTINGS] = {"motus_settings", "settings", SIZES(motus_settings),
-                            &(const motus_settings){
-                                .step = NAN, .from = NAN, .until = NAN, .tolerance = NAN, .every_time = NAN}},
+    [MOTUS_DEF_SETTINGS] =
+        {"motus_settings", "settings", SIZES(motus_settings),
+         &(const motus_settings){
+             .step = NAN, .from = NAN, .until = NAN, .tolerance = NAN, .accuracy = NAN, .every_time = NAN}},
     [MOTUS_DEF_ANALYSIS] = {"motus_analysis", "analysis", SIZES(motus_analysis), NULL},
     [MOTUS_DEF_STATEMENT] = {"motus_statement", "statement", SIZES(motus_statement), NULL},
     [MOTUS_DEF_STATISTICS] = {"motus_statistics", "statistics", SIZES(motus_statistics),
                               &(const motus_statistics){.first_step = NAN,
                                                         .last_step = NAN,
                                                         .tolerance = NAN,
+                                                        .accuracy = NAN,
+                                                        .reached = NAN,
                                                         .shortest_step = NAN,
                                                         .longest_step = NAN,
                                                         .jump = -1,

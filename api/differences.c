@@ -61,6 +61,7 @@ void differences_begin(differences *f, double start, double until)
     f->length = until - start;
     f->part = 0;
     f->distance = f->first = 0;
+    memset(f->most, 0, sizeof f->most);
     f->first_known = false;
     f->until = NAN;
     f->growth = (differences_growth){0};
@@ -99,6 +100,7 @@ static double distance_of(differences *f, const motus_system *s)
             f->scale[g] = fmax(f->scale[g], fabs(f->values[k]));
             far = fmax(far, f->d[k]);
         }
+        f->most[g] = fmax(f->most[g], far);
         if (f->scale[g] > 0) most = fmax(most, far / f->scale[g]);
         from += n;
     }
@@ -160,6 +162,18 @@ static double largest(const differences *f, const double *rows, size_t column)
     return most;
 }
 
+/* A bar is d times the difference, and e times its envelope. */
+typedef struct rule {
+    double d, e;
+} rule;
+
+static rule rule_of(const differences *f)
+{
+    if (f->twin) return (rule){2, 0.1};
+    return f->first >= ROUND_OFF ? (rule){2.5, 0.05} : (rule){3, 0.25};
+}
+static const rule with_kinks = {3, 0.5};
+
 double differences_bar(const differences *f, size_t column)
 {
     const double value = fabs(f->values[column]), d = f->d[column], e = largest(f, f->envelope, column);
@@ -167,10 +181,24 @@ double differences_bar(const differences *f, size_t column)
     if (!isnan(f->until)) return INFINITY;
     if (!isfinite(value) || !isfinite(d)) return NAN;
     const double ulp = nextafter(value, INFINITY) - value;
-    double bar = f->first >= ROUND_OFF ? 2.5 * d + 0.05 * e : 3 * d + 0.25 * e;
-    if (f->twin) bar = 2 * d + 0.1 * e + 0.5 * largest(f, f->twin, column);
-    if (f->kinked) bar = fmax(bar, 3 * d + 0.5 * e);
+    const rule now = rule_of(f);
+    double bar = now.d * d + now.e * e;
+    if (f->twin) bar += 0.5 * largest(f, f->twin, column);
+    if (f->kinked) bar = fmax(bar, with_kinks.d * d + with_kinks.e * e);
     return fmax(4 * ulp, bar);
+}
+
+double differences_worst(const differences *f, bool absolute)
+{
+    const rule now = f->kinked ? with_kinks : rule_of(f);
+    double worst = 0;
+    if (!f->first_known) return 0; /* as long as the motion has no size of its own */
+    for (size_t g = 0; g < DIFFERENCES_GROUPS; g++) {
+        const double scale = f->scale[g], ulp = nextafter(scale, INFINITY) - scale;
+        const double bar = fmax(4 * ulp, (now.d + now.e) * f->most[g]);
+        if (scale > 0) worst = fmax(worst, absolute ? bar : bar / scale);
+    }
+    return isnan(f->until) ? worst : INFINITY;
 }
 
 double differences_ratio(const differences *f) { return f->distance / fmax(f->first, 1e-16); }

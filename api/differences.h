@@ -25,6 +25,7 @@ typedef struct differences {
     int64_t part;
     uint8_t *zero;                    /* 1: the run and its companion have had 0 at all landings */
     double scale[DIFFERENCES_GROUPS]; /* the largest number of each group so far */
+    double most[DIFFERENCES_GROUPS];  /* the largest |run - companion| of each group so far */
     double distance;                  /* the largest |run - companion| / scale so far */
     double first;                     /* the distance when 1/32 of the run was done */
     bool first_known;
@@ -41,6 +42,9 @@ motus_status differences_take(differences *, motus_system *, double t, double *x
                               double *half_x, double *half_v, double *twin_x, double *twin_v, motus_error *);
 /* The bar of a column at the last landing; 0: its number is exact; INFINITY: no digit of it is significant. */
 double differences_bar(const differences *, size_t column);
+/* A bound on the bars that any number of the state had so far, relative to the largest number of its group or in its
+ * own units. INFINITY: of some no digit was significant. */
+double differences_worst(const differences *, bool absolute);
 double differences_ratio(const differences *); /* by how much the distance has grown */
 /* The rate at which the distance grows, where it grows as an exponential; else NaN. */
 double differences_rate(const differences *);

@@ -188,7 +188,7 @@ static motus_status make(motus_ensemble *e, const motus_ensemble_def *d, motus_e
     bool automatic, compiled;
     if (status == MOTUS_OK) status = choice_machine(wanted, &automatic, &compiled, err);
     if (status == MOTUS_OK && s->model && d->expected && automatic && !steps_differ(e) &&
-        choice_worth(s, card, (double)d->expected * (double)e->timing.total) < 1) {
+        choice_worth(s, &e->chosen, card, (double)d->expected * (double)e->timing.total) < 1) {
         compiled = false;
         wanted = "interpreter";
     }

@@ -1,5 +1,6 @@
 /* The legs of a run: motus_run_set_state begins one at another state, motus_run_statistics counts over all of them. */
 #include "api/bars.h"
+#include "api/goal.h"
 #include "api/locate.h"
 
 #include <math.h>
@@ -20,6 +21,7 @@ motus_status motus_run_statistics(const motus_run *r, motus_statistics *out)
     ours.last_step = ours.steps > 0 ? fabs(stepper_last_step(r->stepper)) : NAN;
     ours.absolute = r->chosen.absolute > 0;
     if (row_adaptive(&r->chosen)) ours.tolerance = ours.absolute ? r->chosen.absolute : r->chosen.relative;
+    goal_statistics(r, &ours);
     stepper_sizes(r->stepper, &ours.shortest_step, &ours.longest_step);
     locate_statistics(r, &ours);
     motus_struct_write(MOTUS_DEF_STATISTICS, &ours, out);

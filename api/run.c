@@ -4,6 +4,7 @@
 
 #include "api/choice.h"
 #include "api/control.h"
+#include "api/goal.h"
 #include "api/suggest.h"
 
 #include "machine/cache.h"
@@ -73,7 +74,7 @@ void run_leg(motus_run *r, const timing *t)
 
 /* ---- which machine ---- */
 
-static motus_status choose_machine(motus_run *r, const char *wanted, motus_error *err)
+static motus_status choose_machine(motus_run *r, const char *wanted, double steps, motus_error *err)
 {
     motus_system *s = r->system;
     bool automatic, compiled;
@@ -81,8 +82,9 @@ static motus_status choose_machine(motus_run *r, const char *wanted, motus_error
     r->note = "";
     motus_status status = choice_machine(wanted, &automatic, &compiled, err);
     if (status != MOTUS_OK || !s->model || !compiled) return status;
-    /* how many steps an adaptive method takes is not known: as many as repay compiling */
-    const double worth = row_adaptive(&r->chosen) ? 1 : choice_worth(s, r->card, (double)r->timing.total);
+    if (!row_adaptive(&r->chosen)) steps = (double)r->timing.total;
+    /* where it is not known how many steps there are: as many as repay compiling */
+    const double worth = steps > 0 ? choice_worth(s, &r->chosen, r->card, steps) : 1;
     if (automatic && worth < CHOICE_KEPT) return MOTUS_OK;
     const bool kept = r->kept = automatic && worth < 1;
     const char *why;
@@ -196,6 +198,7 @@ static motus_status go_on(motus_run *r, int64_t n, motus_error *err)
 {
     motus_status (*const forward)(motus_run *, int64_t, motus_error *) = r->bars && n > 0 ? advance_beside : advance;
     if (r->observing) return run_refuse_move(err);
+    if (n > 0 && goal_arrive(r, n)) return MOTUS_OK;
     if (n == 0 || (!r->observer && !isnan(r->first_step))) return forward(r, n, err);
     /* One step at a time where an observer is called; and the first step by itself, because its size is recorded. */
     motus_status status = MOTUS_OK;
@@ -228,15 +231,12 @@ static motus_status begin(motus_run *r, const motus_run_def *def, motus_error *e
     return status == MOTUS_OK ? go_on(r, 0, err) : status;
 }
 
-motus_status motus_run_create(motus_system *s, const motus_run_def *given, motus_run **out, motus_error *err)
+motus_status run_create(motus_system *s, const motus_run_def *complete, const run_hint *hint, motus_run **out,
+                        motus_error *err)
 {
-    if (!motus_error_sound(err)) return MOTUS_ARGUMENT;
-    if (!out) return fail(err, MOTUS_ARGUMENT, "motus_run_create needs a place for the run");
+    motus_run_def def = *complete;
+    motus_status status;
     *out = NULL;
-    if (!s) return fail(err, MOTUS_ARGUMENT, "motus_run_create needs a system");
-    motus_run_def def;
-    motus_status status = motus_struct_read(MOTUS_DEF_RUN, given, &def, err);
-    if (status != MOTUS_OK) return status;
     size_t nx = s->problem.nx + 1, nv = s->problem.nv + 1;
     size_t head = (sizeof(motus_run) + 63) / 64 * 64;
     motus_run *r = take(&s->allocator, 1, head + 2 * (nx + nv) * sizeof(double) + nv * sizeof(double));
@@ -255,7 +255,6 @@ motus_status motus_run_create(motus_system *s, const motus_run_def *given, motus
     r->observer = def.observer;
     r->first_step = NAN;
     r->pace = (pace){.seconds = 0.05, .tell = def.progress ? tell : NULL, .ctx = r};
-    modes m = modes_enter();
     status = choice_method(s, def.method, &r->chosen, &r->card, err);
     const control_wish wish = control_wish_of_run(&def);
     if (status == MOTUS_OK) status = control_choose(s, &wish, &r->chosen, err);
@@ -266,18 +265,39 @@ motus_status motus_run_create(motus_system *s, const motus_run_def *given, motus
     if (status == MOTUS_OK && (def.threads < 0 || def.threads > MOTUS_THREADS_MAX))
         status = fail(err, MOTUS_ARGUMENT, "a run takes 1 to %d threads, not %d", MOTUS_THREADS_MAX, def.threads);
     r->chosen.threads = def.threads;
-    if (status == MOTUS_OK) status = choose_machine(r, def.machine, err);
+    if (status == MOTUS_OK) status = choose_machine(r, def.machine, hint->steps, err);
     if (status == MOTUS_OK) status = locate_prepare(r, def.switches, err);
     if (status == MOTUS_OK) status = bars_prepare(r, &def, err);
     if (status == MOTUS_OK && r->bars) r->bars->kept = r->kept;
     if (status == MOTUS_OK) status = begin(r, &def, err);
-    modes_leave(m);
     if (status != MOTUS_OK) {
         motus_run_destroy(r);
         return status;
     }
     *out = r;
     return MOTUS_OK;
+}
+
+motus_status motus_run_create(motus_system *s, const motus_run_def *given, motus_run **out, motus_error *err)
+{
+    if (!motus_error_sound(err)) return MOTUS_ARGUMENT;
+    if (!out) return fail(err, MOTUS_ARGUMENT, "motus_run_create needs a place for the run");
+    *out = NULL;
+    if (!s) return fail(err, MOTUS_ARGUMENT, "motus_run_create needs a system");
+    motus_run_def def;
+    run_hint hint = {0};
+    struct goal *goal = NULL;
+    motus_status status = motus_struct_read(MOTUS_DEF_RUN, given, &def, err);
+    if (status != MOTUS_OK) return status;
+    modes m = modes_enter();
+    status = goal_reach(s, &def, &hint, &goal, err);
+    if (status == MOTUS_OK) status = run_create(s, &def, &hint, out, err);
+    if (status == MOTUS_OK)
+        (*out)->goal = goal;
+    else
+        goal_destroy(s, goal);
+    modes_leave(m);
+    return status;
 }
 
 void motus_run_destroy(motus_run *r)
@@ -288,6 +308,7 @@ void motus_run_destroy(motus_run *r)
     stepper_destroy(r->stepper);
     locate_destroy(r);
     bars_destroy(r);
+    goal_destroy(r->system, r->goal);
     give(&a, r->saved);
     give(&a, r->trace);
     give(&a, r);
@@ -366,6 +387,7 @@ motus_status motus_run_step(motus_run *r, int64_t n, motus_error *err)
         return fail(err, MOTUS_ARGUMENT, "motus_run_step needs a run and a number of steps that is not negative");
     modes m = modes_enter();
     motus_status status = go_on(r, n, err);
+    if (status == MOTUS_OK) status = goal_judge(r, err);
     modes_leave(m);
     return status;
 }

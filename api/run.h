@@ -50,7 +50,15 @@ struct motus_run {
     bars *bars;            /* of error; NULL: none are asked for */
     bool kept;             /* a compiled object is used only where there is one */
     struct trace *trace;   /* of the last step that was traced; NULL */
+    struct goal *goal;     /* what it was made for; NULL: a method and a step, or a tolerance, that were given */
 };
+
+/* What is known of a run before it is made. */
+typedef struct run_hint {
+    double steps; /* about how many it takes; 0: not known */
+} run_hint;
+/* motus_run_create, of a complete definition: its method is none but NULL, and it wants no accuracy. */
+motus_status run_create(motus_system *, const motus_run_def *, const run_hint *, motus_run **, motus_error *);
 
 /* Fills in a timing. NaN: the model's. */
 motus_status run_timing(const motus_system *, const chosen *, double step, double until, double start, timing *,

@@ -10,6 +10,7 @@
 
 #include "api/choice.h"
 #include "api/draft.h"
+#include "api/pilot.h"
 #include "api/rate.h"
 
 #include <math.h>
@@ -313,7 +314,8 @@ static motus_status suggest(motus_system *system, motus_settings *set, motus_err
     chosen row;
     const motus_method *card;
     if (!set->method) set->method = "verlet";
-    motus_status status = choice_method(system, set->method, &row, &card, err);
+    const char *const name = choice_is_auto(set->method) ? PILOT_FIRST : set->method;
+    motus_status status = choice_method(system, name, &row, &card, err);
     if (status != MOTUS_OK || (!isnan(set->step) && !isnan(set->until))) return status;
     const double from = isnan(set->from) ? system->start : set->from;
     const double duration = isnan(set->until) ? 0 : fabs(set->until - from);

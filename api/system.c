@@ -1,4 +1,5 @@
 /* Systems: made from a text or from a callback, described, and destroyed. */
+#include "api/choice.h"
 #include "api/stand_in.h"
 #include "lang/read/read.h"
 #include "machine/held.h"
@@ -50,7 +51,10 @@ static bool keep_text(motus_system *s, motus_text_def *def)
     return !s->arena.failed;
 }
 
-static motus_status known_method(const char *name, motus_error *err) { return row_choose(name, NULL, NULL, err); }
+static motus_status known_method(const char *name, motus_error *err)
+{
+    return choice_is_auto(name) ? MOTUS_OK : row_choose(name, NULL, NULL, err);
+}
 
 motus_status system_read(const motus_text_def *given, bool nudged, motus_system **out, motus_error *err)
 {
@@ -191,6 +195,7 @@ motus_status motus_settings_of(const motus_system *s, motus_settings *out)
                                 .from = m->start,
                                 .until = m->until,
                                 .tolerance = m->tolerance,
+                                .accuracy = m->accuracy,
                                 .absolute = m->absolute,
                                 .every_time = m->every_time,
                                 .every_steps = m->every_steps};

@@ -23,6 +23,28 @@ static void print_end(const summary *s, FILE *out)
     putc('\n', out);
 }
 
+/* What was asked of the answer, and whether it holds. */
+static void print_accuracy(const motus_statistics *run, FILE *out)
+{
+    char wanted[DECIMAL_MAX], reached[DECIMAL_MAX];
+    const char *const unit = run->absolute ? "" : " of the motion's size";
+    if (isnan(run->accuracy)) return;
+    text_brief(run->accuracy, 3, wanted);
+    text_brief(run->reached, 2, reached);
+    if (isfinite(run->reached))
+        fprintf(out, "accuracy %s%s %s: the largest error up to the end is %s%s\n", wanted, unit,
+                run->reached <= run->accuracy ? "holds" : "is not reached", reached, unit);
+}
+
+void answer_choice(const summary *s, FILE *out)
+{
+    const char *why = motus_run_choice(s->run);
+    if (!why[0]) return;
+    fputs("auto: ", out);
+    text_put(out, why);
+    putc('\n', out);
+}
+
 void answer_print(const summary *s, FILE *out)
 {
     const motus_estimate *e = &s->estimate;
@@ -39,6 +61,7 @@ void answer_print(const summary *s, FILE *out)
     const bool adaptive = isnan(motus_run_step_size(s->run));
     text_brief(adaptive ? run.tolerance : motus_run_step_size(s->run), 6, step);
     text_brief(e->work, 2, work);
+    print_accuracy(&run, out);
     if (!isnan(e->significant_until))
         print_end(s, out);
     else

@@ -5,5 +5,7 @@
 #include "cli/summary.h"
 
 void answer_print(const summary *, FILE *);
+/* Why "auto" chose its method; nothing where it did not. */
+void answer_choice(const summary *, FILE *);
 
 #endif

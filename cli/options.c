@@ -39,10 +39,12 @@ typedef struct option {
 #define AT(member) offsetof(options, member)
 static const option table[] = {
     {"--method", NULL, "M", WORD, AT(method), ONE | VERB_LAB,
-     "the method, \"newmark(1/4, 1/2)\" (else the model's, else verlet)"},
+     "the method, \"newmark(1/4, 1/2)\" (else the model's; run: else auto, others: else verlet)"},
     {"--methods", NULL, "A,B,C", METHOD_LIST, AT(methods), STUDY | VERB_LAB,
      "these methods (else every one the model admits; lab: else the model's)"},
     {"--step", NULL, "H", STEP, AT(step), MOTION, "time step: 0.01, 1/64, pi/100"},
+    {"--accuracy", NULL, "E", TOLERANCE, AT(accuracy), VERB_RUN,
+     "how far the answer may be off, 1e-9 of the motion's size, or \"1e-6 absolute\"; finds method and tolerance"},
     {"--tolerance", NULL, "E", TOLERANCE, AT(tolerance), ONE,
      "of an adaptive method: what one step may be off, 1e-9 of the motion's size, or \"1e-6 absolute\""},
     {"--shortest-step", NULL, "H", LENGTH, AT(shortest_step), ONE,
@@ -209,7 +211,8 @@ static motus_status read_tolerance(options *o, const option *row, const char *va
         break;
     }
     snprintf(number, sizeof number, "%.*s", (int)length, value);
-    if (length < sizeof number && typed_number(number, &o->tolerance) && o->tolerance > 0) return MOTUS_OK;
+    double *const place = (double *)((char *)o + row->place);
+    if (length < sizeof number && typed_number(number, place) && *place > 0) return MOTUS_OK;
     return bad_value(row, value, "a number above 0, or one as \"1e-6 absolute\"", err);
 }
 
@@ -371,7 +374,8 @@ static motus_status check(const options *o, motus_error *err)
 
 motus_status options_read(options *o, unsigned verb, int argc, char **argv, int first, motus_error *err)
 {
-    *o = (options){.verb = verb, .step = NAN, .until = NAN, .tolerance = NAN, .argc = argc, .argv = argv};
+    *o = (options){
+        .verb = verb, .step = NAN, .until = NAN, .tolerance = NAN, .accuracy = NAN, .argc = argc, .argv = argv};
     bool only_operands = false;
     for (int i = first; i < argc; i++) {
         char *word = argv[i];

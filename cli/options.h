@@ -28,8 +28,9 @@ typedef struct options {
     unsigned verb;
     const char *operand; /* the model, or the method of `methods`; NULL: none */
     const char *method, *error, *output, *columns, *plot, *plot_of, *save_state, *restart, *machine;
-    double step, until, tolerance;        /* NaN: the model's */
-    bool absolute;                        /* the tolerance is in the units of the numbers */
+    double step, until;                   /* NaN: the model's */
+    double tolerance, accuracy;           /* NaN: the model's */
+    bool absolute;                        /* tolerance or accuracy are in the units of the numbers */
     double shortest_step, longest_step;   /* 0: not given */
     const char *step_typed, *until_typed; /* as given; NULL: the model's */
     double every_time;                    /* 0: not given */

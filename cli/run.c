@@ -32,6 +32,7 @@ typedef struct job {
     motus_error singular;    /* its status: what motus_run_singular says of the run */
     stop_progress progress;
     double start, until;
+    double began; /* the search for the run's method and steps; NaN: they were given */
     csv csv;
     deviation deviation;
     figure figure;
@@ -87,18 +88,32 @@ static motus_bars bars_wanted(const options *o)
     return o->error && strcmp(o->error, "full") == 0 ? MOTUS_BARS_FULL : MOTUS_BARS_CHEAP;
 }
 
+/* Which of step and end must be known: a step where a method is named whose steps have one size, and no accuracy. */
+static int settled(const load *m, const options *o)
+{
+    motus_settings set = motus_default_settings();
+    motus_settings_of(m->system, &set);
+    const bool own = !o->method && isnan(o->accuracy); /* what the model says of its method counts */
+    const char *const name = o->method ? o->method : own ? set.method : NULL;
+    const bool exact = !isnan(o->accuracy) || (own && !isnan(set.accuracy));
+    const motus_method *card = NULL;
+    if (exact || !name || motus_method_find(name, &card, NULL) != MOTUS_OK) return SETTLE_UNTIL;
+    return card->adaptive ? SETTLE_UNTIL : SETTLE_STEP | SETTLE_UNTIL;
+}
+
 static motus_status begin(job *j, motus_error *err)
 {
     const options *o = j->options;
     motus_status status = check_names(o, err);
     if (!status) status = load_model(&j->model, o, err);
-    if (!status) status = settle_timing(&j->model, o, SETTLE_STEP | SETTLE_UNTIL, o->method, err);
+    if (!status) status = settle_timing(&j->model, o, settled(&j->model, o), o->method, err);
     if (!status && o->output) status = csv_plan(&j->csv, &j->model, o, err);
     if (status) return status;
     j->def = motus_default_run();
     j->def.method = o->method;
     j->def.step = j->model.step;
     j->def.tolerance = j->options->tolerance;
+    j->def.accuracy = j->options->accuracy;
     j->def.absolute = j->options->absolute;
     j->def.shortest_step = j->options->shortest_step;
     j->def.longest_step = j->options->longest_step;
@@ -108,8 +123,11 @@ static motus_status begin(job *j, motus_error *err)
     j->def.progress = stop_progress_hook;
     j->def.context = &j->progress;
     j->def.error = bars_wanted(o);
+    j->began = stop_clock();
     status = motus_run_create(j->model.system, &j->def, &j->run, err);
     if (status) return status;
+    motus_statistics made = motus_default_statistics();
+    if (motus_run_statistics(j->run, &made) == MOTUS_OK && isnan(made.accuracy)) j->began = NAN;
     if (motus_run_note(j->run)[0] && !o->quiet) complain_note("the interpreter runs this: %s", motus_run_note(j->run));
     j->start = motus_run_time(j->run);
     j->until = load_until(&j->model);
@@ -189,6 +207,23 @@ static motus_status finish(job *j, double seconds, motus_error *err)
     return status;
 }
 
+/* Of the run as it was: with the method and the steps that were found for its accuracy. */
+static motus_status look_for_poles(job *j)
+{
+    motus_run_def def = j->def;
+    motus_statistics done = motus_default_statistics();
+    motus_run_statistics(j->run, &done);
+    def.error = MOTUS_BARS_NONE;
+    if (!isnan(done.accuracy) || motus_run_choice(j->run)[0]) {
+        def.method = motus_run_method(j->run);
+        def.accuracy = NAN;
+        def.step = motus_run_step_size(j->run);
+        def.tolerance = done.tolerance;
+        def.absolute = done.absolute;
+    }
+    return motus_run_singular(j->model.system, &def, &j->singular);
+}
+
 static motus_status emit(const options *o, motus_error *err)
 {
     load model;
@@ -211,15 +246,15 @@ motus_status run_verb(const options *o, motus_error *err)
     motus_status status = begin(&j, err);
     if (!status) {
         j.progress = stop_progress_begin("run", o->quiet);
-        double began = stop_clock();
+        const double began = isnan(j.began) ? stop_clock() : j.began;
         status = go(&j, err);
         if (!status && j.def.error != MOTUS_BARS_NONE) status = motus_run_estimate(j.run, &j.estimate, err);
-        double seconds = fmax(0, stop_clock() - began - j.estimate.seconds); /* of the run alone */
+        double seconds = fmax(0, stop_clock() - began - j.estimate.seconds); /* without its companions */
         stop_progress_end(&j.progress);
-        if (!status && motus_run_singular(j.model.system, &j.def, &j.singular) == MOTUS_MEMORY)
-            *err = j.singular, status = MOTUS_MEMORY;
+        if (!status && look_for_poles(&j) == MOTUS_MEMORY) *err = j.singular, status = MOTUS_MEMORY;
         if (!status) status = finish(&j, seconds, err);
         if (!status && j.singular.status) *err = j.singular, status = j.singular.status;
+        if (!status) status = motus_run_step(j.run, 0, err); /* whether it has reached its accuracy */
     }
     for (int i = 0; i < FILES; i++) file_drop(&j.files[i]);
     figure_free(&j.figure);

@@ -225,7 +225,7 @@ static void head(const summary *s, FILE *out, bool colours)
     fprintf(out, ", %lld evaluations", (long long)motus_run_evaluations(s->run));
     if (motus_run_iterations(s->run) > 0)
         fprintf(out, ", %lld iterations of Newton's method", (long long)motus_run_iterations(s->run));
-    fprintf(out, ", %s\n", spent);
+    fprintf(out, ", %s%s\n", spent, done.trials ? " with the search for them" : "");
 }
 
 motus_status summary_print(const summary *s, motus_error *err)
@@ -247,6 +247,7 @@ motus_status summary_print(const summary *s, motus_error *err)
             printed = table_print(tables[i], out, 2, colours) && printed;
         }
         if (s->errors) answer_print(s, out);
+        answer_choice(s, out);
     }
     for (int i = 0; i < 3; i++) table_destroy(tables[i]);
     return status || printed ? status : complain_memory(err);
@@ -369,6 +370,10 @@ static void steps_json(json *j, const summary *s)
 {
     motus_statistics done = motus_default_statistics();
     motus_run_statistics(s->run, &done);
+    if (!isnan(done.accuracy)) {
+        json_number(j, "accuracy", done.accuracy);
+        json_number(j, "reached", done.reached);
+    }
     if (isnan(done.tolerance)) {
         json_number(j, "step", motus_run_step_size(s->run));
         return;
@@ -390,6 +395,7 @@ motus_status summary_json(const summary *s, motus_error *err)
         json_string(&j, "model", s->options->operand);
         json_string(&j, "method", motus_run_method(s->run));
         json_string(&j, "machine", motus_run_machine(s->run));
+        if (motus_run_choice(s->run)[0]) json_string(&j, "choice", motus_run_choice(s->run));
         steps_json(&j, s);
         settle_json(&j, s->model);
         json_integer(&j, "steps", motus_run_steps(s->run));

@@ -106,6 +106,13 @@ static motus_status sample_all(walker *w, const walk_observer *observers, size_t
     return status;
 }
 
+/* A run that misses its accuracy is at its end all the same; the command says so after it has shown the numbers. */
+static motus_status step(motus_run *run, int64_t n, motus_error *err)
+{
+    const motus_status status = motus_run_step(run, n, err);
+    return status == MOTUS_ACCURACY ? MOTUS_OK : status;
+}
+
 static motus_status go(walker *w, const walk_observer *observers, size_t count, int64_t *k, motus_error *err)
 {
     motus_status status = observe_due(w, observers, count, err);
@@ -119,8 +126,7 @@ static motus_status go(walker *w, const walk_observer *observers, size_t count, 
             next = motus_run_steps(w->run) + 1;
         else
             status = sample_all(w, observers, count, k, limit, err);
-        if (!status && motus_run_steps(w->run) < next)
-            status = motus_run_step(w->run, next - motus_run_steps(w->run), err);
+        if (!status && motus_run_steps(w->run) < next) status = step(w->run, next - motus_run_steps(w->run), err);
         if (!status && isnan(limit)) status = sample_all(w, observers, count, k, motus_run_time(w->run), err);
         if (!status) status = observe_due(w, observers, count, err);
         if (!status && stop_requested()) status = fail(err, MOTUS_CANCELLED, "cancelled");

@@ -93,7 +93,8 @@ MOTUS_API const char *motus_version(void);
     X(STATE, "state", "the restart state does not fit this run", 2)            \
     X(UNAVAILABLE, "unavailable", "not available in this version", 2)          \
     X(SINGULAR, "singular", "the run passes a singularity of the force", 1)    \
-    X(UNRESOLVED, "unresolved", "the step does not resolve the force", 1)
+    X(UNRESOLVED, "unresolved", "the step does not resolve the force", 1)      \
+    X(ACCURACY, "accuracy", "the accuracy was not reached", 1)
 
 #define MOTUS_STATUS_ENUMERATOR(name, word, text, exit) MOTUS_##name,
 typedef enum motus_status {
@@ -339,9 +340,10 @@ MOTUS_API motus_status motus_initial_values(const motus_system *, size_t k, doub
 /* The settings of the model. NaN, 0 or NULL: the model does not set it. */
 typedef struct motus_settings {
     uint32_t size;      /* by motus_default_settings() */
-    const char *method; /* "verlet", "newmark(0.25, 0.5)" */
+    const char *method; /* "verlet", "newmark(0.25, 0.5)", "auto" */
     double step, from, until;
     double tolerance;    /* of an adaptive method; NaN: none is set */
+    double accuracy;     /* of the answer; NaN: none is set */
     double every_time;   /* every T */
     int64_t every_steps; /* every n steps */
     /* Of motus_suggest alone, where it had to find a number: the fastest rate at the start, in radians per time, 0: the
@@ -350,7 +352,7 @@ typedef struct motus_settings {
     /* Of motus_suggest, of a system with `draft`: why it chose this step and this end, "60 to a swing", "three swings".
      * Else "". */
     char step_why[MOTUS_NAME_MAX], until_why[MOTUS_NAME_MAX];
-    int absolute; /* 1: the tolerance is absolute */
+    int absolute; /* 1: the tolerance or the accuracy is absolute */
     int unused;
 } motus_settings;
 MOTUS_API motus_status motus_settings_of(const motus_system *, motus_settings *);
@@ -539,11 +541,24 @@ typedef enum motus_bars {
 } motus_bars;
 
 typedef struct motus_run_def {
-    uint32_t size;      /* by motus_default_run() */
-    const char *method; /* NULL: the model's, or "verlet" */
+    uint32_t size; /* by motus_default_run() */
+    /* NULL: the model's; where neither names one "verlet" if a step is given, else "auto". "auto": the run chooses,
+     * among methods that suit the force, the one that needs the fewest operations for the accuracy or the tolerance. It
+     * counts them in pilot runs over the first part of the motion, and never looks at a clock, so it chooses the same
+     * on every machine. motus_run_choice says why. */
+    const char *method;
     /* Of a method with steps of one size: > 0; NaN: the model's, or motus_suggest's. Its direction follows from
-     * `until`. Of an adaptive method: NaN. */
+     * `until`. Of an adaptive method, and with an accuracy: NaN. */
     double step;
+    /* How far the answer may be from the exact motion: of every number, at all times up to the end, relative to the
+     * largest number so far of its kind (positions, velocities, first-order variables), or in their own units where
+     * `absolute` is 1. 1e-15 <= accuracy < 1 where it is relative. NaN: the model's; where nobody gives an accuracy, a
+     * tolerance or a step, and the method is "auto", 1e-9; else none is asked for.
+     *
+     * The call that creates the run then finds the tolerance, or the step of a method with steps of one size, by trial
+     * runs to the end with a companion each (motus_run_errors): until the bars keep to the accuracy. Where none does,
+     * the run has the best that was found, and the call that takes it to its end returns MOTUS_ACCURACY. */
+    double accuracy;
     /* Of an adaptive method: what one step may be off, by its own estimate; NaN: the model's, or 1e-9. Relative to the
      * size of the variable, which is the largest number of the family or vector at both ends of the step and on the way
      * between them; positions and velocities have sizes of their own. Of other methods: NaN. The error of the answer is
@@ -554,7 +569,8 @@ typedef struct motus_run_def {
     double start;                       /* NaN: the model's */
     const double *x, *v;                /* the initial state: nx and nv finite numbers, copied; NULL: the model's */
     /* NULL, or called from time to time, at most about every 10 ms, with the fraction of the run that is done, 0 … 1.
-     * A value other than 0 cancels the call that steps: MOTUS_CANCELLED. */
+     * A value other than 0 cancels the call that steps: MOTUS_CANCELLED. The call that creates a run with an accuracy
+     * counts its search by itself, from 0 to less than 1. */
     int (*progress)(void *context, double fraction);
     void *context; /* of `progress` and of `observer` */
     /* NULL, or called by motus_run_step, motus_run_finish and motus_run_sample after every step, the shorter last one
@@ -570,7 +586,7 @@ typedef struct motus_run_def {
      * system uses one thread in any case. The bits are the same. */
     int threads;
     motus_switches switches;
-    int absolute; /* 1: the tolerance is in the units of the numbers themselves; 0: relative */
+    int absolute; /* 1: the tolerance, or the accuracy, is in the units of the numbers themselves; 0: relative */
     motus_bars error;
 } motus_run_def;
 #define MOTUS_THREADS_MAX 1024
@@ -579,16 +595,18 @@ typedef struct motus_run_def {
  * the force or the start, or it cannot take the shorter last step. MOTUS_ARGUMENT: a callback has no step or no end, a
  * number is not finite or out of its range, or there is no such machine. MOTUS_LIMIT: more than 1e15 steps, or implicit
  * equations too large to solve. MOTUS_TOOL: "compiled" is asked for and not available. MOTUS_CALLBACK: the callback
- * `exact` returned other than 0, where the method is exact. The call does not evaluate the
- * acceleration of a callback. */
+ * `exact` returned other than 0, where the method is exact; or one returned other than 0 in a pilot or trial run. With
+ * an accuracy or "auto" the call integrates, may fail as motus_run_finish does, and calls `progress`; else it does not
+ * evaluate the acceleration of a callback. */
 MOTUS_API motus_status motus_run_create(motus_system *, const motus_run_def *, motus_run **, motus_error *);
 MOTUS_API void motus_run_destroy(motus_run *);
 
 /* Takes n >= 0 steps, or fewer if `until` comes first; the last step is shorter where it must end at `until`.
- * MOTUS_DIVERGED: a number is no longer finite. MOTUS_SOLVE: an implicit equation could not be solved. MOTUS_CALLBACK:
- * a callback returned other than 0. MOTUS_CANCELLED: `progress` or `observer` returned other than 0. MOTUS_ARGUMENT:
- * n < 0, or an observer called it. After a failure the run stands at its last good step, and you may observe it, save
- * it and step again. */
+ * MOTUS_ACCURACY: the run is at its end, and its accuracy was not reached; err->message says what was. MOTUS_DIVERGED:
+ * a number is no longer finite. MOTUS_SOLVE: an implicit equation could not be solved. MOTUS_CALLBACK: a callback
+ * returned other than 0. MOTUS_CANCELLED: `progress` or `observer` returned other than 0. MOTUS_ARGUMENT: n < 0, or an
+ * observer called it. After a failure the run stands at its last good step, and you may observe it, save it and step
+ * again. */
 MOTUS_API motus_status motus_run_step(motus_run *, int64_t n, motus_error *);
 /* Takes all steps up to `until`. Fails as motus_run_step does. */
 MOTUS_API motus_status motus_run_finish(motus_run *, motus_error *);
@@ -617,6 +635,9 @@ typedef struct motus_statistics {
     int64_t iterations;           /* in which implicit equations are solved, by both */
     double first_step, last_step; /* sizes of the first and of the latest step taken, > 0; NaN before the first */
     double tolerance;             /* of an adaptive method; NaN: steps have one size */
+    /* What was asked of the answer, NaN: nothing; and what the trial run with the run's tolerance or step reached, in
+     * the same unit: the largest bar of its numbers. */
+    double accuracy, reached;
     /* The smallest and the largest step of the present leg, without the one that ended at `until`; NaN before them. */
     double shortest_step, longest_step;
     /* Of a run that locates switches. How many it has passed; -1: it cannot locate them, or was not asked to. The
@@ -627,8 +648,8 @@ typedef struct motus_statistics {
      * number of the derivative that jumps; where one is infinite less, as 1/3 of cbrt; NaN: there was none. */
     int64_t switches, jump;
     double jump_time, jump_rounding, jump_power;
-    int absolute; /* 1: the tolerance is absolute */
-    int unused;
+    int absolute; /* 1: the tolerance and the accuracy are absolute */
+    int trials;   /* runs to the end that found the tolerance or the step for the accuracy */
 } motus_statistics;
 MOTUS_API motus_status motus_run_statistics(const motus_run *, motus_statistics *);
 /* Whether such a run passes a singularity of the force, which its step does not resolve: the state after it is a finite
@@ -639,6 +660,8 @@ MOTUS_API motus_status motus_run_statistics(const motus_run *, motus_statistics 
  * known. The definition's hooks are not called. Fails besides as motus_run_create does. */
 #define MOTUS_SINGULAR_WORK 2e7
 MOTUS_API motus_status motus_run_singular(motus_system *, const motus_run_def *, motus_error *);
+/* Why the run's method was chosen, one sentence, where the method is "auto"; else "". Owned by the run. */
+MOTUS_API const char *motus_run_choice(const motus_run *);
 /* Why "auto" uses the interpreter although the run is long enough to compile, or "". */
 MOTUS_API const char *motus_run_note(const motus_run *);
 /* The C text that the compiled machine compiles for this model and a method (NULL: the model's); owned by the system.

@@ -456,22 +456,41 @@ that "... do not reach the terminal" eval "! LC_ALL=C grep -qE $'\033'\"|\$(prin
 that "... nor JSON" json "$out"
 printf "x'' = -x\nx(0)=1\nx'(0)=0\nuntil 1\n" >nostep.motus
 "$motus" run nostep.motus >"$out" 2>"$err"
+that "a newcomer's lines: a method is chosen" eval "grep -qE '^auto: [a-z0-9]+ needs the fewest operations' '$out' && [ ! -s '$err' ]"
+that "... for the accuracy 1e-9" eval "grep -qF \"accuracy 1e-09 of the motion's size holds\" '$out'"
+"$motus" run nostep.motus --json >"$out" 2>"$err"
+that "... in JSON too" holds '.accuracy == 1e-9 and .reached <= 1e-9 and .tolerance > 0 and (.choice | length) > 0 and .suggested == {} and (.state.x - 0.5403023058681398 | fabs) <= 1e-9'
+"$motus" run nostep.motus --accuracy 1e-5 --method rk4 --json >"$out" 2>"$err"
+that "--accuracy finds the step of a method with steps of one size" holds '.method == "rk4" and .reached <= 1e-5 and .step > 0 and (.state.x - 0.5403023058681398 | fabs) <= 1e-5'
+"$motus" run nostep.motus --accuracy "1e-6 absolute" --json >"$out" 2>"$err"
+that "... an absolute one" holds '.absolute and .reached <= 1e-6'
+"$motus" run "$root/models/driven-oscillator.motus" --accuracy 1e-8 --json >"$out" 2>"$err"
+that "... and leaves the model's method and step aside" holds '.method != "verlet" and .reached <= 1e-8 and (.state.x - 0.04778309565760847 | fabs) <= 1e-8'
+"$motus" run nostep.motus --accuracy 1e-15 --until 1000 >"$out" 2>"$err"
+status=$?
+that "an accuracy out of reach is said after the numbers" eval "[ $status = 1 ] && grep -q 'accuracy 1e-15 of the motion.s size is not reached' '$out' && grep -qF 'the accuracy 1e-15 cannot be reached: the best is' '$err'"
+refuses "accuracy and tolerance" 2 "an accuracy and a tolerance are given" "$motus" run nostep.motus --accuracy 1e-6 --tolerance 1e-6
+refuses "accuracy and step" 2 "a step and an accuracy are given" "$motus" run nostep.motus --method verlet --accuracy 1e-6 --step 0.1
+refuses "auto and step" 2 "give --accuracy 1e-9 in its place" "$motus" run nostep.motus --method auto --step 0.1
+refuses "an accuracy below rounding" 2 "is below the rounding of the numbers" "$motus" run nostep.motus --accuracy 1e-17
+refuses "a negative accuracy" 2 "--accuracy" "$motus" run nostep.motus --accuracy -1
+"$motus" run nostep.motus --method verlet >"$out" 2>"$err"
 that "no step anywhere: one is suggested" eval "grep -qF 'the model gives no step: motus takes it from its fastest rate at the start, 1, and its longest period there, 6.28. To keep it' '$err'"
 that "... as a line of a model" eval "grep -qx 'step 0.01' '$err'"
-"$motus" run nostep.motus --json >"$out" 2>"$err"
+"$motus" run nostep.motus --method verlet --json >"$out" 2>"$err"
 that "... and marked in JSON" holds '.step == 0.01 and .suggested == {"step": 0.01}'
 printf "x'' = -x\nx(0)=1\nx'(0)=0\nstep 0.1\n" >nountil.motus
 "$motus" run nountil.motus --json >"$out" 2>"$err"
 that "no end anywhere: one is suggested" holds '.time == 50 and .suggested == {"until": 50}'
 that "... as a line of a model" eval "grep -qx 'until 50' '$err'"
 printf "x'' = -x\nx(0)=1\nx'(0)=0\n" >neither.motus
-"$motus" run neither.motus -o suggested.csv >/dev/null 2>"$err"
+"$motus" run neither.motus --method verlet -o suggested.csv >/dev/null 2>"$err"
 that "neither: both on one line" eval "grep -qx 'step 0.05; until 50' '$err'"
 { cat neither.motus; grep '^step' "$err"; } >kept.motus
-"$motus" run kept.motus -o kept.csv --json >"$out" 2>"$err"
+"$motus" run kept.motus --method verlet -o kept.csv --json >"$out" 2>"$err"
 that "... which keeps the run" eval "diff <(grep -v '^#' suggested.csv) <(grep -v '^#' kept.csv) && [ ! -s '$err' ]"
 that "... and is no suggestion any more" holds '.suggested == {}'
-"$motus" run neither.motus -q >"$out" 2>"$err"
+"$motus" run neither.motus --method verlet -q >"$out" 2>"$err"
 that "--quiet says nothing of it" eval "[ ! -s '$err' ]"
 "$motus" compare neither.motus --methods verlet,rk4 --json >"$out" 2>"$err"
 that "compare suggests the same" holds '.suggested == {"step": 0.05, "until": 50} and all(.rows[]; .step == 0.05 and .steps == 1000)'

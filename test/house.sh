@@ -115,7 +115,7 @@ declare -A also=(
     [machine/compiled.c]='machine_'
     [machine/seriesless.c]='tape_series_'                 # replaces lang/tape/tape_series.c in the page's module
     [machine/nowhere.c]='compiled_ machine_'            # replaces machine/compiled.c in the page's module
-    [api/barless.c]='bars_'                         # replaces api/bars.c in the page's module
+    [api/barless.c]='bars_ goal_'                   # replaces api/bars.c and api/goal.c in the page's module
     [api/columns.c]='system_'                       # parts of api/system.h
 )
 archive=$build/libmotus.a

@@ -112,7 +112,7 @@ static void everywhere(void **state)
     (void)state;
     motus_error err = motus_default_error();
     motus_system *s = given_text("k = 1; x'' = -k x; x(0) = 1; x'(0) = 0");
-    motus_run *r = given_run(s, NULL, NAN, NAN);
+    motus_run *r = given_run(s, "verlet", NAN, NAN);
     assert_true(motus_run_step_size(r) == 0.05 && motus_run_steps_total(r) == 1000);
     motus_run_destroy(r);
     const char *vary[] = {"k"};

@@ -20,6 +20,7 @@ complete -c motus -n "__fish_seen_subcommand_from methods" -l markdown -d 'as a 
 complete -c motus -n "__fish_seen_subcommand_from run sweep lab" -l method -x -a "(__motus_methods)" -d 'the method'
 complete -c motus -n "__fish_seen_subcommand_from compare converge lab" -l methods -x -a "(__fish_append , (__motus_methods))" -d 'these methods'
 complete -c motus -n "__fish_seen_subcommand_from run compare converge sweep lab" -l step -x -d 'time step'
+complete -c motus -n "__fish_seen_subcommand_from run" -l accuracy -x -d 'error of the answer'
 complete -c motus -n "__fish_seen_subcommand_from run sweep" -l tolerance -x -d 'of an adaptive method: error of a step'
 complete -c motus -n "__fish_seen_subcommand_from run sweep" -l shortest-step -x -d 'of an adaptive method'
 complete -c motus -n "__fish_seen_subcommand_from run sweep" -l longest-step -x -d 'of an adaptive method'

@@ -179,8 +179,8 @@ typedef struct model {
     bool exact_between; /* verify.h: the exact line was checked at and between sampled times */
     traits traits;      /* but gyroscopic and gradient, which api/symmetry.c judges when they are needed */
 
-    double tolerance; /* NaN: none is set */
-    bool absolute;
+    double tolerance, accuracy; /* NaN: none is set */
+    bool absolute;              /* that of the two which is set; they are never both */
     double start, step, until, every_time;
     bool start_known, draft; /* draft: as in motus_text_def */
     int64_t every_steps;

@@ -1,4 +1,4 @@
-/* Reads the settings of a model: method, step, tolerance, until, every. */
+/* Reads the settings of a model: method, step, tolerance, accuracy, until, every. */
 #include "lang/read/read_steps.h"
 
 #include "lang/lower/resolve.h"
@@ -23,7 +23,7 @@ static bool set_method(model *m, const statement *s, read_method known)
 bool settings_all(model *m, read_method known)
 {
     bool seen[STATEMENT_EVERY + 1] = {false};
-    m->step = m->until = m->every_time = m->tolerance = NAN;
+    m->step = m->until = m->every_time = m->tolerance = m->accuracy = NAN;
     for (uint32_t i = 0; i < m->statements.count; i++) {
         const statement *s = &m->statements.item[i];
         if (s->kind < STATEMENT_METHOD) continue;
@@ -32,13 +32,19 @@ bool settings_all(model *m, read_method known)
             return false;
         }
         seen[s->kind] = true;
+        if (seen[STATEMENT_TOLERANCE] && seen[STATEMENT_ACCURACY]) {
+            source_complain(&m->source, MOTUS_ARGUMENT, &s->at, "a tolerance and an accuracy are set");
+            source_hint(&m->source, "keep one: `accuracy` is the error of the answer, `tolerance` that of one step");
+            return false;
+        }
         if (s->kind == STATEMENT_METHOD) {
             if (!set_method(m, s, known)) return false;
             continue;
         }
         double v;
         if (!resolve_constant(m, s->value, s->name, &v)) return false;
-        bool positive = s->kind == STATEMENT_STEP || s->kind == STATEMENT_EVERY || s->kind == STATEMENT_TOLERANCE;
+        const bool error = s->kind == STATEMENT_TOLERANCE || s->kind == STATEMENT_ACCURACY;
+        const bool positive = s->kind == STATEMENT_STEP || s->kind == STATEMENT_EVERY || error;
         if (positive && !(v > 0)) {
             source_complain(&m->source, MOTUS_ARGUMENT, &s->value->at, "%s is positive, not %g", s->name, v);
             if (s->kind == STATEMENT_STEP)
@@ -49,6 +55,10 @@ bool settings_all(model *m, read_method known)
         case STATEMENT_STEP: m->step = v; break;
         case STATEMENT_TOLERANCE:
             m->tolerance = v;
+            m->absolute = s->absolute;
+            break;
+        case STATEMENT_ACCURACY:
+            m->accuracy = v;
             m->absolute = s->absolute;
             break;
         case STATEMENT_UNTIL: m->until = v; break;

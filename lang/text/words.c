@@ -17,8 +17,8 @@ static const struct {
                  {"sign", OP_SIGN},  {"erf", OP_ERF},     {"dot", CALL_DOT}, {"cross", CALL_CROSS}, {"if", CALL_IF},
                  {"diff", CALL_DIFF}};
 
-static const char *const statements_words[] = {"method", "step",  "tolerance", "from", "until",
-                                               "every",  "exact", "invariant", "when"};
+static const char *const statements_words[] = {"method", "step",  "tolerance", "accuracy",  "from",
+                                               "until",  "every", "exact",     "invariant", "when"};
 static const char *const other_words[] = {"t", "pi", "and", "or", "not", "for", "sum", "steps"};
 
 int words_function(const char *name)

@@ -37,7 +37,7 @@ static bool juxtaposes(const parser *p)
         static const char *const words[] = {"and", "or", "not", "for", "steps"};
         for (size_t i = 0; i < sizeof words / sizeof *words; i++)
             if (word(p, words[i])) return false;
-        return true;
+        return !(p->error && (word(p, "absolute") || word(p, "relative")));
     }
     return is(p, '(') || (is(p, '|') && p->bars == 0) || (is(p, '[') && p->token.blank) ||
            p->token.kind == TOKEN_NUMBER;

@@ -20,6 +20,7 @@ typedef struct parser {
     token token, last; /* the one to be read, and the one before it */
     int bars;          /* | opened in the present bracket and not yet closed [7] */
     int depth;
+    bool error; /* it reads a tolerance or an accuracy: `absolute` and `relative` are words */
     struct {
         const char *name;
         bool counted;

@@ -103,7 +103,8 @@ static void parse_method(parser *p, statement *s)
     advance(p);
 }
 
-/* setting = ("step" | "from" | "until") or | "every" or [ "steps" ] | "tolerance" or [ "absolute" | "relative" ] */
+/* setting = ("step" | "from" | "until") or | "every" or [ "steps" ] |
+ *           ("tolerance" | "accuracy") or [ "absolute" | "relative" ] */
 static void parse_setting(parser *p, statement *s)
 {
     if (is(p, '=')) {
@@ -112,15 +113,17 @@ static void parse_setting(parser *p, statement *s)
         HINT(p, "write: %s 0.01", quote(p, &p->last.at, text));
         return;
     }
+    p->error = s->kind == STATEMENT_TOLERANCE || s->kind == STATEMENT_ACCURACY;
     s->value = parse_or(p);
     if (s->kind == STATEMENT_EVERY && !failed(p) && (word(p, "steps") || word(p, "step"))) {
         s->steps = true;
         advance(p);
     }
-    if (s->kind == STATEMENT_TOLERANCE && !failed(p) && (word(p, "absolute") || word(p, "relative"))) {
+    if (p->error && !failed(p) && (word(p, "absolute") || word(p, "relative"))) {
         s->absolute = word(p, "absolute");
         advance(p);
     }
+    p->error = false;
     end_of_statement(p, source_line(p->source, &s->at));
 }
 
@@ -250,11 +253,8 @@ static void parse_statement(parser *p, statement *s)
     static const struct {
         const char *word;
         statement_kind kind;
-    } settings[] = {{"step", STATEMENT_STEP},
-                    {"tolerance", STATEMENT_TOLERANCE},
-                    {"from", STATEMENT_FROM},
-                    {"until", STATEMENT_UNTIL},
-                    {"every", STATEMENT_EVERY}};
+    } settings[] = {{"step", STATEMENT_STEP}, {"tolerance", STATEMENT_TOLERANCE}, {"accuracy", STATEMENT_ACCURACY},
+                    {"from", STATEMENT_FROM}, {"until", STATEMENT_UNTIL},         {"every", STATEMENT_EVERY}};
     for (size_t i = 0; i < sizeof settings / sizeof *settings; i++)
         if (word(p, settings[i].word)) {
             s->kind = settings[i].kind;

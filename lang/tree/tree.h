@@ -65,6 +65,7 @@ typedef enum statement_kind {
     STATEMENT_METHOD, /* text */
     STATEMENT_STEP,
     STATEMENT_TOLERANCE,
+    STATEMENT_ACCURACY,
     STATEMENT_FROM,
     STATEMENT_UNTIL,
     STATEMENT_EVERY
@@ -82,7 +83,7 @@ typedef struct statement {
     uint8_t primes, loop_count;
     uint8_t progress; /* START: 0 not computed, 1 being computed (needed now, it depends on itself), 2 done */
     bool steps;       /* EVERY: every n steps */
-    bool absolute;    /* TOLERANCE: in the units of the numbers */
+    bool absolute;    /* TOLERANCE, ACCURACY: in the units of the numbers */
     uint16_t index_count;
     span at, name_at, value_at; /* value_at: the right side, without the indices' ranges */
     uint32_t next;              /* 1 + number of the next line about the same state or family; 0: none */

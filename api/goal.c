@@ -1,0 +1,182 @@
+/* See goal.h.
+ *
+ * Who says what: the caller's definition comes first, and what the model says of its own method is left aside where the
+ * caller names another one, or wants an accuracy that the model does not set.
+ */
+#include "api/goal.h"
+
+#include "api/bars.h"
+#include "api/choice.h"
+#include "api/pilot.h"
+#include "api/suggest.h"
+
+#include <math.h>
+#include <string.h>
+
+#define ACCURACY 1e-9 /* of a run for which nobody says how exact it is to be */
+
+typedef struct wish {
+    motus_settings set; /* of the model, as far as they count */
+    bool automatic;
+    double accuracy;
+    bool absolute;
+} wish;
+
+/* The method, "auto" included. */
+static const char *name_of(const motus_run_def *def, const wish *w)
+{
+    if (def->method) return def->method;
+    if (w->set.method) return w->set.method;
+    return isnan(def->step) && isnan(w->set.step) ? CHOICE_AUTO : "verlet";
+}
+
+static wish wish_of(const motus_system *s, const motus_run_def *def)
+{
+    wish w = {.set = motus_default_settings(), .accuracy = def->accuracy, .absolute = def->absolute};
+    motus_settings_of(s, &w.set);
+    const bool own = isnan(w.set.accuracy) && !isnan(def->accuracy); /* the accuracy is the caller's alone */
+    if (def->method || own) {
+        w.set.method = NULL;
+        w.set.step = w.set.tolerance = w.set.accuracy = NAN;
+    }
+    const bool given = !isnan(def->accuracy) || !isnan(def->tolerance) || !isnan(def->step);
+    if (!given && !isnan(w.set.accuracy)) w.accuracy = w.set.accuracy, w.absolute = w.set.absolute;
+    w.automatic = choice_is_auto(name_of(def, &w));
+    if (w.automatic && isnan(w.accuracy) && isnan(def->tolerance) && isnan(w.set.tolerance)) w.accuracy = ACCURACY;
+    return w;
+}
+
+static motus_status refuse(const char *what, const char *instead, motus_error *err)
+{
+    fail(err, MOTUS_ARGUMENT, "%s", what);
+    hint(err, "%s", instead);
+    return MOTUS_ARGUMENT;
+}
+
+/* What contradicts itself. Steps and tolerances without an accuracy are judged by control_choose. */
+static motus_status check(const motus_run_def *def, const wish *w, motus_error *err)
+{
+    const bool step = !isnan(def->step) || !isnan(w->set.step);
+    if (!isnan(def->accuracy) && !isnan(def->tolerance))
+        return refuse("an accuracy and a tolerance are given",
+                      "give one of them: the accuracy is the error of the answer, the tolerance that of one step", err);
+    if (w->automatic && step)
+        return refuse("a step is given, and auto chooses methods that choose their steps",
+                      "name a method, verlet or rk4, or give `accuracy = 1e-9` of the definition in its place", err);
+    if (isnan(w->accuracy)) return MOTUS_OK;
+    if (step)
+        return refuse("a step and an accuracy are given", "give one of them: the accuracy decides how long steps are",
+                      err);
+    if (def->switches != MOTUS_SWITCHES_STEP)
+        return fail(err, MOTUS_UNAVAILABLE, "a run that locates switches cannot be given an accuracy");
+    if (!(w->accuracy > 0) || !isfinite(w->accuracy))
+        return fail(err, MOTUS_ARGUMENT, "an accuracy is a positive number, not %g", w->accuracy);
+    if (w->absolute || (w->accuracy >= ACCURACY_LEAST && w->accuracy < 1)) return MOTUS_OK;
+    fail(err, MOTUS_ARGUMENT, "the relative accuracy %g %s", w->accuracy,
+         w->accuracy < 1 ? "is below the rounding of the numbers" : "allows errors as large as the motion");
+    hint(err, "give one from %g to 0.1", ACCURACY_LEAST);
+    return MOTUS_ARGUMENT;
+}
+
+/* The start and the end, which pilot and trial runs need. */
+static motus_status settle(motus_system *s, motus_run_def *def, const wish *w, motus_error *err)
+{
+    chosen c;
+    timing t;
+    const motus_method *card;
+    double step = w->automatic || !isnan(def->step) ? def->step : 1;
+    motus_status status = choice_method(s, w->automatic ? PILOT_FIRST : def->method, &c, &card, err);
+    if (status == MOTUS_OK) status = suggest_missing(s, &c, c.name, def->start, &step, &def->until, err);
+    if (status == MOTUS_OK) status = run_timing(s, &c, step, def->until, def->start, &t, err);
+    def->until = t.until;
+    def->start = t.t0;
+    return status;
+}
+
+static motus_status reach(motus_system *s, motus_run_def *def, const wish *w, run_hint *hint, struct goal *g,
+                          motus_error *err)
+{
+    motus_status status = settle(s, def, w, err);
+    if (status == MOTUS_OK && w->automatic) {
+        pilot p;
+        motus_run_def first = *def;
+        if (isnan(first.tolerance)) first.tolerance = w->absolute ? w->accuracy / 10 : fmax(1e-14, w->accuracy / 10);
+        status = pilot_choose(s, &first, &p, err);
+        if (status != MOTUS_OK) return status;
+        memcpy(g->choice, p.why, sizeof g->choice);
+        memcpy(g->method, p.name, sizeof g->method);
+        def->method = g->method;
+        hint->steps = p.steps;
+    }
+    if (status != MOTUS_OK || isnan(w->accuracy)) return status;
+    g->accuracy.wanted = w->accuracy;
+    g->accuracy.absolute = w->absolute;
+    status = accuracy_find(s, def, hint->steps, &g->accuracy, err);
+    if (status == MOTUS_OK) hint->steps = (double)motus_run_steps(g->accuracy.best);
+    return status;
+}
+
+motus_status goal_reach(motus_system *s, motus_run_def *def, run_hint *hint, struct goal **goal, motus_error *err)
+{
+    const wish w = wish_of(s, def);
+    motus_status status = check(def, &w, err);
+    *goal = NULL;
+    if (status != MOTUS_OK || (!w.automatic && isnan(w.accuracy))) return status;
+    struct goal *g = *goal = take(&s->allocator, 1, sizeof *g);
+    if (!g) return fail(err, MOTUS_MEMORY, "no memory for the run");
+    *g = (struct goal){.accuracy = {.wanted = NAN, .reached = NAN}};
+    def->method = w.automatic ? NULL : name_of(def, &w);
+    def->absolute = w.absolute;
+    def->accuracy = NAN;
+    if (isnan(def->tolerance) && isnan(w.accuracy)) def->tolerance = w.set.tolerance, def->absolute = w.set.absolute;
+    return reach(s, def, &w, hint, g, err);
+}
+
+bool goal_arrive(motus_run *r, int64_t n)
+{
+    struct goal *g = r->goal;
+    motus_run *best = g ? g->accuracy.best : NULL;
+    if (!best || n <= 0) return false;
+    const bool fits = motus_run_done(best) && n >= motus_run_steps(best) && !r->observer && r->legs == 1 &&
+                      stepper_steps(r->stepper) == 0 && (!r->bars || r->bars->kind == best->bars->kind);
+    if (fits) {
+        stepper *const mine = r->stepper;
+        bars *const own = r->bars;
+        r->stepper = best->stepper;
+        best->stepper = mine;
+        if (own) r->bars = best->bars, best->bars = own, bars_move(r);
+        r->first_step = best->first_step;
+        r->arrived = true;
+        r->synchronised = false;
+    }
+    accuracy_end(&g->accuracy);
+    return fits;
+}
+
+motus_status goal_judge(const motus_run *r, motus_error *err)
+{
+    const accuracy *a = r->goal ? &r->goal->accuracy : NULL;
+    if (!a || !a->why[0] || !r->arrived || r->legs != 1) return MOTUS_OK;
+    fail(err, MOTUS_ACCURACY, "%s", a->why);
+    hint(err, "the numbers are there, with the errors that they have; ask for less");
+    return MOTUS_ACCURACY;
+}
+
+void goal_statistics(const motus_run *r, motus_statistics *out)
+{
+    if (!r->goal) return;
+    const accuracy *a = &r->goal->accuracy;
+    out->accuracy = a->wanted;
+    out->reached = a->reached;
+    out->trials = a->trials;
+    if (!isnan(a->wanted)) out->absolute = a->absolute;
+}
+
+void goal_destroy(const motus_system *s, struct goal *g)
+{
+    if (!g) return;
+    accuracy_end(&g->accuracy);
+    give(&s->allocator, g);
+}
+
+const char *motus_run_choice(const motus_run *r) { return r && r->goal ? r->goal->choice : ""; }

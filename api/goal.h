@@ -1,0 +1,23 @@
+/* What a run is to reach: from "auto" and an accuracy to a method and a tolerance, or a step. */
+#ifndef API_GOAL_H
+#define API_GOAL_H
+
+#include "api/accuracy.h"
+
+struct goal {
+    accuracy accuracy;
+    char method[MOTUS_NAME_MAX], choice[256]; /* which method "auto" chose, and why; "" */
+};
+
+/* Completes a definition: names its method, and finds what reaches its accuracy, by pilot and trial runs where they are
+ * due. *goal: NULL, or the run's, to be given back by goal_destroy. */
+motus_status goal_reach(motus_system *, motus_run_def *, run_hint *, struct goal **goal, motus_error *);
+/* Call it before the run moves by at most n steps. The best trial run has been at the end: a run that is to go there
+ * from its start at one call takes its state over. Returns whether it did. */
+bool goal_arrive(motus_run *, int64_t n);
+/* MOTUS_ACCURACY, where the run is at its end and its accuracy was not reached. */
+motus_status goal_judge(const motus_run *, motus_error *);
+void goal_statistics(const motus_run *, motus_statistics *);
+void goal_destroy(const motus_system *, struct goal *);
+
+#endif

@@ -1,0 +1,148 @@
+/* See pilot.h.
+ *
+ * The candidates integrate the first part of the motion, as far as the first of them comes in STEPS steps, with the
+ * tolerance of the run. What each takes is counted in operations: evaluations times the operations of the equations,
+ * and what the method itself adds. A clock would choose otherwise on every machine, and on the same one tomorrow.
+ *
+ * Invariant: the choice depends on the system, the initial state, the end and the tolerance alone.
+ */
+#include "api/pilot.h"
+
+#include "api/choice.h"
+#include "api/run.h"
+
+#include "core/stepper_body.h"
+#include "lang/graph/weigh.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+/* FAR: a candidate that has taken so many times the work of the best stops. CHUNK: steps between two looks at it. */
+enum { STEPS = 256, FAR = 4, CHUNK = 16 };
+#define CALLBACK_OPERATIONS 30.0 /* of a callback, for each number; what it does is not known */
+
+/* The first one admits every force. Those of low order are for forces that are not smooth. */
+static const char *const smooth[] = {PILOT_FIRST, "dep12", "dep6", "taylor"}, *const kinked[] = {PILOT_FIRST, "dopri5"};
+enum { CANDIDATES = 4 };
+
+typedef struct fleet {
+    motus_system *system;
+    motus_run_def def;
+    weight weight;
+    double until; /* of the part that all of them integrate; NaN: the first one finds it */
+    double best;  /* the least work so far, and */
+    double work[CANDIDATES];
+    double steps[CANDIDATES]; /* of the part */
+    const char *const *names;
+    size_t count;
+} fleet;
+
+/* Operations of the method itself in one evaluation: a stage sums about half of those before it. */
+static double overhead(const motus_run *r)
+{
+    const problem *p = &r->system->problem;
+    return (1 + r->card->stages / 2.0) * (double)(p->traits.velocity ? p->nx + p->nv : p->nv);
+}
+
+/* Of a Taylor series to order n: a recurrence of a product has n (n + 1)/2 terms in all. They count half, because the
+ * terms of a sum do not wait for each other as the stages of a Runge-Kutta step do. */
+static double expansion(const fleet *f, const motus_run *r, double order)
+{
+    const double numbers = (double)(r->system->problem.nx + r->system->problem.nv);
+    return 0.5 * (f->weight.products * order * (order + 1) / 2 + (f->weight.sums + 6 * numbers) * order);
+}
+
+static double work_of(const fleet *f, const motus_run *r)
+{
+    const int order = stepper_plan(&r->system->problem, &r->chosen, NULL).expands;
+    if (order) return (double)motus_run_steps(r) * expansion(f, r, order);
+    return (double)motus_run_evaluations(r) * (f->weight.values + overhead(r));
+}
+
+/* One candidate, as far as it is worth while. */
+static motus_status fly(fleet *f, size_t k, motus_error *err)
+{
+    motus_run *r = NULL;
+    motus_run_def def = f->def;
+    def.method = f->names[k];
+    if (!isnan(f->until)) def.until = f->until;
+    motus_status status = motus_run_create(f->system, &def, &r, err);
+    while (status == MOTUS_OK && !motus_run_done(r) && work_of(f, r) < FAR * f->best &&
+           !(isnan(f->until) && motus_run_steps(r) >= STEPS))
+        status = motus_run_step(r, CHUNK, err);
+    if (status == MOTUS_OK) {
+        f->work[k] = work_of(f, r);
+        f->steps[k] = (double)motus_run_steps(r);
+        if (isnan(f->until)) f->until = motus_run_time(r);
+    }
+    motus_run_destroy(r);
+    return status;
+}
+
+/* A failure that is not the method's. */
+static bool ends_all(motus_status status)
+{
+    return status == MOTUS_CANCELLED || status == MOTUS_MEMORY || status == MOTUS_CALLBACK;
+}
+
+static void explain(const fleet *f, size_t chosen, pilot *out)
+{
+    size_t at = 0;
+    int length = snprintf(out->why, sizeof out->why, "%s needs the fewest operations", f->names[chosen]);
+    for (size_t k = 0; k < f->count; k++) {
+        if (k == chosen || !isfinite(f->work[k])) continue;
+        const double ratio = f->work[k] / f->best;
+        at += (size_t)length;
+        length = snprintf(out->why + at, sizeof out->why - at, "%s %s %s%.*f%s", at == (size_t)length ? ":" : ",",
+                          f->names[k], ratio >= FAR ? "over " : "", ratio < FAR, ratio >= FAR ? (double)FAR : ratio,
+                          at == (size_t)length ? " times as many" : "");
+    }
+}
+
+static motus_status weigh_equations(fleet *f, motus_error *err)
+{
+    motus_system *s = f->system;
+    const double numbers = (double)(s->problem.nx + s->problem.nv);
+    f->weight = (weight){.values = CALLBACK_OPERATIONS * numbers};
+    if (!s->model) return MOTUS_OK;
+    const program *p = program_create(s->model->graph, s->model->accel, s->model->accel_count);
+    if (p && weigh(&s->arena, p, s->model->ints, &f->weight)) return MOTUS_OK;
+    return fail(err, MOTUS_MEMORY, "no memory to count the operations of the equations");
+}
+
+motus_status pilot_choose(motus_system *s, const motus_run_def *def, pilot *out, motus_error *err)
+{
+    const bool kinks = s->model && !s->problem.traits.smooth;
+    fleet f = {.system = s, .def = *def, .until = NAN, .best = INFINITY, .names = kinks ? kinked : smooth};
+    f.count = kinks ? sizeof kinked / sizeof *kinked : sizeof smooth / sizeof *smooth;
+    f.def.error = MOTUS_BARS_NONE;
+    f.def.accuracy = NAN;
+    f.def.observer = NULL;
+    f.def.progress = NULL; /* pilot runs are short */
+    f.def.machine = "interpreter";
+    motus_error first = motus_default_error();
+    motus_status status = weigh_equations(&f, err);
+    size_t best = f.count;
+    for (size_t k = 0; status == MOTUS_OK && k < f.count; k++) {
+        motus_error why = motus_default_error();
+        chosen c;
+        f.work[k] = INFINITY;
+        status = row_choose(f.names[k], &c, NULL, &why);
+        if (status == MOTUS_OK && row_admits(&c, &s->problem.traits, &why) != MOTUS_OK) continue;
+        if (status == MOTUS_OK) status = fly(&f, k, &why);
+        if (status != MOTUS_OK && (k == 0 || ends_all(status))) first = why;
+        if (status == MOTUS_OK && f.work[k] < f.best) f.best = f.work[k], best = k;
+        if (!ends_all(status)) status = MOTUS_OK;
+    }
+    if (status == MOTUS_OK && best == f.count) status = first.status;
+    if (status != MOTUS_OK) {
+        if (first.status && err) motus_struct_write(MOTUS_DEF_ERROR, &first, err);
+        return status;
+    }
+    const double part = fabs(f.until - def->start), all = fabs(def->until - def->start);
+    snprintf(out->name, sizeof out->name, "%s", f.names[best]);
+    out->steps = f.steps[best] * (part > 0 ? all / part : 1);
+    explain(&f, best, out);
+    return MOTUS_OK;
+}

@@ -1,0 +1,19 @@
+/* "auto": pilot runs choose the method of a run. */
+#ifndef API_PILOT_H
+#define API_PILOT_H
+
+#include "api/system.h"
+
+#define PILOT_FIRST "dop853" /* it admits every force, and chooses its steps */
+
+typedef struct pilot {
+    char name[MOTUS_NAME_MAX]; /* of the method that was chosen */
+    char why[256];             /* one sentence */
+    double steps;              /* about so many will the run take up to its end */
+} pilot;
+
+/* Which method needs the fewest operations for the run of this definition, whose end and tolerance are known. Fails as
+ * the first method of the list does where none of them gets through. */
+motus_status pilot_choose(motus_system *, const motus_run_def *, pilot *, motus_error *);
+
+#endif
