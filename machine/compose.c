@@ -404,9 +404,9 @@ bool compose(emit *e, const composition *c)
     e->literal = structure;
     e->arrays = c->model->arrays;
     e->vectors = !lanes && compose_width() > 1;
-    const uint32_t inlined = !lanes && c->chosen->row->family == IMPLICIT ? FORCE_TURNS_MAX : FORCE_INLINE_MAX;
+    const size_t inlined = !lanes && c->chosen->row->family == IMPLICIT ? FORCE_TURNS_MAX : FORCE_INLINE_MAX;
     for (size_t i = 0; i < c->program_count; i++) {
-        e->separate = !i && c->model->graph->count > inlined;
+        e->separate = !i && length_of(c->programs[i].program) > inlined;
         e->windowed = !i && windowed;
         e->series = c->programs[i].series ? stepper_plan(c->problem, c->chosen, NULL).expands + 1 : 0;
         emit_program(e, c->programs[i].program, c->programs[i].name, c->programs[i].terms);

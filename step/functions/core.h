@@ -42,6 +42,10 @@
 #define CONSTANT static const
 #define AS_BITS(x) NAME(as_bits)(x)
 #define AS_REAL(b) NAME(as_real)(b)
+/* Of a double alone by its own operations, to the same bits: as integers it would move to other registers and back,
+ * which takes as long as two products, and whatever comes next waits for it. */
+#define ABSOLUTE(x) fabs(x)
+#define SIGNED(x, s) ((x)*copysign(1.0, AS_REAL(s)))
 #ifdef __GNUC__
 #define COLD __attribute__((noinline, cold, unused)) static
 #else
@@ -68,9 +72,11 @@ static inline double motus_as_real(uint64_t b)
 #define SIGN_BIT BITS(0x8000000000000000)
 #define INFINITE REAL((double)INFINITY)
 #define NOT_A_NUMBER REAL((double)NAN)
-#define ABSOLUTE(x) AS_REAL(AS_BITS(x) & ~SIGN_BIT)
 #define SIGN_OF(x) (AS_BITS(x) & SIGN_BIT)
+#ifndef ABSOLUTE
+#define ABSOLUTE(x) AS_REAL(AS_BITS(x) & ~SIGN_BIT)
 #define SIGNED(x, s) AS_REAL(AS_BITS(x) ^ (s)) /* x, negated where s is the sign bit */
+#endif
 
 /* Adding 1.5 2^52 rounds to an integer, to even at halves, and leaves that integer in the low bits, modulo 2^51. */
 #define SHIFTER REAL(0x1.8p52)
