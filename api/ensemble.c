@@ -159,6 +159,7 @@ static motus_status choose_single(motus_ensemble *e, const char *wanted, motus_e
     if (!s->model && s->callback.block) e->block = e->until == SIZE_MAX ? ensemble_block_size(s, &e->chosen) : 1;
     if (!s->model || (wanted && !strcmp(wanted, "interpreter"))) return MOTUS_OK;
     const char *why;
+    e->chosen.varies = e->vary_count > 0;
     motus_status status =
         choice_compile(s, &e->chosen, wanted && !strcmp(wanted, "compiled"), false, &e->machine, &why, err);
     if (status != MOTUS_OK) return status;

@@ -15,6 +15,7 @@ typedef struct chosen {
      * `absolute`; and between which sizes steps stay. */
     double relative, absolute, least, most;
     double first;              /* the size of the first step; 0: error control chooses it */
+    bool varies;               /* the numbers of the model change while it runs */
     int threads;               /* that a large system may use; it changes no bit */
     char name[MOTUS_NAME_MAX]; /* canonical: "verlet", "newmark(0.16666666666666666, 0.5)" */
 } chosen;

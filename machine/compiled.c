@@ -3,7 +3,7 @@
  *
  * Invariant: the object replaces only the loop that advances and the acceleration, so memory, errors, restart and
  * observation are the library's, and the bits are the interpreter's. Each row has an object of its own, which serves
- * every N and every parameter.
+ * every N and every parameter but those that make an operation exact.
  */
 #include "machine/compiled.h"
 
@@ -26,6 +26,8 @@ typedef struct object {
     const row *row;
     double argument[2];
     int expands; /* the order of its Taylor series follows from a tolerance */
+    bool varies;
+    int (*fits)(const double *u); /* whether it was compiled for such numbers */
     void *handle;
     stepper_body body;
 } object;
@@ -44,6 +46,7 @@ struct compiled {
     int64_t *q;
     /* of the last object; all give the same bits */
     void (*accel)(const compiled_host *, double t, double *x, double *v, double *a);
+    int (*fits)(const double *u);
     /* of the last object; all compute the same */
     void (*bind)(const double *, const int64_t *, double *);
     char note[NOTE_MAX];
@@ -56,7 +59,7 @@ static const problem *of(void *ctx) { return ((compiled *)ctx)->interpreted; }
 static int accel(void *ctx, double t, double *x, double *v, double *a)
 {
     const compiled *c = ctx;
-    if (!c->accel) return of(ctx)->accel(of(ctx)->ctx, t, x, v, a);
+    if (!c->accel || !c->fits(c->u)) return of(ctx)->accel(of(ctx)->ctx, t, x, v, a);
     c->accel(&c->host, t, x, v, a);
     return 0;
 }
@@ -157,7 +160,7 @@ static bool write_text(compiled *c, const chosen *chosen, emit *e)
 
 const char *compiled_text(compiled *c, const chosen *chosen, size_t *length)
 {
-    emit e = {.text = {.arena = c->model->arena}};
+    emit e = {.text = {.arena = c->model->arena}, .pool = chosen->varies ? NULL : c->model->pool};
     if (!write_text(c, chosen, &e)) return NULL;
     *length = e.text.length;
     return e.text.bytes;
@@ -189,7 +192,8 @@ static const stepper_body *body_of(compiled *c, const chosen *chosen, int how)
     const int expands = stepper_plan(c->interpreted, chosen, NULL).expands;
     for (int i = 0; i < c->count; i++)
         if (c->objects[i].row == chosen->row && c->objects[i].argument[0] == chosen->argument[0] &&
-            c->objects[i].argument[1] == chosen->argument[1] && c->objects[i].expands == expands)
+            c->objects[i].argument[1] == chosen->argument[1] && c->objects[i].expands == expands &&
+            c->objects[i].varies == chosen->varies && c->objects[i].fits(c->u))
             return &c->objects[i].body;
     snprintf(c->note, sizeof c->note, "out of memory");
     if (c->count == OBJECTS_MAX) {
@@ -202,17 +206,19 @@ static const stepper_body *body_of(compiled *c, const chosen *chosen, int how)
                  c->model->graph->count, OPERATIONS_MAX);
         return NULL;
     }
-    emit e = {.text = {.arena = c->model->arena}};
+    emit e = {.text = {.arena = c->model->arena}, .pool = chosen->varies ? NULL : c->model->pool};
     if (!write_text(c, chosen, &e)) return NULL;
     /* the loops of Taylor series are short, and their sums run in order */
     if (!compose_small(c->model) && chosen->row->family != TAYLOR) how |= COMPILER_LOOPS;
     void *handle = cache_load(e.text.bytes, e.text.length, how, c->note, sizeof c->note);
     if (!handle) return NULL;
     void (*bind)(const double *, const int64_t *, double *);
+    void (*accel)(const compiled_host *, double t, double *x, double *v, double *a);
     object *o = &c->objects[c->count];
     *o = (object){.row = chosen->row,
                   .argument = {chosen->argument[0], chosen->argument[1]},
                   .expands = expands,
+                  .varies = chosen->varies,
                   .handle = handle,
                   .body = *stepper_best_body()};
     const stepper_body *library = stepper_best_body();
@@ -220,13 +226,15 @@ static const stepper_body *body_of(compiled *c, const chosen *chosen, int how)
     /* POSIX lets a void * hold the address of a function. */
     *(void **)&bind = dlsym(handle, "motus_bind");
     *(void **)&o->body.run = dlsym(handle, "motus_run");
-    *(void **)&c->accel = dlsym(handle, "motus_accel");
-    if (!bind || !o->body.run || !c->accel || !bind_numbers(c, &e, bind)) {
+    *(void **)&o->fits = dlsym(handle, "motus_fits");
+    *(void **)&accel = dlsym(handle, "motus_accel");
+    if (!bind || !o->body.run || !o->fits || !accel || !bind_numbers(c, &e, bind)) {
         snprintf(c->note, sizeof c->note, "the compiled object is not what was compiled");
-        c->accel = c->count ? c->accel : NULL;
         dlclose(handle);
         return NULL;
     }
+    c->accel = accel;
+    c->fits = o->fits;
     c->host.run = library->run;
     c->host.factor = library->factor;
     c->host.back = library->back;

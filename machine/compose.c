@@ -393,6 +393,16 @@ static void add_windows(emit *e)
     emit_add(t, "#undef FMA\n#define FMA(a, b, c) fma(a, b, c)\n");
 }
 
+/* Whether the text is right for the numbers u. */
+static void add_assumed(emit *e)
+{
+    char number[EMIT_NUMBER];
+    emit_add(&e->text, "#define FITS(u) (true");
+    for (uint32_t k = 0; k < e->assumed_count; k++)
+        emit_add(&e->text, " && (u)[%u] == %s", e->assumed[k].place, emit_number(e->assumed[k].value, number));
+    emit_add(&e->text, ")\n");
+}
+
 /* ---- the whole ---- */
 
 bool compose(emit *e, const composition *c)
@@ -424,6 +434,7 @@ bool compose(emit *e, const composition *c)
     if (!add_facts(e, c, structure)) return false;
     emit_add(t, "#define DRIVEN %d\n#define TERMS %u\n#define LANES_OF_TIME %d\n", c->model->driven, e->terms, width);
     emit_add(t, "#define AT(array, element) (array)[element]\n");
+    add_assumed(e);
     if (lanes) {
         emit_add(t,
                  "#define OWN_CLOCK %d\n#define BOUNDED %d\n#define GROUPS %d\n#define WIDTH %d\n#define ITERATES %d\n"

@@ -308,7 +308,7 @@ static void many_variables(void **state)
     motus_system_destroy(s);
 }
 
-/* One text serves every N and every parameter. */
+/* One text serves every N and every parameter but those that make an operation exact. */
 static void one_object_for_all_sizes(void **state)
 {
     (void)state;
@@ -322,6 +322,78 @@ static void one_object_for_all_sizes(void **state)
     }
     free(text);
     assert_int_equal(entries(NULL, 0), 1);
+}
+
+/* Products with 1 and -1 are left out of the text, quotients by powers of two become products; other numbers, set
+ * later, want another text. */
+static const char exact_numbers[] = "a = 1\nb = -1\nc = 4\nx'' = -a x/c + b y - y (a x - y) + x b^2/(c y^2)\n"
+                                    "y'' = x/(a b) - a y^3 + b x x' - (x b - c y)/c\n"
+                                    "x(0) = 0.3\nx'(0) = 0.1\ny(0) = 0.7\ny'(0) = -0.2\nstep 0.1\nuntil 4\n";
+
+static void set_number(motus_system *s, const char *name, double value)
+{
+    motus_error err = motus_default_error();
+    if (motus_system_set(s, name, &value, 1, &err)) fail_msg("%s", err.message);
+}
+
+static void exact_operations_are_left_out(void **state)
+{
+    (void)state;
+    static const double values[] = {1, -1, 3, 0.25};
+    static const char *const names[] = {"a", "b", "c"};
+    enum { VALUES = sizeof values / sizeof *values };
+    motus_cache_clear();
+    motus_system *s = open_text(exact_numbers, NULL);
+    same_bits(s, "exact numbers", "leapfrog");
+    for (int n = 0; n < 3; n++)
+        for (int k = 0; k < VALUES; k++) {
+            set_number(s, names[n], values[k]);
+            same_bits(s, "exact numbers", "leapfrog");
+        }
+    motus_system_destroy(s);
+    /* such a number has a text already, that of a = 3 */
+    const int before = entries(NULL, 0);
+    s = open_text(exact_numbers, "a=0.7");
+    same_bits(s, "exact numbers", "leapfrog");
+    set_number(s, "a", 0.9);
+    same_bits(s, "exact numbers", "leapfrog");
+    assert_int_equal(entries(NULL, 0), before);
+    motus_system_destroy(s);
+}
+
+enum { TRAJECTORIES = 3 };
+
+static void ends_of(const char *machine, const double *values, double ends[TRAJECTORIES])
+{
+    motus_ensemble_def def = motus_default_ensemble();
+    motus_error err = motus_default_error();
+    motus_ensemble *e = NULL;
+    const char *name = "k";
+    const motus_record record = {MOTUS_REDUCE_FINAL, 1};
+    double *const results[1] = {ends};
+    motus_system *s = open_text("N = 5\nk = 1\nx[i]'' = k (x[i-1] - 2 x[i] + x[i+1])/k^3 for i = 1..N\nx[0] = 0\n"
+                                "x[N+1] = 0\nx[i](0) = 1/i for i = 1..N\nx[i]'(0) = 0 for i = 1..N\nstep 0.1\n"
+                                "until 4\n",
+                                NULL);
+    def.vary = &name, def.vary_count = 1;
+    def.records = &record, def.record_count = 1;
+    def.method = "gauss4", def.machine = machine;
+    if (motus_ensemble_create(s, &def, &e, &err) || motus_ensemble_run(e, TRAJECTORIES, &values, results, NULL, &err))
+        fail_msg("%s", err.message);
+    motus_ensemble_destroy(e);
+    motus_system_destroy(s);
+}
+
+/* Trajectories that are computed one by one share an object, whatever their numbers are. */
+static void numbers_of_trajectories(void **state)
+{
+    (void)state;
+    const double values[TRAJECTORIES] = {1, 2, 0.7};
+    double a[TRAJECTORIES], b[TRAJECTORIES];
+    ends_of("interpreter", values, a);
+    ends_of("compiled", values, b);
+    assert_memory_equal(a, b, sizeof a);
+    assert_true(a[0] != a[1] && a[1] != a[2]);
 }
 
 static void compile_again(void)
@@ -436,6 +508,8 @@ int main(void)
                                        cmocka_unit_test(variables_that_follow),
                                        cmocka_unit_test(every_function),
                                        cmocka_unit_test(one_object_for_all_sizes),
+                                       cmocka_unit_test(exact_operations_are_left_out),
+                                       cmocka_unit_test(numbers_of_trajectories),
                                        cmocka_unit_test(damaged_entries_are_rebuilt),
                                        cmocka_unit_test(many_variables),
                                        cmocka_unit_test(abandoned_folders_are_removed),

@@ -88,6 +88,7 @@ bool emit_program(emit *e, const program *p, const char *name, bool terms)
                 uint32_t item = w.plan.order[bind->items + k];
                 w.fixed[item] = emit_wide(&w, w.plan.items.at[item].n) ? e->fixed_lanes++ : e->fixed++;
             }
+            emit_values(&w);
             write_functions(&w, name, terms);
         }
     }

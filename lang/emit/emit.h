@@ -1,7 +1,8 @@
 /* A program as C text: the bodies that a compiled machine puts between the texts of step/.
  *
  * No byte of the model's text reaches the C text: names are made here (r12, j0), numbers are hexadecimal, and what
- * depends on a size or a bound is read at run time from `q`, so one text serves every N and every parameter.
+ * depends on a size or a bound is read at run time from `q`, so one text serves every N and every parameter but those
+ * that make an operation exact (emit_exact.c).
  */
 #ifndef LANG_EMIT_EMIT_H
 #define LANG_EMIT_EMIT_H
@@ -23,6 +24,11 @@ typedef struct emit_int { /* what q[k] is */
     int dim;
     int slot; /* SLOT: an int of the model */
 } emit_int;
+
+typedef struct emit_assumed {
+    uint32_t place;
+    double value;
+} emit_assumed;
 
 #define OPERATION_BIT(id) ((uint64_t)1 << OP_##id)
 _Static_assert(OPERATIONS <= 64, "a set of operations is a word");
@@ -50,6 +56,11 @@ typedef struct emit {
     bool separate; /* the next program is compiled once, and called */
     /* the next program takes a window of outer indices, and PUT(k, value) stands for a[k] = value */
     bool windowed;
+    /* The model's numbers, of which those stand in the text that make an operation exact: it serves models whose
+     * u[place] are the same. NULL: none stand there. */
+    const double *pool;
+    emit_assumed *assumed;
+    uint32_t assumed_count, assumed_room;
     uint32_t terms; /* values of time alone: T[0 … terms) */
     int moments;    /* at how many different times a step evaluates them */
 } emit;

@@ -16,6 +16,7 @@ typedef struct writer {
     /* of the program's functions: which one is being written */
     enum { BINDING, BINDING_LANES, TERMS, RUNNING } part;
     uint32_t *fixed; /* by item of region AT_BIND: its place in u, or in w where it is wide */
+    double *value;   /* by item of region AT_BIND: what it is now, or NaN; NULL: nothing is known */
     uint8_t *nature; /* by node: NATURE_ */
     uint32_t *term;  /* by node: its place in T, or NONE */
     /* the level whose index differs from lane to lane, while the inside of its loop is written; else -1 */
@@ -50,6 +51,8 @@ typedef enum spread { TOGETHER, AROUND, ANYWHERE } spread;
 spread emit_spread(const writer *, const reference *);
 void emit_around(writer *, const reference *, char out[3 * PLACE_MAX]);
 
+void emit_exact(writer *, node user, unsigned *op, char operand[3][48]);
+void emit_values(writer *);
 bool emit_natures(writer *, bool loops);
 void emit_terms(writer *);
 bool emit_wide(const writer *, node);

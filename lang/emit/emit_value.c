@@ -170,7 +170,7 @@ void emit_item(writer *w, uint32_t k)
     const plan_item *item = &w->plan.items.at[k];
     const graph_node *n = &w->plan.g->nodes[item->n];
     const char *type = emit_type(w, item->n);
-    char a[48], b[48], c[48], text[EMIT_NUMBER];
+    char o[3][48], text[EMIT_NUMBER];
     bool term = w->part == RUNNING && w->nature[item->n] & PLAIN_TIME;
     if (term && w->term[item->n] == NONE) return; /* only other terms use it */
     if (term)
@@ -194,12 +194,15 @@ void emit_item(writer *w, uint32_t k)
         case OP_LOAD: write_load(w, k, &w->plan.g->references[n->a], emit_wide(w, item->n)); break;
         case OP_SUM: break; /* its loop has made it */
         default: {
-            int arity = operation_at(n->op)->arity;
-            emit_operand(w, n->a, item->n, a);
-            if (arity > 1) emit_operand(w, n->b, item->n, b);
-            if (arity > 2) emit_operand(w, n->c, item->n, c);
-            emit_line(w, "const %s r%u = %s_%d(%s%s%s%s%s);", type, k, emit_operation(w, item->n, n->op), n->op, a,
-                      arity > 1 ? ", " : "", arity > 1 ? b : "", arity > 2 ? ", " : "", arity > 2 ? c : "");
+            unsigned op = n->op;
+            int arity = operation_at(op)->arity;
+            emit_operand(w, n->a, item->n, o[0]);
+            if (arity > 1) emit_operand(w, n->b, item->n, o[1]);
+            if (arity > 2) emit_operand(w, n->c, item->n, o[2]);
+            emit_exact(w, item->n, &op, o);
+            arity = operation_at(op)->arity;
+            emit_line(w, "const %s r%u = %s_%d(%s%s%s%s%s);", type, k, emit_operation(w, item->n, op), op, o[0],
+                      arity > 1 ? ", " : "", arity > 1 ? o[1] : "", arity > 2 ? ", " : "", arity > 2 ? o[2] : "");
         }
         }
     if (w->region == AT_BIND && w->part == (emit_wide(w, item->n) ? BINDING_LANES : BINDING))
