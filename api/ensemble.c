@@ -13,6 +13,7 @@
 
 _Static_assert((int)REDUCE_MEAN == (int)MOTUS_REDUCE_MEAN && (int)REDUCE_TIME_OF_MAX == (int)MOTUS_REDUCE_TIME_OF_MAX,
                "the reductions are the same list");
+_Static_assert(MOTUS_REDUCE_EVALUATIONS - MOTUS_REDUCE_STEPS == TALLY_EVALUATIONS, "and so is what is told of steps");
 
 enum { ENSEMBLE_LANES_MAX = 64 };
 
@@ -30,7 +31,7 @@ static motus_status check(const motus_system *s, const motus_ensemble_def *d, mo
     if (d->vary_count && !d->vary) return fail(err, MOTUS_ARGUMENT, "vary is NULL");
     if (!d->record_count || !d->records) return fail(err, MOTUS_ARGUMENT, "nothing is recorded");
     for (size_t r = 0; r < d->record_count; r++)
-        if (d->records[r].column >= s->column_count || (unsigned)d->records[r].how > MOTUS_REDUCE_TIME_OF_MAX)
+        if (d->records[r].column >= s->column_count || (unsigned)d->records[r].how > MOTUS_REDUCE_EVALUATIONS)
             return fail(err, MOTUS_ARGUMENT, "record %zu names column %zu of %zu, or no reduction", r,
                         d->records[r].column, s->column_count);
     if (d->every < 1)
@@ -99,12 +100,21 @@ static motus_status try_lanes(motus_ensemble *e, const motus_ensemble_def *d, mo
 {
     motus_system *s = e->system;
     lanes_source *sources = arena_room(&s->arena, e->record_count * sizeof *sources);
-    if (!sources) return fail(err, MOTUS_MEMORY, "no memory for the ensemble");
-    for (size_t r = 0; r < e->record_count; r++)
-        if (!source_of(s, &e->records[r], &sources[r])) {
+    lanes_tally *tallies = arena_room(&s->arena, e->record_count * sizeof *tallies);
+    if (!sources || !tallies) return fail(err, MOTUS_MEMORY, "no memory for the ensemble");
+    size_t source_count = 0, tally_count = 0;
+    for (size_t r = 0; r < e->record_count; r++) {
+        const motus_record *record = &e->records[r];
+        if (ensemble_tallies(record)) {
+            tallies[tally_count++] = (lanes_tally){ensemble_tally(record), r};
+            continue;
+        }
+        if (!source_of(s, record, &sources[source_count])) {
             snprintf(e->note, sizeof e->note, "the exact motion is recorded, one trajectory at a time");
             return MOTUS_OK;
         }
+        sources[source_count++].result = r;
+    }
     const lanes_def def = {.model = s->model,
                            .problem = &s->problem,
                            .chosen = &e->chosen,
@@ -112,7 +122,9 @@ static motus_status try_lanes(motus_ensemble *e, const motus_ensemble_def *d, mo
                            .places = e->places,
                            .place_count = e->vary_count,
                            .sources = sources,
-                           .source_count = e->record_count,
+                           .source_count = source_count,
+                           .tallies = tallies,
+                           .tally_count = tally_count,
                            .t0 = e->timing.t0,
                            .h = e->timing.h,
                            .last = e->timing.last,
@@ -301,7 +313,8 @@ motus_status motus_ensemble_run(motus_ensemble *e, size_t count, const double *c
     if (status != MOTUS_OK || !count) return status;
     modes m = modes_enter();
     double began = pace_now();
-    for (size_t r = 0; r < e->record_count; r++) p.observes |= e->records[r].how != MOTUS_REDUCE_FINAL;
+    for (size_t r = 0; r < e->record_count; r++)
+        p.observes |= e->records[r].how != MOTUS_REDUCE_FINAL && !ensemble_tallies(&e->records[r]);
     e->count = count;
     status = check_ends(e, &p, count, err);
     bool by_workers = status == MOTUS_OK;
@@ -331,6 +344,12 @@ void motus_ensemble_destroy(motus_ensemble *e)
 
 int64_t motus_ensemble_steps(const motus_ensemble *e) { return !e || steps_differ(e) ? 0 : e->timing.total; }
 const char *motus_ensemble_method(const motus_ensemble *e) { return e ? e->chosen.name : ""; }
+double motus_ensemble_tolerance(const motus_ensemble *e, int *absolute)
+{
+    const chosen *c = e ? &e->chosen : NULL;
+    if (absolute) *absolute = c && c->absolute > 0;
+    return !c || !row_adaptive(c) ? NAN : c->absolute > 0 ? c->absolute : c->relative;
+}
 const char *motus_ensemble_machine(const motus_ensemble *e)
 {
     return !e ? "" : e->lanes ? "compiled" : e->machine.name;

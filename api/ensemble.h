@@ -57,6 +57,10 @@ struct motus_ensemble {
     char note[MOTUS_TEXT_MAX];
 };
 
+/* Whether a record tells of the trajectory itself, and what: TALLY_ of core/tally.h. */
+static inline bool ensemble_tallies(const motus_record *r) { return r->how >= MOTUS_REDUCE_STEPS; }
+static inline int ensemble_tally(const motus_record *r) { return (int)r->how - (int)MOTUS_REDUCE_STEPS; }
+
 /* Calls the progress hook, at most every 10 ms; other than 0: cancel. The context is the ensemble. */
 int ensemble_report(void *context, double fraction);
 /* The place of a number that varies: in the pool of a model, or in x and then v of a callback. */

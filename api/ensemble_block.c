@@ -31,6 +31,7 @@ typedef struct trajectory_block {
     size_t first, count;
     double *x, *v, *kept, *one_x, *one_v; /* one_x, one_v: the observed state of one trajectory */
     int64_t observations;
+    tally taken; /* by each of its trajectories */
 } trajectory_block;
 
 /* ---- observations ---- */
@@ -64,6 +65,7 @@ static motus_status observe(void *ctx, motus_error *err)
     const double t = stepper_time(b->w->stepper);
     motus_status status = stepper_sync(b->w->stepper, b->x, b->v, NULL, err);
     for (size_t r = 0; r < e->record_count && status == MOTUS_OK; r++) {
+        if (ensemble_tallies(&e->records[r])) continue;
         const double *numbers = row_of(b, e->records[r].column);
         double *kept = b->kept + r * b->count * REDUCE_KEPT;
         for (size_t j = 0; j < b->count && status == MOTUS_OK; j++, kept += REDUCE_KEPT) {
@@ -122,20 +124,24 @@ static motus_status run(trajectory_block *b, motus_error *err)
                            .advance = advance,
                            .observe = observe};
     if (status == MOTUS_OK) status = course_run(&course, err);
+    if (status == MOTUS_OK) b->taken = tally_of(b->w->stepper, (stepper_count){0});
     stepper_destroy(b->w->stepper);
     b->w->stepper = NULL;
     return status;
+}
+
+static double result(const trajectory_block *b, size_t r, size_t j)
+{
+    const motus_record *record = &b->w->e->records[r];
+    if (ensemble_tallies(record)) return tally_number(&b->taken, ensemble_tally(record));
+    return reduce_last(b->kept + (r * b->count + j) * REDUCE_KEPT, (int)record->how, (double)b->observations);
 }
 
 static void write_results(const trajectory_block *b, bool stopped, double when)
 {
     const motus_ensemble *e = b->w->e;
     for (size_t r = 0; r < e->record_count; r++)
-        for (size_t j = 0; j < b->count; j++)
-            b->places->results[r][b->first + j] = stopped
-                                                      ? NAN
-                                                      : reduce_last(b->kept + (r * b->count + j) * REDUCE_KEPT,
-                                                                    (int)e->records[r].how, (double)b->observations);
+        for (size_t j = 0; j < b->count; j++) b->places->results[r][b->first + j] = stopped ? NAN : result(b, r, j);
     for (size_t j = 0; b->places->stopped && j < b->count; j++) b->places->stopped[b->first + j] = stopped ? when : NAN;
 }
 

@@ -17,6 +17,7 @@ typedef struct trajectory {
     double *x, *v, *kept, *now;
     size_t *columns;
     int64_t observations;
+    stepper_count began; /* the stepper's counters at the start */
 } trajectory;
 
 static motus_status observe(void *ctx, motus_error *err)
@@ -28,7 +29,9 @@ static motus_status observe(void *ctx, motus_error *err)
     if (status == MOTUS_OK)
         status = system_values(s->w->system, t, s->x, s->v, s->columns, e->record_count, s->now, err);
     for (size_t r = 0; r < e->record_count && status == MOTUS_OK; r++)
-        if (s->observations == 0)
+        if (ensemble_tallies(&e->records[r]))
+            continue;
+        else if (s->observations == 0)
             reduce_first(s->kept + r * REDUCE_KEPT, s->now[r], t);
         else
             reduce_next(s->kept + r * REDUCE_KEPT, (int)e->records[r].how, s->now[r], t);
@@ -102,6 +105,16 @@ static motus_status advance(void *ctx, stepper_limit limit, stepper_stop *why, m
     return ensemble_advance(s->w, limit, why, err);
 }
 
+static double result(const trajectory *s, size_t r)
+{
+    const motus_record *record = &s->w->e->records[r];
+    if (ensemble_tallies(record)) {
+        const tally taken = tally_of(s->w->stepper, s->began);
+        return tally_number(&taken, ensemble_tally(record));
+    }
+    return reduce_last(s->kept + r * REDUCE_KEPT, (int)record->how, (double)s->observations);
+}
+
 static motus_status run(trajectory *s, const places *p, size_t k, motus_error *err)
 {
     worker *w = s->w;
@@ -110,6 +123,7 @@ static motus_status run(trajectory *s, const places *p, size_t k, motus_error *e
     motus_status status = start(s, p->values, k, err);
     if (status == MOTUS_OK) status = ensemble_timing(e, p, k, t, err);
     if (status != MOTUS_OK) return status;
+    if (w->stepper) s->began = tally_begin(w->stepper);
     status = w->stepper
                  ? stepper_start(w->stepper, t->t0, t->h, s->x, s->v, err)
                  : stepper_create(&w->machine, &e->chosen, t->t0, t->h, s->x, s->v, &e->allocator, &w->stepper, err);
@@ -139,9 +153,7 @@ static motus_status one_trajectory(worker *w, size_t k, void *ctx)
     const bool stopped =
         status == MOTUS_DIVERGED || status == MOTUS_SOLVE || (status == MOTUS_CALLBACK && w->why.returned > 0);
     if (stopped || status == MOTUS_OK) {
-        for (size_t r = 0; r < e->record_count; r++)
-            p->results[r][k] =
-                stopped ? NAN : reduce_last(s.kept + r * REDUCE_KEPT, (int)e->records[r].how, (double)s.observations);
+        for (size_t r = 0; r < e->record_count; r++) p->results[r][k] = stopped ? NAN : result(&s, r);
         if (p->stopped) p->stopped[k] = stopped ? w->why.time : NAN;
         status = MOTUS_OK;
         atomic_fetch_add(&w->e->done, 1);

@@ -97,15 +97,25 @@ const char *motus_run_note(const motus_run *r) { return r ? r->note : ""; }
 
 const char *motus_compiled_text(motus_system *s, const char *method, motus_error *err)
 {
+    motus_run_def def = motus_default_run();
+    def.method = method;
+    return motus_run_text(s, &def, err);
+}
+
+const char *motus_run_text(motus_system *s, const motus_run_def *given, motus_error *err)
+{
     chosen c;
     const motus_method *card;
+    motus_run_def def;
     size_t length;
-    if (!motus_error_sound(err)) return NULL;
+    if (!motus_error_sound(err) || motus_struct_read(MOTUS_DEF_RUN, given, &def, err) != MOTUS_OK) return NULL;
     if (!s || !s->model) {
         fail(err, MOTUS_ARGUMENT, "only a model from a text is compiled");
         return NULL;
     }
-    if (choice_method(s, method, &c, &card, err) != MOTUS_OK) return NULL;
+    const control_wish wish = control_wish_of_run(&def);
+    if (choice_method(s, def.method, &c, &card, err) != MOTUS_OK || control_choose(s, &wish, &c, err) != MOTUS_OK)
+        return NULL;
     if (!s->compiled && compiled_create(s->model, &s->problem, &s->compiled, err) != MOTUS_OK) return NULL;
     const char *text = compiled_text(s->compiled, &c, &length);
     if (!text) fail(err, MOTUS_MEMORY, "no memory for the text");

@@ -228,7 +228,14 @@ static motus_status emit(const options *o, motus_error *err)
 {
     load model;
     motus_status status = load_model(&model, o, err);
-    const char *text = status ? NULL : motus_compiled_text(model.system, o->method, err);
+    motus_run_def def = motus_default_run();
+    def.method = o->method;
+    def.step = o->step;
+    def.tolerance = o->tolerance;
+    def.absolute = o->absolute;
+    def.shortest_step = o->shortest_step;
+    def.longest_step = o->longest_step;
+    const char *text = status ? NULL : motus_run_text(model.system, &def, err);
     if (!status && !text) status = err->status;
     if (text) {
         fputs(text, stdout);

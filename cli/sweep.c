@@ -63,6 +63,12 @@ static motus_status read_every(sweep *s, motus_error *err)
 {
     const options *o = s->options;
     s->every = o->every_steps > 0 ? o->every_steps : 1;
+    if (o->every_time > 0 && isnan(s->step)) {
+        fail(err, MOTUS_ARGUMENT, "--every %g: this is a time, and the steps of the method have no one size",
+             o->every_time);
+        hint(err, "a sweep samples at steps: give --every \"10 steps\"");
+        return MOTUS_ARGUMENT;
+    }
     if (o->every_time > 0) {
         s->every = walk_steps_of(o->every_time, s->step);
         if (s->every <= 0) {
@@ -149,7 +155,10 @@ static motus_status begin(sweep *s, stop_progress *progress, motus_error *err)
     if (status) return status;
     motus_settings settings = motus_default_settings();
     motus_settings_of(s->model.system, &settings);
-    s->step = isnan(s->model.step) ? settings.step : s->model.step;
+    const motus_method *card = NULL;
+    const char *method = o->method ? o->method : settings.method;
+    const bool adaptive = method && motus_method_find(method, &card, NULL) == MOTUS_OK && card->adaptive;
+    s->step = adaptive ? NAN : isnan(s->model.step) ? settings.step : s->model.step;
     s->until = own_ends ? NAN : load_until(&s->model);
     if (isnan(s->until) && !isnan(o->until))
         return fail(err, MOTUS_ARGUMENT, "--until is one end for all, and --vary until one for each: leave one out");
@@ -159,6 +168,7 @@ static motus_status begin(sweep *s, stop_progress *progress, motus_error *err)
     if (!status) status = check_ends(s, err);
     if (status) return status;
     s->method = motus_ensemble_method(s->ensemble);
+    s->tolerance = motus_ensemble_tolerance(s->ensemble, &s->absolute);
     size_t length = o->output ? strlen(o->output) : 0;
     return sweep_head_make(s, length > 4 && strcmp(o->output + length - 4, ".npy") == 0, err);
 }
@@ -194,7 +204,12 @@ static void report_json(const sweep *s, const sweep_file *f, double wall)
     json j = text_json(stdout);
     json_string(&j, "model", s->options->operand);
     json_string(&j, "method", s->method);
-    json_number(&j, "step", s->step);
+    if (isnan(s->tolerance)) {
+        json_number(&j, "step", s->step);
+    } else {
+        json_number(&j, "tolerance", s->tolerance);
+        json_bool(&j, "absolute", s->absolute);
+    }
     settle_json(&j, &s->model);
     json_integer(&j, "trajectories", (int64_t)s->grid.total);
     json_integer(&j, "resumed", (int64_t)f->found);
@@ -217,11 +232,12 @@ static void report(const sweep *s, const sweep_file *f, double wall)
     FILE *out = output ? stderr : stdout;
     char step[DECIMAL_MAX], until[DECIMAL_MAX], inside[DECIMAL_MAX], all[DECIMAL_MAX];
     double seconds = motus_ensemble_seconds(e), work = (double)(f->rows - f->found) * (double)motus_ensemble_steps(e);
-    decimal(s->step, step);
+    decimal(isnan(s->tolerance) ? s->step : s->tolerance, step);
     decimal(s->until, until);
     text_seconds(seconds, inside);
     text_seconds(wall, all);
-    fprintf(out, "%s: %s, step %s, ", s->model.title, s->method, step);
+    fprintf(out, "%s: %s, %s %s%s, ", s->model.title, s->method, isnan(s->tolerance) ? "step" : "tolerance", step,
+            s->absolute ? " absolute" : "");
     if (motus_ensemble_steps(e) > 0) fprintf(out, "%lld steps ", (long long)motus_ensemble_steps(e));
     fprintf(out, "to t = %s, %s%s, %d lane%s, %d thread%s\n", isnan(s->until) ? "its own end" : until,
             motus_ensemble_machine(e), s->options->fast ? " (fast)" : "", motus_ensemble_lanes(e),

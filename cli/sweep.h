@@ -21,7 +21,9 @@ typedef struct sweep {
     grid grid;
     sweep_records records;
     const char *method;
-    double step, until;
+    double step, until; /* step NaN: it adapts, */
+    double tolerance;   /*   by this tolerance; NaN: it does not */
+    int absolute;
     int64_t every; /* steps between two samples for min, max and mean */
     motus_ensemble *ensemble;
     size_t columns; /* of a row: number, varied, recorded, stopped */

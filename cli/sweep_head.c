@@ -48,6 +48,12 @@ static void fingerprint(sweep *s)
     for (size_t i = 0; i < o->set.count; i++) mix_text(&hash, o->set.items[i]);
     mix_text(&hash, s->method);
     mix_number(&hash, s->step);
+    if (!isnan(s->tolerance)) {
+        mix_number(&hash, s->tolerance);
+        mix_count(&hash, (uint64_t)s->absolute);
+        mix_number(&hash, o->shortest_step);
+        mix_number(&hash, o->longest_step);
+    }
     mix_number(&hash, s->until);
     mix_count(&hash, (uint64_t)s->every);
     mix_count(&hash, o->fast);
@@ -76,6 +82,19 @@ static motus_status option_number(file_out *f, const char *name, double value, m
     return option(f, name, text, err);
 }
 
+/* How long the steps are. */
+static motus_status steps(const sweep *s, file_out *f, motus_error *err)
+{
+    const options *o = s->options;
+    char text[DECIMAL_MAX + 16], number[DECIMAL_MAX];
+    if (isnan(s->tolerance)) return option_number(f, "--step", s->step, err);
+    snprintf(text, sizeof text, "%s%s", decimal(s->tolerance, number), s->absolute ? " absolute" : "");
+    motus_status status = option(f, "--tolerance", text, err);
+    if (!status && o->shortest_step > 0) status = option_number(f, "--shortest-step", o->shortest_step, err);
+    if (!status && o->longest_step > 0) status = option_number(f, "--longest-step", o->longest_step, err);
+    return status;
+}
+
 /* A command that makes these rows, with every setting of the model and every default written out. */
 static motus_status command(const sweep *s, file_out *f, motus_error *err)
 {
@@ -95,7 +114,7 @@ static motus_status command(const sweep *s, file_out *f, motus_error *err)
     for (size_t i = 0; !status && i < o->set.count; i++) status = option(f, "--set", o->set.items[i], err);
     if (!status) status = option(f, "--record", o->record ? o->record : "final", err);
     if (!status) status = option(f, "--method", s->method, err);
-    if (!status) status = option_number(f, "--step", s->step, err);
+    if (!status) status = steps(s, f, err);
     if (!status && !isnan(s->until)) status = option_number(f, "--until", s->until, err);
     if (!status && s->every > 1) {
         char text[DECIMAL_MAX + 8];

@@ -1,8 +1,10 @@
 /* The items of --record:
  *
  *     final   NAME   final(NAME)   min(NAME)   max(NAME)   mean(NAME)   time_of_min(NAME)   time_of_max(NAME)
+ *     steps   rejected   h_min   h_max   evaluations
  *
- * Invariant: a name stands for all its numbers, as in --columns of motus run.
+ * Invariant: a name stands for all its numbers, as in --columns of motus run. Where the model has a column of the name
+ * `steps`, that column is meant.
  */
 #include "base/near.h"
 #include "base/error.h"
@@ -25,6 +27,11 @@ static const struct {
     {"time_of_max", MOTUS_REDUCE_TIME_OF_MAX},
 };
 enum { REDUCTIONS = sizeof reductions / sizeof *reductions };
+
+/* What is recorded of the trajectory itself, by the words of run --json. */
+static const char *const of_trajectory[] = {"steps", "rejected", "h_min", "h_max", "evaluations"};
+enum { OF_TRAJECTORY = sizeof of_trajectory / sizeof *of_trajectory };
+_Static_assert(MOTUS_REDUCE_STEPS + OF_TRAJECTORY == MOTUS_REDUCE_EVALUATIONS + 1, "a word for each");
 
 static motus_status add(sweep_records *r, motus_reduction how, size_t first, size_t count, motus_error *err)
 {
@@ -63,6 +70,13 @@ static motus_status unknown(const load *m, const char *item, const char *word, s
     return MOTUS_ARGUMENT;
 }
 
+static size_t of_trajectory_find(const char *item)
+{
+    size_t k = 0;
+    while (k < OF_TRAJECTORY && strcmp(of_trajectory[k], item) != 0) k++;
+    return k;
+}
+
 static motus_status one(sweep_records *r, const load *m, char *item, motus_error *err)
 {
     size_t length = strlen(item), first, count;
@@ -80,6 +94,10 @@ static motus_status one(sweep_records *r, const load *m, char *item, motus_error
         item[--length] = 0;
         while (item + length > name && item[length - 1] == ' ') item[--length] = 0;
     }
+    const size_t what = how == MOTUS_REDUCE_FINAL && name == item ? of_trajectory_find(item) : OF_TRAJECTORY;
+    motus_error none = motus_default_error();
+    if (what < OF_TRAJECTORY && motus_column_find(m->system, name, &first, &count, &none) != MOTUS_OK)
+        return add(r, MOTUS_REDUCE_STEPS + what, 0, 1, err);
     motus_status status = motus_column_find(m->system, name, &first, &count, err);
     return status ? status : add(r, how, first, count, err);
 }
@@ -100,6 +118,10 @@ motus_status sweep_records_read(sweep_records *r, const load *m, const char *lis
 void sweep_record_name(const load *m, const motus_record *r, char out[SWEEP_NAME])
 {
     motus_column c = motus_default_column();
+    if (r->how >= MOTUS_REDUCE_STEPS) {
+        snprintf(out, SWEEP_NAME, "%s", of_trajectory[r->how - MOTUS_REDUCE_STEPS]);
+        return;
+    }
     motus_column_at(m->system, r->column, &c);
     const char *word = "";
     for (size_t i = 1; i < REDUCTIONS; i++)

@@ -664,9 +664,12 @@ MOTUS_API motus_status motus_run_singular(motus_system *, const motus_run_def *,
 MOTUS_API const char *motus_run_choice(const motus_run *);
 /* Why "auto" uses the interpreter although the run is long enough to compile, or "". */
 MOTUS_API const char *motus_run_note(const motus_run *);
-/* The C text that the compiled machine compiles for this model and a method (NULL: the model's); owned by the system.
- * NULL, and the error says why: MOTUS_ARGUMENT: the system is from a callback. MOTUS_METHOD: there is no such method,
- * or it does not admit the model. MOTUS_MEMORY. */
+/* The C text that the compiled machine compiles for a run of this model, of whose definition (NULL: everything is the
+ * model's) it uses the method and the tolerance, from which the order of Taylor series follows; owned by the system.
+ * NULL, and the error says why: MOTUS_ARGUMENT: the system is from a callback, or the method does not take this step or
+ * tolerance. MOTUS_METHOD: there is no such method, or it does not admit the model. MOTUS_MEMORY. */
+MOTUS_API const char *motus_run_text(motus_system *, const motus_run_def *, motus_error *);
+/* The same of a definition with this method alone (NULL: the model's). */
 MOTUS_API const char *motus_compiled_text(motus_system *, const char *method, motus_error *);
 /* Removes the compiled objects that the library keeps on disk; returns how many, or -1: it cannot read the folder. */
 MOTUS_API int motus_cache_clear(void);
@@ -818,7 +821,14 @@ typedef enum motus_reduction {
     MOTUS_REDUCE_MEAN,
     /* The time of the first observation with that value. */
     MOTUS_REDUCE_TIME_OF_MIN,
-    MOTUS_REDUCE_TIME_OF_MAX
+    MOTUS_REDUCE_TIME_OF_MAX,
+    /* Of the trajectory itself, as in motus_statistics; the column is 0: steps taken and refused, the shortest and the
+     * longest step, evaluations of the acceleration. */
+    MOTUS_REDUCE_STEPS,
+    MOTUS_REDUCE_REFUSED,
+    MOTUS_REDUCE_SHORTEST_STEP,
+    MOTUS_REDUCE_LONGEST_STEP,
+    MOTUS_REDUCE_EVALUATIONS
 } motus_reduction;
 /* column: from motus_column_find or motus_column_of */
 typedef struct motus_record {
@@ -873,6 +883,8 @@ MOTUS_API void motus_ensemble_destroy(motus_ensemble *);
 
 MOTUS_API int64_t motus_ensemble_steps(const motus_ensemble *); /* of each trajectory; 0 where they differ */
 MOTUS_API const char *motus_ensemble_method(const motus_ensemble *);
+/* Of an adaptive method; NaN: steps have one size. *absolute (may be NULL): 1 where it is absolute. */
+MOTUS_API double motus_ensemble_tolerance(const motus_ensemble *, int *absolute);
 MOTUS_API const char *motus_ensemble_machine(const motus_ensemble *);
 MOTUS_API const char *motus_ensemble_note(const motus_ensemble *); /* why it uses no faster machine, or "" */
 MOTUS_API int motus_ensemble_lanes(const motus_ensemble *);

@@ -64,6 +64,9 @@ const char *lanes_refuse(const lanes_def *d)
     const work plan = stepper_plan(d->problem, d->chosen, NULL);
     if (plan.solves && (row_adaptive(d->chosen) || (d->chosen->row->gyroscopic && plan.stages > 2)))
         return "the matrix changes from step to step, or within one: trajectories are computed one at a time";
+    for (size_t k = 0; k < d->tally_count; k++)
+        if (d->tallies[k].which == TALLY_EVALUATIONS && !tally_evaluations(&plan, &(tally){0}))
+            return "the evaluations of this method are counted one trajectory at a time";
     uint32_t count;
     const vary_active *active = vary_entries(d->vary, &count);
     for (uint32_t k = 0; k < count; k++)
@@ -112,6 +115,7 @@ static void write_records(emit_text *t, const lanes_def *d, const observed *quan
         observing |= s->how != REDUCE_FINAL;
         velocity |= s->how != REDUCE_FINAL && (s->kind == SOURCE_V || s->kind == SOURCE_DEFINITION);
     }
+    if (!d->source_count) emit_add(t, "{0, 0, 0}");
     emit_add(t,
              "};\n#define RECORDS ((size_t)%zu)\n#define LOOKING %d\n#define SEES_VELOCITY %d\n#define "
              "WRITTEN_OUT_RECORDS%s\n",

@@ -7,6 +7,7 @@
 #define MACHINE_LANES_H
 
 #include "core/methods.h"
+#include "core/tally.h"
 #include "lang/model/vary.h"
 
 typedef struct lanes lanes;
@@ -16,8 +17,15 @@ typedef struct lanes_source {
     enum { SOURCE_TIME, SOURCE_X, SOURCE_V, SOURCE_DEFINITION } kind;
     const model_definition *definition;
     size_t place;
-    int how; /* REDUCE_ of machine/text/reduce.h */
+    int how;       /* REDUCE_ of machine/text/reduce.h */
+    size_t result; /* which of the results it is */
 } lanes_source;
+
+/* What is recorded of the trajectory itself: TALLY_ of core/tally.h. */
+typedef struct lanes_tally {
+    int which;
+    size_t result;
+} lanes_tally;
 
 typedef struct lanes_def {
     model *model;
@@ -28,6 +36,8 @@ typedef struct lanes_def {
     size_t place_count; /* numbers of the pool that vary */
     const lanes_source *sources;
     size_t source_count;
+    const lanes_tally *tallies;
+    size_t tally_count;
     double t0, h, last, until; /* last: the shorter last step, 0 none */
     int64_t whole, every;      /* whole steps; steps from one observation to the next */
     bool own_clock;            /* steps adapt, or ends differ: whole, last and the sign of h are ignored */

@@ -90,7 +90,8 @@ static void move(const apart_block *from, size_t lane, const apart_block *to, si
 static void finish(apart *s, const apart_block *b, size_t lane)
 {
     const trajectory *p = &b->trajectories[lane];
-    lanes_block_result(&b->block, s->item->call, lane, p->number, p->observations);
+    const int64_t steps = s->adaptive ? steps_of(b, lane) : p->whole + (p->last != 0);
+    lanes_block_result(&b->block, s->item->call, lane, p->number, p->observations, steps);
     atomic_fetch_add(&s->item->call->done, 1);
     free_lane(b, lane);
 }

@@ -219,7 +219,25 @@ void lanes_block_trace(const lanes_block *block, bool first, int64_t steps, int6
 
 /* ---- the end ---- */
 
-void lanes_block_result(const lanes_block *b, const lanes_call *c, size_t lane, size_t trajectory, int64_t observations)
+/* Of a trajectory that has come to its end by so many steps. */
+static tally tally_of_lane(const lanes_block *b, size_t lane, int64_t steps)
+{
+    const lanes *l = b->l;
+    tally t = {.steps = steps, .shortest = NAN, .longest = NAN};
+    if (!l->plan.carried) {
+        if (steps > 0) t.shortest = t.longest = fabs(l->def.h);
+        return t;
+    }
+    double own[LANES_CLOCKS];
+    for (size_t k = 0; k < LANES_CLOCKS; k++) own[k] = b->job.clocks[lane_at(l, LANES_CLOCKS, k, lane)];
+    t.refused = (int64_t)own[LANES_REFUSED];
+    if (own[LANES_LONGEST] > 0) t.shortest = own[LANES_SHORTEST], t.longest = own[LANES_LONGEST];
+    tally_evaluations(&l->plan, &t);
+    return t;
+}
+
+void lanes_block_result(const lanes_block *b, const lanes_call *c, size_t lane, size_t trajectory, int64_t observations,
+                        int64_t steps)
 {
     const lanes *l = b->l;
     const lanes_job *j = &b->job;
@@ -228,9 +246,13 @@ void lanes_block_result(const lanes_block *b, const lanes_call *c, size_t lane, 
     for (size_t r = 0; r < l->def.source_count; r++) {
         const double kept[REDUCE_KEPT] = {j->kept[lane_at(l, all, r * REDUCE_KEPT, lane)],
                                           j->kept[lane_at(l, all, r * REDUCE_KEPT + 1, lane)]};
-        c->results[r][trajectory] =
+        c->results[l->def.sources[r].result][trajectory] =
             isnan(stopped) ? reduce_last(kept, l->def.sources[r].how, (double)observations) : NAN;
     }
+    const tally taken = l->def.tally_count ? tally_of_lane(b, lane, steps) : (tally){0};
+    for (size_t k = 0; k < l->def.tally_count; k++)
+        c->results[l->def.tallies[k].result][trajectory] =
+            isnan(stopped) ? tally_number(&taken, l->def.tallies[k].which) : NAN;
     if (c->stopped) c->stopped[trajectory] = stopped;
 }
 

@@ -107,8 +107,9 @@ void lanes_block_trace(const lanes_block *, bool first, int64_t steps, int64_t n
  * stopped. */
 void lanes_block_observe(const lanes_block *);
 double lanes_block_time(const lanes_block *, size_t lane);
-/* Writes the results of one lane, after so many observations, as those of a trajectory. */
-void lanes_block_result(const lanes_block *, const lanes_call *, size_t lane, size_t trajectory, int64_t observations);
+/* Writes the results of one lane, after so many observations and steps, as those of a trajectory. */
+void lanes_block_result(const lanes_block *, const lanes_call *, size_t lane, size_t trajectory, int64_t observations,
+                        int64_t steps);
 /* Calls the progress hook with the fraction done, `more` trajectories of this item included. */
 void lanes_item_report(lanes_item *, double more);
 /* Whether the call is cancelled, or refused: then no more is computed. */

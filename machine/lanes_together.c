@@ -68,7 +68,8 @@ static void end_block(const together *s, size_t number)
     const lanes_block block = lanes_block_of(b, number);
     const size_t first = number * (size_t)b->l->block;
     for (size_t i = 0; i < (size_t)b->l->block && first + i < b->count; i++)
-        lanes_block_result(&block, b->call, i, b->first + first + i, b->observations);
+        lanes_block_result(&block, b->call, i, b->first + first + i, b->observations,
+                           b->l->def.whole + (b->l->def.last != 0));
 }
 
 /* ---- steps and observations ---- */

@@ -116,7 +116,7 @@ static inline void control_settle(work *w, clock_mask good)
 {
     control_count(w, good);
     w->stalled = (w->t + w->next == w->t) | (ABS(w->next) < w->least);
-    w->refused += NONE(good);
+    w->refused = CHOOSE_WHERE(good, w->refused, w->refused + 1);
 }
 
 /* Of rows that find their own sizes. */

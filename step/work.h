@@ -107,10 +107,11 @@ typedef struct work {
     /* the numbers of variable g are variable[g] … variable[g + 1] - 1 of v, and of x those of them that x has */
     int variables;
     const size_t *variable;
-    bool check;                             /* test after every step whether the state is finite */
-    bool finite;                            /* the machine found the state finite after the last steps */
-    int threads;                            /* how many may share one evaluation, or the tiles of one sweep */
-    whole evaluations, iterations, refused; /* refused: candidates that were not accepted */
+    bool check;  /* test after every step whether the state is finite */
+    bool finite; /* the machine found the state finite after the last steps */
+    int threads; /* how many may share one evaluation, or the tiles of one sweep */
+    whole evaluations, iterations;
+    ticks refused; /* candidates that were not accepted */
 
     /* Time. Fixed: step n begins at t0 + n h. Carried: it begins at t, a sum whose rounding error is `lost`. */
     bool carried;

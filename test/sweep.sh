@@ -41,6 +41,19 @@ column() { rows "${2:-$out}" | cut -d, -f"$1" | tr '\n' ' '; }
 is() { [ "$1" = "$2" ] || { printf '%s\nis not\n%s\n' "$1" "$2"; return 1; }; }
 sweep() { "$motus" sweep "$@"; }
 
+# --- steps ----------------------------------------------------------------------------------------------------------------------
+sweep osc.motus --vary F=0.1,0.2 --method dopri5 --tolerance 1e-7 --until 5 --record "steps, rejected, h_min, h_max, evaluations, x" -q >"$out" 2>"$err"
+that "what is recorded of the steps has the words of run --json" is "$(names)" "index,F,steps,rejected,h_min,h_max,evaluations,x,stopped"
+"$motus" run osc.motus --set F=0.2 --method dopri5 --tolerance 1e-7 --until 5 --json >one.json
+for key in steps rejected h_min h_max evaluations; do
+    n=$(names | tr , '\n' | grep -nx "$key" | cut -d: -f1)
+    that "$key is that of the run" grep -q "\"$key\": $(column "$n" | cut -d' ' -f2)[,}]" one.json
+done
+sweep osc.motus --vary F=0.1,0.2 --method dopri5 --tolerance 1e-7 --until 5 --record steps -o steps.csv -q
+refuses "another tolerance is another sweep" 2 "made by another sweep" "$motus" sweep osc.motus --vary F=0.1,0.2 --method dopri5 --tolerance 1e-6 --until 5 --record steps -o steps.csv --resume
+that "the head names the tolerance" grep -q -- "--method dopri5 --tolerance 1e-07 --until 5" steps.csv
+refuses "a time between samples where steps adapt" 2 "the steps of the method have no one size" "$motus" sweep osc.motus --vary F=1 --method dopri5 --until 5 --record "max(x)" --every 0.1
+
 refuses "a value at a time" 2 "x is recorded at the end of the run, not at a time" "$motus" sweep line.motus --vary a=1,2 --record "x(0)"
 that "... what there is" says "write x, or one of its values on the way: min(x), max(x), mean(x)" "$err"
 refuses "a slip in --record" 2 "there is no maxx(…) to record" "$motus" sweep line.motus --vary a=1,2 --record "maxx(x)"

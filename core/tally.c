@@ -1,0 +1,41 @@
+/* See tally.h. */
+#include "core/tally.h"
+
+#include "core/stepper_parts.h"
+
+#include <math.h>
+
+stepper_count tally_begin(const stepper *s)
+{
+    return (stepper_count){.evaluations = stepper_evaluations(s), .refused = stepper_refused(s)};
+}
+
+tally tally_of(const stepper *s, stepper_count before)
+{
+    tally t = {.steps = stepper_steps(s),
+               .refused = stepper_refused(s) - before.refused,
+               .evaluations = stepper_evaluations(s) - before.evaluations};
+    stepper_sizes(s, &t.shortest, &t.longest);
+    return t;
+}
+
+double tally_number(const tally *t, int which)
+{
+    const double numbers[TALLIES] = {[TALLY_STEPS] = (double)t->steps,
+                                     [TALLY_REFUSED] = (double)t->refused,
+                                     [TALLY_SHORTEST] = t->shortest,
+                                     [TALLY_LONGEST] = t->longest,
+                                     [TALLY_EVALUATIONS] = (double)t->evaluations};
+    return numbers[which];
+}
+
+/* The acceleration at the start of a step is the last one of the step before, or belongs to the step, whose refused
+ * candidates have it too; the other stages belong to a candidate. */
+bool tally_evaluations(const work *plan, tally *t)
+{
+    if (plan->row->family != RUNGE_KUTTA || !plan->row->adaptive) return false;
+    const bool last_is_first = plan->ending || plan->closing;
+    const int64_t starts = last_is_first && t->steps > 0 ? 1 : t->steps;
+    t->evaluations = starts + (t->steps + t->refused) * (plan->stages - 1 + plan->ending);
+    return true;
+}
