@@ -53,6 +53,24 @@ void bars_destroy(motus_run *r)
     give(&r->allocator, r->bars);
 }
 
+/* A companion that could not be compiled goes on in the interpreter. */
+static motus_status compile(motus_run *r, companion *c, motus_error *err)
+{
+    const char *why = NULL;
+    motus_system *s = c->system ? c->system : r->system;
+    if (!c->stepper) return MOTUS_OK;
+    motus_status status = choice_compile(s, &r->chosen, false, false, &c->machine, &why, err);
+    return status == MOTUS_OK && !why ? stepper_move(&c->stepper, &c->machine, err) : status;
+}
+
+motus_status bars_compile(motus_run *r, motus_error *err)
+{
+    if (!r->bars) return MOTUS_OK;
+    r->bars->kept = false;
+    motus_status status = compile(r, &r->bars->half, err);
+    return status == MOTUS_OK ? compile(r, &r->bars->twin, err) : status;
+}
+
 void bars_move(motus_run *r)
 {
     r->bars->half.pace = r->bars->twin.pace =

@@ -35,6 +35,8 @@ motus_status bars_land(motus_run *, motus_error *);
 motus_status bars_land_between(motus_run *, double t, double *x, double *v, motus_error *);
 /* From now on there are no bars, and why. The first reason stays. */
 void bars_give_up(motus_run *, const char *format, ...) __attribute__((format(printf, 2, 3)));
+/* The run goes on compiled, and so do its companions. */
+motus_status bars_compile(motus_run *, motus_error *);
 /* The bars come from another run, whose place this one takes. */
 void bars_move(motus_run *);
 void bars_destroy(motus_run *);

@@ -12,6 +12,9 @@
 #include <math.h>
 #include <string.h>
 
+#define FIRST_LOOK \
+    0.1          /* a run of unknown length considers compiling when it has done this part of a compiler's work, */
+#define LEFT 0.5 /*   and compiles where as much as this is left */
 #define STEPS_MAX 1e15 /* from the start to `until`: eleven days at a nanosecond a step */
 
 /* ---- creation ---- */
@@ -83,14 +86,36 @@ static motus_status choose_machine(motus_run *r, const char *wanted, double step
     motus_status status = choice_machine(wanted, &automatic, &compiled, err);
     if (status != MOTUS_OK || !s->model || !compiled) return status;
     if (!row_adaptive(&r->chosen)) steps = (double)r->timing.total;
-    /* where it is not known how many steps there are: as many as repay compiling */
-    const double worth = steps > 0 ? choice_worth(s, &r->chosen, r->card, steps) : 1;
+    /* where it is not known how many steps there are, the run begins in the interpreter, unless an object is there */
+    const double worth = steps > 0 ? choice_worth(s, &r->chosen, r->card, steps) : CHOICE_KEPT;
     if (automatic && worth < CHOICE_KEPT) return MOTUS_OK;
     const bool kept = r->kept = automatic && worth < 1;
     const char *why;
     status = choice_compile(s, &r->chosen, !automatic, kept, &r->machine, &why, err);
     if (status == MOTUS_OK && why && !kept) r->note = why;
+    if (why && kept && !(steps > 0)) r->look = (int64_t)ceil(FIRST_LOOK / choice_worth(s, &r->chosen, r->card, 1));
     return status;
+}
+
+/* Compiles, if the work that is left repays it, and goes on there: nobody waits for the compiler in a short run. */
+static motus_status consider(motus_run *r, motus_error *err)
+{
+    const double steps = (double)motus_run_steps(r), all = r->timing.until - r->timing.t0;
+    const double done = choice_worth(r->system, &r->chosen, r->card, steps) * (r->bars ? 3 : 1);
+    const double part = (stepper_time(r->stepper) - r->timing.t0) / all;
+    const char *why = NULL;
+    machine m;
+    r->look *= 2;
+    if (!(done * (1 - part) >= LEFT * part)) return MOTUS_OK;
+    r->look = 0;
+    motus_status status = choice_compile(r->system, &r->chosen, false, false, &m, &why, err);
+    if (status == MOTUS_OK && why) r->note = why;
+    if (status != MOTUS_OK || why) return status;
+    status = stepper_move(&r->stepper, &m, err);
+    if (status != MOTUS_OK) return status;
+    r->machine = m;
+    r->kept = false;
+    return bars_compile(r, err);
 }
 
 const char *motus_run_note(const motus_run *r) { return r ? r->note : ""; }
@@ -150,7 +175,7 @@ static motus_status advance_located(motus_run *r, int64_t n, stepper_stop *why, 
 }
 
 /* Up to n steps more, without calling the observer; n = 0 finds out whether the run is at its end. */
-static motus_status advance(motus_run *r, int64_t n, motus_error *err)
+static motus_status advance_on(motus_run *r, int64_t n, motus_error *err)
 {
     stepper_stop why = STOP_STEPS;
     r->synchronised = r->synchronised && n == 0;
@@ -163,6 +188,19 @@ static motus_status advance(motus_run *r, int64_t n, motus_error *err)
     if (status != MOTUS_CANCELLED) return status;
     char t[DECIMAL_MAX];
     return fail(err, status, "cancelled at t = %s", run_time_text(r, stepper_time(r->stepper), t));
+}
+
+/* The same, and on the way it considers compiling. */
+static motus_status advance(motus_run *r, int64_t n, motus_error *err)
+{
+    motus_status status = MOTUS_OK;
+    while (status == MOTUS_OK && r->look && n > 0 && !r->arrived) {
+        const int64_t steps = motus_run_steps(r), piece = r->look - steps;
+        if (piece > 0 && n <= piece) break;
+        if (piece > 0) status = advance_on(r, piece, err), n -= piece;
+        if (status == MOTUS_OK && !r->arrived) status = consider(r, err);
+    }
+    return status == MOTUS_OK && (n == 0 || !r->arrived) ? advance_on(r, n, err) : status;
 }
 
 static motus_status observe(motus_run *r, motus_error *err)

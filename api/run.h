@@ -49,6 +49,7 @@ struct motus_run {
     struct locate *locate; /* NULL: they do not */
     bars *bars;            /* of error; NULL: none are asked for */
     bool kept;             /* a compiled object is used only where there is one */
+    int64_t look;          /* after so many steps the run considers compiling; 0: it does not */
     struct trace *trace;   /* of the last step that was traced; NULL */
     struct goal *goal;     /* what it was made for; NULL: a method and a step, or a tolerance, that were given */
 };

@@ -1,4 +1,5 @@
-/* motus check: the equations that the program read, their properties, and which methods the model admits.
+/* motus check: the equations that the program read, their properties, which methods the model admits, and which one
+ * auto takes.
  *
  * Invariant: the reasons are the library's, the same that a run would give.
  */
@@ -10,7 +11,47 @@
 #include "cli/verbs.h"
 #include "tell/tell.h"
 
+#include <stdio.h>
 #include <string.h>
+
+#define TOLERANCE 1e-10 /* the first that is tried for the accuracy 1e-9, which a run has where nobody gives one */
+
+/* The run that auto would choose; NULL: none, and the error says why. */
+static motus_run *auto_run(const load *m, motus_error *why)
+{
+    motus_run *run = NULL;
+    motus_run_def def = motus_default_run();
+    def.method = "auto";
+    def.tolerance = TOLERANCE;
+    def.machine = "interpreter";
+    motus_run_create(m->system, &def, &run, why);
+    return run;
+}
+
+static void auto_json(json *j, const load *m)
+{
+    motus_error why = motus_default_error();
+    motus_run *run = auto_run(m, &why);
+    json_open(j, "auto", '{');
+    json_string(j, "method", run ? motus_run_method(run) : NULL);
+    json_string(j, "why", run ? motus_run_choice(run) : why.message);
+    json_close(j, '}');
+    motus_run_destroy(run);
+}
+
+static void print_auto(const load *m, const char *strong, const char *plain)
+{
+    char line[MOTUS_TEXT_MAX + 64];
+    motus_error why = motus_default_error();
+    motus_run *run = auto_run(m, &why);
+    if (run)
+        snprintf(line, sizeof line, "%s (at tolerance %g)", motus_run_choice(run), TOLERANCE);
+    else
+        snprintf(line, sizeof line, "none: %s", why.message);
+    printf("\n%sauto%s\n", strong, plain);
+    text_wrap(stdout, line, 2, 100);
+    motus_run_destroy(run);
+}
 
 static void print_json(const options *o, const load *m)
 {
@@ -24,6 +65,7 @@ static void print_json(const options *o, const load *m)
     tell_analysis(&j, m->system);
     const char *explanation = motus_explain(m->system);
     json_string(&j, "explanation", explanation ? explanation : "");
+    auto_json(&j, m);
     tell_admissions(&j, m->system);
     json_end(&j);
 }
@@ -61,6 +103,7 @@ static motus_status print_text(const load *m, motus_error *err)
     }
     bool good = table_print(t, stdout, 2, colours);
     table_destroy(t);
+    print_auto(m, strong, plain);
     return good ? MOTUS_OK : complain_memory(err);
 }
 

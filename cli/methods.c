@@ -99,8 +99,22 @@ static void print_card(const motus_method *m)
     section("when to use it", m->use ? m->use : "", strong, plain);
 }
 
+static motus_status print_auto(motus_error *err)
+{
+    fputs("auto chooses the method of a run\n\n", stdout);
+    text_wrap(
+        stdout,
+        "It compares taylor, dop853, dep12 and dep6, as far as they admit the force, and dop853 and dopri5 where the "
+        "force has kinks. Each integrates the first part of the motion, and its operations are counted; the one that "
+        "needs the fewest is taken. No clock is read, so the choice is the same on every machine. motus run says why "
+        "it was made, and motus check MODEL tells beforehand.",
+        2, 90);
+    return file_flush_output(err);
+}
+
 motus_status methods_verb(const options *o, motus_error *err)
 {
+    if (o->operand && !strcmp(o->operand, "auto") && !o->json && !o->markdown) return print_auto(err);
     const motus_method *only = NULL;
     motus_status status = o->operand ? motus_method_find(o->operand, &only, err) : MOTUS_OK;
     if (status) return status;

@@ -61,6 +61,10 @@ motus_status stepper_trace(stepper *, double until, const tracer *, motus_error 
  * there. */
 motus_status stepper_sync(stepper *, double *x, double *v, double *a, motus_error *);
 
+/* Goes on, on another machine of the same problem, where the stepper stands: at the end of a step that was not the
+ * shorter last one. The bits and the counters are the same. After a failure it stands as before. */
+motus_status stepper_move(stepper **, const machine *, motus_error *);
+
 double stepper_time(const stepper *);
 double stepper_time_of(const stepper *, int64_t n); /* of step n of the leg; NaN where steps adapt */
 double stepper_step(const stepper *);               /* size of the present leg's steps, with its sign */

@@ -101,6 +101,39 @@ motus_status stepper_load(stepper *s, stepper_count at, const double *carry, mot
     return MOTUS_OK;
 }
 
+/* The mark of dense output goes along, because it may be for the next step. */
+static void move_ends(stepper *from, stepper *to)
+{
+    to->ends = from->ends;
+    from->ends = NULL;
+    to->left = from->left;
+    to->right = from->right;
+    to->left_t = from->left_t;
+    to->left_steps = from->left_steps;
+}
+
+motus_status stepper_move(stepper **s, const machine *m, motus_error *err)
+{
+    stepper *from = *s, *to = NULL;
+    const size_t nx = from->work.nx, nv = from->work.nv;
+    double *x = take(&from->allocator, nx + nv + stepper_carry(from), sizeof *x), *carry = x + nx + nv;
+    if (!x) return fail(err, MOTUS_MEMORY, "out of memory for the state");
+    motus_status status = stepper_sync(from, x, x + nx, NULL, err);
+    if (!status)
+        status = stepper_create(m, &from->method, from->main_t0, from->leg_h, x, x + nx, &from->allocator, &to, err);
+    if (!status) status = stepper_load(to, stepper_save(from, carry), carry, err);
+    give(&from->allocator, x);
+    if (status) {
+        stepper_destroy(to);
+        return status;
+    }
+    move_ends(from, to);
+    to->work.h = from->work.h;
+    *s = to;
+    stepper_destroy(from);
+    return MOTUS_OK;
+}
+
 /* Observation ----------------------------------------------------------------------------------------------------- */
 
 motus_status stepper_sync(stepper *s, double *x, double *v, double *a, motus_error *err)

@@ -2,6 +2,7 @@
  * found for an accuracy has the bits of one that was asked for by its method and its tolerance.
  */
 #include "test/given.h"
+#include "test/given_cache.h"
 
 #include <stdbool.h>
 
@@ -256,6 +257,39 @@ static void the_bits_of_its_method(void **state)
         }
 }
 
+/* A run of unknown length that goes on compiled has the bits, the errors and the counts of the interpreter's, also at
+ * times within the step at which it changes over. */
+static void goes_on_compiled(void **state)
+{
+    (void)state;
+    motus_system *s = given_text(motions[4].text);
+    enum { TIMES = 2000, NUMBERS = 2 };
+    static double times[TIMES], a[2][TIMES][NUMBERS], e[2][TIMES][NUMBERS];
+    motus_statistics d[2];
+    motus_error err = motus_default_error();
+    const size_t columns[NUMBERS] = {column(s, "x"), column(s, "y'")};
+    for (int k = 0; k < TIMES; k++) times[k] = 2.5 * (k + 1);
+    for (int compiled = 0; compiled < 2; compiled++) {
+        motus_run_def def = wanted("dop853", NAN, 2.5 * TIMES);
+        motus_run *r = NULL;
+        def.tolerance = 1e-12;
+        def.machine = compiled ? "auto" : "interpreter";
+        must(motus_run_create(s, &def, &r, &err), &err, "run");
+        assert_string_equal(motus_run_machine(r), "interpreter");
+        must(motus_run_sample_errors(r, times, TIMES, columns, NUMBERS, a[compiled][0], e[compiled][0], &err), &err,
+             "sample");
+        must(motus_run_finish(r, &err), &err, "finish");
+        d[compiled] = done(r);
+        if (compiled && !*motus_run_note(r)) assert_string_equal(motus_run_machine(r), "compiled");
+        motus_run_destroy(r);
+    }
+    assert_memory_equal(a[0], a[1], sizeof a[0]);
+    assert_memory_equal(e[0], e[1], sizeof e[0]);
+    assert_true(d[0].steps == d[1].steps && d[0].refused == d[1].refused && d[0].evaluations == d[1].evaluations);
+    assert_true(d[0].shortest_step == d[1].shortest_step && d[0].longest_step == d[1].longest_step);
+    motus_system_destroy(s);
+}
+
 static void suits_the_force(void **state)
 {
     (void)state;
@@ -406,9 +440,13 @@ int main(void)
                                        cmocka_unit_test(nothing_but_the_equation),
                                        cmocka_unit_test(settings_of_a_model),
                                        cmocka_unit_test(the_bits_of_its_method),
+                                       cmocka_unit_test(goes_on_compiled),
                                        cmocka_unit_test(suits_the_force),
                                        cmocka_unit_test(callbacks),
                                        cmocka_unit_test(out_of_reach),
                                        cmocka_unit_test(refused)};
-    return cmocka_run_group_tests(tests, NULL, NULL);
+    open_cache();
+    const int failed = cmocka_run_group_tests(tests, NULL, NULL);
+    close_cache();
+    return failed;
 }

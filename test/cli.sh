@@ -474,6 +474,10 @@ that "... and leaves the model's method and step aside" holds '.method != "verle
 "$motus" run nostep.motus --accuracy 1e-15 --until 1000 >"$out" 2>"$err"
 status=$?
 that "an accuracy out of reach is said after the numbers" eval "[ $status = 1 ] && grep -q 'accuracy 1e-15 of the motion.s size is not reached' '$out' && grep -qF 'the accuracy 1e-15 cannot be reached: the best is' '$err'"
+"$motus" check nostep.motus >"$out" 2>"$err"
+that "check names the method that auto takes, and why" eval "grep -A1 '^auto' '$out' | grep -qE '[a-z0-9]+ needs the fewest operations: .*at tolerance 1e-10'"
+"$motus" check nostep.motus --json >"$out" 2>"$err"
+that "... in JSON" holds '.auto.method as $m | .auto.why | startswith($m)'
 refuses "accuracy and tolerance" 2 "an accuracy and a tolerance are given" "$motus" run nostep.motus --accuracy 1e-6 --tolerance 1e-6
 refuses "accuracy and step" 2 "a step and an accuracy are given" "$motus" run nostep.motus --method verlet --accuracy 1e-6 --step 0.1
 refuses "auto and step" 2 "give --accuracy 1e-9 in its place" "$motus" run nostep.motus --method auto --step 0.1
