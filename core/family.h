@@ -50,11 +50,28 @@ static inline int family_carry(const work *w, real *list[CARRY_MAX])
     return 0;
 }
 
+#define CASE_BETWEEN(NAME, name, shared) \
+    case NAME: return name##_between(w, unit);
+static inline dense_room family_between(const work *w, coef *unit)
+{
+    FAMILY_SWITCH(CASE_BETWEEN)
+    return (dense_room){0};
+}
+
+#define CASE_EXTEND(NAME, name, shared) \
+    case NAME: return name##_extend(w, d);
+static inline int family_extend(work *w, const dense_step *d)
+{
+    FAMILY_SWITCH(CASE_EXTEND)
+    return STEP_OK;
+}
+
 #define CASE_DENSE(NAME, name, shared) \
-    case NAME: name##_dense(w, end, t, x, v); break;
-static inline void family_dense(const work *w, const dense_end end[2], clock t, real *x, real *v)
+    case NAME: return name##_dense(w, d, t, x, v);
+static inline int family_dense(work *w, const dense_step *d, clock t, real *x, real *v)
 {
     FAMILY_SWITCH(CASE_DENSE)
+    return STEP_OK;
 }
 
 #ifdef TRACING

@@ -64,6 +64,7 @@ work stepper_plan(const problem *p, const chosen *method, coef *memory)
     plan.most = method->most;
     plan.variable = p->variables;
     plan.variables = p->variable_count;
+    plan.between = method->row->card.dense_order;
     plan.threads = method->threads > 1 ? method->threads : 1;
     plan.stride = (p->nv + 7) & ~(size_t)7;
     if (plan.stride == 0) plan.stride = 8;
@@ -134,6 +135,7 @@ void stepper_destroy(stepper *s)
     const motus_allocator allocator = s->allocator;
     solver_destroy(s->library.solver);
     give(&allocator, s->ends);
+    give(&allocator, s->inside);
     give(&allocator, s);
 }
 

@@ -38,7 +38,9 @@ typedef struct stepper_body {
     int (*sync)(work *, real *x, real *v, real *a); /* advance_sync */
     int (*check)(work *);                           /* advance_check */
     int (*observe)(work *);                         /* advance_observe */
-    void (*dense)(const work *, const dense_end end[2], clock t, real *x, real *v);
+    dense_room (*between)(const work *, coef *unit); /* the family's, as dense and extend are */
+    int (*extend)(work *, const dense_step *);
+    int (*dense)(work *, const dense_step *, clock t, real *x, real *v);
     /* A compiled body calls these of the library's. */
     int (*factor)(work *, mask *where, int s, const clock *ax, const clock *av, clock t, real *x, real *v);
     void (*back)(work *, real *r);

@@ -32,6 +32,10 @@ struct stepper {
     double left_t;
     int64_t left_steps; /* stepper_steps at the left end */
     bool left, right;   /* which of the two ends are valid */
+    /* the family's arrays and constants, NULL until asked for; extended: the arrays are those of the last step */
+    double *inside;
+    dense_room room;
+    bool extended;
 };
 
 /* The status and message for a STEP_ status at time t. */

@@ -178,6 +178,28 @@ motus_status stepper_mark(stepper *s, motus_error *err)
     return status;
 }
 
+/* The room that the family's dense output needs besides the ends, with its constants. */
+static motus_status make_room(stepper *s, motus_error *err)
+{
+    const work *w = &s->work;
+    s->room = s->body->between(w, NULL);
+    const size_t arrays = (size_t)s->room.arrays * w->stride;
+    s->inside = take(&s->allocator, arrays + s->room.constants + 1, sizeof *s->inside);
+    if (!s->inside) return fail(err, MOTUS_MEMORY, "out of memory for dense output");
+    s->body->between(w, s->inside + arrays);
+    return MOTUS_OK;
+}
+
+static dense_step last_step(const stepper *s)
+{
+    const size_t nx = s->work.nx, nv = s->work.nv, apart = nx + 2 * nv;
+    const double *e = s->ends;
+    return (dense_step){
+        .end = {{s->left_t, e, e + nx, e + nx + nv}, {stepper_time(s), e + apart, e + apart + nx, e + apart + nx + nv}},
+        .more = s->inside,
+        .unit = s->inside + (size_t)s->room.arrays * s->work.stride};
+}
+
 /* Whether t lies between the mark and the present time. */
 static bool marked(const stepper *s, double t)
 {
@@ -208,14 +230,17 @@ motus_status stepper_sample(stepper *s, double t, double *x, double *v, motus_er
         hint(err, "give times within the last step or after it");
         return MOTUS_ARGUMENT;
     }
-    status = s->right ? MOTUS_OK : keep_end(s, 1, err);
+    if (!s->right) {
+        status = keep_end(s, 1, err);
+        s->extended = false;
+    }
+    if (!status && !s->inside) status = make_room(s, err);
     if (status) return status;
     s->right = true;
-    const size_t nx = s->work.nx, nv = s->work.nv, apart = nx + 2 * nv;
-    const double *e = s->ends;
-    const dense_end ends[2] = {{s->left_t, e, e + nx, e + nx + nv},
-                               {stepper_time(s), e + apart, e + apart + nx, e + apart + nx + nv}};
-    s->body->dense(&s->work, ends, t, x, v);
+    const dense_step step = last_step(s);
+    const int bad = s->extended ? STEP_OK : s->body->extend(&s->work, &step);
+    s->extended = !bad;
+    if (bad || (s->body->dense(&s->work, &step, t, x, v))) return stepper_report(s, STEP_CALLBACK, t, err);
     if (s->problem.refresh) s->problem.refresh(s->problem.ctx, t, x, v);
     return MOTUS_OK;
 }

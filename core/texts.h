@@ -8,8 +8,10 @@
 #include "step/operators.h"
 #include "step/tableau.h"
 #include "step/dense.h"
+#include "step/lift.h"
 #include "step/pair.h"
 #include "step/collocation.h"
+#include "step/continuous.h"
 #define FAMILY_TEXTS
 #include "step/families.def"
 #undef FAMILY_TEXTS

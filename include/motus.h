@@ -474,6 +474,9 @@ typedef struct motus_method {
     const char *cite;           /* key in doc/references.bib, with the place */
     const char *formula, *use;  /* the formula of a step, and when to use the method */
     int adaptive;               /* 1: it chooses its steps by a tolerance; 0: steps have one size */
+    /* Of the states between steps (motus_run_sample), for every force that the method admits: in one step the
+     * interpolation adds an error of the power dense_order + 1 of the step, at least. */
+    int dense_order;
 } motus_method;
 MOTUS_API size_t motus_method_count(void);
 MOTUS_API const motus_method *motus_method_at(size_t k);

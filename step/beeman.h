@@ -45,7 +45,9 @@ static int beeman_carry(const work *w, real *list[CARRY_MAX])
     list[count] = w->old;
     return count + 1;
 }
-#define beeman_dense dense_hermite
+#define beeman_between lift_between
+#define beeman_extend lift_extend
+#define beeman_dense lift_dense
 
 static inline void beeman_place(work *w, placing *p)
 {

@@ -1,12 +1,9 @@
-/* DENSE OUTPUT: the state at a time within the last step. Every family names its interpolant; this one serves any of
- * them.
+/* DENSE OUTPUT: the state at a time within the last step. Every family names its interpolant; those that have none of
+ * their own take the one of lift.h. Here are the polynomials that several share.
  *
  * Hermite's polynomial through position, velocity and acceleration at both ends of the step, of degree 5, with its
- * derivative as the velocity; for a first-order variable, of which value and rate are known, of degree 3. Local
- * errors h⁶, h⁵ and h⁴ [HNW93, II.6].
- *
- * Collocation has its own: the polynomial through the accelerations of the s stages, integrated once and twice, with
- * local errors h^(s+2) in x and h^(s+1) in v; where that is less than Hermite's, Hermite's serves.
+ * derivative as the velocity; for a first-order variable, of which value and rate are known, of degree 3. Where the
+ * ends are exact its errors are h⁶, h⁵ and h⁴ [HNW93, II.6].
  */
 /* k: the length of the step; u: the part of it that has passed. */
 static void dense_hermite(const work *w, const dense_end end[2], clock t, real *x, real *v)
@@ -26,14 +23,21 @@ static void dense_hermite(const work *w, const dense_end end[2], clock t, real *
     }
 }
 
-/* The polynomial is a sum of Legendre's P[k], whose integrals, once and twice, are differences of their neighbours:
- * collocation.h. */
-static void dense_collocation(const work *w, const dense_end end[2], clock t, real *x, real *v)
+/* A polynomial of the acceleration, integrated once for v and twice for x: Σ P[k] Σ series[k][j] K[j], where P[k] are
+ * Legendre's polynomials on the step, whose integrals are differences of their neighbours: collocation.h. */
+enum { DENSE_TERMS_MAX = 10, DENSE_COLUMNS_MAX = 32 };
+typedef struct dense_series {
+    int terms, columns;
+    const coef *series;                    /* row by row, `columns` numbers each */
+    const real *column[DENSE_COLUMNS_MAX]; /* the K[j] */
+    clock h;
+} dense_series;
+
+static void dense_integrate(const work *w, const dense_series *of, const dense_end end[2], clock t, real *x, real *v)
 {
-    const int s = w->stages;
-    const clock h = end[1].t - end[0].t, y = 2 * ((t - end[0].t) / h) - 1;
-    clock p[TABLEAU_COUPLED_MAX + 2] = {1, y}, once[TABLEAU_COUPLED_MAX + 1] = {(1 + y) / 2},
-                                  twice[TABLEAU_COUPLED_MAX] = {0};
+    const int s = of->terms;
+    const clock h = of->h, y = 2 * ((t - end[0].t) / (end[1].t - end[0].t)) - 1;
+    clock p[DENSE_TERMS_MAX + 2] = {1, y}, once[DENSE_TERMS_MAX + 1] = {(1 + y) / 2}, twice[DENSE_TERMS_MAX] = {0};
     for (int k = 1; k <= s; k++) p[k + 1] = ((2 * k + 1) * y * p[k] - k * p[k - 1]) / (k + 1);
     for (int k = 1; k <= s; k++) once[k] = (p[k + 1] - p[k - 1]) / (4 * k + 2);
     twice[0] = (once[1] + once[0]) / 2;
@@ -41,9 +45,10 @@ static void dense_collocation(const work *w, const dense_end end[2], clock t, re
     for (size_t i = 0; i < w->nv; i++) {
         real speed = {0}, place = {0};
         for (int k = 0; k < s; k++) {
-            const coef *series = w->unit + tableau_series(w, k);
+            const coef *series = of->series + (size_t)k * (size_t)of->columns;
             real sum = {0};
-            for (int j = 0; j < s; j++) sum = FMA(series[j], w->ks[(size_t)j * w->stride + i], sum);
+            for (int j = 0; j < of->columns; j++)
+                if (series[j] != 0) sum = FMA(series[j], of->column[j][i], sum);
             speed = FMA(once[k], sum, speed);
             place = FMA(twice[k], sum, place);
         }
@@ -52,10 +57,12 @@ static void dense_collocation(const work *w, const dense_end end[2], clock t, re
     }
 }
 
-static void dense_stages(const work *w, const dense_end end[2], clock t, real *x, real *v)
+/* Collocation has its own polynomial, through the accelerations of its s stages, with errors h^(s+2) in x and h^(s+1)
+ * in v. */
+static void dense_collocation(const work *w, const dense_step *d, clock t, real *x, real *v)
 {
-    if (w->kept > 4)
-        dense_collocation(w, end, t, x, v);
-    else
-        dense_hermite(w, end, t, x, v);
+    dense_series of = {.terms = w->stages, .columns = w->stages, .series = w->unit + tableau_series(w, 0)};
+    for (int j = 0; j < w->stages; j++) of.column[j] = w->ks + (size_t)j * w->stride;
+    of.h = d->end[1].t - d->end[0].t;
+    dense_integrate(w, &of, d->end, t, x, v);
 }

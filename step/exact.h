@@ -6,12 +6,11 @@
 static int exact_step(work *w) { return (void)w, STEP_OK; }
 #define exact_accept step_is_final
 #define exact_observe state_is_complete
-#define exact_dense dense_hermite
 
-static int exact_sync(work *w, real *x, real *v)
+/* At the time t, which is tau after the start. */
+static int exact_state(work *w, clock t, clock tau, real *x, real *v)
 {
-    const clock tau = (clock)w->n * w->h;
-    if (!FACT(w, constant)) return exact_at(w, time_now(w), x, v);
+    if (!FACT(w, constant)) return exact_at(w, t, x, v);
     const whole evaluations = w->evaluations;
     int bad = accel(w, w->t0, w->x, w->v, w->a);
     w->evaluations = evaluations;
@@ -19,6 +18,15 @@ static int exact_sync(work *w, real *x, real *v)
     EACH(k) x[k] = FMA(tau, FMA(tau / 2, w->a[k], w->v[k]), w->x[k]);
     EACHV(k) v[k] = FMA(tau, w->a[k], w->v[k]);
     return STEP_OK;
+}
+static int exact_sync(work *w, real *x, real *v) { return exact_state(w, time_now(w), (clock)w->n * w->h, x, v); }
+
+#define exact_between dense_without
+#define exact_extend dense_as_it_is
+static inline int exact_dense(work *w, const dense_step *d, clock t, real *x, real *v)
+{
+    (void)d;
+    return exact_state(w, t, t - w->t0, x, v);
 }
 
 static int exact_carry(const work *w, real *list[CARRY_MAX]) { return (void)w, (void)list, 0; }

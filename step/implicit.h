@@ -177,6 +177,8 @@ static int implicit_step(work *w)
 #define implicit_accept step_is_final
 #define implicit_observe state_is_complete
 #define implicit_sync work_sync_main
+#define implicit_between dense_stages_between
+#define implicit_extend dense_stages_extend
 #define implicit_dense dense_stages
 #define implicit_carry tableau_carry
 #define implicit_place tableau_arrays

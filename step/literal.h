@@ -70,7 +70,9 @@ static int literal_carry(const work *w, real *list[CARRY_MAX])
     if (!FIRST(w)) list[1] = w->old;
     return count;
 }
-#define literal_dense dense_hermite
+#define literal_between lift_between
+#define literal_extend lift_extend
+#define literal_dense lift_dense
 
 static inline void literal_place(work *w, placing *p)
 {

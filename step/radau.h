@@ -71,6 +71,8 @@ static int radau_step(work *w)
 #define radau_accept step_is_final
 #define radau_observe state_is_complete
 #define radau_sync work_sync_main
+#define radau_between dense_stages_between
+#define radau_extend dense_stages_extend
 #define radau_dense dense_stages
 #define radau_carry tableau_carry
 #define radau_place tableau_arrays

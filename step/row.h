@@ -35,12 +35,18 @@ struct row {
      * positions; a NULL: its forces are free of v. Of adaptive rows: the weights of the error of the velocities, and
      * of the positions (NULL: they follow from a), b minus that of the embedded method; second: those of another
      * estimate, or NULL; ending: weights have one more entry, for the acceleration at the end of the step; closing: the
-     * last stage is the acceleration there; order: of the embedded method. */
+     * last stage is the acceleration there; order: of the embedded method. dense (continuous.h; terms 0: the row has
+     * none of its own): how many further stages, their c and, row by row, a; the terms of the series, from the second
+     * on, one coefficient for each column. */
     struct {
         int stages;
         const coef *c, *a, *b, *aa, *bb, *error, *error_x, *second;
         bool ending, closing;
         int order;
+        struct {
+            int more, terms;
+            const coef *c, *a, *series;
+        } dense;
     } tableau;
     int series;   /* TAYLOR: the order; 0: as the tolerance wants it */
     bool newmark; /* IMPLICIT: the tableau follows from the arguments */

@@ -149,7 +149,6 @@ static inline void runge_kutta_accept(work *w, clock_mask good)
 #define runge_kutta_observe state_is_complete
 #define runge_kutta_sync work_sync_main
 #define runge_kutta_carry work_carry_main
-#define runge_kutta_dense dense_hermite
 
 static inline void runge_kutta_place(work *w, placing *p)
 {

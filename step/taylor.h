@@ -191,12 +191,15 @@ static inline void taylor_accept(work *w, clock_mask good)
 }
 
 /* The series themselves. */
-static void taylor_dense(const work *w, const dense_end end[2], clock t, real *x, real *v)
+#define taylor_between dense_without
+#define taylor_extend dense_as_it_is
+static inline int taylor_dense(work *w, const dense_step *d, clock t, real *x, real *v)
 {
     const int length = TAYLOR_LENGTH(w), last = FACT(w, expands);
-    const clock h = t - end[0].t;
-    EACH(k) x[k] = FMA(h, taylor_sum(TAYLOR_OF(w->xs, k), 1, last, h), end[0].x[k]);
-    EACHV(k) v[k] = FMA(h, taylor_sum(TAYLOR_OF(w->vs, k), 1, last - 1, h), end[0].v[k]);
+    const clock h = t - d->end[0].t;
+    EACH(k) x[k] = FMA(h, taylor_sum(TAYLOR_OF(w->xs, k), 1, last, h), d->end[0].x[k]);
+    EACHV(k) v[k] = FMA(h, taylor_sum(TAYLOR_OF(w->vs, k), 1, last - 1, h), d->end[0].v[k]);
+    return STEP_OK;
 }
 
 #define taylor_observe state_is_complete

@@ -97,6 +97,19 @@ typedef struct dense_end {
     const real *x, *v, *a;
 } dense_end;
 
+/* What dense output takes besides the two ends of a step: so many arrays, and constants of the row. */
+typedef struct dense_room {
+    int arrays;
+    size_t constants;
+} dense_room;
+
+/* The last step, for dense output; its arrays and constants have the room that name_between asks for. */
+typedef struct dense_step {
+    dense_end end[2];
+    real *more; /* arrays, w->stride apart */
+    const coef *unit;
+} dense_step;
+
 typedef struct work {
     const row *row;
     size_t nx, nv, stride; /* stride: distance of two arrays below; at least nv */
@@ -104,6 +117,7 @@ typedef struct work {
     bool quadrature;       /* it does in first-order variables alone, which nothing reads */
     bool constant;         /* it depends on parameters alone */
     bool affine;           /* it is affine in x and v, and does not depend on time */
+    int between;           /* the order that the states between steps are to have */
     /* the numbers of variable g are variable[g] … variable[g + 1] - 1 of v, and of x those of them that x has */
     int variables;
     const size_t *variable;
@@ -432,3 +446,6 @@ static inline int work_sync_main(work *w, real *x, real *v)
 }
 static inline void step_is_final(work *w, clock_mask good) { (void)w, (void)good; }
 static inline int state_is_complete(work *w) { return (void)w, STEP_OK; }
+/* Dense output that needs nothing but the ends of the step. */
+static inline dense_room dense_without(const work *w, coef *unit) { return (void)w, (void)unit, (dense_room){0}; }
+static inline int dense_as_it_is(work *w, const dense_step *d) { return (void)w, (void)d, STEP_OK; }

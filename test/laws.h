@@ -58,8 +58,10 @@ typedef struct quad_count {
 /* Takes `steps` steps from *state at t0; sets *state to the synchronised state. */
 quad_count quad_run(method, const double *argument, const quad_problem *, quad t0, quad h, int64_t steps,
                     quad_state *state);
-/* The state at the fraction `part` of one step from *state at t0, by dense output. */
-quad_count quad_dense(method, const quad_problem *, quad t0, quad h, quad part, quad_state *state);
+/* The state at the fraction `part` of the step after `steps` steps from *state at t0, by dense output. An
+ * interpolant through the ends of that step takes *end for its end; NULL: that of the method. */
+quad_count quad_dense(method, const quad_problem *, quad t0, quad h, int64_t steps, quad part, const quad_state *end,
+                      quad_state *state);
 /* One step of Verlet's recursion from two given points. */
 void quad_recursion(const quad_problem *, quad t, quad h, const quad *before, const quad *now, quad *after);
 /* The motion by an extrapolated midpoint rule, which shares no code with step/. */

@@ -89,6 +89,25 @@ quad coefficients_unit(method k)
     return most;
 }
 
+quad coefficients_dense_unit(method k)
+{
+    const row *m = &plain_table[k], *n = &moved_table[k];
+    const int columns = m->tableau.stages + !m->tableau.closing + m->tableau.dense.more,
+              series = (m->tableau.dense.terms - 1) * columns,
+              entries = m->tableau.dense.more * (m->tableau.stages + 1) +
+                        m->tableau.dense.more * (m->tableau.dense.more - 1) / 2;
+    quad most = 0;
+    for (int i = 0; i < series; i++) {
+        const quad unit = quad_abs(n->tableau.dense.series[i] - m->tableau.dense.series[i]);
+        if (unit > most) most = unit;
+    }
+    for (int i = 0; i < entries; i++) {
+        const quad unit = quad_abs(n->tableau.dense.a[i] - m->tableau.dense.a[i]);
+        if (unit > most) most = unit;
+    }
+    return most;
+}
+
 /* Alternating kicks and drifts, as a row or a composition of leapfrog steps has them: drift[i] follows kick[i]. */
 static int operators(const row *m, const quad *value, quad *kick, quad *drift)
 {

@@ -1,57 +1,168 @@
-/* LAWS OF DENSE OUTPUT: the local order of the state within a step, in positions and in velocities.
+/* LAWS OF DENSE OUTPUT: the order of the state between steps, of every row and every kind of force.
  *
- * Invariant: orders are those of the interpolant: Hermite's has local errors h⁶ and h⁵, where the step itself is
- * better; the polynomial of s > 4 collocated accelerations h^(s+2) and h^(s+1).
+ * Three laws. In one step the interpolant's own error has at least the power dense_order + 1 of the step: of an
+ * interpolant through the ends, which are exact then, or of one made of the stages. In a run the error of a state
+ * between steps has the order of the method, or dense_order + 1 where that is less. And continuous weights satisfy the
+ * order conditions at so many parts of the step that the polynomials in the part do, with value and slope at both ends.
  */
 #include "core/rows.h"
-#include "test/laws.h"
+#include "test/laws_proof.h"
 
 #include <math.h>
 #include <stdio.h>
 
-typedef struct error {
-    quad x, v;
-} error;
+/* Forces that read positions alone, first-order variables too; velocities in these, in the force, in both; v × B. */
+static const int problems[] = {HENON_HEILES, RIDER, FOLLOWER, DAMPED, TANGLED, MAGNET};
+enum { PROBLEMS_HERE = sizeof problems / sizeof *problems };
 
-static error at(method m, const quad_problem *p, quad h)
+/* The exact motion of a problem: from START at the parts of two steps of SIZE and SIZE/2, and at their ends; and from 0
+ * to SPAN. */
+enum { PARTS = 4, SIZES = 3 };
+static const double part_of[PARTS] = {0.15, 0.4, 0.55, 0.8};
+#define START Q(0.75)
+#define SPAN Q(1.25)
+typedef struct exact_motion {
+    const quad_problem *problem;
+    quad_state start, at[SIZES][PARTS], end[SIZES], whole;
+} exact_motion;
+
+/* Of high orders the errors are small enough in longer steps. */
+static quad size_of(int i) { return i == 0 ? Q(0.125) : i == 1 ? Q(0.0625) : Q(0.03125); }
+
+static void follow(const quad_problem *p, exact_motion *e)
 {
-    const quad part = Q(0.3), start = Q(0.75);
-    quad_state is = {0}, due;
-    error e = {0, 0};
-    for (size_t k = 0; k < p->nx; k++) is.x[k] = p->x[k];
-    for (size_t k = 0; k < p->nv; k++) is.v[k] = p->v[k];
-    due = is;
-    quad_reference(p, start, start + part * h, &due);
-    if (quad_dense(m, p, start, h, part, &is).bad) return (error){-1, -1};
-    for (size_t k = 0; k < p->nx; k++) {
-        if (quad_abs(is.x[k] - due.x[k]) > e.x) e.x = quad_abs(is.x[k] - due.x[k]);
-        if (quad_abs(is.v[k] - due.v[k]) > e.v) e.v = quad_abs(is.v[k] - due.v[k]);
+    *e = (exact_motion){.problem = p};
+    for (size_t k = 0; k < p->nx; k++) e->start.x[k] = p->x[k];
+    for (size_t k = 0; k < p->nv; k++) e->start.v[k] = p->v[k];
+    e->whole = e->start;
+    quad_reference(p, 0, SPAN, &e->whole);
+    for (int i = 0; i < SIZES; i++) {
+        const quad h = size_of(i);
+        e->end[i] = e->start;
+        quad_reference(p, START, START + h, &e->end[i]);
+        for (int k = 0; k < PARTS; k++) {
+            e->at[i][k] = e->start;
+            quad_reference(p, START, START + (quad)part_of[k] * h, &e->at[i][k]);
+        }
     }
-    return e;
 }
 
-static void order(method m, const quad_problem *p, int x, int v)
+/* The largest error at several parts of one step. */
+static quad within(method m, const exact_motion *e, int size)
 {
-    const quad h = Q(0.125);
-    const error wide = at(m, p, h), narrow = at(m, p, h / 2);
-    const double by_x = quad_log2(wide.x / narrow.x), by_v = quad_log2(wide.v / narrow.v);
+    quad most = 0;
+    for (int k = 0; k < PARTS; k++) {
+        quad_state is = e->start;
+        if (quad_dense(m, e->problem, START, size_of(size), 0, (quad)part_of[k], &e->end[size], &is).bad) return -1;
+        const quad error = quad_distance(e->problem, &is, &e->at[size][k]);
+        if (error > most) most = error;
+    }
+    return most;
+}
+
+static void in_one_step(method m, const exact_motion *e)
+{
+    const motus_method *card = row_card(m);
+    const int wider = card->dense_order > 9 ? 0 : 1;
+    const quad wide = within(m, e, wider), narrow = within(m, e, wider + 1);
+    const double falls = quad_log2(wide / narrow);
+    /* of Hermite's polynomial, which these rows have, it is the velocity's or the first-order variables' own */
+    const bool hermite = card->order < 4 && methods_table[m].tableau.dense.terms == 0;
+    const int due = hermite ? (e->problem->nv > e->problem->nx ? 4 : 5) : card->dense_order + 1;
     char law[64];
-    snprintf(law, sizeof law, "dense output on %s", p->name);
-    /* where time enters, a derivative may come near 0 within the step, and the error with it */
-    const double above = p->time ? INFINITY : 0.5;
-    judge(narrow.x > 0 && narrow.v > 0 && by_x > x - 0.5 && by_v > v - 0.5 && by_x < x + above && by_v < v + above,
-          row_card(m)->name, law, "x falls by %.2f, v by %.2f orders; due %d and %d", by_x, by_v, x, v);
+    snprintf(law, sizeof law, "within a step on %s", e->problem->name);
+    judge(narrow > 0 && falls > due - 0.5 && (!hermite || falls < due + 0.5), card->name, law,
+          "the error falls by %.2f orders, due %d, declared %d + 1", falls, due, card->dense_order);
+}
+
+/* The time at which the error is taken is the same for all steps; it lies within the last. */
+static void in_a_run(method m, const exact_motion *e)
+{
+    const motus_method *card = row_card(m);
+    const int order = card->order <= card->dense_order ? card->order : card->dense_order + 1;
+    const bool high = order > 9;
+    const quad part = Q(0.4), floor = (high ? Q(1e-29) : Q(1e-26)) + 2000 * coefficients_unit(m);
+    enum { POINTS_MAX = 14 };
+    double errors[POINTS_MAX] = {0}, last = NAN, margin = 0;
+    int points = 0;
+    bool close = false;
+    for (int64_t n = high ? 2 : 4; points < POINTS_MAX && !(close && (high || n > (order > 2 ? 64 : 256))) && n <= 8192;
+         n *= 2) {
+        quad_state end = e->start;
+        if (quad_dense(m, e->problem, 0, SPAN / ((quad)n + part), n, part, NULL, &end).bad) continue;
+        const quad error = quad_distance(e->problem, &end, &e->whole);
+        if (error < floor && points >= 3) break;
+        if (error < Q(0.1)) errors[points++] = quad_log2(error);
+        if (points < 3) continue;
+        const double before = errors[points - 3] - errors[points - 2];
+        last = errors[points - 2] - errors[points - 1];
+        margin = high ? 0.5 : fmin(0.5, 1.5 * fabs(last - before) + 0.02);
+        close = last >= order - margin;
+    }
+    char law[64];
+    snprintf(law, sizeof law, "between steps on %s", e->problem->name);
+    judge(close, card->name, law, "observed %.3f, due %d, margin %.3f", last, order, margin);
+}
+
+/* At both ends the weights have the value and the slope that make the state and its derivative continuous. */
+static void ends(method m)
+{
+    const motus_method *card = row_card(m);
+    quad slope[SCHEME_STAGES_MAX], size[SCHEME_STAGES_MAX];
+    scheme now;
+    for (int end = 0; end < 2; end++) {
+        if (!quad_continuous_of(m, end, &now) || !quad_slopes_of(m, end, slope, size)) return;
+        const int stages = methods_table[m].tableau.stages, ending = stages - methods_table[m].tableau.closing;
+        quad worst = 0;
+        for (int j = 0; j < now.stages; j++) {
+            const quad bound = 16 * (size[j] + 1) * (QUAD_EPSILON + coefficients_dense_unit(m) + coefficients_unit(m));
+            const quad b = end && j < stages ? (quad)methods_table[m].tableau.b[j] : 0;
+            const quad value = quad_abs(now.bv[j] - b), rounded = (quad)0x1p-52 * quad_abs(b),
+                       tilt = quad_abs(slope[j] - (j == (end ? ending : 0)));
+            if (value > rounded + bound || !(tilt / bound <= worst))
+                worst = value > rounded + bound ? 1e9 : tilt / bound;
+        }
+        judge(worst <= 1, card->name, end ? "joins the next step" : "leaves the start",
+              "value and slope of %d weights, %.3f of their bound", now.stages, (double)worst);
+    }
+}
+
+static void weights(method m)
+{
+    const row *r = &methods_table[m];
+    scheme now;
+    char name[64];
+    quad slope[SCHEME_STAGES_MAX], terms[SCHEME_STAGES_MAX];
+    const int parts = r->tableau.dense.terms + 2; /* more than the degree of any weight */
+    for (int i = 1; i <= parts; i++) {
+        if (!quad_continuous_of(m, (quad)i / (parts + 1), &now)) return;
+        const trees_kind kind = coefficients_trees(m);
+        quad size = 0;
+        now.places = kind == TREES_ROOTED;
+        quad_slopes_of(m, true, slope, terms);
+        for (int j = 0; j < now.stages; j++) size += 1 + terms[j];
+        for (int j = 0; j < now.stages; j++)
+            for (int l = 0; l < j; l++) size += quad_abs(now.bv[j] * now.av[j][l]);
+        snprintf(name, sizeof name, "%s, dense, part %d/%d", row_card(m)->name, i, parts + 1);
+        proof_of_digits(name, kind, &now, row_card(m)->dense_order,
+                        size * r->tableau.dense.terms *
+                            (coefficients_dense_unit(m) + coefficients_unit(m) + QUAD_EPSILON));
+    }
 }
 
 void laws_of_dense(void)
 {
-    static const int problems[] = {HENON_HEILES, DRIVEN, DAMPED, TANGLED};
+    static exact_motion e;
     for (method m = 0; m < row_count(); m++) {
-        const row *r = &methods_table[m];
-        const bool own = (r->family == IMPLICIT || r->family == RADAU) && r->tableau.stages > 4;
-        if (row_card(m)->order < 8 || r->adaptive) continue;
-        for (size_t i = 0; i < sizeof problems / sizeof *problems; i++)
-            if (quad_admits(m, &quad_problems[problems[i]]))
-                order(m, &quad_problems[problems[i]], own ? r->tableau.stages + 2 : 6, own ? r->tableau.stages + 1 : 5);
+        weights(m);
+        ends(m);
+    }
+    for (int i = 0; i < PROBLEMS_HERE; i++) {
+        follow(&quad_problems[problems[i]], &e);
+        for (method m = 0; m < row_count(); m++) {
+            if (!quad_admits(m, e.problem)) continue;
+            in_one_step(m, &e);
+            in_a_run(m, &e);
+        }
     }
 }

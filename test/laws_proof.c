@@ -86,9 +86,14 @@ static void prove(const subject *s, int order)
           (double)bound[best], next > 1 ? "" : ": the order is higher, or the row prints too few digits to tell");
 }
 
+void proof_of_digits(const char *name, trees_kind kind, const scheme *m, int order, quad slack)
+{
+    prove(&(subject){.name = name, .kind = kind, .scheme = m, .slack = slack}, order);
+}
+
 void proof_of_scheme(const char *name, trees_kind kind, const scheme *m, int order)
 {
-    prove(&(subject){.name = name, .kind = kind, .scheme = m}, order);
+    proof_of_digits(name, kind, m, order, 0);
 }
 
 /* A Nyström method has Σ a[i][j] = c[i]²/2 at every stage, also where no condition of its order needs it. */

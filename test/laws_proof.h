@@ -10,9 +10,11 @@
 
 #include "test/laws.h"
 
-enum { SCHEME_STAGES_MAX = 24, COEFFICIENTS_MAX = 340 };
+enum { SCHEME_STAGES_MAX = 28, COEFFICIENTS_MAX = 340 };
 typedef struct scheme {
     int stages;
+    bool places; /* of a method for s' = f(s): positions have weights of their own, which are to be judged too */
+    quad part;   /* the part of the step to which b and bv lead; 0: all of it */
     quad end, c[SCHEME_STAGES_MAX], a[SCHEME_STAGES_MAX][SCHEME_STAGES_MAX], b[SCHEME_STAGES_MAX];
     quad av[SCHEME_STAGES_MAX][SCHEME_STAGES_MAX], bv[SCHEME_STAGES_MAX];
 } scheme;
@@ -37,6 +39,13 @@ trees_kind coefficients_trees(method);
 /* Makes the embedded method of an adaptive row by its first or second estimate; returns its order, 0: there is
  * none. */
 int coefficients_embedded(method, int which, scheme *);
+/* Of a row with continuous weights: the largest unit of their coefficients. */
+quad coefficients_dense_unit(method);
+/* The tableau of such a row, the further stages included, with the weights at the fraction `part`; false: it has none.
+ */
+bool quad_continuous_of(method, quad part, scheme *);
+/* b'(0), or b'(1), of each stage, and the sum of the sizes of their terms. */
+bool quad_slopes_of(method, bool end, quad *slope, quad *size);
 bool coefficients_nystrom(method); /* the row gives a and b of the positions themselves */
 bool coefficients_compose(method); /* the row is a composition of leapfrog steps */
 
@@ -56,6 +65,8 @@ quad trees_roundings(const scheme *, int order);
 
 /* Checks that a tableau, whose numbers are exact up to rounding, has this order and no higher one. */
 void proof_of_scheme(const char *name, trees_kind, const scheme *, int order);
+/* The same, of numbers whose printed digits may violate a condition by `slack`. */
+void proof_of_digits(const char *name, trees_kind, const scheme *, int order, quad slack);
 
 /* The same of collocation, without trees; `twice`: of a polynomial of the acceleration, which is integrated twice. */
 void proof_of_collocation(const char *name, const scheme *, bool twice, int order);

@@ -4,7 +4,7 @@
  * Invariant: this file supplies what an includer of step/ must supply (a dense linear solver among it) and no step
  * formula.
  */
-#include "test/laws.h"
+#include "test/laws_proof.h"
 
 #define K(x) Q(x)
 typedef quad coef;
@@ -168,7 +168,7 @@ bool quad_admits(method k, const quad_problem *p)
            !row_admits(&c, &t, NULL);
 }
 
-enum { ARRAYS_MAX = 40, CONSTANTS_MAX = 1024 };
+enum { ARRAYS_MAX = 40, CONSTANTS_MAX = 1024, WEIGHTS_ARRAYS = 48 };
 
 /* The plan of the row, kept from one run to the next: a row may have to generate its coefficients. */
 static const work *plan_of(const row *m, const double *argument, const quad_problem *p)
@@ -189,6 +189,7 @@ static const work *plan_of(const row *m, const double *argument, const quad_prob
                .velocity = p->velocity,
                .linear = p->linear,
                .quadrature = p->quadrature,
+               .between = m->card.dense_order,
                .variable = kinds};
     memcpy(last, argument, sizeof last);
     work_plan(&w, argument, NULL);
@@ -201,7 +202,7 @@ static void begin(work *w, dense *d, quad *memory, const row *m, const double *a
                   quad h)
 {
     *w = *plan_of(m, argument, p);
-    w->t0 = t0;
+    w->t0 = w->t = t0;
     w->services = d;
     d->problem = p;
     work_scale(w, h);
@@ -213,7 +214,6 @@ static void begin(work *w, dense *d, quad *memory, const row *m, const double *a
 /* Of an adaptive row: every candidate is a step, whatever its error, so that steps have one size. */
 static int candidates(work *w, quad h, int64_t steps)
 {
-    w->t = w->t0;
     w->until = (quad)INFINITY;
     for (int64_t n = 0; n < steps; n++) {
         work_scale(w, h);
@@ -242,22 +242,106 @@ quad_count quad_run(method k, const double *argument, const quad_problem *p, qua
     return count;
 }
 
-quad_count quad_dense(method k, const quad_problem *p, quad t0, quad h, quad part, quad_state *state)
+/* Whether the interpolant is made of the stages of the step, and so belongs to the end to which they lead. */
+static bool of_stages(const row *m)
 {
-    work w;
+    const bool coupled = m->family == IMPLICIT || m->family == RADAU;
+    return m->tableau.dense.terms > 0 || (coupled && m->tableau.stages > 4);
+}
+
+quad_count quad_dense(method k, const quad_problem *p, quad t0, quad h, int64_t steps, quad part, const quad_state *end,
+                      quad_state *state)
+{
+    static quad memory[ARRAYS_MAX * DIMENSIONS], more[ARRAYS_MAX * DIMENSIONS], unit[CONSTANTS_MAX];
     static dense d;
-    quad memory[ARRAYS_MAX * DIMENSIONS];
-    quad_state ends[2] = {*state, *state};
+    work w;
+    const row *m = &methods_table[k];
+    quad_state ends[2] = {{.x = {0}}};
     quad a[2][DIMENSIONS] = {{0}};
-    begin(&w, &d, memory, &methods_table[k], NULL, p, t0, h);
+    begin(&w, &d, memory, m, NULL, p, t0, h);
     memcpy(w.x, state->x, p->nx * sizeof *w.x);
     memcpy(w.v, state->v, p->nv * sizeof *w.v);
-    p->accel(t0, ends[0].x, ends[0].v, a[0]);
-    quad_count count = {.bad = advance_run(&w, 1)};
+    quad_count count = {.bad = m->adaptive ? candidates(&w, h, steps) : advance_run(&w, steps)};
+    const quad t = time_now(&w);
+    if (!count.bad) count.bad = advance_sync(&w, ends[0].x, ends[0].v, a[0]);
+    if (!count.bad) count.bad = m->adaptive ? candidates(&w, h, 1) : advance_run(&w, 1);
     if (!count.bad) count.bad = advance_sync(&w, ends[1].x, ends[1].v, a[1]);
-    const dense_end list[2] = {{t0, ends[0].x, ends[0].v, a[0]}, {t0 + h, ends[1].x, ends[1].v, a[1]}};
-    if (!count.bad) family_dense(&w, list, t0 + part * h, state->x, state->v);
+    if (end && !of_stages(m)) {
+        ends[1] = *end;
+        p->accel(t + h, ends[1].x, ends[1].v, a[1]);
+    }
+    const dense_room room = family_between(&w, NULL);
+    if (room.arrays > ARRAYS_MAX || room.constants > CONSTANTS_MAX) abort();
+    family_between(&w, unit);
+    const dense_step step = {
+        .end = {{t, ends[0].x, ends[0].v, a[0]}, {t + h, ends[1].x, ends[1].v, a[1]}}, .more = more, .unit = unit};
+    const whole evaluations = w.evaluations;
+    if (!count.bad) count.bad = family_extend(&w, &step);
+    if (!count.bad) count.bad = family_dense(&w, &step, t + part * h, state->x, state->v);
+    if (w.evaluations != evaluations) count.bad = STEP_CALLBACK; /* dense output counts none */
     return count;
+}
+
+bool quad_continuous_of(method k, quad part, scheme *out)
+{
+    static quad memory[WEIGHTS_ARRAYS * DIMENSIONS], more[WEIGHTS_ARRAYS * DIMENSIONS], unit[CONSTANTS_MAX];
+    const row *m = &methods_table[k];
+    if (m->tableau.dense.terms == 0) return false;
+    work w = *plan_of(m, NULL, &quad_problems[OSCILLATOR]);
+    const int s = w.stages, first = continuous_first(&w), n = continuous_columns(&w);
+    if (n > SCHEME_STAGES_MAX || s + m->tableau.dense.more + 8 > WEIGHTS_ARRAYS) abort();
+    work_place(&w, memory);
+    continuous_between(&w, unit);
+    w.h = 1;
+    *out = (scheme){.stages = n, .end = 1};
+    for (int i = 0; i < n; i++) {
+        const bool inner = i < s, end = i == s && first > s;
+        out->c[i] = inner ? w.c[i] : end ? 1 : m->tableau.dense.c[i - first];
+        for (int j = 0; j < i; j++) {
+            const bool known = j < s;
+            out->av[i][j] = continuous_entry(&w, i, j);
+            out->a[i][j] = inner ? w.unit[tableau_aa(&w, i) + j]
+                           : end ? (known ? w.unit[tableau_bb(&w) + j] : 0)
+                                 : unit[continuous_aa(&w, i - first) + j];
+        }
+    }
+    for (int j = 0; j < n; j++) { /* the state that one acceleration alone leads to */
+        quad none = 0, x = 0, v = 0, ends[2] = {0, 0};
+        memset(memory, 0, sizeof memory);
+        memset(more, 0, sizeof more);
+        const dense_step step = {
+            .end = {{0, &none, &none, &ends[0]}, {1, &none, &none, &ends[1]}}, .more = more, .unit = unit};
+        if (j == 0 || (j == s && first > s))
+            ends[j > 0] = 1;
+        else if (j < s)
+            w.ks[(size_t)j * w.stride] = 1;
+        else
+            more[(size_t)(2 + j - first) * w.stride] = 1;
+        continuous_state(&w, &step, part, &x, &v);
+        out->b[j] = x;
+        out->bv[j] = v;
+    }
+    out->part = part;
+    return true;
+}
+
+bool quad_slopes_of(method k, bool end, quad *slope, quad *size)
+{
+    static quad unit[CONSTANTS_MAX];
+    const row *m = &methods_table[k];
+    if (m->tableau.dense.terms == 0) return false;
+    const work w = *plan_of(m, NULL, &quad_problems[OSCILLATOR]);
+    const int n = continuous_columns(&w);
+    continuous_between(&w, unit);
+    for (int j = 0; j < n; j++) {
+        slope[j] = size[j] = 0;
+        for (int i = 0; i < m->tableau.dense.terms; i++) { /* Legendre's polynomials are ±1 at the ends */
+            const quad term = unit[i * n + j];
+            slope[j] += end || i % 2 == 0 ? term : -term;
+            size[j] += quad_abs(term);
+        }
+    }
+    return true;
 }
 
 int quad_generated_of(method k, quad *constants, quad *c)

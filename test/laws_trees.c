@@ -72,6 +72,13 @@ int trees_count(trees_kind kind, int order)
     return count;
 }
 
+static quad power(quad part, int order)
+{
+    quad p = 1;
+    for (int k = 0; k < order; k++) p *= part;
+    return p;
+}
+
 int trees_conditions(trees_kind kind, const scheme *m, int order, condition *out)
 {
     if (kind == TREES_WORDS) return words_conditions(m, order, out);
@@ -99,9 +106,11 @@ int trees_conditions(trees_kind kind, const scheme *m, int order, condition *out
             v += m->bv[i] * phi[t][i];
             x += m->b[i] * phi[t][i];
         }
-        out[count++] = (condition){tree->order, v, 1 / tree->gamma};
-        if (kind == TREES_ROOTED || tree->order == order) continue;
-        out[count++] = (condition){tree->order + 1, x, 1 / ((tree->order + 1) * tree->gamma)};
+        const quad due = power(m->part != 0 ? m->part : 1, tree->order);
+        out[count++] = (condition){tree->order, v, due / tree->gamma};
+        if ((kind == TREES_ROOTED && !m->places) || tree->order == order) continue;
+        out[count++] =
+            (condition){tree->order + 1, x, due * (m->part != 0 ? m->part : 1) / ((tree->order + 1) * tree->gamma)};
     }
     return count;
 }

@@ -184,10 +184,58 @@ static void back(void **state)
     motus_system_destroy(s);
 }
 
+/* Dense output of every method, whether it has to evaluate the force within the step or not: sampling changes neither
+ * the run's bits nor its counts, and a time gives the same bits whether the run comes from before it or is beyond. */
+static void sampling_changes_nothing(void **state)
+{
+    (void)state;
+    static const char *const texts[] = {"x'' = -x - x^2 + 0.1 sin(t)\nx(0) = 0.5\nx'(0) = 0.5\n",
+                                        "x'' = -x - x^2\nx(0) = 0.5\nx'(0) = 0.5\ns' = x\ns(0) = 1\n",
+                                        "x'' = -x - 0.1 x'^3 + s\nx(0) = 0.5\nx'(0) = 0.5\ns' = x x' - s\ns(0) = 1\n",
+                                        "x'' = y'\ny'' = -x' - x\nx(0) = 0.5\nx'(0) = 0.5\ny(0) = 0\ny'(0) = 0\n"};
+    motus_error err = motus_default_error();
+    size_t tried = 0;
+    for (size_t i = 0; i < sizeof texts / sizeof *texts; i++) {
+        motus_system *s = system_of(texts[i]);
+        const size_t count = motus_positions(s) + motus_velocities(s);
+        const size_t columns[4] = {1, 2, 3, 4};
+        assert_true(count <= 4);
+        for (size_t k = 0; k < motus_method_count(); k++) {
+            const char *name = motus_method_at(k)->name;
+            if (motus_method_admits(s, name, NULL)) continue;
+            motus_run *plain = given_run(s, name, 0.125, 2), *sampled = given_run(s, name, 0.125, 2),
+                      *back = given_run(s, name, 0.125, 2);
+            double a[8], b[8], c[8];
+            double times[2] = {0.55};
+            finish(plain);
+            must(motus_run_sample(sampled, times, 1, columns, count, a, &err), &err, name);
+            const double reached = motus_run_time(sampled);
+            times[1] = (times[0] + reached) / 2;
+            must(motus_run_sample(sampled, times, 2, columns, count, a, &err), &err, name);
+            while (motus_run_time(back) < reached) must(motus_run_step(back, 1, &err), &err, name);
+            must(motus_run_sample(back, times, 2, columns, count, b, &err), &err, name);
+            assert_memory_equal(a, b, 2 * count * sizeof *a);
+            finish(sampled);
+            finish(back);
+            motus_run_state(plain, a, a + motus_positions(s), &err);
+            motus_run_state(sampled, b, b + motus_positions(s), &err);
+            motus_run_state(back, c, c + motus_positions(s), &err);
+            assert_memory_equal(a, b, count * sizeof *a);
+            assert_memory_equal(a, c, count * sizeof *a);
+            assert_int_equal(motus_run_evaluations(plain), motus_run_evaluations(sampled));
+            assert_int_equal(motus_run_evaluations(plain), motus_run_evaluations(back));
+            motus_run_destroy(plain), motus_run_destroy(sampled), motus_run_destroy(back);
+            tried++;
+        }
+        motus_system_destroy(s);
+    }
+    assert_true(tried > motus_method_count());
+}
+
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(legs), cmocka_unit_test(refused),
-                                       cmocka_unit_test(no_steps_are_not_cancelled), cmocka_unit_test(observers),
-                                       cmocka_unit_test(back)};
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(legs),      cmocka_unit_test(refused), cmocka_unit_test(no_steps_are_not_cancelled),
+        cmocka_unit_test(observers), cmocka_unit_test(back),    cmocka_unit_test(sampling_changes_nothing)};
     return cmocka_run_group_tests_name("leg", tests, NULL, NULL);
 }

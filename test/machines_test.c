@@ -61,11 +61,21 @@ static motus_system *open_text(const char *text, const char *set)
 enum { STEPS = 40 };
 
 typedef struct end {
-    double *state;
+    double *state, *between; /* between: two times within one step */
     size_t count;
     int64_t evaluations, iterations;
     motus_status status;
 } end;
+
+static motus_status sample_within(motus_run *r, double step, end *e, motus_error *err)
+{
+    const double now = motus_run_time(r), times[2] = {now + 0.3 * step, now + 0.45 * step};
+    size_t *columns = calloc(e->count + 1, sizeof *columns);
+    for (size_t k = 0; k < e->count; k++) columns[k] = k + 1;
+    const motus_status status = motus_run_sample(r, times, 2, columns, e->count, e->between, err);
+    free(columns);
+    return status;
+}
 
 static end run_on(motus_system *s, const char *machine, const char *method)
 {
@@ -85,9 +95,11 @@ static end run_on(motus_system *s, const char *machine, const char *method)
     if (motus_run_create(s, &def, &r, &err)) fail_msg("%s by %s: %s", machine, method, err.message);
     assert_string_equal(motus_run_machine(r), machine);
     e.state = calloc(e.count + 1, sizeof *e.state);
+    e.between = calloc(2 * e.count + 1, sizeof *e.between);
     /* Observes on the way too, since that is another function of the object. */
     e.status = motus_run_step(r, STEPS / 2, &err);
     if (!e.status) e.status = motus_run_state(r, e.state, e.state + motus_positions(s), &err);
+    if (!e.status) e.status = sample_within(r, set.step, &e, &err);
     if (!e.status) e.status = motus_run_finish(r, &err);
     if (!e.status) e.status = motus_run_state(r, e.state, e.state + motus_positions(s), &err);
     e.evaluations = motus_run_evaluations(r);
@@ -101,10 +113,12 @@ static void same_bits(motus_system *s, const char *model, const char *method)
     end a = run_on(s, "interpreter", method), b = run_on(s, "compiled", method);
     if (a.status != b.status || memcmp(a.state, b.state, a.count * sizeof(double)))
         fail_msg("%s by %s: the compiled machine differs", model, method);
+    if (memcmp(a.between, b.between, 2 * a.count * sizeof(double)))
+        fail_msg("%s by %s: the compiled machine differs between steps", model, method);
     assert_int_equal(a.evaluations, b.evaluations);
     assert_int_equal(a.iterations, b.iterations);
-    free(a.state);
-    free(b.state);
+    free(a.state), free(a.between);
+    free(b.state), free(b.between);
 }
 
 static bool chosen(const char *name)

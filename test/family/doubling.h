@@ -38,7 +38,9 @@ static void doubling_accept(work *w, clock_mask good)
 #define doubling_observe state_is_complete
 #define doubling_sync work_sync_main
 #define doubling_carry work_carry_main
-#define doubling_dense dense_hermite
+#define doubling_between lift_between
+#define doubling_extend lift_extend
+#define doubling_dense lift_dense
 static inline void doubling_place(work *w, placing *p)
 {
     w->xs = work_array(p, 4), w->vs = work_array(p, 4), w->ks = work_array(p, 1);
