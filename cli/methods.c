@@ -37,9 +37,9 @@ static void print_json(const motus_method *only)
 
 static motus_status print_catalogue(const options *o, motus_error *err)
 {
-    static const char *const heads[] = {"name",       "order",      "stages", "evaluations", "forces",
-                                        "symplectic", "reversible", "steps",  "limit of hω", "citation"};
-    table *t = table_create("lrrrllllrl");
+    static const char *const heads[] = {"name",       "order",      "between", "stages",      "evaluations", "forces",
+                                        "symplectic", "reversible", "steps",   "limit of hω", "citation"};
+    table *t = table_create("lrrrrllllrl");
     for (size_t i = 0; i < sizeof heads / sizeof *heads; i++) table_cell(t, heads[i]);
     for (size_t k = 0; k < motus_method_count(); k++) {
         const motus_method *m = motus_method_at(k);
@@ -50,8 +50,10 @@ static motus_status print_catalogue(const options *o, motus_error *err)
         table_cell(t, m->name);
         if (counted) {
             table_integer(t, m->order);
+            table_integer(t, m->dense_order);
             table_integer(t, m->stages);
         } else {
+            table_cell(t, "-");
             table_cell(t, "-");
             table_cell(t, "-");
         }
@@ -66,10 +68,10 @@ static motus_status print_catalogue(const options *o, motus_error *err)
     bool good = o->markdown ? table_markdown(t, stdout) : table_print(t, stdout, 0, complain_colours(1));
     table_destroy(t);
     if (good && !o->markdown)
-        puts(
-            "\nforces: what the force may depend on. symplectic: where the force is a gradient. limit: largest stable\n"
-            "h ω for x'' = -ω² x. motus check MODEL tells what each method preserves of a model.\n"
-            "motus methods NAME shows the card of one.");
+        puts("\nbetween: the order between steps. forces: what the force may depend on. symplectic: where the force is "
+             "a gradient. limit: largest stable\n"
+             "h ω for x'' = -ω² x. motus check MODEL tells what each method preserves of a model.\n"
+             "motus methods NAME shows the card of one.");
     return good ? MOTUS_OK : complain_memory(err);
 }
 
@@ -83,17 +85,20 @@ static void print_card(const motus_method *m)
 {
     bool colours = complain_colours(1);
     const char *strong = colours ? "\033[1m" : "", *plain = colours ? "\033[0m" : "";
-    char limit[DECIMAL_MAX], evaluations[DECIMAL_MAX], properties[512];
+    char limit[DECIMAL_MAX], evaluations[DECIMAL_MAX], between[DECIMAL_MAX] = "as at steps", properties[512];
     limit_text(m->stability_limit, limit);
     evaluations_text(m->evaluations, evaluations);
     printf("%s%s%s, %s, order %d\n", strong, m->name, plain, m->family, m->order);
     if (m->aliases && m->aliases[0]) printf("also called: %s\n", m->aliases);
     section("formula", m->formula ? m->formula : "", strong, plain);
+    if (m->dense_order < m->order) snprintf(between, sizeof between, "%d", m->dense_order);
     snprintf(properties, sizeof properties,
-             "stages: %d\nevaluations per step: %s\nforces may depend on: %s\nsymplectic: %s\nreversible: %s\n"
+             "order between steps: %s\nstages: %d\nevaluations per step: %s\nforces may depend on: %s\nsymplectic: "
+             "%s\nreversible: %s\n"
              "largest stable h ω: %s",
-             m->stages, m->evaluations > 0 ? evaluations : "as many as the solver needs", tell_forces(m->forces),
-             m->symplectic ? "yes, where the force is a gradient" : "no", m->reversible ? "yes" : "no", limit);
+             between, m->stages, m->evaluations > 0 ? evaluations : "as many as the solver needs",
+             tell_forces(m->forces), m->symplectic ? "yes, where the force is a gradient" : "no",
+             m->reversible ? "yes" : "no", limit);
     section("properties", properties, strong, plain);
     section("reference", m->cite ? m->cite : "", strong, plain);
     section("when to use it", m->use ? m->use : "", strong, plain);

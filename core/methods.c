@@ -11,10 +11,10 @@
 #include <math.h>
 
 /* between: the order of dense output */
-#define CARD_BETWEEN(between_, name_, aliases_, family_, order_, stages_, evaluations_, forces_, symplectic_,    \
-                     reversible_, limit_)                                                                        \
-    .name = name_, .aliases = aliases_, .family = family_, .order = order_, .stages = stages_,                   \
-    .evaluations = evaluations_, .forces = MOTUS_FORCES_##forces_, .symplectic = symplectic_,                    \
+#define CARD_BETWEEN(between_, name_, aliases_, family_, order_, stages_, evaluations_, forces_, symplectic_, \
+                     reversible_, limit_)                                                                     \
+    .name = name_, .aliases = aliases_, .family = family_, .order = order_, .stages = stages_,                \
+    .evaluations = evaluations_, .forces = MOTUS_FORCES_##forces_, .symplectic = symplectic_,                 \
     .reversible = reversible_, .stability_limit = limit_, .dense_order = between_
 #define CARD(name, aliases, family, order, ...) CARD_BETWEEN(order, name, aliases, family, order, __VA_ARGS__)
 
@@ -297,7 +297,8 @@ const row methods_table[] = {
       .tableau = {.stages = 3, .c = BS32_C, .a = BS32_A, .b = BS32_B, .error = BS32_ERROR, .ending = true,
                   .order = 2,
                   .dense = {0, 3, NULL, NULL, BS32_SERIES}} },
-    { .card = { CARD_BETWEEN(4, "dopri5", "dormand-prince ode45 rk45", "runge-kutta", 5, 6, 6, XVT, 0, 0, 0.99718900863252991),
+    { .card = { CARD_BETWEEN(4, "dopri5", "dormand-prince ode45 rk45", "runge-kutta", 5, 6, 6, XVT, 0, 0,
+                              0.99718900863252991),
        .title = "Dormand–Prince 5(4)",
        .cite = "DormandPrince80, HNW93 II.5",
        .formula = "six stages and a seventh at the end of the step, for an estimate of order 4",
@@ -306,7 +307,8 @@ const row methods_table[] = {
       .tableau = {.stages = 6, .c = DOPRI5_C, .a = DOPRI5_A, .b = DOPRI5_B, .error = DOPRI5_ERROR, .ending = true,
                   .order = 4,
                   .dense = {0, 4, NULL, NULL, DOPRI5_SERIES}} },
-    { .card = { CARD_BETWEEN(4, "tsit5", "tsitouras5", "runge-kutta", 5, 6, 6, XVT, 0, 0, 0.47797886888275209),
+    { .card = { CARD_BETWEEN(4, "tsit5", "tsitouras5", "runge-kutta", 5, 6, 6, XVT, 0, 0,
+                              0.47797886888275209),
        .title = "Tsitouras 5(4)",
        .cite = "Tsitouras11",
        .formula = "six stages and a seventh at the end of the step, for an estimate of order 4",
@@ -332,7 +334,8 @@ const row methods_table[] = {
       .family = RUNGE_KUTTA, .adaptive = true, .compensated = true,
       .tableau = {.stages = 10, .c = VERNER7_C, .a = VERNER7_A, .b = VERNER7_B, .error = VERNER7_ERROR, .order = 6,
                   .dense = {5, 7, VERNER7_MORE_C, VERNER7_MORE_A, VERNER7_SERIES}} },
-    { .card = { CARD_BETWEEN(7, "dop853", "dormand-prince8", "runge-kutta", 8, 12, 12, XVT, 0, 0, 5.9603598117027792),
+    { .card = { CARD_BETWEEN(7, "dop853", "dormand-prince8", "runge-kutta", 8, 12, 12, XVT, 0, 0,
+                              5.9603598117027792),
        .title = "Dormand–Prince 8(5, 3)",
        .cite = "HNW93 II.5 and II.10",
        .formula = "twelve stages; the error is judged by two estimates, of order 5 and of order 3",

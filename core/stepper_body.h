@@ -34,10 +34,10 @@ typedef struct stepper_body {
     void (*plan)(work *, const double argument[2], coef *memory);
     size_t (*place)(work *, real *memory);
     int (*carry)(const work *, real *list[CARRY_MAX]);
-    int (*run)(work *, whole steps);                /* advance_run */
-    int (*sync)(work *, real *x, real *v, real *a); /* advance_sync */
-    int (*check)(work *);                           /* advance_check */
-    int (*observe)(work *);                         /* advance_observe */
+    int (*run)(work *, whole steps);                 /* advance_run */
+    int (*sync)(work *, real *x, real *v, real *a);  /* advance_sync */
+    int (*check)(work *);                            /* advance_check */
+    int (*observe)(work *);                          /* advance_observe */
     dense_room (*between)(const work *, coef *unit); /* the family's, as dense and extend are */
     int (*extend)(work *, const dense_step *);
     int (*dense)(work *, const dense_step *, clock t, real *x, real *v);

@@ -2,8 +2,8 @@
  * them. Every list is a macro, so that it takes the K(…) of the place where it stands.
  *
  * C: abscissae; A, AA: below the diagonal, row by row; B, BB: weights; ERROR, ERROR_X, SECOND: weights of the error;
- * MORE_C, MORE_A, SERIES: dense output (step/row.h). The sources stand in the rows. Numbers have as many digits as 113 bits need; those of DOP853 are known
- * to 28.
+ * MORE_C, MORE_A, SERIES: dense output (step/row.h). The sources stand in the rows. Numbers have as many digits as 113
+ * bits need; those of DOP853 are known to 28, of its dense output to 26.
  */
 #ifndef CORE_TABLES_H
 #define CORE_TABLES_H

@@ -693,10 +693,15 @@ MOTUS_API motus_status motus_run_values(motus_run *, const size_t *columns, size
 #define MOTUS_JACOBIAN_MAX 256
 MOTUS_API motus_status motus_run_jacobian(motus_run *, double *da_dx, double *da_dv, motus_error *);
 /* Columns at given times, which follow the direction of the run and end at or before `until`. The call takes steps as
- * needed; between steps it evaluates the quintic Hermite polynomial through (x, v, a) at both ends of the step (local
- * error h^6), or the polynomial of collocation with more than four stages, which does not change the run. out:
- * time_count rows of `count` numbers. MOTUS_ARGUMENT: a time lies beyond the end, or before the run's last step. Fails
- * besides as motus_run_step and motus_run_values do. */
+ * needed; between steps it evaluates the method's dense output, of the order motus_method.dense_order. That is a
+ * polynomial of the stages (bs32, dopri5, tsit5, verner6 to verner9, dop853, dep6; gauss10 to gauss16, radau15), the
+ * exact motion, or the polynomial through the ends of the step: Hermite's quintic (cubic of first-order variables),
+ * which is of order 3, 4 without first-order variables, and for methods of higher order is corrected by accelerations
+ * within the step. The accelerations that it needs are evaluated once for all times within a step: none for most
+ * methods, at most 9 for the pairs, 18 for methods of order 8, 28 for dep12; no count has them, and the run does not
+ * change. out: time_count rows of `count` numbers. MOTUS_ARGUMENT: a time lies beyond the end, or before the run's last
+ * step. MOTUS_CALLBACK: an acceleration within the step cannot be evaluated. Fails besides as
+ * motus_run_step and motus_run_values do. */
 MOTUS_API motus_status motus_run_sample(motus_run *, const double *times, size_t time_count, const size_t *columns,
                                         size_t count, double *out, motus_error *);
 

@@ -34,6 +34,7 @@ static void method(json *j, const motus_method *m)
     json_string(j, "title", m->title);
     json_string(j, "family", m->family);
     json_integer(j, "order", m->order);
+    json_integer(j, "dense_order", m->dense_order);
     json_integer(j, "stages", m->stages);
     json_integer(j, "evaluations", m->evaluations);
     json_string(j, "forces", tell_forces(m->forces));
