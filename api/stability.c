@@ -225,8 +225,8 @@ motus_status motus_stability(const char *method, size_t count, const double *re,
     p.allocator = (motus_allocator){allocate, release, &p};
     modes m = modes_enter();
     motus_status status = row_choose(method, &p.chosen, NULL, err);
-    p.chosen.relative = HUGE_VAL; /* of an adaptive method: no error is too large, and every step is 1 */
-    p.chosen.first = p.chosen.most = 1;
+    p.chosen.relative = HUGE_VAL; /* of an adaptive method: no error is too large, and every step is 1, or none is */
+    p.chosen.first = p.chosen.least = p.chosen.most = 1;
     if (status == MOTUS_OK) status = check(count, re, im, err);
     if (status == MOTUS_OK) status = remember(&p, err);
     if (status == MOTUS_OK) status = ask_all(&p, true, count, re, im, radius, err);

@@ -474,6 +474,13 @@ const row methods_table[] = {
        .cite = "Everhart85, RS15",
        .formula = "the polynomial of degree 7 through the accelerations at the eight left Radau nodes,\n"
                   "integrated once for v and twice for x",
+       .use = "1e-6 to round-off for any force; on an orbit half of the evaluations that dop853 needs for the\n"
+              "same error.", .adaptive = 1 },
+      .family = RADAU, .adaptive = true, .compensated = true, .tableau = {.stages = 8} },
+    { .card = { CARD_BETWEEN(8, "radau15-fixed", "", "radau", 15, 8, 0, XVT, 0, 0, 0.0),
+       .title = "Gauss–Radau 15, fixed step",
+       .cite = "Everhart85, RS15",
+       .formula = "as radau15, by steps of one size",
        .use = "Order 15 for any force: positions to round-off, and an energy error that grows like the square root\n"
               "of time." },
       .family = RADAU, .compensated = true, .tableau = {.stages = 8} },

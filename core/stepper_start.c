@@ -171,7 +171,7 @@ void stepper_begin(stepper *s, double t0, double h, const double *x, const doubl
     w->t0 = w->t = t0;
     w->lost = 0;
     w->next = copysign(s->method.first, h);
-    w->before = w->shortest = w->longest = 0;
+    w->before = w->shortest = w->longest = w->span = 0;
     w->rise = CONTROL_RISE;
     w->fresh = w->stalled = w->ends = false;
     w->moved = 0;

@@ -43,7 +43,7 @@ stepper_count stepper_get(const stepper *s, double *carry)
     const work *w = &s->work;
     const int count = s->body->carry(w, list);
     for (int i = 0; i < count; i++) memcpy(carry + (size_t)i * w->nv, list[i], w->nv * sizeof *carry);
-    const double time[STEPPER_CLOCKS] = {w->t, w->lost, w->next, w->before, w->rise, w->shortest, w->longest};
+    const double time[STEPPER_CLOCKS] = {w->t, w->lost, w->next, w->before, w->rise, w->shortest, w->longest, w->span};
     memcpy(carry + (size_t)count * w->nv, time, clocks(w) * sizeof *time);
     return (stepper_count){w->n, w->evaluations, w->iterations, w->refused};
 }
@@ -73,6 +73,7 @@ void stepper_put(stepper *s, stepper_count at, const double *carry)
     w->lost = time[1];
     w->next = time[2], w->before = time[3], w->rise = time[4];
     w->shortest = time[5], w->longest = time[6];
+    w->span = time[7];
 }
 
 stepper_count stepper_save(const stepper *s, double *carry)

@@ -229,6 +229,10 @@ static void add_family(emit_text *t, const composition *c)
             t, "#define control_first(w) STEP_OK\n#define control_begin(w) STEP_OK\n#define control_last_is_first(w) "
                "false\n#define control_known(w, known) "
                "((void)0)\n#define control_norm(w, x, v) (CLOCK(0))\n#define control_joint(high, low) (high)\n"
+               "#define control_log2(x) (x)\n#define control_exp2(x) (x)\n#define control_spoil(w, where, share) "
+               "((void)(where), (void)(share))\n"
+               "typedef struct norm_correction { clock share, roundings, change; } norm_correction;\n"
+               "#define control_corrections(w, r, ks, count) ((norm_correction){CLOCK(0), CLOCK(0), CLOCK(0)})\n"
                "#define control_size(w) (w)->h\n#define control_judge(w) EVERY\n#define control_judge_own(w) EVERY\n");
     }
     const work plan = stepper_plan(c->problem, c->chosen, NULL);

@@ -113,9 +113,9 @@ static void collocation_make(collocation *n, int stages, bool left)
 }
 
 /* The node on [0, 1]. */
-static coef collocation_abscissa(const collocation *n, int i)
+static pair collocation_abscissa(const collocation *n, int i)
 {
-    return pair_product(pair_sum(n->place[i], pair_of(1)), pair_of((coef)1 / 2)).high;
+    return pair_product(pair_sum(n->place[i], pair_of(1)), pair_of((coef)1 / 2));
 }
 
 /* l[j] at the nodes of the next step. */
@@ -134,6 +134,7 @@ static void collocation_ahead(const collocation *n, coef *ahead)
 static void collocation_fill(const work *w, const collocation *n, bool twice, coef *unit)
 {
     const int s = n->stages;
+    for (int i = 0; i < s && w->kept; i++) unit[tableau_low_c(w) + i] = collocation_abscissa(n, i).low;
     for (int i = 0; i <= s; i++) { /* the last row is the end of the step */
         const pair *row = i < s ? n->integral[i] : n->weight;
         pair p[TABLEAU_COUPLED_MAX + 2], once[TABLEAU_COUPLED_MAX + 1];

@@ -144,6 +144,14 @@ static inline clock_mask control_judge(work *w)
     return good;
 }
 
+/* Candidates that are refused whatever their error; and a share of the error, of at most 1, that the others have at
+ * least, so that the next step is not longer. */
+static inline void control_spoil(work *w, clock_mask where, clock share)
+{
+    const clock least = CHOOSE_WHERE(share < 1, share, CLOCK(1));
+    w->error = CHOOSE_WHERE(where, CLOCK(NAN), CHOOSE_WHERE(w->error < least, least, w->error));
+}
+
 /* Two estimates of the same error, of a higher and a lower order, as one [HNW93, II.10]. */
 static inline clock control_joint(clock high, clock low)
 {

@@ -203,7 +203,7 @@ static void implicit_plan(work *w, const double argument[2], coef *unit, coef *c
     tableau_sizes(w, m->newmark ? 2 : m->tableau.stages);
     w->known = m->newmark;
     w->kept = w->stages > 1 && !m->newmark ? w->stages : 0;
-    w->plains = 2 * w->kept * (w->kept + 1); /* tableau_ahead, tableau_series, tableau_rest */
+    w->plains = (2 * w->kept + 3) * w->kept; /* tableau_ahead, tableau_series, tableau_rest, tableau_low_c */
     w->iterates = true;
     w->solves = w->stages - w->known;
     w->solves_x = !m->newmark || argument[0] != 0;
@@ -215,7 +215,7 @@ static void implicit_plan(work *w, const double argument[2], coef *unit, coef *c
     }
     collocation nodes;
     collocation_make(&nodes, w->stages, false);
-    for (int i = 0; i < w->stages; i++) c[i] = collocation_abscissa(&nodes, i);
+    for (int i = 0; i < w->stages; i++) c[i] = collocation_abscissa(&nodes, i).high;
     collocation_fill(w, &nodes, false, unit);
     if (!w->kept) return;
     collocation_ahead(&nodes, unit + tableau_ahead(w, 0));

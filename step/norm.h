@@ -27,13 +27,21 @@ static inline void norm_take(norm *n, real before, real change, real rate, real 
     n->off = LARGER(ABS(off), n->off);
 }
 
-/* The error over what is allowed; 0 where both are 0. */
-static inline clock norm_share(const work *w, const norm *n, clock floor)
+/* What rounding may leave, and what is allowed. floor: the rounding of the positions over the step, of a velocity. */
+static inline clock norm_rounding(const work *w, const norm *n, clock floor)
 {
-    const clock size = n->size + ABS(w->h) * n->way;
-    const clock least = FMA(8 * EPSILON, size, floor), allowed = FMA(w->relative, size, w->absolute);
-    return n->off / (LARGER(allowed, least) + (clock){0} + SMALLEST);
+    return FMA(8 * EPSILON, n->size + ABS(w->h) * n->way, floor);
 }
+
+static inline clock norm_allowed(const work *w, const norm *n, clock floor)
+{
+    const clock least = norm_rounding(w, n, floor),
+                allowed = FMA(w->relative, n->size + ABS(w->h) * n->way, w->absolute);
+    return LARGER(allowed, least) + (clock){0} + SMALLEST;
+}
+
+/* The error over what is allowed; 0 where both are 0. */
+static inline clock norm_share(const work *w, const norm *n, clock floor) { return n->off / norm_allowed(w, n, floor); }
 
 /* The largest share of all variables; NaN where the candidate or its error is not finite. */
 static inline clock control_norm(const work *w, const real *off_x, const real *off_v)
@@ -64,4 +72,39 @@ static inline clock control_norm(const work *w, const real *off_x, const real *o
         worst = LARGER(share, worst);
     }
     return worst + none;
+}
+
+/* Corrections r of the accelerations ks, of `count` stages each, over the step: in units of what is allowed of the
+ * velocities beyond the last digits, infinite where that is nothing or everything; of what rounding may leave of them;
+ * and of the largest acceleration of the variable. NaN where one is not finite. */
+typedef struct norm_correction {
+    clock share, roundings, change;
+} norm_correction;
+
+static inline norm_correction control_corrections(const work *w, const real *r, const real *ks, int count)
+{
+    const clock per_h = 16 * EPSILON * ABS(w->per_h), none = {0};
+    norm_correction worst = {none, none, none};
+    EACH_VARIABLE(g)
+    {
+        norm rate = norm_none();
+        real place = {0}, lost = {0};
+        for (size_t k = VARIABLE(w, g); k < VARIABLE(w, g + 1); k++) {
+            for (size_t i = k; i < k + (size_t)count * w->stride; i += w->stride) {
+                norm_take(&rate, w->v[k], (real){0}, ks[i], r[i]);
+                lost += r[i] - r[i];
+            }
+            if (k < FACT(w, nx)) place = LARGER(ABS(w->x[k]), place);
+        }
+        const clock size = rate.size + ABS(w->h) * rate.way, off = ABS(w->h) * rate.off;
+        const clock allowed = norm_allowed(w, &rate, none),
+                    slack = CHOOSE_WHERE(allowed < size, LARGER(allowed - 64 * EPSILON * size, none), none);
+        const clock share = off / (slack + SMALLEST),
+                    roundings = off / (norm_rounding(w, &rate, per_h * place) + SMALLEST),
+                    change = rate.off / (rate.way + SMALLEST);
+        worst.share = LARGER(share, worst.share);
+        worst.roundings = LARGER(roundings, worst.roundings) + lost;
+        worst.change = LARGER(change, worst.change);
+    }
+    return worst;
 }

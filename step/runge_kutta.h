@@ -74,14 +74,6 @@ static inline int runge_kutta_stage(work *w, int i)
     return accel_in(w, i, X, w->vs, Ki);
 }
 
-/* y += d where the step is accepted; e: the error word of y, which d has in it already. */
-#define RUNGE_KUTTA_MOVE(good, compensated, y, e, d)                            \
-    do {                                                                        \
-        const __typeof__(y) p_ = (d), s_ = (y) + p_;                            \
-        if (compensated) (e) = CHOOSE_WHERE(good, ROUNDED_OFF(y, p_, s_), (e)); \
-        (y) = CHOOSE_WHERE(good, s_, (y));                                      \
-    } while (0)
-
 /* The acceleration at the candidate, which is a stage of the estimate. */
 static inline int runge_kutta_end(work *w)
 {
@@ -129,8 +121,8 @@ static int runge_kutta_step(work *w)
     }
     if (ROW(w, adaptive)) return runge_kutta_candidate(w);
     real *restrict x = w->x, *restrict v = w->v, *restrict ex = w->ex, *restrict ev = w->ev;
-    EACH(k) RUNGE_KUTTA_MOVE(EVERY, ROW(w, compensated), x[k], ex[k], runge_kutta_dx(w, k));
-    EACHV(k) RUNGE_KUTTA_MOVE(EVERY, ROW(w, compensated), v[k], ev[k], runge_kutta_dv(w, k));
+    EACH(k) MOVE_WHERE(EVERY, ROW(w, compensated), x[k], ex[k], runge_kutta_dx(w, k));
+    EACHV(k) MOVE_WHERE(EVERY, ROW(w, compensated), v[k], ev[k], runge_kutta_dv(w, k));
     return STEP_OK;
 }
 
@@ -138,8 +130,8 @@ static inline void runge_kutta_accept(work *w, clock_mask good)
 {
     if (!ROW(w, adaptive)) return;
     real *restrict x = w->x, *restrict v = w->v, *restrict ex = w->ex, *restrict ev = w->ev;
-    EACH(k) RUNGE_KUTTA_MOVE(good, ROW(w, compensated), x[k], ex[k], w->dx[k]);
-    EACHV(k) RUNGE_KUTTA_MOVE(good, ROW(w, compensated), v[k], ev[k], w->dv[k]);
+    EACH(k) MOVE_WHERE(good, ROW(w, compensated), x[k], ex[k], w->dx[k]);
+    EACHV(k) MOVE_WHERE(good, ROW(w, compensated), v[k], ev[k], w->dv[k]);
     const bool known = control_last_is_first(w);
     const real *end = w->ks + (size_t)(FACT(w, stages) - FACT(w, closing)) * w->stride;
     if (known)

@@ -21,11 +21,14 @@ static inline int tableau_rest(const work *w, bool x)
 {
     return tableau_series(w, 0) + tableau_b(w) + x * FACT(w, stages);
 }
+/* what rounding has left of c; without a factor h */
+static inline int tableau_low_c(const work *w) { return tableau_rest(w, false) + 2 * FACT(w, stages); }
 /* what a change of stage i does to the others, where they are kept on a polynomial; without a factor h */
-static inline int tableau_spread(const work *w, int i)
-{
-    return tableau_rest(w, false) + 2 * FACT(w, stages) + i * FACT(w, stages);
-}
+static inline int tableau_spread(const work *w, int i) { return tableau_low_c(w) + (1 + i) * FACT(w, stages); }
+/* Whether the stages take c in both parts, and multiply the sums by h, not the constants: 14 and more orders reach
+ * rounding at usual steps, and a stage that is off by the same part of h v in every step would make the energy
+ * drift. */
+static inline bool tableau_exact(const work *w) { return FACT(w, stages) > 6 && FACT(w, kept) > 0; }
 
 /* Σ c[j] y[j][k] over `count` stages, c the scaled constants from number `from` on. */
 static inline real tableau_sum(const work *w, int from, const real *restrict y, size_t k, int count)
@@ -63,7 +66,15 @@ static inline void tableau_place(work *w, int i)
 {
     const real *restrict x = w->x, *restrict v = w->v, *restrict K = w->ks;
     const int s = FACT(w, stages), aa = tableau_aa(w, i);
-    const clock ch = w->c[i] * w->h;
+    const clock h = w->h, ch = w->c[i] * h;
+    if (tableau_exact(w)) {
+        const coef c = FACT(w, c)[i], low = FACT(w, unit)[tableau_low_c(w) + i];
+        EACH(k) {
+            const real sum = tableau_weigh(w, aa, K, k, s, false, (real){0});
+            w->xs[k] = FMA(h, FMA(c, v[k], FMA(low, v[k], h * sum)), x[k]);
+        }
+        return;
+    }
     EACH(k) w->xs[k] = x[k] + FMA(ch, v[k], tableau_sum(w, aa, K, k, s));
 }
 
@@ -71,7 +82,11 @@ static inline void tableau_speed(work *w, int i)
 {
     const real *restrict v = w->v, *restrict K = w->ks;
     const int s = FACT(w, stages), a = tableau_a(w, i);
-    EACHV(k) w->vs[k] = v[k] + tableau_sum(w, a, K, k, s);
+    const clock h = w->h;
+    if (tableau_exact(w))
+        EACHV(k) w->vs[k] = FMA(h, tableau_weigh(w, a, K, k, s, false, (real){0}), v[k]);
+    else
+        EACHV(k) w->vs[k] = v[k] + tableau_sum(w, a, K, k, s);
 }
 
 /* The mean of the accelerations by the weights of v or of x, unrounded as they are. */
@@ -82,20 +97,27 @@ static inline real tableau_mean(const work *w, bool x, size_t k)
     return tableau_weigh(w, whole, w->ks, k, s, true, rest);
 }
 
+/* What the step adds to x[k] and to v[k]; of a compensated row with the error words. */
+static inline real tableau_dx(const work *w, size_t k)
+{
+    const clock h = w->h;
+    const real v = w->v[k];
+    if (ROW(w, compensated)) return FMA(h, v + FMA(h, tableau_mean(w, true, k), w->ev[k]), w->ex[k]);
+    return FMA(h, v, tableau_sum(w, tableau_bb(w), w->ks, k, FACT(w, stages)));
+}
+
+static inline real tableau_dv(const work *w, size_t k)
+{
+    if (ROW(w, compensated)) return FMA(w->h, tableau_mean(w, false, k), w->ev[k]);
+    return tableau_sum(w, tableau_b(w), w->ks, k, FACT(w, stages));
+}
+
 /* The end of the step. */
 static inline void tableau_finish(work *w)
 {
     real *restrict x = w->x, *restrict v = w->v, *restrict ex = w->ex, *restrict ev = w->ev;
-    const real *restrict K = w->ks;
-    const clock h = w->h;
-    const int s = FACT(w, stages), b = tableau_b(w), bb = tableau_bb(w);
-    if (ROW(w, compensated)) {
-        EACH(k) ADVANCE_COMPENSATED(x[k], ex[k], h, v[k] + FMA(h, tableau_mean(w, true, k), ev[k]));
-        EACHV(k) ADVANCE_COMPENSATED(v[k], ev[k], h, tableau_mean(w, false, k));
-    } else {
-        EACH(k) x[k] += FMA(h, v[k], tableau_sum(w, bb, K, k, s));
-        EACHV(k) v[k] += tableau_sum(w, b, K, k, s);
-    }
+    EACH(k) MOVE_WHERE(EVERY, ROW(w, compensated), x[k], ex[k], tableau_dx(w, k));
+    EACHV(k) MOVE_WHERE(EVERY, ROW(w, compensated), v[k], ev[k], tableau_dv(w, k));
 }
 
 /* The polynomial through the stages of the step before, at those of this one from `first` on. */

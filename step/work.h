@@ -142,6 +142,7 @@ typedef struct work {
     clock error;             /* the candidate's error, in units of what is allowed */
     clock before, rise;      /* log2 of the error of the step before; of the most that the next may be longer */
     clock shortest, longest; /* step so far, that to the end apart; 0 before the first */
+    clock span;              /* of rows that carry stages: of the step that they are of; < 0 · h: it was refused */
     int order;               /* of the error estimate, which goes with h^(order + 1) */
 
     /* The plan, without dimensions, from the row alone: `unit`, constants of which the first `linears` are multiplied
@@ -228,6 +229,14 @@ typedef struct work {
         __typeof__(y) p_ = (sum), s_ = (y) + p_; \
         (e) = ROUNDED_OFF(y, p_, s_);            \
         (y) = s_;                                \
+    } while (0)
+
+/* y += d where the step is accepted; e: the error word of y, which d has in it already. */
+#define MOVE_WHERE(good, compensated, y, e, d)                                  \
+    do {                                                                        \
+        const __typeof__(y) p_ = (d), s_ = (y) + p_;                            \
+        if (compensated) (e) = CHOOSE_WHERE(good, ROUNDED_OFF(y, p_, s_), (e)); \
+        (y) = CHOOSE_WHERE(good, s_, (y));                                      \
     } while (0)
 
 /* What a splitting with compensated addition does with every number (operators.h). A kick: ev += b a, whose rounding

@@ -88,8 +88,8 @@ static void steps_that_adapt(void **state)
 {
     (void)state;
     motus_system *s = given_model("kepler.motus", NULL, 0);
-    static const char *const methods[] = {"dopri5", "dop853"};
-    for (int m = 0; m < 2; m++) {
+    static const char *const methods[] = {"dopri5", "dop853", "radau15"};
+    for (int m = 0; m < 3; m++) {
         motus_run_def def = motus_default_run();
         motus_error err = motus_default_error();
         motus_run *r[2] = {NULL, NULL};

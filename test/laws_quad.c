@@ -175,7 +175,7 @@ static const work *plan_of(const row *m, const double *argument, const quad_prob
 {
     static const double trapezoid[2] = {0.25, 0.5};
     static quad memory[CONSTANTS_MAX];
-    static const size_t kinds[DIMENSIONS + 1] = {0};
+    static size_t all[2]; /* one variable */
     static double last[2];
     static work w;
     if (!argument) argument = trapezoid;
@@ -190,7 +190,9 @@ static const work *plan_of(const row *m, const double *argument, const quad_prob
                .linear = p->linear,
                .quadrature = p->quadrature,
                .between = m->card.dense_order,
-               .variable = kinds};
+               .variables = 1,
+               .variable = all};
+    all[1] = p->nv;
     memcpy(last, argument, sizeof last);
     work_plan(&w, argument, NULL);
     if (work_plan_size(&w) > CONSTANTS_MAX) abort();
@@ -219,6 +221,7 @@ static int candidates(work *w, quad h, int64_t steps)
         work_scale(w, h);
         const int bad = family_step(w);
         if (bad) return bad;
+        if (!FINITE(w->error)) return STEP_SOLVE; /* it is refused at any tolerance */
         family_accept(w, true);
         time_tick(w, true);
     }

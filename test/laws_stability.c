@@ -335,6 +335,6 @@ void laws_of_stability(void)
         /* Newmark and Beeman are conjugate to symplectic maps: they are not declared symplectic, and have no trend
          * either. */
         if (methods_table[m].family == RUNGE_KUTTA || row_card(m)->symplectic) energy(m);
-        if (methods_table[m].family == RADAU) brouwer(m);
+        if (methods_table[m].family == RADAU || (methods_table[m].family == IMPLICIT && card->order > 12)) brouwer(m);
     }
 }

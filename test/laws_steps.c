@@ -196,8 +196,8 @@ static void of_newmark(method m)
     }
 }
 
-/* What is generated in double is what is generated in 113 bits, rounded once; so are the weights' rests, which stand
- * behind two squares of numbers. */
+/* What is generated in double is what is generated in 113 bits, rounded once; so are the rests of the weights and of
+ * the abscissae, which stand behind two squares of numbers. */
 static void rounded_once(method m)
 {
     const problem p = {.nx = 1, .nv = 1};
@@ -210,9 +210,10 @@ static void rounded_once(method m)
     const int scaled = w.linears + w.squares, rest = scaled + 2 * s * s, place = scaled - s;
     for (int i = 0; i < all - s; i++) {
         const int k = i - rest, of = k < s ? s * s + k : place + k - s;
-        const bool left = w.kept && k >= 0 && k < 2 * s;
-        same += left ? fabs((double)(constants[of] - w.unit[of] - (quad)w.unit[i])) <= 0x1p-100
-                     : w.unit[i] == (double)constants[i];
+        const bool left = w.kept && k >= 0 && k < 3 * s;
+        const quad whole = k < 2 * s ? constants[left ? of : 0] : abscissae[left ? k - 2 * s : 0],
+                   high = k < 2 * s ? w.unit[left ? of : 0] : w.c[left ? k - 2 * s : 0];
+        same += left ? fabs((double)(whole - high - (quad)w.unit[i])) <= 0x1p-100 : w.unit[i] == (double)constants[i];
     }
     for (int i = 0; i < s; i++) same += w.c[i] == (double)abscissae[i];
     judge(same == all, row_card(m)->name, "rounded once", "%d of %d coefficients", same, all);

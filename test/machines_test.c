@@ -123,8 +123,8 @@ static void same_bits(motus_system *s, const char *model, const char *method)
 
 static bool chosen(const char *name)
 {
-    static const char *const rows[] = {"verlet",   "blanes-moan6", "boris",  "rk4",    "newmark", "gauss4",
-                                       "leapfrog", "kahan-li8",    "dopri5", "dop853", "dep6",    "fine5"};
+    static const char *const rows[] = {"verlet",    "blanes-moan6", "boris",  "rk4",  "newmark", "gauss4", "leapfrog",
+                                       "kahan-li8", "dopri5",       "dop853", "dep6", "fine5",   "radau15"};
     if (getenv("MOTUS_ALL_ROWS")) return true;
 #ifdef SANITIZED
     /* The sanitizers check the library's part, which is the same for every row. */

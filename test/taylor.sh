@@ -1,5 +1,5 @@
 #!/bin/bash
-# The Taylor method in ensembles: every trajectory has its own steps, refusals and end, and lanes of any width give the bits that one
+# Adaptive methods in ensembles, Taylor series and Gauss-Radau: every trajectory has its own steps, refusals and end, and lanes of any width give the bits that one
 # trajectory has by itself.
 set -u
 cd "$(dirname "$0")/.." || exit 1
@@ -11,9 +11,9 @@ scratch=$(mktemp -d) || exit 1
 trap 'rm -rf "$scratch"' EXIT
 export XDG_CACHE_HOME=$scratch/cache
 
-tolerance=(--tolerance 1e-15)
-rows() { "$motus" sweep "$@" --method taylor "${tolerance[@]}" --quiet 2>/dev/null | grep -E '^[0-9]' | awk '{ print } END { print NR }'; }
-lanes_of() { rm -f "$scratch/rows"; "$motus" sweep "$@" --method taylor "${tolerance[@]}" --json -o "$scratch/rows" 2>&1 | sed -n 's/.*"lanes": \([^,}]*\).*/\1/p'; }
+method=taylor tolerance=(--tolerance 1e-15)
+rows() { "$motus" sweep "$@" --method "$method" "${tolerance[@]}" --quiet 2>/dev/null | grep -E '^[0-9]' | awk '{ print } END { print NR }'; }
+lanes_of() { rm -f "$scratch/rows"; "$motus" sweep "$@" --method "$method" "${tolerance[@]}" --json -o "$scratch/rows" 2>&1 | sed -n 's/.*"lanes": \([^,}]*\).*/\1/p'; }
 
 # name, model, how many rows, what is swept and recorded
 agree() {
@@ -42,5 +42,12 @@ agree "a driven boundary" "$scratch/border.motus" 9 --vary w=0.5:2:9 --until 3 -
 printf "k = 1\nx'' = -k/x^2\nx(0) = 1\nx'(0) = 0\n" >"$scratch/fall.motus"
 agree "a fall into the centre" "$scratch/fall.motus" 40 --vary k=0.1:9:40 --until 3 --record 'x,min(x)'
 check "some fell" "$(rows "$scratch/fall.motus" --vary k=0.1:9:40 --until 3 --record 'x,min(x)' --machine compiled | grep -c ',[0-9.]*[1-9]$' | awk '{ print ($1 > 20) ? "true" : $1 }')" true
+
+method=radau15 tolerance=(--tolerance 1e-12)
+agree "radau15: the eccentricity varies" models/kepler.motus 23 --vary e=0:0.9:23 --until 3 --record 'r.x,max(r.y),mean(t),time_of_min(r.x)'
+agree "radau15: and the end" models/kepler.motus 35 --vary e=0:0.9:5 --vary until=-1:5:7 --every '3 steps' --record 'r.x,max(r.y)'
+agree "radau15: kinks, a start at rest, time and a first-order variable" "$scratch/driven.motus" 20 --vary k=0.5:2:20 --until 9 --record "x,s,min(x')"
+agree "radau15: a driven boundary" "$scratch/border.motus" 9 --vary w=0.5:2:9 --until 3 --record 'x[3],x[5]'
+agree "radau15: a fall into the centre" "$scratch/fall.motus" 40 --vary k=0.1:9:40 --until 3 --record 'x,min(x)'
 echo "$passed passed, $failed failed"
 [ $failed = 0 ]

@@ -107,10 +107,11 @@ static void one(motus_system *s, const char *name, double h, double until, const
     motus_run_destroy(mixed);
 }
 
-/* Of the adaptive methods one of each form: a last stage at the end or none, two estimates, Nyström's. */
+/* Of the adaptive methods one of each form: a last stage at the end or none, two estimates, Nyström's, coupled
+ * stages. */
 static bool telling(const char *name)
 {
-    static const char *const names[] = {"dopri5", "dop853", "dep6", "fine5"};
+    static const char *const names[] = {"dopri5", "dop853", "dep6", "fine5", "radau15"};
     for (size_t i = 0; i < sizeof names / sizeof *names; i++)
         if (!strcmp(name, names[i])) return true;
     return false;

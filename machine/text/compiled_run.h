@@ -60,7 +60,8 @@ __attribute__((flatten)) static bool compiled_small(work *given, whole steps)
 #if FACT_carried
     given->t = w->t, given->lost = w->lost, given->refused = w->refused, given->ends = w->ends;
     given->next = w->next, given->before = w->before, given->rise = w->rise, given->stalled = w->stalled;
-    given->shortest = w->shortest, given->longest = w->longest, given->fresh = w->fresh;
+    given->shortest = w->shortest, given->longest = w->longest, given->span = w->span;
+    given->fresh = w->fresh;
     given->owed_evaluations = w->owed_evaluations, given->owed_iterations = w->owed_iterations;
     work_scale(given, w->h);
 #endif

@@ -49,6 +49,7 @@ static inline void lanes_clock(work *w, const lanes_job *job, size_t group, cloc
     w->t = own[LANES_T], w->lost = own[LANES_LOST], w->next = own[LANES_NEXT], w->until = own[LANES_UNTIL];
     w->before = own[LANES_BEFORE], w->rise = own[LANES_RISE];
     w->shortest = own[LANES_SHORTEST], w->longest = own[LANES_LONGEST], w->refused = own[LANES_REFUSED];
+    w->span = own[LANES_SPAN];
     w->relative = CLOCK(job->relative), w->absolute = CLOCK(job->absolute);
     w->least = CLOCK(job->least), w->most = CLOCK(job->most);
     w->variables = job->variables, w->variable = job->variable;
@@ -239,6 +240,7 @@ static inline void lanes_store_clock(const work *w, const lanes_job *job, size_t
     own[LANES_T] = w->t, own[LANES_LOST] = w->lost, own[LANES_NEXT] = w->next;
     own[LANES_BEFORE] = w->before, own[LANES_RISE] = w->rise;
     own[LANES_SHORTEST] = w->shortest, own[LANES_LONGEST] = w->longest, own[LANES_REFUSED] = w->refused;
+    own[LANES_SPAN] = w->span;
 }
 #else
 #define lanes_store_clock(w, job, group) ((void)0)
