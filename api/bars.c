@@ -1,8 +1,4 @@
-/* See bars.h. When the companions start, and where they land.
- *
- * Landings are apart so many steps of the run that they add little to the work, at most one step in 16 of a run of 512
- * steps and more, and are enough to find the time from which no digit is significant.
- */
+/* See bars.h. When the companions start, and where they land. */
 #include "api/bars.h"
 
 #include "api/choice.h"
@@ -12,9 +8,6 @@
 #include <stdarg.h>
 #include <stdio.h>
 #include <string.h>
-
-/* How many landings a long run has; the steps that are well apart; how many landings a short run has at least. */
-enum { LANDINGS = 256, APART = 16, LANDINGS_LEAST = 32 };
 
 void bars_give_up(motus_run *r, const char *format, ...)
 {
@@ -36,12 +29,34 @@ motus_status bars_prepare(motus_run *r, const motus_run_def *def, motus_error *e
     if ((unsigned)def->error > MOTUS_BARS_FULL)
         return fail(err, MOTUS_ARGUMENT, "there is no kind of bars %d", (int)def->error);
     if (def->error == MOTUS_BARS_NONE) return MOTUS_OK;
+    motus_status status = bars_make(r, def->error, NULL, NULL, r->system->column_count, err);
+    if (status == MOTUS_OK) r->bars->given_x = def->x, r->bars->given_v = def->v;
+    return status;
+}
+
+differences_shape bars_shape(const motus_system *s, motus_bars kind, const int *how, size_t count)
+{
+    return (differences_shape){.count = count,
+                               .positions = s->positions,
+                               .velocities = s->velocities,
+                               .how = how,
+                               .full = kind == MOTUS_BARS_FULL,
+                               .kinked = s->model && !s->problem.traits.smooth};
+}
+
+motus_status bars_make(motus_run *r, motus_bars kind, const size_t *columns, const int *how, size_t count,
+                       motus_error *err)
+{
+    const differences_shape shape = bars_shape(r->system, kind, how, count);
     bars *b = r->bars = take(&r->allocator, 1, sizeof *b);
     if (!b) return fail(err, MOTUS_MEMORY, "no memory for bars of error");
-    *b = (bars){.kind = def->error, .given_x = def->x, .given_v = def->v};
-    const motus_system *s = r->system;
-    const bool kinked = s->model && !s->problem.traits.smooth;
-    return differences_create(&b->differences, s, def->error == MOTUS_BARS_FULL, kinked, err);
+    *b = (bars){.kind = kind, .count = count};
+    b->columns = take(&r->allocator, count, sizeof *b->columns);
+    b->memory = take(&r->allocator, differences_size(&shape), sizeof *b->memory);
+    if (!b->columns || !b->memory) return fail(err, MOTUS_MEMORY, "no memory for bars of error");
+    for (size_t k = 0; k < count; k++) b->columns[k] = columns ? columns[k] : k;
+    differences_place(&b->differences, &shape, b->memory);
+    return MOTUS_OK;
 }
 
 void bars_destroy(motus_run *r)
@@ -49,7 +64,8 @@ void bars_destroy(motus_run *r)
     if (!r->bars) return;
     companion_end(&r->bars->half, &r->allocator);
     companion_end(&r->bars->twin, &r->allocator);
-    differences_destroy(&r->bars->differences, &r->allocator);
+    give(&r->allocator, r->bars->columns);
+    give(&r->allocator, r->bars->memory);
     give(&r->allocator, r->bars);
 }
 
@@ -99,11 +115,11 @@ static bool repeats(motus_run *r, const double *x, const double *v)
 }
 
 /* Its system, with decimals rounded to their other side, and the machine of the run. */
-static motus_status make_half(motus_run *r, motus_error *err)
+motus_status bars_ready(motus_run *r, const uint8_t *affected, motus_error *err)
 {
     companion *c = &r->bars->half;
     if (c->system) return MOTUS_OK;
-    motus_status status = shadow_create(r->system, &c->system, err);
+    motus_status status = shadow_create(r->system, affected, &c->system, err);
     if (status != MOTUS_OK) return status;
     const char *why = NULL;
     c->machine = c->system->machine;
@@ -127,18 +143,28 @@ static motus_status begin_half(motus_run *r, double *x, double *v, motus_error *
     return companion_begin(&b->half, r, t, x, v, err);
 }
 
-static motus_status take_here(motus_run *r, double t, double *x, double *v, motus_error *err)
+/* The numbers of a state of the run, of its companion or of its twin. */
+static motus_status see(motus_run *r, motus_system *s, double t, double *x, double *v, int seen, motus_error *err)
+{
+    const bars *b = r->bars;
+    return system_values(s, t, x, v, b->columns, b->count, b->differences.values[seen], err);
+}
+
+static motus_status take_here(motus_run *r, double t, double *x, double *v, bool observed, motus_error *err)
 {
     bars *b = r->bars;
     const bool twin = b->kind == MOTUS_BARS_FULL && t == b->twin.t;
-    return differences_take(&b->differences, r->system, t, x, v, b->half.system, b->half.x, b->half.v,
-                            twin ? b->twin.x : NULL, twin ? b->twin.v : NULL, err);
+    motus_status status = see(r, r->system, t, x, v, 0, err);
+    if (status == MOTUS_OK) status = see(r, b->half.system, t, b->half.x, b->half.v, 1, err);
+    if (status == MOTUS_OK && twin) status = see(r, r->system, t, b->twin.x, b->twin.v, 2, err);
+    if (status == MOTUS_OK) differences_take(&b->differences, t, observed, twin);
+    return status;
 }
 
-static motus_status begin_at(motus_run *r, motus_error *err)
+static motus_status begin_at(motus_run *r, bool observed, motus_error *err)
 {
     bars *b = r->bars;
-    motus_status status = make_half(r, err);
+    motus_status status = bars_ready(r, NULL, err);
     if (status == MOTUS_OK) status = run_sync(r, false, err);
     if (status != MOTUS_OK) return status;
     const problem *p = &r->system->problem;
@@ -161,7 +187,7 @@ static motus_status begin_at(motus_run *r, motus_error *err)
     differences_begin(&b->differences, r->timing.t0, r->timing.until);
     b->landed = stepper_time(r->stepper);
     b->steps = motus_run_steps(r);
-    if (status == MOTUS_OK) status = take_here(r, b->landed, r->x, r->v, err);
+    if (status == MOTUS_OK) status = take_here(r, b->landed, r->x, r->v, observed, err);
     return status;
 }
 
@@ -176,36 +202,31 @@ static motus_status judge(motus_run *r, motus_status status, const motus_error *
     return fail(err, status, "cancelled at t = %s", run_time_text(r, stepper_time(r->stepper), t));
 }
 
-static motus_status start(motus_run *r, motus_error *err)
+static motus_status start(motus_run *r, bool observed, motus_error *err)
 {
     motus_error theirs = motus_default_error();
     const double began = pace_now();
     r->bars->started = true;
     if (r->locate || r->locating) bars_give_up(r, "a run that locates switches has no companion");
     if (r->bars->why[0]) return MOTUS_OK;
-    const motus_status status = begin_at(r, &theirs);
+    const motus_status status = begin_at(r, observed, &theirs);
     r->bars->seconds += pace_now() - began;
     return judge(r, status, &theirs, err);
 }
 
-void bars_leg(motus_run *r)
+void bars_again(motus_run *r, bool given)
 {
-    if (!r->bars) return;
     r->bars->started = false;
-    r->bars->given_x = r->bars->given_v = true;
+    r->bars->given_x = r->bars->given_v = given;
     r->bars->why[0] = 0;
 }
 
-/* ---- landings ---- */
-
-/* Landings are equally far apart; what is left over comes first. */
-static int64_t apart(const motus_run *r)
+void bars_leg(motus_run *r)
 {
-    if (row_adaptive(&r->chosen)) return 1; /* every step has its own size */
-    const int64_t total = r->timing.total, most = total / LANDINGS_LEAST, far = total / LANDINGS;
-    const int64_t near = most < APART ? most : APART;
-    return far > near ? far : near > 1 ? near : 1;
+    if (r->bars) bars_again(r, true);
 }
+
+/* ---- landings ---- */
 
 /* Whether landing makes sense: there are bars to tell. */
 static bool alive(const bars *b) { return !b->why[0] && isnan(b->differences.until); }
@@ -213,22 +234,11 @@ static bool alive(const bars *b) { return !b->why[0] && isnan(b->differences.unt
 /* The step at which the next landing is due. */
 static int64_t due(const motus_run *r)
 {
-    const int64_t size = apart(r), before = r->bars->steps, first = r->timing.total % size;
-    return before == 0 && first ? first : before + size;
+    const int64_t before = r->bars->steps;
+    return row_adaptive(&r->chosen) ? before + 1 : differences_due(r->timing.total, before);
 }
 
-motus_status bars_room(motus_run *r, int64_t *steps, motus_error *err)
-{
-    bars *b = r->bars;
-    const int64_t now = motus_run_steps(r);
-    motus_status status = b->started ? MOTUS_OK : start(r, err);
-    *steps = INT64_MAX;
-    if (status == MOTUS_OK && alive(b) && now >= due(r)) status = bars_land(r, err);
-    if (status == MOTUS_OK && alive(b)) *steps = due(r) > now ? due(r) - now : 1;
-    return status;
-}
-
-static motus_status land(motus_run *r, double t, double *x, double *v, bool between, motus_error *err)
+static motus_status land(motus_run *r, double t, double *x, double *v, bool between, bool observed, motus_error *err)
 {
     bars *b = r->bars;
     const int64_t now = motus_run_steps(r), taken = now - b->steps;
@@ -236,23 +246,37 @@ static motus_status land(motus_run *r, double t, double *x, double *v, bool betw
     motus_status status = companion_land(&b->half, r, t, taken > 0 ? taken : 1, err);
     if (status == MOTUS_OK && !strcmp(r->card->family, "exact")) status = companion_jog(&b->half, r, err);
     if (status == MOTUS_OK && b->kind == MOTUS_BARS_FULL && !between) status = companion_repeat(&b->twin, r, err);
-    if (status == MOTUS_OK) status = take_here(r, t, x, v, err);
+    if (status == MOTUS_OK) status = take_here(r, t, x, v, observed, err);
     b->landed = t;
     b->steps = between ? now - 1 : now;
     b->seconds += pace_now() - began;
     return status;
 }
 
-motus_status bars_land(motus_run *r, motus_error *err)
+static motus_status land_here(motus_run *r, bool observed, motus_error *err)
 {
     bars *b = r->bars;
     const double t = stepper_time(r->stepper), way = r->timing.h < 0 ? -1 : 1;
     motus_error theirs = motus_default_error();
-    motus_status status = b->started ? MOTUS_OK : start(r, err);
+    motus_status status = b->started ? MOTUS_OK : start(r, observed, err);
     if (status != MOTUS_OK || !alive(b) || way * (t - b->landed) <= 0) return status;
     status = run_sync(r, false, &theirs);
-    if (status == MOTUS_OK) status = land(r, t, r->x, r->v, false, &theirs);
+    if (status == MOTUS_OK) status = land(r, t, r->x, r->v, false, observed, &theirs);
     return judge(r, status, &theirs, err);
+}
+
+motus_status bars_land(motus_run *r, motus_error *err) { return land_here(r, false, err); }
+motus_status bars_observe(motus_run *r, motus_error *err) { return land_here(r, true, err); }
+
+motus_status bars_room(motus_run *r, int64_t *steps, motus_error *err)
+{
+    bars *b = r->bars;
+    const int64_t now = motus_run_steps(r);
+    motus_status status = b->started ? MOTUS_OK : start(r, false, err);
+    *steps = INT64_MAX;
+    if (status == MOTUS_OK && alive(b) && now >= due(r)) status = bars_land(r, err);
+    if (status == MOTUS_OK && alive(b)) *steps = due(r) > now ? due(r) - now : 1;
+    return status;
 }
 
 motus_status bars_land_between(motus_run *r, double t, double *x, double *v, motus_error *err)
@@ -261,5 +285,11 @@ motus_status bars_land_between(motus_run *r, double t, double *x, double *v, mot
     const double way = r->timing.h < 0 ? -1 : 1;
     motus_error theirs = motus_default_error();
     if (!b->started || !alive(b) || way * (t - b->landed) <= 0) return MOTUS_OK;
-    return judge(r, land(r, t, x, v, true, &theirs), &theirs, err);
+    return judge(r, land(r, t, x, v, true, false, &theirs), &theirs, err);
+}
+
+double bars_of(const bars *b, double t, size_t number)
+{
+    const bool lost = !isnan(b->differences.until), known = !b->why[0] && (lost || b->landed == t);
+    return known ? differences_bar(&b->differences, number) : NAN;
 }

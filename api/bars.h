@@ -6,7 +6,7 @@
 #define API_BARS_H
 
 #include "api/companion.h"
-#include "api/differences.h"
+#include "machine/differences.h"
 
 struct bars {
     motus_bars kind;
@@ -14,6 +14,9 @@ struct bars {
     bool given_x, given_v; /* the run's state at its start is not the model's */
     bool started;
     companion half, twin; /* of about half the step; a twin of the run from a state that is an ulp away */
+    size_t count;         /* numbers that are compared: their columns */
+    size_t *columns;
+    double *memory; /* of the differences */
     differences differences;
     double landed;  /* time of the last landing */
     int64_t steps;  /* whole steps of the run before it */
@@ -21,8 +24,15 @@ struct bars {
     char why[256];  /* no bar; "": there is one */
 };
 
-/* Makes r->bars, where the definition asks for them. */
+/* Makes r->bars, where the definition asks for them, of all columns. */
 motus_status bars_prepare(motus_run *, const motus_run_def *, motus_error *);
+/* The same of these columns, of which the first are the time and the state. how: as in machine/differences.h. */
+motus_status bars_make(motus_run *, motus_bars, const size_t *columns, const int *how, size_t count, motus_error *);
+differences_shape bars_shape(const motus_system *, motus_bars, const int *how, size_t count);
+/* Makes the system of the companion, before it is needed. affected: as in api/shadow.h. */
+motus_status bars_ready(motus_run *, const uint8_t *affected, motus_error *);
+/* A run of another motion begins: with the state of the system, or (given) with one of its own. */
+void bars_again(motus_run *, bool given);
 /* A leg begins at this state; x and v NULL: the run's start. */
 void bars_leg(motus_run *);
 /* Call it before the run moves on: lands where that is due, and tells how many steps the run may take until it is due
@@ -31,8 +41,12 @@ void bars_leg(motus_run *);
 motus_status bars_room(motus_run *, int64_t *steps, motus_error *);
 /* Lands where the run stands. Fails likewise. */
 motus_status bars_land(motus_run *, motus_error *);
+/* The same; this is an observation, so it enters the numbers that are reduced. */
+motus_status bars_observe(motus_run *, motus_error *);
 /* The same at a time within its last step, where its state is x, v in the inside order. */
 motus_status bars_land_between(motus_run *, double t, double *x, double *v, motus_error *);
+/* The bar of a number at t, at which the companion has landed if it could; NaN: there is none. */
+double bars_of(const bars *, double t, size_t number);
 /* From now on there are no bars, and why. The first reason stays. */
 void bars_give_up(motus_run *, const char *format, ...) __attribute__((format(printf, 2, 3)));
 /* The run goes on compiled, and so do its companions. */

@@ -13,10 +13,20 @@
  */
 #include "api/companion.h"
 
+#include "machine/differences.h"
+
 #include <math.h>
 
 #define USUAL 0x1p-55
-#define ANY_ERROR 1e300 /* a tolerance by which error control accepts every step */
+
+chosen companion_method(const chosen *c)
+{
+    chosen method = *c;
+    if (!row_adaptive(c)) return method;
+    if (method.relative == 0) method.relative = method.absolute; /* a Taylor series takes its order from it */
+    method.absolute = DIFFERENCES_ANY_ERROR, method.least = 0, method.most = INFINITY;
+    return method;
+}
 
 motus_status companion_begin(companion *c, const motus_run *r, double t, const double *x, const double *v,
                              motus_error *err)
@@ -28,11 +38,7 @@ motus_status companion_begin(companion *c, const motus_run *r, double t, const d
     for (size_t k = 0; k < p->nx; k++) c->x[k] = x[k];
     for (size_t k = 0; k < p->nv; k++) c->v[k] = v[k];
     c->t = t;
-    chosen method = r->chosen;
-    if (row_adaptive(&method)) {
-        if (method.relative == 0) method.relative = method.absolute; /* a Taylor series takes its order from it */
-        method.absolute = ANY_ERROR, method.least = 0, method.most = INFINITY;
-    }
+    const chosen method = companion_method(&r->chosen);
     if (c->stepper) return stepper_start(c->stepper, t, r->timing.h, x, v, err);
     return stepper_create(&c->machine, &method, t, r->timing.h, x, v, &r->allocator, &c->stepper, err);
 }
@@ -45,6 +51,8 @@ static motus_status go(companion *c, double t, int64_t steps, bool adaptive, mot
     if (t == c->t) return MOTUS_OK;
     motus_status status = stepper_turn(c->stepper, c->t, (t - c->t) / (double)steps, err);
     if (status == MOTUS_OK) status = pace_advance(&c->pace, c->stepper, limit, &why, err);
+    if (status == MOTUS_OK && adaptive && stepper_time(c->stepper) != t)
+        return fail(err, MOTUS_DIVERGED, "error control refused half of a step that it had accepted");
     if (status == MOTUS_OK) status = stepper_sync(c->stepper, c->x, c->v, NULL, err);
     if (status == MOTUS_OK) c->t = t;
     return status;
@@ -53,7 +61,7 @@ static motus_status go(companion *c, double t, int64_t steps, bool adaptive, mot
 motus_status companion_land(companion *c, const motus_run *r, double t, int64_t steps, motus_error *err)
 {
     const bool adaptive = row_adaptive(&r->chosen);
-    return go(c, t, adaptive ? 2 * steps : 2 * steps + 1, adaptive, err);
+    return go(c, t, adaptive ? 2 * steps : differences_steps(steps), adaptive, err);
 }
 
 void companion_move(double *y, size_t count, const double *size, uint32_t salt)

@@ -34,6 +34,8 @@ static motus_status check(const motus_system *s, const motus_ensemble_def *d, mo
         if (d->records[r].column >= s->column_count || (unsigned)d->records[r].how > MOTUS_REDUCE_EVALUATIONS)
             return fail(err, MOTUS_ARGUMENT, "record %zu names column %zu of %zu, or no reduction", r,
                         d->records[r].column, s->column_count);
+    if ((unsigned)d->error > MOTUS_BARS_FULL)
+        return fail(err, MOTUS_ARGUMENT, "there is no kind of bars %d", (int)d->error);
     if (d->every < 1)
         return fail(err, MOTUS_ARGUMENT, "observations are every 1, 2, … steps, not %lld", (long long)d->every);
     if (d->threads < 0 || d->threads > MOTUS_THREADS_MAX)
@@ -95,56 +97,106 @@ static bool source_of(const motus_system *s, const motus_record *r, lanes_source
     }
 }
 
-/* Chooses lanes where they can compute the ensemble; else e->lanes stays NULL and e->note says why. */
-static motus_status try_lanes(motus_ensemble *e, const motus_ensemble_def *d, motus_error *err)
+/* What is recorded, as lanes see it: sources first, then what is told of steps. False: lanes cannot record it. */
+static bool list_sources(const motus_ensemble *e, const motus_system *s, lanes_source *sources, lanes_tally *tallies,
+                         lanes_def *def)
 {
-    motus_system *s = e->system;
-    lanes_source *sources = arena_room(&s->arena, e->record_count * sizeof *sources);
-    lanes_tally *tallies = arena_room(&s->arena, e->record_count * sizeof *tallies);
-    if (!sources || !tallies) return fail(err, MOTUS_MEMORY, "no memory for the ensemble");
-    size_t source_count = 0, tally_count = 0;
     for (size_t r = 0; r < e->record_count; r++) {
         const motus_record *record = &e->records[r];
         if (ensemble_tallies(record)) {
-            tallies[tally_count++] = (lanes_tally){ensemble_tally(record), r};
+            tallies[def->tally_count++] = (lanes_tally){ensemble_tally(record), r};
             continue;
         }
-        if (!source_of(s, record, &sources[source_count])) {
-            snprintf(e->note, sizeof e->note, "the exact motion is recorded, one trajectory at a time");
-            return MOTUS_OK;
-        }
-        sources[source_count++].result = r;
+        if (!source_of(s, record, &sources[def->source_count])) return false;
+        sources[def->source_count++].result = r;
     }
-    const lanes_def def = {.model = s->model,
-                           .problem = &s->problem,
-                           .chosen = &e->chosen,
-                           .vary = e->vary,
-                           .places = e->places,
-                           .place_count = e->vary_count,
-                           .sources = sources,
-                           .source_count = source_count,
-                           .tallies = tallies,
-                           .tally_count = tally_count,
-                           .t0 = e->timing.t0,
-                           .h = e->timing.h,
-                           .last = e->timing.last,
-                           .until = e->timing.until,
-                           .whole = e->timing.whole,
-                           .every = e->every,
-                           .own_clock = steps_differ(e),
-                           .lanes = d->lanes,
-                           .threads = e->threads,
-                           .fast = d->fast != 0,
-                           .allocator = &e->allocator,
-                           .progress = e->progress ? ensemble_report : NULL,
-                           .context = e};
+    def->sources = sources;
+    def->tallies = tallies;
+    return true;
+}
+
+/* Makes lanes for a system of the ensemble where they can compute it; else *out stays NULL and e->note says why. */
+static motus_status make_lanes(motus_ensemble *e, motus_system *s, const lanes_def *common, lanes **out,
+                               motus_error *err)
+{
+    lanes_source *sources = arena_room(&s->arena, (e->record_count + 1) * sizeof *sources);
+    lanes_tally *tallies = arena_room(&s->arena, (e->record_count + 1) * sizeof *tallies);
+    if (!sources || !tallies) return fail(err, MOTUS_MEMORY, "no memory for the ensemble");
+    lanes_def def = *common;
+    def.model = s->model;
+    def.problem = &s->problem;
+    if (!list_sources(e, s, sources, tallies, &def)) {
+        snprintf(e->note, sizeof e->note, "the exact motion is recorded, one trajectory at a time");
+        return MOTUS_OK;
+    }
+    for (size_t i = 0; s != e->system && i < def.source_count; i++) sources[i].how = REDUCE_FINAL;
     const char *why = lanes_refuse(&def);
     if (why) {
         snprintf(e->note, sizeof e->note, "%s", why);
         return MOTUS_OK;
     }
-    motus_status status = lanes_create(&def, &e->lanes, e->note, sizeof e->note, err);
+    motus_status status = lanes_create(&def, out, e->note, sizeof e->note, err);
     return status == MOTUS_TOOL ? MOTUS_OK : status;
+}
+
+/* The lanes of the companions, where errors are told. */
+static motus_status join_half(motus_ensemble *e, const lanes_def *common, motus_error *err)
+{
+    const motus_system *s = e->system;
+    const size_t state = s->positions + s->velocities;
+    lanes_source *sources = arena_room(&e->system->arena, (state + 1) * sizeof *sources);
+    if (!sources) return fail(err, MOTUS_MEMORY, "no memory for bars of error");
+    motus_status status = ensemble_errors_half(e, err);
+    lanes_def def = *common;
+    def.chosen = &e->half_chosen;
+    def.vary = e->half_vary;
+    def.lanes = lanes_in_block(e->lanes);
+    def.tallies = NULL;
+    if (status == MOTUS_OK) status = make_lanes(e, e->half, &def, &e->half_lanes, err);
+    if (status != MOTUS_OK || !e->half_lanes) return status;
+    for (size_t k = 0; k < state; k++) source_of(s, &(motus_record){.column = k + 1}, &sources[k]);
+    const differences_shape shape = ensemble_errors_shape(e);
+    return lanes_join(e->lanes, e->half_lanes, &shape, sources, err);
+}
+
+static void end_lanes(motus_ensemble *e)
+{
+    lanes_destroy(e->lanes);
+    lanes_destroy(e->half_lanes);
+    e->lanes = e->half_lanes = NULL;
+}
+
+/* Chooses lanes where they can compute the ensemble; else e->lanes stays NULL and e->note says why. */
+static motus_status try_lanes(motus_ensemble *e, const motus_ensemble_def *d, motus_error *err)
+{
+    const bool told = e->error != MOTUS_BARS_NONE;
+    const lanes_def common = {.chosen = &e->chosen,
+                              .vary = e->vary,
+                              .places = e->places,
+                              .place_count = e->vary_count,
+                              .t0 = e->timing.t0,
+                              .h = e->timing.h,
+                              .last = e->timing.last,
+                              .until = e->timing.until,
+                              .whole = e->timing.whole,
+                              .every = e->every,
+                              .own_clock = steps_differ(e),
+                              .lanes = d->lanes,
+                              .threads = e->threads,
+                              .fast = d->fast != 0,
+                              .allocator = &e->allocator,
+                              .progress = e->progress ? ensemble_report : NULL,
+                              .context = e};
+    if (told && (e->error == MOTUS_BARS_FULL || (common.own_clock && !row_adaptive(&e->chosen)))) {
+        snprintf(e->note, sizeof e->note, "%s: their errors are told one at a time",
+                 e->error == MOTUS_BARS_FULL ? "trajectories have two companions" : "trajectories have their own ends");
+        return MOTUS_OK;
+    }
+    motus_status status = make_lanes(e, e->system, &common, &e->lanes, err);
+    if (status != MOTUS_OK || !e->lanes || !told) return status;
+    status = join_half(e, &common, err);
+    if (!e->half_lanes) end_lanes(e);
+    return status;
 }
 
 /* Chooses one trajectory at a time, by the interpreter. */
@@ -157,8 +209,7 @@ static void choose_portable(motus_ensemble *e)
 /* What lanes have refused they would refuse again. */
 static void leave_lanes(motus_ensemble *e)
 {
-    lanes_destroy(e->lanes);
-    e->lanes = NULL;
+    end_lanes(e);
     choose_portable(e);
     snprintf(e->note, sizeof e->note, "whether the method admits a trajectory is examined one trajectory at a time");
 }
@@ -183,9 +234,9 @@ static motus_status choose_single(motus_ensemble *e, const char *wanted, motus_e
 static motus_status make(motus_ensemble *e, const motus_ensemble_def *d, motus_error *err)
 {
     motus_system *s = e->system;
-    const motus_method *card;
-    motus_status status = choice_method(s, d->method, &e->chosen, &card, err);
+    motus_status status = choice_method(s, d->method, &e->chosen, &e->card, err);
     if (status == MOTUS_OK) status = find_places(e, d, err);
+    if (status == MOTUS_OK && e->error != MOTUS_BARS_NONE) status = ensemble_errors_prepare(e, err);
     double end = d->until;
     const control_wish wish = {d->method != NULL, e->step,         d->tolerance,
                                d->shortest_step,  d->longest_step, d->absolute};
@@ -201,7 +252,7 @@ static motus_status make(motus_ensemble *e, const motus_ensemble_def *d, motus_e
     bool automatic, compiled;
     if (status == MOTUS_OK) status = choice_machine(wanted, &automatic, &compiled, err);
     if (status == MOTUS_OK && s->model && d->expected && automatic && !steps_differ(e) &&
-        choice_worth(s, &e->chosen, card, (double)d->expected * (double)e->timing.total) < 1) {
+        choice_worth(s, &e->chosen, e->card, (double)d->expected * (double)e->timing.total) < 1) {
         compiled = false;
         wanted = "interpreter";
     }
@@ -230,6 +281,7 @@ motus_status motus_ensemble_create(motus_system *s, const motus_ensemble_def *gi
                           .until = SIZE_MAX,
                           .step = d.step,
                           .record_count = d.record_count,
+                          .error = d.error,
                           .threads = d.threads  ? d.threads
                                      : s->model ? parallel_processors()
                                                 : 1,
@@ -301,15 +353,14 @@ motus_status motus_ensemble_check(motus_ensemble *e, size_t count, const double 
     return status;
 }
 
-motus_status motus_ensemble_run(motus_ensemble *e, size_t count, const double *const *values, double *const *results,
-                                double *stopped, motus_error *err)
+/* p: the room that the caller supplies. */
+static motus_status run(motus_ensemble *e, size_t count, const double *const *values, places p, motus_error *err)
 {
-    places p = {.results = results, .stopped = stopped};
-    if (!motus_error_sound(err)) return MOTUS_ARGUMENT;
     motus_status status = find_values(e, values, &p, err);
-    if (status == MOTUS_OK && !results) return fail(err, MOTUS_ARGUMENT, "motus_ensemble_run needs room for results");
+    if (status == MOTUS_OK && !p.results) return fail(err, MOTUS_ARGUMENT, "motus_ensemble_run needs room for results");
     for (size_t r = 0; status == MOTUS_OK && r < e->record_count; r++)
-        if (!results[r]) status = fail(err, MOTUS_ARGUMENT, "the room for record %zu is NULL", r);
+        if (!p.results[r] || (p.errors && !p.errors[r]))
+            status = fail(err, MOTUS_ARGUMENT, "the room for record %zu is NULL", r);
     if (status != MOTUS_OK || !count) return status;
     modes m = modes_enter();
     double began = pace_now();
@@ -319,14 +370,35 @@ motus_status motus_ensemble_run(motus_ensemble *e, size_t count, const double *c
     status = check_ends(e, &p, count, err);
     bool by_workers = status == MOTUS_OK;
     if (by_workers && e->lanes) {
-        status = lanes_run(e->lanes, count, p.values, p.until, results, stopped, err);
+        status = lanes_run(e->lanes, count, p.values, p.until, p.results, p.errors, p.stopped, err);
         by_workers = status == MOTUS_METHOD;
         if (by_workers) leave_lanes(e);
     }
-    if (by_workers) status = e->block > 0 ? ensemble_blocks(e, &p, err) : ensemble_singly(e, &p, err);
+    if (by_workers) status = e->block > 0 && !p.errors ? ensemble_blocks(e, &p, err) : ensemble_singly(e, &p, err);
     e->seconds += pace_now() - began;
     modes_leave(m);
     return status;
+}
+
+motus_status motus_ensemble_run(motus_ensemble *e, size_t count, const double *const *values, double *const *results,
+                                double *stopped, motus_error *err)
+{
+    const places p = {.results = results, .stopped = stopped};
+    return motus_error_sound(err) ? run(e, count, values, p, err) : MOTUS_ARGUMENT;
+}
+
+motus_status motus_ensemble_run_errors(motus_ensemble *e, size_t count, const double *const *values,
+                                       double *const *results, double *const *errors, double *stopped, motus_error *err)
+{
+    const places p = {.results = results, .errors = errors, .stopped = stopped};
+    if (!motus_error_sound(err)) return MOTUS_ARGUMENT;
+    if (!errors) return fail(err, MOTUS_ARGUMENT, "motus_ensemble_run_errors needs room for errors");
+    if (e && e->error == MOTUS_BARS_NONE) {
+        fail(err, MOTUS_ARGUMENT, "the ensemble tells no errors");
+        hint(err, "give `error = MOTUS_BARS_CHEAP` of the definition");
+        return MOTUS_ARGUMENT;
+    }
+    return run(e, count, values, p, err);
 }
 
 void motus_ensemble_destroy(motus_ensemble *e)
@@ -334,11 +406,15 @@ void motus_ensemble_destroy(motus_ensemble *e)
     if (!e) return;
     motus_allocator a = e->allocator;
     motus_system_hold(e->system, false);
-    lanes_destroy(e->lanes);
+    end_lanes(e);
     ensemble_workers_destroy(e);
+    motus_system_destroy(e->half);
     give(&a, e->places);
     give(&a, e->records);
     give(&a, (void *)e->values);
+    give(&a, e->compared_columns);
+    give(&a, e->compared_record);
+    give(&a, e->how);
     give(&a, e);
 }
 

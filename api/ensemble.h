@@ -21,6 +21,8 @@ typedef struct worker {
     timing timing;    /* of the trajectory that it computes */
     stepper *stepper; /* made for the first trajectory, and started again for the others; NULL */
     int number;
+    motus_run *run;  /* where errors are told: the same trajectory as a run, with the worker's stepper; NULL */
+    vary *half_vary; /* of its companion's system */
     pace pace;
     size_t trajectories; /* of the present item */
     size_t failed_at;    /* the item that failed, where status is not OK */
@@ -40,10 +42,20 @@ struct motus_ensemble {
     size_t given;                    /* arrays of values that a run is given, `until` included */
     size_t until;                    /* its index among them where it varies, or SIZE_MAX */
     double step;                     /* of the definition, or suggested; NaN: the model's */
+    const motus_method *card;
     motus_record *records;
+    /* Where errors can be told: the columns that are compared, the time and the state and then those of the records,
+     * whose reductions `how` are (NULL: none is reduced); and the number of each record among them. */
+    motus_bars error;
+    size_t compared, *compared_columns, *compared_record;
+    int *how;
+    motus_system *half; /* of the companions in lanes; NULL */
+    chosen half_chosen;
+    vary *half_vary;
     vary *vary;
-    lanes *lanes;    /* NULL: workers compute the trajectories */
-    machine machine; /* of the first worker */
+    lanes *lanes;      /* NULL: workers compute the trajectories */
+    lanes *half_lanes; /* of the companions */
+    machine machine;   /* of the first worker */
     /* `threads` of them, each prepared when it is first needed; until then all its bytes are 0 */
     worker *workers;
     size_t count, block; /* trajectories of the present run; of a block of a callback, or 0 */
@@ -68,13 +80,24 @@ motus_status ensemble_place(const motus_system *, const char *name, size_t *plac
 
 /* The arguments of a run: values, and room for results. */
 typedef struct places {
-    const double *const *values; /* at e->places */
-    const double *until;         /* where it varies; else NULL */
-    double *const *results, *stopped;
-    bool observes; /* also before the end */
+    const double *const *values;                      /* at e->places */
+    const double *until;                              /* where it varies; else NULL */
+    double *const *results, *const *errors, *stopped; /* errors NULL: none are told */
+    bool observes;                                    /* also before the end */
 } places;
 /* The timing of trajectory k. */
 motus_status ensemble_timing(const motus_ensemble *, const places *, size_t k, timing *, motus_error *);
+
+/* ensemble_errors.c: what is compared; the companion of a worker's trajectories. */
+motus_status ensemble_errors_prepare(motus_ensemble *, motus_error *);
+differences_shape ensemble_errors_shape(const motus_ensemble *);
+/* Makes the system of the companions in lanes, what varies in it, and their method. */
+motus_status ensemble_errors_half(motus_ensemble *, motus_error *);
+motus_status ensemble_errors_worker(worker *, motus_error *);
+/* Trajectory k begins, where the worker's stepper stands; `values` are what varies. */
+motus_status ensemble_errors_begin(worker *, const double *values, size_t k, motus_error *);
+void ensemble_errors_rest(worker *); /* the trajectory is over, */
+void ensemble_errors_end(worker *);  /*   and so is the worker */
 
 /* ensemble_single.c: one trajectory at a time. ensemble_block.c: blocks of a callback. */
 motus_status ensemble_singly(motus_ensemble *, const places *, motus_error *);
@@ -89,6 +112,7 @@ motus_status ensemble_each(motus_ensemble *, size_t items, motus_status (*one)(w
                            void *ctx, motus_error *);
 /* As stepper_advance, of the worker's stepper; with a progress hook, in pieces of some milliseconds. */
 motus_status ensemble_advance(worker *, stepper_limit, stepper_stop *, motus_error *);
+int ensemble_tell(void *worker, double now);
 void ensemble_workers_destroy(motus_ensemble *);
 
 #endif

@@ -3,8 +3,9 @@
  * Invariant: a trajectory has the bits of a run with its values, and is observed at the same steps as in lanes.
  * Afterwards the system has its own numbers again.
  */
-#include "api/symmetry.h"
+#include "api/bars.h"
 #include "api/ensemble.h"
+#include "api/symmetry.h"
 
 #include "core/course.h"
 #include "machine/reduction.h"
@@ -14,9 +15,10 @@
 
 typedef struct trajectory {
     worker *w;
-    double *x, *v, *kept, *now;
+    double *x, *v, *kept, *now, *values; /* now: of the records; values: what varies */
     size_t *columns;
     int64_t observations;
+    bool errors;         /* are told */
     stepper_count began; /* the stepper's counters at the start */
 } trajectory;
 
@@ -25,7 +27,8 @@ static motus_status observe(void *ctx, motus_error *err)
     trajectory *s = ctx;
     const motus_ensemble *e = s->w->e;
     const double t = stepper_time(s->w->stepper);
-    motus_status status = stepper_sync(s->w->stepper, s->x, s->v, NULL, err);
+    motus_status status = s->errors ? bars_observe(s->w->run, err) : MOTUS_OK;
+    if (status == MOTUS_OK) status = stepper_sync(s->w->stepper, s->x, s->v, NULL, err);
     if (status == MOTUS_OK)
         status = system_values(s->w->system, t, s->x, s->v, s->columns, e->record_count, s->now, err);
     for (size_t r = 0; r < e->record_count && status == MOTUS_OK; r++)
@@ -74,9 +77,9 @@ static motus_status start(trajectory *s, const double *const *values, size_t k, 
 {
     motus_ensemble *e = s->w->e;
     motus_system *y = s->w->system;
-    for (size_t i = 0; i < e->vary_count; i++) s->now[i] = values[i][k];
+    for (size_t i = 0; i < e->vary_count; i++) s->values[i] = values[i][k];
     if (y->model && e->vary_count) {
-        if (!vary_apply(s->w->vary, s->now) || !interpreter_rebind(y->interpreter))
+        if (!vary_apply(s->w->vary, s->values) || !interpreter_rebind(y->interpreter))
             return fail(err, MOTUS_MEMORY, "no memory for a trajectory");
         compiled_rebind(y->compiled);
         /* whether the velocity term does no work is judged for these parameters */
@@ -90,7 +93,7 @@ static motus_status start(trajectory *s, const double *const *values, size_t k, 
     if (y->problem.nx) memcpy(s->x, y->x0, y->problem.nx * sizeof(double));
     memcpy(s->v, y->v0, y->problem.nv * sizeof(double));
     for (size_t i = 0; i < e->vary_count && !y->model; i++)
-        *(e->places[i] < y->problem.nx ? &s->x[e->places[i]] : &s->v[e->places[i] - y->problem.nx]) = s->now[i];
+        *(e->places[i] < y->problem.nx ? &s->x[e->places[i]] : &s->v[e->places[i] - y->problem.nx]) = s->values[i];
     for (size_t i = 0; i < y->problem.nv; i++)
         if (!isfinite(s->v[i]) || (i < y->problem.nx && !isfinite(s->x[i]))) {
             err->time = e->timing.t0;
@@ -101,8 +104,13 @@ static motus_status start(trajectory *s, const double *const *values, size_t k, 
 
 static motus_status advance(void *ctx, stepper_limit limit, stepper_stop *why, motus_error *err)
 {
-    trajectory *s = ctx;
-    return ensemble_advance(s->w, limit, why, err);
+    const trajectory *s = ctx;
+    motus_run *r = s->w->run;
+    if (!s->errors) return ensemble_advance(s->w, limit, why, err);
+    r->synchronised = false;
+    const motus_status status = motus_run_step(r, limit.steps, err);
+    *why = status != MOTUS_OK ? STOP_FAILED : motus_run_done(r) ? STOP_UNTIL : STOP_STEPS;
+    return status;
 }
 
 static double result(const trajectory *s, size_t r)
@@ -113,6 +121,13 @@ static double result(const trajectory *s, size_t r)
         return tally_number(&taken, ensemble_tally(record));
     }
     return reduce_last(s->kept + r * REDUCE_KEPT, (int)record->how, (double)s->observations);
+}
+
+static double error(const trajectory *s, size_t r)
+{
+    const motus_ensemble *e = s->w->e;
+    if (ensemble_tallies(&e->records[r])) return 0;
+    return bars_of(s->w->run->bars, stepper_time(s->w->stepper), e->compared_record[r]);
 }
 
 static motus_status run(trajectory *s, const places *p, size_t k, motus_error *err)
@@ -127,6 +142,7 @@ static motus_status run(trajectory *s, const places *p, size_t k, motus_error *e
     status = w->stepper
                  ? stepper_start(w->stepper, t->t0, t->h, s->x, s->v, err)
                  : stepper_create(&w->machine, &e->chosen, t->t0, t->h, s->x, s->v, &e->allocator, &w->stepper, err);
+    if (status == MOTUS_OK && s->errors) status = ensemble_errors_begin(w, s->values, k, err);
     const course course = {
         .ctx = s, .until = t->until, .every = p->observes ? e->every : 0, .advance = advance, .observe = observe};
     return status == MOTUS_OK ? course_run(&course, err) : status;
@@ -136,30 +152,34 @@ static motus_status one_trajectory(worker *w, size_t k, void *ctx)
 {
     const motus_ensemble *e = w->e;
     const places *p = ctx;
-    const size_t nx = w->machine.problem->nx + 1, nv = w->machine.problem->nv + 1, records = e->record_count + 1,
-                 room = records > e->vary_count ? records : e->vary_count;
-    double *memory = take(&e->allocator, nx + nv + records * REDUCE_KEPT + room + records, sizeof(double));
+    const size_t nx = w->machine.problem->nx + 1, nv = w->machine.problem->nv + 1, records = e->record_count + 1;
+    double *memory = take(&e->allocator, nx + nv + records * (REDUCE_KEPT + 2) + e->vary_count, sizeof(double));
     if (!memory) return fail(&w->why, MOTUS_MEMORY, "no memory for a trajectory");
     trajectory s = {.w = w,
                     .x = memory,
                     .v = memory + nx,
                     .kept = memory + nx + nv,
                     .now = memory + nx + nv + records * REDUCE_KEPT};
-    s.columns = (size_t *)(void *)(s.now + room);
+    s.values = s.now + records;
+    s.columns = (size_t *)(void *)(s.values + e->vary_count);
+    s.errors = p->errors != NULL;
     _Static_assert(sizeof(size_t) <= sizeof(double), "columns lie where doubles would");
     for (size_t r = 0; r < e->record_count; r++) s.columns[r] = e->records[r].column;
     w->trajectories = 1;
-    motus_status status = run(&s, p, k, &w->why);
+    motus_status status = s.errors ? ensemble_errors_worker(w, &w->why) : MOTUS_OK;
+    if (status == MOTUS_OK) status = run(&s, p, k, &w->why);
     const bool stopped =
         status == MOTUS_DIVERGED || status == MOTUS_SOLVE || (status == MOTUS_CALLBACK && w->why.returned > 0);
     if (stopped || status == MOTUS_OK) {
         for (size_t r = 0; r < e->record_count; r++) p->results[r][k] = stopped ? NAN : result(&s, r);
+        for (size_t r = 0; p->errors && r < e->record_count; r++) p->errors[r][k] = stopped ? NAN : error(&s, r);
         if (p->stopped) p->stopped[k] = stopped ? w->why.time : NAN;
         status = MOTUS_OK;
         atomic_fetch_add(&w->e->done, 1);
         if (w->number == 0 && ensemble_report(w->e, (double)atomic_load(&e->done) / (double)e->count))
             status = MOTUS_CANCELLED;
     }
+    if (s.errors) ensemble_errors_rest(w);
     give(&e->allocator, memory);
     return status;
 }

@@ -13,7 +13,7 @@
 /* ---- workers ---- */
 
 /* Between two pieces of work: the caller's own thread calls the progress hook; every thread tests `stop`. */
-static int report(void *ctx, double now)
+int ensemble_tell(void *ctx, double now)
 {
     const worker *w = ctx;
     motus_ensemble *e = w->e;
@@ -51,13 +51,14 @@ static motus_status prepare_worker(motus_ensemble *e, int number, motus_error *e
     w->e = e;
     w->system = s;
     w->number = number;
-    w->pace = (pace){.seconds = 0.005, .tell = e->progress ? report : NULL, .ctx = w};
+    w->pace = (pace){.seconds = 0.005, .tell = e->progress ? ensemble_tell : NULL, .ctx = w};
     return MOTUS_OK;
 }
 
 void ensemble_workers_destroy(motus_ensemble *e)
 {
     for (int i = 0; e->workers && i < e->threads; i++) {
+        ensemble_errors_end(&e->workers[i]);
         stepper_destroy(e->workers[i].stepper);
         if (i > 0) motus_system_destroy(e->workers[i].system);
     }

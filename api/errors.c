@@ -11,13 +11,6 @@ static motus_status sound(const motus_run *r, motus_error *err)
     return MOTUS_ARGUMENT;
 }
 
-/* The bars at t, at which the companion has landed if it could. */
-static void write_bars(const bars *b, double t, const size_t *columns, size_t count, double *errors)
-{
-    const bool lost = !isnan(b->differences.until), known = !b->why[0] && (lost || b->landed == t);
-    for (size_t k = 0; k < count; k++) errors[k] = known ? differences_bar(&b->differences, columns[k]) : NAN;
-}
-
 /* The values are the run's own, also where there are no bars. */
 static motus_status tell(motus_run *r, double t, double *x, double *v, const size_t *columns, size_t count,
                          double *values, double *errors, motus_error *err)
@@ -27,7 +20,7 @@ static motus_status tell(motus_run *r, double t, double *x, double *v, const siz
         if (columns[k] >= r->system->column_count)
             return fail(err, MOTUS_ARGUMENT, "there is no column %zu", columns[k]);
     if (values) status = system_values(r->system, t, x, v, columns, count, values, err);
-    if (status == MOTUS_OK) write_bars(r->bars, t, columns, count, errors);
+    for (size_t k = 0; status == MOTUS_OK && k < count; k++) errors[k] = bars_of(r->bars, t, columns[k]);
     return status;
 }
 
@@ -77,7 +70,7 @@ motus_status motus_run_estimate(motus_run *r, motus_estimate *out, motus_error *
     status = bars_land(r, err);
     const bars *b = r->bars;
     motus_estimate ours = motus_default_estimate();
-    ours.kinked = b->differences.kinked;
+    ours.kinked = b->differences.shape.kinked;
     ours.distance = b->differences.distance;
     ours.growth = differences_ratio(&b->differences);
     ours.significant_until = b->differences.until;

@@ -279,29 +279,34 @@ static motus_status begin(motus_run *r, const motus_run_def *def, motus_error *e
     return status == MOTUS_OK ? go_on(r, 0, err) : status;
 }
 
+motus_run *run_new(motus_system *s)
+{
+    const size_t nx = s->problem.nx + 1, nv = s->problem.nv + 1, head = (sizeof(motus_run) + 63) / 64 * 64;
+    motus_run *r = take(&s->allocator, 1, head + 2 * (nx + nv) * sizeof(double) + nv * sizeof(double));
+    if (!r) return NULL;
+    r->system = s;
+    motus_system_hold(s, true);
+    r->allocator = s->allocator;
+    r->x = (double *)((char *)r + head);
+    r->v = r->x + nx;
+    r->a = r->v + nv;
+    r->mid_x = r->a + nv;
+    r->mid_v = r->mid_x + nx;
+    r->first_step = NAN;
+    return r;
+}
+
 motus_status run_create(motus_system *s, const motus_run_def *complete, const run_hint *hint, motus_run **out,
                         motus_error *err)
 {
     motus_run_def def = *complete;
     motus_status status;
     *out = NULL;
-    size_t nx = s->problem.nx + 1, nv = s->problem.nv + 1;
-    size_t head = (sizeof(motus_run) + 63) / 64 * 64;
-    motus_run *r = take(&s->allocator, 1, head + 2 * (nx + nv) * sizeof(double) + nv * sizeof(double));
+    motus_run *r = run_new(s);
     if (!r) return fail(err, MOTUS_MEMORY, "no memory for the run");
-    r->system = s;
-    motus_system_hold(s, true);
-    r->allocator = s->allocator;
-    double *room = (double *)((char *)r + head);
-    r->x = room;
-    r->v = r->x + nx;
-    r->a = r->v + nv;
-    r->mid_x = r->a + nv;
-    r->mid_v = r->mid_x + nx;
     r->progress = def.progress;
     r->context = def.context;
     r->observer = def.observer;
-    r->first_step = NAN;
     r->pace = (pace){.seconds = 0.05, .tell = def.progress ? tell : NULL, .ctx = r};
     status = choice_method(s, def.method, &r->chosen, &r->card, err);
     const control_wish wish = control_wish_of_run(&def);

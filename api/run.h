@@ -61,6 +61,8 @@ typedef struct run_hint {
 /* motus_run_create, of a complete definition: its method is none but NULL, and it wants no accuracy. */
 motus_status run_create(motus_system *, const motus_run_def *, const run_hint *, motus_run **, motus_error *);
 
+/* A run without method, machine and stepper, which holds the system. NULL: no memory. */
+motus_run *run_new(motus_system *);
 /* Fills in a timing. NaN: the model's. */
 motus_status run_timing(const motus_system *, const chosen *, double step, double until, double start, timing *,
                         motus_error *);

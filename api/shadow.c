@@ -86,14 +86,22 @@ static bool is_full(double number)
     return bits & ((1u << ZEROS) - 1);
 }
 
-static motus_status move_rounded(const motus_system *s, motus_system *shadow, motus_error *err)
+/* Whether its number follows from what a caller changes. */
+static bool changes(const motus_system *s, const uint8_t *affected, const char *name)
+{
+    parameters_target t;
+    return affected && parameters_find(s, name, &t, NULL) == MOTUS_OK && affected[t.first];
+}
+
+static motus_status move_rounded(const motus_system *s, const uint8_t *affected, motus_system *shadow, motus_error *err)
 {
     motus_parameter p = motus_default_parameter();
     double value[2];
     motus_status status = MOTUS_OK;
     if (motus_parameter_count(s) > PARAMETERS_MAX) return status;
     for (size_t k = 0; status == MOTUS_OK && motus_parameter_at(s, k, &p) == MOTUS_OK; k++) {
-        if (p.count != 1 || p.decides || value_of(s, shadow, k, value) != MOTUS_OK) continue;
+        if (p.count != 1 || p.decides || changes(s, affected, p.name) || value_of(s, shadow, k, value) != MOTUS_OK)
+            continue;
         if (value[0] != value[1] || !is_full(value[0]) || !stands_alone(s, shadow, &p)) continue;
         const double next = nextafter(value[1], INFINITY);
         status = motus_system_set(shadow, p.name, &next, 1, err);
@@ -107,13 +115,13 @@ static bool alike(const motus_system *a, const motus_system *b)
            a->model->pool_count == b->model->pool_count && a->state_count == b->state_count;
 }
 
-motus_status shadow_create(const motus_system *s, motus_system **out, motus_error *err)
+motus_status shadow_create(const motus_system *s, const uint8_t *affected, motus_system **out, motus_error *err)
 {
     *out = NULL;
     if (!s->model) return motus_system_clone(s, out, err);
     motus_error ours = motus_default_error();
     motus_status status = system_read(&s->text, true, out, &ours);
-    if (status == MOTUS_OK && alike(s, *out)) status = move_rounded(s, *out, &ours);
+    if (status == MOTUS_OK && alike(s, *out)) status = move_rounded(s, affected, *out, &ours);
     if (status == MOTUS_OK && alike(s, *out)) status = take_over(s, *out, &ours);
     if (status == MOTUS_OK && alike(s, *out)) {
         (*out)->problem.traits = s->problem.traits; /* so that it admits the same methods */

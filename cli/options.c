@@ -57,9 +57,9 @@ static const option table[] = {
      "equal work: each method's step is chosen to spend N evaluations"},
     {"--output", "-o", "FILE", WORD, AT(output), ONE | VERB_LAB,
      "write the CSV (sweep: .npy as well; lab: the page) to FILE; - is standard output"},
-    {"--error", NULL, "HOW", WORD, AT(error), VERB_RUN,
+    {"--error", NULL, "HOW", WORD, AT(error), VERB_RUN | VERB_SWEEP,
      "the error of every final number: cheap (else; by twice the work), full (three times), none"},
-    {"--errors", NULL, NULL, FLAG, AT(errors), VERB_RUN,
+    {"--errors", NULL, NULL, FLAG, AT(errors), VERB_RUN | VERB_SWEEP,
      "add the errors to the CSV: x.error for every column, and whether any digit is significant"},
     {"--columns", NULL, "A,B,C", WORD, AT(columns), VERB_RUN,
      "columns of the CSV: t, r, r'.x, x[3]', energy, \"exact x\""},
@@ -342,9 +342,15 @@ static motus_status check(const options *o, motus_error *err)
         hint(err, "cheap, full or none");
         return MOTUS_ARGUMENT;
     }
-    if (o->errors && (!o->output || (o->error && strcmp(o->error, "none") == 0))) {
-        fail(err, MOTUS_ARGUMENT, o->output ? "--errors needs errors" : "--errors needs -o, which names the CSV");
-        hint(err, o->output ? "leave --error none out" : "add -o traj.csv");
+    const bool none = o->error && strcmp(o->error, "none") == 0;
+    if (o->errors && (none || (o->verb == VERB_RUN && !o->output))) {
+        fail(err, MOTUS_ARGUMENT, none ? "--errors needs errors" : "--errors needs -o, which names the CSV");
+        hint(err, none ? "leave --error none out" : "add -o traj.csv");
+        return MOTUS_ARGUMENT;
+    }
+    if (o->verb == VERB_SWEEP && o->error && !none && !o->errors) {
+        fail(err, MOTUS_ARGUMENT, "--error %s: a sweep tells errors in columns of their own", o->error);
+        hint(err, "add --errors");
         return MOTUS_ARGUMENT;
     }
     if (o->threads > MOTUS_THREADS_MAX) {

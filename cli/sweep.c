@@ -23,13 +23,13 @@
 enum { BATCH_MOST = 1 << 16, BATCH_BYTES = 1 << 25, BATCH_MS = 500 };
 
 typedef struct batch {
-    size_t most, count, lanes; /* lanes: of all threads together */
-    double **values, **results, *stopped, *room;
+    size_t most, count, lanes;                             /* lanes: of all threads together */
+    double **values, **results, **errors, *stopped, *room; /* errors: NULL where none are told */
 } batch;
 
 static motus_status batch_begin(batch *b, const sweep *s, motus_error *err)
 {
-    size_t columns = s->grid.count + s->records.count + 1;
+    size_t columns = s->grid.count + s->records.count * (s->errors ? 2 : 1) + 1;
     int lanes = motus_ensemble_lanes(s->ensemble), threads = motus_ensemble_threads(s->ensemble);
     b->lanes = (size_t)(lanes > 0 ? lanes : 1) * (size_t)(threads > 0 ? threads : 1);
     b->most = BATCH_BYTES / sizeof(double) / columns;
@@ -41,6 +41,7 @@ static motus_status batch_begin(batch *b, const sweep *s, motus_error *err)
     if (!b->values || !b->room) return complain_memory(err);
     for (size_t k = 0; k < columns; k++) b->values[k] = b->room + k * b->most;
     b->results = b->values + s->grid.count;
+    b->errors = s->errors ? b->results + s->records.count : NULL;
     b->stopped = b->room + (columns - 1) * b->most;
     return MOTUS_OK;
 }
@@ -100,6 +101,9 @@ static motus_status create(sweep *s, stop_progress *progress, motus_error *err)
     def.threads = (int)o->threads;
     def.lanes = (int)o->lanes;
     def.fast = o->fast;
+    def.error = !s->errors                                  ? MOTUS_BARS_NONE
+                : o->error && strcmp(o->error, "full") == 0 ? MOTUS_BARS_FULL
+                                                            : MOTUS_BARS_CHEAP;
     def.expected = s->grid.total;
     def.progress = stop_progress_hook;
     def.context = progress;
@@ -162,7 +166,9 @@ static motus_status begin(sweep *s, stop_progress *progress, motus_error *err)
     s->until = own_ends ? NAN : load_until(&s->model);
     if (isnan(s->until) && !isnan(o->until))
         return fail(err, MOTUS_ARGUMENT, "--until is one end for all, and --vary until one for each: leave one out");
-    s->columns = 2 + s->grid.count + s->records.count;
+    s->errors = o->errors;
+    s->columns = 2 + s->grid.count + s->records.count + s->errors;
+    for (size_t r = 0; s->errors && r < s->records.count; r++) s->columns += sweep_record_errs(&s->records.items[r]);
     status = read_every(s, err);
     if (!status) status = create(s, progress, err);
     if (!status) status = check_ends(s, err);
@@ -188,8 +194,11 @@ static motus_status go(sweep *s, sweep_file *f, stop_progress *p, motus_error *e
         p->from = (double)f->rows / total;
         p->span = (double)count / total;
         grid_values(&s->grid, f->rows, count, b.values);
-        status = motus_ensemble_run(s->ensemble, count, (const double *const *)b.values, b.results, b.stopped, err);
-        if (!status) status = sweep_file_rows(f, count, b.values, b.results, b.stopped, err);
+        const double *const *values = (const double *const *)b.values;
+        const sweep_rows rows = {b.values, b.results, b.errors, b.stopped};
+        status = b.errors ? motus_ensemble_run_errors(s->ensemble, count, values, b.results, b.errors, b.stopped, err)
+                          : motus_ensemble_run(s->ensemble, count, values, b.results, b.stopped, err);
+        if (!status) status = sweep_file_rows(f, count, &rows, err);
         if (!status && f->rows < s->grid.total && stop_progress_hook(p, 1))
             status = fail(err, MOTUS_CANCELLED, "cancelled");
         batch_adapt(&b, stop_clock() - began);

@@ -11,9 +11,11 @@ typedef struct sweep_records {
     size_t count;
 } sweep_records;
 
-enum { SWEEP_NAME = MOTUS_NAME_MAX + 64 + 16 }; /* room for "time_of_max(…)" */
+enum { SWEEP_NAME = MOTUS_NAME_MAX + 64 + 32 }; /* room for "time_of_max(…)" and ".error" */
 motus_status sweep_records_read(sweep_records *, const load *, const char *list, motus_error *);
 void sweep_record_name(const load *, const motus_record *, char out[SWEEP_NAME]);
+/* Whether it has an error: not a number of steps, nor the time. */
+bool sweep_record_errs(const motus_record *);
 
 typedef struct sweep {
     const options *options;
@@ -26,8 +28,11 @@ typedef struct sweep {
     int absolute;
     int64_t every; /* steps between two samples for min, max and mean */
     motus_ensemble *ensemble;
-    size_t columns; /* of a row: number, varied, recorded, stopped */
-    char *head;     /* the lines above the rows of a CSV; of a .npy, the text of the file beside it */
+    /* of a row: number, varied, recorded; where errors are told, those of the records that have some, and whether any
+     * digit is significant; stopped */
+    size_t columns;
+    bool errors;
+    char *head; /* the lines above the rows of a CSV; of a .npy, the text of the file beside it */
     size_t head_length;
     char fingerprint[17]; /* a hash of everything that the numbers depend on */
 } sweep;
@@ -45,14 +50,19 @@ typedef struct sweep_file {
     uint64_t stopped;     /* how many of these trajectories stopped */
     uint64_t found;       /* rows of an earlier, interrupted command */
     char *buffer;
+    double *numbers; /* room for those of a row */
     size_t used, room;
 } sweep_file;
 
 motus_status sweep_file_check(const options *, motus_error *);
 motus_status sweep_file_open(sweep_file *, const sweep *, motus_error *);
-/* Adds `count` rows: values[axis][i], results[record][i]. After a failure the file keeps its complete rows. */
-motus_status sweep_file_rows(sweep_file *, size_t count, double *const *values, double *const *results,
-                             const double *stopped, motus_error *);
+/* Rows: values[axis][i], results[record][i], errors[record][i] (NULL: not told), stopped[i]. */
+typedef struct sweep_rows {
+    double *const *values, *const *results, *const *errors;
+    const double *stopped;
+} sweep_rows;
+/* Adds `count` rows. After a failure the file keeps its complete rows. */
+motus_status sweep_file_rows(sweep_file *, size_t count, const sweep_rows *, motus_error *);
 /* Writes everything to the disk. */
 motus_status sweep_file_finish(sweep_file *, motus_error *);
 void sweep_file_close(sweep_file *);

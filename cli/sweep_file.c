@@ -178,7 +178,8 @@ motus_status sweep_file_open(sweep_file *f, const sweep *s, motus_error *err)
     f->npy = ends_with(f->path, ".npy");
     f->room = s->columns < SIZE_MAX / 64 - BUFFER ? BUFFER + s->columns * DECIMAL_MAX : 0;
     f->buffer = f->room ? malloc(f->room) : NULL;
-    if (!f->buffer) return complain_memory(err);
+    f->numbers = malloc(s->columns * sizeof *f->numbers);
+    if (!f->buffer || !f->numbers) return complain_memory(err);
     if (strcmp(f->path, "-") == 0) {
         f->descriptor = STDOUT_FILENO;
         return put_head(f, err);
@@ -218,48 +219,56 @@ static motus_status flush(sweep_file *f, uint64_t *rows, motus_error *err)
     return cannot_write(f, code, err);
 }
 
-static void csv_row(sweep_file *f, size_t i, double *const *values, double *const *results, double stopped)
+/* The numbers of row i after its number: NaN in all that a stopped trajectory has not. Returns how many. */
+static size_t row_numbers(const sweep *s, const sweep_rows *rows, size_t i, double *out)
+{
+    size_t n = 0;
+    const bool stopped = !isnan(rows->stopped[i]);
+    bool significant = true;
+    for (size_t k = 0; k < s->grid.count; k++) out[n++] = rows->values[k][i];
+    for (size_t r = 0; r < s->records.count; r++) out[n++] = stopped ? NAN : rows->results[r][i];
+    for (size_t r = 0; s->errors && r < s->records.count; r++) {
+        if (!sweep_record_errs(&s->records.items[r])) continue;
+        significant = significant && !isinf(rows->errors[r][i]);
+        out[n++] = stopped ? NAN : rows->errors[r][i];
+    }
+    if (s->errors) out[n++] = stopped ? NAN : significant;
+    out[n++] = rows->stopped[i];
+    return n;
+}
+
+static void csv_row(sweep_file *f, size_t i, const sweep_rows *rows)
 {
     const sweep *s = f->sweep;
+    const bool stopped = !isnan(rows->stopped[i]);
+    const size_t count = row_numbers(s, rows, i, f->numbers);
     char *out = f->buffer + f->used;
     out += decimal_write_whole(f->rows, out);
-    for (size_t k = 0; k < s->grid.count; k++) {
+    for (size_t k = 0; k < count; k++) {
+        const bool last = k + 1 == count, none = k < s->grid.count ? false : last ? !stopped : stopped;
         *out++ = ',';
-        out += decimal_write(values[k][i], out);
+        if (!none) out += decimal_write(f->numbers[k], out);
     }
-    for (size_t k = 0; k < s->records.count; k++) {
-        *out++ = ',';
-        if (isnan(stopped)) out += decimal_write(results[k][i], out);
-    }
-    *out++ = ',';
-    if (!isnan(stopped)) out += decimal_write(stopped, out);
     *out++ = '\n';
     f->used = (size_t)(out - f->buffer);
 }
 
-static void npy_row(sweep_file *f, size_t i, double *const *values, double *const *results, double stopped)
+static void npy_row(sweep_file *f, size_t i, const sweep_rows *rows)
 {
-    const sweep *s = f->sweep;
-    double number = (double)f->rows, none = NAN;
-    char *out = f->buffer + f->used;
-    const size_t one = sizeof number;
-    memcpy(out, &number, one);
-    for (size_t k = 0; k < s->grid.count; k++) memcpy(out + (1 + k) * one, &values[k][i], one);
-    for (size_t k = 0; k < s->records.count; k++)
-        memcpy(out + (1 + s->grid.count + k) * one, isnan(stopped) ? &results[k][i] : &none, one);
-    memcpy(out + (s->columns - 1) * one, &stopped, one);
-    f->used += s->columns * one;
+    const size_t count = row_numbers(f->sweep, rows, i, f->numbers + 1);
+    f->numbers[0] = (double)f->rows;
+    memcpy(f->buffer + f->used, f->numbers, (count + 1) * sizeof *f->numbers);
+    f->used += (count + 1) * sizeof *f->numbers;
 }
 
-motus_status sweep_file_rows(sweep_file *f, size_t count, double *const *values, double *const *results,
-                             const double *stopped, motus_error *err)
+motus_status sweep_file_rows(sweep_file *f, size_t count, const sweep_rows *given, motus_error *err)
 {
     motus_status status = MOTUS_OK;
     uint64_t rows = f->rows; /* in the file; f->rows counts those in the buffer too */
     for (size_t i = 0; !status && i < count; i++) {
-        (f->npy ? npy_row : csv_row)(f, i, values, results, stopped[i]);
+        (f->npy ? npy_row : csv_row)(f, i, given);
         f->rows++;
-        f->stopped += !isnan(stopped[i]);
+        f->stopped += !isnan(given->stopped[i]);
         if (f->used >= BUFFER || i + 1 == count) status = flush(f, &rows, err);
     }
     f->rows = rows;
@@ -282,5 +291,6 @@ void sweep_file_close(sweep_file *f)
 {
     if (f->descriptor > STDERR_FILENO) close(f->descriptor);
     free(f->buffer);
+    free(f->numbers);
     *f = (sweep_file){.descriptor = -1};
 }

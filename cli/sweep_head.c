@@ -39,6 +39,8 @@ static void mix_axis(uint64_t *hash, const axis *a)
     mix_count(hash, a->range.logarithmic);
 }
 
+static const char *how_told(const sweep *s) { return s->options->error ? s->options->error : "cheap"; }
+
 static void fingerprint(sweep *s)
 {
     uint64_t hash = 0xCBF29CE484222325;
@@ -66,6 +68,7 @@ static void fingerprint(sweep *s)
         sweep_record_name(&s->model, &s->records.items[k], name);
         mix_text(&hash, name);
     }
+    if (s->errors) mix_text(&hash, how_told(s));
     snprintf(s->fingerprint, sizeof s->fingerprint, "%016" PRIx64, hash);
 }
 
@@ -113,6 +116,8 @@ static motus_status command(const sweep *s, file_out *f, motus_error *err)
     }
     for (size_t i = 0; !status && i < o->set.count; i++) status = option(f, "--set", o->set.items[i], err);
     if (!status) status = option(f, "--record", o->record ? o->record : "final", err);
+    if (!status && s->errors) status = option(f, "--errors", NULL, err);
+    if (!status && s->errors) status = option(f, "--error", how_told(s), err);
     if (!status) status = option(f, "--method", s->method, err);
     if (!status) status = steps(s, f, err);
     if (!status && !isnan(s->until)) status = option_number(f, "--until", s->until, err);
@@ -130,7 +135,17 @@ static const char *name_of(const sweep *s, size_t k, char out[SWEEP_NAME])
     if (k == 0) return "index";
     if (k <= s->grid.count) return s->grid.names[k - 1];
     if (k == s->columns - 1) return "stopped";
-    sweep_record_name(&s->model, &s->records.items[k - 1 - s->grid.count], out);
+    k -= 1 + s->grid.count;
+    const bool error = k >= s->records.count;
+    for (size_t r = 0, left = k - s->records.count; error; r++) {
+        if (r == s->records.count) return "significant";
+        if (sweep_record_errs(&s->records.items[r]) && left-- == 0) {
+            k = r;
+            break;
+        }
+    }
+    sweep_record_name(&s->model, &s->records.items[k], out);
+    if (error) strcat(out, ".error");
     return out;
 }
 

@@ -128,3 +128,5 @@ void sweep_record_name(const load *m, const motus_record *r, char out[SWEEP_NAME
         if (reductions[i].how == r->how) word = reductions[i].word;
     snprintf(out, SWEEP_NAME, *word ? "%s(%s)" : "%s%s", word, c.name);
 }
+
+bool sweep_record_errs(const motus_record *r) { return r->how < MOTUS_REDUCE_STEPS && r->column > 0; }

@@ -868,7 +868,7 @@ typedef struct motus_ensemble_def {
     void *context;
     uint64_t expected; /* how many trajectories will follow in all: "auto" does not compile for few; 0: many */
     int absolute;      /* as in motus_run_def */
-    int unused;
+    motus_bars error;  /* of motus_ensemble_run_errors */
 } motus_ensemble_def;
 
 /* MOTUS_NAME: a name in `vary` is neither a parameter nor an initial value. MOTUS_SHAPE: it stands for several numbers.
@@ -885,6 +885,16 @@ MOTUS_API motus_status motus_ensemble_create(motus_system *, const motus_ensembl
  * many steps away. */
 MOTUS_API motus_status motus_ensemble_run(motus_ensemble *, size_t count, const double *const *values,
                                           double *const *results, double *stopped, motus_error *);
+/* The same with the errors: errors[k], room for `count` numbers, has the bars of results[k], as motus_run_errors has
+ * those of a run; NaN where a trajectory stopped. Every trajectory has a companion of its own, and its bars are those of
+ * a run with its values (`set` with motus_system_set) that is asked at its end and at the observations. The bar of a
+ * minimum, a maximum or a mean is that of the exact motion's over the same times, and follows from its own difference
+ * between trajectory and companion; where such a record is, the companion is compared at every observation: with one
+ * after every step it takes three times the evaluations of the trajectory instead of twice. Numbers of steps have the
+ * bar 0. The results are those of motus_ensemble_run. MOTUS_ARGUMENT: the definition asks for no errors. */
+MOTUS_API motus_status motus_ensemble_run_errors(motus_ensemble *, size_t count, const double *const *values,
+                                                 double *const *results, double *const *errors, double *stopped,
+                                                 motus_error *);
 /* Whether motus_ensemble_run would take these values: MOTUS_OK, or what it would return before it computes anything. */
 MOTUS_API motus_status motus_ensemble_check(motus_ensemble *, size_t count, const double *const *values, motus_error *);
 MOTUS_API void motus_ensemble_destroy(motus_ensemble *);

@@ -97,6 +97,17 @@ static size_t list_observed(const lanes_def *d, observed list[OBSERVED_MAX], siz
     return count;
 }
 
+/* Where a source is found. */
+static lanes_record place_of(const lanes_source *s, const observed *quantities, size_t observed_count)
+{
+    static const int from[] = {
+        [SOURCE_TIME] = LANES_TIME, [SOURCE_X] = LANES_X, [SOURCE_V] = LANES_V, [SOURCE_DEFINITION] = LANES_OUT};
+    size_t first = 0;
+    for (size_t k = 0; k < observed_count; k++)
+        if (s->kind == SOURCE_DEFINITION && quantities[k].definition == s->definition) first = quantities[k].first;
+    return (lanes_record){.how = s->how, .from = from[s->kind], .element = (whole)(first + s->place)};
+}
+
 #define CALL "(host->pool, host->q, host->u, host->bound, host->own, "
 
 /* Writes the table of records. */
@@ -106,12 +117,8 @@ static void write_records(emit_text *t, const lanes_def *d, const observed *quan
     emit_add(t, "static const lanes_record the_records[] = {");
     for (size_t i = 0; i < d->source_count; i++) {
         const lanes_source *s = &d->sources[i];
-        size_t first = 0;
-        for (size_t k = 0; k < observed_count; k++)
-            if (s->kind == SOURCE_DEFINITION && quantities[k].definition == s->definition) first = quantities[k].first;
-        static const int from[] = {
-            [SOURCE_TIME] = LANES_TIME, [SOURCE_X] = LANES_X, [SOURCE_V] = LANES_V, [SOURCE_DEFINITION] = LANES_OUT};
-        emit_add(t, "%s{%d, %d, %zu}", i ? ", " : "", s->how, from[s->kind], first + s->place);
+        const lanes_record place = place_of(s, quantities, observed_count);
+        emit_add(t, "%s{%d, %d, %lld}", i ? ", " : "", place.how, place.from, (long long)place.element);
         observing |= s->how != REDUCE_FINAL;
         velocity |= s->how != REDUCE_FINAL && (s->kind == SOURCE_V || s->kind == SOURCE_DEFINITION);
     }
@@ -266,6 +273,7 @@ static bool prepare(lanes *l)
     l->carry_size = lines(l, l->carried);
     l->kept_size = lines(l, d->source_count * REDUCE_KEPT);
     l->clock_size = d->own_clock ? lines(l, LANES_CLOCKS) : 0;
+    l->known_size = l->plan.carried ? lines(l, m->nv) + lines(l, 1) : 0;
     l->work_size = lines(l, stepper_arrays(l->plan) * m->nv);
     l->solve_size =
         (l->solving * (size_t)l->groups + ALIGNMENT - 1) / ALIGNMENT * ALIGNMENT / sizeof(double) + lines(l, 1);
@@ -323,4 +331,21 @@ void lanes_destroy(lanes *l)
 {
     if (l && l->handle) dlclose(l->handle);
     if (l) l->handle = NULL;
+}
+
+motus_status lanes_join(lanes *l, lanes *half, const differences_shape *shape, const lanes_source *state,
+                        motus_error *err)
+{
+    observed quantities[OBSERVED_MAX];
+    size_t outs;
+    const size_t observed_count = list_observed(&l->def, quantities, &outs), first = shape->count - l->def.source_count;
+    l->half = half;
+    l->shape = *shape;
+    l->compared = arena_take(l->def.model->arena, shape->count * sizeof *l->compared);
+    if (!l->compared) return fail(err, MOTUS_MEMORY, "no memory for bars of error");
+    for (size_t k = 0; k < shape->count; k++) {
+        const lanes_source *s = k >= first ? &l->def.sources[k - first] : k ? &state[k - 1] : NULL;
+        l->compared[k] = s ? place_of(s, quantities, observed_count) : (lanes_record){.from = LANES_TIME};
+    }
+    return MOTUS_OK;
 }

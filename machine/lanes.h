@@ -9,6 +9,7 @@
 #include "core/methods.h"
 #include "core/tally.h"
 #include "lang/model/vary.h"
+#include "machine/differences.h"
 
 typedef struct lanes lanes;
 
@@ -54,11 +55,15 @@ const char *lanes_refuse(const lanes_def *);
  * there is no object. */
 motus_status lanes_create(const lanes_def *, lanes **, char *note, size_t size, motus_error *);
 void lanes_destroy(lanes *);
-/* values[k][i], until[i] (NULL: that of the definition), results[r][i], stopped[i] (may be NULL) for i < count.
+/* Joins these lanes with those of their companions, which have as many lanes in a block and the same sources, of which
+ * none is reduced. Compared are, as `shape` says, the time, the numbers of the state and the sources. MOTUS_MEMORY. */
+motus_status lanes_join(lanes *, lanes *half, const differences_shape *, const lanes_source *state, motus_error *);
+/* values[k][i], until[i] (NULL: that of the definition), results[r][i], errors[r][i] (NULL: none are told; else of lanes
+ * that are joined), stopped[i] (may be NULL) for i < count.
  * MOTUS_METHOD, with no error: the row may not admit the parameters of some trajectory, which is decided one trajectory
  * at a time. */
 motus_status lanes_run(lanes *, size_t count, const double *const *values, const double *until, double *const *results,
-                       double *stopped, motus_error *);
+                       double *const *errors, double *stopped, motus_error *);
 int lanes_in_block(const lanes *);
 
 #endif

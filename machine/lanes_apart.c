@@ -5,6 +5,10 @@
  * to ENDING, and the next one of WAITING takes its lane. So whole blocks take the first steps, which have formulas of
  * their own, and the shorter last steps.
  *
+ * Where errors are told a block of companions goes beside each: the companion of a trajectory has its lane there, and
+ * moves with it. After every candidate of the trajectories the companions of those that accepted it take the two
+ * halves of the step.
+ *
  * Invariant: a trajectory moves with all its numbers, so its bits depend neither on its lane nor on its neighbours.
  */
 #include "machine/lanes_parts.h"
@@ -16,17 +20,18 @@
 
 enum { RUNNING, WAITING, ENDING, BLOCKS };
 
-typedef struct trajectory { /* of one lane */
-    size_t number;          /* NO_TRAJECTORY: the lane is free */
-    int64_t whole;          /* steps to its end; adaptive: unknown */
-    double last;            /* size of the shorter step after them; 0: none */
-    int64_t observations;   /* so far, */
-    int64_t observed;       /*   and the number of steps at the last one */
+typedef struct trajectory {     /* of one lane */
+    size_t number;              /* NO_TRAJECTORY: the lane is free */
+    int64_t whole;              /* steps to its end; adaptive: unknown */
+    double last;                /* size of the shorter step after them; 0: none */
+    int64_t observations;       /* so far, */
+    int64_t observed;           /*   and the number of steps at the last one */
+    lanes_companion *companion; /* of the trajectory in this lane; NULL: errors are not told */
 } trajectory;
 #define NO_TRAJECTORY SIZE_MAX
 
 typedef struct apart_block {
-    lanes_block block;
+    lanes_block block, half;  /* half: of the companions */
     trajectory *trajectories; /* of its lanes */
 } apart_block;
 
@@ -46,10 +51,11 @@ size_t lanes_apart_size(const lanes *l) { return BLOCKS * lines(l, sizeof(trajec
 
 /* ---- one lane ---- */
 
-static double *clock_of(const apart_block *b, size_t lane, int k)
+static double *clock_at(const lanes_block *b, size_t lane, int k)
 {
-    return &b->block.job.clocks[lane_at(b->block.l, LANES_CLOCKS, (size_t)k, lane)];
+    return &b->job.clocks[lane_at(b->l, LANES_CLOCKS, (size_t)k, lane)];
 }
+static double *clock_of(const apart_block *b, size_t lane, int k) { return clock_at(&b->block, lane, k); }
 static int64_t steps_of(const apart_block *b, size_t lane) { return (int64_t)*clock_of(b, lane, LANES_N); }
 static bool occupied(const apart_block *b, size_t lane) { return b->trajectories[lane].number != NO_TRAJECTORY; }
 static bool stopped(const apart_block *b, size_t lane) { return !isnan(b->block.stopped[lane]); }
@@ -73,17 +79,27 @@ static void copy(const lanes *l, double *to, size_t at, const double *from, size
     for (size_t k = 0; k < elements; k++) to[lane_at(l, elements, k, at)] = from[lane_at(l, elements, k, lane)];
 }
 
-static void move(const apart_block *from, size_t lane, const apart_block *to, size_t at)
+/* Copies what a lane of a block is, but for the time at which it stopped. */
+static void copy_lane(const lanes_block *from, size_t lane, const lanes_block *to, size_t at)
 {
-    const lanes *l = from->block.l;
-    const lanes_job *source = &from->block.job, *target = &to->block.job;
+    const lanes *l = from->l;
+    const lanes_job *source = &from->job, *target = &to->job;
     copy(l, target->host.own, at, source->host.own, lane, source->own_size);
     copy(l, target->host.bound, at, source->host.bound, lane, source->bound_size);
     copy(l, target->carry, at, source->carry, lane, l->carried);
     copy(l, target->kept, at, source->kept, lane, l->def.source_count * REDUCE_KEPT);
     copy(l, target->clocks, at, source->clocks, lane, LANES_CLOCKS);
+    lanes_block_forget(to, at);
+}
+
+static void move(const apart_block *from, size_t lane, const apart_block *to, size_t at)
+{
+    lanes_companion *other = to->trajectories[at].companion;
+    copy_lane(&from->block, lane, &to->block, at);
+    if (other) copy_lane(&from->half, lane, &to->half, at);
     to->block.stopped[at] = from->block.stopped[lane];
     to->trajectories[at] = from->trajectories[lane];
+    from->trajectories[lane].companion = other;
     free_lane(from, lane);
 }
 
@@ -92,6 +108,7 @@ static void finish(apart *s, const apart_block *b, size_t lane)
     const trajectory *p = &b->trajectories[lane];
     const int64_t steps = s->adaptive ? steps_of(b, lane) : p->whole + (p->last != 0);
     lanes_block_result(&b->block, s->item->call, lane, p->number, p->observations, steps);
+    if (p->companion) lanes_block_errors(s->item->call, p->companion, stopped(b, lane), p->number);
     atomic_fetch_add(&s->item->call->done, 1);
     free_lane(b, lane);
 }
@@ -214,7 +231,94 @@ static void set_lane(apart *s, size_t lane, size_t k)
         [LANES_RISE] = CONTROL_RISE, [LANES_UNTIL] = until, [LANES_STOP] = NAN,
     };
     for (int i = 0; i < LANES_CLOCKS; i++) *clock_of(b, lane, i) = own[i];
-    b->trajectories[lane] = (trajectory){.number = k, .whole = way.whole, .last = way.last};
+    lanes_companion *companion = b->trajectories[lane].companion;
+    b->trajectories[lane] = (trajectory){.number = k, .whole = way.whole, .last = way.last, .companion = companion};
+    if (!companion) return;
+    for (int i = 0; i < LANES_CLOCKS; i++) *clock_at(&b->half, lane, i) = own[i];
+    lanes_companion_begin(companion, d->t0, until);
+}
+
+/* ---- the companions ---- */
+
+static bool alive(const apart_block *b, size_t lane)
+{
+    const lanes_companion *c = b->trajectories[lane].companion;
+    return occupied(b, lane) && !stopped(b, lane) && !c->failed && isnan(c->differences.until);
+}
+
+/* Where a lane of the companions goes: in two steps to t, or nowhere. */
+static void send(const lanes_block *half, size_t lane, double from, double t)
+{
+    const double h = (t - from) / 2;
+    const double own[LANES_CLOCKS] = {
+        [LANES_T0] = from, [LANES_H] = h,     [LANES_T] = from,  [LANES_RISE] = CONTROL_RISE,
+        [LANES_NEXT] = h,  [LANES_UNTIL] = t, [LANES_STOP] = NAN};
+    for (int i = 0; i < LANES_CLOCKS; i++) *clock_at(half, lane, i) = own[i];
+}
+
+/* Two candidates of each lane that is sent; a lane that cannot go on ends a call of the object, and not the others. */
+static void two_steps(const apart *s, const lanes_block *half, const bool *sent)
+{
+    for (int turn = 0; turn < 2; turn++) {
+        int64_t left = 0;
+        for (size_t i = 0; i < s->lanes; i++) {
+            const double made = *clock_at(half, i, LANES_N) + *clock_at(half, i, LANES_REFUSED);
+            const bool lost = turn && half->job.lost[i] != 0;
+            if (lost) *clock_at(half, i, LANES_UNTIL) = *clock_at(half, i, LANES_NEXT) = NAN;
+            if (sent[i] && !lost && 2 - (int64_t)made > left) left = 2 - (int64_t)made;
+        }
+        if (left > 0) half->l->run(&half->job, left, 0);
+    }
+}
+
+/* Compares those lanes of a block whose companions have landed: `now`. */
+static void compare(const apart *s, const apart_block *b, const bool *now)
+{
+    lanes_companion *list[BLOCK_MAX];
+    bool observed[BLOCK_MAX];
+    for (size_t i = 0; i < s->lanes; i++) {
+        list[i] = now[i] ? b->trajectories[i].companion : NULL;
+        observed[i] = now[i] && s->l->on_the_way && (at_end(s, b, i) || steps_of(b, i) % s->l->def.every == 0);
+    }
+    lanes_block_see(&b->block, false, 0);
+    lanes_block_see(&b->half, false, 0);
+    lanes_companion_compare(&b->block, &b->half, list, observed);
+}
+
+/* Lets the companions follow those trajectories of RUNNING that have taken more steps than `before`. */
+static void follow(const apart *s, const double *before)
+{
+    const apart_block *b = &s->blocks[RUNNING];
+    const lanes_block *half = &b->half;
+    bool sent[BLOCK_MAX], any = false, rests = false;
+    for (size_t i = 0; i < s->lanes; i++) {
+        const bool live = alive(b, i);
+        sent[i] = live && *clock_of(b, i, LANES_N) > before[i];
+        any |= sent[i];
+        rests |= live && !sent[i];
+        if (!sent[i]) *clock_at(half, i, LANES_UNTIL) = *clock_at(half, i, LANES_NEXT) = NAN;
+        if (!sent[i]) continue;
+        lanes_companion *c = b->trajectories[i].companion;
+        const double t = *clock_of(b, i, LANES_T);
+        send(half, i, c->landed, t);
+        c->landed = t;
+    }
+    if (!any) return;
+    if (rests) lanes_block_save(half);
+    two_steps(s, half, sent);
+    for (size_t i = 0; i < s->lanes; i++) {
+        if (sent[i] && *clock_at(half, i, LANES_T) != b->trajectories[i].companion->landed)
+            b->trajectories[i].companion->failed = true;
+        if (rests && alive(b, i) && !sent[i]) lanes_block_put_back(half, i);
+    }
+    compare(s, b, sent);
+}
+
+static void compare_start(const apart *s, const apart_block *b)
+{
+    bool now[BLOCK_MAX];
+    for (size_t i = 0; i < s->lanes; i++) now[i] = alive(b, i);
+    compare(s, b, now);
 }
 
 /* Begins the next trajectories in WAITING; of fixed steps, takes the first one. */
@@ -229,8 +333,10 @@ static void begin(apart *s)
         set_lane(s, i, numbers[i]);
     }
     lanes_block_begin(&b->block, item, numbers);
+    if (item->half) lanes_block_begin(&b->half, item->half, numbers);
     for (size_t i = count; i < s->lanes; i++) free_lane(b, i);
     lanes_block_stop(&b->block);
+    if (item->half) compare_start(s, b);
     s->next += count;
     s->waiting = 0;
     observe(s, b, at_end, true); /* where no step leads to the end */
@@ -317,9 +423,13 @@ static void run_adaptive(apart *s)
             const int64_t next = steps_of(b, i) / every + 1;
             *clock_of(b, i, LANES_STOP) = (double)(next * every);
         }
-    s->l->run(&b->block.job, CHUNK, 0);
+    double before[BLOCK_MAX];
+    const bool told = s->item->half != NULL;
+    for (size_t i = 0; told && i < s->lanes; i++) before[i] = *clock_of(b, i, LANES_N);
+    s->l->run(&b->block.job, told ? 1 : CHUNK, 0);
     for (size_t i = 0; i < s->lanes; i++)
         if (occupied(b, i) && b->block.job.lost[i] != 0) b->block.stopped[i] = lanes_block_time(&b->block, i);
+    if (told) follow(s, before);
 }
 
 void lanes_apart(lanes_item *item)
@@ -328,11 +438,16 @@ void lanes_apart(lanes_item *item)
     apart s = {
         .item = item, .l = l, .lanes = (size_t)l->block, .waiting = (size_t)l->block, .adaptive = l->plan.carried};
     memset(item->memory, 0, BLOCKS * item->call->block_size * sizeof(double));
+    if (item->half) memset(item->half->memory, 0, BLOCKS * item->half->call->block_size * sizeof(double));
     for (size_t k = 0; k < BLOCKS; k++) {
         void *trajectories = item->table + k * lines(l, sizeof(trajectory) / sizeof(double));
-        s.blocks[k] = (apart_block){lanes_block_of(item, k), trajectories};
+        s.blocks[k] = (apart_block){.block = lanes_block_of(item, k), .trajectories = trajectories};
+        if (item->half) s.blocks[k].half = lanes_block_of(item->half, k);
         s.blocks[k].block.job.first_observation = false;
-        for (size_t i = 0; i < s.lanes; i++) free_lane(&s.blocks[k], i);
+        for (size_t i = 0; i < s.lanes; i++) {
+            s.blocks[k].trajectories[i].companion = item->half ? &item->companions[k * s.lanes + i] : NULL;
+            free_lane(&s.blocks[k], i);
+        }
     }
     for (;;) {
         bool any;

@@ -19,7 +19,7 @@ enum { REFILLS = 16 };  /* own clocks: blocks of trajectories that pass through 
 /* Own parameters, numbers that depend on them, carry, records, clocks, times at which lanes stopped. */
 size_t lanes_block_size(const lanes *l)
 {
-    return l->own_size + l->bound_size + l->carry_size + l->kept_size + l->clock_size + lines(l, 1);
+    return l->own_size + l->bound_size + l->carry_size + l->kept_size + l->clock_size + l->known_size + lines(l, 1);
 }
 
 static size_t saved_size(const lanes *l)
@@ -69,6 +69,10 @@ lanes_block lanes_block_of(const lanes_item *b, size_t block)
     j.carry = p + l->own_size + l->bound_size;
     j.kept = j.carry + l->carry_size;
     j.clocks = l->clock_size ? j.kept + l->kept_size : NULL;
+    if (b->call->keeps && l->known_size) {
+        j.known = j.clocks + l->clock_size;
+        j.fresh = (bool *)(void *)(j.known + lines(l, m->nv));
+    }
     j.room = b->scratch;
     j.x = observed;
     j.v = observed + m->nx * n;
@@ -85,6 +89,19 @@ void lanes_block_save(const lanes_block *k)
     const lanes *l = k->l;
     memcpy(k->saved, k->job.carry, l->carry_size * sizeof(double));
     if (k->job.clocks) memcpy(k->saved + l->carry_size, k->job.clocks, l->clock_size * sizeof(double));
+}
+
+void lanes_block_forget(const lanes_block *k, size_t lane)
+{
+    if (k->job.fresh) k->job.fresh[lane / (size_t)k->l->width] = false;
+}
+
+void lanes_block_put_back(const lanes_block *k, size_t lane)
+{
+    const lanes *l = k->l;
+    lanes_block_forget(k, lane);
+    for (size_t n = 0; n < l->carried; n++)
+        k->job.carry[lane_at(l, l->carried, n, lane)] = k->saved[lane_at(l, l->carried, n, lane)];
 }
 
 /* ---- the start ---- */
@@ -256,6 +273,15 @@ void lanes_block_result(const lanes_block *b, const lanes_call *c, size_t lane, 
     if (c->stopped) c->stopped[trajectory] = stopped;
 }
 
+void lanes_block_see(const lanes_block *b, bool ends, double t)
+{
+    lanes_job j = b->job;
+    j.record_count = 0;
+    j.ends = ends;
+    j.until = t;
+    b->l->observe(&j);
+}
+
 void lanes_item_report(lanes_item *b, double more)
 {
     lanes_call *c = b->call;
@@ -268,17 +294,30 @@ bool lanes_item_over(const lanes_item *b) { return atomic_load(&b->call->cancell
 
 /* ---- all trajectories ---- */
 
+/* Gives an item its memory, which begins here. */
+static void place_item(lanes_item *b, double *memory)
+{
+    b->memory = memory;
+    b->scratch = memory + b->call->blocks * b->call->block_size;
+    b->table = b->scratch + b->call->scratch_size;
+}
+
 /* Computes one item from start to end, in the memory of its thread. */
 static void run_item(void *ctx, size_t item, int thread)
 {
     lanes_call *c = ctx;
     lanes *l = c->l;
-    lanes_item b = {.l = l, .call = c, .first = item * c->most};
+    lanes_item b = {.l = l, .call = c, .first = item * c->most}, half;
     if (lanes_item_over(&b)) return;
     b.count = c->count - b.first < c->most ? c->count - b.first : c->most;
-    b.memory = c->memory + (size_t)thread * c->thread_size;
-    b.scratch = b.memory + c->blocks * c->block_size;
-    b.table = b.scratch + c->scratch_size;
+    double *memory = c->memory + (size_t)thread * c->thread_size;
+    place_item(&b, memory);
+    if (c->half) {
+        half = (lanes_item){.l = l->half, .call = c->half, .first = b.first, .count = b.count};
+        place_item(&half, b.table + c->table_size);
+        b.half = &half;
+        b.companions = lanes_companion_place(l, half.table + c->half->table_size, c->companions);
+    }
     b.reports = thread == 0 && l->def.progress; /* only the caller's thread calls the caller's hook */
     if (l->def.own_clock) {
         lanes_apart(&b);
@@ -289,6 +328,16 @@ static void run_item(void *ctx, size_t item, int thread)
     if (b.reports) lanes_item_report(&b, 0);
 }
 
+/* The sizes of what a thread has for each block, and once. */
+static void measure(lanes_call *c)
+{
+    const lanes *l = c->l;
+    c->block_size = lanes_block_size(l);
+    c->scratch_size = lanes_scratch_size(l);
+    c->table_size =
+        l->def.own_clock ? lanes_apart_size(l) : ((size_t)l->e.moments * l->e.terms * (CHUNK + 1 + 8 + 8) + 7) / 8 * 8;
+}
+
 /* Divides the trajectories into items: several for each thread, to balance the load, but none whose blocks exceed the
  * cache. */
 static void divide_work(lanes_call *c, size_t threads)
@@ -296,28 +345,42 @@ static void divide_work(lanes_call *c, size_t threads)
     const lanes *l = c->l;
     const size_t block = (size_t)l->block, all = (c->count + block - 1) / block,
                  share = (all + 4 * threads - 1) / (4 * threads);
-    c->block_size = lanes_block_size(l);
-    c->scratch_size = lanes_scratch_size(l);
-    c->blocks = l->def.own_clock ? lanes_apart_blocks() : ITEM_BYTES / sizeof(double) / c->block_size;
+    lanes_call *half = c->half;
+    measure(c);
+    if (half) measure(half);
+    const size_t size = c->block_size + (half ? half->block_size + lanes_companion_size(l, block) : 0);
+    c->blocks = l->def.own_clock ? lanes_apart_blocks() : ITEM_BYTES / sizeof(double) / size;
     size_t most = l->def.own_clock ? REFILLS : c->blocks;
     if (most > share) most = share;
     if (most == 0) most = 1;
     if (!l->def.own_clock) c->blocks = most;
     c->most = most * block;
     c->items = (all + most - 1) / most;
-    c->table_size =
-        l->def.own_clock ? lanes_apart_size(l) : ((size_t)l->e.moments * l->e.terms * (CHUNK + 1 + 8 + 8) + 7) / 8 * 8;
     c->thread_size = c->blocks * c->block_size + c->scratch_size + c->table_size;
+    if (!half) return;
+    half->blocks = c->blocks;
+    c->companions = c->blocks * block;
+    c->thread_size += c->blocks * half->block_size + half->scratch_size + half->table_size;
+    c->thread_size += lanes_companion_size(l, c->companions);
 }
 
 motus_status lanes_run(lanes *l, size_t count, const double *const *values, const double *until, double *const *results,
-                       double *stopped, motus_error *err)
+                       double *const *errors, double *stopped, motus_error *err)
 {
     const lanes_def *d = &l->def;
     /* Threads take longer to start than a little work takes. */
     const bool little = !d->own_clock && (double)count * (double)(d->whole + 10) * d->model->graph->count < LITTLE_WORK;
     size_t threads = little ? 1 : (size_t)d->threads;
-    lanes_call c = {.l = l, .count = count, .values = values, .until = until, .results = results, .stopped = stopped};
+    lanes_call c = {.l = l,
+                    .count = count,
+                    .values = values,
+                    .until = until,
+                    .results = results,
+                    .errors = errors,
+                    .stopped = stopped};
+    lanes_call half = {.l = l->half, .count = count, .values = values, .until = until};
+    if (errors) c.half = &half;
+    c.keeps = half.keeps = errors != NULL;
     divide_work(&c, threads);
     if (threads > c.items) threads = c.items;
     double *memory = take(d->allocator, threads * c.thread_size + ALIGNMENT / sizeof(double), sizeof(double));
@@ -327,5 +390,5 @@ motus_status lanes_run(lanes *l, size_t count, const double *const *values, cons
     parallel_for((int)threads, c.items, run_item, &c);
     give(d->allocator, memory);
     if (atomic_load(&c.cancelled)) return fail(err, MOTUS_CANCELLED, "cancelled");
-    return atomic_load(&c.refused) ? MOTUS_METHOD : MOTUS_OK;
+    return atomic_load(&c.refused) || atomic_load(&half.refused) ? MOTUS_METHOD : MOTUS_OK;
 }

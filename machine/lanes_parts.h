@@ -1,5 +1,6 @@
 /* The structs and internal functions of lanes, shared by lanes.c (text and object), lanes_block.c (one block),
- * lanes_together.c (blocks whose trajectories share one clock) and lanes_apart.c (trajectories with own clocks).
+ * lanes_together.c (blocks whose trajectories share one clock), lanes_apart.c (trajectories with own clocks) and
+ * lanes_companion.c (how far a trajectory is from its companion).
  */
 #ifndef MACHINE_LANES_PARTS_H
 #define MACHINE_LANES_PARTS_H
@@ -37,8 +38,12 @@ struct lanes {
     bool on_the_way; /* some record needs observations before the end */
     size_t solving;  /* bytes of the linear systems of a group */
     size_t carried;  /* elements of a group's carry */
+    /* The lanes of the companions, and where the compared numbers are found in both; NULL: errors are not told. */
+    lanes *half;
+    differences_shape shape;
+    lanes_record *compared;
     /* sizes for one block, in doubles, whole cache lines */
-    size_t own_size, bound_size, carry_size, kept_size, clock_size, work_size, observed_size, solve_size;
+    size_t own_size, bound_size, carry_size, kept_size, clock_size, known_size, work_size, observed_size, solve_size;
 };
 
 /* Doubles for `elements` elements of every lane of a block, in whole cache lines. */
@@ -58,11 +63,14 @@ typedef struct lanes_call {
     size_t count;
     const double *const *values;
     const double *until; /* of every trajectory, or NULL: the same for all */
-    double *const *results, *stopped;
-    double *memory; /* of every thread: its blocks, its scratch, its table */
+    double *const *results, *const *errors, *stopped;
+    double *memory; /* of every thread: its blocks, its scratch, its table, all this of the companions, differences */
     size_t blocks, block_size, scratch_size, table_size, thread_size;
-    size_t items, most; /* items of work, and trajectories in one */
-    atomic_size_t done; /* trajectories */
+    struct lanes_call *half; /* of the companions: sizes and memory alone; NULL: errors are not told */
+    bool keeps;              /* accelerations from one call of the object to the next, since the calls are short */
+    size_t companions, companions_size; /* that a thread has at once, and doubles for them */
+    size_t items, most;                 /* items of work, and trajectories in one */
+    atomic_size_t done;                 /* trajectories */
     atomic_bool cancelled;
     atomic_bool refused; /* the row does not admit the parameters of some lane */
 } lanes_call;
@@ -72,13 +80,24 @@ typedef struct lanes_item {
     lanes *l;
     lanes_call *call;
     size_t first, count;
-    bool reports;                     /* calls the progress hook */
-    double *memory, *scratch, *table; /* of all blocks; of the present block; of values of time alone */
-    double t0, h;                     /* the leg that all share, */
-    int64_t n, first_row;             /*   the steps taken in it, and the first row of the table */
-    int64_t observations;             /* recorded so far */
-    bool ends;                        /* the next observation is the one at the end */
+    bool reports;                       /* calls the progress hook */
+    double *memory, *scratch, *table;   /* of all blocks; of the present block; of values of time alone */
+    double t0, h;                       /* the leg that all share, */
+    int64_t n, first_row;               /*   the steps taken in it, and the first row of the table */
+    int64_t observations;               /* recorded so far */
+    bool ends;                          /* the next observation is the one at the end */
+    struct lanes_item *half;            /* the companions, NULL: there are none; */
+    struct lanes_companion *companions; /* how far they are; */
+    double landed;                      /* of those that share a clock: when they landed last, */
+    int64_t landed_steps, due;          /*   after how many steps, and after how many they land again */
 } lanes_item;
+
+/* How far a trajectory is from its companion. */
+typedef struct lanes_companion {
+    differences differences;
+    double landed; /* when it landed last */
+    bool failed;   /* it has left the finite numbers, or did not land */
+} lanes_companion;
 
 /* One block of an item: the object's arguments, and the library's own data. */
 typedef struct lanes_block {
@@ -94,6 +113,10 @@ size_t lanes_block_size(const lanes *);
 size_t lanes_scratch_size(const lanes *);
 lanes_block lanes_block_of(const lanes_item *, size_t block);
 void lanes_block_save(const lanes_block *);
+/* Of the lane's group the accelerations are no longer known. */
+void lanes_block_forget(const lanes_block *, size_t lane);
+/* The carry of a lane is what it was when it was saved. */
+void lanes_block_put_back(const lanes_block *, size_t lane);
 /* Sets lane i of the block to the start of trajectory trajectories[i]. */
 void lanes_block_begin(const lanes_block *, const lanes_item *, const size_t *trajectories);
 /* Whether the carry of a lane that has not stopped is infinite, NaN, or so large that what is observed may be. */
@@ -110,10 +133,26 @@ double lanes_block_time(const lanes_block *, size_t lane);
 /* Writes the results of one lane, after so many observations and steps, as those of a trajectory. */
 void lanes_block_result(const lanes_block *, const lanes_call *, size_t lane, size_t trajectory, int64_t observations,
                         int64_t steps);
+/* Writes the errors of a trajectory, which may have stopped. */
+void lanes_block_errors(const lanes_call *, const lanes_companion *, bool stopped, size_t trajectory);
+/* Computes the state of a block as it is observed, and records nothing. ends: as of time `t`; else at the present time.
+ */
+void lanes_block_see(const lanes_block *, bool ends, double t);
 /* Calls the progress hook with the fraction done, `more` trajectories of this item included. */
 void lanes_item_report(lanes_item *, double more);
 /* Whether the call is cancelled, or refused: then no more is computed. */
 bool lanes_item_over(const lanes_item *);
+
+/* ---- lanes_companion.c ---- */
+
+/* Doubles for so many, and the making of them. */
+size_t lanes_companion_size(const lanes *, size_t count);
+lanes_companion *lanes_companion_place(const lanes *, double *memory, size_t count);
+void lanes_companion_begin(lanes_companion *, double t0, double until);
+/* Compares lanes of both blocks, which have been seen: those whose companions are in `list`, NULL: not this lane, where
+ * they landed last. It changes the list. */
+void lanes_companion_compare(const lanes_block *, const lanes_block *half, lanes_companion **list,
+                             const bool *observed);
 
 /* ---- lanes_together.c, lanes_apart.c ---- */
 

@@ -6,12 +6,19 @@
 #include "core/course.h"
 
 #include <math.h>
+#include <string.h>
 
 typedef struct together {
     lanes_item *item;
     size_t blocks;
     int64_t steps, every; /* the present chunk: its steps, and steps from one observation to the next; 0: none */
+    struct {
+        double t;
+        bool ends, observed;
+    } landing; /* of the companions: the time, whether it is the end, whether it is an observation */
 } together;
+
+static int64_t total_of(const lanes_def *d) { return d->whole + (d->last != 0); }
 
 static void each_block(const together *s, void (*body)(const together *, size_t))
 {
@@ -62,14 +69,50 @@ static void begin_last_leg(const together *s, size_t number)
     block.l->set(&block.job);
 }
 
+/* Begins a leg of the companions from the state where they stand. What is known of its rounding errors stays known, as
+ * in stepper_turn. */
+static void turn_block(const together *s, size_t number)
+{
+    const lanes_item *b = s->item;
+    const lanes *l = b->l;
+    const lanes_block block = lanes_block_of(b, number);
+    const bool words = l->plan.row->compensated && b->n > 0, whole = words && !l->plan.fsal;
+    const size_t width = (size_t)l->width, array = l->def.model->nv * width, group = l->carried * width;
+    lanes_block_save(&block);
+    lanes_block_see(&block, false, 0);
+    l->set(&block.job);
+    for (size_t g = 0; words && g < (size_t)l->groups; g++) /* after x and v */
+        memcpy(block.job.carry + g * group + 2 * array, block.saved + g * group + 2 * array,
+               (whole ? 2 : 1) * array * sizeof(double));
+}
+
+static void compare_block(const together *s, size_t number)
+{
+    const lanes_item *b = s->item;
+    const lanes_block run = lanes_block_of(b, number), half = lanes_block_of(b->half, number);
+    const size_t lanes = (size_t)b->l->block, first = number * lanes;
+    lanes_block_see(&run, s->landing.ends, s->landing.t);
+    lanes_block_see(&half, true, s->landing.t);
+    lanes_companion *list[BLOCK_MAX];
+    bool observed[BLOCK_MAX];
+    for (size_t i = 0; i < lanes; i++) {
+        list[i] = first + i < b->count && isnan(run.stopped[i]) ? &b->companions[first + i] : NULL;
+        observed[i] = s->landing.observed;
+        if (list[i]) list[i]->landed = s->landing.t;
+    }
+    lanes_companion_compare(&run, &half, list, observed);
+}
+
 static void end_block(const together *s, size_t number)
 {
     const lanes_item *b = s->item;
     const lanes_block block = lanes_block_of(b, number);
     const size_t first = number * (size_t)b->l->block;
-    for (size_t i = 0; i < (size_t)b->l->block && first + i < b->count; i++)
-        lanes_block_result(&block, b->call, i, b->first + first + i, b->observations,
-                           b->l->def.whole + (b->l->def.last != 0));
+    for (size_t i = 0; i < (size_t)b->l->block && first + i < b->count; i++) {
+        lanes_block_result(&block, b->call, i, b->first + first + i, b->observations, total_of(&b->l->def));
+        if (b->half)
+            lanes_block_errors(b->call, &b->companions[first + i], !isnan(block.stopped[i]), b->first + first + i);
+    }
 }
 
 /* ---- steps and observations ---- */
@@ -90,6 +133,7 @@ static void next_chunk(together *s)
     const lanes_def *d = &b->l->def;
     const int64_t left = d->whole - b->n, every = d->every, due = every - b->n % every;
     s->steps = b->n == 0 ? 1 : left < CHUNK ? left : CHUNK;
+    if (b->half && s->steps > b->due - b->n) s->steps = b->due - b->n;
     s->every = 0;
     if (!b->l->on_the_way || due > s->steps || b->n == 0) return;
     const bool end = d->last == 0 && due == left;
@@ -110,6 +154,68 @@ static void new_leg(lanes_item *b, double t0, double h)
     b->n = 0;
 }
 
+/* So many steps of a leg that begins. */
+static void leg(together *s, int64_t steps)
+{
+    lanes_item *b = s->item;
+    s->every = 0;
+    while (b->n < steps) {
+        const int64_t left = steps - b->n;
+        s->steps = b->n == 0 ? 1 : left < CHUNK ? left : CHUNK;
+        fill_table(s, s->steps);
+        each_block(s, run_block);
+        b->n += s->steps;
+    }
+}
+
+/* ---- the companions ---- */
+
+/* They land when the next landing is due, and at every observation. */
+static void next_landing(lanes_item *b, int64_t landed)
+{
+    const lanes_def *d = &b->l->def;
+    const int64_t due = differences_due(total_of(d), landed), next = (landed / d->every + 1) * d->every;
+    b->landed_steps = landed;
+    b->due = b->l->on_the_way && next < due ? next : due;
+    if (b->due > total_of(d)) b->due = total_of(d);
+}
+
+/* They land at t, where the trajectories stand after so many steps in all, and are compared. */
+static void land(together *s, int64_t steps, double t)
+{
+    lanes_item *b = s->item, *h = b->half;
+    const int64_t count = differences_steps(steps - b->landed_steps);
+    const bool ends = steps == total_of(&b->l->def);
+    together half = {.item = h, .blocks = s->blocks};
+    if (t != b->landed) {
+        fill_table(&half, 0);
+        each_block(&half, turn_block);
+        new_leg(h, b->landed, (t - b->landed) / (double)count);
+        leg(&half, count);
+    }
+    fill_table(&half, 0);
+    fill_table(s, 0);
+    s->landing.t = t;
+    s->landing.ends = ends;
+    s->landing.observed = b->l->on_the_way && (ends || steps % b->l->def.every == 0);
+    each_block(s, compare_block);
+    b->landed = t;
+    next_landing(b, steps);
+}
+
+static void begin_companions(together *s)
+{
+    lanes_item *b = s->item;
+    const lanes_def *d = &b->l->def;
+    together half = {.item = b->half, .blocks = s->blocks};
+    if (!b->half) return;
+    new_leg(b->half, d->t0, d->h);
+    each_block(&half, begin_block);
+    for (size_t k = 0; k < b->count; k++) lanes_companion_begin(&b->companions[k], d->t0, d->until);
+    b->landed = total_of(d) ? d->t0 : d->until; /* where no step leads from the start to the end, it is the end */
+    land(s, 0, b->landed);
+}
+
 static motus_status observe(void *ctx, motus_error *err)
 {
     together *s = ctx;
@@ -118,6 +224,14 @@ static motus_status observe(void *ctx, motus_error *err)
     each_block(s, observe_block);
     s->item->observations++;
     return MOTUS_OK;
+}
+
+/* Of the trajectories, after whole steps. */
+static double time_of(const lanes_item *b)
+{
+    const lanes_def *d = &b->l->def;
+    const lanes_block block = lanes_block_of(b, 0);
+    return b->n == d->whole && d->last == 0 ? d->until : lanes_block_time(&block, 0);
 }
 
 /* The object makes the observations within a chunk, this function those between two chunks. */
@@ -132,6 +246,7 @@ static motus_status whole_steps(together *s)
         b->n += s->steps;
         b->observations += s->every ? s->steps / s->every : 0;
         if (b->n == 1 && b->l->on_the_way && d->every == 1 && (d->whole > 1 || d->last != 0)) observe(s, NULL);
+        if (b->half && b->n == b->due) land(s, b->n, time_of(b));
         if (b->reports) lanes_item_report(b, (double)b->count * (double)b->n / (double)(d->whole + 1));
         if (lanes_item_over(b)) return MOTUS_CANCELLED;
     }
@@ -145,11 +260,8 @@ static void short_step(together *s)
     fill_table(s, 0);
     each_block(s, begin_last_leg);
     new_leg(b, lanes_block_time(&block, 0), b->l->def.last);
-    s->steps = 1;
-    s->every = 0;
-    fill_table(s, 1);
-    each_block(s, run_block);
-    b->n = 1;
+    leg(s, 1);
+    if (b->half) land(s, total_of(&b->l->def), b->l->def.until);
 }
 
 /* Takes all steps or none, since the observations before the end are made here and by the object. */
@@ -172,6 +284,7 @@ void lanes_together(lanes_item *b, size_t blocks)
     together s = {.item = b, .blocks = blocks};
     new_leg(b, d->t0, d->h);
     each_block(&s, begin_block);
+    begin_companions(&s);
     const course course = {.ctx = &s,
                            .until = d->until,
                            .every = b->l->on_the_way ? d->every : 0,

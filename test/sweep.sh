@@ -54,6 +54,29 @@ refuses "another tolerance is another sweep" 2 "made by another sweep" "$motus" 
 that "the head names the tolerance" grep -q -- "--method dopri5 --tolerance 1e-07 --until 5" steps.csv
 refuses "a time between samples where steps adapt" 2 "the steps of the method have no one size" "$motus" sweep osc.motus --vary F=1 --method dopri5 --until 5 --record "max(x)" --every 0.1
 
+# --- errors ---------------------------------------------------------------------------------------------------------------------
+for method in "rk4 --step 0.02" "dopri5 --tolerance 1e-7"; do
+    told=(sweep osc.motus --vary F=0.125:0.5:11 --method $method --until 5 --record "x, max(x), steps, x'" --errors -q)
+    "${told[@]}" --machine interpreter -o one.csv --force
+    that "errors by $method have columns after what is recorded" is "$(names one.csv)" "index,F,x,max(x),steps,x',x.error,max(x).error,x'.error,significant,stopped"
+    "${told[@]}" --machine compiled --threads 1 -o two.csv --force
+    that "... and the same bytes in lanes" cmp one.csv two.csv
+    "${told[@]}" --machine compiled --lanes 16 --threads 2 -o two.csv --force
+    that "... with other lanes and threads" cmp one.csv two.csv
+    head -n 8 one.csv >part.csv
+    "${told[@]}" -o part.csv --resume
+    that "... and when they are resumed" cmp one.csv part.csv
+    "$motus" run osc.motus --set F=0.125 --method $method --until 5 --json >one.json
+    sweep osc.motus --vary F=0.125:0.5:11 --method $method --until 5 --record x --errors -q >"$out"
+    that "... the error is that of the run" grep -q "\"error\": {\"x\": $(column 4 | cut -d' ' -f1)," one.json
+    refuses "... which are another sweep without" 2 "made by another sweep" "$motus" sweep osc.motus --vary F=0.125:0.5:11 --method $method --until 5 --record "x, max(x), steps, x'" -q -o one.csv --resume
+done
+refuses "the error of a time" 2 "record 1 is the time of a maximum, which has no error" "$motus" sweep osc.motus --vary F=1 --record "x, time_of_max(x)" --errors
+refuses "errors by no companion" 2 "--errors needs errors" "$motus" sweep osc.motus --vary F=1 --errors --error none
+refuses "a companion for nothing" 2 "a sweep tells errors in columns of their own" "$motus" sweep osc.motus --vary F=1 --error full
+sweep blow.motus --vary k=-1,1 --record x --errors -q >"$out"
+that "a trajectory that stops has no error" is "$(rows | sed 1d | cut -d, -f3-5)" ",,"
+
 refuses "a value at a time" 2 "x is recorded at the end of the run, not at a time" "$motus" sweep line.motus --vary a=1,2 --record "x(0)"
 that "... what there is" says "write x, or one of its values on the way: min(x), max(x), mean(x)" "$err"
 refuses "a slip in --record" 2 "there is no maxx(…) to record" "$motus" sweep line.motus --vary a=1,2 --record "maxx(x)"

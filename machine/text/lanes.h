@@ -270,13 +270,14 @@ void motus_lanes_first(const lanes_job *job) { lanes_step_once(job, true, true);
     SOLVE_NEAR(host_##g, solving_##g, lost_##g)
 #if OWN_CLOCK
 /* Every group has a workspace. */
-#define LANES_PREPARE(g)                         \
-    LANES_NEW(work_##g);                         \
-    clock scaled_##g[CONSTANTS + 1];             \
-    lanes_clock(&work_##g, job, g, scaled_##g);  \
-    host_##g.begins = false;                     \
-    lanes_place(&work_##g, &host_##g, room_##g); \
-    lanes_load(&work_##g, job->carry + g * CARRIED * FACT(w, nv));
+#define LANES_PREPARE(g)                                           \
+    LANES_NEW(work_##g);                                           \
+    clock scaled_##g[CONSTANTS + 1];                               \
+    lanes_clock(&work_##g, job, g, scaled_##g);                    \
+    host_##g.begins = false;                                       \
+    lanes_place(&work_##g, &host_##g, room_##g);                   \
+    lanes_load(&work_##g, job->carry + g * CARRIED * FACT(w, nv)); \
+    lanes_recall(&work_##g, job, g);
 #define LANES_SELECT(g) work *const w = &work_##g;
 #define LANES_TICK ((void)0)
 #else
@@ -287,6 +288,22 @@ void motus_lanes_first(const lanes_job *job) { lanes_step_once(job, true, true);
 #define LANES_SELECT(g) lanes_place(w, &host_##g, room_##g);
 #define LANES_TICK time_tick(w, EVERY)
 #endif
+/* Adaptive: the accelerations that the call before has left, and those for the next one. */
+static inline void lanes_recall(work *w, const lanes_job *job, size_t group)
+{
+    if (!ROW_adaptive || !job->known || !job->fresh[group]) return;
+    EACHV(k) w->a[k] = job->known[group * FACT(w, nv) + k];
+    w->fresh = true;
+}
+
+static inline void lanes_remember(const work *w, const lanes_job *job, size_t group)
+{
+    if (!ROW_adaptive || !job->known) return;
+    job->fresh[group] = w->fresh;
+    if (w->fresh)
+        EACHV(k) job->known[group * FACT(w, nv) + k] = w->a[k];
+}
+
 /* In an adaptive row w->fresh tells whether the accelerations of a group are known. */
 #define LANES_FRESH(w) ((void)(ROW_adaptive || ((w)->fresh = fresh)))
 #if ROW_adaptive
@@ -334,6 +351,7 @@ void motus_lanes_first(const lanes_job *job) { lanes_step_once(job, true, true);
         LANES_SELECT(g)                                         \
         lanes_store(w, job->carry + g * CARRIED * FACT(w, nv)); \
         lanes_store_clock(w, job, g);                           \
+        lanes_remember(w, job, g);                              \
     }                                                           \
     SOLVE_FAR(job, g, lost_##g)
 

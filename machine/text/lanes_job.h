@@ -39,9 +39,13 @@ typedef struct lanes_job {
     double relative, absolute, least, most; /* of error control, */
     int variables;
     const size_t *variable; /* and the variables, as in work.h */
-    double t0, h;           /*   else the time that all share, */
-    whole n;                /*   and the steps taken since t0 */
-    const double *table;    /* of the values that depend on time alone, from step `first_row` on */
+    /* Adaptive: the accelerations at the present states, nv of each group, and of each group whether they are known;
+     * motus_lanes_run reads and writes them. NULL: none are. */
+    real *known;
+    bool *fresh;
+    double t0, h;        /*   else the time that all share, */
+    whole n;             /*   and the steps taken since t0 */
+    const double *table; /* of the values that depend on time alone, from step `first_row` on */
     whole first_row;
 
     const real *values;  /* that vary: value_count of each group */

@@ -8,17 +8,18 @@
  *   - Where round-off rules, one sample of a random number has to bound another: 3 d + 1/4 of the envelope.
  *   - Where the force has kinks the companion's error is not small beside the run's: 3 d + 1/2 of a longer envelope.
  *   - With a twin, which begins an ulp away, its envelope is another sample of what the motion makes of round-off.
- * Invariant: every column is judged by its own differences; bars are never propagated through a formula.
+ * Invariant: every number is judged by its own differences; bars are never propagated through a formula.
  */
-#include "api/differences.h"
+#include "machine/differences.h"
 
 #include "lang/base/operation.h"
+#include "machine/reduction.h"
 
 #include <math.h>
 #include <string.h>
 
-/* PARTS: of the run; SLOTS: 3/16 of it, KINKED: 3/8 */
-enum { PARTS = 32, SLOTS = 6, SLOTS_KINKED = 12 };
+/* PARTS: of the run; SLOTS: 3/16 of it, KINKED: 3/8; FITTED: how many points at most the growth is fitted to */
+enum { PARTS = 32, SLOTS = 6, SLOTS_KINKED = 12, FITTED = 64 };
 #define ROUND_OFF 1e-12 /* the distance after the first part, below which round-off rules */
 /* No digit is significant: from this distance on. Where errors grow no faster than the square of the time does from
  * 1/32 of the run to its end, and not as an exponential, they still tell each other at twice that: of 11673 numbers of
@@ -29,89 +30,129 @@ enum { PARTS = 32, SLOTS = 6, SLOTS_KINKED = 12 };
 #define SLOWLY 3e3
 #define STRAIGHT 0.03 /* up to this distance the growth is fitted */
 
-motus_status differences_create(differences *f, const motus_system *s, bool full, bool kinked, motus_error *err)
+/* How many landings a long run has; the steps that are well apart; how many landings a short run has at least. */
+enum { LANDINGS = 256, APART = 16, LANDINGS_LEAST = 32 };
+
+/* Landings are equally far apart; what is left over comes first. They are apart so many steps of the run that they add
+ * little to the work, at most one step in 16 of a run of 512 steps and more, and are enough to find the time from which
+ * no digit is significant. */
+int64_t differences_due(int64_t total, int64_t landed)
 {
-    const size_t n = s->column_count;
-    *f = (differences){.count = n, .full = full, .kinked = kinked, .slots = kinked ? SLOTS_KINKED : SLOTS};
-    f->columns = take(&s->allocator, n, sizeof *f->columns);
-    f->values = take(&s->allocator, 3 * n, sizeof *f->values);
-    f->envelope = take(&s->allocator, n * (size_t)f->slots, sizeof *f->envelope);
-    f->twin = full ? take(&s->allocator, n * (size_t)f->slots, sizeof *f->twin) : NULL;
-    f->zero = take(&s->allocator, n, sizeof *f->zero);
-    if (!f->columns || !f->values || !f->envelope || (full && !f->twin) || !f->zero)
-        return fail(err, MOTUS_MEMORY, "no memory for bars of error");
-    f->other = f->values + n;
-    f->d = f->other + n;
-    for (size_t k = 0; k < n; k++) f->columns[k] = k;
-    return MOTUS_OK;
+    const int64_t most = total / LANDINGS_LEAST, far = total / LANDINGS, near = most < APART ? most : APART;
+    const int64_t size = far > near ? far : near > 1 ? near : 1, first = total % size;
+    return landed == 0 && first ? first : landed + size;
 }
 
-void differences_destroy(differences *f, const motus_allocator *a)
+/* fmax where b is a number, in one instruction */
+static inline double larger(double a, double b) { return a > b ? a : b; }
+
+/* ---- memory ---- */
+
+static int slots_of(const differences_shape *s) { return s->kinked ? SLOTS_KINKED : SLOTS; }
+static int seen_of(const differences_shape *s) { return s->full ? DIFFERENCES_SEEN_MAX : DIFFERENCES_SEEN_MAX - 1; }
+
+size_t differences_size(const differences_shape *s)
 {
-    give(a, f->columns);
-    give(a, f->values);
-    give(a, f->envelope);
-    give(a, f->twin);
-    give(a, f->zero);
+    const size_t seen = (size_t)seen_of(s), slots = (size_t)slots_of(s);
+    return s->count * (seen * (1 + (s->how ? REDUCE_KEPT : 0)) + 2 + slots * (1 + s->full));
+}
+
+static double *place(double **memory, size_t numbers)
+{
+    double *here = *memory;
+    *memory += numbers;
+    return here;
+}
+
+void differences_place(differences *f, const differences_shape *s, double *memory)
+{
+    const size_t n = s->count, rows = (size_t)slots_of(s) * n;
+    *f = (differences){.shape = *s, .slots = slots_of(s)};
+    for (int i = 0; i < seen_of(s); i++) {
+        f->values[i] = place(&memory, n);
+        if (s->how) f->kept[i] = place(&memory, n * REDUCE_KEPT);
+    }
+    f->d = place(&memory, n);
+    f->zero = place(&memory, n);
+    f->envelope = place(&memory, rows);
+    if (s->full) f->twin = place(&memory, rows);
 }
 
 void differences_begin(differences *f, double start, double until)
 {
+    const size_t n = f->shape.count, rows = (size_t)f->slots * n;
     f->start = start;
     f->length = until - start;
-    f->part = 0;
+    f->observations = f->part = 0;
     f->distance = f->first = 0;
     memset(f->most, 0, sizeof f->most);
     f->first_known = false;
     f->until = NAN;
     f->growth = (differences_growth){0};
     memset(f->scale, 0, sizeof f->scale);
-    memset(f->zero, 1, f->count);
-    memset(f->d, 0, f->count * sizeof *f->d);
-    memset(f->envelope, 0, f->count * (size_t)f->slots * sizeof *f->envelope);
-    if (f->twin) memset(f->twin, 0, f->count * (size_t)f->slots * sizeof *f->twin);
+    for (size_t k = 0; k < n; k++) f->zero[k] = 1;
+    memset(f->d, 0, n * sizeof *f->d);
+    memset(f->envelope, 0, rows * sizeof *f->envelope);
+    if (f->twin) memset(f->twin, 0, rows * sizeof *f->twin);
 }
 
 /* ---- taking ---- */
 
+/* Puts the reductions in the place of what was seen. */
+static void reduce(differences *f, int seen, bool observed)
+{
+    const int *how = f->shape.how;
+    double *values = f->values[seen], *kept = f->kept[seen];
+    for (size_t k = 0; how && k < f->shape.count; k++, kept += REDUCE_KEPT) {
+        if (how[k] == REDUCE_FINAL) continue;
+        if (observed && f->observations == 0) reduce_first(kept, values[k], 0);
+        if (observed && f->observations > 0) reduce_next(kept, how[k], values[k], 0);
+        values[k] = reduce_last(kept, how[k], (double)(f->observations + observed));
+    }
+}
+
 /* Makes the row of the part of the run that t lies in. */
 static double *row_of(differences *f, double t, double **twin)
 {
+    const size_t n = f->shape.count;
     const double done = f->length != 0 ? (t - f->start) / f->length : 1;
     const int64_t part = done < 1 ? (int64_t)(done * PARTS) : PARTS - 1;
     for (; f->part < part; f->part++) {
-        const size_t next = (size_t)((f->part + 1) % f->slots) * f->count;
-        memset(f->envelope + next, 0, f->count * sizeof *f->envelope);
-        if (f->twin) memset(f->twin + next, 0, f->count * sizeof *f->twin);
+        const size_t next = (size_t)((f->part + 1) % f->slots) * n;
+        memset(f->envelope + next, 0, n * sizeof *f->envelope);
+        if (f->twin) memset(f->twin + next, 0, n * sizeof *f->twin);
     }
-    const size_t now = (size_t)(f->part % f->slots) * f->count;
+    const size_t now = (size_t)(f->part % f->slots) * n;
     *twin = f->twin ? f->twin + now : NULL;
     return f->envelope + now;
 }
 
 /* How far the companion is from the run, by groups, in units of the group's largest number. */
-static double distance_of(differences *f, const motus_system *s)
+static double distance_of(differences *f)
 {
+    const differences_shape *s = &f->shape;
+    const double *values = f->values[0];
     double most = 0;
     for (size_t g = 0, from = 1; g < DIFFERENCES_GROUPS; g++) {
         const size_t n = g < 2 ? s->positions : s->velocities - s->positions;
         double far = 0;
         for (size_t k = from; k < from + n; k++) {
-            f->scale[g] = fmax(f->scale[g], fabs(f->values[k]));
-            far = fmax(far, f->d[k]);
+            f->scale[g] = larger(fabs(values[k]), f->scale[g]);
+            far = larger(f->d[k], far);
         }
-        f->most[g] = fmax(f->most[g], far);
-        if (f->scale[g] > 0) most = fmax(most, far / f->scale[g]);
+        f->most[g] = larger(far, f->most[g]);
+        if (f->scale[g] > 0) most = larger(far / f->scale[g], most);
         from += n;
     }
     return most;
 }
 
-/* The distance so far, for the fit of its growth. */
+/* The distance so far, for the fit of its growth; its points are apart, since they take logarithms. */
 static void grow(differences *f, double t, double now)
 {
     const double gone = fabs(t - f->start);
-    if (!(gone > 0) || !(now > 0) || now >= STRAIGHT) return;
+    if (!(gone > 0) || !(now > 0) || now >= STRAIGHT || gone < f->growth.next) return;
+    f->growth.next = gone + fabs(f->length) * ((1 - 1e-9) / FITTED);
     const double l = operation_value(OP_LOG, gone, 0, 0), y = operation_value(OP_LOG, now, 0, 0);
     differences_growth *g = &f->growth;
     g->n++;
@@ -124,41 +165,38 @@ static void judge(differences *f, double t, double now)
 {
     const bool begins = fabs(t - f->start) * PARTS < fabs(f->length) * (1 - 1e-9);
     if (begins || !f->first_known) f->first = now;
-    f->distance = fmax(begins ? 0 : f->distance, now);
+    f->distance = larger(now, begins ? 0 : f->distance);
     f->first_known = !begins;
     if (begins) return;
     grow(f, t, f->distance);
+    if (!isnan(f->until) || f->distance < LOST) return;
     const bool slowly = isnan(differences_rate(f)) && differences_ratio(f) < SLOWLY;
-    if (isnan(f->until) && f->distance >= (slowly ? LOST_SLOWLY : LOST)) f->until = t;
+    if (f->distance >= (slowly ? LOST_SLOWLY : LOST)) f->until = t;
 }
 
-motus_status differences_take(differences *f, motus_system *s, double t, double *x, double *v, motus_system *half,
-                              double *half_x, double *half_v, double *twin_x, double *twin_v, motus_error *err)
+void differences_take(differences *f, double t, bool observed, bool twin)
 {
-    double *twin, *row = row_of(f, t, &twin);
-    motus_status status = system_values(s, t, x, v, f->columns, f->count, f->values, err);
-    if (status == MOTUS_OK) status = system_values(half, t, half_x, half_v, f->columns, f->count, f->other, err);
-    if (status != MOTUS_OK) return status;
-    for (size_t k = 0; k < f->count; k++) {
-        f->d[k] = fabs(f->values[k] - f->other[k]);
-        row[k] = fmax(row[k], f->d[k]);
-        f->zero[k] = f->zero[k] && f->values[k] == 0 && f->other[k] == 0;
+    const size_t n = f->shape.count;
+    double *twins, *row = row_of(f, t, &twins), *const *seen = f->values;
+    for (int i = 0; i < 2; i++) reduce(f, i, observed);
+    for (size_t k = 0; k < n; k++) {
+        const double run = seen[0][k], other = seen[1][k];
+        f->d[k] = fabs(run - other);
+        row[k] = larger(f->d[k], row[k]);
+        if (run != 0 || other != 0) f->zero[k] = 0;
     }
-    if (twin && twin_x) {
-        status = system_values(s, t, twin_x, twin_v, f->columns, f->count, f->other, err);
-        for (size_t k = 0; status == MOTUS_OK && k < f->count; k++)
-            twin[k] = fmax(twin[k], fabs(f->values[k] - f->other[k]));
-    }
-    judge(f, t, distance_of(f, s));
-    return status;
+    if (twins && twin) reduce(f, 2, observed);
+    for (size_t k = 0; twins && twin && k < n; k++) twins[k] = larger(fabs(seen[0][k] - seen[2][k]), twins[k]);
+    f->observations += observed;
+    judge(f, t, distance_of(f));
 }
 
 /* ---- bars ---- */
 
-static double largest(const differences *f, const double *rows, size_t column)
+static double largest(const differences *f, const double *rows, size_t number)
 {
     double most = 0;
-    for (int i = 0; i < f->slots; i++) most = fmax(most, rows[(size_t)i * f->count + column]);
+    for (int i = 0; i < f->slots; i++) most = fmax(most, rows[(size_t)i * f->shape.count + number]);
     return most;
 }
 
@@ -174,23 +212,23 @@ static rule rule_of(const differences *f)
 }
 static const rule with_kinks = {3, 0.5};
 
-double differences_bar(const differences *f, size_t column)
+double differences_bar(const differences *f, size_t number)
 {
-    const double value = fabs(f->values[column]), d = f->d[column], e = largest(f, f->envelope, column);
-    if (column == 0 || f->zero[column]) return 0;
+    const double value = fabs(f->values[0][number]), d = f->d[number], e = largest(f, f->envelope, number);
+    if (number == 0 || f->zero[number] != 0) return 0;
     if (!isnan(f->until)) return INFINITY;
     if (!isfinite(value) || !isfinite(d)) return NAN;
     const double ulp = nextafter(value, INFINITY) - value;
     const rule now = rule_of(f);
     double bar = now.d * d + now.e * e;
-    if (f->twin) bar += 0.5 * largest(f, f->twin, column);
-    if (f->kinked) bar = fmax(bar, with_kinks.d * d + with_kinks.e * e);
+    if (f->twin) bar += 0.5 * largest(f, f->twin, number);
+    if (f->shape.kinked) bar = fmax(bar, with_kinks.d * d + with_kinks.e * e);
     return fmax(4 * ulp, bar);
 }
 
 double differences_worst(const differences *f, bool absolute)
 {
-    const rule now = f->kinked ? with_kinks : rule_of(f);
+    const rule now = f->shape.kinked ? with_kinks : rule_of(f);
     double worst = 0;
     if (!f->first_known) return 0; /* as long as the motion has no size of its own */
     for (size_t g = 0; g < DIFFERENCES_GROUPS; g++) {

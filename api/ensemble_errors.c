@@ -1,0 +1,129 @@
+/* Errors of an ensemble's trajectories: what is compared, and a trajectory as a run with a companion. See ensemble.h.
+ *
+ * Invariant: the bits of a trajectory are the same with and without. The companion's system is the shadow of the
+ * ensemble's, in which the same numbers vary; the values that a caller gives are doubles, and the same in both.
+ */
+#include "api/bars.h"
+#include "api/ensemble.h"
+#include "api/shadow.h"
+
+#include <string.h>
+
+/* ---- what is compared ---- */
+
+static motus_status refuse_time(const motus_record *record, size_t r, motus_error *err)
+{
+    const bool most = record->how == MOTUS_REDUCE_TIME_OF_MAX;
+    fail(err, MOTUS_ARGUMENT, "record %zu is the time of a %s, which has no error: it is one of the observed times", r,
+         most ? "maximum" : "minimum");
+    hint(err, "record the %s itself, or tell no errors", most ? "maximum" : "minimum");
+    return MOTUS_ARGUMENT;
+}
+
+motus_status ensemble_errors_prepare(motus_ensemble *e, motus_error *err)
+{
+    const motus_system *s = e->system;
+    const size_t state = 1 + s->positions + s->velocities, room = state + e->record_count;
+    bool reduced = false;
+    for (size_t r = 0; r < e->record_count; r++) {
+        const motus_record *record = &e->records[r];
+        if (record->how == MOTUS_REDUCE_TIME_OF_MIN || record->how == MOTUS_REDUCE_TIME_OF_MAX)
+            return refuse_time(record, r, err);
+        reduced = reduced || (record->how != MOTUS_REDUCE_FINAL && !ensemble_tallies(record));
+    }
+    e->compared_columns = take(&e->allocator, room, sizeof *e->compared_columns);
+    e->compared_record = take(&e->allocator, e->record_count, sizeof *e->compared_record);
+    e->how = reduced ? take(&e->allocator, room, sizeof *e->how) : NULL;
+    if (!e->compared_columns || !e->compared_record || (reduced && !e->how))
+        return fail(err, MOTUS_MEMORY, "no memory for bars of error");
+    for (size_t k = 0; k < state; k++) e->compared_columns[k] = k;
+    e->compared = state;
+    for (size_t r = 0; r < e->record_count; r++) {
+        const motus_record *record = &e->records[r];
+        e->compared_record[r] = e->compared;
+        if (ensemble_tallies(record)) continue;
+        if (reduced) e->how[e->compared] = (int)record->how;
+        e->compared_columns[e->compared++] = record->column;
+    }
+    return MOTUS_OK;
+}
+
+differences_shape ensemble_errors_shape(const motus_ensemble *e)
+{
+    return bars_shape(e->system, e->error, e->how, e->compared);
+}
+
+/* ---- in lanes ---- */
+
+motus_status ensemble_errors_half(motus_ensemble *e, motus_error *err)
+{
+    const uint8_t *affected = e->vary ? vary_affected(e->vary) : NULL;
+    motus_status status = shadow_create(e->system, affected, &e->half, err);
+    e->half_chosen = companion_method(&e->chosen);
+    if (status != MOTUS_OK) return status;
+    return vary_create(e->half->model, e->places, e->vary_count, true, true, &e->half_vary, err);
+}
+
+/* ---- a worker ---- */
+
+static int tell(void *ctx, double now)
+{
+    const motus_run *r = ctx;
+    return ensemble_tell(r->context, now);
+}
+
+motus_status ensemble_errors_worker(worker *w, motus_error *err)
+{
+    const motus_ensemble *e = w->e;
+    if (w->run) return MOTUS_OK;
+    motus_run *r = w->run = run_new(w->system);
+    if (!r) return fail(err, MOTUS_MEMORY, "no memory for bars of error");
+    r->chosen = e->chosen;
+    r->card = e->card;
+    r->machine = w->machine;
+    r->context = w;
+    r->first_step = 0; /* which nobody asks for */
+    r->pace = (pace){.seconds = w->pace.seconds, .tell = w->pace.tell ? tell : NULL, .ctx = r};
+    motus_status status = bars_make(r, e->error, e->compared_columns, e->how, e->compared, err);
+    if (status == MOTUS_OK) status = bars_ready(r, w->vary ? vary_affected(w->vary) : NULL, err);
+    if (status != MOTUS_OK || !w->vary) return status;
+    model *m = r->bars->half.system->model;
+    return vary_create(m, e->places, e->vary_count, true, true, &w->half_vary, err);
+}
+
+/* A callback that computes blocks is told which trajectory it is; other runs of the system are trajectory 0. */
+static void number_calls(motus_system *s, size_t k, size_t count)
+{
+    if (s->model || !s->callback.block) return;
+    s->calling.first = k;
+    s->calling.count = count;
+}
+
+motus_status ensemble_errors_begin(worker *w, const double *values, size_t k, motus_error *err)
+{
+    motus_run *r = w->run;
+    motus_system *half = r->bars->half.system;
+    number_calls(w->system, k, 1);
+    number_calls(half, k, 1);
+    if (w->half_vary && w->e->vary_count) {
+        if (!vary_apply(w->half_vary, values) || !interpreter_rebind(half->interpreter))
+            return fail(err, MOTUS_MEMORY, "no memory for a trajectory");
+        compiled_rebind(half->compiled);
+    }
+    r->stepper = w->stepper;
+    r->synchronised = false;
+    run_leg(r, &w->timing);
+    bars_again(r, !half->model);
+    return MOTUS_OK;
+}
+
+void ensemble_errors_rest(worker *w) { number_calls(w->system, 0, 0); }
+
+void ensemble_errors_end(worker *w)
+{
+    if (!w->run) return;
+    w->run->stepper = NULL; /* the worker's */
+    motus_run_destroy(w->run);
+    w->run = NULL;
+    w->half_vary = NULL;
+}
