@@ -173,8 +173,8 @@ that "... and a rate" says "errors grow as e^{0.04"
 that "... and prints no digit beyond it" says "x      —"
 gives "chaos in JSON" 0 "$motus" run models/henon-heiles.motus --until 900 --json
 that "... has numbers, and no errors" holds '.significant_until > 200 and .error.x == null and (.state.x | type == "number")'
-gives "a restarted run" 0 "$motus" run $osc --until 1 --save-state half.state
-gives "... does not know its error" 0 "$motus" run $osc --restart half.state
+gives "a restarted run" 0 "$motus" run $osc --until 1 --save-state "$place/half.state"
+gives "... does not know its error" 0 "$motus" run $osc --restart "$place/half.state"
 that "... and says why" says "error: not known, because the run was restored"
 that "... behind the number too" says " ±?"
 gives "--errors" 0 "$motus" run $oscillator -o - --errors --every 10 --columns "t,x" --quiet
