@@ -42,7 +42,7 @@ struct compiled {
     program *force, *boundary, *series, *boundary_series;
     locality locality;
     const tiling *tiling; /* where the outer indices can be divided; else NULL */
-    double *u;
+    double *u, *pairs;
     int64_t *q;
     /* of the last object; all give the same bits */
     void (*accel)(const compiled_host *, double t, double *x, double *v, double *a);
@@ -168,6 +168,21 @@ const char *compiled_text(compiled *c, const chosen *chosen, size_t *length)
 
 /* ---- objects ---- */
 
+enum { PAIR_CELLS_MAX = 1 << 16 };
+
+/* Room for the partial sums of all cells of a family whose pairs are taken once; NULL: they are taken twice. */
+static double *pair_room(compiled *c, const emit *e)
+{
+    const model *m = c->model;
+    if (!e->pair_sums) return NULL;
+    const range *r = &e->pair_range;
+    const int64_t first = r->first.literal + (r->first.slot >= 0 ? m->ints[r->first.slot] : 0),
+                  last = r->last.literal + (r->last.slot >= 0 ? m->ints[r->last.slot] : 0), cells = last - first + 1;
+    if (cells < 2 || cells > PAIR_CELLS_MAX) return NULL;
+    if (!c->pairs) c->pairs = arena_room(m->arena, 8 * e->pair_sums * (size_t)cells * sizeof *c->pairs);
+    return c->pairs;
+}
+
 /* The numbers that the text reads: bounds, strides, and values of parameters alone. They are the same for every row. */
 static bool bind_numbers(compiled *c, const emit *e, void (*bind)(const double *, const int64_t *, double *))
 {
@@ -176,11 +191,13 @@ static bool bind_numbers(compiled *c, const emit *e, void (*bind)(const double *
     c->u = arena_room(m->arena, (e->fixed + 1) * sizeof *c->u);
     if (!c->q || !c->u) return false;
     for (uint32_t k = 0; k < e->int_count; k++) c->q[k] = emit_int_value(&e->ints[k], m->arrays, m->ints);
+    double *pairs = pair_room(c, e);
     c->bind = bind;
     bind(m->pool, c->q, c->u);
     c->host = (compiled_host){.pool = m->pool,
                               .u = c->u,
                               .q = c->q,
+                              .own = pairs,
                               .tiling = c->tiling,
                               .thread_pool = c->host.thread_pool,
                               .parallel = parallel_pool_for};

@@ -375,6 +375,44 @@ static void exact_operations_are_left_out(void **state)
     motus_system_destroy(s);
 }
 
+/* Forces between pairs: their long part is computed once for both, wherever exchanging i and j leaves its bits as they
+ * are, and the terms reach every sum in its order. All z are 0, so signs of zeros count. */
+static void pairs_are_taken_once(void **state)
+{
+    static const struct {
+        const char *force;
+        bool once;
+    } forces[] = {
+        {"sum(j = 1..N, j != i: m[j] (r[j] - r[i])/|r[j] - r[i]|^3)", true},
+        {"-r[i] + sum(j = 1..N, i != j: m[i] m[j] (r[i] - r[j])/(1 + |r[j] - r[i]|^2)^1.5)", true},
+        {"sum(j = 1..N, j != i: (r[j]' - r[i]') exp(-|r[i] - r[j]|^2)) - 0.1 r[i]'", true},
+        {"sum(j = 1..N, j != i: (i - 2 j) (r[j] - r[i])/(|r[j] - r[i]|^3 sqrt(i + j)) + m[i] r[j])", true},
+        {"sum(j = 1..N, j != i: cos(t) (r[j] - r[i])/|r[j] - r[i]|) + sum(k = 2..N: m[k] (r[k] - r[i]))", true},
+        {"sum(j = 1..N, j != i: cos(t) (r[j] - r[i])/|r[j] - r[i]|) + sum(k = 1..N: m[k] (r[k] - r[i]))", false},
+        {"sum(j = 1..N, j != i: (r[j] - 2 r[i])/|r[j] - 2 r[i]|^3)", false},
+        {"sum(j = 2..N, j != i: (r[j] - r[i])/|r[j] - r[i]|^3)", false},
+        {"sum(j = 1..N, j > i: (r[j] - r[i])/|r[j] - r[i]|^3)", false},
+    };
+    static const int sizes[] = {2, 3, 16, 17, 24, 45};
+    (void)state;
+    for (size_t f = 0; f < sizeof forces / sizeof *forces; f++)
+        for (size_t n = 0; n < sizeof sizes / sizeof *sizes; n++) {
+            char text[800];
+            motus_error err = motus_default_error();
+            snprintf(text, sizeof text,
+                     "N = %d\nm[i] = 1/(1 + i)   for i = 1..N\nr[i]'' = %s   for i = 1..N\n"
+                     "r[i](0) = (sqrt(i) cos(2.4 i), sqrt(i) sin(2.4 i), 0)   for i = 1..N\n"
+                     "r[i]'(0) = (sin(i)/9, cos(3 i)/9, 0)   for i = 1..N\nstep 0.01\nuntil 1\n",
+                     sizes[n], forces[f].force);
+            motus_system *s = open_text(text, NULL);
+            same_bits(s, forces[f].force, "rk4");
+            const char *c = motus_compiled_text(s, "rk4", &err);
+            assert_non_null(c);
+            if ((strstr(c, "if (own && ") != NULL) != forces[f].once) fail_msg("%s", forces[f].force);
+            motus_system_destroy(s);
+        }
+}
+
 enum { TRAJECTORIES = 3 };
 
 static void ends_of(const char *machine, const double *values, double ends[TRAJECTORIES])
@@ -524,6 +562,7 @@ int main(void)
                                        cmocka_unit_test(one_object_for_all_sizes),
                                        cmocka_unit_test(exact_operations_are_left_out),
                                        cmocka_unit_test(numbers_of_trajectories),
+                                       cmocka_unit_test(pairs_are_taken_once),
                                        cmocka_unit_test(damaged_entries_are_rebuilt),
                                        cmocka_unit_test(many_variables),
                                        cmocka_unit_test(abandoned_folders_are_removed),

@@ -70,7 +70,7 @@ static void write_functions(writer *w, const char *name, bool terms)
 
 bool emit_program(emit *e, const program *p, const char *name, bool terms)
 {
-    writer w = {.e = e, .region = AT_BIND, .depth = 1, .along = -1};
+    writer w = {.e = e, .region = AT_BIND, .depth = 1, .along = -1, .pairs = NONE};
     if (plan_create(&w.plan, e->text.arena, p, false)) {
         const plan_region *bind = &w.plan.regions.at[AT_BIND];
         w.fixed = arena_room(e->text.arena, (w.plan.items.count + 1) * sizeof *w.fixed);

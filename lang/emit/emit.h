@@ -61,6 +61,10 @@ typedef struct emit {
     const double *pool;
     emit_assumed *assumed;
     uint32_t assumed_count, assumed_room;
+    /* sums over pairs that take each pair once: at most so many side by side, over so many cells. `own` is room for
+     * 8 numbers a sum and cell, or NULL: then they take every pair twice */
+    uint32_t pair_sums;
+    range pair_range;
     uint32_t terms; /* values of time alone: T[0 … terms) */
     int moments;    /* at how many different times a step evaluates them */
 } emit;

@@ -34,9 +34,8 @@ static void write_update(writer *w, const plan_item *update, const char *partial
 
 #define EACH_SUM(k, r) for (uint32_t k = (r)->sums; k != NONE; k = w->plan.sums.at[w->plan.items.at[k].sum].next)
 
-/* Whether all sums of a loop leave out the term at which two indices are equal, as in `j != i`; then a loop that takes
- * one term at a time goes on without computing it. Its levels. */
-static bool leaves_out(const writer *w, const plan_region *r, int level[2])
+/* As in `j != i`; then a loop that takes one term at a time goes on without computing it. */
+bool emit_leaves_out(const writer *w, const plan_region *r, int level[2])
 {
     const graph_node *nodes = w->plan.g->nodes;
     node condition = 0;
@@ -96,6 +95,10 @@ static void write_sum(writer *w, uint32_t region)
     const int level = r->level;
     const bool skipping = w->skips;
     int equal[2];
+    if (region == w->pairs) {
+        emit_pair_sums(w, region);
+        return;
+    }
     w->skips = false;
     emit_bound(w, &r->range.first, first);
     emit_bound(w, &r->range.last, last);
@@ -113,7 +116,7 @@ static void write_sum(writer *w, uint32_t region)
     emit_line(w, "for (; m%d < n%d; m%d++) {", level, level, level);
     w->depth++;
     emit_line(w, "const int64_t j%d = f%d + m%d, k = n%d > 16 ? m%d & 7 : 0;", level, level, level, level, level);
-    w->skips = leaves_out(w, r, equal);
+    w->skips = emit_leaves_out(w, r, equal);
     if (w->skips) emit_line(w, "if (j%d == j%d) continue;", equal[0], equal[1]);
     emit_region(w, region);
     w->skips = skipping;
@@ -124,6 +127,34 @@ static void write_sum(writer *w, uint32_t region)
     emit_line(w, "}");
     EACH_SUM(k, r)
     emit_total(w, k, emit_type(w, w->plan.items.at[k].n), first, last);
+}
+
+static bool lies_in(const writer *w, uint32_t inner, uint32_t region)
+{
+    while (inner != NONE && inner != region && inner > AT_RUN) inner = w->plan.regions.at[inner].parent;
+    return inner == region;
+}
+
+/* The same loop over a family's index twice: all pairs once, where the loop is over all cells and has room for their
+ * sums, and every cell by itself. */
+static void write_pairs(writer *w, uint32_t region, uint32_t pairs, const char *first, const char *last)
+{
+    emit_line(w, "if (own && j0 == %s && e0 == %s) {", first, last);
+    w->depth++;
+    emit_pair_start(w, pairs);
+    emit_line(w, "for (; j0 <= e0; j0++) {");
+    w->depth++;
+    w->pairs = pairs;
+    emit_region(w, region);
+    w->pairs = NONE;
+    w->depth--;
+    emit_line(w, "}");
+    w->depth--;
+    emit_line(w, "}");
+    /* the sums are to be written once more */
+    for (uint32_t k = 0; k < w->plan.items.count; k++)
+        if (plan_inside(&w->plan, &w->plan.items.at[k]) != NONE && lies_in(w, w->plan.items.at[k].region, region))
+            w->plan.items.at[k].reg = NONE;
 }
 
 static void write_loop(writer *w, uint32_t region)
@@ -144,6 +175,8 @@ static void write_loop(writer *w, uint32_t region)
               level == 0 && w->e->windowed ? "int64_t j%d = window_later(%s, from), e%d = window_sooner(%s, to - 1);"
                                            : "int64_t j%d = %s, e%d = %s;",
               level, first, level, last);
+    const uint32_t pairs = emit_pairs(w, region);
+    if (pairs != NONE) write_pairs(w, region, pairs, first, last);
     if (w->e->vectors && r->innermost && !r->holds_sums) {
         w->e->uses_vectors = true;
         emit_line(w, "for (; j%d + WIDTH - 1 <= e%d; j%d += WIDTH) {", level, level, level);

@@ -16,9 +16,11 @@ typedef struct writer {
     /* of the program's functions: which one is being written */
     enum { BINDING, BINDING_LANES, TERMS, RUNNING } part;
     uint32_t *fixed; /* by item of region AT_BIND: its place in u, or in w where it is wide */
-    double *value;   /* by item of region AT_BIND: what it is now, or NaN; NULL: nothing is known */
-    uint8_t *nature; /* by node: NATURE_ */
-    uint32_t *term;  /* by node: its place in T, or NONE */
+    uint32_t pairs;  /* the loop over pairs whose sums take each pair once, while it is written; else NONE */
+    uint8_t *parity, *exchanged; /* by node: of emit_pair.c */
+    double *value;               /* by item of region AT_BIND: what it is now, or NaN; NULL: nothing is known */
+    uint8_t *nature;             /* by node: NATURE_ */
+    uint32_t *term;              /* by node: its place in T, or NONE */
     /* the level whose index differs from lane to lane, while the inside of its loop is written; else -1 */
     int along;
     bool skips;          /* the terms that a sum's condition leaves out are not computed */
@@ -63,6 +65,12 @@ void emit_outputs(writer *, uint32_t first);
 void emit_item(writer *, uint32_t item);
 
 void emit_region(writer *, uint32_t region);
+/* Whether all sums of a loop leave out the term at which two indices are equal, and which levels these have. */
+bool emit_leaves_out(const writer *, const plan_region *, int level[2]);
+/* The loop in a family's that may take each pair once, or NONE; what stands before the family's loop; the sums. */
+uint32_t emit_pairs(writer *, uint32_t family);
+void emit_pair_start(writer *, uint32_t region);
+void emit_pair_sums(writer *, uint32_t region);
 
 void emit_series_pass(writer *, const char *name);
 

@@ -5,7 +5,8 @@
 struct compiled_host {
     const double *pool, *u;
     const int64_t *q;
-    /* of lanes: the pool of each trajectory, and the numbers that depend on it alone */
+    /* of lanes: the pool of each trajectory, and the numbers that depend on it alone; of one trajectory `own` is room
+     * for the sums over pairs, or NULL */
     real *own, *bound;
     struct solving *solving;         /* of lanes: their linear systems, and which of them */
     real *lost;                      /*   could not be solved, or go on */

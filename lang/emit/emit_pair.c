@@ -1,0 +1,321 @@
+/* Sums over pairs, each pair once: x[i]'' = Σ over j != i of a term whose long part is the same for (i, j) and (j, i).
+ *
+ * Cell i takes the terms of all j > i and adds, for each, the term with the indices exchanged to the sum of cell j.
+ * The partial sums of all cells wait in memory: sum c of cell j has partial p at own[(c rows + p) cells + j]; rows is
+ * 8, or 1 where a sum has 16 terms at most. When cell i is reached, all smaller cells have added theirs, in their
+ * order, and its own loop adds the others, in theirs: every partial sum takes its terms in the order that defines the
+ * bits.
+ *
+ * A node is `even` where exchanging i and j leaves its bits as they are, and `odd` where it changes no more than the
+ * sign, or leaves both zero: x[j] - x[i]. Of the exchanged term even nodes are shared; all others are computed again.
+ *
+ * Invariant: even is never said of a node that could differ in a bit, not even in the sign of a zero.
+ */
+#include "lang/emit/emit_parts.h"
+
+#include <stdio.h>
+#include <string.h>
+
+enum { EVEN = 1, ODD = 2 };
+enum {
+    DEP_PAIR = 1 << 0 | 1 << 1, /* the levels of i and of j */
+    DEPTH_MAX = 6,              /* of two expressions that are compared; deeper ones count as different */
+    NODES_MAX = 1000            /* of a program */
+};
+
+#define EACH_SUM(k, r) for (uint32_t k = (r)->sums; k != NONE; k = w->plan.sums.at[w->plan.items.at[k].sum].next)
+
+static const graph_node *at(const writer *w, node n) { return &w->plan.g->nodes[n]; }
+
+/* ---- what an exchange of the indices does ---- */
+
+static int exchanged_level(int level) { return level == 0 ? 1 : level == 1 ? 0 : level; }
+
+static reference exchanged_reference(const reference *r)
+{
+    reference other = *r;
+    for (int d = 0; d < r->dims; d++) other.at[d].level = (int8_t)exchanged_level(r->at[d].level);
+    return other;
+}
+
+static bool same_reference(const reference *a, const reference *b)
+{
+    if (a->array != b->array || a->dims != b->dims) return false;
+    for (int d = 0; d < a->dims; d++)
+        if (a->at[d].level != b->at[d].level || a->at[d].slot != b->at[d].slot ||
+            a->at[d].modulus != b->at[d].modulus || a->at[d].literal != b->at[d].literal)
+            return false;
+    return true;
+}
+
+/* Whether m is n with the indices exchanged. */
+static bool is_exchanged(const writer *w, node n, node m, int depth)
+{
+    const graph_node *a = at(w, n), *b = at(w, m);
+    if (!(a->deps & DEP_PAIR)) return n == m;
+    if (a->op != b->op || depth == 0) return false;
+    if (a->op == OP_INDEX) return exchanged_level(a->level) == b->level;
+    if (a->op == OP_LOAD) {
+        const reference other = exchanged_reference(&w->plan.g->references[a->a]);
+        return same_reference(&other, &w->plan.g->references[b->a]);
+    }
+    if (a->op == OP_SUM || a->op == OP_TOTAL) return false;
+    const node mine[3] = {a->a, a->b, a->c}, other[3] = {b->a, b->b, b->c};
+    for (int k = 0; k < operation_at(a->op)->arity; k++)
+        if (!is_exchanged(w, mine[k], other[k], depth - 1)) return false;
+    return true;
+}
+
+static uint8_t parity_of(const writer *w, const uint8_t *parity, const graph_node *n)
+{
+    const int arity = operation_at(n->op)->arity;
+    if (!(n->deps & DEP_PAIR)) return EVEN;
+    if (n->op == OP_SUM || n->op == OP_TOTAL || arity == 0) return 0;
+    const uint8_t a = parity[n->a], b = arity > 1 ? parity[n->b] : EVEN, c = arity > 2 ? parity[n->c] : EVEN;
+    if (a & b & c & EVEN) return EVEN;
+    const bool square = arity > 1 && a == ODD && n->a == n->b,
+               product = square || (arity > 1 && is_exchanged(w, n->a, n->b, DEPTH_MAX));
+    switch (n->op) {
+    case OP_MUL: return product ? EVEN : (a | b) == (EVEN | ODD) ? ODD : 0;
+    case OP_DIV: return a == ODD && b == EVEN ? ODD : 0;
+    case OP_FMA:
+    case OP_FMS:
+    case OP_FNMA: return product && c == EVEN ? EVEN : 0;
+    case OP_ADD: return product && !square ? EVEN : 0;
+    case OP_SUB: return product && !square ? ODD : 0;
+    case OP_NEG: return a;
+    case OP_ABS: return a == ODD ? EVEN : 0;
+    default: return 0;
+    }
+}
+
+/* ---- whether ---- */
+
+static bool takes_long(unsigned op) { return op == OP_DIV || op == OP_SQRT || op == OP_POW || op > OP_POW; }
+
+static bool same_bound(const subscript *a, const subscript *b)
+{
+    return a->level < 0 && b->level < 0 && a->slot == b->slot && a->literal == b->literal && a->modulus < 0 &&
+           b->modulus < 0;
+}
+
+/* All sums of the loop leave out j = i, and nothing in them but x[i], x[j] and such depends on the indices. */
+static bool exchangeable(writer *w, const plan_region *r)
+{
+    int equal[2];
+    if (!emit_leaves_out(w, r, equal) || equal[0] + equal[1] != 1) return false;
+    for (node n = 0; n < w->plan.g->count; n++) {
+        const graph_node *m = at(w, n);
+        if (m->op != OP_LOAD || !(m->deps & DEP_PAIR)) continue;
+        const reference *from = &w->plan.g->references[m->a];
+        if (from->dims != 1 || from->at[0].modulus >= 0) return false;
+    }
+    return true;
+}
+
+/* There is one room for partial sums, so families whose pairs are taken once have the same cells. */
+static bool same_cells(const emit *e, const range *r)
+{
+    return !e->pair_sums || (same_bound(&e->pair_range.first, &r->first) && same_bound(&e->pair_range.last, &r->last));
+}
+
+uint32_t emit_pairs(writer *w, uint32_t family)
+{
+    const plan_region *f = &w->plan.regions.at[family];
+    emit *e = w->e;
+    if (f->parent != AT_RUN || f->level != 0 || e->lanes || w->part != RUNNING || w->plan.g->count > NODES_MAX)
+        return NONE;
+    uint32_t found = NONE;
+    for (uint32_t k = f->first_child; k != NONE; k = w->plan.regions.at[k].next) {
+        const plan_region *r = &w->plan.regions.at[k];
+        if (found == NONE && r->sum && r->level == 1 && !r->holds_sums &&
+            same_bound(&r->range.first, &f->range.first) && same_bound(&r->range.last, &f->range.last) &&
+            exchangeable(w, r))
+            found = k;
+    }
+    if (found == NONE || !same_cells(e, &f->range)) return NONE;
+    w->parity = arena_room(e->text.arena, w->plan.g->count + 1);
+    w->exchanged = arena_room(e->text.arena, w->plan.g->count + 1);
+    if (!w->parity || !w->exchanged) return NONE;
+    bool worth = false;
+    for (node n = 0; n < w->plan.g->count; n++) {
+        const graph_node *m = at(w, n);
+        w->parity[n] = parity_of(w, w->parity, m);
+        worth |= w->parity[n] == EVEN && (m->deps & DEP_PAIR) == DEP_PAIR && takes_long(m->op);
+    }
+    if (!worth) return NONE;
+    uint32_t sums = 0;
+    EACH_SUM(k, &w->plan.regions.at[found]) sums++;
+    if (sums > e->pair_sums) e->pair_sums = sums;
+    e->pair_range = f->range;
+    return found;
+}
+
+/* ---- the term with the indices exchanged ---- */
+
+static void write_leaf(writer *w, node n, node user)
+{
+    const graph_node *m = at(w, n);
+    char place[PLACE_MAX];
+    if (m->op == OP_INDEX) {
+        const int level = exchanged_level(m->level);
+        if (level == w->along)
+            emit_line(w, "const reals o%u = index_count(j%d);", n, level);
+        else
+            emit_line(w,
+                      emit_wide(w, user) ? "const reals o%u = MANY((double)j%d);" : "const double o%u = (double)j%d;",
+                      n, level);
+        return;
+    }
+    const reference from = exchanged_reference(&w->plan.g->references[m->a]);
+    emit_address(w, &from, from.dims, place);
+    if (w->along < 0)
+        emit_line(w, "const double o%u = %s;", n, place);
+    else if (from.at[0].level == w->along)
+        emit_line(w, "const reals o%u = index_load(&%s);", n, place);
+    else
+        emit_line(w, "const reals o%u = MANY(%s);", n, place);
+}
+
+/* Where a leaf with its indices exchanged is another leaf, that one has been read. */
+static node other_leaf(const writer *w, node n)
+{
+    for (node m = 0; m < w->plan.g->count; m++)
+        if ((at(w, m)->op == OP_LOAD || at(w, m)->op == OP_INDEX) && is_exchanged(w, n, m, DEPTH_MAX) &&
+            plan_find(&w->plan, m, plan_home(&w->plan, at(w, m)->deps, w->region)) != NONE)
+            return m;
+    return 0;
+}
+
+static void exchange(writer *w, node n, node user, char out[48])
+{
+    const graph_node *m = at(w, n);
+    const int arity = operation_at(m->op)->arity;
+    const node other = arity == 0 && m->deps & DEP_PAIR ? other_leaf(w, n) : 0;
+    if (w->parity[n] == EVEN || other) {
+        emit_operand(w, other ? other : n, user, out);
+        return;
+    }
+    snprintf(out, 48, "o%u", n);
+    if (w->exchanged[n]) return;
+    w->exchanged[n] = 1;
+    if (arity == 0) {
+        write_leaf(w, n, user);
+        return;
+    }
+    const node operand[3] = {m->a, m->b, m->c};
+    char o[3][48] = {"", "", ""};
+    for (int k = 0; k < arity; k++) exchange(w, operand[k], user, o[k]);
+    emit_line(w, "const %s o%u = %s_%d(%s%s%s%s%s);", emit_type(w, user), n, emit_operation(w, user, m->op), m->op,
+              o[0], arity > 1 ? ", " : "", o[1], arity > 2 ? ", " : "", o[2]);
+}
+
+/* Adds the exchanged terms of the sums of a loop to the partial sums of the other cells. */
+static void write_others(writer *w, uint32_t region)
+{
+    const plan_region *r = &w->plan.regions.at[region];
+    memset(w->exchanged, 0, w->plan.g->count);
+    EACH_SUM(k, r)
+    {
+        const node whole = w->plan.items.at[k].n;
+        const graph_node *how = at(w, at(w, whole)->a);
+        const char *operation = emit_operation(w, whole, how->op);
+        const bool along = w->along >= 0, fused = how->op != OP_ADD;
+        char p[48], q[48] = "", total[64], next[200];
+        snprintf(total, sizeof total, along ? "index_load(&t%u[m1 + k * WIDTH])" : "t%u[m1]", k);
+        exchange(w, fused ? how->a : how->b, whole, p);
+        if (fused) exchange(w, how->b, whole, q);
+        snprintf(next, sizeof next, fused ? "%s_%d(%s, %s, %s)" : "%s_%d(%s, %s%s)", operation, how->op,
+                 fused ? p : total, fused ? q : p, fused ? total : "");
+        emit_line(w, along ? "index_store(&t%u[m1 + k * WIDTH], %s);" : "t%u[m1] = %s;", k, next);
+    }
+}
+
+static void write_one_by_one(writer *w, uint32_t region)
+{
+    emit_line(w, "for (; m1 < e1; m1++) {");
+    w->depth++;
+    emit_line(w, "const int64_t j1 = f1 + m1, k = rows > 1 ? m1 & 7 : 0;");
+    w->skips = true;
+    emit_region(w, region);
+    write_others(w, region);
+    w->skips = false;
+    w->depth--;
+    emit_line(w, "}");
+}
+
+static void write_eights(writer *w, uint32_t region)
+{
+    const plan_region *r = &w->plan.regions.at[region];
+    emit_line(w, "if (!rest && rows > 1) {");
+    w->depth++;
+    EACH_SUM(k, r)
+    {
+        emit_line(w, "reals v%u[8 / WIDTH];", k);
+        emit_line(w, "for (int k = 0; k < 8 / WIDTH; k++) v%u[k] = index_load(&s%u[k * WIDTH]);", k, k);
+    }
+    emit_line(w, "for (; m1 + 8 <= n1; m1 += 8)");
+    emit_line(w, "#pragma GCC unroll 8");
+    emit_line(w, "for (int k = 0; k < 8 / WIDTH; k++) {");
+    w->depth++;
+    emit_line(w, "const int64_t j1 = f1 + m1 + k * WIDTH;");
+    w->along = 1;
+    w->skips = true;
+    emit_region(w, region);
+    write_others(w, region);
+    w->along = -1;
+    w->skips = false;
+    w->depth--;
+    emit_line(w, "}");
+    EACH_SUM(k, r)
+    emit_line(w, "for (int k = 0; k < 8 / WIDTH; k++) index_store(&s%u[k * WIDTH], v%u[k]);", k, k);
+    w->depth--;
+    emit_line(w, "}");
+    w->e->uses_vectors = true;
+}
+
+void emit_pair_start(writer *w, uint32_t region)
+{
+    const plan_region *r = &w->plan.regions.at[region];
+    char first[PLACE_MAX], last[PLACE_MAX];
+    uint32_t sums = 0;
+    EACH_SUM(k, r) sums++;
+    emit_bound(w, &r->range.first, first);
+    emit_bound(w, &r->range.last, last);
+    emit_line(w, "const int64_t f1 = %s, n1 = %s - f1 + 1, rows = n1 > 16 ? 8 : 1;", first, last);
+    emit_line(w, "for (int64_t k = 0; k < %u * rows * n1; k++) own[k] = 0;", sums);
+}
+
+void emit_pair_sums(writer *w, uint32_t region)
+{
+    const plan_region *r = &w->plan.regions.at[region];
+    const uint32_t around = w->region;
+    const bool skipping = w->skips;
+    uint32_t c = 0;
+    emit_line(w, "const int64_t i1 = j0 - f1;");
+    EACH_SUM(k, r)
+    {
+        emit_line(w, "double s%u[8], *const t%u = own + (%u * rows + (rows > 1 ? i1 & 7 : 0)) * n1;", k, k, c);
+        emit_line(w, "for (int64_t k = 0; k < rows; k++) s%u[k] = own[(%u * rows + k) * n1 + i1];", k, c++);
+        w->plan.items.at[k].reg = 0; /* done */
+    }
+    emit_line(w, "{");
+    w->depth++;
+    emit_line(w, "int64_t m1 = i1 + 1;");
+    emit_line(w, "for (int rest = 0; rest < 2; rest++) {");
+    w->depth++;
+    emit_line(w, "const int64_t up = (m1 + 7) & ~(int64_t)7, e1 = rest || rows == 1 || up > n1 ? n1 : up;");
+    write_one_by_one(w, region);
+    if (w->e->vectors) write_eights(w, region);
+    w->depth--;
+    emit_line(w, "}");
+    w->depth--;
+    emit_line(w, "}");
+    w->region = around;
+    w->skips = skipping;
+    EACH_SUM(k, r)
+    emit_line(w,
+              "const double r%u = rows > 1 ? ((s%u[0] + s%u[1]) + (s%u[2] + s%u[3])) + ((s%u[4] + s%u[5]) + (s%u[6] + "
+              "s%u[7])) : s%u[0];",
+              k, k, k, k, k, k, k, k, k, k);
+}
