@@ -335,7 +335,7 @@ static void add_operations(emit *e, int width)
 static void need_for_series(emit *e)
 {
     const uint64_t roots = OPERATION_BIT(POW) | OPERATION_BIT(ASIN) | OPERATION_BIT(ACOS);
-    uint64_t *used = e->lanes ? &e->used_lanes : &e->used;
+    uint64_t *used = e->lanes || e->series_wide ? &e->used_lanes : &e->used;
     if (e->used_series & roots) *used |= OPERATION_BIT(SQRT);
 }
 
@@ -353,21 +353,48 @@ static void add_named(emit *e)
                      {"hypot", ROOT},    {"erf", ERROR}};
     for (size_t i = 0; i < sizeof functions / sizeof *functions; i++) {
         const char *name = functions[i].name;
+        const bool lanes = e->lanes || e->series_wide;
         emit_add(&e->text, "#define series_of_%s", name);
-        if ((e->lanes ? e->used_lanes : e->used) & functions[i].supplied_by)
-            emit_add(&e->text, e->lanes ? " OF_LANES(%s)\n" : " motus_%s\n", name);
+        if ((lanes ? e->used_lanes : e->used) & functions[i].supplied_by)
+            emit_add(&e->text, lanes ? " OF_LANES(%s)\n" : " motus_%s\n", name);
         else
             emit_add(&e->text, "(...) SERIES_NUMBER(0.0)\n");
     }
 }
 
+/* Along an index real, FMA, PICK and SOME are those of vectors here, and of doubles in all other texts. */
+static void add_vector_names(emit_text *t)
+{
+    static const char *const names[][2] = {{"real", "real reals"},
+                                           {"FMA", "FMA(a, b, c) MANY_FUSED(a, b, c)"},
+                                           {"PICK", "PICK(where, a, b) CHOOSE(where, a, b)"},
+                                           {"SOME", "SOME(where) OF_LANES(any)(where)"}};
+    for (int k = 0; k < 4; k++)
+        emit_add(t, "#pragma push_macro(\"%s\")\n#undef %s\n#define %s\n", names[k][0], names[k][0], names[k][1]);
+}
+
+static void drop_vector_names(emit_text *t)
+{
+    emit_add(t, "#pragma pop_macro(\"real\")\n#pragma pop_macro(\"FMA\")\n#pragma pop_macro(\"PICK\")\n#pragma "
+                "pop_macro(\"SOME\")\ntypedef __UINTPTR_TYPE__ uintptr_t;\n");
+}
+
 static void add_series(emit *e, int length)
 {
+    emit_text *t = &e->text;
     add_named(e);
-    emit_add(&e->text, "#define SERIES_OF(f) series_of_##f\n");
-    add_text(&e->text, "step/series.h");
-    emit_add(&e->text, "enum { length = %d };\n", length);
-    emit_series_operations(e, e->lanes ? "ops" : "op");
+    emit_add(t,
+             "#define SERIES_OF(f) series_of_##f\n#define SERIES_FMA(a, b, c) %s(a, b, c)\n#define SERIES_PICK(where, "
+             "a, b) %s(where, a, b)\n",
+             e->series_wide ? "MANY_FUSED" : "FMA", e->series_wide ? "CHOOSE" : "PICK");
+    if (e->series_apart)
+        emit_add(t, "#define SERIES_FUNCTION static inline __attribute__((always_inline))\n#define SERIES_WRITTEN_OUT "
+                    "WRITTEN_OUT\n");
+    if (e->series_wide) add_vector_names(t);
+    add_text(t, "step/series.h");
+    emit_add(t, "enum { length = %d };\n", length);
+    emit_series_operations(e, e->lanes || e->series_wide ? "ops" : "op");
+    if (e->series_wide) drop_vector_names(t);
 }
 
 /* ---- windows ---- */
@@ -418,6 +445,7 @@ bool compose(emit *e, const composition *c)
     e->literal = structure;
     e->arrays = c->model->arrays;
     e->vectors = !lanes && compose_width() > 1;
+    e->series_may_be_wide = !c->model->driven;
     const size_t inlined = !lanes && c->chosen->row->family == IMPLICIT ? FORCE_TURNS_MAX : FORCE_INLINE_MAX;
     for (size_t i = 0; i < c->program_count; i++) {
         e->separate = !i && length_of(c->programs[i].program) > inlined;

@@ -9,10 +9,16 @@
  * numbers each. Recurrences that keep something compute coefficient 0 too; of the others it is the operation's value.
  *
  * Invariant: the order of the terms is part of a recurrence, so its bits are the same on every machine. A sum of
- * products f[j] g[n - j] is taken by ascending max(j, n - j), in two chains: the newest coefficients come last, so a
- * processor computes all that does not wait for them while they are made. The coefficients of a quotient by a
- * coefficient 0 that is 0 are taken as 0, which is their limit where the operand is 0 throughout.
+ * products f[j] g[n - j] is taken by ascending max(j, n - j), in two chains, which are added before the ends: from the
+ * newest coefficient to the sum it is one operation, since all others are done while that is made. The coefficients of
+ * a quotient by a coefficient 0 that is 0 are taken as 0, which is their limit where the operand is 0 throughout.
  */
+#ifndef SERIES_FUNCTION
+#define SERIES_FUNCTION static inline
+#endif
+#ifndef SERIES_WRITTEN_OUT /* before a loop: where the order is known when the text is compiled, it is a sequence */
+#define SERIES_WRITTEN_OUT
+#endif
 
 /* An operand: its coefficients, and the number of the last one that may differ from 0: 0 of a constant, 1 of time.
  * Those after it are not stored. */
@@ -31,12 +37,12 @@ typedef struct series {
 #define SERIES_KEPT r[length - 1]
 #define SERIES_PART(n) ((coef)1 / (n))
 
-static inline real series_at(const series a, const int n) { return n <= a.last ? a.at[n] : SERIES_NUMBER(0.0); }
+SERIES_FUNCTION real series_at(const series a, const int n) { return n <= a.last ? a.at[n] : SERIES_NUMBER(0.0); }
 
 /* Sums of products --------------------------------------------------------------------------------------------------*/
 
 /* The sum over j = low … n - high of f[j] g[n - j], where one of the two ends before n. */
-static inline real series_few(const series f, const series g, const int n, const int low, const int high)
+SERIES_FUNCTION real series_few(const series f, const series g, const int n, const int low, const int high)
 {
     const int from = n - g.last > low ? n - g.last : low, to = f.last < n - high ? f.last : n - high;
     real s = SERIES_NUMBER(0.0);
@@ -47,59 +53,62 @@ static inline real series_few(const series f, const series g, const int n, const
     return s;
 }
 
-/* The same where none ends; low and high are 0 or 1, n is at least 1. */
-static inline real series_sum(const series f, const series g, const int n, const int low, const int high)
+/* The same where none ends; low and high are 0, 1 or 2, n is at least 1. */
+SERIES_FUNCTION real series_sum(const series f, const series g, const int n, const int low, const int high)
 {
     if (f.last < n || g.last < n) return series_few(f, g, n, low, high);
     real p = SERIES_NUMBER(0.0), q = p;
-    if (n % 2 == 0) p = f.at[n / 2] * g.at[n / 2];
-    for (int m = (n - 1) / 2; m >= 1; m--) {
+    if (n % 2 == 0 && (n > 2 || (low < 2 && high < 2))) p = f.at[n / 2] * g.at[n / 2];
+    SERIES_WRITTEN_OUT for (int m = (n - 1) / 2; m >= 2; m--)
+    {
         p = FMA(f.at[m], g.at[n - m], p);
         q = FMA(f.at[n - m], g.at[m], q);
     }
-    if (!low) p = FMA(f.at[0], g.at[n], p);
-    if (!high) q = FMA(f.at[n], g.at[0], q);
-    return p + q;
+    if (n > 2 && low < 2) p = FMA(f.at[1], g.at[n - 1], p);
+    if (n > 2 && high < 2) q = FMA(f.at[n - 1], g.at[1], q);
+    real s = p + q;
+    if (!high) s = FMA(f.at[n], g.at[0], s);
+    return low ? s : FMA(f.at[0], g.at[n], s);
 }
 
-/* The sum over j = low … n - low of f[j] f[n - j]: its first half twice, and the term in the middle. */
-static inline real series_halves(const series f, const int n, const int low)
+/* The sum over j = low … n - low of f[j] f[n - j]; low is 0 or 1. */
+SERIES_FUNCTION real series_halves(const series f, const int n, const int low)
 {
     if (f.last < n) return series_few(f, f, n, low, low);
     real p = SERIES_NUMBER(0.0), q = p;
-    int m = (n - 1) / 2;
-    for (; m > low; m -= 2) {
+    SERIES_WRITTEN_OUT for (int m = (n - 1) / 2; m > low; m -= 2)
+    {
         p = FMA(f.at[m], f.at[n - m], p);
-        q = FMA(f.at[m - 1], f.at[n - m + 1], q);
+        if (m - 1 > low) q = FMA(f.at[m - 1], f.at[n - m + 1], q);
     }
-    if (m == low) p = FMA(f.at[m], f.at[n - m], p);
-    const real s = 2.0 * (p + q);
-    return n % 2 ? s : FMA(f.at[n / 2], f.at[n / 2], s);
+    real s = 2.0 * (p + q);
+    if (n % 2 == 0) s = FMA(f.at[n / 2], f.at[n / 2], s);
+    return n > 2 * low ? FMA(2.0 * f.at[low], f.at[n - low], s) : s;
 }
 
 /* k times coefficient k of a, where it is stored. */
-static inline series series_rates(real *rate, const series a, const int n)
+SERIES_FUNCTION series series_rates(real *rate, const series a, const int n)
 {
     if (n <= a.last) rate[n] = (double)n * a.at[n];
     return SERIES(rate, a.last);
 }
 
 /* The coefficient of the integral of f a', which is n times too large; f known below n. */
-static inline real series_along(const series f, const series rates, const int n)
+SERIES_FUNCTION real series_along(const series f, const series rates, const int n)
 {
     return series_sum(f, rates, n, 0, 1) * SERIES_PART(n);
 }
 
 /* Arithmetic --------------------------------------------------------------------------------------------------------*/
 
-static inline real series_product(const series a, const series b, const int n)
+SERIES_FUNCTION real series_product(const series a, const series b, const int n)
 {
     if (a.last == 0) return a.at[0] * series_at(b, n);
     if (b.last == 0) return series_at(a, n) * b.at[0];
     return a.at == b.at ? series_halves(a, n, 0) : series_sum(a, b, n, 0, 0);
 }
 
-static inline real series_quotient(real *r, const int length, const series a, const series b, const int n)
+SERIES_FUNCTION real series_quotient(real *r, const int length, const series a, const series b, const int n)
 {
     if (n == 0) {
         SERIES_KEPT = 1.0 / b.at[0];
@@ -112,12 +121,12 @@ static inline real series_quotient(real *r, const int length, const series a, co
 /* Powers and roots --------------------------------------------------------------------------------------------------*/
 
 /* Coefficient n of the root r of a series whose coefficient n is top. */
-static inline real series_root(const real *r, const int length, const real top, const int n)
+SERIES_FUNCTION real series_root(const real *r, const int length, const real top, const int n)
 {
     return (top - series_halves(SERIES_ITSELF, n, 1)) * SERIES_KEPT;
 }
 
-static inline real series_sqrt(real *r, const int length, const series a, const int n)
+SERIES_FUNCTION real series_sqrt(real *r, const int length, const series a, const int n)
 {
     if (n > 0) return series_root(r, length, series_at(a, n), n);
     const real root = SERIES_OF(sqrt)(a.at[0]);
@@ -125,7 +134,7 @@ static inline real series_sqrt(real *r, const int length, const series a, const 
     return root;
 }
 
-static inline real series_hypot(real *r, const int length, const series a, const series b, const int n)
+SERIES_FUNCTION real series_hypot(real *r, const int length, const series a, const series b, const int n)
 {
     if (n > 0) return series_root(r, length, series_product(a, a, n) + series_product(b, b, n), n);
     const real root = SERIES_OF(hypot)(a.at[0], b.at[0]);
@@ -133,23 +142,49 @@ static inline real series_hypot(real *r, const int length, const series a, const
     return root;
 }
 
-/* r = a^c for a constant c: n a_0 r_n is the sum over j < n of (c (n - j) - j) a_{n-j} r_j. r_0 = `start`. */
-static inline real series_power(real *r, const int length, const series a, const real c, const real start, const int n)
+/* The sums over j = 1 … n - 2 of f[j] a[n - j] and of g[j] a[n - j], where neither f nor g ends; n is at least 2. */
+SERIES_FUNCTION void series_two(const real *f, const real *g, const series a, const int n, real *by_f, real *by_g)
 {
-    real *const da = SERIES_HELPER(1), *const dr = SERIES_HELPER(2);
+    const int from = a.last < n - 1 ? n - a.last : 1;
+    real p = SERIES_NUMBER(0.0), q = p, u = p, v = p;
+    if (a.last < n - 1) {
+        for (int j = from; j <= n - 2; j++) p = FMA(f[j], a.at[n - j], p), u = FMA(g[j], a.at[n - j], u);
+    } else {
+        if (n % 2 == 0 && n > 2) p = f[n / 2] * a.at[n / 2], u = g[n / 2] * a.at[n / 2];
+        SERIES_WRITTEN_OUT for (int m = (n - 1) / 2; m >= 1; m--)
+        {
+            p = FMA(f[m], a.at[n - m], p), u = FMA(g[m], a.at[n - m], u);
+            if (m > 1) q = FMA(f[n - m], a.at[m], q), v = FMA(g[n - m], a.at[m], v);
+        }
+    }
+    *by_f = p + q, *by_g = u + v;
+}
+
+/* r = a^c for a constant c: n a_0 r_n is the sum over j < n of (c (n - j) - j) a_{n-j} r_j, which is c n times the sum
+ * of a_{n-j} r_j less c + 1 times that of a_{n-j} j r_j. r_0 = `start`. The terms of r_{n-1} and a_n come last, with
+ * factors that are known before. */
+SERIES_FUNCTION real series_power(real *r, const int length, const series a, const real c, const real start,
+                                  const int n)
+{
+    real *const dr = SERIES_HELPER(1);
     if (n == 0) {
         SERIES_KEPT = SERIES_WHERE(a.at[0], 1.0 / a.at[0]);
         return start;
     }
-    const series rates = series_rates(da, a, n);
-    const real grown = series_sum(SERIES_ITSELF, rates, n, 0, 1), known = series_sum(SERIES_FROM(dr), a, n, 1, 1);
-    const real next = FMA(c, grown, -known) * (SERIES_KEPT * SERIES_PART(n));
+    const real part = SERIES_KEPT * SERIES_PART(n);
+    real next = SERIES_NUMBER(0.0), plain, rates;
+    if (n > 1) {
+        series_two(r, dr, a, n, &plain, &rates);
+        next = FMA((double)n * c, plain, -((c + 1.0) * rates)) * part;
+        next = FMA(r[n - 1], (c - (double)(n - 1)) * (series_at(a, 1) * part), next);
+    }
+    if (n <= a.last) next = FMA(a.at[n], c * (r[0] * SERIES_KEPT), next);
     dr[n] = (double)n * next;
     return next;
 }
 
 /* a^c. The power of an inverse cube, which is in every force of attraction, is three quick operations. */
-static inline real series_pow(real *r, const int length, const series a, const series c, const int n)
+SERIES_FUNCTION real series_pow(real *r, const int length, const series a, const series c, const int n)
 {
     real start = SERIES_NUMBER(0.0);
     if (n == 0) {
@@ -160,7 +195,7 @@ static inline real series_pow(real *r, const int length, const series a, const s
     return series_power(r, length, a, c.at[0], start, n);
 }
 
-static inline real series_cbrt(real *r, const int length, const series a, const int n)
+SERIES_FUNCTION real series_cbrt(real *r, const int length, const series a, const int n)
 {
     const real start = n == 0 ? SERIES_OF(cbrt)(a.at[0]) : SERIES_NUMBER(0.0);
     return series_power(r, length, a, SERIES_NUMBER(SERIES_PART(3)), start, n);
@@ -168,14 +203,14 @@ static inline real series_cbrt(real *r, const int length, const series a, const 
 
 /* Exponentials and angles -------------------------------------------------------------------------------------------*/
 
-static inline real series_exp(real *r, const int length, const series a, const int n)
+SERIES_FUNCTION real series_exp(real *r, const int length, const series a, const int n)
 {
     if (n == 0) return SERIES_OF(exp)(a.at[0]);
     return series_along(SERIES_ITSELF, series_rates(SERIES_HELPER(1), a, n), n);
 }
 
 /* a r' = a' */
-static inline real series_log(real *r, const int length, const series a, const int n)
+SERIES_FUNCTION real series_log(real *r, const int length, const series a, const int n)
 {
     real *const dr = SERIES_HELPER(1);
     if (n == 0) {
@@ -189,7 +224,7 @@ static inline real series_log(real *r, const int length, const series a, const i
 }
 
 /* sin a, with cos a as the first helper; and the other way round. */
-static inline real series_sin(real *r, const int length, const series a, const int n)
+SERIES_FUNCTION real series_sin(real *r, const int length, const series a, const int n)
 {
     real *const cosine = SERIES_HELPER(1);
     if (n == 0) {
@@ -202,7 +237,7 @@ static inline real series_sin(real *r, const int length, const series a, const i
     return next;
 }
 
-static inline real series_cos(real *r, const int length, const series a, const int n)
+SERIES_FUNCTION real series_cos(real *r, const int length, const series a, const int n)
 {
     real *const sine = SERIES_HELPER(1);
     if (n == 0) {
@@ -215,7 +250,7 @@ static inline real series_cos(real *r, const int length, const series a, const i
     return next;
 }
 
-static inline real series_sinh(real *r, const int length, const series a, const int n)
+SERIES_FUNCTION real series_sinh(real *r, const int length, const series a, const int n)
 {
     real *const other = SERIES_HELPER(1);
     if (n == 0) {
@@ -228,7 +263,7 @@ static inline real series_sinh(real *r, const int length, const series a, const 
     return next;
 }
 
-static inline real series_cosh(real *r, const int length, const series a, const int n)
+SERIES_FUNCTION real series_cosh(real *r, const int length, const series a, const int n)
 {
     real *const other = SERIES_HELPER(1);
     if (n == 0) {
@@ -242,8 +277,8 @@ static inline real series_cosh(real *r, const int length, const series a, const 
 }
 
 /* r' = w a' with w = 1 + r^2, of the hyperbolic tangent 1 - r^2: sign is 1 or -1. r_0 = `start`. */
-static inline real series_slope(real *r, const int length, const series a, const double sign, const real start,
-                                const int n)
+SERIES_FUNCTION real series_slope(real *r, const int length, const series a, const double sign, const real start,
+                                  const int n)
 {
     real *const w = SERIES_HELPER(1);
     if (n == 0) {
@@ -255,18 +290,18 @@ static inline real series_slope(real *r, const int length, const series a, const
     return r[n];
 }
 
-static inline real series_tan(real *r, const int length, const series a, const int n)
+SERIES_FUNCTION real series_tan(real *r, const int length, const series a, const int n)
 {
     return series_slope(r, length, a, 1.0, n == 0 ? SERIES_OF(tan)(a.at[0]) : SERIES_NUMBER(0.0), n);
 }
 
-static inline real series_tanh(real *r, const int length, const series a, const int n)
+SERIES_FUNCTION real series_tanh(real *r, const int length, const series a, const int n)
 {
     return series_slope(r, length, a, -1.0, n == 0 ? SERIES_OF(tanh)(a.at[0]) : SERIES_NUMBER(0.0), n);
 }
 
 /* w r' = top', w the first helper. */
-static inline real series_inverse(real *r, const int length, const real top, const int n)
+SERIES_FUNCTION real series_inverse(real *r, const int length, const real top, const int n)
 {
     const real *const w = SERIES_HELPER(1);
     real *const dr = SERIES_HELPER(2);
@@ -277,8 +312,8 @@ static inline real series_inverse(real *r, const int length, const real top, con
 }
 
 /* w = sqrt(1 - a^2); sign 1 of asin, -1 of acos. */
-static inline real series_arc(real *r, const int length, const series a, const double sign, const real start,
-                              const int n)
+SERIES_FUNCTION real series_arc(real *r, const int length, const series a, const double sign, const real start,
+                                const int n)
 {
     real *const w = SERIES_HELPER(1);
     if (n == 0) {
@@ -290,17 +325,17 @@ static inline real series_arc(real *r, const int length, const series a, const d
     return series_inverse(r, length, sign * series_at(a, n), n);
 }
 
-static inline real series_asin(real *r, const int length, const series a, const int n)
+SERIES_FUNCTION real series_asin(real *r, const int length, const series a, const int n)
 {
     return series_arc(r, length, a, 1.0, n == 0 ? SERIES_OF(asin)(a.at[0]) : SERIES_NUMBER(0.0), n);
 }
 
-static inline real series_acos(real *r, const int length, const series a, const int n)
+SERIES_FUNCTION real series_acos(real *r, const int length, const series a, const int n)
 {
     return series_arc(r, length, a, -1.0, n == 0 ? SERIES_OF(acos)(a.at[0]) : SERIES_NUMBER(0.0), n);
 }
 
-static inline real series_atan(real *r, const int length, const series a, const int n)
+SERIES_FUNCTION real series_atan(real *r, const int length, const series a, const int n)
 {
     real *const w = SERIES_HELPER(1);
     if (n == 0) {
@@ -313,7 +348,7 @@ static inline real series_atan(real *r, const int length, const series a, const 
 }
 
 /* (a^2 + b^2) r' = a' b - b' a */
-static inline real series_atan2(real *r, const int length, const series a, const series b, const int n)
+SERIES_FUNCTION real series_atan2(real *r, const int length, const series a, const series b, const int n)
 {
     real *const w = SERIES_HELPER(1);
     if (n == 0) {
@@ -328,7 +363,7 @@ static inline real series_atan2(real *r, const int length, const series a, const
 }
 
 /* r' = (2/sqrt pi) e a' with e = exp(-a^2) */
-static inline real series_erf(real *r, const int length, const series a, const int n)
+SERIES_FUNCTION real series_erf(real *r, const int length, const series a, const int n)
 {
     real *const e = SERIES_HELPER(1), *const rates = SERIES_HELPER(2);
     if (n == 0) {
@@ -344,28 +379,28 @@ static inline real series_erf(real *r, const int length, const series a, const i
 
 /* Choices: coefficient 0 decides ------------------------------------------------------------------------------------*/
 
-static inline real series_abs(const series a, const int n)
+SERIES_FUNCTION real series_abs(const series a, const int n)
 {
     const real next = series_at(a, n);
     return PICK(a.at[0] > 0, next, PICK(a.at[0] < 0, -next, SERIES_NUMBER(0.0)));
 }
 
-static inline real series_min(const series a, const series b, const int n)
+SERIES_FUNCTION real series_min(const series a, const series b, const int n)
 {
     return PICK(a.at[0] <= b.at[0], series_at(a, n), series_at(b, n));
 }
 
-static inline real series_max(const series a, const series b, const int n)
+SERIES_FUNCTION real series_max(const series a, const series b, const int n)
 {
     return PICK(a.at[0] >= b.at[0], series_at(a, n), series_at(b, n));
 }
 
-static inline real series_mod(const series a, const series b, const int n)
+SERIES_FUNCTION real series_mod(const series a, const series b, const int n)
 {
     return FMA(-SERIES_OF(floor)(a.at[0] / b.at[0]), series_at(b, n), series_at(a, n));
 }
 
-static inline real series_if(const series condition, const series a, const series b, const int n)
+SERIES_FUNCTION real series_if(const series condition, const series a, const series b, const int n)
 {
     return PICK(condition.at[0] != 0, series_at(a, n), series_at(b, n));
 }

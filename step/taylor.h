@@ -19,7 +19,7 @@
  * of the motion as the last step saw it.
  */
 enum { TAYLOR_WINDOW = 8, TAYLOR_GROWTH = 4 };
-#define TAYLOR_SAFETY 0.93
+#define TAYLOR_SAFETY 0.9
 enum { TAYLOR_NOTHING, TAYLOR_BEGUN, TAYLOR_WHOLE }; /* w->expanded: of the present state order 0 is known, or all */
 #define TAYLOR_LENGTH(w) (FACT(w, expands) + 1)
 #define TAYLOR_OF(series, k) ((series) + (k) * (size_t)length)
@@ -48,12 +48,19 @@ static inline void taylor_expand(work *w)
     }
 }
 
-/* Terms `from` … `last` of a series, divided by h^from. */
+/* Terms `from` … `last` of a series, divided by h^from. Those after the first are taken in two chains, by h², which
+ * wait half as long for one another. */
 static inline real taylor_sum(const real *c, const int from, const int last, const clock h)
 {
-    real sum = c[last];
-    for (int n = last - 1; n >= from; n--) sum = FMA(sum, h, c[n]);
-    return sum;
+    const clock hh = h * h;
+    real near = TAYLOR_ZERO, far = TAYLOR_ZERO;
+    int n = last;
+    if ((last - from) % 2) near = c[n--];
+    for (; n > from; n -= 2) {
+        far = FMA(far, hh, c[n]);
+        near = FMA(near, hh, c[n - 1]);
+    }
+    return FMA(FMA(far, h, near), h, c[from]);
 }
 
 /* The step ---------------------------------------------------------------------------------------------------------*/
@@ -68,10 +75,10 @@ static inline real taylor_reach(const real *c, real size, const clock time)
 
 /* The step by one coefficient of a variable of this size, as -log2: it makes the term n c h^n as large as the part of
  * the size that a step may lose, by the radius that the coefficient shows. The larger of it and `most`. */
-static inline real taylor_term(const real c, const real reach, const int n, const real lost, const real most)
+static inline real taylor_term(const real c, const real per_reach, const int n, const real lost, const real most)
 {
-    const real here = control_log2((coef)n * c / reach) / (coef)n - lost;
-    return PICK((c > 0) & (reach > 0), LARGER(here, most), most);
+    const real here = control_log2((coef)n * c * per_reach) * ((coef)1 / n) - lost;
+    return PICK((c > 0) & (per_reach < INFINITY), LARGER(here, most), most);
 }
 
 /* log2 of the part that a step may lose of a variable of this size, over the order. The last coefficients tell those
@@ -95,11 +102,11 @@ static inline clock taylor_size(const work *w, const clock time)
         const real *const series = moves ? w->xs : w->vs;
         real reach = TAYLOR_ZERO;
         for (size_t k = from; k < to; k++) reach = taylor_reach(TAYLOR_OF(series, k), reach, time);
-        const real lost = taylor_lost(w, reach);
+        const real lost = taylor_lost(w, reach), per_reach = 1 / reach;
         for (int n = last - window + moves; n < last + moves; n++) {
             real c = TAYLOR_ZERO;
             for (size_t k = from; k < to; k++) c = LARGER(ABS(TAYLOR_OF(series, k)[n]), c);
-            most = taylor_term(c, reach, n, lost, most);
+            most = taylor_term(c, per_reach, n, lost, most);
         }
     }
     const clock size = TAYLOR_SAFETY * control_exp2(-CHOOSE_WHERE(ABS(most) < 900, most, CLOCK(900)));

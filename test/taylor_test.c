@@ -32,6 +32,15 @@ static const char *const texts[] = {
     "x[i]'' = -x[i] - sum(j = 1..20, j != i: sin(x[i] - x[j])/(20 + j)) - sum(j = 1..i: x[j]/99) for i = 1..20\n"
     "x[i](0) = sin(i) for i = 1..20\nx[i]'(0) = 0 for i = 1..20",
     "x'' = 1.5 t^2 - 2\nx(0) = 1\nx'(0) = 0",
+    /* lanes along an index: more values than fill a vector, and some left over; neighbours on a ring; two indices */
+    "m[i] = 1/(i + 1) for i = 1..11\nr[i]'' = sum(j = 1..11, j != i: m[j] (r[j] - r[i])/|r[j] - r[i]|^3) - i r[i]'/99 "
+    "for i = 1..11\nr[i](0) = (cos(i), sin(i), i/5) for i = 1..11\nr[i]'(0) = (0, i/20, 0.1) for i = 1..11",
+    "x[i]'' = sin(x[mod(i, 19) + 1] - x[i]) - x[i] exp(-t/9)/i for i = 1..19\nx[i](0) = cos(i) for i = 1..19\nx[i]'(0) "
+    "= "
+    "0 for i = 1..19",
+    "x[i,j]'' = x[mod(i, 3) + 1,j] + x[i,mod(j, 9) + 1] - 2 x[i,j] - x[i,j]^3 for i = 1..3, j = 1..9\nx[i,j](0) = "
+    "sin(i + "
+    "2 j) for i = 1..3, j = 1..9\nx[i,j]'(0) = 0 for i = 1..3, j = 1..9",
 };
 enum { TEXTS = sizeof texts / sizeof *texts };
 

@@ -53,7 +53,10 @@ typedef struct emit {
     /* the next program is in Taylor series of so many numbers each; 0: it is not. Their operations so far */
     int series;
     uint64_t used_series;
-    bool separate; /* the next program is compiled once, and called */
+    bool series_may_be_wide; /* their lanes may run along an index of families */
+    bool series_wide;        /* and they do */
+    bool series_apart;       /* every order is compiled apart */
+    bool separate;           /* the next program is compiled once, and called */
     /* the next program takes a window of outer indices, and PUT(k, value) stands for a[k] = value */
     bool windowed;
     /* The model's numbers, of which those stand in the text that make an operation exact: it serves models whose

@@ -2,7 +2,9 @@
  * step/series.h. See emit.h.
  *
  * Invariant: every value is a real, in the memory that lang/graph/expansion.h gives it, and every region walks through
- * that memory as the interpreter does. The text grows with the graph, not with the order.
+ * that memory as the interpreter does. Where all values lie in loops over a family's index, a real is a vector of WIDTH
+ * values of that index (`series_wide`), and the states have copies there. The text grows with the graph, not with the
+ * order; but a short one is compiled for every order apart, since its loops over coefficients are then sequences.
  */
 #include "lang/emit/emit_parts.h"
 
@@ -43,9 +45,21 @@ static void write_bound(writer *w)
 
 /* Values -----------------------------------------------------------------------------------------------------------*/
 
-static const char *prefix(const writer *w) { return w->e->lanes ? "ops" : "op"; }
+static bool in_lanes(const writer *w) { return w->e->lanes || w->e->series_wide; }
 
-static void use(writer *w, operation op) { *(w->e->lanes ? &w->e->used_lanes : &w->e->used) |= (uint64_t)1 << op; }
+static const char *prefix(const writer *w) { return in_lanes(w) ? "ops" : "op"; }
+
+static void use(writer *w, operation op) { *(in_lanes(w) ? &w->e->used_lanes : &w->e->used) |= (uint64_t)1 << op; }
+
+/* Whether a value differs from lane to lane of an index; its text then stands for lane l, within LANES_OF_INDEX. */
+static bool along(const writer *w, node n) { return w->along >= 0 && w->plan.g->nodes[n].deps >> w->along & 1; }
+
+/* A number of every lane as a real. */
+static void write_number(writer *w, uint32_t item, const char *at, const char *number)
+{
+    const char *spread = along(w, w->plan.items.at[item].n) ? "LANES_OF_INDEX" : "SERIES_NUMBER";
+    emit_line(w, "%sz%u[%s] = %s(%s);", *at == 'n' ? "" : "if (n == 0) ", item, at, spread, number);
+}
 
 static void write_leaf(writer *w, uint32_t item, const graph_node *n)
 {
@@ -53,10 +67,11 @@ static void write_leaf(writer *w, uint32_t item, const graph_node *n)
     char place[PLACE_MAX];
     switch (n->op) {
     case OP_TIME: emit_line(w, "if (n <= 1) z%u[n] = n ? SERIES_NUMBER(1.0) : SERIES_NUMBER(t);", item); break;
-    case OP_INDEX: emit_line(w, "if (n == 0) z%u[0] = SERIES_NUMBER((double)j%d);", item, n->level); break;
-    default:
-        emit_address(w, &g->references[n->a], g->references[n->a].dims, place);
-        emit_line(w, "if (n == 0) z%u[0] = SERIES_NUMBER(%s);", item, place);
+    case OP_INDEX:
+        snprintf(place, sizeof place, n->level == w->along ? "(double)(j%d + l)" : "(double)j%d", n->level);
+        write_number(w, item, "0", place);
+        break;
+    default: emit_address(w, &g->references[n->a], g->references[n->a].dims, place); write_number(w, item, "0", place);
     }
 }
 
@@ -90,7 +105,9 @@ static void write_outputs(writer *w, uint32_t first)
         const uint8_t to = w->plan.g->arrays[o->to.array].space;
         operand(w, o->value, value);
         emit_element(w, &o->to, o->to.dims, place);
-        if (to == SPACE_X || to == SPACE_V)
+        if (w->e->series_wide)
+            emit_line(w, "for (int l = 0; l < lanes; l++) AT(a, %s) = LANE_OF(series_at(%s, n), l);", place, value);
+        else if (to == SPACE_X || to == SPACE_V)
             emit_line(w, "%s[(%s) * %d + n] = series_at(%s, n);", to == SPACE_X ? "x" : "v", place, w->expansion.length,
                       value);
         else
@@ -98,6 +115,13 @@ static void write_outputs(writer *w, uint32_t first)
         if (w->plan.regions.at[w->region].level < 0 && ++w->stores % STORES_TOGETHER == 0)
             emit_line(w, "__asm__ volatile(\"\" ::: \"memory\");");
     }
+}
+
+/* Where the series of a value begins; of a value that passes, such that coefficient n is always in the same place. */
+static void write_place(writer *w, uint32_t item)
+{
+    const expansion_value *v = &w->expansion.values[item];
+    emit_line(w, "real *const z%u = g%u + %u%s;", item, w->plan.items.at[item].region, v->at, v->passing ? " - n" : "");
 }
 
 static void write_item(writer *w, uint32_t item)
@@ -108,13 +132,20 @@ static void write_item(writer *w, uint32_t item)
     if (v->state) {
         const reference *r = &w->plan.g->references[n->a];
         char place[PLACE_MAX];
+        const char *array = w->plan.g->arrays[r->array].space == SPACE_X ? "x" : "v";
         emit_element(w, r, r->dims, place);
-        emit_line(w, "const real *const z%u = %s + (%s) * %d;", item,
-                  w->plan.g->arrays[r->array].space == SPACE_X ? "x" : "v", place, w->expansion.length);
+        if (w->e->series_wide) {
+            char number[PLACE_MAX + 40];
+            snprintf(number, sizeof number, "%s[(%s) * %d + n]", array, place, w->expansion.length);
+            write_place(w, item);
+            write_number(w, item, "n", number);
+        } else {
+            emit_line(w, "const real *const z%u = %s + (%s) * %d;", item, array, place, w->expansion.length);
+        }
     } else if (v->twin != NONE) {
         emit_line(w, "const real *const z%u = z%u + %d;", item, v->twin, w->expansion.length);
     } else {
-        emit_line(w, "real *const z%u = g%u + %u;", item, i->region, v->at);
+        write_place(w, item);
         if (n->op == OP_SUM && v->last < EXPANSION_ALL)
             emit_line(w, "if (n <= %d) z%u[n] = r%u;", v->last, item, item);
         else if (n->op == OP_SUM)
@@ -144,15 +175,38 @@ static void write_update(writer *w, const plan_item *update)
     } else {
         operand(w, how->b, q);
         const char *sign = how->op == OP_FNMA ? "-" : "";
-        snprintf(next, sizeof next, "n ? s%u[k] %s series_product(%s, %s, n) : FMA(%s%s.at[0], %s.at[0], s%u[k])",
-                 whole, *sign ? sign : "+", p, q, sign, p, q, whole);
+        snprintf(next, sizeof next,
+                 "n ? s%u[k] %s series_product(%s, %s, n) : SERIES_FMA(%s%s.at[0], %s.at[0], s%u[k])", whole,
+                 *sign ? sign : "+", p, q, sign, p, q, whole);
     }
     if (sum->b) {
         operand(w, sum->b, c);
-        emit_line(w, "s%u[k] = PICK(%s.at[0] != 0, (%s), s%u[k]);", whole, c, next, whole);
+        emit_line(w, "s%u[k] = SERIES_PICK(%s.at[0] != 0, (%s), s%u[k]);", whole, c, next, whole);
     } else {
         emit_line(w, "s%u[k] = %s;", whole, next);
     }
+}
+
+/* A loop over a family's index, WIDTH values at a time; `lanes` of them are in the family, and the others repeat the
+ * last of these. */
+static void write_wide_loop(writer *w, uint32_t region)
+{
+    const plan_region *r = &w->plan.regions.at[region];
+    const uint32_t around = w->region;
+    const int level = r->level;
+    char first[PLACE_MAX], last[PLACE_MAX];
+    emit_bound(w, &r->range.first, first);
+    emit_bound(w, &r->range.last, last);
+    emit_line(w, "for (int64_t j%d = %s, e%d = %s; j%d <= e%d; j%d += WIDTH) {", level, first, level, last, level,
+              level, level);
+    w->depth++;
+    emit_line(w, "const int lanes = e%d - j%d + 1 < WIDTH ? (int)(e%d - j%d) + 1 : WIDTH;", level, level, level, level);
+    w->along = level, w->one_by_one = true;
+    write_region(w, region);
+    w->along = -1, w->one_by_one = false;
+    w->region = around;
+    w->depth--;
+    emit_line(w, "}");
 }
 
 static void write_loop(writer *w, uint32_t region)
@@ -161,11 +215,15 @@ static void write_loop(writer *w, uint32_t region)
     const uint32_t around = w->region;
     const int level = r->level;
     char first[PLACE_MAX], last[PLACE_MAX];
+    if (w->e->series_wide && !r->sum && w->along < 0) {
+        write_wide_loop(w, region);
+        return;
+    }
     emit_bound(w, &r->range.first, first);
     emit_bound(w, &r->range.last, last);
     EACH_SUM(k, r)
     {
-        emit_line(w, w->e->lanes ? "real s%u[8] = {{0}};" : "real s%u[8] = {0};", k);
+        emit_line(w, in_lanes(w) ? "real s%u[8] = {{0}};" : "real s%u[8] = {0};", k);
         w->plan.items.at[k].reg = 0; /* done */
     }
     emit_line(w, "{");
@@ -210,19 +268,88 @@ static void write_region(writer *w, uint32_t region)
         }
 }
 
-void emit_series_pass(writer *w, const char *name)
+/* The function ------------------------------------------------------------------------------------------------------*/
+
+/* Whether all values lie in loops over the first index of families, whose bounds are the same for every value of it. */
+static bool can_be_wide(const writer *w)
 {
-    if (!expansion_place(&w->expansion, w->e->text.arena, &w->plan, w->e->series)) return;
+    bool any = false;
+    if (!w->e->vectors || w->e->lanes || w->expansion.frames[AT_RUN]) return false;
+    for (uint32_t k = AT_RUN + 1; k < w->plan.regions.count; k++) {
+        const plan_region *r = &w->plan.regions.at[k];
+        const int level = r->range.first.level, last = r->range.last.level;
+        if (r->parent == AT_BIND) continue;
+        if (r->parent == AT_RUN && (r->sum || r->level != 0)) return false;
+        if (r->parent != AT_RUN && (level == 0 || last == 0)) return false;
+        any |= r->parent == AT_RUN;
+    }
+    for (size_t k = 0; k < w->plan.program->count; k++) {
+        const uint8_t to = w->plan.g->arrays[w->plan.program->outputs[k].to.array].space;
+        if (to == SPACE_X || to == SPACE_V || !(w->plan.g->nodes[w->plan.program->outputs[k].value].deps & 1))
+            return false;
+    }
+    return any;
+}
+
+static const char *const given = "pool, q, u, w, own, ", *const states = "t, x, v, p, a";
+
+static void write_head(writer *w, const char *how, const char *name, const char *order)
+{
+    const char *real = w->e->series_wide ? "double" : "real";
     SAY(w,
-        "__attribute__((noinline)) static real *%s(const double *restrict pool, const int64_t *restrict q, const "
-        "double "
-        "*restrict u, const real *restrict w, real *restrict own, const int n, const clock t, real *x, real *v, real "
-        "*p, real *a)\n{\n    (void)pool, (void)q, (void)u, (void)w, (void)own, (void)t, (void)x, (void)v, (void)a;\n",
-        name);
+        "%s static %s *%s(const double *restrict pool, const int64_t *restrict q, const double *restrict u, const %s "
+        "*restrict w, %s *restrict own, %sconst clock t, %s *x, %s *v, %s *p, %s *a)\n",
+        how, real, name, real, real, order, real, real, real, real);
+}
+
+static void write_body(writer *w)
+{
+    SAY(w, "{\n    (void)pool, (void)q, (void)u, (void)w, (void)own, (void)t, (void)x, (void)v, (void)a;\n");
     write_bound(w);
+    if (w->e->series_wide) { /* they begin at a multiple of their size */
+        emit_line(w, "double *const memory = p;");
+        emit_line(w, "{");
+        emit_line(w, "real *p = (real *)(((uintptr_t)memory + sizeof(real) - 1) & ~(uintptr_t)(sizeof(real) - 1));");
+    }
+    emit_line(w, "p += %d;", w->expansion.length); /* before it begins what passes */
     write_region(w, AT_RUN);
+    if (w->e->series_wide) emit_line(w, "}");
     emit_line(w, "return p;");
     SAY(w, "}\n\n");
+}
+
+/* The orders apart, and the function that calls them. */
+static void write_orders(writer *w, const char *name)
+{
+    char part[80];
+    const int count = w->expansion.length - 2;
+    for (int n = 0; n < count; n++) {
+        snprintf(part, sizeof part, "%s_%d", name, n);
+        write_head(w, "__attribute__((noinline))", part, "");
+        SAY(w, "{ return %s_any(%s%d, %s); }\n", name, given, n, states);
+    }
+    write_head(w, "inline", name, "const int n, ");
+    SAY(w, "{\n    switch (n) {\n");
+    for (int n = 0; n < count - 1; n++) SAY(w, "    case %d: return %s_%d(%s%s);\n", n, name, n, given, states);
+    SAY(w, "    default: return %s_%d(%s%s);\n    }\n}\n\n", name, count - 1, given, states);
+}
+
+void emit_series_pass(writer *w, const char *name)
+{
+    enum { APART_MAX = 64 }; /* values */
+    char any[80];
+    if (!expansion_place(&w->expansion, w->e->text.arena, &w->plan, w->e->series, true)) return;
+    const bool apart = w->plan.items.count <= APART_MAX;
+    w->along = -1;
+    w->e->series_wide = w->e->series_may_be_wide && can_be_wide(w);
+    w->e->uses_vectors |= w->e->series_wide;
+    w->e->series_apart |= apart;
+    snprintf(any, sizeof any, apart ? "%s_any" : "%s", name);
+    if (w->e->series_wide) SAY(w, "#pragma push_macro(\"real\")\n#undef real\n#define real reals\n");
+    write_head(w, apart ? "inline __attribute__((always_inline))" : "__attribute__((noinline))", any, "const int n, ");
+    write_body(w);
+    if (apart) write_orders(w, name);
+    if (w->e->series_wide) SAY(w, "#pragma pop_macro(\"real\")\n");
 }
 
 /* The recurrences ---------------------------------------------------------------------------------------------------*/
@@ -230,7 +357,7 @@ void emit_series_pass(writer *w, const char *name)
 static void write_recurrence(emit_text *t, const char *prefix, int op, int keeps, const char *recurrence,
                              const char *operands, const char *values)
 {
-    emit_add(t, "static inline void series_%d(real *r, %s, const int n) { ", op, operands);
+    emit_add(t, "SERIES_FUNCTION void series_%d(real *r, %s, const int n) { ", op, operands);
     if (!keeps) emit_add(t, "if (n == 0) r[0] = %s_%d(%s); else ", prefix, op, values);
     emit_add(t, "r[n] = %s; }\n", recurrence);
 }

@@ -71,6 +71,25 @@ static bool join(joining *j, uint32_t k, const graph_node *n, node *out)
     return true;
 }
 
+static bool moves(const graph *g, node n) { return (graph_at(g, n)->deps & (DEP_STATE | DEP_TIME)) != 0; }
+
+/* p q with its factor that stays the same, if there is one, apart: *p becomes that factor, and *q the rest. So the
+ * series of a product of two that move is summed up, and its multiple needs no sum and no memory of its own. */
+static void set_apart(graph *g, node *p, node *q)
+{
+    if (!moves(g, *p) || !moves(g, *q)) return;
+    for (int side = 0; side < 2; side++) {
+        const node one = side ? *q : *p, other = side ? *p : *q;
+        const graph_node *n = graph_at(g, one);
+        if (n->op != OP_MUL) continue;
+        const node a = n->a, b = n->b;
+        if (moves(g, a) == moves(g, b)) continue;
+        *p = moves(g, a) ? b : a;
+        *q = graph_op(g, OP_MUL, moves(g, a) ? a : b, other, 0);
+        return;
+    }
+}
+
 static node form(joining *j, uint32_t k)
 {
     const graph_node n = j->from->nodes[j->w.nodes[k]];
@@ -100,6 +119,7 @@ static node form(joining *j, uint32_t k)
     default: break;
     }
     for (int i = graph_operands(&n, operand); i-- > 0;) operand[i] = image(j, operand[i]);
+    if (n.op == OP_MUL || n.op == OP_FMA || n.op == OP_FMS || n.op == OP_FNMA) set_apart(g, &operand[0], &operand[1]);
     return graph_op(g, (operation)n.op, operand[0], operand[1], operand[2]);
 }
 
@@ -192,6 +212,9 @@ static uint32_t numbers_of(const expansion *e, const plan *p, uint32_t item)
 {
     const expansion_value *v = &e->values[item];
     const int keeps = operation_at(p->g->nodes[p->items.at[item].n].op)->keeps;
+    const bool looped = p->regions.at[p->items.at[item].region].level >= 0;
+    if (v->state && looped) return v->passing ? 1 : (uint32_t)e->length;
+    if (v->passing && plan_updates(p, &p->items.at[item]) == NONE) return 1;
     if (v->state || v->twin != NONE || plan_updates(p, &p->items.at[item]) != NONE) return 0;
     if (expansion_begins(e, p, item)) return (uint32_t)(keeps * e->length);
     return (uint32_t)(v->last < e->length ? v->last + 1 : e->length);
@@ -205,6 +228,36 @@ static operation twin_of(operation op)
     case OP_SINH: return OP_COSH;
     case OP_COSH: return OP_SINH;
     default: return OPERATIONS;
+    }
+}
+
+/* Whether a recurrence reads of its operand i no coefficient but the one of the order that it computes. */
+static bool passes(const graph_node *n, int i, const int *last)
+{
+    const node other = i ? n->a : n->b;
+    switch (n->op) {
+    case OP_NEG:
+    case OP_ADD:
+    case OP_SUB: return true;
+    case OP_FMA:
+    case OP_FMS:
+    case OP_FNMA: return i == 2 || last[other] == 0;
+    case OP_MUL: return last[other] == 0;
+    default: return false;
+    }
+}
+
+/* Of every node whether something reads its earlier coefficients; its own recurrence, too. */
+static void find_kept(const graph *g, const int *last, uint8_t *kept)
+{
+    for (node k = 0; k < g->count; k++) {
+        const graph_node *n = &g->nodes[k];
+        node operand[3] = {0, 0, 0};
+        if (operation_at(n->op)->keeps > 0) kept[k] = 1;
+        for (int i = graph_operands(n, operand); i-- > 0;) {
+            const bool term = n->op == OP_SUM && i == 0; /* its operands are those of the total's update */
+            if (!term && !passes(n, i, last)) kept[operand[i]] = 1;
+        }
     }
 }
 
@@ -225,7 +278,7 @@ static uint32_t find_twin(const plan *p, uint32_t item, uint32_t *seen)
 }
 
 /* Everything in the arena is scratch but the two lists. */
-bool expansion_place(expansion *e, arena *a, const plan *p, int length)
+bool expansion_place(expansion *e, arena *a, const plan *p, int length, bool compact)
 {
     const uint32_t items = p->items.count, nodes = p->g->count;
     e->length = length;
@@ -233,12 +286,15 @@ bool expansion_place(expansion *e, arena *a, const plan *p, int length)
     e->frames = arena_room(a, (p->regions.count + 1) * sizeof *e->frames);
     int *last = take(p->hooks, nodes + 1, sizeof *last);
     uint32_t *seen = take(p->hooks, 2 * (size_t)nodes + 1, sizeof *seen);
-    const bool ok = e->values && e->frames && last && seen;
+    uint8_t *kept = take(p->hooks, nodes + 1, sizeof *kept);
+    const bool ok = e->values && e->frames && last && seen && kept;
     for (uint32_t n = 0; ok && n < nodes; n++) {
         last[n] = last_of(p->g, &p->g->nodes[n], last);
         if (last[n] > length - 3) last[n] = EXPANSION_ALL; /* coefficients 0 … length-3 are computed */
         seen[2 * n] = seen[2 * n + 1] = NONE;
     }
+    for (node n = 0; ok && n < nodes; n++) kept[n] = !compact;
+    if (ok && compact) find_kept(p->g, last, kept);
     for (uint32_t r = 0; ok && r < p->regions.count; r++) {
         const plan_region *region = &p->regions.at[r];
         e->frames[r] = 0;
@@ -249,11 +305,13 @@ bool expansion_place(expansion *e, arena *a, const plan *p, int length)
             expansion_value *v = &e->values[item];
             *v = (expansion_value){.last = last[p->items.at[item].n], .state = load, .twin = NONE};
             if (v->last > 0) v->twin = find_twin(p, item, seen);
+            v->passing = v->last == EXPANSION_ALL && v->twin == NONE && !kept[p->items.at[item].n];
             v->at = e->frames[r];
             e->frames[r] += numbers_of(e, p, item);
         }
     }
     if (!ok) a->failed = true;
+    give(p->hooks, kept);
     give(p->hooks, seen);
     give(p->hooks, last);
     return ok;

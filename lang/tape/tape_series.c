@@ -144,7 +144,7 @@ static bool write(writer *w, arena *a, int length)
 {
     const uint32_t items = w->plan.items.count, regions = w->plan.regions.count;
     tape_series *s = w->out;
-    if (!expansion_place(&w->expansion, a, &w->plan, length)) return false;
+    if (!expansion_place(&w->expansion, a, &w->plan, length, false)) return false;
     s->regions = arena_room(a, regions * sizeof *s->regions);
     s->last = arena_room(a, (items + 1) * sizeof *s->last);
     s->at = arena_room(a, (items + 1) * sizeof *s->at);
@@ -206,7 +206,10 @@ static size_t numbers_of(counting *c, uint32_t region)
         if (last < first) continue;
         c->index[inside->level] = first;
         if (!depends(s, t->a, inside->level)) {
-            all += (size_t)(last - first + 1) * numbers_of(c, t->a);
+            size_t runs = (size_t)(last - first + 1);
+            if (inside->level == 0 && !inside->sum)
+                runs = (runs + EXPANSION_LANES - 1) / EXPANSION_LANES * EXPANSION_LANES;
+            all += runs * numbers_of(c, t->a);
             continue;
         }
         for (; c->index[inside->level] <= last; c->index[inside->level]++) all += numbers_of(c, t->a);
@@ -219,7 +222,8 @@ void tape_series_bind(tape_series *s, const binding *b)
     counting c = {.s = s};
     s->binding = *b;
     s->bound = numbers_of(&c, AT_BIND);
-    s->numbers = s->bound + numbers_of(&c, AT_RUN);
+    /* vectors begin at a multiple of their size, behind one series that nothing uses: emit_series.c */
+    s->numbers = s->bound + numbers_of(&c, AT_RUN) + EXPANSION_LANES * (size_t)(s->length + 1);
 }
 
 size_t tape_series_numbers(const tape_series *s) { return s->numbers; }

@@ -42,6 +42,22 @@ static inline reals index_count(int64_t j)
     return lanes + MANY((double)j);
 }
 
+/* A number of lane l in every lane; of the lanes from number `lanes` on that of the last one before. */
+#define LANE_OF_INDEX(k, number)                     \
+    __extension__({                                  \
+        const int l = (k) < lanes ? (k) : lanes - 1; \
+        (double)(number);                            \
+    })
+#define TWO_OF_INDEX(k, number) LANE_OF_INDEX(k, number), LANE_OF_INDEX((k) + 1, number)
+#if WIDTH == 8
+#define LANES_OF_INDEX(number) \
+    ((reals){TWO_OF_INDEX(0, number), TWO_OF_INDEX(2, number), TWO_OF_INDEX(4, number), TWO_OF_INDEX(6, number)})
+#elif WIDTH == 4
+#define LANES_OF_INDEX(number) ((reals){TWO_OF_INDEX(0, number), TWO_OF_INDEX(2, number)})
+#else
+#define LANES_OF_INDEX(number) ((reals){TWO_OF_INDEX(0, number)})
+#endif
+
 #ifdef WRAPS
 /* The numbers from index k on of a ring of n numbers. */
 static inline reals index_around(const double *ring, int64_t k, int64_t n)
