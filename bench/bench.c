@@ -1,7 +1,7 @@
 /* make bench: what motus takes, beside the best that was written by hand for one problem, and beside what one would
  * pick instead.
  *
- *     bench [--save DIRECTORY] [ensembles] [single] [large] [programs]
+ *     bench [--save DIRECTORY] [accuracy] [ensembles] [single] [large] [programs]
  *
  * Run it where models/ and bench/ are. It never fails because of a figure; "short" says that a limit was missed.
  * --save writes the lines to DIRECTORY/<machine>.txt as well, and prints that name last.
@@ -19,19 +19,21 @@ int main(int count, char **words)
     } parts[] = {{"programs", compare_programs},
                  {"ensembles", compare_ensembles},
                  {"single", compare_single},
-                 {"large", compare_large}};
+                 {"large", compare_large},
+                 {"accuracy", compare_accuracy}};
+    enum { PARTS = sizeof parts / sizeof *parts };
     const char *directory = NULL;
     char file[512] = "";
-    bool wanted[4] = {false}, all = true;
+    bool wanted[PARTS] = {false}, all = true;
     for (int k = 1; k < count; k++) {
         bool known = false;
         if (!strcmp(words[k], "--save") && k + 1 < count)
             directory = words[++k], known = true;
         else
-            for (int p = 0; p < 4; p++)
+            for (int p = 0; p < PARTS; p++)
                 if (!strcmp(words[k], parts[p].name)) wanted[p] = known = true, all = false;
         if (!known) {
-            fprintf(stderr, "bench: \"%s\" is none of ensembles, single, large, programs, --save DIRECTORY\n",
+            fprintf(stderr, "bench: \"%s\" is none of accuracy, ensembles, single, large, programs, --save DIRECTORY\n",
                     words[k]);
             return 2;
         }
@@ -49,7 +51,7 @@ int main(int count, char **words)
     if (!process_open()) fprintf(stderr, "bench: no directory for a cache of its own\n");
     report_open(copy);
     machine_describe();
-    for (int p = 0; p < 4; p++)
+    for (int p = 0; p < PARTS; p++)
         if (all || wanted[p]) parts[p].run();
     report_close();
     process_close();

@@ -33,6 +33,7 @@ typedef struct side {
     }
 
 double now(void);                                 /* seconds */
+double thread_seconds(void);                      /* seconds that this thread has had the processor */
 void measure(side *sides, int count, int rounds); /* a round before the first is not counted */
 double median(const side *);                      /* NaN: not measured */
 double ratio(const side *over, const side *under);
@@ -45,6 +46,10 @@ void report_section(const char *title, const char *what);
 void report_at_most(const char *name, const side *ours, const side *other, double limit, const char *unit);
 /* other/ours */
 void report_at_least(const char *name, const side *ours, const side *other, double limit, const char *unit);
+/* a ratio of two times that were not measured in rounds: other/ours */
+void report_times(const char *name, double ours, double other, double limit, const char *unit);
+/* errors, ours at most `limit` */
+void report_error(const char *name, double ours, double other, double limit);
 /* no limit */
 void report_beside(const char *name, const side *ours, const side *other, const char *unit);
 void report_value(const char *name, double value, double limit,
@@ -65,7 +70,7 @@ typedef struct process {
     double seconds;
     long kilobytes;
     int status;
-    char out[256];
+    char out[1024];
 } process;
 bool process_open(void); /* makes the directory that is the programs' cache */
 void process_close(void);
@@ -89,7 +94,21 @@ char *read_text(const char *file); /* or NULL */
 double ours_ensemble(const char *file, const char *method, int64_t steps, double step, const char *varied,
                      const double *values, size_t count, double *x, double *v, int threads);
 
+/* ours_adaptive.c: a problem to its end by a tolerance, and what it took. */
+typedef struct ours_answer {
+    double created, seconds; /* of the clock, to read, compile and prepare; of the processor. NaN: it failed */
+    int64_t steps;
+} ours_answer;
+struct problem;
+ours_answer ours_adaptive(const char *file, const struct problem *, const char *method, double tolerance,
+                          double *state);
+/* bench/driven-pendulum.motus on one thread: the processor's seconds without reading and compiling, or NaN. */
+double ours_pendulums(const char *file, const char *method, double tolerance, size_t count, const double *F,
+                      const double *theta, double *x, double *v);
+
 /* The comparisons, one file each. */
+void compare_accuracy(void);
+void compare_driven_pendulums(void); /* a part of it */
 void compare_ensembles(void);
 void compare_single(void);
 void compare_large(void);

@@ -146,14 +146,15 @@ static void compare(job all, hand_kind kind, hand_kind free_kind)
     job ours = job_with(all, COUNT), hand = job_with(all, COUNT), loose = job_with(all, COUNT),
         other = job_with(all, COUNT / 8);
     job few = job_with(all, FEW), fewer = job_with(all, FEW), python = job_with(all, 1),
-        position = job_with(all, COUNT);
-    hand.kind = kind, loose.kind = free_kind, position.kind = HAND_FREE_POSITION;
+        position = job_with(all, COUNT), first = job_with(all, COUNT);
+    hand.kind = kind, loose.kind = free_kind, position.kind = HAND_FREE_POSITION, first.kind = HAND_FIRST_RK4;
     other.order4 = kind == HAND_RK4;
     oscillators trial = hand.hand;
     trial.count = COUNT / 8;
     hand_oscillators_choose(kind, &trial);
     hand_oscillators_choose(free_kind, &trial);
     hand_oscillators_choose(HAND_FREE_POSITION, &trial);
+    hand_oscillators_choose(HAND_FIRST_RK4, &trial);
     other.block = odeint_block(&other);
     side sides[] = {SIDE(by_ours, &ours),
                     SIDE(by_hand, &hand),
@@ -177,6 +178,9 @@ static void compare(job all, hand_kind kind, hand_kind free_kind)
                       sides[0].taken ? &sides[0] : NULL, &sides[7], "ns");
     report_at_least(NAMED("%s: odeint, blocks of %d", method, other.block), &sides[0], &sides[3], 2.5, "ns");
     if (kind == HAND_RK4) {
+        side forms[] = {SIDE(by_ours, &ours), SIDE(by_hand, &first)};
+        measure(forms, 2, ROUNDS);
+        report_at_most(NAMED("%s: by hand, as a system of first order", method), &forms[0], &forms[1], 0.6, "ns");
         report_at_least(NAMED("%s: GSL, one by one", method), &sides[0], &sides[4], 40, "ns");
         report_at_least(NAMED("%s: SUNDIALS, one by one", method), &sides[0], &sides[5], 40, "ns");
         report_at_least(NAMED("%s: SciPy, one by one", method), &sides[0], &sides[6], 40, "ns");
@@ -190,7 +194,7 @@ static void compare(job all, hand_kind kind, hand_kind free_kind)
     if (sides[5].taken && distance(hand.x, fewer.x, FEW) > 1e-12)
         report_note("SUNDIALS' answer differs by %.0e", distance(hand.x, fewer.x, FEW));
     job_free(&ours), job_free(&hand), job_free(&loose), job_free(&other), job_free(&few), job_free(&fewer),
-        job_free(&python), job_free(&position);
+        job_free(&python), job_free(&position), job_free(&first);
 }
 
 static void compare_pendulums(job all)

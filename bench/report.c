@@ -86,6 +86,13 @@ void report_at_least(const char *name, const side *ours, const side *other, doub
     line(name, median(ours), median(other), value, text, value >= limit, unit);
 }
 
+void report_times(const char *name, double ours, double other, double limit, const char *unit)
+{
+    char text[32];
+    snprintf(text, sizeof text, ">= %.3g", limit);
+    line(name, ours, other, other / ours, text, other / ours >= limit, unit);
+}
+
 void report_beside(const char *name, const side *ours, const side *other, const char *unit)
 {
     line(name, ours ? median(ours) : NAN, median(other), ours ? ratio(ours, other) : NAN, "", -1, unit);
@@ -98,6 +105,17 @@ void report_value(const char *name, double value, double limit, const char *unit
     const char *word = isnan(value) ? "not measured" : value < limit ? "ok" : "short";
     *(isnan(value) ? &unmeasured : value < limit ? &good : &missed) += 1;
     report_text("  %-56s  %9s  %9s  %7s  %8s  %s\n", name, figure(value, unit, a, sizeof a), "", "", text, word);
+}
+
+void report_error(const char *name, double ours, double other, double limit)
+{
+    char a[32], b[32], text[32];
+    snprintf(a, sizeof a, "%.1e", ours);
+    snprintf(b, sizeof b, "%.1e", other);
+    snprintf(text, sizeof text, "<= %.2g", limit);
+    const char *word = isnan(ours) ? "not measured" : ours <= limit ? "ok" : "short";
+    *(isnan(ours) ? &unmeasured : ours <= limit ? &good : &missed) += 1;
+    report_text("  %-56s  %9s  %9s  %7s  %8s  %s\n", name, a, b, "", text, word);
 }
 
 void report_bits(const char *name, bool known, bool same)

@@ -4,7 +4,7 @@
 # one is not installed, its lines read "not measured".
 
 file(GLOB bench_sources CONFIGURE_DEPENDS bench/*.c bench/hand/*.c bench/peers/*.c)
-list(REMOVE_ITEM bench_sources ${PROJECT_SOURCE_DIR}/bench/functions.c)
+list(REMOVE_ITEM bench_sources ${PROJECT_SOURCE_DIR}/bench/functions.c ${PROJECT_SOURCE_DIR}/bench/truth.c)
 file(GLOB bench_hand bench/hand/*.c)
 set_source_files_properties(${bench_hand} PROPERTIES COMPILE_OPTIONS "${hot};-march=native")
 set_source_files_properties(bench/hand/single.c PROPERTIES COMPILE_OPTIONS -O2) # what a physicist types
@@ -37,7 +37,7 @@ function(bench_peer name header)
   endif()
 endfunction()
 bench_peer(GSL gsl/gsl_odeiv2.h gsl gslcblas)
-bench_peer(SUNDIALS arkode/arkode_erkstep.h sundials_arkode sundials_nvecserial)
+bench_peer(SUNDIALS arkode/arkode_erkstep.h sundials_arkode sundials_cvode sundials_sunnonlinsolfixedpoint sundials_nvecserial)
 
 # The C library's vector functions, x86-64 only.
 find_library(BENCH_mvec mvec)
@@ -47,7 +47,8 @@ if(BENCH_mvec AND CMAKE_SYSTEM_PROCESSOR MATCHES "^(x86_64|amd64|AMD64)$")
 endif()
 
 enable_language(CXX)
-add_library(motus_bench_odeint OBJECT EXCLUDE_FROM_ALL bench/peers/odeint.cpp)
+add_library(motus_bench_odeint OBJECT EXCLUDE_FROM_ALL bench/peers/odeint.cpp
+            bench/peers/adaptive_odeint.cpp)
 target_include_directories(motus_bench_odeint PRIVATE ${PROJECT_SOURCE_DIR})
 target_compile_options(motus_bench_odeint PRIVATE -O3 -march=native)
 target_compile_features(motus_bench_odeint PRIVATE cxx_std_14)

@@ -33,6 +33,7 @@ typedef enum hand_kind {
     HAND_FREE_RK4, /* the fewest operations, with no more round-off */
     /* fewer still, with the round-off of the literal recursion */
     HAND_FREE_POSITION,
+    HAND_FIRST_RK4, /* rk4 of the system of first order */
     HAND_KINDS
 } hand_kind;
 /* Tries how many registers to work on at a time, and keeps the best for hand_oscillators. */

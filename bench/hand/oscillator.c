@@ -55,7 +55,7 @@ typedef struct size {
         u, s,                                                                                                        \
         {                                                                                                            \
             verlet_##u##_##s, velocity_verlet_##u##_##s, rk4_##u##_##s, free_leapfrog_##u##_##s, free_rk4_##u##_##s, \
-                free_position_##u##_##s                                                                              \
+                free_position_##u##_##s, first_rk4_##u##_##s                                                         \
         }                                                                                                            \
     }
 static const size sizes[] = {SIZE(2, 1),  SIZE(4, 1),  SIZE(6, 1),  SIZE(8, 1),  SIZE(10, 1), SIZE(11, 1),

@@ -23,6 +23,13 @@ int peer_odeint_chain(size_t N, double beta, double step, int64_t steps, double 
 int peer_gsl(size_t count, const double *F, double step, int64_t steps, double *x);
 int peer_sundials(size_t count, const double *F, double step, int64_t steps, double *x);
 
+/* ACCURACY: problem `which` of bench/problems.h to its end, by tolerance, relative and absolute; the state there. */
+int peer_odeint_adaptive(int which, double tolerance, double *state);                   /* Runge-Kutta-Fehlberg 7(8) */
+int peer_gsl_adaptive(const char *stepper, int which, double tolerance, double *state); /* "rk8pd", "msadams" */
+int peer_sundials_adaptive(const char *solver, int which, double tolerance, double *state); /* "erk", "adams" */
+/* Driven pendulums, theta'' = -0.1 theta' - sin theta + F cos(2 t/3), from rest at theta[k] to t = 20. */
+int peer_odeint_pendulums(size_t count, const double *F, const double *theta, double tolerance, double *x, double *v);
+
 #ifdef __cplusplus
 }
 #endif
