@@ -161,7 +161,7 @@ static void decimals_lie_between(void **state)
                                       set, 1, "decimals");
     motus_system *shadow = NULL;
     motus_error err = motus_default_error();
-    must(shadow_create(s, &shadow, &err), &err, "shadow");
+    must(shadow_create(s, NULL, &shadow, &err), &err, "shadow");
     const struct {
         long double number;
         double tolerance;
@@ -186,7 +186,7 @@ static void decimals_lie_between(void **state)
     const double third = 1.0 / 3;
     must(motus_system_set(s, "a", &third, 1, &err), &err, "set");
     must(motus_system_set(s, "x(0)", &third, 1, &err), &err, "set");
-    must(shadow_create(s, &shadow, &err), &err, "shadow");
+    must(shadow_create(s, NULL, &shadow, &err), &err, "shadow");
     motus_parameter_values(shadow, 0, &x[0]);
     motus_initial_values(shadow, 0, &x[1]);
     motus_parameter_values(shadow, 1, &v[0]);
@@ -205,7 +205,7 @@ static void rounded_parameters_move(void **state)
                                  "x(0) = 1\nx'(0) = 0\n"),
                  *shadow = NULL;
     motus_error err = motus_default_error();
-    must(shadow_create(s, &shadow, &err), &err, "shadow");
+    must(shadow_create(s, NULL, &shadow, &err), &err, "shadow");
     for (size_t k = 0; k < 5; k++) {
         double ours, other;
         motus_parameter_values(s, k, &ours);
