@@ -101,6 +101,15 @@ static void continuous_state(const work *w, const dense_step *d, clock t, real *
     for (size_t k = 0; k < w->nx; k++) x[k] = FMA(cubic, continuous_sum(w, d, missing, n, k), x[k]);
 }
 
+/* How far the ends are apart, by the stages: the ends are rounded, and a velocity would take their rounding over h. */
+static void continuous_apart(const work *w, const dense_step *d)
+{
+    real *dx = lift_array(w, d, LIFT_APART), *dv = lift_array(w, d, LIFT_APART + 1);
+    const int s = w->stages;
+    for (size_t k = 0; k < w->nx; k++) dx[k] = w->h * w->h * continuous_sum(w, d, w->unit + tableau_bb(w), s, k);
+    for (size_t k = 0; k < w->nv; k++) dv[k] = w->h * continuous_sum(w, d, w->unit + tableau_b(w), s, k);
+}
+
 /* Rows without such weights have their polynomial lifted. */
 static inline bool continuous_has(const work *w) { return w->row->tableau.dense.terms > 0; }
 static dense_room runge_kutta_between(const work *w, coef *unit)
@@ -109,7 +118,10 @@ static dense_room runge_kutta_between(const work *w, coef *unit)
 }
 static int runge_kutta_extend(work *w, const dense_step *d)
 {
-    return continuous_has(w) ? continuous_extend(w, d) : lift_extend(w, d);
+    if (continuous_has(w)) return continuous_extend(w, d);
+    if (!ROW(w, adaptive)) return lift_extend(w, d);
+    continuous_apart(w, d);
+    return lift_rise(w, d);
 }
 static int runge_kutta_dense(work *w, const dense_step *d, clock t, real *x, real *v)
 {

@@ -71,17 +71,36 @@ static int lift_widest(const int *nodes, int count, int from)
     return most;
 }
 
+/* In `more`: a state, how far the ends are apart, and the accelerations of two rounds. */
+enum { LIFT_STATE = 0, LIFT_APART = 2, LIFT_FIRST = 4 };
+
+/* Whether the polynomial is more than Hermite's formula: of adaptive rows it always takes what the ends are apart from
+ * `more`, where the step's stages may tell it with less rounding than the ends do. */
+static bool lift_needed(const work *w, int count) { return count > 0 || ROW(w, adaptive); }
+
 static dense_room lift_between(const work *w, coef *unit)
 {
     int nodes[LIFT_ROUNDS_MAX];
     const int count = lift_rounds(w, nodes);
     (void)unit;
-    return (dense_room){.arrays = count ? 2 + lift_widest(nodes, count, 0) + lift_widest(nodes, count, 1) : 0};
+    if (!lift_needed(w, count)) return (dense_room){0};
+    return (dense_room){.arrays = LIFT_FIRST + lift_widest(nodes, count, 0) + lift_widest(nodes, count, 1)};
+}
+
+static real *lift_array(const work *w, const dense_step *d, int i) { return d->more + (size_t)i * w->stride; }
+
+/* x₁ - x₀ - h v₀ and v₁ - v₀. */
+static void lift_apart(const work *w, const dense_step *d)
+{
+    real *dx = lift_array(w, d, LIFT_APART), *dv = lift_array(w, d, LIFT_APART + 1);
+    const dense_end *e = d->end;
+    for (size_t k = 0; k < w->nx; k++) dx[k] = (e[1].x[k] - e[0].x[k]) - w->h * e[0].v[k];
+    for (size_t k = 0; k < w->nv; k++) dv[k] = e[1].v[k] - e[0].v[k];
 }
 
 /* The polynomial ------------------------------------------------------------------------------------------------- */
 
-/* The weights of a state at the part u of the step: of the accelerations, and of how far the ends are from one another:
+/* The weights of a state at the part u of the step: of the accelerations, and of how far the ends are apart:
  * dv = v₁ - v₀ and dx = x₁ - x₀ - h v₀. */
 typedef struct lift_weights {
     clock x[LIFT_NODES_MAX + 2], v[LIFT_NODES_MAX + 2], s[LIFT_NODES_MAX + 2];
@@ -98,18 +117,25 @@ static void lift_integrals(int nodes, clock u, clock *once, clock *twice)
         K(0.05061426814518812957626567715498109505770), K(0.1111905172266872352721779972131204422151),
         K(0.1568533229389436436689811009933006566302), K(0.1813418916891809914825752246385978060971)};
     const int n = nodes + 2;
+    clock node[LIFT_NODES_MAX + 2], over[LIFT_NODES_MAX + 2], below[LIFT_NODES_MAX + 3];
+    for (int j = 0; j < n; j++) node[j] = lift_node(nodes, j);
     for (int j = 0; j < n + 2; j++) once[j] = twice[j] = 0;
+    for (int j = 0; j < n; j++) {
+        clock product = 1;
+        for (int l = 0; l < n; l++) product *= l == j ? CLOCK(1) : node[j] - node[l];
+        over[j] = 1 / product;
+    }
     for (int g = 0; g < LIFT_POINTS; g++) {
         const int at = g < LIFT_POINTS / 2 ? g : LIFT_POINTS - 1 - g;
         const clock y = u * (g == at ? point[at] : 1 - point[at]), c = u * weight[at];
-        clock all = 1;
-        for (int l = 0; l < n; l++) all *= y - lift_node(nodes, l);
-        for (int j = 0; j < n + 2; j++) {
-            clock value = j < n ? CLOCK(1) : j == n ? all : y * all;
-            for (int l = 0; l < n && j < n; l++)
-                if (l != j) value *= (y - lift_node(nodes, l)) / (lift_node(nodes, j) - lift_node(nodes, l));
+        clock above = 1; /* the product of y - node beyond j; `below` of those before */
+        below[0] = 1;
+        for (int j = 0; j < n; j++) below[j + 1] = below[j] * (y - node[j]);
+        for (int j = n + 1; j >= 0; j--) {
+            const clock value = j > n ? y * below[n] : j == n ? below[n] : below[j] * above * over[j];
             once[j] = FMA(c, value, once[j]);
             twice[j] = FMA(c * (u - y), value, twice[j]);
+            if (j < n) above *= y - node[j];
         }
     }
 }
@@ -133,55 +159,61 @@ static void lift_weigh(int nodes, clock u, lift_weights *out)
     }
 }
 
-/* inner: the accelerations within the step. */
-static void lift_state(const work *w, const dense_end e[2], int nodes, const real *inner, clock u, real *x, real *v)
+/* The state at the part u of the step, by the accelerations at so many nodes within it. */
+static void lift_state(const work *w, const dense_step *d, int nodes, const real *inner, clock u, real *x, real *v)
 {
     lift_weights of;
-    const real *a[LIFT_NODES_MAX + 2] = {e[0].a};
+    const dense_end *e = d->end;
+    const real *a[LIFT_NODES_MAX + 2] = {e[0].a}, *dx = lift_array(w, d, LIFT_APART),
+                                   *dv = lift_array(w, d, LIFT_APART + 1);
     const int n = nodes + 2;
-    const clock h = e[1].t - e[0].t;
+    const clock h = w->h;
     for (int j = 1; j < n; j++) a[j] = j == n - 1 ? e[1].a : inner + (size_t)(j - 1) * w->stride;
     lift_weigh(nodes, u, &of);
     for (size_t k = 0; k < w->nv; k++) {
         const bool moves = k < w->nx;
-        const real v0 = e[0].v[k], dv = e[1].v[k] - v0;
+        const real v0 = e[0].v[k];
         real speed = {0}, place = {0};
         for (int j = 0; j < n; j++) {
             speed = FMA(moves ? of.v[j] : of.s[j], a[j][k], speed);
             place = FMA(of.x[j], a[j][k], place);
         }
-        v[k] = v0 + FMA(h, speed, (moves ? of.v_dv : of.s_dv) * dv);
-        if (!moves) continue;
-        const real x0 = e[0].x[k], dx = (e[1].x[k] - x0) - h * v0;
-        v[k] += of.v_dx * (dx / h);
-        x[k] = x0 + FMA(h, FMA(h, place, FMA(of.x_dv, dv, u * v0)), of.x_dx * dx);
+        const real turn = FMA(h, speed, (moves ? of.v_dv : of.s_dv) * dv[k]);
+        v[k] = v0 + (moves ? FMA(of.v_dx / h, dx[k], turn) : turn);
+        if (moves) x[k] = e[0].x[k] + FMA(h, FMA(h, place, FMA(of.x_dv, dv[k], u * v0)), of.x_dx * dx[k]);
     }
 }
 
 /* Where the accelerations of round r stand. */
 static real *lift_place(const work *w, const dense_step *d, const int *nodes, int count, int r)
 {
-    return d->more + (size_t)(2 + (r % 2 ? lift_widest(nodes, count, 0) : 0)) * w->stride;
+    return lift_array(w, d, LIFT_FIRST + (r % 2 ? lift_widest(nodes, count, 0) : 0));
+}
+
+/* The rounds, once it is known how far the ends are apart. */
+static int lift_rise(work *w, const dense_step *d)
+{
+    int nodes[LIFT_ROUNDS_MAX], bad = STEP_OK;
+    const int count = lift_rounds(w, nodes);
+    const whole evaluations = w->evaluations;
+    real *X = lift_array(w, d, LIFT_STATE), *V = lift_array(w, d, LIFT_STATE + 1);
+    for (int r = 0; r < count; r++)
+        for (int j = 1; j <= nodes[r] && !bad; j++) {
+            const clock u = lift_node(nodes[r], j);
+            real *a = lift_place(w, d, nodes, count, r) + (size_t)(j - 1) * w->stride;
+            lift_state(w, d, r ? nodes[r - 1] : 0, lift_place(w, d, nodes, count, r + 1), u, X, V);
+            bad = accel(w, d->end[0].t + u * (d->end[1].t - d->end[0].t), X, V, a);
+        }
+    w->evaluations = evaluations;
+    return bad;
 }
 
 static int lift_extend(work *w, const dense_step *d)
 {
-    int nodes[LIFT_ROUNDS_MAX], bad = STEP_OK;
-    const int count = lift_rounds(w, nodes);
-    const clock t0 = d->end[0].t, h = d->end[1].t - t0;
-    const whole evaluations = w->evaluations;
-    real *X = d->more, *V = d->more + w->stride;
-    for (int r = 0; r < count; r++)
-        for (int j = 1; j <= nodes[r] && !bad; j++) {
-            const clock u = lift_node(nodes[r], j), t = t0 + u * h;
-            if (r == 0)
-                dense_hermite(w, d->end, t, X, V);
-            else
-                lift_state(w, d->end, nodes[r - 1], lift_place(w, d, nodes, count, r - 1), u, X, V);
-            bad = accel(w, t, X, V, lift_place(w, d, nodes, count, r) + (size_t)(j - 1) * w->stride);
-        }
-    w->evaluations = evaluations;
-    return bad;
+    int nodes[LIFT_ROUNDS_MAX];
+    if (!lift_needed(w, lift_rounds(w, nodes))) return STEP_OK;
+    lift_apart(w, d);
+    return lift_rise(w, d);
 }
 
 static int lift_dense(work *w, const dense_step *d, clock t, real *x, real *v)
@@ -189,8 +221,8 @@ static int lift_dense(work *w, const dense_step *d, clock t, real *x, real *v)
     int nodes[LIFT_ROUNDS_MAX];
     const int count = lift_rounds(w, nodes);
     const clock u = (t - d->end[0].t) / (d->end[1].t - d->end[0].t);
-    if (count)
-        lift_state(w, d->end, nodes[count - 1], lift_place(w, d, nodes, count, count - 1), u, x, v);
+    if (lift_needed(w, count))
+        lift_state(w, d, count ? nodes[count - 1] : 0, lift_place(w, d, nodes, count, count + 1), u, x, v);
     else
         dense_hermite(w, d->end, t, x, v);
     return STEP_OK;

@@ -269,7 +269,8 @@ quad_count quad_dense(method k, const quad_problem *p, quad t0, quad h, int64_t 
     if (!count.bad) count.bad = advance_sync(&w, ends[0].x, ends[0].v, a[0]);
     if (!count.bad) count.bad = m->adaptive ? candidates(&w, h, 1) : advance_run(&w, 1);
     if (!count.bad) count.bad = advance_sync(&w, ends[1].x, ends[1].v, a[1]);
-    if (end && !of_stages(m)) {
+    const bool through = end && !of_stages(m);
+    if (through) {
         ends[1] = *end;
         p->accel(t + h, ends[1].x, ends[1].v, a[1]);
     }
@@ -279,7 +280,7 @@ quad_count quad_dense(method k, const quad_problem *p, quad t0, quad h, int64_t 
     const dense_step step = {
         .end = {{t, ends[0].x, ends[0].v, a[0]}, {t + h, ends[1].x, ends[1].v, a[1]}}, .more = more, .unit = unit};
     const whole evaluations = w.evaluations;
-    if (!count.bad) count.bad = family_extend(&w, &step);
+    if (!count.bad) count.bad = through ? lift_extend(&w, &step) : family_extend(&w, &step);
     if (!count.bad) count.bad = family_dense(&w, &step, t + part * h, state->x, state->v);
     if (w.evaluations != evaluations) count.bad = STEP_CALLBACK; /* dense output counts none */
     return count;
