@@ -184,6 +184,11 @@ motus_status stepper_turn(stepper *s, double t, double h, motus_error *err)
 {
     work *w = &s->work;
     const size_t nx = w->nx, nv = w->nv;
+    if (w->carried && w->kept && t == w->t) { /* the stages of the last step lead to the next one */
+        w->next = s->leg_h = h;
+        s->arrived = s->left = s->right = false;
+        return MOTUS_OK;
+    }
     if (!stepper_ends(s)) return fail(err, MOTUS_MEMORY, "out of memory for another step size");
     double *x = s->ends + nx + 2 * nv, *v = x + nx, *error = s->ends;
     motus_status status = stepper_sync(s, x, v, NULL, err);

@@ -97,7 +97,7 @@ static inline norm_correction control_corrections(const work *w, const real *r, 
             if (k < FACT(w, nx)) place = LARGER(ABS(w->x[k]), place);
         }
         const clock size = rate.size + ABS(w->h) * rate.way, off = ABS(w->h) * rate.off;
-        const clock allowed = norm_allowed(w, &rate, none),
+        const clock allowed = LARGER(CHOOSE_WHERE(w->absolute < size, w->absolute, none), w->relative * size),
                     slack = CHOOSE_WHERE(allowed < size, LARGER(allowed - 64 * EPSILON * size, none), none);
         const clock share = off / (slack + SMALLEST),
                     roundings = off / (norm_rounding(w, &rate, per_h * place) + SMALLEST),

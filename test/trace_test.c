@@ -17,7 +17,8 @@ static motus_run *create(motus_system *s, const char *method, double step, doubl
     motus_run *r = NULL;
     def.method = method;
     given_step(&def, step);
-    if (isnan(def.step)) def.tolerance = 1e-4; /* an adaptive method: few steps */
+    /* an adaptive method: few steps; stages that solve an equation are as exact as the tolerance */
+    if (isnan(def.step)) def.tolerance = strcmp(method, "radau15") ? 1e-4 : 1e-15;
     def.until = until;
     def.machine = machine;
     must(motus_run_create(s, &def, &r, &err), &err, method);
