@@ -886,8 +886,8 @@ MOTUS_API motus_status motus_ensemble_create(motus_system *, const motus_ensembl
 MOTUS_API motus_status motus_ensemble_run(motus_ensemble *, size_t count, const double *const *values,
                                           double *const *results, double *stopped, motus_error *);
 /* The same with the errors: errors[k], room for `count` numbers, has the bars of results[k], as motus_run_errors has
- * those of a run; NaN where a trajectory stopped. Every trajectory has a companion of its own, and its bars are those of
- * a run with its values (`set` with motus_system_set) that is asked at its end and at the observations. The bar of a
+ * those of a run; NaN where a trajectory stopped. Every trajectory has a companion of its own, and its bars are those
+ * of a run with its values (given by motus_system_set) that is asked at its end and at the observations. The bar of a
  * minimum, a maximum or a mean is that of the exact motion's over the same times, and follows from its own difference
  * between trajectory and companion; where such a record is, the companion is compared at every observation: with one
  * after every step it takes three times the evaluations of the trajectory instead of twice. Numbers of steps have the

@@ -46,8 +46,8 @@ typedef struct differences {
     differences_growth growth;
 } differences;
 
-/* Where a companion lands in a run of so many steps of one size, after it has landed at step `landed`; which may be past
- * the end. Where steps adapt it lands after every step. */
+/* Where a companion lands in a run of so many steps of one size, after it has landed at step `landed`; which may be
+ * past the end. Where steps adapt it lands after every step. */
 int64_t differences_due(int64_t total, int64_t landed);
 /* How many steps of one size it takes while the run takes n; of adaptive steps it takes the two halves of each. */
 static inline int64_t differences_steps(int64_t n) { return 2 * n + 1; }

@@ -181,7 +181,7 @@ static void same_as_runs(void **state)
     }
 }
 
-/* Coverage ---------------------------------------------------------------------------------------------------------- */
+/* ---- coverage ---- */
 
 typedef struct count {
     long all, covered, tight, withheld;
@@ -296,7 +296,7 @@ static void covered(void **state)
     }
 }
 
-/* What has no bar --------------------------------------------------------------------------------------------------- */
+/* ---- what has no bar ---- */
 
 static void refused(void **state)
 {
