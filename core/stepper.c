@@ -5,8 +5,9 @@
  * here the fastest one that this processor has is chosen when a stepper is made. It cannot change the bits.
  *
  * Invariant: after a failure the stepper stands at its last good step: the state there is finite, and where a callback
- * computes the acceleration, it can be observed. The stepper keeps the carried numbers every SNAPSHOT steps (of large
- * systems, where a copy costs more beside a step, every SNAPSHOT_LARGE). After a failure it goes back to them and
+ * computes the acceleration, it can be observed. The stepper keeps the carried numbers every SNAPSHOT steps; every
+ * SNAPSHOT_LARGE those of large systems, where a copy costs more beside a step, and of compiled models, whose step
+ * takes less time than the test whether it led to finite numbers. After a failure it goes back to them and
  * takes the good steps once more, to the same bits, since steps are deterministic.
  */
 #include "core/stepper_parts.h"
@@ -118,6 +119,7 @@ motus_status stepper_create(const machine *m, const chosen *method, double t0, d
     }
     s->work.services = &s->library;
     s->work.host = m->host;
+    s->work.check = s->work.check && !m->host;
     s->body->place(&s->work, memory);
     status = stepper_start(s, t0, h, x, v, err);
     if (!status) status = prepare_solver(s, err);

@@ -302,7 +302,7 @@ void emit_pair_sums(writer *w, uint32_t region)
     emit_line(w, "{");
     w->depth++;
     emit_line(w, "int64_t m1 = i1 + 1;");
-    emit_line(w, "for (int rest = 0; rest < 2; rest++) {");
+    emit_line(w, "for (int rest = 0; rest <= (rows > 1); rest++) {");
     w->depth++;
     emit_line(w, "const int64_t up = (m1 + 7) & ~(int64_t)7, e1 = rest || rows == 1 || up > n1 ? n1 : up;");
     write_one_by_one(w, region);

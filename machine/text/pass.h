@@ -28,6 +28,11 @@ static void pass_all(const compiled_host *host, clock t, const clock *T, real *x
 __attribute__((noinline)) static void pass_fixed(const work *w, real *x, real *v, real *a, const window_put *move)
 {
     const tiling *in = w->host->tiling;
+    if (w->window.from <= in->first && w->window.to > in->last) { /* nothing is to be searched for */
+        for (size_t i = 0; i < in->fixed_count; i++)
+            for (size_t k = in->fixed[2 * i]; k < in->fixed[2 * i + 1]; k++) PUT(k, 0);
+        return;
+    }
     for (int p = 0; p < in->parts; p++) {
         const size_t begin = window_place(&in->part[p], w->window.from), end = window_place(&in->part[p], w->window.to);
         size_t low = 0, high = in->fixed_count; /* the first range that ends after `begin` */
