@@ -209,10 +209,15 @@ static void at_equal_errors(const code *codes, int count)
         const code *ours = fastest(codes, count, targets[t]);
         for (int k = 0; k < count; k++) {
             char name[80];
-            if (codes[k].ours) continue;
-            snprintf(name, sizeof name, "at %.0e: %s, ours %s", targets[t], codes[k].name, ours ? ours->name : "none");
-            report_times(name, ours ? time_at(ours, targets[t]) : NAN, time_at(&codes[k], targets[t]),
-                         codes[k].run == by_scipy ? 200 : 2.5, "ms");
+            const code *c = &codes[k];
+            if (c->ours) continue;
+            if (c->count && isnan(time_at(c, targets[t]))) {
+                report_note("%s never comes as near as %.0e", c->name, targets[t]);
+                continue;
+            }
+            snprintf(name, sizeof name, "at %.0e: %s, ours %s", targets[t], c->name, ours ? ours->name : "none");
+            report_times(name, ours ? time_at(ours, targets[t]) : NAN, time_at(c, targets[t]),
+                         c->run == by_scipy ? 200 : 2.5, "ms");
         }
     }
 }
