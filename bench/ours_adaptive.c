@@ -41,7 +41,8 @@ double ours_pendulums(const char *file, const char *method, double tolerance, si
                       const double *theta, double *x, double *v)
 {
     static const char *const varied[] = {"F", "theta(0)"};
-    motus_record records[2] = {{.how = MOTUS_REDUCE_FINAL}, {.how = MOTUS_REDUCE_FINAL}};
+    /* columns: t, the position, the velocity */
+    const motus_record records[2] = {{MOTUS_REDUCE_FINAL, 1}, {MOTUS_REDUCE_FINAL, 2}};
     const double *const values[] = {F, theta};
     double *const results[] = {x, v};
     motus_error error = motus_default_error();
@@ -56,8 +57,6 @@ double ours_pendulums(const char *file, const char *method, double tolerance, si
     def.records = records, def.record_count = 2;
     def.method = method, def.tolerance = tolerance, def.machine = "compiled", def.threads = 1;
     if (words && !motus_system_from_text(&text, &system, &error) &&
-        !motus_column_find(system, "theta", &records[0].column, NULL, &error) &&
-        !motus_column_find(system, "theta'", &records[1].column, NULL, &error) &&
         !motus_ensemble_create(system, &def, &ensemble, &error)) {
         const double start = thread_seconds();
         const motus_status status = motus_ensemble_run(ensemble, count, values, results, NULL, &error);
