@@ -37,6 +37,28 @@
     }
 
 /* clang-format off */
+/* Coefficients of two rows: with steps of one size, and with steps that follow the time scale of the motion. */
+#define VELOCITY_VERLET \
+    .splitting = {2, C(K(0.5), K(0.5)), C(K(1.0), K(0.0))}
+#define BLANES_MOAN4 \
+    .splitting = {7, \
+    C(K(0.0829844064174052), K(0.396309801498368), K(-0.0390563049223486), K(0.1195241940131508), \
+    K(-0.0390563049223486), K(0.396309801498368), K(0.0829844064174052)), \
+    C(K(0.245298957184271), K(0.60487266571108), K(-0.350171622895351), K(-0.350171622895351), \
+    K(0.60487266571108), K(0.245298957184271), K(0.0))}
+#define BLANES_MOAN6 \
+    .splitting = {12, \
+    C(K(0.0414649985182624), K(0.198128671918067), K(-0.0400061921041533), K(0.0752539843015807), \
+    K(-0.0115113874206879), K(0.2366699247869311), K(0.2366699247869311), K(-0.0115113874206879), \
+    K(0.0752539843015807), K(-0.0400061921041533), K(0.198128671918067), K(0.0414649985182624)), \
+    C(K(0.123229775946271), K(0.290553797799558), K(-0.127049212625417), K(-0.246331761062075), \
+    K(0.357208872795928), K(0.20477705429147), K(0.357208872795928), K(-0.246331761062075), \
+    K(-0.127049212625417), K(0.290553797799558), K(0.123229775946271), K(0.0))}
+#define KAHAN_LI8 \
+    .composition = {17, \
+    C(K(0.13020248308889008087881763), K(0.56116298177510838456196441), K(-0.3894749626448472864080786), \
+    K(0.15884190655515560089621075), K(-0.39590389413323757733623154), K(0.18453964097831570709183254), \
+    K(0.25837438768632204729397911), K(0.29501172360931029887096624), K(-0.60550853383003451169892108))}
 const row methods_table[] = {
     /* The two-step methods: the recurrence between positions; velocities are formed at the same time as positions. */
     { .card = { CARD("verlet", "stormer-verlet stormer störmer-verlet störmer", "two-step", 2, 1, 1, XVT, 1, 1, 2.0),
@@ -80,7 +102,7 @@ const row methods_table[] = {
        .formula = "v += h/2 a(x, t);   x += h v;   v += h/2 a(x, t + h)",
        .use = "Verlet's method as a one-step map; the closing kick of a step and the opening one of the next\n"
               "are one." },
-      .family = SPLITTING, .splitting = {2, C(K(0.5), K(0.5)), C(K(1.0), K(0.0))} },
+      .family = SPLITTING, VELOCITY_VERLET },
     { .card = { CARD("leapfrog", "drift-kick-drift dkd position-verlet", "splitting", 2, 1, 1, XVT, 1, 1, 2.0),
        .title = "leapfrog",
        .cite = "HLW03, HLW06 II.5",
@@ -141,11 +163,7 @@ const row methods_table[] = {
        .formula = "seven kicks and six drifts, symmetric, beginning with a kick; a Runge-Kutta-Nyström splitting",
        .use = "The best order 4 here at equal work." },
       .family = SPLITTING,
-      .splitting = {7,
-        C(K(0.0829844064174052), K(0.396309801498368), K(-0.0390563049223486), K(0.1195241940131508),
-          K(-0.0390563049223486), K(0.396309801498368), K(0.0829844064174052)),
-        C(K(0.245298957184271), K(0.60487266571108), K(-0.350171622895351), K(-0.350171622895351),
-          K(0.60487266571108), K(0.245298957184271), K(0.0))} },
+      BLANES_MOAN4 },
     { .card = { CARD("yoshida6", "", "splitting", 6, 7, 7, XVT, 1, 1, 2.2690579963976594),
        .title = "Yoshida 6",
        .cite = "Yoshida90 table 1, solution A",
@@ -170,13 +188,7 @@ const row methods_table[] = {
        .formula = "twelve kicks and eleven drifts, symmetric, beginning with a kick; a Runge-Kutta-Nyström splitting",
        .use = "Order 6 for long, accurate runs of x'' = a(x, t)." },
       .family = SPLITTING, .nystrom = true, .compensated = true,
-      .splitting = {12,
-        C(K(0.0414649985182624), K(0.198128671918067), K(-0.0400061921041533), K(0.0752539843015807),
-          K(-0.0115113874206879), K(0.2366699247869311), K(0.2366699247869311), K(-0.0115113874206879),
-          K(0.0752539843015807), K(-0.0400061921041533), K(0.198128671918067), K(0.0414649985182624)),
-        C(K(0.123229775946271), K(0.290553797799558), K(-0.127049212625417), K(-0.246331761062075),
-          K(0.357208872795928), K(0.20477705429147), K(0.357208872795928), K(-0.246331761062075),
-          K(-0.127049212625417), K(0.290553797799558), K(0.123229775946271), K(0.0))} },
+      BLANES_MOAN6 },
     { .card = { CARD("blanes-moan6-14", "srkn14 blanes-moan-srkn14", "splitting", 6, 14, 14, XT, 1, 1,
                      3.1409250826052366),
        .title = "Blanes–Moan 6, 14",
@@ -213,10 +225,7 @@ const row methods_table[] = {
        .use = "Positions to round-off where the force is smooth; the most accurate row here at equal work, for\n"
               "every force, velocity terms included." },
       .family = SPLITTING, .compensated = true,
-      .composition = {17,
-        C(K(0.13020248308889008087881763), K(0.56116298177510838456196441), K(-0.3894749626448472864080786),
-         K(0.15884190655515560089621075), K(-0.39590389413323757733623154), K(0.18453964097831570709183254),
-         K(0.25837438768632204729397911), K(0.29501172360931029887096624), K(-0.60550853383003451169892108))} },
+      KAHAN_LI8 },
     { .card = { CARD("boris", "", "splitting", 2, 1, 1, XVT, 0, 1, 2.0),
        .title = "Boris",
        .cite = "Boris70, Qin13, HL18",
@@ -411,6 +420,32 @@ const row methods_table[] = {
       .family = RUNGE_KUTTA, .adaptive = true, .compensated = true,
       .tableau = {.stages = 6, .c = FINE5_C, .a = FINE5_A, .b = FINE5_B, .aa = FINE5_AA, .bb = FINE5_BB,
                   .error = FINE5_ERROR, .error_x = FINE5_ERROR_X, .ending = true, .order = 4} },
+    /* Symmetric splittings with steps that can be taken backward: step/density.h. */
+    { .card = { CARD("verlet-reversible", "adaptive-verlet", "splitting", 2, 2, 3, XT, 0, 1, 2.0),
+       .title = "Verlet, reversible steps",
+       .cite = "HS05, Swope82",
+       .formula = "velocity-verlet with h = ε T;   T' = dT/dt by the motion's time scale T, around (r³/k)^½ on an orbit",
+       .use = "Close passages over long times, at low accuracy: the energy error stays what it is after few orbits.",
+       .adaptive = 1 },
+      .family = SPLITTING, .adaptive = true, .density = true, VELOCITY_VERLET },
+    { .card = { CARD("blanes-moan4-reversible", "", "splitting", 4, 7, 8, XT, 0, 1, 3.1634650665581867),
+       .title = "Blanes–Moan 4, reversible steps",
+       .cite = "HS05, BM02",
+       .formula = "blanes-moan4 with h = ε T, T the motion's time scale as in verlet-reversible",
+       .use = "As verlet-reversible, at 1e-4 to 1e-7.", .adaptive = 1 },
+      .family = SPLITTING, .adaptive = true, .density = true, BLANES_MOAN4 },
+    { .card = { CARD("blanes-moan6-reversible", "", "splitting", 6, 12, 14, XT, 0, 1, 3.1414310877528084),
+       .title = "Blanes–Moan 6, reversible steps",
+       .cite = "HS05, BM02",
+       .formula = "blanes-moan6 with h = ε T, T the motion's time scale as in verlet-reversible",
+       .use = "As verlet-reversible, at 1e-6 and better.", .adaptive = 1 },
+      .family = SPLITTING, .adaptive = true, .density = true, .nystrom = true, .compensated = true, BLANES_MOAN6 },
+    { .card = { CARD("kahan-li8-reversible", "", "splitting", 8, 17, 20, XVT, 0, 1, 3.0964386800007322),
+       .title = "Kahan–Li 8, reversible steps",
+       .cite = "HS05, KahanLi97",
+       .formula = "kahan-li8 with h = ε T, T the motion's time scale as in verlet-reversible" IMPLICIT_KICKS,
+       .use = "As verlet-reversible, at 1e-8 and better, and for forces that depend on the velocity.", .adaptive = 1 },
+      .family = SPLITTING, .adaptive = true, .density = true, .compensated = true, KAHAN_LI8 },
 #endif
 
     /* Implicit: Newmark, and collocation at the Gauss nodes, whose coefficients step/collocation.h makes. */

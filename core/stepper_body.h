@@ -16,6 +16,7 @@
 #define ROW_compensated(w) ((w)->row->compensated)
 #define ROW_adaptive(w) false
 #define ROW_sizes(w) false
+#define ROW_density(w) false
 #define FACT(w, member) ((w)->member)
 #define LIVE(w, k) ((w)->live[k])
 #endif

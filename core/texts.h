@@ -3,6 +3,7 @@
  */
 #include "step/norm.h"
 #include "step/control.h"
+#include "step/density.h"
 #include "step/judge.h"
 #include "step/newton.h"
 #include "step/operators.h"

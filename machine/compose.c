@@ -152,8 +152,8 @@ static bool add_facts(emit *e, const composition *c, bool structure)
     const int stages = w.stages ? w.stages : 1, constants = (int)work_constants(&w);
     emit_add(t,
              "#define ROW(w, member) ROW_##member\n#define ROW_compensated %d\n#define ROW_adaptive %d\n#define "
-             "ROW_sizes %d\n",
-             r->compensated, r->adaptive, r->sizes);
+             "ROW_sizes %d\n#define ROW_density %d\n",
+             r->compensated, r->adaptive, r->sizes, r->density);
     emit_add(t,
              "#define FACT(w, member) FACT_##member\n#define FACT_velocity %d\n#define FACT_linear %d\n#define "
              "FACT_constant %d\n#define FACT_affine %d\n",
@@ -165,13 +165,13 @@ static bool add_facts(emit *e, const composition *c, bool structure)
     emit_add(t,
              "#define FACT_carried %d\n#define FACT_stages %d\n#define FACT_known %d\n#define FACT_kept %d\n#define "
              "FACT_fsal %d\n#define "
-             "FACT_ending %d\n#define FACT_closing %d\n#define FACT_second %d\n#define FACT_unit fact_unit\n#define "
+             "FACT_ending %d\n#define FACT_closing %d\n#define FACT_opening %d\n#define FACT_second %d\n#define FACT_unit fact_unit\n#define "
              "FACT_fused %d\n#define "
              "FACT_waits %d\n#define FACT_solves %d\n"
              "#define FACT_solves_x %d\n#define FACT_means %d\n#define FACT_direct %d\n#define FACT_order %d\n#define "
              "FACT_linears %d\n"
              "#define FACT_squares %d\n#define FACT_summed %d\n#define DRIFTS_FIRST %d\n",
-             w.carried, stages, w.known, w.kept, w.fsal, w.ending, w.closing, w.second, w.fused, w.waits, w.solves,
+             w.carried, stages, w.known, w.kept, w.fsal, w.ending, w.closing, w.opening, w.second, w.fused, w.waits, w.solves,
              w.solves_x, w.means, w.direct, w.order, w.linears, w.squares, w.summed,
              r->family == SPLITTING && w.unit[0] == 0);
     emit_add(t, "#define LIVE(w, k) (fact_unit[k] != 0)\n#define FACT_c fact_c\nstatic const int fact_moment[] = {%d",
@@ -235,6 +235,10 @@ static void add_family(emit_text *t, const composition *c)
                "#define control_corrections(w, r, ks, count) ((norm_correction){CLOCK(0), CLOCK(0), CLOCK(0)})\n"
                "#define control_size(w) (w)->h\n#define control_judge(w) EVERY\n#define control_judge_own(w) EVERY\n");
     }
+    if (r->density)
+        add_text(t, "step/density.h");
+    else
+        emit_add(t, "#define density_begin(w) STEP_OK\n#define density_judge(w) EVERY\n");
     const work plan = stepper_plan(c->problem, c->chosen, NULL);
     if (plan.solves || plan.iterates) add_text(t, "step/judge.h");
     if (plan.solves)

@@ -10,7 +10,7 @@ ADVANCE_STEP int advance_step(work *w)
 {
     int bad = STEP_OK;
     if (ROW(w, adaptive)) {
-        bad = control_first(w);
+        bad = ROW(w, density) ? density_begin(w) : control_first(w);
         if (bad) return bad;
         if (!ROW(w, sizes)) work_scale(w, control_size(w));
         TRACE(w, TRACE_CANDIDATE);
@@ -21,7 +21,7 @@ ADVANCE_STEP int advance_step(work *w)
         time_tick(w, EVERY);
         return STEP_OK;
     }
-    const clock_mask good = ROW(w, sizes) ? control_judge_own(w) : control_judge(w);
+    const clock_mask good = ROW(w, density) ? density_judge(w) : ROW(w, sizes) ? control_judge_own(w) : control_judge(w);
     family_accept(w, good);
     time_tick(w, good);
     STOP(w, w->stalled, STEP_STALLED);

@@ -79,9 +79,10 @@ static inline int control_first(work *w)
 
 static inline clock control_size(work *w)
 {
-    const clock left = (w->until - w->t) - w->lost;
-    w->ends = ABS(w->next) >= ABS(left);
-    return CHOOSE_WHERE(w->ends, left, CHOOSE_WHERE(2 * ABS(w->next) > ABS(left), left / 2, w->next));
+    const clock left = (w->until - w->t) - w->lost, most = CHOOSE_WHERE(w->next < 0, -w->most, w->most),
+                size = CHOOSE_WHERE(ABS(w->next) <= w->most, w->next, most);
+    w->ends = ABS(size) >= ABS(left);
+    return CHOOSE_WHERE(w->ends, left, CHOOSE_WHERE(2 * ABS(size) > ABS(left), left / 2, size));
 }
 
 /* Exponents of the two errors in the next size, and the part of it that is taken, as a power of 2: 0.9. */

@@ -33,7 +33,12 @@ static int splitting_sync(work *w, real *x, real *v)
     return STEP_OK;
 }
 
-#define splitting_carry work_carry_main
+static int splitting_carry(const work *w, real *list[CARRY_MAX])
+{
+    int count = work_carry_main(w, list);
+    if (ROW(w, density)) list[count++] = w->old;
+    return count;
+}
 #define splitting_between lift_between
 #define splitting_extend lift_extend
 #define splitting_dense lift_dense
@@ -45,8 +50,14 @@ static inline void splitting_place(work *w, placing *p)
         w->low = work_array(p, 1);
         if (FACT(w, solves) || FACT(w, means)) w->us = work_array(p, 1);
     }
+    if (ROW(w, density)) {
+        if (!ROW(w, compensated)) w->xs = work_array(p, 1);
+        w->old = work_array(p, 1);
+        w->dx = work_array(p, 1);
+        w->dv = work_array(p, 1);
+    }
+    if (ROW(w, density) || FACT(w, solves) || FACT(w, means)) w->vs = work_array(p, 1);
     if (!FACT(w, solves) && !FACT(w, means)) return;
-    w->vs = work_array(p, 1);
     if (FACT(w, means)) w->r = work_array(p, 1);
     if (!FACT(w, solves)) return;
     w->delta = work_array(p, 1);
@@ -54,8 +65,25 @@ static inline void splitting_place(work *w, placing *p)
 }
 
 #ifdef ROWS
+/* How long a step may be, in radians of a circular Kepler orbit, for an error of 1, as if the error went with the power
+ * order + 1 of the step from a quarter of a radian on. An oscillator would not tell: some methods are made for it. */
+static coef splitting_reach(const work *w, const coef *kick, const coef *drift)
+{
+    const coef h = K(0.25), cosine = K(0.96891242171064478414459544949418919980413),
+               sine = K(0.24740395925452292959684870484938919589339);
+    coef x = 1, y = 0, u = 0, v = 1;
+    for (int i = 0; i < w->stages; i++) {
+        const coef root = density_root(x * x + y * y), cube = root * root * root, k = kick[i] * h * (cube * cube);
+        u -= k * x, v -= k * y;
+        x += drift[i] * h * u, y += drift[i] * h * v;
+    }
+    const coef place = LARGER(ABS(x - cosine), ABS(y - sine)), rate = LARGER(ABS(u + sine), ABS(v - cosine)),
+               off = LARGER(place, rate);
+    return h * (coef)control_exp2(-control_log2(off) / (w->order + 1));
+}
+
 /* unit: kicks, drifts, the joint kick of a row that begins and ends with one, of a compensated row room for work_sums,
- * and Gauss's node for a quadrature. */
+ * and Gauss's node for a quadrature; of a density the reach. */
 static void splitting_plan(work *w, const double argument[2], coef *unit, coef *c)
 {
     const row *m = w->row;
@@ -66,6 +94,11 @@ static void splitting_plan(work *w, const double argument[2], coef *unit, coef *
     w->solves = w->velocity && !w->means;
     w->linears = 2 * w->stages + 1 + (m->compensated ? 2 * w->stages : 0) + (w->means > 1);
     w->summed = m->compensated ? w->stages : 0;
+    w->plains = m->density;
+    w->order = m->card.order;
+    w->opening = m->density && !count && !w->solves && m->splitting.kick[0] != 0;
+    /* of a compensated row the last kick is not at the positions to the last bit */
+    w->closing = w->opening && !m->compensated && !w->means && m->splitting.drift[last] == 0;
     w->fused = !m->compensated && !w->solves && w->nv == w->nx;
     w->fsal = w->waits = !count && !m->adaptive && !w->means && m->splitting.kick[0] != 0 &&
                          m->splitting.kick[last] != 0 && m->splitting.drift[last] == 0;
@@ -89,6 +122,7 @@ static void splitting_plan(work *w, const double argument[2], coef *unit, coef *
         c[i] = over ? 1 : time;
         time += drift[i];
     }
+    if (m->density) unit[w->linears] = splitting_reach(w, kick, drift);
     unit[2 * w->stages] = kick[0] + kick[last];
     if (w->means > 1) unit[w->linears - 1] = K(0.21132486540518711774542560974902127218);
 }

@@ -140,7 +140,9 @@ typedef struct work {
     clock relative, absolute, least, most;
     clock next;              /* the size that the next candidate should have; 0: the first is not chosen yet */
     clock error;             /* the candidate's error, in units of what is allowed */
-    clock before, rise;      /* log2 of the error of the step before; of the most that the next may be longer */
+    /* log2 of the error of the step before (density.h: whether control has begun); of the most that the next may be
+     * longer */
+    clock before, rise;
     clock shortest, longest; /* step so far, that to the end apart; 0 before the first */
     clock span;              /* of rows that carry stages: of the step that they are of; < 0 · h: it was refused */
     int order;               /* of the error estimate, which goes with h^(order + 1) */
@@ -162,6 +164,7 @@ typedef struct work {
     /* first same as last: the closing kick of a step waits for the opening kick of the next */
     bool fsal;
     bool closing; /* its last stage is that; else, after the last stage, */
+    bool opening; /* of a splitting: the first stage kicks with the acceleration of the state */
     bool ending;  /* an adaptive step evaluates the force at the candidate, which is the next step's first stage */
     bool second;  /* it has a second estimate of the error */
     int means;    /* of a quadrature: at how many velocities a kick takes its rates */
@@ -177,8 +180,10 @@ typedef struct work {
     int expanded;  /*   how much of them is known at the present state: taylor.h */
 
     real *x, *v, *ex, *ev; /* v: verlet keeps the increment d = x[n] - x[n-1] here once n > 0 */
-    real *a, *old, *next_x;
-    real *dx, *dv;      /* of a candidate: what it would add to x and v, with their error words */
+    real *a, *old, *next_x; /* old: of a density the lengths of variables */
+    /* of a candidate: what it would add to x and v, with their error words; of a density: accelerations before and
+     * after the state */
+    real *dx, *dv;
     real *delta, *r;    /* change of v by an implicit kick; residual */
     real *xs, *vs, *ks; /* stages: positions, velocities, accelerations */
     /* of a compensated splitting: the roundings of ev; the velocities before a kick, where a force reads them */

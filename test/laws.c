@@ -48,6 +48,7 @@ int main(int count, char **arguments)
     laws_of_stability();
     laws_of_verlet();
     laws_of_dense();
+    laws_of_density();
     printf("%d passed, %d failed\n", passed, failed);
     return failed != 0;
 }

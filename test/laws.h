@@ -58,6 +58,14 @@ typedef struct quad_count {
 /* Takes `steps` steps from *state at t0; sets *state to the synchronised state. */
 quad_count quad_run(method, const double *argument, const quad_problem *, quad t0, quad h, int64_t steps,
                     quad_state *state);
+/* The same where steps adapt, by a tolerance, up to `until` or so many steps; no error is refused in between. control:
+ * what the row carries besides the state; all zero at first. */
+typedef struct quad_control {
+    quad t, next, before, old[DIMENSIONS];
+    int64_t refused;
+} quad_control;
+quad_count quad_adapt(method, const quad_problem *, quad tolerance, quad until, int64_t steps, quad_state *state,
+                      quad_control *control);
 /* The state at the fraction `part` of the step after `steps` steps from *state at t0, by dense output. An
  * interpolant through the ends of that step takes *end for its end; NULL: that of the method. */
 quad_count quad_dense(method, const quad_problem *, quad t0, quad h, int64_t steps, quad part, const quad_state *end,
@@ -87,5 +95,6 @@ void laws_of_structure(void);
 void laws_of_stability(void);
 void laws_of_verlet(void);
 void laws_of_dense(void);
+void laws_of_density(void);
 
 #endif

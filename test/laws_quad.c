@@ -245,6 +245,29 @@ quad_count quad_run(method k, const double *argument, const quad_problem *p, qua
     return count;
 }
 
+quad_count quad_adapt(method k, const quad_problem *p, quad tolerance, quad until, int64_t steps, quad_state *state,
+                      quad_control *control)
+{
+    work w;
+    static dense d;
+    size_t all[2] = {0, p->nv};
+    quad memory[ARRAYS_MAX * DIMENSIONS];
+    begin(&w, &d, memory, &methods_table[k], NULL, p, control->t, 1);
+    w.variables = 1, w.variable = all;
+    memcpy(w.x, state->x, p->nx * sizeof *w.x);
+    memcpy(w.v, state->v, p->nv * sizeof *w.v);
+    w.relative = tolerance, w.most = (quad)INFINITY, w.rise = CONTROL_RISE;
+    w.t = control->t, w.until = until, w.next = control->next, w.before = control->before;
+    if (w.old) memcpy(w.old, control->old, p->nv * sizeof *w.old);
+    quad_count count = {.bad = advance_run(&w, steps)};
+    count.evaluations = w.evaluations;
+    count.iterations = w.iterations;
+    if (!count.bad) count.bad = advance_sync(&w, state->x, state->v, NULL);
+    *control = (quad_control){.t = w.t, .next = w.next, .before = w.before, .refused = w.refused};
+    if (w.old) memcpy(control->old, w.old, p->nv * sizeof *w.old);
+    return count;
+}
+
 /* Whether the interpolant is made of the stages of the step, and so belongs to the end to which they lead. */
 static bool of_stages(const row *m)
 {

@@ -139,11 +139,11 @@ static double energy_of(const double *x, const double *v)
     return (v[0] * v[0] + v[1] * v[1] + x[0] * x[0] + x[1] * x[1]) / 2 + x[0] * x[0] * x[1] - x[1] * x[1] * x[1] / 3;
 }
 
-/* The row at a fixed step; an adaptive one may be so far off that its steps never need to be shorter. */
+/* The row at a fixed step; an adaptive one may be off by any amount. */
 static motus_status choose(const char *name, double h, chosen *c)
 {
     const motus_status status = row_choose(name, c, NULL, NULL);
-    c->relative = 1;
+    c->relative = HUGE_VAL;
     c->first = c->most = h;
     return status;
 }
