@@ -41,6 +41,15 @@ static motus_status check_tolerance(double tolerance, bool absolute, motus_error
     return MOTUS_ARGUMENT;
 }
 
+/* Of steps that follow the time scale of the motion the tolerance is a part of it. */
+static motus_status refuse_absolute(const chosen *c, motus_error *err)
+{
+    fail(err, MOTUS_ARGUMENT, "the tolerance of %s is relative: its steps follow the time scale of the motion",
+         c->name);
+    hint(err, "leave out `absolute`, or choose dop853, whose steps follow from errors");
+    return MOTUS_ARGUMENT;
+}
+
 static motus_status check_limits(const control_wish *w, motus_error *err)
 {
     if (!(w->shortest >= 0) || !(w->longest >= 0) || isinf(w->shortest))
@@ -66,6 +75,7 @@ motus_status control_choose(const motus_system *s, const control_wish *w, chosen
     const bool own = isnan(w->tolerance) && !isnan(set.tolerance);
     const double tolerance = own ? set.tolerance : isnan(w->tolerance) ? ROW_TOLERANCE : w->tolerance;
     const bool absolute = own ? set.absolute : w->absolute;
+    if (absolute && row_reversible_steps(c)) return refuse_absolute(c, err);
     motus_status status = check_tolerance(tolerance, absolute, err);
     if (status == MOTUS_OK) status = check_limits(w, err);
     if (status != MOTUS_OK) return status;

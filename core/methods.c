@@ -424,9 +424,10 @@ const row methods_table[] = {
     { .card = { CARD("verlet-reversible", "adaptive-verlet", "splitting", 2, 2, 3, XT, 0, 1, 2.0),
        .title = "Verlet, reversible steps",
        .cite = "HS05, Swope82",
-       .formula = "velocity-verlet with h = ε T;   T' = dT/dt by the motion's time scale T, around (r³/k)^½ on an orbit",
-       .use = "Close passages over long times, at low accuracy: the energy error stays what it is after few orbits.",
-       .adaptive = 1 },
+       .formula = "velocity-verlet with h = ε T, T the motion's time scale, about √(r³/k) on an orbit;\n"
+                  "T₊ = T₋ (1 + z)/(1 − z) from step to step, z = (h/2) d(log T)/dt",
+       .use = "Close passages over long times, at low accuracy: the energy error stays what it is after few\n"
+              "orbits.", .adaptive = 1 },
       .family = SPLITTING, .adaptive = true, .density = true, VELOCITY_VERLET },
     { .card = { CARD("blanes-moan4-reversible", "", "splitting", 4, 7, 8, XT, 0, 1, 3.1634650665581867),
        .title = "Blanes–Moan 4, reversible steps",

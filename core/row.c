@@ -17,6 +17,7 @@ const motus_method *row_card(size_t k) { return k < methods_count ? &methods_tab
 
 bool row_uniform(const chosen *method) { return method->row->uniform; }
 bool row_adaptive(const chosen *method) { return method->row->adaptive; }
+bool row_reversible_steps(const chosen *method) { return method->row->density; }
 
 /* Names --------------------------------------------------------------------------------------------------------- */
 
@@ -217,7 +218,8 @@ static int unlike(const motus_method *wanted, const motus_method *other)
 static motus_geometry geometry(const row *row, const traits *t)
 {
     if (row->card.symplectic && t->gradient && !t->velocity && !t->first_order) return MOTUS_GEOMETRY_SYMPLECTIC;
-    if (row->family == SPLITTING && (!t->velocity || t->quadrature || t->gyroscopic)) return MOTUS_GEOMETRY_VOLUME;
+    if (row->family == SPLITTING && !row->adaptive && (!t->velocity || t->quadrature || t->gyroscopic))
+        return MOTUS_GEOMETRY_VOLUME;
     return MOTUS_GEOMETRY_NONE;
 }
 

@@ -4,17 +4,18 @@
  * energy drifts. Here a step is h = e T: e is a constant, and T, a time, changes from step to step by the way in which
  * the time scale of the motion changes around the present state [HS05]:
  *
- *     T[n+1/2] / T[n-1/2] = (1 + z)/(1 - z),   z = (h/2) d(log T)/dt at (x[n], v[n]),   T[1/2] = T(x0, v0) (1 + z/2)/(1 - z/2).
+ *     T[n+1/2] = T[n-1/2] (1 + z)/(1 - z),   z = (h/2) d(log T)/dt at (x[n], v[n]),
+ *     T[1/2] = T(x[0], v[0]) (1 + z/2)/(1 - z/2).
  *
  * Backward in time z has the other sign, so the steps are the same in reverse, whatever z is; that alone keeps the
  * energy. The more exact z, the closer is T[n+1/2] to the time scale. The scale follows from the motion alone, by
  *
  *     T^-4 = Σ (a⁴ + v² j²)/(v⁴ + l² a²) + (v²/(x² + l²))²/16 + (e/longest step)⁴,
  *
- * over variables, of which x, v, a and j = da/dt are the sizes. It is 1/ω of an oscillation x'' = -ω² x of amplitude l,
- * at every phase, about (r³/k)^½ on a Kepler orbit, and without jumps; no term but j can be missing at a turning point,
- * and none but a where the force is zero. l, a length of each variable, is constant: T depends on it near turning
- * points alone. A first-order variable, which has a rate for its velocity, has the rate of that for a.
+ * a sum over variables, of which x, v, a and j = da/dt are the sizes. T is 1/ω at every phase of an oscillation of
+ * amplitude l, x'' = -ω² x, about (r³/k)^½ on a Kepler orbit, and smooth at turning points and where the force is zero.
+ * l, a length of each variable, is constant; away from turning points T hardly depends on it. A first-order variable
+ * has its rate for v, and the rate of that for a.
  *
  * d(log T)/dt is a difference: of T half a span e B before and after the present state, B(x, v, a) a rougher time
  * scale. The accelerations there and here give a and j in the middles. So z costs two evaluations, and the formula of
@@ -69,7 +70,7 @@ static inline density_sizes density_middle(const work *w, int g, const real *the
     return s;
 }
 
-/* The fourth power of its rate, 1/T; l: the square of its length. A variable without a length has not moved yet. */
+/* The fourth power of its rate, 1/T; l: the square of its length. On a variable without a length no force acts. */
 static inline real density_rate(const density_sizes *s, real l)
 {
     const real none = (real){0}, v = s->v, ratio = v / (s->x + l + SMALLEST);
@@ -144,18 +145,18 @@ static inline real density_length(const work *w, int g, clock d, clock reach)
     const real far = FMA(reach * reach, a, v) * (reach * reach), most = PICK(x > 0, 256 * x, far);
     const real p = FMA(a, a, v * j), q = FMA(j, j, a * s), root = density_root(p);
     const real amplitude = p * p * (root * root) / (q + SMALLEST);
-    const real simple = PICK(v > 0, PICK(x > 0, x, far / 256), (real){0});
+    const real none = {0}, simple = VARIABLE(w, g) < FACT(w, nx) ? none : PICK(v > 0, PICK(x > 0, x, far / 256), none);
     return PICK(p > 0, PICK(amplitude < most, amplitude, most), simple);
 }
 
-/* Where the control has to begin: at first, and where a variable moves that had been at rest. */
+/* Where the control has to begin: at first, and where a force begins to act on a variable. */
 static inline clock_mask density_begins(const work *w)
 {
     clock_mask begins = w->before == 0;
     EACH_VARIABLE(g)
     {
         real size = {0};
-        for (size_t k = VARIABLE(w, g); k < VARIABLE(w, g + 1); k++) size += ABS(w->v[k]) + ABS(w->a[k]);
+        for (size_t k = VARIABLE(w, g); k < VARIABLE(w, g + 1); k++) size += ABS(w->a[k]);
         begins = begins | ((w->old[VARIABLE(w, g)] == 0) & (size > 0));
     }
     return begins;
@@ -175,28 +176,30 @@ static int density_measure(work *w, clock_mask begins)
     return STEP_OK;
 }
 
-/* The last step becomes the next one, where that is near what the time scale `own` would have. Returns where not. */
-static inline clock_mask density_turn(work *w, clock_mask begins, clock own, clock z, clock forward)
+/* The step `last` becomes the next one, where that is near what the time scale has, `own`. Returns where it is not. */
+static inline clock_mask density_turn(work *w, clock_mask begins, clock last, clock own, clock z, clock forward)
 {
-    const clock turned = w->next * ((1 + z) / (1 - z)), anew = forward * own * ((1 + z / 2) / (1 - z / 2));
+    const clock turned = last * ((1 + z) / (1 - z)), anew = forward * own * ((1 + z / 2) / (1 - z / 2));
     const clock_mask far = (ABS(turned) > DENSITY_FAR * own) | (DENSITY_FAR * ABS(turned) < own);
     w->next = CHOOSE_WHERE(begins | far, anew, turned);
     return far & NOT(begins);
 }
 
-/* The next step, from the accelerations a span d around. Where nothing moves, a part of the guess that w->next is. */
+/* The next step, from the accelerations a span d around. Where no force acts it is the last one, and at first a part of
+ * the guess. */
 static void density_follow(work *w, clock_mask begins, clock forward, clock d, clock unit)
 {
-    const clock guess = ABS(w->next);
+    const clock last = w->next, guess = ABS(last);
     for (int turn = 0; turn < 2; turn++) {
         const clock behind = density_time(w, w->dx, -forward * d, unit),
                     ahead = density_time(w, w->dv, forward * d, unit), own = unit * ((ahead + behind) / 2);
         const clock slope = unit * (ahead - behind) / (2 * d), least = LARGER(slope, CLOCK(-0.5)),
                     z = CHOOSE_WHERE(least < 0.5, least, CLOCK(0.5));
-        const clock_mask far = density_turn(w, begins, CHOOSE_WHERE(own < 1e60, own, unit * guess),
-                                            CHOOSE_WHERE(slope == slope, z, CLOCK(0)), forward);
+        const clock_mask far =
+            density_turn(w, begins, last, CHOOSE_WHERE(own < 1e60, own, CHOOSE_WHERE(begins, unit * guess, guess)),
+                         CHOOSE_WHERE(slope == slope, z, CLOCK(0)), forward);
         if (NONE(far)) break;
-        w->refused++;
+        w->refused = CHOOSE_WHERE(far, w->refused + 1, w->refused);
         EACH_VARIABLE(g)
         {
             const size_t at = VARIABLE(w, g);

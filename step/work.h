@@ -138,8 +138,8 @@ typedef struct work {
     /* Adaptive. What a step may be off: `relative` times the size of its variable, `absolute`, or the larger of both;
      * between which sizes steps stay. */
     clock relative, absolute, least, most;
-    clock next;              /* the size that the next candidate should have; 0: the first is not chosen yet */
-    clock error;             /* the candidate's error, in units of what is allowed */
+    clock next;  /* the size that the next candidate should have; 0: the first is not chosen yet */
+    clock error; /* the candidate's error, in units of what is allowed */
     /* log2 of the error of the step before (density.h: whether control has begun); of the most that the next may be
      * longer */
     clock before, rise;
@@ -179,7 +179,7 @@ typedef struct work {
     size_t series; /*   numbers that they keep, as the problem says */
     int expanded;  /*   how much of them is known at the present state: taylor.h */
 
-    real *x, *v, *ex, *ev; /* v: verlet keeps the increment d = x[n] - x[n-1] here once n > 0 */
+    real *x, *v, *ex, *ev;  /* v: verlet keeps the increment d = x[n] - x[n-1] here once n > 0 */
     real *a, *old, *next_x; /* old: of a density the lengths of variables */
     /* of a candidate: what it would add to x and v, with their error words; of a density: accelerations before and
      * after the state */

@@ -48,7 +48,8 @@ static void reversal(method m, const quad_problem *p)
              p->name);
     /* that steps differ is what is tested; a rounding of the state is one of the time scale, and so of every step */
     const quad bound = Q(1e-27) + 100 * quad_looseness(m);
-    judge(!count.bad && (methods_table[m].density ? off < bound && !there.refused && apart > Q(1e-4) : off > 1000 * bound),
+    judge(!count.bad &&
+              (methods_table[m].density ? off < bound && !there.refused && apart > Q(1e-4) : off > 1000 * bound),
           row_card(m)->name, law, "returns within %.1e, steps differ by %.1e", (double)off, (double)apart);
 }
 
@@ -130,8 +131,8 @@ static void energy(method m)
           follow(s, 10000, &soon, &late);
     const bool keeps = methods_table[m].density;
     judge(ran && (keeps ? late <= 2 * soon && soon < 0.05 : late > 2 * soon), row_card(m)->name,
-          keeps ? "energy over 10 000 periods" : "no energy over 10 000 periods", "off by %.1e after 10, then %.1e", soon,
-          late);
+          keeps ? "energy over 10 000 periods" : "no energy over 10 000 periods", "off by %.1e after 10, then %.1e",
+          soon, late);
     stepper_destroy(s);
 }
 

@@ -123,8 +123,21 @@ static void same_bits(motus_system *s, const char *model, const char *method)
 
 static bool chosen(const char *name)
 {
-    static const char *const rows[] = {"verlet",    "blanes-moan6", "boris",  "rk4",  "newmark", "gauss4", "leapfrog",
-                                       "kahan-li8", "dopri5",       "dop853", "dep6", "fine5",   "radau15"};
+    static const char *const rows[] = {"verlet",
+                                       "blanes-moan6",
+                                       "boris",
+                                       "rk4",
+                                       "newmark",
+                                       "gauss4",
+                                       "leapfrog",
+                                       "kahan-li8",
+                                       "dopri5",
+                                       "dop853",
+                                       "dep6",
+                                       "fine5",
+                                       "radau15",
+                                       "verlet-reversible",
+                                       "kahan-li8-reversible"};
     if (getenv("MOTUS_ALL_ROWS")) return true;
 #ifdef SANITIZED
     /* The sanitizers check the library's part, which is the same for every row. */
@@ -179,7 +192,7 @@ static void every_construct(void **state)
         char set[16];
         snprintf(set, sizeof set, "N=%d", n);
         motus_system *s = open_text(text, set);
-        static const char *const rows[] = {"rk4", "gauss4", "verlet"};
+        static const char *const rows[] = {"rk4", "gauss4", "verlet", "kahan-li8-reversible"};
         for (size_t k = 0; k < sizeof rows / sizeof *rows; k++) same_bits(s, "every construct", rows[k]);
         motus_system_destroy(s);
     }
@@ -197,7 +210,8 @@ static void variables_that_follow(void **state)
         "step 0.05\nuntil 3\n"};
     for (size_t i = 0; i < sizeof texts / sizeof *texts; i++) {
         motus_system *s = open_text(texts[i], NULL);
-        static const char *const rows[] = {"velocity-verlet", "blanes-moan4", "kahan-li8", "dopri5", "dop853"};
+        static const char *const rows[] = {"velocity-verlet", "blanes-moan4", "kahan-li8",
+                                           "dopri5",          "dop853",       "verlet-reversible"};
         for (size_t k = 0; k < sizeof rows / sizeof *rows; k++) {
             assert_int_equal(motus_method_admits(s, rows[k], NULL), MOTUS_OK);
             same_bits(s, texts[i], rows[k]);

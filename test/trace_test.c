@@ -109,10 +109,11 @@ static void one(motus_system *s, const char *name, double h, double until, const
 }
 
 /* Of the adaptive methods one of each form: a last stage at the end or none, two estimates, Nyström's, coupled
- * stages. */
+ * stages, splittings. */
 static bool telling(const char *name)
 {
-    static const char *const names[] = {"dopri5", "dop853", "dep6", "fine5", "radau15"};
+    static const char *const names[] = {
+        "dopri5", "dop853", "dep6", "fine5", "radau15", "verlet-reversible", "kahan-li8-reversible"};
     for (size_t i = 0; i < sizeof names / sizeof *names; i++)
         if (!strcmp(name, names[i])) return true;
     return false;
@@ -296,7 +297,7 @@ static void same_failure(motus_system *s, const char *method, double h, motus_st
     size_t count = 0;
     double x[8], v[8];
     motus_status status = MOTUS_OK;
-    for (int n = 0; n < 500 && status == MOTUS_OK; n++) {
+    for (int n = 0; n < 4000 && status == MOTUS_OK; n++) {
         status = motus_run_step(plain, 1, &one);
         if (status == MOTUS_OK) status = motus_run_state(plain, x, v, &one);
         const motus_status other = motus_run_trace(traced, &e, &count, &two);
