@@ -52,9 +52,13 @@ static motus_status refuse_absolute(const chosen *c, motus_error *err)
 
 static motus_status check_limits(const control_wish *w, motus_error *err)
 {
-    if (!(w->shortest >= 0) || !(w->longest >= 0) || isinf(w->shortest))
-        return fail(err, MOTUS_ARGUMENT, "the limits of the steps are positive numbers, not %g and %g", w->shortest,
-                    w->longest);
+    const bool sound = w->shortest >= 0 && !isinf(w->shortest);
+    if (!sound || !(w->longest >= 0)) {
+        fail(err, MOTUS_ARGUMENT, "the %s step is %g, and a limit of the steps is a positive number",
+             sound ? "longest" : "shortest", sound ? w->longest : w->shortest);
+        hint(err, "0 is for none: `%s_step = 0` of the definition", sound ? "longest" : "shortest");
+        return MOTUS_ARGUMENT;
+    }
     if (w->longest == 0 || w->shortest <= w->longest) return MOTUS_OK;
     return fail(err, MOTUS_ARGUMENT, "the shortest step, %g, is longer than the longest, %g", w->shortest, w->longest);
 }

@@ -186,6 +186,7 @@ motus_status stepper_turn(stepper *s, double t, double h, motus_error *err)
     const size_t nx = w->nx, nv = w->nv;
     if (w->carried && w->kept && t == w->t) { /* the stages of the last step lead to the next one */
         w->next = s->leg_h = h;
+        w->before = 0, w->rise = CONTROL_RISE;
         s->arrived = s->left = s->right = false;
         return MOTUS_OK;
     }

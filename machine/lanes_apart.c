@@ -251,8 +251,8 @@ static void send(const lanes_block *half, size_t lane, double from, double t)
 {
     const double h = (t - from) / 2;
     const double own[LANES_CLOCKS] = {
-        [LANES_T0] = from, [LANES_H] = h,     [LANES_T] = from,  [LANES_RISE] = CONTROL_RISE,
-        [LANES_NEXT] = h,  [LANES_UNTIL] = t, [LANES_STOP] = NAN};
+        [LANES_T0] = from, [LANES_H] = h,     [LANES_T] = from,   [LANES_RISE] = CONTROL_RISE,
+        [LANES_NEXT] = h,  [LANES_UNTIL] = t, [LANES_STOP] = NAN, [LANES_SPAN] = *clock_at(half, lane, LANES_SPAN)};
     for (int i = 0; i < LANES_CLOCKS; i++) *clock_at(half, lane, i) = own[i];
 }
 

@@ -102,6 +102,10 @@ void lanes_block_put_back(const lanes_block *k, size_t lane)
     lanes_block_forget(k, lane);
     for (size_t n = 0; n < l->carried; n++)
         k->job.carry[lane_at(l, l->carried, n, lane)] = k->saved[lane_at(l, l->carried, n, lane)];
+    for (size_t n = 0; k->job.clocks && n < LANES_CLOCKS; n++) {
+        const size_t at = lane_at(l, LANES_CLOCKS, n, lane);
+        k->job.clocks[at] = k->saved[l->carry_size + at];
+    }
 }
 
 /* ---- the start ---- */

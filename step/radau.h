@@ -114,7 +114,7 @@ static inline clock radau_error(work *w)
 }
 
 /* The turns. Of an adaptive row `before` is in units of rounding; slowest: the largest factor by which the
- * corrections shrank from turn to turn. */
+ * corrections shrank from turn to turn, while the equation was open. */
 typedef struct radau_turns {
     real before, slowest;
     mask contracts; /* judge_doubts */
@@ -132,13 +132,13 @@ static inline judge_verdict radau_judge(work *w, radau_turns *it, int turn)
 /* Of an adaptive row it is enough that the corrections that would follow are small beside what is allowed, or beside
  * the rounding of the accelerations. Corrections that no longer shrink are rounding, or the step is so long that the
  * iteration contracts slowly. */
-static inline judge_verdict radau_judge_adaptive(const work *w, radau_turns *it)
+static inline judge_verdict radau_judge_adaptive(const work *w, radau_turns *it, mask open)
 {
     const norm_correction found = control_corrections(w, w->r + w->stride, w->ks + w->stride, FACT(w, stages) - 1);
     const real zero = {0}, last = it->before, now = zero + found.roundings, factor = now / (last + SMALLEST);
     const mask second = last >= 0, near = (64 * found.share * factor < 1) | (64 * found.change * factor < EPSILON),
                small = (now == 0) | (second & (factor < 1) & near), rounding = now <= 8,
-               weak = second & NOT(small) & NOT(rounding);
+               weak = open & second & NOT(small) & NOT(rounding);
     judge_verdict v = {.lost = NOT(FINITE(now))};
     v.done = NOT(v.lost) & (small | (second & (2 * factor > 1) & rounding));
     v.stuck = NOT(v.lost) & weak & (2 * factor > 1);
@@ -176,7 +176,7 @@ static int radau_step(work *w)
         for (int i = 1; i < s && !bad; i++) bad = radau_stage(w, i, open, w->r + (size_t)i * stride);
         if (bad) break;
         w->iterations++;
-        const judge_verdict now = ROW(w, adaptive) ? radau_judge_adaptive(w, &it) : radau_judge(w, &it, turn);
+        const judge_verdict now = ROW(w, adaptive) ? radau_judge_adaptive(w, &it, open) : radau_judge(w, &it, turn);
         if (!ROW(w, adaptive)) {
             STOP(w, open & now.lost, turn == 0 ? STEP_DIVERGED : STEP_SOLVE);
             STOP(w, open & now.stuck, STEP_SOLVE);

@@ -45,6 +45,10 @@ check "some fell" "$(rows "$scratch/fall.motus" --vary k=0.1:9:40 --until 3 --re
 
 method=radau15 tolerance=(--tolerance 1e-12)
 agree "radau15: the eccentricity varies" models/kepler.motus 23 --vary e=0:0.9:23 --until 3 --record 'r.x,max(r.y),mean(t),time_of_min(r.x)'
+tolerance=(--tolerance 1e-9)
+agree "radau15: neighbours that take more turns" models/kepler.motus 11 --vary e=0:0.9:11 --until 6 --record 'r.x,steps,rejected'
+agree "radau15: and their companions" models/kepler.motus 11 --vary e=0:0.9:11 --until 6 --record 'r.x,steps' --errors
+tolerance=(--tolerance 1e-12)
 agree "radau15: and the end" models/kepler.motus 35 --vary e=0:0.9:5 --vary until=-1:5:7 --every '3 steps' --record 'r.x,max(r.y)'
 agree "radau15: kinks, a start at rest, time and a first-order variable" "$scratch/driven.motus" 20 --vary k=0.5:2:20 --until 9 --record "x,s,min(x')"
 agree "radau15: a driven boundary" "$scratch/border.motus" 9 --vary w=0.5:2:9 --until 3 --record 'x[3],x[5]'
