@@ -502,6 +502,26 @@ static void progress_and_cancellation(void **state)
     motus_system_destroy(s);
 }
 
+/* The message names the limit that is wrong, and its number. */
+static void step_limits_that_are_refused(void **state)
+{
+    (void)state;
+    motus_system *s = given_text(texts[0]);
+    const double wrong[][2] = {{NAN, 0}, {-1, 0}, {INFINITY, 0}, {0, NAN}, {0, -1}};
+    for (size_t k = 0; k < sizeof wrong / sizeof *wrong; k++) {
+        motus_run_def def = motus_default_run();
+        motus_error err = motus_default_error();
+        motus_run *r = NULL;
+        char said[64];
+        def.method = "dopri5", def.until = 1, def.shortest_step = wrong[k][0], def.longest_step = wrong[k][1];
+        assert_int_equal(motus_run_create(s, &def, &r, &err), MOTUS_ARGUMENT);
+        const int longest = wrong[k][0] == 0;
+        snprintf(said, sizeof said, "the %s step is %g", longest ? "longest" : "shortest", wrong[k][longest]);
+        if (!strstr(err.message, said)) fail_msg("\"%s\" does not say \"%s\"", err.message, said);
+    }
+    motus_system_destroy(s);
+}
+
 /* The hook is not called at every single step: it would cost more than the steps. */
 static void progress_is_told_now_and_then(void **state)
 {
@@ -527,6 +547,7 @@ int main(void)
         cmocka_unit_test(backward),
         cmocka_unit_test(the_last_step_is_shortened),
         cmocka_unit_test(steps_and_ends_that_are_refused),
+        cmocka_unit_test(step_limits_that_are_refused),
         cmocka_unit_test(slivers_are_no_steps),
         cmocka_unit_test(divergence_names_time_and_variable),
         cmocka_unit_test(an_implicit_equation_without_solution),
