@@ -76,7 +76,7 @@ enum { LIFT_STATE = 0, LIFT_APART = 2, LIFT_FIRST = 4 };
 
 /* Whether the polynomial is more than Hermite's formula: of adaptive rows it always takes what the ends are apart from
  * `more`, where the step's stages may tell it with less rounding than the ends do. */
-static bool lift_needed(const work *w, int count) { return count > 0 || ROW(w, adaptive); }
+static bool lift_needed(const work *w, int count) { return (void)w, count > 0 || ROW(w, adaptive); }
 
 static dense_room lift_between(const work *w, coef *unit)
 {
