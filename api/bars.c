@@ -293,3 +293,8 @@ double bars_of(const bars *b, double t, size_t number)
     const bool lost = !isnan(b->differences.until), known = !b->why[0] && (lost || b->landed == t);
     return known ? differences_bar(&b->differences, number) : NAN;
 }
+
+double bars_worst(const bars *b, bool absolute)
+{
+    return b->why[0] ? NAN : differences_worst(&b->differences, absolute);
+}

@@ -47,6 +47,8 @@ motus_status bars_observe(motus_run *, motus_error *);
 motus_status bars_land_between(motus_run *, double t, double *x, double *v, motus_error *);
 /* The bar of a number at t, at which the companion has landed if it could; NaN: there is none. */
 double bars_of(const bars *, double t, size_t number);
+/* As differences_worst; NaN: there are no bars. */
+double bars_worst(const bars *, bool absolute);
 /* From now on there are no bars, and why. The first reason stays. */
 void bars_give_up(motus_run *, const char *format, ...) __attribute__((format(printf, 2, 3)));
 /* The run goes on compiled, and so do its companions. */

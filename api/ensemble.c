@@ -13,7 +13,7 @@
 
 _Static_assert((int)REDUCE_MEAN == (int)MOTUS_REDUCE_MEAN && (int)REDUCE_TIME_OF_MAX == (int)MOTUS_REDUCE_TIME_OF_MAX,
                "the reductions are the same list");
-_Static_assert(MOTUS_REDUCE_EVALUATIONS - MOTUS_REDUCE_STEPS == TALLY_EVALUATIONS, "and so is what is told of steps");
+_Static_assert(MOTUS_REDUCE_ACCURACY - MOTUS_REDUCE_STEPS == TALLY_ACCURACY, "and so is what is told of steps");
 
 enum { ENSEMBLE_LANES_MAX = 64 };
 
@@ -31,7 +31,7 @@ static motus_status check(const motus_system *s, const motus_ensemble_def *d, mo
     if (d->vary_count && !d->vary) return fail(err, MOTUS_ARGUMENT, "vary is NULL");
     if (!d->record_count || !d->records) return fail(err, MOTUS_ARGUMENT, "nothing is recorded");
     for (size_t r = 0; r < d->record_count; r++)
-        if (d->records[r].column >= s->column_count || (unsigned)d->records[r].how > MOTUS_REDUCE_EVALUATIONS)
+        if (d->records[r].column >= s->column_count || (unsigned)d->records[r].how > MOTUS_REDUCE_ACCURACY)
             return fail(err, MOTUS_ARGUMENT, "record %zu names column %zu of %zu, or no reduction", r,
                         d->records[r].column, s->column_count);
     if ((unsigned)d->error > MOTUS_BARS_FULL)

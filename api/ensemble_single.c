@@ -117,7 +117,8 @@ static double result(const trajectory *s, size_t r)
 {
     const motus_record *record = &s->w->e->records[r];
     if (ensemble_tallies(record)) {
-        const tally taken = tally_of(s->w->stepper, s->began);
+        tally taken = tally_of(s->w->stepper, s->began);
+        if (s->errors) taken.accuracy = bars_worst(s->w->run->bars, s->w->e->chosen.absolute > 0);
         return tally_number(&taken, ensemble_tally(record));
     }
     return reduce_last(s->kept + r * REDUCE_KEPT, (int)record->how, (double)s->observations);

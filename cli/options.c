@@ -43,7 +43,7 @@ static const option table[] = {
     {"--methods", NULL, "A,B,C", METHOD_LIST, AT(methods), STUDY | VERB_LAB,
      "these methods (else every one the model admits; lab: else the model's)"},
     {"--step", NULL, "H", STEP, AT(step), MOTION, "time step: 0.01, 1/64, pi/100"},
-    {"--accuracy", NULL, "E", TOLERANCE, AT(accuracy), VERB_RUN,
+    {"--accuracy", NULL, "E", TOLERANCE, AT(accuracy), VERB_RUN | VERB_SWEEP,
      "how far the answer may be off, 1e-9 of the motion's size, or \"1e-6 absolute\"; finds method and tolerance"},
     {"--tolerance", NULL, "E", TOLERANCE, AT(tolerance), ONE,
      "of an adaptive method: what one step may be off, 1e-9 of the motion's size, or \"1e-6 absolute\""},

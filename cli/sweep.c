@@ -27,9 +27,14 @@ typedef struct batch {
     double **values, **results, **errors, *stopped, *room; /* errors: NULL where none are told */
 } batch;
 
+static bool judged(const sweep *s) { return !isnan(s->tried); }
+
 static motus_status batch_begin(batch *b, const sweep *s, motus_error *err)
 {
-    size_t columns = s->grid.count + s->records.count * (s->errors ? 2 : 1) + 1;
+    /* where an accuracy is wanted what is reached is recorded too, and all have errors */
+    const size_t records = s->records.count + judged(s);
+    const bool errors = s->errors || judged(s);
+    size_t columns = s->grid.count + records * (errors ? 2 : 1) + 1;
     int lanes = motus_ensemble_lanes(s->ensemble), threads = motus_ensemble_threads(s->ensemble);
     b->lanes = (size_t)(lanes > 0 ? lanes : 1) * (size_t)(threads > 0 ? threads : 1);
     b->most = BATCH_BYTES / sizeof(double) / columns;
@@ -41,7 +46,7 @@ static motus_status batch_begin(batch *b, const sweep *s, motus_error *err)
     if (!b->values || !b->room) return complain_memory(err);
     for (size_t k = 0; k < columns; k++) b->values[k] = b->room + k * b->most;
     b->results = b->values + s->grid.count;
-    b->errors = s->errors ? b->results + s->records.count : NULL;
+    b->errors = errors ? b->results + records : NULL;
     b->stopped = b->room + (columns - 1) * b->most;
     return MOTUS_OK;
 }
@@ -88,9 +93,9 @@ static motus_status create(sweep *s, stop_progress *progress, motus_error *err)
     def.vary = s->grid.names;
     def.vary_count = s->grid.count;
     def.records = s->records.items;
-    def.record_count = s->records.count;
+    def.record_count = s->records.count + judged(s);
     def.method = o->method;
-    def.tolerance = s->options->tolerance;
+    def.tolerance = judged(s) ? s->tried : o->tolerance;
     def.absolute = s->options->absolute;
     def.shortest_step = s->options->shortest_step;
     def.longest_step = s->options->longest_step;
@@ -101,7 +106,7 @@ static motus_status create(sweep *s, stop_progress *progress, motus_error *err)
     def.threads = (int)o->threads;
     def.lanes = (int)o->lanes;
     def.fast = o->fast;
-    def.error = !s->errors                                  ? MOTUS_BARS_NONE
+    def.error = !s->errors && !judged(s)                    ? MOTUS_BARS_NONE
                 : o->error && strcmp(o->error, "full") == 0 ? MOTUS_BARS_FULL
                                                             : MOTUS_BARS_CHEAP;
     def.expected = s->grid.total;
@@ -143,6 +148,23 @@ static motus_status check_options(const options *o, motus_error *err)
     return sweep_file_check(o, err);
 }
 
+/* The ensemble, for the tolerance that is tried where an accuracy is wanted, and the head of the file. */
+static motus_status make(sweep *s, stop_progress *progress, motus_error *err)
+{
+    const options *o = s->options;
+    motus_ensemble_destroy(s->ensemble);
+    free(s->head);
+    s->ensemble = NULL;
+    s->head = NULL;
+    motus_status status = create(s, progress, err);
+    if (!status) status = check_ends(s, err);
+    if (status) return status;
+    s->method = motus_ensemble_method(s->ensemble);
+    s->tolerance = motus_ensemble_tolerance(s->ensemble, &s->absolute);
+    size_t length = o->output ? strlen(o->output) : 0;
+    return sweep_head_make(s, length > 4 && strcmp(o->output + length - 4, ".npy") == 0, err);
+}
+
 static motus_status begin(sweep *s, stop_progress *progress, motus_error *err)
 {
     const options *o = s->options;
@@ -170,16 +192,11 @@ static motus_status begin(sweep *s, stop_progress *progress, motus_error *err)
     s->columns = 2 + s->grid.count + s->records.count + s->errors;
     for (size_t r = 0; s->errors && r < s->records.count; r++) s->columns += sweep_record_errs(&s->records.items[r]);
     status = read_every(s, err);
-    if (!status) status = create(s, progress, err);
-    if (!status) status = check_ends(s, err);
-    if (status) return status;
-    s->method = motus_ensemble_method(s->ensemble);
-    s->tolerance = motus_ensemble_tolerance(s->ensemble, &s->absolute);
-    size_t length = o->output ? strlen(o->output) : 0;
-    return sweep_head_make(s, length > 4 && strcmp(o->output + length - 4, ".npy") == 0, err);
+    if (!status) status = sweep_accuracy_begin(s, err);
+    return status ? status : make(s, progress, err);
 }
 
-static motus_status go(sweep *s, sweep_file *f, stop_progress *p, motus_error *err)
+static motus_status go(sweep *s, sweep_file *f, stop_progress *p, bool *again, motus_error *err)
 {
     batch b = {0};
     motus_status status = batch_begin(&b, s, err);
@@ -187,7 +204,8 @@ static motus_status go(sweep *s, sweep_file *f, stop_progress *p, motus_error *e
     p->before = (double)f->rows / total;
     p->amount = total;
     p->unit = "trajectories";
-    while (!status && f->rows < s->grid.total) {
+    *again = false;
+    while (!status && !*again && f->rows < s->grid.total) {
         uint64_t left = s->grid.total - f->rows;
         size_t count = left < b.count ? (size_t)left : b.count;
         double began = stop_clock();
@@ -198,7 +216,9 @@ static motus_status go(sweep *s, sweep_file *f, stop_progress *p, motus_error *e
         const sweep_rows rows = {b.values, b.results, b.errors, b.stopped};
         status = b.errors ? motus_ensemble_run_errors(s->ensemble, count, values, b.results, b.errors, b.stopped, err)
                           : motus_ensemble_run(s->ensemble, count, values, b.results, b.stopped, err);
-        if (!status) status = sweep_file_rows(f, count, &rows, err);
+        if (!status && judged(s))
+            status = sweep_accuracy_judge(s, f->rows, count, b.results[s->records.count], b.stopped, again, err);
+        if (!status && !*again) status = sweep_file_rows(f, count, &rows, err);
         if (!status && f->rows < s->grid.total && stop_progress_hook(p, 1))
             status = fail(err, MOTUS_CANCELLED, "cancelled");
         batch_adapt(&b, stop_clock() - began);
@@ -298,11 +318,15 @@ motus_status sweep_verb(const options *o, motus_error *err)
         status = sweep_file_open(&f, &s, err);
         bool open = !status;
         progress.began = stop_clock();
-        if (!status) status = go(&s, &f, &progress, err);
+        for (bool again = true; !status && again;) {
+            status = go(&s, &f, &progress, &again, err);
+            if (!status && again) status = make(&s, &progress, err);
+            if (!status && again) status = sweep_file_again(&f, err);
+        }
         stop_progress_end(&progress);
         if (!status)
             status = finish(&s, &f, began, err);
-        else if (open)
+        else if (open && status != MOTUS_ACCURACY)
             note_unfinished(&s, &f);
     }
     sweep_file_close(&f);

@@ -26,6 +26,7 @@ typedef struct sweep {
     double step, until; /* step NaN: it adapts, */
     double tolerance;   /*   by this tolerance; NaN: it does not */
     int absolute;
+    double tried;  /* the tolerance that is tried for an accuracy; NaN: none is wanted */
     int64_t every; /* steps between two samples for min, max and mean */
     motus_ensemble *ensemble;
     /* of a row: number, varied, recorded; where errors are told, those of the records that have some, and whether any
@@ -54,6 +55,13 @@ typedef struct sweep_file {
     size_t used, room;
 } sweep_file;
 
+/* sweep_accuracy.c. Before the ensemble is made: finds the first tolerance to try for --accuracy. */
+motus_status sweep_accuracy_begin(sweep *, motus_error *);
+/* Whether all of `count` trajectories, from number `first` on, keep to the accuracy. Else *again, and a smaller
+ * tolerance is to be tried; or MOTUS_ACCURACY, and there is none. */
+motus_status sweep_accuracy_judge(sweep *, uint64_t first, size_t count, const double *reached, const double *stopped,
+                                  bool *again, motus_error *);
+
 motus_status sweep_file_check(const options *, motus_error *);
 motus_status sweep_file_open(sweep_file *, const sweep *, motus_error *);
 /* Rows: values[axis][i], results[record][i], errors[record][i] (NULL: not told), stopped[i]. */
@@ -65,6 +73,8 @@ typedef struct sweep_rows {
 motus_status sweep_file_rows(sweep_file *, size_t count, const sweep_rows *, motus_error *);
 /* Writes everything to the disk. */
 motus_status sweep_file_finish(sweep_file *, motus_error *);
+/* Begins anew, with the present head. */
+motus_status sweep_file_again(sweep_file *, motus_error *);
 void sweep_file_close(sweep_file *);
 
 /* Finds the rows of an interrupted sweep: sets rows, bytes, stopped. `end`: the file's length. */

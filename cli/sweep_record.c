@@ -112,6 +112,8 @@ motus_status sweep_records_read(sweep_records *r, const load *m, const char *lis
     for (size_t i = 0; !status && i < items.count; i++) status = one(r, m, copy + (items.items[i] - copy), err);
     free(items.items);
     free(copy);
+    if (!status) status = add(r, MOTUS_REDUCE_ACCURACY, 0, 1, err);
+    if (!status) r->count--; /* behind them, for --accuracy */
     return status;
 }
 

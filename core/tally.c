@@ -14,18 +14,17 @@ tally tally_of(const stepper *s, stepper_count before)
 {
     tally t = {.steps = stepper_steps(s),
                .refused = stepper_refused(s) - before.refused,
-               .evaluations = stepper_evaluations(s) - before.evaluations};
+               .evaluations = stepper_evaluations(s) - before.evaluations,
+               .accuracy = NAN};
     stepper_sizes(s, &t.shortest, &t.longest);
     return t;
 }
 
 double tally_number(const tally *t, int which)
 {
-    const double numbers[TALLIES] = {[TALLY_STEPS] = (double)t->steps,
-                                     [TALLY_REFUSED] = (double)t->refused,
-                                     [TALLY_SHORTEST] = t->shortest,
-                                     [TALLY_LONGEST] = t->longest,
-                                     [TALLY_EVALUATIONS] = (double)t->evaluations};
+    const double numbers[TALLIES] = {
+        [TALLY_STEPS] = (double)t->steps, [TALLY_REFUSED] = (double)t->refused,         [TALLY_SHORTEST] = t->shortest,
+        [TALLY_LONGEST] = t->longest,     [TALLY_EVALUATIONS] = (double)t->evaluations, [TALLY_ACCURACY] = t->accuracy};
     return numbers[which];
 }
 

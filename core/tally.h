@@ -5,10 +5,11 @@
 #include "core/stepper.h"
 
 /* In the order of motus_reduction, from MOTUS_REDUCE_STEPS on. */
-enum { TALLY_STEPS, TALLY_REFUSED, TALLY_SHORTEST, TALLY_LONGEST, TALLY_EVALUATIONS, TALLIES };
+enum { TALLY_STEPS, TALLY_REFUSED, TALLY_SHORTEST, TALLY_LONGEST, TALLY_EVALUATIONS, TALLY_ACCURACY, TALLIES };
 
 typedef struct tally {
     int64_t steps, refused, evaluations;
+    double accuracy;          /* by its companion; NaN: it has none */
     double shortest, longest; /* steps of the leg, without one that was cut short at its end; NaN: there is none */
 } tally;
 

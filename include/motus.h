@@ -836,7 +836,11 @@ typedef enum motus_reduction {
     MOTUS_REDUCE_REFUSED,
     MOTUS_REDUCE_SHORTEST_STEP,
     MOTUS_REDUCE_LONGEST_STEP,
-    MOTUS_REDUCE_EVALUATIONS
+    MOTUS_REDUCE_EVALUATIONS,
+    /* A bound on the bars that any number of the state had along the trajectory, which is what `accuracy` of
+     * motus_run_def bounds: relative to the motion's size, or absolute where the tolerance is. INFINITY: of some no
+     * digit was significant. NaN: there are no bars, or motus_ensemble_run tells none. */
+    MOTUS_REDUCE_ACCURACY
 } motus_reduction;
 /* column: from motus_column_find or motus_column_of */
 typedef struct motus_record {

@@ -244,7 +244,7 @@ void lanes_block_trace(const lanes_block *block, bool first, int64_t steps, int6
 static tally tally_of_lane(const lanes_block *b, size_t lane, int64_t steps)
 {
     const lanes *l = b->l;
-    tally t = {.steps = steps, .shortest = NAN, .longest = NAN};
+    tally t = {.steps = steps, .accuracy = NAN, .shortest = NAN, .longest = NAN};
     if (!l->plan.carried) {
         if (steps > 0) t.shortest = t.longest = fabs(l->def.h);
         return t;

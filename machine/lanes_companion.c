@@ -93,5 +93,10 @@ void lanes_block_errors(const lanes_call *c, const lanes_companion *companion, b
     for (size_t r = 0; r < l->def.source_count; r++)
         c->errors[l->def.sources[r].result][trajectory] =
             stopped || companion->failed ? NAN : differences_bar(&companion->differences, first + r);
-    for (size_t k = 0; k < l->def.tally_count; k++) c->errors[l->def.tallies[k].result][trajectory] = stopped ? NAN : 0;
+    for (size_t k = 0; k < l->def.tally_count; k++) {
+        const lanes_tally *t = &l->def.tallies[k];
+        c->errors[t->result][trajectory] = stopped ? NAN : 0;
+        if (t->which == TALLY_ACCURACY && !stopped && !companion->failed)
+            c->results[t->result][trajectory] = differences_worst(&companion->differences, l->def.chosen->absolute > 0);
+    }
 }
