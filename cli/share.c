@@ -12,6 +12,7 @@
 #include "cli/file.h"
 #include "cli/text.h"
 
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -144,7 +145,7 @@ static void number_of(double value, const char *typed, char *out, size_t size)
 static motus_status gather(items *all, const load *m, const options *o, const char *methods, char **fragment,
                            motus_error *err)
 {
-    char step[256], until[256];
+    char step[256], until[256], tolerance[DECIMAL_MAX];
     all->list[all->count++] = (item){'v', "1"};
     all->list[all->count++] = (item){'m', m->text};
     for (size_t k = 0; k < o->set.count; k++) all->list[all->count++] = (item){'s', o->set.items[k]};
@@ -152,6 +153,10 @@ static motus_status gather(items *all, const load *m, const options *o, const ch
     if (o->step_typed) {
         number_of(o->step, o->step_typed, step, sizeof step);
         all->list[all->count++] = (item){'h', step};
+    }
+    if (!isnan(o->tolerance)) {
+        decimal(o->tolerance, tolerance);
+        all->list[all->count++] = (item){'r', tolerance};
     }
     if (o->until_typed) {
         number_of(o->until, o->until_typed, until, sizeof until);
@@ -162,7 +167,12 @@ static motus_status gather(items *all, const load *m, const options *o, const ch
 
 motus_status share_fragment(const load *m, const options *o, char **fragment, motus_error *err)
 {
-    enum { OTHERS = 5 }; /* v m a h T */
+    enum { OTHERS = 6 }; /* v m a h r T */
+    if (o->absolute) {
+        fail(err, MOTUS_ARGUMENT, "a link holds a relative tolerance, and this one is absolute");
+        hint(err, "write `tolerance … absolute` into the model, or give --tolerance as a number alone");
+        return MOTUS_ARGUMENT;
+    }
     char *methods = methods_of(o);
     for (size_t k = 0; k < o->set.count; k++)
         if (components_are(o->set.items[k])) {

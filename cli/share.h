@@ -1,6 +1,6 @@
 /* The fragment of a link to the lab: a model and the settings of a command, as data.
  *
- *     #v=1&m=<model>&s=<name=expression>&s=…&a=<method,method>&h=<step>&T=<until>
+ *     #v=1&m=<model>&s=<name=expression>&s=…&a=<method,method>&h=<step>&r=<tolerance>&T=<until>
  *
  * In this order; all but v, the version, are optional. Values are UTF-8, percent-encoded except A-Z a-z 0-9 - . _ ~
  * ( ) , * so that a fragment cannot end a quoted string of a shell or of HTML, where only & has to be escaped.

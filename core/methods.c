@@ -295,7 +295,6 @@ const row methods_table[] = {
                   .a = C(K(1.0) / K(3.0),   K(-1.0) / K(3.0), K(1.0),   K(1.0), K(-1.0), K(1.0)),
                   .b = C(K(1.0) / K(8.0), K(3.0) / K(8.0), K(3.0) / K(8.0), K(1.0) / K(8.0))} },
 
-#ifndef ONE_COPY /* the page's module, where size counts, has the methods of fixed step alone */
     /* Embedded pairs of Runge-Kutta methods: they choose their steps by the tolerance. */
     { .card = { CARD("bs32", "bogacki-shampine ode23", "runge-kutta", 3, 3, 3, XVT, 0, 0, 1.7320508075688772),
        .title = "Bogacki–Shampine 3(2)",
@@ -447,7 +446,6 @@ const row methods_table[] = {
        .formula = "kahan-li8 with h = ε T, T the motion's time scale as in verlet-reversible" IMPLICIT_KICKS,
        .use = "As verlet-reversible, at 1e-8 and better, and for forces that depend on the velocity.", .adaptive = 1 },
       .family = SPLITTING, .adaptive = true, .density = true, .compensated = true, KAHAN_LI8 },
-#endif
 
     /* Implicit: Newmark, and collocation at the Gauss nodes, whose coefficients step/collocation.h makes. */
     NEWMARK(2, 1,

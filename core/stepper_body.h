@@ -11,10 +11,10 @@
 
 #include "core/scalar.h"
 #define ROWS
-#ifdef ONE_COPY /* the page's module has rows of fixed step alone */
+#ifdef ONE_COPY /* the page's module has no rows that find their own sizes */
 #define ROW(w, member) ROW_##member(w)
 #define ROW_compensated(w) ((w)->row->compensated)
-#define ROW_adaptive(w) false
+#define ROW_adaptive(w) ((w)->row->adaptive)
 #define ROW_sizes(w) false
 #define ROW_density(w) false
 #define FACT(w, member) ((w)->member)

@@ -9,7 +9,7 @@ import { bodiesOf, distances } from './distance';
 import { growthsOf } from './linear';
 import { STEPS_MAX, problem } from './protocol';
 import type {
-  Ask, Description, ErrorTrack, Model, Problem, Region, Requests, Solution, Solve, Spectrum, Trace, Track, Truth,
+  Ask, Bars, Description, ErrorTrack, Model, Problem, Region, Requests, Solution, Solve, Spectrum, Trace, Track, Truth,
 } from './protocol';
 import { brief, grouped } from './figure/number';
 import { SEEN, sample, type Curve, type Motion } from './sample';
@@ -55,6 +55,7 @@ export class Answers {
   private readonly lab: number;
   private opened = '';                   // the model that is open, as a key
   private description: Description | null = null;
+  private adapting: Set<string> | null = null;
   private reference: { key: string; name: string; error: number; milliseconds: number } | null = null;
 
   private known: Known | null = null;
@@ -74,6 +75,7 @@ export class Answers {
       words: ({ text }) => this.core.words(text),
       vocabulary: () => this.core.vocabulary(this.lab),
       solve: (question) => this.solve(question),
+      bars: (question) => this.bars(question),
       trace: (question) => this.trace(question),
       converge: ({ model, methods, step, until }) => {
         this.open(model);
@@ -103,8 +105,14 @@ export class Answers {
     return this.description;
   }
 
-  private start(method: string, step: number | null, until: number | null): void {
-    this.core.start(this.lab, method, step, until);
+  private adaptive(method: string): boolean {
+    this.adapting ??= new Set(this.core.catalogue(this.lab).filter((m) => m.adaptive).map((m) => m.name));
+    return this.adapting.has(method);
+  }
+
+  private start(method: string, { step, tolerance, until }: Pick<Solve, 'step' | 'tolerance' | 'until'>, bars = false): void {
+    const adaptive = this.adaptive(method);
+    this.core.start(this.lab, method, adaptive ? null : step, until, adaptive ? tolerance : null, bars);
     const { total, step: h } = this.core.progress(this.lab);
     if (total > STEPS_MAX) {
       throw limit(computed.steps(grouped(total), brief(h, 6), grouped(STEPS_MAX)), computed.nearer);
@@ -148,7 +156,7 @@ export class Answers {
 
   /** The runs of all methods. Those of the last question are kept: a picture is asked for first, then the same with the truth. */
   private record(ask: Solve, all: readonly number[]): Map<string, Recorded> {
-    const key = JSON.stringify([this.opened, ask.step, ask.until, ask.rows, all]), runs = new Map<string, Recorded>();
+    const key = JSON.stringify([this.opened, ask.step, ask.tolerance, ask.until, ask.rows, all]), runs = new Map<string, Recorded>();
     const kept = key === this.recordedFor ? this.recorded : new Map<string, Recorded>();
     let numbers = 0;
     for (const method of ask.methods) {
@@ -165,18 +173,40 @@ export class Answers {
   }
 
   private run(method: string, ask: Solve, all: readonly number[]): Recorded {
-    this.start(method, ask.step, ask.until);
+    this.start(method, ask);
     const { total, step, last } = this.core.progress(this.lab);
     const enough = Math.max(ROWS_ENOUGH, Math.floor(NUMBERS_ENOUGH / all.length));
     const rows = Math.max(2, Math.min(ask.rows, enough, Math.floor(NUMBERS_MAX / all.length)));
+    if (this.adaptive(method)) return this.adapted(method, all, rows);
     const every = Math.max(1, Math.ceil(total / (rows - 1)));
     const { values, problem } = this.core.record(this.lab, all, every, rows, true);
     const now = this.core.progress(this.lab);
-    return { values, examined: false, track: { method, step, steps: now.steps, total, lastStep: last, evaluations: now.evaluations, every, problem, singular: null } };
+    return { values, examined: false, track: { method, tolerance: null, refused: 0, step, steps: now.steps, total, lastStep: last, evaluations: now.evaluations, every, problem, singular: null } };
   }
 
-  private examined({ values, track }: Recorded, { step, until }: Solve): Recorded {
-    return { values, examined: true, track: { ...track, singular: track.problem ? null : this.core.singular(this.lab, track.method, step, until) } };
+  /** How many steps an adaptive method takes is known at its end: whenever the rows are full every second one goes, and from then on half as many are kept. */
+  private adapted(method: string, all: readonly number[], rows: number): Recorded {
+    const width = all.length, most = Math.max(3, rows | 1), values = new Float64Array(width * most);
+    let every = 1, count = 0, problem: Problem | null = null;
+    for (;;) {
+      const found = this.core.record(this.lab, all, every, most - count, count === 0), now = this.core.progress(this.lab);
+      values.set(found.values, width * count);
+      count += found.rows;
+      problem = found.problem;
+      if (problem || now.done) break;
+      if (now.steps > STEPS_MAX) throw limit(computed.adapting(grouped(now.steps)), computed.nearer);
+      for (let i = 1; 2 * i < count; i++) values.copyWithin(width * i, width * 2 * i, width * (2 * i + 1));
+      count = (count + 1) / 2;
+      every *= 2;
+    }
+    const now = this.core.progress(this.lab), step = now.steps > 0 ? Math.abs(now.time - (values[0] as number)) / now.steps : 0;
+    const track = { method, tolerance: now.tolerance, refused: now.refused, step, steps: now.steps, total: now.steps, lastStep: 0, evaluations: now.evaluations, every, problem, singular: null };
+    return { values: values.slice(0, width * count), examined: false, track };
+  }
+
+  private examined({ values, track }: Recorded, { step, tolerance, until }: Solve): Recorded {
+    const adaptive = track.tolerance !== null, singular = track.problem ? null : this.core.singular(this.lab, track.method, adaptive ? null : step, until, adaptive ? tolerance : null);
+    return { values, examined: true, track: { ...track, singular } };
   }
 
   private track({ values, track }: Recorded, width: number, count: number): Track {
@@ -286,17 +316,43 @@ export class Answers {
     return { method: track.method, x: x.far, v: v.far, s: s.far, which: x.which, bodies: bodies.map((b) => b.label) };
   }
 
+  /** Bars at rows that are as far apart as those of a run that is thinned; where steps adapt the companion lands after each of them anyway. */
+  private bars(ask: Requests['bars']['ask']): Bars {
+    const names = this.open(ask.model).columns.map((c) => c.name), columns = ask.columns.map((name) => names.indexOf(name)).filter((k) => k >= 0), all = [0, ...columns];
+    this.start(ask.method, ask, true);
+    const { total } = this.core.progress(this.lab), rows: { values: Float64Array; errors: Float64Array }[] = [];
+    let every = Math.max(1, Math.ceil(total / ask.rows));
+    for (;;) {
+      rows.push(this.core.errors(this.lab, all));
+      if (this.core.progress(this.lab).done) break;
+      if (rows.length > 2 * ask.rows) {
+        for (let i = 1; 2 * i < rows.length; i++) rows[i] = rows[2 * i]!;
+        rows.length = (rows.length + 1) >> 1;
+        every *= 2;
+      }
+      try {
+        this.core.advance(this.lab, every);
+      } catch (e) {
+        if (!(e instanceof Refused) || e.problem.kind === 'memory') throw e;
+        break;
+      }
+    }
+    const { reason, significant_until: until } = this.core.estimate(this.lab), of = (k: number, which: 'values' | 'errors'): Float64Array => Float64Array.from(rows, (row) => row[which][k]!);
+    return { method: ask.method, times: of(0, 'values'), values: columns.map((_, k) => of(1 + k, 'values')), bars: columns.map((_, k) => of(1 + k, 'errors')), reason, until };
+  }
+
   private trace(ask: Requests['trace']['ask']): Trace {
     const description = this.open(ask.model);
-    this.start(ask.method, ask.step, ask.until);
-    const total = this.core.progress(this.lab).total;
-    const index = Math.max(0, Math.min(ask.index, total - 1));
+    this.start(ask.method, ask);
+    const { total } = this.core.progress(this.lab);
+    const index = Math.max(0, total > 0 ? Math.min(ask.index, total - 1) : ask.index);
     if (index > 0) this.core.advance(this.lab, index);
     const entries = this.core.trace(this.lab);
     const nx = this.core.positions(this.lab), nv = this.core.velocities(this.lab);
     const names = description.columns.map((c) => c.name);
+    const { step } = this.core.progress(this.lab);
     return {
-      method: this.core.method(this.lab), step: this.core.progress(this.lab).step, index, total, entries,
+      method: this.core.method(this.lab), step: Number.isNaN(step) ? Math.abs(entries[0]?.step ?? 0) : step, index, total, entries,
       names: { x: names.slice(1, 1 + nx), v: names.slice(1 + nx, 1 + nx + nv) },
     };
   }
@@ -323,12 +379,14 @@ export class Answers {
     this.open(ask.model);
     const nx = this.core.positions(this.lab), nv = this.core.velocities(this.lab), n = nx + nv;
     if (n > EIGENVALUES_MAX) throw limit(computed.eigenvalues(String(n)), computed.most(String(EIGENVALUES_MAX)));
-    this.start(ask.method, ask.step, ask.until);
+    this.start(ask.method, ask);
     const out: Spectrum[] = [];
     for (const time of [...ask.times].sort((a, b) => a - b)) {
-      const now = this.core.progress(this.lab);
+      let now = this.core.progress(this.lab);
       const steps = Math.round(Math.abs(time - now.time) / Math.abs(now.step));
       if (steps > 0 && !now.done) this.core.advance(this.lab, steps);
+      // Where steps adapt, the first that reaches the time.
+      for (const from = now.time; Number.isNaN(now.step) && !now.done && Math.abs(now.time - from) < Math.abs(time - from); now = this.core.progress(this.lab)) this.core.advance(this.lab, 1);
       const { byX, byV } = this.core.jacobian(this.lab);
       const matrix = Matrix.zeros(n, n);
       for (let i = 0; i < nx; i++) matrix.set(i, nx + i, 1);

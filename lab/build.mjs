@@ -119,8 +119,10 @@ const put = (html, mark, value) => {
   return html.replace(mark, () => value);
 };
 
-const sheets = ['style.css', 'figure/figure.css', 'panel/steps.css', 'panel/study.css', 'shell/editor.css', 'shell/gallery.css'];
-const style = await minify([made.fontCss, drawn.inkStyle(), ...await Promise.all(sheets.map((name) => readFile(join(here, name), 'utf8')))].join('\n'));
+/* The first picture, and what moves with it, need these; what opens later has sheets of its own, which the single file holds packed too. */
+const sheets = { first: ['style.css', 'figure/figure.css'], later: ['panel/steps.css', 'panel/study.css', 'shell/editor.css', 'shell/gallery.css'] };
+const styleOf = async (names, ...before) => minify([...before, ...await Promise.all(names.map((name) => readFile(join(here, name), 'utf8')))].join('\n'));
+const style = await styleOf(sheets.first, made.fontCss, drawn.inkStyle()), laterStyle = await styleOf(sheets.later);
 const escaped = (text) => text.replace(/[&<>"]/g, (c) => `&#${c.charCodeAt(0)};`), said = drawn.said(scene);
 const words = `<div class="words-inner"><div class="words-head"><h1 id="scene-title">${escaped(said.title)}</h1></div><p id="scene-words">${escaped(said.sentence)}</p><p class="ask"><button type="button" class="ask-button"><span>${escaped(said.ask)}</span><svg viewBox="0 0 24 24" width="20" height="20" aria-hidden="true" focusable="false" class="icon"><path d="M5 12h13M12.5 6l5.5 6-5.5 6"/></svg></button></p><button type="button" class="pill"><span class="pill-math">${drawn.equation(scene)}</span><small>${escaped(drawn.words.headline.type)}</small></button></div>`;
 /** The words of the language in the marks {{…}}. */
@@ -130,8 +132,8 @@ const spoken = (html) => html.replace(/\{\{(\w+)\}\}/g, (mark, name) => {
 });
 const template = put(put(spoken(await readFile(join(here, 'index.html'), 'utf8')), '<!-- picture -->', drawn.firstPictures(scene)), '<!-- words -->', words);
 const early = closed(await bundle('early.ts', 'iife', {}));
-const page = ({ script, element, connect, worker }) => {
-  const policy = ["default-src 'none'", `script-src ${hash(early)} ${script} 'wasm-unsafe-eval'`, `style-src ${hash(style)}`, 'img-src data: blob:', 'font-src data:', `connect-src ${connect}`,
+const page = ({ script, style, hidden = [], element, connect, worker }) => {
+  const policy = ["default-src 'none'", `script-src ${hash(early)} ${script} 'wasm-unsafe-eval'`, `style-src ${[style, ...hidden].map(hash).join(' ')}`, 'img-src data: blob:', 'font-src data:', `connect-src ${connect}`,
     `worker-src ${worker}`, "base-uri 'none'", "form-action 'none'"].join('; ');
   let html = put(template, '<!-- csp -->', `<meta http-equiv="Content-Security-Policy" content="${policy}">`);
   html = put(html, '<!-- style -->', `<style>${style}</style>`);
@@ -143,12 +145,12 @@ await mkdir(out, { recursive: true });
 const worker = await bundle('worker.ts', 'iife', {});
 const whole = await bundle('main.ts', 'iife', single);
 const boot = closed(await bundle('boot.ts', 'iife', {}));
-const parts = { main: whole, core: wasm, worker, ...later };
+const parts = { main: whole, core: wasm, worker, style: laterStyle, ...later };
 const elements = [...Object.entries(parts).map(([id, contents]) => `<script type="text/plain" id="packed-${id}">${packed(contents)}</script>`), `<script>${boot}</script>`];
 const files = {
   'motus.wasm': wasm, 'worker.js': worker, 'main.js': await bundle('main.ts', 'esm', hosted),
-  'index.html': page({ script: "'self'", element: '<script type="module" src="main.js"></script>', connect: "'self'", worker: "'self'" }),
-  'motus-lab.html': page({ script: `${hash(boot)} ${hash(whole)}`, element: elements.join('\n'), connect: "'none'", worker: 'blob:' }),
+  'index.html': page({ script: "'self'", style: style + laterStyle, element: '<script type="module" src="main.js"></script>', connect: "'self'", worker: "'self'" }),
+  'motus-lab.html': page({ script: `${hash(boot)} ${hash(whole)}`, style, hidden: [laterStyle], element: elements.join('\n'), connect: "'none'", worker: 'blob:' }),
 };
 for (const [name, contents] of Object.entries(files)) await writeFile(join(out, name), contents);
 const size = (contents) => `${(Buffer.byteLength(contents) / 1000).toFixed(0)} KB`;

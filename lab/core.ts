@@ -4,7 +4,7 @@
  * may move when it grows).
  */
 import {
-  WORD_KINDS, problem, type CompareRow, type Comparison, type Convergence, type Description, type Drift, type Method, type Model, type Problem, type TraceEntry, type Vocabulary, type Word,
+  WORD_KINDS, problem, type CompareRow, type Comparison, type Convergence, type Description, type Drift, type Estimate, type Method, type Model, type Problem, type TraceEntry, type Vocabulary, type Word,
 } from './protocol';
 import { Refused } from './scene';
 import { computed } from './words';
@@ -22,8 +22,10 @@ interface Exports {
   lab_catalogue(lab: number): number;
   lab_words(text: number, length: number, out: number, room: number): number;
   lab_vocabulary(lab: number): number;
-  lab_start(lab: number, method: number, step: number, until: number): number;
-  lab_singular(lab: number, method: number, step: number, until: number): number;
+  lab_start(lab: number, method: number, step: number, tolerance: number, until: number, bars: number): number;
+  lab_singular(lab: number, method: number, step: number, tolerance: number, until: number): number;
+  lab_errors(lab: number, columns: number, count: number, values: number, errors: number): number;
+  lab_estimate(lab: number): number;
   lab_record(lab: number, columns: number, count: number, every: number, rows: number, first: number, out: number, written: number): number;
   lab_sample(lab: number, times: number, rows: number, columns: number, count: number, out: number): number;
   lab_progress(lab: number, out: number): void;
@@ -45,7 +47,9 @@ interface Exports {
 }
 
 export interface Progress {
-  readonly time: number; readonly steps: number; readonly total: number; readonly step: number; readonly last: number; readonly evaluations: number; readonly done: boolean;
+  readonly time: number; readonly steps: number; readonly last: number; readonly evaluations: number; readonly done: boolean; readonly refused: number;
+  /** Where steps adapt 0 and NaN; elsewhere the tolerance is NaN. */
+  readonly total: number; readonly step: number; readonly tolerance: number;
 }
 export interface Rows { readonly values: Float64Array; readonly rows: number; readonly problem: Problem | null }
 
@@ -116,10 +120,9 @@ export class Core {
   bytes(): number { return this.exports.memory.buffer.byteLength; }
 
   catalogue(lab: number): Method[] {
-    type Raw = Omit<Method, 'stability_limit'> & { stability_limit: number | null; adaptive: boolean };
+    type Raw = Omit<Method, 'stability_limit'> & { stability_limit: number | null };
     const { methods } = this.json<{ methods: Raw[] }>(this.exports.lab_catalogue(lab));
-    // The page's pictures are of steps of one size.
-    return methods.filter((row) => !row.adaptive).map((row) => ({ ...row, stability_limit: row.stability_limit ?? Infinity }));
+    return methods.map((row) => ({ ...row, stability_limit: row.stability_limit ?? Infinity }));
   }
   open(lab: number, model: Model): void {
     this.texts([model.text], (text, length) => this.texts(model.set, (sets) => {
@@ -147,12 +150,13 @@ export class Core {
       return Array.from({ length: count }, (_, k) => ({ from: unitAt(found[3 * k] ?? 0), to: unitAt(found[3 * k + 1] ?? 0), kind: WORD_KINDS[found[3 * k + 2] ?? 0] ?? 'wrong' }));
     }));
   }
-  start(lab: number, method: string, step: number | null, until: number | null): void {
-    this.texts([method], (at) => this.check(lab, this.exports.lab_start(lab, at, NaNs(step), NaNs(until))));
+  /** step: of a method of steps of one size, tolerance: of an adaptive one; else null. bars: errors are to be told. */
+  start(lab: number, method: string, step: number | null, until: number | null, tolerance: number | null = null, bars = false): void {
+    this.texts([method], (at) => this.check(lab, this.exports.lab_start(lab, at, NaNs(step), NaNs(tolerance), NaNs(until), bars ? 1 : 0)));
   }
   /** Where such a run passes a singularity of the force, or does not resolve the force, so that what follows is not the motion; null: nowhere, as far as it was examined. */
-  singular(lab: number, method: string, step: number | null, until: number | null): Problem | null {
-    const found = this.texts([method], (at) => (this.exports.lab_singular(lab, at, NaNs(step), NaNs(until)) === 0 ? null : this.problem(lab)));
+  singular(lab: number, method: string, step: number | null, until: number | null, tolerance: number | null = null): Problem | null {
+    const found = this.texts([method], (at) => (this.exports.lab_singular(lab, at, NaNs(step), NaNs(tolerance), NaNs(until)) === 0 ? null : this.problem(lab)));
     if (found?.kind === 'memory') throw new Refused(found);
     return found?.kind === 'singular' || found?.kind === 'unresolved' ? found : null;
   }
@@ -175,11 +179,21 @@ export class Core {
       return this.copy(out, count * times.length);
     })));
   }
+  /** The numbers of columns where the run stands, and their bars: 0 exact, infinite no digit known, NaN none. */
+  errors(lab: number, columns: readonly number[]): { values: Float64Array; errors: Float64Array } {
+    const count = columns.length;
+    return this.room(4 * count, (list) => this.room(16 * count, (out) => {
+      new Uint32Array(this.exports.memory.buffer, list, count).set(columns);
+      this.check(lab, this.exports.lab_errors(lab, list, count, out, out + 8 * count));
+      return { values: this.copy(out, count), errors: this.copy(out + 8 * count, count) };
+    }));
+  }
+  estimate(lab: number): Estimate { return this.answer<Estimate>(lab, this.exports.lab_estimate(lab)); }
   progress(lab: number): Progress {
-    return this.room(56, (at) => {
+    return this.room(72, (at) => {
       this.exports.lab_progress(lab, at);
-      const [time = 0, steps = 0, total = 0, step = 0, last = 0, evaluations = 0, done = 0] = this.copy(at, 7);
-      return { time, steps, total, step, last, evaluations, done: done !== 0 };
+      const [time = 0, steps = 0, total = 0, step = 0, last = 0, evaluations = 0, done = 0, refused = 0, tolerance = NaN] = this.copy(at, 9);
+      return { time, steps, total, step, last, evaluations, done: done !== 0, refused, tolerance };
     });
   }
   advance(lab: number, steps: number): void { this.check(lab, this.exports.lab_advance(lab, steps)); }

@@ -27,8 +27,8 @@ import { openedPlace } from './shell/opened';
 import { createStore, outdated } from './state';
 
 /** Where the steps of a method end, the start first, for the clock to stop at: of very many steps those that are kept. */
-function stepTimes({ times, step, steps, every }: Track): Float64Array {
-  if (every === 1 || steps > 200_000) return times;
+function stepTimes({ times, step, steps, every, tolerance }: Track): Float64Array {
+  if (every === 1 || tolerance !== null || steps > 200_000) return times;
   const first = times[0] ?? 0, last = times[times.length - 1] ?? first, h = Math.sign(last - first) * Math.abs(step);
   return Float64Array.from({ length: steps + 1 }, (_, n) => (n === steps ? last : first + n * h));
 }
@@ -143,8 +143,8 @@ async function start(): Promise<void> {
   }
   store.subscribe((what) => {
     // A picture that is not of what is typed looks like it.
-    const { model, run, step, until } = store.trouble;
-    document.body.classList.toggle('stale', Boolean(model || run || step || until));
+    const { model, run, step, tolerance, until } = store.trouble;
+    document.body.classList.toggle('stale', Boolean(model || run || step || tolerance || until));
     document.body.classList.toggle('outdated', outdated(store));
     if (what === 'scene') show();
     if (what !== 'view') return;

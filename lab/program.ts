@@ -17,13 +17,13 @@ export function literal(text: string, indent = ''): string {
 }
 
 /** What is computed; step, until: null where the text has them. */
-export interface Motion { readonly text: string; readonly set: Readonly<Record<string, string>>; readonly method: string; readonly step: number | null; readonly until: number | null }
+export interface Motion { readonly text: string; readonly set: Readonly<Record<string, string>>; readonly method: string; readonly step: number | null; readonly tolerance?: number | null; readonly until: number | null }
 
-export function cProgram({ text, set, method, step, until }: Motion): Command {
-  const sets = Object.entries(set).map(([name, value]) => `${name}=${value}`), numbers = [step, until];
+export function cProgram({ text, set, method, step, tolerance = null, until }: Motion): Command {
+  const sets = Object.entries(set).map(([name, value]) => `${name}=${value}`), numbers = [step, tolerance, until];
   if ([text, method, ...sets].some((t) => controls.test(t))) return { text: '', problem: words.address.program.control };
   if (numbers.some((n) => n !== null && !Number.isFinite(n))) return { text: '', problem: words.address.program.number };
-  const given = ['step', 'until'].map((name, k) => (numbers[k] === null ? '' : `    how.${name} = ${numbers[k]};\n`)).join('');
+  const given = ['step', 'tolerance', 'until'].map((name, k) => (numbers[k] === null ? '' : `    how.${name} = ${numbers[k]};\n`)).join('');
   return {
     problem: '', text: `/* cc -std=c17 motion.c -lmotus -lm -o motion */
 #include <motus.h>

@@ -37,6 +37,8 @@ export interface Admission { readonly name: string; readonly admitted: boolean; 
 export function problem(kind: string, message: string, hint = ''): Problem {
   return { kind, message, hint, line: 0, column: 0, source: '', caret: '', time: null, variable: '', word: '', instead: '' };
 }
+/** That of a run which names none: motus_run_def. */
+export const TOLERANCE = 1e-9;
 /** A run of more steps belongs to the program. */
 export const STEPS_MAX = 1e7;
 
@@ -57,7 +59,7 @@ export interface Description {
   /** The force has no abs, min, max, floor, mod, sign, if. */
   readonly smooth: boolean;
   readonly columns: readonly Column[]; readonly variables: readonly Variable[]; readonly parameters: readonly Parameter[];
-  readonly settings: { readonly method: string; readonly step: number | null; readonly until: number | null; readonly start: number; /** step or until: not in the model, but the library's */ readonly suggested: boolean };
+  readonly settings: { readonly method: string; readonly step: number | null; readonly tolerance: number | null; readonly until: number | null; readonly start: number; /** step or until: not in the model, but the library's */ readonly suggested: boolean };
   /** Lines that the text lacks and the core supposed, with the reason. */
   readonly suggestions: readonly Suggestion[];
   readonly has_exact: boolean;
@@ -69,11 +71,17 @@ export interface Method {
   readonly name: string; readonly aliases: readonly string[]; readonly title: string; readonly family: string;
   readonly order: number; readonly stages: number; readonly evaluations: number;
   readonly symplectic: boolean; readonly reversible: boolean; readonly stability_limit: number;
+  /** It chooses its steps by a tolerance. */
+  readonly adaptive: boolean;
   readonly cite: string; readonly formula: string; readonly use: string;
 }
 
 /** The motion by one method. Row i is at times[i]; columns as asked for. Every `every`-th step is kept, and the last. */
 export interface Track {
+  /** Of an adaptive method, whose `step` is the mean one and whose `total` are the steps that it took; else null. */
+  readonly tolerance: number | null;
+  /** Steps that it took back. */
+  readonly refused: number;
   readonly method: string; readonly times: Float64Array; readonly columns: readonly Float64Array[];
   readonly step: number; readonly steps: number; readonly total: number; readonly lastStep: number; readonly evaluations: number; readonly every: number;
   /** Why it stopped before the end: with the time and the variable. What was computed until then stands. */
@@ -102,7 +110,8 @@ export interface ErrorTrack {
 
 export interface Solve {
   readonly model: Model; readonly methods: readonly string[];
-  readonly step: number | null; readonly until: number | null;      // null: the model's
+  /** null: the model's. step: of methods of steps of one size; tolerance: of adaptive ones. */
+  readonly step: number | null; readonly until: number | null; readonly tolerance: number | null;
   readonly columns: readonly string[];                              // names; [] means: all, up to a bound
   readonly rows: number;                                            // at most so many rows a track
   readonly truth: boolean;                                          // truth and errors as well: dearer where there is no exact motion
@@ -118,6 +127,15 @@ export interface Solution {
   readonly examined: boolean;
   readonly milliseconds: number;
 }
+
+/** Bars of error along a run: at times, a column each of values and of bars. A bar is 0 where the number is exact, infinite where no digit of it is known, NaN where
+ *  there is none, and then `reason` says why. */
+export interface Bars {
+  readonly method: string; readonly times: Float64Array; readonly values: readonly Float64Array[]; readonly bars: readonly Float64Array[]; readonly reason: string;
+  /** From this time on no digit is known; null: all along some are. */
+  readonly until: number | null;
+}
+export interface Estimate { readonly reason: string; readonly significant_until: number | null }
 
 /** One step opened up: motus_run_trace of include/motus.h, whose names and meanings these are. */
 export interface TraceEntry {
@@ -166,7 +184,9 @@ export interface Requests {
   words: { ask: { text: string }; answer: readonly Word[] };
   vocabulary: { ask: Record<string, never>; answer: Vocabulary };
   solve: { ask: Solve; answer: Solution };
-  trace: { ask: { model: Model; method: string; step: number | null; until: number | null; index: number }; answer: Trace };
+  /** At most `rows` of the method's steps, and the end. */
+  bars: { ask: { model: Model; method: string; step: number | null; tolerance: number | null; until: number | null; columns: readonly string[]; rows: number }; answer: Bars };
+  trace: { ask: { model: Model; method: string; step: number | null; tolerance: number | null; until: number | null; index: number }; answer: Trace };
   converge: { ask: { model: Model; methods: readonly string[]; step: number | null; until: number | null }; answer: Convergence };
   compare: { ask: { model: Model; methods: readonly string[]; step: number | null; until: number | null }; answer: Comparison };
   region: { ask: { method: string; re: readonly [number, number]; im: readonly [number, number]; width: number; height: number }; answer: Region };
@@ -174,7 +194,7 @@ export interface Requests {
   growth: { ask: { method: string; re: readonly number[]; im: readonly number[] }; answer: Float64Array };
   /** Growth of one step on linearised motions: [i · count + j] at step j of motion i. */
   linear: { ask: { method: string; moments: readonly Linear[]; steps: readonly (readonly number[])[] }; answer: Float64Array };
-  spectrum: { ask: { model: Model; method: string; step: number | null; until: number | null; times: readonly number[] }; answer: readonly Spectrum[] };
+  spectrum: { ask: { model: Model; method: string; step: number | null; tolerance: number | null; until: number | null; times: readonly number[] }; answer: readonly Spectrum[] };
 }
 export type Ask = keyof Requests;
 export interface Question<K extends Ask = Ask> { readonly id: number; readonly kind: K; readonly ask: Requests[K]['ask'] }

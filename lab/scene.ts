@@ -7,7 +7,7 @@ import type { Ask, Description, Method, Problem, Requests, Solution } from './pr
 
 /** What a run is computed from. */
 export interface Run {
-  readonly text: string; readonly set: Readonly<Record<string, string>>; readonly methods: readonly string[]; readonly step: string; readonly until: string;
+  readonly text: string; readonly set: Readonly<Record<string, string>>; readonly methods: readonly string[]; readonly step: string; readonly until: string; readonly tolerance: string;
 }
 /** The whole state of the page that an address can hold. Texts are as the reader typed them. */
 export interface State {
@@ -17,6 +17,7 @@ export interface State {
   readonly methods: readonly string[];          // overlaid; the first is the main one
   readonly step: string;                        // '' : the model's
   readonly until: string;
+  readonly tolerance: string;                   // of the adaptive methods; '' : the model's
   readonly view: View;
   /** Where in the page one is: '' at the stage, 'gallery', 'step', or a lesson as lesson.ts writes it, 'too-high-too-low.try.0'. */
   readonly place: string;
@@ -57,7 +58,7 @@ export interface Store {
   readonly state: State;
   readonly scene: Scene | null;                 // of the latest state that could be computed
   /** What step and end came to for it, where they were typed as an expression. */
-  readonly numbers: { readonly step: number | null; readonly until: number | null; readonly start: number };
+  readonly numbers: { readonly step: number | null; readonly tolerance: number | null; readonly until: number | null; readonly start: number };
   change(part: Partial<State>): void;           // computed anew, once per frame
   look(part: Partial<View>): void;              // the view alone
   readonly client: Client;

@@ -15,7 +15,7 @@ import { words } from './words';
 export interface Trouble {
   readonly model: Problem | null;               // the text, or a replaced parameter
   readonly run: Problem | null;                 // the computation as a whole
-  readonly step: string; readonly until: string; readonly methods: string;       // sentences; '' where all is well
+  readonly step: string; readonly tolerance: string; readonly until: string; readonly methods: string;       // sentences; '' where all is well
   /** The computation goes on nevertheless. */
   readonly remark: string;
 }
@@ -30,8 +30,8 @@ export interface LiveStore extends Store {
   readonly described: string | null;
   readonly trouble: Trouble;
   readonly busy: boolean;
-  /** Step and end as numbers, of the last state that could be computed. */
-  readonly numbers: { readonly step: number | null; readonly until: number | null; readonly start: number };
+  /** Step, tolerance and end as numbers, of the last state that could be computed. */
+  readonly numbers: { readonly step: number | null; readonly tolerance: number | null; readonly until: number | null; readonly start: number };
   /** Replace the whole state: a preset, an address. */
   load(state: State): void;
   cancel(): void;
@@ -52,7 +52,7 @@ const rows = { moving: 1000, settled: 6000 };
 const patience = { picture: 800, reference: 40, busy: 250, truth: 14, rest: 60, settled: 160 };
 /* What is asked of the truth: nothing, a coarse one, or the reference with the errors of all methods. */
 type Wanted = 'none' | 'coarse' | 'reference';
-const well: Trouble = { model: null, run: null, step: '', until: '', methods: '', remark: '' };
+const well: Trouble = { model: null, run: null, step: '', tolerance: '', until: '', methods: '', remark: '' };
 
 /** It took too long. */
 const late = (error: unknown): error is Refused => error instanceof Refused && error.problem.kind === 'limit';
@@ -86,11 +86,23 @@ export function admittedMethods(state: State, description: Description, catalogu
   return { methods, refused };
 }
 
+/** How many methods take steps of one size, and how many choose theirs. */
+function countsOf(methods: readonly string[], catalogue: readonly Method[]): { fixed: number; adaptive: number } {
+  const adaptive = methods.filter((name) => catalogue.some((m) => m.adaptive && m.name === name)).length;
+  return { fixed: methods.length - adaptive, adaptive };
+}
+/** The same of what is drawn, or would be. */
+export function adapts({ state, description, catalogue }: LiveStore): { fixed: number; adaptive: number } {
+  return description ? countsOf(admittedMethods(state, description, catalogue).methods, catalogue) : { fixed: 0, adaptive: 0 };
+}
+/** null: the model's. */
+interface Measured { readonly step: number | null; readonly tolerance: number | null; readonly until: number | null }
+
 export function createStore(client: Client, initial: State): LiveStore {
   let state = initial, scene: Scene | null = null, catalogue: readonly Method[] = [];
   let description: Description | null = null, described: string | null = null;
   let trouble = well, busy = false;
-  let numbers: LiveStore['numbers'] = { step: null, until: null, start: 0 };
+  let numbers: LiveStore['numbers'] = { step: null, tolerance: null, until: null, start: 0 };
   let underWay = false, waiting = false, refining = false, began = 0, version = 0;
   // Milliseconds that the truth took the last time; 0: not known.
   let cost = { coarse: 0, reference: 0 };
@@ -123,10 +135,10 @@ export function createStore(client: Client, initial: State): LiveStore {
     return answer;
   }
 
-  /** Step and end of this state, with what is wrong with them. */
-  async function measure(of: State, model: Description): Promise<{ step: number | null; until: number | null; trouble: Pick<Trouble, 'step' | 'until' | 'remark'> }> {
-    const said = { step: '', until: '', remark: '' };
-    let step = model.settings.step, until = model.settings.until;
+  /** Step, tolerance and end of this state, with what is wrong with them. */
+  async function measure(of: State, model: Description): Promise<Measured & { trouble: Pick<Trouble, 'step' | 'tolerance' | 'until' | 'remark'> }> {
+    const said = { step: '', tolerance: '', until: '', remark: '' };
+    let { step, until } = model.settings, tolerance: number | null = null;
     if (of.until) {
       const value = await constant(of.until);
       if (typeof value === 'string') said.until = value;
@@ -140,7 +152,13 @@ export function createStore(client: Client, initial: State): LiveStore {
       else if (value < 0) said.step = words.trouble.stepBackward;
       else step = value;
     }
-    if (step !== null && until !== null && !said.step && !said.until) {
+    if (of.tolerance) {
+      const value = await constant(of.tolerance);
+      if (typeof value === 'string') said.tolerance = value;
+      else if (!(value > 0)) said.tolerance = words.trouble.toleranceZero;
+      else tolerance = value;
+    }
+    if (step !== null && until !== null && !said.step && !said.until && countsOf(admittedMethods(of, model, catalogue).methods, catalogue).fixed > 0) {
       const span = Math.abs(until - model.settings.start), steps = span / step;
       if (span === 0) {
         said.until = words.trouble.untilNothing(short(until));
@@ -149,12 +167,12 @@ export function createStore(client: Client, initial: State): LiveStore {
         said[of.until && !of.step ? 'until' : 'step'] = words.trouble.stepMany(brief(steps, 2));
       } else if (step > span) said.remark = words.trouble.stepLong(short(span, 6));
     }
-    return { step, until, trouble: said };
+    return { step, tolerance, until, trouble: said };
   }
 
   const makeScene = (of: State, solution: Solution): Scene => ({ state: of, description: solution.description, solution, looks: looksOf(solution.tracks.map(t => t.method), catalogue), catalogue });
 
-  async function solve(of: State, methods: readonly string[], how: { step: number | null; until: number | null }, count: number, wanted: Wanted, unexamined = false): Promise<Solution> {
+  async function solve(of: State, methods: readonly string[], how: Measured, count: number, wanted: Wanted, unexamined = false): Promise<Solution> {
     running ??= new AbortController();
     const set = Object.entries(of.set).map(([name, expression]) => `${name}=${expression}`);
     const solution = await client.ask('solve',
@@ -202,12 +220,13 @@ export function createStore(client: Client, initial: State): LiveStore {
     trouble = { ...well, ...measured.trouble, methods: words.trouble.methods(refused.map(({ name, reason }) => (reason === null ? words.trouble.unknown(name) : words.trouble.refused(looksOf([name], catalogue)[0]?.label ?? name, reason)))) };
     tell('description');
     // A bad step or end leaves the last picture; where there is none of this model, the model's own serve.
-    if ((measured.trouble.step || measured.trouble.until) && scene?.state.text === of.text) return;
+    if ((measured.trouble.step || measured.trouble.tolerance || measured.trouble.until) && scene?.state.text === of.text) return;
     const { settings } = model;
-    const asked = { step: measured.trouble.step ? settings.step : measured.step, until: measured.trouble.until ? settings.until : measured.until };
-    if (asked.step === null || asked.until === null) {
+    const asked = { step: measured.trouble.step ? settings.step : measured.step, tolerance: measured.tolerance, until: measured.trouble.until ? settings.until : measured.until };
+    const needsStep = asked.step === null && countsOf(methods, catalogue).fixed > 0;
+    if (needsStep || asked.until === null) {
       trouble = {
-        ...trouble, step: trouble.step || (asked.step === null ? words.trouble.noStep : ''),
+        ...trouble, step: trouble.step || (needsStep ? words.trouble.noStep : ''),
         until: trouble.until || (asked.until === null ? words.trouble.noUntil : ''),
       };
       tell('description');
@@ -217,7 +236,7 @@ export function createStore(client: Client, initial: State): LiveStore {
     const finish = (solution: Solution): void => {
       // How it is shown may have changed since.
       scene = makeScene({ ...shown, view: state.text === shown.text ? state.view : shown.view, pinned: state.pinned }, solution);
-      numbers = { step: asked.step, until: asked.until, start: settings.start };
+      numbers = { ...asked, start: settings.start };
       tell('scene');
     };
     try {
@@ -261,10 +280,10 @@ export function createStore(client: Client, initial: State): LiveStore {
     if (!catalogue.length) catalogue = await client.ask('catalogue', {});
     const of = { ...state, ...run }, set = Object.entries(run.set).map(([name, expression]) => `${name}=${expression}`);
     const model = await client.ask('describe', { model: { text: run.text, set: [] } });
-    const { step, until, trouble: wrong } = await measure(of, model), { methods, refused } = admittedMethods(of, model, catalogue);
-    const why = wrong.step || wrong.until || (step === null ? words.trouble.noStep : until === null ? words.trouble.noUntil : '') || (refused[0] ? words.trouble.unknown(refused[0].name) : '');
+    const { step, tolerance, until, trouble: wrong } = await measure(of, model), { methods, refused } = admittedMethods(of, model, catalogue);
+    const why = wrong.step || wrong.tolerance || wrong.until || (step === null && countsOf(methods, catalogue).fixed > 0 ? words.trouble.noStep : until === null ? words.trouble.noUntil : '') || (refused[0] ? words.trouble.unknown(refused[0].name) : '');
     if (why) throw new Refused(failure(why));
-    return makeScene({ ...of, methods }, await client.ask('solve', { model: { text: run.text, set }, methods, step, until, columns: [], rows: rows.settled, truth: true, coarse: true, unexamined: true }));
+    return makeScene({ ...of, methods }, await client.ask('solve', { model: { text: run.text, set }, methods, step, tolerance, until, columns: [], rows: rows.settled, truth: true, coarse: true, unexamined: true }));
   }
 
   async function work(): Promise<void> {

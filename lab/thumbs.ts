@@ -35,7 +35,7 @@ class Studio {
     const end = until ?? settings.until ?? 1, span = Math.abs(end - settings.start);
     const admitted = methods.find(m => m.name === 'kahan-li8')?.admitted ? 'kahan-li8' : 'gauss8';
     const fine = Math.min(settings.step ?? span, span / 2000);
-    const { tracks: [track] } = this.answers.answer('solve', { ...question, until: end, methods: [method ?? (has_exact ? 'exact' : admitted)], step: method ? step ?? null : fine });
+    const { tracks: [track] } = this.answers.answer('solve', { ...question, until: end, methods: [method ?? (has_exact ? 'exact' : admitted)], step: method ? step ?? null : fine, tolerance: null });
     if (!track || track.times.length < 2) throw new Error(`${model} cannot be drawn: ${track?.problem?.message ?? 'no motion'}`);
     return track;
   }

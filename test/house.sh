@@ -113,9 +113,8 @@ declare -A also=(
     [machine/interpreter.c]='machine_'                  # machine/machine.h declares the machines, each in its file
     [machine/callback.c]='machine_'
     [machine/compiled.c]='machine_'
-    [machine/seriesless.c]='tape_series_'                 # replaces lang/tape/tape_series.c in the page's module
+    [machine/seriesless.c]='expansion_ tape_series_'    # replaces these files of lang/ in the page's module
     [machine/nowhere.c]='compiled_ machine_'            # replaces machine/compiled.c in the page's module
-    [api/barless.c]='bars_ goal_'                   # replaces api/bars.c and api/goal.c in the page's module
     [api/columns.c]='system_'                       # parts of api/system.h
 )
 archive=$build/libmotus.a

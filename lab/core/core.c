@@ -88,26 +88,34 @@ LAB_CALL(lab_problem) const char *lab_problem(lab *l)
     return lab_answered(l, &j);
 }
 
-/* Runs: started, recorded in slices, and looked at. `step`, `until`: NaN is the model's. */
-LAB_CALL(lab_start) motus_status lab_start(lab *l, const char *method, double step, double until)
+/* Runs: started, recorded in slices, and looked at. `step`, `tolerance`, `until`: NaN is the model's. */
+static motus_run_def run_of(const char *method, double step, double tolerance, double until)
 {
-    forget_run(l);
     motus_run_def def = motus_default_run();
     def.method = *method ? method : NULL;
     def.step = step;
+    def.tolerance = tolerance;
     def.until = until;
     def.machine = "interpreter";
+    return def;
+}
+
+/* bars: motus_bars, for lab_errors. */
+LAB_CALL(lab_start)
+motus_status lab_start(lab *l, const char *method, double step, double tolerance, double until, int bars)
+{
+    forget_run(l);
+    motus_run_def def = run_of(method, step, tolerance, until);
+    def.error = (motus_bars)bars;
     return motus_run_create(l->system, &def, &l->run, &l->error);
 }
 
 /* Whether such a run passes a singularity of the force (motus_run_singular): MOTUS_SINGULAR or MOTUS_UNRESOLVED, and
  * lab_problem says where. */
-LAB_CALL(lab_singular) motus_status lab_singular(lab *l, const char *method, double step, double until)
+LAB_CALL(lab_singular)
+motus_status lab_singular(lab *l, const char *method, double step, double tolerance, double until)
 {
-    motus_run_def def = motus_default_run();
-    def.method = *method ? method : NULL;
-    def.step = step;
-    def.until = until;
+    const motus_run_def def = run_of(method, step, tolerance, until);
     return motus_run_singular(l->system, &def, &l->error);
 }
 
@@ -140,9 +148,30 @@ motus_status lab_sample(lab *l, const double *times, size_t time_count, const si
     return motus_run_sample(l->run, times, time_count, columns, count, out, &l->error);
 }
 
-/* out: time, steps, steps in all, step, last step, evaluations, done. */
+/* The numbers of `count` columns where the run stands, and their bars of error. */
+LAB_CALL(lab_errors)
+motus_status lab_errors(lab *l, const size_t *columns, size_t count, double *values, double *errors)
+{
+    return motus_run_errors(l->run, columns, count, values, errors, &l->error);
+}
+
+/* Why there are no bars, and from what time on no digit is significant. NULL: lab_problem. */
+LAB_CALL(lab_estimate) const char *lab_estimate(lab *l)
+{
+    motus_estimate e = motus_default_estimate();
+    if (motus_run_estimate(l->run, &e, &l->error) != MOTUS_OK) return NULL;
+    json j = lab_answer(l);
+    json_string(&j, "reason", e.reason);
+    json_number(&j, "significant_until", e.significant_until);
+    return lab_answered(l, &j);
+}
+
+/* out: time, steps, steps in all, step, last step, evaluations, done, refused steps, tolerance. Where steps adapt steps
+ * in all are 0, and the step is NaN; elsewhere the tolerance. */
 LAB_CALL(lab_progress) void lab_progress(const lab *l, double *out)
 {
+    motus_statistics all = motus_default_statistics();
+    motus_run_statistics(l->run, &all);
     out[0] = motus_run_time(l->run);
     out[1] = (double)motus_run_steps(l->run);
     out[2] = (double)motus_run_steps_total(l->run);
@@ -150,6 +179,8 @@ LAB_CALL(lab_progress) void lab_progress(const lab *l, double *out)
     out[4] = motus_run_last_step(l->run);
     out[5] = (double)motus_run_evaluations(l->run);
     out[6] = motus_run_done(l->run);
+    out[7] = (double)all.refused;
+    out[8] = all.tolerance;
 }
 
 LAB_CALL(lab_advance) motus_status lab_advance(lab *l, double steps)

@@ -171,6 +171,7 @@ LAB_CALL(lab_describe) const char *lab_describe(lab *l)
     json_open(&j, "settings", '{');
     json_string(&j, "method", method_of(&settings));
     json_number(&j, "step", found.step);
+    json_number(&j, "tolerance", found.tolerance);
     json_number(&j, "until", found.until);
     json_number(&j, "start", settings.from);
     json_bool(&j, "suggested", suggested);

@@ -13,7 +13,7 @@ import type { Look, Panel, PanelMaker, Scene } from '../scene';
 import { words } from '../words';
 import { drawErrors, endLabel, errorEnds, errorFrame, judge, namesLayout } from './errors';
 import { buysOf, errorOf } from './reading';
-import { convergenceStudy, lookFor, measurable, rowsFor, studyBar } from './study';
+import { convergenceStudy, lookFor, measurable, rowsFor, studyBar, aside } from './study';
 import { amount, timeUnit } from './told';
 
 const say = words.study.convergence;
@@ -114,7 +114,7 @@ export const convergence: PanelMaker = (store): Panel => {
       const names = looks(), found = rows();
       if (!found.length) return '';
       const left = found.some((row) => !row.exact_here && row.points.some((point) => !point.used));
-      return [...found.map((row, i) => verdict(row, names[i]!.label)), found.some((row) => row.observed !== null) ? say.slope : '', left ? say.left : '', study.answer ? judge(study.answer) : ''].filter(Boolean).join(' ');
+      return [...found.map((row, i) => verdict(row, names[i]!.label)), found.some((row) => row.observed !== null) ? say.slope : '', left ? say.left : '', aside(scene), study.answer ? judge(study.answer) : ''].filter(Boolean).join(' ');
     },
     table: () => {
       const names = looks();

@@ -115,7 +115,7 @@ export const stability: PanelMaker = (store): Panel => {
     const model: Model = { text: state.text, set: Object.entries(state.set).map(([name, value]) => `${name}=${value}`) };
     const track = solution.tracks.find((t) => t.method === method), start = description.settings.start, end = track?.times[track.times.length - 1] ?? start;
     const numbers = description.columns.filter((c) => c.kind === 'position' || c.kind === 'velocity' || c.kind === 'first-order').length, count = momentsFor(numbers);
-    const ask = { model, method, step: track?.step ?? description.settings.step, until: state.until !== '' ? store.numbers.until : null };
+    const ask = { model, method, step: track?.tolerance ? null : track?.step ?? description.settings.step, tolerance: track?.tolerance ?? null, until: state.until !== '' ? store.numbers.until : null };
     timer = window.setTimeout(() => { void (async () => {
       const along = Array.from({ length: count }, (_, k) => start + (end - start) * k / count);
       // Where the motion cannot be followed, its start still tells.
@@ -242,6 +242,7 @@ export const stability: PanelMaker = (store): Panel => {
     if (!motion.steady) parts.push(say.linear(String(motion.moments)));
     if (!swinging() && judged.some(({ look }) => { const card = cardOf(scene!, look.method); return card && !byRates(card, look.method); })) parts.push(say.friction);
     if (motion.growing) parts.push(say.own);
+    if (scene.solution.tracks[0]?.tolerance != null) parts.push(say.mean(scene.looks[0]?.label ?? ''));
     if (whole && plane && !plane.full) parts.push(say.axisOnly(methods()[0]!.label));
     if (boris()) parts.push(say.boris(methods()[0]!.label, brief(main()!.stability_limit, 3)));
     else parts.push(grown());

@@ -18,10 +18,10 @@ function equation({ state: { text, set }, description }: Scene): string {
 }
 
 export function captionOf(scene: Scene, presets: Presets): string[] {
-  const { state, looks, solution } = scene, track = solution.tracks[0], unit = stagingOf(state.preset).units?.t;
+  const { state, looks, solution } = scene, track = solution.tracks.find((t) => t.tolerance === null), adapting = solution.tracks.find((t) => t.tolerance !== null), unit = stagingOf(state.preset).units?.t;
   // On a disk the link is what follows the #, which any copy of the page takes.
   const address = addressOf(whole(state), presets), link = /^https?:/.test(address) ? address : address.replace(/^[^#]*/, '');
   const step = track ? `${short(Math.abs(track.step), 6)}${unit ? `\u2009${unit}` : ''}` : '';
-  return [titleIn(state), equation(scene), words.share.caption(step, looks.map((l) => l.label)),
+  return [titleIn(state), equation(scene), words.share.caption(step, adapting ? short(adapting.tolerance ?? 0, 4) : '', looks.map((l) => l.label)),
     link.length > longestLink ? `${link.slice(0, longestLink)}…` : link];
 }

@@ -83,7 +83,7 @@ export function mini(clock: () => Transport): Mini {
       scene = next;
       say(title, titleOf(exampleOf(next.state)) || ownTitle(next.state.text) || words.headline.own);
       const track = next.solution.tracks[0];
-      say(told, track ? texts.steps(`${short(track.step, 4)}${timeUnit(next) && `\u2009${timeUnit(next)}`}`, grouped(track.total)) : '');
+      say(told, track ? track.tolerance !== null ? texts.adapting(short(track.tolerance, 4), grouped(track.total)) : texts.steps(`${short(track.step, 4)}${timeUnit(next) && `\u2009${timeUnit(next)}`}`, grouped(track.total)) : '');
       draw();
     },
     at(now) { if (now !== time) { time = now; draw(); } },

@@ -6,7 +6,7 @@
 import { data, exampleOf } from '../data';
 import { button, el, icon, place, say } from '../dom';
 import { grouped } from '../figure/number';
-import { asker, type Opened } from '../panel/steps/ask';
+import { asker, stepAt, timeOf, type Opened } from '../panel/steps/ask';
 import { column, type Column } from '../panel/steps/column';
 import { timeDecimals, timeText } from '../panel/steps/figures';
 import { seenBy, seenIn, type Seen } from '../panel/steps/seen';
@@ -46,7 +46,7 @@ export function openedPlace(store: LiveStore, clock: Clock, shows: () => readonl
 
   const { ask, busy } = asker(store.client, () => (scene && here ? { scene, index, tracks: scene.solution.tracks.filter((t) => !aside.includes(t.method)).slice(0, capacity()) } : null), (found) => {
     steps = found;
-    total = Math.max(1, ...found.map((s) => s.trace?.total ?? 0));
+    total = Math.max(1, ...found.map((s) => s.trace?.total || scene?.solution.tracks.find((t) => t.method === s.method && t.method === scene?.solution.tracks[0]?.method)?.total || 0));
     render();
   });
 
@@ -55,7 +55,7 @@ export function openedPlace(store: LiveStore, clock: Clock, shows: () => readonl
   function indexAt(t: number): number {
     const track = scene?.solution.tracks[0], begin = track?.times[0], last = track?.times[track.times.length - 1];
     if (!track || begin === undefined || t === last || t === begin) return 0;
-    return Math.max(0, Math.min(track.steps, Math.ceil(Math.abs(t - begin) / Math.abs(track.step) - 1e-9)) - 1);
+    return stepAt(track, t, (last ?? begin) < begin ? -1 : 1);
   }
   function go(to: number, at = -1): void {
     const next = Math.max(0, Math.min(total - 1, to));
@@ -88,8 +88,8 @@ export function openedPlace(store: LiveStore, clock: Clock, shows: () => readonl
   // --- what is shown ---------------------------------------------------------------------------------------------------------------------
   function tell(): void {
     const track = scene?.solution.tracks[0], units = scene ? stagingOf(exampleOf(scene.state)).units : undefined, unit = units ? `\u2009${units.t}` : '';
-    const begin = track?.times[0] ?? 0, h = track ? track.step * Math.sign((track.times[track.times.length - 1] ?? begin) - begin || 1) : 1, decimals = timeDecimals(h), t = (k: number): string => timeText(begin + k * h, decimals) + unit;
-    say(about, scene && track ? told.scene(titleIn(scene.state), short(track.step, 4) + unit) : '');
+    const h = track ? track.step : 1, decimals = timeDecimals(h), t = (k: number): string => timeText(track ? timeOf(track, k) : 0, decimals) + unit;
+    say(about, scene && track ? (track.tolerance === null ? told.scene(titleIn(scene.state), short(track.step, 4) + unit) : told.adapting(titleIn(scene.state), short(track.tolerance, 4))) : '');
     say(counter, told.step(grouped(index + 1), grouped(total)));
     counter.style.minWidth = `${0.56 * told.step(grouped(total), grouped(total)).length}em`;
     earlier.disabled = index === 0;
@@ -212,7 +212,7 @@ export function openedPlace(store: LiveStore, clock: Clock, shows: () => readonl
 
   return {
     show(next) {
-      const other = scene?.state.text !== next.state.text || scene.state.step !== next.state.step, first = scene === null;
+      const other = scene?.state.text !== next.state.text || scene.state.step !== next.state.step || scene.state.tolerance !== next.state.tolerance, first = scene === null;
       scene = next;
       if (other) { aside = []; line = -1; }
       if (first) index = indexAt(clock.time());

@@ -12,14 +12,16 @@ import type { Toasts } from './toasts';
 
 /** What distinguishes two states, in words. */
 function differences(a: Scene, b: Scene): string {
-  const step = (s: Scene): string => short(s.solution.tracks[0]?.step ?? 0, 4), values = (s: Scene) => new Map(s.solution.description.parameters.map((p) => [p.name, p.values.map((v) => short(v, 4)).join(', ')]));
+  const own = (s: Scene, adaptive: boolean) => s.solution.tracks.find((t) => (t.tolerance !== null) === adaptive);
+  const step = (s: Scene): string => short(own(s, false)?.step ?? 0, 4), tolerance = (s: Scene): string => short(own(s, true)?.tolerance ?? 0, 4), values = (s: Scene) => new Map(s.solution.description.parameters.map((p) => [p.name, p.values.map((v) => short(v, 4)).join(', ')]));
   const before = values(a), told: string[] = [];
-  if (step(a) !== step(b)) told.push(`h ${step(a)}`);
+  if (step(a) !== step(b) && own(a, false)) told.push(`h ${step(a)}`);
+  if (tolerance(a) !== tolerance(b) && own(a, true)) told.push(words.dock.pin.tolerance(tolerance(a)));
   for (const [name, text] of values(b)) { const old = before.get(name); if (old !== undefined && old !== text) told.push(`${name} ${old}`); }
   return told.length ? words.dock.pin.differs(told.slice(0, 3)) : words.dock.pin.same;
 }
 
-const runOf = ({ text, set, methods, step, until }: Run): Run => ({ text, set, methods, step, until });
+const runOf = ({ text, set, methods, step, tolerance, until }: Run): Run => ({ text, set, methods, step, tolerance, until });
 
 export function pin(store: LiveStore, stage: Stage, toasts: Toasts): HTMLElement {
   let kept: Scene | null = null, known = '';

@@ -18,8 +18,8 @@ export function printed(): { show(scene: Scene): void } {
       element.hidden = !last.some(Number.isFinite);
       say(caption, description.has_exact ? words.top.print.exact(time) : words.top.print.reference(time));
       head.replaceChildren(...[words.top.print.method, words.top.print.step(units?.t ?? ''), words.top.print.steps, words.top.print.distance(units?.x ?? '')].map((text) => el('th', { scope: 'col' }, text)));
-      body.replaceChildren(...tracks.map(({ method, step, total, problem }, k) => el('tr', {}, el('th', { scope: 'row' }, looks[k]?.label ?? method),
-        ...[brief(Math.abs(step)), total.toLocaleString('en').replace(/,/g, '\u2009'), problem ? words.top.print.before : brief(last[errors.findIndex((e) => e.method === method)] ?? NaN, 6)].map((text) => el('td', {}, text)))));
+      body.replaceChildren(...tracks.map(({ method, step, tolerance, total, problem }, k) => el('tr', {}, el('th', { scope: 'row' }, looks[k]?.label ?? method),
+        ...[tolerance === null ? brief(Math.abs(step)) : words.top.print.tolerance(brief(tolerance)), total.toLocaleString('en').replace(/,/g, '\u2009'), problem ? words.top.print.before : brief(last[errors.findIndex((e) => e.method === method)] ?? NaN, 6)].map((text) => el('td', {}, text)))));
     },
   };
 }

@@ -9,7 +9,7 @@ import { words } from '../words';
 function stopped(store: LiveStore): string {
   const { run, model } = store.trouble;
   if (model) return store.scene ? words.trouble.last : words.trouble.model;
-  if (store.trouble.step || store.trouble.until) return words.trouble.numbers;
+  if (store.trouble.step || store.trouble.tolerance || store.trouble.until) return words.trouble.numbers;
   if (run) return words.trouble.hinted(run.message, run.hint);
   const { tracks = [], truth, problem } = store.scene?.solution ?? {}, whose = new Map<string, string[]>(), own = new Map<string, string>();
   tracks.forEach((track, k) => {
@@ -33,7 +33,7 @@ export function status(store: LiveStore): HTMLElement {
     element.classList.toggle('busy', busy);
     cancel.hidden = !busy;
     // What was said of this model stays until its runs have been examined again.
-    const { scene, trouble } = store, waits = scene !== null && !scene.solution.examined && scene.state.text === of && !trouble.model && !trouble.run && !trouble.step && !trouble.until;
+    const { scene, trouble } = store, waits = scene !== null && !scene.solution.examined && scene.state.text === of && !trouble.model && !trouble.run && !trouble.step && !trouble.tolerance && !trouble.until;
     if (!waits) told = stopped(store);
     if (!busy) of = scene?.state.text ?? '';
     // It stays while a slider moves, as the picture gives it room where the screen is small.

@@ -15,6 +15,8 @@ const NEAR = 2;
 const SMOOTH = 0.08;
 /** Beyond so much of the frame outside of it, a method has left, also where it comes back once more. */
 const FAR = 0.35;
+/* Of steps that a method chooses each has its mark, so that it is seen where they are short, but for those nearer to the mark before than this. */
+const APART = 7, MARKED_MOST = 2000;
 /* Every step is marked while the marks can be told apart; else a few, to tell the lines apart. */
 const MARKED_ROWS = 240, SPACING = 22, SPARSE = 11;
 /** Beyond so many times the stage's size a line is a band, whose dashes nobody sees. */
@@ -74,6 +76,14 @@ function exitOf(way: Way, rows: number, times: ArrayLike<number>, box: Box): Exi
 
 function marksOf(motion: Motion, line: Line, way: Way, rank: number): number[] {
   const n = line.track.times.length, bodies = motion.subject.bodies.length;
+  if (line.track.tolerance !== null && line.track.every === 1 && bodies * n <= MARKED_MOST) {
+    let x = Infinity, y = Infinity;
+    return Array.from({ length: n }, (_, i) => i).filter((i) => {
+      if (!(Math.hypot(way.x(i) - x, way.y(i) - y) >= APART) && Number.isFinite(x)) return false;
+      x = way.x(i); y = way.y(i);
+      return true;
+    });
+  }
   if (line.track.every === 1 && bodies * n <= MARKED_ROWS) {
     let length = 0;
     for (let i = 1; i < n; i++) {

@@ -29,8 +29,10 @@ export function missText(value: number, frame: number): string {
   return value.toFixed(Math.max(0, decimals));
 }
 
-/** The last word of a name where no other name has it ("Verlet"), else the first ("symplectic"). */
+/** The last word of a name where no other name has it ("Verlet"), else the first ("symplectic"). A number at the end stays with the first author ("Dormand 8"). */
 export function briefly(name: string, all: readonly string[]): string {
+  const [, author = '', order = ''] = /^(\p{L}+)\P{L}.* (\d+)$/u.exec(name) ?? [];
+  if (order) return `${author} ${order}`;
   const parts = name.split(/,? /), last = parts[parts.length - 1] ?? '';
   return parts.length > 1 && all.some((other) => other !== name && other.split(/,? /).includes(last)) ? parts[0]! : last;
 }

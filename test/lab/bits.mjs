@@ -26,25 +26,39 @@ for (const file of readdirSync(models).filter((name) => name.endsWith('.motus'))
   const text = readFileSync(join(models, file), 'utf8');
   const core = new Core(module), lab = core.create();
   core.open(lab, { text, set: [] });
-  const { methods, settings } = core.describe(lab);
+  const { methods, settings } = core.describe(lab), adaptive = new Set(core.catalogue(lab).filter((m) => m.adaptive).map((m) => m.name));
   // Some hundred steps, the last of them shortened, but where a method takes whole steps only.
   const end = (method) => settings.start + settings.step * (method === 'verlet-literal' ? 150 : 149.5);
   for (const { name: method } of methods.filter(({ admitted }) => admitted)) {
-    const until = end(method), state = join(folder, 'state');
-    const run = spawnSync(program, ['run', join(models, file), '--method', method, '--until', String(until), '--save-state', state, '--quiet', '-o', join(folder, 'out.csv')],
-      { encoding: 'utf8' });
-    core.start(lab, method, null, until);
+    const until = end(method), state = join(folder, 'state'), tolerance = adaptive.has(method) ? 1e-8 : null;
+    const run = spawnSync(program, ['run', join(models, file), '--method', method, '--until', String(until), '--save-state', state, '--quiet', '-o', join(folder, 'out.csv'),
+      ...(tolerance ? ['--tolerance', String(tolerance)] : [])], { encoding: 'utf8' });
+    core.start(lab, method, null, until, tolerance);
     let said = '';
     try {
       core.advance(lab, 1e6);
     } catch (e) {
       said = e.problem.message;
     }
-    if (said === '' && run.status !== 0) said = core.singular(lab, method, null, until)?.message ?? '';
+    if (said === '' && run.status !== 0) said = core.singular(lab, method, null, until, tolerance)?.message ?? '';
     const both = `${file} by ${method}`;
     if (run.status !== 0) judge(both, said !== '' && run.stderr.includes(said), `the program says ${run.stderr}, the module ${said || 'nothing'}`);
     else judge(both, said === '' && core.save(lab) === readFileSync(state, 'utf8'), said);
     rmSync(state, { force: true });
+  }
+  /* The bars of the answer: the numbers and the errors that the program prints. */
+  const names = core.describe(lab).columns, columns = names.flatMap(({ kind }, k) => (kind === 'position' || kind === 'velocity' ? [k] : []));
+  for (const { name: method } of methods.filter(({ name, admitted }) => admitted && ['verlet', 'rk4', 'dopri5', 'dep8'].includes(name))) {
+    const tolerance = adaptive.has(method) ? 1e-8 : null, until = end(method), both = `${file} by ${method}: its bars`;
+    const run = spawnSync(program, ['run', join(models, file), '--method', method, '--until', String(until), '--json', ...(tolerance ? ['--tolerance', String(tolerance)] : [])], { encoding: 'utf8' });
+    if (run.status !== 0) continue;
+    core.start(lab, method, null, until, tolerance, true);
+    core.advance(lab, 1e6);
+    const { values, errors } = core.errors(lab, columns), told = JSON.parse(run.stdout), flat = (of) => Object.fromEntries(Object.entries(of).map(([name, value]) => [name, [value].flat(Infinity)]));
+    // By variable, in the order of the columns; null: no digit is known, or there is no bar.
+    const ours = (list) => columns.reduce((all, k, i) => { const name = names[k].name.replace(/\[\d+\]/, '').replace(/\.\w+$/, ''); (all[name] ??= []).push(Number.isFinite(list[i]) ? list[i] : null); return all; }, {});
+    const wanted = (of) => Object.fromEntries(Object.entries(flat(of)).filter(([name]) => name in ours(values)));
+    judge(both, JSON.stringify([ours(values), ours(errors)].map(Object.entries).map((x) => x.sort())) === JSON.stringify([wanted(told.state), wanted(told.error ?? {})].map(Object.entries).map((x) => x.sort())), `${JSON.stringify(ours(errors))} is not ${JSON.stringify(told.error)}`.slice(0, 300));
   }
   core.destroy(lab);
 }

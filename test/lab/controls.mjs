@@ -1,5 +1,5 @@
 /* Every control does what it says: seen in the address, in the figures' summaries and in their numbers. */
-import { attempt, clean, editorOf, example, fields, figureOf, closer, finish, judge, open, same, settled, singleFile, summaryOf, numbersOf, tableOf, told, valuesOf } from './help.mjs';
+import { attempt, clean, editorOf, example, fields, figureOf, closer, finish, judge, motus, open, same, settled, singleFile, summaryOf, numbersOf, tableOf, told, valuesOf } from './help.mjs';
 
 const last = ({ head, rows }, column) => Number(rows.at(-1)[head.indexOf(column)]);
 const press = (page, name) => page.getByRole('button', { name, exact: true }).click();
@@ -104,6 +104,36 @@ await attempt('methods', async () => {
   const before = (await fields(page)).a;
   await refused.click({ force: true });
   same('… and a click changes nothing', (await fields(page)).a, before);
+});
+
+const openPage = async (page, hash) => { await page.goto(`${singleFile}#v=1&${hash}`); await settled(page); };
+await attempt('tolerance', async () => {
+  await openPage(page, 'p=kepler&a=velocity-verlet');
+  const step = page.locator('.scale-step'), dial = page.locator('.scale-tolerance'), field = page.locator('#tolerance'), message = () => page.locator('#tolerance-message').textContent();
+  same('steps of one size have a step alone', [await step.isVisible(), await dial.isVisible()], [true, false]);
+  await openPage(page, 'p=kepler&a=velocity-verlet,dop853');
+  same('with a method that chooses its own, both', [await step.isVisible(), await dial.isVisible()], [true, true]);
+  await openPage(page, 'p=kepler&a=dop853');
+  same('such methods alone have a tolerance in the step’s place', [await step.isVisible(), await dial.isVisible(), await field.inputValue()], [false, true, '1e-9']);
+  const steps = async () => Number((await dial.locator('.steps').textContent()).replace(/\u2009/g, '').match(/(\d+) steps/)?.[1]), fine = await steps();
+  await page.locator('#tolerance-slider').focus();
+  await page.keyboard.press('ArrowLeft');
+  await settled(page);
+  same('an arrow goes to the power of ten before, also in the address', [await field.inputValue(), (await fields(page)).r, await page.locator('#tolerance-slider').getAttribute('aria-valuetext').then((text) => text.startsWith('1e-8, '))], ['1e-8', '1e-8', true]);
+  judge('… and fewer steps are taken', await steps() < fine, `${await steps()} of ${fine}`);
+  await page.keyboard.press('Control+z');
+  await settled(page);
+  same('undone', [await field.inputValue(), (await fields(page)).r], ['1e-9', undefined]);
+  for (const [typed, words] of [['0', /above 0/], ['-1e-6', /above 0/], ['', /needed/], ['abc', /no number/]]) {
+    await field.fill(typed);
+    await settled(page, 150);
+    judge(`a tolerance of “${typed}”: a message`, words.test(await message()) && await field.getAttribute('aria-invalid') === 'true', await message());
+  }
+  await field.fill('1e-5');
+  await settled(page);
+  const told = JSON.parse(motus('run', 'models/kepler.motus', '--method', 'dop853', '--tolerance', '1e-5', '--json'));
+  same('as many steps as the program takes', await steps(), told.steps);
+  same('… and as many refused', Number((await dial.locator('.steps').textContent()).match(/(\d+) refused/)?.[1] ?? 0), told.rejected);
 });
 
 await attempt('step and end', async () => {

@@ -43,7 +43,7 @@ test('every state comes back', () => {
   for (const text of nasty) {
     const one = /[\n\t\u2028]/.test(text) || text.trim() !== text || text === '' ? 'y' : text;
     const state = {
-      ...start, preset: '', text, set: { x: one, [one.replace(/=/g, '') || 'k']: '1', __proto__: null, ['__proto__']: '2' }, methods: ['verlet', 'rk4'], step: one, until: one,
+      ...start, preset: '', text, set: { x: one, [one.replace(/=/g, '') || 'k']: '1', __proto__: null, ['__proto__']: '2' }, methods: ['verlet', 'rk4'], step: one, tolerance: one, until: one,
       view: { plane: 'space', quantities: [one, 'x[1,2]'], phase: [one, "x'"], exact: false, speed: 0.25 },
     };
     const back = share.decode('#' + share.encode(state, presets), presets);
@@ -78,8 +78,8 @@ test('an embed and its sliders come back', () => {
 });
 
 test('a pinned run comes back, and one that cannot be read is told', () => {
-  const { text, methods } = start, run = { text, set: {}, methods, step: '', until: '' };
-  const all = [[{}, 'A=1'], [{ step: '0.1' }, 'A=1&Ah=0.1'], [{ set: { g: '(0, -1.62)', "r'(0)": '(1, 2)' }, until: '2 pi', methods: ['rk4'] }, 'A=1&As=g%3D(0,%20-1.62)&As=r%27(0)%3D(1,%202)&Aa=rk4&AT=2%20pi'],
+  const { text, methods } = start, run = { text, set: {}, methods, step: '', tolerance: '', until: '' };
+  const all = [[{}, 'A=1'], [{ step: '0.1' }, 'A=1&Ah=0.1'], [{ tolerance: '1e-6' }, 'A=1&Ar=1e-6'], [{ set: { g: '(0, -1.62)', "r'(0)": '(1, 2)' }, until: '2 pi', methods: ['rk4'] }, 'A=1&As=g%3D(0,%20-1.62)&As=r%27(0)%3D(1,%202)&Aa=rk4&AT=2%20pi'],
     [{ text: "x'' = 1\n", methods: ['verlet'] }, 'A=1&Am=x%27%27%20%3D%201%0A&Aa=verlet']];
   for (const [part, wanted] of all) {
     const state = { ...start, step: '0.2', pinned: { ...run, ...part } }, fragment = share.encode(state, presets);
@@ -87,7 +87,7 @@ test('a pinned run comes back, and one that cannot be read is told', () => {
     assert.deepEqual(share.decode('#' + fragment, presets), { state, problem: '' });
   }
   for (const text of nasty) {
-    const one = /[\n\t\u2028]/.test(text) || text.trim() !== text || text === '' ? 'y' : text, state = { ...start, text: text + '1', preset: '', methods: [], pinned: { text, set: { x: one }, methods: ['rk4'], step: one, until: one } };
+    const one = /[\n\t\u2028]/.test(text) || text.trim() !== text || text === '' ? 'y' : text, state = { ...start, text: text + '1', preset: '', methods: [], pinned: { text, set: { x: one }, methods: ['rk4'], step: one, tolerance: one, until: one } };
     assert.deepEqual(share.decode(share.encode(state, presets), presets), { state, problem: '' });
   }
   const plain = share.decode('v=1&p=projectile&h=0.2', presets).state;
@@ -147,6 +147,10 @@ test('the command says what the page computed', () => {
 test('a decimal comma is the reader’s, not the program’s', () => {
   const { state } = share.decode('#v=1&p=spring&h=0,05&T=1,5', presets);
   assert.equal(share.command(state, ['verlet']).text.split('\n')[0], "motus run - --method verlet --step 0.05 --until 1.5 <<'MOTUS_END'");
+  // A step is for steps of one size, a tolerance for the others; the program compares steps of one size alone.
+  const both = { ...state, tolerance: '1e-6' }, lines = (methods, adaptive) => share.command(both, methods, adaptive).text.split('\n').filter(line => line.startsWith('motus'));
+  assert.deepEqual(lines(['dop853'], ['dop853']), ["motus run - --method dop853 --tolerance 1e-6 --until 1.5 <<'MOTUS_END'"]);
+  assert.deepEqual(lines(['verlet', 'dop853'], ['dop853']), ["motus run - --method verlet --step 0.05 --until 1.5 <<'MOTUS_END'", "motus run - --method dop853 --tolerance 1e-6 --until 1.5 <<'MOTUS_END'"]);
 });
 
 test('control characters are refused', () => {

@@ -4,6 +4,7 @@
  * The worker of the studies answers: the other one may be at a reference solution.
  */
 import type { Trace, Track } from '../../protocol';
+import { rowAt } from '../../figure/track';
 import { Refused, type Client, type Scene } from '../../scene';
 import { words } from '../../words';
 import { localExact, type LocalExact } from './local_exact';
@@ -19,11 +20,27 @@ function untilOf({ solution, description }: Scene): number | null {
   const times = (solution.truth ?? solution.tracks.find((t) => !t.problem))?.times;
   return times?.[times.length - 1] ?? description.settings.until;
 }
-async function traced(client: Client, { scene, index }: Wanted, { method, step }: Track): Promise<Opened> {
-  const none = { method, index, trace: null, exact: null, earlier: null }, { text, set } = scene.state;
+/** The step of a track at the place of the first one's: the same where all have one size; of a method that chooses its own, the one that contains the start of that. */
+function indexOf(track: Track, { scene, index }: Wanted): number {
+  const main = scene.solution.tracks[0], begin = main?.times[0] ?? 0, way = (main?.times[main.times.length - 1] ?? begin) < begin ? -1 : 1;
+  if (!main || main === track || (main.tolerance === null && track.tolerance === null)) return index;
+  return stepAt(track, timeOf(main, index), way);
+}
+/** When step `index` begins, as far as rows tell. */
+export const timeOf = ({ times, step, every, tolerance }: Track, index: number): number => {
+  const begin = times[0] ?? 0, last = times[times.length - 1] ?? begin;
+  return tolerance === null ? begin + index * step * (last < begin ? -1 : 1) : times[Math.min(times.length - 1, Math.floor(index / every))] ?? begin;
+};
+/** The step of a track that a time lies in. */
+export function stepAt({ times, step, steps, every, tolerance }: Track, t: number, way: number): number {
+  const begin = times[0] ?? 0, row = tolerance === null ? Math.ceil(Math.abs(t - begin) / Math.abs(step) - 1e-9) - 1 : every * rowAt(times, t + way * 1e-12 * Math.abs(t - begin));
+  return Math.max(0, Math.min(steps - 1, row));
+}
+async function traced(client: Client, wanted: Wanted, track: Track): Promise<Opened> {
+  const { scene } = wanted, { method, step, tolerance } = track, index = indexOf(track, wanted), none = { method, index, trace: null, exact: null, earlier: null }, { text, set } = scene.state;
   try {
     const model = { text, set: Object.entries(set).map(([name, value]) => `${name}=${value}`) };
-    const trace = await client.ask('trace', { model, method, step, until: untilOf(scene), index }, { lane: 'study' });
+    const trace = await client.ask('trace', { model, method, step: tolerance === null ? step : null, tolerance, until: untilOf(scene), index }, { lane: 'study' });
     return trace.entries.length < 2 || trace.index !== index ? { ...none, why: words.opened.over } : { ...none, trace, why: '' };
   } catch (reason) {
     if (!(reason instanceof Refused)) throw reason;

@@ -65,7 +65,7 @@ export async function localExact(client: Client, of: Pick<Scene, 'description' |
     : { text: state.text, set: [...others, ...initial.map(({ parameter: { name, components }, cells }) => `${name}=${vector(cells[0]!, components)}`)] };
   const from = shifted ? start.time : description.settings.start, wanted = [...trace.names.x, ...trace.names.v];
   const ask = async (beyond: number): Promise<LocalExact | null> => {
-    const found = await client.ask('solve', { model, methods: [METHOD], step: Math.abs(h) / PARTS, until: from + h * (1 + beyond / PARTS), columns: wanted, rows: 8 * PARTS, truth: false }, { lane: 'study' });
+    const found = await client.ask('solve', { model, methods: [METHOD], step: Math.abs(h) / PARTS, tolerance: null, until: from + h * (1 + beyond / PARTS), columns: wanted, rows: 8 * PARTS, truth: false }, { lane: 'study' });
     const track = found.tracks[0];
     if (!track || track.problem || track.times.length <= PARTS || track.every !== 1) return null;
     // Where the text says its start in another way, the motion is another one.

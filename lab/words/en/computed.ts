@@ -3,6 +3,7 @@
 export const computed = {
   steps: (count: string, step: string, most: string) => `${count} steps of ${step} are more than a page should take (${most})`,
   nearer: 'a larger step, a nearer end, or the program motus',
+  adapting: (count: string) => `${count} steps, and the end is not reached: more than a page should take`,
   slow: (seconds: string) => `this takes longer than ${seconds} seconds`,
   column: (name: string) => `there is no column ${name}`, columns: (names: readonly string[]) => `columns: ${names.join(', ')}`,
   noEnd: 'the model names no end', end: 'an end',

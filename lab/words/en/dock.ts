@@ -16,6 +16,13 @@ export const dock = {
     value: (step: string, unit: string, count: string) => `${step}${unit ? ` ${unit}` : ''}${count ? `, ${count}` : ''}`,
     needed: (own: string) => (own ? `A step is needed; the model has ${own}.` : 'A step is needed.'),
   },
+  tolerance: {
+    label: 'Tolerance of a step', slider: 'Tolerance of a step', field: 'Tolerance of a step, as a number', reset: 'Tolerance: back to the model’s', resetTitle: 'Back to the model’s tolerance',
+    /** refused: how many steps were taken back; "0". */
+    steps: (count: number, text: string, refused: string) => `${steps(count, text)}${refused === '0' ? '' : `, ${refused} refused`}`,
+    value: (tolerance: string, count: string) => `${tolerance}${count ? `, ${count}` : ''}`,
+    needed: (own: string) => `A tolerance is needed; the model has ${own}.`,
+  },
   end: {
     label: 'End t', reset: 'End: back to the model’s',
     needed: (own: string) => (own ? `An end is needed; the model has ${own}.` : 'An end is needed.'),
@@ -32,6 +39,6 @@ export const dock = {
     pinned: (what: string) => `A: ${what} ×`, pinnedLabel: (what: string) => `Pinned run A: ${what}. Let it go`,
     faulty: (why: string) => `The pinned run A could not be computed: ${why}.`,
     /** What the pinned run has that this one has not. */
-    same: 'as now', differs: (what: readonly string[]) => what.join(', '),
+    tolerance: (tolerance: string) => `tolerance ${tolerance}`, same: 'as now', differs: (what: readonly string[]) => what.join(', '),
   },
 } as const;

@@ -5,12 +5,16 @@ const share = (c: number): string => {
 };
 const numerals = ['no', 'one', 'two', 'three', 'four', 'five', 'six', 'seven', 'eight'], ordinals = ['first', 'second', 'third', 'fourth', 'fifth', 'sixth', 'seventh', 'eighth'];
 const counted = (n: number): string => numerals[n] ?? String(n);
+/** A title inside a sentence. */
+const within = (title: string): string => (/^\p{Lu}(?=\p{Ll}|\s)/u.test(title) ? title.charAt(0).toLowerCase() + title.slice(1) : title);
 const rounds = (n: number): string => (n === 0 ? '' : `, in ${n} round${n === 1 ? '' : 's'}`);
 
 export const opened = {
   title: 'One step, opened',
   /** "mass on a spring, h = 0.8 s" */
-  scene: (title: string, h: string) => `${/^\p{Lu}(?=\p{Ll}|\s)/u.test(title) ? title.charAt(0).toLowerCase() + title.slice(1) : title}, h = ${h}`,
+  scene: (title: string, h: string) => `${within(title)}, h = ${h}`,
+  /** Where the method chooses its own steps. */
+  adapting: (title: string, tolerance: string) => `${within(title)}, tolerance ${tolerance}`,
   step: (n: string, total: string) => `step ${n} of ${total}`,
   stepSpoken: (n: string, total: string, from: string, to: string) => `step ${n} of ${total}, from ${from} to ${to}`,
   back: 'Back to the motion', backToLesson: 'Back to the lesson',

@@ -94,6 +94,6 @@ export const panel = {
   /** The bar above them. */
   bar: {
     play: 'Play', pause: 'Pause', back: 'Back to the motion ↑', questions: 'Questions',
-    steps: (h: string, steps: string) => `h = ${h} · ${steps} steps`,
+    steps: (h: string, steps: string) => `h = ${h} · ${steps} steps`, adapting: (tolerance: string, steps: string) => `tolerance ${tolerance} · ${steps} steps`,
   },
 } as const;

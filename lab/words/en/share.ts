@@ -20,7 +20,8 @@ export const share = {
   older: 'This is the last state that could be computed; what is typed now has an error.',
   picture: 'The picture, and its numbers', save: 'Save “Motion”', saveAs: (kind: string) => `Save “Motion” as ${kind}`,
   /** Below a saved picture; step: '' where there is none. */
-  caption: (step: string, methods: readonly string[]) => [step && `step ${step}`, methods.join(', ')].filter(Boolean).join(' · '),
+  /** step, tolerance: '' where no method has one. */
+  caption: (step: string, tolerance: string, methods: readonly string[]) => [step && `step ${step}`, tolerance && `tolerance ${tolerance}`, methods.join(', ')].filter(Boolean).join(' · '),
   film: {
     film: 'Film', unknown: 'This browser records no WebM. Firefox, and Chrome or Edge, do.', nothing: 'There is no motion to film.', cancel: 'Cancel', cancelLabel: 'Cancel the film',
     recording: (seconds: string) => `Recording ${seconds} s …`, saved: 'The film is saved.', none: 'No film was made.', failed: 'The film could not be made.',

@@ -26,6 +26,7 @@ export const study = {
   unknown: (name: string, off: string) => `No exact motion is known, so errors are measured against ${name}, itself good to ${off}.`,
   taken: (how: string) => `Taken ${how}.`,
   error: 'error ÷ size of the motion',
+  aside: (names: readonly string[]) => `${people(names)} ${names.length > 1 ? 'choose their steps themselves, so they are' : 'chooses its steps itself, so it is'} not measured at steps of one size.`,
 
   convergence: {
     title: 'Order',
@@ -142,6 +143,7 @@ export const study = {
     growth: 'growth',
     axisOnly: (name: string) => `Only the imaginary axis, swinging without friction, has a meaning for ${name}: its force may hold no velocity.`,
     unstable: (growth: string, where: string) => `Largest growth per step ${growth}, at ${where}: unstable.`,
+    mean: (name: string) => `${name} chooses its steps itself; the one marked here is their mean.`,
     over: (steps: string, factor: string) => `Over ${steps} steps that is a factor of ${factor}.`,
     endless: 'more than 10³⁰⁸',
     border: (where: string) => `No growth: ${where} lies on the boundary, as it should for swinging without friction.`,

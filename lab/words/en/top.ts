@@ -17,6 +17,8 @@ export const top = {
     method: 'Method', steps: 'Steps',
     /** unit: '' where there is none. */
     step: (unit: string) => (unit ? `Step (${unit})` : 'Step'), distance: (unit: string) => (unit ? `Distance (${unit})` : 'Distance'),
+    /** In place of a step. */
+    tolerance: (tolerance: string) => `tolerance ${tolerance}`,
     before: 'ends before',
   },
 } as const;
