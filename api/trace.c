@@ -5,6 +5,7 @@
  */
 #include "api/run.h"
 
+#include <math.h>
 #include <string.h>
 
 typedef struct trace {
@@ -14,7 +15,11 @@ typedef struct trace {
     motus_trace_entry *entry;
     const motus_trace_entry **list; /* to each of them: what the caller gets */
     double *next;                   /* the unused room for numbers */
-    double *first;                  /* the same after the start */
+    /* of an adaptive method: entries that stay when another candidate begins, the unused room after them and before
+     * the last of them, and the error of the candidate */
+    size_t kept;
+    double *first, *before;
+    double error;
 } trace;
 
 /* START and END, which hold the state; the closing kick and the step of a recurrence take numbers from them. */
@@ -24,9 +29,10 @@ static trace *make(motus_run *r)
 {
     const motus_system *s = r->system;
     const trace_room room = trace_room_of(r->stepper);
-    const size_t events = room.events + TRACE_ENDS;
-    const uint64_t numbers = (uint64_t)(room.x + TRACE_ENDS) * s->positions +
-                             (uint64_t)(room.v + 2 * TRACE_ENDS) * s->velocities + room.rows;
+    const size_t refused = row_adaptive(&r->chosen) ? MOTUS_REFUSED_MAX : 0;
+    const size_t events = room.events + TRACE_ENDS + refused;
+    const uint64_t numbers = (uint64_t)(room.x + TRACE_ENDS + refused) * s->positions +
+                             (uint64_t)(room.v + 2 * TRACE_ENDS + refused) * s->velocities + room.rows;
     const uint64_t bytes =
         sizeof(trace) + events * (sizeof(motus_trace_entry) + sizeof(motus_trace_entry *)) + numbers * sizeof(double);
     if (!r->trace && bytes <= SIZE_MAX) r->trace = take(&r->allocator, 1, (size_t)bytes);
@@ -81,7 +87,9 @@ static void see(void *ctx, const trace_event *e)
                                .weight = e->weight,
                                .weight_x = e->weight_x,
                                .x = last->x,
-                               .v = last->v};
+                               .v = last->v,
+                               .error = NAN};
+    if (last->kind == MOTUS_EVENT_REFUSED) out->x = start->x, out->v = start->v;
     if (e->row) {
         out->row = keep_row(t, e->row, e->stages);
         out->row_x = keep_row(t, e->row_x, e->stages);
@@ -99,13 +107,31 @@ static void see(void *ctx, const trace_event *e)
     if (e->before_a) out->before_a = keep_v(t, e->before_a);
 }
 
-/* Forgets a candidate that was refused, and all but the start. */
+/* Forgets the events of a candidate that was refused. */
 static void again(void *ctx, double h)
 {
     trace *t = ctx;
-    t->count = 1;
+    t->count = t->kept;
     t->next = t->first;
     t->step = t->entry->step = h;
+}
+
+/* A refused candidate stays as one entry. */
+static void judged(void *ctx, double error, const double *x, const double *v)
+{
+    trace *t = ctx;
+    const motus_trace_entry *start = t->entry;
+    t->error = error;
+    if (error <= 1) return;
+    t->next = t->kept > MOTUS_REFUSED_MAX ? t->before : t->first;
+    if (t->kept > MOTUS_REFUSED_MAX) t->kept--;
+    t->before = t->next;
+    motus_trace_entry *out = &t->entry[t->kept++];
+    *out = (motus_trace_entry){.kind = MOTUS_EVENT_REFUSED, .time = start->time + t->step, .step = t->step};
+    out->error = error;
+    out->x = x ? keep_x(t, x) : start->x;
+    out->v = v ? keep_v(t, v) : start->v;
+    t->first = t->next;
 }
 
 /* Adds an entry with the present state. Without the acceleration where it cannot be evaluated: the method may not need
@@ -121,7 +147,8 @@ static motus_status observe(motus_run *r, motus_event kind, motus_error *err)
                                                .step = t->step,
                                                .x = keep_x(t, r->x),
                                                .v = keep_v(t, r->v),
-                                               .a = with_a ? keep_v(t, r->a) : NULL};
+                                               .a = with_a ? keep_v(t, r->a) : NULL,
+                                               .error = t->error};
     return MOTUS_OK;
 }
 
@@ -145,11 +172,14 @@ static motus_status walk(motus_run *r, motus_error *err)
     if (!t) return fail(err, MOTUS_MEMORY, "no memory for the trace of the step");
     /* of an adaptive method `again` tells it */
     t->step = motus_run_steps(r) < r->timing.whole ? r->timing.h : r->timing.last;
+    t->error = NAN;
     motus_status status = observe(r, MOTUS_EVENT_START, err);
     t->first = t->next;
+    t->kept = t->count;
     if (status == MOTUS_OK)
-        status = stepper_trace(r->stepper, r->timing.until,
-                               &(tracer){.ctx = t, .see = see, .again = again, .x = r->mid_x, .v = r->mid_v}, err);
+        status = stepper_trace(
+            r->stepper, r->timing.until,
+            &(tracer){.ctx = t, .see = see, .again = again, .judged = judged, .x = r->mid_x, .v = r->mid_v}, err);
     if (status == MOTUS_OK) status = run_moved(r, err);
     if (status == MOTUS_OK) status = observe(r, MOTUS_EVENT_END, err);
     if (status == MOTUS_OK) complete(t);

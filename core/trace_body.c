@@ -11,12 +11,24 @@ static const tracer *tracer_of(const work *w) { return w->services->tracing->to;
 static inline void family_trace(work *, int i);
 #undef TRACE
 #define TRACE(w, i) ((w)->services->tracing ? trace_at(w, i) : (void)0)
+static void judged(const work *w);
 static inline void trace_at(work *w, int i)
 {
     if (i == TRACE_CANDIDATE)
         tracer_of(w)->again(tracer_of(w)->ctx, w->h);
+    else if (i == TRACE_JUDGED)
+        judged(w);
     else
         family_trace(w, i);
+}
+
+/* The state to which the candidate leads; rows that find their own sizes have none before they accept. */
+static void judged(const work *w)
+{
+    const tracer *to = tracer_of(w);
+    for (size_t k = 0; w->dx && k < w->nx; k++) to->x[k] = w->x[k] + w->dx[k];
+    for (size_t k = 0; w->dv && k < w->nv; k++) to->v[k] = w->v[k] + w->dv[k];
+    to->judged(to->ctx, w->error, w->dx ? to->x : NULL, w->dv ? to->v : NULL);
 }
 
 static void tell(const work *w, trace_event e)

@@ -790,8 +790,12 @@ typedef enum motus_event {
      * step. */
     MOTUS_EVENT_STEP,
     /* The state after the step, that of motus_run_state, and the acceleration there. */
-    MOTUS_EVENT_END
+    MOTUS_EVENT_END,
+    /* Of an adaptive method, after START: a step of another size that was tried and refused, by its `error`; x and v:
+     * where it would have led. Of more than MOTUS_REFUSED_MAX the first ones and the last. */
+    MOTUS_EVENT_REFUSED
 } motus_event;
+#define MOTUS_REFUSED_MAX 8
 typedef struct motus_trace_entry {
     motus_event kind;
     int stage, stages;         /* the stage, from 1, and how many there are; START, SOLVE, END: stage 0 */
@@ -805,6 +809,9 @@ typedef struct motus_trace_entry {
     const double *x, *v;
     const double *a; /* nv numbers. NULL: the event has none, or at START and END it cannot be evaluated */
     const double *before_x, *before_a; /* of a recurrence: x and a one step before START; else NULL */
+    /* Of REFUSED, and of END where steps adapt: the estimated error of the step in units of what the tolerance allows,
+     * at most 1 where the step is accepted; infinite or NaN: it has no finite result. Else NaN. */
+    double error;
 } motus_trace_entry;
 /* Takes one step and sets *entries to *count pointers, which the run owns until it is traced again or destroyed. At the
  * end of the run there is no step to take, and *count is 0. Fails as motus_run_step and motus_run_state do. Does not

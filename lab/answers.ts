@@ -347,12 +347,12 @@ export class Answers {
     const { total } = this.core.progress(this.lab);
     const index = Math.max(0, total > 0 ? Math.min(ask.index, total - 1) : ask.index);
     if (index > 0) this.core.advance(this.lab, index);
-    const entries = this.core.trace(this.lab);
+    const all = this.core.trace(this.lab), refused = all.filter((e) => e.kind === 'refused'), entries = all.filter((e) => e.kind !== 'refused');
     const nx = this.core.positions(this.lab), nv = this.core.velocities(this.lab);
     const names = description.columns.map((c) => c.name);
     const { step } = this.core.progress(this.lab);
     return {
-      method: this.core.method(this.lab), step: Number.isNaN(step) ? Math.abs(entries[0]?.step ?? 0) : step, index, total, entries,
+      method: this.core.method(this.lab), step: Number.isNaN(step) ? Math.abs(entries[0]?.step ?? 0) : step, index, total, entries, refused,
       names: { x: names.slice(1, 1 + nx), v: names.slice(1 + nx, 1 + nx + nv) },
     };
   }

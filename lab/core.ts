@@ -4,7 +4,7 @@
  * may move when it grows).
  */
 import {
-  WORD_KINDS, problem, type CompareRow, type Comparison, type Convergence, type Description, type Drift, type Estimate, type Method, type Model, type Problem, type TraceEntry, type Vocabulary, type Word,
+  WORD_KINDS, problem, type CompareRow, type Comparison, type Convergence, type Description, type Drift, type Estimate, type Method, type Model, type Problem, type Refusal, type TraceEntry, type Vocabulary, type Word,
 } from './protocol';
 import { Refused } from './scene';
 import { computed } from './words';
@@ -235,7 +235,7 @@ export class Core {
       return this.copy(out, n * count);
     })))));
   }
-  trace(lab: number): TraceEntry[] { return this.answer<{ entries: TraceEntry[] }>(lab, this.exports.lab_trace(lab)).entries; }
+  trace(lab: number): (TraceEntry | Refusal)[] { return this.answer<{ entries: (TraceEntry | Refusal)[] }>(lab, this.exports.lab_trace(lab)).entries; }
   converge(lab: number, methods: readonly string[], step: number | null, until: number | null): Convergence {
     return this.texts(methods, (at) => this.answer<Convergence>(lab, this.exports.lab_converge(lab, at, methods.length, NaNs(step), NaNs(until))));
   }

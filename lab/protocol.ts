@@ -145,8 +145,12 @@ export interface TraceEntry {
   readonly row: readonly number[] | null; readonly row_x: readonly number[] | null;
   readonly x: readonly number[]; readonly v: readonly number[]; readonly a: readonly number[] | null;
   readonly before_x: readonly number[] | null; readonly before_a: readonly number[] | null;
+  /** null: there is none, or it is not finite. */
+  readonly error: number | null;
 }
-export interface Trace { readonly method: string; readonly step: number; readonly index: number; readonly total: number; readonly entries: readonly TraceEntry[]; readonly names: { readonly x: readonly string[]; readonly v: readonly string[] } }
+export type Refusal = Omit<TraceEntry, 'kind'> & { readonly kind: 'refused' };
+/** refused: steps that were tried before this one; the other entries are this one's alone. */
+export interface Trace { readonly refused: readonly Refusal[]; readonly method: string; readonly step: number; readonly index: number; readonly total: number; readonly entries: readonly TraceEntry[]; readonly names: { readonly x: readonly string[]; readonly v: readonly string[] } }
 
 export interface ConvergePoint { readonly step: number; readonly error: number | null; readonly evaluations: number; readonly used: boolean }
 export interface ConvergeRow {

@@ -21,6 +21,7 @@ ADVANCE_STEP int advance_step(work *w)
         time_tick(w, EVERY);
         return STEP_OK;
     }
+    TRACE(w, TRACE_JUDGED);
     const clock_mask good = ROW(w, density) ? density_judge(w)
                             : ROW(w, sizes) ? control_judge_own(w)
                                             : control_judge(w);

@@ -43,8 +43,8 @@
 /* log2 of the most by which a step may grow: to 5 times its size. */
 #define CONTROL_RISE 2.3
 
-/* TRACE before a candidate of an adaptive row. */
-enum { TRACE_CANDIDATE = -2 };
+/* TRACE of an adaptive row: before a candidate, and after it, when its error is known. */
+enum { TRACE_CANDIDATE = -2, TRACE_JUDGED = -3 };
 
 enum { STEP_OK, STEP_CALLBACK, STEP_SOLVE, STEP_DIVERGED, STEP_STALLED, STEP_MEMORY };
 

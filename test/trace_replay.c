@@ -332,7 +332,10 @@ void trace_replay(const motus_system *system, const motus_method *m, const motus
     /* contiguous: each is compared with its neighbours */
     motus_trace_entry *entry = calloc(count, sizeof *entry);
     assert_non_null(entry);
-    for (size_t i = 0; i < count; i++) entry[i] = *entries[i];
+    size_t taken = 0; /* all but what was refused */
+    for (size_t i = 0; i < count; i++)
+        if (entries[i]->kind != MOTUS_EVENT_REFUSED) entry[taken++] = *entries[i];
+    count = taken;
     step s = {.system = system,
               .what = what,
               .method = m->name,

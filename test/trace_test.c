@@ -3,6 +3,9 @@
  * For every model of models/, other models with every kind of force, and callbacks, by every method that they admit;
  * forward and backward, over the shorter last step; by the compiled machine too.
  */
+#include "api/system.h"
+#include "core/rows.h"
+#include "core/stepper.h"
 #include "test/ensemble_given.h"
 #include "test/trace_replay.h"
 
@@ -249,7 +252,7 @@ static void callbacks(void **state)
 
 /* ---- the compiled machine ---- */
 
-static void compiled(void **state)
+static void compiled_too(void **state)
 {
     (void)state;
     static const char *const some[][2] = {{"charged-particle.motus", "boris"}, {"chain.motus", "verlet"},
@@ -348,11 +351,71 @@ static void failures(void **state)
     motus_system_destroy(hard);
 }
 
+/* Where a step of this size leads that is refused by nothing. */
+static void lead(motus_system *s, const char *name, const motus_trace_entry *start, double h, double *x, double *v)
+{
+    chosen method;
+    motus_error err = motus_default_error();
+    stepper *one;
+    must(row_choose(name, &method, NULL, &err), &err, name);
+    method.absolute = 1e300;
+    const machine *m = &s->machine;
+    must(stepper_create(m, &method, start->time, h, start->x, start->v, NULL, &one, &err), &err, name);
+    must(stepper_turn(one, start->time, h, &err), &err, name);
+    must(stepper_advance(one, (stepper_limit){1, NAN}, NULL, &err), &err, name);
+    must(stepper_sync(one, x, v, NULL, &err), &err, name);
+    stepper_destroy(one);
+}
+
+/* What is refused is told: where it would have led, and the error, from which the size of the next try follows. */
+static void refusals(void **state)
+{
+    (void)state;
+    static const char comet[] = "r'' = -r/|r|^3\nr(0) = (1.9, 0)\nr'(0) = (0, 0.23)\nuntil 9\nstep 0.01\n";
+    motus_system *s = given_text(comet);
+    motus_error err = motus_default_error();
+    int64_t all = 0;
+    for (size_t k = 0; k < motus_method_count(); k++) {
+        const motus_method *m = motus_method_at(k);
+        if (!m->adaptive || motus_method_admits(s, m->name, NULL) != MOTUS_OK) continue;
+        chosen method;
+        must(row_choose(m->name, &method, NULL, &err), &err, m->name);
+        motus_run *r = create(s, m->name, 0.1, 9, "interpreter");
+        motus_statistics before = motus_default_statistics(), now = motus_default_statistics();
+        while (!motus_run_done(r)) {
+            const motus_trace_entry *const *e;
+            size_t count, refused = 1;
+            motus_run_statistics(r, &before);
+            must(motus_run_trace(r, &e, &count, &err), &err, m->name);
+            motus_run_statistics(r, &now);
+            for (; refused < count && e[refused]->kind == MOTUS_EVENT_REFUSED; refused++) {
+                const motus_trace_entry *it = e[refused], *next = e[refused + 1];
+                assert_false(it->error <= 1);
+                assert_true(isnan(e[0]->error) && fabs(it->step) > fabs(next->step));
+                const double factor = 0.9 * pow(it->error, -1.0 / (method.row->tableau.order + 1));
+                if (method.row->family == RUNGE_KUTTA && factor > 0.11 && motus_run_time(r) < 8)
+                    assert_true(fabs(next->step / it->step / factor - 1) < 0.01);
+                double x[2], v[2];
+                lead(s, m->name, e[0], it->step, x, v);
+                for (int i = 0; i < 2 && method.row->family == RUNGE_KUTTA; i++)
+                    assert_true(fabs(x[i] - it->x[i]) < 1e-13 && fabs(v[i] - it->v[i]) < 1e-12);
+            }
+            const int64_t took = now.refused - before.refused;
+            assert_int_equal(refused - 1, took < MOTUS_REFUSED_MAX ? took : MOTUS_REFUSED_MAX);
+            assert_true(e[count - 1]->error <= 1 || now.refused == 0);
+            all += took;
+        }
+        motus_run_destroy(r);
+    }
+    assert_true(all > 20);
+    motus_system_destroy(s);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(every_model), cmocka_unit_test(every_force), cmocka_unit_test(callbacks),
-        cmocka_unit_test(compiled),    cmocka_unit_test(failures),
+        cmocka_unit_test(every_model),  cmocka_unit_test(every_force), cmocka_unit_test(callbacks),
+        cmocka_unit_test(compiled_too), cmocka_unit_test(failures),    cmocka_unit_test(refusals),
     };
     open_cache();
     const int failed = cmocka_run_group_tests(tests, NULL, NULL);

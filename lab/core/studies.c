@@ -74,7 +74,7 @@ LAB_CALL(lab_trace) const char *lab_trace(lab *l)
     static const char *const kinds[] = {
         [MOTUS_EVENT_START] = "start", [MOTUS_EVENT_KICK] = "kick",   [MOTUS_EVENT_DRIFT] = "drift",
         [MOTUS_EVENT_STAGE] = "stage", [MOTUS_EVENT_SOLVE] = "solve", [MOTUS_EVENT_TAYLOR] = "taylor",
-        [MOTUS_EVENT_STEP] = "step",   [MOTUS_EVENT_END] = "end",
+        [MOTUS_EVENT_STEP] = "step",   [MOTUS_EVENT_END] = "end",     [MOTUS_EVENT_REFUSED] = "refused",
     };
     const motus_trace_entry *const *entries;
     size_t count;
@@ -101,6 +101,7 @@ LAB_CALL(lab_trace) const char *lab_trace(lab *l)
         json_numbers(&j, "a", e->a, nv);
         json_numbers(&j, "before_x", e->before_x, nx);
         json_numbers(&j, "before_a", e->before_a, nv);
+        json_number(&j, "error", e->error);
         json_close(&j, '}');
     }
     json_close(&j, ']');

@@ -29,7 +29,7 @@ await attempt('the ball flies', async () => {
 async function drag(h) {
   const track = await page.locator('#step-slider').boundingBox(), y = track.y + track.height / 2;
   const [from, to] = await page.locator('#step-slider').evaluate((slider, wanted) => {
-    const stops = [...document.querySelectorAll('.dial.step .stops span')], at = stops.findIndex((s) => s.textContent === wanted), ring = 20, { left, width } = slider.getBoundingClientRect();
+    const stops = [...document.querySelectorAll('.scale-step .stops span')], at = stops.findIndex((s) => s.textContent === wanted), ring = 20, { left, width } = slider.getBoundingClientRect();
     return [slider.valueAsNumber / Number(slider.max), at / (stops.length - 1)].map((part) => left + ring / 2 + part * (width - ring));
   }, h);
   await page.mouse.move(from, y);

@@ -253,6 +253,24 @@ await attempt('what is looked at', async () => {
 });
 
 // --- what is out of the ordinary -----------------------------------------------------------------------------------------------------------
+await attempt('what was refused', async () => {
+  const page = await open(`${singleFile}#v=1&p=driven-oscillator&a=dop853&r=1e-6&l=step`);
+  await at(page, 1, ['dop853']);
+  const lines = await page.locator('.opened-tried li').allTextContents(), tried = lines.slice(0, -1).map((line) => /^Tried a step of ([\d.]+): the estimated error is ([\d.]+) times/.exec(line)?.slice(1).map(Number)), [size, share] = /^Taken: a step of ([\d.]+), with an estimated error of ([\d.]+) of/.exec(lines.at(-1))?.slice(1).map(Number) ?? [];
+  judge('a step was tried and refused, another taken', tried.length > 0 && tried.every((t) => t && t[1] > 1) && share <= 1, lines.join(' | '));
+  // The next size follows from the error: 0.9 times its root by the order of the estimate and one more.
+  tried.forEach(([h, error], k) => { const next = tried[k + 1]?.[0] ?? size; judge('… its error says how long the next one is', Math.abs(0.9 * h * error ** (-1 / 8) / next - 1) < 0.02, `${h} ${error} ${next}`); });
+  same('it is in the picture', await page.locator('.opened-picture svg text').evaluateAll((all) => all.filter((t) => t.textContent === 'refused').length), tried.length);
+  // The same steps as the program takes.
+  const total = Number((await page.locator('.opened-step').textContent()).match(/of ([\d\u2009]+)/)?.[1].replace(/\u2009/g, ''));
+  same('as many steps as the program takes', total, JSON.parse(motus('run', 'models/driven-oscillator.motus', '--method', 'dop853', '--tolerance', '1e-6', '--json')).steps);
+  await page.keyboard.press('ArrowRight');
+  await at(page, 2, ['dop853']);
+  judge('the next step begins where this one ended', Math.abs(Number(/start, ([\d.]+)/.exec(await page.locator('.opened-picture svg').textContent())?.[1]) - size) < 0.001 + 0.001 * size);
+  await clean('refused steps', page);
+  await page.context().close();
+});
+
 await attempt('out of the ordinary', async () => {
   const own = (text, more = '') => `${singleFile}#v=1&m=${encodeURIComponent(text)}${more}&l=step`;
   const first = await open(own("s' = -s\nu' = s - u\ns(0) = 1\nu(0) = 0\nstep 0.1\nuntil 2\n", '&a=midpoint,rk4'), { height: 800, calm: true });

@@ -157,7 +157,7 @@ await attempt('answers are the program’s', async () => {
 await attempt('the words of a scene are so', async () => {
   const page = await open(`${singleFile}#v=1&p=spring&h=2.1`), knob = () => page.locator('#step-slider').inputValue().then(Number), follow = (name) => page.locator('.note button', { hasText: name }).click();
   same('a step beyond the stops: the knob is at the end of a wider range', [await page.locator('#step').inputValue(), await knob()], ['2.1', 0]);
-  const stops = await page.locator('.dial.step .stops span:visible').evaluateAll((all) => all.map((s) => [s.textContent, parseFloat(s.style.left)]));
+  const stops = await page.locator('.scale-step .stops span:visible').evaluateAll((all) => all.map((s) => [s.textContent, parseFloat(s.style.left)]));
   judge('… and its stops are where they belong', stops.length === 5 && stops[0][0] === '0.2' && Math.abs(stops[0][1] - 100 * Math.log(2.1 / 0.2) / Math.log(2.1 / 0.0125)) < 0.2, JSON.stringify(stops));
   await closer(page);
   await follow('1.9');

@@ -79,7 +79,7 @@ async function contrast(page, selector) {
 for (const theme of ['light', 'dark']) {
   await attempt(`forced colours, ${theme}`, async () => {
     const page = await open(`${singleFile}#v=1&p=thrown-ball`, { theme, calm: true, height: 800, forced: true });
-    for (const what of ['.transport-play', '.transport-line', '.transport-ticks', '.dial.step .dial-track', '.stops span:not(.on)', '.switch-track', '.chips .chip', '.chips .chip:not([aria-pressed=true])', '.transport-select', '#nav', '#scene-title', '.ask-button', '.pill', '#share button', '#theme button']) {
+    for (const what of ['.transport-play', '.transport-line', '.transport-ticks', '.scale-step .dial-track', '.stops span:not(.on)', '.switch-track', '.chips .chip', '.chips .chip:not([aria-pressed=true])', '.transport-select', '#nav', '#scene-title', '.ask-button', '.pill', '#share button', '#theme button']) {
       const most = await contrast(page, what);
       judge(`forced colours, ${theme}: ${what} is seen`, most > 300, most);
     }

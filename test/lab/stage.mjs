@@ -52,7 +52,7 @@ await attempt('the scale of the step', async () => {
     const page = await open(`${singleFile}#v=1&p=arenstorf`, { width, height: 844, touch: true, calm: true });
     await page.evaluate(() => document.fonts.ready);
     const { stops, marks, track } = await page.evaluate(() => {
-      const all = [...document.querySelectorAll('.dial.step .stops span')], box = document.querySelector('.dial.step .stops').getBoundingClientRect();
+      const all = [...document.querySelectorAll('.scale-step .stops span')], box = document.querySelector('.scale-step .stops').getBoundingClientRect();
       return { track: [box.left, box.right], stops: all.map((s) => { const { left, right } = s.getBoundingClientRect(); return [left, right]; }), marks: all.map((s) => s.getBoundingClientRect().left + parseFloat(getComputedStyle(s, '::before').left) + 3) };
     });
     judge(`${width}: its numbers are seen whole, and none on another`, stops.length === 5 && stops.filter(([left, right]) => right - left > 8).length === (width < 352 ? 3 : 5) && stops[0][0] >= 8 && stops[4][1] <= width - 8 && stops.every(([left, right], k) => k === 0 || left > stops[k - 1][1] + 2 || right - left < 8), JSON.stringify(stops));

@@ -8,6 +8,7 @@ import { ink } from '../../figure/ink';
 import { nameText } from '../../figure/name';
 import { brief, grouped } from '../../figure/number';
 import { svgPen } from '../../figure/pen';
+import type { Refusal, Trace, TraceEntry } from '../../protocol';
 import type { Look, Scene } from '../../scene';
 import { sample } from '../../shell/sample';
 import { methodCard } from '../../theory/cards';
@@ -36,6 +37,8 @@ export interface Column {
 const told = words.opened;
 /** Pixels beside a sentence and its calculation; of a digit. */
 const BESIDE = 46, DIGIT = 8.6;
+/** Refused steps of up to so many times the length of the one that was taken are drawn. */
+const SHOWN = 3;
 const vector = (figures: readonly string[]): string => (figures.length > 1 ? `(${figures.join(', ')})` : figures[0] ?? '');
 const apartOf = (a: readonly number[], b: readonly number[]): number[] => a.map((x, k) => x - b[k]!);
 const bare = (label: string): string => label.replace(/ \(.*\)$/, '');
@@ -47,9 +50,9 @@ interface Closing { readonly exact: Place | null; readonly miss: string; readonl
 
 /** wide: lines that once were too long for one row stay on two, so that other figures never move them. */
 export function column(method: string, wide: Set<string>): Column {
-  const head = el('h2', {}), picture = el('div', { class: 'opened-picture' }), recipe = el('ol', { class: 'recipe' }), closing = el('p', { class: 'opened-closing' }), why = el('p', { class: 'opened-why', hidden: true });
+  const head = el('h2', {}), picture = el('div', { class: 'opened-picture' }), recipe = el('ol', { class: 'recipe' }), closing = el('p', { class: 'opened-closing' }), tried = el('ul', { class: 'opened-tried' }), why = el('p', { class: 'opened-why', hidden: true });
   const formula = el('details', {}, el('summary', {}, told.formula)), parts = el('details', {}, el('summary', {}, told.parts)), folds = el('div', { class: 'opened-folds' }, formula, parts);
-  const element = el('article', { class: 'opened-column', 'data-method': method }, head, picture, why, recipe, closing, folds);
+  const element = el('article', { class: 'opened-column', 'data-method': method }, head, picture, why, tried, recipe, closing, folds);
   let step: Opened | null = null, setting: Setting | null = null, made: Recipe | null = null, drawn: StepPicture | null = null, line = -1, width = 0, height = 0;
   const byVelocity = (): boolean => setting?.scene.description.velocity_dependent === true;
   const look = (): Look => setting?.scene.looks.find((l) => l.method === method) ?? { method, label: method, colour: ink().text, tone: ink().text, dash: [], marker: 'circle' };
@@ -109,10 +112,23 @@ export function column(method: string, wide: Set<string>): Column {
     const times = [way(names[0], start.time), way(names[1], end.time), ...(before ? [way(told.earlier, before[0])] : []), ...between];
     return {
       says, shown: {
-        recipe: r, seen, look: look(), exact, miss, line, times, ends: [told.at(names[0], t(start.time)), told.at(names[1], t(end.time))],
+        recipe: r, seen, look: look(), exact, miss, line, times, refused: refusedOf(r, seen), refusedWord: told.refusedWord, ends: [told.at(names[0], t(start.time)), told.at(names[1], t(end.time))],
         green: forward && backward ? { x: joined(backward.x, forward.x), y: joined(backward.y, forward.y) } : forward,
       },
     };
+  }
+  /** Where the refused steps would have led; those that are much longer would shrink this one to a point. */
+  function refusedOf({ start }: Recipe, { order, indices }: Seen): Place[] {
+    return (step?.trace?.refused ?? []).filter((e) => Math.abs(e.step) <= SHOWN * Math.abs(start.step)).map((e) => {
+      const values = indices.map((k) => (order === 2 ? e.x : e.v)[k] ?? NaN);
+      return values.length > 1 ? [values[0]!, values[1]!] : [e.time, values[0]!];
+    });
+  }
+  /** What was tried, and the error that refused it; last the step that was taken. */
+  function triedOf(trace: Trace): string[] {
+    const end = trace.entries[trace.entries.length - 1], size = (e: TraceEntry | Refusal): string => `${brief(Math.abs(e.step), 3)}${setting?.t ?? ''}`;
+    if (end?.error === null || end?.error === undefined) return [];
+    return [...trace.refused.map((e) => told.refused(size(e), e.error === null ? '' : brief(e.error, 2))), told.accepted(size(end), brief(end.error, 2))];
   }
   function prepare(): void {
     const seen = setting?.seen, trace = step?.trace;
@@ -121,7 +137,9 @@ export function column(method: string, wide: Set<string>): Column {
     element.dataset.step = String((step?.index ?? 0) + 1);
     why.hidden = made !== null;
     say(why, made ? '' : step?.why || told.over);
-    for (const part of [picture, recipe, closing, folds]) part.hidden = made === null;
+    for (const part of [picture, tried, recipe, closing, folds]) part.hidden = made === null;
+    tried.replaceChildren(...(trace ? triedOf(trace) : []).map((text) => el('li', {}, text)));
+    tried.hidden ||= tried.childElementCount === 0;
     head.replaceChildren(sample(look()), el('span', {}, look().label));
     if (!made || !seen) return;
     const { shown, says } = pictureOf(made, seen);

@@ -14,6 +14,8 @@ export interface StepPicture {
   readonly recipe: Recipe; readonly seen: Seen; readonly look: Look;
   /** The exact motion: through the start of the step, and where it is when the step ends. */
   readonly green: Curve | null; readonly exact: Place | null;
+  /** Where steps that were refused would have led. */
+  readonly refused: readonly Place[]; readonly refusedWord: string;
   /** "0.017 too low"; ''. */
   readonly miss: string;
   /** The line up to which it is drawn; -1: all of it. */
@@ -23,11 +25,11 @@ export interface StepPicture {
   readonly ends: readonly [start: string, end: string];
 }
 
-const DISC = 11, STRIP = 2.5, COMING = 0.2, LOW = 30;
+const DISC = 11, STRIP = 2.5, COMING = 0.2, REFUSED = 0.55, LOW = 30;
 type Point = readonly [number, number];
 interface Frame { at(place: Place): Point; along(of: Place): Point }
 
-function frameOf({ recipe, seen, green, exact }: StepPicture, width: number, height: number): Frame {
+function frameOf({ recipe, seen, green, exact, refused }: StepPicture, width: number, height: number): Frame {
   const flat = seen.indices.length === 1, { before, from, to } = recipe;
   const xs = [from[0], to[0]], ys = [from[1], to[1]], take = ([x, y]: Place): void => { if (Number.isFinite(x + y)) { xs.push(x); ys.push(y); } };
   for (const m of [...recipe.lines.flatMap((l) => l.marks), ...recipe.rest]) {
@@ -37,12 +39,13 @@ function frameOf({ recipe, seen, green, exact }: StepPicture, width: number, hei
   }
   if (before) take(before);
   if (exact) take(exact);
+  for (const place of refused) take(place);
   if (green) for (let i = 0; i < green.x.length; i++) take([green.x[i]!, green.y[i]!]);
   const range = (of: number[]): [number, number] => [Math.min(...of), Math.max(...of)], [x0, x1] = range(xs), [y0, y1] = range(ys);
   const room = { left: 56, right: 60, top: 38, bottom: flat ? LOW + 24 : 44 }, w = Math.max(40, width - room.left - room.right), h = Math.max(40, height - room.top - room.bottom);
   const size = Math.max(Math.abs(y0), Math.abs(y1)), spanY = y1 - y0 > 1e-13 * size ? y1 - y0 : 0;
   if (flat) {
-    const a = (before ?? from)[0], b = to[0], left = (before ? 0.1 : 0.13) * width, right = (before ? 0.88 : 0.8) * width, sx = (right - left) / (b - a || 1), sy = spanY ? h / spanY : 0;
+    const a = (before ?? from)[0], b = [to, ...refused].map(([t]) => t).reduce((p, t) => (Math.abs(t - a) > Math.abs(p - a) ? t : p)), left = (before ? 0.1 : 0.13) * width, right = (before ? 0.88 : 0.8) * width, sx = (right - left) / (b - a || 1), sy = spanY ? h / spanY : 0;
     return { at: ([t, v]) => [left + sx * (t - a), spanY ? room.top + sy * (y1 - v) : room.top + h / 2], along: ([t, v]) => [sx * t, -sy * v] };
   }
   const spanX = x1 - x0 > 1e-13 * Math.max(Math.abs(x0), Math.abs(x1)) ? x1 - x0 : 0, equal = spanX < STRIP * spanY && spanY < STRIP * spanX;
@@ -123,6 +126,12 @@ export function drawStep(pen: Pen, ink: Ink, picture: StepPicture): void {
     pen.line(xy, { colour: ink.exact, width: 4 });
     for (let i = 0; i + 3 < xy.length; i += 2) taken.line([xy[i]!, xy[i + 1]!], [xy[i + 2]!, xy[i + 3]!]);
   }
+  for (const place of picture.refused) {
+    const p = f.at(place);
+    pen.line([...start, ...p].map(near), { colour: look.colour, width: 1.5, dash: [4, 4], alpha: REFUSED });
+    pen.mark('cross', near(p[0]), near(p[1]), 6, look.colour, { alpha: REFUSED });
+    taken.box(p[0], p[1], 8, 8);
+  }
   recipe.lines.forEach(({ marks }, k) => { for (const m of marks) { draw(m, line >= 0 && k > line ? COMING : 1, k === line); occupy(m); } });
   const arrives = recipe.lines.findIndex((l) => l.marks.some((m) => m.kind === 'end')), there = line < 0 || arrives < 0 || arrives <= line;
   for (const p of [before ? f.at(before) : null, start]) if (p) { pen.mark('circle', p[0], p[1], 7, ink.surface); pen.mark('ring', p[0], p[1], 6, ink.text); taken.box(p[0], p[1], 8, 8); }
@@ -157,6 +166,7 @@ export function drawStep(pen: Pen, ink: Ink, picture: StepPicture): void {
     pen.mark('circle', x, y, DISC, ink.text, { rim: ink.surface });
     pen.text(x, y, String(k + 1), { colour: ink.surface, size: 13, bold: true, anchor: 'middle', baseline: 'middle' });
   });
+  for (const place of picture.refused) say(picture.refusedWord, f.at(place), ink.quiet, false);
   if (!flat) { say(picture.ends[0], start, ink.quiet, false); say(picture.ends[1], end, ink.quiet, false); }
 
   /** The freest of some places, the first ones rather; null: none lies inside. */

@@ -45,6 +45,11 @@ export const opened = {
   broken: 'The equation cannot be computed as it stands: there is no step to open.',
   opening: 'Opening the step …',
 
+  /** Of a method that chooses its steps: what it tried. times: the error in units of what is allowed; '': the step has no finite result. */
+  refusedWord: 'refused',
+  refused: (size: string, times: string) => `Tried a step of ${size}: ${times ? `the estimated error is ${times} times what the tolerance allows` : 'it has no finite result'}, so it is refused.`,
+  accepted: (size: string, times: string) => `Taken: a step of ${size}, with an estimated error of ${times} of what is allowed.`,
+
   velocity: 'velocity', rate: 'rate of change',
   go: (c: number, first: boolean, otherHalf: boolean, noun: string) => (c < 0 ? `Go back ${share(c)}, with the ${noun} you have now.` : otherHalf ? `Go the other half, with the ${noun} you have now.` : `Go ${share(c)} with the ${first ? `${noun} you have` : `new ${noun}`}.`),
   kick: (c: number, otherHalf: boolean, mean: boolean) => `${otherHalf ? 'Let the force here act for the other half' : c === 1 ? 'Let the force change the velocity' : `Let the force act ${c < 0 ? 'backward, ' : ''}for ${share(c)}`}${mean ? ', at the mean of both velocities' : ''}.`,
