@@ -7,7 +7,7 @@
 
 #include "base/error.h"
 #include "cli/answer.h"
-#include "cli/bar.h"
+#include "tell/bar.h"
 #include "cli/complain.h"
 #include "cli/figure.h"
 #include "cli/settle.h"

@@ -5,7 +5,7 @@
  */
 #include "cli/table.h"
 
-#include "cli/bar.h"
+#include "tell/bar.h"
 #include "cli/text.h"
 
 #include <stdlib.h>

@@ -62,7 +62,7 @@ endif()
 if(MOTUS_TESTS)
   target_sources(draw_test PRIVATE cli/draw.c)
   target_sources(range_test PRIVATE cli/range.c)
-  target_sources(bar_test PRIVATE cli/bar.c)
+  target_sources(bar_test PRIVATE tell/bar.c)
 endif()
 
 # The elementary functions against MPFR, built twice: for the base instruction set and for this machine's. -Wno-psabi: vectors are not

@@ -18,6 +18,19 @@
     .reversible = reversible_, .stability_limit = limit_, .dense_order = between_
 #define CARD(name, aliases, family, order, ...) CARD_BETWEEN(order, name, aliases, family, order, __VA_ARGS__)
 
+/* Continuous weights. The page's module, where size counts, has none: it takes no state between the steps of these rows. */
+#ifdef ONE_COPY
+#define DENSE(...) \
+    {              \
+        0          \
+    }
+#else
+#define DENSE(...)  \
+    {               \
+        __VA_ARGS__ \
+    }
+#endif
+
 /* What the compositions of leapfrog steps do with forces that depend on the velocity. */
 #define IMPLICIT_KICKS "\nvelocity terms: each kick takes a at the mean of the velocities before and after it"
 
@@ -304,7 +317,7 @@ const row methods_table[] = {
       .family = RUNGE_KUTTA, .adaptive = true, .compensated = true,
       .tableau = {.stages = 3, .c = BS32_C, .a = BS32_A, .b = BS32_B, .error = BS32_ERROR, .ending = true,
                   .order = 2,
-                  .dense = {0, 3, NULL, NULL, BS32_SERIES}} },
+                  .dense = DENSE(0, 3, NULL, NULL, BS32_SERIES)} },
     { .card = { CARD_BETWEEN(4, "dopri5", "dormand-prince ode45 rk45", "runge-kutta", 5, 6, 6, XVT, 0, 0,
                               0.99718900863252991),
        .title = "Dormand–Prince 5(4)",
@@ -314,7 +327,7 @@ const row methods_table[] = {
       .family = RUNGE_KUTTA, .adaptive = true, .compensated = true,
       .tableau = {.stages = 6, .c = DOPRI5_C, .a = DOPRI5_A, .b = DOPRI5_B, .error = DOPRI5_ERROR, .ending = true,
                   .order = 4,
-                  .dense = {0, 4, NULL, NULL, DOPRI5_SERIES}} },
+                  .dense = DENSE(0, 4, NULL, NULL, DOPRI5_SERIES)} },
     { .card = { CARD_BETWEEN(4, "tsit5", "tsitouras5", "runge-kutta", 5, 6, 6, XVT, 0, 0,
                               0.47797886888275209),
        .title = "Tsitouras 5(4)",
@@ -324,7 +337,7 @@ const row methods_table[] = {
       .family = RUNGE_KUTTA, .adaptive = true, .compensated = true,
       .tableau = {.stages = 6, .c = TSIT5_C, .a = TSIT5_A, .b = TSIT5_B, .error = TSIT5_ERROR, .ending = true,
                   .order = 4,
-                  .dense = {0, 4, NULL, NULL, TSIT5_SERIES}} },
+                  .dense = DENSE(0, 4, NULL, NULL, TSIT5_SERIES)} },
     { .card = { CARD("verner6", "vern6", "runge-kutta", 6, 8, 8, XVT, 0, 0, 2.5841995676074592),
        .title = "Verner 6(5)",
        .cite = "Verner10",
@@ -333,7 +346,7 @@ const row methods_table[] = {
       .family = RUNGE_KUTTA, .adaptive = true, .compensated = true,
       .tableau = {.stages = 8, .c = VERNER6_C, .a = VERNER6_A, .b = VERNER6_B, .error = VERNER6_ERROR,
                   .ending = true, .order = 5,
-                  .dense = {3, 6, VERNER6_MORE_C, VERNER6_MORE_A, VERNER6_SERIES}} },
+                  .dense = DENSE(3, 6, VERNER6_MORE_C, VERNER6_MORE_A, VERNER6_SERIES)} },
     { .card = { CARD_BETWEEN(6, "verner7", "vern7", "runge-kutta", 7, 10, 10, XVT, 0, 0, 0.0),
        .title = "Verner 7(6)",
        .cite = "Verner10",
@@ -341,7 +354,7 @@ const row methods_table[] = {
        .use = "Between dopri5 and dop853.", .adaptive = 1 },
       .family = RUNGE_KUTTA, .adaptive = true, .compensated = true,
       .tableau = {.stages = 10, .c = VERNER7_C, .a = VERNER7_A, .b = VERNER7_B, .error = VERNER7_ERROR, .order = 6,
-                  .dense = {5, 7, VERNER7_MORE_C, VERNER7_MORE_A, VERNER7_SERIES}} },
+                  .dense = DENSE(5, 7, VERNER7_MORE_C, VERNER7_MORE_A, VERNER7_SERIES)} },
     { .card = { CARD_BETWEEN(7, "dop853", "dormand-prince8", "runge-kutta", 8, 12, 12, XVT, 0, 0,
                               5.9603598117027792),
        .title = "Dormand–Prince 8(5, 3)",
@@ -351,7 +364,7 @@ const row methods_table[] = {
       .family = RUNGE_KUTTA, .adaptive = true, .compensated = true,
       .tableau = {.stages = 12, .c = DOP853_C, .a = DOP853_A, .b = DOP853_B, .error = DOP853_ERROR,
                   .second = DOP853_SECOND, .order = 7,
-                  .dense = {3, 7, DOP853_MORE_C, DOP853_MORE_A, DOP853_SERIES}} },
+                  .dense = DENSE(3, 7, DOP853_MORE_C, DOP853_MORE_A, DOP853_SERIES)} },
     { .card = { CARD("verner8", "vern8", "runge-kutta", 8, 13, 13, XVT, 0, 0, 0.0),
        .title = "Verner 8(7)",
        .cite = "Verner10",
@@ -359,7 +372,7 @@ const row methods_table[] = {
        .use = "As dop853, with an estimate of higher order.", .adaptive = 1 },
       .family = RUNGE_KUTTA, .adaptive = true, .compensated = true,
       .tableau = {.stages = 13, .c = VERNER8_C, .a = VERNER8_A, .b = VERNER8_B, .error = VERNER8_ERROR, .order = 7,
-                  .dense = {7, 8, VERNER8_MORE_C, VERNER8_MORE_A, VERNER8_SERIES}} },
+                  .dense = DENSE(7, 8, VERNER8_MORE_C, VERNER8_MORE_A, VERNER8_SERIES)} },
     { .card = { CARD("verner9", "vern9", "runge-kutta", 9, 16, 16, XVT, 0, 0, 2.7569651249245202),
        .title = "Verner 9(8)",
        .cite = "Verner10",
@@ -367,7 +380,7 @@ const row methods_table[] = {
        .use = "The highest order of these pairs, for any force.", .adaptive = 1 },
       .family = RUNGE_KUTTA, .adaptive = true, .compensated = true,
       .tableau = {.stages = 16, .c = VERNER9_C, .a = VERNER9_A, .b = VERNER9_B, .error = VERNER9_ERROR, .order = 8,
-                  .dense = {9, 9, VERNER9_MORE_C, VERNER9_MORE_A, VERNER9_SERIES}} },
+                  .dense = DENSE(9, 9, VERNER9_MORE_C, VERNER9_MORE_A, VERNER9_SERIES)} },
 
     /* Nyström methods: x'' = a is integrated as it is, at about half the stages. */
     { .card = { CARD("dep4", "dprkn4 rkn43", "nystrom", 4, 4, 3, XT, 0, 0, 3.7678207258077578),
@@ -386,7 +399,7 @@ const row methods_table[] = {
       .family = RUNGE_KUTTA, .adaptive = true, .compensated = true,
       .tableau = {.stages = 6, .c = DEP6_C, .a = NULL, .b = DEP6_B, .aa = DEP6_AA, .bb = DEP6_BB,
                   .error = DEP6_ERROR, .error_x = DEP6_ERROR_X, .closing = true, .order = 4,
-                  .dense = {0, 5, NULL, NULL, DEP6_SERIES}} },
+                  .dense = DENSE(0, 5, NULL, NULL, DEP6_SERIES)} },
     { .card = { CARD("dep8", "dprkn8 rkn86", "nystrom", 8, 8, 8, XT, 0, 0, 3.1402541625390064),
        .title = "Dormand–El-Mikkawy–Prince 8(6)",
        .cite = "DEP87b",

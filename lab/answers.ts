@@ -338,7 +338,7 @@ export class Answers {
       }
     }
     const { reason, significant_until: until } = this.core.estimate(this.lab), of = (k: number, which: 'values' | 'errors'): Float64Array => Float64Array.from(rows, (row) => row[which][k]!);
-    return { method: ask.method, times: of(0, 'values'), values: columns.map((_, k) => of(1 + k, 'values')), bars: columns.map((_, k) => of(1 + k, 'errors')), reason, until };
+    return { method: ask.method, times: of(0, 'values'), last: columns.map((_, k) => this.core.bar(this.lab, rows[rows.length - 1]!.values[1 + k]!, rows[rows.length - 1]!.errors[1 + k]!)), values: columns.map((_, k) => of(1 + k, 'values')), bars: columns.map((_, k) => of(1 + k, 'errors')), reason, until };
   }
 
   private trace(ask: Requests['trace']['ask']): Trace {

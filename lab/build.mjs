@@ -52,10 +52,13 @@ try {
 
 /** A text or bytes for lab/unpack.ts. */
 const packed = (contents) => {
-  const zipped = gzipSync(contents, { level: 9 }), fill = -zipped.length & 3, whole = Buffer.concat([zipped, Buffer.alloc(fill)]);
-  const digit = (n) => String.fromCharCode(n + 35 + (n > 24) + (n > 55));
-  let out = digit(fill);
-  for (let i = 0; i < whole.length; i += 4) for (let n = whole.readUInt32BE(i), unit = 85 ** 4; unit >= 1; n %= unit, unit /= 85) out += digit(Math.floor(n / unit));
+  const zipped = gzipSync(contents, { level: 9 }), pairs = Math.ceil(8 * zipped.length / 13);
+  const digit = (n) => String.fromCharCode(n + 33 + (n > 0) + (n > 25) + (n > 56));
+  let out = digit(Math.floor(13 * pairs / 8) - zipped.length), held = 0, bits = 0;
+  for (let i = 0, k = 0; k < pairs; k++, held >>= 13, bits -= 13) {
+    for (; bits < 13; bits += 8) held |= (zipped[i++] ?? 0) << bits;
+    out += digit((held & 8191) % 91) + digit(Math.floor((held & 8191) / 91));
+  }
   return out;
 };
 
@@ -120,7 +123,7 @@ const put = (html, mark, value) => {
 };
 
 /* The first picture, and what moves with it, need these; what opens later has sheets of its own, which the single file holds packed too. */
-const sheets = { first: ['style.css', 'figure/figure.css'], later: ['panel/steps.css', 'panel/study.css', 'shell/editor.css', 'shell/gallery.css'] };
+const sheets = { first: ['style.css', 'figure/figure.css'], later: ['later.css', 'panel/steps.css', 'panel/study.css', 'shell/editor.css', 'shell/gallery.css'] };
 const styleOf = async (names, ...before) => minify([...before, ...await Promise.all(names.map((name) => readFile(join(here, name), 'utf8')))].join('\n'));
 const style = await styleOf(sheets.first, made.fontCss, drawn.inkStyle()), laterStyle = await styleOf(sheets.later);
 const escaped = (text) => text.replace(/[&<>"]/g, (c) => `&#${c.charCodeAt(0)};`), said = drawn.said(scene);

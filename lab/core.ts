@@ -26,6 +26,7 @@ interface Exports {
   lab_singular(lab: number, method: number, step: number, tolerance: number, until: number): number;
   lab_errors(lab: number, columns: number, count: number, values: number, errors: number): number;
   lab_estimate(lab: number): number;
+  lab_bar(lab: number, value: number, error: number): number;
   lab_record(lab: number, columns: number, count: number, every: number, rows: number, first: number, out: number, written: number): number;
   lab_sample(lab: number, times: number, rows: number, columns: number, count: number, out: number): number;
   lab_progress(lab: number, out: number): void;
@@ -188,6 +189,8 @@ export class Core {
       return { values: this.copy(out, count), errors: this.copy(out + 8 * count, count) };
     }));
   }
+  /** "0.0477824 ± 1.5e-6", as the program prints it. */
+  bar(lab: number, value: number, error: number): string { return this.string(this.exports.lab_bar(lab, value, error)); }
   estimate(lab: number): Estimate { return this.answer<Estimate>(lab, this.exports.lab_estimate(lab)); }
   progress(lab: number): Progress {
     return this.room(72, (at) => {

@@ -132,6 +132,8 @@ export interface Solution {
  *  there is none, and then `reason` says why. */
 export interface Bars {
   readonly method: string; readonly times: Float64Array; readonly values: readonly Float64Array[]; readonly bars: readonly Float64Array[]; readonly reason: string;
+  /** The last values with their bars, as the program prints them. */
+  readonly last: readonly string[];
   /** From this time on no digit is known; null: all along some are. */
   readonly until: number | null;
 }

@@ -7,7 +7,7 @@
  *
  * Columns: the stages, the acceleration at the end of the step (where it is not the last stage), the further stages.
  */
-#ifndef ONE_COPY /* the page's module has no such row */
+#ifndef ONE_COPY /* the page's module has no such weights */
 static inline int continuous_first(const work *w) { return w->stages + !w->closing; }
 static inline int continuous_columns(const work *w) { return continuous_first(w) + w->row->tableau.dense.more; }
 /* The row's coefficients of further stage i. */

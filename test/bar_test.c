@@ -1,5 +1,5 @@
 /* Numbers with their errors in print: what is printed covers what was meant, and is not much wider. */
-#include "cli/bar.h"
+#include "tell/bar.h"
 
 #include <math.h>
 #include <setjmp.h>

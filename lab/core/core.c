@@ -155,6 +155,9 @@ motus_status lab_errors(lab *l, const size_t *columns, size_t count, double *val
     return motus_run_errors(l->run, columns, count, values, errors, &l->error);
 }
 
+/* A number with its error, in print. */
+LAB_CALL(lab_bar) const char *lab_bar(lab *l, double value, double error) { return bar_text(value, error, l->bar); }
+
 /* Why there are no bars, and from what time on no digit is significant. NULL: lab_problem. */
 LAB_CALL(lab_estimate) const char *lab_estimate(lab *l)
 {

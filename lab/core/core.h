@@ -2,6 +2,7 @@
 #ifndef LAB_CORE_H
 #define LAB_CORE_H
 
+#include "tell/bar.h"
 #include "tell/tell.h"
 
 #include <stdbool.h>
@@ -24,6 +25,7 @@ typedef struct lab {
     motus_reference *reference;
     motus_error error;
     lab_text answer;
+    char bar[BAR_MAX];
 } lab;
 
 /* NUL-terminated strings one behind the other become an array of pointers, to be freed; NULL: no memory. */

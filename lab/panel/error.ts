@@ -14,12 +14,13 @@ import { figure } from '../figure/figure';
 import { recoloured } from '../figure/ink';
 import { brief, readable } from '../figure/number';
 import { drawTrack, begin, rowAt } from '../figure/track';
-import type { Figure, Frame, Ink, Pen, Table } from '../figure/types';
+import type { Figure, Frame, Ink, Pen, Said, Table } from '../figure/types';
 import { exampleOf } from '../data';
 import { furthestOf } from '../stage/motion';
 import { stagingOf } from '../stage/staging';
 import { words } from '../words';
-import { columnOf, timeTable } from './columns';
+import { bandsOf } from './band';
+import { columnOf, positions, states, timeTable } from './columns';
 import { amount, endTime, listed, moment, nameAt, several, timeUnit, unitOf } from './told';
 
 const say = words.panel.error;
@@ -30,13 +31,16 @@ const ALL: readonly Of[] = ['x', 'v', 's'];
 /** So many units of round-off are none. */
 const NONE = 64;
 
-export const errorPanel: PanelMaker = (): Panel => {
+/** Numbers that are told with their bars. */
+const BARRED = 3;
+export const errorPanel: PanelMaker = (store): Panel => {
   let scene: Scene | null = null, frame: Frame | null = null, of: Of = 'x';
   let floor = 0, low = 1e-16, high = 1, zeros = false, drawn: Float64Array[] = [], leaving: number[] = [];
 
   const select = element('select', {});
   /* The kinds in the list, which is written anew only when they change. */
   let offered = '';
+  const own = bandsOf(store);
   const control = element('label', {}, say.of, select);
   select.addEventListener('change', () => {
     of = ALL.find((value) => value === select.value) ?? 'x';
@@ -135,7 +139,7 @@ export const errorPanel: PanelMaker = (): Panel => {
   }
 
   /** What each is off at the end of the run. */
-  function answer(): string {
+  function answer(): Said {
     if (!scene) return '';
     const { tracks, truth } = scene.solution, end = endTime(scene), at = moment(scene, end);
     const parts = tracks.map((track, k) => {
@@ -149,7 +153,8 @@ export const errorPanel: PanelMaker = (): Panel => {
       return e <= (truth?.error ?? 0) ? say.under(name, amount(truth!.error, unit(), 2)) : say.one(name, body ? say.ofBody(by, body) : by);
     });
     const list = several(parts), sentence = { x: say.answer, v: say.inVelocity, s: say.inFirst }[of];
-    return parts.length ? sentence(at, list) : '';
+    const bars = own.said(scene, (positions(scene).length ? positions(scene) : states(scene)).slice(0, BARRED));
+    return parts.length ? [{ text: sentence(at, list) }, ...bars] : '';
   }
   const against = (): string => {
     const truth = scene?.solution.truth;
@@ -181,6 +186,8 @@ export const errorPanel: PanelMaker = (): Panel => {
   const fig: Figure = figure({
     id: 'error', title: say.title, question: say.question, answer, aspect: 0.42, draw, overlay, summary, extra: (w) => layout(w).above, table, controls: [control],
   });
+  own.listen(fig.redraw);
+  const want = own.inSight(fig.element, () => scene);
   const line = cursor({
     figure: fig, title: say.title, frame: () => frame, times: () => scene?.solution.tracks[0]?.times ?? [],
     text: (t) => `${heading(t, scene ? timeUnit(scene) : '')}. ${values(t).map((e, k) => `${scene?.looks[k]?.label}: ${readable(e, 3)}`).join(', ')}.`,
@@ -201,6 +208,7 @@ export const errorPanel: PanelMaker = (): Panel => {
     if (!waits) measure(next);
     control.hidden = there.length < 2;
     fig.say(waits ? say.waiting : '');
+    want();
     fig.redraw();
   }
   return {

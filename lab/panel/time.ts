@@ -18,6 +18,7 @@ import type { Figure, Frame, Ink, Pen, Said, Span, Table } from '../figure/types
 import { greenName } from '../stage/motion';
 import type { Sees } from '../stage/stage';
 import { words } from '../words';
+import { bandsOf } from './band';
 import { exactAt, exactText, movable, positions, states, timeTable } from './columns';
 import { endTime, listed, moment, nameAt, timeUnit, unitOf } from './told';
 
@@ -25,6 +26,7 @@ const say = words.panel.time;
 const STRIP = 130, MOST = 6, ANSWERED = 3;
 
 export const timePanel = (store: Store, stage: () => Sees): Panel => {
+  const errors = bandsOf(store);
   let scene: Scene | null = null, chosen: string[] = [], views: View[] = [], frames: Frame[] = [], dropped = 0;
 
   // The choice of quantities: boxes to tick, in a list that opens.
@@ -94,6 +96,7 @@ export const timePanel = (store: Store, stage: () => Sees): Panel => {
       const ended = tracks.map((track, k) => endIn(frame, track.times, columns[k]!));
       pen.clip(frame.left, frame.top - 2, frame.width + 2, frame.height + 3, () => {
         if (exact && truth) pen.line(thin(truth.times, exact, frame.x, frame.y), { colour: ink.exact, width: EXACT_WIDTH });
+        for (const look of scene!.looks) errors.draw(pen, frame, look, name);
         tracks.forEach((track, k) => drawTrack(pen, frame, track.times, columns[k]!, scene!.looks[k]!, ended[k]!.rows));
       });
       if (exact && truth) { const end = endIn(frame, truth.times, exact); ends.push({ label: greenName(scene!), colour: ink.exact, marker: null, at: end.at, exit: end.exit, heights: heightsIn(frame, truth.times, exact) }); }
@@ -155,6 +158,15 @@ export const timePanel = (store: Store, stage: () => Sees): Panel => {
     const spans = first.flatMap((name, k): Span[] => [...(k ? [{ text: ', ' }] : []), ...nameSpans(name, 15), { text: ` = ${value(name)}${unitOf(scene!, name) && `\u2009${unitOf(scene!, name)}`}` }]);
     return [{ text: say.at(moment(scene, end), exact ? '' : nameAt(scene, 0)) }, ...spans, { text: !scene.solution.truth && scene.solution.problem ? say.notKnown : '.' }];
   }
+  /** What the bars say of each method: its last numbers, or why there are none, or since when no digit is known. */
+  function bars(): string[] {
+    return scene?.solution.tracks.flatMap(({ method }, k) => {
+      const found = errors.of(method), by = begin(nameAt(scene!, k)), told = chosen.map((name) => ({ name, text: errors.last(method, name) })).filter(({ text }) => text && text !== '—');
+      if (!found) return [];
+      if (found.reason) return [say.noBars(by, found.reason)];
+      return [...(told.length ? [say.barsOf(by, listed(told.map(({ name, text }) => `${nameText(name)} = ${text}`)))] : []), ...(found.until === null ? [] : [say.noDigit(by, moment(scene!, found.until))])];
+    }) ?? [];
+  }
   function summary(): string {
     if (!scene) return '';
     const { tracks } = scene.solution, end = endTime(scene);
@@ -168,7 +180,7 @@ export const timePanel = (store: Store, stage: () => Sees): Panel => {
       say.span(listed(chosen.map(nameText)), `t = ${brief(tracks[0]?.times[0] ?? 0)}`, brief(end)), final.length ? say.end(nameText(first), listed(final, 5)) : '',
       leaving.length ? begin(words.panel.leave(leaving)) : '',
       ...tracks.flatMap((track, k) => (track.problem ? [track.problem.message.startsWith(`${track.method} `) ? say.does(name(k), track.problem.message.slice(track.method.length + 1)) : say.stopped(name(k), track.problem.message)] : [])), ...tracks.flatMap((track, k) => (track.singular ? [say.passing(name(k), track.singular.message)] : [])),
-      dropped ? say.most(String(MOST), String(MOST + dropped)) : '',
+      ...bars(), dropped ? say.most(String(MOST), String(MOST + dropped)) : '',
     ].filter(Boolean).join(' ');
   }
 
@@ -178,6 +190,8 @@ export const timePanel = (store: Store, stage: () => Sees): Panel => {
     table: (): Table => (scene ? timeTable(scene, chosen) : { head: [], rows: [] }),
     controls: [choice],
   });
+  errors.listen(fig.redraw);
+  const want = errors.inSight(fig.element, () => scene);
   const line = cursor({ figure: fig, title: say.title, frame: () => frames[0] ?? null, times: () => scene?.solution.tracks[0]?.times ?? [], text: sentence });
 
   function prepare(next: Scene, wanted: readonly string[]): void {
@@ -192,6 +206,7 @@ export const timePanel = (store: Store, stage: () => Sees): Panel => {
     choice.hidden = names.length < 2;
     views = chosen.map((name) => viewOf(truthOf(name), trackColumns(name)));
     frames = [];
+    want();
     fig.redraw();
   }
   return {

@@ -1,4 +1,4 @@
-/* The lecture: the whole screen, large letters (style.css), and a key for all that one does while speaking.
+/* The lecture: the whole screen, large letters (later.css), and a key for all that one does while speaking.
  *
  * Invariant: no key is taken from a text field, none that comes with Ctrl, Alt or ⌘; a browser that refuses the whole screen shows the same in its window.
  */

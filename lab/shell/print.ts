@@ -1,4 +1,4 @@
-/* On paper: the numbers behind the picture, as a small table after it. Invariant: it is for print alone (style.css); what it says is the scene's. */
+/* On paper: the numbers behind the picture, as a small table after it. Invariant: it is for print alone (later.css); what it says is the scene's. */
 import { el, place, say } from '../dom';
 import { brief } from '../figure/number';
 import type { Scene } from '../scene';

@@ -9,6 +9,7 @@ import { shortLabel } from '../figure/ends';
 import { brief } from '../figure/number';
 import { textWidth } from '../figure/shapes';
 import type { Ink, Pen } from '../figure/types';
+import type { Bands } from '../panel/band';
 import type { Scene } from '../scene';
 import { words } from '../words';
 import { allOf, extentOf, join, roomy, suits, untilGround, type Bounds, type Range } from './bounds';
@@ -32,6 +33,8 @@ export interface Setting {
   readonly pinned: Scene | null;
   /** The picture before, whose curves stay as ghosts. */
   readonly before: Picture | null;
+  /** Bars of error along the runs; absent: none are drawn. */
+  readonly bars?: Bands;
 }
 /** A ring that sets the initial velocity: its pixels, and pixels of a unit of velocity. */
 export interface Handle { readonly x: number; readonly y: number; readonly fromX: number; readonly fromY: number; readonly unit: number }
@@ -252,6 +255,10 @@ export function pictureOf(setting: Setting): Picture {
       }));
       pen.text(at.left, at.bottom, text, { colour: ink.quiet, size, halo: ink.surface });
     }
+    const { along, up } = main;
+    if (subject.kind === 'time' && along && up) clipped(pen, main, () => {
+      for (const { look } of lines) for (const { columns } of subject.bodies) setting.bars?.draw(pen, { x: along, y: up, top: main.box.top, height: main.box.bottom - main.box.top }, look, scene.solution.columns[columns[0]!] ?? '');
+    });
     before?.ghost(pen, ink);
     drawPinned(pen, ink);
     if (finished) return;

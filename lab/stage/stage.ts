@@ -11,6 +11,7 @@ import { ink } from '../figure/ink';
 import { brief } from '../figure/number';
 import { canvasPen } from '../figure/pen';
 import type { Ink, Pen, Table } from '../figure/types';
+import { bandsOf } from '../panel/band';
 import type { Panel, Scene, Store } from '../scene';
 import { lecturing } from '../shell/lecture';
 import { short as shortNumber } from '../shell/number';
@@ -60,6 +61,7 @@ function without(scene: Scene, methods: readonly string[]): Scene {
 }
 
 export function stage(store: Store, room: { column(): number }): Stage {
+  const bars = bandsOf(store);
   const still = el('canvas', { class: 'stage-still', role: 'img' }), moving = el('canvas', { class: 'stage-moving', 'aria-hidden': 'true' });
   const aim = button('', () => {}, { class: 'stage-aim', role: 'slider', hidden: true });
   const all = button(words.stage.all, () => { showAll = !showAll; bounds = null; refresh(true); }, { class: 'stage-all', hidden: true });
@@ -129,7 +131,7 @@ export function stage(store: Store, room: { column(): number }): Stage {
   function make(of: Bounds): void {
     if (!scene || !subject || !place) return;
     const seen = hidden.length ? without(scene, hidden) : scene;
-    picture = pictureOf({ scene: seen, subject, staging: staging(), place, bounds: of, camera, before: ghost, pinned });
+    picture = pictureOf({ scene: seen, subject, staging: staging(), place, bounds: of, camera, before: ghost, pinned, bars });
   }
   const staging = () => stagingOf(scene ? exampleOf(scene.state) : '');
   function draw(): void {
@@ -190,6 +192,7 @@ export function stage(store: Store, room: { column(): number }): Stage {
     element.setAttribute('aria-busy', 'true');
     if (!asked) asked = requestAnimationFrame(draw);
   }
+  bars.listen(() => { if (subject?.kind === 'time') refresh(); });
   /** The frame goes to where it belongs, once. */
   function settle(): void {
     if (!scene || !subject || !bounds || showAll || bounds.length !== subject.axes.length) return;
@@ -227,6 +230,7 @@ export function stage(store: Store, room: { column(): number }): Stage {
     subject = pick();
     document.body.dataset.decor = staging().decor ?? '';
     offer();
+    if (subject?.kind === 'time') bars.want(next);
     turning.enable(subject?.kind === 'space');
     if (subject?.id !== old?.id || (bounds && bounds.length !== subject?.axes.length)) { bounds = null; ghost = null; cancelAnimationFrame(moveFrame); }
     // What moved: the curve of before stays for a while. A finer answer to the same question is no change.

@@ -52,7 +52,7 @@ for (const [width, height, fragment, dials] of [[320, 240, '#v=1&p=thrown-ball&e
     same(`${name}: nothing plays by itself`, await page.getByRole('button', { name: 'Play (space)' }).count(), 1);
     const controls = await seen(page), known = ['Play (space)', 'Present time', ...dials, 'Open in motus lab', 'Initial velocity: arrow keys turn it up, down, left and right', 'show all'];
     judge(`${name}: picture, Play, time, sliders, link, nothing else`, ['Play (space)', 'Present time', ...dials, 'Open in motus lab'].every((c) => controls.includes(c)) && controls.every((c) => known.includes(c) || /^Step\b/.test(c)), controls.join('; '));
-    const boxes = await page.evaluate(() => ['#stage-picture', '#dock', '.transport', '.embed-link', ...(document.querySelector('.embedded.embed-step') ? ['.dial.step'] : [])].map((s) => { const r = document.querySelector(s).getBoundingClientRect(); return [s, r.left, r.top, r.right, r.bottom]; }));
+    const boxes = await page.evaluate(() => ['#stage-picture', '#dock', '.transport', '.embed-link', ...(document.querySelector('.embedded.embed-step') ? ['.scale-step'] : [])].map((s) => { const r = document.querySelector(s).getBoundingClientRect(); return [s, r.left, r.top, r.right, r.bottom]; }));
     judge(`${name}: nothing overflows`, boxes.every(([, l, t, r, b]) => l >= 0 && t >= 0 && r <= width + 0.5 && b <= height + 0.5) && await page.evaluate(() => document.documentElement.scrollWidth <= innerWidth && document.documentElement.scrollHeight <= innerHeight && document.querySelector('#dock').scrollHeight <= document.querySelector('#dock').clientHeight + 1), JSON.stringify(boxes));
     const [, , top, , bottom] = boxes[0];
     judge(`${name}: the picture has most of it`, bottom - top > 0.45 * height, `${top} to ${bottom}`);
@@ -88,7 +88,7 @@ await attempt('the snippet', async () => {
 
   writeFileSync(join(place, 'other.html'), `<!DOCTYPE html><title>Another page</title>${html.replace('lazy', 'eager')}`);
   const other = await serve(place), outer = await open(`${other.address}other.html`, { settle: false }), inner = outer.frameLocator('iframe');
-  await inner.locator('.dial.step').waitFor();
+  await inner.locator('.scale-step').waitFor();
   await inner.locator('canvas.stage-still[aria-label*="from t = 0 to 2"]').waitFor();
   same('in another page it shows the motion with its sliders', [await inner.locator('.dial').count(), await inner.locator('.embed-link').getAttribute('target')], [2, '_blank']);
   await clean('another page', outer, /404/);

@@ -72,7 +72,7 @@ await attempt('a slip: told after a pause, mended by a press', async () => {
   await area.fill(start);
   await settled(page);
   const picture = await summaryOf(page, 'Motion');
-  const boxes = () => page.evaluate(() => ['#dock', '.dials-more > *', '.dial.step', '#stage', '#scene-title', '.editor-field'].map((s) => { const { x, y, width, height } = document.querySelector(s).getBoundingClientRect(); return [x, y, width, height].join(); }));
+  const boxes = () => page.evaluate(() => ['#dock', '.dials-more > *', '.scale-step', '#stage', '#scene-title', '.editor-field'].map((s) => { const { x, y, width, height } = document.querySelector(s).getBoundingClientRect(); return [x, y, width, height].join(); }));
   const before = await boxes();
   await area.fill(start.replace('(theta)', '(theat)'));
   await page.waitForTimeout(250);
@@ -86,7 +86,7 @@ await attempt('a slip: told after a pause, mended by a press', async () => {
   // What stands there of the last text is not told of this one; nothing moves.
   const seen = (what) => page.locator(what).evaluate((e) => [getComputedStyle(e).visibility, getComputedStyle(e).opacity, e.inert]);
   await page.waitForFunction(() => getComputedStyle(document.querySelector('.typeset')).opacity === '0');
-  same('the equation of the last text is away, its sliders rest', [(await seen('.typeset'))[0], await seen('.dial.step'), await page.locator('.dials-more').evaluate((e) => e.inert), await seen('.dials-more > :first-child'), await page.locator('#all-values .sliders fieldset').evaluateAll((all) => all.every((f) => f.inert))],
+  same('the equation of the last text is away, its sliders rest', [(await seen('.typeset'))[0], await seen('.scale-step'), await page.locator('.dials-more').evaluate((e) => e.inert), await seen('.dials-more > :first-child'), await page.locator('#all-values .sliders fieldset').evaluateAll((all) => all.every((f) => f.inert))],
     ['hidden', ['visible', '0.4', true], true, ['visible', '0.4', false], true]);
   same('… and it is told', await page.locator('#status .message').textContent(), 'The last motion that could be read, with its sliders.');
   same('… and nothing has moved', await boxes(), before);
@@ -95,7 +95,7 @@ await attempt('a slip: told after a pause, mended by a press', async () => {
   await told(page);
   same('a slider: its line stands before the equation', await area.inputValue(), `theat = 1\n${start.replace('(theta)', '(theat)')}`);
   same('… and it is well', await message.textContent(), '');
-  same('… the equation is its own again, and the sliders', [await page.locator('.typeset').isVisible(), await page.locator('.dial.step').evaluate((e) => e.inert), await page.locator('.dials-more').evaluate((e) => e.inert)], [true, false, false]);
+  same('… the equation is its own again, and the sliders', [await page.locator('.typeset').isVisible(), await page.locator('.scale-step').evaluate((e) => e.inert), await page.locator('.dials-more').evaluate((e) => e.inert)], [true, false, false]);
   await page.keyboard.press('Control+z');
   await told(page);
   await page.getByRole('button', { name: 'Replace by theta' }).click();

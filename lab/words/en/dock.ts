@@ -17,7 +17,7 @@ export const dock = {
     needed: (own: string) => (own ? `A step is needed; the model has ${own}.` : 'A step is needed.'),
   },
   tolerance: {
-    label: 'Tolerance of a step', slider: 'Tolerance of a step', field: 'Tolerance of a step, as a number', reset: 'Tolerance: back to the model’s', resetTitle: 'Back to the model’s tolerance',
+    label: 'Tolerance', slider: 'Tolerance of a step', field: 'Tolerance of a step, as a number', reset: 'Tolerance: back to the model’s', resetTitle: 'Back to the model’s tolerance',
     /** refused: how many steps were taken back; "0". */
     steps: (count: number, text: string, refused: string) => `${steps(count, text)}${refused === '0' ? '' : `, ${refused} refused`}`,
     value: (tolerance: string, count: string) => `${tolerance}${count ? `, ${count}` : ''}`,

@@ -11,6 +11,11 @@ export const panel = {
     /** at: "2 s" or "t = 2"; by: '' where the values are the exact motion's. */
     at: (at: string, by: string) => (by ? `By ${by}, at ${at}: ` : `At ${at}: `),
     notKnown: '. There is no green curve: these digits are the method’s, and need not be the motion’s.',
+    /** Numbers with their errors follow, value ± error; the band in the picture is the same. */
+    bars: (by: string) => `By ${by} with its error: `,
+    barsOf: (by: string, list: string) => `${by} with its error, the band about its line: ${list}.`,
+    noBars: (by: string, why: string) => `The error of ${by} is not known: ${why}.`,
+    noDigit: (by: string, at: string) => `By its own error no digit of ${by} is known from ${at} on.`,
     quantities: 'Quantities',
     shown: (names: string) => `Quantities: ${names}`,
     span: (names: string, from: string, to: string) => `${names} from ${from} to ${to}.`,

@@ -1,6 +1,6 @@
 /* A number with its error: 0.0477824 ± 1.5e-6. */
-#ifndef CLI_BAR_H
-#define CLI_BAR_H
+#ifndef TELL_BAR_H
+#define TELL_BAR_H
 
 #include "base/decimal.h"
 

@@ -2,7 +2,7 @@
  *
  * Invariant: the printed value lies within the printed error of all that lies within `error` of `value`.
  */
-#include "cli/bar.h"
+#include "tell/bar.h"
 
 #include <math.h>
 #include <stdbool.h>
@@ -51,10 +51,13 @@ static void value_text(double value, int power, char out[DECIMAL_MAX])
         return;
     }
     snprintf(out, DECIMAL_MAX, "%.*e", digits, value);
-    if (plain)
-        snprintf(out, DECIMAL_MAX, "%.0f", strtod(out, NULL)); /* digits and zeros are a whole number, and a double */
-    else
+    if (!plain) {
         tidy(out);
+        return;
+    }
+    double whole = 0; /* digits and zeros are a whole number, and a double */
+    decimal_read(out + (value < 0), SIZE_MAX, &whole);
+    snprintf(out, DECIMAL_MAX, "%.0f", value < 0 ? -whole : whole);
 }
 
 /* How many 10^power are at least `error`, and what rounding the value to one of them takes. */
