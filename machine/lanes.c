@@ -242,6 +242,28 @@ int lanes_in_block(const lanes *l) { return l->block; }
 
 /* ---- memory ---- */
 
+/* False: no memory. */
+static bool find_reads(lanes *l)
+{
+    const model *m = l->def.model;
+    if (l->def.place_count == 0) return true;
+    const uint8_t *affected = vary_affected(l->def.vary);
+    uint8_t *marks = arena_room(m->arena, m->pool_count + 1);
+    l->read = arena_room(m->arena, (m->pool_count + 1) * sizeof *l->read);
+    if (!marks || !l->read) return false;
+    memcpy(marks, affected, m->pool_count);
+    for (uint32_t i = 0; i < m->array_count; i++) {
+        const array *a = &m->arrays[i];
+        if (a->space != SPACE_POOL || !graph_marked(a, affected)) continue;
+        size_t last = a->base;
+        for (int d = 0; d < a->dims; d++) last += (size_t)((a->over->last[d] - a->over->first[d]) * a->over->stride[d]);
+        memset(marks + a->base, 1, last - a->base + 1);
+    }
+    for (size_t k = 0; k < m->pool_count; k++)
+        if (marks[k]) l->read[l->reads++] = k;
+    return true;
+}
+
 static bool prepare(lanes *l)
 {
     const lanes_def *d = &l->def;
@@ -252,7 +274,7 @@ static bool prepare(lanes *l)
     l->places = arena_room(a, (d->place_count + 1) * sizeof *l->places);
     l->from_x = arena_room(a, (m->nx + 1) * sizeof *l->from_x);
     l->from_v = arena_room(a, (m->nv + 1) * sizeof *l->from_v);
-    if (a->failed) return false;
+    if (a->failed || !find_reads(l)) return false;
     for (uint32_t k = 0; k < l->e.int_count; k++) l->q[k] = emit_int_value(&l->e.ints[k], m->arrays, m->ints);
     l->bind(m->pool, l->q, l->u);
     for (size_t k = 0; k < d->place_count; k++) l->places[k] = (int64_t)d->places[k];

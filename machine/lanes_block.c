@@ -120,9 +120,10 @@ static inline void begin_values(const lanes_block *block, const lanes_item *b, c
     for (size_t g = 0; g < (size_t)l->groups; g++) {
         for (size_t k = 0; k < count; k++, values += width)
             for (size_t i = 0; i < width; i++) values[i] = b->call->values[k][trajectories[g * width + i]];
-        for (size_t k = 0; k < numbers; k++, own += width) {
-            const double number = m->pool[k];
-            for (size_t i = 0; i < width; i++) own[i] = number;
+        for (size_t k = 0; k < l->reads; k++) {
+            double *restrict to = own + (g * numbers + l->read[k]) * width;
+            const double number = m->pool[l->read[k]];
+            for (size_t i = 0; i < width; i++) to[i] = number;
         }
     }
 }

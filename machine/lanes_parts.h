@@ -31,6 +31,8 @@ struct lanes {
     void (*first)(const lanes_job *);
     void (*observe)(const lanes_job *);
     void (*run)(const lanes_job *, whole, whole);
+    /* the places of the pool that lanes read in their own: those that vary, and the others of their arrays */
+    size_t *read, reads;
     double *u;
     int64_t *q, *places, *from_x, *from_v;
     size_t outs;     /* numbers of the definitions that are observed */
