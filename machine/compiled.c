@@ -168,7 +168,7 @@ const char *compiled_text(compiled *c, const chosen *chosen, size_t *length)
 
 /* ---- objects ---- */
 
-enum { PAIR_CELLS_MAX = 1 << 16 };
+enum { PAIR_CELLS_MAX = 1 << 16, LINE = 64 }; /* LINE: bytes of a line of the cache */
 
 /* Room for the partial sums of all cells of a family whose pairs are taken once; NULL: they are taken twice. */
 static double *pair_room(compiled *c, const emit *e)
@@ -179,7 +179,10 @@ static double *pair_room(compiled *c, const emit *e)
     const int64_t first = r->first.literal + (r->first.slot >= 0 ? m->ints[r->first.slot] : 0),
                   last = r->last.literal + (r->last.slot >= 0 ? m->ints[r->last.slot] : 0), cells = last - first + 1;
     if (cells < 2 || cells > PAIR_CELLS_MAX) return NULL;
-    if (!c->pairs) c->pairs = arena_room(m->arena, 8 * e->pair_sums * (size_t)cells * sizeof *c->pairs);
+    if (!c->pairs) {
+        char *room = arena_room(m->arena, 8 * e->pair_sums * ((size_t)cells + 7) * sizeof *c->pairs + LINE);
+        c->pairs = room ? (double *)(void *)(room + (LINE - (uintptr_t)room % LINE) % LINE) : NULL;
+    }
     return c->pairs;
 }
 

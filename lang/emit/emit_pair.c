@@ -2,9 +2,9 @@
  *
  * Cell i takes the terms of all j > i and adds, for each, the term with the indices exchanged to the sum of cell j.
  * The partial sums of all cells wait in memory: sum c of cell j has partial p at own[(c rows + p) cells + j]; rows is
- * 8, or 1 where a sum has 16 terms at most. When cell i is reached, all smaller cells have added theirs, in their
- * order, and its own loop adds the others, in theirs: every partial sum takes its terms in the order that defines the
- * bits.
+ * 8, or 1 where a sum has 16 terms at most; `own` and every row begin a line of the cache. When cell i is reached,
+ * all smaller cells have added theirs, in their order, and its own loop adds the others, in theirs: every partial sum
+ * takes its terms in the order that defines the bits.
  *
  * A node is `even` where exchanging i and j leaves its bits as they are, and `odd` where it changes no more than the
  * sign, or leaves both zero: x[j] - x[i]. Of the exchanged term even nodes are shared; all others are computed again.
@@ -282,8 +282,9 @@ void emit_pair_start(writer *w, uint32_t region)
     EACH_SUM(k, r) sums++;
     emit_bound(w, &r->range.first, first);
     emit_bound(w, &r->range.last, last);
-    emit_line(w, "const int64_t f1 = %s, n1 = %s - f1 + 1, rows = n1 > 16 ? 8 : 1;", first, last);
-    emit_line(w, "for (int64_t k = 0; k < %u * rows * n1; k++) own[k] = 0;", sums);
+    emit_line(w, "const int64_t f1 = %s, n1 = %s - f1 + 1, rows = n1 > 16 ? 8 : 1, c1 = (n1 + 7) & ~(int64_t)7;", first,
+              last);
+    emit_line(w, "for (int64_t k = 0; k < %u * rows * c1; k++) own[k] = 0;", sums);
 }
 
 void emit_pair_sums(writer *w, uint32_t region)
@@ -295,8 +296,8 @@ void emit_pair_sums(writer *w, uint32_t region)
     emit_line(w, "const int64_t i1 = j0 - f1;");
     EACH_SUM(k, r)
     {
-        emit_line(w, "double s%u[8], *const t%u = own + (%u * rows + (rows > 1 ? i1 & 7 : 0)) * n1;", k, k, c);
-        emit_line(w, "for (int64_t k = 0; k < rows; k++) s%u[k] = own[(%u * rows + k) * n1 + i1];", k, c++);
+        emit_line(w, "double s%u[8], *const t%u = own + (%u * rows + (rows > 1 ? i1 & 7 : 0)) * c1;", k, k, c);
+        emit_line(w, "for (int64_t k = 0; k < rows; k++) s%u[k] = own[(%u * rows + k) * c1 + i1];", k, c++);
         w->plan.items.at[k].reg = 0; /* done */
     }
     emit_line(w, "{");
