@@ -13,7 +13,7 @@ const FIRST = 3, LAST = 14, NUMBERED = 3, FINE = 10 ** 0.1;
 export function toleranceSlider(store: LiveStore): HTMLElement {
   const say = words.dock.tolerance, track = () => store.scene?.solution.tracks.find((t) => t.tolerance !== null), stops = Array.from({ length: LAST - FIRST + 1 }, (_, k) => Number(`1e-${FIRST + k}`));
   const { element } = scaleDial(store, {
-    id: 'tolerance', symbol: '', words: say, fine: [1 / FINE, FINE],
+    id: 'tolerance', symbol: '', words: words.dock.tolerance, fine: [1 / FINE, FINE],
     own: () => store.description?.settings.tolerance ?? TOLERANCE, typed: () => store.state.tolerance, change: (tolerance) => store.change({ tolerance }),
     now: () => store.numbers.tolerance ?? store.description?.settings.tolerance ?? TOLERANCE,
     wrong: () => store.trouble.tolerance, remark: () => '',

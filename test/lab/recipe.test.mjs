@@ -72,6 +72,8 @@ for (const [name, text] of models) {
     for (const method of admitted.flatMap((m) => (m === 'newmark' ? [m, 'newmark(0.3, 0.6)', 'newmark(0, 0.5)'] : [m]))) for (const index of [0, 1, 7]) {
       let trace;
       try { trace = answers.answer('trace', { model, method, step: null, until: null, index }); } catch (e) { if (e.problem) continue; throw e; }
+      // A method that chooses its steps may be at the end before.
+      if (trace.entries.length === 0) continue;
       for (const seen of seenIn(trace.names).filter((_, k) => k < 4)) {
         const recipe = recipeOf(trace, seen, description.velocity_dependent), what = `${name} by ${method}, step ${index + 1}, ${seen.id}`;
         assert.ok(recipe && recipe.lines.length >= 1 && recipe.lines.length <= 4, what);

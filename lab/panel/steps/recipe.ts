@@ -194,6 +194,13 @@ export function recipeOf(trace: Trace, seen: Seen, byVelocity: boolean): Recipe 
     const forces = stages.map(force), rounds = entries.find((e) => e.kind === 'solve')?.iterations ?? 0;
     const pull = (at: Place, a: Vec): Mark => ({ kind: 'fall', from: at, to: flat ? [at[0], at[1] + (h * h * a[0]!) / 2] : [at[0] + (h * h * a[0]!) / 2, at[1] + (h * h * a[1]!) / 2] });
     const some_ = { name: 'a', values: forces, kind: kinds.force, names: true }, seek = stages.slice(0, 2);
+    // Nyström: many forces, of which the first two are shown.
+    if (stages.length > 2) {
+      seek.forEach((s, k) => line(k ? told.tryForce(s.coefficient) : told.forceAtStart, [is(one('a', k + 1), kinds.force, force(s))], [pull(from, force(s))]));
+      line(told.forcesInAll(stages.length), [is(named, kinds.value, x1)], [go, arrived]);
+      line(told.forcesVelocity, [is(one(rateName), kinds.rate, rate(end!))], [stroke(to, rate(end!))]);
+      return;
+    }
     seek.forEach((s, k) => line(k ? told.seekForce(rounds) : told.forceAtStart, [is(one('a', k + 1), kinds.force, force(s))], [pull(k ? to : from, force(s))]));
     line(told.forces, [mean(named, kinds.value, [begun, { tokens: [times(h), sign('·'), number(rate(start!), kinds.rate, { bracket: true })], value: scaled(rate(start!), h) }], h * h, stages.map((s) => s.weight_x), some_, x1)], [go, arrived]);
     line(told.forcesVelocity, [mean(one(rateName), kinds.rate, [{ tokens: [number(rate(start!), kinds.rate)], value: rate(start!) }], h, stages.map((s) => s.weight), some_, rate(end!))], [stroke(to, rate(end!))]);
