@@ -18,7 +18,8 @@
     .reversible = reversible_, .stability_limit = limit_, .dense_order = between_
 #define CARD(name, aliases, family, order, ...) CARD_BETWEEN(order, name, aliases, family, order, __VA_ARGS__)
 
-/* Continuous weights. The page's module, where size counts, has none: it takes no state between the steps of these rows. */
+/* Continuous weights. The page's module, where size counts, has none: it takes no state between the steps of these
+ * rows. */
 #ifdef ONE_COPY
 #define DENSE(...) \
     {              \

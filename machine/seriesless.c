@@ -1,5 +1,5 @@
-/* Stands in for lang/graph/expansion.c and lang/tape/tape_series.c: the page has no method of Taylor series yet, and its
- * module is small without them. No series can be made, so no other call ever follows. */
+/* Stands in for lang/graph/expansion.c and lang/tape/tape_series.c: the page has no method of Taylor series yet, and
+ * its module is small without them. No series can be made, so no other call ever follows. */
 #include "lang/graph/expansion.h"
 #include "lang/tape/tape_code.h"
 #include "lang/tape/tape_series.h"
