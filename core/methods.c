@@ -433,6 +433,7 @@ const row methods_table[] = {
       .family = RUNGE_KUTTA, .adaptive = true, .compensated = true,
       .tableau = {.stages = 6, .c = FINE5_C, .a = FINE5_A, .b = FINE5_B, .aa = FINE5_AA, .bb = FINE5_BB,
                   .error = FINE5_ERROR, .error_x = FINE5_ERROR_X, .ending = true, .order = 4} },
+#ifndef ONE_COPY /* the page has none of them yet */
     /* Symmetric splittings with steps that can be taken backward: step/density.h. */
     { .card = { CARD("verlet-reversible", "adaptive-verlet", "splitting", 2, 2, 3, XT, 0, 1, 2.0),
        .title = "Verlet, reversible steps",
@@ -460,6 +461,7 @@ const row methods_table[] = {
        .formula = "kahan-li8 with h = ε T, T the motion's time scale as in verlet-reversible" IMPLICIT_KICKS,
        .use = "As verlet-reversible, at 1e-8 and better, and for forces that depend on the velocity.", .adaptive = 1 },
       .family = SPLITTING, .adaptive = true, .density = true, .compensated = true, KAHAN_LI8 },
+#endif
 
     /* Implicit: Newmark, and collocation at the Gauss nodes, whose coefficients step/collocation.h makes. */
     NEWMARK(2, 1,

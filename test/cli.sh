@@ -475,7 +475,7 @@ that "... and leaves the model's method and step aside" holds '.method != "verle
 status=$?
 that "an accuracy out of reach is said after the numbers" eval "[ $status = 1 ] && grep -q 'accuracy 1e-15 of the motion.s size is not reached' '$out' && grep -qF 'the accuracy 1e-15 cannot be reached: the best is' '$err'"
 "$motus" check nostep.motus >"$out" 2>"$err"
-that "check names the method that auto takes, and why" eval "grep -A1 '^auto' '$out' | grep -qE '[a-z0-9]+ needs the fewest operations: .*at tolerance 1e-10'"
+that "check names the method that auto takes, and why" eval "grep -A1 '^auto' '$out' | grep -qE '[a-z0-9]+ needs the fewest operations: '"
 "$motus" check nostep.motus --json >"$out" 2>"$err"
 that "... in JSON" holds '.auto.method as $m | .auto.why | startswith($m)'
 refuses "accuracy and tolerance" 2 "an accuracy and a tolerance are given" "$motus" run nostep.motus --accuracy 1e-6 --tolerance 1e-6
