@@ -60,6 +60,16 @@ motus_status choice_compile(motus_system *s, const chosen *chosen, bool must, bo
     return MOTUS_TOOL;
 }
 
+motus_status choice_weigh(motus_system *s, weight *out, motus_error *err)
+{
+    if (!s->weighed) {
+        const program *p = program_create(s->model->graph, s->model->accel, s->model->accel_count);
+        s->weighed = p && weigh(&s->arena, p, s->model->ints, &s->weight);
+    }
+    *out = s->weight;
+    return s->weighed ? MOTUS_OK : fail(err, MOTUS_MEMORY, "no memory to count the operations of the equations");
+}
+
 /* Below this much work for the interpreter, compiling (some 0.1 s when the cache is cold) does not pay. */
 #define WORTH_COMPILING 1e8
 /* A compiler's time grows with the text: this much work for each operation in it. */

@@ -12,7 +12,6 @@
 #include "api/run.h"
 
 #include "core/stepper_body.h"
-#include "lang/graph/weigh.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -105,10 +104,7 @@ static motus_status weigh_equations(fleet *f, motus_error *err)
     motus_system *s = f->system;
     const double numbers = (double)(s->problem.nx + s->problem.nv);
     f->weight = (weight){.values = CALLBACK_OPERATIONS * numbers};
-    if (!s->model) return MOTUS_OK;
-    const program *p = program_create(s->model->graph, s->model->accel, s->model->accel_count);
-    if (p && weigh(&s->arena, p, s->model->ints, &f->weight)) return MOTUS_OK;
-    return fail(err, MOTUS_MEMORY, "no memory to count the operations of the equations");
+    return s->model ? choice_weigh(s, &f->weight, err) : MOTUS_OK;
 }
 
 motus_status pilot_choose(motus_system *s, const motus_run_def *def, pilot *out, motus_error *err)

@@ -6,6 +6,7 @@
  * step: then the run alone has passed a pole, or its step only does not resolve the force. Invariant: a step that
  * agrees with the controlled ones, which pass no pole, is not accused, however near to one it leads.
  */
+#include "api/choice.h"
 #include "api/pole.h"
 #include "api/run.h"
 #include "api/vector.h"
@@ -229,8 +230,13 @@ static motus_status walk(judge *j, motus_error *err)
     motus_run *r = j->run;
     const model *m = r->system->model;
     const double evaluations = r->card->evaluations ? r->card->evaluations : 4 * r->card->stages;
-    int64_t left = (int64_t)(MOTUS_SINGULAR_WORK / ((evaluations + 2) * (m->graph->count + 4.0 * (double)m->nv)));
-    motus_status status = observe(j, &j->from, NULL);
+    weight weight;
+    motus_status status = choice_weigh(r->system, &weight, err);
+    if (status != MOTUS_OK) return status;
+    /* where there are loops an evaluation takes more operations than the graph has */
+    const double operations = fmax(weight.values, m->graph->count) + 4.0 * (double)m->nv;
+    int64_t left = (int64_t)(MOTUS_SINGULAR_WORK / ((evaluations + 2) * operations));
+    status = observe(j, &j->from, NULL);
     while (status == MOTUS_OK && left-- > 0 && j->pieces < PIECES_MAX && !motus_run_done(r)) {
         status = motus_run_step(r, 1, NULL);
         if (status == MOTUS_OK) status = observe(j, &j->to, NULL);

@@ -9,6 +9,7 @@
 
 #include "api/check.h"
 #include "base/modes.h"
+#include "lang/graph/weigh.h"
 #include "lang/model/resolution.h"
 #include "machine/compiled.h"
 
@@ -34,6 +35,8 @@ struct motus_system {
     bool switches_known;
     resolution *poles; /* NULL until a run is asked for a singularity, and where the force has no poles */
     bool poles_known;
+    weight weight; /* of the equations, where `weighed` */
+    bool weighed;
     const char *switches_refused; /* why they cannot be located; NULL */
     double start;
     double *x0, *v0;

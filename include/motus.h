@@ -659,8 +659,8 @@ MOTUS_API motus_status motus_run_statistics(const motus_run *, motus_statistics 
  * number, but not the motion. MOTUS_SINGULAR: it does, in a step that begins at err->time. MOTUS_UNRESOLVED: such a
  * step comes near to one, or to a narrow peak of the force, and leads elsewhere than smaller ones. The call takes the
  * run's steps once more, by the interpreter, so that runs cost no more; it stops after MOTUS_SINGULAR_WORK operations,
- * and where a step fails. MOTUS_OK besides: also for a callback and for a model with families, whose poles are not
- * known. The definition's hooks are not called. Fails besides as motus_run_create does. */
+ * which count all cells and all terms of sums, and where a step fails. MOTUS_OK besides: also for a callback, whose
+ * poles are not known. The definition's hooks are not called. Fails besides as motus_run_create does. */
 #define MOTUS_SINGULAR_WORK 2e7
 MOTUS_API motus_status motus_run_singular(motus_system *, const motus_run_def *, motus_error *);
 /* Why the run's method was chosen, one sentence, where the method is "auto"; else "". Owned by the run. */

@@ -75,7 +75,7 @@ async function byTask(page, condition, k) {
 /** What the page shows of a lesson's numbers once a task is done, by its number; -1: when the motion has been let go. */
 const checks = {
   'straight-steps': async (page, k, name) => {
-    if (k < 2 && await page.locator('.dial .steps').isVisible()) same(`${name}: as many pieces`, (await shown(page, '.dial .steps'))[0].replace(/\D/g, ''), ['10', '5', '160'][k + 1]);
+    if (k < 2 && await page.locator('.scale-step .steps').isVisible()) same(`${name}: as many pieces`, (await shown(page, '.scale-step .steps'))[0].replace(/\D/g, ''), ['10', '5', '160'][k + 1]);
   },
   'look-ahead': async (page, k, name) => {
     if (k !== 1) return;
@@ -89,7 +89,7 @@ const checks = {
     if (k !== 2 || page.phone) return;
     const [, wide] = /(\d\.\d)×10⁷ times/.exec(await drawn(page)) ?? [];
     judge(`${name}: about eighty million`, Math.round(Number(wide)) === 8, wide);
-    same(`${name}: thirty steps`, (await shown(page, '.dial .steps'))[0].replace(/\D/g, ''), '30');
+    same(`${name}: thirty steps`, (await shown(page, '.scale-step .steps'))[0].replace(/\D/g, ''), '30');
   },
 };
 /** Half the step makes so many times less; as the texts say of each order. */
