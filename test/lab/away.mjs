@@ -90,7 +90,7 @@ await attempt('the snippet', async () => {
   const other = await serve(place), outer = await open(`${other.address}other.html`, { settle: false }), inner = outer.frameLocator('iframe');
   await inner.locator('.scale-step').waitFor();
   await inner.locator('canvas.stage-still[aria-label*="from t = 0 to 2"]').waitFor();
-  same('in another page it shows the motion with its sliders', [await inner.locator('.dial').count(), await inner.locator('.embed-link').getAttribute('target')], [2, '_blank']);
+  same('in another page it shows the motion with its sliders', [await inner.locator('.dial:visible').count(), await inner.locator('.embed-link').getAttribute('target')], [2, '_blank']);
   await clean('another page', outer, /404/);
 
   const disk = await open(singleFile), share = await shareOf(disk);
