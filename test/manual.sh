@@ -84,6 +84,13 @@ printf "k = 2\nm = 1\nx'' = -1/2x\nx(0) = 1\nx'(0) = 0\n" >"$place/wrong.motus"
 (cd "$place" && mv wrong.motus spring.motus && NO_COLOR=1 "$motus" check spring.motus 2>&1) | sed 's/[ ]*$//' | grep -v '^$' >"$place/said"
 sed -n '/^spring\.motus:3:/,/^```/p' doc/manual.md | sed '$d' >"$place/told"
 judge "the error that the manual shows is the program's" "$(diff "$place/told" "$place/said")"
+# The three lines, and the answer below them.
+sed -n "/^### Accuracy and tolerance/,/^\*\*/{/^x''/,/^until/p}" doc/manual.md >"$place/three.motus"
+judge "the manual's three lines give the answer that it shows" "$(out=$("$motus" run "$place/three.motus" 2>&1)
+    sed -n '/^### Accuracy and tolerance/,/^\*\*/{/ ± /p;/^accuracy 1e/p;/^auto:/p}' doc/manual.md |
+        while IFS= read -r line; do grep -qxF -- "$line" <<<"$out" || echo "$line"; done)"
+judge "... and the README's" "$(line=$(grep -oE 'prints `x [0-9.]+ ± [0-9e-]+`' README.md | sed 's/prints `x //; s/`//')
+    [ -n "$line" ] && "$motus" run "$place/three.motus" 2>&1 | grep -qF -- "$line" || echo "README: $line")"
 
 echo "$passed passed, $failed failed"
 [ $failed = 0 ]
