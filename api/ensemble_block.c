@@ -115,6 +115,8 @@ static motus_status run(trajectory_block *b, motus_error *err)
     timing *t = &b->w->timing; /* where ends vary, a block has one trajectory */
     const machine m = {.name = b->w->machine.name, .problem = &b->problem};
     motus_status status = start(b, err);
+    stepper_destroy(b->w->stepper); /* of trajectories that went one at a time, with their errors */
+    b->w->stepper = NULL;
     if (status == MOTUS_OK) status = ensemble_timing(e, b->places, b->first, t, err);
     if (status == MOTUS_OK)
         status = stepper_create(&m, &e->chosen, t->t0, t->h, b->x, b->v, &e->allocator, &b->w->stepper, err);
