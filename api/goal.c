@@ -88,8 +88,7 @@ static motus_status settle(motus_system *s, motus_run_def *def, const wish *w, m
     motus_status status = choice_method(s, w->automatic ? PILOT_FIRST : def->method, &c, &card, err);
     if (status == MOTUS_OK) status = suggest_missing(s, &c, c.name, def->start, &step, &def->until, err);
     if (status == MOTUS_OK) status = run_timing(s, &c, step, def->until, def->start, &t, err);
-    def->until = t.until;
-    def->start = t.t0;
+    if (status == MOTUS_OK) def->until = t.until, def->start = t.t0;
     return status;
 }
 
