@@ -52,9 +52,9 @@ static double expansion(const fleet *f, const motus_run *r, double order)
     return 0.5 * (f->weight.products * order * (order + 1) / 2 + (f->weight.sums + 6 * numbers) * order);
 }
 
-static double work_of(const fleet *f, const motus_run *r)
+/* order: of its Taylor series; 0: it is another method. */
+static double work_of(const fleet *f, const motus_run *r, int order)
 {
-    const int order = stepper_plan(&r->system->problem, &r->chosen, NULL).expands;
     if (order) return (double)motus_run_steps(r) * expansion(f, r, order);
     return (double)motus_run_evaluations(r) * (f->weight.values + overhead(r));
 }
@@ -67,11 +67,12 @@ static motus_status fly(fleet *f, size_t k, motus_error *err)
     def.method = f->names[k];
     if (!isnan(f->until)) def.until = f->until;
     motus_status status = motus_run_create(f->system, &def, &r, err);
-    while (status == MOTUS_OK && !motus_run_done(r) && work_of(f, r) < FAR * f->best &&
+    const int order = r ? stepper_plan(&f->system->problem, &r->chosen, NULL).expands : 0;
+    while (status == MOTUS_OK && !motus_run_done(r) && work_of(f, r, order) < FAR * f->best &&
            !(isnan(f->until) && motus_run_steps(r) >= STEPS))
         status = motus_run_step(r, CHUNK, err);
     if (status == MOTUS_OK) {
-        f->work[k] = work_of(f, r);
+        f->work[k] = work_of(f, r, order);
         f->steps[k] = (double)motus_run_steps(r);
         if (isnan(f->until)) f->until = motus_run_time(r);
     }

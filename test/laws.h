@@ -70,6 +70,8 @@ quad_count quad_adapt(method, const quad_problem *, quad tolerance, quad until, 
  * interpolant through the ends of that step takes *end for its end; NULL: that of the method. */
 quad_count quad_dense(method, const quad_problem *, quad t0, quad h, int64_t steps, quad part, const quad_state *end,
                       quad_state *state);
+/* The acceleration of a planet around a mass of 1 at the origin, in the plane, in doubles. */
+int laws_kepler(void *ctx, double t, double *x, double *v, double *a);
 /* One step of Verlet's recursion from two given points. */
 void quad_recursion(const quad_problem *, quad t, quad h, const quad *before, const quad *now, quad *after);
 /* The motion by an extrapolated midpoint rule, which shares no code with step/. */

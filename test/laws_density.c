@@ -95,15 +95,6 @@ static void evaluations(method m, const quad_problem *p)
           "%lld in %lld steps", (long long)count.evaluations, (long long)steps);
 }
 
-static int kepler(void *ctx, double t, double *x, double *v, double *a)
-{
-    (void)ctx, (void)t, (void)v;
-    const double square = x[0] * x[0] + x[1] * x[1], cube = square * sqrt(square);
-    a[0] = -x[0] / cube;
-    a[1] = -x[1] / cube;
-    return 0;
-}
-
 /* The largest error of the energy in this many periods, and in the first ten, after every step. */
 static bool follow(stepper *s, double periods, double *soon, double *late)
 {
@@ -120,7 +111,7 @@ static bool follow(stepper *s, double periods, double *soon, double *late)
 
 static void energy(method m)
 {
-    const problem p = {.nx = 2, .nv = 2, .accel = kepler, .traits = {.gradient = true, .smooth = true}};
+    const problem p = {.nx = 2, .nv = 2, .accel = laws_kepler, .traits = {.gradient = true, .smooth = true}};
     const double e = 0.9, x[2] = {1 - e, 0}, v[2] = {0, sqrt((1 + e) / (1 - e))};
     double soon = 0, late = 0;
     chosen c;

@@ -275,7 +275,7 @@ static void fitted(method m)
           "off by %.1e, sums of drifts by %.1e", (double)off, (double)miss);
 }
 
-static int kepler(void *ctx, double t, double *x, double *v, double *a)
+int laws_kepler(void *ctx, double t, double *x, double *v, double *a)
 {
     (void)ctx, (void)t, (void)v;
     const double square = x[0] * x[0] + x[1] * x[1], cube = square * sqrt(square);
@@ -287,7 +287,7 @@ static int kepler(void *ctx, double t, double *x, double *v, double *a)
 /* The energy of a planet, which is -1/2, off by these numbers after so many steps and after SPREAD times as many. */
 static bool energies(method m, double e, int steps, int spread, double off[2])
 {
-    const problem p = {.nx = 2, .nv = 2, .accel = kepler, .traits = {.gradient = true, .smooth = true}};
+    const problem p = {.nx = 2, .nv = 2, .accel = laws_kepler, .traits = {.gradient = true, .smooth = true}};
     const double h = 2 * M_PI / 40, x[2] = {1 - e, 0}, v[2] = {0, sqrt((1 + e) / (1 - e))};
     const double first = (v[0] * v[0] + v[1] * v[1]) / 2 - 1 / x[0];
     chosen c;
