@@ -256,6 +256,7 @@ stepper_way stepper_way_of(double t0, double h, double until)
     /* h and the quotient are rounded, so a remainder of a few roundings of q is no step of its own. */
     const double q = fabs(until - t0) / fabs(h), n = nearbyint(q);
     if (q > 0 && n == 0) return (stepper_way){0, until - t0}; /* a step longer than the way is cut to it */
+    if (q >= 0x1p63) return (stepper_way){INT64_MAX, 0};
     if (fabs(q - n) <= 8 * 0x1p-52 * (q + 1)) return (stepper_way){(int64_t)n, 0};
     const double whole = floor(q);
     return (stepper_way){(int64_t)whole, until - (t0 + whole * h)};

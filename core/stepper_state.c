@@ -211,8 +211,8 @@ static bool marked(const stepper *s, double t)
 int64_t stepper_steps_before(const stepper *s, double t)
 {
     const work *w = &s->work;
-    const stepper_way way = stepper_way_of(w->t0, w->h, s->until);
     if (w->carried || s->arrived) return 0;
+    const stepper_way way = stepper_way_of(w->t0, w->h, s->until);
     const double q = floor((t - w->t0) / w->h), sign = w->h < 0 ? -1 : 1;
     int64_t n = q >= (double)way.whole ? way.whole : (int64_t)q;
     if (sign * (stepper_time_of(s, n) - t) > 0) n--; /* the quotient was rounded up */
