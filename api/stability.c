@@ -62,6 +62,19 @@ static int jvp(void *ctx, double t, double *x, double *v, const double *dx, cons
     return 0;
 }
 
+/* Taylor series: those of x and v, `length` numbers each, give coefficient n of a. */
+static size_t series_numbers(void *ctx, int length) { return (void)ctx, (size_t)length; }
+
+static void series(void *ctx, int length, int n, double t, double *x, double *v, double *a, double *kept)
+{
+    const plane *p = ctx;
+    (void)t, (void)kept;
+    for (size_t k = 0; k < 2 * p->count; k++) {
+        const size_t at = k * (size_t)length + (size_t)n;
+        a[k] = p->damping[k] * v[at] + p->stiffness[k] * x[at];
+    }
+}
+
 static void pattern(void *ctx, bool in_v, void (*emit)(void *arg, size_t row, size_t column), void *arg)
 {
     const plane *p = ctx;
@@ -86,7 +99,8 @@ static bool admitted(const plane *p, bool on_axis, traits *out)
                     .constant_jv = true,
                     .affine = true,
                     .gradient = on_axis,
-                    .smooth = true};
+                    .smooth = true,
+                    .series = true};
     if (row_admits(&p->chosen, out, NULL) == MOTUS_OK) return true;
     out->velocity = out->gyroscopic = on_axis;
     return on_axis && row_admits(&p->chosen, out, NULL) == MOTUS_OK;
@@ -98,8 +112,15 @@ static bool admitted(const plane *p, bool on_axis, traits *out)
 static motus_status walk(plane *p, const traits *traits, matrix *first, matrix *next, motus_error *err)
 {
     const size_t n = 2 * p->count;
-    const problem problem = {
-        .ctx = p, .nx = n, .nv = n, .traits = *traits, .accel = accel, .jvp = jvp, .pattern = pattern};
+    const problem problem = {.ctx = p,
+                             .nx = n,
+                             .nv = n,
+                             .traits = *traits,
+                             .accel = accel,
+                             .jvp = jvp,
+                             .pattern = pattern,
+                             .series_numbers = series_numbers,
+                             .series = series};
     double x[PLACES], v[PLACES];
     for (size_t k = 0; k < n; k++) {
         x[k] = k % 2 == 0;

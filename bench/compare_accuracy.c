@@ -111,14 +111,11 @@ static int all_codes(code *codes, const motus_system *system)
         {.name = "SUNDIALS adams", .run = by_sundials}, {.name = "SciPy DOP853", .run = by_scipy}};
     enum { PEERS = sizeof peers / sizeof *peers };
     int count = 0;
-    bool taylor = false;
-    for (size_t k = 0; k < motus_method_count() && count < CODES_MAX - PEERS - 1; k++) {
+    for (size_t k = 0; k < motus_method_count() && count < CODES_MAX - PEERS; k++) {
         const motus_method *m = motus_method_at(k);
         if (!m->adaptive || motus_method_admits(system, m->name, NULL)) continue;
-        taylor |= !strcmp(m->name, "taylor");
         codes[count++] = (code){.name = m->name, .ours = true, .run = by_ours};
     }
-    if (!taylor) codes[count++] = (code){.name = "taylor", .ours = true, .run = by_ours};
     for (int k = 0; k < PEERS; k++) codes[count++] = peers[k];
     return count;
 }

@@ -77,10 +77,9 @@ static bool choose(fleet *f)
 {
     const char *method = NULL;
     double least = INFINITY, tolerance = NAN;
-    for (size_t m = 0; m <= motus_method_count(); m++) {
-        const bool last = m == motus_method_count();
-        if (!last && (!motus_method_at(m)->adaptive || motus_method_at(m)->order < 5)) continue;
-        f->method = last ? "taylor" : motus_method_at(m)->name;
+    for (size_t m = 0; m < motus_method_count(); m++) {
+        if (!motus_method_at(m)->adaptive || motus_method_at(m)->order < 5) continue;
+        f->method = motus_method_at(m)->name;
         if (!strncmp(f->method, "dep", 3)) continue; /* forces that are free of v */
         for (int k = 0; k < 8; k++) {
             f->tolerance = (k % 2 ? 3e-8 : 1e-7) * pow(10, -(k / 2));

@@ -534,6 +534,16 @@ const row methods_table[] = {
        .use = "Order 15 for any force: positions to round-off, and an energy error that grows like the square root\n"
               "of time." },
       .family = RADAU, .compensated = true, .tableau = {.stages = 8} },
+
+    /* Taylor series of the equations. Those of the velocities end one power before those of the positions. */
+    { .card = { CARD("taylor", "taylor-series", "taylor", 23, 23, 23, XVT, 0, 0, 1.707179728091783),
+       .title = "Taylor series",
+       .cite = "JZ05",
+       .formula = "x₁ = x + h v + h²/2 a + h³/6 a′ + … + h²⁴/24! a⁽²²⁾, as long as its last coefficients allow;\n"
+                  "at larger tolerances of lower order, down to 5",
+       .use = "The most digits for the least time, where the force is smooth. It needs the equations as\n"
+              "formulas, so it does not take a callback.", .adaptive = 1 },
+      .family = TAYLOR, .compensated = true, .adaptive = true, .sizes = true, .expands = true },
 #endif
 
     { .card = { CARD("exact", "closed-form", "exact", 0, 0, 0, XVT, 1, 1, INFINITY),
@@ -548,16 +558,3 @@ const size_t methods_count = sizeof methods_table / sizeof *methods_table;
 
 const row methods_newmark_damped =
     NEWMARK(1, 0, "Newmark's method with γ other than 1/2: it damps high frequencies (γ > 1/2) and is of order 1.");
-
-#ifndef ONE_COPY
-/* clang-format off */
-const row methods_taylor =
-    { .card = { CARD("taylor", "", "taylor", 24, 23, 23, XVT, 0, 0, 0.0), .adaptive = 1,
-       .title = "Taylor series",
-       .cite = "JZ05",
-       .formula = "x₁ = x + h v + h²/2 a + h³/6 a′ + … + h²⁴/24! a⁽²²⁾, with the step that the last coefficients allow",
-       .use = "The most digits for the least time, where the force is smooth: each step is as long as the\n"
-              "series allow." },
-      .family = TAYLOR, .compensated = true, .adaptive = true, .sizes = true };
-/* clang-format on */
-#endif

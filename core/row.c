@@ -52,10 +52,6 @@ static const row *find(const char *name, size_t length)
             return &methods_table[k];
     for (size_t k = 0; k < methods_count; k++)
         if (also_called(&methods_table[k].card, name, length)) return &methods_table[k];
-#ifndef ONE_COPY
-    const motus_method *taylor = &methods_taylor.card;
-    if (same(name, length, taylor->name, strlen(taylor->name))) return &methods_taylor;
-#endif
     return NULL;
 }
 
@@ -195,10 +191,7 @@ static const char *reason(const row *row, const traits *traits)
     if (traits->quadrature && row->family == SPLITTING)
         return row->nystrom ? "a first-order variable depends on the velocity, and then this method loses its order"
                             : "";
-#ifndef ONE_COPY
-    if (row->family == TAYLOR && !traits->series)
-        return "the acceleration is a callback, and Taylor series need its formula";
-#endif
+    if (row->expands && !traits->series) return "the acceleration is a callback, and Taylor series need its formula";
     if (traits->velocity && row->card.forces != MOTUS_FORCES_XVT)
         return traits->first_order
                    ? "the right sides depend on a velocity or a first-order variable, and this method's kicks must not"

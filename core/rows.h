@@ -22,7 +22,5 @@ extern const row methods_table[];
 extern const size_t methods_count;
 /* newmark with gamma other than 1/2: order 1, not reversible; not in the catalogue */
 extern const row methods_newmark_damped;
-/* by its name alone: not in the catalogue either, whose laws and studies take functions that have no formula */
-extern const row methods_taylor;
 
 #endif

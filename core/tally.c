@@ -29,9 +29,14 @@ double tally_number(const tally *t, int which)
 }
 
 /* The acceleration at the start of a step is the last one of the step before, or belongs to the step, whose refused
- * candidates have it too; the other stages belong to a candidate. */
+ * candidates have it too; the other stages belong to a candidate. Of a Taylor series every order but the last two is an
+ * evaluation, once a step; a refused candidate takes the one at its end, and the size of the first step one. */
 bool tally_evaluations(const work *plan, tally *t)
 {
+    if (plan->expands) {
+        t->evaluations = t->steps * (plan->expands - 1) + t->refused + (t->steps > 0);
+        return true;
+    }
     if (plan->row->family != RUNGE_KUTTA || !plan->row->adaptive) return false;
     const bool last_is_first = plan->ending || plan->closing;
     const int64_t starts = last_is_first && t->steps > 0 ? 1 : t->steps;

@@ -229,7 +229,7 @@ static const stepper_body *body_of(compiled *c, const chosen *chosen, int how)
     emit e = {.text = {.arena = c->model->arena}, .pool = chosen->varies ? NULL : c->model->pool};
     if (!write_text(c, chosen, &e)) return NULL;
     /* the loops of Taylor series are short, and their sums run in order */
-    if (!compose_small(c->model) && chosen->row->family != TAYLOR) how |= COMPILER_LOOPS;
+    if (!compose_small(c->model) && !chosen->row->expands) how |= COMPILER_LOOPS;
     void *handle = cache_load(e.text.bytes, e.text.length, how, c->note, sizeof c->note);
     if (!handle) return NULL;
     void (*bind)(const double *, const int64_t *, double *);

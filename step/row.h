@@ -17,6 +17,7 @@ struct row {
     /* a step is a candidate that is accepted or refused, and the step size follows from its error */
     bool adaptive;
     bool sizes;      /* adaptive: the step finds its own size */
+    bool expands;    /* its steps need the Taylor series of the equations, so these must be formulas */
     bool density;    /* adaptive: steps follow the time scale of the motion, and can be taken backward (density.h) */
     bool gyroscopic; /* the kick is implicit in v; only for a = E(x, t) + v × B(x, t) */
     struct {         /* SPLITTING: v += kick[i] h a, then x += drift[i] h v, for i = 0 … stages-1 */

@@ -225,9 +225,10 @@ static inline void taylor_place(work *w, placing *p)
 #ifdef ROWS
 /* Work goes with the square of the order, and the step with tolerance^(1/order): least at 1 - log(tolerance)/2
  * [JZ05, 3.2.1]. Sums of few terms wait for one another as long as sums of some more, which favours a fifth more:
- * order 24 for steps that lose 1e-16. */
+ * order 24 for steps that lose 1e-16, and where a step is given and any error allowed. */
 static int taylor_order(const coef tolerance)
 {
+    if (!FINITE(tolerance)) return 24;
     const coef order = 2 - (coef)0.416 * control_log2(tolerance);
     return order < 6 ? 6 : order > 24 ? 24 : (int)order;
 }

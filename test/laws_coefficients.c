@@ -12,12 +12,10 @@ typedef quad coef;
 #define methods_table plain_table
 #define methods_count plain_count
 #define methods_newmark_damped plain_newmark_damped
-#define methods_taylor plain_taylor
 #include "core/methods.c"
 #undef methods_table
 #undef methods_count
 #undef methods_newmark_damped
-#undef methods_taylor
 #undef K
 
 /* sizeof "0.5" is 4: a digit, the point, one decimal, the end; a sign and a second digit make it longer. */
@@ -32,7 +30,6 @@ typedef quad coef;
 #define methods_table moved_table
 #define methods_count moved_count
 #define methods_newmark_damped moved_newmark_damped
-#define methods_taylor moved_taylor
 #include "core/methods.c"
 #undef methods_table
 

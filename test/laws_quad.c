@@ -11,7 +11,6 @@ typedef quad coef;
 #define methods_table quad_methods_table
 #define methods_count quad_methods_count
 #define methods_newmark_damped quad_methods_newmark_damped
-#define methods_taylor quad_methods_taylor
 #include "core/methods.c"
 
 #include <stdint.h>

@@ -328,7 +328,7 @@ void laws_of_stability(void)
     for (method m = 0; m < row_count(); m++) {
         const motus_method *card = row_card(m);
         /* boris needs a velocity term; without one it is leapfrog */
-        if (methods_table[m].family == EXACT || methods_table[m].gyroscopic) continue;
+        if (methods_table[m].family == EXACT || methods_table[m].gyroscopic || methods_table[m].expands) continue;
         limit(m);
         fitted(m);
         if (card->order >= 6 || card->order == 4) compensation(m);

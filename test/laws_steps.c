@@ -244,7 +244,7 @@ void laws_of_steps(void)
             as_collocation(m);
         else if (recurrence(&methods_table[m]))
             as_recurrence(m);
-        else if (methods_table[m].family != EXACT)
+        else if (methods_table[m].family != EXACT && !methods_table[m].expands)
             as_tableau(m);
     }
 }
