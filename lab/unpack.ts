@@ -11,7 +11,7 @@ export function unpack(text: string): Response {
     held |= (digit(text, i) + 91 * digit(text, i + 1)) << bits;
     for (bits += 13; bits >= 8; bits -= 8, held >>= 8) bytes[at++] = held & 255;
   }
-  return new Response(new Blob([bytes.subarray(0, bytes.length - digit(text, 0))]).stream().pipeThrough(new DecompressionStream('gzip')));
+  return new Response(new Blob([bytes.subarray(0, bytes.length - digit(text, 0))]).stream().pipeThrough(new DecompressionStream('deflate')));
 }
 
 /** What stands in an element of the page that no browser runs. */

@@ -1,7 +1,7 @@
 /* Colours and line styles: those of the theme, and one look per method.
  *
  * Invariant: a method looks the same in every picture and every session; no two of the ten that are compared most share a colour, a marker or a
- * dash; no method is green, which is the exact motion's. Every colour has a contrast of 3:1 or more on both themes' surfaces.
+ * dash, nor do the first eight that choose their steps; no two methods share all three; no method is green, which is the exact motion's. Every colour has a contrast of 3:1 or more on both themes' surfaces.
  */
 import type { Look, Marker } from '../scene';
 import type { Method } from '../protocol';
@@ -36,7 +36,8 @@ const COLOURS: readonly (readonly [light: Tones, dark: Tones])[] = [
   [['#D9432E', '#B93420'], ['#FF8A3D', '#FF8A3D']], [['#1F4FE0', '#1F4FE0'], ['#3F86FF', '#6FA5FF']], [['#B97800', '#8A5A00'], ['#FFDD57', '#FFDD57']],
   [['#7A1FC2', '#7A1FC2'], ['#BBA4FF', '#BBA4FF']], [['#0089C7', '#00699A'], ['#4FDDF7', '#4FDDF7']], [['#E0359E', '#B81F7C'], ['#F985C3', '#F985C3']],
   [['#0B4A63', '#0B4A63'], ['#E8F1F2', '#E8F1F2']], [['#7A0F35', '#7A0F35'], ['#F4444F', '#F75860']], [['#6A4A14', '#6A4A14'], ['#9C8A66', '#9C8A66']],
-  [['#1A1468', '#1A1468'], ['#9A6BC9', '#A67DD0']],
+  [['#1A1468', '#1A1468'], ['#9A6BC9', '#A67DD0']], [['#111111', '#111111'], ['#C4457F', '#DB6BA0']], [['#3D6161', '#3D6161'], ['#FFFFB6', '#FFFFB6']],
+  [['#491800', '#491800'], ['#CE2418', '#F0655B']],
 ];
 
 /** The custom properties of a theme; of method k the line is --m<k>, the letters --m<k>t. */
@@ -75,15 +76,28 @@ const ORDER: readonly string[] = [
   'explicit-euler', 'symplectic-euler', 'midpoint', 'verlet', 'rk4', 'velocity-verlet', 'leapfrog', 'forest-ruth', 'implicit-midpoint', 'gauss4',
   'heun', 'boris', 'pefrl', 'yoshida6', 'verlet-literal', 'beeman', 'gauss6', 'ralston', 'rk3', 'yoshida8',
   'symplectic-euler-adjoint', 'kahan-li6', 'ruth3', 'suzuki4', 'mclachlan4', 'newmark', 'kahan-li8', 'blanes-moan4', 'gauss8', 'rk4-38',
-  'blanes-moan6', 'blanes-moan6-14',
+  'blanes-moan6', 'blanes-moan6-14', 'gauss10', 'gauss12', 'gauss14', 'gauss16', 'radau15-fixed',
 ];
+/** The same of methods that choose their steps. They are compared with the five that come first above, and have none of their colours. */
+const CHOOSING = {
+  order: [
+    'dopri5', 'dop853', 'dep12', 'radau15', 'dep6', 'tsit5', 'verner6', 'taylor', 'bs32', 'verner8', 'dep8', 'fine5', 'verner7', 'verner9', 'dep4', 'fine4',
+    'verlet-reversible', 'blanes-moan4-reversible', 'blanes-moan6-reversible', 'kahan-li8-reversible',
+  ],
+  colours: [10, 11, 12, 5, 9, 7, 6, 8],
+};
 
-function place(method: string, catalogue: readonly Method[]): number {
-  const known = ORDER.indexOf(method);
-  if (known >= 0) return known;
-  // A method newer than this list: behind all of it, in the catalogue's order.
-  const row = catalogue.filter((m) => !ORDER.includes(m.name) && m.name !== 'exact').findIndex((m) => m.name === method);
-  return ORDER.length + Math.max(0, row);
+/** A method newer than its list: behind all of it, in the catalogue's order. */
+function place(method: string, order: readonly string[], rows: readonly Method[]): number {
+  const known = order.indexOf(method);
+  return known >= 0 ? known : order.length + Math.max(0, rows.filter((m) => !order.includes(m.name) && m.name !== 'exact').findIndex((m) => m.name === method));
+}
+
+/** Which colour, dash and marker: each further round of the colours meets them again with another dash and another marker. */
+function partsOf(method: string, catalogue: readonly Method[]): { colour: number; dash: number; marker: number } {
+  const adaptive = catalogue.find((m) => m.name === method)?.adaptive ?? false, rows = catalogue.filter((m) => Boolean(m.adaptive) === adaptive);
+  const k = place(method, adaptive ? CHOOSING.order : ORDER, rows), round = Math.floor(k / (adaptive ? CHOOSING.colours.length : 10));
+  return adaptive ? { colour: CHOOSING.colours[k % CHOOSING.colours.length]!, dash: (k + 4 * round + 4) % 10, marker: (k + 3 * round + 2) % 10 } : { colour: k % 10, dash: (k + 3 * round) % 10, marker: (k + 7 * round) % 10 };
 }
 
 /** The same scene in the colours of the present theme. */
@@ -98,12 +112,7 @@ export function looksOf(methods: readonly string[], catalogue: readonly Method[]
     const row = catalogue.find((m) => m.name === bare || m.aliases.includes(bare)), method = row?.name ?? bare;
     const label = (row?.title ?? bare) + name.slice(bare.length);
     if (method === 'exact') return { method: name, label, colour: paint.ink.exact, tone: paint.ink.exact, dash: [], marker: 'circle' };
-    const k = place(method, catalogue), round = Math.floor(k / 10);
-    const [colour, tone] = paint.method(k % 10);
-    return {
-      method: name, label, colour, tone,
-      // Each further ten meets its colour again with another dash and another marker.
-      dash: DASHES[(k + 3 * round) % 10]!, marker: MARKERS[(k + 7 * round) % 10]!,
-    };
+    const { colour, dash, marker } = partsOf(method, catalogue), [line, tone] = paint.method(colour);
+    return { method: name, label, colour: line, tone, dash: DASHES[dash]!, marker: MARKERS[marker]! };
   });
 }

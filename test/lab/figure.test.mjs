@@ -124,7 +124,7 @@ test('every method looks like itself alone, those of tomorrow too', () => {
   globalThis.getComputedStyle = () => ({ getPropertyValue: () => '' });
   globalThis.matchMedia = () => ({ matches: false });
   const today = JSON.parse(execFileSync(process.env.MOTUS ?? fileURLToPath(new URL('../../build/motus', import.meta.url)), ['methods', '--json'])).methods;
-  const tomorrow = Array.from({ length: 40 }, (_, k) => ({ name: `new-${k}`, title: `New ${k}`, aliases: [`n${k}`] }));
+  const tomorrow = Array.from({ length: 40 }, (_, k) => ({ name: `new-${k}`, title: `New ${k}`, aliases: [`n${k}`], adaptive: k % 2 > 0 }));
   const catalogue = [...today, ...tomorrow], seen = new Map();
   for (const method of catalogue) {
     const [look] = f.looksOf([method.name], catalogue);
@@ -152,4 +152,40 @@ test('numbers read as on paper', () => {
   assert.deepEqual([0, -1.5, 1234.5678, 2.5e-9, -1e300, NaN, Infinity, 99999.6, 123456].map((v) => f.readable(v)), ['0', '−1.5000', '1234.6', '2.5×10⁻⁹', '−1×10³⁰⁰', '–', '∞', '1×10⁵', '1.2346×10⁵']);
   assert.equal(f.brief(2.5), '2.5');
   assert.equal(f.brief(100), '100');
+});
+
+/* Oklab [Ottosson 2020] of a colour as it is seen, and by those who lack one of two kinds of cones [Machado, Oliveira and Fernandes 2009]; in it, 0.02 is what two colours differ by when the eye
+ * just tells them apart. */
+const times = (rows, v) => rows.map((row) => row.reduce((sum, c, i) => sum + c * v[i], 0));
+const linear = (colour) => [1, 3, 5].map((i) => parseInt(colour.slice(i, i + 2), 16) / 255).map((c) => (c <= 0.04045 ? c / 12.92 : ((c + 0.055) / 1.055) ** 2.4));
+const EYES = [
+  [[1, 0, 0], [0, 1, 0], [0, 0, 1]], [[0.152286, 1.052583, -0.204868], [0.114503, 0.786281, 0.099216], [-0.003882, -0.048116, 1.051998]],
+  [[0.367322, 0.860646, -0.227968], [0.280085, 0.672501, 0.047413], [-0.01182, 0.04294, 0.968881]],
+];
+const seenAs = (colour) => EYES.map((eye) => {
+  const cones = times([[0.4122214708, 0.5363325363, 0.0514459929], [0.2119034982, 0.6806995451, 0.1073969566], [0.0883024619, 0.2817188376, 0.6299787005]], times(eye, linear(colour)).map((c) => Math.min(1, Math.max(0, c))));
+  return times([[0.2104542553, 0.793617785, -0.0040720468], [1.9779984951, -2.428592205, 0.4505937099], [0.0259040371, 0.7827717662, -0.808675766]], cones.map(Math.cbrt));
+});
+const apart = (a, b) => Math.min(...seenAs(a).map((p, i) => Math.hypot(...p.map((c, k) => c - seenAs(b)[i][k]))));
+const contrast = (a, b) => { const [p, q] = [a, b].map((c) => times([[0.2126, 0.7152, 0.0722]], linear(c))[0] + 0.05); return Math.max(p / q, q / p); };
+
+test('methods that choose their steps are told from the others and from the exact motion, by every eye, on both themes', () => {
+  globalThis.getComputedStyle = () => ({ getPropertyValue: () => '' });
+  globalThis.matchMedia = () => ({ matches: false });
+  const catalogue = JSON.parse(execFileSync(process.env.MOTUS ?? fileURLToPath(new URL('../../build/motus', import.meta.url)), ['methods', '--json'])).methods;
+  const first = ['explicit-euler', 'symplectic-euler', 'midpoint', 'verlet', 'rk4'], choosing = catalogue.filter((m) => m.adaptive).map((m) => m.name), most = ['dopri5', 'dop853', 'dep12'];
+  for (const [theme, grounds] of [['light', ['#FFFFFF', '#F4F5F7']], ['dark', ['#0F1214', '#1B2025']]]) {
+    globalThis.document = { documentElement: { dataset: { theme } } };
+    const look = (name) => f.looksOf([name], catalogue)[0], own = first.map((name) => look(name).colour);
+    for (const name of choosing) assert.ok(!own.includes(look(name).colour), `${name}, ${theme}`);
+    for (const name of most) {
+      for (const other of [...first, ...most, 'exact', 'velocity-verlet', 'kahan-li8']) {
+        if (other !== name) assert.ok(apart(look(name).colour, look(other).colour) > 3 * 0.02, `${name} and ${other}, ${theme}: ${apart(look(name).colour, look(other).colour)}`);
+      }
+    }
+    for (const { name } of catalogue) for (const ground of grounds) {
+      assert.ok(contrast(look(name).colour, ground) >= 3, `${name} on ${ground}`);
+      assert.ok(contrast(look(name).tone, ground) >= 4.5, `letters of ${name} on ${ground}: ${contrast(look(name).tone, ground)}`);
+    }
+  }
 });
