@@ -2,6 +2,7 @@
 #include "api/bars.h"
 
 #include "api/choice.h"
+#include "api/later.h"
 #include "api/shadow.h"
 
 #include <math.h>
@@ -62,6 +63,7 @@ motus_status bars_make(motus_run *r, motus_bars kind, const size_t *columns, con
 void bars_destroy(motus_run *r)
 {
     if (!r->bars) return;
+    if (bars_wait(r)) choice_leave(r->bars->half.system, &r->chosen);
     companion_end(&r->bars->half, &r->allocator);
     companion_end(&r->bars->twin, &r->allocator);
     give(&r->allocator, r->bars->columns);
@@ -69,22 +71,51 @@ void bars_destroy(motus_run *r)
     give(&r->allocator, r->bars);
 }
 
-/* A companion that could not be compiled goes on in the interpreter. */
-static motus_status compile(motus_run *r, companion *c, motus_error *err)
+/* A companion that cannot be compiled, or moved, goes on in the interpreter. */
+static motus_status take_machine(companion *c, compiled_state state, const machine *m)
 {
+    c->waits = state == COMPILED_WAIT;
+    if (state != COMPILED_READY) return MOTUS_OK;
+    motus_error why = motus_default_error();
+    const motus_status status = c->stepper ? stepper_move(&c->stepper, m, &why) : MOTUS_OK;
+    if (status == MOTUS_OK) c->machine = *m;
+    return status == MOTUS_MEMORY ? MOTUS_OK : status;
+}
+
+/* The companion's system is another than the run's; its text is usually the same, and compiled already. */
+static motus_status compile_half(motus_run *r, motus_error *err)
+{
+    companion *c = &r->bars->half;
     const char *why = NULL;
-    motus_system *s = c->system ? c->system : r->system;
-    if (!c->stepper) return MOTUS_OK;
-    motus_status status = choice_compile(s, &r->chosen, false, false, &c->machine, &why, err);
-    return status == MOTUS_OK && !why ? stepper_move(&c->stepper, &c->machine, err) : status;
+    compiled_state state;
+    machine m;
+    if (!c->system) return MOTUS_OK; /* it is made later, for the run's machine */
+    motus_status status = choice_begin(c->system, &r->chosen, &state, &m, &why, err);
+    if (status == MOTUS_OK) status = take_machine(c, state, &m);
+    if (c->waits) later_hurry(r);
+    return status;
 }
 
 motus_status bars_compile(motus_run *r, motus_error *err)
 {
     if (!r->bars) return MOTUS_OK;
     r->bars->kept = false;
-    motus_status status = compile(r, &r->bars->half, err);
-    return status == MOTUS_OK ? compile(r, &r->bars->twin, err) : status;
+    motus_status status = compile_half(r, err);
+    return status == MOTUS_OK ? take_machine(&r->bars->twin, COMPILED_READY, &r->machine) : status;
+}
+
+bool bars_wait(const motus_run *r) { return r->bars && r->bars->half.waits; }
+
+motus_status bars_look(motus_run *r, motus_error *err)
+{
+    const char *why = NULL;
+    compiled_state state;
+    machine m;
+    if (!bars_wait(r)) return MOTUS_OK;
+    companion *c = &r->bars->half;
+    motus_status status = choice_look(c->system, &r->chosen, &state, &m, &why, err);
+    c->waits = state == COMPILED_WAIT;
+    return status == MOTUS_OK ? take_machine(c, state, &m) : status;
 }
 
 void bars_move(motus_run *r)
@@ -127,6 +158,7 @@ motus_status bars_ready(motus_run *r, const uint8_t *affected, motus_error *err)
     r->bars->twin.machine = r->machine;
     r->bars->twin.pace = c->pace;
     if (strcmp(r->machine.name, "compiled") != 0) return MOTUS_OK;
+    if (r->later.automatic) return compile_half(r, err);
     return choice_compile(c->system, &r->chosen, false, r->bars->kept, &c->machine, &why, err);
 }
 

@@ -51,8 +51,11 @@ double bars_of(const bars *, double t, size_t number);
 double bars_worst(const bars *, bool absolute);
 /* From now on there are no bars, and why. The first reason stays. */
 void bars_give_up(motus_run *, const char *format, ...) __attribute__((format(printf, 2, 3)));
-/* The run goes on compiled, and so do its companions. */
+/* The run goes on compiled, and so do its companions, at once or when an object for their system is there. */
 motus_status bars_compile(motus_run *, motus_error *);
+/* Whether they wait for one; and a look for it. */
+bool bars_wait(const motus_run *);
+motus_status bars_look(motus_run *, motus_error *);
 /* The bars come from another run, whose place this one takes. */
 void bars_move(motus_run *);
 void bars_destroy(motus_run *);

@@ -60,6 +60,34 @@ motus_status choice_compile(motus_system *s, const chosen *chosen, bool must, bo
     return MOTUS_TOOL;
 }
 
+static motus_status answer(motus_system *s, const chosen *chosen, compiled_state state, machine *out, motus_error *err)
+{
+    if (state == COMPILED_READY) return compiled_machine(s->compiled, chosen, out, err);
+    return s->arena.failed ? fail(err, MOTUS_MEMORY, "no memory for the compiled model") : MOTUS_OK;
+}
+
+motus_status choice_begin(motus_system *s, const chosen *chosen, compiled_state *state, machine *out, const char **why,
+                          motus_error *err)
+{
+    *state = COMPILED_FAILED;
+    if (!s->compiled) {
+        motus_status status = compiled_create(s->model, &s->problem, &s->compiled, err);
+        if (status != MOTUS_OK) return status;
+    }
+    *state = compiled_begin(s->compiled, chosen, why);
+    return answer(s, chosen, *state, out, err);
+}
+
+motus_status choice_look(motus_system *s, const chosen *chosen, compiled_state *state, machine *out, const char **why,
+                         motus_error *err)
+{
+    *state = compiled_look(s->compiled, chosen, why);
+    if (*state != COMPILED_WAIT) compiled_leave(s->compiled, chosen);
+    return answer(s, chosen, *state, out, err);
+}
+
+void choice_leave(motus_system *s, const chosen *chosen) { compiled_leave(s->compiled, chosen); }
+
 motus_status choice_weigh(motus_system *s, weight *out, motus_error *err)
 {
     if (!s->weighed) {

@@ -15,6 +15,13 @@ motus_status choice_machine(const char *wanted, bool *automatic, bool *compiled,
  * machine; or the reason why there is none, which is an error where the caller asked for it by name (`must`). */
 motus_status choice_compile(motus_system *, const chosen *, bool must, bool kept, machine *out, const char **why,
                             motus_error *);
+/* The same without waiting for a compiler: READY, and *out is the machine; FAILED, and *why says why; or WAIT: look
+ * again, or leave. */
+motus_status choice_begin(motus_system *, const chosen *, compiled_state *, machine *out, const char **why,
+                          motus_error *);
+motus_status choice_look(motus_system *, const chosen *, compiled_state *, machine *out, const char **why,
+                         motus_error *);
+void choice_leave(motus_system *, const chosen *);
 /* The operations of the model's equations, in all cells and all terms of sums. MOTUS_MEMORY. */
 motus_status choice_weigh(motus_system *, weight *, motus_error *);
 /* The work of so many steps relative to the compiler's. At 1 and more compiling pays; at CHOICE_KEPT and more it

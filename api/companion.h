@@ -11,6 +11,7 @@
 typedef struct companion {
     motus_system *system; /* its own; NULL: the run's */
     machine machine;
+    bool waits; /* a compiler is at work for its system */
     stepper *stepper;
     double *x, *v; /* its state at the last landing, in the inside order */
     double t;      /* of the last landing */

@@ -53,6 +53,7 @@ static const layout layouts[] = {
                                                         .shortest_step = NAN,
                                                         .longest_step = NAN,
                                                         .jump = -1,
+                                                        .compiled_from = -1,
                                                         .jump_time = NAN,
                                                         .jump_power = NAN}},
     [MOTUS_DEF_ESTIMATE] = {"motus_estimate", "estimate", SIZES(motus_estimate),

@@ -7,6 +7,7 @@
 
 #include "api/bars.h"
 #include "api/choice.h"
+#include "api/later.h"
 #include "api/pilot.h"
 #include "api/suggest.h"
 
@@ -143,6 +144,9 @@ bool goal_arrive(motus_run *r, int64_t n)
         bars *const own = r->bars;
         r->stepper = best->stepper;
         best->stepper = mine;
+        later_end(r);
+        r->machine = best->machine;
+        r->compiled_from = best->compiled_from;
         if (own) r->bars = best->bars, best->bars = own, bars_move(r);
         r->first_step = best->first_step;
         r->arrived = true;

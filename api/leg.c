@@ -13,6 +13,7 @@ motus_status motus_run_statistics(const motus_run *r, motus_statistics *out)
     ours.legs = r->legs;
     ours.method = r->chosen.name;
     ours.machine = r->machine.name;
+    ours.compiled_from = r->compiled_from;
     ours.steps = r->before + motus_run_steps(r);
     ours.refused = stepper_refused(r->stepper);
     ours.evaluations = stepper_evaluations(r->stepper);

@@ -5,6 +5,7 @@
 #include "api/choice.h"
 #include "api/control.h"
 #include "api/goal.h"
+#include "api/later.h"
 #include "api/suggest.h"
 
 #include "machine/cache.h"
@@ -12,9 +13,6 @@
 #include <math.h>
 #include <string.h>
 
-#define FIRST_LOOK \
-    0.1          /* a run of unknown length considers compiling when it has done this part of a compiler's work, */
-#define LEFT 0.5 /*   and compiles where as much as this is left */
 #define STEPS_MAX 1e15 /* from the start to `until`: eleven days at a nanosecond a step */
 
 /* ---- creation ---- */
@@ -73,52 +71,10 @@ void run_leg(motus_run *r, const timing *t)
 {
     r->timing = *t;
     r->legs++;
+    if (r->later.waits) later_hurry(r);
 }
 
-/* ---- which machine ---- */
-
-static motus_status choose_machine(motus_run *r, const char *wanted, double steps, motus_error *err)
-{
-    motus_system *s = r->system;
-    bool automatic, compiled;
-    r->machine = s->machine;
-    r->note = "";
-    motus_status status = choice_machine(wanted, &automatic, &compiled, err);
-    if (status != MOTUS_OK || !s->model || !compiled) return status;
-    if (!row_adaptive(&r->chosen)) steps = (double)r->timing.total;
-    /* where it is not known how many steps there are, the run begins in the interpreter, unless an object is there */
-    const double worth = steps > 0 ? choice_worth(s, &r->chosen, r->card, steps) : CHOICE_KEPT;
-    if (automatic && worth < CHOICE_KEPT) return MOTUS_OK;
-    const bool kept = r->kept = automatic && worth < 1;
-    const char *why;
-    status = choice_compile(s, &r->chosen, !automatic, kept, &r->machine, &why, err);
-    if (status == MOTUS_OK && why && !kept) r->note = why;
-    if (why && kept && !(steps > 0)) r->look = (int64_t)ceil(FIRST_LOOK / choice_worth(s, &r->chosen, r->card, 1));
-    return status;
-}
-
-/* Compiles, if the work that is left repays it, and goes on there: nobody waits for the compiler in a short run. */
-static motus_status consider(motus_run *r, motus_error *err)
-{
-    const double steps = (double)motus_run_steps(r), all = r->timing.until - r->timing.t0;
-    const double done = choice_worth(r->system, &r->chosen, r->card, steps) * (r->bars ? 3 : 1);
-    const double part = (stepper_time(r->stepper) - r->timing.t0) / all;
-    const char *why = NULL;
-    machine m;
-    r->look *= 2;
-    if (!(done * (1 - part) >= LEFT * part)) return MOTUS_OK;
-    r->look = 0;
-    motus_status status = choice_compile(r->system, &r->chosen, false, false, &m, &why, err);
-    if (status == MOTUS_OK && why) r->note = why;
-    if (status != MOTUS_OK || why) return status;
-    status = stepper_move(&r->stepper, &m, err);
-    if (status != MOTUS_OK) return status;
-    r->machine = m;
-    r->kept = false;
-    return bars_compile(r, err);
-}
-
-const char *motus_run_note(const motus_run *r) { return r ? r->note : ""; }
+/* ---- the text of the compiled machine ---- */
 
 const char *motus_compiled_text(motus_system *s, const char *method, motus_error *err)
 {
@@ -190,15 +146,13 @@ static motus_status advance_on(motus_run *r, int64_t n, motus_error *err)
     return fail(err, status, "cancelled at t = %s", run_time_text(r, stepper_time(r->stepper), t));
 }
 
-/* The same, and on the way it considers compiling. */
+/* The same, and on the way it goes over to the compiled machine. */
 static motus_status advance(motus_run *r, int64_t n, motus_error *err)
 {
     motus_status status = MOTUS_OK;
-    while (status == MOTUS_OK && r->look && n > 0 && !r->arrived) {
-        const int64_t steps = motus_run_steps(r), piece = r->look - steps;
-        if (piece > 0 && n <= piece) break;
-        if (piece > 0) status = advance_on(r, piece, err), n -= piece;
-        if (status == MOTUS_OK && !r->arrived) status = consider(r, err);
+    for (int64_t room; n > 0 && status == MOTUS_OK && !r->arrived && (room = later_room(r)) < n;) {
+        if (room > 0) status = advance_on(r, room, err), n -= room;
+        if (status == MOTUS_OK && !r->arrived) status = later_look(r, err);
     }
     return status == MOTUS_OK && (n == 0 || !r->arrived) ? advance_on(r, n, err) : status;
 }
@@ -261,6 +215,7 @@ static motus_status go_on(motus_run *r, int64_t n, motus_error *err)
 motus_status run_moved(motus_run *r, motus_error *err)
 {
     r->synchronised = false;
+    if (r->later.waits) later_hurry(r);
     return go_on(r, 0, err);
 }
 
@@ -293,6 +248,7 @@ motus_run *run_new(motus_system *s)
     r->mid_x = r->a + nv;
     r->mid_v = r->mid_x + nx;
     r->first_step = NAN;
+    r->compiled_from = -1;
     return r;
 }
 
@@ -318,9 +274,10 @@ motus_status run_create(motus_system *s, const motus_run_def *complete, const ru
     if (status == MOTUS_OK && (def.threads < 0 || def.threads > MOTUS_THREADS_MAX))
         status = fail(err, MOTUS_ARGUMENT, "a run takes 1 to %d threads, not %d", MOTUS_THREADS_MAX, def.threads);
     r->chosen.threads = def.threads;
-    if (status == MOTUS_OK) status = choose_machine(r, def.machine, hint->steps, err);
+    if (status == MOTUS_OK) status = later_choose(r, def.machine, hint->steps, err);
     if (status == MOTUS_OK) status = locate_prepare(r, def.switches, err);
     if (status == MOTUS_OK) status = bars_prepare(r, &def, err);
+    if (r->locate) later_end(r), r->compiled_from = -1;
     if (status == MOTUS_OK && r->bars) r->bars->kept = r->kept;
     if (status == MOTUS_OK) status = begin(r, &def, err);
     if (status != MOTUS_OK) {
@@ -358,6 +315,7 @@ void motus_run_destroy(motus_run *r)
     if (!r) return;
     motus_allocator a = r->allocator;
     motus_system_hold(r->system, false);
+    later_end(r);
     stepper_destroy(r->stepper);
     locate_destroy(r);
     bars_destroy(r);

@@ -21,6 +21,17 @@ typedef struct bars bars; /* api/bars.h */
 /* A time for a message, with the digits that tell it from the ends of the run. Returns out. */
 char *run_time_text(const struct motus_run *, double t, char out[DECIMAL_MAX]);
 
+/* How it goes on compiled: api/later.h. All bytes 0: it stays on its machine. */
+typedef struct later {
+    bool automatic;  /* nobody named the machine, and compiling pays */
+    bool considers;  /* how long the run is is not known: it is to judge later whether compiling pays */
+    bool waits;      /* a compiler is at work */
+    int64_t look;    /* after so many steps, in all legs, it looks again; 0: no more */
+    int64_t piece;   /* steps from one look for the object to the next */
+    double looked;   /* when */
+    int64_t exactly; /* tests: the step after which it goes over; 0: as soon as it can */
+} later;
+
 struct motus_run {
     motus_system *system;
     machine machine;
@@ -49,7 +60,8 @@ struct motus_run {
     struct locate *locate; /* NULL: they do not */
     bars *bars;            /* of error; NULL: none are asked for */
     bool kept;             /* a compiled object is used only where there is one */
-    int64_t look;          /* after so many steps the run considers compiling; 0: it does not */
+    later later;
+    int64_t compiled_from; /* steps, in all legs, that the interpreter took before; -1: all of them */
     struct trace *trace;   /* of the last step that was traced; NULL */
     struct goal *goal;     /* what it was made for; NULL: a method and a step, or a tolerance, that were given */
 };

@@ -93,7 +93,7 @@ static motus_status put_head(csv *c, const options *o, const motus_run *run, mot
     decimal(adapts ? done.tolerance : motus_run_step_size(run), step);
     snprintf(line, sizeof line, "\n# motus %s, method %s, %s %s%s, machine %s\n", motus_version(),
              motus_run_method(run), adapts ? "tolerance" : "step", step, done.absolute ? " absolute" : "",
-             motus_run_machine(run));
+             o->machine ? o->machine : "auto");
     return status ? status : file_text(c->file, line, err);
 }
 

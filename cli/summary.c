@@ -217,8 +217,12 @@ static void head(const summary *s, FILE *out, bool colours)
     motus_statistics done = motus_default_statistics();
     motus_run_statistics(s->run, &done);
     const int64_t refused = done.refused;
-    fprintf(out, "%s%s%s: %s, %s, %s\n", colours ? "\033[1m" : "", s->model->title, colours ? "\033[0m" : "",
-            motus_run_method(s->run), how, motus_run_machine(s->run));
+    fprintf(out, "%s%s%s: %s, %s, ", colours ? "\033[1m" : "", s->model->title, colours ? "\033[0m" : "",
+            motus_run_method(s->run), how);
+    if (done.compiled_from > 0)
+        fprintf(out, "interpreter, then compiled from step %lld\n", (long long)done.compiled_from + 1);
+    else
+        fprintf(out, "%s\n", done.machine);
     fprintf(out, "t = %s to %s in %lld steps", from, to, (long long)motus_run_steps(s->run));
     if (motus_run_last_step(s->run) != 0) fprintf(out, " (the last one %s)", last);
     if (refused > 0) fprintf(out, " and %lld refused", (long long)refused);
@@ -384,6 +388,14 @@ static void steps_json(json *j, const summary *s)
     json_number(j, "h_max", done.longest_step);
 }
 
+static void machine_json(json *j, const summary *s)
+{
+    motus_statistics done = motus_default_statistics();
+    motus_run_statistics(s->run, &done);
+    json_string(j, "machine", done.machine);
+    json_number(j, "compiled_from", done.compiled_from < 0 ? NAN : (double)done.compiled_from);
+}
+
 motus_status summary_json(const summary *s, motus_error *err)
 {
     double *state = NULL, *quantities = NULL;
@@ -393,7 +405,7 @@ motus_status summary_json(const summary *s, motus_error *err)
         json j = text_json(stdout);
         json_string(&j, "model", s->options->operand);
         json_string(&j, "method", motus_run_method(s->run));
-        json_string(&j, "machine", motus_run_machine(s->run));
+        machine_json(&j, s);
         if (motus_run_choice(s->run)[0]) json_string(&j, "choice", motus_run_choice(s->run));
         steps_json(&j, s);
         settle_json(&j, s->model);

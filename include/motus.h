@@ -582,8 +582,10 @@ typedef struct motus_run_def {
      * bits are the same; but a large system no longer takes several steps in one pass over memory. */
     int (*observer)(void *context, motus_run *);
     /* "interpreter"; "compiled": the equations and the method as machine code, which the C compiler of this computer
-     * makes and the library keeps in $XDG_CACHE_HOME/motus; NULL or "auto": compiled if there is a compiler and the run
-     * is long enough to repay compiling. A system from C calls its callback in any case. The bits are the same. */
+     * makes and the library keeps in $XDG_CACHE_HOME/motus; NULL or "auto": if the run is long enough to repay a
+     * compiler, it begins in the interpreter while the compiler works, as a process of its own, and goes on compiled
+     * at the end of a step. "compiled" waits for the compiler. A system from C calls its callback in any case. The
+     * bits are the same. */
     const char *machine;
     /* The most threads that the compiled machine may use for one large system, 1 … MOTUS_THREADS_MAX; 0: one. A small
      * system uses one thread in any case. The bits are the same. */
@@ -653,6 +655,8 @@ typedef struct motus_statistics {
     double jump_time, jump_rounding, jump_power;
     int absolute; /* 1: the tolerance and the accuracy are absolute */
     int trials;   /* runs to the end that found the tolerance or the step for the accuracy */
+    /* How many steps the interpreter took before the run went on compiled; 0: none; -1: all of them. */
+    int64_t compiled_from;
 } motus_statistics;
 MOTUS_API motus_status motus_run_statistics(const motus_run *, motus_statistics *);
 /* Whether such a run passes a singularity of the force, which its step does not resolve: the state after it is a finite

@@ -10,6 +10,8 @@
  */
 #include "machine/cache.h"
 
+#include "machine/build.h"
+
 #include <dirent.h>
 #include <dlfcn.h>
 #include <errno.h>
@@ -67,8 +69,6 @@ static hash hash_processor(hash h)
 
 /* ---- the directory ---- */
 
-static bool privileged(void) { return geteuid() != getuid() || getegid() != getgid() || getenv("SUDO_UID") != NULL; }
-
 static bool private_directory(int fd)
 {
     struct stat s;
@@ -80,7 +80,7 @@ static const char *directory_of(char *out, size_t size)
 {
     const char *base = getenv("XDG_CACHE_HOME"), *home = getenv("HOME");
     out[0] = 0;
-    if (privileged()) return out;
+    if (build_privileged()) return out;
     if (base && base[0] == '/')
         snprintf(out, size, "%s/motus", base);
     else if (home && home[0] == '/')
@@ -151,14 +151,6 @@ static bool write_all(int fd, const void *bytes, size_t n)
     return true;
 }
 
-static bool write_source(const char *path, const char *text, size_t length)
-{
-    int fd = open(path, O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0600);
-    bool ok = fd >= 0 && write_all(fd, text, length);
-    if (fd >= 0) close(fd);
-    return ok;
-}
-
 static bool put_seal(const char *path)
 {
     int fd = open(path, O_RDWR | O_NOFOLLOW | O_CLOEXEC);
@@ -180,114 +172,113 @@ static bool put_seal(const char *path)
     return ok;
 }
 
-/* ---- folders that a killed process has left ---- */
+/* ---- an object in the making ---- */
 
-enum { ABANDONED_SECONDS = 10 * COMPILER_SECONDS_MAX };
+struct cache_job {
+    build build;
+    char target[BUILD_PARENT_MAX]; /* where it will be; "": there is no cache */
+    motus_allocator allocator;
+};
 
-/* Removes the folder if it is old and holds nothing but files of a compilation. */
-static void remove_folder(int parent, const char *name)
+/* Seals and loads what was linked and, where there is a cache, renames it. The seal is not synchronised: after a power
+ * cut a damaged entry is found by it, and compiled again. */
+static void *load_linked(const cache_job *j, char *why, size_t size)
 {
-    struct stat s;
-    int fd = openat(parent, name, O_RDONLY | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC);
-    bool ours = fd >= 0 && !fstat(fd, &s) && s.st_uid == geteuid() && time(NULL) - s.st_mtime > ABANDONED_SECONDS;
-    DIR *d = ours ? fdopendir(fd) : NULL;
-    for (struct dirent *e; d && (e = readdir(d));)
-        if (!strncmp(e->d_name, "model", 5) || !strncmp(e->d_name, "cc", 2)) /* ours, and the compiler's own */
-            (void)unlinkat(fd, e->d_name, 0);
-    if (d)
-        closedir(d);
-    else if (fd >= 0)
-        close(fd);
-    if (d) (void)unlinkat(parent, name, AT_REMOVEDIR);
-}
-
-/* A compiler writes files by name, so a process that is killed meanwhile leaves its folder; the next that compiles
- * removes it. `pattern`: the name that mkdtemp was given. */
-static void remove_abandoned(const char *pattern)
-{
-    char parent[PATH_MAX + 80];
-    snprintf(parent, sizeof parent, "%s", pattern);
-    char *name = strrchr(parent, '/');
-    *name++ = 0;
-    const size_t n = strlen(name), fixed = n - strlen("XXXXXX");
-    DIR *d = opendir(parent);
-    for (struct dirent *e; d && (e = readdir(d));)
-        if (strlen(e->d_name) == n && !strncmp(e->d_name, name, fixed)) remove_folder(dirfd(d), e->d_name);
-    if (d) closedir(d);
-}
-
-/* Links, seals and loads what was compiled. The seal is not synchronised: after a power cut a damaged entry is found by
- * it, and compiled again. */
-static void *link_and_load(const compiler *c, const char *object, const char *library, bool alone, char *why,
-                           size_t size)
-{
+    char library[BUILD_FILE_MAX];
     void *handle = NULL;
-    if (!compiler_link(c, object, library, alone, why, size))
-        ;
-    else if (!put_seal(library))
+    build_library(&j->build, library);
+    if (!put_seal(library))
         snprintf(why, size, "%s cannot be written: %s", library, strerror(errno));
     else if (!(handle = dlopen(library, RTLD_NOW | RTLD_LOCAL)))
         snprintf(why, size, "%s", dlerror());
+    if (handle && j->target[0]) rename(library, j->target);
     return handle;
 }
 
-/* Compiles in a temporary directory, seals the library and, where there is a cache, renames it to `target`. */
-static void *build(const compiler *c, const char *text, size_t length, int how, const char *target, char *why,
-                   size_t size)
+/* After any answer but WAIT nothing of it is left but the entry. */
+static cache_state go_on(cache_job *j, void **handle, char *why, size_t size)
 {
-    char folder[PATH_MAX + 80], source[PATH_MAX + 96], object[PATH_MAX + 96], library[PATH_MAX + 96];
-    if (target) {
-        snprintf(folder, sizeof folder, "%s", target);
-        *strrchr(folder, '/') = 0;
-        strcat(folder, "/build-XXXXXX");
-    } else {
-        const char *tmp = getenv("TMPDIR");
-        snprintf(folder, sizeof folder, "%s/motus-build-XXXXXX",
-                 !privileged() && tmp && tmp[0] == '/' && strlen(tmp) < 512 ? tmp : "/tmp");
-    }
-    remove_abandoned(folder);
-    if (!mkdtemp(folder)) {
-        snprintf(why, size, "%s: %s", folder, strerror(errno));
-        return NULL;
-    }
-    snprintf(source, sizeof source, "%s/model.c", folder);
-    snprintf(object, sizeof object, "%s/model.o", folder);
-    snprintf(library, sizeof library, "%s/model.so", folder);
-    void *handle = NULL;
-    if (!write_source(source, text, length))
-        snprintf(why, size, "%s cannot be written: %s", source, strerror(errno));
-    else if (compiler_run(c, source, object, how, why, size)) {
-        handle = link_and_load(c, object, library, true, why, size);
-        if (!handle) {
-            unlink(library);
-            handle = link_and_load(c, object, library, false, why, size);
-        }
-    }
-    if (handle && target) rename(library, target);
-    unlink(source);
-    unlink(object);
-    unlink(library);
-    rmdir(folder);
-    return handle;
+    const build_state state = build_look(&j->build, why, size);
+    if (state == BUILD_WAIT) return CACHE_WAIT;
+    if (state == BUILD_DONE) *handle = load_linked(j, why, size);
+    if (state == BUILD_DONE && !*handle && build_relink(&j->build, why, size)) return CACHE_WAIT;
+    build_end(&j->build);
+    return *handle ? CACHE_READY : CACHE_FAILED;
 }
+
+/* Finds the object, or begins to make it. */
+static cache_state begin(cache_job *j, void **handle, char *why, size_t size)
+{
+    build *b = &j->build;
+    char directory[PATH_MAX], path[BUILD_PARENT_MAX], name[48];
+    *handle = NULL;
+    if (!compiler_find(&b->compiler, why, size)) return CACHE_FAILED;
+    directory_of(directory, sizeof directory);
+    int fd = directory[0] ? open_directory(directory) : -1;
+    hash key = hash_processor(hash_text(hash_text(hash_bytes(hash_start, b->text, b->length), compiler_options(b->how)),
+                                        b->compiler.identity));
+    snprintf(name, sizeof name, "%016" PRIx64 "%016" PRIx64 ".so", key.a, key.b);
+    snprintf(path, sizeof path, "%s/%s", directory, name);
+    if (fd >= 0) *handle = load_sound(fd, name, path);
+    if (fd >= 0) close(fd);
+    if (*handle) return CACHE_READY;
+    if (b->how & CACHE_KEPT) {
+        snprintf(why, size, "it has not been compiled before");
+        return CACHE_FAILED;
+    }
+    if (fd >= 0) snprintf(b->parent, sizeof b->parent, "%s", directory);
+    if (fd >= 0) memcpy(j->target, path, sizeof path);
+    return build_begin(b, why, size) ? CACHE_WAIT : CACHE_FAILED;
+}
+
+cache_state cache_begin(const char *text, size_t length, int how, const motus_allocator *allocator, cache_job **job,
+                        void **handle, char *why, size_t size)
+{
+    *handle = NULL;
+    cache_job *j = *job = take(allocator, 1, sizeof *j);
+    if (!j) {
+        snprintf(why, size, "out of memory");
+        return CACHE_FAILED;
+    }
+    *j = (cache_job){.build = {.text = text, .length = length, .how = how}};
+    if (allocator) j->allocator = *allocator;
+    const cache_state state = begin(j, handle, why, size);
+    if (state != CACHE_WAIT) give(allocator, j), *job = NULL;
+    return state;
+}
+
+cache_state cache_look(cache_job **job, void **handle, char *why, size_t size)
+{
+    cache_job *j = *job;
+    *handle = NULL;
+    const cache_state state = go_on(j, handle, why, size);
+    if (state == CACHE_WAIT) return state;
+    const motus_allocator allocator = j->allocator;
+    give(&allocator, j);
+    *job = NULL;
+    return state;
+}
+
+void cache_stop(cache_job *j)
+{
+    if (!j) return;
+    build_end(&j->build);
+    const motus_allocator allocator = j->allocator;
+    give(&allocator, j);
+}
+
+enum { LOOKS = 5000 }; /* in a second, whether the compiler has ended */
 
 void *cache_load(const char *text, size_t length, int how, char *why, size_t size)
 {
-    compiler c;
-    if (!compiler_find(&c, why, size)) return NULL;
-    char directory[PATH_MAX], path[PATH_MAX + 64], name[48];
-    directory_of(directory, sizeof directory);
-    int fd = directory[0] ? open_directory(directory) : -1;
-    hash key =
-        hash_processor(hash_text(hash_text(hash_bytes(hash_start, text, length), compiler_options(how)), c.identity));
-    snprintf(name, sizeof name, "%016" PRIx64 "%016" PRIx64 ".so", key.a, key.b);
-    snprintf(path, sizeof path, "%s/%s", directory, name);
-    void *handle = fd >= 0 ? load_sound(fd, name, path) : NULL;
-    if (!handle && how & CACHE_KEPT)
-        snprintf(why, size, "it has not been compiled before");
-    else if (!handle)
-        handle = build(&c, text, length, how, fd >= 0 ? path : NULL, why, size);
-    if (fd >= 0) close(fd);
+    const struct timespec nap = {0, 1000000000 / LOOKS};
+    cache_job j = {.build = {.text = text, .length = length, .how = how}};
+    void *handle;
+    cache_state state = begin(&j, &handle, why, size);
+    while (state == CACHE_WAIT) {
+        nanosleep(&nap, NULL);
+        state = go_on(&j, &handle, why, size);
+    }
     if (handle) *why = 0; /* what failed on the way does not matter */
     return handle;
 }

@@ -18,19 +18,32 @@
 #include <stdio.h>
 #include <string.h>
 
-enum { OBJECTS_MAX = 64, NOTE_MAX = 400 };
+enum { OBJECTS_MAX = 64, MAKINGS_MAX = 8, NOTE_MAX = 400 };
 
 #include "machine/text/host.h"
 
-typedef struct object {
+/* What the text of an object depends on besides the model. */
+typedef struct purpose {
     const row *row;
     double argument[2];
     int expands; /* the order of its Taylor series follows from a tolerance */
     bool varies;
+} purpose;
+
+typedef struct object {
+    purpose purpose;
     int (*fits)(const double *u); /* whether it was compiled for such numbers */
     void *handle;
     stepper_body body;
 } object;
+
+/* An object that a compiler is at work on, while somebody waits for it. */
+typedef struct making {
+    purpose purpose;
+    emit e;
+    cache_job *job;
+    size_t waiting; /* how many; 0: the place is free */
+} making;
 
 struct compiled {
     compiled_host host; /* what the objects read */
@@ -39,6 +52,7 @@ struct compiled {
     problem problem;            /* the same with the compiled acceleration */
     object objects[OBJECTS_MAX];
     int count;
+    making makings[MAKINGS_MAX];
     program *force, *boundary, *series, *boundary_series;
     locality locality;
     const tiling *tiling; /* where the outer indices can be divided; else NULL */
@@ -117,6 +131,10 @@ motus_status compiled_create(model *m, const problem *interpreted, compiled **ou
 void compiled_close(compiled *c)
 {
     for (int i = 0; c && i < c->count; i++) dlclose(c->objects[i].handle);
+    for (int i = 0; c && i < MAKINGS_MAX; i++) {
+        cache_stop(c->makings[i].job);
+        c->makings[i] = (making){.waiting = 0};
+    }
     if (c) {
         parallel_pool_destroy(c->host.thread_pool);
         c->host.thread_pool = NULL;
@@ -207,14 +225,31 @@ static bool bind_numbers(compiled *c, const emit *e, void (*bind)(const double *
     return true;
 }
 
-static const stepper_body *body_of(compiled *c, const chosen *chosen, int how)
+static purpose purpose_of(const compiled *c, const chosen *chosen)
 {
-    const int expands = stepper_plan(c->interpreted, chosen, NULL).expands;
+    return (purpose){.row = chosen->row,
+                     .argument = {chosen->argument[0], chosen->argument[1]},
+                     .expands = stepper_plan(c->interpreted, chosen, NULL).expands,
+                     .varies = chosen->varies};
+}
+
+static bool same(const purpose *a, const purpose *b)
+{
+    return a->row == b->row && a->argument[0] == b->argument[0] && a->argument[1] == b->argument[1] &&
+           a->expands == b->expands && a->varies == b->varies;
+}
+
+static const stepper_body *find(compiled *c, const purpose *p)
+{
     for (int i = 0; i < c->count; i++)
-        if (c->objects[i].row == chosen->row && c->objects[i].argument[0] == chosen->argument[0] &&
-            c->objects[i].argument[1] == chosen->argument[1] && c->objects[i].expands == expands &&
-            c->objects[i].varies == chosen->varies && c->objects[i].fits(c->u))
-            return &c->objects[i].body;
+        if (same(&c->objects[i].purpose, p) && c->objects[i].fits(c->u)) return &c->objects[i].body;
+    return NULL;
+}
+
+/* The text, or NULL and c->note. */
+static const char *text_of(compiled *c, const chosen *chosen, emit *e)
+{
+    *e = (emit){.text = {.arena = c->model->arena}, .pool = chosen->varies ? NULL : c->model->pool};
     snprintf(c->note, sizeof c->note, "out of memory");
     if (c->count == OBJECTS_MAX) {
         snprintf(c->note, sizeof c->note, "%d methods of this model are compiled already", OBJECTS_MAX);
@@ -226,29 +261,30 @@ static const stepper_body *body_of(compiled *c, const chosen *chosen, int how)
                  c->model->graph->count, OPERATIONS_MAX);
         return NULL;
     }
-    emit e = {.text = {.arena = c->model->arena}, .pool = chosen->varies ? NULL : c->model->pool};
-    if (!write_text(c, chosen, &e)) return NULL;
-    /* the loops of Taylor series are short, and their sums run in order */
-    if (!compose_small(c->model) && !chosen->row->expands) how |= COMPILER_LOOPS;
-    void *handle = cache_load(e.text.bytes, e.text.length, how, c->note, sizeof c->note);
-    if (!handle) return NULL;
+    return write_text(c, chosen, e) ? e->text.bytes : NULL;
+}
+
+/* The loops of Taylor series are short, and their sums run in order. */
+static int loops_of(const compiled *c, const purpose *p)
+{
+    return !compose_small(c->model) && !p->row->expands ? COMPILER_LOOPS : 0;
+}
+
+/* Takes an object that was loaded; NULL and c->note: it is not sound. */
+static const stepper_body *adopt(compiled *c, const purpose *p, const emit *e, void *handle)
+{
     void (*bind)(const double *, const int64_t *, double *);
     void (*accel)(const compiled_host *, double t, double *x, double *v, double *a);
-    object *o = &c->objects[c->count];
-    *o = (object){.row = chosen->row,
-                  .argument = {chosen->argument[0], chosen->argument[1]},
-                  .expands = expands,
-                  .varies = chosen->varies,
-                  .handle = handle,
-                  .body = *stepper_best_body()};
     const stepper_body *library = stepper_best_body();
+    object *o = &c->objects[c->count];
+    *o = (object){.purpose = *p, .handle = handle, .body = *library};
     o->body.name = "compiled";
     /* POSIX lets a void * hold the address of a function. */
     *(void **)&bind = dlsym(handle, "motus_bind");
     *(void **)&o->body.run = dlsym(handle, "motus_run");
     *(void **)&o->fits = dlsym(handle, "motus_fits");
     *(void **)&accel = dlsym(handle, "motus_accel");
-    if (!bind || !o->body.run || !o->fits || !accel || !bind_numbers(c, &e, bind)) {
+    if (c->count == OBJECTS_MAX || !bind || !o->body.run || !o->fits || !accel || !bind_numbers(c, e, bind)) {
         snprintf(c->note, sizeof c->note, "the compiled object is not what was compiled");
         dlclose(handle);
         return NULL;
@@ -262,6 +298,80 @@ static const stepper_body *body_of(compiled *c, const chosen *chosen, int how)
     c->host.diagonal = library->diagonal;
     c->count++;
     return &o->body;
+}
+
+static const stepper_body *body_of(compiled *c, const chosen *chosen, int how)
+{
+    const purpose p = purpose_of(c, chosen);
+    const stepper_body *body = find(c, &p);
+    emit e;
+    if (body || !text_of(c, chosen, &e)) return body;
+    void *handle = cache_load(e.text.bytes, e.text.length, how | loops_of(c, &p), c->note, sizeof c->note);
+    return handle ? adopt(c, &p, &e, handle) : NULL;
+}
+
+/* ---- objects in the making ---- */
+
+static making *making_of(compiled *c, const purpose *p)
+{
+    for (int i = 0; i < MAKINGS_MAX; i++)
+        if (c->makings[i].waiting && same(&c->makings[i].purpose, p)) return &c->makings[i];
+    return NULL;
+}
+
+static compiled_state answer(compiled *c, const purpose *p, const emit *e, void *handle)
+{
+    return handle && adopt(c, p, e, handle) ? COMPILED_READY : COMPILED_FAILED;
+}
+
+compiled_state compiled_begin(compiled *c, const chosen *chosen, const char **why)
+{
+    const purpose p = purpose_of(c, chosen);
+    making *m = making_of(c, &p);
+    *why = c->note;
+    if (find(c, &p)) return COMPILED_READY;
+    if (m) {
+        m->waiting++;
+        return COMPILED_WAIT;
+    }
+    for (m = c->makings; m < c->makings + MAKINGS_MAX && m->waiting; m++) continue;
+    if (m == c->makings + MAKINGS_MAX) {
+        snprintf(c->note, sizeof c->note, "%d methods of this model are being compiled", MAKINGS_MAX);
+        return COMPILED_FAILED;
+    }
+    void *handle;
+    if (!text_of(c, chosen, &m->e)) return COMPILED_FAILED;
+    const cache_state state = cache_begin(m->e.text.bytes, m->e.text.length, loops_of(c, &p),
+                                          &c->model->arena->allocator, &m->job, &handle, c->note, sizeof c->note);
+    if (state != CACHE_WAIT) return answer(c, &p, &m->e, handle);
+    m->purpose = p;
+    m->waiting = 1;
+    return COMPILED_WAIT;
+}
+
+compiled_state compiled_look(compiled *c, const chosen *chosen, const char **why)
+{
+    const purpose p = purpose_of(c, chosen);
+    making *m = making_of(c, &p);
+    void *handle = NULL;
+    *why = c->note;
+    if (m && m->job) {
+        if (cache_look(&m->job, &handle, c->note, sizeof c->note) == CACHE_WAIT) return COMPILED_WAIT;
+        const compiled_state state = answer(c, &p, &m->e, handle);
+        if (state == COMPILED_FAILED) return state;
+    }
+    if (find(c, &p)) return COMPILED_READY;
+    if (!c->note[0]) snprintf(c->note, sizeof c->note, "it was compiled for other numbers");
+    return COMPILED_FAILED;
+}
+
+void compiled_leave(compiled *c, const chosen *chosen)
+{
+    const purpose p = purpose_of(c, chosen);
+    making *m = making_of(c, &p);
+    if (!m || --m->waiting) return;
+    cache_stop(m->job);
+    m->job = NULL;
 }
 
 void compiled_rebind(compiled *c)

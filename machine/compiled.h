@@ -15,6 +15,13 @@ void compiled_close(compiled *);
 const char *compiled_text(compiled *, const chosen *, size_t *length);
 /* Loads the object of a row from the cache, or compiles it, unless `kept`. NULL, or why that failed. */
 const char *compiled_prepare(compiled *, const chosen *, bool kept);
+/* The same without waiting. WAIT: a compiler is at work, and the caller waits for it till it calls compiled_leave;
+ * those who wait for the same object share one compiler, which is killed when nobody is left. FAILED: *why says why.
+ * Only with READY does compiled_machine not wait. */
+typedef enum { COMPILED_READY, COMPILED_WAIT, COMPILED_FAILED } compiled_state;
+compiled_state compiled_begin(compiled *, const chosen *, const char **why);
+compiled_state compiled_look(compiled *, const chosen *, const char **why); /* after WAIT */
+void compiled_leave(compiled *, const chosen *);
 /* The machine of a row, compiled now where that has not happened before. */
 motus_status compiled_machine(compiled *, const chosen *, machine *, motus_error *);
 

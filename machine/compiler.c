@@ -1,7 +1,8 @@
 /* Finding and running the system's C compiler. See compiler.h.
  *
- * Invariant: no shell is involved. The compiler has limits of time and memory. It ends when this process ends (Linux),
- * or by the terminal's signal, since it stays in the same process group.
+ * Invariant: no shell is involved. The compiler has limits of time and memory. It ends when this process ends (Linux).
+ * It leads a process group of its own, because a compiler's driver starts further processes, and whoever stops it stops
+ * them with it. No signal is handled: the compiler is asked after by its own number.
  */
 #include "machine/compiler.h"
 
@@ -130,6 +131,7 @@ static char **with_folder(char *folder, char *own[VARIABLES_MAX])
 /* In the child: only calls that are safe after fork. */
 static void become(char *const *arguments, const char *path, char *const *environment, int log, pid_t parent)
 {
+    setpgid(0, 0);
     struct rlimit time = {COMPILER_SECONDS_MAX, COMPILER_SECONDS_MAX},
                   memory = {COMPILER_MEMORY_MAX, COMPILER_MEMORY_MAX}, core = {0, 0};
     setrlimit(RLIMIT_CPU, &time);
@@ -149,20 +151,11 @@ static void become(char *const *arguments, const char *path, char *const *enviro
     _exit(127);
 }
 
-enum { LOOKS = 5000 }; /* in a second, whether it has ended */
-static bool wait_for(pid_t child)
+static double now(void)
 {
-    struct timespec nap = {0, 1000000000 / LOOKS};
-    for (int i = 0; i < COMPILER_SECONDS_MAX * LOOKS; i++) {
-        int status;
-        pid_t ended = waitpid(child, &status, WNOHANG);
-        if (ended == child) return WIFEXITED(status) && WEXITSTATUS(status) == 0;
-        if (ended < 0 && errno != EINTR) return false;
-        nanosleep(&nap, NULL);
-    }
-    kill(child, SIGKILL);
-    waitpid(child, NULL, 0);
-    return false;
+    struct timespec t;
+    clock_gettime(CLOCK_MONOTONIC, &t);
+    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
 }
 
 static void first_line(int log, char *why, size_t size)
@@ -175,11 +168,11 @@ static void first_line(int log, char *why, size_t size)
     snprintf(why, size, "%s", buffer[0] ? buffer : "it stopped without a message");
 }
 
-/* Runs the program at `path` with the arguments, up to a NULL. On failure `why` holds the first line that it wrote. */
-static bool run(const char *path, char *const *arguments, const char *object, char *why, size_t size)
+/* Starts the program at `path` with the arguments, up to a NULL. */
+static bool start(const char *path, char *const *arguments, const char *out, compiler_work *w, char *why, size_t size)
 {
     char log_name[PATH_MAX];
-    snprintf(log_name, sizeof log_name, "%s.log", object);
+    snprintf(log_name, sizeof log_name, "%s.log", out);
     int log = open(log_name, O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, 0600);
     if (log < 0) {
         snprintf(why, size, "%s", strerror(errno));
@@ -187,15 +180,65 @@ static bool run(const char *path, char *const *arguments, const char *object, ch
     }
     unlink(log_name);
     char folder[PATH_MAX], *own[VARIABLES_MAX];
-    const char *slash = strrchr(object, '/');
-    snprintf(folder, sizeof folder, "TMPDIR=%.*s", (int)(slash ? slash - object : 1), slash ? object : ".");
+    const char *slash = strrchr(out, '/');
+    snprintf(folder, sizeof folder, "TMPDIR=%.*s", (int)(slash ? slash - out : 1), slash ? out : ".");
     char **environment = with_folder(folder, own);
-    pid_t parent = getpid(), child = FORK();
+    const pid_t parent = getpid(), child = FORK();
     if (child == 0) become(arguments, path, environment, log, parent);
-    bool ok = child > 0 && wait_for(child);
-    if (!ok) first_line(log, why, size);
+    *w = (compiler_work){.child = child, .owner = parent, .log = log, .began = now()};
+    if (child > 0) return true;
+    snprintf(why, size, "%s", strerror(errno));
     close(log);
-    return ok;
+    return false;
+}
+
+/* Whether it has ended. A program that waits for all of its children may have taken the compiler's status; then what
+ * the compiler wrote tells how it ended. */
+static compiler_state ended(const compiler_work *w, const char *out)
+{
+    int status;
+    pid_t got;
+    do got = waitpid(w->child, &status, WNOHANG);
+    while (got < 0 && errno == EINTR);
+    if (got < 0) return access(out, F_OK) ? COMPILER_FAILED : COMPILER_DONE;
+    if (got == 0) return COMPILER_AT_WORK;
+    if (WIFSIGNALED(status) && WTERMSIG(status) == SIGKILL) return COMPILER_LOST;
+    return WIFEXITED(status) && WEXITSTATUS(status) == 0 ? COMPILER_DONE : COMPILER_FAILED;
+}
+
+bool compiler_owned(const compiler_work *w) { return w->owner == getpid(); }
+
+static void leave(compiler_work *w)
+{
+    close(w->log);
+    w->child = 0;
+}
+
+/* Kills it only while its number is certainly its own: nobody has waited for it. */
+static void end(compiler_work *w)
+{
+    if (!compiler_owned(w) || waitpid(w->child, NULL, WNOHANG) != 0) return;
+    kill(-w->child, SIGKILL);
+    while (waitpid(w->child, NULL, 0) < 0 && errno == EINTR) continue;
+}
+
+compiler_state compiler_look(compiler_work *w, const char *out, char *why, size_t size)
+{
+    const bool late = now() - w->began > COMPILER_SECONDS_MAX;
+    compiler_state state = compiler_owned(w) ? ended(w, out) : COMPILER_LOST;
+    if (state == COMPILER_AT_WORK && !late) return state;
+    if (state == COMPILER_AT_WORK) end(w);
+    if (late && state != COMPILER_DONE) state = COMPILER_FAILED;
+    if (state != COMPILER_DONE) first_line(w->log, why, size);
+    leave(w);
+    return state;
+}
+
+void compiler_stop(compiler_work *w)
+{
+    if (!w->child) return;
+    end(w);
+    leave(w);
 }
 
 static int add(char **arguments, int n, const char *const *more)
@@ -205,7 +248,8 @@ static int add(char **arguments, int n, const char *const *more)
     return n;
 }
 
-bool compiler_run(const compiler *c, const char *source, const char *object, int how, char *why, size_t size)
+bool compiler_compile(const compiler *c, const char *source, const char *object, int how, compiler_work *w, char *why,
+                      size_t size)
 {
     char *arguments[ARGUMENTS_MAX];
     int n = add(arguments, 0, (const char *const[]){c->path, NULL});
@@ -213,10 +257,11 @@ bool compiler_run(const compiler *c, const char *source, const char *object, int
     n = add(arguments, n, how & COMPILER_LOOPS ? loop_options : short_options);
     if (how & COMPILER_FAST) n = add(arguments, n, fast_options);
     add(arguments, n, (const char *const[]){source, "-o", object, NULL});
-    return run(c->path, arguments, object, why, size);
+    return start(c->path, arguments, object, w, why, size);
 }
 
-bool compiler_link(const compiler *c, const char *object, const char *library, bool alone, char *why, size_t size)
+bool compiler_link(const compiler *c, const char *object, const char *library, bool alone, compiler_work *w, char *why,
+                   size_t size)
 {
     char *arguments[ARGUMENTS_MAX];
     const char *const files[] = {object, "-o", library, NULL};
@@ -230,11 +275,11 @@ bool compiler_link(const compiler *c, const char *object, const char *library, b
         n = add(arguments, 0, (const char *const[]){"ld", NULL});
         n = add(arguments, n, linker_options);
         add(arguments, n, files);
-        return run(linker.path, arguments, library, why, size);
+        return start(linker.path, arguments, library, w, why, size);
     }
     n = add(arguments, 0, (const char *const[]){c->path, NULL});
     n = add(arguments, n, link_options);
     n = add(arguments, n, files);
     add(arguments, n, libraries);
-    return run(c->path, arguments, library, why, size);
+    return start(c->path, arguments, library, w, why, size);
 }

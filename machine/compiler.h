@@ -17,11 +17,28 @@ typedef struct compiler {
 bool compiler_find(compiler *, char *why, size_t size);
 /* FAST: with the options of --fast; LOOPS: the text has long loops over arrays. */
 enum { COMPILER_FAST = 1, COMPILER_LOOPS = 2 };
-/* Compiles `source` to `object`. On failure `why` holds the first line of the compiler's messages. */
-bool compiler_run(const compiler *, const char *source, const char *object, int how, char *why, size_t size);
-/* Links `object` to the shared library `library`; alone: by the linker itself and without any library, which may fail,
- * and may leave functions that this process does not have; else by the compiler. */
-bool compiler_link(const compiler *, const char *object, const char *library, bool alone, char *why, size_t size);
+/* A compiler, or linker, at work. */
+typedef struct compiler_work {
+    int child;    /* its process; 0: it is gone */
+    int owner;    /* the process that started it */
+    int log;      /* what it writes */
+    double began; /* in seconds, monotonic */
+} compiler_work;
+/* Starts compiling `source` to `object`. False: it could not be started, and `why` says why. */
+bool compiler_compile(const compiler *, const char *source, const char *object, int how, compiler_work *, char *why,
+                      size_t size);
+/* Starts linking `object` to the shared library `library`; alone: by the linker itself and without any library, which
+ * may fail, and may leave functions that this process does not have; else by the compiler. */
+bool compiler_link(const compiler *, const char *object, const char *library, bool alone, compiler_work *, char *why,
+                   size_t size);
+/* Whether it has written `out`. Never waits. FAILED: `why` holds the first line of its messages. LOST: it was
+ * killed, as happens when the thread that started it ends, or it belongs to the process of which this one is a copy.
+ * After any answer but AT_WORK it is gone. */
+typedef enum { COMPILER_AT_WORK, COMPILER_DONE, COMPILER_FAILED, COMPILER_LOST } compiler_state;
+compiler_state compiler_look(compiler_work *, const char *out, char *why, size_t size);
+/* Kills it, with all that it has started, if it is at work for this process. */
+void compiler_stop(compiler_work *);
+bool compiler_owned(const compiler_work *); /* by this process */
 /* A text that names the options, for the cache key. */
 const char *compiler_options(int how);
 

@@ -22,5 +22,18 @@ const char *compiled_prepare(compiled *c, const chosen *chosen, bool kept)
     return "there is no compiler here";
 }
 
+compiled_state compiled_begin(compiled *c, const chosen *chosen, const char **why)
+{
+    (void)c, (void)chosen;
+    *why = "there is no compiler here";
+    return COMPILED_FAILED;
+}
+
+compiled_state compiled_look(compiled *c, const chosen *chosen, const char **why)
+{
+    return compiled_begin(c, chosen, why);
+}
+
+void compiled_leave(compiled *c, const chosen *chosen) { (void)c, (void)chosen; }
 void compiled_rebind(compiled *c) { (void)c; }
 void compiled_close(compiled *c) { (void)c; }

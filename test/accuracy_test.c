@@ -1,6 +1,7 @@
 /* `accuracy` and "auto": no accuracy is claimed that does not hold, what cannot be reached is said, and a run that was
  * found for an accuracy has the bits of one that was asked for by its method and its tolerance.
  */
+#include "api/later.h"
 #include "test/given.h"
 #include "test/given_cache.h"
 
@@ -276,6 +277,7 @@ static void goes_on_compiled(void **state)
         def.machine = compiled ? "auto" : "interpreter";
         must(motus_run_create(s, &def, &r, &err), &err, "run");
         assert_string_equal(motus_run_machine(r), "interpreter");
+        if (compiled) must(later_at(r, 300, &err), &err, "later");
         must(motus_run_sample_errors(r, times, TIMES, columns, NUMBERS, a[compiled][0], e[compiled][0], &err), &err,
              "sample");
         must(motus_run_finish(r, &err), &err, "finish");

@@ -224,7 +224,7 @@ else
     # The library prints nothing and never exits.
     judge "the library calls nothing that prints, exits or jumps" "$(
         # the child process of the compiler calls _exit; the environment names the compiler and the cache
-        nm -uA "$archive" | sed 's/@.*//' | grep -vE ':(compiler|cache)\.c\.o: +U (_exit|getenv)$' | awk '$(NF-1) == "U" { print $NF }' | sort -u |
+        nm -uA "$archive" | sed 's/@.*//' | grep -vE ':(compiler|build|cache)\.c\.o: +U (_exit|getenv)$' | awk '$(NF-1) == "U" { print $NF }' | sort -u |
             grep -xE '(__)?(printf|fprintf|vprintf|vfprintf|puts|fputs|putchar|fputc|fwrite|perror|exit|_exit|abort|longjmp|setjmp|_setjmp|__assert_fail|stdout|stderr|system|popen|getenv|setlocale)(_chk)?')"
 fi
 
