@@ -24,7 +24,7 @@ chosen companion_method(const chosen *c)
     chosen method = *c;
     if (!row_adaptive(c)) return method;
     if (method.relative == 0) method.relative = method.absolute; /* a Taylor series takes its order from it */
-    method.absolute = DIFFERENCES_ANY_ERROR, method.least = 0, method.most = INFINITY;
+    method.absolute = DIFFERENCES_ANY_ERROR, method.least = 0, method.most = INFINITY, method.count = 0;
     return method;
 }
 

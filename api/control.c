@@ -12,8 +12,8 @@
 
 control_wish control_wish_of_run(const motus_run_def *d)
 {
-    return (control_wish){d->method != NULL, d->step,         d->tolerance,
-                          d->shortest_step,  d->longest_step, d->absolute != 0};
+    return (control_wish){d->method != NULL, d->step,          d->tolerance, d->shortest_step,
+                          d->longest_step,   d->absolute != 0, d->most_steps};
 }
 
 static motus_status refuse_step(const chosen *c, const char *whose, motus_error *err)
@@ -59,6 +59,12 @@ static motus_status check_limits(const control_wish *w, motus_error *err)
         hint(err, "0 is for none: `%s_step = 0` of the definition", sound ? "longest" : "shortest");
         return MOTUS_ARGUMENT;
     }
+    if (w->count < 0) {
+        fail(err, MOTUS_ARGUMENT, "the most steps are %lld, and a limit of their number is positive",
+             (long long)w->count);
+        hint(err, "0 is for none: `most_steps = 0` of the definition");
+        return MOTUS_ARGUMENT;
+    }
     if (w->longest == 0 || w->shortest <= w->longest) return MOTUS_OK;
     return fail(err, MOTUS_ARGUMENT, "the shortest step, %g, is longer than the longest, %g", w->shortest, w->longest);
 }
@@ -67,7 +73,7 @@ motus_status control_choose(const motus_system *s, const control_wish *w, chosen
 {
     motus_settings set = motus_default_settings();
     motus_settings_of(s, &set);
-    const bool limits = w->shortest != 0 || w->longest != 0;
+    const bool limits = w->shortest != 0 || w->longest != 0 || w->count != 0;
     if (!row_adaptive(c)) {
         if (!isnan(w->tolerance)) return refuse_tolerance(c, "a tolerance is given", err);
         if (limits) return refuse_tolerance(c, "limits of the steps are given", err);
@@ -87,5 +93,6 @@ motus_status control_choose(const motus_system *s, const control_wish *w, chosen
     c->absolute = absolute ? tolerance : 0;
     c->least = w->shortest;
     c->most = w->longest > 0 ? w->longest : INFINITY;
+    c->count = w->count;
     return MOTUS_OK;
 }

@@ -9,6 +9,7 @@ typedef struct control_wish {
     bool named;
     double step, tolerance, shortest, longest;
     bool absolute;
+    int64_t count; /* the most steps; 0: any number */
 } control_wish;
 control_wish control_wish_of_run(const motus_run_def *);
 

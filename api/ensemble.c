@@ -238,8 +238,8 @@ static motus_status make(motus_ensemble *e, const motus_ensemble_def *d, motus_e
     if (status == MOTUS_OK) status = find_places(e, d, err);
     if (status == MOTUS_OK && e->error != MOTUS_BARS_NONE) status = ensemble_errors_prepare(e, err);
     double end = d->until;
-    const control_wish wish = {d->method != NULL, e->step,         d->tolerance,
-                               d->shortest_step,  d->longest_step, d->absolute};
+    const control_wish wish = {d->method != NULL, e->step,     d->tolerance, d->shortest_step,
+                               d->longest_step,   d->absolute, d->most_steps};
     if (status == MOTUS_OK) status = control_choose(s, &wish, &e->chosen, err);
     if (status == MOTUS_OK) status = suggest_missing(s, &e->chosen, d->method, NAN, &e->step, &end, err);
     /* where ends vary, each trajectory gets its own timing later */

@@ -166,8 +166,8 @@ static motus_status run_halving(worker *w, const places *p, size_t first, size_t
     b.problem = callback_block(&b.calling, &w->system->problem);
     w->trajectories = count;
     motus_status status = run(&b, &w->why);
-    const bool stopped =
-        status == MOTUS_DIVERGED || status == MOTUS_SOLVE || (status == MOTUS_CALLBACK && w->why.returned > 0);
+    const bool stopped = status == MOTUS_DIVERGED || status == MOTUS_SOLVE || status == MOTUS_STEPS ||
+                         (status == MOTUS_CALLBACK && w->why.returned > 0);
     if (status != MOTUS_OK && !stopped) return status;
     if (stopped && count > 1) {
         status = run_halving(w, p, first, count / 2, memory);

@@ -169,8 +169,8 @@ static motus_status one_trajectory(worker *w, size_t k, void *ctx)
     w->trajectories = 1;
     motus_status status = s.errors ? ensemble_errors_worker(w, &w->why) : MOTUS_OK;
     if (status == MOTUS_OK) status = run(&s, p, k, &w->why);
-    const bool stopped =
-        status == MOTUS_DIVERGED || status == MOTUS_SOLVE || (status == MOTUS_CALLBACK && w->why.returned > 0);
+    const bool stopped = status == MOTUS_DIVERGED || status == MOTUS_SOLVE || status == MOTUS_STEPS ||
+                         (status == MOTUS_CALLBACK && w->why.returned > 0);
     if (stopped || status == MOTUS_OK) {
         for (size_t r = 0; r < e->record_count; r++) p->results[r][k] = stopped ? NAN : result(&s, r);
         for (size_t r = 0; p->errors && r < e->record_count; r++) p->errors[r][k] = stopped ? NAN : error(&s, r);

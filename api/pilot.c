@@ -115,6 +115,7 @@ motus_status pilot_choose(motus_system *s, const motus_run_def *def, pilot *out,
     f.count = kinks ? sizeof kinked / sizeof *kinked : sizeof smooth / sizeof *smooth;
     f.def.error = MOTUS_BARS_NONE;
     f.def.accuracy = NAN;
+    f.def.most_steps = 0;
     f.def.observer = NULL;
     f.def.progress = NULL; /* pilot runs are short */
     f.def.machine = "interpreter";

@@ -51,8 +51,11 @@ static void name_options(const char *text, char *out, size_t size)
             continue;
         }
         const char *value = strncmp(text + 1 + word, " = ", 3) ? end : text + 4 + word;
+        const size_t from = n;
         n += (size_t)snprintf(out + n, size - n, "--%.*s%s%.*s", (int)word, text + 1, value < end ? " " : "",
                               (int)(end - value), value);
+        for (size_t k = from; k < n && k < from + 2 + word; k++)
+            if (out[k] == '_') out[k] = '-';
         text = end + strlen(of);
     }
     out[n < size ? n : size - 1] = 0;

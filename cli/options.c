@@ -50,6 +50,8 @@ static const option table[] = {
     {"--shortest-step", NULL, "H", LENGTH, AT(shortest_step), ONE,
      "of an adaptive method: stop where a shorter one is needed"},
     {"--longest-step", NULL, "H", LENGTH, AT(longest_step), ONE, "of an adaptive method: take no longer one"},
+    {"--most-steps", NULL, "N", COUNT, AT(most_steps), ONE,
+     "of an adaptive method: stop after so many; sweep: each trajectory"},
     {"--until", NULL, "T", UNTIL, AT(until), MOTION, "end time; before the start: backward"},
     {"--set", NULL, "P=EXPR", NAMED, AT(set), MODEL,
      "replace a parameter or initial value: F=0.2, \"x(0)=1\"; repeatable"},
@@ -115,10 +117,18 @@ static bool matches(const option *o, const char *name)
     return strcmp(o->name, name) == 0 || (o->brief && strcmp(o->brief, name) == 0);
 }
 
+/* Members of a definition have '_' where options have '-'. */
+static bool alike(const char *option, const char *member, size_t length)
+{
+    for (size_t i = 0; i < length; i++)
+        if (option[i] != (member[i] == '_' ? '-' : member[i])) return false;
+    return true;
+}
+
 bool options_known(const char *name, size_t length)
 {
     for (size_t i = 0; i < OPTIONS; i++)
-        if (strlen(table[i].name) == 2 + length && strncmp(table[i].name + 2, name, length) == 0) return true;
+        if (strlen(table[i].name) == 2 + length && alike(table[i].name + 2, name, length)) return true;
     return false;
 }
 

@@ -32,6 +32,7 @@ typedef struct options {
     double tolerance, accuracy;           /* NaN: the model's */
     bool absolute;                        /* tolerance or accuracy are in the units of the numbers */
     double shortest_step, longest_step;   /* 0: not given */
+    int64_t most_steps;                   /* likewise */
     const char *step_typed, *until_typed; /* as given; NULL: the model's */
     double every_time;                    /* 0: not given */
     int64_t every_steps;                  /* 0: not given */

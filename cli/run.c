@@ -117,6 +117,7 @@ static motus_status begin(job *j, motus_error *err)
     j->def.absolute = j->options->absolute;
     j->def.shortest_step = j->options->shortest_step;
     j->def.longest_step = j->options->longest_step;
+    j->def.most_steps = j->options->most_steps;
     j->def.until = j->model.until;
     j->def.machine = o->machine;
     j->def.threads = (int)o->threads;
@@ -235,6 +236,7 @@ static motus_status emit(const options *o, motus_error *err)
     def.absolute = o->absolute;
     def.shortest_step = o->shortest_step;
     def.longest_step = o->longest_step;
+    def.most_steps = o->most_steps;
     const char *text = status ? NULL : motus_run_text(model.system, &def, err);
     if (!status && !text) status = err->status;
     if (text) {

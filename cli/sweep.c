@@ -99,6 +99,7 @@ static motus_status create(sweep *s, stop_progress *progress, motus_error *err)
     def.absolute = s->options->absolute;
     def.shortest_step = s->options->shortest_step;
     def.longest_step = s->options->longest_step;
+    def.most_steps = s->options->most_steps;
     def.step = s->model.step; /* else the model's, which a number that varies may not decide */
     def.until = s->model.until;
     def.every = s->every;
@@ -302,7 +303,7 @@ static motus_status finish(const sweep *s, sweep_file *f, double began, motus_er
         report(s, f, wall);
     status = file_flush_output(err);
     if (!status && f->stopped > 0 && !o->quiet)
-        complain_note("%llu of %llu trajectories diverged: their column `stopped` has the time",
+        complain_note("%llu of %llu trajectories did not reach their end: their column `stopped` has the time",
                       (unsigned long long)f->stopped, (unsigned long long)s->grid.total);
     return status;
 }

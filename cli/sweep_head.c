@@ -55,6 +55,7 @@ static void fingerprint(sweep *s)
         mix_count(&hash, (uint64_t)s->absolute);
         mix_number(&hash, o->shortest_step);
         mix_number(&hash, o->longest_step);
+        if (o->most_steps) mix_count(&hash, (uint64_t)o->most_steps);
     }
     mix_number(&hash, s->until);
     mix_count(&hash, (uint64_t)s->every);
@@ -98,6 +99,7 @@ static motus_status steps(const sweep *s, file_out *f, motus_error *err)
     motus_status status = option(f, found ? "--accuracy" : "--tolerance", text, err);
     if (!status && o->shortest_step > 0) status = option_number(f, "--shortest-step", o->shortest_step, err);
     if (!status && o->longest_step > 0) status = option_number(f, "--longest-step", o->longest_step, err);
+    if (!status && o->most_steps > 0) status = option_number(f, "--most-steps", (double)o->most_steps, err);
     return status;
 }
 

@@ -14,6 +14,7 @@ typedef struct chosen {
     /* Of adaptive rows: what a step may be off, the larger of `relative` times the size of its variable and
      * `absolute`; and between which sizes steps stay. */
     double relative, absolute, least, most;
+    int64_t count;             /* and how many steps a leg may have; 0: any number */
     double first;              /* the size of the first step; 0: error control chooses it */
     bool varies;               /* the numbers of the model change while it runs */
     int threads;               /* that a large system may use; it changes no bit */

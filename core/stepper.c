@@ -262,6 +262,27 @@ stepper_way stepper_way_of(double t0, double h, double until)
     return (stepper_way){(int64_t)whole, until - (t0 + whole * h)};
 }
 
+/* How many steps the leg may still take. */
+static int64_t room_in_leg(const stepper *s)
+{
+    const int64_t most = s->work.carried && s->method.count > 0 ? s->method.count : INT64_MAX;
+    return most > s->work.n ? most - s->work.n : 0;
+}
+
+static motus_status too_many(const stepper *s, motus_error *err)
+{
+    char t[DECIMAL_MAX];
+    const double now = stepper_time(s);
+    fail(err, MOTUS_STEPS, "the run is at t = %s after %lld steps, the most that it may take",
+         decimal_time(now, s->work.h, t), (long long)s->work.n);
+    hint(err,
+         "allow more, `most_steps = %.0f` of the definition, or a larger error; a motion that comes near a "
+         "singularity needs ever more",
+         10.0 * (double)s->method.count);
+    if (err) err->time = now;
+    return MOTUS_STEPS;
+}
+
 static motus_status go(stepper *s, const stepper_limit *limit, const stepper_body *body, motus_error *err)
 {
     work *w = &s->work;
@@ -269,7 +290,8 @@ static motus_status go(stepper *s, const stepper_limit *limit, const stepper_bod
     s->until = limit->until;
     w->until = isnan(limit->until) ? INFINITY * w->h : limit->until;
     const stepper_way way = w->carried ? (stepper_way){INT64_MAX, 0} : stepper_way_of(w->t0, w->h, limit->until);
-    const int64_t left = way.whole > w->n ? way.whole - w->n : 0, steps = limit->steps < left ? limit->steps : left;
+    const int64_t whole_way = way.whole > w->n ? way.whole - w->n : 0, room = room_in_leg(s);
+    const int64_t left = whole_way < room ? whole_way : room, steps = limit->steps < left ? limit->steps : left;
     if (limit->steps > 0) { /* a mark is the left end of one step */
         s->left = s->left && limit->steps == 1 && s->left_steps == stepper_steps(s);
         s->right = false;
@@ -278,7 +300,7 @@ static motus_status go(stepper *s, const stepper_limit *limit, const stepper_bod
     if (!status && way.last != 0 && limit->steps > left) status = short_step(s, way.last, body, err);
     const bool whole = w->carried ? w->t == w->until : w->n >= way.whole && way.last == 0;
     s->arrived = !status && (whole || s->shortened);
-    return status;
+    return !status && !s->arrived && limit->steps > room ? too_many(s, err) : status;
 }
 
 motus_status stepper_advance(stepper *s, stepper_limit limit, stepper_stop *why, motus_error *err)

@@ -94,7 +94,8 @@ MOTUS_API const char *motus_version(void);
     X(UNAVAILABLE, "unavailable", "not available in this version", 2)          \
     X(SINGULAR, "singular", "the run passes a singularity of the force", 1)    \
     X(UNRESOLVED, "unresolved", "the step does not resolve the force", 1)      \
-    X(ACCURACY, "accuracy", "the accuracy was not reached", 1)
+    X(ACCURACY, "accuracy", "the accuracy was not reached", 1)                 \
+    X(STEPS, "steps", "the run has taken the most steps that it may", 1)
 
 #define MOTUS_STATUS_ENUMERATOR(name, word, text, exit) MOTUS_##name,
 typedef enum motus_status {
@@ -120,7 +121,7 @@ typedef struct motus_error {
     /* CALLBACK: what the callback returned; 0: it reads the velocity, though its definition says that it does not. Else
      * 0. */
     int returned;
-    double time; /* DIVERGED, SOLVE, CALLBACK, SINGULAR, UNRESOLVED: the time of the failure; else NaN */
+    double time; /* DIVERGED, SOLVE, CALLBACK, STEPS, SINGULAR, UNRESOLVED: the time of the failure; else NaN */
     char variable[MOTUS_NAME_MAX]; /* DIVERGED, SOLVE: the number that failed, "r[3].y"; else "" */
     char message[MOTUS_TEXT_MAX];  /* one sentence, UTF-8, without a newline, safe to print on a terminal */
     char hint[MOTUS_TEXT_MAX];     /* what to do, or "" */
@@ -593,6 +594,11 @@ typedef struct motus_run_def {
     motus_switches switches;
     int absolute; /* 1: the tolerance, or the accuracy, is in the units of the numbers themselves; 0: relative */
     motus_bars error;
+    /* Of an adaptive method: how many steps a leg may take (motus_run_steps), so that a run that needs more returns
+     * MOTUS_STEPS after the last of them; 0: as many as it needs. Those that a restart state has taken count, so that
+     * an interrupted run ends where a whole one does. Pilot and companion runs have no limit; a trial run for an
+     * accuracy has this one, and where it does not come to its end it does not serve. */
+    int64_t most_steps;
 } motus_run_def;
 #define MOTUS_THREADS_MAX 1024
 
@@ -608,10 +614,10 @@ MOTUS_API void motus_run_destroy(motus_run *);
 
 /* Takes n >= 0 steps, or fewer if `until` comes first; the last step is shorter where it must end at `until`.
  * MOTUS_ACCURACY: the run is at its end, and its accuracy was not reached; err->message says what was. MOTUS_DIVERGED:
- * a number is no longer finite. MOTUS_SOLVE: an implicit equation could not be solved. MOTUS_CALLBACK: a callback
- * returned other than 0. MOTUS_CANCELLED: `progress` or `observer` returned other than 0. MOTUS_ARGUMENT: n < 0, or an
- * observer called it. After a failure the run stands at its last good step, and you may observe it, save it and step
- * again. */
+ * a number is no longer finite. MOTUS_SOLVE: an implicit equation could not be solved. MOTUS_STEPS: the run is not at
+ * its end after `most_steps` steps. MOTUS_CALLBACK: a callback returned other than 0. MOTUS_CANCELLED: `progress` or
+ * `observer` returned other than 0. MOTUS_ARGUMENT: n < 0, or an observer called it. After a failure the run stands at
+ * its last good step, and you may observe it, save it and step again. */
 MOTUS_API motus_status motus_run_step(motus_run *, int64_t n, motus_error *);
 /* Takes all steps up to `until`. Fails as motus_run_step does. */
 MOTUS_API motus_status motus_run_finish(motus_run *, motus_error *);
@@ -881,9 +887,10 @@ typedef struct motus_ensemble_def {
     int fast; /* 1: the compiler may fuse and reorder; last bits may differ between machines */
     int (*progress)(void *context, double fraction); /* of one motus_ensemble_run; as in motus_run_def */
     void *context;
-    uint64_t expected; /* how many trajectories will follow in all: "auto" does not compile for few; 0: many */
-    int absolute;      /* as in motus_run_def */
-    motus_bars error;  /* of motus_ensemble_run_errors */
+    uint64_t expected;  /* how many trajectories will follow in all: "auto" does not compile for few; 0: many */
+    int absolute;       /* as in motus_run_def */
+    motus_bars error;   /* of motus_ensemble_run_errors */
+    int64_t most_steps; /* as in motus_run_def, of each trajectory; one that needs more stops there */
 } motus_ensemble_def;
 
 /* MOTUS_NAME: a name in `vary` is neither a parameter nor an initial value. MOTUS_SHAPE: it stands for several numbers.
@@ -893,11 +900,11 @@ MOTUS_API motus_status motus_ensemble_create(motus_system *, const motus_ensembl
                                              motus_error *);
 /* Computes `count` trajectories. values[k]: `count` values of vary[k]; NULL only where vary_count is 0. results[k]:
  * room for `count` numbers of records[k]. stopped: NULL, or room for `count` numbers: NaN, or the time at which a
- * trajectory left the finite numbers, could not solve its implicit equation, or got a value above 0 from its callback;
- * its results are then NaN, and the other trajectories go on. MOTUS_CALLBACK: a callback returned a value below 0.
- * MOTUS_CANCELLED: `progress` returned other than 0. MOTUS_METHOD: with the values of a trajectory the method does not
- * admit the model, or does not reach the end in equal steps. MOTUS_ARGUMENT, MOTUS_LIMIT: an end is not finite, or too
- * many steps away. */
+ * trajectory left the finite numbers, could not solve its implicit equation, got a value above 0 from its callback, or
+ * had taken `most_steps` steps; its results are then NaN, and the other trajectories go on. MOTUS_CALLBACK: a callback
+ * returned a value below 0. MOTUS_CANCELLED: `progress` returned other than 0. MOTUS_METHOD: with the values of a
+ * trajectory the method does not admit the model, or does not reach the end in equal steps. MOTUS_ARGUMENT,
+ * MOTUS_LIMIT: an end is not finite, or too many steps away. */
 MOTUS_API motus_status motus_ensemble_run(motus_ensemble *, size_t count, const double *const *values,
                                           double *const *results, double *stopped, motus_error *);
 /* The same with the errors: errors[k], room for `count` numbers, has the bars of results[k], as motus_run_errors has

@@ -226,9 +226,10 @@ static void set_lane(apart *s, size_t lane, size_t k)
         h = way.last;
         way = (stepper_way){1, 0};
     }
+    const double most = d->chosen->count > 0 ? (double)d->chosen->count : NAN;
     const double own[LANES_CLOCKS] = {
         [LANES_T0] = d->t0,          [LANES_H] = h,         [LANES_T] = d->t0,
-        [LANES_RISE] = CONTROL_RISE, [LANES_UNTIL] = until, [LANES_STOP] = NAN,
+        [LANES_RISE] = CONTROL_RISE, [LANES_UNTIL] = until, [LANES_STOP] = most,
     };
     for (int i = 0; i < LANES_CLOCKS; i++) *clock_of(b, lane, i) = own[i];
     lanes_companion *companion = b->trajectories[lane].companion;
@@ -413,6 +414,15 @@ static void run_fixed(apart *s)
     lanes_block_trace(&b->block, false, steps, 0, s->l->on_the_way ? examined : 0);
 }
 
+/* Stops the trajectories that have taken the most steps that they may. */
+static void stop_at_most(const apart *s, const apart_block *b)
+{
+    const int64_t most = s->l->def.chosen->count;
+    for (size_t i = 0; most > 0 && i < s->lanes; i++)
+        if (occupied(b, i) && !stopped(b, i) && !at_end(s, b, i) && steps_of(b, i) >= most)
+            b->block.stopped[i] = lanes_block_time(&b->block, i);
+}
+
 /* Computes candidates until some lane is at its end or at an observation, or fails. */
 static void run_adaptive(apart *s)
 {
@@ -420,8 +430,8 @@ static void run_adaptive(apart *s)
     const int64_t every = s->l->def.every;
     for (size_t i = 0; s->l->on_the_way && i < s->lanes; i++)
         if (occupied(b, i)) {
-            const int64_t next = steps_of(b, i) / every + 1;
-            *clock_of(b, i, LANES_STOP) = (double)(next * every);
+            const int64_t next = (steps_of(b, i) / every + 1) * every, most = s->l->def.chosen->count;
+            *clock_of(b, i, LANES_STOP) = (double)(most > 0 && most < next ? most : next);
         }
     double before[BLOCK_MAX];
     const bool told = s->item->half != NULL;
@@ -429,6 +439,7 @@ static void run_adaptive(apart *s)
     s->l->run(&b->block.job, told ? 1 : CHUNK, 0);
     for (size_t i = 0; i < s->lanes; i++)
         if (occupied(b, i) && b->block.job.lost[i] != 0) b->block.stopped[i] = lanes_block_time(&b->block, i);
+    stop_at_most(s, b);
     if (told) follow(s, before);
 }
 

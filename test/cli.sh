@@ -75,6 +75,10 @@ refuses "--tolerance beyond rounding" 2 "below the rounding of the numbers" "$mo
 refuses "--tolerance in an unknown sense" 2 "1e-6 absolute" "$motus" run $osc --method dopri5 --tolerance "1e-6 relatively"
 refuses "a shortest step that is needed" 1 "needs a step shorter than 0.1" "$motus" run $osc --method bs32 --tolerance 1e-10 --shortest-step 0.1
 refuses "a shortest step beyond the longest" 2 "longer than the longest" "$motus" run $osc --method bs32 --shortest-step 0.1 --longest-step 0.01
+refuses "a run of more steps than allowed" 1 "after 20 steps, the most that it may take" "$motus" run $osc --method bs32 --most-steps 20
+refuses "... with the option in its hint" 1 "--most-steps 200" "$motus" run $osc --method bs32 --most-steps 20
+refuses "a limit of steps of one size" 2 "steps of verlet have one size" "$motus" run $osc --method verlet --most-steps 20
+refuses "--most-steps 0" 2 "an integer above 0" "$motus" run $osc --method bs32 --most-steps 0
 refuses "compare with an adaptive method" 2 "studies take steps of one size" "$motus" compare $osc --methods dopri5,verlet
 gives "--tolerance" 0 "$motus" run $osc --method dop853 --tolerance "1e-6 absolute" --longest-step 0.5 --json
 that "... is told, with what it led to" holds '.tolerance == 1e-6 and .absolute and .rejected >= 0 and .h_min > 0 and .h_min <= .h_max and .h_max <= 0.5 and (has("step") | not)'

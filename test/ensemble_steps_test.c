@@ -10,7 +10,7 @@
 #define KINKED "F = 1\nx'' = -x - 3 max(x, 0) - 0.1 F x'\nx(0) = 1\nx'(0) = 0\nuntil 6\n"
 #define TOLERANCE 1e-7
 
-enum { COUNT = 21 };
+enum { COUNT = 21, MIDDLE = 13 }; /* MIDDLE: its end is in the middle of the ends */
 enum { LONGEST, FINAL, STEPS, REFUSED, SHORTEST, MOST, EVALUATIONS, RECORDS };
 static const motus_record records[RECORDS] = {
     [LONGEST] = {MOTUS_REDUCE_LONGEST_STEP, 0},
@@ -26,6 +26,7 @@ typedef struct task {
     const char *text, *method;
     double step;     /* NaN: steps adapt */
     bool ends;       /* every trajectory has its own */
+    int64_t most;    /* steps of a trajectory; 0: any number */
     size_t recorded; /* of the records, the last one where the evaluations do not follow from the steps */
     double force[COUNT], until[COUNT];
 } task;
@@ -51,6 +52,7 @@ static outcome by_ensemble(const task *t, const char *machine, int lanes, int th
     def.method = t->method;
     def.step = t->step;
     def.tolerance = isnan(t->step) ? TOLERANCE : NAN;
+    def.most_steps = t->most;
     def.machine = machine;
     def.lanes = lanes;
     def.threads = threads;
@@ -60,6 +62,16 @@ static outcome by_ensemble(const task *t, const char *machine, int lanes, int th
     motus_ensemble_destroy(e);
     motus_system_destroy(s);
     return o;
+}
+
+/* Of a trajectory that its run does not end either. */
+static void as_stopped(const task *t, const outcome *o, size_t i, motus_run *r)
+{
+    motus_error err = motus_default_error();
+    assert_int_equal(motus_run_finish(r, &err), MOTUS_STEPS);
+    assert_int_equal(motus_run_steps(r), t->most);
+    assert_true(err.time == motus_run_time(r) && o->stopped[i] == err.time);
+    for (size_t k = 0; k < t->recorded; k++) assert_true(isnan(o->at[k][i]));
 }
 
 static void as_runs(const task *t, const outcome *o)
@@ -75,8 +87,14 @@ static void as_runs(const task *t, const outcome *o)
         def.step = t->step;
         def.tolerance = isnan(t->step) ? TOLERANCE : NAN;
         def.until = t->ends ? t->until[i] : NAN;
+        def.most_steps = t->most;
         def.machine = "interpreter";
         must(motus_run_create(s, &def, &r, &err), &err, t->method);
+        if (t->most && !isnan(o->stopped[i])) {
+            as_stopped(t, o, i, r);
+            motus_run_destroy(r);
+            continue;
+        }
         finish(r);
         assert_int_equal(motus_run_statistics(r, &told), MOTUS_OK);
         const double expected[RECORDS] = {
@@ -128,6 +146,31 @@ static void adaptive_rows(void **state)
     motus_system_destroy(both[1]);
 }
 
+/* Some trajectories come to their ends, one of them by its last allowed step; the others stop after it. */
+static void the_most_steps(void **state)
+{
+    static const char *const methods[] = {"dopri5", "radau15", "taylor"};
+    (void)state;
+    for (size_t m = 0; m < sizeof methods / sizeof *methods; m++)
+        for (int ends = 0; ends < 2; ends++) {
+            task t = {.text = PENDULUM, .method = methods[m], .step = NAN, .ends = ends, .recorded = EVALUATIONS};
+            fill(&t);
+            outcome free_of_it = by_ensemble(&t, "interpreter", 0, 1);
+            t.most = (int64_t)free_of_it.at[STEPS][MIDDLE];
+            outcome o = by_ensemble(&t, "interpreter", 0, 1);
+            size_t stopped = 0;
+            for (size_t i = 0; i < COUNT; i++) {
+                const bool due = free_of_it.at[STEPS][i] > (double)t.most;
+                stopped += due;
+                assert_int_equal(!isnan(o.stopped[i]), due);
+            }
+            assert_true(!ends || (stopped > 0 && stopped < COUNT));
+            forget(&o);
+            forget(&free_of_it);
+            compare(&t, true);
+        }
+}
+
 /* The evaluations of rows of fixed step are counted one trajectory at a time. */
 static void fixed_steps(void **state)
 {
@@ -145,7 +188,8 @@ static void fixed_steps(void **state)
 int main(void)
 {
     open_cache();
-    const struct CMUnitTest tests[] = {cmocka_unit_test(adaptive_rows), cmocka_unit_test(fixed_steps)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(adaptive_rows), cmocka_unit_test(the_most_steps),
+                                       cmocka_unit_test(fixed_steps)};
     const int failed = cmocka_run_group_tests_name("steps of ensembles", tests, NULL, NULL);
     close_cache();
     return failed;

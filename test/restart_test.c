@@ -372,6 +372,49 @@ static void forged_states_do_no_harm(void **state)
     motus_system_destroy(s);
 }
 
+/* The steps before a restart count: the limit is met at the same step, in the same words, and more are never taken. */
+static void limit_of_steps(void **state)
+{
+    (void)state;
+    motus_system *s = given_text(texts[0]);
+    motus_error err = motus_default_error(), other = motus_default_error();
+    motus_run_def def = motus_default_run();
+    motus_run *whole = NULL, *first = NULL, *second = NULL;
+    def.method = "dopri5", def.until = 20, def.machine = "interpreter", def.most_steps = 30;
+    must(motus_run_create(s, &def, &whole, &err), &err, "whole");
+    must(motus_run_create(s, &def, &first, &err), &err, "first");
+    must(motus_run_create(s, &def, &second, &err), &err, "second");
+    assert_int_equal(motus_run_finish(whole, &err), MOTUS_STEPS);
+    assert_int_equal(motus_run_steps(whole), 30);
+    assert_true(err.time == motus_run_time(whole) && strstr(err.message, "after 30 steps") != NULL);
+    assert_int_equal(motus_run_step(whole, 1, &err), MOTUS_STEPS);
+    assert_int_equal(motus_run_step(whole, 0, &err), MOTUS_OK);
+    take_steps(first, 12);
+    kept k = save(first);
+    must(restore(second, k, &err), &err, "restore");
+    assert_int_equal(motus_run_step(second, 18, &err), MOTUS_OK);
+    assert_int_equal(motus_run_finish(second, &other), MOTUS_STEPS);
+    same_state(s, whole, second, "at the limit");
+    same_counts(whole, second);
+    double x = 1, v = 0; /* another leg has as many again */
+    must(motus_run_set_state(second, NAN, &x, &v, &err), &err, "set");
+    assert_int_equal(motus_run_finish(second, &err), MOTUS_STEPS);
+    assert_int_equal(motus_run_steps(second), 30);
+    motus_statistics all = motus_default_statistics();
+    assert_int_equal(motus_run_statistics(second, &all), MOTUS_OK);
+    assert_int_equal(all.steps, 60);
+    def.most_steps = -1, def.until = 21;
+    motus_run *none = NULL;
+    assert_int_equal(motus_run_create(s, &def, &none, &err), MOTUS_ARGUMENT);
+    def.most_steps = 5, def.method = "rk4", def.step = 0.1;
+    assert_int_equal(motus_run_create(s, &def, &none, &err), MOTUS_ARGUMENT);
+    free(k.text);
+    motus_run_destroy(whole);
+    motus_run_destroy(first);
+    motus_run_destroy(second);
+    motus_system_destroy(s);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -383,6 +426,7 @@ int main(void)
         cmocka_unit_test(sums_with_other_bounds_are_other_models),
         cmocka_unit_test(damage_is_seen),
         cmocka_unit_test(forged_states_do_no_harm),
+        cmocka_unit_test(limit_of_steps),
     };
     return cmocka_run_group_tests_name("restart states", tests, NULL, NULL);
 }

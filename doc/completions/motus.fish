@@ -24,6 +24,7 @@ complete -c motus -n "__fish_seen_subcommand_from run" -l accuracy -x -d 'error 
 complete -c motus -n "__fish_seen_subcommand_from run sweep" -l tolerance -x -d 'of an adaptive method: error of a step'
 complete -c motus -n "__fish_seen_subcommand_from run sweep" -l shortest-step -x -d 'of an adaptive method'
 complete -c motus -n "__fish_seen_subcommand_from run sweep" -l longest-step -x -d 'of an adaptive method'
+complete -c motus -n "__fish_seen_subcommand_from run sweep" -l most-steps -x -d 'of an adaptive method'
 complete -c motus -n "__fish_seen_subcommand_from run compare converge sweep lab" -l until -x -d 'end'
 complete -c motus -n "__fish_seen_subcommand_from run compare converge sweep check lab" -l set -x -d 'replace a parameter or initial value'
 complete -c motus -n "__fish_seen_subcommand_from compare" -l evaluations -x -d 'equal work'
