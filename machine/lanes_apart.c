@@ -257,8 +257,9 @@ static void send(const lanes_block *half, size_t lane, double from, double t)
     for (int i = 0; i < LANES_CLOCKS; i++) *clock_at(half, lane, i) = own[i];
 }
 
-/* Two candidates of each lane that is sent; a lane that cannot go on ends a call of the object, and not the others. */
-static void two_steps(const apart *s, const lanes_block *half, const bool *sent)
+/* Goes on until every lane that is sent has made `most` candidates; a lane that cannot go on ends a call of the object,
+ * and not the others. */
+static void make(const apart *s, const lanes_block *half, const bool *sent, int64_t most)
 {
     for (int turn = 0; turn < 2; turn++) {
         int64_t left = 0;
@@ -266,9 +267,40 @@ static void two_steps(const apart *s, const lanes_block *half, const bool *sent)
             const double made = *clock_at(half, i, LANES_N) + *clock_at(half, i, LANES_REFUSED);
             const bool lost = turn && half->job.lost[i] != 0;
             if (lost) *clock_at(half, i, LANES_UNTIL) = *clock_at(half, i, LANES_NEXT) = NAN;
-            if (sent[i] && !lost && 2 - (int64_t)made > left) left = 2 - (int64_t)made;
+            if (sent[i] && !lost && most - (int64_t)made > left) left = most - (int64_t)made;
         }
         if (left > 0) half->l->run(&half->job, left, 0);
+    }
+}
+
+/* The same, and all other lanes stay as they are. */
+static void make_apart(const apart *s, const lanes_block *half, const bool *sent, int64_t most)
+{
+    bool rest = false;
+    for (size_t i = 0; i < s->lanes; i++) rest |= !sent[i];
+    if (rest) lanes_block_save(half);
+    for (size_t i = 0; i < s->lanes; i++)
+        if (!sent[i]) *clock_at(half, i, LANES_UNTIL) = *clock_at(half, i, LANES_NEXT) = NAN;
+    make(s, half, sent, most);
+    for (size_t i = 0; rest && i < s->lanes; i++)
+        if (!sent[i]) lanes_block_put_back(half, i);
+}
+
+/* Takes the lanes that are sent to where they land, by two candidates, or by more where the equation of one could not be
+ * solved; it is then taken again, shorter. A lane that cannot go on stays where it is. */
+static void land(const apart *s, const lanes_block *half, const bool *sent)
+{
+    bool away[BLOCK_MAX], any = true;
+    memcpy(away, sent, s->lanes * sizeof *away);
+    for (int64_t most = 2; any; most++) {
+        make_apart(s, half, away, most);
+        any = false;
+        for (size_t i = 0; i < s->lanes; i++) {
+            const double until = *clock_at(half, i, LANES_UNTIL);
+            const bool lost = half->job.lost[i] != 0 || isnan(until);
+            away[i] = away[i] && !lost && *clock_at(half, i, LANES_T) != until;
+            any |= away[i];
+        }
     }
 }
 
@@ -291,13 +323,10 @@ static void follow(const apart *s, const double *before)
 {
     const apart_block *b = &s->blocks[RUNNING];
     const lanes_block *half = &b->half;
-    bool sent[BLOCK_MAX], any = false, rests = false;
+    bool sent[BLOCK_MAX], any = false;
     for (size_t i = 0; i < s->lanes; i++) {
-        const bool live = alive(b, i);
-        sent[i] = live && *clock_of(b, i, LANES_N) > before[i];
+        sent[i] = alive(b, i) && *clock_of(b, i, LANES_N) > before[i];
         any |= sent[i];
-        rests |= live && !sent[i];
-        if (!sent[i]) *clock_at(half, i, LANES_UNTIL) = *clock_at(half, i, LANES_NEXT) = NAN;
         if (!sent[i]) continue;
         lanes_companion *c = b->trajectories[i].companion;
         const double t = *clock_of(b, i, LANES_T);
@@ -305,13 +334,10 @@ static void follow(const apart *s, const double *before)
         c->landed = t;
     }
     if (!any) return;
-    if (rests) lanes_block_save(half);
-    two_steps(s, half, sent);
-    for (size_t i = 0; i < s->lanes; i++) {
+    land(s, half, sent);
+    for (size_t i = 0; i < s->lanes; i++)
         if (sent[i] && *clock_at(half, i, LANES_T) != b->trajectories[i].companion->landed)
             b->trajectories[i].companion->failed = true;
-        if (rests && alive(b, i) && !sent[i]) lanes_block_put_back(half, i);
-    }
     compare(s, b, sent);
 }
 
