@@ -31,7 +31,7 @@ static const layout layouts[] = {
                        &(const motus_run_def){
                            .step = NAN, .accuracy = NAN, .tolerance = NAN, .until = NAN, .start = NAN}},
     [MOTUS_DEF_STUDY] = {"motus_study_def", "study", SIZES(motus_study_def),
-                         &(const motus_study_def){.step = NAN, .until = NAN}},
+                         &(const motus_study_def){.step = NAN, .until = NAN, .coarsest = NAN, .finest = NAN}},
     [MOTUS_DEF_ENSEMBLE] = {"motus_ensemble_def", "ensemble", SIZES(motus_ensemble_def),
                             &(const motus_ensemble_def){.step = NAN, .until = NAN, .tolerance = NAN, .every = 1}},
     [MOTUS_DEF_VARIABLE] = {"motus_variable", "variable", SIZES(motus_variable), NULL},

@@ -2,8 +2,10 @@
  *
  * Invariant: the numbers are the library's. A method that failed has a row, and a note that says why.
  */
+#include "base/error.h"
 #include "cli/complain.h"
 #include "cli/overlay.h"
+#include "cli/rank.h"
 #include "cli/share.h"
 #include "cli/studies.h"
 #include "cli/table.h"
@@ -136,12 +138,14 @@ motus_status compare_verb(const options *o, motus_error *err)
 {
     static const studies_ways ways = {draw, print_json, print_tables};
     if (o->share) return share_verb(o, err);
+    if (!isnan(o->coarsest)) return rank_verb(o, err);
     studies s;
     motus_study_def def;
     motus_comparison *c = NULL;
     motus_status status =
         studies_begin(&s, "compare", SETTLE_UNTIL | (o->evaluations > 0 ? 0 : SETTLE_STEP), o, &def, err);
     if (!status) status = motus_compare(s.model.system, &def, &c, err);
+    if (status == MOTUS_UNAVAILABLE) hint(err, "with --accuracies 1e-3:1e-12 adaptive methods are compared too");
     stop_progress_end(&s.progress);
     if (!status) status = studies_show(&s, &ways, c, err);
     motus_comparison_destroy(c);

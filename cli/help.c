@@ -26,7 +26,8 @@ static const page pages[] = {
      "distance from the start after a run to the end and back.",
      "  motus compare models/projectile.motus\n"
      "  motus compare models/spring.motus --methods explicit-euler,symplectic-euler,verlet --plot spring.svg\n"
-     "  motus compare models/kepler.motus --evaluations 20000\n"},
+     "  motus compare models/kepler.motus --evaluations 20000\n"
+     "  motus compare models/kepler.motus --accuracies 1e-3:1e-11 --methods verlet,dop853,dep12 --plot work.svg\n"},
     {VERB_CONVERGE, "motus converge MODEL [options]",
      "Measures the order of every method on this model: errors at a sequence of steps, their slope between "
      "instability\n"

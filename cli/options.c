@@ -26,7 +26,20 @@ enum {
     ANY = MODEL | VERB_METHODS | VERB_CACHE
 };
 
-typedef enum kind { FLAG, WORD, STEP, LENGTH, TOLERANCE, UNTIL, COUNT, SEED, EVERY, METHOD_LIST, NAMED } kind;
+typedef enum kind {
+    FLAG,
+    WORD,
+    STEP,
+    LENGTH,
+    TOLERANCE,
+    ACCURACIES,
+    UNTIL,
+    COUNT,
+    SEED,
+    EVERY,
+    METHOD_LIST,
+    NAMED
+} kind;
 
 typedef struct option {
     const char *name, *brief, *argument;
@@ -57,6 +70,8 @@ static const option table[] = {
      "replace a parameter or initial value: F=0.2, \"x(0)=1\"; repeatable"},
     {"--evaluations", NULL, "N", COUNT, AT(evaluations), VERB_COMPARE,
      "equal work: each method's step is chosen to spend N evaluations"},
+    {"--accuracies", NULL, "A:B", ACCURACIES, AT(coarsest), VERB_COMPARE,
+     "the work of each method, adaptive ones too, for accuracies from A to B: 1e-3:1e-12, \"1e-3:1e-6 absolute\""},
     {"--output", "-o", "FILE", WORD, AT(output), ONE | VERB_LAB,
      "write the CSV (sweep: .npy as well; lab: the page) to FILE; - is standard output"},
     {"--error", NULL, "HOW", WORD, AT(error), VERB_RUN | VERB_SWEEP,
@@ -71,8 +86,8 @@ static const option table[] = {
     {"--plot-of", NULL, "X,Y", WORD, AT(plot_of), VERB_RUN, "draw column Y against column X: \"x,x'\""},
     {"--save-state", NULL, "FILE", WORD, AT(save_state), VERB_RUN, "write an exact restart state at the end"},
     {"--restart", NULL, "FILE", WORD, AT(restart), VERB_RUN, "continue from a restart state, to the same bits"},
-    {"--machine", NULL, "NAME", WORD, AT(machine), ONE,
-     "auto (compiles where the run is long enough), interpreter, compiled"},
+    {"--machine", NULL, "NAME", WORD, AT(machine), ONE | VERB_COMPARE,
+     "auto (compiles where the run is long enough), interpreter, compiled; compare: which --accuracies times"},
     {"--threads", NULL, "N", COUNT, AT(threads), ONE,
      "sweep: threads (else one for each processor); run: for one large system (else 1); the bits are the same"},
     {"--emit-c", NULL, NULL, FLAG, AT(emit_c), VERB_RUN, "print the C text that the compiled machine runs, and stop"},
@@ -205,11 +220,10 @@ static motus_status read_every(options *o, const option *row, const char *value,
     return MOTUS_OK;
 }
 
-/* "1e-9", or with the word relative or absolute. */
-static motus_status read_tolerance(options *o, const option *row, const char *value, motus_error *err)
+/* The text without the word relative or absolute at its end, which goes to o->absolute. False: it is too long. */
+static bool read_unit(options *o, const char *value, char text[64])
 {
     static const char *const words[] = {"relative", "absolute"};
-    char number[64];
     size_t length = strlen(value);
     o->absolute = false;
     for (int i = 0; i < 2; i++) {
@@ -220,10 +234,30 @@ static motus_status read_tolerance(options *o, const option *row, const char *va
         while (length > 0 && value[length - 1] == ' ') length--;
         break;
     }
-    snprintf(number, sizeof number, "%.*s", (int)length, value);
+    snprintf(text, 64, "%.*s", (int)length, value);
+    return length < 64;
+}
+
+/* "1e-9", or with the word relative or absolute. */
+static motus_status read_tolerance(options *o, const option *row, const char *value, motus_error *err)
+{
+    char number[64];
     double *const place = (double *)((char *)o + row->place);
-    if (length < sizeof number && typed_number(number, place) && *place > 0) return MOTUS_OK;
+    if (read_unit(o, value, number) && typed_number(number, place) && *place > 0) return MOTUS_OK;
     return bad_value(row, value, "a number above 0, or one as \"1e-6 absolute\"", err);
+}
+
+/* "1e-3:1e-12", or one of them. */
+static motus_status read_accuracies(options *o, const option *row, const char *value, motus_error *err)
+{
+    char text[64];
+    const bool fits = read_unit(o, value, text);
+    char *colon = strchr(text, ':');
+    if (colon) *colon = 0;
+    if (fits && typed_number(text, &o->coarsest) && o->coarsest > 0 &&
+        typed_number(colon ? colon + 1 : text, &o->finest) && o->finest > 0)
+        return MOTUS_OK;
+    return bad_value(row, value, "a range of numbers above 0, as 1e-3:1e-12", err);
 }
 
 motus_status options_split(const char *text, const char *option_name, char **copy, options_list *list, motus_error *err)
@@ -293,6 +327,7 @@ static motus_status store(options *o, const option *row, const char *value, motu
         return typed_number(value, place) && *(double *)place > 0 ? MOTUS_OK
                                                                   : bad_value(row, value, "a number above 0", err);
     case TOLERANCE: return read_tolerance(o, row, value, err);
+    case ACCURACIES: return read_accuracies(o, row, value, err);
     case UNTIL:
         o->until_typed = value;
         return typed_number(value, &o->until) ? MOTUS_OK : bad_value(row, value, "a number", err);
@@ -327,6 +362,7 @@ static motus_status check_share(const options *o, motus_error *err)
         {"--save-state", o->save_state},
         {"--restart", o->restart},
         {"--evaluations", o->evaluations > 0},
+        {"--accuracies", !isnan(o->coarsest)},
         {"--emit-c", o->emit_c},
     };
     for (size_t i = 0; i < sizeof others / sizeof *others; i++)
@@ -335,6 +371,24 @@ static motus_status check_share(const options *o, motus_error *err)
             hint(err, "--share computes nothing: it prints a link's model and settings");
             return MOTUS_ARGUMENT;
         }
+    return MOTUS_OK;
+}
+
+/* What a comparison at equal accuracy finds itself, and what it alone reads. */
+static motus_status check_accuracies(const options *o, motus_error *err)
+{
+    const bool given = !isnan(o->coarsest);
+    if (given && (o->evaluations > 0 || !isnan(o->step))) {
+        fail(err, MOTUS_ARGUMENT, "--accuracies and %s exclude each other",
+             o->evaluations > 0 ? "--evaluations" : "--step");
+        hint(err, "with --accuracies each method gets the step, or the tolerance, that it needs for them");
+        return MOTUS_ARGUMENT;
+    }
+    if (!given && o->verb == VERB_COMPARE && o->machine) {
+        fail(err, MOTUS_ARGUMENT, "--machine needs --accuracies");
+        hint(err, "add --accuracies 1e-3:1e-12");
+        return MOTUS_ARGUMENT;
+    }
     return MOTUS_OK;
 }
 
@@ -385,13 +439,22 @@ static motus_status check(const options *o, motus_error *err)
         return MOTUS_ARGUMENT;
     }
     if (o->json && o->markdown) return fail(err, MOTUS_ARGUMENT, "--json and --markdown exclude each other");
+    const motus_status status = check_accuracies(o, err);
+    if (status) return status;
     return o->share ? check_share(o, err) : MOTUS_OK;
 }
 
 motus_status options_read(options *o, unsigned verb, int argc, char **argv, int first, motus_error *err)
 {
-    *o = (options){
-        .verb = verb, .step = NAN, .until = NAN, .tolerance = NAN, .accuracy = NAN, .argc = argc, .argv = argv};
+    *o = (options){.verb = verb,
+                   .step = NAN,
+                   .until = NAN,
+                   .tolerance = NAN,
+                   .accuracy = NAN,
+                   .coarsest = NAN,
+                   .finest = NAN,
+                   .argc = argc,
+                   .argv = argv};
     bool only_operands = false;
     for (int i = first; i < argc; i++) {
         char *word = argv[i];

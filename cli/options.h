@@ -30,7 +30,8 @@ typedef struct options {
     const char *method, *error, *output, *columns, *plot, *plot_of, *save_state, *restart, *machine;
     double step, until;                   /* NaN: the model's */
     double tolerance, accuracy;           /* NaN: the model's */
-    bool absolute;                        /* tolerance or accuracy are in the units of the numbers */
+    double coarsest, finest;              /* accuracies to compare at; NaN: not given */
+    bool absolute;                        /* tolerance or accuracies are in the units of the numbers */
     double shortest_step, longest_step;   /* 0: not given */
     int64_t most_steps;                   /* likewise */
     const char *step_typed, *until_typed; /* as given; NULL: the model's */

@@ -945,6 +945,11 @@ typedef struct motus_study_def {
     /* motus_reference_create: >= 0: an error that need not be improved, in units of how far the variable moves. The
      * reference is found sooner, and motus_reference_error tells its error in any case. 0: as small as possible. */
     double tolerance;
+    /* motus_rank: the accuracies from `coarsest` to `finest` in steps of a factor ten, and `finest`; in any order. */
+    double coarsest, finest;
+    const char *machine; /* motus_rank: on which machine runs are timed; NULL: "interpreter" */
+    int absolute;        /* 1: these accuracies are in the units of the numbers themselves; 0: relative */
+    int repeats;         /* motus_rank: how often each run is timed, at least; 0: three times */
 } motus_study_def;
 
 typedef struct motus_drift { /* the error of one invariant along a run (of its numbers the largest) */
@@ -984,6 +989,48 @@ typedef struct motus_comparison {
  * MOTUS_CALLBACK: a callback returned other than 0 at the initial state, or reads the velocity undeclared. */
 MOTUS_API motus_status motus_compare(motus_system *, const motus_study_def *, motus_comparison **, motus_error *);
 MOTUS_API void motus_comparison_destroy(motus_comparison *);
+
+typedef struct motus_rank_point {
+    double accuracy; /* that was asked for */
+    double setting;  /* the tolerance of an adaptive method, else the step, that the method needs for it */
+    double error;    /* with it; NaN: the accuracy was not reached, as the row's `note` says */
+    int64_t steps, evaluations;
+    double seconds; /* of the run, its creation left out; the smallest of several */
+} motus_rank_point;
+typedef struct motus_rank_row {
+    const char *method;
+    int order, adaptive;
+    motus_status
+        status; /* MOTUS_ACCURACY: no accuracy was reached; else of a method that the model does not admit, or fails */
+    const motus_rank_point *const *points; /* one for each accuracy */
+    const char *note;                      /* why an accuracy was not reached, or "" */
+} motus_rank_row;
+typedef struct motus_ranking {
+    /* Those that were asked for, from coarse to fine. Errors are judged for the first `judged` of them: the error of
+     * the reference is above a tenth of the others. */
+    size_t accuracy_count, judged;
+    const double *accuracies;
+    int absolute;
+    size_t row_count;
+    const motus_rank_row *const *rows; /* row_count, in the order of the methods */
+    const size_t *fewest,
+        *fastest;                  /* for each accuracy: the row with the fewest evaluations, and with the least time */
+    const char *reference;         /* "exact", or "dep12 with tolerance 1e-15, judged by radau15" */
+    double reference_error;        /* in the unit of the accuracies */
+    const char *machine, *remarks; /* on which runs were timed; one sentence a line, or "" */
+} motus_ranking;
+/* Work against precision: what each method, adaptive ones included, needs for each accuracy of the definition. The
+ * error of a run is what `accuracy` of motus_run_def bounds: of every number, relative to the largest number so far of
+ * its kind or absolute; measured against a reference at the ends of up to 32 steps spread over the run, with the error
+ * of the reference added. Tolerances and steps are searched until an error is at most the accuracy, and near it.
+ * Evaluations are the same on every machine; those of a Taylor series are coefficients. In `fewest` and `fastest`
+ * stands row_count where no method reached the accuracy.
+ *
+ * Fails as motus_compare does. MOTUS_ARGUMENT: an accuracy is not positive, or beyond the limits of motus_run_def, or
+ * the definition has a step or evaluations. MOTUS_DIVERGED: there is no reference solution. MOTUS_ACCURACY: the
+ * reference is too inaccurate for all accuracies. MOTUS_TOOL: as from motus_run_create. */
+MOTUS_API motus_status motus_rank(motus_system *, const motus_study_def *, motus_ranking **, motus_error *);
+MOTUS_API void motus_ranking_destroy(motus_ranking *);
 
 typedef struct motus_point {
     double step, error;

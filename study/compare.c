@@ -416,7 +416,7 @@ static motus_status prepare(compare *c, motus_system *system, motus_error *err)
         return MOTUS_ARGUMENT;
     }
     status = study_open(s, system, &c->def, c->def.evaluations > 0 ? 0 : c->step, err);
-    if (status == MOTUS_OK) status = study_methods(s, &c->def, &c->methods, &c->count);
+    if (status == MOTUS_OK) status = study_methods(s, &c->def, false, &c->methods, &c->count);
     if (status == MOTUS_OK) status = find_columns(c);
     if (status != MOTUS_OK) return status;
     c->facts = take(s->allocator, c->count, sizeof *c->facts);

@@ -410,7 +410,7 @@ motus_status motus_converge(motus_system *system, const motus_study_def *given, 
     const modes host = modes_enter();
     motus_status status = study_read(given, &c.def, err);
     if (status == MOTUS_OK) status = study_open(&c.s, system, &c.def, 0, err);
-    if (status == MOTUS_OK) status = study_methods(&c.s, &c.def, &c.methods, &c.count);
+    if (status == MOTUS_OK) status = study_methods(&c.s, &c.def, false, &c.methods, &c.count);
     if (status == MOTUS_OK) status = make_result(&c);
     if (status == MOTUS_OK) status = converge_all(&c);
     if (c.s.allocator) {

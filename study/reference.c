@@ -7,11 +7,8 @@
  */
 #include "solution.h"
 #include "base/decimal.h"
-#include <float.h>
 #include <math.h>
 #include <string.h>
-
-#define ROUNDING_OF_TIME (8 * DBL_EPSILON) /* relative: two times nearer than this are the same time */
 
 struct motus_reference {
     study s;
@@ -24,44 +21,12 @@ struct motus_reference {
 
 static double direction_of(const study *s) { return s->until > s->from ? 1 : -1; }
 
-static bool same_time(double a, double b) { return fabs(a - b) <= ROUNDING_OF_TIME * (fabs(a) + fabs(b)); }
-
-static double time_of_row(const motus_reference *r, size_t row)
-{
-    return row == r->grid.points ? r->s.until : r->s.from + direction_of(&r->s) * (double)row * r->grid.interval;
-}
-
-/* The index of the last kept row that is not after t. */
-static size_t row_before(const motus_reference *r, double t)
-{
-    double way = (t - r->s.from) * direction_of(&r->s);
-    if (same_time(t, r->s.until) || !(way > 0)) return way > 0 ? r->grid.points : 0;
-    size_t row = (size_t)fmin(floor(way / r->grid.interval), (double)r->grid.intervals);
-    if (row < r->grid.intervals && same_time(time_of_row(r, row + 1), t)) row++;
-    return row;
-}
-
-/* From the state at `from` (in r->y) to t. */
-static motus_status go(motus_reference *r, double from, double t, motus_error *err)
-{
-    study *s = &r->s;
-    double way = fabs(t - from), step = way;
-    if (!r->solution.exact) step = way / fmax(1, ceil(way / r->solution.step * (1 - ROUNDING_OF_TIME)));
-    motus_run *run = NULL;
-    s->locate = true;
-    motus_status status = study_run(s, r->solution.method, step, from, t, r->y, &run, err);
-    if (status == MOTUS_OK) status = motus_run_finish(run, err);
-    if (status == MOTUS_OK) status = study_state(s, run, r->y, err);
-    motus_run_destroy(run);
-    return status;
-}
-
 static motus_status answer(motus_reference *r, double t, motus_error *err)
 {
     study *s = &r->s;
     /* The exact motion takes one step from the start, at no loss of accuracy. */
-    size_t row = r->solution.exact ? 0 : row_before(r, t);
-    double from = time_of_row(r, row), direction = direction_of(s);
+    size_t row = r->solution.exact ? 0 : solution_row(s, &r->grid, t);
+    double from = solution_time(s, &r->grid, row), direction = direction_of(s);
     /* false for NaN */
     bool onward = !r->solution.exact && (r->t - from) * direction > 0 && (t - r->t) * direction >= 0;
     if (onward)
@@ -69,7 +34,7 @@ static motus_status answer(motus_reference *r, double t, motus_error *err)
     else
         memcpy(r->y, r->solution.rows + row * s->numbers, s->numbers * sizeof(double));
     r->t = NAN; /* stays so if the run fails */
-    motus_status status = same_time(from, t) ? MOTUS_OK : go(r, from, t, err);
+    motus_status status = solution_same_time(from, t) ? MOTUS_OK : solution_go(s, &r->solution, from, t, r->y, err);
     if (status == MOTUS_OK) r->t = t;
     return status;
 }
@@ -77,7 +42,7 @@ static motus_status answer(motus_reference *r, double t, motus_error *err)
 static bool within(const study *s, double t)
 {
     double most = s->until > s->from ? s->until : s->from, least = s->until > s->from ? s->from : s->until;
-    return isfinite(t) && (t >= least || same_time(t, least)) && (t <= most || same_time(t, most));
+    return isfinite(t) && (t >= least || solution_same_time(t, least)) && (t <= most || solution_same_time(t, most));
 }
 
 motus_status motus_reference_at(motus_reference *r, const double *times, size_t count, double *x, double *v,

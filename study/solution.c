@@ -29,9 +29,10 @@
 #define SOLUTION_LOST 0.1 /* of the motion's size: an estimate beyond this says that nothing is known */
 #define SOLUTION_FAR \
     100 /* times the estimate of halvings: a second method that is further away says that they agree by luck */
-#define SOLUTION_ROUNDS 3      /* so often does the first method take shorter steps then */
-#define SOLUTION_SHAKE 0x1p-53 /* of the largest values of the motion */
-#define SOLUTION_UNEVEN 4      /* by how much an estimate is widened where steps cross jumps of the force */
+#define SOLUTION_ROUNDS 3                    /* so often does the first method take shorter steps then */
+#define SOLUTION_SHAKE 0x1p-53               /* of the largest values of the motion */
+#define SOLUTION_SAME_TIME (8 * DBL_EPSILON) /* relative */
+#define SOLUTION_UNEVEN 4 /* by how much an estimate is widened where steps cross jumps of the force */
 /* The bound on the work (study_work): about a fifth of a second of a small model, or SOLUTION_PASSES evaluations for
  * each step of the methods under study, if that is more. */
 #define SOLUTION_WORK 3e7
@@ -68,6 +69,12 @@ static candidate untried(const motus_method *card)
     return (candidate){.card = card, .scaled = NAN, .jump = -1, .jump_time = NAN, .jump_power = NAN};
 }
 
+/* Methods whose halved steps tell their error. */
+static bool suits(const motus_method *m)
+{
+    return !m->adaptive && strcmp(m->family, "exact") != 0 && m->order <= SOLUTION_ORDER_MOST;
+}
+
 static size_t candidates(study *s, candidate *out)
 {
     size_t count = 0;
@@ -75,8 +82,7 @@ static size_t candidates(study *s, candidate *out)
     for (int pass = 0; pass < 2; pass++)
         for (size_t k = 0; k < motus_method_count(); k++) {
             const motus_method *m = motus_method_at(k);
-            if (strcmp(m->family, "exact") == 0 || m->order > SOLUTION_ORDER_MOST || !study_admits(s, m->name))
-                continue;
+            if (!suits(m) || !study_admits(s, m->name)) continue;
             if (pass == 0) {
                 highest = m->order > highest ? m->order : highest;
                 continue;
@@ -261,9 +267,7 @@ static const motus_method *judge_of(study *s, const motus_method *best, double s
     int rank = 0;
     for (size_t k = 0; k < motus_method_count(); k++) {
         const motus_method *m = motus_method_at(k);
-        if (m == best || strcmp(m->family, "exact") == 0 || m->order > SOLUTION_ORDER_MOST ||
-            m->order < best->order - SOLUTION_ORDERS_BELOW)
-            continue;
+        if (m == best || !suits(m) || m->order < best->order - SOLUTION_ORDERS_BELOW) continue;
         const int other = strcmp(m->family, best->family) != 0 ? 2 : 1;
         if (rank > other || (rank == other && judge->order >= m->order)) continue;
         if (too_dear(s, m, steps, most) || !study_admits(s, m->name)) continue;
@@ -539,6 +543,37 @@ motus_status solution_on(study *s, const solution *r, const study_grid *g, doubl
     s->locate = false;
     if (!study_fatal(status)) return MOTUS_OK; /* the rows are NaN from the failure on */
     return tell(s, status, &ignored);
+}
+
+bool solution_same_time(double a, double b) { return fabs(a - b) <= SOLUTION_SAME_TIME * (fabs(a) + fabs(b)); }
+
+static double direction_of(const study *s) { return s->until > s->from ? 1 : -1; }
+
+double solution_time(const study *s, const study_grid *g, size_t row)
+{
+    return row == g->points ? s->until : s->from + direction_of(s) * (double)row * g->interval;
+}
+
+size_t solution_row(const study *s, const study_grid *g, double t)
+{
+    double way = (t - s->from) * direction_of(s);
+    if (solution_same_time(t, s->until) || !(way > 0)) return way > 0 ? g->points : 0;
+    size_t row = (size_t)fmin(floor(way / g->interval), (double)g->intervals);
+    if (row < g->intervals && solution_same_time(solution_time(s, g, row + 1), t)) row++;
+    return row;
+}
+
+motus_status solution_go(study *s, const solution *r, double from, double t, double *y, motus_error *err)
+{
+    const double way = fabs(t - from);
+    const bool one = r->exact || r->tolerance > 0;
+    const double step = one ? way : way / fmax(1, ceil(way / r->step * (1 - SOLUTION_SAME_TIME)));
+    int64_t spent = 0;
+    s->locate = !(r->tolerance > 0);
+    s->tolerance = r->tolerance;
+    const motus_status status = study_leg(s, r->method, step, from, t, y, &spent, err);
+    s->locate = false;
+    return status;
 }
 
 void solution_free(study *s, solution *r)

@@ -16,6 +16,7 @@ typedef struct solution {
     char method[MOTUS_NAME_MAX]; /* the method of its run; "" if nothing is known */
     int order;
     double step;                  /* of the reference run; 0 for the exact motion */
+    double tolerance;             /* of the reference run in place of a step, where its method is adaptive; else 0 */
     double error;                 /* its estimated error, largest component; 0 for the exact motion */
     double scaled;                /* the same in units of the motion's size */
     double *rows;                 /* (points + 1) × numbers: the start, then the grid's points; owned */
@@ -31,6 +32,13 @@ study_grid solution_grid(const study *, double step);
 motus_status solution_find(study *, const study_grid *, int64_t steps, double enough, solution *);
 /* The solution on another grid of the same motion (grid->points rows), at steps no larger than solution->step. */
 motus_status solution_on(study *, const solution *, const study_grid *, double *rows);
+/* Takes a state of the solution, or one near it, from one time to another by the solution's method, at steps no larger
+ * than its own. */
+motus_status solution_go(study *, const solution *, double from, double t, double *y, motus_error *);
+bool solution_same_time(double, double); /* but for rounding */
+/* The time of a row of the solution's table, and the last row that is not after t. */
+double solution_time(const study *, const study_grid *, size_t row);
+size_t solution_row(const study *, const study_grid *, double t);
 const char *solution_lacks(const solution *); /* why nothing is known */
 /* The highest order that a method of fixed step can have on this motion, since the force is not smooth along it,
  * which need not be a whole number; 0: any. `why` becomes a sentence without capital and stop: "the force jumps at t

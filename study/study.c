@@ -24,6 +24,15 @@ double study_seconds(void)
     return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
 }
 
+double study_processor_seconds(void)
+{
+#ifdef CLOCK_THREAD_CPUTIME_ID
+    struct timespec now;
+    if (clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now) == 0) return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
+#endif
+    return study_seconds();
+}
+
 double study_evaluations(const motus_method *m, double steps)
 {
     return steps * (m->evaluations > 0 ? m->evaluations : SOLVE_PASSES * m->stages);
@@ -204,8 +213,7 @@ void study_close(study *s)
     give(s->allocator, s->start);
 }
 
-/* Studies take steps of one size. */
-static bool adaptive(const char *method)
+bool study_adapts(const char *method)
 {
     const motus_method *card = NULL;
     return motus_method_find(method, &card, NULL) == MOTUS_OK && card->adaptive;
@@ -213,13 +221,12 @@ static bool adaptive(const char *method)
 
 bool study_admits(study *s, const char *method)
 {
-    if (adaptive(method)) return false;
     motus_status status = motus_method_admits(s->system, method, NULL);
     study_note(s, status);
     return status == MOTUS_OK;
 }
 
-motus_status study_methods(study *s, const motus_study_def *def, const char ***names, size_t *count)
+motus_status study_methods(study *s, const motus_study_def *def, bool adaptive, const char ***names, size_t *count)
 {
     bool all = !def->methods || def->method_count == 0;
     size_t most = all ? motus_method_count() : def->method_count;
@@ -231,15 +238,17 @@ motus_status study_methods(study *s, const motus_study_def *def, const char ***n
         if (all) {
             m = motus_method_at(k);
             /* The others are compared with the exact motion. */
-            if (strcmp(m->family, "exact") != 0 && study_admits(s, m->name)) (*names)[(*count)++] = m->name;
+            if (strcmp(m->family, "exact") != 0 && (adaptive || !m->adaptive) && study_admits(s, m->name))
+                (*names)[(*count)++] = m->name;
             continue;
         }
         if (!def->methods[k]) return fail(s->err, MOTUS_ARGUMENT, "name %zu of the methods is NULL", k + 1);
         motus_status status = motus_method_find(def->methods[k], &m, s->err);
         if (status != MOTUS_OK) return status;
-        if (m->adaptive) {
-            fail(s->err, MOTUS_UNAVAILABLE, "%s chooses its steps, and studies take steps of one size", m->name);
-            hint(s->err, "run it by itself, with a tolerance");
+        if (m->adaptive && !adaptive) {
+            fail(s->err, MOTUS_UNAVAILABLE, "%s chooses its steps, and this comparison gives all methods one step",
+                 m->name);
+            hint(s->err, "motus_rank compares what adaptive methods need for an accuracy");
             return MOTUS_UNAVAILABLE;
         }
         (*names)[(*count)++] = def->methods[k];
@@ -260,8 +269,12 @@ motus_status study_run(study *s, const char *method, double step, double start, 
 {
     motus_run_def def = motus_default_run();
     def.method = method;
-    def.step = step;
+    if (study_adapts(method))
+        def.tolerance = s->tolerance;
+    else
+        def.step = step;
     def.until = until;
+    def.machine = s->machine;
     def.switches = s->locate ? MOTUS_SWITCHES_RESOLVE : MOTUS_SWITCHES_STEP;
     if (y) {
         def.start = start;
@@ -326,6 +339,21 @@ motus_status study_walk(study *s, const char *method, const study_grid *g, int64
         cost->jump_power = did.jump_power;
         s->locatable = did.switches >= 0;
     }
+    motus_run_destroy(run);
+    return s->cancelled ? MOTUS_CANCELLED : status;
+}
+
+motus_status study_leg(study *s, const char *method, double step, double from, double until, double *y, int64_t *spent,
+                       motus_error *err)
+{
+    motus_run *run = NULL;
+    motus_status status = study_run(s, method, step, from, until, y, &run, err);
+    s->walking = run;
+    if (status == MOTUS_OK) status = motus_run_finish(run, err);
+    if (status == MOTUS_OK) status = study_state(s, run, y, err);
+    if (run) *spent += motus_run_evaluations(run);
+    if (over(s) && !s->cancelled) status = MOTUS_SOLVE;
+    s->walking = NULL;
     motus_run_destroy(run);
     return s->cancelled ? MOTUS_CANCELLED : status;
 }

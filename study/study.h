@@ -39,6 +39,8 @@ typedef struct study {
     double base, span;      /* where the present part of the study begins, and its length, as fractions of it */
     double reached, called; /* the fraction and the clock at the last call of progress */
     bool locate;            /* runs end their steps where the force changes its formula */
+    double tolerance;       /* of the runs of adaptive methods, relative */
+    const char *machine;    /* of all runs; NULL: auto */
     bool locatable;         /* the last run could do so */
     double limit;           /* evaluations after which a walk gives up; 0: none */
     motus_run *walking;     /* the run of the present walk; NULL: none */
@@ -71,8 +73,10 @@ void study_close(study *);
 motus_status study_settings(motus_system *, const motus_study_def *, motus_settings *, motus_error *);
 
 bool study_admits(study *, const char *method);
-/* The methods to be studied: those named, or every admitted one but the exact motion. */
-motus_status study_methods(study *, const motus_study_def *, const char ***names, size_t *count);
+/* The methods to be studied: those named, or every admitted one but the exact motion; adaptive: with those that choose
+ * their steps. */
+motus_status study_methods(study *, const motus_study_def *, bool adaptive, const char ***names, size_t *count);
+bool study_adapts(const char *method);
 
 /* What follows takes progress from `base` to `base` + `span`. */
 void study_part(study *, double base, double span);
@@ -83,7 +87,8 @@ motus_status study_broken(const study *);
 /* True for what ends the study and not only the row: memory and cancellation. */
 bool study_fatal(motus_status);
 
-/* A run that reports progress through the study. y NULL: from the model's start. */
+/* A run that reports progress through the study. y NULL: from the model's start. Adaptive methods take no step, but
+ * study.tolerance. */
 motus_status study_run(study *, const char *method, double step, double start, double until, const double *y,
                        motus_run **, motus_error *err);
 /* The grid of a run of `total` steps, of which the last is shorter if last_step > 0; *per: steps in an interval, a
@@ -95,11 +100,15 @@ motus_status study_state(study *, motus_run *, double *y, motus_error *err);
  * numbers, NaN from a failure on. A failure ends the study only if study_fatal. */
 motus_status study_walk(study *, const char *method, const study_grid *, int64_t per, const double *from, double *out,
                         study_cost *, motus_error *err);
+/* Takes y from one time to another; counts the evaluations, of which study.limit is a bound (MOTUS_SOLVE). */
+motus_status study_leg(study *, const char *method, double step, double from, double until, double *y, int64_t *spent,
+                       motus_error *err);
 /* An estimate of the cost of so many steps and evaluations, the same on every machine; its unit is one number of one
  * evaluation. evaluations < 0: not known yet. */
 double study_work(const study *, const motus_method *, double steps, double evaluations);
 double study_evaluations(const motus_method *, double steps); /* as far as they are known beforehand */
 double study_seconds(void);                                   /* a monotonic clock */
+double study_processor_seconds(void);                         /* of this thread: other programs do not count */
 
 /* Sets scale to how far each number's group moves over the start and the rows; for a group at rest, to the size of its
  * values, or 1. Sets noise and magnitude. */

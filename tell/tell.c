@@ -213,6 +213,58 @@ void tell_convergence(json *j, const motus_convergence *c)
     json_close(j, ']');
 }
 
+static void rank_point(json *j, const motus_rank_point *p, bool adaptive)
+{
+    json_open(j, NULL, '{');
+    json_number(j, "accuracy", p->accuracy);
+    json_number(j, adaptive ? "tolerance" : "step", p->setting);
+    json_number(j, "error", p->error); /* null: the accuracy was not reached */
+    json_integer(j, "steps", p->steps);
+    json_integer(j, "evaluations", p->evaluations);
+    json_number(j, "seconds", p->seconds);
+    json_close(j, '}');
+}
+
+static void cheapest(json *j, const motus_ranking *r, const char *key, size_t row)
+{
+    json_string(j, key, row < r->row_count ? r->rows[row]->method : NULL);
+}
+
+void tell_ranking(json *j, const motus_ranking *r)
+{
+    json_string(j, "reference", r->reference);
+    json_number(j, "reference_error", r->reference_error);
+    json_bool(j, "absolute", r->absolute);
+    json_string(j, "machine", r->machine);
+    json_numbers(j, "accuracies", r->accuracies, r->judged);
+    json_numbers(j, "refused", r->accuracies + r->judged, r->accuracy_count - r->judged);
+    json_open(j, "rows", '[');
+    for (size_t k = 0; k < r->row_count; k++) {
+        const motus_rank_row *row = r->rows[k];
+        json_open(j, NULL, '{');
+        json_string(j, "method", row->method);
+        json_integer(j, "order", row->order);
+        json_bool(j, "adaptive", row->adaptive);
+        json_string(j, "status", motus_status_word(row->status));
+        json_string(j, "note", row->note);
+        json_open(j, "points", '[');
+        for (size_t i = 0; i < r->judged; i++) rank_point(j, row->points[i], row->adaptive);
+        json_close(j, ']');
+        json_close(j, '}');
+    }
+    json_close(j, ']');
+    json_open(j, "cheapest", '[');
+    for (size_t i = 0; i < r->judged; i++) {
+        json_open(j, NULL, '{');
+        json_number(j, "accuracy", r->accuracies[i]);
+        cheapest(j, r, "evaluations", r->fewest[i]);
+        cheapest(j, r, "time", r->fastest[i]);
+        json_close(j, '}');
+    }
+    json_close(j, ']');
+    parts(j, "remarks", r->remarks, '\n');
+}
+
 /* Error bars ------------------------------------------------------------------------------------------------------ */
 
 void tell_estimate(json *j, const motus_estimate *e)

@@ -15,6 +15,7 @@ void tell_analysis(json *, const motus_system *);
 void tell_admissions(json *, const motus_system *); /* whether each method admits the model, and if not, why */
 void tell_comparison(json *, const motus_comparison *);
 void tell_convergence(json *, const motus_convergence *);
+void tell_ranking(json *, const motus_ranking *);
 void tell_estimate(json *, const motus_estimate *);                /* what bars of error rest on */
 void tell_error(json *, const motus_error *, const char *message); /* message: the error's, with or without its hint */
 

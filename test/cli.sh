@@ -79,7 +79,15 @@ refuses "a run of more steps than allowed" 1 "after 20 steps, the most that it m
 refuses "... with the option in its hint" 1 "--most-steps 200" "$motus" run $osc --method bs32 --most-steps 20
 refuses "a limit of steps of one size" 2 "steps of verlet have one size" "$motus" run $osc --method verlet --most-steps 20
 refuses "--most-steps 0" 2 "an integer above 0" "$motus" run $osc --method bs32 --most-steps 0
-refuses "compare with an adaptive method" 2 "studies take steps of one size" "$motus" compare $osc --methods dopri5,verlet
+refuses "compare with an adaptive method" 2 "accuracies 1e-3:1e-12" "$motus" compare $osc --methods dopri5,verlet
+for bad in "" x 0 -1:1e-3 1e-3:0 nan 1e-3: 1e-3:x 1e-3:1e-4:1e-5 1e-3,1e-4 "1e-3:1e-4 apples"; do
+    refuses "--accuracies '$bad'" 2 "--accuracies" "$motus" compare $osc --accuracies "$bad"; done
+for bad in 1 2:1e-3 1e-3:1e-17; do refuses "--accuracies $bad" 2 "a relative one is at least 1e-15 and below 1" "$motus" compare $osc --accuracies "$bad"; done
+refuses "--accuracies with --step" 2 "--accuracies and --step exclude each other" "$motus" compare $osc --accuracies 1e-3 --step 0.1
+refuses "--accuracies with --evaluations" 2 "--accuracies and --evaluations exclude" "$motus" compare $osc --accuracies 1e-3 --evaluations 100
+refuses "--accuracies with --share" 2 "--share and --accuracies exclude" "$motus" compare $osc --accuracies 1e-3 --share
+refuses "--accuracies of a run" 2 "belongs to: compare" "$motus" run $osc --accuracies 1e-3
+refuses "--machine of a plain comparison" 2 "--machine needs --accuracies" "$motus" compare $osc --machine compiled
 gives "--tolerance" 0 "$motus" run $osc --method dop853 --tolerance "1e-6 absolute" --longest-step 0.5 --json
 that "... is told, with what it led to" holds '.tolerance == 1e-6 and .absolute and .rejected >= 0 and .h_min > 0 and .h_min <= .h_max and .h_max <= 0.5 and (has("step") | not)'
 adaptive=$("$motus" run models/driven-oscillator.motus --method dop853 --tolerance 1e-12 --json | jq '.state.x')
@@ -639,6 +647,19 @@ that "... is quiet" empty "$out"
 refuses "compare with an unknown method" 2 "verlett" "$motus" compare $osc --methods verlett
 gives "compare --plot" 0 "$motus" compare models/projectile.motus --methods explicit-euler,symplectic-euler,verlet --plot "$place/cmp.svg" -q
 that "... draws the methods and the truth" eval "grep -q symplectic-euler '$place/cmp.svg' && grep -qi '15803d\|rgb( 21, 128,  61)' '$place/cmp.svg'"
+
+gives "compare --accuracies" 0 "$motus" compare models/kepler.motus --accuracies 1e-4:1e-7 --methods rk4,pefrl,dop853,dep12 --json
+that "... is JSON" json "$out"
+that "... every method meets every accuracy" holds '.accuracies == [1e-4, 1e-5, 1e-6, 1e-7] and (.rows | length == 4) and ([.rows[].points[] | select(.error > 0 and .error <= .accuracy and .seconds > 0)] | length == 16)'
+that "... with a step or a tolerance" holds 'all(.rows[]; (.adaptive == all(.points[]; has("tolerance"))) and (.adaptive != all(.points[]; has("step"))))'
+that "... the cheapest has the fewest evaluations" holds '. as $all | all(range(4); . as $i | $all.cheapest[$i].evaluations == ([$all.rows[] | [.points[$i].evaluations, .method]] | min | .[1]))'
+gives "... in any order" 0 "$motus" compare models/kepler.motus --accuracies 1e-7:1e-4 --methods dop853 --json
+that "... is the same" holds '.accuracies == [1e-4, 1e-5, 1e-6, 1e-7] and .refused == []'
+gives "... more than the reference knows" 0 "$motus" compare models/kepler.motus --accuracies 1e-11:1e-14 --methods verlet,dep12
+that "... is refused, and told" eval "grep -q 'Accuracies from 1e-1[234] on are left out' '$out' && grep -q 'verlet: .* would take' '$out' && ! grep -q '1e-14  ' '$out'"
+refuses "nothing but what the reference does not know" 1 "no accuracy can be judged" "$motus" compare models/kepler.motus --accuracies 1e-14 --methods verlet,dep12
+gives "... drawn" 0 "$motus" compare models/spring.motus --accuracies 1e-3:1e-5 --methods verlet,dop853 --plot "$place/work.svg" -q
+that "... with both works" eval "grep -q 'evaluations of the force' '$place/work.svg' && grep -q 'time in seconds' '$place/work.svg' && grep -q dop853 '$place/work.svg'"
 
 # --- converge -----------------------------------------------------------------------------------------------------------------------
 for name in pendulum damped-cubic projectile-drag charged-particle; do

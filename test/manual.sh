@@ -92,5 +92,11 @@ judge "the manual's three lines give the answer that it shows" "$(out=$("$motus"
 judge "... and the README's" "$(line=$(grep -oE 'prints `x [0-9.]+ ± [0-9e-]+`' README.md | sed 's/prints `x //; s/`//')
     [ -n "$line" ] && "$motus" run "$place/three.motus" 2>&1 | grep -qF -- "$line" || echo "README: $line")"
 
+# Work for an accuracy: the evaluations are the same on every machine.
+command=$(sed -n 's/^    motus \(compare .*--accuracies .*\)$/\1/p' doc/manual.md | head -n 1)
+sed -n '/^Evaluations of the force/,/^```/p' doc/manual.md | sed '$d' >"$place/told"
+judge "the work that the manual shows is the program's" "$([ "$(wc -l <"$place/told")" -gt 5 ] || echo "the manual shows none"
+    NO_COLOR=1 "$motus" $command 2>/dev/null | sed -n '/^Evaluations of the force/,/^$/p' | sed '$d' | diff "$place/told" -)"
+
 echo "$passed passed, $failed failed"
 [ $failed = 0 ]

@@ -754,7 +754,7 @@ static void spare(void *context, void *block)
 static void every_allocation_may_fail(void **state)
 {
     (void)state;
-    for (int what = 0; what < 3; what++) {
+    for (int what = 0; what < 4; what++) {
         purse p = {-1, 0, 0};
         motus_callback_def callback = spring_def();
         callback.exact = NULL;
@@ -764,17 +764,24 @@ static void every_allocation_may_fail(void **state)
         const char *methods[] = {"verlet"};
         motus_study_def def = study_of(methods, 1, 0.5, 4);
         def.evaluations = what == 0 ? 40 : 0;
+        if (what == 3) {
+            methods[0] = "dopri5";
+            def.step = NAN;
+            def.coarsest = 1e-3;
+        }
         motus_status status = MOTUS_MEMORY;
         /* There are thousands of allocations: the first ones fail one by one, then a sample of the rest. */
         for (long k = 0; status != MOTUS_OK; k = k < 60 ? k + 1 : k + k / 8) {
             motus_comparison *c = NULL;
             motus_convergence *v = NULL;
             motus_reference *r = NULL;
+            motus_ranking *w = NULL;
             motus_error e = motus_default_error();
             p.left = k;
             p.refused = 0;
             status = what == 0   ? motus_compare(s, &def, &c, &e)
                      : what == 1 ? motus_converge(s, &def, &v, &e)
+                     : what == 3 ? motus_rank(s, &def, &w, &e)
                                  : motus_reference_create(s, &def, &r, &e);
             const double times[] = {3.1, 0.2};
             double x[2];
@@ -785,6 +792,7 @@ static void every_allocation_may_fail(void **state)
             motus_comparison_destroy(c);
             motus_convergence_destroy(v);
             motus_reference_destroy(r);
+            motus_ranking_destroy(w);
             assert_int_equal(p.open, before);
         }
         motus_system_destroy(s);

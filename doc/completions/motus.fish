@@ -28,6 +28,7 @@ complete -c motus -n "__fish_seen_subcommand_from run sweep" -l most-steps -x -d
 complete -c motus -n "__fish_seen_subcommand_from run compare converge sweep lab" -l until -x -d 'end'
 complete -c motus -n "__fish_seen_subcommand_from run compare converge sweep check lab" -l set -x -d 'replace a parameter or initial value'
 complete -c motus -n "__fish_seen_subcommand_from compare" -l evaluations -x -d 'equal work'
+complete -c motus -n "__fish_seen_subcommand_from compare" -l accuracies -x -d 'work for accuracies from A to B'
 complete -c motus -n "__fish_seen_subcommand_from run sweep lab" -s o -l output -r -F -d 'trajectory as CSV, or the page'
 complete -c motus -n "__fish_seen_subcommand_from run" -l error -x -a 'cheap full none' -d 'the error of the answer'
 complete -c motus -n "__fish_seen_subcommand_from run" -l errors -d 'errors as columns of the CSV'
