@@ -145,7 +145,7 @@ static void number_of(double value, const char *typed, char *out, size_t size)
 static motus_status gather(items *all, const load *m, const options *o, const char *methods, char **fragment,
                            motus_error *err)
 {
-    char step[256], until[256], tolerance[DECIMAL_MAX];
+    char step[256], until[256], tolerance[DECIMAL_MAX], accuracy[DECIMAL_MAX];
     all->list[all->count++] = (item){'v', "1"};
     all->list[all->count++] = (item){'m', m->text};
     for (size_t k = 0; k < o->set.count; k++) all->list[all->count++] = (item){'s', o->set.items[k]};
@@ -158,6 +158,10 @@ static motus_status gather(items *all, const load *m, const options *o, const ch
         decimal(o->tolerance, tolerance);
         all->list[all->count++] = (item){'r', tolerance};
     }
+    if (!isnan(o->accuracy)) {
+        decimal(o->accuracy, accuracy);
+        all->list[all->count++] = (item){'g', accuracy};
+    }
     if (o->until_typed) {
         number_of(o->until, o->until_typed, until, sizeof until);
         all->list[all->count++] = (item){'T', until};
@@ -167,10 +171,13 @@ static motus_status gather(items *all, const load *m, const options *o, const ch
 
 motus_status share_fragment(const load *m, const options *o, char **fragment, motus_error *err)
 {
-    enum { OTHERS = 6 }; /* v m a h r T */
+    enum { OTHERS = 7 }; /* v m a h r g T */
     if (o->absolute) {
-        fail(err, MOTUS_ARGUMENT, "a link holds a relative tolerance, and this one is absolute");
-        hint(err, "write `tolerance … absolute` into the model, or give --tolerance as a number alone");
+        const bool accuracy = !isnan(o->accuracy);
+        fail(err, MOTUS_ARGUMENT, "a link holds a relative %s, and this one is absolute",
+             accuracy ? "accuracy" : "tolerance");
+        hint(err, "write `%s … absolute` into the model, or give --%s as a number alone",
+             accuracy ? "accuracy" : "tolerance", accuracy ? "accuracy" : "tolerance");
         return MOTUS_ARGUMENT;
     }
     char *methods = methods_of(o);

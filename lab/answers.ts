@@ -7,9 +7,9 @@ import type { Core } from './core';
 import { QUANTITY, draft, told as toldBy } from './draft';
 import { bodiesOf, distances } from './distance';
 import { growthsOf } from './linear';
-import { STEPS_MAX, problem } from './protocol';
+import { AUTO, STEPS_MAX, TOLERANCE, problem } from './protocol';
 import type {
-  Ask, Bars, Description, ErrorTrack, Model, Problem, Region, Requests, Solution, Solve, Spectrum, Trace, Track, Truth,
+  Aim, Ask, Bars, Description, ErrorTrack, Goal, Model, Problem, Region, Requests, Solution, Solve, Spectrum, Trace, Track, Truth,
 } from './protocol';
 import { brief, grouped } from './figure/number';
 import { SEEN, sample, type Curve, type Motion } from './sample';
@@ -19,7 +19,9 @@ import { computed } from './words';
 const NUMBERS_MAX = 4e6, NUMBERS_ENOUGH = 1e5, ROWS_ENOUGH = 1500;      // of one track: never more; beyond this fewer rows, down to so many
 const COLUMNS_MAX = 256;
 /* Of a curve that is drawn as the exact motion; times the rows that are asked for, while they are few. Milliseconds: of a draft, and of reading a curve. */
-const POINTS_MAX = 20_000, POINTS_A_ROW = 3, TRUTH_NUMBERS_MAX = 2e6, DRAFT_LIMIT = 4000, CURVE_LIMIT = { coarse: 600, certified: 1500 };
+const POINTS_MAX = 20_000, POINTS_A_ROW = 3, TRUTH_NUMBERS_MAX = 2e6, DRAFT_LIMIT = 4000, CURVE_LIMIT = { moving: 60, coarse: 600, certified: 1500 };
+/* Of the curve of one run between the ends of its steps. */
+const CURVED_NUMBERS_MAX = 4e5;
 /* Times in a row at which a reference is asked first, to see how long it takes. */
 const TRIED = 16;
 const REGION_MAX = 250_000;
@@ -37,7 +39,9 @@ function column(values: Float64Array, width: number, c: number): Float64Array {
 }
 
 /** A run that was recorded: rows of numbers, and all of the track but its arrays. */
-interface Recorded { readonly values: Float64Array; readonly track: Omit<Track, 'times' | 'columns'>; readonly examined: boolean }
+interface Recorded { readonly values: Float64Array; readonly track: Omit<Track, 'times' | 'columns' | 'curve'>; readonly curve: Curve | null; readonly examined: boolean }
+/** How a run reaches an accuracy. */
+interface Found { readonly method: string; readonly step: number | null; readonly tolerance: number | null; readonly goal: Goal }
 /** A curve of the state, all positions and then all velocities, and of the quantities, for one model and end. off, coarse: of the curve; most: the number of points that it was
  *  allowed. */
 interface Told {
@@ -62,6 +66,7 @@ export class Answers {
   /** Of the last question, by method: what is asked again with more is not computed again. */
   private recorded = new Map<string, Recorded>();
   private recordedFor = '';
+  private readonly found = new Map<string, Found>();
   private readonly told: { coarse: Told | null; certified: Told | null } = { coarse: null, certified: null };
 
   constructor(private readonly core: Core) {
@@ -106,13 +111,13 @@ export class Answers {
   }
 
   private adaptive(method: string): boolean {
-    this.adapting ??= new Set(this.core.catalogue(this.lab).filter((m) => m.adaptive).map((m) => m.name));
+    this.adapting ??= new Set([AUTO, ...this.core.catalogue(this.lab).filter((m) => m.adaptive).map((m) => m.name)]);
     return this.adapting.has(method);
   }
 
   private start(method: string, { step, tolerance, until }: Pick<Solve, 'step' | 'tolerance' | 'until'>, bars = false): void {
-    const adaptive = this.adaptive(method);
-    this.core.start(this.lab, method, adaptive ? null : step, until, adaptive ? tolerance : null, bars);
+    const adaptive = this.adaptive(method), own = tolerance ?? (method === AUTO ? this.description?.settings.tolerance ?? TOLERANCE : null);
+    this.core.start(this.lab, method, adaptive ? null : step, until, adaptive ? own : null, bars);
     const { total, step: h } = this.core.progress(this.lab);
     if (total > STEPS_MAX) {
       throw limit(computed.steps(grouped(total), brief(h, 6), grouped(STEPS_MAX)), computed.nearer);
@@ -136,8 +141,7 @@ export class Answers {
       if (!all.includes(1 + k)) all.push(1 + k);
       return all.indexOf(1 + k);
     });
-    const runs = this.record(ask, all);
-    const tracks = ask.methods.map((method) => this.track(runs.get(method) as Recorded, all.length, indices.length));
+    const runs = this.record(ask, all), tracks = runs.map((run) => this.track(run, all.length, indices.length));
     let truth: Truth | null = null, problem: Problem | null = null;
     const errors: ErrorTrack[] = [];
     if (whole) {
@@ -145,7 +149,7 @@ export class Answers {
         truth = this.truth(ask, wanted, indices, nx, nv);
         // A coarse truth is nothing to measure by; a reference may have had to make way for one.
         if (truth && !(truth.coarse && ask.coarse) && tracks.length > 0) this.openReference(ask);
-        if (truth && !(truth.coarse && ask.coarse)) tracks.forEach((track, k) => errors.push(this.errors(track, (runs.get(ask.methods[k] as string) as Recorded).values, all.length, states, nx, nv)));
+        if (truth && !(truth.coarse && ask.coarse)) tracks.forEach((track, k) => errors.push(this.errors(track, runs[k]!.values, all.length, states, nx, nv)));
       } catch (e) {
         if (!(e instanceof Refused)) throw e;
         problem = e.problem;
@@ -154,13 +158,14 @@ export class Answers {
     return { description, columns: wanted, tracks, truth, errors, problem, examined: !ask.unexamined, milliseconds: performance.now() - began };
   }
 
-  /** The runs of all methods. Those of the last question are kept: a picture is asked for first, then the same with the truth. */
-  private record(ask: Solve, all: readonly number[]): Map<string, Recorded> {
-    const key = JSON.stringify([this.opened, ask.step, ask.tolerance, ask.until, ask.rows, all]), runs = new Map<string, Recorded>();
+  /** The runs of all methods, each once: "auto" may have found one of the others. Those of the last question are kept: a picture is asked for first, then the same with the truth. */
+  private record(ask: Solve, all: readonly number[]): Recorded[] {
+    const key = JSON.stringify([this.opened, ask.step, ask.tolerance, ask.aim, ask.until, ask.rows, all]), runs = new Map<string, Recorded>();
     const kept = key === this.recordedFor ? this.recorded : new Map<string, Recorded>();
     let numbers = 0;
     for (const method of ask.methods) {
-      const found = kept.get(method) ?? this.run(method, ask, all), run = ask.unexamined || found.examined ? found : this.examined(found, ask);
+      const made = kept.get(method) ?? this.run(method, ask, all), found = kept.has(method) ? made : { ...made, curve: this.curved(made, ask, all) };
+      const run = ask.unexamined || found.examined ? found : this.examined(found, ask);
       runs.set(method, run);
       numbers += run.values.length;
     }
@@ -169,23 +174,55 @@ export class Answers {
       this.recorded = numbers <= NUMBERS_MAX ? runs : new Map();
       this.recordedFor = key;
     }
-    return runs;
+    const list = [...runs.values()];
+    return list.filter(({ track }, k) => list.findIndex((other) => other.track.method === track.method) === k);
   }
 
   private run(method: string, ask: Solve, all: readonly number[]): Recorded {
+    if (!ask.aim?.at.includes(method)) return this.taken(method, ask, all);
+    const { method: found, step, tolerance, goal } = this.reached(method, ask.aim, ask.until), run = this.taken(found, { ...ask, step, tolerance }, all);
+    return { ...run, track: { ...run.track, goal } };
+  }
+
+  /** What is found for an accuracy: a run like any other. It is searched for once. */
+  private reached(method: string, aim: Aim, until: number | null): Found {
+    const key = JSON.stringify([this.opened, method, aim.accuracy, aim.absolute, until]), known = this.found.get(key);
+    if (known) return known;
+    const { accuracy, absolute } = aim;
+    let missed: Problem | null = null, reached = Infinity, choice = '', trials = 0;
+    try {
+      this.core.aim(this.lab, method, aim, until);
+      ({ reached, trials } = this.core.progress(this.lab));
+      choice = this.core.choice(this.lab);
+      // At its end, where the last trial stands already, it says what it lacks.
+      if (!(reached <= accuracy)) this.core.advance(this.lab, Number.MAX_SAFE_INTEGER);
+    } catch (e) {
+      if (!(e instanceof Refused) || e.problem.kind !== 'accuracy') throw e;
+      missed = e.problem;
+      // Where no accuracy can be promised at all, the picture is of a tolerance that would be tried first.
+      if (trials === 0) this.start(method, { step: null, tolerance: absolute ? TOLERANCE : Math.max(1e-14, accuracy / 10), until });
+    }
+    const { tolerance, step } = this.core.progress(this.lab), adaptive = Number.isNaN(step);
+    const found = { method: this.core.method(this.lab), step: adaptive ? null : step, tolerance: adaptive ? tolerance : null, goal: { accuracy, absolute, reached, missed, choice, trials } };
+    if (this.found.size > 50) this.found.clear();
+    this.found.set(key, found);
+    return found;
+  }
+
+  private taken(method: string, ask: Solve, all: readonly number[]): Recorded {
     this.start(method, ask);
     const { total, step, last } = this.core.progress(this.lab);
     const enough = Math.max(ROWS_ENOUGH, Math.floor(NUMBERS_ENOUGH / all.length));
     const rows = Math.max(2, Math.min(ask.rows, enough, Math.floor(NUMBERS_MAX / all.length)));
-    if (this.adaptive(method)) return this.adapted(method, all, rows);
+    if (this.adaptive(method)) return this.adapted(all, rows);
     const every = Math.max(1, Math.ceil(total / (rows - 1)));
     const { values, problem } = this.core.record(this.lab, all, every, rows, true);
     const now = this.core.progress(this.lab);
-    return { values, examined: false, track: { method, tolerance: null, refused: 0, step, steps: now.steps, total, lastStep: last, evaluations: now.evaluations, every, problem, singular: null } };
+    return { values, curve: null, examined: false, track: { method, tolerance: null, refused: 0, goal: null, step, steps: now.steps, total, lastStep: last, evaluations: now.evaluations, every, problem, singular: null } };
   }
 
   /** How many steps an adaptive method takes is known at its end: whenever the rows are full every second one goes, and from then on half as many are kept. */
-  private adapted(method: string, all: readonly number[], rows: number): Recorded {
+  private adapted(all: readonly number[], rows: number): Recorded {
     const width = all.length, most = Math.max(3, rows | 1), values = new Float64Array(width * most);
     let every = 1, count = 0, problem: Problem | null = null;
     for (;;) {
@@ -200,17 +237,41 @@ export class Answers {
       every *= 2;
     }
     const now = this.core.progress(this.lab), step = now.steps > 0 ? Math.abs(now.time - (values[0] as number)) / now.steps : 0;
-    const track = { method, tolerance: now.tolerance, refused: now.refused, step, steps: now.steps, total: now.steps, lastStep: 0, evaluations: now.evaluations, every, problem, singular: null };
-    return { values: values.slice(0, width * count), examined: false, track };
+    const track = { method: this.core.method(this.lab), tolerance: now.tolerance, refused: now.refused, goal: null, step, steps: now.steps, total: now.steps, lastStep: 0, evaluations: now.evaluations, every, problem, singular: null };
+    return { values: values.slice(0, width * count), curve: null, examined: false, track };
   }
 
-  private examined({ values, track }: Recorded, { step, tolerance, until }: Solve): Recorded {
-    const adaptive = track.tolerance !== null, singular = track.problem ? null : this.core.singular(this.lab, track.method, adaptive ? null : step, until, adaptive ? tolerance : null);
-    return { values, examined: true, track: { ...track, singular } };
+  /** What is seen of a run between the ends of its steps; columns: of the core, `all` of them are recorded. */
+  private curved(run: Recorded, ask: Solve, all: readonly number[]): Curve | null {
+    const { values, track } = run, nx = this.core.positions(this.lab), nv = this.core.velocities(this.lab), rows = values.length / all.length;
+    const columns = [...Array.from({ length: nx + nv }, (_, k) => 1 + k), ...this.quantities(nx + nv)], places = columns.map((k) => all.indexOf(k)), most = Math.floor(CURVED_NUMBERS_MAX / columns.length);
+    if (track.tolerance === null || track.every > 1 || rows < 2 || 2 * rows > most || places.includes(-1)) return null;
+    const times = column(values, all.length, 0), begun = { times, columns: places.map((k) => column(values, all.length, k)) };
+    const motion: Motion = {
+      from: times[0]!, to: times[rows - 1]!, slopes: columns.map((_, k) => (k < nx ? nx + k : -1)), noise: columns.map(() => 0),
+      ask: (at) => {
+        this.start(track.method, { step: null, tolerance: track.tolerance, until: ask.until });
+        const found = this.core.sample(this.lab, at, columns);
+        return columns.map((_, k) => column(found, columns.length, k));
+      },
+    };
+    try {
+      const curve = sample(motion, { tolerance: SEEN, points: Math.min(most, POINTS_A_ROW * ask.rows), milliseconds: ask.unexamined ? CURVE_LIMIT.moving : CURVE_LIMIT.coarse }, null, begun);
+      return { times: curve.times, columns: all.slice(1).map((k) => (k === 0 ? curve.times : curve.columns[columns.indexOf(k)] ?? new Float64Array(0))) };
+    } catch (e) {
+      // Dense output may not be had: the ends of the steps are.
+      if (!(e instanceof Refused) || e.problem.kind === 'memory') throw e;
+      return null;
+    }
   }
 
-  private track({ values, track }: Recorded, width: number, count: number): Track {
-    return { ...track, times: column(values, width, 0), columns: Array.from({ length: count }, (_, c) => column(values, width, 1 + c)) };
+  private examined({ values, curve, track }: Recorded, { step, until }: Solve): Recorded {
+    const singular = track.problem ? null : this.core.singular(this.lab, track.method, track.tolerance !== null ? null : track.goal ? track.step : step, until, track.tolerance);
+    return { values, curve, examined: true, track: { ...track, singular } };
+  }
+
+  private track({ values, curve, track }: Recorded, width: number, count: number): Track {
+    return { ...track, curve: curve && { times: curve.times.slice(), columns: curve.columns.slice(0, count).map((c) => c.slice()) }, times: column(values, width, 0), columns: Array.from({ length: count }, (_, c) => column(values, width, 1 + c)) };
   }
 
   /** The reference of one model and end serves every step: what a step says of it is but a hint. */

@@ -4,7 +4,7 @@
  * may move when it grows).
  */
 import {
-  WORD_KINDS, problem, type CompareRow, type Comparison, type Convergence, type Description, type Drift, type Estimate, type Method, type Model, type Problem, type Refusal, type TraceEntry, type Vocabulary, type Word,
+  WORD_KINDS, problem, type Aim, type CompareRow, type Comparison, type Convergence, type Description, type Drift, type Estimate, type Method, type Model, type Problem, type Refusal, type TraceEntry, type Vocabulary, type Word,
 } from './protocol';
 import { Refused } from './scene';
 import { computed } from './words';
@@ -22,7 +22,7 @@ interface Exports {
   lab_catalogue(lab: number): number;
   lab_words(text: number, length: number, out: number, room: number): number;
   lab_vocabulary(lab: number): number;
-  lab_start(lab: number, method: number, step: number, tolerance: number, until: number, bars: number): number;
+  lab_start(lab: number, method: number, step: number, tolerance: number, until: number, accuracy: number, absolute: number, bars: number): number;
   lab_singular(lab: number, method: number, step: number, tolerance: number, until: number): number;
   lab_errors(lab: number, columns: number, count: number, values: number, errors: number): number;
   lab_estimate(lab: number): number;
@@ -32,6 +32,7 @@ interface Exports {
   lab_progress(lab: number, out: number): void;
   lab_advance(lab: number, steps: number): number;
   lab_method(lab: number): number;
+  lab_choice(lab: number): number;
   lab_save(lab: number): number;
   lab_positions(lab: number): number;
   lab_velocities(lab: number): number;
@@ -51,6 +52,8 @@ export interface Progress {
   readonly time: number; readonly steps: number; readonly last: number; readonly evaluations: number; readonly done: boolean; readonly refused: number;
   /** Where steps adapt 0 and NaN; elsewhere the tolerance is NaN. */
   readonly total: number; readonly step: number; readonly tolerance: number;
+  /** motus_statistics. */
+  readonly accuracy: number; readonly reached: number; readonly trials: number;
 }
 export interface Rows { readonly values: Float64Array; readonly rows: number; readonly problem: Problem | null }
 
@@ -153,8 +156,14 @@ export class Core {
   }
   /** step: of a method of steps of one size, tolerance: of an adaptive one; else null. bars: errors are to be told. */
   start(lab: number, method: string, step: number | null, until: number | null, tolerance: number | null = null, bars = false): void {
-    this.texts([method], (at) => this.check(lab, this.exports.lab_start(lab, at, NaNs(step), NaNs(tolerance), NaNs(until), bars ? 1 : 0)));
+    this.texts([method], (at) => this.check(lab, this.exports.lab_start(lab, at, NaNs(step), NaNs(tolerance), NaNs(until), NaN, 0, bars ? 1 : 0)));
   }
+  /** A run whose tolerance, or step, is found so that the answer is as accurate as is asked for. method: may be "auto". */
+  aim(lab: number, method: string, { accuracy, absolute }: Aim, until: number | null): void {
+    this.texts([method], (at) => this.check(lab, this.exports.lab_start(lab, at, NaN, NaN, NaNs(until), accuracy, absolute ? 1 : 0, 0)));
+  }
+  /** Why "auto" chose its method; else ''. */
+  choice(lab: number): string { return this.string(this.exports.lab_choice(lab)); }
   /** Where such a run passes a singularity of the force, or does not resolve the force, so that what follows is not the motion; null: nowhere, as far as it was examined. */
   singular(lab: number, method: string, step: number | null, until: number | null, tolerance: number | null = null): Problem | null {
     const found = this.texts([method], (at) => (this.exports.lab_singular(lab, at, NaNs(step), NaNs(tolerance), NaNs(until)) === 0 ? null : this.problem(lab)));
@@ -193,10 +202,10 @@ export class Core {
   bar(lab: number, value: number, error: number): string { return this.string(this.exports.lab_bar(lab, value, error)); }
   estimate(lab: number): Estimate { return this.answer<Estimate>(lab, this.exports.lab_estimate(lab)); }
   progress(lab: number): Progress {
-    return this.room(72, (at) => {
+    return this.room(96, (at) => {
       this.exports.lab_progress(lab, at);
-      const [time = 0, steps = 0, total = 0, step = 0, last = 0, evaluations = 0, done = 0, refused = 0, tolerance = NaN] = this.copy(at, 9);
-      return { time, steps, total, step, last, evaluations, done: done !== 0, refused, tolerance };
+      const [time = 0, steps = 0, total = 0, step = 0, last = 0, evaluations = 0, done = 0, refused = 0, tolerance = NaN, accuracy = NaN, reached = NaN, trials = 0] = this.copy(at, 12);
+      return { time, steps, total, step, last, evaluations, done: done !== 0, refused, tolerance, accuracy, reached, trials };
     });
   }
   advance(lab: number, steps: number): void { this.check(lab, this.exports.lab_advance(lab, steps)); }

@@ -143,8 +143,8 @@ async function start(): Promise<void> {
   }
   store.subscribe((what) => {
     // A picture that is not of what is typed looks like it.
-    const { model, run, step, tolerance, until } = store.trouble;
-    document.body.classList.toggle('stale', Boolean(model || run || step || tolerance || until));
+    const { model, run, step, tolerance, accuracy, until } = store.trouble;
+    document.body.classList.toggle('stale', Boolean(model || run || step || tolerance || accuracy || until));
     document.body.classList.toggle('outdated', outdated(store));
     if (what === 'scene') show();
     if (what !== 'view') return;

@@ -3,6 +3,7 @@
  * Invariant: whatever the texts hold, they stay inside their strings: what is neither a plain character nor a tab or newline is written as its byte in
  * octal, and question marks are escaped, so that there are no trigraphs. Other control characters are refused, as in a command.
  */
+import type { Aim } from './protocol';
 import { controls, type Command } from './share';
 import { words } from './words';
 
@@ -17,13 +18,13 @@ export function literal(text: string, indent = ''): string {
 }
 
 /** What is computed; step, until: null where the text has them. */
-export interface Motion { readonly text: string; readonly set: Readonly<Record<string, string>>; readonly method: string; readonly step: number | null; readonly tolerance?: number | null; readonly until: number | null }
+export interface Motion { readonly text: string; readonly set: Readonly<Record<string, string>>; readonly method: string; readonly step: number | null; readonly tolerance?: number | null; readonly aim?: Aim | null; readonly until: number | null }
 
-export function cProgram({ text, set, method, step, tolerance = null, until }: Motion): Command {
-  const sets = Object.entries(set).map(([name, value]) => `${name}=${value}`), numbers = [step, tolerance, until];
+export function cProgram({ text, set, method, step, tolerance = null, aim = null, until }: Motion): Command {
+  const sets = Object.entries(set).map(([name, value]) => `${name}=${value}`), numbers = [step, tolerance, aim && aim.accuracy, until];
   if ([text, method, ...sets].some((t) => controls.test(t))) return { text: '', problem: words.address.program.control };
   if (numbers.some((n) => n !== null && !Number.isFinite(n))) return { text: '', problem: words.address.program.number };
-  const given = ['step', 'tolerance', 'until'].map((name, k) => (numbers[k] === null ? '' : `    how.${name} = ${numbers[k]};\n`)).join('');
+  const given = ['step', 'tolerance', 'accuracy', 'until'].map((name, k) => (numbers[k] === null ? '' : `    how.${name} = ${numbers[k]};\n`)).join('') + (aim?.absolute ? '    how.absolute = 1;\n' : '');
   return {
     problem: '', text: `/* cc -std=c17 motion.c -lmotus -lm -o motion */
 #include <motus.h>

@@ -37,8 +37,10 @@ export interface Admission { readonly name: string; readonly admitted: boolean; 
 export function problem(kind: string, message: string, hint = ''): Problem {
   return { kind, message, hint, line: 0, column: 0, source: '', caret: '', time: null, variable: '', word: '', instead: '' };
 }
-/** That of a run which names none: motus_run_def. */
-export const TOLERANCE = 1e-9;
+/** Those of a run which names none: motus_run_def. */
+export const TOLERANCE = 1e-9, ACCURACY = 1e-9;
+/** The method that the library chooses by the force, the end and the accuracy. */
+export const AUTO = 'auto';
 /** A run of more steps belongs to the program. */
 export const STEPS_MAX = 1e7;
 
@@ -59,7 +61,11 @@ export interface Description {
   /** The force has no abs, min, max, floor, mod, sign, if. */
   readonly smooth: boolean;
   readonly columns: readonly Column[]; readonly variables: readonly Variable[]; readonly parameters: readonly Parameter[];
-  readonly settings: { readonly method: string; readonly step: number | null; readonly tolerance: number | null; readonly until: number | null; readonly start: number; /** step or until: not in the model, but the library's */ readonly suggested: boolean };
+  readonly settings: {
+    readonly method: string; readonly step: number | null; readonly tolerance: number | null; readonly until: number | null; readonly start: number;
+    /** step or until: not in the model, but the library's */ readonly suggested: boolean;
+    /** absolute: the accuracy or the tolerance is. automatic: method and steps are the library's. */ readonly accuracy: number | null; readonly absolute: boolean; readonly automatic: boolean;
+  };
   /** Lines that the text lacks and the core supposed, with the reason. */
   readonly suggestions: readonly Suggestion[];
   readonly has_exact: boolean;
@@ -76,14 +82,24 @@ export interface Method {
   readonly cite: string; readonly formula: string; readonly use: string;
 }
 
+/** How far every number of the answer may be off, up to the end: relative to the largest of its kind so far, or absolute. */
+export interface Aim { readonly accuracy: number; readonly absolute: boolean }
+/** What came of it: the largest error that any number was found to have; why that is not enough, if so; why "auto" chose the method, ''; how many runs were tried. */
+export interface Goal extends Aim { readonly reached: number; readonly missed: Problem | null; readonly choice: string; readonly trials: number }
+
 /** The motion by one method. Row i is at times[i]; columns as asked for. Every `every`-th step is kept, and the last. */
 export interface Track {
   /** Of an adaptive method, whose `step` is the mean one and whose `total` are the steps that it took; else null. */
   readonly tolerance: number | null;
   /** Steps that it took back. */
   readonly refused: number;
+  /** Where an accuracy was asked for: method, tolerance and step are what was found for it. */
+  readonly goal: Goal | null;
   readonly method: string; readonly times: Float64Array; readonly columns: readonly Float64Array[];
   readonly step: number; readonly steps: number; readonly total: number; readonly lastStep: number; readonly evaluations: number; readonly every: number;
+  /** The motion between the ends of long steps, by dense output: so many times, those of the steps among them, that straight lines between them cannot be told from it. Columns as
+   *  asked for, empty where they are neither the state nor quantities. null: there is none, or the rows are as near. For drawing. */
+  readonly curve: { readonly times: Float64Array; readonly columns: readonly Float64Array[] } | null;
   /** Why it stopped before the end: with the time and the variable. What was computed until then stands. */
   readonly problem: Problem | null;
   /** Where it passes a singularity of the force, or does not resolve the force: what follows is not the motion. */
@@ -112,6 +128,8 @@ export interface Solve {
   readonly model: Model; readonly methods: readonly string[];
   /** null: the model's. step: of methods of steps of one size; tolerance: of adaptive ones. */
   readonly step: number | null; readonly until: number | null; readonly tolerance: number | null;
+  /** What is asked of those that `at` names, in place of a tolerance and a step. */
+  readonly aim?: (Aim & { readonly at: readonly string[] }) | null;
   readonly columns: readonly string[];                              // names; [] means: all, up to a bound
   readonly rows: number;                                            // at most so many rows a track
   readonly truth: boolean;                                          // truth and errors as well: dearer where there is no exact motion

@@ -7,7 +7,7 @@ import type { Ask, Description, Method, Problem, Requests, Solution } from './pr
 
 /** What a run is computed from. */
 export interface Run {
-  readonly text: string; readonly set: Readonly<Record<string, string>>; readonly methods: readonly string[]; readonly step: string; readonly until: string; readonly tolerance: string;
+  readonly text: string; readonly set: Readonly<Record<string, string>>; readonly methods: readonly string[]; readonly step: string; readonly until: string; readonly tolerance: string; readonly accuracy: string;
 }
 /** The whole state of the page that an address can hold. Texts are as the reader typed them. */
 export interface State {
@@ -18,6 +18,7 @@ export interface State {
   readonly step: string;                        // '' : the model's
   readonly until: string;
   readonly tolerance: string;                   // of the adaptive methods; '' : the model's
+  readonly accuracy: string;                    // of the answer, by these methods; '' : the model's, which may have none; UNASKED: none
   readonly view: View;
   /** Where in the page one is: '' at the stage, 'gallery', 'step', or a lesson as lesson.ts writes it, 'too-high-too-low.try.0'. */
   readonly place: string;
@@ -26,6 +27,8 @@ export interface State {
   /** The run A that stays beside the present one, if there is one. */
   readonly pinned?: Run;
 }
+/** State.accuracy, where none is asked for: step and tolerance decide. */
+export const UNASKED = 'off';
 export interface View {
   readonly plane: 'time' | 'plane' | 'space' | 'auto';      // what the motion panel shows: x-t, x-y, x-y-z
   readonly quantities: readonly string[];       // of the time panel; [] : the positions
@@ -58,7 +61,7 @@ export interface Store {
   readonly state: State;
   readonly scene: Scene | null;                 // of the latest state that could be computed
   /** What step and end came to for it, where they were typed as an expression. */
-  readonly numbers: { readonly step: number | null; readonly tolerance: number | null; readonly until: number | null; readonly start: number };
+  readonly numbers: { readonly step: number | null; readonly tolerance: number | null; readonly accuracy: number | null; readonly until: number | null; readonly start: number };
   change(part: Partial<State>): void;           // computed anew, once per frame
   look(part: Partial<View>): void;              // the view alone
   readonly client: Client;

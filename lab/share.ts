@@ -6,10 +6,11 @@
  * Format, version 1:  #v=1&p=PRESET&m=TEXT&s=NAME=EXPRESSION&s=…&a=METHOD,METHOD&h=STEP&r=TOLERANCE&T=UNTIL  and of the view
  *   w=time|plane|space   what the motion panel shows         q=COLUMN (repeated)  quantities of the time panel
  *   f=COLUMN f=COLUMN    axes of the phase panel              e=0  green line hidden    z=SPEED
+ *   g=ACCURACY | off     of the answer, in place of a tolerance
  *   l=gallery | step | LESSON.PART.ANSWER   where in the page one is
  *   o=ID,ID              of older addresses, read and ignored: all panels that have an answer are there
  *   embed=1              a picture inside another page        c=step c=NUMBER     with these sliders (repeated)
- *   A=1                  a run A is pinned, and of it            Am=TEXT As=NAME=EXPRESSION Aa=METHODS Ah=STEP Ar=TOLERANCE AT=UNTIL
+ *   A=1                  a run A is pinned, and of it            Am=TEXT As=NAME=EXPRESSION Aa=METHODS Ah=STEP Ar=TOLERANCE Ag=ACCURACY AT=UNTIL
  * p stands where the text is the preset's, else m; a without p or m's default is left out, and so is all that has its default. Am is left out where A has
  * the text of the address. A pinned run that cannot be read is told; all else of its address is used.
  */
@@ -36,7 +37,7 @@ const most = { sets: 256, methods: 40, words: 200, columns: 32 };
 export const defaultView: View = { plane: 'auto', quantities: [], phase: null, exact: true, speed: 1 };
 
 export function presetState(presets: Presets, name: string): State {
-  return { preset: name, text: presets.text(name) ?? '', set: presets.set?.(name) ?? {}, methods: presets.methods(name), step: '', tolerance: '', until: presets.until?.(name) ?? '', view: defaultView, place: '' };
+  return { preset: name, text: presets.text(name) ?? '', set: presets.set?.(name) ?? {}, methods: presets.methods(name), step: '', tolerance: '', accuracy: '', until: presets.until?.(name) ?? '', view: defaultView, place: '' };
 }
 
 const free = /^[A-Za-z0-9\-._~(),*]$/;
@@ -92,6 +93,7 @@ export function encode(state: State, presets: Presets): string {
   if (!same(state.methods, usual)) put('a', state.methods.join(','));
   if (state.step) put('h', state.step);
   if (state.tolerance) put('r', state.tolerance);
+  if (state.accuracy) put('g', state.accuracy);
   if (state.until) put('T', state.until);
   const view = state.view;
   if (view.plane !== defaultView.plane) put('w', view.plane);
@@ -111,16 +113,17 @@ export function encode(state: State, presets: Presets): string {
     if (!same(pinned.methods, own ? usual : [])) put(pinKey('a'), pinned.methods.join(','));
     if (pinned.step) put(pinKey('h'), pinned.step);
     if (pinned.tolerance) put(pinKey('r'), pinned.tolerance);
+    if (pinned.accuracy) put(pinKey('g'), pinned.accuracy);
     if (pinned.until) put(pinKey('T'), pinned.until);
   }
   return out.join('&');
 }
 
-const once = new Set(['v', 'p', 'm', 'a', 'h', 'r', 'T', 'w', 'o', 'e', 'z', 'l', 'embed']);
+const once = new Set(['v', 'p', 'm', 'a', 'h', 'r', 'g', 'T', 'w', 'o', 'e', 'z', 'l', 'embed']);
 const several = new Set(['s', 'q', 'f', 'c']);
 /** A key of the pinned run, by that of the present one. */
 const pinKey = (key: string): string => `A${key}`;
-const pins = { once: new Set(['', 'm', 'a', 'h', 'r', 'T'].map(pinKey)), several: new Set([pinKey('s')]) };
+const pins = { once: new Set(['', 'm', 'a', 'h', 'r', 'g', 'T'].map(pinKey)), several: new Set([pinKey('s')]) };
 /** A field of the pinned run. */
 const isPin = (field: string): boolean => /^A\w?(=|$)/.test(field);
 
@@ -175,7 +178,7 @@ function textOf(typed: string): string {
   return typed;
 }
 /** What a run is computed from, but for its text. */
-function runOf(sets: readonly string[], listed: string | undefined, usual: readonly string[], step = '', until = '', tolerance = ''): Omit<Run, 'text'> {
+function runOf(sets: readonly string[], listed: string | undefined, usual: readonly string[], step = '', until = '', tolerance = '', accuracy = ''): Omit<Run, 'text'> {
   if (sets.length > most.sets) throw new Wrong(words.address.sets);
   const set: [string, string][] = sets.map(item => {
     const at = item.indexOf('=');
@@ -185,7 +188,7 @@ function runOf(sets: readonly string[], listed: string | undefined, usual: reado
   const methods = listed === undefined ? usual : [...new Set(splitList(listed))];
   if (methods.length > most.methods) throw new Wrong(words.address.methods);
   for (const method of methods) word(method, words.address.texts.method);
-  return { set: Object.fromEntries(set), methods, step: word(step, words.address.texts.step), until: word(until, words.address.texts.until), tolerance: word(tolerance, words.address.texts.tolerance) };
+  return { set: Object.fromEntries(set), methods, step: word(step, words.address.texts.step), until: word(until, words.address.texts.until), tolerance: word(tolerance, words.address.texts.tolerance), accuracy: word(accuracy, words.address.texts.accuracy) };
 }
 const lines = (text: string | undefined): string | undefined => text?.replace(/\r\n?/g, '\n');
 
@@ -197,7 +200,7 @@ function stateOf(parts: readonly string[], presets: Presets): State {
   const text = lines(model) ?? presets.text(name);
   if (text === undefined) throw new Wrong(name ? words.address.example(name.slice(0, 40)) : words.address.noModel);
   textOf(text);
-  const run = runOf(found.get('s') ?? [], found.get('a')?.[0], model === undefined ? presets.methods(name) : [], found.get('h')?.[0], found.get('T')?.[0], found.get('r')?.[0]);
+  const run = runOf(found.get('s') ?? [], found.get('a')?.[0], model === undefined ? presets.methods(name) : [], found.get('h')?.[0], found.get('T')?.[0], found.get('r')?.[0], found.get('g')?.[0]);
   const place = found.get('l')?.[0] ?? '';
   if (!/^(gallery|step|[a-z0-9-]{1,40}\.(predict|try|see|why)(\.\d{1,2})?)?$/.test(place)) throw new Wrong(words.address.place);
   const inside = found.get('embed')?.[0] ?? '', sliders = found.get('c') ?? [];
@@ -218,7 +221,7 @@ function pinOf(parts: readonly string[], state: State, presets: Presets): Run | 
   const found = fields(parts, pins), text = lines(found.get(pinKey('m'))?.[0]);
   if (found.get(pinKey(''))?.[0] !== '1') throw new Wrong(words.address.pinned);
   const usual = text === undefined && presets.text(state.preset) === state.text ? presets.methods(state.preset) : [];
-  return { text: textOf(text ?? state.text), ...runOf(found.get(pinKey('s')) ?? [], found.get(pinKey('a'))?.[0], usual, found.get(pinKey('h'))?.[0], found.get(pinKey('T'))?.[0], found.get(pinKey('r'))?.[0]) };
+  return { text: textOf(text ?? state.text), ...runOf(found.get(pinKey('s')) ?? [], found.get(pinKey('a'))?.[0], usual, found.get(pinKey('h'))?.[0], found.get(pinKey('T'))?.[0], found.get(pinKey('r'))?.[0], found.get(pinKey('g'))?.[0]) };
 }
 
 /** The state of a fragment, with or without its '#'; where it is wrong, the first preset and a sentence that says why. */
@@ -256,16 +259,19 @@ export interface Command { readonly text: string; readonly problem: string }
 const number = (typed: string): string => (!lineControls.test(typed) && plain(normal(typed)) ? normal(typed) : typed);
 
 /** The command that computes the same bits wherever motus is installed: the model comes with it. methods: those in use, resolved; state.methods may be empty. adaptive:
- * of them those that choose their own steps; what compares knows steps of one size, so where there are some every method is a run of its own. */
-export function command(state: State, methods: readonly string[], adaptive: readonly string[] = []): Command {
-  if (methods.length > 1 && adaptive.length) {
-    const runs = methods.map((method) => command(state, [method], adaptive.filter((name) => name === method)));
+ * of them those that choose their own steps; aimed: those that reach for an accuracy, as the program reads it. What compares knows steps of one size, so where there are
+ * others every method is a run of its own. */
+export function command(state: State, methods: readonly string[], adaptive: readonly string[] = [], aimed: ReadonlyMap<string, string> = new Map()): Command {
+  if (methods.length > 1 && adaptive.length + aimed.size) {
+    const runs = methods.map((method) => command(state, [method], adaptive.filter((name) => name === method), new Map([...aimed].filter(([name]) => name === method))));
     return { text: runs.map((run) => run.text).join('\n'), problem: runs[0]!.problem };
   }
   const line = methods.length > 1 ? ['motus', 'compare', '-', '--methods', methods.join(',')] : ['motus', 'run', '-'];
   if (methods.length === 1) line.push('--method', methods[0]!);
-  if (state.step && !adaptive.length) line.push('--step', number(state.step));
-  if (state.tolerance && adaptive.length) line.push('--tolerance', number(state.tolerance));
+  const goal = aimed.get(methods[0] ?? '');
+  if (goal !== undefined) line.push('--accuracy', goal);
+  else if (state.step && !adaptive.length) line.push('--step', number(state.step));
+  else if (state.tolerance && adaptive.length) line.push('--tolerance', number(state.tolerance));
   if (state.until) line.push('--until', number(state.until));
   for (const [name, expression] of Object.entries(state.set)) line.push('--set', `${name}=${expression}`);
   const text = state.text.endsWith('\n') || state.text === '' ? state.text : state.text + '\n';

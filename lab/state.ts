@@ -7,15 +7,15 @@
  */
 import { looksOf } from './figure/ink';
 import { brief } from './figure/number';
-import { STEPS_MAX, problem, type Description, type Method, type Problem, type Solution } from './protocol';
-import { Refused, type Client, type Run, type Scene, type State, type Store, type View } from './scene';
+import { ACCURACY, AUTO, STEPS_MAX, problem, type Aim, type Description, type Method, type Problem, type Solution } from './protocol';
+import { Refused, UNASKED, type Client, type Run, type Scene, type State, type Store, type View } from './scene';
 import { normal, plain, short } from './shell/number';
 import { words } from './words';
 
 export interface Trouble {
   readonly model: Problem | null;               // the text, or a replaced parameter
   readonly run: Problem | null;                 // the computation as a whole
-  readonly step: string; readonly tolerance: string; readonly until: string; readonly methods: string;       // sentences; '' where all is well
+  readonly step: string; readonly tolerance: string; readonly accuracy: string; readonly until: string; readonly methods: string;       // sentences; '' where all is well
   /** The computation goes on nevertheless. */
   readonly remark: string;
 }
@@ -30,8 +30,8 @@ export interface LiveStore extends Store {
   readonly described: string | null;
   readonly trouble: Trouble;
   readonly busy: boolean;
-  /** Step, tolerance and end as numbers, of the last state that could be computed. */
-  readonly numbers: { readonly step: number | null; readonly tolerance: number | null; readonly until: number | null; readonly start: number };
+  /** Step, tolerance, accuracy and end as numbers, of the last state that could be computed. */
+  readonly numbers: { readonly step: number | null; readonly tolerance: number | null; readonly accuracy: number | null; readonly until: number | null; readonly start: number };
   /** Replace the whole state: a preset, an address. */
   load(state: State): void;
   cancel(): void;
@@ -50,9 +50,11 @@ export interface LiveStore extends Store {
 const rows = { moving: 1000, settled: 6000 };
 /* Milliseconds. A picture that is late is finished nevertheless, or a drag would never show one; a reference that is late is not. */
 const patience = { picture: 800, reference: 40, busy: 250, truth: 14, rest: 60, settled: 160 };
+/** Of a relative one: motus_run_def. */
+const ACCURACY_LEAST = 1e-15;
 /* What is asked of the truth: nothing, a coarse one, or the reference with the errors of all methods. */
 type Wanted = 'none' | 'coarse' | 'reference';
-const well: Trouble = { model: null, run: null, step: '', tolerance: '', until: '', methods: '', remark: '' };
+const well: Trouble = { model: null, run: null, step: '', tolerance: '', accuracy: '', until: '', methods: '', remark: '' };
 
 /** It took too long. */
 const late = (error: unknown): error is Refused => error instanceof Refused && error.problem.kind === 'limit';
@@ -74,35 +76,48 @@ export const outdated = ({ trouble, described, state }: LiveStore): boolean => t
 export function admittedMethods(state: State, description: Description, catalogue: readonly Method[]): { methods: string[]; refused: { name: string; reason: string | null }[] } {
   const refused: { name: string; reason: string | null }[] = [];
   const methods = [...new Set(state.methods.map(name => ownName(name, catalogue)))].filter(name => {
+    if (name === AUTO) return true;
     const entry = description.methods.find(m => m.name === name) ?? description.methods.find(m => m.name === family(name));
     if (!entry?.admitted) refused.push({ name, reason: entry?.reason ?? null });
     return entry?.admitted ?? false;
   });
   if (!methods.length) {
-    const own = description.settings.method || 'verlet';
-    const admitted = (name: string): boolean => description.methods.some(m => m.name === family(name) && m.admitted);
+    const own = description.settings.automatic ? AUTO : description.settings.method || 'verlet';
+    const admitted = (name: string): boolean => name === AUTO || description.methods.some(m => m.name === family(name) && m.admitted);
     methods.push(admitted(own) ? own : description.methods.find(m => m.admitted && m.name !== 'exact')?.name ?? own);
   }
   return { methods, refused };
 }
 
-/** How many methods take steps of one size, and how many choose theirs. */
-function countsOf(methods: readonly string[], catalogue: readonly Method[]): { fixed: number; adaptive: number } {
-  const adaptive = methods.filter((name) => catalogue.some((m) => m.adaptive && m.name === name)).length;
-  return { fixed: methods.length - adaptive, adaptive };
+/** The accuracy that is asked for, by the reader or else by the model; null: step and tolerance decide. */
+export function accuracyOf({ accuracy }: Run, { settings }: Description): string | number | null {
+  if (accuracy) return accuracy === UNASKED ? null : accuracy;
+  return settings.accuracy ?? (settings.automatic && settings.tolerance === null ? ACCURACY : null);
+}
+const choosing = (name: string, catalogue: readonly Method[]): boolean => name === AUTO || catalogue.some((m) => m.adaptive && m.name === name);
+/** Those that are to reach it: they choose their steps, or are the model's own, whose step it leaves open. */
+function aimedOf(of: Run, model: Description, methods: readonly string[], catalogue: readonly Method[]): string[] {
+  const { accuracy, method } = model.settings;
+  return accuracyOf(of, model) === null ? [] : methods.filter((name) => choosing(name, catalogue) || (accuracy !== null && !of.step && name === method));
+}
+/** How many methods reach for an accuracy, how many take steps of one size, and how many choose theirs by a tolerance. */
+export interface Kinds { readonly aimed: number; readonly fixed: number; readonly adaptive: number }
+function kindsOf(of: Run, model: Description, methods: readonly string[], catalogue: readonly Method[]): Kinds {
+  const aimed = aimedOf(of, model, methods, catalogue), others = methods.filter((name) => !aimed.includes(name)), adaptive = others.filter((name) => choosing(name, catalogue)).length;
+  return { aimed: aimed.length, fixed: others.length - adaptive, adaptive };
 }
 /** The same of what is drawn, or would be. */
-export function adapts({ state, description, catalogue }: LiveStore): { fixed: number; adaptive: number } {
-  return description ? countsOf(admittedMethods(state, description, catalogue).methods, catalogue) : { fixed: 0, adaptive: 0 };
+export function kinds({ state, description, catalogue }: LiveStore): Kinds {
+  return description ? kindsOf(state, description, admittedMethods(state, description, catalogue).methods, catalogue) : { aimed: 0, fixed: 0, adaptive: 0 };
 }
 /** null: the model's. */
-interface Measured { readonly step: number | null; readonly tolerance: number | null; readonly until: number | null }
+interface Measured { readonly step: number | null; readonly tolerance: number | null; readonly until: number | null; readonly aim: (Aim & { readonly at: readonly string[] }) | null }
 
 export function createStore(client: Client, initial: State): LiveStore {
   let state = initial, scene: Scene | null = null, catalogue: readonly Method[] = [];
   let description: Description | null = null, described: string | null = null;
   let trouble = well, busy = false;
-  let numbers: LiveStore['numbers'] = { step: null, tolerance: null, until: null, start: 0 };
+  let numbers: LiveStore['numbers'] = { step: null, tolerance: null, accuracy: null, until: null, start: 0 };
   let underWay = false, waiting = false, refining = false, began = 0, version = 0;
   // Milliseconds that the truth took the last time; 0: not known.
   let cost = { coarse: 0, reference: 0 };
@@ -135,10 +150,11 @@ export function createStore(client: Client, initial: State): LiveStore {
     return answer;
   }
 
-  /** Step, tolerance and end of this state, with what is wrong with them. */
-  async function measure(of: State, model: Description): Promise<Measured & { trouble: Pick<Trouble, 'step' | 'tolerance' | 'until' | 'remark'> }> {
-    const said = { step: '', tolerance: '', until: '', remark: '' };
-    let { step, until } = model.settings, tolerance: number | null = null;
+  /** Step, tolerance, accuracy and end of this state, with what is wrong with them. */
+  async function measure(of: State, model: Description): Promise<Measured & { trouble: Pick<Trouble, 'step' | 'tolerance' | 'accuracy' | 'until' | 'remark'> }> {
+    const said = { step: '', tolerance: '', accuracy: '', until: '', remark: '' }, { absolute } = model.settings, { methods } = admittedMethods(of, model, catalogue);
+    const at = aimedOf(of, model, methods, catalogue), wanted = accuracyOf(of, model);
+    let { step, until } = model.settings, tolerance: number | null = null, accuracy = typeof wanted === 'number' ? wanted : model.settings.accuracy ?? ACCURACY;
     if (of.until) {
       const value = await constant(of.until);
       if (typeof value === 'string') said.until = value;
@@ -158,7 +174,14 @@ export function createStore(client: Client, initial: State): LiveStore {
       else if (!(value > 0)) said.tolerance = words.trouble.toleranceZero;
       else tolerance = value;
     }
-    if (step !== null && until !== null && !said.step && !said.until && countsOf(admittedMethods(of, model, catalogue).methods, catalogue).fixed > 0) {
+    if (typeof wanted === 'string') {
+      const value = await constant(wanted);
+      if (typeof value === 'string') said.accuracy = value;
+      else if (!(value > 0)) said.accuracy = words.trouble.accuracyZero;
+      else if (!absolute && !(value >= ACCURACY_LEAST && value < 1)) said.accuracy = words.trouble.accuracyRange;
+      else accuracy = value;
+    }
+    if (step !== null && until !== null && !said.step && !said.until && kindsOf(of, model, methods, catalogue).fixed > 0) {
       const span = Math.abs(until - model.settings.start), steps = span / step;
       if (span === 0) {
         said.until = words.trouble.untilNothing(short(until));
@@ -167,7 +190,7 @@ export function createStore(client: Client, initial: State): LiveStore {
         said[of.until && !of.step ? 'until' : 'step'] = words.trouble.stepMany(brief(steps, 2));
       } else if (step > span) said.remark = words.trouble.stepLong(short(span, 6));
     }
-    return { step, tolerance, until, trouble: said };
+    return { step, tolerance, until, aim: at.length ? { accuracy, absolute, at } : null, trouble: said };
   }
 
   const makeScene = (of: State, solution: Solution): Scene => ({ state: of, description: solution.description, solution, looks: looksOf(solution.tracks.map(t => t.method), catalogue), catalogue });
@@ -220,10 +243,10 @@ export function createStore(client: Client, initial: State): LiveStore {
     trouble = { ...well, ...measured.trouble, methods: words.trouble.methods(refused.map(({ name, reason }) => (reason === null ? words.trouble.unknown(name) : words.trouble.refused(looksOf([name], catalogue)[0]?.label ?? name, reason)))) };
     tell('description');
     // A bad step or end leaves the last picture; where there is none of this model, the model's own serve.
-    if ((measured.trouble.step || measured.trouble.tolerance || measured.trouble.until) && scene?.state.text === of.text) return;
+    if ((measured.trouble.step || measured.trouble.tolerance || measured.trouble.accuracy || measured.trouble.until) && scene?.state.text === of.text) return;
     const { settings } = model;
-    const asked = { step: measured.trouble.step ? settings.step : measured.step, tolerance: measured.tolerance, until: measured.trouble.until ? settings.until : measured.until };
-    const needsStep = asked.step === null && countsOf(methods, catalogue).fixed > 0;
+    const asked = { step: measured.trouble.step ? settings.step : measured.step, tolerance: measured.tolerance, until: measured.trouble.until ? settings.until : measured.until, aim: measured.aim };
+    const needsStep = asked.step === null && kindsOf(of, model, methods, catalogue).fixed > 0;
     if (needsStep || asked.until === null) {
       trouble = {
         ...trouble, step: trouble.step || (needsStep ? words.trouble.noStep : ''),
@@ -236,7 +259,7 @@ export function createStore(client: Client, initial: State): LiveStore {
     const finish = (solution: Solution): void => {
       // How it is shown may have changed since.
       scene = makeScene({ ...shown, view: state.text === shown.text ? state.view : shown.view, pinned: state.pinned }, solution);
-      numbers = { ...asked, start: settings.start };
+      numbers = { step: asked.step, tolerance: asked.tolerance, accuracy: asked.aim?.accuracy ?? null, until: asked.until, start: settings.start };
       tell('scene');
     };
     try {
@@ -280,10 +303,10 @@ export function createStore(client: Client, initial: State): LiveStore {
     if (!catalogue.length) catalogue = await client.ask('catalogue', {});
     const of = { ...state, ...run }, set = Object.entries(run.set).map(([name, expression]) => `${name}=${expression}`);
     const model = await client.ask('describe', { model: { text: run.text, set: [] } });
-    const { step, tolerance, until, trouble: wrong } = await measure(of, model), { methods, refused } = admittedMethods(of, model, catalogue);
-    const why = wrong.step || wrong.tolerance || wrong.until || (step === null && countsOf(methods, catalogue).fixed > 0 ? words.trouble.noStep : until === null ? words.trouble.noUntil : '') || (refused[0] ? words.trouble.unknown(refused[0].name) : '');
+    const { step, tolerance, until, aim, trouble: wrong } = await measure(of, model), { methods, refused } = admittedMethods(of, model, catalogue);
+    const why = wrong.step || wrong.tolerance || wrong.accuracy || wrong.until || (step === null && kindsOf(of, model, methods, catalogue).fixed > 0 ? words.trouble.noStep : until === null ? words.trouble.noUntil : '') || (refused[0] ? words.trouble.unknown(refused[0].name) : '');
     if (why) throw new Refused(failure(why));
-    return makeScene({ ...of, methods }, await client.ask('solve', { model: { text: run.text, set }, methods, step, tolerance, until, columns: [], rows: rows.settled, truth: true, coarse: true, unexamined: true }));
+    return makeScene({ ...of, methods }, await client.ask('solve', { model: { text: run.text, set }, methods, step, tolerance, until, aim, columns: [], rows: rows.settled, truth: true, coarse: true, unexamined: true }));
   }
 
   async function work(): Promise<void> {

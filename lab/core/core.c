@@ -100,12 +100,15 @@ static motus_run_def run_of(const char *method, double step, double tolerance, d
     return def;
 }
 
-/* bars: motus_bars, for lab_errors. */
+/* accuracy, absolute: of motus_run_def, NaN: none is asked for. bars: motus_bars, for lab_errors. */
 LAB_CALL(lab_start)
-motus_status lab_start(lab *l, const char *method, double step, double tolerance, double until, int bars)
+motus_status lab_start(lab *l, const char *method, double step, double tolerance, double until, double accuracy,
+                       int absolute, int bars)
 {
     forget_run(l);
     motus_run_def def = run_of(method, step, tolerance, until);
+    def.accuracy = accuracy;
+    def.absolute = absolute;
     def.error = (motus_bars)bars;
     return motus_run_create(l->system, &def, &l->run, &l->error);
 }
@@ -120,7 +123,8 @@ motus_status lab_singular(lab *l, const char *method, double step, double tolera
 }
 
 /* Steps on by `every` (from the second row of a run on) and writes the numbers of `count` columns, up to `rows` times
- * or to the end. The rows that were written are in *written, also where a step failed. */
+ * or to the end. The rows that were written are in *written, also where a step failed; MOTUS_ACCURACY: the last of them
+ * is the end. */
 LAB_CALL(lab_record)
 motus_status lab_record(lab *l, const size_t *columns, size_t count, double every, size_t rows, int first, double *out,
                         size_t *written)
@@ -132,9 +136,13 @@ motus_status lab_record(lab *l, const size_t *columns, size_t count, double ever
             if (motus_run_done(l->run)) return MOTUS_OK;
             status = motus_run_step(l->run, (int64_t)every, &l->error);
         }
-        if (status == MOTUS_OK) status = motus_run_values(l->run, columns, count, out + i * count, &l->error);
+        if (status == MOTUS_OK || status == MOTUS_ACCURACY) {
+            const motus_status read =
+                motus_run_values(l->run, columns, count, out + i * count, status == MOTUS_OK ? &l->error : NULL);
+            *written = i + (read == MOTUS_OK);
+            if (status == MOTUS_OK) status = read;
+        }
         if (status != MOTUS_OK) return status;
-        *written = i + 1;
     }
     return MOTUS_OK;
 }
@@ -169,8 +177,9 @@ LAB_CALL(lab_estimate) const char *lab_estimate(lab *l)
     return lab_answered(l, &j);
 }
 
-/* out: time, steps, steps in all, step, last step, evaluations, done, refused steps, tolerance. Where steps adapt steps
- * in all are 0, and the step is NaN; elsewhere the tolerance. */
+/* out: time, steps, steps in all, step, last step, evaluations, done, refused steps, tolerance; accuracy and what was
+ * reached of it (motus_statistics), runs that were tried for it. Where steps adapt steps in all are 0, and the step is
+ * NaN; elsewhere the tolerance. */
 LAB_CALL(lab_progress) void lab_progress(const lab *l, double *out)
 {
     motus_statistics all = motus_default_statistics();
@@ -184,6 +193,9 @@ LAB_CALL(lab_progress) void lab_progress(const lab *l, double *out)
     out[6] = motus_run_done(l->run);
     out[7] = (double)all.refused;
     out[8] = all.tolerance;
+    out[9] = all.accuracy;
+    out[10] = all.reached;
+    out[11] = all.trials;
 }
 
 LAB_CALL(lab_advance) motus_status lab_advance(lab *l, double steps)
@@ -192,6 +204,8 @@ LAB_CALL(lab_advance) motus_status lab_advance(lab *l, double steps)
 }
 
 LAB_CALL(lab_method) const char *lab_method(const lab *l) { return motus_run_method(l->run); }
+/* Why "auto" chose it. */
+LAB_CALL(lab_choice) const char *lab_choice(const lab *l) { return motus_run_choice(l->run); }
 
 /* The restart state: the whole state in hexadecimal numbers. NULL: lab_problem. */
 LAB_CALL(lab_save) const char *lab_save(lab *l)

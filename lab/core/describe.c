@@ -5,6 +5,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <strings.h>
 
 static void describe_columns(json *j, const motus_system *s)
 {
@@ -80,6 +81,12 @@ static const char *method_of(const motus_settings *settings)
                : found->name;
 }
 
+/* Whether the model leaves it to the library which method takes it, and how long its steps are. */
+static bool automatic(const motus_settings *s)
+{
+    return s->method ? !strcasecmp(s->method, "auto") : isnan(s->step);
+}
+
 static void describe_statements(json *j, motus_system *s)
 {
     static const char *const kinds[] = {
@@ -141,7 +148,7 @@ static void describe_suggestions(json *j, const motus_system *s, const motus_set
         rest_of(&i, &v, line, sizeof line);
         if (line[0]) suggest(j, line, "at rest, not given");
     }
-    if (isnan(own->step) && !isnan(found->step)) {
+    if (isnan(own->step) && !isnan(found->step) && !automatic(own)) {
         snprintf(line, sizeof line, "step  %.15g", found->step);
         suggest(j, line, found->step_why);
     }
@@ -172,6 +179,9 @@ LAB_CALL(lab_describe) const char *lab_describe(lab *l)
     json_string(&j, "method", method_of(&settings));
     json_number(&j, "step", found.step);
     json_number(&j, "tolerance", found.tolerance);
+    json_number(&j, "accuracy", settings.accuracy);
+    json_bool(&j, "absolute", settings.absolute);
+    json_bool(&j, "automatic", automatic(&settings));
     json_number(&j, "until", found.until);
     json_number(&j, "start", settings.from);
     json_bool(&j, "suggested", suggested);

@@ -59,20 +59,21 @@ export function viewOf(truth: ArrayLike<number> | null, tracks: readonly ArrayLi
 export const WIDTH = 2, EXACT_WIDTH = 4;
 const RADIUS = 2.6;
 
-/** A method's line against time; rows: how many of its rows. */
-export function drawTrack(pen: Pen, frame: Frame, times: ArrayLike<number>, column: ArrayLike<number>, look: Look, rows: number): void {
+type Points = readonly [x: ArrayLike<number>, y: ArrayLike<number>];
+/** A method's line against time; rows: how many of its rows; steps: where its steps end, if the line has other rows besides. */
+export function drawTrack(pen: Pen, frame: Frame, times: ArrayLike<number>, column: ArrayLike<number>, look: Look, rows: number, steps: Points | null = null): void {
   pen.line(thin(first(times, rows), column, frame.x, frame.y), { colour: look.colour, width: WIDTH, dash: look.dash });
-  drawMarkers(pen, frame, times, column, look, rows);
+  drawMarkers(pen, frame, steps ?? [times, column], look, steps ? Infinity : rows);
 }
 
-export function drawPath(pen: Pen, frame: Frame, x: ArrayLike<number>, y: ArrayLike<number>, look: Look, rows: number): void {
+export function drawPath(pen: Pen, frame: Frame, x: ArrayLike<number>, y: ArrayLike<number>, look: Look, rows: number, steps: Points | null = null): void {
   pen.line(thinPath(first(x, rows), y, frame.x, frame.y), { colour: look.colour, width: WIDTH, dash: look.dash });
-  drawMarkers(pen, frame, x, y, look, rows);
+  drawMarkers(pen, frame, steps ?? [x, y], look, steps ? Infinity : rows);
 }
 const first = (column: ArrayLike<number>, rows: number): ArrayLike<number> => (rows >= column.length ? column : Array.prototype.slice.call(column, 0, rows));
 
 /** Where steps are few each has its marker; where they are many there is none, as the name at the end says whose line it is. */
-function drawMarkers(pen: Pen, frame: Frame, x: ArrayLike<number>, y: ArrayLike<number>, look: Look, upTo: number): void {
+function drawMarkers(pen: Pen, frame: Frame, [x, y]: Points, look: Look, upTo: number): void {
   if (Math.min(x.length, y.length) > frame.width / 12) return;
   const rows = Math.min(x.length, y.length, upTo);
   for (let i = 0; i < rows; i++) {

@@ -17,6 +17,7 @@ import { thinPath } from '../figure/thin';
 import type { Figure, Frame, Ink, Pen, Said, Span, Table } from '../figure/types';
 import { greenName } from '../stage/motion';
 import type { Sees } from '../stage/stage';
+import { lineOf } from '../figure/line';
 import { words } from '../words';
 import { columnOf, exactAt, movable, positions, states, timeTable, velocityOf } from './columns';
 import { swingsOf } from './swings';
@@ -67,10 +68,10 @@ export const phasePanel = (store: Store, stage: () => Sees): Panel => {
         const end = endIn(f, ex, ey);
         ends.push({ label: greenName(scene!), colour: ink.exact, marker: null, at: end.at, exit: end.exit, heights: heights(truth.times, ex, ey) });
       }
-      tracks.forEach(({ times }, k) => {
-        const px = track(k, pair[0]), py = track(k, pair[1]), end = endIn(f, px, py), look = scene!.looks[k]!;
-        drawPath(pen, f, px, py, look, end.rows);
-        ends.push(endOf(look, end, heights(times, px, py)));
+      tracks.forEach((own, k) => {
+        const line = lineOf(own, pair.map(at)), [px, py] = pair.map((name) => line.columns[at(name)] ?? new Float64Array(0)) as [Float64Array, Float64Array], end = endIn(f, px, py), look = scene!.looks[k]!;
+        drawPath(pen, f, px, py, look, end.rows, [track(k, pair[0]), track(k, pair[1])]);
+        ends.push(endOf(look, end, heights(line.times, px, py)));
       });
       pen.mark('ring', f.x(track(0, pair[0])[0] ?? NaN), f.y(track(0, pair[1])[0] ?? NaN), 6, ink.text);
     });
@@ -80,7 +81,7 @@ export const phasePanel = (store: Store, stage: () => Sees): Panel => {
   function points(t: number): [number, number][] {
     if (!scene) return [];
     const all: [number, number][] = truthShown() ? [[exactAt(scene, pair[0], t), exactAt(scene, pair[1], t)]] : [];
-    scene.solution.tracks.forEach(({ times }, k) => all.push([valueAt(times, track(k, pair[0]), t), valueAt(times, track(k, pair[1]), t)]));
+    for (const own of scene.solution.tracks) { const line = lineOf(own, pair.map(at)), [x, y] = pair.map((name) => valueAt(line.times, line.columns[at(name)] ?? [], t)); all.push([x!, y!]); }
     return all;
   }
   function overlay(pen: Pen, ink: Ink): void {
@@ -101,8 +102,8 @@ export const phasePanel = (store: Store, stage: () => Sees): Panel => {
   /** Of the exact motion, or of the first method's. */
   function answer(): Said {
     if (!scene || !scene.solution.tracks.length) return '';
-    const { truth, tracks } = scene.solution, exact = truthShown() && truth, times = exact ? exact.times : tracks[0]!.times;
-    const [x, y] = pair.map((name) => (exact ? truthOf(name) : null) ?? track(0, name)) as [Float64Array, Float64Array];
+    const { truth, tracks } = scene.solution, exact = truthShown() && truth, line = exact || lineOf(tracks[0]!, pair.map(at)), { times } = line;
+    const [x, y] = pair.map((name) => (exact ? truthOf(name) : null) ?? line.columns[at(name)] ?? new Float64Array(0)) as [Float64Array, Float64Array];
     const value = (name: string, v: number): string => amount(v, unitOf(scene!, name)), name = (of: string): Span[] => { const called = calledOf(scene!, of); return called === nameText(of) ? nameSpans(of, 15) : [{ text: called }]; };
     const head: Span[] = exact ? [] : [{ text: say.by(nameAt(scene, 0)) }], put = (...rest: Span[]): Said => [...head, ...name(pair[0]), ...rest];
     const when = (t: number): string => moment(scene!, Number(t.toPrecision(3)));
@@ -151,7 +152,7 @@ export const phasePanel = (store: Store, stage: () => Sees): Panel => {
     up.value = pair[1];
     for (const control of controls) control.hidden = names.length < 2;
     const { tracks } = next.solution;
-    const view = (name: string): View => viewOf(truthShown() ? truthOf(name) : null, tracks.map((_, k) => track(k, name)));
+    const view = (name: string): View => viewOf(truthShown() ? truthOf(name) : null, tracks.map((own) => lineOf(own, pair.map(at)).columns[at(name)] ?? []));
     views = [view(pair[0]), view(pair[1])];
     fig.redraw();
   }

@@ -17,6 +17,7 @@ import { thin } from '../figure/thin';
 import type { Figure, Frame, Ink, Pen, Said, Span, Table } from '../figure/types';
 import { greenName } from '../stage/motion';
 import type { Sees } from '../stage/stage';
+import { lineOf } from '../figure/line';
 import { words } from '../words';
 import { bandsOf } from './band';
 import { exactAt, exactText, movable, positions, states, timeTable } from './columns';
@@ -68,6 +69,10 @@ export const timePanel = (store: Store, stage: () => Sees): Panel => {
     const at = scene?.solution.columns.indexOf(name) ?? -1;
     return scene?.solution.tracks.map((t) => t.columns[at] ?? new Float64Array(0)) ?? [];
   };
+  const linesOf = (name: string): { times: Float64Array; values: Float64Array }[] => {
+    const at = scene?.solution.columns.indexOf(name) ?? -1;
+    return scene?.solution.tracks.map((t) => { const line = lineOf(t, [at]); return { times: line.times, values: line.columns[at] ?? new Float64Array(0) }; }) ?? [];
+  };
   const truthShown = (): boolean => chosen.some((name) => truthOf(name));
   const labels = (): string[] => [...(truthShown() && scene ? [greenName(scene)] : []), ...(scene?.looks.map((l) => l.label) ?? [])];
   const layout = (width: number): EndsLayout => endsLayout(width, labels());
@@ -92,15 +97,15 @@ export const timePanel = (store: Store, stage: () => Sees): Panel => {
     }
     put(false);
     chosen.forEach((name, i) => {
-      const frame = frames[i]!, ends: End[] = [], columns = trackColumns(name), exact = truthOf(name);
-      const ended = tracks.map((track, k) => endIn(frame, track.times, columns[k]!));
+      const frame = frames[i]!, ends: End[] = [], columns = trackColumns(name), lines = linesOf(name), exact = truthOf(name);
+      const ended = lines.map(({ times, values }) => endIn(frame, times, values));
       pen.clip(frame.left, frame.top - 2, frame.width + 2, frame.height + 3, () => {
         if (exact && truth) pen.line(thin(truth.times, exact, frame.x, frame.y), { colour: ink.exact, width: EXACT_WIDTH });
         for (const look of scene!.looks) errors.draw(pen, frame, look, name);
-        tracks.forEach((track, k) => drawTrack(pen, frame, track.times, columns[k]!, scene!.looks[k]!, ended[k]!.rows));
+        lines.forEach(({ times, values }, k) => drawTrack(pen, frame, times, values, scene!.looks[k]!, ended[k]!.rows, [tracks[k]!.times, columns[k]!]));
       });
       if (exact && truth) { const end = endIn(frame, truth.times, exact); ends.push({ label: greenName(scene!), colour: ink.exact, marker: null, at: end.at, exit: end.exit, heights: heightsIn(frame, truth.times, exact) }); }
-      tracks.forEach((track, k) => ends.push(endOf(scene!.looks[k]!, ended[k]!, heightsIn(frame, track.times, columns[k]!))));
+      lines.forEach(({ times, values }, k) => ends.push(endOf(scene!.looks[k]!, ended[k]!, heightsIn(frame, times, values))));
       // Above a narrow picture the names stand once.
       if (i === 0 || !names.narrow) drawEnds(pen, ink, frame, names, ends);
     });
@@ -109,11 +114,7 @@ export const timePanel = (store: Store, stage: () => Sees): Panel => {
   /** The values of a quantity at a time: exact first where there is one. */
   function values(name: string, t: number): number[] {
     if (!scene) return [];
-    const columns = trackColumns(name);
-    return [
-      ...(truthShown() ? [truthOf(name) ? exactAt(scene, name, t) : NaN] : []),
-      ...scene.solution.tracks.map((track, k) => valueAt(track.times, columns[k]!, t)),
-    ];
+    return [...(truthShown() ? [truthOf(name) ? exactAt(scene, name, t) : NaN] : []), ...linesOf(name).map((line) => valueAt(line.times, line.values, t))];
   }
   /** The same to be read. */
   const texts = (name: string, t: number): string[] =>
@@ -204,7 +205,7 @@ export const timePanel = (store: Store, stage: () => Sees): Panel => {
     offer(names);
     choiceName.textContent = say.shown(listed(chosen.map(nameText), 4));
     choice.hidden = names.length < 2;
-    views = chosen.map((name) => viewOf(truthOf(name), trackColumns(name)));
+    views = chosen.map((name) => viewOf(truthOf(name), linesOf(name).map(({ values }) => values)));
     frames = [];
     want();
     fig.redraw();

@@ -50,7 +50,7 @@ export function dials(store: LiveStore): HTMLElement {
     const { state } = store, staging = stagingOf(state.preset), to = staging.switch?.to;
     if (to === undefined || presets.text(to) === undefined) return;
     // What both models have goes along: start, step, methods, and the lesson that one is in.
-    store.load({ ...presetState(presets, to), set: Object.fromEntries(Object.entries(state.set).filter(([name]) => /\(/.test(name))), methods: state.methods, step: state.step, tolerance: state.tolerance, until: state.until, view: state.view, place: state.place });
+    store.load({ ...presetState(presets, to), set: Object.fromEntries(Object.entries(state.set).filter(([name]) => /\(/.test(name))), methods: state.methods, step: state.step, tolerance: state.tolerance, accuracy: state.accuracy, until: state.until, view: state.view, place: state.place });
   });
   function build(): void {
     const { description, state } = store;

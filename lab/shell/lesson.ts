@@ -55,7 +55,7 @@ export function lessonPlace(store: LiveStore, stage: Stage, clock: { replay(): v
     const { scene } = lesson;
     stale = true;
     store.load({
-      ...presetState(presets, scene.model), set: setOf(lesson), methods: scene.methods, step: scene.step, tolerance: '', until: scene.until,
+      ...presetState(presets, scene.model), set: setOf(lesson), methods: scene.methods, step: scene.step, tolerance: '', accuracy: '', until: scene.until,
       view: { ...store.state.view, plane: scene.view[0] === 'plane' ? 'plane' : 'auto', quantities: [], phase: null }, place: where,
     });
   }
@@ -104,7 +104,7 @@ export function lessonPlace(store: LiveStore, stage: Stage, clock: { replay(): v
       case 'step': store.change({ step: String(condition.value) }); break;
       case 'until': store.change({ until: String(condition.value) }); toEnd = true; break;
       case 'set': store.change({ set: { ...state.set, [condition.name]: condition.value } }); break;
-      case 'scene': store.load({ ...presetState(presets, condition.model), set: sceneOf(condition.model)?.set ?? {}, methods: kept.length ? kept : methods, step: state.step, tolerance: state.tolerance, until: state.until, view: state.view, place: state.place }); break;
+      case 'scene': store.load({ ...presetState(presets, condition.model), set: sceneOf(condition.model)?.set ?? {}, methods: kept.length ? kept : methods, step: state.step, tolerance: state.tolerance, accuracy: state.accuracy, until: state.until, view: state.view, place: state.place }); break;
       case 'opened':
         if (condition.place === 'step') store.go('step');
         else { place('looking').scrollIntoView(); document.dispatchEvent(new CustomEvent('motus-opened', { detail: condition.place })); }

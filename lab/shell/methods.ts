@@ -4,11 +4,12 @@
  * Invariant: a toggle shows what is chosen, and one that the model does not admit cannot be chosen and says why.
  */
 import { looksOf } from '../figure/ink';
-import type { Method } from '../protocol';
-import { admittedMethods, family, ownName, type LiveStore } from '../state';
+import { AUTO, type Method } from '../protocol';
+import { admittedMethods, family, kinds, ownName, type LiveStore } from '../state';
 import { button, el, say } from '../dom';
 import { words } from '../words';
 import { sample } from './sample';
+import { goalOf } from './tolerance';
 
 const common = ['explicit-euler', 'symplectic-euler', 'midpoint', 'verlet', 'rk4'];
 const most = 12;
@@ -30,6 +31,8 @@ export function methods(store: LiveStore): { readonly element: HTMLElement; repa
     if (store.state.methods.length) return store.state.methods.map(name => ownName(name, store.catalogue));
     return store.description ? admittedMethods(store.state, store.description, store.catalogue).methods : [];
   };
+  /** What "auto" has chosen; it is not told by the state. */
+  const picked = (): string => store.scene?.solution.tracks.find((t) => t.goal?.choice)?.method ?? AUTO;
   function press(name: string): void {
     const now = chosen();
     limitReached = false;
@@ -50,11 +53,11 @@ export function methods(store: LiveStore): { readonly element: HTMLElement; repa
     const control = button('', () => { if (control.getAttribute('aria-disabled') !== 'true') press(name); }, { class: 'chip', 'aria-pressed': 'false' }, picture, el('span', { class: 'words' }, label, reason));
     const usual = method ? told(method) : '';
     const repaint = (): void => {
-      const look = looksOf([name], store.catalogue)[0];
+      const of = name === AUTO ? picked() : name, look = looksOf([of], store.catalogue)[0];
       if (!look) return;
-      picture.replaceChildren(sample(look));
-      control.style.setProperty('--c', look.colour);
-      say(label, look.label);
+      picture.replaceChildren(...(of === AUTO ? [] : [sample(look)]));
+      control.style.setProperty('--c', of === AUTO ? 'var(--quiet)' : look.colour);
+      say(label, name === AUTO ? words.methods.auto(of === AUTO ? '' : look.label) : look.label);
     };
     repaint();
     return {
@@ -65,15 +68,16 @@ export function methods(store: LiveStore): { readonly element: HTMLElement; repa
         control.setAttribute('aria-pressed', String(now.includes(name) && !refused));
         control.setAttribute('aria-disabled', String(refused));
         say(reason, refused ? entry.reason : '');
-        control.title = refused ? words.methods.refused(entry.reason, entry.hint) : usual;
+        if (name === AUTO) repaint();
+        control.title = refused ? words.methods.refused(entry.reason, entry.hint) : name === AUTO ? words.methods.autoTitle(goalOf(store.scene?.solution.tracks ?? [])?.goal.choice ?? '') : usual;
       },
     };
   }
   function build(): void {
-    const now = chosen().filter(name => store.catalogue.some(m => m.name === family(name)));
+    const now = chosen().filter(name => name !== AUTO && store.catalogue.some(m => m.name === family(name))), auto = kinds(store).aimed > 0 || chosen().includes(AUTO) ? [AUTO] : [];
     // Those that a scene opens with come first, and stay there.
     if (store.state.preset !== opened || !front.length) { opened = store.state.preset; front = now; }
-    const first = [...front, ...common.filter(name => !front.includes(name))].slice(0, Math.max(5, front.length)), names = [...first, ...now.filter(name => !first.includes(name))];
+    const first = [...front, ...common.filter(name => !front.includes(name))].slice(0, Math.max(5, front.length)), names = [...auto, ...first, ...now.filter(name => !first.includes(name))];
     const admitted = (name: string): boolean => store.description?.methods.find(m => m.name === name)?.admitted ?? true;
     const unused = store.catalogue.map(m => m.name).filter(name => !names.includes(name) && name !== 'exact');
     const others = [...unused.filter(admitted), ...unused.filter(name => !admitted(name))];
@@ -117,7 +121,7 @@ export function methods(store: LiveStore): { readonly element: HTMLElement; repa
   }
   /** While a slider is dragged nothing here changes, and dozens of toggles need not be asked. */
   function changed(now: readonly string[]): boolean {
-    const seen = [store.description, store.catalogue, store.trouble.methods, limitReached, now.join()];
+    const seen = [store.description, store.catalogue, store.trouble.methods, limitReached, now.join(), kinds(store).aimed > 0, now.includes(AUTO) && picked()];
     const same = seen.every((value, k) => value === last[k]);
     last = seen;
     return !same;

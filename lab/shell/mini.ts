@@ -10,6 +10,7 @@ import { ink } from '../figure/ink';
 import { grouped } from '../figure/number';
 import { rowAt } from '../figure/track';
 import { timeUnit } from '../panel/told';
+import { lineOf } from '../figure/line';
 import { words } from '../words';
 import type { Link } from './closer';
 import { short } from './number';
@@ -45,7 +46,7 @@ export function mini(clock: () => Transport): Mini {
   function prepare(): void {
     prepared = scene;
     if (!scene) return;
-    const { solution, description } = scene, of = solution.truth ?? solution.tracks[0];
+    const { solution, description } = scene, of = solution.truth ?? (solution.tracks[0] && lineOf(solution.tracks[0], []));
     const places = description.columns.filter((c) => c.kind === 'position' || c.kind === 'first-order').map((c) => solution.columns.indexOf(c.name)).filter((k) => k >= 0 && (of?.columns[k]?.length ?? 0) > 0);
     if (!of || !places.length) { xy = new Float64Array(0); return; }
     const flat = description.variables.some((v) => v.order === 2 && v.components >= 2);

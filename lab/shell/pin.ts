@@ -21,7 +21,7 @@ function differences(a: Scene, b: Scene): string {
   return told.length ? words.dock.pin.differs(told.slice(0, 3)) : words.dock.pin.same;
 }
 
-const runOf = ({ text, set, methods, step, tolerance, until }: Run): Run => ({ text, set, methods, step, tolerance, until });
+const runOf = ({ text, set, methods, step, tolerance, accuracy, until }: Run): Run => ({ text, set, methods, step, tolerance, accuracy, until });
 
 export function pin(store: LiveStore, stage: Stage, toasts: Toasts): HTMLElement {
   let kept: Scene | null = null, known = '';

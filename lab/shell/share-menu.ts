@@ -107,16 +107,18 @@ export function shareMenu(store: LiveStore, presets: Presets, stage: Stage, toas
     say(remark, location.protocol === 'file:' ? words.share.disk : '');
     remark.hidden = remark.textContent === '';
     // The command computes what is seen: the last state that could be computed.
-    const seen = store.scene?.state ?? store.state, { model, step, tolerance, until, run } = store.trouble;
-    const adaptive = seen.methods.filter((name) => store.catalogue.some((m) => m.adaptive && m.name === name));
-    const { text, problem } = command({ ...seen, text: whole(seen) }, seen.methods, adaptive);
+    const seen = store.scene?.state ?? store.state, { model, step, tolerance, accuracy, until, run } = store.trouble;
+    const tracks = store.scene?.solution.tracks ?? [], methods = tracks.length ? tracks.map((t) => t.method) : seen.methods;
+    const aimed = new Map(tracks.flatMap(({ method, goal }): [string, string][] => (goal ? [[method, `${goal.accuracy}${goal.absolute ? ' absolute' : ''}`]] : [])));
+    const adaptive = methods.filter((name) => !aimed.has(name) && store.catalogue.some((m) => m.adaptive && m.name === name));
+    const { text, problem } = command({ ...seen, text: whole(seen) }, methods, adaptive, aimed);
     line.value = text;
-    say(commandLabel, seen.methods.length > 1 ? words.share.command.several : words.share.command.one);
-    say(older, model || step || tolerance || until || run ? words.share.older : '');
+    say(commandLabel, methods.length > 1 ? words.share.command.several : words.share.command.one);
+    say(older, model || step || tolerance || accuracy || until || run ? words.share.older : '');
     older.hidden = older.textContent === '';
     copyCommand.disabled = problem !== '';
-    const { numbers } = store, main = seen.methods[0] ?? '', adapts = adaptive.includes(main);
-    const made = cProgram({ text: whole(seen), set: seen.set, method: main, step: seen.step && !adapts ? numbers.step : null, tolerance: seen.tolerance && adapts ? numbers.tolerance : null, until: seen.until ? numbers.until : null });
+    const { numbers } = store, main = methods[0] ?? '', adapts = adaptive.includes(main), goal = tracks[0]?.goal ?? null;
+    const made = cProgram({ text: whole(seen), set: seen.set, method: main, step: seen.step && !adapts && !goal ? numbers.step : null, tolerance: seen.tolerance && adapts ? numbers.tolerance : null, aim: goal, until: seen.until ? numbers.until : null });
     source.value = made.text || made.problem;
     copyProgram.disabled = !made.text;
     say(programLabel, words.share.program.label(store.scene?.looks[0]?.label ?? main));

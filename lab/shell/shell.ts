@@ -19,7 +19,7 @@ import { note } from './note';
 import { pin } from './pin';
 import { presets } from './presets';
 import { shareMenu } from './share-menu';
-import { toleranceSlider } from './tolerance';
+import { accuracySlider, accuracySwitch, goalNote, toleranceSlider } from './tolerance';
 import { status } from './status';
 import { stepSlider } from './step';
 import { themeButton } from './theme';
@@ -62,8 +62,8 @@ export function mountShell(store: LiveStore, stage: Stage, clock: { replay(): vo
   place('words').replaceChildren(said.element, lesson.element, lesson.list);
   place('words').addEventListener('lesson', (event) => lesson.open((event as CustomEvent<string>).detail));
   place('methods').append(chosen.element);
-  place('scene-note').append(note(store));
-  place('dials').append(stepSlider(store), toleranceSlider(store), dials(store));
+  place('scene-note').append(note(store), goalNote(store));
+  place('dials').append(stepSlider(store), toleranceSlider(store), accuracySlider(store), accuracySwitch(store), dials(store));
   place('dock-links').append(dockLinks(store, pin(store, stage, toasts), stage.choice));
   place('status').append(status(store));
   if (!store.state.embed) {

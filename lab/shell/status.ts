@@ -4,16 +4,16 @@ import { button, el, say } from '../dom';
 import { begin } from '../figure/track';
 import { words } from '../words';
 
-/** "explicit Euler stopped at t = 1.2: x is no longer finite" of each method that did not reach the end, or passed a singularity; or why nothing could be computed, or no
+/** "explicit Euler stopped at t = 1.2: x is no longer finite" of each method that did not reach the end, passed a singularity, or missed the accuracy; or why nothing could be computed, or no
  * green curve. */
 function stopped(store: LiveStore): string {
   const { run, model } = store.trouble;
   if (model) return store.scene ? words.trouble.last : words.trouble.model;
-  if (store.trouble.step || store.trouble.tolerance || store.trouble.until) return words.trouble.numbers;
+  if (store.trouble.step || store.trouble.tolerance || store.trouble.accuracy || store.trouble.until) return words.trouble.numbers;
   if (run) return words.trouble.hinted(run.message, run.hint);
   const { tracks = [], truth, problem } = store.scene?.solution ?? {}, whose = new Map<string, string[]>(), own = new Map<string, string>();
   tracks.forEach((track, k) => {
-    const trouble = track.problem ?? track.singular;
+    const trouble = track.problem ?? track.singular ?? track.goal?.missed;
     // What begins with the program's name of the method is said with the page's.
     if (trouble?.message.startsWith(`${track.method} `)) own.set(trouble.message, trouble.message.slice(track.method.length + 1));
     if (trouble) whose.set(trouble.message, [...(whose.get(trouble.message) ?? []), store.scene?.looks[k]?.label ?? track.method]);
@@ -33,7 +33,7 @@ export function status(store: LiveStore): HTMLElement {
     element.classList.toggle('busy', busy);
     cancel.hidden = !busy;
     // What was said of this model stays until its runs have been examined again.
-    const { scene, trouble } = store, waits = scene !== null && !scene.solution.examined && scene.state.text === of && !trouble.model && !trouble.run && !trouble.step && !trouble.tolerance && !trouble.until;
+    const { scene, trouble } = store, waits = scene !== null && !scene.solution.examined && scene.state.text === of && !trouble.model && !trouble.run && !trouble.step && !trouble.tolerance && !trouble.accuracy && !trouble.until;
     if (!waits) told = stopped(store);
     if (!busy) of = scene?.state.text ?? '';
     // It stays while a slider moves, as the picture gives it room where the screen is small.

@@ -4,7 +4,7 @@
 import { data, exampleOf } from '../data';
 import { grouped } from '../figure/number';
 import { stagingOf } from '../stage/staging';
-import { adapts, type LiveStore } from '../state';
+import { kinds, type LiveStore } from '../state';
 import { words } from '../words';
 import { compact, short } from './number';
 import { scaleDial } from './scale';
@@ -32,7 +32,7 @@ function stopsOf(store: LiveStore): number[] | null {
 }
 
 export function stepSlider(store: LiveStore): HTMLElement {
-  const track = () => store.scene?.solution.tracks.find((t) => t.tolerance === null), unit = (): string => stagingOf(exampleOf(store.state)).units?.t ?? '';
+  const track = () => store.scene?.solution.tracks.find((t) => t.tolerance === null && !t.goal), unit = (): string => stagingOf(exampleOf(store.state)).units?.t ?? '';
   const { element } = scaleDial(store, {
     id: 'step', symbol: 'h', words: words.dock.step, fine: [0.99, 1.01],
     own: () => store.description?.settings.step ?? null, typed: () => store.state.step, change: (step) => store.change({ step }),
@@ -44,6 +44,6 @@ export function stepSlider(store: LiveStore): HTMLElement {
     beside: () => { const total = track()?.total; return total === undefined ? '' : `\u2009·\u2009${words.dock.step.steps(total, grouped(total))}`; },
     spoken: (h) => { const total = track()?.total; return words.dock.step.value(short(h, 4), unit(), total === undefined ? '' : words.dock.step.steps(total, String(total))); },
   });
-  store.subscribe((what) => { if (what === 'description' || what === 'scene') element.hidden = adapts(store).fixed === 0 && adapts(store).adaptive > 0; });
+  store.subscribe((what) => { if (what === 'description' || what === 'scene') { const { fixed, adaptive, aimed } = kinds(store); element.hidden = fixed === 0 && adaptive + aimed > 0; } });
   return element;
 }

@@ -1,9 +1,10 @@
 /* The curves of a motion in a plot, in pixels: where each lies, which coincide, where a runaway leaves.
  *
  * Invariant: a method coincides with another curve only where every step of it does, to NEAR pixels; it leaves only where it does not come back, or goes
- * far out. Markers stand at computed rows, never between them.
+ * far out. Markers stand at computed rows, never between them; where a line goes on between them by dense output, its rows are more than those.
  */
-import type { Line, Motion, Rows } from './motion';
+import { lineOf, type Rows } from '../figure/line';
+import type { Line, Motion } from './motion';
 import { lengthOf, path, type Path } from './path';
 import type { Plot, Way } from './plot';
 import { inside } from './plot';
@@ -24,8 +25,9 @@ const BAND = 5;
 
 /** row: the first one outside; time: at which the line to it crosses the edge, there. */
 export interface Exit { readonly row: number; readonly time: number; readonly x: number; readonly y: number; readonly dx: number; readonly dy: number }
+/** times: of the way's rows, at some of which the marks are. */
 export interface Curve {
-  readonly line: Line; readonly body: number; readonly way: Way; readonly path: Path; readonly marks: readonly number[]; readonly band: boolean; readonly exit: Exit | null;
+  readonly line: Line; readonly body: number; readonly way: Way; readonly times: Float64Array; readonly path: Path; readonly marks: readonly number[]; readonly band: boolean; readonly exit: Exit | null;
 }
 export interface Curves {
   readonly exact: readonly { readonly way: Way; readonly path: Path }[];
@@ -97,6 +99,12 @@ function marksOf(motion: Motion, line: Line, way: Way, rank: number): number[] {
   return Array.from({ length: SPARSE }, (_, i) => Math.round((i + (rank + 1) / (motion.lines.length + 1)) * (n - 1) / SPARSE)).filter((i) => i < n);
 }
 
+/** Where rows of `times` stand in `all`, which holds their times and others. */
+function among(times: Float64Array, rows: readonly number[], all: Float64Array): number[] {
+  let at = 0;
+  return rows.map((row) => { while (at < all.length - 1 && all[at] !== times[row]) at++; return at; });
+}
+
 /** Whether each row of `a` lies where `b` is at its time. */
 function coincide(a: Way, aTimes: ArrayLike<number>, b: Way, bTimes: ArrayLike<number>): boolean {
   const at: Point = { x: 0, y: 0 };
@@ -111,15 +119,19 @@ export function curvesOf(motion: Motion, plot: Plot): Curves {
   const { subject, truth, lines } = motion, waysOf = (of: Rows): Way[] => subject.bodies.map((body) => plot.way(of, body));
   const exact = truth ? waysOf(truth).map((way) => ({ way, path: path(truth.times.length, way.x, way.y, SMOOTH, 0.2) })) : [];
   const size = plot.box.right - plot.box.left + plot.box.bottom - plot.box.top;
-  const methods = lines.map((line, rank) => waysOf(line.track).map((way, body): Curve => {
-    const { times } = line.track, exit = exitOf(way, times.length, times, plot.box), made = path(exit ? exit.row + 1 : times.length, way.x, way.y);
-    return { line, body, way, path: made, marks: marksOf(motion, line, way, rank), band: lengthOf(made) > BAND * size, exit };
-  }));
+  const methods = lines.map((line, rank) => {
+    const drawn = lineOf(line.track, subject.bodies.flatMap((body) => body.columns)), { times } = drawn, smooth = drawn !== line.track, ends = smooth ? waysOf(line.track) : [];
+    return waysOf(drawn).map((way, body): Curve => {
+      const exit = exitOf(way, times.length, times, plot.box), made = path(exit ? exit.row + 1 : times.length, way.x, way.y, ...(smooth ? [SMOOTH, 0.2] : []));
+      const marks = marksOf(motion, line, ends[body] ?? way, rank);
+      return { line, body, way, times, path: made, marks: smooth ? among(line.track.times, marks, times) : marks, band: lengthOf(made) > BAND * size, exit };
+    });
+  });
   const same = methods.map((own, i) => {
-    if (truth && own.every((c, k) => coincide(c.way, c.line.track.times, exact[k]!.way, truth.times))) return -1;
+    if (truth && own.every((c, k) => coincide(c.way, c.times, exact[k]!.way, truth.times))) return -1;
     for (let j = 0; j < i; j++) {
       const other = methods[j]!;
-      if (own.every((c, k) => c.line.track.times.length === other[k]!.line.track.times.length && coincide(c.way, c.line.track.times, other[k]!.way, other[k]!.line.track.times))) return j;
+      if (own.every((c, k) => c.times.length === other[k]!.times.length && coincide(c.way, c.times, other[k]!.way, other[k]!.times))) return j;
     }
     return i;
   });

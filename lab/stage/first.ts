@@ -35,7 +35,7 @@ export function sceneOf(module: WebAssembly.Module, preset: string, text: string
   const answers = new Answers(new Core(module)), model = { text, set: [] };
   const catalogue = answers.answer('catalogue', {}), solution = answers.answer('solve', { model, methods, step: null, tolerance: null, until: null, columns: [], rows: 6000, truth: true });
   return {
-    state: { preset, text, set: {}, methods, step: '', tolerance: '', until: '', view: defaultView, place: '' }, description: solution.description, solution, looks: looksOf(methods, catalogue, named), catalogue,
+    state: { preset, text, set: {}, methods, step: '', tolerance: '', accuracy: '', until: '', view: defaultView, place: '' }, description: solution.description, solution, looks: looksOf(methods, catalogue, named), catalogue,
   };
 }
 

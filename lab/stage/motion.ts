@@ -7,7 +7,7 @@ import type { Subject } from './subject';
 
 export interface Line { readonly track: Track; readonly look: Look; /** Of solution.tracks. */ readonly index: number }
 export interface Motion { readonly scene: Scene; readonly subject: Subject; readonly lines: readonly Line[]; readonly truth: Truth | null }
-export interface Rows { readonly times: Float64Array; readonly columns: readonly Float64Array[] }
+export type { Rows } from '../figure/line';
 
 /** How the green curve is called: exact where a formula gives it, computed else. */
 export const greenName = (scene: Scene): string => (scene.description.has_exact ? words.stage.exact : words.stage.computed);

@@ -153,7 +153,7 @@ export function pictureOf(setting: Setting): Picture {
       pointAt(curves.exact[0]!.way, truth.times, first.times[i]!, at);
       low = high = at.y;
       for (const [curve] of curves.methods) {
-        if (!curve || curve.line.track.times[i] !== first.times[i]) continue;
+        if (!curve || curve.times[i] !== first.times[i]) continue;
         low = Math.min(low, curve.way.y(i)); high = Math.max(high, curve.way.y(i));
         x = curve.way.x(i);
         if (Math.abs(x - at.x) > 2) return;
@@ -282,7 +282,7 @@ export function pictureOf(setting: Setting): Picture {
         });
       });
       if (plot !== main) continue;
-      const ends = [...own.methods.flatMap((of, i) => (own.same[i] === i ? of.map((c) => ({ c, colour: c.line.look.tone, times: c.line.track.times })) : [])).map(({ c, colour, times }) => ({ x: c.way.x(times.length - 1), y: c.way.y(times.length - 1), colour })),
+      const ends = [...own.methods.flatMap((of, i) => (own.same[i] === i ? of.map((c) => ({ c, colour: c.line.look.tone, times: c.times })) : [])).map(({ c, colour, times }) => ({ x: c.way.x(times.length - 1), y: c.way.y(times.length - 1), colour })),
         ...(exact ? own.exact.map(({ way }) => ({ x: way.x(exact.times.length - 1), y: way.y(exact.times.length - 1), colour: ink.exact })) : [])];
       for (const { x, y, colour } of ends) if (inside(plot.box, x, y, 2)) pen.text(x - 10, y - 8, 'A', { colour, size: 13, bold: true, anchor: 'end', halo: ink.surface });
     }
@@ -340,7 +340,7 @@ export function pictureOf(setting: Setting): Picture {
         for (const of of own.methods) for (const c of of) live += c.marks.length;
         for (let i = own.methods.length - 1; i >= 0; i--) {
           for (const c of own.methods[i]!) {
-            const { times } = c.line.track, at = placeAt(times, time), over = c.exit !== null && at.row >= c.exit.row;
+            const { times } = c, at = placeAt(times, time), over = c.exit !== null && at.row >= c.exit.row;
             const row = over ? c.exit!.row : at.part === 1 ? at.row + 1 : at.row;
             if (over) { present.x = c.way.x(c.exit!.row); present.y = c.way.y(c.exit!.row); } else pointAt(c.way, times, time, present);
             if (!nowhere.has(i)) {
@@ -384,7 +384,7 @@ export function pictureOf(setting: Setting): Picture {
       const at = pointAt(way, times, time);
       return Number.isFinite(at.x + at.y) && inside(main.box, at.x, at.y, 8) ? at : null;
     };
-    const methods = curves.methods.flatMap((of, i) => (nowhere.has(i) ? [] : of.map((c) => (gone(c, time) ? null : seen(c.way, c.line.track.times)))));
+    const methods = curves.methods.flatMap((of, i) => (nowhere.has(i) ? [] : of.map((c) => (gone(c, time) ? null : seen(c.way, c.times)))));
     const exact = truth ? curves.exact.map(({ way }) => seen(way, truth.times)) : [];
     drawBodies(pen, ink, place, called, truth ? exact : methods.slice(0, called.length), [...exact, ...methods].filter((p) => p !== null), letters);
   }
@@ -400,7 +400,7 @@ export function pictureOf(setting: Setting): Picture {
         if (nowhere.has(i)) return;
         for (const c of of) {
           if (gone(c, time)) continue;
-          pointAt(c.way, c.line.track.times, time, present);
+          pointAt(c.way, c.times, time, present);
           if (!inside(plot.box, present.x, present.y, 8)) continue;
           const r = (single ? place.ball : place.ball * 0.62) * (c.line.look.marker === 'circle' ? 1 : 0.86);
           pen.mark(c.line.look.marker, present.x, present.y, r, c.line.look.colour, { rim: ink.surface });
@@ -433,7 +433,7 @@ export function pictureOf(setting: Setting): Picture {
       if (k < 0) continue;
       const curve = curves.methods[k]![0]!;
       if (gone(curve, time)) continue;
-      const at = pointAt(curve.way, curve.line.track.times, time);
+      const at = pointAt(curve.way, curve.times, time);
       if (!Number.isFinite(at.x + at.y) || !inside(main.box, at.x, at.y, 8)) continue;
       labels.push({
         names: own.map((l) => ({ text: shortLabel(l.look.label), colour: l.look.tone })), colour: own[0]!.look.tone, line: own[0]!.look.colour, ...at,
@@ -451,7 +451,7 @@ export function pictureOf(setting: Setting): Picture {
     curves.methods.forEach((of, i) => {
       const c = of[0]!;
       if (nowhere.has(i) || curves.same[i] !== i || c.exit) return;
-      const { times } = c.line.track, n = times.length, at: Point = { x: 0, y: 0 };
+      const { times } = c, n = times.length, at: Point = { x: 0, y: 0 };
       if (time < last(c.line) && time > (times[0] ?? 0)) return;
       let best = -1, most = 6;
       for (let row = Math.floor(n * 0.3); row < n * 0.62; row++) {
@@ -518,7 +518,7 @@ export function pictureOf(setting: Setting): Picture {
     if (main.numbers !== null && main.up) free.take({ left: 0, right: place.width, top: main.up(bounds[1]![0]) + 6, bottom: place.height });
     if (handle) free.line([handle.fromX, handle.fromY, handle.x, handle.y], 2);
     const ends = [...(truth && !landing ? [pointAt(curves.exact[0]!.way, truth.times, truth.times[truth.times.length - 1]!)] : []),
-      ...curves.methods.flatMap(([c]) => (c && !c.exit ? [pointAt(c.way, c.line.track.times, last(c.line))] : []))];
+      ...curves.methods.flatMap(([c]) => (c && !c.exit ? [pointAt(c.way, c.times, last(c.line))] : []))];
     for (const { x, y } of ends) if (single) free.take({ left: x - place.ball, right: x + (place.names ? 200 : 76) * place.scale, top: y - 12, bottom: y + 12 });
   }
   const written = (time: number): Box[] => notes.filter((n) => time >= n.time).map((n) => n.box);
@@ -554,7 +554,7 @@ export function pictureOf(setting: Setting): Picture {
   /** The spring, the pendulum's rod. */
   function beside(pen: Pen, ink: Ink, time: number): void {
     if (!truth && !lines.length) return;
-    const curve = curves.exact[0] ?? curves.methods[0]![0]!, times = truth?.times ?? lines[0]!.track.times, at = pointAt(curve.way, times, time);
+    const curve = curves.exact[0] ?? curves.methods[0]![0]!, at = pointAt(curve.way, truth?.times ?? curves.methods[0]![0]!.times, time);
     const colour = truth ? ink.exact : lines[0]!.look.colour;
     if (side === 'phase' && staging.decor === 'spring' && Number.isFinite(at.y)) {
       const x = springX, y = Math.min(main.box.bottom, Math.max(main.box.top + 40, at.y));

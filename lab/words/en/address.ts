@@ -25,8 +25,9 @@ export const address = {
     slider: { long: 'the name of a slider is too long', control: 'the name of a slider holds a control character' },
     step: { long: 'the step is too long', control: 'the step holds a control character' },
     tolerance: { long: 'the tolerance is too long', control: 'the tolerance holds a control character' },
+    accuracy: { long: 'the accuracy is too long', control: 'the accuracy holds a control character' },
     until: { long: 'the end is too long', control: 'the end holds a control character' },
   },
   command: 'There is no safe command: the model holds a control character.',
-  program: { control: 'There is no C program: the model holds a control character.', number: 'There is no C program: the step, the tolerance or the end is no number.' },
+  program: { control: 'There is no C program: the model holds a control character.', number: 'There is no C program: the step, the tolerance, the accuracy or the end is no number.' },
 } as const;

@@ -23,6 +23,18 @@ export const dock = {
     value: (tolerance: string, count: string) => `${tolerance}${count ? `, ${count}` : ''}`,
     needed: (own: string) => `A tolerance is needed; the model has ${own}.`,
   },
+  accuracy: {
+    label: 'Accuracy', slider: 'Accuracy of the answer', field: 'Accuracy of the answer, as a number', reset: 'Accuracy: back to the model’s', resetTitle: 'Back to the model’s accuracy',
+    by: 'Accuracy', title: 'Ask how accurate the answer is to be: method and tolerance are found for it',
+    step: (step: string) => `step ${step}`, tolerance: (tolerance: string) => `tolerance ${tolerance}`,
+    /** label: of the method, ''; how: its tolerance or step; reached: '' where no digit is known. */
+    reached: (label: string, how: string, reached: string, holds: boolean) => `${label ? `${label}, ` : ''}${how}: ${holds ? `reached ${reached}` : reached ? `only ${reached}` : 'not reached'}`,
+    /** The same in sentences; missed: why it is not reached, in the core's words, ''; why: the method was chosen, ''; trials: runs that were tried. */
+    told: (label: string, how: string, wanted: string, reached: string, absolute: boolean, missed: string, why: string, trials: number) =>
+      [missed ? `${label}, ${how}: ${missed}.` : `${label} with the ${how} keeps to the accuracy ${wanted}: no number of the answer is off by more than ${reached}${absolute ? '' : ' of its size'}, as ${trials === 1 ? 'a run' : `the last of ${trials} runs`} with a finer one beside it tells.`, why && `It was chosen because ${why}.`].filter(Boolean).join(' '),
+    value: (accuracy: string, reached: string) => `${accuracy}${reached ? `, ${reached}` : ''}`,
+    needed: (own: string) => `An accuracy is needed, ${own} say.`,
+  },
   end: {
     label: 'End t', reset: 'End: back to the model’s',
     needed: (own: string) => (own ? `An end is needed; the model has ${own}.` : 'An end is needed.'),

@@ -9,5 +9,7 @@ export const methods = {
     evaluations > 0 ? `${evaluations} evaluation${evaluations === 1 ? '' : 's'} a step` : 'implicit'].filter(Boolean).join(', '),
   /** In a search this word and the number behind it are one thing. */
   order: 'order',
+  /** The method that the library chooses for an accuracy: what it is called, '': not known yet; why. */
+  auto: (label: string) => (label ? `auto: ${label}` : 'auto'), autoTitle: (why: string) => (why ? `Chosen for the accuracy: ${why}` : 'Chooses the method for the accuracy'),
   refused: (reason: string, hint: string) => (hint ? `${reason}; ${hint}` : reason),
 } as const;

@@ -7,6 +7,7 @@ export const trouble = {
   stepZero: 'With a step of zero, time would stand still: a number above 0.',
   stepBackward: 'A step is a length of time, above 0. To run backward, set an end before the start.',
   toleranceZero: 'A tolerance is an error that a step may have: a number above 0.',
+  accuracyZero: 'An accuracy is an error that the answer may have: a number above 0.', accuracyRange: 'An accuracy is a part of the motion’s size: from 10⁻¹⁵ to below 1.',
   stepMany: (count: string) => `That makes ${count} steps; the page stops at 10 million. The program has no such limit.`,
   stepLong: (span: string) => `The step is longer than the whole motion: one step of ${span} is taken.`,
   noStep: 'The model names no step: type one, for example 0.01.', noUntil: 'The model names no end: type one, for example 10.',
