@@ -9,11 +9,12 @@ import { bodiesOf, distances } from './distance';
 import { growthsOf } from './linear';
 import { AUTO, STEPS_MAX, TOLERANCE, problem } from './protocol';
 import type {
-  Aim, Ask, Bars, Description, ErrorTrack, Goal, Model, Problem, Region, Requests, Solution, Solve, Spectrum, Trace, Track, Truth,
+  Aim, Ask, Bars, Convergence, Description, ErrorTrack, Goal, Model, Problem, Region, Requests, Solution, Solve, Spectrum, Trace, Track, Truth,
 } from './protocol';
 import { brief, grouped } from './figure/number';
 import { SEEN, sample, type Curve, type Motion } from './sample';
 import { Refused } from './scene';
+import { atTolerances } from './tolerances';
 import { computed } from './words';
 
 const NUMBERS_MAX = 4e6, NUMBERS_ENOUGH = 1e5, ROWS_ENOUGH = 1500;      // of one track: never more; beyond this fewer rows, down to so many
@@ -82,10 +83,7 @@ export class Answers {
       solve: (question) => this.solve(question),
       bars: (question) => this.bars(question),
       trace: (question) => this.trace(question),
-      converge: ({ model, methods, step, until }) => {
-        this.open(model);
-        return this.core.converge(this.lab, methods, step, until);
-      },
+      converge: (question) => this.converge(question),
       compare: ({ model, methods, step, until }) => {
         this.open(model);
         return this.core.compare(this.lab, methods, step, until);
@@ -352,7 +350,7 @@ export class Answers {
   }
 
   /** When the motion starts, and when it ends. */
-  private span(ask: Solve): { start: number; until: number } {
+  private span(ask: Pick<Solve, 'until'>): { start: number; until: number } {
     const settings = (this.description as Description).settings, until = ask.until ?? settings.until;
     if (until === null) throw limit(computed.noEnd, computed.end);
     return { start: settings.start, until };
@@ -416,6 +414,18 @@ export class Answers {
       method: this.core.method(this.lab), step: Number.isNaN(step) ? Math.abs(entries[0]?.step ?? 0) : step, index, total, entries, refused,
       names: { x: names.slice(1, 1 + nx), v: names.slice(1 + nx, 1 + nx + nv) },
     };
+  }
+
+  /** Those that choose their steps are measured over the same part of the motion as the others. */
+  private converge({ model, methods, step, until }: Requests['converge']['ask']): Convergence {
+    const description = this.open(model), choosing = methods.filter((method) => this.adaptive(method)), others = methods.filter((method) => !this.adaptive(method));
+    const found = others.length ? this.core.converge(this.lab, others, step, until) : null;
+    if (!choosing.length) return found ?? this.core.converge(this.lab, methods, step, until);
+    const { start, until: end } = this.span({ until }), cut = Number(/; until (\S+), not /.exec(found?.reference ?? '')?.[1] ?? end);
+    this.reference = null;
+    const { name, error } = this.core.reference(this.lab, null, cut), rows = atTolerances(this.core, this.lab, choosing, this.core.catalogue(this.lab), description, { from: start, to: cut }, error);
+    const all = [...(found?.rows ?? []), ...rows];
+    return { rows: methods.flatMap((method) => all.filter((row) => row.method === method)), reference: found?.reference ?? name, reference_error: found?.reference_error ?? error };
   }
 
   private growth(method: string, re: Float64Array, im: Float64Array): Float64Array {

@@ -172,10 +172,13 @@ export type Refusal = Omit<TraceEntry, 'kind'> & { readonly kind: 'refused' };
 /** refused: steps that were tried before this one; the other entries are this one's alone. */
 export interface Trace { readonly refused: readonly Refusal[]; readonly method: string; readonly step: number; readonly index: number; readonly total: number; readonly entries: readonly TraceEntry[]; readonly names: { readonly x: readonly string[]; readonly v: readonly string[] } }
 
-export interface ConvergePoint { readonly step: number; readonly error: number | null; readonly evaluations: number; readonly used: boolean }
+/** tolerance: of a method that chooses its steps; `step` is then the mean one. */
+export interface ConvergePoint { readonly tolerance?: number; readonly step: number; readonly error: number | null; readonly evaluations: number; readonly used: boolean }
 export interface ConvergeRow {
   readonly method: string; readonly declared: number; readonly observed: number | null; readonly standard_error: number | null;
   readonly exact_here: boolean; readonly passed: boolean; readonly points: readonly ConvergePoint[]; readonly certificate: string;
+  /** Of a method that chooses its steps: the power of the tolerance with which its error falls; null: it cannot be told. */
+  readonly power?: number | null;
 }
 export interface Convergence { readonly rows: readonly ConvergeRow[]; readonly reference: string; readonly reference_error: number }
 

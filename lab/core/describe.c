@@ -148,7 +148,7 @@ static void describe_suggestions(json *j, const motus_system *s, const motus_set
         rest_of(&i, &v, line, sizeof line);
         if (line[0]) suggest(j, line, "at rest, not given");
     }
-    if (isnan(own->step) && !isnan(found->step) && !automatic(own)) {
+    if (isnan(own->step) && !isnan(found->step)) {
         snprintf(line, sizeof line, "step  %.15g", found->step);
         suggest(j, line, found->step_why);
     }

@@ -36,7 +36,7 @@ const EDGE = 14;
 const MOST = 0.34;
 
 /** "midpoint" of "midpoint (RK2)", as at the curves of the stage. */
-export const shortLabel = (label: string): string => label.replace(/\s*\(.*\)$/, '');
+export const shortLabel = (label: string): string => label.replace(/\s*\(.*\)$/, '').replace(/^\S+–\S+–\S+/, (authors) => authors.split('–').map((name) => name.charAt(0)).join(''));
 let context: CanvasRenderingContext2D | null | undefined;
 /** How wide bold letters are: measured, where there is a page; else nearly. */
 export function bold(text: string, size: number): number {

@@ -1,6 +1,7 @@
 /* The methods side by side at the present step, as a table that can be sorted; asked for when it is opened.
  *
- * Invariant: nothing is measured here; what is shown is the core's comparison of the scene on show, or of the one before while that is measured anew.
+ * Invariant: nothing is measured here; what is shown is the core's comparison of the scene on show, or of the one before while that is measured anew, and the scene's own numbers of
+ * methods that choose their steps.
  */
 import { button, el as element } from '../dom';
 import { recoloured } from '../figure/ink';
@@ -88,6 +89,19 @@ function comparison(): { readonly element: HTMLElement; show(found: Comparison, 
   return { element: element('div', {}, about, body, remarks), show };
 }
 
+/** Those that choose their steps, from the scene itself: the core compares at steps of one size. */
+function choosing({ solution, catalogue }: Scene): CompareRow[] {
+  const most = (column: Float64Array | undefined): number | null => (column?.length ? column.reduce((a, b) => Math.max(a, b), 0) : null);
+  return solution.tracks.filter((track) => track.tolerance !== null).map((track) => {
+    const error = solution.errors.find((e) => e.method === track.method);
+    return {
+      method: track.method, order: catalogue.find((m) => m.name === track.method)?.order ?? 0, status: '', step: track.step, steps: track.total, evaluations: track.evaluations,
+      error_max: most(error?.x), error_max_v: most(error?.v), error_final: error?.x[error.x.length - 1] ?? null, error_max_s: most(error?.s), reversal: null, invariants: [],
+      note: track.problem?.message ?? say.chooses(brief(track.tolerance ?? 0, 2)),
+    };
+  });
+}
+
 export interface Compared { readonly element: HTMLElement; want(scene: Scene): void; redraw(): void }
 /** The table behind a line that opens it. */
 export function comparedDetails(store: Store): Compared {
@@ -97,7 +111,9 @@ export function comparedDetails(store: Store): Compared {
   function update(): void {
     const found = compared.answer;
     side.element.hidden = !found;
-    if (found && scene) side.show(found, lookFor(scene, found.rows.map((row) => row.method)));
+    if (!found || !scene) return;
+    const rows = [...found.rows, ...choosing(scene)];
+    side.show({ ...found, rows }, lookFor(scene, rows.map((row) => row.method)));
   }
   details.addEventListener('toggle', () => { if (details.open && scene) compared.want(scene); });
   compared.listen(update);

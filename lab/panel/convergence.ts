@@ -13,7 +13,7 @@ import type { Look, Panel, PanelMaker, Scene } from '../scene';
 import { words } from '../words';
 import { drawErrors, endLabel, errorEnds, errorFrame, judge, namesLayout } from './errors';
 import { buysOf, errorOf } from './reading';
-import { convergenceStudy, lookFor, measurable, rowsFor, studyBar, aside } from './study';
+import { convergenceStudy, lookFor, measurable, rowsFor, studyBar } from './study';
 import { amount, timeUnit } from './told';
 
 const say = words.study.convergence;
@@ -30,17 +30,22 @@ function shareText(slope: number, power: number | null): string {
   return left >= 0.1 ? brief(left, 2) : say.part(brief(Number((2 ** slope).toPrecision(2)), 4));
 }
 
+/** What a tenth of the tolerance leaves: "a tenth", "0.17". */
+const leftText = (power: number): string => { const left = 10 ** -power; return Math.abs(left - 0.1) < 0.015 ? say.tenth : brief(left, 2); };
+
 /** The answer, from the rows and the names of their methods. */
 export function halfStep(rows: readonly ConvergeRow[], names: readonly string[]): string {
-  const groups: { key: string; slope: number; share: string; names: string[]; unlike: string; least: boolean }[] = [], exact: string[] = [], rough: string[] = [], missing: string[] = [];
+  const groups: { key: string; slope: number; share: string; names: string[]; unlike: string; least: boolean }[] = [], exact: string[] = [], rough: string[] = [], missing: string[] = [], chosen: string[] = [];
   rows.forEach((row, i) => {
     const name = names[i]!, found = buysOf(row);
+    if (found.kind === 'tolerance') { chosen.push(say.chosen(name, leftText(found.power))); return; }
     if (found.kind !== 'share') { ({ exact, rough, missing })[found.kind].push(name); return; }
     const least = found.slope < 0.05, share = shareText(found.slope, found.power), unlike = found.passed ? '' : orderText(row.declared), key = `${least ? '' : share} ${unlike}`;
     const group = groups.find((g) => g.key === key);
     if (group) group.names.push(name); else groups.push({ key, slope: found.slope, share, names: [name], unlike, least });
   });
-  const rest = [...(rough.length ? [say.rough(rough)] : []), ...(exact.length ? [say.exact(exact)] : []), ...(missing.length ? [say.missing(missing)] : [])];
+  const rest = [...chosen, ...(rough.length ? [say.rough(rough)] : []), ...(exact.length ? [say.exact(exact)] : []), ...(missing.length ? [say.missing(missing)] : [])];
+  if (!groups.length && chosen.length) return say.onlyChosen(rest);
   if (!groups.length) return !rest.length ? '' : exact.length === rows.length ? say.allExact(exact) : say.noneLike(rest);
   groups.sort((a, b) => a.slope - b.slope);
   return say.answer(groups.map((g, k) => {
@@ -52,6 +57,7 @@ export function halfStep(rows: readonly ConvergeRow[], names: readonly string[])
 /** What the core has found of a method, in a sentence. */
 function verdict(row: ConvergeRow, name: string): string {
   if (row.exact_here) return say.roundOff(name);
+  if (row.power !== undefined) return row.power === null ? say.unchosen(name) : say.chosenPower(name, row.power.toFixed(2));
   if (row.observed === null) return say.slopeless(name, row.certificate);
   const slope = row.standard_error === null ? row.observed.toFixed(2) : `${row.observed.toFixed(2)} ± ${brief(row.standard_error, 1)}`;
   return row.passed ? say.confirmed(name, String(row.declared), slope) : say.denied(name, String(row.declared), slope);
@@ -65,7 +71,7 @@ export const convergence: PanelMaker = (store): Panel => {
   const looks = (): Look[] => (scene ? lookFor(scene, rows().map((row) => row.method)) : []);
   const labels = (width: number): string[] => looks().map((look, i) => endLabel(width, look, (name) => {
     const found = buysOf(rows()[i]!);
-    return found.kind === 'share' ? say.label(name, shareText(found.slope, found.power)) : found.kind === 'exact' ? say.exactLabel(name) : name;
+    return found.kind === 'share' ? say.label(name, shareText(found.slope, found.power)) : found.kind === 'tolerance' ? say.chosenLabel(name, leftText(found.power)) : found.kind === 'exact' ? say.exactLabel(name) : name;
   }));
   const layout = (width: number): EndsLayout => namesLayout(width, labels(width));
   const step = (): number => Math.abs(scene?.solution.tracks[0]?.step ?? 0);
@@ -114,11 +120,11 @@ export const convergence: PanelMaker = (store): Panel => {
       const names = looks(), found = rows();
       if (!found.length) return '';
       const left = found.some((row) => !row.exact_here && row.points.some((point) => !point.used));
-      return [...found.map((row, i) => verdict(row, names[i]!.label)), found.some((row) => row.observed !== null) ? say.slope : '', left ? say.left : '', aside(scene), study.answer ? judge(study.answer) : ''].filter(Boolean).join(' ');
+      return [...found.map((row, i) => verdict(row, names[i]!.label)), found.some((row) => row.observed !== null) ? say.slope : '', left ? say.left : '', study.answer ? judge(study.answer) : ''].filter(Boolean).join(' ');
     },
     table: () => {
       const names = looks();
-      return { head: say.columns, rows: rows().flatMap((row, i) => row.points.map((point) => [names[i]!.label, point.step, point.error ?? NaN, point.evaluations, point.used ? say.yes : say.no])) };
+      return { head: say.columns, rows: rows().flatMap((row, i) => row.points.map((point) => [names[i]!.label, point.step, point.error ?? NaN, point.evaluations, point.used ? say.yes : say.no, point.tolerance ?? NaN])) };
     },
     controls: [studyBar(study)],
   });

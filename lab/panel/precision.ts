@@ -14,7 +14,7 @@ import { words } from '../words';
 import { comparedDetails } from './compared';
 import { drawErrors, endLabel, endOfStudy, errorEnds, errorFrame, judge, namesLayout } from './errors';
 import { digitsOf, needOf, pointsOf, type Need } from './reading';
-import { convergenceStudy, lookFor, measurable, rowsFor, studyBar, aside } from './study';
+import { convergenceStudy, lookFor, measurable, rowsFor, studyBar } from './study';
 import { several } from './told';
 
 const say = words.study.precision;
@@ -111,11 +111,11 @@ export const precision: PanelMaker = (store): Panel => {
     summary: () => {
       const costs = costsOf(rows(), looks().map((look) => look.label));
       const list = costs ? several(costs.costs.map(({ name, need }) => say.count(name, need.exact ? rounded(need.work, 3) : say.atMost(rounded(need.work, 3)))), 30) : '';
-      return [costs ? say.counts(say.digits(costs.digits), list) : '', costs ? say.meaning(say.digits(costs.digits), tenTo(-costs.digits)) : '', aside(scene), study.answer ? judge(study.answer) : ''].filter(Boolean).join(' ');
+      return [costs ? say.counts(say.digits(costs.digits), list) : '', costs ? say.meaning(say.digits(costs.digits), tenTo(-costs.digits)) : '', study.answer ? judge(study.answer) : ''].filter(Boolean).join(' ');
     },
     table: () => {
       const names = looks();
-      return { head: say.columns, rows: rows().flatMap((row, i) => row.points.map((point) => [names[i]!.label, point.evaluations, point.error ?? NaN, point.step])) };
+      return { head: say.columns, rows: rows().flatMap((row, i) => row.points.map((point) => [names[i]!.label, point.evaluations, point.error ?? NaN, point.step, point.tolerance ?? NaN])) };
     },
     controls: [studyBar(study)],
   });

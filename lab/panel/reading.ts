@@ -14,12 +14,15 @@ export const errorOf = (point: ConvergePoint): number => (point.error === null |
 export type Buys =
   /** Of the error: 2 to the power of -slope, which is 1/2^power where the slope is whole. passed: the declared order, or better. */
   | { readonly kind: 'share'; readonly slope: number; readonly power: number | null; readonly passed: boolean }
+  /** It chooses its steps: of the error, a tenth of the tolerance leaves 10 to the power of -power. */
+  | { readonly kind: 'tolerance'; readonly power: number }
   | { readonly kind: 'exact' } | { readonly kind: 'rough' } | { readonly kind: 'missing' };
 /** A slope is whole within this. Half the step then leaves 2^-0.15 to 2^0.15 of what is said, a tenth more or less. */
 const WHOLE = 0.15;
 
 export function buysOf(row: ConvergeRow): Buys {
   if (row.exact_here) return { kind: 'exact' };
+  if (typeof row.power === 'number') return { kind: 'tolerance', power: row.power };
   if (row.observed === null) return { kind: row.points.some((point) => errorOf(point) > 0) ? 'rough' : 'missing' };
   const near = Math.round(row.observed);
   return { kind: 'share', slope: row.observed, power: Math.abs(row.observed - near) <= WHOLE ? near : null, passed: row.passed };

@@ -69,7 +69,7 @@ export class Study<K extends Kind> {
     const { state } = scene;
     const model: Model = { text: state.text, set: Object.entries(state.set).map(([name, value]) => `${name}=${value}`) };
     const ask: Requests[K]['ask'] = {
-      model, methods: scene.solution.tracks.filter((track) => track.tolerance === null && track.method !== 'exact').map((track) => track.method),
+      model, methods: scene.solution.tracks.filter((track) => (this.kind === 'converge' || track.tolerance === null) && track.method !== 'exact').map((track) => track.method),
       step: this.withStep && state.step !== '' ? this.store.numbers.step : null, until: state.until !== '' ? this.store.numbers.until : null,
     };
     const key = JSON.stringify(ask), { truth } = scene.solution;
@@ -174,9 +174,7 @@ export function convergenceStudy(store: Store): Study<'converge'> {
 }
 
 /** A scene with a method, which has errors. */
-export const measurable = (scene: Scene): boolean => scene.solution.tracks.some((track) => track.tolerance === null && track.method !== 'exact');
-/** What is said of methods that choose their own steps, where one size of steps is studied; ''. */
-export const aside = (scene: Scene | null): string => { const names = scene?.solution.tracks.flatMap((track, k) => (track.tolerance === null ? [] : [scene.looks[k]?.label ?? track.method])) ?? []; return names.length ? say.aside(names) : ''; };
+export const measurable = (scene: Scene): boolean => scene.solution.tracks.some((track) => track.method !== 'exact');
 /** What a panel shows of it: nothing before it has a scene, as one that was never opened hears of the study too. */
 export function rowsFor(study: Study<'converge'>, scene: Scene | null): readonly ConvergeRow[] {
   return scene ? study.answer?.rows ?? [] : [];

@@ -6,7 +6,7 @@
  * the editor itself writes it writes as if it were typed, so that it can be undone. Whole lines are shown.
  */
 import type { Problem, Vocabulary, Word } from '../protocol';
-import type { LiveStore } from '../state';
+import { kinds as drawn, type LiveStore } from '../state';
 import { button, el, say } from '../dom';
 import { words } from '../words';
 import { completion, type Completion } from './complete';
@@ -98,8 +98,9 @@ export function editor(store: LiveStore): HTMLElement {
     }
   }
   /** The suggestions, if they are of the text that stands here. */
-  const suggestions = (): readonly { line: string; why: string }[] =>
-    (store.trouble.model === null && store.described === area.value ? store.description?.suggestions ?? [] : []);
+  const suggestions = (): readonly { line: string; why: string }[] => (store.trouble.model === null && store.described === area.value ? usable() : []);
+  /** A step is only for methods that take steps of one size. */
+  const usable = (): readonly { line: string; why: string }[] => (store.description?.suggestions ?? []).filter(({ line }) => drawn(store).fixed > 0 || !/^step\b/.test(line));
   function takeAll(): void {
     const lines = suggestions().map(s => s.line);
     if (lines.length) write(appended(area.value, lines));
@@ -109,7 +110,7 @@ export function editor(store: LiveStore): HTMLElement {
   }
 
   function suppose(): void {
-    const list = told ? [] : store.trouble.model === null ? store.description?.suggestions ?? [] : null;
+    const list = told ? [] : store.trouble.model === null ? usable() : null;
     if (list === null) return;                 // while an error is not told yet, the lines stay
     if (!told && !list.length) held = 0;
     const key = JSON.stringify(list);

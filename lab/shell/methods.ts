@@ -9,7 +9,7 @@ import { admittedMethods, family, kinds, ownName, type LiveStore } from '../stat
 import { button, el, say } from '../dom';
 import { words } from '../words';
 import { sample } from './sample';
-import { goalOf } from './tolerance';
+import { choiceText } from './tolerance';
 
 const common = ['explicit-euler', 'symplectic-euler', 'midpoint', 'verlet', 'rk4'];
 const most = 12;
@@ -69,7 +69,7 @@ export function methods(store: LiveStore): { readonly element: HTMLElement; repa
         control.setAttribute('aria-disabled', String(refused));
         say(reason, refused ? entry.reason : '');
         if (name === AUTO) repaint();
-        control.title = refused ? words.methods.refused(entry.reason, entry.hint) : name === AUTO ? words.methods.autoTitle(goalOf(store.scene?.solution.tracks ?? [])?.goal.choice ?? '') : usual;
+        control.title = refused ? words.methods.refused(entry.reason, entry.hint) : name === AUTO ? words.methods.autoTitle(choiceText(store, store.scene?.solution.tracks.find((t) => t.goal?.choice)?.goal?.choice ?? '')) : usual;
       },
     };
   }

@@ -81,7 +81,8 @@ export function shareMenu(store: LiveStore, presets: Presets, stage: Stage, toas
 
   /** The program wants all lines, also those that the page supposed for what is seen. */
   function whole({ text, step, until }: State): string {
-    const numbers: Readonly<Record<string, string>> = { step: step ? '' : `step ${store.numbers.step}`, until: until ? '' : `until ${store.numbers.until}` };
+    const sized = store.scene?.solution.tracks.some((t) => t.tolerance === null && !t.goal) ?? true;
+    const numbers: Readonly<Record<string, string>> = { step: step || !sized ? '' : `step ${store.numbers.step}`, until: until ? '' : `until ${store.numbers.until}` };
     const lines = (store.scene?.description.suggestions ?? []).map(s => numbers[/^(?:step|until)\b/.exec(s.line)?.[0] ?? ''] ?? s.line).filter(line => line !== '');
     return lines.length ? text + appended(text, lines).text : text;
   }

@@ -85,6 +85,9 @@ export function accuracySwitch(store: LiveStore): HTMLElement {
   return element;
 }
 
+/** Why "auto" chose: methods by their names on the page. */
+export const choiceText = ({ catalogue }: LiveStore, choice: string): string => choice.replace(/[a-z][a-z0-9-]*/g, (word) => catalogue.find((m) => m.name === word)?.title ?? word);
+
 /** What was found for the accuracy, in sentences: above the pictures that look closer. */
 export function goalNote(store: LiveStore): HTMLElement {
   const element = el('p', { class: 'goal-note', hidden: true }), texts = words.dock.accuracy, write = (value: number): string => brief(value, 2).replace(/^1×/, '');
@@ -95,7 +98,7 @@ export function goalNote(store: LiveStore): HTMLElement {
     say(element, aimed.map((track) => {
       const { goal, tolerance, step } = track as Track & { goal: NonNullable<Track['goal']> }, label = store.scene?.looks[tracks.indexOf(track)]?.label ?? track.method;
       const how = tolerance === null ? texts.step(write(step)) : texts.tolerance(write(tolerance));
-      return texts.told(label, how, write(goal.accuracy), Number.isFinite(goal.reached) ? write(goal.reached) : '', goal.absolute, goal.missed?.message ?? '', goal.choice, goal.trials);
+      return texts.told(label, how, write(goal.accuracy), Number.isFinite(goal.reached) ? write(goal.reached) : '', goal.absolute, goal.missed?.message ?? '', choiceText(store, goal.choice), goal.trials);
     }).join(' '));
   });
   return element;

@@ -198,4 +198,21 @@ await attempt('a dear study', async () => {
   judge('dear: it can be called off', /^Measure, /.test(await button.textContent()) && await figure.locator('.figure-message').textContent() === 'Cancelled.');
   await clean('a dear study', page);
 });
+await attempt('methods that choose their steps', async () => {
+  const page = await page1('kepler', 'dopri5,rk4&r=1e-6'), answer = await answerOf(page, 'Order'), title = 'Dormand–Prince 5(4)';
+  judge('kepler: what a tenth of the tolerance buys', new RegExp(`^At small steps: 1/16 of the error for RK4; ${title.replace(/[()]/g, '\\$&')} chooses its steps, and a tenth of the tolerance leaves (a tenth|0\\.\\d+) of its error\\.$`).test(answer), answer);
+  judge('… it is drawn at its mean steps', (await drawn(page, 'Order')).texts.some((t) => t.startsWith('Dormand–Prince 5')));
+  const table = (await saved(page, 'Order', 'CSV')).bytes.toString('utf8').split('\n').filter((line) => line.startsWith(title));
+  judge('… and its numbers are there, with the tolerances', table.length > 8 && table.some((line) => /,0?\.?0*1e-?0*6$|,0\.000001$/.test(line)), table.slice(0, 6).join(' '));
+  judge('kepler: what it costs is compared', new RegExp(`${title.replace(/[()]/g, '\\$&')} needs .* times fewer evaluations than RK4`).test(await answerOf(page, 'Cost')), await answerOf(page, 'Cost'));
+  await figureOf(page, 'Cost').getByText('Side by side at this step').click();
+  await settled(page, 300, 60000);
+  const side = figureOf(page, 'Cost').locator('.compared tbody tr');
+  await side.nth(1).waitFor();
+  judge('… and side by side', (await side.allTextContents()).some((row) => row.includes(title) && /tolerance/.test(row)), (await side.allTextContents()).join(' | '));
+  await clean('methods that choose their steps', page);
+  const alone = await page1('spring', 'dop853&r=1e-8');
+  judge('one alone', /^Dormand–Prince 8\(5, 3\) chooses its steps, and a tenth of the tolerance leaves \S+( tenth)? of its error\.$/.test(await answerOf(alone, 'Order')), await answerOf(alone, 'Order'));
+  await clean('one alone', alone);
+});
 await finish();

@@ -26,7 +26,6 @@ export const study = {
   unknown: (name: string, off: string) => `No exact motion is known, so errors are measured against ${name}, itself good to ${off}.`,
   taken: (how: string) => `Taken ${how}.`,
   error: 'error ÷ size of the motion',
-  aside: (names: readonly string[]) => `${people(names)} ${names.length > 1 ? 'choose their steps themselves, so they are' : 'chooses its steps itself, so it is'} not measured at steps of one size.`,
 
   convergence: {
     title: 'Order',
@@ -52,7 +51,11 @@ export const study = {
     slopeless: (name: string, why: string) => `${name}: ${why || 'no slope could be measured'}.`,
     slope: 'The slope is that of the error against the step, both logarithmic: half the step leaves 2 to the power of minus the slope.',
     left: 'Steps without a marker are left out of it: there round-off rules, or the step is too long.',
-    columns: ['method', 'step', 'error', 'evaluations', 'used in the slope'],
+    columns: ['method', 'step', 'error', 'evaluations', 'used in the slope', 'tolerance'],
+    /** Of methods that choose their steps: their points stand at the mean step. */
+    tenth: 'a tenth', chosen: (name: string, left: string) => `${name} chooses its steps, and a tenth of the tolerance leaves ${left} of its error`, chosenLabel: (name: string, left: string) => `${name}: ${left} by a tenth of the tolerance`,
+    onlyChosen: (rest: readonly string[]) => `${rest.join('; ')}.`, unchosen: (name: string) => `${name} chooses its steps: no steady share of the error is left by a smaller tolerance here.`,
+    chosenPower: (name: string, power: string) => `${name} chooses its steps: its error falls with the power ${power} of the tolerance; it is drawn at its mean steps.`,
     yes: 'yes',
     no: 'no',
   },
@@ -76,8 +79,9 @@ export const study = {
     counts: (digits: string, list: string) => `Evaluations of the force for ${digits}: ${list}.`,
     count: (name: string, number: string) => `${name} ${number}`,
     meaning: (digits: string, error: string) => `${digits.charAt(0).toUpperCase()}${digits.slice(1)}: the largest error is ${error} of the size of the motion; between two steps that were measured, read off the straight line.`,
-    columns: ['method', 'evaluations', 'error', 'step'],
+    columns: ['method', 'evaluations', 'error', 'step', 'tolerance'],
     side: {
+      chooses: (tolerance: string) => `chooses its steps, at the tolerance ${tolerance}`,
       open: 'Side by side at this step',
       name: 'The methods side by side',
       columns: {
