@@ -286,8 +286,8 @@ static void make_apart(const apart *s, const lanes_block *half, const bool *sent
         if (!sent[i]) lanes_block_put_back(half, i);
 }
 
-/* Takes the lanes that are sent to where they land, by two candidates, or by more where the equation of one could not be
- * solved; it is then taken again, shorter. A lane that cannot go on stays where it is. */
+/* Takes the lanes that are sent to where they land, by two candidates, or by more where the equation of one could not
+ * be solved; it is then taken again, shorter. A lane that cannot go on stays where it is. */
 static void land(const apart *s, const lanes_block *half, const bool *sent)
 {
     bool away[BLOCK_MAX], any = true;

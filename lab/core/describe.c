@@ -82,10 +82,7 @@ static const char *method_of(const motus_settings *settings)
 }
 
 /* Whether the model leaves it to the library which method takes it, and how long its steps are. */
-static bool automatic(const motus_settings *s)
-{
-    return s->method ? !strcasecmp(s->method, "auto") : isnan(s->step);
-}
+static bool automatic(const motus_settings *s) { return s->method ? !strcasecmp(s->method, "auto") : isnan(s->step); }
 
 static void describe_statements(json *j, motus_system *s)
 {
