@@ -35,20 +35,22 @@ motus_status bars_prepare(motus_run *r, const motus_run_def *def, motus_error *e
     return status;
 }
 
-differences_shape bars_shape(const motus_system *s, motus_bars kind, const int *how, size_t count)
+differences_shape bars_shape(const motus_system *s, const motus_method *card, motus_bars kind, const int *how,
+                             size_t count)
 {
     return (differences_shape){.count = count,
                                .positions = s->positions,
                                .velocities = s->velocities,
                                .how = how,
                                .full = kind == MOTUS_BARS_FULL,
+                               .slow = card->order == 1,
                                .kinked = s->model && !s->problem.traits.smooth};
 }
 
 motus_status bars_make(motus_run *r, motus_bars kind, const size_t *columns, const int *how, size_t count,
                        motus_error *err)
 {
-    const differences_shape shape = bars_shape(r->system, kind, how, count);
+    const differences_shape shape = bars_shape(r->system, r->card, kind, how, count);
     bars *b = r->bars = take(&r->allocator, 1, sizeof *b);
     if (!b) return fail(err, MOTUS_MEMORY, "no memory for bars of error");
     *b = (bars){.kind = kind, .count = count};
@@ -90,7 +92,8 @@ static motus_status compile_half(motus_run *r, motus_error *err)
     compiled_state state;
     machine m;
     if (!c->system) return MOTUS_OK; /* it is made later, for the run's machine */
-    motus_status status = choice_begin(c->system, &r->chosen, &state, &m, &why, err);
+    const chosen method = companion_method(&r->chosen);
+    motus_status status = choice_begin(c->system, &method, &state, &m, &why, err);
     if (status == MOTUS_OK) status = take_machine(c, state, &m);
     if (c->waits) later_hurry(r);
     return status;
@@ -159,7 +162,8 @@ motus_status bars_ready(motus_run *r, const uint8_t *affected, motus_error *err)
     r->bars->twin.pace = c->pace;
     if (strcmp(r->machine.name, "compiled") != 0) return MOTUS_OK;
     if (r->later.automatic) return compile_half(r, err);
-    return choice_compile(c->system, &r->chosen, false, r->bars->kept, &c->machine, &why, err);
+    const chosen method = companion_method(&r->chosen);
+    return choice_compile(c->system, &method, false, r->bars->kept, &c->machine, &why, err);
 }
 
 /* The companion begins where the model says, with its own decimals, or where the run was told to. */

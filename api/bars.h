@@ -28,7 +28,7 @@ struct bars {
 motus_status bars_prepare(motus_run *, const motus_run_def *, motus_error *);
 /* The same of these columns, of which the first are the time and the state. how: as in machine/differences.h. */
 motus_status bars_make(motus_run *, motus_bars, const size_t *columns, const int *how, size_t count, motus_error *);
-differences_shape bars_shape(const motus_system *, motus_bars, const int *how, size_t count);
+differences_shape bars_shape(const motus_system *, const motus_method *card, motus_bars, const int *how, size_t count);
 /* Makes the system of the companion, before it is needed. affected: as in api/shadow.h. */
 motus_status bars_ready(motus_run *, const uint8_t *affected, motus_error *);
 /* A run of another motion begins: with the state of the system, or (given) with one of its own. */

@@ -6,7 +6,11 @@
  * same time before and after lead to the same wrong orbit, at every power of 2. With 2 n + 1 the two grids share the
  * landings alone.
  *
- * Where steps adapt it takes each accepted step of the run in two halves, with a tolerance by which nothing is refused.
+ * Where steps adapt it takes each accepted step of the run in two halves, with a tolerance by which no error is too
+ * large.
+ *
+ * Beeman's companion is velocity Verlet's method, which has the same positions: Beeman's velocities are not those by
+ * which its positions go on, so that beginning anew at every landing would be an error of its own.
  *
  * Why it lands, and does not interpolate: an interpolant has an error of its own, which for a method of high order is
  * larger than what is measured. A landing costs one more step, and the additions that are compensated stay so.
@@ -16,16 +20,28 @@
 #include "machine/differences.h"
 
 #include <math.h>
+#include <string.h>
 
 #define USUAL 0x1p-55
 
-chosen companion_method(const chosen *c)
+/* A method by which no error is too large. */
+static chosen without_control(const chosen *c)
 {
     chosen method = *c;
     if (!row_adaptive(c)) return method;
     if (method.relative == 0) method.relative = method.absolute; /* a Taylor series takes its order from it */
     method.absolute = DIFFERENCES_ANY_ERROR, method.least = 0, method.most = INFINITY, method.count = 0;
     return method;
+}
+
+chosen companion_method(const chosen *c)
+{
+    chosen method = *c;
+    if (!strcmp(c->name, "beeman") && row_choose("velocity-verlet", &method, NULL, NULL) == MOTUS_OK) {
+        method.varies = c->varies;
+        method.threads = c->threads;
+    }
+    return without_control(&method);
 }
 
 motus_status companion_begin(companion *c, const motus_run *r, double t, const double *x, const double *v,
@@ -38,7 +54,7 @@ motus_status companion_begin(companion *c, const motus_run *r, double t, const d
     for (size_t k = 0; k < p->nx; k++) c->x[k] = x[k];
     for (size_t k = 0; k < p->nv; k++) c->v[k] = v[k];
     c->t = t;
-    const chosen method = companion_method(&r->chosen);
+    const chosen method = c->system ? companion_method(&r->chosen) : without_control(&r->chosen);
     if (c->stepper) return stepper_start(c->stepper, t, r->timing.h, x, v, err);
     return stepper_create(&c->machine, &method, t, r->timing.h, x, v, &r->allocator, &c->stepper, err);
 }

@@ -18,7 +18,8 @@ typedef struct companion {
     pace pace;
 } companion;
 
-/* The method of the run, and where it adapts its steps one that accepts every step. */
+/* The method of the companion of about half the step: that of the run, without error control; Beeman's has another, see
+ * companion.c. */
 chosen companion_method(const chosen *);
 /* From the state x, v at t, where the run stands, with the run's method. The state is copied. */
 motus_status companion_begin(companion *, const motus_run *, double t, const double *x, const double *v, motus_error *);

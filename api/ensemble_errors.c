@@ -50,7 +50,7 @@ motus_status ensemble_errors_prepare(motus_ensemble *e, motus_error *err)
 
 differences_shape ensemble_errors_shape(const motus_ensemble *e)
 {
-    return bars_shape(e->system, e->error, e->how, e->compared);
+    return bars_shape(e->system, e->card, e->error, e->how, e->compared);
 }
 
 /* ---- in lanes ---- */

@@ -20,7 +20,7 @@ typedef struct differences_shape {
     size_t count, positions, velocities; /* numbers; of the state: positions, velocities and first-order variables */
     /* of each number its reduction over the observations, REDUCE_ of machine/text/reduce.h; NULL: its last value */
     const int *how;
-    bool full, kinked; /* there is a twin; the force is not smooth */
+    bool full, kinked, slow; /* there is a twin; the force is not smooth; the method is of order 1 */
 } differences_shape;
 
 typedef struct differences {

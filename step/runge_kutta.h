@@ -178,11 +178,20 @@ static void runge_kutta_weights(const work *w, const coef *error, const coef *er
 }
 
 /* whole - Σ c */
-static coef runge_kutta_missing(coef whole, const coef *c, int count)
+static coef runge_kutta_missing(pair whole, const coef *c, int count)
 {
-    pair sum = pair_of(whole);
-    for (int i = 0; i < count; i++) sum = pair_sum(sum, pair_of(-c[i]));
-    return sum.high;
+    for (int i = 0; i < count; i++) whole = pair_sum(whole, pair_of(-c[i]));
+    return whole.high;
+}
+
+/* Gives what is missing to the smallest weight of a stage: large weights that cancel are rounded by more than the
+ * stage may be off, and what they lack would be lost alike in every step. */
+static void runge_kutta_complete(pair whole, coef *c, int count)
+{
+    int least = -1;
+    for (int j = 0; j < count; j++)
+        if (c[j] != 0 && (least < 0 || ABS(c[j]) < ABS(c[least]))) least = j;
+    if (least >= 0) c[least] += runge_kutta_missing(whole, c, count);
 }
 
 static void runge_kutta_plan(work *w, const double argument[2], coef *unit, coef *c)
@@ -205,13 +214,17 @@ static void runge_kutta_plan(work *w, const double argument[2], coef *unit, coef
         for (int j = 0; j < i && m->tableau.aa; j++) unit[tableau_aa(w, i) + j] = m->tableau.aa[i * (i - 1) / 2 + j];
         if (m->tableau.bb) bb[i] = m->tableau.bb[i];
     }
+    for (int i = 1; i < s; i++) {
+        if (m->tableau.a) runge_kutta_complete(pair_of(c[i]), unit + tableau_a(w, i), i);
+        if (m->tableau.aa) runge_kutta_complete(pair_exact_product(c[i], c[i] / 2), unit + tableau_aa(w, i), i);
+    }
     for (int j = 0; j < s; j++) {
         for (int i = 0; i < s && !m->tableau.aa; i++)
             unit[tableau_aa(w, i) + j] = runge_kutta_product(s, unit + tableau_a(w, i), unit, j, pair_of(0));
         if (!m->tableau.bb) bb[j] = runge_kutta_product(s, b, unit, j, pair_of(0));
     }
-    unit[runge_kutta_residual(w)] = runge_kutta_missing(1, b, s);
-    unit[runge_kutta_residual(w) + 1] = runge_kutta_missing(K(0.5), bb, s);
+    unit[runge_kutta_residual(w)] = runge_kutta_missing(pair_of(1), b, s);
+    unit[runge_kutta_residual(w) + 1] = runge_kutta_missing(pair_of(K(0.5)), bb, s);
     if (!m->adaptive) return;
     runge_kutta_weights(w, m->tableau.error, m->tableau.error_x, unit, runge_kutta_error(w), runge_kutta_error_x(w));
     if (m->tableau.second)

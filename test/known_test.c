@@ -16,7 +16,7 @@
  */
 #include "test/given.h"
 
-enum { LINES_MAX = 1000, TEXT_ROOM = 4096, COLUMNS_MAX = 40, SETS_MAX = 8 };
+enum { LINES_MAX = 2000, TEXT_ROOM = 4096, COLUMNS_MAX = 40, SETS_MAX = 8 };
 static const double FEW = 4;
 
 typedef struct block { /* the computation, as the lines of a case before its first `at` define it */

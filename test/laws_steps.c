@@ -113,7 +113,7 @@ static quad difference(const scheme *p, const scheme *q, bool velocity)
 
 /* A row with coefficients steps as its tableau says: x and v are sums of at most 2 s numbers, each rounded a few
  * times. A compensated splitting gives what its printed digits lack of 1 to one kick and one drift, the factors of a
- * tableau's entry. */
+ * tableau's entry; a Runge-Kutta row gives to a weight of each stage what the printed digits of the others lack. */
 static void as_tableau(method m)
 {
     const coefficients c = coefficients_of(m);
@@ -124,7 +124,7 @@ static void as_tableau(method m)
     for (int i = 0; i < said.stages; i++)
         for (int j = 0; j < said.stages; j++) widen(&size, quad_abs(said.av[i][j]) > size ? said.av[i][j] : size);
     const quad miss = difference(&said, &done, takes_v(m));
-    const quad given = methods_table[m].compensated ? 2 * size * quad_looseness(m) : 0;
+    const quad given = quad_looseness(m) > 0 ? 2 * size * quad_looseness(m) : said.stages * coefficients_unit(m);
     const quad bound = 8 * said.stages * size * QUAD_EPSILON / (step * step) + given;
     if (miss > off) off = miss;
     judge(off <= bound, row_card(m)->name, "steps as its tableau", "%d stages, off by %.1e, rounding %.1e", said.stages,
