@@ -76,6 +76,19 @@ static bool ends_all(motus_status status)
            motus_status_exit(status) == 2;
 }
 
+/* Steps of one size divide the way; a tolerance has two digits, so that it can be given again. */
+static void set_size(search *s, double size)
+{
+    int power = 0;
+    if (s->length > 0) {
+        *s->size = s->length / ceil(s->length / size * (1 - 1e-12));
+        return;
+    }
+    for (; size < 10 && power > -300; power--) size *= 10;
+    for (; size >= 100; power++) size /= 10;
+    *s->size = decimal_scaled(floor(size * (1 + 1e-12)), power);
+}
+
 /* One trial. MOTUS_OK also where the run itself failed: then its bar is infinite. */
 static motus_status try(search *s, double wanted, motus_error *err)
 {
@@ -86,6 +99,9 @@ static motus_status try(search *s, double wanted, motus_error *err)
     s->share.size = (1 - s->share.from) / 2;
     const run_hint hint = {.steps = s->steps};
     motus_status status = run_create(s->system, &s->def, &hint, &s->run, &s->failure);
+    /* the tolerance with which it runs */
+    if (status == MOTUS_OK && row_adaptive(&s->run->chosen) && !absolute && s->run->chosen.relative < *s->size)
+        set_size(s, s->run->chosen.relative);
     while (status == MOTUS_OK && !motus_run_done(s->run) && !hopeless(s, wanted))
         status = motus_run_step(s->run, CHUNK, &s->failure);
     if (status == MOTUS_OK) {
@@ -104,19 +120,6 @@ static motus_status try(search *s, double wanted, motus_error *err)
     if (!ends_all(status) && status != MOTUS_ACCURACY) return MOTUS_OK;
     if (err) motus_struct_write(MOTUS_DEF_ERROR, &s->failure, err);
     return status;
-}
-
-/* Steps of one size divide the way; a tolerance has two digits, so that it can be given again. */
-static void set_size(search *s, double size)
-{
-    int power = 0;
-    if (s->length > 0) {
-        *s->size = s->length / ceil(s->length / size * (1 - 1e-12));
-        return;
-    }
-    for (; size < 10 && power > -300; power--) size *= 10;
-    for (; size >= 100; power++) size /= 10;
-    *s->size = decimal_scaled(floor(size * (1 + 1e-12)), power);
 }
 
 /* The size of the trial after this one. */

@@ -5,6 +5,8 @@
  */
 #include "api/control.h"
 
+#include "core/stepper.h"
+
 #include <math.h>
 #include <string.h>
 
@@ -89,7 +91,7 @@ motus_status control_choose(const motus_system *s, const control_wish *w, chosen
     motus_status status = check_tolerance(tolerance, absolute, err);
     if (status == MOTUS_OK) status = check_limits(w, err);
     if (status != MOTUS_OK) return status;
-    c->relative = absolute ? 0 : tolerance;
+    c->relative = absolute ? 0 : fmin(tolerance, stepper_tolerance_most(c));
     c->absolute = absolute ? tolerance : 0;
     c->least = w->shortest;
     c->most = w->longest > 0 ? w->longest : INFINITY;

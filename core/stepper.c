@@ -75,6 +75,20 @@ work stepper_plan(const problem *p, const chosen *method, coef *memory)
     return plan;
 }
 
+double stepper_tolerance_most(const chosen *c)
+{
+    enum { ROOM = 1024 }; /* more than the constants of any splitting */
+    const problem one = {.nx = 1, .nv = 1};
+    coef memory[ROOM];
+    if (!c->row->density) return INFINITY;
+    const work sizes = stepper_plan(&one, c, NULL);
+    if (work_plan_size(&sizes) > ROOM) return INFINITY;
+    const work plan = stepper_plan(&one, c, memory);
+    double most = 1.05; /* the control's powers are rough, and this tolerance is to give the longest steps */
+    for (int i = 0; i <= plan.order; i++) most *= DENSITY_MOST / DENSITY_REACH(&plan);
+    return most;
+}
+
 size_t stepper_arrays(work plan) { return stepper_best_body()->place(&plan, NULL); }
 
 size_t stepper_carried(work plan)

@@ -65,6 +65,10 @@ motus_status stepper_sync(stepper *, double *x, double *v, double *a, motus_erro
  * shorter last one. The bits and the counters are the same. After a failure it stands as before. */
 motus_status stepper_move(stepper **, const machine *, motus_error *);
 
+/* The largest tolerance that changes the steps of the method: those of a reversible one are at most a part of the time
+ * scale of the motion, whatever the tolerance. INFINITY of others. */
+double stepper_tolerance_most(const chosen *);
+
 double stepper_time(const stepper *);
 double stepper_time_of(const stepper *, int64_t n); /* of step n of the leg; NaN where steps adapt */
 double stepper_step(const stepper *);               /* size of the present leg's steps, with its sign */

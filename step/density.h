@@ -29,7 +29,6 @@
  * w->before is 1 once the control has begun. w->old has l² of variable g at its first number.
  */
 #define DENSITY_FAR 4
-#define DENSITY_MOST 0.5
 
 /* Whether any error is allowed. */
 static inline clock_mask density_free(const work *w) { return w->relative + w->absolute > 1e200; }
@@ -215,8 +214,7 @@ static void density_follow(work *w, clock_mask begins, clock forward, clock d, c
  * scale, since longer ones would not see it change. */
 static inline clock density_unit(const work *w)
 {
-    const coef reach = FACT(w, unit)[FACT(w, linears) + FACT(w, squares)];
-    const clock unit = reach * control_exp2(control_log2(w->relative) / (FACT(w, order) + 1));
+    const clock unit = DENSITY_REACH(w) * control_exp2(control_log2(w->relative) / (FACT(w, order) + 1));
     return CHOOSE_WHERE(unit < DENSITY_MOST, unit, CLOCK(DENSITY_MOST));
 }
 

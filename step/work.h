@@ -209,6 +209,11 @@ typedef struct work {
 #define SMALL 0
 #endif
 
+/* Of a density: the largest part of the motion's time scale that a step takes, and the part on a circular orbit for an
+ * error of 1 (density.h). */
+#define DENSITY_MOST 0.5
+#define DENSITY_REACH(w) (FACT(w, unit)[FACT(w, linears) + FACT(w, squares)])
+
 /* A loop over the variables, and the first number of each. */
 #define EACH_VARIABLE(g) for (int g = 0; g < FACT(w, variables); g++)
 #define VARIABLE(w, g) FACT(w, variable)[g]

@@ -143,6 +143,39 @@ static void no_false_claim(void **state)
                   (double)tries / (met + missed));
 }
 
+/* Steps that follow the time scale of the motion are at most half of it. Above the tolerance that belongs to these the
+ * steps are the same; the run reports that one, and a search begins with it. */
+static void tolerances_beyond_the_longest_steps(void **state)
+{
+    (void)state;
+    static const char *const methods[] = {"verlet-reversible", "blanes-moan4-reversible", "blanes-moan6-reversible",
+                                          "kahan-li8-reversible"};
+    motus_system *s = given_model("kepler.motus", NULL, 0);
+    for (size_t k = 0; k < sizeof methods / sizeof *methods; k++) {
+        motus_error err = motus_default_error();
+        motus_run *runs[3];
+        double told = 0.5;
+        for (int i = 0; i < 3; i++) { /* far above, with what is told then, and just below */
+            motus_run_def def = motus_default_run();
+            def.method = methods[k], def.tolerance = i < 2 ? told : told / 2, def.machine = "interpreter";
+            must(motus_run_create(s, &def, &runs[i], &err), &err, methods[k]);
+            finish(runs[i]);
+            if (i == 0) told = done(runs[0]).tolerance;
+        }
+        assert_true(told < 0.5 && done(runs[1]).tolerance == told && done(runs[2]).tolerance == told / 2);
+        same_state(s, runs[0], runs[1], "the longest steps");
+        assert_true(motus_run_steps(runs[2]) > motus_run_steps(runs[1]));
+        for (int i = 0; i < 3; i++) motus_run_destroy(runs[i]);
+        if (k == 0) continue; /* of order 2: half a million steps */
+        motus_run_def def = wanted(methods[k], 1e-5, NAN);
+        motus_run *r = NULL;
+        must(made(s, &def, &r, &err), &err, methods[k]);
+        assert_true(done(r).reached <= 1e-5 && done(r).tolerance <= told);
+        motus_run_destroy(r);
+    }
+    motus_system_destroy(s);
+}
+
 static void absolute_accuracy(void **state)
 {
     (void)state;
@@ -439,6 +472,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {cmocka_unit_test(no_false_claim),
                                        cmocka_unit_test(absolute_accuracy),
+                                       cmocka_unit_test(tolerances_beyond_the_longest_steps),
                                        cmocka_unit_test(nothing_but_the_equation),
                                        cmocka_unit_test(settings_of_a_model),
                                        cmocka_unit_test(the_bits_of_its_method),
