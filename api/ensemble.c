@@ -159,15 +159,23 @@ static motus_status join_half(motus_ensemble *e, const lanes_def *common, motus_
     return lanes_join(e->lanes, e->half_lanes, &shape, sources, err);
 }
 
-static void end_lanes(motus_ensemble *e)
+void ensemble_end_lanes(motus_ensemble *e)
 {
     lanes_destroy(e->lanes);
     lanes_destroy(e->half_lanes);
     e->lanes = e->half_lanes = NULL;
 }
 
+/* Lanes compute the trajectories that workers have left. */
+static int report_lanes(void *context, double fraction)
+{
+    const motus_ensemble *e = context;
+    const double before = (double)e->before / (double)e->count;
+    return ensemble_report(context, before + fraction * (1 - before));
+}
+
 /* Chooses lanes where they can compute the ensemble; else e->lanes stays NULL and e->note says why. */
-static motus_status try_lanes(motus_ensemble *e, const motus_ensemble_def *d, motus_error *err)
+static motus_status try_lanes(motus_ensemble *e, const motus_ensemble_def *d, bool later, motus_error *err)
 {
     const bool told = e->error != MOTUS_BARS_NONE;
     const lanes_def common = {.chosen = &e->chosen,
@@ -184,8 +192,9 @@ static motus_status try_lanes(motus_ensemble *e, const motus_ensemble_def *d, mo
                               .lanes = d->lanes,
                               .threads = e->threads,
                               .fast = d->fast != 0,
+                              .later = later,
                               .allocator = &e->allocator,
-                              .progress = e->progress ? ensemble_report : NULL,
+                              .progress = e->progress ? report_lanes : NULL,
                               .context = e};
     if (told && (e->error == MOTUS_BARS_FULL || (common.own_clock && !row_adaptive(&e->chosen)))) {
         snprintf(e->note, sizeof e->note, "%s: their errors are told one at a time",
@@ -195,7 +204,7 @@ static motus_status try_lanes(motus_ensemble *e, const motus_ensemble_def *d, mo
     motus_status status = make_lanes(e, e->system, &common, &e->lanes, err);
     if (status != MOTUS_OK || !e->lanes || !told) return status;
     status = join_half(e, &common, err);
-    if (!e->half_lanes) end_lanes(e);
+    if (!e->half_lanes) ensemble_end_lanes(e);
     return status;
 }
 
@@ -209,25 +218,27 @@ static void choose_portable(motus_ensemble *e)
 /* What lanes have refused they would refuse again. */
 static void leave_lanes(motus_ensemble *e)
 {
-    end_lanes(e);
+    ensemble_end_lanes(e);
+    e->compiled_from = -1;
     choose_portable(e);
     snprintf(e->note, sizeof e->note, "whether the method admits a trajectory is examined one trajectory at a time");
 }
 
-/* Chooses one trajectory at a time, compiled where that is wanted and possible. */
-static motus_status choose_single(motus_ensemble *e, const char *wanted, motus_error *err)
+motus_status ensemble_choose_single(motus_ensemble *e, const char *wanted, bool later, motus_error *err)
 {
     motus_system *s = e->system;
     choose_portable(e);
     if (!s->model && s->callback.block) e->block = e->until == SIZE_MAX ? ensemble_block_size(s, &e->chosen) : 1;
     if (!s->model || (wanted && !strcmp(wanted, "interpreter"))) return MOTUS_OK;
-    const char *why;
+    const char *why = NULL;
+    compiled_state state = COMPILED_FAILED;
     e->chosen.varies = e->vary_count > 0;
     motus_status status =
-        choice_compile(s, &e->chosen, wanted && !strcmp(wanted, "compiled"), false, &e->machine, &why, err);
+        later ? choice_begin(s, &e->chosen, &state, &e->machine, &why, err)
+              : choice_compile(s, &e->chosen, wanted && !strcmp(wanted, "compiled"), false, &e->machine, &why, err);
     if (status != MOTUS_OK) return status;
-    if (!why) { return MOTUS_OK; }
-    snprintf(e->note, sizeof e->note, "%s", why);
+    if (later && state == COMPILED_WAIT) e->awaits = AWAITS_MACHINE;
+    if (later ? state == COMPILED_FAILED : why != NULL) snprintf(e->note, sizeof e->note, "%s", why);
     return MOTUS_OK;
 }
 
@@ -256,8 +267,18 @@ static motus_status make(motus_ensemble *e, const motus_ensemble_def *d, motus_e
         compiled = false;
         wanted = "interpreter";
     }
-    if (status == MOTUS_OK && s->model && compiled) status = try_lanes(e, d, err);
-    if (status == MOTUS_OK && !e->lanes) status = choose_single(e, wanted, err);
+    /* with `fast` the bits depend on the machine */
+    const bool later = automatic && !d->fast;
+    if (status == MOTUS_OK && s->model && compiled) status = try_lanes(e, d, later, err);
+    if (status != MOTUS_OK) return status;
+    e->lane_threads = e->threads;
+    if (!e->lanes) {
+        status = ensemble_choose_single(e, wanted, later && compiled, err);
+    } else if (lanes_awaited(e->lanes) || lanes_awaited(e->half_lanes)) {
+        choose_portable(e);
+        e->awaits = AWAITS_LANES;
+    }
+    e->compiled_from = !e->awaits && !strcmp(motus_ensemble_machine(e), "compiled") ? 0 : -1;
     return status;
 }
 
@@ -353,6 +374,38 @@ motus_status motus_ensemble_check(motus_ensemble *e, size_t count, const double 
     return status;
 }
 
+/* The trajectories from `first` on, by lanes. MOTUS_METHOD: as lanes_run. */
+static motus_status in_lanes(motus_ensemble *e, const places *p, size_t first, motus_error *err)
+{
+    const size_t records = e->record_count, count = e->vary_count + 2 * records;
+    const double **values = take(&e->allocator, count + 1, sizeof *values);
+    if (!values) return fail(err, MOTUS_MEMORY, "no memory for the ensemble");
+    double **results = (double **)(void *)(values + e->vary_count), **errors = results + records;
+    for (size_t k = 0; k < e->vary_count; k++) values[k] = p->values[k] + first;
+    for (size_t r = 0; r < records; r++) {
+        results[r] = p->results[r] + first;
+        errors[r] = p->errors ? p->errors[r] + first : NULL;
+    }
+    e->before = first;
+    motus_status status = lanes_run(e->lanes, e->count - first, values, p->until ? p->until + first : NULL, results,
+                                    p->errors ? errors : NULL, p->stopped ? p->stopped + first : NULL, err);
+    give(&e->allocator, (void *)values);
+    return status;
+}
+
+static motus_status compute(motus_ensemble *e, const places *p, motus_error *err)
+{
+    size_t first = 0;
+    motus_status status = e->awaits ? ensemble_meanwhile(e, p, &first, err) : MOTUS_OK;
+    if (status != MOTUS_OK || first == e->count) return status;
+    if (e->lanes && !e->awaits) {
+        status = in_lanes(e, p, first, err);
+        if (status != MOTUS_METHOD) return status;
+        leave_lanes(e);
+    }
+    return e->block > 0 && !p->errors ? ensemble_blocks(e, p, err) : ensemble_singly(e, p, first, err);
+}
+
 /* p: the room that the caller supplies. */
 static motus_status run(motus_ensemble *e, size_t count, const double *const *values, places p, motus_error *err)
 {
@@ -368,13 +421,8 @@ static motus_status run(motus_ensemble *e, size_t count, const double *const *va
         p.observes |= e->records[r].how != MOTUS_REDUCE_FINAL && !ensemble_tallies(&e->records[r]);
     e->count = count;
     status = check_ends(e, &p, count, err);
-    bool by_workers = status == MOTUS_OK;
-    if (by_workers && e->lanes) {
-        status = lanes_run(e->lanes, count, p.values, p.until, p.results, p.errors, p.stopped, err);
-        by_workers = status == MOTUS_METHOD;
-        if (by_workers) leave_lanes(e);
-    }
-    if (by_workers) status = e->block > 0 && !p.errors ? ensemble_blocks(e, &p, err) : ensemble_singly(e, &p, err);
+    if (status == MOTUS_OK) status = compute(e, &p, err);
+    e->computed += count;
     e->seconds += pace_now() - began;
     modes_leave(m);
     return status;
@@ -405,8 +453,9 @@ void motus_ensemble_destroy(motus_ensemble *e)
 {
     if (!e) return;
     motus_allocator a = e->allocator;
+    ensemble_later_end(e);
     motus_system_hold(e->system, false);
-    end_lanes(e);
+    ensemble_end_lanes(e);
     ensemble_workers_destroy(e);
     motus_system_destroy(e->half);
     give(&a, e->places);
@@ -428,9 +477,13 @@ double motus_ensemble_tolerance(const motus_ensemble *e, int *absolute)
 }
 const char *motus_ensemble_machine(const motus_ensemble *e)
 {
-    return !e ? "" : e->lanes ? "compiled" : e->machine.name;
+    return !e ? "" : e->lanes && e->awaits != AWAITS_LANES ? "compiled" : e->machine.name;
 }
 const char *motus_ensemble_note(const motus_ensemble *e) { return e ? e->note : ""; }
-int motus_ensemble_lanes(const motus_ensemble *e) { return e && e->lanes ? lanes_in_block(e->lanes) : 1; }
+int motus_ensemble_lanes(const motus_ensemble *e)
+{
+    return e && e->lanes && e->awaits != AWAITS_LANES ? lanes_in_block(e->lanes) : 1;
+}
+int64_t motus_ensemble_compiled_from(const motus_ensemble *e) { return e ? e->compiled_from : -1; }
 int motus_ensemble_threads(const motus_ensemble *e) { return e ? e->threads : 1; }
 double motus_ensemble_seconds(const motus_ensemble *e) { return e ? e->seconds : 0; }

@@ -53,7 +53,7 @@ struct motus_ensemble {
     chosen half_chosen;
     vary *half_vary;
     vary *vary;
-    lanes *lanes;      /* NULL: workers compute the trajectories */
+    lanes *lanes;      /* NULL, or while they are awaited: workers compute the trajectories */
     lanes *half_lanes; /* of the companions */
     machine machine;   /* of the first worker */
     /* `threads` of them, each prepared when it is first needed; until then all its bytes are 0 */
@@ -61,6 +61,18 @@ struct motus_ensemble {
     size_t count, block; /* trajectories of the present run; of a block of a callback, or 0 */
     atomic_size_t done;  /* trajectories */
     atomic_bool stop;    /* an item failed, or the run was cancelled */
+    /* ensemble_later.c: workers begin in the interpreter while a compiler works, and the trajectories that are left
+     * are computed by what it makes. */
+    enum { AWAITS_NOTHING, AWAITS_LANES, AWAITS_MACHINE } awaits;
+    atomic_bool over;      /* what is awaited is there: workers leave the trajectories that they have not finished, */
+    atomic_size_t left;    /*   of which this is the first */
+    size_t exactly;        /* tests: 1 + the trajectory before which it is over, 0: as soon as it can be */
+    size_t computed;       /* trajectories, by earlier calls; */
+    size_t before;         /*   in this call, before those that lanes compute */
+    int64_t compiled_from; /* trajectories that the interpreter computed before; -1: all of them */
+    int lane_threads;      /* that lanes would take, where workers take fewer */
+    machine found;         /* the machine that was awaited, */
+    const char *missing;   /*   or why there is none */
     int threads;
     double seconds;
     int (*progress)(void *context, double fraction);
@@ -99,17 +111,32 @@ motus_status ensemble_errors_begin(worker *, const double *values, size_t k, mot
 void ensemble_errors_rest(worker *); /* the trajectory is over, */
 void ensemble_errors_end(worker *);  /*   and so is the worker */
 
-/* ensemble_single.c: one trajectory at a time. ensemble_block.c: blocks of a callback. */
-motus_status ensemble_singly(motus_ensemble *, const places *, motus_error *);
+/* ensemble_single.c: one trajectory at a time, from the first on, up to the one before e->left. ensemble_block.c:
+ * blocks of a callback. */
+motus_status ensemble_singly(motus_ensemble *, const places *, size_t first, motus_error *);
 motus_status ensemble_blocks(motus_ensemble *, const places *, motus_error *);
 
 /* How many trajectories a block of a callback has with this method. */
 size_t ensemble_block_size(const motus_system *, const chosen *);
 
-/* ensemble_workers.c: calls one(worker, item, ctx) for every item, by the ensemble's threads. Where items fail, returns
- * the status of the one with the lowest number. */
-motus_status ensemble_each(motus_ensemble *, size_t items, motus_status (*one)(worker *, size_t item, void *ctx),
-                           void *ctx, motus_error *);
+/* ensemble_later.c. Whether what is awaited is there, or will never be; while workers compute it may be asked by the
+ * caller's thread. */
+bool ensemble_look(motus_ensemble *);
+/* Computes trajectories by the workers while they are awaited, and then goes over; *first: those that are left. */
+motus_status ensemble_meanwhile(motus_ensemble *, const places *, size_t *first, motus_error *);
+/* What is awaited is not any more: compilers are killed. */
+void ensemble_later_end(motus_ensemble *);
+/* For tests, before the first call: the first `count` trajectories of it are computed by the interpreter, and the
+ * others by what is awaited, for which it waits there. */
+void ensemble_later_at(motus_ensemble *, size_t count);
+/* ensemble.c: chooses one trajectory at a time, compiled where that is wanted and possible. */
+motus_status ensemble_choose_single(motus_ensemble *, const char *wanted, bool later, motus_error *);
+void ensemble_end_lanes(motus_ensemble *);
+
+/* ensemble_workers.c: calls one(worker, item, ctx) for every item from the first on, by the ensemble's threads.
+ * Where items fail, returns the status of the one with the lowest number. */
+motus_status ensemble_each(motus_ensemble *, size_t first, size_t items,
+                           motus_status (*one)(worker *, size_t item, void *ctx), void *ctx, motus_error *);
 /* As stepper_advance, of the worker's stepper; with a progress hook, in pieces of some milliseconds. */
 motus_status ensemble_advance(worker *, stepper_limit, stepper_stop *, motus_error *);
 int ensemble_tell(void *worker, double now);

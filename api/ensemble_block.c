@@ -194,5 +194,5 @@ static motus_status one_block(worker *w, size_t item, void *ctx)
 
 motus_status ensemble_blocks(motus_ensemble *e, const places *p, motus_error *err)
 {
-    return ensemble_each(e, (e->count + e->block - 1) / e->block, one_block, (void *)p, err);
+    return ensemble_each(e, 0, (e->count + e->block - 1) / e->block, one_block, (void *)p, err);
 }

@@ -177,21 +177,23 @@ static motus_status one_trajectory(worker *w, size_t k, void *ctx)
         if (p->stopped) p->stopped[k] = stopped ? w->why.time : NAN;
         status = MOTUS_OK;
         atomic_fetch_add(&w->e->done, 1);
-        if (w->number == 0 && ensemble_report(w->e, (double)atomic_load(&e->done) / (double)e->count))
+        if (w->number == 0 && ensemble_report(w->e, (double)atomic_load(&e->done) / (double)e->count)) {
+            atomic_store(&w->e->stop, true);
             status = MOTUS_CANCELLED;
+        }
     }
     if (s.errors) ensemble_errors_rest(w);
     give(&e->allocator, memory);
     return status;
 }
 
-motus_status ensemble_singly(motus_ensemble *e, const places *p, motus_error *err)
+motus_status ensemble_singly(motus_ensemble *e, const places *p, size_t first, motus_error *err)
 {
     const size_t kept = numbers_kept(e);
     double *own = kept ? take(&e->allocator, kept, sizeof *own) : NULL;
     if (kept && !own) return fail(err, MOTUS_MEMORY, "no memory for the ensemble");
     if (kept) keep_numbers(e, own);
-    motus_status status = ensemble_each(e, e->count, one_trajectory, (void *)p, err);
+    motus_status status = ensemble_each(e, first, e->count - first, one_trajectory, (void *)p, err);
     if (kept) put_back(e, own);
     give(&e->allocator, own);
     return status;

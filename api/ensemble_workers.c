@@ -22,7 +22,8 @@ int ensemble_tell(void *ctx, double now)
     const double part = t->until != t->t0 ? (stepper_time(w->stepper) - t->t0) / (t->until - t->t0) : 1;
     const double done = (double)atomic_load(&e->done) + (double)w->trajectories * part;
     if (w->number == 0 && ensemble_report(e, done / (double)e->count)) atomic_store(&e->stop, true);
-    return atomic_load(&e->stop);
+    if (w->number == 0 && e->awaits && !e->exactly && ensemble_look(e)) atomic_store(&e->over, true);
+    return atomic_load(&e->stop) || atomic_load(&e->over);
 }
 
 static motus_status prepare_worker(motus_ensemble *e, int number, motus_error *err)
@@ -51,7 +52,7 @@ static motus_status prepare_worker(motus_ensemble *e, int number, motus_error *e
     w->e = e;
     w->system = s;
     w->number = number;
-    w->pace = (pace){.seconds = 0.005, .tell = e->progress ? ensemble_tell : NULL, .ctx = w};
+    w->pace = (pace){.seconds = 0.005, .tell = e->progress || e->awaits ? ensemble_tell : NULL, .ctx = w};
     return MOTUS_OK;
 }
 
@@ -70,22 +71,41 @@ void ensemble_workers_destroy(motus_ensemble *e)
 
 typedef struct item_list {
     motus_ensemble *e;
+    size_t first;
     motus_status (*one)(worker *, size_t item, void *ctx);
     void *ctx;
 } item_list;
 
-static void take_item(void *ctx, size_t item, int thread)
+/* Items are taken in order, so all before the first that is left are done. */
+static void leave(motus_ensemble *e, size_t item)
 {
-    const item_list *list = ctx;
-    worker *w = &list->e->workers[thread];
-    if (w->status != MOTUS_OK || atomic_load(&list->e->stop)) return;
-    w->status = list->one(w, item, list->ctx);
-    w->failed_at = item;
-    if (w->status != MOTUS_OK) atomic_store(&list->e->stop, true);
+    size_t left = atomic_load(&e->left);
+    while (item < left && !atomic_compare_exchange_weak(&e->left, &left, item)) continue;
 }
 
-motus_status ensemble_each(motus_ensemble *e, size_t items, motus_status (*one)(worker *, size_t item, void *ctx),
-                           void *ctx, motus_error *err)
+static void take_item(void *ctx, size_t number, int thread)
+{
+    const item_list *list = ctx;
+    motus_ensemble *e = list->e;
+    worker *w = &e->workers[thread];
+    const size_t item = list->first + number;
+    if (w->status != MOTUS_OK || atomic_load(&e->stop)) return;
+    if (thread == 0 && e->awaits && !e->exactly && ensemble_look(e)) atomic_store(&e->over, true);
+    if (atomic_load(&e->over) || (e->exactly && item + 1 >= e->exactly)) {
+        leave(e, item);
+        return;
+    }
+    w->status = list->one(w, item, list->ctx);
+    w->failed_at = item;
+    if (w->status == MOTUS_CANCELLED && atomic_load(&e->over) && !atomic_load(&e->stop)) {
+        leave(e, item);
+        w->status = MOTUS_OK;
+    }
+    if (w->status != MOTUS_OK) atomic_store(&e->stop, true);
+}
+
+motus_status ensemble_each(motus_ensemble *e, size_t first, size_t items,
+                           motus_status (*one)(worker *, size_t item, void *ctx), void *ctx, motus_error *err)
 {
     const int threads = items < (size_t)e->threads ? (int)items : e->threads;
     if (!e->workers && !(e->workers = take(&e->allocator, (size_t)e->threads, sizeof *e->workers)))
@@ -96,24 +116,26 @@ motus_status ensemble_each(motus_ensemble *e, size_t items, motus_status (*one)(
         e->workers[i].status = MOTUS_OK;
         e->workers[i].why = motus_default_error();
     }
-    atomic_store(&e->done, 0);
+    atomic_store(&e->done, first);
     atomic_store(&e->stop, false);
-    item_list list = {e, one, ctx};
+    atomic_store(&e->over, false);
+    atomic_store(&e->left, SIZE_MAX);
+    item_list list = {e, first, one, ctx};
     parallel_for(threads, items, take_item, &list);
-    const worker *first = NULL;
+    const worker *failed = NULL;
     for (int i = 0; i < threads; i++) {
         const worker *w = &e->workers[i];
         /* An error comes before a cancellation, which may be its consequence. */
-        if (w->status != MOTUS_OK &&
-            (!first || (first->status == MOTUS_CANCELLED) > (w->status == MOTUS_CANCELLED) ||
-             ((first->status == MOTUS_CANCELLED) == (w->status == MOTUS_CANCELLED) && w->failed_at < first->failed_at)))
-            first = w;
+        if (w->status != MOTUS_OK && (!failed || (failed->status == MOTUS_CANCELLED) > (w->status == MOTUS_CANCELLED) ||
+                                      ((failed->status == MOTUS_CANCELLED) == (w->status == MOTUS_CANCELLED) &&
+                                       w->failed_at < failed->failed_at)))
+            failed = w;
     }
-    if (!first) return MOTUS_OK;
-    if (first->status == MOTUS_CANCELLED)
+    if (!failed) return MOTUS_OK;
+    if (failed->status == MOTUS_CANCELLED)
         return fail(err, MOTUS_CANCELLED, "cancelled after %zu of %zu trajectories", atomic_load(&e->done), e->count);
-    if (err) motus_struct_write(MOTUS_DEF_ERROR, &first->why, err);
-    return first->status;
+    if (err) motus_struct_write(MOTUS_DEF_ERROR, &failed->why, err);
+    return failed->status;
 }
 
 motus_status ensemble_advance(worker *w, stepper_limit limit, stepper_stop *why, motus_error *err)

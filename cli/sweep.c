@@ -29,14 +29,20 @@ typedef struct batch {
 
 static bool judged(const sweep *s) { return !isnan(s->tried); }
 
+/* Of all threads together: as many as advance at once. They may grow, when a compiler has ended. */
+static size_t lanes_of(const sweep *s)
+{
+    const int lanes = motus_ensemble_lanes(s->ensemble), threads = motus_ensemble_threads(s->ensemble);
+    return (size_t)(lanes > 0 ? lanes : 1) * (size_t)(threads > 0 ? threads : 1);
+}
+
 static motus_status batch_begin(batch *b, const sweep *s, motus_error *err)
 {
     /* where an accuracy is wanted what is reached is recorded too, and all have errors */
     const size_t records = s->records.count + judged(s);
     const bool errors = s->errors || judged(s);
     size_t columns = s->grid.count + records * (errors ? 2 : 1) + 1;
-    int lanes = motus_ensemble_lanes(s->ensemble), threads = motus_ensemble_threads(s->ensemble);
-    b->lanes = (size_t)(lanes > 0 ? lanes : 1) * (size_t)(threads > 0 ? threads : 1);
+    b->lanes = lanes_of(s);
     b->most = BATCH_BYTES / sizeof(double) / columns;
     if (b->most > BATCH_MOST) b->most = BATCH_MOST;
     b->most = b->most > b->lanes ? b->most / b->lanes * b->lanes : b->lanes;
@@ -58,8 +64,9 @@ static void batch_free(batch *b)
 }
 
 /* Changes the count, a multiple of the lanes, towards BATCH_MS for a batch. */
-static void batch_adapt(batch *b, double seconds)
+static void batch_adapt(batch *b, size_t lanes, double seconds)
 {
+    b->lanes = lanes < b->most ? lanes : b->most;
     double wanted = (double)b->count * fmin(8, BATCH_MS * 1e-3 / fmax(seconds, 1e-6));
     size_t blocks = (size_t)fmax(1, wanted / (double)b->lanes);
     b->count = blocks * b->lanes < b->most ? blocks * b->lanes : b->most;
@@ -113,13 +120,18 @@ static motus_status create(sweep *s, stop_progress *progress, motus_error *err)
     def.expected = s->grid.total;
     def.progress = stop_progress_hook;
     def.context = progress;
-    motus_status status = motus_ensemble_create(s->model.system, &def, &s->ensemble, err);
-    if (!status && motus_ensemble_note(s->ensemble)[0] && !o->quiet)
-        complain_note("the %s runs this: %s",
-                      strcmp(motus_ensemble_machine(s->ensemble), "interpreter") == 0 ? "interpreter"
-                                                                                      : "compiled machine",
-                      motus_ensemble_note(s->ensemble));
-    return status;
+    return motus_ensemble_create(s->model.system, &def, &s->ensemble, err);
+}
+
+/* Why no faster machine runs the sweep, as soon as that is known, once. */
+static void note_machine(sweep *s)
+{
+    const motus_ensemble *e = s->ensemble;
+    if (s->noted || s->options->quiet || !motus_ensemble_note(e)[0]) return;
+    s->noted = true;
+    complain_note("the %s runs this: %s",
+                  strcmp(motus_ensemble_machine(e), "interpreter") == 0 ? "interpreter" : "compiled machine",
+                  motus_ensemble_note(e));
 }
 
 /* All ends that vary are right, before a file is touched. */
@@ -158,6 +170,7 @@ static motus_status make(sweep *s, stop_progress *progress, motus_error *err)
     s->ensemble = NULL;
     s->head = NULL;
     motus_status status = create(s, progress, err);
+    if (!status) note_machine(s);
     if (!status) status = check_ends(s, err);
     if (status) return status;
     s->method = motus_ensemble_method(s->ensemble);
@@ -217,12 +230,13 @@ static motus_status go(sweep *s, sweep_file *f, stop_progress *p, bool *again, m
         const sweep_rows rows = {b.values, b.results, b.errors, b.stopped};
         status = b.errors ? motus_ensemble_run_errors(s->ensemble, count, values, b.results, b.errors, b.stopped, err)
                           : motus_ensemble_run(s->ensemble, count, values, b.results, b.stopped, err);
+        note_machine(s);
         if (!status && judged(s))
             status = sweep_accuracy_judge(s, f->rows, count, b.results[s->records.count], b.stopped, again, err);
         if (!status && !*again) status = sweep_file_rows(f, count, &rows, err);
         if (!status && f->rows < s->grid.total && stop_progress_hook(p, 1))
             status = fail(err, MOTUS_CANCELLED, "cancelled");
-        batch_adapt(&b, stop_clock() - began);
+        batch_adapt(&b, lanes_of(s), stop_clock() - began);
     }
     batch_free(&b);
     return status;
@@ -244,7 +258,9 @@ static void report_json(const sweep *s, const sweep_file *f, double wall)
     json_integer(&j, "trajectories", (int64_t)s->grid.total);
     json_integer(&j, "resumed", (int64_t)f->found);
     json_integer(&j, "steps", motus_ensemble_steps(e));
+    const int64_t from = motus_ensemble_compiled_from(e);
     json_string(&j, "machine", motus_ensemble_machine(e));
+    json_number(&j, "compiled_from", from < 0 ? NAN : (double)from);
     json_integer(&j, "lanes", motus_ensemble_lanes(e));
     json_integer(&j, "threads", motus_ensemble_threads(e));
     json_bool(&j, "fast", s->options->fast);
@@ -269,8 +285,14 @@ static void report(const sweep *s, const sweep_file *f, double wall)
     fprintf(out, "%s: %s, %s %s%s, ", s->model.title, s->method, isnan(s->tolerance) ? "step" : "tolerance", step,
             s->absolute ? " absolute" : "");
     if (motus_ensemble_steps(e) > 0) fprintf(out, "%lld steps ", (long long)motus_ensemble_steps(e));
-    fprintf(out, "to t = %s, %s%s, %d lane%s, %d thread%s\n", isnan(s->until) ? "its own end" : until,
-            motus_ensemble_machine(e), s->options->fast ? " (fast)" : "", motus_ensemble_lanes(e),
+    fprintf(out, "to t = %s, ", isnan(s->until) ? "its own end" : until);
+    const int64_t from = motus_ensemble_compiled_from(e);
+    if (from > 0)
+        fprintf(out, "interpreter, then compiled from trajectory %llu",
+                (unsigned long long)(f->found + (uint64_t)from + 1));
+    else
+        fprintf(out, "%s", motus_ensemble_machine(e));
+    fprintf(out, "%s, %d lane%s, %d thread%s\n", s->options->fast ? " (fast)" : "", motus_ensemble_lanes(e),
             motus_ensemble_lanes(e) == 1 ? "" : "s", motus_ensemble_threads(e),
             motus_ensemble_threads(e) == 1 ? "" : "s");
     fprintf(out, "%llu trajectories", (unsigned long long)s->grid.total);

@@ -29,6 +29,7 @@ typedef struct sweep {
     double tried;  /* the tolerance that is tried for an accuracy; NaN: none is wanted */
     int64_t every; /* steps between two samples for min, max and mean */
     motus_ensemble *ensemble;
+    bool noted; /* why no faster machine runs it */
     /* of a row: number, varied, recorded; where errors are told, those of the records that have some, and whether any
      * digit is significant; stopped */
     size_t columns;

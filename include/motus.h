@@ -877,8 +877,10 @@ typedef struct motus_ensemble_def {
     const char *method; /* NULL: the model's, or "verlet" */
     double step, until; /* NaN: the model's, or motus_suggest's, the same for all trajectories */
     double tolerance, shortest_step, longest_step; /* as in motus_run_def; every trajectory has its own steps */
-    int64_t every;       /* steps between two observations, for all records but MOTUS_REDUCE_FINAL; 1 by default */
-    const char *machine; /* as in motus_run_def */
+    int64_t every; /* steps between two observations, for all records but MOTUS_REDUCE_FINAL; 1 by default */
+    /* As in motus_run_def: with "auto" trajectories are computed by the interpreter while the compiler works, all from
+     * then on by what it makes. With `fast` it is waited for, because the bits depend on it. */
+    const char *machine;
     /* How many threads; 0: as many as there are processors, and one for a system from C. With more threads its
      * callbacks must be safe to call from several threads at once. A system with an allocator of its own uses one
      * thread where it does not run in lanes, so that one thread alone calls the allocator. */
@@ -927,6 +929,9 @@ MOTUS_API const char *motus_ensemble_method(const motus_ensemble *);
 MOTUS_API double motus_ensemble_tolerance(const motus_ensemble *, int *absolute);
 MOTUS_API const char *motus_ensemble_machine(const motus_ensemble *);
 MOTUS_API const char *motus_ensemble_note(const motus_ensemble *); /* why it uses no faster machine, or "" */
+/* How many trajectories of all calls of motus_ensemble_run so far the interpreter computed before the ensemble went on
+ * compiled; 0: none; -1: all of them. Machine, lanes and threads are those of the next trajectories. */
+MOTUS_API int64_t motus_ensemble_compiled_from(const motus_ensemble *);
 MOTUS_API int motus_ensemble_lanes(const motus_ensemble *);
 MOTUS_API int motus_ensemble_threads(const motus_ensemble *);
 /* Elapsed in the integration by all calls of motus_ensemble_run so far, without reading models and compiling. */

@@ -324,8 +324,32 @@ motus_status lanes_create(const lanes_def *d, lanes **out, char *note, size_t si
     l->groups = d->lanes ? d->lanes / l->width : best_groups(d, &l->plan);
     l->block = l->width * l->groups;
     if (!write_text(l)) return fail(err, MOTUS_MEMORY, "no memory for the ensemble");
-    l->handle = cache_load(l->e.text.bytes, l->e.text.length, d->fast ? COMPILER_FAST : 0, note, size);
-    if (!l->handle) return MOTUS_TOOL;
+    const int how = d->fast ? COMPILER_FAST : 0;
+    l->awaited = true;
+    if (!d->later)
+        l->handle = cache_load(l->e.text.bytes, l->e.text.length, how, note, size);
+    else if (cache_begin(l->e.text.bytes, l->e.text.length, how, d->allocator, &l->job, &l->handle, note, size) ==
+             CACHE_WAIT)
+        return *out = l, MOTUS_OK;
+    motus_status status = lanes_ready(l, note, size, err);
+    if (status == MOTUS_OK) *out = l;
+    return status;
+}
+
+bool lanes_awaited(const lanes *l) { return l && l->awaited; }
+
+bool lanes_look(lanes *l)
+{
+    if (l->job && cache_look(&l->job, &l->handle, l->why, sizeof l->why) == CACHE_WAIT) return false;
+    return true;
+}
+
+motus_status lanes_ready(lanes *l, char *note, size_t size, motus_error *err)
+{
+    if (!l->handle) {
+        if (l->why[0]) snprintf(note, size, "%s", l->why);
+        return MOTUS_TOOL;
+    }
     /* POSIX lets a void * hold the address of a function. */
     *(void **)&l->bind = dlsym(l->handle, "motus_lanes_bind");
     *(void **)&l->table = dlsym(l->handle, "motus_lanes_table");
@@ -345,14 +369,17 @@ motus_status lanes_create(const lanes_def *d, lanes **out, char *note, size_t si
         lanes_destroy(l);
         return fail(err, MOTUS_MEMORY, "no memory for the ensemble");
     }
-    *out = l;
+    l->awaited = false;
     return MOTUS_OK;
 }
 
 void lanes_destroy(lanes *l)
 {
-    if (l && l->handle) dlclose(l->handle);
-    if (l) l->handle = NULL;
+    if (!l) return;
+    cache_stop(l->job);
+    if (l->handle) dlclose(l->handle);
+    l->job = NULL;
+    l->handle = NULL;
 }
 
 motus_status lanes_join(lanes *l, lanes *half, const differences_shape *shape, const lanes_source *state,

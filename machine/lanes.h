@@ -44,6 +44,7 @@ typedef struct lanes_def {
     bool own_clock;            /* steps adapt, or ends differ: whole, last and the sign of h are ignored */
     int lanes, threads;        /* lanes 0: the library chooses */
     bool fast;
+    bool later; /* whoever makes them does not wait for a compiler */
     const motus_allocator *allocator;
     int (*progress)(void *context, double fraction);
     void *context;
@@ -54,6 +55,12 @@ const char *lanes_refuse(const lanes_def *);
 /* The definition's pointers must outlive it. MOTUS_TOOL, with no error: `note`, room for `size` characters, says why
  * there is no object. */
 motus_status lanes_create(const lanes_def *, lanes **, char *note, size_t size, motus_error *);
+/* `later`: whether lanes_ready is due, because a compiler is still at work, or has ended. lanes_look asks for it,
+ * and may be called while trajectories of the model are computed in another way; lanes_ready may not, and fails as
+ * lanes_create does. Till it has succeeded lanes may be joined, and do not run. */
+bool lanes_awaited(const lanes *);
+bool lanes_look(lanes *);
+motus_status lanes_ready(lanes *, char *note, size_t size, motus_error *);
 void lanes_destroy(lanes *);
 /* Joins these lanes with those of their companions, which have as many lanes in a block and the same sources, of which
  * none is reduced. Compared are, as `shape` says, the time, the numbers of the state and the sources. MOTUS_MEMORY. */

@@ -5,6 +5,7 @@
 #ifndef MACHINE_LANES_PARTS_H
 #define MACHINE_LANES_PARTS_H
 
+#include "machine/cache.h"
 #include "machine/compose.h"
 #include "machine/lanes.h"
 #include "machine/reduction.h"
@@ -24,6 +25,9 @@ struct lanes {
     int width, groups, block; /* trajectories in a vector; vectors in a block; trajectories in a block */
     emit e;
     void *handle;
+    cache_job *job; /* a compiler is at work; NULL */
+    bool awaited;   /* the object is not taken yet */
+    char why[256];  /* there is none, after a compiler has ended */
     void (*bind)(const double *, const int64_t *, double *);
     void (*table)(const lanes_job *, double *, whole);
     void (*begin)(const lanes_job *);

@@ -149,7 +149,7 @@ that "an error object has these keys and no others" holds '(keys == ["error"]) a
 gives "run --json" 0 "$motus" run $oscillator --json
 that "... is JSON" json "$out"
 that "... prints nothing else" empty "$err"
-for key in model method machine step steps evaluations time state quantities invariants seconds singularity; do
+for key in model method machine compiled_from step steps evaluations time state quantities invariants seconds singularity; do
     that "run: key $key" holds "has(\"$key\")"
 done
 that "run: what it says of itself" holds ".model == \"$oscillator\" and .method == \"verlet\" and .step == 0.001 and .steps == 100000 and .time == 100"

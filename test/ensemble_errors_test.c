@@ -40,7 +40,7 @@ static motus_ensemble_def definition(const task *t)
     def.tolerance = t->tolerance;
     def.until = t->until;
     def.every = t->every;
-    def.machine = t->machine;
+    def.machine = t->machine ? t->machine : "compiled";
     def.lanes = t->lanes;
     def.threads = t->threads;
     def.error = t->error;

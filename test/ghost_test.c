@@ -131,7 +131,7 @@ static void in_lanes(void **state)
         motus_record record = {.how = MOTUS_REDUCE_FINAL, .column = 1 + CELL};
         motus_ensemble_def def = motus_default_ensemble();
         def.vary = vary, def.vary_count = 1, def.records = &record, def.record_count = 1;
-        def.method = "kahan-li6", def.step = 0.05, def.until = 2.01, def.lanes = lanes;
+        def.method = "kahan-li6", def.step = 0.05, def.until = 2.01, def.lanes = lanes, def.machine = "compiled";
         motus_ensemble *e = NULL;
         must(motus_ensemble_create(s, &def, &e, &err), &err, "ensemble");
         must(motus_ensemble_run(e, COUNT, values, results, NULL, &err), &err, "ensemble");

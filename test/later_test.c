@@ -2,16 +2,9 @@
  * wherever they go over; and the compiler that works beside them, when it is slow, fails, hangs, is killed, is missing
  * or is not waited for. */
 #include "api/later.h"
-#include "test/given.h"
-#include "test/given_cache.h"
+#include "test/later.h"
 
-#include <errno.h>
 #include <pthread.h>
-#include <signal.h>
-#include <stdbool.h>
-#include <sys/wait.h>
-#include <time.h>
-#include <unistd.h>
 
 static const char pair[] = "x'' = -x/(x^2 + y^2)^1.5 + 0.1 y\ny'' = -y/(x^2 + y^2)^1.5 + 0.05 cos(1.3 t)\n"
                            "x(0) = 1\nx'(0) = 0.1\ny(0) = 0.3\ny'(0) = 0.9\nstep 0.05\nuntil 2\n",
@@ -120,49 +113,6 @@ static void at_every_step(void **unused)
 
 /* ---- compilers ---- */
 
-static char tools[] = "/tmp/motus-tools-XXXXXX";
-
-static void remove_tools(void)
-{
-    char command[100];
-    snprintf(command, sizeof command, "rm -rf %s", tools);
-    if (system(command)) print_message("%s stays\n", tools);
-}
-
-/* Makes `CC` a script, and empties the cache. */
-static void compile_by(const char *text)
-{
-    char path[200];
-    snprintf(path, sizeof path, "%s/cc", tools);
-    unlink(path);
-    FILE *f = fopen(path, "w");
-    assert_non_null(f);
-    fprintf(f, "#!/bin/sh\n%s\n", text);
-    fclose(f);
-    assert_int_equal(chmod(path, 0700), 0);
-    setenv("CC", path, 1);
-    motus_cache_clear();
-}
-
-/* Entries of the cache's folder that are not objects: folders of compilers. */
-static int folders(void)
-{
-    char path[600];
-    snprintf(path, sizeof path, "%s/motus", given_cache);
-    DIR *d = opendir(path);
-    int n = 0;
-    for (struct dirent *e; d && (e = readdir(d));) n += e->d_name[0] != '.' && !strstr(e->d_name, ".so");
-    if (d) closedir(d);
-    return n;
-}
-
-static void nothing_is_left(const char *what)
-{
-    errno = 0;
-    if (waitpid(-1, NULL, WNOHANG) != -1 || errno != ECHILD) fail_msg("%s: a process is left", what);
-    if (folders()) fail_msg("%s: a folder is left", what);
-}
-
 /* So long that it repays a compiler. */
 enum { LONG = 1500000 };
 static motus_run *long_run(motus_system *s, const char *machine)
@@ -241,25 +191,11 @@ static void the_compiler_is_slow(void **unused)
     motus_system_destroy(s);
 }
 
-static int calls(void)
-{
-    char path[200], line[200];
-    int n = 0;
-    snprintf(path, sizeof path, "%s/calls", tools);
-    FILE *f = fopen(path, "r");
-    while (f && fgets(line, sizeof line, f)) n += strstr(line, "model.c") != NULL;
-    if (f) fclose(f);
-    unlink(path);
-    return n;
-}
-
 /* Whoever waits for an object of one system shares one compiler, which ends when the last of them is gone. */
 static void runs_share_a_compiler(void **unused)
 {
     (void)unused;
-    char script[300];
-    snprintf(script, sizeof script, "echo \"$@\" >> %s/calls\nsleep 0.2\nexec cc \"$@\"", tools);
-    compile_by(script);
+    compile_and_count("sleep 0.2");
     motus_system *s = given_text(pair);
     motus_run *r[3];
     for (int i = 0; i < 3; i++) r[i] = long_run(s, "auto");
@@ -311,52 +247,17 @@ static void the_compiler_fails(void **unused)
     motus_system_destroy(s);
 }
 
-static pid_t written(const char *name)
-{
-    char path[200];
-    int pid = 0;
-    snprintf(path, sizeof path, "%s/%s", tools, name);
-    for (int i = 0; i < 2000 && pid == 0; i++) {
-        FILE *f = fopen(path, "r");
-        if (f && fscanf(f, "%d\n", &pid) != 1) pid = 0;
-        if (f) fclose(f);
-        nanosleep(&(struct timespec){.tv_nsec = 1000000}, NULL);
-    }
-    unlink(path);
-    assert_true(pid > 0);
-    return pid;
-}
-
-/* A process that is gone, or that nobody has waited for yet. */
-static bool dead(pid_t pid)
-{
-    char path[64], state = 'R';
-    for (int i = 0; i < 2000; i++) {
-        snprintf(path, sizeof path, "/proc/%d/stat", (int)pid);
-        FILE *f = fopen(path, "r");
-        if (!f) return kill(pid, 0) != 0;
-        if (fscanf(f, "%*d (%*[^)]) %c", &state) != 1) state = 'X';
-        fclose(f);
-        if (state == 'Z' || state == 'X') return true;
-        nanosleep(&(struct timespec){.tv_nsec = 1000000}, NULL);
-    }
-    return false;
-}
-
 /* A run that ends before the compiler does not wait for it, and kills it with all that it has started. */
 static void the_compiler_hangs(void **unused)
 {
     (void)unused;
-    char script[300];
-    snprintf(script, sizeof script, "sleep 1000 &\necho $! > %s/new\nmv %s/new %s/child\nwait", tools, tools, tools);
     for (int ends = 0; ends < 2; ends++) {
-        compile_by(script);
+        compile_for_ever();
         motus_system *s = given_text(pair);
         motus_run *r = long_run(s, "auto");
-        const pid_t child = written("child");
+        const pid_t child = its_child();
         if (ends) ends_alike(s, r, "hangs");
         assert_string_equal(motus_run_machine(r), "interpreter");
-        assert_int_equal(kill(child, 0), 0);
         motus_run_destroy(r);
         assert_true(dead(child));
         nothing_is_left("hangs");
@@ -474,9 +375,7 @@ static void without_a_cache(void **unused)
 static void short_runs_start_none(void **unused)
 {
     (void)unused;
-    char script[300];
-    snprintf(script, sizeof script, "echo \"$@\" >> %s/calls\nexec cc \"$@\"", tools);
-    compile_by(script);
+    compile_and_count("");
     motus_system *s = given_text(pair);
     motus_run *r = long_run(s, "interpreter");
     ends_alike(s, r, "interpreter");

@@ -370,7 +370,7 @@ refuses "a .npy that is there" 2 "whole.npy exists" "$motus" sweep "${ask[@]}" -
 # --- JSON and text ------------------------------------------------------------------------------------------------------------
 gives "--json" 0 "$motus" sweep blow.motus --vary k=-1,3 -o blow.csv --force --json
 that "... is JSON" json "$out"
-for key in model method step trajectories resumed steps machine lanes threads fast seconds wall stopped output; do that "sweep: key $key" holds "has(\"$key\")"; done
+for key in model method step trajectories resumed steps machine compiled_from lanes threads fast seconds wall stopped output; do that "sweep: key $key" holds "has(\"$key\")"; done
 that "sweep: what it says of itself" holds '.trajectories == 2 and .steps == 400 and .stopped == 1 and .output == "blow.csv" and .lanes >= 1 and .threads >= 1 and .seconds > 0 and .wall >= .seconds and .resumed == 0 and .fast == false and .method == "rk4" and .step == 0.01'
 gives "for people" 0 "$motus" sweep line.motus --vary a=1:2:5 -o line.csv
 that "... how many, how long" eval "says '5 trajectories' && says 'line.csv: 5 columns'"
