@@ -107,7 +107,7 @@ motus_status bars_compile(motus_run *r, motus_error *err)
     return status == MOTUS_OK ? take_machine(&r->bars->twin, COMPILED_READY, &r->machine) : status;
 }
 
-bool bars_wait(const motus_run *r) { return r->bars && r->bars->half.waits; }
+bool bars_wait(const motus_run *r) { return compiled_anywhere() && r->bars && r->bars->half.waits; }
 
 motus_status bars_look(motus_run *r, motus_error *err)
 {
@@ -161,7 +161,7 @@ motus_status bars_ready(motus_run *r, const uint8_t *affected, motus_error *err)
     r->bars->twin.machine = r->machine;
     r->bars->twin.pace = c->pace;
     if (strcmp(r->machine.name, "compiled") != 0) return MOTUS_OK;
-    if (r->later.automatic) return compile_half(r, err);
+    if (compiled_anywhere() && r->later.automatic) return compile_half(r, err);
     const chosen method = companion_method(&r->chosen);
     return choice_compile(c->system, &method, false, r->bars->kept, &c->machine, &why, err);
 }

@@ -11,7 +11,6 @@
 
 #include <stdio.h>
 #include <string.h>
-#include <time.h>
 
 bool ensemble_look(motus_ensemble *e)
 {
@@ -82,8 +81,7 @@ motus_status ensemble_meanwhile(motus_ensemble *e, const places *p, size_t *firs
             const size_t left = atomic_load(&e->left);
             *first = left < e->count ? left : e->count;
         }
-        while (e->exactly && *first < e->count && !ensemble_look(e))
-            nanosleep(&(struct timespec){.tv_nsec = 1000000}, NULL);
+        while (e->exactly && *first < e->count && !ensemble_look(e)) compiled_nap();
         if (status == MOTUS_OK && *first < e->count && ensemble_look(e)) status = go_over(e, *first, err);
     }
     return status;

@@ -5,7 +5,6 @@
 #include "api/choice.h"
 
 #include <math.h>
-#include <time.h>
 
 #define FIRST_LOOK \
     0.02             /* a run of unknown length considers compiling when it has done this part of a compiler's work, */
@@ -23,7 +22,7 @@ motus_status later_choose(motus_run *r, const char *wanted, double steps, motus_
     r->note = "";
     r->compiled_from = -1;
     motus_status status = choice_machine(wanted, &automatic, &compiled, err);
-    if (status != MOTUS_OK || !s->model || !compiled) return status;
+    if (status != MOTUS_OK || !s->model || !compiled || (automatic && !compiled_anywhere())) return status;
     if (!row_adaptive(&r->chosen)) steps = (double)r->timing.total;
     /* where it is not known how many steps there are, an object is used if it is there, until the run is known
      * better */
@@ -52,12 +51,14 @@ motus_status later_choose(motus_run *r, const char *wanted, double steps, motus_
 int64_t later_room(const motus_run *r)
 {
     const later *l = &r->later;
+    if (!compiled_anywhere()) return INT64_MAX;
     if (l->exactly) return l->exactly - steps_of(r);
     return l->look ? l->look - steps_of(r) : INT64_MAX;
 }
 
 void later_hurry(motus_run *r)
 {
+    if (!compiled_anywhere()) return;
     r->later.piece = 1;
     r->later.looked = pace_now();
     r->later.look = (r->stepper ? steps_of(r) : 0) + 1;
@@ -144,7 +145,7 @@ motus_status later_look(motus_run *r, motus_error *err)
     later *l = &r->later;
     motus_status status = l->considers ? consider(r, err) : look(r, err);
     while (l->exactly && status == MOTUS_OK && (l->waits || bars_wait(r))) {
-        nanosleep(&(struct timespec){.tv_nsec = 1000000}, NULL);
+        compiled_nap();
         status = look(r, err);
     }
     l->exactly = 0;
@@ -154,6 +155,7 @@ motus_status later_look(motus_run *r, motus_error *err)
 
 void later_end(motus_run *r)
 {
+    if (!compiled_anywhere()) return;
     if (r->later.waits) choice_leave(r->system, &r->chosen);
     r->later = (later){.waits = false};
 }

@@ -5,6 +5,7 @@
  * observation are the library's, and the bits are the interpreter's. Each row has an object of its own, which serves
  * every N and every parameter but those that make an operation exact.
  */
+#include <time.h> /* before the texts define `clock` */
 #include "machine/compiled.h"
 
 #include "core/stepper_body.h"
@@ -101,6 +102,8 @@ static void name(void *ctx, bool in_v, size_t k, char *out, size_t size)
 {
     of(ctx)->name(of(ctx)->ctx, in_v, k, out, size);
 }
+
+bool compiled_anywhere(void) { return true; }
 
 motus_status compiled_create(model *m, const problem *interpreted, compiled **out, motus_error *err)
 {
@@ -364,6 +367,8 @@ compiled_state compiled_look(compiled *c, const chosen *chosen, const char **why
     if (!c->note[0]) snprintf(c->note, sizeof c->note, "it was compiled for other numbers");
     return COMPILED_FAILED;
 }
+
+void compiled_nap(void) { nanosleep(&(struct timespec){.tv_nsec = 1000000}, NULL); }
 
 void compiled_leave(compiled *c, const chosen *chosen)
 {

@@ -5,6 +5,8 @@
 #include "machine/machine.h"
 
 typedef struct compiled compiled;
+/* Whether this build has such a machine; the page's has none. */
+bool compiled_anywhere(void);
 /* Compiles nothing yet. The interpreter's problem must outlive it. */
 motus_status compiled_create(model *, const problem *interpreted, compiled **, motus_error *);
 /* To be called after the model's numbers have changed. */
@@ -22,6 +24,7 @@ typedef enum { COMPILED_READY, COMPILED_WAIT, COMPILED_FAILED } compiled_state;
 compiled_state compiled_begin(compiled *, const chosen *, const char **why);
 compiled_state compiled_look(compiled *, const chosen *, const char **why); /* after WAIT */
 void compiled_leave(compiled *, const chosen *);
+void compiled_nap(void); /* between two looks of someone who waits after all */
 /* The machine of a row, compiled now where that has not happened before. */
 motus_status compiled_machine(compiled *, const chosen *, machine *, motus_error *);
 

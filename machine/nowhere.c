@@ -3,6 +3,8 @@
  */
 #include "machine/compiled.h"
 
+bool compiled_anywhere(void) { return false; }
+
 motus_status compiled_create(model *m, const problem *interpreted, compiled **out, motus_error *err)
 {
     (void)m, (void)interpreted, (void)err;
@@ -34,6 +36,7 @@ compiled_state compiled_look(compiled *c, const chosen *chosen, const char **why
     return compiled_begin(c, chosen, why);
 }
 
+void compiled_nap(void) {}
 void compiled_leave(compiled *c, const chosen *chosen) { (void)c, (void)chosen; }
 void compiled_rebind(compiled *c) { (void)c; }
 void compiled_close(compiled *c) { (void)c; }
