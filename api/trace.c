@@ -117,11 +117,12 @@ static void again(void *ctx, double h)
 }
 
 /* A refused candidate stays as one entry. */
-static void judged(void *ctx, double error, const double *x, const double *v)
+static void judged(void *ctx, double h, double error, const double *x, const double *v)
 {
     trace *t = ctx;
     const motus_trace_entry *start = t->entry;
     t->error = error;
+    t->step = t->entry->step = h;
     if (error <= 1) return;
     t->next = t->kept > MOTUS_REFUSED_MAX ? t->before : t->first;
     if (t->kept > MOTUS_REFUSED_MAX) t->kept--;

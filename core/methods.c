@@ -433,7 +433,6 @@ const row methods_table[] = {
       .family = RUNGE_KUTTA, .adaptive = true, .compensated = true,
       .tableau = {.stages = 6, .c = FINE5_C, .a = FINE5_A, .b = FINE5_B, .aa = FINE5_AA, .bb = FINE5_BB,
                   .error = FINE5_ERROR, .error_x = FINE5_ERROR_X, .ending = true, .order = 4} },
-#ifndef ONE_COPY /* the page has none of them yet */
     /* Symmetric splittings with steps that can be taken backward: step/density.h. */
     { .card = { CARD("verlet-reversible", "adaptive-verlet", "splitting", 2, 2, 3, XT, 0, 1, 2.0),
        .title = "Verlet, reversible steps",
@@ -461,7 +460,6 @@ const row methods_table[] = {
        .formula = "kahan-li8 with h = ε T, T the motion's time scale as in verlet-reversible" IMPLICIT_KICKS,
        .use = "As verlet-reversible, at 1e-8 and better, and for forces that depend on the velocity.", .adaptive = 1 },
       .family = SPLITTING, .adaptive = true, .density = true, .compensated = true, KAHAN_LI8 },
-#endif
 
     /* Implicit: Newmark, and collocation at the Gauss nodes, whose coefficients step/collocation.h makes. */
     NEWMARK(2, 1,
@@ -518,7 +516,6 @@ const row methods_table[] = {
       .family = IMPLICIT, .compensated = true, .tableau = {.stages = 8} },
 
     /* Collocation whose first stage is the state. */
-#ifndef ONE_COPY
     { .card = { CARD_BETWEEN(8, "radau15", "ias15 gauss-radau15", "radau", 15, 8, 0, XVT, 0, 0, 0.0),
        .title = "Gauss–Radau 15",
        .cite = "Everhart85, RS15",
@@ -544,7 +541,6 @@ const row methods_table[] = {
        .use = "The most digits for the least time, where the force is smooth. It needs the equations as\n"
               "formulas, so it does not take a callback.", .adaptive = 1 },
       .family = TAYLOR, .compensated = true, .adaptive = true, .sizes = true, .expands = true },
-#endif
 
     { .card = { CARD("exact", "closed-form", "exact", 0, 0, 0, XVT, 1, 1, INFINITY),
        .title = "exact",

@@ -11,15 +11,6 @@
 
 #include "core/scalar.h"
 #define ROWS
-#ifdef ONE_COPY /* the page's module has no rows that find their own sizes */
-#define ROW(w, member) ROW_##member(w)
-#define ROW_compensated(w) ((w)->row->compensated)
-#define ROW_adaptive(w) ((w)->row->adaptive)
-#define ROW_sizes(w) false
-#define ROW_density(w) false
-#define FACT(w, member) ((w)->member)
-#define LIVE(w, k) ((w)->live[k])
-#endif
 #include "step/work.h"
 
 /* The data of the library's own bodies, found through work.services. tracing: core/trace_body.h, while a step is

@@ -25,8 +25,9 @@ typedef struct tracer {
     void *ctx;
     void (*see)(void *ctx, const trace_event *);
     void (*again)(void *ctx, double h); /* a candidate of step h begins; the events of one before it count no more */
-    /* its error, in units of what is allowed, and the state to which it leads; NULL: not known */
-    void (*judged)(void *ctx, double error, const double *x, const double *v);
+    /* its size, which the step itself may have found, its error, in units of what is allowed, and the state to which it
+     * leads; NULL: not known */
+    void (*judged)(void *ctx, double h, double error, const double *x, const double *v);
     double *x, *v; /* room for nx and nv numbers */
 } tracer;
 

@@ -28,7 +28,7 @@ static void judged(const work *w)
     const tracer *to = tracer_of(w);
     for (size_t k = 0; w->dx && k < w->nx; k++) to->x[k] = w->x[k] + w->dx[k];
     for (size_t k = 0; w->dv && k < w->nv; k++) to->v[k] = w->v[k] + w->dv[k];
-    to->judged(to->ctx, w->error, w->dx ? to->x : NULL, w->dv ? to->v : NULL);
+    to->judged(to->ctx, w->h, w->error, w->dx ? to->x : NULL, w->dv ? to->v : NULL);
 }
 
 static void tell(const work *w, trace_event e)

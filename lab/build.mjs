@@ -10,7 +10,6 @@ import { mkdir, readFile, readdir, writeFile } from 'node:fs/promises';
 import { dirname, join, resolve } from 'node:path';
 import { fileURLToPath } from 'node:url';
 import { gzipSync } from 'node:zlib';
-import zopfli from '@gfx/zopfli';
 import { build } from 'esbuild';
 import { theory } from './theory/typeset.mjs';
 
@@ -53,6 +52,8 @@ try {
 
 /** A text or bytes for lab/unpack.ts. Zopfli finds the shortest such packing, where zlib takes one that is found soon: a twentieth less. */
 const packed = async (contents) => {
+  // Here, as it would print itself with any error from before.
+  const { default: zopfli } = await import('@gfx/zopfli');
   const zipped = await zopfli.zlibAsync(Buffer.from(contents), { numiterations: 1 }), pairs = Math.ceil(8 * zipped.length / 13);
   const digit = (n) => String.fromCharCode(n + 33 + (n > 0) + (n > 25) + (n > 56));
   let out = digit(Math.floor(13 * pairs / 8) - zipped.length), held = 0, bits = 0;

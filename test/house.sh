@@ -113,7 +113,6 @@ declare -A also=(
     [machine/interpreter.c]='machine_'                  # machine/machine.h declares the machines, each in its file
     [machine/callback.c]='machine_'
     [machine/compiled.c]='machine_'
-    [machine/seriesless.c]='expansion_ tape_series_'    # replaces these files of lang/ in the page's module
     [machine/nowhere.c]='compiled_ machine_'            # replaces machine/compiled.c in the page's module
     [api/columns.c]='system_'                       # parts of api/system.h
 )

@@ -404,6 +404,8 @@ static void refusals(void **state)
             const int64_t took = now.refused - before.refused;
             assert_int_equal(refused - 1, took < MOTUS_REFUSED_MAX ? took : MOTUS_REFUSED_MAX);
             assert_true(e[count - 1]->error <= 1 || now.refused == 0);
+            const double way = e[count - 1]->time - e[0]->time;
+            assert_true(fabs(e[0]->step - way) < 1e-14 && e[count - 1]->step == e[0]->step);
             all += took;
         }
         motus_run_destroy(r);

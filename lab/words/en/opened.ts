@@ -97,4 +97,5 @@ export const opened = {
     meanNote: 'The velocity at the same time as the position: the mean over the step, and half a kick by the acceleration at the new place.',
   },
   alongside: 'The method takes this number along with the motion.',
+  series: 'Sum the Taylor series of the motion, over a step as long as its last terms allow.',
 } as const;
