@@ -7,7 +7,7 @@
  * landings alone.
  *
  * Where steps adapt it takes each accepted step of the run in two halves, with a tolerance by which no error is too
- * large.
+ * large, and of the same order where a step chooses that.
  *
  * Beeman's companion is velocity Verlet's method, which has the same positions: Beeman's velocities are not those by
  * which its positions go on, so that beginning anew at every landing would be an error of its own.
@@ -61,12 +61,14 @@ motus_status companion_begin(companion *c, const motus_run *r, double t, const d
 
 /* To t in so many equal steps. Where steps adapt no error is too large; but the equation of a step may have to be
  * solved by shorter ones. */
-static motus_status go(companion *c, double t, int64_t steps, bool adaptive, motus_error *err)
+static motus_status go(companion *c, const motus_run *r, double t, int64_t steps, motus_error *err)
 {
+    const bool adaptive = row_adaptive(&r->chosen);
     const stepper_limit limit = {adaptive ? INT64_MAX : steps, adaptive ? t : NAN};
     stepper_stop why;
     if (t == c->t) return MOTUS_OK;
     motus_status status = stepper_turn(c->stepper, c->t, (t - c->t) / (double)steps, err);
+    stepper_follow(c->stepper, r->stepper);
     if (status == MOTUS_OK) status = pace_advance(&c->pace, c->stepper, limit, &why, err);
     if (status == MOTUS_OK) status = stepper_sync(c->stepper, c->x, c->v, NULL, err);
     if (status == MOTUS_OK) c->t = t;
@@ -75,8 +77,7 @@ static motus_status go(companion *c, double t, int64_t steps, bool adaptive, mot
 
 motus_status companion_land(companion *c, const motus_run *r, double t, int64_t steps, motus_error *err)
 {
-    const bool adaptive = row_adaptive(&r->chosen);
-    return go(c, t, adaptive ? 2 * steps : differences_steps(steps), adaptive, err);
+    return go(c, r, t, row_adaptive(&r->chosen) ? 2 * steps : differences_steps(steps), err);
 }
 
 void companion_move(double *y, size_t count, const double *size, uint32_t salt)
@@ -111,7 +112,7 @@ motus_status companion_jog(companion *c, const motus_run *r, motus_error *err)
 
 motus_status companion_repeat(companion *c, const motus_run *r, motus_error *err)
 {
-    if (row_adaptive(&r->chosen)) return go(c, stepper_time(r->stepper), 1, true, err);
+    if (row_adaptive(&r->chosen)) return go(c, r, stepper_time(r->stepper), 1, err);
     const stepper_limit limit = {stepper_steps(r->stepper) - stepper_steps(c->stepper), r->timing.until};
     stepper_stop why;
     motus_status status = pace_advance(&c->pace, c->stepper, limit, &why, err);

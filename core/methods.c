@@ -542,6 +542,26 @@ const row methods_table[] = {
               "formulas, so it does not take a callback.", .adaptive = 1 },
       .family = TAYLOR, .compensated = true, .adaptive = true, .sizes = true, .expands = true },
 
+    /* Extrapolation: step/extrapolation.h. */
+#ifndef ONE_COPY
+    { .card = { CARD("gragg-stormer", "odex2 stormer-extrapolation", "extrapolation", 12, 22, 22, XT, 0, 0,
+                     3.1411691066486376),
+       .title = "Gragg–Störmer",
+       .cite = "HNW93 II.14",
+       .formula = "Störmer's rule in 1, 2, 3, … parts of a step, extrapolated in the square of their length to\n"
+                  "order 4 to 18, as error and work want it",
+       .use = "1e-3 to round-off for forces that are free of v, by steps as long as the motion lets them be; dep12\n"
+              "needs fewer evaluations for the same error, gragg-stormer fewer steps.", .adaptive = 1 },
+      .family = STORMER, .adaptive = true, .orders = true, .compensated = true, .lines = 6 },
+    { .card = { CARD("gragg", "gbs bulirsch-stoer odex", "extrapolation", 12, 37, 37, XVT, 0, 0, 3.3793773141571255),
+       .title = "Gragg–Bulirsch–Stoer",
+       .cite = "HNW93 II.9",
+       .formula = "the midpoint rule in 2, 4, 6, … parts of a step, extrapolated in the square of their length to\n"
+                  "order 4 to 18, as error and work want it",
+       .use = "As gragg-stormer, for any force.", .adaptive = 1 },
+      .family = GRAGG, .adaptive = true, .orders = true, .compensated = true, .lines = 6 },
+#endif
+
     { .card = { CARD("exact", "closed-form", "exact", 0, 0, 0, XVT, 1, 1, INFINITY),
        .title = "exact",
        .cite = "",

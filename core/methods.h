@@ -37,6 +37,8 @@ motus_geometry row_geometry(const chosen *, const traits *);
 bool row_uniform(const chosen *);
 /* True: step sizes follow from errors, so the number of steps is not known beforehand. */
 bool row_adaptive(const chosen *);
+/* True: a step chooses its order too. */
+bool row_orders(const chosen *);
 /* True: they follow the time scale of the motion, and not an error; row_adaptive holds too. */
 bool row_reversible_steps(const chosen *);
 

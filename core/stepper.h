@@ -36,6 +36,9 @@ motus_status stepper_start(stepper *, double t0, double h, const double *x, cons
 /* Begins a new leg at the present state, which counts as that of time t, with step h, of adaptive rows the first. Where
  * additions are compensated the rounding errors of the state stay known. */
 motus_status stepper_turn(stepper *, double t, double h, motus_error *);
+/* Of rows that choose their order, with a tolerance that allows any error: the next steps have the order of the last
+ * step of `like`. */
+void stepper_follow(stepper *, const stepper *like);
 
 /* How far: so many steps, or up to a time (NaN: none), whichever comes first; and which it was. */
 typedef struct stepper_limit {

@@ -206,6 +206,11 @@ motus_status stepper_turn(stepper *s, double t, double h, motus_error *err)
     return MOTUS_OK;
 }
 
+void stepper_follow(stepper *s, const stepper *like)
+{
+    if (s->method.row->orders) s->work.before = like->work.span;
+}
+
 motus_status stepper_start(stepper *s, double t0, double h, const double *x, const double *v, motus_error *err)
 {
     motus_status status = check_start(s, t0, h, x, v, err);

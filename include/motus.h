@@ -464,8 +464,8 @@ typedef enum motus_forces { MOTUS_FORCES_X, MOTUS_FORCES_XT, MOTUS_FORCES_XVT } 
 typedef struct motus_method {
     const char *name, *aliases; /* aliases: blank-separated, "" if none */
     const char *title;          /* for a text or a legend: "velocity Verlet" */
-    const char *family;         /* "splitting", "runge-kutta", "two-step", "implicit", "exact" */
-    int order, stages;
+    const char *family;         /* "splitting", "runge-kutta", "two-step", "implicit", "extrapolation", "exact" */
+    int order, stages;          /* of "extrapolation", whose steps choose their order: where any error is allowed */
     /* of the acceleration per step in a long run; 0: it depends on the iterations. Splitting methods need more where
      * first-order variables read the velocity, or the velocity enters nonlinearly. */
     int evaluations;
@@ -476,7 +476,8 @@ typedef struct motus_method {
     const char *formula, *use;  /* the formula of a step, and when to use the method */
     int adaptive;               /* 1: it chooses its steps by a tolerance; 0: steps have one size */
     /* Of the states between steps (motus_run_sample), for every force that the method admits: in one step the
-     * interpolation adds an error of the power dense_order + 1 of the step, at least. */
+     * interpolation adds an error of the power dense_order + 1 of the step, at least. Of "extrapolation" the order
+     * follows that of the step, up to 14. */
     int dense_order;
 } motus_method;
 MOTUS_API size_t motus_method_count(void);
@@ -708,10 +709,10 @@ MOTUS_API motus_status motus_run_jacobian(motus_run *, double *da_dx, double *da
  * exact motion, or the polynomial through the ends of the step: Hermite's quintic (cubic of first-order variables),
  * which is of order 3, 4 without first-order variables, and for methods of higher order is corrected by accelerations
  * within the step. The accelerations that it needs are evaluated once for all times within a step: none for most
- * methods, at most 9 for the pairs, 18 for methods of order 8, 28 for dep12; no count has them, and the run does not
- * change. out: time_count rows of `count` numbers. MOTUS_ARGUMENT: a time lies beyond the end, or before the run's last
- * step. MOTUS_CALLBACK: an acceleration within the step cannot be evaluated. Fails besides as
- * motus_run_step and motus_run_values do. */
+ * methods, at most 9 for the pairs, 18 for methods of order 8, 28 for dep12, 30 for gragg-stormer, 60 for gragg; no
+ * count has them, and the run does not change. out: time_count rows of `count` numbers. MOTUS_ARGUMENT: a time lies
+ * beyond the end, or before the run's last step. MOTUS_CALLBACK: an acceleration within the step cannot be evaluated.
+ * Fails besides as motus_run_step and motus_run_values do. */
 MOTUS_API motus_status motus_run_sample(motus_run *, const double *times, size_t time_count, const size_t *columns,
                                         size_t count, double *out, motus_error *);
 

@@ -152,8 +152,8 @@ static bool add_facts(emit *e, const composition *c, bool structure)
     const int stages = w.stages ? w.stages : 1, constants = (int)work_constants(&w);
     emit_add(t,
              "#define ROW(w, member) ROW_##member\n#define ROW_compensated %d\n#define ROW_adaptive %d\n#define "
-             "ROW_sizes %d\n#define ROW_density %d\n",
-             r->compensated, r->adaptive, r->sizes, r->density);
+             "ROW_sizes %d\n#define ROW_orders %d\n#define ROW_density %d\n",
+             r->compensated, r->adaptive, r->sizes, r->orders, r->density);
     emit_add(t,
              "#define FACT(w, member) FACT_##member\n#define FACT_velocity %d\n#define FACT_linear %d\n#define "
              "FACT_constant %d\n#define FACT_affine %d\n",

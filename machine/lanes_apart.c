@@ -247,13 +247,16 @@ static bool alive(const apart_block *b, size_t lane)
     return occupied(b, lane) && !stopped(b, lane) && !c->failed && isnan(c->differences.until);
 }
 
-/* Where a lane of the companions goes: in two steps to t, or nowhere. */
-static void send(const lanes_block *half, size_t lane, double from, double t)
+/* Where the companion of a lane goes: in two steps to t, of the order of the step that led there where a step chooses
+ * its order. */
+static void send(const apart_block *b, size_t lane, double from, double t)
 {
-    const double h = (t - from) / 2;
+    const lanes_block *half = &b->half;
+    const double h = (t - from) / 2, span = *clock_at(half, lane, LANES_SPAN),
+                 line = row_orders(half->l->def.chosen) ? *clock_of(b, lane, LANES_SPAN) : 0;
     const double own[LANES_CLOCKS] = {
-        [LANES_T0] = from, [LANES_H] = h,     [LANES_T] = from,   [LANES_RISE] = CONTROL_RISE,
-        [LANES_NEXT] = h,  [LANES_UNTIL] = t, [LANES_STOP] = NAN, [LANES_SPAN] = *clock_at(half, lane, LANES_SPAN)};
+        [LANES_T0] = from, [LANES_H] = h,      [LANES_T] = from,    [LANES_RISE] = CONTROL_RISE, [LANES_NEXT] = h,
+        [LANES_UNTIL] = t, [LANES_STOP] = NAN, [LANES_SPAN] = span, [LANES_BEFORE] = line};
     for (int i = 0; i < LANES_CLOCKS; i++) *clock_at(half, lane, i) = own[i];
 }
 
@@ -330,7 +333,7 @@ static void follow(const apart *s, const double *before)
         if (!sent[i]) continue;
         lanes_companion *c = b->trajectories[i].companion;
         const double t = *clock_of(b, i, LANES_T);
-        send(half, i, c->landed, t);
+        send(b, i, c->landed, t);
         c->landed = t;
     }
     if (!any) return;

@@ -22,9 +22,9 @@ ADVANCE_STEP int advance_step(work *w)
         return STEP_OK;
     }
     TRACE(w, TRACE_JUDGED);
-    const clock_mask good = ROW(w, density) ? density_judge(w)
-                            : ROW(w, sizes) ? control_judge_own(w)
-                                            : control_judge(w);
+    const clock_mask good = ROW(w, density)                   ? density_judge(w)
+                            : ROW(w, sizes) || ROW(w, orders) ? control_judge_own(w)
+                                                              : control_judge(w);
     family_accept(w, good);
     time_tick(w, good);
     STOP(w, w->stalled, STEP_STALLED);

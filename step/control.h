@@ -85,6 +85,13 @@ static inline clock control_size(work *w)
     return CHOOSE_WHERE(w->ends, left, CHOOSE_WHERE(2 * ABS(size) > ABS(left), left / 2, size));
 }
 
+/* log2 of an error, between bounds. */
+static inline clock control_level(clock error)
+{
+    const clock least = LARGER(error, CLOCK(0x1p-60));
+    return control_log2(CHOOSE_WHERE(least < 0x1p60, least, CLOCK(0x1p60)));
+}
+
 /* Exponents of the two errors in the next size, and the part of it that is taken, as a power of 2: 0.9. */
 #define CONTROL_NOW 0.7
 #define CONTROL_BEFORE 0.4
@@ -120,11 +127,11 @@ static inline void control_settle(work *w, clock_mask good)
     w->refused = CHOOSE_WHERE(good, w->refused, w->refused + 1);
 }
 
-/* Of rows that find their own sizes. */
+/* Of rows that find their own sizes: w->after is the next one. */
 static inline clock_mask control_judge_own(work *w)
 {
     const clock_mask good = w->error <= 1;
-    w->next = CHOOSE_WHERE(good, w->after, w->h / 2);
+    w->next = w->after;
     control_settle(w, good);
     return good;
 }
@@ -133,8 +140,7 @@ static inline clock_mask control_judge_own(work *w)
 static inline clock_mask control_judge(work *w)
 {
     const clock_mask good = w->error <= 1;
-    const clock least = LARGER(w->error, CLOCK(0x1p-60)), bounded = CHOOSE_WHERE(least < 0x1p60, least, CLOCK(0x1p60));
-    const clock level = control_log2(bounded);
+    const clock level = control_level(w->error);
     const clock next = w->h * control_factor(w, good, level);
     /* a step that was cut short tells nothing of the next one */
     w->next = CHOOSE_WHERE(good & w->ends, w->next,

@@ -36,11 +36,19 @@ typedef struct lift_errors {
 
 static int lift_least(int a, int b) { return a < b ? a : b; }
 
+/* The order that is wanted; of rows that find their own it is the last step's, as far as there are nodes. */
+static int lift_order(const work *w)
+{
+    const int most = LIFT_NODES_MAX + 4;
+    if (!ROW(w, orders)) return w->between;
+    return w->span > 0 && 2 * w->span < most ? 2 * (int)w->span : most;
+}
+
 /* The nodes of the next round, and what it leads to; 0: none is needed. */
 static int lift_next(const work *w, lift_errors *e)
 {
-    const int due = w->between + 1, least = lift_least(lift_least(e->x, e->v), e->s), rate = w->velocity ? least : e->x,
-              force = w->velocity && !w->quadrature ? least : e->x;
+    const int due = lift_order(w) + 1, least = lift_least(lift_least(e->x, e->v), e->s),
+              rate = w->velocity ? least : e->x, force = w->velocity && !w->quadrature ? least : e->x;
     if (e->v >= due && e->s >= due) return 0;
     const bool moves = w->nx > 0, flows = w->nv > w->nx;
     int m = 2;
@@ -84,6 +92,7 @@ static dense_room lift_between(const work *w, coef *unit)
     const int count = lift_rounds(w, nodes);
     (void)unit;
     if (!lift_needed(w, count)) return (dense_room){0};
+    if (ROW(w, orders)) return (dense_room){.arrays = LIFT_FIRST + 2 * LIFT_NODES_MAX};
     return (dense_room){.arrays = LIFT_FIRST + lift_widest(nodes, count, 0) + lift_widest(nodes, count, 1)};
 }
 
@@ -213,6 +222,17 @@ static int lift_extend(work *w, const dense_step *d)
     int nodes[LIFT_ROUNDS_MAX];
     if (!lift_needed(w, lift_rounds(w, nodes))) return STEP_OK;
     lift_apart(w, d);
+    return lift_rise(w, d);
+}
+
+/* Of rows that keep what the step adds, without the linear motion, over h² in w->next_x and over h in w->delta: the
+ * ends are rounded, and a velocity would take their rounding over h. */
+static int lift_extend_kept(work *w, const dense_step *d)
+{
+    real *dx = lift_array(w, d, LIFT_APART), *dv = lift_array(w, d, LIFT_APART + 1);
+    const clock h = w->h, hh = h * h;
+    for (size_t k = 0; k < w->nx; k++) dx[k] = hh * w->next_x[k];
+    for (size_t k = 0; k < w->nv; k++) dv[k] = h * w->delta[k];
     return lift_rise(w, d);
 }
 

@@ -18,6 +18,7 @@ struct row {
     bool adaptive;
     bool sizes;      /* adaptive: the step finds its own size */
     bool expands;    /* its steps need the Taylor series of the equations, so these must be formulas */
+    bool orders;     /* adaptive: the step finds its own order, and the size of the next one with it */
     bool density;    /* adaptive: steps follow the time scale of the motion, and can be taken backward (density.h) */
     bool gyroscopic; /* the kick is implicit in v; only for a = E(x, t) + v × B(x, t) */
     struct {         /* SPLITTING: v += kick[i] h a, then x += drift[i] h v, for i = 0 … stages-1 */
@@ -50,6 +51,7 @@ struct row {
             const coef *c, *a, *series;
         } dense;
     } tableau;
+    int lines;    /* STORMER and GRAGG: where any error is allowed, the line of the scheme that ends a step */
     int series;   /* TAYLOR: the order; 0: as the tolerance wants it */
     bool newmark; /* IMPLICIT: the tableau follows from the arguments */
 };

@@ -175,6 +175,7 @@ static int taylor_step(work *w)
     series_order(w, 0, CHOOSE_WHERE(w->ends, w->until, time_in(w, 1)));
     w->error = taylor_error(w, free);
     w->error = CHOOSE_WHERE(FINITE(w->error) & (ABS(w->h) <= 4 * EPSILON * ABS(w->t)), CLOCK(0), w->error);
+    w->after = CHOOSE_WHERE(w->error <= 1, w->after, w->h / 2);
     w->fresh = false; /* a is coefficient 0, by equations that are written in another way */
     return STEP_OK;
 }

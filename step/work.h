@@ -140,12 +140,14 @@ typedef struct work {
     clock relative, absolute, least, most;
     clock next;  /* the size that the next candidate should have; 0: the first is not chosen yet */
     clock error; /* the candidate's error, in units of what is allowed */
-    /* log2 of the error of the step before (density.h: whether control has begun); of the most that the next may be
-     * longer */
+    /* log2 of the error of the step before (density.h: whether control has begun; extrapolation.h: the line at which
+     * the next step aims); of the most that the next may be longer */
     clock before, rise;
     clock shortest, longest; /* step so far, that to the end apart; 0 before the first */
-    clock span;              /* of rows that carry stages: of the step that they are of; < 0 · h: it was refused */
-    int order;               /* of the error estimate, which goes with h^(order + 1) */
+    /* of rows that carry stages: the step that they are of; < 0 · h: it was refused. extrapolation.h: the line at which
+     * the last step ended */
+    clock span;
+    int order; /* of the error estimate, which goes with h^(order + 1) */
 
     /* The plan, without dimensions, from the row alone: `unit`, constants of which the first `linears` are multiplied
      * by h and the next `squares` by h²; c: the abscissae of the stages. `scaled`: the constants for the present h. */
@@ -174,7 +176,7 @@ typedef struct work {
     bool fresh; /* the acceleration of the present state is known already, because it was observed */
     whole owed_evaluations, owed_iterations; /* its cost: counted when a step uses it */
     int moved;                               /* drifts that a machine's PASS has already made together with a kick */
-    clock after;   /* adaptive, of rows that find their own sizes: `next` once the candidate is accepted */
+    clock after;   /* adaptive, of rows that find their own sizes or orders: `next` once the candidate is judged */
     int expands;   /* the order of the Taylor series that the row needs; 0: none */
     size_t series; /*   numbers that they keep, as the problem says */
     int expanded;  /*   how much of them is known at the present state: taylor.h */

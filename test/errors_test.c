@@ -88,8 +88,8 @@ static void steps_that_adapt(void **state)
 {
     (void)state;
     motus_system *s = given_model("kepler.motus", NULL, 0);
-    static const char *const methods[] = {"dopri5", "dop853", "radau15"};
-    for (int m = 0; m < 3; m++) {
+    static const char *const methods[] = {"dopri5", "dop853", "radau15", "gragg-stormer", "gragg"};
+    for (int m = 0; m < 5; m++) {
         motus_run_def def = motus_default_run();
         motus_error err = motus_default_error();
         motus_run *r[2] = {NULL, NULL};
@@ -109,6 +109,26 @@ static void steps_that_adapt(void **state)
         motus_run_destroy(r[0]);
         motus_run_destroy(r[1]);
     }
+    motus_system_destroy(s);
+}
+
+/* Both halves of a step are of its order, where a step chooses that: their work is twice that of the steps that were
+ * not refused. At this tolerance that of the order by which the method is listed would be four times the run's. */
+static void halves_of_the_same_order(void **state)
+{
+    (void)state;
+    motus_system *s = given_model("kepler.motus", NULL, 0);
+    motus_run_def def = motus_default_run();
+    motus_error err = motus_default_error();
+    motus_run *r = NULL;
+    def.method = "gragg-stormer";
+    def.tolerance = 1e-3;
+    def.error = MOTUS_BARS_FULL;
+    def.machine = "interpreter";
+    must(motus_run_create(s, &def, &r, &err), &err, def.method);
+    finish(r);
+    assert_true(estimate_of(r).work > 1 && estimate_of(r).work <= 2);
+    motus_run_destroy(r);
     motus_system_destroy(s);
 }
 
@@ -494,6 +514,7 @@ int main(void)
         cmocka_unit_test(the_founding_number),
         cmocka_unit_test(the_bits_are_the_same),
         cmocka_unit_test(steps_that_adapt),
+        cmocka_unit_test(halves_of_the_same_order),
         cmocka_unit_test(bars_are_the_same_on_every_machine),
         cmocka_unit_test(numbers_that_are_exact),
         cmocka_unit_test(decimals_lie_between),

@@ -58,6 +58,13 @@ typedef struct quad_count {
 /* Takes `steps` steps from *state at t0; sets *state to the synchronised state. */
 quad_count quad_run(method, const double *argument, const quad_problem *, quad t0, quad h, int64_t steps,
                     quad_state *state);
+/* The same of a row that finds its own order, at line `line` of its scheme (step/extrapolation.h), of order 2 line; off
+ * (may be NULL): the last step's distance from one of the estimate's order. Its lines, 0 for other rows; and the
+ * evaluations by which the row weighs a line. */
+quad_count quad_line(method, int line, const quad_problem *, quad t0, quad h, int64_t steps, quad_state *state,
+                     quad_state *off);
+int quad_lines(method);
+int quad_line_work(method, int line);
 /* The same where steps adapt, by a tolerance, up to `until` or so many steps; no error is refused in between. control:
  * what the row carries besides the state; all zero at first. */
 typedef struct quad_control {

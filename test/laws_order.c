@@ -32,7 +32,8 @@ static void palindrome(method m)
           card->reversible ? "palindrome" : "no palindrome", "asymmetry %.1e", (double)skew);
 }
 
-static void slope(method m, const double *argument, const char *name, int order, const quad_problem *p)
+/* line: of a row that finds its own order, as quad_line takes it; 0: that of its card. */
+static void slope(method m, const double *argument, int line, const char *name, int order, const quad_problem *p)
 {
     enum { POINTS_MAX = 16 };
     /* The error from the coefficients' digits: half units of some twenty coefficients, over a hundred steps. */
@@ -52,7 +53,10 @@ static void slope(method m, const double *argument, const char *name, int order,
     for (int64_t n = high ? 2 : 4; points < POINTS_MAX && !(close && n > (order > 2 ? 1024 : 4096)) && n <= 16384;
          n += high ? (n & (n - 1) ? n / 3 : n / 2) : n) {
         quad_state end = start;
-        if (quad_run(m, argument, p, 0, span / (quad)n, n, &end).bad) continue;
+        if ((line ? quad_line(m, line, p, 0, span / (quad)n, n, &end, NULL)
+                  : quad_run(m, argument, p, 0, span / (quad)n, n, &end))
+                .bad)
+            continue;
         const quad error = quad_distance(p, &end, &reference);
         if (error < floor && points >= 3) break;
         if (error < Q(0.1)) errors[points++] = quad_log2(error);
@@ -78,7 +82,15 @@ void laws_of_order(void)
              * change their sign where their slopes would settle */
             if (quad_admits(m, &quad_problems[problems[i]]) &&
                 (problems[i] != CUBIC || (card->order > 1 && !(methods_table[m].adaptive && card->order > 5))))
-                slope(m, NULL, card->name, card->order, &quad_problems[problems[i]]);
+                slope(m, NULL, 0, card->name, card->order, &quad_problems[problems[i]]);
+        for (int line = 2; line < quad_lines(m); line++) { /* of the last the digits end before its slope settles */
+            static const int some[] = {HENON_HEILES, DRIVEN, TANGLED};
+            char name[64];
+            snprintf(name, sizeof name, "%s, line %d", card->name, line);
+            for (size_t i = 0; i < sizeof some / sizeof *some; i++)
+                if (quad_admits(m, &quad_problems[some[i]]))
+                    slope(m, NULL, line, name, 2 * line, &quad_problems[some[i]]);
+        }
     }
     /* Newmark's arguments: order 2 for every beta with gamma = 1/2, and 1 for any other gamma. */
     static const double betas[][2] = {{0, 0.5}, {1.0 / 12, 0.5}, {1.0 / 6, 0.5}, {0.3025, 0.6}};
@@ -87,5 +99,5 @@ void laws_of_order(void)
     for (method m = 0; m < row_count(); m++)
         for (int i = 0; row_card(m)->name[0] == 'n' && i < 4; i++)
             for (int p = DAMPED; p <= TANGLED; p++)
-                slope(m, betas[i], names[i], betas[i][1] == 0.5 ? 2 : 1, &quad_problems[p]);
+                slope(m, betas[i], 0, names[i], betas[i][1] == 0.5 ? 2 : 1, &quad_problems[p]);
 }

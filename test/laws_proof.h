@@ -10,7 +10,7 @@
 
 #include "test/laws.h"
 
-enum { SCHEME_STAGES_MAX = 28, COEFFICIENTS_MAX = 340 };
+enum { SCHEME_STAGES_MAX = 37, COEFFICIENTS_MAX = 340 };
 typedef struct scheme {
     int stages;
     bool places; /* of a method for s' = f(s): positions have weights of their own, which are to be judged too */

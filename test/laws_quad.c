@@ -212,10 +212,12 @@ static void begin(work *w, dense *d, quad *memory, const row *m, const double *a
     work_place(w, memory);
 }
 
-/* Of an adaptive row: every candidate is a step, whatever its error, so that steps have one size. */
+/* Of an adaptive row: every candidate is a step, whatever its error, so that steps have one size; and one order where
+ * it finds its own. */
 static int candidates(work *w, quad h, int64_t steps)
 {
     w->until = (quad)INFINITY;
+    if (w->row->orders) w->absolute = Q(1e300);
     for (int64_t n = 0; n < steps; n++) {
         work_scale(w, h);
         const int bad = family_step(w);
@@ -227,8 +229,10 @@ static int candidates(work *w, quad h, int64_t steps)
     return STEP_OK;
 }
 
-quad_count quad_run(method k, const double *argument, const quad_problem *p, quad t0, quad h, int64_t steps,
-                    quad_state *state)
+/* line: of a row that finds its own order; 0: that of the row's card. off: the error of the last step, by its
+ * estimate; may be NULL. */
+static quad_count run_line(method k, const double *argument, int line, const quad_problem *p, quad t0, quad h,
+                           int64_t steps, quad_state *state, quad_state *off)
 {
     work w;
     static dense d;
@@ -237,11 +241,32 @@ quad_count quad_run(method k, const double *argument, const quad_problem *p, qua
     begin(&w, &d, memory, m, argument, p, t0, h);
     memcpy(w.x, state->x, p->nx * sizeof *w.x);
     memcpy(w.v, state->v, p->nv * sizeof *w.v);
+    w.before = line;
     quad_count count = {.bad = m->adaptive ? candidates(&w, h, steps) : advance_run(&w, steps)};
     count.evaluations = w.evaluations;
     count.iterations = w.iterations;
     if (!count.bad) count.bad = advance_sync(&w, state->x, state->v, NULL);
+    for (size_t i = 0; off && i < p->nx; i++) off->x[i] = w.xs[i];
+    for (size_t i = 0; off && i < p->nv; i++) off->v[i] = w.vs[i];
     return count;
+}
+
+quad_count quad_run(method k, const double *argument, const quad_problem *p, quad t0, quad h, int64_t steps,
+                    quad_state *state)
+{
+    return run_line(k, argument, 0, p, t0, h, steps, state, NULL);
+}
+
+quad_count quad_line(method k, int line, const quad_problem *p, quad t0, quad h, int64_t steps, quad_state *state,
+                     quad_state *off)
+{
+    return run_line(k, NULL, line, p, t0, h, steps, state, off);
+}
+
+int quad_lines(method k) { return methods_table[k].orders ? EXTRAPOLATION_LINES : 0; }
+int quad_line_work(method k, int line)
+{
+    return extrapolation_work(methods_table[k].family == STORMER ? &stormer_rule : &gragg_rule, line);
 }
 
 quad_count quad_adapt(method k, const quad_problem *p, quad tolerance, quad until, int64_t steps, quad_state *state,

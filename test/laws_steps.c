@@ -44,12 +44,19 @@ static void flat(quad t, const quad *x, const quad *v, const quad *dx, const qua
 static bool takes_v(method m) { return row_card(m)->forces == MOTUS_FORCES_XVT; }
 
 /* Newton's method, which `linear` would skip, has converged if the stages are those of the step. */
+static struct {
+    int line; /* of a row that finds its own order */
+    quad_state off;
+} extrapolated;
 static quad_state run(method m, const double *argument, int mark, const quad *time, int expected, int steps)
 {
     const quad_problem p = {"marks", 1, 1, .velocity = takes_v(m), .time = true, .accel = marked, .jvp = flat};
     quad_state s = {.x = {mark == 0}, .v = {mark == 1}};
     probe.mark = mark, probe.calls = 0, probe.expected = expected, probe.time = time;
-    quad_run(m, argument, &p, start, step, steps, &s);
+    if (extrapolated.line)
+        quad_line(m, extrapolated.line, &p, start, step, steps, &s, &extrapolated.off);
+    else
+        quad_run(m, argument, &p, start, step, steps, &s);
     return s;
 }
 
@@ -235,6 +242,66 @@ static void as_collocation(method m)
     rounded_once(m);
 }
 
+static int degree;
+static void monomial(quad t, const quad *x, const quad *v, quad *a)
+{
+    (void)x, (void)v;
+    a[0] = 1;
+    for (int i = 0; i < degree; i++) a[0] *= t;
+}
+
+/* Line j integrates polynomials in time: of degree 2 j - 1 once, and of degree 2 j - 2 twice, without error, and no
+ * longer ones. This is the proof of the longest lines, whose trees are too many. */
+static void quadrature(method m)
+{
+    const quad_problem p = {"a power of time", 1, 1, .time = true, .accel = monomial, .jvp = flat};
+    char name[64];
+    for (int line = 2; line <= quad_lines(m); line++) {
+        quad most = 0, next = 0, size = 1;
+        for (degree = 0; degree <= 2 * line; degree++) {
+            quad_state s = {.x = {0}};
+            quad_line(m, line, &p, 0, 1, 1, &s, NULL);
+            const quad v = s.v[0] - 1 / (quad)(degree + 1), x = s.x[0] - 1 / (quad)((degree + 1) * (degree + 2));
+            if (degree < 2 * line) widen(&most, v);
+            if (degree < 2 * line - 1) widen(&most, x);
+            if (degree == 2 * line) next = quad_abs(v);
+        }
+        /* a step of the scheme multiplies roundings by at most (j² + m²)/(j² - m²), m = j - 1 at the worst */
+        for (int j = 2; j <= line; j++) size *= (quad)(j * j + (j - 1) * (j - 1)) / (2 * j - 1);
+        const quad bound = 4 * line * size * QUAD_EPSILON;
+        snprintf(name, sizeof name, "%s, line %d", row_card(m)->name, line);
+        judge(most <= bound && next > bound, name, "integrates polynomials", "off by %.1e, bound %.1e; degree %d: %.1e",
+              (double)most, (double)bound, 2 * line, (double)next);
+    }
+}
+
+/* Every line of a scheme of extrapolation whose tableau is not too large: its evaluations, its order, and that of its
+ * estimate, the method that the step is off by. */
+static void as_lines(method m)
+{
+    char name[64];
+    for (int line = 2; trees_count(TREES_SPECIAL, 2 * line + 1); line++) {
+        const scheme sizes = {.stages = quad_line_work(m, line)};
+        const trees_kind kind = takes_v(m) && trees_count(TREES_ROOTED, 2 * line + 1) ? TREES_ROOTED : TREES_SPECIAL;
+        scheme done, estimate;
+        extrapolated.line = line;
+        snprintf(name, sizeof name, "%s, line %d", row_card(m)->name, line);
+        const quad off = tableau_of(m, NULL, &sizes, &done);
+        judge(off <= 64 * QUAD_EPSILON && probe.calls == done.stages, name, "steps as a tableau",
+              "%d evaluations, off by %.1e", probe.calls, (double)off);
+        proof_of_scheme(name, kind, &done, 2 * line);
+        estimate = done;
+        for (int j = 0; j < done.stages; j++) {
+            run(m, NULL, 2 + j, NULL, done.stages, 1);
+            estimate.b[j] -= extrapolated.off.x[0] / (step * step);
+            estimate.bv[j] -= extrapolated.off.v[0] / step;
+        }
+        snprintf(name, sizeof name, "%s, estimate of line %d", row_card(m)->name, line);
+        proof_of_scheme(name, kind, &estimate, 2 * line - 2);
+    }
+    extrapolated.line = 0;
+}
+
 void laws_of_steps(void)
 {
     for (method m = 0; m < row_count(); m++) {
@@ -244,6 +311,8 @@ void laws_of_steps(void)
             as_collocation(m);
         else if (recurrence(&methods_table[m]))
             as_recurrence(m);
+        else if (methods_table[m].orders)
+            as_lines(m), quadrature(m);
         else if (methods_table[m].family != EXACT && !methods_table[m].expands)
             as_tableau(m);
     }

@@ -136,6 +136,8 @@ static bool chosen(const char *name)
                                        "dep6",
                                        "fine5",
                                        "radau15",
+                                       "gragg-stormer",
+                                       "gragg",
                                        "verlet-reversible",
                                        "kahan-li8-reversible"};
     if (getenv("MOTUS_ALL_ROWS")) return true;

@@ -58,5 +58,15 @@ printf "c = 0.5\nx'' = -x - 1e11 (x - c) exp(-((x - c)/1e-3)^2)\nx(0) = 1\nx'(0)
 tolerance=(--tolerance 1e-3)
 agree "radau15: companions that meet a bump" "$scratch/bump.motus" 31 --vary c=-0.9:0.9:31 --until 3 --record x,steps --errors
 check "every trajectory has an error" "$(rows "$scratch/bump.motus" --vary c=-0.9:0.9:31 --until 3 --record x,steps --errors | grep -c nan)" 0
+
+method=gragg tolerance=(--tolerance 1e-9)
+agree "gragg: lanes that end at different lines" models/kepler.motus 23 --vary e=0:0.9:23 --until 6 --record 'r.x,max(r.y),steps,rejected'
+agree "gragg: and their companions" models/kepler.motus 11 --vary e=0:0.9:11 --until 6 --record 'r.x,steps' --errors
+agree "gragg: and the end" models/kepler.motus 35 --vary e=0:0.9:5 --vary until=-1:5:7 --every '3 steps' --record 'r.x,max(r.y)'
+agree "gragg: kinks, a start at rest, time and a first-order variable" "$scratch/driven.motus" 20 --vary k=0.5:2:20 --until 9 --record "x,s,min(x')"
+method=gragg-stormer
+agree "gragg-stormer: lanes that end at different lines, and their companions" models/kepler.motus 23 --vary e=0:0.9:23 --until 6 --record 'r.x,steps,rejected' --errors
+agree "gragg-stormer: a driven boundary" "$scratch/border.motus" 9 --vary w=0.5:2:9 --until 3 --record 'x[3],x[5]'
+agree "gragg-stormer: a fall into the centre" "$scratch/fall.motus" 40 --vary k=0.1:9:40 --until 3 --record 'x,min(x)'
 echo "$passed passed, $failed failed"
 [ $failed = 0 ]
