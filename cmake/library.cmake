@@ -5,8 +5,8 @@ set(kernels core/stepper_body.c core/solver_band.c lang/tape/tape_kernels.c lang
 
 file(GLOB library_sources CONFIGURE_DEPENDS RELATIVE ${PROJECT_SOURCE_DIR}
   base/*.c core/*.c lang/*/*.c machine/*.c api/*.c study/*.c)
-# machine/nowhere.c replaces the compiled machine in the page's module, api/later_never.c api/later.c (lab/core/CMakeLists.txt).
-list(REMOVE_ITEM library_sources ${kernels} machine/nowhere.c api/later_never.c)
+# machine/nowhere.c replaces the compiled machine in the page's module (lab/core/CMakeLists.txt).
+list(REMOVE_ITEM library_sources ${kernels} machine/nowhere.c)
 
 # The library contains the texts of step/ and machine/text/, because the compiled machine compiles them with a model.
 file(GLOB step_texts CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/step/*.h ${PROJECT_SOURCE_DIR}/step/*.def

@@ -227,7 +227,7 @@ static int lift_extend(work *w, const dense_step *d)
 
 /* Of rows that keep what the step adds, without the linear motion, over h² in w->next_x and over h in w->delta: the
  * ends are rounded, and a velocity would take their rounding over h. */
-static int lift_extend_kept(work *w, const dense_step *d)
+static inline int lift_extend_kept(work *w, const dense_step *d)
 {
     real *dx = lift_array(w, d, LIFT_APART), *dv = lift_array(w, d, LIFT_APART + 1);
     const clock h = w->h, hh = h * h;

@@ -78,8 +78,8 @@ test('an embed and its sliders come back', () => {
 });
 
 test('a pinned run comes back, and one that cannot be read is told', () => {
-  const { text, methods } = start, run = { text, set: {}, methods, step: '', tolerance: '', until: '' };
-  const all = [[{}, 'A=1'], [{ step: '0.1' }, 'A=1&Ah=0.1'], [{ tolerance: '1e-6' }, 'A=1&Ar=1e-6'], [{ set: { g: '(0, -1.62)', "r'(0)": '(1, 2)' }, until: '2 pi', methods: ['rk4'] }, 'A=1&As=g%3D(0,%20-1.62)&As=r%27(0)%3D(1,%202)&Aa=rk4&AT=2%20pi'],
+  const { text, methods } = start, run = { text, set: {}, methods, step: '', tolerance: '', accuracy: '', until: '' };
+  const all = [[{}, 'A=1'], [{ step: '0.1' }, 'A=1&Ah=0.1'], [{ tolerance: '1e-6' }, 'A=1&Ar=1e-6'], [{ accuracy: '1e-6' }, 'A=1&Ag=1e-6'], [{ accuracy: 'off' }, 'A=1&Ag=off'], [{ set: { g: '(0, -1.62)', "r'(0)": '(1, 2)' }, until: '2 pi', methods: ['rk4'] }, 'A=1&As=g%3D(0,%20-1.62)&As=r%27(0)%3D(1,%202)&Aa=rk4&AT=2%20pi'],
     [{ text: "x'' = 1\n", methods: ['verlet'] }, 'A=1&Am=x%27%27%20%3D%201%0A&Aa=verlet']];
   for (const [part, wanted] of all) {
     const state = { ...start, step: '0.2', pinned: { ...run, ...part } }, fragment = share.encode(state, presets);
@@ -87,7 +87,7 @@ test('a pinned run comes back, and one that cannot be read is told', () => {
     assert.deepEqual(share.decode('#' + fragment, presets), { state, problem: '' });
   }
   for (const text of nasty) {
-    const one = /[\n\t\u2028]/.test(text) || text.trim() !== text || text === '' ? 'y' : text, state = { ...start, text: text + '1', preset: '', methods: [], pinned: { text, set: { x: one }, methods: ['rk4'], step: one, tolerance: one, until: one } };
+    const one = /[\n\t\u2028]/.test(text) || text.trim() !== text || text === '' ? 'y' : text, state = { ...start, text: text + '1', preset: '', methods: [], pinned: { text, set: { x: one }, methods: ['rk4'], step: one, tolerance: one, accuracy: one, until: one } };
     assert.deepEqual(share.decode(share.encode(state, presets), presets), { state, problem: '' });
   }
   const plain = share.decode('v=1&p=projectile&h=0.2', presets).state;
