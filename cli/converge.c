@@ -43,6 +43,10 @@ static bool print_points(const motus_converge_row *r, bool colours)
             snprintf(cell, sizeof cell, p->used || r->exact_here ? "%s" : "(%s)", number);
             table_cell(t, cell);
         }
+        if (r->adaptive) table_cell(t, "between");
+        for (size_t i = 0; r->adaptive && i < count; i++) table_number(t, r->points[first + i]->error_between, -2);
+        if (r->adaptive) table_cell(t, "tolerance");
+        for (size_t i = 0; r->adaptive && i < count; i++) table_number(t, r->points[first + i]->tolerance, -2);
         good = table_print(t, stdout, 4, colours);
         table_destroy(t);
     }
@@ -56,17 +60,72 @@ static const char *without_order(const motus_converge_row *r)
     return r->certificate && r->certificate[0] ? r->certificate : motus_status_text(r->status);
 }
 
-/* A line for each method. */
+/* "5.10 ± 0.11": a slope with twice its standard error. */
+static void slope_cell(table *t, const motus_converge_row *r, double slope, double error)
+{
+    char text[64];
+    snprintf(text, sizeof text, "%.2f ± %.2f", slope, 2 * error);
+    table_cell(t, r->exact_here ? "exact here" : slope == slope ? text : "-");
+}
+
+/* A line for each method that chooses its steps; false: memory ran out. */
+static bool print_paced(const motus_convergence *c, bool colours)
+{
+    static const char *const head[] = {"method", "declared", "observed", "power of the tolerance",
+                                       "due",    "between",  "due",      "passed"};
+    size_t rows = 0;
+    bool uncertain = false;
+    table *t = table_create("lrrrrrrll");
+    for (size_t i = 0; i < sizeof head / sizeof *head; i++) table_cell(t, head[i]);
+    table_cell(t, "");
+    for (size_t k = 0; k < c->row_count; k++) {
+        const motus_converge_row *r = c->rows[k];
+        if (!r->adaptive) continue;
+        const bool judged = r->between_due > 0;
+        rows++;
+        uncertain |= r->uncertain != 0;
+        table_cell(t, r->method);
+        table_integer(t, r->declared);
+        slope_cell(t, r, r->observed, r->standard_error);
+        slope_cell(t, r, r->power, r->power_error);
+        table_number(t, r->power_due, 3);
+        slope_cell(t, r, r->between, r->between_error);
+        if (judged)
+            table_integer(t, r->between_due);
+        else
+            table_cell(t, "-");
+        table_cell(t, r->passed ? "yes" : r->uncertain ? "not certified" : "FAILED");
+        table_cell(t, judged ? "" : r->certificate);
+    }
+    if (rows)
+        printf("%smethods that choose their steps, each slope with twice its standard error\n",
+               rows < c->row_count ? "\n" : "");
+    const bool good = !rows || table_print(t, stdout, 2, colours);
+    if (uncertain)
+        puts(
+            "\nnot certified: too few errors lie between the coarsest tolerances and round-off to tell every slope, or "
+            "the steps are not yet small");
+    table_destroy(t);
+    return good;
+}
+
+/* A line for each method of fixed step. */
 static bool print_orders(const motus_convergence *c, bool colours)
 {
     bool remarks = false;
-    for (size_t k = 0; k < c->row_count; k++) remarks |= *without_order(c->rows[k]) != 0;
+    size_t rows = 0;
+    for (size_t k = 0; k < c->row_count; k++) {
+        remarks |= !c->rows[k]->adaptive && *without_order(c->rows[k]) != 0;
+        rows += !c->rows[k]->adaptive;
+    }
+    if (!rows) return true;
     table *t = table_create(remarks ? "lrrrl" : "lrrr");
     static const char *const head[] = {"method", "declared", "observed", "passed"};
     for (size_t i = 0; i < sizeof head / sizeof *head; i++) table_cell(t, head[i]);
     if (remarks) table_cell(t, "");
     for (size_t k = 0; k < c->row_count; k++) {
         const motus_converge_row *r = c->rows[k];
+        if (r->adaptive) continue;
         char observed[32];
         snprintf(observed, sizeof observed, "%.2f", r->observed);
         table_cell(t, r->method);
@@ -86,7 +145,7 @@ static motus_status print_tables(const studies *s, const void *result, motus_err
     const bool colours = complain_colours(1);
     studies_title(s, c->reference, c->reference_error);
     putchar('\n');
-    bool good = print_orders(c, colours);
+    bool good = print_orders(c, colours) && print_paced(c, colours);
     if (s->options->points) puts("\nin brackets: not in the fit, because instability or round-off dominates");
     for (size_t k = 0; s->options->points && k < c->row_count && good; k++) {
         const motus_converge_row *r = c->rows[k];
@@ -140,7 +199,8 @@ static motus_status verdict(const motus_convergence *c, motus_error *err)
 {
     char names[MOTUS_TEXT_MAX / 2] = "";
     for (size_t k = 0; k < c->row_count; k++)
-        if (!c->rows[k]->passed && strlen(names) + strlen(c->rows[k]->method) + 3 < sizeof names) {
+        if (!c->rows[k]->passed && !c->rows[k]->uncertain &&
+            strlen(names) + strlen(c->rows[k]->method) + 3 < sizeof names) {
             strcat(names, names[0] ? ", " : "");
             strcat(names, c->rows[k]->method);
         }

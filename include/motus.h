@@ -1039,27 +1039,39 @@ MOTUS_API motus_status motus_rank(motus_system *, const motus_study_def *, motus
 MOTUS_API void motus_ranking_destroy(motus_ranking *);
 
 typedef struct motus_point {
-    double step, error;
+    double step, error;  /* of an adaptive method: the mean step */
     int used;            /* 1: the fit uses the point */
     int64_t evaluations; /* of the acceleration up to the end, or up to a failure */
+    /* Of an adaptive method: the tolerance, and the largest error between the ends of steps; NaN besides. */
+    double tolerance, error_between;
 } motus_point;
 typedef struct motus_converge_row {
     const char *method;
     int declared;
     double observed, standard_error; /* of the slope; NaN: it cannot be fitted */
     int exact_here;                  /* 1: the method is exact on this model, errors are round-off at every step */
-    int passed;                      /* 1: the observed order is not below the declared one, or exact_here */
+    /* 1: the observed order is not below the declared one, or exact_here; of an adaptive method the other two orders
+     * are not below theirs either */
+    int passed;
     motus_status status; /* MOTUS_ORDER: the observed order is below the declared one; else of the run that failed */
     size_t point_count;
     const motus_point *const *points; /* point_count, from the largest step to the smallest */
     const char *certificate;          /* "observed 2.00, declared 2" */
+    /* Of an adaptive method. The error falls with the power `power` of the tolerance (due: at least power_due), and
+     * between the ends of steps with the order `between` of the mean step (due: between_due, the smaller of the order
+     * and dense_order + 1); both with the standard errors of the fits, NaN where there is none. */
+    int adaptive, between_due;
+    double power, power_error, power_due, between, between_error;
+    /* 1: too few errors lie between the coarsest steps and round-off for one of the three statements, or they are no
+     * power: so the row has neither passed nor failed. */
+    int uncertain;
 } motus_converge_row;
 typedef struct motus_convergence {
     size_t row_count;
     const motus_converge_row *const *rows; /* row_count, in the order of the methods */
     const char *reference;
     double reference_error;
-    int passed; /* 1: every row passed */
+    int passed; /* 1: every row passed, those that are uncertain left out */
 } motus_convergence;
 /* Fits the observed order of each method to its errors at several steps. Fails as motus_compare does; and with
  * MOTUS_DIVERGED: no method of high order reached the end, so that there is no reference solution. */

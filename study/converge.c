@@ -12,6 +12,7 @@
  * a clock.
  */
 #include "fit.h"
+#include "paced.h"
 #include "probe.h"
 #include "solution.h"
 #include "base/decimal.h"
@@ -72,7 +73,8 @@ typedef struct converge {
     bool cut;       /* the motion was cut far before it */
     double allowed; /* the highest order that the smoothness of the force allows; 0: any */
     char why[MOTUS_TEXT_MAX / 2];
-    double *table; /* INTERVALS × numbers */
+    double *table;   /* INTERVALS × numbers */
+    size_t *columns; /* of the numbers of a state */
     const char **methods;
     size_t count;
     result *out;
@@ -87,7 +89,9 @@ static motus_status make_result(converge *c)
     size_t row_list = aligned(c->count * sizeof(void *)), point_list = c->count * POINTS_MAX * sizeof(void *);
     char *block = take(c->s.allocator, head + rows + points + texts + row_list + point_list, 1);
     c->table = take(c->s.allocator, INTERVALS * c->s.numbers, sizeof(double));
-    if (!block || !c->table) {
+    c->columns = take(c->s.allocator, c->s.numbers, sizeof *c->columns);
+    for (size_t k = 0; c->columns && k < c->s.numbers; k++) c->columns[k] = k + 1;
+    if (!block || !c->table || !c->columns) {
         give(c->s.allocator, block);
         return fail(c->s.err, MOTUS_MEMORY, "out of memory for the convergence of %zu methods", c->count);
     }
@@ -104,6 +108,11 @@ static motus_status make_result(converge *c)
         r->rows[k] = (motus_converge_row){.method = r->texts[k].method,
                                           .observed = NAN,
                                           .standard_error = NAN,
+                                          .power = NAN,
+                                          .power_error = NAN,
+                                          .power_due = NAN,
+                                          .between = NAN,
+                                          .between_error = NAN,
                                           .points = r->point_list + k * POINTS_MAX,
                                           .certificate = r->texts[k].certificate};
         r->row_list[k] = &r->rows[k];
@@ -197,7 +206,7 @@ static motus_status measure(converge *c, const motus_method *card, const char *m
 {
     study *s = &c->s;
     study_cost cost;
-    *point = (motus_point){.step = g->interval / (double)per, .error = NAN};
+    *point = (motus_point){.step = g->interval / (double)per, .error = NAN, .tolerance = NAN, .error_between = NAN};
     motus_status status = study_walk(s, method, g, per, NULL, c->table, &cost, e);
     point->evaluations = cost.evaluations;
     *spent = study_work(s, card, (double)cost.steps, (double)cost.evaluations);
@@ -311,6 +320,53 @@ static void certify(const converge *c, motus_converge_row *row, const fit_order_
     }
 }
 
+/* Whether every run failed: then the message is that of the last. */
+static bool all_failed(motus_converge_row *row, const motus_point *points, motus_status failed, const motus_error *e,
+                       char *text)
+{
+    for (size_t i = 0; i < row->point_count; i++)
+        if (!isnan(points[i].error)) return false;
+    if (failed == MOTUS_OK) return false;
+    row->status = failed;
+    row->uncertain = 0;
+    snprintf(text, MOTUS_TEXT_MAX, "%s", e->message);
+    return true;
+}
+
+/* The points of a row that chooses its steps, and its certificates. */
+static motus_status make_paced(converge *c, const motus_method *card, motus_converge_row *row, motus_point *points,
+                               char *text, motus_error *e, motus_status *failed)
+{
+    study *s = &c->s;
+    paced p = {.s = s, .reference = &c->reference, .grid = &c->grid, .room = c->table, .columns = c->columns};
+    const double duration = fabs(c->grid.until - c->grid.from), base = s->base, span = s->span;
+    double work = 0, next = 0;
+    fit_order_result fit = {.verdict = FIT_FEW, .observed = NAN, .standard_error = NAN, .fall = NAN};
+    for (size_t i = 0; i < POINTS_MAX && work + next <= EXTENSION * WORK; i++) {
+        int64_t steps = 0;
+        points[i] = (motus_point){.step = NAN, .error = NAN, .error_between = NAN};
+        points[i].tolerance = paced_tolerance(card, i);
+        if (points[i].tolerance == 0) break;
+        study_part(s, base + span * (double)i / POINTS_MAX, span / POINTS_MAX);
+        motus_status status = paced_measure(&p, row->method, &points[i], &steps, e, failed);
+        if (status != MOTUS_OK) return status;
+        const double spent = study_work(s, card, (double)steps, (double)points[i].evaluations);
+        work += spent;
+        next = card->order < FINE_ORDER ? 1.5 * spent : 1.2 * spent;
+        row->point_count = i + 1;
+        fit = fit_order(points, row->point_count, duration, s->noise, c->reference.scaled);
+        if (row->point_count > POINTS_LEAST && (fit.settled || fit.verdict == FIT_EXACT)) break;
+    }
+    if (c->allowed > 0) {
+        row->uncertain = 1;
+        snprintf(text, MOTUS_TEXT_MAX, "not certified, declared %d: %s", row->declared, c->why);
+        return MOTUS_OK;
+    }
+    const paced_noise noise = {fit.floor, s->noise, duration};
+    paced_certify(card, &noise, fit.verdict == FIT_EXACT, points, row, text, MOTUS_TEXT_MAX);
+    return MOTUS_OK;
+}
+
 static motus_status make_row(converge *c, size_t k)
 {
     study *s = &c->s;
@@ -334,6 +390,13 @@ static motus_status make_row(converge *c, size_t k)
         snprintf(text, MOTUS_TEXT_MAX, "%s", e.message);
         return MOTUS_OK;
     }
+    row->adaptive = card->adaptive;
+    if (card->adaptive) {
+        status = make_paced(c, card, row, points, text, &e, &failed);
+        if (status != MOTUS_OK) return status;
+        all_failed(row, points, failed, &e, text);
+        return MOTUS_OK;
+    }
     fit_order_result fit;
     double base = s->base, span = s->span;
     for (size_t intervals = INTERVALS; intervals > 0; intervals /= 2) {
@@ -342,13 +405,7 @@ static motus_status make_row(converge *c, size_t k)
         if (status != MOTUS_OK) return status;
         if (fit.verdict != FIT_FEW || !(points[0].error < COARSE_ENOUGH)) break;
     }
-    size_t finite = 0;
-    for (size_t i = 0; i < row->point_count; i++) finite += !isnan(points[i].error);
-    if (finite == 0 && failed != MOTUS_OK) {
-        row->status = failed; /* every run failed: the message is that of the last */
-        snprintf(text, MOTUS_TEXT_MAX, "%s", e.message);
-        return MOTUS_OK;
-    }
+    if (all_failed(row, points, failed, &e, text)) return MOTUS_OK;
     certify(c, row, &fit, text, MOTUS_TEXT_MAX);
     return MOTUS_OK;
 }
@@ -392,7 +449,7 @@ static motus_status converge_all(converge *c)
         double share = (1 - REFERENCE_SHARE) / (double)c->count;
         study_part(s, REFERENCE_SHARE + share * (double)k, share);
         if ((status = make_row(c, k)) != MOTUS_OK) return status;
-        passed = passed && c->out->rows[k].passed;
+        passed = passed && (c->out->rows[k].passed || c->out->rows[k].uncertain);
     }
     c->out->seen.passed = passed;
     describe(c);
@@ -410,12 +467,13 @@ motus_status motus_converge(motus_system *system, const motus_study_def *given, 
     const modes host = modes_enter();
     motus_status status = study_read(given, &c.def, err);
     if (status == MOTUS_OK) status = study_open(&c.s, system, &c.def, 0, err);
-    if (status == MOTUS_OK) status = study_methods(&c.s, &c.def, false, &c.methods, &c.count);
+    if (status == MOTUS_OK) status = study_methods(&c.s, &c.def, true, &c.methods, &c.count);
     if (status == MOTUS_OK) status = make_result(&c);
     if (status == MOTUS_OK) status = converge_all(&c);
     if (c.s.allocator) {
         solution_free(&c.s, &c.reference);
         give(c.s.allocator, c.table);
+        give(c.s.allocator, c.columns);
         give(c.s.allocator, (void *)c.methods);
         if (status == MOTUS_OK)
             *convergence = &c.out->seen;

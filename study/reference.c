@@ -25,8 +25,8 @@ static motus_status answer(motus_reference *r, double t, motus_error *err)
 {
     study *s = &r->s;
     /* The exact motion takes one step from the start, at no loss of accuracy. */
-    size_t row = r->solution.exact ? 0 : solution_row(s, &r->grid, t);
-    double from = solution_time(s, &r->grid, row), direction = direction_of(s);
+    size_t row = r->solution.exact ? 0 : solution_row(&r->grid, t);
+    double from = solution_time(&r->grid, row), direction = direction_of(s);
     /* false for NaN */
     bool onward = !r->solution.exact && (r->t - from) * direction > 0 && (t - r->t) * direction >= 0;
     if (onward)

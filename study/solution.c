@@ -547,20 +547,29 @@ motus_status solution_on(study *s, const solution *r, const study_grid *g, doubl
 
 bool solution_same_time(double a, double b) { return fabs(a - b) <= SOLUTION_SAME_TIME * (fabs(a) + fabs(b)); }
 
-static double direction_of(const study *s) { return s->until > s->from ? 1 : -1; }
+static double direction_of(const study_grid *g) { return g->until > g->from ? 1 : -1; }
 
-double solution_time(const study *s, const study_grid *g, size_t row)
+double solution_time(const study_grid *g, size_t row)
 {
-    return row == g->points ? s->until : s->from + direction_of(s) * (double)row * g->interval;
+    return row == g->points ? g->until : g->from + direction_of(g) * (double)row * g->interval;
 }
 
-size_t solution_row(const study *s, const study_grid *g, double t)
+size_t solution_row(const study_grid *g, double t)
 {
-    double way = (t - s->from) * direction_of(s);
-    if (solution_same_time(t, s->until) || !(way > 0)) return way > 0 ? g->points : 0;
+    double way = (t - g->from) * direction_of(g);
+    if (solution_same_time(t, g->until) || !(way > 0)) return way > 0 ? g->points : 0;
     size_t row = (size_t)fmin(floor(way / g->interval), (double)g->intervals);
-    if (row < g->intervals && solution_same_time(solution_time(s, g, row + 1), t)) row++;
+    if (row < g->intervals && solution_same_time(solution_time(g, row + 1), t)) row++;
     return row;
+}
+
+motus_status solution_near(study *s, const solution *r, const study_grid *g, double t, double *y, motus_error *err)
+{
+    size_t row = r->exact ? 0 : solution_row(g, t);
+    if (!r->exact && row < g->points && fabs(solution_time(g, row + 1) - t) < fabs(t - solution_time(g, row))) row++;
+    const double from = solution_time(g, row);
+    memcpy(y, r->rows + row * s->numbers, s->numbers * sizeof *y);
+    return solution_same_time(from, t) ? MOTUS_OK : solution_go(s, r, from, t, y, err);
 }
 
 motus_status solution_go(study *s, const solution *r, double from, double t, double *y, motus_error *err)

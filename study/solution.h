@@ -37,8 +37,10 @@ motus_status solution_on(study *, const solution *, const study_grid *, double *
 motus_status solution_go(study *, const solution *, double from, double t, double *y, motus_error *);
 bool solution_same_time(double, double); /* but for rounding */
 /* The time of a row of the solution's table, and the last row that is not after t. */
-double solution_time(const study *, const study_grid *, size_t row);
-size_t solution_row(const study *, const study_grid *, double t);
+double solution_time(const study_grid *, size_t row);
+size_t solution_row(const study_grid *, double t);
+/* The solution at any time, from the row of the table that is nearest to it. */
+motus_status solution_near(study *, const solution *, const study_grid *, double t, double *y, motus_error *err);
 const char *solution_lacks(const solution *); /* why nothing is known */
 /* The highest order that a method of fixed step can have on this motion, since the force is not smooth along it,
  * which need not be a whole number; 0: any. `why` becomes a sentence without capital and stop: "the force jumps at t

@@ -130,8 +130,8 @@ static motus_status integrate(study *s, const truth *t, const motus_method *m, d
         memcpy(next, rows + r * s->numbers, s->numbers * sizeof *next);
         study_part(s, base + span * (double)r / TRUTH_TIMES, span / TRUTH_TIMES);
         s->limit = fmax(1, most - (double)spent);
-        status = study_leg(s, m->name, NAN, solution_time(s, &t->grid, r), solution_time(s, &t->grid, r + 1), next,
-                           &spent, &ignored);
+        status = study_leg(s, m->name, NAN, solution_time(&t->grid, r), solution_time(&t->grid, r + 1), next, &spent,
+                           &ignored);
     }
     s->limit = 0;
     study_part(s, base, span);
@@ -260,16 +260,11 @@ motus_status truth_find(study *s, truth *t)
 
 motus_status truth_measure(study *s, truth *t, double time, const double *y, truth_distance *d, motus_error *err)
 {
-    const size_t row = solution_row(s, &t->grid, time), from = t->found.exact ? 0 : row;
-    const double begins = solution_time(s, &t->grid, from);
     double size[TRUTH_KINDS];
-    memcpy(size, size_at(t, row), sizeof size);
-    memcpy(t->room, t->found.rows + from * s->numbers, s->numbers * sizeof(double));
+    memcpy(size, size_at(t, solution_row(&t->grid, time)), sizeof size);
     *d = (truth_distance){NAN, NAN};
-    if (!solution_same_time(begins, time)) {
-        const motus_status status = solution_go(s, &t->found, begins, time, t->room, err);
-        if (status != MOTUS_OK) return status;
-    }
+    const motus_status status = solution_near(s, &t->found, &t->grid, time, t->room, err);
+    if (status != MOTUS_OK) return status;
     sizes_of(s, t->room, size);
     *d = distance(s, y, t->room, size);
     return MOTUS_OK;

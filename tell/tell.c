@@ -188,6 +188,16 @@ static void converge_row(json *j, const motus_converge_row *r)
     json_number(j, "standard_error", r->standard_error);
     json_bool(j, "exact_here", r->exact_here);
     json_bool(j, "passed", r->passed);
+    json_bool(j, "adaptive", r->adaptive);
+    if (r->adaptive) {
+        json_bool(j, "uncertain", r->uncertain);
+        json_number(j, "power", r->power);
+        json_number(j, "power_error", r->power_error);
+        json_number(j, "power_due", r->power_due);
+        json_number(j, "between", r->between);
+        json_number(j, "between_error", r->between_error);
+        json_integer(j, "between_due", r->between_due);
+    }
     json_string(j, "status", motus_status_word(r->status));
     json_string(j, "certificate", r->certificate ? r->certificate : "");
     json_open(j, "points", '[');
@@ -197,6 +207,8 @@ static void converge_row(json *j, const motus_converge_row *r)
         json_number(j, "error", r->points[i]->error);
         json_integer(j, "evaluations", r->points[i]->evaluations);
         json_bool(j, "used", r->points[i]->used);
+        if (r->adaptive) json_number(j, "tolerance", r->points[i]->tolerance);
+        if (r->adaptive) json_number(j, "error_between", r->points[i]->error_between);
         json_close(j, '}');
     }
     json_close(j, ']');

@@ -664,8 +664,9 @@ that "... with both works" eval "grep -q 'evaluations of the force' '$place/work
 # --- converge -----------------------------------------------------------------------------------------------------------------------
 for name in pendulum damped-cubic projectile-drag charged-particle; do
     gives "converge $name: every method keeps its order" 0 "$motus" converge models/$name.motus --json
-    that "... of all that are admitted" holds ".rows | length == $("$motus" check models/$name.motus --json | jq '[.methods[] | select(.admitted and (.adaptive | not) and .name != "exact")] | length')"
-    that "... certified" holds 'all(.rows[]; (.observed == null) or (if .standard_error == null then .declared > 8 and .observed >= 8 else .observed > .declared - (if .declared >= 6 then ([0.15, 2 * .standard_error] | max) else 0.15 end) end))'
+    that "... of all that are admitted" holds ".rows | length == $("$motus" check models/$name.motus --json | jq '[.methods[] | select(.admitted and .name != "exact")] | length')"
+    that "... none that chooses its steps has failed" holds '[.rows[] | select(.adaptive)] | all(.[]; .passed != .uncertain and .status == "ok") and ([.[] | select(.passed and .power >= .power_due - 0.25 and .between > .between_due - 1)] | length >= 3)'
+    that "... certified" holds 'all(.rows[] | select(.adaptive | not); (.observed == null) or (if .standard_error == null then .declared > 8 and .observed >= 8 else .observed > .declared - (if .declared >= 6 then ([0.15, 2 * .standard_error] | max) else 0.15 end) end))'
     [ $name = pendulum ] && cp "$out" "$place/pendulum.json"
 done
 that "converge is JSON" json "$place/pendulum.json"
@@ -678,6 +679,11 @@ that "... without the points" eval "! grep -qE '^ +(step|error) ' '$out'"
 gives "converge --points" 0 "$motus" converge $osc --methods verlet,rk4 --points
 that "... the same table" eval "sed -n 3,5p '$out' | grep -qE '^  rk4 +4 '"
 that "... and then the error at every step" eval "[ \$(grep -cE '^    (step|error) ' '$out') -ge 4 ]"
+gives "converge of methods that choose their steps" 0 "$motus" converge models/henon-heiles.motus --methods tsit5,dep6,radau15
+that "... certifies two" eval "grep -qE '^  tsit5 +5 +(4\.9|5\.0)[0-9] .* yes *$' '$out' && grep -qE '^  dep6 .* yes *$' '$out'"
+that "... and says that it cannot tell" eval "grep -qE '^  radau15 .* not certified *$' '$out' && grep -q '^not certified: ' '$out'"
+gives "... with --points" 0 "$motus" converge models/henon-heiles.motus --methods tsit5 --points
+that "... tells tolerances" eval "grep -qE '^    tolerance +1.0e-02 ' '$out' && grep -qE '^    between ' '$out'"
 refuses "converge with --method" 2 "converge takes no --method" "$motus" converge $osc --method rk4
 that "... names --methods" says "--methods A,B,C" "$err"
 printf "x'' = x^3 exp(x)\nx(0) = 3\nx'(0) = 30\nstep 0.5\nuntil 10\n" >"$place/blow-up.motus"
