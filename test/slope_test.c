@@ -35,7 +35,7 @@ static size_t make(motus_point *p, size_t count, double ratio, recipe r)
         double h = pow(ratio, -(double)i), n = 8 / h;
         double e = r.coefficient * pow(h, r.order) + r.next * pow(h, r.next_order);
         e += r.floor * (0.6 + 0.4 * fabs(scatter(i))) * pow(n, r.growth);
-        p[i] = (motus_point){h, h > r.unstable ? NAN : fabs(e), 7, 0};
+        p[i] = (motus_point){.step = h, .error = h > r.unstable ? NAN : fabs(e), .used = 7};
     }
     return count;
 }
@@ -146,7 +146,8 @@ static void noise_is_no_slope(void **state)
 {
     (void)state;
     motus_point points[POINTS];
-    for (size_t i = 0; i < 12; i++) points[i] = (motus_point){pow(2, -(double)i), 1e-3 * exp(4 * scatter(i)), 0, 0};
+    for (size_t i = 0; i < 12; i++)
+        points[i] = (motus_point){.step = pow(2, -(double)i), .error = 1e-3 * exp(4 * scatter(i))};
     fit_order_result f = fit_order(points, 12, 8, DBL_EPSILON, 0);
     assert_true(f.verdict != FIT_EXACT);
     assert_false(f.verdict == FIT_SLOPE && fit_passes(f.observed, f.standard_error, 6));
