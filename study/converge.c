@@ -359,7 +359,14 @@ static motus_status make_paced(converge *c, const motus_method *card, motus_conv
     }
     if (c->allowed > 0) {
         row->uncertain = 1;
-        snprintf(text, MOTUS_TEXT_MAX, "not certified, declared %d: %s", row->declared, c->why);
+        snprintf(text, MOTUS_TEXT_MAX, "declared %d: %s", row->declared, c->why);
+        return MOTUS_OK;
+    }
+    /* of no one order is there a slope */
+    const bool any = strcmp(card->family, "extrapolation") == 0 || strcmp(card->family, "taylor") == 0;
+    if (any && fit.verdict != FIT_EXACT) {
+        row->uncertain = 1;
+        snprintf(text, MOTUS_TEXT_MAX, "its order follows the tolerance, so the error has no one power");
         return MOTUS_OK;
     }
     const paced_noise noise = {fit.floor, s->noise, duration};
