@@ -104,6 +104,11 @@ motus_status stepper_create(const machine *m, const chosen *method, double t0, d
     motus_status status = row_admits(method, &p->traits, err);
     if (status) return status;
     const work sizes = stepper_plan(p, method, NULL);
+    if (sizes.expands > SERIES_ORDER_MOST) {
+        fail(err, MOTUS_LIMIT, "Taylor series to order %d", sizes.expands);
+        hint(err, "at most %d", SERIES_ORDER_MOST);
+        return MOTUS_LIMIT;
+    }
     if (sizes.expands && !sizes.series) return fail(err, MOTUS_MEMORY, "out of memory for the Taylor series");
     if (sizes.series > SERIES_MOST) {
         fail(err, MOTUS_LIMIT, "the Taylor series of this model take %.1f GB", 8e-9 * (double)sizes.series);

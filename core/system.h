@@ -35,6 +35,8 @@ typedef struct traits {
  * own formulas. */
 #define EXACT_ROUNDING 0x1p-44
 
+enum { SERIES_ORDER_MOST = 47 }; /* of a Taylor series: as long as the table of step/reciprocals.h */
+
 typedef struct problem {
     void *ctx;
     size_t nx, nv;

@@ -392,10 +392,10 @@ static void add_series(emit *e, int length)
              "#define SERIES_OF(f) series_of_##f\n#define SERIES_FMA(a, b, c) %s(a, b, c)\n#define SERIES_PICK(where, "
              "a, b) %s(where, a, b)\n",
              e->series_wide ? "MANY_FUSED" : "FMA", e->series_wide ? "CHOOSE" : "PICK");
-    if (e->series_apart)
-        emit_add(t, "#define SERIES_FUNCTION static inline __attribute__((always_inline))\n#define SERIES_WRITTEN_OUT "
-                    "WRITTEN_OUT\n");
+    if (e->series_wide) /* a call has no vectors in registers */
+        emit_add(t, "#define SERIES_FUNCTION static inline __attribute__((always_inline))\n");
     if (e->series_wide) add_vector_names(t);
+    add_text(t, "step/reciprocals.h");
     add_text(t, "step/series.h");
     emit_add(t, "enum { length = %d };\n", length);
     emit_series_operations(e, e->lanes || e->series_wide ? "ops" : "op");

@@ -10,7 +10,7 @@
 
 #include <string.h>
 
-enum { LENGTHS = 26 }; /* series of up to 25 numbers: taylor_order */
+enum { LENGTHS = SERIES_ORDER_MOST + 2 }; /* series have a number more than their order */
 struct interpreter {
     model *model;
     tape *accel, *boundary, *exact;
@@ -78,6 +78,7 @@ static size_t series_numbers(void *ctx, int length)
 {
     interpreter *in = ctx;
     model *m = in->model;
+    if (length >= LENGTHS) return 0;
     struct expanded *e = &in->expanded[length];
     if (!e->known) {
         e->equations = expand(m, m->accel, m->accel_count, length);

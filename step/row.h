@@ -52,6 +52,6 @@ struct row {
         } dense;
     } tableau;
     int lines;    /* STORMER and GRAGG: where any error is allowed, the line of the scheme that ends a step */
-    int series;   /* TAYLOR: the order; 0: as the tolerance wants it */
+    int series;   /* TAYLOR: the order, at most SERIES_ORDER_MOST; 0: as the tolerance wants it */
     bool newmark; /* IMPLICIT: the tableau follows from the arguments */
 };

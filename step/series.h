@@ -1,23 +1,23 @@
 /* TAYLOR SERIES, the recurrences: coefficient n of an operation's result, from the operands' coefficients 0 … n and the
  * result's own 0 … n-1. lang/base/operations.def says which operation has which.
  *
- * Before this text the includer defines real, coef, FMA, PICK and SOME (work.h), and SERIES_OF(f), a function of
- * step/functions/ over reals.
+ * Before this text stands step/reciprocals.h, and the includer defines real, coef, FMA, PICK and SOME (work.h), and
+ * SERIES_OF(f), a function of step/functions/ over reals.
  *
  * Memory: r holds the result's `length` numbers: its coefficients 0 … length-2 and, last, the number that the
  * recurrence keeps, the reciprocal of a coefficient 0. The helper series that some recurrences need follow, `length`
  * numbers each. Recurrences that keep something compute coefficient 0 too; of the others it is the operation's value.
  *
+ * `in`: the inner sums of the recurrence, in the order of operations.def, where they have been taken before; or NULL.
+ *
  * Invariant: the order of the terms is part of a recurrence, so its bits are the same on every machine. A sum of
- * products f[j] g[n - j] is taken by ascending max(j, n - j), in two chains, which are added before the ends: from the
- * newest coefficient to the sum it is one operation, since all others are done while that is made. The coefficients of
- * a quotient by a coefficient 0 that is 0 are taken as 0, which is their limit where the operand is 0 throughout.
+ * products f[j] g[n - j] is taken by ascending max(j, n - j): the inner terms in two chains, which are then added, and
+ * the outer ones, where the newest coefficients are, last: the inner sums of the next order need not wait for them.
+ * The coefficients of a quotient by a coefficient 0 that is 0 are taken as 0, which is their limit where the operand is
+ * 0 throughout.
  */
 #ifndef SERIES_FUNCTION
 #define SERIES_FUNCTION static inline
-#endif
-#ifndef SERIES_WRITTEN_OUT /* before a loop: where the order is known when the text is compiled, it is a sequence */
-#define SERIES_WRITTEN_OUT
 #endif
 
 /* An operand: its coefficients, and the number of the last one that may differ from 0: 0 of a constant, 1 of time.
@@ -35,7 +35,8 @@ typedef struct series {
 #define SERIES_HELPER(k) (r + (k) * (size_t)length) /* 1, 2 … */
 #define SERIES_FROM(helper) SERIES(helper, SERIES_ALL)
 #define SERIES_KEPT r[length - 1]
-#define SERIES_PART(n) ((coef)1 / (n))
+#define SERIES_NONE ((const real *)0)
+#define SERIES_GIVEN(k) (in ? in + (k) : SERIES_NONE)
 
 SERIES_FUNCTION real series_at(const series a, const int n) { return n <= a.last ? a.at[n] : SERIES_NUMBER(0.0); }
 
@@ -53,37 +54,46 @@ SERIES_FUNCTION real series_few(const series f, const series g, const int n, con
     return s;
 }
 
-/* The same where none ends; low and high are 0, 1 or 2, n is at least 1. */
-SERIES_FUNCTION real series_sum(const series f, const series g, const int n, const int low, const int high)
+/* The inner sum: its terms j = 2 … n - 2, none where f or g ends before n. Each chain begins with half the middle
+ * term, so those of a square are the same. */
+SERIES_FUNCTION real series_inner(const series f, const series g, const int n)
 {
-    if (f.last < n || g.last < n) return series_few(f, g, n, low, high);
-    real p = SERIES_NUMBER(0.0), q = p;
-    if (n % 2 == 0 && (n > 2 || (low < 2 && high < 2))) p = f.at[n / 2] * g.at[n / 2];
-    SERIES_WRITTEN_OUT for (int m = (n - 1) / 2; m >= 2; m--)
-    {
+    const int half = n / 2;
+    real p = SERIES_NUMBER(0.0), q;
+    if (n < 4 || f.last < n || g.last < n) return p;
+    if (n % 2 == 0) p = 0.5 * f.at[half] * g.at[half];
+    q = p;
+    if (f.at == g.at) {
+        for (int m = (n - 1) / 2; m >= 2; m--) p = FMA(f.at[m], f.at[n - m], p);
+        return p + p;
+    }
+    for (int m = (n - 1) / 2; m >= 2; m--) {
         p = FMA(f.at[m], g.at[n - m], p);
         q = FMA(f.at[n - m], g.at[m], q);
     }
-    if (n > 2 && low < 2) p = FMA(f.at[1], g.at[n - 1], p);
-    if (n > 2 && high < 2) q = FMA(f.at[n - 1], g.at[1], q);
-    real s = p + q;
+    return p + q;
+}
+
+/* The sum over j = low … n - high of f[j] g[n - j]; low is 0 or 1, high 0, 1 or 2, n at least 1. inner: what
+ * series_inner would be, or NULL. */
+SERIES_FUNCTION real series_sum(const series f, const series g, const int n, const int low, const int high,
+                                const real *inner)
+{
+    if (f.last < n || g.last < n) return series_few(f, g, n, low, high);
+    real s = inner ? *inner : series_inner(f, g, n);
+    if (n > 2) s = FMA(f.at[1], g.at[n - 1], s);
+    if (n > 1 && high < 2) s = FMA(f.at[n - 1], g.at[1], s);
     if (!high) s = FMA(f.at[n], g.at[0], s);
     return low ? s : FMA(f.at[0], g.at[n], s);
 }
 
 /* The sum over j = low … n - low of f[j] f[n - j]; low is 0 or 1. */
-SERIES_FUNCTION real series_halves(const series f, const int n, const int low)
+SERIES_FUNCTION real series_square(const series f, const int n, const int low, const real *inner)
 {
     if (f.last < n) return series_few(f, f, n, low, low);
-    real p = SERIES_NUMBER(0.0), q = p;
-    SERIES_WRITTEN_OUT for (int m = (n - 1) / 2; m > low; m -= 2)
-    {
-        p = FMA(f.at[m], f.at[n - m], p);
-        if (m - 1 > low) q = FMA(f.at[m - 1], f.at[n - m + 1], q);
-    }
-    real s = 2.0 * (p + q);
-    if (n % 2 == 0) s = FMA(f.at[n / 2], f.at[n / 2], s);
-    return n > 2 * low ? FMA(2.0 * f.at[low], f.at[n - low], s) : s;
+    real s = inner ? *inner : series_inner(f, f, n);
+    if (n > 1) s = FMA(n > 2 ? 2.0 * f.at[1] : f.at[1], f.at[n - 1], s);
+    return low ? s : FMA(2.0 * f.at[0], f.at[n], s);
 }
 
 /* k times coefficient k of a, where it is stored. */
@@ -94,87 +104,75 @@ SERIES_FUNCTION series series_rates(real *rate, const series a, const int n)
 }
 
 /* The coefficient of the integral of f a', which is n times too large; f known below n. */
-SERIES_FUNCTION real series_along(const series f, const series rates, const int n)
+SERIES_FUNCTION real series_along(const series f, const series rates, const int n, const real *inner)
 {
-    return series_sum(f, rates, n, 0, 1) * SERIES_PART(n);
+    return series_sum(f, rates, n, 0, 1, inner) * RECIPROCAL(n);
 }
 
 /* Arithmetic --------------------------------------------------------------------------------------------------------*/
 
-SERIES_FUNCTION real series_product(const series a, const series b, const int n)
+SERIES_FUNCTION real series_product(const series a, const series b, const int n, const real *in)
 {
     if (a.last == 0) return a.at[0] * series_at(b, n);
     if (b.last == 0) return series_at(a, n) * b.at[0];
-    return a.at == b.at ? series_halves(a, n, 0) : series_sum(a, b, n, 0, 0);
+    return a.at == b.at ? series_square(a, n, 0, in) : series_sum(a, b, n, 0, 0, in);
 }
 
-SERIES_FUNCTION real series_quotient(real *r, const int length, const series a, const series b, const int n)
+SERIES_FUNCTION real series_quotient(real *r, const int length, const series a, const series b, const int n,
+                                     const real *in)
 {
     if (n == 0) {
         SERIES_KEPT = 1.0 / b.at[0];
         return a.at[0] / b.at[0];
     }
     const real top = series_at(a, n);
-    return (b.last == 0 ? top : top - series_sum(SERIES_ITSELF, b, n, 0, 1)) * SERIES_KEPT;
+    return (b.last == 0 ? top : top - series_sum(SERIES_ITSELF, b, n, 0, 1, in)) * SERIES_KEPT;
 }
 
 /* Powers and roots --------------------------------------------------------------------------------------------------*/
 
 /* Coefficient n of the root r of a series whose coefficient n is top. */
-SERIES_FUNCTION real series_root(const real *r, const int length, const real top, const int n)
+SERIES_FUNCTION real series_root(const real *r, const int length, const real top, const int n, const real *inner)
 {
-    return (top - series_halves(SERIES_ITSELF, n, 1)) * SERIES_KEPT;
+    return (top - series_square(SERIES_ITSELF, n, 1, inner)) * SERIES_KEPT;
 }
 
-SERIES_FUNCTION real series_sqrt(real *r, const int length, const series a, const int n)
+SERIES_FUNCTION real series_sqrt(real *r, const int length, const series a, const int n, const real *in)
 {
-    if (n > 0) return series_root(r, length, series_at(a, n), n);
+    if (n > 0) return series_root(r, length, series_at(a, n), n, in);
     const real root = SERIES_OF(sqrt)(a.at[0]);
     SERIES_KEPT = SERIES_WHERE(root, 0.5 / root);
     return root;
 }
 
-SERIES_FUNCTION real series_hypot(real *r, const int length, const series a, const series b, const int n)
+SERIES_FUNCTION real series_hypot(real *r, const int length, const series a, const series b, const int n,
+                                  const real *in)
 {
-    if (n > 0) return series_root(r, length, series_product(a, a, n) + series_product(b, b, n), n);
+    if (n > 0)
+        return series_root(r, length,
+                           series_product(a, a, n, SERIES_GIVEN(0)) + series_product(b, b, n, SERIES_GIVEN(1)), n,
+                           SERIES_GIVEN(2));
     const real root = SERIES_OF(hypot)(a.at[0], b.at[0]);
     SERIES_KEPT = SERIES_WHERE(root, 0.5 / root);
     return root;
-}
-
-/* The sums over j = 1 … n - 2 of f[j] a[n - j] and of g[j] a[n - j], where neither f nor g ends; n is at least 2. */
-SERIES_FUNCTION void series_two(const real *f, const real *g, const series a, const int n, real *by_f, real *by_g)
-{
-    const int from = a.last < n - 1 ? n - a.last : 1;
-    real p = SERIES_NUMBER(0.0), q = p, u = p, v = p;
-    if (a.last < n - 1) {
-        for (int j = from; j <= n - 2; j++) p = FMA(f[j], a.at[n - j], p), u = FMA(g[j], a.at[n - j], u);
-    } else {
-        if (n % 2 == 0 && n > 2) p = f[n / 2] * a.at[n / 2], u = g[n / 2] * a.at[n / 2];
-        SERIES_WRITTEN_OUT for (int m = (n - 1) / 2; m >= 1; m--)
-        {
-            p = FMA(f[m], a.at[n - m], p), u = FMA(g[m], a.at[n - m], u);
-            if (m > 1) q = FMA(f[n - m], a.at[m], q), v = FMA(g[n - m], a.at[m], v);
-        }
-    }
-    *by_f = p + q, *by_g = u + v;
 }
 
 /* r = a^c for a constant c: n a_0 r_n is the sum over j < n of (c (n - j) - j) a_{n-j} r_j, which is c n times the sum
  * of a_{n-j} r_j less c + 1 times that of a_{n-j} j r_j. r_0 = `start`. The terms of r_{n-1} and a_n come last, with
  * factors that are known before. */
 SERIES_FUNCTION real series_power(real *r, const int length, const series a, const real c, const real start,
-                                  const int n)
+                                  const int n, const real *in)
 {
     real *const dr = SERIES_HELPER(1);
     if (n == 0) {
         SERIES_KEPT = SERIES_WHERE(a.at[0], 1.0 / a.at[0]);
         return start;
     }
-    const real part = SERIES_KEPT * SERIES_PART(n);
+    const real part = SERIES_KEPT * RECIPROCAL(n);
     real next = SERIES_NUMBER(0.0), plain, rates;
     if (n > 1) {
-        series_two(r, dr, a, n, &plain, &rates);
+        plain = series_sum(SERIES_ITSELF, a, n, 1, 2, SERIES_GIVEN(0));
+        rates = series_sum(SERIES_FROM(dr), a, n, 1, 2, SERIES_GIVEN(1));
         next = FMA((double)n * c, plain, -((c + 1.0) * rates)) * part;
         next = FMA(r[n - 1], (c - (double)(n - 1)) * (series_at(a, 1) * part), next);
     }
@@ -184,7 +182,7 @@ SERIES_FUNCTION real series_power(real *r, const int length, const series a, con
 }
 
 /* a^c. The power of an inverse cube, which is in every force of attraction, is three quick operations. */
-SERIES_FUNCTION real series_pow(real *r, const int length, const series a, const series c, const int n)
+SERIES_FUNCTION real series_pow(real *r, const int length, const series a, const series c, const int n, const real *in)
 {
     real start = SERIES_NUMBER(0.0);
     if (n == 0) {
@@ -192,39 +190,39 @@ SERIES_FUNCTION real series_pow(real *r, const int length, const series a, const
         start = inverse_cube;
         if (SOME(c.at[0] != -1.5)) start = PICK(c.at[0] == -1.5, inverse_cube, SERIES_OF(pow)(a.at[0], c.at[0]));
     }
-    return series_power(r, length, a, c.at[0], start, n);
+    return series_power(r, length, a, c.at[0], start, n, in);
 }
 
-SERIES_FUNCTION real series_cbrt(real *r, const int length, const series a, const int n)
+SERIES_FUNCTION real series_cbrt(real *r, const int length, const series a, const int n, const real *in)
 {
     const real start = n == 0 ? SERIES_OF(cbrt)(a.at[0]) : SERIES_NUMBER(0.0);
-    return series_power(r, length, a, SERIES_NUMBER(SERIES_PART(3)), start, n);
+    return series_power(r, length, a, SERIES_NUMBER(RECIPROCAL(3)), start, n, in);
 }
 
 /* Exponentials and angles -------------------------------------------------------------------------------------------*/
 
-SERIES_FUNCTION real series_exp(real *r, const int length, const series a, const int n)
+SERIES_FUNCTION real series_exp(real *r, const int length, const series a, const int n, const real *in)
 {
     if (n == 0) return SERIES_OF(exp)(a.at[0]);
-    return series_along(SERIES_ITSELF, series_rates(SERIES_HELPER(1), a, n), n);
+    return series_along(SERIES_ITSELF, series_rates(SERIES_HELPER(1), a, n), n, in);
 }
 
 /* a r' = a' */
-SERIES_FUNCTION real series_log(real *r, const int length, const series a, const int n)
+SERIES_FUNCTION real series_log(real *r, const int length, const series a, const int n, const real *in)
 {
     real *const dr = SERIES_HELPER(1);
     if (n == 0) {
         SERIES_KEPT = 1.0 / a.at[0];
         return SERIES_OF(log)(a.at[0]);
     }
-    const real known = series_sum(SERIES_FROM(dr), a, n, 1, 1) * SERIES_PART(n);
+    const real known = series_sum(SERIES_FROM(dr), a, n, 1, 1, in) * RECIPROCAL(n);
     const real next = (series_at(a, n) - known) * SERIES_KEPT;
     dr[n] = (double)n * next;
     return next;
 }
 
 /* sin a, with cos a as the first helper; and the other way round. */
-SERIES_FUNCTION real series_sin(real *r, const int length, const series a, const int n)
+SERIES_FUNCTION real series_sin(real *r, const int length, const series a, const int n, const real *in)
 {
     real *const cosine = SERIES_HELPER(1);
     if (n == 0) {
@@ -232,12 +230,12 @@ SERIES_FUNCTION real series_sin(real *r, const int length, const series a, const
         return SERIES_OF(sin)(a.at[0]);
     }
     const series rates = series_rates(SERIES_HELPER(2), a, n);
-    const real next = series_along(SERIES_FROM(cosine), rates, n);
-    cosine[n] = -series_along(SERIES_ITSELF, rates, n);
+    const real next = series_along(SERIES_FROM(cosine), rates, n, SERIES_GIVEN(0));
+    cosine[n] = -series_along(SERIES_ITSELF, rates, n, SERIES_GIVEN(1));
     return next;
 }
 
-SERIES_FUNCTION real series_cos(real *r, const int length, const series a, const int n)
+SERIES_FUNCTION real series_cos(real *r, const int length, const series a, const int n, const real *in)
 {
     real *const sine = SERIES_HELPER(1);
     if (n == 0) {
@@ -245,12 +243,12 @@ SERIES_FUNCTION real series_cos(real *r, const int length, const series a, const
         return SERIES_OF(cos)(a.at[0]);
     }
     const series rates = series_rates(SERIES_HELPER(2), a, n);
-    const real next = -series_along(SERIES_FROM(sine), rates, n);
-    sine[n] = series_along(SERIES_ITSELF, rates, n);
+    const real next = -series_along(SERIES_FROM(sine), rates, n, SERIES_GIVEN(0));
+    sine[n] = series_along(SERIES_ITSELF, rates, n, SERIES_GIVEN(1));
     return next;
 }
 
-SERIES_FUNCTION real series_sinh(real *r, const int length, const series a, const int n)
+SERIES_FUNCTION real series_sinh(real *r, const int length, const series a, const int n, const real *in)
 {
     real *const other = SERIES_HELPER(1);
     if (n == 0) {
@@ -258,12 +256,12 @@ SERIES_FUNCTION real series_sinh(real *r, const int length, const series a, cons
         return SERIES_OF(sinh)(a.at[0]);
     }
     const series rates = series_rates(SERIES_HELPER(2), a, n);
-    const real next = series_along(SERIES_FROM(other), rates, n);
-    other[n] = series_along(SERIES_ITSELF, rates, n);
+    const real next = series_along(SERIES_FROM(other), rates, n, SERIES_GIVEN(0));
+    other[n] = series_along(SERIES_ITSELF, rates, n, SERIES_GIVEN(1));
     return next;
 }
 
-SERIES_FUNCTION real series_cosh(real *r, const int length, const series a, const int n)
+SERIES_FUNCTION real series_cosh(real *r, const int length, const series a, const int n, const real *in)
 {
     real *const other = SERIES_HELPER(1);
     if (n == 0) {
@@ -271,41 +269,41 @@ SERIES_FUNCTION real series_cosh(real *r, const int length, const series a, cons
         return SERIES_OF(cosh)(a.at[0]);
     }
     const series rates = series_rates(SERIES_HELPER(2), a, n);
-    const real next = series_along(SERIES_FROM(other), rates, n);
-    other[n] = series_along(SERIES_ITSELF, rates, n);
+    const real next = series_along(SERIES_FROM(other), rates, n, SERIES_GIVEN(0));
+    other[n] = series_along(SERIES_ITSELF, rates, n, SERIES_GIVEN(1));
     return next;
 }
 
 /* r' = w a' with w = 1 + r^2, of the hyperbolic tangent 1 - r^2: sign is 1 or -1. r_0 = `start`. */
 SERIES_FUNCTION real series_slope(real *r, const int length, const series a, const double sign, const real start,
-                                  const int n)
+                                  const int n, const real *in)
 {
     real *const w = SERIES_HELPER(1);
     if (n == 0) {
         w[0] = FMA(sign * start, start, SERIES_NUMBER(1.0));
         return start;
     }
-    r[n] = series_along(SERIES_FROM(w), series_rates(SERIES_HELPER(2), a, n), n);
-    w[n] = sign * series_halves(SERIES_ITSELF, n, 0);
+    r[n] = series_along(SERIES_FROM(w), series_rates(SERIES_HELPER(2), a, n), n, SERIES_GIVEN(0));
+    w[n] = sign * series_square(SERIES_ITSELF, n, 0, SERIES_GIVEN(1));
     return r[n];
 }
 
-SERIES_FUNCTION real series_tan(real *r, const int length, const series a, const int n)
+SERIES_FUNCTION real series_tan(real *r, const int length, const series a, const int n, const real *in)
 {
-    return series_slope(r, length, a, 1.0, n == 0 ? SERIES_OF(tan)(a.at[0]) : SERIES_NUMBER(0.0), n);
+    return series_slope(r, length, a, 1.0, n == 0 ? SERIES_OF(tan)(a.at[0]) : SERIES_NUMBER(0.0), n, in);
 }
 
-SERIES_FUNCTION real series_tanh(real *r, const int length, const series a, const int n)
+SERIES_FUNCTION real series_tanh(real *r, const int length, const series a, const int n, const real *in)
 {
-    return series_slope(r, length, a, -1.0, n == 0 ? SERIES_OF(tanh)(a.at[0]) : SERIES_NUMBER(0.0), n);
+    return series_slope(r, length, a, -1.0, n == 0 ? SERIES_OF(tanh)(a.at[0]) : SERIES_NUMBER(0.0), n, in);
 }
 
 /* w r' = top', w the first helper. */
-SERIES_FUNCTION real series_inverse(real *r, const int length, const real top, const int n)
+SERIES_FUNCTION real series_inverse(real *r, const int length, const real top, const int n, const real *inner)
 {
     const real *const w = SERIES_HELPER(1);
     real *const dr = SERIES_HELPER(2);
-    const real known = series_sum(SERIES_FROM(dr), SERIES_FROM(w), n, 1, 1) * SERIES_PART(n);
+    const real known = series_sum(SERIES_FROM(dr), SERIES_FROM(w), n, 1, 1, inner) * RECIPROCAL(n);
     const real next = (top - known) * SERIES_KEPT;
     dr[n] = (double)n * next;
     return next;
@@ -313,7 +311,7 @@ SERIES_FUNCTION real series_inverse(real *r, const int length, const real top, c
 
 /* w = sqrt(1 - a^2); sign 1 of asin, -1 of acos. */
 SERIES_FUNCTION real series_arc(real *r, const int length, const series a, const double sign, const real start,
-                                const int n)
+                                const int n, const real *in)
 {
     real *const w = SERIES_HELPER(1);
     if (n == 0) {
@@ -321,21 +319,22 @@ SERIES_FUNCTION real series_arc(real *r, const int length, const series a, const
         SERIES_KEPT = SERIES_WHERE(w[0], 1.0 / w[0]);
         return start;
     }
-    w[n] = (-series_product(a, a, n) - series_halves(SERIES_FROM(w), n, 1)) * (0.5 * SERIES_KEPT);
-    return series_inverse(r, length, sign * series_at(a, n), n);
+    w[n] = (-series_product(a, a, n, SERIES_GIVEN(0)) - series_square(SERIES_FROM(w), n, 1, SERIES_GIVEN(1))) *
+           (0.5 * SERIES_KEPT);
+    return series_inverse(r, length, sign * series_at(a, n), n, SERIES_GIVEN(2));
 }
 
-SERIES_FUNCTION real series_asin(real *r, const int length, const series a, const int n)
+SERIES_FUNCTION real series_asin(real *r, const int length, const series a, const int n, const real *in)
 {
-    return series_arc(r, length, a, 1.0, n == 0 ? SERIES_OF(asin)(a.at[0]) : SERIES_NUMBER(0.0), n);
+    return series_arc(r, length, a, 1.0, n == 0 ? SERIES_OF(asin)(a.at[0]) : SERIES_NUMBER(0.0), n, in);
 }
 
-SERIES_FUNCTION real series_acos(real *r, const int length, const series a, const int n)
+SERIES_FUNCTION real series_acos(real *r, const int length, const series a, const int n, const real *in)
 {
-    return series_arc(r, length, a, -1.0, n == 0 ? SERIES_OF(acos)(a.at[0]) : SERIES_NUMBER(0.0), n);
+    return series_arc(r, length, a, -1.0, n == 0 ? SERIES_OF(acos)(a.at[0]) : SERIES_NUMBER(0.0), n, in);
 }
 
-SERIES_FUNCTION real series_atan(real *r, const int length, const series a, const int n)
+SERIES_FUNCTION real series_atan(real *r, const int length, const series a, const int n, const real *in)
 {
     real *const w = SERIES_HELPER(1);
     if (n == 0) {
@@ -343,12 +342,13 @@ SERIES_FUNCTION real series_atan(real *r, const int length, const series a, cons
         SERIES_KEPT = 1.0 / w[0];
         return SERIES_OF(atan)(a.at[0]);
     }
-    w[n] = series_product(a, a, n);
-    return series_inverse(r, length, series_at(a, n), n);
+    w[n] = series_product(a, a, n, SERIES_GIVEN(0));
+    return series_inverse(r, length, series_at(a, n), n, SERIES_GIVEN(1));
 }
 
 /* (a^2 + b^2) r' = a' b - b' a */
-SERIES_FUNCTION real series_atan2(real *r, const int length, const series a, const series b, const int n)
+SERIES_FUNCTION real series_atan2(real *r, const int length, const series a, const series b, const int n,
+                                  const real *in)
 {
     real *const w = SERIES_HELPER(1);
     if (n == 0) {
@@ -357,13 +357,14 @@ SERIES_FUNCTION real series_atan2(real *r, const int length, const series a, con
         return SERIES_OF(atan2)(a.at[0], b.at[0]);
     }
     const series da = series_rates(SERIES_HELPER(3), a, n), db = series_rates(SERIES_HELPER(4), b, n);
-    w[n] = series_product(a, a, n) + series_product(b, b, n);
-    const real turned = (series_sum(da, b, n, 1, 0) - series_sum(db, a, n, 1, 0)) * SERIES_PART(n);
-    return series_inverse(r, length, turned, n);
+    w[n] = series_product(a, a, n, SERIES_GIVEN(0)) + series_product(b, b, n, SERIES_GIVEN(1));
+    const real turned =
+        (series_sum(da, b, n, 1, 0, SERIES_GIVEN(2)) - series_sum(db, a, n, 1, 0, SERIES_GIVEN(3))) * RECIPROCAL(n);
+    return series_inverse(r, length, turned, n, SERIES_GIVEN(4));
 }
 
 /* r' = (2/sqrt pi) e a' with e = exp(-a^2) */
-SERIES_FUNCTION real series_erf(real *r, const int length, const series a, const int n)
+SERIES_FUNCTION real series_erf(real *r, const int length, const series a, const int n, const real *in)
 {
     real *const e = SERIES_HELPER(1), *const rates = SERIES_HELPER(2);
     if (n == 0) {
@@ -371,9 +372,10 @@ SERIES_FUNCTION real series_erf(real *r, const int length, const series a, const
         return SERIES_OF(erf)(a.at[0]);
     }
     const int last = a.last < SERIES_ALL ? 2 * a.last : SERIES_ALL;
-    if (n <= last) rates[n] = -(double)n * series_product(a, a, n);
-    const real next = 1.1283791670955126 * series_along(SERIES_FROM(e), series_rates(SERIES_HELPER(3), a, n), n);
-    e[n] = series_along(SERIES_FROM(e), SERIES(rates, last), n);
+    if (n <= last) rates[n] = -(double)n * series_product(a, a, n, SERIES_GIVEN(0));
+    const real next =
+        1.1283791670955126 * series_along(SERIES_FROM(e), series_rates(SERIES_HELPER(3), a, n), n, SERIES_GIVEN(1));
+    e[n] = series_along(SERIES_FROM(e), SERIES(rates, last), n, SERIES_GIVEN(2));
     return next;
 }
 

@@ -57,6 +57,7 @@ static quad quad_mod(quad x, quad y) { return x - y * quad_floor(x / y); }
 #define coef quad
 #define FMA(a, b, c) ((a) * (b) + (c))
 #define SERIES_OF(f) quad_##f
+#include "step/reciprocals.h"
 #include "step/series.h"
 #undef FMA
 #undef SERIES_OF
@@ -64,17 +65,18 @@ static quad quad_mod(quad x, quad y) { return x - y * quad_floor(x / y); }
 #define OF(f) quad_##f
 #define FUSE(a, b, c) ((a) * (b) + (c))
 #define WHEN(condition, a, b) ((condition) ? (a) : (b))
-#define OP(id, arity, spelling, degree, smooth, value, derivative, keeps, recurrence)                             \
+#define OP(id, arity, spelling, degree, smooth, value, derivative, keeps, sums, recurrence)                       \
     static quad next_##id(quad *r, const int length, const series a, const series b, const series c, const int n) \
     {                                                                                                             \
-        (void)r, (void)length, (void)a, (void)b, (void)c, (void)n;                                                \
+        const quad *const in = SERIES_NONE;                                                                       \
+        (void)in, (void)r, (void)length, (void)a, (void)b, (void)c, (void)n;                                      \
         return recurrence;                                                                                        \
     }
 #define LEAF(...)
 #include "lang/base/operations.def"
 #undef OP
 /* clang-format off */
-#define OP(id, arity, spelling, degree, smooth, value, derivative, keeps, recurrence) case OP_##id: return value;
+#define OP(id, arity, spelling, degree, smooth, value, derivative, keeps, sums, recurrence) case OP_##id: return value;
 #define LEAF(...)
 /* clang-format on */
 static quad value_of(operation op, quad a, quad b, quad c)
@@ -95,7 +97,7 @@ static const struct {
     const char *recurrence;
     quad (*next)(quad *r, int length, series a, series b, series c, int n);
 } rows[OPERATIONS] = {
-#define OP(id, arity, spelling, degree, smooth, value, derivative, keeps, recurrence) \
+#define OP(id, arity, spelling, degree, smooth, value, derivative, keeps, sums, recurrence) \
     [OP_##id] = {keeps, #recurrence, next_##id},
 #define LEAF(...)
 #include "lang/base/operations.def"

@@ -35,6 +35,18 @@ static const char *const texts[] = {
     /* lanes along an index: more values than fill a vector, and some left over; neighbours on a ring; two indices */
     "m[i] = 1/(i + 1) for i = 1..11\nr[i]'' = sum(j = 1..11, j != i: m[j] (r[j] - r[i])/|r[j] - r[i]|^3) - i r[i]'/99 "
     "for i = 1..11\nr[i](0) = (cos(i), sin(i), i/5) for i = 1..11\nr[i]'(0) = (0, i/20, 0.1) for i = 1..11",
+    /* pairs that are taken once: even and odd parts, two cells, partial sums, none */
+    "x[i]'' = sum(j = 1..2, j != i: (x[j] - x[i])/(1 + (x[j] - x[i])^2)) for i = 1..2\nx[i](0) = i for i = 1..2\n"
+    "x[i]'(0) = 0 for i = 1..2",
+    "N = 18\nx[i]'' = sum(j = 1..N, j != i: 0.1 exp(-(x[j] - x[i])^2)) + sum(j = 1..N, j != i: j ((x[j] - x[i]) "
+    "exp(-(x[j] - x[i])^2))) - x[i] for i = 1..N\nx[i](0) = sin(i) for i = 1..N\nx[i]'(0) = 0 for i = 1..N",
+    "x[i]'' = sum(j = 1..7, j != i: (x[j] - x[i])^2 (x[j] - x[i])) for i = 1..7\nx[i](0) = i/9 for i = 1..7\n"
+    "x[i]'(0) = 0 for i = 1..7",
+    "x[i]'' = sum(j = 1..9, j != i: (x[j] - x[i])/(1 + (x[j] - x[i])^2) + x[i]'/9) for i = 1..9\nx[i](0) = cos(i) for "
+    "i = 1..9\nx[i]'(0) = 0 for i = 1..9",
+    "x[i]'' = sum(j = 1..1, j != i: (x[j] - x[i])/(1 + (x[j] - x[i])^2)) - x[i] for i = 1..1\nx[i](0) = i for i = "
+    "1..1\n"
+    "x[i]'(0) = 0 for i = 1..1",
     "x[i]'' = sin(x[mod(i, 19) + 1] - x[i]) - x[i] exp(-t/9)/i for i = 1..19\nx[i](0) = cos(i) for i = 1..19\nx[i]'(0) "
     "= "
     "0 for i = 1..19",
@@ -159,7 +171,7 @@ static void the_order_is_that_of_the_series(void **unused)
     motus_error err = motus_default_error();
     chosen whole;
     must(row_choose("taylor", &whole, NULL, &err), &err, "taylor");
-    for (int order = 4; order <= 24; order++) {
+    for (int order = 4; order <= SERIES_ORDER_MOST; order++) {
         row own = *whole.row;
         chosen shorter = whole;
         own.series = order;
@@ -176,12 +188,18 @@ static void the_order_is_that_of_the_series(void **unused)
         must(stepper_advance(one, (stepper_limit){1, h}, NULL, &err), &err, "a step");
         must(stepper_sync(one, x, v, NULL, &err), &err, "a step");
         assert_true(stepper_time(one) == h && stepper_steps(one) == 1);
-        /* some roundings of each coefficient; what order p lacks is more, from 5 h^4 to 25 h^24 */
+        /* some roundings of each coefficient; what order p lacks is more up to order 24: 25 h^24 */
         assert_true(fabs(x[0] - sum_x) <= 4 * order * ROUNDING * sum_x);
         assert_true(fabs(v[0] - sum_v) <= 4 * order * ROUNDING * sum_v);
         assert_true(fabs(v[1] - sum_u) <= 4 * order * ROUNDING * sum_u);
         stepper_destroy(one);
     }
+    row longer = *whole.row;
+    chosen too_long = whole;
+    stepper *none = NULL;
+    longer.series = SERIES_ORDER_MOST + 1, too_long.row = &longer;
+    assert_int_equal(stepper_create(&s->machine, &too_long, 0, 0.25, s->x0, s->v0, NULL, &none, &err), MOTUS_LIMIT);
+    assert_non_null(strstr(err.message, "order 48"));
     motus_system_destroy(s);
 }
 
@@ -233,7 +251,7 @@ static void evaluations_are_orders(void **unused)
     motus_statistics st = motus_default_statistics();
     finish(r);
     assert_int_equal(motus_run_statistics(r, &st), MOTUS_OK);
-    assert_int_equal(st.evaluations, 23 * st.steps + st.refused + 1);
+    assert_int_equal(st.evaluations, 25 * st.steps + st.refused + 1); /* order 26 */
     motus_run_destroy(r);
     motus_system_destroy(s);
 }

@@ -9,8 +9,8 @@
 #include "lang/base/functions.h"
 
 static const operation_row rows[OPERATIONS] = {
-#define OP(id, arity, spelling, degree, smooth, value, derivative, keeps, recurrence) \
-    [OP_##id] = {spelling, arity, DEGREE_##degree, smooth, keeps},
+#define OP(id, arity, spelling, degree, smooth, value, derivative, keeps, sums, recurrence) \
+    [OP_##id] = {spelling, arity, DEGREE_##degree, smooth, keeps, sums},
 #include "lang/base/operations.def"
 #undef OP
 };
@@ -36,8 +36,8 @@ bool operation_decides(operation op)
 double operation_value(operation op, double a, double b, double c)
 {
     switch (op) {
-#define OP(id, arity, spelling, degree, smooth, value, derivative, keeps, recurrence) \
-    case OP_##id:                                                                     \
+#define OP(id, arity, spelling, degree, smooth, value, derivative, keeps, sums, recurrence) \
+    case OP_##id:                                                                           \
         return value;
 #include "lang/base/operations.def"
 #undef OP

@@ -31,6 +31,7 @@ typedef enum degree_rule {
 typedef struct operation_row {
     const char *spelling;
     uint8_t arity, degree, smooth, keeps;
+    const char *sums; /* operations.def */
 } operation_row;
 
 const operation_row *operation_at(operation);

@@ -55,7 +55,6 @@ typedef struct emit {
     uint64_t used_series;
     bool series_may_be_wide; /* their lanes may run along an index of families */
     bool series_wide;        /* and they do */
-    bool series_apart;       /* every order is compiled apart */
     bool separate;           /* the next program is compiled once, and called */
     /* the next program takes a window of outer indices, and PUT(k, value) stands for a[k] = value */
     bool windowed;

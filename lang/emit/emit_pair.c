@@ -119,13 +119,11 @@ static bool same_cells(const emit *e, const range *r)
     return !e->pair_sums || (same_bound(&e->pair_range.first, &r->first) && same_bound(&e->pair_range.last, &r->last));
 }
 
-uint32_t emit_pairs(writer *w, uint32_t family)
+uint32_t emit_exchangeable(writer *w, uint32_t family)
 {
     const plan_region *f = &w->plan.regions.at[family];
-    emit *e = w->e;
-    if (f->parent != AT_RUN || f->level != 0 || e->lanes || w->part != RUNNING || w->plan.g->count > NODES_MAX)
-        return NONE;
     uint32_t found = NONE;
+    if (f->parent != AT_RUN || f->level != 0 || w->e->lanes || w->plan.g->count > NODES_MAX) return NONE;
     for (uint32_t k = f->first_child; k != NONE; k = w->plan.regions.at[k].next) {
         const plan_region *r = &w->plan.regions.at[k];
         if (found == NONE && r->sum && r->level == 1 && !r->holds_sums &&
@@ -133,14 +131,25 @@ uint32_t emit_pairs(writer *w, uint32_t family)
             exchangeable(w, r))
             found = k;
     }
-    if (found == NONE || !same_cells(e, &f->range)) return NONE;
-    w->parity = arena_room(e->text.arena, w->plan.g->count + 1);
-    w->exchanged = arena_room(e->text.arena, w->plan.g->count + 1);
+    if (found == NONE) return NONE;
+    w->parity = arena_room(w->e->text.arena, w->plan.g->count + 1);
+    w->exchanged = arena_room(w->e->text.arena, w->plan.g->count + 1);
     if (!w->parity || !w->exchanged) return NONE;
+    for (node n = 0; n < w->plan.g->count; n++) w->parity[n] = parity_of(w, w->parity, at(w, n));
+    return found;
+}
+
+bool emit_is_odd(const writer *w, node n) { return w->parity[n] == ODD; }
+
+uint32_t emit_pairs(writer *w, uint32_t family)
+{
+    const plan_region *f = &w->plan.regions.at[family];
+    emit *e = w->e;
+    const uint32_t found = w->part == RUNNING ? emit_exchangeable(w, family) : NONE;
+    if (found == NONE || !same_cells(e, &f->range)) return NONE;
     bool worth = false;
     for (node n = 0; n < w->plan.g->count; n++) {
         const graph_node *m = at(w, n);
-        w->parity[n] = parity_of(w, w->parity, m);
         worth |= w->parity[n] == EVEN && (m->deps & DEP_PAIR) == DEP_PAIR && takes_long(m->op);
     }
     if (!worth) return NONE;

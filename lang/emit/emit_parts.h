@@ -26,7 +26,12 @@ typedef struct writer {
     bool skips;          /* the terms that a sum's condition leaves out are not computed */
     expansion expansion; /* of a program in series */
     uint32_t stores;     /* outside of loops, so far */
-    bool one_by_one;     /* lanes are written in a loop over l, and a place is that of lane l */
+    /* of a program in series, by item, while a loop over pairs is written that takes each once; else NULL. The loop
+     * `sharing` is that over the terms of one cell; its series and those of the pairs have frames of their own. */
+    struct shared_value *shared;
+    uint32_t sharing, pair_frame, own_frame, fronts;
+    bool in_pairs;   /* the values of the pairs are being written */
+    bool one_by_one; /* lanes are written in a loop over l, and a place is that of lane l */
 } writer;
 
 enum {
@@ -34,6 +39,14 @@ enum {
     PLAIN_TIME = 2, /* a function of time and of what all lanes share, without sums */
     CLOSED = 4
 }; /* no sum in it, no index */
+
+/* How a value takes part in a loop over pairs: not; as a position or velocity of one of its cells; as a value of the
+ * pair; as one that the terms of both cells use. */
+typedef enum pair_role { ALONE, CELL, PAIR, FRONT } pair_role;
+typedef struct shared_value {
+    pair_role role;
+    uint32_t at, own, front; /* in the pair's frame; of those alone and of fronts in the term's; of fronts: which */
+} shared_value;
 
 #define SAY(w, ...) emit_add(&(w)->e->text, __VA_ARGS__)
 void emit_line(writer *, const char *format, ...) __attribute__((format(printf, 2, 3)));
@@ -69,9 +82,15 @@ void emit_region(writer *, uint32_t region);
 bool emit_leaves_out(const writer *, const plan_region *, int level[2]);
 /* The loop in a family's that may take each pair once, or NONE; what stands before the family's loop; the sums. */
 uint32_t emit_pairs(writer *, uint32_t family);
+/* The loop in a family's whose terms for (i, j) and (j, i) have parts that differ at most in their sign, or NONE; it
+ * fills w->parity. Whether such a part changes its sign. */
+uint32_t emit_exchangeable(writer *, uint32_t family);
+bool emit_is_odd(const writer *, node);
 void emit_pair_start(writer *, uint32_t region);
 void emit_pair_sums(writer *, uint32_t region);
 
 void emit_series_pass(writer *, const char *name);
+/* emit_series_pair.c: whether the series of a family's pairs are taken once for both cells; it fills w->shared. */
+bool emit_series_shares(writer *, uint32_t family);
 
 #endif

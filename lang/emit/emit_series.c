@@ -4,11 +4,13 @@
  * Invariant: every value is a real, in the memory that lang/graph/expansion.h gives it, and every region walks through
  * that memory as the interpreter does. Where all values lie in loops over a family's index, a real is a vector of WIDTH
  * values of that index (`series_wide`), and the states have copies there. The text grows with the graph, not with the
- * order; but a short one is compiled for every order apart, since its loops over coefficients are then sequences.
+ * order. A region begins with the inner sums of all its recurrences, in one loop: each coefficient is then fetched once
+ * for all of them.
  */
 #include "lang/emit/emit_parts.h"
 
 #include <stdio.h>
+#include <string.h>
 
 enum { OPERAND_MAX = 64 };
 
@@ -43,9 +45,115 @@ static void write_bound(writer *w)
     }
 }
 
-/* Values -----------------------------------------------------------------------------------------------------------*/
-
 static bool in_lanes(const writer *w) { return w->e->lanes || w->e->series_wide; }
+
+/* Inner sums -------------------------------------------------------------------------------------------------------*/
+
+static const char *sums_of(unsigned op) { return operation_at((operation)op)->sums; }
+
+static bool never_ends(const writer *w, node n)
+{
+    const uint32_t home = plan_home(&w->plan, w->plan.g->nodes[n].deps, w->region);
+    return home != AT_BIND && w->expansion.values[plan_find(&w->plan, n, home)].last == EXPANSION_ALL;
+}
+
+/* The operation whose recurrence an item has: that of a sum's update is the product that it adds. */
+static const graph_node *recurrence_of(const writer *w, uint32_t item)
+{
+    const graph *g = w->plan.g;
+    const plan_item *i = &w->plan.items.at[item];
+    const uint32_t whole = plan_updates(&w->plan, i);
+    return &g->nodes[whole == NONE ? i->n : g->nodes[w->plan.items.at[whole].n].a];
+}
+
+/* Whether the inner sums of an item's recurrence are taken before: none of the series that they are of ends. */
+static bool has_inner(const writer *w, uint32_t item)
+{
+    const graph_node *n = recurrence_of(w, item);
+    const expansion_value *v = &w->expansion.values[item];
+    const bool update = plan_updates(&w->plan, &w->plan.items.at[item]) != NONE;
+    if (w->shared && !w->in_pairs && w->shared[item].role != ALONE) return false;
+    if (!*sums_of(n->op) || (!update && (v->state || v->twin != NONE || v->last < EXPANSION_ALL))) return false;
+    for (const char *s = sums_of(n->op); *s; s++)
+        if (!(*s == 'r' || never_ends(w, *s == 'b' ? n->b : n->a))) return false;
+    return true;
+}
+
+/* One of the series of an inner sum, as operations.def names it. */
+static void write_factor(const writer *w, uint32_t item, char which, char out[OPERAND_MAX])
+{
+    const graph_node *n = recurrence_of(w, item);
+    if (which == 'a' || which == 'b') {
+        const node x = which == 'a' ? n->a : n->b;
+        snprintf(out, OPERAND_MAX, "z%u",
+                 plan_find(&w->plan, x, plan_home(&w->plan, w->plan.g->nodes[x].deps, w->region)));
+    } else if (which == 'r') {
+        snprintf(out, OPERAND_MAX, "z%u", item);
+    } else {
+        snprintf(out, OPERAND_MAX, "(z%u + %d)", item, (which - '0') * w->expansion.length);
+    }
+}
+
+typedef struct inner_sum {
+    uint32_t item;
+    int k; /* of the item's */
+    bool square;
+    char f[OPERAND_MAX], g[OPERAND_MAX];
+} inner_sum;
+
+static void write_inner(writer *w, const inner_sum *sums, int count)
+{
+    emit_line(w, "if (n > 3) {");
+    w->depth++;
+    emit_line(w, "const int half = n / 2;");
+    for (int k = 0; k < count; k++) {
+        const inner_sum *s = &sums[k];
+        emit_line(w, "real p%d = n %% 2 ? SERIES_NUMBER(0.0) : 0.5 * %s[half] * %s[half];", k, s->f, s->g);
+        if (!s->square) emit_line(w, "real q%d = p%d;", k, k);
+    }
+    if (!in_lanes(w)) emit_line(w, "#pragma GCC unroll 2");
+    emit_line(w, "for (int m = (n - 1) / 2, k = n - m; m >= 2; m--, k++) {");
+    w->depth++;
+    for (int k = 0; k < count; k++) {
+        const inner_sum *s = &sums[k];
+        emit_line(w, "p%d = SERIES_FMA(%s[m], %s[k], p%d);", k, s->f, s->g, k);
+        if (!s->square) emit_line(w, "q%d = SERIES_FMA(%s[k], %s[m], q%d);", k, s->f, s->g, k);
+    }
+    w->depth--;
+    emit_line(w, "}");
+    for (int k = 0; k < count; k++)
+        emit_line(w, "i%u[%d] = p%d + %c%d;", sums[k].item, sums[k].k, k, sums[k].square ? 'p' : 'q', k);
+    w->depth--;
+    emit_line(w, "}");
+}
+
+/* The inner sums of a region, as many in one loop as have room in registers. */
+static void write_inner_sums(writer *w, const plan_region *r)
+{
+    enum { TOGETHER = 8 };
+    inner_sum sums[TOGETHER];
+    int count = 0;
+    for (uint32_t j = 0; j < r->item_count; j++) {
+        const uint32_t item = w->plan.order[r->items + j];
+        if (!has_inner(w, item)) continue;
+        const char *s = sums_of(recurrence_of(w, item)->op);
+        emit_line(w, "real i%u[%zu];", item, strlen(s) / 2);
+        for (int k = 0; s[2 * k]; k++) {
+            inner_sum *sum = &sums[count];
+            *sum = (inner_sum){.item = item, .k = k};
+            write_factor(w, item, s[2 * k], sum->f);
+            write_factor(w, item, s[2 * k + 1], sum->g);
+            sum->square = !strcmp(sum->f, sum->g);
+            emit_line(w, "i%u[%d] = SERIES_NUMBER(0.0);", item, k);
+            if (++count < TOGETHER) continue;
+            write_inner(w, sums, count);
+            count = 0;
+        }
+    }
+    if (count) write_inner(w, sums, count);
+}
+
+/* Values -----------------------------------------------------------------------------------------------------------*/
 
 static const char *prefix(const writer *w) { return in_lanes(w) ? "ops" : "op"; }
 
@@ -92,8 +200,10 @@ static void write_operation(writer *w, uint32_t item, const graph_node *n)
     w->e->used_series |= (uint64_t)1 << n->op;
     char limit[40] = "";
     if (v->last < EXPANSION_ALL) snprintf(limit, sizeof limit, "if (n <= %d) ", v->last);
-    emit_line(w, "%sseries_%d(z%u, %s%s%s%s%s, n);", limit, n->op, item, text[0], arity > 1 ? ", " : "", text[1],
-              arity > 2 ? ", " : "", text[2]);
+    char given[24] = "SERIES_NONE";
+    if (has_inner(w, item)) snprintf(given, sizeof given, "i%u", item);
+    emit_line(w, "%sseries_%d(z%u, %s%s%s%s%s, n, %s);", limit, n->op, item, text[0], arity > 1 ? ", " : "", text[1],
+              arity > 2 ? ", " : "", text[2], given);
 }
 
 static void write_outputs(writer *w, uint32_t first)
@@ -120,8 +230,37 @@ static void write_outputs(writer *w, uint32_t first)
 /* Where the series of a value begins; of a value that passes, such that coefficient n is always in the same place. */
 static void write_place(writer *w, uint32_t item)
 {
+    const plan_item *i = &w->plan.items.at[item];
+    const graph_node *n = &w->plan.g->nodes[i->n];
     const expansion_value *v = &w->expansion.values[item];
-    emit_line(w, "real *const z%u = g%u + %u%s;", item, w->plan.items.at[item].region, v->at, v->passing ? " - n" : "");
+    if (plan_updates(&w->plan, i) != NONE) return;
+    if (w->shared && i->region == w->sharing) {
+        const shared_value *s = &w->shared[item];
+        if (s->role == ALONE || s->role == FRONT)
+            emit_line(w, "real *const z%u = g%u + %u%s;", item, i->region, s->own,
+                      v->passing || s->role == FRONT ? " - n" : "");
+    } else if (v->twin != NONE) {
+        emit_line(w, "const real *const z%u = z%u + %d;", item, v->twin, w->expansion.length);
+    } else if (v->state && !w->e->series_wide) {
+        const reference *r = &w->plan.g->references[n->a];
+        char place[PLACE_MAX];
+        emit_element(w, r, r->dims, place);
+        emit_line(w, "const real *const z%u = %s + (%s) * %d;", item,
+                  w->plan.g->arrays[r->array].space == SPACE_X ? "x" : "v", place, w->expansion.length);
+    } else {
+        emit_line(w, "real *const z%u = g%u + %u%s;", item, i->region, v->at, v->passing ? " - n" : "");
+    }
+}
+
+/* Coefficient n of a state, in every lane. */
+static void write_copy(writer *w, uint32_t item, const graph_node *n)
+{
+    const reference *r = &w->plan.g->references[n->a];
+    char place[PLACE_MAX], number[PLACE_MAX + 40];
+    emit_element(w, r, r->dims, place);
+    snprintf(number, sizeof number, "%s[(%s) * %d + n]", w->plan.g->arrays[r->array].space == SPACE_X ? "x" : "v",
+             place, w->expansion.length);
+    write_number(w, item, "n", number);
 }
 
 static void write_item(writer *w, uint32_t item)
@@ -129,23 +268,13 @@ static void write_item(writer *w, uint32_t item)
     const plan_item *i = &w->plan.items.at[item];
     const graph_node *n = &w->plan.g->nodes[i->n];
     const expansion_value *v = &w->expansion.values[item];
-    if (v->state) {
-        const reference *r = &w->plan.g->references[n->a];
-        char place[PLACE_MAX];
-        const char *array = w->plan.g->arrays[r->array].space == SPACE_X ? "x" : "v";
-        emit_element(w, r, r->dims, place);
-        if (w->e->series_wide) {
-            char number[PLACE_MAX + 40];
-            snprintf(number, sizeof number, "%s[(%s) * %d + n]", array, place, w->expansion.length);
-            write_place(w, item);
-            write_number(w, item, "n", number);
-        } else {
-            emit_line(w, "const real *const z%u = %s + (%s) * %d;", item, array, place, w->expansion.length);
-        }
-    } else if (v->twin != NONE) {
-        emit_line(w, "const real *const z%u = z%u + %d;", item, v->twin, w->expansion.length);
-    } else {
-        write_place(w, item);
+    if (w->shared && i->region == w->sharing && w->shared[item].role != ALONE) {
+        if (w->shared[item].role == FRONT)
+            emit_line(w, "z%u[n] = index_load(&both[((%u * n0 + j1 - f0) * v0 + (j0 - f0) / WIDTH) * WIDTH]);", item,
+                      w->shared[item].front);
+    } else if (v->state) {
+        if (w->e->series_wide) write_copy(w, item, n);
+    } else if (v->twin == NONE) {
         if (n->op == OP_SUM && v->last < EXPANSION_ALL)
             emit_line(w, "if (n <= %d) z%u[n] = r%u;", v->last, item, item);
         else if (n->op == OP_SUM)
@@ -164,8 +293,9 @@ static void write_region(writer *w, uint32_t region);
 
 #define EACH_SUM(k, r) for (uint32_t k = (r)->sums; k != NONE; k = w->plan.sums.at[w->plan.items.at[k].sum].next)
 
-static void write_update(writer *w, const plan_item *update)
+static void write_update(writer *w, uint32_t item)
 {
+    const plan_item *update = &w->plan.items.at[item];
     const uint32_t whole = plan_updates(&w->plan, update);
     const graph_node *sum = &w->plan.g->nodes[w->plan.items.at[whole].n], *how = &w->plan.g->nodes[sum->a];
     char p[OPERAND_MAX], q[OPERAND_MAX], c[OPERAND_MAX], next[4 * OPERAND_MAX + 80];
@@ -175,9 +305,11 @@ static void write_update(writer *w, const plan_item *update)
     } else {
         operand(w, how->b, q);
         const char *sign = how->op == OP_FNMA ? "-" : "";
+        char given[24] = "SERIES_NONE";
+        if (has_inner(w, item)) snprintf(given, sizeof given, "i%u", item);
         snprintf(next, sizeof next,
-                 "n ? s%u[k] %s series_product(%s, %s, n) : SERIES_FMA(%s%s.at[0], %s.at[0], s%u[k])", whole,
-                 *sign ? sign : "+", p, q, sign, p, q, whole);
+                 "n ? s%u[k] %s series_product(%s, %s, n, %s) : SERIES_FMA(%s%s.at[0], %s.at[0], s%u[k])", whole,
+                 *sign ? sign : "+", p, q, given, sign, p, q, whole);
     }
     if (sum->b) {
         operand(w, sum->b, c);
@@ -185,6 +317,95 @@ static void write_update(writer *w, const plan_item *update)
     } else {
         emit_line(w, "s%u[k] = %s;", whole, next);
     }
+}
+
+/* Coefficient n of the positions or velocities that pairs read, next to one another. */
+static void write_cells(writer *w, const plan_region *r)
+{
+    char place[PLACE_MAX];
+    for (uint32_t k = 0; k < r->item_count; k++) {
+        const uint32_t item = w->plan.order[r->items + k];
+        const graph_node *n = &w->plan.g->nodes[w->plan.items.at[item].n];
+        if (w->shared[item].role != CELL) continue;
+        const reference *from = &w->plan.g->references[n->a];
+        emit_line(w, "double *const x%u = (double *)p;", item);
+        emit_line(w, "p += v0;");
+        emit_element(w, from, from->dims, place);
+        emit_line(w, "for (int64_t j%d = f0; j%d < f0 + n0; j%d++) x%u[j%d - f0] = %s[(%s) * %d + n];", r->level,
+                  r->level, r->level, item, r->level, w->plan.g->arrays[from->array].space == SPACE_X ? "x" : "v",
+                  place, w->expansion.length);
+    }
+}
+
+/* Those of the pairs' first or second cells. */
+static void write_ends(writer *w, const plan_region *r)
+{
+    for (uint32_t k = 0; k < r->item_count; k++) {
+        const uint32_t item = w->plan.order[r->items + k];
+        if (w->shared[item].role != CELL) continue;
+        emit_line(w, "real *const z%u = pair + %u - n;", item, w->shared[item].at);
+        emit_line(w, "z%u[n] = LANES_OF_INDEX(x%u[a%d[l]]);", item, item, r->level);
+    }
+}
+
+/* Which cells the pairs have, WIDTH pairs in a frame; found with order 0. */
+static void write_which(writer *w)
+{
+    emit_line(w, "int64_t *const a0 = (int64_t *)p, *const a1 = a0 + WIDTH;");
+    emit_line(w, "p += 2;");
+    emit_line(w, "const int lanes = n0 * (n0 - 1) / 2 - j < WIDTH ? (int)(n0 * (n0 - 1) / 2 - j) : WIDTH;");
+    emit_line(w, "for (int l = 0; n == 0 && l < lanes; l++) {");
+    emit_line(w, "    a0[l] = i0, a1[l] = i1;");
+    emit_line(w, "    if (++i1 == n0) i0++, i1 = i0 + 1;");
+    emit_line(w, "}");
+}
+
+/* The values of every pair, WIDTH pairs at a time, and the matrix of their fronts. */
+static void write_pairs(writer *w, uint32_t family, const char *first, const char *last)
+{
+    const plan_region *f = &w->plan.regions.at[family], *r = &w->plan.regions.at[w->sharing];
+    emit_line(w, "const int64_t f0 = %s, n0 = %s - f0 + 1, v0 = (n0 + WIDTH - 1) / WIDTH;", first, last);
+    emit_line(w, "double *const both = (double *)p;");
+    emit_line(w, "p += %u * n0 * v0;", w->fronts);
+    write_cells(w, f);
+    write_cells(w, r);
+    emit_line(w, "int64_t i0 = 0, i1 = 1;");
+    emit_line(w, "for (int64_t j = 0; j < n0 * (n0 - 1) / 2; j += WIDTH) {");
+    w->depth++;
+    write_which(w);
+    emit_line(w, "real *const pair = p;");
+    emit_line(w, "p += %u;", w->pair_frame);
+    w->region = w->sharing;
+    w->in_pairs = true;
+    write_ends(w, f);
+    write_ends(w, r);
+    for (uint32_t k = 0; k < r->item_count; k++) {
+        const uint32_t item = w->plan.order[r->items + k];
+        const shared_value *s = &w->shared[item];
+        if (s->role == PAIR || s->role == FRONT)
+            emit_line(w, "real *const z%u = pair + %u%s;", item, s->at,
+                      w->expansion.values[item].passing ? " - n" : "");
+    }
+    write_inner_sums(w, r);
+    for (uint32_t k = 0; k < r->item_count; k++) {
+        const uint32_t item = w->plan.order[r->items + k];
+        if (w->shared[item].role < PAIR) continue;
+        write_operation(w, item, &w->plan.g->nodes[w->plan.items.at[item].n]);
+    }
+    emit_line(w, "for (int l = 0; l < lanes; l++) {");
+    w->depth++;
+    for (uint32_t k = 0; k < r->item_count; k++) {
+        const uint32_t item = w->plan.order[r->items + k], front = w->shared[item].front;
+        if (w->shared[item].role != FRONT) continue;
+        emit_line(w, "both[(%u * n0 + a1[l]) * v0 * WIDTH + a0[l]] = LANE_OF(z%u[n], l);", front, item);
+        emit_line(w, "both[(%u * n0 + a0[l]) * v0 * WIDTH + a1[l]] = %sLANE_OF(z%u[n], l);", front,
+                  emit_is_odd(w, w->plan.items.at[item].n) ? "-" : "", item);
+    }
+    w->depth--;
+    emit_line(w, "}");
+    w->in_pairs = false;
+    w->depth--;
+    emit_line(w, "}");
 }
 
 /* A loop over a family's index, WIDTH values at a time; `lanes` of them are in the family, and the others repeat the
@@ -197,6 +418,12 @@ static void write_wide_loop(writer *w, uint32_t region)
     char first[PLACE_MAX], last[PLACE_MAX];
     emit_bound(w, &r->range.first, first);
     emit_bound(w, &r->range.last, last);
+    const bool shares = emit_series_shares(w, region);
+    if (shares) {
+        emit_line(w, "{");
+        w->depth++;
+        write_pairs(w, region, first, last);
+    }
     emit_line(w, "for (int64_t j%d = %s, e%d = %s; j%d <= e%d; j%d += WIDTH) {", level, first, level, last, level,
               level, level);
     w->depth++;
@@ -207,6 +434,11 @@ static void write_wide_loop(writer *w, uint32_t region)
     w->region = around;
     w->depth--;
     emit_line(w, "}");
+    if (shares) {
+        w->shared = NULL;
+        w->depth--;
+        emit_line(w, "}");
+    }
 }
 
 static void write_loop(writer *w, uint32_t region)
@@ -248,7 +480,9 @@ static void write_region(writer *w, uint32_t region)
     const plan_region *r = &w->plan.regions.at[region];
     w->region = region;
     emit_line(w, "real *const g%u = p;", region);
-    emit_line(w, "p += %u;", w->expansion.frames[region]);
+    emit_line(w, "p += %u;", w->shared && region == w->sharing ? w->own_frame : w->expansion.frames[region]);
+    for (uint32_t k = 0; k < r->item_count; k++) write_place(w, w->plan.order[r->items + k]);
+    write_inner_sums(w, r);
     write_outputs(w, r->outputs);
     for (uint32_t k = 0; k < r->item_count && !w->plan.failed; k++) {
         const uint32_t item = w->plan.order[r->items + k];
@@ -257,7 +491,7 @@ static void write_region(writer *w, uint32_t region)
         if (inside != NONE && i->reg == NONE) write_loop(w, inside);
         w->region = region;
         if (plan_updates(&w->plan, i) != NONE)
-            write_update(w, i);
+            write_update(w, item);
         else
             write_item(w, item);
     }
@@ -291,15 +525,14 @@ static bool can_be_wide(const writer *w)
     return any;
 }
 
-static const char *const given = "pool, q, u, w, own, ", *const states = "t, x, v, p, a";
-
-static void write_head(writer *w, const char *how, const char *name, const char *order)
+/* A copy for order 0 would be compiled as long as the other. */
+static void write_head(writer *w, const char *name)
 {
     const char *real = w->e->series_wide ? "double" : "real";
     SAY(w,
-        "%s static %s *%s(const double *restrict pool, const int64_t *restrict q, const double *restrict u, const %s "
-        "*restrict w, %s *restrict own, %sconst clock t, %s *x, %s *v, %s *p, %s *a)\n",
-        how, real, name, real, real, order, real, real, real, real);
+        "%sstatic %s *%s(const double *restrict pool, const int64_t *restrict q, const double *restrict u, const %s "
+        "*restrict w, %s *restrict own, const int n, const clock t, %s *x, %s *v, %s *p, %s *a)\n",
+        w->e->series_wide ? "__attribute__((noclone)) " : "", real, name, real, real, real, real, real, real);
 }
 
 static void write_body(writer *w)
@@ -318,48 +551,27 @@ static void write_body(writer *w)
     SAY(w, "}\n\n");
 }
 
-/* The orders apart, and the function that calls them. */
-static void write_orders(writer *w, const char *name)
-{
-    char part[80];
-    const int count = w->expansion.length - 2;
-    for (int n = 0; n < count; n++) {
-        snprintf(part, sizeof part, "%s_%d", name, n);
-        write_head(w, "__attribute__((noinline))", part, "");
-        SAY(w, "{ return %s_any(%s%d, %s); }\n", name, given, n, states);
-    }
-    write_head(w, "inline", name, "const int n, ");
-    SAY(w, "{\n    switch (n) {\n");
-    for (int n = 0; n < count - 1; n++) SAY(w, "    case %d: return %s_%d(%s%s);\n", n, name, n, given, states);
-    SAY(w, "    default: return %s_%d(%s%s);\n    }\n}\n\n", name, count - 1, given, states);
-}
-
 void emit_series_pass(writer *w, const char *name)
 {
-    enum { APART_MAX = 64 }; /* values */
-    char any[80];
     if (!expansion_place(&w->expansion, w->e->text.arena, &w->plan, w->e->series, true)) return;
-    const bool apart = w->plan.items.count <= APART_MAX;
     w->along = -1;
     w->e->series_wide = w->e->series_may_be_wide && can_be_wide(w);
     w->e->uses_vectors |= w->e->series_wide;
-    w->e->series_apart |= apart;
-    snprintf(any, sizeof any, apart ? "%s_any" : "%s", name);
     if (w->e->series_wide) SAY(w, "#pragma push_macro(\"real\")\n#undef real\n#define real reals\n");
-    write_head(w, apart ? "inline __attribute__((always_inline))" : "__attribute__((noinline))", any, "const int n, ");
+    write_head(w, name);
     write_body(w);
-    if (apart) write_orders(w, name);
     if (w->e->series_wide) SAY(w, "#pragma pop_macro(\"real\")\n");
 }
 
 /* The recurrences ---------------------------------------------------------------------------------------------------*/
 
-static void write_recurrence(emit_text *t, const char *prefix, int op, int keeps, const char *recurrence,
-                             const char *operands, const char *values)
+static void write_recurrence(emit_text *t, const char *prefix, int op, int keeps, const char *sums,
+                             const char *recurrence, const char *operands, const char *values)
 {
-    emit_add(t, "SERIES_FUNCTION void series_%d(real *r, %s, const int n) { ", op, operands);
+    (void)sums;
+    emit_add(t, "SERIES_FUNCTION void series_%d(real *r, %s, const int n, const real *in) { ", op, operands);
     if (!keeps) emit_add(t, "if (n == 0) r[0] = %s_%d(%s); else ", prefix, op, values);
-    emit_add(t, "r[n] = %s; }\n", recurrence);
+    emit_add(t, "(void)in, r[n] = %s; }\n", recurrence);
 }
 
 bool emit_series_operations(emit *e, const char *prefix)
@@ -368,12 +580,12 @@ bool emit_series_operations(emit *e, const char *prefix)
 #define ROW(id, ...) \
     if (e->used_series & OPERATION_BIT(id)) write_recurrence(t, prefix, OP_##id, __VA_ARGS__);
 #define LEAF(...)
-#define UNARY(id, spelling, degree, smooth, value, derivative, keeps, recurrence) \
-    ROW(id, keeps, #recurrence, "const series a", "a.at[0]")
-#define BINARY(id, spelling, degree, smooth, value, derivative, keeps, recurrence) \
-    ROW(id, keeps, #recurrence, "const series a, const series b", "a.at[0], b.at[0]")
-#define TERNARY(id, spelling, degree, smooth, value, derivative, keeps, recurrence) \
-    ROW(id, keeps, #recurrence, "const series a, const series b, const series c", "a.at[0], b.at[0], c.at[0]")
+#define UNARY(id, spelling, degree, smooth, value, derivative, keeps, sums, recurrence) \
+    ROW(id, keeps, sums, #recurrence, "const series a", "a.at[0]")
+#define BINARY(id, spelling, degree, smooth, value, derivative, keeps, sums, recurrence) \
+    ROW(id, keeps, sums, #recurrence, "const series a, const series b", "a.at[0], b.at[0]")
+#define TERNARY(id, spelling, degree, smooth, value, derivative, keeps, sums, recurrence) \
+    ROW(id, keeps, sums, #recurrence, "const series a, const series b, const series c", "a.at[0], b.at[0], c.at[0]")
 #include "lang/base/operations.def"
 #undef ROW
     return !e->text.arena->failed;

@@ -252,8 +252,8 @@ static __attribute__((noinline)) double function(const instruction *i, const dou
     const double a = R[i->a], b = R[i->b];
     switch (i->code) {
 #define OP(...)
-#define FUNCTION(id, arity, spelling, degree, smooth, value, derivative, keeps, recurrence) \
-    case OP_##id:                                                                           \
+#define FUNCTION(id, arity, spelling, degree, smooth, value, derivative, keeps, sums, recurrence) \
+    case OP_##id:                                                                                 \
         return CALLED(id, value);
 #include "lang/base/operations.def"
 #undef OP
@@ -284,26 +284,26 @@ static void execute(frame *f, const instruction *i)
     goto *label[i->code];
 #define LEAF(...)
 #define FUNCTION(...)
-#define UNARY(id, spelling, degree, smooth, value, derivative, keeps, recurrence) \
-    l_##id:                                                                       \
-    {                                                                             \
-        const double a = R[i->a];                                                 \
-        R[i->r] = value;                                                          \
-        NEXT;                                                                     \
+#define UNARY(id, spelling, degree, smooth, value, derivative, keeps, sums, recurrence) \
+    l_##id:                                                                             \
+    {                                                                                   \
+        const double a = R[i->a];                                                       \
+        R[i->r] = value;                                                                \
+        NEXT;                                                                           \
     }
-#define BINARY(id, spelling, degree, smooth, value, derivative, keeps, recurrence) \
-    l_##id:                                                                        \
-    {                                                                              \
-        const double a = R[i->a], b = R[i->b];                                     \
-        R[i->r] = value;                                                           \
-        NEXT;                                                                      \
+#define BINARY(id, spelling, degree, smooth, value, derivative, keeps, sums, recurrence) \
+    l_##id:                                                                              \
+    {                                                                                    \
+        const double a = R[i->a], b = R[i->b];                                           \
+        R[i->r] = value;                                                                 \
+        NEXT;                                                                            \
     }
-#define TERNARY(id, spelling, degree, smooth, value, derivative, keeps, recurrence) \
-    l_##id:                                                                         \
-    {                                                                               \
-        const double a = R[i->a], b = R[i->b], c = R[i->c];                         \
-        R[i->r] = value;                                                            \
-        NEXT;                                                                       \
+#define TERNARY(id, spelling, degree, smooth, value, derivative, keeps, sums, recurrence) \
+    l_##id:                                                                               \
+    {                                                                                     \
+        const double a = R[i->a], b = R[i->b], c = R[i->c];                               \
+        R[i->r] = value;                                                                  \
+        NEXT;                                                                             \
     }
 #include "lang/base/operations.def"
 l_function:

@@ -36,6 +36,7 @@
 #define SERIES_OF(f) motus_##f
 #endif
 #define NO_SERIES 0.0
+#include "step/reciprocals.h"
 #include "step/series.h"
 
 typedef struct running {
@@ -53,11 +54,12 @@ static __attribute__((noinline)) double coefficient(const running *run, const se
     const tape_series *s = run->s;
     const series a = operand_of(s, task->a), b = operand_of(s, task->b), c = operand_of(s, task->c);
     const int n = run->pass->n, length = s->length;
+    const double *const in = SERIES_NONE;
     if (n == 0 && !task->begins) return operation_value((operation)task->op, a.at[0], b.at[0], c.at[0]);
     switch (task->op) {
 #define LEAF(...)
-#define OP(id, arity, spelling, degree, smooth, value, derivative, keeps, recurrence) \
-    case OP_##id:                                                                     \
+#define OP(id, arity, spelling, degree, smooth, value, derivative, keeps, sums, recurrence) \
+    case OP_##id:                                                                           \
         return recurrence;
 #include "lang/base/operations.def"
 #undef OP
@@ -73,8 +75,8 @@ static void update(const running *run, const series_task *task)
     double *total = &s->totals[task->r][run->part[task->at]];
     if (task->c != NONE && s->at[task->c][0] == 0) return;
     switch (task->op) {
-    case OP_FMA: *total = n ? *total + series_product(a, b, n) : fma(a.at[0], b.at[0], *total); break;
-    case OP_FNMA: *total = n ? *total - series_product(a, b, n) : fma(-a.at[0], b.at[0], *total); break;
+    case OP_FMA: *total = n ? *total + series_product(a, b, n, SERIES_NONE) : fma(a.at[0], b.at[0], *total); break;
+    case OP_FNMA: *total = n ? *total - series_product(a, b, n, SERIES_NONE) : fma(-a.at[0], b.at[0], *total); break;
     default: *total = *total + series_at(a, n);
     }
 }
