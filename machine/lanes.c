@@ -358,8 +358,9 @@ motus_status lanes_ready(lanes *l, char *note, size_t size, motus_error *err)
     *(void **)&l->first = dlsym(l->handle, "motus_lanes_first");
     *(void **)&l->observe = dlsym(l->handle, "motus_lanes_observe");
     *(void **)&l->run = dlsym(l->handle, "motus_lanes_run");
+    *(void **)&l->far = dlsym(l->handle, "motus_lanes_far");
     const size_t *solving = dlsym(l->handle, "motus_lanes_solving");
-    if (!solving || !l->bind || !l->table || !l->begin || !l->set || !l->first || !l->observe || !l->run) {
+    if (!solving || !l->bind || !l->table || !l->begin || !l->set || !l->first || !l->observe || !l->run || !l->far) {
         snprintf(note, size, "the compiled object is not what was compiled");
         lanes_destroy(l);
         return MOTUS_TOOL;

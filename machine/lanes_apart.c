@@ -107,7 +107,7 @@ static void finish(apart *s, const apart_block *b, size_t lane)
 {
     const trajectory *p = &b->trajectories[lane];
     const int64_t steps = s->adaptive ? steps_of(b, lane) : p->whole + (p->last != 0);
-    lanes_block_result(&b->block, s->item->call, lane, p->number, p->observations, steps);
+    lanes_block_results(&b->block, s->item->call, lane, lane + 1, p->number, p->observations, steps);
     if (p->companion) lanes_block_errors(s->item->call, p->companion, stopped(b, lane), p->number);
     atomic_fetch_add(&s->item->call->done, 1);
     free_lane(b, lane);

@@ -34,13 +34,29 @@ size_t lanes_scratch_size(const lanes *l)
     return l->work_size + l->observed_size + l->solve_size + saved_size(l) + 2 * lines(l, 1);
 }
 
+void lanes_block_place(lanes_block *k, const lanes_item *b, size_t block)
+{
+    const lanes *l = b->l;
+    lanes_job *j = &k->job;
+    double *p = b->memory + block * b->call->block_size;
+    j->host.own = p;
+    j->host.bound = p + l->own_size;
+    j->carry = p + l->own_size + l->bound_size;
+    j->kept = j->carry + l->carry_size;
+    j->clocks = l->clock_size ? j->kept + l->kept_size : NULL;
+    if (b->call->keeps && l->known_size) {
+        j->known = j->clocks + l->clock_size;
+        j->fresh = (bool *)(void *)(j->known + lines(l, l->def.model->nv));
+    }
+    k->stopped = p + b->call->block_size - lines(l, 1);
+}
+
 lanes_block lanes_block_of(const lanes_item *b, size_t block)
 {
     lanes *l = b->l;
     const model *m = l->def.model;
     const size_t n = (size_t)l->block;
-    double *p = b->memory + block * b->call->block_size, *observed = b->scratch + l->work_size;
-    double *saved = observed + l->observed_size + l->solve_size;
+    double *observed = b->scratch + l->work_size, *saved = observed + l->observed_size + l->solve_size;
     lanes_job j = {.nx = m->nx,
                    .nv = m->nv,
                    .stride = m->nv,
@@ -65,14 +81,7 @@ lanes_block lanes_block_of(const lanes_item *b, size_t block)
     j.variables = l->plan.variables, j.variable = l->plan.variable;
     j.own_size = l->own_size ? m->pool_count : 0;
     j.bound_size = l->e.fixed_lanes;
-    j.host = (compiled_host){.pool = m->pool, .u = l->u, .q = l->q, .own = p, .bound = p + l->own_size};
-    j.carry = p + l->own_size + l->bound_size;
-    j.kept = j.carry + l->carry_size;
-    j.clocks = l->clock_size ? j.kept + l->kept_size : NULL;
-    if (b->call->keeps && l->known_size) {
-        j.known = j.clocks + l->clock_size;
-        j.fresh = (bool *)(void *)(j.known + lines(l, m->nv));
-    }
+    j.host = (compiled_host){.pool = m->pool, .u = l->u, .q = l->q};
     j.room = b->scratch;
     j.x = observed;
     j.v = observed + m->nx * n;
@@ -81,7 +90,9 @@ lanes_block lanes_block_of(const lanes_item *b, size_t block)
     j.solving = (char *)(observed + l->observed_size);
     j.lost = saved + saved_size(l);
     j.where = j.lost + lines(l, 1);
-    return (lanes_block){.l = l, .job = j, .stopped = p + b->call->block_size - lines(l, 1), .saved = saved};
+    lanes_block made = {.l = l, .job = j, .saved = saved};
+    lanes_block_place(&made, b, block);
+    return made;
 }
 
 void lanes_block_save(const lanes_block *k)
@@ -147,11 +158,10 @@ void lanes_block_begin(const lanes_block *block, const lanes_item *b, const size
 
 /* ---- lanes that are no longer finite ---- */
 
-static bool all_finite(const double *numbers, size_t count)
+/* Whether a number of a block, in which every lane has so many elements, is NaN or as large as the limit. */
+static bool some_far(const lanes *l, const double *numbers, size_t elements, double limit)
 {
-    int bad = 0;
-    for (size_t k = 0; k < count; k++) bad |= !(numbers[k] - numbers[k] == 0);
-    return !bad;
+    return l->far(numbers, elements * (size_t)l->groups, limit);
 }
 
 static bool lane_finite(const lanes *l, const double *numbers, size_t elements, size_t lane)
@@ -178,7 +188,7 @@ double lanes_block_time(const lanes_block *b, size_t lane)
 void lanes_block_stop(const lanes_block *b)
 {
     const lanes *l = b->l;
-    if (all_finite(b->job.carry, l->carried * (size_t)l->block)) return;
+    if (!some_far(l, b->job.carry, l->carried, INFINITY)) return;
     for (size_t i = 0; i < (size_t)l->block; i++)
         if (isnan(b->stopped[i]) && !lane_finite(l, b->job.carry, l->carried, i))
             b->stopped[i] = lanes_block_time(b, i);
@@ -192,7 +202,7 @@ void lanes_block_observe(const lanes_block *b)
     const lanes_job *j = &b->job;
     const size_t nx = l->def.model->nx, nv = l->def.model->nv;
     l->observe(j);
-    if (all_finite(j->x, nx * (size_t)l->block) && all_finite(j->v, nv * (size_t)l->block)) return;
+    if (!some_far(l, j->x, nx, INFINITY) && !some_far(l, j->v, nv, INFINITY)) return;
     for (size_t i = 0; i < (size_t)l->block; i++)
         if (isnan(b->stopped[i]) && (!j->clocks || j->where[i] != 0) &&
             !(lane_finite(l, j->x, nx, i) && lane_finite(l, j->v, nv, i)))
@@ -206,9 +216,8 @@ bool lanes_block_diverged(const lanes_block *b)
 {
     const lanes *l = b->l;
     const double *carry = b->job.carry;
-    int all = 0;
-    for (size_t k = 0; k < l->carried * (size_t)l->block; k++) all |= !(fabs(carry[k]) < NEAR_OVERFLOW);
-    for (size_t i = 0; all && i < (size_t)l->block; i++)
+    if (!some_far(l, carry, l->carried, NEAR_OVERFLOW)) return false;
+    for (size_t i = 0; i < (size_t)l->block; i++)
         for (size_t k = 0; isnan(b->stopped[i]) && k < l->carried; k++)
             if (!(fabs(carry[lane_at(l, l->carried, k, i)]) < NEAR_OVERFLOW)) return true;
     return false;
@@ -258,24 +267,34 @@ static tally tally_of_lane(const lanes_block *b, size_t lane, int64_t steps)
     return t;
 }
 
-void lanes_block_result(const lanes_block *b, const lanes_call *c, size_t lane, size_t trajectory, int64_t observations,
-                        int64_t steps)
+/* The numbers of one record: a group's lanes lie side by side. */
+static void write_record(const lanes_block *b, const lanes_source *source, size_t r, size_t from, size_t to,
+                         double *results, int64_t observations)
 {
     const lanes *l = b->l;
-    const lanes_job *j = &b->job;
-    const double stopped = b->stopped[lane];
-    const size_t all = l->def.source_count * REDUCE_KEPT;
-    for (size_t r = 0; r < l->def.source_count; r++) {
-        const double kept[REDUCE_KEPT] = {j->kept[lane_at(l, all, r * REDUCE_KEPT, lane)],
-                                          j->kept[lane_at(l, all, r * REDUCE_KEPT + 1, lane)]};
-        c->results[l->def.sources[r].result][trajectory] =
-            isnan(stopped) ? reduce_last(kept, l->def.sources[r].how, (double)observations) : NAN;
+    const size_t all = l->def.source_count * REDUCE_KEPT, width = (size_t)l->width;
+    const int how = source->how;
+    for (size_t i = from; i < to; i++) {
+        const double *at = &b->job.kept[lane_at(l, all, r * REDUCE_KEPT, i)];
+        const double kept[REDUCE_KEPT] = {at[0], at[width]};
+        const double last = how == REDUCE_FINAL ? at[0] : reduce_last(kept, how, (double)observations);
+        results[i - from] = isnan(b->stopped[i]) ? last : NAN;
     }
-    const tally taken = l->def.tally_count ? tally_of_lane(b, lane, steps) : (tally){0};
-    for (size_t k = 0; k < l->def.tally_count; k++)
-        c->results[l->def.tallies[k].result][trajectory] =
-            isnan(stopped) ? tally_number(&taken, l->def.tallies[k].which) : NAN;
-    if (c->stopped) c->stopped[trajectory] = stopped;
+}
+
+void lanes_block_results(const lanes_block *b, const lanes_call *c, size_t from, size_t to, size_t trajectory,
+                         int64_t observations, int64_t steps)
+{
+    const lanes_def *d = &b->l->def;
+    for (size_t r = 0; r < d->source_count; r++)
+        write_record(b, &d->sources[r], r, from, to, c->results[d->sources[r].result] + trajectory, observations);
+    for (size_t i = from; d->tally_count && i < to; i++) {
+        const tally taken = tally_of_lane(b, i, steps);
+        for (size_t k = 0; k < d->tally_count; k++)
+            c->results[d->tallies[k].result][trajectory + i - from] =
+                isnan(b->stopped[i]) ? tally_number(&taken, d->tallies[k].which) : NAN;
+    }
+    if (c->stopped) memcpy(c->stopped + trajectory, b->stopped + from, (to - from) * sizeof *c->stopped);
 }
 
 void lanes_block_see(const lanes_block *b, bool ends, double t)

@@ -35,6 +35,7 @@ struct lanes {
     void (*first)(const lanes_job *);
     void (*observe)(const lanes_job *);
     void (*run)(const lanes_job *, whole, whole);
+    int (*far)(const double *, size_t count, double limit);
     /* the places of the pool that lanes read in their own: those that vary, and the others of their arrays */
     size_t *read, reads;
     double *u;
@@ -118,6 +119,8 @@ typedef struct lanes_block {
 size_t lanes_block_size(const lanes *);
 size_t lanes_scratch_size(const lanes *);
 lanes_block lanes_block_of(const lanes_item *, size_t block);
+/* Turns a block of an item into another one of it. */
+void lanes_block_place(lanes_block *, const lanes_item *, size_t block);
 void lanes_block_save(const lanes_block *);
 /* Of the lane's group the accelerations are no longer known. */
 void lanes_block_forget(const lanes_block *, size_t lane);
@@ -136,9 +139,10 @@ void lanes_block_trace(const lanes_block *, bool first, int64_t steps, int64_t n
  * stopped. */
 void lanes_block_observe(const lanes_block *);
 double lanes_block_time(const lanes_block *, size_t lane);
-/* Writes the results of one lane, after so many observations and steps, as those of a trajectory. */
-void lanes_block_result(const lanes_block *, const lanes_call *, size_t lane, size_t trajectory, int64_t observations,
-                        int64_t steps);
+/* Writes the results of the lanes from … to - 1, after so many observations and steps, as those of the trajectories from
+ * this one on. */
+void lanes_block_results(const lanes_block *, const lanes_call *, size_t from, size_t to, size_t trajectory,
+                         int64_t observations, int64_t steps);
 /* Writes the errors of a trajectory, which may have stopped. */
 void lanes_block_errors(const lanes_call *, const lanes_companion *, bool stopped, size_t trajectory);
 /* Computes the state of a block as it is observed, and records nothing. ends: as of time `t`; else at the present time.

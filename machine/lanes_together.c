@@ -20,99 +20,101 @@ typedef struct together {
 
 static int64_t total_of(const lanes_def *d) { return d->whole + (d->last != 0); }
 
-static void each_block(const together *s, void (*body)(const together *, size_t))
+static void each_block(const together *s, void (*body)(const together *, const lanes_block *, size_t))
 {
-    for (size_t k = 0; k < s->blocks; k++) body(s, k);
+    lanes_block block = lanes_block_of(s->item, 0);
+    for (size_t k = 0; k < s->blocks; k++) {
+        lanes_block_place(&block, s->item, k);
+        body(s, &block, k);
+    }
 }
 
 /* Surplus lanes of the last block repeat the last trajectory. */
-static void begin_block(const together *s, size_t number)
+static void begin_block(const together *s, const lanes_block *block, size_t number)
 {
     const lanes_item *b = s->item;
-    const lanes_block block = lanes_block_of(b, number);
     size_t trajectories[BLOCK_MAX];
     for (size_t i = 0; i < (size_t)b->l->block; i++) {
         const size_t k = number * (size_t)b->l->block + i;
         trajectories[i] = b->first + (k < b->count ? k : b->count - 1);
     }
-    lanes_block_begin(&block, b, trajectories);
+    lanes_block_begin(block, b, trajectories);
 }
 
-static void run_block(const together *s, size_t number)
+static void run_block(const together *s, const lanes_block *block, size_t number)
 {
+    (void)number;
     const lanes_item *b = s->item;
     const lanes *l = b->l;
-    const lanes_block block = lanes_block_of(b, number);
-    lanes_block_save(&block);
+    lanes_block_save(block);
     if (b->n == 0)
-        l->first(&block.job);
+        l->first(&block->job);
     else
-        l->run(&block.job, s->steps, s->every);
+        l->run(&block->job, s->steps, s->every);
     for (size_t i = 0; l->plan.solves && b->n == 0 && i < (size_t)l->block; i++)
-        if (isinf(block.job.lost[i])) atomic_store(&b->call->refused, true);
-    if (lanes_block_diverged(&block))
-        lanes_block_trace(&block, b->n == 0, s->steps, b->n, l->on_the_way ? l->def.every : 0);
+        if (isinf(block->job.lost[i])) atomic_store(&b->call->refused, true);
+    if (lanes_block_diverged(block))
+        lanes_block_trace(block, b->n == 0, s->steps, b->n, l->on_the_way ? l->def.every : 0);
 }
 
-static void observe_block(const together *s, size_t number)
+static void observe_block(const together *s, const lanes_block *block, size_t number)
 {
-    const lanes_block block = lanes_block_of(s->item, number);
-    lanes_block_observe(&block);
+    (void)s, (void)number;
+    lanes_block_observe(block);
 }
 
 /* Begins the leg of the shorter last step, from the state after the whole steps. */
-static void begin_last_leg(const together *s, size_t number)
+static void begin_last_leg(const together *s, const lanes_block *block, size_t number)
 {
-    lanes_block block = lanes_block_of(s->item, number);
-    block.job.record_count = 0;
-    block.l->observe(&block.job);
-    block.l->set(&block.job);
+    lanes_job job = block->job;
+    (void)s, (void)number;
+    job.record_count = 0;
+    block->l->observe(&job);
+    block->l->set(&job);
 }
 
 /* Begins a leg of the companions from the state where they stand. What is known of its rounding errors stays known, as
  * in stepper_turn. */
-static void turn_block(const together *s, size_t number)
+static void turn_block(const together *s, const lanes_block *block, size_t number)
 {
+    (void)number;
     const lanes_item *b = s->item;
     const lanes *l = b->l;
-    const lanes_block block = lanes_block_of(b, number);
     const bool words = l->plan.row->compensated && b->n > 0, whole = words && !l->plan.fsal;
     const size_t width = (size_t)l->width, array = l->def.model->nv * width, group = l->carried * width;
-    lanes_block_save(&block);
-    lanes_block_see(&block, false, 0);
-    l->set(&block.job);
+    lanes_block_save(block);
+    lanes_block_see(block, false, 0);
+    l->set(&block->job);
     for (size_t g = 0; words && g < (size_t)l->groups; g++) /* after x and v */
-        memcpy(block.job.carry + g * group + 2 * array, block.saved + g * group + 2 * array,
+        memcpy(block->job.carry + g * group + 2 * array, block->saved + g * group + 2 * array,
                (whole ? 2 : 1) * array * sizeof(double));
 }
 
-static void compare_block(const together *s, size_t number)
+static void compare_block(const together *s, const lanes_block *block, size_t number)
 {
     const lanes_item *b = s->item;
-    const lanes_block run = lanes_block_of(b, number), half = lanes_block_of(b->half, number);
+    const lanes_block half = lanes_block_of(b->half, number);
     const size_t lanes = (size_t)b->l->block, first = number * lanes;
-    lanes_block_see(&run, s->landing.ends, s->landing.t);
+    lanes_block_see(block, s->landing.ends, s->landing.t);
     lanes_block_see(&half, true, s->landing.t);
     lanes_companion *list[BLOCK_MAX];
     bool observed[BLOCK_MAX];
     for (size_t i = 0; i < lanes; i++) {
-        list[i] = first + i < b->count && isnan(run.stopped[i]) ? &b->companions[first + i] : NULL;
+        list[i] = first + i < b->count && isnan(block->stopped[i]) ? &b->companions[first + i] : NULL;
         observed[i] = s->landing.observed;
         if (list[i]) list[i]->landed = s->landing.t;
     }
-    lanes_companion_compare(&run, &half, list, observed);
+    lanes_companion_compare(block, &half, list, observed);
 }
 
-static void end_block(const together *s, size_t number)
+static void end_block(const together *s, const lanes_block *block, size_t number)
 {
     const lanes_item *b = s->item;
-    const lanes_block block = lanes_block_of(b, number);
-    const size_t first = number * (size_t)b->l->block;
-    for (size_t i = 0; i < (size_t)b->l->block && first + i < b->count; i++) {
-        lanes_block_result(&block, b->call, i, b->first + first + i, b->observations, total_of(&b->l->def));
-        if (b->half)
-            lanes_block_errors(b->call, &b->companions[first + i], !isnan(block.stopped[i]), b->first + first + i);
-    }
+    const size_t all = (size_t)b->l->block, first = number * all, left = b->count - first;
+    const size_t count = left < all ? left : all;
+    lanes_block_results(block, b->call, 0, count, b->first + first, b->observations, total_of(&b->l->def));
+    for (size_t i = 0; b->half && i < count; i++)
+        lanes_block_errors(b->call, &b->companions[first + i], !isnan(block->stopped[i]), b->first + first + i);
 }
 
 /* ---- steps and observations ---- */

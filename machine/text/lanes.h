@@ -113,6 +113,15 @@ static inline void lanes_store(work *w, real *carry)
     lanes_place(w, host, room_group);   \
     lanes_load(w, job->carry + group * CARRIED * FACT(w, nv))
 
+/* Whether some of the numbers is NaN, or as large as `limit`, which may be infinite. */
+int motus_lanes_far(const real *numbers, size_t count, double limit)
+{
+    mask far = NEVER;
+    for (size_t k = 0; k < count; k++)
+        far = far | (numbers[k] >= limit) | (numbers[k] <= -limit) | (numbers[k] != numbers[k]);
+    return SOME(far);
+}
+
 /* ---- a leg begins ---- */
 
 /* From the values that vary to the state at the start. */
