@@ -267,18 +267,21 @@ static tally tally_of_lane(const lanes_block *b, size_t lane, int64_t steps)
     return t;
 }
 
-/* The numbers of one record: a group's lanes lie side by side. */
-static void write_record(const lanes_block *b, const lanes_source *source, size_t r, size_t from, size_t to,
-                         double *results, int64_t observations)
+/* The numbers of one record. A group's lanes lie side by side. */
+static void write_record(const lanes_block *b, size_t r, size_t from, size_t to, double *results, int64_t observations)
 {
     const lanes *l = b->l;
-    const size_t all = l->def.source_count * REDUCE_KEPT, width = (size_t)l->width;
-    const int how = source->how;
-    for (size_t i = from; i < to; i++) {
-        const double *at = &b->job.kept[lane_at(l, all, r * REDUCE_KEPT, i)];
-        const double kept[REDUCE_KEPT] = {at[0], at[width]};
-        const double last = how == REDUCE_FINAL ? at[0] : reduce_last(kept, how, (double)observations);
-        results[i - from] = isnan(b->stopped[i]) ? last : NAN;
+    const size_t elements = l->def.source_count * REDUCE_KEPT, width = (size_t)l->width;
+    const int how = l->def.sources[r].how;
+    for (size_t i = from; i < to;) {
+        const double *at = &b->job.kept[lane_at(l, elements, r * REDUCE_KEPT, i)];
+        size_t count = width - (i & (width - 1));
+        if (count > to - i) count = to - i;
+        for (size_t k = 0; how == REDUCE_FINAL && k < count; k++) results[k] = at[k];
+        for (size_t k = 0; how != REDUCE_FINAL && k < count; k++)
+            results[k] = reduce_last((double[REDUCE_KEPT]){at[k], at[k + width]}, how, (double)observations);
+        i += count;
+        results += count;
     }
 }
 
@@ -287,12 +290,16 @@ void lanes_block_results(const lanes_block *b, const lanes_call *c, size_t from,
 {
     const lanes_def *d = &b->l->def;
     for (size_t r = 0; r < d->source_count; r++)
-        write_record(b, &d->sources[r], r, from, to, c->results[d->sources[r].result] + trajectory, observations);
+        write_record(b, r, from, to, c->results[d->sources[r].result] + trajectory, observations);
     for (size_t i = from; d->tally_count && i < to; i++) {
         const tally taken = tally_of_lane(b, i, steps);
         for (size_t k = 0; k < d->tally_count; k++)
-            c->results[d->tallies[k].result][trajectory + i - from] =
-                isnan(b->stopped[i]) ? tally_number(&taken, d->tallies[k].which) : NAN;
+            c->results[d->tallies[k].result][trajectory + i - from] = tally_number(&taken, d->tallies[k].which);
+    }
+    for (size_t i = from; i < to; i++) {
+        if (isnan(b->stopped[i])) continue;
+        for (size_t r = 0; r < d->source_count; r++) c->results[d->sources[r].result][trajectory + i - from] = NAN;
+        for (size_t k = 0; k < d->tally_count; k++) c->results[d->tallies[k].result][trajectory + i - from] = NAN;
     }
     if (c->stopped) memcpy(c->stopped + trajectory, b->stopped + from, (to - from) * sizeof *c->stopped);
 }
