@@ -260,7 +260,7 @@ static motus_status make(motus_ensemble *e, const motus_ensemble_def *d, motus_e
         status = vary_create(s->model, e->places, e->vary_count, !isnan(e->step), !isnan(end) || e->until != SIZE_MAX,
                              &e->vary, err);
     const char *wanted = d->machine;
-    bool automatic, compiled;
+    bool automatic = false, compiled = false;
     if (status == MOTUS_OK) status = choice_machine(wanted, &automatic, &compiled, err);
     if (status == MOTUS_OK && s->model && d->expected && automatic && !steps_differ(e) &&
         choice_worth(s, &e->chosen, e->card, (double)d->expected * (double)e->timing.total) < 1) {
