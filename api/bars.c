@@ -65,7 +65,8 @@ motus_status bars_make(motus_run *r, motus_bars kind, const size_t *columns, con
 void bars_destroy(motus_run *r)
 {
     if (!r->bars) return;
-    if (bars_wait(r)) choice_leave(r->bars->half.system, &r->chosen);
+    const chosen method = companion_method(&r->chosen);
+    if (bars_wait(r)) choice_leave(r->bars->half.system, &method);
     companion_end(&r->bars->half, &r->allocator);
     companion_end(&r->bars->twin, &r->allocator);
     give(&r->allocator, r->bars->columns);
@@ -116,7 +117,8 @@ motus_status bars_look(motus_run *r, motus_error *err)
     machine m;
     if (!bars_wait(r)) return MOTUS_OK;
     companion *c = &r->bars->half;
-    motus_status status = choice_look(c->system, &r->chosen, &state, &m, &why, err);
+    const chosen method = companion_method(&r->chosen);
+    motus_status status = choice_look(c->system, &method, &state, &m, &why, err);
     c->waits = state == COMPILED_WAIT;
     return status == MOTUS_OK ? take_machine(c, state, &m) : status;
 }

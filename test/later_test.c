@@ -1,6 +1,7 @@
 /* Nobody waits for a compiler: runs that begin in the interpreter and go on compiled have the interpreter's bits,
  * wherever they go over; and the compiler that works beside them, when it is slow, fails, hangs, is killed, is missing
  * or is not waited for. */
+#include "api/bars.h"
 #include "api/later.h"
 #include "test/later.h"
 
@@ -91,6 +92,9 @@ static void at_every_step(void **unused)
                                        "radau15",
                                        "taylor",
                                        "verlet-reversible",
+                                       "beeman",
+                                       "gragg",
+                                       "gragg-stormer",
                                        "kahan-li8-reversible"};
     int pairs = 0;
     for (size_t i = 0; i < sizeof texts / sizeof *texts; i++)
@@ -389,6 +393,29 @@ static void short_runs_start_none(void **unused)
     motus_system_destroy(s);
 }
 
+/* A companion goes on compiled too, by an object of its own system, and beside beeman of another method. */
+static void companions(void **unused)
+{
+    (void)unused;
+    static const char *const rows[] = {"beeman", "rk4"};
+    for (int i = 0; i < 2; i++) {
+        compile_by("sleep 0.1\nexec cc \"$@\"");
+        motus_system *s = given_text(pair);
+        motus_error err = motus_default_error();
+        motus_run_def def = motus_default_run();
+        motus_run *r = NULL;
+        def.method = rows[i], def.step = 0.001, def.until = 1, def.error = MOTUS_BARS_CHEAP;
+        must(motus_run_create(s, &def, &r, &err), &err, rows[i]);
+        must(later_at(r, 5, &err), &err, rows[i]);
+        finish(r);
+        assert_string_equal(motus_run_machine(r), "compiled");
+        assert_string_equal(r->bars->half.machine.name, "compiled");
+        motus_run_destroy(r);
+        motus_system_destroy(s);
+        nothing_is_left(rows[i]);
+    }
+}
+
 /* Legs and restored states while the compiler works. */
 static void legs_meanwhile(void **unused)
 {
@@ -425,12 +452,19 @@ static void legs_meanwhile(void **unused)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(at_every_step),         cmocka_unit_test(the_compiler_is_slow),
-        cmocka_unit_test(runs_share_a_compiler), cmocka_unit_test(the_compiler_fails),
-        cmocka_unit_test(the_compiler_hangs),    cmocka_unit_test(after_fork),
-        cmocka_unit_test(fork_and_leave),        cmocka_unit_test(children_are_ignored),
-        cmocka_unit_test(the_thread_ends),       cmocka_unit_test(without_a_cache),
-        cmocka_unit_test(short_runs_start_none), cmocka_unit_test(legs_meanwhile),
+        cmocka_unit_test(at_every_step),
+        cmocka_unit_test(the_compiler_is_slow),
+        cmocka_unit_test(runs_share_a_compiler),
+        cmocka_unit_test(the_compiler_fails),
+        cmocka_unit_test(the_compiler_hangs),
+        cmocka_unit_test(after_fork),
+        cmocka_unit_test(fork_and_leave),
+        cmocka_unit_test(children_are_ignored),
+        cmocka_unit_test(the_thread_ends),
+        cmocka_unit_test(without_a_cache),
+        cmocka_unit_test(short_runs_start_none),
+        cmocka_unit_test(legs_meanwhile),
+        cmocka_unit_test(companions),
     };
     open_cache();
     if (!mkdtemp(tools)) return 1;
