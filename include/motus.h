@@ -466,8 +466,9 @@ typedef struct motus_method {
     const char *title;          /* for a text or a legend: "velocity Verlet" */
     const char *family;         /* "splitting", "runge-kutta", "two-step", "implicit", "extrapolation", "exact" */
     int order, stages;          /* of "extrapolation", whose steps choose their order: where any error is allowed */
-    /* of the acceleration per step in a long run; 0: it depends on the iterations. Splitting methods need more where
-     * first-order variables read the velocity, or the velocity enters nonlinearly. */
+    /* of the acceleration per step in a long run; 0: it depends on the iterations; of a method that chooses its order,
+     * in a step of the declared one. Splitting methods need more where first-order variables read the velocity, or the
+     * velocity enters nonlinearly. */
     int evaluations;
     motus_forces forces;        /* what the force may depend on */
     int symplectic, reversible; /* symplectic: where the force is a gradient; motus_method_geometry tells of a system */

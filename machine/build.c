@@ -21,12 +21,14 @@ bool build_privileged(void) { return geteuid() != getuid() || getegid() != getgi
 
 enum { ABANDONED_SECONDS = 10 * COMPILER_SECONDS_MAX };
 
-/* Removes the folder if it is old enough and holds nothing but files of a compilation. */
+/* Removes the folder if it is old enough and holds nothing but files of a compilation. 0 seconds are not compared: the
+ * clock of time() may be behind that of the files. */
 static void remove_folder(int parent, const char *name, time_t seconds)
 {
     struct stat s;
     int fd = openat(parent, name, O_RDONLY | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC);
-    bool ours = fd >= 0 && !fstat(fd, &s) && s.st_uid == geteuid() && time(NULL) - s.st_mtime >= seconds;
+    bool ours =
+        fd >= 0 && !fstat(fd, &s) && s.st_uid == geteuid() && (seconds == 0 || time(NULL) - s.st_mtime >= seconds);
     DIR *d = ours ? fdopendir(fd) : NULL;
     for (struct dirent *e; d && (e = readdir(d));)
         if (!strncmp(e->d_name, "model", 5) || !strncmp(e->d_name, "cc", 2)) /* ours, and the compiler's own */

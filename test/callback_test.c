@@ -122,7 +122,8 @@ static void calls_are_counted(void **state)
             assert_true(calls == used || calls == used + 1);
             assert_int_equal(motus_run_state(r, x, v, NULL), MOTUS_OK);
             assert_int_equal(o.calls, calls);
-            if (m->evaluations) {
+            /* the count of an extrapolation is that of its declared order, and the laws test it line by line */
+            if (m->evaluations && strcmp(m->family, "extrapolation") != 0) {
                 motus_statistics done = motus_default_statistics();
                 motus_run_statistics(r, &done);
                 /* a refused step of an adaptive method evaluates all stages but the first again */

@@ -100,9 +100,9 @@ that "motus cache --clear" [ "$(XDG_CACHE_HOME=$place/cache "$motus" cache --cle
 gives "--emit-c" 0 "$motus" run $osc --emit-c
 that "--emit-c prints the loop" says advance_run
 gives "--emit-c of Taylor series" 0 "$motus" run $osc --emit-c --method taylor --tolerance 1e-6
-that "... of the order that the tolerance asks for" says "enum { length = 12 };"
+that "... of the order that the tolerance asks for" says "#define FACT_expands 12"
 gives "--emit-c of Taylor series at round-off" 0 "$motus" run $osc --emit-c --method taylor --tolerance 1e-15
-that "... has as many orders as there are" says "enum { length = 25 };"
+that "... has as many orders as there are" says "#define FACT_expands 26"
 refuses "--emit-c with a tolerance where steps have one size" 2 "a tolerance is given, and the steps of verlet have one size" "$motus" run $osc --emit-c --method verlet --tolerance 1e-6
 refuses "motus cache alone" 2 "motus cache needs --clear" "$motus" cache
 refuses "--set of a parameter to the time" 2 "cannot depend on a state" "$motus" run $oscillator --set F=t
