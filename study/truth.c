@@ -57,7 +57,7 @@ static void find_sizes(const study *s, truth *t, const double *rows)
 {
     for (size_t r = 0; r <= t->grid.points; r++) {
         double *size = t->size + r * TRUTH_KINDS;
-        for (size_t i = 0; i < TRUTH_KINDS; i++) size[i] = r ? size[i - TRUTH_KINDS] : 0;
+        for (size_t i = 0; i < TRUTH_KINDS; i++) size[i] = r ? (size - TRUTH_KINDS)[i] : 0;
         sizes_of(s, rows + r * s->numbers, size);
     }
 }

@@ -297,7 +297,7 @@ for (const [width, height, theme] of [[1280, 720, 'light'], [1920, 1080, 'dark']
       judge(`${name}: the picture is the largest`, (right - left) * (bottom - top) > (inLesson ? 0.35 : 0.5) * width * height, [left, top, right, bottom].join());
       judge(`${name}: nothing lies on another, nothing is cut off`, bottom <= dock[1] + 1 && (words[3] <= top + 1 || words[2] <= left + 1) && dock[3] <= height + 1 && dock[2] <= width + 1 && right <= width + 1
         && await page.evaluate(() => document.documentElement.scrollWidth <= innerWidth && document.documentElement.scrollHeight <= innerHeight), JSON.stringify([words, [left, top, right, bottom], dock]));
-      const smallest = await page.evaluate(() => Math.min(...[...document.querySelectorAll('#dock *, #words *')].filter((e) => e.checkVisibility({ visibilityProperty: true }) && !e.closest('math, .unseen, option') && [...e.childNodes].some((n) => n.nodeType === 3 && n.data.trim()))
+      const smallest = await page.evaluate(() => Math.min(...[...document.querySelectorAll('#dock *, #words *')].filter((e) => e.checkVisibility({ visibilityProperty: true }) && !e.closest('math, .unseen, option') && parseFloat(getComputedStyle(e).fontSize) > 0 && [...e.childNodes].some((n) => n.nodeType === 3 && n.data.trim()))
         .map((e) => parseFloat(getComputedStyle(e).fontSize) * (e.currentCSSZoom ?? 1))));
       judge(`${name}: no letters under 19 px`, smallest >= 19, smallest);
       await page.screenshot({ path: join(root, `build/lab/shots/lecture-${width}-${theme}-${fragment.replace(/.*[=.]/, '')}.png`) });

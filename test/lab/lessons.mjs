@@ -62,7 +62,7 @@ async function byDock(page, condition) {
       return;
     case 'set': await page.locator(`#dials [data-name="${condition.name} 0 field"]`).fill(condition.value); return;
     case 'opened': await page.locator('#open-step').click(); await backToLesson(page); return;
-    case 'scene': await page.locator('.dial.switch').click(); return;
+    case 'scene': await page.locator('.dial.switch:not(.accuracy-switch)').click(); return;
   }
 }
 async function byTask(page, condition, k) {
