@@ -16,14 +16,7 @@
 #include <math.h>
 #include <string.h>
 
-static void print_json(const studies *s, const void *result)
-{
-    json j = text_json(stdout);
-    json_string(&j, "model", s->options->operand);
-    settle_json(&j, &s->model);
-    tell_comparison(&j, result);
-    json_end(&j);
-}
+static void tell(json *j, const void *result) { tell_comparison(j, result); }
 
 /* Errors of what the model has: of positions and velocities, and of first-order variables. */
 static table *error_table(const motus_comparison *c, bool positions, bool first_order)
@@ -136,7 +129,7 @@ static motus_status draw(studies *s, const void *result, file_out *file, motus_e
 
 motus_status compare_verb(const options *o, motus_error *err)
 {
-    static const studies_ways ways = {draw, print_json, print_tables};
+    static const studies_ways ways = {draw, tell, print_tables};
     if (o->share) return share_verb(o, err);
     if (!isnan(o->coarsest)) return rank_verb(o, err);
     studies s;

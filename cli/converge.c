@@ -14,14 +14,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-static void print_json(const studies *s, const void *result)
-{
-    json j = text_json(stdout);
-    json_string(&j, "model", s->options->operand);
-    settle_json(&j, &s->model);
-    tell_convergence(&j, result);
-    json_end(&j);
-}
+static void tell(json *j, const void *result) { tell_convergence(j, result); }
 
 /* Steps and errors in pairs of lines; points that the fit leaves out are in brackets. */
 static bool print_points(const motus_converge_row *r, bool colours)
@@ -209,7 +202,7 @@ static motus_status verdict(const motus_convergence *c, motus_error *err)
 
 motus_status converge_verb(const options *o, motus_error *err)
 {
-    static const studies_ways ways = {draw, print_json, print_tables};
+    static const studies_ways ways = {draw, tell, print_tables};
     studies s;
     motus_study_def def;
     motus_convergence *c = NULL;

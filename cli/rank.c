@@ -20,14 +20,7 @@
 #define NEAR 2.0     /* the figure draws methods that need at most so many times the least work at some accuracy, */
 enum { DRAWN = 12 }; /* where there are more than these */
 
-static void print_json(const studies *s, const void *result)
-{
-    json j = text_json(stdout);
-    json_string(&j, "model", s->options->operand);
-    settle_json(&j, &s->model);
-    tell_ranking(&j, result);
-    json_end(&j);
-}
+static void tell(json *j, const void *result) { tell_ranking(j, result); }
 
 static bool reached(const motus_rank_point *p) { return !isnan(p->error); }
 
@@ -197,7 +190,7 @@ static motus_status draw(studies *s, const void *result, file_out *file, motus_e
 
 motus_status rank_verb(const options *o, motus_error *err)
 {
-    static const studies_ways ways = {draw, print_json, print_tables};
+    static const studies_ways ways = {draw, tell, print_tables};
     studies s;
     motus_study_def def;
     motus_ranking *r = NULL;

@@ -1,4 +1,4 @@
-/* What compare and converge share.
+/* What the studies share.
  *
  * Invariant: a picture that cannot be drawn, or would overwrite the model, is refused before anything is computed.
  */
@@ -47,6 +47,15 @@ void studies_title(const studies *s, const char *reference, double error)
     putchar('\n');
 }
 
+static void print_json(const studies *s, const studies_ways *ways, const void *result)
+{
+    json j = text_json(stdout);
+    json_string(&j, "model", s->options->operand);
+    settle_json(&j, &s->model);
+    ways->tell(&j, result);
+    json_end(&j);
+}
+
 motus_status studies_show(studies *s, const studies_ways *ways, const void *result, motus_error *err)
 {
     const options *o = s->options;
@@ -58,7 +67,7 @@ motus_status studies_show(studies *s, const studies_ways *ways, const void *resu
         if (!status) status = file_finish(&picture, err);
     }
     if (!status && o->json)
-        ways->json(s, result);
+        print_json(s, ways, result);
     else if (!status && !o->quiet)
         status = ways->tables(s, result, err);
     if (!status) status = file_flush_output(err);

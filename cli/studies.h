@@ -1,4 +1,4 @@
-/* What compare and converge share: load a model, study it, show the result. */
+/* What the studies share: load a model, study it, show the result. */
 #ifndef CLI_STUDIES_H
 #define CLI_STUDIES_H
 
@@ -21,7 +21,7 @@ void studies_title(const studies *, const char *reference, double error);
 
 typedef struct studies_ways {
     motus_status (*draw)(studies *, const void *result, file_out *, motus_error *);
-    void (*json)(const studies *, const void *result);
+    void (*tell)(json *, const void *result); /* the keys of the result, after those of the model */
     motus_status (*tables)(const studies *, const void *result, motus_error *);
 } studies_ways;
 

@@ -213,6 +213,16 @@ static void one_case(void **state)
     if (percent(here.covered, here.counted) < 97) fail_msg("%s: too few errors are within their bars", c->label);
 }
 
+/* Whether an earlier case has the same motion, for another method of another test. */
+static int repeats(const problem_case *c)
+{
+    for (const problem_case *b = cases; b < c; b++)
+        if (!strcmp(b->model, c->model) && !strcmp(b->text, c->text) && !memcmp(b->set, c->set, sizeof b->set) &&
+            b->time_count)
+            return 1;
+    return 0;
+}
+
 static void all_together(void **state)
 {
     (void)state;
@@ -230,7 +240,7 @@ int main(void)
     read_cases();
     if (motus_method_count() > METHODS_MAX) return 1;
     for (size_t i = 0; i < case_count; i++)
-        if (cases[i].time_count)
+        if (cases[i].time_count && !repeats(&cases[i]))
             tests[count++] =
                 (struct CMUnitTest){.name = cases[i].label, .test_func = one_case, .initial_state = &cases[i]};
     tests[count++] = (struct CMUnitTest)cmocka_unit_test(all_together);

@@ -167,6 +167,16 @@ static void go_till_compiled(motus_run *r)
     assert_string_equal(motus_run_note(r), "");
 }
 
+/* Goes on compiled, ends as a run that did not, and leaves nothing. */
+static void ends_compiled(motus_system *s, motus_run *r, const char *what)
+{
+    go_till_compiled(r);
+    ends_alike(s, r, what);
+    motus_run_destroy(r);
+    motus_system_destroy(s);
+    nothing_is_left(what);
+}
+
 static void the_compiler_is_slow(void **unused)
 {
     (void)unused;
@@ -352,11 +362,7 @@ static void the_thread_ends(void **unused)
     void *run = NULL;
     assert_int_equal(pthread_create(&thread, NULL, begin_run, s), 0);
     assert_int_equal(pthread_join(thread, &run), 0);
-    go_till_compiled(run);
-    ends_alike(s, run, "thread");
-    motus_run_destroy(run);
-    motus_system_destroy(s);
-    nothing_is_left("thread");
+    ends_compiled(s, run, "thread");
 }
 
 /* Nothing of a cache: the object is compiled for this run alone. */
@@ -367,12 +373,8 @@ static void without_a_cache(void **unused)
     setenv("SUDO_UID", "1", 1);
     motus_system *s = given_text(pair);
     motus_run *r = long_run(s, "auto");
-    go_till_compiled(r);
-    ends_alike(s, r, "no cache");
-    motus_run_destroy(r);
-    motus_system_destroy(s);
+    ends_compiled(s, r, "no cache");
     unsetenv("SUDO_UID");
-    nothing_is_left("no cache");
 }
 
 /* A run that is no longer than a compiler's work starts none, nor does the interpreter. */
