@@ -164,6 +164,7 @@ static bool add_facts(emit *e, const composition *c, bool structure)
         emit_add(t, "#define FACT_nx w->nx\n#define FACT_nv w->nv\n");
     emit_add(t,
              "#define FACT_carried %d\n#define FACT_stages %d\n#define FACT_known %d\n#define FACT_kept %d\n#define "
+             "FACT_iterates %d\n#define "
              "FACT_fsal %d\n#define "
              "FACT_ending %d\n#define FACT_closing %d\n#define FACT_opening %d\n#define FACT_second %d\n#define "
              "FACT_unit fact_unit\n#define "
@@ -172,8 +173,8 @@ static bool add_facts(emit *e, const composition *c, bool structure)
              "#define FACT_solves_x %d\n#define FACT_means %d\n#define FACT_direct %d\n#define FACT_order %d\n#define "
              "FACT_linears %d\n"
              "#define FACT_squares %d\n#define FACT_summed %d\n#define DRIFTS_FIRST %d\n",
-             w.carried, stages, w.known, w.kept, w.fsal, w.ending, w.closing, w.opening, w.second, w.fused, w.waits,
-             w.solves, w.solves_x, w.means, w.direct, w.order, w.linears, w.squares, w.summed,
+             w.carried, stages, w.known, w.kept, w.iterates, w.fsal, w.ending, w.closing, w.opening, w.second, w.fused,
+             w.waits, w.solves, w.solves_x, w.means, w.direct, w.order, w.linears, w.squares, w.summed,
              r->family == SPLITTING && w.unit[0] == 0);
     emit_add(t, "#define LIVE(w, k) (fact_unit[k] != 0)\n#define FACT_c fact_c\nstatic const int fact_moment[] = {%d",
              m.moment[0]);

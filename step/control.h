@@ -1,8 +1,12 @@
 /* THE STEP SIZE of adaptive rows: the size of the next candidate, and whether a candidate is accepted.
  *
- * A candidate with an error of at most 1 is accepted. The next size follows from this error and that of the step before
- * (a proportional and integral controller [Gustafsson91]), as if the error went with the power order + 1 of the size;
- * logarithms are rough, since a size that is one percent off is as good. After a refusal no step grows at once.
+ * A candidate with an error of at most 1 is accepted. The next size follows from this error and that of the step
+ * before, as if the error went with the power order + 1 of the size, by a predictive controller [Gustafsson94]: what
+ * the motion has changed from the step before to this one, in sizes and in errors, it is expected to change once more.
+ * At equal error that takes up to a fifth less evaluations than a proportional and integral one [Gustafsson91], and
+ * half as many steps are refused. A row that iterates has the latter: slow turns add to its errors, and do not follow
+ * that power. Logarithms are rough, since a size that is one percent off is as good. After a refusal no step grows at
+ * once.
  *
  * PATTERN_OF and CLOCK_OF read the 64 bits of a number.
  *
@@ -20,7 +24,8 @@ static inline clock control_log2(clock x)
 
 static inline clock control_exp2(clock y)
 {
-    const clock shifted = y + 0x1.8p52, r = y - (shifted - 0x1.8p52);
+    /* rounded to a whole number in the bits of a double, also where clock has more */
+    const clock shifted = CLOCK_OF(PATTERN_OF(y + 0x1.8p52)), r = y - (shifted - 0x1.8p52);
     return CLOCK_OF((PATTERN_OF(shifted) + 1023) << 52) * (1 + r * (0.693147 + r * (0.240227 + r * 0.0555)));
 }
 
@@ -92,10 +97,11 @@ static inline clock control_level(clock error)
     return control_log2(CHOOSE_WHERE(least < 0x1p60, least, CLOCK(0x1p60)));
 }
 
-/* Exponents of the two errors in the next size, and the part of it that is taken, as a power of 2: 0.9. */
+/* Exponents of the two errors in the next size where nothing is predicted, and the part of the size that is taken, as a
+ * power of 2: 3/4. */
 #define CONTROL_NOW 0.7
 #define CONTROL_BEFORE 0.4
-#define CONTROL_SAFETY (-0.152)
+#define CONTROL_SAFETY (-0.415)
 
 /* The next size over the present one: at most 5, and 1 after a refusal; at least 1/5, of a refused step 1/10, and 1/4
  * where the error is not a number. */
@@ -103,6 +109,11 @@ static inline clock control_factor(const work *w, clock_mask good, clock level)
 {
     const coef per = (coef)1 / (FACT(w, order) + 1);
     clock after = (CONTROL_BEFORE * w->before - CONTROL_NOW * level) * per + CONTROL_SAFETY;
+    if (!FACT(w, iterates)) {
+        const clock_mask first = w->span == 0;
+        const clock trend = control_log2(ABS(w->h) / (ABS(w->span) + SMALLEST)), worse = level - w->before;
+        after = CHOOSE_WHERE(first, CLOCK(0), trend - worse * per) - level * per + CONTROL_SAFETY;
+    }
     after = CHOOSE_WHERE(after < w->rise, after, w->rise);
     clock again = CONTROL_SAFETY - level * per;
     again = CHOOSE_WHERE(w->error == w->error, again, CLOCK(-2.0));
@@ -146,6 +157,7 @@ static inline clock_mask control_judge(work *w)
     w->next = CHOOSE_WHERE(good & w->ends, w->next,
                            CHOOSE_WHERE(ABS(next) <= w->most, next, CHOOSE_WHERE(next < 0, -w->most, w->most)));
     w->before = CHOOSE_WHERE(good, level, w->before);
+    if (!FACT(w, iterates)) w->span = CHOOSE_WHERE(good, w->h, w->span);
     w->rise = CHOOSE_WHERE(good, CLOCK(CONTROL_RISE), CLOCK(0.0));
     control_settle(w, good);
     return good;

@@ -144,8 +144,8 @@ typedef struct work {
      * the next step aims); of the most that the next may be longer */
     clock before, rise;
     clock shortest, longest; /* step so far, that to the end apart; 0 before the first */
-    /* of rows that carry stages: the step that they are of; < 0 · h: it was refused. extrapolation.h: the line at which
-     * the last step ended */
+    /* adaptive: the last step; of rows that carry stages that of theirs, < 0 · h: it was refused. extrapolation.h: the
+     * line at which the last step ended */
     clock span;
     int order; /* of the error estimate, which goes with h^(order + 1) */
 

@@ -259,7 +259,7 @@ await attempt('what was refused', async () => {
   const lines = await page.locator('.opened-tried li').allTextContents(), tried = lines.slice(0, -1).map((line) => /^Tried a step of ([\d.]+): the estimated error is ([\d.]+) times/.exec(line)?.slice(1).map(Number)), [size, share] = /^Taken: a step of ([\d.]+), with an estimated error of ([\d.]+) of/.exec(lines.at(-1))?.slice(1).map(Number) ?? [];
   judge('a step was tried and refused, another taken', tried.length > 0 && tried.every((t) => t && t[1] > 1) && share <= 1, lines.join(' | '));
   // The next size follows from the error: 0.9 times its root by the order of the estimate and one more.
-  tried.forEach(([h, error], k) => { const next = tried[k + 1]?.[0] ?? size; judge('… its error says how long the next one is', Math.abs(0.9 * h * error ** (-1 / 8) / next - 1) < 0.02, `${h} ${error} ${next}`); });
+  tried.forEach(([h, error], k) => { const next = tried[k + 1]?.[0] ?? size; judge('… its error says how long the next one is', Math.abs(0.75 * h * error ** (-1 / 8) / next - 1) < 0.02, `${h} ${error} ${next}`); });
   same('it is in the picture', await page.locator('.opened-picture svg text').evaluateAll((all) => all.filter((t) => t.textContent === 'refused').length), tried.length);
   // The same steps as the program takes.
   const total = Number((await page.locator('.opened-step').textContent()).match(/of ([\d\u2009]+)/)?.[1].replace(/\u2009/g, ''));
