@@ -238,18 +238,19 @@ function extent(column: Float64Array): [number, number] {
 }
 
 /** Slopes at the times by the values alone: of the parabola through three of them, but not steeper than LIMIT times the less steep side, so that a jump
- *  on one side leaves the other as it is. */
+ *  on one side leaves the other as it is. A side is two intervals, because an interval whose ends lie evenly about a peak has no slope of its own. */
 function slopesOf(times: Float64Array, column: Float64Array): Float64Array {
   const n = times.length, slopes = new Float64Array(n), LIMIT = 3;
   const between = (i: number): number => (column[i + 1]! - column[i]!) / (times[i + 1]! - times[i]!);
+  const steeper = (i: number, j: number): number => Math.max(Math.abs(between(i)), j >= 0 && j < n - 1 ? Math.abs(between(j)) : 0);
   for (let i = 1; i < n - 1; i++) {
     const p = between(i - 1), q = between(i), before = times[i]! - times[i - 1]!, after = times[i + 1]! - times[i]!;
-    const most = LIMIT * Math.min(Math.abs(p), Math.abs(q));
+    const most = LIMIT * Math.min(steeper(i - 1, i - 2), steeper(i, i + 1));
     slopes[i] = Math.max(-most, Math.min(most, (p * after + q * before) / (before + after)));
   }
   if (n > 1) {
-    slopes[0] = between(0);
-    slopes[n - 1] = between(n - 2);
+    slopes[0] = n > 2 ? 2 * between(0) - slopes[1]! : between(0);
+    slopes[n - 1] = n > 2 ? 2 * between(n - 2) - slopes[n - 2]! : between(0);
   }
   return slopes;
 }

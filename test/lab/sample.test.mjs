@@ -180,3 +180,10 @@ test('a bend whose middle lies on the straight line is seen by the slopes', () =
   const most = deviation(m.of, curve);
   assert.ok(most <= 0.5, `${most} pixels`);
 });
+
+test('a peak evenly between two times is seen by the values around it, where slopes are not known', () => {
+  const n = 64, h = 2 * Math.PI / n, m = motion(0, 2 * Math.PI, [-1], (t) => [Math.sin(t + h / 2)]);
+  const curve = sample(m, limits, Float64Array.from({ length: n + 1 }, (_, i) => (i === n ? m.to : i * h)));
+  const most = deviation(m.of, curve);
+  assert.ok(most <= 0.5, `${most} pixels`);
+});
