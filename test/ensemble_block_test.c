@@ -424,7 +424,7 @@ static void blocks_are_fast(void **state)
 
 int main(void)
 {
-    open_cache();
+    open_shared_cache();
     const struct CMUnitTest tests[] = {cmocka_unit_test(blocks_are_trajectories),
                                        cmocka_unit_test(trajectories_have_their_own_numbers),
                                        cmocka_unit_test(trajectories_have_their_own_ends),

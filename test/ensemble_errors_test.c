@@ -462,7 +462,7 @@ static void callbacks(void **state)
 
 int main(void)
 {
-    open_cache();
+    open_shared_cache();
     const struct CMUnitTest tests[] = {cmocka_unit_test(refused),   cmocka_unit_test(callbacks),
                                        cmocka_unit_test(cancelled), cmocka_unit_test(neighbours),
                                        cmocka_unit_test(covered),   cmocka_unit_test(same_as_runs)};

@@ -187,7 +187,7 @@ static void fixed_steps(void **state)
 
 int main(void)
 {
-    open_cache();
+    open_shared_cache();
     const struct CMUnitTest tests[] = {cmocka_unit_test(adaptive_rows), cmocka_unit_test(the_most_steps),
                                        cmocka_unit_test(fixed_steps)};
     const int failed = cmocka_run_group_tests_name("steps of ensembles", tests, NULL, NULL);

@@ -508,7 +508,7 @@ static void elsewhere_in_time(void **state)
 
 int main(void)
 {
-    open_cache();
+    open_shared_cache();
     const struct CMUnitTest tests[] = {cmocka_unit_test(elsewhere_in_time), cmocka_unit_test(every_width),
                                        cmocka_unit_test(every_model)};
     int failed = cmocka_run_group_tests_name("ensembles", tests, NULL, NULL);

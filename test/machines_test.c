@@ -150,26 +150,58 @@ static bool chosen(const char *name)
     return false;
 }
 
+/* What the texts of families and the emitted acceleration distinguish in a force. */
+static unsigned kind_of(const motus_system *s, const char *text)
+{
+    motus_analysis a = motus_default_analysis();
+    assert_int_equal(motus_analysis_of(s, &a), MOTUS_OK);
+    const bool facts[] = {a.velocity_dependent,
+                          a.linear_in_velocity,
+                          a.time_dependent,
+                          a.affine,
+                          a.gyroscopic,
+                          strstr(text, "sum("),
+                          strstr(text, "for i"),
+                          a.smooth,
+                          motus_positions(s) < motus_velocities(s)};
+    unsigned kind = 0;
+    for (size_t k = 0; k < sizeof facts / sizeof *facts; k++) kind = 2 * kind + facts[k];
+    return kind;
+}
+
+static int by_name(const struct dirent **a, const struct dirent **b) { return strcmp((*a)->d_name, (*b)->d_name); }
+
+/* Every model by some rows, and every row by a model of each kind of force; with MOTUS_ALL_ROWS all pairs. */
 static void every_model(void **state)
 {
-    (void)state;
+    enum { KINDS = 1 << 9, TURNS = 4 }; /* a model whose kind a row has had takes every fourth row */
+    static unsigned char had[256][KINDS];
     char path[512];
-    snprintf(path, sizeof path, "%s/models", MOTUS_SOURCE_DIR);
-    DIR *d = opendir(path);
-    assert_non_null(d);
+    struct dirent **files;
     int pairs = 0;
-    for (struct dirent *e; (e = readdir(d));) {
-        if (!strstr(e->d_name, ".motus")) continue;
-        motus_system *s = open_text(read_model(e->d_name), NULL);
-        for (size_t k = 0; k < motus_method_count(); k++) {
-            const motus_method *m = motus_method_at(k);
-            if (!chosen(m->name) || motus_method_admits(s, m->name, NULL) != MOTUS_OK) continue;
-            same_bits(s, e->d_name, m->name);
-            pairs++;
+    (void)state;
+    snprintf(path, sizeof path, "%s/models", MOTUS_SOURCE_DIR);
+    const int count = scandir(path, &files, NULL, by_name);
+    assert_true(count > 0);
+    for (int n = 0; n < count; n++) {
+        if (strstr(files[n]->d_name, ".motus")) {
+            const char *text = read_model(files[n]->d_name);
+            motus_system *s = open_text(text, NULL);
+            const unsigned kind = kind_of(s, text);
+            int turn = n;
+            for (size_t k = 0; k < motus_method_count(); k++) {
+                const motus_method *m = motus_method_at(k);
+                if (!chosen(m->name) || motus_method_admits(s, m->name, NULL) != MOTUS_OK) continue;
+                if (had[k][kind] && turn++ % TURNS && !getenv("MOTUS_ALL_ROWS")) continue;
+                had[k][kind] = 1;
+                same_bits(s, files[n]->d_name, m->name);
+                pairs++;
+            }
+            motus_system_destroy(s);
         }
-        motus_system_destroy(s);
+        free(files[n]);
     }
-    closedir(d);
+    free(files);
     print_message("%d pairs of model and method\n", pairs);
     assert_true(pairs >= 18);
 }

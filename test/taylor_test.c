@@ -358,7 +358,7 @@ static void a_callback_is_refused(void **unused)
     motus_system_destroy(s);
 }
 
-static int begin(void **unused) { return (void)unused, open_cache(), 0; }
+static int begin(void **unused) { return (void)unused, open_shared_cache(), 0; }
 static int end(void **unused) { return (void)unused, close_cache(), 0; }
 
 int main(void)

@@ -420,7 +420,7 @@ int main(void)
         cmocka_unit_test(every_model),  cmocka_unit_test(every_force), cmocka_unit_test(callbacks),
         cmocka_unit_test(compiled_too), cmocka_unit_test(failures),    cmocka_unit_test(refusals),
     };
-    open_cache();
+    open_shared_cache();
     const int failed = cmocka_run_group_tests(tests, NULL, NULL);
     close_cache();
     return failed;
