@@ -3,8 +3,7 @@
 #define API_ACCURACY_H
 
 #include "api/run.h"
-
-#define ACCURACY_LEAST 1e-15 /* of a relative one: a few roundings */
+#include "api/search.h"
 
 typedef struct accuracy {
     double wanted, reached; /* NaN: nothing is wanted; and the largest bar of the best trial, in the same unit */

@@ -33,7 +33,8 @@ static const layout layouts[] = {
     [MOTUS_DEF_STUDY] = {"motus_study_def", "study", SIZES(motus_study_def),
                          &(const motus_study_def){.step = NAN, .until = NAN, .coarsest = NAN, .finest = NAN}},
     [MOTUS_DEF_ENSEMBLE] = {"motus_ensemble_def", "ensemble", SIZES(motus_ensemble_def),
-                            &(const motus_ensemble_def){.step = NAN, .until = NAN, .tolerance = NAN, .every = 1}},
+                            &(const motus_ensemble_def){
+                                .step = NAN, .until = NAN, .tolerance = NAN, .accuracy = NAN, .every = 1}},
     [MOTUS_DEF_VARIABLE] = {"motus_variable", "variable", SIZES(motus_variable), NULL},
     [MOTUS_DEF_COLUMN] = {"motus_column", "column", SIZES(motus_column), NULL},
     [MOTUS_DEF_PARAMETER] = {"motus_parameter", "parameter", SIZES(motus_parameter), NULL},

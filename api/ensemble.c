@@ -13,7 +13,7 @@
 
 _Static_assert((int)REDUCE_MEAN == (int)MOTUS_REDUCE_MEAN && (int)REDUCE_TIME_OF_MAX == (int)MOTUS_REDUCE_TIME_OF_MAX,
                "the reductions are the same list");
-_Static_assert(MOTUS_REDUCE_ACCURACY - MOTUS_REDUCE_STEPS == TALLY_ACCURACY, "and so is what is told of steps");
+_Static_assert(MOTUS_REDUCE_TOLERANCE - MOTUS_REDUCE_STEPS == TALLY_TOLERANCE, "and so is what is told of steps");
 
 enum { ENSEMBLE_LANES_MAX = 64 };
 
@@ -31,7 +31,7 @@ static motus_status check(const motus_system *s, const motus_ensemble_def *d, mo
     if (d->vary_count && !d->vary) return fail(err, MOTUS_ARGUMENT, "vary is NULL");
     if (!d->record_count || !d->records) return fail(err, MOTUS_ARGUMENT, "nothing is recorded");
     for (size_t r = 0; r < d->record_count; r++)
-        if (d->records[r].column >= s->column_count || (unsigned)d->records[r].how > MOTUS_REDUCE_ACCURACY)
+        if (d->records[r].column >= s->column_count || (unsigned)d->records[r].how > MOTUS_REDUCE_TOLERANCE)
             return fail(err, MOTUS_ARGUMENT, "record %zu names column %zu of %zu, or no reduction", r,
                         d->records[r].column, s->column_count);
     if ((unsigned)d->error > MOTUS_BARS_FULL)
@@ -291,11 +291,17 @@ motus_status motus_ensemble_create(motus_system *s, const motus_ensemble_def *gi
     if (!s || !given) return fail(err, MOTUS_ARGUMENT, "motus_ensemble_create needs a system and a definition");
     motus_ensemble_def d;
     motus_status status = motus_struct_read(MOTUS_DEF_ENSEMBLE, given, &d, err);
+    ensemble_goal *goal = NULL;
     if (status == MOTUS_OK) status = check(s, &d, err);
+    if (status == MOTUS_OK) status = ensemble_accuracy_begin(s, &d, &goal, err);
     if (status != MOTUS_OK) return status;
     motus_ensemble *e = take(&s->allocator, 1, sizeof *e);
-    if (!e) return fail(err, MOTUS_MEMORY, "no memory for the ensemble");
+    if (!e) {
+        ensemble_accuracy_end(goal);
+        return fail(err, MOTUS_MEMORY, "no memory for the ensemble");
+    }
     *e = (motus_ensemble){.system = s,
+                          .goal = goal,
                           .allocator = s->allocator,
                           .every = d.every,
                           .given = d.vary_count,
@@ -406,8 +412,7 @@ static motus_status compute(motus_ensemble *e, const places *p, motus_error *err
     return e->block > 0 && !p->errors ? ensemble_blocks(e, p, err) : ensemble_singly(e, p, first, err);
 }
 
-/* p: the room that the caller supplies. */
-static motus_status run(motus_ensemble *e, size_t count, const double *const *values, places p, motus_error *err)
+motus_status ensemble_run_all(motus_ensemble *e, size_t count, const double *const *values, places p, motus_error *err)
 {
     motus_status status = find_values(e, values, &p, err);
     if (status == MOTUS_OK && !p.results) return fail(err, MOTUS_ARGUMENT, "motus_ensemble_run needs room for results");
@@ -428,11 +433,16 @@ static motus_status run(motus_ensemble *e, size_t count, const double *const *va
     return status;
 }
 
+static motus_status run(motus_ensemble *e, size_t count, const double *const *values, const places *p, motus_error *err)
+{
+    return e && e->goal ? ensemble_accuracy_run(e, count, values, p, err) : ensemble_run_all(e, count, values, *p, err);
+}
+
 motus_status motus_ensemble_run(motus_ensemble *e, size_t count, const double *const *values, double *const *results,
                                 double *stopped, motus_error *err)
 {
     const places p = {.results = results, .stopped = stopped};
-    return motus_error_sound(err) ? run(e, count, values, p, err) : MOTUS_ARGUMENT;
+    return motus_error_sound(err) ? run(e, count, values, &p, err) : MOTUS_ARGUMENT;
 }
 
 motus_status motus_ensemble_run_errors(motus_ensemble *e, size_t count, const double *const *values,
@@ -441,18 +451,19 @@ motus_status motus_ensemble_run_errors(motus_ensemble *e, size_t count, const do
     const places p = {.results = results, .errors = errors, .stopped = stopped};
     if (!motus_error_sound(err)) return MOTUS_ARGUMENT;
     if (!errors) return fail(err, MOTUS_ARGUMENT, "motus_ensemble_run_errors needs room for errors");
-    if (e && e->error == MOTUS_BARS_NONE) {
+    if (e && (e->goal ? !ensemble_accuracy_told(e->goal) : e->error == MOTUS_BARS_NONE)) {
         fail(err, MOTUS_ARGUMENT, "the ensemble tells no errors");
         hint(err, "give `error = MOTUS_BARS_CHEAP` of the definition");
         return MOTUS_ARGUMENT;
     }
-    return run(e, count, values, p, err);
+    return run(e, count, values, &p, err);
 }
 
 void motus_ensemble_destroy(motus_ensemble *e)
 {
     if (!e) return;
     motus_allocator a = e->allocator;
+    ensemble_accuracy_end(e->goal);
     ensemble_later_end(e);
     motus_system_hold(e->system, false);
     ensemble_end_lanes(e);
@@ -473,7 +484,7 @@ double motus_ensemble_tolerance(const motus_ensemble *e, int *absolute)
 {
     const chosen *c = e ? &e->chosen : NULL;
     if (absolute) *absolute = c && c->absolute > 0;
-    return !c || !row_adaptive(c) ? NAN : c->absolute > 0 ? c->absolute : c->relative;
+    return c ? tally_tolerance(c) : NAN;
 }
 const char *motus_ensemble_machine(const motus_ensemble *e)
 {

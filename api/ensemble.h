@@ -30,8 +30,11 @@ typedef struct worker {
     motus_error why;
 } worker;
 
+typedef struct ensemble_goal ensemble_goal; /* ensemble_accuracy.c */
+
 struct motus_ensemble {
     motus_system *system;
+    ensemble_goal *goal; /* an accuracy is asked for; NULL: none is */
     motus_allocator allocator;
     chosen chosen;
     timing timing;
@@ -110,6 +113,17 @@ motus_status ensemble_errors_worker(worker *, motus_error *);
 motus_status ensemble_errors_begin(worker *, const double *values, size_t k, motus_error *);
 void ensemble_errors_rest(worker *); /* the trajectory is over, */
 void ensemble_errors_end(worker *);  /*   and so is the worker */
+
+/* ensemble.c: all trajectories, with the tolerance of the ensemble. p: the room that the caller supplies. */
+motus_status ensemble_run_all(motus_ensemble *, size_t count, const double *const *values, places p, motus_error *);
+
+/* ensemble_accuracy.c. Where the definition or the model asks for an accuracy, completes the definition by the first
+ * tolerance that is tried, by bars and by a record, and makes what searches for the others. */
+motus_status ensemble_accuracy_begin(motus_system *, motus_ensemble_def *, ensemble_goal **, motus_error *);
+void ensemble_accuracy_end(ensemble_goal *);
+bool ensemble_accuracy_told(const ensemble_goal *); /* the caller's definition asks for errors */
+motus_status ensemble_accuracy_run(motus_ensemble *, size_t count, const double *const *values, const places *,
+                                   motus_error *);
 
 /* ensemble_single.c: one trajectory at a time, from the first on, up to the one before e->left. ensemble_block.c:
  * blocks of a callback. */

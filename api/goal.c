@@ -16,24 +16,17 @@
 
 #define ACCURACY 1e-9 /* of a run for which nobody says how exact it is to be */
 
-typedef struct wish {
-    motus_settings set; /* of the model, as far as they count */
-    bool automatic;
-    double accuracy;
-    bool absolute;
-} wish;
-
 /* The method, "auto" included. */
-static const char *name_of(const motus_run_def *def, const wish *w)
+static const char *name_of(const motus_run_def *def, const goal_wish *w)
 {
     if (def->method) return def->method;
     if (w->set.method) return w->set.method;
     return isnan(def->step) && isnan(w->set.step) ? CHOICE_AUTO : "verlet";
 }
 
-static wish wish_of(const motus_system *s, const motus_run_def *def)
+goal_wish goal_wish_of(const motus_system *s, const motus_run_def *def)
 {
-    wish w = {.set = motus_default_settings(), .accuracy = def->accuracy, .absolute = def->absolute};
+    goal_wish w = {.set = motus_default_settings(), .accuracy = def->accuracy, .absolute = def->absolute};
     motus_settings_of(s, &w.set);
     const bool own = isnan(w.set.accuracy) && !isnan(def->accuracy); /* the accuracy is the caller's alone */
     if (def->method || own) {
@@ -43,44 +36,29 @@ static wish wish_of(const motus_system *s, const motus_run_def *def)
     const bool given = !isnan(def->accuracy) || !isnan(def->tolerance) || !isnan(def->step);
     if (!given && !isnan(w.set.accuracy)) w.accuracy = w.set.accuracy, w.absolute = w.set.absolute;
     w.automatic = choice_is_auto(name_of(def, &w));
-    if (w.automatic && isnan(w.accuracy) && isnan(def->tolerance) && isnan(w.set.tolerance)) w.accuracy = ACCURACY;
     return w;
 }
 
-static motus_status refuse(const char *what, const char *instead, motus_error *err)
-{
-    fail(err, MOTUS_ARGUMENT, "%s", what);
-    hint(err, "%s", instead);
-    return MOTUS_ARGUMENT;
-}
-
 /* What contradicts itself. Steps and tolerances without an accuracy are judged by control_choose. */
-static motus_status check(const motus_run_def *def, const wish *w, motus_error *err)
+static motus_status check(const motus_run_def *def, const goal_wish *w, motus_error *err)
 {
     const bool step = !isnan(def->step) || !isnan(w->set.step);
-    if (!isnan(def->accuracy) && !isnan(def->tolerance))
-        return refuse("an accuracy and a tolerance are given",
-                      "give one of them: the accuracy is the error of the answer, the tolerance that of one step", err);
-    if (w->automatic && step)
-        return refuse("a step is given, and auto chooses methods that choose their steps",
-                      "name a method, verlet or rk4, or give `accuracy = 1e-9` of the definition in its place", err);
-    if (isnan(w->accuracy)) return MOTUS_OK;
-    if (step)
-        return refuse("a step and an accuracy are given", "give one of them: the accuracy decides how long steps are",
-                      err);
+    motus_status status = search_alone(!isnan(def->accuracy) && !isnan(def->tolerance), false, err);
+    if (status == MOTUS_OK && w->automatic && step) {
+        fail(err, MOTUS_ARGUMENT, "a step is given, and auto chooses methods that choose their steps");
+        hint(err, "name a method, verlet or rk4, or give `accuracy = 1e-9` of the definition in its place");
+        return MOTUS_ARGUMENT;
+    }
+    if (status != MOTUS_OK || isnan(w->accuracy)) return status;
+    status = search_alone(false, step, err);
+    if (status != MOTUS_OK) return status;
     if (def->switches != MOTUS_SWITCHES_STEP)
         return fail(err, MOTUS_UNAVAILABLE, "a run that locates switches cannot be given an accuracy");
-    if (!(w->accuracy > 0) || !isfinite(w->accuracy))
-        return fail(err, MOTUS_ARGUMENT, "an accuracy is a positive number, not %g", w->accuracy);
-    if (w->absolute || (w->accuracy >= ACCURACY_LEAST && w->accuracy < 1)) return MOTUS_OK;
-    fail(err, MOTUS_ARGUMENT, "the relative accuracy %g %s", w->accuracy,
-         w->accuracy < 1 ? "is below the rounding of the numbers" : "allows errors as large as the motion");
-    hint(err, "give one from %g to 0.1", ACCURACY_LEAST);
-    return MOTUS_ARGUMENT;
+    return search_admits(w->accuracy, w->absolute, err);
 }
 
 /* The start and the end, which pilot and trial runs need. */
-static motus_status settle(motus_system *s, motus_run_def *def, const wish *w, motus_error *err)
+static motus_status settle(motus_system *s, motus_run_def *def, const goal_wish *w, motus_error *err)
 {
     chosen c;
     timing t;
@@ -93,7 +71,7 @@ static motus_status settle(motus_system *s, motus_run_def *def, const wish *w, m
     return status;
 }
 
-static motus_status reach(motus_system *s, motus_run_def *def, const wish *w, run_hint *hint, struct goal *g,
+static motus_status reach(motus_system *s, motus_run_def *def, const goal_wish *w, run_hint *hint, struct goal *g,
                           motus_error *err)
 {
     motus_status status = settle(s, def, w, err);
@@ -118,7 +96,8 @@ static motus_status reach(motus_system *s, motus_run_def *def, const wish *w, ru
 
 motus_status goal_reach(motus_system *s, motus_run_def *def, run_hint *hint, struct goal **goal, motus_error *err)
 {
-    const wish w = wish_of(s, def);
+    goal_wish w = goal_wish_of(s, def);
+    if (w.automatic && isnan(w.accuracy) && isnan(def->tolerance) && isnan(w.set.tolerance)) w.accuracy = ACCURACY;
     motus_status status = check(def, &w, err);
     *goal = NULL;
     if (status != MOTUS_OK || (!w.automatic && isnan(w.accuracy))) return status;

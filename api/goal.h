@@ -9,6 +9,15 @@ struct goal {
     char method[MOTUS_NAME_MAX], choice[256]; /* which method "auto" chose, and why; "" */
 };
 
+/* What is asked for: by the caller's definition first, then by the model. */
+typedef struct goal_wish {
+    motus_settings set; /* of the model, as far as they count */
+    bool automatic;     /* the method is to be chosen */
+    double accuracy;    /* NaN: none */
+    bool absolute;
+} goal_wish;
+goal_wish goal_wish_of(const motus_system *, const motus_run_def *);
+
 /* Completes a definition: names its method, and finds what reaches its accuracy, by pilot and trial runs where they are
  * due. *goal: NULL, or the run's, to be given back by goal_destroy. */
 motus_status goal_reach(motus_system *, motus_run_def *, run_hint *, struct goal **goal, motus_error *);

@@ -95,9 +95,8 @@ static int settled(const load *m, const options *o)
     motus_settings_of(m->system, &set);
     const bool own = !o->method && isnan(o->accuracy); /* what the model says of its method counts */
     const char *const name = o->method ? o->method : own ? set.method : NULL;
-    const bool exact = !isnan(o->accuracy) || (own && !isnan(set.accuracy));
     const motus_method *card = NULL;
-    if (exact || !name || motus_method_find(name, &card, NULL) != MOTUS_OK) return SETTLE_UNTIL;
+    if (!isnan(settle_accuracy(m, o)) || !name || motus_method_find(name, &card, NULL) != MOTUS_OK) return SETTLE_UNTIL;
     return card->adaptive ? SETTLE_UNTIL : SETTLE_STEP | SETTLE_UNTIL;
 }
 

@@ -58,6 +58,14 @@ motus_status settle_timing(load *m, const options *o, int needed, const char *me
     return MOTUS_OK;
 }
 
+double settle_accuracy(const load *m, const options *o)
+{
+    motus_settings set = motus_default_settings();
+    motus_settings_of(m->system, &set);
+    if (!isnan(o->accuracy)) return o->accuracy;
+    return o->method || !isnan(o->tolerance) || !isnan(o->step) ? NAN : set.accuracy;
+}
+
 void settle_json(json *j, const load *m)
 {
     json_open(j, "suggested", '{');

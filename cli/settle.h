@@ -10,6 +10,8 @@ enum { SETTLE_STEP = 1, SETTLE_UNTIL = 2 };
 /* Sets step and until of the load; what the command needs and nobody gives is suggested, and a note says so. method:
  * NULL: the model's. */
 motus_status settle_timing(load *, const options *, int needed, const char *method, motus_error *);
+/* The accuracy that the command asks for: its option's, else the model's where that counts; NaN: none. */
+double settle_accuracy(const load *, const options *);
 /* {"suggested": {"step": 0.05}}: what was suggested. */
 void settle_json(json *, const load *);
 

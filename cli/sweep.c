@@ -27,7 +27,8 @@ typedef struct batch {
     double **values, **results, **errors, *stopped, *room; /* errors: NULL where none are told */
 } batch;
 
-static bool judged(const sweep *s) { return !isnan(s->tried); }
+/* How many records are behind those that were asked for. */
+static size_t judged(const sweep *s) { return isnan(s->accuracy) ? 0 : SWEEP_JUDGED; }
 
 /* Of all threads together: as many as advance at once. They may grow, when a compiler has ended. */
 static size_t lanes_of(const sweep *s)
@@ -38,9 +39,8 @@ static size_t lanes_of(const sweep *s)
 
 static motus_status batch_begin(batch *b, const sweep *s, motus_error *err)
 {
-    /* where an accuracy is wanted what is reached is recorded too, and all have errors */
     const size_t records = s->records.count + judged(s);
-    const bool errors = s->errors || judged(s);
+    const bool errors = s->errors;
     size_t columns = s->grid.count + records * (errors ? 2 : 1) + 1;
     b->lanes = lanes_of(s);
     b->most = BATCH_BYTES / sizeof(double) / columns;
@@ -102,7 +102,8 @@ static motus_status create(sweep *s, stop_progress *progress, motus_error *err)
     def.records = s->records.items;
     def.record_count = s->records.count + judged(s);
     def.method = o->method;
-    def.tolerance = judged(s) ? s->tried : o->tolerance;
+    def.tolerance = o->tolerance;
+    def.accuracy = o->accuracy;
     def.absolute = s->options->absolute;
     def.shortest_step = s->options->shortest_step;
     def.longest_step = s->options->longest_step;
@@ -114,7 +115,7 @@ static motus_status create(sweep *s, stop_progress *progress, motus_error *err)
     def.threads = (int)o->threads;
     def.lanes = (int)o->lanes;
     def.fast = o->fast;
-    def.error = !s->errors && !judged(s)                    ? MOTUS_BARS_NONE
+    def.error = !s->errors                                  ? MOTUS_BARS_NONE
                 : o->error && strcmp(o->error, "full") == 0 ? MOTUS_BARS_FULL
                                                             : MOTUS_BARS_CHEAP;
     def.expected = s->grid.total;
@@ -161,14 +162,10 @@ static motus_status check_options(const options *o, motus_error *err)
     return sweep_file_check(o, err);
 }
 
-/* The ensemble, for the tolerance that is tried where an accuracy is wanted, and the head of the file. */
+/* The ensemble and the head of the file. */
 static motus_status make(sweep *s, stop_progress *progress, motus_error *err)
 {
     const options *o = s->options;
-    motus_ensemble_destroy(s->ensemble);
-    free(s->head);
-    s->ensemble = NULL;
-    s->head = NULL;
     motus_status status = create(s, progress, err);
     if (!status) note_machine(s);
     if (!status) status = check_ends(s, err);
@@ -191,13 +188,15 @@ static motus_status begin(sweep *s, stop_progress *progress, motus_error *err)
     if (!status) status = sweep_records_read(&s->records, &s->model, o->record, err);
     if (status) return status;
     const bool own_ends = grid_find(&s->grid, "until") < s->grid.count;
-    status = settle_timing(&s->model, o, SETTLE_STEP | (own_ends ? 0 : SETTLE_UNTIL), o->method, err);
+    s->accuracy = settle_accuracy(&s->model, o);
+    const int step = isnan(s->accuracy) ? SETTLE_STEP : 0; /* with an accuracy steps adapt */
+    status = settle_timing(&s->model, o, step | (own_ends ? 0 : SETTLE_UNTIL), o->method, err);
     if (status) return status;
     motus_settings settings = motus_default_settings();
     motus_settings_of(s->model.system, &settings);
     const motus_method *card = NULL;
     const char *method = o->method ? o->method : settings.method;
-    const bool adaptive = method && motus_method_find(method, &card, NULL) == MOTUS_OK && card->adaptive;
+    const bool adaptive = judged(s) || (method && motus_method_find(method, &card, NULL) == MOTUS_OK && card->adaptive);
     s->step = adaptive ? NAN : isnan(s->model.step) ? settings.step : s->model.step;
     s->until = own_ends ? NAN : load_until(&s->model);
     if (isnan(s->until) && !isnan(o->until))
@@ -206,11 +205,10 @@ static motus_status begin(sweep *s, stop_progress *progress, motus_error *err)
     s->columns = 2 + s->grid.count + s->records.count + s->errors;
     for (size_t r = 0; s->errors && r < s->records.count; r++) s->columns += sweep_record_errs(&s->records.items[r]);
     status = read_every(s, err);
-    if (!status) status = sweep_accuracy_begin(s, err);
     return status ? status : make(s, progress, err);
 }
 
-static motus_status go(sweep *s, sweep_file *f, stop_progress *p, bool *again, motus_error *err)
+static motus_status go(sweep *s, sweep_file *f, stop_progress *p, motus_error *err)
 {
     batch b = {0};
     motus_status status = batch_begin(&b, s, err);
@@ -218,8 +216,7 @@ static motus_status go(sweep *s, sweep_file *f, stop_progress *p, bool *again, m
     p->before = (double)f->rows / total;
     p->amount = total;
     p->unit = "trajectories";
-    *again = false;
-    while (!status && !*again && f->rows < s->grid.total) {
+    while (!status && f->rows < s->grid.total) {
         uint64_t left = s->grid.total - f->rows;
         size_t count = left < b.count ? (size_t)left : b.count;
         double began = stop_clock();
@@ -231,9 +228,9 @@ static motus_status go(sweep *s, sweep_file *f, stop_progress *p, bool *again, m
         status = b.errors ? motus_ensemble_run_errors(s->ensemble, count, values, b.results, b.errors, b.stopped, err)
                           : motus_ensemble_run(s->ensemble, count, values, b.results, b.stopped, err);
         note_machine(s);
-        if (!status && judged(s))
-            status = sweep_accuracy_judge(s, f->rows, count, b.results[s->records.count], b.stopped, again, err);
-        if (!status && !*again) status = sweep_file_rows(f, count, &rows, err);
+        if (status == MOTUS_ACCURACY)
+            status = sweep_accuracy_refuse(s, f->rows, count, b.results + s->records.count, b.stopped, err);
+        if (!status) status = sweep_file_rows(f, count, &rows, err);
         if (!status && f->rows < s->grid.total && stop_progress_hook(p, 1))
             status = fail(err, MOTUS_CANCELLED, "cancelled");
         batch_adapt(&b, lanes_of(s), stop_clock() - began);
@@ -251,7 +248,8 @@ static void report_json(const sweep *s, const sweep_file *f, double wall)
     if (isnan(s->tolerance)) {
         json_number(&j, "step", s->step);
     } else {
-        json_number(&j, "tolerance", s->tolerance);
+        const bool exact = !isnan(s->accuracy);
+        json_number(&j, exact ? "accuracy" : "tolerance", exact ? s->accuracy : s->tolerance);
         json_bool(&j, "absolute", s->absolute);
     }
     settle_json(&j, &s->model);
@@ -278,12 +276,16 @@ static void report(const sweep *s, const sweep_file *f, double wall)
     FILE *out = output ? stderr : stdout;
     char step[DECIMAL_MAX], until[DECIMAL_MAX], inside[DECIMAL_MAX], all[DECIMAL_MAX];
     double seconds = motus_ensemble_seconds(e), work = (double)(f->rows - f->found) * (double)motus_ensemble_steps(e);
-    decimal(isnan(s->tolerance) ? s->step : s->tolerance, step);
+    const bool exact = !isnan(s->accuracy), fixed = isnan(s->tolerance);
+    decimal(exact ? s->accuracy : fixed ? s->step : s->tolerance, step);
     decimal(s->until, until);
     text_seconds(seconds, inside);
     text_seconds(wall, all);
-    fprintf(out, "%s: %s, %s %s%s, ", s->model.title, s->method, isnan(s->tolerance) ? "step" : "tolerance", step,
-            s->absolute ? " absolute" : "");
+    fprintf(out, "%s: %s, %s %s%s, ", s->model.title, s->method,
+            exact   ? "accuracy"
+            : fixed ? "step"
+                    : "tolerance",
+            step, s->absolute ? " absolute" : "");
     if (motus_ensemble_steps(e) > 0) fprintf(out, "%lld steps ", (long long)motus_ensemble_steps(e));
     fprintf(out, "to t = %s, ", isnan(s->until) ? "its own end" : until);
     const int64_t from = motus_ensemble_compiled_from(e);
@@ -341,11 +343,7 @@ motus_status sweep_verb(const options *o, motus_error *err)
         status = sweep_file_open(&f, &s, err);
         bool open = !status;
         progress.began = stop_clock();
-        for (bool again = true; !status && again;) {
-            status = go(&s, &f, &progress, &again, err);
-            if (!status && again) status = make(&s, &progress, err);
-            if (!status && again) status = sweep_file_again(&f, err);
-        }
+        if (!status) status = go(&s, &f, &progress, err);
         stop_progress_end(&progress);
         if (!status)
             status = finish(&s, &f, began, err);

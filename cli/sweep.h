@@ -5,11 +5,12 @@
 #include "cli/grid.h"
 #include "cli/load.h"
 
-/* What is recorded of each trajectory. */
+/* What is recorded of each trajectory; and behind it SWEEP_JUDGED records, by which an accuracy is judged. */
 typedef struct sweep_records {
     motus_record *items;
     size_t count;
 } sweep_records;
+enum { SWEEP_REACHED, SWEEP_TOLERANCE, SWEEP_JUDGED };
 
 enum { SWEEP_NAME = MOTUS_NAME_MAX + 64 + 32 }; /* room for "time_of_max(…)" and ".error" */
 motus_status sweep_records_read(sweep_records *, const load *, const char *list, motus_error *);
@@ -25,8 +26,8 @@ typedef struct sweep {
     const char *method;
     double step, until; /* step NaN: it adapts, */
     double tolerance;   /*   by this tolerance; NaN: it does not */
+    double accuracy;    /* of every trajectory, which then has a tolerance of its own; NaN: none is asked for */
     int absolute;
-    double tried;  /* the tolerance that is tried for an accuracy; NaN: none is wanted */
     int64_t every; /* steps between two samples for min, max and mean */
     motus_ensemble *ensemble;
     bool noted; /* why no faster machine runs it */
@@ -56,12 +57,10 @@ typedef struct sweep_file {
     size_t used, room;
 } sweep_file;
 
-/* sweep_accuracy.c. Before the ensemble is made: finds the first tolerance to try for --accuracy. */
-motus_status sweep_accuracy_begin(sweep *, motus_error *);
-/* Whether all of `count` trajectories, from number `first` on, keep to the accuracy. Else *again, and a smaller
- * tolerance is to be tried; or MOTUS_ACCURACY, and there is none. */
-motus_status sweep_accuracy_judge(sweep *, uint64_t first, size_t count, const double *reached, const double *stopped,
-                                  bool *again, motus_error *);
+/* sweep_accuracy.c: MOTUS_ACCURACY, with the first of `count` trajectories, from number `first` on, that did not reach
+ * it; `judged` is what was recorded to judge them by. */
+motus_status sweep_accuracy_refuse(const sweep *, uint64_t first, size_t count, double *const *judged,
+                                   const double *stopped, motus_error *);
 
 motus_status sweep_file_check(const options *, motus_error *);
 motus_status sweep_file_open(sweep_file *, const sweep *, motus_error *);
@@ -74,8 +73,6 @@ typedef struct sweep_rows {
 motus_status sweep_file_rows(sweep_file *, size_t count, const sweep_rows *, motus_error *);
 /* Writes everything to the disk. */
 motus_status sweep_file_finish(sweep_file *, motus_error *);
-/* Begins anew, with the present head. */
-motus_status sweep_file_again(sweep_file *, motus_error *);
 void sweep_file_close(sweep_file *);
 
 /* Finds the rows of an interrupted sweep: sets rows, bytes, stopped. `end`: the file's length. */

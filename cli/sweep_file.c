@@ -160,12 +160,6 @@ static motus_status put_head(sweep_file *f, motus_error *err)
     return status;
 }
 
-motus_status sweep_file_again(sweep_file *f, motus_error *err)
-{
-    f->found = 0;
-    return put_head(f, err);
-}
-
 static motus_status go_on(sweep_file *f, uint64_t end, motus_error *err)
 {
     motus_status status = sweep_resume(f, end, err);

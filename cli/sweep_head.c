@@ -70,7 +70,7 @@ static void fingerprint(sweep *s)
         mix_text(&hash, name);
     }
     if (s->errors) mix_text(&hash, how_told(s));
-    if (!isnan(s->tried)) mix_number(&hash, o->accuracy);
+    if (!isnan(s->accuracy)) mix_number(&hash, s->accuracy);
     snprintf(s->fingerprint, sizeof s->fingerprint, "%016" PRIx64, hash);
 }
 
@@ -92,8 +92,8 @@ static motus_status steps(const sweep *s, file_out *f, motus_error *err)
 {
     const options *o = s->options;
     char text[DECIMAL_MAX + 16], number[DECIMAL_MAX];
-    const bool found = !isnan(s->tried); /* then a line below tells the tolerance */
-    const double bound = found ? o->accuracy : s->tolerance;
+    const bool found = !isnan(s->accuracy);
+    const double bound = found ? s->accuracy : s->tolerance;
     if (isnan(s->tolerance)) return option_number(f, "--step", s->step, err);
     snprintf(text, sizeof text, "%s%s", decimal(bound, number), s->absolute ? " absolute" : "");
     motus_status status = option(f, found ? "--accuracy" : "--tolerance", text, err);
@@ -159,10 +159,8 @@ static motus_status csv_head(const sweep *s, file_out *f, motus_error *err)
     char line[240], name[SWEEP_NAME];
     motus_status status = file_text(f, "# ", err);
     if (!status) status = command(s, f, err);
-    char found[DECIMAL_MAX + 16] = "", number[DECIMAL_MAX];
-    if (!isnan(s->tried)) snprintf(found, sizeof found, "tolerance %s, ", decimal(s->tolerance, number));
-    snprintf(line, sizeof line, "\n# motus %s, trajectories %" PRIu64 ", %sfingerprint %s\n", motus_version(),
-             s->grid.total, found, s->fingerprint);
+    snprintf(line, sizeof line, "\n# motus %s, trajectories %" PRIu64 ", fingerprint %s\n", motus_version(),
+             s->grid.total, s->fingerprint);
     if (!status) status = file_text(f, line, err);
     for (size_t k = 0; !status && k < s->columns; k++) {
         if (k > 0) status = file_text(f, ",", err);
@@ -183,7 +181,6 @@ static motus_status npy_head(const sweep *s, file_out *f, motus_error *err)
         json_string(&j, "motus", motus_version());
         json_string(&j, "command", text);
         json_integer(&j, "trajectories", (int64_t)s->grid.total);
-        if (!isnan(s->tried)) json_number(&j, "tolerance", s->tolerance);
         json_string(&j, "fingerprint", s->fingerprint);
         json_open(&j, "columns", '[');
         for (size_t k = 0; k < s->columns; k++) json_string(&j, NULL, name_of(s, k, name));

@@ -1,7 +1,7 @@
 /* The items of --record:
  *
  *     final   NAME   final(NAME)   min(NAME)   max(NAME)   mean(NAME)   time_of_min(NAME)   time_of_max(NAME)
- *     steps   rejected   h_min   h_max   evaluations
+ *     steps   rejected   h_min   h_max   evaluations   reached   tolerance
  *
  * Invariant: a name stands for all its numbers, as in --columns of motus run. Where the model has a column of the name
  * `steps`, that column is meant.
@@ -29,9 +29,10 @@ static const struct {
 enum { REDUCTIONS = sizeof reductions / sizeof *reductions };
 
 /* What is recorded of the trajectory itself, by the words of run --json. */
-static const char *const of_trajectory[] = {"steps", "rejected", "h_min", "h_max", "evaluations"};
+static const char *const of_trajectory[] = {"steps",       "rejected", "h_min",    "h_max",
+                                            "evaluations", "reached",  "tolerance"};
 enum { OF_TRAJECTORY = sizeof of_trajectory / sizeof *of_trajectory };
-_Static_assert(MOTUS_REDUCE_STEPS + OF_TRAJECTORY == MOTUS_REDUCE_EVALUATIONS + 1, "a word for each");
+_Static_assert(MOTUS_REDUCE_STEPS + OF_TRAJECTORY == MOTUS_REDUCE_TOLERANCE + 1, "a word for each");
 
 static motus_status add(sweep_records *r, motus_reduction how, size_t first, size_t count, motus_error *err)
 {
@@ -112,8 +113,10 @@ motus_status sweep_records_read(sweep_records *r, const load *m, const char *lis
     for (size_t i = 0; !status && i < items.count; i++) status = one(r, m, copy + (items.items[i] - copy), err);
     free(items.items);
     free(copy);
+    /* behind them, for an accuracy */
     if (!status) status = add(r, MOTUS_REDUCE_ACCURACY, 0, 1, err);
-    if (!status) r->count--; /* behind them, for --accuracy */
+    if (!status) status = add(r, MOTUS_REDUCE_TOLERANCE, 0, 1, err);
+    if (!status) r->count -= SWEEP_JUDGED;
     return status;
 }
 

@@ -10,12 +10,15 @@ stepper_count tally_begin(const stepper *s)
     return (stepper_count){.evaluations = stepper_evaluations(s), .refused = stepper_refused(s)};
 }
 
+double tally_tolerance(const chosen *c) { return !row_adaptive(c) ? NAN : c->absolute > 0 ? c->absolute : c->relative; }
+
 tally tally_of(const stepper *s, stepper_count before)
 {
     tally t = {.steps = stepper_steps(s),
                .refused = stepper_refused(s) - before.refused,
                .evaluations = stepper_evaluations(s) - before.evaluations,
-               .accuracy = NAN};
+               .accuracy = NAN,
+               .tolerance = tally_tolerance(&s->method)};
     stepper_sizes(s, &t.shortest, &t.longest);
     return t;
 }
@@ -24,7 +27,9 @@ double tally_number(const tally *t, int which)
 {
     const double numbers[TALLIES] = {
         [TALLY_STEPS] = (double)t->steps, [TALLY_REFUSED] = (double)t->refused,         [TALLY_SHORTEST] = t->shortest,
-        [TALLY_LONGEST] = t->longest,     [TALLY_EVALUATIONS] = (double)t->evaluations, [TALLY_ACCURACY] = t->accuracy};
+        [TALLY_LONGEST] = t->longest,     [TALLY_EVALUATIONS] = (double)t->evaluations, [TALLY_ACCURACY] = t->accuracy,
+        [TALLY_TOLERANCE] = t->tolerance,
+    };
     return numbers[which];
 }
 

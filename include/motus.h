@@ -859,7 +859,8 @@ typedef enum motus_reduction {
     /* A bound on the bars that any number of the state had along the trajectory, which is what `accuracy` of
      * motus_run_def bounds: relative to the motion's size, or absolute where the tolerance is. INFINITY: of some no
      * digit was significant. NaN: there are no bars, or motus_ensemble_run tells none. */
-    MOTUS_REDUCE_ACCURACY
+    MOTUS_REDUCE_ACCURACY,
+    MOTUS_REDUCE_TOLERANCE /* as in motus_statistics; with an accuracy every trajectory has its own */
 } motus_reduction;
 /* column: from motus_column_find or motus_column_of */
 typedef struct motus_record {
@@ -876,8 +877,13 @@ typedef struct motus_ensemble_def {
     size_t vary_count;
     const motus_record *records; /* at least one */
     size_t record_count;
-    const char *method; /* NULL: the model's, or "verlet" */
+    const char *method; /* NULL: the model's, or "verlet", with an accuracy "dop853" */
     double step, until; /* NaN: the model's, or motus_suggest's, the same for all trajectories */
+    /* As in motus_run_def, of every trajectory; NaN: the model's, or none. The method is an adaptive one. Every
+     * trajectory then has a tolerance of its own (MOTUS_REDUCE_TOLERANCE): the first is the same for all, and those
+     * whose bars do not keep to the accuracy are computed again with smaller ones, as they would be alone. What
+     * the model says of its own method is left aside, unless it sets an accuracy too. */
+    double accuracy;
     double tolerance, shortest_step, longest_step; /* as in motus_run_def; every trajectory has its own steps */
     int64_t every; /* steps between two observations, for all records but MOTUS_REDUCE_FINAL; 1 by default */
     /* As in motus_run_def: with "auto" trajectories are computed by the interpreter while the compiler works, all from
@@ -908,7 +914,9 @@ MOTUS_API motus_status motus_ensemble_create(motus_system *, const motus_ensembl
  * had taken `most_steps` steps; its results are then NaN, and the other trajectories go on. MOTUS_CALLBACK: a callback
  * returned a value below 0. MOTUS_CANCELLED: `progress` returned other than 0. MOTUS_METHOD: with the values of a
  * trajectory the method does not admit the model, or does not reach the end in equal steps. MOTUS_ARGUMENT,
- * MOTUS_LIMIT: an end is not finite, or too many steps away. */
+ * MOTUS_LIMIT: an end is not finite, or too many steps away. MOTUS_ACCURACY: all are computed, and some do not reach
+ * the accuracy; their results are the best that was found, MOTUS_REDUCE_ACCURACY tells which and how far off they are,
+ * and err->message names the first. A trajectory that stops with the first tolerance has nothing to reach. */
 MOTUS_API motus_status motus_ensemble_run(motus_ensemble *, size_t count, const double *const *values,
                                           double *const *results, double *stopped, motus_error *);
 /* The same with the errors: errors[k], room for `count` numbers, has the bars of results[k], as motus_run_errors has
@@ -927,8 +935,11 @@ MOTUS_API void motus_ensemble_destroy(motus_ensemble *);
 
 MOTUS_API int64_t motus_ensemble_steps(const motus_ensemble *); /* of each trajectory; 0 where they differ */
 MOTUS_API const char *motus_ensemble_method(const motus_ensemble *);
-/* Of an adaptive method; NaN: steps have one size. *absolute (may be NULL): 1 where it is absolute. */
+/* Of an adaptive method; NaN: steps have one size. With an accuracy: the first one. *absolute (may be NULL): 1 where it
+ * is absolute. */
 MOTUS_API double motus_ensemble_tolerance(const motus_ensemble *, int *absolute);
+/* What every trajectory is to keep to, absolute as the tolerance is; NaN: no accuracy is asked for. */
+MOTUS_API double motus_ensemble_accuracy(const motus_ensemble *);
 MOTUS_API const char *motus_ensemble_machine(const motus_ensemble *);
 MOTUS_API const char *motus_ensemble_note(const motus_ensemble *); /* why it uses no faster machine, or "" */
 /* How many trajectories of all calls of motus_ensemble_run so far the interpreter computed before the ensemble went on

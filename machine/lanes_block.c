@@ -255,6 +255,7 @@ static tally tally_of_lane(const lanes_block *b, size_t lane, int64_t steps)
 {
     const lanes *l = b->l;
     tally t = {.steps = steps, .accuracy = NAN, .shortest = NAN, .longest = NAN};
+    t.tolerance = tally_tolerance(l->def.chosen);
     if (!l->plan.carried) {
         if (steps > 0) t.shortest = t.longest = fabs(l->def.h);
         return t;
