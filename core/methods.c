@@ -460,6 +460,18 @@ const row methods_table[] = {
        .formula = "kahan-li8 with h = ε T, T the motion's time scale as in verlet-reversible" IMPLICIT_KICKS,
        .use = "As verlet-reversible, at 1e-8 and better, and for forces that depend on the velocity.", .adaptive = 1 },
       .family = SPLITTING, .adaptive = true, .density = true, .compensated = true, KAHAN_LI8 },
+    { .card = { CARD("gauss8-reversible", "", "implicit", 8, 4, 0, XVT, 0, 1, INFINITY),
+       .title = "Gauss 8, reversible steps",
+       .cite = "HS05, Butcher64",
+       .formula = "gauss8 with h = ε T, T the motion's time scale as in verlet-reversible",
+       .use = "As verlet-reversible, at 1e-8 and better, for every force.", .adaptive = 1 },
+      .family = IMPLICIT, .adaptive = true, .density = true, .compensated = true, .tableau = {.stages = 4} },
+    { .card = { CARD_BETWEEN(6, "gauss12-reversible", "", "implicit", 12, 6, 0, XVT, 0, 1, INFINITY),
+       .title = "Gauss 12, reversible steps",
+       .cite = "HS05, Butcher64",
+       .formula = "gauss12 with h = ε T, T the motion's time scale as in verlet-reversible",
+       .use = "As verlet-reversible, close to round-off, for every force.", .adaptive = 1 },
+      .family = IMPLICIT, .adaptive = true, .density = true, .compensated = true, .tableau = {.stages = 6} },
 
     /* Implicit: Newmark, and collocation at the Gauss nodes, whose coefficients step/collocation.h makes. */
     NEWMARK(2, 1,

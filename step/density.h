@@ -237,6 +237,24 @@ static int density_begin(work *w)
     return bad;
 }
 
+#ifdef ROWS
+/* A circular Kepler orbit: its force over the place, and how long a step may be, in radians, for an error of 1, as if
+ * the error went with the power order + 1 of the step from `arc` on, of which cosine and sine are given; one step leads
+ * from (1, 0) to x, v. An oscillator would not tell: some methods are made for it. */
+static coef density_pull(const coef x[2])
+{
+    const coef root = density_root(x[0] * x[0] + x[1] * x[1]), cube = root * root * root;
+    return cube * cube;
+}
+
+static coef density_reach(const work *w, const coef x[2], const coef v[2], coef arc, coef cosine, coef sine)
+{
+    const coef place = LARGER(ABS(x[0] - cosine), ABS(x[1] - sine)),
+               rate = LARGER(ABS(v[0] + sine), ABS(v[1] - cosine)), off = LARGER(place, rate);
+    return arc * (coef)control_exp2(-control_log2(off) / (w->order + 1));
+}
+#endif
+
 /* Every candidate is accepted. */
 static inline clock_mask density_judge(work *w)
 {

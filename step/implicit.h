@@ -56,7 +56,11 @@ static inline int implicit_begin(work *w, implicit_iteration *it)
     const bool newton = !FACT(w, kept) || FACT(w, affine);
     *it = (implicit_iteration){
         .open = ALWAYS, .newton = newton ? ALWAYS : NEVER, .contracts = NEVER, .before = (real){0} - 1};
-    if (!FACT(w, kept) || FIRST(w)) {
+    if (ROW(w, adaptive)) {
+        const int bad = control_begin(w);
+        if (bad) return bad;
+        tableau_predict(w, 0);
+    } else if (!FACT(w, kept) || FIRST(w)) {
         /* newmark's last stage is the next step's first */
         int bad = !FACT(w, known) || FIRST(w) ? implicit_start(w) : STEP_OK;
         if (bad) return bad;
@@ -99,7 +103,7 @@ static inline judge_verdict implicit_correct(work *w, implicit_iteration *it, re
 static inline int implicit_hand_over(work *w, implicit_iteration *it, mask slow, mask lost)
 {
     if (SOME(slow & lost)) {
-        int bad = implicit_start(w);
+        int bad = ROW(w, adaptive) ? STEP_OK : implicit_start(w);
         if (bad) return bad;
         for (int i = 0; i < FACT(w, stages); i++)
             EACHV(k) {
@@ -174,7 +178,10 @@ static int implicit_step(work *w)
     while (!bad && implicit_more(&it, it.open)) bad = implicit_turn(w, &it);
     return bad ? bad : implicit_end(w, &it);
 }
-#define implicit_accept step_is_final
+static inline void implicit_accept(work *w, clock_mask good)
+{
+    if (ROW(w, adaptive)) w->span = CHOOSE_WHERE(good, w->h, -w->h);
+}
 #define implicit_observe state_is_complete
 #define implicit_sync work_sync_main
 #define implicit_between dense_stages_between
@@ -197,13 +204,37 @@ static void implicit_newmark(work *w, coef beta, coef gamma, coef *unit, coef *c
     c[1] = 1;
 }
 
+/* By a step on a circular orbit that is short enough for insertion, and long enough for an error above rounding. */
+static coef implicit_reach(const work *w, const coef *unit, const coef *c)
+{
+    enum { TURNS = 50 };
+    const int s = w->stages;
+    const coef h = K(0.5);
+    coef K[TABLEAU_COUPLED_MAX + 1][2] = {{0}}, x[2] = {1, 0}, v[2] = {0, 1};
+    for (int turn = 0; turn < TURNS; turn++)
+        for (int i = 0; i <= s; i++) { /* the last is the end of the step */
+            const coef *aa = unit + (i < s ? tableau_aa(w, i) : tableau_bb(w));
+            coef at[2] = {1, i < s ? c[i] * h : h};
+            for (int j = 0; j < s; j++)
+                for (int n = 0; n < 2; n++) at[n] += h * h * aa[j] * K[j][n];
+            const coef pull = density_pull(at);
+            for (int n = 0; n < 2; n++) K[i][n] = -pull * at[n], x[n] = at[n];
+        }
+    for (int j = 0; j < s; j++)
+        for (int n = 0; n < 2; n++) v[n] += h * unit[tableau_b(w) + j] * K[j][n];
+    return density_reach(w, x, v, h, K(0.87758256189037271611628158260382965199165),
+                         K(0.47942553860420300027328793521557138808180));
+}
+
 static void implicit_plan(work *w, const double argument[2], coef *unit, coef *c)
 {
     const row *m = w->row;
     tableau_sizes(w, m->newmark ? 2 : m->tableau.stages);
     w->known = m->newmark;
     w->kept = w->stages > 1 && !m->newmark ? w->stages : 0;
-    w->plains = (2 * w->kept + 3) * w->kept; /* tableau_ahead, tableau_series, tableau_rest, tableau_low_c */
+    w->plains = (2 * w->kept + 3) * w->kept + m->density; /* tableau_ahead, _series, _rest, _low_c; DENSITY_REACH */
+    w->opening = m->density;
+    if (m->density) w->order = m->card.order;
     w->iterates = true;
     w->solves = w->stages - w->known;
     w->solves_x = !m->newmark || argument[0] != 0;
@@ -220,6 +251,7 @@ static void implicit_plan(work *w, const double argument[2], coef *unit, coef *c
     if (!w->kept) return;
     collocation_ahead(&nodes, unit + tableau_ahead(w, 0));
     collocation_series(&nodes, unit + tableau_series(w, 0));
+    if (m->density) unit[w->linears + w->squares] = implicit_reach(w, unit, c);
 }
 #endif
 

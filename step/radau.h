@@ -15,36 +15,6 @@
  * adaptive row refuses a candidate whose iteration contracts slowly, and keeps the acceleration of the state for all
  * its stages.
  */
-enum { RADAU_REACH = 8 };
-
-/* The polynomial of the stages that the row carries, moved so that it passes through the acceleration of the state; or
- * that acceleration alone, where there is none yet, or a step RADAU_REACH times as long would leave it far behind. */
-static inline void radau_predict(work *w)
-{
-    const int s = FACT(w, stages);
-    const size_t stride = w->stride;
-    const clock_mask past = (w->span > 0) == (w->h > 0), near = ABS(w->h) <= RADAU_REACH * ABS(w->span);
-    const clock ratio = ABS(w->h) / (ABS(w->span) + SMALLEST), start = CHOOSE_WHERE(past, CLOCK(1), CLOCK(-1));
-    clock ahead[TABLEAU_COUPLED_MAX][TABLEAU_COUPLED_MAX];
-    for (int i = 1; i < s; i++) {
-        clock p[TABLEAU_COUPLED_MAX + 1] = {CLOCK(1), start + 2 * (FACT(w, c)[i] * ratio)}, sign = start;
-        for (int k = 1; k < s; k++) {
-            p[k + 1] = ((2 * k + 1) * p[1] * p[k] - k * p[k - 1]) / (k + 1);
-            ahead[i][k] = CHOOSE_WHERE(near, p[k] - sign, CLOCK(0));
-            sign = sign * start;
-        }
-    }
-    EACHV(k) {
-        real *K = w->ks + k, next[TABLEAU_COUPLED_MAX];
-        for (int i = 0; i < s; i++) next[i] = w->a[k];
-        for (int m = 1; m < s; m++) {
-            const real c = tableau_weigh(w, tableau_series(w, m), w->ks, k, s, false, (real){0});
-            for (int i = 1; i < s; i++) next[i] = FMA(ahead[i][m], c, next[i]);
-        }
-        for (int i = 0; i < s; i++) K[(size_t)i * stride] = next[i];
-    }
-}
-
 static inline int radau_first(work *w)
 {
     const int s = FACT(w, stages);
@@ -52,7 +22,7 @@ static inline int radau_first(work *w)
     int bad;
     if (ROW(w, adaptive)) {
         bad = control_begin(w);
-        if (!bad) radau_predict(w);
+        if (!bad) tableau_predict(w, 1);
         return bad;
     }
     EACH(k) w->xs[k] = w->x[k];

@@ -33,12 +33,7 @@ static int splitting_sync(work *w, real *x, real *v)
     return STEP_OK;
 }
 
-static int splitting_carry(const work *w, real *list[CARRY_MAX])
-{
-    int count = work_carry_main(w, list);
-    if (ROW(w, density)) list[count++] = w->old;
-    return count;
-}
+#define splitting_carry work_carry_main
 #define splitting_between lift_between
 #define splitting_extend lift_extend
 #define splitting_dense lift_dense
@@ -50,12 +45,8 @@ static inline void splitting_place(work *w, placing *p)
         w->low = work_array(p, 1);
         if (FACT(w, solves) || FACT(w, means)) w->us = work_array(p, 1);
     }
-    if (ROW(w, density)) {
-        if (!ROW(w, compensated)) w->xs = work_array(p, 1);
-        w->old = work_array(p, 1);
-        w->dx = work_array(p, 1);
-        w->dv = work_array(p, 1);
-    }
+    if (ROW(w, density) && !ROW(w, compensated)) w->xs = work_array(p, 1);
+    work_density(w, p);
     if (ROW(w, density) || FACT(w, solves) || FACT(w, means)) w->vs = work_array(p, 1);
     if (!FACT(w, solves) && !FACT(w, means)) return;
     if (FACT(w, means)) w->r = work_array(p, 1);
@@ -65,21 +56,17 @@ static inline void splitting_place(work *w, placing *p)
 }
 
 #ifdef ROWS
-/* How long a step may be, in radians of a circular Kepler orbit, for an error of 1, as if the error went with the power
- * order + 1 of the step from a quarter of a radian on. An oscillator would not tell: some methods are made for it. */
 static coef splitting_reach(const work *w, const coef *kick, const coef *drift)
 {
-    const coef h = K(0.25), cosine = K(0.96891242171064478414459544949418919980413),
-               sine = K(0.24740395925452292959684870484938919589339);
-    coef x = 1, y = 0, u = 0, v = 1;
+    const coef h = K(0.25);
+    coef x[2] = {1, 0}, v[2] = {0, 1};
     for (int i = 0; i < w->stages; i++) {
-        const coef root = density_root(x * x + y * y), cube = root * root * root, k = kick[i] * h * (cube * cube);
-        u -= k * x, v -= k * y;
-        x += drift[i] * h * u, y += drift[i] * h * v;
+        const coef k = kick[i] * h * density_pull(x);
+        for (int n = 0; n < 2; n++) v[n] -= k * x[n];
+        for (int n = 0; n < 2; n++) x[n] += drift[i] * h * v[n];
     }
-    const coef place = LARGER(ABS(x - cosine), ABS(y - sine)), rate = LARGER(ABS(u + sine), ABS(v - cosine)),
-               off = LARGER(place, rate);
-    return h * (coef)control_exp2(-control_log2(off) / (w->order + 1));
+    return density_reach(w, x, v, h, K(0.96891242171064478414459544949418919980413),
+                         K(0.24740395925452292959684870484938919589339));
 }
 
 /* unit: kicks, drifts, the joint kick of a row that begins and ends with one, of a compensated row room for work_sums,

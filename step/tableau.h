@@ -8,8 +8,12 @@ static inline int tableau_a(const work *w, int i) { return i * FACT(w, stages); 
 static inline int tableau_b(const work *w) { return FACT(w, stages) * FACT(w, stages); }
 static inline int tableau_aa(const work *w, int i) { return tableau_b(w) + (1 + i) * FACT(w, stages); }
 static inline int tableau_bb(const work *w) { return 2 * tableau_b(w) + FACT(w, stages); }
-/* of coupled stages: the values of Lagrange's polynomials at stage i of the next step, without a factor h */
-static inline int tableau_ahead(const work *w, int i) { return tableau_bb(w) + (1 + i) * FACT(w, stages); }
+/* of coupled stages: the values of Lagrange's polynomials at stage i of the next step, without a factor h; after
+ * DENSITY_REACH, where there is one */
+static inline int tableau_ahead(const work *w, int i)
+{
+    return tableau_bb(w) + (1 + i) * FACT(w, stages) + ROW(w, density);
+}
 /* the coefficient of Legendre's polynomial k in the polynomial through the stages; without a factor h */
 static inline int tableau_series(const work *w, int k)
 {
@@ -136,6 +140,37 @@ static inline void tableau_extrapolate(work *w, int first)
     }
 }
 
+/* The same where steps differ: the polynomial of the stages that the row carries, moved so that it passes through the
+ * acceleration of the state; or that acceleration alone, where there is none yet, or a step TABLEAU_REACH times as long
+ * would leave it far behind. w->span: of the step of those stages, or of a refused one with its sign changed. */
+enum { TABLEAU_REACH = 8 };
+static inline void tableau_predict(work *w, int first)
+{
+    const int s = FACT(w, stages);
+    const size_t stride = w->stride;
+    const clock h = CHOOSE_WHERE(w->h < 0, -w->h, w->h), span = CHOOSE_WHERE(w->span < 0, -w->span, w->span);
+    const clock_mask past = (w->span > 0) == (w->h > 0), near = h <= TABLEAU_REACH * span;
+    const clock ratio = h / (span + SMALLEST), start = CHOOSE_WHERE(past, CLOCK(1), CLOCK(-1));
+    clock ahead[TABLEAU_COUPLED_MAX][TABLEAU_COUPLED_MAX];
+    for (int i = first; i < s; i++) {
+        clock p[TABLEAU_COUPLED_MAX + 1] = {CLOCK(1), start + 2 * (FACT(w, c)[i] * ratio)}, sign = start;
+        for (int k = 1; k < s; k++) {
+            p[k + 1] = ((2 * k + 1) * p[1] * p[k] - k * p[k - 1]) / (k + 1);
+            ahead[i][k] = CHOOSE_WHERE(near, p[k] - sign, CLOCK(0));
+            sign = sign * start;
+        }
+    }
+    EACHV(k) {
+        real *K = w->ks + k, next[TABLEAU_COUPLED_MAX];
+        for (int i = 0; i < s; i++) next[i] = w->a[k];
+        for (int m = 1; m < s; m++) {
+            const real c = tableau_weigh(w, tableau_series(w, m), w->ks, k, s, false, (real){0});
+            for (int i = first; i < s; i++) next[i] = FMA(ahead[i][m], c, next[i]);
+        }
+        for (int i = 0; i < s; i++) K[(size_t)i * stride] = next[i];
+    }
+}
+
 static int tableau_carry(const work *w, real *list[CARRY_MAX])
 {
     int count = work_carry_main(w, list);
@@ -148,6 +183,7 @@ static inline void tableau_arrays(work *w, placing *p)
 {
     w->xs = work_array(p, 1);
     w->vs = work_array(p, 1);
+    work_density(w, p);
     w->ks = work_array(p, FACT(w, stages));
     w->r = work_array(p, FACT(w, stages));
 }

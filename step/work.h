@@ -166,7 +166,7 @@ typedef struct work {
     /* first same as last: the closing kick of a step waits for the opening kick of the next */
     bool fsal;
     bool closing; /* its last stage is that; else, after the last stage, */
-    bool opening; /* of a splitting: the first stage kicks with the acceleration of the state */
+    bool opening; /* of a density: a step begins with the acceleration of the state */
     bool ending;  /* an adaptive step evaluates the force at the candidate, which is the next step's first stage */
     bool second;  /* it has a second estimate of the error */
     int means;    /* of a quadrature: at how many velocities a kick takes its rates */
@@ -424,6 +424,15 @@ static inline real *work_array(placing *p, int count)
 #define PLACED(w, name) ((w)->name)
 #endif
 
+/* What density.h needs besides xs and vs. */
+static inline void work_density(work *w, placing *p)
+{
+    if (!ROW(w, density)) return;
+    w->old = work_array(p, 1);
+    w->dx = work_array(p, 1);
+    w->dv = work_array(p, 1);
+}
+
 /* Copies the numbers of all arrays, of the stages those that are kept, from one workspace to another. */
 static inline void work_move(work *to, const work *from, size_t count)
 {
@@ -454,6 +463,7 @@ static inline int work_carry_main(const work *w, real *list[CARRY_MAX])
     list[count++] = w->x;
     list[count++] = w->v;
     if (ROW(w, compensated)) list[count++] = w->ex, list[count++] = w->ev;
+    if (ROW(w, density)) list[count++] = w->old;
     return count;
 }
 

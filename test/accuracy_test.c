@@ -148,8 +148,8 @@ static void no_false_claim(void **state)
 static void tolerances_beyond_the_longest_steps(void **state)
 {
     (void)state;
-    static const char *const methods[] = {"verlet-reversible", "blanes-moan4-reversible", "blanes-moan6-reversible",
-                                          "kahan-li8-reversible"};
+    static const char *const methods[] = {"verlet-reversible",    "blanes-moan4-reversible", "blanes-moan6-reversible",
+                                          "kahan-li8-reversible", "gauss8-reversible",       "gauss12-reversible"};
     motus_system *s = given_model("kepler.motus", NULL, 0);
     for (size_t k = 0; k < sizeof methods / sizeof *methods; k++) {
         motus_error err = motus_default_error();

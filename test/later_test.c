@@ -95,7 +95,8 @@ static void at_every_step(void **unused)
                                        "beeman",
                                        "gragg",
                                        "gragg-stormer",
-                                       "kahan-li8-reversible"};
+                                       "kahan-li8-reversible",
+                                       "gauss8-reversible"};
     int pairs = 0;
     for (size_t i = 0; i < sizeof texts / sizeof *texts; i++)
         for (size_t k = 0; k < sizeof rows / sizeof *rows; k++) {

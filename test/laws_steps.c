@@ -204,7 +204,8 @@ static void of_newmark(method m)
 }
 
 /* What is generated in double is what is generated in 113 bits, rounded once; so are the rests of the weights and of
- * the abscissae, which stand behind two squares of numbers. */
+ * the abscissae, which stand behind two squares of numbers. The reach of a density, before these, is measured:
+ * laws_density.c. */
 static void rounded_once(method m)
 {
     const problem p = {.nx = 1, .nv = 1};
@@ -213,14 +214,17 @@ static void rounded_once(method m)
     coef memory[4 * GENERATED_MAX];
     const int s = quad_generated_of(m, constants, abscissae);
     const work w = stepper_plan(&p, &c, memory);
-    int same = 0, all = (int)work_constants(&w) + s;
-    const int scaled = w.linears + w.squares, rest = scaled + 2 * s * s, place = scaled - s;
-    for (int i = 0; i < all - s; i++) {
+    const int density = methods_table[m].density, scaled = w.linears + w.squares, rest = scaled + density + 2 * s * s,
+              place = scaled - s;
+    int same = -density, all = (int)work_constants(&w) + s - density;
+    for (int i = 0; i < (int)work_constants(&w); i++) {
         const int k = i - rest, of = k < s ? s * s + k : place + k - s;
         const bool left = w.kept && k >= 0 && k < 3 * s;
         const quad whole = k < 2 * s ? constants[left ? of : 0] : abscissae[left ? k - 2 * s : 0],
                    high = k < 2 * s ? w.unit[left ? of : 0] : w.c[left ? k - 2 * s : 0];
-        same += left ? fabs((double)(whole - high - (quad)w.unit[i])) <= 0x1p-100 : w.unit[i] == (double)constants[i];
+        const bool measured = density && i == scaled;
+        same += left ? fabs((double)(whole - high - (quad)w.unit[i])) <= 0x1p-100
+                     : measured || w.unit[i] == (double)constants[i];
     }
     for (int i = 0; i < s; i++) same += w.c[i] == (double)abscissae[i];
     judge(same == all, row_card(m)->name, "rounded once", "%d of %d coefficients", same, all);

@@ -226,7 +226,7 @@ static void every_construct(void **state)
         char set[16];
         snprintf(set, sizeof set, "N=%d", n);
         motus_system *s = open_text(text, set);
-        static const char *const rows[] = {"rk4", "gauss4", "verlet", "kahan-li8-reversible"};
+        static const char *const rows[] = {"rk4", "gauss4", "verlet", "kahan-li8-reversible", "gauss12-reversible"};
         for (size_t k = 0; k < sizeof rows / sizeof *rows; k++) same_bits(s, "every construct", rows[k]);
         motus_system_destroy(s);
     }

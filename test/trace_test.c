@@ -112,11 +112,12 @@ static void one(motus_system *s, const char *name, double h, double until, const
 }
 
 /* Of the adaptive methods one of each form: a last stage at the end or none, two estimates, Nyström's, coupled
- * stages, splittings. */
+ * stages, reversible steps. */
 static bool telling(const char *name)
 {
     static const char *const names[] = {
-        "dopri5", "dop853", "dep6", "fine5", "radau15", "verlet-reversible", "kahan-li8-reversible"};
+        "dopri5",           "dop853", "dep6", "fine5", "radau15", "verlet-reversible", "kahan-li8-reversible",
+        "gauss8-reversible"};
     for (size_t i = 0; i < sizeof names / sizeof *names; i++)
         if (!strcmp(name, names[i])) return true;
     return false;
