@@ -71,6 +71,7 @@ void bars_destroy(motus_run *r)
     companion_end(&r->bars->twin, &r->allocator);
     give(&r->allocator, r->bars->columns);
     give(&r->allocator, r->bars->memory);
+    give(&r->allocator, r->bars->resumed);
     give(&r->allocator, r->bars);
 }
 
@@ -181,20 +182,19 @@ static motus_status begin_half(motus_run *r, double *x, double *v, motus_error *
     return companion_begin(&b->half, r, t, x, v, err);
 }
 
-/* The numbers of a state of the run, of its companion or of its twin. */
-static motus_status see(motus_run *r, motus_system *s, double t, double *x, double *v, int seen, motus_error *err)
+motus_status bars_see(motus_run *r, motus_system *s, double t, double *x, double *v, int seen, motus_error *err)
 {
     const bars *b = r->bars;
     return system_values(s, t, x, v, b->columns, b->count, b->differences.values[seen], err);
 }
 
-static motus_status take_here(motus_run *r, double t, double *x, double *v, bool observed, motus_error *err)
+motus_status bars_take(motus_run *r, double t, double *x, double *v, bool observed, motus_error *err)
 {
     bars *b = r->bars;
     const bool twin = b->kind == MOTUS_BARS_FULL && t == b->twin.t;
-    motus_status status = see(r, r->system, t, x, v, 0, err);
-    if (status == MOTUS_OK) status = see(r, b->half.system, t, b->half.x, b->half.v, 1, err);
-    if (status == MOTUS_OK && twin) status = see(r, r->system, t, b->twin.x, b->twin.v, 2, err);
+    motus_status status = bars_see(r, r->system, t, x, v, 0, err);
+    if (status == MOTUS_OK) status = bars_see(r, b->half.system, t, b->half.x, b->half.v, 1, err);
+    if (status == MOTUS_OK && twin) status = bars_see(r, r->system, t, b->twin.x, b->twin.v, 2, err);
     if (status == MOTUS_OK) differences_take(&b->differences, t, observed, twin);
     return status;
 }
@@ -210,6 +210,7 @@ static motus_status begin_at(motus_run *r, bool observed, motus_error *err)
         bars_give_up(r, "the callback gives another acceleration when it is called again with the same numbers");
         return MOTUS_OK;
     }
+    if (b->resumed) return bars_kept_begin(r, r->x, r->v, err);
     double *x = r->mid_x, *v = r->mid_v;
     memcpy(x, r->x, p->nx * sizeof *x);
     memcpy(v, r->v, p->nv * sizeof *v);
@@ -225,7 +226,7 @@ static motus_status begin_at(motus_run *r, bool observed, motus_error *err)
     differences_begin(&b->differences, r->timing.t0, r->timing.until);
     b->landed = stepper_time(r->stepper);
     b->steps = motus_run_steps(r);
-    if (status == MOTUS_OK) status = take_here(r, b->landed, r->x, r->v, observed, err);
+    if (status == MOTUS_OK) status = bars_take(r, b->landed, r->x, r->v, observed, err);
     return status;
 }
 
@@ -257,6 +258,9 @@ void bars_again(motus_run *r, bool given)
     r->bars->started = false;
     r->bars->given_x = r->bars->given_v = given;
     r->bars->why[0] = 0;
+    r->bars->ahead = false;
+    give(&r->allocator, r->bars->resumed);
+    r->bars->resumed = NULL;
 }
 
 void bars_leg(motus_run *r)
@@ -284,7 +288,7 @@ static motus_status land(motus_run *r, double t, double *x, double *v, bool betw
     motus_status status = companion_land(&b->half, r, t, taken > 0 ? taken : 1, err);
     if (status == MOTUS_OK && !strcmp(r->card->family, "exact")) status = companion_jog(&b->half, r, err);
     if (status == MOTUS_OK && b->kind == MOTUS_BARS_FULL && !between) status = companion_repeat(&b->twin, r, err);
-    if (status == MOTUS_OK) status = take_here(r, t, x, v, observed, err);
+    if (status == MOTUS_OK) status = bars_take(r, t, x, v, observed, err);
     b->landed = t;
     b->steps = between ? now - 1 : now;
     b->seconds += pace_now() - began;
@@ -297,9 +301,15 @@ static motus_status land_here(motus_run *r, bool observed, motus_error *err)
     const double t = stepper_time(r->stepper), way = r->timing.h < 0 ? -1 : 1;
     motus_error theirs = motus_default_error();
     motus_status status = b->started ? MOTUS_OK : start(r, observed, err);
-    if (status != MOTUS_OK || !alive(b) || way * (t - b->landed) <= 0) return status;
+    const double gone = way * (t - b->landed);
+    if (status != MOTUS_OK || !alive(b) || (b->ahead ? gone < 0 : gone <= 0)) return status;
     status = run_sync(r, false, &theirs);
-    if (status == MOTUS_OK) status = land(r, t, r->x, r->v, false, observed, &theirs);
+    if (status == MOTUS_OK && gone > 0) status = land(r, t, r->x, r->v, false, observed, &theirs);
+    if (status == MOTUS_OK && gone == 0) {
+        status = bars_take(r, t, r->x, r->v, observed, &theirs);
+        b->steps = motus_run_steps(r);
+    }
+    b->ahead = false;
     return judge(r, status, &theirs, err);
 }
 
@@ -328,7 +338,7 @@ motus_status bars_land_between(motus_run *r, double t, double *x, double *v, mot
 
 double bars_of(const bars *b, double t, size_t number)
 {
-    const bool lost = !isnan(b->differences.until), known = !b->why[0] && (lost || b->landed == t);
+    const bool lost = !isnan(b->differences.until), known = !b->why[0] && (lost || b->ahead || b->landed == t);
     return known ? differences_bar(&b->differences, number) : NAN;
 }
 

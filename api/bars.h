@@ -21,7 +21,11 @@ struct bars {
     double landed;  /* time of the last landing */
     int64_t steps;  /* whole steps of the run before it */
     double seconds; /* elapsed in all this */
-    char why[256];  /* no bar; "": there is one */
+    /* Of a restart state, until they begin; NULL. Afterwards, whether the run has not come yet to where the companion
+     * landed last: that was at the end, after a shorter step, which the state is before. */
+    double *resumed;
+    bool ahead;
+    char why[256]; /* no bar; "": there is one */
 };
 
 /* Makes r->bars, where the definition asks for them, of all columns. */
@@ -51,6 +55,16 @@ double bars_of(const bars *, double t, size_t number);
 double bars_worst(const bars *, bool absolute);
 /* From now on there are no bars, and why. The first reason stays. */
 void bars_give_up(motus_run *, const char *format, ...) __attribute__((format(printf, 2, 3)));
+/* bars_kept.c: what a restart state has of them: `count` numbers to give back, 0: there are no bars. `t`: of the state,
+ * where the run stands or, if it has taken a shorter step to its end, before that. */
+motus_status bars_keep(motus_run *, double t, double **numbers, size_t *count, motus_error *);
+/* The run was restored by such a state: its companion will go on. False: the numbers are not those of its bars. */
+bool bars_resume(motus_run *, double *numbers, size_t count);
+motus_status bars_kept_begin(motus_run *, const double *x, const double *v, motus_error *);
+/* Compares the run at t, where its state is x, v in the inside order, with its companions, which stand there. */
+motus_status bars_take(motus_run *, double t, double *x, double *v, bool observed, motus_error *);
+/* The numbers of a state of the run, of its companion or of its twin. */
+motus_status bars_see(motus_run *, motus_system *, double t, double *x, double *v, int seen, motus_error *);
 /* The run goes on compiled, and so do its companions, at once or when an object for their system is there. */
 motus_status bars_compile(motus_run *, motus_error *);
 /* Whether they wait for one; and a look for it. */

@@ -54,6 +54,7 @@ motus_status companion_begin(companion *c, const motus_run *r, double t, const d
     for (size_t k = 0; k < p->nx; k++) c->x[k] = x[k];
     for (size_t k = 0; k < p->nv; k++) c->v[k] = v[k];
     c->t = t;
+    c->before = 0;
     const chosen method = c->system ? companion_method(&r->chosen) : without_control(&r->chosen);
     if (c->stepper) return stepper_start(c->stepper, t, r->timing.h, x, v, err);
     return stepper_create(&c->machine, &method, t, r->timing.h, x, v, &r->allocator, &c->stepper, err);
@@ -113,11 +114,12 @@ motus_status companion_jog(companion *c, const motus_run *r, motus_error *err)
 motus_status companion_repeat(companion *c, const motus_run *r, motus_error *err)
 {
     if (row_adaptive(&r->chosen)) return go(c, r, stepper_time(r->stepper), 1, err);
-    const stepper_limit limit = {stepper_steps(r->stepper) - stepper_steps(c->stepper), r->timing.until};
+    const int64_t steps = stepper_steps(r->stepper) - c->before - stepper_steps(c->stepper);
+    const stepper_limit limit = {steps, r->timing.until};
     stepper_stop why;
     motus_status status = pace_advance(&c->pace, c->stepper, limit, &why, err);
     if (status == MOTUS_OK) status = stepper_sync(c->stepper, c->x, c->v, NULL, err);
-    if (status == MOTUS_OK) c->t = stepper_time(c->stepper);
+    if (status == MOTUS_OK) c->t = stepper_time(r->stepper);
     return status;
 }
 

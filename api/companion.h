@@ -13,8 +13,9 @@ typedef struct companion {
     machine machine;
     bool waits; /* a compiler is at work for its system */
     stepper *stepper;
-    double *x, *v; /* its state at the last landing, in the inside order */
-    double t;      /* of the last landing */
+    double *x, *v;  /* its state at the last landing, in the inside order */
+    double t;       /* of the last landing */
+    int64_t before; /* steps that the run had taken when it began */
     pace pace;
 } companion;
 

@@ -9,6 +9,9 @@
  *     carry 2
  *     -0x1.a35…
  *     …
+ *     bars 40                 the companion of the run, where its errors are told: api/bars_kept.c
+ *     0x1.a36…
+ *     …
  *     end 51b0…               hash of all the bytes before, so that a changed byte is found
  */
 #include "api/bars.h"
@@ -130,28 +133,41 @@ static bool read_hex(const char **at, const char *end, double *v)
     return isfinite(*v);
 }
 
-motus_status motus_run_save(motus_run *r, const char **text, size_t *length, motus_error *err)
+/* Makes room for the text of so many numbers. False: no memory. */
+static bool make_room(motus_run *r, size_t numbers, size_t *room)
 {
-    if (!motus_error_sound(err)) return MOTUS_ARGUMENT;
-    if (!r || !text || !length)
-        return fail(err, MOTUS_ARGUMENT, "motus_run_save needs a run and places for the text and its length");
-    if (r->locate) return run_refuse_located("saved", err);
-    size_t n = stepper_carry(r->stepper), room = HEAD_ROOM + n * NUMBER_ROOM;
-    double *carry = take(&r->allocator, n + 1, sizeof *carry);
-    if (room > r->saved_room) {
-        char *more = take(&r->allocator, 1, room);
-        if (more) {
-            give(&r->allocator, r->saved);
-            r->saved = more;
-            r->saved_room = room;
-        }
+    *room = HEAD_ROOM + numbers * NUMBER_ROOM;
+    if (*room <= r->saved_room) return true;
+    char *more = take(&r->allocator, 1, *room);
+    if (!more) return false;
+    give(&r->allocator, r->saved);
+    r->saved = more;
+    r->saved_room = *room;
+    return true;
+}
+
+static size_t write_numbers(motus_run *r, size_t at, size_t room, const double *numbers, size_t n)
+{
+    for (size_t k = 0; k < n; k++) {
+        at += (size_t)write_hex(r->saved + at, room - at, numbers[k]);
+        r->saved[at++] = '\n';
     }
-    if (!carry || room > r->saved_room) {
-        give(&r->allocator, carry);
-        return fail(err, MOTUS_MEMORY, "no memory for the restart state");
-    }
+    return at;
+}
+
+/* The text, of the stepper's carry and what is known of the errors; it is in r->saved. */
+static motus_status write_state(motus_run *r, double *carry, size_t n, size_t *length, motus_error *err)
+{
     const stepper_count now = stepper_save(r->stepper, carry);
     char start[NUMBER_ROOM], h[NUMBER_ROOM];
+    double *numbers;
+    size_t count, room;
+    motus_status status = bars_keep(r, stepper_time_saved(r->stepper, now, carry), &numbers, &count, err);
+    if (status != MOTUS_OK) return status;
+    if (!make_room(r, n + count, &room)) {
+        give(&r->allocator, numbers);
+        return fail(err, MOTUS_MEMORY, "no memory for the restart state");
+    }
     write_hex(start, sizeof start, r->timing.t0);
     write_hex(h, sizeof h, r->timing.h);
     size_t at = (size_t)snprintf(r->saved, room,
@@ -159,15 +175,30 @@ motus_status motus_run_save(motus_run *r, const char **text, size_t *length, mot
                                  " %" PRId64 " %" PRId64 "\ncarry %zu\n",
                                  fingerprint(r->system), r->chosen.name, start, h, now.steps, now.evaluations,
                                  now.iterations, n);
-    for (size_t k = 0; k < n; k++) {
-        at += (size_t)write_hex(r->saved + at, room - at, carry[k]);
-        r->saved[at++] = '\n';
-    }
+    at = write_numbers(r, at, room, carry, n);
+    if (count) at += (size_t)snprintf(r->saved + at, room - at, "bars %zu\n", count);
+    at = write_numbers(r, at, room, numbers, count);
     at += (size_t)snprintf(r->saved + at, room - at, "end %016" PRIx64 "\n", mix(MIX_START, r->saved, at));
-    give(&r->allocator, carry);
-    *text = r->saved;
+    give(&r->allocator, numbers);
     *length = at;
     return MOTUS_OK;
+}
+
+motus_status motus_run_save(motus_run *r, const char **text, size_t *length, motus_error *err)
+{
+    if (!motus_error_sound(err)) return MOTUS_ARGUMENT;
+    if (!r || !text || !length)
+        return fail(err, MOTUS_ARGUMENT, "motus_run_save needs a run and places for the text and its length");
+    if (r->locate) return run_refuse_located("saved", err);
+    const size_t n = stepper_carry(r->stepper);
+    double *carry = take(&r->allocator, n + 1, sizeof *carry);
+    if (!carry) return fail(err, MOTUS_MEMORY, "no memory for the restart state");
+    modes m = modes_enter();
+    const motus_status status = write_state(r, carry, n, length, err);
+    modes_leave(m);
+    give(&r->allocator, carry);
+    if (status == MOTUS_OK) *text = r->saved;
+    return status;
 }
 
 /* ---- reading ---- */
@@ -222,6 +253,32 @@ static motus_status unreadable(motus_error *err)
     return MOTUS_STATE;
 }
 
+static bool read_numbers(reader *in, double *out, int64_t n)
+{
+    bool ok = true;
+    for (int64_t k = 0; k < n && ok; k++) ok = read_hex(&in->at, in->end, &out[k]) && word(in, "\n");
+    return ok;
+}
+
+/* What the state has of the errors; NULL: nothing. False: it is damaged, or there is no memory. */
+static bool read_bars(motus_run *r, reader *in, double **numbers, int64_t *count)
+{
+    *numbers = NULL;
+    *count = 0;
+    if (in->at == in->end) return true;
+    if (!word(in, "bars ") || !integer(in, count) || !word(in, "\n") || *count > in->end - in->at) return false;
+    *numbers = take(&r->allocator, (size_t)*count + 1, sizeof **numbers);
+    return *numbers && read_numbers(in, *numbers, *count) && in->at == in->end;
+}
+
+/* The run has been restored, and with it its errors, where the state has them. Takes the numbers over. */
+static void resume_bars(motus_run *r, double *numbers, int64_t count)
+{
+    if (numbers && r->bars && bars_resume(r, numbers, (size_t)count)) return;
+    give(&r->allocator, numbers);
+    bars_give_up(r, "the run was restored from a state that does not tell its error up to there");
+}
+
 static motus_status restore(motus_run *r, const char *text, size_t length, motus_error *err)
 {
     reader in = {text, text + length};
@@ -250,13 +307,14 @@ static motus_status restore(motus_run *r, const char *text, size_t length, motus
     if ((size_t)n != stepper_carry(r->stepper)) return unreadable(err);
     double *carry = take(&r->allocator, (size_t)n + 1, sizeof *carry);
     if (!carry) return fail(err, MOTUS_MEMORY, "no memory for the restart state");
-    bool ok = true;
-    for (int64_t k = 0; k < n && ok; k++) ok = read_hex(&in.at, in.end, &carry[k]) && word(&in, "\n");
+    double *numbers = NULL;
+    int64_t count = 0;
+    const bool ok = read_numbers(&in, carry, n) && read_bars(r, &in, &numbers, &count);
     motus_status status = MOTUS_OK;
     const stepper_count then = {.steps = steps, .evaluations = evaluations, .iterations = iterations};
     char a[DECIMAL_MAX], b[DECIMAL_MAX];
     const double t = stepper_time_saved(r->stepper, then, carry);
-    if (!ok || in.at != in.end)
+    if (!ok)
         status = unreadable(err);
     else if (row_adaptive(&r->chosen) ? (t - r->timing.until) * r->timing.h > 0 : steps > r->timing.whole)
         status = fail(err, MOTUS_STATE, "the restart state is at t = %s, beyond the end of this run, %s", decimal(t, a),
@@ -264,8 +322,11 @@ static motus_status restore(motus_run *r, const char *text, size_t length, motus
     else
         status = stepper_load(r->stepper, then, carry, err);
     give(&r->allocator, carry);
-    if (status != MOTUS_OK) return status; /* the run has not changed */
-    bars_give_up(r, "the run was restored, and its error up to there is not known");
+    if (status != MOTUS_OK) { /* the run has not changed */
+        give(&r->allocator, numbers);
+        return status;
+    }
+    resume_bars(r, numbers, count);
     return run_moved(r, err);
 }
 

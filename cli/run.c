@@ -80,10 +80,10 @@ static motus_status save(job *j, motus_error *err)
     return status ? status : file_write(&j->files[STATE], text, length, err);
 }
 
-/* Nothing is computed that nobody sees. */
+/* Nothing is computed that nobody sees; a restart state has the errors up to it. */
 static motus_bars bars_wanted(const options *o)
 {
-    const bool seen = !o->quiet || o->json || o->errors || o->plot;
+    const bool seen = !o->quiet || o->json || o->errors || o->plot || o->save_state;
     if (!seen || (o->error && strcmp(o->error, "none") == 0)) return MOTUS_BARS_NONE;
     return o->error && strcmp(o->error, "full") == 0 ? MOTUS_BARS_FULL : MOTUS_BARS_CHEAP;
 }

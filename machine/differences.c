@@ -112,12 +112,17 @@ static void reduce(differences *f, int seen, bool observed)
     }
 }
 
+static int64_t part_of(const differences *f, double t)
+{
+    const double done = f->length != 0 ? (t - f->start) / f->length : 1;
+    return done < 1 ? (int64_t)(done * PARTS) : PARTS - 1;
+}
+
 /* Makes the row of the part of the run that t lies in. */
 static double *row_of(differences *f, double t, double **twin)
 {
     const size_t n = f->shape.count;
-    const double done = f->length != 0 ? (t - f->start) / f->length : 1;
-    const int64_t part = done < 1 ? (int64_t)(done * PARTS) : PARTS - 1;
+    const int64_t part = part_of(f, t);
     for (; f->part < part; f->part++) {
         const size_t next = (size_t)((f->part + 1) % f->slots) * n;
         memset(f->envelope + next, 0, n * sizeof *f->envelope);
@@ -192,7 +197,13 @@ void differences_take(differences *f, double t, bool observed, bool twin)
     judge(f, t, distance_of(f));
 }
 
-/* ---- bars ---- */
+/* ---- what is kept ---- */
+
+/* The numbers of a differences_growth, which is nothing else. */
+enum { GROWTH = sizeof(differences_growth) / sizeof(double), HEAD = 2 * DIFFERENCES_GROUPS + 5 + GROWTH };
+#define ALWAYS_ZERO -1.0 /* in place of the largest difference of a number that has been 0 at all landings */
+
+size_t differences_kept(const differences_shape *s) { return HEAD + s->count * (1 + s->full); }
 
 static double largest(const differences *f, const double *rows, size_t number)
 {
@@ -200,6 +211,46 @@ static double largest(const differences *f, const double *rows, size_t number)
     for (int i = 0; i < f->slots; i++) most = fmax(most, rows[(size_t)i * f->shape.count + number]);
     return most;
 }
+
+bool differences_keep(const differences *f, double *out)
+{
+    const size_t n = f->shape.count;
+    double *at = out;
+    for (int g = 0; g < DIFFERENCES_GROUPS; g++) *at++ = f->scale[g];
+    for (int g = 0; g < DIFFERENCES_GROUPS; g++) *at++ = f->most[g];
+    *at++ = f->distance, *at++ = f->first, *at++ = f->first_known;
+    *at++ = isnan(f->until), *at++ = isnan(f->until) ? 0 : f->until;
+    memcpy(at, &f->growth, sizeof f->growth);
+    at += GROWTH;
+    for (size_t k = 0; k < n; k++) *at++ = f->zero[k] != 0 ? ALWAYS_ZERO : largest(f, f->envelope, k);
+    for (size_t k = 0; f->twin && k < n; k++) *at++ = largest(f, f->twin, k);
+    double none = 0;
+    for (const double *k = out; k < at; k++) none += *k - *k;
+    return none == 0;
+}
+
+void differences_resume(differences *f, double t, const double *kept)
+{
+    const size_t n = f->shape.count;
+    f->part = part_of(f, t);
+    const double *at = kept;
+    for (int g = 0; g < DIFFERENCES_GROUPS; g++) f->scale[g] = *at++;
+    for (int g = 0; g < DIFFERENCES_GROUPS; g++) f->most[g] = *at++;
+    f->distance = *at++, f->first = *at++, f->first_known = *at++ != 0;
+    f->until = at[0] != 0 ? NAN : at[1];
+    at += 2;
+    memcpy(&f->growth, at, sizeof f->growth);
+    at += GROWTH;
+    for (size_t k = 0; k < n; k++, at++) {
+        f->zero[k] = *at == ALWAYS_ZERO;
+        for (int i = 0; i < f->slots; i++) f->envelope[(size_t)i * n + k] = *at == ALWAYS_ZERO ? 0 : *at;
+        f->d[k] = f->envelope[k];
+    }
+    for (size_t k = 0; f->twin && k < n; k++, at++)
+        for (int i = 0; i < f->slots; i++) f->twin[(size_t)i * n + k] = *at;
+}
+
+/* ---- bars ---- */
 
 /* A bar is d times the difference, and e times its envelope. */
 typedef struct rule {

@@ -66,6 +66,12 @@ double differences_bar(const differences *, size_t number);
 /* A bound on the bars that any number of the state had so far, relative to the largest number of its group or in its
  * own units. INFINITY: of some no digit was significant. */
 double differences_worst(const differences *, bool absolute);
+/* How many numbers tell what was seen so far; writes them, all finite, or returns false: it cannot be told. And goes on
+ * from them at t, after differences_begin; until differences_take is called again the bars are those of the largest
+ * differences of late. */
+size_t differences_kept(const differences_shape *);
+bool differences_keep(const differences *, double *out);
+void differences_resume(differences *, double t, const double *kept);
 double differences_ratio(const differences *); /* by how much the distance has grown */
 /* The rate at which the distance grows, where it grows as an exponential; else NaN. */
 double differences_rate(const differences *);

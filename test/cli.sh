@@ -186,7 +186,12 @@ that "... and prints no digit beyond it" says "x      —"
 gives "chaos in JSON" 0 "$motus" run models/henon-heiles.motus --until 900 --json
 that "... has numbers, and no errors" holds '.significant_until > 200 and .error.x == null and (.state.x | type == "number")'
 gives "a restarted run" 0 "$motus" run $osc --until 1 --save-state "$place/half.state"
-gives "... does not know its error" 0 "$motus" run $osc --restart "$place/half.state"
+gives "... knows its error" 0 "$motus" run $osc --until 2 --restart "$place/half.state" --json
+cp "$out" "$place/restarted"
+gives "... which is" 0 "$motus" run $osc --until 2 --json
+that "... nearly that of the whole run" [ "$(jq -s '(.[0].error.x / .[1].error.x - 1) | fabs < 0.1' "$out" "$place/restarted")" = true ]
+gives "a state without errors" 0 "$motus" run $osc --until 1 --error none --save-state "$place/half.state"
+gives "... does not know them" 0 "$motus" run $osc --restart "$place/half.state"
 that "... and says why" says "error: not known, because the run was restored"
 that "... behind the number too" says " ±?"
 gives "--errors" 0 "$motus" run $oscillator -o - --errors --every 10 --columns "t,x" --quiet

@@ -380,24 +380,117 @@ static void refusals(void **state)
     motus_system_destroy(s);
 }
 
-static void a_restored_run_has_a_reason(void **state)
+static char *saved(motus_run *r, size_t *length)
+{
+    motus_error err = motus_default_error();
+    const char *text;
+    must(motus_run_save(r, &text, length, &err), &err, "save");
+    char *kept = strdup(text);
+    assert_non_null(kept);
+    return kept;
+}
+
+static motus_run *restored(motus_system *s, const char *method, double step, double until, motus_bars kind,
+                           const char *kept, size_t length)
+{
+    motus_error err = motus_default_error();
+    motus_run *r = barred(s, method, step, until, kind);
+    must(motus_run_restore(r, kept, length, &err), &err, method);
+    return r;
+}
+
+/* The bars of a run that was restored are those of the run that was saved: in its middle, and at its end, which may be
+ * after a shorter step that is not in the state. Later they cover the errors from the very start, which are many times
+ * those since the state: the energy's has come about before it. */
+static void a_restored_run_has_its_bars(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *method;
+        double step;
+        motus_bars kind;
+        bool twice; /* the twin goes on too */
+    } all[] = {{"rk4", 0.125, MOTUS_BARS_CHEAP, true},   {"rk4", 0.07, MOTUS_BARS_CHEAP, true},
+               {"euler", 0.001, MOTUS_BARS_CHEAP, true}, {"verlet", 0.125, MOTUS_BARS_FULL, true},
+               {"verlet", 0.03, MOTUS_BARS_FULL, false}, {"dop853", NAN, MOTUS_BARS_CHEAP, true},
+               {"dopri5", NAN, MOTUS_BARS_FULL, true},   {"taylor", NAN, MOTUS_BARS_CHEAP, true},
+               {"gragg", NAN, MOTUS_BARS_CHEAP, true}};
+    static const char *const text = "x'' = -1.1 x\nx(0) = 1\nx'(0) = 0\nz' = 0.1 z\nz(0) = 0\n";
+    static const char *const names[] = {"x", "x'", "z"};
+    for (size_t k = 0; k < sizeof all / sizeof *all; k++) {
+        motus_system *s = given_text(text), *other = given_text(text);
+        motus_run *r = barred(s, all[k].method, all[k].step, 10, all[k].kind);
+        size_t length;
+        for (int end = 0; end < 2; end++) {
+            double bars[3];
+            if (end)
+                finish(r);
+            else
+                take_steps(r, 7);
+            char *kept = saved(r, &length);
+            for (int i = 0; i < 3; i++) bars[i] = bar_of(s, r, names[i]);
+            motus_run *again = restored(other, all[k].method, all[k].step, 10, all[k].kind, kept, length);
+            if (end) finish(again);
+            for (int i = 0; i < 3 && (all[k].twice || !end); i++)
+                if (bar_of(other, again, names[i]) != bars[i])
+                    fail_msg("%s, %s: ± %g, and restored ± %g", all[k].method, names[i], bars[i],
+                             bar_of(other, again, names[i]));
+            assert_true(bars[2] == 0);
+            motus_run_destroy(again);
+            motus_run *later = restored(other, all[k].method, all[k].step, 40, all[k].kind, kept, length),
+                      *whole = barred(s, all[k].method, all[k].step, 40, all[k].kind);
+            finish(later);
+            finish(whole);
+            const double x = cos(40 * sqrt(1.1)), bar = bar_of(other, later, "x"), like = bar_of(s, whole, "x");
+            if (!(fabs(value(other, later, "x") - x) <= bar && bar <= 10 * like))
+                fail_msg("%s: off by %g, ± %g, and ± %g of a run that was not interrupted", all[k].method,
+                         value(other, later, "x") - x, bar, like);
+            motus_run_destroy(later);
+            motus_run_destroy(whole);
+            free(kept);
+        }
+        motus_run_destroy(r);
+        motus_system_destroy(s);
+        motus_system_destroy(other);
+    }
+}
+
+/* Where no digit is significant before, none is after. */
+static void a_restored_run_stays_lost(void **state)
+{
+    (void)state;
+    static const char *const text = "x'' = -sin(x) - 0.5 x' + 1.2 cos(2 t/3)\nx(0) = 1\nx'(0) = 0\n";
+    motus_system *s = given_text(text);
+    motus_run *r = barred(s, "dopri5", NAN, 1000, MOTUS_BARS_CHEAP);
+    size_t length;
+    finish(r);
+    const double since = estimate_of(r).significant_until;
+    assert_true(since < 1000 && isinf(bar_of(s, r, "x")));
+    char *kept = saved(r, &length);
+    motus_run *again = restored(s, "dopri5", NAN, 1010, MOTUS_BARS_CHEAP, kept, length);
+    assert_true(isinf(bar_of(s, again, "x")) && estimate_of(again).significant_until == since);
+    finish(again);
+    assert_true(isinf(bar_of(s, again, "x")));
+    motus_run_destroy(again);
+    free(kept);
+    motus_run_destroy(r);
+    motus_system_destroy(s);
+}
+
+static void a_state_without_errors_has_a_reason(void **state)
 {
     (void)state;
     motus_system *s = given_text("x'' = -x\nx(0) = 1\nx'(0) = 0\nstep 0.1\nuntil 10\n");
-    motus_run *r = barred(s, NULL, NAN, NAN, MOTUS_BARS_CHEAP);
+    motus_run *r = barred(s, NULL, NAN, NAN, MOTUS_BARS_NONE);
     motus_error err = motus_default_error();
-    const char *text;
     size_t length;
     take_steps(r, 50);
-    assert_true(bar_of(s, r, "x") > 0);
-    must(motus_run_save(r, &text, &length, &err), &err, "save");
-    char *kept = strdup(text);
+    char *kept = saved(r, &length);
     motus_run_destroy(r);
-    r = barred(s, NULL, NAN, NAN, MOTUS_BARS_CHEAP);
-    must(motus_run_restore(r, kept, length, &err), &err, "restore");
+    r = restored(s, NULL, NAN, NAN, MOTUS_BARS_CHEAP, kept, length);
     finish(r);
     assert_true(isnan(bar_of(s, r, "x")) && isfinite(value(s, r, "x")));
-    assert_non_null(strstr(estimate_of(r).reason, "restored"));
+    assert_non_null(strstr(estimate_of(r).reason, "does not tell its error"));
     /* a new leg begins without an error */
     const double x = 1, v = 0;
     must(motus_run_set_state(r, 0, &x, &v, &err), &err, "leg");
@@ -524,7 +617,9 @@ int main(void)
         cmocka_unit_test(a_force_with_kinks_says_so),
         cmocka_unit_test(callbacks_have_companions),
         cmocka_unit_test(refusals),
-        cmocka_unit_test(a_restored_run_has_a_reason),
+        cmocka_unit_test(a_restored_run_has_its_bars),
+        cmocka_unit_test(a_restored_run_stays_lost),
+        cmocka_unit_test(a_state_without_errors_has_a_reason),
         cmocka_unit_test(while_it_runs),
         cmocka_unit_test(from_elsewhere),
         cmocka_unit_test(a_cancelled_companion),
