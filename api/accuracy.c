@@ -7,10 +7,12 @@
 
 #include "api/bars.h"
 #include "api/choice.h"
+#include "api/decimals.h"
 #include "api/suggest.h"
 
 #include <math.h>
 #include <stdio.h>
+#include <string.h>
 
 enum { CHUNK = 256 };
 
@@ -130,6 +132,19 @@ static void keep(trial *s, accuracy *a, double *size)
     s->run = NULL;
 }
 
+/* Which part of the error no tolerance lessens, where it is more than was wanted. */
+static motus_status explain_decimals(accuracy *a, trial *s, motus_error *err)
+{
+    double part;
+    const size_t length = strlen(a->why);
+    s->share.size = 1 - s->share.from;
+    motus_status status = decimals_part(&s->def, a->best, a->absolute, &part, err);
+    if (status == MOTUS_OK && part > a->wanted)
+        snprintf(a->why + length, sizeof a->why - length,
+                 "; of that, up to %.1e comes from the rounding of the model's decimals to doubles", part);
+    return status;
+}
+
 static void explain(accuracy *a, const trial *s)
 {
     char wanted[DECIMAL_MAX], t[DECIMAL_MAX];
@@ -179,8 +194,11 @@ motus_status accuracy_find(motus_system *system, motus_run_def *def, double step
     *s.size = size;
     def->tolerance = s.def.tolerance;
     def->step = s.def.step;
-    if (!(a->reached <= a->wanted)) explain(a, &s);
-    return MOTUS_OK;
+    if (a->reached <= a->wanted) return MOTUS_OK;
+    explain(a, &s);
+    if (isfinite(a->reached)) status = explain_decimals(a, &s, err);
+    if (status != MOTUS_OK) accuracy_end(a);
+    return status;
 }
 
 void accuracy_end(accuracy *a)

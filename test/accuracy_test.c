@@ -415,6 +415,42 @@ static void out_of_reach(void **state)
     motus_system_destroy(s);
 }
 
+#define DUFFING(a, w, start) "x'' = -" a " x' + x - x^3 + " a " cos(" w " t); x(0) = " start "; x'(0) = 0"
+
+/* Where a model's decimals are no doubles, what their rounding does to the end is that of the same model with the
+ * doubles on their other sides; where they are doubles there is nothing to say. */
+static void the_part_of_decimals(void **state)
+{
+    (void)state;
+    static const char words[] = "of that, up to ";
+    motus_error err = motus_default_error();
+    motus_run *r = NULL, *other = NULL;
+    motus_system *s = given_text(DUFFING("0.3", "1.2", "0.1")),
+                 *beside = given_text(DUFFING("0.30000000000000004", "1.2000000000000002", "0.09999999999999999"));
+    motus_run_def def = wanted("taylor", 1e-14, 80);
+    sizes size = {0, 0};
+    assert_int_equal(made(s, &def, &r, &err), MOTUS_ACCURACY);
+    const char *at = strstr(err.message, words);
+    if (!at || !strstr(err.message, "comes from the rounding of the model's decimals")) fail_msg("%s", err.message);
+    const double told = strtod(at + strlen(words), NULL);
+    motus_run_def like = wanted("taylor", NAN, 80);
+    like.tolerance = done(r).tolerance, like.observer = widen, like.context = &size;
+    must(made(beside, &like, &other, &err), &err, "beside");
+    const double x = fabs(value(s, r, "x") - value(beside, other, "x")) / size.x,
+                 v = fabs(value(s, r, "x'") - value(beside, other, "x'")) / size.v, most = fmax(x, v);
+    if (!(fabs(told - most) <= 0.06 * most && told > 1e-14 && told <= done(r).reached))
+        fail_msg("%g is told, and it is %g of %g", told, most, done(r).reached);
+    motus_run_destroy(r);
+    motus_run_destroy(other);
+    motus_system_destroy(s);
+    motus_system_destroy(beside);
+    s = given_text(DUFFING("0.3125", "1.25", "0.125"));
+    assert_int_equal(made(s, &def, &r, &err), MOTUS_ACCURACY);
+    if (strstr(err.message, "decimals")) fail_msg("%s", err.message);
+    motus_run_destroy(r);
+    motus_system_destroy(s);
+}
+
 static int stop(void *context, double fraction)
 {
     double *last = context;
@@ -480,6 +516,7 @@ int main(void)
                                        cmocka_unit_test(suits_the_force),
                                        cmocka_unit_test(callbacks),
                                        cmocka_unit_test(out_of_reach),
+                                       cmocka_unit_test(the_part_of_decimals),
                                        cmocka_unit_test(refused)};
     open_cache();
     const int failed = cmocka_run_group_tests(tests, NULL, NULL);
