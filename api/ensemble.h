@@ -24,6 +24,7 @@ typedef struct worker {
     motus_run *run;  /* where errors are told: the same trajectory as a run, with the worker's stepper; NULL */
     vary *half_vary; /* of its companion's system */
     pace pace;
+    beside beside;       /* while the ensemble awaits its object */
     size_t trajectories; /* of the present item */
     size_t failed_at;    /* the item that failed, where status is not OK */
     motus_status status;

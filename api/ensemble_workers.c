@@ -12,17 +12,26 @@
 
 /* ---- workers ---- */
 
+/* While the object is awaited: whether it is there, and after that the compiler goes first. */
+static void rest(worker *w)
+{
+    motus_ensemble *e = w->e;
+    if (!e->awaits || e->exactly) return;
+    if (w->number == 0 && ensemble_look(e)) atomic_store(&e->over, true);
+    if (!atomic_load(&e->over)) beside_rest(&w->beside);
+}
+
 /* Between two pieces of work: the caller's own thread calls the progress hook; every thread tests `stop`. */
 int ensemble_tell(void *ctx, double now)
 {
-    const worker *w = ctx;
+    worker *w = ctx;
     motus_ensemble *e = w->e;
     (void)now;
     const timing *t = &w->timing;
     const double part = t->until != t->t0 ? (stepper_time(w->stepper) - t->t0) / (t->until - t->t0) : 1;
     const double done = (double)atomic_load(&e->done) + (double)w->trajectories * part;
     if (w->number == 0 && ensemble_report(e, done / (double)e->count)) atomic_store(&e->stop, true);
-    if (w->number == 0 && e->awaits && !e->exactly && ensemble_look(e)) atomic_store(&e->over, true);
+    rest(w);
     return atomic_load(&e->stop) || atomic_load(&e->over);
 }
 
@@ -90,7 +99,7 @@ static void take_item(void *ctx, size_t number, int thread)
     worker *w = &e->workers[thread];
     const size_t item = list->first + number;
     if (w->status != MOTUS_OK || atomic_load(&e->stop)) return;
-    if (thread == 0 && e->awaits && !e->exactly && ensemble_look(e)) atomic_store(&e->over, true);
+    rest(w);
     if (atomic_load(&e->over) || (e->exactly && item + 1 >= e->exactly)) {
         leave(e, item);
         return;

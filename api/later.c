@@ -136,7 +136,8 @@ static void look_again(motus_run *r)
         l->piece *= 2;
     else if (took > 2 * SECONDS && l->piece > 1)
         l->piece /= 2;
-    l->looked = now;
+    if (l->waits || bars_wait(r)) beside_rest(&l->beside);
+    l->looked = pace_now();
     l->look = l->waits || bars_wait(r) ? steps_of(r) + l->piece : 0;
 }
 

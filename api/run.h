@@ -8,6 +8,7 @@
 
 #include "api/pace.h"
 #include "api/system.h"
+#include "machine/beside.h"
 
 /* From the start to the end: whole steps, and a shorter last one. */
 typedef struct timing {
@@ -30,6 +31,7 @@ typedef struct later {
     int64_t piece;   /* steps from one look for the object to the next */
     double looked;   /* when */
     int64_t exactly; /* tests: the step after which it goes over; 0: as soon as it can */
+    beside beside;   /* while it waits */
 } later;
 
 struct motus_run {

@@ -1,6 +1,7 @@
 /* The compiled machine in a browser, where there is no compiler: replaces machine/compiled.c in the page's module.
  * Every request to compile fails, and the caller uses the interpreter.
  */
+#include "machine/beside.h"
 #include "machine/compiled.h"
 
 bool compiled_anywhere(void) { return false; }
@@ -37,6 +38,7 @@ compiled_state compiled_look(compiled *c, const chosen *chosen, const char **why
 }
 
 void compiled_nap(void) {}
+void beside_rest(beside *b) { (void)b; }
 void compiled_leave(compiled *c, const chosen *chosen) { (void)c, (void)chosen; }
 void compiled_rebind(compiled *c) { (void)c; }
 void compiled_close(compiled *c) { (void)c; }

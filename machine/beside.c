@@ -1,0 +1,58 @@
+/* See beside.h.
+ *
+ * The system says how often a thread lost its processor although it could go on. On a processor of its own that happens
+ * a few times a second; where others compute, every few milliseconds. Once that is so the thread stays careful: what it
+ * would compute until the object is there is little, and resting takes no longer than waiting for the compiler would.
+ */
+#include "machine/beside.h"
+
+#include <math.h>
+#include <sys/resource.h>
+#include <time.h>
+
+#ifdef RUSAGE_THREAD
+
+#define PIECE 1e-3      /* seconds from one look to the next, and of computing between two rests */
+#define RESTS 9.0       /* for each second of computing, in a crowd */
+#define WINDOW 0.02     /* seconds of processor time over which displacements are counted */
+enum { DISPLACED = 2 }; /* within that: a crowd */
+
+static double seconds_of(struct timeval t) { return (double)t.tv_sec + 1e-6 * (double)t.tv_usec; }
+
+static double now(void)
+{
+    struct timespec t;
+    clock_gettime(CLOCK_MONOTONIC, &t);
+    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
+}
+
+static void sleep_for(double seconds)
+{
+    nanosleep(&(struct timespec){.tv_nsec = (long)(1e9 * fmin(seconds, BESIDE_REST_MOST))}, NULL);
+}
+
+static void count(beside *b, double computed, int64_t displaced)
+{
+    b->began = computed;
+    b->displaced = displaced;
+}
+
+void beside_rest(beside *b)
+{
+    if (now() - b->looked < PIECE) return;
+    struct rusage used;
+    if (getrusage(RUSAGE_THREAD, &used)) return;
+    const double computed = seconds_of(used.ru_utime) + seconds_of(used.ru_stime);
+    if (b->looked == 0) count(b, computed, used.ru_nivcsw);
+    b->crowded = b->crowded || used.ru_nivcsw - b->displaced >= DISPLACED;
+    if (b->crowded && b->looked > 0) sleep_for(RESTS * (computed - b->computed));
+    if (computed - b->began > WINDOW) count(b, computed, used.ru_nivcsw);
+    b->computed = computed;
+    b->looked = now();
+}
+
+#else
+
+void beside_rest(beside *b) { (void)b; }
+
+#endif
