@@ -26,9 +26,11 @@ static double now(void)
     return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
 }
 
-static void sleep_for(double seconds)
+static void sleep_for(beside *b, double seconds)
 {
-    nanosleep(&(struct timespec){.tv_nsec = (long)(1e9 * fmin(seconds, BESIDE_REST_MOST))}, NULL);
+    const double rest = fmin(seconds, BESIDE_REST_MOST);
+    nanosleep(&(struct timespec){.tv_nsec = (long)(1e9 * rest)}, NULL);
+    b->rested += rest;
 }
 
 static void count(beside *b, double computed, int64_t displaced)
@@ -45,7 +47,7 @@ void beside_rest(beside *b)
     const double computed = seconds_of(used.ru_utime) + seconds_of(used.ru_stime);
     if (b->looked == 0) count(b, computed, used.ru_nivcsw);
     b->crowded = b->crowded || used.ru_nivcsw - b->displaced >= DISPLACED;
-    if (b->crowded && b->looked > 0) sleep_for(RESTS * (computed - b->computed));
+    if (b->crowded && b->looked > 0 && b->rested < BESIDE_REST_ALL) sleep_for(b, RESTS * (computed - b->computed));
     if (computed - b->began > WINDOW) count(b, computed, used.ru_nivcsw);
     b->computed = computed;
     b->looked = now();

@@ -14,13 +14,15 @@ typedef struct beside {
     double computed;   /* seconds of this thread's processor time until then */
     double began;      /* ... when it began to count how often others took its processor */
     int64_t displaced; /* how often they had until then */
+    double rested;     /* in all */
     bool crowded;      /* they want it: the thread rests most of the time */
 } beside;
 
 /* To be called between pieces of work, as often as is convenient. A thread whose processor others take again and again
- * then rests nine tenths of the time. It never rests longer than BESIDE_REST_MOST seconds at once, so that its caller
- * can be told how far it is. */
+ * then rests nine tenths of the time: BESIDE_REST_ALL seconds in all, since a compiler may hang, and never longer than
+ * BESIDE_REST_MOST seconds at once, so that its caller can be told how far it is. */
 #define BESIDE_REST_MOST 0.02
+#define BESIDE_REST_ALL 5.0
 void beside_rest(beside *);
 
 #endif

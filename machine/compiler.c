@@ -1,8 +1,8 @@
 /* Finding and running the system's C compiler. See compiler.h.
  *
- * Invariant: no shell is involved. The compiler has limits of time and memory. It ends when this process ends (Linux).
- * It leads a process group of its own, because a compiler's driver starts further processes, and whoever stops it stops
- * them with it. No signal is handled: the compiler is asked after by its own number.
+ * Invariant: no shell is involved. The compiler has limits of time and memory. It leads a process group of its own,
+ * because a compiler's driver starts further processes, and whoever stops it stops them with it. All of them end when
+ * this process ends, however it does (Linux). No signal is handled: the compiler is asked after by its own number.
  */
 #include "machine/compiler.h"
 
@@ -18,9 +18,6 @@
 #include <sys/wait.h>
 #include <time.h>
 #include <unistd.h>
-#ifdef __linux__
-#include <sys/prctl.h>
-#endif
 
 /* -fno-unroll-loops: clang would unroll every loop of unknown length, even those around a whole acceleration, which
  * doubles the time of compiling and made no measured model faster. gcc does not unroll such loops. */
@@ -128,21 +125,45 @@ static char **with_folder(char *folder, char *own[VARIABLES_MAX])
     return own;
 }
 
+/* A pipe that this process holds open at one end and the group at the other. When the process ends, however it does,
+ * the system closes its end, and kills the group. */
+enum { GROUP, PROCESS };
+#ifdef __linux__
+static void open_tie(int tie[2])
+{
+    if (pipe2(tie, O_CLOEXEC)) tie[GROUP] = tie[PROCESS] = -1;
+}
+
+/* In the child. */
+static void tie_group(int end)
+{
+    if (end < 0) return;
+    fcntl(end, F_SETFD, 0); /* all that the compiler starts hold it */
+    fcntl(end, F_SETOWN, -getpid());
+    fcntl(end, F_SETSIG, SIGKILL);
+    fcntl(end, F_SETFL, O_ASYNC);
+}
+#else
+static void open_tie(int tie[2]) { tie[GROUP] = tie[PROCESS] = -1; }
+static void tie_group(int end) { (void)end; }
+#endif
+
+static void shut(int file)
+{
+    if (file >= 0) close(file);
+}
+
 /* In the child: only calls that are safe after fork. */
-static void become(char *const *arguments, const char *path, char *const *environment, int log, pid_t parent)
+static void become(char *const *arguments, const char *path, char *const *environment, int log, int end, pid_t parent)
 {
     setpgid(0, 0);
+    tie_group(end);
+    if (getppid() != parent) _exit(127); /* it ended before */
     struct rlimit time = {COMPILER_SECONDS_MAX, COMPILER_SECONDS_MAX},
                   memory = {COMPILER_MEMORY_MAX, COMPILER_MEMORY_MAX}, core = {0, 0};
     setrlimit(RLIMIT_CPU, &time);
     setrlimit(RLIMIT_AS, &memory);
     setrlimit(RLIMIT_CORE, &core);
-#ifdef __linux__
-    prctl(PR_SET_PDEATHSIG, SIGKILL);
-    if (getppid() != parent) _exit(127);
-#else
-    (void)parent;
-#endif
     int none = open("/dev/null", O_RDWR);
     if (none >= 0) dup2(none, 0);
     dup2(log, 1);
@@ -168,6 +189,13 @@ static void first_line(int log, char *why, size_t size)
     snprintf(why, size, "%s", buffer[0] ? buffer : "it stopped without a message");
 }
 
+static void leave(compiler_work *w)
+{
+    close(w->log);
+    shut(w->tie);
+    w->child = 0;
+}
+
 /* Starts the program at `path` with the arguments, up to a NULL. */
 static bool start(const char *path, char *const *arguments, const char *out, compiler_work *w, char *why, size_t size)
 {
@@ -183,12 +211,16 @@ static bool start(const char *path, char *const *arguments, const char *out, com
     const char *slash = strrchr(out, '/');
     snprintf(folder, sizeof folder, "TMPDIR=%.*s", (int)(slash ? slash - out : 1), slash ? out : ".");
     char **environment = with_folder(folder, own);
+    int tie[2];
+    open_tie(tie);
     const pid_t parent = getpid(), child = FORK();
-    if (child == 0) become(arguments, path, environment, log, parent);
-    *w = (compiler_work){.child = child, .owner = parent, .log = log, .began = now()};
+    if (child == 0) become(arguments, path, environment, log, tie[GROUP], parent);
+    const int error = errno;
+    shut(tie[GROUP]);
+    *w = (compiler_work){.child = child, .owner = parent, .log = log, .tie = tie[PROCESS], .began = now()};
     if (child > 0) return true;
-    snprintf(why, size, "%s", strerror(errno));
-    close(log);
+    snprintf(why, size, "%s", strerror(error));
+    leave(w);
     return false;
 }
 
@@ -207,12 +239,6 @@ static compiler_state ended(const compiler_work *w, const char *out)
 }
 
 bool compiler_owned(const compiler_work *w) { return w->owner == getpid(); }
-
-static void leave(compiler_work *w)
-{
-    close(w->log);
-    w->child = 0;
-}
 
 /* Kills it only while its number is certainly its own: nobody has waited for it. */
 static void end(compiler_work *w)

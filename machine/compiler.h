@@ -22,6 +22,7 @@ typedef struct compiler_work {
     int child;    /* its process; 0: it is gone */
     int owner;    /* the process that started it */
     int log;      /* what it writes */
+    int tie;      /* while this is open it lives; -1: the system has no such thing */
     double began; /* in seconds, monotonic */
 } compiler_work;
 /* Starts compiling `source` to `object`. False: it could not be started, and `why` says why. */
@@ -32,7 +33,7 @@ bool compiler_compile(const compiler *, const char *source, const char *object, 
 bool compiler_link(const compiler *, const char *object, const char *library, bool alone, compiler_work *, char *why,
                    size_t size);
 /* Whether it has written `out`. Never waits. FAILED: `why` holds the first line of its messages. LOST: it was
- * killed, as happens when the thread that started it ends, or it belongs to the process of which this one is a copy.
+ * killed, or it belongs to the process of which this one is a copy.
  * After any answer but AT_WORK it is gone. */
 typedef enum { COMPILER_AT_WORK, COMPILER_DONE, COMPILER_FAILED, COMPILER_LOST } compiler_state;
 compiler_state compiler_look(compiler_work *, const char *out, char *why, size_t size);

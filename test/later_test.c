@@ -353,17 +353,42 @@ static void *begin_run(void *context)
     return long_run(s, "auto");
 }
 
-/* The compiler ends with the thread that started it; the next look starts it again. */
+/* Whoever dies, a program by Ctrl-C or a killed one, takes the compiler along, with all that it has started. */
+static void the_process_dies(void **unused)
+{
+    (void)unused;
+    static const int signals[] = {SIGINT, SIGKILL};
+    char command[200];
+    for (size_t k = 0; k < sizeof signals / sizeof *signals; k++) {
+        compile_for_ever();
+        const pid_t program = fork();
+        if (program == 0) {
+            motus_run *r = long_run(given_text(pair), "auto");
+            while (motus_run_machine(r)) pause();
+        }
+        const pid_t child = its_child();
+        kill(program, signals[k]);
+        assert_int_equal(waitpid(program, NULL, 0), program);
+        assert_true(dead(child));
+        snprintf(command, sizeof command, "rm -r %s/motus/build-*", given_cache); /* one that is an hour old would go */
+        assert_int_equal(system(command), 0);
+    }
+    nothing_is_left("a process that dies");
+}
+
+/* The compiler outlives the thread that started it. */
 static void the_thread_ends(void **unused)
 {
     (void)unused;
-    compile_by("sleep 0.1\nexec cc \"$@\"");
+    calls();
+    compile_and_count("sleep 0.1");
     motus_system *s = given_text(pair);
     pthread_t thread;
     void *run = NULL;
     assert_int_equal(pthread_create(&thread, NULL, begin_run, s), 0);
     assert_int_equal(pthread_join(thread, &run), 0);
     ends_compiled(s, run, "thread");
+    assert_int_equal(calls(), 1);
 }
 
 /* Nothing of a cache: the object is compiled for this run alone. */
@@ -455,19 +480,13 @@ static void legs_meanwhile(void **unused)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(at_every_step),
-        cmocka_unit_test(the_compiler_is_slow),
-        cmocka_unit_test(runs_share_a_compiler),
-        cmocka_unit_test(the_compiler_fails),
-        cmocka_unit_test(the_compiler_hangs),
-        cmocka_unit_test(after_fork),
-        cmocka_unit_test(fork_and_leave),
-        cmocka_unit_test(children_are_ignored),
-        cmocka_unit_test(the_thread_ends),
-        cmocka_unit_test(without_a_cache),
-        cmocka_unit_test(short_runs_start_none),
-        cmocka_unit_test(legs_meanwhile),
-        cmocka_unit_test(companions),
+        cmocka_unit_test(at_every_step),         cmocka_unit_test(the_compiler_is_slow),
+        cmocka_unit_test(runs_share_a_compiler), cmocka_unit_test(the_compiler_fails),
+        cmocka_unit_test(the_compiler_hangs),    cmocka_unit_test(after_fork),
+        cmocka_unit_test(fork_and_leave),        cmocka_unit_test(children_are_ignored),
+        cmocka_unit_test(the_process_dies),      cmocka_unit_test(the_thread_ends),
+        cmocka_unit_test(without_a_cache),       cmocka_unit_test(short_runs_start_none),
+        cmocka_unit_test(legs_meanwhile),        cmocka_unit_test(companions),
     };
     open_cache();
     if (!mkdtemp(tools)) return 1;
