@@ -109,6 +109,7 @@ double ours_pendulums(const char *file, const char *method, double tolerance, si
 /* The comparisons, one file each. */
 void compare_accuracy(void);
 void compare_driven_pendulums(void); /* a part of it */
+void compare_energy(void);
 void compare_ensembles(void);
 void compare_single(void);
 void compare_large(void);
