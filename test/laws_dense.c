@@ -86,7 +86,8 @@ static void in_a_run(method m, const exact_motion *e)
     double errors[POINTS_MAX] = {0}, last = NAN, margin = 0;
     int points = 0;
     bool close = false;
-    for (int64_t n = high ? 2 : 4; points < POINTS_MAX && !(close && (high || n > (order > 2 ? 64 : 256))) && n <= 8192;
+    const int64_t most = 65536 / card->stages < 8192 ? 65536 / card->stages : 8192; /* as in laws_order.c */
+    for (int64_t n = high ? 2 : 4; points < POINTS_MAX && !(close && (high || n > (order > 2 ? 64 : 256))) && n <= most;
          n *= 2) {
         quad_state end = e->start;
         if (quad_dense(m, e->problem, 0, SPAN / ((quad)n + part), n, part, NULL, &end).bad) continue;

@@ -49,8 +49,10 @@ static void slope(method m, const double *argument, int line, const char *name, 
     bool close = false;
     /* High orders leave room for few halvings: they take 2, 3, 4, 6, 8, 12, … steps, each half of the next but one. */
     const int apart = high ? 2 : 1;
-    /* at least so many steps; and more where the slope is not settled, as long as the error is above rounding */
-    for (int64_t n = high ? 2 : 4; points < POINTS_MAX && !(close && n > (order > 2 ? 1024 : 4096)) && n <= 16384;
+    /* at least so many steps; and more where the slope is not settled, as long as the error is above rounding: of many
+     * stages fewer, so that a row whose coefficients are wrong fails soon */
+    const int64_t most = 65536 / row_card(m)->stages < 16384 ? 65536 / row_card(m)->stages : 16384;
+    for (int64_t n = high ? 2 : 4; points < POINTS_MAX && !(close && n > (order > 2 ? 1024 : 4096)) && n <= most;
          n += high ? (n & (n - 1) ? n / 3 : n / 2) : n) {
         quad_state end = start;
         if ((line ? quad_line(m, line, p, 0, span / (quad)n, n, &end, NULL)
