@@ -200,7 +200,8 @@ static bool add_facts(emit *e, const composition *c, bool structure)
     emit_add(t, "#define MOMENTS %d\n#define ARRAYS %zu\n#define SMALL %d\n#define NUMBERS %zu\n\n", m.count, arrays,
              c->width || small, structure ? w.nv : 0);
     if (small && !c->width) {
-        emit_add(t, "#define FIRST(w) false\n#define KNOWN(w) (ROW_adaptive && (w)->fresh)\n#define CHECKS(w) false\n");
+        emit_add(t, "#define FIRST(w) false\n#define BEGINS 0\n#define KNOWN(w) (ROW_adaptive && (w)->fresh)\n#define "
+                    "CHECKS(w) false\n");
         add_places(t, w);
     }
     const bool many_solves = r->family == SPLITTING && w.solves && stages > SOLVES_WRITTEN_MAX;
@@ -352,19 +353,24 @@ static void add_named(emit *e)
     static const struct {
         const char *name;
         uint64_t supplied_by;
-    } functions[] = {{"sqrt", PLAIN},    {"floor", PLAIN},     {"pow", POWER},       {"exp", EXPONENTIAL},
-                     {"log", LOGARITHM}, {"sinh", HYPERBOLIC}, {"cosh", HYPERBOLIC}, {"tanh", HYPERBOLIC},
-                     {"sin", CIRCULAR},  {"cos", CIRCULAR},    {"tan", CIRCULAR},    {"asin", INVERSE},
-                     {"acos", INVERSE},  {"atan", INVERSE},    {"atan2", INVERSE},   {"cbrt", ROOT},
-                     {"hypot", ROOT},    {"erf", ERROR}};
+        int apart; /* compiled once, and called; with so many operands */
+    } functions[] = {{"sqrt", PLAIN, 0},    {"floor", PLAIN, 0},     {"pow", POWER, 2},       {"exp", EXPONENTIAL, 1},
+                     {"log", LOGARITHM, 1}, {"sinh", HYPERBOLIC, 0}, {"cosh", HYPERBOLIC, 0}, {"tanh", HYPERBOLIC, 1},
+                     {"sin", CIRCULAR, 0},  {"cos", CIRCULAR, 0},    {"tan", CIRCULAR, 1},    {"asin", INVERSE, 1},
+                     {"acos", INVERSE, 1},  {"atan", INVERSE, 1},    {"atan2", INVERSE, 2},   {"cbrt", ROOT, 1},
+                     {"hypot", ROOT, 2},    {"erf", ERROR, 1}};
     for (size_t i = 0; i < sizeof functions / sizeof *functions; i++) {
         const char *name = functions[i].name;
         const bool lanes = e->lanes || e->series_wide;
-        emit_add(&e->text, "#define series_of_%s", name);
-        if ((lanes ? e->used_lanes : e->used) & functions[i].supplied_by)
-            emit_add(&e->text, lanes ? " OF_LANES(%s)\n" : " motus_%s\n", name);
+        if (!((lanes ? e->used_lanes : e->used) & functions[i].supplied_by))
+            emit_add(&e->text, "#define series_of_%s(...) SERIES_NUMBER(0.0)\n", name);
+        else if (lanes || !functions[i].apart)
+            emit_add(&e->text, lanes ? "#define series_of_%s OF_LANES(%s)\n" : "#define series_of_%s motus_%s\n", name,
+                     name);
         else
-            emit_add(&e->text, "(...) SERIES_NUMBER(0.0)\n");
+            emit_add(&e->text,
+                     "__attribute__((noinline)) static double series_of_%s(double a%s) { return motus_%s(a%s); }\n",
+                     name, functions[i].apart > 1 ? ", double b" : "", name, functions[i].apart > 1 ? ", b" : "");
     }
 }
 
@@ -395,6 +401,8 @@ static void add_series(emit *e, int length)
              e->series_wide ? "MANY_FUSED" : "FMA", e->series_wide ? "CHOOSE" : "PICK");
     if (e->series_wide) /* a call has no vectors in registers */
         emit_add(t, "#define SERIES_FUNCTION static inline __attribute__((always_inline))\n");
+    else if (!e->lanes)
+        emit_add(t, "#define SERIES_SELDOM __attribute__((noinline)) static\n");
     if (e->series_wide) add_vector_names(t);
     add_text(t, "step/reciprocals.h");
     add_text(t, "step/series.h");

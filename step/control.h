@@ -13,6 +13,12 @@
  * Invariant: no step passes w->until, and the one that reaches it ends there exactly; where two steps would reach it,
  * both are halves of the way, so that no tiny step is left over.
  */
+/* 0: a compiled model, to whom the library leaves neither a first step nor a Runge-Kutta step whose first evaluation is
+ * not known from the step before; it then gives up. The force would stand in its text twice more. */
+#ifndef BEGINS
+#define BEGINS 1
+#endif
+
 /* log2(x) of a positive normal number to 0.001, and 2^y, |y| < 1000, to 0.1 %. */
 static inline clock control_log2(clock x)
 {
@@ -40,6 +46,7 @@ static inline int control_begin(work *w)
         refresh_at(w, time_now(w), w->x, w->v);
         return STEP_OK;
     }
+    if (!BEGINS && !ROW(w, density) && control_last_is_first(w)) return STEP_STALLED;
     const whole before = w->evaluations;
     const int bad = accel_now(w, w->x, w->v, w->a);
     if (control_last_is_first(w) && !NONE(w->n > 0)) w->evaluations = before;
@@ -59,6 +66,7 @@ static inline int control_first(work *w)
 {
     const clock_mask first = w->next == 0;
     if (NONE(first)) return STEP_OK;
+    if (!BEGINS) return STEP_STALLED;
     const int bad = control_begin(w);
     if (bad) return bad;
     control_known(w, EVERY);

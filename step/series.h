@@ -19,6 +19,9 @@
 #ifndef SERIES_FUNCTION
 #define SERIES_FUNCTION static inline
 #endif
+#ifndef SERIES_SELDOM /* what is called once a step, or not at all where inner sums are given */
+#define SERIES_SELDOM SERIES_FUNCTION
+#endif
 
 /* An operand: its coefficients, and the number of the last one that may differ from 0: 0 of a constant, 1 of time.
  * Those after it are not stored. */
@@ -56,7 +59,7 @@ SERIES_FUNCTION real series_few(const series f, const series g, const int n, con
 
 /* The inner sum: its terms j = 2 … n - 2, none where f or g ends before n. Each chain begins with half the middle
  * term, so those of a square are the same. */
-SERIES_FUNCTION real series_inner(const series f, const series g, const int n)
+SERIES_SELDOM real series_inner(const series f, const series g, const int n)
 {
     const int half = n / 2;
     real p = SERIES_NUMBER(0.0), q;
@@ -221,14 +224,23 @@ SERIES_FUNCTION real series_log(real *r, const int length, const series a, const
     return next;
 }
 
+/* A function of coefficient 0, and to `other` the one whose series is a helper. */
+#define SERIES_BOTH(f, g)                                          \
+    SERIES_SELDOM real series_##f##_##g(real *other, const real a) \
+    {                                                              \
+        *other = SERIES_OF(g)(a);                                  \
+        return SERIES_OF(f)(a);                                    \
+    }
+SERIES_BOTH(sin, cos)
+SERIES_BOTH(cos, sin)
+SERIES_BOTH(sinh, cosh)
+SERIES_BOTH(cosh, sinh)
+
 /* sin a, with cos a as the first helper; and the other way round. */
 SERIES_FUNCTION real series_sin(real *r, const int length, const series a, const int n, const real *in)
 {
     real *const cosine = SERIES_HELPER(1);
-    if (n == 0) {
-        cosine[0] = SERIES_OF(cos)(a.at[0]);
-        return SERIES_OF(sin)(a.at[0]);
-    }
+    if (n == 0) return series_sin_cos(cosine, a.at[0]);
     const series rates = series_rates(SERIES_HELPER(2), a, n);
     const real next = series_along(SERIES_FROM(cosine), rates, n, SERIES_GIVEN(0));
     cosine[n] = -series_along(SERIES_ITSELF, rates, n, SERIES_GIVEN(1));
@@ -238,10 +250,7 @@ SERIES_FUNCTION real series_sin(real *r, const int length, const series a, const
 SERIES_FUNCTION real series_cos(real *r, const int length, const series a, const int n, const real *in)
 {
     real *const sine = SERIES_HELPER(1);
-    if (n == 0) {
-        sine[0] = SERIES_OF(sin)(a.at[0]);
-        return SERIES_OF(cos)(a.at[0]);
-    }
+    if (n == 0) return series_cos_sin(sine, a.at[0]);
     const series rates = series_rates(SERIES_HELPER(2), a, n);
     const real next = -series_along(SERIES_FROM(sine), rates, n, SERIES_GIVEN(0));
     sine[n] = series_along(SERIES_ITSELF, rates, n, SERIES_GIVEN(1));
@@ -251,10 +260,7 @@ SERIES_FUNCTION real series_cos(real *r, const int length, const series a, const
 SERIES_FUNCTION real series_sinh(real *r, const int length, const series a, const int n, const real *in)
 {
     real *const other = SERIES_HELPER(1);
-    if (n == 0) {
-        other[0] = SERIES_OF(cosh)(a.at[0]);
-        return SERIES_OF(sinh)(a.at[0]);
-    }
+    if (n == 0) return series_sinh_cosh(other, a.at[0]);
     const series rates = series_rates(SERIES_HELPER(2), a, n);
     const real next = series_along(SERIES_FROM(other), rates, n, SERIES_GIVEN(0));
     other[n] = series_along(SERIES_ITSELF, rates, n, SERIES_GIVEN(1));
@@ -264,10 +270,7 @@ SERIES_FUNCTION real series_sinh(real *r, const int length, const series a, cons
 SERIES_FUNCTION real series_cosh(real *r, const int length, const series a, const int n, const real *in)
 {
     real *const other = SERIES_HELPER(1);
-    if (n == 0) {
-        other[0] = SERIES_OF(sinh)(a.at[0]);
-        return SERIES_OF(cosh)(a.at[0]);
-    }
+    if (n == 0) return series_cosh_sinh(other, a.at[0]);
     const series rates = series_rates(SERIES_HELPER(2), a, n);
     const real next = series_along(SERIES_FROM(other), rates, n, SERIES_GIVEN(0));
     other[n] = series_along(SERIES_ITSELF, rates, n, SERIES_GIVEN(1));

@@ -28,24 +28,44 @@ enum { TAYLOR_NOTHING, TAYLOR_BEGUN, TAYLOR_WHOLE }; /* w->expanded: of the pres
 #endif
 #define TAYLOR_ZERO ((real){0})
 
+/* A compiled model has one copy of the recurrences (TAYLOR_APART), and hands them a part of its workspace: then this
+ * need not be in memory. */
+#ifndef TAYLOR_APART
+#define TAYLOR_APART static inline
+#endif
+#ifndef TAYLOR_PART
+#define TAYLOR_PART(w) work *const part = (w)
+#endif
+
+/* Coefficients from `from` to `to` of the acceleration, and of those below `kept` what follows for the series. Order
+ * `from` - 1 is in w->a. */
+TAYLOR_APART void taylor_orders(work *w, const int from, const int to, const int kept, const clock t)
+{
+    const int length = TAYLOR_LENGTH(w);
+    real *restrict xs = w->xs, *restrict vs = w->vs, *restrict as = w->r;
+    const real *restrict a = w->a;
+    for (int n = 0; n <= to; n++) {
+        if (n >= from) series_order(w, n, t);
+        if (n >= kept) continue;
+        const coef first = RECIPROCAL(n + 1), second = first * RECIPROCAL(n + 2);
+        EACHV(k) TAYLOR_OF(as, k)[n] = a[k], TAYLOR_OF(vs, k)[n + 1] = first * a[k];
+        EACH(k) TAYLOR_OF(xs, k)[n + 2] = second * a[k];
+    }
+}
+
 /* The series at the present state. Driven boundary cells come from series_order. */
 static inline void taylor_expand(work *w)
 {
     const int length = TAYLOR_LENGTH(w), last = FACT(w, expands);
-    real *restrict xs = w->xs, *restrict vs = w->vs, *restrict as = w->r;
-    const real *restrict a = w->a;
+    real *restrict xs = w->xs, *restrict vs = w->vs;
     EACH(k) TAYLOR_OF(xs, k)[0] = w->x[k];
     EACHV(k) TAYLOR_OF(vs, k)[0] = w->v[k];
     if (w->expanded == TAYLOR_WHOLE) return;
-    if (w->expanded == TAYLOR_NOTHING) series_order(w, 0, time_now(w));
-    EACH(k) w->x[k] = TAYLOR_OF(xs, k)[0], TAYLOR_OF(xs, k)[1] = w->v[k];
+    EACH(k) TAYLOR_OF(xs, k)[1] = w->v[k];
+    TAYLOR_PART(w);
+    taylor_orders(part, w->expanded == TAYLOR_NOTHING ? 0 : 1, last - 2, last - 1, time_now(w));
+    EACH(k) w->x[k] = TAYLOR_OF(xs, k)[0];
     EACHV(k) w->v[k] = TAYLOR_OF(vs, k)[0];
-    for (int n = 0; n <= last - 2; n++) {
-        const coef first = RECIPROCAL(n + 1), second = first * RECIPROCAL(n + 2);
-        if (n > 0) series_order(w, n, time_now(w));
-        EACHV(k) TAYLOR_OF(as, k)[n] = a[k], TAYLOR_OF(vs, k)[n + 1] = first * a[k];
-        EACH(k) TAYLOR_OF(xs, k)[n + 2] = second * a[k];
-    }
 }
 
 /* Terms `from` … `last` of a series, divided by h^from. Those after the first are taken in four chains, by h^4, which
@@ -182,7 +202,8 @@ static int taylor_step(work *w)
     w->after = forward * TAYLOR_GROWTH * CHOOSE_WHERE(FINITE(free), free, bound);
     work_scale(w, control_size(w));
     taylor_candidate(w);
-    series_order(w, 0, CHOOSE_WHERE(w->ends, w->until, time_in(w, 1)));
+    TAYLOR_PART(w);
+    taylor_orders(part, 0, 0, 0, CHOOSE_WHERE(w->ends, w->until, time_in(w, 1)));
     w->error = taylor_error(w, free);
     w->error = CHOOSE_WHERE(FINITE(w->error) & (ABS(w->h) <= 4 * EPSILON * ABS(w->t)), CLOCK(0), w->error);
     w->after = CHOOSE_WHERE(w->error <= 1, w->after, w->h / 2);

@@ -101,6 +101,7 @@ gives "--emit-c" 0 "$motus" run $osc --emit-c
 that "--emit-c prints the loop" says advance_run
 gives "--emit-c of Taylor series" 0 "$motus" run $osc --emit-c --method taylor --tolerance 1e-6
 that "... of the order that the tolerance asks for" says "#define FACT_expands 12"
+that "... with their recurrences in one place, so that a compiler reads them once" [ "$("$motus" run $osc --emit-c --method taylor | grep -c 'series_order(w, .*);$')" = 1 ]
 gives "--emit-c of Taylor series at round-off" 0 "$motus" run $osc --emit-c --method taylor --tolerance 1e-15
 that "... has as many orders as there are" says "#define FACT_expands 26"
 refuses "--emit-c with a tolerance where steps have one size" 2 "a tolerance is given, and the steps of verlet have one size" "$motus" run $osc --emit-c --method verlet --tolerance 1e-6

@@ -117,6 +117,18 @@ __attribute__((noinline)) static void compiled_fill(const compiled_host *host, c
 #endif
 
 #if FACT_expands
+#ifndef GROUPS
+#if SMALL
+#define TAYLOR_APART __attribute__((noinline, flatten)) static
+/* Of the workspace what the orders use, so that the workspace itself can stay in registers. */
+#define TAYLOR_PART(w)                                                                                    \
+    work part_of_it, *const part = &part_of_it;                                                           \
+    part->host = (w)->host, part->xs = (w)->xs, part->vs = (w)->vs, part->r = (w)->r, part->ks = (w)->ks, \
+    part->a = (w)->a
+#else
+#define TAYLOR_APART __attribute__((noinline)) static
+#endif
+#endif
 static inline void series_order(work *w, int n, clock t)
 {
     const compiled_host *host = w->host;

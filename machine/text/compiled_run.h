@@ -68,11 +68,19 @@ __attribute__((flatten)) static bool compiled_small(work *given, whole steps)
     return true;
 }
 
+/* Whether the library takes the next step: where steps adapt, the first of a leg, and those that begin with the last
+ * evaluation of the step before (BEGINS) while that is not known. */
+static inline bool compiled_begins(const work *w)
+{
+    if (!ROW_adaptive) return w->n == 0;
+    return w->next == 0 || (!ROW_density && control_last_is_first(w) && !w->fresh);
+}
+
 int motus_run(work *given, whole steps)
 {
     const compiled_host *host = given->host;
     if (!FITS(host->u)) return host->run(given, steps);
-    if (!ROW_adaptive && given->n == 0 && steps > 0) {
+    if (compiled_begins(given) && steps > 0) {
         const int bad = host->run(given, 1);
         if (bad) return bad;
         steps--;
