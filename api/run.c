@@ -302,7 +302,7 @@ motus_status motus_run_create(motus_system *s, const motus_run_def *given, motus
     modes m = modes_enter();
     status = goal_reach(s, &def, &hint, &goal, err);
     if (status == MOTUS_OK) status = run_create(s, &def, &hint, out, err);
-    if (status == MOTUS_OK)
+    if (*out)
         (*out)->goal = goal;
     else
         goal_destroy(s, goal);
@@ -441,7 +441,7 @@ static motus_status sample(motus_run *r, const double *times, size_t n, const si
 {
     motus_status status = MOTUS_OK;
     for (size_t i = 0; i < n && status == MOTUS_OK; i++, out += count) {
-        double *x, *v;
+        double *x = NULL, *v = NULL;
         status = run_between(r, times[i], &x, &v, err);
         if (status == MOTUS_OK) status = system_values(r->system, times[i], x, v, columns, count, out, err);
     }

@@ -65,10 +65,13 @@ static motus_status setting_of(motus_system *s, const char *name, const paramete
     if (what) return refuse_decision(name, what, err);
     struct setting *made = arena_take(&s->arena, sizeof *made);
     size_t *places = take(&s->allocator, t->count + 1, sizeof *places);
-    motus_status status = places && !s->arena.failed ? MOTUS_OK : fail(err, MOTUS_MEMORY, "no memory to set %s", name);
-    for (size_t k = 0; status == MOTUS_OK && k < t->count; k++) places[k] = parameters_place(t, k);
+    if (!places || s->arena.failed) {
+        give(&s->allocator, places);
+        return fail(err, MOTUS_MEMORY, "no memory to set %s", name);
+    }
+    for (size_t k = 0; k < t->count; k++) places[k] = parameters_place(t, k);
     *made = (struct setting){.first = t->first};
-    if (status == MOTUS_OK) status = vary_create(s->model, places, t->count, false, false, &made->vary, err);
+    const motus_status status = vary_create(s->model, places, t->count, false, false, &made->vary, err);
     give(&s->allocator, places);
     if (status != MOTUS_OK) return status;
     made->next = s->settings;

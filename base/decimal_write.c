@@ -279,7 +279,8 @@ char *decimal_time(double t, double span, char out[DECIMAL_MAX])
 {
     if (!(fabs(span) > 0) || !isfinite(span) || !isfinite(t)) return decimal(t, out);
     int digits = 6;
-    for (double parts = fabs(t) / fabs(span); parts > 1 && digits < 12; parts /= 10) digits++;
+    double parts = fabs(t) / fabs(span);
+    for (; parts > 1 && digits < 12; digits++) parts /= 10;
     snprintf(out, DECIMAL_MAX, "%.*g", digits, t);
     return out;
 }

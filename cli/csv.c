@@ -117,8 +117,9 @@ motus_status csv_begin(csv *c, file_out *file, const options *o, const motus_run
     for (size_t k = 0; !status && k < (c->errors ? 2 : 1) * c->count; k++) {
         motus_column column = motus_default_column();
         const bool error = k >= c->count;
-        status = motus_column_at(c->model->system, c->columns[k % c->count], &column);
-        if (status) return fail(err, status, "column %zu has no name", c->columns[k % c->count]);
+        const size_t index = c->columns[error ? k - c->count : k];
+        status = motus_column_at(c->model->system, index, &column);
+        if (status) return fail(err, status, "column %zu has no name", index);
         if (error && column.kind == MOTUS_COLUMN_TIME) continue;
         char name[sizeof column.name + 16];
         snprintf(name, sizeof name, "%s%s", column.name, error ? ".error" : "");

@@ -51,7 +51,7 @@ void emit_terms(writer *w)
             if (item->outputs != NONE && w->term[item->n] == NONE) w->term[item->n] = w->e->terms++;
             continue;
         }
-        for (int i = 0; i < arity; i++)
+        for (int i = 0; i < 3 && i < arity; i++)
             if (w->nature[operands[i]] & PLAIN_TIME && w->term[operands[i]] == NONE)
                 w->term[operands[i]] = w->e->terms++;
         if (m->op == OP_SUM && m->b && w->nature[m->b] & PLAIN_TIME && w->term[m->b] == NONE)

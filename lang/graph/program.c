@@ -54,11 +54,10 @@ static void choose(forming *f)
 {
     for (uint32_t k = 0; k < f->w.count; k++) {
         const graph_node *n = &f->from->nodes[f->w.nodes[k]];
-        if (n->op == OP_SUM && product_of(f, n->a).found)
-            absorb(f, n->a);
-        else if ((n->op == OP_ADD || n->op == OP_SUB) && product_of(f, n->b).found)
+        const bool adds = n->op == OP_ADD || n->op == OP_SUB;
+        if (adds && product_of(f, n->b).found)
             absorb(f, n->b);
-        else if ((n->op == OP_ADD || n->op == OP_SUB) && product_of(f, n->a).found)
+        else if ((adds || n->op == OP_SUM) && product_of(f, n->a).found)
             absorb(f, n->a);
     }
 }

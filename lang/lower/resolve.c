@@ -112,7 +112,7 @@ static node *lower_entries(model *m, const tree *list, int *components)
                             "the entries of a list are all numbers, or all vectors of one length");
         if (i == 0 && !failed(m) && !(nodes = take(&m->arena->allocator, list->count, parts * sizeof *nodes)))
             m->arena->failed = true;
-        if (failed(m)) {
+        if (failed(m) || !nodes) {
             give(&m->arena->allocator, nodes);
             return NULL;
         }
