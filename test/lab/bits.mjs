@@ -31,7 +31,7 @@ for (const file of readdirSync(models).filter((name) => name.endsWith('.motus'))
   const end = (method) => settings.start + settings.step * (method === 'verlet-literal' ? 150 : 149.5);
   for (const { name: method } of methods.filter(({ admitted }) => admitted)) {
     const until = end(method), state = join(folder, 'state'), tolerance = adaptive.has(method) ? 1e-8 : null;
-    const run = spawnSync(program, ['run', join(models, file), '--method', method, '--until', String(until), '--save-state', state, '--quiet', '-o', join(folder, 'out.csv'),
+    const run = spawnSync(program, ['run', join(models, file), '--method', method, '--until', String(until), '--save-state', state, '--error', 'none', '--quiet', '-o', join(folder, 'out.csv'),
       ...(tolerance ? ['--tolerance', String(tolerance)] : [])], { encoding: 'utf8' });
     core.start(lab, method, null, until, tolerance);
     let said = '';
