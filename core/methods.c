@@ -555,7 +555,6 @@ const row methods_table[] = {
       .family = TAYLOR, .compensated = true, .adaptive = true, .sizes = true, .expands = true },
 
     /* Extrapolation: step/extrapolation.h. */
-#ifndef ONE_COPY
     { .card = { CARD("gragg-stormer", "odex2 stormer-extrapolation", "extrapolation", 12, 22, 22, XT, 0, 0,
                      3.1411691066486376),
        .title = "Gragg–Störmer",
@@ -572,7 +571,6 @@ const row methods_table[] = {
                   "order 4 to 18, as error and work want it",
        .use = "As gragg-stormer, for any force.", .adaptive = 1 },
       .family = GRAGG, .adaptive = true, .orders = true, .compensated = true, .lines = 6 },
-#endif
 
     { .card = { CARD("exact", "closed-form", "exact", 0, 0, 0, XVT, 1, 1, INFINITY),
        .title = "exact",

@@ -13,9 +13,7 @@
 #include "step/pair.h"
 #include "step/collocation.h"
 #include "step/continuous.h"
-#ifndef ONE_COPY
 #include "step/extrapolation.h"
-#endif
 #define FAMILY_TEXTS
 #include "step/families.def"
 #undef FAMILY_TEXTS

@@ -83,7 +83,7 @@ const CHOOSING = {
   order: [
     'dopri5', 'dop853', 'dep12', 'radau15', 'dep6', 'tsit5', 'verner6', 'taylor', 'bs32', 'verner8', 'dep8', 'fine5', 'verner7', 'verner9', 'dep4', 'fine4',
     'verlet-reversible', 'blanes-moan4-reversible', 'blanes-moan6-reversible', 'kahan-li8-reversible',
-    'gauss8-reversible', 'gauss12-reversible',
+    'gauss8-reversible', 'gauss12-reversible', 'gragg-stormer', 'gragg',
   ],
   colours: [10, 11, 12, 5, 9, 7, 6, 8],
 };

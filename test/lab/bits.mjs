@@ -22,6 +22,10 @@ const judge = (name, good, why = '') => {
 };
 
 judge('the module imports nothing', WebAssembly.Module.imports(module).length === 0);
+{
+  const core = new Core(module), ours = core.catalogue(core.create()).map((m) => m.name), known = JSON.parse(spawnSync(program, ['methods', '--json'], { encoding: 'utf8' }).stdout).methods.map((m) => m.name);
+  judge('the module has every row of the catalogue', ours.join() === known.join(), known.filter((name) => !ours.includes(name)).join());
+}
 for (const file of readdirSync(models).filter((name) => name.endsWith('.motus')).sort()) {
   const text = readFileSync(join(models, file), 'utf8');
   const core = new Core(module), lab = core.create();

@@ -120,6 +120,15 @@ test('the two steps of the concept’s picture', () => {
   assert.deepEqual(said('kahan-li8', 0).length, 4);
   assert.match(said('kahan-li8', 0)[3], /^And so on, 35 parts\. The last: x = /);
 });
+test('a step without parts of its own is one sentence', () => {
+  const answers = new Answers(new Core(module)), model = { text: readFileSync(new URL('models/spring.motus', root), 'utf8'), set: [] };
+  const said = (method) => {
+    const trace = answers.answer('trace', { model, method, step: null, tolerance: 1e-6, until: 20, index: 1 });
+    return recipeOf(trace, seenIn(trace.names)[0], false).lines.map((line) => line.sentence);
+  };
+  assert.match(said('taylor').join(), /^Sum the Taylor series/);
+  for (const method of ['gragg', 'gragg-stormer']) assert.deepEqual(said(method), ['Take the step in more and more parts, and read off where shorter and shorter parts lead.']);
+});
 test('what does not fit is not said: a start that is written in another way, numbers of a part that are not its formula’s', async () => {
   const text = "x'' = -x + cos(t)\nx(abs(0)) = 1\nx'(abs(0)) = 0\nstep 0.1\nuntil 2\n", answers = new Answers(new Core(module)), model = { text, set: [] }, description = answers.answer('describe', { model }), client = { ask: async (kind, ask) => answers.answer(kind, ask) };
   const trace = answers.answer('trace', { model, method: 'leapfrog', step: null, until: null, index: 5 });

@@ -111,7 +111,7 @@ export function recipeOf(trace: Trace, seen: Seen, byVelocity: boolean): Recipe 
   else if (stages.length && order === 2 && !close(stages.reduce<Vec>((x, s) => add(x, rate(s), h * s.weight), x0), x1, Math.max(...[...x0, ...x1].map(Math.abs)))) springs();
   else if (stages.length) slopes();
   else if (order === 2 && entries.some((e) => e.kind === 'step' || e.kind === 'taylor')) recurrence();
-  if (!lines.length) line(trace.method === 'taylor' ? told.series : told.alongside, [is(named, kinds.value, x1)], [go, arrived]);
+  if (!lines.length) line(trace.method === 'taylor' ? told.series : trace.method.startsWith('gragg') ? told.extrapolated : told.alongside, [is(named, kinds.value, x1)], [go, arrived]);
   const stops = [...new Set([...stages.map((s) => s.time), ...parts.map((p) => p.time)])].filter((t) => Math.abs(t - start.time) > 1e-9 * Math.abs(h) && Math.abs(t - end.time) > 1e-9 * Math.abs(h));
   return { lines, rest, start, end, before, from, to, stops, kinds, last };
 

@@ -98,4 +98,5 @@ export const opened = {
   },
   alongside: 'The method takes this number along with the motion.',
   series: 'Sum the Taylor series of the motion, over a step as long as its last terms allow.',
+  extrapolated: 'Take the step in more and more parts, and read off where shorter and shorter parts lead.',
 } as const;
