@@ -10,6 +10,7 @@ import { mkdir, readFile, readdir, writeFile } from 'node:fs/promises';
 import { dirname, join, resolve } from 'node:path';
 import { fileURLToPath } from 'node:url';
 import { gzipSync } from 'node:zlib';
+import { minify as shorten } from 'terser';
 import { build } from 'esbuild';
 import { theory } from './theory/typeset.mjs';
 
@@ -54,7 +55,7 @@ try {
 const packed = async (contents) => {
   // Here, as it would print itself with any error from before.
   const { default: zopfli } = await import('@gfx/zopfli');
-  const zipped = await zopfli.zlibAsync(Buffer.from(contents), { numiterations: 1 }), pairs = Math.ceil(8 * zipped.length / 13);
+  const zipped = await zopfli.zlibAsync(Buffer.from(contents), { numiterations: 15 }), pairs = Math.ceil(8 * zipped.length / 13);
   const digit = (n) => String.fromCharCode(n + 33 + (n > 0) + (n > 25) + (n > 56));
   let out = digit(Math.floor(13 * pairs / 8) - zipped.length), held = 0, bits = 0;
   for (let i = 0, k = 0; k < pairs; k++, held >>= 13, bits -= 13) {
@@ -72,12 +73,15 @@ const virtual = (modules) => ({
     b.onLoad({ filter: /.*/, namespace: 'virtual' }, ({ path }) => ({ contents: modules[path], loader: 'js', resolveDir: here }));
   },
 });
+/** esbuild bundles; Terser then shortens what it wrote by a twentieth more. */
 const bundle = async (entry, format, modules) => {
+  const readable = process.argv.includes('--readable');
   const { outputFiles } = await build({
-    entryPoints: [join(here, entry)], bundle: true, minify: !process.argv.includes('--readable'), write: false, format, target: 'es2022', charset: 'utf8', legalComments: 'none', alias,
+    entryPoints: [join(here, entry)], bundle: true, minify: !readable, write: false, format, target: 'es2022', charset: 'utf8', legalComments: 'none', alias,
     plugins: [virtual(modules)],
   });
-  return outputFiles[0].text;
+  const [{ text }] = outputFiles;
+  return readable ? text : (await shorten(text, { module: format === 'esm', ecma: 2020, compress: { passes: 2 } })).code;
 };
 
 /** What is needed once the first picture stands. */
