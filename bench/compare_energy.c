@@ -88,5 +88,4 @@ void compare_energy(void)
     report_section("Energy of the outer solar system: root mean square of 32 starts", "10^4, 10^4.5 … 10^6 steps");
     compare_one("radau15-fixed", 50);
     compare_one("kahan-li8", 50);
-    compare_one("blanes-moan6-14", 12.5);
 }

@@ -31,9 +31,15 @@ typedef struct purpose {
     bool varies;
 } purpose;
 
+/* Each has numbers of its own: how many a text reads, and in which order, depends on its programs. */
 typedef struct object {
     purpose purpose;
-    int (*fits)(const double *u); /* whether it was compiled for such numbers */
+    compiled_host host; /* what it reads */
+    double *u;
+    int64_t *q;
+    void (*bind)(const double *, const int64_t *, double *); /* computes u from the pool */
+    int (*fits)(const double *u);                            /* whether it was compiled for such numbers */
+    void (*accel)(const compiled_host *, double t, double *x, double *v, double *a);
     void *handle;
     stepper_body body;
 } object;
@@ -47,7 +53,6 @@ typedef struct making {
 } making;
 
 struct compiled {
-    compiled_host host; /* what the objects read */
     model *model;
     const problem *interpreted; /* the interpreter's problem */
     problem problem;            /* the same with the compiled acceleration */
@@ -57,13 +62,8 @@ struct compiled {
     program *force, *boundary, *series, *boundary_series;
     locality locality;
     const tiling *tiling; /* where the outer indices can be divided; else NULL */
-    double *u, *pairs;
-    int64_t *q;
-    /* of the last object; all give the same bits */
-    void (*accel)(const compiled_host *, double t, double *x, double *v, double *a);
-    int (*fits)(const double *u);
-    /* of the last object; all compute the same */
-    void (*bind)(const double *, const int64_t *, double *);
+    double *pairs;
+    struct parallel_pool *thread_pool;
     char note[NOTE_MAX];
 };
 
@@ -74,8 +74,9 @@ static const problem *of(void *ctx) { return ((compiled *)ctx)->interpreted; }
 static int accel(void *ctx, double t, double *x, double *v, double *a)
 {
     const compiled *c = ctx;
-    if (!c->accel || !c->fits(c->u)) return of(ctx)->accel(of(ctx)->ctx, t, x, v, a);
-    c->accel(&c->host, t, x, v, a);
+    const object *o = c->count ? &c->objects[c->count - 1] : NULL; /* all give the same bits */
+    if (!o || !o->fits(o->u)) return of(ctx)->accel(of(ctx)->ctx, t, x, v, a);
+    o->accel(&o->host, t, x, v, a);
     return 0;
 }
 static int jvp(void *ctx, double t, double *x, double *v, const double *dx, const double *dv, double *da)
@@ -139,11 +140,9 @@ void compiled_close(compiled *c)
         c->makings[i] = (making){.waiting = 0};
     }
     if (c) {
-        parallel_pool_destroy(c->host.thread_pool);
-        c->host.thread_pool = NULL;
+        parallel_pool_destroy(c->thread_pool);
+        c->thread_pool = NULL;
         c->count = 0;
-        c->accel = NULL;
-        c->bind = NULL;
     }
 }
 
@@ -207,24 +206,28 @@ static double *pair_room(compiled *c, const emit *e)
     return c->pairs;
 }
 
-/* The numbers that the text reads: bounds, strides, and values of parameters alone. They are the same for every row. */
-static bool bind_numbers(compiled *c, const emit *e, void (*bind)(const double *, const int64_t *, double *))
+/* The numbers that the text reads: bounds, strides, and values of parameters alone. */
+static bool bind_numbers(compiled *c, object *o, const emit *e)
 {
     model *m = c->model;
-    c->q = arena_room(m->arena, (e->int_count + 1) * sizeof *c->q);
-    c->u = arena_room(m->arena, (e->fixed + 1) * sizeof *c->u);
-    if (!c->q || !c->u) return false;
-    for (uint32_t k = 0; k < e->int_count; k++) c->q[k] = emit_int_value(&e->ints[k], m->arrays, m->ints);
-    double *pairs = pair_room(c, e);
-    c->bind = bind;
-    bind(m->pool, c->q, c->u);
-    c->host = (compiled_host){.pool = m->pool,
-                              .u = c->u,
-                              .q = c->q,
-                              .own = pairs,
+    const stepper_body *library = stepper_best_body();
+    o->q = arena_room(m->arena, (e->int_count + 1) * sizeof *o->q);
+    o->u = arena_room(m->arena, (e->fixed + 1) * sizeof *o->u);
+    if (!o->q || !o->u) return false;
+    for (uint32_t k = 0; k < e->int_count; k++) o->q[k] = emit_int_value(&e->ints[k], m->arrays, m->ints);
+    o->bind(m->pool, o->q, o->u);
+    o->host = (compiled_host){.pool = m->pool,
+                              .u = o->u,
+                              .q = o->q,
+                              .own = pair_room(c, e),
                               .tiling = c->tiling,
-                              .thread_pool = c->host.thread_pool,
-                              .parallel = parallel_pool_for};
+                              .thread_pool = c->thread_pool,
+                              .parallel = parallel_pool_for,
+                              .run = library->run,
+                              .factor = library->factor,
+                              .back = library->back,
+                              .apply = library->apply,
+                              .diagonal = library->diagonal};
     return true;
 }
 
@@ -242,10 +245,10 @@ static bool same(const purpose *a, const purpose *b)
            a->expands == b->expands && a->varies == b->varies;
 }
 
-static const stepper_body *find(compiled *c, const purpose *p)
+static object *find(compiled *c, const purpose *p)
 {
-    for (int i = 0; i < c->count; i++)
-        if (same(&c->objects[i].purpose, p) && c->objects[i].fits(c->u)) return &c->objects[i].body;
+    for (object *o = c->objects; o < c->objects + c->count; o++)
+        if (same(&o->purpose, p) && o->fits(o->u)) return o;
     return NULL;
 }
 
@@ -274,41 +277,33 @@ static int loops_of(const compiled *c, const purpose *p)
 }
 
 /* Takes an object that was loaded; NULL and c->note: it is not sound. */
-static const stepper_body *adopt(compiled *c, const purpose *p, const emit *e, void *handle)
+static object *adopt(compiled *c, const purpose *p, const emit *e, void *handle)
 {
-    void (*bind)(const double *, const int64_t *, double *);
-    void (*accel)(const compiled_host *, double t, double *x, double *v, double *a);
-    const stepper_body *library = stepper_best_body();
     object *o = &c->objects[c->count];
-    *o = (object){.purpose = *p, .handle = handle, .body = *library};
-    o->body.name = "compiled";
-    /* POSIX lets a void * hold the address of a function. */
-    *(void **)&bind = dlsym(handle, "motus_bind");
-    *(void **)&o->body.run = dlsym(handle, "motus_run");
-    *(void **)&o->fits = dlsym(handle, "motus_fits");
-    *(void **)&accel = dlsym(handle, "motus_accel");
-    if (c->count == OBJECTS_MAX || !bind || !o->body.run || !o->fits || !accel || !bind_numbers(c, e, bind)) {
+    if (c->count < OBJECTS_MAX) {
+        *o = (object){.purpose = *p, .handle = handle, .body = *stepper_best_body()};
+        o->body.name = "compiled";
+        /* POSIX lets a void * hold the address of a function. */
+        *(void **)&o->bind = dlsym(handle, "motus_bind");
+        *(void **)&o->body.run = dlsym(handle, "motus_run");
+        *(void **)&o->fits = dlsym(handle, "motus_fits");
+        *(void **)&o->accel = dlsym(handle, "motus_accel");
+    }
+    if (c->count == OBJECTS_MAX || !o->bind || !o->body.run || !o->fits || !o->accel || !bind_numbers(c, o, e)) {
         snprintf(c->note, sizeof c->note, "the compiled object is not what was compiled");
         dlclose(handle);
         return NULL;
     }
-    c->accel = accel;
-    c->fits = o->fits;
-    c->host.run = library->run;
-    c->host.factor = library->factor;
-    c->host.back = library->back;
-    c->host.apply = library->apply;
-    c->host.diagonal = library->diagonal;
     c->count++;
-    return &o->body;
+    return o;
 }
 
-static const stepper_body *body_of(compiled *c, const chosen *chosen, int how)
+static object *object_of(compiled *c, const chosen *chosen, int how)
 {
     const purpose p = purpose_of(c, chosen);
-    const stepper_body *body = find(c, &p);
+    object *o = find(c, &p);
     emit e;
-    if (body || !text_of(c, chosen, &e)) return body;
+    if (o || !text_of(c, chosen, &e)) return o;
     void *handle = cache_load(e.text.bytes, e.text.length, how | loops_of(c, &p), c->note, sizeof c->note);
     return handle ? adopt(c, &p, &e, handle) : NULL;
 }
@@ -381,24 +376,25 @@ void compiled_leave(compiled *c, const chosen *chosen)
 
 void compiled_rebind(compiled *c)
 {
-    if (c && c->bind) c->bind(c->model->pool, c->q, c->u);
+    for (int i = 0; c && i < c->count; i++) c->objects[i].bind(c->model->pool, c->objects[i].q, c->objects[i].u);
 }
 
 const char *compiled_prepare(compiled *c, const chosen *chosen, bool kept)
 {
-    return body_of(c, chosen, kept ? CACHE_KEPT : 0) ? NULL : c->note;
+    return object_of(c, chosen, kept ? CACHE_KEPT : 0) ? NULL : c->note;
 }
 
 motus_status compiled_machine(compiled *c, const chosen *chosen, machine *out, motus_error *err)
 {
-    const stepper_body *body = body_of(c, chosen, 0);
-    if (!body) return fail(err, MOTUS_TOOL, "the model could not be compiled: %s", c->note);
+    object *o = object_of(c, chosen, 0);
+    if (!o) return fail(err, MOTUS_TOOL, "the model could not be compiled: %s", c->note);
     /* One pool of threads serves all runs of the model. Threads beyond the processors gain nothing. */
     const int processors = parallel_processors();
-    if (chosen->threads > 1 && c->tiling && !c->host.thread_pool)
-        c->host.thread_pool = parallel_pool_create(chosen->threads > processors ? chosen->threads : processors,
-                                                   &c->model->arena->allocator);
+    if (chosen->threads > 1 && c->tiling && !c->thread_pool)
+        c->thread_pool = parallel_pool_create(chosen->threads > processors ? chosen->threads : processors,
+                                              &c->model->arena->allocator);
+    o->host.thread_pool = c->thread_pool;
     c->problem.traits = c->interpreted->traits;
-    *out = (machine){.name = "compiled", .problem = &c->problem, .body = body, .host = &c->host};
+    *out = (machine){.name = "compiled", .problem = &c->problem, .body = &o->body, .host = &o->host};
     return MOTUS_OK;
 }

@@ -600,6 +600,47 @@ static void no_text_of_the_model_is_compiled(void **state)
     motus_system_destroy(s);
 }
 
+/* The end of a run by Taylor series; with `between`, an object of another method is made and used while it is under
+ * way. */
+static void taylor_end(motus_system *s, const char *machine, bool between, double end[2])
+{
+    motus_error err = motus_default_error();
+    motus_run_def def = motus_default_run(), other = motus_default_run();
+    motus_run *r = NULL, *beside = NULL;
+    def.method = "taylor", def.tolerance = 1e-10, def.until = 5, def.machine = machine;
+    other.method = "verlet", other.step = 0.01, other.until = 1, other.machine = machine;
+    assert_int_equal(motus_run_create(s, &def, &r, &err), MOTUS_OK);
+    if (between) {
+        assert_int_equal(motus_run_create(s, &other, &beside, &err), MOTUS_OK);
+        assert_int_equal(motus_run_finish(beside, &err), MOTUS_OK);
+    }
+    assert_int_equal(motus_run_finish(r, &err), MOTUS_OK);
+    assert_int_equal(motus_run_state(r, end, end + 1, &err), MOTUS_OK);
+    assert_string_equal(motus_run_machine(r), machine);
+    motus_run_destroy(beside);
+    motus_run_destroy(r);
+}
+
+/* The objects of a model read numbers that are computed from its parameters. The text of Taylor series reads others
+ * than that of Verlet. */
+static void objects_do_not_share_numbers(void **state)
+{
+    (void)state;
+    motus_system *s = open_text("k = 3\nm = 2\nd = 0.1\nx'' = -k/m x - d/m x'\nx(0) = 1\nx'(0) = 0\n", NULL);
+    motus_error err = motus_default_error();
+    for (int changed = 0; changed < 2; changed++) {
+        double want[2], got[2];
+        const double k = 3 + changed;
+        assert_int_equal(motus_system_set(s, "k", &k, 1, &err), MOTUS_OK);
+        taylor_end(s, "interpreter", false, want);
+        taylor_end(s, "compiled", true, got);
+        assert_memory_equal(got, want, sizeof want);
+        taylor_end(s, "compiled", false, got);
+        assert_memory_equal(got, want, sizeof want);
+    }
+    motus_system_destroy(s);
+}
+
 int main(void)
 {
     open_cache();
@@ -608,6 +649,7 @@ int main(void)
                                        cmocka_unit_test(variables_that_follow),
                                        cmocka_unit_test(every_function),
                                        cmocka_unit_test(one_object_for_all_sizes),
+                                       cmocka_unit_test(objects_do_not_share_numbers),
                                        cmocka_unit_test(exact_operations_are_left_out),
                                        cmocka_unit_test(numbers_of_trajectories),
                                        cmocka_unit_test(pairs_are_taken_once),
