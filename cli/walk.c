@@ -18,6 +18,7 @@ typedef struct walker {
     motus_run *run;
     double start, until, step; /* step with its sign */
     double *values;            /* room for CHUNK rows of the observer with the most columns */
+    bool adapts;               /* steps have no times that are known before */
 } walker;
 
 int64_t walk_steps_of(double period, double step)
@@ -118,7 +119,7 @@ static motus_status go(walker *w, const walk_observer *observers, size_t count, 
     motus_status status = observe_due(w, observers, count, err);
     while (!status && !motus_run_done(w->run)) {
         int64_t next = next_stop(w, observers, count);
-        const double limit = motus_run_time_of(w->run, next);
+        const double limit = w->adapts ? NAN : motus_run_time_of(w->run, next);
         bool periods = false;
         for (size_t i = 0; i < count; i++) periods |= observers[i].period > 0;
         /* where steps adapt, the times within a step are sampled after it */
@@ -138,8 +139,9 @@ motus_status walk(motus_run *run, double start, double until, const walk_observe
                   motus_error *err)
 {
     double size = motus_run_step_size(run);
-    if (isnan(size)) size = 1e-6 * fabs(until - start); /* steps adapt: of it only the sign, and a slack, are used */
-    walker w = {.run = run, .start = start, .until = until, .step = until < start ? -size : size};
+    const bool adapts = isnan(size);
+    if (adapts) size = 1e-6 * fabs(until - start); /* steps adapt: of it only the sign, and a slack, are used */
+    walker w = {.run = run, .start = start, .until = until, .step = until < start ? -size : size, .adapts = adapts};
     size_t widest = 1;
     for (size_t i = 0; i < count; i++) {
         size_t rows = observers[i].errors ? 2 : observers[i].period > 0 ? CHUNK : 1;

@@ -572,6 +572,8 @@ gives "--plot svg" 0 "$motus" run "$root/models/projectile.motus" --plot fig.svg
 that "... is an SVG" eval "head -c 200 fig.svg | grep -q '<?xml' && tail -n 2 fig.svg | grep -q '</svg>'"
 that "... the exact motion is green" eval "grep -qi '15803d\|rgb( 21, 128,  61)' fig.svg"
 that "... in dashes" grep -q stroke-dasharray fig.svg
+printf "x'' = -sin(x)\nx(0) = 1; x'(0) = 0\nuntil 50\n" >plain.motus # nothing is observed after every step
+gives "--plot of steps that adapt" 0 "$motus" run plain.motus --plot plain.svg -q
 gives "--plot png" 0 "$motus" run osc.motus --plot fig.png -q
 that "... is a PNG" eval "head -c 8 fig.png | od -An -tx1 | grep -q '89 50 4e 47 0d 0a 1a 0a'"
 gives "--plot pdf" 0 "$motus" run osc.motus --plot fig.pdf -q
