@@ -232,15 +232,44 @@ static int take_steps(stepper *s, const stepper_body *body, int64_t steps)
     return !bad && !w->check && !w->finite ? body->check(w) : bad;
 }
 
+/* Of a force that jumps, steps can shrink for good: where it pushes back from both sides of the jump, as dry friction
+ * does that sticks, no step follows it. A run crawls when the last PACE steps lead so little further that 2^24 more
+ * would not lead to the end, and steps were 10^4 times as long before; or when 2^30 would not. The number of steps alone
+ * decides where this is asked, so the answer is the same on all machines. */
+enum { PACE = 1 << 16, PACE_LEFT = 1 << 8, PACE_LEFT_ALWAYS = 1 << 14 };
+static const double PACE_FALL = 1e4;
+
+static motus_status get_on(stepper *s, motus_error *err)
+{
+    const work *w = &s->work;
+    const double now = stepper_time(s), gone = fabs(now - s->pace_t), left = fabs(w->until - now);
+    const bool known = s->pace_n == w->n - PACE;
+    char t[DECIMAL_MAX];
+    s->pace_n = w->n, s->pace_t = now;
+    if (!known || !(left < INFINITY) || left <= PACE_LEFT * gone) return MOTUS_OK;
+    if (left <= PACE_LEFT_ALWAYS * gone && gone / PACE * PACE_FALL > w->longest) return MOTUS_OK;
+    fail(err, MOTUS_STEPS, "the run crawls: at t = %s its last %d steps led %.1e further, and to the end it is %.1e",
+         decimal_time(now, w->h, t), PACE, gone, left);
+    hint(err, "the force jumps there; where it pushes back from both sides, as dry friction that sticks, no step is "
+              "small enough: end the run before, or smooth the jump, tanh(x'/0.001) for sign(x')");
+    if (err) err->time = now;
+    return MOTUS_STEPS;
+}
+
 static motus_status whole_steps(stepper *s, int64_t steps, const stepper_body *body, motus_error *err)
 {
     work *w = &s->work;
     const int64_t end = steps < INT64_MAX - w->n ? w->n + steps : INT64_MAX;
     while (w->n < end && !(w->carried && w->t == w->until)) {
-        const int64_t room = room_of(s), chunk = end - w->n < room ? end - w->n : room;
+        const bool paced = w->carried && !s->problem.traits.smooth;
+        const int64_t due = paced ? PACE - w->n % PACE : INT64_MAX, most = room_of(s), room = most < due ? most : due,
+                      chunk = end - w->n < room ? end - w->n : room;
         int bad = take_steps(s, body, chunk);
         if (!bad) bad = settle(s);
         if (bad) return recover(s, bad, err);
+        if (!paced || w->n % PACE) continue;
+        const motus_status status = get_on(s, err);
+        if (status) return status;
     }
     return MOTUS_OK;
 }

@@ -27,6 +27,9 @@ struct stepper {
     double *snapshot; /* the carried numbers at `at`; at.steps < 0: none */
     stepper_count at;
     double main_t0; /* of the leg, while the shorter last step has its own */
+    /* where steps adapt: the time after the latest multiple of PACE steps, and that number; < 0: not known */
+    double pace_t;
+    int64_t pace_n;
     /* of dense output: x, v, a at the left end, then at the right; NULL until asked for */
     double *ends;
     double left_t;

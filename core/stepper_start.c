@@ -163,7 +163,8 @@ static motus_status check_exact(stepper *s, double t0, double h, const double *x
 void stepper_begin(stepper *s, double t0, double h, const double *x, const double *v)
 {
     work *w = &s->work;
-    w->n = 0;
+    w->n = s->pace_n = 0;
+    s->pace_t = t0;
     /* Entries without an equation are written by no step: what a failed step left there must not stay. */
     memset(s->arrays, 0, (size_t)(s->snapshot - s->arrays) * sizeof(double));
     memcpy(w->x, x, w->nx * sizeof *x);

@@ -96,6 +96,7 @@ motus_status stepper_load(stepper *s, stepper_count at, const double *carry, mot
     for (size_t k = 0; k < count; k++)
         if (!isfinite(carry[k])) return fail(err, MOTUS_STATE, "number %zu of the restart state is not finite", k + 1);
     stepper_put(s, at, carry);
+    s->pace_n = -1;
     s->shortened = s->arrived = s->left = s->right = false;
     s->left_steps = -1;
     s->at.steps = -1;
@@ -130,6 +131,7 @@ motus_status stepper_move(stepper **s, const machine *m, motus_error *err)
     }
     move_ends(from, to);
     to->work.h = from->work.h;
+    to->pace_n = from->pace_n, to->pace_t = from->pace_t;
     *s = to;
     stepper_destroy(from);
     return MOTUS_OK;

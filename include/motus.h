@@ -617,7 +617,8 @@ MOTUS_API void motus_run_destroy(motus_run *);
 /* Takes n >= 0 steps, or fewer if `until` comes first; the last step is shorter where it must end at `until`.
  * MOTUS_ACCURACY: the run is at its end, and its accuracy was not reached; err->message says what was. MOTUS_DIVERGED:
  * a number is no longer finite. MOTUS_SOLVE: an implicit equation could not be solved. MOTUS_STEPS: the run is not at
- * its end after `most_steps` steps. MOTUS_CALLBACK: a callback returned other than 0. MOTUS_CANCELLED: `progress` or
+ * its end after `most_steps` steps, or its force jumps and its steps have shrunk so far that they will not lead there,
+ * as with friction that sticks. MOTUS_CALLBACK: a callback returned other than 0. MOTUS_CANCELLED: `progress` or
  * `observer` returned other than 0. MOTUS_ARGUMENT: n < 0, or an observer called it. After a failure the run stands at
  * its last good step, and you may observe it, save it and step again. */
 MOTUS_API motus_status motus_run_step(motus_run *, int64_t n, motus_error *);
