@@ -234,8 +234,8 @@ static int take_steps(stepper *s, const stepper_body *body, int64_t steps)
 
 /* Of a force that jumps, steps can shrink for good: where it pushes back from both sides of the jump, as dry friction
  * does that sticks, no step follows it. A run crawls when the last PACE steps lead so little further that 2^24 more
- * would not lead to the end, and steps were 10^4 times as long before; or when 2^30 would not. The number of steps alone
- * decides where this is asked, so the answer is the same on all machines. */
+ * would not lead to the end, and steps were 10^4 times as long before; or when 2^30 would not. The number of steps
+ * alone decides where this is asked, so the answer is the same on all machines. */
 enum { PACE = 1 << 16, PACE_LEFT = 1 << 8, PACE_LEFT_ALWAYS = 1 << 14 };
 static const double PACE_FALL = 1e4;
 
