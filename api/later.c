@@ -110,7 +110,9 @@ static motus_status consider(motus_run *r, motus_error *err)
     r->later.considers = false;
     r->later.automatic = true;
     motus_status status = choice_begin(r->system, &r->chosen, &state, &m, &why, err);
-    return status == MOTUS_OK ? take_object(r, state, &m, why, err) : status;
+    if (status == MOTUS_OK) status = take_object(r, state, &m, why, err);
+    if (r->later.waits) later_hurry(r);
+    return status;
 }
 
 static motus_status look(motus_run *r, motus_error *err)

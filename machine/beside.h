@@ -22,7 +22,7 @@ typedef struct beside {
  * then rests nine tenths of the time: BESIDE_REST_ALL seconds in all, since a compiler may hang, and never longer than
  * BESIDE_REST_MOST seconds at once, so that its caller can be told how far it is. */
 #define BESIDE_REST_MOST 0.02
-#define BESIDE_REST_ALL 5.0
+#define BESIDE_REST_ALL 2.0
 void beside_rest(beside *);
 
 #endif

@@ -280,6 +280,29 @@ static void the_compiler_hangs(void **unused)
     }
 }
 
+/* A run whose number of steps is not known considers a compiler on the way, and goes on beside it. */
+static void steps_that_adapt_go_on(void **unused)
+{
+    (void)unused;
+    compile_for_ever();
+    motus_system *s = given_text("x'' = -sin(x) + 0.1 cos(t)\nx(0) = 1; x'(0) = 0");
+    motus_error err = motus_default_error();
+    motus_run_def def = motus_default_run();
+    motus_run *r = NULL;
+    def.method = "dop853", def.tolerance = 1e-13, def.until = 100000, def.error = MOTUS_BARS_NONE;
+    must(motus_run_create(s, &def, &r, &err), &err, "adapts");
+    alarm(120); /* it would wait for the compiler, which never ends */
+    must(motus_run_step(r, 300000, &err), &err, "adapts");
+    const pid_t child = its_child();
+    finish(r);
+    alarm(0);
+    assert_string_equal(motus_run_machine(r), "interpreter");
+    motus_run_destroy(r);
+    assert_true(dead(child));
+    nothing_is_left("adapts");
+    motus_system_destroy(s);
+}
+
 /* The copy of a process leaves the compiler of the original alone, and starts its own. */
 static void after_fork(void **unused)
 {
@@ -480,13 +503,21 @@ static void legs_meanwhile(void **unused)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(at_every_step),         cmocka_unit_test(the_compiler_is_slow),
-        cmocka_unit_test(runs_share_a_compiler), cmocka_unit_test(the_compiler_fails),
-        cmocka_unit_test(the_compiler_hangs),    cmocka_unit_test(after_fork),
-        cmocka_unit_test(fork_and_leave),        cmocka_unit_test(children_are_ignored),
-        cmocka_unit_test(the_process_dies),      cmocka_unit_test(the_thread_ends),
-        cmocka_unit_test(without_a_cache),       cmocka_unit_test(short_runs_start_none),
-        cmocka_unit_test(legs_meanwhile),        cmocka_unit_test(companions),
+        cmocka_unit_test(at_every_step),
+        cmocka_unit_test(the_compiler_is_slow),
+        cmocka_unit_test(runs_share_a_compiler),
+        cmocka_unit_test(the_compiler_fails),
+        cmocka_unit_test(the_compiler_hangs),
+        cmocka_unit_test(steps_that_adapt_go_on),
+        cmocka_unit_test(after_fork),
+        cmocka_unit_test(fork_and_leave),
+        cmocka_unit_test(children_are_ignored),
+        cmocka_unit_test(the_process_dies),
+        cmocka_unit_test(the_thread_ends),
+        cmocka_unit_test(without_a_cache),
+        cmocka_unit_test(short_runs_start_none),
+        cmocka_unit_test(legs_meanwhile),
+        cmocka_unit_test(companions),
     };
     open_cache();
     if (!mkdtemp(tools)) return 1;
