@@ -24,19 +24,6 @@ bool complain_colours(int descriptor)
     return isatty(descriptor) && !(no && *no) && !(terminal && strcmp(terminal, "dumb") == 0);
 }
 
-/* False: it could not be written. */
-static bool show_json(const motus_error *err)
-{
-    char message[2 * MOTUS_TEXT_MAX + 2];
-    snprintf(message, sizeof message, "%s%s%s", err->message, err->hint[0] ? "; " : "", err->hint);
-    json j = text_json(stdout);
-    json_open(&j, "error", '{');
-    tell_error(&j, err, message);
-    json_close(&j, '}');
-    json_end(&j);
-    return fflush(stdout) == 0 && !ferror(stdout);
-}
-
 /* The library speaks of its definitions: "`until` of the definition", "`until = 3` of the definition". Here their
  * members are options: --until, --until 3. */
 static void name_options(const char *text, char *out, size_t size)
@@ -61,12 +48,31 @@ static void name_options(const char *text, char *out, size_t size)
     out[n < size ? n : size - 1] = 0;
 }
 
+void complain_json(json *j, const char *key, const motus_error *err)
+{
+    char message[2 * MOTUS_TEXT_MAX + 2], help[sizeof err->hint];
+    name_options(err->hint, help, sizeof help);
+    snprintf(message, sizeof message, "%s%s%s", err->message, help[0] ? "; " : "", help);
+    json_open(j, key, '{');
+    tell_error(j, err, message);
+    json_close(j, '}');
+}
+
+/* False: it could not be written. */
+static bool show_json(const motus_error *err)
+{
+    json j = text_json(stdout);
+    complain_json(&j, "error", err);
+    json_end(&j);
+    return fflush(stdout) == 0 && !ferror(stdout);
+}
+
 int complain_show(const motus_error *given, bool as_json)
 {
     motus_error own = *given, *err = &own;
+    if (as_json && show_json(given)) return motus_status_exit(given->status);
     name_options(given->hint, own.hint, sizeof own.hint);
     if (strcmp(own.file, "motus_text_def.set") == 0) snprintf(own.file, sizeof own.file, "--set");
-    if (as_json && show_json(err)) return motus_status_exit(err->status);
     bool colours = complain_colours(2);
     const char *strong = colours ? "\033[1m" : "", *red = colours ? "\033[31m" : "", *plain = colours ? "\033[0m" : "";
     fflush(stdout);

@@ -3,6 +3,7 @@
 #define CLI_COMPLAIN_H
 
 #include "motus.h"
+#include "tell/json.h"
 
 #include <stdbool.h>
 
@@ -11,6 +12,8 @@ motus_status complain_memory(motus_error *);
 
 /* Prints an error (with json: one object on standard output) and returns the exit status. */
 int complain_show(const motus_error *, bool json);
+/* The error as a member of an object that is open: {kind, message, line, column}. */
+void complain_json(json *, const char *key, const motus_error *);
 /* Prints a note on standard error. */
 void complain_note(const char *format, ...) __attribute__((format(printf, 1, 2)));
 

@@ -89,7 +89,7 @@ static bool general(int argc, char **argv, bool as_json)
     return true;
 }
 
-static motus_status dispatch(int argc, char **argv, bool as_json, motus_error *err)
+static motus_status dispatch(int argc, char **argv, bool as_json, bool *answered, motus_error *err)
 {
     if (general(argc, argv, as_json)) return file_flush_output(err);
     int first = 1;
@@ -105,6 +105,7 @@ static motus_status dispatch(int argc, char **argv, bool as_json, motus_error *e
     options o;
     motus_status status = options_read(&o, v->bit, argc, argv, first + 1, err);
     o.json = o.json || as_json;
+    o.answered = answered;
     if (!status && o.help) {
         help_verb(stdout, v->bit);
         status = file_flush_output(err);
@@ -117,16 +118,13 @@ static motus_status dispatch(int argc, char **argv, bool as_json, motus_error *e
 
 int main(int argc, char **argv)
 {
-    bool as_json = false;
+    bool as_json = false, answered = false;
     for (int i = 1; i < argc && strcmp(argv[i], "--") != 0; i++) as_json = as_json || strcmp(argv[i], "--json") == 0;
     motus_error err = motus_default_error();
-    motus_status status = dispatch(argc, argv, as_json, &err);
+    motus_status status = dispatch(argc, argv, as_json, &answered, &err);
     stop_obey();
     if (!status) return 0;
     err.status = status;
     if (!err.message[0]) fail(&err, status, "%s", motus_status_text(status));
-    /* converge and run have already printed their JSON objects, which say which methods failed, and where the run was
-     * singular */
-    return complain_show(&err,
-                         as_json && status != MOTUS_ORDER && status != MOTUS_SINGULAR && status != MOTUS_UNRESOLVED);
+    return complain_show(&err, as_json && !answered);
 }

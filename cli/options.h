@@ -47,6 +47,7 @@ typedef struct options {
     bool zip, fast, resume, force;
     char *methods_text; /* the items of `methods` point into it */
     bool errors, json, quiet, help, markdown, points, emit_c, clear, share, no_open;
+    bool *answered; /* where a verb notes that its JSON object is written: a failure after that is no second one */
     int argc;
     char **argv; /* the command line, for the header of files */
 } options;

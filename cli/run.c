@@ -30,6 +30,7 @@ typedef struct job {
     motus_run *run;
     motus_estimate estimate; /* of its errors */
     motus_error singular;    /* its status: what motus_run_singular says of the run */
+    motus_error missed;      /* likewise: it has not reached its accuracy */
     stop_progress progress;
     double start, until;
     double began; /* the search for the run's method and steps; NaN: they were given */
@@ -194,7 +195,8 @@ static motus_status finish(job *j, double seconds, motus_error *err)
                  seconds,
                  j->singular.status == MOTUS_SINGULAR ? j->singular.time : NAN,
                  j->def.error != MOTUS_BARS_NONE,
-                 j->estimate};
+                 j->estimate,
+                 &j->missed};
     if (j->singular.status) s.estimate.reason = j->singular.message;
     if (!status && o->json)
         status = summary_json(&s, err);
@@ -250,7 +252,10 @@ motus_status run_verb(const options *o, motus_error *err)
 {
     if (o->emit_c) return emit(o, err);
     if (o->share) return share_verb(o, err);
-    job j = {.options = o, .estimate = motus_default_estimate(), .singular = motus_default_error()};
+    job j = {.options = o,
+             .estimate = motus_default_estimate(),
+             .singular = motus_default_error(),
+             .missed = motus_default_error()};
     motus_status status = begin(&j, err);
     if (!status) {
         j.progress = stop_progress_begin("run", o->quiet);
@@ -260,9 +265,10 @@ motus_status run_verb(const options *o, motus_error *err)
         double seconds = fmax(0, stop_clock() - began - j.estimate.seconds); /* without its companions */
         stop_progress_end(&j.progress);
         if (!status && look_for_poles(&j) == MOTUS_MEMORY) *err = j.singular, status = MOTUS_MEMORY;
+        if (!status) j.missed.status = motus_run_step(j.run, 0, &j.missed);
         if (!status) status = finish(&j, seconds, err);
         if (!status && j.singular.status) *err = j.singular, status = j.singular.status;
-        if (!status) status = motus_run_step(j.run, 0, err); /* whether it has reached its accuracy */
+        if (!status && j.missed.status) *err = j.missed, status = j.missed.status;
     }
     for (int i = 0; i < FILES; i++) file_drop(&j.files[i]);
     figure_free(&j.figure);

@@ -54,6 +54,7 @@ static void print_json(const studies *s, const studies_ways *ways, const void *r
     settle_json(&j, &s->model);
     ways->tell(&j, result);
     json_end(&j);
+    *s->options->answered = true;
 }
 
 motus_status studies_show(studies *s, const studies_ways *ways, const void *result, motus_error *err)

@@ -423,8 +423,10 @@ motus_status summary_json(const summary *s, motus_error *err)
         invariants_json(&j, s);
         json_number(&j, "seconds", s->seconds);
         json_number(&j, "singularity", s->singularity);
+        if (s->missed->status) complain_json(&j, "missed", s->missed);
         if (s->errors) status = errors_json(&j, s, err);
         json_end(&j);
+        *s->options->answered = true;
     }
     free(state);
     free(quantities);

@@ -496,6 +496,10 @@ that "... and leaves the model's method and step aside" holds '.method != "verle
 "$motus" run nostep.motus --accuracy 1e-15 --until 1000 >"$out" 2>"$err"
 status=$?
 that "an accuracy out of reach is said after the numbers" eval "[ $status = 1 ] && grep -q 'accuracy 1e-15 of the motion.s size is not reached' '$out' && grep -qF 'the accuracy 1e-15 cannot be reached: the best is' '$err'"
+"$motus" run nostep.motus --accuracy 1e-15 --until 1000 --json >"$out" 2>"$err"
+status=$?
+that "... in JSON within the one object, and on standard error" eval "[ $status = 1 ] && [ \$(jq -s length '$out') = 1 ] && grep -q 'the accuracy 1e-15' '$err'"
+that "... as \`missed\`, beside the errors" holds '.missed.kind == "accuracy" and (.missed.message | contains("1e-15")) and .error.x > 0 and .reached > .accuracy'
 "$motus" check nostep.motus >"$out" 2>"$err"
 that "check names the method that auto takes, and why" eval "grep -A1 '^auto' '$out' | grep -qE '[a-z0-9]+ needs the fewest operations: '"
 "$motus" check nostep.motus --json >"$out" 2>"$err"
