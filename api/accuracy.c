@@ -133,33 +133,49 @@ static void keep(trial *s, accuracy *a, double *size)
 }
 
 /* Which part of the error no tolerance lessens, where it is more than was wanted. */
-static motus_status explain_decimals(accuracy *a, trial *s, motus_error *err)
+static motus_status find_decimals(accuracy *a, trial *s, motus_error *err)
 {
     double part;
-    const size_t length = strlen(a->why);
     s->share.size = 1 - s->share.from;
     motus_status status = decimals_part(&s->def, a->best, a->absolute, &part, err);
-    if (status == MOTUS_OK && part > a->wanted)
-        snprintf(a->why + length, sizeof a->why - length,
-                 "; of that, up to %.1e comes from the rounding of the model's decimals to doubles", part);
+    if (status == MOTUS_OK && part > a->wanted) a->rounding = part;
     return status;
 }
 
-static void explain(accuracy *a, const trial *s)
+double accuracy_reached(const accuracy *a, const motus_run *r)
 {
-    char wanted[DECIMAL_MAX], t[DECIMAL_MAX];
+    return isfinite(a->reached) || !motus_run_done(r) || !r->bars ? a->reached : bars_worst(r->bars, a->absolute);
+}
+
+/* A trial that was far off was not taken to its end, so only the run itself can tell of its errors. */
+motus_status accuracy_refuse(const accuracy *a, const motus_run *r, motus_error *err)
+{
+    char wanted[DECIMAL_MAX], t[DECIMAL_MAX], size[64], part[128] = "";
+    const char *const unit = a->absolute ? "" : " of the motion's size";
+    const bool lost = r->bars && !isnan(r->bars->differences.until);
+    const double reached = accuracy_reached(a, r);
     decimal(a->wanted, wanted);
-    const motus_run *best = a->best;
-    if (!isfinite(a->reached))
-        snprintf(
-            a->why, sizeof a->why,
-            "the accuracy %s cannot be reached: no digit of the answer is significant after t = %s", wanted,
-            run_time_text(
-                best, isnan(best->bars->differences.until) ? motus_run_time(best) : best->bars->differences.until, t));
+    snprintf(size, sizeof size, "with the %s %.2g", a->by_step ? "step" : "tolerance", a->size);
+    if (!isnan(a->rounding))
+        snprintf(part, sizeof part, "; of that, up to %.1e comes from the rounding of the model's decimals to doubles",
+                 a->rounding);
+    if (isfinite(a->reached))
+        fail(err, MOTUS_ACCURACY, "the accuracy %s is not reached: the trials reached %.1e%s at best, %s%s", wanted,
+             reached, unit, size, part);
+    else if (lost)
+        fail(err, MOTUS_ACCURACY, "the accuracy %s is not reached: no digit of the answer is significant after t = %s",
+             wanted, run_time_text(r, r->bars->differences.until, t));
+    else if (isfinite(reached))
+        fail(err, MOTUS_ACCURACY, "the accuracy %s is not reached: the error is %.1e%s, %s", wanted, reached, unit,
+             size);
     else
-        snprintf(a->why, sizeof a->why, "the accuracy %s cannot be reached: the best is %.1e%s, with the %s %.2g",
-                 wanted, a->reached, a->absolute ? "" : " of the motion's size",
-                 s->search.length == 0 ? "tolerance" : "step", *s->size);
+        fail(err, MOTUS_ACCURACY, "the accuracy %s is not reached: the best trial was beyond it at t = %s, %s", wanted,
+             run_time_text(r, a->time, t), size);
+    if (lost)
+        hint(err, "errors grow with the time: end earlier, with a smaller `until` of the definition");
+    else
+        hint(err, "the numbers are there, with the errors that they have; allow a larger error");
+    return MOTUS_ACCURACY;
 }
 
 motus_status accuracy_find(motus_system *system, motus_run_def *def, double steps, accuracy *a, motus_error *err)
@@ -195,8 +211,11 @@ motus_status accuracy_find(motus_system *system, motus_run_def *def, double step
     def->tolerance = s.def.tolerance;
     def->step = s.def.step;
     if (a->reached <= a->wanted) return MOTUS_OK;
-    explain(a, &s);
-    if (isfinite(a->reached)) status = explain_decimals(a, &s, err);
+    a->missed = true;
+    a->by_step = s.search.length > 0;
+    a->size = size;
+    a->time = motus_run_time(a->best);
+    if (isfinite(a->reached)) status = find_decimals(a, &s, err);
     if (status != MOTUS_OK) accuracy_end(a);
     return status;
 }

@@ -6,16 +6,25 @@
 #include "api/search.h"
 
 typedef struct accuracy {
-    double wanted, reached; /* NaN: nothing is wanted; and the largest bar of the best trial, in the same unit */
+    /* NaN: nothing is wanted; and the largest bar of the best trial, in the same unit. INFINITY: no trial came to its
+     * end with digits. */
+    double wanted, reached;
     bool absolute;
     int trials;
-    motus_run *best; /* the trial run with that bar, at its end */
-    char why[256];   /* the accuracy cannot be reached */
+    motus_run *best;      /* the trial run with that bar */
+    bool missed, by_step; /* no trial kept to the accuracy; the trials differed in their step, not in their tolerance */
+    double size;          /* of the best: its step or tolerance, */
+    double time;          /*   and the time to which it went */
+    double rounding;      /* of `reached`, the part of the model's decimals; NaN: it is less than what is wanted */
 } accuracy;
 
 /* Completes a definition that names its method: with the tolerance, or the step, of the best trial. `steps` is about
  * how many the run takes, 0: not known. */
 motus_status accuracy_find(motus_system *, motus_run_def *, double steps, accuracy *, motus_error *);
 void accuracy_end(accuracy *);
+/* The largest error of a run that is at its end, with the size of the best trial, where the trial has none. */
+double accuracy_reached(const accuracy *, const motus_run *);
+/* Says of such a run, whose accuracy was missed, what it has reached. MOTUS_ACCURACY. */
+motus_status accuracy_refuse(const accuracy *, const motus_run *, motus_error *);
 
 #endif

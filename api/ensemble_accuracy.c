@@ -300,9 +300,12 @@ static motus_status say_missed(const attempt *a, size_t count, motus_error *err)
         fail(err, MOTUS_ACCURACY, "the accuracy %s is not reached by %s: no digit of it is significant at the end",
              wanted, which);
     else
-        fail(err, MOTUS_ACCURACY, "the accuracy %s is not reached by %s: its best is %.1e%s", wanted, which, best,
-             a->goal->absolute ? "" : " of the motion's size");
-    hint(err, "the numbers are there, with the errors that they have; ask for less");
+        fail(err, MOTUS_ACCURACY, "the accuracy %s is not reached by %s: its trials reached %.1e%s at best", wanted,
+             which, best, a->goal->absolute ? "" : " of the motion's size");
+    if (isinf(best))
+        hint(err, "errors grow with the time: end earlier, with a smaller `until` of the definition");
+    else
+        hint(err, "the numbers are there, with the errors that they have; allow a larger error");
     return MOTUS_ACCURACY;
 }
 

@@ -103,7 +103,7 @@ motus_status goal_reach(motus_system *s, motus_run_def *def, run_hint *hint, str
     if (status != MOTUS_OK || (!w.automatic && isnan(w.accuracy))) return status;
     struct goal *g = *goal = take(&s->allocator, 1, sizeof *g);
     if (!g) return fail(err, MOTUS_MEMORY, "no memory for the run");
-    *g = (struct goal){.accuracy = {.wanted = NAN, .reached = NAN}};
+    *g = (struct goal){.accuracy = {.wanted = NAN, .reached = NAN, .rounding = NAN}};
     def->method = w.automatic ? NULL : name_of(def, &w);
     def->absolute = w.absolute;
     def->accuracy = NAN;
@@ -138,10 +138,7 @@ bool goal_arrive(motus_run *r, int64_t n)
 motus_status goal_judge(const motus_run *r, motus_error *err)
 {
     const accuracy *a = r->goal ? &r->goal->accuracy : NULL;
-    if (!a || !a->why[0] || !r->arrived || r->legs != 1) return MOTUS_OK;
-    fail(err, MOTUS_ACCURACY, "%s", a->why);
-    hint(err, "the numbers are there, with the errors that they have; ask for less");
-    return MOTUS_ACCURACY;
+    return !a || !a->missed || !r->arrived || r->legs != 1 ? MOTUS_OK : accuracy_refuse(a, r, err);
 }
 
 void goal_statistics(const motus_run *r, motus_statistics *out)
@@ -149,7 +146,7 @@ void goal_statistics(const motus_run *r, motus_statistics *out)
     if (!r->goal) return;
     const accuracy *a = &r->goal->accuracy;
     out->accuracy = a->wanted;
-    out->reached = a->reached;
+    out->reached = accuracy_reached(a, r);
     out->trials = a->trials;
     if (!isnan(a->wanted)) out->absolute = a->absolute;
 }

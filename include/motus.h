@@ -650,7 +650,8 @@ typedef struct motus_statistics {
     double first_step, last_step; /* sizes of the first and of the latest step taken, > 0; NaN before the first */
     double tolerance;             /* of an adaptive method; NaN: steps have one size */
     /* What was asked of the answer, NaN: nothing; and what the trial run with the run's tolerance or step reached, in
-     * the same unit: the largest bar of its numbers. */
+     * the same unit: the largest bar of its numbers. Of a trial that was far off and not taken to its end: that of the
+     * run at its end, before that INFINITY. */
     double accuracy, reached;
     /* The smallest and the largest step of the present leg, without the one that ended at `until`; NaN before them. */
     double shortest_step, longest_step;

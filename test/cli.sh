@@ -495,11 +495,18 @@ that "... an absolute one" holds '.absolute and .reached <= 1e-6'
 that "... and leaves the model's method and step aside" holds '.method != "verlet" and .reached <= 1e-8 and (.state.x - 0.04778309565760847 | fabs) <= 1e-8'
 "$motus" run nostep.motus --accuracy 1e-15 --until 1000 >"$out" 2>"$err"
 status=$?
-that "an accuracy out of reach is said after the numbers" eval "[ $status = 1 ] && grep -q 'accuracy 1e-15 of the motion.s size is not reached' '$out' && grep -qF 'the accuracy 1e-15 cannot be reached: the best is' '$err'"
+that "an accuracy out of reach is said after the numbers" eval "[ $status = 1 ] && grep -q 'accuracy 1e-15 of the motion.s size is not reached' '$out' && grep -qF 'the accuracy 1e-15 is not reached: the trials reached' '$err'"
 "$motus" run nostep.motus --accuracy 1e-15 --until 1000 --json >"$out" 2>"$err"
 status=$?
 that "... in JSON within the one object, and on standard error" eval "[ $status = 1 ] && [ \$(jq -s length '$out') = 1 ] && grep -q 'the accuracy 1e-15' '$err'"
 that "... as \`missed\`, beside the errors" holds '.missed.kind == "accuracy" and (.missed.message | contains("1e-15")) and .error.x > 0 and .reached > .accuracy'
+printf "x' = 10*(y - x)\ny' = x*(28 - z) - y\nz' = x*y - 8/3*z\nx(0)=1; y(0)=1; z(0)=1\nuntil 60\n" >lorenz.motus
+"$motus" run lorenz.motus --accuracy 1e-9 >"$out" 2>"$err"
+lost=$(grep -o 'significant after t = [0-9.]*' "$out")
+that "where no digit is left, the refusal names the time of the run that is printed" eval "[ -n '$lost' ] && grep -qE '$lost\$' '$err'"
+that "... and says what keeps digits, not that there are some" eval "grep -q 'a smaller --until' '$err' && ! grep -q 'the numbers are there' '$err'"
+"$motus" run lorenz.motus --accuracy 1e-9 --until 36 >"$out" 2>"$err"
+that "... and where digits are left, their error, which no trial has told" eval "grep -q 'is not reached: the error is ' '$err' && grep -q 'the numbers are there' '$err'"
 "$motus" check nostep.motus >"$out" 2>"$err"
 that "check names the method that auto takes, and why" eval "grep -A1 '^auto' '$out' | grep -qE '[a-z0-9]+ needs the fewest operations: '"
 "$motus" check nostep.motus --json >"$out" 2>"$err"

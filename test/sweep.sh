@@ -96,7 +96,7 @@ head -n 6 exact.csv >part.csv
 that "... also resumed" cmp exact.csv part.csv
 "${exact[@]}" >"$out"
 that "... also without a file" cmp exact.csv "$out"
-refuses "an accuracy that cannot be reached" 1 "the accuracy 1e-15 cannot be reached: trajectory 0 (F = 0.1) has the error" "$motus" sweep osc.motus --vary F=0.1,0.2 --method dop853 --until 20 --accuracy 1e-15 -o none.csv
+refuses "an accuracy that is not reached" 1 "the accuracy 1e-15 is not reached: trajectory 0 (F = 0.1) has the error" "$motus" sweep osc.motus --vary F=0.1,0.2 --method dop853 --until 20 --accuracy 1e-15 -o none.csv
 refuses "an accuracy by steps of one size" 2 "the steps of verlet have one size" "$motus" sweep osc.motus --vary F=1 --method verlet --accuracy 1e-6 -o no.csv
 refuses "an accuracy and a tolerance" 2 "an accuracy and a tolerance are given" "$motus" sweep osc.motus --vary F=1 --method dop853 --accuracy 1e-6 --tolerance 1e-6 -o no.csv
 sweep osc.motus --vary F=1 --until 20 --accuracy 1e-6 -q >"$out"
