@@ -32,7 +32,7 @@ static void print_accuracy(const motus_statistics *run, FILE *out)
     text_brief(run->accuracy, 3, wanted);
     text_brief(run->reached, 2, reached);
     if (isfinite(run->reached))
-        fprintf(out, "accuracy %s%s %s: the largest error up to the end is %s%s\n", wanted, unit,
+        fprintf(out, "accuracy %s%s %s: the largest error at the ends of steps is %s%s\n", wanted, unit,
                 run->reached <= run->accuracy ? "holds" : "is not reached", reached, unit);
 }
 

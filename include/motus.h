@@ -556,10 +556,11 @@ typedef struct motus_run_def {
     /* Of a method with steps of one size: > 0; NaN: the model's, or motus_suggest's. Its direction follows from
      * `until`. Of an adaptive method, and with an accuracy: NaN. */
     double step;
-    /* How far the answer may be from the exact motion: of every number, at all times up to the end, relative to the
+    /* How far the answer may be from the exact motion: of every number, at the ends of its steps, relative to the
      * largest number so far of its kind (positions, velocities, first-order variables), or in their own units where
      * `absolute` is 1. 1e-15 <= accuracy < 1 where it is relative. NaN: the model's; where nobody gives an accuracy, a
-     * tolerance or a step, and the method is "auto", 1e-9; else none is asked for.
+     * tolerance or a step, and the method is "auto", 1e-9; else none is asked for. Between steps motus_run_sample adds
+     * the error of interpolation, which is not bounded: motus_run_sample_errors tells it.
      *
      * The call that creates the run then finds the tolerance, or the step of a method with steps of one size, by trial
      * runs to the end with a companion each (motus_run_errors): until the bars keep to the accuracy. Where none does,

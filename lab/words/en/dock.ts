@@ -31,7 +31,7 @@ export const dock = {
     reached: (label: string, how: string, reached: string, holds: boolean) => `${label ? `${label}, ` : ''}${how}: ${holds ? `reached ${reached}` : reached ? `only ${reached}` : 'not reached'}`,
     /** The same in sentences; missed: why it is not reached, in the core's words, ''; why: the method was chosen, ''; trials: runs that were tried. */
     told: (label: string, how: string, wanted: string, reached: string, absolute: boolean, missed: string, why: string, trials: number) =>
-      [missed ? `${label}, ${how}: ${missed}.` : `${label} with the ${how} keeps to the accuracy ${wanted}: no number of the answer is off by more than ${reached}${absolute ? '' : ' of its size'}, as ${trials === 1 ? 'a run' : `the last of ${trials} runs`} with a finer one beside it tells.`, why && `It was chosen because ${why}.`].filter(Boolean).join(' '),
+      [missed ? `${label}, ${how}: ${missed}.` : `${label} with the ${how} keeps to the accuracy ${wanted}: at the ends of steps no number is off by more than ${reached}${absolute ? '' : ' of its size'}, as ${trials === 1 ? 'a run' : `the last of ${trials} runs`} with a finer one beside it tells.`, why && `It was chosen because ${why}.`].filter(Boolean).join(' '),
     value: (accuracy: string, reached: string) => `${accuracy}${reached ? `, ${reached}` : ''}`,
     needed: (own: string) => `An accuracy is needed, ${own} say.`,
   },
