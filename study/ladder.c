@@ -23,7 +23,7 @@
 #define TRIES 6      /* between two points */
 #define GARBAGE 0.05 /* relative: a larger error tells no order */
 #define LEFT 10.0    /* relative: a run that is so far away has left the motion */
-#define ROUNDED 1e-7 /* relative: an error below this that no longer falls is rounding */
+#define ROUNDED 1e-7 /* relative: an error below this that no longer falls is rounding, where the force is smooth */
 #define PLATEAU_TOLERANCES 100.0
 #define PLATEAU_STEPS 2.0
 #define FALLS 0.7
@@ -141,8 +141,9 @@ static motus_status add(ladder *l, double setting)
 
 /* From coarse to fine ---------------------------------------------------------------------------------------------- */
 
-/* Whether errors no longer fall: no point within a factor PLATEAU of the finest is better than the best before. */
-static bool rounding(const ladder *l)
+/* Whether errors no longer fall, by rounding or by kinks of the force: no point within a factor PLATEAU of the finest
+ * is better than the best before. */
+static bool stalled(const ladder *l)
 {
     const double unit = l->absolute ? l->t->absolute / l->t->relative : 1; /* of relative errors */
     const double last = l->points[l->count - 1].setting, far = adaptive(l) ? PLATEAU_TOLERANCES : PLATEAU_STEPS;
@@ -164,6 +165,12 @@ static double least(const ladder *l)
 
 bool ladder_failed(const ladder *l) { return !isfinite(least(l)); }
 
+static bool smooth(const ladder *l)
+{
+    motus_analysis analysis = motus_default_analysis();
+    return motus_analysis_of(l->s->system, &analysis) == MOTUS_OK && analysis.smooth;
+}
+
 static double ended(ladder *l, double accuracy, double evaluations)
 {
     char wanted[DECIMAL_MAX];
@@ -176,8 +183,10 @@ static double ended(ladder *l, double accuracy, double evaluations)
     else if (adaptive(l) && l->points[l->count - 1].setting <= TOLERANCE_LEAST)
         snprintf(l->why, sizeof l->why, "its error is above %.1e, with the smallest tolerance too, %g", least(l),
                  TOLERANCE_LEAST);
-    else
+    else if (stalled(l) && smooth(l))
         snprintf(l->why, sizeof l->why, "its error stays above %.1e, because of rounding", least(l));
+    else
+        snprintf(l->why, sizeof l->why, "the best of its %zu runs has the error %.1e", l->count, least(l));
     return 0;
 }
 
@@ -186,7 +195,7 @@ static double next(ladder *l, double accuracy)
 {
     const ladder_point *p = &l->points[l->count - 1];
     const double order = l->card->order;
-    if (rounding(l) || l->count == LADDER_MOST) return ended(l, accuracy, 0);
+    if (stalled(l) || l->count == LADDER_MOST) return ended(l, accuracy, 0);
     const bool known = isfinite(p->error) && p->error > 0;
     const double fall = known ? 0.6 * accuracy / p->error : 1; /* by which the error is to fall */
     const double each =
