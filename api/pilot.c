@@ -93,10 +93,14 @@ static void explain(const fleet *f, size_t chosen, pilot *out)
     for (size_t k = 0; k < f->count; k++) {
         if (k == chosen || !isfinite(f->work[k])) continue;
         const double ratio = f->work[k] / f->best;
+        const bool first = at == 0;
+        char times[48] = "about as many";
+        if (ratio >= 1.05)
+            snprintf(times, sizeof times, "%s%.*f times%s", ratio >= FAR ? "over " : "", ratio < FAR,
+                     ratio >= FAR ? (double)FAR : ratio, first ? " as many" : "");
         at += (size_t)length;
-        length = snprintf(out->why + at, sizeof out->why - at, "%s %s %s%.*f%s", at == (size_t)length ? ":" : ",",
-                          f->names[k], ratio >= FAR ? "over " : "", ratio < FAR, ratio >= FAR ? (double)FAR : ratio,
-                          at == (size_t)length ? " times as many" : "");
+        length = snprintf(out->why + at, sizeof out->why - at, "%s %s%s %s", first ? ":" : ",", f->names[k],
+                          first ? " needs" : "", times);
     }
 }
 

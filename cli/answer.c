@@ -18,7 +18,7 @@ static void print_end(const summary *s, FILE *out)
     if (isfinite(e->rate)) {
         text_brief(e->rate, 2, rate);
         text_brief(LN_10 / e->rate, 2, gain);
-        fprintf(out, " (errors grow as e^{%s t}; ten times the accuracy buys %s)", rate, gain);
+        fprintf(out, " (errors grow as e^{%s t}; a tenth of the error moves that time on by %s)", rate, gain);
     }
     putc('\n', out);
 }
@@ -67,7 +67,7 @@ void answer_print(const summary *s, FILE *out)
     else
         fprintf(out, "± is the error of %s %s: how far the exact motion of the equation may be\n",
                 adaptive ? "tolerance" : "h =", step);
-    fprintf(out, "error: %s × the work", isnan(e->work) ? "0" : work);
+    fprintf(out, "telling the errors took %s × the work of the run", isnan(e->work) ? "0" : work);
     if (e->kinked) fputs("; the force has kinks, and the errors are wide", out);
     if (isnan(e->significant_until) && e->growth > FAR_APART && s->options->error == NULL) {
         text_brief(e->growth, 1, growth);

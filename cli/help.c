@@ -10,8 +10,9 @@ typedef struct page {
 
 static const page pages[] = {
     {VERB_RUN, "motus run MODEL [options]",
-     "Integrates a model and prints the state at the end, its error where the exact motion is known, and the drift of\n"
-     "the invariants. MODEL is a file, or - for standard input.",
+     "Integrates a model and prints the state at the end, each number with its error, and the drift of the "
+     "invariants.\n"
+     "MODEL is a file, or - for standard input.",
      "  motus run models/driven-oscillator.motus\n"
      "  motus run models/pendulum.motus --method rk4 --step 1/64 --until 20\n"
      "  motus run models/spring.motus -o traj.csv --every 0.1 --columns \"t,x,x'\"\n"

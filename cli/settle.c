@@ -22,8 +22,9 @@ static void note(const load *m, const motus_settings *set)
         snprintf(line, sizeof line, "%s %s", m->suggested == SETTLE_STEP ? "step" : "until",
                  m->suggested == SETTLE_STEP ? step : until);
     if (set->rate > 0)
-        snprintf(why, sizeof why, "its fastest rate at the start, %.3g, and its longest period there, %.3g", set->rate,
-                 set->period);
+        snprintf(why, sizeof why,
+                 "its fastest rate at the start, %.3g, and its longest period, or time of growth, there, %.3g",
+                 set->rate, set->period);
     else
         snprintf(why, sizeof why, "its initial values, which change in a time of %.3g", set->period);
     complain_note("the model gives no %s: motus takes %s from %s. To keep %s, add to the model:",

@@ -228,7 +228,7 @@ static void head(const summary *s, FILE *out, bool colours)
     if (refused > 0) fprintf(out, " and %lld refused", (long long)refused);
     fprintf(out, ", %lld evaluations", (long long)motus_run_evaluations(s->run));
     if (motus_run_iterations(s->run) > 0) fprintf(out, ", %lld iterations", (long long)motus_run_iterations(s->run));
-    fprintf(out, ", %s%s\n", spent, done.trials ? " with the search for them" : "");
+    fprintf(out, ", %s%s\n", spent, done.trials ? ", trial runs included" : "");
 }
 
 motus_status summary_print(const summary *s, motus_error *err)

@@ -174,12 +174,12 @@ that "--error none: the same numbers, and no key" [ "$(jq -c '[.state, has("erro
 gives "run for people says its error" 0 "$motus" run $oscillator
 that "... behind the number" says "0.0477824 ± 1.5e-6"
 that "... that it is the error of the step" says "± is the error of h = 0.001"
-that "... and what it cost" says "error: 2 × the work"
+that "... and what it cost" says "telling the errors took 2 × the work of the run"
 gives "--error none for people" 0 "$motus" run $oscillator --error none
 that "... prints all digits" says "0.047782398071872206"
 that "... and no error" lacks "±"
 gives "--error full" 0 "$motus" run $oscillator --error full
-that "... costs three times" says "error: 3 × the work"
+that "... costs three times" says "telling the errors took 3 × the work of the run"
 gives "chaos" 0 "$motus" run models/henon-heiles.motus --until 900
 that "... has an end" says "no digit is significant after t = 3"
 that "... and a rate" says "errors grow as e^{0.04"
@@ -520,7 +520,7 @@ refuses "auto and step" 2 "give --accuracy 1e-9 in its place" "$motus" run noste
 refuses "an accuracy below rounding" 2 "is below the rounding of the numbers" "$motus" run nostep.motus --accuracy 1e-17
 refuses "a negative accuracy" 2 "--accuracy" "$motus" run nostep.motus --accuracy -1
 "$motus" run nostep.motus --method verlet >"$out" 2>"$err"
-that "no step anywhere: one is suggested" eval "grep -qF 'the model gives no step: motus takes it from its fastest rate at the start, 1, and its longest period there, 6.28. To keep it' '$err'"
+that "no step anywhere: one is suggested" eval "grep -qF 'the model gives no step: motus takes it from its fastest rate at the start, 1, and its longest period, or time of growth, there, 6.28. To keep it' '$err'"
 that "... as a line of a model" eval "grep -qx 'step 0.01' '$err'"
 "$motus" run nostep.motus --method verlet --json >"$out" 2>"$err"
 that "... and marked in JSON" holds '.step == 0.01 and .suggested == {"step": 0.01}'
