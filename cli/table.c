@@ -71,7 +71,7 @@ void table_number(table *t, double value, int digits)
 void table_exact(table *t, double value)
 {
     char text[DECIMAL_MAX];
-    decimal(value, text);
+    decimal(value == 0 ? 0 : value, text); /* no -0 */
     table_cell(t, text);
 }
 

@@ -510,6 +510,11 @@ that "... and where digits are left, their error, which no trial has told" eval 
 printf "x'' = -(1+3*(x<0))*x\nx(0)=1\nx'(0)=0\nuntil 20\n" >kinked.motus
 "$motus" compare kinked.motus --accuracies 1e-3:1e-8 --methods gauss4 >"$out" 2>"$err"
 that "where kinks keep a method from an accuracy, compare does not blame rounding" eval "grep -qE 'gauss4: the best of its [0-9]+ runs has the error' '$out' && ! grep -q rounding '$out'"
+printf "x'' = 0\nx(0)=0\nx'(0)=0\nuntil 1\nw = -x\n" >signless.motus
+for how in cheap none; do
+    "$motus" run signless.motus --error $how >"$out" 2>"$err"
+    that "a component that is 0 has no sign, --error $how" eval "grep -qE '^ +w +0( |\$)' '$out'"
+done
 "$motus" check nostep.motus >"$out" 2>"$err"
 that "check names the method that auto takes, and why" eval "grep -A1 '^auto' '$out' | grep -qE '[a-z0-9]+ needs the fewest operations: '"
 "$motus" check nostep.motus --json >"$out" 2>"$err"
