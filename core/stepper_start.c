@@ -34,7 +34,7 @@ motus_status stepper_report(const stepper *s, int bad, double t, motus_error *er
                       s->method.name, time, name);
         hint(err, "the step is %s; take a smaller one, for which the starting guess is nearer to the solution", step);
     } else if (bad == STEP_STALLED) {
-        const bool limited = w->t + w->next != w->t;
+        const bool limited = s->method.least > 0 && w->t + s->method.least != w->t;
         decimal(s->method.least, step);
         status = limited ? fail(err, MOTUS_DIVERGED, "at t = %s the tolerance needs a step shorter than %s", time, step)
                          : fail(err, MOTUS_DIVERGED, "the step that error control needs is too small to change t = %s",

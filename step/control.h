@@ -84,6 +84,7 @@ static inline int control_first(work *w)
         h = CHOOSE_WHERE((by_v > 0) & (by_v < h), by_v, h);
         h = CHOOSE_WHERE((by_a > 0) & (by_a < h), by_a, h);
     }
+    h = CHOOSE_WHERE(h < w->least, CLOCK(w->least), h);
     h = CHOOSE_WHERE(h < w->most, h, w->most);
     h = CHOOSE_WHERE(h < 1e300, h, CLOCK(1)); /* neither an end nor a size is known */
     w->next = CHOOSE_WHERE(first, CHOOSE_WHERE(way < 0, -h, h), w->next);

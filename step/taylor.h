@@ -207,6 +207,10 @@ static int taylor_step(work *w)
     w->error = taylor_error(w, free);
     w->error = CHOOSE_WHERE(FINITE(w->error) & (ABS(w->h) <= 4 * EPSILON * ABS(w->t)), CLOCK(0), w->error);
     w->after = CHOOSE_WHERE(w->error <= 1, w->after, w->h / 2);
+    /* a step that is shorter than the least is refused, and leaves its size, which ends the run */
+    const clock_mask shorter = free < w->least;
+    w->error = CHOOSE_WHERE(shorter, CLOCK(NAN), w->error);
+    w->after = CHOOSE_WHERE(shorter, forward * free, w->after);
     w->fresh = false; /* a is coefficient 0, by equations that are written in another way */
     return STEP_OK;
 }

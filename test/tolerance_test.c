@@ -140,13 +140,43 @@ static void orders_go_with_the_tolerance(void **unused)
     }
 }
 
+/* Every adaptive row refuses where it needs shorter steps than the shortest, and keeps to it where it needs none. */
+static void no_step_is_shorter_than_the_least(void **unused)
+{
+    (void)unused;
+    motus_system *s = given_text("x'' = -sin(x)\nx(0) = 1\nx'(0) = 0\n");
+    for (size_t m = 0; m < motus_method_count(); m++) {
+        const motus_method *card = motus_method_at(m);
+        for (int k = 0; card->adaptive && k < 4; k++) {
+            const int needed = k < 2;
+            motus_run_def def = motus_default_run();
+            motus_error err = motus_default_error();
+            motus_run *r = NULL;
+            def.method = card->name, def.until = 20, def.tolerance = 1e-9;
+            def.machine = k % 2 ? "compiled" : "interpreter";
+            def.shortest_step = needed ? 2 : 1e-5;
+            if (motus_method_admits(s, card->name, NULL) != MOTUS_OK) continue;
+            must(motus_run_create(s, &def, &r, &err), &err, card->name);
+            const motus_status status = motus_run_finish(r, &err);
+            if (status != (needed ? MOTUS_DIVERGED : MOTUS_OK)) fail_msg("%s: status %d", card->name, (int)status);
+            if (needed && !strstr(err.message, "needs a step shorter than 2"))
+                fail_msg("%s: %s", card->name, err.message);
+            motus_statistics done = motus_default_statistics();
+            must(motus_run_statistics(r, &done), &err, card->name);
+            if (!needed && !(done.shortest_step >= def.shortest_step))
+                fail_msg("%s: a step of %g", card->name, done.shortest_step);
+            motus_run_destroy(r);
+        }
+    }
+    motus_system_destroy(s);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(steps_keep_the_tolerance),
-        cmocka_unit_test(stiff_steps_are_solved),
-        cmocka_unit_test(steps_go_with_the_order),
-        cmocka_unit_test(orders_go_with_the_tolerance),
+        cmocka_unit_test(steps_keep_the_tolerance),          cmocka_unit_test(stiff_steps_are_solved),
+        cmocka_unit_test(steps_go_with_the_order),           cmocka_unit_test(orders_go_with_the_tolerance),
+        cmocka_unit_test(no_step_is_shorter_than_the_least),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
