@@ -65,7 +65,7 @@ motus_status bars_make(motus_run *r, motus_bars kind, const size_t *columns, con
 void bars_destroy(motus_run *r)
 {
     if (!r->bars) return;
-    const chosen method = companion_method(&r->chosen);
+    const chosen method = companion_method(&r->chosen, r->system);
     if (bars_wait(r)) choice_leave(r->bars->half.system, &method);
     companion_end(&r->bars->half, &r->allocator);
     companion_end(&r->bars->twin, &r->allocator);
@@ -94,7 +94,7 @@ static motus_status compile_half(motus_run *r, motus_error *err)
     compiled_state state;
     machine m;
     if (!c->system) return MOTUS_OK; /* it is made later, for the run's machine */
-    const chosen method = companion_method(&r->chosen);
+    const chosen method = companion_method(&r->chosen, r->system);
     motus_status status = choice_begin(c->system, &method, &state, &m, &why, err);
     if (status == MOTUS_OK) status = take_machine(c, state, &m);
     if (c->waits) later_hurry(r);
@@ -118,7 +118,7 @@ motus_status bars_look(motus_run *r, motus_error *err)
     machine m;
     if (!bars_wait(r)) return MOTUS_OK;
     companion *c = &r->bars->half;
-    const chosen method = companion_method(&r->chosen);
+    const chosen method = companion_method(&r->chosen, r->system);
     motus_status status = choice_look(c->system, &method, &state, &m, &why, err);
     c->waits = state == COMPILED_WAIT;
     return status == MOTUS_OK ? take_machine(c, state, &m) : status;
@@ -165,7 +165,7 @@ motus_status bars_ready(motus_run *r, const uint8_t *affected, motus_error *err)
     r->bars->twin.pace = c->pace;
     if (strcmp(r->machine.name, "compiled") != 0) return MOTUS_OK;
     if (compiled_anywhere() && r->later.automatic) return compile_half(r, err);
-    const chosen method = companion_method(&r->chosen);
+    const chosen method = companion_method(&r->chosen, r->system);
     return choice_compile(c->system, &method, false, r->bars->kept, &c->machine, &why, err);
 }
 

@@ -16,12 +16,14 @@ typedef struct companion {
     double *x, *v;  /* its state at the last landing, in the inside order */
     double t;       /* of the last landing */
     int64_t before; /* steps that the run had taken when it began */
+    bool controls;  /* it controls its error, and */
+    int64_t room;   /*   may take so many steps more */
     pace pace;
 } companion;
 
-/* The method of the companion of about half the step: that of the run, without error control; Beeman's has another, see
- * companion.c. */
-chosen companion_method(const chosen *);
+/* The method of the companion of about half the step: that of the run, without error control, or with less allowed
+ * where the system's force is not smooth; Beeman's has another, see companion.c. */
+chosen companion_method(const chosen *, const motus_system *);
 /* From the state x, v at t, where the run stands, with the run's method. The state is copied. */
 motus_status companion_begin(companion *, const motus_run *, double t, const double *x, const double *v, motus_error *);
 /* Lands at t, where the run has taken `steps` steps since the last landing, of which the last may be in part. */

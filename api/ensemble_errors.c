@@ -59,7 +59,7 @@ motus_status ensemble_errors_half(motus_ensemble *e, motus_error *err)
 {
     const uint8_t *affected = e->vary ? vary_affected(e->vary) : NULL;
     motus_status status = shadow_create(e->system, affected, &e->half, err);
-    e->half_chosen = companion_method(&e->chosen);
+    e->half_chosen = companion_method(&e->chosen, e->system);
     if (status != MOTUS_OK) return status;
     return vary_create(e->half->model, e->places, e->vary_count, true, true, &e->half_vary, err);
 }

@@ -540,7 +540,8 @@ typedef enum motus_switches {
 typedef enum motus_bars {
     MOTUS_BARS_NONE,
     /* By a companion, a run of about half the step, or of two halves of every step that adapts, with every decimal
-     * rounded to the other side. */
+     * rounded to the other side. Where steps adapt and the force is not smooth, the companion takes steps of its own,
+     * by a smaller tolerance. */
     MOTUS_BARS_CHEAP,
     /* By a second companion too, of the same steps, that begins an ulp away: for motions that pass close encounters. */
     MOTUS_BARS_FULL

@@ -8,6 +8,8 @@
  * where it is at most 10 times the error, or 4 ulp.
  * Among numbers that are normally distributed 99 % lie within 2.6 standard deviations; a bar that one sample has to set
  * cannot have more than 99 % of the errors and 90 % of the tightness everywhere, and so all are counted together.
+ *
+ * Of forces with kinks and jumps three motions are known by formulas.
  */
 #include "test/given.h"
 
@@ -233,9 +235,86 @@ static void all_together(void **state)
     assert_true(percent(all.tight, all.counted) >= 90);
 }
 
+/* ---- kinks and jumps ---- */
+
+/* Motions from x = 1/2 at rest whose force changes at x = 0: they swing with one frequency on the right and another on
+ * the left. 0: the force is constant there. */
+typedef struct kinked {
+    const char *text;
+    long double right, left;
+} kinked;
+
+static const long double PI = 3.14159265358979323846264338327950288L;
+static const kinked kinks[] = {
+    {"x'' = -sign(x)\nx(0) = 0.5\nx'(0) = 0\n", 0, 0},
+    {"x'' = -(1 + 3 (x < 0)) x\nx(0) = 0.5\nx'(0) = 0\n", 1, 2},
+    {"x'' = -x - 0.5 |x|\nx(0) = 0.5\nx'(0) = 0\n", 1.22474487139158904909864203735294570L,
+     0.70710678118654752440084436210484904L},
+};
+enum { KINKS = sizeof kinks / sizeof *kinks, ENDS = 200, WISHES = 5, TOLERANCES = 3 };
+
+static void known_kinked(const kinked *m, long double t, long double y[2])
+{
+    if (m->right == 0) { /* parabolas, of two units of time each */
+        const long double s = fmodl(t + 1, 4), side = s < 2 ? 1 : -1, at = s < 2 ? s : s - 2;
+        y[0] = side * (at - at * at / 2), y[1] = side * (1 - at);
+        return;
+    }
+    const long double half = PI / m->right, s = fmodl(t + half / 2, half + PI / m->left), side = s < half ? 1 : -1;
+    const long double rate = s < half ? m->right : m->left, at = s < half ? s : s - half, speed = m->right / 2;
+    y[0] = side * speed / rate * sinl(rate * at), y[1] = side * speed * cosl(rate * at);
+}
+
+static void kinked_run(const kinked *m, motus_system *s, const char *method, double until, int wish, tally *t)
+{
+    static const double wishes[WISHES] = {1e-4, 1e-7, 1e-10, 1e-4, 1e-7};
+    motus_run_def def = motus_default_run();
+    motus_error err = motus_default_error();
+    motus_run *r = NULL;
+    def.method = method, def.machine = "interpreter", def.error = MOTUS_BARS_CHEAP, def.until = until;
+    if (wish < TOLERANCES)
+        def.tolerance = wishes[wish];
+    else
+        def.accuracy = wishes[wish];
+    motus_status status = motus_run_create(s, &def, &r, &err);
+    if (status == MOTUS_OK) status = motus_run_finish(r, &err);
+    if (status != MOTUS_ACCURACY) must(status, &err, method);
+    const size_t columns[2] = {1, 2};
+    double values[2], errors[2];
+    long double truth[2];
+    known_kinked(m, until, truth);
+    if (status == MOTUS_OK) must(motus_run_errors(r, columns, 2, values, errors, &err), &err, method);
+    for (size_t k = 0; k < 2 && status == MOTUS_OK; k++) count(t, values[k], errors[k], truth[k]);
+    motus_run_destroy(r);
+}
+
+/* Steps and the companion's steps pass a jump at places of their own. */
+static void forces_with_kinks(void **state)
+{
+    (void)state;
+    static const char *const methods[] = {"taylor", "dop853", "radau15", "auto"};
+    for (int m = 0; m < 4; m++) {
+        const int first = strcmp(methods[m], "auto") ? 0 : TOLERANCES; /* auto wants an accuracy */
+        tally t = {0};
+        for (size_t k = 0; k < KINKS; k++) {
+            motus_system *s = given_text(kinks[k].text);
+            uint64_t z = 12345 + k;
+            for (int i = 0; i < ENDS * (WISHES - first); i++) {
+                z = z * 6364136223846793005u + 1442695040888963407u;
+                kinked_run(&kinks[k], s, methods[m], 2 + 12 * (double)(z >> 11) * 0x1p-53, first + i / ENDS, &t);
+            }
+            motus_system_destroy(s);
+        }
+        print_tally(methods[m], &t);
+        assert_true(t.counted > ENDS * 2 * (long)KINKS * (WISHES - first) * 9 / 10 && t.none == 0);
+        if (percent(t.covered, t.counted) < 99) fail_msg("%s: too few errors are within their bars", methods[m]);
+        if (percent(t.tight, t.counted) < 90) fail_msg("%s: too few bars are tight", methods[m]);
+    }
+}
+
 int main(void)
 {
-    static struct CMUnitTest tests[CASES_MAX + 1];
+    static struct CMUnitTest tests[CASES_MAX + 2];
     size_t count = 0;
     read_cases();
     if (motus_method_count() > METHODS_MAX) return 1;
@@ -244,5 +323,6 @@ int main(void)
             tests[count++] =
                 (struct CMUnitTest){.name = cases[i].label, .test_func = one_case, .initial_state = &cases[i]};
     tests[count++] = (struct CMUnitTest)cmocka_unit_test(all_together);
+    tests[count++] = (struct CMUnitTest)cmocka_unit_test(forces_with_kinks);
     return _cmocka_run_group_tests("bars of error", tests, count, NULL, NULL);
 }
