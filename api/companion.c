@@ -9,7 +9,8 @@
  * Where steps adapt it takes each accepted step of the run in two halves, with a tolerance by which no error is too
  * large, and of the same order where a step chooses that.
  *
- * Where the force has kinks or jumps as well, it controls its error, with a tolerance of its own. By halves of the run's
+ * Where the force has kinks or jumps as well, it controls its error, with a tolerance of its own. By halves of the
+ * run's
  * steps both would pass a jump in the same step from the same state as often as not, with the same error: of 6000
  * numbers of three such motions by Taylor series 2331 were then beyond their bars, with a tolerance of its own 13. The
  * tolerance is that of steps half as long, 2^-(p + 1) of the run's, but at least 2^-10, since an error at a jump does
