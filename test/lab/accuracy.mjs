@@ -104,7 +104,8 @@ await attempt('what cannot be reached', async () => {
   const page = await open(of(lorenz, '&a=dop853&g=1e-9')), { stderr } = run(lorenz, '--method', 'dop853', '--accuracy', '1e-9'), said = /motus: (.*)/.exec(stderr)?.[1];
   judge('the program says that it cannot', /is not reached/.test(said ?? ''), stderr);
   const text = await page.locator('#status').textContent();
-  judge('the page says the same, of the method', text.includes(said) && text.includes('Dormand–Prince'), `${text} | ${said}`);
+  // Its run has no bars of error, so it tells of the trials where the program tells of the run.
+  judge('the page says the same, of the method', text.includes(said.split(':')[0]) && text.includes('Dormand–Prince'), `${text} | ${said}`);
   judge('… beside the number, too', /not reached/.test(await dial(page, 'accuracy').locator('.steps').textContent()), await dial(page, 'accuracy').locator('.steps').textContent());
   judge('the motion is there nevertheless', await page.locator('#stage-figure figcaption').textContent().then((t) => /\w/.test(t)));
   await clean('what cannot be reached', page);
