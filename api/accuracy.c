@@ -210,10 +210,10 @@ motus_status accuracy_find(motus_system *system, motus_run_def *def, double step
     *s.size = size;
     def->tolerance = s.def.tolerance;
     def->step = s.def.step;
-    if (a->reached <= a->wanted) return MOTUS_OK;
-    a->missed = true;
     a->by_step = s.search.length > 0;
     a->size = size;
+    if (a->reached <= a->wanted) return MOTUS_OK;
+    a->missed = true;
     a->time = motus_run_time(a->best);
     if (isfinite(a->reached)) status = find_decimals(a, &s, err);
     if (status != MOTUS_OK) accuracy_end(a);

@@ -138,7 +138,13 @@ bool goal_arrive(motus_run *r, int64_t n)
 motus_status goal_judge(const motus_run *r, motus_error *err)
 {
     const accuracy *a = r->goal ? &r->goal->accuracy : NULL;
-    return !a || !a->missed || !r->arrived || r->legs != 1 ? MOTUS_OK : accuracy_refuse(a, r, err);
+    if (!a || !r->arrived || r->legs != 1) return MOTUS_OK;
+    return a->missed || accuracy_reached(a, r) > a->wanted ? accuracy_refuse(a, r, err) : MOTUS_OK;
+}
+
+void goal_restored(motus_run *r)
+{
+    if (r->goal) r->goal->accuracy.reached = NAN;
 }
 
 void goal_statistics(const motus_run *r, motus_statistics *out)

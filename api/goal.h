@@ -26,6 +26,8 @@ motus_status goal_reach(motus_system *, motus_run_def *, run_hint *, struct goal
 bool goal_arrive(motus_run *, int64_t n);
 /* MOTUS_ACCURACY, where the run is at its end and its accuracy was not reached. */
 motus_status goal_judge(const motus_run *, motus_error *);
+/* The run goes on from a restart state, whose errors no trial had: what it reaches, its own bars tell. */
+void goal_restored(motus_run *);
 void goal_statistics(const motus_run *, motus_statistics *);
 void goal_destroy(const motus_system *, struct goal *);
 

@@ -14,6 +14,7 @@
  *     …
  *     end 51b0…               hash of all the bytes before, so that a changed byte is found
  */
+#include "api/goal.h"
 #include "api/bars.h"
 
 #include "base/decimal.h"
@@ -339,5 +340,6 @@ motus_status motus_run_restore(motus_run *r, const char *text, size_t length, mo
     modes m = modes_enter(); /* before the numbers are read, so that no subnormal is flushed */
     motus_status status = restore(r, text, length, err);
     modes_leave(m);
+    if (status == MOTUS_OK) goal_restored(r);
     return status;
 }
