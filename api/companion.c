@@ -10,14 +10,13 @@
  * large, and of the same order where a step chooses that.
  *
  * Where the force has kinks or jumps as well, it controls its error, with a tolerance of its own. By halves of the
- * run's
- * steps both would pass a jump in the same step from the same state as often as not, with the same error: of 6000
- * numbers of three such motions by Taylor series 2331 were then beyond their bars, with a tolerance of its own 13. The
- * tolerance is that of steps half as long, 2^-(p + 1) of the run's, but at least 2^-10, since an error at a jump does
- * not go with the order. Where a step does not evaluate the force at its end, no error estimate knows of a jump behind
- * the last abscissa, a fortieth of the step by Gauss-Radau; so the companion takes the last part of each step apart.
- * Where a force holds the motion at a jump (Coulomb friction) steps as short as a smaller tolerance wants them may be
- * thousands for one of the run's; the companion then gives up.
+ * run's steps both would pass a jump in the same step from the same state as often as not, with the same error: of
+ * 6000 numbers of three such motions by Taylor series 2331 were then beyond their bars, with a tolerance of its own
+ * 13. The tolerance is that of steps half as long, 2^-(p + 1) of the run's, but at least 2^-10, since an error at a
+ * jump does not go with the order. Where a step does not evaluate the force at its end, no error estimate knows of a
+ * jump behind the last abscissa, a fortieth of the step by Gauss-Radau; so the companion takes the last part of each
+ * step apart. Where a force holds the motion at a jump (Coulomb friction) steps as short as a smaller tolerance
+ * wants them may be thousands for one of the run's; the companion then gives up.
  *
  * Beeman's companion is velocity Verlet's method, which has the same positions: Beeman's velocities are not those by
  * which its positions go on, so that beginning anew at every landing would be an error of its own.

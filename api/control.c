@@ -10,7 +10,7 @@
 #include <math.h>
 #include <string.h>
 
-#define TOLERANCE_LEAST 1e-15 /* of a relative tolerance: a few roundings */
+#define RELATIVE_LEAST 1e-15 /* a few roundings */
 
 control_wish control_wish_of_run(const motus_run_def *d)
 {
@@ -32,14 +32,14 @@ static motus_status refuse_tolerance(const chosen *c, const char *what, motus_er
     return MOTUS_ARGUMENT;
 }
 
-static motus_status check_tolerance(double tolerance, bool absolute, motus_error *err)
+motus_status control_admits(const char *what, double value, bool absolute, motus_error *err)
 {
-    if (!(tolerance > 0) || !isfinite(tolerance))
-        return fail(err, MOTUS_ARGUMENT, "a tolerance is a positive number, not %g", tolerance);
-    if (absolute || (tolerance >= TOLERANCE_LEAST && tolerance < 1)) return MOTUS_OK;
-    fail(err, MOTUS_ARGUMENT, "the relative tolerance %g %s", tolerance,
-         tolerance < 1 ? "is below the rounding of the numbers" : "allows errors as large as the motion");
-    hint(err, "give one from %g to 0.1", TOLERANCE_LEAST);
+    if (!(value > 0) || !isfinite(value))
+        return fail(err, MOTUS_ARGUMENT, "%s is a positive number, not %g", what, value);
+    if (absolute || (value >= RELATIVE_LEAST && value < 1)) return MOTUS_OK;
+    fail(err, MOTUS_ARGUMENT, "the relative %s %g %s", strchr(what, ' ') + 1, value,
+         value < 1 ? "is below the rounding of the numbers" : "allows errors as large as the motion");
+    hint(err, "give one from %g to 0.1", RELATIVE_LEAST);
     return MOTUS_ARGUMENT;
 }
 
@@ -88,7 +88,7 @@ motus_status control_choose(const motus_system *s, const control_wish *w, chosen
     const double tolerance = own ? set.tolerance : isnan(w->tolerance) ? ROW_TOLERANCE : w->tolerance;
     const bool absolute = own ? set.absolute : w->absolute;
     if (absolute && row_reversible_steps(c)) return refuse_absolute(c, err);
-    motus_status status = check_tolerance(tolerance, absolute, err);
+    motus_status status = control_admits("a tolerance", tolerance, absolute, err);
     if (status == MOTUS_OK) status = check_limits(w, err);
     if (status != MOTUS_OK) return status;
     c->relative = absolute ? 0 : fmin(tolerance, stepper_tolerance_most(c));

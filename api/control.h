@@ -17,4 +17,7 @@ control_wish control_wish_of_run(const motus_run_def *);
  * model gives a number that the method does not take, or one out of its range. */
 motus_status control_choose(const motus_system *, const control_wish *, chosen *, motus_error *);
 
+/* Whether an error can be asked for at all: `what` is "a tolerance" or "an accuracy". MOTUS_ARGUMENT. */
+motus_status control_admits(const char *what, double value, bool absolute, motus_error *);
+
 #endif

@@ -8,6 +8,7 @@
  * trajectories, nor on how they are divided among calls, nor on lanes and threads.
  */
 #include "api/choice.h"
+#include "api/control.h"
 #include "api/ensemble.h"
 #include "api/goal.h"
 
@@ -58,7 +59,7 @@ static motus_status judge(const motus_ensemble_def *d, const goal_wish *w, const
     const motus_method *card = NULL;
     const bool step = !isnan(d->step) || !isnan(w->set.step);
     motus_status status = search_alone(!isnan(d->accuracy) && !isnan(d->tolerance), step, err);
-    if (status == MOTUS_OK) status = search_admits(w->accuracy, w->absolute, err);
+    if (status == MOTUS_OK) status = control_admits("an accuracy", w->accuracy, w->absolute, err);
     if (status != MOTUS_OK || motus_method_find(method, &card, NULL) != MOTUS_OK) return status;
     return card->adaptive ? MOTUS_OK : refuse_fixed(card->name, err);
 }

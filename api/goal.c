@@ -7,6 +7,7 @@
 
 #include "api/bars.h"
 #include "api/choice.h"
+#include "api/control.h"
 #include "api/later.h"
 #include "api/pilot.h"
 #include "api/suggest.h"
@@ -54,7 +55,7 @@ static motus_status check(const motus_run_def *def, const goal_wish *w, motus_er
     if (status != MOTUS_OK) return status;
     if (def->switches != MOTUS_SWITCHES_STEP)
         return fail(err, MOTUS_UNAVAILABLE, "a run that locates switches cannot be given an accuracy");
-    return search_admits(w->accuracy, w->absolute, err);
+    return control_admits("an accuracy", w->accuracy, w->absolute, err);
 }
 
 /* The start and the end, which pilot and trial runs need. */

@@ -16,7 +16,6 @@
 #include <math.h>
 
 enum { TRIALS = 6, STUCK = 2 };
-#define ACCURACY_LEAST 1e-15  /* of a relative one: a few roundings */
 #define MARGIN 0.3            /* the next trial aims at this part of what is wanted */
 #define HOPELESS 30           /* a trial whose bars are so many times what is wanted is stopped, */
 #define ROUNDED 1e-8          /*   unless they are below this, relative to the motion; */
@@ -43,17 +42,6 @@ motus_status search_alone(bool tolerance, bool step, motus_error *err)
         return refuse("a step and an accuracy are given", "give one of them: the accuracy decides how long steps are",
                       err);
     return MOTUS_OK;
-}
-
-motus_status search_admits(double accuracy, bool absolute, motus_error *err)
-{
-    if (!(accuracy > 0) || !isfinite(accuracy))
-        return fail(err, MOTUS_ARGUMENT, "an accuracy is a positive number, not %g", accuracy);
-    if (absolute || (accuracy >= ACCURACY_LEAST && accuracy < 1)) return MOTUS_OK;
-    fail(err, MOTUS_ARGUMENT, "the relative accuracy %g %s", accuracy,
-         accuracy < 1 ? "is below the rounding of the numbers" : "allows errors as large as the motion");
-    hint(err, "give one from %g to 0.1", ACCURACY_LEAST);
-    return MOTUS_ARGUMENT;
 }
 
 /* Steps of one size divide the way; a tolerance has two digits, so that it can be given again. */

@@ -23,8 +23,7 @@ typedef struct search {
     int trials;
 } search;
 
-/* Whether an accuracy can be asked for at all; with a tolerance or a step it cannot. MOTUS_ARGUMENT. */
-motus_status search_admits(double accuracy, bool absolute, motus_error *);
+/* Whether an accuracy can be asked for: not with a tolerance or a step. MOTUS_ARGUMENT. */
 motus_status search_alone(bool tolerance, bool step, motus_error *);
 
 /* By tolerances, from a tenth of what is wanted on. By steps, from this one on, over a way of this length. */
