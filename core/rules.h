@@ -1,0 +1,73 @@
+/* Rules: what is to happen at which instants of a motion. The engine of events (core/events.h) shares this with the
+ * models and callbacks that supply rules.
+ *
+ * A rule watches functions g of the time and the state. It has `leaves` functions for each of its instances: a family
+ * of rules (`for i = 1..N`) has an instance for each of its cells, numbered as the cells of an array over the hull of
+ * its indices; a cell that has no rule has NaN for its functions. The function of leaf l and instance i is number
+ * first + l * instances + i.
+ *
+ * RULE_ROOT, `when a = b`: one leaf, a - b. It happens where the function passes 0, in one direction or in both, and
+ * where it touches 0 (both directions only).
+ * RULE_CONDITION, `when x > 1 and y < 2`: a leaf for each comparison, positive where that holds: a - b for a > b and
+ * a >= b, b - a for a < b and a <= b. It happens where the formula becomes true.
+ * RULE_CLOCK, `when every T`: no leaves; it happens at start + T, start + 2 T and so on.
+ * RULE_ACCUMULATES, `when NAME accumulates`: no leaves; it happens where the events of rule `of` accumulate.
+ *
+ * Modes and what events keep are numbers of the state: positions without velocity and acceleration, which rules alone
+ * change (lang/model/model.h).
+ */
+#ifndef CORE_RULES_H
+#define CORE_RULES_H
+
+#include "base/error.h"
+
+#include <stdbool.h>
+
+typedef enum rule_kind { RULE_ROOT, RULE_CONDITION, RULE_CLOCK, RULE_ACCUMULATES } rule_kind;
+
+enum {
+    RULE_AND = -1, /* in the formula of a condition, in postfix order, beside numbers of leaves >= 0 */
+    RULE_OR = -2,
+    RULE_NOT = -3,
+    RULE_FORMULA_MOST = 128,      /* words of a formula */
+    RULES_MOST = 4096,            /* rules of a model */
+    RULE_FUNCTIONS_MOST = 1 << 20 /* functions of all rules, instances counted */
+};
+
+typedef struct rule {
+    const char *name; /* as NAME, or event1, event2, … */
+    rule_kind kind;
+    int direction; /* of RULE_ROOT: 1 rising, -1 falling, 0 both */
+    size_t first;  /* number of its first function */
+    size_t leaves, instances;
+    const int16_t *formula; /* of RULE_CONDITION, `words` of them */
+    int words;
+    double period; /* of RULE_CLOCK: positive */
+    size_t of;     /* of RULE_ACCUMULATES: number of a rule */
+    bool records;  /* it has a row in the table of events */
+    bool assigns;  /* act changes numbers on which the motion or a rule depends: it ends the step */
+    bool keeps;    /* act changes only numbers that observers alone read: it ends no step */
+    int64_t stop;  /* the run ends at this event of the rule: 1 `stop`, N `stop after N`, 0 never */
+} rule;
+
+typedef struct rules {
+    void *ctx;
+    const rule *rule;
+    size_t count;
+    size_t functions;   /* of all rules */
+    const size_t *kept; /* places in x that `keeps` rules change */
+    size_t kept_count;
+    /* The functions at a state, whose driven boundary cells are refreshed: `functions` numbers. Other than 0: the
+     * caller's own function failed. */
+    int (*values)(void *ctx, double t, double *x, double *v, double *out);
+    /* A bound on how far rounding may have carried each of these values, those of t and the state counted as half a
+     * unit in the last place each. NULL: no formula is known. */
+    void (*rounding)(void *ctx, double t, double *x, double *v, double *out);
+    /* What the rule does to x and v, as if at once; other than 0: the caller's own function failed, or a value was not
+     * finite and `which` of `in_v` says where. */
+    int (*act)(void *ctx, size_t rule, size_t instance, double t, double *x, double *v, bool *in_v, size_t *which);
+    /* Text of an instance for messages and tables: "bounce", "contact[1,2]". */
+    void (*name)(void *ctx, size_t rule, size_t instance, char *out, size_t size);
+} rules;
+
+#endif
