@@ -8,8 +8,9 @@
  *
  * RULE_ROOT, `when a = b`: one leaf, a - b. It happens where the function passes 0, in one direction or in both, and
  * where it touches 0 (both directions only).
- * RULE_CONDITION, `when x > 1 and y < 2`: a leaf for each comparison, positive where that holds: a - b for a > b and
- * a >= b, b - a for a < b and a <= b. It happens where the formula becomes true.
+ * RULE_CONDITION, `when x > 1 and y < 2`: a leaf for each comparison: a - b for a > b, a >= b, a == b and a != b,
+ * b - a for a < b and a <= b; `compares` says what it asks of the leaf. It happens where the formula becomes true. A
+ * leaf == on its way through 0 holds for that instant, so `x == 0 and y > 0` happens there.
  * RULE_CLOCK, `when every T`: no leaves; it happens at start + T, start + 2 T and so on.
  * RULE_ACCUMULATES, `when NAME accumulates`: no leaves; it happens where the events of rule `of` accumulate.
  *
@@ -22,8 +23,12 @@
 #include "base/error.h"
 
 #include <stdbool.h>
+#include <stdint.h>
 
 typedef enum rule_kind { RULE_ROOT, RULE_CONDITION, RULE_CLOCK, RULE_ACCUMULATES } rule_kind;
+
+/* What a comparison asks of its leaf g; they differ where g stays 0, as it may for modes. */
+typedef enum rule_comparison { RULE_ABOVE /* g > 0 */, RULE_AT_LEAST /* g >= 0 */, RULE_AT, RULE_OFF } rule_comparison;
 
 enum {
     RULE_AND = -1, /* in the formula of a condition, in postfix order, beside numbers of leaves >= 0 */
@@ -42,12 +47,13 @@ typedef struct rule {
     size_t leaves, instances;
     const int16_t *formula; /* of RULE_CONDITION, `words` of them */
     int words;
-    double period; /* of RULE_CLOCK: positive */
-    size_t of;     /* of RULE_ACCUMULATES: number of a rule */
-    bool records;  /* it has a row in the table of events */
-    bool assigns;  /* act changes numbers on which the motion or a rule depends: it ends the step */
-    bool keeps;    /* act changes only numbers that observers alone read: it ends no step */
-    int64_t stop;  /* the run ends at this event of the rule: 1 `stop`, N `stop after N`, 0 never */
+    const uint8_t *compares; /* of RULE_CONDITION: rule_comparison of every leaf */
+    double period;           /* of RULE_CLOCK: positive */
+    size_t of;               /* of RULE_ACCUMULATES: number of a rule */
+    bool records;            /* it has a row in the table of events */
+    bool assigns;            /* act changes numbers on which the motion or a rule depends: it ends the step */
+    bool keeps;              /* act changes only numbers that observers alone read: it ends no step */
+    int64_t stop;            /* the run ends at this event of the rule: 1 `stop`, N `stop after N`, 0 never */
 } rule;
 
 typedef struct rules {
@@ -60,6 +66,8 @@ typedef struct rules {
     /* The functions at a state, whose driven boundary cells are refreshed: `functions` numbers. Other than 0: the
      * caller's own function failed. */
     int (*values)(void *ctx, double t, double *x, double *v, double *out);
+    /* Their rates along the motion, dg/dt + (dg/dx) v + (dg/dv) a; a: the acceleration at the state. */
+    int (*rates)(void *ctx, double t, double *x, double *v, double *a, double *out);
     /* A bound on how far rounding may have carried each of these values, those of t and the state counted as half a
      * unit in the last place each. NULL: no formula is known. */
     void (*rounding)(void *ctx, double t, double *x, double *v, double *out);
