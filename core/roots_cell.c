@@ -1,0 +1,157 @@
+/* Cells: halves, values, slopes, solutions of p = level. */
+#include "core/roots_cell.h"
+
+#include "core/roots.h"
+
+#include <math.h>
+
+double roots_cell_tau(const roots_cell *cell, double x) { return fma(cell->half, 1 + x, cell->at); }
+
+double roots_cell_value(const roots_cell *cell, double x, double *slope)
+{
+    const double twice = 2 * x;
+    double b1 = 0, b2 = 0, d1 = 0, d2 = 0;
+    for (int k = cell->degree; k > 0; k--) {
+        const double d = fma(twice, d1, 2 * b1 - d2), b = fma(twice, b1, cell->c[k] - b2);
+        d2 = d1, d1 = d;
+        b2 = b1, b1 = b;
+    }
+    *slope = fma(x, d1, b1 - d2);
+    return fma(x, b1, cell->c[0] - b2);
+}
+
+double roots_cell_rest(const roots_cell *cell)
+{
+    double sum = 0;
+    for (int k = cell->degree; k > 0; k--) sum += fabs(cell->c[k]);
+    return sum;
+}
+
+void roots_cell_slope(const roots_cell *cell, roots_cell *slope)
+{
+    const int degree = cell->degree;
+    slope->at = cell->at;
+    slope->half = cell->half;
+    slope->degree = degree > 0 ? degree - 1 : 0;
+    slope->c[0] = 0;
+    for (int k = degree; k > 0; k--) slope->c[k - 1] = 2 * k * cell->c[k] + (k + 1 < degree ? slope->c[k + 1] : 0);
+    slope->c[0] /= 2;
+}
+
+/* Newton's method within a bracket, which is halved where Newton's step leaves it or does not halve |p - level|. */
+double roots_cell_solve(const roots_cell *cell, double x0, double p0, double x1, double p1, double level)
+{
+    double f0 = p0 - level, f1 = p1 - level;
+    if (f0 == 0) return x0;
+    if (f1 == 0) return x1;
+    if ((f0 < 0) == (f1 < 0)) return fabs(f0) < fabs(f1) ? x0 : x1;
+    double x = x0 + (x1 - x0) * (f0 / (f0 - f1)), before = INFINITY;
+    for (int i = 0; i < 128 && x > x0 && x < x1; i++) {
+        double slope, f = roots_cell_value(cell, x, &slope) - level;
+        if (f == 0) break;
+        if ((f < 0) == (f0 < 0))
+            x0 = x;
+        else
+            x1 = x;
+        double next = x - f / slope;
+        if (!(next > x0 && next < x1)) {
+            /* a step below the last place ends at the bracket */
+            if (fabs(next - x) <= 0x1p-53) break;
+            next = x0 + (x1 - x0) / 2;
+        } else if (fabs(f) > before / 2)
+            next = x0 + (x1 - x0) / 2;
+        else if (fabs(next - x) <= 0x1p-53)
+            return next;
+        before = fabs(f);
+        x = next;
+    }
+    return x < x0 ? x0 : x > x1 ? x1 : x;
+}
+
+/* T_(j+1)(y) = 2 y T_j(y) - T_(j-1)(y) with 2 y = x + 1, and x T_k = (T_(k-1) + T_(k+1)) / 2. */
+void roots_cell_halving(int degree, roots_halving *h)
+{
+    for (int j = 0; j <= degree; j++)
+        for (int k = 0; k <= j; k++) {
+            if (j < 2) {
+                h->row[k][j] = j == 0 ? 1 : 0.5;
+                continue;
+            }
+            double sum = k < j ? h->row[k][j - 1] : 0;
+            if (k > 0) sum += (k == 1 ? 1 : 0.5) * h->row[k - 1][j - 1];
+            if (k + 1 < j) sum += 0.5 * h->row[k + 1][j - 1];
+            if (k < j - 1) sum -= h->row[k][j - 2];
+            h->row[k][j] = sum;
+        }
+}
+
+/* Coefficients that no slope can tell from 0 are dropped. */
+static void trim(roots_cell *cell)
+{
+    const double least = 0x1p-64 * fabs(cell->c[1]);
+    while (cell->degree > 1 && fabs(cell->c[cell->degree]) <= least) cell->degree--;
+}
+
+/* T_j((x - 1) / 2) = (-1)^j T_j((1 - x) / 2): of each coefficient the terms with even j - k are those of the right
+ * half, the others have the other sign. */
+void roots_cell_halve(const roots_halving *h, roots_cell *cell, roots_cell *left)
+{
+    const int degree = cell->degree;
+    for (int k = 0; k <= degree; k++) {
+        const double *row = h->row[k];
+        double even = 0, odd = 0;
+        for (int j = degree - (degree - k) % 2; j >= k; j -= 2) even = fma(row[j], cell->c[j], even);
+        for (int j = degree - (degree - k + 1) % 2; j > k; j -= 2) odd = fma(row[j], cell->c[j], odd);
+        left->c[k] = even - odd;
+        cell->c[k] = even + odd;
+    }
+    left->at = cell->at;
+    left->half = cell->half /= 2;
+    left->degree = degree;
+    cell->at += 2 * cell->half;
+    trim(left);
+    trim(cell);
+}
+
+typedef struct wide {
+    double hi, lo;
+} wide;
+
+static wide wide_sum(double a, double b)
+{
+    double s = a + b, t = s - a;
+    return (wide){s, (a - (s - t)) + (b - t)};
+}
+
+/* Clenshaw's recurrence loses n^2 of its digits near the ends, so it is done in pairs of doubles. x = 2 tau - 1. */
+static double wide_value(const double *c, int degree, wide x)
+{
+    wide b1 = {0, 0}, b2 = {0, 0};
+    for (int k = degree; k >= 0; k--) {
+        const double factor = k > 0 ? 2 * x.hi : x.hi, low = k > 0 ? 2 * x.lo : x.lo, product = factor * b1.hi;
+        const double lost = fma(factor, b1.hi, -product) + (factor * b1.lo + low * b1.hi);
+        const wide s = wide_sum(product, -b2.hi), t = wide_sum(s.hi, c[k]);
+        const double rest = (s.lo + t.lo) + (lost - b2.lo);
+        b2 = b1;
+        b1 = wide_sum(t.hi, rest);
+    }
+    return b1.hi + b1.lo;
+}
+
+double roots_cell_cut(const double *coefficients, int degree, double at, double half, roots_cell *cell)
+{
+    double values[ROOTS_CELL_DEGREE + 1], tail = 0;
+    for (int k = 0; k <= ROOTS_CELL_DEGREE; k++) {
+        wide tau = wide_sum(at, 2 * half * roots_point(k, ROOTS_CELL_DEGREE));
+        wide x = wide_sum(2 * tau.hi, -1);
+        x = wide_sum(x.hi, x.lo + 2 * tau.lo);
+        values[k] = wide_value(coefficients, degree, x);
+    }
+    cell->at = at;
+    cell->half = half;
+    cell->degree = ROOTS_CELL_DEGREE;
+    roots_transform(values, ROOTS_CELL_DEGREE, cell->c);
+    for (int k = ROOTS_CELL_DEGREE - 3; k <= ROOTS_CELL_DEGREE; k++)
+        if (fabs(cell->c[k]) > tail) tail = fabs(cell->c[k]);
+    return tail;
+}
