@@ -44,6 +44,7 @@ int main(int count, char **arguments)
     laws_of_proof();
     laws_of_steps();
     laws_of_order();
+    laws_of_series();
     laws_of_structure();
     laws_of_stability();
     laws_of_verlet();

@@ -26,6 +26,10 @@ typedef struct quad_problem {
     quad x[DIMENSIONS], v[DIMENSIONS];
     void (*accel)(quad t, const quad *x, const quad *v, quad *a);
     void (*jvp)(quad t, const quad *x, const quad *v, const quad *dx, const quad *dv, quad *da);
+    /* Coefficient n of the acceleration at time t, to a, from the series of x and v, `length` numbers each; it keeps
+     * `keeps` series of that length. NULL: no formula is known. */
+    void (*series)(int length, int n, quad t, const quad *x, const quad *v, quad *a, quad *kept);
+    int keeps;
 } quad_problem;
 
 enum {
@@ -43,6 +47,10 @@ enum {
     PROBLEMS
 };
 extern const quad_problem quad_problems[PROBLEMS];
+/* Problems with series; laws_series.c. EVERYTHING: each operation that has a recurrence is in its acceleration. POLE:
+ * x'' = 6 x², s' = x, whose motion is 1/(2.5 - t)² and 1/(2.5 - t). */
+enum { EVERYTHING, POLE, EXPANDED };
+extern const quad_problem quad_expanded[EXPANDED];
 /* The traits that the program would find in the problem's equations. */
 traits quad_traits(const quad_problem *);
 bool quad_admits(method, const quad_problem *);
@@ -64,6 +72,8 @@ quad_count quad_run(method, const double *argument, const quad_problem *, quad t
 quad_count quad_line(method, int line, const quad_problem *, quad t0, quad h, int64_t steps, quad_state *state,
                      quad_state *off);
 int quad_lines(method);
+/* The same of Taylor series of this order, whose steps have the size that is given. */
+quad_count quad_expand(method, int order, const quad_problem *, quad t0, quad h, int64_t steps, quad_state *state);
 int quad_line_work(method, int line);
 /* The same where steps adapt, by a tolerance, up to `until` or so many steps; no error is refused in between. control:
  * what the row carries besides the state; all zero at first. */
@@ -83,6 +93,9 @@ int laws_kepler(void *ctx, double t, double *x, double *v, double *a);
 void quad_recursion(const quad_problem *, quad t, quad h, const quad *before, const quad *now, quad *after);
 /* The motion by an extrapolated midpoint rule, which shares no code with step/. */
 void quad_reference(const quad_problem *, quad t0, quad t1, quad_state *state);
+void quad_reference_in(const quad_problem *, int pieces, quad t0, quad t1, quad_state *state);
+/* The same from its start at 0 to t, found once for each problem and t in turn. */
+quad_state quad_motion(const quad_problem *, quad t);
 quad quad_distance(const quad_problem *, const quad_state *, const quad_state *);
 /* Kicks and drifts in order, kick first; returns their number of stages, 0 for others. */
 int quad_splitting_of(method, quad *kick, quad *drift);
@@ -100,6 +113,7 @@ void judge(bool ok, const char *subject, const char *law, const char *format, ..
     __attribute__((format(printf, 4, 5)));
 
 void laws_of_order(void);
+void laws_of_series(void);
 void laws_of_structure(void);
 void laws_of_stability(void);
 void laws_of_verlet(void);

@@ -15,9 +15,9 @@
 static const int problems[] = {HENON_HEILES, RIDER, FOLLOWER, DAMPED, TANGLED, MAGNET};
 enum { PROBLEMS_HERE = sizeof problems / sizeof *problems };
 
-/* The exact motion of a problem: from START at the parts of two steps of SIZE and SIZE/2, and at their ends; and from 0
+/* The exact motion of a problem: from START at the parts of steps of several sizes, and at their ends; and from 0
  * to SPAN. */
-enum { PARTS = 4, SIZES = 3 };
+enum { PARTS = 4, SIZES = 5 };
 static const double part_of[PARTS] = {0.15, 0.4, 0.55, 0.8};
 #define START Q(0.75)
 #define SPAN Q(1.25)
@@ -26,17 +26,16 @@ typedef struct exact_motion {
     quad_state start, at[SIZES][PARTS], end[SIZES], whole;
 } exact_motion;
 
-/* Of high orders the errors are small enough in longer steps. */
-static quad size_of(int i) { return i == 0 ? Q(0.125) : i == 1 ? Q(0.0625) : Q(0.03125); }
+/* Steps of sizes `from` … SIZES - 1. Of high orders the errors are small enough in longer steps. */
+static quad size_of(int i) { return Q(0.5) / (1 << i); }
+static int wider_of(int order) { return order > 20 ? 0 : order > 9 ? 2 : 3; }
 
-static void follow(const quad_problem *p, exact_motion *e)
+static void follow(const quad_problem *p, int from, exact_motion *e)
 {
-    *e = (exact_motion){.problem = p};
+    *e = (exact_motion){.problem = p, .whole = quad_motion(p, SPAN)};
     for (size_t k = 0; k < p->nx; k++) e->start.x[k] = p->x[k];
     for (size_t k = 0; k < p->nv; k++) e->start.v[k] = p->v[k];
-    e->whole = e->start;
-    quad_reference(p, 0, SPAN, &e->whole);
-    for (int i = 0; i < SIZES; i++) {
+    for (int i = from; i < SIZES; i++) {
         const quad h = size_of(i);
         e->end[i] = e->start;
         quad_reference(p, START, START + h, &e->end[i]);
@@ -63,7 +62,7 @@ static quad within(method m, const exact_motion *e, int size)
 static void in_one_step(method m, const exact_motion *e)
 {
     const motus_method *card = row_card(m);
-    const int wider = card->dense_order > 9 ? 0 : 1;
+    const int wider = wider_of(card->dense_order);
     const quad wide = within(m, e, wider), narrow = within(m, e, wider + 1);
     const double falls = quad_log2(wide / narrow);
     /* of Hermite's polynomial, which these rows have, it is the velocity's or the first-order variables' own */
@@ -83,7 +82,7 @@ static void in_a_run(method m, const exact_motion *e)
     const bool high = order > 9;
     const quad part = Q(0.4), floor = (high ? Q(1e-29) : Q(1e-26)) + 2000 * coefficients_unit(m);
     enum { POINTS_MAX = 14 };
-    double errors[POINTS_MAX] = {0}, last = NAN, margin = 0;
+    double errors[POINTS_MAX] = {0}, sizes[POINTS_MAX] = {0}, last = NAN, margin = 0;
     int points = 0;
     bool close = false;
     const int64_t most = 65536 / card->stages < 8192 ? 65536 / card->stages : 8192; /* as in laws_order.c */
@@ -93,10 +92,11 @@ static void in_a_run(method m, const exact_motion *e)
         if (quad_dense(m, e->problem, 0, SPAN / ((quad)n + part), n, part, NULL, &end).bad) continue;
         const quad error = quad_distance(e->problem, &end, &e->whole);
         if (error < floor && points >= 3) break;
-        if (error < Q(0.1)) errors[points++] = quad_log2(error);
+        if (error < Q(0.1)) sizes[points] = -log2((double)((quad)n + part)), errors[points++] = quad_log2(error);
         if (points < 3) continue;
-        const double before = errors[points - 3] - errors[points - 2];
-        last = errors[points - 2] - errors[points - 1];
+        const int k = points - 1;
+        const double before = (errors[k - 2] - errors[k - 1]) / (sizes[k - 2] - sizes[k - 1]);
+        last = (errors[k - 1] - errors[k]) / (sizes[k - 1] - sizes[k]);
         margin = high ? 0.5 : fmin(0.5, 1.5 * fabs(last - before) + 0.02);
         close = last >= order - margin;
     }
@@ -159,11 +159,18 @@ void laws_of_dense(void)
         ends(m);
     }
     for (int i = 0; i < PROBLEMS_HERE; i++) {
-        follow(&quad_problems[problems[i]], &e);
+        follow(&quad_problems[problems[i]], 2, &e);
         for (method m = 0; m < row_count(); m++) {
             if (!quad_admits(m, e.problem)) continue;
             in_one_step(m, &e);
             in_a_run(m, &e);
         }
+    }
+    for (method m = 0; m < row_count(); m++) {
+        if (!methods_table[m].expands) continue;
+        follow(&quad_expanded[POLE], 0, &e);
+        in_one_step(m, &e);
+        follow(&quad_expanded[EVERYTHING], SIZES, &e);
+        in_a_run(m, &e);
     }
 }

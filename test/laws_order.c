@@ -32,18 +32,26 @@ static void palindrome(method m)
           card->reversible ? "palindrome" : "no palindrome", "asymmetry %.1e", (double)skew);
 }
 
-/* line: of a row that finds its own order, as quad_line takes it; 0: that of its card. */
+/* A row at line `line`, as quad_line takes it, or of Taylor series to this order; 0: as its card says. */
+static quad_count run(method m, const double *argument, int line, const quad_problem *p, quad h, int64_t n,
+                      quad_state *end)
+{
+    if (!line) return quad_run(m, argument, p, 0, h, n, end);
+    if (methods_table[m].expands) return quad_expand(m, line, p, 0, h, n, end);
+    return quad_line(m, line, p, 0, h, n, end, NULL);
+}
+
+/* line: as `run` takes it. */
 static void slope(method m, const double *argument, int line, const char *name, int order, const quad_problem *p)
 {
     enum { POINTS_MAX = 16 };
     /* The error from the coefficients' digits: half units of some twenty coefficients, over a hundred steps. */
     const bool high = order > 9;
     const quad span = Q(1.25), floor = (high ? Q(1e-29) : Q(1e-26)) + 2000 * coefficients_unit(m);
-    quad_state reference = {0}, start = {0};
-    for (size_t k = 0; k < p->nx; k++) reference.x[k] = p->x[k];
-    for (size_t k = 0; k < p->nv; k++) reference.v[k] = p->v[k];
-    start = reference;
-    quad_reference(p, 0, span, &reference);
+    const quad_state reference = quad_motion(p, span);
+    quad_state start = {0};
+    for (size_t k = 0; k < p->nx; k++) start.x[k] = p->x[k];
+    for (size_t k = 0; k < p->nv; k++) start.v[k] = p->v[k];
     double errors[POINTS_MAX] = {0}, last = NAN, margin = 0;
     int points = 0;
     bool close = false;
@@ -55,10 +63,7 @@ static void slope(method m, const double *argument, int line, const char *name, 
     for (int64_t n = high ? 2 : 4; points < POINTS_MAX && !(close && n > (order > 2 ? 1024 : 4096)) && n <= most;
          n += high ? (n & (n - 1) ? n / 3 : n / 2) : n) {
         quad_state end = start;
-        if ((line ? quad_line(m, line, p, 0, span / (quad)n, n, &end, NULL)
-                  : quad_run(m, argument, p, 0, span / (quad)n, n, &end))
-                .bad)
-            continue;
+        if (run(m, argument, line, p, span / (quad)n, n, &end).bad) continue;
         const quad error = quad_distance(p, &end, &reference);
         if (error < floor && points >= 3) break;
         if (error < Q(0.1)) errors[points++] = quad_log2(error);
@@ -92,6 +97,11 @@ void laws_of_order(void)
             for (size_t i = 0; i < sizeof some / sizeof *some; i++)
                 if (quad_admits(m, &quad_problems[some[i]]))
                     slope(m, NULL, line, name, 2 * line, &quad_problems[some[i]]);
+        }
+        for (int order = 4; methods_table[m].expands && order <= 12; order++) { /* laws_series.c has the others */
+            char name[64];
+            snprintf(name, sizeof name, "%s, order %d", card->name, order);
+            slope(m, NULL, order + 1, name, order, &quad_expanded[EVERYTHING]); /* velocities end one power before */
         }
     }
     /* Newmark's arguments: order 2 for every beta with gamma = 1/2, and 1 for any other gamma. */

@@ -224,9 +224,14 @@ static void gragg(const quad_problem *p, quad t, quad h, int n, const quad_state
 
 void quad_reference(const quad_problem *p, quad t0, quad t1, quad_state *state)
 {
-    enum { PIECES = 256, COLUMNS = 9 };
-    const quad h = (t1 - t0) / PIECES;
-    for (int piece = 0; piece < PIECES; piece++) {
+    quad_reference_in(p, 256, t0, t1, state);
+}
+
+void quad_reference_in(const quad_problem *p, int pieces, quad t0, quad t1, quad_state *state)
+{
+    enum { COLUMNS = 9 };
+    const quad h = (t1 - t0) / pieces;
+    for (int piece = 0; piece < pieces; piece++) {
         quad_state table[COLUMNS];
         for (int j = 0; j < COLUMNS; j++) {
             gragg(p, t0 + piece * h, h, 2 * (j + 1), state, &table[j]);
@@ -240,4 +245,24 @@ void quad_reference(const quad_problem *p, quad t0, quad t1, quad_state *state)
         }
         *state = table[0];
     }
+}
+
+quad_state quad_motion(const quad_problem *p, quad t)
+{
+    enum { KNOWN = PROBLEMS + EXPANDED };
+    static struct {
+        const quad_problem *problem;
+        quad t;
+        quad_state state;
+    } known[KNOWN];
+    int i = 0;
+    while (i < KNOWN && known[i].problem && (known[i].problem != p || known[i].t != t)) i++;
+    if (i == KNOWN) i = 0;
+    if (known[i].problem == p && known[i].t == t) return known[i].state;
+    quad_state state = {0};
+    for (size_t k = 0; k < p->nx; k++) state.x[k] = p->x[k];
+    for (size_t k = 0; k < p->nv; k++) state.v[k] = p->v[k];
+    quad_reference(p, 0, t, &state);
+    known[i].problem = p, known[i].t = t, known[i].state = state;
+    return state;
 }

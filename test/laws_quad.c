@@ -47,10 +47,9 @@ static quad quad_of_bits(uint64_t b)
 #define EACH(k) for (size_t k = 0; k < w->nx; k++)
 #define EACHV(k) for (size_t k = 0; k < w->nv; k++)
 #define TRACE(w, i) ((void)(w), (void)(i))
-/* Taylor series need a formula, and the laws' problems are functions: test/taylor_test.c has the laws of that row. */
 #define ROWS
 #include "step/work.h"
-static void series_order(work *w, int n, quad t) { (void)w, (void)n, (void)t; }
+static void series_order(work *w, int n, quad t);
 
 enum { UNKNOWNS = COUPLED_MAX * DIMENSIONS };
 struct stepper_host {
@@ -59,6 +58,11 @@ struct stepper_host {
     quad inverse[UNKNOWNS][UNKNOWNS], jv[DIMENSIONS][DIMENSIONS];
 };
 typedef struct stepper_host dense;
+
+static void series_order(work *w, int n, quad t)
+{
+    w->services->problem->series(w->expands + 1, n, t, w->xs, w->vs, w->a, w->ks);
+}
 
 static int accel(work *w, quad t, quad *x, quad *v, quad *a)
 {
@@ -154,6 +158,7 @@ traits quad_traits(const quad_problem *p)
                     .gradient = p->gradient,
                     .quadrature = p->quadrature,
                     .smooth = true,
+                    .series = p->series != NULL,
                     .first_order = p->nv > p->nx,
                     .constant = p->nx == 0};
 }
@@ -167,7 +172,7 @@ bool quad_admits(method k, const quad_problem *p)
            !row_admits(&c, &t, NULL);
 }
 
-enum { ARRAYS_MAX = 40, CONSTANTS_MAX = 1024, WEIGHTS_ARRAYS = 48 };
+enum { ARRAYS_MAX = 40, SERIES_ARRAYS = 8000, CONSTANTS_MAX = 1024, WEIGHTS_ARRAYS = 48 };
 
 /* The plan of the row, kept from one run to the next: a row may have to generate its coefficients. */
 static const work *plan_of(const row *m, const double *argument, const quad_problem *p)
@@ -178,7 +183,7 @@ static const work *plan_of(const row *m, const double *argument, const quad_prob
     static double last[2];
     static work w;
     if (!argument) argument = trapezoid;
-    if (w.row == m && !memcmp(argument, last, sizeof last) && w.nx == p->nx && w.nv == p->nv &&
+    if (w.row == m && !m->expands && !memcmp(argument, last, sizeof last) && w.nx == p->nx && w.nv == p->nv &&
         w.velocity == p->velocity && w.linear == p->linear && w.quadrature == p->quadrature)
         return &w;
     w = (work){.row = m,
@@ -193,7 +198,9 @@ static const work *plan_of(const row *m, const double *argument, const quad_prob
                .variable = all};
     all[1] = p->nv;
     memcpy(last, argument, sizeof last);
+    if (m->expands) w.relative = (quad)INFINITY; /* no step is too long */
     work_plan(&w, argument, NULL);
+    if (m->expands) w.series = (size_t)(p->keeps * (w.expands + 1));
     if (work_plan_size(&w) > CONSTANTS_MAX) abort();
     work_plan(&w, argument, memory);
     return &w;
@@ -207,8 +214,9 @@ static void begin(work *w, dense *d, quad *memory, const row *m, const double *a
     w->services = d;
     d->problem = p;
     work_scale(w, h);
-    if (work_place(w, NULL) > ARRAYS_MAX) abort();
-    memset(memory, 0, ARRAYS_MAX * DIMENSIONS * sizeof *memory);
+    const size_t arrays = work_place(w, NULL);
+    if (arrays > (m->expands ? SERIES_ARRAYS : ARRAYS_MAX)) abort();
+    memset(memory, 0, arrays * DIMENSIONS * sizeof *memory);
     work_place(w, memory);
 }
 
@@ -220,6 +228,7 @@ static int candidates(work *w, quad h, int64_t steps)
     if (w->row->orders) w->absolute = Q(1e300);
     for (int64_t n = 0; n < steps; n++) {
         work_scale(w, h);
+        w->next = w->most = h; /* of a row that finds its own size */
         const int bad = family_step(w);
         if (bad) return bad;
         if (!FINITE(w->error)) return STEP_SOLVE; /* it is refused at any tolerance */
@@ -231,14 +240,14 @@ static int candidates(work *w, quad h, int64_t steps)
 
 /* line: of a row that finds its own order; 0: that of the row's card. off: the error of the last step, by its
  * estimate; may be NULL. */
-static quad_count run_line(method k, const double *argument, int line, const quad_problem *p, quad t0, quad h,
+static quad_count run_line(const row *m, const double *argument, int line, const quad_problem *p, quad t0, quad h,
                            int64_t steps, quad_state *state, quad_state *off)
 {
     work w;
     static dense d;
-    const row *m = &methods_table[k];
+    static quad series[SERIES_ARRAYS * DIMENSIONS];
     quad memory[ARRAYS_MAX * DIMENSIONS];
-    begin(&w, &d, memory, m, argument, p, t0, h);
+    begin(&w, &d, m->expands ? series : memory, m, argument, p, t0, h);
     memcpy(w.x, state->x, p->nx * sizeof *w.x);
     memcpy(w.v, state->v, p->nv * sizeof *w.v);
     w.before = line;
@@ -254,13 +263,20 @@ static quad_count run_line(method k, const double *argument, int line, const qua
 quad_count quad_run(method k, const double *argument, const quad_problem *p, quad t0, quad h, int64_t steps,
                     quad_state *state)
 {
-    return run_line(k, argument, 0, p, t0, h, steps, state, NULL);
+    return run_line(&methods_table[k], argument, 0, p, t0, h, steps, state, NULL);
 }
 
 quad_count quad_line(method k, int line, const quad_problem *p, quad t0, quad h, int64_t steps, quad_state *state,
                      quad_state *off)
 {
-    return run_line(k, NULL, line, p, t0, h, steps, state, off);
+    return run_line(&methods_table[k], NULL, line, p, t0, h, steps, state, off);
+}
+
+quad_count quad_expand(method k, int order, const quad_problem *p, quad t0, quad h, int64_t steps, quad_state *state)
+{
+    row own = methods_table[k];
+    own.series = order;
+    return run_line(&own, NULL, 0, p, t0, h, steps, state, NULL);
 }
 
 int quad_lines(method k) { return methods_table[k].orders ? EXTRAPOLATION_LINES : 0; }
@@ -296,13 +312,13 @@ quad_count quad_adapt(method k, const quad_problem *p, quad tolerance, quad unti
 static bool of_stages(const row *m)
 {
     const bool coupled = m->family == IMPLICIT || m->family == RADAU;
-    return m->tableau.dense.terms > 0 || (coupled && m->tableau.stages > 4);
+    return m->expands || m->tableau.dense.terms > 0 || (coupled && m->tableau.stages > 4);
 }
 
 quad_count quad_dense(method k, const quad_problem *p, quad t0, quad h, int64_t steps, quad part, const quad_state *end,
                       quad_state *state)
 {
-    static quad memory[ARRAYS_MAX * DIMENSIONS], more[ARRAYS_MAX * DIMENSIONS], unit[CONSTANTS_MAX];
+    static quad memory[SERIES_ARRAYS * DIMENSIONS], more[ARRAYS_MAX * DIMENSIONS], unit[CONSTANTS_MAX];
     static dense d;
     work w;
     const row *m = &methods_table[k];

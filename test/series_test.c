@@ -5,104 +5,13 @@
  * precision by Cauchy's integral of the function over a circle, which knows no recurrence at all.
  */
 #include "test/given.h"
-
-#include "lang/base/operation.h"
-#include "test/quad.h"
+#include "test/series_quad.h"
 
 #include <complex.h>
 #include <math.h>
 #include <string.h>
-#include "lang/base/functions.h"
 
-enum { ORDERS = 26, LENGTH = ORDERS + 1, HELPERS = 5, TRIALS = 40 };
-static quad none_here(void) { return 0; }
-#define NO_SERIES none_here()
-#define PICK(where, a, b) ((where) ? (a) : (b))
-#define SOME(where) (where)
-
-/* In 113 bits; coefficient 0 of a function is what double precision knows of it, since the equations hold from any. */
-static quad quad_root(quad x)
-{
-    quad r = (quad)sqrt((double)x);
-    for (int k = 0; k < 3 && r > 0; k++) r = (r + x / r) / 2;
-    return r;
-}
-static quad quad_hypot(quad x, quad y) { return quad_root(x * x + y * y); }
-#define ROUGHLY(f) \
-    static quad quad_##f(quad x) { return (quad)motus_##f((double)x); }
-ROUGHLY(sin)
-ROUGHLY(cos)
-ROUGHLY(tan)
-ROUGHLY(asin)
-ROUGHLY(acos)
-ROUGHLY(atan)
-ROUGHLY(sinh)
-ROUGHLY(cosh)
-ROUGHLY(tanh)
-ROUGHLY(exp)
-ROUGHLY(log)
-ROUGHLY(cbrt)
-ROUGHLY(floor)
-ROUGHLY(sign)
-ROUGHLY(erf)
-static quad quad_sqrt(quad x) { return quad_root(x); }
-static quad quad_abs(quad x) { return x < 0 ? -x : x; }
-static quad quad_atan2(quad x, quad y) { return (quad)motus_atan2((double)x, (double)y); }
-static quad quad_pow(quad x, quad y) { return (quad)motus_pow((double)x, (double)y); }
-static quad quad_min(quad x, quad y) { return x < y ? x : y; }
-static quad quad_max(quad x, quad y) { return x > y ? x : y; }
-static quad quad_mod(quad x, quad y) { return x - y * quad_floor(x / y); }
-
-#define real quad
-#define coef quad
-#define FMA(a, b, c) ((a) * (b) + (c))
-#define SERIES_OF(f) quad_##f
-#include "step/reciprocals.h"
-#include "step/series.h"
-#undef FMA
-#undef SERIES_OF
-
-#define OF(f) quad_##f
-#define FUSE(a, b, c) ((a) * (b) + (c))
-#define WHEN(condition, a, b) ((condition) ? (a) : (b))
-#define OP(id, arity, spelling, degree, smooth, value, derivative, keeps, sums, recurrence)                       \
-    static quad next_##id(quad *r, const int length, const series a, const series b, const series c, const int n) \
-    {                                                                                                             \
-        const quad *const in = SERIES_NONE;                                                                       \
-        (void)in, (void)r, (void)length, (void)a, (void)b, (void)c, (void)n;                                      \
-        return recurrence;                                                                                        \
-    }
-#define LEAF(...)
-#include "lang/base/operations.def"
-#undef OP
-/* clang-format off */
-#define OP(id, arity, spelling, degree, smooth, value, derivative, keeps, sums, recurrence) case OP_##id: return value;
-#define LEAF(...)
-/* clang-format on */
-static quad value_of(operation op, quad a, quad b, quad c)
-{
-    (void)a, (void)b, (void)c;
-    switch (op) {
-#define OF(f) quad_##f
-#define FUSE(a, b, c) ((a) * (b) + (c))
-#define WHEN(condition, a, b) ((condition) ? (a) : (b))
-#include "lang/base/operations.def"
-    default: return 0;
-    }
-}
-#undef OP
-
-static const struct {
-    int keeps;
-    const char *recurrence;
-    quad (*next)(quad *r, int length, series a, series b, series c, int n);
-} rows[OPERATIONS] = {
-#define OP(id, arity, spelling, degree, smooth, value, derivative, keeps, sums, recurrence) \
-    [OP_##id] = {keeps, #recurrence, next_##id},
-#define LEAF(...)
-#include "lang/base/operations.def"
-#undef OP
-};
+enum { ORDERS = 48, LENGTH = ORDERS + 1, TRIALS = 40 }; /* as long as the longest series */
 
 /* Polynomials that know how large the terms were that they are made of ---------------------------------------------*/
 
@@ -145,15 +54,32 @@ static poly poly_of(const quad *at, int last)
     return r;
 }
 
-/* The two sides of the equation that defines an operation; r: the result and its helpers. */
+/* The two sides of an equation that defines an operation. */
 typedef struct sides {
     poly left, right;
 } sides;
+enum { EQUATIONS = 2 }; /* the second is that of a helper; elsewhere nothing is nothing */
 
-static sides equation(operation op, poly a, poly b, poly c, const poly *r)
+/* r: the result and its helpers. */
+static sides equation(operation op, int which, poly a, poly b, poly c, const poly *r)
 {
     const quad from = a.c[0], to = b.c[0];
-    const poly one = number(1), none = number(0), da = rate(a), dr = rate(*r);
+    const poly one = number(1), none = number(0), minus = number(-1), da = rate(a), dr = rate(*r), helper = r[1],
+               dh = rate(helper);
+    if (which == 1) switch (op) {
+        case OP_SIN: return (sides){dh, times(minus, times(*r, da))};
+        case OP_COS:
+        case OP_SINH:
+        case OP_COSH: return (sides){dh, times(*r, da)};
+        case OP_TAN: return (sides){helper, plus(one, times(*r, *r), 1)};
+        case OP_TANH: return (sides){helper, plus(one, times(*r, *r), -1)};
+        case OP_ASIN:
+        case OP_ACOS: return (sides){times(helper, helper), plus(one, times(a, a), -1)};
+        case OP_ATAN: return (sides){helper, plus(one, times(a, a), 1)};
+        case OP_ATAN2: return (sides){helper, plus(times(a, a), times(b, b), 1)};
+        case OP_ERF: return (sides){dh, times(number(-2), times(helper, times(a, da)))};
+        default: return (sides){none, none};
+        }
     switch (op) {
     case OP_NEG: return (sides){plus(*r, a, 1), none};
     case OP_ADD: return (sides){*r, plus(a, b, 1)};
@@ -165,14 +91,14 @@ static sides equation(operation op, poly a, poly b, poly c, const poly *r)
     case OP_FNMA: return (sides){*r, plus(c, times(a, b), -1)};
     case OP_SELECT: return (sides){*r, from != 0 ? b : c};
     case OP_POW: return (sides){times(a, dr), times(number(to), times(*r, da))};
-    case OP_SIN: return (sides){plus(dr, rate(r[1]), 1), times(plus(r[1], *r, -1), da)};
-    case OP_COS: return (sides){plus(dr, rate(r[1]), -1), times(plus(r[1], *r, 1), times(number(-1), da))};
-    case OP_SINH: return (sides){plus(dr, rate(r[1]), -1), times(plus(r[1], *r, -1), da)};
-    case OP_COSH: return (sides){plus(dr, rate(r[1]), -1), times(plus(r[1], *r, -1), da)};
+    case OP_SIN: return (sides){dr, times(helper, da)};
+    case OP_COS: return (sides){dr, times(minus, times(helper, da))};
+    case OP_SINH:
+    case OP_COSH: return (sides){dr, times(helper, da)};
     case OP_TAN: return (sides){dr, times(plus(one, times(*r, *r), 1), da)};
     case OP_TANH: return (sides){dr, times(plus(one, times(*r, *r), -1), da)};
-    case OP_ASIN: return (sides){times(times(dr, dr), plus(one, times(a, a), -1)), times(da, da)};
-    case OP_ACOS: return (sides){times(times(dr, dr), plus(one, times(a, a), -1)), times(da, da)};
+    case OP_ASIN: return (sides){times(helper, dr), da};
+    case OP_ACOS: return (sides){times(helper, dr), times(minus, da)};
     case OP_ATAN: return (sides){times(dr, plus(one, times(a, a), 1)), da};
     case OP_ATAN2:
         return (sides){times(dr, plus(times(a, a), times(b, b), 1)), plus(times(da, b), times(rate(b), a), -1)};
@@ -184,10 +110,19 @@ static sides equation(operation op, poly a, poly b, poly c, const poly *r)
     case OP_ABS: return (sides){*r, times(number(from < 0 ? -1 : 1), a)};
     case OP_MIN: return (sides){*r, from <= to ? a : b};
     case OP_MAX: return (sides){*r, from >= to ? a : b};
-    case OP_MOD: return (sides){*r, plus(a, times(number(quad_floor(from / to)), b), -1)};
-    case OP_ERF: return (sides){times(number(1), dr), times(number(1.1283791670955126), times(r[1], da))};
-    default: return (sides){*r, number(value_of(op, from, to, c.c[0]))};
+    case OP_MOD: return (sides){*r, plus(a, times(number((quad)floor((double)(from / to))), b), -1)};
+    case OP_ERF: return (sides){dr, times(number(1.1283791670955126), times(helper, da))};
+    default: return (sides){*r, number(series_quad_value(op, from, to, c.c[0]))};
     }
+}
+
+/* How far the two sides of coefficient n may be apart, in half units of their terms. A sum of n + 1 products rounds
+ * each of them at most n + 2 times. A recurrence has at most two, one within the other, and six operations around each;
+ * an equation three. The sums of a power are larger than the terms of its equation by 1 + 2 |c|. */
+static quad roundings(operation op, int n, quad power)
+{
+    const quad count = 5 * (n + 8);
+    return op == OP_POW ? (1 + 2 * magnitude(power)) * count : op == OP_CBRT ? 2 * count : count;
 }
 
 /* Operands ----------------------------------------------------------------------------------------------------------*/
@@ -229,19 +164,13 @@ static operand first_operand(operation op, int last)
     }
 }
 
-static series of(const operand *o) { return (series){o->at, o->last < ORDERS ? o->last : SERIES_ALL}; }
+static series_quad of(const operand *o) { return (series_quad){o->at, o->last < ORDERS ? o->last : SERIES_QUAD_ALL}; }
 
-static void expand(operation op, const operand *a, const operand *b, const operand *c, quad r[HELPERS][LENGTH])
+static void expand(operation op, series_quad a, series_quad b, series_quad c, quad r[SERIES_QUAD_HELPERS][LENGTH])
 {
-    const bool direct = rows[op].keeps == 0;
-    memset(r, 0, HELPERS * LENGTH * sizeof(quad));
-    for (int n = 0; n < ORDERS; n++)
-        r[0][n] = direct && n == 0 ? value_of(op, a->at[0], b->at[0], c->at[0])
-                                   : rows[op].next(r[0], LENGTH, of(a), of(b), of(c), n);
+    memset(r, 0, SERIES_QUAD_HELPERS * LENGTH * sizeof(quad));
+    for (int n = 0; n < ORDERS; n++) r[0][n] = series_quad_next(op, r[0], LENGTH, a, b, c, n);
 }
-
-/* Whether the row has a recurrence at all. */
-static bool moves(operation op) { return rows[op].next && strcmp(rows[op].recurrence, "none_here()") != 0; }
 
 static const int lasts[] = {ORDERS, 1, 0, 2};
 enum { LASTS = 4 };
@@ -251,31 +180,28 @@ static void every_recurrence_solves_its_equation(void **unused)
     (void)unused;
     int seen = 0;
     for (operation op = 0; op < OPERATIONS; op++) {
-        if (!moves(op)) continue;
+        if (!series_quad_moves(op)) continue;
         seen++;
         for (int trial = 0; trial < TRIALS; trial++) {
             const int last = lasts[trial % LASTS], other = op == OP_POW ? 0 : lasts[trial / LASTS % LASTS];
             operand a = first_operand(op, last), b = operand_from(0.5, 1.5, other), c = operand_from(-1, 1, ORDERS);
-            quad r[HELPERS][LENGTH];
-            poly all[HELPERS];
+            quad r[SERIES_QUAD_HELPERS][LENGTH];
+            poly all[SERIES_QUAD_HELPERS];
             if (op == OP_POW && trial % 5 == 0) b.at[0] = -1.5;
             if (trial % 7 == 6 && op != OP_POW && last == other) b = a; /* a square has terms of its own */
             const bool square = b.at[0] == a.at[0] && b.last == a.last;
-            if (square && op == OP_MUL) {
-                memset(r, 0, sizeof r);
-                for (int n = 0; n < ORDERS; n++)
-                    r[0][n] = n ? rows[op].next(r[0], LENGTH, of(&a), of(&a), of(&c), n) : a.at[0] * a.at[0];
-            } else {
-                expand(op, &a, &b, &c, r);
-            }
-            for (int k = 0; k < HELPERS; k++) all[k] = poly_of(r[k], ORDERS);
-            const sides e = equation(op, poly_of(a.at, a.last), poly_of(b.at, b.last), poly_of(c.at, c.last), all);
-            for (int n = 0; n < ORDERS; n++) {
-                /* each of n terms twice, a few operations around them, and the test's own products */
-                const quad bound = 8 * (n + 8) * QUAD_EPSILON * (e.left.size[n] + e.right.size[n]);
-                if (!(magnitude(e.left.c[n] - e.right.c[n]) <= bound))
-                    fail_msg("%s: coefficient %d: %.17g is not %.17g, trial %d", rows[op].recurrence, n,
-                             (double)e.left.c[n], (double)e.right.c[n], trial);
+            expand(op, of(&a), square ? of(&a) : of(&b), of(&c), r);
+            for (int k = 0; k < SERIES_QUAD_HELPERS; k++) all[k] = poly_of(r[k], ORDERS);
+            for (int which = 0; which < EQUATIONS; which++) {
+                const sides e =
+                    equation(op, which, poly_of(a.at, a.last), poly_of(b.at, b.last), poly_of(c.at, c.last), all);
+                for (int n = 0; n < ORDERS; n++) {
+                    const quad bound =
+                        roundings(op, n, b.at[0]) * QUAD_EPSILON / 2 * (e.left.size[n] + e.right.size[n]);
+                    if (!(magnitude(e.left.c[n] - e.right.c[n]) <= bound))
+                        fail_msg("%s: coefficient %d: %.17g is not %.17g, trial %d", series_quad_text(op), n,
+                                 (double)e.left.c[n], (double)e.right.c[n], trial);
+                }
             }
         }
     }
@@ -338,15 +264,15 @@ static void every_recurrence_is_the_function_itself(void **unused)
     const double radius = 0.25;
     for (operation op = 0; op < OPERATIONS; op++) {
         point probe;
-        if (!moves(op) || !continued(op, 1, 1, &probe)) continue;
+        if (!series_quad_moves(op) || !continued(op, 1, 1, &probe)) continue;
         for (int trial = 0; trial < TRIALS; trial++) {
             operand a = first_operand(op, ORDERS), b = operand_from(0.9, 1.5, op == OP_POW ? 0 : ORDERS),
                     c = operand_from(-1, 1, 0);
-            quad r[HELPERS][LENGTH];
+            quad r[SERIES_QUAD_HELPERS][LENGTH];
             point f[POINTS];
             double largest = 0;
             if (op == OP_POW && trial % 2) b.at[0] = -1.5;
-            expand(op, &a, &b, &c, r);
+            expand(op, of(&a), of(&b), of(&c), r);
             for (int k = 0; k < POINTS; k++) {
                 const point z = radius * cexp(2 * M_PI * I * k / POINTS);
                 continued(op, at_point(&a, z), at_point(&b, z), &f[k]);
@@ -358,7 +284,7 @@ static void every_recurrence_is_the_function_itself(void **unused)
                 const double due = creal(sum) / POINTS, is = (double)r[0][n] * pow(radius, n);
                 /* the C library's complex functions are a few roundings off, and operands beyond order 25 are not 0 */
                 if (!(fabs(is - due) <= 64 * ROUNDING * largest + pow(radius / 2, ORDERS)))
-                    fail_msg("%s: coefficient %d is %g, not %g, in units of the circle's radius", rows[op].recurrence,
+                    fail_msg("%s: coefficient %d is %g, not %g, in units of the circle's radius", series_quad_text(op),
                              n, is, due);
             }
         }
@@ -372,8 +298,8 @@ static void a_root_of_nothing_is_nothing(void **unused)
     const operand none = {.last = ORDERS}, power = {.at = {1.5}};
     for (operation op = 0; op < OPERATIONS; op++) {
         if (op != OP_SQRT && op != OP_CBRT && op != OP_HYPOT && op != OP_POW) continue;
-        quad r[HELPERS][LENGTH];
-        expand(op, &none, op == OP_POW ? &power : &none, &none, r);
+        quad r[SERIES_QUAD_HELPERS][LENGTH];
+        expand(op, of(&none), op == OP_POW ? of(&power) : of(&none), of(&none), r);
         for (int n = 0; n < ORDERS; n++) assert_true(r[0][n] == 0);
     }
 }
