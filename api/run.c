@@ -1,6 +1,7 @@
 /* Runs. See run.h. */
 #include "api/bars.h"
 #include "api/locate.h"
+#include "api/run_events.h"
 
 #include "api/choice.h"
 #include "api/control.h"
@@ -136,10 +137,11 @@ static motus_status advance_on(motus_run *r, int64_t n, motus_error *err)
     stepper_stop why = STOP_STEPS;
     r->synchronised = r->synchronised && n == 0;
     const stepper_limit limit = {n, r->timing.until};
-    const motus_status status = n > 0 && r->locate ? advance_located(r, n, &why, err)
-                                : n > 0            ? pace_advance(&r->pace, r->stepper, limit, &why, err)
-                                                   : stepper_advance(r->stepper, limit, &why, err);
-    r->arrived = why == STOP_UNTIL;
+    const motus_status status = n > 0 && r->events   ? run_events_advance(r, n, &why, err)
+                                : n > 0 && r->locate ? advance_located(r, n, &why, err)
+                                : n > 0              ? pace_advance(&r->pace, r->stepper, limit, &why, err)
+                                                     : stepper_advance(r->stepper, limit, &why, err);
+    r->arrived = why == STOP_UNTIL || why == STOP_EVENT || (n == 0 && run_events_ended(r));
     if (isnan(r->first_step) && motus_run_steps(r) > 0) r->first_step = fabs(stepper_last_step(r->stepper));
     if (status != MOTUS_CANCELLED) return status;
     char t[DECIMAL_MAX];
@@ -231,6 +233,7 @@ static motus_status begin(motus_run *r, const motus_run_def *def, motus_error *e
     motus_status status =
         stepper_create(&r->machine, &r->chosen, r->timing.t0, r->timing.h, r->x, r->v, &r->allocator, &r->stepper, err);
     if (status == MOTUS_OK && r->locate) status = locate_begin(r, err);
+    if (status == MOTUS_OK) status = run_events_begin(r, err);
     return status == MOTUS_OK ? go_on(r, 0, err) : status;
 }
 
@@ -318,6 +321,7 @@ void motus_run_destroy(motus_run *r)
     later_end(r);
     stepper_destroy(r->stepper);
     locate_destroy(r);
+    events_destroy(r->events);
     bars_destroy(r);
     goal_destroy(r->system, r->goal);
     give(&a, r->saved);
@@ -332,6 +336,7 @@ double motus_run_time(const motus_run *r) { return r ? stepper_time(r->stepper) 
 double motus_run_time_of(const motus_run *r, int64_t step)
 {
     if (!r || step < 0 || (row_adaptive(&r->chosen) && step < INT64_MAX)) return NAN;
+    if (r->events && step < r->timing.total) return r->timing.t0 + (double)step * r->timing.h;
     return step >= r->timing.total ? r->timing.until
                                    : stepper_time_of(r->stepper, step - (r->locate ? locate_steps(r) : 0));
 }
@@ -339,6 +344,7 @@ double motus_run_time_of(const motus_run *r, int64_t step)
 double motus_run_step_size(const motus_run *r) { return r && !row_adaptive(&r->chosen) ? fabs(r->timing.h) : NAN; }
 int64_t motus_run_steps(const motus_run *r)
 {
+    if (r && r->events) return events_steps(r->events);
     return r ? stepper_steps(r->stepper) + (r->locate ? locate_steps(r) : 0) : 0;
 }
 int64_t motus_run_steps_total(const motus_run *r) { return r ? r->timing.total : 0; }
@@ -360,6 +366,7 @@ motus_status run_sync(motus_run *r, bool with_a, motus_error *err)
     if (r->synchronised && (r->with_a || !with_a)) return MOTUS_OK;
     if (r->locate && !locate_bind(r)) return fail(err, MOTUS_MEMORY, "no memory for the model's switches");
     motus_status status = stepper_sync(r->stepper, r->x, r->v, with_a ? r->a : NULL, err);
+    if (status == MOTUS_OK && r->events) events_keep(r->events, stepper_time(r->stepper), r->x);
     r->synchronised = status == MOTUS_OK;
     r->with_a = with_a;
     return status;
@@ -412,7 +419,7 @@ static motus_status go_to(motus_run *r, double t, motus_error *err)
 {
     const double way = r->timing.h < 0 ? -1 : 1;
     if (way * (t - stepper_time(r->stepper)) <= 0) return MOTUS_OK;
-    const int64_t steps = stepper_steps_before(r->stepper, t);
+    const int64_t steps = r->events ? 0 : stepper_steps_before(r->stepper, t);
     motus_status status = steps > 0 ? go_on(r, steps, err) : MOTUS_OK;
     while (status == MOTUS_OK && way * (t - stepper_time(r->stepper)) > 0 && !r->arrived) {
         status = stepper_mark(r->stepper, err);
@@ -433,7 +440,9 @@ motus_status run_between(motus_run *r, double t, double **x, double **v, motus_e
     *x = here ? r->x : r->mid_x;
     *v = here ? r->v : r->mid_v;
     if (status != MOTUS_OK) return status;
-    return here ? run_sync(r, false, err) : stepper_sample(r->stepper, t, *x, *v, err);
+    if (here) return run_sync(r, false, err);
+    if (r->events) return run_events_sample(r, t, *x, *v, err);
+    return stepper_sample(r->stepper, t, *x, *v, err);
 }
 
 static motus_status sample(motus_run *r, const double *times, size_t n, const size_t *columns, size_t count,

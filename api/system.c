@@ -142,6 +142,7 @@ motus_status motus_system_from_callback(const motus_callback_def *given, motus_s
         if (!def.depends_on_velocity) keep_unread(s);
         status = s->arena.failed ? fail(err, MOTUS_MEMORY, "no memory for the system") : take_start(s, &def, err);
     }
+    if (status == MOTUS_OK) status = callback_rules(&s->calling, &s->arena, &s->rules, err);
     if (status == MOTUS_OK) status = stand_in_make(s, err);
     if (status == MOTUS_OK && (!system_number_columns(s) || s->arena.failed))
         status = fail(err, MOTUS_MEMORY, "no memory for the system");

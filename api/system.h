@@ -9,6 +9,7 @@
 
 #include "api/check.h"
 #include "base/modes.h"
+#include "core/events.h"
 #include "lang/graph/weigh.h"
 #include "lang/model/resolution.h"
 #include "machine/compiled.h"
@@ -28,6 +29,7 @@ struct motus_system {
     motus_text_def text; /* the definition that it was read from, in the arena */
     motus_callback_def callback;
     calling calling;
+    const rules *rules; /* NULL: nothing happens on the way */
     problem problem;
     machine machine;       /* the interpreter, or the callback */
     compiled *compiled;    /* NULL until a run asks for it */

@@ -33,6 +33,9 @@ void stepper_destroy(stepper *);
  * computed. */
 motus_status stepper_start(stepper *, double t0, double h, const double *x, const double *v, motus_error *);
 
+/* The same, and where steps adapt the first candidate has size h, and the state is that of time t0 + lost. */
+motus_status stepper_jump(stepper *, double t0, double lost, double h, const double *x, const double *v, motus_error *);
+
 /* Begins a new leg at the present state, which counts as that of time t, with step h, of adaptive rows the first. Where
  * additions are compensated the rounding errors of the state stay known. */
 motus_status stepper_turn(stepper *, double t, double h, motus_error *);
@@ -45,7 +48,7 @@ typedef struct stepper_limit {
     int64_t steps;
     double until;
 } stepper_limit;
-typedef enum stepper_stop { STOP_STEPS, STOP_UNTIL, STOP_FAILED } stepper_stop;
+typedef enum stepper_stop { STOP_STEPS, STOP_UNTIL, STOP_EVENT /* core/events.h */, STOP_FAILED } stepper_stop;
 
 /* Whole steps of size h from t0 to `until`, and the size of the shorter one after them; 0: none, also where only a few
  * roundings of the quotient are left. */
@@ -73,6 +76,7 @@ motus_status stepper_move(stepper **, const machine *, motus_error *);
 double stepper_tolerance_most(const chosen *);
 
 double stepper_time(const stepper *);
+double stepper_lost(const stepper *);               /* what the rounding of this time has left out */
 double stepper_time_of(const stepper *, int64_t n); /* of step n of the leg; NaN where steps adapt */
 double stepper_step(const stepper *);               /* size of the present leg's steps, with its sign */
 double stepper_last_step(const stepper *);          /* size of the latest step, with its sign */

@@ -225,3 +225,11 @@ motus_status stepper_start(stepper *s, double t0, double h, const double *x, con
     stepper_begin(s, t0, h, x, v);
     return MOTUS_OK;
 }
+
+motus_status stepper_jump(stepper *s, double t0, double lost, double h, const double *x, const double *v,
+                          motus_error *err)
+{
+    const motus_status status = stepper_start(s, t0, h, x, v, err);
+    if (!status && s->work.carried) s->work.next = h, s->work.lost = lost;
+    return status;
+}

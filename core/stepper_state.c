@@ -5,6 +5,15 @@
 #include <string.h>
 
 double stepper_time(const stepper *s) { return s->arrived ? s->until : time_now(&s->work); }
+double stepper_lost(const stepper *s)
+{
+    const work *w = &s->work;
+    if (s->arrived) return 0;
+    if (w->carried) return w->lost;
+    const double n = (double)w->n, t = time_now(w), product = n * w->h, rest = fma(n, w->h, -product);
+    const double big = fabs(w->t0) > fabs(product) ? w->t0 : product, small = big == product ? w->t0 : product;
+    return ((big - t) + small) + rest;
+}
 double stepper_time_of(const stepper *s, int64_t n)
 {
     work leg = s->work;

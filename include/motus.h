@@ -95,7 +95,8 @@ MOTUS_API const char *motus_version(void);
     X(SINGULAR, "singular", "the run passes a singularity of the force", 1)    \
     X(UNRESOLVED, "unresolved", "the step does not resolve the force", 1)      \
     X(ACCURACY, "accuracy", "the accuracy was not reached", 1)                 \
-    X(STEPS, "steps", "the run has taken the most steps that it may", 1)
+    X(STEPS, "steps", "the run has taken the most steps that it may", 1)       \
+    X(EVENTS, "events", "too many events in one instant", 1)
 
 #define MOTUS_STATUS_ENUMERATOR(name, word, text, exit) MOTUS_##name,
 typedef enum motus_status {
@@ -173,6 +174,17 @@ typedef struct motus_text_def {
  * velocity-verlet and verlet, form the velocity with the acceleration at the end of a step. With them a step is good
  * only if the callback is defined at its end. To find out, a call that takes steps evaluates the acceleration once more
  * at its end; the next step reuses the value. */
+/* An event of a callback: something that is to happen where a function of the time and the state passes 0, or at equal
+ * times. */
+typedef struct motus_event_def {
+    const char *name; /* unique; NULL: event1, event2 … by its number. Copied */
+    int direction;    /* 1: the function rises, -1: it falls, along the run; 0: both, and where it touches 0 */
+    double every;     /* 0; or > 0: it happens at start + every, start + 2 every …, and its function is not read */
+    int assigns;      /* 1: `event_action` changes the state; 0: it is not called */
+    int silent;       /* 1: the events of this kind have no row in the table (motus_run_event) */
+    int64_t stop;     /* the run ends at event number `stop` of this kind; 0: it goes on */
+} motus_event_def;
+
 typedef struct motus_callback_def {
     uint32_t size;                 /* by motus_default_callback() */
     size_t positions, first_order; /* how many positions, and how many first-order variables s' = f */
@@ -213,6 +225,13 @@ typedef struct motus_callback_def {
      * block; after a value above 0 the ensemble calls it again with smaller blocks, to find the trajectory that
      * stops. */
     int (*block)(void *context, size_t first, size_t count, double t, const double *x, const double *v, double *a);
+    /* Optional: events, copied. `event_functions` fills in `event_count` numbers, the function of each; smooth ones
+     * wherever the motion leads. `event_action` changes x and v where `event` happens; it sees the state on arrival. A
+     * value other than 0 of either fails the call with MOTUS_CALLBACK. */
+    const motus_event_def *events;
+    size_t event_count;
+    int (*event_functions)(void *context, double t, const double *x, const double *v, double *values);
+    int (*event_action)(void *context, size_t event, double t, double *x, double *v);
 } motus_callback_def;
 
 /* Reads the whole text. MOTUS_SYNTAX, MOTUS_NAME, MOTUS_SHAPE, MOTUS_LIMIT, MOTUS_ARGUMENT (a value out of its range,
@@ -626,7 +645,7 @@ MOTUS_API void motus_run_destroy(motus_run *);
 MOTUS_API motus_status motus_run_step(motus_run *, int64_t n, motus_error *);
 /* Takes all steps up to `until`. Fails as motus_run_step does. */
 MOTUS_API motus_status motus_run_finish(motus_run *, motus_error *);
-MOTUS_API int motus_run_done(const motus_run *); /* 1: the run is at `until` */
+MOTUS_API int motus_run_done(const motus_run *); /* 1: the run is at `until`, or an event has ended it */
 
 MOTUS_API double motus_run_time(const motus_run *);
 MOTUS_API double motus_run_step_size(const motus_run *); /* > 0; NaN: the step size adapts */
@@ -679,6 +698,29 @@ MOTUS_API motus_status motus_run_statistics(const motus_run *, motus_statistics 
  * poles are not known. The definition's hooks are not called. Fails besides as motus_run_create does. */
 #define MOTUS_SINGULAR_WORK 2e7
 MOTUS_API motus_status motus_run_singular(motus_system *, const motus_run_def *, motus_error *);
+/* Events: what a model's `when` statements, or the events of a callback, have found and done so far. Every root of every
+ * event function is found, in order; a root where the run starts is no event. Time and state of an event are those of a
+ * step of the method that ends on it. MOTUS_EVENTS: more than 100 actions in one instant.
+ *
+ * How many rows the table has: one for every event of a kind that records. */
+MOTUS_API int64_t motus_run_events(const motus_run *);
+typedef struct motus_event_row {
+    uint32_t size;    /* by motus_default_event_row() */
+    int touched;        /* 1: the function touched 0 and went back */
+    const char *name;   /* "bounce"; owned by the system */
+    int64_t count;      /* events of this kind so far, this one included */
+    double time, error; /* error: how far the time may be off; NaN: not known */
+    int64_t changed;    /* 1: an action changed the state */
+    char instance[MOTUS_NAME_MAX]; /* with its indices, "contact[1,2]" */
+} motus_event_row;
+/* Row k, from 0. MOTUS_ARGUMENT: there is none. */
+MOTUS_API motus_status motus_run_event(const motus_run *, int64_t k, motus_event_row *);
+/* Values of columns at row k: on arrival, or with `after` as the action left them. */
+MOTUS_API motus_status motus_run_event_values(motus_run *, int64_t k, int after, const size_t *columns, size_t count,
+                                              double *out, motus_error *);
+/* What ended the run before `until`: the name of a kind of event; "" where nothing did. accumulated (may be NULL): 1,
+ * and *time is the limit of its events' times, which is known to *error. */
+MOTUS_API const char *motus_run_ended(const motus_run *, int *accumulated, double *time, double *error);
 /* Why the run's method was chosen, one sentence, where the method is "auto"; else "". Owned by the run. */
 MOTUS_API const char *motus_run_choice(const motus_run *);
 /* Why "auto" uses the interpreter although the run is long enough to compile, or "". */
@@ -1134,7 +1176,8 @@ typedef enum motus_def_kind {
     MOTUS_DEF_ANALYSIS,
     MOTUS_DEF_STATEMENT,
     MOTUS_DEF_STATISTICS,
-    MOTUS_DEF_ESTIMATE
+    MOTUS_DEF_ESTIMATE,
+    MOTUS_DEF_EVENT_ROW
 } motus_def_kind;
 /* Fills in the first `size` bytes of a struct with its defaults; the functions below pass the size of this header.
  * Bytes beyond the library's own size become zero, and so does a struct that it does not know. */
@@ -1162,6 +1205,7 @@ MOTUS_DEFAULT_FUNCTION(analysis, ANALYSIS, motus_analysis)
 MOTUS_DEFAULT_FUNCTION(statement, STATEMENT, motus_statement)
 MOTUS_DEFAULT_FUNCTION(statistics, STATISTICS, motus_statistics)
 MOTUS_DEFAULT_FUNCTION(estimate, ESTIMATE, motus_estimate)
+MOTUS_DEFAULT_FUNCTION(event_row, EVENT_ROW, motus_event_row)
 #undef MOTUS_DEFAULT_FUNCTION
 
 #ifdef __cplusplus

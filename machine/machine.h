@@ -4,6 +4,7 @@
 #ifndef MACHINE_MACHINE_H
 #define MACHINE_MACHINE_H
 
+#include "core/rules.h"
 #include "core/stepper.h"
 #include "lang/model/model.h"
 
@@ -32,8 +33,12 @@ typedef struct calling {
     size_t first, count;
     /* the value of the callback that failed last; 0: it read the velocity, and its definition says that it does not */
     int returned;
+    const char **rule_names; /* of its events, whose definitions are copied */
+    const motus_event_def *own_events;
 } calling;
 motus_status callback_problem(calling *, problem *, motus_error *);
+/* The rules of a callback's events, in an arena that outlives them, with copies of their names; NULL: it has none. */
+motus_status callback_rules(calling *, arena *, const rules **, motus_error *);
 /* The problem of a block: the calling's `count` trajectories side by side. The calling must outlive it. */
 problem callback_block(calling *, const problem *one);
 

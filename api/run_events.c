@@ -1,0 +1,87 @@
+/* Events of a run. See run_events.h. */
+#include "api/run_events.h"
+
+#include <math.h>
+#include <string.h>
+
+motus_status run_events_begin(motus_run *r, motus_error *err)
+{
+    const rules *rules = r->system->rules;
+    motus_status status = MOTUS_OK;
+    if (!rules) return MOTUS_OK;
+    if (r->locating) return fail(err, MOTUS_UNAVAILABLE, "a run of a system with events cannot locate switches");
+    if (!r->events) status = events_create(rules, &r->machine, &r->chosen, &r->allocator, &r->events, err);
+    return status == MOTUS_OK ? events_begin(r->events, r->stepper, r->timing.until, err) : status;
+}
+
+motus_status run_events_advance(motus_run *r, int64_t n, stepper_stop *why, motus_error *err)
+{
+    enum { LOOK = 16 }; /* steps between two looks at the clock */
+    motus_status status = MOTUS_OK;
+    *why = r->arrived ? STOP_UNTIL : STOP_STEPS;
+    for (int64_t i = 0; i < n && status == MOTUS_OK && *why == STOP_STEPS; i++) {
+        if (i % LOOK == 0 && r->pace.tell && r->pace.tell(r->pace.ctx, pace_now())) return MOTUS_CANCELLED;
+        status = events_step(r->events, r->stepper, r->timing.until, why, err);
+    }
+    if (status != MOTUS_OK) *why = STOP_FAILED;
+    return status;
+}
+
+bool run_events_ended(const motus_run *r) { return r->events && events_ended(r->events, NULL) != EVENTS_END_NONE; }
+
+motus_status run_events_sample(motus_run *r, double t, double *x, double *v, motus_error *err)
+{
+    return events_sample(r->events, r->stepper, t, x, v, err);
+}
+
+/* ---- the table ---- */
+
+int64_t motus_run_events(const motus_run *r) { return r && r->events ? (int64_t)events_rows(r->events) : 0; }
+
+motus_status motus_run_event(const motus_run *r, int64_t k, motus_event_row *out)
+{
+    if (!r || !out || k < 0 || k >= motus_run_events(r) || motus_struct_check(MOTUS_DEF_EVENT_ROW, out, NULL) != MOTUS_OK)
+        return MOTUS_ARGUMENT;
+    const rules *rules = r->system->rules;
+    const event row = events_row(r->events, (size_t)k, false, NULL, NULL);
+    motus_event_row ours = motus_default_event_row();
+    ours.name = rules->rule[row.rule].name;
+    ours.count = row.count;
+    ours.time = row.t;
+    ours.touched = row.touched;
+    ours.changed = row.changed;
+    rules->name(rules->ctx, row.rule, row.instance, ours.instance, sizeof ours.instance);
+    motus_struct_write(MOTUS_DEF_EVENT_ROW, &ours, out);
+    return MOTUS_OK;
+}
+
+motus_status motus_run_event_values(motus_run *r, int64_t k, int after, const size_t *columns, size_t count,
+                                    double *out, motus_error *err)
+{
+    if (!motus_error_sound(err)) return MOTUS_ARGUMENT;
+    if (!r || k < 0 || k >= motus_run_events(r) || (count && (!columns || !out)))
+        return fail(err, MOTUS_ARGUMENT,
+                    "motus_run_event_values needs a run, the number of an event, columns and a "
+                    "place for the values");
+    const problem *p = &r->system->problem;
+    const double *x, *v;
+    const modes m = modes_enter();
+    const event row = events_row(r->events, (size_t)k, after != 0, &x, &v);
+    memcpy(r->mid_x, x, p->nx * sizeof *x);
+    memcpy(r->mid_v, v, p->nv * sizeof *v);
+    const motus_status status = system_values(r->system, row.t, r->mid_x, r->mid_v, columns, count, out, err);
+    modes_leave(m);
+    return status;
+}
+
+const char *motus_run_ended(const motus_run *r, int *accumulated, double *time, double *error)
+{
+    size_t rule = 0;
+    events_limit limit = {.t = NAN, .error = NAN};
+    const events_end end = r && r->events ? events_ended(r->events, &rule) : EVENTS_END_NONE;
+    const bool gathers = r && r->events && events_accumulated(r->events, &limit);
+    if (accumulated) *accumulated = gathers;
+    if (time) *time = limit.t;
+    if (error) *error = limit.error;
+    return end == EVENTS_END_NONE ? "" : r->system->rules->rule[rule].name;
+}

@@ -1,0 +1,15 @@
+/* A run whose system has rules: events on the way, their table, and what ended the run. */
+#ifndef API_RUN_EVENTS_H
+#define API_RUN_EVENTS_H
+
+#include "api/run.h"
+
+/* Begins at the state of the run's stepper, where the system has rules. */
+motus_status run_events_begin(motus_run *, motus_error *);
+/* Takes up to n steps, with their events. */
+motus_status run_events_advance(motus_run *, int64_t n, stepper_stop *why, motus_error *);
+bool run_events_ended(const motus_run *);
+/* The state at a time within the last step. */
+motus_status run_events_sample(motus_run *, double t, double *x, double *v, motus_error *);
+
+#endif

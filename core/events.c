@@ -1,0 +1,381 @@
+/* Life and steps of events. See events.h. */
+#include "core/events_parts.h"
+
+#include <math.h>
+#include <string.h>
+
+/* Life ------------------------------------------------------------------------------------------------------------ */
+
+static double *place(instant *i, const events *e, double *at)
+{
+    const size_t nx = e->problem.nx, nv = e->problem.nv, f = e->rules.functions;
+    i->x = at, i->v = i->x + nx, i->a = i->v + nv;
+    i->g = i->a + nv, i->rate = i->g + f, i->bound = i->rate + f;
+    return i->bound + f;
+}
+
+static void *next(char **at, size_t count, size_t size)
+{
+    void *here = *at;
+    *at += (count * size + 15) / 16 * 16;
+    return here;
+}
+
+/* Gives every array its place from `at` on; returns the bytes of all. */
+static size_t arrange(events *e, char *at)
+{
+    char *const from = at;
+    const size_t n = e->rules.count, f = e->rules.functions, nx = e->problem.nx, nv = e->problem.nv;
+    size_t instances = 0;
+    for (size_t k = 0; k < n; k++) instances += e->rules.rule[k].instances + 1;
+    double *numbers = next(&at, 4 * (nx + 2 * nv + 3 * f), sizeof *numbers);
+    if (from) {
+        numbers = place(&e->left, e, numbers);
+        numbers = place(&e->right, e, numbers);
+        numbers = place(&e->here, e, numbers);
+        place(&e->next, e, numbers);
+    }
+    e->fired = next(&at, f, sizeof *e->fired);
+    e->before = next(&at, f, sizeof *e->before);
+    e->instances = next(&at, n, sizeof *e->instances);
+    e->recent = next(&at, instances, sizeof *e->recent);
+    e->count = next(&at, n, sizeof *e->count);
+    e->ticks = next(&at, n, sizeof *e->ticks);
+    e->rule_of = next(&at, f, sizeof *e->rule_of);
+    e->side = next(&at, 4 * f, 1); /* one behind the other, so that they are kept and restored together */
+    if (from) {
+        e->stands = (uint8_t *)e->side + f;
+        e->open = e->stands + f;
+        e->heads = (int8_t *)e->open + f;
+    }
+    e->was = next(&at, 4 * f, 1);
+    e->sign = next(&at, f, 1);
+    e->zero = next(&at, f, 1);
+    e->held = next(&at, instances, 1);
+    e->ticked = next(&at, n, 1);
+    return (size_t)(at - from);
+}
+
+motus_status events_create(const rules *r, const machine *m, const chosen *method, const motus_allocator *a,
+                           events **out, motus_error *err)
+{
+    const size_t head = (sizeof(events) + 63) / 64 * 64;
+    events sizes = {.rules = *r, .problem = *m->problem};
+    char *block = take(a, 1, head + arrange(&sizes, NULL));
+    if (!block) return fail(err, MOTUS_MEMORY, "no memory for the events");
+    events *e = (events *)(void *)block;
+    *e = sizes;
+    if (a) e->allocator = *a;
+    e->machine = *m;
+    e->method = *method;
+    arrange(e, block + head);
+    size_t instances = 0;
+    for (size_t k = 0; k < r->count; k++) {
+        const rule *one = &r->rule[k];
+        e->instances[k] = instances;
+        instances += one->instances + 1;
+        for (size_t f = 0; f < one->leaves * one->instances; f++) e->rule_of[one->first + f] = (uint32_t)k;
+    }
+    *out = e;
+    return MOTUS_OK;
+}
+
+void events_destroy(events *e)
+{
+    if (!e) return;
+    const motus_allocator a = e->allocator;
+    stepper_destroy(e->probe);
+    give(&a, e->samples);
+    give(&a, e->past);
+    give(&a, e->candidate);
+    give(&a, e->row);
+    give(&a, e->row_at);
+    give(&a, e->row_state);
+    give(&a, e->kept);
+    give(&a, e->kept_state);
+    give(&a, e);
+}
+
+/* Start ----------------------------------------------------------------------------------------------------------- */
+
+static motus_status observe(stepper *s, instant *to, motus_error *err)
+{
+    to->t = stepper_time(s);
+    to->lost = stepper_lost(s);
+    return stepper_sync(s, to->x, to->v, NULL, err);
+}
+
+static motus_status check_clocks(const events *e, motus_error *err)
+{
+    const double most = fmax(fabs(e->start), fabs(e->until));
+    for (size_t k = 0; k < e->rules.count; k++) {
+        const rule *r = &e->rules.rule[k];
+        if (r->kind != RULE_CLOCK || (isfinite(r->period) && r->period > 8 * events_ulp(most))) continue;
+        fail(err, MOTUS_ARGUMENT, "%s happens every %g, which is lost beside the time %g", r->name, r->period, most);
+        hint(err, "its period is a positive number that changes the time");
+        return MOTUS_ARGUMENT;
+    }
+    return MOTUS_OK;
+}
+
+motus_status events_begin(events *e, stepper *s, double until, motus_error *err)
+{
+    e->start = e->grid_start = stepper_time(s);
+    e->grid_step = stepper_step(s);
+    e->until = until;
+    e->way = until < e->start ? -1 : 1;
+    e->steps = 0;
+    e->first = true;
+    e->end = EVENTS_END_NONE;
+    e->at_once = NAN;
+    for (size_t f = 0; f < e->rules.functions; f++) e->fired[f] = NAN, e->open[f] = 0;
+    motus_status status = check_clocks(e, err);
+    if (!status) status = observe(s, &e->left, err);
+    if (!status) status = events_values(e, &e->left, err);
+    if (status) return status;
+    e->right.t = e->left.t; /* judged by its rounding alone */
+    status = events_judge(e, &e->left, err);
+    for (size_t f = 0; f < e->rules.functions; f++) {
+        const double g = e->left.g[f];
+        e->stands[f] = !isnan(g) && fabs(g) <= e->left.bound[f];
+        e->side[f] = (int8_t)(e->stands[f] || isnan(g) ? 0 : g > 0 ? 1 : -1);
+    }
+    events_suppose(e);
+    return status || events_keep_now(e, e->start, e->left.x) ? status
+                                                             : fail(err, MOTUS_MEMORY, "no memory for the events");
+}
+
+/* Steps ----------------------------------------------------------------------------------------------------------- */
+
+/* The candidate that comes next; those of dense output may be as far off as the ones that have been located. NULL:
+ * there is none. */
+static candidate *earliest(events *e)
+{
+    const double margin = 16 * e->shift + 0x1p-20 * fabs(e->span);
+    candidate *best = NULL;
+    double at = INFINITY;
+    for (size_t k = 0; k < e->candidates; k++) {
+        candidate *c = &e->candidate[k];
+        const bool rough = !c->located && !c->idle && c->kind != CANDIDATE_TIME;
+        const double t = e->way * c->at - (rough ? margin : 0);
+        if (c->gone || !(t < at || (t == at && !c->located))) continue;
+        at = t;
+        best = c;
+    }
+    return best;
+}
+
+/* Whether a candidate was part of what has happened already. */
+static bool told(const events *e, const candidate *c)
+{
+    const double t = e->left.t + c->at, near = 4 * events_ulp(t);
+    if (c->kind == CANDIDATE_TIME) return e->way * (events_tick(e, c->of) - t) > near;
+    return fabs(e->fired[c->of] - t) <= near;
+}
+
+static motus_status restart(events *e, stepper *s, double h, motus_error *err)
+{
+    return stepper_jump(s, e->here.t, e->here.lost, h, e->here.x, e->here.v, err);
+}
+
+/* A candidate of the present step that has been located. */
+static motus_status follow(events *e, stepper *s, candidate *c, bool *assigned, stepper_stop *why, motus_error *err)
+{
+    const candidate at = *c;
+    c->gone = true;
+    if (told(e, &at)) return MOTUS_OK;
+    motus_status status = events_fire(e, &at, assigned, err);
+    const bool ends = !status && e->has_limit && !e->limit_told;
+    if (ends) e->end = EVENTS_END_ACCUMULATED, e->end_rule = e->limit.rule;
+    if (!status && e->end != EVENTS_END_NONE) {
+        *why = STOP_EVENT;
+        status = restart(e, s, stepper_step(s), err);
+    }
+    return status;
+}
+
+/* Does what happens in the step from `left` to `right`. *assigned: it ended at `here`, which an action changed. */
+static motus_status settle(events *e, stepper *s, bool *assigned, stepper_stop *why, motus_error *err)
+{
+    candidate *c;
+    motus_status status = MOTUS_OK;
+    while (!status && !*assigned && *why != STOP_EVENT && (c = earliest(e))) {
+        if (c->idle) {
+            e->side[c->of] = (int8_t)c->kind;
+            c->gone = true;
+        } else if (!c->located || c->at != e->here_at) {
+            const bool was = c->located;
+            const size_t number = (size_t)(c - e->candidate);
+            status = events_locate(e, number, err);
+            c = &e->candidate[number];
+            e->here_at = c->at;
+            if (was && !status) status = follow(e, s, c, assigned, why, err);
+        } else {
+            status = follow(e, s, c, assigned, why, err);
+        }
+    }
+    return status;
+}
+
+/* A step towards `until`, or to an action before its end. Where it is too long to tell how a function leaves 0 at its
+ * start, a shorter one. */
+static motus_status piece(events *e, stepper *s, double until, bool *assigned, stepper_stop *why, motus_error *err)
+{
+    enum { PART = 4 };
+    motus_status status = MOTUS_OK;
+    for (;;) {
+        if (!status) status = stepper_mark(s, err);
+        if (!status) status = stepper_advance(s, (stepper_limit){1, until}, why, err);
+        if (!status) status = observe(s, &e->right, err);
+        if (!status && e->right.t == e->left.t) return MOTUS_OK;
+        e->span = (e->right.t - e->left.t) + (e->right.lost - e->left.lost);
+        if (!status) status = events_values(e, &e->right, err);
+        if (!status) status = events_find(e, s, err);
+        const double h = e->span / PART;
+        if (status || !e->hidden || fabs(h) < events_ulp(e->left.t)) break;
+        *why = STOP_STEPS;
+        status = stepper_jump(s, e->left.t, e->left.lost, h, e->left.x, e->left.v, err);
+    }
+    if (!status && e->first && !e->held_known) events_suppose(e), e->held_known = true;
+    e->first = false;
+    e->here_at = NAN;
+    if (!status && e->candidates) status = settle(e, s, assigned, why, err);
+    return status;
+}
+
+/* Before the motion goes on from an action: where the piece that led to it began, for dense output. */
+static bool keep_past(events *e)
+{
+    const size_t nx = e->problem.nx, nv = e->problem.nv, each = 2 + nx + nv;
+    if (e->pasts == e->past_room) {
+        const size_t room = 2 * e->past_room + 2;
+        double *more = take(&e->allocator, room * each, sizeof *more);
+        if (!more) return false;
+        if (e->pasts) memcpy(more, e->past, e->pasts * each * sizeof *more);
+        give(&e->allocator, e->past);
+        e->past = more;
+        e->past_room = room;
+    }
+    double *to = e->past + e->pasts++ * each;
+    to[0] = e->left.t, to[1] = e->left.lost;
+    memcpy(to + 2, e->left.x, nx * sizeof *to);
+    memcpy(to + 2 + nx, e->left.v, nv * sizeof *to);
+    return true;
+}
+
+motus_status events_sample(events *e, stepper *s, double t, double *x, double *v, motus_error *err)
+{
+    const size_t nx = e->problem.nx, nv = e->problem.nv, each = 2 + nx + nv;
+    const double *from = NULL;
+    /* where the piece that led to the latest action ended, the stepper's own steps begin */
+    for (size_t k = 0; k < e->pasts && e->way * (t - e->past[k * each]) >= 0; k++) from = e->past + k * each;
+    if (!from || e->way * (t - e->past_end) >= 0) {
+        const motus_status status = stepper_sample(s, t, x, v, err);
+        if (!status) events_keep(e, t, x);
+        return status;
+    }
+    memcpy(x, from + 2, nx * sizeof *x);
+    memcpy(v, from + 2 + nx, nv * sizeof *v);
+    motus_status status = MOTUS_OK;
+    if (t != from[0]) {
+        double end, rest;
+        status = events_probe(e, from[0], from[1], from + 2, from + 2 + nx, (t - from[0]) - from[1], &end, &rest, err);
+        if (!status) status = stepper_sync(e->probe, x, v, NULL, err);
+    }
+    if (!status) events_keep(e, t, x);
+    return status;
+}
+
+void events_move(events *e, const machine *m)
+{
+    e->machine = *m;
+    stepper_destroy(e->probe);
+    e->probe = NULL;
+}
+
+static motus_status no_memory(motus_error *err)
+{
+    return fail(err, MOTUS_MEMORY, "no memory for the events of a step");
+}
+
+static void go_on_from(events *e, const instant *at)
+{
+    instant *to = &e->left;
+    to->t = at->t;
+    to->lost = at->lost;
+    memcpy(to->x, at->x, e->problem.nx * sizeof *to->x);
+    memcpy(to->v, at->v, e->problem.nv * sizeof *to->v);
+    if (e->rules.functions) memcpy(to->g, at->g, e->rules.functions * sizeof *to->g);
+}
+
+static motus_status adaptive_step(events *e, stepper *s, double until, stepper_stop *why, motus_error *err)
+{
+    bool assigned = false;
+    motus_status status = piece(e, s, until, &assigned, why, err);
+    if (status || *why == STOP_EVENT) return status;
+    if (assigned) {
+        const double h = e->span;
+        if (!keep_past(e)) return no_memory(err);
+        e->past_end = e->here.t;
+        status = restart(e, s, h, err);
+        if (!status) status = stepper_advance(s, (stepper_limit){0, until}, why, err);
+    }
+    go_on_from(e, assigned ? &e->here : &e->right);
+    return status;
+}
+
+/* Of rows of fixed step: to the next time of the grid, by the short steps that lead to actions, and from them on. */
+static motus_status grid_step(events *e, stepper *s, double until, stepper_stop *why, motus_error *err)
+{
+    const double number = (double)(e->steps + 1), grid = e->grid_start + number * e->grid_step;
+    const bool last = e->way * (until - grid) <= 8 * events_ulp(until);
+    const double end = last ? until : grid;
+    bool broken = false;
+    for (;;) {
+        bool assigned = false;
+        motus_status status = piece(e, s, broken ? end : until, &assigned, why, err);
+        if (status || *why == STOP_EVENT) return status;
+        const double left = assigned ? (end - e->here.t) - e->here.lost : (end - e->right.t) - e->right.lost;
+        const bool near = fabs(left) <= 8 * events_ulp(end);
+        if (!broken && !assigned && near) break; /* the usual step */
+        broken = true;
+        if (!keep_past(e)) return no_memory(err);
+        go_on_from(e, assigned ? &e->here : &e->right);
+        e->past_end = e->left.t;
+        *why = near && last ? STOP_UNTIL : STOP_STEPS;
+        status = stepper_jump(s, e->left.t, e->left.lost, near ? e->grid_step : left, e->left.x, e->left.v, err);
+        if (!status && near && last) status = stepper_advance(s, (stepper_limit){0, e->left.t}, why, err);
+        if (status || near) return status;
+    }
+    go_on_from(e, &e->right);
+    return MOTUS_OK;
+}
+
+motus_status events_step(events *e, stepper *s, double until, stepper_stop *why, motus_error *err)
+{
+    *why = STOP_STEPS;
+    e->until = until;
+    e->pasts = 0;
+    events_kept_forget(e);
+    motus_status status =
+        row_adaptive(&e->method) ? adaptive_step(e, s, until, why, err) : grid_step(e, s, until, why, err);
+    if (!status) e->steps++;
+    if (status) *why = STOP_FAILED;
+    return status;
+}
+
+events_end events_ended(const events *e, size_t *rule)
+{
+    if (rule) *rule = e->end_rule;
+    return e->end;
+}
+
+bool events_accumulated(const events *e, events_limit *out)
+{
+    if (e->has_limit && out) *out = e->limit;
+    return e->has_limit;
+}
+
+int64_t events_steps(const events *e) { return e->steps; }
+int64_t events_evaluations(const events *e) { return e->probe ? stepper_evaluations(e->probe) : 0; }
+int64_t events_count(const events *e, size_t rule) { return e->count[rule]; }

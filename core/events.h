@@ -1,0 +1,73 @@
+/* Follows rules (core/rules.h) around a stepper: finds every event of each step, takes true steps that end on events,
+ * and does what the rules say.
+ *
+ * Dense output finds and counts: on each step a function is a polynomial, of which all roots and touches are known
+ * (core/roots.h). Time and state of an event are those of a step of the method that begins where the step began and ends
+ * on the event, so no interpolant lowers the order. A rule that does not assign leaves the motion as it is, bit by bit:
+ * its steps are taken by another stepper.
+ *
+ * A function has a side: the sign that it had when it was last away from 0. It passes 0 where it moves to the other
+ * side. After an event it stands at 0: that root is divided out, so the next one is found however near it is, and no
+ * state is moved away from it.
+ */
+#ifndef CORE_EVENTS_H
+#define CORE_EVENTS_H
+
+#include "core/rules.h"
+#include "core/stepper.h"
+
+enum {
+    EVENTS_AT_ONCE = 100,      /* actions in one instant, more are an error: MOTUS_EVENTS */
+    EVENTS_ROWS_MOST = 1 << 26 /* of the table */
+};
+
+typedef struct events events;
+
+/* One row of the table: an event of a rule that records. */
+typedef struct event {
+    size_t rule, instance;
+    int64_t count; /* events of this rule so far, this one included */
+    double t;
+    bool touched; /* the function touched 0 and went back */
+    bool changed; /* the rule assigns: there is a state after it too */
+} event;
+
+/* What ended the run before its time. */
+typedef enum events_end { EVENTS_END_NONE, EVENTS_END_STOP, EVENTS_END_ACCUMULATED } events_end;
+
+/* Where the events of a rule accumulate: the limit of their times, and how far it may be off. */
+typedef struct events_limit {
+    size_t rule, instance;
+    double t, error;
+} events_limit;
+
+/* Of a stepper on this machine by this method. The rules and the machine's problem must outlive it. */
+motus_status events_create(const rules *, const machine *, const chosen *, const motus_allocator *, events **,
+                           motus_error *);
+void events_destroy(events *);
+
+/* Begins at the state of a stepper that has taken no step, whose leg goes towards `until`. What holds there is no
+ * event. */
+motus_status events_begin(events *, stepper *, double until, motus_error *);
+/* Takes one step, of fixed steps to the next time of their grid, with all that happens in it. *why: STOP_EVENT where a
+ * rule ended the run, or events accumulated. */
+motus_status events_step(events *, stepper *, double until, stepper_stop *why, motus_error *);
+
+events_end events_ended(const events *, size_t *rule);
+/* False: the events of no rule have accumulated. */
+bool events_accumulated(const events *, events_limit *);
+int64_t events_steps(const events *);       /* since events_begin */
+int64_t events_evaluations(const events *); /* of the force, for steps that end on events */
+int64_t events_count(const events *, size_t rule);
+size_t events_rows(const events *);
+/* Row k; x and v, where not NULL: the state on arrival, or where `after` that which the action left. */
+event events_row(const events *, size_t k, bool after, const double **x, const double **v);
+/* The state at a time within the last step, of fixed steps within the last step of the grid; before an action by true
+ * steps, else by dense output of the stepper. */
+motus_status events_sample(events *, stepper *, double t, double *x, double *v, motus_error *);
+/* Goes on by another machine of the same problem. */
+void events_move(events *, const machine *);
+/* Writes the kept numbers as they were at time t, which is within the last step or later, into a state. */
+void events_keep(const events *, double t, double *x);
+
+#endif

@@ -1,0 +1,266 @@
+/* What happens in one instant: rules act in the order of the text, each seeing what the former left, until none asks any
+ * more. See events_parts.h.
+ *
+ * A rule whose function passes 0 acts once for that passage. Where its action changed how the function moves, and the
+ * function still moves in the event's direction, it acts again: so a push that does not turn a motion back is repeated
+ * until it does, while a counter counts once.
+ */
+#include "core/events_parts.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+static int sign_of(double x) { return (x > 0) - (x < 0); }
+
+/* Whether a function is 0 at `here`: by their rounding, and by that of the time. */
+static bool is_zero(const events *e, size_t f)
+{
+    const instant *at = &e->here;
+    return fabs(at->g[f]) <= at->bound[f] + fabs(at->rate[f]) * events_ulp(at->t);
+}
+
+/* Truth ----------------------------------------------------------------------------------------------------------- */
+
+/* Whether a comparison holds where its leaf has this sign; 0: it stays 0. */
+static bool compares(uint8_t what, int sign)
+{
+    switch ((rule_comparison)what) {
+    case RULE_ABOVE: return sign > 0;
+    case RULE_AT_LEAST: return sign >= 0;
+    case RULE_AT: return sign == 0;
+    case RULE_OFF: return sign != 0;
+    }
+    return false;
+}
+
+static bool formula_holds(const events *e, const rule *r, size_t i, const int8_t *sign)
+{
+    bool stack[RULE_FORMULA_MOST];
+    int top = 0;
+    (void)e;
+    for (int k = 0; k < r->words; k++) {
+        const int16_t word = r->formula[k];
+        if (word >= 0) {
+            const size_t f = r->first + (size_t)word * r->instances + i;
+            stack[top++] = compares(r->compares[word], sign[f]);
+        } else if (word == RULE_NOT) {
+            stack[top - 1] = !stack[top - 1];
+        } else {
+            top--;
+            stack[top - 1] = word == RULE_AND ? stack[top - 1] && stack[top] : stack[top - 1] || stack[top];
+        }
+    }
+    return top > 0 && stack[top - 1];
+}
+
+void events_suppose(events *e)
+{
+    for (size_t k = 0; k < e->rules.count; k++) {
+        const rule *r = &e->rules.rule[k];
+        for (size_t i = 0; r->kind == RULE_CONDITION && i < r->instances; i++)
+            e->held[e->instances[k] + i] = formula_holds(e, r, i, e->side);
+    }
+}
+
+/* Acting ---------------------------------------------------------------------------------------------------------- */
+
+static motus_status too_many(const events *e, size_t k, size_t i, motus_error *err)
+{
+    char t[DECIMAL_MAX], name[MOTUS_NAME_MAX] = "";
+    const double now = e->here.t;
+    if (e->rules.name) e->rules.name(e->rules.ctx, k, i, name, sizeof name);
+    fail(err, MOTUS_EVENTS, "more than %d events in one instant, t = %s; the latest is %s", EVENTS_AT_ONCE,
+         decimal_time(now, e->until - e->start, t), name[0] ? name : e->rules.rule[k].name);
+    hint(err, "an action must end what it answers to; where it is to happen once, when the condition becomes true, "
+              "write `when x > 0` in place of `when x = 0 rising`");
+    if (err) err->time = now;
+    return MOTUS_EVENTS;
+}
+
+static motus_status not_finite(const events *e, size_t k, bool in_v, size_t which, motus_error *err)
+{
+    char t[DECIMAL_MAX], name[MOTUS_NAME_MAX] = "";
+    const problem *p = &e->problem;
+    if (p->name) p->name(p->ctx, in_v, which, name, sizeof name);
+    fail(err, MOTUS_DIVERGED, "the action of %s at t = %s gives %s a value that is not finite", e->rules.rule[k].name,
+         decimal_time(e->here.t, e->until - e->start, t), name[0] ? name : "the state");
+    if (err) {
+        err->time = e->here.t;
+        snprintf(err->variable, sizeof err->variable, "%s", name);
+    }
+    return MOTUS_DIVERGED;
+}
+
+static motus_status act(events *e, size_t k, size_t i, motus_error *err)
+{
+    instant *at = &e->here;
+    bool in_v = false;
+    size_t which = 0;
+    if (e->at_once != at->t) e->at_once = at->t, e->actions = 0;
+    if (++e->actions > EVENTS_AT_ONCE) return too_many(e, k, i, err);
+    const size_t n = e->rules.functions;
+    if (n) memcpy(e->before, at->g, n * sizeof *at->g);
+    if (e->rules.act(e->rules.ctx, k, i, at->t, at->x, at->v, &in_v, &which)) return not_finite(e, k, in_v, which, err);
+    motus_status status = events_values(e, at, err);
+    if (!status) status = events_judge(e, at, err);
+    for (size_t f = 0; f < n && !status; f++) { /* what was 0 and has not changed is 0 whatever the rate is now */
+        const bool was = e->zero[f] && fabs(at->g[f] - e->before[f]) <= at->bound[f];
+        e->zero[f] = was || is_zero(e, f);
+    }
+    return status;
+}
+
+static motus_status no_room(motus_error *err) { return fail(err, MOTUS_MEMORY, "no memory for the table of events"); }
+
+/* An event of a rule. */
+static motus_status happen(events *e, size_t k, size_t i, bool touched, bool *assigned, motus_error *err)
+{
+    const rule *r = &e->rules.rule[k];
+    e->count[k]++;
+    if (r->records && !events_note(e, k, i, touched, &e->here)) return no_room(err);
+    if (r->keeps && !r->assigns) {
+        bool in_v = false;
+        size_t which = 0;
+        if (e->rules.act(e->rules.ctx, k, i, e->here.t, e->here.x, e->here.v, &in_v, &which))
+            return not_finite(e, k, in_v, which, err);
+        if (!events_keep_now(e, e->here.t, e->here.x)) return no_room(err);
+    }
+    if (r->assigns) {
+        const motus_status status = act(e, k, i, err);
+        if (status) return status;
+        *assigned = true;
+        if (!events_keep_now(e, e->here.t, e->here.x) || (r->records && !events_note_after(e, &e->here)))
+            return no_room(err);
+    }
+    if (r->stop && e->count[k] >= r->stop && e->end == EVENTS_END_NONE) e->end = EVENTS_END_STOP, e->end_rule = k;
+    return MOTUS_OK;
+}
+
+/* Asking ---------------------------------------------------------------------------------------------------------- */
+
+/* The direction in which function f leaves 0 here: by its slope, or as the candidate says while nothing has acted. */
+static int leaves(const events *e, size_t f, const candidate *c, bool acted)
+{
+    if (c && !acted && c->kind != CANDIDATE_TIME && c->of == f) return c->kind;
+    return events_direction(e, &e->here, f);
+}
+
+static motus_status ask_root(events *e, size_t k, size_t i, const candidate *c, bool *acted, bool *again,
+                             motus_error *err)
+{
+    const rule *r = &e->rules.rule[k];
+    const size_t f = r->first + i;
+    const bool here = c && c->kind != CANDIDATE_TIME && c->of == f;
+    if (!e->zero[f] || (e->fired[f] == e->here.t && !*acted)) return MOTUS_OK;
+    const int to = leaves(e, f, c, *acted);
+    if (here && !*acted && c->kind == CANDIDATE_TOUCHES) {
+        e->fired[f] = e->here.t;
+        if (r->direction) return MOTUS_OK;
+        *again |= r->assigns;
+        return happen(e, k, i, true, acted, err);
+    }
+    /* what has been 0 from the start on leaves it here only where something happened */
+    if (to == 0 || (e->side[f] ? to == e->side[f] : !here && !*acted)) return MOTUS_OK;
+    if (r->direction && r->direction != to) {
+        e->side[f] = (int8_t)to;
+        return MOTUS_OK;
+    }
+    const double rate = e->here.rate[f];
+    const bool was = *acted;
+    bool assigned = false;
+    e->fired[f] = e->here.t;
+    const motus_status status = happen(e, k, i, false, &assigned, err);
+    *acted = was || assigned;
+    if (status || !assigned) {
+        e->side[f] = (int8_t)to;
+        return status;
+    }
+    *again = true;
+    const int now = e->zero[f] ? events_direction(e, &e->here, f) : sign_of(e->here.g[f]);
+    if (e->side[f] == 0) e->side[f] = (int8_t)-to;
+    const bool turned = fabs(e->here.rate[f] - rate) > 0x1p-40 * fabs(rate);
+    if (now == to && (!turned || !e->zero[f])) e->side[f] = (int8_t)to;
+    events_accumulate(e, k, i, e->here.t);
+    return status;
+}
+
+static motus_status ask_condition(events *e, size_t k, size_t i, const candidate *c, bool *acted, bool *again,
+                                  motus_error *err)
+{
+    const rule *r = &e->rules.rule[k];
+    uint8_t *held = &e->held[e->instances[k] + i];
+    int8_t *sign = e->sign;
+    bool any = false;
+    for (size_t l = 0; l < r->leaves; l++) {
+        const size_t f = r->first + l * r->instances + i;
+        sign[f] = (int8_t)(e->zero[f] ? 0 : sign_of(e->here.g[f]));
+        any |= e->zero[f];
+    }
+    const bool now = formula_holds(e, r, i, sign);
+    for (size_t l = 0; l < r->leaves; l++) {
+        const size_t f = r->first + l * r->instances + i;
+        if (e->zero[f]) {
+            const int to = leaves(e, f, c, *acted);
+            sign[f] = (int8_t)to;
+        }
+        if (sign[f]) e->side[f] = sign[f];
+    }
+    const bool after = any ? formula_holds(e, r, i, sign) : now, happens = !*held && (now || after);
+    *held = after;
+    if (!happens) return MOTUS_OK;
+    bool assigned = false;
+    const motus_status status = happen(e, k, i, false, &assigned, err);
+    *acted |= assigned;
+    *again |= assigned;
+    return status;
+}
+
+static motus_status ask(events *e, size_t k, const candidate *c, bool *acted, bool *again, motus_error *err)
+{
+    const rule *r = &e->rules.rule[k];
+    motus_status status = MOTUS_OK;
+    if (r->kind == RULE_CLOCK && !e->ticked[k] && fabs(events_tick(e, k) - e->here.t) <= 4 * events_ulp(e->here.t)) {
+        e->ticked[k] = 1;
+        e->ticks[k]++;
+        return happen(e, k, 0, false, acted, err);
+    }
+    for (size_t i = 0; !status && i < r->instances; i++) {
+        if (r->kind == RULE_ROOT) status = ask_root(e, k, i, c, acted, again, err);
+        if (r->kind == RULE_CONDITION) status = ask_condition(e, k, i, c, acted, again, err);
+    }
+    if (r->kind == RULE_ACCUMULATES && e->has_limit && e->limit.rule == r->of && !e->limit_told) {
+        e->limit_told = true;
+        *again = true;
+        status = happen(e, k, 0, false, acted, err);
+    }
+    return status;
+}
+
+/* The sides and roots with which the motion goes on after an action. Where that let a function jump over 0, it did not
+ * pass 0. */
+static void stand(events *e)
+{
+    for (size_t f = 0; f < e->rules.functions; f++) {
+        e->stands[f] = e->zero[f];
+        e->open[f] = 0;
+        e->heads[f] = (int8_t)(e->zero[f] ? events_direction(e, &e->here, f) : 0);
+        if (!e->zero[f]) e->side[f] = (int8_t)sign_of(e->here.g[f]);
+    }
+}
+
+motus_status events_fire(events *e, const candidate *c, bool *assigned, motus_error *err)
+{
+    bool again = true;
+    motus_status status = MOTUS_OK;
+    for (size_t f = 0; f < e->rules.functions; f++) e->zero[f] = is_zero(e, f);
+    if (c && c->kind != CANDIDATE_TIME) e->zero[c->of] = 1;
+    memset(e->ticked, 0, e->rules.count);
+    events_overlay(e, e->here.x);
+    while (again && !status) {
+        again = false;
+        for (size_t k = 0; k < e->rules.count && !status; k++) status = ask(e, k, c, assigned, &again, err);
+    }
+    if (*assigned && !status) stand(e);
+    return status;
+}

@@ -1,0 +1,140 @@
+/* What the files of events share: the struct, and what each file does with it.
+ *
+ * events.c: life and steps. events_find.c: the roots of a step, by dense output. events_place.c: true steps, and where a
+ * root is by them. events_fire.c: what happens in one instant. events_table.c: rows, kept numbers, accumulation.
+ * Invariant: `left` is the state at which the present step began, and `side` are the sides of all functions there, those
+ * of the events that have happened since included.
+ */
+#ifndef CORE_EVENTS_PARTS_H
+#define CORE_EVENTS_PARTS_H
+
+#include "core/events.h"
+#include "core/roots.h"
+
+/* A state of the trajectory, and the functions there. */
+typedef struct instant {
+    double t, lost; /* the state is that of time t + lost: stepper_lost */
+    double *x, *v, *a;
+    double *g, *rate, *bound; /* bound: how far rounding may have carried g */
+} instant;
+
+typedef enum candidate_kind { CANDIDATE_FALLS = -1, CANDIDATE_TOUCHES, CANDIDATE_RISES, CANDIDATE_TIME } candidate_kind;
+
+/* What may happen within the present step. */
+typedef struct candidate {
+    candidate_kind kind;
+    size_t of;        /* function; CANDIDATE_TIME: rule */
+    double at;        /* time since `left`: by dense output; by true steps where `located` */
+    double low, high; /* such times between which this is the function's only root */
+    bool located, gone;
+    bool idle; /* its function changes its side, and nothing happens */
+    bool sure; /* by far more than dense output errs, its function has other signs at `low` and at `high` */
+    bool near; /* an extremum near 0, of which true steps are to tell whether it touches, crosses twice, or neither */
+} candidate;
+
+typedef struct kept_state { /* the kept numbers from time t on */
+    double t;
+    size_t at; /* in `kept`, times rules.kept_count */
+} kept_state;
+
+/* The latest times of one instance of a rule, the last one first; count: how many of them are known. */
+enum { RECENT = 4 };
+typedef struct recent {
+    double t[RECENT];
+    int count;
+} recent;
+
+struct events {
+    rules rules;
+    problem problem;
+    machine machine;
+    chosen method;
+    motus_allocator allocator;
+    stepper *probe;
+    double start, until, way; /* way: 1 forward, -1 backward */
+    double grid_start, grid_step;
+    int64_t steps;   /* of the leg */
+    bool first;      /* no step has been taken since the start */
+    bool held_known; /* conditions are judged, after the first step */
+    bool marked;     /* `right` is the stepper's state, with its functions */
+    events_end end;
+    size_t end_rule;
+
+    instant left, right, here, next;
+    double *past; /* of the present step: states from which pieces began that ended in an action: t, lost, x, v */
+    size_t pasts, past_room;
+    double past_end;   /* where the last of these pieces ended */
+    int8_t *side;      /* -1, 1, 0: not known, since the function has been 0 from the start on */
+    uint8_t *stands;   /* it is 0 at `left` */
+    uint8_t *open;     /* it is 0 there, and only the next step says whether it passed */
+    int8_t *heads;     /* where it stands at 0: the direction in which its slope leads it, 0: not known */
+    uint8_t *was;      /* side, stands, open and heads before the present step */
+    double here_at;    /* `here` is so long after `left` */
+    double span;       /* from `left` to `right` */
+    bool hidden;       /* the step is so long that rounding hides how a function leaves 0 at its start */
+    uint8_t *zero;     /* it is 0 at `here` */
+    int8_t *sign;      /* room for the signs of a condition's leaves */
+    double *before;    /* the functions at `here` before an action */
+    double *fired;     /* when it did last; NaN: never */
+    uint32_t *rule_of; /* function */
+    double *samples;   /* values at the points of the step */
+    int samples_room;
+    uint8_t *held;     /* per instance of a condition: it was true; numbered as instance_of says */
+    size_t *instances; /* per rule: the number of its first instance */
+    recent *recent;    /* per instance */
+    int64_t *count;    /* per rule */
+    int64_t *ticks;    /* per rule: of a clock, how often it has happened */
+    uint8_t *ticked;   /* per rule: of a clock, it has in this instant */
+    candidate *candidate;
+    size_t candidates, candidate_room;
+
+    double at_once; /* the time of the latest action */
+    int actions;    /* in that instant */
+    double shift;   /* the largest distance of a located time from that of dense output, of this step */
+
+    event *row;
+    double *row_state; /* of every row: the state on arrival, and after it where the action changed it */
+    size_t *row_at;
+    size_t rows, row_room, numbers, number_room;
+    double *kept;
+    kept_state *kept_state;
+    size_t kept_states, kept_room;
+    bool has_limit, limit_told; /* events accumulate; a rule has answered to that */
+    events_limit limit;
+};
+
+/* events_place.c. The acceleration, rates and bounds of an instant whose state and values are known. */
+motus_status events_judge(events *, instant *, motus_error *);
+motus_status events_values(events *, instant *, motus_error *);
+/* A step of size h from the state of time `from` + `lost`; the end is at *t + *rest. */
+motus_status events_probe(events *, double from, double lost, const double *x, const double *v, double h, double *t,
+                          double *rest, motus_error *);
+/* The state after a step of size h from `left`; with values. */
+motus_status events_at(events *, double h, instant *, motus_error *);
+/* Finds where the candidate is, and the state there, in `here`. It may be gone; a near one may become two. */
+motus_status events_locate(events *, size_t candidate, motus_error *);
+/* The direction in which a function moves at an instant along the run; 0: too small to tell. */
+int events_direction(const events *, const instant *, size_t function);
+double events_ulp(double t);
+/* The time of the next tick of a clock. */
+double events_tick(const events *, size_t rule);
+
+/* events_find.c. What may happen in the step from `left` to `right`, whose dense output the stepper has. */
+motus_status events_find(events *, stepper *, motus_error *);
+bool events_add(events *, candidate);
+
+/* events_fire.c. All that happens at `here`, which candidate c (NULL: time) leads to. */
+motus_status events_fire(events *, const candidate *, bool *assigned, motus_error *);
+/* The truth of conditions from the sides, without events. */
+void events_suppose(events *);
+
+/* events_table.c */
+bool events_note(events *, size_t rule, size_t instance, bool touched, const instant *); /* a row */
+bool events_note_after(events *, const instant *);                                       /* its state after it */
+void events_overlay(const events *, double *x);                                          /* the newest kept numbers */
+bool events_keep_now(events *, double t, const double *x);
+void events_kept_forget(events *); /* those before the newest */
+/* An event of a rule that assigns; true: they accumulate, at events.limit. */
+bool events_accumulate(events *, size_t rule, size_t instance, double t);
+
+#endif

@@ -1,0 +1,237 @@
+/* True steps that end on events, and where a root is by them. See events_parts.h. */
+#include "core/events_parts.h"
+
+#include <math.h>
+#include <string.h>
+
+double events_ulp(double t)
+{
+    t = fabs(t);
+    return nextafter(t, INFINITY) - t;
+}
+
+static motus_status refuse(const events *e, double t, motus_error *err)
+{
+    char text[DECIMAL_MAX];
+    if (err) err->time = t;
+    return fail(err, MOTUS_CALLBACK, "the event functions cannot be evaluated at t = %s",
+                decimal_time(t, e->until - e->start, text));
+}
+
+motus_status events_values(events *e, instant *at, motus_error *err)
+{
+    if (e->rules.functions == 0) return MOTUS_OK;
+    return e->rules.values(e->rules.ctx, at->t, at->x, at->v, at->g) ? refuse(e, at->t, err) : MOTUS_OK;
+}
+
+/* The values a time h later, by Taylor's formula, into `next`. */
+static motus_status values_after(events *e, const instant *at, double h, motus_error *err)
+{
+    const problem *p = &e->problem;
+    instant *to = &e->next;
+    to->t = at->t + h;
+    for (size_t k = 0; k < p->nv; k++) {
+        if (k < p->nx) to->x[k] = at->x[k] + h * (at->v[k] + h / 2 * at->a[k]);
+        to->v[k] = at->v[k] + h * at->a[k];
+    }
+    return events_values(e, to, err);
+}
+
+/* Where no formula is known, by what the functions change when every number does by its rounding. */
+static motus_status estimate_bounds(events *e, instant *at, motus_error *err)
+{
+    instant *to = &e->next;
+    for (size_t k = 0; k < e->rules.functions; k++) at->bound[k] = 2 * events_ulp(at->g[k]);
+    for (int sign = -1; sign <= 1; sign += 2) {
+        to->t = at->t + events_ulp(at->t);
+        for (size_t k = 0; k < e->problem.nx; k++) to->x[k] = at->x[k] + (k % 2 ? sign : 1) * events_ulp(at->x[k]);
+        for (size_t k = 0; k < e->problem.nv; k++) to->v[k] = at->v[k] + (k % 2 ? sign : 1) * events_ulp(at->v[k]);
+        const motus_status status = events_values(e, to, err);
+        if (status) return status;
+        for (size_t k = 0; k < e->rules.functions; k++)
+            at->bound[k] = fmax(at->bound[k], 2 * fabs(to->g[k] - at->g[k]));
+    }
+    return MOTUS_OK;
+}
+
+motus_status events_judge(events *e, instant *at, motus_error *err)
+{
+    const problem *p = &e->problem;
+    memset(at->a, 0, p->nv * sizeof *at->a);
+    if (p->accel(p->ctx, at->t, at->x, at->v, at->a)) return refuse(e, at->t, err);
+    if (e->rules.functions == 0) return MOTUS_OK;
+    motus_status status = MOTUS_OK;
+    if (e->rules.rounding)
+        e->rules.rounding(e->rules.ctx, at->t, at->x, at->v, at->bound);
+    else
+        status = estimate_bounds(e, at, err);
+    if (status) return status;
+    if (e->rules.rates)
+        return e->rules.rates(e->rules.ctx, at->t, at->x, at->v, at->a, at->rate) ? refuse(e, at->t, err) : MOTUS_OK;
+    const double h = e->way * fmax(0x1p-16 * fabs(e->span), 64 * events_ulp(at->t));
+    status = values_after(e, at, -h, err);
+    if (!status) memcpy(at->rate, e->next.g, e->rules.functions * sizeof *at->rate);
+    if (!status) status = values_after(e, at, h, err);
+    for (size_t k = 0; k < e->rules.functions && !status; k++) at->rate[k] = (e->next.g[k] - at->rate[k]) / (2 * h);
+    return status;
+}
+
+int events_direction(const events *e, const instant *at, size_t f)
+{
+    const double rate = e->way * at->rate[f], change = rate * fabs(e->span);
+    return fabs(change) > 4 * at->bound[f] ? (rate > 0) - (rate < 0) : 0;
+}
+
+static void copy(const events *e, instant *to, const instant *from)
+{
+    to->t = from->t;
+    to->lost = from->lost;
+    memcpy(to->x, from->x, e->problem.nx * sizeof *to->x);
+    memcpy(to->v, from->v, e->problem.nv * sizeof *to->v);
+    if (e->rules.functions) memcpy(to->g, from->g, e->rules.functions * sizeof *to->g);
+}
+
+motus_status events_probe(events *e, double from, double lost, const double *x, const double *v, double h, double *t,
+                          double *rest, motus_error *err)
+{
+    const double end = from + (lost + h), over = (end - from) - h; /* its rounding, and what was lost */
+    const stepper_limit limit = row_adaptive(&e->method) ? (stepper_limit){INT64_MAX, end} : (stepper_limit){1, NAN};
+    motus_status status = MOTUS_OK;
+    *t = end;
+    *rest = lost - over;
+    if (!e->probe) status = stepper_create(&e->machine, &e->method, from, h, x, v, &e->allocator, &e->probe, err);
+    if (!status) status = stepper_jump(e->probe, from, over, h, x, v, err);
+    return status ? status : stepper_advance(e->probe, limit, NULL, err);
+}
+
+motus_status events_at(events *e, double h, instant *to, motus_error *err)
+{
+    const instant *from = &e->left;
+    const bool still = from->t + h == from->t; /* too short for a step */
+    if (still || h == e->span) {
+        copy(e, to, still ? from : &e->right);
+        return MOTUS_OK;
+    }
+    motus_status status = events_probe(e, from->t, from->lost, from->x, from->v, h, &to->t, &to->lost, err);
+    if (!status) status = stepper_sync(e->probe, to->x, to->v, NULL, err);
+    return status ? status : events_values(e, to, err);
+}
+
+/* Where a root is --------------------------------------------------------------------------------------------------- */
+
+enum { TURNS = 100 };
+
+/* The time of a crossing, by Newton's method between `low` and `high`, on either side of it, until rounding hides on
+ * which side of 0 the function is; `here` is the state there. */
+static motus_status crossing(events *e, candidate *c, motus_error *err)
+{
+    const size_t f = c->of;
+    instant *at = &e->here;
+    double low = c->low, high = c->high, h = c->at, best = INFINITY, found = h, last = h;
+    for (int turn = 0; turn < TURNS; turn++) {
+        motus_status status = events_at(e, last = h, at, err);
+        if (!status) status = events_judge(e, at, err);
+        if (status) return status;
+        const double g = at->g[f], before = best;
+        if (fabs(g) < best) best = fabs(g), found = h;
+        if (g == 0 || (best <= at->bound[f] && fabs(g) >= before)) break;
+        if ((g > 0) == (c->kind > 0))
+            high = h;
+        else
+            low = h;
+        double next = h - g / at->rate[f];
+        /* a slope that vanishes leads nowhere, and after some turns halving is faster */
+        if (!(e->way * (next - low) > 0 && e->way * (high - next) > 0) || turn > 12) next = low + (high - low) / 2;
+        if (next == h || next == low || next == high) break;
+        h = next;
+    }
+    c->at = found;
+    c->located = true;
+    return last == found ? MOTUS_OK : events_at(e, found, at, err);
+}
+
+/* The sign of a function at the ends of the times that a candidate has for itself; there it is not 0. */
+static motus_status sign_at(events *e, double h, size_t f, int *sign, motus_error *err)
+{
+    const motus_status status = events_at(e, h, &e->here, err);
+    const double g = e->here.g[f];
+    *sign = (g > 0) - (g < 0);
+    return status;
+}
+
+/* The time between low and high where the rate is 0, by the secant method kept between them. */
+static motus_status extremum(events *e, candidate *c, motus_error *err)
+{
+    const size_t f = c->of;
+    instant *at = &e->here;
+    double low = c->low, high = c->high, at_low = NAN, at_high = NAN, h = c->at;
+    for (int turn = 0; turn < TURNS; turn++) {
+        c->at = h;
+        motus_status status = events_at(e, h, at, err);
+        if (!status) status = events_judge(e, at, err);
+        if (status) return status;
+        const double rate = at->rate[f];
+        if (rate == 0) break;
+        /* a minimum of a function on the side above, or a maximum of one below */
+        const bool before = (rate * e->way > 0) != (c->kind > 0);
+        if (before)
+            low = h, at_low = rate;
+        else
+            high = h, at_high = rate;
+        double next = isnan(at_low) || isnan(at_high) ? h + (before ? 0.25 * (high - h) : 0.25 * (low - h))
+                                                      : high - at_high * (high - low) / (at_high - at_low);
+        if (turn % 3 == 2 || !(e->way * (next - low) > 0 && e->way * (high - next) > 0)) next = low + (high - low) / 2;
+        if (next == h || next == low || next == high || fabs(high - low) <= events_ulp(at->t)) break;
+        h = next;
+    }
+    return MOTUS_OK;
+}
+
+motus_status events_locate(events *e, size_t k, motus_error *err)
+{
+    candidate *c = &e->candidate[k];
+    motus_status status = MOTUS_OK;
+    if (c->located || c->kind == CANDIDATE_TIME) {
+        c->located = true;
+        status = events_at(e, c->at, &e->here, err);
+        return status ? status : events_judge(e, &e->here, err);
+    }
+    const size_t f = c->of;
+    const double guess = c->at;
+    if (!c->near && !c->sure) {
+        int low, high;
+        status = sign_at(e, c->low, f, &low, err);
+        if (!status) status = sign_at(e, c->high, f, &high, err);
+        if (status) return status;
+        /* where by the step's own values it does not cross, the extremum decides */
+        c->near = low && high && low == high;
+        if (c->near) c->kind = (candidate_kind)low;
+    }
+    if (c->near) {
+        const int side = c->kind;
+        status = extremum(e, c, err);
+        if (status) return status;
+        const double g = e->here.g[f], at = c->at;
+        /* the state near 0 carries the rounding of the larger ones that led there */
+        if (fabs(g) <= fmax(e->here.bound[f], fmax(e->left.bound[f], e->right.bound[f]))) {
+            c->near = false;
+            c->kind = CANDIDATE_TOUCHES;
+            c->located = true;
+        } else if ((g > 0) == (side > 0)) {
+            c->gone = true;
+        } else {
+            candidate second = *c;
+            second.near = c->near = false;
+            second.kind = (candidate_kind)side, c->kind = (candidate_kind)-side;
+            second.low = c->high = at;
+            second.at = at + (second.high - at) / 2;
+            c->at = c->low + (at - c->low) / 2;
+            if (!events_add(e, second)) return fail(err, MOTUS_MEMORY, "no memory for the events of a step");
+            c = &e->candidate[k];
+        }
+    }
+    if (!c->located && !c->gone) status = crossing(e, c, err);
+    if (!status && c->located) status = events_judge(e, &e->here, err);
+    e->shift = fmax(e->shift, fabs(c->at - guess));
+    return status;
+}
