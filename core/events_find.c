@@ -93,11 +93,11 @@ static bool add_roots(events *e, size_t f, const search *of, const roots_root *r
                        .kind = r->kind == ROOTS_RISING    ? CANDIDATE_RISES
                                : r->kind == ROOTS_FALLING ? CANDIDATE_FALLS
                                                           : (candidate_kind)r->side};
-        if (r->open) { /* the next step tells which way it goes on */
+        if (r->open && e->right.t != e->until) { /* the next step tells it again, and which way it goes on */
             e->open[f] = 1;
             continue;
         }
-        c.sure = !c.near && fabs(polynomial(of->coefficients, of->degree, low)) > of->slack &&
+        c.sure = !c.near && (r->from <= 0 || fabs(polynomial(of->coefficients, of->degree, low)) > of->slack) &&
                  (r->to >= 1 || fabs(polynomial(of->coefficients, of->degree, high)) > of->slack);
         /* that it passes the other way is no event, and needs no true steps */
         c.idle = c.sure && rule->kind == RULE_ROOT && rule->direction == -c.kind;
@@ -110,13 +110,11 @@ static bool add_roots(events *e, size_t f, const search *of, const roots_root *r
 static bool leave(events *e, size_t f, const roots_found *found)
 {
     const int after = found->after, side = e->side[f], heads = e->heads[f];
-    const bool open = e->open[f];
-    e->open[f] = e->heads[f] = 0;
+    e->heads[f] = 0;
     e->hidden |= heads && after != heads;
     if (!after) return true; /* it stays there */
     if (side && after != side)
         return events_add(e, (candidate){.of = f, .at = 0, .kind = (candidate_kind)after, .located = true});
-    if (side && open) return events_add(e, (candidate){.of = f, .at = 0, .kind = CANDIDATE_TOUCHES, .located = true});
     if (side) return true;
     if (e->first && found->leaves < 1) { /* the start is no event */
         e->side[f] = (int8_t)after;
@@ -165,7 +163,8 @@ static motus_status find_of(events *e, stepper *s, size_t f, int *degree, motus_
             if (status) return status;
             continue;
         }
-        if (!e->stands[f] && roots_none(coefficients, fitted.degree, SLACK * largest + fitted.noise)) return MOTUS_OK;
+        if (!e->stands[f] && !e->open[f] && roots_none(coefficients, fitted.degree, SLACK * largest + fitted.noise))
+            return MOTUS_OK;
         motus_status status = MOTUS_OK;
         if (!e->marked) { /* the bounds at both ends, once a step */
             status = events_judge(e, &e->left, err);
@@ -177,11 +176,14 @@ static motus_status find_of(events *e, stepper *s, size_t f, int *degree, motus_
         const search of = {coefficients, fitted.degree, noise, fmax(SLACK * largest, 2 * noise)};
         roots_root root[ROOTS_ROOM];
         roots_found found;
-        const roots_status whole = roots_find(coefficients, fitted.degree, e->stands[f] ? 0 : e->side[f], noise,
-                                              of.slack, root, ROOTS_ROOM, &found);
-        if (whole != ROOTS_COMPLETE) found.last = e->right.g[f] > 0 ? 1 : -1;
+        roots_find(coefficients, fitted.degree, e->stands[f] ? 0 : e->side[f], noise, of.slack, root, ROOTS_ROOM,
+                   &found);
         if (e->stands[f] && !leave(e, f, &found)) return fail(err, MOTUS_MEMORY, "no memory for the events of a step");
-        e->stands[f] = found.last == 0;
+        e->stands[f] = e->stands[f] && !found.after;
+        const bool open = e->open[f] && !(found.count && root[0].from <= 0); /* it went back: a touch at the start */
+        e->open[f] = 0;
+        if (open && !events_add(e, (candidate){.of = f, .kind = CANDIDATE_TOUCHES, .located = true}))
+            return fail(err, MOTUS_MEMORY, "no memory for the events of a step");
         if (!add_roots(e, f, &of, root, &found)) return fail(err, MOTUS_MEMORY, "no memory for the events of a step");
         return MOTUS_OK;
     }
