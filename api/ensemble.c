@@ -293,6 +293,7 @@ motus_status motus_ensemble_create(motus_system *s, const motus_ensemble_def *gi
     motus_status status = motus_struct_read(MOTUS_DEF_ENSEMBLE, given, &d, err);
     ensemble_goal *goal = NULL;
     if (status == MOTUS_OK) status = check(s, &d, err);
+    if (status == MOTUS_OK) status = system_refuse_rules(s, err);
     if (status == MOTUS_OK) status = ensemble_accuracy_begin(s, &d, &goal, err);
     if (status != MOTUS_OK) return status;
     motus_ensemble *e = take(&s->allocator, 1, sizeof *e);

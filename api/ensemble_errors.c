@@ -106,9 +106,8 @@ motus_status ensemble_errors_begin(worker *w, const double *values, size_t k, mo
     number_calls(w->system, k, 1);
     number_calls(half, k, 1);
     if (w->half_vary && w->e->vary_count) {
-        if (!vary_apply(w->half_vary, values) || !interpreter_rebind(half->interpreter))
+        if (!vary_apply(w->half_vary, values) || !system_rebind(half))
             return fail(err, MOTUS_MEMORY, "no memory for a trajectory");
-        compiled_rebind(half->compiled);
     }
     r->stepper = w->stepper;
     r->synchronised = false;

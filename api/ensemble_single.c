@@ -63,8 +63,7 @@ static void put_back(motus_ensemble *e, const double *room)
 {
     model *m = e->system->model;
     memcpy(m->pool, room, m->pool_count * sizeof *room);
-    interpreter_rebind(e->system->interpreter);
-    compiled_rebind(e->system->compiled);
+    system_rebind(e->system);
     memcpy(m->x0, room + m->pool_count, m->nx * sizeof *room);
     memcpy(m->v0, room + m->pool_count + m->nx, m->nv * sizeof *room);
     e->system->judged_gyroscopic = false;
@@ -79,9 +78,8 @@ static motus_status start(trajectory *s, const double *const *values, size_t k, 
     motus_system *y = s->w->system;
     for (size_t i = 0; i < e->vary_count; i++) s->values[i] = values[i][k];
     if (y->model && e->vary_count) {
-        if (!vary_apply(s->w->vary, s->values) || !interpreter_rebind(y->interpreter))
+        if (!vary_apply(s->w->vary, s->values) || !system_rebind(y))
             return fail(err, MOTUS_MEMORY, "no memory for a trajectory");
-        compiled_rebind(y->compiled);
         /* whether the velocity term does no work is judged for these parameters */
         if (e->chosen.row->gyroscopic) {
             y->judged_gyroscopic = false;

@@ -37,8 +37,7 @@ static void put_back(motus_system *s, const double *room)
 {
     model *m = s->model;
     memcpy(m->pool, room, m->pool_count * sizeof *room);
-    interpreter_rebind(s->interpreter);
-    compiled_rebind(s->compiled);
+    system_rebind(s);
     memcpy(m->x0, room + m->pool_count, m->nx * sizeof *room);
     memcpy(m->v0, room + m->pool_count + m->nx, m->nv * sizeof *room);
 }
@@ -117,12 +116,8 @@ static motus_status set_model(motus_system *s, const char *name, const parameter
         give(&s->allocator, own);
         return fail(err, MOTUS_MEMORY, "no memory to set %s", name);
     }
-    if (vary_apply(one->vary, values) && interpreter_rebind(s->interpreter)) {
-        compiled_rebind(s->compiled);
-        status = check(s, name, err);
-    } else {
-        status = fail(err, MOTUS_MEMORY, "no memory to set %s", name);
-    }
+    status = vary_apply(one->vary, values) && system_rebind(s) ? check(s, name, err)
+                                                               : fail(err, MOTUS_MEMORY, "no memory to set %s", name);
     if (status == MOTUS_OK)
         s->judged_gyroscopic = s->judged_gradient = false; /* of other numbers */
     else

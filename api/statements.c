@@ -14,6 +14,7 @@ static motus_statement_kind kind_of(const model *m, const statement *s)
     case STATEMENT_FUNCTION: return MOTUS_STATEMENT_FUNCTION;
     case STATEMENT_EXACT: return MOTUS_STATEMENT_EXACT;
     case STATEMENT_INVARIANT: return MOTUS_STATEMENT_INVARIANT;
+    case STATEMENT_WHEN: return MOTUS_STATEMENT_EVENT;
     case STATEMENT_DEFINITION:
         named = symbols_find(m, s->name);
         return named.state                                   ? MOTUS_STATEMENT_BOUNDARY

@@ -3,6 +3,7 @@
 #include "api/stand_in.h"
 #include "lang/read/read.h"
 #include "machine/held.h"
+#include "machine/ruled.h"
 
 #include <math.h>
 #include <string.h>
@@ -166,6 +167,30 @@ motus_status system_switches(motus_system *s, motus_error *err)
     const motus_status status = held_create(s->model, &s->switches, &s->switches_refused, err);
     s->switches_known = status == MOTUS_OK;
     return status;
+}
+
+motus_status system_rules(motus_system *s, const rules **out, motus_error *err)
+{
+    *out = NULL;
+    if (!s->model || s->model->rule_count == 0) return MOTUS_OK;
+    const motus_status status = s->ruled ? MOTUS_OK : ruled_create(s->model, &s->ruled, err);
+    if (status == MOTUS_OK) *out = ruled_rules(s->ruled);
+    return status;
+}
+
+motus_status system_refuse_rules(const motus_system *s, motus_error *err)
+{
+    if (!s->model || s->model->rule_count == 0) return MOTUS_OK;
+    fail(err, MOTUS_UNAVAILABLE, "the model has events (when …), and runs do not follow events yet");
+    hint(err, "leave the when lines out; the motion runs on to `until`");
+    return MOTUS_UNAVAILABLE;
+}
+
+bool system_rebind(motus_system *s)
+{
+    const bool bound = interpreter_rebind(s->interpreter) && (!s->ruled || ruled_rebind(s->ruled));
+    if (bound) compiled_rebind(s->compiled);
+    return bound;
 }
 
 motus_status motus_variable_at(const motus_system *s, size_t k, motus_variable *v)

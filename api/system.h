@@ -35,7 +35,8 @@ struct motus_system {
     compiled *compiled;    /* NULL until a run asks for it */
     struct held *switches; /* NULL until a run asks for it, and where the model has none */
     bool switches_known;
-    resolution *poles; /* NULL until a run is asked for a singularity, and where the force has no poles */
+    struct ruled *ruled; /* NULL until its rules are asked for, and where the model has none */
+    resolution *poles;   /* NULL until a run is asked for a singularity, and where the force has no poles */
     bool poles_known;
     weight weight; /* of the equations, where `weighed` */
     bool weighed;
@@ -76,6 +77,13 @@ motus_status system_values(motus_system *, double t, double *x, double *v, const
                            double *out, motus_error *);
 /* Finds the switches of the model, once: `switches`, or why they cannot be held. */
 motus_status system_switches(motus_system *, motus_error *);
+/* The rules of the model, made once; *out is NULL where it has none. */
+motus_status system_rules(motus_system *, const rules **out, motus_error *);
+/* Refuses a model that has events, where nothing follows them. */
+motus_status system_refuse_rules(const motus_system *, motus_error *);
+/* To be called after the model's numbers have changed: its machines compute with the new ones. False: no memory, which
+ * the first call alone may need. */
+bool system_rebind(motus_system *);
 bool system_number_columns(motus_system *);
 /* The place in x, or in v, of column 1 + outer. */
 size_t system_number(const motus_system *, size_t outer, bool of_v);

@@ -433,8 +433,9 @@ typedef enum motus_statement_kind {
     MOTUS_STATEMENT_BOUNDARY, /* x[0] = … */
     MOTUS_STATEMENT_EXACT,
     MOTUS_STATEMENT_INVARIANT,
-    MOTUS_STATEMENT_SETTING, /* method, step, from, until, every */
-    MOTUS_STATEMENT_FUNCTION /* V(q) = … */
+    MOTUS_STATEMENT_SETTING,  /* method, step, from, until, every */
+    MOTUS_STATEMENT_FUNCTION, /* V(q) = … */
+    MOTUS_STATEMENT_EVENT     /* when … */
 } motus_statement_kind;
 typedef struct motus_statement {
     uint32_t size; /* by motus_default_statement() */

@@ -3,6 +3,7 @@
 
 #include "lang/read/read.h"
 #include "lang/tape/tape.h"
+#include "machine/rounding.h"
 
 #include <float.h>
 #include <math.h>
@@ -48,31 +49,11 @@ static bool make_view(held *h, model *m)
     return true;
 }
 
-/* What rounding leaves of a leaf: half an ulp of the time and of a state. */
-static node leaf_rounding(graph *g, node leaf, void *ctx)
-{
-    (void)ctx;
-    const graph_node *n = graph_at(g, leaf);
-    const bool moves =
-        n->op == OP_TIME || (n->op == OP_LOAD && g->arrays[g->references[n->a].array].space != SPACE_POOL);
-    return moves ? graph_op(g, OP_ABS, leaf, 0, 0) : 0;
-}
-
-static tape *rounding_of(model *m, const output *of, size_t count)
-{
-    output *to = arena_room(m->arena, (count + 1) * sizeof *to);
-    for (size_t k = 0; to && k < count; k++) {
-        to[k] = of[k];
-        to[k].value = graph_rounding(m->graph, of[k].value, leaf_rounding, NULL);
-    }
-    return to && !m->arena->failed ? tape_of(m->arena, m->graph, to, count) : NULL;
-}
-
 /* What tells how near a switch is, and how well its time is known. */
 static bool make_reach(held *h, model *m)
 {
     const switches *s = &h->switches;
-    return (h->rounding = rounding_of(m, s->held, s->kinds)) &&
+    return (h->rounding = rounding_tape(m, s->held, s->kinds)) &&
            resolution_create_values(m, s->held, s->kinds, &h->reach) &&
            resolution_create_values(m, s->rate, s->kinds, &h->reach_rate);
 }
@@ -113,7 +94,7 @@ motus_status held_create(model *m, held **out, const char **refused, motus_error
         *tapes[k].made = tape_of(m->arena, m->graph, tapes[k].of, tapes[k].count);
         if (!*tapes[k].made) return fail(err, MOTUS_MEMORY, "no memory for the model's switches");
     }
-    if ((s->kinds && !make_reach(h, m)) || !(h->force_rounding = rounding_of(m, s->accel, m->accel_count)))
+    if ((s->kinds && !make_reach(h, m)) || !(h->force_rounding = rounding_tape(m, s->accel, m->accel_count)))
         return fail(err, MOTUS_MEMORY, "no memory for the model's switches");
     *out = h;
     return MOTUS_OK;

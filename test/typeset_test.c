@@ -223,7 +223,13 @@ static void statements(void **state)
         {"step pi/1000", "step_mfrac{π|1000}"},
         {"every 10 steps", "every_10_steps"},
         {"every 0.1", "every_0.1"},
-        {"method newmark(1/4, 1/2)", "method_newmark(1/4, 1/2)"}};
+        {"method newmark(1/4, 1/2)", "method_newmark(1/4, 1/2)"},
+        {"when y = 0: record", "when_y=0:__record"},
+        {"when x = y/2 falling as hit_0: x' = -x', stop after 3",
+         "when_x=mfrac{y|2}_falling_as_hit_0:__msup{x|′}=−msup{x|′},_stop_after_3"},
+        {"when x > 1 and not y < 2: y = 0, stop", "when_x>1_and_not_y<2:__y=0,_stop"},
+        {"when every 1/2 as tick: q[i] = 0 for i = 1..3", "when_every_mfrac{1|2}_as_tick:__msub{q|i}=0 {for_i=1,…,3}"},
+        {"when x = 0 as hit: record\nwhen hit accumulates: stop", "when_hit_accumulates:__stop"}};
     for (size_t k = 0; k < sizeof cases / sizeof *cases; k++) same(cases[k][0], cases[k][1]);
 
     same("", "{msubsup{u|{i,j}|′}@{(0)}}=0 {for_i=1,…,3_and_j=1,2}");
@@ -251,13 +257,14 @@ static void kinds(void **state)
                     {MOTUS_STATEMENT_START, 15, "fed", "{fed@{(0)}}=0"},
                     {MOTUS_STATEMENT_SETTING, 16, "until", "until_1"},
                     {MOTUS_STATEMENT_SETTING, 17, "method", "method_verlet"},
-                    {MOTUS_STATEMENT_FUNCTION, 18, "F", "{F@{(t)}}=t"}};
+                    {MOTUS_STATEMENT_FUNCTION, 18, "F", "{F@{(t)}}=t"},
+                    {MOTUS_STATEMENT_EVENT, 19, "event1", "when_x=0:__record"}};
     static char out[ROOM];
     motus_statement one = motus_default_statement();
     motus_system *s = given_text(
         "# a comment\nk = 1\n\nx'' = -k x\nx(0) = 1\nx'(0) = 0\ninvariant energy = x'^2/2 + x^2/2\nv =\n x'\n"
         "u[i]'' = u[i+1] - u[i] for i = 1..1\nu[2] = sin(t)\nu[i](0) = 0 for i = 1..1\nu[i]'(0) = 0 for i = 1..1\n"
-        "fed' = x\nfed(0) = 0\nuntil 1\nmethod verlet\nF(t) = t\n");
+        "fed' = x\nfed(0) = 0\nuntil 1\nmethod verlet\nF(t) = t\nwhen x = 0: record\n");
     assert_int_equal(motus_statement_count(s), sizeof expected / sizeof *expected);
     for (size_t k = 0; k < motus_statement_count(s); k++) {
         assert_int_equal(motus_statement_at(s, k, &one), MOTUS_OK);

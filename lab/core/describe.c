@@ -92,6 +92,7 @@ static void describe_statements(json *j, motus_system *s)
         [MOTUS_STATEMENT_START] = "start",         [MOTUS_STATEMENT_BOUNDARY] = "boundary",
         [MOTUS_STATEMENT_EXACT] = "exact",         [MOTUS_STATEMENT_INVARIANT] = "invariant",
         [MOTUS_STATEMENT_SETTING] = "setting",     [MOTUS_STATEMENT_FUNCTION] = "function",
+        [MOTUS_STATEMENT_EVENT] = "event",
     };
     json_open(j, "statements", '[');
     for (size_t k = 0; k < motus_statement_count(s); k++) {

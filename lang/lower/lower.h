@@ -35,7 +35,14 @@ typedef struct argument {
     value known[MAX_LEVELS + 1]; /* its nodes by the level of their use; item NULL: not lowered yet */
 } argument;
 
-typedef enum lower_place { PLACE_CONSTANT, PLACE_EXACT, PLACE_EQUATION, PLACE_BOUNDARY, PLACE_QUANTITY } lower_place;
+typedef enum lower_place {
+    PLACE_CONSTANT,
+    PLACE_EXACT,
+    PLACE_EQUATION,
+    PLACE_BOUNDARY,
+    PLACE_EVENT,
+    PLACE_QUANTITY
+} lower_place;
 
 typedef struct lowering {
     model *model;
@@ -61,6 +68,10 @@ node lower_scalar(lowering *, const tree *, const char *what);
  * known to the lowering. */
 bool lower_target(lowering *, const statement *, output *);
 bool lower_subscript(lowering *, const tree *, subscript *, int64_t *first, int64_t *last);
+/* Opens the indices of loops that stand on no left side, as levels 0, 1 …; `low` and `high` of the lowering are their
+ * hulls then. */
+bool lower_loops(lowering *, const loop *, uint32_t count, range *out);
+bool lower_is_index(const lowering *, const char *name);
 
 /* The range of each index of a left side that lower_target has read. */
 void lower_extent(const model *, const lowering *, const output *, int64_t first[], int64_t last[]);

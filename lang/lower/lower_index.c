@@ -233,6 +233,31 @@ bool lower_range(lowering *l, const loop *loop, range *out, int64_t *low, int64_
     return true;
 }
 
+bool lower_is_index(const lowering *l, const char *name) { return lower_find_index(l, name) != NULL; }
+
+bool lower_loops(lowering *l, const loop *loops, uint32_t count, range *out)
+{
+    for (uint32_t k = 0; k < count; k++) {
+        int64_t low, high;
+        if (!lower_range(l, &loops[k], &out[k], &low, &high)) return false;
+        if (low > high) {
+            source_complain(&l->model->source, MOTUS_ARGUMENT, &loops[k].at,
+                            "the index %s runs over nothing: from %lld to %lld", loops[k].name, (long long)low,
+                            (long long)high);
+            return false;
+        }
+        if (!lower_add_index(l, &loops[k], l->levels, low, high)) return false;
+        l->levels++;
+        l->terms *= (double)(high - low + 1);
+        if (l->terms > MODEL_NUMBERS_MAX) {
+            source_complain(&l->model->source, MOTUS_LIMIT, &loops[k].at, "%.0f places are more than the %d that fit",
+                            l->terms, MODEL_NUMBERS_MAX);
+            return false;
+        }
+    }
+    return !failed(l);
+}
+
 bool lower_target(lowering *l, const statement *s, output *out)
 {
     out->to.dims = (uint8_t)s->index_count;

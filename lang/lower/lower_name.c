@@ -115,6 +115,11 @@ static value lower_state(lowering *l, const tree *t, model_state *s)
         COMPLAIN(l, &t->at, "%s has an equation of first order: %s'' is not known", s->name, s->name);
         return wrong(l);
     }
+    if (t->primes == s->order && l->place == PLACE_EVENT) {
+        COMPLAIN(l, &t->at, "an event reads the state, and %s follows from it", quote(l, &t->at, text));
+        HINT(l, "write the right side of its equation in its place");
+        return wrong(l);
+    }
     if (t->primes == s->order && l->place != PLACE_QUANTITY) {
         COMPLAIN(l, &t->at, "%s stands on the right side of an equation", quote(l, &t->at, text));
         HINT(l, "solve the equations for the highest derivatives; %s may stand in quantities and invariants", text);

@@ -9,6 +9,7 @@
 #ifndef LANG_MODEL_MODEL_H
 #define LANG_MODEL_MODEL_H
 
+#include "core/rules.h"
 #include "lang/graph/graph.h"
 #include "lang/tree/tree.h"
 
@@ -123,6 +124,38 @@ typedef struct model_function {
     struct expansion *last; /* lower_function.c: the last call; NULL: none */
 } model_function;
 
+/* An assignment of an event: its value, to SPACE_OUT, for all indices of its rule; and the number of x or v that it
+ * becomes. */
+typedef struct model_assignment {
+    output value;
+    reference to;
+} model_assignment;
+
+/* A `when` statement (core/rules.h). Its indices are the levels 0 … loops-1 of its formulas. Those that its functions
+ * read, and those before them, number the instances; over the others every event runs. */
+typedef struct model_rule {
+    const char *name;
+    const statement *statement;
+    uint8_t kind;     /* rule_kind */
+    int8_t direction; /* as in core/rules.h, and so all that is not explained here */
+    bool records;
+    uint8_t loops, own; /* own: those that number the instances */
+    range loop[MAX_DIMS];
+    int64_t first[MAX_DIMS], last[MAX_DIMS]; /* the hull of each index */
+    size_t instances;                        /* cells of the hull of its own indices */
+    size_t leaf_first;                       /* number of its first function */
+    output *leaf;                            /* to SPACE_OUT, by the number of the function */
+    size_t leaves;
+    int16_t *formula;
+    int words;
+    uint8_t *compares; /* for each leaf */
+    model_assignment *assignment;
+    size_t assignments, numbers; /* numbers: of SPACE_OUT, that its assignments need */
+    double period;
+    size_t of;
+    int64_t stop;
+} model_rule;
+
 typedef enum block { BLOCK_X, BLOCK_V, BLOCK_A, BLOCK_DX, BLOCK_DV } block;
 
 typedef struct model {
@@ -161,6 +194,9 @@ typedef struct model {
     uint32_t definition_count;
     model_function *functions;
     uint32_t function_count;
+    model_rule *rules;
+    uint32_t rule_count;
+    size_t rule_functions; /* of all rules, instances counted */
     uint32_t *symbols;
     uint32_t symbol_size;          /* hash table: name → state or definition */
     uint16_t block[5], block_size; /* array numbers of the X, V, A, DX, DV blocks */

@@ -98,11 +98,19 @@ static bool recognise_constant(model *m)
     return !source_failed(&m->source);
 }
 
+/* Whether the motion ends where an event assigns. */
+static bool interrupted(const model *m)
+{
+    for (uint32_t i = 0; i < m->rule_count; i++)
+        if (m->rules[i].assignments) return true;
+    return false;
+}
+
 void analysis_all(model *m)
 {
     analysis_traits(m);
     if (m->exact_given)
         m->traits.has_exact = true;
-    else if (m->traits.constant && m->nx == m->nv && m->boundary_count == 0)
+    else if (m->traits.constant && !interrupted(m) && m->nx == m->nv && m->boundary_count == 0)
         m->traits.has_exact = recognise_constant(m);
 }

@@ -231,6 +231,17 @@ static bool check_left(model *m, const statement *s)
     return true;
 }
 
+/* The parts of an event, in whose ranges an index may use those before it. */
+static void find_in_when(finding *f, const when *w, const scope *all)
+{
+    if (w->left) find(f, w->left, all);
+    if (w->right) find(f, w->right, all);
+    for (const action *a = w->actions; a; a = a->next) {
+        if (a->target) find(f, a->target, all);
+        if (a->value) find(f, a->value, all);
+    }
+}
+
 static bool check_statement(model *m, const statement *s)
 {
     finding f = {.model = m};
@@ -238,8 +249,8 @@ static bool check_statement(model *m, const statement *s)
     const scope *all = NULL;
     if (!check_left(m, s)) return false;
     for (uint32_t k = 0; k < s->loop_count; k++) {
-        find(&f, s->loops[k].first, NULL);
-        find(&f, s->loops[k].last, NULL);
+        find(&f, s->loops[k].first, s->kind == STATEMENT_WHEN ? all : NULL);
+        find(&f, s->loops[k].last, s->kind == STATEMENT_WHEN ? all : NULL);
         local[k] = (scope){s->loops[k].name, all};
         all = &local[k];
     }
@@ -250,6 +261,7 @@ static bool check_statement(model *m, const statement *s)
     for (uint32_t d = 0; d < s->index_count; d++) find(&f, s->index[d], all);
     if (s->kind == STATEMENT_START) find(&f, s->applied->item[1], NULL);
     if (s->value) find(&f, s->value, all);
+    if (s->kind == STATEMENT_WHEN) find_in_when(&f, s->when, all);
     if (!f.first) return true;
     return f.first->kind == TREE_NAME ? complain_name(&f, f.first) : complain_call(&f, f.first);
 }

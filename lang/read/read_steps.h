@@ -1,16 +1,18 @@
 /* The steps in which a model is read, in their order; each is a file of its name. They return false after a complaint
- * or without memory. After the third, read.c has parameters and initial values computed (lang/lower/). */
+ * or without memory. After the fourth, read.c has parameters and initial values computed (lang/lower/). */
 #ifndef LANG_READ_READ_STEPS_H
 #define LANG_READ_READ_STEPS_H
 
 #include "lang/read/read.h"
 
 bool collect_all(model *, const motus_text_def *); /* statements, with those of --set; the symbol table */
+bool rule_names_all(model *);                      /* names of events */
 bool classify_all(model *);                        /* parameters or quantities; complains about lines without a state */
 bool names_all(model *);                           /* complains about names that are not defined */
 bool settings_all(model *, read_method);           /* method, step, until … */
 bool layout_all(model *);                          /* places of the states in x and v */
 bool equations_all(model *);                       /* outputs over the graph */
+bool rules_all(model *);                           /* events */
 void analysis_all(model *);                        /* traits of the equations */
 
 #endif

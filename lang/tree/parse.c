@@ -30,6 +30,14 @@ static tree *parse_power(parser *p)
     return two(p, TREE_POWER, base, exponent);
 }
 
+static bool words_of_events(const parser *p)
+{
+    static const char *const words[] = {"rising", "falling", "as", "accumulates", "after", "record", "stop"};
+    for (size_t i = 0; i < sizeof words / sizeof *words; i++)
+        if (word(p, words[i])) return true;
+    return false;
+}
+
 /* A factor may follow without a sign: a name, a call, a bracket, a norm [2, 7]. */
 static bool juxtaposes(const parser *p)
 {
@@ -37,7 +45,8 @@ static bool juxtaposes(const parser *p)
         static const char *const words[] = {"and", "or", "not", "for", "steps"};
         for (size_t i = 0; i < sizeof words / sizeof *words; i++)
             if (word(p, words[i])) return false;
-        return !(p->error && (word(p, "absolute") || word(p, "relative")));
+        if (p->error && (word(p, "absolute") || word(p, "relative"))) return false;
+        return !(p->when && words_of_events(p));
     }
     return is(p, '(') || (is(p, '|') && p->bars == 0) || (is(p, '[') && p->token.blank) ||
            p->token.kind == TOKEN_NUMBER;

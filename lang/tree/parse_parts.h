@@ -21,6 +21,7 @@ typedef struct parser {
     int bars;          /* | opened in the present bracket and not yet closed [7] */
     int depth;
     bool error; /* it reads a tolerance or an accuracy: `absolute` and `relative` are words */
+    bool when;  /* it reads a `when`: `rising`, `falling`, `as`, `record` … are words */
     struct {
         const char *name;
         bool counted;
@@ -180,5 +181,10 @@ tree *parse_applied(parser *p, tree *name);
 tree *parse_factor(parser *p);
 /* parse.c */
 tree *parse_or(parser *p);
+/* parse_statement.c: the ranges behind `for`, if there are any; the end of a statement that began in this line */
+void parse_for(parser *p, statement *s);
+void parse_end(parser *p, int line);
+/* parse_when.c */
+void parse_when(parser *p, statement *s);
 
 #endif

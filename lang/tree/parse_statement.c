@@ -5,7 +5,7 @@
 #include "base/utf8.h"
 
 /* for = "for" loop { "," loop } */
-static void parse_for(parser *p, statement *s)
+void parse_for(parser *p, statement *s)
 {
     if (!word(p, "for")) return;
     do {
@@ -22,7 +22,7 @@ static void parse_for(parser *p, statement *s)
 }
 
 /* `line` is where the statement begins. */
-static void end_of_statement(parser *p, int line)
+void parse_end(parser *p, int line)
 {
     if (failed(p) || p->token.kind == TOKEN_NEWLINE || p->token.kind == TOKEN_END) return;
     char text[80], before[80];
@@ -62,7 +62,7 @@ static void parse_value(parser *p, statement *s)
     s->value = parse_or(p);
     s->value_at = (span){first.text, first.from, p->last.at.to};
     parse_for(p, s);
-    end_of_statement(p, source_line(p->source, &s->at));
+    parse_end(p, source_line(p->source, &s->at));
 }
 
 /* Whether a terminal can show it: no control characters, nothing that is not UTF-8. */
@@ -124,7 +124,7 @@ static void parse_setting(parser *p, statement *s)
         advance(p);
     }
     p->error = false;
-    end_of_statement(p, source_line(p->source, &s->at));
+    parse_end(p, source_line(p->source, &s->at));
 }
 
 /* Hints for usual ways to write a derivative that the language does not have. */
@@ -271,8 +271,7 @@ static void parse_statement(parser *p, statement *s)
         return;
     }
     if (word(p, "when")) {
-        source_complain(p->source, MOTUS_UNAVAILABLE, &p->token.at, "events (when …) are not available yet");
-        HINT(p, "leave the line out; the motion runs on to `until`");
+        parse_when(p, s);
         return;
     }
     bool exact = word(p, "exact"), invariant = word(p, "invariant");

@@ -62,6 +62,7 @@ typedef enum statement_kind {
     STATEMENT_FUNCTION,   /* name(argument, …) = value; the parser leaves it to the names whether it is a START */
     STATEMENT_EXACT,
     STATEMENT_INVARIANT,
+    STATEMENT_WHEN,   /* when */
     STATEMENT_METHOD, /* text */
     STATEMENT_STEP,
     STATEMENT_TOLERANCE,
@@ -70,6 +71,25 @@ typedef enum statement_kind {
     STATEMENT_UNTIL,
     STATEMENT_EVERY
 } statement_kind;
+
+typedef enum when_kind { WHEN_EQUAL, WHEN_CONDITION, WHEN_EVERY, WHEN_ACCUMULATES } when_kind;
+typedef enum action_kind { ACTION_RECORD, ACTION_STOP, ACTION_ASSIGN } action_kind;
+
+typedef struct action {
+    uint8_t kind; /* action_kind */
+    span at;
+    tree *target, *value; /* ASSIGN: both; STOP: the value is the number behind `after`, or NULL */
+    struct action *next;
+} action;
+
+typedef struct when {
+    uint8_t kind;       /* when_kind */
+    int8_t direction;   /* EQUAL: 1 rising, -1 falling, 0 both */
+    tree *left, *right; /* EQUAL: both; CONDITION, EVERY: left */
+    const char *of;     /* ACCUMULATES: the name of an event */
+    span of_at;
+    action *actions;
+} when;
 
 /* What --set has put another expression in the place of: the model's own, and the place of that statement. */
 typedef struct replaced {
@@ -91,6 +111,7 @@ typedef struct statement {
     union {
         tree **index;
         const char *text; /* METHOD */
+        when *when;       /* WHEN, whose name is that of the event, or NULL */
     };
     tree *applied; /* START, FUNCTION: the left side as an APPLY, x(c) or V(a, b) */
     tree *value;   /* the right side, or the setting's expression */

@@ -11,6 +11,14 @@ static void reverse(task *tasks, uint32_t count)
     }
 }
 
+static void upright(typesetter *p, const char *name)
+{
+    if (p->full) return;
+    typeset_put(p, "<mtext>");
+    typeset_plain(p, name);
+    typeset_put(p, "</mtext>");
+}
+
 static void do_all(typesetter *p)
 {
     reverse(p->tasks, p->count);
@@ -21,6 +29,7 @@ static void do_all(typesetter *p)
         case TASK_TREE: typeset_tree(p, t.tree, t.place); break;
         case TASK_NAME: typeset_name(p, t.text); break;
         case TASK_TAIL: typeset_tail(p, t.text); break;
+        case TASK_PLAIN: upright(p, t.text); break;
         case TASK_TAG: typeset_put(p, t.text); break;
         case TASK_SIGN: typeset_put(p, p->full ? "" : t.text); break;
         }
@@ -69,6 +78,9 @@ static char *write_statement(typesetter *p, const statement *s)
     typeset_put(p, "<math xmlns=\"http://www.w3.org/1998/Math/MathML\" display=\"block\">");
     if (s->kind >= STATEMENT_METHOD) {
         setting(p, s);
+    } else if (s->kind == STATEMENT_WHEN) {
+        typeset_when(p, s);
+        ranges(p, s);
     } else {
         typeset_then(p, s->kind == STATEMENT_EXACT ? &exact : s->applied ? s->applied : &name, 0);
         typeset_tag(p, "<mo>=</mo>");

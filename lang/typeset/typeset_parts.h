@@ -63,8 +63,9 @@ typedef enum task_kind {
     TASK_TREE,
     TASK_NAME, /* a name without its subscript; TASK_TAIL: its subscript, without the name */
     TASK_TAIL,
-    TASK_TAG, /* text that opens and closes elements: written whatever has been cut */
-    TASK_SIGN /* text that is left out together with the expressions around it */
+    TASK_PLAIN, /* a name as it is typed, upright */
+    TASK_TAG,   /* text that opens and closes elements: written whatever has been cut */
+    TASK_SIGN   /* text that is left out together with the expressions around it */
 } task_kind;
 
 typedef struct task {
@@ -109,6 +110,8 @@ void typeset_items(typesetter *, fence, const tree *, place);
 void typeset_arguments(typesetter *, const tree *applied, place);
 void typeset_itself(typesetter *, fence, const tree *, place);
 void typeset_cases(typesetter *, const tree *, place);
+/* typeset_when.c: an event, without the ranges of its indices */
+void typeset_when(typesetter *, const statement *);
 /* typeset_script.c: what is written as a name with signs about it: x, x_i, x_max″, r_y, x(0), V(a, b) */
 typedef struct head {
     const tree *name, *component, *applied;

@@ -1,0 +1,248 @@
+/* See ruled.h.
+ *
+ * All functions are one tape. Every rule that assigns has a tape of its own, in which the indices that number its
+ * instances run from an int slot to the same slot, so one event costs one instance.
+ */
+#include "machine/ruled.h"
+
+#include "lang/graph/graph_place.h"
+#include "lang/tape/tape.h"
+#include "machine/rounding.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+struct ruled {
+    const model *model;
+    rules supplied;
+    rule *rule;
+    tape *values, *rates, *rounding; /* NULL: there are no functions */
+    tape **act;                      /* of each rule, NULL: it assigns nothing */
+    int64_t *ints;                   /* those of the model, then the present values of MAX_DIMS indices */
+    double *becomes;                 /* what is assigned, for the rule that has most of it */
+};
+
+/* ---- functions ---- */
+
+static void run(const ruled *r, tape *t, double time, double *x, double *v, double *a, double *out)
+{
+    double *base[SPACES] = {[SPACE_X] = x, [SPACE_V] = v, [SPACE_A] = a, [SPACE_OUT] = out};
+    for (size_t k = 0; k < r->supplied.functions; k++) out[k] = NAN; /* cells outside the ranges are written by none */
+    if (t) tape_run(t, time, base);
+}
+
+static int values(void *ctx, double t, double *x, double *v, double *out)
+{
+    const ruled *r = ctx;
+    run(r, r->values, t, x, v, NULL, out);
+    return 0;
+}
+
+static int rates(void *ctx, double t, double *x, double *v, double *a, double *out)
+{
+    const ruled *r = ctx;
+    run(r, r->rates, t, x, v, a, out);
+    return 0;
+}
+
+static void rounding(void *ctx, double t, double *x, double *v, double *out)
+{
+    const ruled *r = ctx;
+    run(r, r->rounding, t, x, v, NULL, out);
+    for (size_t k = 0; k < r->supplied.functions; k++) out[k] *= 0x1p-53;
+}
+
+/* ---- actions ---- */
+
+/* The indices of an instance. */
+static void indices_of(const model_rule *rule, size_t instance, int64_t *index)
+{
+    for (int k = rule->own - 1; k >= 0; k--) {
+        const size_t length = (size_t)(rule->last[k] - rule->first[k] + 1);
+        index[k] = rule->first[k] + (int64_t)(instance % length);
+        instance /= length;
+    }
+}
+
+typedef struct assigning {
+    const ruled *ruled;
+    const model_rule *rule;
+    const model_assignment *one;
+    int64_t index[MAX_LEVELS];
+    double *x, *v;
+    bool *in_v;
+    size_t *which;
+} assigning;
+
+/* Copies the values of an assignment to their places, for all indices from `level` on. False: one is not finite, and
+ * x and v are as they were, if `check`. */
+static bool copy(assigning *s, int level, bool check)
+{
+    const ruled *r = s->ruled;
+    const model *m = r->model;
+    const model_rule *rule = s->rule;
+    if (level == rule->loops) {
+        const double value = r->becomes[graph_element(m->arrays, &s->one->value.to, s->index, r->ints)];
+        const size_t at = graph_element(m->arrays, &s->one->to, s->index, r->ints);
+        const bool in_v = m->arrays[s->one->to.array].space == SPACE_V;
+        if (check && !isfinite(value)) {
+            *s->in_v = in_v;
+            *s->which = at;
+            return false;
+        }
+        if (!check) (in_v ? s->v : s->x)[at] = value;
+        return true;
+    }
+    const int64_t first = graph_subscript(&rule->loop[level].first, s->index, r->ints),
+                  last = graph_subscript(&rule->loop[level].last, s->index, r->ints);
+    for (s->index[level] = first; s->index[level] <= last; s->index[level]++)
+        if (!copy(s, level + 1, check)) return false;
+    return true;
+}
+
+static int act(void *ctx, size_t number, size_t instance, double t, double *x, double *v, bool *in_v, size_t *which)
+{
+    const ruled *r = ctx;
+    const model_rule *rule = &r->model->rules[number];
+    if (!r->act[number]) return 0;
+    assigning s = {.ruled = r, .rule = rule, .x = x, .v = v, .in_v = in_v, .which = which};
+    double *base[SPACES] = {[SPACE_X] = x, [SPACE_V] = v, [SPACE_OUT] = r->becomes};
+    indices_of(rule, instance, s.index);
+    memcpy(r->ints + r->model->int_count, s.index, MAX_DIMS * sizeof *r->ints);
+    tape_run(r->act[number], t, base);
+    for (int check = 1; check >= 0; check--)
+        for (size_t k = 0; k < rule->assignments; k++) {
+            s.one = &rule->assignment[k];
+            if (!copy(&s, rule->own, check)) return 1;
+        }
+    return 0;
+}
+
+static void name(void *ctx, size_t number, size_t instance, char *out, size_t size)
+{
+    const ruled *r = ctx;
+    const model_rule *rule = &r->model->rules[number];
+    int64_t index[MAX_DIMS];
+    indices_of(rule, instance, index);
+    size_t n = (size_t)snprintf(out, size, "%s", rule->name);
+    for (int k = 0; k < rule->own && n < size; k++)
+        n += (size_t)snprintf(out + n, size - n, "%s%lld%s", k ? "," : "[", (long long)index[k],
+                              k == rule->own - 1 ? "]" : "");
+}
+
+/* ---- making ---- */
+
+/* Derivatives along the motion: x moves by v, v by a, t by 1. */
+static node seed_motion(graph *g, node leaf, void *shift)
+{
+    return graph_at(g, leaf)->op == OP_TIME ? graph_const(g, 1) : graph_seed_direction(g, leaf, shift);
+}
+
+static bool make_functions(ruled *r, model *m)
+{
+    size_t count = 0;
+    for (uint32_t i = 0; i < m->rule_count; i++) count += m->rules[i].leaves;
+    if (!count) return true;
+    output *leaves = arena_room(m->arena, 2 * count * sizeof *leaves), *rate = leaves + count;
+    if (!leaves) return false;
+    graph_shift shift = {m->block_size, m->block_size};
+    for (uint32_t i = 0, n = 0; i < m->rule_count; i++)
+        for (size_t k = 0; k < m->rules[i].leaves; k++, n++) {
+            leaves[n] = rate[n] = m->rules[i].leaf[k];
+            rate[n].value = graph_derivative(m->graph, leaves[n].value, seed_motion, &shift);
+        }
+    r->values = tape_of(m->arena, m->graph, leaves, count);
+    r->rates = tape_of(m->arena, m->graph, rate, count);
+    r->rounding = rounding_tape(m, leaves, count);
+    return r->values && r->rates && r->rounding;
+}
+
+static tape *make_act(const ruled *r, model *m, const model_rule *rule)
+{
+    output *o = arena_room(m->arena, rule->assignments * sizeof *o);
+    for (size_t k = 0; o && k < rule->assignments; k++) {
+        o[k] = rule->assignment[k].value;
+        for (int d = 0; d < rule->own; d++) {
+            const subscript here = {.level = -1, .slot = (int16_t)(m->int_count + (uint32_t)d), .modulus = -1};
+            o[k].loop[d] = (range){here, here};
+        }
+    }
+    (void)r;
+    return o ? tape_of(m->arena, m->graph, o, rule->assignments) : NULL;
+}
+
+static void describe(const model *m, const model_rule *from, rule *to)
+{
+    *to = (rule){.name = from->name,
+                 .kind = (rule_kind)from->kind,
+                 .direction = from->direction,
+                 .first = from->leaf_first,
+                 .leaves = from->leaves,
+                 .instances = from->instances,
+                 .formula = from->formula,
+                 .words = from->words,
+                 .compares = from->compares,
+                 .period = from->period,
+                 .of = from->of,
+                 .records = from->records,
+                 .assigns = from->assignments > 0,
+                 .stop = from->stop};
+    (void)m;
+}
+
+static bool make(ruled *r, model *m)
+{
+    size_t most = 0;
+    r->model = m;
+    r->rule = arena_room(m->arena, m->rule_count * sizeof *r->rule);
+    r->act = arena_room(m->arena, m->rule_count * sizeof *r->act);
+    r->ints = arena_room(m->arena, (m->int_count + MAX_DIMS) * sizeof *r->ints);
+    if (!r->rule || !r->act || !r->ints) return false;
+    if (m->int_count) memcpy(r->ints, m->ints, m->int_count * sizeof *r->ints);
+    memset(r->ints + m->int_count, 0, MAX_DIMS * sizeof *r->ints);
+    for (uint32_t i = 0; i < m->rule_count; i++) {
+        const model_rule *rule = &m->rules[i];
+        describe(m, rule, &r->rule[i]);
+        r->act[i] = rule->assignments ? make_act(r, m, rule) : NULL;
+        if (rule->assignments && !r->act[i]) return false;
+        if (rule->numbers > most) most = rule->numbers;
+    }
+    r->becomes = arena_room(m->arena, (most + 1) * sizeof *r->becomes);
+    r->supplied = (rules){.ctx = r,
+                          .rule = r->rule,
+                          .count = m->rule_count,
+                          .functions = m->rule_functions,
+                          .values = values,
+                          .rates = rates,
+                          .rounding = rounding,
+                          .act = act,
+                          .name = name};
+    return r->becomes && make_functions(r, m) && ruled_rebind(r);
+}
+
+motus_status ruled_create(model *m, ruled **out, motus_error *err)
+{
+    ruled *r = arena_take(m->arena, sizeof *r);
+    *out = NULL;
+    if (m->int_count + MAX_DIMS > INT16_MAX)
+        return fail(err, MOTUS_LIMIT, "the model has too many different bounds and shifts of indices for its events");
+    if (m->arena->failed || !make(r, m))
+        return m->graph->too_large ? fail(err, MOTUS_LIMIT, "the formulas of the events are too large")
+                                   : fail(err, MOTUS_MEMORY, "no memory for the events of the model");
+    *out = r;
+    return MOTUS_OK;
+}
+
+const rules *ruled_rules(const ruled *r) { return &r->supplied; }
+
+bool ruled_rebind(ruled *r)
+{
+    const binding b = {r->model->arrays, r->ints, r->model->pool};
+    tape *const tapes[] = {r->values, r->rates, r->rounding};
+    for (size_t k = 0; k < sizeof tapes / sizeof *tapes; k++)
+        if (tapes[k] && !tape_bind(tapes[k], &b)) return false;
+    for (size_t k = 0; k < r->supplied.count; k++)
+        if (r->act[k] && !tape_bind(r->act[k], &b)) return false;
+    return true;
+}

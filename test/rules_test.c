@@ -1,0 +1,269 @@
+/* What a model's `when` statements supply to the engine of events: core/rules.h. Functions, their rates and bounds, and
+ * what actions do, are compared with their formulas at states that are set by hand. */
+#include "api/system.h"
+#include "test/given.h"
+
+static const rules *rules_of(motus_system *s)
+{
+    motus_error err = motus_default_error();
+    const rules *r = NULL;
+    must(system_rules(s, &r, &err), &err, "rules");
+    return r;
+}
+
+static size_t rule_named(const rules *r, const char *name)
+{
+    for (size_t k = 0; k < r->count; k++)
+        if (!strcmp(r->rule[k].name, name)) return k;
+    fail_msg("there is no rule %s", name);
+    return 0;
+}
+
+/* The place of a number in x or v. */
+static double *number_of(motus_system *s, const char *name, double *x, double *v)
+{
+    for (int in_v = 0; in_v < 2; in_v++)
+        for (size_t k = 0; k < (in_v ? s->problem.nv : s->problem.nx); k++) {
+            char is[128];
+            s->problem.name(s->problem.ctx, in_v, k, is, sizeof is);
+            if (!strcmp(is, name)) return in_v ? &v[k] : &x[k];
+        }
+    fail_msg("there is no number %s", name);
+    return NULL;
+}
+
+static void act_on(const rules *r, const char *name, size_t instance, double t, double *x, double *v)
+{
+    bool in_v;
+    size_t which;
+    assert_int_equal(r->act(r->ctx, rule_named(r, name), instance, t, x, v, &in_v, &which), 0);
+}
+
+#define BALL "e = 0.8\ny'' = -9.81\ny(0) = 1\ny'(0) = 0\n"
+#define PAIR "x'' = 0\nx(0) = 1\nx'(0) = 2\nz'' = 0\nz(0) = 3\nz'(0) = 4\ns' = x\ns(0) = 5\n"
+
+static void one_event(void **state)
+{
+    (void)state;
+    motus_system *s = given_text(BALL "when y = 0 falling as bounce: y' = -e y', record");
+    const rules *r = rules_of(s);
+    assert_int_equal(r->count, 1);
+    assert_int_equal(r->functions, 1);
+    const rule *b = &r->rule[0];
+    assert_string_equal(b->name, "bounce");
+    assert_int_equal(b->kind, RULE_ROOT);
+    assert_int_equal(b->direction, -1);
+    assert_true(b->records && b->assigns && !b->keeps && b->stop == 0);
+    assert_int_equal(b->leaves, 1);
+    assert_int_equal(b->instances, 1);
+    double x = 0.25, v = -3, a = -9.81, out = 0;
+    r->values(r->ctx, 0, &x, &v, &out);
+    assert_true(out == 0.25);
+    r->rates(r->ctx, 0, &x, &v, &a, &out);
+    assert_true(out == -3);
+    r->rounding(r->ctx, 0, &x, &v, &out);
+    assert_true(out == 0.25 * 0x1p-53);
+    act_on(r, "bounce", 0, 0, &x, &v);
+    assert_true(x == 0.25 && v == -(0.8 * -3.0));
+    char name[64];
+    r->name(r->ctx, 0, 0, name, sizeof name);
+    assert_string_equal(name, "bounce");
+    motus_system_destroy(s);
+}
+
+/* Names, kinds and numbers of the rules of a text, in its order. */
+static void all_kinds(void **state)
+{
+    (void)state;
+    motus_system *s = given_text(PAIR "when x - z = s t: record, stop after 3\nwhen every 1/4 as tick: s = 0\n"
+                                      "when x = z rising: x' = z', z' = x'\n"
+                                      "when event3 accumulates: stop\nwhen z > 2 as high:\n  record,\n  x = 0");
+    const rules *r = rules_of(s);
+    assert_int_equal(r->count, 5);
+    const char *const names[] = {"event1", "tick", "event3", "event4", "high"};
+    const rule_kind kinds[] = {RULE_ROOT, RULE_CLOCK, RULE_ROOT, RULE_ACCUMULATES, RULE_CONDITION};
+    for (size_t k = 0; k < 5; k++) {
+        assert_string_equal(r->rule[k].name, names[k]);
+        assert_int_equal(r->rule[k].kind, kinds[k]);
+    }
+    assert_int_equal(r->rule[0].stop, 3);
+    assert_true(r->rule[1].period == 0.25);
+    assert_int_equal(r->rule[2].direction, 1);
+    assert_int_equal(r->rule[3].of, 2);
+    assert_int_equal(r->rule[3].stop, 1);
+    assert_int_equal(r->functions, 3);
+    double x[] = {1, 3}, v[] = {2, 4, 5}, a[] = {0, 0, 1}, out[3];
+    r->values(r->ctx, 2, x, v, out);
+    assert_true(out[0] == -12 && out[1] == -2 && out[2] == 1);
+    r->rates(r->ctx, 2, x, v, a, out); /* (x - z - s t)' = x' - z' - s' t - s */
+    assert_true(out[0] == 2 - 4 - 1 * 2 - 5 && out[1] == -2 && out[2] == 4);
+    act_on(r, "event3", 0, 2, x, v); /* all right sides see the state before */
+    assert_true(v[0] == 4 && v[1] == 2 && v[2] == 5 && x[0] == 1 && x[1] == 3);
+    act_on(r, "tick", 0, 2, x, v);
+    assert_true(v[2] == 0 && v[0] == 4);
+    act_on(r, "high", 0, 2, x, v);
+    assert_true(x[0] == 0 && x[1] == 3);
+    motus_system_destroy(s);
+}
+
+static void conditions(void **state)
+{
+    (void)state;
+    motus_system *s = given_text(PAIR "when x > 1 and not (z <= 2 or s == 3) or t != 4 and 5 >= x: record");
+    const rules *r = rules_of(s);
+    const rule *c = &r->rule[0];
+    /* leaves in the order of the text: x - 1, 2 - z, s - 3, t - 4, 5 - x */
+    const int formula[] = {0, 1, 2, RULE_OR, RULE_NOT, RULE_AND, 3, 4, RULE_AND, RULE_OR};
+    const rule_comparison compares[] = {RULE_ABOVE, RULE_AT_LEAST, RULE_AT, RULE_OFF, RULE_AT_LEAST};
+    assert_int_equal(c->words, 10);
+    for (int k = 0; k < 10; k++) assert_int_equal(c->formula[k], formula[k]);
+    assert_int_equal(c->leaves, 5);
+    for (int k = 0; k < 5; k++) assert_int_equal(c->compares[k], compares[k]);
+    double x[] = {10, 20}, v[] = {0, 0, 30}, out[5];
+    r->values(r->ctx, 40, x, v, out);
+    assert_true(out[0] == 9 && out[1] == -18 && out[2] == 27 && out[3] == 36 && out[4] == -5);
+    motus_system_destroy(s);
+}
+
+#define ROW "N = 4\nx[i]'' = 0 for i = 1..N\nx[i](0) = i^2 for i = 1..N\nx[i]'(0) = 10 i for i = 1..N\n"
+
+/* An event for every pair i < j: the others have no function. */
+static void families(void **state)
+{
+    (void)state;
+    motus_system *s = given_text(ROW "when x[j] = x[i] as contact: x[i]' = x[j]', x[j]' = x[i]', x[i] = x[i] + 1"
+                                     " for i = 1..N, j = i+1..N\n"
+                                     "when x[i+1] = 7 t as pass: x[i+1]' = -x[i]' for i = 1..N-1");
+    const rules *r = rules_of(s);
+    const rule *c = &r->rule[0];
+    assert_int_equal(c->instances, 12); /* i = 1..4, j = 2..4 */
+    assert_int_equal(r->rule[1].instances, 3);
+    assert_int_equal(r->functions, 15);
+    double x[4] = {1, 4, 9, 16}, v[4] = {10, 20, 30, 40}, out[15], bound[15];
+    r->values(r->ctx, 1, x, v, out);
+    r->rounding(r->ctx, 1, x, v, bound);
+    for (int i = 1; i <= 4; i++)
+        for (int j = 2; j <= 4; j++) {
+            const int k = 3 * (i - 1) + j - 2;
+            char name[64], is[64];
+            r->name(r->ctx, 0, (size_t)k, name, sizeof name);
+            snprintf(is, sizeof is, "contact[%d,%d]", i, j);
+            assert_string_equal(name, is);
+            if (i < j)
+                assert_true(out[k] == j * j - i * i && bound[k] > 0);
+            else
+                assert_true(isnan(out[k]) && isnan(bound[k]));
+        }
+    for (int i = 1; i <= 3; i++) assert_true(out[12 + i - 1] == (i + 1) * (i + 1) - 7);
+    act_on(r, "contact", 3 * 1 + 2, 1, x, v); /* [2,4] */
+    assert_true(v[0] == 10 && v[1] == 40 && v[2] == 30 && v[3] == 20);
+    assert_true(x[0] == 1 && x[1] == 5 && x[2] == 9 && x[3] == 16);
+    act_on(r, "pass", 2, 1, x, v);
+    assert_true(v[3] == -30 && v[2] == 30 && v[1] == 40 && v[0] == 10);
+    motus_system_destroy(s);
+}
+
+/* Indices that no function reads run within each event. */
+static void over_indices(void **state)
+{
+    (void)state;
+    motus_system *s = given_text(ROW "when every 1 as kick: x[i]' = x[i]' + x[i] for i = 1..N\n"
+                                     "when x[i] = 5 as row: x[j]' = i + j for i = 1..N, j = 2..3\n"
+                                     "when row accumulates as end: x[i] = 0 for i = 1..N");
+    const rules *r = rules_of(s);
+    assert_int_equal(r->rule[0].instances, 1);
+    assert_int_equal(r->rule[1].instances, 4);
+    assert_int_equal(r->rule[2].instances, 4);
+    double x[4] = {1, 4, 9, 16}, v[4] = {10, 20, 30, 40};
+    act_on(r, "kick", 0, 1, x, v);
+    for (int i = 0; i < 4; i++) assert_true(v[i] == 10 * (i + 1) + x[i]);
+    act_on(r, "row", 3, 1, x, v);
+    assert_true(v[0] == 11 && v[1] == 6 && v[2] == 7 && v[3] == 56);
+    act_on(r, "end", 1, 1, x, v);
+    assert_true(x[0] == 1 && x[1] == 0 && x[2] == 9 && x[3] == 16);
+    motus_system_destroy(s);
+}
+
+static void vectors(void **state)
+{
+    (void)state;
+    motus_system *s = given_text("r'' = (0, -1)\nr(0) = (1, 2)\nr'(0) = (3, 4)\n"
+                                 "when |r| = 5 as wall: r' = r' - 2 dot(r', r)/dot(r, r) r\n"
+                                 "when r.y = 0 as floor_: r'.y = -r'.y, r.x = 7");
+    const rules *r = rules_of(s);
+    double x[] = {3, 4}, v[] = {1, 1};
+    act_on(r, "wall", 0, 0, x, v); /* r' = (1, 1) - 2 (7/25) (3, 4) */
+    assert_true(fabs(v[0] - (1 - 42.0 / 25)) < 1e-15 && fabs(v[1] - (1 - 56.0 / 25)) < 1e-15);
+    v[1] = -2;
+    const double before = v[0];
+    act_on(r, "floor_", 0, 0, x, v);
+    assert_true(v[0] == before && v[1] == 2 && x[0] == 7 && x[1] == 4);
+    motus_system_destroy(s);
+}
+
+/* What is not finite is not assigned, and nothing else is. */
+static void not_finite(void **state)
+{
+    (void)state;
+    motus_system *s = given_text(PAIR "when x = 1: z = 2, s = 1/(x - 1), x' = 0");
+    const rules *r = rules_of(s);
+    double x[] = {1, 3}, v[] = {2, 4, 5};
+    bool in_v = false;
+    size_t which = 99;
+    assert_int_not_equal(r->act(r->ctx, 0, 0, 0, x, v, &in_v, &which), 0);
+    assert_true(in_v && &v[which] == number_of(s, "s", x, v));
+    assert_true(x[0] == 1 && x[1] == 3 && v[0] == 2 && v[1] == 4 && v[2] == 5);
+    motus_system_destroy(s);
+}
+
+/* Parameters that are set count from then on. */
+static void set(void **state)
+{
+    (void)state;
+    motus_system *s = given_text(BALL "when y = e: y' = -e y'");
+    const rules *r = rules_of(s);
+    motus_error err = motus_default_error();
+    const double e = 0.5;
+    must(motus_system_set(s, "e", &e, 1, &err), &err, "set");
+    double x = 2, v = -4, out;
+    r->values(r->ctx, 0, &x, &v, &out);
+    assert_true(out == 1.5);
+    act_on(r, "event1", 0, 0, &x, &v);
+    assert_true(v == 2);
+    motus_system_destroy(s);
+}
+
+/* Nothing follows events yet, and nothing ignores them. */
+static void refused(void **state)
+{
+    (void)state;
+    motus_system *s = given_text(BALL "when y = 0: y' = -e y'");
+    motus_error err = motus_default_error();
+    motus_run_def def = motus_default_run();
+    motus_run *run = NULL;
+    def.step = 0.1;
+    def.until = 1;
+    assert_int_equal(motus_run_create(s, &def, &run, &err), MOTUS_UNAVAILABLE);
+    motus_ensemble_def many = motus_default_ensemble();
+    const motus_record record = {MOTUS_REDUCE_MAX, 0};
+    motus_ensemble *e = NULL;
+    many.step = 0.1;
+    many.records = &record;
+    many.record_count = 1;
+    assert_int_equal(motus_ensemble_create(s, &many, &e, &err), MOTUS_UNAVAILABLE);
+    assert_false(motus_has_exact(s)); /* the motion ends at the first event */
+    motus_system_destroy(s);
+    s = given_text(BALL "when y = 0: record");
+    assert_true(motus_has_exact(s));
+    motus_system_destroy(s);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(one_event),  cmocka_unit_test(all_kinds), cmocka_unit_test(conditions),
+        cmocka_unit_test(families),   cmocka_unit_test(vectors),   cmocka_unit_test(over_indices),
+        cmocka_unit_test(not_finite), cmocka_unit_test(set),       cmocka_unit_test(refused),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
