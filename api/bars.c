@@ -218,7 +218,7 @@ static motus_status begin_at(motus_run *r, bool observed, motus_error *err)
     if (status == MOTUS_OK && b->kind == MOTUS_BARS_FULL) {
         memcpy(x, r->x, p->nx * sizeof *x);
         memcpy(v, r->v, p->nv * sizeof *v);
-        companion_move(x, p->nx, NULL, 0);
+        companion_move(x, p->nx - p->modes, NULL, 0);
         companion_move(v, p->nv, NULL, (uint32_t)p->nx);
         if (p->refresh) p->refresh(p->ctx, r->timing.t0, x, v);
         status = companion_begin(&b->twin, r, r->timing.t0, x, v, err);

@@ -42,7 +42,7 @@ bool system_number_columns(motus_system *s)
 {
     size_t named = 0; /* parameters are no columns, and there may be one in every line */
     for (uint32_t i = 0; i < s->definition_count; i++)
-        named += s->definitions[i].kind == DEFINED_QUANTITY || s->definitions[i].kind == DEFINED_INVARIANT;
+        named += s->definitions[i].kind != DEFINED_PARAMETER || s->definitions[i].mode;
     for (uint32_t i = 0; i < s->state_count; i++)
         named += (s->states[i].order == 2 ? 2 : 1) * (s->problem.traits.has_exact ? 2 : 1);
     s->ranges = arena_room(&s->arena, (1 + named) * sizeof *s->ranges);
@@ -58,7 +58,8 @@ bool system_number_columns(motus_system *s)
         s->named[pass] = s->range_count;
         for (uint32_t i = 0; i < s->definition_count; i++) {
             const model_definition *d = &s->definitions[i];
-            if (d->kind != (pass ? DEFINED_INVARIANT : DEFINED_QUANTITY)) continue;
+            const bool quantity = d->kind == DEFINED_QUANTITY || d->mode;
+            if (pass ? d->kind != DEFINED_INVARIANT : !quantity) continue;
             add(s, pass ? MOTUS_COLUMN_INVARIANT : MOTUS_COLUMN_QUANTITY, false, i, d->numbers);
             const size_t room = s->model ? d->numbers : d->slot + d->numbers;
             largest = room > largest ? room : largest;

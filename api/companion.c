@@ -149,7 +149,7 @@ motus_status companion_jog(companion *c, const motus_run *r, motus_error *err)
     }
     for (size_t k = 0; k < p->nx + p->nv; k++) size[k] = known ? size[k] * USUAL : 0;
     const uint32_t salt = (uint32_t)stepper_steps(r->stepper) * 0x9e3779b9u;
-    companion_move(c->x, p->nx, size, salt);
+    companion_move(c->x, p->nx - p->modes, size, salt);
     companion_move(c->v, p->nv, size + p->nx, salt + (uint32_t)p->nx);
     give(&r->allocator, size);
     return MOTUS_OK;

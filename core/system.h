@@ -40,6 +40,7 @@ enum { SERIES_ORDER_MOST = 47 }; /* of a Taylor series: as long as the table of 
 typedef struct problem {
     void *ctx;
     size_t nx, nv;
+    size_t modes; /* the last numbers of x, which events alone change; their velocities are 0 */
     /* Numbers of one variable have one unit, and error control gives them one size: variable g has those from
      * variables[g] on of v, and of x as far as x goes; variables[variable_count] = nv. NULL: all are one variable. */
     const size_t *variables;

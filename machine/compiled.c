@@ -115,6 +115,7 @@ motus_status compiled_create(model *m, const problem *interpreted, compiled **ou
     c->interpreted = interpreted;
     c->problem = (problem){.ctx = c,
                            .nx = m->nx,
+                           .modes = m->modes,
                            .nv = m->nv,
                            .variables = interpreted->variables,
                            .variable_count = interpreted->variable_count,

@@ -35,7 +35,7 @@ static void add_text(emit_text *t, const char *which)
 
 bool compose_sizes_are_structure(const model *m)
 {
-    for (uint32_t i = 0; i < m->state_count; i++)
+    for (uint32_t i = 0; i < m->state_count + m->mode_count; i++)
         if (m->states[i].dims > 0) return false;
     return true;
 }

@@ -279,7 +279,7 @@ static bool prepare(lanes *l)
     l->bind(m->pool, l->q, l->u);
     for (size_t k = 0; k < d->place_count; k++) l->places[k] = (int64_t)d->places[k];
     const uint8_t *affected = vary_affected(d->vary);
-    for (uint32_t i = 0; i < m->state_count; i++) {
+    for (uint32_t i = 0; i < m->state_count + m->mode_count; i++) {
         const model_state *s = &m->states[i];
         size_t numbers = s->hull * (size_t)(s->components ? s->components : 1);
         for (size_t k = 0; k < numbers; k++) {

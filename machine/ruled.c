@@ -133,12 +133,6 @@ static void name(void *ctx, size_t number, size_t instance, char *out, size_t si
 
 /* ---- making ---- */
 
-/* Derivatives along the motion: x moves by v, v by a, t by 1. */
-static node seed_motion(graph *g, node leaf, void *shift)
-{
-    return graph_at(g, leaf)->op == OP_TIME ? graph_const(g, 1) : graph_seed_direction(g, leaf, shift);
-}
-
 static bool make_functions(ruled *r, model *m)
 {
     size_t count = 0;
@@ -146,11 +140,10 @@ static bool make_functions(ruled *r, model *m)
     if (!count) return true;
     output *leaves = arena_room(m->arena, 2 * count * sizeof *leaves), *rate = leaves + count;
     if (!leaves) return false;
-    graph_shift shift = {m->block_size, m->block_size};
     for (uint32_t i = 0, n = 0; i < m->rule_count; i++)
         for (size_t k = 0; k < m->rules[i].leaves; k++, n++) {
             leaves[n] = rate[n] = m->rules[i].leaf[k];
-            rate[n].value = graph_derivative(m->graph, leaves[n].value, seed_motion, &shift);
+            rate[n].value = graph_derivative(m->graph, leaves[n].value, model_seed_motion, m);
         }
     r->values = tape_of(m->arena, m->graph, leaves, count);
     r->rates = tape_of(m->arena, m->graph, rate, count);
@@ -158,7 +151,7 @@ static bool make_functions(ruled *r, model *m)
     return r->values && r->rates && r->rounding;
 }
 
-static tape *make_act(const ruled *r, model *m, const model_rule *rule)
+static tape *make_act(model *m, const model_rule *rule)
 {
     output *o = arena_room(m->arena, rule->assignments * sizeof *o);
     for (size_t k = 0; o && k < rule->assignments; k++) {
@@ -168,11 +161,34 @@ static tape *make_act(const ruled *r, model *m, const model_rule *rule)
             o[k].loop[d] = (range){here, here};
         }
     }
-    (void)r;
     return o ? tape_of(m->arena, m->graph, o, rule->assignments) : NULL;
 }
 
-static void describe(const model *m, const model_rule *from, rule *to)
+/* The places in x of modes that a rule which keeps changes. */
+static bool find_kept(ruled *r, const model *m)
+{
+    uint8_t *changed = arena_room(m->arena, m->mode_count + 1);
+    size_t count = 0;
+    if (!changed) return false;
+    memset(changed, 0, m->mode_count + 1);
+    for (uint32_t i = 0; i < m->rule_count; i++)
+        for (size_t k = 0; m->rules[i].keeps && k < m->rules[i].assignments; k++) {
+            const model_state *s = model_state_of(m, m->rules[i].assignment[k].to.array);
+            uint8_t *one = &changed[s - m->states - m->state_count];
+            count += *one ? 0 : model_numbers(s);
+            *one = 1;
+        }
+    size_t *places = arena_room(m->arena, (count + 1) * sizeof *places);
+    if (!places) return false;
+    r->supplied.kept = places;
+    for (uint32_t i = 0; i < m->mode_count; i++) {
+        const model_state *s = &m->states[m->state_count + i];
+        for (size_t k = 0; changed[i] && k < model_numbers(s); k++) places[r->supplied.kept_count++] = s->base + k;
+    }
+    return true;
+}
+
+static void describe(const model_rule *from, rule *to)
 {
     *to = (rule){.name = from->name,
                  .kind = (rule_kind)from->kind,
@@ -186,9 +202,9 @@ static void describe(const model *m, const model_rule *from, rule *to)
                  .period = from->period,
                  .of = from->of,
                  .records = from->records,
-                 .assigns = from->assignments > 0,
+                 .assigns = from->assigns,
+                 .keeps = from->keeps,
                  .stop = from->stop};
-    (void)m;
 }
 
 static bool make(ruled *r, model *m)
@@ -203,8 +219,8 @@ static bool make(ruled *r, model *m)
     memset(r->ints + m->int_count, 0, MAX_DIMS * sizeof *r->ints);
     for (uint32_t i = 0; i < m->rule_count; i++) {
         const model_rule *rule = &m->rules[i];
-        describe(m, rule, &r->rule[i]);
-        r->act[i] = rule->assignments ? make_act(r, m, rule) : NULL;
+        describe(rule, &r->rule[i]);
+        r->act[i] = rule->assignments ? make_act(m, rule) : NULL;
         if (rule->assignments && !r->act[i]) return false;
         if (rule->numbers > most) most = rule->numbers;
     }
@@ -218,7 +234,7 @@ static bool make(ruled *r, model *m)
                           .rounding = rounding,
                           .act = act,
                           .name = name};
-    return r->becomes && make_functions(r, m) && ruled_rebind(r);
+    return r->becomes && find_kept(r, m) && make_functions(r, m) && ruled_rebind(r);
 }
 
 motus_status ruled_create(model *m, ruled **out, motus_error *err)

@@ -258,12 +258,173 @@ static void refused(void **state)
     motus_system_destroy(s);
 }
 
+/* Modes ------------------------------------------------------------------------------------------------------------ */
+
+#define SWITCHED                                                                                   \
+    "stuck = 0\nn = 5\nlast = 2 n\nk[i] = 2 i for i = 1..3\nw = (1, 2)\n"                          \
+    "y'' = if(stuck == 1, 0, -9.81) - k[2] y\ny(0) = 1 + stuck + n\ny'(0) = 0\ns' = y\ns(0) = 7\n" \
+    "q = 2 stuck + n\n"                                                                            \
+    "when y = 0 as bounce: n = n + 1, last = t, record\n"                                          \
+    "when y > 3 as high: stuck = 1 - stuck, w = (w.y, w.x), n = q\n"                               \
+    "when t = 2 as one: k[1] = k[1] + 1, w.y = 9\n"                                                \
+    "when y = 2 as all: k[i] = k[i] + i for i = 1..3"
+
+static void modes_are_positions(void **state)
+{
+    (void)state;
+    motus_system *s = given_text(SWITCHED);
+    const rules *r = rules_of(s);
+    const problem *p = &s->problem;
+    assert_int_equal(p->nx, 1 + 1 + 1 + 1 + 3 + 2); /* y, then the modes in the order in which events assign them */
+    assert_int_equal(p->nv, p->nx + 1);
+    assert_int_equal(motus_positions(s), 1); /* to the public calls, they are no state */
+    assert_int_equal(motus_velocities(s), 2);
+    assert_int_equal(motus_variable_count(s), 2);
+    assert_int_equal(motus_initial_count(s), 3);
+    double x[9], v[10], a[10] = {0};
+    memcpy(x, s->x0, sizeof x);
+    memcpy(v, s->v0, sizeof v);
+    assert_true(x[0] == 6 && v[0] == 0 && v[9] == 7);
+    static const char *const names[] = {"n", "last", "stuck", "w.x", "w.y", "k[1]", "k[2]", "k[3]"};
+    const double starts[] = {5, 10, 0, 1, 2, 2, 4, 6};
+    for (int i = 0; i < 8; i++) {
+        double *at = number_of(s, names[i], x, v);
+        assert_true(at > x && at < x + 9 && *at == starts[i] && v[at - x] == 0);
+    }
+    p->accel(p->ctx, 0, x, v, a);
+    assert_true(a[0] == -9.81 - 4.0 * 6);
+    for (int i = 1; i < 9; i++) assert_true(a[i] == 0);
+    assert_true(a[9] == 6);
+    /* a condition on modes alone never switches on the way */
+    assert_true(p->traits.smooth && !p->traits.constant && !p->traits.affine && !p->traits.has_exact);
+    double out[4];
+    assert_int_equal(r->functions, 4);
+    x[0] = 3.5;
+    r->rates(r->ctx, 0, x, v, a, out);
+    for (int i = 0; i < 4; i++) assert_true(out[i] == (i == 2 ? 1 : 0));
+    motus_system_destroy(s);
+}
+
+static void modes_are_assigned(void **state)
+{
+    (void)state;
+    motus_system *s = given_text(SWITCHED);
+    const rules *r = rules_of(s);
+    double x[9], v[10];
+    memcpy(x, s->x0, sizeof x);
+    memcpy(v, s->v0, sizeof v);
+#define IS(name, value) assert_true(*number_of(s, name, x, v) == (value))
+    act_on(r, "bounce", 0, 2.5, x, v);
+    IS("n", 6);
+    IS("last", 2.5);
+    act_on(r, "high", 0, 0, x, v); /* n = q = 2 stuck + n, with the mode before the event */
+    IS("stuck", 1);
+    IS("n", 6);
+    IS("w.x", 2);
+    IS("w.y", 1);
+    act_on(r, "high", 0, 0, x, v);
+    IS("n", 8);
+    IS("stuck", 0);
+    act_on(r, "one", 0, 2, x, v);
+    IS("k[1]", 3);
+    IS("w.y", 9);
+    act_on(r, "all", 0, 2, x, v);
+    IS("k[1]", 4);
+    IS("k[2]", 6);
+    IS("k[3]", 9);
+    assert_true(x[0] == 6 && v[9] == 7);
+    for (int i = 0; i < 9; i++) assert_true(v[i] == 0);
+    /* Neither the force nor an event reads n, `last` and w: what changes them alone ends no step. */
+    assert_true(r->rule[0].keeps && !r->rule[0].assigns);
+    assert_true(r->rule[1].assigns && !r->rule[1].keeps);
+    assert_true(r->rule[2].assigns && r->rule[3].assigns);
+    assert_int_equal(r->kept_count, 2);
+    assert_ptr_equal(&x[r->kept[0]], number_of(s, "n", x, v));
+    assert_ptr_equal(&x[r->kept[1]], number_of(s, "last", x, v));
+    motus_system_destroy(s);
+    /* A chain: m is read by an event's function, n by what is assigned to m; o by nothing. */
+    s = given_text(BALL "m = 1\nn = 1\no = 1\nwhen y = m: o = n\nwhen y = 0: n = 2\nwhen t = 1: m = n");
+    r = rules_of(s);
+    assert_true(r->rule[0].keeps && r->rule[1].assigns && r->rule[2].assigns);
+    assert_int_equal(r->kept_count, 1);
+    motus_system_destroy(s);
+}
+
+/* Whoever reads or sets the numbers of a model meets a mode as a parameter, and as a quantity. */
+static void modes_in_public(void **state)
+{
+    (void)state;
+    const char *const set[] = {"n=7"};
+    motus_system *s = given_text_with(SWITCHED, set, 1, "set");
+    motus_error err = motus_default_error();
+    const double one = 1, three[] = {1, 2, 3};
+    assert_true(s->x0[0] == 8);
+    assert_true(*number_of(s, "last", s->x0, s->v0) == 14);
+    must(motus_system_set(s, "stuck", &one, 1, &err), &err, "stuck");
+    must(motus_system_set(s, "k", three, 3, &err), &err, "k");
+    assert_true(s->x0[0] == 9);
+    assert_true(*number_of(s, "stuck", s->x0, s->v0) == 1);
+    assert_true(*number_of(s, "k[3]", s->x0, s->v0) == 3);
+    double x[9], v[10], out[5];
+    memcpy(x, s->x0, sizeof x);
+    memcpy(v, s->v0, sizeof v);
+    *number_of(s, "n", x, v) = 100;
+    static const char *const names[] = {"q", "n", "w.y", "k[2]", "y"};
+    size_t columns[5], count;
+    for (int i = 0; i < 5; i++) {
+        motus_column c = motus_default_column();
+        must(motus_column_find(s, names[i], &columns[i], &count, &err), &err, names[i]);
+        assert_int_equal(motus_column_at(s, columns[i], &c), MOTUS_OK);
+        assert_string_equal(c.name, names[i]);
+        assert_int_equal(c.kind, i < 4 ? MOTUS_COLUMN_QUANTITY : MOTUS_COLUMN_POSITION);
+    }
+    must(system_values(s, 0, x, v, columns, 5, out, &err), &err, "values");
+    assert_true(out[0] == 102 && out[1] == 100 && out[2] == 2 && out[3] == 2 && out[4] == 9);
+    size_t numbers = 0;
+    assert_string_equal(motus_quantity_name(s, 3, &numbers), "k");
+    assert_int_equal(numbers, 3);
+    int parameters = 0;
+    motus_parameter p = motus_default_parameter();
+    while (motus_parameter_at(s, (size_t)parameters, &p) == MOTUS_OK) parameters++;
+    assert_int_equal(parameters, 5);
+    motus_system_destroy(s);
+}
+
+/* A boundary line and an invariant may read modes; the invariant holds between events. */
+static void modes_elsewhere(void **state)
+{
+    (void)state;
+    motus_system *s = given_text("wall = 3\nu[i]'' = u[i-1] - 2 u[i] + u[i+1] for i = 1..2\nu[0] = wall\nu[3] = 0\n"
+                                 "u[i](0) = i for i = 1..2\nu[i]'(0) = 0 for i = 1..2\n"
+                                 "g = 2\ny'' = -g\ny(0) = 1\ny'(0) = 0\ninvariant E = y'^2/2 + g y\n"
+                                 "when t = 1: wall = 4, g = -g");
+    const problem *p = &s->problem;
+    double x[8], v[8], a[8] = {0};
+    memcpy(x, s->x0, p->nx * sizeof *x);
+    memcpy(v, s->v0, p->nv * sizeof *v);
+    *number_of(s, "wall", x, v) = 10;
+    p->accel(p->ctx, 0, x, v, a);
+    double *first = number_of(s, "u[1]", x, v);
+    assert_true(a[first - x] == 10 - 2 * 1 + 2);
+    motus_system_destroy(s);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(one_event),  cmocka_unit_test(all_kinds), cmocka_unit_test(conditions),
-        cmocka_unit_test(families),   cmocka_unit_test(vectors),   cmocka_unit_test(over_indices),
-        cmocka_unit_test(not_finite), cmocka_unit_test(set),       cmocka_unit_test(refused),
+        cmocka_unit_test(one_event),
+        cmocka_unit_test(all_kinds),
+        cmocka_unit_test(conditions),
+        cmocka_unit_test(families),
+        cmocka_unit_test(vectors),
+        cmocka_unit_test(over_indices),
+        cmocka_unit_test(not_finite),
+        cmocka_unit_test(modes_are_positions),
+        cmocka_unit_test(modes_are_assigned),
+        cmocka_unit_test(modes_in_public),
+        cmocka_unit_test(modes_elsewhere),
+        cmocka_unit_test(set),
+        cmocka_unit_test(refused),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -213,7 +213,7 @@ node graph_load(graph *g, const reference *of)
     static const uint16_t of_space[SPACES] = {
         [SPACE_X] = DEP_X,  [SPACE_V] = DEP_V,        [SPACE_A] = DEP_A,  [SPACE_DX] = DEP_D,
         [SPACE_DV] = DEP_D, [SPACE_POOL] = DEP_PARAM, [SPACE_OUT] = DEP_A};
-    unsigned deps = of_space[g->arrays[ref->array].space];
+    unsigned deps = g->arrays[ref->array].mode ? DEP_MODE : of_space[g->arrays[ref->array].space];
     for (int d = 0; d < ref->dims; d++) deps |= subscript_deps(&ref->at[d]);
     return share(g, (graph_node){.op = OP_LOAD, .deps = (uint16_t)deps}, ref, NULL);
 }

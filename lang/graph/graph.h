@@ -38,6 +38,7 @@ typedef struct extent {
 typedef struct array { /* there are eight for every variable, so it is kept small */
     uint8_t space;     /* enum space */
     uint8_t dims;
+    bool mode; /* of X: numbers that do not change along the motion */
     size_t base;
     const extent *over; /* NULL: no dims */
 } array;
@@ -61,8 +62,9 @@ enum {
     DEP_A = 1 << 11,
     DEP_D = 1 << 12 /* DX, DV */,
     DEP_PARAM = 1 << 13,
+    DEP_MODE = 1 << 14, /* X, of arrays that are modes */
     DEP_LEVELS = (1 << MAX_LEVELS) - 1,
-    DEP_STATE = DEP_X | DEP_V | DEP_A
+    DEP_STATE = DEP_X | DEP_V | DEP_A | DEP_MODE
 };
 
 typedef struct graph_node {
@@ -127,7 +129,8 @@ const graph_node *graph_at(const graph *, node);
 unsigned graph_deps(const graph *, node);
 /* 0: does not depend on the spaces in `deps`; 1: affine in them; 2: neither, or not recognised as affine. */
 int graph_degree(graph *, node, unsigned deps);
-/* The first node, if any, that is not smooth (ABS MIN MAX FLOOR MOD SIGN SELECT, a comparison); else 0. */
+/* The first node, if any, that is not smooth along the motion (ABS MIN MAX FLOOR MOD SIGN SELECT, a comparison), or 0.
+ */
 node graph_kink(graph *, node);
 /* Derivative: `seed` gives the derivative of a leaf (TIME, LOAD, PARAM) as a node; all else follows by the rules of
  * calculus. */

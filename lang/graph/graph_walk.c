@@ -109,10 +109,10 @@ int graph_degree(graph *g, node root, unsigned deps)
 
 /* Kinks ----------------------------------------------------------------------------------------------------------- */
 
-/* A kink that depends on parameters and indices alone does not count: along the motion the value stays on one side. */
+/* A kink that depends on parameters, modes and indices alone does not count: the value stays on one side of it. */
 node graph_kink(graph *g, node root)
 {
-    const unsigned moving = DEP_TIME | DEP_STATE | DEP_D;
+    const unsigned moving = DEP_TIME | (DEP_STATE & ~DEP_MODE) | DEP_D;
     graph_walk w;
     node found = 0;
     if (!graph_order(g, &root, 1, moving, true, &w)) return 0;
@@ -172,8 +172,8 @@ void graph_loads(graph *g, node root, space s,
                  void (*visit)(void *ctx, const reference *, const range *sums, int first_level, int inside), void *ctx)
 {
     static const uint16_t of_space[SPACES] = {
-        [SPACE_X] = DEP_X,  [SPACE_V] = DEP_V,        [SPACE_A] = DEP_A,  [SPACE_DX] = DEP_D,
-        [SPACE_DV] = DEP_D, [SPACE_POOL] = DEP_PARAM, [SPACE_OUT] = DEP_A};
+        [SPACE_X] = DEP_X | DEP_MODE, [SPACE_V] = DEP_V,        [SPACE_A] = DEP_A,  [SPACE_DX] = DEP_D,
+        [SPACE_DV] = DEP_D,           [SPACE_POOL] = DEP_PARAM, [SPACE_OUT] = DEP_A};
     visit_loads v = {g, s, of_space[s], visit, ctx};
     loads_below(&v, &root, 1, &(nest){.first = MAX_LEVELS});
 }

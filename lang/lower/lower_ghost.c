@@ -32,6 +32,7 @@ static bool name_reads(model *m, const tree *t, const tree *applied)
         if (!strcmp(applied->item[i]->name, t->name)) return false;
     const symbol s = symbols_find(m, t->name);
     if (s.state) return true;
+    if (s.definition && s.definition->mode) return true;
     if (!s.definition || s.definition->kind == DEFINED_PARAMETER) return false;
     return once(m, &s.definition->reads, s.definition->statement->value, NULL);
 }

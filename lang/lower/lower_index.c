@@ -66,6 +66,8 @@ static void take_constant(lowering *l, const tree *t, int sign, affine *a)
     if (deps & (DEP_LEVELS | DEP_TIME | DEP_STATE | DEP_D)) {
         if (deps & DEP_LEVELS)
             not_affine(l, t);
+        else if (deps & DEP_MODE)
+            COMPLAIN(l, &t->at, "an index cannot depend on what events assign");
         else
             COMPLAIN(l, &t->at, "an index cannot depend on a state or on time");
         return;

@@ -153,13 +153,19 @@ static value lower_state(lowering *l, const tree *t, model_state *s)
     return select ? lower_component(l, v, t->item[0], t) : v;
 }
 
+/* The first array of a list, or of the mode that it is. */
+static uint16_t numbers_of(const lowering *l, const model_definition *d, bool start)
+{
+    return d->mode && !start ? (uint16_t)(l->model->block[BLOCK_X] + l->model->states[d->mode - 1].array) : d->array;
+}
+
 /* All entries of a matrix that was written as one. */
-static value whole_matrix(lowering *l, const model_definition *d)
+static value whole_matrix(lowering *l, const model_definition *d, uint16_t array)
 {
     const int rows = (int)d->last[0], columns = (int)d->last[1];
     value v = vector(l, rows * columns);
     for (int k = 0; k < rows * columns && !failed(l); k++) {
-        reference r = {.array = d->array, .dims = 2};
+        reference r = {.array = array, .dims = 2};
         r.at[0] = (subscript){.level = -1, .slot = -1, .modulus = -1, .literal = 1 + k / columns};
         r.at[1] = (subscript){.level = -1, .slot = -1, .modulus = -1, .literal = 1 + k % columns};
         v.item[k] = graph_load(l->model->graph, &r);
@@ -169,9 +175,10 @@ static value whole_matrix(lowering *l, const model_definition *d)
     return v;
 }
 
-static value lower_list(lowering *l, const tree *t, model_definition *d)
+static value lower_list(lowering *l, const tree *t, model_definition *d, bool start)
 {
-    if (!t->index_count && d->dims == 2 && d->statement->value->kind == TREE_LIST) return whole_matrix(l, d);
+    const uint16_t first = numbers_of(l, d, start);
+    if (!t->index_count && d->dims == 2 && d->statement->value->kind == TREE_LIST) return whole_matrix(l, d, first);
     if ((int)t->index_count != d->dims) {
         COMPLAIN(l, &t->at, "%s is a list and needs %d ind%s", d->name, d->dims, d->dims == 1 ? "ex" : "ices");
         HINT(l, "write %s[1] or %s[i]", d->name, d->name);
@@ -188,7 +195,18 @@ static value lower_list(lowering *l, const tree *t, model_definition *d)
                             (long long)d->last[k]);
             return wrong(l);
         }
-    return load(l, d->array, d->components, &r);
+    return load(l, first, d->components, &r);
+}
+
+/* Whether a mode has its start here, as the parameter that it is written as; it complains where that is not meant. */
+static bool mode_starts(lowering *l, const tree *t, const model_definition *d)
+{
+    if (!d->mode || (l->place != PLACE_CONSTANT && l->place != PLACE_EXACT)) return false;
+    if (l->place == PLACE_CONSTANT && l->what &&
+        (!strcmp(l->what, "an initial value") || !strcmp(l->what, "a parameter")))
+        return true;
+    COMPLAIN(l, &t->at, "%s cannot depend on %s: events assign it", l->what ? l->what : "this", d->name);
+    return false;
 }
 
 /* A quantity with indices is its expression with the subscripts in place of its own indices. */
@@ -280,10 +298,17 @@ static value lower_definition(lowering *l, const tree *t, model_definition *d)
         return t->index_count == 1 && !failed(l) ? lower_component(l, v, t->item[0], t) : v;
     }
     if (!resolve_definition(l->model, d)) return wrong(l);
-    if (d->list) return lower_list(l, t, d);
-    value v = vector(l, d->components);
-    for (int k = 0; k < (d->components ? d->components : 1) && !failed(l); k++)
-        v.item[k] = graph_param(l->model->graph, d->slot + (uint32_t)k);
+    const bool start = mode_starts(l, t, d);
+    if (failed(l)) return wrong(l);
+    if (d->list) return lower_list(l, t, d, start);
+    value v;
+    if (d->mode && !start) {
+        v = load(l, numbers_of(l, d, false), d->components, &(reference){0});
+    } else {
+        v = vector(l, d->components);
+        for (int k = 0; k < (d->components ? d->components : 1) && !failed(l); k++)
+            v.item[k] = graph_param(l->model->graph, d->slot + (uint32_t)k);
+    }
     if (t->index_count > 1 || (t->index_count == 1 && d->components == 0)) {
         COMPLAIN(l, &t->at, "%s is %s and takes no such index", d->name, d->components ? "a vector" : "one number");
         return wrong(l);

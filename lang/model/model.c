@@ -28,13 +28,24 @@ void model_state_name(const model_state *s, size_t cell, int component, bool pri
 void model_name(const model *m, bool in_v, size_t k, char *out, size_t size)
 {
     snprintf(out, size, "?");
-    for (uint32_t i = 0; i < m->state_count; i++) {
+    for (uint32_t i = 0; i < m->state_count + m->mode_count; i++) {
         const model_state *s = &m->states[i];
         size_t n = s->hull * (size_t)(s->components ? s->components : 1);
         if ((!in_v && s->order == 1) || k < s->base || k >= s->base + n) continue;
         model_state_name(s, (k - s->base) % s->hull, (int)((k - s->base) / s->hull), in_v && s->order == 2, out, size);
         return;
     }
+}
+
+node model_seed_motion(graph *g, node leaf, void *of)
+{
+    const model *m = of;
+    const graph_node *n = graph_at(g, leaf);
+    if (n->op == OP_TIME) return graph_const(g, 1);
+    const model_state *s = n->op == OP_LOAD ? model_state_of(m, g->references[n->a].array) : NULL;
+    if (s && s >= m->states + m->state_count) return 0; /* a mode */
+    graph_shift shift = {m->block_size, m->block_size};
+    return graph_seed_direction(g, leaf, &shift);
 }
 
 /* ---- text of nodes ---- */

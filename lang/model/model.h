@@ -55,6 +55,7 @@ typedef struct model_state {
     int64_t eq_first[MAX_DIMS], eq_last[MAX_DIMS]; /* hull of equations */
     size_t hull;                                   /* cells in the hull */
     model_cells cells;
+    bool kept;                /* of a mode: only what observes the motion reads it */
     uint8_t *owner;           /* per hull cell: 0 none, 1 equation, 2 boundary; NULL for a scalar */
     model_ghost *ghosts;      /* boundary lines that depend on a state; NULL: none */
     size_t base;              /* of component 0 in x (order 2) and v */
@@ -100,6 +101,7 @@ typedef struct model_definition {
     uint8_t kind;     /* definition_kind */
     uint8_t progress; /* 0 not computed, 1 being computed (needed now, it depends on itself), 2 done */
     uint8_t reads;    /* lower_ghost.c: 0 unknown, 1 it reads no state, 2 it does */
+    uint32_t mode;    /* of a parameter that an event assigns: 1 + the number of its mode in states; 0: none does */
     bool list;        /* list or family: an array over indices */
     uint8_t dims;
     int components;        /* 0: scalar */
@@ -129,6 +131,7 @@ typedef struct model_function {
 typedef struct model_assignment {
     output value;
     reference to;
+    span at; /* its left side */
 } model_assignment;
 
 /* A `when` statement (core/rules.h). Its indices are the levels 0 … loops-1 of its formulas. Those that its functions
@@ -138,7 +141,7 @@ typedef struct model_rule {
     const statement *statement;
     uint8_t kind;     /* rule_kind */
     int8_t direction; /* as in core/rules.h, and so all that is not explained here */
-    bool records;
+    bool records, assigns, keeps;
     uint8_t loops, own; /* own: those that number the instances */
     range loop[MAX_DIMS];
     int64_t first[MAX_DIMS], last[MAX_DIMS]; /* the hull of each index */
@@ -188,8 +191,10 @@ typedef struct model {
     uint64_t lowered;      /* trees lowered so far, which bounds the cost of quantities of quantities */
     model_cut cut;         /* lower_ghost.c: what is lowered just now must be divided */
     bool divided;          /* something was */
+    /* Modes, numbers that events alone change, are positions without velocity and acceleration, behind all others of x;
+     * they are states [state_count, state_count + mode_count), which most code need not know. */
     model_state *states;
-    uint32_t state_count;
+    uint32_t state_count, mode_count;
     model_definition *definitions;
     uint32_t definition_count;
     model_function *functions;
@@ -200,8 +205,8 @@ typedef struct model {
     uint32_t *symbols;
     uint32_t symbol_size;          /* hash table: name → state or definition */
     uint16_t block[5], block_size; /* array numbers of the X, V, A, DX, DV blocks */
-    size_t nx, nv;
-    size_t *variables; /* the first number in v of every state in the order of x and v, then nv */
+    size_t nx, nv, modes;          /* modes: numbers of x that are modes, the last */
+    size_t *variables;             /* the first number in v of every state in the order of x and v, then nv */
     double *x0, *v0;
 
     output *accel;
@@ -237,6 +242,13 @@ bool model_take_numbers(model *, size_t count, size_t *first);
 bool model_take_arrays(model *, int count, uint16_t *first);
 /* Room for so many arrays in all, more than there is; nothing is given back, since programs refer to the old ones. */
 bool model_reserve_arrays(model *, uint32_t room);
+/* The derivative of a leaf along the motion: t moves by 1, x by v, v by a. */
+node model_seed_motion(graph *, node leaf, void *model);
+/* All numbers of a state or mode in v, and of one of second order in x. */
+static inline size_t model_numbers(const model_state *s)
+{
+    return s->hull * (size_t)(s->components ? s->components : 1);
+}
 /* The variable that an array of its blocks, or of its initial values, belongs to; NULL: none. */
 const model_state *model_state_of(const model *, uint16_t array);
 /* Room of its own for the ranges of a definition's indices. */

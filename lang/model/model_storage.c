@@ -58,7 +58,7 @@ bool model_take_extent(model *m, model_definition *d)
 
 void model_start_state(model *m)
 {
-    for (uint32_t i = 0; i < m->state_count; i++) {
+    for (uint32_t i = 0; i < m->state_count + m->mode_count; i++) {
         const model_state *s = &m->states[i];
         size_t n = s->hull * (size_t)(s->components ? s->components : 1);
         const double *first = m->pool + m->arrays[s->start_array[0]].base;

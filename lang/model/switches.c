@@ -7,7 +7,7 @@
 #include <math.h>
 #include <string.h>
 
-enum { MOVING = DEP_TIME | DEP_STATE, CELLS_TRIED = 1 << 20 };
+enum { MOVING = DEP_TIME | (DEP_STATE & ~DEP_MODE), CELLS_TRIED = 1 << 20 };
 
 /* The loops around an expression: levels 0 … count-1. */
 typedef struct nest {
@@ -154,12 +154,6 @@ static node with_side(graph *g, operation op, node a, node b, node side)
     }
 }
 
-/* Derivatives along the motion: x moves by v, v by a, t by 1. */
-static node seed_motion(graph *g, node leaf, void *shift)
-{
-    return graph_at(g, leaf)->op == OP_TIME ? graph_const(g, 1) : graph_seed_direction(g, leaf, shift);
-}
-
 static bool same_nest(const nest *p, const nest *q, unsigned deps)
 {
     for (int k = 0; k < MAX_LEVELS; k++)
@@ -202,14 +196,13 @@ static uint32_t kind_of(builder *b, node n, node a, node c, const nest *around)
     }
     const output o = output_to(&value, levels, around);
     const uint32_t k = (uint32_t)s->kinds++;
-    graph_shift shift = {b->m->block_size, b->m->block_size};
     b->kinds[k] = (kind){n, *around, graph_load(g, &side), b->last[n]};
     b->last[n] = k + 1;
     s->first[k] = b->m->arrays[value.array].base;
     s->argument[k] = s->held[k] = s->rate[k] = o;
     s->argument[k].value = switches_argument(g, original.op, original.a, original.b);
     s->held[k].value = switches_argument(g, original.op, a, c);
-    s->rate[k].value = graph_derivative(g, s->held[k].value, seed_motion, &shift);
+    s->rate[k].value = graph_derivative(g, s->held[k].value, model_seed_motion, b->m);
     return k;
 }
 
@@ -253,13 +246,12 @@ static void note_touch(builder *b, node n, node x, node y, const nest *around)
         if (broken(b)) return;
         b->touch_room = room;
     }
-    graph_shift shift = {b->m->block_size, b->m->block_size};
     const size_t k = s->touch_kinds++;
     b->touches[k] = (kind){n, *around, 0, b->last_touch[n]};
     b->last_touch[n] = (uint32_t)k + 1;
     s->touch[k] = s->touch_rate[k] = output_to(&value, levels, around);
     s->touch[k].value = argument;
-    s->touch_rate[k].value = graph_derivative(g, argument, seed_motion, &shift);
+    s->touch_rate[k].value = graph_derivative(g, argument, model_seed_motion, b->m);
 }
 
 /* Equations ---------------------------------------------------------------------------------------------------- */

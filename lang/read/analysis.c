@@ -55,13 +55,12 @@ void analysis_traits(model *m)
         unsigned deps = graph_deps(g, n);
         t->velocity |= (deps & DEP_V) != 0;
         t->time |= (deps & DEP_TIME) != 0;
-        t->constant &= !(deps & (DEP_V | DEP_X | DEP_TIME));
+        t->constant &= !(deps & (DEP_STATE | DEP_TIME));
         t->linear_v &= graph_degree(g, n, DEP_V) <= 1;
-        t->affine &= graph_degree(g, n, DEP_V | DEP_X) <= 1;
+        t->affine &= graph_degree(g, n, DEP_V | DEP_X | DEP_MODE) <= 1;
         t->smooth &= !graph_kink(g, n);
         if (deps & DEP_V)
-            t->constant_jv &=
-                !(graph_deps(g, graph_derivative(g, n, seed_velocity, &shift)) & (DEP_V | DEP_X | DEP_TIME));
+            t->constant_jv &= !(graph_deps(g, graph_derivative(g, n, seed_velocity, &shift)) & (DEP_STATE | DEP_TIME));
     }
     t->constant &= !m->driven;
     t->constant_jv &= t->linear_v;
@@ -102,7 +101,7 @@ static bool recognise_constant(model *m)
 static bool interrupted(const model *m)
 {
     for (uint32_t i = 0; i < m->rule_count; i++)
-        if (m->rules[i].assignments) return true;
+        if (m->rules[i].assigns) return true;
     return false;
 }
 

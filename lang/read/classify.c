@@ -14,6 +14,7 @@ typedef struct reader {
     const tree *applied; /* of a function: its arguments, which hide other names */
     const struct reader *up;
     int chain;
+    bool start; /* it is the line of a mode, which says its start: other modes have their starts there */
 } reader;
 
 static bool moves(model *m, const tree *t, const reader *by, bool *yes);
@@ -36,13 +37,27 @@ static bool within_chain(model *m, span at, const reader *by)
     return false;
 }
 
+/* What an event assigns is a parameter, whose line gives its start. */
+static bool no_start(model *m, const model_definition *d)
+{
+    source_complain(&m->source, MOTUS_SHAPE, mode_assigned_at(m, d),
+                    "%s follows from the state or from time, and cannot be assigned", d->name);
+    source_hint(&m->source,
+                "an event assigns states and parameters; the line of a parameter gives its value at the start");
+    return false;
+}
+
 static bool definition_moves(model *m, model_definition *d, span at, const reader *by, bool *yes)
 {
     if (d->kind == DEFINED_QUANTITY || d->kind == DEFINED_INVARIANT) {
         *yes = true;
         if (d->kind == DEFINED_QUANTITY || d->progress) return true;
     }
-    if (d->kind == DEFINED_PARAMETER) return true;
+    const bool start = by && by->start;
+    if (d->kind == DEFINED_PARAMETER) {
+        *yes |= d->mode && !start;
+        return true;
+    }
     if (d->progress == 1) {
         char circle[8 * MOTUS_NAME_MAX];
         name_circle(circle, sizeof circle, by, d->name);
@@ -54,13 +69,14 @@ static bool definition_moves(model *m, model_definition *d, span at, const reade
     d->progress = 1;
     bool own = false;
     for (const statement *s = d->statement; s; s = s->next ? &m->statements.item[s->next - 1] : NULL)
-        if (!moves(m, s->value, &(reader){d->name, NULL, by, by ? by->chain + 1 : 1}, &own)) return false;
+        if (!moves(m, s->value, &(reader){d->name, NULL, by, by ? by->chain + 1 : 1, d->mode != 0}, &own)) return false;
     d->progress = 0;
+    if (d->mode && own) return no_start(m, d);
     if (d->kind == DEFINED_UNKNOWN)
         d->kind = own ? DEFINED_QUANTITY : DEFINED_PARAMETER;
     else
         d->progress = 2;
-    *yes |= own || d->kind == DEFINED_INVARIANT;
+    *yes |= own || d->kind == DEFINED_INVARIANT || (d->mode && !start);
     return true;
 }
 
@@ -77,7 +93,8 @@ static bool function_moves(model *m, model_function *f, span at, const reader *b
         const statement *s = f->statement;
         if (!within_chain(m, at, by)) return false;
         f->progress = 1;
-        if (!moves(m, s->value, &(reader){f->name, s->applied, by, by ? by->chain + 1 : 1}, &f->moves)) return false;
+        if (!moves(m, s->value, &(reader){f->name, s->applied, by, by ? by->chain + 1 : 1, false}, &f->moves))
+            return false;
         f->progress = 2;
     }
     *yes |= f->moves;
@@ -142,7 +159,8 @@ static bool classify_definitions(model *m)
         d->progress = 0;
         yes = false;
         if (!d->statement->replaced) continue;
-        if (!moves(m, d->statement->replaced->value, NULL, &yes)) return false;
+        if (!moves(m, d->statement->replaced->value, &(reader){d->name, NULL, NULL, 1, d->mode != 0}, &yes))
+            return false;
         if (yes) {
             source_complain(&m->source, MOTUS_ARGUMENT, &d->statement->name_at,
                             "%s is a quantity and follows from the motion", d->name);

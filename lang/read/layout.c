@@ -7,10 +7,11 @@ bool layout_all(model *m)
 {
     size_t total = 0;
     uint32_t parts = 0, count = 0;
-    m->variables = arena_room(m->arena, (m->state_count + 1) * sizeof *m->variables);
+    const uint32_t states = m->state_count + m->mode_count;
+    m->variables = arena_room(m->arena, (states + 1) * sizeof *m->variables);
     if (!m->variables) return false;
     for (int order = 2; order >= 1; order--) {
-        for (uint32_t i = 0; i < m->state_count; i++) {
+        for (uint32_t i = 0; i < states; i++) {
             model_state *s = &m->states[i];
             if (s->order != order) continue;
             s->base = m->variables[count++] = total;
@@ -30,17 +31,19 @@ bool layout_all(model *m)
             }
         }
         if (order == 2) m->nx = total;
+        if (order == 2 && m->mode_count) m->modes = total - m->states[m->state_count].base;
     }
     m->nv = m->variables[count] = total;
     m->block_size = (uint16_t)parts;
     static const space spaces[5] = {SPACE_X, SPACE_V, SPACE_A, SPACE_DX, SPACE_DV};
     for (int b = 0; b < 5; b++) {
         if (!model_take_arrays(m, (int)parts, &m->block[b])) return false;
-        for (uint32_t i = 0; i < m->state_count; i++) {
+        for (uint32_t i = 0; i < states; i++) {
             const model_state *s = &m->states[i];
             for (int k = 0; k < (s->components ? s->components : 1); k++) {
                 graph_shape(m->arena, &m->arrays[m->block[b] + s->array + k], spaces[b], s->base + (size_t)k * s->hull,
                             s->dims, s->first, s->last);
+                m->arrays[m->block[b] + s->array + k].mode = b == BLOCK_X && i >= m->state_count;
                 m->array_owner[m->block[b] + s->array + k] = 2 * i + 2;
             }
         }

@@ -235,11 +235,7 @@ static bool may_assign(model *m, lowering *l, const tree *t)
         HINT(m, "assign the states that it depends on");
         return false;
     }
-    if (s.definition) {
-        source_complain(&m->source, MOTUS_UNAVAILABLE, &t->at,
-                        "%s is a parameter: events that assign parameters are not available yet", name->name);
-        return false;
-    }
+    if (s.definition) return true;
     if (!s.state) {
         COMPLAIN(m, &t->at, "%s is a function and cannot be assigned", name->name);
         return false;
@@ -247,12 +243,6 @@ static bool may_assign(model *m, lowering *l, const tree *t)
     if (name->primes >= s.state->order) {
         COMPLAIN(m, &t->at, "%s follows from its equation and cannot be assigned", quote(m, &name->at, text));
         HINT(m, s.state->order == 2 ? "assign %s or %s'" : "assign %s", s.state->name, s.state->name);
-        return false;
-    }
-    if (m->exact_given) {
-        COMPLAIN(m, &t->at, "the model gives its exact motion, which ends where %s is assigned",
-                 quote(m, &name->at, text));
-        HINT(m, "leave the exact lines out, or the assignment");
         return false;
     }
     return moving_cells(m, l, name, s.state);
@@ -284,7 +274,7 @@ static bool add_assignment(model *m, model_rule *r, const action *a, node target
         if (!more) return false;
         r->assignment = more;
     }
-    r->assignment[r->assignments++] = (model_assignment){.value = {.value = is}, .to = to};
+    r->assignment[r->assignments++] = (model_assignment){.value = {.value = is}, .to = to, .at = a->target->at};
     return true;
 }
 
@@ -447,6 +437,60 @@ static bool lower_rule(model *m, model_rule *r)
     return indices_used(m, r) && place_values(m, r);
 }
 
+/* ---- what depends on modes ---- */
+
+static void note_mode(void *ctx, const reference *r, const range *sums, int first_level, int inside)
+{
+    model *m = ctx;
+    (void)sums, (void)first_level, (void)inside;
+    const model_state *s = model_state_of(m, r->array);
+    if (s >= m->states + m->state_count) m->states[s - m->states].kept = false;
+}
+
+static void read_by(model *m, const output *o, size_t count)
+{
+    for (size_t k = 0; k < count; k++)
+        if (graph_deps(m->graph, o[k].value) & DEP_MODE) graph_loads(m->graph, o[k].value, SPACE_X, note_mode, m);
+}
+
+/* Whether an assignment changes the motion, or what rules watch. */
+static bool matters(const model *m, const model_assignment *a) { return !model_state_of(m, a->to.array)->kept; }
+
+/* Modes that only observers read are kept: all but those from which forces, functions of events, or what is assigned
+ * to states and to such modes follow. */
+static void find_kept(model *m)
+{
+    for (uint32_t i = 0; i < m->mode_count; i++) m->states[m->state_count + i].kept = true;
+    read_by(m, m->accel, m->accel_count);
+    read_by(m, m->boundary, m->boundary_count);
+    for (uint32_t i = 0; i < m->rule_count; i++) read_by(m, m->rules[i].leaf, m->rules[i].leaves);
+    for (uint32_t before = UINT32_MAX, kept = 0; kept != before;) {
+        before = kept;
+        for (uint32_t i = 0; i < m->rule_count; i++)
+            for (size_t k = 0; k < m->rules[i].assignments; k++)
+                if (matters(m, &m->rules[i].assignment[k])) read_by(m, &m->rules[i].assignment[k].value, 1);
+        kept = 1;
+        for (uint32_t i = 0; i < m->mode_count; i++) kept += m->states[m->state_count + i].kept;
+    }
+}
+
+static bool judge_assignments(model *m, model_rule *r)
+{
+    for (size_t k = 0; k < r->assignments; k++) {
+        const model_assignment *a = &r->assignment[k];
+        if (!matters(m, a)) continue;
+        r->assigns = true;
+        if (!m->exact_given) continue;
+        char text[80];
+        COMPLAIN(m, &a->at, "the model gives its exact motion, which ends where %s is assigned",
+                 quote(m, &a->at, text));
+        HINT(m, "leave the exact lines out, or the assignment");
+        return false;
+    }
+    r->keeps = r->assignments > 0 && !r->assigns;
+    return true;
+}
+
 bool rules_all(model *m)
 {
     /* Accumulations have the indices of other events. */
@@ -454,5 +498,9 @@ bool rules_all(model *m)
         for (uint32_t i = 0; i < m->rule_count; i++)
             if ((m->rules[i].statement->when->kind == WHEN_ACCUMULATES) == pass && !lower_rule(m, &m->rules[i]))
                 return false;
-    return !failed(m);
+    if (failed(m)) return false;
+    find_kept(m);
+    for (uint32_t i = 0; i < m->rule_count; i++)
+        if (!judge_assignments(m, &m->rules[i])) return false;
+    return true;
 }

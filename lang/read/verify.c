@@ -143,7 +143,7 @@ double verify_fastest(const model *m, double t, double *x, double *v, double *ro
 
 void verify_size(const model *m, double rate, const double *x, const double *v, double *size_x, double *size_v)
 {
-    for (uint32_t i = 0; i < m->state_count; i++) {
+    for (uint32_t i = 0; i < m->state_count + m->mode_count; i++) {
         const model_state *s = &m->states[i];
         const size_t count = s->hull * (size_t)(s->components ? s->components : 1);
         double of_x = 0, of_v = 0;

@@ -29,11 +29,6 @@ enum {
 
 /* Tapes ----------------------------------------------------------------------------------------------------------- */
 
-static node seed_motion(graph *g, node leaf, void *shift)
-{
-    return graph_at(g, leaf)->op == OP_TIME ? graph_const(g, 1) : graph_seed_direction(g, leaf, shift);
-}
-
 /* The state is known; an acceleration has the error of its formula, in SPACE_DV. */
 static node leaf_of_rate(graph *g, node leaf, void *ctx)
 {
@@ -51,11 +46,10 @@ static node leaf_of_rate(graph *g, node leaf, void *ctx)
 
 static output *along_motion(model *m, const output *from, size_t count)
 {
-    graph_shift shift = {m->block_size, m->block_size};
     output *to = arena_room(m->arena, (count + 1) * sizeof *to);
     for (size_t k = 0; to && k < count; k++) {
         to[k] = from[k];
-        to[k].value = graph_derivative(m->graph, from[k].value, seed_motion, &shift);
+        to[k].value = graph_derivative(m->graph, from[k].value, model_seed_motion, m);
     }
     return to;
 }
