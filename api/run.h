@@ -60,7 +60,8 @@ struct motus_run {
     size_t saved_room;
     bool locating;         /* the definition asks that steps end at switches */
     struct locate *locate; /* NULL: they do not */
-    events *events;        /* NULL: the system has no rules */
+    const rules *rules;    /* of the system, NULL: it has none */
+    events *events;        /* NULL: likewise */
     bars *bars;            /* of error; NULL: none are asked for */
     bool kept;             /* a compiled object is used only where there is one */
     later later;

@@ -6,11 +6,10 @@
 
 motus_status run_events_begin(motus_run *r, motus_error *err)
 {
-    const rules *rules = r->system->rules;
-    motus_status status = MOTUS_OK;
-    if (!rules) return MOTUS_OK;
+    motus_status status = system_rules(r->system, &r->rules, err);
+    if (status != MOTUS_OK || !r->rules) return status;
     if (r->locating) return fail(err, MOTUS_UNAVAILABLE, "a run of a system with events cannot locate switches");
-    if (!r->events) status = events_create(rules, &r->machine, &r->chosen, &r->allocator, &r->events, err);
+    if (!r->events) status = events_create(r->rules, &r->machine, &r->chosen, &r->allocator, &r->events, err);
     return status == MOTUS_OK ? events_begin(r->events, r->stepper, r->timing.until, err) : status;
 }
 
@@ -40,9 +39,10 @@ int64_t motus_run_events(const motus_run *r) { return r && r->events ? (int64_t)
 
 motus_status motus_run_event(const motus_run *r, int64_t k, motus_event_row *out)
 {
-    if (!r || !out || k < 0 || k >= motus_run_events(r) || motus_struct_check(MOTUS_DEF_EVENT_ROW, out, NULL) != MOTUS_OK)
+    if (!r || !out || k < 0 || k >= motus_run_events(r) ||
+        motus_struct_check(MOTUS_DEF_EVENT_ROW, out, NULL) != MOTUS_OK)
         return MOTUS_ARGUMENT;
-    const rules *rules = r->system->rules;
+    const rules *rules = r->rules;
     const event row = events_row(r->events, (size_t)k, false, NULL, NULL);
     motus_event_row ours = motus_default_event_row();
     ours.name = rules->rule[row.rule].name;
@@ -83,5 +83,5 @@ const char *motus_run_ended(const motus_run *r, int *accumulated, double *time, 
     if (accumulated) *accumulated = gathers;
     if (time) *time = limit.t;
     if (error) *error = limit.error;
-    return end == EVENTS_END_NONE ? "" : r->system->rules->rule[rule].name;
+    return end == EVENTS_END_NONE ? "" : r->rules->rule[rule].name;
 }

@@ -171,7 +171,7 @@ motus_status system_switches(motus_system *s, motus_error *err)
 
 motus_status system_rules(motus_system *s, const rules **out, motus_error *err)
 {
-    *out = NULL;
+    *out = s->rules;
     if (!s->model || s->model->rule_count == 0) return MOTUS_OK;
     const motus_status status = s->ruled ? MOTUS_OK : ruled_create(s->model, &s->ruled, err);
     if (status == MOTUS_OK) *out = ruled_rules(s->ruled);

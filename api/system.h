@@ -29,7 +29,7 @@ struct motus_system {
     motus_text_def text; /* the definition that it was read from, in the arena */
     motus_callback_def callback;
     calling calling;
-    const rules *rules; /* NULL: nothing happens on the way */
+    const rules *rules; /* of a callback; NULL: nothing happens on the way */
     problem problem;
     machine machine;       /* the interpreter, or the callback */
     compiled *compiled;    /* NULL until a run asks for it */
