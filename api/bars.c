@@ -3,6 +3,7 @@
 
 #include "api/choice.h"
 #include "api/later.h"
+#include "api/run_events.h"
 #include "api/shadow.h"
 
 #include <math.h>
@@ -193,7 +194,8 @@ motus_status bars_take(motus_run *r, double t, double *x, double *v, bool observ
     bars *b = r->bars;
     const bool twin = b->kind == MOTUS_BARS_FULL && t == b->twin.t;
     motus_status status = bars_see(r, r->system, t, x, v, 0, err);
-    if (status == MOTUS_OK) status = bars_see(r, b->half.system, t, b->half.x, b->half.v, 1, err);
+    const double theirs = b->half.events ? b->half.t : t;
+    if (status == MOTUS_OK) status = bars_see(r, b->half.system, theirs, b->half.x, b->half.v, 1, err);
     if (status == MOTUS_OK && twin) status = bars_see(r, r->system, t, b->twin.x, b->twin.v, 2, err);
     if (status == MOTUS_OK) differences_take(&b->differences, t, observed, twin);
     return status;
@@ -280,6 +282,37 @@ static int64_t due(const motus_run *r)
     return row_adaptive(&r->chosen) ? before + 1 : differences_due(r->timing.total, before);
 }
 
+/* Whether a companion has had the same events as the run. */
+static bool along(const motus_run *r, const companion *c)
+{
+    if (!r->events || !c->events) return true;
+    return events_acted(r->events) == events_acted(c->events) && c->over == run_events_ended(r);
+}
+
+/* Where the run stands at an event, its companions go on to theirs, which may come later. */
+static motus_status reach(motus_run *r, double t, motus_error *err)
+{
+    bars *b = r->bars;
+    const bool ends = run_events_ended(r);
+    const double interval = events_interval(r->events), way = r->timing.until - r->timing.t0;
+    const double most = fabs(way) / 8, span = copysign(interval / 4 < most ? interval / 4 : most, way);
+    if (!ends && events_latest(r->events) != t) return MOTUS_OK;
+    const int64_t acted = events_acted(r->events);
+    const motus_status status = companion_reach(&b->half, acted, ends, span, err);
+    return status == MOTUS_OK && b->twin.events ? companion_reach(&b->twin, acted, ends, span, err) : status;
+}
+
+/* Where run and companion remain apart for as long as half the time between events, their motions are not the same. */
+static void notice_gap(motus_run *r, double t)
+{
+    bars *b = r->bars;
+    const bool gap = !along(r, &b->half) || (b->twin.events && !along(r, &b->twin));
+    if (gap && !b->gap) b->gap_since = t;
+    b->gap = gap;
+    if (gap && (run_events_ended(r) || fabs(t - b->gap_since) > events_interval(r->events) / 2))
+        b->differences.until = b->gap_since;
+}
+
 static motus_status land(motus_run *r, double t, double *x, double *v, bool between, bool observed, motus_error *err)
 {
     bars *b = r->bars;
@@ -288,7 +321,9 @@ static motus_status land(motus_run *r, double t, double *x, double *v, bool betw
     motus_status status = companion_land(&b->half, r, t, taken > 0 ? taken : 1, err);
     if (status == MOTUS_OK && !strcmp(r->card->family, "exact")) status = companion_jog(&b->half, r, err);
     if (status == MOTUS_OK && b->kind == MOTUS_BARS_FULL && !between) status = companion_repeat(&b->twin, r, err);
-    if (status == MOTUS_OK) status = bars_take(r, t, x, v, observed, err);
+    if (status == MOTUS_OK && r->events && !between) status = reach(r, t, err);
+    if (status == MOTUS_OK && r->events) notice_gap(r, t);
+    if (status == MOTUS_OK && !b->gap) status = bars_take(r, t, x, v, observed, err);
     b->landed = t;
     b->steps = between ? now - 1 : now;
     b->seconds += pace_now() - began;
@@ -338,7 +373,8 @@ motus_status bars_land_between(motus_run *r, double t, double *x, double *v, mot
 
 double bars_of(const bars *b, double t, size_t number)
 {
-    const bool lost = !isnan(b->differences.until), known = !b->why[0] && (lost || b->ahead || b->landed == t);
+    const bool lost = !isnan(b->differences.until),
+               known = !b->why[0] && (!b->gap || lost) && (lost || b->ahead || b->landed == t);
     return known ? differences_bar(&b->differences, number) : NAN;
 }
 

@@ -25,6 +25,10 @@ struct bars {
      * landed last: that was at the end, after a shorter step, which the state is before. */
     double *resumed;
     bool ahead;
+    /* The run and its companion have not had the same events, as between the time of an event of the one and that of
+     * the other; since when. Then their states are not compared. */
+    bool gap;
+    double gap_since;
     char why[256]; /* no bar; "": there is one */
 };
 

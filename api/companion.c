@@ -27,6 +27,7 @@
 #include "api/companion.h"
 
 #include "core/rows.h"
+#include "api/run_events.h"
 #include "machine/differences.h"
 
 #include <math.h>
@@ -40,7 +41,8 @@ enum { STRICTER_MOST = 10, STEPS_FIRST = 4096, STEPS_EACH = 8 }; /* steps: in al
 /* Whether the companion of half the step controls its error. Steps that follow a time scale do not. */
 static bool controls(const chosen *c, const motus_system *s)
 {
-    return row_adaptive(c) && !row_reversible_steps(c) && s->model && !s->problem.traits.smooth;
+    const bool kinks = s->model && !s->problem.traits.smooth;
+    return row_adaptive(c) && !row_reversible_steps(c) && (kinks || system_acts(s));
 }
 
 /* Whether every candidate is compared with the force at its end. */
@@ -90,8 +92,57 @@ motus_status companion_begin(companion *c, const motus_run *r, double t, const d
     c->room = STEPS_FIRST;
     c->controls = c->system && controls(&r->chosen, c->system);
     const chosen method = c->system ? companion_method(&r->chosen, c->system) : without_control(&r->chosen);
-    if (c->stepper) return stepper_start(c->stepper, t, r->timing.h, x, v, err);
-    return stepper_create(&c->machine, &method, t, r->timing.h, x, v, &r->allocator, &c->stepper, err);
+    c->over = false;
+    motus_status status =
+        c->stepper ? stepper_start(c->stepper, t, r->timing.h, x, v, err)
+                   : stepper_create(&c->machine, &method, t, r->timing.h, x, v, &r->allocator, &c->stepper, err);
+    if (status != MOTUS_OK || !r->rules) return status;
+    const rules *rules;
+    status = system_rules(c->system ? c->system : r->system, &rules, err);
+    if (status == MOTUS_OK && !c->events)
+        status = events_create(rules, &c->machine, &method, &r->allocator, &c->events, err);
+    return status == MOTUS_OK ? events_begin(c->events, c->stepper, r->timing.until, err) : status;
+}
+
+static motus_status see(companion *c, motus_error *err)
+{
+    const motus_status status = stepper_sync(c->stepper, c->x, c->v, NULL, err);
+    if (status == MOTUS_OK && c->events) events_keep(c->events, stepper_time(c->stepper), c->x);
+    return status;
+}
+
+/* To t, with all that happens on the way, from where a leg begins. */
+static motus_status follow(companion *c, double t, motus_error *err)
+{
+    stepper_stop why = STOP_STEPS;
+    events_turn(c->events, c->stepper);
+    const int64_t room = c->controls ? c->room : INT64_MAX;
+    motus_status status = run_events_steps(c->events, c->stepper, &c->pace, room, t, &why, err);
+    c->room -= events_steps(c->events);
+    if (status == MOTUS_OK && why == STOP_STEPS)
+        return fail(err, MOTUS_DIVERGED, "it needs far more steps than the run between two events");
+    c->over = why == STOP_EVENT;
+    if (status == MOTUS_OK) status = see(c, err);
+    if (status == MOTUS_OK) c->t = stepper_time(c->stepper);
+    return status;
+}
+
+motus_status companion_reach(companion *c, int64_t acted, bool ends, double span, motus_error *err)
+{
+    enum { PARTS = 16 };
+    const double t = c->t, h = span / PARTS;
+    stepper_stop why = STOP_STEPS;
+    if (!c->events || c->over || (!ends && events_acted(c->events) >= acted) || t + h == t) return MOTUS_OK;
+    motus_status status = stepper_turn(c->stepper, t, h, err);
+    events_turn(c->events, c->stepper);
+    for (int k = 0; status == MOTUS_OK && k < STEPS_FIRST && why == STOP_STEPS; k++) {
+        status = run_events_steps(c->events, c->stepper, &c->pace, 1, t + span, &why, err);
+        if (!ends && events_acted(c->events) >= acted) break;
+    }
+    c->over = why == STOP_EVENT;
+    if (status == MOTUS_OK) status = see(c, err);
+    if (status == MOTUS_OK) c->t = stepper_time(c->stepper);
+    return status;
 }
 
 /* To t in so many equal steps. Where steps adapt no error is too large, or these are the first to be tried; and the
@@ -101,16 +152,17 @@ static motus_status go(companion *c, const motus_run *r, double t, int64_t steps
     const bool adaptive = row_adaptive(&r->chosen);
     const stepper_limit limit = {c->controls ? c->room : adaptive ? INT64_MAX : steps, adaptive ? t : NAN};
     stepper_stop why;
-    if (t == c->t) return MOTUS_OK;
+    if (c->over || (t - c->t) * r->timing.h <= 0) return MOTUS_OK; /* an event may have led it further */
     motus_status status = stepper_turn(c->stepper, c->t, (t - c->t) / (double)steps, err);
     if (!c->controls) stepper_follow(c->stepper, r->stepper);
+    if (status == MOTUS_OK && c->events) return follow(c, t, err);
     const int64_t before = stepper_steps(c->stepper);
     if (status == MOTUS_OK) status = pace_advance(&c->pace, c->stepper, limit, &why, err);
     c->room -= stepper_steps(c->stepper) - before;
     if (status == MOTUS_OK && adaptive && stepper_time(c->stepper) != t)
         return fail(err, MOTUS_DIVERGED,
                     "it needs far more steps than the run, which the force keeps at a jump or kink");
-    if (status == MOTUS_OK) status = stepper_sync(c->stepper, c->x, c->v, NULL, err);
+    if (status == MOTUS_OK) status = see(c, err);
     if (status == MOTUS_OK) c->t = t;
     return status;
 }
@@ -160,9 +212,14 @@ motus_status companion_repeat(companion *c, const motus_run *r, motus_error *err
     if (row_adaptive(&r->chosen)) return go(c, r, stepper_time(r->stepper), 1, err);
     const int64_t steps = stepper_steps(r->stepper) - c->before - stepper_steps(c->stepper);
     const stepper_limit limit = {steps, r->timing.until};
-    stepper_stop why;
-    motus_status status = pace_advance(&c->pace, c->stepper, limit, &why, err);
-    if (status == MOTUS_OK) status = stepper_sync(c->stepper, c->x, c->v, NULL, err);
+    stepper_stop why = STOP_STEPS;
+    if (c->over) return MOTUS_OK;
+    motus_status status =
+        c->events ? run_events_steps(c->events, c->stepper, &c->pace,
+                                     motus_run_steps(r) - c->before - events_steps(c->events), limit.until, &why, err)
+                  : pace_advance(&c->pace, c->stepper, limit, &why, err);
+    c->over = why == STOP_EVENT;
+    if (status == MOTUS_OK) status = see(c, err);
     if (status == MOTUS_OK) c->t = stepper_time(r->stepper);
     return status;
 }
@@ -170,6 +227,7 @@ motus_status companion_repeat(companion *c, const motus_run *r, motus_error *err
 void companion_end(companion *c, const motus_allocator *a)
 {
     stepper_destroy(c->stepper);
+    events_destroy(c->events);
     give(a, c->x);
     motus_system_destroy(c->system);
 }

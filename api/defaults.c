@@ -60,7 +60,7 @@ static const layout layouts[] = {
     [MOTUS_DEF_ESTIMATE] = {"motus_estimate", "estimate", SIZES(motus_estimate),
                             &(const motus_estimate){.significant_until = NAN, .rate = NAN, .work = NAN, .reason = ""}},
     [MOTUS_DEF_EVENT_ROW] = {"motus_event_row", "event_row", SIZES(motus_event_row),
-                         &(const motus_event_row){.name = "", .time = NAN, .error = NAN}},
+                             &(const motus_event_row){.name = "", .time = NAN, .error = NAN}},
 };
 
 static uint32_t size_now(const layout *l) { return l->sizes[l->count - 1]; }

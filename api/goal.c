@@ -118,12 +118,15 @@ bool goal_arrive(motus_run *r, int64_t n)
     motus_run *best = g ? g->accuracy.best : NULL;
     if (!best || n <= 0) return false;
     const bool fits = motus_run_done(best) && n >= motus_run_steps(best) && !r->observer && r->legs == 1 &&
-                      stepper_steps(r->stepper) == 0 && (!r->bars || r->bars->kind == best->bars->kind);
+                      motus_run_steps(r) == 0 && (!r->bars || r->bars->kind == best->bars->kind);
     if (fits) {
         stepper *const mine = r->stepper;
         bars *const own = r->bars;
         r->stepper = best->stepper;
         best->stepper = mine;
+        events *const happened = r->events;
+        r->events = best->events;
+        best->events = happened;
         later_end(r);
         r->machine = best->machine;
         r->compiled_from = best->compiled_from;

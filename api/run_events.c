@@ -13,17 +13,23 @@ motus_status run_events_begin(motus_run *r, motus_error *err)
     return status == MOTUS_OK ? events_begin(r->events, r->stepper, r->timing.until, err) : status;
 }
 
-motus_status run_events_advance(motus_run *r, int64_t n, stepper_stop *why, motus_error *err)
+motus_status run_events_steps(events *e, stepper *s, const pace *p, int64_t n, double until, stepper_stop *why,
+                              motus_error *err)
 {
     enum { LOOK = 16 }; /* steps between two looks at the clock */
     motus_status status = MOTUS_OK;
-    *why = r->arrived ? STOP_UNTIL : STOP_STEPS;
     for (int64_t i = 0; i < n && status == MOTUS_OK && *why == STOP_STEPS; i++) {
-        if (i % LOOK == 0 && r->pace.tell && r->pace.tell(r->pace.ctx, pace_now())) return MOTUS_CANCELLED;
-        status = events_step(r->events, r->stepper, r->timing.until, why, err);
+        if (i % LOOK == 0 && p->tell && p->tell(p->ctx, pace_now())) return MOTUS_CANCELLED;
+        status = events_step(e, s, until, why, err);
     }
     if (status != MOTUS_OK) *why = STOP_FAILED;
     return status;
+}
+
+motus_status run_events_advance(motus_run *r, int64_t n, stepper_stop *why, motus_error *err)
+{
+    *why = r->arrived ? STOP_UNTIL : STOP_STEPS;
+    return run_events_steps(r->events, r->stepper, &r->pace, n, r->timing.until, why, err);
 }
 
 bool run_events_ended(const motus_run *r) { return r->events && events_ended(r->events, NULL) != EVENTS_END_NONE; }

@@ -169,6 +169,14 @@ motus_status system_switches(motus_system *s, motus_error *err)
     return status;
 }
 
+bool system_acts(const motus_system *s)
+{
+    const rules *r = s->ruled ? ruled_rules(s->ruled) : s->rules;
+    bool acts = false;
+    for (size_t k = 0; r && k < r->count; k++) acts |= r->rule[k].assigns || r->rule[k].stop;
+    return acts;
+}
+
 motus_status system_rules(motus_system *s, const rules **out, motus_error *err)
 {
     *out = s->rules;

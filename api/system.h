@@ -77,6 +77,8 @@ motus_status system_values(motus_system *, double t, double *x, double *v, const
                            double *out, motus_error *);
 /* Finds the switches of the model, once: `switches`, or why they cannot be held. */
 motus_status system_switches(motus_system *, motus_error *);
+/* Whether a rule changes the state, or ends the run. */
+bool system_acts(const motus_system *);
 /* The rules of the model, made once; *out is NULL where it has none. */
 motus_status system_rules(motus_system *, const rules **out, motus_error *);
 /* Refuses a model that has events, where nothing follows them. */

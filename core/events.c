@@ -128,6 +128,7 @@ motus_status events_begin(events *e, stepper *s, double until, motus_error *err)
     e->first = true;
     e->end = EVENTS_END_NONE;
     e->at_once = NAN;
+    e->interval = INFINITY;
     for (size_t f = 0; f < e->rules.functions; f++) e->fired[f] = NAN, e->open[f] = 0;
     motus_status status = check_clocks(e, err);
     if (!status) status = observe(s, &e->left, err);
@@ -376,6 +377,16 @@ bool events_accumulated(const events *e, events_limit *out)
     return e->has_limit;
 }
 
+void events_turn(events *e, const stepper *s)
+{
+    e->grid_start = stepper_time(s);
+    e->grid_step = stepper_step(s);
+    e->steps = 0;
+}
+
+double events_latest(const events *e) { return e->at_once; }
+int64_t events_acted(const events *e) { return e->acted; }
+double events_interval(const events *e) { return e->interval; }
 int64_t events_steps(const events *e) { return e->steps; }
 int64_t events_evaluations(const events *e) { return e->probe ? stepper_evaluations(e->probe) : 0; }
 int64_t events_count(const events *e, size_t rule) { return e->count[rule]; }

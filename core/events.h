@@ -53,12 +53,18 @@ motus_status events_begin(events *, stepper *, double until, motus_error *);
  * rule ended the run, or events accumulated. */
 motus_status events_step(events *, stepper *, double until, stepper_stop *why, motus_error *);
 
+/* The stepper has begun a new leg where it stands (stepper_turn): the grid of fixed steps begins there. */
+void events_turn(events *, const stepper *);
+
 events_end events_ended(const events *, size_t *rule);
 /* False: the events of no rule have accumulated. */
 bool events_accumulated(const events *, events_limit *);
 int64_t events_steps(const events *);       /* since events_begin */
 int64_t events_evaluations(const events *); /* of the force, for steps that end on events */
 int64_t events_count(const events *, size_t rule);
+double events_latest(const events *);   /* time of the latest action; NaN: there was none */
+int64_t events_acted(const events *);   /* how often a rule has assigned */
+double events_interval(const events *); /* between the latest two instants at which one did; INFINITY: there are none */
 size_t events_rows(const events *);
 /* Row k; x and v, where not NULL: the state on arrival, or where `after` that which the action left. */
 event events_row(const events *, size_t k, bool after, const double **x, const double **v);

@@ -97,7 +97,12 @@ static motus_status act(events *e, size_t k, size_t i, motus_error *err)
     instant *at = &e->here;
     bool in_v = false;
     size_t which = 0;
-    if (e->at_once != at->t) e->at_once = at->t, e->actions = 0;
+    if (e->at_once != at->t) {
+        if (!isnan(e->at_once)) e->interval = fabs(at->t - e->at_once);
+        e->at_once = at->t;
+        e->actions = 0;
+    }
+    e->acted++;
     if (++e->actions > EVENTS_AT_ONCE) return too_many(e, k, i, err);
     const size_t n = e->rules.functions;
     if (n) memcpy(e->before, at->g, n * sizeof *at->g);
