@@ -286,7 +286,9 @@ static int64_t due(const motus_run *r)
 static bool along(const motus_run *r, const companion *c)
 {
     if (!r->events || !c->events) return true;
-    return events_acted(r->events) == events_acted(c->events) && c->over == run_events_ended(r);
+    if (c->over != run_events_ended(r)) return false;
+    /* of events that accumulate each has had as many as it could tell apart */
+    return events_acted(r->events) == events_acted(c->events) || events_accumulated(r->events, NULL);
 }
 
 /* Where the run stands at an event, its companions go on to theirs, which may come later. */

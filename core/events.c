@@ -35,6 +35,7 @@ static size_t arrange(events *e, char *at)
         numbers = place(&e->here, e, numbers);
         place(&e->next, e, numbers);
     }
+    e->after = next(&at, nx + nv, sizeof *e->after);
     e->fired = next(&at, f, sizeof *e->fired);
     e->before = next(&at, f, sizeof *e->before);
     e->instances = next(&at, n, sizeof *e->instances);
@@ -128,6 +129,7 @@ motus_status events_begin(events *e, stepper *s, double until, motus_error *err)
     e->first = true;
     e->end = EVENTS_END_NONE;
     e->at_once = NAN;
+    e->after_rule = SIZE_MAX;
     e->interval = INFINITY;
     for (size_t f = 0; f < e->rules.functions; f++) e->fired[f] = NAN, e->open[f] = 0;
     motus_status status = check_clocks(e, err);

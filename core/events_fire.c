@@ -186,7 +186,8 @@ static motus_status ask_root(events *e, size_t k, size_t i, const candidate *c, 
     if (e->side[f] == 0) e->side[f] = (int8_t)-to;
     const bool turned = fabs(e->here.rate[f] - rate) > 0x1p-40 * fabs(rate);
     if (now == to && (!turned || !e->zero[f])) e->side[f] = (int8_t)to;
-    events_accumulate(e, k, i, e->here.t);
+    if (events_accumulate(e, k, i, e->here.t)) events_to_limit(e, k, i);
+    events_after(e, k, i);
     return status;
 }
 

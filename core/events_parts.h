@@ -101,6 +101,8 @@ struct events {
     double *kept;
     kept_state *kept_state;
     size_t kept_states, kept_room;
+    double *after; /* the state after the latest event of `after_rule`, instance `after_instance` */
+    size_t after_rule, after_instance;
     bool has_limit, limit_told; /* events accumulate; a rule has answered to that */
     events_limit limit;
 };
@@ -138,5 +140,8 @@ bool events_keep_now(events *, double t, const double *x);
 void events_kept_forget(events *); /* those before the newest */
 /* An event of a rule that assigns; true: they accumulate, at events.limit. */
 bool events_accumulate(events *, size_t rule, size_t instance, double t);
+/* The state after an action, beside which the next one of the same rule is judged; and its limit, to `here`. */
+void events_after(events *, size_t rule, size_t instance);
+void events_to_limit(events *, size_t rule, size_t instance);
 
 #endif

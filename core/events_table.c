@@ -142,3 +142,26 @@ bool events_accumulate(events *e, size_t rule, size_t instance, double t)
     e->limit = (events_limit){rule, instance, t + e->way * left, left + 4 * ulp};
     return true;
 }
+
+void events_after(events *e, size_t rule, size_t instance)
+{
+    const size_t nx = e->problem.nx, nv = e->problem.nv;
+    memcpy(e->after, e->here.x, nx * sizeof *e->after);
+    memcpy(e->after + nx, e->here.v, nv * sizeof *e->after);
+    e->after_rule = rule;
+    e->after_instance = instance;
+}
+
+/* y + (y - y') r/(1 - r), y' the number after the event before: where a sequence with differences of the ratio r
+ * ends. */
+void events_to_limit(events *e, size_t rule, size_t instance)
+{
+    const recent *r = &e->recent[e->instances[rule] + instance];
+    const double one = fabs(r->t[0] - r->t[1]), left = fabs(e->limit.t - r->t[0]), part = left / one;
+    const size_t nx = e->problem.nx, nv = e->problem.nv;
+    e->here.t = e->limit.t;
+    e->here.lost = 0;
+    if (e->after_rule != rule || e->after_instance != instance) return;
+    for (size_t k = 0; k < nx; k++) e->here.x[k] += part * (e->here.x[k] - e->after[k]);
+    for (size_t k = 0; k < nv; k++) e->here.v[k] += part * (e->here.v[k] - e->after[nx + k]);
+}
