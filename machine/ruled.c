@@ -82,7 +82,7 @@ static bool copy(assigning *s, int level, bool check)
     const ruled *r = s->ruled;
     const model *m = r->model;
     const model_rule *rule = s->rule;
-    if (level == rule->loops) {
+    if (level == s->one->value.loops) {
         const double value = r->becomes[graph_element(m->arrays, &s->one->value.to, s->index, r->ints)];
         const size_t at = graph_element(m->arrays, &s->one->to, s->index, r->ints);
         const bool in_v = m->arrays[s->one->to.array].space == SPACE_V;

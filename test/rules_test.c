@@ -233,17 +233,12 @@ static void set(void **state)
     motus_system_destroy(s);
 }
 
-/* Nothing follows events yet, and nothing ignores them. */
+/* Ensembles do not follow events yet, and do not ignore them. */
 static void refused(void **state)
 {
     (void)state;
     motus_system *s = given_text(BALL "when y = 0: y' = -e y'");
     motus_error err = motus_default_error();
-    motus_run_def def = motus_default_run();
-    motus_run *run = NULL;
-    def.step = 0.1;
-    def.until = 1;
-    assert_int_equal(motus_run_create(s, &def, &run, &err), MOTUS_UNAVAILABLE);
     motus_ensemble_def many = motus_default_ensemble();
     const motus_record record = {MOTUS_REDUCE_MAX, 0};
     motus_ensemble *e = NULL;
@@ -409,6 +404,165 @@ static void modes_elsewhere(void **state)
     motus_system_destroy(s);
 }
 
+/* What events keep ------------------------------------------------------------------------------------------------- */
+
+#define KEEPING                                                                                            \
+    BALL "r'' = -r\nr(0) = (1, 2)\nr'(0) = (0, 1)\ns' = y\ns(0) = 3\n"                                     \
+         "n = count(bounce)\nfirst = time(bounce)\nthird = time(bounce, 3)\nlatest = time(bounce, last)\n" \
+         "v2 = at(bounce, 2, y'^2 + s)\nwhere = at(bounce, last, r)\nv1 = at(bounce, y')\nagain = 2 "      \
+         "time(bounce, 1)\nd(q) = at(bounce, last, q - r.x)\nd1 = d(y)\nd2 = d(s)\n"                       \
+         "when y = 0 falling as bounce: y' = -y', s = 2 s, record\n"
+
+static double quantity(motus_system *s, const char *name, double t, double *x, double *v)
+{
+    motus_error err = motus_default_error();
+    size_t first, count;
+    double out = 0;
+    must(motus_column_find(s, name, &first, &count, &err), &err, name);
+    must(system_values(s, t, x, v, &first, 1, &out, &err), &err, name);
+    return out;
+}
+
+static void kept_numbers(void **state)
+{
+    (void)state;
+    motus_system *s = given_text(KEEPING);
+    const rules *r = rules_of(s);
+    const size_t nx = s->problem.nx;
+    /* count, times 1, 3 and last, v2, where, v1, d1 and d2: the same call again is the same number */
+    assert_int_equal(s->problem.modes, 10);
+    assert_int_equal(nx, 3 + 10);
+    assert_int_equal(s->problem.nv, nx + 1);
+    assert_int_equal(motus_positions(s), 3);
+    double x[13], v[14], a[14] = {0};
+    memcpy(x, s->x0, sizeof x);
+    memcpy(v, s->v0, sizeof v);
+    assert_true(*number_of(s, "s", x, v) == 3 && number_of(s, "s", x, v) == &v[nx]);
+    s->problem.accel(s->problem.ctx, 0, x, v, a);
+    assert_true(a[nx] == 1 && a[0] == -9.81);
+    assert_true(*number_of(s, "count(bounce)", x, v) == 0 && *number_of(s, "time(bounce, 3)", x, v) == 0);
+#define VALUE(name) quantity(s, name, 9, x, v)
+    assert_true(VALUE("n") == 0);
+    static const char *const unknown[] = {"first", "third", "latest", "v2", "where.x", "v1", "d1", "again"};
+    for (size_t k = 0; k < sizeof unknown / sizeof *unknown; k++) assert_true(isnan(VALUE(unknown[k])));
+    for (int event = 1; event <= 4; event++) {
+        x[0] = 0.5 * event, v[0] = -event, x[1] = 10 * event, x[2] = 20 * event;
+        const double before = v[nx];
+        act_on(r, "bounce", 0, 100 * event, x, v);
+        /* what is kept is the state on arrival */
+        assert_true(v[0] == event && v[nx] == 2 * before);
+        assert_true(VALUE("n") == event && VALUE("first") == 100 && VALUE("again") == 200);
+        assert_true(VALUE("latest") == 100 * event && VALUE("v1") == -1);
+        assert_true(VALUE("where.x") == 10 * event && VALUE("where.y") == 20 * event);
+        assert_true(VALUE("d1") == -9.5 * event && VALUE("d2") == before - 10 * event);
+        assert_true(event < 2 ? isnan(VALUE("v2")) : VALUE("v2") == 4 + 6);
+        assert_true(event < 3 ? isnan(VALUE("third")) : VALUE("third") == 300);
+    }
+    assert_true(r->rule[0].assigns && !r->rule[0].keeps && r->kept_count == 0);
+    motus_system_destroy(s);
+}
+
+/* Where only observers ask, an event that does nothing else ends no step; where the force does, it does. */
+static void kept_for_observers(void **state)
+{
+    (void)state;
+    motus_system *s = given_text(BALL "n = count(down)\nt2 = time(down, 2)\nwhen y = 0 as down: record");
+    const rules *r = rules_of(s);
+    assert_true(r->rule[0].keeps && !r->rule[0].assigns && r->rule[0].records);
+    assert_int_equal(r->kept_count, 2);
+    assert_int_equal(r->kept[0], 1);
+    assert_int_equal(r->kept[1], 2);
+    assert_true(motus_has_exact(s)); /* the motion goes on */
+    motus_system_destroy(s);
+    s = given_text("y'' = -count(down)\ny(0) = 1\ny'(0) = 0\nt2 = time(down, 2)\nwhen y = 0 as down: record");
+    r = rules_of(s);
+    assert_true(r->rule[0].assigns && !r->rule[0].keeps && !motus_has_exact(s));
+    motus_system_destroy(s);
+    /* an event that waits for what another has kept */
+    s = given_text(BALL "when y = 0 as down: record\nwhen t = time(down, 1) + 1 as late: record");
+    r = rules_of(s);
+    assert_true(r->rule[0].assigns && !r->rule[1].assigns && !r->rule[1].keeps);
+    double x[3] = {0, 0, 0}, v[3] = {0}, out[2];
+    r->values(r->ctx, 5, x, v, out);
+    assert_true(isnan(out[1]));
+    act_on(r, "down", 0, 3, x, v);
+    r->values(r->ctx, 5, x, v, out);
+    assert_true(out[1] == 1);
+    motus_system_destroy(s);
+}
+
+/* A family's events are counted together; sums in what is kept stand behind the indices of the event. */
+static void kept_of_families(void **state)
+{
+    (void)state;
+    motus_system *s = given_text(ROW "total = at(hit, last, sum(k = 1..N: x[k]))\nn = count(hit)\n"
+                                     "swept = at(row, last, sum(k = 1..N: k x[k]))\n"
+                                     "when x[i] = x[j] as hit: x[i] = 0 for i = 1..N, j = i+1..N\n"
+                                     "when t = 1 as row: x[i] = 1 for i = 1..N");
+    const rules *r = rules_of(s);
+    double x[8], v[8];
+    memcpy(x, s->x0, s->problem.nx * sizeof *x);
+    memcpy(v, s->v0, s->problem.nv * sizeof *v);
+    assert_int_equal(s->problem.modes, 4);
+    act_on(r, "hit", 0, 1, x, v);     /* [1,2] */
+    act_on(r, "hit", 3 + 2, 1, x, v); /* [2,4] */
+    assert_true(VALUE("n") == 2 && VALUE("total") == 4 + 9 + 16);
+    assert_true(x[0] == 0 && x[1] == 0 && x[2] == 9 && isnan(VALUE("swept")));
+    act_on(r, "row", 0, 1, x, v);
+    assert_true(VALUE("swept") == 3 * 9 + 4 * 16 && x[0] == 1 && x[3] == 1);
+    motus_system_destroy(s);
+}
+
+/* A run: bounce k of a ball that falls from 1 happens at T (2 (1 - e^k)/(1 - e) - 1), T = sqrt(2/g), with the speed
+ * e^(k - 1) g T. */
+static void along_a_run(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *method, *machine;
+    } by[] = {{"rk4", "interpreter"}, {"rk4", "compiled"}, {"verlet", "interpreter"}};
+    motus_system *s = given_text(BALL "k = 0\nc = count(bounce)\nt3 = time(bounce, 3)\nlast = time(bounce, last)\n"
+                                      "v2 = at(bounce, 2, y')\nwhen y = 0 falling as bounce: y' = -e y', k = k + 1, "
+                                      "record");
+    for (size_t i = 0; i < sizeof by / sizeof *by; i++) {
+        motus_run_def def = motus_default_run();
+        motus_error err = motus_default_error();
+        motus_run *run = NULL;
+        def.method = by[i].method;
+        def.machine = by[i].machine;
+        def.step = 0.1;
+        def.until = 3;
+        def.error = MOTUS_BARS_NONE;
+        must(motus_run_create(s, &def, &run, &err), &err, "run");
+        must(motus_run_finish(run, &err), &err, "run");
+        const double T = sqrt(2 / 9.81);
+        static const char *const names[] = {"k", "c", "t3", "last", "v2"};
+        const double expected[] = {6, 6, T * (1 + 2 * 0.8 + 2 * 0.64), T * (2 * (1 - pow(0.8, 6)) / 0.2 - 1),
+                                   -0.8 * 9.81 * T};
+        for (int k = 0; k < 5; k++) {
+            size_t first, count;
+            double value;
+            must(motus_column_find(s, names[k], &first, &count, &err), &err, names[k]);
+            must(motus_run_values(run, &first, 1, &value, &err), &err, names[k]);
+            if (fabs(value - expected[k]) > 64 * ROUNDING * fabs(expected[k]))
+                fail_msg("%s, %s: %s is %.17g, not %.17g", by[i].method, by[i].machine, names[k], value, expected[k]);
+        }
+        motus_run_destroy(run);
+    }
+    motus_system_destroy(s);
+}
+
+/* Who defines a function of the same name means that. */
+static void own_words(void **state)
+{
+    (void)state;
+    motus_system *s = given_text(BALL "count(q) = 2 q\ntime = 3\nc = count(y)\nd = time (y)\nwhen y = 0 as y0: record");
+    assert_int_equal(s->problem.modes, 0);
+    double x[] = {4}, v[] = {0};
+    assert_true(VALUE("c") == 8 && VALUE("d") == 12);
+    motus_system_destroy(s);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -423,6 +577,11 @@ int main(void)
         cmocka_unit_test(modes_are_assigned),
         cmocka_unit_test(modes_in_public),
         cmocka_unit_test(modes_elsewhere),
+        cmocka_unit_test(kept_numbers),
+        cmocka_unit_test(kept_for_observers),
+        cmocka_unit_test(kept_of_families),
+        cmocka_unit_test(own_words),
+        cmocka_unit_test(along_a_run),
         cmocka_unit_test(set),
         cmocka_unit_test(refused),
     };

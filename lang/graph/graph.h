@@ -137,7 +137,7 @@ node graph_kink(graph *, node);
 typedef node (*graph_seed)(graph *, node leaf, void *ctx);
 node graph_derivative(graph *, node, graph_seed, void *ctx);
 /* Seeds for the common cases: directional (X → DX, V → DV; arrays for DX/DV are the state's array number + the given
- * offset). */
+ * offset); modes have none. */
 /* array number of the image = array number + shift, by space of the source */
 typedef struct graph_shift {
     uint16_t x_to, v_to;

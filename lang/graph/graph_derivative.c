@@ -92,7 +92,7 @@ node graph_seed_direction(graph *g, node leaf, void *graph_shift_ctx)
     if (n->op != OP_LOAD) return 0;
     reference ref = g->references[n->a];
     space s = g->arrays[ref.array].space;
-    if (s != SPACE_X && s != SPACE_V) return 0;
+    if ((s != SPACE_X && s != SPACE_V) || g->arrays[ref.array].mode) return 0;
     ref.array = (uint16_t)(ref.array + (s == SPACE_X ? shift->x_to : shift->v_to));
     return graph_load(g, &ref);
 }

@@ -3,6 +3,7 @@
 #include "lang/lower/lower_ghost.h"
 #include "lang/lower/lower_parts.h"
 
+#include "lang/model/kept.h"
 #include "lang/model/symbols.h"
 
 #include <math.h>
@@ -501,7 +502,9 @@ static value lower_any(lowering *l, const tree *t)
     case TREE_NAME: return lower_name(l, t);
     case TREE_APPLY: {
         model_function *function = symbols_find(l->model, t->item[0]->name).function;
-        return function ? lower_function(l, t, function) : lower_initial(l, t);
+        return function                 ? lower_function(l, t, function)
+               : kept_call(l->model, t) ? lower_kept(l, t)
+                                        : lower_initial(l, t);
     }
     case TREE_CALL: return lower_call(l, t);
     case TREE_NEGATE:

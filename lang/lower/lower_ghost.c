@@ -9,6 +9,7 @@
 #include "lang/lower/lower_ghost.h"
 
 #include "lang/lower/lower_parts.h"
+#include "lang/model/kept.h"
 #include "lang/model/symbols.h"
 
 #include <string.h>
@@ -44,6 +45,7 @@ static bool reads_state(model *m, const tree *t, const tree *applied)
         if (t->kind == TREE_NAME && name_reads(m, t, applied)) return true;
         model_function *f = t->kind == TREE_APPLY ? symbols_find(m, t->item[0]->name).function : NULL;
         if (f && once(m, &f->reads, f->statement->value, f->statement->applied)) return true;
+        if (t->kind == TREE_APPLY && kept_call(m, t)) return true;
         if (t->count == 0 || (t->kind == TREE_APPLY && !f)) return false; /* an initial value is constant */
         for (uint32_t i = 1; i < t->count; i++)
             if (reads_state(m, t->item[i], applied)) return true;
@@ -153,6 +155,7 @@ static node along(graph *g, node leaf, void *motion_ctx)
     if (n.op == OP_TIME) return graph_const(g, 1);
     if (n.op != OP_LOAD) return 0;
     reference r = g->references[n.a];
+    if (g->arrays[r.array].mode) return 0;
     c->unknown |= g->arrays[r.array].space == SPACE_V || g->arrays[r.array].space == SPACE_A;
     if (g->arrays[r.array].space != SPACE_X) return 0;
     r.array = (uint16_t)(r.array + c->model->block[BLOCK_V] - c->model->block[BLOCK_X]);

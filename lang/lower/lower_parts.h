@@ -83,6 +83,9 @@ argument *lower_find_argument(const lowering *, const char *name);
 value lower_argument(lowering *, argument *);
 value lower_function(lowering *, const tree *call, model_function *);
 
+/* lower_kept.c */
+value lower_kept(lowering *, const tree *call);
+
 /* lower_diff.c */
 value lower_diff(lowering *, const tree *call);
 

@@ -40,10 +40,7 @@ void model_name(const model *m, bool in_v, size_t k, char *out, size_t size)
 node model_seed_motion(graph *g, node leaf, void *of)
 {
     const model *m = of;
-    const graph_node *n = graph_at(g, leaf);
-    if (n->op == OP_TIME) return graph_const(g, 1);
-    const model_state *s = n->op == OP_LOAD ? model_state_of(m, g->references[n->a].array) : NULL;
-    if (s && s >= m->states + m->state_count) return 0; /* a mode */
+    if (graph_at(g, leaf)->op == OP_TIME) return graph_const(g, 1);
     graph_shift shift = {m->block_size, m->block_size};
     return graph_seed_direction(g, leaf, &shift);
 }
@@ -95,7 +92,8 @@ static void name_reference(const model *m, const reference *r, char *out, size_t
         int parts = s->components ? s->components : 1;
         for (int b = 0; b < 3; b++) {
             int k = (int)r->array - (m->block[b] + s->array);
-            if (k < 0 || k >= parts || r->array >= m->block[b] + m->block_size) continue;
+            if (k < 0 || k >= parts) continue;
+            if (r->array >= m->block[b] + m->block_size && !m->arrays[r->array].mode) continue;
             name = s->name;
             component = k;
             components = s->components;

@@ -19,6 +19,7 @@ enum {
     MODEL_COMPONENTS_MAX = 4096,  /* length of a vector */
     MODEL_CHAIN_MAX = 400,        /* definitions or functions each of which uses the next */
     MODEL_ARGUMENTS_MAX = 8,      /* of a function */
+    MODEL_KEEPS_MAX = 4096,       /* numbers and vectors that events keep */
     MODEL_DEPTH_MAX = 2000        /* brackets and definitions within one another, together: it bounds the C stack */
 };
 #define MODEL_LOWERED_MAX 50000000u  /* trees lowered, those of a quantity at each of its uses */
@@ -131,7 +132,8 @@ typedef struct model_function {
 typedef struct model_assignment {
     output value;
     reference to;
-    span at; /* its left side */
+    span at;   /* its left side */
+    bool kept; /* it is what the event keeps: one number, whatever the indices that number no instances */
 } model_assignment;
 
 /* A `when` statement (core/rules.h). Its indices are the levels 0 … loops-1 of its formulas. Those that its functions
@@ -158,6 +160,19 @@ typedef struct model_rule {
     size_t of;
     int64_t stop;
 } model_rule;
+
+/* What an event keeps, count(NAME), time(NAME, 3), at(NAME, last, expr), for all who ask for it: a mode that the text
+ * does not name. Its state is made when all has been lowered. */
+enum { KEEP_COUNT = -1, KEEP_LAST = 0 };
+typedef struct model_keep {
+    struct model_keep *next;
+    uint32_t rule;
+    int64_t which;  /* of the event: 1, 2 …, KEEP_LAST; KEEP_COUNT: it counts them */
+    int components; /* 0: a scalar */
+    node *is;       /* what is kept; of a count nothing */
+    uint16_t array; /* in X, of component 0 */
+    span at;        /* the first call, for its name */
+} model_keep;
 
 typedef enum block { BLOCK_X, BLOCK_V, BLOCK_A, BLOCK_DX, BLOCK_DV } block;
 
@@ -202,6 +217,8 @@ typedef struct model {
     model_rule *rules;
     uint32_t rule_count;
     size_t rule_functions; /* of all rules, instances counted */
+    model_keep *keeps, *last_keep;
+    uint32_t keep_count;
     uint32_t *symbols;
     uint32_t symbol_size;          /* hash table: name → state or definition */
     uint16_t block[5], block_size; /* array numbers of the X, V, A, DX, DV blocks */

@@ -3,6 +3,7 @@
 #include "lang/read/read_steps.h"
 
 #include "base/near.h"
+#include "lang/model/kept.h"
 #include "lang/model/symbols.h"
 
 #include <stdio.h>
@@ -125,6 +126,10 @@ static bool moves_inside(model *m, const tree *t, const reader *by, bool *yes)
             if (!moves(m, t->loops[k].first, by, yes) || !moves(m, t->loops[k].last, by, yes)) return false;
         model_function *f = t->kind == TREE_APPLY ? symbols_find(m, t->item[0]->name).function : NULL;
         if (f && !function_moves(m, f, t->at, by, yes)) return false;
+        if (t->kind == TREE_APPLY && kept_call(m, t)) {
+            const tree *of = kept_expression(m, t);
+            return *yes = true, !of || moves(m, of, by, yes);
+        }
         if (t->count == 0 || (t->kind == TREE_APPLY && !f)) return true; /* an initial value is constant */
         for (uint32_t i = 1; i < t->count; i++)
             if (!moves(m, t->item[i], by, yes)) return false;

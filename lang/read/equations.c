@@ -230,6 +230,11 @@ bool equations_all(model *m)
         m->exact_given = true;
         if (!exact_complete(m)) return false;
     }
+    return true;
+}
+
+bool equations_start(model *m)
+{
     double *base[SPACES] = {[SPACE_X] = m->x0, [SPACE_V] = m->v0};
     return m->boundary_count == 0 || evaluate_outputs(m, m->boundary, m->boundary_count, m->start, base);
 }

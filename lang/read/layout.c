@@ -3,18 +3,36 @@
 
 #include <string.h>
 
+/* The list of variables in the order of x and v, and the start. */
+bool layout_finish(model *m)
+{
+    const uint32_t states = m->state_count + m->mode_count;
+    uint32_t count = 0;
+    m->variables = arena_room(m->arena, (states + 1) * sizeof *m->variables);
+    if (!m->variables) return false;
+    for (int order = 2; order >= 1; order--)
+        for (uint32_t i = 0; i < states; i++)
+            if (m->states[i].order == order) m->variables[count++] = m->states[i].base;
+    m->variables[count] = m->nv;
+    m->x0 = arena_room(m->arena, (m->nx + 1) * sizeof *m->x0);
+    m->v0 = arena_room(m->arena, (m->nv + 1) * sizeof *m->v0);
+    if (!m->x0 || !m->v0) return false;
+    memset(m->x0, 0, (m->nx + 1) * sizeof *m->x0);
+    memset(m->v0, 0, (m->nv + 1) * sizeof *m->v0);
+    model_start_state(m);
+    return true;
+}
+
 bool layout_all(model *m)
 {
     size_t total = 0;
-    uint32_t parts = 0, count = 0;
+    uint32_t parts = 0;
     const uint32_t states = m->state_count + m->mode_count;
-    m->variables = arena_room(m->arena, (states + 1) * sizeof *m->variables);
-    if (!m->variables) return false;
     for (int order = 2; order >= 1; order--) {
         for (uint32_t i = 0; i < states; i++) {
             model_state *s = &m->states[i];
             if (s->order != order) continue;
-            s->base = m->variables[count++] = total;
+            s->base = total;
             s->array = (uint16_t)parts;
             total += s->hull * (size_t)(s->components ? s->components : 1);
             parts += (uint32_t)(s->components ? s->components : 1);
@@ -33,7 +51,7 @@ bool layout_all(model *m)
         if (order == 2) m->nx = total;
         if (order == 2 && m->mode_count) m->modes = total - m->states[m->state_count].base;
     }
-    m->nv = m->variables[count] = total;
+    m->nv = total;
     m->block_size = (uint16_t)parts;
     static const space spaces[5] = {SPACE_X, SPACE_V, SPACE_A, SPACE_DX, SPACE_DV};
     for (int b = 0; b < 5; b++) {
@@ -48,11 +66,5 @@ bool layout_all(model *m)
             }
         }
     }
-    m->x0 = arena_room(m->arena, (m->nx + 1) * sizeof *m->x0);
-    m->v0 = arena_room(m->arena, (m->nv + 1) * sizeof *m->v0);
-    if (!m->x0 || !m->v0) return false;
-    memset(m->x0, 0, (m->nx + 1) * sizeof *m->x0);
-    memset(m->v0, 0, (m->nv + 1) * sizeof *m->v0);
-    model_start_state(m);
-    return true;
+    return layout_finish(m);
 }

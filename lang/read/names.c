@@ -6,6 +6,8 @@
  */
 #include "lang/read/read_steps.h"
 
+#include "base/near.h"
+#include "lang/model/kept.h"
 #include "lang/model/symbols.h"
 
 #include <string.h>
@@ -44,6 +46,7 @@ static bool applies(const finding *f, const tree *t, const scope *s)
     const tree *name = t->item[0];
     symbol found = symbols_find(f->model, name->name);
     if (in_scope(s, name->name)) return false;
+    if (kept_call(f->model, t)) return kept_complete(f->model, t) && kept_rule(f->model, t);
     if (found.state) return t->count == 2;
     return found.function && t->count == found.function->statement->applied->count && !name->primes &&
            !name->index_count;
@@ -71,6 +74,14 @@ static void find_in_sum(finding *f, const tree *t, uint32_t k, const scope *s)
     find_in_sum(f, t, k + 1, &(scope){t->loops[k].name, s});
 }
 
+/* The name of an event is no name otherwise. */
+static void find_in_kept(finding *f, const tree *t, const scope *s)
+{
+    const tree *which = kept_which(f->model, t), *of = kept_expression(f->model, t);
+    if (which && !kept_is_last(which)) find(f, which, s);
+    if (of) find(f, of, s);
+}
+
 static void find(finding *f, const tree *t, const scope *s)
 {
     for (;; t = t->item[0]) {
@@ -80,6 +91,10 @@ static void find(finding *f, const tree *t, const scope *s)
         }
         if (t->kind == TREE_NAME && !known(f, s, t->name)) note(f, t, s);
         if (t->kind == TREE_APPLY && !applies(f, t, s)) note(f, t, s);
+        if (t->kind == TREE_APPLY && kept_call(f->model, t)) {
+            find_in_kept(f, t, s);
+            return;
+        }
         if (t->count == 0) return;
         for (uint32_t i = 1; i < t->count; i++) find(f, t->item[i], s);
         if (t->kind == TREE_APPLY) {
@@ -139,6 +154,11 @@ static bool complain_name(finding *f, const tree *t)
         return false;
     }
     source_complain(s, MOTUS_NAME, &t->at, "%s is not defined", t->name);
+    for (uint32_t i = 0; i < f->model->rule_count; i++)
+        if (!strcmp(f->model->rules[i].name, t->name)) {
+            source_hint(s, "it is an event: count(%s), time(%s, last), at(%s, last, x)", t->name, t->name, t->name);
+            return false;
+        }
     if (strlen(t->name) == 2 && t->name[0] == 'd')
         source_hint(s, "derivatives are written with primes: %s'", t->name + 1);
     if (!strcmp(t->name, "e")) source_hint(s, "for the exponential write exp(…)");
@@ -188,11 +208,41 @@ static bool complain_arguments(finding *f, const tree *t, symbol found)
     return false;
 }
 
+/* count(bouncy), time(), at(bounce) */
+static bool complain_kept(finding *f, const tree *t)
+{
+    source *s = &f->model->source;
+    const tree *event = t->item[1];
+    char text[80];
+    if (!kept_rule(f->model, t)) {
+        source_complain(s, MOTUS_NAME, &event->at, "there is no event %s", source_excerpt(s, &event->at, text, 80));
+        if (event->kind == TREE_NAME && event->index_count)
+            source_hint(s, "the events of a family have one name and are counted together: %s(%s)", t->item[0]->name,
+                        event->name);
+        for (uint32_t i = 0; event->kind == TREE_NAME && i < f->model->rule_count; i++)
+            if (near_likely(event->name, f->model->rules[i].name)) {
+                source_hint(s, "did you mean %s?", f->model->rules[i].name);
+                source_repair(s, event->name, "%s", f->model->rules[i].name);
+                return false;
+            }
+        source_hint(s, "an event gets its name by `as`: when y = 0 as bounce: …");
+        return false;
+    }
+    source_complain(s, MOTUS_SYNTAX, &t->at, "%s does not take %u argument%s", t->item[0]->name, t->count - 1,
+                    t->count == 2 ? "" : "s");
+    source_hint(s, "write %s",
+                kept_call(f->model, t) == KEPT_COUNT  ? "count(NAME)"
+                : kept_call(f->model, t) == KEPT_TIME ? "time(NAME), time(NAME, 3) or time(NAME, last)"
+                                                      : "at(NAME, x), at(NAME, 3, x) or at(NAME, last, x)");
+    return false;
+}
+
 static bool complain_call(finding *f, const tree *t)
 {
     source *s = &f->model->source;
     const char *name = t->item[0]->name, *here = written_here(name);
     const symbol found = symbols_find(f->model, name);
+    if (kept_call(f->model, t)) return complain_kept(f, t);
     bool local = false, defined = found.definition || !strcmp(name, "t") || !strcmp(name, "pi");
     for (uint32_t i = 0; i < f->local_count; i++) local |= !strcmp(f->local[i], name);
     if (!local && (found.state || found.function)) return complain_arguments(f, t, found);

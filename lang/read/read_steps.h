@@ -8,15 +8,21 @@
 bool collect_all(model *, const motus_text_def *); /* statements, with those of --set; the symbol table */
 bool rule_names_all(model *);                      /* names of events */
 bool mode_find_all(model *);                       /* parameters that events assign */
+bool classify_all(model *);                        /* parameters or quantities; lines without a state are refused */
+bool names_all(model *);                           /* complains about names that are not defined */
+bool settings_all(model *, read_method);           /* method, step, until … */
+bool mode_shape_all(model *);                      /* the shapes of modes, and places of their starts */
+bool layout_all(model *);                          /* places of the states in x and v */
+bool equations_all(model *);                       /* outputs over the graph */
+bool mode_observe_all(model *);                    /* modes as quantities */
+bool rules_all(model *);                           /* events, and what they keep */
+bool equations_start(model *);                     /* boundary cells at the start */
+void analysis_all(model *);                        /* traits of the equations */
+
+/* Parts of the steps. */
 const span *mode_assigned_at(const model *, const model_definition *); /* where an event assigns it first */
-bool classify_all(model *);              /* parameters or quantities; complains about lines without a state */
-bool names_all(model *);                 /* complains about names that are not defined */
-bool settings_all(model *, read_method); /* method, step, until … */
-bool mode_shape_all(model *);            /* their shapes, and places of their starts */
-bool layout_all(model *);                /* places of the states in x and v */
-bool equations_all(model *);             /* outputs over the graph */
-bool mode_observe_all(model *);          /* modes as quantities */
-bool rules_all(model *);                 /* events */
-void analysis_all(model *);              /* traits of the equations */
+bool layout_finish(model *);                                           /* what follows from the places of states */
+bool rules_add(model *, model_rule *, const model_assignment *);
+bool keep_all(model *); /* the modes in which events keep numbers, and their assignments */
 
 #endif

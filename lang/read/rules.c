@@ -221,7 +221,7 @@ static bool may_assign(model *m, lowering *l, const tree *t)
     char text[80];
     if (!name || !strcmp(name->name, "pi") || lower_is_index(l, name->name)) {
         COMPLAIN(m, &t->at, "%s cannot be assigned", quote(m, &t->at, text));
-        HINT(m, "an event assigns states: x = …, x' = …, r' = (…, …)");
+        HINT(m, "an event assigns states and parameters: x = …, x' = …, r' = (…, …), n = …");
         return false;
     }
     if (!strcmp(name->name, "t")) {
@@ -257,6 +257,19 @@ static bool same_place(const reference *a, const reference *b)
     return same;
 }
 
+bool rules_add(model *m, model_rule *r, const model_assignment *one)
+{
+    const size_t count = r->assignments;
+    if (!(count & (count - 1))) { /* 0 or a power of two */
+        const size_t room = count ? 2 * count : 1;
+        model_assignment *more = arena_replace(m->arena, r->assignment, count * sizeof *more, room * sizeof *more);
+        if (!more) return false;
+        r->assignment = more;
+    }
+    r->assignment[r->assignments++] = *one;
+    return true;
+}
+
 static bool add_assignment(model *m, model_rule *r, const action *a, node target, node is)
 {
     const reference to = m->graph->references[graph_at(m->graph, target)->a];
@@ -267,15 +280,7 @@ static bool add_assignment(model *m, model_rule *r, const action *a, node target
             HINT(m, "all right sides see the state before the event; what comes after it is an event of its own");
             return false;
         }
-    const size_t count = r->assignments;
-    if (!(count & (count - 1))) { /* 0 or a power of two */
-        const size_t room = count ? 2 * count : 1;
-        model_assignment *more = arena_replace(m->arena, r->assignment, count * sizeof *more, room * sizeof *more);
-        if (!more) return false;
-        r->assignment = more;
-    }
-    r->assignment[r->assignments++] = (model_assignment){.value = {.value = is}, .to = to, .at = a->target->at};
-    return true;
+    return rules_add(m, r, &(model_assignment){.value = {.value = is}, .to = to, .at = a->target->at});
 }
 
 static bool lower_assignment(model *m, model_rule *r, lowering *l, const action *a)
@@ -357,13 +362,15 @@ static bool indices_used(model *m, const model_rule *r)
     return true;
 }
 
-/* Places for the values of assignments, which one event writes for the indices that number no instances. */
+/* Places for the values of assignments, which one event writes for the indices that number no instances; what the
+ * event keeps (keep.c) has none of these. */
 static bool place_values(model *m, model_rule *r)
 {
     for (size_t k = 0; k < r->assignments; k++) {
         output *o = &r->assignment[k].value;
+        const int loops = r->assignment[k].kept ? r->own : r->loops;
         if (!model_take_arrays(m, 1, &o->to.array)) return false;
-        const size_t cells = graph_shape(m->arena, &m->arrays[o->to.array], SPACE_OUT, r->numbers, r->loops - r->own,
+        const size_t cells = graph_shape(m->arena, &m->arrays[o->to.array], SPACE_OUT, r->numbers, loops - r->own,
                                          r->first + r->own, r->last + r->own);
         r->numbers += cells;
         if (r->numbers > MODEL_NUMBERS_MAX) {
@@ -371,10 +378,10 @@ static bool place_values(model *m, model_rule *r)
                             MODEL_NUMBERS_MAX);
             return false;
         }
-        o->to.dims = (uint8_t)(r->loops - r->own);
-        o->loops = r->loops;
-        for (int d = 0; d < r->loops; d++) o->loop[d] = r->loop[d];
-        for (int d = r->own; d < r->loops; d++)
+        o->to.dims = (uint8_t)(loops - r->own);
+        o->loops = loops;
+        for (int d = 0; d < loops; d++) o->loop[d] = r->loop[d];
+        for (int d = r->own; d < loops; d++)
             o->to.at[d - r->own] = (subscript){.level = (int8_t)d, .slot = -1, .modulus = -1};
     }
     return true;
@@ -434,7 +441,7 @@ static bool lower_rule(model *m, model_rule *r)
     if (!ok || !place_leaves(m, r) || (w->kind == WHEN_ACCUMULATES && !like_accumulating(m, r))) return false;
     for (const action *a = w->actions; a; a = a->next)
         if (!lower_action(m, r, &l, a)) return false;
-    return indices_used(m, r) && place_values(m, r);
+    return indices_used(m, r);
 }
 
 /* ---- what depends on modes ---- */
@@ -498,9 +505,9 @@ bool rules_all(model *m)
         for (uint32_t i = 0; i < m->rule_count; i++)
             if ((m->rules[i].statement->when->kind == WHEN_ACCUMULATES) == pass && !lower_rule(m, &m->rules[i]))
                 return false;
-    if (failed(m)) return false;
+    if (failed(m) || !keep_all(m)) return false;
     find_kept(m);
     for (uint32_t i = 0; i < m->rule_count; i++)
-        if (!judge_assignments(m, &m->rules[i])) return false;
+        if (!place_values(m, &m->rules[i]) || !judge_assignments(m, &m->rules[i])) return false;
     return true;
 }
