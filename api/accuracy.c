@@ -84,7 +84,9 @@ static motus_status try(trial *s, motus_error *err)
     if (status == MOTUS_OK) {
         const timing *t = &s->run->timing;
         s->bar = bar_of(s->run, absolute);
-        s->done = t->until != t->t0 ? (motus_run_time(s->run) - t->t0) / (t->until - t->t0) : 1;
+        s->done = motus_run_done(s->run) ? 1
+                  : t->until != t->t0    ? (motus_run_time(s->run) - t->t0) / (t->until - t->t0)
+                                         : 1;
         s->steps = s->done > 0 ? (double)motus_run_steps(s->run) / s->done : 0;
         if (!s->run->bars->why[0]) return MOTUS_OK;
         fail(&s->failure, MOTUS_ACCURACY, "no accuracy can be promised, because %s", s->run->bars->why);
