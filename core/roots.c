@@ -13,6 +13,7 @@
 
 enum { DEPTH = 72 };
 #define SHORTEST 0x1p-60 /* half of a cell that is not halved */
+#define CUT 0x1p-51      /* last coefficients of a cell that is long enough, relative to sum |c_k| */
 
 typedef struct finder {
     const double *c; /* scaled to 1, and with the root that one stands on divided out */
@@ -35,7 +36,8 @@ static double rounding(const double *c, int degree)
     const double growth = local <= 8 ? 15 : local <= 16 ? 22 : 34;
     double sum = 0;
     for (int k = 1; k <= degree; k++) sum += ((k < local ? k : local) + 1) * fabs(c[k]);
-    return 0x1p-53 * (2 * fabs(c[0]) + growth * sum);
+    const double cut = degree > local ? 4 * CUT * (sum + fabs(c[0])) : 0;
+    return 0x1p-53 * (2 * fabs(c[0]) + growth * sum) + cut;
 }
 
 /* p at x = 1 or -1 */
@@ -71,7 +73,7 @@ static bool told_first(finder *f, const roots_cell *cell, bool *room)
     roots_cell_slope(cell, &slope);
     const double steep = f->scan.steep * cell->half, rest = roots_cell_rest(&slope), mean = fabs(slope.c[0]);
     if (mean - rest > steep) {
-        (void)roots_scan_start(&f->scan, 0, slope.c[0] > 0 ? 1 : -1, 0);
+        (void)roots_scan_start(&f->scan, 0, slope.c[0] / cell->half, 0);
         f->scan.tau = roots_cell_tau(cell, 1);
         f->scan.value = end_value(cell, 1);
         f->scan.way = f->scan.side;
@@ -127,7 +129,7 @@ static bool expanded(finder *f, roots_cell *cell)
 {
     if (cell->degree >= 0) return true;
     const double tail = roots_cell_cut(f->c, f->degree, cell->at, cell->half, cell);
-    return tail <= 0x1p-56 * f->size || cell->half < 0x1p-20;
+    return tail <= CUT * f->size || cell->half < 0x1p-20;
 }
 
 static void halve(finder *f, bool known)
@@ -164,18 +166,25 @@ static bool scan_all(finder *f)
     return true;
 }
 
-/* Scales by a power of two, and divides out the root at 0, where p is `start`. Returns the exponent. */
-static int prepare(finder *f, const double *coefficients, int degree, double *c, double *start)
+/* Coefficients whose sums or products could leave the numbers are scaled by a power of two, 2^-exponent. */
+static int scale(const double *coefficients, int degree, double *c)
 {
     int exponent = 0;
     double largest = 0;
-    for (int k = 0; k <= degree; k++)
-        if (fabs(coefficients[k]) > largest) largest = fabs(coefficients[k]);
-    frexp(largest, &exponent);
-    for (int k = 0; k <= degree; k++) c[k] = ldexp(coefficients[k], -exponent);
+    for (int k = 0; k <= degree; k++) largest = fabs(coefficients[k]) > largest ? fabs(coefficients[k]) : largest;
+    if (largest > 0x1p900 || largest < 0x1p-900) frexp(largest, &exponent);
+    for (int k = 0; k <= degree; k++) c[k] = exponent ? ldexp(coefficients[k], -exponent) : coefficients[k];
+    return exponent;
+}
+
+/* c is scaled. The root that one stands on is divided out. noise: of c, without its own rounding. */
+static void prepare(finder *f, double *c, int degree, int before, double noise, double *start)
+{
     while (degree > 0 && c[degree] == 0) degree--;
     *start = end_sum(c, degree, -1);
+    f->stands = before == 0;
     if (f->stands) {
+        noise += fabs(*start);
         if (degree == 0) c[++degree] = 0;
         c[0] -= *start / 2;
         c[1] += *start / 2;
@@ -184,7 +193,20 @@ static int prepare(finder *f, const double *coefficients, int degree, double *c,
     f->degree = degree;
     f->size = 0;
     for (int k = 0; k <= degree; k++) f->size += fabs(c[k]);
-    return exponent;
+
+    const double square = (double)degree * degree, all = noise + rounding(c, degree);
+    f->scan.found->noise = all;
+    f->scan.noise = f->stands ? 2 * all : all;
+    f->scan.steep = f->stands ? (2 * square + 1) * all : INFINITY;
+    f->scan.doubt = (2 * square + 1) * all;
+
+    roots_cell *whole = f->stack;
+    f->depth = 1;
+    f->halves = false;
+    whole->at = 0;
+    whole->half = 0.5;
+    whole->degree = degree <= ROOTS_CELL_DEGREE ? degree : -1;
+    if (whole->degree >= 0) memcpy(whole->c, c, (size_t)(degree + 1) * sizeof *c);
 }
 
 static bool sound(const double *c, int degree, double noise, double slack)
@@ -198,36 +220,21 @@ static bool sound(const double *c, int degree, double noise, double slack)
 roots_status roots_find(const double *coefficients, int degree, int before, double noise, double slack, roots_root *out,
                         size_t most, roots_found *found)
 {
-    *found = (roots_found){.reach = 1, .after = 0, .leaves = 1};
+    *found = (roots_found){.reach = 1, .leaves = 1};
     if (!sound(coefficients, degree, noise, slack)) return ROOTS_NOT_FINITE;
     finder f;
-    double c[ROOTS_DEGREE_MOST + 1];
-    f.stands = before == 0;
-    double start;
-    const int exponent = prepare(&f, coefficients, degree, c, &start);
-    const double square = (double)f.degree * f.degree;
-    const double all = ldexp(noise, -exponent) + rounding(c, f.degree) + (f.stands ? fabs(start) : 0);
-    found->noise = ldexp(all, exponent);
-    f.scan.noise = f.stands ? 2 * all : all;
-    f.scan.steep = f.stands ? (2 * square + 1) * all : INFINITY;
-    f.scan.slack = ldexp(slack, -exponent);
+    double c[ROOTS_DEGREE_MOST + 1], start;
+    const int exponent = scale(coefficients, degree, c);
     f.scan.out = out;
     f.scan.most = most;
     f.scan.found = found;
+    f.scan.slack = ldexp(slack, -exponent);
+    prepare(&f, c, degree, before, ldexp(noise, -exponent), &start);
 
-    f.halves = false;
-    f.depth = 1;
-    f.stack[0].at = 0;
-    f.stack[0].half = 0.5;
-    f.stack[0].degree = f.degree <= ROOTS_CELL_DEGREE ? f.degree : -1;
-    if (f.degree <= ROOTS_CELL_DEGREE) memcpy(f.stack[0].c, c, (size_t)(f.degree + 1) * sizeof *c);
-    const double doubt = 2 * square * all, slope = end_slope(c, f.degree, -1);
     bool room = true;
-    if (!f.stands) {
-        const int way = slope > doubt ? 1 : slope < -doubt ? -1 : 0;
-        room = roots_scan_start(&f.scan, before, way, start);
-    }
-    room = room && scan_all(&f) && roots_scan_end(&f.scan, end_slope(c, f.degree, 1), doubt);
+    if (before) room = roots_scan_start(&f.scan, before, end_slope(c, f.degree, -1), start);
+    room = room && scan_all(&f) && roots_scan_end(&f.scan, end_slope(c, f.degree, 1));
     for (size_t i = 0; i < found->count; i++) out[i].value = ldexp(out[i].value, exponent);
-    return room && found->reach == 1 ? ROOTS_COMPLETE : ROOTS_CUT;
+    found->noise = ldexp(found->noise, exponent);
+    return room ? ROOTS_COMPLETE : ROOTS_CUT;
 }

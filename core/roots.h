@@ -80,8 +80,9 @@ typedef struct roots_root {
     double error;    /* how far the roots may be from tau: the larger of tau - from and to - tau */
     double value;    /* of p at tau */
     roots_kind kind;
-    int side;  /* sign of g before it */
-    bool open; /* the interval reaches tau = 1: the next step decides */
+    int side;    /* sign of g before it */
+    bool single; /* a crossing with exactly one root: the slope of g is certain there, not only its signs */
+    bool open;   /* the interval reaches tau = 1: the next step decides */
 } roots_root;
 
 typedef enum roots_status {

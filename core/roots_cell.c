@@ -5,19 +5,19 @@
 
 #include <math.h>
 
-double roots_cell_tau(const roots_cell *cell, double x) { return fma(cell->half, 1 + x, cell->at); }
+double roots_cell_tau(const roots_cell *cell, double x) { return cell->at + cell->half * (1 + x); }
 
 double roots_cell_value(const roots_cell *cell, double x, double *slope)
 {
     const double twice = 2 * x;
     double b1 = 0, b2 = 0, d1 = 0, d2 = 0;
     for (int k = cell->degree; k > 0; k--) {
-        const double d = fma(twice, d1, 2 * b1 - d2), b = fma(twice, b1, cell->c[k] - b2);
+        const double d = twice * d1 + (2 * b1 - d2), b = twice * b1 + (cell->c[k] - b2);
         d2 = d1, d1 = d;
         b2 = b1, b1 = b;
     }
-    *slope = fma(x, d1, b1 - d2);
-    return fma(x, b1, cell->c[0] - b2);
+    *slope = x * d1 + (b1 - d2);
+    return x * b1 + (cell->c[0] - b2);
 }
 
 double roots_cell_rest(const roots_cell *cell)
@@ -100,8 +100,8 @@ void roots_cell_halve(const roots_halving *h, roots_cell *cell, roots_cell *left
     for (int k = 0; k <= degree; k++) {
         const double *row = h->row[k];
         double even = 0, odd = 0;
-        for (int j = degree - (degree - k) % 2; j >= k; j -= 2) even = fma(row[j], cell->c[j], even);
-        for (int j = degree - (degree - k + 1) % 2; j > k; j -= 2) odd = fma(row[j], cell->c[j], odd);
+        for (int j = degree - (degree - k) % 2; j >= k; j -= 2) even += row[j] * cell->c[j];
+        for (int j = degree - (degree - k + 1) % 2; j > k; j -= 2) odd += row[j] * cell->c[j];
         left->c[k] = even - odd;
         cell->c[k] = even + odd;
     }

@@ -108,13 +108,13 @@ static double wave(const double *d, unsigned count, unsigned j, unsigned size)
     for (unsigned k = 0; k < count;) {
         const unsigned end = count - k < BLOCK ? count : k + BLOCK;
         double part = 0;
-        for (; k < end; k++, at = (at + step) % (4 * QUARTER)) part = fma(d[k], circle(at), part);
+        for (; k < end; k++, at = (at + step) % (4 * QUARTER)) part += d[k] * circle(at);
         sum += part;
     }
     return sum;
 }
 
-void roots_transform(double *values, int degree, double *coefficients)
+static inline void transform(double *values, int degree, double *coefficients)
 {
     const double twice = 2.0 / degree;
     double d[ROOTS_DEGREE_MOST / 2];
@@ -134,47 +134,55 @@ void roots_transform(double *values, int degree, double *coefficients)
     coefficients[degree] = (values[0] - values[1]) / degree;
 }
 
-/* What rounding does, as an error of values: of the sums, by the number of operations that a value meets, relative to
- * the largest value; and of the points, which are wrong by 2^-54, times a bound on |dp/dtau| by its coefficients. */
-static double rounding(const double *c, int degree, int points, double largest)
+/* The degree of most calls as a constant, which unrolls the loops and leaves no index to compute. */
+void roots_transform(double *values, int degree, double *coefficients)
 {
-    double length = points < 2 * BLOCK ? points / 2.0 + 2 : BLOCK + 2 + points / (2.0 * BLOCK), sum = 0, slope = 0,
-           above = 0;
-    for (int n = points; n > 1; n /= 2) length++;
+    if (degree == ROOTS_DEGREE_LEAST)
+        transform(values, ROOTS_DEGREE_LEAST, coefficients);
+    else
+        transform(values, degree, coefficients);
+}
+
+/* The points are wrong by this at most, half a unit of the last place of 1 and more, since they are squares. */
+#define POINTS 0x1.4p-53
+
+/* What rounding does, as an error of values: of the sums, by the number of operations that a value meets, relative to
+ * the largest value; and of the points, times a bound on |dp/dtau| by its coefficients. */
+static double rounding(const double *c, int degree, int levels, double largest)
+{
+    const double length = levels + 2 + (degree < 2 * BLOCK ? degree / 2 : BLOCK + degree / (2 * BLOCK));
+    double sum = 0, slope = 0, above = 0;
     for (int k = degree; k > 0; k--) {
-        const double here = fma(4 * k, c[k], above);
+        const double here = 4 * k * c[k] + above;
         above = slope;
         slope = here;
         sum += fabs(here);
     }
-    return 0x1p-53 * length * largest + 0x1p-54 * sum;
+    return 0x1p-53 * length * largest + POINTS * sum;
 }
 
-/* Lebesgue's constant of the points: 1 + 2/pi log(n + 1) at most [Trefethen13, theorem 15.2]; n is 8 or more. */
-static double lebesgue(int degree)
-{
-    double bound = 1.08;
-    for (int n = degree; n > 1; n /= 2) bound += 0.4413;
-    return bound;
-}
+/* Lebesgue's constant of the points: 1 + 2/pi log(n + 1) at most [Trefethen13, theorem 15.2]; n = 2^levels >= 8. */
+static double lebesgue(int levels) { return 1.08 + 0.4413 * levels; }
 
 roots_fit_status roots_fit(const double *values, size_t stride, int degree, double noise, double *coefficients,
                            roots_fitted *fitted)
 {
     double v[ROOTS_DEGREE_MOST + 1], largest = 0;
+    int levels = 0;
     for (int k = 0; k <= degree; k++) {
         v[k] = values[(size_t)k * stride];
         if (!(fabs(v[k]) <= 0x1p1000)) return ROOTS_FIT_NOT_FINITE;
-        if (fabs(v[k]) > largest) largest = fabs(v[k]);
+        largest = fabs(v[k]) > largest ? fabs(v[k]) : largest;
     }
+    while (degree >> levels > 1) levels++;
     roots_transform(v, degree, coefficients);
 
     /* Of an even or an odd function every second coefficient is 0, so at least two are looked at. */
     double tail = 0;
     for (int k = degree - 1 - degree / 16; k <= degree; k++)
-        if (fabs(coefficients[k]) > tail) tail = fabs(coefficients[k]);
-    const double wrong = fmax(noise, rounding(coefficients, degree, degree, largest));
-    const bool smooth = tail <= fmax(wrong, 0x1p-50 * largest);
+        tail = fabs(coefficients[k]) > tail ? fabs(coefficients[k]) : tail;
+    const double own = rounding(coefficients, degree, levels, largest), wrong = noise > own ? noise : own;
+    const bool smooth = tail <= wrong || tail <= 0x1p-50 * largest;
 
     /* Coefficients that are rounding say nothing; without them the bounds of roots_find are sharper. */
     double dropped = 0;
@@ -184,7 +192,7 @@ roots_fit_status roots_fit(const double *values, size_t stride, int degree, doub
         coefficients[last] = 0;
     }
     fitted->degree = last;
-    fitted->noise = lebesgue(degree) * (noise + rounding(coefficients, last, degree, largest)) + dropped + tail;
+    fitted->noise = lebesgue(levels) * (noise + own) + dropped + 2 * (smooth ? 1 : degree) * tail;
     return smooth ? ROOTS_FIT_SMOOTH : ROOTS_FIT_ROUGH;
 }
 

@@ -16,6 +16,8 @@ static int certain(const roots_scan *s, double tau, double p)
     return fabs(p) > roots_scan_noise(s, tau) ? sign(p) : 0;
 }
 
+static int certain_slope(const roots_scan *s, double slope) { return fabs(slope) > s->doubt ? sign(slope) : 0; }
+
 /* Places become known where they end, extrema later still, so they are put in by tau. */
 static bool put(roots_scan *s, roots_root root)
 {
@@ -36,7 +38,7 @@ static bool put(roots_scan *s, roots_root root)
 
 static bool put_place(roots_scan *s, double tau, double value, double to, roots_kind kind, bool open)
 {
-    roots_root root = {tau, s->from, to, 0, value, kind, s->side, open};
+    roots_root root = {tau, s->from, to, 0, value, kind, s->side, false, open};
     if (root.from > tau) root.from = tau;
     if (root.to < tau) root.to = tau;
     root.error = tau - root.from > root.to - tau ? tau - root.from : root.to - tau;
@@ -49,7 +51,7 @@ static bool turn(roots_scan *s, double tau, double p)
     const double back = (p - s->top) * (s->way ? -s->way : 1), noise = roots_scan_noise(s, s->top_tau);
     if (s->way && back <= 0) s->top = p, s->top_tau = tau;
     if (fabs(back) <= noise || (s->way && back <= 0)) return true;
-    const roots_root near = {s->top_tau, s->top_tau, s->top_tau, 0, s->top, ROOTS_NEAR, sign(s->top), false};
+    const roots_root near = {s->top_tau, s->top_tau, s->top_tau, 0, s->top, ROOTS_NEAR, sign(s->top), false, false};
     const bool tell = s->way && s->top_tau > 0 && fabs(s->top) > noise && fabs(s->top) <= s->slack;
     s->way = p > s->top ? 1 : -1;
     s->top = p, s->top_tau = tau;
@@ -88,8 +90,9 @@ static void enter(roots_scan *s, double from, double entry)
     s->low = INFINITY;
 }
 
-bool roots_scan_start(roots_scan *s, int before, int way, double value)
+bool roots_scan_start(roots_scan *s, int before, double slope, double value)
 {
+    const int way = certain_slope(s, slope);
     const int side = before ? certain(s, 0, value) : 0;
     s->tau = s->top_tau = 0;
     s->value = s->top = value;
@@ -137,6 +140,7 @@ static bool cross(roots_scan *s, const border *b, double tau1, int side)
         to = solve(b, side * noise);
     }
     const bool room = put_place(s, zero, 0, to, side > 0 ? ROOTS_RISING : ROOTS_FALLING, false);
+    if (room) s->out[s->found->count - 1].single = b->least > s->doubt * b->cell->half;
     s->side = side;
     return room;
 }
@@ -163,9 +167,9 @@ bool roots_scan_piece(roots_scan *s, const roots_cell *cell, double x0, double x
     return room;
 }
 
-bool roots_scan_end(roots_scan *s, double slope, double doubt)
+bool roots_scan_end(roots_scan *s, double slope)
 {
-    const int way = fabs(slope) > doubt ? sign(slope) : 0;
+    const int way = certain_slope(s, slope);
     const double zero = s->zeros > 0 ? s->zero : 1;
     s->found->last = s->side;
     if (!s->inside || s->side == 0) return true;

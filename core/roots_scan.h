@@ -11,6 +11,7 @@
 
 typedef struct roots_scan {
     double noise, steep; /* |p - g| <= min(noise, steep tau) */
+    double doubt;        /* |d(p - g)/dtau| is at most this */
     double slack;
     roots_root *out;
     size_t most;
@@ -32,12 +33,12 @@ typedef struct roots_scan {
 } roots_scan;
 
 double roots_scan_noise(const roots_scan *, double tau);
-/* way: the certain sign of the slope at 0, or 0. value: p at 0. */
-bool roots_scan_start(roots_scan *, int before, int way, double value);
+/* slope, value: dp/dtau and p at 0. */
+bool roots_scan_start(roots_scan *, int before, double slope, double value);
 /* The piece from the last end, x0, to x1, where p is p1. least: a bound from below on |dp/dx| there, or 0. turns: x1 is
  * an extremum. All three say false where `out` is full. */
 bool roots_scan_piece(roots_scan *, const roots_cell *, double x0, double x1, double p1, double least, bool turns);
-/* slope: dp/dtau at 1, which is wrong by `doubt` at most. */
-bool roots_scan_end(roots_scan *, double slope, double doubt);
+/* slope: dp/dtau at 1. */
+bool roots_scan_end(roots_scan *, double slope);
 
 #endif

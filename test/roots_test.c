@@ -210,6 +210,7 @@ static void judge_root(const polynomial *p, const answer *a, int before, const r
         if (i > 0 && covers(r, p->root[i - 1])) JUDGE(hidden(p, a, before, p->root[i - 1], p->root[i]));
     }
     if (r->to < 1 && r->from > 0) JUDGE(inside % 2 == (r->kind != ROOTS_TOUCH));
+    if (r->single) JUDGE(inside == 1);
 }
 
 /* before = 0: P(0) is 0. */
@@ -218,7 +219,7 @@ static void judge_polynomial(const polynomial *p, const answer *a, int before)
     int side = before ? before : a->found.after;
     const double start = before ? 0 : a->found.leaves;
     JUDGE(a->fit == ROOTS_FIT_SMOOTH && a->status == ROOTS_COMPLETE);
-    JUDGE(a->found.noise <= 2000 * ROUNDING * a->largest);
+    JUDGE(a->found.noise <= (100 + 10.0 * a->degree * a->degree) * ROUNDING * a->largest);
     JUDGE(start == 0 || hidden(p, a, before, 0, start));
     for (size_t i = 0; i < a->found.count; i++) {
         judge_root(p, a, before, &a->root[i], &side);
