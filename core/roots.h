@@ -1,8 +1,9 @@
 /* All roots of a smooth function g on one step, tau in [0, 1]: found and counted by inequalities, not by samples.
  *
  * The caller evaluates g at Chebyshev points (roots_point), roots_fit turns the values into the coefficients c of
- * p(tau) = sum c_k T_k(2 tau - 1), and says whether they fall off to rounding; if not, the caller doubles the degree,
- * where every other point is an old one. roots_none is the cheap test that most steps pass. roots_find does the rest.
+ * p(tau) = sum c_k T_k(2 tau - 1), and says whether they fall off to rounding; if not, the caller may double the
+ * degree, where every other point is an old one. roots_none is the cheap test that most steps pass. roots_find does the
+ * rest.
  *
  * What is proved. Let |p - g| <= `noise` on the step. roots_find adds a bound of its own rounding and calls the sum N
  * (roots_found.noise). It divides the step into pieces on which p is monotone, by bounds on p, p' and p'' over cells
@@ -13,9 +14,11 @@
  * There is no other root, and two roots are two places if |p| exceeds 9/8 N between them. Multiple roots need no rule
  * of their own: t^3 is a crossing, t^4 a touch. An interval [from, to] holds all the roots that its place stands for.
  * That p is g up to `noise` is no theorem, since finitely many values bound no function: it rests on the falling off
- * of the coefficients, as all interpolation of smooth functions does. Where roots_fit says that it is not so
- * (ROOTS_FIT_ROUGH at ROOTS_DEGREE_MOST), what is said holds for the polynomial through the points alone: then divide
- * the step, as g has a kink, a jump or a pole near it.
+ * of the coefficients, as all interpolation of smooth functions does. A function that is not resolved (ROOTS_FIT_ROUGH)
+ * is as far from p as `unseen` says, if its coefficients go on as a slow geometric series. So before the degree is
+ * doubled ask roots_none, and roots_find, with noise + unseen: no place, or none that is not `single`, is what a finer
+ * look would tell. What is still rough at ROOTS_DEGREE_MOST has a kink, a jump or a pole near the step: divide the
+ * step, or know that what is told holds for the polynomial through the points.
  *
  * Consecutive steps. `before` says what the caller knows about tau = 0:
  *   - 1 or -1: the sign that g had last. A place whose interval begins at 0 is then reported.
@@ -49,12 +52,13 @@ double roots_point(int k, int degree);
 typedef enum roots_fit_status {
     ROOTS_FIT_SMOOTH,    /* the last coefficients are below the noise, rounding or 2^-50 of the largest value */
     ROOTS_FIT_ROUGH,     /* they are not: double the degree */
-    ROOTS_FIT_NOT_FINITE /* a value is not finite, or above 2^1000 */
+    ROOTS_FIT_NOT_FINITE /* a value is not finite, or above 2^1000; or the degree is none of these */
 } roots_fit_status;
 
 typedef struct roots_fitted {
-    int degree;   /* that matters: the coefficients behind are 0 */
-    double noise; /* bound on |p - g|, as far as the values tell: pass it to roots_find */
+    int degree;    /* that matters: the coefficients behind are 0 */
+    double noise;  /* bound on |p - g| by rounding, the noise of the values and the last coefficients */
+    double unseen; /* 0; of a rough function a bound on what is beyond the last, if they go on falling; or infinite */
 } roots_fitted;
 
 /* The polynomial through the values of g at the points: value k is values[k * stride], wrong by `noise` at most.

@@ -164,23 +164,37 @@ static double rounding(const double *c, int degree, int levels, double largest)
 /* Lebesgue's constant of the points: 1 + 2/pi log(n + 1) at most [Trefethen13, theorem 15.2]; n = 2^levels >= 8. */
 static double lebesgue(int levels) { return 1.08 + 0.4413 * levels; }
 
+static double largest_of(const double *c, int from, int to)
+{
+    double most = 0;
+    for (int k = from; k <= to; k++) most = fabs(c[k]) > most ? fabs(c[k]) : most;
+    return most;
+}
+
+/* The coefficients behind the last: those of a geometric series with the ratio n / (n + 1), each counted twice, since
+ * it also falsifies one that is seen. Where the last are not small against the first there is no bound. */
+static double unseen(const double *c, int degree)
+{
+    const double tail = largest_of(c, degree - 2 - degree / 8, degree);
+    return tail <= 0x1p-6 * largest_of(c, 0, degree / 2) ? 2 * degree * tail : INFINITY;
+}
+
 roots_fit_status roots_fit(const double *values, size_t stride, int degree, double noise, double *coefficients,
                            roots_fitted *fitted)
 {
     double v[ROOTS_DEGREE_MOST + 1], largest = 0;
-    int levels = 0;
+    int levels = 3;
+    while (levels < 8 && 1 << levels < degree) levels++;
+    if (degree != 1 << levels) return ROOTS_FIT_NOT_FINITE;
     for (int k = 0; k <= degree; k++) {
         v[k] = values[(size_t)k * stride];
         if (!(fabs(v[k]) <= 0x1p1000)) return ROOTS_FIT_NOT_FINITE;
         largest = fabs(v[k]) > largest ? fabs(v[k]) : largest;
     }
-    while (degree >> levels > 1) levels++;
     roots_transform(v, degree, coefficients);
 
     /* Of an even or an odd function every second coefficient is 0, so at least two are looked at. */
-    double tail = 0;
-    for (int k = degree - 1 - degree / 16; k <= degree; k++)
-        tail = fabs(coefficients[k]) > tail ? fabs(coefficients[k]) : tail;
+    const double tail = largest_of(coefficients, degree - 1 - degree / 16, degree);
     const double own = rounding(coefficients, degree, levels, largest), wrong = noise > own ? noise : own;
     const bool smooth = tail <= wrong || tail <= 0x1p-50 * largest;
 
@@ -192,7 +206,8 @@ roots_fit_status roots_fit(const double *values, size_t stride, int degree, doub
         coefficients[last] = 0;
     }
     fitted->degree = last;
-    fitted->noise = lebesgue(levels) * (noise + own) + dropped + 2 * (smooth ? 1 : degree) * tail;
+    fitted->noise = lebesgue(levels) * (noise + own) + dropped + 2 * tail;
+    fitted->unseen = smooth ? 0 : unseen(coefficients, degree);
     return smooth ? ROOTS_FIT_SMOOTH : ROOTS_FIT_ROUGH;
 }
 

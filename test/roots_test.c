@@ -626,6 +626,9 @@ static long double later(const void *c, double t)
     return d > 0 ? -d * d * d * d * d * d * d * d * 0x1p8L : 0;
 }
 
+static long double skew(const void *c, double t) { return (void)c, powl(t - 0.3L, 2) * expl(3 * (long double)t); }
+static long double chebyshev(const void *c, double t) { return (void)c, cosl(128 * acosl(2 * (long double)t - 1)); }
+
 static const known functions[] = {
     {"sin 50 t", sine50, 0, 1, 0, 15, {{ROOTS_FALLING, 0.062831853071795865}, {ROOTS_RISING, 0.12566370614359173}}},
     {"exp t - 2", exponential, -1, 0, 0, 1, {{ROOTS_RISING, 0.69314718055994531}}},
@@ -692,6 +695,66 @@ static void test_grazing(void **state)
     assert_true(a.found.after == -1 && a.found.leaves > 0.4 && a.found.leaves < 1 && a.found.count == 0);
 }
 
+/* Coefficients that do not yet fall off bound what is unseen of a smooth function, whose coefficients go on falling. */
+static void test_unresolved(void **state)
+{
+    (void)state;
+    static double v[ROOTS_DEGREE_MOST + 1];
+    static answer a;
+    const function g[] = {sine50, exponential, bell, triple, sine300, chebyshev};
+    for (int i = 0; i < 6; i++)
+        for (int n = g[i] == chebyshev ? ROOTS_DEGREE_MOST : ROOTS_DEGREE_LEAST; n <= ROOTS_DEGREE_MOST; n *= 2) {
+            for (int k = 0; k <= n; k++) v[k] = (double)g[i](NULL, roots_point(k, n));
+            roots_fit(v, 1, n, 0, a.c, &a.fitted);
+            for (int k = 0; k <= 1000; k++) {
+                const double tau = k < 500 ? uniform() : k < 750 ? ldexp(uniform(), -16) : 1 - ldexp(uniform(), -16);
+                const long double wrong = fabsl(sum_of(&a, tau) - g[i](NULL, tau));
+                const double bound = a.fitted.noise + a.fitted.unseen;
+                if (!(wrong <= bound)) fail_msg("function %d, degree %d: %Lg above %g", i, n, wrong, bound);
+            }
+        }
+}
+
+/* What a step says of its ends and of what it stands on. */
+static void test_ends(void **state)
+{
+    (void)state;
+    static answer a;
+    roots_found *found = &a.found;
+    const roots_root *r = a.root;
+    /* 1e-11 + t, wrong by 1e-10 */
+    const double rising[2] = {0.5 + 1e-11, 0.5};
+    assert_int_equal(roots_find(rising, 1, 1, 1e-10, 0, a.root, ROOM, found), ROOTS_COMPLETE);
+    assert_true(found->count == 0 && found->last == 1);
+    assert_int_equal(roots_find(rising, 1, -1, 1e-10, 0, a.root, ROOM, found), ROOTS_COMPLETE);
+    assert_true(found->count == 1 && found->last == 1);
+    assert_true(r->kind == ROOTS_RISING && r->from == 0 && r->tau == 0 && r->to > 0.9e-10 && r->to < 1e-10);
+    assert_int_equal(roots_find(rising, 1, -1, 1e-12, 0, a.root, ROOM, found), ROOTS_COMPLETE);
+    assert_true(found->count == 1 && r->kind == ROOTS_RISING && r->from == 0 && r->to == 0);
+    assert_int_equal(roots_find(rising, 1, 0, 1e-12, 0, a.root, ROOM, found), ROOTS_COMPLETE);
+    assert_true(found->count == 0 && found->after == 1 && found->leaves == 0 && found->noise > 1e-11);
+
+    /* the sign is certain at both ends, the slope is, and is not */
+    const double line[2] = {0, 1e-3};
+    assert_int_equal(roots_find(line, 1, -1, 1e-4, 0, a.root, ROOM, found), ROOTS_COMPLETE);
+    assert_true(found->count == 1 && r->kind == ROOTS_RISING && r->single && r->tau == 0.5);
+    assert_int_equal(roots_find(line, 1, -1, 9e-4, 0, a.root, ROOM, found), ROOTS_COMPLETE);
+    assert_true(found->count == 1 && r->kind == ROOTS_RISING && !r->single && r->tau == 0.5);
+
+    /* where p turns within the noise there is no extremum */
+    double wavy[ROOTS_CELL_DEGREE + 1] = {0};
+    for (int k = 1; k <= ROOTS_CELL_DEGREE; k++) wavy[k] = (2 * uniform() - 1) * 1e-13;
+    wavy[0] = 1e-9;
+    assert_int_equal(roots_find(wavy, ROOTS_CELL_DEGREE, 1, 1e-11, 1, a.root, ROOM, found), ROOTS_COMPLETE);
+    assert_int_equal(found->count, 0);
+
+    /* a touch is where the extremum is, though its interval lies askew */
+    find(skew, NULL, 1, 0, &a);
+    roots_find(a.c, a.fitted.degree, 1, 1e-6, 0, a.root, ROOM, found);
+    assert_true(found->count == 1 && r->kind == ROOTS_TOUCH && fabs(r->tau - 0.3) < 1e-12);
+    assert_true(fabs((r->from + r->to) / 2 - 0.3) > 1e-8 && r->error > 1e-4);
+}
+
 /* --- bad input, full tables ------------------------------------------------------------------------------ */
 static void test_limits(void **state)
 {
@@ -706,6 +769,11 @@ static void test_limits(void **state)
         double c[3] = {0, bad[i], 1e-5};
         assert_int_equal(roots_find(c, 2, -1, 0, 0, a.root, ROOM, &a.found), i < 3 ? ROOTS_NOT_FINITE : ROOTS_COMPLETE);
         assert_int_equal(a.found.count, i == 3);
+    }
+    for (int n = -1; n < 600; n++) {
+        const bool good = n >= 8 && n <= 256 && (n & (n - 1)) == 0;
+        static double v[600];
+        assert_int_equal(roots_fit(v, 1, n, 0, a.c, &fitted), good ? ROOTS_FIT_SMOOTH : ROOTS_FIT_NOT_FINITE);
     }
     const double line[2] = {0.25, 1}, tiny[3] = {0, -0x1p-1070, 0x1p-1073};
     assert_int_equal(roots_find(line, 1, -1, NAN, 0, a.root, ROOM, &a.found), ROOTS_NOT_FINITE);
@@ -764,10 +832,10 @@ int main(int count, char **argument)
 {
     if (count > 1) polynomials = atol(argument[1]);
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_points),    cmocka_unit_test(test_coefficients), cmocka_unit_test(test_cells),
-        cmocka_unit_test(test_functions), cmocka_unit_test(test_grazing),      cmocka_unit_test(test_limits),
-        cmocka_unit_test(test_none),      cmocka_unit_test(test_polynomials),  cmocka_unit_test(test_standing),
-        cmocka_unit_test(test_steps),
+        cmocka_unit_test(test_points),      cmocka_unit_test(test_coefficients), cmocka_unit_test(test_cells),
+        cmocka_unit_test(test_functions),   cmocka_unit_test(test_grazing),      cmocka_unit_test(test_limits),
+        cmocka_unit_test(test_none),        cmocka_unit_test(test_unresolved),   cmocka_unit_test(test_ends),
+        cmocka_unit_test(test_polynomials), cmocka_unit_test(test_standing),     cmocka_unit_test(test_steps),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
