@@ -629,6 +629,9 @@ static long double later(const void *c, double t)
 static long double skew(const void *c, double t) { return (void)c, powl(t - 0.3L, 2) * expl(3 * (long double)t); }
 static long double chebyshev(const void *c, double t) { return (void)c, cosl(128 * acosl(2 * (long double)t - 1)); }
 
+static long double pole(const void *c, double t) { return (void)c, 1 / ((long double)t + 0.001L); }
+static long double spike(const void *c, double t) { return (void)c, 1 / (powl(t - 0.3L, 2) + 1e-6L); }
+
 static const known functions[] = {
     {"sin 50 t", sine50, 0, 1, 0, 15, {{ROOTS_FALLING, 0.062831853071795865}, {ROOTS_RISING, 0.12566370614359173}}},
     {"exp t - 2", exponential, -1, 0, 0, 1, {{ROOTS_RISING, 0.69314718055994531}}},
@@ -701,8 +704,8 @@ static void test_unresolved(void **state)
     (void)state;
     static double v[ROOTS_DEGREE_MOST + 1];
     static answer a;
-    const function g[] = {sine50, exponential, bell, triple, sine300, chebyshev};
-    for (int i = 0; i < 6; i++)
+    const function g[] = {sine50, exponential, bell, triple, sine300, pole, spike, chebyshev};
+    for (size_t i = 0; i < sizeof g / sizeof *g; i++)
         for (int n = g[i] == chebyshev ? ROOTS_DEGREE_MOST : ROOTS_DEGREE_LEAST; n <= ROOTS_DEGREE_MOST; n *= 2) {
             for (int k = 0; k <= n; k++) v[k] = (double)g[i](NULL, roots_point(k, n));
             roots_fit(v, 1, n, 0, a.c, &a.fitted);
@@ -710,7 +713,7 @@ static void test_unresolved(void **state)
                 const double tau = k < 500 ? uniform() : k < 750 ? ldexp(uniform(), -16) : 1 - ldexp(uniform(), -16);
                 const long double wrong = fabsl(sum_of(&a, tau) - g[i](NULL, tau));
                 const double bound = a.fitted.noise + a.fitted.unseen;
-                if (!(wrong <= bound)) fail_msg("function %d, degree %d: %Lg above %g", i, n, wrong, bound);
+                if (!(wrong <= bound)) fail_msg("function %zu, degree %d: %Lg above %g", i, n, wrong, bound);
             }
         }
 }
