@@ -297,7 +297,7 @@ static motus_status reach(motus_run *r, double t, motus_error *err)
     bars *b = r->bars;
     const bool ends = run_events_ended(r);
     const double interval = events_interval(r->events), way = r->timing.until - r->timing.t0;
-    const double most = fabs(way) / 8, span = copysign(interval / 4 < most ? interval / 4 : most, way);
+    const double most = fabs(way) / 8, span = copysign(!ends && interval / 4 < most ? interval / 4 : most, way);
     if (!ends && events_latest(r->events) != t) return MOTUS_OK;
     const int64_t acted = events_acted(r->events);
     const motus_status status = companion_reach(&b->half, acted, ends, span, err);

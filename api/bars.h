@@ -29,7 +29,9 @@ struct bars {
      * the other; since when. Then their states are not compared. */
     bool gap;
     double gap_since;
-    char why[256]; /* no bar; "": there is one */
+    size_t rows;      /* of the table of events, that a companion confirms so far */
+    bool rows_differ; /* it has other events from there on */
+    char why[256];    /* no bar; "": there is one */
 };
 
 /* Makes r->bars, where the definition asks for them, of all columns. */

@@ -1,6 +1,8 @@
 /* Events of a run. See run_events.h. */
 #include "api/run_events.h"
 
+#include "api/event_bars.h"
+
 #include <math.h>
 #include <string.h>
 
@@ -43,7 +45,7 @@ motus_status run_events_sample(motus_run *r, double t, double *x, double *v, mot
 
 int64_t motus_run_events(const motus_run *r) { return r && r->events ? (int64_t)events_rows(r->events) : 0; }
 
-motus_status motus_run_event(const motus_run *r, int64_t k, motus_event_row *out)
+motus_status motus_run_event(motus_run *r, int64_t k, motus_event_row *out)
 {
     if (!r || !out || k < 0 || k >= motus_run_events(r) ||
         motus_struct_check(MOTUS_DEF_EVENT_ROW, out, NULL) != MOTUS_OK)
@@ -56,6 +58,7 @@ motus_status motus_run_event(const motus_run *r, int64_t k, motus_event_row *out
     ours.time = row.t;
     ours.touched = row.touched;
     ours.changed = row.changed;
+    ours.error = event_bars_time(r, (size_t)k);
     rules->name(rules->ctx, row.rule, row.instance, ours.instance, sizeof ours.instance);
     motus_struct_write(MOTUS_DEF_EVENT_ROW, &ours, out);
     return MOTUS_OK;

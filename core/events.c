@@ -379,6 +379,8 @@ bool events_accumulated(const events *e, events_limit *out)
     return e->has_limit;
 }
 
+void events_jog(events *e, events_jogger jog) { e->jog = jog; }
+
 void events_turn(events *e, const stepper *s)
 {
     e->grid_start = stepper_time(s);

@@ -53,6 +53,10 @@ motus_status events_begin(events *, stepper *, double until, motus_error *);
  * rule ended the run, or events accumulated. */
 motus_status events_step(events *, stepper *, double until, stepper_stop *why, motus_error *);
 
+/* After every action `jog` moves the numbers of the state, x and then v, by about their rounding; salt: of the event. So
+ * a companion meets other roundings at events than the run. */
+typedef void (*events_jogger)(double *y, size_t count, uint32_t salt);
+void events_jog(events *, events_jogger);
 /* The stepper has begun a new leg where it stands (stepper_turn): the grid of fixed steps begins there. */
 void events_turn(events *, const stepper *);
 

@@ -157,7 +157,7 @@ static motus_status find_of(events *e, stepper *s, size_t f, int *degree, motus_
         const roots_fit_status fit = roots_fit(e->samples + f, n, *degree, rounding, coefficients, &fitted);
         if (fit == ROOTS_FIT_NOT_FINITE) return MOTUS_OK;
         if (fit == ROOTS_FIT_ROUGH && *degree < ROOTS_DEGREE_MOST &&
-            !roots_none(coefficients, fitted.degree, 0.25 * largest)) {
+            !roots_none(coefficients, fitted.degree, SLACK * largest + fitted.noise + fitted.unseen)) {
             *degree *= 2;
             const motus_status status = sample(e, s, *degree, err);
             if (status) return status;

@@ -107,6 +107,11 @@ static motus_status act(events *e, size_t k, size_t i, motus_error *err)
     const size_t n = e->rules.functions;
     if (n) memcpy(e->before, at->g, n * sizeof *at->g);
     if (e->rules.act(e->rules.ctx, k, i, at->t, at->x, at->v, &in_v, &which)) return not_finite(e, k, in_v, which, err);
+    if (e->jog) {
+        const size_t nx = e->problem.nx - e->problem.modes;
+        e->jog(at->x, nx, (uint32_t)e->acted * 0x9e3779b9u);
+        e->jog(at->v, e->problem.nv, (uint32_t)e->acted * 0x9e3779b9u + (uint32_t)nx);
+    }
     motus_status status = events_values(e, at, err);
     if (!status) status = events_judge(e, at, err);
     for (size_t f = 0; f < n && !status; f++) { /* what was 0 and has not changed is 0 whatever the rate is now */

@@ -88,11 +88,12 @@ struct events {
     candidate *candidate;
     size_t candidates, candidate_room;
 
-    double at_once;  /* the time of the latest action */
-    int actions;     /* in that instant */
-    int64_t acted;   /* in all */
-    double interval; /* from the instant of an action before */
-    double shift;    /* the largest distance of a located time from that of dense output, of this step */
+    double at_once;    /* the time of the latest action */
+    int actions;       /* in that instant */
+    events_jogger jog; /* NULL: none */
+    int64_t acted;     /* in all */
+    double interval;   /* from the instant of an action before */
+    double shift;      /* the largest distance of a located time from that of dense output, of this step */
 
     event *row;
     double *row_state; /* of every row: the state on arrival, and after it where the action changed it */

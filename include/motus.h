@@ -715,10 +715,17 @@ typedef struct motus_event_row {
     char instance[MOTUS_NAME_MAX]; /* with its indices, "contact[1,2]" */
 } motus_event_row;
 /* Row k, from 0. MOTUS_ARGUMENT: there is none. */
-MOTUS_API motus_status motus_run_event(const motus_run *, int64_t k, motus_event_row *);
+MOTUS_API motus_status motus_run_event(motus_run *, int64_t k, motus_event_row *);
 /* Values of columns at row k: on arrival, or with `after` as the action left them. */
 MOTUS_API motus_status motus_run_event_values(motus_run *, int64_t k, int after, const size_t *columns, size_t count,
                                               double *out, motus_error *);
+/* The same with how far these values may be from those at the event of the exact motion, which is at another time: as
+ * motus_run_errors tells them; NaN: not known, INFINITY: no digit is significant. */
+MOTUS_API motus_status motus_run_event_errors(motus_run *, int64_t k, int after, const size_t *columns, size_t count,
+                                              double *values, double *errors, motus_error *);
+/* How many rows have a significant digit: from the next one on, run and companion have other events, or the same ones at
+ * times that are farther apart than a quarter of the time from the event before. All of them where no errors are told. */
+MOTUS_API int64_t motus_run_events_significant(motus_run *);
 /* What ended the run before `until`: the name of a kind of event; "" where nothing did. accumulated (may be NULL): 1,
  * and *time is the limit of its events' times, which is known to *error. */
 MOTUS_API const char *motus_run_ended(const motus_run *, int *accumulated, double *time, double *error);

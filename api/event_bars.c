@@ -1,0 +1,194 @@
+/* See event_bars.h.
+ *
+ * Row k of the run is compared with the row of the companion that has the same rule, the same indices and the same
+ * number. As for numbers at landings (machine/differences.c) 2.5 times their distance bounds what truncation does, where
+ * it rules, and a quarter of the largest distance of the rows beside it covers a distance that passes 0. From the first row
+ * that the companion has not, or has at a time that is farther off than a quarter of the time since the event before,
+ * the two motions have events of their own, and no digit is told.
+ */
+#include "api/event_bars.h"
+
+#include "api/run_events.h"
+
+#include <math.h>
+#include <string.h>
+
+enum { BEFORE = 6, AFTER = 2, WINDOW = BEFORE + AFTER, NEARBY = 16 };
+#define OWN 2.5
+#define OTHERS 0.25
+#define APART 0.25
+/* Units in the last place of the time: the rounding of the step to the event, which the companion often shares. */
+#define ROUNDINGS 4
+#define EACH 0.2 /* and for every event that changed the state before */
+
+/* The companion's row for row k of the run; SIZE_MAX: it has none. */
+static size_t partner(const events *run, const events *other, size_t k)
+{
+    const event row = events_row(run, k, false, NULL, NULL);
+    const size_t rows = events_rows(other), first = k > NEARBY ? k - NEARBY : 0;
+    for (size_t step = 0; step <= 2 * NEARBY; step++) { /* the likeliest first */
+        const size_t at = step % 2 ? k + (step + 1) / 2 : k - step / 2;
+        if (at < first || at >= rows) continue;
+        const event their = events_row(other, at, false, NULL, NULL);
+        if (their.rule == row.rule && their.instance == row.instance && their.count == row.count) return at;
+    }
+    return SIZE_MAX;
+}
+
+static double distance(const motus_run *r, const companion *c, size_t k)
+{
+    const size_t at = partner(r->events, c->events, k);
+    if (at == SIZE_MAX) return INFINITY;
+    return fabs(events_row(r->events, k, false, NULL, NULL).t - events_row(c->events, at, false, NULL, NULL).t);
+}
+
+/* Whether there are companions that have come as far as row k. */
+static bool known(const motus_run *r, size_t k)
+{
+    const bars *b = r->bars;
+    if (!b || b->why[0] || !b->half.events) return false;
+    const double way = r->timing.h < 0 ? -1 : 1, t = events_row(r->events, k, false, NULL, NULL).t;
+    return b->half.over || way * (b->half.t - t) >= 0;
+}
+
+/* How many of the rows that companions have come to are significant. */
+static size_t significant(motus_run *r)
+{
+    bars *b = r->bars;
+    const size_t rows = events_rows(r->events);
+    for (; !b->rows_differ && b->rows < rows && known(r, b->rows); b->rows++) {
+        const size_t k = b->rows;
+        const double t = events_row(r->events, k, false, NULL, NULL).t;
+        const double before = k ? events_row(r->events, k - 1, false, NULL, NULL).t : r->timing.t0;
+        const double room = fmax(APART * fabs(t - before), 8 * (nextafter(fabs(t), INFINITY) - fabs(t)));
+        b->rows_differ = distance(r, &b->half, k) > room;
+        if (b->rows_differ) break;
+    }
+    return b->rows;
+}
+
+/* Whether no further row is significant; also where the motions themselves are too far apart for companions to go on. */
+static bool ended(const bars *b) { return b->rows_differ || !isnan(b->differences.until); }
+
+/* Row number i of those beside which row k is judged: itself, those before it, those after it; SIZE_MAX: none. */
+static size_t row_of(size_t k, size_t i, size_t rows)
+{
+    if (i < BEFORE) return i <= k ? k - i : SIZE_MAX;
+    const size_t row = k + 1 + (i - BEFORE);
+    return row < rows ? row : SIZE_MAX;
+}
+
+static double bar_of(const double *d, size_t n)
+{
+    double others = 0;
+    for (size_t i = 1; i < n; i++) others = fmax(others, d[i]);
+    return OWN * d[0] + OTHERS * others;
+}
+
+double event_bars_time(motus_run *r, size_t k)
+{
+    double d[WINDOW];
+    size_t n = 0;
+    if (!r->bars) return NAN;
+    const size_t rows = significant(r);
+    if (k >= rows) return ended(r->bars) ? INFINITY : NAN;
+    const double t = fabs(events_row(r->events, k, false, NULL, NULL).t);
+    for (size_t i = 0; i < WINDOW; i++) {
+        const size_t row = row_of(k, i, rows);
+        if (row == SIZE_MAX) continue;
+        d[n] = distance(r, &r->bars->half, row);
+        if (r->bars->twin.events) d[n] = fmax(d[n], distance(r, &r->bars->twin, row));
+        n++;
+    }
+    const double ulp = nextafter(t, INFINITY) - t;
+    const bool acts = system_acts(r->system);
+    return fmax(bar_of(d, n) + ulp, (ROUNDINGS + (acts ? EACH * (double)k : 0)) * ulp);
+}
+
+int64_t motus_run_events_significant(motus_run *r)
+{
+    if (!r || !r->events) return 0;
+    const modes m = modes_enter();
+    if (r->bars) bars_land(r, NULL);
+    const size_t rows = r->bars ? significant(r) : 0;
+    const bool all = !r->bars || !ended(r->bars);
+    modes_leave(m);
+    return all ? motus_run_events(r) : (int64_t)rows;
+}
+
+static motus_status values_of(motus_run *r, motus_system *s, const events *e, size_t k, bool after,
+                              const size_t *columns, size_t count, double *out, motus_error *err)
+{
+    const problem *p = &r->system->problem;
+    const double *x, *v;
+    const event row = events_row(e, k, after, &x, &v);
+    memcpy(r->mid_x, x, p->nx * sizeof *x);
+    memcpy(r->mid_v, v, p->nv * sizeof *v);
+    return system_values(s, row.t, r->mid_x, r->mid_v, columns, count, out, err);
+}
+
+/* |run - companion| of the columns at row k, to d; room: count numbers. */
+static motus_status differ(motus_run *r, companion *c, size_t k, bool after, const size_t *columns, size_t count,
+                           double *d, double *room, motus_error *err)
+{
+    const size_t at = partner(r->events, c->events, k);
+    motus_system *const s = c->system ? c->system : r->system;
+    if (at == SIZE_MAX) {
+        for (size_t j = 0; j < count; j++) d[j] = INFINITY;
+        return MOTUS_OK;
+    }
+    motus_status status = values_of(r, r->system, r->events, k, after, columns, count, d, err);
+    if (status == MOTUS_OK) status = values_of(r, s, c->events, at, after, columns, count, room, err);
+    for (size_t j = 0; j < count; j++) d[j] = fabs(d[j] - room[j]);
+    return status;
+}
+
+static motus_status errors(motus_run *r, size_t k, bool after, const size_t *columns, size_t count, double *out,
+                           motus_error *err)
+{
+    bars *b = r->bars;
+    const size_t rows = significant(r);
+    for (size_t j = 0; j < count; j++) out[j] = ended(b) ? INFINITY : NAN;
+    if (k >= rows) return MOTUS_OK;
+    double *room = take(&r->allocator, (WINDOW + 1) * (count + 1), sizeof *room);
+    if (!room) return fail(err, MOTUS_MEMORY, "no memory for the errors of an event");
+    motus_status status = MOTUS_OK;
+    size_t n = 0;
+    for (size_t i = 0; i < WINDOW && status == MOTUS_OK; i++) {
+        const size_t row = row_of(k, i, rows);
+        if (row == SIZE_MAX) continue;
+        status = differ(r, &b->half, row, after, columns, count, room + (n + 1) * count, room, err);
+        n++;
+    }
+    for (size_t j = 0; j < count && status == MOTUS_OK; j++) {
+        double d[WINDOW];
+        for (size_t i = 0; i < n; i++) d[i] = room[(i + 1) * count + j];
+        out[j] = bar_of(d, n);
+    }
+    if (status == MOTUS_OK) status = values_of(r, r->system, r->events, k, after, columns, count, room, err);
+    for (size_t j = 0; j < count && status == MOTUS_OK;
+         j++) /* where both have the same number, it may still be rounded */
+        if (out[j] > 0) out[j] += nextafter(fabs(room[j]), INFINITY) - fabs(room[j]);
+    give(&r->allocator, room);
+    return status;
+}
+
+motus_status motus_run_event_errors(motus_run *r, int64_t k, int after, const size_t *columns, size_t count,
+                                    double *values, double *out, motus_error *err)
+{
+    if (!motus_error_sound(err)) return MOTUS_ARGUMENT;
+    if (!r || k < 0 || k >= motus_run_events(r) || (count && (!columns || !out)))
+        return fail(err, MOTUS_ARGUMENT,
+                    "motus_run_event_errors needs a run, the number of an event, columns and a "
+                    "place for the errors");
+    if (!r->bars) {
+        fail(err, MOTUS_ARGUMENT, "the run tells no errors");
+        hint(err, "give `error = MOTUS_BARS_CHEAP` of the definition");
+        return MOTUS_ARGUMENT;
+    }
+    const modes m = modes_enter();
+    motus_status status = bars_land(r, err);
+    if (status == MOTUS_OK) status = errors(r, (size_t)k, after != 0, columns, count, out, err);
+    modes_leave(m);
+    return status == MOTUS_OK && values ? motus_run_event_values(r, k, after, columns, count, values, err) : status;
+}
