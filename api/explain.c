@@ -1,9 +1,9 @@
 /* The analysis of a model in words. */
+#include "api/sentences.h"
 #include "api/symmetry.h"
 #include "api/system.h"
 
 #include <math.h>
-#include <stdarg.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -31,36 +31,6 @@ motus_status motus_analysis_of(const motus_system *given, motus_analysis *out)
 
 /* ---- words ---- */
 
-typedef struct words {
-    char *text;
-    size_t length, room;
-    arena *arena;
-    bool failed;
-} words;
-
-static void say(words *w, const char *format, ...) __attribute__((format(printf, 2, 3)));
-static void say(words *w, const char *format, ...)
-{
-    va_list list, again;
-    va_start(list, format);
-    va_copy(again, list);
-    int n = vsnprintf(NULL, 0, format, list);
-    if (n >= 0 && w->length + (size_t)n + 1 > w->room) {
-        size_t room = 2 * w->room + (size_t)n + 256;
-        char *more = arena_grow(w->arena, w->text, w->length, room);
-        if (more) {
-            w->text = more;
-            w->room = room;
-        } else {
-            w->failed = true;
-        }
-    }
-    if (n >= 0 && w->length + (size_t)n + 1 <= w->room)
-        w->length += (size_t)vsnprintf(w->text + w->length, w->room - w->length, format, again);
-    va_end(again);
-    va_end(list);
-}
-
 enum { COEFFICIENTS_SHOWN = 12, LOADS_MAX = 64 };
 
 typedef struct velocity_loads {
@@ -81,7 +51,7 @@ static void note_load(void *ctx, const reference *r, const range *sums, int firs
 static node seed_one(graph *g, node leaf, void *which) { return leaf == *(node *)which ? graph_const(g, 1) : 0; }
 
 /* Writes the coefficient of each velocity in each equation. */
-static void say_coefficients(words *w, const model *m)
+static void say_coefficients(sentences *w, const model *m)
 {
     int shown = 0;
     char left[256], velocity[160], coefficient[400];
@@ -92,78 +62,82 @@ static void say_coefficients(words *w, const model *m)
             node d = graph_derivative(m->graph, m->accel[i].value, seed_one, &loads.item[k]);
             if (d == 0) continue;
             if (shown++ == COEFFICIENTS_SHOWN) {
-                say(w, "  …\n");
+                sentences_say(w, "  …\n");
                 return;
             }
             model_equation(m, i, left, sizeof left);
             left[strcspn(left, "=")] = 0;
             model_print(m, loads.item[k], velocity, sizeof velocity);
             model_print(m, d, coefficient, sizeof coefficient);
-            say(w, "  in %s the coefficient of %s is %s\n", left[0] ? (left[strlen(left) - 1] = 0, left) : left,
-                velocity, coefficient);
+            sentences_say(w, "  in %s the coefficient of %s is %s\n",
+                          left[0] ? (left[strlen(left) - 1] = 0, left) : left, velocity, coefficient);
         }
     }
 }
 
-static void say_variables(words *w, const motus_system *s)
+static void say_variables(sentences *w, const motus_system *s)
 {
     for (uint32_t i = 0; i < s->state_count; i++) {
         const model_state *st = &s->states[i];
-        say(w, "%s is %s", st->name, st->dims ? "a family" : st->components ? "a vector" : "a number");
-        if (st->dims) say(w, " of %zu %s", st->cells.count, st->components ? "vectors" : "numbers");
-        if (st->components) say(w, " of length %d", st->components);
-        say(w, st->order == 2 ? "; its acceleration is given\n"
-                              : "; its rate of change is given (a first-order variable)\n");
+        sentences_say(w, "%s is %s", st->name, st->dims ? "a family" : st->components ? "a vector" : "a number");
+        if (st->dims) sentences_say(w, " of %zu %s", st->cells.count, st->components ? "vectors" : "numbers");
+        if (st->components) sentences_say(w, " of length %d", st->components);
+        sentences_say(w, st->order == 2 ? "; its acceleration is given\n"
+                                        : "; its rate of change is given (a first-order variable)\n");
     }
 }
 
 #define SAMPLED ", as far as sampled at random states of many sizes, since the formulas were not proof"
 
-static void say_gradient(words *w, const motus_system *s)
+static void say_gradient(sentences *w, const motus_system *s)
 {
     const traits *t = &s->problem.traits;
-    say(w, "the force is a gradient%s: its derivative is symmetric, with constant masses%s%s\n",
-        t->time ? " at every time" : "", s->sampled_gradient ? SAMPLED : "",
-        t->time     ? ""
-        : s->energy ? ", so an energy exists"
-        : s->sampled_gradient
-            ? ""
-            : ", so an energy exists, though it may change on a way round a singularity of the force");
+    sentences_say(w, "the force is a gradient%s: its derivative is symmetric, with constant masses%s%s\n",
+                  t->time ? " at every time" : "", s->sampled_gradient ? SAMPLED : "",
+                  t->time     ? ""
+                  : s->energy ? ", so an energy exists"
+                  : s->sampled_gradient
+                      ? ""
+                      : ", so an energy exists, though it may change on a way round a singularity of the force");
 }
 
-static void say_forces(words *w, const motus_system *s)
+static void say_forces(sentences *w, const motus_system *s)
 {
     const traits *t = &s->problem.traits;
     if (t->constant)
-        say(w, "the acceleration is constant\n");
+        sentences_say(w, "the acceleration is constant\n");
     else
-        say(w, "the acceleration depends on %s%s%s\n",
-            t->first_order && (!t->velocity || t->quadrature) ? "the positions"
-            : t->velocity                                     ? "the state and its velocity"
-                                                              : "the positions",
-            t->time ? " and on time" : "", t->time ? "" : "; not on time");
+        sentences_say(w, "the acceleration depends on %s%s%s\n",
+                      t->first_order && (!t->velocity || t->quadrature) ? "the positions"
+                      : t->velocity                                     ? "the state and its velocity"
+                                                                        : "the positions",
+                      t->time ? " and on time" : "", t->time ? "" : "; not on time");
     if (t->quadrature)
-        say(w, "the velocity enters first-order variables alone, and nothing depends on these: they are integrals "
+        sentences_say(
+            w, "the velocity enters first-order variables alone, and nothing depends on these: they are integrals "
                "along the "
                "motion, which splitting methods follow at the mean velocity of each kick or at two of Gauss's nodes\n");
     if (t->velocity && t->linear_v) {
-        say(w, "the velocity enters linearly: the implicit velocity term is solved in closed form%s\n",
-            t->constant_jv ? ", with constant coefficients" : "");
+        sentences_say(w, "the velocity enters linearly: the implicit velocity term is solved in closed form%s\n",
+                      t->constant_jv ? ", with constant coefficients" : "");
         say_coefficients(w, s->model);
         if (t->gyroscopic)
-            say(w, "the velocity term does no work (v × B)%s: the Boris rotation applies\n",
-                s->sampled_gyroscopic ? SAMPLED : "");
+            sentences_say(w, "the velocity term does no work (v × B)%s: the Boris rotation applies\n",
+                          s->sampled_gyroscopic ? SAMPLED : "");
     } else if (t->velocity) {
-        say(w, "the velocity enters nonlinearly: implicit velocity terms are solved by Newton's method with the "
-               "derived Jacobian\n");
+        sentences_say(w,
+                      "the velocity enters nonlinearly: implicit velocity terms are solved by Newton's method with the "
+                      "derived Jacobian\n");
     }
-    if (t->affine && !t->constant) say(w, "the equations are linear\n");
+    if (t->affine && !t->constant) sentences_say(w, "the equations are linear\n");
     if (t->gradient && !t->constant) say_gradient(w, s);
     if (!t->smooth)
-        say(w, "the equations are not smooth: they contain abs, min, max, floor, mod, sign, if or a comparison; high "
+        sentences_say(
+            w, "the equations are not smooth: they contain abs, min, max, floor, mod, sign, if or a comparison; high "
                "orders lose their order where these switch\n");
     if (t->has_exact)
-        say(w, s->model->exact_recognised ? "the exact motion is known: constant acceleration\n"
+        sentences_say(
+            w, s->model->exact_recognised ? "the exact motion is known: constant acceleration\n"
                : s->model->exact_between
                    ? "the exact motion is given, and was checked against the equation at times of the run\n"
                    : "the exact motion is given, and was checked against the equation at times of the run; between "
@@ -181,12 +155,14 @@ const char *motus_explain(motus_system *s)
                                                                                                                   : 0)];
     if (*kept) return *kept;
     modes m = modes_enter();
-    words w = {.arena = &s->arena};
+    sentences w = {.allocator = &s->allocator};
     say_variables(&w, s);
     say_forces(&w, s);
     modes_leave(m);
-    if (!w.text || w.failed || s->arena.failed) return ""; /* a part of the text would mislead */
-    return *kept = w.text;
+    const char *text = w.text && !w.failed ? arena_text(&s->arena, w.text, w.length) : NULL;
+    give(&s->allocator, w.text);
+    if (!text || s->arena.failed) return ""; /* a part of the text would mislead */
+    return *kept = text;
 }
 
 const char *motus_equation_text(motus_system *s, size_t k)

@@ -24,6 +24,7 @@ void motus_system_destroy(motus_system *s)
     motus_allocator a = s->allocator;
     compiled_close(s->compiled);
     arena_release(&s->arena);
+    give(&a, s->events_text);
     give(&a, s->mathml);
     give(&a, s);
 }
@@ -188,9 +189,10 @@ motus_status system_rules(motus_system *s, const rules **out, motus_error *err)
 
 motus_status system_refuse_rules(const motus_system *s, motus_error *err)
 {
-    if (!s->model || s->model->rule_count == 0) return MOTUS_OK;
-    fail(err, MOTUS_UNAVAILABLE, "the model has events (when …), and runs do not follow events yet");
-    hint(err, "leave the when lines out; the motion runs on to `until`");
+    if (!s->rules && (!s->model || s->model->rule_count == 0)) return MOTUS_OK;
+    fail(err, MOTUS_UNAVAILABLE, "the %s has events, and ensembles do not follow events yet",
+         s->model ? "model" : "callback");
+    hint(err, "leave them out; the motion runs on to `until`");
     return MOTUS_UNAVAILABLE;
 }
 

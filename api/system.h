@@ -61,7 +61,8 @@ struct motus_system {
     struct setting *settings;
     const char *explanation[3][4]; /* for each answer: gyroscopic, gradient */
     char *equation;
-    char *mathml; /* of the statement typeset last, from the hooks */
+    char *events_text; /* what motus_explain_events said last, from the hooks */
+    char *mathml;      /* of the statement typeset last, from the hooks */
 };
 
 /* defaults.c. Whether the size in `made` is valid, when the versions had `sizes`, of which the last is the present. */

@@ -13,6 +13,7 @@ typedef struct reading {
     motus_word *words;
     size_t count, room;
     size_t statement; /* the word that begins the present one */
+    bool events;      /* the text has a `when` */
 } reading;
 
 static bool is(const reading *r, size_t k, const char *sign)
@@ -47,14 +48,33 @@ static void add_name(reading *r, size_t from, size_t to)
         name[to - from] = 0;
         kind = words_kind(name);
         if (is(r, r->statement, "method")) kind = MOTUS_WORD_SETTING;
+        if (kind == MOTUS_WORD_UNKNOWN && is(r, r->statement, "when") && words_event_kind(name) == MOTUS_WORD_OPERATOR)
+            kind = MOTUS_WORD_OPERATOR;
     }
     add(r, kind, from, to);
+}
+
+/* Marks what a `when` defines: its name behind `as`, and indices behind `for`. */
+static void define_event(reading *r)
+{
+    bool ranges = false;
+    for (size_t i = r->statement; i < r->count; i++) {
+        ranges |= is(r, i, "for");
+        if (r->words[i].kind == MOTUS_WORD_UNKNOWN && i > 0 && (is(r, i - 1, "as") || (ranges && is(r, i + 1, "="))))
+            r->words[i].defines = 1;
+    }
+    r->events = true;
+    r->statement = r->count;
 }
 
 /* Marks what a statement, the words from r->statement on, defines: x'' = …, k[i] = … for i = 1..N, V(q) = …, exact x =
  * … */
 static void define(reading *r)
 {
+    if (is(r, r->statement, "when")) {
+        define_event(r);
+        return;
+    }
     size_t k = r->statement, equals = k;
     if (is(r, k, "exact") || is(r, k, "invariant")) k++;
     while (equals < r->count && !is(r, equals, "=")) equals++;
@@ -69,6 +89,24 @@ static void define(reading *r)
             w->defines = 1;
     }
     r->statement = r->count;
+}
+
+/* What events keep, count(bounce), time(bounce, last). */
+static bool keeps(const reading *r, size_t i)
+{
+    char name[8] = "";
+    if (r->words[i].length < sizeof name) memcpy(name, r->text + r->words[i].from, r->words[i].length);
+    return words_event_kind(name) == MOTUS_WORD_FUNCTION && is(r, i + 1, "(");
+}
+
+static void know_events(reading *r)
+{
+    for (size_t i = 0; r->events && i < r->count; i++) {
+        motus_word *w = &r->words[i];
+        if (w->kind != MOTUS_WORD_UNKNOWN) continue;
+        if (keeps(r, i)) w->kind = MOTUS_WORD_FUNCTION;
+        if (is(r, i, "last") && i > 3 && is(r, i - 1, ",") && keeps(r, i - 4)) w->kind = MOTUS_WORD_OPERATOR;
+    }
 }
 
 static void know(reading *r)
@@ -114,6 +152,7 @@ static void read_words(reading *r, source *s)
     }
     define(r);
     know(r);
+    know_events(r);
 }
 
 size_t motus_text_words(const char *text, size_t length, motus_word *words, size_t room)
@@ -132,6 +171,6 @@ size_t motus_text_words(const char *text, size_t length, motus_word *words, size
 const char *motus_language_word(size_t k, motus_word_kind *kind)
 {
     const char *word = words_at(k);
-    if (word && kind) *kind = words_kind(word);
+    if (word && kind) *kind = words_event_kind(word) != MOTUS_WORD_UNKNOWN ? words_event_kind(word) : words_kind(word);
     return word;
 }

@@ -65,6 +65,7 @@ static void print_json(const options *o, const load *m)
     tell_analysis(&j, m->system);
     const char *explanation = motus_explain(m->system);
     json_string(&j, "explanation", explanation ? explanation : "");
+    json_string(&j, "events", motus_explain_events(m->system));
     auto_json(&j, m);
     tell_admissions(&j, m->system);
     json_end(&j);
@@ -83,6 +84,11 @@ static motus_status print_text(const load *m, motus_error *err)
     const char *text = motus_explain(m->system);
     printf("\n%sanalysis%s\n", strong, plain);
     text_wrap(stdout, text ? text : "", 2, 100);
+    const char *events = motus_explain_events(m->system);
+    if (*events) {
+        printf("\n%sevents%s\n", strong, plain);
+        text_wrap(stdout, events, 2, 100);
+    }
     printf("\n%smethods%s\n", strong, plain);
     table *t = table_create("llrll");
     table_cell(t, "method");

@@ -22,44 +22,12 @@ static bool is_zero(const events *e, size_t f)
 
 /* Truth ----------------------------------------------------------------------------------------------------------- */
 
-/* Whether a comparison holds where its leaf has this sign; 0: it stays 0. */
-static bool compares(uint8_t what, int sign)
-{
-    switch ((rule_comparison)what) {
-    case RULE_ABOVE: return sign > 0;
-    case RULE_AT_LEAST: return sign >= 0;
-    case RULE_AT: return sign == 0;
-    case RULE_OFF: return sign != 0;
-    }
-    return false;
-}
-
-static bool formula_holds(const events *e, const rule *r, size_t i, const int8_t *sign)
-{
-    bool stack[RULE_FORMULA_MOST];
-    int top = 0;
-    (void)e;
-    for (int k = 0; k < r->words; k++) {
-        const int16_t word = r->formula[k];
-        if (word >= 0) {
-            const size_t f = r->first + (size_t)word * r->instances + i;
-            stack[top++] = compares(r->compares[word], sign[f]);
-        } else if (word == RULE_NOT) {
-            stack[top - 1] = !stack[top - 1];
-        } else {
-            top--;
-            stack[top - 1] = word == RULE_AND ? stack[top - 1] && stack[top] : stack[top - 1] || stack[top];
-        }
-    }
-    return top > 0 && stack[top - 1];
-}
-
 void events_suppose(events *e)
 {
     for (size_t k = 0; k < e->rules.count; k++) {
         const rule *r = &e->rules.rule[k];
         for (size_t i = 0; r->kind == RULE_CONDITION && i < r->instances; i++)
-            e->held[e->instances[k] + i] = formula_holds(e, r, i, e->side);
+            e->held[e->instances[k] + i] = rules_hold(r, i, e->side);
     }
 }
 
@@ -208,7 +176,7 @@ static motus_status ask_condition(events *e, size_t k, size_t i, const candidate
         sign[f] = (int8_t)(e->zero[f] ? 0 : sign_of(e->here.g[f]));
         any |= e->zero[f];
     }
-    const bool now = formula_holds(e, r, i, sign);
+    const bool now = rules_hold(r, i, sign);
     for (size_t l = 0; l < r->leaves; l++) {
         const size_t f = r->first + l * r->instances + i;
         if (e->zero[f]) {
@@ -217,7 +185,7 @@ static motus_status ask_condition(events *e, size_t k, size_t i, const candidate
         }
         if (sign[f]) e->side[f] = sign[f];
     }
-    const bool after = any ? formula_holds(e, r, i, sign) : now, happens = !*held && (now || after);
+    const bool after = any ? rules_hold(r, i, sign) : now, happens = !*held && (now || after);
     *held = after;
     if (!happens) return MOTUS_OK;
     bool assigned = false;

@@ -11,8 +11,9 @@
  * RULE_CONDITION, `when x > 1 and y < 2`: a leaf for each comparison: a - b for a > b, a >= b, a == b and a != b,
  * b - a for a < b and a <= b; `compares` says what it asks of the leaf. It happens where the formula becomes true. A
  * leaf == on its way through 0 holds for that instant, so `x == 0 and y > 0` happens there.
- * RULE_CLOCK, `when every T`: no leaves; it happens at start + T, start + 2 T and so on.
- * RULE_ACCUMULATES, `when NAME accumulates`: no leaves; it happens where the events of rule `of` accumulate.
+ * RULE_CLOCK, `when every T`: no leaves and one instance; it happens at start + T, start + 2 T and so on.
+ * RULE_ACCUMULATES, `when NAME accumulates`: no leaves; it happens where the events of rule `of` accumulate. It has one
+ * instance, or those of rule `of`, each for one of them.
  *
  * Modes and what events keep are numbers of the state: positions without velocity and acceleration, which rules alone
  * change (lang/model/model.h).
@@ -77,5 +78,8 @@ typedef struct rules {
     /* Text of an instance for messages and tables: "bounce", "contact[1,2]". */
     void (*name)(void *ctx, size_t rule, size_t instance, char *out, size_t size);
 } rules;
+
+/* Whether the condition of an instance holds where all functions of the rules have these signs. */
+bool rules_hold(const rule *, size_t instance, const int8_t *sign);
 
 #endif

@@ -419,6 +419,10 @@ MOTUS_API motus_status motus_analysis_of(const motus_system *, motus_analysis *)
 /* The same in words, one sentence a line, with the coefficients of the velocity. Owned by the system. "": there was no
  * memory. */
 MOTUS_API const char *motus_explain(motus_system *);
+/* The events of a model in words, one sentence a line: what each waits for and does, the parameters that they assign,
+ * and what holds at the start, which is no event. Owned by the system, until the next call of this function. "": there
+ * are none, or there was no memory. */
+MOTUS_API const char *motus_explain_events(motus_system *);
 /* Equation k in normal form, as text in the language: "x'' = x^3 - x + F cos(t)". Owned by the system, until the next
  * call of this function. NULL: k is past the last, the system is from a callback, or there was no memory. */
 MOTUS_API const char *motus_equation_text(motus_system *, size_t k);
@@ -706,12 +710,12 @@ MOTUS_API motus_status motus_run_singular(motus_system *, const motus_run_def *,
  * How many rows the table has: one for every event of a kind that records. */
 MOTUS_API int64_t motus_run_events(const motus_run *);
 typedef struct motus_event_row {
-    uint32_t size;    /* by motus_default_event_row() */
-    int touched;        /* 1: the function touched 0 and went back */
-    const char *name;   /* "bounce"; owned by the system */
-    int64_t count;      /* events of this kind so far, this one included */
-    double time, error; /* error: how far the time may be off; NaN: not known */
-    int64_t changed;    /* 1: an action changed the state */
+    uint32_t size;                 /* by motus_default_event_row() */
+    int touched;                   /* 1: the function touched 0 and went back */
+    const char *name;              /* "bounce"; owned by the system */
+    int64_t count;                 /* events of this kind so far, this one included */
+    double time, error;            /* error: how far the time may be off; NaN: not known */
+    int64_t changed;               /* 1: an action changed the state */
     char instance[MOTUS_NAME_MAX]; /* with its indices, "contact[1,2]" */
 } motus_event_row;
 /* Row k, from 0. MOTUS_ARGUMENT: there is none. */

@@ -384,7 +384,7 @@ static void every_status_of_a_text_is_reached(void **state)
         {MOTUS_LIMIT,
          "x[i]'' = -x[i] for i = 1..1000000000\nx[i](0) = 1 for i = 1..1000000000\nx[i]'(0) = 0 for i = 1..1000000000",
          0},
-        {MOTUS_UNAVAILABLE, "x'' = -x\nx(0) = 1\nx'(0) = 0\nwhen x = 0: record", 4},
+        {MOTUS_ARGUMENT, "x'' = -x\nx(0) = 1\nx'(0) = 0\nwhen x = 0: stop after 0", 4},
     };
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         motus_error err;

@@ -227,6 +227,11 @@ static void words(void **state)
         {"method newmark(0.25, 0.5)\nstep 0.1\nuntil 3 pi", "s:method s:newmark o:( n:0.25 o:, n:0.5 o:) s:step n:0.1 "
                                                             "s:until n:3 k:pi"},
         {"exact x = cos(t)", "s:exact k:x o:= f:cos o:( k:t o:)"},
+        {"when y = q falling as hit: record, y' = a t for i = 1..3; n = count(hit) + time(hit, last) + time; a = hit",
+         "s:when u:y o:= u:q o:falling o:as k:hit o:: o:record o:, u:y o:' o:= k:a k:t o:for k:i o:= n:1 o:.. n:3 k:n "
+         "o:= "
+         "f:count o:( k:hit o:) o:+ f:time o:( k:hit o:, o:last o:) o:+ u:time k:a o:= k:hit"},
+        {"stop = count(x); record = 1", "k:stop o:= u:count o:( u:x o:) k:record o:= n:1"},
         {"x'' = -(x", "k:x o:'' o:= o:- o:( k:x"},
         {"x'' = ) 1. ? \xC3\xA9\xFF y", "k:x o:'' o:= w:) n:1. w:? u:\xC3\xA9 w:\xFF u:y"},
         {"", ""},

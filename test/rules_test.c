@@ -563,6 +563,41 @@ static void own_words(void **state)
     motus_system_destroy(s);
 }
 
+static void in_words(void **state)
+{
+    (void)state;
+    motus_system *s =
+        given_text(ROW "n = 0\ny'' = -9.81\ny(0) = 0\ny'(0) = 3\nwhen y = 0 falling as bounce: y' = -y', "
+                       "n = n + 1, record\nwhen x[i] = x[j] as contact: x[i]' = 0 for i = 1..N, j = 1..N\n"
+                       "when y >= 0 and t < 1: stop after 3\nwhen bounce accumulates: stop\nwhen every 1/2: "
+                       "record\nc = at(bounce, 2, y)");
+    const char *const lines =
+        "bounce happens when y = 0, falling; it assigns y', n; it keeps 2 numbers; it is recorded\n"
+        "contact happens when x[i] = x[j]; it is a family of events; it assigns x[i]'\n"
+        "event3 happens when y >= 0 and t < 1 becomes true; the run stops at number 3\n"
+        "event4 happens where the events of bounce accumulate; the run stops there\n"
+        "event5 happens every 0.5, from the start on; it is recorded\n"
+        "n is a mode: events assign this parameter; at the start it is 0. Neither the force nor an event depends on "
+        "it\n"
+        "at the start both sides of bounce are equal, which is no event\n"
+        "at the start both sides of contact[1,1] are equal, which is no event\n"
+        "at the start both sides of contact[2,2] are equal, which is no event\n"
+        "at the start both sides of contact[3,3] are equal, which is no event\n"
+        "at the start both sides of contact[4,4] are equal, which is no event\n"
+        "at the start the condition of event3 holds, which is no event\n";
+    assert_string_equal(motus_explain_events(s), lines);
+    const double y = -1;
+    motus_error err = motus_default_error();
+    must(motus_system_set(s, "y(0)", &y, 1, &err), &err, "y(0)");
+    assert_null(strstr(motus_explain_events(s), "bounce are equal"));
+    assert_null(strstr(motus_explain_events(s), "the condition of"));
+    motus_system_destroy(s);
+    s = given_text(BALL);
+    assert_string_equal(motus_explain_events(s), "");
+    motus_system_destroy(s);
+    assert_string_equal(motus_explain_events(NULL), "");
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -582,6 +617,7 @@ int main(void)
         cmocka_unit_test(kept_of_families),
         cmocka_unit_test(own_words),
         cmocka_unit_test(along_a_run),
+        cmocka_unit_test(in_words),
         cmocka_unit_test(set),
         cmocka_unit_test(refused),
     };

@@ -82,7 +82,7 @@ const model_state *model_state_of(const model *m, uint16_t array)
     return owner && owner % 2 == 0 ? &m->states[owner / 2 - 1] : NULL;
 }
 
-static void name_reference(const model *m, const reference *r, char *out, size_t size)
+void model_reference_name(const model *m, const reference *r, char *out, size_t size)
 {
     const char *name = "?", *primes = "", *tail = "";
     int component = -1, components = 0;
@@ -140,7 +140,7 @@ static void name_leaf(void *model_, const graph_node *n, char *out, size_t size)
     else if (n->op == OP_INDEX && n->level == MAX_LEVELS)
         snprintf(out, size, "%lld", (long long)m->ints[n->a]);
     else if (n->op == OP_LOAD)
-        name_reference(m, &m->graph->references[n->a], out, size);
+        model_reference_name(m, &m->graph->references[n->a], out, size);
 }
 
 void model_print(const model *m, node n, char *out, size_t size)
@@ -153,7 +153,7 @@ bool model_equation(const model *m, size_t k, char *out, size_t size)
     if (k >= m->accel_count) return false;
     const output *o = &m->accel[k];
     char left[MOTUS_NAME_MAX + 96];
-    name_reference(m, &o->to, left, sizeof left);
+    model_reference_name(m, &o->to, left, sizeof left);
     size_t n = (size_t)snprintf(out, size, "%s = ", left);
     if (n < size) model_print(m, o->value, out + n, size - n);
     return true;

@@ -147,6 +147,7 @@ typedef struct model_rule {
     uint8_t loops, own; /* own: those that number the instances */
     range loop[MAX_DIMS];
     int64_t first[MAX_DIMS], last[MAX_DIMS]; /* the hull of each index */
+    span occasion;                           /* what it waits for, in the text */
     size_t instances;                        /* cells of the hull of its own indices */
     size_t leaf_first;                       /* number of its first function */
     output *leaf;                            /* to SPACE_OUT, by the number of the function */
@@ -250,6 +251,8 @@ void model_name(const model *, bool in_v, size_t k, char *out, size_t size);
 void model_state_name(const model_state *, size_t cell, int component, bool prime, char *out, size_t size);
 /* Equation k as text, in normal form; returns false past the last. */
 bool model_equation(const model *, size_t k, char *out, size_t size);
+/* Name of what a reference means: "x[i]'", "r.y". */
+void model_reference_name(const model *, const reference *, char *out, size_t size);
 /* Text of a node with the names of the model. */
 void model_print(const model *, node, char *out, size_t size);
 

@@ -30,7 +30,7 @@ static bool assign(model *m, const model_keep *k)
         a.value.value = k->which == KEEP_COUNT  ? graph_op(g, OP_ADD, count, graph_const(g, 1), 0)
                         : k->which == KEEP_LAST ? k->is[i]
                                                 : graph_op(g, OP_SELECT, its, k->is[i], load(g, k, i));
-        if (!rules_add(m, &m->rules[k->rule], &a)) return false;
+        if (!when_add(m, &m->rules[k->rule], &a)) return false;
     }
     return true;
 }

@@ -46,8 +46,8 @@ static motus_status build(model *m, const motus_text_def *def, read_method metho
     const bool lowered = collect_all(m, def) && rule_names_all(m) && mode_find_all(m) && classify_all(m) &&
                          names_all(m) && graph_reserve(m->graph, m->statements.operations + 64) &&
                          model_reserve_arrays(m, 8 * m->state_count + 64) && constants(m) && settings_all(m, method) &&
-                         mode_shape_all(m) && layout_all(m) && equations_all(m) && mode_observe_all(m) &&
-                         rules_all(m) && equations_start(m);
+                         mode_shape_all(m) && layout_all(m) && equations_all(m) && mode_observe_all(m) && when_all(m) &&
+                         equations_start(m);
     forget_trees(m);
     if (lowered) analysis_all(m);
     if (!source_failed(&m->source) && !m->graph->too_large && verify_claims(m) == MOTUS_MEMORY) m->arena->failed = true;

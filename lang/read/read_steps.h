@@ -15,14 +15,14 @@ bool mode_shape_all(model *);                      /* the shapes of modes, and p
 bool layout_all(model *);                          /* places of the states in x and v */
 bool equations_all(model *);                       /* outputs over the graph */
 bool mode_observe_all(model *);                    /* modes as quantities */
-bool rules_all(model *);                           /* events, and what they keep */
+bool when_all(model *);                            /* events, and what they keep */
 bool equations_start(model *);                     /* boundary cells at the start */
 void analysis_all(model *);                        /* traits of the equations */
 
 /* Parts of the steps. */
 const span *mode_assigned_at(const model *, const model_definition *); /* where an event assigns it first */
 bool layout_finish(model *);                                           /* what follows from the places of states */
-bool rules_add(model *, model_rule *, const model_assignment *);
+bool when_add(model *, model_rule *, const model_assignment *);
 bool keep_all(model *); /* the modes in which events keep numbers, and their assignments */
 
 #endif

@@ -20,6 +20,8 @@ static const struct {
 static const char *const statements_words[] = {"method", "step",  "tolerance", "accuracy",  "from",
                                                "until",  "every", "exact",     "invariant", "when"};
 static const char *const other_words[] = {"t", "pi", "and", "or", "not", "for", "sum", "steps"};
+static const char *const event_words[] = {"rising", "falling", "as", "accumulates", "record", "stop", "after"};
+static const char *const kept_words[] = {"count", "time", "at"};
 
 int words_function(const char *name)
 {
@@ -50,15 +52,29 @@ bool words_nearest_statement(const char *name, char *out, size_t size)
     return best < 5;
 }
 
+motus_word_kind words_event_kind(const char *name)
+{
+    for (size_t i = 0; i < sizeof event_words / sizeof *event_words; i++)
+        if (!strcmp(event_words[i], name)) return MOTUS_WORD_OPERATOR;
+    for (size_t i = 0; i < sizeof kept_words / sizeof *kept_words; i++)
+        if (!strcmp(kept_words[i], name)) return MOTUS_WORD_FUNCTION;
+    return MOTUS_WORD_UNKNOWN;
+}
+
 const char *words_at(size_t k)
 {
-    enum { FUNCTIONS = sizeof functions / sizeof *functions };
-    enum { STATEMENTS = sizeof statements_words / sizeof *statements_words };
-    enum { OTHERS = sizeof other_words / sizeof *other_words };
-    return k < FUNCTIONS                         ? functions[k].name
-           : k < FUNCTIONS + STATEMENTS          ? statements_words[k - FUNCTIONS]
-           : k < FUNCTIONS + STATEMENTS + OTHERS ? other_words[k - FUNCTIONS - STATEMENTS]
-                                                 : NULL;
+    for (size_t i = 0; i < sizeof functions / sizeof *functions; i++)
+        if (k-- == 0) return functions[i].name;
+    const struct {
+        const char *const *word;
+        size_t count;
+    } lists[] = {{statements_words, sizeof statements_words / sizeof *statements_words},
+                 {other_words, sizeof other_words / sizeof *other_words},
+                 {event_words, sizeof event_words / sizeof *event_words},
+                 {kept_words, sizeof kept_words / sizeof *kept_words}};
+    for (size_t i = 0; i < sizeof lists / sizeof *lists; k -= lists[i++].count)
+        if (k < lists[i].count) return lists[i].word[k];
+    return NULL;
 }
 
 motus_word_kind words_kind(const char *name)

@@ -14,6 +14,10 @@ bool words_reserved(const char *name);
 const char *words_at(size_t k);           /* all of them; NULL: past the last */
 motus_word_kind words_kind(const char *); /* UNKNOWN: it is none of them */
 
+/* Words that events alone have, so that models may use them as names: OPERATOR within a `when`, FUNCTION of what an
+ * event keeps, in models that have events; else UNKNOWN. */
+motus_word_kind words_event_kind(const char *);
+
 /* The statement that a mistaken word may be meant for; false: none. */
 bool words_nearest_statement(const char *name, char *out, size_t size);
 

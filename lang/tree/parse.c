@@ -30,12 +30,15 @@ static tree *parse_power(parser *p)
     return two(p, TREE_POWER, base, exponent);
 }
 
-static bool words_of_events(const parser *p)
+/* A word of events, behind which no factor stands. */
+static bool event_word(const parser *p)
 {
-    static const char *const words[] = {"rising", "falling", "as", "accumulates", "after", "record", "stop"};
-    for (size_t i = 0; i < sizeof words / sizeof *words; i++)
-        if (word(p, words[i])) return true;
-    return false;
+    char name[MOTUS_NAME_MAX];
+    const size_t length = p->token.at.to - p->token.at.from;
+    if (length >= sizeof name) return false;
+    memcpy(name, p->source->texts[p->token.at.text].bytes + p->token.at.from, length);
+    name[length] = 0;
+    return words_event_kind(name) == MOTUS_WORD_OPERATOR;
 }
 
 /* A factor may follow without a sign: a name, a call, a bracket, a norm [2, 7]. */
@@ -46,7 +49,7 @@ static bool juxtaposes(const parser *p)
         for (size_t i = 0; i < sizeof words / sizeof *words; i++)
             if (word(p, words[i])) return false;
         if (p->error && (word(p, "absolute") || word(p, "relative"))) return false;
-        return !(p->when && words_of_events(p));
+        return !(p->when && event_word(p));
     }
     return is(p, '(') || (is(p, '|') && p->bars == 0) || (is(p, '[') && p->token.blank) ||
            p->token.kind == TOKEN_NUMBER;

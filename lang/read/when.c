@@ -140,9 +140,7 @@ static bool place_leaves(model *m, model_rule *r)
     unsigned deps = 0;
     for (size_t k = 0; k < r->leaves; k++) deps |= graph_deps(m->graph, r->leaf[k].value);
     if (r->leaves && !(deps & (DEP_TIME | DEP_STATE))) {
-        const when *w = r->statement->when;
-        source_complain(&m->source, MOTUS_ARGUMENT,
-                        w->right ? &(span){w->left->at.text, w->left->at.from, w->right->at.to} : &w->left->at,
+        source_complain(&m->source, MOTUS_ARGUMENT, &r->occasion,
                         "this depends neither on a state nor on time, so it never happens");
         return false;
     }
@@ -257,7 +255,7 @@ static bool same_place(const reference *a, const reference *b)
     return same;
 }
 
-bool rules_add(model *m, model_rule *r, const model_assignment *one)
+bool when_add(model *m, model_rule *r, const model_assignment *one)
 {
     const size_t count = r->assignments;
     if (!(count & (count - 1))) { /* 0 or a power of two */
@@ -280,7 +278,7 @@ static bool add_assignment(model *m, model_rule *r, const action *a, node target
             HINT(m, "all right sides see the state before the event; what comes after it is an event of its own");
             return false;
         }
-    return rules_add(m, r, &(model_assignment){.value = {.value = is}, .to = to, .at = a->target->at});
+    return when_add(m, r, &(model_assignment){.value = {.value = is}, .to = to, .at = a->target->at});
 }
 
 static bool lower_assignment(model *m, model_rule *r, lowering *l, const action *a)
@@ -420,6 +418,7 @@ static bool lower_rule(model *m, model_rule *r)
     lowering l;
     const when *w = r->statement->when;
     lower_start(&l, m, PLACE_EVENT, "an event");
+    if (w->left) r->occasion = (span){w->left->at.text, w->left->at.from, (w->right ? w->right : w->left)->at.to};
     if (!open_indices(m, r, &l)) return false;
     bool ok = true;
     switch (w->kind) {
@@ -498,7 +497,7 @@ static bool judge_assignments(model *m, model_rule *r)
     return true;
 }
 
-bool rules_all(model *m)
+bool when_all(model *m)
 {
     /* Accumulations have the indices of other events. */
     for (int pass = 0; pass < 2; pass++)
