@@ -38,6 +38,7 @@ typedef struct stepper_body {
     void (*back)(work *, real *r);
     void (*apply)(work *, clock c, const real *y, real *out);
     const real *(*diagonal)(const work *); /* solver_diagonal */
+    int (*accel)(work *, clock t, real *x, real *v, real *a);
 } stepper_body;
 
 /* The fastest one here. */

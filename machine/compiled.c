@@ -39,7 +39,7 @@ typedef struct object {
     int64_t *q;
     void (*bind)(const double *, const int64_t *, double *); /* computes u from the pool */
     int (*fits)(const double *u);                            /* whether it was compiled for such numbers */
-    void (*accel)(const compiled_host *, double t, double *x, double *v, double *a);
+    void (*accel)(const compiled_host *, double t, double *x, double *v, double *a); /* NULL: Taylor series alone */
     void *handle;
     stepper_body body;
 } object;
@@ -75,7 +75,7 @@ static int accel(void *ctx, double t, double *x, double *v, double *a)
 {
     const compiled *c = ctx;
     const object *o = c->count ? &c->objects[c->count - 1] : NULL; /* all give the same bits */
-    if (!o || !o->fits(o->u)) return of(ctx)->accel(of(ctx)->ctx, t, x, v, a);
+    if (!o || !o->accel || !o->fits(o->u)) return of(ctx)->accel(of(ctx)->ctx, t, x, v, a);
     o->accel(&o->host, t, x, v, a);
     return 0;
 }
@@ -163,8 +163,9 @@ static bool write_text(compiled *c, const chosen *chosen, emit *e)
     if (expands && m->driven && !c->boundary_series)
         c->boundary_series = expansion_program(m->arena, m->graph, m->boundary, m->boundary_count);
     if (m->arena->failed) return false;
-    composed_program programs[4] = {{c->force, "compiled_force", !row_adaptive(chosen), false}};
-    size_t count = 1;
+    composed_program programs[4];
+    size_t count = 0;
+    if (!expands) programs[count++] = (composed_program){c->force, "compiled_force", !row_adaptive(chosen), false};
     if (m->driven) programs[count++] = (composed_program){c->boundary, "compiled_boundary", false, false};
     if (expands) programs[count++] = (composed_program){c->series, "compiled_series", false, true};
     if (expands && m->driven)
@@ -228,7 +229,8 @@ static bool bind_numbers(compiled *c, object *o, const emit *e)
                               .factor = library->factor,
                               .back = library->back,
                               .apply = library->apply,
-                              .diagonal = library->diagonal};
+                              .diagonal = library->diagonal,
+                              .accel = library->accel};
     return true;
 }
 
@@ -290,7 +292,8 @@ static object *adopt(compiled *c, const purpose *p, const emit *e, void *handle)
         *(void **)&o->fits = dlsym(handle, "motus_fits");
         *(void **)&o->accel = dlsym(handle, "motus_accel");
     }
-    if (c->count == OBJECTS_MAX || !o->bind || !o->body.run || !o->fits || !o->accel || !bind_numbers(c, o, e)) {
+    if (c->count == OBJECTS_MAX || !o->bind || !o->body.run || !o->fits || (!o->accel && !p->expands) ||
+        !bind_numbers(c, o, e)) {
         snprintf(c->note, sizeof c->note, "the compiled object is not what was compiled");
         dlclose(handle);
         return NULL;

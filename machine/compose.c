@@ -454,7 +454,8 @@ bool compose(emit *e, const composition *c)
 {
     emit_text *t = &e->text;
     const bool structure = compose_sizes_are_structure(c->model), lanes = c->width > 0,
-               windowed = c->locality && c->locality->divisible;
+               forced = !strcmp(c->programs[0].name, "compiled_force"),
+               windowed = forced && c->locality && c->locality->divisible;
     const bool local = windowed && c->locality->local && !c->model->driven && by_number(c);
     e->literal = structure;
     e->arrays = c->model->arrays;
@@ -462,7 +463,7 @@ bool compose(emit *e, const composition *c)
     e->series_may_be_wide = !c->model->driven;
     const size_t inlined = !lanes && c->chosen->row->family == IMPLICIT ? FORCE_TURNS_MAX : FORCE_INLINE_MAX;
     for (size_t i = 0; i < c->program_count; i++) {
-        e->separate = !i && length_of(c->programs[i].program) > inlined;
+        e->separate = !i && forced && length_of(c->programs[i].program) > inlined;
         e->windowed = !i && windowed;
         e->series = c->programs[i].series ? stepper_plan(c->problem, c->chosen, NULL).expands + 1 : 0;
         emit_program(e, c->programs[i].program, c->programs[i].name, c->programs[i].terms);
@@ -478,7 +479,8 @@ bool compose(emit *e, const composition *c)
            "typedef double coef;\ntypedef struct row row;\n");
     add_text(t, "machine/text/freestanding.h");
     if (!add_facts(e, c, structure)) return false;
-    emit_add(t, "#define DRIVEN %d\n#define TERMS %u\n#define LANES_OF_TIME %d\n", c->model->driven, e->terms, width);
+    emit_add(t, "#define DRIVEN %d\n#define TERMS %u\n#define LANES_OF_TIME %d\n#define FORCED %d\n", c->model->driven,
+             e->terms, width, forced);
     emit_add(t, "#define AT(array, element) (array)[element]\n");
     add_assumed(e);
     if (lanes) {

@@ -22,9 +22,9 @@ typedef struct composition {
     const model *model;
     const problem *problem;
     const chosen *chosen;
-    const composed_program *programs; /* "compiled_force" first */
+    const composed_program *programs; /* "compiled_force" first, where the text has one */
     size_t program_count;
-    const locality *locality; /* of the first program, where it may be taken window by window; NULL */
+    const locality *locality; /* of the force, where it may be taken window by window; NULL */
     bool solves;              /* lanes: the row solves equations, by solve_text.h */
     bool own_clock;           /* lanes: each has a time and a step of its own */
     /* lanes: trajectories in one vector, vectors side by side; width 0: one trajectory */

@@ -43,6 +43,7 @@ static inline const clock *compiled_terms(const compiled_host *host, clock t, cl
     return T;
 }
 
+#if FORCED
 __attribute__((noinline)) static void compiled_evaluate(const compiled_host *host, clock t, real *x, real *v, real *a)
 {
     clock T[TERMS + 1];
@@ -67,6 +68,9 @@ static inline int accel(work *w, clock t, real *x, real *v, real *a)
     clock T[TERMS + 1];
     return accel_with(w, t, compiled_terms(w->host, t, T), x, v, a);
 }
+#else /* Taylor series need the force for the size of the first step alone, and the library has it */
+static inline int accel(work *w, clock t, real *x, real *v, real *a) { return w->host->accel(w, t, x, v, a); }
+#endif
 
 #if TERMS
 static inline const clock *compiled_table(const work *w, int moment)

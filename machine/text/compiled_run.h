@@ -114,14 +114,18 @@ int motus_run(work *given, whole steps)
 }
 #endif
 
+#if FORCED
 void motus_accel(const compiled_host *host, clock t, real *x, real *v, real *a) { compiled_evaluate(host, t, x, v, a); }
+#endif
 
 /* Whether the numbers that stand in this text are the model's: else the library's own loop takes the steps. */
 int motus_fits(const double *u) { return (void)u, FITS(u); }
 
 void motus_bind(const double *pool, const int64_t *q, double *u)
 {
+#if FORCED
     compiled_force_bind(pool, q, u);
+#endif
 #if DRIVEN
     compiled_boundary_bind(pool, q, u);
 #endif

@@ -18,6 +18,7 @@ struct compiled_host {
     void (*apply)(work *, clock c, const real *y, real *out);
     /* the factored matrix, where it is that and stays so; else NULL */
     const real *(*diagonal)(const work *);
+    int (*accel)(work *, clock t, real *x, real *v, real *a);
     const struct tiling *tiling; /* of families whose outer indices can be taken apart; NULL */
     /* parallel_pool_for and the pool of threads for it */
     struct parallel_pool *thread_pool;
