@@ -94,3 +94,9 @@ const char *motus_run_ended(const motus_run *r, int *accumulated, double *time, 
     if (error) *error = limit.error;
     return end == EVENTS_END_NONE ? "" : r->rules->rule[rule].name;
 }
+
+const char *motus_run_accumulates(const motus_run *r)
+{
+    events_limit limit = {0};
+    return r && r->events && events_accumulated(r->events, &limit) ? r->rules->rule[limit.rule].name : "";
+}

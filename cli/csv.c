@@ -82,19 +82,19 @@ motus_status csv_word(file_out *f, const char *word, motus_error *err)
     return status || !quote ? status : file_text(f, "'", err);
 }
 
-static motus_status put_head(csv *c, const options *o, const motus_run *run, motus_error *err)
+motus_status csv_comment(file_out *f, const options *o, const motus_run *run, motus_error *err)
 {
     char line[256], step[DECIMAL_MAX];
     motus_statistics done = motus_default_statistics();
     motus_run_statistics(run, &done);
-    motus_status status = file_text(c->file, "# motus", err);
-    for (int i = 1; !status && i < o->argc; i++) status = csv_word(c->file, o->argv[i], err);
+    motus_status status = file_text(f, "# motus", err);
+    for (int i = 1; !status && i < o->argc; i++) status = csv_word(f, o->argv[i], err);
     const bool adapts = !isnan(done.tolerance);
     decimal(adapts ? done.tolerance : motus_run_step_size(run), step);
     snprintf(line, sizeof line, "\n# motus %s, method %s, %s %s%s, machine %s\n", motus_version(),
              motus_run_method(run), adapts ? "tolerance" : "step", step, done.absolute ? " absolute" : "",
              o->machine ? o->machine : "auto");
-    return status ? status : file_text(c->file, line, err);
+    return status ? status : file_text(f, line, err);
 }
 
 motus_status csv_name(file_out *f, const char *name, motus_error *err)
@@ -108,12 +108,23 @@ motus_status csv_name(file_out *f, const char *name, motus_error *err)
     return status ? status : file_text(f, "\"", err);
 }
 
+motus_status csv_numbers(file_out *f, const double *values, size_t count, motus_error *err)
+{
+    char text[DECIMAL_MAX + 1] = ",";
+    motus_status status = MOTUS_OK;
+    for (size_t k = 0; !status && k < count; k++) {
+        decimal(values[k], text + 1);
+        status = file_text(f, text, err);
+    }
+    return status;
+}
+
 motus_status csv_begin(csv *c, file_out *file, const options *o, const motus_run *run, motus_error *err)
 {
     c->file = file;
     c->line = c->count < SIZE_MAX / DECIMAL_MAX / 2 - 2 ? malloc((2 * c->count + 2) * DECIMAL_MAX) : NULL;
     if (!c->line) return complain_memory(err);
-    motus_status status = put_head(c, o, run, err);
+    motus_status status = csv_comment(file, o, run, err);
     for (size_t k = 0; !status && k < (c->errors ? 2 : 1) * c->count; k++) {
         motus_column column = motus_default_column();
         const bool error = k >= c->count;

@@ -24,6 +24,10 @@ void csv_free(csv *);
 
 /* A blank and a word of a command, quoted for a shell, control characters as \xNN. */
 motus_status csv_word(file_out *, const char *word, motus_error *);
+/* The comment with the command and the run's method. */
+motus_status csv_comment(file_out *, const options *, const motus_run *, motus_error *);
+/* Numbers, a comma before each. */
+motus_status csv_numbers(file_out *, const double *, size_t count, motus_error *);
 /* The name of a column, quoted where it holds a comma or a quote. */
 motus_status csv_name(file_out *, const char *name, motus_error *);
 

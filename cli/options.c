@@ -79,7 +79,9 @@ static const option table[] = {
     {"--errors", NULL, NULL, FLAG, AT(errors), VERB_RUN | VERB_SWEEP,
      "add the errors to the CSV: x.error for every column, and whether any digit is significant"},
     {"--columns", NULL, "A,B,C", WORD, AT(columns), VERB_RUN,
-     "columns of the CSV: t, r, r'.x, x[3]', energy, \"exact x\""},
+     "columns of the CSV, and of --events: t, r, r'.x, x[3]', energy, \"exact x\""},
+    {"--events", NULL, "FILE", WORD, AT(events), VERB_RUN,
+     "write the table of events as CSV to FILE: what happened, when, and the numbers before and after"},
     {"--every", NULL, "T", EVERY, AT(every_time), ONE,
      "a row (sweep: a sample for min, max and mean) every time T, or every \"10 steps\""},
     {"--plot", NULL, "FIG", WORD, AT(plot), DRAWN, "draw with gnuplot; FIG ends in .svg, .png or .pdf"},
@@ -358,6 +360,7 @@ static motus_status check_share(const options *o, motus_error *err)
         bool given;
     } others[] = {
         {"--output", o->output},
+        {"--events", o->events},
         {"--plot", o->plot},
         {"--save-state", o->save_state},
         {"--restart", o->restart},
@@ -427,9 +430,15 @@ static motus_status check(const options *o, motus_error *err)
         hint(err, "add --plot fig.svg");
         return MOTUS_ARGUMENT;
     }
-    if (o->verb == VERB_RUN && (o->columns || o->every_time > 0 || o->every_steps > 0) && !o->output) {
-        fail(err, MOTUS_ARGUMENT, "%s needs -o, which names the CSV", o->columns ? "--columns" : "--every");
+    const bool every = o->every_time > 0 || o->every_steps > 0, columns = o->columns && !o->events;
+    if (o->verb == VERB_RUN && (columns || every) && !o->output) {
+        fail(err, MOTUS_ARGUMENT, "%s needs -o, which names the CSV", columns ? "--columns" : "--every");
         hint(err, "add -o traj.csv");
+        return MOTUS_ARGUMENT;
+    }
+    if (o->json && o->events && strcmp(o->events, "-") == 0) {
+        fail(err, MOTUS_ARGUMENT, "--json and --events - both write to standard output");
+        hint(err, "write the events to a file: --events events.csv");
         return MOTUS_ARGUMENT;
     }
     if (o->json && o->output && strcmp(o->output, "-") == 0) {

@@ -27,7 +27,7 @@ typedef struct options_list {
 typedef struct options {
     unsigned verb;
     const char *operand; /* the model, or the method of `methods`; NULL: none */
-    const char *method, *error, *output, *columns, *plot, *plot_of, *save_state, *restart, *machine;
+    const char *method, *error, *output, *columns, *events, *plot, *plot_of, *save_state, *restart, *machine;
     double step, until;                   /* NaN: the model's */
     double tolerance, accuracy;           /* NaN: the model's */
     double coarsest, finest;              /* accuracies to compare at; NaN: not given */

@@ -7,6 +7,7 @@
 #include "cli/complain.h"
 #include "cli/csv.h"
 #include "cli/deviation.h"
+#include "cli/event_file.h"
 #include "cli/figure.h"
 #include "cli/file.h"
 #include "cli/load.h"
@@ -21,7 +22,7 @@
 #include <math.h>
 #include <string.h>
 
-enum { CSV, PLOT, STATE, FILES };
+enum { CSV, PLOT, STATE, EVENTS, FILES };
 
 typedef struct job {
     const options *options;
@@ -42,13 +43,13 @@ typedef struct job {
 
 static motus_status check_names(const options *o, motus_error *err)
 {
-    const char *in[] = {o->operand, o->restart}, *out[] = {o->output, o->plot, o->save_state};
-    for (size_t i = 0; i < 3; i++) {
+    const char *in[] = {o->operand, o->restart}, *out[FILES] = {o->output, o->plot, o->save_state, o->events};
+    for (size_t i = 0; i < FILES; i++) {
         for (size_t k = 0; out[i] && k < 2; k++)
             /* --save-state may replace the file of --restart; - is both standard input and standard output */
-            if (in[k] && strcmp(out[i], "-") != 0 && !(i == 2 && k == 1) && file_same(out[i], in[k]))
+            if (in[k] && strcmp(out[i], "-") != 0 && !(i == STATE && k == 1) && file_same(out[i], in[k]))
                 return fail(err, MOTUS_ARGUMENT, "%s is read and would be overwritten", in[k]);
-        for (size_t k = i + 1; out[i] && k < 3; k++)
+        for (size_t k = i + 1; out[i] && k < FILES; k++)
             if (out[k] && file_same(out[i], out[k]))
                 return fail(err, MOTUS_ARGUMENT, "%s is named for two outputs", out[k]);
     }
@@ -136,7 +137,7 @@ static motus_status begin(job *j, motus_error *err)
     if (!status && o->restart) status = restart(j, err);
     const bool errors = j->def.error != MOTUS_BARS_NONE;
     if (!status && o->plot) status = figure_begin(&j->figure, &j->model, o, j->run, j->until, errors, err);
-    const char *const names[FILES] = {o->output, o->plot, o->save_state};
+    const char *const names[FILES] = {o->output, o->plot, o->save_state, o->events};
     for (int i = 0; !status && i < FILES; i++)
         if (names[i]) status = file_create(&j->files[i], names[i], err);
     if (!status && o->output) status = csv_begin(&j->csv, &j->files[CSV], o, j->run, err);
@@ -186,6 +187,7 @@ static motus_status finish(job *j, double seconds, motus_error *err)
     const options *o = j->options;
     motus_status status = o->save_state ? save(j, err) : MOTUS_OK;
     if (!status && o->plot) status = figure_draw(&j->figure, o->plot, &j->files[PLOT], err);
+    if (!status && o->events) status = event_file_write(&j->files[EVENTS], &j->model, o, j->run, err);
     for (int i = 0; !status && i < FILES; i++) status = file_finish(&j->files[i], err);
     summary s = {&j->model,
                  o,

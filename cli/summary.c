@@ -9,6 +9,7 @@
 #include "cli/answer.h"
 #include "tell/bar.h"
 #include "cli/complain.h"
+#include "cli/event_table.h"
 #include "cli/figure.h"
 #include "cli/settle.h"
 #include "cli/table.h"
@@ -224,35 +225,41 @@ static void head(const summary *s, FILE *out, bool colours)
     else
         fprintf(out, "%s\n", done.machine);
     fprintf(out, "t = %s to %s in %lld steps", from, to, (long long)motus_run_steps(s->run));
-    if (motus_run_last_step(s->run) != 0) fprintf(out, " (the last one %s)", last);
+    const bool ended = motus_run_ended(s->run, NULL, NULL, NULL)[0]; /* then no step was shortened to end at `until` */
+    if (motus_run_last_step(s->run) != 0 && !ended) fprintf(out, " (the last one %s)", last);
     if (refused > 0) fprintf(out, " and %lld refused", (long long)refused);
     fprintf(out, ", %lld evaluations", (long long)motus_run_evaluations(s->run));
     if (motus_run_iterations(s->run) > 0) fprintf(out, ", %lld iterations", (long long)motus_run_iterations(s->run));
     fprintf(out, ", %s%s\n", spent, done.trials ? ", trial runs included" : "");
+    event_table_end(s, out);
 }
 
 motus_status summary_print(const summary *s, motus_error *err)
 {
     motus_status status = MOTUS_OK;
-    /* if the CSV is on standard output, the summary is a message */
-    bool data = s->options->output && strcmp(s->options->output, "-") == 0;
+    /* if a CSV is on standard output, the summary is a message */
+    const char *const files[] = {s->options->output, s->options->events};
+    const bool data = (files[0] && strcmp(files[0], "-") == 0) || (files[1] && strcmp(files[1], "-") == 0);
     FILE *out = data ? stderr : stdout;
     bool colours = complain_colours(data ? 2 : 1), printed = true;
-    table *tables[3] = {NULL, NULL, NULL};
-    tables[0] = state_table(s, err, &status);
-    if (!status) tables[1] = quantity_table(s, err, &status);
-    if (!status) tables[2] = invariant_table(s, err, &status);
+    enum { STATE, EVENTS, QUANTITIES, INVARIANTS, TABLES };
+    table *tables[TABLES] = {NULL};
+    tables[STATE] = state_table(s, err, &status);
+    if (!status) tables[EVENTS] = event_table_make(s, err, &status);
+    if (!status) tables[QUANTITIES] = quantity_table(s, err, &status);
+    if (!status) tables[INVARIANTS] = invariant_table(s, err, &status);
     if (!status) {
         head(s, out, colours);
-        for (int i = 0; i < 3; i++) {
-            if (i > 0 && !tables[i]) continue;
+        for (int i = 0; i < TABLES; i++) {
+            if (i != STATE && !tables[i]) continue;
             putc('\n', out);
             printed = table_print(tables[i], out, 2, colours) && printed;
+            if (i == EVENTS) event_table_note(s, out);
         }
         if (s->errors) answer_print(s, out);
         answer_choice(s, out);
     }
-    for (int i = 0; i < 3; i++) table_destroy(tables[i]);
+    for (int i = 0; i < TABLES; i++) table_destroy(tables[i]);
     return status || printed ? status : complain_memory(err);
 }
 
@@ -368,6 +375,43 @@ static motus_status errors_json(json *j, const summary *s, motus_error *err)
     return MOTUS_OK;
 }
 
+/* The table of events, as far as its numbers fit; their values are computed before the first is written. */
+static void events_json(json *j, const summary *s, const double *values, int64_t rows)
+{
+    const size_t numbers = load_invariant_column(s->model) - 1;
+    json_open(j, "events", '[');
+    for (int64_t k = 0; k < rows; k++, values += numbers) {
+        motus_event_row row = motus_default_event_row();
+        motus_run_event(s->run, k, &row);
+        json_open(j, NULL, '{');
+        tell_event(j, &row);
+        json_open(j, "state", '{');
+        states_json(j, s, values);
+        named_json(j, s, motus_quantity_name, values + s->model->positions + s->model->velocities);
+        json_close(j, '}');
+        json_close(j, '}');
+    }
+    json_close(j, ']');
+    if (rows < motus_run_events(s->run)) json_bool(j, "events_cut", true);
+    tell_ended(j, s->run);
+}
+
+/* State and quantities on arrival at the first *rows events. */
+static motus_status event_values(const summary *s, int64_t *rows, double **out, motus_error *err)
+{
+    const size_t numbers = load_invariant_column(s->model) - 1;
+    const int64_t all = motus_run_events(s->run), most = (int64_t)(SUMMARY_STATE_MAX / (numbers + 1));
+    *rows = all < most ? all : most;
+    size_t *columns = malloc((numbers + 1) * sizeof *columns);
+    *out = malloc(((size_t)*rows * numbers + 1) * sizeof **out);
+    motus_status status = columns && *out ? MOTUS_OK : complain_memory(err);
+    for (size_t i = 0; !status && i < numbers; i++) columns[i] = 1 + i;
+    for (int64_t k = 0; !status && k < *rows; k++)
+        status = motus_run_event_values(s->run, k, 0, columns, numbers, *out + (size_t)k * numbers, err);
+    free(columns);
+    return status;
+}
+
 /* A step, or what an adaptive method has made of its tolerance. */
 static void steps_json(json *j, const summary *s)
 {
@@ -398,9 +442,11 @@ static void machine_json(json *j, const summary *s)
 
 motus_status summary_json(const summary *s, motus_error *err)
 {
-    double *state = NULL, *quantities = NULL;
+    double *state = NULL, *quantities = NULL, *events = NULL;
+    int64_t rows = 0;
     motus_status status = values_of(s, 1, s->model->positions + s->model->velocities, &state, err);
     if (!status) status = values_of(s, load_quantity_column(s->model), s->model->quantities, &quantities, err);
+    if (!status) status = event_values(s, &rows, &events, err);
     if (!status) {
         json j = text_json(stdout);
         json_string(&j, "model", s->options->operand);
@@ -421,6 +467,7 @@ motus_status summary_json(const summary *s, motus_error *err)
         named_json(&j, s, motus_quantity_name, quantities);
         json_close(&j, '}');
         invariants_json(&j, s);
+        events_json(&j, s, events, rows);
         json_number(&j, "seconds", s->seconds);
         json_number(&j, "singularity", s->singularity);
         if (s->missed->status) complain_json(&j, "missed", s->missed);
@@ -430,5 +477,6 @@ motus_status summary_json(const summary *s, motus_error *err)
     }
     free(state);
     free(quantities);
+    free(events);
     return status;
 }

@@ -733,6 +733,8 @@ MOTUS_API int64_t motus_run_events_significant(motus_run *);
 /* What ended the run before `until`: the name of a kind of event; "" where nothing did. accumulated (may be NULL): 1,
  * and *time is the limit of its events' times, which is known to *error. */
 MOTUS_API const char *motus_run_ended(const motus_run *, int *accumulated, double *time, double *error);
+/* The name of the kind whose events accumulate, whether or not that ended the run; "": none do. */
+MOTUS_API const char *motus_run_accumulates(const motus_run *);
 /* Why the run's method was chosen, one sentence, where the method is "auto"; else "". Owned by the run. */
 MOTUS_API const char *motus_run_choice(const motus_run *);
 /* Why "auto" uses the interpreter although the run is long enough to compile, or "". */

@@ -106,3 +106,17 @@ char *bar_text(double value, double error, char out[BAR_MAX])
     snprintf(out, BAR_MAX, "%s ± %s", number, bar);
     return out;
 }
+
+char *bar_digits(double value, double error, char out[BAR_MAX])
+{
+    char number[DECIMAL_MAX];
+    const bool told = error > 0 && isfinite(error) && isfinite(value) && fabs(value) > error;
+    if (!told || power_of(error) < TINIEST) return bar_text(value, error, out);
+    int power;
+    const int digits = round_up(error, 0.5, &power);
+    if (power > 0) return bar_text(value, error, out);
+    value_text(value, power, number);
+    const size_t length = strcspn(number, "e");
+    snprintf(out, BAR_MAX, "%.*s(%d)%s", (int)length, number, digits, number + length);
+    return out;
+}

@@ -289,6 +289,33 @@ void tell_estimate(json *j, const motus_estimate *e)
     json_string(j, "error_reason", e->reason);
 }
 
+/* Events ---------------------------------------------------------------------------------------------------------- */
+
+void tell_event(json *j, const motus_event_row *e)
+{
+    json_string(j, "name", e->instance);
+    json_number(j, "time", e->time);
+    json_number(j, "error", e->error); /* null: not known */
+    json_integer(j, "count", e->count);
+    json_bool(j, "touched", e->touched);
+}
+
+void tell_ended(json *j, const motus_run *run)
+{
+    int accumulated = 0;
+    double time, error;
+    const char *const name = motus_run_ended(run, &accumulated, &time, &error);
+    json_string(j, "ended", name[0] ? name : NULL);
+    if (!accumulated) {
+        json_string(j, "accumulated", NULL);
+        return;
+    }
+    json_open(j, "accumulated", '{');
+    json_number(j, "time", time);
+    json_number(j, "error", error);
+    json_close(j, '}');
+}
+
 /* Errors ---------------------------------------------------------------------------------------------------------- */
 
 void tell_error(json *j, const motus_error *err, const char *message)

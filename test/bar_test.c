@@ -41,6 +41,28 @@ static void printed_as_the_manual_says(void **state)
     }
 }
 
+/* The same numbers with the error in units of the last digit. */
+static void digits_in_brackets(void **state)
+{
+    (void)state;
+    static const struct {
+        double value, error;
+        const char *text;
+    } rows[] = {
+        {4.063712768871578, 4.2e-13, "4.0637127688716(5)"},
+        {-4.063712768871578, 1e-13, "-4.06371276887158(11)"},
+        {1.2345e-8, 3e-12, "1.2345(4)e-8"},
+        {250, 3, "250(4)"},
+        {6.02214076e23, 1e15, "6.022140760e23 ± 1.1e15"},
+        {1e-6, 1.85e-5, "0 ± 2.0e-5"},
+        {2.5, NAN, "2.5 ±?"},
+    };
+    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
+        char text[BAR_MAX];
+        assert_string_equal(bar_digits(rows[i].value, rows[i].error, text), rows[i].text);
+    }
+}
+
 /* Whatever lies within the error of the value lies within what is printed; and that is at most 10/7 of it: a little
  * more than 3.5 units, with half a one for rounding the value, become 5. Where 0 is printed the value is another
  * error. */
@@ -69,6 +91,7 @@ static void printing_covers(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(printed_as_the_manual_says), cmocka_unit_test(printing_covers)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(printed_as_the_manual_says),
+                                       cmocka_unit_test(digits_in_brackets), cmocka_unit_test(printing_covers)};
     return cmocka_run_group_tests_name("errors in print", tests, NULL, NULL);
 }

@@ -16,13 +16,13 @@ _motus() {
         return ;;
     --machine) mapfile -t COMPREPLY < <(compgen -W 'auto interpreter compiled' -- "$current"); return ;;
     --error) mapfile -t COMPREPLY < <(compgen -W 'cheap full none' -- "$current"); return ;;
-    -o|--output|--plot|--save-state|--restart) compopt -o default; return ;;
+    -o|--output|--events|--plot|--save-state|--restart) compopt -o default; return ;;
     --step|--accuracy|--tolerance|--shortest-step|--longest-step|--most-steps|--until|--set|--evaluations|--accuracies|--columns|--every|--plot-of|--vary|--random|--count|--seed|--threads|--lanes|--record) return ;;
     esac
     if [[ $current == -* ]]; then
         local options='--json --quiet --help'
         case $verb in
-        run)      options+=' --method --accuracy --tolerance --shortest-step --longest-step --most-steps --step --until --set --output --columns --every --plot --plot-of --save-state --restart --machine --threads --emit-c --share --error --errors' ;;
+        run)      options+=' --method --accuracy --tolerance --shortest-step --longest-step --most-steps --step --until --set --output --events --columns --every --plot --plot-of --save-state --restart --machine --threads --emit-c --share --error --errors' ;;
         compare)  options+=' --methods --step --until --set --evaluations --accuracies --machine --plot --share' ;;
         converge) options+=' --methods --step --until --set --plot --points' ;;
         sweep)    options+=' --vary --random --count --seed --zip --record --method --tolerance --shortest-step --longest-step --most-steps --step --until --every --set --output --resume --force'

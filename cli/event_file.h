@@ -1,0 +1,12 @@
+/* The table of a run's events as CSV: what happened, when, and the numbers before and after. */
+#ifndef CLI_EVENT_FILE_H
+#define CLI_EVENT_FILE_H
+
+#include "cli/file.h"
+#include "cli/load.h"
+
+/* Of a run at its end: event, t, t.error where the times' errors are known, count, touched, the columns of the options
+ * (else state, quantities and invariants) on arrival, and the same with .after as the actions left them. */
+motus_status event_file_write(file_out *, const load *, const options *, motus_run *, motus_error *);
+
+#endif

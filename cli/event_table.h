@@ -1,0 +1,15 @@
+/* The events of a run in print. */
+#ifndef CLI_EVENT_TABLE_H
+#define CLI_EVENT_TABLE_H
+
+#include "cli/summary.h"
+#include "cli/table.h"
+
+/* The first events and the last, with the state on arrival. NULL: there are none, or out of memory, which *status says. */
+table *event_table_make(const summary *, motus_error *, motus_status *);
+/* What goes below the table: where the rest is. */
+void event_table_note(const summary *, FILE *);
+/* What ended the run before its time, and where events accumulate, a sentence each. */
+void event_table_end(const summary *, FILE *);
+
+#endif

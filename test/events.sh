@@ -1,0 +1,126 @@
+#!/bin/bash
+# Events in the program: their table in print, in JSON and as CSV, both sides of what they change, and times that are known.
+#
+# Each case is one line `ok` or `not ok`; the last line counts them. MOTUS is the program (build/motus).
+cd "$(dirname "$0")/.." || exit 1
+. test/cli/cases.sh
+
+# The rows of a CSV, without its comment and its head.
+rows() { grep -v '^#' "$1" | tail -n +2; }
+head_of() { grep -v '^#' "$1" | head -n 1; }
+
+# --- a ball that bounces ------------------------------------------------------------------------------------------------------------
+cat >"$place/ball.motus" <<'M'
+g = 9.81
+h = 1
+e = 0.8
+y'' = -g
+y(0) = h
+y'(0) = 0
+when y = 0 falling as bounce: y' = -e y', record
+energy = y'^2/2 + g y
+method verner9
+until 5
+M
+ball=$place/ball.motus
+
+gives "a run with events" 0 "$motus" run "$ball" --error none
+that "... says where they accumulate" eval "grep -qE '^bounces accumulate at t = 4\.06371276887[0-9]*\([0-9]+\)$' '$out'"
+that "... and so what ended it" lacks "ended the run"
+that "... no step was shortened" lacks "the last one"
+that "... the first ten" eval "[ \$(grep -cE '^  bounce +[0-9.]+ +([1-9]|10)  ' '$out') = 10 ]"
+that "... and the last three" eval "[ \$(grep -cE '^  bounce +4\.0637127688' '$out') = 3 ]"
+that "... how many are left out" says "… 122 more"
+that "... and where they are" says "--events FILE writes all events"
+that "... with the state on arrival" eval "grep -qE '^  bounce +0\.451523640985730[89] +1 +[^ ]+ +-4\.429446918' '$out'"
+
+gives "the events as CSV" 0 "$motus" run "$ball" --error none --events "$place/events.csv" --quiet
+that "... say nothing else" empty "$out"
+that "... have a head" eval "[ \"\$(head_of '$place/events.csv')\" = \"event,t,count,touched,y,y',energy,y.after,y'.after,energy.after\" ]"
+that "... and 135 rows" eval "[ \$(rows '$place/events.csv' | wc -l) = 135 ]"
+that "... of which each turns the velocity" eval "rows '$place/events.csv' | awk -F, '{ d = \$9 + 0.8 * \$6; if (d < 0) d = -d; if (!(\$6 < 0 && d <= 1e-15 * -\$6 && \$8 == \$5)) { print; bad = 1 } } END { exit bad }'"
+that "... which begin with the command" eval "head -n 1 '$place/events.csv' | grep -q '^# motus run '"
+
+# Bounce n is at t_1 + 2 v_1/g (e + e^2 + ... + e^(n-1)), v_1 the speed of the first impact: in 60 digits, cut after 18.
+cat >"$place/truth" <<'T'
+0.451523640985730904 1.173961466562900351 1.751911727024635909 2.214271935394024355 2.584160102089535112
+2.880070635445943717 3.116799062131070602 3.306181803479172109 3.457687996557653315 3.578892951020438280
+3.675856914590666252 3.753428085446848630 3.815485022131794532 3.865130571479751253 3.904847010958116630
+3.936620162540808932 3.962038683806962774 3.982373500819885847 3.998641354430224305 4.011655637318495072
+4.022067063629111686 4.030396204677604976 4.037059517516399609 4.042390167787435315 4.046654688004263880
+4.050066304177726732 4.052795597116497013 4.054979031467513239 4.056725778948326219 4.058123176932976603
+4.059241095320696910 4.060135430030873156 4.060850897799014153 4.061423272013526950 4.061881171385137188
+4.062247490882425378 4.062540546480255931 4.062774990958520372 4.062962546541131926 4.063112591007221169
+4.063232626580092563 4.063328655038389678 4.063405477805027370 4.063466936018337524 4.063516102588985647
+4.063555435845504146 4.063586902450718945 4.063612075734890784 4.063632214362228255 4.063648325264098232
+4.063661213985594213 4.063671524962790999 4.063679773744548427 4.063686372769954369 4.063691651990279123
+4.063695875366538927 4.063699254067546769 4.063701957028353043 4.063704119396998063 4.063705849291914078
+4.063707233207846890 4.063708340340593140 4.063709226046790140 4.063709934611747740 4.063710501463713820
+4.063710954945286684 4.063711317730544975 4.063711607958751608 4.063711840141316914 4.063712025887369159
+4.063712174484210955 4.063712293361684392 4.063712388463663142 4.063712464545246141 4.063712525410512541
+4.063712574102725661 4.063712613056496156 4.063712644219512553 4.063712669149925670 4.063712689094256164
+4.063712705049720559 4.063712717814092075 4.063712728025589288 4.063712736194787058 4.063712742730145275
+4.063712747958431848 4.063712752141061106 4.063712755487164513 4.063712758164047238 4.063712760305553418
+4.063712762018758363 4.063712763389322318 4.063712764485773482 4.063712765362934414 4.063712766064663159
+4.063712766626046155 4.063712767075152552 4.063712767434437669 4.063712767721865763 4.063712767951808239
+T
+# Differences in units of 1e-18, of which halves of a number with 18 decimals are exact; 4 units in the last place.
+cat >"$place/near.awk" <<'A'
+function low(s) { sub(/^[0-9]*\./, "", s); return substr(s "000000000000000000", 10, 9) }
+function high(s) { return int(s) * 1e9 + substr(substr(s, index(s, ".") + 1) "000000000", 1, 9) }
+NR == FNR { for (k = 1; k <= NF; k++) truth[++known] = $k; next }
+FNR <= 100 {
+    off = (high($2) - high(truth[FNR])) * 1e9 + (low($2) - low(truth[FNR]))
+    ulp = $2 < 0.5 ? 2^-54 : $2 < 1 ? 2^-53 : $2 < 2 ? 2^-52 : $2 < 4 ? 2^-51 : 2^-50
+    units = (off < 0 ? -off : off) * 1e-18 / ulp
+    if (units > most) most = units
+    seen++
+}
+END { printf "%d bounces, at most %.2f units off\n", seen, most; exit !(seen == 100 && known == 100 && most <= 4) }
+A
+that "100 bounces to 4 units in the last place" eval "rows '$place/events.csv' | sed 's/,/ /g' | awk -f '$place/near.awk' '$place/truth' -"
+
+gives "the events as JSON" 0 "$motus" run "$ball" --error none --json
+that "... are JSON" json "$out"
+that "... all of them" holds '.events | length == 135'
+that "... in order" holds '[.events[].time] | . == sort'
+that "... with counts and states" holds '.events[2] | .name == "bounce" and .count == 3 and .touched == false and .error == null and (.state | keys) == ["energy", "y", "y'\''"]'
+that "... and what ended the run" holds '.ended == "bounce"'
+that "... at the limit, within its error" holds '.accumulated | .error < 1e-12 and (.time - 4.063712768871578 | fabs) <= .error'
+cp "$out" "$place/run.json"
+that "... the numbers are those of the CSV" eval "diff <(jq -r '.events[] | [.time, .state.y, .state[\"y'\''\"]] | @csv' '$place/run.json' | awk -F, '{ printf \"%.17g %.17g %.17g\\n\", \$1, \$2, \$3 }') <(rows '$place/events.csv' | awk -F, '{ printf \"%.17g %.17g %.17g\\n\", \$2, \$5, \$6 }')"
+
+sed 's/record/record, stop after 3/' "$ball" >"$place/three.motus"
+gives "an event that stops" 0 "$motus" run "$place/three.motus" --error none --method rk4 --step 0.03
+that "... says so" eval "grep -qE '^bounce ended the run at t = 1\.7519117270246' '$out'"
+that "... with all its events" lacks "--events FILE"
+that "... no step was shortened" lacks "the last one"
+gives "... in JSON" 0 "$motus" run "$place/three.motus" --error none --json
+that "... too" holds '.ended == "bounce" and .accumulated == null and (.events | length) == 3'
+
+cat >"$place/touch.motus" <<'M'
+y'' = -2
+y(0) = 0
+y'(0) = 2
+when y = 1 as top: record
+when y = 0.5: record
+method dop853
+until 3
+M
+gives "a touch" 0 "$motus" run "$place/touch.motus" --error none
+that "... is called so" eval "grep -qE '^  top +(1|0\.9999999999[0-9]*) +1  touched ' '$out'"
+that "... and only it" eval "[ \$(grep -c '  touched  *[01]' '$out') = 1 ]"
+gives "... in the CSV" 0 "$motus" run "$place/touch.motus" --error none --quiet --events -
+that "... too" eval "rows '$out' | cut -d, -f1,3,4 | tr '\n' ' ' | grep -q '^event2,1,0 top,1,1 event2,2,0 $'"
+
+refuses "events over the model" 2 "is read and would be overwritten" "$motus" run "$ball" --events "$ball"
+refuses "events and rows in one file" 2 "is named for two outputs" "$motus" run "$ball" --events "$place/x.csv" -o "$place/x.csv"
+gives "events and JSON in one place" 2 "$motus" run "$ball" --events - --json
+that "... are refused" holds '.error.message | contains("both write to standard output")'
+refuses "events of a link" 2 "exclude each other" "$motus" run "$ball" --events "$place/x.csv" --share
+sed "s/y' = -e y'/y' = 0.9 y'/" "$ball" >"$place/pushes.motus"
+refuses "a run that fails" 1 "events in one instant" "$motus" run "$place/pushes.motus" --events "$place/none.csv"
+that "... leaves no table" absent "$place/none.csv"
+
+echo "$passed passed, $failed failed"
+[ "$failed" = 0 ]
