@@ -441,6 +441,9 @@ motus_status run_between(motus_run *r, double t, double **x, double **v, motus_e
     *v = here ? r->v : r->mid_v;
     if (status != MOTUS_OK) return status;
     if (here) return run_sync(r, false, err);
+    if (run_events_ended(r) && way * (t - stepper_time(r->stepper)) > 0)
+        return fail(err, MOTUS_ARGUMENT, "the time %s lies beyond the end of the run, which an event ended at %s",
+                    decimal(t, a), decimal(stepper_time(r->stepper), b));
     if (r->events) return run_events_sample(r, t, *x, *v, err);
     return stepper_sample(r->stepper, t, *x, *v, err);
 }

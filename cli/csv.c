@@ -157,3 +157,9 @@ motus_status csv_row(void *context, const double *values, motus_error *err)
     c->rows++;
     return file_write(c->file, c->line, (size_t)(s - c->line), err);
 }
+
+motus_status csv_jump(void *context, const double *before, const double *after, motus_error *err)
+{
+    const motus_status status = csv_row(context, before, err);
+    return status ? status : csv_row(context, after, err);
+}

@@ -20,6 +20,8 @@ motus_status csv_plan(csv *, const load *, const options *, motus_error *);
 motus_status csv_begin(csv *, file_out *, const options *, const motus_run *, motus_error *);
 /* Writes one row; context is a csv. The take of a walk_observer. */
 motus_status csv_row(void *context, const double *values, motus_error *);
+/* Writes both sides of a jump; the jump of a walk_observer. */
+motus_status csv_jump(void *context, const double *before, const double *after, motus_error *err);
 void csv_free(csv *);
 
 /* A blank and a word of a command, quoted for a shell, control characters as \xNN. */

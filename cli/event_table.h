@@ -5,7 +5,7 @@
 #include "cli/summary.h"
 #include "cli/table.h"
 
-/* The first events and the last, with the state on arrival. NULL: there are none, or out of memory, which *status says. */
+/* The first events and the last, with the state on arrival. NULL: there are none, or no memory, as *status says. */
 table *event_table_make(const summary *, motus_error *, motus_status *);
 /* What goes below the table: where the rest is. */
 void event_table_note(const summary *, FILE *);

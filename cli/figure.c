@@ -349,7 +349,7 @@ motus_status figure_begin(figure *f, const load *model, const options *o, motus_
     const int64_t steps = motus_run_steps_total(run);
     const double way = until - motus_run_time(run);
     *f = (figure){.model = model};
-    f->fine = record_for(steps, way, FINE_SAMPLES);
+    f->fine = record_with_jumps(record_for(steps, way, FINE_SAMPLES));
     f->coarse = record_for(steps, way, COARSE_SAMPLES);
     f->last = record_for(steps, way, 1);
     text_brief(fabs(motus_run_step_size(run)), 6, step);

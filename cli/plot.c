@@ -90,28 +90,45 @@ static void put_point(FILE *out, plot_curve *c, size_t i)
     double x = c->x[i * c->stride], y = c->y[i * c->stride] - (c->change ? c->y[0] : 0),
            z = c->z ? c->z[i * c->stride] : 0;
     if (!drawable(x) || !drawable(y) || !drawable(z))
-        putc('\n', out);
+        fputs(c->z ? "\n\n" : "\n", out); /* in space one empty line begins another row of a grid */
     else if (c->z)
         fprintf(out, "%.10g %.10g %.10g\n", x, y, z);
     else
         fprintf(out, "%.12g %.10g\n", x, y);
 }
 
-/* Draws the smallest and the largest value of every column of the picture, in their order in time. */
+/* A point that breaks the curve: the motion jumps there. */
+static bool breaks(const plot_curve *c, size_t i) { return isnan(c->x[i * c->stride]); }
+
+/* The smallest and the largest value of the points [begin, end), in their order in time. */
+static void put_extremes(FILE *out, plot_curve *c, size_t begin, size_t end)
+{
+    size_t low = begin, high = begin;
+    for (size_t i = begin; i < end; i++) {
+        double y = c->y[i * c->stride];
+        if (!(y >= c->y[low * c->stride])) low = i;
+        if (!(y <= c->y[high * c->stride])) high = i;
+    }
+    if (begin == end) return;
+    put_point(out, c, low < high ? low : high);
+    if (low != high) put_point(out, c, low < high ? high : low);
+}
+
+/* Draws the smallest and the largest value of every column of the picture; of one in which the curve breaks, those of
+ * every part, and with the ends of each, which are the sides of jumps. */
 static void put_timelike(FILE *out, plot_curve *c)
 {
     for (size_t bucket = 0; bucket < COLUMNS; bucket++) {
         size_t begin = (size_t)((double)c->count * (double)bucket / COLUMNS);
         size_t end = bucket + 1 == COLUMNS ? c->count : (size_t)((double)c->count * (double)(bucket + 1) / COLUMNS);
-        size_t low = begin, high = begin;
-        for (size_t i = begin; i < end; i++) {
-            double y = c->y[i * c->stride];
-            if (!(y >= c->y[low * c->stride])) low = i;
-            if (!(y <= c->y[high * c->stride])) high = i;
+        for (size_t part = begin, i = begin; i <= end; i++) {
+            if (i < end && !breaks(c, i)) continue;
+            put_extremes(out, c, part, i);
+            if (i < end && i > part) put_point(out, c, i - 1);
+            if (i < end) put_point(out, c, i);
+            part = i + 1;
+            if (part < end && i < end) put_point(out, c, part);
         }
-        if (begin == end) continue;
-        put_point(out, c, low < high ? low : high);
-        if (low != high) put_point(out, c, low < high ? high : low);
     }
     put_point(out, c, c->count - 1);
 }
@@ -128,7 +145,7 @@ static double extent(const double *v, size_t count, size_t stride)
     return high > low ? high - low : 0;
 }
 
-/* Draws every point of a path that is a visible distance from the last one drawn. */
+/* Draws every point of a path that is a visible distance from the last one drawn, and both sides of its jumps. */
 static void put_path(FILE *out, plot_curve *c)
 {
     const double *axes[] = {c->x, c->y, c->z};
@@ -145,9 +162,10 @@ static void put_path(FILE *out, plot_curve *c)
         double moved = 0;
         for (size_t a = 0; a < 3; a++)
             if (axes[a]) moved = fmax(moved, fabs(axes[a][i * c->stride] - axes[a][last * c->stride]) * scale[a]);
-        if (i + 1 < c->count && moved < 1) continue;
+        const bool side = breaks(c, i) || breaks(c, i - 1) || (i + 1 < c->count && breaks(c, i + 1));
+        if (i + 1 < c->count && moved < 1 && !side) continue;
         /* of a path that fills the picture, only every `skip`th point follows the first PATH_MOST / 2 */
-        if (kept > PATH_MOST / 2 && i % skip && i + 1 < c->count) continue;
+        if (kept > PATH_MOST / 2 && i % skip && i + 1 < c->count && !side) continue;
         put_point(out, c, i);
         last = i;
         kept++;

@@ -1,11 +1,14 @@
 /* Columns of a run kept in memory.
  *
  * Invariant: the arrays have their full length from the start, so pointers into them are valid for the record's life.
+ * Jumps never take the room of samples: of more than JUMPS the others are recorded as samples alone.
  */
 #include "cli/record.h"
 
 #include <math.h>
 #include <stdlib.h>
+
+enum { JUMPS = 20000, JUMP_ROWS = 3 };
 
 record record_for(int64_t steps, double way, int64_t samples)
 {
@@ -21,6 +24,13 @@ record record_for(int64_t steps, double way, int64_t samples)
     }
     r.stride = steps / samples + 1;
     r.room = (size_t)(steps / r.stride) + 2;
+    return r;
+}
+
+record record_with_jumps(record r)
+{
+    r.jumps = JUMPS;
+    r.room += (size_t)JUMPS * JUMP_ROWS;
     return r;
 }
 
@@ -56,11 +66,23 @@ static motus_status take(void *context, const double *values, motus_error *err)
 {
     (void)err;
     record *r = context;
-    if (r->rows == r->room) r->rows--;
+    if (r->rows + (size_t)r->jumps * JUMP_ROWS >= r->room) r->rows--;
     for (size_t k = 0; k < r->count; k++) r->values[k][r->rows] = values[k];
     for (size_t k = 0; r->with_errors && k < r->count; k++) r->errors[k][r->rows] = values[r->count + k];
     r->rows++;
     return MOTUS_OK;
+}
+
+/* Both sides with a row of NaN between them, where curves are broken. */
+static motus_status jump(void *context, const double *before, const double *after, motus_error *err)
+{
+    record *r = context;
+    if (r->jumps == 0) return MOTUS_OK;
+    r->jumps--;
+    motus_status status = take(r, before, err);
+    for (size_t k = 0; k < r->count; k++) r->values[k][r->rows] = NAN;
+    r->rows++;
+    return status ? status : take(r, after, err);
 }
 
 walk_observer record_observer(record *r)
@@ -71,6 +93,7 @@ walk_observer record_observer(record *r)
                            .count = r->count,
                            .errors = r->with_errors,
                            .take = take,
+                           .jump = r->jumps > 0 ? jump : NULL,
                            .context = r};
 }
 

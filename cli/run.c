@@ -151,7 +151,7 @@ static walk_observer rows_observer(job *j)
     motus_settings settings = motus_default_settings();
     motus_settings_of(j->model.system, &settings);
     walk_observer w = {
-        .columns = j->csv.columns, .count = j->csv.count, .errors = o->errors, .take = csv_row, .context = &j->csv};
+        .columns = j->csv.columns, .count = j->csv.count, .errors = o->errors, .take = csv_row, .jump = csv_jump, .context = &j->csv};
     bool ours = o->every_time > 0 || o->every_steps > 0;
     double period = ours ? o->every_time : settings.every_time > 0 ? settings.every_time : 0;
     int64_t steps = ours ? o->every_steps : settings.every_steps;

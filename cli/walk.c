@@ -14,11 +14,22 @@
 
 enum { CHUNK = 64 };
 
+/* What an observer has had. */
+typedef struct progress {
+    int64_t samples; /* of its period */
+    int64_t events;  /* rows of the table */
+    double *sides;   /* of the latest jump: before it, and after it */
+    double at;       /* its time; NaN: there was none */
+} progress;
+
 typedef struct walker {
     motus_run *run;
     double start, until, step; /* step with its sign */
     double *values;            /* room for CHUNK rows of the observer with the most columns */
     bool adapts;               /* steps have no times that are known before */
+    const walk_observer *observer;
+    progress *done; /* of each observer */
+    size_t count;
 } walker;
 
 int64_t walk_steps_of(double period, double step)
@@ -32,28 +43,94 @@ int64_t walk_steps_of_run(const motus_run *run, double period)
     return isnan(motus_run_time_of(run, 0)) ? 0 : walk_steps_of(period, motus_run_step_size(run));
 }
 
-static motus_status observe(walker *w, const walk_observer *o, motus_error *err)
+/* Whether every one of the numbers is the same. */
+static bool same(const double *a, const double *b, size_t count)
 {
-    if (o->count > 0) {
-        motus_status status = o->errors
-                                  ? motus_run_errors(w->run, o->columns, o->count, w->values, w->values + o->count, err)
-                                  : motus_run_values(w->run, o->columns, o->count, w->values, err);
-        if (status) return status;
+    for (size_t k = 0; k < count; k++)
+        if (a[k] != b[k] && !(isnan(a[k]) && isnan(b[k]))) return false;
+    return true;
+}
+
+/* Gives the observer the jumps up to time t that it has not had. */
+static motus_status jumps(walker *w, size_t i, double t, motus_error *err)
+{
+    const walk_observer *o = &w->observer[i];
+    progress *p = &w->done[i];
+    const size_t row = o->errors ? 2 * o->count : o->count;
+    motus_status status = MOTUS_OK;
+    for (; !status && o->jump && p->events < motus_run_events(w->run); p->events++) {
+        motus_event_row e = motus_default_event_row();
+        status = motus_run_event(w->run, p->events, &e);
+        if (status || (w->step < 0 ? e.time < t : e.time > t)) return status;
+        if (!e.changed) continue;
+        for (int after = 0; !status && after < 2; after++)
+            status =
+                motus_run_event_values(w->run, p->events, after, o->columns, o->count, p->sides + after * row, err);
+        p->at = e.time;
+        if (!status) status = o->jump(o->context, p->sides, p->sides + row, err);
     }
-    return o->take(o->context, w->values, err);
+    return status;
+}
+
+/* Gives the observer the values at time t, unless it has had them as a side of a jump. */
+static motus_status give_row(walker *w, size_t i, double t, const double *values, motus_error *err)
+{
+    const walk_observer *o = &w->observer[i];
+    const progress *p = &w->done[i];
+    const size_t row = o->errors ? 2 * o->count : o->count;
+    motus_status status = jumps(w, i, t, err);
+    const bool had =
+        !status && p->at == t && (same(values, p->sides, o->count) || same(values, p->sides + row, o->count));
+    return status || had ? status : o->take(o->context, values, err);
+}
+
+static motus_status observe(walker *w, size_t i, motus_error *err)
+{
+    const walk_observer *o = &w->observer[i];
+    motus_status status = MOTUS_OK;
+    if (o->count > 0)
+        status = o->errors ? motus_run_errors(w->run, o->columns, o->count, w->values, w->values + o->count, err)
+                           : motus_run_values(w->run, o->columns, o->count, w->values, err);
+    return status ? status : give_row(w, i, motus_run_time(w->run), w->values, err);
+}
+
+/* Whether an event has ended the run before time t. */
+static bool beyond(const walker *w, double t)
+{
+    const double end = motus_run_time(w->run);
+    return motus_run_ended(w->run, NULL, NULL, NULL)[0] && (w->step < 0 ? t < end : t > end);
+}
+
+/* The values at *n times, fewer where an event ends the run before the last of them. */
+static motus_status sample_values(walker *w, const walk_observer *o, const double *times, size_t *n, motus_error *err)
+{
+    motus_error own = motus_default_error();
+    const motus_status status = motus_run_sample(w->run, times, *n, o->columns, o->count, w->values, &own);
+    const size_t all = *n;
+    while (*n > 0 && beyond(w, times[*n - 1])) --*n;
+    if (!status || (status == MOTUS_ARGUMENT && *n < all)) return MOTUS_OK; /* rows are filled in their order */
+    if (err) *err = own;
+    return status;
 }
 
 /* One time, of which the values and the errors lie side by side. */
-static motus_status sample_errors(walker *w, const walk_observer *o, double t, motus_error *err)
+static motus_status sample_errors(walker *w, size_t i, double t, motus_error *err)
 {
-    motus_status status =
-        motus_run_sample_errors(w->run, &t, 1, o->columns, o->count, w->values, w->values + o->count, err);
-    return status ? status : o->take(o->context, w->values, err);
+    const walk_observer *o = &w->observer[i];
+    motus_error own = motus_default_error();
+    const motus_status status =
+        motus_run_sample_errors(w->run, &t, 1, o->columns, o->count, w->values, w->values + o->count, &own);
+    if (status == MOTUS_ARGUMENT && beyond(w, t)) return MOTUS_OK;
+    if (status && err) *err = own;
+    return status ? status : give_row(w, i, t, w->values, err);
 }
 
-/* Takes the samples at times start + k period, from *k on, up to `limit`; the end is observed when it is reached. */
-static motus_status sample(walker *w, const walk_observer *o, int64_t *k, double limit, motus_error *err)
+/* Takes the samples of observer i at times start + k period that it has not had, up to `limit`; the end is observed
+ * when it is reached. */
+static motus_status sample(walker *w, size_t i, double limit, motus_error *err)
 {
+    const walk_observer *o = &w->observer[i];
+    int64_t *k = &w->done[i].samples;
     double sign = w->step < 0 ? -1 : 1, slack = 1e-9 * fabs(w->step);
     if (limit == w->until) limit -= sign * slack;
     for (;;) {
@@ -64,46 +141,44 @@ static motus_status sample(walker *w, const walk_observer *o, int64_t *k, double
             if (sign * (times[n] - limit) > 0) break;
         }
         if (n == 0) return MOTUS_OK;
-        motus_status status = MOTUS_OK;
-        for (size_t i = 0; o->errors && !status && i < n; i++) status = sample_errors(w, o, times[i], err);
-        if (!o->errors) status = motus_run_sample(w->run, times, n, o->columns, o->count, w->values, err);
-        for (size_t i = 0; !o->errors && !status && i < n; i++)
-            status = o->take(o->context, w->values + i * o->count, err);
+        motus_status status = o->errors ? MOTUS_OK : sample_values(w, o, times, &n, err);
+        for (size_t s = 0; o->errors && !status && s < n; s++) status = sample_errors(w, i, times[s], err);
+        for (size_t s = 0; !o->errors && !status && s < n; s++)
+            status = give_row(w, i, times[s], w->values + s * o->count, err);
         if (!status && stop_requested()) status = fail(err, MOTUS_CANCELLED, "cancelled");
         if (status || n < CHUNK) return status;
     }
 }
 
 /* The next step at which an observer is due; INT64_MAX: none before the end. */
-static int64_t next_stop(const walker *w, const walk_observer *observers, size_t count)
+static int64_t next_stop(const walker *w)
 {
     int64_t next = INT64_MAX;
     const int64_t now = motus_run_steps(w->run);
-    for (size_t i = 0; i < count; i++) {
-        const walk_observer *o = &observers[i];
+    for (size_t i = 0; i < w->count; i++) {
+        const walk_observer *o = &w->observer[i];
         const int64_t stop = o->stride > 0 ? now + (o->stride - now % o->stride) : INT64_MAX;
         next = stop < next ? stop : next;
     }
     return next;
 }
 
-static motus_status observe_due(walker *w, const walk_observer *observers, size_t count, motus_error *err)
-{
-    for (size_t i = 0; i < count; i++) {
-        const walk_observer *o = &observers[i];
-        bool due = motus_run_done(w->run) || (o->stride > 0 && motus_run_steps(w->run) % o->stride == 0);
-        motus_status status = due ? observe(w, o, err) : MOTUS_OK;
-        if (status) return status;
-    }
-    return MOTUS_OK;
-}
-
-static motus_status sample_all(walker *w, const walk_observer *observers, size_t count, int64_t *k, double limit,
-                               motus_error *err)
+static motus_status observe_due(walker *w, motus_error *err)
 {
     motus_status status = MOTUS_OK;
-    for (size_t i = 0; !status && i < count; i++)
-        if (observers[i].period > 0) status = sample(w, &observers[i], &k[i], limit, err);
+    for (size_t i = 0; !status && i < w->count; i++) {
+        const walk_observer *o = &w->observer[i];
+        const bool due = motus_run_done(w->run) || (o->stride > 0 && motus_run_steps(w->run) % o->stride == 0);
+        if (due) status = observe(w, i, err);
+    }
+    return status;
+}
+
+static motus_status sample_all(walker *w, double limit, motus_error *err)
+{
+    motus_status status = MOTUS_OK;
+    for (size_t i = 0; !status && i < w->count; i++)
+        if (w->observer[i].period > 0) status = sample(w, i, limit, err);
     return status;
 }
 
@@ -114,23 +189,43 @@ static motus_status step(motus_run *run, int64_t n, motus_error *err)
     return status == MOTUS_ACCURACY ? MOTUS_OK : status;
 }
 
-static motus_status go(walker *w, const walk_observer *observers, size_t count, int64_t *k, motus_error *err)
+static motus_status go(walker *w, motus_error *err)
 {
-    motus_status status = observe_due(w, observers, count, err);
+    motus_status status = observe_due(w, err);
+    bool periods = false;
+    for (size_t i = 0; i < w->count; i++) periods |= w->observer[i].period > 0;
     while (!status && !motus_run_done(w->run)) {
-        int64_t next = next_stop(w, observers, count);
+        int64_t next = next_stop(w);
         const double limit = w->adapts ? NAN : motus_run_time_of(w->run, next);
-        bool periods = false;
-        for (size_t i = 0; i < count; i++) periods |= observers[i].period > 0;
         /* where steps adapt, the times within a step are sampled after it */
         if (periods && isnan(limit))
             next = motus_run_steps(w->run) + 1;
         else
-            status = sample_all(w, observers, count, k, limit, err);
+            status = sample_all(w, limit, err);
         if (!status && motus_run_steps(w->run) < next) status = step(w->run, next - motus_run_steps(w->run), err);
-        if (!status && isnan(limit)) status = sample_all(w, observers, count, k, motus_run_time(w->run), err);
-        if (!status) status = observe_due(w, observers, count, err);
+        if (!status && isnan(limit)) status = sample_all(w, motus_run_time(w->run), err);
+        if (!status) status = observe_due(w, err);
         if (!status && stop_requested()) status = fail(err, MOTUS_CANCELLED, "cancelled");
+    }
+    return status;
+}
+
+/* Room for the sides of jumps, and where the grids of times begin. */
+static motus_status prepare(walker *w, motus_error *err)
+{
+    const bool first = motus_run_steps(w->run) == 0;
+    motus_status status = MOTUS_OK;
+    for (size_t i = 0; !status && i < w->count; i++) {
+        const walk_observer *o = &w->observer[i];
+        const size_t room = 2 * (o->errors ? 2 : 1) * o->count;
+        w->done[i].at = NAN;
+        w->done[i].events = motus_run_events(w->run);
+        w->done[i].sides = o->jump ? malloc((room + 1) * sizeof *w->done[i].sides) : NULL;
+        if (o->jump && !w->done[i].sides) status = complain_memory(err);
+        for (size_t k = 0; !status && o->jump && k < room; k++) w->done[i].sides[k] = NAN;
+        /* a restarted run continues the grid of times from where it is */
+        if (o->period > 0 && !first)
+            w->done[i].samples = (int64_t)ceil(fabs(motus_run_time(w->run) - w->start) / o->period * (1 - 1e-12));
     }
     return status;
 }
@@ -141,25 +236,25 @@ motus_status walk(motus_run *run, double start, double until, const walk_observe
     double size = motus_run_step_size(run);
     const bool adapts = isnan(size);
     if (adapts) size = 1e-6 * fabs(until - start); /* steps adapt: of it only the sign, and a slack, are used */
-    walker w = {.run = run, .start = start, .until = until, .step = until < start ? -size : size, .adapts = adapts};
+    walker w = {.run = run,
+                .start = start,
+                .until = until,
+                .step = until < start ? -size : size,
+                .adapts = adapts,
+                .observer = observers,
+                .count = count};
     size_t widest = 1;
     for (size_t i = 0; i < count; i++) {
         size_t rows = observers[i].errors ? 2 : observers[i].period > 0 ? CHUNK : 1;
-        if (observers[i].count > SIZE_MAX / sizeof(double) / rows) return complain_memory(err);
+        if (observers[i].count > SIZE_MAX / sizeof(double) / rows / 4) return complain_memory(err);
         widest = observers[i].count * rows > widest ? observers[i].count * rows : widest;
     }
     w.values = malloc(widest * sizeof *w.values);
-    int64_t *k = calloc(count + 1, sizeof *k);
-    motus_status status = MOTUS_OK;
-    if (!w.values || !k) status = complain_memory(err);
-    for (size_t i = 0; !status && i < count; i++) {
-        if (!(observers[i].period > 0)) continue;
-        /* a restarted run continues the grid of times from where it is */
-        double gone = fabs(motus_run_time(run) - start) / observers[i].period;
-        k[i] = motus_run_steps(run) == 0 ? 0 : (int64_t)ceil(gone * (1 - 1e-12));
-    }
-    if (!status) status = go(&w, observers, count, k, err);
+    w.done = calloc(count + 1, sizeof *w.done);
+    motus_status status = w.values && w.done ? prepare(&w, err) : complain_memory(err);
+    if (!status) status = go(&w, err);
+    for (size_t i = 0; w.done && i < count; i++) free(w.done[i].sides);
     free(w.values);
-    free(k);
+    free(w.done);
     return status;
 }

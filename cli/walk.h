@@ -7,7 +7,11 @@
 #include <stdbool.h>
 
 /* Called at steps 0, stride, 2 stride, … and at the end; or, with `period` > 0, at times start + k period (between
- * steps by dense output) and at the end. With `errors` the values are followed by as many errors. */
+ * steps by dense output) and at the end. With `errors` the values are followed by as many errors.
+ *
+ * `jump`, where it is not NULL, is called with both sides of every event of the run's table that changed the state, in
+ * their order in time between the other calls; a state that it has had is not given to `take` too. The errors are NaN:
+ * they are not known there. */
 typedef struct walk_observer {
     int64_t stride;
     double period;
@@ -15,6 +19,7 @@ typedef struct walk_observer {
     size_t count;
     bool errors;
     motus_status (*take)(void *context, const double *values, motus_error *);
+    motus_status (*jump)(void *context, const double *before, const double *after, motus_error *);
     void *context;
 } walk_observer;
 

@@ -181,6 +181,31 @@ static motus_status restart(events *e, stepper *s, double h, motus_error *err)
     return stepper_jump(s, e->here.t, e->here.lost, h, e->here.x, e->here.v, err);
 }
 
+static motus_status no_memory(motus_error *err)
+{
+    return fail(err, MOTUS_MEMORY, "no memory for the events of a step");
+}
+
+/* Before the motion goes on from an action: where the piece that led to it began, for dense output. */
+static bool keep_past(events *e)
+{
+    const size_t nx = e->problem.nx, nv = e->problem.nv, each = 2 + nx + nv;
+    if (e->pasts == e->past_room) {
+        const size_t room = 2 * e->past_room + 2;
+        double *more = take(&e->allocator, room * each, sizeof *more);
+        if (!more) return false;
+        if (e->pasts) memcpy(more, e->past, e->pasts * each * sizeof *more);
+        give(&e->allocator, e->past);
+        e->past = more;
+        e->past_room = room;
+    }
+    double *to = e->past + e->pasts++ * each;
+    to[0] = e->left.t, to[1] = e->left.lost;
+    memcpy(to + 2, e->left.x, nx * sizeof *to);
+    memcpy(to + 2 + nx, e->left.v, nv * sizeof *to);
+    return true;
+}
+
 /* A candidate of the present step that has been located. */
 static motus_status follow(events *e, stepper *s, candidate *c, bool *assigned, stepper_stop *why, motus_error *err)
 {
@@ -190,11 +215,11 @@ static motus_status follow(events *e, stepper *s, candidate *c, bool *assigned, 
     motus_status status = events_fire(e, &at, assigned, err);
     const bool ends = !status && e->has_limit && !e->limit_told;
     if (ends) e->end = EVENTS_END_ACCUMULATED, e->end_rule = e->limit.rule;
-    if (!status && e->end != EVENTS_END_NONE) {
-        *why = STOP_EVENT;
-        status = restart(e, s, stepper_step(s), err);
-    }
-    return status;
+    if (status || e->end == EVENTS_END_NONE) return status;
+    *why = STOP_EVENT;
+    if (!keep_past(e)) return no_memory(err); /* what lies before the end is sampled */
+    e->past_end = e->here.t;
+    return restart(e, s, stepper_step(s), err);
 }
 
 /* Does what happens in the step from `left` to `right`. *assigned: it ended at `here`, which an action changed. */
@@ -246,26 +271,6 @@ static motus_status piece(events *e, stepper *s, double until, bool *assigned, s
     return status;
 }
 
-/* Before the motion goes on from an action: where the piece that led to it began, for dense output. */
-static bool keep_past(events *e)
-{
-    const size_t nx = e->problem.nx, nv = e->problem.nv, each = 2 + nx + nv;
-    if (e->pasts == e->past_room) {
-        const size_t room = 2 * e->past_room + 2;
-        double *more = take(&e->allocator, room * each, sizeof *more);
-        if (!more) return false;
-        if (e->pasts) memcpy(more, e->past, e->pasts * each * sizeof *more);
-        give(&e->allocator, e->past);
-        e->past = more;
-        e->past_room = room;
-    }
-    double *to = e->past + e->pasts++ * each;
-    to[0] = e->left.t, to[1] = e->left.lost;
-    memcpy(to + 2, e->left.x, nx * sizeof *to);
-    memcpy(to + 2 + nx, e->left.v, nv * sizeof *to);
-    return true;
-}
-
 motus_status events_sample(events *e, stepper *s, double t, double *x, double *v, motus_error *err)
 {
     const size_t nx = e->problem.nx, nv = e->problem.nv, each = 2 + nx + nv;
@@ -294,11 +299,6 @@ void events_move(events *e, const machine *m)
     e->machine = *m;
     stepper_destroy(e->probe);
     e->probe = NULL;
-}
-
-static motus_status no_memory(motus_error *err)
-{
-    return fail(err, MOTUS_MEMORY, "no memory for the events of a step");
 }
 
 static void go_on_from(events *e, const instant *at)

@@ -113,6 +113,28 @@ that "... and only it" eval "[ \$(grep -c '  touched  *[01]' '$out') = 1 ]"
 gives "... in the CSV" 0 "$motus" run "$place/touch.motus" --error none --quiet --events -
 that "... too" eval "rows '$out' | cut -d, -f1,3,4 | tr '\n' ' ' | grep -q '^event2,1,0 top,1,1 event2,2,0 $'"
 
+# --- both sides of a jump -----------------------------------------------------------------------------------------------------------
+# Between ordinary rows stand the state on arrival and the one after the action; the next ordinary row at that time is not written twice.
+sed 's/record/record, stop after 2/; /^energy/d' "$ball" >"$place/two.motus"
+sides='0 0.25 0.451523640986 0.451523640986 0.5 0.75 1 1.17396146656 1.17396146656'
+for how in "dop853" "verner9" "rk4 --step 0.1" "gauss8 --step 0.02" "verlet --step 1/64"; do
+    # shellcheck disable=SC2086
+    gives "rows by $how" 0 "$motus" run "$place/two.motus" --method $how --error none --every 0.25 --quiet -o -
+    that "... with both sides of jumps" eval "[ \"\$(rows '$out' | awk -F, '{ printf \"%s%.12g\", (NR > 1 ? \" \" : \"\"), \$1 }')\" = '$sides' ]"
+    that "... on arrival first" eval "rows '$out' | awk -F, 'NR > 1 && \$1 == t { n++; d = \$3 + 0.8 * v; if (!(v < 0 && d < 1e-14 && d > -1e-14)) bad = 1 } { t = \$1; v = \$3 } END { exit !(n == 2 && !bad) }'"
+done
+gives "rows of every step" 0 "$motus" run "$place/two.motus" --method dop853 --error none --quiet -o -
+that "... hold each state once" eval "[ -z \"\$(rows '$out' | sort | uniq -d)\" ] && [ \"\$(rows '$out' | cut -d, -f1 | uniq -d | wc -l)\" = 2 ]"
+that "... in the order of time" eval "rows '$out' | cut -d, -f1 | sort -cg"
+gives "rows backward" 0 bash -c "sed 's/until 5/until -3/; s/-e y/-y/' '$place/two.motus' | '$motus' run - --error none --every 0.3 --quiet -o -"
+that "... in the order of time" eval "rows '$out' | cut -d, -f1 | sort -cgr && [ \"\$(rows '$out' | cut -d, -f1 | uniq -d | wc -l)\" = 2 ]"
+gives "rows with errors" 0 "$motus" run "$place/two.motus" --errors --every 0.25 --quiet -o -
+that "... know none at jumps" eval "[ \"\$(rows '$out' | awk -F, 'NR > 1 && \$1 == t { print \$4 before } { t = \$1; before = \$4 }' | tr '\n' ' ')\" = 'nannan nannan ' ]"
+if command -v gnuplot >/dev/null; then
+    gives "a plot of a velocity that jumps" 0 "$motus" run "$place/two.motus" --error none --quiet --plot-of "t,y'" --plot "$place/jump.svg"
+    that "... draws no line between the sides" eval "[ \"\$(tr '\n' ' ' <'$place/jump.svg' | grep -oE \"<path stroke='rgb\( *29, *78, *216\)' +d='[^']{200,}'\" | wc -l)\" = 2 ]"
+fi
+
 refuses "events over the model" 2 "is read and would be overwritten" "$motus" run "$ball" --events "$ball"
 refuses "events and rows in one file" 2 "is named for two outputs" "$motus" run "$ball" --events "$place/x.csv" -o "$place/x.csv"
 gives "events and JSON in one place" 2 "$motus" run "$ball" --events - --json
