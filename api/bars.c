@@ -282,6 +282,10 @@ static int64_t due(const motus_run *r)
     return row_adaptive(&r->chosen) ? before + 1 : differences_due(r->timing.total, before);
 }
 
+/* Units in the last place of the time. Events that are not farther apart, as those that accumulate, need not come in the
+ * same order in two computations of one motion. */
+#define CLOSE 1024
+
 /* Whether a companion has had the same events as the run. */
 static bool along(const motus_run *r, const companion *c)
 {
@@ -296,8 +300,11 @@ static motus_status reach(motus_run *r, double t, motus_error *err)
 {
     bars *b = r->bars;
     const bool ends = run_events_ended(r);
-    const double interval = events_interval(r->events), way = r->timing.until - r->timing.t0;
-    const double most = fabs(way) / 8, span = copysign(!ends && interval / 4 < most ? interval / 4 : most, way);
+    double interval = events_interval(r->events);
+    const double way = r->timing.until - r->timing.t0;
+    const double least = CLOSE * (nextafter(fabs(t), INFINITY) - fabs(t)), most = fabs(way) / 8;
+    if (interval / 4 < least) interval = 4 * least;
+    const double span = copysign(!ends && interval / 4 < most ? interval / 4 : most, way);
     if (!ends && events_latest(r->events) != t) return MOTUS_OK;
     const int64_t acted = events_acted(r->events);
     const motus_status status = companion_reach(&b->half, acted, ends, span, err);
@@ -311,8 +318,8 @@ static void notice_gap(motus_run *r, double t)
     const bool gap = !along(r, &b->half) || (b->twin.events && !along(r, &b->twin));
     if (gap && !b->gap) b->gap_since = t;
     b->gap = gap;
-    if (gap && (run_events_ended(r) || fabs(t - b->gap_since) > events_interval(r->events) / 2))
-        b->differences.until = b->gap_since;
+    const double least = CLOSE * (nextafter(fabs(t), INFINITY) - fabs(t)), half = events_interval(r->events) / 2;
+    if (gap && (run_events_ended(r) || fabs(t - b->gap_since) > fmax(half, least))) b->differences.until = b->gap_since;
 }
 
 static motus_status land(motus_run *r, double t, double *x, double *v, bool between, bool observed, motus_error *err)

@@ -17,6 +17,7 @@ enum { BEFORE = 6, AFTER = 2, WINDOW = BEFORE + AFTER, NEARBY = 16 };
 #define OWN 2.5
 #define OTHERS 0.25
 #define APART 0.25
+#define CLOSE 256 /* or so many units in the last place of the time, where events accumulate */
 /* Units in the last place of the time: the rounding of the step to the event, which the companion often shares. */
 #define ROUNDINGS 4
 #define EACH 0.2 /* and for every event that changed the state before */
@@ -60,7 +61,7 @@ static size_t significant(motus_run *r)
         const size_t k = b->rows;
         const double t = events_row(r->events, k, false, NULL, NULL).t;
         const double before = k ? events_row(r->events, k - 1, false, NULL, NULL).t : r->timing.t0;
-        const double room = fmax(APART * fabs(t - before), 8 * (nextafter(fabs(t), INFINITY) - fabs(t)));
+        const double room = fmax(APART * fabs(t - before), CLOSE * (nextafter(fabs(t), INFINITY) - fabs(t)));
         b->rows_differ = distance(r, &b->half, k) > room;
         if (b->rows_differ) break;
     }

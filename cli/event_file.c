@@ -22,7 +22,7 @@ typedef struct job {
     bool errors; /* of the times */
 } job;
 
-static motus_event_row row_at(const motus_run *run, int64_t k)
+static motus_event_row row_at(motus_run *run, int64_t k)
 {
     motus_event_row row = motus_default_event_row();
     motus_run_event(run, k, &row);
@@ -58,13 +58,13 @@ static motus_status put_names(const job *j, const char *suffix, motus_error *err
     return status;
 }
 
-static motus_status put_values(const job *j, int64_t k, int after, motus_error *err)
+static motus_status put_values(job *j, int64_t k, int after, motus_error *err)
 {
     const motus_status status = motus_run_event_values(j->run, k, after, j->columns, j->count, j->values, err);
     return status ? status : csv_numbers(j->file, j->values, j->count, err);
 }
 
-static motus_status put_row(const job *j, int64_t k, motus_error *err)
+static motus_status put_row(job *j, int64_t k, motus_error *err)
 {
     char text[64];
     const motus_event_row row = row_at(j->run, k);
