@@ -78,6 +78,7 @@ static motus_status go_over(motus_run *r, const machine *m, motus_error *err)
         return status;
     }
     r->machine = *m;
+    if (r->events) events_move(r->events, m);
     r->compiled_from = steps_of(r);
     r->kept = false;
     r->synchronised = false;

@@ -2,6 +2,7 @@
 #include "api/bars.h"
 #include "api/goal.h"
 #include "api/locate.h"
+#include "api/run_events.h"
 
 #include <math.h>
 #include <string.h>
@@ -55,6 +56,7 @@ static motus_status set_state(motus_run *r, double t, const double *x, const dou
     run_leg(r, &leg);
     bars_leg(r);
     status = r->locate ? locate_begin(r, err) : MOTUS_OK;
+    if (status == MOTUS_OK) status = run_events_begin(r, err);
     if (status != MOTUS_OK) return status;
     return run_moved(r, err);
 }

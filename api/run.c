@@ -177,9 +177,10 @@ motus_status run_refuse_move(motus_error *err)
     return MOTUS_ARGUMENT;
 }
 
-motus_status run_refuse_located(const char *what, motus_error *err)
+motus_status run_refuse(const motus_run *r, const char *what, motus_error *err)
 {
-    return fail(err, MOTUS_UNAVAILABLE, "a run that locates switches cannot be %s", what);
+    if (r->locate) return fail(err, MOTUS_UNAVAILABLE, "a run that locates switches cannot be %s", what);
+    return r->rules ? fail(err, MOTUS_UNAVAILABLE, "a run with events cannot be %s", what) : MOTUS_OK;
 }
 
 /* The same, with companions for bars of error: in pieces from one landing to the next. */
@@ -466,9 +467,10 @@ motus_status motus_run_sample(motus_run *r, const double *times, size_t n, const
     if (!motus_error_sound(err)) return MOTUS_ARGUMENT;
     if (!r || (n && !times) || (count && (!columns || !out)))
         return fail(err, MOTUS_ARGUMENT, "motus_run_sample needs a run, times, columns and a place for the values");
-    if (r->locate) return run_refuse_located("sampled between steps", err);
+    motus_status status = r->locate ? run_refuse(r, "sampled between steps", err) : MOTUS_OK;
+    if (status != MOTUS_OK) return status;
     modes m = modes_enter();
-    motus_status status = sample(r, times, n, columns, count, out, err);
+    status = sample(r, times, n, columns, count, out, err);
     modes_leave(m);
     return status;
 }

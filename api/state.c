@@ -190,7 +190,7 @@ motus_status motus_run_save(motus_run *r, const char **text, size_t *length, mot
     if (!motus_error_sound(err)) return MOTUS_ARGUMENT;
     if (!r || !text || !length)
         return fail(err, MOTUS_ARGUMENT, "motus_run_save needs a run and places for the text and its length");
-    if (r->locate) return run_refuse_located("saved", err);
+    if (run_refuse(r, "saved", err) != MOTUS_OK) return MOTUS_UNAVAILABLE;
     const size_t n = stepper_carry(r->stepper);
     double *carry = take(&r->allocator, n + 1, sizeof *carry);
     if (!carry) return fail(err, MOTUS_MEMORY, "no memory for the restart state");
@@ -336,7 +336,7 @@ motus_status motus_run_restore(motus_run *r, const char *text, size_t length, mo
     if (!motus_error_sound(err)) return MOTUS_ARGUMENT;
     if (!r || !text) return fail(err, MOTUS_ARGUMENT, "motus_run_restore needs a run and a text");
     if (r->observing) return run_refuse_move(err);
-    if (r->locate) return run_refuse_located("restored", err);
+    if (run_refuse(r, "restored", err) != MOTUS_OK) return MOTUS_UNAVAILABLE;
     modes m = modes_enter(); /* before the numbers are read, so that no subnormal is flushed */
     motus_status status = restore(r, text, length, err);
     modes_leave(m);

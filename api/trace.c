@@ -193,7 +193,7 @@ motus_status motus_run_trace(motus_run *r, const motus_trace_entry *const **entr
     if (!r || !entries || !count)
         return fail(err, MOTUS_ARGUMENT, "motus_run_trace needs a run and places for the entries and their number");
     if (r->observing) return run_refuse_move(err);
-    if (r->locate) return run_refuse_located("traced", err);
+    if (run_refuse(r, "traced", err) != MOTUS_OK) return MOTUS_UNAVAILABLE;
 
     *entries = NULL;
     *count = 0;
