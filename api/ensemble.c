@@ -269,7 +269,9 @@ static motus_status make(motus_ensemble *e, const motus_ensemble_def *d, motus_e
     }
     /* with `fast` the bits depend on the machine */
     const bool later = automatic && !d->fast;
-    if (status == MOTUS_OK && s->model && compiled) status = try_lanes(e, d, later, err);
+    const bool events = s->model && s->model->rule_count > 0;
+    if (events) snprintf(e->note, sizeof e->note, "events are followed one trajectory at a time");
+    if (status == MOTUS_OK && s->model && compiled && !events) status = try_lanes(e, d, later, err);
     if (status != MOTUS_OK) return status;
     e->lane_threads = e->threads;
     if (!e->lanes) {
@@ -280,6 +282,18 @@ static motus_status make(motus_ensemble *e, const motus_ensemble_def *d, motus_e
     }
     e->compiled_from = !e->awaits && !strcmp(motus_ensemble_machine(e), "compiled") ? 0 : -1;
     return status;
+}
+
+/* What ensembles with events cannot do yet. */
+static motus_status refuse_rules(motus_system *s, const motus_ensemble_def *d, motus_error *err)
+{
+    const rules *rules;
+    const motus_status status = system_rules(s, &rules, err);
+    if (status != MOTUS_OK || !rules) return status;
+    if (d->error == MOTUS_BARS_NONE && isnan(d->accuracy)) return MOTUS_OK;
+    fail(err, MOTUS_UNAVAILABLE, "an ensemble with events tells no errors");
+    hint(err, "leave `error` and `accuracy` of the definition out, and give a method with a step or a tolerance");
+    return MOTUS_UNAVAILABLE;
 }
 
 motus_status motus_ensemble_create(motus_system *s, const motus_ensemble_def *given, motus_ensemble **out,
@@ -293,7 +307,7 @@ motus_status motus_ensemble_create(motus_system *s, const motus_ensemble_def *gi
     motus_status status = motus_struct_read(MOTUS_DEF_ENSEMBLE, given, &d, err);
     ensemble_goal *goal = NULL;
     if (status == MOTUS_OK) status = check(s, &d, err);
-    if (status == MOTUS_OK) status = system_refuse_rules(s, err);
+    if (status == MOTUS_OK) status = refuse_rules(s, &d, err);
     if (status == MOTUS_OK) status = ensemble_accuracy_begin(s, &d, &goal, err);
     if (status != MOTUS_OK) return status;
     motus_ensemble *e = take(&s->allocator, 1, sizeof *e);

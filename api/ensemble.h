@@ -20,6 +20,7 @@ typedef struct worker {
     machine machine;
     timing timing;    /* of the trajectory that it computes */
     stepper *stepper; /* made for the first trajectory, and started again for the others; NULL */
+    events *events;   /* likewise; NULL also where the system has no rules */
     int number;
     motus_run *run;  /* where errors are told: the same trajectory as a run, with the worker's stepper; NULL */
     vary *half_vary; /* of its companion's system */

@@ -5,6 +5,7 @@
  */
 #include "api/bars.h"
 #include "api/ensemble.h"
+#include "api/run_events.h"
 #include "api/symmetry.h"
 
 #include "core/course.h"
@@ -29,6 +30,7 @@ static motus_status observe(void *ctx, motus_error *err)
     const double t = stepper_time(s->w->stepper);
     motus_status status = s->errors ? bars_observe(s->w->run, err) : MOTUS_OK;
     if (status == MOTUS_OK) status = stepper_sync(s->w->stepper, s->x, s->v, NULL, err);
+    if (status == MOTUS_OK && s->w->events) events_keep(s->w->events, t, s->x);
     if (status == MOTUS_OK)
         status = system_values(s->w->system, t, s->x, s->v, s->columns, e->record_count, s->now, err);
     for (size_t r = 0; r < e->record_count && status == MOTUS_OK; r++)
@@ -104,6 +106,10 @@ static motus_status advance(void *ctx, stepper_limit limit, stepper_stop *why, m
 {
     const trajectory *s = ctx;
     motus_run *r = s->w->run;
+    if (s->w->events && limit.steps > 0) {
+        *why = STOP_STEPS;
+        return run_events_steps(s->w->events, s->w->stepper, &s->w->pace, limit.steps, limit.until, why, err);
+    }
     if (!s->errors) return ensemble_advance(s->w, limit, why, err);
     r->synchronised = false;
     const motus_status status = motus_run_step(r, limit.steps, err);
@@ -116,6 +122,7 @@ static double result(const trajectory *s, size_t r)
     const motus_record *record = &s->w->e->records[r];
     if (ensemble_tallies(record)) {
         tally taken = tally_of(s->w->stepper, s->began);
+        if (s->w->events) taken.steps = events_steps(s->w->events);
         if (s->errors) taken.accuracy = bars_worst(s->w->run->bars, s->w->e->chosen.absolute > 0);
         return tally_number(&taken, ensemble_tally(record));
     }
@@ -127,6 +134,17 @@ static double error(const trajectory *s, size_t r)
     const motus_ensemble *e = s->w->e;
     if (ensemble_tallies(&e->records[r])) return 0;
     return bars_of(s->w->run->bars, stepper_time(s->w->stepper), e->compared_record[r]);
+}
+
+static motus_status begin_events(worker *w, double until, motus_error *err)
+{
+    const rules *rules;
+    motus_status status = system_rules(w->system, &rules, err);
+    if (status != MOTUS_OK || !rules) return status;
+    if (!w->events) status = events_create(rules, &w->machine, &w->e->chosen, &w->e->allocator, &w->events, err);
+    if (status != MOTUS_OK) return status;
+    events_forget(w->events);
+    return events_begin(w->events, w->stepper, until, err);
 }
 
 static motus_status run(trajectory *s, const places *p, size_t k, motus_error *err)
@@ -141,6 +159,7 @@ static motus_status run(trajectory *s, const places *p, size_t k, motus_error *e
     status = w->stepper
                  ? stepper_start(w->stepper, t->t0, t->h, s->x, s->v, err)
                  : stepper_create(&w->machine, &e->chosen, t->t0, t->h, s->x, s->v, &e->allocator, &w->stepper, err);
+    if (status == MOTUS_OK) status = begin_events(w, t->until, err);
     if (status == MOTUS_OK && s->errors) status = ensemble_errors_begin(w, s->values, k, err);
     const course course = {
         .ctx = s, .until = t->until, .every = p->observes ? e->every : 0, .advance = advance, .observe = observe};
@@ -168,7 +187,7 @@ static motus_status one_trajectory(worker *w, size_t k, void *ctx)
     motus_status status = s.errors ? ensemble_errors_worker(w, &w->why) : MOTUS_OK;
     if (status == MOTUS_OK) status = run(&s, p, k, &w->why);
     const bool stopped = status == MOTUS_DIVERGED || status == MOTUS_SOLVE || status == MOTUS_STEPS ||
-                         (status == MOTUS_CALLBACK && w->why.returned > 0);
+                         status == MOTUS_EVENTS || (status == MOTUS_CALLBACK && w->why.returned > 0);
     if (stopped || status == MOTUS_OK) {
         for (size_t r = 0; r < e->record_count; r++) p->results[r][k] = stopped ? NAN : result(&s, r);
         for (size_t r = 0; p->errors && r < e->record_count; r++) p->errors[r][k] = stopped ? NAN : error(&s, r);

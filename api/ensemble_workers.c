@@ -70,6 +70,7 @@ void ensemble_workers_destroy(motus_ensemble *e)
     for (int i = 0; e->workers && i < e->threads; i++) {
         ensemble_errors_end(&e->workers[i]);
         stepper_destroy(e->workers[i].stepper);
+        events_destroy(e->workers[i].events);
         if (i > 0) motus_system_destroy(e->workers[i].system);
     }
     give(&e->allocator, e->workers);

@@ -187,15 +187,6 @@ motus_status system_rules(motus_system *s, const rules **out, motus_error *err)
     return status;
 }
 
-motus_status system_refuse_rules(const motus_system *s, motus_error *err)
-{
-    if (!s->rules && (!s->model || s->model->rule_count == 0)) return MOTUS_OK;
-    fail(err, MOTUS_UNAVAILABLE, "the %s has events, and ensembles do not follow events yet",
-         s->model ? "model" : "callback");
-    hint(err, "leave them out; the motion runs on to `until`");
-    return MOTUS_UNAVAILABLE;
-}
-
 bool system_rebind(motus_system *s)
 {
     const bool bound = interpreter_rebind(s->interpreter) && (!s->ruled || ruled_rebind(s->ruled));

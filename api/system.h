@@ -82,8 +82,6 @@ motus_status system_switches(motus_system *, motus_error *);
 bool system_acts(const motus_system *);
 /* The rules of the model, made once; *out is NULL where it has none. */
 motus_status system_rules(motus_system *, const rules **out, motus_error *);
-/* Refuses a model that has events, where nothing follows them. */
-motus_status system_refuse_rules(const motus_system *, motus_error *);
 /* To be called after the model's numbers have changed: its machines compute with the new ones. False: no memory, which
  * the first call alone may need. */
 bool system_rebind(motus_system *);

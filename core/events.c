@@ -381,6 +381,20 @@ bool events_accumulated(const events *e, events_limit *out)
 
 void events_jog(events *e, events_jogger jog) { e->jog = jog; }
 
+void events_forget(events *e)
+{
+    size_t instances = 0;
+    for (size_t k = 0; k < e->rules.count; k++) {
+        e->count[k] = e->ticks[k] = 0;
+        instances += e->rules.rule[k].instances + 1;
+    }
+    memset(e->recent, 0, instances * sizeof *e->recent);
+    e->rows = e->numbers = e->kept_states = e->pasts = 0;
+    e->acted = 0;
+    e->has_limit = e->limit_told = e->held_known = false;
+    e->end = EVENTS_END_NONE;
+}
+
 void events_turn(events *e, const stepper *s)
 {
     e->grid_start = stepper_time(s);

@@ -49,6 +49,8 @@ void events_destroy(events *);
 /* Begins at the state of a stepper that has taken no step, whose leg goes towards `until`. What holds there is no
  * event. */
 motus_status events_begin(events *, stepper *, double until, motus_error *);
+/* Forgets what has happened; events_begin must follow. */
+void events_forget(events *);
 /* Takes one step, of fixed steps to the next time of their grid, with all that happens in it. *why: STOP_EVENT where a
  * rule ended the run, or events accumulated. */
 motus_status events_step(events *, stepper *, double until, stepper_stop *why, motus_error *);
