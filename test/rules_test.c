@@ -233,19 +233,28 @@ static void set(void **state)
     motus_system_destroy(s);
 }
 
-/* Ensembles do not follow events yet, and do not ignore them. */
-static void refused(void **state)
+/* Ensembles follow events, and tell no errors of them yet. */
+static void ensembles(void **state)
 {
     (void)state;
     motus_system *s = given_text(BALL "when y = 0: y' = -e y'");
     motus_error err = motus_default_error();
     motus_ensemble_def many = motus_default_ensemble();
-    const motus_record record = {MOTUS_REDUCE_MAX, 0};
+    const motus_record record = {MOTUS_REDUCE_MIN, 1};
     motus_ensemble *e = NULL;
+    many.method = "rk4";
     many.step = 0.1;
+    many.until = 2;
     many.records = &record;
     many.record_count = 1;
+    many.error = MOTUS_BARS_CHEAP;
     assert_int_equal(motus_ensemble_create(s, &many, &e, &err), MOTUS_UNAVAILABLE);
+    many.error = MOTUS_BARS_NONE;
+    must(motus_ensemble_create(s, &many, &e, &err), &err, "ensemble");
+    double lowest = -1, *results[] = {&lowest};
+    must(motus_ensemble_run(e, 1, NULL, results, NULL, &err), &err, "ensemble");
+    assert_true(lowest >= -1e-15);
+    motus_ensemble_destroy(e);
     assert_false(motus_has_exact(s)); /* the motion ends at the first event */
     motus_system_destroy(s);
     s = given_text(BALL "when y = 0: record");
@@ -619,7 +628,7 @@ int main(void)
         cmocka_unit_test(along_a_run),
         cmocka_unit_test(in_words),
         cmocka_unit_test(set),
-        cmocka_unit_test(refused),
+        cmocka_unit_test(ensembles),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
