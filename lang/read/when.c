@@ -72,21 +72,25 @@ static size_t add_leaf(model *m, model_rule *r, node n, rule_comparison compare)
 /* a - b; of a constant 0 nothing is subtracted. */
 static node difference(graph *g, node a, node b) { return b == 0 ? a : graph_op(g, OP_SUB, a, b, 0); }
 
+static bool too_long(model *m, const model_rule *r)
+{
+    source_complain(&m->source, MOTUS_LIMIT, &r->statement->at,
+                    "the condition has more than %d comparisons and operators", RULE_FORMULA_MOST);
+    HINT(m, "divide it into several events");
+    return false;
+}
+
 static bool add_word(model *m, model_rule *r, int word)
 {
-    if (r->words == RULE_FORMULA_MOST) {
-        source_complain(&m->source, MOTUS_LIMIT, &r->statement->at,
-                        "the condition has more than %d comparisons and operators", RULE_FORMULA_MOST);
-        HINT(m, "divide it into several events");
-        return false;
-    }
+    if (r->words == RULE_FORMULA_MOST) return too_long(m, r);
     r->formula[r->words++] = (int16_t)word;
     return true;
 }
 
-/* A condition in postfix order, with a function for each comparison. */
-static bool add_condition(model *m, model_rule *r, node n)
+/* A condition in postfix order, with a function for each comparison. within: operators around it. */
+static bool add_condition(model *m, model_rule *r, node n, int within)
 {
+    if (within == RULE_FORMULA_MOST) return too_long(m, r);
     graph *g = m->graph;
     const graph_node c = *graph_at(g, n);
     const bool swapped = c.op == OP_LT || c.op == OP_LE;
@@ -94,9 +98,9 @@ static bool add_condition(model *m, model_rule *r, node n)
     switch ((operation)c.op) {
     case OP_AND:
     case OP_OR:
-        return add_condition(m, r, c.a) && add_condition(m, r, c.b) &&
+        return add_condition(m, r, c.a, within + 1) && add_condition(m, r, c.b, within + 1) &&
                add_word(m, r, c.op == OP_AND ? RULE_AND : RULE_OR);
-    case OP_NOT: return add_condition(m, r, c.a) && add_word(m, r, RULE_NOT);
+    case OP_NOT: return add_condition(m, r, c.a, within + 1) && add_word(m, r, RULE_NOT);
     case OP_LT:
     case OP_GT: compare = RULE_ABOVE; break;
     case OP_LE:
@@ -121,7 +125,7 @@ static bool lower_condition(model *m, model_rule *r, lowering *l)
         return false;
     }
     r->formula = arena_take(m->arena, RULE_FORMULA_MOST * sizeof *r->formula);
-    return !m->arena->failed && add_condition(m, r, v.item[0]);
+    return !m->arena->failed && add_condition(m, r, v.item[0], 0);
 }
 
 static bool lower_equation(model *m, model_rule *r, lowering *l)
