@@ -15,7 +15,7 @@ static motus_status check_name(motus_system *s, const char *name, const char *of
 {
     if (!name) return fail(err, MOTUS_ARGUMENT, "name %zu of the %s is NULL", number + 1, of);
     const size_t length = strlen(name);
-    struct source_text text = {name, (uint32_t)(length < SOURCE_BYTES_MAX ? length : SOURCE_BYTES_MAX), NULL};
+    struct source_text text = {name, (uint32_t)(length < SOURCE_BYTES_MAX ? length : SOURCE_BYTES_MAX), NULL, false};
     source src = {.arena = &s->arena, .texts = &text, .count = 1};
     lexer l;
     lex_start(&l, &src, 0);

@@ -29,26 +29,30 @@ void motus_system_destroy(motus_system *s)
     give(&a, s);
 }
 
+/* Copies of `count` texts; NULL: no memory. */
+static const char *const *keep_list(arena *a, const char *const *texts, size_t count)
+{
+    const char **copies = arena_room(a, (count + 1) * sizeof *copies);
+    for (size_t i = 0; copies && i < count; i++) {
+        copies[i] = arena_text(a, texts[i], strlen(texts[i]));
+        if (!copies[i]) return NULL;
+    }
+    return copies;
+}
+
 /* Copies the text, because messages and descriptions point into it. */
 static bool keep_text(motus_system *s, motus_text_def *def)
 {
     size_t n = def->length == SIZE_MAX ? strlen(def->text) : def->length;
     if (n > SOURCE_BYTES_MAX) return true; /* read_model refuses it */
     char *copy = arena_room(&s->arena, n + 1);
-    const char **set = arena_room(&s->arena, (def->set_count + 1) * sizeof *set);
-    if (!copy || !set) return false;
+    def->set = keep_list(&s->arena, def->set, def->set_count);
+    def->when = keep_list(&s->arena, def->when, def->when_count);
+    if (!copy || !def->set || !def->when) return false;
     memcpy(copy, def->text, n);
     copy[n] = 0;
-    for (size_t i = 0; i < def->set_count; i++) {
-        size_t m = strlen(def->set[i]) + 1;
-        char *one = arena_room(&s->arena, m);
-        if (!one) return false;
-        memcpy(one, def->set[i], m);
-        set[i] = one;
-    }
     def->text = copy;
     def->length = n;
-    def->set = set;
     if (def->file) def->file = arena_text(&s->arena, def->file, strlen(def->file));
     return !s->arena.failed;
 }

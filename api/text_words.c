@@ -161,7 +161,7 @@ size_t motus_text_words(const char *text, size_t length, motus_word *words, size
     if (length == SIZE_MAX) length = strlen(text);
     if (length > SOURCE_BYTES_MAX) length = SOURCE_BYTES_MAX;
     arena none = {.failed = false};
-    struct source_text whole = {text, (uint32_t)length, NULL};
+    struct source_text whole = {text, (uint32_t)length, NULL, false};
     source s = {.arena = &none, .texts = &whole, .count = 1};
     reading r = {.text = text, .words = words, .room = room};
     read_words(&r, &s);

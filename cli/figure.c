@@ -280,66 +280,64 @@ static bool add_everything(figure *f)
            add_all_named(f, motus_invariant_name, load_invariant_column(f->model), true);
 }
 
-static motus_status one_column(const figure *f, const char *name, size_t *column, motus_error *err)
+static motus_status one_column(const load *m, const char *name, size_t *column, motus_error *err)
 {
     size_t count;
-    motus_status status = motus_column_find(f->model->system, name, column, &count, err);
+    motus_status status = motus_column_find(m->system, name, column, &count, err);
     if (!status && count != 1) {
         motus_column c = motus_default_column();
         fail(err, MOTUS_SHAPE, "--plot-of: %s is %zu numbers", name, count);
-        if (motus_column_at(f->model->system, *column, &c) == MOTUS_OK) hint(err, "choose one of them, as %s", c.name);
+        if (motus_column_at(m->system, *column, &c) == MOTUS_OK) hint(err, "choose one of them, as %s", c.name);
         return MOTUS_SHAPE;
     }
     return status;
 }
 
-/* The plane of two columns. */
-static motus_status add_plane(figure *f, const char *text, motus_error *err)
+motus_status figure_plane(const load *m, const char *text, size_t columns[2], motus_error *err)
 {
     char *copy;
     options_list names;
     motus_status status = options_split(text, "--plot-of", &copy, &names, err);
     if (status) return status;
-    size_t columns[2] = {0, 0};
     if (names.count != 2) {
         status = fail(err, MOTUS_ARGUMENT, "--plot-of %s: two columns are needed", text);
         hint(err, "--plot-of \"x,x'\" draws x' against x");
     }
-    for (int a = 0; !status && a < 2; a++) status = one_column(f, names.items[a], &columns[a], err);
-    if (!status) {
-        char title[PLOT_LABEL];
-        snprintf(title, sizeof title, "%.60s against %.60s", names.items[1], names.items[0]);
-        plot_panel *p = add_panel(f, title, names.items[0], names.items[1]);
-        double *x = p ? record_add(&f->fine, columns[0]) : NULL, *y = x ? record_add(&f->fine, columns[1]) : NULL;
-        plot_curve *c = y ? plot_curve_add(p, title, x, y, 0, 1) : NULL;
-        if (c) {
-            c->timelike = columns[0] == 0;
-            snprintf(c->label, sizeof c->label, "%s", f->plot.title);
-        } else {
-            status = complain_memory(err);
-        }
-        size_t exact[2], count[2];
-        bool both = !status;
-        for (int a = 0; both && a < 2; a++) {
-            char name[PLOT_LABEL];
-            snprintf(name, sizeof name, columns[a] == 0 ? "%s" : "exact %s", names.items[a]);
-            both = motus_column_find(f->model->system, name, &exact[a], &count[a], NULL) == MOTUS_OK && count[a] == 1;
-        }
-        if (both) {
-            x = record_add(&f->fine, exact[0]);
-            y = x ? record_add(&f->fine, exact[1]) : NULL;
-            c = y ? plot_curve_add(p, "exact", x, y, 0, 1) : NULL;
-            if (c) {
-                c->role = PLOT_EXACT;
-                c->timelike = columns[0] == 0;
-            } else {
-                status = complain_memory(err);
-            }
-        }
-    }
+    for (int a = 0; !status && a < 2; a++) status = one_column(m, names.items[a], &columns[a], err);
     free(names.items);
     free(copy);
     return status;
+}
+
+/* One column of the record against another. */
+static plot_curve *add_recorded(figure *f, plot_panel *p, const char *label, const size_t columns[2], plot_role role)
+{
+    double *x = record_add(&f->fine, columns[0]), *y = x ? record_add(&f->fine, columns[1]) : NULL;
+    plot_curve *c = y ? plot_curve_add(p, label, x, y, 0, 1) : NULL;
+    if (!c) return NULL;
+    c->role = role;
+    c->timelike = columns[0] == 0;
+    return c;
+}
+
+/* The plane of two columns. */
+static motus_status add_plane(figure *f, const char *text, motus_error *err)
+{
+    size_t columns[2] = {0, 0}, exact[2], count[2];
+    char names[2][PLOT_LABEL], title[PLOT_LABEL];
+    motus_status status = figure_plane(f->model, text, columns, err);
+    if (status) return status;
+    for (int a = 0; a < 2; a++) column_name(f, columns[a], names[a], sizeof names[a]);
+    snprintf(title, sizeof title, "%.60s against %.60s", names[1], names[0]);
+    plot_panel *p = add_panel(f, title, names[0], names[1]);
+    if (!p || !add_recorded(f, p, f->plot.title, columns, PLOT_LINE)) return complain_memory(err);
+    bool both = true;
+    for (int a = 0; both && a < 2; a++) {
+        char name[PLOT_LABEL + 8];
+        snprintf(name, sizeof name, columns[a] == 0 ? "%s" : "exact %s", names[a]);
+        both = motus_column_find(f->model->system, name, &exact[a], &count[a], NULL) == MOTUS_OK && count[a] == 1;
+    }
+    return !both || add_recorded(f, p, "exact", exact, PLOT_EXACT) ? MOTUS_OK : complain_memory(err);
 }
 
 motus_status figure_begin(figure *f, const load *model, const options *o, motus_run *run, double until, bool errors,

@@ -29,6 +29,8 @@ typedef struct figure {
 /* Chooses before the run what will be drawn. errors: the run tells them. */
 motus_status figure_begin(figure *, const load *, const options *, motus_run *, double until, bool errors,
                           motus_error *);
+/* The two columns of --plot-of. */
+motus_status figure_plane(const load *, const char *text, size_t columns[2], motus_error *);
 /* The observers that record it along the run. */
 void figure_observers(figure *, walk_observer out[FIGURE_OBSERVERS]);
 motus_status figure_draw(figure *, const char *path, file_out *, motus_error *);

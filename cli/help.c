@@ -17,6 +17,7 @@ static const page pages[] = {
      "  motus run models/pendulum.motus --method rk4 --step 1/64 --until 20\n"
      "  motus run models/spring.motus -o traj.csv --every 0.1 --columns \"t,x,x'\"\n"
      "  motus run models/damped-cubic.motus --plot phase.svg --plot-of \"x,x'\"\n"
+     "  motus run models/henon-heiles.motus --until 5000 --section \"x = 0 rising\" --plot section.svg\n"
      "  motus run models/kepler.motus --save-state half.state --until 10\n"
      "  motus run models/kepler.motus --restart half.state --until 20\n"
      "  printf \"x'' = -x\\nx(0) = 1\\nx'(0) = 0\\n\" | motus run - --step 0.01 --until 10\n"

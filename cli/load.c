@@ -59,6 +59,27 @@ static size_t numbers_of(const motus_system *system, load_naming *name)
     return all;
 }
 
+/* The event of --section, to be freed: it records, and ends the run after the last point that is wanted. */
+static char *section_event(const options *o)
+{
+    const char *const where = o->section ? o->section : "";
+    const size_t room = strlen(where) + 80;
+    char *const text = malloc(room);
+    if (!text) return NULL;
+    snprintf(text, room, "%s as " LOAD_SECTION ": record", where);
+    if (o->most_points > 0)
+        snprintf(text + strlen(text), room - strlen(text), ", stop after %lld", (long long)(o->skip + o->most_points));
+    return text;
+}
+
+/* Which option the text of an event came from. */
+static void name_option(const char *section, motus_error *err)
+{
+    if (!err || strcmp(err->file, "motus_text_def.when") != 0) return;
+    const bool its = section[0] != ' ' && err->source[0] && strncmp(err->source, section, strlen(err->source)) == 0;
+    snprintf(err->file, sizeof err->file, "%s", its ? "--section" : "--when");
+}
+
 motus_status load_model(load *m, const options *o, motus_error *err)
 {
     *m = (load){.step = NAN, .until = NAN};
@@ -73,13 +94,23 @@ motus_status load_model(load *m, const options *o, motus_error *err)
     def.text = m->text;
     def.length = length;
     def.file = called(o->operand);
-    const char **set = malloc((o->set.count + 1) * sizeof *set);
-    if (!set) return complain_memory(err);
-    for (size_t k = 0; k < o->set.count; k++)
-        if (!components_are(o->set.items[k])) set[def.set_count++] = o->set.items[k];
-    def.set = set;
-    status = motus_system_from_text(&def, &m->system, err);
+    const char **set = malloc((o->set.count + 1) * sizeof *set), **when = malloc((o->when.count + 1) * sizeof *when);
+    char *const section = section_event(o);
+    if (set && when && section) {
+        for (size_t k = 0; k < o->set.count; k++)
+            if (!components_are(o->set.items[k])) set[def.set_count++] = o->set.items[k];
+        for (size_t k = 0; k < o->when.count; k++) when[def.when_count++] = o->when.items[k];
+        if (o->section) when[def.when_count++] = section;
+        def.set = set;
+        def.when = when;
+        status = motus_system_from_text(&def, &m->system, err);
+        name_option(section, err);
+    } else {
+        status = complain_memory(err);
+    }
     free(set);
+    free(when);
+    free(section);
     if (!status) status = components_set(m->system, &o->set, err);
     if (status) return status;
     stop_catch_signals(); /* before this there is nothing to clean up, so signals end the program at once */

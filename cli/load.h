@@ -4,6 +4,8 @@
 
 #include "cli/options.h"
 
+#define LOAD_SECTION "section" /* the name of the event of --section */
+
 typedef struct load {
     char *text;
     motus_system *system;

@@ -38,7 +38,8 @@ typedef enum kind {
     SEED,
     EVERY,
     METHOD_LIST,
-    NAMED
+    NAMED,
+    TEXTS
 } kind;
 
 typedef struct option {
@@ -68,6 +69,12 @@ static const option table[] = {
     {"--until", NULL, "T", UNTIL, AT(until), MOTION, "end time; before the start: backward"},
     {"--set", NULL, "P=EXPR", NAMED, AT(set), MODEL,
      "replace a parameter or initial value: F=0.2, \"x(0)=1\"; repeatable"},
+    {"--when", NULL, "EVENT", TEXTS, AT(when), ONE | VERB_CHECK,
+     "add an event to the model: \"x = 0 rising: record\", \"y < 0: stop\"; repeatable"},
+    {"--section", NULL, "WHERE", WORD, AT(section), VERB_RUN,
+     "record where this happens, \"x = 0 rising\"; --plot draws those points"},
+    {"--skip", NULL, "N", COUNT, AT(skip), VERB_RUN, "of a section: leave the first N points out of the plot"},
+    {"--points", NULL, "N", COUNT, AT(most_points), VERB_RUN, "of a section: stop after N points, those skipped apart"},
     {"--evaluations", NULL, "N", COUNT, AT(evaluations), VERB_COMPARE,
      "equal work: each method's step is chosen to spend N evaluations"},
     {"--accuracies", NULL, "A:B", ACCURACIES, AT(coarsest), VERB_COMPARE,
@@ -85,7 +92,8 @@ static const option table[] = {
     {"--every", NULL, "T", EVERY, AT(every_time), ONE,
      "a row (sweep: a sample for min, max and mean) every time T, or every \"10 steps\""},
     {"--plot", NULL, "FIG", WORD, AT(plot), DRAWN, "draw with gnuplot; FIG ends in .svg, .png or .pdf"},
-    {"--plot-of", NULL, "X,Y", WORD, AT(plot_of), VERB_RUN, "draw column Y against column X: \"x,x'\""},
+    {"--plot-of", NULL, "X,Y", WORD, AT(plot_of), VERB_RUN,
+     "draw column Y against column X: \"x,x'\"; of a section its plane"},
     {"--save-state", NULL, "FILE", WORD, AT(save_state), VERB_RUN, "write an exact restart state at the end"},
     {"--restart", NULL, "FILE", WORD, AT(restart), VERB_RUN, "continue from a restart state, to the same bits"},
     {"--machine", NULL, "NAME", WORD, AT(machine), ONE | VERB_COMPARE,
@@ -297,6 +305,15 @@ motus_status options_split(const char *text, const char *option_name, char **cop
     return MOTUS_OK;
 }
 
+static motus_status add_text(options_list *list, const char *value, motus_error *err)
+{
+    const char **items = realloc(list->items, (list->count + 1) * sizeof *items);
+    if (!items) return complain_memory(err);
+    list->items = items;
+    list->items[list->count++] = value;
+    return MOTUS_OK;
+}
+
 static motus_status add_named(options_list *list, const option *row, const char *value, motus_error *err)
 {
     if (!strchr(value, '=') || value[0] == '=') {
@@ -304,11 +321,7 @@ static motus_status add_named(options_list *list, const option *row, const char 
         hint(err, "%s %s: %s", row->name, row->argument, row->help);
         return MOTUS_ARGUMENT;
     }
-    const char **items = realloc(list->items, (list->count + 1) * sizeof *items);
-    if (!items) return complain_memory(err);
-    list->items = items;
-    list->items[list->count++] = value;
-    return MOTUS_OK;
+    return add_text(list, value, err);
 }
 
 static motus_status store(options *o, const option *row, const char *value, motus_error *err)
@@ -347,6 +360,7 @@ static motus_status store(options *o, const option *row, const char *value, motu
         return options_split(value, row->name, &o->methods_text, &o->methods, err);
     case SEED: o->seeded = true; return typed_seed(value, place) ? MOTUS_OK : bad_value(row, value, "an integer", err);
     case NAMED: return add_named(place, row, value, err);
+    case TEXTS: return add_text(place, value, err);
     }
     return MOTUS_OK;
 }
@@ -367,6 +381,8 @@ static motus_status check_share(const options *o, motus_error *err)
         {"--evaluations", o->evaluations > 0},
         {"--accuracies", !isnan(o->coarsest)},
         {"--emit-c", o->emit_c},
+        {"--when", o->when.count > 0},
+        {"--section", o->section},
     };
     for (size_t i = 0; i < sizeof others / sizeof *others; i++)
         if (others[i].given) {
@@ -423,6 +439,11 @@ static motus_status check(const options *o, motus_error *err)
     if (o->threads > MOTUS_THREADS_MAX) {
         fail(err, MOTUS_ARGUMENT, "--threads %lld: at most %d", (long long)o->threads, MOTUS_THREADS_MAX);
         hint(err, "more threads than the computer has cores make nothing faster");
+        return MOTUS_ARGUMENT;
+    }
+    if (!o->section && (o->skip > 0 || o->most_points > 0)) {
+        fail(err, MOTUS_ARGUMENT, "%s needs --section", o->skip > 0 ? "--skip" : "--points");
+        hint(err, "add --section \"x = 0 rising\"");
         return MOTUS_ARGUMENT;
     }
     if (o->plot_of && !o->plot) {
@@ -505,6 +526,7 @@ motus_status options_read(options *o, unsigned verb, int argc, char **argv, int 
 void options_free(options *o)
 {
     free(o->set.items);
+    free(o->when.items);
     free(o->vary.items);
     free(o->random.items);
     free(o->methods.items);

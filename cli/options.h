@@ -27,7 +27,7 @@ typedef struct options_list {
 typedef struct options {
     unsigned verb;
     const char *operand; /* the model, or the method of `methods`; NULL: none */
-    const char *method, *error, *output, *columns, *events, *plot, *plot_of, *save_state, *restart, *machine;
+    const char *method, *error, *output, *columns, *events, *section, *plot, *plot_of, *save_state, *restart, *machine;
     double step, until;                   /* NaN: the model's */
     double tolerance, accuracy;           /* NaN: the model's */
     double coarsest, finest;              /* accuracies to compare at; NaN: not given */
@@ -38,7 +38,8 @@ typedef struct options {
     double every_time;                    /* 0: not given */
     int64_t every_steps;                  /* 0: not given */
     int64_t evaluations, threads;         /* 0: not given */
-    options_list set, methods;
+    int64_t skip, most_points;            /* of the section; 0: not given */
+    options_list set, when, methods;
     options_list vary, random; /* "P=…" as given */
     const char *record;
     int64_t count, lanes; /* 0: not given */

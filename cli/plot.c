@@ -174,9 +174,9 @@ static void put_path(FILE *out, plot_curve *c)
 
 static void put_curve(FILE *out, plot_curve *c)
 {
-    if (c->count > 2 * COLUMNS && c->timelike)
+    if (c->count > 2 * COLUMNS && c->timelike && c->role != PLOT_POINTS)
         put_timelike(out, c);
-    else if (c->count > 2 * COLUMNS)
+    else if (c->count > 2 * COLUMNS && c->role != PLOT_POINTS)
         put_path(out, c);
     else
         for (size_t i = 0; i < c->count; i++) put_point(out, c, i);
@@ -247,6 +247,10 @@ static void put_curve_style(FILE *out, const plot_panel *p, const plot_curve *c,
     const style *s = &styles[index % STYLES];
     if (c->role == PLOT_EXACT) {
         fputs(" with lines lw 5 dt (18,7) lc rgb '#15803D'", out);
+        return;
+    }
+    if (c->role == PLOT_POINTS) {
+        fprintf(out, " with points pt 7 ps 0.3 lc rgb '%s'", s->colour);
         return;
     }
     /* with more curves than styles, each repetition of the dashes pairs them with other markers */

@@ -9,8 +9,9 @@
 enum { PLOT_LABEL = MOTUS_NAME_MAX + 128 };
 
 typedef enum plot_role {
-    PLOT_LINE, /* one of several: its own colour, dashes and marker */
-    PLOT_EXACT /* the exact motion: green, thick, behind the others */
+    PLOT_LINE,   /* one of several: its own colour, dashes and marker */
+    PLOT_POINTS, /* points that no line joins, each of them drawn */
+    PLOT_EXACT   /* the exact motion: green, thick, behind the others */
 } plot_role;
 
 /* A curve through the points (x[i * stride], y[i * stride]); the caller owns the numbers. */

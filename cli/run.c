@@ -11,6 +11,7 @@
 #include "cli/figure.h"
 #include "cli/file.h"
 #include "cli/load.h"
+#include "cli/section.h"
 #include "cli/settle.h"
 #include "cli/share.h"
 #include "cli/stop.h"
@@ -38,6 +39,7 @@ typedef struct job {
     csv csv;
     deviation deviation;
     figure figure;
+    size_t plane[2]; /* of the section */
     file_out files[FILES];
 } job;
 
@@ -109,6 +111,7 @@ static motus_status begin(job *j, motus_error *err)
     if (!status) status = load_model(&j->model, o, err);
     if (!status) status = settle_timing(&j->model, o, settled(&j->model, o), o->method, err);
     if (!status && o->output) status = csv_plan(&j->csv, &j->model, o, err);
+    if (!status && o->section && o->plot) status = section_plane(&j->model, o, j->plane, err);
     if (status) return status;
     j->def = motus_default_run();
     j->def.method = o->method;
@@ -136,7 +139,8 @@ static motus_status begin(job *j, motus_error *err)
     status = deviation_begin(&j->deviation, &j->model, j->run, err);
     if (!status && o->restart) status = restart(j, err);
     const bool errors = j->def.error != MOTUS_BARS_NONE;
-    if (!status && o->plot) status = figure_begin(&j->figure, &j->model, o, j->run, j->until, errors, err);
+    if (!status && o->plot && !o->section)
+        status = figure_begin(&j->figure, &j->model, o, j->run, j->until, errors, err);
     const char *const names[FILES] = {o->output, o->plot, o->save_state, o->events};
     for (int i = 0; !status && i < FILES; i++)
         if (names[i]) status = file_create(&j->files[i], names[i], err);
@@ -150,8 +154,12 @@ static walk_observer rows_observer(job *j)
     const options *o = j->options;
     motus_settings settings = motus_default_settings();
     motus_settings_of(j->model.system, &settings);
-    walk_observer w = {
-        .columns = j->csv.columns, .count = j->csv.count, .errors = o->errors, .take = csv_row, .jump = csv_jump, .context = &j->csv};
+    walk_observer w = {.columns = j->csv.columns,
+                       .count = j->csv.count,
+                       .errors = o->errors,
+                       .take = csv_row,
+                       .jump = csv_jump,
+                       .context = &j->csv};
     bool ours = o->every_time > 0 || o->every_steps > 0;
     double period = ours ? o->every_time : settings.every_time > 0 ? settings.every_time : 0;
     int64_t steps = ours ? o->every_steps : settings.every_steps;
@@ -175,7 +183,7 @@ static motus_status go(job *j, motus_error *err)
         }
         count++;
     }
-    if (j->options->plot) {
+    if (j->options->plot && !j->options->section) {
         figure_observers(&j->figure, observers + count);
         count += FIGURE_OBSERVERS;
     }
@@ -186,7 +194,10 @@ static motus_status finish(job *j, double seconds, motus_error *err)
 {
     const options *o = j->options;
     motus_status status = o->save_state ? save(j, err) : MOTUS_OK;
-    if (!status && o->plot) status = figure_draw(&j->figure, o->plot, &j->files[PLOT], err);
+    if (!status && o->plot && o->section)
+        status = section_draw(&j->model, o, j->run, j->plane, &j->files[PLOT], err);
+    else if (!status && o->plot)
+        status = figure_draw(&j->figure, o->plot, &j->files[PLOT], err);
     if (!status && o->events) status = event_file_write(&j->files[EVENTS], &j->model, o, j->run, err);
     for (int i = 0; !status && i < FILES; i++) status = file_finish(&j->files[i], err);
     summary s = {&j->model,

@@ -160,6 +160,8 @@ typedef struct motus_text_def {
      * x'(0) = … starts at rest (`supposed` in motus_initial), and motus_suggest chooses from the motion, of which it
      * computes up to so many numbers, accelerations times their length: 1e5 suffice for a few bodies. */
     size_t draft;
+    const char *const *when; /* when_count events that are added to those of the text, each what stands behind `when`: */
+    size_t when_count;       /*   "x = 0 rising: record" */
 } motus_text_def;
 
 /* A system from C. The state is x, `positions` numbers, and v, `positions + first_order` numbers: the velocities of

@@ -10,7 +10,8 @@ enum { BAR_MAX = 2 * DECIMAL_MAX + 16 }; /* room for a value, ±, an error and a
  * with 1 or 2, with what rounding the value takes. |value| below the error: "0 ± 2e-5". Error 0: "0 (exact)"; NaN, not
  * known: all digits and "±?"; infinite: "—", since no digit is significant. Returns out. */
 char *bar_text(double value, double error, char out[BAR_MAX]);
-/* The same as 0.0477824(15): the error in units of the last digit; as bar_text() where no digit stands behind the point, or none is significant. */
+/* The same as 0.0477824(15): the error in units of the last digit. As bar_text() where no digit stands behind the
+ * point, or none is significant. */
 char *bar_digits(double value, double error, char out[BAR_MAX]);
 /* The error alone, rounded up likewise: "1.5e-6". */
 char *bar_error(double error, char out[DECIMAL_MAX]);

@@ -814,6 +814,45 @@ static void hints_name_members(void **state)
     assert_int_equal(err.column, 2);
 }
 
+/* `when` of the definition, copied as the text is. */
+static void events_beside_the_text(void **state)
+{
+    (void)state;
+    motus_error err = motus_default_error();
+    motus_system *s = NULL;
+    char first[] = "x = 1/2 falling as half: record", second[] = "when every 1/4: record";
+    const char *const when[] = {first, second};
+    motus_text_def def = motus_default_text();
+    def.text = "x'' = 0\nx(0) = 1\nx'(0) = -1\nstep 1/8\nuntil 1\nwhen x = 1/4: record";
+    def.when = when;
+    def.when_count = 2;
+    assert_int_equal(motus_system_from_text(&def, &s, &err), MOTUS_OK);
+    memset(first, 'x', sizeof first - 1);
+    memset(second, 'x', sizeof second - 1);
+    motus_run_def run = motus_default_run();
+    motus_run *r = NULL;
+    run.method = "verlet";
+    assert_int_equal(motus_run_create(s, &run, &r, &err), MOTUS_OK);
+    assert_int_equal(motus_run_finish(r, &err), MOTUS_OK);
+    static const char *const names[] = {"event3", "half", "event3", "event1", "event3", "event3"};
+    static const double times[] = {0.25, 0.5, 0.5, 0.75, 0.75, 1};
+    assert_int_equal(motus_run_events(r), sizeof times / sizeof *times);
+    for (int64_t k = 0; k < motus_run_events(r); k++) {
+        motus_event_row row = motus_default_event_row();
+        assert_int_equal(motus_run_event(r, k, &row), MOTUS_OK);
+        assert_string_equal(row.name, names[k]);
+        assert_true(row.time == times[k]);
+    }
+    motus_run_destroy(r);
+    motus_system_destroy(s);
+    const char *const wrong[] = {"x = 0: record", "x = 1 rising: recrd"};
+    def.when = wrong;
+    assert_int_not_equal(motus_system_from_text(&def, &s, &err), MOTUS_OK);
+    assert_string_equal(err.file, "motus_text_def.when");
+    assert_int_equal(err.line, 1);
+    assert_string_equal(err.source, wrong[1]);
+}
+
 static void methods_are_refused_with_a_reason(void **state)
 {
     (void)state;
@@ -928,6 +967,7 @@ int main(void)
         cmocka_unit_test(methods_are_found),
         cmocka_unit_test(arguments_have_a_range),
         cmocka_unit_test(hints_name_members),
+        cmocka_unit_test(events_beside_the_text),
         cmocka_unit_test(methods_are_refused_with_a_reason),
         cmocka_unit_test(variables_that_follow),
         cmocka_unit_test(what_is_preserved),

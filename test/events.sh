@@ -135,6 +135,39 @@ if command -v gnuplot >/dev/null; then
     that "... draws no line between the sides" eval "[ \"\$(tr '\n' ' ' <'$place/jump.svg' | grep -oE \"<path stroke='rgb\( *29, *78, *216\)' +d='[^']{200,}'\" | wc -l)\" = 2 ]"
 fi
 
+# --- events from the command line ---------------------------------------------------------------------------------------------------
+gives "events of the command line" 0 "$motus" run "$ball" --method dop853 --error none --quiet --events - --when "y' = 0 falling as top: record" --when "when y < 0.05 as low: stop after 2"
+that "... happen" eval "[ \"\$(rows '$out' | cut -d, -f1,3 | tr '\n' ' ')\" = 'bounce,1 top,1 ' ]"
+that "... where they should" eval "rows '$out' | awk -F, '\$1 == \"top\" { d = \$5 - 0.64; exit !(d < 4e-16 && d > -4e-16) }'"
+gives "check knows them" 0 "$motus" check "$ball" --when "y' = 0 as top: record" --json
+refuses "a name that the model has not" 2 "--when:1:5: q is not defined" "$motus" run "$ball" --when "y = q: record"
+that "... is shown in the option's text" says "    y = q: record" "$err"
+refuses "no event" 2 "this is no event" "$motus" run "$ball" --when ""
+refuses "two events in one" 2 "this is more than one event" "$motus" run "$ball" --when "y = 1: record; y = 2: record"
+refuses "a name that is taken" 2 "two events are named bounce" "$motus" run "$ball" --when "y = 1 as bounce: record"
+
+# Hénon and Heiles: points 1, 10 and 50 of the section x = 0, x' > 0 from (0, -0.25, 0.42, 0), by two codes in 30 digits.
+henon=models/henon-heiles.motus
+gives "a section" 0 "$motus" run $henon --method dop853 --tolerance 1e-14 --until 332 --section "x = 0 rising" --error none --quiet --columns "y,y'" --events "$place/section.csv"
+that "... has its points" eval "rows '$place/section.csv' | awk -F, 'BEGIN { want[1] = \"7.347877788393735666 -0.173162923756184781672 0.280409669564646432067\"; want[10] = \"67.59198267655077 0.190151322181840301876 0.425023397021007371812\"; want[50] = \"331.1385598348059555 0.136512411876635262979 0.38798303504327030978\" }
+    \$3 in want { split(want[\$3], w, \" \"); for (k = 1; k <= 3; k++) { d = (k == 1 ? \$2 : k == 2 ? \$5 : \$6) - w[k]; if (d > 1e-8 || d < -1e-8) { print \$0; bad = 1 } } n++ } END { exit bad || n != 3 }'"
+gives "a section that ends" 0 "$motus" run $henon --method dop853 --until 500 --section "x = 0 rising" --skip 2 --points 3 --error none
+that "... says so" says "section ended the run at t = 31.68"
+that "... after all its points" eval "[ \$(grep -c '^  section ' '$out') = 5 ]"
+if command -v gnuplot >/dev/null; then
+    gives "a section is drawn" 0 "$motus" run $henon --method dop853 --until 500 --section "x = 0 rising" --skip 2 --points 3 --error none --quiet --plot "$place/section.svg"
+    that "... its points alone" says "where x = 0 rising: 3 points" "$place/section.svg"
+    that "... in the plane of the other number" eval "grep -q '>y</tspan>\|>y<' '$place/section.svg' && grep -q \">y'<\" '$place/section.svg'"
+    gives "a section in another plane" 0 "$motus" run $henon --method dop853 --until 100 --section "x = 0 rising" --error none --quiet --plot-of "t,x'" --plot "$place/plane.svg"
+    that "... has its axes" eval "grep -q \">x'<\" '$place/plane.svg' && grep -q '>t<' '$place/plane.svg'"
+    refuses "a section without a plane" 2 "the model does not say in which plane to draw it" "$motus" run models/kepler.motus --section "r.x = 0" --plot "$place/none.svg"
+    refuses "a section without a point" 2 "none is left to draw" "$motus" run $henon --method dop853 --until 10 --section "x = 0 rising" --skip 9 --error none --plot "$place/none.svg"
+    that "... leaves no file" absent "$place/none.svg"
+fi
+refuses "points of no section" 2 "--points needs --section" "$motus" run $henon --points 3
+refuses "an event in the text of a section" 2 "--section:1:" "$motus" run $henon --section "x = 0: record"
+refuses "a link with an event" 2 "--share and --when exclude each other" "$motus" run "$ball" --when "y = 1: record" --share
+
 refuses "events over the model" 2 "is read and would be overwritten" "$motus" run "$ball" --events "$ball"
 refuses "events and rows in one file" 2 "is named for two outputs" "$motus" run "$ball" --events "$place/x.csv" -o "$place/x.csv"
 gives "events and JSON in one place" 2 "$motus" run "$ball" --events - --json

@@ -17,19 +17,19 @@ _motus() {
     --machine) mapfile -t COMPREPLY < <(compgen -W 'auto interpreter compiled' -- "$current"); return ;;
     --error) mapfile -t COMPREPLY < <(compgen -W 'cheap full none' -- "$current"); return ;;
     -o|--output|--events|--plot|--save-state|--restart) compopt -o default; return ;;
-    --step|--accuracy|--tolerance|--shortest-step|--longest-step|--most-steps|--until|--set|--evaluations|--accuracies|--columns|--every|--plot-of|--vary|--random|--count|--seed|--threads|--lanes|--record) return ;;
+    --step|--accuracy|--tolerance|--shortest-step|--longest-step|--most-steps|--until|--set|--when|--section|--skip|--evaluations|--accuracies|--columns|--every|--plot-of|--vary|--random|--count|--seed|--threads|--lanes|--record) return ;;
     esac
     if [[ $current == -* ]]; then
         local options='--json --quiet --help'
         case $verb in
-        run)      options+=' --method --accuracy --tolerance --shortest-step --longest-step --most-steps --step --until --set --output --events --columns --every --plot --plot-of --save-state --restart --machine --threads --emit-c --share --error --errors' ;;
+        run)      options+=' --method --accuracy --tolerance --shortest-step --longest-step --most-steps --step --until --set --output --events --when --section --skip --points --columns --every --plot --plot-of --save-state --restart --machine --threads --emit-c --share --error --errors' ;;
         compare)  options+=' --methods --step --until --set --evaluations --accuracies --machine --plot --share' ;;
         converge) options+=' --methods --step --until --set --plot --points' ;;
-        sweep)    options+=' --vary --random --count --seed --zip --record --method --tolerance --shortest-step --longest-step --most-steps --step --until --every --set --output --resume --force'
+        sweep)    options+=' --vary --random --count --seed --zip --record --method --tolerance --shortest-step --longest-step --most-steps --step --until --every --set --when --output --resume --force'
                   options+=' --threads --lanes --machine --fast' ;;
         lab)      options+=' --method --methods --step --until --set --output --no-open' ;;
         cache)    options+=' --clear' ;;
-        check)    options+=' --set' ;;
+        check)    options+=' --set --when' ;;
         methods)  options+=' --markdown' ;;
         esac
         mapfile -t COMPREPLY < <(compgen -W "$options" -- "$current")

@@ -244,9 +244,23 @@ static bool replace(model *m, uint32_t text)
     return false;
 }
 
+/* Reads an event that is added to those of the text. */
+static bool add_event(model *m, uint32_t text)
+{
+    const uint32_t before = m->statements.count;
+    if (!parse_text(&m->source, text, &m->statements)) return false;
+    if (m->statements.count == before + 1) return true;
+    source_complain(&m->source, MOTUS_SYNTAX, &(span){text, 0, m->source.texts[text].length}, "this is %s",
+                    m->statements.count == before ? "no event" : "more than one event");
+    source_hint(&m->source, "write x = 0 rising: record");
+    return false;
+}
+
 bool collect_all(model *m, const motus_text_def *def)
 {
     if (!parse_text(&m->source, 0, &m->statements)) return false;
+    for (uint32_t i = 0; i < def->when_count; i++)
+        if (!add_event(m, (uint32_t)def->set_count + i + 1)) return false;
     for (uint32_t i = 0; i < def->set_count; i++)
         if (!replace(m, i + 1)) return false;
     uint32_t n = m->statements.count;

@@ -72,16 +72,21 @@ motus_status read_model(arena *a, const motus_text_def *def, bool nudged, read_m
     memset(m, 0, sizeof *m);
     m->arena = a;
     m->draft = def->draft > 0;
-    m->source = (source){.arena = a, .error = err, .count = (uint32_t)(1 + def->set_count), .nudged = nudged};
-    m->source.texts = arena_room(a, (1 + def->set_count) * sizeof *m->source.texts);
+    const size_t texts = 1 + def->set_count + def->when_count;
+    m->source = (source){.arena = a, .error = err, .count = (uint32_t)texts, .nudged = nudged};
+    m->source.texts = arena_room(a, texts * sizeof *m->source.texts);
     m->graph = graph_create(a);
     if (!m->source.texts || !m->graph || a->failed) return fail(err, MOTUS_MEMORY, "no memory for the model");
-    m->source.texts[0] = (struct source_text){def->text, (uint32_t)length, def->file};
-    for (size_t i = 0; i < def->set_count; i++) {
-        size_t n = strlen(def->set[i]);
+    m->source.texts[0] = (struct source_text){def->text, (uint32_t)length, def->file, false};
+    for (size_t i = 0; i + 1 < texts; i++) {
+        const bool set = i < def->set_count;
+        const char *const text = set ? def->set[i] : def->when[i - def->set_count];
+        const size_t n = strlen(text);
         if (n > SOURCE_BYTES_MAX)
-            return fail(err, MOTUS_LIMIT, "a setting has %zu bytes; at most %d are read", n, SOURCE_BYTES_MAX);
-        m->source.texts[i + 1] = (struct source_text){def->set[i], (uint32_t)n, "motus_text_def.set"};
+            return fail(err, MOTUS_LIMIT, "%s has %zu bytes; at most %d are read", set ? "a setting" : "an event", n,
+                        SOURCE_BYTES_MAX);
+        m->source.texts[i + 1] =
+            (struct source_text){text, (uint32_t)n, set ? "motus_text_def.set" : "motus_text_def.when", !set};
     }
     arena trees;
     arena_init(&trees, &a->allocator);

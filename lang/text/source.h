@@ -18,7 +18,7 @@ typedef struct span {
     uint32_t text, from, to;
 } span; /* bytes [from, to) of text number `text` */
 
-/* The model's text is text 0; each --set is a text of its own. */
+/* The model's text is text 0; each setting, and each event that is added, is a text of its own. */
 typedef struct source {
     arena *arena; /* names, and what lives as long as the model */
     arena *trees; /* what lives while the model is read; NULL: it is read */
@@ -27,6 +27,7 @@ typedef struct source {
         const char *bytes;
         uint32_t length;
         const char *name;
+        bool event; /* it is what stands behind `when` */
     } * texts;
     uint32_t count;
     motus_status status; /* of the first complaint */

@@ -250,6 +250,10 @@ static void parse_left(parser *p, statement *s)
 static void parse_statement(parser *p, statement *s)
 {
     s->at = p->token.at;
+    if (p->source->texts[p->lexer.text].event) {
+        parse_when(p, s);
+        return;
+    }
     static const struct {
         const char *word;
         statement_kind kind;

@@ -168,7 +168,7 @@ static void parse_actions(parser *p, when *w)
     COMPLAIN(p, &p->token.at, "a comma is missing before %s", quote(p, &p->token.at, text));
 }
 
-/* when = "when" ( "every" or | NAME "accumulates" | occasion ) [ event ] ":" actions [ for ] */
+/* when = [ "when" ] ( "every" or | NAME "accumulates" | occasion ) [ event ] ":" actions [ for ] */
 void parse_when(parser *p, statement *s)
 {
     when *w = arena_take(p->arena, sizeof *w);
@@ -176,7 +176,7 @@ void parse_when(parser *p, statement *s)
     s->when = w;
     s->name_at = p->token.at;
     p->when = true;
-    advance(p);
+    if (word(p, "when")) advance(p); /* of an event beside the text the word may be left out */
     skip_lines(p);
     if (word(p, "every")) {
         w->kind = WHEN_EVERY;
