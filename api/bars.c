@@ -282,8 +282,8 @@ static int64_t due(const motus_run *r)
     return row_adaptive(&r->chosen) ? before + 1 : differences_due(r->timing.total, before);
 }
 
-/* Units in the last place of the time. Events that are not farther apart, as those that accumulate, need not come in the
- * same order in two computations of one motion. */
+/* Units in the last place of the time. Events that are not farther apart, as those that accumulate, need not come in
+ * the same order in two computations of one motion. */
 #define CLOSE 1024
 
 /* Whether a companion has had the same events as the run. */

@@ -1,10 +1,10 @@
 /* See event_bars.h.
  *
  * Row k of the run is compared with the row of the companion that has the same rule, the same indices and the same
- * number. As for numbers at landings (machine/differences.c) 2.5 times their distance bounds what truncation does, where
- * it rules, and a quarter of the largest distance of the rows beside it covers a distance that passes 0. From the first row
- * that the companion has not, or has at a time that is farther off than a quarter of the time since the event before,
- * the two motions have events of their own, and no digit is told.
+ * number. As for numbers at landings (machine/differences.c) 2.5 times their distance bounds what truncation does,
+ * where it rules, and a quarter of the largest distance of the rows beside it covers a distance that passes 0. From
+ * the first row that the companion has not, or has at a time that is farther off than a quarter of the time since the
+ * event before, the two motions have events of their own, and no digit is told.
  */
 #include "api/event_bars.h"
 
@@ -68,7 +68,8 @@ static size_t significant(motus_run *r)
     return b->rows;
 }
 
-/* Whether no further row is significant; also where the motions themselves are too far apart for companions to go on. */
+/* Whether no further row is significant; also where the motions themselves are too far apart for companions to go on.
+ * */
 static bool ended(const bars *b) { return b->rows_differ || !isnan(b->differences.until); }
 
 /* Row number i of those beside which row k is judged: itself, those before it, those after it; SIZE_MAX: none. */

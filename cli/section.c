@@ -54,7 +54,7 @@ motus_status section_plane(const load *m, const options *o, size_t columns[2], m
 }
 
 /* Whether row k of the table is one of the section. */
-static bool of_section(const motus_run *run, int64_t k)
+static bool of_section(motus_run *run, int64_t k)
 {
     motus_event_row row = motus_default_event_row();
     return motus_run_event(run, k, &row) == MOTUS_OK && strcmp(row.name, LOAD_SECTION) == 0;

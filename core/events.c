@@ -14,47 +14,50 @@ static double *place(instant *i, const events *e, double *at)
     return i->bound + f;
 }
 
-static void *next(char **at, size_t count, size_t size)
+/* Where the arrays lie in one block of memory; block NULL: they are only counted. */
+typedef struct layout {
+    char *block;
+    size_t at;
+} layout;
+
+static void *next(layout *l, size_t count, size_t size)
 {
-    void *here = *at;
-    *at += (count * size + 15) / 16 * 16;
-    return here;
+    const size_t here = l->at;
+    l->at += (count * size + 15) / 16 * 16;
+    return l->block ? l->block + here : NULL;
 }
 
-/* Gives every array its place from `at` on; returns the bytes of all. */
-static size_t arrange(events *e, char *at)
+/* Gives every array its place in a block; returns the bytes of all. */
+static size_t arrange(events *e, char *block)
 {
-    char *const from = at;
+    layout l = {block, 0};
     const size_t n = e->rules.count, f = e->rules.functions, nx = e->problem.nx, nv = e->problem.nv;
     size_t instances = 0;
     for (size_t k = 0; k < n; k++) instances += e->rules.rule[k].instances + 1;
-    double *numbers = next(&at, 4 * (nx + 2 * nv + 3 * f), sizeof *numbers);
-    if (from) {
-        numbers = place(&e->left, e, numbers);
-        numbers = place(&e->right, e, numbers);
-        numbers = place(&e->here, e, numbers);
-        place(&e->next, e, numbers);
-    }
-    e->after = next(&at, nx + nv, sizeof *e->after);
-    e->fired = next(&at, f, sizeof *e->fired);
-    e->before = next(&at, f, sizeof *e->before);
-    e->instances = next(&at, n, sizeof *e->instances);
-    e->recent = next(&at, instances, sizeof *e->recent);
-    e->count = next(&at, n, sizeof *e->count);
-    e->ticks = next(&at, n, sizeof *e->ticks);
-    e->rule_of = next(&at, f, sizeof *e->rule_of);
-    e->side = next(&at, 4 * f, 1); /* one behind the other, so that they are kept and restored together */
-    if (from) {
-        e->stands = (uint8_t *)e->side + f;
-        e->open = e->stands + f;
-        e->heads = (int8_t *)e->open + f;
-    }
-    e->was = next(&at, 4 * f, 1);
-    e->sign = next(&at, f, 1);
-    e->zero = next(&at, f, 1);
-    e->held = next(&at, instances, 1);
-    e->ticked = next(&at, n, 1);
-    return (size_t)(at - from);
+    double *numbers = next(&l, 4 * (nx + 2 * nv + 3 * f), sizeof *numbers);
+    e->after = next(&l, nx + nv, sizeof *e->after);
+    e->fired = next(&l, f, sizeof *e->fired);
+    e->before = next(&l, f, sizeof *e->before);
+    e->instances = next(&l, n, sizeof *e->instances);
+    e->recent = next(&l, instances, sizeof *e->recent);
+    e->count = next(&l, n, sizeof *e->count);
+    e->ticks = next(&l, n, sizeof *e->ticks);
+    e->rule_of = next(&l, f, sizeof *e->rule_of);
+    e->side = next(&l, 4 * f, 1); /* one behind the other, so that they are kept and restored together */
+    e->was = next(&l, 4 * f, 1);
+    e->sign = next(&l, f, 1);
+    e->zero = next(&l, f, 1);
+    e->held = next(&l, instances, 1);
+    e->ticked = next(&l, n, 1);
+    if (!block) return l.at;
+    numbers = place(&e->left, e, numbers);
+    numbers = place(&e->right, e, numbers);
+    numbers = place(&e->here, e, numbers);
+    place(&e->next, e, numbers);
+    e->stands = (uint8_t *)e->side + f;
+    e->open = e->stands + f;
+    e->heads = (int8_t *)e->open + f;
+    return l.at;
 }
 
 motus_status events_create(const rules *r, const machine *m, const chosen *method, const motus_allocator *a,

@@ -2,9 +2,9 @@
  * and does what the rules say.
  *
  * Dense output finds and counts: on each step a function is a polynomial, of which all roots and touches are known
- * (core/roots.h). Time and state of an event are those of a step of the method that begins where the step began and ends
- * on the event, so no interpolant lowers the order. A rule that does not assign leaves the motion as it is, bit by bit:
- * its steps are taken by another stepper.
+ * (core/roots.h). Time and state of an event are those of a step of the method that begins where the step began and
+ * ends on the event, so no interpolant lowers the order. A rule that does not assign leaves the motion as it is, bit
+ * by bit: its steps are taken by another stepper.
  *
  * A function has a side: the sign that it had when it was last away from 0. It passes 0 where it moves to the other
  * side. After an event it stands at 0: that root is divided out, so the next one is found however near it is, and no
@@ -55,8 +55,8 @@ void events_forget(events *);
  * rule ended the run, or events accumulated. */
 motus_status events_step(events *, stepper *, double until, stepper_stop *why, motus_error *);
 
-/* After every action `jog` moves the numbers of the state, x and then v, by about their rounding; salt: of the event. So
- * a companion meets other roundings at events than the run. */
+/* After every action `jog` moves the numbers of the state, x and then v, by about their rounding; salt: of the event.
+ * So a companion meets other roundings at events than the run. */
 typedef void (*events_jogger)(double *y, size_t count, uint32_t salt);
 void events_jog(events *, events_jogger);
 /* The stepper has begun a new leg where it stands (stepper_turn): the grid of fixed steps begins there. */

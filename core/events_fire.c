@@ -1,5 +1,5 @@
-/* What happens in one instant: rules act in the order of the text, each seeing what the former left, until none asks any
- * more. See events_parts.h.
+/* What happens in one instant: rules act in the order of the text, each seeing what the former left, until none asks
+ * any more. See events_parts.h.
  *
  * A rule whose function passes 0 acts once for that passage. Where its action changed how the function moves, and the
  * function still moves in the event's direction, it acts again: so a push that does not turn a motion back is repeated

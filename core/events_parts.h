@@ -1,9 +1,9 @@
 /* What the files of events share: the struct, and what each file does with it.
  *
- * events.c: life and steps. events_find.c: the roots of a step, by dense output. events_place.c: true steps, and where a
- * root is by them. events_fire.c: what happens in one instant. events_table.c: rows, kept numbers, accumulation.
- * Invariant: `left` is the state at which the present step began, and `side` are the sides of all functions there, those
- * of the events that have happened since included.
+ * events.c: life and steps. events_find.c: the roots of a step, by dense output. events_place.c: true steps, and
+ * where a root is by them. events_fire.c: what happens in one instant. events_table.c: rows, kept numbers,
+ * accumulation. Invariant: `left` is the state at which the present step began, and `side` are the sides of all
+ * functions there, those of the events that have happened since included.
  */
 #ifndef CORE_EVENTS_PARTS_H
 #define CORE_EVENTS_PARTS_H

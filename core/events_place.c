@@ -117,7 +117,7 @@ motus_status events_at(events *e, double h, instant *to, motus_error *err)
     return status ? status : events_values(e, to, err);
 }
 
-/* Where a root is --------------------------------------------------------------------------------------------------- */
+/* Where a root is -------------------------------------------------------------------------------------------------- */
 
 enum { TURNS = 100 };
 

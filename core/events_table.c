@@ -70,7 +70,7 @@ event events_row(const events *e, size_t k, bool after, const double **x, const 
     return e->row[k];
 }
 
-/* Kept numbers ------------------------------------------------------------------------------------------------------ */
+/* Kept numbers ----------------------------------------------------------------------------------------------------- */
 
 static void overlay(const events *e, size_t k, double *x)
 {
@@ -118,10 +118,11 @@ void events_kept_forget(events *e)
     e->kept_states = 1;
 }
 
-/* Accumulation ------------------------------------------------------------------------------------------------------ */
+/* Accumulation ----------------------------------------------------------------------------------------------------- */
 
 /* The limit of times whose intervals shrink by a nearly constant ratio, by Aitken's formula, due when all that is left
- * before it is below 512 units in the last place of the time: rounding soon hides in which order such events would come. */
+ * before it is below 512 units in the last place of the time: rounding soon hides in which order such events would
+ * come. */
 bool events_accumulate(events *e, size_t rule, size_t instance, double t)
 {
     enum { ULPS = 512 };

@@ -160,8 +160,9 @@ typedef struct motus_text_def {
      * x'(0) = … starts at rest (`supposed` in motus_initial), and motus_suggest chooses from the motion, of which it
      * computes up to so many numbers, accelerations times their length: 1e5 suffice for a few bodies. */
     size_t draft;
-    const char *const *when; /* when_count events that are added to those of the text, each what stands behind `when`: */
-    size_t when_count;       /*   "x = 0 rising: record" */
+    /* when_count events that are added to those of the text, each what stands behind `when`: "x = 0 rising: record" */
+    const char *const *when;
+    size_t when_count;
 } motus_text_def;
 
 /* A system from C. The state is x, `positions` numbers, and v, `positions + first_order` numbers: the velocities of
@@ -705,9 +706,9 @@ MOTUS_API motus_status motus_run_statistics(const motus_run *, motus_statistics 
  * poles are not known. The definition's hooks are not called. Fails besides as motus_run_create does. */
 #define MOTUS_SINGULAR_WORK 2e7
 MOTUS_API motus_status motus_run_singular(motus_system *, const motus_run_def *, motus_error *);
-/* Events: what a model's `when` statements, or the events of a callback, have found and done so far. Every root of every
- * event function is found, in order; a root where the run starts is no event. Time and state of an event are those of a
- * step of the method that ends on it. MOTUS_EVENTS: more than 100 actions in one instant.
+/* Events: what a model's `when` statements, or the events of a callback, have found and done so far. Every root of
+ * every event function is found, in order; a root where the run starts is no event. Time and state of an event are
+ * those of a step of the method that ends on it. MOTUS_EVENTS: more than 100 actions in one instant.
  *
  * How many rows the table has: one for every event of a kind that records. */
 MOTUS_API int64_t motus_run_events(const motus_run *);
@@ -729,8 +730,9 @@ MOTUS_API motus_status motus_run_event_values(motus_run *, int64_t k, int after,
  * motus_run_errors tells them; NaN: not known, INFINITY: no digit is significant. */
 MOTUS_API motus_status motus_run_event_errors(motus_run *, int64_t k, int after, const size_t *columns, size_t count,
                                               double *values, double *errors, motus_error *);
-/* How many rows have a significant digit: from the next one on, run and companion have other events, or the same ones at
- * times that are farther apart than a quarter of the time from the event before. All of them where no errors are told. */
+/* How many rows have a significant digit: from the next one on, run and companion have other events, or the same ones
+ * at times that are farther apart than a quarter of the time from the event before. All of them where no errors are
+ * told. */
 MOTUS_API int64_t motus_run_events_significant(motus_run *);
 /* What ended the run before `until`: the name of a kind of event; "" where nothing did. accumulated (may be NULL): 1,
  * and *time is the limit of its events' times, which is known to *error. */

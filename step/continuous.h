@@ -32,11 +32,19 @@ static coef continuous_entry(const work *w, int i, int j)
     return j < i ? continuous_row(w, i - first)[j] : 0;
 }
 
+/* The arrays: positions and velocities of a further stage, the further stages, then the sums of the series, which every
+ * time within a step needs, and that of what positions miss. */
+static inline int continuous_sums(const work *w)
+{
+    const int more = w->row->tableau.dense.more;
+    return more ? more + 2 : 0;
+}
+
 static dense_room continuous_between(const work *w, coef *unit)
 {
     const int more = w->row->tableau.dense.more, n = continuous_columns(w), first = continuous_first(w),
               terms = w->row->tableau.dense.terms, b = tableau_b(w), bb = tableau_bb(w);
-    const dense_room room = {.arrays = more ? more + 2 : 0, .constants = (size_t)continuous_aa(w, more)};
+    const dense_room room = {.arrays = continuous_sums(w) + terms + 1, .constants = (size_t)continuous_aa(w, more)};
     for (int j = 0; j < n && unit; j++) {
         coef *series = unit + j;
         series[0] = j < w->stages ? w->unit[b + j] : 0;
@@ -70,6 +78,14 @@ static real continuous_sum(const work *w, const dense_step *d, const coef *c, in
     return sum;
 }
 
+static dense_series continuous_series(const work *w, const dense_step *d)
+{
+    dense_series of = {
+        .terms = w->row->tableau.dense.terms, .columns = continuous_columns(w), .series = d->unit, .h = w->h};
+    for (int j = 0; j < of.columns; j++) of.column[j] = continuous_column(w, d, j);
+    return of;
+}
+
 static int continuous_extend(work *w, const dense_step *d)
 {
     const int more = w->row->tableau.dense.more, first = continuous_first(w);
@@ -87,18 +103,23 @@ static int continuous_extend(work *w, const dense_step *d)
         bad = accel(w, at->t + ch, X, V, d->more + (size_t)(2 + i) * w->stride);
     }
     w->evaluations = evaluations;
+    const dense_series of = continuous_series(w, d);
+    real *sums = d->more + (size_t)continuous_sums(w) * w->stride, *missing = sums + (size_t)of.terms * w->stride;
+    for (int k = 0; k < of.terms && !bad; k++)
+        for (size_t i = 0; i < w->nv; i++) sums[(size_t)k * w->stride + i] = dense_sum(&of, k, i);
+    for (size_t i = 0; i < w->nx && !bad; i++)
+        missing[i] = continuous_sum(w, d, d->unit + continuous_missing(w), of.columns, i);
     return bad;
 }
 
 static void continuous_state(const work *w, const dense_step *d, clock t, real *x, real *v)
 {
-    const int n = continuous_columns(w);
     const clock u = (t - d->end[0].t) / (d->end[1].t - d->end[0].t), cubic = (3 - 2 * u) * u * u * w->h * w->h;
-    const coef *missing = d->unit + continuous_missing(w);
-    dense_series of = {.terms = w->row->tableau.dense.terms, .columns = n, .series = d->unit, .h = w->h};
-    for (int j = 0; j < n; j++) of.column[j] = continuous_column(w, d, j);
+    dense_series of = {.terms = w->row->tableau.dense.terms, .h = w->h};
+    of.sums = d->more + (size_t)continuous_sums(w) * w->stride;
+    const real *missing = of.sums + (size_t)of.terms * w->stride;
     dense_integrate(w, &of, d->end, t, x, v);
-    for (size_t k = 0; k < w->nx; k++) x[k] = FMA(cubic, continuous_sum(w, d, missing, n, k), x[k]);
+    for (size_t k = 0; k < w->nx; k++) x[k] = FMA(cubic, missing[k], x[k]);
 }
 
 /* How far the ends are apart, by the stages: the ends are rounded, and a velocity would take their rounding over h. */

@@ -30,8 +30,19 @@ typedef struct dense_series {
     int terms, columns;
     const coef *series;                    /* row by row, `columns` numbers each */
     const real *column[DENSE_COLUMNS_MAX]; /* the K[j] */
+    const real *sums; /* Σ series[k][j] K[j] of every k, an array each, where they have been computed; else NULL */
     clock h;
 } dense_series;
+
+/* Sum k of number i. */
+static inline real dense_sum(const dense_series *of, int k, size_t i)
+{
+    const coef *series = of->series + (size_t)k * (size_t)of->columns;
+    real sum = {0};
+    for (int j = 0; j < of->columns; j++)
+        if (series[j] != 0) sum = FMA(series[j], of->column[j][i], sum);
+    return sum;
+}
 
 static void dense_integrate(const work *w, const dense_series *of, const dense_end end[2], clock t, real *x, real *v)
 {
@@ -45,10 +56,7 @@ static void dense_integrate(const work *w, const dense_series *of, const dense_e
     for (size_t i = 0; i < w->nv; i++) {
         real speed = {0}, place = {0};
         for (int k = 0; k < s; k++) {
-            const coef *series = of->series + (size_t)k * (size_t)of->columns;
-            real sum = {0};
-            for (int j = 0; j < of->columns; j++)
-                if (series[j] != 0) sum = FMA(series[j], of->column[j][i], sum);
+            const real sum = of->sums ? of->sums[(size_t)k * w->stride + i] : dense_sum(of, k, i);
             speed = FMA(once[k], sum, speed);
             place = FMA(twice[k], sum, place);
         }

@@ -1,7 +1,7 @@
 /* Bars of event times: they cover the error in at least 99 % of the numbers, by problem in at least 97 %, and at least
- * 85 % of them are at most ten times the error, or 4 units in the last place (of events whose only errors are roundings,
- * the ball and the billiard, fewer than of others); where motions separate, the table says from
- * which event on no digit is left. The truths are closed forms, or of 28 digits. */
+ * 85 % of them are at most ten times the error, or 4 units in the last place (of events whose only errors are
+ * roundings, the ball and the billiard, fewer than of others); where motions separate, the table says from which
+ * event on no digit is left. The truths are closed forms, or of 28 digits. */
 #include "given.h"
 
 #include <stdbool.h>

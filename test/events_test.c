@@ -206,7 +206,7 @@ static void zeros_of_a_driven_oscillator(void **state)
     }
 }
 
-/* Small closed forms ------------------------------------------------------------------------------------------------ */
+/* Small closed forms ----------------------------------------------------------------------------------------------- */
 
 static int thrown(void *ctx, double t, const double *x, const double *v, double *a)
 {
