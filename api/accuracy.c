@@ -165,8 +165,9 @@ motus_status accuracy_refuse(const accuracy *a, const motus_run *r, motus_error 
         fail(err, MOTUS_ACCURACY, "the accuracy %s is not reached: the trials reached %.1e%s at best, %s%s", wanted,
              reached, unit, size, part);
     else if (lost)
-        fail(err, MOTUS_ACCURACY, "the accuracy %s is not reached: no digit of the answer is significant after t = %s",
-             wanted, run_time_text(r, r->bars->differences.until, t));
+        fail(err, MOTUS_ACCURACY,
+             "the accuracy %s is not reached: no digit of the answer is known to be significant after t = %s", wanted,
+             run_time_text(r, r->bars->differences.until, t));
     else if (isfinite(reached))
         fail(err, MOTUS_ACCURACY, "the accuracy %s is not reached: the error is %.1e%s, %s", wanted, reached, unit,
              size);

@@ -298,8 +298,9 @@ static motus_status say_missed(const attempt *a, size_t count, motus_error *err)
     if (isnan(best))
         fail(err, MOTUS_ACCURACY, "no accuracy can be promised of %s: there is no companion", which);
     else if (isinf(best))
-        fail(err, MOTUS_ACCURACY, "the accuracy %s is not reached by %s: no digit of it is significant at the end",
-             wanted, which);
+        fail(err, MOTUS_ACCURACY,
+             "the accuracy %s is not reached by %s: no digit of it is known to be significant at the end", wanted,
+             which);
     else
         fail(err, MOTUS_ACCURACY, "the accuracy %s is not reached by %s: its trials reached %.1e%s at best", wanted,
              which, best, a->goal->absolute ? "" : " of the motion's size");

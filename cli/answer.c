@@ -8,13 +8,13 @@
 #define LN_10 2.302585092994046
 #define FAR_APART 1e7 /* by so much errors grow where a motion passes close encounters, or is chaotic */
 
-/* From what time on no digit is significant. */
+/* From what time on no digit is known to be significant. */
 static void print_end(const summary *s, FILE *out)
 {
     const motus_estimate *e = &s->estimate;
     char t[DECIMAL_MAX], rate[DECIMAL_MAX], gain[DECIMAL_MAX];
     decimal_time(e->significant_until, motus_run_time(s->run) - s->start, t);
-    fprintf(out, "no digit is significant after t = %s", t);
+    fprintf(out, "no digit is known to be significant after t = %s", t);
     if (isfinite(e->rate)) {
         text_brief(e->rate, 2, rate);
         text_brief(LN_10 / e->rate, 2, gain);

@@ -41,8 +41,8 @@ motus_status sweep_accuracy_refuse(const sweep *s, uint64_t first, size_t count,
     if (isnan(reached))
         fail(err, MOTUS_ACCURACY, "no accuracy can be promised: there is no companion of %s", who);
     else if (isinf(reached))
-        fail(err, MOTUS_ACCURACY, "the accuracy %s is not reached: no digit of %s is significant at its end", wanted,
-             who);
+        fail(err, MOTUS_ACCURACY,
+             "the accuracy %s is not reached: no digit of %s is known to be significant at its end", wanted, who);
     else
         fail(err, MOTUS_ACCURACY, "the accuracy %s is not reached: %s has the error %s with the tolerance %s", wanted,
              who, bar, tolerance);

@@ -788,10 +788,9 @@ MOTUS_API motus_status motus_run_sample(motus_run *, const double *times, size_t
  * before they came here: those of a callback, of `x` and `v` in the definition, of motus_system_set.
  *
  * Every column has a bar by its own difference between the run and its companion. 0: the number is exactly 0, and the
- * companion's was too, at all times that were compared. INFINITY: no digit is significant, since the two have been
- * further apart than a tenth of the motion's size, or a quarter where errors grow slowly
- * (motus_estimate.significant_until). NaN: there is no bar, as
- * motus_estimate.reason says; the value is there.
+ * companion's was too, at all times that were compared. INFINITY: no digit is known to be significant, since
+ * the two have been further apart than a tenth of the motion's size, or a quarter where errors grow slowly
+ * (motus_estimate.significant_until). NaN: there is no bar, as motus_estimate.reason says; the value is there.
  *
  * The companion goes on when the run does. It costs twice the run's evaluations, and one step more for every time at
  * which it is compared: about 256 times; of a run of less than 4096 steps every 16 steps, of less than 512 steps 32
@@ -813,11 +812,13 @@ typedef struct motus_estimate {
     /* The largest distance so far of the run from its companion, in units of the largest number of its kind: positions,
      * velocities, first-order variables; and by how much it has grown since the first 1/32 of the run. */
     double distance, growth;
-    double significant_until; /* from this time on no digit is significant; NaN: up to the present time digits are */
-    double rate;              /* the distance grows like e^(rate t); NaN: not as an exponential, or not known */
-    double work;              /* evaluations by companions, in units of the run's; NaN: there are none yet */
-    double seconds;           /* elapsed in companions, reading and compiling included */
-    const char *reason;       /* why there is no bar, one sentence; "": there is. Owned by the run */
+    /* From this time on no digit is known to be significant, of any number, since all are judged together; NaN: up to
+     * the present time digits are. */
+    double significant_until;
+    double rate;        /* the distance grows like e^(rate t); NaN: not as an exponential, or not known */
+    double work;        /* evaluations by companions, in units of the run's; NaN: there are none yet */
+    double seconds;     /* elapsed in companions, reading and compiling included */
+    const char *reason; /* why there is no bar, one sentence; "": there is. Owned by the run */
 } motus_estimate;
 /* What the bars at the present state rest on. Fails as motus_run_errors does. */
 MOTUS_API motus_status motus_run_estimate(motus_run *, motus_estimate *, motus_error *);

@@ -74,6 +74,11 @@ refuses "--tolerance 0" 2 "not a number above 0" "$motus" run $osc --method dopr
 refuses "--tolerance beyond rounding" 2 "below the rounding of the numbers" "$motus" run $osc --method dopri5 --tolerance 1e-17
 refuses "--tolerance in an unknown sense" 2 "1e-6 absolute" "$motus" run $osc --method dopri5 --tolerance "1e-6 relatively"
 refuses "a shortest step that is needed" 1 "needs a step shorter than 0.1" "$motus" run $osc --method bs32 --tolerance 1e-10 --shortest-step 0.1
+printf "x'' = 6 x^2\nx(0) = 1\nx'(0) = 2\n" >"$place/pole.motus"
+for machine in interpreter compiled; do
+    refuses "an accuracy beyond a pole, $machine" 1 "too small to change t = 1" "$motus" run "$place/pole.motus" --method bs32 --accuracy 1e-6 --until 3 --machine $machine
+    refuses "... beyond a shortest step" 1 "at t = 0.938143 the tolerance needs a step shorter than 1e-06" "$motus" run "$place/pole.motus" --method bs32 --accuracy 1e-5 --shortest-step 1e-6 --until 3 --machine $machine
+done
 refuses "a shortest step beyond the longest" 2 "longer than the longest" "$motus" run $osc --method bs32 --shortest-step 0.1 --longest-step 0.01
 refuses "a run of more steps than allowed" 1 "after 20 steps, the most that it may take" "$motus" run $osc --method bs32 --most-steps 20
 refuses "... with the option in its hint" 1 "--most-steps 200" "$motus" run $osc --method bs32 --most-steps 20
@@ -181,7 +186,7 @@ that "... and no error" lacks "±"
 gives "--error full" 0 "$motus" run $oscillator --error full
 that "... costs three times" says "telling the errors took 3 × the work of the run"
 gives "chaos" 0 "$motus" run models/henon-heiles.motus --until 900
-that "... has an end" says "no digit is significant after t = 3"
+that "... has an end" says "no digit is known to be significant after t = 3"
 that "... and a rate" says "errors grow as e^{0.04"
 that "... and prints no digit beyond it" says "x      —"
 gives "chaos in JSON" 0 "$motus" run models/henon-heiles.motus --until 900 --json
