@@ -56,7 +56,7 @@ judge "every function of the language is in the manual" "$(grep -oE '\{"[a-z0-9]
     while read -r f; do sed -n '/^\*\*Functions\*\*/,/^$/p;/^\*\*Choice\*\*/,/^$/p' doc/manual.md |
         grep -qE "(^|[ \`])$f([ (\`]|$)" || echo "$f"; done)"
 judge "run --json has the documented keys" "$("$motus" run models/spring.motus --json >"$place/run.json" 2>&1
-    grep -E '^\| run \| `model' doc/manual.md | grep -oE '[a-z_]+' | grep -vx run |
+    grep -E '^\| run \| `model' doc/manual.md | sed -E 's/\[?\{[^}]*\}\]?//g' | grep -oE '[a-z_]+' | grep -vx run |
         while read -r key; do jq -e "has(\"$key\")" "$place/run.json" >/dev/null 2>&1 || echo "$key"; done)"
 judge "check --json has the documented keys" "$("$motus" check models/spring.motus --json >"$place/check.json" 2>&1
     for key in equations variables velocity_dependent linear_in_velocity time_dependent affine methods; do
