@@ -5,7 +5,9 @@
 #include <math.h>
 #include <string.h>
 
-enum { ROOTS_ROOM = 64 }; /* of one function in one step; more are found piece by piece */
+/* ROOTS_ROOM: of one function in one part of a step; a step is divided where a polynomial of degree PART_DEGREE does not
+ * resolve a function, and at most PARTS_DEEP times */
+enum { ROOTS_ROOM = 128, PART_DEGREE = 64, PARTS_DEEP = 12 };
 
 /* Dense output errs by far less than this part of a function's largest value on the step; where a function comes nearer
  * to 0, or a root lies where it hardly leaves 0, true steps tell what happens. It costs time alone. */
@@ -25,6 +27,12 @@ bool events_add(events *e, candidate c)
     e->candidate[e->candidates++] = c;
     return true;
 }
+
+/* A part of the step in which a function is a polynomial: all of it, where that can be. */
+typedef struct part {
+    double from, to;
+    int depth;
+} part;
 
 static double time_at(const events *e, double tau) { return tau >= 1 ? e->span : tau * e->span; }
 
@@ -58,6 +66,25 @@ static motus_status sample(events *e, stepper *s, int degree, motus_error *err)
     return status;
 }
 
+/* The values of one function at degree + 1 points of a part of the step. */
+static motus_status sample_part(events *e, stepper *s, size_t f, const part *p, double *values, motus_error *err)
+{
+    instant *at = &e->next;
+    motus_status status = MOTUS_OK;
+    for (int k = 0; k <= PART_DEGREE && !status; k++) {
+        const double tau = p->from + roots_point(k, PART_DEGREE) * (p->to - p->from);
+        if (tau <= 0 || tau >= 1) {
+            values[k] = tau <= 0 ? e->left.g[f] : e->right.g[f];
+            continue;
+        }
+        at->t = e->left.t + (e->left.lost + time_at(e, tau));
+        status = stepper_sample(s, at->t, at->x, at->v, err);
+        if (!status) status = events_values(e, at, err);
+        values[k] = at->g[f];
+    }
+    return status;
+}
+
 /* p(tau), by Clenshaw's formula. */
 static double polynomial(const double *c, int degree, double tau)
 {
@@ -72,10 +99,16 @@ static double polynomial(const double *c, int degree, double tau)
 }
 
 typedef struct search {
+    const part *part;
     const double *coefficients;
     int degree;
-    double noise, slack;
+    double slack;
 } search;
+
+static double place_of(const events *e, const search *of, double tau)
+{
+    return time_at(e, of->part->from + tau * (of->part->to - of->part->from));
+}
 
 /* The candidates of one function, from its roots. */
 static bool add_roots(events *e, size_t f, const search *of, const roots_root *root, const roots_found *found)
@@ -86,14 +119,15 @@ static bool add_roots(events *e, size_t f, const search *of, const roots_root *r
         const double before = k ? root[k - 1].to : 0, after = k + 1 < found->count ? root[k + 1].from : 1;
         const double low = before + (r->from - before) / 2, high = r->to + (after - r->to) / 2;
         candidate c = {.of = f,
-                       .at = time_at(e, r->tau),
-                       .low = time_at(e, low),
-                       .high = time_at(e, high),
+                       .at = place_of(e, of, r->tau),
+                       .low = place_of(e, of, low),
+                       .high = place_of(e, of, high),
                        .near = r->kind == ROOTS_NEAR || r->kind == ROOTS_TOUCH,
                        .kind = r->kind == ROOTS_RISING    ? CANDIDATE_RISES
                                : r->kind == ROOTS_FALLING ? CANDIDATE_FALLS
                                                           : (candidate_kind)r->side};
-        if (r->open && e->right.t != e->until) { /* the next step tells it again, and which way it goes on */
+        if (r->open && (of->part->to < 1 ||
+                        e->right.t != e->until)) { /* the next part or step tells it again, and which way it goes on */
             e->open[f] = 1;
             continue;
         }
@@ -107,86 +141,143 @@ static bool add_roots(events *e, size_t f, const search *of, const roots_root *r
 }
 
 /* A function that stood at 0 at the start of the step has left it: whether that is an event. */
-static bool leave(events *e, size_t f, const roots_found *found)
+static bool leave(events *e, size_t f, const search *of, const roots_found *found)
 {
+    const double start = place_of(e, of, 0);
     const int after = found->after, side = e->side[f], heads = e->heads[f];
     e->heads[f] = 0;
     e->hidden |= heads && after != heads;
     if (!after) return true; /* it stays there */
     if (side && after != side)
-        return events_add(e, (candidate){.of = f, .at = 0, .kind = (candidate_kind)after, .located = true});
+        return events_add(
+            e, (candidate){
+                   .of = f, .at = start, .low = start, .high = start, .kind = (candidate_kind)after, .located = true});
     if (side) return true;
-    if (e->first && found->leaves < 1) { /* the start is no event */
+    if (e->first && of->part->from <= 0 && found->leaves < 1) { /* the start is no event */
         e->side[f] = (int8_t)after;
         return true;
     }
-    const double t = found->leaves < 0x1p-20 ? 0 : time_at(e, found->leaves);
+    const double t = found->leaves < 0x1p-20 ? start : place_of(e, of, found->leaves);
     return events_add(
         e, (candidate){.of = f, .at = t, .low = t, .high = t, .kind = (candidate_kind)after, .located = true});
 }
 
-/* The largest value of a function at the points, and its largest slope between two of them; where it stands at 0, which
- * its first value is but for rounding, from that value on. */
-static double size_of(const events *e, size_t f, int degree, double *steepest)
+/* The largest of a function's values at the points, and its largest slope between two of them; where it stands at 0,
+ * which its first value is but for rounding, from that value on. */
+static double size_of(const double *value, size_t stride, int degree, bool stands, double *steepest)
 {
-    const size_t n = e->rules.functions;
-    const double *at = e->samples + f, first = e->stands[f] ? at[0] : 0;
-    double largest = fabs(at[0] - first);
+    const double first = stands ? value[0] : 0;
+    double largest = fabs(value[0] - first);
     *steepest = 0;
     for (int k = 1; k <= degree; k++) {
-        const double value = at[(size_t)k * n], before = at[(size_t)(k - 1) * n];
-        largest = fmax(largest, fabs(value - first));
-        *steepest = fmax(*steepest, fabs(value - before) / (roots_point(k, degree) - roots_point(k - 1, degree)));
+        const double now = value[(size_t)k * stride], before = value[(size_t)(k - 1) * stride];
+        largest = fmax(largest, fabs(now - first));
+        *steepest = fmax(*steepest, fabs(now - before) / (roots_point(k, degree) - roots_point(k - 1, degree)));
     }
     return largest;
 }
 
+static motus_status no_memory(motus_error *err)
+{
+    return fail(err, MOTUS_MEMORY, "no memory for the events of a step");
+}
+
+/* The bounds at both ends of the step, once. */
+static motus_status judge_ends(events *e, motus_error *err)
+{
+    if (e->marked) return MOTUS_OK;
+    motus_status status = events_judge(e, &e->left, err);
+    if (!status) status = events_judge(e, &e->right, err);
+    e->marked = !status;
+    return status;
+}
+
+/* What happens in a part of the step, from the values of a function at its points. *sign: that of the function where the
+ * part begins, 0: it stands; then where it ends. *rough: the values do not tell. */
+static motus_status search_part(events *e, size_t f, const part *p, const double *value, size_t stride, int degree,
+                                int *sign, bool *rough, motus_error *err)
+{
+    double coefficients[ROOTS_DEGREE_MOST + 1], steepest;
+    const bool stands = *sign == 0;
+    const double largest = size_of(value, stride, degree, stands, &steepest);
+    /* The bounds on rounding are computed only where an event was near; most steps need none. The times of the points
+     * are rounded, too, which counts in steps that are short beside the time. */
+    const double moved = steepest * events_ulp(e->right.t) / fabs(e->span * (p->to - p->from));
+    const double rounding = largest * 0x1p-44 + moved;
+    roots_fitted fitted;
+    const roots_fit_status fit = roots_fit(value, stride, degree, rounding, coefficients, &fitted);
+    *rough = false;
+    if (fit == ROOTS_FIT_NOT_FINITE) return MOTUS_OK;
+    const double beyond = fit == ROOTS_FIT_ROUGH ? fitted.unseen : 0;
+    if (!stands && !e->open[f] && roots_none(coefficients, fitted.degree, SLACK * largest + fitted.noise + beyond))
+        return MOTUS_OK;
+    *rough = fit == ROOTS_FIT_ROUGH;
+    if (*rough) return MOTUS_OK;
+    const motus_status status = judge_ends(e, err);
+    if (status) return status;
+    const double noise = fmax(e->left.bound[f], e->right.bound[f]) + moved + (fitted.noise - rounding);
+    const search of = {p, coefficients, fitted.degree, fmax(SLACK * largest, 2 * noise)};
+    roots_root root[ROOTS_ROOM];
+    roots_found found;
+    *rough = roots_find(coefficients, fitted.degree, *sign, noise, of.slack, root, ROOTS_ROOM, &found) == ROOTS_CUT;
+    if (*rough) return MOTUS_OK;
+    if (stands && !leave(e, f, &of, &found)) return no_memory(err);
+    const bool open = e->open[f] && !(found.count && root[0].from <= 0); /* it went back: a touch where it was */
+    const double start = place_of(e, &of, 0);
+    e->open[f] = 0;
+    if (open && !events_add(e, (candidate){.of = f, .at = start, .kind = CANDIDATE_TOUCHES, .located = true}))
+        return no_memory(err);
+    if (found.last) *sign = found.last;
+    return add_roots(e, f, &of, root, &found) ? MOTUS_OK : no_memory(err);
+}
+
+static motus_status too_fast(const events *e, size_t f, const part *p, motus_error *err)
+{
+    char t[DECIMAL_MAX];
+    const double at = e->left.t + time_at(e, p->from);
+    fail(err, MOTUS_EVENTS, "the function of %s changes so fast near t = %s that its roots cannot be told apart",
+         e->rules.rule[e->rule_of[f]].name, decimal_time(at, e->until - e->start, t));
+    hint(err, "a function of an event is smooth, and is 0 at times that are apart");
+    if (err) err->time = at;
+    return MOTUS_EVENTS;
+}
+
+/* The parts of the step one after the other, halved as long as a function is not resolved. */
+static motus_status find_in_parts(events *e, stepper *s, size_t f, int *sign, motus_error *err)
+{
+    part waiting[PARTS_DEEP + 2] = {{0.5, 1, 1}, {0, 0.5, 1}};
+    double value[PART_DEGREE + 1];
+    motus_status status = MOTUS_OK;
+    for (int count = 2; count > 0 && !status;) {
+        const part now = waiting[--count];
+        const double middle = now.from + (now.to - now.from) / 2;
+        bool rough;
+        status = sample_part(e, s, f, &now, value, err);
+        if (!status) status = search_part(e, f, &now, value, 1, PART_DEGREE, sign, &rough, err);
+        if (status || !rough) continue;
+        if (now.depth == PARTS_DEEP) return too_fast(e, f, &now, err);
+        waiting[count++] = (part){middle, now.to, now.depth + 1};
+        waiting[count++] = (part){now.from, middle, now.depth + 1};
+    }
+    return status;
+}
+
 static motus_status find_of(events *e, stepper *s, size_t f, int *degree, motus_error *err)
 {
-    double coefficients[ROOTS_DEGREE_MOST + 1];
+    const part all = {0, 1, 0};
     const size_t n = e->rules.functions;
+    int sign = e->stands[f] ? 0 : e->side[f];
+    bool rough;
     if (isnan(e->left.g[f]) && isnan(e->right.g[f])) return MOTUS_OK; /* a cell without a rule */
-    for (;;) {
-        roots_fitted fitted;
-        double steepest;
-        const double largest = size_of(e, f, *degree, &steepest);
-        /* The bounds on rounding are computed only where an event was near; most steps need none. The times of the
-         * points are rounded, too, which counts in steps that are short beside the time. */
-        const double ulp = events_ulp(e->right.t), h = fabs(e->span);
-        const double rounding = largest * 0x1p-44 + steepest * ulp / h;
-        const roots_fit_status fit = roots_fit(e->samples + f, n, *degree, rounding, coefficients, &fitted);
-        if (fit == ROOTS_FIT_NOT_FINITE) return MOTUS_OK;
-        if (fit == ROOTS_FIT_ROUGH && *degree < ROOTS_DEGREE_MOST &&
-            !roots_none(coefficients, fitted.degree, SLACK * largest + fitted.noise + fitted.unseen)) {
-            *degree *= 2;
-            const motus_status status = sample(e, s, *degree, err);
-            if (status) return status;
-            continue;
-        }
-        if (!e->stands[f] && !e->open[f] && roots_none(coefficients, fitted.degree, SLACK * largest + fitted.noise))
-            return MOTUS_OK;
-        motus_status status = MOTUS_OK;
-        if (!e->marked) { /* the bounds at both ends, once a step */
-            status = events_judge(e, &e->left, err);
-            if (!status) status = events_judge(e, &e->right, err);
-            if (status) return status;
-            e->marked = true;
-        }
-        const double noise = fmax(e->left.bound[f], e->right.bound[f]) + steepest * ulp / h + (fitted.noise - rounding);
-        const search of = {coefficients, fitted.degree, noise, fmax(SLACK * largest, 2 * noise)};
-        roots_root root[ROOTS_ROOM];
-        roots_found found;
-        roots_find(coefficients, fitted.degree, e->stands[f] ? 0 : e->side[f], noise, of.slack, root, ROOTS_ROOM,
-                   &found);
-        if (e->stands[f] && !leave(e, f, &found)) return fail(err, MOTUS_MEMORY, "no memory for the events of a step");
-        e->stands[f] = e->stands[f] && !found.after;
-        const bool open = e->open[f] && !(found.count && root[0].from <= 0); /* it went back: a touch at the start */
-        e->open[f] = 0;
-        if (open && !events_add(e, (candidate){.of = f, .kind = CANDIDATE_TOUCHES, .located = true}))
-            return fail(err, MOTUS_MEMORY, "no memory for the events of a step");
-        if (!add_roots(e, f, &of, root, &found)) return fail(err, MOTUS_MEMORY, "no memory for the events of a step");
-        return MOTUS_OK;
+    motus_status status = search_part(e, f, &all, e->samples + f, n, *degree, &sign, &rough, err);
+    while (!status && rough && *degree < PART_DEGREE) {
+        *degree *= 2;
+        status = sample(e, s, *degree, err);
+        if (!status) status = search_part(e, f, &all, e->samples + f, n, *degree, &sign, &rough, err);
     }
+    if (!status && rough) status = find_in_parts(e, s, f, &sign, err);
+    e->stands[f] = e->stands[f] && !sign;
+    return status;
 }
 
 double events_tick(const events *e, size_t k)
@@ -219,6 +310,5 @@ motus_status events_find(events *e, stepper *s, motus_error *err)
     motus_status status = e->rules.functions ? sample(e, s, degree, err) : MOTUS_OK;
     for (size_t f = 0; f < e->rules.functions && !status; f++) status = find_of(e, s, f, &degree, err);
     if (e->hidden) memcpy(e->side, e->was, flags);
-    if (!status && !add_ticks(e)) status = fail(err, MOTUS_MEMORY, "no memory for the events of a step");
-    return status;
+    return status || add_ticks(e) ? status : no_memory(err);
 }

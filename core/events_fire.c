@@ -60,6 +60,20 @@ static motus_status not_finite(const events *e, size_t k, bool in_v, size_t whic
     return MOTUS_DIVERGED;
 }
 
+/* After an action a condition that no longer holds may become true again in the same instant. */
+static void release(events *e)
+{
+    for (size_t f = 0; f < e->rules.functions; f++)
+        e->sign[f] = (int8_t)(e->zero[f] ? events_direction(e, &e->here, f) : sign_of(e->here.g[f]));
+    for (size_t k = 0; k < e->rules.count; k++) {
+        const rule *r = &e->rules.rule[k];
+        for (size_t i = 0; r->kind == RULE_CONDITION && i < r->instances; i++) {
+            uint8_t *held = &e->held[e->instances[k] + i];
+            *held = *held && rules_hold(r, i, e->sign);
+        }
+    }
+}
+
 static motus_status act(events *e, size_t k, size_t i, motus_error *err)
 {
     instant *at = &e->here;
@@ -86,6 +100,7 @@ static motus_status act(events *e, size_t k, size_t i, motus_error *err)
         const bool was = e->zero[f] && fabs(at->g[f] - e->before[f]) <= at->bound[f];
         e->zero[f] = was || is_zero(e, f);
     }
+    if (!status) release(e);
     return status;
 }
 
