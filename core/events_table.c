@@ -160,7 +160,7 @@ void events_to_limit(events *e, size_t rule, size_t instance)
     const recent *r = &e->recent[e->instances[rule] + instance];
     const double one = fabs(r->t[0] - r->t[1]), left = fabs(e->limit.t - r->t[0]), part = left / one;
     const size_t nx = e->problem.nx, nv = e->problem.nv, moving = nx - e->problem.modes;
-    e->here.t = e->limit.t;
+    e->here.t = e->way * (e->limit.t - e->until) > 0 ? e->until : e->limit.t; /* both are a few roundings away */
     e->here.lost = 0;
     if (e->after_rule != rule || e->after_instance != instance) return;
     for (size_t k = 0; k < moving; k++) e->here.x[k] += part * (e->here.x[k] - e->after[k]);
