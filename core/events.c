@@ -254,6 +254,7 @@ static motus_status piece(events *e, stepper *s, double until, bool *assigned, s
 {
     enum { PART = 4 };
     motus_status status = MOTUS_OK;
+    double whole = 0;
     for (;;) {
         if (!status) status = stepper_mark(s, err);
         if (!status) status = stepper_advance(s, (stepper_limit){1, until}, why, err);
@@ -262,8 +263,13 @@ static motus_status piece(events *e, stepper *s, double until, bool *assigned, s
         e->span = (e->right.t - e->left.t) + (e->right.lost - e->left.lost);
         if (!status) status = events_values(e, &e->right, err);
         if (!status) status = events_find(e, s, err);
-        const double h = e->span / PART;
-        if (status || !e->hidden || fabs(h) < events_ulp(e->left.t)) break;
+        if (status || !e->hidden) break;
+        if (whole == 0) whole = e->span;
+        double h = e->span / PART;
+        if (fabs(h) < 4 * events_ulp(e->left.t)) { /* nothing tells it: what the step itself says counts */
+            memset(e->heads, 0, e->rules.functions);
+            h = whole;
+        }
         *why = STOP_STEPS;
         status = stepper_jump(s, e->left.t, e->left.lost, h, e->left.x, e->left.v, err);
     }

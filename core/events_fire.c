@@ -231,6 +231,13 @@ static motus_status ask(events *e, size_t k, const candidate *c, bool *acted, bo
     return status;
 }
 
+/* Whether a rate is more than rounding has left of larger ones. */
+static bool moves(const events *e, size_t f)
+{
+    const double most = e->marked ? fmax(fabs(e->left.rate[f]), fabs(e->right.rate[f])) : 0;
+    return fabs(e->here.rate[f]) > 0x1p-44 * most;
+}
+
 /* The sides and roots with which the motion goes on after an action. Where that let a function jump over 0, it did not
  * pass 0. */
 static void stand(events *e)
@@ -238,7 +245,7 @@ static void stand(events *e)
     for (size_t f = 0; f < e->rules.functions; f++) {
         e->stands[f] = e->zero[f];
         e->open[f] = 0;
-        e->heads[f] = (int8_t)(e->zero[f] ? events_direction(e, &e->here, f) : 0);
+        e->heads[f] = (int8_t)(e->zero[f] && moves(e, f) ? events_direction(e, &e->here, f) : 0);
         if (!e->zero[f]) e->side[f] = (int8_t)sign_of(e->here.g[f]);
     }
 }
