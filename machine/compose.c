@@ -323,6 +323,7 @@ static void add_operations(emit *e, int width)
         emit_add(t, "#define LANES %d\n", width);
         add_text(t, "step/functions/lanes.h");
         add_functions(t, e->used_lanes);
+        if (!e->used_lanes) add_text(t, "step/functions/end.h"); /* for the names of lanes.h, as where nothing pushes */
         emit_add(
             t,
             "typedef motus_reals_x%d reals;\n#define MANY(x) ((x) - (reals){0})\n#define LANE_OF(x, l) (x)[l]\n"

@@ -232,6 +232,18 @@ static void every_construct(void **state)
     }
 }
 
+/* A family that nothing pushes has no operation over vectors. */
+static void families_without_force(void **state)
+{
+    (void)state;
+    static const char text[] = "x[i]'' = 0 for i = 1..8\nx[i](0) = i for i = 1..8\nx[i]'(0) = 1/i for i = 1..8\n"
+                               "step 0.05\nuntil 3\n";
+    motus_system *s = open_text(text, NULL);
+    static const char *const rows[] = {"verlet", "rk4", "gauss4"};
+    for (size_t k = 0; k < sizeof rows / sizeof *rows; k++) same_bits(s, text, rows[k]);
+    motus_system_destroy(s);
+}
+
 /* First-order variables that read velocities and that nothing reads: a kick evaluates at several velocities, in the
  * windows of a family too. */
 static void variables_that_follow(void **state)
@@ -646,6 +658,7 @@ int main(void)
     open_cache();
     const struct CMUnitTest tests[] = {cmocka_unit_test(every_model),
                                        cmocka_unit_test(every_construct),
+                                       cmocka_unit_test(families_without_force),
                                        cmocka_unit_test(variables_that_follow),
                                        cmocka_unit_test(every_function),
                                        cmocka_unit_test(one_object_for_all_sizes),
