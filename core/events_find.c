@@ -5,8 +5,8 @@
 #include <math.h>
 #include <string.h>
 
-/* ROOTS_ROOM: of one function in one part of a step; a step is divided where a polynomial of degree PART_DEGREE does not
- * resolve a function, and at most PARTS_DEEP times */
+/* ROOTS_ROOM: of one function in one part of a step; a step is divided where a polynomial of degree PART_DEGREE does
+ * not resolve a function, and at most PARTS_DEEP times */
 enum { ROOTS_ROOM = 128, PART_DEGREE = 64, PARTS_DEEP = 12 };
 
 /* Dense output errs by far less than this part of a function's largest value on the step; where a function comes nearer
@@ -192,8 +192,8 @@ static motus_status judge_ends(events *e, motus_error *err)
     return status;
 }
 
-/* What happens in a part of the step, from the values of a function at its points. *sign: that of the function where the
- * part begins, 0: it stands; then where it ends. *rough: the values do not tell. */
+/* What happens in a part of the step, from the values of a function at its points. *sign: that of the function where
+ * the part begins, 0: it stands; then where it ends. *rough: the values do not tell. */
 static motus_status search_part(events *e, size_t f, const part *p, const double *value, size_t stride, int degree,
                                 int *sign, bool *rough, motus_error *err)
 {
