@@ -86,6 +86,17 @@ static dense_series continuous_series(const work *w, const dense_step *d)
     return of;
 }
 
+/* The sums that every time within the step needs. */
+static void continuous_add(const work *w, const dense_step *d)
+{
+    const dense_series of = continuous_series(w, d);
+    real *sums = d->more + (size_t)continuous_sums(w) * w->stride, *missing = sums + (size_t)of.terms * w->stride;
+    for (int k = 0; k < of.terms; k++)
+        for (size_t i = 0; i < w->nv; i++) sums[(size_t)k * w->stride + i] = dense_sum(&of, k, i);
+    for (size_t i = 0; i < w->nx; i++)
+        missing[i] = continuous_sum(w, d, d->unit + continuous_missing(w), of.columns, i);
+}
+
 static int continuous_extend(work *w, const dense_step *d)
 {
     const int more = w->row->tableau.dense.more, first = continuous_first(w);
@@ -103,12 +114,7 @@ static int continuous_extend(work *w, const dense_step *d)
         bad = accel(w, at->t + ch, X, V, d->more + (size_t)(2 + i) * w->stride);
     }
     w->evaluations = evaluations;
-    const dense_series of = continuous_series(w, d);
-    real *sums = d->more + (size_t)continuous_sums(w) * w->stride, *missing = sums + (size_t)of.terms * w->stride;
-    for (int k = 0; k < of.terms && !bad; k++)
-        for (size_t i = 0; i < w->nv; i++) sums[(size_t)k * w->stride + i] = dense_sum(&of, k, i);
-    for (size_t i = 0; i < w->nx && !bad; i++)
-        missing[i] = continuous_sum(w, d, d->unit + continuous_missing(w), of.columns, i);
+    if (!bad) continuous_add(w, d);
     return bad;
 }
 

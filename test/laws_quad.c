@@ -356,7 +356,7 @@ bool quad_continuous_of(method k, quad part, scheme *out)
     if (m->tableau.dense.terms == 0) return false;
     work w = *plan_of(m, NULL, &quad_problems[OSCILLATOR]);
     const int s = w.stages, first = continuous_first(&w), n = continuous_columns(&w);
-    if (n > SCHEME_STAGES_MAX || s + m->tableau.dense.more + 8 > WEIGHTS_ARRAYS) abort();
+    if (n > SCHEME_STAGES_MAX || s + m->tableau.dense.more + m->tableau.dense.terms + 8 > WEIGHTS_ARRAYS) abort();
     work_place(&w, memory);
     continuous_between(&w, unit);
     w.h = 1;
@@ -384,6 +384,7 @@ bool quad_continuous_of(method k, quad part, scheme *out)
             w.ks[(size_t)j * w.stride] = 1;
         else
             more[(size_t)(2 + j - first) * w.stride] = 1;
+        continuous_add(&w, &step);
         continuous_state(&w, &step, part, &x, &v);
         out->b[j] = x;
         out->bv[j] = v;
