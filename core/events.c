@@ -184,11 +184,6 @@ static motus_status restart(events *e, stepper *s, double h, motus_error *err)
     return stepper_jump(s, e->here.t, e->here.lost, h, e->here.x, e->here.v, err);
 }
 
-static motus_status no_memory(motus_error *err)
-{
-    return fail(err, MOTUS_MEMORY, "no memory for the events of a step");
-}
-
 /* Before the motion goes on from an action: where the piece that led to it began, for dense output. */
 static bool keep_past(events *e)
 {
@@ -220,7 +215,7 @@ static motus_status follow(events *e, stepper *s, candidate *c, bool *assigned, 
     if (ends) e->end = EVENTS_END_ACCUMULATED, e->end_rule = e->limit.rule;
     if (status || e->end == EVENTS_END_NONE) return status;
     *why = STOP_EVENT;
-    if (!keep_past(e)) return no_memory(err); /* what lies before the end is sampled */
+    if (!keep_past(e)) return events_no_memory(err); /* what lies before the end is sampled */
     e->past_end = e->here.t;
     return restart(e, s, stepper_step(s), err);
 }
@@ -327,7 +322,7 @@ static motus_status adaptive_step(events *e, stepper *s, double until, stepper_s
     if (status || *why == STOP_EVENT) return status;
     if (assigned) {
         const double h = e->span;
-        if (!keep_past(e)) return no_memory(err);
+        if (!keep_past(e)) return events_no_memory(err);
         e->past_end = e->here.t;
         status = restart(e, s, h, err);
         if (!status) status = stepper_advance(s, (stepper_limit){0, until}, why, err);
@@ -351,7 +346,7 @@ static motus_status grid_step(events *e, stepper *s, double until, stepper_stop 
         const bool near = fabs(left) <= 8 * events_ulp(end);
         if (!broken && !assigned && near) break; /* the usual step */
         broken = true;
-        if (!keep_past(e)) return no_memory(err);
+        if (!keep_past(e)) return events_no_memory(err);
         go_on_from(e, assigned ? &e->here : &e->right);
         e->past_end = e->left.t;
         *why = near && last ? STOP_UNTIL : STOP_STEPS;

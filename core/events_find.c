@@ -13,6 +13,11 @@ enum { ROOTS_ROOM = 128, PART_DEGREE = 64, PARTS_DEEP = 12 };
  * to 0, or a root lies where it hardly leaves 0, true steps tell what happens. It costs time alone. */
 #define SLACK 0x1p-13
 
+motus_status events_no_memory(motus_error *err)
+{
+    return fail(err, MOTUS_MEMORY, "no memory for the events of a step");
+}
+
 bool events_add(events *e, candidate c)
 {
     if (e->candidates == e->candidate_room) {
@@ -52,7 +57,7 @@ static bool room_for(events *e, int degree)
 static motus_status sample(events *e, stepper *s, int degree, motus_error *err)
 {
     const size_t n = e->rules.functions;
-    if (!room_for(e, degree)) return fail(err, MOTUS_MEMORY, "no memory for the events of a step");
+    if (!room_for(e, degree)) return events_no_memory(err);
     memcpy(e->samples, e->left.g, n * sizeof *e->samples);
     memcpy(e->samples + (size_t)degree * n, e->right.g, n * sizeof *e->samples);
     instant *at = &e->next;
@@ -177,11 +182,6 @@ static double size_of(const double *value, size_t stride, int degree, bool stand
     return largest;
 }
 
-static motus_status no_memory(motus_error *err)
-{
-    return fail(err, MOTUS_MEMORY, "no memory for the events of a step");
-}
-
 /* The bounds at both ends of the step, once. */
 static motus_status judge_ends(events *e, motus_error *err)
 {
@@ -221,14 +221,14 @@ static motus_status search_part(events *e, size_t f, const part *p, const double
     roots_found found;
     *rough = roots_find(coefficients, fitted.degree, *sign, noise, of.slack, root, ROOTS_ROOM, &found) == ROOTS_CUT;
     if (*rough) return MOTUS_OK;
-    if (stands && !leave(e, f, &of, &found)) return no_memory(err);
+    if (stands && !leave(e, f, &of, &found)) return events_no_memory(err);
     const bool open = e->open[f] && !(found.count && root[0].from <= 0); /* it went back: a touch where it was */
     const double start = place_of(e, &of, 0);
     e->open[f] = 0;
     if (open && !events_add(e, (candidate){.of = f, .at = start, .kind = CANDIDATE_TOUCHES, .located = true}))
-        return no_memory(err);
+        return events_no_memory(err);
     if (found.last) *sign = found.last;
-    return add_roots(e, f, &of, root, &found) ? MOTUS_OK : no_memory(err);
+    return add_roots(e, f, &of, root, &found) ? MOTUS_OK : events_no_memory(err);
 }
 
 static motus_status too_fast(const events *e, size_t f, const part *p, motus_error *err)
@@ -310,5 +310,5 @@ motus_status events_find(events *e, stepper *s, motus_error *err)
     motus_status status = e->rules.functions ? sample(e, s, degree, err) : MOTUS_OK;
     for (size_t f = 0; f < e->rules.functions && !status; f++) status = find_of(e, s, f, &degree, err);
     if (e->hidden) memcpy(e->side, e->was, flags);
-    return status || add_ticks(e) ? status : no_memory(err);
+    return status || add_ticks(e) ? status : events_no_memory(err);
 }

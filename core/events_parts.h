@@ -127,6 +127,7 @@ double events_tick(const events *, size_t rule);
 /* events_find.c. What may happen in the step from `left` to `right`, whose dense output the stepper has. */
 motus_status events_find(events *, stepper *, motus_error *);
 bool events_add(events *, candidate);
+motus_status events_no_memory(motus_error *);
 
 /* events_fire.c. All that happens at `here`, which candidate c (NULL: time) leads to. */
 motus_status events_fire(events *, const candidate *, bool *assigned, motus_error *);

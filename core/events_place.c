@@ -226,7 +226,7 @@ motus_status events_locate(events *e, size_t k, motus_error *err)
             second.low = c->high = at;
             second.at = at + (second.high - at) / 2;
             c->at = c->low + (at - c->low) / 2;
-            if (!events_add(e, second)) return fail(err, MOTUS_MEMORY, "no memory for the events of a step");
+            if (!events_add(e, second)) return events_no_memory(err);
             c = &e->candidate[k];
         }
     }
