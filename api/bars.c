@@ -302,7 +302,7 @@ static motus_status reach(motus_run *r, double t, motus_error *err)
     const bool ends = run_events_ended(r);
     double interval = events_interval(r->events);
     const double way = r->timing.until - r->timing.t0;
-    const double least = CLOSE * (nextafter(fabs(t), INFINITY) - fabs(t)), most = fabs(way) / 8;
+    const double least = CLOSE * events_ulp(t), most = fabs(way) / 8;
     if (interval / 4 < least) interval = 4 * least;
     const double span = copysign(!ends && interval / 4 < most ? interval / 4 : most, way);
     if (!ends && events_latest(r->events) != t) return MOTUS_OK;
@@ -318,7 +318,7 @@ static void notice_gap(motus_run *r, double t)
     const bool gap = !along(r, &b->half) || (b->twin.events && !along(r, &b->twin));
     if (gap && !b->gap) b->gap_since = t;
     b->gap = gap;
-    const double least = CLOSE * (nextafter(fabs(t), INFINITY) - fabs(t)), half = events_interval(r->events) / 2;
+    const double least = CLOSE * events_ulp(t), half = events_interval(r->events) / 2;
     if (gap && (run_events_ended(r) || fabs(t - b->gap_since) > fmax(half, least))) b->differences.until = b->gap_since;
 }
 

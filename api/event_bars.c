@@ -61,15 +61,14 @@ static size_t significant(motus_run *r)
         const size_t k = b->rows;
         const double t = events_row(r->events, k, false, NULL, NULL).t;
         const double before = k ? events_row(r->events, k - 1, false, NULL, NULL).t : r->timing.t0;
-        const double room = fmax(APART * fabs(t - before), CLOSE * (nextafter(fabs(t), INFINITY) - fabs(t)));
+        const double room = fmax(APART * fabs(t - before), CLOSE * events_ulp(t));
         b->rows_differ = distance(r, &b->half, k) > room;
         if (b->rows_differ) break;
     }
     return b->rows;
 }
 
-/* Whether no further row is significant; also where the motions themselves are too far apart for companions to go on.
- * */
+/* Whether no further row is significant; also where the motions themselves are too far apart for companions. */
 static bool ended(const bars *b) { return b->rows_differ || !isnan(b->differences.until); }
 
 /* Row number i of those beside which row k is judged: itself, those before it, those after it; SIZE_MAX: none. */
@@ -102,7 +101,7 @@ double event_bars_time(motus_run *r, size_t k)
         if (r->bars->twin.events) d[n] = fmax(d[n], distance(r, &r->bars->twin, row));
         n++;
     }
-    const double ulp = nextafter(t, INFINITY) - t;
+    const double ulp = events_ulp(t);
     const bool acts = system_acts(r->system);
     return fmax(bar_of(d, n) + ulp, (ROUNDINGS + (acts ? EACH * (double)k : 0)) * ulp);
 }
@@ -170,7 +169,7 @@ static motus_status errors(motus_run *r, size_t k, bool after, const size_t *col
     if (status == MOTUS_OK) status = values_of(r, r->system, r->events, k, after, columns, count, room, err);
     for (size_t j = 0; j < count && status == MOTUS_OK;
          j++) /* where both have the same number, it may still be rounded */
-        if (out[j] > 0) out[j] += nextafter(fabs(room[j]), INFINITY) - fabs(room[j]);
+        if (out[j] > 0) out[j] += events_ulp(room[j]);
     give(&r->allocator, room);
     return status;
 }

@@ -134,7 +134,7 @@ motus_status events_begin(events *e, stepper *s, double until, motus_error *err)
     e->at_once = NAN;
     e->after_rule = SIZE_MAX;
     e->interval = INFINITY;
-    for (size_t f = 0; f < e->rules.functions; f++) e->fired[f] = NAN, e->open[f] = 0;
+    for (size_t f = 0; f < e->rules.functions; f++) e->fired[f] = NAN, e->open[f] = 0, e->heads[f] = 0;
     motus_status status = check_clocks(e, err);
     if (!status) status = observe(s, &e->left, err);
     if (!status) status = events_values(e, &e->left, err);
@@ -184,19 +184,14 @@ static motus_status restart(events *e, stepper *s, double h, motus_error *err)
     return stepper_jump(s, e->here.t, e->here.lost, h, e->here.x, e->here.v, err);
 }
 
-/* Before the motion goes on from an action: where the piece that led to it began, for dense output. */
-static bool keep_past(events *e)
+/* Before the motion goes on from an action at time `end`: where the piece that led to it began, for dense output. */
+static bool keep_past(events *e, double end)
 {
     const size_t nx = e->problem.nx, nv = e->problem.nv, each = 2 + nx + nv;
-    if (e->pasts == e->past_room) {
-        const size_t room = 2 * e->past_room + 2;
-        double *more = take(&e->allocator, room * each, sizeof *more);
-        if (!more) return false;
-        if (e->pasts) memcpy(more, e->past, e->pasts * each * sizeof *more);
-        give(&e->allocator, e->past);
-        e->past = more;
-        e->past_room = room;
-    }
+    void *past = e->past;
+    if (!events_grow(&e->allocator, &past, e->pasts, &e->past_room, 1, each * sizeof *e->past)) return false;
+    e->past = past;
+    e->past_end = end;
     double *to = e->past + e->pasts++ * each;
     to[0] = e->left.t, to[1] = e->left.lost;
     memcpy(to + 2, e->left.x, nx * sizeof *to);
@@ -215,8 +210,7 @@ static motus_status follow(events *e, stepper *s, candidate *c, bool *assigned, 
     if (ends) e->end = EVENTS_END_ACCUMULATED, e->end_rule = e->limit.rule;
     if (status || e->end == EVENTS_END_NONE) return status;
     *why = STOP_EVENT;
-    if (!keep_past(e)) return events_no_memory(err); /* what lies before the end is sampled */
-    e->past_end = e->here.t;
+    if (!keep_past(e, e->here.t)) return events_no_memory(err); /* what lies before the end is sampled */
     return restart(e, s, stepper_step(s), err);
 }
 
@@ -268,7 +262,7 @@ static motus_status piece(events *e, stepper *s, double until, bool *assigned, s
         *why = STOP_STEPS;
         status = stepper_jump(s, e->left.t, e->left.lost, h, e->left.x, e->left.v, err);
     }
-    if (!status && e->first && !e->held_known) events_suppose(e), e->held_known = true;
+    if (!status && e->first) events_suppose(e);
     e->first = false;
     e->here_at = NAN;
     if (!status && e->candidates) status = settle(e, s, assigned, why, err);
@@ -305,16 +299,6 @@ void events_move(events *e, const machine *m)
     e->probe = NULL;
 }
 
-static void go_on_from(events *e, const instant *at)
-{
-    instant *to = &e->left;
-    to->t = at->t;
-    to->lost = at->lost;
-    memcpy(to->x, at->x, e->problem.nx * sizeof *to->x);
-    memcpy(to->v, at->v, e->problem.nv * sizeof *to->v);
-    if (e->rules.functions) memcpy(to->g, at->g, e->rules.functions * sizeof *to->g);
-}
-
 static motus_status adaptive_step(events *e, stepper *s, double until, stepper_stop *why, motus_error *err)
 {
     bool assigned = false;
@@ -322,12 +306,11 @@ static motus_status adaptive_step(events *e, stepper *s, double until, stepper_s
     if (status || *why == STOP_EVENT) return status;
     if (assigned) {
         const double h = e->span;
-        if (!keep_past(e)) return events_no_memory(err);
-        e->past_end = e->here.t;
+        if (!keep_past(e, e->here.t)) return events_no_memory(err);
         status = restart(e, s, h, err);
         if (!status) status = stepper_advance(s, (stepper_limit){0, until}, why, err);
     }
-    go_on_from(e, assigned ? &e->here : &e->right);
+    events_copy(e, &e->left, assigned ? &e->here : &e->right);
     return status;
 }
 
@@ -346,15 +329,15 @@ static motus_status grid_step(events *e, stepper *s, double until, stepper_stop 
         const bool near = fabs(left) <= 8 * events_ulp(end);
         if (!broken && !assigned && near) break; /* the usual step */
         broken = true;
-        if (!keep_past(e)) return events_no_memory(err);
-        go_on_from(e, assigned ? &e->here : &e->right);
-        e->past_end = e->left.t;
+        const instant *now = assigned ? &e->here : &e->right;
+        if (!keep_past(e, now->t)) return events_no_memory(err);
+        events_copy(e, &e->left, now);
         *why = near && last ? STOP_UNTIL : STOP_STEPS;
         status = stepper_jump(s, e->left.t, e->left.lost, near ? e->grid_step : left, e->left.x, e->left.v, err);
         if (!status && near && last) status = stepper_advance(s, (stepper_limit){0, e->left.t}, why, err);
         if (status || near) return status;
     }
-    go_on_from(e, &e->right);
+    events_copy(e, &e->left, &e->right);
     return MOTUS_OK;
 }
 
@@ -395,7 +378,7 @@ void events_forget(events *e)
     memset(e->recent, 0, instances * sizeof *e->recent);
     e->rows = e->numbers = e->kept_states = e->pasts = 0;
     e->acted = 0;
-    e->has_limit = e->limit_told = e->held_known = false;
+    e->has_limit = e->limit_told = false;
     e->end = EVENTS_END_NONE;
 }
 
@@ -410,5 +393,3 @@ double events_latest(const events *e) { return e->at_once; }
 int64_t events_acted(const events *e) { return e->acted; }
 double events_interval(const events *e) { return e->interval; }
 int64_t events_steps(const events *e) { return e->steps; }
-int64_t events_evaluations(const events *e) { return e->probe ? stepper_evaluations(e->probe) : 0; }
-int64_t events_count(const events *e, size_t rule) { return e->count[rule]; }

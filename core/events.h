@@ -62,12 +62,13 @@ void events_jog(events *, events_jogger);
 /* The stepper has begun a new leg where it stands (stepper_turn): the grid of fixed steps begins there. */
 void events_turn(events *, const stepper *);
 
+/* One unit in the last place of a time, whatever its sign. */
+double events_ulp(double t);
+
 events_end events_ended(const events *, size_t *rule);
 /* False: the events of no rule have accumulated. */
 bool events_accumulated(const events *, events_limit *);
-int64_t events_steps(const events *);       /* since events_begin */
-int64_t events_evaluations(const events *); /* of the force, for steps that end on events */
-int64_t events_count(const events *, size_t rule);
+int64_t events_steps(const events *);   /* since events_begin */
 double events_latest(const events *);   /* time of the latest action; NaN: there was none */
 int64_t events_acted(const events *);   /* how often a rule has assigned */
 double events_interval(const events *); /* between the latest two instants at which one did; INFINITY: there are none */

@@ -20,15 +20,9 @@ motus_status events_no_memory(motus_error *err)
 
 bool events_add(events *e, candidate c)
 {
-    if (e->candidates == e->candidate_room) {
-        const size_t room = e->candidate_room ? 2 * e->candidate_room : 16;
-        candidate *more = take(&e->allocator, room, sizeof *more);
-        if (!more) return false;
-        if (e->candidates) memcpy(more, e->candidate, e->candidates * sizeof *more);
-        give(&e->allocator, e->candidate);
-        e->candidate = more;
-        e->candidate_room = room;
-    }
+    void *list = e->candidate;
+    if (!events_grow(&e->allocator, &list, e->candidates, &e->candidate_room, 1, sizeof c)) return false;
+    e->candidate = list;
     e->candidate[e->candidates++] = c;
     return true;
 }

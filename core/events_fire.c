@@ -13,7 +13,7 @@
 
 static int sign_of(double x) { return (x > 0) - (x < 0); }
 
-/* Whether a function is 0 at `here`: by their rounding, and by that of the time. */
+/* Whether a function is 0 at `here`: by its rounding, and by that of the time. */
 static bool is_zero(const events *e, size_t f)
 {
     const instant *at = &e->here;
@@ -135,7 +135,7 @@ static motus_status happen(events *e, size_t k, size_t i, bool touched, bool *as
 /* The direction in which function f leaves 0 here: by its slope, or as the candidate says while nothing has acted. */
 static int leaves(const events *e, size_t f, const candidate *c, bool acted)
 {
-    if (c && !acted && c->kind != CANDIDATE_TIME && c->of == f) return c->kind;
+    if (!acted && c->kind != CANDIDATE_TIME && c->of == f) return c->kind;
     return events_direction(e, &e->here, f);
 }
 
@@ -144,7 +144,7 @@ static motus_status ask_root(events *e, size_t k, size_t i, const candidate *c, 
 {
     const rule *r = &e->rules.rule[k];
     const size_t f = r->first + i;
-    const bool here = c && c->kind != CANDIDATE_TIME && c->of == f;
+    const bool here = c->kind != CANDIDATE_TIME && c->of == f;
     if (!e->zero[f] || (e->fired[f] == e->here.t && !*acted)) return MOTUS_OK;
     const int to = leaves(e, f, c, *acted);
     if (here && !*acted && c->kind == CANDIDATE_TOUCHES) {
@@ -255,7 +255,7 @@ motus_status events_fire(events *e, const candidate *c, bool *assigned, motus_er
     bool again = true;
     motus_status status = MOTUS_OK;
     for (size_t f = 0; f < e->rules.functions; f++) e->zero[f] = is_zero(e, f);
-    if (c && c->kind != CANDIDATE_TIME) e->zero[c->of] = 1;
+    if (c->kind != CANDIDATE_TIME) e->zero[c->of] = 1;
     memset(e->ticked, 0, e->rules.count);
     events_overlay(e, e->here.x);
     while (again && !status) {

@@ -53,10 +53,9 @@ struct events {
     stepper *probe;
     double start, until, way; /* way: 1 forward, -1 backward */
     double grid_start, grid_step;
-    int64_t steps;   /* of the leg */
-    bool first;      /* no step has been taken since the start */
-    bool held_known; /* conditions are judged, after the first step */
-    bool marked;     /* `right` is the stepper's state, with its functions */
+    int64_t steps; /* of the leg */
+    bool first;    /* no step has been taken since the start */
+    bool marked;   /* the bounds at both ends of the step are known */
     events_end end;
     size_t end_rule;
 
@@ -79,7 +78,7 @@ struct events {
     uint32_t *rule_of; /* function */
     double *samples;   /* values at the points of the step */
     int samples_room;
-    uint8_t *held;     /* per instance of a condition: it was true; numbered as instance_of says */
+    uint8_t *held;     /* per instance of a condition: it was true; numbered by `instances` */
     size_t *instances; /* per rule: the number of its first instance */
     recent *recent;    /* per instance */
     int64_t *count;    /* per rule */
@@ -120,7 +119,7 @@ motus_status events_at(events *, double h, instant *, motus_error *);
 motus_status events_locate(events *, size_t candidate, motus_error *);
 /* The direction in which a function moves at an instant along the run; 0: too small to tell. */
 int events_direction(const events *, const instant *, size_t function);
-double events_ulp(double t);
+void events_copy(const events *, instant *to, const instant *from); /* time, state and functions */
 /* The time of the next tick of a clock. */
 double events_tick(const events *, size_t rule);
 
@@ -129,12 +128,13 @@ motus_status events_find(events *, stepper *, motus_error *);
 bool events_add(events *, candidate);
 motus_status events_no_memory(motus_error *);
 
-/* events_fire.c. All that happens at `here`, which candidate c (NULL: time) leads to. */
+/* events_fire.c. All that happens at `here`, to which the candidate leads. */
 motus_status events_fire(events *, const candidate *, bool *assigned, motus_error *);
 /* The truth of conditions from the sides, without events. */
 void events_suppose(events *);
 
-/* events_table.c */
+/* events_table.c. Room for `more` items behind `count` of them. False: no memory. */
+bool events_grow(const motus_allocator *, void **items, size_t count, size_t *room, size_t more, size_t size);
 bool events_note(events *, size_t rule, size_t instance, bool touched, const instant *); /* a row */
 bool events_note_after(events *, const instant *);                                       /* its state after it */
 void events_overlay(const events *, double *x);                                          /* the newest kept numbers */

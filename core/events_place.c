@@ -82,7 +82,7 @@ int events_direction(const events *e, const instant *at, size_t f)
     return fabs(change) > 4 * at->bound[f] ? (rate > 0) - (rate < 0) : 0;
 }
 
-static void copy(const events *e, instant *to, const instant *from)
+void events_copy(const events *e, instant *to, const instant *from)
 {
     to->t = from->t;
     to->lost = from->lost;
@@ -109,7 +109,7 @@ motus_status events_at(events *e, double h, instant *to, motus_error *err)
     const instant *from = &e->left;
     const bool still = from->t + h == from->t; /* too short for a step */
     if (still || h == e->span) {
-        copy(e, to, still ? from : &e->right);
+        events_copy(e, to, still ? from : &e->right);
         return MOTUS_OK;
     }
     motus_status status = events_probe(e, from->t, from->lost, from->x, from->v, h, &to->t, &to->lost, err);

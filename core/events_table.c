@@ -4,8 +4,7 @@
 #include <math.h>
 #include <string.h>
 
-/* Room for `more` items behind `count` of them. */
-static bool grow(const motus_allocator *a, void **items, size_t count, size_t *room, size_t more, size_t size)
+bool events_grow(const motus_allocator *a, void **items, size_t count, size_t *room, size_t more, size_t size)
 {
     if (count + more <= *room) return true;
     const size_t wider = *room + *room / 2 + more + 16;
@@ -23,9 +22,10 @@ static bool grow_rows(events *e)
 {
     size_t room = e->row_room, also = e->row_room;
     void *row = e->row, *at = e->row_at;
-    if (e->rows >= EVENTS_ROWS_MOST || !grow(&e->allocator, &row, e->rows, &room, 1, sizeof *e->row)) return false;
+    if (e->rows >= EVENTS_ROWS_MOST || !events_grow(&e->allocator, &row, e->rows, &room, 1, sizeof *e->row))
+        return false;
     e->row = row;
-    if (!grow(&e->allocator, &at, e->rows, &also, 1, sizeof *e->row_at)) return false;
+    if (!events_grow(&e->allocator, &at, e->rows, &also, 1, sizeof *e->row_at)) return false;
     e->row_at = at;
     e->row_room = also;
     return true;
@@ -36,7 +36,7 @@ static bool add_state(events *e, const instant *at)
 {
     const size_t nx = e->problem.nx, nv = e->problem.nv;
     void *numbers = e->row_state;
-    if (!grow(&e->allocator, &numbers, e->numbers, &e->number_room, nx + nv, sizeof *e->row_state)) return false;
+    if (!events_grow(&e->allocator, &numbers, e->numbers, &e->number_room, nx + nv, sizeof *e->row_state)) return false;
     e->row_state = numbers;
     memcpy(e->row_state + e->numbers, at->x, nx * sizeof *at->x);
     memcpy(e->row_state + e->numbers + nx, at->v, nv * sizeof *at->v);
@@ -97,9 +97,9 @@ bool events_keep_now(events *e, double t, const double *x)
     if (!n) return true;
     void *states = e->kept_state, *numbers = e->kept;
     size_t room = e->kept_room, also = e->kept_room * n;
-    if (!grow(&e->allocator, &states, e->kept_states, &room, 1, sizeof *e->kept_state)) return false;
+    if (!events_grow(&e->allocator, &states, e->kept_states, &room, 1, sizeof *e->kept_state)) return false;
     e->kept_state = states;
-    if (!grow(&e->allocator, &numbers, e->kept_states * n, &also, (room - e->kept_states) * n, sizeof *e->kept))
+    if (!events_grow(&e->allocator, &numbers, e->kept_states * n, &also, (room - e->kept_states) * n, sizeof *e->kept))
         return false;
     e->kept = numbers;
     e->kept_room = room;
