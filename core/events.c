@@ -36,6 +36,7 @@ static size_t arrange(events *e, char *block)
     for (size_t k = 0; k < n; k++) instances += e->rules.rule[k].instances + 1;
     double *numbers = next(&l, 4 * (nx + 2 * nv + 3 * f), sizeof *numbers);
     e->after = next(&l, nx + nv, sizeof *e->after);
+    e->width = next(&l, nx + nv, sizeof *e->width);
     e->fired = next(&l, f, sizeof *e->fired);
     e->before = next(&l, f, sizeof *e->before);
     e->instances = next(&l, n, sizeof *e->instances);
@@ -46,6 +47,7 @@ static size_t arrange(events *e, char *block)
     e->side = next(&l, 4 * f, 1); /* one behind the other, so that they are kept and restored together */
     e->was = next(&l, 4 * f, 1);
     e->sign = next(&l, f, 1);
+    e->look = next(&l, f, 1);
     e->zero = next(&l, f, 1);
     e->held = next(&l, instances, 1);
     e->ticked = next(&l, n, 1);
@@ -250,7 +252,7 @@ static motus_status piece(events *e, stepper *s, double until, bool *assigned, s
         if (!status) status = observe(s, &e->right, err);
         if (!status && e->right.t == e->left.t) return MOTUS_OK;
         e->span = (e->right.t - e->left.t) + (e->right.lost - e->left.lost);
-        if (!status) status = events_values(e, &e->right, err);
+        e->right.valued = false;
         if (!status) status = events_find(e, s, err);
         if (status || !e->hidden) break;
         if (whole == 0) whole = e->span;

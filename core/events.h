@@ -18,6 +18,7 @@
 
 enum {
     EVENTS_AT_ONCE = 100,      /* actions in one instant, more are an error: MOTUS_EVENTS */
+    EVENTS_IN_STEP = 1 << 13,  /* roots of a function in one step, more are an error */
     EVENTS_ROWS_MOST = 1 << 26 /* of the table */
 };
 

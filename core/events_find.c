@@ -236,6 +236,16 @@ static motus_status too_fast(const events *e, size_t f, const part *p, motus_err
     return MOTUS_EVENTS;
 }
 
+static motus_status too_many(const events *e, size_t f, motus_error *err)
+{
+    char t[DECIMAL_MAX];
+    fail(err, MOTUS_EVENTS, "the function of %s is 0 more than %d times in the step at t = %s",
+         e->rules.rule[e->rule_of[f]].name, EVENTS_IN_STEP, decimal_time(e->left.t, e->until - e->start, t));
+    hint(err, "a motion that leaves the finite numbers may pass ever more events: end the run before");
+    if (err) err->time = e->left.t;
+    return MOTUS_EVENTS;
+}
+
 /* The parts of the step one after the other, halved as long as a function is not resolved. */
 static motus_status find_in_parts(events *e, stepper *s, size_t f, int *sign, motus_error *err)
 {
@@ -248,6 +258,7 @@ static motus_status find_in_parts(events *e, stepper *s, size_t f, int *sign, mo
         bool rough;
         status = sample_part(e, s, f, &now, value, err);
         if (!status) status = search_part(e, f, &now, value, 1, PART_DEGREE, sign, &rough, err);
+        if (!status && e->candidates > EVENTS_IN_STEP) return too_many(e, f, err);
         if (status || !rough) continue;
         if (now.depth == PARTS_DEEP) return too_fast(e, f, &now, err);
         waiting[count++] = (part){middle, now.to, now.depth + 1};
@@ -292,6 +303,101 @@ static bool add_ticks(events *e)
     return true;
 }
 
+/* How far each number may be within the step from the middle of its ends: a position from the line between them by
+ * h^2/8 times the largest acceleration, a velocity by h/2 times that. The middle is in `next`. False: not known. */
+static bool box(events *e, const stepper *s)
+{
+    const size_t nx = e->problem.nx, nv = e->problem.nv;
+    instant *middle = &e->next;
+    const instant *from = &e->left, *to = &e->right;
+    const double h = fabs(e->span);
+    double *most = middle->a, *dx = e->width, *dv = dx + nx;
+    if (!e->rules.least || e->problem.refresh || !stepper_swing(s, most)) return false;
+    for (size_t k = 0; k < nv; k++) {
+        middle->v[k] = from->v[k] + (to->v[k] - from->v[k]) / 2;
+        dv[k] = h / 2 * most[k];
+        if (k >= nx) continue;
+        middle->x[k] = from->x[k] + (to->x[k] - from->x[k]) / 2;
+        dx[k] = fabs(to->x[k] - from->x[k]) / 2 + h * h / 8 * most[k];
+    }
+    return true;
+}
+
+static motus_status value_ends(events *e, motus_error *err)
+{
+    motus_status status = e->left.valued ? MOTUS_OK : events_values(e, &e->left, err);
+    if (!status && !e->right.valued) status = events_values(e, &e->right, err);
+    return status;
+}
+
+/* Where the cubic with these values and slopes at the ends of [0, h], which has other signs there, is 0. */
+static double cubic_root(double h, double g0, double r0, double g1, double r1)
+{
+    const double p = h * r0, q = h * r1, d = g1 - g0, c2 = 3 * d - 2 * p - q, c3 = p + q - 2 * d;
+    double low = 0, high = 1, u = g0 / (g0 - g1);
+    for (int turn = 0; turn < 8; turn++) {
+        const double g = g0 + u * (p + u * (c2 + u * c3)), slope = p + u * (2 * c2 + u * 3 * c3);
+        if ((g > 0) == (g0 > 0))
+            low = u;
+        else
+            high = u;
+        const double next = u - g / slope;
+        u = next > low && next < high ? next : low + (high - low) / 2;
+    }
+    return u * h;
+}
+
+/* A function that is monotone on the step has at most one root there, of which its signs at the ends tell. False: they
+ * do not. */
+static bool monotone(events *e, size_t f, motus_status *status, motus_error *err)
+{
+    const double from = e->left.g[f], to = e->right.g[f];
+    const int sign = (from > 0) - (from < 0), after = (to > 0) - (to < 0);
+    const rule *r = &e->rules.rule[e->rule_of[f]];
+    if (!sign || !after || sign != e->side[f]) return false;
+    if (sign == after) return true;
+    *status = judge_ends(e, err);
+    if (*status || fabs(from) <= 2 * e->left.bound[f] || fabs(to) <= 2 * e->right.bound[f]) return false;
+    const double at = cubic_root(e->span, from, e->left.rate[f], to, e->right.rate[f]);
+    const candidate c = {.of = f,
+                         .at = at,
+                         .low = 0,
+                         .high = e->span,
+                         .kind = (candidate_kind)after,
+                         .sure = true,
+                         .idle = r->kind == RULE_ROOT && r->direction == -after};
+    if (!events_add(e, c)) *status = events_no_memory(err);
+    return true;
+}
+
+/* Marks the functions of which dense output must tell; most steps need none. */
+static motus_status choose(events *e, const stepper *s, bool *any, motus_error *err)
+{
+    const size_t n = e->rules.functions;
+    double *out = e->before; /* room */
+    const bool known = box(e, s);
+    bool rates = false;
+    motus_status status = MOTUS_OK;
+    if (known) e->rules.least(e->rules.ctx, e->next.x, e->next.v, e->width, e->width + e->problem.nx, out);
+    *any = false;
+    for (size_t f = 0; f < n; f++) {
+        const bool free = known && !e->stands[f] && !e->open[f];
+        e->look[f] = !(free && out[f] > 0);
+        rates |= free && e->look[f];
+        *any |= e->look[f];
+    }
+    if (!*any) return MOTUS_OK;
+    status = value_ends(e, err);
+    if (!rates || status) return status;
+    e->rules.least_rates(e->rules.ctx, e->next.x, e->next.v, e->width, e->width + e->problem.nx, out);
+    *any = false;
+    for (size_t f = 0; f < n && !status; f++) {
+        if (e->look[f] && !e->stands[f] && !e->open[f] && out[f] > 0) e->look[f] = !monotone(e, f, &status, err);
+        *any |= e->look[f];
+    }
+    return status;
+}
+
 motus_status events_find(events *e, stepper *s, motus_error *err)
 {
     int degree = ROOTS_DEGREE_LEAST;
@@ -301,8 +407,12 @@ motus_status events_find(events *e, stepper *s, motus_error *err)
     memcpy(e->was, e->side, flags);
     e->shift = 0;
     e->marked = false;
-    motus_status status = e->rules.functions ? sample(e, s, degree, err) : MOTUS_OK;
-    for (size_t f = 0; f < e->rules.functions && !status; f++) status = find_of(e, s, f, &degree, err);
+    bool any;
+    motus_status status = choose(e, s, &any, err);
+    if (any && !status) status = sample(e, s, degree, err);
+    for (size_t f = 0; any && f < e->rules.functions && !status; f++)
+        if (e->look[f]) status = find_of(e, s, f, &degree, err);
     if (e->hidden) memcpy(e->side, e->was, flags);
-    return status || add_ticks(e) ? status : events_no_memory(err);
+    if (!status && !add_ticks(e)) status = events_no_memory(err);
+    return status || !e->candidates ? status : value_ends(e, err);
 }

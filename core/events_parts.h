@@ -16,6 +16,7 @@ typedef struct instant {
     double t, lost; /* the state is that of time t + lost: stepper_lost */
     double *x, *v, *a;
     double *g, *rate, *bound; /* bound: how far rounding may have carried g */
+    bool valued;              /* g is known: of the ends of a step where something may happen in it */
 } instant;
 
 typedef enum candidate_kind { CANDIDATE_FALLS = -1, CANDIDATE_TOUCHES, CANDIDATE_RISES, CANDIDATE_TIME } candidate_kind;
@@ -72,10 +73,12 @@ struct events {
     double span;       /* from `left` to `right` */
     bool hidden;       /* the step is so long that rounding hides how a function leaves 0 at its start */
     uint8_t *zero;     /* it is 0 at `here` */
+    uint8_t *look;     /* dense output must tell of it in this step */
     int8_t *sign;      /* room for the signs of a condition's leaves */
     double *before;    /* the functions at `here` before an action */
     double *fired;     /* when it did last; NaN: never */
     uint32_t *rule_of; /* function */
+    double *width;     /* how far positions, then velocities, may be within the step from half way between its ends */
     double *samples;   /* values at the points of the step */
     int samples_room;
     uint8_t *held;     /* per instance of a condition: it was true; numbered by `instances` */

@@ -20,6 +20,7 @@ static motus_status refuse(const events *e, double t, motus_error *err)
 
 motus_status events_values(events *e, instant *at, motus_error *err)
 {
+    at->valued = true;
     if (e->rules.functions == 0) return MOTUS_OK;
     return e->rules.values(e->rules.ctx, at->t, at->x, at->v, at->g) ? refuse(e, at->t, err) : MOTUS_OK;
 }
@@ -86,6 +87,7 @@ void events_copy(const events *e, instant *to, const instant *from)
 {
     to->t = from->t;
     to->lost = from->lost;
+    to->valued = from->valued;
     memcpy(to->x, from->x, e->problem.nx * sizeof *to->x);
     memcpy(to->v, from->v, e->problem.nv * sizeof *to->v);
     if (e->rules.functions) memcpy(to->g, from->g, e->rules.functions * sizeof *to->g);

@@ -74,6 +74,14 @@ static inline int family_dense(work *w, const dense_step *d, clock t, real *x, r
     return STEP_OK;
 }
 
+#define CASE_SWING(NAME, name, shared) \
+    case NAME: return name##_swing(w, most);
+static inline bool family_swing(const work *w, real *most)
+{
+    FAMILY_SWITCH(CASE_SWING)
+    return false;
+}
+
 #ifdef TRACING
 #define CASE_ROOM(NAME, name, shared) \
     case NAME: return name##_room(w);

@@ -72,6 +72,12 @@ typedef struct rules {
     /* A bound on how far rounding may have carried each of these values, those of t and the state counted as half a
      * unit in the last place each. NULL: no formula is known. */
     void (*rounding)(void *ctx, double t, double *x, double *v, double *out);
+    /* Of each function a number that its size nowhere falls below, at any time and at all states whose numbers are no
+     * farther from x and v than dx and dv; not positive, or no number: none is known; infinite of a cell
+     * without a rule. NULL: of none. */
+    void (*least)(void *ctx, double *x, double *v, double *dx, double *dv, double *out);
+    void (*least_rates)(void *ctx, double *x, double *v, double *dx, double *dv,
+                        double *out); /* the same of the rates */
     /* What the rule does to x and v, as if at once; other than 0: the caller's own function failed, or a value was not
      * finite and `which` of `in_v` says where. */
     int (*act)(void *ctx, size_t rule, size_t instance, double t, double *x, double *v, bool *in_v, size_t *which);

@@ -92,6 +92,9 @@ int64_t stepper_iterations(const stepper *);
  * next step; without a mark stepper_sample takes the last step once more, from the last snapshot, to the same bits. */
 motus_status stepper_mark(stepper *, motus_error *);
 motus_status stepper_sample(stepper *, double t, double *x, double *v, motus_error *);
+/* A bound on the size of every acceleration within the marked last step, nv numbers; of stages (step/dense.h) it holds
+ * where they show the motion. False: none is known. */
+bool stepper_swing(const stepper *, double *most);
 /* How many steps lead to the last time that is not after t; 0 where the stepper is there, or where sizes are not
  * known beforehand. */
 int64_t stepper_steps_before(const stepper *, double t);

@@ -33,6 +33,7 @@ typedef struct stepper_body {
     dense_room (*between)(const work *, coef *unit); /* the family's, as dense and extend are */
     int (*extend)(work *, const dense_step *);
     int (*dense)(work *, const dense_step *, clock t, real *x, real *v);
+    bool (*swing)(const work *, real *most);
     /* A compiled body calls these of the library's. */
     int (*factor)(work *, mask *where, int s, const clock *ax, const clock *av, clock t, real *x, real *v);
     void (*back)(work *, real *r);

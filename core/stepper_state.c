@@ -219,6 +219,15 @@ static bool marked(const stepper *s, double t)
     return s->left && way * (t - s->left_t) >= 0 && way * (stepper_time(s) - t) >= 0;
 }
 
+bool stepper_swing(const stepper *s, double *most)
+{
+    const work *w = &s->work;
+    if (!s->left || s->left_steps != stepper_steps(s) - 1) return false;
+    memcpy(most, s->ends + w->nx + w->nv, w->nv * sizeof *most);
+    for (size_t k = 0; k < w->nv; k++) most[k] = fabs(most[k]);
+    return s->body->swing(w, most);
+}
+
 int64_t stepper_steps_before(const stepper *s, double t)
 {
     const work *w = &s->work;

@@ -17,40 +17,54 @@ struct ruled {
     const model *model;
     rules supplied;
     rule *rule;
-    tape *values, *rates, *rounding; /* NULL: there are no functions */
-    tape **act;                      /* of each rule, NULL: it assigns nothing */
-    int64_t *ints;                   /* those of the model, then the present values of MAX_DIMS indices */
-    double *becomes;                 /* what is assigned, for the rule that has most of it */
+    tape *values, *rates, *rounding, *least, *least_rates; /* NULL: there are no functions */
+    tape **act;                                            /* of each rule, NULL: it assigns nothing */
+    int64_t *ints;   /* those of the model, then the present values of MAX_DIMS indices */
+    double *becomes; /* what is assigned, for the rule that has most of it */
 };
 
 /* ---- functions ---- */
 
-static void run(const ruled *r, tape *t, double time, double *x, double *v, double *a, double *out)
+/* A cell outside the ranges is written by none, and keeps `else_`. */
+static void run(const ruled *r, tape *t, double time, double else_, double *base[SPACES])
 {
-    double *base[SPACES] = {[SPACE_X] = x, [SPACE_V] = v, [SPACE_A] = a, [SPACE_OUT] = out};
-    for (size_t k = 0; k < r->supplied.functions; k++) out[k] = NAN; /* cells outside the ranges are written by none */
+    for (size_t k = 0; k < r->supplied.functions; k++) base[SPACE_OUT][k] = else_;
     if (t) tape_run(t, time, base);
 }
 
 static int values(void *ctx, double t, double *x, double *v, double *out)
 {
     const ruled *r = ctx;
-    run(r, r->values, t, x, v, NULL, out);
+    run(r, r->values, t, NAN, (double *[SPACES]){[SPACE_X] = x, [SPACE_V] = v, [SPACE_OUT] = out});
     return 0;
 }
 
 static int rates(void *ctx, double t, double *x, double *v, double *a, double *out)
 {
     const ruled *r = ctx;
-    run(r, r->rates, t, x, v, a, out);
+    run(r, r->rates, t, NAN, (double *[SPACES]){[SPACE_X] = x, [SPACE_V] = v, [SPACE_A] = a, [SPACE_OUT] = out});
     return 0;
 }
 
 static void rounding(void *ctx, double t, double *x, double *v, double *out)
 {
     const ruled *r = ctx;
-    run(r, r->rounding, t, x, v, NULL, out);
+    run(r, r->rounding, t, NAN, (double *[SPACES]){[SPACE_X] = x, [SPACE_V] = v, [SPACE_OUT] = out});
     for (size_t k = 0; k < r->supplied.functions; k++) out[k] *= 0x1p-53;
+}
+
+static void least(void *ctx, double *x, double *v, double *dx, double *dv, double *out)
+{
+    const ruled *r = ctx;
+    run(r, r->least, NAN, INFINITY,
+        (double *[SPACES]){[SPACE_X] = x, [SPACE_V] = v, [SPACE_DX] = dx, [SPACE_DV] = dv, [SPACE_OUT] = out});
+}
+
+static void least_rates(void *ctx, double *x, double *v, double *dx, double *dv, double *out)
+{
+    const ruled *r = ctx;
+    run(r, r->least_rates, NAN, INFINITY,
+        (double *[SPACES]){[SPACE_X] = x, [SPACE_V] = v, [SPACE_DX] = dx, [SPACE_DV] = dv, [SPACE_OUT] = out});
 }
 
 /* ---- actions ---- */
@@ -133,22 +147,45 @@ static void name(void *ctx, size_t number, size_t instance, char *out, size_t si
 
 /* ---- making ---- */
 
+/* How far a leaf may be from its value at the centre of a box of states. */
+static node half_width(graph *g, node leaf, void *of)
+{
+    const model *m = of;
+    graph_shift shift = {(uint16_t)(3 * m->block_size), (uint16_t)(3 * m->block_size)};
+    return graph_seed_direction(g, leaf, &shift);
+}
+
+/* |g| less its radius on the box, a tenth of a percent of it counted twice for what rounding leaves of the radius. A box
+ * has no width of time nor of accelerations. */
+static node least_value(model *m, node value)
+{
+    graph *g = m->graph;
+    if (graph_deps(g, value) & (DEP_TIME | DEP_A)) return graph_const(g, -1);
+    const node radius = graph_radius(g, value, half_width, m), more = graph_const(g, 1.001);
+    return graph_op(g, OP_SUB, graph_op(g, OP_ABS, value, 0, 0), graph_op(g, OP_MUL, radius, more, 0), 0);
+}
+
 static bool make_functions(ruled *r, model *m)
 {
     size_t count = 0;
     for (uint32_t i = 0; i < m->rule_count; i++) count += m->rules[i].leaves;
     if (!count) return true;
-    output *leaves = arena_room(m->arena, 2 * count * sizeof *leaves), *rate = leaves + count;
+    output *leaves = arena_room(m->arena, 4 * count * sizeof *leaves), *rate = leaves + count, *nearest = rate + count,
+           *slowest = nearest + count;
     if (!leaves) return false;
     for (uint32_t i = 0, n = 0; i < m->rule_count; i++)
         for (size_t k = 0; k < m->rules[i].leaves; k++, n++) {
-            leaves[n] = rate[n] = m->rules[i].leaf[k];
+            leaves[n] = rate[n] = nearest[n] = slowest[n] = m->rules[i].leaf[k];
             rate[n].value = graph_derivative(m->graph, leaves[n].value, model_seed_motion, m);
+            nearest[n].value = least_value(m, leaves[n].value);
+            slowest[n].value = least_value(m, rate[n].value);
         }
     r->values = tape_of(m->arena, m->graph, leaves, count);
     r->rates = tape_of(m->arena, m->graph, rate, count);
     r->rounding = rounding_tape(m, leaves, count);
-    return r->values && r->rates && r->rounding;
+    r->least = tape_of(m->arena, m->graph, nearest, count);
+    r->least_rates = tape_of(m->arena, m->graph, slowest, count);
+    return r->values && r->rates && r->rounding && r->least && r->least_rates;
 }
 
 static tape *make_act(model *m, const model_rule *rule)
@@ -232,6 +269,8 @@ static bool make(ruled *r, model *m)
                           .values = values,
                           .rates = rates,
                           .rounding = rounding,
+                          .least = least,
+                          .least_rates = least_rates,
                           .act = act,
                           .name = name};
     return r->becomes && find_kept(r, m) && make_functions(r, m) && ruled_rebind(r);
@@ -255,7 +294,7 @@ const rules *ruled_rules(const ruled *r) { return &r->supplied; }
 bool ruled_rebind(ruled *r)
 {
     const binding b = {r->model->arrays, r->ints, r->model->pool};
-    tape *const tapes[] = {r->values, r->rates, r->rounding};
+    tape *const tapes[] = {r->values, r->rates, r->rounding, r->least, r->least_rates};
     for (size_t k = 0; k < sizeof tapes / sizeof *tapes; k++)
         if (tapes[k] && !tape_bind(tapes[k], &b)) return false;
     for (size_t k = 0; k < r->supplied.count; k++)

@@ -47,6 +47,7 @@ static int beeman_carry(const work *w, real *list[CARRY_MAX])
 }
 #define beeman_between lift_between
 #define beeman_extend lift_extend
+#define beeman_swing swing_unknown
 #define beeman_dense lift_dense
 
 static inline void beeman_place(work *w, placing *p)

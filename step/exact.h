@@ -23,6 +23,7 @@ static int exact_sync(work *w, real *x, real *v) { return exact_state(w, time_no
 
 #define exact_between dense_without
 #define exact_extend dense_as_it_is
+#define exact_swing swing_unknown
 static inline int exact_dense(work *w, const dense_step *d, clock t, real *x, real *v)
 {
     (void)d;

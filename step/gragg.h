@@ -49,6 +49,7 @@ static int gragg_step(work *w)
 #define gragg_carry work_carry_main
 #define gragg_between lift_between
 #define gragg_extend lift_extend_kept
+#define gragg_swing swing_unknown
 #define gragg_dense lift_dense
 static inline void gragg_place(work *w, placing *p) { extrapolation_place(w, p, 4); }
 

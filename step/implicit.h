@@ -186,6 +186,7 @@ static inline void implicit_accept(work *w, clock_mask good)
 #define implicit_sync work_sync_main
 #define implicit_between dense_stages_between
 #define implicit_extend dense_stages_extend
+#define implicit_swing swing_unknown
 #define implicit_dense dense_stages
 #define implicit_carry tableau_carry
 #define implicit_place tableau_arrays

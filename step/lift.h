@@ -86,16 +86,6 @@ enum { LIFT_STATE = 0, LIFT_APART = 2, LIFT_FIRST = 4 };
  * `more`, where the step's stages may tell it with less rounding than the ends do. */
 static bool lift_needed(const work *w, int count) { return (void)w, count > 0 || ROW(w, adaptive); }
 
-static dense_room lift_between(const work *w, coef *unit)
-{
-    int nodes[LIFT_ROUNDS_MAX];
-    const int count = lift_rounds(w, nodes);
-    (void)unit;
-    if (!lift_needed(w, count)) return (dense_room){0};
-    if (ROW(w, orders)) return (dense_room){.arrays = LIFT_FIRST + 2 * LIFT_NODES_MAX};
-    return (dense_room){.arrays = LIFT_FIRST + lift_widest(nodes, count, 0) + lift_widest(nodes, count, 1)};
-}
-
 static real *lift_array(const work *w, const dense_step *d, int i) { return d->more + (size_t)i * w->stride; }
 
 /* x₁ - x₀ - h v₀ and v₁ - v₀. */
@@ -116,8 +106,23 @@ typedef struct lift_weights {
     clock x_dv, x_dx, v_dv, v_dx, s_dv;
 } lift_weights;
 
+/* What every time within a step needs of so many nodes: 1/Π (node j - node l), and the integrals over the step, once
+ * and twice, of the l[j], of ω and of u ω. */
+typedef struct lift_table {
+    clock over[LIFT_NODES_MAX + 2], once[LIFT_NODES_MAX + 4], twice[LIFT_NODES_MAX + 4];
+} lift_table;
+enum { LIFT_TABLES = LIFT_NODES_MAX / 2 + 1 };
+
+/* The constants: the tables, then, of rows of one order, the weights at the nodes of all rounds in turn. */
+typedef struct lift_constants {
+    lift_table table[LIFT_TABLES];
+    lift_weights at[];
+} lift_constants;
+
+static const lift_constants *lift_known(const dense_step *d) { return (const lift_constants *)(const void *)d->unit; }
+
 /* The integrals from 0 to u, once and twice, of the l[j], of ω and of u ω: by Gauss's rule, which is exact for them. */
-static void lift_integrals(int nodes, clock u, clock *once, clock *twice)
+static void lift_integrals(int nodes, const clock *over, clock u, clock *once, clock *twice)
 {
     static const coef point[LIFT_POINTS / 2] = {
         K(0.01985507175123188415821956571526350478588), K(0.1016667612931866302042230317620847815814),
@@ -126,35 +131,50 @@ static void lift_integrals(int nodes, clock u, clock *once, clock *twice)
         K(0.05061426814518812957626567715498109505770), K(0.1111905172266872352721779972131204422151),
         K(0.1568533229389436436689811009933006566302), K(0.1813418916891809914825752246385978060971)};
     const int n = nodes + 2;
-    clock node[LIFT_NODES_MAX + 2], over[LIFT_NODES_MAX + 2], below[LIFT_NODES_MAX + 3];
-    for (int j = 0; j < n; j++) node[j] = lift_node(nodes, j);
-    for (int j = 0; j < n + 2; j++) once[j] = twice[j] = 0;
-    for (int j = 0; j < n; j++) {
-        clock product = 1;
-        for (int l = 0; l < n; l++) product *= l == j ? CLOCK(1) : node[j] - node[l];
-        over[j] = 1 / product;
-    }
+    /* of point g: y and its weight, and Π (y - node) over the nodes before and beyond j; points are the inner loops */
+    clock y[LIFT_POINTS], c[LIFT_POINTS], below[LIFT_NODES_MAX + 3][LIFT_POINTS], above[LIFT_POINTS];
     for (int g = 0; g < LIFT_POINTS; g++) {
         const int at = g < LIFT_POINTS / 2 ? g : LIFT_POINTS - 1 - g;
-        const clock y = u * (g == at ? point[at] : 1 - point[at]), c = u * weight[at];
-        clock above = 1; /* the product of y - node beyond j; `below` of those before */
-        below[0] = 1;
-        for (int j = 0; j < n; j++) below[j + 1] = below[j] * (y - node[j]);
-        for (int j = n + 1; j >= 0; j--) {
-            const clock value = j > n ? y * below[n] : j == n ? below[n] : below[j] * above * over[j];
-            once[j] = FMA(c, value, once[j]);
-            twice[j] = FMA(c * (u - y), value, twice[j]);
-            if (j < n) above *= y - node[j];
+        y[g] = u * (g == at ? point[at] : 1 - point[at]);
+        c[g] = u * weight[at];
+        below[0][g] = above[g] = CLOCK(1);
+    }
+    for (int j = 0; j < n; j++) {
+        const clock node = lift_node(nodes, j);
+        for (int g = 0; g < LIFT_POINTS; g++) below[j + 1][g] = below[j][g] * (y[g] - node);
+    }
+    for (int j = n + 1; j >= 0; j--) {
+        const clock node = j < n ? lift_node(nodes, j) : CLOCK(0);
+        clock value[LIFT_POINTS], one = CLOCK(0), two = CLOCK(0);
+        for (int g = 0; g < LIFT_POINTS; g++) {
+            value[g] = j > n ? y[g] * below[n][g] : j == n ? below[n][g] : below[j][g] * above[g] * over[j];
+            if (j < n) above[g] *= y[g] - node;
         }
+        for (int g = 0; g < LIFT_POINTS; g++) {
+            one = FMA(c[g], value[g], one);
+            two = FMA(c[g] * (u - y[g]), value[g], two);
+        }
+        once[j] = one, twice[j] = two;
     }
 }
 
-static void lift_weigh(int nodes, clock u, lift_weights *out)
+static void lift_tabulate(int nodes, lift_table *out)
 {
     const int n = nodes + 2;
-    clock once[LIFT_NODES_MAX + 4], twice[LIFT_NODES_MAX + 4], end[LIFT_NODES_MAX + 4], end2[LIFT_NODES_MAX + 4];
-    lift_integrals(nodes, u, once, twice);
-    lift_integrals(nodes, 1, end, end2);
+    for (int j = 0; j < n; j++) {
+        clock product = 1;
+        for (int l = 0; l < n; l++) product *= l == j ? CLOCK(1) : lift_node(nodes, j) - lift_node(nodes, l);
+        out->over[j] = 1 / product;
+    }
+    lift_integrals(nodes, out->over, 1, out->once, out->twice);
+}
+
+static void lift_weigh(int nodes, const lift_table *whole, clock u, lift_weights *out)
+{
+    const int n = nodes + 2;
+    const clock *end = whole->once, *end2 = whole->twice;
+    clock once[LIFT_NODES_MAX + 4], twice[LIFT_NODES_MAX + 4];
+    lift_integrals(nodes, whole->over, u, once, twice);
     const clock a = end[n], b = end[n + 1], c = end2[n], d = end2[n + 1], det = a * d - b * c;
     out->v_dv = (d * once[n] - c * once[n + 1]) / det;
     out->v_dx = (a * once[n + 1] - b * once[n]) / det;
@@ -168,28 +188,53 @@ static void lift_weigh(int nodes, clock u, lift_weights *out)
     }
 }
 
-/* The state at the part u of the step, by the accelerations at so many nodes within it. */
-static void lift_state(const work *w, const dense_step *d, int nodes, const real *inner, clock u, real *x, real *v)
+/* The nodes that a round finds. */
+static int lift_before(const int *nodes, int r) { return r ? nodes[r - 1] : 0; }
+
+static void lift_fill(const work *w, const int *nodes, int count, lift_constants *out)
 {
-    lift_weights of;
+    lift_weights *at = out->at;
+    for (int i = 0; i < LIFT_TABLES; i++) lift_tabulate(2 * i, &out->table[i]);
+    for (int r = 0; r < count && !ROW(w, orders); r++)
+        for (int j = 1; j <= nodes[r]; j++) {
+            const int before = lift_before(nodes, r);
+            lift_weigh(before, &out->table[before / 2], lift_node(nodes[r], j), at++);
+        }
+}
+
+static dense_room lift_between(const work *w, coef *unit)
+{
+    int nodes[LIFT_ROUNDS_MAX], arrays = LIFT_FIRST + 2 * LIFT_NODES_MAX;
+    const int count = lift_rounds(w, nodes);
+    size_t bytes = sizeof(lift_constants);
+    if (!lift_needed(w, count)) return (dense_room){0};
+    if (unit) lift_fill(w, nodes, count, (lift_constants *)(void *)unit);
+    for (int r = 0; r < count && !ROW(w, orders); r++) bytes += (size_t)nodes[r] * sizeof(lift_weights);
+    if (!ROW(w, orders)) arrays = LIFT_FIRST + lift_widest(nodes, count, 0) + lift_widest(nodes, count, 1);
+    return (dense_room){.arrays = arrays, .constants = bytes / sizeof(coef)};
+}
+
+/* The state at the part u of the step, by the accelerations at so many nodes within it and their weights. */
+static void lift_state(const work *w, const dense_step *d, int nodes, const lift_weights *of, const real *inner,
+                       clock u, real *x, real *v)
+{
     const dense_end *e = d->end;
     const real *a[LIFT_NODES_MAX + 2] = {e[0].a}, *dx = lift_array(w, d, LIFT_APART),
                                    *dv = lift_array(w, d, LIFT_APART + 1);
     const int n = nodes + 2;
     const clock h = w->h;
     for (int j = 1; j < n; j++) a[j] = j == n - 1 ? e[1].a : inner + (size_t)(j - 1) * w->stride;
-    lift_weigh(nodes, u, &of);
     for (size_t k = 0; k < w->nv; k++) {
         const bool moves = k < w->nx;
         const real v0 = e[0].v[k];
         real speed = {0}, place = {0};
         for (int j = 0; j < n; j++) {
-            speed = FMA(moves ? of.v[j] : of.s[j], a[j][k], speed);
-            place = FMA(of.x[j], a[j][k], place);
+            speed = FMA(moves ? of->v[j] : of->s[j], a[j][k], speed);
+            place = FMA(of->x[j], a[j][k], place);
         }
-        const real turn = FMA(h, speed, (moves ? of.v_dv : of.s_dv) * dv[k]);
-        v[k] = v0 + (moves ? FMA(of.v_dx / h, dx[k], turn) : turn);
-        if (moves) x[k] = e[0].x[k] + FMA(h, FMA(h, place, FMA(of.x_dv, dv[k], u * v0)), of.x_dx * dx[k]);
+        const real turn = FMA(h, speed, (moves ? of->v_dv : of->s_dv) * dv[k]);
+        v[k] = v0 + (moves ? FMA(of->v_dx / h, dx[k], turn) : turn);
+        if (moves) x[k] = e[0].x[k] + FMA(h, FMA(h, place, FMA(of->x_dv, dv[k], u * v0)), of->x_dx * dx[k]);
     }
 }
 
@@ -205,12 +250,17 @@ static int lift_rise(work *w, const dense_step *d)
     int nodes[LIFT_ROUNDS_MAX], bad = STEP_OK;
     const int count = lift_rounds(w, nodes);
     const whole evaluations = w->evaluations;
+    const lift_constants *known = lift_known(d);
+    const lift_weights *at = known->at;
     real *X = lift_array(w, d, LIFT_STATE), *V = lift_array(w, d, LIFT_STATE + 1);
     for (int r = 0; r < count; r++)
-        for (int j = 1; j <= nodes[r] && !bad; j++) {
+        for (int j = 1; j <= nodes[r] && !bad; j++, at++) {
+            const int before = lift_before(nodes, r);
             const clock u = lift_node(nodes[r], j);
             real *a = lift_place(w, d, nodes, count, r) + (size_t)(j - 1) * w->stride;
-            lift_state(w, d, r ? nodes[r - 1] : 0, lift_place(w, d, nodes, count, r + 1), u, X, V);
+            lift_weights now;
+            if (ROW(w, orders)) lift_weigh(before, &known->table[before / 2], u, &now);
+            lift_state(w, d, before, ROW(w, orders) ? &now : at, lift_place(w, d, nodes, count, r + 1), u, X, V);
             bad = accel(w, d->end[0].t + u * (d->end[1].t - d->end[0].t), X, V, a);
         }
     w->evaluations = evaluations;
@@ -240,11 +290,15 @@ static int lift_dense(work *w, const dense_step *d, clock t, real *x, real *v)
 {
     int nodes[LIFT_ROUNDS_MAX];
     const int count = lift_rounds(w, nodes);
-    const clock u = (t - d->end[0].t) / (d->end[1].t - d->end[0].t);
-    if (lift_needed(w, count))
-        lift_state(w, d, count ? nodes[count - 1] : 0, lift_place(w, d, nodes, count, count + 1), u, x, v);
-    else
+    if (!lift_needed(w, count)) {
         dense_hermite(w, d->end, t, x, v);
+        return STEP_OK;
+    }
+    const int last = lift_before(nodes, count);
+    const clock u = (t - d->end[0].t) / (d->end[1].t - d->end[0].t);
+    lift_weights now;
+    lift_weigh(last, &lift_known(d)->table[last / 2], u, &now);
+    lift_state(w, d, last, &now, lift_place(w, d, nodes, count, count + 1), u, x, v);
     return STEP_OK;
 }
 

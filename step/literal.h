@@ -72,6 +72,7 @@ static int literal_carry(const work *w, real *list[CARRY_MAX])
 }
 #define literal_between lift_between
 #define literal_extend lift_extend
+#define literal_swing swing_unknown
 #define literal_dense lift_dense
 
 static inline void literal_place(work *w, placing *p)

@@ -178,6 +178,7 @@ static inline void radau_accept(work *w, clock_mask good)
 #define radau_between dense_stages_between
 #define radau_extend dense_stages_extend
 #define radau_dense dense_stages
+#define radau_swing swing_of_stages
 #define radau_carry tableau_carry
 
 static inline void radau_place(work *w, placing *p)

@@ -141,6 +141,7 @@ static inline void runge_kutta_accept(work *w, clock_mask good)
 #define runge_kutta_observe state_is_complete
 #define runge_kutta_sync work_sync_main
 #define runge_kutta_carry work_carry_main
+#define runge_kutta_swing swing_of_stages
 
 static inline void runge_kutta_place(work *w, placing *p)
 {

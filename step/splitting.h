@@ -36,6 +36,7 @@ static int splitting_sync(work *w, real *x, real *v)
 #define splitting_carry work_carry_main
 #define splitting_between lift_between
 #define splitting_extend lift_extend
+#define splitting_swing swing_unknown
 #define splitting_dense lift_dense
 
 static inline void splitting_place(work *w, placing *p)

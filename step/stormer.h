@@ -43,6 +43,7 @@ static int stormer_step(work *w)
 #define stormer_carry work_carry_main
 #define stormer_between lift_between
 #define stormer_extend lift_extend_kept
+#define stormer_swing swing_unknown
 #define stormer_dense lift_dense
 static inline void stormer_place(work *w, placing *p) { extrapolation_place(w, p, 2); }
 

@@ -246,6 +246,20 @@ static inline int taylor_dense(work *w, const dense_step *d, clock t, real *x, r
     return STEP_OK;
 }
 
+/* The sum of the sizes of all terms of the acceleration's series. */
+static inline bool taylor_swing(const work *w, real *most)
+{
+    const int length = TAYLOR_LENGTH(w), last = FACT(w, expands);
+    const clock h = ABS(w->h);
+    EACHV(k) {
+        const real *a = TAYLOR_OF(w->r, k);
+        real sum = ABS(a[last - 2]);
+        for (int n = last - 3; n >= 0; n--) sum = FMA(sum, h, ABS(a[n]));
+        most[k] = LARGER(sum, most[k]);
+    }
+    return true;
+}
+
 #define taylor_observe state_is_complete
 #define taylor_sync work_sync_main
 #define taylor_carry work_carry_main

@@ -64,6 +64,7 @@ static int verlet_sync(work *w, real *x, real *v)
 #define verlet_carry work_carry_main
 #define verlet_between lift_between
 #define verlet_extend lift_extend
+#define verlet_swing swing_unknown
 #define verlet_dense lift_dense
 
 static inline void verlet_place(work *w, placing *p)

@@ -172,7 +172,7 @@ bool quad_admits(method k, const quad_problem *p)
            !row_admits(&c, &t, NULL);
 }
 
-enum { ARRAYS_MAX = 40, SERIES_ARRAYS = 8000, CONSTANTS_MAX = 1024, WEIGHTS_ARRAYS = 48 };
+enum { ARRAYS_MAX = 40, SERIES_ARRAYS = 8000, CONSTANTS_MAX = 1024, DENSE_CONSTANTS_MAX = 8192, WEIGHTS_ARRAYS = 48 };
 
 /* The plan of the row, kept from one run to the next: a row may have to generate its coefficients. */
 static const work *plan_of(const row *m, const double *argument, const quad_problem *p)
@@ -318,7 +318,7 @@ static bool of_stages(const row *m)
 quad_count quad_dense(method k, const quad_problem *p, quad t0, quad h, int64_t steps, quad part, const quad_state *end,
                       quad_state *state)
 {
-    static quad memory[SERIES_ARRAYS * DIMENSIONS], more[ARRAYS_MAX * DIMENSIONS], unit[CONSTANTS_MAX];
+    static quad memory[SERIES_ARRAYS * DIMENSIONS], more[ARRAYS_MAX * DIMENSIONS], unit[DENSE_CONSTANTS_MAX];
     static dense d;
     work w;
     const row *m = &methods_table[k];
@@ -338,7 +338,7 @@ quad_count quad_dense(method k, const quad_problem *p, quad t0, quad h, int64_t 
         p->accel(t + h, ends[1].x, ends[1].v, a[1]);
     }
     const dense_room room = family_between(&w, NULL);
-    if (room.arrays > ARRAYS_MAX || room.constants > CONSTANTS_MAX) abort();
+    if (room.arrays > ARRAYS_MAX || room.constants > DENSE_CONSTANTS_MAX) abort();
     family_between(&w, unit);
     const dense_step step = {
         .end = {{t, ends[0].x, ends[0].v, a[0]}, {t + h, ends[1].x, ends[1].v, a[1]}}, .more = more, .unit = unit};
@@ -351,7 +351,7 @@ quad_count quad_dense(method k, const quad_problem *p, quad t0, quad h, int64_t 
 
 bool quad_continuous_of(method k, quad part, scheme *out)
 {
-    static quad memory[WEIGHTS_ARRAYS * DIMENSIONS], more[WEIGHTS_ARRAYS * DIMENSIONS], unit[CONSTANTS_MAX];
+    static quad memory[WEIGHTS_ARRAYS * DIMENSIONS], more[WEIGHTS_ARRAYS * DIMENSIONS], unit[DENSE_CONSTANTS_MAX];
     const row *m = &methods_table[k];
     if (m->tableau.dense.terms == 0) return false;
     work w = *plan_of(m, NULL, &quad_problems[OSCILLATOR]);
@@ -395,7 +395,7 @@ bool quad_continuous_of(method k, quad part, scheme *out)
 
 bool quad_slopes_of(method k, bool end, quad *slope, quad *size)
 {
-    static quad unit[CONSTANTS_MAX];
+    static quad unit[DENSE_CONSTANTS_MAX];
     const row *m = &methods_table[k];
     if (m->tableau.dense.terms == 0) return false;
     const work w = *plan_of(m, NULL, &quad_problems[OSCILLATOR]);

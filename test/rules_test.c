@@ -106,6 +106,71 @@ static void all_kinds(void **state)
     motus_system_destroy(s);
 }
 
+/* A number in [-1, 1], by a congruence that is the same everywhere. */
+static double random_sign(uint64_t *state)
+{
+    *state = *state * 6364136223846793005u + 1442695040888963407u;
+    return (double)(int64_t)(*state >> 11 << 11) * 0x1p-63;
+}
+
+/* What a box of states has of a function and its rate at least, compared with points of the box, its corners among
+ * them; and on a small box the bound is close to the value. */
+static void least_on_boxes(void **state)
+{
+    (void)state;
+    static const char text[] =
+        PAIR "when x = 0.3: record\nwhen x^2 + z^2 = 1: record\nwhen x z = sin(x): record\nwhen exp(x) = 2: record\n"
+             "when sqrt(x^2 + 1) = z: record\nwhen hypot(x, z) = 2: record\nwhen x/z = 1: record\n"
+             "when log(3 + x) = cos(z): record\nwhen max(x, z) = min(x', z'): record\nwhen abs(x') = tanh(z): record\n"
+             "when atan(x) = z': record\nwhen x + 1000000000 = 1000000001: record\nwhen s = x': record\n"
+             "when -x/(z^2 + 1) + 3 x^3 = s: record\nwhen sum(j = 1..20: sin(j x)/j) = z: record\n";
+    enum { FUNCTIONS = 15, BOXES = 20000, POINTS = 12 };
+    motus_system *system = given_text(text);
+    const rules *r = rules_of(system);
+    uint64_t seed = 7;
+    int told[2][FUNCTIONS] = {{0}};
+    assert_int_equal(r->functions, FUNCTIONS);
+    for (int box = 0; box < BOXES; box++) {
+        double at[2][5], width[2][5], a[5] = {0}, least[2][FUNCTIONS], g[2][FUNCTIONS];
+        for (int k = 0; k < 10; k++) {
+            const double size = pow(10, -3 - 3 * random_sign(&seed));
+            at[k / 5][k % 5] = 2 * random_sign(&seed);
+            width[k / 5][k % 5] = box % 2 ? 1e-9 : fabs(size * random_sign(&seed));
+        }
+        r->least(r->ctx, at[0], at[1], width[0], width[1], least[0]);
+        r->least_rates(r->ctx, at[0], at[1], width[0], width[1], least[1]);
+        for (int point = 0; point <= POINTS; point++) {
+            double x[5], v[5];
+            for (int k = 0; k < 5; k++) {
+                const bool corner = point < POINTS / 2;
+                const double px = point == POINTS ? 0 : random_sign(&seed),
+                             pv = point == POINTS ? 0 : random_sign(&seed);
+                x[k] = at[0][k] + width[0][k] * (corner ? copysign(1, px) : px);
+                v[k] = at[1][k] + width[1][k] * (corner ? copysign(1, pv) : pv);
+                a[k] = random_sign(&seed);
+            }
+            r->values(r->ctx, 0, x, v, g[0]);
+            r->rates(r->ctx, 0, x, v, a, g[1]);
+            for (int f = 0; f < 2 * FUNCTIONS; f++) {
+                const double value = g[f / FUNCTIONS][f % FUNCTIONS], bound = least[f / FUNCTIONS][f % FUNCTIONS];
+                if (bound > 0 && !(fabs(value) >= bound)) fail_msg("function %d is %g, not %g", f, value, bound);
+            }
+        }
+        for (int f = 0; f < 2 * FUNCTIONS && box % 2; f++) { /* the last point is the centre */
+            const double value = fabs(g[f / FUNCTIONS][f % FUNCTIONS]), bound = least[f / FUNCTIONS][f % FUNCTIONS];
+            told[f / FUNCTIONS][f % FUNCTIONS] += bound > 0.99 * value - 1e-5;
+        }
+    }
+    /* rates with branches, and of functions of velocities, which depend on accelerations */
+    static const bool unbounded[FUNCTIONS] = {
+        [4] = true, [5] = true, [8] = true, [9] = true, [10] = true, [12] = true, [13] = true};
+    for (int f = 0; f < FUNCTIONS; f++) {
+        if (told[0][f] < 9 * BOXES / 20) fail_msg("of function %d a bound is told in %d boxes", f, told[0][f]);
+        if (!unbounded[f] && told[1][f] < 9 * BOXES / 20) fail_msg("of rate %d in %d boxes", f, told[1][f]);
+    }
+    motus_system_destroy(system);
+}
+
 static void conditions(void **state)
 {
     (void)state;
@@ -612,6 +677,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(one_event),
         cmocka_unit_test(all_kinds),
+        cmocka_unit_test(least_on_boxes),
         cmocka_unit_test(conditions),
         cmocka_unit_test(families),
         cmocka_unit_test(vectors),

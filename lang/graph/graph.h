@@ -147,6 +147,10 @@ node graph_seed_time(graph *, node leaf, void *unused); /* d/dt where only t mov
 /* A bound on how far rounding carries the value of a node, in units of the rounding 2^-53; what is infinite is not
  * known. `leaf` gives the error of a TIME, LOAD or PARAM in these units, 0: it is exact. */
 node graph_rounding(graph *, node, graph_seed leaf, void *ctx);
+/* A bound on how far the value of a node at the points of a box may be from its value at the centre, the rounding of
+ * that value included; what is infinite or no number is not known. `leaf` gives the half width of a TIME, LOAD or
+ * PARAM, 0: none. */
+node graph_radius(graph *, node, graph_seed leaf, void *ctx);
 /* The node with other nodes in place of some of its loads, indices and sums: `with` gives the one for each at a level
  * (inside a sum that opens level l it is l + 1), or itself. Only those that depend on something in `deps` are asked
  * for. */
