@@ -8,7 +8,8 @@
  * Invariant: columns are two or more blanks apart, and no field holds two blanks in a row, as in bench/report.c. A time of the page's thread is its processor
  * time where that is said, else what a clock shows, which other programs lengthen.
  */
-import { existsSync, mkdtempSync, readFileSync, readdirSync, rmSync, writeFileSync } from 'node:fs';
+import { examples } from '../lab/models.mjs';
+import { existsSync, mkdtempSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
 import { cpus, loadavg, tmpdir } from 'node:os';
 import { join } from 'node:path';
 import { fileURLToPath } from 'node:url';
@@ -115,7 +116,7 @@ const frames = (page, milliseconds) => page.evaluate((ms) => new Promise((done) 
 const SIZE = { width: 1280, height: 800 };
 /** Beyond these a picture takes longer than two frames: 100 000 kicks of high order, or implicit steps. */
 const LARGEST = ['outer-solar-system', 'arenstorf', 'double-pendulum'];
-const presets = readdirSync(join(root, 'models')).filter((name) => name.endsWith('.motus')).map((name) => name.slice(0, -'.motus'.length)).sort();
+const presets = examples.map(({ name }) => name);
 
 /** The tasks of the page's thread, milliseconds of processor time each, from the browser's trace. */
 async function traced(cdp, act) {

@@ -12,6 +12,7 @@ import { fileURLToPath } from 'node:url';
 import { gzipSync } from 'node:zlib';
 import { minify as shorten } from 'terser';
 import { build } from 'esbuild';
+import { examples } from './models.mjs';
 import { theory } from './theory/typeset.mjs';
 
 const here = dirname(fileURLToPath(import.meta.url));
@@ -22,9 +23,7 @@ const argument = (name, otherwise) => {
 const out = resolve(argument('--out', join(here, '../build/lab')));
 const wasm = await readFile(resolve(argument('--core', join(here, '../build/lab/core/motus.wasm'))));
 
-const models = join(here, '../models');
-const presets = await Promise.all((await readdir(models)).filter((name) => name.endsWith('.motus')).sort()
-  .map(async (name) => ({ name: name.slice(0, -'.motus'.length), text: await readFile(join(models, name), 'utf8') })));
+const presets = examples;
 const made = await theory();
 
 // Its sources, so that what is not used falls away.

@@ -47,6 +47,7 @@ static void models(void **state)
             assert_int_equal(motus_statement_at(s, k, &one), MOTUS_OK);
             const char *line = text;
             for (int i = 1; i < one.line; i++) line = strchr(line, '\n') + 1;
+            if (!strncmp(line, "when ", 5)) continue; /* its name stands behind `as` */
             line += !strncmp(line, "invariant ", 10) ? 10 : !strncmp(line, "exact ", 6) ? 6 : 0;
             if (strncmp(line, one.name, strlen(one.name)))
                 fail_msg("%s: line %d does not begin with %s", entry->d_name, one.line, one.name);

@@ -1,13 +1,14 @@
 /* The gallery by itself, as the page holds it: with the pointer, with the keyboard alone, at every width, light and dark; and what each scene asks and answers. */
-import { readFileSync, readdirSync, writeFileSync } from 'node:fs';
+import { readFileSync, writeFileSync } from 'node:fs';
 import { createRequire } from 'node:module';
 import { join } from 'node:path';
 import { pathToFileURL } from 'node:url';
+import { examples } from '../../lab/models.mjs';
 import * as page_ from './help.mjs';
 import { attempt, built, finish, judge, launch, place, root, same } from './help.mjs';
 
 const lab = join(root, 'lab'), need = createRequire(join(lab, 'package.json')), { build } = need('esbuild');
-const models = readdirSync(join(root, 'models')).filter((name) => name.endsWith('.motus')).sort().map((name) => ({ name: name.slice(0, -6), text: readFileSync(join(root, 'models', name), 'utf8') }));
+const models = examples;
 const alias = { 'ml-matrix': join(lab, 'node_modules/ml-matrix/src/index.js') };
 const text = async (options) => (await build({ bundle: true, write: false, target: 'es2022', alias, ...options })).outputFiles[0].text;
 const { thumbnails, scenes, saidOf, inkStyle } = await import('data:text/javascript;base64,' + Buffer.from(await text({

@@ -1,13 +1,14 @@
 /* Every example: it starts without an error, something moves, each question below the stage that is there has an answer and a picture, a note says what to
  * try, and pictures of it are kept in build/lab/shots/ to be looked at: light and wide, dark and narrow.
  */
-import { mkdirSync, readdirSync } from 'node:fs';
+import { mkdirSync } from 'node:fs';
 import { join } from 'node:path';
-import { attempt, built, clean, closer, example, finish, judge, open, root, same, settled, singleFile } from './help.mjs';
+import { examples } from '../../lab/models.mjs';
+import { attempt, built, clean, closer, example, finish, judge, open, same, settled, singleFile } from './help.mjs';
 
 const shots = join(built, 'shots');
 mkdirSync(shots, { recursive: true });
-const names = readdirSync(join(root, 'models')).filter((name) => name.endsWith('.motus')).map((name) => name.slice(0, -6)).sort();
+const names = examples.map(({ name }) => name);
 
 /** What a canvas shows, as a number: that two pictures differ. */
 const pixels = (page) => page.locator('#stage-figure canvas.stage-moving').evaluate((canvas) => {

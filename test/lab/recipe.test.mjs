@@ -3,10 +3,11 @@
  * side within what their rounding allows; the last place or velocity is the core's; each line has a mark for its disc.
  */
 import assert from 'node:assert/strict';
-import { readFileSync, readdirSync } from 'node:fs';
+import { readFileSync } from 'node:fs';
 import { createRequire } from 'node:module';
 import { fileURLToPath } from 'node:url';
 import test from 'node:test';
+import { examples } from '../../lab/models.mjs';
 
 const lab = new URL('../../lab/', import.meta.url), root = new URL('../../', import.meta.url);
 const { buildSync } = createRequire(new URL('package.json', lab))('esbuild');
@@ -61,7 +62,7 @@ function sides(sum) {
   return out;
 }
 
-const models = readdirSync(new URL('models/', root)).filter((name) => name.endsWith('.motus')).map((name) => [name.slice(0, -6), readFileSync(new URL(`models/${name}`, root), 'utf8')]);
+const models = examples.map(({ name, text }) => [name, text]);
 models.push(['decay', "s' = -s\ns(0) = 1\nstep 0.1\nuntil 2\n"], ['backward', "x'' = -x\nx(0) = 1\nx'(0) = 0\nstep 0.1\nuntil -2\n"],
   ['lorenz', "x' = 10 (y - x)\ny' = x (28 - z) - y\nz' = x y - 8/3 z\nx(0) = 1\ny(0) = 1\nz(0) = 1\nstep 0.01\nuntil 2\n"], ['at rest', "x'' = 0\nx(0) = 3\nx'(0) = 0\nstep 0.1\nuntil 2\n"], ['small', "x'' = -x\nx(0) = 1e-9\nx'(0) = 2e-9\nstep 0.1\nuntil 2\n"], ['large', "x'' = -x\nx(0) = 123456789\nx'(0) = 0\nstep 0.1\nuntil 2\n"]);
 for (const [name, text] of models) {

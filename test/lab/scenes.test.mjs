@@ -4,6 +4,7 @@ import { readFileSync, readdirSync } from 'node:fs';
 import { createRequire } from 'node:module';
 import { test } from 'node:test';
 import { fileURLToPath } from 'node:url';
+import { examples } from '../../lab/models.mjs';
 
 const lab = new URL('../../lab/', import.meta.url), need = createRequire(new URL('package.json', lab));
 const { buildSync } = need('esbuild');
@@ -13,8 +14,7 @@ const built = buildSync({
 });
 const { scenes, themes, thumbnails, Core, Answers, stagings, words, notes } = await import('data:text/javascript;base64,' + Buffer.from(built.outputFiles[0].contents).toString('base64'));
 const module = new WebAssembly.Module(readFileSync(new URL('../../build/lab/motus.wasm', import.meta.url)));
-const folder = new URL('../../models/', import.meta.url);
-const models = readdirSync(folder).filter(name => name.endsWith('.motus')).map(name => ({ name: name.slice(0, -6), text: readFileSync(new URL(name, folder), 'utf8') }));
+const models = examples;
 const lessonIds = readdirSync(new URL('words/en/lessons/', lab)).filter(name => name.endsWith('.txt')).map(name => name.replace(/^\d+-|\.txt$/g, ''));
 const answers = new Answers(new Core(module));
 const textOf = name => models.find(model => model.name === name).text;
