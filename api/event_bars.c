@@ -106,6 +106,16 @@ double event_bars_time(motus_run *r, size_t k)
     return fmax(bar_of(d, n) + ulp, (ROUNDINGS + (acts ? EACH * (double)k : 0)) * ulp);
 }
 
+double event_bars_limit(const motus_run *r, const events_limit *limit)
+{
+    events_limit other;
+    const bars *const b = r->bars;
+    if (!b) return limit->error;
+    const bool has = !b->why[0] && b->half.events && events_accumulated(b->half.events, &other) &&
+                     other.rule == limit->rule && other.instance == limit->instance;
+    return has ? OWN * fabs(limit->t - other.t) + limit->error : ended(b) ? INFINITY : NAN;
+}
+
 int64_t motus_run_events_significant(motus_run *r)
 {
     if (!r || !r->events) return 0;

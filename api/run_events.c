@@ -91,7 +91,7 @@ const char *motus_run_ended(const motus_run *r, int *accumulated, double *time, 
     const bool gathers = r && r->events && events_accumulated(r->events, &limit);
     if (accumulated) *accumulated = gathers;
     if (time) *time = limit.t;
-    if (error) *error = limit.error;
+    if (error) *error = gathers ? event_bars_limit(r, &limit) : NAN;
     return end == EVENTS_END_NONE ? "" : r->rules->rule[rule].name;
 }
 

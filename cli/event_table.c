@@ -106,8 +106,15 @@ table *event_table_make(const summary *s, motus_error *err, motus_status *status
 void event_table_note(const summary *s, FILE *out)
 {
     const size_t hidden = numbers_of(s) - shown_of(s);
+    const int64_t known = motus_run_events_significant(s->run);
+    motus_event_row row = motus_default_event_row();
     if (!s->options->events && (left_out(s) || hidden))
         fprintf(out, "  --events FILE writes all events%s\n", hidden ? " with all numbers" : "");
+    if (!s->errors || known >= motus_run_events(s->run)) return;
+    fprintf(out, "  no digit of an event is known to be significant");
+    if (known > 0 && motus_run_event(s->run, known - 1, &row) == MOTUS_OK)
+        fprintf(out, " after %s number %lld", row.instance, (long long)row.count);
+    putc('\n', out);
 }
 
 /* ---- sentences ---- */
@@ -133,7 +140,10 @@ void event_table_end(const summary *s, FILE *out)
         else
             bar_digits(time, error, text);
         put_accumulate(of, out);
-        fprintf(out, " at t = %s\n", text);
+        if (isinf(error))
+            fprintf(out, "; no digit of their limit is known to be significant\n");
+        else
+            fprintf(out, " at t = %s\n", text);
     }
     /* where accumulation ended the run, it stands at the last event that could be told from the limit */
     const double gone = motus_run_time(s->run) - s->start;

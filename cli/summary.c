@@ -393,6 +393,7 @@ static void events_json(json *j, const summary *s, const double *values, int64_t
     }
     json_close(j, ']');
     if (rows < motus_run_events(s->run)) json_bool(j, "events_cut", true);
+    json_integer(j, "events_significant", motus_run_events_significant(s->run));
     tell_ended(j, s->run);
 }
 

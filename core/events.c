@@ -201,14 +201,46 @@ static bool keep_past(events *e, double end)
     return true;
 }
 
+/* Whether a function that has just passed 0 has done so for good: it is beyond at the end of the step, and nothing else
+ * is known that would lead it there. */
+static bool stays_beyond(const events *e, const candidate *c)
+{
+    for (size_t k = 0; k < e->candidates; k++) {
+        const candidate *other = &e->candidate[k];
+        if (!other->gone && other->kind != CANDIDATE_TIME && other->of == c->of) return false;
+    }
+    return e->right.g[c->of] * c->kind > 0;
+}
+
+/* Whether a function passes 0 where an action has answered its passage in this very instant: its slope is 0, or so
+ * small that it comes back before the next time that can be told from this one. However often the rule acted, it would
+ * pass again: its events accumulate here. */
+static bool comes_back(events *e, const candidate *c)
+{
+    const bool passes = c->kind == CANDIDATE_FALLS || c->kind == CANDIDATE_RISES;
+    if (!passes || e->side[c->of] != -(int)c->kind || (c->at != 0 && !stays_beyond(e, c))) return false;
+    const size_t k = e->rule_of[c->of];
+    const rule *r = &e->rules.rule[k];
+    if (r->kind != RULE_ROOT || (r->direction && r->direction != (int)c->kind)) {
+        e->side[c->of] = (int8_t)c->kind;
+        return false;
+    }
+    const double near = 4 * events_ulp(e->left.t);
+    if (!r->assigns || !(fabs(e->at_once - e->left.t) <= near && fabs(e->fired[c->of] - e->left.t) <= near))
+        return false;
+    events_end_here(e, k, c->of - r->first, e->left.t);
+    return true;
+}
+
 /* A candidate of the present step that has been located. */
 static motus_status follow(events *e, stepper *s, candidate *c, bool *assigned, stepper_stop *why, motus_error *err)
 {
     const candidate at = *c;
     c->gone = true;
-    if (told(e, &at)) return MOTUS_OK;
+    const bool again = told(e, &at), back = again && comes_back(e, &at);
+    if (again && !back) return MOTUS_OK;
     motus_status status = events_fire(e, &at, assigned, err);
-    const bool ends = !status && e->has_limit && !e->limit_told;
+    const bool ends = !status && e->has_limit && (!e->limit_told || (back && !*assigned));
     if (ends) e->end = EVENTS_END_ACCUMULATED, e->end_rule = e->limit.rule;
     if (status || e->end == EVENTS_END_NONE) return status;
     *why = STOP_EVENT;

@@ -197,10 +197,16 @@ static motus_status search_part(events *e, size_t f, const part *p, const double
     /* The bounds on rounding are computed only where an event was near; most steps need none. The times of the points
      * are rounded, too, which counts in steps that are short beside the time. */
     const double moved = steepest * events_ulp(e->right.t) / fabs(e->span * (p->to - p->from));
-    const double rounding = largest * 0x1p-44 + moved;
+    double rounding = largest * 0x1p-44 + moved;
     roots_fitted fitted;
-    const roots_fit_status fit = roots_fit(value, stride, degree, rounding, coefficients, &fitted);
+    roots_fit_status fit = roots_fit(value, stride, degree, rounding, coefficients, &fitted);
     *rough = false;
+    if (fit == ROOTS_FIT_ROUGH && stands) { /* where it stays 0 its values are nothing but rounding */
+        const motus_status judged = judge_ends(e, err);
+        if (judged) return judged;
+        rounding += fmax(e->left.bound[f], e->right.bound[f]);
+        fit = roots_fit(value, stride, degree, rounding, coefficients, &fitted);
+    }
     if (fit == ROOTS_FIT_NOT_FINITE) return MOTUS_OK;
     const double beyond = fit == ROOTS_FIT_ROUGH ? fitted.unseen : 0;
     if (!stands && !e->open[f] && roots_none(coefficients, fitted.degree, SLACK * largest + fitted.noise + beyond))
@@ -209,7 +215,7 @@ static motus_status search_part(events *e, size_t f, const part *p, const double
     if (*rough) return MOTUS_OK;
     const motus_status status = judge_ends(e, err);
     if (status) return status;
-    const double noise = fmax(e->left.bound[f], e->right.bound[f]) + moved + (fitted.noise - rounding);
+    const double noise = fmax(e->left.bound[f], e->right.bound[f]) + moved + fmax(0, fitted.noise - rounding);
     const search of = {p, coefficients, fitted.degree, fmax(SLACK * largest, 2 * noise)};
     roots_root root[ROOTS_ROOM];
     roots_found found;

@@ -145,6 +145,9 @@ bool events_keep_now(events *, double t, const double *x);
 void events_kept_forget(events *); /* those before the newest */
 /* An event of a rule that assigns; true: they accumulate, at events.limit. */
 bool events_accumulate(events *, size_t rule, size_t instance, double t);
+/* Events of the rule follow one another at t too fast to be told apart: they accumulate there, or as long after it as
+ * the latest intervals let more of them come. */
+void events_end_here(events *, size_t rule, size_t instance, double t);
 /* The state after an action, beside which the next one of the same rule is judged; and its limit, to `here`. */
 void events_after(events *, size_t rule, size_t instance);
 void events_to_limit(events *, size_t rule, size_t instance);

@@ -144,6 +144,19 @@ bool events_accumulate(events *e, size_t rule, size_t instance, double t)
     return true;
 }
 
+void events_end_here(events *e, size_t rule, size_t instance, double t)
+{
+    const recent *r = &e->recent[e->instances[rule] + instance];
+    double left = 0;
+    if (r->count >= 3) {
+        const double one = fabs(r->t[0] - r->t[1]), ratio = one / fabs(r->t[1] - r->t[2]);
+        left = ratio < 1 ? one * ratio / (1 - ratio) : one;
+    }
+    e->has_limit = true;
+    e->limit_told = false;
+    e->limit = (events_limit){rule, instance, t, left + 4 * events_ulp(t)};
+}
+
 void events_after(events *e, size_t rule, size_t instance)
 {
     const size_t nx = e->problem.nx, nv = e->problem.nv;
@@ -158,7 +171,7 @@ void events_after(events *e, size_t rule, size_t instance)
 void events_to_limit(events *e, size_t rule, size_t instance)
 {
     const recent *r = &e->recent[e->instances[rule] + instance];
-    const double one = fabs(r->t[0] - r->t[1]), left = fabs(e->limit.t - r->t[0]), part = left / one;
+    const double one = fabs(r->t[0] - r->t[1]), left = fabs(e->limit.t - r->t[0]), part = one > 0 ? left / one : 0;
     const size_t nx = e->problem.nx, nv = e->problem.nv, moving = nx - e->problem.modes;
     e->here.t = e->way * (e->limit.t - e->until) > 0 ? e->until : e->limit.t; /* both are a few roundings away */
     e->here.lost = 0;

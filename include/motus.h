@@ -735,7 +735,9 @@ MOTUS_API motus_status motus_run_event_errors(motus_run *, int64_t k, int after,
  * told. */
 MOTUS_API int64_t motus_run_events_significant(motus_run *);
 /* What ended the run before `until`: the name of a kind of event; "" where nothing did. accumulated (may be NULL): 1,
- * and *time is the limit of its events' times, which is known to *error. */
+ * and *time is the limit of its events' times, which is known to *error: NaN where no companion has told it,
+ * INFINITY where no digit is significant; of a run without bars how far rounding lets the limit of its own events be
+ * known. */
 MOTUS_API const char *motus_run_ended(const motus_run *, int *accumulated, double *time, double *error);
 /* The name of the kind whose events accumulate, whether or not that ended the run; "": none do. */
 MOTUS_API const char *motus_run_accumulates(const motus_run *);

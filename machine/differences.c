@@ -74,7 +74,7 @@ void differences_place(differences *f, const differences_shape *s, double *memor
         if (s->how) f->kept[i] = place(&memory, n * REDUCE_KEPT);
     }
     f->d = place(&memory, n);
-    f->zero = place(&memory, n);
+    f->size = place(&memory, n);
     f->envelope = place(&memory, rows);
     if (s->full) f->twin = place(&memory, rows);
 }
@@ -91,7 +91,7 @@ void differences_begin(differences *f, double start, double until)
     f->until = NAN;
     f->growth = (differences_growth){0};
     memset(f->scale, 0, sizeof f->scale);
-    for (size_t k = 0; k < n; k++) f->zero[k] = 1;
+    memset(f->size, 0, n * sizeof *f->size);
     memset(f->d, 0, n * sizeof *f->d);
     memset(f->envelope, 0, rows * sizeof *f->envelope);
     if (f->twin) memset(f->twin, 0, rows * sizeof *f->twin);
@@ -189,7 +189,7 @@ void differences_take(differences *f, double t, bool observed, bool twin)
         const double run = seen[0][k], other = seen[1][k];
         f->d[k] = fabs(run - other);
         row[k] = larger(f->d[k], row[k]);
-        if (run != 0 || other != 0) f->zero[k] = 0;
+        f->size[k] = larger(larger(fabs(run), fabs(other)), f->size[k]);
     }
     if (twins && twin) reduce(f, 2, observed);
     for (size_t k = 0; twins && twin && k < n; k++) twins[k] = larger(fabs(seen[0][k] - seen[2][k]), twins[k]);
@@ -201,9 +201,8 @@ void differences_take(differences *f, double t, bool observed, bool twin)
 
 /* The numbers of a differences_growth, which is nothing else. */
 enum { GROWTH = sizeof(differences_growth) / sizeof(double), HEAD = 2 * DIFFERENCES_GROUPS + 5 + GROWTH };
-#define ALWAYS_ZERO -1.0 /* in place of the largest difference of a number that has been 0 at all landings */
 
-size_t differences_kept(const differences_shape *s) { return HEAD + s->count * (1 + s->full); }
+size_t differences_kept(const differences_shape *s) { return HEAD + s->count * (2 + s->full); }
 
 static double largest(const differences *f, const double *rows, size_t number)
 {
@@ -222,7 +221,7 @@ bool differences_keep(const differences *f, double *out)
     *at++ = isnan(f->until), *at++ = isnan(f->until) ? 0 : f->until;
     memcpy(at, &f->growth, sizeof f->growth);
     at += GROWTH;
-    for (size_t k = 0; k < n; k++) *at++ = f->zero[k] != 0 ? ALWAYS_ZERO : largest(f, f->envelope, k);
+    for (size_t k = 0; k < n; k++) *at++ = f->size[k], *at++ = largest(f, f->envelope, k);
     for (size_t k = 0; f->twin && k < n; k++) *at++ = largest(f, f->twin, k);
     double none = 0;
     for (const double *k = out; k < at; k++) none += *k - *k;
@@ -241,10 +240,10 @@ void differences_resume(differences *f, double t, const double *kept)
     at += 2;
     memcpy(&f->growth, at, sizeof f->growth);
     at += GROWTH;
-    for (size_t k = 0; k < n; k++, at++) {
-        f->zero[k] = *at == ALWAYS_ZERO;
-        for (int i = 0; i < f->slots; i++) f->envelope[(size_t)i * n + k] = *at == ALWAYS_ZERO ? 0 : *at;
-        f->d[k] = f->envelope[k];
+    for (size_t k = 0; k < n; k++) {
+        f->size[k] = *at++;
+        f->d[k] = *at++;
+        for (int i = 0; i < f->slots; i++) f->envelope[(size_t)i * n + k] = f->d[k];
     }
     for (size_t k = 0; f->twin && k < n; k++, at++)
         for (int i = 0; i < f->slots; i++) f->twin[(size_t)i * n + k] = *at;
@@ -268,7 +267,7 @@ static const rule with_kinks = {3, 0.5};
 double differences_bar(const differences *f, size_t number)
 {
     const double value = fabs(f->values[0][number]), d = f->d[number], e = largest(f, f->envelope, number);
-    if (number == 0 || f->zero[number] != 0) return 0;
+    if (number == 0 || f->size[number] == 0) return 0;
     if (!isnan(f->until)) return INFINITY;
     if (!isfinite(value) || !isfinite(d)) return NAN;
     const double ulp = nextafter(value, INFINITY) - value;
@@ -276,6 +275,10 @@ double differences_bar(const differences *f, size_t number)
     double bar = now.d * d + now.e * e;
     if (f->twin) bar += 0.5 * largest(f, f->twin, number);
     if (f->shape.kinked) bar = fmax(bar, with_kinks.d * d + with_kinks.e * e);
+    if (value == 0 && bar == 0) { /* the terms that made it 0 may have been as large as it has been */
+        const double size = f->size[number];
+        return 4 * (nextafter(size, INFINITY) - size);
+    }
     return fmax(4 * ulp, bar);
 }
 

@@ -36,7 +36,7 @@ typedef struct differences {
     double *d, *envelope, *twin;
     int slots;
     int64_t part;
-    double *zero;                     /* 1: the run and its companion have had 0 at all landings */
+    double *size;                     /* the largest that the run or its companion has had at a landing */
     double scale[DIFFERENCES_GROUPS]; /* the largest number of each group so far */
     double most[DIFFERENCES_GROUPS];  /* the largest |run - companion| of each group so far */
     double distance;                  /* the largest |run - companion| / scale so far */

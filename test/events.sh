@@ -113,6 +113,22 @@ that "... and only it" eval "[ \$(grep -c '  touched  *[01]' '$out') = 1 ]"
 gives "... in the CSV" 0 "$motus" run "$place/touch.motus" --error none --quiet --events -
 that "... too" eval "rows '$out' | cut -d, -f1,3,4 | tr '\n' ' ' | grep -q '^event2,1,0 top,1,1 event2,2,0 $'"
 
+# --- the stadium, as the comment of the billiard says it ------------------------------------------------------------------------------
+awk -v q="'" '/^#     n = /  { sub(/^# +/, ""); sub(/  +from .*/, ""); wall = $0; next }
+     /^#     when / { sub(/^# +/, ""); hit = $0; next }
+     /^r\(0\)/      { print "r(0) = (0.2, 0.1)"; next }
+     /^r.\(0\)/     { print "r" q "(0) = (0.8, 0.6)"; next }
+     /^when/        { print wall; print hit; next }
+     /^along|^invariant angular/ { next }
+     { print }' models/billiard.motus >"$place/stadium.motus"
+gives "the stadium" 0 "$motus" run "$place/stadium.motus"
+that "... says after which hit no digit is left" eval "n=\$(sed -n 's/^  no digit of an event is known to be significant after hit number //p' '$out'); [ \"\$n\" -ge 32 ] && [ \"\$n\" -le 44 ]"
+gives "... in JSON" 0 "$motus" run "$place/stadium.motus" --json
+that "... too" holds '.events_significant >= 32 and .events_significant <= 44 and .events[.events_significant].error == null and .events[.events_significant - 1].error > 0'
+that "... hits within their bars" holds '[[1, 1.408492607088319165], [10, 16.94038997256210474], [20, 39.19316993526689108], [30, 54.99452047218082444]] as $t | . as $r | $t | all(. as [$n, $want] | $r.events[$n - 1] | (.time - $want | fabs) <= .error)'
+gives "a ball by a method of order 1" 0 "$motus" run models/bouncing-ball.motus --method symplectic-euler
+that "... does not fall through the floor, and tells no limit" says "bounces accumulate; no digit of their limit is known to be significant"
+
 # --- both sides of a jump -----------------------------------------------------------------------------------------------------------
 # Between ordinary rows stand the state on arrival and the one after the action; the next ordinary row at that time is not written twice.
 sed 's/record/record, stop after 2/; /^energy/d' "$ball" >"$place/two.motus"
