@@ -24,6 +24,7 @@ struct bars {
     /* Of a restart state, until they begin; NULL. Afterwards, whether the run has not come yet to where the companion
      * landed last: that was at the end, after a shorter step, which the state is before. */
     double *resumed;
+    size_t resumed_count;
     bool ahead;
     /* The run and its companion have not had the same events, as between the time of an event of the one and that of
      * the other; since when. Then their states are not compared. */

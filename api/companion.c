@@ -236,6 +236,48 @@ motus_status companion_repeat(companion *c, const motus_run *r, motus_error *err
     return status;
 }
 
+/* ---- restart ---- */
+
+enum { OVER, ROOM, EVENTS, HEAD }; /* EVENTS: how many numbers they have */
+
+size_t companion_keep(const companion *c, double *out)
+{
+    if (!c->events) return 0;
+    const size_t count = events_save(c->events, c->stepper, out ? out + HEAD : NULL);
+    if (!out) return HEAD + count;
+    out[OVER] = c->over;
+    out[ROOM] = (double)c->room;
+    out[EVENTS] = (double)count;
+    return HEAD + count;
+}
+
+bool companion_skip(const double **at, const double *end)
+{
+    const double *in = *at;
+    if (end - in < HEAD || !(in[EVENTS] >= 0 && in[EVENTS] <= (double)(end - in - HEAD))) return false;
+    *at = in + HEAD + (size_t)in[EVENTS];
+    return true;
+}
+
+motus_status companion_resume(companion *c, const motus_run *r, const double **at, const double *end, motus_error *err)
+{
+    const double *in = *at;
+    const events_leg leg = {.start = r->timing.t0, .step = r->timing.h, .until = r->timing.until};
+    if (!c->events) return MOTUS_OK;
+    if (!companion_skip(at, end) || !(fabs(in[ROOM]) < 0x1p63))
+        return fail(err, MOTUS_STATE, "what the restart state has of a companion is damaged");
+    events *fresh = NULL;
+    motus_status status = events_again(c->events, &fresh, err);
+    if (status == MOTUS_OK) status = events_load(fresh, NULL, &leg, in + HEAD, (size_t)in[EVENTS], err);
+    events_destroy(status == MOTUS_OK ? c->events : fresh);
+    if (status != MOTUS_OK) return status;
+    c->events = fresh;
+    events_jog(fresh, jog);
+    c->over = in[OVER] != 0;
+    c->room = (int64_t)in[ROOM];
+    return MOTUS_OK;
+}
+
 void companion_end(companion *c, const motus_allocator *a)
 {
     stepper_destroy(c->stepper);

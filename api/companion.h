@@ -40,6 +40,12 @@ motus_status companion_jog(companion *, const motus_run *, motus_error *);
 void companion_move(double *y, size_t count, const double *size, uint32_t salt);
 /* Repeats the steps of the run, and so stands where the run stands. */
 motus_status companion_repeat(companion *, const motus_run *, motus_error *);
+/* What a restart state has of a companion with events, besides its state: tells how many numbers, and writes them where
+ * `out` is not NULL. */
+size_t companion_keep(const companion *, double *out);
+/* A companion that has begun goes on with them; *at moves behind them. MOTUS_STATE: they are not its own. */
+motus_status companion_resume(companion *, const motus_run *, const double **at, const double *end, motus_error *);
+bool companion_skip(const double **at, const double *end); /* moves behind them alone; false: they are damaged */
 void companion_end(companion *, const motus_allocator *);
 
 #endif

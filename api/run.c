@@ -179,8 +179,14 @@ motus_status run_refuse_move(motus_error *err)
 
 motus_status run_refuse(const motus_run *r, const char *what, motus_error *err)
 {
-    if (r->locate) return fail(err, MOTUS_UNAVAILABLE, "a run that locates switches cannot be %s", what);
-    return r->rules ? fail(err, MOTUS_UNAVAILABLE, "a run with events cannot be %s", what) : MOTUS_OK;
+    return r->locate ? fail(err, MOTUS_UNAVAILABLE, "a run that locates switches cannot be %s", what) : MOTUS_OK;
+}
+
+motus_status run_refuse_beyond(const motus_run *r, double t, motus_error *err)
+{
+    char a[DECIMAL_MAX], b[DECIMAL_MAX];
+    return fail(err, MOTUS_STATE, "the restart state is at t = %s, beyond the end of this run, %s", decimal(t, a),
+                decimal(r->timing.until, b));
 }
 
 /* The same, with companions for bars of error: in pieces from one landing to the next. */

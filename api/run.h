@@ -92,7 +92,9 @@ motus_status run_moved(motus_run *, motus_error *);
 void run_leg(motus_run *, const timing *);
 /* MOTUS_ARGUMENT, for what an observer may not do with its run. */
 motus_status run_refuse_move(motus_error *);
-/* MOTUS_UNAVAILABLE, for what a run that locates switches, or one with events, cannot do: "saved"; else MOTUS_OK. */
+/* MOTUS_STATE: a restart state of time t lies beyond the end of the run. */
+motus_status run_refuse_beyond(const motus_run *, double t, motus_error *);
+/* MOTUS_UNAVAILABLE, for what a run that locates switches cannot do: "saved"; else MOTUS_OK. */
 motus_status run_refuse(const motus_run *, const char *what, motus_error *);
 
 #endif

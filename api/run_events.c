@@ -12,6 +12,7 @@ motus_status run_events_begin(motus_run *r, motus_error *err)
     if (status != MOTUS_OK || !r->rules) return status;
     if (r->locating) return fail(err, MOTUS_UNAVAILABLE, "a run of a system with events cannot locate switches");
     if (!r->events) status = events_create(r->rules, &r->machine, &r->chosen, &r->allocator, &r->events, err);
+    if (status == MOTUS_OK) events_may_save(r->events);
     return status == MOTUS_OK ? events_begin(r->events, r->stepper, r->timing.until, err) : status;
 }
 
@@ -39,6 +40,26 @@ bool run_events_ended(const motus_run *r) { return r->events && events_ended(r->
 motus_status run_events_sample(motus_run *r, double t, double *x, double *v, motus_error *err)
 {
     return events_sample(r->events, r->stepper, t, x, v, err);
+}
+
+/* ---- restart ---- */
+
+motus_status run_events_load(motus_run *r, stepper_count then, const double *carry, const double *numbers, size_t count,
+                             motus_error *err)
+{
+    const timing *t = &r->timing;
+    const events_leg leg = {t->t0, t->h, t->until, then, carry};
+    events *fresh = NULL;
+    motus_status status = events_again(r->events, &fresh, err);
+    if (status == MOTUS_OK) status = events_load(fresh, r->stepper, &leg, numbers, count, err);
+    if (status == MOTUS_OK && (events_time(fresh) - t->until) * t->h > 0)
+        status = run_refuse_beyond(r, events_time(fresh), err);
+    if (status == MOTUS_OK) status = events_load_stepper(fresh, r->stepper, &leg, err);
+    events_destroy(status == MOTUS_OK ? r->events : fresh);
+    if (status != MOTUS_OK) return status;
+    r->events = fresh;
+    events_may_save(fresh);
+    return MOTUS_OK;
 }
 
 /* ---- the table ---- */

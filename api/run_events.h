@@ -14,5 +14,8 @@ motus_status run_events_steps(events *, stepper *, const pace *, int64_t n, doub
 bool run_events_ended(const motus_run *);
 /* The state at a time within the last step. */
 motus_status run_events_sample(motus_run *, double t, double *x, double *v, motus_error *);
+/* Of a restart state: the numbers of the stepper, and those of the events. After a failure the run is unchanged. */
+motus_status run_events_load(motus_run *, stepper_count, const double *carry, const double *, size_t count,
+                             motus_error *);
 
 #endif

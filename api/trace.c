@@ -194,6 +194,7 @@ motus_status motus_run_trace(motus_run *r, const motus_trace_entry *const **entr
         return fail(err, MOTUS_ARGUMENT, "motus_run_trace needs a run and places for the entries and their number");
     if (r->observing) return run_refuse_move(err);
     if (run_refuse(r, "traced", err) != MOTUS_OK) return MOTUS_UNAVAILABLE;
+    if (r->events) return fail(err, MOTUS_UNAVAILABLE, "a run with events cannot be traced");
 
     *entries = NULL;
     *count = 0;

@@ -86,6 +86,11 @@ motus_status events_create(const rules *r, const machine *m, const chosen *metho
     return MOTUS_OK;
 }
 
+motus_status events_again(const events *e, events **out, motus_error *err)
+{
+    return events_create(&e->rules, &e->machine, &e->method, &e->allocator, out, err);
+}
+
 void events_destroy(events *e)
 {
     if (!e) return;
@@ -99,6 +104,7 @@ void events_destroy(events *e)
     give(&a, e->row_state);
     give(&a, e->kept);
     give(&a, e->kept_state);
+    give(&a, e->saved);
     give(&a, e);
 }
 
@@ -136,6 +142,7 @@ motus_status events_begin(events *e, stepper *s, double until, motus_error *err)
     e->at_once = NAN;
     e->after_rule = SIZE_MAX;
     e->interval = INFINITY;
+    events_unsave(e);
     for (size_t f = 0; f < e->rules.functions; f++) e->fired[f] = NAN, e->open[f] = 0, e->heads[f] = 0;
     motus_status status = check_clocks(e, err);
     if (!status) status = observe(s, &e->left, err);
@@ -181,10 +188,14 @@ static bool told(const events *e, const candidate *c)
     return fabs(e->fired[c->of] - t) <= near;
 }
 
-static motus_status restart(events *e, stepper *s, double h, motus_error *err)
+/* The step that led here may have been as short as the rounding of its time, and one to take has to be longer. */
+static motus_status jump(const events *e, stepper *s, const instant *to, double h, motus_error *err)
 {
-    return stepper_jump(s, e->here.t, e->here.lost, h, e->here.x, e->here.v, err);
+    if (to->t + h == to->t) h = e->way * events_ulp(to->t);
+    return stepper_jump(s, to->t, to->lost, h, to->x, to->v, err);
 }
+
+static motus_status restart(events *e, stepper *s, double h, motus_error *err) { return jump(e, s, &e->here, h, err); }
 
 /* Before the motion goes on from an action at time `end`: where the piece that led to it began, for dense output. */
 static bool keep_past(events *e, double end)
@@ -245,6 +256,7 @@ static motus_status follow(events *e, stepper *s, candidate *c, bool *assigned, 
     if (status || e->end == EVENTS_END_NONE) return status;
     *why = STOP_EVENT;
     if (!keep_past(e, e->here.t)) return events_no_memory(err); /* what lies before the end is sampled */
+    events_copy(e, &e->left, &e->here);
     return restart(e, s, stepper_step(s), err);
 }
 
@@ -294,7 +306,7 @@ static motus_status piece(events *e, stepper *s, double until, bool *assigned, s
             h = whole;
         }
         *why = STOP_STEPS;
-        status = stepper_jump(s, e->left.t, e->left.lost, h, e->left.x, e->left.v, err);
+        status = jump(e, s, &e->left, h, err);
     }
     if (!status && e->first) events_suppose(e);
     e->first = false;
@@ -355,6 +367,8 @@ static motus_status grid_step(events *e, stepper *s, double until, stepper_stop 
     const bool last = e->way * (until - grid) <= 8 * events_ulp(until);
     const double end = last ? until : grid;
     bool broken = false;
+    /* a run to a later end takes another step here, or what happens at the end of this one is told by the next */
+    if (last && e->may_save && !events_save_here(e, s)) return events_no_memory(err);
     for (;;) {
         bool assigned = false;
         motus_status status = piece(e, s, broken ? end : until, &assigned, why, err);
@@ -367,7 +381,7 @@ static motus_status grid_step(events *e, stepper *s, double until, stepper_stop 
         if (!keep_past(e, now->t)) return events_no_memory(err);
         events_copy(e, &e->left, now);
         *why = near && last ? STOP_UNTIL : STOP_STEPS;
-        status = stepper_jump(s, e->left.t, e->left.lost, near ? e->grid_step : left, e->left.x, e->left.v, err);
+        status = jump(e, s, &e->left, near ? e->grid_step : left, err);
         if (!status && near && last) status = stepper_advance(s, (stepper_limit){0, e->left.t}, why, err);
         if (status || near) return status;
     }

@@ -47,6 +47,9 @@ motus_status events_create(const rules *, const machine *, const chosen *, const
                            motus_error *);
 void events_destroy(events *);
 
+/* Others of the same rules, on the same machine, that have not begun. */
+motus_status events_again(const events *, events **, motus_error *);
+
 /* Begins at the state of a stepper that has taken no step, whose leg goes towards `until`. What holds there is no
  * event. */
 motus_status events_begin(events *, stepper *, double until, motus_error *);
@@ -83,5 +86,26 @@ motus_status events_sample(events *, stepper *, double t, double *x, double *v, 
 void events_move(events *, const machine *);
 /* Writes the kept numbers as they were at time t, which is within the last step or later, into a state. */
 void events_keep(const events *, double t, double *x);
+
+/* They may be saved: of fixed steps they keep the state before the last one. */
+void events_may_save(events *);
+/* What a restart state has of events, the table included: events_save tells how many numbers, and where `out` is not
+ * NULL writes them. They may be NaN or infinite. events_save_stepper: as stepper_save, for the same instant, whose time
+ * events_saved_time tells. That is before the last step where the events keep it. */
+size_t events_save(events *, const stepper *, double *out);
+stepper_count events_save_stepper(const events *, const stepper *, double *carry);
+double events_saved_time(const events *, const stepper *);
+/* The leg that events go on with, and what the state has of its stepper. */
+typedef struct events_leg {
+    double start, step, until;
+    stepper_count then;
+    const double *carry;
+} events_leg;
+/* Loads the numbers into events that have not begun; the stepper, which may be NULL, is the one that will go on with
+ * them. MOTUS_STATE: they are not what events_save wrote of such events, which can then be destroyed alone. */
+motus_status events_load(events *, const stepper *, const events_leg *, const double *, size_t count, motus_error *);
+/* And then loads the stepper. After a failure it is unchanged. */
+motus_status events_load_stepper(const events *, stepper *, const events_leg *, motus_error *);
+double events_time(const events *); /* of the state from which the next step begins */
 
 #endif

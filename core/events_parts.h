@@ -1,9 +1,9 @@
 /* What the files of events share: the struct, and what each file does with it.
  *
- * events.c: life and steps. events_find.c: the roots of a step, by dense output. events_place.c: true steps, and
- * where a root is by them. events_fire.c: what happens in one instant. events_table.c: rows, kept numbers,
- * accumulation. Invariant: `left` is the state at which the present step began, and `side` are the sides of all
- * functions there, those of the events that have happened since included.
+ * events.c: life and steps. events_find.c: the roots of a step, by dense output. events_place.c: true steps, and where
+ * a root is by them. events_fire.c: what happens in one instant. events_table.c: rows, kept numbers, accumulation.
+ * events_state.c: restart states. Invariant: `left` is the state at which the present step began, and `side` are the
+ * sides of all functions there, those of the events that have happened since included.
  */
 #ifndef CORE_EVENTS_PARTS_H
 #define CORE_EVENTS_PARTS_H
@@ -108,6 +108,14 @@ struct events {
     size_t after_rule, after_instance;
     bool has_limit, limit_told; /* events accumulate; a rule has answered to that */
     events_limit limit;
+
+    /* Of fixed steps, from the last one on: what a restart state takes in place of the present state, which is that
+     * before this step: `saved_head` numbers, and then those of the stepper. Else NULL. */
+    bool may_save;
+    double *saved, saved_time;
+    size_t saved_head, saved_rows;
+    stepper_count saved_steps;
+    double began; /* of a restart state: where the leg of its stepper began */
 };
 
 /* events_place.c. The acceleration, rates and bounds of an instant whose state and values are known. */
@@ -151,5 +159,9 @@ void events_end_here(events *, size_t rule, size_t instance, double t);
 /* The state after an action, beside which the next one of the same rule is judged; and its limit, to `here`. */
 void events_after(events *, size_t rule, size_t instance);
 void events_to_limit(events *, size_t rule, size_t instance);
+
+/* events_state.c. Keeps the present state for a restart state; false: no memory. And forgets it. */
+bool events_save_here(events *, const stepper *);
+void events_unsave(events *);
 
 #endif

@@ -109,6 +109,9 @@ size_t stepper_carry(const stepper *);
 stepper_count stepper_save(const stepper *, double *carry);
 double stepper_time_saved(const stepper *, stepper_count, const double *carry); /* the time of a saved state */
 motus_status stepper_load(stepper *, stepper_count, const double *carry, motus_error *);
+/* The same, of a leg that began at t0 with step h; and the start of the present leg. */
+motus_status stepper_load_leg(stepper *, double t0, double h, stepper_count, const double *carry, motus_error *);
+double stepper_leg(const stepper *);
 
 /* Gives a stepper another body before its first step, for tests that all bodies give the same bits. */
 void stepper_use_body(stepper *, const stepper_body *);

@@ -112,6 +112,26 @@ motus_status stepper_load(stepper *s, stepper_count at, const double *carry, mot
     return MOTUS_OK;
 }
 
+double stepper_leg(const stepper *s) { return s->main_t0; }
+
+motus_status stepper_load_leg(stepper *s, double t0, double h, stepper_count at, const double *carry, motus_error *err)
+{
+    work *w = &s->work;
+    const double t0_was = s->main_t0, h_was = s->leg_h;
+    s->main_t0 = t0;
+    s->leg_h = h;
+    const motus_status status = stepper_load(s, at, carry, err);
+    if (status) {
+        s->main_t0 = t0_was;
+        s->leg_h = h_was;
+        return status;
+    }
+    w->t0 = t0;
+    work_scale(w, h);
+    if (s->library.solver) solver_forget(s->library.solver);
+    return MOTUS_OK;
+}
+
 /* The mark of dense output goes along, because it may be for the next step. */
 static void move_ends(stepper *from, stepper *to)
 {

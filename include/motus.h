@@ -827,14 +827,15 @@ MOTUS_API motus_status motus_run_estimate(motus_run *, motus_estimate *, motus_e
 
 /* An exact restart state: a text of `length` bytes with hexadecimal numbers, owned by the run until it is saved again.
  * Create a run from the same system (the same numbers set in the same way) with the same method, step and start, and
- * restore it from the text: it continues to the same bits as a run never interrupted, up to an `until` of its own.
- * An adaptive method sizes the last steps before `until` to land there, so a run that was saved at an earlier end
- * continues from that end, by other steps than one run to the later end. Where both runs tell errors, the text has
- * those up to it, for which the companion is compared once more, and the bars of the second run cover the errors
- * from the very start; a second companion (MOTUS_BARS_FULL) goes on where steps adapt or the run has not ended in a
- * shorter step. Saving fails as motus_run_errors does. MOTUS_STATE: the text is damaged, belongs to another system,
- * method, step or start, or is beyond the end. MOTUS_ARGUMENT: an observer called
- * motus_run_restore. After a failure the run is unchanged. */
+ * restore it from the text: it continues to the same bits as a run never interrupted, up to an `until` of its own. An
+ * adaptive method sizes the last steps before `until` to land there, so a run that was saved at an earlier end
+ * continues from that end, by other steps than one run to the later end. Of a system with events the text has the
+ * table so far, and of fixed steps at the end of the run the state before the last step. Where both runs tell errors,
+ * the text has those up to it, for which the companion is compared once more, and the bars of the second run cover the
+ * errors from the very start; a second companion (MOTUS_BARS_FULL) goes on where steps adapt or the run has not ended
+ * in a shorter step. Saving fails as motus_run_errors does. MOTUS_STATE: the text is damaged, belongs to another
+ * system, method, step or start, or is beyond the end. MOTUS_ARGUMENT: an observer called motus_run_restore. After a
+ * failure the run is unchanged. */
 MOTUS_API motus_status motus_run_save(motus_run *, const char **text, size_t *length, motus_error *);
 MOTUS_API motus_status motus_run_restore(motus_run *, const char *text, size_t length, motus_error *);
 

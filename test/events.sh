@@ -184,6 +184,33 @@ refuses "points of no section" 2 "--points needs --section" "$motus" run $henon 
 refuses "an event in the text of a section" 2 "--section:1:" "$motus" run $henon --section "x = 0: record"
 refuses "a link with an event" 2 "--share and --when exclude each other" "$motus" run "$ball" --when "y = 1: record" --share
 
+# --- continued runs -----------------------------------------------------------------------------------------------------------------
+cat >"$place/kicks.motus" <<'M'
+n = 0
+late = time(low, last)
+x'' = -x - 0.1 x'
+x(0) = 1
+x'(0) = 0
+when x = 0 rising as up: n = n + 1, record
+when x < -0.4 as low: record
+when every 0.3 as kick: x' = x' + 0.01, record
+M
+for half in 4.2 4.237; do # on a time of the grid, and between two
+    for method in verlet rk4 gauss6; do
+        kicks="$place/kicks.motus --method $method --step 0.01 --error none --quiet"
+        "$motus" run $kicks --until $half --save-state "$place/kicks.state" --events "$place/first.csv"
+        gives "a continued run with events, $method from $half" 0 "$motus" run $kicks --until 9.5 --restart "$place/kicks.state" --events "$place/second.csv"
+        "$motus" run $kicks --until 9.5 --events "$place/whole.csv"
+        that "... has the table of the whole run" eval "diff <(grep -v '^# motus' '$place/second.csv' | tail -n +2) <(grep -v '^# motus' '$place/whole.csv' | tail -n +2)"
+        that "... which is longer than that of the first" eval "[ \$(rows '$place/whole.csv' | wc -l) -gt \$(rows '$place/first.csv' | wc -l) ]"
+    done
+done
+sed 's/rising as up/falling as up/' "$place/kicks.motus" >"$place/other.motus"
+refuses "the state of a run with other events" 2 "belongs to another model" "$motus" run "$place/other.motus" --method gauss6 --step 0.01 --until 9.5 --restart "$place/kicks.state"
+"$motus" run "$place/kicks.motus" --method dop853 --until 5 --save-state "$place/kicks.state" --quiet
+gives "the errors of a continued run" 0 "$motus" run "$place/kicks.motus" --method dop853 --until 9.5 --restart "$place/kicks.state" --events "$place/second.csv"
+that "... cover all its events" eval "rows '$place/second.csv' | awk -F, '{ n++ } !(\$3 > 0 && \$3 < 1e-4) { exit 1 } END { exit n < 30 }'"
+
 refuses "events over the model" 2 "is read and would be overwritten" "$motus" run "$ball" --events "$ball"
 refuses "events and rows in one file" 2 "is named for two outputs" "$motus" run "$ball" --events "$place/x.csv" -o "$place/x.csv"
 gives "events and JSON in one place" 2 "$motus" run "$ball" --events - --json

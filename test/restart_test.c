@@ -1,31 +1,7 @@
 /* Restart states: a restarted run has the bits of an uninterrupted one; a state that does not fit is refused and
  * changes nothing.
  */
-#include "test/given.h"
-
-typedef struct kept {
-    char *text;
-    size_t length;
-} kept;
-
-static kept save(motus_run *r)
-{
-    const char *text = NULL;
-    motus_error err = motus_default_error();
-    kept k = {NULL, 0};
-    must(motus_run_save(r, &text, &k.length, &err), &err, "save");
-    assert_int_equal(strlen(text), k.length);
-    k.text = malloc(k.length + 1);
-    assert_non_null(k.text);
-    memcpy(k.text, text, k.length + 1);
-    return k;
-}
-
-static motus_status restore(motus_run *r, kept k, motus_error *err)
-{
-    *err = motus_default_error();
-    return motus_run_restore(r, k.text, k.length, err);
-}
+#include "test/saved.h"
 
 static const char *const texts[] = {
     "x'' = -x - 0.1 x^3 + 0.1 cos(t)\nx(0.5) = 1\nx'(0.5) = 0.1\n",
@@ -37,14 +13,6 @@ static const char *const texts[] = {
      "x[i](0) = sin(i) for i = 1..5\nx[i]'(0) = 0 for i = 1..5\n"),
     "r'' = (0.5, -9.81)\nr(0) = (0, 0)\nr'(0) = (1, 4.5)\n",
 };
-
-static void same_counts(motus_run *a, motus_run *b)
-{
-    assert_int_equal(motus_run_steps(a), motus_run_steps(b));
-    assert_int_equal(motus_run_evaluations(a), motus_run_evaluations(b));
-    assert_int_equal(motus_run_iterations(a), motus_run_iterations(b));
-    assert_true(motus_run_time(a) == motus_run_time(b));
-}
 
 /* Interrupted after n steps and continued in another system, as by a new process; with or without observations before
  * and after. */
@@ -263,8 +231,6 @@ static void sums_with_other_bounds_are_other_models(void **state)
     }
 }
 
-/* Every byte changed, in every bit and to some that matter to a reader of numbers; every length; every byte removed
- * or doubled. */
 static void damage_is_seen(void **state)
 {
     (void)state;
@@ -274,48 +240,13 @@ static void damage_is_seen(void **state)
     take_steps(q, 7);
     kept k = save(r);
     motus_error err;
-    char *copy = malloc(k.length + 2);
-    assert_non_null(copy);
-    kept bad = {copy, k.length};
-    for (size_t i = 0; i < k.length; i++) {
-        static const char others[] = "0 9af-+.px\n\377";
-        for (size_t j = 0; j < 8 + sizeof others; j++) {
-            memcpy(copy, k.text, k.length + 1);
-            copy[i] = j < 8 ? (char)(copy[i] ^ (1 << j)) : others[j - 8];
-            if (copy[i] == k.text[i]) continue;
-            if (restore(q, bad, &err) != MOTUS_STATE) fail_msg("byte %zu as %d was accepted", i, copy[i]);
-        }
-    }
-    for (size_t n = 0; n < k.length; n++) {
-        memcpy(copy, k.text, n);
-        bad.length = n;
-        assert_int_equal(restore(q, bad, &err), MOTUS_STATE);
-        memcpy(copy + n, k.text + n + 1, k.length - n); /* one removed */
-        bad.length = k.length - 1;
-        assert_int_equal(restore(q, bad, &err), MOTUS_STATE);
-        memcpy(copy, k.text, n + 1); /* one twice */
-        memcpy(copy + n + 1, k.text + n, k.length - n);
-        bad.length = k.length + 1;
-        assert_int_equal(restore(q, bad, &err), MOTUS_STATE);
-    }
+    no_damage_passes(q, k);
     same_state(s, r, q, "after all that");
     must(restore(q, k, &err), &err, "undamaged");
-    free(copy);
     free(k.text);
     motus_run_destroy(r);
     motus_run_destroy(q);
     motus_system_destroy(s);
-}
-
-/* FNV-1a, as in the last line: with a valid checksum, damage must not crash either. */
-static void seal(char *text, size_t length)
-{
-    enum { CLOSING = 21 };
-    uint64_t h = 14695981039346656037u;
-    for (size_t i = 0; i < length - CLOSING; i++) h = (h ^ (unsigned char)text[i]) * 1099511628211u;
-    char closing[CLOSING + 1];
-    snprintf(closing, sizeof closing, "end %016llx\n", (unsigned long long)h);
-    memcpy(text + length - CLOSING, closing, CLOSING);
 }
 
 static void forged_states_do_no_harm(void **state)
@@ -328,17 +259,7 @@ static void forged_states_do_no_harm(void **state)
     motus_error err;
     char *copy = malloc(k.length + 64);
     assert_non_null(copy);
-    int refused = 0;
-    for (size_t i = 0; i + 21 < k.length; i++) {
-        static const char others[] = "0 19af-+.px\n";
-        for (size_t j = 0; j < sizeof others; j++) {
-            memcpy(copy, k.text, k.length + 1);
-            copy[i] = others[j];
-            seal(copy, k.length);
-            refused += restore(r, (kept){copy, k.length}, &err) != MOTUS_OK;
-        }
-    }
-    assert_true(refused > 100);
+    assert_true(refuse_forgeries(r, k) > 100);
     /* Invalid numbers, counters that are negative or too large, a carry that is too long. */
     static const struct {
         const char *from, *to;
