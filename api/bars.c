@@ -265,6 +265,15 @@ void bars_again(motus_run *r, bool given)
     r->bars->resumed = NULL;
 }
 
+void bars_forget_events(motus_run *r)
+{
+    bars *b = r->bars;
+    if (b->half.events) events_forget(b->half.events);
+    if (b->twin.events) events_forget(b->twin.events);
+    b->gap = b->rows_differ = false;
+    b->rows = 0;
+}
+
 void bars_leg(motus_run *r)
 {
     if (r->bars) bars_again(r, true);

@@ -44,6 +44,8 @@ differences_shape bars_shape(const motus_system *, const motus_method *card, mot
 motus_status bars_ready(motus_run *, const uint8_t *affected, motus_error *);
 /* A run of another motion begins: with the state of the system, or (given) with one of its own. */
 void bars_again(motus_run *, bool given);
+/* And it has other events, of which none has happened. */
+void bars_forget_events(motus_run *);
 /* A leg begins at this state; x and v NULL: the run's start. */
 void bars_leg(motus_run *);
 /* Call it before the run moves on: lands where that is due, and tells how many steps the run may take until it is due

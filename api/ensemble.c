@@ -228,7 +228,8 @@ motus_status ensemble_choose_single(motus_ensemble *e, const char *wanted, bool 
 {
     motus_system *s = e->system;
     choose_portable(e);
-    if (!s->model && s->callback.block) e->block = e->until == SIZE_MAX ? ensemble_block_size(s, &e->chosen) : 1;
+    if (!s->model && s->callback.block && !e->rules)
+        e->block = e->until == SIZE_MAX ? ensemble_block_size(s, &e->chosen) : 1;
     if (!s->model || (wanted && !strcmp(wanted, "interpreter"))) return MOTUS_OK;
     const char *why = NULL;
     compiled_state state = COMPILED_FAILED;
@@ -246,6 +247,8 @@ static motus_status make(motus_ensemble *e, const motus_ensemble_def *d, motus_e
 {
     motus_system *s = e->system;
     motus_status status = choice_method(s, d->method, &e->chosen, &e->card, err);
+    if (status == MOTUS_OK) status = system_rules(s, &e->rules, err);
+    if (status == MOTUS_OK) status = ensemble_events_prepare(e, d, err);
     if (status == MOTUS_OK) status = find_places(e, d, err);
     if (status == MOTUS_OK && e->error != MOTUS_BARS_NONE) status = ensemble_errors_prepare(e, err);
     double end = d->until;
@@ -269,7 +272,7 @@ static motus_status make(motus_ensemble *e, const motus_ensemble_def *d, motus_e
     }
     /* with `fast` the bits depend on the machine */
     const bool later = automatic && !d->fast;
-    const bool events = s->model && s->model->rule_count > 0;
+    const bool events = e->rules != NULL;
     if (events) snprintf(e->note, sizeof e->note, "events are followed one trajectory at a time");
     if (status == MOTUS_OK && s->model && compiled && !events) status = try_lanes(e, d, later, err);
     if (status != MOTUS_OK) return status;
@@ -284,18 +287,6 @@ static motus_status make(motus_ensemble *e, const motus_ensemble_def *d, motus_e
     return status;
 }
 
-/* What ensembles with events cannot do yet. */
-static motus_status refuse_rules(motus_system *s, const motus_ensemble_def *d, motus_error *err)
-{
-    const rules *rules;
-    const motus_status status = system_rules(s, &rules, err);
-    if (status != MOTUS_OK || !rules) return status;
-    if (d->error == MOTUS_BARS_NONE && isnan(d->accuracy)) return MOTUS_OK;
-    fail(err, MOTUS_UNAVAILABLE, "an ensemble with events tells no errors");
-    hint(err, "leave `error` and `accuracy` of the definition out, and give a method with a step or a tolerance");
-    return MOTUS_UNAVAILABLE;
-}
-
 motus_status motus_ensemble_create(motus_system *s, const motus_ensemble_def *given, motus_ensemble **out,
                                    motus_error *err)
 {
@@ -307,7 +298,6 @@ motus_status motus_ensemble_create(motus_system *s, const motus_ensemble_def *gi
     motus_status status = motus_struct_read(MOTUS_DEF_ENSEMBLE, given, &d, err);
     ensemble_goal *goal = NULL;
     if (status == MOTUS_OK) status = check(s, &d, err);
-    if (status == MOTUS_OK) status = refuse_rules(s, &d, err);
     if (status == MOTUS_OK) status = ensemble_accuracy_begin(s, &d, &goal, err);
     if (status != MOTUS_OK) return status;
     motus_ensemble *e = take(&s->allocator, 1, sizeof *e);
@@ -441,6 +431,7 @@ motus_status ensemble_run_all(motus_ensemble *e, size_t count, const double *con
         p.observes |= e->records[r].how != MOTUS_REDUCE_FINAL && !ensemble_tallies(&e->records[r]);
     e->count = count;
     status = check_ends(e, &p, count, err);
+    if (status == MOTUS_OK) status = ensemble_events_begin(e, count, err);
     if (status == MOTUS_OK) status = compute(e, &p, err);
     e->computed += count;
     e->seconds += pace_now() - began;
@@ -483,6 +474,7 @@ void motus_ensemble_destroy(motus_ensemble *e)
     motus_system_hold(e->system, false);
     ensemble_end_lanes(e);
     ensemble_workers_destroy(e);
+    ensemble_events_end(e);
     motus_system_destroy(e->half);
     give(&a, e->places);
     give(&a, e->records);

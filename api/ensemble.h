@@ -32,7 +32,8 @@ typedef struct worker {
     motus_error why;
 } worker;
 
-typedef struct ensemble_goal ensemble_goal; /* ensemble_accuracy.c */
+typedef struct ensemble_goal ensemble_goal;   /* ensemble_accuracy.c */
+typedef struct ensemble_table ensemble_table; /* ensemble_events.c: the events of a trajectory */
 
 struct motus_ensemble {
     motus_system *system;
@@ -49,6 +50,11 @@ struct motus_ensemble {
     double step;                     /* of the definition, or suggested; NaN: the model's */
     const motus_method *card;
     motus_record *records;
+    const rules *rules; /* of the system, NULL: it has none */
+    /* Where tables of events are kept: their columns, and the table of each trajectory of the last run; NULL */
+    size_t *event_columns, event_columns_count;
+    ensemble_table *tables;
+    size_t tables_count;
     /* Where errors can be told: the columns that are compared, the time and the state and then those of the records,
      * whose reductions `how` are (NULL: none is reduced); and the number of each record among them. */
     motus_bars error;
@@ -115,6 +121,14 @@ motus_status ensemble_errors_worker(worker *, motus_error *);
 motus_status ensemble_errors_begin(worker *, const double *values, size_t k, motus_error *);
 void ensemble_errors_rest(worker *); /* the trajectory is over, */
 void ensemble_errors_end(worker *);  /*   and so is the worker */
+
+/* ensemble_events.c: whether the definition asks for tables, and room for those of `count` trajectories; the table of a
+ * worker's trajectory k, `errors`: with those of the times; takes over that of another ensemble. */
+motus_status ensemble_events_prepare(motus_ensemble *, const motus_ensemble_def *, motus_error *);
+motus_status ensemble_events_begin(motus_ensemble *, size_t count, motus_error *);
+motus_status ensemble_events_take(worker *, size_t k, bool errors, motus_error *);
+void ensemble_events_move(motus_ensemble *to, size_t k, motus_ensemble *from, size_t i);
+void ensemble_events_end(motus_ensemble *);
 
 /* ensemble.c: all trajectories, with the tolerance of the ensemble. p: the room that the caller supplies. */
 motus_status ensemble_run_all(motus_ensemble *, size_t count, const double *const *values, places p, motus_error *);

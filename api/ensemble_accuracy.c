@@ -198,6 +198,7 @@ static motus_status find_other(attempt *a, double tolerance, motus_ensemble **ou
     if (!o) return fail(err, MOTUS_MEMORY, "no memory for the ensemble");
     motus_ensemble_def def = g->def;
     def.tolerance = tolerance;
+    def.event_columns = a->e->event_columns; /* the caller's may be gone */
     if (a->e->awaits) def.machine = "interpreter"; /* a compiler is at work for the same text */
     *o = (other){.next = g->others, .tolerance = tolerance};
     motus_status status = motus_ensemble_create(a->e->system, &def, &o->ensemble, err);
@@ -237,7 +238,7 @@ static void group_end(const attempt *a, group *g)
 }
 
 /* Takes over trial i of a group where it is the best of its trajectory; returns whether it is to be tried again. */
-static bool take_over(attempt *a, const group *g, size_t i, open_one *o)
+static bool take_over(attempt *a, const group *g, motus_ensemble *from, size_t i, open_one *o)
 {
     const bool failed = !isnan(g->stopped[i]);
     double *const *results = g->at + g->given, *const *errors = results + g->records;
@@ -248,6 +249,7 @@ static bool take_over(attempt *a, const group *g, size_t i, open_one *o)
             a->errors[r][o->number] = errors[r][i];
         }
         a->stopped[o->number] = g->stopped[i];
+        ensemble_events_move(a->e, o->number, from, i);
         o->best = bar;
     }
     if (bar <= a->goal->wanted) return false;
@@ -278,7 +280,7 @@ static motus_status try(attempt *a, double tolerance, motus_error *err)
     n = 0;
     for (size_t i = 0; i < a->count && status == MOTUS_OK; i++) {
         const bool other_size = a->open[i].search.size != tolerance;
-        if (other_size || take_over(a, &g, n++, &a->open[i])) a->open[kept++] = a->open[i];
+        if (other_size || take_over(a, &g, e, n++, &a->open[i])) a->open[kept++] = a->open[i];
     }
     if (status == MOTUS_OK) a->count = kept;
     group_end(a, &g);

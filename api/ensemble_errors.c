@@ -110,9 +110,13 @@ motus_status ensemble_errors_begin(worker *w, const double *values, size_t k, mo
             return fail(err, MOTUS_MEMORY, "no memory for a trajectory");
     }
     r->stepper = w->stepper;
-    r->synchronised = false;
+    motus_status status = system_rules(w->system, &r->rules, err);
+    if (status != MOTUS_OK) return status;
+    r->events = w->events;
+    r->synchronised = r->arrived = false;
     run_leg(r, &w->timing);
     bars_again(r, !half->model);
+    bars_forget_events(r);
     return MOTUS_OK;
 }
 
@@ -121,7 +125,8 @@ void ensemble_errors_rest(worker *w) { number_calls(w->system, 0, 0); }
 void ensemble_errors_end(worker *w)
 {
     if (!w->run) return;
-    w->run->stepper = NULL; /* the worker's */
+    w->run->stepper = NULL; /* they are the worker's */
+    w->run->events = NULL;
     motus_run_destroy(w->run);
     w->run = NULL;
     w->half_vary = NULL;

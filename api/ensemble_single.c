@@ -106,7 +106,7 @@ static motus_status advance(void *ctx, stepper_limit limit, stepper_stop *why, m
 {
     const trajectory *s = ctx;
     motus_run *r = s->w->run;
-    if (s->w->events && limit.steps > 0) {
+    if (s->w->events && limit.steps > 0 && !s->errors) {
         *why = STOP_STEPS;
         return run_events_steps(s->w->events, s->w->stepper, &s->w->pace, limit.steps, limit.until, why, err);
     }
@@ -189,10 +189,13 @@ static motus_status one_trajectory(worker *w, size_t k, void *ctx)
     const bool stopped = status == MOTUS_DIVERGED || status == MOTUS_SOLVE || status == MOTUS_STEPS ||
                          status == MOTUS_EVENTS || (status == MOTUS_CALLBACK && w->why.returned > 0);
     if (stopped || status == MOTUS_OK) {
+        motus_error why = motus_default_error();
+        const motus_status told = ensemble_events_take(w, k, s.errors, &why);
         for (size_t r = 0; r < e->record_count; r++) p->results[r][k] = stopped ? NAN : result(&s, r);
         for (size_t r = 0; p->errors && r < e->record_count; r++) p->errors[r][k] = stopped ? NAN : error(&s, r);
         if (p->stopped) p->stopped[k] = stopped ? w->why.time : NAN;
-        status = MOTUS_OK;
+        status = told;
+        if (told != MOTUS_OK) w->why = why;
         atomic_fetch_add(&w->e->done, 1);
         if (w->number == 0 && ensemble_report(w->e, (double)atomic_load(&e->done) / (double)e->count)) {
             atomic_store(&w->e->stop, true);

@@ -66,22 +66,26 @@ motus_status run_events_load(motus_run *r, stepper_count then, const double *car
 
 int64_t motus_run_events(const motus_run *r) { return r && r->events ? (int64_t)events_rows(r->events) : 0; }
 
+void run_events_row(const rules *rules, const event *row, double error, motus_event_row *out)
+{
+    motus_event_row ours = motus_default_event_row();
+    ours.name = rules->rule[row->rule].name;
+    ours.count = row->count;
+    ours.time = row->t;
+    ours.touched = row->touched;
+    ours.changed = row->changed;
+    ours.error = error;
+    rules->name(rules->ctx, row->rule, row->instance, ours.instance, sizeof ours.instance);
+    motus_struct_write(MOTUS_DEF_EVENT_ROW, &ours, out);
+}
+
 motus_status motus_run_event(motus_run *r, int64_t k, motus_event_row *out)
 {
     if (!r || !out || k < 0 || k >= motus_run_events(r) ||
         motus_struct_check(MOTUS_DEF_EVENT_ROW, out, NULL) != MOTUS_OK)
         return MOTUS_ARGUMENT;
-    const rules *rules = r->rules;
     const event row = events_row(r->events, (size_t)k, false, NULL, NULL);
-    motus_event_row ours = motus_default_event_row();
-    ours.name = rules->rule[row.rule].name;
-    ours.count = row.count;
-    ours.time = row.t;
-    ours.touched = row.touched;
-    ours.changed = row.changed;
-    ours.error = event_bars_time(r, (size_t)k);
-    rules->name(rules->ctx, row.rule, row.instance, ours.instance, sizeof ours.instance);
-    motus_struct_write(MOTUS_DEF_EVENT_ROW, &ours, out);
+    run_events_row(r->rules, &row, event_bars_time(r, (size_t)k), out);
     return MOTUS_OK;
 }
 

@@ -11,6 +11,8 @@ motus_status run_events_advance(motus_run *, int64_t n, stepper_stop *why, motus
 /* Takes up to n steps of any stepper with events; MOTUS_CANCELLED, without a message, where `tell` cancels. */
 motus_status run_events_steps(events *, stepper *, const pace *, int64_t n, double until, stepper_stop *why,
                               motus_error *);
+/* A row of a table for the caller. */
+void run_events_row(const rules *, const event *, double error, motus_event_row *);
 bool run_events_ended(const motus_run *);
 /* The state at a time within the last step. */
 motus_status run_events_sample(motus_run *, double t, double *x, double *v, motus_error *);

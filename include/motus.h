@@ -974,6 +974,10 @@ typedef struct motus_ensemble_def {
     int absolute;       /* as in motus_run_def */
     motus_bars error;   /* of motus_ensemble_run_errors */
     int64_t most_steps; /* as in motus_run_def, of each trajectory; one that needs more stops there */
+    /* 1: the tables of events are kept, with the values of these columns: motus_ensemble_event */
+    int64_t events;
+    const size_t *event_columns;
+    size_t event_column_count;
 } motus_ensemble_def;
 
 /* MOTUS_NAME: a name in `vary` is neither a parameter nor an initial value. MOTUS_SHAPE: it stands for several numbers.
@@ -1002,6 +1006,13 @@ MOTUS_API motus_status motus_ensemble_run(motus_ensemble *, size_t count, const 
 MOTUS_API motus_status motus_ensemble_run_errors(motus_ensemble *, size_t count, const double *const *values,
                                                  double *const *results, double *const *errors, double *stopped,
                                                  motus_error *);
+/* The table of events of a trajectory, from 0, of the last motus_ensemble_run that ended well, where the definition asks
+ * for it: how many rows it has, those up to the time where the trajectory stopped; and row k of it, with the values of
+ * `event_columns` on arrival and as the action left them (each may be NULL). The rows are those of a run with the
+ * values of the trajectory; `error` is known where motus_ensemble_run_errors was called. */
+MOTUS_API int64_t motus_ensemble_events(const motus_ensemble *, size_t trajectory);
+MOTUS_API motus_status motus_ensemble_event(const motus_ensemble *, size_t trajectory, int64_t k, motus_event_row *,
+                                            double *values, double *after);
 /* Whether motus_ensemble_run would take these values: MOTUS_OK, or what it would return before it computes anything. */
 MOTUS_API motus_status motus_ensemble_check(motus_ensemble *, size_t count, const double *const *values, motus_error *);
 MOTUS_API void motus_ensemble_destroy(motus_ensemble *);
