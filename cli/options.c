@@ -87,7 +87,7 @@ static const option table[] = {
      "add the errors to the CSV: x.error for every column, and whether any digit is significant"},
     {"--columns", NULL, "A,B,C", WORD, AT(columns), VERB_RUN,
      "columns of the CSV, and of --events: t, r, r'.x, x[3]', energy, \"exact x\""},
-    {"--events", NULL, "FILE", WORD, AT(events), VERB_RUN,
+    {"--events", NULL, "FILE", WORD, AT(events), ONE,
      "write the table of events as CSV to FILE: what happened, when, and the numbers before and after"},
     {"--every", NULL, "T", EVERY, AT(every_time), ONE,
      "a row (sweep: a sample for min, max and mean) every time T, or every \"10 steps\""},

@@ -7,6 +7,7 @@
 
 #include "base/error.h"
 #include "cli/complain.h"
+#include "cli/event_file.h"
 #include "cli/file.h"
 #include "cli/settle.h"
 #include "cli/stop.h"
@@ -119,6 +120,9 @@ static motus_status create(sweep *s, stop_progress *progress, motus_error *err)
                 : o->error && strcmp(o->error, "full") == 0 ? MOTUS_BARS_FULL
                                                             : MOTUS_BARS_CHEAP;
     def.expected = s->grid.total;
+    def.events = o->events != NULL;
+    def.event_columns = s->event_columns;
+    def.event_column_count = s->event_columns_count;
     def.progress = stop_progress_hook;
     def.context = progress;
     return motus_ensemble_create(s->model.system, &def, &s->ensemble, err);
@@ -159,7 +163,8 @@ static motus_status check_options(const options *o, motus_error *err)
 {
     if (o->threads > INT_MAX || o->lanes > INT_MAX)
         return fail(err, MOTUS_ARGUMENT, "%s is too large", o->threads > INT_MAX ? "--threads" : "--lanes");
-    return sweep_file_check(o, err);
+    const motus_status status = sweep_file_check(o, err);
+    return status ? status : sweep_events_check(o, err);
 }
 
 /* The ensemble and the head of the file. */
@@ -185,7 +190,12 @@ static motus_status begin(sweep *s, stop_progress *progress, motus_error *err)
     for (size_t k = 0; !status && o->output && k < s->grid.count; k++)
         if (s->grid.axes[k].path && file_same(s->grid.axes[k].path, o->output))
             status = fail(err, MOTUS_ARGUMENT, "%s is read and would be overwritten", s->grid.axes[k].path);
+    for (size_t k = 0; !status && o->events && k < s->grid.count; k++)
+        if (s->grid.axes[k].path && file_same(s->grid.axes[k].path, o->events))
+            status = fail(err, MOTUS_ARGUMENT, "%s is read and would be overwritten", s->grid.axes[k].path);
     if (!status) status = sweep_records_read(&s->records, &s->model, o->record, err);
+    if (!status && o->events)
+        status = event_file_columns(&s->model, o, &s->event_columns, &s->event_columns_count, err);
     if (status) return status;
     const bool own_ends = grid_find(&s->grid, "until") < s->grid.count;
     s->accuracy = settle_accuracy(&s->model, o);
@@ -208,7 +218,7 @@ static motus_status begin(sweep *s, stop_progress *progress, motus_error *err)
     return status ? status : make(s, progress, err);
 }
 
-static motus_status go(sweep *s, sweep_file *f, stop_progress *p, motus_error *err)
+static motus_status go(sweep *s, sweep_file *f, sweep_events *events, stop_progress *p, motus_error *err)
 {
     batch b = {0};
     motus_status status = batch_begin(&b, s, err);
@@ -230,6 +240,7 @@ static motus_status go(sweep *s, sweep_file *f, stop_progress *p, motus_error *e
         note_machine(s);
         if (status == MOTUS_ACCURACY)
             status = sweep_accuracy_refuse(s, f->rows, count, b.results + s->records.count, b.stopped, err);
+        if (!status) status = sweep_events_rows(events, f->rows, count, err);
         if (!status) status = sweep_file_rows(f, count, &rows, err);
         if (!status && f->rows < s->grid.total && stop_progress_hook(p, 1))
             status = fail(err, MOTUS_CANCELLED, "cancelled");
@@ -315,10 +326,11 @@ static void note_unfinished(const sweep *s, const sweep_file *f)
                       (unsigned long long)f->rows, (unsigned long long)s->grid.total, f->path);
 }
 
-static motus_status finish(const sweep *s, sweep_file *f, double began, motus_error *err)
+static motus_status finish(const sweep *s, sweep_file *f, sweep_events *events, double began, motus_error *err)
 {
     const options *o = s->options;
-    motus_status status = sweep_file_finish(f, err);
+    motus_status status = sweep_events_finish(events, err);
+    if (!status) status = sweep_file_finish(f, err);
     double wall = stop_clock() - began;
     if (status) return status;
     if (o->json)
@@ -336,22 +348,27 @@ motus_status sweep_verb(const options *o, motus_error *err)
 {
     sweep s = {.options = o};
     sweep_file f = {.descriptor = -1};
+    sweep_events events = {.descriptor = -1};
     stop_progress progress = stop_progress_begin("sweep", o->quiet);
     double began = stop_clock();
     motus_status status = begin(&s, &progress, err);
+    if (!status) status = sweep_events_verify(&s, err);
     if (!status) {
         status = sweep_file_open(&f, &s, err);
         bool open = !status;
         progress.began = stop_clock();
-        if (!status) status = go(&s, &f, &progress, err);
+        if (!status) status = sweep_events_open(&events, &s, f.rows, err);
+        if (!status) status = go(&s, &f, &events, &progress, err);
         stop_progress_end(&progress);
         if (!status)
-            status = finish(&s, &f, began, err);
+            status = finish(&s, &f, &events, began, err);
         else if (open && status != MOTUS_ACCURACY)
             note_unfinished(&s, &f);
     }
     sweep_file_close(&f);
+    sweep_events_close(&events);
     free(s.head);
+    free(s.event_columns);
     motus_ensemble_destroy(s.ensemble);
     free(s.records.items);
     grid_free(&s.grid);

@@ -2,6 +2,7 @@
 #ifndef CLI_SWEEP_H
 #define CLI_SWEEP_H
 
+#include "cli/file.h"
 #include "cli/grid.h"
 #include "cli/load.h"
 
@@ -34,12 +35,15 @@ typedef struct sweep {
     /* of a row: number, varied, recorded; where errors are told, those of the records that have some, and whether any
      * digit is significant; stopped */
     size_t columns;
+    size_t *event_columns, event_columns_count; /* of the table of events; NULL: none is asked for */
     bool errors;
     char *head; /* the lines above the rows of a CSV; of a .npy, the text of the file beside it */
     size_t head_length;
     char fingerprint[17]; /* a hash of everything that the numbers depend on */
 } sweep;
 
+/* sweep_head.c: the line of the command, "# motus sweep …\n", which makes the rows. */
+motus_status sweep_head_command(const sweep *, file_out *, motus_error *);
 /* Makes the head: it depends on the request alone, not on machine or threads, so that files can be compared. */
 motus_status sweep_head_make(sweep *, bool npy, motus_error *);
 
@@ -63,6 +67,11 @@ motus_status sweep_accuracy_refuse(const sweep *, uint64_t first, size_t count, 
                                    const double *stopped, motus_error *);
 
 motus_status sweep_file_check(const options *, motus_error *);
+/* The same of one file, "-": standard output. */
+motus_status sweep_file_may_write(const options *, const char *path, motus_error *);
+/* Opens a regular file that no other program writes; *regular false: another one, for writing alone. */
+motus_status sweep_file_lock(const char *path, int *descriptor, bool *regular, motus_error *);
+int sweep_file_bytes(int descriptor, const char *, size_t count, size_t *written); /* an errno, or 0 */
 motus_status sweep_file_open(sweep_file *, const sweep *, motus_error *);
 /* Rows: values[axis][i], results[record][i], errors[record][i] (NULL: not told), stopped[i]. */
 typedef struct sweep_rows {
@@ -80,5 +89,26 @@ motus_status sweep_resume(sweep_file *, uint64_t end, motus_error *);
 /* The 128 bytes at the beginning of a .npy with `rows` rows. */
 enum { SWEEP_NPY_HEAD = 128 };
 void sweep_npy_head(const sweep *, uint64_t rows, char out[SWEEP_NPY_HEAD]);
+
+/* sweep_events.c: the table of the events of all trajectories, with their numbers.
+ *
+ * Invariant: the events of a trajectory are in this file before its row is in the file of rows. */
+typedef struct sweep_events {
+    const sweep *sweep;
+    const char *path; /* NULL: none is asked for */
+    int descriptor;
+    bool regular;
+    uint64_t bytes; /* complete rows of the trajectories in the file of rows */
+    double *values; /* room for those of a row */
+} sweep_events;
+motus_status sweep_events_check(const options *, motus_error *);
+/* Before any file is touched: whether what --resume is to continue is the table of this sweep. */
+motus_status sweep_events_verify(const sweep *, motus_error *);
+/* `rows`: trajectories whose rows are in the file of rows already. */
+motus_status sweep_events_open(sweep_events *, const sweep *, uint64_t rows, motus_error *);
+/* Adds those of the last batch, whose first trajectory has number `first`. */
+motus_status sweep_events_rows(sweep_events *, uint64_t first, size_t count, motus_error *);
+motus_status sweep_events_finish(sweep_events *, motus_error *);
+void sweep_events_close(sweep_events *);
 
 #endif

@@ -30,27 +30,10 @@ static bool ends_with(const char *s, const char *end)
     return n >= m && strcmp(s + n - m, end) == 0;
 }
 
-/* Checks the name before anything is computed. */
-motus_status sweep_file_check(const options *o, motus_error *err)
+motus_status sweep_file_may_write(const options *o, const char *path, motus_error *err)
 {
-    const char *path = o->output ? o->output : "-";
-    bool output = strcmp(path, "-") == 0;
+    const bool output = strcmp(path, "-") == 0;
     if (!*path) return fail(err, MOTUS_ARGUMENT, "the name of an output file is empty");
-    if (o->force && o->resume) {
-        fail(err, MOTUS_ARGUMENT, "--force and --resume exclude each other");
-        hint(err, "--resume continues the file, --force replaces it");
-        return MOTUS_ARGUMENT;
-    }
-    if (output && (o->resume || o->force)) {
-        fail(err, MOTUS_ARGUMENT, "%s needs a file", o->resume ? "--resume" : "--force");
-        hint(err, "add -o FILE");
-        return MOTUS_ARGUMENT;
-    }
-    if (output && o->json) {
-        fail(err, MOTUS_ARGUMENT, "--json and the rows both go to standard output");
-        hint(err, "write the rows to a file: -o sweep.csv");
-        return MOTUS_ARGUMENT;
-    }
     if (o->operand && !output && file_same(path, o->operand))
         return fail(err, MOTUS_ARGUMENT, "%s is read and would be overwritten", o->operand);
     struct stat about;
@@ -67,6 +50,29 @@ motus_status sweep_file_check(const options *o, motus_error *err)
     return MOTUS_OK;
 }
 
+/* Checks the name before anything is computed. */
+motus_status sweep_file_check(const options *o, motus_error *err)
+{
+    const char *path = o->output ? o->output : "-";
+    bool output = strcmp(path, "-") == 0;
+    if (o->force && o->resume) {
+        fail(err, MOTUS_ARGUMENT, "--force and --resume exclude each other");
+        hint(err, "--resume continues the file, --force replaces it");
+        return MOTUS_ARGUMENT;
+    }
+    if (output && (o->resume || o->force)) {
+        fail(err, MOTUS_ARGUMENT, "%s needs a file", o->resume ? "--resume" : "--force");
+        hint(err, "add -o FILE");
+        return MOTUS_ARGUMENT;
+    }
+    if (output && o->json) {
+        fail(err, MOTUS_ARGUMENT, "--json and the rows both go to standard output");
+        hint(err, "write the rows to a file: -o sweep.csv");
+        return MOTUS_ARGUMENT;
+    }
+    return sweep_file_may_write(o, path, err);
+}
+
 static motus_status cannot_write(const sweep_file *f, int code, motus_error *err)
 {
     bool output = strcmp(f->path, "-") == 0;
@@ -74,8 +80,7 @@ static motus_status cannot_write(const sweep_file *f, int code, motus_error *err
     return fail(err, MOTUS_FILE, "cannot write %s: %s", output ? "standard output" : f->path, strerror(code));
 }
 
-/* Returns 0 or an errno; *written: how many bytes were written before it. */
-static int write_all(int descriptor, const char *bytes, size_t count, size_t *written)
+int sweep_file_bytes(int descriptor, const char *bytes, size_t count, size_t *written)
 {
     for (*written = 0; *written < count;) {
         ssize_t more = write(descriptor, bytes + *written, count - *written);
@@ -102,7 +107,7 @@ static uint64_t complete_rows(const sweep_file *f, const char *bytes, size_t cou
 static motus_status put_head_bytes(sweep_file *f, const char *bytes, size_t count, motus_error *err)
 {
     size_t written;
-    int code = write_all(f->descriptor, bytes, count, &written);
+    int code = sweep_file_bytes(f->descriptor, bytes, count, &written);
     if (code && f->regular && ftruncate(f->descriptor, 0) != 0) code = errno;
     f->bytes = code ? 0 : count;
     return code ? cannot_write(f, code, err) : MOTUS_OK;
@@ -171,6 +176,21 @@ static motus_status go_on(sweep_file *f, uint64_t end, motus_error *err)
     return f->npy ? put_npy_head(f, err) : MOTUS_OK;
 }
 
+motus_status sweep_file_lock(const char *path, int *descriptor, bool *regular, motus_error *err)
+{
+    struct stat about;
+    *descriptor = open(path, O_RDWR | O_CREAT | O_CLOEXEC, 0666);
+    if (*descriptor < 0) /* a pipe or a device may not be readable */
+        *descriptor = open(path, O_WRONLY | O_CLOEXEC);
+    if (*descriptor < 0 || fstat(*descriptor, &about) != 0)
+        return fail(err, MOTUS_FILE, "cannot write %s: %s", path, strerror(errno));
+    *regular = S_ISREG(about.st_mode);
+    if (!*regular || flock(*descriptor, LOCK_EX | LOCK_NB) == 0 || errno != EWOULDBLOCK) return MOTUS_OK;
+    fail(err, MOTUS_FILE, "%s is being written by another program", path);
+    hint(err, "wait for that sweep, or stop it");
+    return MOTUS_FILE;
+}
+
 motus_status sweep_file_open(sweep_file *f, const sweep *s, motus_error *err)
 {
     const options *o = s->options;
@@ -184,20 +204,10 @@ motus_status sweep_file_open(sweep_file *f, const sweep *s, motus_error *err)
         f->descriptor = STDOUT_FILENO;
         return put_head(f, err);
     }
-    struct stat about;
-    f->descriptor = open(f->path, O_RDWR | O_CREAT | O_CLOEXEC, 0666);
-    if (f->descriptor < 0) /* a pipe or a device may not be readable */
-        f->descriptor = open(f->path, O_WRONLY | O_CLOEXEC);
-    if (f->descriptor < 0 || fstat(f->descriptor, &about) != 0) return cannot_write(f, errno, err);
-    f->regular = S_ISREG(about.st_mode);
-    if (!f->regular) return put_head(f, err);
-    if (flock(f->descriptor, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) {
-        fail(err, MOTUS_FILE, "%s is being written by another program", f->path);
-        hint(err, "wait for that sweep, or stop it");
-        return MOTUS_FILE;
-    }
-    /* checked again under the lock */
-    motus_status status = fstat(f->descriptor, &about) == 0 ? sweep_file_check(o, err) : cannot_write(f, errno, err);
+    motus_status status = sweep_file_lock(f->path, &f->descriptor, &f->regular, err);
+    if (status || !f->regular) return status ? status : put_head(f, err);
+    struct stat about; /* checked again under the lock */
+    status = fstat(f->descriptor, &about) == 0 ? sweep_file_check(o, err) : cannot_write(f, errno, err);
     if (status) return status;
     return o->resume && about.st_size > 0 ? go_on(f, (uint64_t)about.st_size, err) : put_head(f, err);
 }
@@ -206,7 +216,7 @@ motus_status sweep_file_open(sweep_file *f, const sweep *s, motus_error *err)
 static motus_status flush(sweep_file *f, uint64_t *rows, motus_error *err)
 {
     size_t written, end;
-    int code = write_all(f->descriptor, f->buffer, f->used, &written);
+    int code = sweep_file_bytes(f->descriptor, f->buffer, f->used, &written);
     f->used = 0;
     if (!code) {
         *rows = f->rows;

@@ -154,12 +154,18 @@ static const char *name_of(const sweep *s, size_t k, char out[SWEEP_NAME])
     return out;
 }
 
+motus_status sweep_head_command(const sweep *s, file_out *f, motus_error *err)
+{
+    motus_status status = file_text(f, "# ", err);
+    if (!status) status = command(s, f, err);
+    return status ? status : file_text(f, "\n", err);
+}
+
 static motus_status csv_head(const sweep *s, file_out *f, motus_error *err)
 {
     char line[240], name[SWEEP_NAME];
-    motus_status status = file_text(f, "# ", err);
-    if (!status) status = command(s, f, err);
-    snprintf(line, sizeof line, "\n# motus %s, trajectories %" PRIu64 ", fingerprint %s\n", motus_version(),
+    motus_status status = sweep_head_command(s, f, err);
+    snprintf(line, sizeof line, "# motus %s, trajectories %" PRIu64 ", fingerprint %s\n", motus_version(),
              s->grid.total, s->fingerprint);
     if (!status) status = file_text(f, line, err);
     for (size_t k = 0; !status && k < s->columns; k++) {

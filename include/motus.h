@@ -1006,10 +1006,10 @@ MOTUS_API motus_status motus_ensemble_run(motus_ensemble *, size_t count, const 
 MOTUS_API motus_status motus_ensemble_run_errors(motus_ensemble *, size_t count, const double *const *values,
                                                  double *const *results, double *const *errors, double *stopped,
                                                  motus_error *);
-/* The table of events of a trajectory, from 0, of the last motus_ensemble_run that ended well, where the definition asks
- * for it: how many rows it has, those up to the time where the trajectory stopped; and row k of it, with the values of
- * `event_columns` on arrival and as the action left them (each may be NULL). The rows are those of a run with the
- * values of the trajectory; `error` is known where motus_ensemble_run_errors was called. */
+/* The table of events of a trajectory, from 0, of the last motus_ensemble_run that ended well, where the definition
+ * asks for it: how many rows it has, those up to the time where the trajectory stopped; and row k of it, with the
+ * values of `event_columns` on arrival and as the action left them (each may be NULL). The rows are those of a run
+ * with the values of the trajectory; `error` is known where motus_ensemble_run_errors was called. */
 MOTUS_API int64_t motus_ensemble_events(const motus_ensemble *, size_t trajectory);
 MOTUS_API motus_status motus_ensemble_event(const motus_ensemble *, size_t trajectory, int64_t k, motus_event_row *,
                                             double *values, double *after);

@@ -211,6 +211,50 @@ refuses "the state of a run with other events" 2 "belongs to another model" "$mo
 gives "the errors of a continued run" 0 "$motus" run "$place/kicks.motus" --method dop853 --until 9.5 --restart "$place/kicks.state" --events "$place/second.csv"
 that "... cover all its events" eval "rows '$place/second.csv' | awk -F, '{ n++ } !(\$3 > 0 && \$3 < 1e-4) { exit 1 } END { exit n < 30 }'"
 
+# --- sweeps -------------------------------------------------------------------------------------------------------------------------
+cat >"$place/flock.motus" <<'M'
+e = 0.8
+k = 0
+y'' = -9.81 - k y' |y'|
+y(0) = 1
+y'(0) = 0
+n = 0
+when y = 0 falling as hit: y' = -e y', n = n + 1, record
+when y' = 0 falling as top: record, stop after 6
+M
+flock="$place/flock.motus --vary e=0.5:0.9:9 --vary k=0,0.1,0.3 --method rk4 --step 0.01 --until 3 --quiet"
+gives "the events of a sweep" 0 "$motus" sweep $flock -o "$place/rows.csv" --events "$place/flock.csv" --threads 1
+that "... have a head" eval "[ \"\$(head_of '$place/flock.csv')\" = \"index,event,t,count,touched,y,y',n,y.after,y'.after,n.after\" ]"
+that "... of all trajectories" eval "[ \"\$(rows '$place/flock.csv' | cut -d, -f1 | uniq | tr '\\n' ' ')\" = \"\$(seq -s ' ' 0 26) \" ]"
+same_as_run() { # number, settings of one trajectory
+    "$motus" run "$place/flock.motus" --set "$2" --set "$3" --method rk4 --step 0.01 --until 3 --quiet --error none --events "$place/one.csv" &&
+        diff <(rows "$place/flock.csv" | grep "^$1," | cut -d, -f2-) <(rows "$place/one.csv")
+}
+that "... the first those of a run" same_as_run 0 e=0.5 k=0
+that "... and others" same_as_run 17 e=0.75 k=0.3
+for how in "--threads 2" "--machine interpreter" "--machine compiled --threads 2"; do
+    gives "the same with $how" 0 "$motus" sweep $flock $how -o "$place/again.csv" --events "$place/flock2.csv" --force
+    that "... has the same bytes" cmp "$place/flock.csv" "$place/flock2.csv"
+done
+for kept in 0 100 1000 2000; do # as an interruption leaves both files: the events of trajectories that have no row yet
+    head -c $kept "$place/rows.csv" >"$place/again.csv"
+    head -c $((8 * kept + 50)) "$place/flock.csv" >"$place/flock2.csv"
+    [ $kept = 2000 ] && cp "$place/flock.csv" "$place/flock2.csv"
+    [ $kept = 1000 ] && { cat "$place/flock.csv"; printf '26,hit,1.2'; } >"$place/flock2.csv"
+    gives "a sweep that was interrupted after $kept bytes" 0 "$motus" sweep $flock -o "$place/again.csv" --events "$place/flock2.csv" --resume --threads 2
+    that "... has the same rows" cmp "$place/rows.csv" "$place/again.csv"
+    that "... and the same events" cmp "$place/flock.csv" "$place/flock2.csv"
+done
+gives "the events of a sweep with errors" 0 "$motus" sweep $flock --errors -o "$place/again.csv" --events "$place/errors.csv" --force
+that "... have errors of their times" eval "rows '$place/errors.csv' | awk -F, '!(\$4 > 0 && \$4 < 1e-2) { exit 1 } END { exit NR < 100 }'"
+that "... and else the same numbers" eval "diff <(rows '$place/errors.csv' | cut -d, -f1-3,5-) <(rows '$place/flock.csv')"
+refuses "events of a sweep over a file" 2 "exists" "$motus" sweep $flock -o "$place/none.csv" --events "$place/flock.csv"
+refuses "events of another sweep" 2 "is not the table of events of this sweep" "$motus" sweep $flock --until 2 -o "$place/none.csv" --events "$place/flock.csv" --resume
+that "... leaves no rows" absent "$place/none.csv"
+that "... and the table as it was" cmp "$place/flock.csv" "$place/flock2.csv"
+refuses "rows and events of a sweep in one file" 2 "is named for two outputs" "$motus" sweep $flock -o "$place/x.csv" --events "$place/x.csv"
+refuses "both on standard output" 2 "both go to standard output" "$motus" sweep $flock --events -
+
 refuses "events over the model" 2 "is read and would be overwritten" "$motus" run "$ball" --events "$ball"
 refuses "events and rows in one file" 2 "is named for two outputs" "$motus" run "$ball" --events "$place/x.csv" -o "$place/x.csv"
 gives "events and JSON in one place" 2 "$motus" run "$ball" --events - --json

@@ -1,0 +1,232 @@
+/* The table of the events of a sweep, as CSV: the number of the trajectory, and then what the table of a run has.
+ *
+ * Invariants: as those of the file of rows (sweep_file.c), and: the head depends on what the numbers depend on alone;
+ * the events of a trajectory are on the disk before its row is written, so what the file of rows has can be trusted
+ * here. What follows, of trajectories without a row, is removed by --resume.
+ */
+#define _XOPEN_SOURCE 700
+#include "base/decimal.h"
+#include "base/error.h"
+#include "cli/complain.h"
+#include "cli/event_file.h"
+#include "cli/file.h"
+#include "cli/stop.h"
+#include "cli/sweep.h"
+
+#include <errno.h>
+#include <inttypes.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+motus_status sweep_events_check(const options *o, motus_error *err)
+{
+    const char *rows = o->output ? o->output : "-";
+    if (!o->events) return MOTUS_OK;
+    const bool output = strcmp(o->events, "-") == 0, both = output && strcmp(rows, "-") == 0;
+    if (both || (!output && strcmp(rows, "-") != 0 && (strcmp(rows, o->events) == 0 || file_same(rows, o->events)))) {
+        fail(err, MOTUS_ARGUMENT,
+             both ? "the rows and the events both go to standard output" : "%s is named for two outputs", o->events);
+        hint(err, "write the %s", both ? "rows to a file: -o sweep.csv" : "events to another file");
+        return MOTUS_ARGUMENT;
+    }
+    if (output && o->resume) {
+        fail(err, MOTUS_ARGUMENT, "--resume continues the table of events too, and needs a file");
+        hint(err, "--events events.csv");
+        return MOTUS_ARGUMENT;
+    }
+    return sweep_file_may_write(o, o->events, err);
+}
+
+static motus_status cannot_write(const sweep_events *f, int code, motus_error *err)
+{
+    const bool output = strcmp(f->path, "-") == 0;
+    if (code == EPIPE && output) stop_reader_gone();
+    return fail(err, MOTUS_FILE, "cannot write %s: %s", output ? "standard output" : f->path, strerror(code));
+}
+
+/* Writes a text; after a failure the file ends where it did. */
+static motus_status put(sweep_events *f, const char *text, size_t length, motus_error *err)
+{
+    size_t written;
+    int code = sweep_file_bytes(f->descriptor, text, length, &written);
+    if (code && f->regular && ftruncate(f->descriptor, (off_t)f->bytes) != 0) code = errno;
+    if (code) return cannot_write(f, code, err);
+    f->bytes += length;
+    return MOTUS_OK;
+}
+
+/* ---- text in memory ---- */
+
+typedef struct memory {
+    file_out file;
+    char *text;
+    size_t length;
+} memory;
+
+static motus_status memory_open(memory *m, motus_error *err)
+{
+    static char name[] = "memory";
+    *m = (memory){0};
+    m->file = (file_out){.stream = open_memstream(&m->text, &m->length), .path = name};
+    return m->file.stream ? MOTUS_OK : complain_memory(err);
+}
+
+static motus_status memory_close(memory *m, motus_status status, motus_error *err)
+{
+    if (!m->file.stream) return status;
+    const bool failed = ferror(m->file.stream) != 0;
+    return (fclose(m->file.stream) != 0 || failed) && !status ? complain_memory(err) : status;
+}
+
+static motus_status head(const sweep_events *f, memory *m, motus_error *err)
+{
+    const sweep *s = f->sweep;
+    char line[240];
+    motus_status status = memory_open(m, err);
+    if (!status) status = sweep_head_command(s, &m->file, err);
+    snprintf(line, sizeof line, "# motus %s, events of trajectories %" PRIu64 ", fingerprint %s\nindex,",
+             motus_version(), s->grid.total, s->fingerprint);
+    if (!status) status = file_text(&m->file, line, err);
+    if (!status)
+        status = event_file_names(&m->file, &s->model, s->event_columns, s->event_columns_count, s->errors, err);
+    return memory_close(m, status, err);
+}
+
+/* ---- what an interrupted sweep left ---- */
+
+static motus_status another(const sweep_events *f, motus_error *err)
+{
+    fail(err, MOTUS_STATE, "%s is not the table of events of this sweep", f->path);
+    hint(err, "give the name of its table, or begin anew: --force");
+    return MOTUS_STATE;
+}
+
+/* Whether a head of another path to the same model is ours: what follows its first line decides. */
+static bool same_head(const char *ours, const char *theirs)
+{
+    const char *a = strchr(ours, '\n'), *b = strchr(theirs, '\n');
+    return a && b && strncmp(theirs, "# motus sweep ", 14) == 0 && strncmp(a, b, strlen(a)) == 0;
+}
+
+/* Sets f->bytes behind the complete rows of the first `rows` trajectories; 0: not even the head is complete. */
+static motus_status find_end(sweep_events *f, const memory *ours, uint64_t rows, FILE *in, motus_error *err)
+{
+    char *line = NULL;
+    size_t room = 0;
+    ssize_t length;
+    memory theirs;
+    motus_status status = memory_open(&theirs, err);
+    for (int k = 0; !status && k < 3 && (length = getline(&line, &room, in)) > 0; k++)
+        status = file_write(&theirs.file, line, (size_t)length, err);
+    status = memory_close(&theirs, status, err);
+    const bool begun = !status && rows == 0 && strncmp(ours->text, theirs.text, theirs.length) == 0;
+    f->bytes = begun && theirs.length < ours->length ? 0 : theirs.length;
+    if (!status && f->bytes && !same_head(ours->text, theirs.text)) status = another(f, err);
+    while (!status && f->bytes && (length = getline(&line, &room, in)) > 0) {
+        uint64_t number;
+        const size_t digits = decimal_read_whole(line, (size_t)length, &number);
+        if (!digits || line[digits] != ',' || line[length - 1] != '\n' || number >= rows) break;
+        f->bytes += (uint64_t)length;
+    }
+    free(line);
+    free(theirs.text);
+    return status;
+}
+
+static motus_status go_on(sweep_events *f, const memory *ours, uint64_t rows, motus_error *err)
+{
+    FILE *in = fopen(f->path, "r");
+    if (!in) return fail(err, MOTUS_FILE, "cannot read %s: %s", f->path, strerror(errno));
+    const motus_status status = find_end(f, ours, rows, in, err);
+    fclose(in);
+    if (status) return status;
+    if (ftruncate(f->descriptor, (off_t)f->bytes) != 0 || lseek(f->descriptor, (off_t)f->bytes, SEEK_SET) < 0)
+        return cannot_write(f, errno, err);
+    return f->bytes ? MOTUS_OK : put(f, ours->text, ours->length, err);
+}
+
+motus_status sweep_events_verify(const sweep *s, motus_error *err)
+{
+    sweep_events f = {.sweep = s, .path = s->options->events, .descriptor = -1};
+    FILE *in = f.path && s->options->resume ? fopen(f.path, "r") : NULL;
+    if (!in) return MOTUS_OK; /* there is none yet */
+    memory ours;
+    motus_status status = head(&f, &ours, err);
+    if (!status) status = find_end(&f, &ours, 0, in, err);
+    free(ours.text);
+    fclose(in);
+    return status;
+}
+
+motus_status sweep_events_open(sweep_events *f, const sweep *s, uint64_t rows, motus_error *err)
+{
+    *f = (sweep_events){.sweep = s, .path = s->options->events, .descriptor = -1};
+    if (!f->path) return MOTUS_OK;
+    f->values = malloc((2 * s->event_columns_count + 1) * sizeof *f->values);
+    if (!f->values) return complain_memory(err);
+    memory ours;
+    motus_status status = head(f, &ours, err);
+    if (!status && strcmp(f->path, "-") == 0)
+        f->descriptor = STDOUT_FILENO;
+    else if (!status)
+        status = sweep_file_lock(f->path, &f->descriptor, &f->regular, err);
+    if (!status) status = sweep_file_may_write(s->options, f->path, err);
+    if (!status && s->options->resume && f->regular) {
+        status = go_on(f, &ours, rows, err);
+    } else if (!status) {
+        if (f->regular && ftruncate(f->descriptor, 0) != 0) status = cannot_write(f, errno, err);
+        if (!status) status = put(f, ours.text, ours.length, err);
+    }
+    free(ours.text);
+    return status;
+}
+
+/* ---- rows ---- */
+
+static motus_status put_table(const sweep_events *f, file_out *out, uint64_t first, size_t k, motus_error *err)
+{
+    const sweep *s = f->sweep;
+    const size_t count = s->event_columns_count;
+    const int64_t rows = motus_ensemble_events(s->ensemble, k);
+    char number[DECIMAL_MAX + 1];
+    motus_status status = MOTUS_OK;
+    number[decimal_write_whole(first + k, number)] = 0;
+    strcat(number, ",");
+    for (int64_t i = 0; !status && i < rows; i++) {
+        motus_event_row row = motus_default_event_row();
+        motus_ensemble_event(s->ensemble, k, i, &row, f->values, f->values + count);
+        status = file_text(out, number, err);
+        if (!status) status = event_file_row(out, &row, s->errors, f->values, f->values + count, count, err);
+    }
+    return status;
+}
+
+motus_status sweep_events_rows(sweep_events *f, uint64_t first, size_t count, motus_error *err)
+{
+    if (!f->path) return MOTUS_OK;
+    memory m;
+    motus_status status = memory_open(&m, err);
+    for (size_t k = 0; !status && k < count; k++) status = put_table(f, &m.file, first, k, err);
+    status = memory_close(&m, status, err);
+    if (!status) status = put(f, m.text, m.length, err);
+    free(m.text);
+    /* before the rows of these trajectories; what a file system cannot synchronise is left to it */
+    if (!status && f->regular && fdatasync(f->descriptor) != 0 && (errno == EIO || errno == ENOSPC || errno == EDQUOT))
+        status = cannot_write(f, errno, err);
+    return status;
+}
+
+motus_status sweep_events_finish(sweep_events *f, motus_error *err)
+{
+    const int descriptor = f->descriptor;
+    f->descriptor = -1;
+    return descriptor > STDERR_FILENO && close(descriptor) != 0 ? cannot_write(f, errno, err) : MOTUS_OK;
+}
+
+void sweep_events_close(sweep_events *f)
+{
+    if (f->descriptor > STDERR_FILENO) close(f->descriptor);
+    free(f->values);
+    *f = (sweep_events){.descriptor = -1};
+}
