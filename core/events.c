@@ -247,10 +247,12 @@ static bool comes_back(events *e, const candidate *c)
 static motus_status follow(events *e, stepper *s, candidate *c, bool *assigned, stepper_stop *why, motus_error *err)
 {
     const candidate at = *c;
+    const bool again = told(e, &at), back = again && comes_back(e, &at), happens = !again || back;
     c->gone = true;
-    const bool again = told(e, &at), back = again && comes_back(e, &at);
-    if (again && !back) return MOTUS_OK;
-    motus_status status = events_fire(e, &at, assigned, err);
+    motus_status status = happens ? events_fire(e, &at, assigned, err) : MOTUS_OK;
+    if (at.kind == CANDIDATE_TIME) /* a clock may tick again in this step */
+        c->gone = !events_next_tick(e, at.of, c) || !(e->way * (c->at - at.at) > 0);
+    if (!happens) return MOTUS_OK;
     const bool ends = !status && e->has_limit && (!e->limit_told || (back && !*assigned));
     if (ends) e->end = EVENTS_END_ACCUMULATED, e->end_rule = e->limit.rule;
     if (status || e->end == EVENTS_END_NONE) return status;

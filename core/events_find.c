@@ -296,16 +296,19 @@ double events_tick(const events *e, size_t k)
     return e->start + e->way * (double)(e->ticks[k] + 1) * e->rules.rule[k].period;
 }
 
+bool events_next_tick(const events *e, size_t k, candidate *c)
+{
+    double at = (events_tick(e, k) - e->left.t) - e->left.lost;
+    if (fabs(at - e->span) <= 4 * events_ulp(e->right.t)) at = e->span;
+    *c = (candidate){.kind = CANDIDATE_TIME, .of = k, .at = at, .low = at, .high = at};
+    return e->way * at >= 0 && e->way * (e->span - at) >= 0;
+}
+
 static bool add_ticks(events *e)
 {
-    for (size_t k = 0; k < e->rules.count; k++) {
-        const rule *r = &e->rules.rule[k];
-        if (r->kind != RULE_CLOCK) continue;
-        double at = (events_tick(e, k) - e->left.t) - e->left.lost;
-        if (fabs(at - e->span) <= 4 * events_ulp(e->right.t)) at = e->span;
-        if (e->way * at < 0 || e->way * (e->span - at) < 0) continue;
-        if (!events_add(e, (candidate){.kind = CANDIDATE_TIME, .of = k, .at = at, .low = at, .high = at})) return false;
-    }
+    candidate c;
+    for (size_t k = 0; k < e->rules.count; k++)
+        if (e->rules.rule[k].kind == RULE_CLOCK && events_next_tick(e, k, &c) && !events_add(e, c)) return false;
     return true;
 }
 

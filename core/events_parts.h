@@ -138,6 +138,8 @@ double events_tick(const events *, size_t rule);
 motus_status events_find(events *, stepper *, motus_error *);
 bool events_add(events *, candidate);
 motus_status events_no_memory(motus_error *);
+/* The next tick of a clock. False: it is not within the step. */
+bool events_next_tick(const events *, size_t rule, candidate *);
 
 /* events_fire.c. All that happens at `here`, to which the candidate leads. */
 motus_status events_fire(events *, const candidate *, bool *assigned, motus_error *);

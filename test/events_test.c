@@ -478,6 +478,28 @@ static void kicks_by_the_clock(void **state)
     }
 }
 
+/* A clock that only records ends no step: several of its times may lie in one. */
+static void ticks_within_a_step(void **state)
+{
+    (void)state;
+    size_t one = 1;
+    const double x0 = 1, v0 = 0.5;
+    const motus_event_def events[] = {{.name = "slow", .every = 0.25}, {.name = "fast", .every = 0.0625}};
+    for (size_t k = 0; k < sizeof ways / sizeof *ways; k++) {
+        motus_system *s = given_problem(&(problem_def){1, &x0, &v0, free_motion, 0, 0, 2, events, NULL, NULL, &one});
+        motus_run *r = finished(s, ways[k].method, isnan(ways[k].step) ? NAN : 0.75, ways[k].tolerance, 12);
+        int slow = 0, fast = 0;
+        for (int64_t i = 0; i < motus_run_events(r); i++) {
+            const motus_event_row e = event_at(r, i);
+            assert_true(e.time == (strcmp(e.name, "slow") ? ++fast * 0.0625 : ++slow * 0.25));
+        }
+        assert_int_equal(slow, 48);
+        assert_int_equal(fast, 192);
+        motus_run_destroy(r);
+        motus_system_destroy(s);
+    }
+}
+
 int main(void)
 {
     (void)MANY;
@@ -488,6 +510,7 @@ int main(void)
                                        cmocka_unit_test(a_corner),
                                        cmocka_unit_test(a_cradle),
                                        cmocka_unit_test(counting_pi),
-                                       cmocka_unit_test(kicks_by_the_clock)};
+                                       cmocka_unit_test(kicks_by_the_clock),
+                                       cmocka_unit_test(ticks_within_a_step)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
