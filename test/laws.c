@@ -50,6 +50,7 @@ int main(int count, char **arguments)
     laws_of_verlet();
     laws_of_dense();
     laws_of_density();
+    laws_of_events();
     printf("%d passed, %d failed\n", passed, failed);
     return failed != 0;
 }

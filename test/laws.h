@@ -119,5 +119,6 @@ void laws_of_stability(void);
 void laws_of_verlet(void);
 void laws_of_dense(void);
 void laws_of_density(void);
+void laws_of_events(void);
 
 #endif
