@@ -4,15 +4,15 @@
  */
 import { EigenvalueDecomposition, Matrix } from 'ml-matrix';
 import type { Core } from './core';
-import { QUANTITY, draft, told as toldBy } from './draft';
+import { QUANTITY, breaksOf, draft, told as toldBy } from './draft';
 import { bodiesOf, distances } from './distance';
 import { growthsOf } from './linear';
-import { AUTO, STEPS_MAX, TOLERANCE, problem } from './protocol';
+import { AUTO, STEPS_MAX, TOLERANCE, eventful, problem } from './protocol';
 import type {
   Aim, Ask, Bars, Convergence, Description, ErrorTrack, Goal, Model, Problem, Region, Requests, Solution, Solve, Spectrum, Trace, Track, Truth,
 } from './protocol';
 import { brief, grouped } from './figure/number';
-import { SEEN, sample, type Curve, type Motion } from './sample';
+import { SEEN, broken, sample, type Curve, type Motion } from './sample';
 import { Refused } from './scene';
 import { atTolerances } from './tolerances';
 import { computed } from './words';
@@ -23,6 +23,8 @@ const COLUMNS_MAX = 256;
 const POINTS_MAX = 20_000, POINTS_A_ROW = 3, TRUTH_NUMBERS_MAX = 2e6, DRAFT_LIMIT = 4000, CURVE_LIMIT = { moving: 60, coarse: 600, certified: 1500 };
 /* Of the curve of one run between the ends of its steps. */
 const CURVED_NUMBERS_MAX = 4e5;
+/* Of the tables of events that are shown and drawn, and whose times are told with their errors. */
+const EVENT_NUMBERS_MAX = 4e5, EVENTS_LEAST = 16, EVENTS_TOLD = 1000;
 /* Times in a row at which a reference is asked first, to see how long it takes. */
 const TRIED = 16;
 const REGION_MAX = 250_000;
@@ -146,8 +148,9 @@ export class Answers {
       try {
         truth = this.truth(ask, wanted, indices, nx, nv);
         // A coarse truth is nothing to measure by; a reference may have had to make way for one.
-        if (truth && !(truth.coarse && ask.coarse) && tracks.length > 0) this.openReference(ask);
-        if (truth && !(truth.coarse && ask.coarse)) tracks.forEach((track, k) => errors.push(this.errors(track, runs[k]!.values, all.length, states, nx, nv)));
+        const measures = truth && !(truth.coarse && (ask.coarse || eventful(description)));
+        if (measures && tracks.length > 0) this.openReference(ask);
+        if (measures) tracks.forEach((track, k) => errors.push(this.errors(track, runs[k]!.values, all.length, states, nx, nv)));
       } catch (e) {
         if (!(e instanceof Refused)) throw e;
         problem = e.problem;
@@ -162,7 +165,7 @@ export class Answers {
     const kept = key === this.recordedFor ? this.recorded : new Map<string, Recorded>();
     let numbers = 0;
     for (const method of ask.methods) {
-      const made = kept.get(method) ?? this.run(method, ask, all), found = kept.has(method) ? made : { ...made, curve: this.curved(made, ask, all) };
+      const made = kept.get(method) ?? this.run(method, ask, all), found = kept.has(method) ? made : { ...made, curve: made.curve ?? this.curved(made, ask, all) };
       const run = ask.unexamined || found.examined ? found : this.examined(found, ask);
       runs.set(method, run);
       numbers += run.values.length;
@@ -208,6 +211,20 @@ export class Answers {
   }
 
   private taken(method: string, ask: Solve, all: readonly number[]): Recorded {
+    const run = this.stepped(method, ask, all);
+    if (!eventful(this.description as Description)) return run;
+    const ended = this.core.ended(this.lab), table = this.happened(all), { values } = run;
+    const columns = all.map((_, c) => column(values, all.length, c)), curve = broken({ times: columns[0]!, columns: columns.slice(1) }, breaksOf(table), true);
+    return { ...run, curve: table.times.length && run.track.tolerance === null ? curve : null, track: { ...run.track, events: table, ended: ended.ended || ended.accumulated ? ended : null } };
+  }
+
+  /** The table of events of the run as it stands, with columns `all` but the time. */
+  private happened(all: readonly number[]): NonNullable<Track['events']> {
+    const count = this.core.eventCount(this.lab), most = Math.max(EVENTS_LEAST, Math.floor(EVENT_NUMBERS_MAX / (2 * all.length)));
+    return { ...this.core.events(this.lab, all.slice(1), 0, Math.min(count, most)), count };
+  }
+
+  private stepped(method: string, ask: Solve, all: readonly number[]): Recorded {
     this.start(method, ask);
     const { total, step, last } = this.core.progress(this.lab);
     const enough = Math.max(ROWS_ENOUGH, Math.floor(NUMBERS_ENOUGH / all.length));
@@ -216,7 +233,7 @@ export class Answers {
     const every = Math.max(1, Math.ceil(total / (rows - 1)));
     const { values, problem } = this.core.record(this.lab, all, every, rows, true);
     const now = this.core.progress(this.lab);
-    return { values, curve: null, examined: false, track: { method, tolerance: null, refused: 0, goal: null, step, steps: now.steps, total, lastStep: last, evaluations: now.evaluations, every, problem, singular: null } };
+    return { values, curve: null, examined: false, track: { method, tolerance: null, refused: 0, goal: null, step, steps: now.steps, total, lastStep: last, evaluations: now.evaluations, every, problem, singular: null, events: null, ended: null } };
   }
 
   /** How many steps an adaptive method takes is known at its end: whenever the rows are full every second one goes, and from then on half as many are kept. */
@@ -235,7 +252,7 @@ export class Answers {
       every *= 2;
     }
     const now = this.core.progress(this.lab), step = now.steps > 0 ? Math.abs(now.time - (values[0] as number)) / now.steps : 0;
-    const track = { method: this.core.method(this.lab), tolerance: now.tolerance, refused: now.refused, goal: null, step, steps: now.steps, total: now.steps, lastStep: 0, evaluations: now.evaluations, every, problem, singular: null };
+    const track = { method: this.core.method(this.lab), tolerance: now.tolerance, refused: now.refused, goal: null, step, steps: now.steps, total: now.steps, lastStep: 0, evaluations: now.evaluations, every, problem, singular: null, events: null, ended: null };
     return { values: values.slice(0, width * count), curve: null, examined: false, track };
   }
 
@@ -245,8 +262,10 @@ export class Answers {
     const columns = [...Array.from({ length: nx + nv }, (_, k) => 1 + k), ...this.quantities(nx + nv)], places = columns.map((k) => all.indexOf(k)), most = Math.floor(CURVED_NUMBERS_MAX / columns.length);
     if (track.tolerance === null || track.every > 1 || rows < 2 || 2 * rows > most || places.includes(-1)) return null;
     const times = column(values, all.length, 0), begun = { times, columns: places.map((k) => column(values, all.length, k)) };
+    const { events } = track, pick = (of: readonly Float64Array[]): readonly Float64Array[] => places.map((k) => of[k - 1]!);
     const motion: Motion = {
       from: times[0]!, to: times[rows - 1]!, slopes: columns.map((_, k) => (k < nx ? nx + k : -1)), noise: columns.map(() => 0),
+      ...(events ? { breaks: breaksOf({ ...events, before: pick(events.before), after: pick(events.after) }) } : {}),
       ask: (at) => {
         this.start(track.method, { step: null, tolerance: track.tolerance, until: ask.until });
         const found = this.core.sample(this.lab, at, columns);
@@ -269,7 +288,9 @@ export class Answers {
   }
 
   private track({ values, curve, track }: Recorded, width: number, count: number): Track {
-    return { ...track, curve: curve && { times: curve.times.slice(), columns: curve.columns.slice(0, count).map((c) => c.slice()) }, times: column(values, width, 0), columns: Array.from({ length: count }, (_, c) => column(values, width, 1 + c)) };
+    const few = (of: readonly Float64Array[]): Float64Array[] => of.slice(0, count).map((c) => c.slice()), { events } = track;
+    const table = events && { ...events, times: events.times.slice(), errors: events.errors.slice(), counts: events.counts.slice(), touched: events.touched.slice(), changed: events.changed.slice(), before: few(events.before), after: few(events.after) };
+    return { ...track, events: table, curve: curve && { times: curve.times.slice(), columns: curve.columns.slice(0, count).map((c) => c.slice()) }, times: column(values, width, 0), columns: Array.from({ length: count }, (_, c) => column(values, width, 1 + c)) };
   }
 
   /** The reference of one model and end serves every step: what a step says of it is but a hint. */
@@ -289,8 +310,10 @@ export class Answers {
     const slopes = Array.from({ length: numbers + quantities.length }, (_, k) => (k < nx ? nx + k : -1));
     const most = Math.max(2, Math.min(POINTS_MAX, POINTS_A_ROW * ask.rows, Math.floor(TRUTH_NUMBERS_MAX / slopes.length)));
     const key = String(ask.until), had = (told: Told | null): boolean => told?.key === key && (told.most >= most || told.curve.times.length < told.most);
+    // What happens on the way is known of runs alone.
+    const drafts = eventful(this.description as Description);
     let told = had(this.told.certified) ? this.told.certified : null;
-    if (!told && ask.coarse && !this.description?.has_exact) {
+    if (!told && (ask.coarse || drafts) && !this.description?.has_exact) {
       told = had(this.told.coarse) ? this.told.coarse : this.drafted(key, ask.model.text, { from: start, to: until, slopes }, quantities, most);
       this.told.coarse = told;
       if (!told) return null;
@@ -338,7 +361,7 @@ export class Answers {
     this.reference = null;
     const found = draft(this.core, this.lab, this.description as Description, text, quantities, this.core.catalogue(this.lab), span, DRAFT_LIMIT);
     if (!found) return null;
-    const motion = { ...span, noise: [...span.slopes.slice(quantities.length).map(() => 0), ...found.off], ask: (times: Float64Array) => found.ask(times) };
+    const motion = { ...span, to: found.to, ...(found.breaks ? { breaks: found.breaks } : {}), noise: [...span.slopes.slice(quantities.length).map(() => 0), ...found.off], ask: (times: Float64Array) => found.ask(times) };
     const curve = shownOf(sample(motion, { tolerance: SEEN, points: most, milliseconds: CURVE_LIMIT.coarse }, null, found.begun), motion.noise);
     return { key, name: found.name, error: found.error, motion, curve, off: found.error, coarse: true, most, milliseconds: performance.now() - began };
   }
@@ -397,7 +420,11 @@ export class Answers {
       }
     }
     const { reason, significant_until: until } = this.core.estimate(this.lab), of = (k: number, which: 'values' | 'errors'): Float64Array => Float64Array.from(rows, (row) => row[which][k]!);
-    return { method: ask.method, times: of(0, 'values'), last: columns.map((_, k) => this.core.bar(this.lab, rows[rows.length - 1]!.values[1 + k]!, rows[rows.length - 1]!.errors[1 + k]!)), values: columns.map((_, k) => of(1 + k, 'values')), bars: columns.map((_, k) => of(1 + k, 'errors')), reason, until };
+    const events = this.core.eventCount(this.lab), { times: at, errors: off } = this.core.events(this.lab, [], 0, Math.min(events, EVENTS_TOLD));
+    return {
+      events: Array.from(at, (t, k) => (Number.isNaN(off[k]) ? '' : this.core.bar(this.lab, t, off[k]!))), significant: events ? this.core.ended(this.lab).significant : 0,
+      method: ask.method, times: of(0, 'values'), last: columns.map((_, k) => this.core.bar(this.lab, rows[rows.length - 1]!.values[1 + k]!, rows[rows.length - 1]!.errors[1 + k]!)), values: columns.map((_, k) => of(1 + k, 'values')), bars: columns.map((_, k) => of(1 + k, 'errors')), reason, until,
+    };
   }
 
   private trace(ask: Requests['trace']['ask']): Trace {

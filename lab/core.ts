@@ -4,7 +4,7 @@
  * may move when it grows).
  */
 import {
-  WORD_KINDS, problem, type Aim, type CompareRow, type Comparison, type Convergence, type Description, type Drift, type Estimate, type Method, type Model, type Problem, type Refusal, type TraceEntry, type Vocabulary, type Word,
+  WORD_KINDS, problem, type Aim, type CompareRow, type Comparison, type Convergence, type Description, type Drift, type Ended, type Estimate, type Events, type Method, type Model, type Problem, type Refusal, type TraceEntry, type Vocabulary, type Word,
 } from './protocol';
 import { Refused } from './scene';
 import { computed } from './words';
@@ -16,7 +16,7 @@ interface Exports {
   free(block: number): void;
   lab_create(): number;
   lab_destroy(lab: number): void;
-  lab_open(lab: number, text: number, length: number, sets: number, count: number): number;
+  lab_open(lab: number, text: number, length: number, sets: number, count: number, whens: number, whenCount: number): number;
   lab_problem(lab: number): number;
   lab_describe(lab: number): number;
   lab_catalogue(lab: number): number;
@@ -42,6 +42,11 @@ interface Exports {
   lab_reference_error(lab: number): number;
   lab_reference_at(lab: number, times: number, count: number, x: number, v: number): number;
   lab_values(lab: number, times: number, x: number, v: number, count: number, columns: number, columnCount: number, out: number): number;
+  lab_event_count(lab: number): number;
+  lab_events(lab: number, first: number, rows: number, columns: number, count: number, out: number): number;
+  lab_event_names(lab: number, first: number, rows: number): number;
+  lab_ended(lab: number): number;
+  lab_start_at(lab: number, method: number, step: number, tolerance: number, until: number, x: number, v: number): number;
   lab_trace(lab: number): number;
   lab_converge(lab: number, methods: number, count: number, step: number, until: number): number;
   lab_compare(lab: number, methods: number, count: number, step: number, until: number): number;
@@ -130,7 +135,7 @@ export class Core {
   }
   open(lab: number, model: Model): void {
     this.texts([model.text], (text, length) => this.texts(model.set, (sets) => {
-      this.check(lab, this.exports.lab_open(lab, text, length - 1, sets, model.set.length));
+      this.texts(model.when ?? [], (whens) => this.check(lab, this.exports.lab_open(lab, text, length - 1, sets, model.set.length, whens, model.when?.length ?? 0)));
     }));
   }
   describe(lab: number): Description {
@@ -247,6 +252,28 @@ export class Core {
       return this.copy(out, n * count);
     })))));
   }
+  /** A run from a state that the page chose, at the model's start. */
+  startAt(lab: number, method: string, { step, tolerance, until }: { readonly step: number | null; readonly tolerance: number | null; readonly until: number | null }, x: ArrayLike<number>, v: ArrayLike<number>): void {
+    this.texts([method], (at) => this.numbers(x, (xs) => this.numbers(v, (vs) => this.check(lab, this.exports.lab_start_at(lab, at, NaNs(step), NaNs(tolerance), NaNs(until), xs, vs)))));
+  }
+  /** How many rows the table of the run's events has so far. */
+  eventCount(lab: number): number { return this.exports.lab_event_count(lab); }
+  /** Rows of that table from `first` on, with these columns. */
+  events(lab: number, columns: readonly number[], first: number, rows: number): Events {
+    const count = columns.length, wide = 5 + 2 * count;
+    const values = this.room(4 * count, (list) => this.room(8 * wide * rows, (out) => {
+      new Uint32Array(this.exports.memory.buffer, list, count).set(columns);
+      this.check(lab, this.exports.lab_events(lab, first, rows, list, count, out));
+      return this.copy(out, wide * rows);
+    }));
+    const of = (k: number): Float64Array => Float64Array.from({ length: rows }, (_, i) => values[i * wide + k]!);
+    return {
+      names: this.answer<{ names: string[] }>(lab, this.exports.lab_event_names(lab, first, rows)).names, times: of(0), errors: of(1), counts: of(2), touched: of(3), changed: of(4),
+      before: columns.map((_, k) => of(5 + k)), after: columns.map((_, k) => of(5 + count + k)),
+    };
+  }
+  /** What ended the run, and where its events accumulate. */
+  ended(lab: number): Ended { return this.answer<Ended>(lab, this.exports.lab_ended(lab)); }
   trace(lab: number): (TraceEntry | Refusal)[] { return this.answer<{ entries: (TraceEntry | Refusal)[] }>(lab, this.exports.lab_trace(lab)).entries; }
   converge(lab: number, methods: readonly string[], step: number | null, until: number | null): Convergence {
     return this.texts(methods, (at) => this.answer<Convergence>(lab, this.exports.lab_converge(lab, at, methods.length, NaNs(step), NaNs(until))));

@@ -6,9 +6,9 @@
  * seen. Invariant: a draft whose runs differ by more, pass a singularity, or do not resolve the force is none.
  */
 import type { Core } from './core';
-import type { Description, Method } from './protocol';
+import { eventful, problem, type Description, type Events, type Method } from './protocol';
 import { Refused } from './scene';
-import { even, type Curve } from './sample';
+import { even, type Breaks, type Curve } from './sample';
 import { computed } from './words';
 
 export interface Draft {
@@ -19,6 +19,8 @@ export interface Draft {
   readonly off: readonly number[];
   /** What it tells at even times. */
   readonly begun: Curve;
+  /** Where it ends, which an event may bring about; and where events let it jump. */
+  readonly to: number; readonly breaks: Breaks | null;
   /** Positions, velocities and first-order variables at times in the order of the motion, one column each; then quantities. */
   ask(times: Float64Array): readonly Float64Array[];
 }
@@ -30,6 +32,8 @@ const FIRST = 200, LAST = { solving: 10_000, explicit: 60_000 }, TIMES = 512;
 const GOLDEN = (1 + Math.sqrt(5)) / 2;
 /** By how much a quantity may be further off than the numbers that it follows from. */
 export const QUANTITY = 100;
+/** Jumps of a curve. */
+const EVENTS_MOST = 4000;
 /* Columns that move less than this part of their size rest. */
 const AT_REST = 1e-9;
 
@@ -59,31 +63,47 @@ function apart(p: Float64Array, q: Float64Array): { error: number; seen: number 
 const most = (list: readonly number[]): number => list.reduce((a, b) => Math.max(a, b), 0);
 const offOf = (found: readonly { error: number; seen: number }[]): number[] => found.map(({ error, seen }) => (seen <= 1 ? error : Infinity));
 
-/** null: none in so many steps, or milliseconds. */
-function byRuns(core: Core, lab: number, method: string, last: number, count: number, columns: readonly number[], { from, to }: Span, milliseconds: number): Draft | null {
+/** What events changed, for a curve of these columns: of several at one instant what the first came to and the last left. */
+export function breaksOf({ times, changed, before, after }: Events): Breaks {
+  const rows = [...times.keys()].filter((i) => changed[i]), at = (i: number): number => times[rows[i]!]!;
+  const first = [...rows.keys()].filter((i) => i === 0 || at(i) !== at(i - 1)), last = first.map((_, n) => (first[n + 1] ?? rows.length) - 1);
+  return { times: first.map(at), before: before.map((column) => Float64Array.from(first, (i) => column[rows[i]!]!)), after: after.map((column) => Float64Array.from(last, (i) => column[rows[i]!]!)) };
+}
+
+/** null: none in so many steps, or milliseconds. events: at most so many are followed. */
+function byRuns(core: Core, lab: number, method: string, last: number, count: number, columns: readonly number[], { from, to }: Span, milliseconds: number, events: number): Draft | null {
+  /** Where events end it, and where they let it jump. */
+  const followed = (step: number): { end: number; breaks: Breaks | null } => {
+    if (!events) return { end: to, breaks: null };
+    core.start(lab, method, step, to);
+    core.advance(lab, Number.MAX_SAFE_INTEGER);
+    return { end: core.progress(lab).time, breaks: breaksOf(core.events(lab, columns, 0, Math.min(events, core.eventCount(lab)))) };
+  };
   const ask = (step: number, times: Float64Array): Float64Array[] => {
     core.start(lab, method, step, to);
     const rows = core.sample(lab, times, columns);
     return columns.map((_, k) => Float64Array.from({ length: times.length }, (__, i) => rows[i * columns.length + k]!));
   };
-  const times = even(from, to, TIMES), began = performance.now();
+  const began = performance.now();
   let before: Float64Array[] | null = null, factor = GOLDEN;
   for (let steps = FIRST; steps < last; steps *= factor) {
     const since = performance.now(), step = Math.abs(to - from) / steps;
-    let now: Float64Array[] | null = null, seen = Infinity;
+    let now: Float64Array[] | null = null, seen = Infinity, end = to, breaks: Breaks | null = null, times: Float64Array = new Float64Array(0);
     try {
+      ({ end, breaks } = followed(step));
+      times = even(from, end, TIMES);
       now = ask(step, times);
       if (!now.slice(0, count).every((column) => column.every(Number.isFinite))) now = null;
     } catch (e) {
       // A step that is too large for it: the next one is smaller.
       if (!(e instanceof Refused) || e.problem.kind === 'memory') throw e;
     }
-    if (now && before) {
+    if (now && before && now[0]?.length === before[0]?.length) {
       const last = before, found = now.map((column, k) => apart(column, last[k]!));
       seen = most(found.slice(0, count).map((f) => f.seen));
       if (seen <= 1) {
         if (core.singular(lab, method, step, to)) return null;
-        return { name: computed.draft(method, String(Number(step.toPrecision(6)))), error: most(found.slice(0, count).map((f) => f.error)), off: offOf(found.slice(count)), begun: { times, columns: now }, ask: (at) => ask(step, at) };
+        return { name: computed.draft(method, String(Number(step.toPrecision(6)))), error: most(found.slice(0, count).map((f) => f.error)), off: offOf(found.slice(count)), begun: { times, columns: now }, to: end, breaks, ask: (at) => ask(step, at) };
       }
     }
     before = now;
@@ -100,7 +120,7 @@ function byReference(core: Core, lab: number, count: number, quantities: readonl
   const times = even(from, to, TIMES), columns = ask(times);
   // A quantity follows from several numbers.
   const found = columns.map((column, k) => apart(column, column.map((value) => value + (k < count ? error : QUANTITY * error))));
-  return most(found.slice(0, count).map((f) => f.seen)) <= 1 ? { name, error, off: offOf(found.slice(count)), begun: { times, columns }, ask } : null;
+  return most(found.slice(0, count).map((f) => f.seen)) <= 1 ? { name, error, off: offOf(found.slice(count)), begun: { times, columns }, to, breaks: null, ask } : null;
 }
 
 /** What the reference tells at times: the state, one column for each number, then quantities. */
@@ -119,5 +139,11 @@ export function draft(core: Core, lab: number, description: Description, text: s
   const columns = [...Array.from({ length: count }, (_, k) => 1 + k), ...quantities];
   if (method === null || count === 0) return null;
   const last = catalogue.find((m) => m.name === method)?.evaluations ? LAST.explicit : LAST.solving;
-  return (hides(description, text) ? null : byRuns(core, lab, method, last, count, columns, span, milliseconds)) ?? byReference(core, lab, count, quantities, span);
+  // No reference knows what happens on the way.
+  if (eventful(description)) {
+    const found = byRuns(core, lab, method, last, count, columns, span, milliseconds, EVENTS_MOST);
+    if (!found) throw new Refused(problem('diverged', computed.undrawn));
+    return found;
+  }
+  return (hides(description, text) ? null : byRuns(core, lab, method, last, count, columns, span, milliseconds, 0)) ?? byReference(core, lab, count, quantities, span);
 }

@@ -123,8 +123,8 @@ async function start(): Promise<void> {
     const main = scene.solution.tracks[0];
     const ends = scene.solution.tracks.map(({ times }) => times[times.length - 1] ?? store.numbers.start);
     const { start, until } = store.numbers, { tracks, truth, examined } = scene.solution;
-    // Where every method broke off and there is no green curve, nothing is to be seen later.
-    const over = examined && !truth && tracks.length > 0 && tracks.every(({ problem }) => problem), furthest = ends.reduce((a, b) => (Math.abs(b - start) > Math.abs(a - start) ? b : a), start);
+    // Where every method broke off and there is no green curve, or events ended all, nothing is to be seen later.
+    const broken = examined && !truth && tracks.length > 0 && tracks.every(({ problem }) => problem), stopped = tracks.length > 0 && tracks.every(({ ended }) => ended?.ended), over = broken || stopped, furthest = ends.reduce((a, b) => (Math.abs(b - start) > Math.abs(a - start) ? b : a), start);
     const end = over ? furthest : until ?? Math.max(...ends);
     nameExports(scene.state.preset || 'model');
     motion.show(scene);

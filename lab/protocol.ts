@@ -2,8 +2,8 @@
  *
  * What comes from the core as JSON has the names that `motus --json` gives it, or else those of motus.h. */
 
-/** A model and what replaces its parameters and initial values: "F=0.2", "x(0)=1", "r'(0)=(1, 2)", as `--set` of the program says it. */
-export interface Model { readonly text: string; readonly set: readonly string[] }
+/** A model and what replaces its parameters and initial values: "F=0.2", "x(0)=1", "r'(0)=(1, 2)", as `--set` of the program says it; and events besides its own, as `--when` does. */
+export interface Model { readonly text: string; readonly set: readonly string[]; readonly when?: readonly string[] }
 
 /** motus_error: what went wrong, where, and what would be right. line and column count from 1, in characters; 0: no place. */
 export interface Problem {
@@ -72,6 +72,9 @@ export interface Description {
   readonly methods: readonly Admission[];
 }
 
+/** Whether something happens at instants of the motion: it has `when` statements. */
+export const eventful = ({ statements }: Description): boolean => statements.some(({ kind }) => kind === 'event');
+
 /** A row of the catalogue of methods. */
 export interface Method {
   readonly name: string; readonly aliases: readonly string[]; readonly title: string; readonly family: string;
@@ -81,6 +84,16 @@ export interface Method {
   readonly adaptive: boolean;
   readonly cite: string; readonly formula: string; readonly use: string;
 }
+
+/** Rows of the table of events (motus_event_row), in their order. A name has its indices; errors: of the times, NaN where they are not known; touched, changed: 0 or 1. before: columns on
+ *  arrival; after: as the action left them. */
+export interface Events {
+  readonly names: readonly string[]; readonly times: Float64Array; readonly errors: Float64Array; readonly counts: Float64Array; readonly touched: Float64Array; readonly changed: Float64Array;
+  readonly before: readonly Float64Array[]; readonly after: readonly Float64Array[];
+}
+/** ended: the kind of event that ended the run before its end. accumulates: the kind whose events come closer and closer together, ''; and then `accumulated`, the limit of their times,
+ *  error null: not known. significant: so many rows of the table have a digit that is known. */
+export interface Ended { readonly ended: string | null; readonly accumulates: string; readonly accumulated: { readonly time: number; readonly error: number | null } | null; readonly significant: number }
 
 /** How far every number of the answer may be off, up to the end: relative to the largest of its kind so far, or absolute. */
 export interface Aim { readonly accuracy: number; readonly absolute: boolean }
@@ -97,8 +110,13 @@ export interface Track {
   readonly goal: Goal | null;
   readonly method: string; readonly times: Float64Array; readonly columns: readonly Float64Array[];
   readonly step: number; readonly steps: number; readonly total: number; readonly lastStep: number; readonly evaluations: number; readonly every: number;
+  /** The table of its events, with the columns that were asked for; `count` in all, of which these are the first. null: the model has none. */
+  readonly events: (Events & { readonly count: number }) | null;
+  /** null: it came to its end, and no events accumulate. */
+  readonly ended: Ended | null;
   /** The motion between the ends of long steps, by dense output: so many times, those of the steps among them, that straight lines between them cannot be told from it. Columns as
-   *  asked for, empty where they are neither the state nor quantities. null: there is none, or the rows are as near. For drawing. */
+   *  asked for, empty where they are neither the state nor quantities. An event is two rows of the same time, what it came to and what it left, and where a number jumps there is
+   *  NaN between them. null: there is none, or the rows are as near. For drawing. */
   readonly curve: { readonly times: Float64Array; readonly columns: readonly Float64Array[] } | null;
   /** Why it stopped before the end: with the time and the variable. What was computed until then stands. */
   readonly problem: Problem | null;
@@ -154,6 +172,8 @@ export interface Bars {
   readonly last: readonly string[];
   /** From this time on no digit is known; null: all along some are. */
   readonly until: number | null;
+  /** Of the table of events: the time of each row with its error, as the program prints it, '' where there is none; and how many of the rows have a digit that is known. */
+  readonly events: readonly string[]; readonly significant: number;
 }
 export interface Estimate { readonly reason: string; readonly significant_until: number | null }
 

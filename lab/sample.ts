@@ -2,10 +2,44 @@
  *
  * Each number of the motion is a column. Between two times, Hermite's cubic through values and slopes at both ends tells how far the motion leaves
  * the straight line: the interval is divided until that is below the tolerance. What a cubic cannot tell is asked: every interval is accepted only
- * if the motion at a time inside of it is where it should be. Invariant: times are strictly in the order of the motion, the first and the last are
- * those of the motion, and every value is one that was asked for.
+ * if the motion at a time inside of it is where it should be. Invariant: times are in the order of the motion, the first and the last are those of the
+ * motion, and every value is one that was asked for. No time is there twice, but those of breaks: there the motion has two sides, and a gap between
+ * them in what jumps.
  */
 export interface Curve { readonly times: Float64Array; readonly columns: readonly Float64Array[] }
+
+/** Where a motion jumps: times inside of it, in its order, each once; columns there before and after. */
+export interface Breaks { readonly times: readonly number[]; readonly before: readonly Float64Array[]; readonly after: readonly Float64Array[] }
+
+/** A curve with the two sides of each break among its rows, which replace a row of that time; gaps: with a row between them as well, NaN in the columns that jump. */
+export function broken({ times, columns }: Curve, breaks: Breaks, gaps: boolean): Curve {
+  const first = times[0] ?? 0, way = (times[times.length - 1] ?? 0) < first ? -1 : 1, rows: (readonly [row: number, side: number])[] = [];
+  const on = new Set(breaks.times);
+  let next = 0;
+  const put = (upTo: number): void => {
+    for (; next < breaks.times.length && way * breaks.times[next]! <= way * upTo; next++) rows.push([next, 1], ...(gaps ? [[next, 2] as const] : []), [next, 3]);
+  };
+  for (let i = 0; i < times.length; i++) {
+    put(times[i]!);
+    if (!on.has(times[i]!)) rows.push([i, 0]);
+  }
+  put(way * Infinity);
+  const sides = (k: number, row: number, side: number): number => {
+    const before = breaks.before[k]![row]!, after = breaks.after[k]![row]!;
+    return side === 3 ? after : side === 1 || before === after ? before : NaN;
+  };
+  return {
+    times: Float64Array.from(rows, ([row, side]) => (side ? breaks.times[row]! : times[row]!)),
+    columns: columns.map((column, k) => Float64Array.from(rows, ([row, side]) => (side ? sides(k, row, side) : column[row]!))),
+  };
+}
+/** The same curve with the gaps between equal times, of which each pair is a break. */
+function gapped({ times, columns }: Curve): Curve {
+  const rows: (readonly [row: number, gap: boolean])[] = [];
+  times.forEach((t, i) => { if (i > 0 && times[i - 1] === t) rows.push([i, true]); rows.push([i, false]); });
+  if (rows.length === times.length) return { times, columns };
+  return { times: Float64Array.from(rows, ([i]) => times[i]!), columns: columns.map((column) => Float64Array.from(rows, ([i, gap]) => (gap && column[i - 1] !== column[i] ? NaN : column[i]!))) };
+}
 
 export interface Motion {
   /** The columns at times in the order of the motion. */
@@ -15,6 +49,7 @@ export interface Motion {
   readonly slopes: readonly number[];
   /** Of each column: what its values may be off; smaller bends are not resolved. */
   readonly noise: readonly number[];
+  readonly breaks?: Breaks;
 }
 export interface Limits {
   /** Of a column's extent: how far the lines may be from the motion. */
@@ -70,19 +105,28 @@ class Sampler {
     this.columns = begun?.columns ?? [];
     this.times = known ?? begun?.times ?? even(motion.from, motion.to, Math.max(2, Math.min(EVEN, limits.points - 1)));
     this.extents = motion.slopes.map(() => []);
-    this.states = new Uint8Array(this.times.length - 1).fill(known ? CHECKED : OPEN);
+    this.states = new Uint8Array(Math.max(0, this.times.length - 1)).fill(known ? CHECKED : OPEN);
     this.instant = Math.max(INSTANT * Math.abs(motion.to - motion.from), 8 * EPSILON * Math.max(Math.abs(motion.from), Math.abs(motion.to)));
   }
 
   curve(): Curve {
     if (this.columns.length === 0) this.columns = this.ask(this.times);
+    if (this.motion.breaks?.times.length) this.split(this.motion.breaks);
     for (let pass = 0; pass < PASSES && !this.late(); pass++) {
       this.measure();
       const wishes = this.wishes();
       if (wishes.length === 0) break;
       this.grant(wishes);
     }
-    return { times: this.times, columns: this.columns };
+    return gapped({ times: this.times, columns: this.columns });
+  }
+
+  /** Between the two sides of a break there is nothing to find. */
+  private split(breaks: Breaks): void {
+    const { times, columns } = broken({ times: this.times, columns: this.columns }, breaks, false);
+    this.times = times;
+    this.columns = columns;
+    this.states = Uint8Array.from({ length: times.length - 1 }, (_, i) => (times[i] === times[i + 1] ? DONE : OPEN));
   }
 
   private late(): boolean { return performance.now() - this.began > this.limits.milliseconds; }
@@ -98,7 +142,17 @@ class Sampler {
       if (!(high >= low)) return Infinity;
       return Math.max(this.limits.tolerance * (high - low > AT_REST * size ? high - low : size), this.motion.noise[k] ?? 0, 64 * EPSILON * size) || Infinity;
     });
-    this.slopes = this.columns.map((column, k) => this.columns[this.motion.slopes[k] ?? -1] ?? slopesOf(this.times, column));
+    this.slopes = this.columns.map((column, k) => this.columns[this.motion.slopes[k] ?? -1] ?? this.piecewise(column));
+  }
+
+  /** Slopes of each piece between breaks by its own values. */
+  private piecewise(column: Float64Array): Float64Array {
+    const out = new Float64Array(column.length), n = column.length;
+    for (let from = 0, to = 1; from < n; from = to, to++) {
+      while (to < n && this.times[to] !== this.times[to - 1]) to++;
+      out.set(slopesOf(this.times.subarray(from, to), column.subarray(from, to)), from);
+    }
+    return out;
   }
 
   /** By how many tolerances the cubic leaves the straight line in interval i; NaN: a column is finite at one end alone. */
@@ -257,5 +311,7 @@ function slopesOf(times: Float64Array, column: Float64Array): Float64Array {
 
 /** known: times that were found for nearly the same motion; begun: what has been asked of this one, at even times; null: that is asked first. */
 export function sample(motion: Motion, limits: Limits, known: Float64Array | null = null, begun: Curve | null = null): Curve {
-  return new Sampler(motion, limits, known, known ? null : begun).curve();
+  // Rows of another motion's breaks are not those of this one.
+  const of = motion.breaks?.times.length ? null : known;
+  return new Sampler(motion, limits, of, of ? null : begun).curve();
 }

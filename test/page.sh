@@ -44,7 +44,7 @@ together() {
     wait
 }
 names=("$@")
-[ $# -gt 0 ] || names=(people sizes newcomer lessons share away presets gallery panels bars accuracy studies opened controls stage own bits green start firefox parts clock speed)
+[ $# -gt 0 ] || names=(people sizes newcomer lessons events share away presets gallery panels bars accuracy studies opened controls stage own bits green start firefox parts clock speed)
 rm -f $logs/*.status
 # Films are encoded while they run: these come last, alone.
 others=() alone=()

@@ -31,7 +31,7 @@ LAB_CALL(lab_create) lab *lab_create(void)
     return l;
 }
 
-static void forget_run(lab *l)
+void lab_forget_run(lab *l)
 {
     motus_run_destroy(l->run);
     l->run = NULL;
@@ -40,25 +40,29 @@ static void forget_run(lab *l)
 LAB_CALL(lab_destroy) void lab_destroy(lab *l)
 {
     if (!l) return;
-    forget_run(l);
+    lab_forget_run(l);
     motus_reference_destroy(l->reference);
     motus_system_destroy(l->system);
     free(l->answer.text);
     free(l);
 }
 
-/* The text of a model and what replaces its values, `sets` strings one behind the other. Whoever types it may leave it
- * incomplete: it is a draft. */
-LAB_CALL(lab_open) motus_status lab_open(lab *l, const char *text, size_t length, const char *set, size_t sets)
+/* The text of a model, what replaces its values, `sets` strings one behind the other, and events besides those of the
+ * text, `whens` strings likewise. Whoever types it may leave it incomplete: it is a draft. */
+LAB_CALL(lab_open)
+motus_status lab_open(lab *l, const char *text, size_t length, const char *set, size_t sets, const char *when,
+                      size_t whens)
 {
-    forget_run(l);
+    lab_forget_run(l);
     motus_reference_destroy(l->reference);
     motus_system_destroy(l->system);
     l->reference = NULL;
     l->system = NULL;
     motus_text_def def = motus_default_text();
-    const char **list = lab_list(set, sets);
-    if (!list) {
+    const char **list = lab_list(set, sets), **events = lab_list(when, whens);
+    if (!list || !events) {
+        free(list);
+        free(events);
         lab_no_memory(l);
         return MOTUS_MEMORY;
     }
@@ -66,9 +70,12 @@ LAB_CALL(lab_open) motus_status lab_open(lab *l, const char *text, size_t length
     def.length = length;
     def.set = list;
     def.set_count = sets;
+    def.when = events;
+    def.when_count = whens;
     def.draft = 100000;
     motus_status status = motus_system_from_text(&def, &l->system, &l->error);
     free(list);
+    free(events);
     return status;
 }
 
@@ -89,7 +96,7 @@ LAB_CALL(lab_problem) const char *lab_problem(lab *l)
 }
 
 /* Runs: started, recorded in slices, and looked at. `step`, `tolerance`, `until`: NaN is the model's. */
-static motus_run_def run_of(const char *method, double step, double tolerance, double until)
+motus_run_def lab_run(const char *method, double step, double tolerance, double until)
 {
     motus_run_def def = motus_default_run();
     def.method = *method ? method : NULL;
@@ -105,8 +112,8 @@ LAB_CALL(lab_start)
 motus_status lab_start(lab *l, const char *method, double step, double tolerance, double until, double accuracy,
                        int absolute, int bars)
 {
-    forget_run(l);
-    motus_run_def def = run_of(method, step, tolerance, until);
+    lab_forget_run(l);
+    motus_run_def def = lab_run(method, step, tolerance, until);
     def.accuracy = accuracy;
     def.absolute = absolute;
     def.error = (motus_bars)bars;
@@ -118,7 +125,7 @@ motus_status lab_start(lab *l, const char *method, double step, double tolerance
 LAB_CALL(lab_singular)
 motus_status lab_singular(lab *l, const char *method, double step, double tolerance, double until)
 {
-    const motus_run_def def = run_of(method, step, tolerance, until);
+    const motus_run_def def = lab_run(method, step, tolerance, until);
     return motus_run_singular(l->system, &def, &l->error);
 }
 

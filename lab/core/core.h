@@ -34,6 +34,9 @@ const char **lab_list(const char *strings, size_t count);
 json lab_answer(lab *);
 /* Its text; NULL: no memory. */
 const char *lab_answered(lab *, json *);
+/* The definition of a run; "" and NaN: the model's. */
+motus_run_def lab_run(const char *method, double step, double tolerance, double until);
+void lab_forget_run(lab *);
 /* Makes want of memory the last problem; false, for its callers to return. */
 bool lab_no_memory(lab *);
 

@@ -4,7 +4,7 @@
  * error of zero stands at the foot of the picture, and is called zero where it is read out.
  */
 import type { Panel, PanelMaker, Scene } from '../scene';
-import type { ColumnKind } from '../protocol';
+import { eventful, type ColumnKind } from '../protocol';
 import { axes } from '../figure/axes';
 import { cursor, drawReadout, heading } from '../figure/cursor';
 import { el as element } from '../dom';
@@ -214,7 +214,7 @@ export const errorPanel: PanelMaker = (store): Panel => {
   return {
     id: 'error', title: say.title, element: fig.element, show: prepare,
     // Where nothing is known to measure against, nothing is shown.
-    there: ({ solution }) => solution.tracks.length > 0 && !solution.problem,
+    there: ({ solution, description }) => solution.tracks.length > 0 && !solution.problem && (!eventful(description) || solution.errors.length > 0),
     at: (t) => line.set(t),
     redraw() { if (scene) scene = recoloured(scene); fig.redraw(); },
   };

@@ -10,6 +10,7 @@ import { nameExports } from '../figure/export';
 import { figure } from '../figure/figure';
 import { bodiesOf, firstMoving } from '../distance';
 import { recoloured } from '../figure/ink';
+import { drawMarks, marksOf } from '../figure/marks';
 import { nameSpans, nameText } from '../figure/name';
 import { brief, readable } from '../figure/number';
 import { EXACT_WIDTH, drawPath, begin, valueAt, viewOf, type View } from '../figure/track';
@@ -73,6 +74,8 @@ export const phasePanel = (store: Store, stage: () => Sees): Panel => {
         drawPath(pen, f, px, py, look, end.rows, [track(k, pair[0]), track(k, pair[1])]);
         ends.push(endOf(look, end, heights(line.times, px, py)));
       });
+      const [ax, ay] = pair.map(at) as [number, number];
+      tracks.forEach(({ events }, k) => { if (events) drawMarks(pen, ink, marksOf(events, (of, row) => [f.x(pair[0] === 't' ? events.times[row]! : of[ax]?.[row] ?? NaN), f.y(pair[1] === 't' ? events.times[row]! : of[ay]?.[row] ?? NaN)]), scene!.looks[k]!); });
       pen.mark('ring', f.x(track(0, pair[0])[0] ?? NaN), f.y(track(0, pair[1])[0] ?? NaN), 6, ink.text);
     });
     drawEnds(pen, ink, f, names, ends);

@@ -6,7 +6,7 @@
 import { button, el as element } from '../dom';
 import { looksOf } from '../figure/ink';
 import { brief } from '../figure/number';
-import type { ConvergeRow, Model, Requests } from '../protocol';
+import { eventful, type ConvergeRow, type Model, type Requests } from '../protocol';
 import { Refused, type Look, type Scene, type Store } from '../scene';
 import { words } from '../words';
 
@@ -174,7 +174,7 @@ export function convergenceStudy(store: Store): Study<'converge'> {
 }
 
 /** A scene with a method, which has errors. */
-export const measurable = (scene: Scene): boolean => scene.solution.tracks.some((track) => track.method !== 'exact');
+export const measurable = (scene: Scene): boolean => !eventful(scene.description) && scene.solution.tracks.some((track) => track.method !== 'exact');
 /** What a panel shows of it: nothing before it has a scene, as one that was never opened hears of the study too. */
 export function rowsFor(study: Study<'converge'>, scene: Scene | null): readonly ConvergeRow[] {
   return scene ? study.answer?.rows ?? [] : [];

@@ -6,10 +6,12 @@ import type { Panel, Scene, Store } from '../scene';
 import { axes, extent } from '../figure/axes';
 import { cursor, drawReadout, heading } from '../figure/cursor';
 import { el as element } from '../dom';
+import { endSaid } from '../figure/ended';
 import { drawEnds, endIn, endOf, endsLayout, heightsIn, type End, type EndsLayout } from '../figure/ends';
 import { nameExports } from '../figure/export';
 import { figure } from '../figure/figure';
 import { recoloured } from '../figure/ink';
+import { drawMarks, marksOf } from '../figure/marks';
 import { nameSpans, nameText } from '../figure/name';
 import { brief, readable, shortened } from '../figure/number';
 import { EXACT_WIDTH, drawTrack, begin, valueAt, viewOf, type View } from '../figure/track';
@@ -103,6 +105,8 @@ export const timePanel = (store: Store, stage: () => Sees): Panel => {
         if (exact && truth) pen.line(thin(truth.times, exact, frame.x, frame.y), { colour: ink.exact, width: EXACT_WIDTH });
         for (const look of scene!.looks) errors.draw(pen, frame, look, name);
         lines.forEach(({ times, values }, k) => drawTrack(pen, frame, times, values, scene!.looks[k]!, ended[k]!.rows, [tracks[k]!.times, columns[k]!]));
+        const at = scene!.solution.columns.indexOf(name);
+        tracks.forEach(({ events }, k) => { if (events) drawMarks(pen, ink, marksOf(events, (of, row) => [frame.x(events.times[row]!), frame.y(of[at]?.[row] ?? NaN)]), scene!.looks[k]!); });
       });
       if (exact && truth) { const end = endIn(frame, truth.times, exact); ends.push({ label: greenName(scene!), colour: ink.exact, marker: null, at: end.at, exit: end.exit, heights: heightsIn(frame, truth.times, exact) }); }
       lines.forEach(({ times, values }, k) => ends.push(endOf(scene!.looks[k]!, ended[k]!, heightsIn(frame, times, values))));
@@ -154,7 +158,7 @@ export const timePanel = (store: Store, stage: () => Sees): Panel => {
   function answer(): Said {
     const track = scene?.solution.tracks[0];
     if (!scene || !track) return '';
-    const first = chosen.slice(0, ANSWERED), exact = first.every((name) => truthOf(name)), end = exact ? endTime(scene) : track.times[track.times.length - 1]!;
+    const first = chosen.slice(0, ANSWERED), exact = first.every((name) => truthOf(name)), end = exact ? scene.solution.truth!.times[scene.solution.truth!.times.length - 1]! : track.times[track.times.length - 1]!;
     const value = (name: string): string => (exact ? shortened(exactText(scene!, name, end, 3)).replace('≈ ', '') : brief(valueAt(track.times, trackColumns(name)[0]!, end), 3));
     const spans = first.flatMap((name, k): Span[] => [...(k ? [{ text: ', ' }] : []), ...nameSpans(name, 15), { text: ` = ${value(name)}${unitOf(scene!, name) && `\u2009${unitOf(scene!, name)}`}` }]);
     return [{ text: say.at(moment(scene, end), exact ? '' : nameAt(scene, 0)) }, ...spans, { text: !scene.solution.truth && scene.solution.problem ? say.notKnown : '.' }];
@@ -180,6 +184,7 @@ export const timePanel = (store: Store, stage: () => Sees): Panel => {
     return [
       say.span(listed(chosen.map(nameText)), `t = ${brief(tracks[0]?.times[0] ?? 0)}`, brief(end)), final.length ? say.end(nameText(first), listed(final, 5)) : '',
       leaving.length ? begin(words.panel.leave(leaving)) : '',
+      ...tracks.flatMap((track, k) => { const end = endSaid(track, timeUnit(scene!)); return end ? [say.passing(name(k), end)] : []; }),
       ...tracks.flatMap((track, k) => (track.problem ? [track.problem.message.startsWith(`${track.method} `) ? say.does(name(k), track.problem.message.slice(track.method.length + 1)) : say.stopped(name(k), track.problem.message)] : [])), ...tracks.flatMap((track, k) => (track.singular ? [say.passing(name(k), track.singular.message)] : [])),
       ...bars(), dropped ? say.most(String(MOST), String(MOST + dropped)) : '',
     ].filter(Boolean).join(' ');

@@ -8,6 +8,7 @@ import { THERE } from '../figure/figure';
 import { convergence } from '../panel/convergence';
 import { driftPanel } from '../panel/drift';
 import { errorPanel } from '../panel/error';
+import { eventsPanel } from '../panel/events';
 import { phasePanel } from '../panel/phase';
 import { precision } from '../panel/precision';
 import { stability } from '../panel/stability';
@@ -70,7 +71,7 @@ export function closer(store: Store, stage: () => Sees, links: (links: readonly 
     tell();
   }, { rootMargin: '50% 0%' });
   function make(): void {
-    panels.push(errorPanel(store), driftPanel(store), timePanel(store, stage), phasePanel(store, stage), convergence(store), precision(store), stability(store));
+    panels.push(eventsPanel(store), errorPanel(store), driftPanel(store), timePanel(store, stage), phasePanel(store, stage), convergence(store), precision(store), stability(store));
     for (const panel of panels) {
       panel.element.hidden = panel.there !== undefined;
       holder.append(panel.element);

@@ -1,7 +1,9 @@
 /* What the page is doing, where that takes long, and what stopped a motion. Invariant: long work can always be cancelled from here. */
 import type { LiveStore } from '../state';
 import { button, el, say } from '../dom';
+import { endSaid } from '../figure/ended';
 import { begin } from '../figure/track';
+import { timeUnit } from '../panel/told';
 import { words } from '../words';
 
 /** "explicit Euler stopped at t = 1.2: x is no longer finite" of each method that did not reach the end, passed a singularity, or missed the accuracy; or why nothing could be computed, or no
@@ -13,7 +15,7 @@ function stopped(store: LiveStore): string {
   if (run) return words.trouble.hinted(run.message, run.hint);
   const { tracks = [], truth, problem } = store.scene?.solution ?? {}, whose = new Map<string, string[]>(), own = new Map<string, string>();
   tracks.forEach((track, k) => {
-    const trouble = track.problem ?? track.singular ?? track.goal?.missed;
+    const trouble = track.problem ?? track.singular ?? track.goal?.missed ?? (store.scene && track.ended?.ended ? { message: endSaid(track, timeUnit(store.scene)) } : null);
     // What begins with the program's name of the method is said with the page's.
     if (trouble?.message.startsWith(`${track.method} `)) own.set(trouble.message, trouble.message.slice(track.method.length + 1));
     if (trouble) whose.set(trouble.message, [...(whose.get(trouble.message) ?? []), store.scene?.looks[k]?.label ?? track.method]);

@@ -4,6 +4,7 @@
  * far out. Markers stand at computed rows, never between them; where a line goes on between them by dense output, its rows are more than those.
  */
 import { lineOf, type Rows } from '../figure/line';
+import { marksOf as eventMarks, type Mark } from '../figure/marks';
 import type { Line, Motion } from './motion';
 import { lengthOf, path, type Path } from './path';
 import type { Plot, Way } from './plot';
@@ -28,6 +29,8 @@ export interface Exit { readonly row: number; readonly time: number; readonly x:
 /** times: of the way's rows, at some of which the marks are. */
 export interface Curve {
   readonly line: Line; readonly body: number; readonly way: Way; readonly times: Float64Array; readonly path: Path; readonly marks: readonly number[]; readonly band: boolean; readonly exit: Exit | null;
+  /** Where events happened, in their order. */
+  readonly events: readonly Mark[];
 }
 export interface Curves {
   readonly exact: readonly { readonly way: Way; readonly path: Path }[];
@@ -64,6 +67,8 @@ function exitOf(way: Way, rows: number, times: ArrayLike<number>, box: Box): Exi
   let first = -1, far = false;
   for (let i = 0; i < rows; i++) {
     const x = way.x(i), y = way.y(i);
+    // A gap, where it jumps.
+    if (Number.isNaN(x + y) && i > 0 && times[i] === times[i - 1]) continue;
     if (x >= box.left && x <= box.right && y >= box.top && y <= box.bottom) continue;
     if (first < 0) first = i;
     if (!(x > box.left - FAR * width && x < box.right + FAR * width && y > box.top - FAR * height && y < box.bottom + FAR * height)) { far = true; break; }
@@ -105,10 +110,11 @@ function among(times: Float64Array, rows: readonly number[], all: Float64Array):
   return rows.map((row) => { while (at < all.length - 1 && all[at] !== times[row]) at++; return at; });
 }
 
-/** Whether each row of `a` lies where `b` is at its time. */
+/** Whether each row of `a` lies where `b` is at its time; at an instant at which it jumps it is at two places. */
 function coincide(a: Way, aTimes: ArrayLike<number>, b: Way, bTimes: ArrayLike<number>): boolean {
   const at: Point = { x: 0, y: 0 };
   for (let i = 0; i < aTimes.length; i++) {
+    if (aTimes[i] === aTimes[i - 1] || aTimes[i] === aTimes[i + 1]) continue;
     pointAt(b, bTimes, aTimes[i]!, at);
     if (!(Math.abs(a.x(i) - at.x) <= NEAR && Math.abs(a.y(i) - at.y) <= NEAR)) return false;
   }
@@ -124,7 +130,8 @@ export function curvesOf(motion: Motion, plot: Plot): Curves {
     return waysOf(drawn).map((way, body): Curve => {
       const exit = exitOf(way, times.length, times, plot.box), made = path(exit ? exit.row + 1 : times.length, way.x, way.y, ...(smooth ? [SMOOTH, 0.2] : []));
       const marks = marksOf(motion, line, ends[body] ?? way, rank);
-      return { line, body, way, times, path: made, marks: smooth ? among(line.track.times, marks, times) : marks, band: lengthOf(made) > BAND * size, exit };
+      const { events } = line.track, sides = events && { before: plot.way({ times: events.times, columns: events.before }, subject.bodies[body]!), after: plot.way({ times: events.times, columns: events.after }, subject.bodies[body]!) };
+      return { events: events && sides ? eventMarks(events, (of, row) => { const side = of === events.after ? sides.after : sides.before; return [side.x(row), side.y(row)]; }) : [], line, body, way, times, path: made, marks: smooth ? among(line.track.times, marks, times) : marks, band: lengthOf(made) > BAND * size, exit };
     });
   });
   const same = methods.map((own, i) => {

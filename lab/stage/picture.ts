@@ -5,7 +5,9 @@
  */
 import type { ErrorTrack } from '../protocol';
 import { extent, rangeOf } from '../figure/axes';
+import { endSaid } from '../figure/ended';
 import { shortLabel } from '../figure/ends';
+import { drawMarks } from '../figure/marks';
 import { brief } from '../figure/number';
 import { textWidth } from '../figure/shapes';
 import type { Ink, Pen } from '../figure/types';
@@ -22,7 +24,7 @@ import { briefly, drawNames, missText, type Named } from './names';
 import { trail } from './path';
 import { apart, wideEnough, type Box, type Place } from './place';
 import { flatPlot, inside, spacePlot, type Axis, type Camera, type Plot, type Way } from './plot';
-import { isDone, isOver, placeAt } from './rows';
+import { isDone, isOver, placeAt, valueAt } from './rows';
 import { shapePicture } from './shape';
 import type { Staging } from './staging';
 import { subjects, velocityColumn, type Subject } from './subject';
@@ -324,6 +326,9 @@ export function pictureOf(setting: Setting): Picture {
     return { size: value, text: `${missText(value, flat && upright ? bounds[1]![1] - bounds[1]![0] : size)}${unit}`, how: upright ? (at.y < exact.y ? words.stage.miss.high : words.stage.miss.low) : offOf(of!, part === 1 ? row + 1 : row) };
   }
 
+  /** Of the time. */
+  const way = Math.sign((lines[0]?.track.times.at(-1) ?? 1) - (lines[0]?.track.times[0] ?? 0)) || 1;
+
   function moving(pen: Pen, ink: Ink, time: number): void {
     clipped(pen, main, () => { ladder(pen, ink, time); strobe(pen, ink, time); });
     for (const { plot, curves: own } of drawn) {
@@ -352,6 +357,7 @@ export function pictureOf(setting: Setting): Picture {
         }
       });
       own.methods.forEach((of, i) => { if (!nowhere.has(i)) for (const c of of) if (c.exit && time >= c.exit.time) arrowhead(pen, c, c.exit); });
+      clipped(pen, plot, () => { for (const of of own.methods) for (const c of of) drawMarks(pen, ink, c.events.filter((mark) => (mark.time - (c.times[0] ?? 0)) * way <= (time - (c.times[0] ?? 0)) * way && !(c.exit && (mark.time - c.exit.time) * way > 0)), c.line.look); });
     }
     drawArrow(pen, ink);
     rods(pen, ink, time);
@@ -371,7 +377,7 @@ export function pictureOf(setting: Setting): Picture {
     if (!staging.rods || subject.kind !== 'plane' || !main.along || !main.up) return;
     const indices = staging.rods.map((pair) => pair.map((name) => scene.solution.columns.indexOf(name))), of = truth && indices.flat().every((k) => truth.columns[k]?.length) ? truth : lines[0]?.track;
     if (!of || indices.flat().some((k) => k < 0)) return;
-    const at = placeAt(of.times, time), value = (k: number): number => { const a = of.columns[k]![at.row] ?? NaN, b = of.columns[k]![at.row + 1] ?? a; return at.part === 0 ? a : a + at.part * (b - a); };
+    const at = placeAt(of.times, time), value = (k: number): number => valueAt(of.columns[k]!, at);
     const xy = [main.along(0), main.up(0), ...indices.flatMap(([x, y]) => [main.along!(value(x!)), main.up!(value(y!))])];
     pen.line(xy, { colour: ink.quiet, width: 2 });
     for (let k = 0; k + 3 < xy.length; k += 2) pen.mark('circle', xy[k]!, xy[k + 1]!, k ? 6 : 4, ink.quiet, { rim: ink.surface });
@@ -564,7 +570,7 @@ export function pictureOf(setting: Setting): Picture {
     if (side !== 'rod') return;
     const column = subject.bodies[0]!.columns[0]!, of = truth?.columns[column]?.length ? truth : lines[0]!.track, length = 80 * place.scale;
     const x = place.width - 118 * place.scale, y = (main.box.top + main.box.bottom) / 2 + 20, place_ = placeAt(of.times, time), values = of.columns[column]!;
-    const angleAt = (t: number): number => { const p = placeAt(of.times, t, place_), a = values[p.row]!, b = values[p.row + 1] ?? a; return a + p.part * (b - a); };
+    const angleAt = (t: number): number => valueAt(values, placeAt(of.times, t, place_));
     const span = Math.abs((of.times[of.times.length - 1] ?? 1) - of.times[0]!), way = Math.sign((of.times[of.times.length - 1] ?? 1) - of.times[0]!) || 1;
     for (let k = 9; k >= 1; k--) {
       const t = time - way * k * span / 110;
@@ -588,6 +594,8 @@ export function pictureOf(setting: Setting): Picture {
         if (problem.kind === 'solve') return words.stage.summary.stopsUnsolved(line.look.label, brief(times[times.length - 1] ?? 0));
         return problem.variable ? words.stage.summary.stopsAs(line.look.label, at, problem.variable) : words.stage.summary.stops(line.look.label, at);
       }
+      const end = endSaid(line.track, staging.units?.t ?? '');
+      if (end) return words.stage.summary.ended(line.look.label, end);
       const c = curves.methods[lines.indexOf(line)]!.find((curve) => curve.exit);
       return c?.exit ? words.stage.summary.leaves(line.look.label, brief(c.exit.time)) : '';
     })].filter(Boolean),

@@ -18,7 +18,8 @@ export function placeAt(times: ArrayLike<number>, t: number, out: Place = { row:
   }
   const length = times[high]! - times[low]!;
   out.row = low;
-  out.part = length === 0 ? 0 : Math.min(1, Math.max(0, (t - times[low]!) / length));
+  // A run that ends with a jump is where that left it.
+  out.part = length === 0 ? 1 : Math.min(1, Math.max(0, (t - times[low]!) / length));
   return out;
 }
 

@@ -8,7 +8,7 @@ import { drawNames, type Named } from './names';
 import type { Picture, Setting } from './picture';
 import { wideEnough } from './place';
 import { flatPlot } from './plot';
-import { isOver, placeAt } from './rows';
+import { isOver, placeAt, valueAt } from './rows';
 
 /** Beads can be told apart up to so many. */
 const BEADS = 80;
@@ -23,11 +23,10 @@ export function shapePicture({ scene, subject, place, bounds, before }: Setting,
   });
   const xy = new Float64Array(2 * cells.length);
   function shape(of: Rows, time: number): Float64Array {
-    const { row, part } = placeAt(of.times, time);
+    const at = placeAt(of.times, time);
     cells.forEach((c, k) => {
-      const column = of.columns[c]!, a = column[row] ?? NaN, b = column[row + 1] ?? a;
       xy[2 * k] = plot.along!(number[k]!);
-      xy[2 * k + 1] = Math.min(2e4, Math.max(-2e4, plot.up!(part === 0 ? a : a + part * (b - a))));
+      xy[2 * k + 1] = Math.min(2e4, Math.max(-2e4, plot.up!(valueAt(of.columns[c]!, at))));
     });
     return xy;
   }

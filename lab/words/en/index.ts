@@ -3,6 +3,7 @@ import { address } from './address';
 import { cards } from './cards';
 import { dock } from './dock';
 import { editor } from './editor';
+import { events } from './events';
 import { figure } from './figure';
 import { frame } from './frame';
 import { gallery } from './gallery';
@@ -24,6 +25,7 @@ export const words = {
   cards,
   dock,
   editor,
+  events,
   figure,
   frame,
   gallery,

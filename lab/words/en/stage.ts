@@ -41,6 +41,7 @@ export const stage = {
     distance: (value: string, method: string, body: string) => `${value} for ${method}${body ? ` (${body})` : ''}`,
     exact: (distances: readonly string[]) => `At the end the distance from the exact motion is ${distances.join(', ')}.`,
     reference: (distances: readonly string[]) => `At the end the distance from the reference is ${distances.join(', ')}.`,
+    ended: (method: string, what: string) => `${upper(method)}: ${what}.`,
     stops: (method: string, time: string) => `${upper(method)} stops at t = ${time}.`,
     stopsAs: (method: string, time: string, variable: string) => `${upper(method)} stops at t = ${time}: ${variable} is no finite number.`,
     /** time: of its last state. */
