@@ -14,6 +14,7 @@ import type {
 import { brief, grouped } from './figure/number';
 import { SEEN, broken, sample, type Curve, type Motion } from './sample';
 import { Refused } from './scene';
+import { Sections } from './sections';
 import { atTolerances } from './tolerances';
 import { computed } from './words';
 
@@ -65,6 +66,7 @@ export class Answers {
   private adapting: Set<string> | null = null;
   private reference: { key: string; name: string; error: number; milliseconds: number } | null = null;
 
+  private sections: Sections | null = null;
   private known: Known | null = null;
   /** Of the last question, by method: what is asked again with more is not computed again. */
   private recorded = new Map<string, Recorded>();
@@ -93,6 +95,8 @@ export class Answers {
       region: (question) => this.region(question),
       growth: ({ method, re, im }) => this.growth(method, Float64Array.from(re), Float64Array.from(im)),
       linear: ({ method, moments, steps }) => growthsOf(this.core, method, moments, steps),
+      section: (question) => (this.sections ??= new Sections(this.core)).fill(question),
+      through: (question) => (this.sections ??= new Sections(this.core)).through(question),
       spectrum: (question) => this.spectrum(question),
     };
     return all[kind](ask);

@@ -241,6 +241,14 @@ export interface Requests {
   growth: { ask: { method: string; re: readonly number[]; im: readonly number[] }; answer: Float64Array };
   /** Growth of one step on linearised motions: [i · count + j] at step j of motion i. */
   linear: { ask: { method: string; moments: readonly Linear[]; steps: readonly (readonly number[])[] }; answer: Float64Array };
+  /** States that events of a kind leave, along a run from this state (positions, then velocities and first-order variables): those behind the first `have`, up to `most` in all, as far as the milliseconds
+   *  go. time: of the last of so many, or how far the run has come. done: it has ended. */
+  section: {
+    ask: { model: Model; method: string; step: number | null; tolerance: number | null; from: readonly number[]; kind: string; columns: readonly string[]; have: number; most: number; milliseconds: number };
+    answer: { readonly columns: readonly Float64Array[]; readonly time: number; readonly done: boolean; readonly problem: Problem | null };
+  };
+  /** The state nearest to another one in which columns have these values, the expression `surface` is 0 ('': none is asked for), and invariants have their values. */
+  through: { ask: { model: Model; near: readonly number[]; columns: readonly string[]; values: readonly number[]; surface: string; keep: readonly { readonly name: string; readonly value: number }[] }; answer: readonly number[] };
   spectrum: { ask: { model: Model; method: string; step: number | null; tolerance: number | null; until: number | null; times: readonly number[] }; answer: readonly Spectrum[] };
 }
 export type Ask = keyof Requests;

@@ -35,7 +35,11 @@ export interface View {
   readonly phase: readonly [string, string] | null;        // of the phase panel; null: x, x'
   readonly exact: boolean;                      // green line shown
   readonly speed: number;                       // of the animation, times the natural one
+  readonly section?: Section | undefined;       // absent: that of the model's first kind of events
 }
+/** Of the section's panel. when: a condition, "x = 0 rising", "every 2 pi", or the name of a kind of the model's own events. plane: columns, behind which "mod 2 pi" may stand. starts: other motions'
+ *  states, positions and then velocities and first-order variables. */
+export interface Section { readonly when: string; readonly plane?: readonly [string, string] | undefined; readonly starts: readonly (readonly number[])[] }
 
 export type Theme = 'auto' | 'light' | 'dark';
 export type Marker = 'circle' | 'square' | 'triangle' | 'diamond' | 'cross' | 'plus' | 'star' | 'down' | 'ring' | 'bar';

@@ -3,6 +3,7 @@
  * Data alone: whoever teaches may add a row for a model of models/; what is said of it stands in words/. An address names a scene by its model, so
  * `model` stays. A row without a theme has no card in the gallery; another scene leads to it.
  */
+import type { Section } from './scene';
 import { words } from './words';
 import type { SceneWords } from './words/scene';
 
@@ -50,6 +51,8 @@ export interface SceneEntry {
   /** Numbers of the model that this scene replaces, and its end. */
   readonly set?: Readonly<Record<string, string>>;
   readonly until?: string;
+  /** The section that stands first below it. */
+  readonly section?: Section;
   readonly picture: Picture;
 }
 
@@ -170,12 +173,12 @@ export const scenes: readonly SceneEntry[] = [
   },
   {
     model: 'henon-heiles', theme: 'chaos',
-    methods: ['pefrl', 'velocity-verlet'],
+    methods: ['pefrl', 'velocity-verlet'], section: { when: 'x = 0 rising', plane: ['y', "y'"], starts: [] },
     picture: { view: 'plane', curves: [['x', 'y']] },
   },
   {
     model: 'ueda', theme: 'chaos',
-    methods: ['rk4', 'verlet'],
+    methods: ['rk4', 'verlet'], section: { when: 'every 2 pi', plane: ['x', "x'"], starts: [] },
     picture: { view: 'phase', curves: [['x', "x'"]], until: 60 },
   },
 

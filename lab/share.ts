@@ -7,6 +7,7 @@
  *   w=time|plane|space   what the motion panel shows         q=COLUMN (repeated)  quantities of the time panel
  *   f=COLUMN f=COLUMN    axes of the phase panel              e=0  green line hidden    z=SPEED
  *   g=ACCURACY | off     of the answer, in place of a tolerance
+ *   k=WHEN K=COLUMN K=COLUMN b=NUMBER,NUMBER…   section: its condition (k= alone: none), axes, and (repeated) states of other motions
  *   l=gallery | step | LESSON.PART.ANSWER   where in the page one is
  *   o=ID,ID              of older addresses, read and ignored: all panels that have an answer are there
  *   embed=1              a picture inside another page        c=step c=NUMBER     with these sliders (repeated)
@@ -14,7 +15,7 @@
  * p stands where the text is the preset's, else m; a without p or m's default is left out, and so is all that has its default. Am is left out where A has
  * the text of the address. A pinned run that cannot be read is told; all else of its address is used.
  */
-import type { Run, State, View } from './scene';
+import type { Run, Section, State, View } from './scene';
 import { normal, plain } from './shell/number';
 import { words } from './words';
 
@@ -27,17 +28,24 @@ export interface Presets {
   set?(name: string): Readonly<Record<string, string>>;
   /** Where it ends, if not where its model does; ''. */
   until?(name: string): string;
+  /** The section that its scene begins with. */
+  section?(name: string): Section | undefined;
   readonly first: string;
 }
 export interface Decoded { readonly state: State; readonly problem: string }
 
 export const longest = 128 * 1024;                     // of a fragment, in characters
-const most = { sets: 256, methods: 40, words: 200, columns: 32 };
+const most = { sets: 256, methods: 40, words: 200, columns: 32, starts: 64, numbers: 64 };
 
 export const defaultView: View = { plane: 'auto', quantities: [], phase: null, exact: true, speed: 1 };
 
+/** How an example is shown, from a view of another one. */
+export function viewFor(presets: Presets, name: string, from: View = defaultView): View {
+  const { section: _, ...others } = from, section = presets.section?.(name);
+  return { ...others, plane: 'auto', quantities: [], phase: null, ...(section ? { section } : {}) };
+}
 export function presetState(presets: Presets, name: string): State {
-  return { preset: name, text: presets.text(name) ?? '', set: presets.set?.(name) ?? {}, methods: presets.methods(name), step: '', tolerance: '', accuracy: '', until: presets.until?.(name) ?? '', view: defaultView, place: '' };
+  return { preset: name, text: presets.text(name) ?? '', set: presets.set?.(name) ?? {}, methods: presets.methods(name), step: '', tolerance: '', accuracy: '', until: presets.until?.(name) ?? '', view: viewFor(presets, name), place: '' };
 }
 
 const free = /^[A-Za-z0-9\-._~(),*]$/;
@@ -101,6 +109,12 @@ export function encode(state: State, presets: Presets): string {
   for (const name of view.phase ?? []) put('f', name);
   if (!view.exact) put('e', '0');
   if (view.speed !== defaultView.speed) put('z', String(view.speed));
+  const section = isPreset ? presets.section?.(state.preset) : undefined;
+  if (JSON.stringify(view.section) !== JSON.stringify(section)) {
+    put('k', view.section?.when ?? '');
+    for (const name of view.section?.plane ?? []) put('K', name);
+    for (const start of view.section?.starts ?? []) put('b', start.join(','));
+  }
   if (state.place) put('l', state.place);
   if (state.embed) put('embed', '1');
   for (const name of state.embed ?? []) put('c', name);
@@ -119,8 +133,8 @@ export function encode(state: State, presets: Presets): string {
   return out.join('&');
 }
 
-const once = new Set(['v', 'p', 'm', 'a', 'h', 'r', 'g', 'T', 'w', 'o', 'e', 'z', 'l', 'embed']);
-const several = new Set(['s', 'q', 'f', 'c']);
+const once = new Set(['v', 'p', 'm', 'a', 'h', 'r', 'g', 'T', 'w', 'o', 'e', 'z', 'k', 'l', 'embed']);
+const several = new Set(['s', 'q', 'f', 'c', 'K', 'b']);
 /** A key of the pinned run, by that of the present one. */
 const pinKey = (key: string): string => `A${key}`;
 const pins = { once: new Set(['', 'm', 'a', 'h', 'r', 'g', 'T'].map(pinKey)), several: new Set([pinKey('s')]) };
@@ -157,7 +171,22 @@ function fields(parts: readonly string[], keys: { readonly once: ReadonlySet<str
   return found;
 }
 
-function viewOf(found: Map<string, string[]>): View {
+function sectionOf(found: Map<string, string[]>, usual: Section | undefined): Section | undefined {
+  const when = found.get('k')?.[0], plane = found.get('K'), starts = found.get('b') ?? [];
+  if (when === undefined) {
+    if (plane || starts.length) throw new Wrong(words.address.noSection);
+    return usual;
+  }
+  if (when === '') return undefined;
+  word(when, words.address.texts.section);
+  if (plane && plane.length !== 2) throw new Wrong(words.address.axes);
+  for (const name of plane ?? []) word(name, words.address.texts.quantity);
+  const states = starts.map((start) => start.split(',').map((number) => (number.trim() === '' ? NaN : Number(number))));
+  if (states.length > most.starts || states.some((state) => state.length > most.numbers || !state.every(Number.isFinite))) throw new Wrong(words.address.starts);
+  return { when, ...(plane ? { plane: [plane[0] as string, plane[1] as string] } : {}), starts: states };
+}
+
+function viewOf(found: Map<string, string[]>, usual: Section | undefined): View {
   const plane = found.get('w')?.[0] ?? defaultView.plane;
   if (plane !== 'auto' && plane !== 'time' && plane !== 'plane' && plane !== 'space') throw new Wrong(words.address.view);
   const quantities = found.get('q') ?? [], phase = found.get('f');
@@ -168,8 +197,9 @@ function viewOf(found: Map<string, string[]>): View {
   if (hidden !== '0' && hidden !== '1') throw new Wrong(words.address.exact);
   const speed = found.get('z')?.[0] ?? '1';
   if (!/^\d{1,6}(\.\d{1,9})?$/.test(speed) || !(Number(speed) > 0)) throw new Wrong(words.address.speed);
+  const section = sectionOf(found, usual);
   return {
-    plane, quantities, phase: phase ? [phase[0] as string, phase[1] as string] : null, exact: hidden === '1', speed: Number(speed),
+    ...(section ? { section } : {}), plane, quantities, phase: phase ? [phase[0] as string, phase[1] as string] : null, exact: hidden === '1', speed: Number(speed),
   };
 }
 
@@ -211,7 +241,7 @@ function stateOf(parts: readonly string[], presets: Presets): State {
   if (inside && place) throw new Wrong(words.address.embedPlace);
   return {
     ...(inside ? { embed: [...new Set(sliders)] } : {}),
-    preset: presets.text(name) === undefined ? '' : name, text, ...run, view: viewOf(found), place,
+    preset: presets.text(name) === undefined ? '' : name, text, ...run, view: viewOf(found, model === undefined ? presets.section?.(name) : undefined), place,
   };
 }
 

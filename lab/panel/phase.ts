@@ -4,7 +4,7 @@
  */
 import type { Panel, Scene, Store } from '../scene';
 import { axes, extent } from '../figure/axes';
-import { el as element } from '../dom';
+import { button, el as element } from '../dom';
 import { drawEnds, endIn, endOf, endsLayout, type End, type EndsLayout } from '../figure/ends';
 import { nameExports } from '../figure/export';
 import { figure } from '../figure/figure';
@@ -33,7 +33,14 @@ export const phasePanel = (store: Store, stage: () => Sees): Panel => {
   let views: [View, View] | null = null;
 
   const across = element('select', {}), up = element('select', {});
-  const controls = [element('label', {}, say.across, across), element('label', {}, say.up, up)];
+  /** A section of this motion, where it has none yet. */
+  const cut = button(words.section.take, () => {
+    if (!scene) return;
+    const own = positions(scene), one = own[0] ?? states(scene)[0] ?? '';
+    store.look({ section: { when: own.length === 1 && scene.description.time_dependent ? 'every 2 pi' : `${one} = 0 rising`, starts: [] } });
+    fig.element.parentElement?.querySelector('[data-figure="section"]')?.scrollIntoView();
+  }, { class: 'figure-button' });
+  const controls = [element('label', {}, say.across, across), element('label', {}, say.up, up), cut];
   for (const select of [across, up]) {
     select.addEventListener('change', () => {
       const next: [string, string] = [across.value, up.value];
@@ -154,6 +161,7 @@ export const phasePanel = (store: Store, stage: () => Sees): Panel => {
     across.value = pair[0];
     up.value = pair[1];
     for (const control of controls) control.hidden = names.length < 2;
+    cut.hidden = names.length < 2 || states(next).length + positions(next).length < 3 && !next.description.time_dependent || next.state.view.section !== undefined;
     const { tracks } = next.solution;
     const view = (name: string): View => viewOf(truthShown() ? truthOf(name) : null, tracks.map((own) => lineOf(own, pair.map(at)).columns[at(name)] ?? []));
     views = [view(pair[0]), view(pair[1])];

@@ -11,6 +11,7 @@ import { errorPanel } from '../panel/error';
 import { eventsPanel } from '../panel/events';
 import { phasePanel } from '../panel/phase';
 import { precision } from '../panel/precision';
+import { sectionPanel } from '../panel/section';
 import { stability } from '../panel/stability';
 import { timePanel } from '../panel/time';
 import type { Panel, Scene, Store } from '../scene';
@@ -71,7 +72,7 @@ export function closer(store: Store, stage: () => Sees, links: (links: readonly 
     tell();
   }, { rootMargin: '50% 0%' });
   function make(): void {
-    panels.push(eventsPanel(store), errorPanel(store), driftPanel(store), timePanel(store, stage), phasePanel(store, stage), convergence(store), precision(store), stability(store));
+    panels.push(sectionPanel(store), eventsPanel(store), errorPanel(store), driftPanel(store), timePanel(store, stage), phasePanel(store, stage), convergence(store), precision(store), stability(store));
     for (const panel of panels) {
       panel.element.hidden = panel.there !== undefined;
       holder.append(panel.element);

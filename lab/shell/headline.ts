@@ -7,7 +7,7 @@ import { stagingOf } from '../stage/staging';
 import { exampleOf } from '../data';
 import type { LiveStore } from '../state';
 import { saidOf } from '../scenes';
-import { presetState } from '../share';
+import { presetState, viewFor } from '../share';
 import { words } from '../words';
 import { button, el, icon, place, say } from '../dom';
 import { editor } from './editor';
@@ -33,7 +33,7 @@ export function headline(store: LiveStore, toasts: Toasts, sees: () => Sees, cha
 
   function open(name: string): void {
     const before = store.state, changedText = presets.text(before.preset) !== before.text;
-    store.load({ ...presetState(presets, name), view: { ...before.view, plane: 'auto', quantities: [], phase: null } });
+    store.load({ ...presetState(presets, name), view: viewFor(presets, name, before.view) });
     if (changedText) toasts.say(words.headline.aside, { label: words.headline.bring, act: () => store.load(before) });
   }
   function openEditor(now: boolean): void {

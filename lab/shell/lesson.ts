@@ -7,7 +7,7 @@ import { data } from '../data';
 import { SEEK } from '../figure/cursor';
 import { met, type Condition, type Lesson as Full } from '../lessons/read';
 import { sceneOf } from '../scenes';
-import { presetState } from '../share';
+import { presetState, viewFor } from '../share';
 import type { Stage } from '../stage/stage';
 import type { LiveStore } from '../state';
 import { button, el, icon, place, say } from '../dom';
@@ -56,7 +56,7 @@ export function lessonPlace(store: LiveStore, stage: Stage, clock: { replay(): v
     stale = true;
     store.load({
       ...presetState(presets, scene.model), set: setOf(lesson), methods: scene.methods, step: scene.step, tolerance: '', accuracy: '', until: scene.until,
-      view: { ...store.state.view, plane: scene.view[0] === 'plane' ? 'plane' : 'auto', quantities: [], phase: null }, place: where,
+      view: { ...viewFor(presets, scene.model, store.state.view), plane: scene.view[0] === 'plane' ? 'plane' : 'auto' }, place: where,
     });
   }
   function open(id: string): void {

@@ -15,6 +15,7 @@ export const presets: Presets = {
   methods: name => sceneOf(name)?.methods ?? [],
   set: name => sceneOf(name)?.set ?? {},
   until: name => sceneOf(name)?.until ?? '',
+  section: name => sceneOf(name)?.section,
 };
 
 /** The first sentence of a model's own comment. */

@@ -1,7 +1,7 @@
 /* The controls of the page, put where index.html keeps room for them. Invariant: controls talk to the store, and to nothing else. */
 import type { LiveStore } from '../state';
 import { sceneOf } from '../scenes';
-import { presetState } from '../share';
+import { presetState, viewFor } from '../share';
 import type { Stage } from '../stage/stage';
 import { words } from '../words';
 import { followAddress } from './address';
@@ -44,7 +44,7 @@ export function mountShell(store: LiveStore, stage: Stage, clock: { replay(): vo
     document.body.classList.toggle('in-gallery', inGallery);
     galleryPlace.hidden = !inGallery;
     if (inGallery) {
-      gallery = makeGallery(store, { open: (name) => { store.load({ ...presetState(presets, name), set: sceneOf(name)?.set ?? {}, view: { ...store.state.view, plane: 'auto', quantities: [], phase: null } }); }, close: () => go('') });
+      gallery = makeGallery(store, { open: (name) => { store.load({ ...presetState(presets, name), set: sceneOf(name)?.set ?? {}, view: viewFor(presets, name, store.state.view) }); }, close: () => go('') });
       galleryPlace.replaceChildren(gallery);
       scrollTo(0, 0);
       gallery.querySelector<HTMLElement>('input')?.focus({ preventScroll: true });

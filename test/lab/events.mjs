@@ -1,7 +1,7 @@
 /* Events on the page: the remark of what ended a run, marks on the curves, the table beside the line of time, `when` typed in the editor; wide, narrow, by keyboard. */
 import { writeFileSync } from 'node:fs';
 import { join } from 'node:path';
-import { attempt, clean, closer, editorOf, figureOf, finish, judge, motus, open, place, same, saved, settled, singleFile, tableOf, told } from './help.mjs';
+import { attempt, clean, closer, editorOf, figureOf, fingers, finish, judge, motus, open, place, same, saved, settled, singleFile, tableOf, told } from './help.mjs';
 
 const ball = "y'' = -9.81\ny(0) = 1\ny'(0) = 0\nmethod verlet\nstep 0.125\nuntil 5\nwhen y = 0 falling as bounce: y' = -0.8 y', record\n";
 const addressOf = (text, more = '') => `${singleFile}#v=1&m=${encodeURIComponent(text)}${more}`;
@@ -47,6 +47,44 @@ await attempt('a ball that bounces', async () => {
   await clean('a ball that bounces', page);
 });
 
+await attempt('a section', async () => {
+  const page = await open(`${singleFile}#v=1&p=henon-heiles`);
+  await closer(page, 'Section');
+  const section = figureOf(page, 'Section'), full = (motions) => page.waitForFunction((n) => new RegExp(`2.000 points up to t = \\d+${n}`).test(document.querySelector('#panels figure[data-title="Section"] .figure-answer')?.textContent ?? ''), motions, { timeout: 20000 });
+  await page.waitForFunction(() => /\d+ points/.test(document.querySelector('#panels figure[data-title="Section"] .figure-answer')?.textContent ?? ''));
+  await full('');
+  const first = await tableOf(page, 'Section'), x = first.head.indexOf('x'), y = first.head.indexOf('y'), u = first.head.indexOf("x'"), v = first.head.indexOf("y'");
+  const energy = (row) => { const [a, b, c, d] = [x, y, u, v].map((k) => Number(row[k])); return (c * c + d * d + a * a + b * b) / 2 + a * a * b - b ** 3 / 3; };
+  judge('every point is on the section', first.rows.length === 2000 && first.rows.every((row) => Math.abs(Number(row[x])) < 1e-13 && Number(row[u]) > 0));
+  const box = await section.locator('.figure-still').boundingBox();
+  await page.mouse.click(box.x + 0.62 * box.width, box.y + 0.5 * box.height);
+  await full(', and those of one more motion');
+  const second = await tableOf(page, 'Section'), own = second.rows.filter((row) => row[0] === '2');
+  judge('a click starts another motion, with the same energy', own.length === 2000 && own.every((row) => Math.abs(energy(row) - energy(first.rows[0])) < 1e-6), `${own.length} ${energy(own[0])} ${energy(first.rows[0])}`);
+  const mine = new URLSearchParams(new URL(page.url()).hash.slice(1)).getAll('s').map((s) => s.split('='));
+  judge('it is the motion of the page', mine.length === 4 && mine.every(([name]) => /\(0\)$/.test(name)), JSON.stringify(mine));
+  const from = mine.map(([, value]) => Number(value)), near = own.map((row) => Math.hypot(Number(row[y]) - from[2], Number(row[v]) - from[3]));
+  judge('… and comes back to where it was started', Math.min(...near) < 0.02, String(Math.min(...near)));
+  await page.mouse.click(box.x + 0.93 * box.width, box.y + 0.15 * box.height);
+  await page.waitForFunction(() => /no motion with this energy passes there/.test(document.querySelector('.section-note')?.textContent ?? ''));
+  await page.mouse.move(2, 2);
+  await section.locator('.figure-moving').focus();
+  for (const key of ['ArrowLeft', 'ArrowLeft', 'ArrowUp', 'Enter']) await page.keyboard.press(key);
+  await full(', and those of 2 more motions');
+  const address = page.url();
+  await section.locator('.section-when').fill('x = 0 rissing');
+  await section.locator('.section-when').press('Enter');
+  await page.waitForFunction(() => /rissing/.test(document.querySelector('.section-note')?.textContent ?? ''));
+  await section.locator('.section-when').fill('y = 0');
+  await section.locator('.section-when').press('Enter');
+  await full('');
+  await clean('a section', page);
+  const again = await open(address);
+  await closer(again, 'Section');
+  await again.waitForFunction(() => /and those of 2 more motions/.test(document.querySelector('#panels figure[data-title="Section"] .figure-answer')?.textContent ?? ''), null, { timeout: 20000 });
+  await clean('a section that was shared', again);
+});
+
 await attempt('typed', async () => {
   const page = await open(addressOf("y'' = -9.81\ny(0) = 1\ny'(0) = 0\nstep 0.125\nuntil 2\n"));
   const area = await editorOf(page);
@@ -68,6 +106,12 @@ await attempt('on a phone', async () => {
   judge('nothing is wider than the page', wide <= 390, wide);
   const box = await figureOf(page, 'Events').locator('.events-table .figure-table').boundingBox();
   judge('the table scrolls in its own box', box && box.width <= 390, JSON.stringify(box));
+  await page.goto(`${singleFile}#v=1&p=ueda`);
+  await settled(page);
+  await closer(page, 'Section');
+  await page.waitForFunction(() => /points/.test(document.querySelector('#panels figure[data-title="Section"] .figure-answer')?.textContent ?? ''), null, { timeout: 20000 });
+  judge('nor is the section', await page.evaluate(() => document.documentElement.scrollWidth) <= 390);
+  await fingers('the section', page);
   await clean('on a phone', page);
 });
 await finish();

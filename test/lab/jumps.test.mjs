@@ -113,3 +113,35 @@ test('a curve is sampled in pieces', () => {
   assert.deepEqual(pieces(curve, 1).map((piece) => [...new Set(piece.map(([, v]) => v))]), [[1], [-1]]);
   assert.equal(broken(curve, { times: [], before: [], after: [] }, true).times.length, curve.times.length);
 });
+
+const star = readFileSync(new URL('../../models/henon-heiles.motus', import.meta.url), 'utf8');
+const asked = (kind, question, of = answers) => { const { answer, problem } = reply(of, 1, kind, question); if (problem) throw new Error(problem.message); return answer; };
+const cut = { model: { text: star, set: [], when: ['x = 0 rising as section: record'] }, method: 'pefrl', step: 0.05, tolerance: null, from: [0, -0.25, 0.42, 0], kind: 'section', columns: ['x', 'y', "x'", "y'"], have: 0, most: 60, milliseconds: 1e5 };
+const energy = ([x, y, u, v]) => (u * u + v * v + x * x + y * y) / 2 + x * x * y - y ** 3 / 3;
+
+test('a section that is filled in pieces is that of one run, also when the worker has been replaced', () => {
+  const whole = asked('section', cut), rows = (columns) => columns[0].length;
+  assert.equal(rows(whole.columns), 60);
+  assert.ok(whole.columns[0].every((x) => Math.abs(x) < 1e-14) && whole.columns[2].every((u) => u > 0), 'x = 0, rising');
+  const table = ask(star + 'when x = 0 rising as section: record\n', { methods: ['pefrl'], truth: false }).tracks[0].events;
+  table.before[2].forEach((y, i) => assert.equal(whole.columns[1][i], y, 'the same numbers as the table of a run'));
+  let other = answers;
+  for (let have = 0, turn = 0; have < 60; turn++) {
+    // A fresh one knows of nothing.
+    if (turn === 2) other = new Answers(new Core(module));
+    const { columns } = asked('section', { ...cut, have, most: Math.min(60, have + 17) }, other);
+    columns.forEach((column, k) => column.forEach((value, i) => assert.equal(value, whole.columns[k][have + i])));
+    have += rows(columns);
+  }
+});
+test('through a point of the plane: on the section, with the energy, or nowhere', () => {
+  const through = (values) => asked('through', { model: { text: star, set: [] }, near: [0, -0.25, 0.42, 0], columns: ['y', "y'"], values, surface: '(x) - (0)', keep: [{ name: 'energy', value: energy([0, -0.25, 0.42, 0]) }] });
+  const state = through([0.1, 0.2]);
+  assert.ok(Math.abs(state[0]) < 1e-12 && Math.abs(state[1] - 0.1) < 1e-12 && Math.abs(state[3] - 0.2) < 1e-12 && state[2] > 0, String(state));
+  assert.ok(Math.abs(energy(state) - energy([0, -0.25, 0.42, 0])) < 1e-14);
+  assert.throws(() => through([0.1, 0.6]), /no motion with this energy passes there/);
+});
+test('what is wrong with its condition is told', () => {
+  assert.throws(() => asked('section', { ...cut, model: { ...cut.model, when: ['x = 0 sinking as section: record'] } }), /sinking/);
+  assert.throws(() => asked('section', { ...cut, model: { ...cut.model, when: ['q = 0 as section: record'] } }), /q/);
+});

@@ -56,6 +56,21 @@ test('every state comes back', () => {
   assert.equal({}.polluted, undefined);
 });
 
+test('a section comes back: its condition, its plane, its starts', () => {
+  const own = { ...presets, section: name => (name === 'spring' ? { when: 'every 2 pi', starts: [] } : undefined) }, of = share.presetState(own, 'spring'), bare = { ...of, view: { ...of.view } };
+  delete bare.view.section;
+  assert.deepEqual(of.view.section, { when: 'every 2 pi', starts: [] });
+  assert.equal(share.encode(of, own), 'v=1&p=spring');
+  assert.deepEqual(share.decode('v=1&p=spring', own).state, of);
+  assert.deepEqual(share.decode(share.encode(bare, own), own).state, bare, 'none, where the example has one');
+  for (const section of [{ when: 'x = 0 rising', starts: [] }, { when: 'kick', plane: ['x mod 2 pi', "x'"], starts: [[0.1, -2e-7], [1, 2]] }]) {
+    const state = { ...of, view: { ...of.view, section } };
+    assert.deepEqual(share.decode(share.encode(state, own), own), { state, problem: '' });
+    assert.deepEqual(share.viewFor(own, 'projectile', state.view), share.defaultView, 'another example does not keep it');
+  }
+  for (const wrong of ['K=x&K=y', 'b=1,2', 'k=x&K=y', 'k=x&b=1,,2', 'k=x&b=a', 'k=x&b=1e999', `k=x${'&b=1'.repeat(65)}`]) assert.notEqual(share.decode(`v=1&p=spring&${wrong}`, own).problem, '', wrong);
+});
+
 test('a place comes back, and no other', () => {
   for (const place of ['', 'gallery', 'step', 'too-high-too-low.try.0']) assert.deepEqual(share.decode(share.encode({ ...start, place }, presets), presets), { state: { ...start, place }, problem: '' });
   for (const place of ['steps', 'step.1', 'stage']) assert.match(share.decode(`v=1&p=projectile&l=${place}`, presets).problem, /a place that does not exist/);

@@ -136,7 +136,7 @@ await attempt('motus lab', async () => {
 
 // --- sizes --------------------------------------------------------------------------------------------------------------------------
 const bytes = (file) => statSync(join(built, file)).size;
-judge('the single file is under 727 KB', bytes('motus-lab.html') < 727_000, bytes('motus-lab.html'));
+judge('the single file is under 734 KB', bytes('motus-lab.html') < 734_000, bytes('motus-lab.html'));
 const packed = gzipSync(readFileSync(join(built, 'motus.wasm')), { level: 9 }).length;
 console.log(`# the module: ${bytes('motus.wasm')} bytes, ${packed} as servers send it`);
 // Taylor series take 24 KB of it, Gauss-Radau 7, reversible steps 5; packed 10, 3 and 1.7.

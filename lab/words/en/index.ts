@@ -14,6 +14,7 @@ import { methods } from './methods';
 import { opened } from './opened';
 import { panel } from './panel';
 import { scenes } from './scenes';
+import { section } from './section';
 import { share } from './share';
 import { stage } from './stage';
 import { study } from './study';
@@ -36,6 +37,7 @@ export const words = {
   opened,
   panel,
   scenes,
+  section,
   share,
   stage,
   study,
