@@ -198,7 +198,7 @@ static motus_status find_other(attempt *a, double tolerance, motus_ensemble **ou
     if (!o) return fail(err, MOTUS_MEMORY, "no memory for the ensemble");
     motus_ensemble_def def = g->def;
     def.tolerance = tolerance;
-    def.event_columns = a->e->event_columns; /* the caller's may be gone */
+    def.event_columns = a->e->event_columns;       /* the caller's may be gone */
     if (a->e->awaits) def.machine = "interpreter"; /* a compiler is at work for the same text */
     *o = (other){.next = g->others, .tolerance = tolerance};
     motus_status status = motus_ensemble_create(a->e->system, &def, &o->ensemble, err);

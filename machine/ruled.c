@@ -155,8 +155,8 @@ static node half_width(graph *g, node leaf, void *of)
     return graph_seed_direction(g, leaf, &shift);
 }
 
-/* |g| less its radius on the box, a tenth of a percent of it counted twice for what rounding leaves of the radius. A box
- * has no width of time nor of accelerations. */
+/* |g| less its radius on the box, a tenth of a percent of it counted twice for what rounding leaves of the radius. A
+ * box has no width of time nor of accelerations. */
 static node least_value(model *m, node value)
 {
     graph *g = m->graph;
