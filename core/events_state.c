@@ -81,7 +81,7 @@ static void pass_instant(pass *p, events *e)
     at->lost = number(p, at->lost);
     numbers(p, at->x, e->problem.nx);
     numbers(p, at->v, e->problem.nv);
-    for (size_t f = 0; f < e->rules.functions; f++) at->g[f] = any(p, at->g[f]); /* NaN: a cell without a rule */
+    if (p->way == PASS_READ) at->valued = false;
 }
 
 static void pass_functions(pass *p, events *e)
