@@ -165,10 +165,12 @@ motus_status companion_reach(companion *c, int64_t acted, bool ends, double span
 static motus_status go(companion *c, const motus_run *r, double t, int64_t steps, motus_error *err)
 {
     const bool adaptive = row_adaptive(&r->chosen);
+    double h = (t - c->t) / (double)steps;
+    if (c->t + h == c->t) h = t - c->t, steps = 1; /* an event may lie so near before t */
     const stepper_limit limit = {c->controls ? c->room : adaptive ? INT64_MAX : steps, adaptive ? t : NAN};
     stepper_stop why;
     if (c->over || (t - c->t) * r->timing.h <= 0) return MOTUS_OK; /* an event may have led it further */
-    motus_status status = stepper_turn(c->stepper, c->t, (t - c->t) / (double)steps, err);
+    motus_status status = stepper_turn(c->stepper, c->t, h, err);
     if (!c->controls) stepper_follow(c->stepper, r->stepper);
     if (status == MOTUS_OK && c->events) return follow(c, t, err);
     const int64_t before = stepper_steps(c->stepper);

@@ -305,6 +305,10 @@ static motus_status piece(events *e, stepper *s, double until, bool *assigned, s
         double h = e->span / PART;
         if (fabs(h) < 4 * events_ulp(e->left.t)) { /* nothing tells it: what the step itself says counts */
             memset(e->heads, 0, e->rules.functions);
+            if (e->span == whole) { /* it is the first that was taken, and may be too short to be taken anew */
+                status = events_find(e, s, err);
+                break;
+            }
             h = whole;
         }
         *why = STOP_STEPS;
@@ -353,7 +357,8 @@ static motus_status adaptive_step(events *e, stepper *s, double until, stepper_s
     motus_status status = piece(e, s, until, &assigned, why, err);
     if (status || *why == STOP_EVENT) return status;
     if (assigned) {
-        const double h = e->span;
+        double h = e->span;
+        if (e->here.t + h == e->here.t) h = e->way * 4 * events_ulp(e->here.t); /* it was cut short by `until` */
         if (!keep_past(e, e->here.t)) return events_no_memory(err);
         status = restart(e, s, h, err);
         if (!status) status = stepper_advance(s, (stepper_limit){0, until}, why, err);
