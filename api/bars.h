@@ -32,7 +32,9 @@ struct bars {
     double gap_since;
     size_t rows;      /* of the table of events, that a companion confirms so far */
     bool rows_differ; /* it has other events from there on */
-    char why[256];    /* no bar; "": there is one */
+    size_t summed;    /* so many rows are in `sum`, the times of those that changed the state, `changes` of them */
+    double sum, changes;
+    char why[256]; /* no bar; "": there is one */
 };
 
 /* Makes r->bars, where the definition asks for them, of all columns. */

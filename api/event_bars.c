@@ -2,7 +2,7 @@
  *
  * Row k of the run is compared with the row of the companion that has the same rule, the same indices and the same
  * number. As for numbers at landings (machine/differences.c) 2.5 times their distance bounds what truncation does,
- * where it rules, and a quarter of the largest distance of the rows beside it covers a distance that passes 0. From
+ * where it rules, and a part of the largest distance of the rows beside it covers a distance that passes 0. From
  * the first row that the companion has not, or has at a time that is farther off than a quarter of the time since the
  * event before, the two motions have events of their own, and no digit is told.
  */
@@ -15,12 +15,15 @@
 
 enum { BEFORE = 6, AFTER = 2, WINDOW = BEFORE + AFTER, NEARBY = 16 };
 #define OWN 2.5
-#define OTHERS 0.25
+#define OTHERS 0.375
 #define APART 0.25
 #define CLOSE 256 /* or so many units in the last place of the time, where events accumulate */
-/* Units in the last place of the time: the rounding of the step to the event, which the companion often shares. */
-#define ROUNDINGS 4
-#define EACH 0.2 /* and for every event that changed the state before */
+/* What the companion shares with the run, and so does not show: of the time of the event, units in its last place; and
+ * of the state after every event that changed it, a part in 2^52 of its velocities, which acts on all the time since.
+ * Step after step a row adds the same numbers in the same order, so such parts have one sign: dopri5 leaves 2^-52 of
+ * the velocity of each flight of a ball. */
+#define ROUNDINGS 2
+#define LASTING 1.5
 
 /* The companion's row for row k of the run; SIZE_MAX: it has none. */
 static size_t partner(const events *run, const events *other, size_t k)
@@ -57,6 +60,11 @@ static size_t significant(motus_run *r)
 {
     bars *b = r->bars;
     const size_t rows = events_rows(r->events);
+    if (rows < b->rows) { /* the run has begun anew */
+        b->rows = b->summed = 0;
+        b->rows_differ = false;
+        b->sum = b->changes = 0;
+    }
     for (; !b->rows_differ && b->rows < rows && known(r, b->rows); b->rows++) {
         const size_t k = b->rows;
         const double t = events_row(r->events, k, false, NULL, NULL).t;
@@ -86,6 +94,18 @@ static double bar_of(const double *d, size_t n)
     return OWN * d[0] + OTHERS * others;
 }
 
+/* The sum of the times since the events before row k that changed the state. */
+static double lasting(motus_run *r, size_t k)
+{
+    bars *b = r->bars;
+    if (k < b->summed) b->summed = 0, b->sum = b->changes = 0;
+    for (; b->summed < k; b->summed++) {
+        const event row = events_row(r->events, b->summed, false, NULL, NULL);
+        if (row.changed) b->sum += row.t, b->changes++;
+    }
+    return fabs(b->changes * events_row(r->events, k, false, NULL, NULL).t - b->sum);
+}
+
 double event_bars_time(motus_run *r, size_t k)
 {
     double d[WINDOW];
@@ -101,9 +121,8 @@ double event_bars_time(motus_run *r, size_t k)
         if (r->bars->twin.events) d[n] = fmax(d[n], distance(r, &r->bars->twin, row));
         n++;
     }
-    const double ulp = events_ulp(t);
-    const bool acts = system_acts(r->system);
-    return fmax(bar_of(d, n) + ulp, (ROUNDINGS + (acts ? EACH * (double)k : 0)) * ulp);
+    const double ulp = events_ulp(t), shared = ROUNDINGS * ulp + LASTING * 0x1p-52 * lasting(r, k);
+    return fmax(bar_of(d, n) + ulp, shared);
 }
 
 double event_bars_limit(const motus_run *r, const events_limit *limit)

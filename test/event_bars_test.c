@@ -1,7 +1,9 @@
-/* Bars of event times: they cover the error in at least 99 % of the numbers, by problem in at least 97 %, and at least
- * 85 % of them are at most ten times the error, or 4 units in the last place (of events whose only errors are
- * roundings, the ball and the billiard, fewer than of others); where motions separate, the table says from which
- * event on no digit is left. The truths are closed forms, or of 28 digits. */
+/* Bars of event times: they cover the error in at least 99 % of the numbers, and in 95 % by problem. Where steps have
+ * errors, at least 90 % of the bars are at most ten times the error, or 4 units in the last place; where the
+ * acceleration is constant, and roundings are the only errors, half of them are: one companion is one sample of what
+ * rounding does, and a bar that covers 99 % of the errors of a normal distribution is within ten times of 80 % at most.
+ * Where motions separate, the table says from which event on no digit is left. The truths are closed forms, or of 28
+ * digits. */
 #include "given.h"
 
 #include <stdbool.h>
@@ -13,17 +15,19 @@ typedef struct tally {
 typedef struct motion {
     const char *name, *text, *event;
     double until;
-    int most;                   /* events whose truth is known */
-    long double (*time)(int k); /* of event k, from 0 */
+    int most;                                          /* events whose truth is known */
+    long double (*time)(const struct motion *, int k); /* of event k, from 0 */
     bool velocity;
+    long double a, b, c; /* numbers of the closed form */
 } motion;
 
-static long double ball_time(int k)
+/* From height a, gravity b, and c of the speed after each impact. */
+static long double ball_time(const motion *m, int k)
 {
-    long double t = sqrtl(2 / 9.81L), v = sqrtl(2 * 9.81L);
+    long double v = sqrtl(2 * m->a * m->b), t = v / m->b;
     for (; k > 0; k--) {
-        v *= 0.8L;
-        t += 2 * v / 9.81L;
+        v *= m->c;
+        t += 2 * v / m->b;
     }
     return t;
 }
@@ -31,45 +35,71 @@ static long double ball_time(int k)
 static const long double impacts[] = {1.67342826210498117805025072070L, 3.01406938887196200883075732888L,
                                       3.92927159289860139617730243101L, 4.60591186327090975855926811612L,
                                       5.12373885465642749855106438208L, 5.52721893942831152667921653909L};
-static long double air_time(int k) { return impacts[k]; }
+static long double air_time(const motion *m, int k) { return (void)m, impacts[k]; }
 
 /* theta(0) = 2: zeros at a quarter of the period, then every half. */
-static long double pendulum_time(int k) { return 8.34975292691849473440637164590L * (0.25L + 0.5L * k); }
+static long double pendulum_time(const motion *m, int k)
+{
+    return (void)m, 8.34975292691849473440637164590L * (0.25L + 0.5L * k);
+}
 
-/* In a circle chords are equal: 2 sqrt(1 - L^2), L = 0.4. */
-static long double billiard_time(int k) { return 0.616515138991168001317609439L + k * 2 * sqrtl(0.84L); }
+/* In a circle chords are equal. From (a, 0) with the velocity (b, c) of length 1. */
+static long double billiard_time(const motion *m, int k)
+{
+    const long double along = m->a * m->b, momentum = m->a * m->c;
+    return sqrtl(along * along + 1 - m->a * m->a) - along + k * 2 * sqrtl(1 - momentum * momentum);
+}
 
 static const long double zeros[] = {
     3.146126371519089563543618799L, 6.33871996271640648011776202L,  9.642644084488746690939382588L,
     13.18606336669535296143955121L, 17.31722771995645706816759923L, 21.39203715022197633513287579L,
     24.91396289908009393035922124L, 28.20368896104338093934710691L, 31.37300455084850691545310845L,
     34.13597712583383084755092755L, 34.82699058047161404077155746L, 37.74033531653721834303421747L};
-static long double zero_time(int k) { return zeros[k]; }
+static long double zero_time(const motion *m, int k) { return (void)m, zeros[k]; }
 
 static const long double sections[] = {
     6.305060277593710935940563L, 12.36796712392794588351869L, 18.62428475347270523312171L, 24.85611048724269017452118L,
     31.21012002223483739648868L, 37.17875198365734451764153L, 43.53244106691717551012224L, 49.76324473977179797271114L,
     56.02282065084169614855783L, 62.08230338872012678226642L};
-static long double section_time(int k) { return sections[k]; }
+static long double section_time(const motion *m, int k) { return (void)m, sections[k]; }
 
 static const motion motions[] = {
     {"ball", "y'' = -9.81; y(0) = 1; y'(0) = 0; when y = 0 falling as hit: y' = -0.8 y', record", "hit", 4, 20,
-     ball_time, false},
+     ball_time, false, 1, 9.81L, 0.8L},
+    {"ball of 1/2", "y'' = -9.81; y(0) = 10; y'(0) = 0; when y = 0 falling as hit: y' = -0.5 y', record", "hit", 4.28,
+     10, ball_time, false, 10, 9.81L, 0.5L},
+    {"ball of 3/4", "y'' = -1.62; y(0) = 3; y'(0) = 0; when y = 0 falling as hit: y' = -0.75 y', record", "hit", 13, 15,
+     ball_time, false, 3, 1.62L, 0.75L},
+    {"ball of 9/10", "y'' = -9.8; y(0) = 50; y'(0) = 0; when y = 0 falling as hit: y' = -0.9 y', record", "hit", 50, 18,
+     ball_time, false, 50, 9.8L, 0.9L},
     {"ball in air",
      "y'' = -9.81 - 0.1 y' |y'|; y(0) = 10; y'(0) = 0; when y = 0 falling as hit: y' = -0.8 y', record; "
      "when y' = 0 falling as top: record",
-     "hit", 5.6, 6, air_time, true},
-    {"pendulum", "u'' = -sin(u); u(0) = 2; u'(0) = 0; when u = 0 as hit: record", "hit", 60, 14, pendulum_time, false},
+     "hit", 5.6, 6, air_time, true, 0, 0, 0},
+    {"pendulum", "u'' = -sin(u); u(0) = 2; u'(0) = 0; when u = 0 as hit: record", "hit", 60, 14, pendulum_time, false,
+     0, 0, 0},
     {"billiard",
      "r'' = (0, 0); r(0) = (0.5, 0); r'(0) = (0.6, 0.8); "
      "when |r|^2 = 1 rising as hit: r' = r' - 2 dot(r', r) r/dot(r, r), record",
-     "hit", 60, 33, billiard_time, false},
+     "hit", 60, 33, billiard_time, false, 0.5L, 0.6L, 0.8L},
+    {"billiard 2",
+     "r'' = (0, 0); r(0) = (0.3, 0); r'(0) = (0.8, 0.6); "
+     "when |r|^2 = 1 rising as hit: r' = r' - 2 dot(r', r) r/dot(r, r), record",
+     "hit", 60, 33, billiard_time, false, 0.3L, 0.8L, 0.6L},
+    {"billiard 3",
+     "r'' = (0, 0); r(0) = (0.7, 0); r'(0) = (0.28, 0.96); "
+     "when |r|^2 = 1 rising as hit: r' = r' - 2 dot(r', r) r/dot(r, r), record",
+     "hit", 60, 33, billiard_time, false, 0.7L, 0.28L, 0.96L},
+    {"billiard 4",
+     "r'' = (0, 0); r(0) = (0.2, 0); r'(0) = (0.96, 0.28); "
+     "when |r|^2 = 1 rising as hit: r' = r' - 2 dot(r', r) r/dot(r, r), record",
+     "hit", 60, 33, billiard_time, false, 0.2L, 0.96L, 0.28L},
     {"driven", "x'' = -x + x^3 + 0.1 cos(t); x(0) = 0; x'(0) = 0; when x = 0 as hit: record", "hit", 38, 12, zero_time,
-     false},
+     false, 0, 0, 0},
     {"section",
      "x'' = -x - 2 x y; y'' = -y - x^2 + y^2; x(0) = 0; y(0) = 0.1; x'(0) = 0.49; y'(0) = 0; "
      "when x = 0 rising as hit: record",
-     "hit", 65, 10, section_time, false},
+     "hit", 65, 10, section_time, false, 0, 0, 0},
 };
 
 static const struct way {
@@ -103,7 +133,8 @@ static void take(const motion *m, const struct way *w, double size, tally *to)
         motus_event_row row = motus_default_event_row();
         assert_int_equal(motus_run_event(r, i, &row), MOTUS_OK);
         if (strcmp(row.name, m->event)) continue;
-        const double off = (double)fabsl(row.time - m->time(k++)), ulp = nextafter(row.time, 1e300) - row.time;
+        assert_false(isnan(row.error)); /* the companion came as far */
+        const double off = (double)fabsl(row.time - m->time(m, k++)), ulp = nextafter(row.time, 1e300) - row.time;
         to->numbers++;
         to->covered += off <= row.error;
         to->tight += row.error <= fmax(10 * off, 4 * ulp);
@@ -117,25 +148,29 @@ static void take(const motion *m, const struct way *w, double size, tally *to)
 static void bars_of_event_times(void **state)
 {
     (void)state;
-    tally all = {0, 0, 0};
+    tally all[2] = {{0, 0, 0}, {0, 0, 0}}; /* of constant accelerations, and of others */
     bool low = false;
     for (size_t j = 0; j < sizeof motions / sizeof *motions; j++) {
-        tally one = {0, 0, 0};
+        const bool constant = motions[j].a > 0;
+        tally one = {0, 0, 0}, *sum = &all[!constant];
         for (size_t k = 0; k < sizeof by / sizeof *by; k++) {
             if (motions[j].velocity && !by[k].velocity) continue;
             double size = by[k].from;
-            for (int i = 0; i < by[k].sizes; i++, size *= by[k].factor) take(&motions[j], &by[k], size, &one);
+            const int sizes = constant && by[k].adaptive ? 1 : by[k].sizes; /* the tolerance changes no step */
+            for (int i = 0; i < sizes; i++, size *= by[k].factor) take(&motions[j], &by[k], size, &one);
         }
         printf("%-12s %5d event times: %.2f %% within their bar, %.2f %% tight\n", motions[j].name, one.numbers,
                100.0 * one.covered / one.numbers, 100.0 * one.tight / one.numbers);
-        low |= one.covered < 0.97 * one.numbers;
-        all.numbers += one.numbers, all.covered += one.covered, all.tight += one.tight;
+        low |= one.covered < 0.95 * one.numbers;
+        sum->numbers += one.numbers, sum->covered += one.covered, sum->tight += one.tight;
     }
-    printf("%-12s %5d event times: %.2f %% within their bar, %.2f %% tight\n", "all", all.numbers,
-           100.0 * all.covered / all.numbers, 100.0 * all.tight / all.numbers);
+    const int numbers = all[0].numbers + all[1].numbers, covered = all[0].covered + all[1].covered;
+    printf("%d event times: %.2f %% within their bar; tight %.2f %% and %.2f %%\n", numbers, 100.0 * covered / numbers,
+           100.0 * all[1].tight / all[1].numbers, 100.0 * all[0].tight / all[0].numbers);
     assert_false(low);
-    assert_true(all.covered >= 0.99 * all.numbers);
-    assert_true(all.tight >= 0.85 * all.numbers);
+    assert_true(covered >= 0.99 * numbers);
+    assert_true(all[1].tight >= 0.9 * all[1].numbers);
+    assert_true(all[0].tight >= 0.5 * all[0].numbers);
 }
 
 /* The stadium: an error grows by exp(0.96) a hit, so a double has digits for some 38 hits. */
