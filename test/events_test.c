@@ -4,6 +4,8 @@
  */
 #include "given.h"
 
+#include <stdbool.h>
+
 static const double MANY = 1e300;
 
 typedef struct ball {
@@ -500,6 +502,83 @@ static void ticks_within_a_step(void **state)
     }
 }
 
+/* A ball in air, y'' = -9.81 - 0.1 y'|y'| from 10: time and speed of each impact, time and height of the top after it.
+ * The sign of y' is a mode, so that the force is smooth between events and every order shows. */
+static const long double air[][4] = {{1.67342826210498117805025072070L, 9.20997332865238513255188L,
+                                      2.31917718571354813934045647975L, 2.20218345138801825930868L},
+                                     {3.01406938887196200883075732888L, 5.91165045891323862230571L,
+                                      3.46384065372593160645385330443L, 1.02692049899296036902495L},
+                                     {3.92927159289860139617730243101L, 4.26776152467321008594599L,
+                                      4.26442644437248918121569052811L, 0.56139933279541286174674L},
+                                     {4.60591186327090975855926811612L, 3.22781672479663609444124L,
+                                      4.86340652458095330054787897888L, 0.328806627776468257015965L},
+                                     {5.12373885465642749855106438208L, 2.49872788907544831363513L,
+                                      5.32480768974839619797871131777L, 0.199627488374567236044489L},
+                                     {5.52721893942831152667921653909L, 1.95947280074136101201535L,
+                                      5.68569832538051997280595154988L, 0.123701815133255886890827L}};
+enum { IMPACTS = sizeof air / sizeof *air };
+
+/* The largest error of all impacts and tops until 5.6, and that of impact 6. */
+static double ball_in_air(const char *method, double step, double tolerance, double *sixth)
+{
+    motus_error err = motus_default_error();
+    motus_system *s = given_text("up = -1; y'' = -9.81 - 0.1 up y'^2; y(0) = 10; y'(0) = 0\n"
+                                 "when y = 0 falling as impact: y' = -0.8 y', up = 1, record\n"
+                                 "when y' = 0 falling as top: up = -1, record");
+    motus_run *r = finished(s, method, step, tolerance, 5.7);
+    const size_t columns[] = {column(s, "y"), column(s, "y'")};
+    double worst = 0;
+    int impacts = 0, tops = 0;
+    for (int64_t i = 0; i < motus_run_events(r); i++) {
+        const motus_event_row e = event_at(r, i);
+        const bool top = !strcmp(e.name, "top");
+        const int n = top ? tops++ : impacts++;
+        double y[2];
+        must(motus_run_event_values(r, i, 0, columns, 2, y, &err), &err, "values");
+        assert_true(n < IMPACTS);
+        const double off = (double)fabsl(e.time - air[n][top ? 2 : 0]);
+        worst = fmax(worst, fmax(off, (double)fabsl((top ? y[0] : -y[1]) - air[n][top ? 3 : 1])));
+        if (!top && n == IMPACTS - 1) *sixth = off;
+    }
+    assert_int_equal(impacts, IMPACTS);
+    assert_int_equal(tops, IMPACTS);
+    motus_run_destroy(r);
+    motus_system_destroy(s);
+    return worst;
+}
+
+static void a_ball_in_air(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *method;
+        double step, tolerance;
+    } exact[] = {{"gauss8", 0.02, NAN}, {"dop853", NAN, 1e-15}, {"taylor", NAN, 1e-15}};
+    static const struct {
+        const char *method;
+        int order;
+        double step;
+    } rows[] = {{"verlet", 2, 0.005}, {"rk4", 4, 0.02}, {"gauss8", 8, 0.25}};
+    double sixth;
+    for (size_t k = 0; k < sizeof exact / sizeof *exact; k++) {
+        const double worst = ball_in_air(exact[k].method, exact[k].step, exact[k].tolerance, &sixth);
+        printf("%s: worst %.1e\n", exact[k].method, worst);
+        assert_true(worst <= 1e-13);
+    }
+    for (size_t k = 0; k < sizeof rows / sizeof *rows; k++) { /* the straight line through 9 points */
+        double n = 9, x = 0, y = 0, xx = 0, xy = 0;
+        for (int i = 0; i < 9; i++) {
+            const double h = rows[k].step * exp2(-i / 4.0);
+            ball_in_air(rows[k].method, h, NAN, &sixth);
+            const double a = log2(h), b = log2(sixth);
+            x += a, y += b, xx += a * a, xy += a * b;
+        }
+        const double slope = (n * xy - x * y) / (n * xx - x * x);
+        printf("%s: slope %.3f\n", rows[k].method, slope);
+        assert_true(fabs(slope - rows[k].order) <= 0.15);
+    }
+}
+
 int main(void)
 {
     (void)MANY;
@@ -511,6 +590,7 @@ int main(void)
                                        cmocka_unit_test(a_cradle),
                                        cmocka_unit_test(counting_pi),
                                        cmocka_unit_test(kicks_by_the_clock),
-                                       cmocka_unit_test(ticks_within_a_step)};
+                                       cmocka_unit_test(ticks_within_a_step),
+                                       cmocka_unit_test(a_ball_in_air)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
