@@ -280,7 +280,7 @@ static bool add_everything(figure *f)
            add_all_named(f, motus_invariant_name, load_invariant_column(f->model), true);
 }
 
-static motus_status one_column(const load *m, const char *name, size_t *column, motus_error *err)
+motus_status figure_column(const load *m, const char *name, size_t *column, motus_error *err)
 {
     size_t count;
     motus_status status = motus_column_find(m->system, name, column, &count, err);
@@ -303,7 +303,7 @@ motus_status figure_plane(const load *m, const char *text, size_t columns[2], mo
         status = fail(err, MOTUS_ARGUMENT, "--plot-of %s: two columns are needed", text);
         hint(err, "--plot-of \"x,x'\" draws x' against x");
     }
-    for (int a = 0; !status && a < 2; a++) status = one_column(m, names.items[a], &columns[a], err);
+    for (int a = 0; !status && a < 2; a++) status = figure_column(m, names.items[a], &columns[a], err);
     free(names.items);
     free(copy);
     return status;

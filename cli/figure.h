@@ -29,6 +29,8 @@ typedef struct figure {
 /* Chooses before the run what will be drawn. errors: the run tells them. */
 motus_status figure_begin(figure *, const load *, const options *, motus_run *, double until, bool errors,
                           motus_error *);
+/* One column, of one number, by its name in --plot-of. */
+motus_status figure_column(const load *, const char *name, size_t *column, motus_error *);
 /* The two columns of --plot-of. */
 motus_status figure_plane(const load *, const char *text, size_t columns[2], motus_error *);
 /* The observers that record it along the run. */

@@ -17,9 +17,10 @@
 #include <strings.h>
 
 enum {
-    COLUMNS = 2000,   /* of the picture, two values each */
-    PATH_GRID = 2500, /* points of a path nearer than 1/2500 of the picture are drawn as one */
-    PATH_MOST = 40000 /* points of a path, about */
+    COLUMNS = 2000,    /* of the picture, two values each */
+    PATH_GRID = 2500,  /* points of a path nearer than 1/2500 of the picture are drawn as one */
+    PATH_MOST = 40000, /* points of a path, about */
+    CELLS = 1600       /* of many points, one is drawn in each of so many cells squared of the picture */
 };
 
 #define BAND_LEAST 1e-3 /* of the curve's height: a band of less is no wider than the curve's line */
@@ -93,6 +94,8 @@ static void put_point(FILE *out, plot_curve *c, size_t i)
         fputs(c->z ? "\n\n" : "\n", out); /* in space one empty line begins another row of a grid */
     else if (c->z)
         fprintf(out, "%.10g %.10g %.10g\n", x, y, z);
+    else if (c->shade)
+        fprintf(out, "%.12g %.10g %.10g\n", x, y, c->shade[i * c->stride]);
     else
         fprintf(out, "%.12g %.10g\n", x, y);
 }
@@ -172,11 +175,42 @@ static void put_path(FILE *out, plot_curve *c)
     }
 }
 
+static double lowest(const double *v, size_t count, size_t stride)
+{
+    double low = INFINITY;
+    for (size_t i = 0; i < count; i++)
+        if (drawable(v[i * stride])) low = fmin(low, v[i * stride]);
+    return low;
+}
+
+/* Of many points the first in each cell of the picture, which is smaller than a point is drawn. */
+static void put_points(FILE *out, plot_curve *c)
+{
+    const double x = lowest(c->x, c->count, c->stride), y = lowest(c->y, c->count, c->stride);
+    const double wide = extent(c->x, c->count, c->stride), high = extent(c->y, c->count, c->stride);
+    unsigned char *taken = c->count > CELLS ? calloc((size_t)CELLS * CELLS, 1) : NULL; /* NULL: all are drawn */
+    for (size_t i = 0; i < c->count; i++) {
+        const double u = c->x[i * c->stride], v = c->y[i * c->stride];
+        if (taken && drawable(u) && drawable(v)) {
+            const size_t column = wide > 0 ? (size_t)((u - x) / wide * (CELLS - 1)) : 0;
+            const size_t row = high > 0 ? (size_t)((v - y) / high * (CELLS - 1)) : 0;
+            if (taken[row * CELLS + column]) continue;
+            taken[row * CELLS + column] = 1;
+        }
+        put_point(out, c, i);
+    }
+    free(taken);
+}
+
 static void put_curve(FILE *out, plot_curve *c)
 {
-    if (c->count > 2 * COLUMNS && c->timelike && c->role != PLOT_POINTS)
+    if (c->role == PLOT_POINTS) {
+        put_points(out, c);
+        return;
+    }
+    if (c->count > 2 * COLUMNS && c->timelike)
         put_timelike(out, c);
-    else if (c->count > 2 * COLUMNS && c->role != PLOT_POINTS)
+    else if (c->count > 2 * COLUMNS)
         put_path(out, c);
     else
         for (size_t i = 0; i < c->count; i++) put_point(out, c, i);
@@ -250,7 +284,11 @@ static void put_curve_style(FILE *out, const plot_panel *p, const plot_curve *c,
         return;
     }
     if (c->role == PLOT_POINTS) {
-        fprintf(out, " with points pt 7 ps 0.3 lc rgb '%s'", s->colour);
+        fprintf(out, " with points pt 7 ps %s", c->drawn > 20000 ? "0.12" : c->drawn > 2000 ? "0.2" : "0.3");
+        if (c->shade)
+            fputs(" lc palette", out);
+        else
+            fprintf(out, " lc rgb '%s'", s->colour);
         return;
     }
     /* with more curves than styles, each repetition of the dashes pairs them with other markers */
@@ -286,7 +324,7 @@ static void put_curves(FILE *out, const plot_panel *p, size_t panel)
                 first = false;
             }
             if ((c->role == PLOT_EXACT) != (pass == 0)) continue;
-            fprintf(out, "%s$d%zu_%zu using %s", first ? "" : ", ", panel, k, c->z ? "1:2:3" : "1:2");
+            fprintf(out, "%s$d%zu_%zu using %s", first ? "" : ", ", panel, k, c->z || c->shade ? "1:2:3" : "1:2");
             put_curve_style(out, p, c, own, lines);
             fputs(" title ", out);
             quoted(out, c->label);
@@ -338,6 +376,12 @@ static void put_panel(FILE *out, const plot_panel *p, size_t index)
         fputs("set view 62, 32, 1, 1\nset xyplane 0\nset zlabel ", out);
         quoted(out, p->z_label);
         putc('\n', out);
+    }
+    if (p->shade_label[0]) {
+        fputs("set palette defined (0 '#1e3a8a', 1 '#0e7490', 2 '#15803d', 3 '#c2410c', 4 '#be185d')\nset cblabel ",
+              out);
+        quoted(out, p->shade_label);
+        fputs("\nset rmargin 9\n", out);
     }
     if (one_scale(p) && !solid) fputs("set size ratio -1\n", out);
     if (p->heat)

@@ -19,6 +19,7 @@ typedef struct plot_curve {
     char label[PLOT_LABEL];
     plot_role role;
     const double *x, *y, *z; /* z: NULL in the plane */
+    const double *shade;     /* of points: NULL, or the number that gives each its colour */
     size_t count, stride;
     bool change;   /* draws y minus its first value */
     bool timelike; /* x grows along the curve, so thinning can go by columns of the picture */
@@ -29,7 +30,7 @@ typedef struct plot_curve {
 } plot_curve;
 
 typedef struct plot_panel {
-    char title[PLOT_LABEL], x_label[PLOT_LABEL], y_label[PLOT_LABEL], z_label[PLOT_LABEL];
+    char title[PLOT_LABEL], x_label[PLOT_LABEL], y_label[PLOT_LABEL], z_label[PLOT_LABEL], shade_label[PLOT_LABEL];
     bool spatial;     /* both axes are positions: one scale if the shape allows it */
     bool logarithmic; /* both axes; every point is marked */
     plot_curve *curves;

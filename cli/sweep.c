@@ -120,9 +120,9 @@ static motus_status create(sweep *s, stop_progress *progress, motus_error *err)
                 : o->error && strcmp(o->error, "full") == 0 ? MOTUS_BARS_FULL
                                                             : MOTUS_BARS_CHEAP;
     def.expected = s->grid.total;
-    def.events = o->events != NULL;
+    def.events = o->events || o->plot;
     def.event_columns = s->event_columns;
-    def.event_column_count = s->event_columns_count;
+    def.event_column_count = s->event_columns_count + s->event_columns_more;
     def.progress = stop_progress_hook;
     def.context = progress;
     return motus_ensemble_create(s->model.system, &def, &s->ensemble, err);
@@ -163,7 +163,8 @@ static motus_status check_options(const options *o, motus_error *err)
 {
     if (o->threads > INT_MAX || o->lanes > INT_MAX)
         return fail(err, MOTUS_ARGUMENT, "%s is too large", o->threads > INT_MAX ? "--threads" : "--lanes");
-    const motus_status status = sweep_file_check(o, err);
+    motus_status status = sweep_file_check(o, err);
+    if (!status) status = sweep_section_check(o, err);
     return status ? status : sweep_events_check(o, err);
 }
 
@@ -181,7 +182,7 @@ static motus_status make(sweep *s, stop_progress *progress, motus_error *err)
     return sweep_head_make(s, length > 4 && strcmp(o->output + length - 4, ".npy") == 0, err);
 }
 
-static motus_status begin(sweep *s, stop_progress *progress, motus_error *err)
+static motus_status begin(sweep *s, sweep_section *section, stop_progress *progress, motus_error *err)
 {
     const options *o = s->options;
     motus_status status = check_options(o, err);
@@ -196,6 +197,7 @@ static motus_status begin(sweep *s, stop_progress *progress, motus_error *err)
     if (!status) status = sweep_records_read(&s->records, &s->model, o->record, err);
     if (!status && o->events)
         status = event_file_columns(&s->model, o, &s->event_columns, &s->event_columns_count, err);
+    if (!status) status = sweep_section_plan(section, s, err);
     if (status) return status;
     const bool own_ends = grid_find(&s->grid, "until") < s->grid.count;
     s->accuracy = settle_accuracy(&s->model, o);
@@ -218,7 +220,8 @@ static motus_status begin(sweep *s, stop_progress *progress, motus_error *err)
     return status ? status : make(s, progress, err);
 }
 
-static motus_status go(sweep *s, sweep_file *f, sweep_events *events, stop_progress *p, motus_error *err)
+static motus_status go(sweep *s, sweep_file *f, sweep_events *events, sweep_section *section, stop_progress *p,
+                       motus_error *err)
 {
     batch b = {0};
     motus_status status = batch_begin(&b, s, err);
@@ -241,6 +244,7 @@ static motus_status go(sweep *s, sweep_file *f, sweep_events *events, stop_progr
         if (status == MOTUS_ACCURACY)
             status = sweep_accuracy_refuse(s, f->rows, count, b.results + s->records.count, b.stopped, err);
         if (!status) status = sweep_events_rows(events, f->rows, count, err);
+        if (!status) status = sweep_section_take(section, f->rows, count, b.values, err);
         if (!status) status = sweep_file_rows(f, count, &rows, err);
         if (!status && f->rows < s->grid.total && stop_progress_hook(p, 1))
             status = fail(err, MOTUS_CANCELLED, "cancelled");
@@ -326,10 +330,12 @@ static void note_unfinished(const sweep *s, const sweep_file *f)
                       (unsigned long long)f->rows, (unsigned long long)s->grid.total, f->path);
 }
 
-static motus_status finish(const sweep *s, sweep_file *f, sweep_events *events, double began, motus_error *err)
+static motus_status finish(const sweep *s, sweep_file *f, sweep_events *events, sweep_section *section, double began,
+                           motus_error *err)
 {
     const options *o = s->options;
     motus_status status = sweep_events_finish(events, err);
+    if (!status) status = sweep_section_draw(section, err);
     if (!status) status = sweep_file_finish(f, err);
     double wall = stop_clock() - began;
     if (status) return status;
@@ -349,24 +355,27 @@ motus_status sweep_verb(const options *o, motus_error *err)
     sweep s = {.options = o};
     sweep_file f = {.descriptor = -1};
     sweep_events events = {.descriptor = -1};
+    sweep_section section = {0};
     stop_progress progress = stop_progress_begin("sweep", o->quiet);
     double began = stop_clock();
-    motus_status status = begin(&s, &progress, err);
+    motus_status status = begin(&s, &section, &progress, err);
     if (!status) status = sweep_events_verify(&s, err);
     if (!status) {
         status = sweep_file_open(&f, &s, err);
         bool open = !status;
         progress.began = stop_clock();
         if (!status) status = sweep_events_open(&events, &s, f.rows, err);
-        if (!status) status = go(&s, &f, &events, &progress, err);
+        if (!status) status = sweep_section_open(&section, err);
+        if (!status) status = go(&s, &f, &events, &section, &progress, err);
         stop_progress_end(&progress);
         if (!status)
-            status = finish(&s, &f, &events, began, err);
+            status = finish(&s, &f, &events, &section, began, err);
         else if (open && status != MOTUS_ACCURACY)
             note_unfinished(&s, &f);
     }
     sweep_file_close(&f);
     sweep_events_close(&events);
+    sweep_section_close(&section);
     free(s.head);
     free(s.event_columns);
     motus_ensemble_destroy(s.ensemble);

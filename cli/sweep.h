@@ -35,7 +35,8 @@ typedef struct sweep {
     /* of a row: number, varied, recorded; where errors are told, those of the records that have some, and whether any
      * digit is significant; stopped */
     size_t columns;
-    size_t *event_columns, event_columns_count; /* of the table of events; NULL: none is asked for */
+    /* of the table of events, NULL: none is asked for; behind them those that the picture of a section needs */
+    size_t *event_columns, event_columns_count, event_columns_more;
     bool errors;
     char *head; /* the lines above the rows of a CSV; of a .npy, the text of the file beside it */
     size_t head_length;
@@ -110,5 +111,26 @@ motus_status sweep_events_open(sweep_events *, const sweep *, uint64_t rows, mot
 motus_status sweep_events_rows(sweep_events *, uint64_t first, size_t count, motus_error *);
 motus_status sweep_events_finish(sweep_events *, motus_error *);
 void sweep_events_close(sweep_events *);
+
+/* sweep_section.c: the picture of the points of --section, where --plot asks for it; else each call does nothing. */
+typedef struct sweep_section {
+    const sweep *sweep;
+    bool varied[2]; /* whether x and y of the picture are varied numbers: axis[] of the grid; */
+    size_t axis[2];
+    size_t of[2], place[2]; /* else columns, and where they are among the event columns */
+    double *values;         /* room for those of an event */
+    double *points;         /* x, y and the number that gives the colour, of each */
+    size_t count, room;
+    file_out file;
+} sweep_section;
+
+motus_status sweep_section_check(const options *, motus_error *);
+/* Chooses the plane, and adds its columns to those of events. */
+motus_status sweep_section_plan(sweep_section *, sweep *, motus_error *);
+motus_status sweep_section_open(sweep_section *, motus_error *);
+/* Adds the points of the last batch, whose first trajectory has number `first`. */
+motus_status sweep_section_take(sweep_section *, uint64_t first, size_t count, double *const *values, motus_error *);
+motus_status sweep_section_draw(sweep_section *, motus_error *);
+void sweep_section_close(sweep_section *);
 
 #endif

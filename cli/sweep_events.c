@@ -163,7 +163,7 @@ motus_status sweep_events_open(sweep_events *f, const sweep *s, uint64_t rows, m
 {
     *f = (sweep_events){.sweep = s, .path = s->options->events, .descriptor = -1};
     if (!f->path) return MOTUS_OK;
-    f->values = malloc((2 * s->event_columns_count + 1) * sizeof *f->values);
+    f->values = malloc((2 * (s->event_columns_count + s->event_columns_more) + 1) * sizeof *f->values);
     if (!f->values) return complain_memory(err);
     memory ours;
     motus_status status = head(f, &ours, err);
@@ -187,7 +187,7 @@ motus_status sweep_events_open(sweep_events *f, const sweep *s, uint64_t rows, m
 static motus_status put_table(const sweep_events *f, file_out *out, uint64_t first, size_t k, motus_error *err)
 {
     const sweep *s = f->sweep;
-    const size_t count = s->event_columns_count;
+    const size_t count = s->event_columns_count, all = count + s->event_columns_more;
     const int64_t rows = motus_ensemble_events(s->ensemble, k);
     char number[DECIMAL_MAX + 1];
     motus_status status = MOTUS_OK;
@@ -195,9 +195,9 @@ static motus_status put_table(const sweep_events *f, file_out *out, uint64_t fir
     strcat(number, ",");
     for (int64_t i = 0; !status && i < rows; i++) {
         motus_event_row row = motus_default_event_row();
-        motus_ensemble_event(s->ensemble, k, i, &row, f->values, f->values + count);
+        motus_ensemble_event(s->ensemble, k, i, &row, f->values, f->values + all);
         status = file_text(out, number, err);
-        if (!status) status = event_file_row(out, &row, s->errors, f->values, f->values + count, count, err);
+        if (!status) status = event_file_row(out, &row, s->errors, f->values, f->values + all, count, err);
     }
     return status;
 }

@@ -48,6 +48,9 @@ static void fingerprint(sweep *s)
     mix_text(&hash, motus_version());
     mix_text(&hash, s->model.text);
     for (size_t i = 0; i < o->set.count; i++) mix_text(&hash, o->set.items[i]);
+    for (size_t i = 0; i < o->when.count; i++) mix_text(&hash, o->when.items[i]);
+    if (o->section) mix_text(&hash, o->section);
+    if (o->most_points) mix_count(&hash, (uint64_t)(o->skip + o->most_points));
     mix_text(&hash, s->method);
     mix_number(&hash, s->step);
     if (!isnan(s->tolerance)) {

@@ -180,6 +180,27 @@ if command -v gnuplot >/dev/null; then
     refuses "a section without a point" 2 "none is left to draw" "$motus" run $henon --method dop853 --until 10 --section "x = 0 rising" --skip 9 --error none --plot "$place/none.svg"
     that "... leaves no file" absent "$place/none.svg"
 fi
+# --- sections of sweeps -------------------------------------------------------------------------------------------------------------
+# A point for each number of a bifurcation diagram: a rotor whose velocity is the parameter passes pi/2 at pi/(2 w).
+printf '%s\n' 'w = 1' "x'' = 0" 'x(0) = 0' "x'(0) = w" 'method verlet' 'step 0.125' 'until 4' >"$place/turn.motus"
+turn=$place/turn.motus
+gives "events of a sweep from the command line" 0 "$motus" sweep "$turn" --vary "w=1,2,3" --when "x = pi/2 rising as quarter: record, stop" --events "$place/turns.csv" -o "$place/sweep.csv" --quiet
+that "... of each trajectory" eval "[ \"\$(rows '$place/turns.csv' | awk -F, '{ d = \$3 - atan2(1, 0)/(\$1 + 1); print \$1, \$2, (d < 1e-15 && d > -1e-15) }' | tr '\n' ' ')\" = '0 quarter 1 1 quarter 1 2 quarter 1 ' ]"
+refuses "another event over the rows of the first" 2 "" "$motus" sweep "$turn" --vary "w=1,2,3" --when "x = pi/3 rising as quarter: record, stop" -o "$place/sweep.csv" --resume
+refuses "a sweep drawn without a section" 2 "--plot of a sweep draws the points of a section" "$motus" sweep "$turn" --vary "w=1,2" --plot "$place/none.svg" -o "$place/unwritten.csv"
+refuses "a picture of a part" 2 "exclude each other" "$motus" sweep "$turn" --vary "w=1,2" --section "x = 1" --plot "$place/none.svg" -o "$place/unwritten.csv" --resume
+if command -v gnuplot >/dev/null; then
+    gives "a section of a sweep is drawn" 0 "$motus" sweep "$turn" --vary "w=1:3:21" --section "every 1" --skip 1 --points 2 --plot "$place/many.svg" -o "$place/many.csv" --quiet
+    that "... with the points that are wanted" says "where every 1: 42 points of 21 trajectories" "$place/many.svg"
+    that "... a colour for each trajectory" eval "[ \"\$(grep -oE \"<use xlink:href='#gpDot[^>]*|<use [^>]*color='[^']*'|fill='rgb[^']*'\" '$place/many.svg' | grep -o 'rgb([^)]*)' | sort -u | wc -l)\" -ge 21 ]"
+    that "... and their scale" eval "grep -q '>w<\|>w</tspan>' '$place/many.svg'"
+    gives "a bifurcation diagram is drawn" 0 "$motus" sweep "$turn" --vary "w=1:3:21" --section "every 1" --plot-of "w,x" --plot "$place/fork.svg" -o "$place/fork.csv" --quiet
+    that "... with the varied number as abscissa" eval "grep -q '>w<\|>w</tspan>' '$place/fork.svg' && grep -q '>x<\|>x</tspan>' '$place/fork.svg'"
+    that "... in one colour" lacks "palette" "$place/fork.svg"
+    refuses "a plane of varied numbers" 2 "neither is of the motion" "$motus" sweep "$turn" --vary "w=1,2" --vary "x(0)=0,1" --section "every 1" --plot-of "w,x(0)" --plot "$place/none.svg" -o "$place/unwritten.csv"
+    refuses "no point of a sweep" 2 "none of its points is left to draw" "$motus" sweep "$turn" --vary "w=1,2" --section "x = 100" --plot "$place/none.svg" -o "$place/unwritten.csv" --force
+    refuses "two files of one name" 2 "is named for two outputs" "$motus" sweep "$turn" --vary "w=1,2" --section "every 1" --plot "$place/none.svg" -o "$place/none.svg"
+fi
 refuses "points of no section" 2 "--points needs --section" "$motus" run $henon --points 3
 refuses "an event in the text of a section" 2 "--section:1:" "$motus" run $henon --section "x = 0: record"
 refuses "a link with an event" 2 "--share and --when exclude each other" "$motus" run "$ball" --when "y = 1: record" --share
