@@ -18,7 +18,9 @@ struct ruled {
     rules supplied;
     rule *rule;
     tape *values, *rates, *rounding, *least, *least_rates; /* NULL: there are no functions */
-    tape **act;                                            /* of each rule, NULL: it assigns nothing */
+    tape *periods; /* of the clocks, by the numbers of their rules; NULL: there are none */
+    double *period;
+    tape **act;      /* of each rule, NULL: it assigns nothing */
     int64_t *ints;   /* those of the model, then the present values of MAX_DIMS indices */
     double *becomes; /* what is assigned, for the rule that has most of it */
 };
@@ -188,6 +190,18 @@ static bool make_functions(ruled *r, model *m)
     return r->values && r->rates && r->rounding && r->least && r->least_rates;
 }
 
+static bool make_periods(ruled *r, model *m)
+{
+    size_t count = 0;
+    output *every = arena_room(m->arena, m->rule_count * sizeof *every);
+    r->period = arena_room(m->arena, m->rule_count * sizeof *r->period);
+    if (!every || !r->period) return false;
+    for (uint32_t i = 0; i < m->rule_count; i++)
+        if (m->rules[i].kind == RULE_CLOCK) every[count++] = m->rules[i].every;
+    r->periods = count ? tape_of(m->arena, m->graph, every, count) : NULL;
+    return !count || r->periods;
+}
+
 static tape *make_act(model *m, const model_rule *rule)
 {
     output *o = arena_room(m->arena, rule->assignments * sizeof *o);
@@ -273,7 +287,7 @@ static bool make(ruled *r, model *m)
                           .least_rates = least_rates,
                           .act = act,
                           .name = name};
-    return r->becomes && find_kept(r, m) && make_functions(r, m) && ruled_rebind(r);
+    return r->becomes && find_kept(r, m) && make_functions(r, m) && make_periods(r, m) && ruled_rebind(r);
 }
 
 motus_status ruled_create(model *m, ruled **out, motus_error *err)
@@ -294,9 +308,13 @@ const rules *ruled_rules(const ruled *r) { return &r->supplied; }
 bool ruled_rebind(ruled *r)
 {
     const binding b = {r->model->arrays, r->ints, r->model->pool};
-    tape *const tapes[] = {r->values, r->rates, r->rounding, r->least, r->least_rates};
+    tape *const tapes[] = {r->values, r->rates, r->rounding, r->least, r->least_rates, r->periods};
     for (size_t k = 0; k < sizeof tapes / sizeof *tapes; k++)
         if (tapes[k] && !tape_bind(tapes[k], &b)) return false;
+    double *base[SPACES] = {[SPACE_OUT] = r->period};
+    if (r->periods) tape_run(r->periods, 0, base);
+    for (size_t k = 0; r->periods && k < r->supplied.count; k++)
+        if (r->rule[k].kind == RULE_CLOCK) r->rule[k].period = r->period[k];
     for (size_t k = 0; k < r->supplied.count; k++)
         if (r->act[k] && !tape_bind(r->act[k], &b)) return false;
     return true;

@@ -4,15 +4,18 @@
 #include "test/given.h"
 
 static const char ball[] =
-    "e = 0.8; k = 0.1; y'' = -9.81 - k y' |y'|; y(0) = 1; y'(0) = 0; n = 0; last = time(hit, last); "
+    "e = 0.8; k = 0.1; T = 0.5; half = T/2; y'' = -9.81 - k y' |y'|; y(0) = 1; y'(0) = 0; n = 0; last = time(hit, "
+    "last); "
     "energy = y'^2/2 + 9.81 y; "
     "when y = 0 falling as hit: y' = -e y', n = n + 1, record; when y' = 0 falling as top: record; "
-    "when y > 0.5 as high: record, stop after 3";
+    "when y > 0.5 as high: record, stop after 3; when every 2 half as tick: y' = y' + 0.001, record";
 
-enum { COUNT = 7, VARIED = 3, COLUMNS = 5 };
-static const char *const varied[VARIED] = {"e", "y(0)", "k"};
-static const double values[VARIED][COUNT] = {
-    {0.5, 0.8, 0.9, 0.7, 0.95, 0.6, 0.85}, {1, 2, 0.3, 0.75, 1.5, 0.4, 3}, {0.1, 0, 0.3, 0.2, 0.05, 1, 0.15}};
+enum { COUNT = 7, VARIED = 4, COLUMNS = 5 };
+static const char *const varied[VARIED] = {"e", "y(0)", "k", "T"};
+static const double values[VARIED][COUNT] = {{0.5, 0.8, 0.9, 0.7, 0.95, 0.6, 0.85},
+                                             {1, 2, 0.3, 0.75, 1.5, 0.4, 3},
+                                             {0.1, 0, 0.3, 0.2, 0.05, 1, 0.15},
+                                             {0.5, 0.7, 0.31, 0.43, 5, 0.17, 0.61}};
 
 typedef struct flock {
     motus_system *s;
@@ -190,6 +193,13 @@ static void what_there_is_not(void **state)
     assert_int_equal(motus_ensemble_event(f.e, 0, 0, &row, NULL, NULL), MOTUS_OK);
     assert_int_equal(motus_ensemble_event(f.e, 0, -1, &row, NULL, NULL), MOTUS_ARGUMENT);
     assert_int_equal(motus_ensemble_event(f.e, 0, motus_ensemble_events(f.e, 0), &row, NULL, NULL), MOTUS_ARGUMENT);
+    const double bad[] = {0.5, 0, -1, NAN}, same_of[] = {0.5, 0.5, 0.5, 0.5};
+    for (size_t k = 1; k < 4; k++) {
+        const double *given[VARIED] = {same_of, same_of, same_of, bad + k};
+        double *results[] = {f.result};
+        assert_int_equal(motus_ensemble_run(f.e, 1, given, results, f.stopped, &err), MOTUS_ARGUMENT);
+        assert_non_null(strstr(err.message, "tick happens every"));
+    }
     motus_ensemble_def def = motus_default_ensemble();
     motus_ensemble *none = NULL;
     const motus_record record = {MOTUS_REDUCE_FINAL, 1};

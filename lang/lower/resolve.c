@@ -363,17 +363,25 @@ bool resolve_definition(model *m, model_definition *d)
 
 /* ---- the start ---- */
 
-bool resolve_constant(model *m, const tree *t, const char *what, double *out)
+bool resolve_varying(model *m, const tree *t, const char *what, node *n, double *out)
 {
     lowering l;
     lower_start(&l, m, PLACE_CONSTANT, what);
-    node n = lower_scalar(&l, t, what);
-    if (failed(m) || !evaluate_number(m, n, &t->at, what, out)) return false;
+    *n = lower_scalar(&l, t, what);
+    if (failed(m) || !evaluate_constant(m, *n, &t->at, out)) return false;
     if (!isfinite(*out)) {
         source_complain(&m->source, MOTUS_ARGUMENT, &t->at, "%s is not a finite number", what);
         return false;
     }
     return true;
+}
+
+bool resolve_constant(model *m, const tree *t, const char *what, double *out)
+{
+    node n;
+    if (!resolve_varying(m, t, what, &n, out)) return false;
+    vary_freeze(m, n, what);
+    return !failed(m);
 }
 
 bool resolve_start_time(model *m)

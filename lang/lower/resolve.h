@@ -11,5 +11,7 @@ bool resolve_start_time(model *);
 /* Evaluates an expression that must be constant and finite. what: its name in messages, which must outlive the model.
  * */
 bool resolve_constant(model *, const tree *, const char *what, double *out);
+/* The same of one that may vary: its node. */
+bool resolve_varying(model *, const tree *, const char *what, node *, double *out);
 
 #endif

@@ -84,9 +84,14 @@ static bool constant_node(model *m, node n, const span *at)
     return true;
 }
 
+bool evaluate_constant(model *m, node n, const span *at, double *value)
+{
+    return !source_failed(&m->source) && constant_node(m, n, at) && evaluate_nodes(m, &n, 1, value);
+}
+
 bool evaluate_number(model *m, node n, const span *at, const char *what, double *value)
 {
-    if (source_failed(&m->source) || !constant_node(m, n, at) || !evaluate_nodes(m, &n, 1, value)) return false;
+    if (!evaluate_constant(m, n, at, value)) return false;
     vary_freeze(m, n, what);
     return !source_failed(&m->source);
 }

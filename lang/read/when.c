@@ -394,8 +394,14 @@ static bool place_values(model *m, model_rule *r)
 static bool lower_period(model *m, model_rule *r)
 {
     const tree *t = r->statement->when->left;
-    if (!resolve_constant(m, t, "the period of an event", &r->period)) return false;
-    if (r->period > 0) return true;
+    node n;
+    if (!resolve_varying(m, t, "the period of an event", &n, &r->period)) return false;
+    if (r->period > 0) {
+        r->every = (output){.value = n};
+        if (!model_take_arrays(m, 1, &r->every.to.array)) return false;
+        graph_shape(m->arena, &m->arrays[r->every.to.array], SPACE_OUT, (size_t)(r - m->rules), 0, NULL, NULL);
+        return true;
+    }
     source_complain(&m->source, MOTUS_ARGUMENT, &t->at, "the period of an event is positive, not %g", r->period);
     return false;
 }
