@@ -900,7 +900,7 @@ typedef struct motus_trace_entry {
 } motus_trace_entry;
 /* Takes one step and sets *entries to *count pointers, which the run owns until it is traced again or destroyed. At the
  * end of the run there is no step to take, and *count is 0. Fails as motus_run_step and motus_run_state do. Does not
- * call `progress` or `observer`. */
+ * call `progress` or `observer`. MOTUS_UNAVAILABLE: the system has events. */
 MOTUS_API motus_status motus_run_trace(motus_run *, const motus_trace_entry *const **entries, size_t *count,
                                        motus_error *);
 

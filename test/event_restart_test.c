@@ -266,6 +266,23 @@ static void backward_runs_restart_too(void **state)
     relay(&(motion){motions[2].text, -7.01}, "dop853", 2);
 }
 
+/* A trace is of one step of the method, and refuses runs whose steps may be several. */
+static void no_trace(void **state)
+{
+    (void)state;
+    motus_system *s = given_text(motions[1].text);
+    motus_run *r = made(s, "rk4", 3, MOTUS_BARS_NONE), *untouched = made(s, "rk4", 3, MOTUS_BARS_NONE);
+    const motus_trace_entry *const *entries = NULL;
+    size_t count = 0;
+    motus_error err = motus_default_error();
+    assert_int_equal(motus_run_trace(r, &entries, &count, &err), MOTUS_UNAVAILABLE);
+    assert_true(strlen(err.hint) > 10);
+    same_end(s, r, untouched, "after the refusal");
+    motus_run_destroy(r);
+    motus_run_destroy(untouched);
+    motus_system_destroy(s);
+}
+
 /* ---- what does not fit ---- */
 
 static void other_events_are_other_models(void **state)
@@ -434,10 +451,15 @@ static void bars_survive(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(interrupted_at_every_step),     cmocka_unit_test(an_earlier_end_leaves_no_trace),
-        cmocka_unit_test(callbacks_restart_too),         cmocka_unit_test(backward_runs_restart_too),
-        cmocka_unit_test(other_events_are_other_models), cmocka_unit_test(damage_is_seen),
-        cmocka_unit_test(forged_events_do_no_harm),      cmocka_unit_test(bars_survive),
+        cmocka_unit_test(interrupted_at_every_step),
+        cmocka_unit_test(an_earlier_end_leaves_no_trace),
+        cmocka_unit_test(callbacks_restart_too),
+        cmocka_unit_test(backward_runs_restart_too),
+        cmocka_unit_test(other_events_are_other_models),
+        cmocka_unit_test(damage_is_seen),
+        cmocka_unit_test(forged_events_do_no_harm),
+        cmocka_unit_test(bars_survive),
+        cmocka_unit_test(no_trace),
     };
     return cmocka_run_group_tests_name("restart states with events", tests, NULL, NULL);
 }

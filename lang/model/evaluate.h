@@ -13,7 +13,8 @@ bool evaluate_into_pool(model *, const output *target, const node *values, int p
 bool evaluate_nodes(model *, const node *, int count, double *out); /* constants */
 /* Evaluates a constant. It complains where the node is not constant. */
 bool evaluate_constant(model *, node, const span *at, double *value);
-/* The same of one that decides more than numbers, and logs that (vary_record.h). what: "step", "the start", …, or NULL for a size or an index; the text must outlive the model. */
+/* The same of one that decides more than numbers, and logs that (vary_record.h).
+ * what: "step", "the start", …, or NULL for a size or an index; the text must outlive the model. */
 bool evaluate_number(model *, node, const span *at, const char *what, double *value);
 /* Evaluates a size or an index; returns its int slot, or -1. */
 int evaluate_int(model *, node, const span *at, int64_t *value);

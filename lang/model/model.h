@@ -157,8 +157,8 @@ typedef struct model_rule {
     uint8_t *compares; /* for each leaf */
     model_assignment *assignment;
     size_t assignments, numbers; /* numbers: of SPACE_OUT, that its assignments need */
-    double period; /* as it was read; */
-    output every;  /*   to SPACE_OUT, by the number of the rule */
+    double period;               /* as it was read; */
+    output every;                /*   to SPACE_OUT, by the number of the rule */
     size_t of;
     int64_t stop;
 } model_rule;
