@@ -1,6 +1,4 @@
-/* The examples of the page: the models of models/, but for those with events (`when`), which the page does not show yet. Its build and its tests take them
- * from here.
- */
+/* The examples of the page: the models of models/. Its build and its tests take them from here. */
 import { readdirSync, readFileSync } from 'node:fs';
 import { fileURLToPath } from 'node:url';
 import { join } from 'node:path';
@@ -9,5 +7,4 @@ const folder = fileURLToPath(new URL('../models', import.meta.url));
 
 /** { name, text } of each, in the order of their names. */
 export const examples = readdirSync(folder).filter((name) => name.endsWith('.motus')).sort()
-  .map((name) => ({ name: name.slice(0, -'.motus'.length), text: readFileSync(join(folder, name), 'utf8') }))
-  .filter(({ text }) => !/^when\b/m.test(text));
+  .map((name) => ({ name: name.slice(0, -'.motus'.length), text: readFileSync(join(folder, name), 'utf8') }));

@@ -43,7 +43,7 @@ export interface Picture {
 }
 
 /** The themes, in their order. */
-export const themes = ['first', 'oscillators', 'sky', 'fields', 'chaos'] as const;
+export const themes = ['first', 'oscillators', 'events', 'sky', 'fields', 'chaos'] as const;
 export type Theme = (typeof themes)[number];
 
 export interface SceneEntry {
@@ -108,6 +108,28 @@ export const scenes: readonly SceneEntry[] = [
     model: 'van-der-pol', theme: 'oscillators',
     methods: ['rk4', 'verlet'],
     picture: { view: 'phase', curves: [['x', "x'"]], start: { 'x(0)': '0.1' }, until: 22 },
+  },
+
+  {
+    model: 'bouncing-ball', theme: 'events',
+    methods: ['verlet'],
+    picture: { view: 'time', curves: [['t', 'y']] },
+  },
+  {
+    model: 'newtons-cradle', theme: 'events',
+    methods: ['verlet'],
+    picture: { view: 'plane', curves: [['x[1]', 't'], ['x[2]', 't'], ['x[3]', 't'], ['x[4]', 't']], at: 0 },
+  },
+  {
+    model: 'billiard', theme: 'events',
+    methods: ['verlet'],
+    picture: { view: 'plane', curves: [['r.x', 'r.y']], until: 40 },
+  },
+  {
+    model: 'kicked-rotor', theme: 'events',
+    methods: ['verlet'],
+    section: { when: 'kick', plane: ['x mod 2 pi', "x' mod 2 pi"], starts: [[3.14, 0.6], [3.14, 1.9], [0.6, 3.14], [1.3, 3.8], [3, 3.14], [4, 5.1]] },
+    picture: { view: 'time', curves: [['t', 'x']], until: 40 },
   },
 
   {

@@ -52,7 +52,7 @@ const colourOf = (k: number, dark: boolean): string => `hsl(${Math.round(212 + 1
 function sectionOf(scene: Scene): Section | null {
   if (scene.state.view.section) return scene.state.view.section;
   const first = scene.solution.tracks[0]?.events?.names[0];
-  return eventful(scene.description) && first !== undefined ? { when: kindOf(first), starts: [] } : null;
+  return eventful(scene.description) && first !== undefined && (positions(scene).length > 1 || /^\s*when\s+every\b/m.test(scene.state.text)) ? { when: kindOf(first), starts: [] } : null;
 }
 
 export const sectionPanel = (store: Store): Panel => {

@@ -23,6 +23,14 @@ export function spring(pen: Pen, ink: Ink, x: number, top: number, y: number): v
   pen.line(xy, { colour: ink.axis, width: 1.5 });
 }
 
+/** A floor at this height, hatched below. */
+export function floor(pen: Pen, ink: Ink, left: number, right: number, y: number): void {
+  const hatch: number[] = [];
+  for (let x = left + 8; x <= right; x += 10) hatch.push(x, y, x - 8, y + 8, NaN, NaN);
+  pen.line([left, y, right, y], { colour: ink.axis, width: 2.5 });
+  pen.line(hatch, { colour: ink.axis, width: 1 });
+}
+
 /** A rod from (x, y) at an angle from the lowest point. */
 export function rod(pen: Pen, ink: Ink, x: number, y: number, length: number, angle: number): readonly [number, number] {
   const end = [x + length * Math.sin(angle), y + length * Math.cos(angle)] as const;

@@ -17,7 +17,7 @@ import { words } from '../words';
 import { allOf, extentOf, join, roomy, suits, untilGround, type Bounds, type Range } from './bounds';
 import { curvesOf, pointAt, type Curve, type Exit, type Point } from './curves';
 import { bodyNames, drawBodies } from './bodies';
-import { person, rod, spring } from './decor';
+import { floor, person, rod, spring } from './decor';
 import { freePlaces } from './free';
 import { errorsOf, furthestOf, greenName, motionOf, type Line, type Motion, type Rows } from './motion';
 import { briefly, drawNames, missText, type Named } from './names';
@@ -25,6 +25,7 @@ import { trail } from './path';
 import { apart, wideEnough, type Box, type Place } from './place';
 import { flatPlot, inside, spacePlot, type Axis, type Camera, type Plot, type Way } from './plot';
 import { isDone, isOver, placeAt, valueAt } from './rows';
+import { ballsPicture } from './balls';
 import { shapePicture } from './shape';
 import type { Staging } from './staging';
 import { subjects, velocityColumn, type Subject } from './subject';
@@ -57,7 +58,7 @@ export interface Picture {
 }
 
 const TO_COME_EXACT = 0.22, TO_COME = 0.25, STROBE = 0.16, EXACT_WIDTH = 4, WIDTH = 2;
-const LIVE_MARKS = 400, STEPS_SEEN = 40;
+const LIVE_MARKS = 400, STEPS_SEEN = 40, WALL = 180;
 /** Pixels that tell a distance from another one. */
 const SEEN = 2;
 
@@ -132,6 +133,7 @@ function velocityRange(scene: Scene, subject: Subject): Range {
 export function pictureOf(setting: Setting): Picture {
   const { scene, subject, staging, place, bounds, before } = setting;
   const motion = motionOf(scene, subject), { lines, truth } = motion;
+  if (subject.kind === 'shape' && staging.balls) return ballsPicture(setting, motion, staging.balls);
   if (subject.kind === 'shape') return shapePicture(setting, motion);
   const side = sideOf(scene, subject, staging, place), plots = plotsOf(setting, side), main = plots[0]!;
   const drawn = plots.map((plot) => ({ plot, curves: curvesOf(motion, plot) })), { curves } = drawn[0]!;
@@ -258,6 +260,8 @@ export function pictureOf(setting: Setting): Picture {
       pen.text(at.left, at.bottom, text, { colour: ink.quiet, size, halo: ink.surface });
     }
     const { along, up } = main;
+    if (staging.decor === 'floor' && up) for (const { plot } of drawn) if (inside(plot.box, plot.box.left, up(0), 1)) floor(pen, ink, plot.box.left, plot.box.right, up(0));
+    if (subject.kind === 'plane' && along && up) for (const [x, y, radius] of staging.walls ?? []) pen.line(Float64Array.from({ length: 2 * WALL + 2 }, (_, k) => (k % 2 ? up(y + radius * Math.sin(Math.PI * (k >> 1) * 2 / WALL)) : along(x + radius * Math.cos(Math.PI * (k >> 1) * 2 / WALL)))), { colour: ink.axis, width: 2.5 });
     if (subject.kind === 'time' && along && up) clipped(pen, main, () => {
       for (const { look } of lines) for (const { columns } of subject.bodies) setting.bars?.draw(pen, { x: along, y: up, top: main.box.top, height: main.box.bottom - main.box.top }, look, scene.solution.columns[columns[0]!] ?? '');
     });

@@ -7,7 +7,7 @@ import { data } from '../data';
 /** A slider of the dock: a parameter or an initial value, `part` its component from 0; low, high: where the slider ends. */
 export interface Dial { readonly name: string; readonly part?: number; readonly unit?: string; readonly low?: number; readonly high?: number }
 export type BodyName = 'sun' | 'earth' | 'moon' | 'jupiter' | 'saturn' | 'uranus' | 'neptune' | 'pluto';
-export type Decor = 'throw' | 'spring' | 'pendulum';
+export type Decor = 'throw' | 'spring' | 'pendulum' | 'floor';
 export interface Staging {
   /** The lesson that answers its question. */
   readonly ask?: string;
@@ -32,6 +32,10 @@ export interface Staging {
   readonly rests?: readonly (readonly [x: number, y: number, radius: number, name: BodyName])[];
   /** What moves, in the model's order. */
   readonly bodies?: readonly BodyName[];
+  /** Walls that are circles. */
+  readonly walls?: readonly (readonly [x: number, y: number, radius: number])[];
+  /** A family of places on one line: balls, this parameter their diameter. */
+  readonly balls?: string;
   /** Rods from (0, 0) to these places, one after the other. */
   readonly rods?: readonly (readonly [x: string, y: string])[];
 }

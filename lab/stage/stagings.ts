@@ -47,6 +47,20 @@ export const stagings: Readonly<Record<string, Staging>> = {
   'van-der-pol': {
     dials: [{ name: 'mu', low: 0, high: 10 }, { name: 'x(0)', low: -4, high: 4 }, { name: "x'(0)", low: -4, high: 4 }],
   },
+  'bouncing-ball': {
+    decor: 'floor', units: metres, frame: { y: [-0.08, 1.08] },
+    dials: [{ name: 'e', low: 0.1, high: 0.99 }, { name: 'h', unit: 'm', low: 0.1, high: 2 }],
+  },
+  'newtons-cradle': {
+    balls: 'd', dials: [{ name: 'd', low: 0.2, high: 1 }],
+  },
+  'billiard': {
+    walls: [[0, 0, 1]],
+    dials: [{ name: "r'(0)", part: 0, low: -1, high: 1 }, { name: "r'(0)", part: 1, low: -1, high: 1 }, { name: 'r(0)', part: 0, low: -0.9, high: 0.9 }],
+  },
+  'kicked-rotor': {
+    dials: [{ name: 'K', low: 0, high: 6 }, { name: 'x(0)', low: 0, high: 6.28 }, { name: "x'(0)", low: 0, high: 6.28 }],
+  },
   'kepler': {
     rests: [[0, 0, 10, 'sun']],
     dials: [{ name: 'e', low: 0, high: 0.95 }, { name: 'mu', low: 0.1, high: 2 }],

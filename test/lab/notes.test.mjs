@@ -41,6 +41,31 @@ const claims = (name, said, check) => test(name, () => {
   check();
 });
 
+const told = (model, ...options) => JSON.parse(motus('run', `models/${model}.motus`, '--json', ...options));
+claims('bouncing-ball', ['before 4.0637 s', '135 of the bounces', '64 % of the height', 'never comes to rest'], () => {
+  const { accumulated, events } = told('bouncing-ball');
+  near(accumulated.time, '4.0637');
+  assert.equal(events.length, 135);
+  near((events[1].time - events[0].time) ** 2 * 9.81 / 8, '0.64');
+  const euler = told('bouncing-ball', '--method', 'explicit-euler', '--until', '40');
+  assert.equal(euler.accumulated, null);
+  assert.ok(Math.abs(euler.events.at(-1).time - 40) < 2, 'it bounces on');
+});
+claims('newtons-cradle', ['three contacts in the one instant t = 1', 'Momentum and energy stay 1 and 1/2'], () => {
+  const { events, invariants } = told('newtons-cradle');
+  assert.deepEqual(events.map(({ time }) => time), [1, 1, 1]);
+  assert.deepEqual([invariants.momentum.final, invariants.energy.final], [1, 0.5]);
+});
+claims('billiard', ['Within 0.4 of the centre', '55 hits in 100 units', 'the same 1.833'], () => {
+  const { events, invariants } = told('billiard');
+  near(invariants.angular.final, '0.4');
+  assert.equal(events.length, 55);
+  for (let i = 1; i < events.length; i++) near(events[i].time - events[i - 1].time, '1.833');
+});
+claims('kicked-rotor', ['K = 0.971635', 'after 100 kicks no digit is known'], () => {
+  assert.equal(told('kicked-rotor').events.length, 100);
+  assert.notEqual(told('kicked-rotor', '--set', 'K=5').significant_until, null);
+});
 claims('projectile', ['0.7357 above', '0.7357 below', 'six hundred steps still leave 0.0736'], () => {
   for (const [h, said] of [['0.05', '0.7357'], ['0.005', '0.0736']]) {
     const all = errors('projectile', ['explicit-euler', 'symplectic-euler', 'midpoint', 'verlet'], '--step', h);

@@ -10,6 +10,8 @@ const shots = join(built, 'shots');
 mkdirSync(shots, { recursive: true });
 const names = examples.map(({ name }) => name);
 
+/** A ball that comes to rest does so before its end. */
+const accumulates = /^Verlet: bounces accumulate at t = 4\.06371276887\d+\(\d\)\u2009s$/;
 /** What a canvas shows, as a number: that two pictures differ. */
 const pixels = (page) => page.locator('#stage-figure canvas.stage-moving').evaluate((canvas) => {
   const { data } = canvas.getContext('2d').getImageData(0, 0, canvas.width, canvas.height);
@@ -26,7 +28,7 @@ for (const name of names) {
     await page.waitForTimeout(200);
     const summary = await page.locator('#stage-figure figcaption').textContent();
     judge(`${name}: the motion says what it shows`, /from t = .* to /.test(summary), summary);
-    same(`${name}: no message, and nothing stopped`, [await page.locator('#model-problem').textContent(), await page.locator('#status .message').textContent()], ['', '']);
+    same(`${name}: no message, and nothing stopped`, [await page.locator('#model-problem').textContent(), (await page.locator('#status .message').textContent()).replace(accumulates, '')], ['', '']);
     await page.evaluate(() => document.activeElement?.blur());
     await page.keyboard.press('Home');
     const before = await pixels(page);
@@ -35,7 +37,7 @@ for (const name of names) {
     const after = await pixels(page);
     judge(`${name}: something moves`, before.some > 0 && after.some > 0 && before.sum !== after.sum, JSON.stringify([before, after]));
     await closer(page);
-    const figures = page.locator('#panels > figure:not([hidden]):is([data-figure="error"], [data-figure="drift"], [data-figure="time"], [data-figure="phase"])'), count = await figures.count();
+    const figures = page.locator('#panels > figure:not([hidden]):is([data-figure="error"], [data-figure="drift"], [data-figure="time"], [data-figure="phase"], [data-figure="section"], [data-figure="events"])'), count = await figures.count();
     judge(`${name}: there are questions`, count >= 1, count);
     for (let k = 0; k < count; k++) {
       const figure = figures.nth(k), id = await figure.getAttribute('data-figure');
@@ -44,14 +46,14 @@ for (const name of names) {
       await page.waitForFunction((of) => !document.querySelector(`figure[data-figure="${of}"] .figure-answer`).hidden, id, { timeout: 60000 });
       const [question, answer, summary] = await Promise.all(['h3', '.figure-answer', '.figure-summary'].map((part) => figure.locator(part).textContent()));
       judge(`${name}: ${id}: a question with an answer`, /\?$/.test(question) && /^\S.{8,}\.$/.test(answer), `${question} ${answer}`);
-      judge(`${name}: ${id}: numbers are numbers`, !/NaN|undefined|null|Infinity|∞|–\.| – /.test(`${question} ${answer} ${summary}`) && /\d|on it/.test(answer), `${answer} ${summary}`);
+      judge(`${name}: ${id}: numbers are numbers`, !/NaN|undefined|null|Infinity|∞|–\.| – /.test(`${question} ${answer} ${summary}`) && /\d|on it|round-off/.test(answer), `${answer} ${summary}`);
       // Grey are the axes; names stand at the right.
       const part = await figure.locator('canvas.figure-still').evaluate((canvas) => {
         const width = Math.round(0.6 * canvas.width), { data } = canvas.getContext('2d').getImageData(0, 0, width, canvas.height), columns = new Set();
         for (let i = 0; i < data.length; i += 4) if (data[i + 3] > 60 && Math.max(data[i], data[i + 1], data[i + 2]) - Math.min(data[i], data[i + 1], data[i + 2]) > 40) columns.add(i / 4 % width);
         return columns.size / width;
       });
-      judge(`${name}: ${id}: a picture, with a curve across it`, part > 0.3, part);
+      judge(`${name}: ${id}: a picture, with a curve across it`, part > (id === 'events' ? 0.002 : 0.3), part);
     }
     judge(`${name}: a note says what to try`, (await page.locator('#scene-note').textContent()).length > 60);
     for (const [theme, width, height] of [['dark', 390, 844], ['light', 1280, 900]]) {

@@ -4,5 +4,5 @@ export const gallery = {
   search: (count: string) => `Search ${count} motions`,
   none: (text: string) => `No motion here has “${text}” in its name, its question or its description.`,
   found: (count: number) => (count === 1 ? '1 motion' : `${count} motions`),
-  themes: { first: 'First steps', oscillators: 'Oscillators', sky: 'In the sky', fields: 'Many bodies, magnetic fields', chaos: 'Chaos' },
+  themes: { first: 'First steps', oscillators: 'Oscillators', events: 'Bounces and kicks', sky: 'In the sky', fields: 'Many bodies, magnetic fields', chaos: 'Chaos' },
 } as const;

@@ -94,6 +94,20 @@ export const notes: Readonly<Record<string, Note>> = {
   'penning-trap': [
     'The electric field holds it along the axis and pushes it away from there; the magnetic field turns that push into a slow circle, whose energy is negative. Here it keeps between 1 and 1.25 from the axis. It is held only while wc is above √2 wz = 2.83.',
   ],
+  'bouncing-ball': [
+    'Infinitely often, before 4.0637 s: bounce n + 1 follows after four fifths of the time that bounce n took, and such times have a sum. 135 of the bounces can be told from that limit in double precision. A bounce leaves 64 % of the height.',
+    'Explicit Euler flies higher than it should between two bounces, each time by the same, and never comes to rest.',
+  ],
+  'newtons-cradle': [
+    'Because two equal balls that meet exchange their velocities: the push goes from ball to ball, three contacts in the one instant t = 1, and the last ball, which meets none, keeps it. Momentum and energy stay 1 and 1/2.',
+  ],
+  billiard: [
+    'Within 0.4 of the centre. The angle at which it leaves the rim is that at which it came, so that its angular momentum, 0.4, stays, and with it the circle that every chord touches. 55 hits in 100 units of time; all chords take the same 1.833.',
+  ],
+  'kicked-rotor': [
+    'Not far from where it is, while the kicks are weak: the section below has a point for every kick, and motions on its closed curves stay on them. Between them some fill an area at random. The last curve from left to right, which no motion crosses, breaks at K = 0.971635. ',
+    'Set K to 5 and it wanders as if at random; of where it is after 100 kicks no digit is known.',
+  ],
   'double-pendulum': [
     'Within seven seconds. Change the first angle by 0.0001: the lower mass is 1 cm from where it would have been after 4.9 s, 10 cm after 5.6 s and 1 m after 7.0 s. Until then nothing seems to have happened; such a difference grows by a factor e in about a second.',
   ],

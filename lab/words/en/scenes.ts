@@ -59,6 +59,28 @@ export const scenes: Readonly<Record<string, SceneWords>> = {
     dials: { mu: 'Feeding', 'x(0)': 'Start', "x'(0)": 'Start speed' },
     keeps: { balance: 'The balance is the energy of the swing less the energy that the friction has supplied so far.' },
   },
+  'bouncing-ball': {
+    title: 'Bouncing ball', question: 'How often does it bounce?',
+    sentence: 'Every bounce leaves four fifths of the speed. They come faster and faster, and then it lies still.',
+    moved: 'Every bounce leaves a part of the speed. They come faster and faster, and then it lies still.',
+    alone: 'How high it is, against time.',
+    dials: { e: 'Speed that is left', h: 'Height' },
+  },
+  'newtons-cradle': {
+    title: 'Newton’s cradle', question: 'Why does only the last one roll?',
+    sentence: 'One ball comes, three wait in contact. The push runs through them in no time. Time runs upwards.',
+    dials: { d: 'Diameter' },
+  },
+  'billiard': {
+    title: 'Round billiard', question: 'Where does the ball never go?',
+    sentence: 'No friction, a round table: the ball flies straight and leaves the rim as it came.',
+    dials: { "r'(0).x": 'Sideways', "r'(0).y": 'Upwards', 'r(0).x': 'Start' },
+  },
+  'kicked-rotor': {
+    title: 'Kicked rotor', question: 'How far do kicks carry it?',
+    sentence: 'It turns freely and is kicked once in every unit of time: more or less, or the other way, as its angle says.',
+    dials: { K: 'Kick', 'x(0)': 'Angle', "x'(0)": 'Speed' },
+  },
   'kepler': {
     title: 'Planet', question: 'Does the ellipse close?',
     sentence: 'A planet and its sun. The ellipse should close, turn after turn.',
