@@ -92,7 +92,11 @@ static motus_status try(trial *s, motus_error *err)
         fail(&s->failure, MOTUS_ACCURACY, "no accuracy can be promised, because %s", s->run->bars->why);
         status = MOTUS_ACCURACY;
     }
-    if (!ends_all(status) && status != MOTUS_ACCURACY) return MOTUS_OK;
+    /* what the motion itself does no smaller tolerance avoids */
+    const motus_cause cause = s->failure.cause;
+    const bool motions = cause == MOTUS_CAUSE_SINGULAR || cause == MOTUS_CAUSE_STIFF || cause == MOTUS_CAUSE_INFINITE;
+    const bool ends = motions && s->search.length == 0;
+    if (!ends_all(status) && status != MOTUS_ACCURACY && !ends) return MOTUS_OK;
     if (err) motus_struct_write(MOTUS_DEF_ERROR, &s->failure, err);
     return status;
 }

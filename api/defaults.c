@@ -144,6 +144,11 @@ void motus_struct_write(motus_def_kind kind, const void *ours, void *to) { copy(
 
 /* ---- words ---- */
 
+#define CAUSE_WORD(name, word) word,
+static const char *const causes[] = {MOTUS_CAUSE_MAP(CAUSE_WORD)};
+
+const char *motus_cause_word(motus_cause c) { return causes[(unsigned)c < MOTUS_CAUSE_COUNT ? (unsigned)c : 0]; }
+
 const char *motus_version(void) { return MOTUS_VERSION; }
 
 #define STATUS_ROW(name, word, text, exit) {word, text, exit},

@@ -6,6 +6,7 @@
  */
 #include "api/follow.h"
 
+#include "api/linear.h"
 #include "api/settled.h"
 #include "api/swings.h"
 #include "api/vector.h"
@@ -49,6 +50,9 @@ typedef struct follower {
     uint32_t taken;
 } follower;
 
+/* Modes are numbers of x that stand still: they are no part of the motion. */
+static bool moves(const problem *p, size_t k) { return k < linear_positions(p) || k >= p->nx; }
+
 static bool evaluate(follower *f, double t, double *x, double *v, double *a)
 {
     const problem *p = f->problem;
@@ -62,7 +66,7 @@ static double attempt(follower *f, double h)
 {
     static const double row[3][3] = {{1.0 / 2}, {0, 3.0 / 4}, {2.0 / 9, 1.0 / 3, 4.0 / 9}},
                         at[] = {1.0 / 2, 3.0 / 4, 1}, error[] = {-5.0 / 72, 1.0 / 12, 1.0 / 9, -1.0 / 8};
-    const size_t nx = f->problem->nx, nv = f->problem->nv;
+    const size_t nx = f->problem->nx, nv = f->problem->nv, moving = linear_positions(f->problem);
     if (nx) memcpy(f->slope_x[0], f->v, nx * sizeof(double));
     memcpy(f->slope_v[0], f->a, nv * sizeof(double));
     for (int s = 0; s < 3; s++) {
@@ -82,7 +86,7 @@ static double attempt(follower *f, double h)
     /* Numbers that are 0 at first get the size that the largest acceleration gives them in a time 1/rate. */
     double worst = 0, largest_a = 0;
     for (int s = 0; s < 4; s++) largest_a = fmax(largest_a, vector_largest(f->slope_v[s], nx));
-    const double of_x = fmax(LEAST * vector_largest(f->largest_x, nx), largest_a / (f->rate * f->rate)),
+    const double of_x = fmax(LEAST * vector_largest(f->largest_x, moving), largest_a / (f->rate * f->rate)),
                  of_v = fmax(LEAST * vector_largest(f->largest_v, nv), largest_a / f->rate);
     for (size_t k = 0; k < nx + nv; k++) {
         double *const *slope = k < nx ? f->slope_x : f->slope_v, sum = 0;
@@ -128,7 +132,7 @@ static double size_between(const follower *f, double h, double part)
     double most = 0;
     for (size_t k = 0; k < f->problem->nv; k++) {
         const double unit = k < f->problem->nx ? f->unit_x : f->unit_v;
-        if (unit > 0) most = fmax(most, fabs(number_between(f, k, h, part)) / unit);
+        if (unit > 0 && moves(f->problem, k)) most = fmax(most, fabs(number_between(f, k, h, part)) / unit);
     }
     return most;
 }
@@ -157,7 +161,7 @@ static bool is_small(const follower *f, double h, double part) { return size_bet
 /* Notes where in this step the falling number comes to 0, moving as its force at the start drives it. */
 static void land(follower *f, double h, followed *out)
 {
-    if (f->problem->nx == 0 || out->landed > 0) return;
+    if (linear_positions(f->problem) == 0 || out->landed > 0) return;
     const size_t k = f->falling;
     const double x = f->stage_x[k], speed = f->way * f->stage_v[k];
     if (f->side == 0) f->side = x;
@@ -174,7 +178,7 @@ static void grow(follower *f, double h, followed *out)
     if (!f->begun && (f->elapsed + h) * f->rate > 1) {
         double x = 0, v = 0;
         const double unit = 1 / f->rate, part = (unit - f->elapsed) / h;
-        for (size_t k = 0; k < nx; k++) x = fmax(x, fabs(number_between(f, k, h, part)));
+        for (size_t k = 0; k < linear_positions(f->problem); k++) x = fmax(x, fabs(number_between(f, k, h, part)));
         for (size_t k = nx; k < f->problem->nv; k++) v = fmax(v, fabs(number_between(f, k, h, part)));
         const bool from_start = f->start_x >= UNIT * x && f->start_v >= UNIT * v;
         f->begun = true;
@@ -276,6 +280,7 @@ static bool judge(const follower *f, followed *out)
     out->shortest = out->longest = 0;
     out->irregular = false;
     for (size_t k = 0; k < f->problem->nv; k++) {
+        if (!moves(f->problem, k)) continue;
         const swings *signs = telling(f, k);
         const double one = swings_length(signs);
         all &= swings_often(signs);
@@ -291,7 +296,7 @@ static bool judge(const follower *f, followed *out)
 static follow_end end_of(const follower *f, double size)
 {
     const size_t nx = f->problem->nx, nv = f->problem->nv;
-    const double state = fmax(vector_largest(f->x, nx), vector_largest(f->v + nx, nv - nx));
+    const double state = fmax(vector_largest(f->x, linear_positions(f->problem)), vector_largest(f->v + nx, nv - nx));
     const double slope = fmax(vector_largest(f->v, nx), vector_largest(f->a + nx, nv - nx));
     const double now = vector_largest(f->a, nv), first = vector_largest(f->first_a, nv);
     /* What grows as an exponential ends with the range of the numbers, but needs as long as before for each factor. */
@@ -303,7 +308,7 @@ static follow_end end_of(const follower *f, double size)
 /* Whether the falling number is on its way to 0, and will be there in not much longer than it was followed. */
 static bool falls(const follower *f, double horizon, const followed *out)
 {
-    if (f->problem->nx == 0 || out->landed > 0 || f->elapsed > LATER * horizon) return false;
+    if (linear_positions(f->problem) == 0 || out->landed > 0 || f->elapsed > LATER * horizon) return false;
     const double x = f->x[f->falling], v = f->way * f->v[f->falling];
     return x * v < 0 && v * f->force > 0 && fabs(x / v) < LATER * horizon;
 }
@@ -342,7 +347,7 @@ static bool rests(const follower *f)
     const problem *p = f->problem;
     const size_t nx = p->nx, ns = p->nv - nx;
     return !p->traits.time && !p->refresh && vector_largest(f->v, nx) == 0 &&
-           vector_largest(f->a, nx) <= RESTS * f->rate * f->rate * vector_largest(f->x, nx) &&
+           vector_largest(f->a, nx) <= RESTS * f->rate * f->rate * vector_largest(f->x, linear_positions(p)) &&
            vector_largest(f->a + nx, ns) <= RESTS * f->rate * vector_largest(f->v + nx, ns);
 }
 
@@ -352,7 +357,7 @@ static void start(follower *f)
     memcpy(f->first_a, f->a, nv * sizeof *f->a);
     memcpy(f->largest_a, f->a, nv * sizeof *f->a);
     for (size_t k = 0; k < nv; k++) f->largest_a[k] = fabs(f->a[k]);
-    f->start_x = vector_largest(f->x, nx);
+    f->start_x = vector_largest(f->x, linear_positions(f->problem));
     f->start_v = vector_largest(f->v + nx, nv - nx);
     note_all(f);
     settled_note(&f->record, 0, f->x, nx, f->v + nx);

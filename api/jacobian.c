@@ -3,6 +3,7 @@
  * One column at a time: the exact derivative in the direction of one number, or the difference quotient that the
  * solver of implicit methods takes. Invariant: neither the run nor its counts change.
  */
+#include "api/linear.h"
 #include "api/run.h"
 
 #include "core/solver.h"
@@ -54,7 +55,7 @@ static motus_status derive(const jacobian *j, bool in_v, double *out, motus_erro
     if (p->jvp && p->prepare && !p->prepare(p->ctx, in_v))
         return fail(err, MOTUS_MEMORY, "no memory for the derivatives");
     double size = 0;
-    for (size_t k = 0; k < (in_v ? p->nv : p->nx); k++) size = fmax(size, fabs((in_v ? j->v : j->x)[k]));
+    for (size_t k = 0; k < (in_v ? p->nv : linear_positions(p)); k++) size = fmax(size, fabs((in_v ? j->v : j->x)[k]));
     if (size == 0 || !isfinite(size)) size = 1;
     for (size_t c = 0; c < columns; c++) {
         motus_status status = column(j, in_v, in_v ? j->row[c] : system_number(s, c, false), size, err);

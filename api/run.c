@@ -5,6 +5,7 @@
 
 #include "api/choice.h"
 #include "api/control.h"
+#include "api/diagnosis.h"
 #include "api/goal.h"
 #include "api/later.h"
 #include "api/suggest.h"
@@ -142,6 +143,7 @@ static motus_status advance_on(motus_run *r, int64_t n, motus_error *err)
                                 : n > 0              ? pace_advance(&r->pace, r->stepper, limit, &why, err)
                                                      : stepper_advance(r->stepper, limit, &why, err);
     r->arrived = why == STOP_UNTIL || why == STOP_EVENT || (n == 0 && run_events_ended(r));
+    if (status != MOTUS_OK && status != MOTUS_CANCELLED) diagnosis_add(r->system, r->stepper, err);
     if (isnan(r->first_step) && motus_run_steps(r) > 0) r->first_step = fabs(stepper_last_step(r->stepper));
     if (status != MOTUS_CANCELLED) return status;
     char t[DECIMAL_MAX];
@@ -239,6 +241,7 @@ static motus_status begin(motus_run *r, const motus_run_def *def, motus_error *e
     if (p->refresh && r->timing.t0 != s->start) p->refresh(p->ctx, r->timing.t0, r->x, r->v);
     motus_status status =
         stepper_create(&r->machine, &r->chosen, r->timing.t0, r->timing.h, r->x, r->v, &r->allocator, &r->stepper, err);
+    if (status == MOTUS_OK) stepper_judged(r->stepper, diagnosis_crawls, r->system);
     if (status == MOTUS_OK && r->locate) status = locate_begin(r, err);
     if (status == MOTUS_OK) status = run_events_begin(r, err);
     return status == MOTUS_OK ? go_on(r, 0, err) : status;
@@ -373,6 +376,7 @@ motus_status run_sync(motus_run *r, bool with_a, motus_error *err)
     if (r->synchronised && (r->with_a || !with_a)) return MOTUS_OK;
     if (r->locate && !locate_bind(r)) return fail(err, MOTUS_MEMORY, "no memory for the model's switches");
     motus_status status = stepper_sync(r->stepper, r->x, r->v, with_a ? r->a : NULL, err);
+    if (status != MOTUS_OK) diagnosis_add(r->system, r->stepper, err);
     if (status == MOTUS_OK && r->events) events_keep(r->events, stepper_time(r->stepper), r->x);
     r->synchronised = status == MOTUS_OK;
     r->with_a = with_a;

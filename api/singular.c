@@ -7,6 +7,7 @@
  * agrees with the controlled ones, which pass no pole, is not accused, however near to one it leads.
  */
 #include "api/choice.h"
+#include "api/diagnosis.h"
 #include "api/pole.h"
 #include "api/run.h"
 #include "api/vector.h"
@@ -222,6 +223,8 @@ static motus_status accuse(const judge *j, motus_status what, double from, motus
     else
         hint(err, "take a smaller step");
     if (err) err->time = from;
+    if (what == MOTUS_SINGULAR && err)
+        diagnosis_singular(j->run->system, j->run->stepper, from, j->from.x, j->from.v, a, err);
     return what;
 }
 

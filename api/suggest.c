@@ -11,104 +11,54 @@
 #include "api/choice.h"
 #include "api/draft.h"
 #include "api/pilot.h"
-#include "api/rate.h"
+#include "api/linear.h"
 
 #include <math.h>
 #include <string.h>
 
 #define TWO_PI 6.283185307179586
-#define PERIODS 10.0           /* of the longest one, up to the end */
-#define STEPS_A_PERIOD 80.0    /* at least, in the shortest one */
-#define STEPS_LEAST 100.0      /* up to the end */
-#define STEPS_MOST 1e6         /* up to the end; of large systems fewer, */
-#define NUMBERS_MOST 1e9       /*   so that steps times numbers stay below this, */
-#define STEPS_ALWAYS 1000.0    /*   but never fewer than these */
-#define NOISE_EXACT 1e-6       /* slower than this part of the fastest rate: rounding, with exact derivatives, */
-#define NOISE_QUOTIENT 1e-4    /*   and with difference quotients */
-#define ROUNDING_EXACT 1e-13   /* of a product with the Jacobian matrix, relative to it, */
-#define ROUNDING_QUOTIENT 1e-8 /*   and with difference quotients */
-#define NO_RATE 1e-15          /* of a draft: no motion is so slow, it is rounding */
-#define OFFSET 1e-5            /* of difference quotients, in units of the size */
-#define DECAY 0.05             /* an eigenvalue is real if its imaginary part is less than this part of it */
+#define PERIODS 10.0        /* of the longest one, up to the end */
+#define STEPS_A_PERIOD 80.0 /* at least, in the shortest one */
+#define STEPS_LEAST 100.0   /* up to the end */
+#define STEPS_MOST 1e6      /* up to the end; of large systems fewer, */
+#define NUMBERS_MOST 1e9    /*   so that steps times numbers stay below this, */
+#define STEPS_ALWAYS 1000.0 /*   but never fewer than these */
+#define NOISE_EXACT 1e-6    /* slower than this part of the fastest rate: rounding, with exact derivatives, */
+#define NOISE_QUOTIENT 1e-4 /*   and with difference quotients */
+#define NO_RATE 1e-15       /* of a draft: no motion is so slow, it is rounding */
+#define DECAY 0.05          /* an eigenvalue is real if its imaginary part is less than this part of it */
 
 typedef struct scales {
     motus_system *system;
-    const problem *problem;
-    double t, way; /* way: 1, or -1 where the run goes backward */
-    double *x, *v; /* the start, and room to move away from it */
-    double *moved_x, *moved_v;
-    double *a, *other, *dx, *dv;
-    double size_x, size_v, size_a, size_moving; /* size_moving: of the velocities of positions */
-    bool failed, no_memory;                     /* failed: a callback */
-    bool turns, lands;                          /* the longest is one of an oscillation; the period is a flight's */
-    size_t falling;                             /* the position with the largest force */
-    double rate, period;                        /* the fastest, 0: the force is constant; and the longest */
+    linear at;                  /* the start */
+    double way;                 /* 1, or -1 where the run goes backward */
+    double size_a, size_moving; /* size_moving: of the velocities of positions */
+    bool turns, lands;          /* the longest is one of an oscillation; the period is a flight's */
+    size_t falling;             /* the position with the largest force */
+    double rate, period;        /* the fastest, 0: the force is constant; and the longest */
 } scales;
 
-/* a at the start's (x, v), or at (moved_x, moved_v), and time t. */
-static bool evaluate(scales *s, double t, bool moved, double *a)
-{
-    const problem *p = s->problem;
-    if (!moved) {
-        if (p->nx) memcpy(s->moved_x, s->x, p->nx * sizeof *s->x);
-        memcpy(s->moved_v, s->v, p->nv * sizeof *s->v);
-    }
-    memset(a, 0, p->nv * sizeof *a);
-    if (p->refresh) p->refresh(p->ctx, t, s->moved_x, s->moved_v);
-    if (p->accel(p->ctx, t, s->moved_x, s->moved_v, a)) s->failed = true;
-    return !s->failed && isfinite(vector_largest(a, p->nv));
-}
+static bool evaluate(scales *s, double t, bool moved, double *a) { return linear_evaluate(&s->at, t, moved, a); }
 
 /* ---- the linearised equations ---- */
-
-static bool quotient(scales *s)
-{
-    const problem *p = s->problem;
-    for (int side = 0; side < 2; side++) {
-        const double by = side ? -OFFSET : OFFSET;
-        for (size_t k = 0; k < p->nx; k++) s->moved_x[k] = s->x[k] + by * s->dx[k];
-        for (size_t k = 0; k < p->nv; k++) s->moved_v[k] = s->v[k] + by * s->dv[k];
-        if (!evaluate(s, s->t, true, side ? s->other : s->a)) return false;
-    }
-    for (size_t k = 0; k < p->nv; k++) s->a[k] = (s->a[k] - s->other[k]) / (2 * OFFSET);
-    return true;
-}
-
-/* (x', v') along u = (x, v), in units of the sizes. */
-static bool product(void *ctx, const double *u, double *out)
-{
-    scales *s = ctx;
-    const problem *p = s->problem;
-    for (size_t k = 0; k < p->nx; k++) s->dx[k] = s->size_x * u[k];
-    for (size_t k = 0; k < p->nv; k++) s->dv[k] = s->size_v * u[p->nx + k];
-    memset(s->a, 0, p->nv * sizeof *s->a);
-    if (p->jvp && p->jvp(p->ctx, s->t, s->x, s->v, s->dx, s->dv, s->a)) {
-        *(s->system->model ? &s->no_memory : &s->failed) = true;
-        return false;
-    }
-    if (!p->jvp && !quotient(s)) return false;
-    for (size_t k = 0; k < p->nx; k++) out[k] = s->dv[k] / s->size_x;
-    for (size_t k = 0; k < p->nv; k++) out[p->nx + k] = s->a[k] / s->size_v;
-    return isfinite(vector_largest(out, p->nx + p->nv));
-}
 
 /* Raises rate and period to those of the linearised motion. */
 static void linearise(scales *s, double *basis)
 {
-    const problem *p = s->problem;
+    const problem *p = s->at.problem;
     const size_t n = p->nx + p->nv;
-    const rate_map map = {n, product, s};
+    const rate_map map = {n, linear_product, &s->at};
     const double rate = rate_fastest(&map, basis, basis + n);
     double re[RATE_MOTION_MAX], im[RATE_MOTION_MAX], most = isfinite(rate) ? rate : 0, size[RATE_MOTION_MAX];
     /* Position and velocity of the fastest oscillation get the same size, so that no root is lost beside the others. */
-    if (most > 0 && p->nx) s->size_v = most * s->size_x;
+    if (most > 0 && p->nx) s->at.size_v = most * s->at.size_x;
     /* The motion's own direction, (v, a); at rest, all directions. */
-    for (size_t k = 0; k < p->nx; k++) basis[k] = s->v[k] / s->size_x;
-    const bool moves =
-        evaluate(s, s->t, false, s->a) && (vector_largest(s->a, p->nv) > 0 || vector_largest(basis, p->nx) > 0);
-    for (size_t k = 0; k < p->nv; k++) basis[p->nx + k] = s->a[k] / s->size_v;
+    for (size_t k = 0; k < p->nx; k++) basis[k] = s->at.v[k] / s->at.size_x;
+    const bool moves = evaluate(s, s->at.t, false, s->at.a) &&
+                       (vector_largest(s->at.a, p->nv) > 0 || vector_largest(basis, p->nx) > 0);
+    for (size_t k = 0; k < p->nv; k++) basis[p->nx + k] = s->at.a[k] / s->at.size_v;
     for (size_t k = 0; k < n && !moves; k++) basis[k] = rate_scatter(k);
-    const int count = rate_motion(&map, p->jvp ? ROUNDING_EXACT : ROUNDING_QUOTIENT, basis, re, im);
+    const int count = rate_motion(&map, p->jvp ? LINEAR_ROUNDING_EXACT : LINEAR_ROUNDING_QUOTIENT, basis, re, im);
     for (int k = 0; k < count; k++) {
         size[k] = sqrt(re[k] * re[k] + im[k] * im[k]);
         most = fmax(most, size[k]);
@@ -128,9 +78,9 @@ static void linearise(scales *s, double *basis)
 /* By how much a differs from that at the start, after `later`; negative: it is not finite there. */
 static double change(scales *s, double later)
 {
-    if (!evaluate(s, s->t + s->way * later, false, s->other)) return -1;
+    if (!evaluate(s, s->at.t + s->way * later, false, s->at.other)) return -1;
     double most = 0;
-    for (size_t k = 0; k < s->problem->nv; k++) most = fmax(most, fabs(s->other[k] - s->a[k]));
+    for (size_t k = 0; k < s->at.problem->nv; k++) most = fmax(most, fabs(s->at.other[k] - s->at.a[k]));
     return most;
 }
 
@@ -142,10 +92,10 @@ static double rate_at(scales *s, double spacing, double *samples)
                                              {0, 1, -2, 1, 0},
                                              {-0.5, 1, 0, -1, 0.5},
                                              {1, -4, 6, -4, 1}};
-    const size_t n = s->problem->nv;
+    const size_t n = s->at.problem->nv;
     double size[4] = {0}, most = 0;
     for (int i = 0; i < 5; i++) {
-        if (!evaluate(s, s->t + s->way * i * spacing, false, samples + (size_t)i * n)) return NAN;
+        if (!evaluate(s, s->at.t + s->way * i * spacing, false, samples + (size_t)i * n)) return NAN;
         most = fmax(most, vector_largest(samples + (size_t)i * n, n));
     }
     for (int d = 0; d < 4; d++)
@@ -164,14 +114,14 @@ static void drive(scales *s, double horizon, double *samples)
 {
     enum { OCTAVES = 60, FINER = 30 };
     double changes[2 * OCTAVES + 1], most = 0, spacing = 0;
-    if (!evaluate(s, s->t, false, s->a)) return;
+    if (!evaluate(s, s->at.t, false, s->at.a)) return;
     int count = 0;
     for (int k = 0; k <= 2 * OCTAVES && ldexp(1, k - OCTAVES) <= horizon; k++, count++) {
         changes[k] = change(s, ldexp(1, k - OCTAVES));
         if (changes[k] < 0) break;
         most = fmax(most, changes[k]);
     }
-    if (!(most > 1e-12 * vector_largest(s->a, s->problem->nv))) return;
+    if (!(most > 1e-12 * vector_largest(s->at.a, s->at.problem->nv))) return;
     for (int k = 0; k < count && spacing == 0; k++)
         if (changes[k] >= most / 2) spacing = ldexp(1, k - OCTAVES);
     double rate = 1 / spacing, before = NAN;
@@ -191,24 +141,27 @@ static void drive(scales *s, double horizon, double *samples)
 /* A ball falls until it has moved by a few times its height; what moves evenly, by ten times its distance. */
 static double time_of_values(const scales *s)
 {
-    const double x = s->problem->nx ? s->size_x : 0, v = s->size_moving, a = s->size_a;
-    if (a > 0 && s->problem->nx) {
-        const double t = 2 * fmax(v / a, sqrt(vector_largest(s->x, s->problem->nx) / a));
+    const size_t moving = linear_positions(s->at.problem);
+    const double x = moving ? s->at.size_x : 0, v = s->size_moving, a = s->size_a;
+    if (a > 0 && moving) {
+        const double t = 2 * fmax(v / a, sqrt(vector_largest(s->at.x, moving) / a));
         return t > 0 ? t : PERIODS;
     }
-    if (v > 0 && vector_largest(s->x, s->problem->nx) > 0) return PERIODS * x / v;
-    if (a > 0 && vector_largest(s->v, s->problem->nv) > 0) return PERIODS * vector_largest(s->v, s->problem->nv) / a;
+    if (v > 0 && vector_largest(s->at.x, moving) > 0) return PERIODS * x / v;
+    if (a > 0 && vector_largest(s->at.v, s->at.problem->nv) > 0)
+        return PERIODS * vector_largest(s->at.v, s->at.problem->nv) / a;
     return PERIODS;
 }
 
 /* How long the number with the largest force takes to be back at 0: x + v t + a t²/2 = 0. Else time_of_values. */
 static double time_of_flight(scales *s)
 {
+    const size_t moving = linear_positions(s->at.problem);
     size_t most = 0;
-    for (size_t k = 1; k < s->problem->nx; k++)
-        if (fabs(s->a[k]) > fabs(s->a[most])) most = k;
-    if (s->problem->nx == 0 || s->a[most] == 0) return time_of_values(s);
-    const double x = s->x[most], v = s->v[most], a = s->a[most], under = v * v - 2 * a * x;
+    for (size_t k = 1; k < moving; k++)
+        if (fabs(s->at.a[k]) > fabs(s->at.a[most])) most = k;
+    if (moving == 0 || s->at.a[most] == 0) return time_of_values(s);
+    const double x = s->at.x[most], v = s->at.v[most], a = s->at.a[most], under = v * v - 2 * a * x;
     const double root = sqrt(fmax(under, 0)), one = (-v - root) / a, two = (-v + root) / a, t = fmax(one, two);
     s->lands = under >= 0 && t > 0;
     s->falling = most;
@@ -217,45 +170,44 @@ static double time_of_flight(scales *s)
 
 static void measure_sizes(scales *s)
 {
-    const problem *p = s->problem;
-    const bool known = evaluate(s, s->t, false, s->a);
-    const double x = vector_largest(s->x, p->nx), v = vector_largest(s->v, p->nv);
-    s->size_a = known ? vector_largest(s->a, p->nv) : 0;
-    s->size_moving = vector_largest(s->v, p->nx);
-    s->size_x = x > 0 ? x : 1;
-    s->size_v = v > 0 ? v : s->size_a > 0 ? sqrt(s->size_a * s->size_x) : 1;
+    const problem *p = s->at.problem;
+    const bool known = evaluate(s, s->at.t, false, s->at.a);
+    const double x = vector_largest(s->at.x, linear_positions(p)), v = vector_largest(s->at.v, p->nv);
+    s->size_a = known ? vector_largest(s->at.a, p->nv) : 0;
+    s->size_moving = vector_largest(s->at.v, p->nx);
+    s->at.size_x = x > 0 ? x : 1;
+    s->at.size_v = v > 0 ? v : s->size_a > 0 ? sqrt(s->size_a * s->at.size_x) : 1;
 }
 
 static motus_status measure(scales *s, double duration, motus_error *err)
 {
-    const problem *p = s->problem;
+    const problem *p = s->at.problem;
     const size_t nx = p->nx, nv = p->nv, n = nx + nv;
-    const size_t numbers = 3 * nx + 5 * nv + (RATE_MOTION_MAX + 1) * n;
+    const size_t numbers = linear_room(p) + (RATE_MOTION_MAX + 1) * n;
     double *room = take(&s->system->allocator, numbers, sizeof *room);
     if (!room) return fail(err, MOTUS_MEMORY, "no memory to find a step");
-    s->x = room, s->moved_x = s->x + nx, s->dx = s->moved_x + nx;
-    s->v = s->dx + nx, s->moved_v = s->v + nv, s->dv = s->moved_v + nv, s->a = s->dv + nv, s->other = s->a + nv;
-    double *work = s->other + nv;
-    if (nx) memcpy(s->x, s->system->x0, nx * sizeof *room);
-    memcpy(s->v, s->system->v0, nv * sizeof *room);
-    if (p->refresh) p->refresh(p->ctx, s->t, s->x, s->v);
+    linear_place(&s->at, p, room);
+    double *work = s->at.other + nv;
+    if (nx) memcpy(s->at.x, s->system->x0, nx * sizeof *room);
+    memcpy(s->at.v, s->system->v0, nv * sizeof *room);
+    if (p->refresh) p->refresh(p->ctx, s->at.t, s->at.x, s->at.v);
     measure_sizes(s);
     linearise(s, work);
     const double horizon = duration > 0 ? duration : s->period > 0 ? PERIODS * s->period : INFINITY;
     if (p->traits.time || p->refresh) drive(s, horizon, work);
     if (s->rate < NO_RATE && s->system->text.draft) s->rate = 0;
-    if (s->rate == 0 && s->system->text.draft && evaluate(s, s->t, false, s->a))
+    if (s->rate == 0 && s->system->text.draft && evaluate(s, s->at.t, false, s->at.a))
         s->period = time_of_flight(s);
     else if (s->rate == 0)
         s->period = time_of_values(s);
-    else if (nx && vector_largest(s->x, nx) > 0 && s->size_moving > 0)
-        s->rate = fmax(s->rate, fmin(s->size_moving / s->size_x, s->size_a / s->size_moving));
+    else if (vector_largest(s->at.x, linear_positions(p)) > 0 && s->size_moving > 0)
+        s->rate = fmax(s->rate, fmin(s->size_moving / s->at.size_x, s->size_a / s->size_moving));
     give(&s->system->allocator, room);
-    if (s->no_memory) return fail(err, MOTUS_MEMORY, "no memory for the derivatives");
-    if (!s->failed) return MOTUS_OK;
+    if (s->at.no_memory) return fail(err, MOTUS_MEMORY, "no memory for the derivatives");
+    if (!s->at.failed) return MOTUS_OK;
     char t[DECIMAL_MAX];
     return fail(err, MOTUS_CALLBACK, "the acceleration callback reported a failure at t = %s",
-                decimal_time(s->t, s->t, t));
+                decimal_time(s->at.t, s->at.t, t));
 }
 
 /* ---- round numbers ---- */
@@ -290,7 +242,7 @@ static double round_near(double x)
 
 static void choose(const scales *s, bool uniform, double from, double duration, motus_settings *set)
 {
-    const problem *p = s->problem;
+    const problem *p = s->at.problem;
     const double steps = fmin(STEPS_MOST, fmax(STEPS_ALWAYS, NUMBERS_MOST / (double)(p->nx + p->nv)));
     const double longest = s->rate > 0 ? PERIODS * s->period : s->period;
     const bool ends = !isnan(set->until);
@@ -319,7 +271,7 @@ static motus_status suggest(motus_system *system, motus_settings *set, motus_err
     if (status != MOTUS_OK || (!isnan(set->step) && !isnan(set->until))) return status;
     const double from = isnan(set->from) ? system->start : set->from;
     const double duration = isnan(set->until) ? 0 : fabs(set->until - from);
-    scales s = {.system = system, .problem = &system->problem, .t = from, .way = set->until < from ? -1 : 1};
+    scales s = {.system = system, .at = {.problem = &system->problem, .t = from}, .way = set->until < from ? -1 : 1};
     status = measure(&s, duration, err);
     if (status != MOTUS_OK) return status;
     if (system->text.draft) {

@@ -56,12 +56,23 @@ motus_status fail(motus_error *err, motus_status status, const char *format, ...
     err->line = err->column = err->returned = 0;
     err->time = NAN;
     err->variable[0] = err->hint[0] = err->source[0] = err->caret[0] = err->file[0] = 0;
-    err->word[0] = err->instead[0] = 0;
+    err->word[0] = err->instead[0] = err->attempt[0] = 0;
+    err->singular = err->singular_error = err->exponent = err->exponent_error = NAN;
+    err->cause = MOTUS_CAUSE_NONE;
+    err->verified = 0;
     va_list arguments;
     va_start(arguments, format);
     compose(err->message, format, arguments);
     va_end(arguments);
     return status;
+}
+
+void error_text(char out[MOTUS_TEXT_MAX], const char *format, ...)
+{
+    va_list arguments;
+    va_start(arguments, format);
+    compose(out, format, arguments);
+    va_end(arguments);
 }
 
 void error_repair(motus_error *err, const char *word, const char *format, ...)

@@ -39,8 +39,9 @@ static void name_options(const char *text, char *out, size_t size)
         }
         const char *value = strncmp(text + 1 + word, " = ", 3) ? end : text + 4 + word;
         const size_t from = n;
-        n += (size_t)snprintf(out + n, size - n, "--%.*s%s%.*s", (int)word, text + 1, value < end ? " " : "",
-                              (int)(end - value), value);
+        const char *const quote = memchr(value, ' ', (size_t)(end - value)) ? "\"" : "";
+        n += (size_t)snprintf(out + n, size - n, "--%.*s%s%s%.*s%s", (int)word, text + 1, value < end ? " " : "", quote,
+                              (int)(end - value), value, quote);
         for (size_t k = from; k < n && k < from + 2 + word; k++)
             if (out[k] == '_') out[k] = '-';
         text = end + strlen(of);
@@ -63,6 +64,7 @@ static bool show_json(const motus_error *err)
 {
     json j = text_json(stdout);
     complain_json(&j, "error", err);
+    tell_diagnosis(&j, err);
     json_end(&j);
     return fflush(stdout) == 0 && !ferror(stdout);
 }

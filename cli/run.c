@@ -209,6 +209,7 @@ static motus_status finish(job *j, double seconds, motus_error *err)
                  j->singular.status == MOTUS_SINGULAR ? j->singular.time : NAN,
                  j->def.error != MOTUS_BARS_NONE,
                  j->estimate,
+                 &j->singular,
                  &j->missed};
     if (j->singular.status) s.estimate.reason = j->singular.message;
     if (!status && o->json)

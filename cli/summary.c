@@ -471,6 +471,10 @@ motus_status summary_json(const summary *s, motus_error *err)
         events_json(&j, s, events, rows);
         json_number(&j, "seconds", s->seconds);
         json_number(&j, "singularity", s->singularity);
+        motus_statistics done = motus_default_statistics();
+        const bool located = motus_run_statistics(s->run, &done) == MOTUS_OK && done.switches >= 0;
+        json_number(&j, "switches", located ? (double)done.switches : NAN); /* null: steps do not end at them */
+        tell_diagnosis(&j, s->singular->cause ? s->singular : s->missed);
         if (s->missed->status) complain_json(&j, "missed", s->missed);
         if (s->errors) status = errors_json(&j, s, err);
         json_end(&j);

@@ -16,7 +16,8 @@ typedef struct summary {
     double singularity; /* where the run has passed one; NaN: nowhere */
     bool errors;        /* the run tells the errors of its numbers */
     motus_estimate estimate;
-    const motus_error *missed; /* its status, if not 0: the run has not reached its accuracy */
+    const motus_error *singular; /* its status, if not 0: what the run passes unresolved */
+    const motus_error *missed;   /* its status, if not 0: the run has not reached its accuracy */
 } summary;
 
 motus_status summary_print(const summary *, motus_error *);

@@ -3,6 +3,7 @@
 #include "core/events_parts.h"
 
 #include <math.h>
+#include <stdio.h>
 #include <string.h>
 
 /* ROOTS_ROOM: of one function in one part of a step; a step is divided where a polynomial of degree PART_DEGREE does
@@ -238,7 +239,9 @@ static motus_status too_fast(const events *e, size_t f, const part *p, motus_err
     fail(err, MOTUS_EVENTS, "the function of %s changes so fast near t = %s that its roots cannot be told apart",
          e->rules.rule[e->rule_of[f]].name, decimal_time(at, e->until - e->start, t));
     hint(err, "a function of an event is smooth, and is 0 at times that are apart");
-    if (err) err->time = at;
+    if (!err) return MOTUS_EVENTS;
+    err->time = at;
+    snprintf(err->variable, sizeof err->variable, "%s", e->rules.rule[e->rule_of[f]].name);
     return MOTUS_EVENTS;
 }
 

@@ -42,7 +42,9 @@ static motus_status too_many(const events *e, size_t k, size_t i, motus_error *e
          decimal_time(now, e->until - e->start, t), name[0] ? name : e->rules.rule[k].name);
     hint(err, "an action must end what it answers to; where it is to happen once, when the condition becomes true, "
               "write `when x > 0` in place of `when x = 0 rising`");
-    if (err) err->time = now;
+    if (!err) return MOTUS_EVENTS;
+    err->time = now;
+    snprintf(err->variable, sizeof err->variable, "%s", name[0] ? name : e->rules.rule[k].name);
     return MOTUS_EVENTS;
 }
 

@@ -5,17 +5,17 @@
  * here the fastest one that this processor has is chosen when a stepper is made. It cannot change the bits.
  *
  * Invariant: after a failure the stepper stands at its last good step: the state there is finite, and where a callback
- * computes the acceleration, it can be observed. The stepper keeps the carried numbers every SNAPSHOT steps; every
- * SNAPSHOT_LARGE those of large systems, where a copy costs more beside a step, and of compiled models, whose step
- * takes less time than the test whether it led to finite numbers. After a failure it goes back to them and
- * takes the good steps once more, to the same bits, since steps are deterministic.
+ * computes the acceleration, it can be observed. The stepper keeps the carried numbers every SNAPSHOT steps, on all
+ * machines at the same ones. After a failure it goes back to them and takes the good steps once more, to the same bits,
+ * since steps are deterministic. Of small systems it keeps the snapshot before as well, from which a failure is
+ * explained (api/diagnosis.h).
  */
 #include "core/stepper_parts.h"
 
 #include <string.h>
 
 /* LINE: bytes of a cache line, to which arrays are aligned */
-enum { SNAPSHOT = 64, SNAPSHOT_LARGE = 256, CHECK_ALWAYS = 4096, LINE = 64 };
+enum { SNAPSHOT = 256, CHECK_ALWAYS = 4096, LINE = 64 };
 enum { SERIES_MOST = 1 << 27 }; /* numbers of a model's Taylor series: a gigabyte */
 
 const stepper_body *stepper_best_body(void)
@@ -117,9 +117,10 @@ motus_status stepper_create(const machine *m, const chosen *method, double t0, d
     }
     const size_t arrays = stepper_arrays(sizes), carried = stepper_carried(sizes) * p->nv + STEPPER_CLOCKS;
     const size_t head = (sizeof(stepper) + LINE - 1) / LINE * LINE, plan = work_plan_size(&sizes);
-    if (sizes.stride > (SIZE_MAX - head - LINE) / sizeof(double) / (arrays + CARRY_MAX + 1) - plan)
+    const size_t twice = p->nx + p->nv <= CHECK_ALWAYS ? 2 : 1; /* snapshots */
+    if (sizes.stride > (SIZE_MAX - head - LINE) / sizeof(double) / (arrays + 2 * CARRY_MAX + 1) - plan)
         return fail(err, MOTUS_MEMORY, "out of memory for the state");
-    char *block = take(allocator, head + LINE + (arrays * sizes.stride + carried + plan) * sizeof(double), 1);
+    char *block = take(allocator, head + LINE + (arrays * sizes.stride + twice * carried + plan) * sizeof(double), 1);
     if (!block) return fail(err, MOTUS_MEMORY, "out of memory for the state");
     stepper *s = (stepper *)(void *)block;
     double *memory = (double *)(void *)(block + head + (LINE - (uintptr_t)(block + head) % LINE) % LINE);
@@ -128,8 +129,10 @@ motus_status stepper_create(const machine *m, const chosen *method, double t0, d
     s->method = *method;
     s->body = m->body ? m->body : stepper_best_body();
     s->arrays = memory;
-    s->snapshot = memory + arrays * sizes.stride;
-    s->work = stepper_plan(p, method, s->snapshot + carried);
+    s->array_count = arrays * sizes.stride;
+    s->snapshot = memory + s->array_count;
+    s->earlier = twice > 1 ? s->snapshot + carried : NULL;
+    s->work = stepper_plan(p, method, s->snapshot + twice * carried);
     s->library.problem = &s->problem;
     if (!p->variables) {
         s->all[1] = p->nv;
@@ -162,6 +165,24 @@ void stepper_destroy(stepper *s)
 
 /* Failure --------------------------------------------------------------------------------------------------------- */
 
+static int64_t next_snapshot(int64_t n) { return n - n % SNAPSHOT + SNAPSHOT; }
+
+/* The snapshot becomes the one before. */
+static void keep_earlier(stepper *s)
+{
+    if (!s->earlier) return;
+    double *const kept = s->snapshot;
+    s->snapshot = s->earlier, s->earlier = kept;
+    s->earlier_at = s->at;
+}
+
+/* After a failure the next step begins with a snapshot. */
+static void forget_snapshot(stepper *s)
+{
+    if (s->at.steps >= 0 && s->earlier_at.steps < 0) keep_earlier(s);
+    s->at.steps = -1;
+}
+
 static void go_back(stepper *s) { stepper_put(s, s->at, s->snapshot); }
 
 /* A callback may be undefined at the end of a step, where some methods evaluate it only in the next step. So a step
@@ -172,6 +193,13 @@ static int settle(stepper *s) { return s->problem.returned && s->work.waits ? s-
 static int64_t good_steps(stepper *s, int bad)
 {
     return s->work.n - (bad == STEP_DIVERGED && s->body->check(&s->work));
+}
+
+/* From the snapshot to the end of the last good step; a step that is good may be one after which no other is. */
+static void repeat(stepper *s, int64_t good)
+{
+    const int bad = s->body->run(&s->work, good - s->work.n);
+    if (bad && !(bad == STEP_STALLED && s->work.n == good)) go_back(s);
 }
 
 /* Goes from a failure after the snapshot back to the last good step, and reports the failure. */
@@ -198,13 +226,13 @@ static motus_status recover(stepper *s, int bad, motus_error *err)
     }
     const motus_status status = stepper_report(s, bad, t, err);
     go_back(s);
-    if (s->body->run(w, good - w->n)) go_back(s);
+    repeat(s, good);
     if (settle(s) && w->n > s->at.steps) { /* the step before began with the evaluation that its state needs */
         good = w->n - 1;
         go_back(s);
-        if (s->body->run(w, good - w->n)) go_back(s);
+        repeat(s, good);
     }
-    s->at.steps = -1;
+    forget_snapshot(s);
     if (good == 0 && bad != STEP_CALLBACK && stepper_undefined(s, err)) return MOTUS_DIVERGED;
     return status;
 }
@@ -213,9 +241,11 @@ static motus_status recover(stepper *s, int bad, motus_error *err)
 static int64_t room_of(stepper *s)
 {
     const work *w = &s->work;
-    const int64_t apart = w->check ? SNAPSHOT : SNAPSHOT_LARGE;
-    if (s->at.steps < 0 || w->n - s->at.steps >= apart) s->at = stepper_get(s, s->snapshot);
-    return apart - (w->n - s->at.steps);
+    if (s->at.steps < 0 || w->n >= next_snapshot(s->at.steps)) {
+        if (s->at.steps >= 0) keep_earlier(s);
+        s->at = stepper_get(s, s->snapshot);
+    }
+    return next_snapshot(s->at.steps) - w->n;
 }
 
 /* Motion ---------------------------------------------------------------------------------------------------------- */
@@ -232,26 +262,38 @@ static int take_steps(stepper *s, const stepper_body *body, int64_t steps)
     return !bad && !w->check && !w->finite ? body->check(w) : bad;
 }
 
-/* Of a force that jumps, steps can shrink for good: where it pushes back from both sides of the jump, as dry friction
- * does that sticks, no step follows it. A run crawls when the last PACE steps lead so little further that 2^24 more
- * would not lead to the end, and steps were 10^4 times as long before; or when 2^30 would not. The number of steps
- * alone decides where this is asked, so the answer is the same on all machines. */
+/* A run may crawl when the last PACE steps lead so little further that 2^24 more would not lead to the end, and steps
+ * were 10^4 times as long before; or when 2^30 would not. Of a force that jumps steps can shrink for good: where it
+ * pushes back from both sides of the jump, as dry friction does that sticks, no step follows it; so it does crawl. Of
+ * another force such a run may be long and on its way: it ends where the judge finds a cause. The judge is asked after
+ * 2, 4, 8 … times PACE steps. The number of steps alone decides where this is asked, so the answer is the same on all
+ * machines. */
 enum { PACE = 1 << 16, PACE_LEFT = 1 << 8, PACE_LEFT_ALWAYS = 1 << 14 };
 static const double PACE_FALL = 1e4;
+
+void stepper_judged(stepper *s, stepper_judge judge, void *ctx) { s->judge = judge, s->judge_ctx = ctx; }
 
 static motus_status get_on(stepper *s, motus_error *err)
 {
     const work *w = &s->work;
     const double now = stepper_time(s), gone = fabs(now - s->pace_t), left = fabs(w->until - now);
-    const bool known = s->pace_n == w->n - PACE;
-    char t[DECIMAL_MAX];
+    const bool known = s->pace_n == w->n - PACE, jumps = !s->problem.traits.smooth;
+    const int64_t paces = w->n / PACE;
     s->pace_n = w->n, s->pace_t = now;
     if (!known || !(left < INFINITY) || left <= PACE_LEFT * gone) return MOTUS_OK;
     if (left <= PACE_LEFT_ALWAYS * gone && gone / PACE * PACE_FALL > w->longest) return MOTUS_OK;
-    fail(err, MOTUS_STEPS, "the run crawls: at t = %s its last %d steps led %.1e further, and to the end it is %.1e",
-         decimal_time(now, w->h, t), PACE, gone, left);
-    hint(err, "the force jumps there; where it pushes back from both sides, as dry friction that sticks, no step is "
-              "small enough: end the run before, or smooth the jump, tanh(x'/0.001) for sign(x')");
+    if (!jumps && (!s->judge || (paces & (paces - 1)))) return MOTUS_OK;
+    if (!jumps) return s->judge(s->judge_ctx, s, PACE, gone, err);
+    return stepper_crawls(s, PACE, gone, err);
+}
+
+motus_status stepper_crawls(const stepper *s, int64_t steps, double gone, motus_error *err)
+{
+    char t[DECIMAL_MAX];
+    const double now = stepper_time(s);
+    fail(err, MOTUS_STEPS, "the run crawls: at t = %s its last %lld steps led %.1e further, and to the end it is %.1e",
+         decimal_time(now, s->work.h, t), (long long)steps, gone, fabs(s->work.until - now));
+    hint(err, "end the run before");
     if (err) err->time = now;
     return MOTUS_STEPS;
 }
@@ -261,7 +303,7 @@ static motus_status whole_steps(stepper *s, int64_t steps, const stepper_body *b
     work *w = &s->work;
     const int64_t end = steps < INT64_MAX - w->n ? w->n + steps : INT64_MAX;
     while (w->n < end && !(w->carried && w->t == w->until)) {
-        const bool paced = w->carried && !s->problem.traits.smooth;
+        const bool paced = w->carried && (s->judge || !s->problem.traits.smooth);
         const int64_t due = paced ? PACE - w->n % PACE : INT64_MAX, most = room_of(s), room = most < due ? most : due,
                       chunk = end - w->n < room ? end - w->n : room;
         int bad = take_steps(s, body, chunk);
@@ -294,7 +336,7 @@ static motus_status short_step(stepper *s, double last, const stepper_body *body
     if (!bad) return MOTUS_OK;
     status = stepper_report(s, bad, time_now(w), err);
     go_back(s);
-    s->at.steps = -1;
+    forget_snapshot(s);
     return status;
 }
 

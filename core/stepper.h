@@ -75,6 +75,19 @@ motus_status stepper_move(stepper **, const machine *, motus_error *);
  * scale of the motion, whatever the tolerance. INFINITY of others. */
 double stepper_tolerance_most(const chosen *);
 
+/* Asked whether a run that may crawl is to end, when its last `steps` steps have led from t - gone to t: other than
+ * MOTUS_OK ends it with that status. Asked at numbers of steps that are the same on all machines. */
+typedef motus_status (*stepper_judge)(void *ctx, stepper *, int64_t steps, double gone, motus_error *);
+/* The status of a run that crawls, and what it says. */
+motus_status stepper_crawls(const stepper *, int64_t steps, double gone, motus_error *);
+void stepper_judged(stepper *, stepper_judge, void *ctx);
+const chosen *stepper_method(const stepper *);
+const problem *stepper_problem(const stepper *);
+double stepper_limit_of(const stepper *); /* the `until` of the latest advance */
+/* A state some steps before the present one, in the same leg: the oldest that is kept. False: there is none. The
+ * motion stays as it is. */
+bool stepper_earlier(stepper *, double *t, double *x, double *v);
+
 double stepper_time(const stepper *);
 double stepper_lost(const stepper *);               /* what the rounding of this time has left out */
 double stepper_time_of(const stepper *, int64_t n); /* of step n of the leg; NaN where steps adapt */

@@ -23,13 +23,17 @@ struct stepper {
     bool shortened;
     bool arrived; /* the stepper stands at `until` */
     double until;
-    double *arrays;   /* those of work, up to the snapshot */
-    double *snapshot; /* the carried numbers at `at`; at.steps < 0: none */
-    stepper_count at;
+    double *arrays;     /* those of work: */
+    size_t array_count; /*   so many numbers */
+    /* the carried numbers at `at`, and those of the snapshot before, of the same leg; steps < 0: none */
+    double *snapshot, *earlier;
+    stepper_count at, earlier_at;
     double main_t0; /* of the leg, while the shorter last step has its own */
     /* where steps adapt: the time after the latest multiple of PACE steps, and that number; < 0: not known */
     double pace_t;
     int64_t pace_n;
+    stepper_judge judge; /* NULL: nobody judges whether it crawls */
+    void *judge_ctx;
     /* of dense output: x, v, a at the left end, then at the right; NULL until asked for */
     double *ends;
     double left_t;

@@ -166,7 +166,7 @@ void stepper_begin(stepper *s, double t0, double h, const double *x, const doubl
     w->n = s->pace_n = 0;
     s->pace_t = t0;
     /* Entries without an equation are written by no step: what a failed step left there must not stay. */
-    memset(s->arrays, 0, (size_t)(s->snapshot - s->arrays) * sizeof(double));
+    memset(s->arrays, 0, s->array_count * sizeof(double));
     memcpy(w->x, x, w->nx * sizeof *x);
     memcpy(w->v, v, w->nv * sizeof *v);
     w->t0 = w->t = t0;
@@ -219,7 +219,7 @@ motus_status stepper_start(stepper *s, double t0, double h, const double *x, con
     if (status) return status;
     s->leg_h = h;
     s->main_t0 = t0;
-    s->at.steps = -1;
+    s->at.steps = s->earlier_at.steps = -1;
     s->shortened = s->arrived = s->left = s->right = false;
     s->left_steps = -1;
     stepper_begin(s, t0, h, x, v);

@@ -22,6 +22,9 @@ double stepper_time_of(const stepper *s, int64_t n)
     return leg.carried ? NAN : TIME_FIXED(&leg, (double)n, 0);
 }
 
+const problem *stepper_problem(const stepper *s) { return &s->problem; }
+const chosen *stepper_method(const stepper *s) { return &s->method; }
+double stepper_limit_of(const stepper *s) { return s->until; }
 double stepper_step(const stepper *s) { return s->leg_h; }
 double stepper_last_step(const stepper *s) { return s->work.h; }
 void stepper_sizes(const stepper *s, double *shortest, double *longest)
@@ -108,7 +111,7 @@ motus_status stepper_load(stepper *s, stepper_count at, const double *carry, mot
     s->pace_n = -1;
     s->shortened = s->arrived = s->left = s->right = false;
     s->left_steps = -1;
-    s->at.steps = -1;
+    s->at.steps = s->earlier_at.steps = -1;
     return MOTUS_OK;
 }
 
@@ -130,6 +133,24 @@ motus_status stepper_load_leg(stepper *s, double t0, double h, stepper_count at,
     work_scale(w, h);
     if (s->library.solver) solver_forget(s->library.solver);
     return MOTUS_OK;
+}
+
+bool stepper_earlier(stepper *s, double *t, double *x, double *v)
+{
+    const bool older = s->earlier_at.steps >= 0;
+    const stepper_count from = older ? s->earlier_at : s->at;
+    if (s->shortened || from.steps < 0) return false;
+    double *kept = take(&s->allocator, stepper_carry(s), sizeof *kept);
+    if (!kept) return false;
+    const bool stalled = s->work.stalled;
+    const stepper_count now = stepper_get(s, kept);
+    stepper_put(s, from, older ? s->earlier : s->snapshot);
+    *t = time_now(&s->work);
+    const motus_status status = stepper_sync(s, x, v, NULL, NULL);
+    stepper_put(s, now, kept);
+    s->work.stalled = stalled;
+    give(&s->allocator, kept);
+    return status == MOTUS_OK;
 }
 
 /* The mark of dense output goes along, because it may be for the next step. */
@@ -161,6 +182,10 @@ motus_status stepper_move(stepper **s, const machine *m, motus_error *err)
     move_ends(from, to);
     to->work.h = from->work.h;
     to->pace_n = from->pace_n, to->pace_t = from->pace_t;
+    to->judge = from->judge, to->judge_ctx = from->judge_ctx;
+    to->at = from->at, to->earlier_at = from->earlier_at;
+    memcpy(to->snapshot, from->snapshot, stepper_carry(from) * sizeof *to->snapshot);
+    if (from->earlier) memcpy(to->earlier, from->earlier, stepper_carry(from) * sizeof *to->earlier);
     *s = to;
     stepper_destroy(from);
     return MOTUS_OK;

@@ -113,6 +113,23 @@ MOTUS_API int motus_status_exit(motus_status);         /* 0, 1 or 2 */
 #define MOTUS_TEXT_MAX 512
 #define MOTUS_NAME_MAX 64
 
+/* Why a run fails, or comes no further: its name, and its word (the `cause` in JSON, `stopped_by` of a sweep). */
+#define MOTUS_CAUSE_MAP(X)                                                                                     \
+    X(NONE, "")                       /* not known: time, variable and step are all that can be said */        \
+    X(SINGULAR, "singular")           /* the force has no finite value at a time that the motion approaches */ \
+    X(STIFF, "stiff")                 /* stability, not accuracy, bounds the steps */                          \
+    X(DISCONTINUOUS, "discontinuous") /* the force jumps, and no step ends on the jump */                      \
+    X(EVENTS, "events")               /* events without end in one instant or in a short time */               \
+    X(SOLVER, "newton")               /* the iteration for an implicit equation does not converge */           \
+    X(ROUNDING, "rounding")           /* the tolerance asks for less than rounding leaves */                   \
+    X(INFINITE, "infinite")           /* a number leaves the finite numbers, or the force is not defined there */
+
+#define MOTUS_CAUSE_ENUMERATOR(name, word) MOTUS_CAUSE_##name,
+typedef enum motus_cause { MOTUS_CAUSE_MAP(MOTUS_CAUSE_ENUMERATOR) MOTUS_CAUSE_COUNT } motus_cause;
+#undef MOTUS_CAUSE_ENUMERATOR
+
+MOTUS_API const char *motus_cause_word(motus_cause); /* "singular"; static */
+
 /* What went wrong, where, and what to do. A call fills it only when it returns other than MOTUS_OK. Every call accepts
  * NULL in its place. */
 typedef struct motus_error {
@@ -122,16 +139,27 @@ typedef struct motus_error {
     /* CALLBACK: what the callback returned; 0: it reads the velocity, though its definition says that it does not. Else
      * 0. */
     int returned;
-    double time; /* DIVERGED, SOLVE, CALLBACK, STEPS, SINGULAR, UNRESOLVED: the time of the failure; else NaN */
-    char variable[MOTUS_NAME_MAX]; /* DIVERGED, SOLVE: the number that failed, "r[3].y"; else "" */
-    char message[MOTUS_TEXT_MAX];  /* one sentence, UTF-8, without a newline, safe to print on a terminal */
-    char hint[MOTUS_TEXT_MAX];     /* what to do, or "" */
-    char source[MOTUS_TEXT_MAX];   /* the line of the text, control characters replaced, or "" */
-    char caret[MOTUS_TEXT_MAX];    /* blanks and carets to print under `source`, or "" */
-    char file[MOTUS_TEXT_MAX];     /* `file` of the definition, or "" */
+    /* DIVERGED, SOLVE, CALLBACK, STEPS, EVENTS, SINGULAR, UNRESOLVED: the time of the failure; else NaN */
+    double time;
+    /* DIVERGED, SOLVE, and of every cause: the number that failed, "r[3].y"; EVENTS: the event; else "" */
+    char variable[MOTUS_NAME_MAX];
+    char message[MOTUS_TEXT_MAX]; /* one sentence, UTF-8, without a newline, safe to print on a terminal */
+    char hint[MOTUS_TEXT_MAX];    /* what to do, or "" */
+    char source[MOTUS_TEXT_MAX];  /* the line of the text, control characters replaced, or "" */
+    char caret[MOTUS_TEXT_MAX];   /* blanks and carets to print under `source`, or "" */
+    char file[MOTUS_TEXT_MAX];    /* `file` of the definition, or "" */
     /* For an editor, of an error in a text: the wrong word, which stands at line and column, or ""; and what to write
      * in its place, or "". Without a word, `instead` is a line to add. */
     char word[MOTUS_NAME_MAX], instead[MOTUS_TEXT_MAX];
+    /* Of a run that failed: why, as far as the evidence suffices. `time` and `variable` belong to it. SINGULAR: the
+     * time at which the motion is singular, and the power p of its distance with which `variable` goes there, as
+     * |t - singular|^p, below 0 where it grows beyond all bounds; both with their errors. Of the run's own motion: what
+     * it was off before is not in the error where steps have one size. NaN: not known. */
+    double singular, singular_error, exponent, exponent_error;
+    /* A member of the definition to change, and its value, "until = 0.99", "method = radau15", or "". */
+    char attempt[MOTUS_NAME_MAX];
+    motus_cause cause;
+    int verified; /* 1: trial steps from shortly before the failure, with this value, have led beyond it */
 } motus_error;
 
 /* Memory. Without an `allocate` the library uses malloc and free. `allocate` returns at least `bytes` bytes, aligned

@@ -318,6 +318,25 @@ void tell_ended(json *j, const motus_run *run)
 
 /* Errors ---------------------------------------------------------------------------------------------------------- */
 
+void tell_diagnosis(json *j, const motus_error *err)
+{
+    if (!err || err->cause == MOTUS_CAUSE_NONE) {
+        json_string(j, "diagnosis", NULL);
+        return;
+    }
+    json_open(j, "diagnosis", '{');
+    json_string(j, "cause", motus_cause_word(err->cause));
+    json_string(j, "variable", err->variable);
+    json_number(j, "time", err->time);
+    json_number(j, "singular", err->singular); /* null: it is not, or when is not known */
+    json_number(j, "singular_error", err->singular_error);
+    json_number(j, "exponent", err->exponent);
+    json_number(j, "exponent_error", err->exponent_error);
+    json_string(j, "try", err->attempt);
+    json_bool(j, "verified", err->verified);
+    json_close(j, '}');
+}
+
 void tell_error(json *j, const motus_error *err, const char *message)
 {
     json_string(j, "kind", motus_status_word(err->status));

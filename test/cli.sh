@@ -149,7 +149,7 @@ refuses "--every without -o" 2 "needs -o" "$motus" run $osc --every 0.1
 refuses "--plot-of without --plot" 2 "needs --plot" "$motus" run $osc --plot-of "x,x'"
 gives "--json and -o -" 2 "$motus" run $osc -o - --json
 that "... is an error object" holds '.error.kind == "argument" and (.error.message | length > 9) and .error.line == 0 and .error.column == 0'
-that "an error object has these keys and no others" holds '(keys == ["error"]) and (.error | keys == ["column","kind","line","message"])'
+that "an error object has these keys and no others" holds '(keys == ["diagnosis","error"]) and (.error | keys == ["column","kind","line","message"])'
 
 # --- run --------------------------------------------------------------------------------------------------------------------------
 gives "run --json" 0 "$motus" run $oscillator --json

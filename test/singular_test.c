@@ -249,14 +249,15 @@ static void wrong_requests(void **unused)
     assert_int_equal(motus_run_singular(s, &def, &err), MOTUS_ARGUMENT);
     def.step = NAN;
     motus_status status = MOTUS_MEMORY;
-    for (long k = 0; status != MOTUS_SINGULAR; k++) {
+    for (long k = 0; status != MOTUS_SINGULAR || p.refused; k++) {
         motus_system *t;
         must(motus_system_from_text(&text, &t, &err), &err, "text");
         p.left = k;
         p.refused = 0;
         status = motus_run_singular(t, &def, &err);
         p.left = -1;
-        assert_int_equal(status, p.refused ? MOTUS_MEMORY : MOTUS_SINGULAR);
+        /* without memory for the diagnosis the verdict stands alone */
+        assert_true(status == MOTUS_SINGULAR || (p.refused && status == MOTUS_MEMORY));
         motus_system_destroy(t);
     }
     assert_int_equal(motus_run_singular(s, NULL, &err), MOTUS_SINGULAR); /* everything is the model's */

@@ -1,0 +1,388 @@
+/* See diagnosis.h.
+ *
+ * Controlled steps from a state before the failure are the arbiter: where they pass the failure, the run's own steps
+ * are to blame, and where they do not, the motion is.
+ */
+#include "api/diagnosis.h"
+
+#include "api/evidence.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+enum { TRIAL_STEPS = 2000, HALVINGS = 14, LOOSER = 8, IMPLICIT_STEPS = 100, IMPLICIT_NUMBERS = 200, ROUNDINGS = 4 };
+#define BEFORE 0.99 /* of the way to a singularity, at which a run may end */
+#define STIFF_METHOD "gauss4"
+#define NEAR_BOUND 4.0  /* steps that stability bounds are so near to the bound, in both directions */
+#define UNBOUNDED 500.0 /* step times rate: no bound of stability is as large */
+#define LONGER 10.0     /* times as long are the steps of an implicit method at least, where the model is stiff */
+#define AGREES 1e-2     /* with half its step, relative to the largest number, a step that serves */
+#define NO_LARGER 10.0  /* times the motion's size: a trial that grows more has not succeeded */
+#define TELLABLE 0.5    /* of an exponent: with a larger error it tells nothing */
+
+typedef struct judge {
+    evidence e;
+    motus_error *err;
+    evidence_ahead ahead;
+    bool looked;
+    char cause[MOTUS_TEXT_MAX];
+} judge;
+
+/* ---- words ---- */
+
+static const char *name_of(const judge *j, bool in_v, size_t k, char out[MOTUS_NAME_MAX])
+{
+    const problem *p = j->e.problem;
+    snprintf(out, MOTUS_NAME_MAX, "%s[%zu]", in_v ? "v" : "x", k);
+    if (p->name) p->name(p->ctx, in_v, k, out, MOTUS_NAME_MAX);
+    return out;
+}
+
+/* The number whose acceleration, or rate, number k of the force is. */
+static const char *name_of_force(const judge *j, size_t k, char out[MOTUS_NAME_MAX])
+{
+    return name_of(j, k >= j->e.problem->nx, k, out);
+}
+
+/* "0.66667 ± 3e-06", with the digits that the error leaves. */
+static const char *with_error(double value, double error, char out[MOTUS_TEXT_MAX])
+{
+    const double places = error > 0 ? ceil(-log10(error)) + 0.0 : 15;
+    error_text(out, "%.*f ± %.0e", (int)fmax(0, fmin(15, places)), value, error);
+    return out;
+}
+
+static double read_number(const char *text)
+{
+    double value = NAN;
+    const bool negative = *text == '-';
+    decimal_read(text + negative, strlen(text + negative), &value);
+    return negative ? -value : value;
+}
+
+/* Adds a sentence to what the error says, with the cause and the number that it is about. */
+static void say(judge *j, motus_cause cause, const char *variable)
+{
+    motus_error *err = j->err, kept = *err;
+    fail(err, kept.status, "%s; %s", kept.message, j->cause);
+    err->time = kept.time;
+    err->returned = kept.returned;
+    err->cause = cause;
+    memcpy(err->hint, kept.hint, sizeof err->hint);
+    snprintf(err->variable, sizeof err->variable, "%s", variable);
+}
+
+static void attempt(judge *j, bool verified, const char *member, const char *value)
+{
+    snprintf(j->err->attempt, sizeof j->err->attempt, "%.16s = %.40s", member, value);
+    j->err->verified = verified;
+}
+
+/* An end of few digits shortly before an instant. */
+static void end_before(judge *j, double instant)
+{
+    char text[MOTUS_TEXT_MAX] = "";
+    const double whole = instant - j->e.begin, wanted = j->e.begin + BEFORE * whole,
+                 off = (1 - BEFORE) / 2 * fabs(whole);
+    double value = NAN;
+    for (int digits = 1; digits <= 17 && !(fabs(value - wanted) <= off); digits++) {
+        error_text(text, "%.*g", digits, wanted);
+        value = read_number(text);
+    }
+    decimal(value, text);
+    attempt(j, (j->e.t - value) * j->e.way >= 0, "until", text);
+    hint(j->err, "end the run before, `until = %s` of the definition", text);
+}
+
+/* ---- causes of the motion ---- */
+
+static const evidence_ahead *look(judge *j)
+{
+    if (!j->looked) j->ahead = evidence_look(&j->e);
+    j->looked = true;
+    return &j->ahead;
+}
+
+/* Says so where the way ahead ends at a singularity. */
+static bool tell_singular(judge *j)
+{
+    const evidence_ahead *a = look(j);
+    char name[MOTUS_NAME_MAX], t[MOTUS_TEXT_MAX], p[MOTUS_TEXT_MAX];
+    if (a->way != EVIDENCE_SINGULAR) return false;
+    name_of_force(j, a->which, name);
+    with_error(a->t, a->t_error, t);
+    const bool told = a->exponent_error < TELLABLE;
+    if (told)
+        error_text(j->cause, "%s is singular at t = %s, where it goes %s as the power %s of the time left", name, t,
+                   a->exponent < 0 ? "to infinity" : "to its limit", with_error(a->exponent, a->exponent_error, p));
+    else
+        error_text(j->cause, "%s is singular at t = %s", name, t);
+    say(j, MOTUS_CAUSE_SINGULAR, name);
+    j->err->singular = a->t;
+    j->err->singular_error = a->t_error;
+    j->err->exponent = told ? a->exponent : NAN;
+    j->err->exponent_error = told ? a->exponent_error : NAN;
+    return true;
+}
+
+static bool singular(judge *j)
+{
+    if (!tell_singular(j)) return false;
+    end_before(j, j->ahead.t);
+    return true;
+}
+
+static bool infinite(judge *j)
+{
+    const evidence_ahead *a = look(j);
+    char name[MOTUS_NAME_MAX];
+    if (a->way != EVIDENCE_INFINITE) return false;
+    name_of(j, a->in_v, a->which, name);
+    error_text(j->cause, "the motion itself takes %s beyond the largest number, 1.8e308", name);
+    say(j, MOTUS_CAUSE_INFINITE, name);
+    end_before(j, j->e.t);
+    return true;
+}
+
+static bool undefined(judge *j)
+{
+    size_t which;
+    char name[MOTUS_NAME_MAX];
+    if (look(j)->way == EVIDENCE_ON || !evidence_undefined(&j->e, &which)) return false;
+    error_text(j->cause, "%s has no finite rate of change beyond it", name_of(j, true, which, name));
+    say(j, MOTUS_CAUSE_INFINITE, name);
+    end_before(j, j->e.t);
+    return true;
+}
+
+static bool discontinuous(judge *j)
+{
+    size_t which;
+    double before, after;
+    char name[MOTUS_NAME_MAX];
+    if (j->e.problem->traits.smooth && !j->e.problem->returned) return false;
+    if (!evidence_jump(&j->e, &which, &before, &after)) return false;
+    name_of(j, true, which, name);
+    snprintf(
+        j->cause, sizeof j->cause,
+        "the force is discontinuous there, the rate of change of %s jumps from %.3g to %.3g, and steps do not end on "
+        "the jump",
+        name, before, after);
+    say(j, MOTUS_CAUSE_DISCONTINUOUS, name);
+    end_before(j, j->e.t);
+    char text[MOTUS_TEXT_MAX];
+    snprintf(text, sizeof text, "%s", j->err->hint);
+    hint(j->err, "%s; or smooth the jump, tanh(x'/0.001) for sign(x')", text);
+    return true;
+}
+
+/* ---- causes of the steps ---- */
+
+/* Whether trial steps have led as far as asked, without growing beyond the motion. */
+static bool succeeds(const judge *j, const trial_course *c)
+{
+    return c->status == MOTUS_OK && c->largest <= NO_LARGER * fmax(j->ahead.largest, 1e-300);
+}
+
+static bool noise(judge *j)
+{
+    size_t which;
+    char name[MOTUS_NAME_MAX], value[MOTUS_TEXT_MAX];
+    if (!evidence_noise(&j->e, &which)) return false;
+    name_of(j, true, which, name);
+    snprintf(
+        j->cause, sizeof j->cause,
+        "the tolerance %.2g is below rounding: the rate of change of %s is rounding by more than the tolerance allows",
+        j->e.row->absolute > 0 ? j->e.row->absolute : j->e.row->relative, name);
+    say(j, MOTUS_CAUSE_ROUNDING, name);
+    const double until = fabs(j->e.until - j->e.t), far = fmin(until, 1e6 * fabs(j->e.h) + 1e-3 * until);
+    double size = 0;
+    for (size_t k = 0; k < j->e.problem->nv; k++) size = fmax(size, fabs(j->e.v[k]));
+    for (size_t k = 0; k < j->e.problem->nx; k++) size = fmax(size, fabs(j->e.x[k]));
+    for (int k = 0; k < 2 * LOOSER; k++) {
+        const bool absolute = k % 2 == 0;
+        double tolerance = fmax(j->e.row->relative, absolute ? 1e-15 : 1e-14) * pow(10, k / 2);
+        if (absolute) tolerance *= size > 0 ? size : 1;
+        error_text(value, "%.0e", tolerance);
+        tolerance = read_number(value);
+        decimal(tolerance, value);
+        if (!(tolerance < 0.1)) continue;
+        const evidence_trial trial = {.tolerance = tolerance, .absolute = absolute};
+        const trial_course c = evidence_try(&j->e, &trial, TRIAL_STEPS, far, NULL);
+        if (c.status != MOTUS_OK) continue;
+        if (absolute) strcat(value, " absolute");
+        attempt(j, true, "tolerance", value);
+        hint(j->err, "allow more, `tolerance = %s` of the definition", value);
+        return true;
+    }
+    hint(j->err, "allow a larger error, or compute the number without cancellation");
+    return true;
+}
+
+/* The same steps, whose time begins at 0, are possible. */
+static bool time_rounding(judge *j)
+{
+    const evidence *e = &j->e;
+    const double ulp = fabs(nextafter(e->t, INFINITY) - e->t);
+    const evidence_trial same = {0};
+    char t[DECIMAL_MAX];
+    const trial_course c = evidence_try(&j->e, &same, TRIAL_STEPS, ROUNDINGS * ulp, NULL);
+    if (c.status != MOTUS_OK || c.steps < 2 * ROUNDINGS) return false;
+    error_text(j->cause, "steps of about %.0e are needed, and near t = %s times are %.0e apart",
+               c.gone / (double)c.steps, decimal_time(e->t, 1, t), ulp);
+    say(j, MOTUS_CAUSE_ROUNDING, j->err->variable);
+    hint(j->err, "begin at t = 0, or allow a larger error");
+    return true;
+}
+
+/* The largest step, of one digit, with which a method that no stability bounds leads on and agrees with half of it; 0:
+ * none above `least`. */
+static double implicit_step(judge *j, bool early, double least, char text[MOTUS_TEXT_MAX])
+{
+    evidence *e = &j->e;
+    const size_t n = e->problem->nx + e->problem->nv;
+    double *one = take(&e->system->allocator, 2 * n, sizeof *one), *two = one ? one + n : NULL, found = 0;
+    if (n > IMPLICIT_NUMBERS) found = NAN; /* its equations would take too long */
+    double step = fabs(e->until - (early ? e->early_t : e->t)) / IMPLICIT_STEPS;
+    for (; one && found == 0 && step >= least; step /= 2) {
+        error_text(text, "%.0e", step);
+        evidence_trial trial = {.method = STIFF_METHOD, .step = read_number(text), .early = early};
+        decimal(trial.step, text);
+        const double far = IMPLICIT_STEPS * trial.step, whole = trial.step;
+        const trial_course c = evidence_try(e, &trial, TRIAL_STEPS, far, one);
+        trial.step /= 2;
+        if (c.status != MOTUS_OK || evidence_try(e, &trial, TRIAL_STEPS, far, two).status != MOTUS_OK) continue;
+        double off = 0, size = 0;
+        for (size_t k = 0; k < n; k++) off = fmax(off, fabs(one[k] - two[k])), size = fmax(size, fabs(two[k]));
+        if (off <= AGREES * size) found = whole;
+    }
+    give(&e->system->allocator, one);
+    return isnan(found) ? 0 : found;
+}
+
+/* Whether a method that no stability bounds takes steps much longer than those of the run, which are near the bound of
+ * its stability. */
+static bool stiff(judge *j, double mean)
+{
+    evidence *e = &j->e;
+    double re, im;
+    size_t which;
+    char name[MOTUS_NAME_MAX], text[MOTUS_TEXT_MAX];
+    const bool early = !e->adaptive;
+    if (!evidence_rate(e, early, &re, &im, &which) || !(re < 0) || fabs(im) > -re) return false;
+    const double rate = hypot(re, im), bound = evidence_stable(e, re, im), h = e->adaptive ? mean : fabs(e->h);
+    /* a row that solves equations stays where its iteration converges, near 1/rate */
+    const double limit = !(bound < UNBOUNDED) && e->adaptive ? 1 : bound;
+    if (!(limit > 0) || (e->adaptive && (h * rate > NEAR_BOUND * limit || h * rate < limit / NEAR_BOUND))) return false;
+    if (!e->adaptive && h * rate <= limit) return false;
+    if (implicit_step(j, early, LONGER * limit / rate, text) == 0) return false;
+    error_text(j->cause, "the model is stiff: %s returns to the motion with the rate %.2g, and steps of %s %s %.2g",
+               name_of(j, true, which, name), rate, e->row->name,
+               limit < bound ? "do not converge much above" : "would grow above", limit / rate);
+    say(j, MOTUS_CAUSE_STIFF, name);
+    snprintf(j->err->attempt, sizeof j->err->attempt, "method = %s, step = %.24s", STIFF_METHOD, text);
+    j->err->verified = 1;
+    hint(j->err,
+         "take a method that no stability bounds, `method = %s` of the definition with `step = %s` of the definition",
+         STIFF_METHOD, text);
+    return true;
+}
+
+/* The largest step among halvings of the run's that leads beyond the failure. */
+static bool shorter_step(judge *j, bool early)
+{
+    evidence *e = &j->e;
+    char text[MOTUS_TEXT_MAX];
+    const double far = fmin(fabs(e->until - (early ? e->early_t : e->t)),
+                            2 * fabs(e->noted - (early ? e->early_t : e->t)) + 10 * fabs(e->h));
+    for (int k = 1; k <= HALVINGS; k++) {
+        error_text(text, "%.1g", ldexp(fabs(e->h), -k));
+        const evidence_trial trial = {.step = read_number(text), .early = early};
+        if (far / trial.step > 10 * TRIAL_STEPS) break;
+        const trial_course c = evidence_try(e, &trial, 10 * TRIAL_STEPS, far, NULL);
+        if (early ? !succeeds(j, &c) : c.status != MOTUS_OK) continue;
+        attempt(j, true, "step", text);
+        hint(j->err, "take smaller steps, `step = %s` of the definition", text);
+        return true;
+    }
+    return false;
+}
+
+/* Steps of one size have left the motion, which goes on. */
+static bool too_long(judge *j)
+{
+    char name[MOTUS_NAME_MAX];
+    if (look(j)->way != EVIDENCE_ON) return false;
+    snprintf(name, sizeof name, "%s", j->err->variable);
+    error_text(j->cause, "the motion itself goes on, and steps of %.3g by %s are too long for it", fabs(j->e.h),
+               j->e.row->name);
+    say(j, MOTUS_CAUSE_INFINITE, name);
+    if (!shorter_step(j, true)) hint(j->err, "take a smaller step, or an adaptive method");
+    return true;
+}
+
+static void unsolved(judge *j)
+{
+    char name[MOTUS_NAME_MAX];
+    snprintf(name, sizeof name, "%s", j->err->variable);
+    if (singular(j)) return;
+    j->err->cause = MOTUS_CAUSE_SOLVER;
+    if (!j->e.adaptive) shorter_step(j, false);
+}
+
+/* ---- the judgement ---- */
+
+static void judge_all(judge *j, double mean)
+{
+    const motus_status status = j->err->status;
+    if (status == MOTUS_SOLVE) {
+        unsolved(j);
+        return;
+    }
+    if (!j->e.adaptive) {
+        if (status == MOTUS_DIVERGED)
+            (void)(singular(j) || infinite(j) || stiff(j, mean) || undefined(j) || too_long(j));
+        return;
+    }
+    if (discontinuous(j) || singular(j) || infinite(j) || noise(j) || stiff(j, mean)) return;
+    if (status == MOTUS_DIVERGED) (void)(undefined(j) || time_rounding(j));
+}
+
+static void add(motus_system *s, stepper *of, double mean, motus_error *err)
+{
+    if (err->status == MOTUS_EVENTS) err->cause = MOTUS_CAUSE_EVENTS;
+    if (err->status != MOTUS_DIVERGED && err->status != MOTUS_SOLVE && err->status != MOTUS_STEPS) return;
+    judge j = {.err = err};
+    if (!evidence_begin(&j.e, s, of, err->time)) return;
+    judge_all(&j, isnan(mean) ? fabs(j.e.h) : mean);
+    evidence_end(&j.e);
+}
+
+void diagnosis_add(motus_system *s, stepper *of, motus_error *err)
+{
+    if (err && of && err->cause == MOTUS_CAUSE_NONE) add(s, of, NAN, err);
+}
+
+void diagnosis_singular(motus_system *s, stepper *of, double t, const double *x, const double *v, const char *end,
+                        motus_error *err)
+{
+    judge j = {.err = err};
+    if (evidence_begin(&j.e, s, of, t)) {
+        evidence_from(&j.e, t, x, v);
+        tell_singular(&j);
+        evidence_end(&j.e);
+    }
+    err->cause = MOTUS_CAUSE_SINGULAR;
+    attempt(&j, true, "until", end);
+}
+
+motus_status diagnosis_crawls(void *system, stepper *of, int64_t steps, double gone, motus_error *err)
+{
+    motus_error why = motus_default_error();
+    const motus_status status = stepper_crawls(of, steps, gone, &why);
+    add(system, of, gone / (double)steps, &why);
+    if (why.cause == MOTUS_CAUSE_NONE) return MOTUS_OK;
+    if (err) motus_struct_write(MOTUS_DEF_ERROR, &why, err);
+    return status;
+}

@@ -1,0 +1,35 @@
+/* The equations linearised at a state: products of the Jacobian matrix with vectors, for api/rate.h.
+ *
+ * Numbers are in units of sizes, one of positions and one of velocities and first-order variables. Modes do not move,
+ * so the matrix has zeros in their places.
+ */
+#ifndef API_LINEAR_H
+#define API_LINEAR_H
+
+#include "api/rate.h"
+#include "core/system.h"
+
+typedef struct linear {
+    const problem *problem;
+    double t;
+    double *x, *v; /* the state, and room to move away from it */
+    double *moved_x, *moved_v;
+    double *a, *other, *dx, *dv;
+    double size_x, size_v;
+    bool failed, no_memory; /* failed: a callback */
+} linear;
+
+#define LINEAR_ROUNDING_EXACT 1e-13   /* of a product with the Jacobian matrix, relative to it, */
+#define LINEAR_ROUNDING_QUOTIENT 1e-8 /*   and with difference quotients */
+
+/* How many numbers of room it takes; shares them out. */
+size_t linear_room(const problem *);
+void linear_place(linear *, const problem *, double *room);
+/* The positions that move: all but the modes. */
+size_t linear_positions(const problem *);
+/* a at (x, v), or at (moved_x, moved_v), and time t. False: it is not finite, or a callback failed. */
+bool linear_evaluate(linear *, double t, bool moved, double *a);
+/* (x', v') along u = (x, v), in units of the sizes; of rate_map. */
+bool linear_product(void *ctx, const double *u, double *out);
+
+#endif

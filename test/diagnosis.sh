@@ -1,0 +1,132 @@
+#!/bin/bash
+# Why runs fail or crawl: a model with each cause, what is said of it, and that the command it names does what it says; and
+# models that are near to a cause without having it, of which none may be said.
+#
+# Each case is one line `ok` or `not ok`; the last line counts them. MOTUS is the program (build/motus).
+cd "$(dirname "$0")/.." || exit 1
+. test/cli/cases.sh
+
+# A model from its lines.
+model() {
+    local name=$1
+    shift
+    printf '%s\n' "$@" >"$place/$name.motus"
+}
+
+# NAME, CAUSE, then the arguments of the run: it ends within two seconds with exit status 1 and one sentence, which JSON repeats.
+ends_by() {
+    local name=$1 cause=$2 began=$(date +%s%N)
+    shift 2
+    gives "$name" 1 "$motus" run "$@"
+    that "... within two seconds" test $(($(date +%s%N) - began)) -lt 2000000000
+    command=$(sed -n 's/.*hint: [^-]*\(--.*\)$/\1/p' "$err" | sed 's/; or .*//; s/ with / /')
+    gives "... in JSON" 1 "$motus" run "$@" --json
+    that "... names its cause, $cause" eval "jq -se '.[-1].diagnosis.cause == \"$cause\"' '$out' >/dev/null"
+}
+
+# The diagnosis in JSON fulfils this.
+diagnosed() { jq -se ".[-1].diagnosis | $1" "$out" >/dev/null; }
+
+# The command of the hint, in place of the options that follow the model.
+obeyed() {
+    local name=$1
+    shift
+    gives "$name" 0 eval "'$motus' run $* $command"
+}
+
+# --- singular -------------------------------------------------------------------------------------------------------------------
+model weierstrass "x'' = 6*x^2" "x(0) = 1" "x'(0) = 2"
+model cubic "x'' = 2*x^3" "x(0) = 1" "x'(0) = 1"
+model falls "x'' = -1/x^2" "x(0) = 1" "x'(0) = 0"
+model blows "s' = s^2" "s(0) = 1"
+model logarithm "x'' = -1/x" "x(0) = 1" "x'(0) = 0"
+model of-time "x'' = 1/(1-t)" "x(0) = 0" "x'(0) = 0"
+model driven "x'' = 6*x^2 + cos(t)/10" "x(0) = 1" "x'(0) = 2"
+
+for how in "" "--method dop853" "--method taylor" "--method dopri5" "--method rk4 --step 0.01" "--method verlet --step 0.01"; do
+    ends_by "a pole of order 2${how:+, $how}" singular "$place/weierstrass.motus" --until 3 $how
+    that "... at 1, with the power -2" diagnosed '(.singular - 1 | fabs) <= .singular_error and .singular_error < 1e-7 and (.exponent + 2 | fabs) <= .exponent_error and .exponent_error < 1e-3 and .variable == "x"'
+    obeyed "... and a run that ends before succeeds" "'$place/weierstrass.motus'" "$how"
+done
+ends_by "a pole of order 1" singular "$place/cubic.motus" --until 3 --method dop853
+that "... with the power -1" diagnosed '(.exponent + 1 | fabs) <= .exponent_error and (.singular - 1 | fabs) <= .singular_error'
+ends_by "a body that falls into the centre" singular "$place/falls.motus" --until 3 --method dop853
+that "... after pi/sqrt(8), with the power 2/3" diagnosed '(.singular - 1.1107207345395915 | fabs) <= .singular_error and (.exponent - 2/3 | fabs) <= .exponent_error and .exponent_error < 1e-3'
+ends_by "... by steps that pass it" singular "$place/falls.motus" --until 3 --method rk4 --step 0.01
+that "... with the same power" diagnosed '(.exponent - 2/3 | fabs) <= .exponent_error and (.singular - 1.1107207345395915 | fabs) <= .singular_error'
+ends_by "a first-order variable" singular "$place/blows.motus" --until 3 --method dop853
+that "... with the power -1" diagnosed '(.exponent + 1 | fabs) <= .exponent_error and .variable == "s"'
+ends_by "a logarithm beside the power" singular "$place/logarithm.motus" --until 3 --method dop853
+that "... widens its error" diagnosed '(.exponent - 1 | fabs) <= .exponent_error and .exponent_error > 0.005 and (.singular - 1.2533141373155003 | fabs) <= .singular_error'
+ends_by "a pole of the time" singular "$place/of-time.motus" --until 5 --method dop853
+that "... at 1" diagnosed '(.singular - 1 | fabs) <= .singular_error'
+ends_by "a pole of a driven motion" singular "$place/driven.motus" --until 3 --method dop853
+that "... with the power -2" diagnosed '(.exponent + 2 | fabs) <= .exponent_error'
+
+# An encounter, after which the motion goes on, is none, however near: its own time is shorter than the rounding of t.
+model encounter "x'' = -x/r^3" "y'' = -y/r^3" "r = sqrt(x^2+y^2)" "x(0) = 1" "y(0) = 0" "x'(0) = 0" "y'(0) = 1e-7"
+gives "an encounter at 5e-15" 1 "$motus" run "$place/encounter.motus" --until 3 --method dop853 --json
+that "... is no singularity" eval "! diagnosed '.cause == \"singular\"'"
+model near "x'' = -x/r^3" "y'' = -y/r^3" "r = sqrt(x^2+y^2)" "x(0) = 1" "y(0) = 0" "x'(0) = 0" "y'(0) = 1e-3"
+gives "an encounter at 5e-7" 0 "$motus" run "$place/near.motus" --until 3 --method dop853
+gives "... that ends amidst it" 1 "$motus" run "$place/near.motus" --until 3 --method dop853 --most-steps 60 --json
+that "... is no singularity either" eval "! diagnosed '.cause == \"singular\"'"
+
+# --- stiff ----------------------------------------------------------------------------------------------------------------------
+model relaxes "x'' = -1e10*(x' - cos(t))" "x(0) = 1" "x'(0) = 1"
+model pol "x'' = 1000*(1 - x^2)*x' - x" "x(0) = 2" "x'(0) = 0"
+ends_by "a stiff model by an explicit method" stiff "$place/relaxes.motus" --until 1000 --method dopri5
+that "... of which x' decays" diagnosed ".variable == \"x'\""
+obeyed "... and the implicit one succeeds" "'$place/relaxes.motus'" --until 1000
+ends_by "steps of one size that are too long for it" stiff "$place/pol.motus" --until 20 --method rk4 --step 0.01
+obeyed "... and the implicit ones succeed" "'$place/pol.motus'" --until 20
+ends_by "a stiff model with too few steps" stiff "$place/pol.motus" --until 100 --method dopri5 --most-steps 1000
+model oscillates "x'' = -1e4*x" "x(0) = 1" "x'(0) = 0"
+ends_by "an oscillation that steps do not resolve" infinite "$place/oscillates.motus" --until 500 --method verlet --step 0.03
+that "... is not stiff: the motion goes on" eval "jq -r .error.message '$out' | grep -q 'the motion itself goes on'"
+obeyed "... with a smaller step" "'$place/oscillates.motus'" --until 500 --method verlet
+model transient "x'' = -1e6*(x' - cos(t))" "x(0) = 1" "x'(0) = 0"
+gives "a fast transient that ends" 0 "$motus" run "$place/transient.motus" --until 1e-4 --method dopri5
+model fast "x'' = -x + sin(1e8*t)" "x(0) = 1" "x'(0) = 0"
+gives "a fast driving" 1 "$motus" run "$place/fast.motus" --until 1e6 --method dopri5 --most-steps 1000 --json
+that "... has no cause" eval "jq -e '.diagnosis == null' '$out' >/dev/null"
+
+# --- discontinuous --------------------------------------------------------------------------------------------------------------
+model rubs "x'' = -x - 0.5*sign(x')" "x(0) = 3" "x'(0) = 0"
+model switched "x'' = if(t > 5, 1, 0)" "x(0) = 0" "x'(0) = 0"
+ends_by "dry friction that sticks" discontinuous "$place/rubs.motus" --until 30 --method dop853
+obeyed "... and a run that ends before succeeds" "'$place/rubs.motus'" --method dop853
+ends_by "a force that is switched on" discontinuous "$place/switched.motus" --until 10 --method dop853
+that "... at 5" diagnosed '(.time - 5 | fabs) < 1e-9'
+obeyed "... and a run that ends before succeeds" "'$place/switched.motus'" --method dop853
+model steep "x'' = -x - 0.5*tanh(x'/1e-9)" "x(0) = 3" "x'(0) = 0"
+gives "a steep force" 1 "$motus" run "$place/steep.motus" --until 30 --method dopri5 --most-steps 2000 --json
+that "... does not jump" eval "! diagnosed '.cause == \"discontinuous\"'"
+
+# --- events, Newton, rounding, the finite numbers ---------------------------------------------------------------------------------
+model pushes "y'' = -9.81" "y(0) = 1" "y'(0) = 0" "when y = 0 falling as bounce: y' = 0.9 y', record"
+ends_by "an action that does not end what it answers to" events "$place/pushes.motus" --until 3
+that "... bounce" diagnosed '.variable == "bounce" and (.time - 0.4515236409857309 | fabs) < 1e-9'
+model solves "x'' = -x^3" "x(0) = 10" "x'(0) = 0"
+ends_by "an equation that Newton's method does not solve" newton "$place/solves.motus" --until 30 --method gauss4 --step 2
+obeyed "... and smaller steps are solved" "'$place/solves.motus'" --until 30 --method gauss4
+model noise "x'' = -x" "e' = x'*((x+0.3)-0.3-x)" "x(0) = 1" "x'(0) = 0" "e(0) = 0"
+ends_by "a variable that is rounding" rounding "$place/noise.motus" --until 30 --method dopri5
+that "... e" diagnosed '.variable == "e" and .verified'
+obeyed "... and an absolute tolerance suffices" "'$place/noise.motus'" --until 30 --method dopri5
+ends_by "... by auto" rounding "$place/noise.motus" --until 30
+model grows "x'' = x" "x(0) = 1" "x'(0) = 1"
+for how in "" "--method dop853" "--method rk4 --step 0.1"; do
+    ends_by "a number beyond the largest${how:+, $how}" infinite "$place/grows.motus" --until 800 $how
+    obeyed "... and a run that ends before succeeds" "'$place/grows.motus'" "$how"
+done
+model root "x'' = sqrt(1-t)" "x(0) = 0" "x'(0) = 0"
+ends_by "a force that ends" infinite "$place/root.motus" --until 5 --method dop853
+obeyed "... and a run that ends before succeeds" "'$place/root.motus'" --method dop853
+
+# --- what is not a failure ------------------------------------------------------------------------------------------------------
+gives "a run that succeeds" 0 "$motus" run models/kepler.motus --json
+that "... has no diagnosis" eval "jq -e '.diagnosis == null and has(\"switches\")' '$out' >/dev/null"
+
+echo "$passed passed, $failed failed"
+[ "$failed" = 0 ]
