@@ -48,11 +48,13 @@ function surfaceOf(text: string, when: string): string {
 /** Hues far from their neighbours', as many as there are motions. */
 const colourOf = (k: number, dark: boolean): string => `hsl(${Math.round(212 + 137.508 * k) % 360} ${dark ? '75% 68%' : '72% 38%'})`;
 
+/** Fewer events show no section by themselves. */
+const FEW = 12;
 /** The section of a scene: as it is chosen, else that of the model's first kind of events. */
 function sectionOf(scene: Scene): Section | null {
   if (scene.state.view.section) return scene.state.view.section;
-  const first = scene.solution.tracks[0]?.events?.names[0];
-  return eventful(scene.description) && first !== undefined && (positions(scene).length > 1 || /^\s*when\s+every\b/m.test(scene.state.text)) ? { when: kindOf(first), starts: [] } : null;
+  const events = scene.solution.tracks[0]?.events, first = events?.names[0];
+  return eventful(scene.description) && first !== undefined && events!.count >= FEW && (positions(scene).length > 1 || /^\s*when\s+every\b/m.test(scene.state.text)) ? { when: kindOf(first), starts: [] } : null;
 }
 
 export const sectionPanel = (store: Store): Panel => {
