@@ -41,6 +41,7 @@ static void doubling_accept(work *w, clock_mask good)
 #define doubling_between lift_between
 #define doubling_extend lift_extend
 #define doubling_dense lift_dense
+#define doubling_swing swing_unknown
 static inline void doubling_place(work *w, placing *p)
 {
     w->xs = work_array(p, 4), w->vs = work_array(p, 4), w->ks = work_array(p, 1);
