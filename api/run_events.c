@@ -108,6 +108,34 @@ motus_status motus_run_event_values(motus_run *r, int64_t k, int after, const si
     return status;
 }
 
+void motus_run_keep_jumps(motus_run *r, int keep)
+{
+    if (r && r->events) events_keep_jumps(r->events, keep != 0);
+}
+
+int64_t motus_run_jumps(const motus_run *r) { return r && r->events ? (int64_t)events_jumps(r->events) : 0; }
+
+motus_status motus_run_jump(motus_run *r, int64_t k, int after, const size_t *columns, size_t count, double *time,
+                            int *moves, double *out, motus_error *err)
+{
+    if (!motus_error_sound(err)) return MOTUS_ARGUMENT;
+    if (!r || k < 0 || k >= motus_run_jumps(r) || !time || (count && (!columns || !out)))
+        return fail(err, MOTUS_ARGUMENT,
+                    "motus_run_jump needs a run, the number of an action that is kept, a place for its time, columns "
+                    "and a place for the values");
+    const problem *p = &r->system->problem;
+    const double *sides[2];
+    const modes m = modes_enter();
+    const bool assigns = events_jump(r->events, (size_t)k, time, &sides[0], &sides[1]);
+    const double *const side = sides[after != 0];
+    if (moves) *moves = assigns;
+    memcpy(r->mid_x, side, p->nx * sizeof *side);
+    memcpy(r->mid_v, side + p->nx, p->nv * sizeof *side);
+    const motus_status status = system_values(r->system, *time, r->mid_x, r->mid_v, columns, count, out, err);
+    modes_leave(m);
+    return status;
+}
+
 const char *motus_run_ended(const motus_run *r, int *accumulated, double *time, double *error)
 {
     size_t rule = 0;

@@ -17,7 +17,7 @@ enum { CHUNK = 64 };
 /* What an observer has had. */
 typedef struct progress {
     int64_t samples; /* of its period */
-    int64_t events;  /* rows of the table */
+    int64_t jumps;   /* of those that the run has kept */
     double *sides;   /* of the latest jump: before it, and after it */
     double at;       /* its time; NaN: there was none */
 } progress;
@@ -58,16 +58,19 @@ static motus_status jumps(walker *w, size_t i, double t, motus_error *err)
     progress *p = &w->done[i];
     const size_t row = o->errors ? 2 * o->count : o->count;
     motus_status status = MOTUS_OK;
-    for (; !status && o->jump && p->events < motus_run_events(w->run); p->events++) {
-        motus_event_row e = motus_default_event_row();
-        status = motus_run_event(w->run, p->events, &e);
-        if (status || (w->step < 0 ? e.time < t : e.time > t)) return status;
-        if (!e.changed) continue;
+    for (; !status && o->jump && p->jumps < motus_run_jumps(w->run); p->jumps++) {
+        double at = NAN;
+        int moves = 0;
+        status = motus_run_jump(w->run, p->jumps, 0, NULL, 0, &at, &moves, NULL, err);
+        if (status || (w->step < 0 ? at < t : at > t)) return status;
         for (int after = 0; !status && after < 2; after++)
             status =
-                motus_run_event_values(w->run, p->events, after, o->columns, o->count, p->sides + after * row, err);
-        p->at = e.time;
-        if (!status) status = o->jump(o->context, p->sides, p->sides + row, err);
+                motus_run_jump(w->run, p->jumps, after, o->columns, o->count, &at, NULL, p->sides + after * row, err);
+        if (status) return status;
+        /* what only kept numbers depend on is no jump of other columns */
+        if (!moves && same(p->sides, p->sides + row, o->count)) continue;
+        p->at = at;
+        status = o->jump(o->context, p->sides, p->sides + row, err);
     }
     return status;
 }
@@ -189,6 +192,17 @@ static motus_status step(motus_run *run, int64_t n, motus_error *err)
     return status == MOTUS_ACCURACY ? MOTUS_OK : status;
 }
 
+/* The run keeps jumps until every observer has had them. */
+static void forget_jumps(walker *w)
+{
+    const int64_t kept = motus_run_jumps(w->run);
+    bool had = kept > 0;
+    for (size_t i = 0; i < w->count; i++) had &= !w->observer[i].jump || w->done[i].jumps == kept;
+    if (!had) return;
+    motus_run_keep_jumps(w->run, 1);
+    for (size_t i = 0; i < w->count; i++) w->done[i].jumps = 0;
+}
+
 static motus_status go(walker *w, motus_error *err)
 {
     motus_status status = observe_due(w, err);
@@ -205,6 +219,7 @@ static motus_status go(walker *w, motus_error *err)
         if (!status && motus_run_steps(w->run) < next) status = step(w->run, next - motus_run_steps(w->run), err);
         if (!status && isnan(limit)) status = sample_all(w, motus_run_time(w->run), err);
         if (!status) status = observe_due(w, err);
+        forget_jumps(w);
         if (!status && stop_requested()) status = fail(err, MOTUS_CANCELLED, "cancelled");
     }
     return status;
@@ -219,7 +234,6 @@ static motus_status prepare(walker *w, motus_error *err)
         const walk_observer *o = &w->observer[i];
         const size_t room = 2 * (o->errors ? 2 : 1) * o->count;
         w->done[i].at = NAN;
-        w->done[i].events = motus_run_events(w->run);
         w->done[i].sides = o->jump ? malloc((room + 1) * sizeof *w->done[i].sides) : NULL;
         if (o->jump && !w->done[i].sides) status = complain_memory(err);
         for (size_t k = 0; !status && o->jump && k < room; k++) w->done[i].sides[k] = NAN;
@@ -252,7 +266,11 @@ motus_status walk(motus_run *run, double start, double until, const walk_observe
     w.values = malloc(widest * sizeof *w.values);
     w.done = calloc(count + 1, sizeof *w.done);
     motus_status status = w.values && w.done ? prepare(&w, err) : complain_memory(err);
+    bool jumps = false;
+    for (size_t i = 0; i < count; i++) jumps |= observers[i].jump != NULL;
+    if (jumps) motus_run_keep_jumps(run, 1);
     if (!status) status = go(&w, err);
+    if (jumps) motus_run_keep_jumps(run, 0);
     for (size_t i = 0; w.done && i < count; i++) free(w.done[i].sides);
     free(w.values);
     free(w.done);

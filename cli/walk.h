@@ -9,9 +9,9 @@
 /* Called at steps 0, stride, 2 stride, … and at the end; or, with `period` > 0, at times start + k period (between
  * steps by dense output) and at the end. With `errors` the values are followed by as many errors.
  *
- * `jump`, where it is not NULL, is called with both sides of every event of the run's table that changed the state, in
- * their order in time between the other calls; a state that it has had is not given to `take` too. The errors are NaN:
- * they are not known there. */
+ * `jump`, where it is not NULL, is called with both sides of every event that changes the state, with a row in the
+ * table or without, in their order in time between the other calls; a state that it has had is not given to `take` too.
+ * The errors are NaN: they are not known there. */
 typedef struct walk_observer {
     int64_t stride;
     double period;

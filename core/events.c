@@ -104,6 +104,7 @@ void events_destroy(events *e)
     give(&a, e->row_state);
     give(&a, e->kept);
     give(&a, e->kept_state);
+    give(&a, e->jump);
     give(&a, e->saved);
     give(&a, e);
 }
@@ -431,6 +432,7 @@ void events_forget(events *e)
         instances += e->rules.rule[k].instances + 1;
     }
     memset(e->recent, 0, instances * sizeof *e->recent);
+    e->jumps = 0;
     e->rows = e->numbers = e->kept_states = e->pasts = 0;
     e->acted = 0;
     e->has_limit = e->limit_told = false;

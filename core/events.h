@@ -82,6 +82,11 @@ event events_row(const events *, size_t k, bool after, const double **x, const d
 /* The state at a time within the last step, of fixed steps within the last step of the grid; before an action by true
  * steps, else by dense output of the stepper. */
 motus_status events_sample(events *, stepper *, double t, double *x, double *v, motus_error *);
+/* Whether from now on what actions change is kept, of every rule; either forgets what was kept before. */
+void events_keep_jumps(events *, bool keep);
+size_t events_jumps(const events *);
+/* Action k: its time, and the state, x and then v, before and after it. True: the motion or a rule depends on it. */
+bool events_jump(const events *, size_t k, double *t, const double **before, const double **after);
 /* Goes on by another machine of the same problem. */
 void events_move(events *, const machine *);
 /* Writes the kept numbers as they were at time t, which is within the last step or later, into a state. */

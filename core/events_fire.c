@@ -114,6 +114,7 @@ static motus_status happen(events *e, size_t k, size_t i, bool touched, bool *as
     const rule *r = &e->rules.rule[k];
     e->count[k]++;
     if (r->records && !events_note(e, k, i, touched, &e->here)) return no_room(err);
+    if ((r->keeps || r->assigns) && !events_note_jump(e, r, &e->here, false)) return no_room(err);
     if (r->keeps && !r->assigns) {
         bool in_v = false;
         size_t which = 0;
@@ -128,6 +129,7 @@ static motus_status happen(events *e, size_t k, size_t i, bool touched, bool *as
         if (!events_keep_now(e, e->here.t, e->here.x) || (r->records && !events_note_after(e, &e->here)))
             return no_room(err);
     }
+    if ((r->keeps || r->assigns) && !events_note_jump(e, r, &e->here, true)) return no_room(err);
     if (r->stop && e->count[k] >= r->stop && e->end == EVENTS_END_NONE) e->end = EVENTS_END_STOP, e->end_rule = k;
     return MOTUS_OK;
 }

@@ -101,6 +101,9 @@ struct events {
     double *row_state; /* of every row: the state on arrival, and after it where the action changed it */
     size_t *row_at;
     size_t rows, row_room, numbers, number_room;
+    bool keeps_jumps;
+    double *jump; /* time, 1 where the rule assigns, the state before it and after it, of every action that is kept */
+    size_t jumps, jump_room;
     double *kept;
     kept_state *kept_state;
     size_t kept_states, kept_room;
@@ -149,8 +152,9 @@ void events_suppose(events *);
 /* events_table.c. Room for `more` items behind `count` of them. False: no memory. */
 bool events_grow(const motus_allocator *, void **items, size_t count, size_t *room, size_t more, size_t size);
 bool events_note(events *, size_t rule, size_t instance, bool touched, const instant *); /* a row */
-bool events_note_after(events *, const instant *);                                       /* its state after it */
-void events_overlay(const events *, double *x);                                          /* the newest kept numbers */
+bool events_note_jump(events *, const rule *, const instant *, bool after); /* before an action, then after it */
+bool events_note_after(events *, const instant *);                          /* its state after it */
+void events_overlay(const events *, double *x);                             /* the newest kept numbers */
 bool events_keep_now(events *, double t, const double *x);
 void events_kept_forget(events *); /* those before the newest */
 /* An event of a rule that assigns; true: they accumulate, at events.limit. */

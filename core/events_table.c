@@ -59,6 +59,40 @@ bool events_note_after(events *e, const instant *at)
     return add_state(e, at);
 }
 
+bool events_note_jump(events *e, const rule *r, const instant *at, bool after)
+{
+    const size_t nx = e->problem.nx, nv = e->problem.nv, each = 2 + 2 * (nx + nv);
+    void *jump = e->jump;
+    if (!e->keeps_jumps) return true;
+    if (!after && !events_grow(&e->allocator, &jump, e->jumps, &e->jump_room, 1, each * sizeof *e->jump)) return false;
+    e->jump = jump;
+    double *to = e->jump + e->jumps * each + 2 + (after ? nx + nv : 0);
+    memcpy(to, at->x, nx * sizeof *to);
+    memcpy(to + nx, at->v, nv * sizeof *to);
+    if (!after) return true;
+    e->jump[e->jumps * each] = at->t;
+    e->jump[e->jumps++ * each + 1] = r->assigns;
+    return true;
+}
+
+void events_keep_jumps(events *e, bool keep)
+{
+    e->keeps_jumps = keep;
+    e->jumps = 0;
+}
+
+size_t events_jumps(const events *e) { return e->jumps; }
+
+bool events_jump(const events *e, size_t k, double *t, const double **before, const double **after)
+{
+    const size_t state = e->problem.nx + e->problem.nv;
+    const double *const jump = e->jump + k * (2 + 2 * state);
+    *t = jump[0];
+    *before = jump + 2;
+    *after = jump + 2 + state;
+    return jump[1] != 0;
+}
+
 size_t events_rows(const events *e) { return e->rows; }
 
 event events_row(const events *e, size_t k, bool after, const double **x, const double **v)

@@ -762,6 +762,15 @@ MOTUS_API motus_status motus_run_event_errors(motus_run *, int64_t k, int after,
  * at times that are farther apart than a quarter of the time from the event before. All of them where no errors are
  * told. */
 MOTUS_API int64_t motus_run_events_significant(motus_run *);
+/* What events change, of every kind, also of those without a row: with keep = 1 from now on every action is kept until
+ * the next call; each call forgets those kept before. */
+MOTUS_API void motus_run_keep_jumps(motus_run *, int keep);
+MOTUS_API int64_t motus_run_jumps(const motus_run *);
+/* Action k, from 0, in order: its time, and values of columns before it or, with `after`, as it left them. *moves (may
+ * be NULL): 1: the motion or an event depends on what it changed, so that it ended a step. MOTUS_ARGUMENT: there is
+ * none. */
+MOTUS_API motus_status motus_run_jump(motus_run *, int64_t k, int after, const size_t *columns, size_t count,
+                                      double *time, int *moves, double *out, motus_error *);
 /* What ended the run before `until`: the name of a kind of event; "" where nothing did. accumulated (may be NULL): 1,
  * and *time is the limit of its events' times, which is known to *error: NaN where no companion has told it,
  * INFINITY where no digit is significant; of a run without bars how far rounding lets the limit of its own events be

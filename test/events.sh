@@ -146,6 +146,17 @@ gives "rows backward" 0 bash -c "sed 's/until 5/until -3/; s/-e y/-y/' '$place/t
 that "... in the order of time" eval "rows '$out' | cut -d, -f1 | sort -cgr && [ \"\$(rows '$out' | cut -d, -f1 | uniq -d | wc -l)\" = 2 ]"
 gives "rows with errors" 0 "$motus" run "$place/two.motus" --errors --every 0.25 --quiet -o -
 that "... know none at jumps" eval "[ \"\$(rows '$out' | awk -F, 'NR > 1 && \$1 == t { print \$4 before } { t = \$1; before = \$4 }' | tr '\n' ' ')\" = 'nannan nannan ' ]"
+# An event without a row in the table has its sides all the same; so has a counter, on which no motion depends.
+sed 's/record, //' "$place/two.motus" >"$place/silent.motus"
+for how in "dop853" "rk4 --step 0.1" "verlet --step 1/64"; do
+    # shellcheck disable=SC2086
+    gives "rows without a table by $how" 0 bash -c "diff <('$motus' run '$place/two.motus' --method $how --error none --every 0.25 --quiet -o - | grep -v '^#') <('$motus' run '$place/silent.motus' --method $how --error none --every 0.25 --quiet -o - | grep -v '^#')"
+done
+printf '%s\n' 'n = 0' "x'' = -x" 'x(0) = 1' "x'(0) = 0" 'when x = 0: n = n + 1' 'method verlet' 'step 1/64' 'until 5' >"$place/counts.motus"
+gives "rows of a counter" 0 "$motus" run "$place/counts.motus" --error none --every 1 --quiet --columns t,n -o -
+that "... have both sides" eval "[ \"\$(rows '$out' | awk -F, '{ printf \"%.3g %s \", \$1, \$2 }')\" = '0 0 1 0 1.57 0 1.57 1 2 1 3 1 4 1 4.71 1 4.71 2 5 2 ' ]"
+gives "... no further ones in other columns" 0 "$motus" run "$place/counts.motus" --error none --every 1 --quiet --columns t,x -o -
+that "... stand there" eval "[ \$(rows '$out' | wc -l) = 6 ]"
 if command -v gnuplot >/dev/null; then
     gives "a plot of a velocity that jumps" 0 "$motus" run "$place/two.motus" --error none --quiet --plot-of "t,y'" --plot "$place/jump.svg"
     that "... draws no line between the sides" eval "[ \"\$(tr '\n' ' ' <'$place/jump.svg' | grep -oE \"<path stroke='rgb\( *29, *78, *216\)' +d='[^']{200,}'\" | wc -l)\" = 2 ]"
