@@ -507,6 +507,21 @@ static bool judge_assignments(model *m, model_rule *r)
     return true;
 }
 
+/* A function of modes alone changes at events alone, and so never passes 0: such an event would never happen. */
+static bool judge_functions(model *m, const model_rule *r)
+{
+    for (size_t k = 0; r->kind == RULE_ROOT && k < r->leaves; k++) {
+        const unsigned deps = graph_deps(m->graph, r->leaf[k].value);
+        if (!(deps & DEP_MODE) || (deps & (DEP_TIME | (DEP_STATE & ~(unsigned)DEP_MODE)))) continue;
+        char text[80];
+        COMPLAIN(m, &r->occasion, "%s never happens: its sides change at events alone, where they jump and do not pass",
+                 quote(m, &r->occasion, text));
+        HINT(m, "write >= or <= in place of =: a condition happens when it becomes true");
+        return false;
+    }
+    return true;
+}
+
 bool when_all(model *m)
 {
     /* Accumulations have the indices of other events. */
@@ -517,6 +532,7 @@ bool when_all(model *m)
     if (failed(m) || !keep_all(m)) return false;
     find_kept(m);
     for (uint32_t i = 0; i < m->rule_count; i++)
-        if (!place_values(m, &m->rules[i]) || !judge_assignments(m, &m->rules[i])) return false;
+        if (!judge_functions(m, &m->rules[i]) || !place_values(m, &m->rules[i]) || !judge_assignments(m, &m->rules[i]))
+            return false;
     return true;
 }
