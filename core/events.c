@@ -293,6 +293,7 @@ static motus_status piece(events *e, stepper *s, double until, bool *assigned, s
     enum { PART = 4 };
     motus_status status = MOTUS_OK;
     double whole = 0;
+    e->whole = 0;
     for (;;) {
         if (!status) status = stepper_mark(s, err);
         if (!status) status = stepper_advance(s, (stepper_limit){1, until}, why, err);
@@ -315,6 +316,7 @@ static motus_status piece(events *e, stepper *s, double until, bool *assigned, s
         *why = STOP_STEPS;
         status = jump(e, s, &e->left, h, err);
     }
+    e->whole = whole;
     if (!status && e->first) events_suppose(e);
     e->first = false;
     e->here_at = NAN;
@@ -357,11 +359,15 @@ static motus_status adaptive_step(events *e, stepper *s, double until, stepper_s
     bool assigned = false;
     motus_status status = piece(e, s, until, &assigned, why, err);
     if (status || *why == STOP_EVENT) return status;
-    if (assigned) {
-        double h = e->span;
-        if (e->here.t + h == e->here.t) h = e->way * 4 * events_ulp(e->here.t); /* it was cut short by `until` */
-        if (!keep_past(e, e->here.t)) return events_no_memory(err);
-        status = restart(e, s, h, err);
+    /* the sizes of a reversible row follow from one another, and a step that was shortened for the events' sake would
+     * shorten all that come */
+    const bool shortened = row_reversible_steps(&e->method) && e->whole != 0;
+    if (assigned || (shortened && *why != STOP_UNTIL)) {
+        const instant *now = assigned ? &e->here : &e->right;
+        double h = shortened ? e->whole : e->span;
+        if (now->t + h == now->t) h = e->way * 4 * events_ulp(now->t); /* it was cut short by `until` */
+        if (!keep_past(e, now->t)) return events_no_memory(err);
+        status = jump(e, s, now, h, err);
         if (!status) status = stepper_advance(s, (stepper_limit){0, until}, why, err);
     }
     events_copy(e, &e->left, assigned ? &e->here : &e->right);

@@ -63,15 +63,17 @@ struct events {
     instant left, right, here, next;
     double *past; /* of the present step: states from which pieces began that ended in an action: t, lost, x, v */
     size_t pasts, past_room;
-    double past_end;   /* where the last of these pieces ended */
-    int8_t *side;      /* -1, 1, 0: not known, since the function has been 0 from the start on */
-    uint8_t *stands;   /* it is 0 at `left` */
-    uint8_t *open;     /* it is 0 there, and only the next step says whether it passed */
-    int8_t *heads;     /* where it stands at 0: the direction in which its slope leads it, 0: not known */
-    uint8_t *was;      /* side, stands, open and heads before the present step */
-    double here_at;    /* `here` is so long after `left` */
-    double span;       /* from `left` to `right` */
-    bool hidden;       /* the step is so long that rounding hides how a function leaves 0 at its start */
+    double past_end; /* where the last of these pieces ended */
+    int8_t *side;    /* -1, 1, 0: not known, since the function has been 0 from the start on */
+    uint8_t *stands; /* it is 0 at `left` */
+    uint8_t *open;   /* it is 0 there, and only the next step says whether it passed */
+    int8_t *heads;   /* where it stands at 0: the direction in which its slope leads it, 0: not known */
+    uint8_t *was;    /* side, stands, open and heads before the present step */
+    double here_at;  /* `here` is so long after `left` */
+    double
+        whole;   /* the size that the step had before it was shortened to tell how a function leaves 0, 0: it was not */
+    double span; /* from `left` to `right` */
+    bool hidden; /* the step is so long that rounding hides how a function leaves 0 at its start */
     uint8_t *zero;     /* it is 0 at `here` */
     uint8_t *look;     /* dense output must tell of it in this step */
     int8_t *sign;      /* room for the signs of a condition's leaves */
