@@ -591,7 +591,7 @@ static void along_a_run(void **state)
     (void)state;
     static const struct {
         const char *method, *machine;
-    } by[] = {{"rk4", "interpreter"}, {"rk4", "compiled"}, {"verlet", "interpreter"}};
+    } by[] = {{"rk4", "interpreter"}, {"rk4", "compiled"}, {"gauss8", "compiled"}, {"verlet", "interpreter"}};
     motus_system *s = given_text(BALL "k = 0\nc = count(bounce)\nt3 = time(bounce, 3)\nlast = time(bounce, last)\n"
                                       "v2 = at(bounce, 2, y')\nwhen y = 0 falling as bounce: y' = -e y', k = k + 1, "
                                       "record");
