@@ -20,6 +20,7 @@ enum { TRIAL_STEPS = 2000, HALVINGS = 14, LOOSER = 8, IMPLICIT_STEPS = 100, IMPL
 #define AGREES 1e-2     /* with half its step, relative to the largest number, a step that serves */
 #define NO_LARGER 10.0  /* times the motion's size: a trial that grows more has not succeeded */
 #define TELLABLE 0.5    /* of an exponent: with a larger error it tells nothing */
+#define LOGARITHM 1e-3  /* a power that is 0 but for so small an error */
 
 typedef struct judge {
     evidence e;
@@ -112,10 +113,16 @@ static bool tell_singular(judge *j)
     if (a->way != EVIDENCE_SINGULAR) return false;
     name_of_force(j, a->which, name);
     with_error(a->t, a->t_error, t);
-    const bool told = a->exponent_error < TELLABLE;
-    if (told)
-        error_text(j->cause, "%s is singular at t = %s, where it goes %s as the power %s of the time left", name, t,
-                   a->exponent < 0 ? "to infinity" : "to its limit", with_error(a->exponent, a->exponent_error, p));
+    const bool told = a->exponent_error<TELLABLE, sign_told = fabs(a->exponent)> a->exponent_error;
+    /* a rate as the power -1, and an acceleration as the power -2, of the time left */
+    if (told && !sign_told && a->exponent_error < LOGARITHM)
+        error_text(j->cause, "%s is singular at t = %s, where it grows as the logarithm of the time left", name, t);
+    else if (told)
+        error_text(j->cause, "%s is singular at t = %s, where it goes %sas the power %s of the time left", name, t,
+                   !sign_told        ? ""
+                   : a->exponent < 0 ? "to infinity "
+                                     : "to its limit ",
+                   with_error(a->exponent, a->exponent_error, p));
     else
         error_text(j->cause, "%s is singular at t = %s", name, t);
     say(j, MOTUS_CAUSE_SINGULAR, name);
