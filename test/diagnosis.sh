@@ -60,7 +60,7 @@ ends_by "a logarithm beside the power" singular "$place/logarithm.motus" --until
 that "... widens its error" diagnosed '(.exponent - 1 | fabs) <= .exponent_error and .exponent_error > 0.005 and (.singular - 1.2533141373155003 | fabs) <= .singular_error'
 model exponential "x'' = exp(x)" "x(0) = 1" "x'(0) = 1"
 ends_by "a logarithm" singular "$place/exponential.motus" --until 9 --method dop853
-that "... is told as one" grep -qF 'grows as the logarithm of the time left' "$err"
+that "... is told as one" grep -qF 'grows as the logarithm of the time left' "$out"
 ends_by "a pole of the time" singular "$place/of-time.motus" --until 5 --method dop853
 that "... at 1" diagnosed '(.singular - 1 | fabs) <= .singular_error'
 ends_by "a pole of a driven motion" singular "$place/driven.motus" --until 3 --method dop853
