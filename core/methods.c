@@ -18,19 +18,11 @@
     .reversible = reversible_, .stability_limit = limit_, .dense_order = between_
 #define CARD(name, aliases, family, order, ...) CARD_BETWEEN(order, name, aliases, family, order, __VA_ARGS__)
 
-/* Continuous weights. The page's module, where size counts, has none: it takes no state between the steps of these
- * rows. */
-#ifdef ONE_COPY
-#define DENSE(...) \
-    {              \
-        0          \
-    }
-#else
+/* Continuous weights. */
 #define DENSE(...)  \
     {               \
         __VA_ARGS__ \
     }
-#endif
 
 /* What the compositions of leapfrog steps do with forces that depend on the velocity. */
 #define IMPLICIT_KICKS "\nvelocity terms: each kick takes a at the mean of the velocities before and after it"

@@ -7,7 +7,6 @@
  *
  * Columns: the stages, the acceleration at the end of the step (where it is not the last stage), the further stages.
  */
-#ifndef ONE_COPY /* the page's module has no such weights */
 static inline int continuous_first(const work *w) { return w->stages + !w->closing; }
 static inline int continuous_columns(const work *w) { return continuous_first(w) + w->row->tableau.dense.more; }
 /* The row's coefficients of further stage i. */
@@ -156,8 +155,3 @@ static int runge_kutta_dense(work *w, const dense_step *d, clock t, real *x, rea
     continuous_state(w, d, t, x, v);
     return STEP_OK;
 }
-#else
-#define runge_kutta_between lift_between
-#define runge_kutta_extend lift_extend
-#define runge_kutta_dense lift_dense
-#endif
