@@ -232,6 +232,15 @@ static motus_status search_part(events *e, size_t f, const part *p, const double
     return add_roots(e, f, &of, root, &found) ? MOTUS_OK : events_no_memory(err);
 }
 
+/* Whose function it is, and when. */
+static motus_status of_function(const events *e, size_t f, double at, motus_error *err)
+{
+    if (!err) return MOTUS_EVENTS;
+    err->time = at;
+    snprintf(err->variable, sizeof err->variable, "%s", e->rules.rule[e->rule_of[f]].name);
+    return MOTUS_EVENTS;
+}
+
 static motus_status too_fast(const events *e, size_t f, const part *p, motus_error *err)
 {
     char t[DECIMAL_MAX];
@@ -239,10 +248,7 @@ static motus_status too_fast(const events *e, size_t f, const part *p, motus_err
     fail(err, MOTUS_EVENTS, "the function of %s changes so fast near t = %s that its roots cannot be told apart",
          e->rules.rule[e->rule_of[f]].name, decimal_time(at, e->until - e->start, t));
     hint(err, "a function of an event is smooth, and is 0 at times that are apart");
-    if (!err) return MOTUS_EVENTS;
-    err->time = at;
-    snprintf(err->variable, sizeof err->variable, "%s", e->rules.rule[e->rule_of[f]].name);
-    return MOTUS_EVENTS;
+    return of_function(e, f, at, err);
 }
 
 static motus_status too_many(const events *e, size_t f, motus_error *err)
@@ -251,8 +257,7 @@ static motus_status too_many(const events *e, size_t f, motus_error *err)
     fail(err, MOTUS_EVENTS, "the function of %s is 0 more than %d times in the step at t = %s",
          e->rules.rule[e->rule_of[f]].name, EVENTS_IN_STEP, decimal_time(e->left.t, e->until - e->start, t));
     hint(err, "a motion that leaves the finite numbers may pass ever more events: end the run before");
-    if (err) err->time = e->left.t;
-    return MOTUS_EVENTS;
+    return of_function(e, f, e->left.t, err);
 }
 
 /* The parts of the step one after the other, halved as long as a function is not resolved. */

@@ -1,7 +1,7 @@
 /* What a restart state has of events: all that decides how they go on, and the table so far. See events_parts.h.
  *
- * One function goes through these numbers, and counts, writes or reads them. The state at `left` is among them, with
- * the functions there where they are known, because the numbers of a stepper need not give it back to the bit.
+ * One function goes through these numbers, and counts, writes or reads them. The state at `left` is among them, because
+ * the numbers of a stepper need not give it back to the bit; the functions there follow from it.
  *
  * A run of fixed steps that has come to its end is saved as it was before its last step: the end has cut that step, or
  * made its time, and what happened in it was found by steps that a run to a later end does not take.

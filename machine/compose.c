@@ -480,8 +480,8 @@ bool compose(emit *e, const composition *c)
            "typedef double coef;\ntypedef struct row row;\n");
     add_text(t, "machine/text/freestanding.h");
     if (!add_facts(e, c, structure)) return false;
-    emit_add(t, "#define DRIVEN %d\n#define TERMS %u\n#define LANES_OF_TIME %d\n#define FORCED %d\n#define MODES %d\n",
-             c->model->driven, e->terms, width, forced, c->model->modes > 0);
+    emit_add(t, "#define DRIVEN %d\n#define TERMS %u\n#define LANES_OF_TIME %d\n#define FORCED %d\n#define MODES %zu\n",
+             c->model->driven, e->terms, width, forced, c->model->modes);
     emit_add(t, "#define AT(array, element) (array)[element]\n");
     add_assumed(e);
     if (lanes) {

@@ -43,6 +43,12 @@ static inline const clock *compiled_terms(const compiled_host *host, clock t, cl
     return T;
 }
 
+/* Accelerations of modes are 0, but no formula says so: `a` would keep what the steps before have left there. */
+static inline void modes_rest(const work *w, real *a)
+{
+    for (size_t k = FACT(w, nx) - MODES; k < FACT(w, nx); k++) a[k] = (real){0};
+}
+
 #if FORCED
 __attribute__((noinline)) static void compiled_evaluate(const compiled_host *host, clock t, real *x, real *v, real *a)
 {
@@ -60,6 +66,7 @@ static inline int accel_with(work *w, clock t, const clock *T, real *x, real *v,
     BOUNDARY(w->host, t, x, v, a);
 #endif
     FORCE_OF(w, t, T, x, v, a);
+    modes_rest(w, a);
     return STEP_OK;
 }
 
@@ -142,6 +149,7 @@ static inline void series_order(work *w, int n, clock t)
         compiled_boundary_series(host->pool, host->q, host->u, host->bound, host->own, n, t, w->xs, w->vs, kept, w->a);
 #endif
     compiled_series(host->pool, host->q, host->u, host->bound, host->own, n, t, w->xs, w->vs, kept, w->a);
+    modes_rest(w, w->a);
 }
 #endif
 

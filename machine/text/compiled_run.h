@@ -41,9 +41,6 @@ __attribute__((flatten)) static bool compiled_small(work *given, whole steps)
     work local = *given, *w = &local;
     real room[ARRAYS * STRIDE];
     clock scaled[CONSTANTS + 1];
-#if MODES /* their accelerations are 0, and nothing writes them */
-    for (int i = 0; i < ARRAYS * STRIDE; i++) room[i] = 0;
-#endif
     w->diagonal = NULL;
     w->stride = STRIDE;
     w->moved = 0;

@@ -34,7 +34,7 @@ for (const file of readdirSync(models).filter((name) => name.endsWith('.motus'))
   // Some hundred steps, the last of them shortened, but where a method takes whole steps only.
   const end = (method) => settings.start + settings.step * (method === 'verlet-literal' ? 150 : 149.5);
   /* Steps of reversible rows follow the time scale of the force, and free motion between events has none: they shrink without end. */
-  const free = /^\s*when /m.test(readFileSync(join(models, file), 'utf8'));
+  const free = /^\s*when /m.test(text);
   for (const { name: method } of methods.filter(({ name, admitted }) => admitted && !(free && name.endsWith('-reversible')))) {
     const until = end(method), state = join(folder, 'state'), tolerance = adaptive.has(method) ? 1e-8 : null;
     const run = spawnSync(program, ['run', join(models, file), '--method', method, '--until', String(until), '--save-state', state, '--error', 'none', '--quiet', '-o', join(folder, 'out.csv'),
