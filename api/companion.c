@@ -41,7 +41,7 @@ enum { STRICTER_MOST = 10, STEPS_FIRST = 4096, STEPS_EACH = 8 }; /* steps: in al
 /* Whether the companion of half the step controls its error. Steps that follow a time scale do not. */
 static bool controls(const chosen *c, const motus_system *s)
 {
-    const bool kinks = s->model && !s->problem.traits.smooth;
+    const bool kinks = s->model && (!s->problem.traits.smooth || system_located(s));
     return row_adaptive(c) && !row_reversible_steps(c) && (kinks || system_acts(s));
 }
 
@@ -190,8 +190,9 @@ motus_status companion_land(companion *c, const motus_run *r, double t, int64_t 
     if (!c->controls) return go(c, r, t, 2 * steps, err);
     motus_status status = MOTUS_OK;
     c->room += STEPS_EACH * steps;
-    if (!sees_end(r->chosen.row)) status = go(c, r, t - LAST_PART * (t - c->t), 2 * steps, err);
-    return status == MOTUS_OK ? go(c, r, t, sees_end(r->chosen.row) ? 2 * steps : 1, err) : status;
+    const bool apart = !sees_end(r->chosen.row) && !system_located(r->system);
+    if (apart) status = go(c, r, t - LAST_PART * (t - c->t), 2 * steps, err);
+    return status == MOTUS_OK ? go(c, r, t, apart ? 1 : 2 * steps, err) : status;
 }
 
 void companion_move(double *y, size_t count, const double *size, uint32_t salt)

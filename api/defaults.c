@@ -28,8 +28,12 @@ static const layout layouts[] = {
                             &(const motus_callback_def){
                                 .quantities = 1, .invariants = 1, .depends_on_velocity = 1, .depends_on_time = 1}},
     [MOTUS_DEF_RUN] = {"motus_run_def", "run", SIZES(motus_run_def),
-                       &(const motus_run_def){
-                           .step = NAN, .accuracy = NAN, .tolerance = NAN, .until = NAN, .start = NAN}},
+                       &(const motus_run_def){.switches = MOTUS_SWITCHES_USUAL,
+                                              .step = NAN,
+                                              .accuracy = NAN,
+                                              .tolerance = NAN,
+                                              .until = NAN,
+                                              .start = NAN}},
     [MOTUS_DEF_STUDY] = {"motus_study_def", "study", SIZES(motus_study_def),
                          &(const motus_study_def){.step = NAN, .until = NAN, .coarsest = NAN, .finest = NAN}},
     [MOTUS_DEF_ENSEMBLE] = {"motus_ensemble_def", "ensemble", SIZES(motus_ensemble_def),

@@ -1,5 +1,6 @@
 /* Ensembles: the public calls. See ensemble.h. */
 #include "api/ensemble.h"
+#include "api/located.h"
 
 #include "api/choice.h"
 #include "api/control.h"
@@ -273,7 +274,9 @@ static motus_status make(motus_ensemble *e, const motus_ensemble_def *d, motus_e
     /* with `fast` the bits depend on the machine */
     const bool later = automatic && !d->fast;
     const bool events = e->rules != NULL;
-    if (events) snprintf(e->note, sizeof e->note, "events are followed one trajectory at a time");
+    if (events)
+        snprintf(e->note, sizeof e->note, "%s one trajectory at a time",
+                 s->model && s->model->rule_count == 0 ? "switches are located" : "events are followed");
     if (status == MOTUS_OK && s->model && compiled && !events) status = try_lanes(e, d, later, err);
     if (status != MOTUS_OK) return status;
     e->lane_threads = e->threads;
@@ -285,6 +288,17 @@ static motus_status make(motus_ensemble *e, const motus_ensemble_def *d, motus_e
     }
     e->compiled_from = !e->awaits && !strcmp(motus_ensemble_machine(e), "compiled") ? 0 : -1;
     return status;
+}
+
+/* The system whose steps end where a switch changes its side, by the rule of runs; NULL: the caller's own. */
+static motus_status locate(motus_system *s, const motus_ensemble_def *d, motus_system **out, motus_error *err)
+{
+    chosen c;
+    const motus_method *card;
+    const char *why;
+    *out = NULL;
+    const motus_status status = choice_method(s, d->method, &c, &card, err);
+    return status == MOTUS_OK && row_adaptive(&c) ? located_of(s, false, out, &why, err) : status;
 }
 
 motus_status motus_ensemble_create(motus_system *s, const motus_ensemble_def *given, motus_ensemble **out,
@@ -299,13 +313,20 @@ motus_status motus_ensemble_create(motus_system *s, const motus_ensemble_def *gi
     ensemble_goal *goal = NULL;
     if (status == MOTUS_OK) status = check(s, &d, err);
     if (status == MOTUS_OK) status = ensemble_accuracy_begin(s, &d, &goal, err);
-    if (status != MOTUS_OK) return status;
+    motus_system *own = s, *located = NULL;
+    if (status == MOTUS_OK) status = locate(s, &d, &located, err);
+    if (status != MOTUS_OK) {
+        ensemble_accuracy_end(goal);
+        return status;
+    }
+    if (located) s = located;
     motus_ensemble *e = take(&s->allocator, 1, sizeof *e);
     if (!e) {
         ensemble_accuracy_end(goal);
         return fail(err, MOTUS_MEMORY, "no memory for the ensemble");
     }
     *e = (motus_ensemble){.system = s,
+                          .home = located ? own : NULL,
                           .goal = goal,
                           .allocator = s->allocator,
                           .every = d.every,
@@ -320,6 +341,7 @@ motus_status motus_ensemble_create(motus_system *s, const motus_ensemble_def *gi
                           .progress = d.progress,
                           .context = d.context};
     motus_system_hold(s, true);
+    if (located) motus_system_hold(own, true);
     e->places = take(&s->allocator, d.vary_count + 1, sizeof *e->places);
     e->records = take(&s->allocator, d.record_count, sizeof *e->records);
     e->values = take(&s->allocator, d.vary_count + 1, sizeof *e->values);
@@ -472,6 +494,7 @@ void motus_ensemble_destroy(motus_ensemble *e)
     ensemble_accuracy_end(e->goal);
     ensemble_later_end(e);
     motus_system_hold(e->system, false);
+    if (e->home) motus_system_hold(e->home, false);
     ensemble_end_lanes(e);
     ensemble_workers_destroy(e);
     ensemble_events_end(e);

@@ -36,8 +36,9 @@ typedef struct ensemble_goal ensemble_goal;   /* ensemble_accuracy.c */
 typedef struct ensemble_table ensemble_table; /* ensemble_events.c: the events of a trajectory */
 
 struct motus_ensemble {
-    motus_system *system;
-    ensemble_goal *goal; /* an accuracy is asked for; NULL: none is */
+    motus_system *system; /* a located one where its switches are (api/located.h), */
+    motus_system *home;   /*   of this one; NULL: the caller's own */
+    ensemble_goal *goal;  /* an accuracy is asked for; NULL: none is */
     motus_allocator allocator;
     chosen chosen;
     timing timing;

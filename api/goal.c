@@ -53,7 +53,7 @@ static motus_status check(const motus_run_def *def, const goal_wish *w, motus_er
     if (status != MOTUS_OK || isnan(w->accuracy)) return status;
     status = search_alone(false, step, err);
     if (status != MOTUS_OK) return status;
-    if (def->switches != MOTUS_SWITCHES_STEP)
+    if (def->switches != MOTUS_SWITCHES_STEP && def->switches != MOTUS_SWITCHES_USUAL)
         return fail(err, MOTUS_UNAVAILABLE, "a run that locates switches cannot be given an accuracy");
     return control_admits("an accuracy", w->accuracy, w->absolute, err);
 }

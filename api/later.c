@@ -174,3 +174,4 @@ motus_status later_at(motus_run *r, int64_t step, motus_error *err)
 }
 
 const char *motus_run_note(const motus_run *r) { return r ? r->note : ""; }
+const char *motus_run_not_located(const motus_run *r) { return r && r->not_located ? r->not_located : ""; }

@@ -8,6 +8,7 @@
  * trajectory, and `side` are the sides after it.
  */
 #include "api/locate_parts.h"
+#include "api/run_events.h"
 
 #include <math.h>
 #include <string.h>
@@ -24,12 +25,12 @@ static double *place_memory(place *s, const problem *p, size_t count, double *at
 motus_status locate_prepare(motus_run *r, motus_switches switches, motus_error *err)
 {
     motus_system *s = r->system;
-    if (switches == MOTUS_SWITCHES_STEP) return MOTUS_OK;
+    if (switches == MOTUS_SWITCHES_STEP || switches == MOTUS_SWITCHES_USUAL) return MOTUS_OK;
     if (switches != MOTUS_SWITCHES_LOCATE && switches != MOTUS_SWITCHES_RESOLVE)
         return fail(err, MOTUS_ARGUMENT, "there is no way to treat switches of number %d", (int)switches);
+    if (row_adaptive(&r->chosen) && switches == MOTUS_SWITCHES_LOCATE) return MOTUS_OK; /* api/located.h */
     if (row_adaptive(&r->chosen)) {
-        fail(err, MOTUS_UNAVAILABLE, "switches are located in steps of one size, and %s adapts its steps",
-             r->chosen.name);
+        fail(err, MOTUS_UNAVAILABLE, "steps of one size resolve switches, and %s adapts its steps", r->chosen.name);
         hint(err, "choose another method, or leave `switches` of the definition at MOTUS_SWITCHES_STEP");
         return MOTUS_UNAVAILABLE;
     }
@@ -94,6 +95,7 @@ void locate_statistics(const motus_run *r, motus_statistics *out)
     const motus_system *s = r->system;
     const bool none = s->switches_known && !s->switches_refused && !(s->switches && held_count(s->switches));
     out->switches = l ? l->located : r->locating && none ? 0 : -1;
+    if (system_located(r->system)) out->switches = run_events_turns(r);
     out->jump = !l || isnan(l->jump) ? -1 : l->jump > 0 ? (int64_t)ceil(l->jump) : 0;
     out->jump_power = l ? l->jump : NAN;
     out->jump_time = l ? l->jump_time : NAN;

@@ -1,6 +1,7 @@
 /* Runs. See run.h. */
 #include "api/bars.h"
 #include "api/locate.h"
+#include "api/located.h"
 #include "api/run_events.h"
 
 #include "api/choice.h"
@@ -265,30 +266,48 @@ motus_run *run_new(motus_system *s)
     return r;
 }
 
+/* Whether steps that adapt end where a switch changes its side. */
+static bool locates(const chosen *c, motus_switches switches)
+{
+    return row_adaptive(c) && (switches == MOTUS_SWITCHES_LOCATE || switches == MOTUS_SWITCHES_USUAL);
+}
+
 motus_status run_create(motus_system *s, const motus_run_def *complete, const run_hint *hint, motus_run **out,
                         motus_error *err)
 {
     motus_run_def def = *complete;
     motus_status status;
     *out = NULL;
-    motus_run *r = run_new(s);
+    chosen method;
+    const motus_method *card;
+    motus_system *own = s;
+    const control_wish wish = control_wish_of_run(&def);
+    status = choice_method(s, def.method, &method, &card, err);
+    if (status == MOTUS_OK) status = control_choose(s, &wish, &method, err);
+    if (status == MOTUS_OK) status = suggest_missing(s, &method, def.method, def.start, &def.step, &def.until, err);
+    const char *why = NULL;
+    if (status == MOTUS_OK && locates(&method, def.switches))
+        status = located_of(own, def.switches == MOTUS_SWITCHES_LOCATE, &s, &why, err);
+    if (status != MOTUS_OK) return status;
+    motus_run *r = run_new(s ? s : own);
     if (!r) return fail(err, MOTUS_MEMORY, "no memory for the run");
+    s = r->system;
+    if (s != own) motus_system_hold(r->home = own, true);
+    r->chosen = method;
+    r->card = card;
     r->progress = def.progress;
     r->context = def.context;
     r->observer = def.observer;
     r->pace = (pace){.seconds = 0.05, .tell = def.progress ? tell : NULL, .ctx = r};
-    status = choice_method(s, def.method, &r->chosen, &r->card, err);
-    const control_wish wish = control_wish_of_run(&def);
-    if (status == MOTUS_OK) status = control_choose(s, &wish, &r->chosen, err);
-    if (status == MOTUS_OK) status = suggest_missing(s, &r->chosen, def.method, def.start, &def.step, &def.until, err);
     timing leg;
-    if (status == MOTUS_OK) status = run_timing(s, &r->chosen, def.step, def.until, def.start, &leg, err);
+    status = run_timing(s, &r->chosen, def.step, def.until, def.start, &leg, err);
     if (status == MOTUS_OK) run_leg(r, &leg);
     if (status == MOTUS_OK && (def.threads < 0 || def.threads > MOTUS_THREADS_MAX))
         status = fail(err, MOTUS_ARGUMENT, "a run takes 1 to %d threads, not %d", MOTUS_THREADS_MAX, def.threads);
     r->chosen.threads = def.threads;
     if (status == MOTUS_OK) status = later_choose(r, def.machine, hint->steps, err);
     if (status == MOTUS_OK) status = locate_prepare(r, def.switches, err);
+    r->not_located = why ? why : "";
     if (status == MOTUS_OK) status = bars_prepare(r, &def, err);
     if (r->locate) later_end(r), r->compiled_from = -1;
     if (status == MOTUS_OK && r->bars) r->bars->kept = r->kept;
@@ -328,6 +347,7 @@ void motus_run_destroy(motus_run *r)
     if (!r) return;
     motus_allocator a = r->allocator;
     motus_system_hold(r->system, false);
+    if (r->home) motus_system_hold(r->home, false);
     later_end(r);
     stepper_destroy(r->stepper);
     locate_destroy(r);

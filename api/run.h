@@ -35,9 +35,11 @@ typedef struct later {
 } later;
 
 struct motus_run {
-    motus_system *system;
+    motus_system *system; /* a located one where its switches are (api/located.h), */
+    motus_system *home;   /*   of this one; NULL: the caller's own */
     machine machine;
     const char *note;
+    const char *not_located; /* why switches are not; "": they are, or there are none */
     motus_allocator allocator;
     chosen chosen;
     const motus_method *card;

@@ -35,6 +35,8 @@ motus_status run_events_advance(motus_run *r, int64_t n, stepper_stop *why, motu
     return run_events_steps(r->events, r->stepper, &r->pace, n, r->timing.until, why, err);
 }
 
+int64_t run_events_turns(const motus_run *r) { return r->events ? events_turns(r->events) : 0; }
+
 bool run_events_ended(const motus_run *r) { return r->events && events_ended(r->events, NULL) != EVENTS_END_NONE; }
 
 motus_status run_events_sample(motus_run *r, double t, double *x, double *v, motus_error *err)

@@ -3,6 +3,7 @@
  * Invariant: a system whose numbers were set has, to the bit, the numbers of a system that was read with them in `set`;
  * a refusal changes nothing. lang/model/vary.h computes the numbers that depend on them, as it does for ensembles.
  */
+#include "api/located.h"
 #include "api/parameters.h"
 
 #include "lang/model/vary.h"
@@ -194,8 +195,7 @@ motus_status motus_system_clone(const motus_system *s, motus_system **out, motus
     motus_callback_def def = s->callback;
     def.x = s->x0; /* the copies: the caller's arrays may be gone */
     def.v = s->v0;
-    motus_status status =
-        s->model ? motus_system_from_text(&s->text, &made, err) : motus_system_from_callback(&def, &made, err);
+    motus_status status = s->model ? located_read(s, false, &made, err) : motus_system_from_callback(&def, &made, err);
     if (status == MOTUS_OK) status = take_over(s, made, err);
     if (status != MOTUS_OK) {
         motus_system_destroy(made);

@@ -4,6 +4,7 @@
  */
 #include "api/shadow.h"
 
+#include "api/located.h"
 #include "api/parameters.h"
 
 #include <math.h>
@@ -23,8 +24,7 @@ static motus_status give_numbers(const motus_system *from, motus_system *to, con
     return status;
 }
 
-/* The numbers that were set; what depends on them is computed from the shadow's own. */
-static motus_status take_over(const motus_system *from, motus_system *to, motus_error *err)
+motus_status shadow_numbers(const motus_system *from, motus_system *to, motus_error *err)
 {
     motus_parameter p = motus_default_parameter();
     motus_initial i = motus_default_initial();
@@ -120,9 +120,9 @@ motus_status shadow_create(const motus_system *s, const uint8_t *affected, motus
     *out = NULL;
     if (!s->model) return motus_system_clone(s, out, err);
     motus_error ours = motus_default_error();
-    motus_status status = system_read(&s->text, true, out, &ours);
+    motus_status status = located_read(s, true, out, &ours);
     if (status == MOTUS_OK && alike(s, *out)) status = move_rounded(s, affected, *out, &ours);
-    if (status == MOTUS_OK && alike(s, *out)) status = take_over(s, *out, &ours);
+    if (status == MOTUS_OK && alike(s, *out)) status = shadow_numbers(s, *out, &ours);
     if (status == MOTUS_OK && alike(s, *out)) {
         (*out)->problem.traits = s->problem.traits; /* so that it admits the same methods */
         return MOTUS_OK;

@@ -11,4 +11,8 @@
  * each place of the pool; the numbers where it is not 0 are left alone, since a caller changes them; NULL: none. */
 motus_status shadow_create(const motus_system *, const uint8_t *affected, motus_system **, motus_error *);
 
+/* Gives a system of the same text the numbers that were set in another; what depends on them is computed from its own.
+ */
+motus_status shadow_numbers(const motus_system *from, motus_system *to, motus_error *);
+
 #endif

@@ -4,6 +4,7 @@
 #include "lang/read/read.h"
 #include "machine/held.h"
 #include "machine/ruled.h"
+#include "machine/sides.h"
 
 #include <math.h>
 #include <string.h>
@@ -22,6 +23,7 @@ void motus_system_destroy(motus_system *s)
 {
     if (!s) return;
     motus_allocator a = s->allocator;
+    motus_system_destroy(s->located);
     compiled_close(s->compiled);
     arena_release(&s->arena);
     give(&a, s->events_text);
@@ -62,7 +64,7 @@ static motus_status known_method(const char *name, motus_error *err)
     return choice_is_auto(name) ? MOTUS_OK : row_choose(name, NULL, NULL, err);
 }
 
-motus_status system_read(const motus_text_def *given, bool nudged, motus_system **out, motus_error *err)
+motus_status system_read(const motus_text_def *given, const read_how *how, motus_system **out, motus_error *err)
 {
     *out = NULL;
     motus_text_def def;
@@ -72,7 +74,7 @@ motus_status system_read(const motus_text_def *given, bool nudged, motus_system 
     motus_system *s = begin(&def.allocator);
     if (!s) return fail(err, MOTUS_MEMORY, "no memory for the system");
     modes m = modes_enter();
-    status = keep_text(s, &def) ? read_model(&s->arena, &def, nudged, known_method, &s->model, err)
+    status = keep_text(s, &def) ? read_model(&s->arena, &def, how, known_method, &s->model, err)
                                 : fail(err, MOTUS_MEMORY, "no memory for the model");
     if (status == MOTUS_OK) status = interpreter_create(s->model, &s->interpreter, &s->problem, err);
     if (status == MOTUS_OK) {
@@ -100,7 +102,7 @@ motus_status motus_system_from_text(const motus_text_def *given, motus_system **
 {
     if (!motus_error_sound(err)) return MOTUS_ARGUMENT;
     if (!out) return fail(err, MOTUS_ARGUMENT, "motus_system_from_text needs a place for the system");
-    return system_read(given, false, out, err);
+    return system_read(given, &(read_how){0}, out, err);
 }
 
 /* Copies the initial values, and checks that they are finite. */
@@ -174,26 +176,34 @@ motus_status system_switches(motus_system *s, motus_error *err)
     return status;
 }
 
+bool system_located(const motus_system *s) { return s->model && s->model->located; }
+
 bool system_acts(const motus_system *s)
 {
-    const rules *r = s->ruled ? ruled_rules(s->ruled) : s->rules;
+    const rules *r = s->sides ? sides_rules(s->sides) : s->ruled ? ruled_rules(s->ruled) : s->rules;
     bool acts = false;
-    for (size_t k = 0; r && k < r->count; k++) acts |= r->rule[k].assigns || r->rule[k].stop;
+    for (size_t k = 0; r && k < r->count; k++) acts |= !r->rule[k].internal && (r->rule[k].assigns || r->rule[k].stop);
     return acts;
 }
 
 motus_status system_rules(motus_system *s, const rules **out, motus_error *err)
 {
     *out = s->rules;
-    if (!s->model || s->model->rule_count == 0) return MOTUS_OK;
-    const motus_status status = s->ruled ? MOTUS_OK : ruled_create(s->model, &s->ruled, err);
-    if (status == MOTUS_OK) *out = ruled_rules(s->ruled);
+    if (!s->model) return MOTUS_OK;
+    motus_status status = MOTUS_OK;
+    if (s->model->rule_count && !s->ruled) status = ruled_create(s->model, &s->ruled, err);
+    if (status == MOTUS_OK && s->ruled) *out = ruled_rules(s->ruled);
+    if (status != MOTUS_OK || !s->model->located) return status;
+    if (!s->sides) status = sides_create(s->model, *out, &s->problem, &s->sides, err);
+    *out = s->sides ? sides_rules(s->sides) : NULL;
     return status;
 }
 
 bool system_rebind(motus_system *s)
 {
-    const bool bound = interpreter_rebind(s->interpreter) && (!s->ruled || ruled_rebind(s->ruled));
+    const bool bound = interpreter_rebind(s->interpreter) && (!s->ruled || ruled_rebind(s->ruled)) &&
+                       (!s->sides || sides_rebind(s->sides));
+    s->changes++;
     if (bound) compiled_rebind(s->compiled);
     return bound;
 }

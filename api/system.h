@@ -12,6 +12,7 @@
 #include "core/events.h"
 #include "lang/graph/weigh.h"
 #include "lang/model/resolution.h"
+#include "lang/read/read.h"
 #include "machine/compiled.h"
 
 typedef struct column_range { /* the columns of one name */
@@ -35,8 +36,13 @@ struct motus_system {
     compiled *compiled;    /* NULL until a run asks for it */
     struct held *switches; /* NULL until a run asks for it, and where the model has none */
     bool switches_known;
-    struct ruled *ruled; /* NULL until its rules are asked for, and where the model has none */
-    resolution *poles;   /* NULL until a run is asked for a singularity, and where the force has no poles */
+    struct ruled *ruled;               /* NULL until its rules are asked for, and where the model has none */
+    struct sides *sides;               /* of a located system: its switches as rules; NULL until they are asked for */
+    struct motus_system *located;      /* api/located.h; NULL until a run asks for it */
+    bool located_known;                /* or there is none */
+    const char *located_refused;       /* why it has switches and none; NULL */
+    uint64_t changes, located_changes; /* how often its numbers were set, and when `located` was made */
+    resolution *poles; /* NULL until a run is asked for a singularity, and where the force has no poles */
     bool poles_known;
     weight weight; /* of the equations, where `weighed` */
     bool weighed;
@@ -68,8 +74,8 @@ struct motus_system {
 /* defaults.c. Whether the size in `made` is valid, when the versions had `sizes`, of which the last is the present. */
 typedef enum defaults_fit { SIZE_FITS, SIZE_MISSING, SIZE_UNKNOWN, SIZE_ASKS_MORE } defaults_fit;
 defaults_fit defaults_judge(const uint32_t *sizes, size_t count, const void *made);
-/* As motus_system_from_text; nudged: as in lang/text/source.h. */
-motus_status system_read(const motus_text_def *, bool nudged, motus_system **, motus_error *);
+/* As motus_system_from_text; how: lang/read/read.h. */
+motus_status system_read(const motus_text_def *, const read_how *, motus_system **, motus_error *);
 /* Copy between the two orders. */
 void system_outside(const motus_system *, const double *x, const double *v, double *out_x, double *out_v);
 void system_inside(const motus_system *, const double *in_x, const double *in_v, double *x, double *v);
@@ -78,6 +84,8 @@ motus_status system_values(motus_system *, double t, double *x, double *v, const
                            double *out, motus_error *);
 /* Finds the switches of the model, once: `switches`, or why they cannot be held. */
 motus_status system_switches(motus_system *, motus_error *);
+/* Whether runs of it end their steps where a switch changes its side. See located.h. */
+bool system_located(const motus_system *);
 /* Whether a rule changes the state, or ends the run. */
 bool system_acts(const motus_system *);
 /* The rules of the model, made once; *out is NULL where it has none. */

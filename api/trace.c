@@ -196,6 +196,11 @@ motus_status motus_run_trace(motus_run *r, const motus_trace_entry *const **entr
         return fail(err, MOTUS_ARGUMENT, "motus_run_trace needs a run and places for the entries and their number");
     if (r->observing) return run_refuse_move(err);
     if (run_refuse(r, "traced", err) != MOTUS_OK) return MOTUS_UNAVAILABLE;
+    if (system_located(r->system)) {
+        fail(err, MOTUS_UNAVAILABLE, "a run whose steps end at switches cannot be traced");
+        hint(err, "leave `switches` of the definition at MOTUS_SWITCHES_STEP, so that steps lead across");
+        return MOTUS_UNAVAILABLE;
+    }
     if (r->events) {
         fail(err, MOTUS_UNAVAILABLE, "a run with events cannot be traced: a step with events is several of the method");
         hint(err, "trace a run of the equations without events that motus_run_set_state sets to the same state");

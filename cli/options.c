@@ -83,6 +83,8 @@ static const option table[] = {
      "write the CSV (sweep: .npy as well; lab: the page) to FILE; - is standard output"},
     {"--error", NULL, "HOW", WORD, AT(error), VERB_RUN | VERB_SWEEP,
      "the error of every final number: cheap (else; by twice the work), full (three times), none"},
+    {"--switches", NULL, "HOW", WORD, AT(switches), VERB_RUN,
+     "where the force jumps or has a kink: locate (steps end there; else where they adapt), step (they lead across)"},
     {"--errors", NULL, NULL, FLAG, AT(errors), VERB_RUN | VERB_SWEEP,
      "add the errors to the CSV: x.error for every column, and whether any digit is significant"},
     {"--columns", NULL, "A,B,C", WORD, AT(columns), VERB_RUN,
@@ -418,6 +420,11 @@ static motus_status check(const options *o, motus_error *err)
         strcmp(machine, "compiled") != 0) {
         fail(err, MOTUS_ARGUMENT, "--machine %s: there is no such machine", machine);
         hint(err, "auto, interpreter or compiled");
+        return MOTUS_ARGUMENT;
+    }
+    if (o->switches && strcmp(o->switches, "locate") != 0 && strcmp(o->switches, "step") != 0) {
+        fail(err, MOTUS_ARGUMENT, "--switches %s: there is no such way to treat switches", o->switches);
+        hint(err, "the ways are locate and step");
         return MOTUS_ARGUMENT;
     }
     if (o->error && strcmp(o->error, "none") != 0 && strcmp(o->error, "cheap") != 0 && strcmp(o->error, "full") != 0) {

@@ -27,7 +27,8 @@ typedef struct options_list {
 typedef struct options {
     unsigned verb;
     const char *operand; /* the model, or the method of `methods`; NULL: none */
-    const char *method, *error, *output, *columns, *events, *section, *plot, *plot_of, *save_state, *restart, *machine;
+    const char *method, *error, *switches, *output, *columns, *events, *section, *plot, *plot_of, *save_state;
+    const char *restart, *machine;
     double step, until;                   /* NaN: the model's */
     double tolerance, accuracy;           /* NaN: the model's */
     double coarsest, finest;              /* accuracies to compare at; NaN: not given */

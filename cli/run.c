@@ -127,6 +127,7 @@ static motus_status begin(job *j, motus_error *err)
     j->def.threads = (int)o->threads;
     j->def.progress = stop_progress_hook;
     j->def.context = &j->progress;
+    if (o->switches) j->def.switches = strcmp(o->switches, "locate") ? MOTUS_SWITCHES_STEP : MOTUS_SWITCHES_LOCATE;
     j->def.error = bars_wanted(o);
     j->began = stop_clock();
     status = motus_run_create(j->model.system, &j->def, &j->run, err);
@@ -134,6 +135,7 @@ static motus_status begin(job *j, motus_error *err)
     motus_statistics made = motus_default_statistics();
     if (motus_run_statistics(j->run, &made) == MOTUS_OK && isnan(made.accuracy)) j->began = NAN;
     if (motus_run_note(j->run)[0] && !o->quiet) complain_note("the interpreter runs this: %s", motus_run_note(j->run));
+    if (motus_run_not_located(j->run)[0] && !o->quiet) complain_note("%s", motus_run_not_located(j->run));
     j->start = motus_run_time(j->run);
     j->until = load_until(&j->model);
     status = deviation_begin(&j->deviation, &j->model, j->run, err);

@@ -131,6 +131,32 @@ static motus_status check_clocks(const events *e, motus_error *err)
     return MOTUS_OK;
 }
 
+/* The sides of switches at the start, which the stepper's state has from now on. */
+static motus_status settle(events *e, stepper *s, motus_error *err)
+{
+    instant *at = &e->left;
+    const motus_status status = e->rules.settle(e->rules.ctx, e->way, at->t, at->x, at->v, err);
+    return status ? status : stepper_jump(s, at->t, at->lost, stepper_step(s), at->x, at->v, err);
+}
+
+/* The sides of all functions at `left`. */
+static motus_status take_sides(events *e, motus_error *err)
+{
+    motus_status status = events_values(e, &e->left, err);
+    if (status) return status;
+    e->right.t = e->left.t; /* judged by its rounding alone */
+    status = events_judge(e, &e->left, err);
+    for (size_t f = 0; f < e->rules.functions; f++) {
+        const double g = e->left.g[f];
+        const bool internal = e->rules.rule[e->rule_of[f]].internal;
+        e->fired[f] = NAN, e->open[f] = 0;
+        e->stands[f] = !isnan(g) && fabs(g) <= e->left.bound[f];
+        e->heads[f] = 0;
+        e->side[f] = (int8_t)(isnan(g) ? 0 : internal ? 1 : e->stands[f] ? 0 : g > 0 ? 1 : -1);
+    }
+    return status;
+}
+
 motus_status events_begin(events *e, stepper *s, double until, motus_error *err)
 {
     e->start = e->grid_start = stepper_time(s);
@@ -144,18 +170,12 @@ motus_status events_begin(events *e, stepper *s, double until, motus_error *err)
     e->after_rule = SIZE_MAX;
     e->interval = INFINITY;
     events_unsave(e);
-    for (size_t f = 0; f < e->rules.functions; f++) e->fired[f] = NAN, e->open[f] = 0, e->heads[f] = 0;
+    e->turned_at = NAN;
     motus_status status = check_clocks(e, err);
     if (!status) status = observe(s, &e->left, err);
-    if (!status) status = events_values(e, &e->left, err);
+    if (!status && e->rules.settle) status = settle(e, s, err);
+    if (!status) status = take_sides(e, err);
     if (status) return status;
-    e->right.t = e->left.t; /* judged by its rounding alone */
-    status = events_judge(e, &e->left, err);
-    for (size_t f = 0; f < e->rules.functions; f++) {
-        const double g = e->left.g[f];
-        e->stands[f] = !isnan(g) && fabs(g) <= e->left.bound[f];
-        e->side[f] = (int8_t)(e->stands[f] || isnan(g) ? 0 : g > 0 ? 1 : -1);
-    }
     events_suppose(e);
     return status || events_keep_now(e, e->start, e->left.x) ? status
                                                              : fail(err, MOTUS_MEMORY, "no memory for the events");
@@ -253,7 +273,11 @@ static motus_status follow(events *e, stepper *s, candidate *c, bool *assigned, 
     motus_status status = happens ? events_fire(e, &at, assigned, err) : MOTUS_OK;
     if (at.kind == CANDIDATE_TIME) /* a clock may tick again in this step */
         c->gone = !events_next_tick(e, at.of, c) || !(e->way * (c->at - at.at) > 0);
-    if (!happens) return MOTUS_OK;
+    if (!happens) { /* its function goes on to that side */
+        if (e->rules.settle && (at.kind == CANDIDATE_RISES || at.kind == CANDIDATE_FALLS))
+            e->side[at.of] = (int8_t)at.kind;
+        return MOTUS_OK;
+    }
     const bool ends = !status && e->has_limit && (!e->limit_told || (back && !*assigned));
     if (ends) e->end = EVENTS_END_ACCUMULATED, e->end_rule = e->limit.rule;
     if (status || e->end == EVENTS_END_NONE) return status;
@@ -264,7 +288,7 @@ static motus_status follow(events *e, stepper *s, candidate *c, bool *assigned, 
 }
 
 /* Does what happens in the step from `left` to `right`. *assigned: it ended at `here`, which an action changed. */
-static motus_status settle(events *e, stepper *s, bool *assigned, stepper_stop *why, motus_error *err)
+static motus_status go_through(events *e, stepper *s, bool *assigned, stepper_stop *why, motus_error *err)
 {
     candidate *c;
     motus_status status = MOTUS_OK;
@@ -290,10 +314,11 @@ static motus_status settle(events *e, stepper *s, bool *assigned, stepper_stop *
  * start, a shorter one. */
 static motus_status piece(events *e, stepper *s, double until, bool *assigned, stepper_stop *why, motus_error *err)
 {
-    enum { PART = 4 };
+    enum { PART = 4, SHORTER_MOST = 12 };
     motus_status status = MOTUS_OK;
     double whole = 0;
     e->whole = 0;
+    e->shorter = SHORTER_MOST;
     for (;;) {
         if (!status) status = stepper_mark(s, err);
         if (!status) status = stepper_advance(s, (stepper_limit){1, until}, why, err);
@@ -320,7 +345,7 @@ static motus_status piece(events *e, stepper *s, double until, bool *assigned, s
     if (!status && e->first) events_suppose(e);
     e->first = false;
     e->here_at = NAN;
-    if (!status && e->candidates) status = settle(e, s, assigned, why, err);
+    if (!status && e->candidates) status = go_through(e, s, assigned, why, err);
     return status;
 }
 
@@ -366,6 +391,8 @@ static motus_status adaptive_step(events *e, stepper *s, double until, stepper_s
         const instant *now = assigned ? &e->here : &e->right;
         double h = shortened ? e->whole : e->span;
         if (now->t + h == now->t) h = e->way * 4 * events_ulp(now->t); /* it was cut short by `until` */
+        /* the step says how fast the motion changes, but for a last one to a switch that hardly changes t */
+        if (e->rules.settle && fabs(h) <= 64 * events_ulp(now->t)) h = e->grid_step;
         if (!keep_past(e, now->t)) return events_no_memory(err);
         status = jump(e, s, now, h, err);
         if (!status) status = stepper_advance(s, (stepper_limit){0, until}, why, err);
@@ -454,5 +481,14 @@ void events_turn(events *e, const stepper *s)
 
 double events_latest(const events *e) { return e->at_once; }
 int64_t events_acted(const events *e) { return e->acted; }
+
+int64_t events_turns(const events *e)
+{
+    int64_t turns = 0;
+    for (size_t k = 0; k < e->rules.count; k++)
+        if (e->rules.rule[k].internal) turns += e->count[k];
+    return turns;
+}
+
 double events_interval(const events *e) { return e->interval; }
 int64_t events_steps(const events *e) { return e->steps; }

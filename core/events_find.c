@@ -153,7 +153,8 @@ static bool leave(events *e, size_t f, const search *of, const roots_found *foun
             e, (candidate){
                    .of = f, .at = start, .low = start, .high = start, .kind = (candidate_kind)after, .located = true});
     if (side) return true;
-    if (e->first && of->part->from <= 0 && found->leaves < 1) { /* the start is no event */
+    const bool internal = e->rules.rule[e->rule_of[f]].internal;
+    if (e->first && of->part->from <= 0 && found->leaves < 1 && !internal) { /* the start is no event */
         e->side[f] = (int8_t)after;
         return true;
     }
@@ -293,6 +294,11 @@ static motus_status find_of(events *e, stepper *s, size_t f, int *degree, motus_
         *degree *= 2;
         status = sample(e, s, *degree, err);
         if (!status) status = search_part(e, f, &all, e->samples + f, n, *degree, &sign, &rough, err);
+    }
+    if (!status && rough && e->rules.rule[e->rule_of[f]].internal && e->shorter > 0) { /* a switch is not passed */
+        e->shorter--;
+        e->hidden = true;
+        return MOTUS_OK;
     }
     if (!status && rough) status = find_in_parts(e, s, f, &sign, err);
     e->stands[f] = e->stands[f] && !sign;

@@ -76,11 +76,49 @@ static void release(events *e)
     }
 }
 
+/* The functions after an action; `before` are those before it. */
+static motus_status look_again(events *e, motus_error *err)
+{
+    instant *at = &e->here;
+    motus_status status = events_values(e, at, err);
+    if (!status) status = events_judge(e, at, err);
+    for (size_t f = 0; f < e->rules.functions && !status; f++) {
+        /* what was 0 and has not changed is 0 whatever the rate is now; and what a switch moved to 0 */
+        const double change = e->rules.settle ? fabs(at->g[f]) - fabs(e->before[f]) : fabs(at->g[f] - e->before[f]);
+        const bool was = e->zero[f] && change <= at->bound[f];
+        e->zero[f] = was || is_zero(e, f);
+    }
+    if (!status) release(e);
+    return status;
+}
+
+static void jog(events *e, int64_t number)
+{
+    const size_t nx = e->problem.nx - e->problem.modes;
+    const uint32_t salt = (uint32_t)number * 0x9e3779b9u;
+    if (!e->jog) return;
+    e->jog(e->here.x, nx, salt);
+    e->jog(e->here.v, e->problem.nv, salt + (uint32_t)nx);
+}
+
+/* A switch changes its side. As many may at once as there are, but not one and the same again and again. */
+static motus_status turn(events *e, size_t k, size_t i, motus_error *err)
+{
+    instant *at = &e->here;
+    if (e->turned_at != at->t) e->turned_at = at->t, e->turns = 0;
+    if (++e->turns > EVENTS_AT_ONCE + 4 * e->rules.functions) return too_many(e, k, i, err);
+    memcpy(e->before, at->g, e->rules.functions * sizeof *at->g);
+    jog(e, e->count[k]);
+    const motus_status status = e->rules.turn(e->rules.ctx, k, i, e->way, at->t, at->x, at->v, err);
+    return status ? status : look_again(e, err);
+}
+
 static motus_status act(events *e, size_t k, size_t i, motus_error *err)
 {
     instant *at = &e->here;
     bool in_v = false;
     size_t which = 0;
+    if (e->rules.rule[k].internal) return turn(e, k, i, err);
     if (e->at_once != at->t) {
         if (!isnan(e->at_once)) e->interval = fabs(at->t - e->at_once);
         e->at_once = at->t;
@@ -91,19 +129,10 @@ static motus_status act(events *e, size_t k, size_t i, motus_error *err)
     const size_t n = e->rules.functions;
     if (n) memcpy(e->before, at->g, n * sizeof *at->g);
     if (e->rules.act(e->rules.ctx, k, i, at->t, at->x, at->v, &in_v, &which)) return not_finite(e, k, in_v, which, err);
-    if (e->jog) {
-        const size_t nx = e->problem.nx - e->problem.modes;
-        e->jog(at->x, nx, (uint32_t)e->acted * 0x9e3779b9u);
-        e->jog(at->v, e->problem.nv, (uint32_t)e->acted * 0x9e3779b9u + (uint32_t)nx);
-    }
-    motus_status status = events_values(e, at, err);
-    if (!status) status = events_judge(e, at, err);
-    for (size_t f = 0; f < n && !status; f++) { /* what was 0 and has not changed is 0 whatever the rate is now */
-        const bool was = e->zero[f] && fabs(at->g[f] - e->before[f]) <= at->bound[f];
-        e->zero[f] = was || is_zero(e, f);
-    }
-    if (!status) release(e);
-    return status;
+    jog(e, e->acted);
+    const motus_status status =
+        e->rules.settle ? e->rules.settle(e->rules.ctx, e->way, at->t, at->x, at->v, err) : MOTUS_OK;
+    return status ? status : look_again(e, err);
 }
 
 static motus_status no_room(motus_error *err) { return fail(err, MOTUS_MEMORY, "no memory for the table of events"); }
@@ -178,6 +207,7 @@ static motus_status ask_root(events *e, size_t k, size_t i, const candidate *c, 
     if (e->side[f] == 0) e->side[f] = (int8_t)-to;
     const bool turned = fabs(e->here.rate[f] - rate) > 0x1p-40 * fabs(rate);
     if (now == to && (!turned || !e->zero[f])) e->side[f] = (int8_t)to;
+    if (r->internal) return status;
     if (events_accumulate(e, k, i, e->here.t)) events_to_limit(e, k, i);
     events_after(e, k, i);
     return status;
@@ -251,6 +281,7 @@ static void stand(events *e)
         e->open[f] = 0;
         e->heads[f] = (int8_t)(e->zero[f] && moves(e, f) ? events_direction(e, &e->here, f) : 0);
         if (!e->zero[f]) e->side[f] = (int8_t)sign_of(e->here.g[f]);
+        if (e->rules.rule[e->rule_of[f]].internal) e->side[f] = 1;
     }
 }
 

@@ -73,6 +73,7 @@ struct events {
     double
         whole;   /* the size that the step had before it was shortened to tell how a function leaves 0, 0: it was not */
     double span; /* from `left` to `right` */
+    int shorter; /* how often the present step may be taken anew, shorter, to resolve an internal function */
     bool hidden; /* the step is so long that rounding hides how a function leaves 0 at its start */
     uint8_t *zero;     /* it is 0 at `here` */
     uint8_t *look;     /* dense output must tell of it in this step */
@@ -96,6 +97,8 @@ struct events {
     int actions;       /* in that instant */
     events_jogger jog; /* NULL: none */
     int64_t acted;     /* in all */
+    double turned_at;  /* the time of the latest action of an internal rule */
+    size_t turns;      /* in that instant */
     double interval;   /* from the instant of an action before */
     double shift;      /* the largest distance of a located time from that of dense output, of this step */
 

@@ -55,6 +55,9 @@ typedef struct rule {
     bool assigns;            /* act changes numbers on which the motion or a rule depends: it ends the step */
     bool keeps;              /* act changes only numbers that observers alone read: it ends no step */
     int64_t stop;            /* the run ends at this event of the rule: 1 `stop`, N `stop after N`, 0 never */
+    /* Of RULE_ROOT, falling: a switch of the force changes its side, which no table tells. It assigns; it is not an
+     * event of the model, and so many of them at once as there are switches are no error. */
+    bool internal;
 } rule;
 
 typedef struct rules {
@@ -81,6 +84,11 @@ typedef struct rules {
     /* What the rule does to x and v, as if at once; other than 0: the caller's own function failed, or a value was not
      * finite and `which` of `in_v` says where. */
     int (*act)(void *ctx, size_t rule, size_t instance, double t, double *x, double *v, bool *in_v, size_t *which);
+    /* Where there are internal rules. What one does: the side on which the motion goes on along `way`, 1 forward or -1
+     * backward; and the sides of a state that did not come by motion, as at the start and after another rule acted. */
+    motus_status (*turn)(void *ctx, size_t rule, size_t instance, double way, double t, double *x, double *v,
+                         motus_error *);
+    motus_status (*settle)(void *ctx, double way, double t, double *x, double *v, motus_error *);
     /* Text of an instance for messages and tables: "bounce", "contact[1,2]". */
     void (*name)(void *ctx, size_t rule, size_t instance, char *out, size_t size);
 } rules;

@@ -580,14 +580,23 @@ typedef enum motus_switches {
     MOTUS_SWITCHES_STEP, /* nothing: it steps across, and loses the order of its method there */
     /* It takes the step that leads across in pieces, each with one smooth formula, and finds by trial steps, to the
      * rounding of the time, where a piece ends. The times after steps are those of other runs. The interpreter computes
-     * such a run where the model has switches. It cannot be traced, sampled, saved or restored. */
+     * such a run where the model has switches. It cannot be traced, sampled, saved or restored. By a method that adapts
+     * its steps every step ends where a switch changes its side, on every machine; such a run cannot be traced. Where a
+     * sign(s) drives s back to 0 from both sides, as dry friction does that sticks, s stays 0, and the sign has the
+     * value in [-1, 1] that keeps it, until that leaves the interval. MOTUS_SOLVE: another switch would have to be held
+     * so, or two that depend on one another; or the force drives the motion away to both sides, so that it is not
+     * unique. */
     MOTUS_SWITCHES_LOCATE,
     /* As MOTUS_SWITCHES_LOCATE; pieces are also short enough that no switch changes its side and changes back within
      * one, however narrow its window; and where the force has an operation that may change from one regime to another
      * and back, as exp(-z²) does at its peak, they are halved until it cannot, and until two halves give the same as
      * one. MOTUS_SOLVE: that is not reached, since the force changes too fast. Reference solutions are runs of this
      * kind. */
-    MOTUS_SWITCHES_RESOLVE
+    MOTUS_SWITCHES_RESOLVE,
+    /* The default: LOCATE by a method that adapts its steps, else STEP. STEP as well where there are more than 64
+     * switches, which cost time in every step; where the force may be undefined beyond one, as max(0, x)^1.5 is; and
+     * where they cannot be located. motus_run_not_located says so. Ensembles do the same. */
+    MOTUS_SWITCHES_USUAL
 } motus_switches;
 
 /* Whether a run tells how far its numbers are from the exact motion, that of the equations and the numbers as they are
@@ -782,6 +791,9 @@ MOTUS_API const char *motus_run_accumulates(const motus_run *);
 MOTUS_API const char *motus_run_choice(const motus_run *);
 /* Why "auto" uses the interpreter although the run is long enough to compile, or "". */
 MOTUS_API const char *motus_run_note(const motus_run *);
+/* Why a run by steps that adapt does not locate the switches of its force (motus_switches); "": it does, or there are
+ * none, or they are not to be. */
+MOTUS_API const char *motus_run_not_located(const motus_run *);
 /* The C text that the compiled machine compiles for a run of this model, of whose definition (NULL: everything is the
  * model's) it uses the method and the tolerance, from which the order of Taylor series follows; owned by the system.
  * NULL, and the error says why: MOTUS_ARGUMENT: the system is from a callback, or the method does not take this step or

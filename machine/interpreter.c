@@ -190,6 +190,7 @@ static void emit_loops(structure *s, const range *sums, int first_sum, int level
 static void visit_load(void *ctx, const reference *r, const range *sums, int first_level, int inside)
 {
     structure *s = ctx;
+    if (s->model->arrays[r->array].mode) return; /* it does not change within a step */
     emit_loops(s, sums, first_level, 0, inside ? first_level + inside : s->output->loops, r);
 }
 

@@ -267,6 +267,7 @@ static motus_status travel(motus_system *s, const char *method, uint64_t *result
     def.method = method;
     given_step(&def, 0.025);
     def.until = strcmp(method, "verlet-literal") ? 0.205 : 0.2;
+    def.switches = MOTUS_SWITCHES_STEP; /* a step that ends at a switch cannot be traced */
     motus_status status = motus_run_create(s, &def, &r, err);
     if (status != MOTUS_OK) assert_null(r);
     if (status == MOTUS_OK) status = motus_run_step(r, 1, err);

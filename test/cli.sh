@@ -358,9 +358,11 @@ M
 "$motus" run osc.motus --method dop853 --tolerance 1e-4 --until 5 --save-state rough.state -q >/dev/null
 gives "an accuracy that the errors of a restart state exceed" 1 "$motus" run osc.motus --method dop853 --accuracy 1e-9 --until 10 --restart rough.state
 printf "x'' = -0.3 sign(x') - x\nx(0) = 5; x'(0) = 0\nuntil 30\n" >sticks.motus
-refuses "friction that sticks" 1 "the run crawls: at t = 25.1" "$motus" run sticks.motus
-refuses "friction that sticks, compiled" 1 "$("$motus" run sticks.motus --method dop853 --tolerance 1e-6 --machine interpreter 2>&1 | sed -n 's/^motus: //p')" \
-    "$motus" run sticks.motus --method dop853 --tolerance 1e-6 --machine compiled
+refuses "friction that sticks" 1 "the run crawls: at t = 25.1" "$motus" run sticks.motus --switches step
+refuses "friction that sticks, compiled" 1 "$("$motus" run sticks.motus --method dop853 --tolerance 1e-6 --switches step --machine interpreter 2>&1 | sed -n 's/^motus: //p')" \
+    "$motus" run sticks.motus --method dop853 --tolerance 1e-6 --switches step --machine compiled
+gives "... sticks where its switches are located" 0 "$motus" run sticks.motus
+that "... at once" grep -q "0 ±" "$out"
 refuses "a motion that leaves the finite numbers" 1 "t = " "$motus" run blow.motus -o kept.csv --save-state kept.state --plot kept.svg
 that "... leaves the old file as it was" eval "[ \"\$(cat kept.csv)\" = precious ]"
 that "... and makes no new one" eval "absent kept.state && absent kept.svg && nothing_left ."

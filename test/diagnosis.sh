@@ -97,9 +97,9 @@ that "... has no cause" eval "jq -e '.diagnosis == null' '$out' >/dev/null"
 # --- discontinuous --------------------------------------------------------------------------------------------------------------
 model rubs "x'' = -x - 0.5*sign(x')" "x(0) = 3" "x'(0) = 0"
 model switched "x'' = if(t > 5, 1, 0)" "x(0) = 0" "x'(0) = 0"
-ends_by "dry friction that sticks" discontinuous "$place/rubs.motus" --until 30 --method dop853
+ends_by "dry friction that sticks" discontinuous "$place/rubs.motus" --until 30 --method dop853 --switches step
 obeyed "... and a run that ends before succeeds" "'$place/rubs.motus'" --method dop853
-ends_by "a force that is switched on" discontinuous "$place/switched.motus" --until 10 --method dop853
+ends_by "a force that is switched on" discontinuous "$place/switched.motus" --until 10 --method dop853 --switches step
 that "... at 5" diagnosed '(.time - 5 | fabs) < 1e-9'
 obeyed "... and a run that ends before succeeds" "'$place/switched.motus'" --method dop853
 model steep "x'' = -x - 0.5*tanh(x'/1e-9)" "x(0) = 3" "x'(0) = 0"

@@ -139,8 +139,16 @@ static void adaptive_rows(void **state)
             if (motus_method_admits(both[i], card->name, NULL) == MOTUS_OK) compare(&t, lanes), rows++;
         }
     }
-    task refused = {.text = KINKED, .method = "taylor", .step = NAN, .recorded = RECORDS};
-    compare(&refused, true);
+    /* steps that end at switches, one trajectory at a time */
+    static const char *const locating[] = {"taylor", "dop853", "radau15"};
+    for (size_t k = 0; k < sizeof locating / sizeof *locating; k++) {
+        task kinked = {.text = KINKED, .method = locating[k], .step = NAN, .ends = k == 1, .recorded = RECORDS};
+        compare(&kinked, false);
+        outcome plain = by_ensemble(&kinked, "interpreter", 0, 1), o = by_ensemble(&kinked, "compiled", 0, 2);
+        same_outcome(&plain, &o, kinked.method);
+        forget(&plain);
+        forget(&o);
+    }
     assert_true(rows > 20);
     motus_system_destroy(both[0]);
     motus_system_destroy(both[1]);

@@ -24,6 +24,7 @@ static motus_run *create(motus_system *s, const char *method, double step, doubl
     if (isnan(def.step)) def.tolerance = strcmp(method, "radau15") ? 1e-4 : 1e-15;
     def.until = until;
     def.machine = machine;
+    def.switches = MOTUS_SWITCHES_STEP; /* a step that ends at a switch cannot be traced */
     must(motus_run_create(s, &def, &r, &err), &err, method);
     return r;
 }

@@ -16,13 +16,14 @@ _motus() {
         return ;;
     --machine) mapfile -t COMPREPLY < <(compgen -W 'auto interpreter compiled' -- "$current"); return ;;
     --error) mapfile -t COMPREPLY < <(compgen -W 'cheap full none' -- "$current"); return ;;
+    --switches) mapfile -t COMPREPLY < <(compgen -W 'locate step' -- "$current"); return ;;
     -o|--output|--events|--plot|--save-state|--restart) compopt -o default; return ;;
     --step|--accuracy|--tolerance|--shortest-step|--longest-step|--most-steps|--until|--set|--when|--section|--skip|--evaluations|--accuracies|--columns|--every|--plot-of|--vary|--random|--count|--seed|--threads|--lanes|--record) return ;;
     esac
     if [[ $current == -* ]]; then
         local options='--json --quiet --help'
         case $verb in
-        run)      options+=' --method --accuracy --tolerance --shortest-step --longest-step --most-steps --step --until --set --output --events --when --section --skip --points --columns --every --plot --plot-of --save-state --restart --machine --threads --emit-c --share --error --errors' ;;
+        run)      options+=' --method --accuracy --tolerance --shortest-step --longest-step --most-steps --step --until --set --output --events --when --section --skip --points --columns --every --plot --plot-of --save-state --restart --machine --threads --emit-c --share --error --errors --switches' ;;
         compare)  options+=' --methods --step --until --set --evaluations --accuracies --machine --plot --share' ;;
         converge) options+=' --methods --step --until --set --plot --points' ;;
         sweep)    options+=' --vary --random --count --seed --zip --record --method --tolerance --shortest-step --longest-step --most-steps --step --until --every --set --when --output --resume --force'

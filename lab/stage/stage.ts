@@ -257,7 +257,9 @@ export function stage(store: Store, room: { column(): number }): Stage {
     if (turn === null) Object.assign(camera, HOME); else turned(camera, turn, rise);
     refresh(true);
   });
+  let dragged: { readonly x: number; readonly y: number } | null = null;
   function attach(): void {
+    drag();
     const handle = picture?.handle, settable = handle && scene && subject ? velocity() : null;
     aim.hidden = !settable;
     if (handle && settable) {
@@ -294,6 +296,14 @@ export function stage(store: Store, room: { column(): number }): Stage {
     const box = holder.getBoundingClientRect(), large = enlarged();
     return { x: (clientX - box.left) / large, y: (clientY - box.top) / large };
   };
+  /** To where the pointer is; while no picture stands, as soon as there is one: its last place must not be lost. */
+  function drag(): void {
+    const handle = picture?.handle;
+    if (!dragged || !handle) return;
+    const { x, y } = dragged;
+    dragged = null;
+    throwAt((x - handle.fromX) / handle.unit, -(y - handle.fromY) / handle.unit);
+  }
   aim.addEventListener('pointerdown', (event) => {
     if (!event.isPrimary || event.button !== 0) return;
     aim.setPointerCapture(event.pointerId);
@@ -301,10 +311,9 @@ export function stage(store: Store, room: { column(): number }): Stage {
     aim.focus({ preventScroll: true });
   });
   aim.addEventListener('pointermove', (event) => {
-    const handle = picture?.handle;
-    if (!aim.hasPointerCapture(event.pointerId) || !handle) return;
-    const { x, y } = pointed(event);
-    throwAt((x - handle.fromX) / handle.unit, -(y - handle.fromY) / handle.unit);
+    if (!aim.hasPointerCapture(event.pointerId)) return;
+    dragged = pointed(event);
+    drag();
   });
   aim.addEventListener('keydown', (event) => {
     const of = velocity(), by = event.shiftKey ? 0.01 : 0.05;

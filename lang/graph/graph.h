@@ -132,6 +132,9 @@ int graph_degree(graph *, node, unsigned deps);
 /* The first node, if any, that is not smooth along the motion (ABS MIN MAX FLOOR MOD SIGN SELECT, a comparison), or 0.
  */
 node graph_kink(graph *, node);
+/* The first operation, if any, whose operands depend on modes and that is not smooth for all of them: sqrt, a power
+ * that is not whole, log, asin, acos; or 0. */
+node graph_domain(graph *, node);
 /* Derivative: `seed` gives the derivative of a leaf (TIME, LOAD, PARAM) as a node; all else follows by the rules of
  * calculus. */
 typedef node (*graph_seed)(graph *, node leaf, void *ctx);

@@ -6,6 +6,7 @@
 #include "lang/graph/graph_walk.h"
 #include "lang/base/operation.h"
 
+#include <math.h>
 #include <string.h>
 
 int graph_operands(const graph_node *n, node out[3])
@@ -121,6 +122,29 @@ node graph_kink(graph *g, node root)
         unsigned deps = n->op == OP_SELECT ? g->nodes[n->a].deps : n->deps;
         if (!operation_at(n->op)->smooth && deps & moving) found = w.nodes[k];
     }
+    give(&g->arena->allocator, w.nodes);
+    return found;
+}
+
+static bool has_domain(const graph *g, const graph_node *n)
+{
+    switch (n->op) {
+    case OP_SQRT:
+    case OP_LOG:
+    case OP_ASIN:
+    case OP_ACOS: return true;
+    case OP_POW: return g->nodes[n->b].op != OP_CONST || g->nodes[n->b].value != floor(g->nodes[n->b].value);
+    default: return false;
+    }
+}
+
+node graph_domain(graph *g, node root)
+{
+    graph_walk w;
+    node found = 0;
+    if (!graph_order(g, &root, 1, DEP_MODE, true, &w)) return 0;
+    for (uint32_t k = 0; !found && k < w.count; k++)
+        if (has_domain(g, &g->nodes[w.nodes[k]]) && g->nodes[w.nodes[k]].deps & DEP_MODE) found = w.nodes[k];
     give(&g->arena->allocator, w.nodes);
     return found;
 }

@@ -176,6 +176,12 @@ typedef struct model_keep {
     span at;        /* the first call, for its name */
 } model_keep;
 
+/* The shape of a family of numbers; dims 0: one number. */
+typedef struct model_shape {
+    int dims;
+    int64_t first[MAX_DIMS], last[MAX_DIMS];
+} model_shape;
+
 typedef enum block { BLOCK_X, BLOCK_V, BLOCK_A, BLOCK_DX, BLOCK_DV } block;
 
 typedef struct model {
@@ -212,6 +218,9 @@ typedef struct model {
      * they are states [state_count, state_count + mode_count), which most code need not know. */
     model_state *states;
     uint32_t state_count, mode_count;
+    /* Of the modes: sides of switches (lang/model/switches.h), states [side_first, side_first + side_count). */
+    uint32_t side_first, side_count;
+    struct switches *located; /* with them: the switches whose sides they are; NULL: there are none */
     model_definition *definitions;
     uint32_t definition_count;
     model_function *functions;

@@ -1,6 +1,8 @@
 /* Finds the switches of a model, and writes its equations with a side in place of each. See switches.h. */
 #include "lang/model/switches.h"
 
+#include "lang/model/sliding.h"
+
 #include "lang/base/operation.h"
 #include "lang/graph/graph_walk.h"
 
@@ -87,10 +89,33 @@ static const char *place(builder *b, const nest *around, unsigned deps, size_t *
     return NULL;
 }
 
-/* The sides of a kind of switch, in the pool. */
+model_shape switches_shape(const model *m, const switches *s, size_t kind)
+{
+    const array *of = &m->arrays[s->argument[kind].to.array];
+    model_shape shape = {.dims = of->dims};
+    for (int d = 0; d < shape.dims; d++) shape.first[d] = of->over->first[d], shape.last[d] = of->over->last[d];
+    return shape;
+}
+
+/* The mode that holds the sides of the next kind of switch. False: its shape is another. */
+static bool mode_of(builder *b, reference *side)
+{
+    const model *m = b->m;
+    const model_state *s = &m->states[m->side_first + b->s->kinds];
+    const array *of = &m->arrays[side->array];
+    bool fits = b->s->kinds < m->side_count && s->dims == of->dims;
+    for (int d = 0; fits && d < s->dims; d++)
+        fits = s->first[d] == of->over->first[d] && s->last[d] == of->over->last[d];
+    if (fits) side->array = (uint16_t)(m->block[BLOCK_X] + s->array);
+    if (!fits) b->s->refused = "they change when the model is read again";
+    return fits;
+}
+
+/* The sides of a kind of switch: in the pool, or modes. */
 static reference place_sides(builder *b, const reference *value)
 {
     reference side = *value;
+    if (b->m->side_count) return mode_of(b, &side) ? side : *value;
     if (!model_take_arrays(b->m, 1, &side.array)) return side;
     array *to = &b->m->arrays[side.array];
     *to = b->m->arrays[value->array];
@@ -183,6 +208,7 @@ static uint32_t kind_of(builder *b, node n, node a, node c, const nest *around)
     s->refused = place(b, around, levels, &s->count, SWITCHES_MAX, &value);
     if (s->refused || broken(b)) return UINT32_MAX;
     const reference side = place_sides(b, &value);
+    if (s->refused) return UINT32_MAX;
     if (s->kinds == b->room) {
         const uint32_t room = b->room ? 2 * b->room : 16;
         arena *m = b->m->arena;
@@ -190,6 +216,7 @@ static uint32_t kind_of(builder *b, node n, node a, node c, const nest *around)
         s->argument = arena_replace(m, s->argument, b->room * sizeof *s->argument, room * sizeof *s->argument);
         s->held = arena_replace(m, s->held, b->room * sizeof *s->held, room * sizeof *s->held);
         s->rate = arena_replace(m, s->rate, b->room * sizeof *s->rate, room * sizeof *s->rate);
+        s->side = arena_replace(m, s->side, b->room * sizeof *s->side, room * sizeof *s->side);
         s->first = arena_replace(m, s->first, b->room * sizeof *s->first, room * sizeof *s->first);
         if (broken(b)) return UINT32_MAX;
         b->room = room;
@@ -197,6 +224,7 @@ static uint32_t kind_of(builder *b, node n, node a, node c, const nest *around)
     const output o = output_to(&value, levels, around);
     const uint32_t k = (uint32_t)s->kinds++;
     b->kinds[k] = (kind){n, *around, graph_load(g, &side), b->last[n]};
+    s->side[k] = b->kinds[k].side;
     b->last[n] = k + 1;
     s->first[k] = b->m->arrays[value.array].base;
     s->argument[k] = s->held[k] = s->rate[k] = o;
@@ -359,6 +387,16 @@ bool switches_find(model *m, switches *s)
     return true;
 }
 
+void switches_locate(model *m)
+{
+    switches *s = arena_room(m->arena, sizeof *s);
+    if (!s || !switches_find(m, s) || s->refused || s->kinds != m->side_count || !sliding_prepare(m, s)) return;
+    s->slot = m->states[m->side_first].base;
+    m->accel = s->accel;
+    m->boundary = s->boundary;
+    m->located = s;
+}
+
 /* Sides -------------------------------------------------------------------------------------------------------- */
 
 bool switches_counts(operation op) { return op == OP_FLOOR || op == OP_MOD; }
@@ -390,6 +428,22 @@ double switches_side(operation op, double u, double rate)
     case OP_GE: return s >= 0;
     default: return s;
     }
+}
+
+bool switches_jumps(operation op) { return op != OP_ABS && op != OP_MIN && op != OP_MAX && op != OP_CBRT; }
+
+double switches_distance(operation op, double side, double u)
+{
+    const double way = direction(op, side);
+    if (switches_counts(op)) return (u - side) * (side + 1 - u);
+    return way != 0 ? way * u : -u * u;
+}
+
+double switches_distance_slope(operation op, double side, double u)
+{
+    if (switches_counts(op)) return 2 * (side - u) + 1;
+    const double way = direction(op, side);
+    return way != 0 ? way : -2 * u;
 }
 
 double switches_gap(operation op, double side, double u)

@@ -13,25 +13,40 @@
 
 #include "lang/model/model.h"
 
+#define SWITCHES_HELD 2.0 /* the side of a sign whose argument the force holds at 0: sliding.c */
+
 enum { SWITCHES_MAX = 1 << 16, TOUCHES_MAX = 1 << 12 }; /* of one model, cells counted; more touches are not observed */
 
 typedef struct switches {
     size_t count;        /* switches, cells counted */
     const char *refused; /* why they cannot be held: a part of a sentence; NULL: they can */
     uint8_t *op;         /* count: the operation of each */
-    size_t slot;         /* the sides are numbers slot … slot + count - 1 of the pool, behind the model's own */
+    /* The sides are numbers slot … slot + count - 1 of the pool, behind the model's own; of a model that has them as
+     * modes, of x. */
+    size_t slot;
     output *accel;       /* the model's outputs, with sides in place of the switches */
     output *boundary;    /* likewise */
     size_t kinds;        /* switches, families counted once */
     output *argument;    /* kinds: what the switch compares with 0, or takes the integer part of, to SPACE_OUT */
     output *held, *rate; /* the same with sides in it, and its rate of change along the motion (reads SPACE_A) */
+    node *side;          /* kinds: the side as the equations load it */
     size_t *first;       /* kinds: the number of the first cell's switch */
+    /* Of a model that has modes for sides: the value that holds each argument at 0 while its side is SWITCHES_HELD, and
+     * its rate along the motion; hold_kinds of them, to the places of their arguments. */
+    output *hold, *hold_rate;
+    size_t hold_kinds;
+    bool *holds;                 /* kinds: it may be held */
     size_t touches, touch_kinds; /* touches, cells counted; families counted once */
     output *touch, *touch_rate;  /* touch_kinds: the arguments, with sides in them, and their rates */
 } switches;
 
 /* Finds the switches of accelerations and boundary lines. False: no memory. */
 bool switches_find(model *, switches *);
+/* The shape of a kind. */
+model_shape switches_shape(const model *, const switches *, size_t kind);
+/* Of a model that has modes for the sides of its switches: its equations read them from now on. It leaves `located`
+ * NULL where they are not those switches. */
+void switches_locate(model *);
 
 /* Whether a node is a switch, and what it compares with 0, or takes the integer part of (switches_counts), with the
  * operands a and b. */
@@ -42,6 +57,12 @@ bool switches_counts(operation);
 /* The side that belongs to the value u of the argument; where u is 0, or at the lower end of a floor, to the side
  * towards which it moves. */
 double switches_side(operation, double u, double rate);
+/* Whether the operation itself jumps where its argument is 0, or a whole number. */
+bool switches_jumps(operation);
+/* A smooth function of u that is positive on the side and falls to 0 at its ends, and its derivative; on side 0 of a
+ * sign, where u has been 0, it falls from 0 both ways. */
+double switches_distance(operation, double side, double u);
+double switches_distance_slope(operation, double side, double u);
 /* How far the argument is from leaving its side; below 0: it has left it. */
 double switches_gap(operation, double side, double u);
 /* The rate of the gap, from that of the argument. */

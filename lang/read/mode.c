@@ -41,15 +41,41 @@ bool mode_find_all(model *m)
     return true;
 }
 
-/* Arrays over the numbers of a parameter, which are its start, and over zeros. */
+bool mode_add_sides(model *m, const read_how *how)
+{
+    const uint32_t before = m->state_count + m->mode_count;
+    if (!how->side_count) return true;
+    model_state *all = arena_room(m->arena, (before + how->side_count) * sizeof *all);
+    if (!all) return false;
+    memcpy(all, m->states, before * sizeof *all);
+    m->states = all;
+    for (uint32_t k = 0; k < how->side_count; k++) {
+        const model_shape *from = &how->sides[k];
+        model_state *s = &all[before + k];
+        *s = (model_state){.name = "side", .order = 2, .dims = from->dims, .hull = 1};
+        for (int d = 0; d < from->dims; d++) {
+            s->first[d] = s->eq_first[d] = from->first[d];
+            s->last[d] = s->eq_last[d] = from->last[d];
+            s->hull *= (size_t)(from->last[d] - from->first[d] + 1);
+        }
+        s->cells.count = s->hull;
+    }
+    m->mode_count += how->side_count;
+    m->side_first = before;
+    m->side_count = how->side_count;
+    return true;
+}
+
+/* Arrays over the numbers of a parameter, which are its start, and over zeros; d NULL: a side, which starts at 0. */
 static bool place_starts(model *m, model_state *s, const model_definition *d)
 {
     const int parts = s->components ? s->components : 1;
     size_t zeros;
+    s->shaped = s->start_done = true;
     if (!model_take_numbers(m, s->hull * (size_t)parts, &zeros) || !model_take_arrays(m, parts, &s->start_array[0]) ||
         !model_take_arrays(m, parts, &s->start_array[1]))
         return false;
-    const size_t base = d->list ? m->arrays[d->array].base : d->slot;
+    const size_t base = !d ? zeros : d->list ? m->arrays[d->array].base : d->slot;
     for (int k = 0; k < parts; k++) {
         const size_t at = (size_t)k * s->hull;
         for (int of = 0; of < 2; of++) {
@@ -76,9 +102,10 @@ bool mode_shape_all(model *m)
             s->hull *= (size_t)(d->last[k] - d->first[k] + 1);
         }
         s->cells.count = s->hull;
-        s->shaped = s->start_done = true;
         if (!place_starts(m, s, d)) return false;
     }
+    for (uint32_t k = 0; k < m->side_count; k++)
+        if (!place_starts(m, &m->states[m->side_first + k], NULL)) return false;
     return true;
 }
 

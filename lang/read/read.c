@@ -3,6 +3,7 @@
 
 #include "lang/lower/resolve.h"
 #include "lang/lower/start.h"
+#include "lang/model/switches.h"
 #include "lang/read/read_steps.h"
 #include "lang/read/verify.h"
 
@@ -41,16 +42,26 @@ static void forget_trees(model *m)
     }
 }
 
-static motus_status build(model *m, const motus_text_def *def, read_method method)
+/* The equations read the sides of their switches from now on. */
+static void locate(model *m)
 {
-    const bool lowered = collect_all(m, def) && rule_names_all(m) && mode_find_all(m) && classify_all(m) &&
-                         names_all(m) && graph_reserve(m->graph, m->statements.operations + 64) &&
+    const bool exact = m->traits.has_exact;
+    switches_locate(m);
+    analysis_traits(m);
+    m->traits.has_exact = exact;
+}
+
+static motus_status build(model *m, const motus_text_def *def, const read_how *how, read_method method)
+{
+    const bool lowered = collect_all(m, def) && rule_names_all(m) && mode_find_all(m) && mode_add_sides(m, how) &&
+                         classify_all(m) && names_all(m) && graph_reserve(m->graph, m->statements.operations + 64) &&
                          model_reserve_arrays(m, 8 * m->state_count + 64) && constants(m) && settings_all(m, method) &&
                          mode_shape_all(m) && layout_all(m) && equations_all(m) && mode_observe_all(m) && when_all(m) &&
                          equations_start(m);
     forget_trees(m);
     if (lowered) analysis_all(m);
     if (!source_failed(&m->source) && !m->graph->too_large && verify_claims(m) == MOTUS_MEMORY) m->arena->failed = true;
+    if (lowered && !m->source.failed && m->side_count) locate(m);
     if (m->source.failed) return m->source.status;
     if (m->arena->failed) return MOTUS_MEMORY;
     if (m->graph->too_large)
@@ -59,7 +70,7 @@ static motus_status build(model *m, const motus_text_def *def, read_method metho
     return MOTUS_OK;
 }
 
-motus_status read_model(arena *a, const motus_text_def *def, bool nudged, read_method method, model **out,
+motus_status read_model(arena *a, const motus_text_def *def, const read_how *how, read_method method, model **out,
                         motus_error *err)
 {
     *out = NULL;
@@ -73,7 +84,7 @@ motus_status read_model(arena *a, const motus_text_def *def, bool nudged, read_m
     m->arena = a;
     m->draft = def->draft > 0;
     const size_t texts = 1 + def->set_count + def->when_count;
-    m->source = (source){.arena = a, .error = err, .count = (uint32_t)texts, .nudged = nudged};
+    m->source = (source){.arena = a, .error = err, .count = (uint32_t)texts, .nudged = how->nudged};
     m->source.texts = arena_room(a, texts * sizeof *m->source.texts);
     m->graph = graph_create(a);
     if (!m->source.texts || !m->graph || a->failed) return fail(err, MOTUS_MEMORY, "no memory for the model");
@@ -91,7 +102,7 @@ motus_status read_model(arena *a, const motus_text_def *def, bool nudged, read_m
     arena trees;
     arena_init(&trees, &a->allocator);
     m->source.trees = &trees;
-    motus_status status = build(m, def, method);
+    motus_status status = build(m, def, how, method);
     if (status != MOTUS_OK) return status == MOTUS_MEMORY ? fail(err, MOTUS_MEMORY, "no memory for the model") : status;
     m->source.error = NULL; /* it is the caller's and does not outlive this call */
     *out = m;

@@ -8,9 +8,16 @@
  */
 typedef motus_status (*read_method)(const char *name, motus_error *);
 
-/* On failure the error says what and where, and *out is NULL; the arena keeps what was taken. nudged: as in source.h;
- * claims are not judged then. */
-motus_status read_model(arena *, const motus_text_def *, bool nudged, read_method, model **out, motus_error *);
+/* How a text is read. nudged: as in source.h; claims are not judged then. sides: the shapes of its switches, in the
+ * order of switches_find; their sides are modes then, which the equations read in place of the switches. NULL: no. */
+typedef struct read_how {
+    bool nudged;
+    const model_shape *sides;
+    uint32_t side_count;
+} read_how;
+
+/* On failure the error says what and where, and *out is NULL; the arena keeps what was taken. */
+motus_status read_model(arena *, const motus_text_def *, const read_how *, read_method, model **out, motus_error *);
 
 /* Checks exact lines and invariants again after numbers have changed. */
 motus_status verify_again(model *, motus_error *);

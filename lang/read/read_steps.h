@@ -8,6 +8,7 @@
 bool collect_all(model *, const motus_text_def *); /* statements, with those of --set; the symbol table */
 bool rule_names_all(model *);                      /* names of events */
 bool mode_find_all(model *);                       /* parameters that events assign */
+bool mode_add_sides(model *, const read_how *);    /* sides of switches */
 bool classify_all(model *);                        /* parameters or quantities; lines without a state are refused */
 bool names_all(model *);                           /* complains about names that are not defined */
 bool settings_all(model *, read_method);           /* method, step, until … */

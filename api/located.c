@@ -1,0 +1,87 @@
+/* See located.h. */
+#include "api/located.h"
+
+#include "api/shadow.h"
+#include "lang/model/switches.h"
+
+#include <string.h>
+
+/* Whether a line of the model is not smooth. */
+static bool kinked(const model *m)
+{
+    bool kinks = !m->traits.smooth;
+    for (size_t k = 0; k < m->boundary_count && !kinks; k++) kinks = graph_kink(m->graph, m->boundary[k].value) != 0;
+    return kinks;
+}
+
+motus_status located_read(const motus_system *s, bool nudged, motus_system **out, motus_error *err)
+{
+    const model *m = s->model;
+    read_how how = {.nudged = nudged, .side_count = m->side_count};
+    model_shape *shapes = take(&s->allocator, m->side_count + 1, sizeof *shapes);
+    if (!shapes) return fail(err, MOTUS_MEMORY, "no memory for a system");
+    for (uint32_t k = 0; k < m->side_count; k++) {
+        const model_state *side = &m->states[m->side_first + k];
+        shapes[k].dims = side->dims;
+        memcpy(shapes[k].first, side->first, sizeof side->first);
+        memcpy(shapes[k].last, side->last, sizeof side->last);
+    }
+    how.sides = shapes;
+    const motus_status status = system_read(&s->text, &how, out, err);
+    give(&s->allocator, shapes);
+    return status;
+}
+
+static motus_status make(motus_system *s, motus_error *err)
+{
+    switches found;
+    if (!switches_find(s->model, &found)) return fail(err, MOTUS_MEMORY, "no memory for the switches of the model");
+    if (found.refused) s->located_refused = "the switches of the model cannot be located";
+    if (found.refused || found.kinds == 0) return MOTUS_OK;
+    model_shape *shapes = take(&s->allocator, found.kinds, sizeof *shapes);
+    if (!shapes) return fail(err, MOTUS_MEMORY, "no memory for the switches of the model");
+    for (size_t k = 0; k < found.kinds; k++) shapes[k] = switches_shape(s->model, &found, k);
+    const read_how how = {.sides = shapes, .side_count = (uint32_t)found.kinds};
+    motus_status status = system_read(&s->text, &how, &s->located, err);
+    give(&s->allocator, shapes);
+    if (status == MOTUS_OK) status = shadow_numbers(s, s->located, err);
+    if (status == MOTUS_OK && s->located->model->located) return MOTUS_OK;
+    motus_system_destroy(s->located);
+    s->located = NULL;
+    s->located_refused = "the switches of the model cannot be located";
+    return status;
+}
+
+/* Why a run does not locate switches by itself. */
+static const char *unsuited(const model *m)
+{
+    bool domain = false;
+    if (m->located->count > LOCATED_MOST) return "switches are not located unless asked for, since there are many";
+    for (size_t k = 0; k < m->accel_count && !domain; k++) domain = graph_domain(m->graph, m->accel[k].value) != 0;
+    for (size_t k = 0; k < m->boundary_count && !domain; k++)
+        domain = graph_domain(m->graph, m->boundary[k].value) != 0;
+    return domain ? "switches are not located unless asked for, since the force may be undefined beyond one" : NULL;
+}
+
+motus_status located_of(motus_system *s, bool asked, motus_system **out, const char **why, motus_error *err)
+{
+    *out = NULL;
+    *why = NULL;
+    if (!s->model || s->model->located) return MOTUS_OK;
+    if (s->located && s->located_changes != s->changes) {
+        motus_system_destroy(s->located);
+        s->located = NULL;
+        s->located_known = false;
+        s->located_refused = NULL;
+    }
+    if (!s->located_known && kinked(s->model)) {
+        const motus_status status = make(s, err);
+        if (status != MOTUS_OK) return status;
+    }
+    s->located_known = true;
+    s->located_changes = s->changes;
+    if (s->located && !asked) *why = unsuited(s->located->model);
+    if (!s->located && s->located_refused) *why = s->located_refused;
+    if (!*why) *out = s->located;
+    return MOTUS_OK;
+}

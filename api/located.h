@@ -1,0 +1,20 @@
+/* Located systems: those whose runs end a step wherever a switch of the force changes its side.
+ *
+ * A located system is read from the text of another, with modes for the sides of its switches. The motion, the columns
+ * and their order are the same; x has the sides besides, behind the positions, and its rules change them.
+ */
+#ifndef API_LOCATED_H
+#define API_LOCATED_H
+
+#include "api/system.h"
+
+/* The located system of a system, with its numbers, which the system keeps; NULL: it has no switches, or `why` says
+ * why they are not located. asked: by the caller, else as runs do by themselves: where the force goes on smoothly
+ * beyond every switch, and there are at most LOCATED_MOST of them, each of which costs time in every step. No run may
+ * use it where its numbers have been set since. */
+enum { LOCATED_MOST = 64 };
+motus_status located_of(motus_system *, bool asked, motus_system **, const char **why, motus_error *);
+/* Reads the text of a system again, with the same modes; nudged: as in lang/text/source.h. */
+motus_status located_read(const motus_system *, bool nudged, motus_system **, motus_error *);
+
+#endif

@@ -1,0 +1,171 @@
+/* Switches whose force may hold the motion where they jump: dry friction that sticks, relays. See sliding.h.
+ *
+ * Where sign(s) drives s to 0 from both sides, s stays 0, and the sign takes the value p in [-1, 1] with which the rate
+ * of s is 0 (Filippov). The rate is the derivative of s along the motion with the equations in place of the
+ * accelerations; where it is r0 + r1 p, p = -r0/r1.
+ *
+ * The accelerations with that p keep s at 0 but for rounding. Where s has the velocity of a variable with a factor that
+ * does not change, x' - V, the variable's acceleration is the one with which the rate is 0 exactly: a body that sticks
+ * then rests, bit by bit, and rounding shortens no step.
+ */
+#include "lang/model/sliding.h"
+
+#include "lang/base/operation.h"
+
+#include <string.h>
+
+static bool same_subscripts(const subscript *a, const subscript *b, int count)
+{
+    bool same = true;
+    for (int d = 0; d < count && same; d++)
+        same = a[d].level == b[d].level && a[d].slot == b[d].slot && a[d].modulus == b[d].modulus &&
+               a[d].literal == b[d].literal;
+    return same;
+}
+
+static bool same_loops(const output *a, const output *b)
+{
+    bool same = a->loops == b->loops;
+    for (int k = 0; k < a->loops && same; k++)
+        same = same_subscripts(&a->loop[k].first, &b->loop[k].first, 1) &&
+               same_subscripts(&a->loop[k].last, &b->loop[k].last, 1);
+    return same;
+}
+
+typedef struct inserting {
+    const switches *s;
+    size_t accel_count;
+    const output *rate;
+    int level;
+    node without; /* this acceleration becomes 0 instead */
+    size_t found; /* the number of an acceleration that there is */
+    bool failed;  /* an acceleration is that of another index, or of another range */
+} inserting;
+
+/* The equation of an acceleration, over the same indices. */
+static node equation_of(graph *g, node leaf, int level, void *ctx)
+{
+    inserting *in = ctx;
+    const graph_node *n = graph_at(g, leaf);
+    if (n->op != OP_LOAD) return leaf;
+    const reference *r = &g->references[n->a];
+    if (g->arrays[r->array].space != SPACE_A) return leaf;
+    if (leaf == in->without) return graph_const(g, 0);
+    for (size_t k = 0; k < in->accel_count && level == in->level; k++) {
+        const output *o = &in->s->accel[k];
+        if (o->to.array == r->array && same_subscripts(o->to.at, r->at, r->dims) && same_loops(o, in->rate)) {
+            in->found = k;
+            return o->value;
+        }
+    }
+    in->failed = true;
+    return leaf;
+}
+
+static node one_at(graph *g, node leaf, void *side) { return leaf == *(const node *)side ? graph_const(g, 1) : 0; }
+
+static node zero_at(graph *g, node leaf, int level, void *side)
+{
+    (void)level;
+    return leaf == *(const node *)side ? graph_const(g, 0) : leaf;
+}
+
+enum { NONE = UINT32_MAX }; /* no node */
+
+/* The value that holds the argument of a kind at 0; NONE: there is none. */
+static node holding(const model *m, const switches *s, size_t kind)
+{
+    graph *g = m->graph;
+    const output *rate = &s->rate[kind];
+    inserting in = {.s = s, .accel_count = m->accel_count, .rate = rate, .level = rate->loops};
+    const node full = graph_replace(g, rate->value, DEP_A, rate->loops, equation_of, &in);
+    node side = s->side[kind];
+    if (in.failed || !(graph_deps(g, full) & DEP_MODE)) return NONE;
+    const node slope = graph_derivative(g, full, one_at, &side);
+    if (!slope) return NONE;
+    const node rest = graph_replace(g, full, DEP_MODE, rate->loops, zero_at, &side);
+    return graph_op(g, OP_NEG, graph_op(g, OP_DIV, rest, slope, 0), 0, 0);
+}
+
+/* The acceleration of one variable with which the rate of a kind is 0: output *number. NONE: there is none. */
+static node resting(const model *m, const switches *s, size_t kind, size_t *number)
+{
+    enum { MOVES = DEP_TIME | DEP_STATE | DEP_LEVELS };
+    graph *g = m->graph;
+    const output *rate = &s->rate[kind];
+    inserting in = {.s = s, .accel_count = m->accel_count, .rate = rate, .level = rate->loops};
+    graph_replace(g, rate->value, DEP_A, rate->loops, equation_of, &in);
+    node own = graph_load(g, &s->accel[in.found].to);
+    const node factor = in.failed ? 0 : graph_derivative(g, rate->value, one_at, &own);
+    if (!factor || graph_deps(g, factor) & MOVES) return NONE;
+    in.without = own;
+    const node rest = graph_replace(g, rate->value, DEP_A, rate->loops, equation_of, &in);
+    *number = in.found;
+    return graph_op(g, OP_SUB, graph_const(g, 0), graph_op(g, OP_DIV, rest, factor, 0), 0);
+}
+
+typedef struct held_sides {
+    const switches *s;
+    const node *value; /* kinds: what holds each; NONE: nothing does */
+} held_sides;
+
+/* The side, or where it is SWITCHES_HELD the value that holds. */
+static node side_or_value(graph *g, node leaf, int level, void *ctx)
+{
+    const held_sides *h = ctx;
+    (void)level;
+    for (size_t k = 0; k < h->s->kinds; k++) {
+        if (h->s->side[k] != leaf || h->value[k] == NONE) continue;
+        const node held = graph_op(g, OP_GT, leaf, graph_const(g, 1.5), 0);
+        return graph_op(g, OP_SELECT, held, h->value[k], leaf);
+    }
+    return leaf;
+}
+
+bool sliding_prepare(model *m, switches *s)
+{
+    node *value = arena_room(m->arena, 2 * s->kinds * sizeof *value), *rests = value + s->kinds;
+    size_t *resting_at = arena_room(m->arena, s->kinds * sizeof *resting_at);
+    s->hold = arena_room(m->arena, 2 * s->kinds * sizeof *s->hold);
+    s->holds = arena_room(m->arena, s->kinds * sizeof *s->holds);
+    if (!value || !resting_at || !s->hold || !s->holds) return false;
+    s->hold_rate = s->hold + s->kinds;
+    s->hold_kinds = 0;
+    for (size_t k = 0; k < s->kinds; k++) {
+        value[k] = s->op[s->first[k]] == OP_SIGN ? holding(m, s, k) : NONE;
+        s->holds[k] = value[k] != NONE;
+        if (value[k] == NONE) continue;
+        output *o = &s->hold[s->hold_kinds];
+        *o = s->hold_rate[s->hold_kinds++] = s->rate[k];
+        o->value = value[k];
+        s->hold_rate[s->hold_kinds - 1].value = graph_derivative(m->graph, value[k], model_seed_motion, m);
+    }
+    if (s->hold_kinds == 0) return !m->arena->failed && !m->graph->too_large;
+    held_sides h = {s, value};
+    for (size_t k = 0; k < s->kinds; k++) {
+        size_t at = 0;
+        rests[k] = value[k] != NONE ? resting(m, s, k, &at) : NONE;
+        resting_at[k] = at;
+    }
+    const struct {
+        output *of;
+        size_t count;
+    } all[] = {{s->accel, m->accel_count}, {s->boundary, m->boundary_count}, {s->held, s->kinds}};
+    for (size_t k = 0; k < sizeof all / sizeof *all; k++)
+        for (size_t i = 0; i < all[k].count; i++) {
+            output *o = &all[k].of[i];
+            o->value = graph_replace(m->graph, o->value, DEP_MODE, o->loops, side_or_value, &h);
+        }
+    for (size_t k = 0; k < s->kinds; k++) {
+        graph *g = m->graph;
+        node *to = &s->accel[resting_at[k]].value;
+        if (rests[k] == NONE) continue;
+        /* what the others are held by is in it, too */
+        const output *o = &s->accel[resting_at[k]];
+        const node is = graph_replace(g, rests[k], DEP_MODE, o->loops, side_or_value, &h);
+        *to = graph_op(g, OP_SELECT, graph_op(g, OP_GT, s->side[k], graph_const(g, 1.5), 0), is, *to);
+    }
+    for (size_t k = 0; k < s->kinds; k++)
+        s->rate[k].value = graph_derivative(m->graph, s->held[k].value, model_seed_motion, m);
+    return !m->arena->failed && !m->graph->too_large;
+}

@@ -1,0 +1,420 @@
+/* See sides.h. */
+#include "machine/sides.h"
+
+#include "base/decimal.h"
+#include "lang/model/switches.h"
+#include "lang/tape/tape.h"
+#include "machine/rounding.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+enum { NESTED = 16 }; /* switches within the arguments of others, at most, that change at once */
+
+struct sides {
+    const model *model;
+    const switches *switches;
+    const problem *problem;
+    rules supplied, own;
+    rule *rule;
+    tape *argument, *rate, *rounding;
+    tape *hold, *hold_rate, *hold_rounding; /* NULL: none can be held */
+    double *u, *du, *later;       /* of all switches: arguments, their rates, and the arguments a little later */
+    double *before, *now, *bound; /* likewise, while sides are chosen */
+    double *p, *dp;               /* likewise: what holds them, and its rates */
+    double *a, *b, *x, *v;        /* room for two accelerations and a state */
+};
+
+/* ---- functions ---- */
+
+static operation op_of(const sides *s, size_t k) { return (operation)s->switches->op[k]; }
+
+static void run(const sides *s, tape *t, double time, double *x, double *v, double *a, double *out)
+{
+    double *base[SPACES] = {[SPACE_X] = x, [SPACE_V] = v, [SPACE_A] = a, [SPACE_OUT] = out};
+    for (size_t k = 0; k < s->switches->count; k++) out[k] = NAN; /* cells outside the ranges are written by none */
+    tape_run(t, time, base);
+}
+
+/* Whether switch k is held; an integer part is 2 by itself. */
+static bool is_held(const sides *s, const double *side, size_t k)
+{
+    return side[k] == SWITCHES_HELD && !switches_counts(op_of(s, k));
+}
+
+/* Whether any is; the tapes of what holds them are run only then. */
+static bool any_held(const sides *s, const double *side)
+{
+    bool any = false;
+    for (size_t k = 0; s->hold && k < s->switches->count && !any; k++) any = is_held(s, side, k);
+    return any;
+}
+
+static int values(void *ctx, double t, double *x, double *v, double *out)
+{
+    const sides *s = ctx;
+    const double *side = x + s->switches->slot;
+    const int status = s->own.functions ? s->own.values(s->own.ctx, t, x, v, out) : 0;
+    if (status) return status;
+    out += s->own.functions;
+    run(s, s->argument, t, x, v, NULL, out);
+    const bool held = any_held(s, side);
+    if (held) run(s, s->hold, t, x, v, NULL, s->p);
+    for (size_t k = 0; k < s->switches->count; k++)
+        out[k] = held && is_held(s, side, k) ? (1 - s->p[k]) * (1 + s->p[k])
+                                             : switches_distance(op_of(s, k), side[k], out[k]);
+    return 0;
+}
+
+static int rates(void *ctx, double t, double *x, double *v, double *a, double *out)
+{
+    const sides *s = ctx;
+    const double *side = x + s->switches->slot;
+    const int status = s->own.functions ? s->own.rates(s->own.ctx, t, x, v, a, out) : 0;
+    if (status) return status;
+    out += s->own.functions;
+    run(s, s->argument, t, x, v, NULL, s->u);
+    run(s, s->rate, t, x, v, a, out);
+    const bool held = any_held(s, side);
+    if (held) run(s, s->hold, t, x, v, NULL, s->p), run(s, s->hold_rate, t, x, v, a, s->dp);
+    for (size_t k = 0; k < s->switches->count; k++)
+        out[k] = held && is_held(s, side, k) ? -2 * s->p[k] * s->dp[k]
+                                             : out[k] * switches_distance_slope(op_of(s, k), side[k], s->u[k]);
+    return 0;
+}
+
+static void rounding(void *ctx, double t, double *x, double *v, double *out)
+{
+    const sides *s = ctx;
+    const double *side = x + s->switches->slot;
+    if (s->own.functions) s->own.rounding(s->own.ctx, t, x, v, out);
+    out += s->own.functions;
+    run(s, s->argument, t, x, v, NULL, s->u);
+    run(s, s->rounding, t, x, v, NULL, out);
+    const bool held = any_held(s, side);
+    if (held) run(s, s->hold, t, x, v, NULL, s->p), run(s, s->hold_rounding, t, x, v, NULL, s->dp);
+    for (size_t k = 0; k < s->switches->count; k++)
+        out[k] = 0x1p-53 * (held && is_held(s, side, k)
+                                ? 2 * fabs(s->p[k]) * (s->dp[k] + 1)
+                                : out[k] * fabs(switches_distance_slope(op_of(s, k), side[k], s->u[k])));
+}
+
+static int act(void *ctx, size_t rule, size_t instance, double t, double *x, double *v, bool *in_v, size_t *which)
+{
+    const sides *s = ctx;
+    return s->own.act(s->own.ctx, rule, instance, t, x, v, in_v, which);
+}
+
+/* ---- sides ---- */
+
+static size_t kind_of(const sides *s, size_t k)
+{
+    size_t kind = 0;
+    while (kind + 1 < s->switches->kinds && s->switches->first[kind + 1] <= k) kind++;
+    return kind;
+}
+
+static void print(const sides *s, size_t k, char *out, size_t size)
+{
+    model_print(s->model, s->switches->argument[kind_of(s, k)].value, out, size);
+}
+
+static void name(void *ctx, size_t number, size_t instance, char *out, size_t size)
+{
+    const sides *s = ctx;
+    if (number < s->own.count)
+        s->own.name(s->own.ctx, number, instance, out, size);
+    else
+        print(s, s->switches->first[number - s->own.count] + instance, out, size);
+}
+
+static motus_status refuse(const sides *s, size_t k, const char *what, double t, motus_error *err)
+{
+    char text[120], at[DECIMAL_MAX];
+    print(s, k, text, sizeof text);
+    if (err) err->time = t;
+    return fail(err, MOTUS_SOLVE, "%s where %s = %s, at t = %s", what, text,
+                switches_counts(op_of(s, k)) ? "a whole number" : "0", decimal(t, at));
+}
+
+static motus_status accelerate(sides *s, double t, double *x, double *v, motus_error *err)
+{
+    char at[DECIMAL_MAX];
+    memset(s->a, 0, s->problem->nv * sizeof *s->a);
+    if (!s->problem->accel(s->problem->ctx, t, x, v, s->a)) return MOTUS_OK;
+    return fail(err, MOTUS_CALLBACK, "the acceleration cannot be evaluated at t = %s", decimal(t, at));
+}
+
+/* The rate of argument k along the run, with its switch on a side. */
+static motus_status rate_on(sides *s, size_t k, double side, double way, double t, double *x, double *v, double *rate,
+                            motus_error *err)
+{
+    double *place = x + s->switches->slot + k;
+    const double was = *place;
+    *place = side;
+    const motus_status status = accelerate(s, t, x, v, err);
+    if (status == MOTUS_OK) run(s, s->rate, t, x, v, s->a, s->du);
+    *place = was;
+    *rate = way * s->du[k];
+    return status;
+}
+
+/* Where an argument moves that is 0 and whose rate is 0: its value a little later, by Taylor's formula. */
+static motus_status look_ahead(sides *s, size_t k, double way, double t, double *x, double *v, double *out,
+                               motus_error *err)
+{
+    const problem *p = s->problem;
+    const double h = way * 0x1p-20 * fmax(1, fabs(t));
+    const motus_status status = accelerate(s, t, x, v, err);
+    if (status != MOTUS_OK) return status;
+    if (p->nx) memcpy(s->x, x, p->nx * sizeof *x);
+    for (size_t i = 0; i < p->nv; i++) {
+        if (i < p->nx) s->x[i] += h * (v[i] + h / 2 * s->a[i]);
+        s->v[i] = v[i] + h * s->a[i];
+    }
+    run(s, s->argument, t + h, s->x, s->v, NULL, s->later);
+    *out = s->later[k];
+    return MOTUS_OK;
+}
+
+/* Holds the argument of switch k at 0, on whose sides the rates are `above` and `below`. */
+static motus_status hold(sides *s, size_t k, double above, double below, double t, double *x, double *v,
+                         motus_error *err)
+{
+    enum { PASSES = 32 }; /* one, but for rounding, which leaves 2^-53 of it each time */
+    static const char *const slides =
+        "the motion slides along a jump of the force, which drives it back from both sides,";
+    const size_t count = s->switches->count, nv = s->problem->nv;
+    double *side = x + s->switches->slot, middle;
+    char why[160];
+    if (!s->switches->holds[kind_of(s, k)]) return refuse(s, k, slides, t, err);
+    motus_status status = rate_on(s, k, 0, 1, t, x, v, &middle, err);
+    if (status != MOTUS_OK) return status;
+    if (fabs(middle - (above + below) / 2) > 0x1p-30 * (fabs(above) + fabs(below))) {
+        snprintf(why, sizeof why, "%s and no single value of the sign holds it,", slides);
+        return refuse(s, k, why, t, err);
+    }
+    /* The force on both sides; what moves another argument that is held, or what that moves, is not known apart. */
+    status = rate_on(s, k, 1, 1, t, x, v, &middle, err);
+    memcpy(s->b, s->a, nv * sizeof *s->b);
+    memcpy(s->later, s->du, count * sizeof *s->du);
+    if (status == MOTUS_OK) status = rate_on(s, k, -1, 1, t, x, v, &middle, err);
+    bool coupled = false;
+    for (size_t j = 0; j < count; j++) coupled |= j != k && is_held(s, side, j) && s->du[j] != s->later[j];
+    for (size_t j = 0; j < count && status == MOTUS_OK && !coupled; j++) {
+        double one, other;
+        if (j == k || !is_held(s, side, j)) continue;
+        const double was = side[k];
+        side[k] = 0;
+        side[j] = 1, status = rate_on(s, k, 0, 1, t, x, v, &one, err);
+        side[j] = -1;
+        if (status == MOTUS_OK) status = rate_on(s, k, 0, 1, t, x, v, &other, err);
+        side[j] = SWITCHES_HELD, side[k] = was;
+        coupled = one != other;
+    }
+    if (status != MOTUS_OK) return status;
+    if (coupled) {
+        snprintf(why, sizeof why, "%s together with another, whose force depends on it,", slides);
+        return refuse(s, k, why, t, err);
+    }
+    /* The argument is 0 but for rounding: it becomes 0 along the push that the switch exerts. */
+    status = rate_on(s, k, -1, 1, t, x, v, &middle, err);
+    for (int pass = 0; pass < PASSES; pass++) {
+        run(s, s->argument, t, x, v, NULL, s->u);
+        if (s->u[k] == 0) break;
+        const double way = -s->u[k] / (above - below);
+        for (size_t i = 0; i < nv; i++) v[i] += way * (s->b[i] - s->a[i]);
+    }
+    side[k] = SWITCHES_HELD;
+    return status;
+}
+
+/* The side on which the motion goes on where the argument of switch k is 0. */
+static motus_status choose(sides *s, size_t k, double way, double t, double *x, double *v, motus_error *err)
+{
+    const operation op = op_of(s, k);
+    double *side = x + s->switches->slot + k, on[2], later = 0;
+    const double above = switches_side(op, 1, 0), below = switches_side(op, -1, 0);
+    motus_status status = rate_on(s, k, above, way, t, x, v, &on[0], err);
+    if (status == MOTUS_OK) status = rate_on(s, k, below, way, t, x, v, &on[1], err);
+    if (status != MOTUS_OK) return status;
+    if (on[0] > 0 && on[1] < 0)
+        return refuse(s, k, "the motion is not unique: the force drives it away to both sides", t, err);
+    if (on[0] < 0 && on[1] > 0) return hold(s, k, way * on[0], way * on[1], t, x, v, err);
+    if (on[0] == 0 && on[1] == 0) {
+        status = look_ahead(s, k, way, t, x, v, &later, err);
+        *side = switches_side(op, 0, later);
+    } else {
+        *side = on[0] + on[1] > 0 ? above : below;
+    }
+    return status;
+}
+
+/* The integer side likewise; u is at the whole number `at`. */
+static motus_status choose_count(sides *s, size_t k, double at, double way, double t, double *x, double *v,
+                                 motus_error *err)
+{
+    double *side = x + s->switches->slot + k, on[2];
+    motus_status status = rate_on(s, k, at, way, t, x, v, &on[0], err);
+    if (status == MOTUS_OK) status = rate_on(s, k, at - 1, way, t, x, v, &on[1], err);
+    if (status != MOTUS_OK) return status;
+    if (on[0] > 0 && on[1] < 0)
+        return refuse(s, k, "the motion is not unique: the force drives it away to both sides", t, err);
+    if (on[0] < 0 && on[1] > 0)
+        return refuse(s, k, "the motion slides along a jump of the force, which drives it back from both sides,", t,
+                      err);
+    *side = on[0] + on[1] < 0 ? at - 1 : at;
+    return MOTUS_OK;
+}
+
+/* The side that belongs to the argument of switch k as it is in `u`; rounding may have carried it by `bound`. */
+static motus_status place(sides *s, size_t k, double u, double bound, double way, double t, double *x, double *v,
+                          motus_error *err)
+{
+    const operation op = op_of(s, k);
+    const double whole = switches_counts(op) ? round(u) : 0;
+    if (isnan(u)) return MOTUS_OK; /* a cell without a switch */
+    if (fabs(u - whole) > bound) {
+        x[s->switches->slot + k] = switches_side(op, u, 0);
+        return MOTUS_OK;
+    }
+    return switches_counts(op) ? choose_count(s, k, whole, way, t, x, v, err) : choose(s, k, way, t, x, v, err);
+}
+
+/* The new side of switch k, whose argument has left the old one. */
+static motus_status change(sides *s, size_t k, double way, double t, double *x, double *v, motus_error *err)
+{
+    const operation op = op_of(s, k);
+    double *side = x + s->switches->slot + k;
+    run(s, s->argument, t, x, v, NULL, s->u);
+    if (s->hold && is_held(s, x + s->switches->slot, k)) {
+        run(s, s->hold, t, x, v, NULL, s->p);
+        *side = s->p[k] > 0 ? 1 : -1;
+        return MOTUS_OK;
+    }
+    if (switches_counts(op)) return choose_count(s, k, round(s->u[k]), way, t, x, v, err);
+    if (*side == 0 && (op == OP_ABS || op == OP_SIGN || op == OP_CBRT)) return choose(s, k, way, t, x, v, err);
+    if (switches_jumps(op)) return choose(s, k, way, t, x, v, err);
+    *side = switches_beyond(op, *side, 0);
+    return MOTUS_OK;
+}
+
+/* A switch within the argument of another one may let that jump: mod(floor(t), 2). */
+static motus_status turn(void *ctx, size_t number, size_t instance, double way, double t, double *x, double *v,
+                         motus_error *err)
+{
+    sides *s = ctx;
+    const size_t count = s->switches->count;
+    const double *side = x + s->switches->slot;
+    run(s, s->argument, t, x, v, NULL, s->before);
+    motus_status status = change(s, s->switches->first[number - s->own.count] + instance, way, t, x, v, err);
+    for (size_t pass = 0; pass < NESTED && status == MOTUS_OK; pass++) {
+        bool jumped = false;
+        run(s, s->argument, t, x, v, NULL, s->now);
+        run(s, s->rounding, t, x, v, NULL, s->bound);
+        for (size_t k = 0; k < count && status == MOTUS_OK; k++) {
+            const double bound = 0x1p-53 * s->bound[k];
+            if (is_held(s, side, k)) continue; /* what holds it moved it to 0 */
+            if (!(fabs(s->now[k] - s->before[k]) > bound + fabs(s->before[k]) * 0x1p-40)) continue;
+            jumped = true;
+            status = place(s, k, s->now[k], bound, way, t, x, v, err);
+        }
+        if (!jumped) break;
+        memcpy(s->before, s->now, count * sizeof *s->now);
+    }
+    return status;
+}
+
+/* Sides of a state that did not come by motion. They decide the acceleration, which decides where an argument moves
+ * that is 0; and they may stand within one another. */
+static motus_status settle(void *ctx, double way, double t, double *x, double *v, motus_error *err)
+{
+    sides *s = ctx;
+    const size_t count = s->switches->count;
+    double *side = x + s->switches->slot;
+    motus_status status = MOTUS_OK;
+    for (int pass = 0; pass < NESTED && status == MOTUS_OK; pass++) {
+        memcpy(s->before, side, count * sizeof *side);
+        for (size_t k = 0; k < count && status == MOTUS_OK; k++) {
+            run(s, s->argument, t, x, v, NULL, s->now);
+            run(s, s->rounding, t, x, v, NULL, s->bound);
+            status = place(s, k, s->now[k], 0x1p-53 * s->bound[k], way, t, x, v, err);
+        }
+        if (pass > 0 && memcmp(s->before, side, count * sizeof *side) == 0) break;
+    }
+    return status;
+}
+
+/* ---- making ---- */
+
+static bool make(sides *s, model *m)
+{
+    const switches *w = m->located;
+    const size_t nx = s->problem->nx, nv = s->problem->nv, own = s->own.count;
+    double *room = arena_room(m->arena, (8 * w->count + nx + 3 * nv + 1) * sizeof *room);
+    s->rule = arena_room(m->arena, (own + w->kinds) * sizeof *s->rule);
+    if (!room || !s->rule) return false;
+    s->u = room, s->du = s->u + w->count, s->later = s->du + w->count;
+    s->before = s->later + w->count, s->now = s->before + w->count, s->bound = s->now + w->count;
+    s->p = s->bound + w->count, s->dp = s->p + w->count;
+    s->a = s->dp + w->count, s->b = s->a + nv, s->v = s->b + nv, s->x = s->v + nv;
+    for (size_t k = 0; k < w->kinds; k++)
+        s->rule[own + k] = (rule){.name = "a switch",
+                                  .kind = RULE_ROOT,
+                                  .direction = -1,
+                                  .first = s->own.functions + w->first[k],
+                                  .leaves = 1,
+                                  .instances = (k + 1 < w->kinds ? w->first[k + 1] : w->count) - w->first[k],
+                                  .assigns = true,
+                                  .internal = true};
+    s->supplied = s->own;
+    s->supplied.ctx = s;
+    s->supplied.rule = s->rule;
+    s->supplied.count = own + w->kinds;
+    s->supplied.functions = s->own.functions + w->count;
+    s->supplied.values = values;
+    s->supplied.rates = rates;
+    s->supplied.rounding = rounding;
+    s->supplied.least = s->supplied.least_rates = NULL;
+    s->supplied.act = act;
+    s->supplied.name = name;
+    s->supplied.turn = turn;
+    s->supplied.settle = settle;
+    s->argument = tape_of(m->arena, m->graph, w->held, w->kinds);
+    s->rate = tape_of(m->arena, m->graph, w->rate, w->kinds);
+    s->rounding = rounding_tape(m, w->held, w->kinds);
+    if (w->hold_kinds) {
+        s->hold = tape_of(m->arena, m->graph, w->hold, w->hold_kinds);
+        s->hold_rate = tape_of(m->arena, m->graph, w->hold_rate, w->hold_kinds);
+        s->hold_rounding = rounding_tape(m, w->hold, w->hold_kinds);
+        if (!s->hold || !s->hold_rate || !s->hold_rounding) return false;
+    }
+    return s->argument && s->rate && s->rounding && sides_rebind(s);
+}
+
+motus_status sides_create(model *m, const rules *own, const problem *p, sides **out, motus_error *err)
+{
+    *out = NULL;
+    sides *s = arena_take(m->arena, sizeof *s);
+    if (s) {
+        *s = (sides){.model = m, .switches = m->located, .problem = p};
+        if (own) s->own = *own;
+    }
+    if (!s || !make(s, m)) return fail(err, MOTUS_MEMORY, "no memory for the switches of the model");
+    *out = s;
+    return MOTUS_OK;
+}
+
+const rules *sides_rules(const sides *s) { return &s->supplied; }
+
+bool sides_rebind(sides *s)
+{
+    const binding b = {s->model->arrays, s->model->ints, s->model->pool};
+    tape *const tapes[] = {s->argument, s->rate, s->rounding, s->hold, s->hold_rate, s->hold_rounding};
+    for (size_t k = 0; k < sizeof tapes / sizeof *tapes; k++)
+        if (tapes[k] && !tape_bind(tapes[k], &b)) return false;
+    /* the periods of clocks depend on parameters */
+    if (s->own.count) memcpy(s->rule, s->own.rule, s->own.count * sizeof *s->rule);
+    return true;
+}

@@ -1,0 +1,24 @@
+/* The sides of a model's switches as its internal rules: what an engine of events follows so that every step of a
+ * method ends where the force changes its formula.
+ *
+ * The model has been read with modes for its sides (lang/model/switches.h). Behind the rules of its text there is an
+ * internal rule for each kind of switch, with an instance for each of its cells. Its function is positive while the
+ * argument is on its side, and falls to 0 where the argument leaves it.
+ */
+#ifndef MACHINE_SIDES_H
+#define MACHINE_SIDES_H
+
+#include "core/rules.h"
+#include "lang/model/model.h"
+#include "machine/machine.h"
+
+typedef struct sides sides;
+
+/* In the model's arena, for a model that has sides. own: the rules of its text, NULL: it has none; problem: of the
+ * model. Both must outlive it. */
+motus_status sides_create(model *, const rules *own, const problem *, sides **, motus_error *);
+const rules *sides_rules(const sides *);
+/* To be called after the model's numbers have changed. False: no memory. */
+bool sides_rebind(sides *);
+
+#endif

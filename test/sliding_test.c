@@ -1,0 +1,313 @@
+/* Runs by adaptive methods where the force jumps or has kinks: every step ends there, so the order of the method and
+ * its steps are those of smooth forces; and forces that hold the motion at a jump, as dry friction that sticks. */
+#include "test/given.h"
+
+#define PI 3.14159265358979323846
+
+typedef struct outcome {
+    double x[8], v[8];
+    motus_statistics did;
+    motus_status status;
+    char message[MOTUS_TEXT_MAX];
+} outcome;
+
+static outcome run_of(const char *text, const char *method, double tolerance, double until)
+{
+    motus_system *s = given_text(text);
+    motus_run_def def = motus_default_run();
+    motus_error err = motus_default_error();
+    motus_run *r = NULL;
+    outcome out = {.did = motus_default_statistics()};
+    def.method = method;
+    def.tolerance = tolerance;
+    def.until = until;
+    def.machine = "interpreter";
+    def.switches = MOTUS_SWITCHES_LOCATE;
+    out.status = motus_run_create(s, &def, &r, &err);
+    if (out.status == MOTUS_OK) out.status = motus_run_finish(r, &err);
+    if (out.status) snprintf(out.message, sizeof out.message, "%s", err.message);
+    if (r) {
+        must(motus_run_state(r, out.x, out.v, &err), &err, text);
+        assert_int_equal(motus_run_statistics(r, &out.did), MOTUS_OK);
+    }
+    motus_run_destroy(r);
+    motus_system_destroy(s);
+    return out;
+}
+
+static outcome finished(const char *text, const char *method, double tolerance, double until)
+{
+    const outcome o = run_of(text, method, tolerance, until);
+    if (o.status) fail_msg("%s: %s by %s: %s", text, motus_status_word(o.status), method, o.message);
+    return o;
+}
+
+#define NEAR(value, expected, within)                                                                             \
+    do {                                                                                                          \
+        const double value_ = (value), expected_ = (expected);                                                    \
+        if (!(fabs(value_ - expected_) <= (within)))                                                              \
+            fail_msg("%s is %.17g, not %.17g: off by %.2g", #value, value_, expected_, fabs(value_ - expected_)); \
+    } while (0)
+
+static const char *const methods[] = {"dop853", "taylor", "tsit5", "verner9", "radau15"};
+enum { METHODS = sizeof methods / sizeof *methods };
+
+/* Half periods of frequency 1 and 2. */
+static double one_sided(double t)
+{
+    const double period = 1.5 * PI, s = fmod(t, period);
+    return s < PI / 2 ? sin(2 * s) / 2 : -sin(s - PI / 2);
+}
+
+static void kinks(void **state)
+{
+    (void)state;
+    static const char *const text = "x'' = -x - 3 max(0, x)\nx(0) = 0\nx'(0) = 1\n";
+    for (int m = 0; m < METHODS; m++) {
+        const outcome o = finished(text, methods[m], 1e-12, 20);
+        NEAR(o.x[0], one_sided(20), 1e-10);
+    }
+    const outcome o = finished(text, "dop853", 1e-13, 100);
+    NEAR(o.x[0], 0.436648648606997, 1e-13);
+    const double slow = (double)finished("x'' = -x\nx(0) = 0\nx'(0) = 1\n", "dop853", 1e-13, 100).did.steps,
+                 fast = (double)finished("x'' = -4 x\nx(0) = 0\nx'(0) = 1\n", "dop853", 1e-13, 100).did.steps;
+    assert_true((double)o.did.steps <= 1.5 * (slow * 2 / 3 + fast / 3));
+    assert_int_equal(o.did.switches,
+                     42); /* 21 whole periods, and more than a quarter of the next: x > 0 from its start */
+}
+
+/* Jumps at whole numbers, which steps of a force that is constant between them do not see. */
+static void jumps_in_time(void **state)
+{
+    (void)state;
+    static const char *const texts[] = {"x'' = sign(sin(pi t))\nx(0) = 0\nx'(0) = 0\n",
+                                        "x'' = 1 - 2 mod(floor(t), 2)\nx(0) = 0\nx'(0) = 0\n",
+                                        "x'' = if(mod(t, 2) < 1, 1, -1)\nx(0) = 0\nx'(0) = 0\n"};
+    for (size_t k = 0; k < sizeof texts / sizeof *texts; k++)
+        for (int m = 0; m < METHODS; m++) {
+            const outcome o = finished(texts[k], methods[m], 1e-12, 100);
+            NEAR(o.x[0], 50, 50 * (strcmp(methods[m], "dop853") ? 2e-13 : 1e-13));
+            NEAR(o.v[0], 0, 1e-12);
+        }
+}
+
+/* E6: it turns at whole multiples of pi, and sticks where the spring pulls less than friction holds. */
+static void sticks(void **state)
+{
+    (void)state;
+    static const char *const text = "x'' = -x - f sign(x')\nf = 0.1\nx(0) = 1.05\nx'(0) = 0\n";
+    for (int m = 0; m < METHODS; m++) {
+        const outcome o = finished(text, methods[m], 1e-13, 100), twice = finished(text, methods[m], 1e-13, 200);
+        NEAR(o.x[0], -0.05, 1e-13);
+        NEAR(o.v[0], 0, 0);
+        NEAR(twice.x[0], o.x[0], 0);
+        assert_true(twice.did.steps <= o.did.steps + 2);
+        const outcome before = finished(text, methods[m], 1e-13, 4.5 * PI);
+        NEAR(before.x[0], 0.1, 1e-12);
+    }
+    assert_true(finished(text, "taylor", 1e-13, 100).did.steps < 100);
+}
+
+/* A block that slides to rest: it stops at v^2 / (2 mu g). */
+static void comes_to_rest(void **state)
+{
+    (void)state;
+    for (int m = 0; m < METHODS; m++) {
+        const outcome o =
+            finished("x'' = -mu g sign(x')\nmu = 0.25\ng = 9.81\nx(0) = 0\nx'(0) = 3\n", methods[m], 1e-12, 10);
+        NEAR(o.x[0], 1.834862385321100917, 1e-14);
+        NEAR(o.v[0], 0, 0);
+    }
+}
+
+/* On a belt: with it as far as friction holds, x = f; then on a circle about f, which touches the belt's speed. */
+static void slips_from_a_belt(void **state)
+{
+    (void)state;
+    static const char *const text = "x'' = -x + f sign(V - x')\nf = 0.6\nV = 0.5\nx(0) = 0\nx'(0) = 0.5\n";
+    const double slip = 0.6 / 0.5;
+    for (int m = 0; m < METHODS; m++) {
+        const outcome stuck = finished(text, methods[m], 1e-12, 1), o = finished(text, methods[m], 1e-12, 30);
+        NEAR(stuck.x[0], 0.5, 1e-15);
+        NEAR(stuck.v[0], 0.5, 0);
+        NEAR(o.x[0], 0.6 + 0.5 * sin(30 - slip), 1e-10);
+    }
+}
+
+/* A relay with the rate in its argument: it slides along x + x' = 0, where x falls as exp(-t). */
+static void relay(void **state)
+{
+    (void)state;
+    static const char *const text = "x'' = -sign(x + x')\nx(0) = 0.4\nx'(0) = 0\n";
+    /* from rest under -1 to the line: 0.4 - t^2/2 - t = 0 */
+    const double t = sqrt(1.8) - 1, x = 0.4 - t * t / 2;
+    for (int m = 0; m < METHODS; m++) {
+        const outcome o = finished(text, methods[m], 1e-12, 5);
+        NEAR(o.x[0], x * exp(t - 5), 1e-12);
+        NEAR(o.v[0], -o.x[0], 1e-12);
+    }
+}
+
+/* Each by itself: bodies that stop at different times. */
+static void many(void **state)
+{
+    (void)state;
+    static const char *const text =
+        "x[i]'' = -x[i] - 0.1 sign(x[i]') for i = 1..4\nx[i](0) = 0.3 i + 0.05 for i = 1..4\n"
+        "x[i]'(0) = 0 for i = 1..4\n";
+    for (int m = 0; m < METHODS; m++) {
+        const outcome o = finished(text, methods[m], 1e-12, 60);
+        for (int i = 1; i <= 4; i++) {
+            double at = 0.3 * i + 0.05;
+            while (fabs(at) > 0.1) at = -(at - copysign(0.2, at));
+            NEAR(o.x[i - 1], at, 1e-11);
+            NEAR(o.v[i - 1], 0, 0);
+        }
+    }
+}
+
+/* Two bodies that rub on one another go on together. */
+static void together(void **state)
+{
+    (void)state;
+    static const char *const text =
+        "x'' = -sign(x' - y')\ny'' = sign(x' - y')/3\nx(0) = 0\nx'(0) = 4\ny(0) = 0\ny'(0) = 0\n";
+    for (int m = 0; m < METHODS; m++) {
+        const outcome o = finished(text, methods[m], 1e-12, 10);
+        NEAR(o.v[0], 1, 1e-14); /* momentum 4 of masses 1 and 3, after 3 units of time */
+        NEAR(o.v[1], 1, 1e-14);
+        NEAR(o.x[0], 3 * 2.5 + 7, 1e-13);
+        NEAR(o.x[1], 3 * 0.5 + 7, 1e-13);
+    }
+}
+
+static void refused(const char *text, const char *says)
+{
+    const outcome o = run_of(text, "dop853", 1e-9, 10);
+    assert_int_equal(o.status, MOTUS_SOLVE);
+    if (!strstr(o.message, says)) fail_msg("%s: it says %s", text, o.message);
+}
+
+static void refusals(void **state)
+{
+    (void)state;
+    refused("x'' = sign(x')\nx(0) = 0\nx'(0) = 0\n", "not unique");
+    refused("x'' = if(x' > 0, -1, 1)\nx(0) = 0\nx'(0) = 1\n", "slides");
+    refused("x'' = -sign(x') - sign(y')/2\ny'' = -sign(y') - sign(x')/2\nx(0) = 0\nx'(0) = 1\ny(0) = 0\ny'(0) = 1.5\n",
+            "together with another");
+}
+
+/* A run that is told nothing of switches. */
+static outcome usual(const char *text, motus_switches switches, double errors[2], char *why, size_t size)
+{
+    motus_system *s = given_text(text);
+    motus_run_def def = motus_default_run();
+    motus_error err = motus_default_error();
+    const size_t columns[2] = {1, 2};
+    double values[2];
+    motus_run *r = NULL;
+    outcome out = {.did = motus_default_statistics()};
+    def.method = "taylor";
+    def.tolerance = 1e-13;
+    def.until = 100;
+    def.machine = "interpreter";
+    def.error = errors ? MOTUS_BARS_CHEAP : MOTUS_BARS_NONE;
+    if (switches != MOTUS_SWITCHES_USUAL) def.switches = switches;
+    must(motus_run_create(s, &def, &r, &err), &err, text);
+    must(motus_run_finish(r, &err), &err, text);
+    must(motus_run_state(r, out.x, out.v, &err), &err, text);
+    assert_int_equal(motus_run_statistics(r, &out.did), MOTUS_OK);
+    if (errors) must(motus_run_errors(r, columns, 2, values, errors, &err), &err, text);
+    if (why) snprintf(why, size, "%s", motus_run_not_located(r));
+    motus_run_destroy(r);
+    motus_system_destroy(s);
+    return out;
+}
+
+static void by_default(void **state)
+{
+    (void)state;
+    static const char *const bouncing = "x'' = -x - 3 max(0, x)\nx(0) = 0\nx'(0) = 1\n";
+    static const char *const contact = "x'' = 1 - 5 max(0, x)^1.5\nx(0) = -1\nx'(0) = 0\n";
+    char why[200];
+    const outcome own = usual(bouncing, MOTUS_SWITCHES_USUAL, NULL, why, sizeof why),
+                  asked = usual(bouncing, MOTUS_SWITCHES_LOCATE, NULL, NULL, 0),
+                  step = usual(bouncing, MOTUS_SWITCHES_STEP, NULL, NULL, 0);
+    assert_string_equal(why, "");
+    assert_int_equal(own.did.switches, 42);
+    assert_int_equal(step.did.switches, -1);
+    NEAR(own.x[0], asked.x[0], 0);
+    NEAR(own.x[0], one_sided(100), 1e-12);
+    assert_int_equal(usual(contact, MOTUS_SWITCHES_USUAL, NULL, why, sizeof why).did.switches, -1);
+    assert_non_null(strstr(why, "undefined"));
+}
+
+/* A companion comes to rest where the run does, with a velocity that is not 0 to the bit. */
+static void bars_of_what_sticks(void **state)
+{
+    (void)state;
+    static const char *const text = "x'' = -x - f sign(x')\nf = 0.1\nx(0) = 1.05\nx'(0) = 0\n";
+    double errors[2];
+    const outcome o = usual(text, MOTUS_SWITCHES_USUAL, errors, NULL, 0);
+    NEAR(o.x[0], -0.05, errors[0]);
+    assert_true(errors[0] < 1e-13);
+}
+
+/* What a run leaves: its last state and how it got there. */
+static outcome by_machine(const char *text, const char *method, const char *machine)
+{
+    motus_system *s = given_text(text);
+    motus_run_def def = motus_default_run();
+    motus_error err = motus_default_error();
+    motus_run *r = NULL;
+    outcome out = {.did = motus_default_statistics()};
+    def.method = method;
+    given_step(&def, 0.1);
+    def.until = 30;
+    def.machine = machine;
+    must(motus_run_create(s, &def, &r, &err), &err, method);
+    must(motus_run_finish(r, &err), &err, method);
+    must(motus_run_state(r, out.x, out.v, &err), &err, method);
+    assert_int_equal(motus_run_statistics(r, &out.did), MOTUS_OK);
+    motus_run_destroy(r);
+    motus_system_destroy(s);
+    return out;
+}
+
+/* Rows that solve an equation for their stages keep what the force leaves unwritten: the sides, and modes of events. */
+static void on_every_machine(void **state)
+{
+    (void)state;
+    static const char *const sides = "x'' = -x - 3 max(x, 0) - 0.1 sign(x')\nx(0) = 1\nx'(0) = 0\n";
+    static const char *const mode = "s = 1\nx'' = -x - 3 s x - 0.1 x'\nx(0) = 1\nx'(0) = 0\n"
+                                    "when x = 0 falling: s = 0\nwhen x = 0 rising: s = 1\n";
+    static const struct {
+        const char *text, *method;
+    } runs[] = {{sides, "dop853"}, {sides, "radau15"}, {sides, "taylor"}, {mode, "gauss4"}, {mode, "radau15-fixed"}};
+    for (size_t k = 0; k < sizeof runs / sizeof *runs; k++) {
+        const outcome a = by_machine(runs[k].text, runs[k].method, "interpreter"),
+                      b = by_machine(runs[k].text, runs[k].method, "compiled");
+        NEAR(b.x[0], a.x[0], 0);
+        NEAR(b.v[0], a.v[0], 0);
+        assert_true(a.did.steps == b.did.steps && a.did.switches == b.did.switches);
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(kinks),
+        cmocka_unit_test(jumps_in_time),
+        cmocka_unit_test(sticks),
+        cmocka_unit_test(comes_to_rest),
+        cmocka_unit_test(slips_from_a_belt),
+        cmocka_unit_test(relay),
+        cmocka_unit_test(many),
+        cmocka_unit_test(together),
+        cmocka_unit_test(refusals),
+        cmocka_unit_test(by_default),
+        cmocka_unit_test(bars_of_what_sticks),
+        cmocka_unit_test(on_every_machine),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
