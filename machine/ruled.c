@@ -7,6 +7,7 @@
 
 #include "lang/graph/graph_place.h"
 #include "lang/tape/tape.h"
+#include "machine/least.h"
 #include "machine/rounding.h"
 
 #include <math.h>
@@ -149,24 +150,6 @@ static void name(void *ctx, size_t number, size_t instance, char *out, size_t si
 
 /* ---- making ---- */
 
-/* How far a leaf may be from its value at the centre of a box of states. */
-static node half_width(graph *g, node leaf, void *of)
-{
-    const model *m = of;
-    graph_shift shift = {(uint16_t)(3 * m->block_size), (uint16_t)(3 * m->block_size)};
-    return graph_seed_direction(g, leaf, &shift);
-}
-
-/* |g| less its radius on the box, a tenth of a percent of it counted twice for what rounding leaves of the radius. A
- * box has no width of time nor of accelerations. */
-static node least_value(model *m, node value)
-{
-    graph *g = m->graph;
-    if (graph_deps(g, value) & (DEP_TIME | DEP_A)) return graph_const(g, -1);
-    const node radius = graph_radius(g, value, half_width, m), more = graph_const(g, 1.001);
-    return graph_op(g, OP_SUB, graph_op(g, OP_ABS, value, 0, 0), graph_op(g, OP_MUL, radius, more, 0), 0);
-}
-
 static bool make_functions(ruled *r, model *m)
 {
     size_t count = 0;
@@ -179,8 +162,8 @@ static bool make_functions(ruled *r, model *m)
         for (size_t k = 0; k < m->rules[i].leaves; k++, n++) {
             leaves[n] = rate[n] = nearest[n] = slowest[n] = m->rules[i].leaf[k];
             rate[n].value = graph_derivative(m->graph, leaves[n].value, model_seed_motion, m);
-            nearest[n].value = least_value(m, leaves[n].value);
-            slowest[n].value = least_value(m, rate[n].value);
+            nearest[n].value = least_size(m, leaves[n].value);
+            slowest[n].value = least_size(m, rate[n].value);
         }
     r->values = tape_of(m->arena, m->graph, leaves, count);
     r->rates = tape_of(m->arena, m->graph, rate, count);

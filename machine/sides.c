@@ -4,6 +4,7 @@
 #include "base/decimal.h"
 #include "lang/model/switches.h"
 #include "lang/tape/tape.h"
+#include "machine/least.h"
 #include "machine/rounding.h"
 
 #include <math.h>
@@ -18,7 +19,7 @@ struct sides {
     const problem *problem;
     rules supplied, own;
     rule *rule;
-    tape *argument, *rate, *rounding;
+    tape *argument, *rate, *rounding, *least, *least_rates;
     tape *hold, *hold_rate, *hold_rounding; /* NULL: none can be held */
     double *u, *du, *later;       /* of all switches: arguments, their rates, and the arguments a little later */
     double *before, *now, *bound; /* likewise, while sides are chosen */
@@ -98,6 +99,34 @@ static void rounding(void *ctx, double t, double *x, double *v, double *out)
         out[k] = 0x1p-53 * (held && is_held(s, side, k)
                                 ? 2 * fabs(s->p[k]) * (s->dp[k] + 1)
                                 : out[k] * fabs(switches_distance_slope(op_of(s, k), side[k], s->u[k])));
+}
+
+/* While an argument is 0 it is not known to move; and the value that holds one has no bound. */
+static bool unknown(const sides *s, const double *side, size_t k)
+{
+    return is_held(s, side, k) || switches_distance_slope(op_of(s, k), side[k], 0) == 0;
+}
+
+static void least_of(const sides *s, bool rates, double *x, double *v, double *dx, double *dv, double *out)
+{
+    const double *side = x + s->switches->slot;
+    if (s->own.functions) (rates ? s->own.least_rates : s->own.least)(s->own.ctx, x, v, dx, dv, out);
+    out += s->own.functions;
+    for (size_t k = 0; k < s->switches->count; k++) out[k] = INFINITY; /* cells outside the ranges */
+    double *base[SPACES] = {[SPACE_X] = x, [SPACE_V] = v, [SPACE_DX] = dx, [SPACE_DV] = dv, [SPACE_OUT] = out};
+    tape_run(rates ? s->least_rates : s->least, NAN, base);
+    for (size_t k = 0; k < s->switches->count; k++)
+        if (unknown(s, side, k)) out[k] = -1;
+}
+
+static void least(void *ctx, double *x, double *v, double *dx, double *dv, double *out)
+{
+    least_of(ctx, false, x, v, dx, dv, out);
+}
+
+static void least_rates(void *ctx, double *x, double *v, double *dx, double *dv, double *out)
+{
+    least_of(ctx, true, x, v, dx, dv, out);
 }
 
 static int act(void *ctx, size_t rule, size_t instance, double t, double *x, double *v, bool *in_v, size_t *which)
@@ -348,6 +377,32 @@ static motus_status settle(void *ctx, double way, double t, double *x, double *v
 
 /* ---- making ---- */
 
+/* The distance of a whole part from leaving its side is (u - p) (p + 1 - u), of which both factors are bounded. */
+static node least_count(model *m, node u, node side)
+{
+    graph *g = m->graph;
+    const node radius = least_radius(m, u), none = graph_const(g, 0), one = graph_const(g, 1);
+    const node above = graph_op(g, OP_SUB, u, side, 0), below = graph_op(g, OP_SUB, one, above, 0);
+    return graph_op(g, OP_MUL, graph_op(g, OP_MAX, graph_op(g, OP_SUB, above, radius, 0), none, 0),
+                    graph_op(g, OP_MAX, graph_op(g, OP_SUB, below, radius, 0), none, 0), 0);
+}
+
+static bool make_least(sides *s, model *m)
+{
+    const switches *w = m->located;
+    output *nearest = arena_room(m->arena, 2 * w->kinds * sizeof *nearest), *slowest = nearest + w->kinds;
+    if (!nearest) return false;
+    for (size_t k = 0; k < w->kinds; k++) {
+        const bool counts = switches_counts(op_of(s, w->first[k]));
+        nearest[k] = w->held[k], slowest[k] = w->rate[k];
+        nearest[k].value = counts ? least_count(m, w->held[k].value, w->side[k]) : least_size(m, w->held[k].value);
+        slowest[k].value = counts ? graph_const(m->graph, -1) : least_size(m, w->rate[k].value);
+    }
+    s->least = tape_of(m->arena, m->graph, nearest, w->kinds);
+    s->least_rates = tape_of(m->arena, m->graph, slowest, w->kinds);
+    return s->least && s->least_rates;
+}
+
 static bool make(sides *s, model *m)
 {
     const switches *w = m->located;
@@ -376,7 +431,8 @@ static bool make(sides *s, model *m)
     s->supplied.values = values;
     s->supplied.rates = rates;
     s->supplied.rounding = rounding;
-    s->supplied.least = s->supplied.least_rates = NULL;
+    s->supplied.least = least;
+    s->supplied.least_rates = least_rates;
     s->supplied.act = act;
     s->supplied.name = name;
     s->supplied.turn = turn;
@@ -390,7 +446,7 @@ static bool make(sides *s, model *m)
         s->hold_rounding = rounding_tape(m, w->hold, w->hold_kinds);
         if (!s->hold || !s->hold_rate || !s->hold_rounding) return false;
     }
-    return s->argument && s->rate && s->rounding && sides_rebind(s);
+    return s->argument && s->rate && s->rounding && make_least(s, m) && sides_rebind(s);
 }
 
 motus_status sides_create(model *m, const rules *own, const problem *p, sides **out, motus_error *err)
@@ -411,7 +467,8 @@ const rules *sides_rules(const sides *s) { return &s->supplied; }
 bool sides_rebind(sides *s)
 {
     const binding b = {s->model->arrays, s->model->ints, s->model->pool};
-    tape *const tapes[] = {s->argument, s->rate, s->rounding, s->hold, s->hold_rate, s->hold_rounding};
+    tape *const tapes[] = {s->argument,    s->rate, s->rounding,  s->least,
+                           s->least_rates, s->hold, s->hold_rate, s->hold_rounding};
     for (size_t k = 0; k < sizeof tapes / sizeof *tapes; k++)
         if (tapes[k] && !tape_bind(tapes[k], &b)) return false;
     /* the periods of clocks depend on parameters */

@@ -1,0 +1,13 @@
+/* Lower bounds of the size of formulas on a box of states: what a step of the run keeps within. */
+#ifndef MACHINE_LEAST_H
+#define MACHINE_LEAST_H
+
+#include "lang/model/model.h"
+
+/* How far the value may be on the box from that at its centre, which SPACE_X and SPACE_V hold; SPACE_DX and SPACE_DV
+ * hold the half widths. Infinite of what depends on time or accelerations, in which a box has no width. */
+node least_radius(model *, node value);
+/* A number that |value| nowhere falls below on the box; not positive: none is known. */
+node least_size(model *, node value);
+
+#endif
