@@ -37,6 +37,8 @@ static motus_status check(const motus_system *s, const motus_ensemble_def *d, mo
                         d->records[r].column, s->column_count);
     if ((unsigned)d->error > MOTUS_BARS_FULL)
         return fail(err, MOTUS_ARGUMENT, "there is no kind of bars %d", (int)d->error);
+    if ((unsigned)d->switches > MOTUS_SWITCHES_USUAL)
+        return fail(err, MOTUS_ARGUMENT, "there is no way to treat switches of number %d", (int)d->switches);
     if (d->every < 1)
         return fail(err, MOTUS_ARGUMENT, "observations are every 1, 2, … steps, not %lld", (long long)d->every);
     if (d->threads < 0 || d->threads > MOTUS_THREADS_MAX)
@@ -275,8 +277,11 @@ static motus_status make(motus_ensemble *e, const motus_ensemble_def *d, motus_e
     const bool later = automatic && !d->fast;
     const bool events = e->rules != NULL;
     if (events)
-        snprintf(e->note, sizeof e->note, "%s one trajectory at a time",
-                 s->model && s->model->rule_count == 0 ? "switches are located" : "events are followed");
+        snprintf(e->note, sizeof e->note, "%s",
+                 s->model && s->model->rule_count == 0
+                     ? "switches are located, one trajectory at a time; "
+                       "`switches = step` of the definition leads across them, in lanes"
+                     : "events are followed one trajectory at a time");
     if (status == MOTUS_OK && s->model && compiled && !events) status = try_lanes(e, d, later, err);
     if (status != MOTUS_OK) return status;
     e->lane_threads = e->threads;
@@ -290,15 +295,30 @@ static motus_status make(motus_ensemble *e, const motus_ensemble_def *d, motus_e
     return status;
 }
 
-/* The system whose steps end where a switch changes its side, by the rule of runs; NULL: the caller's own. */
-static motus_status locate(motus_system *s, const motus_ensemble_def *d, motus_system **out, motus_error *err)
+static motus_status refuse_switches(motus_switches asked, const char *method, motus_error *err)
+{
+    if (asked == MOTUS_SWITCHES_RESOLVE) return fail(err, MOTUS_UNAVAILABLE, "an ensemble does not resolve switches");
+    fail(err, MOTUS_UNAVAILABLE,
+         "an ensemble locates switches by a method that adapts its steps, and those of %s do not", method);
+    hint(err, "choose an adaptive method, dop853 or taylor, or leave `switches` of the definition out");
+    return MOTUS_UNAVAILABLE;
+}
+
+/* The system whose steps end where a switch changes its side, by the rule of runs; NULL: the caller's own, and `why`
+ * says why where switches could have been located. */
+static motus_status locate(motus_system *s, const motus_ensemble_def *d, motus_system **out, const char **why,
+                           motus_error *err)
 {
     chosen c;
     const motus_method *card;
-    const char *why;
     *out = NULL;
+    *why = NULL;
+    const motus_switches asked = d->switches;
     const motus_status status = choice_method(s, d->method, &c, &card, err);
-    return status == MOTUS_OK && row_adaptive(&c) ? located_of(s, false, out, &why, err) : status;
+    if (status != MOTUS_OK || asked == MOTUS_SWITCHES_STEP) return status;
+    const bool locates = asked == MOTUS_SWITCHES_LOCATE;
+    if (asked == MOTUS_SWITCHES_RESOLVE || (locates && !row_adaptive(&c))) return refuse_switches(asked, c.name, err);
+    return row_adaptive(&c) ? located_of(s, locates, out, why, err) : MOTUS_OK;
 }
 
 motus_status motus_ensemble_create(motus_system *s, const motus_ensemble_def *given, motus_ensemble **out,
@@ -314,7 +334,8 @@ motus_status motus_ensemble_create(motus_system *s, const motus_ensemble_def *gi
     if (status == MOTUS_OK) status = check(s, &d, err);
     if (status == MOTUS_OK) status = ensemble_accuracy_begin(s, &d, &goal, err);
     motus_system *own = s, *located = NULL;
-    if (status == MOTUS_OK) status = locate(s, &d, &located, err);
+    const char *why = NULL;
+    if (status == MOTUS_OK) status = locate(s, &d, &located, &why, err);
     if (status != MOTUS_OK) {
         ensemble_accuracy_end(goal);
         return status;
@@ -327,6 +348,10 @@ motus_status motus_ensemble_create(motus_system *s, const motus_ensemble_def *gi
     }
     *e = (motus_ensemble){.system = s,
                           .home = located ? own : NULL,
+                          .switches = located                                   ? MOTUS_SWITCHES_LOCATE
+                                      : own->model && located_kinks(own->model) ? MOTUS_SWITCHES_STEP
+                                                                                : MOTUS_SWITCHES_USUAL,
+                          .not_located = why ? why : "",
                           .goal = goal,
                           .allocator = s->allocator,
                           .every = d.every,
@@ -525,6 +550,9 @@ int motus_ensemble_lanes(const motus_ensemble *e)
 {
     return e && e->lanes && e->awaits != AWAITS_LANES ? lanes_in_block(e->lanes) : 1;
 }
+motus_switches motus_ensemble_switches(const motus_ensemble *e) { return e ? e->switches : MOTUS_SWITCHES_USUAL; }
+const char *motus_ensemble_not_located(const motus_ensemble *e) { return e ? e->not_located : ""; }
+
 int64_t motus_ensemble_compiled_from(const motus_ensemble *e) { return e ? e->compiled_from : -1; }
 int motus_ensemble_threads(const motus_ensemble *e) { return e ? e->threads : 1; }
 double motus_ensemble_seconds(const motus_ensemble *e) { return e ? e->seconds : 0; }

@@ -38,7 +38,9 @@ typedef struct ensemble_table ensemble_table; /* ensemble_events.c: the events o
 struct motus_ensemble {
     motus_system *system; /* a located one where its switches are (api/located.h), */
     motus_system *home;   /*   of this one; NULL: the caller's own */
-    ensemble_goal *goal;  /* an accuracy is asked for; NULL: none is */
+    motus_switches switches;
+    const char *not_located; /* why switches are not; "": they are, or that was not asked for */
+    ensemble_goal *goal;     /* an accuracy is asked for; NULL: none is */
     motus_allocator allocator;
     chosen chosen;
     timing timing;

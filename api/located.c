@@ -6,8 +6,7 @@
 
 #include <string.h>
 
-/* Whether a line of the model is not smooth. */
-static bool kinked(const model *m)
+bool located_kinks(const model *m)
 {
     bool kinks = !m->traits.smooth;
     for (size_t k = 0; k < m->boundary_count && !kinks; k++) kinks = graph_kink(m->graph, m->boundary[k].value) != 0;
@@ -74,7 +73,7 @@ motus_status located_of(motus_system *s, bool asked, motus_system **out, const c
         s->located_known = false;
         s->located_refused = NULL;
     }
-    if (!s->located_known && kinked(s->model)) {
+    if (!s->located_known && located_kinks(s->model)) {
         const motus_status status = make(s, err);
         if (status != MOTUS_OK) return status;
     }

@@ -13,6 +13,8 @@
  * beyond every switch, and there are at most LOCATED_MOST of them, each of which costs time in every step. No run may
  * use it where its numbers have been set since. */
 enum { LOCATED_MOST = 64 };
+/* Whether the force, or what moves a boundary cell, is not smooth. */
+bool located_kinks(const model *);
 motus_status located_of(motus_system *, bool asked, motus_system **, const char **why, motus_error *);
 /* Reads the text of a system again, with the same modes; nudged: as in lang/text/source.h. */
 motus_status located_read(const motus_system *, bool nudged, motus_system **, motus_error *);

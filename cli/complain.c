@@ -26,7 +26,7 @@ bool complain_colours(int descriptor)
 
 /* The library speaks of its definitions: "`until` of the definition", "`until = 3` of the definition". Here their
  * members are options: --until, --until 3. */
-static void name_options(const char *text, char *out, size_t size)
+void complain_named(const char *text, char *out, size_t size)
 {
     static const char of[] = "` of the definition";
     size_t n = 0;
@@ -52,7 +52,7 @@ static void name_options(const char *text, char *out, size_t size)
 void complain_json(json *j, const char *key, const motus_error *err)
 {
     char message[2 * MOTUS_TEXT_MAX + 2], help[sizeof err->hint];
-    name_options(err->hint, help, sizeof help);
+    complain_named(err->hint, help, sizeof help);
     snprintf(message, sizeof message, "%s%s%s", err->message, help[0] ? "; " : "", help);
     json_open(j, key, '{');
     tell_error(j, err, message);
@@ -73,7 +73,7 @@ int complain_show(const motus_error *given, bool as_json)
 {
     motus_error own = *given, *err = &own;
     if (as_json && show_json(given)) return motus_status_exit(given->status);
-    name_options(given->hint, own.hint, sizeof own.hint);
+    complain_named(given->hint, own.hint, sizeof own.hint);
     if (strcmp(own.file, "motus_text_def.set") == 0) snprintf(own.file, sizeof own.file, "--set");
     bool colours = complain_colours(2);
     const char *strong = colours ? "\033[1m" : "", *red = colours ? "\033[31m" : "", *plain = colours ? "\033[0m" : "";
@@ -107,13 +107,14 @@ int complain_show(const motus_error *given, bool as_json)
 
 void complain_note(const char *format, ...)
 {
-    char raw[2 * MOTUS_TEXT_MAX];
+    char raw[2 * MOTUS_TEXT_MAX], note[sizeof raw];
     va_list arguments;
     va_start(arguments, format);
     vsnprintf(raw, sizeof raw, format, arguments);
     va_end(arguments);
+    complain_named(raw, note, sizeof note);
     fflush(stdout);
     fputs("motus: ", stderr);
-    text_put(stderr, raw);
+    text_put(stderr, note);
     putc('\n', stderr);
 }

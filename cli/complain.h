@@ -14,7 +14,9 @@ motus_status complain_memory(motus_error *);
 int complain_show(const motus_error *, bool json);
 /* The error as a member of an object that is open: {kind, message, line, column}. */
 void complain_json(json *, const char *key, const motus_error *);
-/* Prints a note on standard error. */
+/* Puts the program's options for the members of definitions which a text of the library names. */
+void complain_named(const char *text, char *out, size_t size);
+/* Prints a note on standard error, with these options. */
 void complain_note(const char *format, ...) __attribute__((format(printf, 1, 2)));
 
 /* Whether to use colours on standard output (1) or standard error (2). */

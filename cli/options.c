@@ -83,7 +83,7 @@ static const option table[] = {
      "write the CSV (sweep: .npy as well; lab: the page) to FILE; - is standard output"},
     {"--error", NULL, "HOW", WORD, AT(error), VERB_RUN | VERB_SWEEP,
      "the error of every final number: cheap (else; by twice the work), full (three times), none"},
-    {"--switches", NULL, "HOW", WORD, AT(switches), VERB_RUN,
+    {"--switches", NULL, "HOW", WORD, AT(switches), VERB_RUN | VERB_SWEEP,
      "where the force jumps or has a kink: locate (steps end there; else where they adapt), step (they lead across)"},
     {"--errors", NULL, NULL, FLAG, AT(errors), VERB_RUN | VERB_SWEEP,
      "add the errors to the CSV: x.error for every column, and whether any digit is significant"},
@@ -538,6 +538,12 @@ void options_free(options *o)
     free(o->random.items);
     free(o->methods.items);
     free(o->methods_text);
+}
+
+motus_switches options_switches(const options *o)
+{
+    if (!o->switches) return MOTUS_SWITCHES_USUAL;
+    return strcmp(o->switches, "locate") ? MOTUS_SWITCHES_STEP : MOTUS_SWITCHES_LOCATE;
 }
 
 void options_help(FILE *out, unsigned verb)

@@ -60,6 +60,8 @@ void options_free(options *);
 const char *options_verb(unsigned verb);
 /* Whether there is an option --name, of any verb. */
 bool options_known(const char *name, size_t length);
+/* What --switches asks for. */
+motus_switches options_switches(const options *);
 /* The lines of --help for the options of a verb. */
 void options_help(FILE *, unsigned verb);
 /* Splits "x,r.x,u[1,2]" at the commas outside brackets. The items point into *copy; the caller frees both. */

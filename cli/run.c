@@ -127,7 +127,7 @@ static motus_status begin(job *j, motus_error *err)
     j->def.threads = (int)o->threads;
     j->def.progress = stop_progress_hook;
     j->def.context = &j->progress;
-    if (o->switches) j->def.switches = strcmp(o->switches, "locate") ? MOTUS_SWITCHES_STEP : MOTUS_SWITCHES_LOCATE;
+    j->def.switches = options_switches(o);
     j->def.error = bars_wanted(o);
     j->began = stop_clock();
     status = motus_run_create(j->model.system, &j->def, &j->run, err);

@@ -120,6 +120,7 @@ static motus_status create(sweep *s, stop_progress *progress, motus_error *err)
                 : o->error && strcmp(o->error, "full") == 0 ? MOTUS_BARS_FULL
                                                             : MOTUS_BARS_CHEAP;
     def.expected = s->grid.total;
+    def.switches = options_switches(o);
     def.events = o->events || o->plot;
     def.event_columns = s->event_columns;
     def.event_column_count = s->event_columns_count + s->event_columns_more;
@@ -174,6 +175,8 @@ static motus_status make(sweep *s, stop_progress *progress, motus_error *err)
     const options *o = s->options;
     motus_status status = create(s, progress, err);
     if (!status) note_machine(s);
+    if (!status && !o->quiet && motus_ensemble_not_located(s->ensemble)[0])
+        complain_note("%s", motus_ensemble_not_located(s->ensemble));
     if (!status) status = check_ends(s, err);
     if (status) return status;
     s->method = motus_ensemble_method(s->ensemble);
@@ -254,9 +257,18 @@ static motus_status go(sweep *s, sweep_file *f, sweep_events *events, sweep_sect
     return status;
 }
 
+const char *sweep_switches(const sweep *s)
+{
+    const motus_switches how = motus_ensemble_switches(s->ensemble);
+    if (isnan(s->tolerance) || how == MOTUS_SWITCHES_USUAL) return NULL;
+    return how == MOTUS_SWITCHES_LOCATE ? "locate" : "step";
+}
+
 static void report_json(const sweep *s, const sweep_file *f, double wall)
 {
     const motus_ensemble *e = s->ensemble;
+    char note[2 * MOTUS_TEXT_MAX];
+    complain_named(motus_ensemble_note(e), note, sizeof note);
     json j = text_json(stdout);
     json_string(&j, "model", s->options->operand);
     json_string(&j, "method", s->method);
@@ -276,6 +288,8 @@ static void report_json(const sweep *s, const sweep_file *f, double wall)
     json_number(&j, "compiled_from", from < 0 ? NAN : (double)from);
     json_integer(&j, "lanes", motus_ensemble_lanes(e));
     json_integer(&j, "threads", motus_ensemble_threads(e));
+    json_string(&j, "note", note[0] ? note : NULL);
+    json_string(&j, "switches", sweep_switches(s));
     json_bool(&j, "fast", s->options->fast);
     json_number(&j, "seconds", motus_ensemble_seconds(e));
     json_number(&j, "wall", wall);

@@ -43,6 +43,10 @@ typedef struct sweep {
     char fingerprint[17]; /* a hash of everything that the numbers depend on */
 } sweep;
 
+/* What an adaptive method does at the switches of the force, a word of --switches; NULL: there are none, or the method
+ * is not adaptive. */
+const char *sweep_switches(const sweep *);
+
 /* sweep_head.c: the line of the command, "# motus sweep …\n", which makes the rows. */
 motus_status sweep_head_command(const sweep *, file_out *, motus_error *);
 /* Makes the head: it depends on the request alone, not on machine or threads, so that files can be compared. */

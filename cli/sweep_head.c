@@ -59,6 +59,7 @@ static void fingerprint(sweep *s)
         mix_number(&hash, o->shortest_step);
         mix_number(&hash, o->longest_step);
         if (o->most_steps) mix_count(&hash, (uint64_t)o->most_steps);
+        if (sweep_switches(s)) mix_text(&hash, sweep_switches(s));
     }
     mix_number(&hash, s->until);
     mix_count(&hash, (uint64_t)s->every);
@@ -128,6 +129,7 @@ static motus_status command(const sweep *s, file_out *f, motus_error *err)
     if (!status && s->errors) status = option(f, "--error", how_told(s), err);
     if (!status) status = option(f, "--method", s->method, err);
     if (!status) status = steps(s, f, err);
+    if (!status && sweep_switches(s)) status = option(f, "--switches", sweep_switches(s), err);
     if (!status && !isnan(s->until)) status = option_number(f, "--until", s->until, err);
     if (!status && s->every > 1) {
         char text[DECIMAL_MAX + 8];

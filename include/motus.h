@@ -1027,11 +1027,15 @@ typedef struct motus_ensemble_def {
     int64_t events;
     const size_t *event_columns;
     size_t event_column_count;
+    /* As in motus_run_def, of adaptive methods alone; with MOTUS_SWITCHES_STEP lanes compute trajectories across
+     * switches, else those of a system with switches are computed one at a time. */
+    motus_switches switches;
 } motus_ensemble_def;
 
 /* MOTUS_NAME: a name in `vary` is neither a parameter nor an initial value. MOTUS_SHAPE: it stands for several numbers.
  * MOTUS_ARGUMENT: it decides what must be the same for all trajectories, or a member of the definition is out of its
- * range. MOTUS_METHOD, MOTUS_LIMIT, MOTUS_TOOL: as from motus_run_create. */
+ * range. MOTUS_UNAVAILABLE: switches are to be located in steps of one size, or resolved. MOTUS_METHOD, MOTUS_LIMIT,
+ * MOTUS_TOOL: as from motus_run_create. */
 MOTUS_API motus_status motus_ensemble_create(motus_system *, const motus_ensemble_def *, motus_ensemble **,
                                              motus_error *);
 /* Computes `count` trajectories. values[k]: `count` values of vary[k]; NULL only where vary_count is 0. results[k]:
@@ -1075,6 +1079,11 @@ MOTUS_API double motus_ensemble_tolerance(const motus_ensemble *, int *absolute)
 MOTUS_API double motus_ensemble_accuracy(const motus_ensemble *);
 MOTUS_API const char *motus_ensemble_machine(const motus_ensemble *);
 MOTUS_API const char *motus_ensemble_note(const motus_ensemble *); /* why it uses no faster machine, or "" */
+/* MOTUS_SWITCHES_LOCATE: steps end where a switch of the force changes its side. MOTUS_SWITCHES_STEP: they lead across;
+ * motus_ensemble_not_located says why where the definition leaves it to the library, else it is "".
+ * MOTUS_SWITCHES_USUAL: the force has no switches, or none that the library can see, since it comes from C. */
+MOTUS_API motus_switches motus_ensemble_switches(const motus_ensemble *);
+MOTUS_API const char *motus_ensemble_not_located(const motus_ensemble *);
 /* How many trajectories of all calls of motus_ensemble_run so far the interpreter computed before the ensemble went on
  * compiled; 0: none; -1: all of them. Machine, lanes and threads are those of the next trajectories. */
 MOTUS_API int64_t motus_ensemble_compiled_from(const motus_ensemble *);

@@ -286,6 +286,28 @@ that "... which it is, is said" says "it was made by: motus sweep osc.motus --va
 sweep line.motus --random a=0:1 --count 9 --seed 1 -o seeded.csv -q
 refuses "--resume with another seed" 2 "another sweep" "$motus" sweep line.motus --random a=0:1 --count 9 --seed 2 -o seeded.csv --resume
 refuses "--resume with another count" 2 "another sweep" "$motus" sweep line.motus --random a=0:1 --count 10 --seed 1 -o seeded.csv --resume
+# Steps of adaptive methods end where the force changes its formula, or lead across: two sweeps.
+printf "k = 1\nx'' = -k x + max(x, 0)\nx(0) = 1\nx'(0) = 0\nuntil 5\n" >kink.motus
+kinked=(kink.motus --vary k=0.5:2:7 --record x --method dop853 --machine compiled)
+gives "switches are located" 0 "$motus" sweep "${kinked[@]}" -o located.csv --json
+that "... which JSON says, and why there are no lanes" holds '.switches == "locate" and .lanes == 1 and (.note | contains("one trajectory at a time; --switches step"))'
+gives "... as --switches locate asks for" 0 "$motus" sweep "${kinked[@]}" --switches locate -o asked.csv -q
+that "... to the same file" cmp located.csv asked.csv
+gives "--switches step leads across" 0 "$motus" sweep "${kinked[@]}" --switches step -o across.csv --json
+that "... in lanes" holds '.switches == "step" and .lanes > 1 and .note == null'
+one_of() { "$motus" run kink.motus --set k=2 --method dop853 --json "$@" | jq .state.x; }
+that "... each with the bits of the runs" test "$(tail -n 1 located.csv | cut -d, -f3) $(tail -n 1 across.csv | cut -d, -f3)" = "$(one_of) $(one_of --switches step)"
+head -c 200 located.csv >part.csv && cp part.csv kept.csv
+refuses "--resume with other switches" 2 "part.csv was made by another sweep" "$motus" sweep "${kinked[@]}" --switches step -o part.csv --resume
+that "... the file stays" cmp part.csv kept.csv
+gives "... with the same ones" 0 "$motus" sweep "${kinked[@]}" -o part.csv --resume -q
+that "... it is finished" cmp located.csv part.csv
+refuses "steps of one size locate none in a sweep" 2 "by a method that adapts its steps, and those of verlet do not" "$motus" sweep kink.motus --vary k=1 --method verlet --step 0.1 --switches locate
+gives "a smooth force has none" 0 "$motus" sweep osc.motus --vary F=0.1 --method dop853 --switches step -o smooth.csv --json
+that "... and says so" holds '.switches == null'
+printf "k = 1\nx'' = -max(0, k x)^1.5\nx(0) = 1\nx'(0) = 0\nuntil 2\n" >beyond.motus
+gives "a force that may be undefined beyond a switch" 0 "$motus" sweep beyond.motus --vary k=1,2 --method dop853 -o beyond.csv --json
+that "... is led across" eval "holds '.switches == \"step\"' && says 'the force may be undefined beyond one' '$err'"
 refuses "--resume of something else" 2 "is not the beginning of a sweep" "$motus" sweep "${ask[@]}" -o values.csv --resume
 gives "--force" 0 "$motus" sweep line.motus --vary a=1 -o part.csv --force
 that "... replaces" eval "[ \$(rows part.csv | wc -l) = 1 ]"
@@ -376,7 +398,7 @@ refuses "a .npy that is there" 2 "whole.npy exists" "$motus" sweep "${ask[@]}" -
 # --- JSON and text ------------------------------------------------------------------------------------------------------------
 gives "--json" 0 "$motus" sweep blow.motus --vary k=-1,3 -o blow.csv --force --json
 that "... is JSON" json "$out"
-for key in model method step trajectories resumed steps machine compiled_from lanes threads fast seconds wall stopped output; do that "sweep: key $key" holds "has(\"$key\")"; done
+for key in model method step trajectories resumed steps machine compiled_from lanes threads note switches fast seconds wall stopped output; do that "sweep: key $key" holds "has(\"$key\")"; done
 that "sweep: what it says of itself" holds '.trajectories == 2 and .steps == 400 and .stopped == 1 and .output == "blow.csv" and .lanes >= 1 and .threads >= 1 and .seconds > 0 and .wall >= .seconds and .resumed == 0 and .fast == false and .method == "rk4" and .step == 0.01'
 gives "for people" 0 "$motus" sweep line.motus --vary a=1:2:5 -o line.csv
 that "... how many, how long" eval "says '5 trajectories' && says 'line.csv: 5 columns'"
