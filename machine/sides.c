@@ -232,7 +232,7 @@ static motus_status hold(sides *s, size_t k, double above, double below, double 
     bool coupled = false;
     for (size_t j = 0; j < count; j++) coupled |= j != k && is_held(s, side, j) && s->du[j] != s->later[j];
     for (size_t j = 0; j < count && status == MOTUS_OK && !coupled; j++) {
-        double one, other;
+        double one = 0, other = 0;
         if (j == k || !is_held(s, side, j)) continue;
         const double was = side[k];
         side[k] = 0;

@@ -70,9 +70,9 @@ static node zero_at(graph *g, node leaf, int level, void *side)
     return leaf == *(const node *)side ? graph_const(g, 0) : leaf;
 }
 
-enum { NONE = UINT32_MAX }; /* no node */
+static const node NO_NODE = UINT32_MAX; /* no node */
 
-/* The value that holds the argument of a kind at 0; NONE: there is none. */
+/* The value that holds the argument of a kind at 0; NO_NODE: there is none. */
 static node holding(const model *m, const switches *s, size_t kind)
 {
     graph *g = m->graph;
@@ -80,14 +80,14 @@ static node holding(const model *m, const switches *s, size_t kind)
     inserting in = {.s = s, .accel_count = m->accel_count, .rate = rate, .level = rate->loops};
     const node full = graph_replace(g, rate->value, DEP_A, rate->loops, equation_of, &in);
     node side = s->side[kind];
-    if (in.failed || !(graph_deps(g, full) & DEP_MODE)) return NONE;
+    if (in.failed || !(graph_deps(g, full) & DEP_MODE)) return NO_NODE;
     const node slope = graph_derivative(g, full, one_at, &side);
-    if (!slope) return NONE;
+    if (!slope) return NO_NODE;
     const node rest = graph_replace(g, full, DEP_MODE, rate->loops, zero_at, &side);
     return graph_op(g, OP_NEG, graph_op(g, OP_DIV, rest, slope, 0), 0, 0);
 }
 
-/* The acceleration of one variable with which the rate of a kind is 0: output *number. NONE: there is none. */
+/* The acceleration of one variable with which the rate of a kind is 0: output *number. NO_NODE: there is none. */
 static node resting(const model *m, const switches *s, size_t kind, size_t *number)
 {
     enum { MOVES = DEP_TIME | DEP_STATE | DEP_LEVELS };
@@ -97,7 +97,7 @@ static node resting(const model *m, const switches *s, size_t kind, size_t *numb
     graph_replace(g, rate->value, DEP_A, rate->loops, equation_of, &in);
     node own = graph_load(g, &s->accel[in.found].to);
     const node factor = in.failed ? 0 : graph_derivative(g, rate->value, one_at, &own);
-    if (!factor || graph_deps(g, factor) & MOVES) return NONE;
+    if (!factor || graph_deps(g, factor) & MOVES) return NO_NODE;
     in.without = own;
     const node rest = graph_replace(g, rate->value, DEP_A, rate->loops, equation_of, &in);
     *number = in.found;
@@ -106,7 +106,7 @@ static node resting(const model *m, const switches *s, size_t kind, size_t *numb
 
 typedef struct held_sides {
     const switches *s;
-    const node *value; /* kinds: what holds each; NONE: nothing does */
+    const node *value; /* kinds: what holds each; NO_NODE: nothing does */
 } held_sides;
 
 /* The side, or where it is SWITCHES_HELD the value that holds. */
@@ -115,7 +115,7 @@ static node side_or_value(graph *g, node leaf, int level, void *ctx)
     const held_sides *h = ctx;
     (void)level;
     for (size_t k = 0; k < h->s->kinds; k++) {
-        if (h->s->side[k] != leaf || h->value[k] == NONE) continue;
+        if (h->s->side[k] != leaf || h->value[k] == NO_NODE) continue;
         const node held = graph_op(g, OP_GT, leaf, graph_const(g, 1.5), 0);
         return graph_op(g, OP_SELECT, held, h->value[k], leaf);
     }
@@ -132,9 +132,9 @@ bool sliding_prepare(model *m, switches *s)
     s->hold_rate = s->hold + s->kinds;
     s->hold_kinds = 0;
     for (size_t k = 0; k < s->kinds; k++) {
-        value[k] = s->op[s->first[k]] == OP_SIGN ? holding(m, s, k) : NONE;
-        s->holds[k] = value[k] != NONE;
-        if (value[k] == NONE) continue;
+        value[k] = s->op[s->first[k]] == OP_SIGN ? holding(m, s, k) : NO_NODE;
+        s->holds[k] = value[k] != NO_NODE;
+        if (value[k] == NO_NODE) continue;
         output *o = &s->hold[s->hold_kinds];
         *o = s->hold_rate[s->hold_kinds++] = s->rate[k];
         o->value = value[k];
@@ -144,7 +144,7 @@ bool sliding_prepare(model *m, switches *s)
     held_sides h = {s, value};
     for (size_t k = 0; k < s->kinds; k++) {
         size_t at = 0;
-        rests[k] = value[k] != NONE ? resting(m, s, k, &at) : NONE;
+        rests[k] = value[k] != NO_NODE ? resting(m, s, k, &at) : NO_NODE;
         resting_at[k] = at;
     }
     const struct {
@@ -159,7 +159,7 @@ bool sliding_prepare(model *m, switches *s)
     for (size_t k = 0; k < s->kinds; k++) {
         graph *g = m->graph;
         node *to = &s->accel[resting_at[k]].value;
-        if (rests[k] == NONE) continue;
+        if (rests[k] == NO_NODE) continue;
         /* what the others are held by is in it, too */
         const output *o = &s->accel[resting_at[k]];
         const node is = graph_replace(g, rests[k], DEP_MODE, o->loops, side_or_value, &h);
