@@ -106,11 +106,39 @@ ours_answer ours_adaptive(const char *file, const struct problem *, const char *
 double ours_pendulums(const char *file, const char *method, double tolerance, size_t count, const double *F,
                       const double *theta, double *x, double *v);
 
+/* ours_events.c: a run with events to its end. */
+typedef struct watched {
+    const char *file, *when; /* the model, and one rule more or NULL */
+    const char *method, *machine;
+    double tolerance, step, until; /* as in motus_run_def */
+    int across;                    /* 1: switches of the force are not located */
+    const double *x, *v;           /* as in motus_run_def */
+    const char *columns[2];        /* NULL, or what `last` tells */
+    int64_t steps, evaluations, events;
+    double last[3]; /* of the last event: its time and the columns */
+} watched;
+double ours_watched(watched *); /* the processor's seconds of the run alone, or NaN */
+/* `count` motions of models/henon-heiles.motus from x = 0, and where they pass x = 0 rising: those of `kept` motions at
+ * equal distances among them, SECTION_MOST places each. */
+enum { SECTION_MOST = 256 };
+typedef struct section_point {
+    double t, y, v;
+} section_point;
+typedef struct sections {
+    size_t count, kept;
+    double *y, *vx, *vy, until; /* the starts */
+    section_point *points;
+    int *found; /* how many of each */
+} sections;
+double ours_sections(sections *, const char *method, double tolerance, int threads); /* seconds, or NaN */
+
 /* The comparisons, one file each. */
 void compare_accuracy(void);
 void compare_driven_pendulums(void); /* a part of it */
 void compare_energy(void);
 void compare_ensembles(void);
+void compare_events(void);
+void compare_sections(void); /* a part of it */
 void compare_single(void);
 void compare_large(void);
 void compare_programs(void);

@@ -37,7 +37,8 @@ function(bench_peer name header)
   endif()
 endfunction()
 bench_peer(GSL gsl/gsl_odeiv2.h gsl gslcblas)
-bench_peer(SUNDIALS arkode/arkode_erkstep.h sundials_arkode sundials_cvode sundials_sunnonlinsolfixedpoint sundials_nvecserial)
+bench_peer(SUNDIALS arkode/arkode_erkstep.h sundials_arkode sundials_cvode sundials_sunnonlinsolfixedpoint
+           sundials_sunlinsoldense sundials_sunmatrixdense sundials_nvecserial)
 
 # The C library's vector functions, x86-64 only.
 find_library(BENCH_mvec mvec)

@@ -61,6 +61,10 @@ typedef struct latencies {
 } latencies;
 latencies hand_latencies(void);
 
+/* A BILLIARD, models/billiard.motus, by steps of h to `until`: time and place of its hits, at most `most`. Returns how
+ * many there were. */
+int64_t hand_billiard(double h, double until, int64_t most, double (*hits)[3]);
+
 /* THE CHAIN of models/chain.motus: N cells, x[0] = x[N+1] = 0, by leapfrog: `steps` times v += kick a, x += step v.
  * The kick is h, and half of it at the very start. x, v and a have N + 2 numbers and begin 8 bytes before a line of
  * the cache; a is for the plain loops. */

@@ -30,6 +30,12 @@ int peer_sundials_adaptive(const char *solver, int which, double tolerance, doub
 /* Driven pendulums, theta'' = -0.1 theta' - sin theta + F cos(2 t/3), from rest at theta[k] to t = 20. */
 int peer_odeint_pendulums(size_t count, const double *F, const double *theta, double tolerance, double *x, double *v);
 
+/* SECTIONS: Henon and Heiles' motion from (0, y, vx, vy) to `until`, start after start; where each passes x = 0 rising,
+ * `most` places (t, y, y') each, and how many there were. solver: "adams" with functional iteration, or "bdf" with
+ * Newton's. evaluations: of the force, all of them. */
+int peer_sundials_sections(const char *solver, double tolerance, size_t count, const double *y, const double *vx,
+                           const double *vy, double until, int most, double *points, int *found, int64_t *evaluations);
+
 #ifdef __cplusplus
 }
 #endif
