@@ -69,6 +69,8 @@ static const layout layouts[] = {
                             &(const motus_estimate){.significant_until = NAN, .rate = NAN, .work = NAN, .reason = ""}},
     [MOTUS_DEF_EVENT_ROW] = {"motus_event_row", "event_row", SIZES(motus_event_row),
                              &(const motus_event_row){.name = "", .time = NAN, .error = NAN}},
+    [MOTUS_DEF_SWITCH] = {"motus_switch", "switch", SIZES(motus_switch),
+                          &(const motus_switch){.operation = "", .surface = "", .not_located = ""}},
 };
 
 static uint32_t size_now(const layout *l) { return l->sizes[l->count - 1]; }

@@ -68,7 +68,10 @@ struct motus_system {
     const char *explanation[3][4]; /* for each answer: gyroscopic, gradient */
     char *equation;
     char *events_text; /* what motus_explain_events said last, from the hooks */
-    char *mathml;      /* of the statement typeset last, from the hooks */
+    struct switches
+        *surfaces;      /* found by motus_switch_at; NULL until it is asked, and where a located system has them */
+    char *surface_text; /* what motus_switch_at said last */
+    char *mathml;       /* of the statement typeset last, from the hooks */
 };
 
 /* defaults.c. Whether the size in `made` is valid, when the versions had `sizes`, of which the last is the present. */

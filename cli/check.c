@@ -66,9 +66,28 @@ static void print_json(const options *o, const load *m)
     const char *explanation = motus_explain(m->system);
     json_string(&j, "explanation", explanation ? explanation : "");
     json_string(&j, "events", motus_explain_events(m->system));
+    tell_switches(&j, m->system);
     auto_json(&j, m);
     tell_admissions(&j, m->system);
     json_end(&j);
+}
+
+/* "x' = 0, where sign(x') changes: adaptive methods end their steps there; …" */
+static void print_switches(const load *m, const char *strong, const char *plain)
+{
+    static const char *const sliding[] = {"", "",
+                                          "; where the force pushes back from both sides, the motion is held there",
+                                          "; where the force pushes back from both sides, a run ends"};
+    motus_switch s = motus_default_switch();
+    for (size_t k = 0; motus_switch_at(m->system, k, &s) == MOTUS_OK; k++) {
+        char line[2 * MOTUS_TEXT_MAX], number[48] = "";
+        if (k == 0) printf("\n%sswitching surfaces%s\n", strong, plain);
+        if (s.count > 1) snprintf(number, sizeof number, " (%zu of them)", s.count);
+        snprintf(line, sizeof line, "%.400s, where %.400s%s changes: %s%s%s", s.surface, s.operation, number,
+                 s.located ? "adaptive methods end their steps there" : "steps lead across, since ", s.not_located,
+                 s.located ? sliding[s.sliding] : "");
+        text_wrap(stdout, line, 2, 100);
+    }
 }
 
 static motus_status print_text(const load *m, motus_error *err)
@@ -89,6 +108,7 @@ static motus_status print_text(const load *m, motus_error *err)
         printf("\n%sevents%s\n", strong, plain);
         text_wrap(stdout, events, 2, 100);
     }
+    print_switches(m, strong, plain);
     printf("\n%smethods%s\n", strong, plain);
     table *t = table_create("llrll");
     table_cell(t, "method");

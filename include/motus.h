@@ -454,6 +454,27 @@ MOTUS_API const char *motus_explain(motus_system *);
  * and what holds at the start, which is no event. Owned by the system, until the next call of this function. "": there
  * are none, or there was no memory. */
 MOTUS_API const char *motus_explain_events(motus_system *);
+/* Where the force changes its formula: each abs, sign, min, max, floor, mod, cbrt and comparison of time or state in
+ * the equations of motion, with the surface on which it does. */
+typedef enum motus_sliding {
+    MOTUS_SLIDING_UNKNOWN, /* the surface cannot be located */
+    MOTUS_SLIDING_NEVER,   /* motions pass: the operation does not jump, or does not move what it depends on */
+    MOTUS_SLIDING_HELD,    /* where the force drives a motion back from both sides, it is held on the surface */
+    MOTUS_SLIDING_ENDS     /* there a run ends with MOTUS_SOLVE */
+} motus_sliding;
+typedef struct motus_switch {
+    uint32_t size;           /* by motus_default_switch() */
+    const char *operation;   /* "sign(V - x')"; this and what follows is owned by the system, until the next call */
+    const char *surface;     /* "V - x' = 0", "t/2 = a whole number" */
+    size_t count;            /* switches: 1, of a family the cells of its indices' ranges; 0: not known */
+    int located;             /* 1: adaptive methods end their steps on it, unless they are told otherwise */
+    const char *not_located; /* why they do not: a sentence without full stop; "": they do */
+    motus_sliding sliding;   /* of runs that locate it */
+} motus_switch;
+/* Switch k, in the order in which the equations are evaluated. MOTUS_ARGUMENT: k is past the last; a callback has none.
+ * MOTUS_MEMORY: there was no memory. Of a model with more switches than can be located, the last is the one with which
+ * there are too many. */
+MOTUS_API motus_status motus_switch_at(motus_system *, size_t k, motus_switch *);
 /* Equation k in normal form, as text in the language: "x'' = x^3 - x + F cos(t)". Owned by the system, until the next
  * call of this function. NULL: k is past the last, the system is from a callback, or there was no memory. */
 MOTUS_API const char *motus_equation_text(motus_system *, size_t k);
@@ -1268,7 +1289,8 @@ typedef enum motus_def_kind {
     MOTUS_DEF_STATEMENT,
     MOTUS_DEF_STATISTICS,
     MOTUS_DEF_ESTIMATE,
-    MOTUS_DEF_EVENT_ROW
+    MOTUS_DEF_EVENT_ROW,
+    MOTUS_DEF_SWITCH
 } motus_def_kind;
 /* Fills in the first `size` bytes of a struct with its defaults; the functions below pass the size of this header.
  * Bytes beyond the library's own size become zero, and so does a struct that it does not know. */
@@ -1297,6 +1319,7 @@ MOTUS_DEFAULT_FUNCTION(statement, STATEMENT, motus_statement)
 MOTUS_DEFAULT_FUNCTION(statistics, STATISTICS, motus_statistics)
 MOTUS_DEFAULT_FUNCTION(estimate, ESTIMATE, motus_estimate)
 MOTUS_DEFAULT_FUNCTION(event_row, EVENT_ROW, motus_event_row)
+MOTUS_DEFAULT_FUNCTION(switch, SWITCH, motus_switch)
 #undef MOTUS_DEFAULT_FUNCTION
 
 #ifdef __cplusplus

@@ -217,7 +217,7 @@ static motus_status hold(sides *s, size_t k, double above, double below, double 
     const size_t count = s->switches->count, nv = s->problem->nv;
     double *side = x + s->switches->slot, middle;
     char why[160];
-    if (!s->switches->holds[kind_of(s, k)]) return refuse(s, k, slides, t, err);
+    if (s->switches->slides[kind_of(s, k)] != SLIDES_HELD) return refuse(s, k, slides, t, err);
     motus_status status = rate_on(s, k, 0, 1, t, x, v, &middle, err);
     if (status != MOTUS_OK) return status;
     if (fabs(middle - (above + below) / 2) > 0x1p-30 * (fabs(above) + fabs(below))) {

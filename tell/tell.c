@@ -112,6 +112,24 @@ void tell_analysis(json *j, const motus_system *system)
     json_bool(j, "exact_recognised", a.exact_recognised);
 }
 
+void tell_switches(json *j, motus_system *system)
+{
+    static const char *const sliding[] = {NULL, "passes", "held", "ends"};
+    motus_switch s = motus_default_switch();
+    json_open(j, "switches", '[');
+    for (size_t k = 0; motus_switch_at(system, k, &s) == MOTUS_OK; k++) {
+        json_open(j, NULL, '{');
+        json_string(j, "operation", s.operation);
+        json_string(j, "surface", s.surface);
+        json_integer(j, "count", (int64_t)s.count);
+        json_bool(j, "located", s.located);
+        json_string(j, "not_located", *s.not_located ? s.not_located : NULL);
+        json_string(j, "sliding", sliding[s.sliding]);
+        json_close(j, '}');
+    }
+    json_close(j, ']');
+}
+
 void tell_admissions(json *j, const motus_system *system)
 {
     json_open(j, "methods", '[');

@@ -12,6 +12,7 @@
 void tell_methods(json *, const motus_method *only); /* the catalogue; NULL: all of it */
 void tell_variables(json *, const motus_system *);
 void tell_analysis(json *, const motus_system *);
+void tell_switches(json *, motus_system *);         /* where the force changes its formula */
 void tell_admissions(json *, const motus_system *); /* whether each method admits the model, and if not, why */
 void tell_comparison(json *, const motus_comparison *);
 void tell_convergence(json *, const motus_convergence *);

@@ -765,6 +765,20 @@ gives "check: a planet" 0 "$motus" check models/kepler.motus --json
 that "... verlet is symplectic" holds '.methods[] | select(.name == "verlet") | .preserves == "symplectic"'
 gives "check: a driven oscillator" 0 "$motus" check models/driven-oscillator.motus
 that "... has no energy" lacks "an energy exists"
+cat >"$place/switches.motus" <<'M'
+V = 0.5
+x'' = -x + 0.6 sign(V - x') - max(x, 1)^1.5
+x(0) = 0
+x'(0) = 0
+M
+gives "check: switching surfaces" 0 "$motus" check "$place/switches.motus"
+that "... each with what becomes of runs there" says "V - x' = 0, where sign(V - x') changes: steps lead across, since switches are not located unless"
+"$motus" check "$place/switches.motus" --set V=1 --json >"$out" 2>"$err"
+that "... in JSON" holds '.switches == [{"operation": "sign(V - x'"'"')", "surface": "V - x'"'"' = 0", "count": 1, "located": false, "not_located": "switches are not located unless asked for, since the force may be undefined beyond one", "sliding": "held"}, {"operation": "max(x, 1)", "surface": "x = 1", "count": 1, "located": false, "not_located": "switches are not located unless asked for, since the force may be undefined beyond one", "sliding": "passes"}]'
+printf "x'' = -x - 0.1 sign(x')\nx(0) = 1\nx'(0) = 0\n" >"$place/dry.motus"
+gives "check: dry friction" 0 "$motus" check "$place/dry.motus"
+that "... is located" says "x' = 0, where sign(x') changes: adaptive methods end their steps there; where the force pushes"
+that "... and holds" says "  back from both sides, the motion is held there"
 gives "check for people" 0 "$motus" check models/damped-cubic.motus
 that "... says that the velocity is solved in closed form" says "closed form"
 for model in models/*.motus; do

@@ -293,6 +293,82 @@ static void on_every_machine(void **state)
     }
 }
 
+typedef struct surface {
+    const char *operation, *surface;
+    size_t count;
+    motus_sliding sliding;
+} surface;
+
+static void lists(const char *text, const surface *expected, size_t count, const char *not_located)
+{
+    motus_system *s = given_text(text);
+    motus_switch w = motus_default_switch();
+    for (size_t k = 0; k < count; k++) {
+        assert_int_equal(motus_switch_at(s, k, &w), MOTUS_OK);
+        assert_string_equal(w.operation, expected[k].operation);
+        assert_string_equal(w.surface, expected[k].surface);
+        assert_int_equal(w.count, expected[k].count);
+        assert_int_equal(w.sliding, expected[k].sliding);
+        assert_int_equal(w.located, !*not_located);
+        if (!strstr(w.not_located, not_located)) fail_msg("%s: not located, since %s", text, w.not_located);
+    }
+    assert_int_equal(motus_switch_at(s, count, &w), MOTUS_ARGUMENT);
+    motus_system_destroy(s);
+}
+
+/* What the force changes on: the time too, and families cell by cell. */
+static void surfaces(void **state)
+{
+    (void)state;
+    static const surface all[] = {{"sign(V - x')", "V - x' = 0", 1, MOTUS_SLIDING_HELD},
+                                  {"max(0, x)", "x = 0", 1, MOTUS_SLIDING_NEVER},
+                                  {"mod(t, 2)", "t/2 = a whole number", 1, MOTUS_SLIDING_NEVER},
+                                  {"t > 3", "t = 3", 1, MOTUS_SLIDING_NEVER},
+                                  {"abs(u[i])", "u[i] = 0", 3, MOTUS_SLIDING_NEVER},
+                                  {"floor(u[i]')", "u[i]' = a whole number", 3, MOTUS_SLIDING_ENDS}};
+    lists("V = 1\nx'' = sign(V - x') + max(0, x) + mod(t, 2) + if(t > 3, 1, 0)\nu[i]'' = -abs(u[i]) - floor(u[i]') for "
+          "i = "
+          "1..3\nx(0) = 0\nx'(0) = 0\nu[i](0) = 1 for i = 1..3\nu[i]'(0) = 0 for i = 1..3\n",
+          all, sizeof all / sizeof *all, "");
+    static const surface many[] = {{"abs(x[i])", "x[i] = 0", 65, MOTUS_SLIDING_NEVER}};
+    lists("x[i]'' = -abs(x[i]) for i = 1..65\nx[i](0) = 1 for i = 1..65\nx[i]'(0) = 0 for i = 1..65\n", many, 1,
+          "many");
+    static const surface beyond[] = {{"max(0, x)", "x = 0", 1, MOTUS_SLIDING_NEVER}};
+    lists("x'' = 1 - max(0, x)^1.5\nx(0) = -1\nx'(0) = 0\n", beyond, 1, "undefined");
+    static const surface too_many[] = {{"abs(x[i])", "x[i] = 0", 0, MOTUS_SLIDING_UNKNOWN}};
+    lists("x[i]'' = -abs(x[i]) for i = 1..65537\nx[i](0) = 1 for i = 1..65537\nx[i]'(0) = 0 for i = 1..65537\n",
+          too_many, 1, "too many");
+    static const surface steep[] = {{"cbrt(x)", "x = 0", 1, MOTUS_SLIDING_UNKNOWN}};
+    lists("x'' = -cbrt(x)\nx(0) = 1\nx'(0) = 0\n", steep, 1, "infinite slope");
+    lists("x'' = -x\nx(0) = 1\nx'(0) = 0\nloud = abs(x)\n", NULL, 0, "");
+    motus_switch w = motus_default_switch();
+    assert_int_equal(motus_switch_at(NULL, 0, &w), MOTUS_ARGUMENT);
+}
+
+/* The list follows numbers that are set, and leaves runs as they are. */
+static void surfaces_beside_runs(void **state)
+{
+    (void)state;
+    motus_system *s = given_text("V = 1\nx'' = -x + sign(V - x')\nx(0) = 0\nx'(0) = 0\nmethod dop853\nuntil 3\n");
+    motus_error err = motus_default_error();
+    motus_switch w = motus_default_switch();
+    motus_run_def def = motus_default_run();
+    motus_run *r = NULL;
+    double x[2][1], v[1];
+    for (int k = 0; k < 2; k++) {
+        if (k) assert_int_equal(motus_switch_at(s, 0, &w), MOTUS_OK);
+        must(motus_system_set(s, "V", (double[]){2}, 1, &err), &err, "V");
+        if (k) assert_int_equal(motus_switch_at(s, 0, &w), MOTUS_OK);
+        must(motus_run_create(s, &def, &r, &err), &err, "run");
+        if (k) assert_int_equal(motus_switch_at(s, 0, &w), MOTUS_OK);
+        must(motus_run_finish(r, &err), &err, "run");
+        must(motus_run_state(r, x[k], v, &err), &err, "run");
+        motus_run_destroy(r);
+    }
+    NEAR(x[1][0], x[0][0], 0);
+    motus_system_destroy(s);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -308,6 +384,8 @@ int main(void)
         cmocka_unit_test(by_default),
         cmocka_unit_test(bars_of_what_sticks),
         cmocka_unit_test(on_every_machine),
+        cmocka_unit_test(surfaces),
+        cmocka_unit_test(surfaces_beside_runs),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -72,19 +72,24 @@ static node zero_at(graph *g, node leaf, int level, void *side)
 
 static const node NO_NODE = UINT32_MAX; /* no node */
 
-/* The value that holds the argument of a kind at 0; NO_NODE: there is none. */
-static node holding(const model *m, const switches *s, size_t kind)
+/* Whether a motion may slide along a kind, and the value that holds its argument at 0; NO_NODE: there is none. */
+static switches_sliding holding(const model *m, const switches *s, size_t kind, node *value)
 {
     graph *g = m->graph;
     const output *rate = &s->rate[kind];
+    const operation op = (operation)s->op[s->first[kind]];
     inserting in = {.s = s, .accel_count = m->accel_count, .rate = rate, .level = rate->loops};
     const node full = graph_replace(g, rate->value, DEP_A, rate->loops, equation_of, &in);
     node side = s->side[kind];
-    if (in.failed || !(graph_deps(g, full) & DEP_MODE)) return NO_NODE;
-    const node slope = graph_derivative(g, full, one_at, &side);
-    if (!slope) return NO_NODE;
+    *value = NO_NODE;
+    if (!switches_jumps(op)) return SLIDES_NEVER;
+    if (in.failed) return SLIDES_REFUSED;
     const node rest = graph_replace(g, full, DEP_MODE, rate->loops, zero_at, &side);
-    return graph_op(g, OP_NEG, graph_op(g, OP_DIV, rest, slope, 0), 0, 0);
+    if (rest == full) return SLIDES_NEVER;
+    const node slope = op == OP_SIGN ? graph_derivative(g, full, one_at, &side) : 0;
+    if (!slope) return SLIDES_REFUSED;
+    *value = graph_op(g, OP_NEG, graph_op(g, OP_DIV, rest, slope, 0), 0, 0);
+    return SLIDES_HELD;
 }
 
 /* The acceleration of one variable with which the rate of a kind is 0: output *number. NO_NODE: there is none. */
@@ -127,13 +132,12 @@ bool sliding_prepare(model *m, switches *s)
     node *value = arena_room(m->arena, 2 * s->kinds * sizeof *value), *rests = value + s->kinds;
     size_t *resting_at = arena_room(m->arena, s->kinds * sizeof *resting_at);
     s->hold = arena_room(m->arena, 2 * s->kinds * sizeof *s->hold);
-    s->holds = arena_room(m->arena, s->kinds * sizeof *s->holds);
-    if (!value || !resting_at || !s->hold || !s->holds) return false;
+    s->slides = arena_room(m->arena, s->kinds * sizeof *s->slides);
+    if (!value || !resting_at || !s->hold || !s->slides) return false;
     s->hold_rate = s->hold + s->kinds;
     s->hold_kinds = 0;
     for (size_t k = 0; k < s->kinds; k++) {
-        value[k] = s->op[s->first[k]] == OP_SIGN ? holding(m, s, k) : NO_NODE;
-        s->holds[k] = value[k] != NO_NODE;
+        s->slides[k] = (uint8_t)holding(m, s, k, &value[k]);
         if (value[k] == NO_NODE) continue;
         output *o = &s->hold[s->hold_kinds];
         *o = s->hold_rate[s->hold_kinds++] = s->rate[k];

@@ -7,6 +7,7 @@
 #include "lang/graph/graph_walk.h"
 
 #include <math.h>
+#include <stdio.h>
 #include <string.h>
 
 enum { MOVING = DEP_TIME | (DEP_STATE & ~DEP_MODE), CELLS_TRIED = 1 << 20 };
@@ -206,6 +207,7 @@ static uint32_t kind_of(builder *b, node n, node a, node c, const nest *around)
         if (same_nest(&b->kinds[k - 1].around, around, levels)) return k - 1;
     reference value;
     s->refused = place(b, around, levels, &s->count, SWITCHES_MAX, &value);
+    if (s->refused) s->refused_at = n;
     if (s->refused || broken(b)) return UINT32_MAX;
     const reference side = place_sides(b, &value);
     if (s->refused) return UINT32_MAX;
@@ -216,6 +218,7 @@ static uint32_t kind_of(builder *b, node n, node a, node c, const nest *around)
         s->argument = arena_replace(m, s->argument, b->room * sizeof *s->argument, room * sizeof *s->argument);
         s->held = arena_replace(m, s->held, b->room * sizeof *s->held, room * sizeof *s->held);
         s->rate = arena_replace(m, s->rate, b->room * sizeof *s->rate, room * sizeof *s->rate);
+        s->original = arena_replace(m, s->original, b->room * sizeof *s->original, room * sizeof *s->original);
         s->side = arena_replace(m, s->side, b->room * sizeof *s->side, room * sizeof *s->side);
         s->first = arena_replace(m, s->first, b->room * sizeof *s->first, room * sizeof *s->first);
         if (broken(b)) return UINT32_MAX;
@@ -224,6 +227,7 @@ static uint32_t kind_of(builder *b, node n, node a, node c, const nest *around)
     const output o = output_to(&value, levels, around);
     const uint32_t k = (uint32_t)s->kinds++;
     b->kinds[k] = (kind){n, *around, graph_load(g, &side), b->last[n]};
+    s->original[k] = n;
     s->side[k] = b->kinds[k].side;
     b->last[n] = k + 1;
     s->first[k] = b->m->arrays[value.array].base;
@@ -395,6 +399,17 @@ void switches_locate(model *m)
     m->accel = s->accel;
     m->boundary = s->boundary;
     m->located = s;
+}
+
+void switches_surface(const model *m, node original, char *out, size_t size)
+{
+    const graph_node n = *graph_at(m->graph, original);
+    const operation op = (operation)n.op;
+    const bool turned = compares(op) && m->graph->nodes[n.a].op == OP_CONST;
+    model_print(m, turned ? n.b : compares(op) ? n.a : switches_argument(m->graph, op, n.a, n.b), out, size);
+    const size_t used = strlen(out);
+    snprintf(out + used, size - used, " = %s", switches_counts(op) ? "a whole number" : "0");
+    if (compares(op) && used + 3 < size) model_print(m, turned ? n.a : n.b, out + used + 3, size - used - 3);
 }
 
 /* Sides -------------------------------------------------------------------------------------------------------- */

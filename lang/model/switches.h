@@ -17,9 +17,14 @@
 
 enum { SWITCHES_MAX = 1 << 16, TOUCHES_MAX = 1 << 12 }; /* of one model, cells counted; more touches are not observed */
 
+/* What becomes of a motion that the force drives back to a switch from both sides. SLIDES_NEVER: it cannot, since the
+ * switch does not jump, or does not move its argument. */
+typedef enum switches_sliding { SLIDES_NEVER, SLIDES_HELD, SLIDES_REFUSED } switches_sliding;
+
 typedef struct switches {
     size_t count;        /* switches, cells counted */
     const char *refused; /* why they cannot be held: a part of a sentence; NULL: they can */
+    node refused_at;     /* the operation with which there were too many; 0: none */
     uint8_t *op;         /* count: the operation of each */
     /* The sides are numbers slot … slot + count - 1 of the pool, behind the model's own; of a model that has them as
      * modes, of x. */
@@ -29,13 +34,14 @@ typedef struct switches {
     size_t kinds;        /* switches, families counted once */
     output *argument;    /* kinds: what the switch compares with 0, or takes the integer part of, to SPACE_OUT */
     output *held, *rate; /* the same with sides in it, and its rate of change along the motion (reads SPACE_A) */
+    node *original;      /* kinds: the operation, as the model has it */
     node *side;          /* kinds: the side as the equations load it */
     size_t *first;       /* kinds: the number of the first cell's switch */
     /* Of a model that has modes for sides: the value that holds each argument at 0 while its side is SWITCHES_HELD, and
      * its rate along the motion; hold_kinds of them, to the places of their arguments. */
     output *hold, *hold_rate;
     size_t hold_kinds;
-    bool *holds;                 /* kinds: it may be held */
+    uint8_t *slides;             /* kinds: enum switches_sliding */
     size_t touches, touch_kinds; /* touches, cells counted; families counted once */
     output *touch, *touch_rate;  /* touch_kinds: the arguments, with sides in them, and their rates */
 } switches;
@@ -59,6 +65,8 @@ bool switches_counts(operation);
 double switches_side(operation, double u, double rate);
 /* Whether the operation itself jumps where its argument is 0, or a whole number. */
 bool switches_jumps(operation);
+/* Where the operation changes its formula, as text: "x' = 1", "t/2 = a whole number". */
+void switches_surface(const model *, node original, char *out, size_t size);
 /* A smooth function of u that is positive on the side and falls to 0 at its ends, and its derivative; on side 0 of a
  * sign, where u has been 0, it falls from 0 both ways. */
 double switches_distance(operation, double side, double u);
