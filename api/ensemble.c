@@ -234,7 +234,7 @@ motus_status ensemble_choose_single(motus_ensemble *e, const char *wanted, bool 
     if (!s->model && s->callback.block && !e->rules)
         e->block = e->until == SIZE_MAX ? ensemble_block_size(s, &e->chosen) : 1;
     if (!s->model || (wanted && !strcmp(wanted, "interpreter"))) return MOTUS_OK;
-    const char *why = NULL;
+    const char *why = "";
     compiled_state state = COMPILED_FAILED;
     e->chosen.varies = e->vary_count > 0;
     motus_status status =
@@ -312,13 +312,13 @@ static motus_status locate(motus_system *s, const motus_ensemble_def *d, motus_s
     chosen c;
     const motus_method *card;
     *out = NULL;
-    *why = NULL;
+    *why = "";
     const motus_switches asked = d->switches;
     const motus_status status = choice_method(s, d->method, &c, &card, err);
-    if (status != MOTUS_OK || asked == MOTUS_SWITCHES_STEP) return status;
-    const bool locates = asked == MOTUS_SWITCHES_LOCATE;
-    if (asked == MOTUS_SWITCHES_RESOLVE || (locates && !row_adaptive(&c))) return refuse_switches(asked, c.name, err);
-    return row_adaptive(&c) ? located_of(s, locates, out, why, err) : MOTUS_OK;
+    if (status != MOTUS_OK) return status;
+    if (asked == MOTUS_SWITCHES_RESOLVE || (asked == MOTUS_SWITCHES_LOCATE && !row_adaptive(&c)))
+        return refuse_switches(asked, c.name, err);
+    return row_adaptive(&c) ? located_of(s, asked, out, why, err) : MOTUS_OK;
 }
 
 motus_status motus_ensemble_create(motus_system *s, const motus_ensemble_def *given, motus_ensemble **out,
@@ -334,7 +334,7 @@ motus_status motus_ensemble_create(motus_system *s, const motus_ensemble_def *gi
     if (status == MOTUS_OK) status = check(s, &d, err);
     if (status == MOTUS_OK) status = ensemble_accuracy_begin(s, &d, &goal, err);
     motus_system *own = s, *located = NULL;
-    const char *why = NULL;
+    const char *why = "";
     if (status == MOTUS_OK) status = locate(s, &d, &located, &why, err);
     if (status != MOTUS_OK) {
         ensemble_accuracy_end(goal);
@@ -348,10 +348,7 @@ motus_status motus_ensemble_create(motus_system *s, const motus_ensemble_def *gi
     }
     *e = (motus_ensemble){.system = s,
                           .home = located ? own : NULL,
-                          .switches = located                                   ? MOTUS_SWITCHES_LOCATE
-                                      : own->model && located_kinks(own->model) ? MOTUS_SWITCHES_STEP
-                                                                                : MOTUS_SWITCHES_USUAL,
-                          .not_located = why ? why : "",
+                          .not_located = why,
                           .goal = goal,
                           .allocator = s->allocator,
                           .every = d.every,
@@ -550,7 +547,13 @@ int motus_ensemble_lanes(const motus_ensemble *e)
 {
     return e && e->lanes && e->awaits != AWAITS_LANES ? lanes_in_block(e->lanes) : 1;
 }
-motus_switches motus_ensemble_switches(const motus_ensemble *e) { return e ? e->switches : MOTUS_SWITCHES_USUAL; }
+motus_switches motus_ensemble_switches(const motus_ensemble *e)
+{
+    if (!e || !e->system->model) return MOTUS_SWITCHES_USUAL;
+    if (system_located(e->system)) return MOTUS_SWITCHES_LOCATE;
+    return located_kinks(e->system->model) ? MOTUS_SWITCHES_STEP : MOTUS_SWITCHES_USUAL;
+}
+
 const char *motus_ensemble_not_located(const motus_ensemble *e) { return e ? e->not_located : ""; }
 
 int64_t motus_ensemble_compiled_from(const motus_ensemble *e) { return e ? e->compiled_from : -1; }

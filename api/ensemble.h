@@ -36,9 +36,8 @@ typedef struct ensemble_goal ensemble_goal;   /* ensemble_accuracy.c */
 typedef struct ensemble_table ensemble_table; /* ensemble_events.c: the events of a trajectory */
 
 struct motus_ensemble {
-    motus_system *system; /* a located one where its switches are (api/located.h), */
-    motus_system *home;   /*   of this one; NULL: the caller's own */
-    motus_switches switches;
+    motus_system *system;    /* a located one where its switches are (api/located.h), */
+    motus_system *home;      /*   of this one; NULL: the caller's own */
     const char *not_located; /* why switches are not; "": they are, or that was not asked for */
     ensemble_goal *goal;     /* an accuracy is asked for; NULL: none is */
     motus_allocator allocator;

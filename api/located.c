@@ -59,13 +59,14 @@ static const char *unsuited(const model *m)
     for (size_t k = 0; k < m->accel_count && !domain; k++) domain = graph_domain(m->graph, m->accel[k].value) != 0;
     for (size_t k = 0; k < m->boundary_count && !domain; k++)
         domain = graph_domain(m->graph, m->boundary[k].value) != 0;
-    return domain ? "switches are not located unless asked for, since the force may be undefined beyond one" : NULL;
+    return domain ? "switches are not located unless asked for, since the force may be undefined beyond one" : "";
 }
 
-motus_status located_of(motus_system *s, bool asked, motus_system **out, const char **why, motus_error *err)
+motus_status located_of(motus_system *s, motus_switches asked, motus_system **out, const char **why, motus_error *err)
 {
     *out = NULL;
-    *why = NULL;
+    *why = "";
+    if (asked != MOTUS_SWITCHES_LOCATE && asked != MOTUS_SWITCHES_USUAL) return MOTUS_OK;
     if (!s->model || s->model->located) return MOTUS_OK;
     if (s->located && s->located_changes != s->changes) {
         motus_system_destroy(s->located);
@@ -79,8 +80,8 @@ motus_status located_of(motus_system *s, bool asked, motus_system **out, const c
     }
     s->located_known = true;
     s->located_changes = s->changes;
-    if (s->located && !asked) *why = unsuited(s->located->model);
+    if (s->located && asked == MOTUS_SWITCHES_USUAL) *why = unsuited(s->located->model);
     if (!s->located && s->located_refused) *why = s->located_refused;
-    if (!*why) *out = s->located;
+    if (!**why) *out = s->located;
     return MOTUS_OK;
 }

@@ -9,13 +9,14 @@
 #include "api/system.h"
 
 /* The located system of a system, with its numbers, which the system keeps; NULL: it has no switches, or `why` says
- * why they are not located. asked: by the caller, else as runs do by themselves: where the force goes on smoothly
- * beyond every switch, and there are at most LOCATED_MOST of them, each of which costs time in every step. No run may
- * use it where its numbers have been set since. */
+ * why they are not located, which is "" else. asked: MOTUS_SWITCHES_LOCATE: wherever there can be one;
+ * MOTUS_SWITCHES_USUAL: as runs by methods that adapt their steps do by themselves, where the force goes on smoothly
+ * beyond every switch, and there are at most LOCATED_MOST of them, each of which costs time in every step; another
+ * choice: none. No run may use it where its numbers have been set since. */
 enum { LOCATED_MOST = 64 };
 /* Whether the force, or what moves a boundary cell, is not smooth. */
 bool located_kinks(const model *);
-motus_status located_of(motus_system *, bool asked, motus_system **, const char **why, motus_error *);
+motus_status located_of(motus_system *, motus_switches asked, motus_system **, const char **why, motus_error *);
 /* Reads the text of a system again, with the same modes; nudged: as in lang/text/source.h. */
 motus_status located_read(const motus_system *, bool nudged, motus_system **, motus_error *);
 

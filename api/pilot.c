@@ -118,10 +118,8 @@ motus_status pilot_choose(motus_system *s, const motus_run_def *def, pilot *out,
 {
     motus_system *located = NULL;
     const char *why;
-    if (def->switches != MOTUS_SWITCHES_STEP) {
-        const motus_status known = located_of(s, def->switches == MOTUS_SWITCHES_LOCATE, &located, &why, err);
-        if (known != MOTUS_OK) return known;
-    }
+    const motus_status known = located_of(s, def->switches, &located, &why, err);
+    if (known != MOTUS_OK) return known;
     const bool kinks = s->model && !s->problem.traits.smooth && !located;
     fleet f = {.system = s, .def = *def, .until = NAN, .best = INFINITY, .names = kinks ? kinked : smooth};
     f.count = kinks ? sizeof kinked / sizeof *kinked : sizeof smooth / sizeof *smooth;

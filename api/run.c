@@ -266,12 +266,6 @@ motus_run *run_new(motus_system *s)
     return r;
 }
 
-/* Whether steps that adapt end where a switch changes its side. */
-static bool locates(const chosen *c, motus_switches switches)
-{
-    return row_adaptive(c) && (switches == MOTUS_SWITCHES_LOCATE || switches == MOTUS_SWITCHES_USUAL);
-}
-
 motus_status run_create(motus_system *s, const motus_run_def *complete, const run_hint *hint, motus_run **out,
                         motus_error *err)
 {
@@ -285,9 +279,8 @@ motus_status run_create(motus_system *s, const motus_run_def *complete, const ru
     status = choice_method(s, def.method, &method, &card, err);
     if (status == MOTUS_OK) status = control_choose(s, &wish, &method, err);
     if (status == MOTUS_OK) status = suggest_missing(s, &method, def.method, def.start, &def.step, &def.until, err);
-    const char *why = NULL;
-    if (status == MOTUS_OK && locates(&method, def.switches))
-        status = located_of(own, def.switches == MOTUS_SWITCHES_LOCATE, &s, &why, err);
+    const char *why = "";
+    if (status == MOTUS_OK && row_adaptive(&method)) status = located_of(own, def.switches, &s, &why, err);
     if (status != MOTUS_OK) return status;
     motus_run *r = run_new(s ? s : own);
     if (!r) return fail(err, MOTUS_MEMORY, "no memory for the run");
@@ -307,7 +300,7 @@ motus_status run_create(motus_system *s, const motus_run_def *complete, const ru
     r->chosen.threads = def.threads;
     if (status == MOTUS_OK) status = later_choose(r, def.machine, hint->steps, err);
     if (status == MOTUS_OK) status = locate_prepare(r, def.switches, err);
-    r->not_located = why ? why : "";
+    r->not_located = why;
     if (status == MOTUS_OK) status = bars_prepare(r, &def, err);
     if (r->locate) later_end(r), r->compiled_from = -1;
     if (status == MOTUS_OK && r->bars) r->bars->kept = r->kept;

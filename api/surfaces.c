@@ -28,7 +28,7 @@ static motus_status surface_at(motus_system *s, size_t k, motus_switch *out)
     motus_system *located, *unasked;
     const char *why;
     motus_switch ours = motus_default_switch();
-    if (located_of(s, true, &located, &why, NULL) != MOTUS_OK) return MOTUS_MEMORY;
+    if (located_of(s, MOTUS_SWITCHES_LOCATE, &located, &why, NULL) != MOTUS_OK) return MOTUS_MEMORY;
     const model *m = located ? located->model : s->model;
     const switches *w = located ? m->located : found_in(s);
     if (!w) return MOTUS_MEMORY;
@@ -39,15 +39,15 @@ static motus_status surface_at(motus_system *s, size_t k, motus_switch *out)
     const node original = k < w->kinds ? w->original[k] : w->refused_at;
     model_print(m, original, s->surface_text, ROOM);
     switches_surface(m, original, s->surface_text + ROOM, ROOM);
-    if (k < w->kinds) ours.count = (k + 1 < w->kinds ? w->first[k + 1] : w->count) - w->first[k];
+    if (k < w->kinds) ours.count = switches_cells(w, k);
     ours.operation = s->surface_text;
     ours.surface = s->surface_text + ROOM;
     ours.sliding = sliding_of(w, k);
-    if (located && located_of(s, false, &unasked, &why, NULL) != MOTUS_OK) return MOTUS_MEMORY;
+    if (located && located_of(s, MOTUS_SWITCHES_USUAL, &unasked, &why, NULL) != MOTUS_OK) return MOTUS_MEMORY;
     ours.located = located && unasked;
     if (!ours.located)
         ours.not_located = !located && w->refused ? w->refused
-                           : why                  ? why
+                           : why[0]               ? why
                                                   : "the force is continuous, with an infinite slope there";
     motus_struct_write(MOTUS_DEF_SWITCH, &ours, out);
     return MOTUS_OK;

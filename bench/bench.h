@@ -35,6 +35,7 @@ typedef struct side {
 double now(void);                                 /* seconds */
 double thread_seconds(void);                      /* seconds that this thread has had the processor */
 void measure(side *sides, int count, int rounds); /* a round before the first is not counted */
+double middle_of(double *values, size_t count);   /* their median; it sorts them. NaN: there are none */
 double median(const side *);                      /* NaN: not measured */
 double ratio(const side *over, const side *under);
 

@@ -42,19 +42,12 @@ static double by_odeint(void *p)
     return good ? thread_seconds() - start : NAN;
 }
 
-static int ascending(const void *a, const void *b)
-{
-    const double x = *(const double *)a, y = *(const double *)b;
-    return (x > y) - (x < y);
-}
-
 static double median_error(const fleet *f)
 {
     double *off = malloc(COUNT * sizeof *off);
     if (!off) return NAN;
     for (int k = 0; k < COUNT; k++) off[k] = fmax(fabs(f->x[k] - f->truth_x[k]), fabs(f->v[k] - f->truth_v[k]));
-    qsort(off, COUNT, sizeof *off, ascending);
-    const double middle = (off[COUNT / 2 - 1] + off[COUNT / 2]) / 2;
+    const double middle = middle_of(off, COUNT);
     free(off);
     return middle;
 }

@@ -91,12 +91,6 @@ static bool sections_of(sections *s, const sections *all, size_t kept)
 
 /* ---- errors ---- */
 
-static int ascending(const void *a, const void *b)
-{
-    const double x = *(const double *)a, y = *(const double *)b;
-    return (x > y) - (x < y);
-}
-
 /* The median over the motions of the largest error of a section point, in time and state; a motion with another number
  * of points counts as infinitely wrong. */
 static double error_of(const sections *s, const sections *truth)
@@ -109,8 +103,7 @@ static double error_of(const sections *s, const sections *truth)
         for (int i = 0; i < s->found[k] && isfinite(off[k]); i++)
             off[k] = fmax(off[k], fmax(fabs(p[i].t - is[i].t), fmax(fabs(p[i].y - is[i].y), fabs(p[i].v - is[i].v))));
     }
-    qsort(off, s->kept, sizeof *off, ascending);
-    return (off[(s->kept - 1) / 2] + off[s->kept / 2]) / 2;
+    return middle_of(off, s->kept);
 }
 
 /* ---- the sides ---- */

@@ -42,13 +42,18 @@ static int ascending(const void *a, const void *b)
     return (x > y) - (x < y);
 }
 
+double middle_of(double *values, size_t count)
+{
+    if (count == 0) return NAN;
+    qsort(values, count, sizeof *values, ascending);
+    return count % 2 ? values[count / 2] : (values[count / 2 - 1] + values[count / 2]) / 2;
+}
+
 static double middle(const double *values, int count)
 {
     double sorted[ROUNDS_MAX];
-    if (count == 0) return NAN;
     memcpy(sorted, values, (size_t)count * sizeof *values);
-    qsort(sorted, (size_t)count, sizeof *sorted, ascending);
-    return count % 2 ? sorted[count / 2] : (sorted[count / 2 - 1] + sorted[count / 2]) / 2;
+    return middle_of(sorted, (size_t)count);
 }
 
 double median(const side *s) { return middle(s->sample, s->taken); }

@@ -68,6 +68,17 @@ static int values(void *ctx, double t, double *x, double *v, double *out)
     return 0;
 }
 
+/* The arguments to u, and what `of` computes of them to out; where a switch is held, what holds it to p, and what
+ * `of_hold` computes of that to dp. True: one is. */
+static bool measure(const sides *s, tape *of, tape *of_hold, double t, double *x, double *v, double *a, double *out)
+{
+    run(s, s->argument, t, x, v, NULL, s->u);
+    run(s, of, t, x, v, a, out);
+    const bool held = any_held(s, x + s->switches->slot);
+    if (held) run(s, s->hold, t, x, v, NULL, s->p), run(s, of_hold, t, x, v, a, s->dp);
+    return held;
+}
+
 static int rates(void *ctx, double t, double *x, double *v, double *a, double *out)
 {
     const sides *s = ctx;
@@ -75,10 +86,7 @@ static int rates(void *ctx, double t, double *x, double *v, double *a, double *o
     const int status = s->own.functions ? s->own.rates(s->own.ctx, t, x, v, a, out) : 0;
     if (status) return status;
     out += s->own.functions;
-    run(s, s->argument, t, x, v, NULL, s->u);
-    run(s, s->rate, t, x, v, a, out);
-    const bool held = any_held(s, side);
-    if (held) run(s, s->hold, t, x, v, NULL, s->p), run(s, s->hold_rate, t, x, v, a, s->dp);
+    const bool held = measure(s, s->rate, s->hold_rate, t, x, v, a, out);
     for (size_t k = 0; k < s->switches->count; k++)
         out[k] = held && is_held(s, side, k) ? -2 * s->p[k] * s->dp[k]
                                              : out[k] * switches_distance_slope(op_of(s, k), side[k], s->u[k]);
@@ -91,10 +99,7 @@ static void rounding(void *ctx, double t, double *x, double *v, double *out)
     const double *side = x + s->switches->slot;
     if (s->own.functions) s->own.rounding(s->own.ctx, t, x, v, out);
     out += s->own.functions;
-    run(s, s->argument, t, x, v, NULL, s->u);
-    run(s, s->rounding, t, x, v, NULL, out);
-    const bool held = any_held(s, side);
-    if (held) run(s, s->hold, t, x, v, NULL, s->p), run(s, s->hold_rounding, t, x, v, NULL, s->dp);
+    const bool held = measure(s, s->rounding, s->hold_rounding, t, x, v, NULL, out);
     for (size_t k = 0; k < s->switches->count; k++)
         out[k] = 0x1p-53 * (held && is_held(s, side, k)
                                 ? 2 * fabs(s->p[k]) * (s->dp[k] + 1)
@@ -420,7 +425,7 @@ static bool make(sides *s, model *m)
                                   .direction = -1,
                                   .first = s->own.functions + w->first[k],
                                   .leaves = 1,
-                                  .instances = (k + 1 < w->kinds ? w->first[k + 1] : w->count) - w->first[k],
+                                  .instances = switches_cells(w, k),
                                   .assigns = true,
                                   .internal = true};
     s->supplied = s->own;

@@ -3,6 +3,7 @@
  * The truths are closed forms, or numbers of 30 digits that were computed by two independent ways.
  */
 #include "given.h"
+#include "test/fit.h"
 
 #include <stdbool.h>
 
@@ -583,17 +584,6 @@ static double ball_in_air(const char *method, double step, double tolerance, dou
     return worst;
 }
 
-/* The slope of the straight line through points, and twice its standard error. */
-static double slope(const double *x, const double *y, int n, double *twice)
-{
-    double mx = 0, my = 0, xx = 0, xy = 0, rest = 0;
-    for (int k = 0; k < n; k++) mx += x[k] / n, my += y[k] / n;
-    for (int k = 0; k < n; k++) xx += (x[k] - mx) * (x[k] - mx), xy += (x[k] - mx) * (y[k] - my);
-    for (int k = 0; k < n; k++) rest += pow(y[k] - my - xy / xx * (x[k] - mx), 2);
-    *twice = 2 * sqrt(rest / (n - 2) / xx);
-    return xy / xx;
-}
-
 static void a_ball_in_air(void **state)
 {
     (void)state;
@@ -627,7 +617,7 @@ static void order_in_air(void **state)
             ball_in_air(rows[k].method, exp2(x[i]), rows[k].tolerance, &sixth);
             y[i] = log2(sixth);
         }
-        const double observed = slope(x, y, SIZES, &twice);
+        const double observed = line_slope(x, y, SIZES, &twice);
         printf("%s: slope %.3f\n", rows[k].method, observed);
         assert_true(fabs(observed - rows[k].order) <= 0.15);
     }
@@ -645,7 +635,7 @@ static void tolerance_in_air(void **state)
         x[i] = log2(1e-3) - 1.25 * i;
         y[i] = log2(ball_in_air("dop853", NAN, exp2(x[i]), &sixth));
     }
-    const double power = slope(x, y, SIZES, &twice);
+    const double power = line_slope(x, y, SIZES, &twice);
     printf("dop853: error with the power %.3f +- %.3f of the tolerance\n", power, twice);
     assert_true(power >= ORDER / (ORDER + 1.0) - twice);
 }

@@ -12,6 +12,7 @@
  */
 #include "api/system.h"
 #include "core/rows.h"
+#include "test/fit.h"
 #include "test/laws.h"
 
 #include <math.h>
@@ -205,17 +206,6 @@ static errors errors_of(motus_system *s, const outcome *is, size_t m, int steps)
     return e;
 }
 
-/* The slope of a straight line through points, and twice its standard error. */
-static double fit(const double *x, const double *y, int n, double *twice)
-{
-    double mx = 0, my = 0, xx = 0, xy = 0, rest = 0;
-    for (int k = 0; k < n; k++) mx += x[k] / n, my += y[k] / n;
-    for (int k = 0; k < n; k++) xx += (x[k] - mx) * (x[k] - mx), xy += (x[k] - mx) * (y[k] - my);
-    for (int k = 0; k < n; k++) rest += pow(y[k] - my - xy / xx * (x[k] - mx), 2);
-    *twice = 2 * sqrt(rest / (n - 2) / xx);
-    return xy / xx;
-}
-
 /* Of points from the shortest step to the longest. */
 static void slope(const motus_method *card, int order, const motion *w, const char *of, const double *x,
                   const double *y, int n)
@@ -224,8 +214,8 @@ static void slope(const motus_method *card, int order, const motion *w, const ch
     const int half = n / 2;
     char law[64];
     snprintf(law, sizeof law, "%s, %s", w->name, of);
-    const double all = fit(x, y, n, &twice), fine = fit(x, y, n - half, &skip),
-                 coarse = fit(x + half, y + half, n - half, &skip);
+    const double all = line_slope(x, y, n, &twice), fine = line_slope(x, y, n - half, &skip),
+                 coarse = line_slope(x + half, y + half, n - half, &skip);
     const double margin = fmin(1, fmax(0.5, twice + 1.5 * fabs(fine - coarse)));
     const bool few = order > 7;
     const double observed = few ? fmax(all, fine) : fine,
@@ -320,7 +310,7 @@ static double power_of(motus_system *s, bool alone, const outcome *is, size_t m,
         const double error = known ? usual(ends, STARTS) : 0;
         if (error > 0x1p-40) x[n] = log2(c.relative), y[n++] = log2(error);
     }
-    return n > 3 ? fit(x, y, n, twice) : NAN;
+    return n > 3 ? line_slope(x, y, n, twice) : NAN;
 }
 
 /* An error estimate goes with h^(p+1), so the error falls with the power p/(p + 1) of the tolerance at least; where it

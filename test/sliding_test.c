@@ -11,43 +11,52 @@ typedef struct outcome {
     char message[MOTUS_TEXT_MAX];
 } outcome;
 
-static outcome run_of(const char *text, const char *method, double tolerance, double until)
+/* A run to its end. Where not NULL, errors: of the first position and velocity, why: why switches are not located. */
+static outcome done(const char *text, const motus_run_def *def, double errors[2], char *why, size_t size)
 {
+    const size_t columns[2] = {1, 2};
+    double values[2];
     motus_system *s = given_text(text);
-    motus_run_def def = motus_default_run();
     motus_error err = motus_default_error();
     motus_run *r = NULL;
     outcome out = {.did = motus_default_statistics()};
-    def.method = method;
-    def.tolerance = tolerance;
-    def.until = until;
-    def.machine = "interpreter";
-    def.switches = MOTUS_SWITCHES_LOCATE;
-    out.status = motus_run_create(s, &def, &r, &err);
+    out.status = motus_run_create(s, def, &r, &err);
     if (out.status == MOTUS_OK) out.status = motus_run_finish(r, &err);
     if (out.status) snprintf(out.message, sizeof out.message, "%s", err.message);
     if (r) {
         must(motus_run_state(r, out.x, out.v, &err), &err, text);
         assert_int_equal(motus_run_statistics(r, &out.did), MOTUS_OK);
+        if (errors) must(motus_run_errors(r, columns, 2, values, errors, &err), &err, text);
+        if (why) snprintf(why, size, "%s", motus_run_not_located(r));
     }
     motus_run_destroy(r);
     motus_system_destroy(s);
     return out;
 }
 
-static outcome finished(const char *text, const char *method, double tolerance, double until)
+static outcome run_of(const char *text, const char *method, double tolerance, double until)
 {
-    const outcome o = run_of(text, method, tolerance, until);
+    motus_run_def def = motus_default_run();
+    def.method = method;
+    def.tolerance = tolerance;
+    def.until = until;
+    def.machine = "interpreter";
+    def.switches = MOTUS_SWITCHES_LOCATE;
+    return done(text, &def, NULL, NULL, 0);
+}
+
+static outcome sound(outcome o, const char *text, const char *method)
+{
     if (o.status) fail_msg("%s: %s by %s: %s", text, motus_status_word(o.status), method, o.message);
     return o;
 }
 
-#define NEAR(value, expected, within)                                                                             \
-    do {                                                                                                          \
-        const double value_ = (value), expected_ = (expected);                                                    \
-        if (!(fabs(value_ - expected_) <= (within)))                                                              \
-            fail_msg("%s is %.17g, not %.17g: off by %.2g", #value, value_, expected_, fabs(value_ - expected_)); \
-    } while (0)
+static outcome finished(const char *text, const char *method, double tolerance, double until)
+{
+    return sound(run_of(text, method, tolerance, until), text, method);
+}
+
+#define NEAR(value, expected, within) near(value, expected, within, #value)
 
 static const char *const methods[] = {"dop853", "taylor", "tsit5", "verner9", "radau15"};
 enum { METHODS = sizeof methods / sizeof *methods };
@@ -200,28 +209,14 @@ static void refusals(void **state)
 /* A run that is told nothing of switches. */
 static outcome usual(const char *text, motus_switches switches, double errors[2], char *why, size_t size)
 {
-    motus_system *s = given_text(text);
     motus_run_def def = motus_default_run();
-    motus_error err = motus_default_error();
-    const size_t columns[2] = {1, 2};
-    double values[2];
-    motus_run *r = NULL;
-    outcome out = {.did = motus_default_statistics()};
     def.method = "taylor";
     def.tolerance = 1e-13;
     def.until = 100;
     def.machine = "interpreter";
     def.error = errors ? MOTUS_BARS_CHEAP : MOTUS_BARS_NONE;
     if (switches != MOTUS_SWITCHES_USUAL) def.switches = switches;
-    must(motus_run_create(s, &def, &r, &err), &err, text);
-    must(motus_run_finish(r, &err), &err, text);
-    must(motus_run_state(r, out.x, out.v, &err), &err, text);
-    assert_int_equal(motus_run_statistics(r, &out.did), MOTUS_OK);
-    if (errors) must(motus_run_errors(r, columns, 2, values, errors, &err), &err, text);
-    if (why) snprintf(why, size, "%s", motus_run_not_located(r));
-    motus_run_destroy(r);
-    motus_system_destroy(s);
-    return out;
+    return sound(done(text, &def, errors, why, size), text, def.method);
 }
 
 static void by_default(void **state)
@@ -256,22 +251,12 @@ static void bars_of_what_sticks(void **state)
 /* What a run leaves: its last state and how it got there. */
 static outcome by_machine(const char *text, const char *method, const char *machine)
 {
-    motus_system *s = given_text(text);
     motus_run_def def = motus_default_run();
-    motus_error err = motus_default_error();
-    motus_run *r = NULL;
-    outcome out = {.did = motus_default_statistics()};
     def.method = method;
     given_step(&def, 0.1);
     def.until = 30;
     def.machine = machine;
-    must(motus_run_create(s, &def, &r, &err), &err, method);
-    must(motus_run_finish(r, &err), &err, method);
-    must(motus_run_state(r, out.x, out.v, &err), &err, method);
-    assert_int_equal(motus_run_statistics(r, &out.did), MOTUS_OK);
-    motus_run_destroy(r);
-    motus_system_destroy(s);
-    return out;
+    return sound(done(text, &def, NULL, NULL, 0), text, method);
 }
 
 /* Rows that solve an equation for their stages keep what the force leaves unwritten: the sides, and modes of events. */

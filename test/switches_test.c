@@ -40,12 +40,7 @@ static outcome located(const char *text, const char *method, double step)
     return out;
 }
 
-#define NEAR(value, expected, tolerance)                                                                          \
-    do {                                                                                                          \
-        const double value_ = (value), expected_ = (expected);                                                    \
-        if (!(fabs(value_ - expected_) <= (tolerance)))                                                           \
-            fail_msg("%s is %.17g, not %.17g: off by %.2g", #value, value_, expected_, fabs(value_ - expected_)); \
-    } while (0)
+#define NEAR(value, expected, within) near(value, expected, within, #value)
 
 /* x'' = -sign(x) from rest at 1: parabolas of duration 2 √2 between the zeros. Every method of order 2 is exact on a
  * parabola, so only the rounding of the times is left. */

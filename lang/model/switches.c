@@ -90,6 +90,11 @@ static const char *place(builder *b, const nest *around, unsigned deps, size_t *
     return NULL;
 }
 
+size_t switches_cells(const switches *s, size_t kind)
+{
+    return (kind + 1 < s->kinds ? s->first[kind + 1] : s->count) - s->first[kind];
+}
+
 model_shape switches_shape(const model *m, const switches *s, size_t kind)
 {
     const array *of = &m->arrays[s->argument[kind].to.array];
@@ -384,10 +389,8 @@ bool switches_find(model *m, switches *s)
     s->op = arena_room(m->arena, s->count + 1);
     give(&m->arena->allocator, b.last);
     if (broken(&b) || !s->op) return false;
-    for (size_t k = 0; k < s->kinds; k++) {
-        const size_t end = k + 1 < s->kinds ? s->first[k + 1] : s->count;
-        memset(s->op + s->first[k], m->graph->nodes[b.kinds[k].n].op, end - s->first[k]);
-    }
+    for (size_t k = 0; k < s->kinds; k++)
+        memset(s->op + s->first[k], m->graph->nodes[b.kinds[k].n].op, switches_cells(s, k));
     return true;
 }
 

@@ -48,7 +48,8 @@ typedef struct switches {
 
 /* Finds the switches of accelerations and boundary lines. False: no memory. */
 bool switches_find(model *, switches *);
-/* The shape of a kind. */
+/* How many switches are of a kind, and their shape. */
+size_t switches_cells(const switches *, size_t kind);
 model_shape switches_shape(const model *, const switches *, size_t kind);
 /* Of a model that has modes for the sides of its switches: its equations read them from now on. It leaves `located`
  * NULL where they are not those switches. */
