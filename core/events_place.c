@@ -149,7 +149,9 @@ static motus_status crossing(events *e, candidate *c, motus_error *err)
     }
     c->at = found;
     c->located = true;
-    return last == found ? MOTUS_OK : events_at(e, found, at, err);
+    if (last == found) return MOTUS_OK;
+    const motus_status status = events_at(e, found, at, err);
+    return status ? status : events_judge(e, at, err);
 }
 
 /* The sign of a function at the ends of the times that a candidate has for itself; there it is not 0. */
@@ -233,7 +235,6 @@ motus_status events_locate(events *e, size_t k, motus_error *err)
         }
     }
     if (!c->located && !c->gone) status = crossing(e, c, err);
-    if (!status && c->located) status = events_judge(e, &e->here, err);
     e->shift = fmax(e->shift, fabs(c->at - guess));
     return status;
 }

@@ -222,7 +222,8 @@ static motus_status keep_end(stepper *s, int which, motus_error *err)
     if (!stepper_ends(s)) return fail(err, MOTUS_MEMORY, "out of memory for dense output");
     const size_t nx = s->work.nx, nv = s->work.nv;
     double *x = s->ends + (size_t)which * (nx + 2 * nv);
-    return stepper_sync(s, x, x + nx, x + nx + nv, err);
+    /* series have the acceleration among their terms, and nobody asks for it */
+    return stepper_sync(s, x, x + nx, s->work.expands ? NULL : x + nx + nv, err);
 }
 
 motus_status stepper_mark(stepper *s, motus_error *err)
@@ -268,8 +269,7 @@ bool stepper_swing(const stepper *s, double *most)
 {
     const work *w = &s->work;
     if (!s->left || s->left_steps != stepper_steps(s) - 1) return false;
-    memcpy(most, s->ends + w->nx + w->nv, w->nv * sizeof *most);
-    for (size_t k = 0; k < w->nv; k++) most[k] = fabs(most[k]);
+    for (size_t k = 0; k < w->nv; k++) most[k] = w->expands ? 0 : fabs(s->ends[w->nx + w->nv + k]);
     return s->body->swing(w, most);
 }
 
