@@ -51,8 +51,10 @@ export function followAddress(store: LiveStore, presets: Presets, toasts: Toasts
     try { if (address !== location.href) history[how](null, '', address); } catch { /* Some viewers forbid it; the memory holds it. */ }
   };
   if (!embed) store.subscribe(what => { if ((what === 'state' || what === 'view') && !timer) timer = window.setTimeout(write, pause); });
-  // The page that was opened without a state is one to come back to.
-  if (!embed && !location.hash.includes('=')) write();
+  // The page that was opened without a state is one to come back to. One that is loaded again is the reader's own, and a browser under load may have
+  // lost what was stored just before; somebody else's address leaves the memory alone until the reader changes something.
+  const again = performance.getEntriesByType('navigation').some(entry => (entry as PerformanceNavigationTiming).type === 'reload');
+  if (!embed && (again || !location.hash.includes('='))) write();
   window.addEventListener('pagehide', () => { if (timer) write(); });
   window.addEventListener('hashchange', () => {
     if (!location.hash.includes('=')) { if (!embed) write(); return; }          // a place in the page, none of our addresses

@@ -111,7 +111,13 @@ const NUMBER = '−?\\d+(?:\\.\\d+)?(?:×10[⁻⁰¹²³⁴⁵⁶⁷⁸⁹]+)?';
 /** The number behind these words in a sentence; NaN: they are not in it. */
 const behind = (sentence, words) => numberOf(new RegExp(`${words} (${NUMBER})`).exec(sentence)?.[1] ?? 'none');
 const near = (a, b) => Math.abs(a - b) <= 0.0051 * Math.abs(b);
-const answerOf = async (page, title) => { await closer(page, title); return figureOf(page, title).locator('.figure-answer').textContent(); };
+const answerOf = async (page, title) => {
+  await closer(page, title);
+  const answer = figureOf(page, title).locator('.figure-answer');
+  // A sentence comes some frames after its figure; a figure that never gets one says so by its absence.
+  await answer.filter({ hasText: /\S/ }).waitFor({ state: 'attached', timeout: 5000 }).catch(() => {});
+  return answer.textContent();
+};
 /** The energy at each row of a run of the program. */
 function energies(...words) {
   const [head, ...rows] = readCsv(motus('run', ...words, '-o', '-', '--quiet').split('\n').filter((line) => !line.startsWith('#')).join('\n'));
