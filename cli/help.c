@@ -49,6 +49,13 @@ static const page pages[] = {
      "  motus sweep models/kepler.motus --random \"r'.y(0)=normal:2:0.01\" --count 1000 --seed 7 --until 20 -o "
      "cloud.npy\n"
      "  motus sweep models/pendulum.motus --vary \"theta(0)=@swings.csv:theta(0)\" --until 1 --record energy\n"},
+    {VERB_MERGE, "motus merge FILE ... -o FILE",
+     "Joins the files of all shards of a sweep, in any order, to the file that one sweep writes, byte for byte: rows "
+     "or\n"
+     "events as CSV, or .npy.",
+     "  motus sweep models/pendulum.motus --vary \"theta(0)=0:pi:9001\" --until 10 --shard 1/2 -o part%K.csv\n"
+     "  motus sweep models/pendulum.motus --vary \"theta(0)=0:pi:9001\" --until 10 --shard 2/2 -o part%K.csv\n"
+     "  motus merge part1.csv part2.csv -o swings-all.csv\n"},
     {VERB_CHECK, "motus check MODEL [options]",
      "Prints the equations of a model as motus read them, what the acceleration depends on, and for every method "
      "whether\n"
@@ -81,6 +88,7 @@ void help_program(FILE *out)
           "  motus compare  MODEL     every method side by side\n"
           "  motus converge MODEL     error against step, the observed order, a certificate\n"
           "  motus sweep    MODEL     many trajectories: parameters and initial values vary\n"
+          "  motus merge    FILE ...  the shards of a sweep become one file\n"
           "  motus check    MODEL     the equations as motus read them, which methods they admit\n"
           "  motus methods [METHOD]   the catalogue, or the card of one method\n"
           "  motus lab     [MODEL]    the lab: motion and methods in the browser\n"

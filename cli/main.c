@@ -25,6 +25,7 @@ static const verb verbs[] = {
     {"compare", VERB_COMPARE, compare_verb},
     {"converge", VERB_CONVERGE, converge_verb},
     {"sweep", VERB_SWEEP, sweep_verb},
+    {"merge", VERB_MERGE, merge_verb},
     {"check", VERB_CHECK, check_verb},
     {"methods", VERB_METHODS, methods_verb},
     {"cache", VERB_CACHE, cache_verb},

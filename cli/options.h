@@ -16,7 +16,8 @@ enum {
     VERB_METHODS = 16,
     VERB_CACHE = 32,
     VERB_SWEEP = 64,
-    VERB_LAB = 128
+    VERB_LAB = 128,
+    VERB_MERGE = 256
 };
 
 typedef struct options_list {
@@ -27,8 +28,9 @@ typedef struct options_list {
 typedef struct options {
     unsigned verb;
     const char *operand; /* the model, or the method of `methods`; NULL: none */
+    options_list files;  /* the operands of `merge` */
     const char *method, *error, *switches, *output, *columns, *events, *section, *plot, *plot_of, *save_state;
-    const char *restart, *machine;
+    const char *restart, *machine, *shard;
     double step, until;                   /* NaN: the model's */
     double tolerance, accuracy;           /* NaN: the model's */
     double coarsest, finest;              /* accuracies to compare at; NaN: not given */

@@ -26,6 +26,7 @@ enum { BATCH_MOST = 1 << 16, BATCH_BYTES = 1 << 25, BATCH_MS = 500 };
 typedef struct batch {
     size_t most, count, lanes;                             /* lanes: of all threads together */
     double **values, **results, **errors, *stopped, *room; /* errors: NULL where none are told */
+    double **shifted;                                      /* values, from some trajectory of the batch on */
 } batch;
 
 /* How many records are behind those that were asked for. */
@@ -48,13 +49,14 @@ static motus_status batch_begin(batch *b, const sweep *s, motus_error *err)
     if (b->most > BATCH_MOST) b->most = BATCH_MOST;
     b->most = b->most > b->lanes ? b->most / b->lanes * b->lanes : b->lanes;
     b->count = 4 * b->lanes < b->most ? 4 * b->lanes : b->most;
-    b->values = calloc(columns, sizeof *b->values);
+    b->values = calloc(columns + s->grid.count, sizeof *b->values);
     b->room = b->most < SIZE_MAX / sizeof(double) / columns ? malloc(columns * b->most * sizeof(double)) : NULL;
     if (!b->values || !b->room) return complain_memory(err);
     for (size_t k = 0; k < columns; k++) b->values[k] = b->room + k * b->most;
     b->results = b->values + s->grid.count;
     b->errors = errors ? b->results + records : NULL;
     b->stopped = b->room + (columns - 1) * b->most;
+    b->shifted = b->values + columns;
     return MOTUS_OK;
 }
 
@@ -119,7 +121,7 @@ static motus_status create(sweep *s, stop_progress *progress, motus_error *err)
     def.error = !s->errors                                  ? MOTUS_BARS_NONE
                 : o->error && strcmp(o->error, "full") == 0 ? MOTUS_BARS_FULL
                                                             : MOTUS_BARS_CHEAP;
-    def.expected = s->grid.total;
+    def.expected = s->rows;
     def.switches = options_switches(o);
     def.events = o->events || o->plot;
     def.event_columns = s->event_columns;
@@ -191,6 +193,7 @@ static motus_status begin(sweep *s, sweep_section *section, stop_progress *progr
     motus_status status = check_options(o, err);
     if (!status) status = load_model(&s->model, o, err);
     if (!status) status = grid_read(&s->grid, o, err);
+    s->rows = status ? 0 : shard_rows(&s->shard, s->grid.total);
     for (size_t k = 0; !status && o->output && k < s->grid.count; k++)
         if (s->grid.axes[k].path && file_same(s->grid.axes[k].path, o->output))
             status = fail(err, MOTUS_ARGUMENT, "%s is read and would be overwritten", s->grid.axes[k].path);
@@ -223,22 +226,34 @@ static motus_status begin(sweep *s, sweep_section *section, stop_progress *progr
     return status ? status : make(s, progress, err);
 }
 
+/* The values of `count` trajectories from a row on; shifted: room for as many pointers. */
+static void take_values(const sweep *s, uint64_t row, size_t count, double *const *values, double **shifted)
+{
+    for (size_t i = 0; i < count;) {
+        const uint64_t run = shard_run(&s->shard, row + i);
+        const size_t some = run < count - i ? (size_t)run : count - i;
+        for (size_t k = 0; k < s->grid.count; k++) shifted[k] = values[k] + i;
+        grid_values(&s->grid, shard_trajectory(&s->shard, row + i), some, shifted);
+        i += some;
+    }
+}
+
 static motus_status go(sweep *s, sweep_file *f, sweep_events *events, sweep_section *section, stop_progress *p,
                        motus_error *err)
 {
     batch b = {0};
     motus_status status = batch_begin(&b, s, err);
-    double total = (double)s->grid.total;
+    const double total = (double)s->rows;
     p->before = (double)f->rows / total;
     p->amount = total;
     p->unit = "trajectories";
-    while (!status && f->rows < s->grid.total) {
-        uint64_t left = s->grid.total - f->rows;
+    while (!status && f->rows < s->rows) {
+        uint64_t left = s->rows - f->rows;
         size_t count = left < b.count ? (size_t)left : b.count;
         double began = stop_clock();
         p->from = (double)f->rows / total;
         p->span = (double)count / total;
-        grid_values(&s->grid, f->rows, count, b.values);
+        take_values(s, f->rows, count, b.values, b.shifted);
         const double *const *values = (const double *const *)b.values;
         const sweep_rows rows = {b.values, b.results, b.errors, b.stopped};
         status = b.errors ? motus_ensemble_run_errors(s->ensemble, count, values, b.results, b.errors, b.stopped, err)
@@ -249,8 +264,7 @@ static motus_status go(sweep *s, sweep_file *f, sweep_events *events, sweep_sect
         if (!status) status = sweep_events_rows(events, f->rows, count, err);
         if (!status) status = sweep_section_take(section, f->rows, count, b.values, err);
         if (!status) status = sweep_file_rows(f, count, &rows, err);
-        if (!status && f->rows < s->grid.total && stop_progress_hook(p, 1))
-            status = fail(err, MOTUS_CANCELLED, "cancelled");
+        if (!status && f->rows < s->rows && stop_progress_hook(p, 1)) status = fail(err, MOTUS_CANCELLED, "cancelled");
         batch_adapt(&b, lanes_of(s), stop_clock() - began);
     }
     batch_free(&b);
@@ -267,7 +281,7 @@ const char *sweep_switches(const sweep *s)
 static void report_json(const sweep *s, const sweep_file *f, double wall)
 {
     const motus_ensemble *e = s->ensemble;
-    char note[2 * MOTUS_TEXT_MAX];
+    char note[2 * MOTUS_TEXT_MAX], shard[SHARD_TEXT];
     complain_named(motus_ensemble_note(e), note, sizeof note);
     json j = text_json(stdout);
     json_string(&j, "model", s->options->operand);
@@ -280,7 +294,8 @@ static void report_json(const sweep *s, const sweep_file *f, double wall)
         json_bool(&j, "absolute", s->absolute);
     }
     settle_json(&j, &s->model);
-    json_integer(&j, "trajectories", (int64_t)s->grid.total);
+    json_integer(&j, "trajectories", (int64_t)s->rows);
+    json_string(&j, "shard", shard_whole(&s->shard) ? NULL : shard_text(&s->shard, shard));
     json_integer(&j, "resumed", (int64_t)f->found);
     json_integer(&j, "steps", motus_ensemble_steps(e));
     const int64_t from = motus_ensemble_compiled_from(e);
@@ -303,7 +318,7 @@ static void report(const sweep *s, const sweep_file *f, double wall)
     const motus_ensemble *e = s->ensemble;
     bool output = strcmp(f->path, "-") == 0; /* then the report is a message */
     FILE *out = output ? stderr : stdout;
-    char step[DECIMAL_MAX], until[DECIMAL_MAX], inside[DECIMAL_MAX], all[DECIMAL_MAX];
+    char step[DECIMAL_MAX], until[DECIMAL_MAX], inside[DECIMAL_MAX], all[DECIMAL_MAX], shard[SHARD_TEXT];
     double seconds = motus_ensemble_seconds(e), work = (double)(f->rows - f->found) * (double)motus_ensemble_steps(e);
     const bool exact = !isnan(s->accuracy), fixed = isnan(s->tolerance);
     decimal(exact ? s->accuracy : fixed ? s->step : s->tolerance, step);
@@ -326,7 +341,9 @@ static void report(const sweep *s, const sweep_file *f, double wall)
     fprintf(out, "%s, %d lane%s, %d thread%s\n", s->options->fast ? " (fast)" : "", motus_ensemble_lanes(e),
             motus_ensemble_lanes(e) == 1 ? "" : "s", motus_ensemble_threads(e),
             motus_ensemble_threads(e) == 1 ? "" : "s");
-    fprintf(out, "%llu trajectories", (unsigned long long)s->grid.total);
+    fprintf(out, "%llu trajectories", (unsigned long long)s->rows);
+    if (!shard_whole(&s->shard))
+        fprintf(out, " of %llu, shard %s", (unsigned long long)s->grid.total, shard_text(&s->shard, shard));
     if (f->found > 0) fprintf(out, ", %llu of them found in the file", (unsigned long long)f->found);
     fprintf(out, ": %s, integration %s", all, inside);
     if (work > 0 && seconds > 0) fprintf(out, ", %.3g ns per trajectory and step", seconds / work * 1e9);
@@ -339,9 +356,9 @@ static void report(const sweep *s, const sweep_file *f, double wall)
 
 static void note_unfinished(const sweep *s, const sweep_file *f)
 {
-    if (f->regular && f->rows < s->grid.total)
+    if (f->regular && f->rows < s->rows)
         complain_note("%llu of %llu trajectories are in %s; the same command with --resume continues",
-                      (unsigned long long)f->rows, (unsigned long long)s->grid.total, f->path);
+                      (unsigned long long)f->rows, (unsigned long long)s->rows, f->path);
 }
 
 static motus_status finish(const sweep *s, sweep_file *f, sweep_events *events, sweep_section *section, double began,
@@ -360,19 +377,36 @@ static motus_status finish(const sweep *s, sweep_file *f, sweep_events *events, 
     status = file_flush_output(err);
     if (!status && f->stopped > 0 && !o->quiet)
         complain_note("%llu of %llu trajectories did not reach their end: their column `stopped` has the time",
-                      (unsigned long long)f->stopped, (unsigned long long)s->grid.total);
+                      (unsigned long long)f->stopped, (unsigned long long)s->rows);
     return status;
+}
+
+/* Puts the number of the shard into the names of its files, which `names` keeps. */
+static motus_status name_files(const sweep *s, options *o, char *names[2], motus_error *err)
+{
+    const char **const given[] = {&o->output, &o->events};
+    for (int k = 0; k < 2; k++) {
+        if (!*given[k]) continue;
+        names[k] = shard_file(&s->shard, *given[k]);
+        if (!names[k]) return complain_memory(err);
+        *given[k] = names[k];
+    }
+    return MOTUS_OK;
 }
 
 motus_status sweep_verb(const options *o, motus_error *err)
 {
-    sweep s = {.options = o};
+    options own = *o; /* with the names of the files of this shard */
+    sweep s = {.options = &own};
     sweep_file f = {.descriptor = -1};
     sweep_events events = {.descriptor = -1};
     sweep_section section = {0};
     stop_progress progress = stop_progress_begin("sweep", o->quiet);
-    double began = stop_clock();
-    motus_status status = begin(&s, &section, &progress, err);
+    const double began = stop_clock();
+    char *names[2] = {NULL, NULL};
+    motus_status status = shard_read(&s.shard, o->shard, err);
+    if (!status) status = name_files(&s, &own, names, err);
+    if (!status) status = begin(&s, &section, &progress, err);
     if (!status) status = sweep_events_verify(&s, err);
     if (!status) {
         status = sweep_file_open(&f, &s, err);
@@ -390,6 +424,8 @@ motus_status sweep_verb(const options *o, motus_error *err)
     sweep_file_close(&f);
     sweep_events_close(&events);
     sweep_section_close(&section);
+    free(names[0]);
+    free(names[1]);
     free(s.head);
     free(s.event_columns);
     motus_ensemble_destroy(s.ensemble);

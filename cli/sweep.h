@@ -5,6 +5,7 @@
 #include "cli/file.h"
 #include "cli/grid.h"
 #include "cli/load.h"
+#include "cli/shard.h"
 
 /* What is recorded of each trajectory; and behind it SWEEP_JUDGED records, by which an accuracy is judged. */
 typedef struct sweep_records {
@@ -23,6 +24,8 @@ typedef struct sweep {
     const options *options;
     load model;
     grid grid;
+    shard shard;   /* which of the trajectories this command computes, */
+    uint64_t rows; /*   and how many they are: the rows of the complete file */
     sweep_records records;
     const char *method;
     double step, until; /* step NaN: it adapts, */
@@ -49,6 +52,10 @@ const char *sweep_switches(const sweep *);
 
 /* sweep_head.c: the line of the command, "# motus sweep …\n", which makes the rows. */
 motus_status sweep_head_command(const sweep *, file_out *, motus_error *);
+/* The second line of a CSV: the version, `what` trajectories and how many, the fingerprint, and the shard where it is
+ * not the whole sweep. Returns out. */
+enum { SWEEP_IDENTITY = 240 };
+const char *sweep_head_identity(const sweep *, const char *what, char out[SWEEP_IDENTITY]);
 /* Makes the head: it depends on the request alone, not on machine or threads, so that files can be compared. */
 motus_status sweep_head_make(sweep *, bool npy, motus_error *);
 
@@ -66,7 +73,7 @@ typedef struct sweep_file {
     size_t used, room;
 } sweep_file;
 
-/* sweep_accuracy.c: MOTUS_ACCURACY, with the first of `count` trajectories, from number `first` on, that did not reach
+/* sweep_accuracy.c: MOTUS_ACCURACY, with the first of `count` trajectories, from row `first` on, that did not reach
  * it; `judged` is what was recorded to judge them by. */
 motus_status sweep_accuracy_refuse(const sweep *, uint64_t first, size_t count, double *const *judged,
                                    const double *stopped, motus_error *);
@@ -91,13 +98,15 @@ void sweep_file_close(sweep_file *);
 
 /* Finds the rows of an interrupted sweep: sets rows, bytes, stopped. `end`: the file's length. */
 motus_status sweep_resume(sweep_file *, uint64_t end, motus_error *);
-/* The 128 bytes at the beginning of a .npy with `rows` rows. */
+/* The 128 bytes at the beginning of a .npy. */
 enum { SWEEP_NPY_HEAD = 128 };
-void sweep_npy_head(const sweep *, uint64_t rows, char out[SWEEP_NPY_HEAD]);
+void sweep_npy_head(uint64_t rows, size_t columns, char out[SWEEP_NPY_HEAD]);
 
 /* sweep_events.c: the table of the events of all trajectories, with their numbers.
  *
  * Invariant: the events of a trajectory are in this file before its row is in the file of rows. */
+/* Behind the events of a shard: without it they are not all there. */
+#define SWEEP_EVENTS_END "# end of shard %s\n"
 typedef struct sweep_events {
     const sweep *sweep;
     const char *path; /* NULL: none is asked for */
@@ -111,7 +120,7 @@ motus_status sweep_events_check(const options *, motus_error *);
 motus_status sweep_events_verify(const sweep *, motus_error *);
 /* `rows`: trajectories whose rows are in the file of rows already. */
 motus_status sweep_events_open(sweep_events *, const sweep *, uint64_t rows, motus_error *);
-/* Adds those of the last batch, whose first trajectory has number `first`. */
+/* Adds those of the last batch, whose first trajectory has the row `first`. */
 motus_status sweep_events_rows(sweep_events *, uint64_t first, size_t count, motus_error *);
 motus_status sweep_events_finish(sweep_events *, motus_error *);
 void sweep_events_close(sweep_events *);
@@ -132,7 +141,7 @@ motus_status sweep_section_check(const options *, motus_error *);
 /* Chooses the plane, and adds its columns to those of events. */
 motus_status sweep_section_plan(sweep_section *, sweep *, motus_error *);
 motus_status sweep_section_open(sweep_section *, motus_error *);
-/* Adds the points of the last batch, whose first trajectory has number `first`. */
+/* Adds the points of the last batch, whose first trajectory has the row `first`. */
 motus_status sweep_section_take(sweep_section *, uint64_t first, size_t count, double *const *values, motus_error *);
 motus_status sweep_section_draw(sweep_section *, motus_error *);
 void sweep_section_close(sweep_section *);

@@ -34,7 +34,7 @@ motus_status sweep_accuracy_refuse(const sweep *s, uint64_t first, size_t count,
     size_t i = 0;
     while (i + 1 < count && (!isnan(stopped[i]) || judged[SWEEP_REACHED][i] <= s->accuracy)) i++;
     const double reached = judged[SWEEP_REACHED][i];
-    name_of(s, first + i, who, sizeof who);
+    name_of(s, shard_trajectory(&s->shard, first + i), who, sizeof who);
     decimal(s->accuracy, wanted);
     decimal(judged[SWEEP_TOLERANCE][i], tolerance);
     text_brief(reached, 2, bar);

@@ -82,12 +82,11 @@ static motus_status memory_close(memory *m, motus_status status, motus_error *er
 static motus_status head(const sweep_events *f, memory *m, motus_error *err)
 {
     const sweep *s = f->sweep;
-    char line[240];
+    char line[SWEEP_IDENTITY];
     motus_status status = memory_open(m, err);
     if (!status) status = sweep_head_command(s, &m->file, err);
-    snprintf(line, sizeof line, "# motus %s, events of trajectories %" PRIu64 ", fingerprint %s\nindex,",
-             motus_version(), s->grid.total, s->fingerprint);
-    if (!status) status = file_text(&m->file, line, err);
+    if (!status) status = file_text(&m->file, sweep_head_identity(s, "events of ", line), err);
+    if (!status) status = file_text(&m->file, "index,", err);
     if (!status)
         status = event_file_names(&m->file, &s->model, s->event_columns, s->event_columns_count, s->errors, err);
     return memory_close(m, status, err);
@@ -112,6 +111,7 @@ static bool same_head(const char *ours, const char *theirs)
 /* Sets f->bytes behind the complete rows of the first `rows` trajectories; 0: not even the head is complete. */
 static motus_status find_end(sweep_events *f, const memory *ours, uint64_t rows, FILE *in, motus_error *err)
 {
+    const uint64_t behind = shard_trajectory(&f->sweep->shard, rows); /* the first trajectory without a row */
     char *line = NULL;
     size_t room = 0;
     ssize_t length;
@@ -126,7 +126,7 @@ static motus_status find_end(sweep_events *f, const memory *ours, uint64_t rows,
     while (!status && f->bytes && (length = getline(&line, &room, in)) > 0) {
         uint64_t number;
         const size_t digits = decimal_read_whole(line, (size_t)length, &number);
-        if (!digits || line[digits] != ',' || line[length - 1] != '\n' || number >= rows) break;
+        if (!digits || line[digits] != ',' || line[length - 1] != '\n' || number >= behind) break;
         f->bytes += (uint64_t)length;
     }
     free(line);
@@ -191,7 +191,7 @@ static motus_status put_table(const sweep_events *f, file_out *out, uint64_t fir
     const int64_t rows = motus_ensemble_events(s->ensemble, k);
     char number[DECIMAL_MAX + 1];
     motus_status status = MOTUS_OK;
-    number[decimal_write_whole(first + k, number)] = 0;
+    number[decimal_write_whole(shard_trajectory(&s->shard, first + k), number)] = 0;
     strcat(number, ",");
     for (int64_t i = 0; !status && i < rows; i++) {
         motus_event_row row = motus_default_event_row();
@@ -220,6 +220,12 @@ motus_status sweep_events_rows(sweep_events *f, uint64_t first, size_t count, mo
 motus_status sweep_events_finish(sweep_events *f, motus_error *err)
 {
     const int descriptor = f->descriptor;
+    if (f->path && !shard_whole(&f->sweep->shard)) {
+        char part[SHARD_TEXT], line[sizeof SWEEP_EVENTS_END + SHARD_TEXT];
+        const int length = snprintf(line, sizeof line, SWEEP_EVENTS_END, shard_text(&f->sweep->shard, part));
+        const motus_status status = put(f, line, (size_t)length, err);
+        if (status) return status;
+    }
     f->descriptor = -1;
     return descriptor > STDERR_FILENO && close(descriptor) != 0 ? cannot_write(f, errno, err) : MOTUS_OK;
 }

@@ -113,7 +113,7 @@ static motus_status put_head_bytes(sweep_file *f, const char *bytes, size_t coun
     return code ? cannot_write(f, code, err) : MOTUS_OK;
 }
 
-void sweep_npy_head(const sweep *s, uint64_t rows, char out[SWEEP_NPY_HEAD])
+void sweep_npy_head(uint64_t rows, size_t columns, char out[SWEEP_NPY_HEAD])
 {
     static const char magic[] = "\x93NUMPY\x01\x00";
     bool little = *(const char *)&(int){1} == 1;
@@ -123,7 +123,7 @@ void sweep_npy_head(const sweep *s, uint64_t rows, char out[SWEEP_NPY_HEAD])
     out[9] = 0;
     char text[SWEEP_NPY_HEAD];
     int length = snprintf(text, sizeof text, "{'descr': '%cf8', 'fortran_order': False, 'shape': (%llu, %zu), }",
-                          little ? '<' : '>', (unsigned long long)rows, s->columns);
+                          little ? '<' : '>', (unsigned long long)rows, columns);
     memcpy(out + 10, text, (size_t)length);
     out[SWEEP_NPY_HEAD - 1] = '\n';
 }
@@ -131,7 +131,7 @@ void sweep_npy_head(const sweep *s, uint64_t rows, char out[SWEEP_NPY_HEAD])
 static motus_status put_npy_head(sweep_file *f, motus_error *err)
 {
     char head[SWEEP_NPY_HEAD];
-    sweep_npy_head(f->sweep, f->rows, head);
+    sweep_npy_head(f->rows, f->sweep->columns, head);
     errno = EIO;
     return pwrite(f->descriptor, head, sizeof head, 0) == (ssize_t)sizeof head ? MOTUS_OK : cannot_write(f, errno, err);
 }
@@ -253,7 +253,7 @@ static void csv_row(sweep_file *f, size_t i, const sweep_rows *rows)
     const bool stopped = !isnan(rows->stopped[i]);
     const size_t count = row_numbers(s, rows, i, f->numbers);
     char *out = f->buffer + f->used;
-    out += decimal_write_whole(f->rows, out);
+    out += decimal_write_whole(shard_trajectory(&s->shard, f->rows), out);
     for (size_t k = 0; k < count; k++) {
         const bool last = k + 1 == count, none = k < s->grid.count ? false : last ? !stopped : stopped;
         *out++ = ',';
@@ -266,7 +266,7 @@ static void csv_row(sweep_file *f, size_t i, const sweep_rows *rows)
 static void npy_row(sweep_file *f, size_t i, const sweep_rows *rows)
 {
     const size_t count = row_numbers(f->sweep, rows, i, f->numbers + 1);
-    f->numbers[0] = (double)f->rows;
+    f->numbers[0] = (double)shard_trajectory(&f->sweep->shard, f->rows);
     memcpy(f->buffer + f->used, f->numbers, (count + 1) * sizeof *f->numbers);
     f->used += (count + 1) * sizeof *f->numbers;
 }

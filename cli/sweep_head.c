@@ -136,7 +136,9 @@ static motus_status command(const sweep *s, file_out *f, motus_error *err)
         snprintf(text, sizeof text, "%" PRId64 " steps", s->every);
         status = option(f, "--every", text, err);
     }
-    return status || !o->fast ? status : option(f, "--fast", NULL, err);
+    if (!status && o->fast) status = option(f, "--fast", NULL, err);
+    char part[SHARD_TEXT];
+    return status || shard_whole(&s->shard) ? status : option(f, "--shard", shard_text(&s->shard, part), err);
 }
 
 /* The name of column k of a row. */
@@ -166,13 +168,20 @@ motus_status sweep_head_command(const sweep *s, file_out *f, motus_error *err)
     return status ? status : file_text(f, "\n", err);
 }
 
+const char *sweep_head_identity(const sweep *s, const char *what, char out[SWEEP_IDENTITY])
+{
+    char part[SHARD_TEXT];
+    const bool whole = shard_whole(&s->shard);
+    snprintf(out, SWEEP_IDENTITY, "# motus %s, %strajectories %" PRIu64 ", fingerprint %s%s%s\n", motus_version(), what,
+             s->grid.total, s->fingerprint, whole ? "" : ", shard ", whole ? "" : shard_text(&s->shard, part));
+    return out;
+}
+
 static motus_status csv_head(const sweep *s, file_out *f, motus_error *err)
 {
-    char line[240], name[SWEEP_NAME];
+    char line[SWEEP_IDENTITY], name[SWEEP_NAME];
     motus_status status = sweep_head_command(s, f, err);
-    snprintf(line, sizeof line, "# motus %s, trajectories %" PRIu64 ", fingerprint %s\n", motus_version(),
-             s->grid.total, s->fingerprint);
-    if (!status) status = file_text(f, line, err);
+    if (!status) status = file_text(f, sweep_head_identity(s, "", line), err);
     for (size_t k = 0; !status && k < s->columns; k++) {
         if (k > 0) status = file_text(f, ",", err);
         if (!status) status = csv_name(f, name_of(s, k, name), err);
@@ -182,7 +191,7 @@ static motus_status csv_head(const sweep *s, file_out *f, motus_error *err)
 
 static motus_status npy_head(const sweep *s, file_out *f, motus_error *err)
 {
-    char *text = NULL, name[SWEEP_NAME], memory[] = "memory";
+    char *text = NULL, name[SWEEP_NAME], memory[] = "memory", part[SHARD_TEXT];
     size_t length = 0;
     file_out line = {.stream = open_memstream(&text, &length), .path = memory};
     motus_status status = line.stream ? command(s, &line, err) : complain_memory(err);
@@ -193,6 +202,7 @@ static motus_status npy_head(const sweep *s, file_out *f, motus_error *err)
         json_string(&j, "command", text);
         json_integer(&j, "trajectories", (int64_t)s->grid.total);
         json_string(&j, "fingerprint", s->fingerprint);
+        if (!shard_whole(&s->shard)) json_string(&j, "shard", shard_text(&s->shard, part));
         json_open(&j, "columns", '[');
         for (size_t k = 0; k < s->columns; k++) json_string(&j, NULL, name_of(s, k, name));
         json_close(&j, ']');

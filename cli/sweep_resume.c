@@ -57,6 +57,7 @@ static motus_status csv_head(const sweep_file *f, uint64_t end, size_t *length, 
     ssize_t got = read_at(f, text, room, 0, err);
     motus_status status = got < 0 ? MOTUS_FILE : MOTUS_OK;
     *length = 0;
+    char ours[SWEEP_IDENTITY];
     if (!status && (size_t)got >= s->head_length && memcmp(text, s->head, s->head_length) == 0)
         *length = s->head_length;
     else if (!status && (uint64_t)got == end && (size_t)got < s->head_length && memcmp(text, s->head, (size_t)got) == 0)
@@ -66,10 +67,9 @@ static motus_status csv_head(const sweep_file *f, uint64_t end, size_t *length, 
         /* "# command \n# motus … \nnames\n" */
         char *second = strchr(text, '\n'), *names = second ? strchr(second + 1, '\n') : NULL,
              *last = names ? strchr(names + 1, '\n') : NULL;
-        char *mark = last ? strstr(second, s->fingerprint) : NULL;
         if (strncmp(text, "# motus sweep ", 14) != 0 || !last)
             status = another(f, NULL, err);
-        else if (!mark || mark > names) {
+        else if (strncmp(second + 1, sweep_head_identity(s, "", ours), (size_t)(names - second)) != 0) {
             *second = 0;
             status = another(f, text + 2, err);
         } else {
@@ -117,11 +117,11 @@ static motus_status csv_rows(sweep_file *f, motus_error *err)
     motus_status status = MOTUS_OK;
     uint64_t place = f->bytes;
     scan row;
-    scan_row(&row, 0);
-    for (ssize_t got = 1; !status && got > 0 && row.good && f->rows < f->sweep->grid.total;) {
+    scan_row(&row, shard_trajectory(&f->sweep->shard, 0));
+    for (ssize_t got = 1; !status && got > 0 && row.good && f->rows < f->sweep->rows;) {
         got = read_at(f, chunk, CHUNK, place, err);
         status = got < 0 ? MOTUS_FILE : MOTUS_OK;
-        for (ssize_t i = 0; i < got && row.good && f->rows < f->sweep->grid.total; i++) {
+        for (ssize_t i = 0; i < got && row.good && f->rows < f->sweep->rows; i++) {
             place++;
             if (chunk[i] != '\n') {
                 scan_byte(&row, chunk[i]);
@@ -131,7 +131,7 @@ static motus_status csv_rows(sweep_file *f, motus_error *err)
             if (!row.good) break;
             f->stopped += row.stopped;
             f->bytes = place;
-            scan_row(&row, ++f->rows);
+            scan_row(&row, shard_trajectory(&f->sweep->shard, ++f->rows));
         }
     }
     free(chunk);
@@ -143,14 +143,16 @@ static motus_status csv_rows(sweep_file *f, motus_error *err)
 /* Checks the fingerprint in the .json beside it. */
 static motus_status npy_beside(const sweep_file *f, motus_error *err)
 {
-    char *path = malloc(strlen(f->path) + sizeof ".json"), *text = NULL, key[64];
+    char *path = malloc(strlen(f->path) + sizeof ".json"), *text = NULL, key[96], part[SHARD_TEXT];
     if (!path) return complain_memory(err);
     sprintf(path, "%s.json", f->path);
     size_t length;
     motus_status status = file_read(path, FILE_STATE_MAX, &text, &length, err);
     if (status) hint(err, "it identifies the sweep of %s; --force begins anew", f->path);
     free(path);
-    snprintf(key, sizeof key, "\"fingerprint\": \"%s\"", f->sweep->fingerprint);
+    const bool whole = shard_whole(&f->sweep->shard);
+    snprintf(key, sizeof key, "\"fingerprint\": \"%s\", \"%s%s\"", f->sweep->fingerprint,
+             whole ? "columns" : "shard\": \"", whole ? "" : shard_text(&f->sweep->shard, part));
     if (!status && !strstr(text, key)) {
         char *command = strstr(text, "\"command\": \""),
              *end = command ? strstr(command, "\", \"trajectories\"") : NULL;
@@ -190,15 +192,15 @@ static motus_status npy_rows(sweep_file *f, uint64_t end, motus_error *err)
     if (status) return status;
     if (end < SWEEP_NPY_HEAD) return MOTUS_OK;
     if (read_at(f, head, SWEEP_NPY_HEAD, 0, err) < 0) return MOTUS_FILE;
-    sweep_npy_head(f->sweep, 0, ours);
+    sweep_npy_head(0, f->sweep->columns, ours);
     const char *shape = memchr(ours, '(', sizeof ours);
     uint64_t rows = 0;
     decimal_read_whole(head + (shape + 1 - ours), SWEEP_NPY_HEAD, &rows); /* ends at the comma */
-    sweep_npy_head(f->sweep, rows, ours);
+    sweep_npy_head(rows, f->sweep->columns, ours);
     if (memcmp(head, ours, sizeof ours) != 0) return another(f, NULL, err);
     uint64_t width = f->sweep->columns * sizeof(double), there = (end - SWEEP_NPY_HEAD) / width;
     if (rows > there) rows = there;
-    if (rows > f->sweep->grid.total) rows = f->sweep->grid.total;
+    if (rows > f->sweep->rows) rows = f->sweep->rows;
     f->bytes = SWEEP_NPY_HEAD + rows * width;
     return npy_stopped(f, rows, width, err);
 }

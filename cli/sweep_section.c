@@ -104,7 +104,7 @@ static double *point(sweep_section *p)
 /* The number by which a trajectory has its colour. */
 static double shade_of(const sweep *s, uint64_t first, size_t k, double *const *values)
 {
-    return s->grid.count == 1 ? values[0][k] : (double)(first + k);
+    return s->grid.count == 1 ? values[0][k] : (double)shard_trajectory(&s->shard, first + k);
 }
 
 motus_status sweep_section_take(sweep_section *p, uint64_t first, size_t count, double *const *values, motus_error *err)
@@ -153,11 +153,11 @@ motus_status sweep_section_draw(sweep_section *p, motus_error *err)
         const bool diagram = p->varied[0] || p->varied[1];
         snprintf(plot.title, sizeof plot.title, "%.60s: %.40s", s->model.title, s->method);
         snprintf(title, sizeof title, "where %.60s: %zu points of %" PRIu64 " trajectories", s->options->section,
-                 p->count, s->grid.total);
+                 p->count, s->rows);
         plot_panel *panel = plot_panel_add(&plot, title, name[0], name[1]);
         plot_curve *c = panel ? plot_curve_add(panel, title, p->points, p->points + Y, p->count, NUMBERS) : NULL;
         if (c) c->role = PLOT_POINTS;
-        if (c && !diagram && s->grid.total > 1) {
+        if (c && !diagram && s->rows > 1) {
             c->shade = p->points + SHADE;
             snprintf(panel->shade_label, sizeof panel->shade_label, "%.100s",
                      s->grid.count == 1 ? s->grid.axes[0].name : "trajectory");

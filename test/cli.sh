@@ -37,7 +37,7 @@ that "... is JSON" json "$out"
 gives "--help" 0 "$motus" --help
 that "--help shows the verbs that work" says "motus converge MODEL"
 that "--help shows no verb that does not" lacks "motus bench"
-for verb in run compare converge sweep check methods lab; do
+for verb in run compare converge sweep merge check methods lab; do
     gives "$verb --help" 0 "$motus" $verb --help
     that "$verb --help lists --json" says "--json"
     that "$verb --help has examples" says "examples:"

@@ -2,11 +2,11 @@
 _motus() {
     local current=${COMP_WORDS[COMP_CWORD]} previous=${COMP_WORDS[COMP_CWORD-1]} verb= i
     for ((i = 1; i < COMP_CWORD; i++)); do
-        case ${COMP_WORDS[i]} in run|compare|converge|sweep|check|methods|lab|cache) verb=${COMP_WORDS[i]}; break ;; esac
+        case ${COMP_WORDS[i]} in run|compare|converge|sweep|merge|check|methods|lab|cache) verb=${COMP_WORDS[i]}; break ;; esac
     done
     COMPREPLY=()
     if [[ -z $verb ]]; then
-        mapfile -t COMPREPLY < <(compgen -W 'run compare converge sweep check methods lab cache --help --version' -- "$current")
+        mapfile -t COMPREPLY < <(compgen -W 'run compare converge sweep merge check methods lab cache --help --version' -- "$current")
         return
     fi
     local methods='motus methods --json 2>/dev/null | grep -o "\"name\": *\"[^\"]*\"" | cut -d\" -f4'
@@ -18,7 +18,7 @@ _motus() {
     --error) mapfile -t COMPREPLY < <(compgen -W 'cheap full none' -- "$current"); return ;;
     --switches) mapfile -t COMPREPLY < <(compgen -W 'locate step' -- "$current"); return ;;
     -o|--output|--events|--plot|--save-state|--restart) compopt -o default; return ;;
-    --step|--accuracy|--tolerance|--shortest-step|--longest-step|--most-steps|--until|--set|--when|--section|--skip|--evaluations|--accuracies|--columns|--every|--plot-of|--vary|--random|--count|--seed|--threads|--lanes|--record) return ;;
+    --step|--accuracy|--tolerance|--shortest-step|--longest-step|--most-steps|--until|--set|--when|--section|--skip|--evaluations|--accuracies|--columns|--every|--plot-of|--vary|--random|--count|--seed|--threads|--lanes|--record|--shard) return ;;
     esac
     if [[ $current == -* ]]; then
         local options='--json --quiet --help'
@@ -27,7 +27,8 @@ _motus() {
         compare)  options+=' --methods --step --until --set --evaluations --accuracies --machine --plot --share' ;;
         converge) options+=' --methods --step --until --set --plot --points' ;;
         sweep)    options+=' --vary --random --count --seed --zip --record --method --tolerance --shortest-step --longest-step --most-steps --switches --step --until --every --set --when --output --resume --force'
-                  options+=' --threads --lanes --machine --fast' ;;
+                  options+=' --threads --lanes --machine --fast --accuracy --error --errors --events --section --skip --points --plot --plot-of --shard' ;;
+        merge)    options+=' --output --force' ;;
         lab)      options+=' --method --methods --step --until --set --output --no-open' ;;
         cache)    options+=' --clear' ;;
         check)    options+=' --set --when' ;;
@@ -36,6 +37,8 @@ _motus() {
         mapfile -t COMPREPLY < <(compgen -W "$options" -- "$current")
     elif [[ $verb == methods ]]; then
         mapfile -t COMPREPLY < <(compgen -W "$(eval "$methods")" -- "$current")
+    elif [[ $verb == merge ]]; then
+        compopt -o default
     else
         compopt -o filenames
         mapfile -t COMPREPLY < <(compgen -d -- "$current"; compgen -f -X '!*.motus' -- "$current")

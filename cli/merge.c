@@ -1,0 +1,196 @@
+/* motus merge: joins the shards of a sweep to the file of the whole sweep.
+ *
+ * Invariant: the merged file is, byte for byte, what one command without --shard writes. It gets its name only when it
+ * is complete.
+ */
+#define _XOPEN_SOURCE 700
+#include "base/error.h"
+#include "cli/complain.h"
+#include "cli/part.h"
+#include "cli/stop.h"
+#include "cli/sweep.h"
+#include "cli/text.h"
+#include "cli/verbs.h"
+
+#include <inttypes.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+
+typedef struct merge {
+    const options *options;
+    part *parts, **of; /* of: the part that is shard k + 1 */
+    size_t count;
+} merge;
+
+static motus_status foreign(const part *a, const part *b, motus_error *err)
+{
+    char one[SHARD_TEXT], other[SHARD_TEXT];
+    if (a->kind != b->kind) {
+        static const char *const kinds[] = {"a table of rows", "a table of events", "a .npy"};
+        fail(err, MOTUS_STATE, "%s is %s, but %s is %s", a->path, kinds[a->kind], b->path, kinds[b->kind]);
+        hint(err, "merge files of one kind");
+    } else if (a->shard.count != b->shard.count) {
+        fail(err, MOTUS_STATE, "%s is shard %s, but %s is shard %s", a->path, shard_text(&a->shard, one), b->path,
+             shard_text(&b->shard, other));
+        hint(err, "merge the shards of one division");
+    } else {
+        fail(err, MOTUS_STATE, "%s and %s are of different sweeps", a->path, b->path);
+        hint(err, "the fingerprints in their heads differ, or their columns do");
+    }
+    return MOTUS_STATE;
+}
+
+/* Gives each shard its part: there must be exactly one. */
+static motus_status arrange(merge *m, motus_error *err)
+{
+    char text[SHARD_TEXT];
+    const part *first = &m->parts[0];
+    const uint64_t count = first->shard.count;
+    for (size_t k = 1; k < m->count; k++)
+        if (m->parts[k].kind != first->kind || m->parts[k].shard.count != count ||
+            strcmp(m->parts[k].its, first->its) != 0)
+            return foreign(first, &m->parts[k], err);
+    m->of = calloc((size_t)count, sizeof *m->of);
+    if (!m->of) return complain_memory(err);
+    for (size_t k = 0; k < m->count; k++) {
+        part *p = &m->parts[k], **place = &m->of[p->shard.number - 1];
+        if (*place) {
+            fail(err, MOTUS_STATE, "%s and %s are both shard %s", (*place)->path, p->path, shard_text(&p->shard, text));
+            hint(err, "give each shard once");
+            return MOTUS_STATE;
+        }
+        *place = p;
+    }
+    enum { NAMED = 8 };
+    uint64_t missing = 0;
+    char list[NAMED * 8 + 8] = "";
+    for (uint64_t k = 0; k < count; k++) {
+        if (m->of[k] || missing++ >= NAMED) continue;
+        sprintf(list + strlen(list), "%s%" PRIu64, *list ? ", " : "", k + 1);
+    }
+    if (missing == 0) return MOTUS_OK;
+    fail(err, MOTUS_STATE, "%" PRIu64 " of %" PRIu64 " shards are missing: %s%s", missing, count, list,
+         missing > NAMED ? ", ..." : "");
+    hint(err, "compute them, or name their files too");
+    return MOTUS_STATE;
+}
+
+static motus_status check(const options *o, motus_error *err)
+{
+    if (!o->files.count || !o->output) {
+        fail(err, MOTUS_ARGUMENT, o->files.count ? "-o is missing: the name of the merged file" : "no file to merge");
+        hint(err, "motus merge part*.csv -o all.csv");
+        return MOTUS_ARGUMENT;
+    }
+    struct stat about;
+    for (size_t k = 0; k < o->files.count; k++)
+        if (file_same(o->files.items[k], o->output))
+            return fail(err, MOTUS_ARGUMENT, "%s is read and would be overwritten", o->output);
+    if (strcmp(o->output, "-") == 0 && o->json) {
+        fail(err, MOTUS_ARGUMENT, "--json and -o - both write to standard output");
+        hint(err, "write the rows to a file: -o all.csv");
+        return MOTUS_ARGUMENT;
+    }
+    if (!o->force && stat(o->output, &about) == 0 && S_ISREG(about.st_mode) && about.st_size > 0) {
+        fail(err, MOTUS_ARGUMENT, "%s exists", o->output);
+        hint(err, "--force replaces it");
+        return MOTUS_ARGUMENT;
+    }
+    return MOTUS_OK;
+}
+
+/* The .json beside a .npy says what it is, so its name has to end as one's does; and the other way round. */
+static motus_status check_name(const merge *m, motus_error *err)
+{
+    const char *name = m->options->output;
+    const size_t length = strlen(name);
+    const bool npy = length > 4 && strcmp(name + length - 4, ".npy") == 0;
+    if (npy == (m->parts[0].kind == PART_NPY)) return MOTUS_OK;
+    fail(err, MOTUS_ARGUMENT, npy ? "-o %s: the shards are CSV" : "-o %s: the shards are .npy", name);
+    hint(err, npy ? "give the merged file a name as all.csv" : "give the merged file a name as all.npy");
+    return MOTUS_ARGUMENT;
+}
+
+static motus_status write_head(const merge *m, file_out *out, motus_error *err)
+{
+    const part *p = m->of[0];
+    if (p->kind != PART_NPY) return file_text(out, p->head, err);
+    char head[SWEEP_NPY_HEAD];
+    sweep_npy_head(p->total, p->width / sizeof(double), head);
+    return file_write(out, head, sizeof head, err);
+}
+
+static motus_status write_rows(const merge *m, file_out *out, stop_progress *progress, motus_error *err)
+{
+    const uint64_t total = m->of[0]->total, blocks = (total - 1) / SHARD_BLOCK + 1, count = m->of[0]->shard.count;
+    motus_status status = MOTUS_OK;
+    for (uint64_t b = 0; !status && b < blocks; b++) {
+        status = part_copy(m->of[b % count], b, out, err);
+        if (!status && stop_progress_hook(progress, (double)b / (double)blocks))
+            status = fail(err, MOTUS_CANCELLED, "cancelled");
+    }
+    for (uint64_t k = 0; !status && k < count; k++) status = part_end(m->of[k], err);
+    return status;
+}
+
+static void report(const merge *m)
+{
+    const options *o = m->options;
+    const part *p = m->of[0];
+    FILE *out = strcmp(o->output, "-") == 0 ? stderr : stdout;
+    if (o->json) {
+        json j = text_json(stdout);
+        json_integer(&j, "shards", (int64_t)p->shard.count);
+        json_integer(&j, "trajectories", (int64_t)p->total);
+        json_string(&j, "output", o->output);
+        json_end(&j);
+    } else if (!o->quiet) {
+        text_put(out, o->output);
+        fprintf(out, ": %" PRIu64 " shards, %s%" PRIu64 " trajectories\n", p->shard.count,
+                p->kind == PART_EVENTS ? "events of " : "", p->total);
+    }
+}
+
+static motus_status write_all(const merge *m, stop_progress *progress, motus_error *err)
+{
+    const char *output = m->options->output;
+    const bool npy = m->of[0]->kind == PART_NPY;
+    char *beside = malloc(strlen(output) + sizeof ".json");
+    if (!beside) return complain_memory(err);
+    sprintf(beside, "%s.json", output);
+    file_out rows = {0}, about = {0};
+    motus_status status = file_create(&rows, output, err);
+    if (!status && npy) status = file_create(&about, beside, err);
+    if (!status && npy) status = file_text(&about, m->of[0]->head, err);
+    if (!status) status = write_head(m, &rows, err);
+    if (!status) status = write_rows(m, &rows, progress, err);
+    if (!status && npy) status = file_finish(&about, err);
+    if (!status) status = file_finish(&rows, err);
+    if (!status && npy) status = file_keep(&about, err);
+    if (!status) status = file_keep(&rows, err);
+    file_drop(&rows);
+    file_drop(&about);
+    free(beside);
+    return status;
+}
+
+motus_status merge_verb(const options *o, motus_error *err)
+{
+    merge m = {.options = o, .count = o->files.count};
+    stop_progress progress = stop_progress_begin("merge", o->quiet);
+    motus_status status = check(o, err);
+    if (!status) stop_catch_signals();
+    m.parts = status ? NULL : calloc(m.count, sizeof *m.parts);
+    if (!status && !m.parts) status = complain_memory(err);
+    for (size_t k = 0; !status && k < m.count; k++) status = part_open(&m.parts[k], o->files.items[k], err);
+    if (!status) status = arrange(&m, err);
+    if (!status) status = check_name(&m, err);
+    if (!status) status = write_all(&m, &progress, err);
+    stop_progress_end(&progress);
+    if (!status) report(&m);
+    for (size_t k = 0; m.parts && k < m.count; k++) part_close(&m.parts[k]);
+    free(m.parts);
+    free(m.of);
+    return status ? status : file_flush_output(err);
+}

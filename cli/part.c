@@ -1,0 +1,267 @@
+/* The file of one shard. See part.h.
+ *
+ * Invariant: a row is copied only if its trajectory is the one that must come next, so whatever is in a file, the rows
+ * of the merged one are those of the trajectories in their order. A file is open only while a block of it is copied:
+ * there may be more shards than a process may have files.
+ */
+#define _XOPEN_SOURCE 700
+#define _DEFAULT_SOURCE
+#include "cli/part.h"
+
+#include "base/decimal.h"
+#include "base/error.h"
+#include "cli/complain.h"
+#include "cli/sweep.h"
+
+#include <errno.h>
+#include <inttypes.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/file.h>
+#include <sys/types.h>
+
+static motus_status cannot_read(const char *path, motus_error *err)
+{
+    return fail(err, MOTUS_FILE, "cannot read %s: %s", path, strerror(errno ? errno : EIO));
+}
+
+static motus_status no_shard(const part *p, const char *what, motus_error *err)
+{
+    fail(err, MOTUS_STATE, "%s %s", p->path, what);
+    hint(err, "motus merge joins the files that motus sweep --shard K/N writes");
+    return MOTUS_STATE;
+}
+
+static motus_status unfinished(const part *p, motus_error *err)
+{
+    char text[SHARD_TEXT];
+    fail(err, MOTUS_STATE, "%s ends before its last trajectory: shard %s was interrupted", p->path,
+         shard_text(&p->shard, text));
+    hint(err, "its command with --resume completes it");
+    return MOTUS_STATE;
+}
+
+static motus_status damaged(const part *p, uint64_t trajectory, motus_error *err)
+{
+    fail(err, MOTUS_STATE, "%s is damaged: the row of trajectory %" PRIu64 " is not where it must be", p->path,
+         trajectory);
+    hint(err, "compute this shard again: its command with --force");
+    return MOTUS_STATE;
+}
+
+/* ---- heads ---- */
+
+/* Removes `what` where it last stands before `end`. False: it is not there. */
+static bool cut(char *text, const char *end, const char *what)
+{
+    const size_t length = strlen(what);
+    char *last = NULL;
+    for (char *at = strstr(text, what); at && at + length <= end; at = strstr(at + 1, what)) last = at;
+    if (last) memmove(last, last + length, strlen(last + length) + 1);
+    return last;
+}
+
+/* Reads the shard and the trajectories behind these words, and takes the shard out of the head, which then is that of
+ * the whole sweep. False: they are not there. */
+static bool take_shard(part *p, const char *its, const char *trajectories, const char *before, const char *after)
+{
+    char words[64], text[SHARD_TEXT];
+    const char *count = strstr(its, trajectories), *mark = strstr(its, before);
+    if (!count || !mark) return false;
+    count += strlen(trajectories);
+    if (!decimal_read_whole(count, strlen(count), &p->total) || p->total == 0 || p->total > GRID_MOST) return false;
+    const size_t length = shard_parse(&p->shard, mark + strlen(before));
+    if (length == 0 || length >= SHARD_TEXT || p->shard.count < 2 || p->shard.count > SHARD_MOST) return false;
+    shard_text(&p->shard, text);
+    snprintf(words, sizeof words, " --shard %s", text);
+    const size_t from = (size_t)(its - p->head);
+    if (!cut(p->head, p->head + from, words)) return false;
+    p->its = p->head + from - strlen(words);
+    snprintf(words, sizeof words, "%s%s%s", before, text, after);
+    return cut(p->head, p->head + strlen(p->head), words);
+}
+
+/* "# motus sweep …\n# motus VERSION, trajectories N, fingerprint F, shard K/N\nnames\n" */
+static motus_status csv_head(part *p, FILE *in, motus_error *err)
+{
+    size_t room = 0, used = 0;
+    char *line = NULL;
+    ssize_t length = 0;
+    size_t ends[3] = {0};
+    motus_status status = MOTUS_OK;
+    for (int k = 0; !status && k < 3; k++) {
+        length = getline(&line, &room, in);
+        if (length <= 0 || line[length - 1] != '\n' || strlen(line) != (size_t)length) break;
+        char *more = realloc(p->head, used + (size_t)length + 1);
+        if (!more) {
+            status = complain_memory(err);
+            break;
+        }
+        p->head = more;
+        memcpy(p->head + used, line, (size_t)length + 1);
+        ends[k] = used += (size_t)length;
+    }
+    free(line);
+    if (status) return status;
+    if (ferror(in)) return cannot_read(p->path, err);
+    static const char first[] = "# motus sweep ";
+    if (!p->head || strncmp(p->head, first, sizeof first - 1) != 0)
+        return no_shard(p, "is not the table of a sweep", err);
+    if (!ends[2]) return unfinished(p, err);
+    p->at = used;
+    const char *its = p->head + ends[0], *events = strstr(its, ", events of trajectories ");
+    p->kind = events && events < p->head + ends[1] ? PART_EVENTS : PART_ROWS;
+    return take_shard(p, its, "trajectories ", ", shard ", "") ? MOTUS_OK
+                                                               : no_shard(p, "is a whole sweep, not a shard", err);
+}
+
+static motus_status npy_head(part *p, FILE *in, motus_error *err)
+{
+    char ours[SWEEP_NPY_HEAD], theirs[SWEEP_NPY_HEAD + 1] = "";
+    p->kind = PART_NPY;
+    if (fread(theirs, 1, SWEEP_NPY_HEAD, in) != SWEEP_NPY_HEAD) return unfinished(p, err);
+    uint64_t rows = 0, columns = 0;
+    const char *shape = strchr(theirs + 10, '('), *comma = shape ? strchr(shape, ',') : NULL;
+    if (comma) {
+        decimal_read_whole(shape + 1, strlen(shape + 1), &rows);
+        decimal_read_whole(comma + 2, strlen(comma + 2), &columns);
+    }
+    if (columns == 0 || columns > SIZE_MAX / sizeof(double)) return no_shard(p, "is not the .npy of a sweep", err);
+    sweep_npy_head(rows, (size_t)columns, ours);
+    if (memcmp(ours, theirs, sizeof ours) != 0) return no_shard(p, "is not the .npy of a sweep", err);
+    p->width = (size_t)columns * sizeof(double);
+    p->at = SWEEP_NPY_HEAD;
+    char *beside = malloc(strlen(p->path) + sizeof ".json");
+    if (!beside) return complain_memory(err);
+    sprintf(beside, "%s.json", p->path);
+    size_t length;
+    motus_status status = file_read(beside, FILE_MODEL_MAX, &p->head, &length, err);
+    free(beside);
+    if (status) {
+        hint(err, "it says which shard of which sweep %s is", p->path);
+        return status;
+    }
+    const char *its = strstr(p->head, "\", \"trajectories\": ");
+    if (strlen(p->head) != length || !its || !take_shard(p, its, "\"trajectories\": ", "\"shard\": \"", "\", "))
+        return no_shard(p, "is not a shard, by the .json beside it", err);
+    return rows == shard_rows(&p->shard, p->total) ? MOTUS_OK : unfinished(p, err);
+}
+
+static FILE *open_at(const part *p)
+{
+    FILE *in = fopen(p->path, "rbe");
+    if (in && p->at > 0 && fseeko(in, (off_t)p->at, SEEK_SET) != 0) {
+        const int code = errno;
+        fclose(in);
+        errno = code;
+        return NULL;
+    }
+    return in;
+}
+
+motus_status part_open(part *p, const char *path, motus_error *err)
+{
+    *p = (part){.path = path};
+    FILE *in = open_at(p);
+    if (!in) return cannot_read(path, err);
+    motus_status status = MOTUS_OK;
+    if (flock(fileno(in), LOCK_SH | LOCK_NB) != 0 && errno == EWOULDBLOCK) {
+        status = fail(err, MOTUS_STATE, "%s is being written by another program", path);
+        hint(err, "wait until its sweep has ended");
+    }
+    const int magic = status ? EOF : getc(in);
+    if (magic != EOF) ungetc(magic, in);
+    if (!status) status = magic == 0x93 ? npy_head(p, in, err) : csv_head(p, in, err);
+    fclose(in);
+    return status;
+}
+
+void part_close(part *p)
+{
+    free(p->head);
+    *p = (part){0};
+}
+
+/* ---- rows ---- */
+
+/* Whether a line begins with this number and a comma. */
+static bool begins_with(const char *line, uint64_t number)
+{
+    char text[DECIMAL_MAX + 1];
+    const size_t length = decimal_write_whole(number, text);
+    return strncmp(line, text, length) == 0 && line[length] == ',';
+}
+
+static motus_status copy_lines(part *p, FILE *in, uint64_t first, uint64_t count, file_out *out, motus_error *err)
+{
+    const bool events = p->kind == PART_EVENTS;
+    char *line = NULL;
+    size_t room = 0;
+    motus_status status = MOTUS_OK;
+    for (uint64_t next = first, behind = first + count; !status && (events || next < behind);) {
+        const ssize_t length = getline(&line, &room, in);
+        if (length <= 0 || line[length - 1] != '\n') {
+            status = ferror(in) ? cannot_read(p->path, err) : unfinished(p, err);
+            break;
+        }
+        if (events) { /* a trajectory has any number of them */
+            uint64_t number = UINT64_MAX;
+            if (line[0] != '#' && !decimal_read_whole(line, (size_t)length, &number)) number = 0;
+            if (number >= behind) break;
+            if (number < next || !begins_with(line, number)) status = damaged(p, next, err);
+            next = number;
+        } else {
+            if (!begins_with(line, next)) status = damaged(p, next, err);
+            next++;
+        }
+        if (!status) status = file_write(out, line, (size_t)length, err);
+        p->at += (uint64_t)length;
+    }
+    free(line);
+    return status;
+}
+
+static motus_status copy_numbers(part *p, FILE *in, uint64_t first, uint64_t count, file_out *out, motus_error *err)
+{
+    char *row = malloc(p->width);
+    if (!row) return complain_memory(err);
+    motus_status status = MOTUS_OK;
+    for (uint64_t next = first; !status && next < first + count; next++) {
+        double number;
+        if (fread(row, 1, p->width, in) != p->width) {
+            status = ferror(in) ? cannot_read(p->path, err) : unfinished(p, err);
+            break;
+        }
+        memcpy(&number, row, sizeof number);
+        status = number == (double)next ? file_write(out, row, p->width, err) : damaged(p, next, err);
+        p->at += p->width;
+    }
+    free(row);
+    return status;
+}
+
+motus_status part_copy(part *p, uint64_t block, file_out *out, motus_error *err)
+{
+    const uint64_t first = block * SHARD_BLOCK, left = p->total - first;
+    const uint64_t count = left < SHARD_BLOCK ? left : SHARD_BLOCK;
+    FILE *in = open_at(p);
+    if (!in) return cannot_read(p->path, err);
+    const motus_status status = (p->kind == PART_NPY ? copy_numbers : copy_lines)(p, in, first, count, out, err);
+    fclose(in);
+    return status;
+}
+
+motus_status part_end(part *p, motus_error *err)
+{
+    char rest[64] = "", text[SHARD_TEXT], end[64] = "";
+    if (p->kind == PART_EVENTS) snprintf(end, sizeof end, SWEEP_EVENTS_END, shard_text(&p->shard, text));
+    FILE *in = open_at(p);
+    if (!in) return cannot_read(p->path, err);
+    const size_t got = fread(rest, 1, sizeof rest - 1, in);
+    fclose(in);
+    if (got == strlen(end) && memcmp(rest, end, got) == 0) return MOTUS_OK;
+    if (got < strlen(end) && memcmp(rest, end, got) == 0) return unfinished(p, err);
+    fail(err, MOTUS_STATE, "%s is damaged: there is more behind its last trajectory", p->path);
+    hint(err, "compute this shard again: its command with --force");
+    return MOTUS_STATE;
+}

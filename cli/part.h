@@ -1,0 +1,30 @@
+/* The file of one shard of a sweep, as it is merged. */
+#ifndef CLI_PART_H
+#define CLI_PART_H
+
+#include "cli/file.h"
+#include "cli/shard.h"
+
+typedef enum part_kind { PART_ROWS, PART_EVENTS, PART_NPY } part_kind; /* CSV, CSV, .npy */
+
+typedef struct part {
+    const char *path;
+    part_kind kind;
+    shard shard;
+    uint64_t total;  /* trajectories of the whole sweep */
+    size_t width;    /* bytes of a row of a .npy */
+    char *head;      /* that of the whole sweep: the lines above the rows, or the .json beside a .npy */
+    const char *its; /* in it: what the heads of all shards of a sweep have in common, to its end */
+    uint64_t at;     /* where the first row begins that has not been copied */
+} part;
+
+/* Reads the head. MOTUS_STATE: this is no shard; call part_close() in any case. */
+motus_status part_open(part *, const char *path, motus_error *);
+/* Copies the rows of a block of the sweep to a file, block after block in their order; MOTUS_STATE: they are not all
+ * there. */
+motus_status part_copy(part *, uint64_t block, file_out *, motus_error *);
+/* MOTUS_STATE: the file does not end behind its last block. */
+motus_status part_end(part *, motus_error *);
+void part_close(part *);
+
+#endif
