@@ -41,6 +41,7 @@ static size_t arrange(events *e, char *block)
     e->before = next(&l, f, sizeof *e->before);
     e->instances = next(&l, n, sizeof *e->instances);
     e->recent = next(&l, instances, sizeof *e->recent);
+    e->happened = next(&l, instances, sizeof *e->happened);
     e->count = next(&l, n, sizeof *e->count);
     e->ticks = next(&l, n, sizeof *e->ticks);
     e->rule_of = next(&l, f, sizeof *e->rule_of);
@@ -144,7 +145,6 @@ static motus_status take_sides(events *e, motus_error *err)
 {
     motus_status status = events_values(e, &e->left, err);
     if (status) return status;
-    e->right.t = e->left.t; /* judged by its rounding alone */
     status = events_judge(e, &e->left, err);
     for (size_t f = 0; f < e->rules.functions; f++) {
         const double g = e->left.g[f];
@@ -177,6 +177,8 @@ motus_status events_begin(events *e, stepper *s, double until, motus_error *err)
     if (!status) status = take_sides(e, err);
     if (status) return status;
     events_suppose(e);
+    for (size_t k = 0; k < e->rules.count; k++)
+        for (size_t i = 0; i < e->rules.rule[k].instances; i++) e->happened[e->instances[k] + i] = NAN;
     return status || events_keep_now(e, e->start, e->left.x) ? status
                                                              : fail(err, MOTUS_MEMORY, "no memory for the events");
 }

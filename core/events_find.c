@@ -188,6 +188,28 @@ static motus_status judge_ends(events *e, motus_error *err)
     return status;
 }
 
+/* Velocities of dense output are differences of positions, divided by the length of the step, which is a difference of
+ * times: rounding of either counts with a weight of at most DENSE_WEIGHT / 2 (the largest of all methods is 2.2). */
+enum { DENSE_WEIGHT = 8 };
+
+/* How far rounding may carry function f on dense output from 0, where it stands. */
+static motus_status judge_standing(events *e, size_t f, double *bound, motus_error *err)
+{
+    const size_t nx = e->problem.nx;
+    motus_status status = judge_ends(e, err);
+    if (status) return status;
+    instant *at = &e->here;
+    events_copy(e, at, &e->left);
+    for (size_t k = 0; k < nx; k++) {
+        const double far = fmax(fabs(e->left.x[k]), fabs(e->right.x[k]));
+        const double lost = far + fabs(e->left.v[k] * e->right.t);
+        at->v[k] += copysign(DENSE_WEIGHT * lost / fabs(e->span), at->v[k]);
+    }
+    status = events_bounds(e, at, err);
+    *bound = fmax(at->bound[f], fmax(e->left.bound[f], e->right.bound[f]));
+    return status;
+}
+
 /* What happens in a part of the step, from the values of a function at its points. *sign: that of the function where
  * the part begins, 0: it stands; then where it ends. *rough: the values do not tell. */
 static motus_status search_part(events *e, size_t f, const part *p, const double *value, size_t stride, int degree,
@@ -195,18 +217,21 @@ static motus_status search_part(events *e, size_t f, const part *p, const double
 {
     double coefficients[ROOTS_DEGREE_MOST + 1], steepest;
     const bool stands = *sign == 0;
+    *rough = false;
     const double largest = size_of(value, stride, degree, stands, &steepest);
     /* The bounds on rounding are computed only where an event was near; most steps need none. The times of the points
      * are rounded, too, which counts in steps that are short beside the time. */
     const double moved = steepest * events_ulp(e->right.t) / fabs(e->span * (p->to - p->from));
-    double rounding = largest * 0x1p-44 + moved;
+    double rounding = largest * 0x1p-44 + moved, standing = 0;
+    if (stands) {
+        const motus_status judged = judge_standing(e, f, &standing, err);
+        if (judged) return judged;
+        if (largest <= standing && !e->heads[f]) return MOTUS_OK; /* it stays 0: its values are nothing but rounding */
+    }
     roots_fitted fitted;
     roots_fit_status fit = roots_fit(value, stride, degree, rounding, coefficients, &fitted);
-    *rough = false;
-    if (fit == ROOTS_FIT_ROUGH && stands) { /* where it stays 0 its values are nothing but rounding */
-        const motus_status judged = judge_ends(e, err);
-        if (judged) return judged;
-        rounding += fmax(e->left.bound[f], e->right.bound[f]);
+    if (fit == ROOTS_FIT_ROUGH && stands) {
+        rounding += standing;
         fit = roots_fit(value, stride, degree, rounding, coefficients, &fitted);
     }
     if (fit == ROOTS_FIT_NOT_FINITE) return MOTUS_OK;
@@ -217,7 +242,8 @@ static motus_status search_part(events *e, size_t f, const part *p, const double
     if (*rough) return MOTUS_OK;
     const motus_status status = judge_ends(e, err);
     if (status) return status;
-    const double noise = fmax(e->left.bound[f], e->right.bound[f]) + moved + fmax(0, fitted.noise - rounding);
+    const double bound = fmax(standing, fmax(e->left.bound[f], e->right.bound[f]));
+    const double noise = bound + moved + fmax(0, fitted.noise - rounding);
     const search of = {p, coefficients, fitted.degree, fmax(SLACK * largest, 2 * noise)};
     roots_root root[ROOTS_ROOM];
     roots_found found;

@@ -62,16 +62,25 @@ static motus_status not_finite(const events *e, size_t k, bool in_v, size_t whic
     return MOTUS_DIVERGED;
 }
 
-/* After an action a condition that no longer holds may become true again in the same instant. */
+/* After an action a condition that no longer holds may become true again: later, or in the same instant where it is false
+ * at the instant itself. */
 static void release(events *e)
 {
-    for (size_t f = 0; f < e->rules.functions; f++)
-        e->sign[f] = (int8_t)(e->zero[f] ? events_direction(e, &e->here, f) : sign_of(e->here.g[f]));
-    for (size_t k = 0; k < e->rules.count; k++) {
-        const rule *r = &e->rules.rule[k];
-        for (size_t i = 0; r->kind == RULE_CONDITION && i < r->instances; i++) {
-            uint8_t *held = &e->held[e->instances[k] + i];
-            *held = *held && rules_hold(r, i, e->sign);
+    for (int now = 0; now < 2; now++) {
+        for (size_t f = 0; f < e->rules.functions; f++) {
+            const int moves = now ? 0 : events_direction(e, &e->here, f);
+            e->sign[f] = (int8_t)(e->zero[f] ? moves : sign_of(e->here.g[f]));
+        }
+        for (size_t k = 0; k < e->rules.count; k++) {
+            const rule *r = &e->rules.rule[k];
+            for (size_t i = 0; r->kind == RULE_CONDITION && i < r->instances; i++) {
+                const size_t one = e->instances[k] + i;
+                if (rules_hold(r, i, e->sign)) continue;
+                if (now)
+                    e->happened[one] = NAN;
+                else
+                    e->held[one] = 0;
+            }
         }
     }
 }
@@ -172,6 +181,13 @@ static int leaves(const events *e, size_t f, const candidate *c, bool acted)
     return events_direction(e, &e->here, f);
 }
 
+/* An event has acted: where its events accumulate, and the state there. */
+static void approach(events *e, size_t k, size_t i)
+{
+    if (events_accumulate(e, k, i, e->here.t)) events_to_limit(e, k, i);
+    events_after(e, k, i);
+}
+
 static motus_status ask_root(events *e, size_t k, size_t i, const candidate *c, bool *acted, bool *again,
                              motus_error *err)
 {
@@ -207,9 +223,7 @@ static motus_status ask_root(events *e, size_t k, size_t i, const candidate *c, 
     if (e->side[f] == 0) e->side[f] = (int8_t)-to;
     const bool turned = fabs(e->here.rate[f] - rate) > 0x1p-40 * fabs(rate);
     if (now == to && (!turned || !e->zero[f])) e->side[f] = (int8_t)to;
-    if (r->internal) return status;
-    if (events_accumulate(e, k, i, e->here.t)) events_to_limit(e, k, i);
-    events_after(e, k, i);
+    if (!r->internal) approach(e, k, i);
     return status;
 }
 
@@ -234,13 +248,17 @@ static motus_status ask_condition(events *e, size_t k, size_t i, const candidate
         }
         if (sign[f]) e->side[f] = sign[f];
     }
-    const bool after = any ? rules_hold(r, i, sign) : now, happens = !*held && (now || after);
+    double *happened = &e->happened[e->instances[k] + i];
+    const bool before = fabs(*happened - e->here.t) <= 4 * events_ulp(e->here.t);
+    const bool after = any ? rules_hold(r, i, sign) : now, happens = !*held && ((now && !before) || after);
     *held = after;
     if (!happens) return MOTUS_OK;
     bool assigned = false;
+    *happened = e->here.t;
     const motus_status status = happen(e, k, i, false, &assigned, err);
     *acted |= assigned;
     *again |= assigned;
+    if (assigned && !status) approach(e, k, i);
     return status;
 }
 
@@ -260,7 +278,7 @@ static motus_status ask(events *e, size_t k, const candidate *c, bool *acted, bo
     if (r->kind == RULE_ACCUMULATES && e->has_limit && e->limit.rule == r->of && !e->limit_told) {
         e->limit_told = true;
         *again = true;
-        status = happen(e, k, 0, false, acted, err);
+        status = happen(e, k, r->instances > e->limit.instance ? e->limit.instance : 0, false, acted, err);
     }
     return status;
 }

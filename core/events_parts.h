@@ -85,6 +85,7 @@ struct events {
     double *samples;   /* values at the points of the step */
     int samples_room;
     uint8_t *held;     /* per instance of a condition: it was true; numbered by `instances` */
+    double *happened;  /* likewise: the instant in which it did, unless it has been false there since; NaN: none */
     size_t *instances; /* per rule: the number of its first instance */
     recent *recent;    /* per instance */
     int64_t *count;    /* per rule */
@@ -128,6 +129,8 @@ struct events {
 
 /* events_place.c. The acceleration, rates and bounds of an instant whose state and values are known. */
 motus_status events_judge(events *, instant *, motus_error *);
+/* The bounds alone, of an instant whose values are known. */
+motus_status events_bounds(events *, instant *, motus_error *);
 motus_status events_values(events *, instant *, motus_error *);
 /* A step of size h from the state of time `from` + `lost`; the end is at *t + *rest. */
 motus_status events_probe(events *, double from, double lost, const double *x, const double *v, double h, double *t,

@@ -55,17 +55,20 @@ static motus_status estimate_bounds(events *e, instant *at, motus_error *err)
     return MOTUS_OK;
 }
 
+motus_status events_bounds(events *e, instant *at, motus_error *err)
+{
+    if (!e->rules.rounding) return estimate_bounds(e, at, err);
+    e->rules.rounding(e->rules.ctx, at->t, at->x, at->v, at->bound);
+    return MOTUS_OK;
+}
+
 motus_status events_judge(events *e, instant *at, motus_error *err)
 {
     const problem *p = &e->problem;
     memset(at->a, 0, p->nv * sizeof *at->a);
     if (p->accel(p->ctx, at->t, at->x, at->v, at->a)) return refuse(e, at->t, err);
     if (e->rules.functions == 0) return MOTUS_OK;
-    motus_status status = MOTUS_OK;
-    if (e->rules.rounding)
-        e->rules.rounding(e->rules.ctx, at->t, at->x, at->v, at->bound);
-    else
-        status = estimate_bounds(e, at, err);
+    motus_status status = events_bounds(e, at, err);
     if (status) return status;
     if (e->rules.rates)
         return e->rules.rates(e->rules.ctx, at->t, at->x, at->v, at->a, at->rate) ? refuse(e, at->t, err) : MOTUS_OK;
@@ -191,6 +194,14 @@ static motus_status extremum(events *e, candidate *c, motus_error *err)
     return MOTUS_OK;
 }
 
+/* Whether a function is 0 at `here`: near 0 it carries the rounding of the larger states that led there, and of the
+ * time. */
+static bool vanishes(const events *e, size_t f)
+{
+    const double bound = fmax(e->here.bound[f], fmax(e->left.bound[f], e->right.bound[f]));
+    return fabs(e->here.g[f]) <= 4 * (bound + fabs(e->here.rate[f]) * events_ulp(e->here.t));
+}
+
 motus_status events_locate(events *e, size_t k, motus_error *err)
 {
     candidate *c = &e->candidate[k];
@@ -235,6 +246,12 @@ motus_status events_locate(events *e, size_t k, motus_error *err)
         }
     }
     if (!c->located && !c->gone) status = crossing(e, c, err);
+    if (!status && c->sure &&
+        !vanishes(e, f)) { /* dense output erred by more than was thought: signs of true steps tell */
+        c->sure = c->located = false;
+        c->at = guess;
+        return events_locate(e, k, err);
+    }
     e->shift = fmax(e->shift, fabs(c->at - guess));
     return status;
 }

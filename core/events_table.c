@@ -164,7 +164,8 @@ bool events_accumulate(events *e, size_t rule, size_t instance, double t)
     memmove(r->t + 1, r->t, (RECENT - 1) * sizeof *r->t);
     r->t[0] = t;
     if (r->count < RECENT) r->count++;
-    if (r->count < RECENT || e->has_limit) return false;
+    const bool same = e->limit.rule == rule && e->limit.instance == instance;
+    if (r->count < RECENT || (e->has_limit && (same || !e->limit_told))) return false;
     const double one = fabs(r->t[0] - r->t[1]), two = fabs(r->t[1] - r->t[2]), three = fabs(r->t[2] - r->t[3]);
     const double now = one / two, before = two / three, ulp = events_ulp(t);
     /* the times are rounded, and the shorter the intervals are the less their ratio is known */

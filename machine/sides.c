@@ -264,6 +264,17 @@ static motus_status hold(sides *s, size_t k, double above, double below, double 
     return status;
 }
 
+/* How far rounding may carry the rates `on` both sides of a switch that can be held. Where friction breaks loose, what
+ * holds the switch has just reached 1, so that one of the rates is 0 but for rounding of that value and of the time. */
+static double unsure(sides *s, size_t k, const double on[2], double t, double *x, double *v)
+{
+    if (!s->hold || s->switches->slides[kind_of(s, k)] != SLIDES_HELD) return 0;
+    run(s, s->hold_rate, t, x, v, s->a, s->p);
+    const double moved = fabs(s->p[k]) * (nextafter(fabs(t), INFINITY) - fabs(t));
+    run(s, s->hold_rounding, t, x, v, NULL, s->dp);
+    return fabs(on[0] - on[1]) * (0x1p-52 * (s->dp[k] + 1) + moved);
+}
+
 /* The side on which the motion goes on where the argument of switch k is 0. */
 static motus_status choose(sides *s, size_t k, double way, double t, double *x, double *v, motus_error *err)
 {
@@ -273,6 +284,9 @@ static motus_status choose(sides *s, size_t k, double way, double t, double *x, 
     motus_status status = rate_on(s, k, above, way, t, x, v, &on[0], err);
     if (status == MOTUS_OK) status = rate_on(s, k, below, way, t, x, v, &on[1], err);
     if (status != MOTUS_OK) return status;
+    const double bound = unsure(s, k, on, t, x, v);
+    for (int i = 0; i < 2; i++)
+        if (fabs(on[i]) <= bound) on[i] = 0;
     if (on[0] > 0 && on[1] < 0)
         return refuse(s, k, "the motion is not unique: the force drives it away to both sides", t, err);
     if (on[0] < 0 && on[1] > 0) return hold(s, k, way * on[0], way * on[1], t, x, v, err);
