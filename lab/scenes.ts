@@ -126,6 +126,11 @@ export const scenes: readonly SceneEntry[] = [
     picture: { view: 'plane', curves: [['r.x', 'r.y']], until: 40 },
   },
   {
+    model: 'stick-slip', theme: 'events',
+    methods: ['dop853', 'taylor'],
+    picture: { view: 'phase', curves: [['x', "x'"]], until: 14 },
+  },
+  {
     model: 'kicked-rotor', theme: 'events',
     methods: ['verlet'],
     section: { when: 'kick', plane: ['x mod 2 pi', "x' mod 2 pi"], starts: [[3.14, 0.6], [3.14, 1.9], [0.6, 3.14], [1.3, 3.8], [3, 3.14], [4, 5.1]] },

@@ -245,6 +245,41 @@ static void counting_pi(void **state)
         }
 }
 
+/* ---- the belt ---- */
+
+/* Slips and sticks at the times of the closed form, with the period to 1e-13 by rows of high order. */
+static void the_belt(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *method;
+        double tolerance, within;
+    } rows[] = {{"taylor", 1e-13, 1e-13},  {"radau15", 1e-13, 1e-13}, {"gragg", 1e-13, 1e-13},
+                {"dop853", 1e-14, 1e-13},  {"verner9", 1e-13, 1e-13}, {"verner7", 1e-13, 1e-13},
+                {"fine5", 1e-13, 1e-13},   {"fine4", 1e-13, 1e-13},   {NULL, NAN, 1e-11},
+                {"tsit5", 1e-11, 1e-10},   {"dopri5", 1e-11, 1e-10},  {"verner6", 1e-11, 1e-10},
+                {"verner8", 1e-11, 1e-10}, {"bs32", 1e-9, 1e-8},      {"gauss12-reversible", 1e-13, 1e-13}};
+    const long double pi = 3.14159265358979323846264338327950288L, b = 0.8L, slips = 2 * (pi - atanl(b)),
+                      period = 2 * b + slips;
+    for (size_t k = 0; k < sizeof rows / sizeof *rows; k++) {
+        motus_system *s = given_model("stick-slip.motus", NULL, 0);
+        motus_run *r = finished(s, rows[k].method, rows[k].tolerance, NAN);
+        const double within = rows[k].within;
+        assert_int_equal(motus_run_events(r), 9);
+        for (int64_t n = 0; n < 9; n++) {
+            const motus_event_row row = row_of(r, n);
+            const long double t = 2 + (long double)(n / 2) * period + (n % 2 ? slips : 0);
+            assert_string_equal(row.name, n % 2 ? "stick" : "slip");
+            near(row.time, (double)t, within * (double)(n + 1), "t");
+            near(at_event(s, r, n, 0, "x"), n % 2 ? 0.2 : 1, within, "x");
+            near(at_event(s, r, n, 1, "x'"), 0.5, n % 2 ? 0 : 0x1p-53, "x'");
+            if (n >= 2) near(row.time - row_of(r, n - 2).time, (double)period, within, "the period");
+        }
+        motus_run_destroy(r);
+        motus_system_destroy(s);
+    }
+}
+
 /* ---- the rotor ---- */
 
 static void the_rotor(void **state)
@@ -274,7 +309,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(the_ball),   cmocka_unit_test(a_ball_that_stays), cmocka_unit_test(the_billiard),
         cmocka_unit_test(the_cradle), cmocka_unit_test(the_bar_of_a_zero), cmocka_unit_test(counting_pi),
-        cmocka_unit_test(the_rotor),
+        cmocka_unit_test(the_rotor),  cmocka_unit_test(the_belt),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

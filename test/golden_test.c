@@ -50,7 +50,9 @@ static line compute(motus_system *s, const char *model, const char *method)
     snprintf(l.method, NAME, "%s", method);
     motus_settings set = motus_default_settings();
     motus_settings_of(s, &set);
-    motus_run *r = given_run(s, method, set.step, set.from + STEPS * set.step);
+    /* a model by an adaptive method has no step */
+    const double step = isnan(set.step) ? (set.until - set.from) / 512 : set.step;
+    motus_run *r = given_run(s, method, step, set.from + STEPS * step);
     motus_error err = motus_default_error();
     motus_status status = motus_run_step(r, STEPS, &err);
     size_t n = 0;

@@ -58,6 +58,9 @@ export const stagings: Readonly<Record<string, Staging>> = {
     walls: [[0, 0, 1]],
     dials: [{ name: "r'(0)", part: 0, low: -1, high: 1 }, { name: "r'(0)", part: 1, low: -1, high: 1 }, { name: 'r(0)', part: 0, low: -0.9, high: 0.9 }],
   },
+  'stick-slip': {
+    dials: [{ name: 'V', low: 0.1, high: 1 }, { name: 'f', low: 0, high: 0.95 }],
+  },
   'kicked-rotor': {
     dials: [{ name: 'K', low: 0, high: 6 }, { name: 'x(0)', low: 0, high: 6.28 }, { name: "x'(0)", low: 0, high: 6.28 }],
   },

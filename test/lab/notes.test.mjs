@@ -62,6 +62,13 @@ claims('billiard', ['Within 0.4 of the centre', '55 hits in 100 units', 'the sam
   assert.equal(events.length, 55);
   for (let i = 1; i < events.length; i++) near(events[i].time - events[i - 1].time, '1.833');
 });
+claims('stick-slip', ['up to a pull of 1', 'with 0.6', 'slips back for 4.9337', 'the period 6.533703423', 'stretched to 1.240312 at most'], () => {
+  const { events } = told('stick-slip');
+  near(events[1].time - events[0].time, '4.9337');
+  near(events[2].time - events[0].time, '6.533703423');
+  near(events.at(-1).time - events.at(-3).time, '6.533703423');
+  near(Math.max(...run('stick-slip', ['x'], '--every', '0.001').x), '1.240312');
+});
 claims('kicked-rotor', ['K = 0.971635', 'after 100 kicks no digit is known'], () => {
   assert.equal(told('kicked-rotor').events.length, 100);
   assert.notEqual(told('kicked-rotor', '--set', 'K=5').significant_until, null);

@@ -104,6 +104,10 @@ export const notes: Readonly<Record<string, Note>> = {
   billiard: [
     'Within 0.4 of the centre. The angle at which it leaves the rim is that at which it came, so that its angular momentum, 0.4, stays, and with it the circle that every chord touches. 55 hits in 100 units of time; all chords take the same 1.833.',
   ],
+  'stick-slip': [
+    'Because friction holds better than it drags: at rest on the belt up to a pull of 1, in motion with 0.6. The mass rides along until the spring pulls with 1, slips back for 4.9337, and rides again, over and over, with the period 6.533703423. The spring is stretched to '
+    + '1.240312 at most.',
+  ],
   'kicked-rotor': [
     'Not far from where it is, while the kicks are weak: the section below has a point for every kick, and motions on its closed curves stay on them. Between them some fill an area at random. The last curve from left to right, which no motion crosses, breaks at K = 0.971635. ',
     'Set K to 5 and it wanders as if at random; of where it is after 100 kicks no digit is known.',

@@ -76,6 +76,11 @@ export const scenes: Readonly<Record<string, SceneWords>> = {
     sentence: 'No friction, a round table: the ball flies straight and leaves the rim as it came.',
     dials: { "r'(0).x": 'Sideways', "r'(0).y": 'Upwards', 'r(0).x': 'Start' },
   },
+  'stick-slip': {
+    title: 'Stick and slip', question: 'Why does a string under the bow sound?',
+    sentence: 'A belt carries a mass along until its spring tears it away. It slips back, and the belt takes it again.',
+    dials: { V: 'Speed of the belt', f: 'Friction while it slips' },
+  },
   'kicked-rotor': {
     title: 'Kicked rotor', question: 'How far do kicks carry it?',
     sentence: 'It turns freely and is kicked once in every unit of time: more or less, or the other way, as its angle says.',
