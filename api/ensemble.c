@@ -24,7 +24,8 @@ int ensemble_report(void *context, double fraction)
     const double t = e->progress ? pace_now() : 0;
     if (!e->progress || t - e->reported < 0.01) return 0;
     e->reported = t;
-    return e->progress(e->context, fraction);
+    if (fraction > e->fraction) e->fraction = fraction; /* trajectories that lanes leave are begun anew */
+    return e->progress(e->context, e->fraction);
 }
 
 static motus_status check(const motus_system *s, const motus_ensemble_def *d, motus_error *err)
@@ -232,7 +233,7 @@ motus_status ensemble_choose_single(motus_ensemble *e, const char *wanted, bool 
     motus_system *s = e->system;
     choose_portable(e);
     if (!s->model && s->callback.block && !e->rules)
-        e->block = e->until == SIZE_MAX ? ensemble_block_size(s, &e->chosen) : 1;
+        e->block = e->until == SIZE_MAX ? ensemble_block_size(s, &e->chosen) : 0;
     if (!s->model || (wanted && !strcmp(wanted, "interpreter"))) return MOTUS_OK;
     const char *why = "";
     compiled_state state = COMPILED_FAILED;
@@ -357,6 +358,7 @@ motus_status motus_ensemble_create(motus_system *s, const motus_ensemble_def *gi
                           .step = d.step,
                           .record_count = d.record_count,
                           .error = d.error,
+                          .tells_causes = d.causes != 0,
                           .threads = d.threads  ? d.threads
                                      : s->model ? parallel_processors()
                                                 : 1,
@@ -442,8 +444,9 @@ static motus_status in_lanes(motus_ensemble *e, const places *p, size_t first, m
         errors[r] = p->errors ? p->errors[r] + first : NULL;
     }
     e->before = first;
-    motus_status status = lanes_run(e->lanes, e->count - first, values, p->until ? p->until + first : NULL, results,
-                                    p->errors ? errors : NULL, p->stopped ? p->stopped + first : NULL, err);
+    motus_status status =
+        lanes_run(e->lanes, e->count - first, values, p->until ? p->until + first : NULL, results,
+                  p->errors ? errors : NULL, p->stopped ? p->stopped + first : NULL, p->ends + first, err);
     give(&e->allocator, (void *)values);
     return status;
 }
@@ -455,10 +458,13 @@ static motus_status compute(motus_ensemble *e, const places *p, motus_error *err
     if (status != MOTUS_OK || first == e->count) return status;
     if (e->lanes && !e->awaits) {
         status = in_lanes(e, p, first, err);
+        if (status == MOTUS_OK) return ensemble_stopped_again(e, p, first, err);
         if (status != MOTUS_METHOD) return status;
         leave_lanes(e);
     }
-    return e->block > 0 && !p->errors ? ensemble_blocks(e, p, err) : ensemble_singly(e, p, first, err);
+    if (!e->block || p->errors) return ensemble_singly(e, p, first, err);
+    status = ensemble_blocks(e, p, err);
+    return status == MOTUS_OK ? ensemble_stopped_again(e, p, 0, err) : status;
 }
 
 motus_status ensemble_run_all(motus_ensemble *e, size_t count, const double *const *values, places p, motus_error *err)
@@ -475,8 +481,11 @@ motus_status ensemble_run_all(motus_ensemble *e, size_t count, const double *con
         p.observes |= e->records[r].how != MOTUS_REDUCE_FINAL && !ensemble_tallies(&e->records[r]);
     e->count = count;
     status = check_ends(e, &p, count, err);
+    e->fraction = 0;
     if (status == MOTUS_OK) status = ensemble_events_begin(e, count, err);
+    if (status == MOTUS_OK) status = ensemble_stopped_begin(e, count, &p, err);
     if (status == MOTUS_OK) status = compute(e, &p, err);
+    ensemble_stopped_finish(e);
     e->computed += count;
     e->seconds += pace_now() - began;
     modes_leave(m);
@@ -520,6 +529,7 @@ void motus_ensemble_destroy(motus_ensemble *e)
     ensemble_end_lanes(e);
     ensemble_workers_destroy(e);
     ensemble_events_end(e);
+    ensemble_stopped_end(e);
     motus_system_destroy(e->half);
     give(&a, e->places);
     give(&a, e->records);

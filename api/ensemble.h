@@ -57,6 +57,11 @@ struct motus_ensemble {
     size_t *event_columns, event_columns_count;
     ensemble_table *tables;
     size_t tables_count;
+    /* ensemble_stopped.c: of each trajectory of the last run, where they are told; and `ends` of places */
+    bool tells_causes;
+    unsigned char *causes, *ends;
+    size_t causes_count;
+    double fraction; /* reported of the present run */
     /* Where errors can be told: the columns that are compared, the time and the state and then those of the records,
      * whose reductions `how` are (NULL: none is reduced); and the number of each record among them. */
     motus_bars error;
@@ -109,6 +114,7 @@ typedef struct places {
     const double *until;                              /* where it varies; else NULL */
     double *const *results, *const *errors, *stopped; /* errors NULL: none are told */
     bool observes;                                    /* also before the end */
+    unsigned char *ends; /* how lanes and blocks have left a trajectory: LANES_ARRIVED … */
 } places;
 /* The timing of trajectory k. */
 motus_status ensemble_timing(const motus_ensemble *, const places *, size_t k, timing *, motus_error *);
@@ -121,8 +127,7 @@ motus_status ensemble_errors_half(motus_ensemble *, motus_error *);
 motus_status ensemble_errors_worker(worker *, motus_error *);
 /* Trajectory k begins, where the worker's stepper stands; `values` are what varies. */
 motus_status ensemble_errors_begin(worker *, const double *values, size_t k, motus_error *);
-void ensemble_errors_rest(worker *); /* the trajectory is over, */
-void ensemble_errors_end(worker *);  /*   and so is the worker */
+void ensemble_errors_end(worker *); /* the worker is over */
 
 /* ensemble_events.c: whether the definition asks for tables, and room for those of `count` trajectories; the table of a
  * worker's trajectory k, `errors`: with those of the times; takes over that of another ensemble. */
@@ -131,6 +136,18 @@ motus_status ensemble_events_begin(motus_ensemble *, size_t count, motus_error *
 motus_status ensemble_events_take(worker *, size_t k, bool errors, motus_error *);
 void ensemble_events_move(motus_ensemble *to, size_t k, motus_ensemble *from, size_t i);
 void ensemble_events_end(motus_ensemble *);
+
+/* ensemble_stopped.c: room for the causes of `count` trajectories, and for how they end; the latter is given back. */
+motus_status ensemble_stopped_begin(motus_ensemble *, size_t count, places *, motus_error *);
+void ensemble_stopped_finish(motus_ensemble *);
+void ensemble_stopped_end(motus_ensemble *);
+/* The worker's stepper is judged as that of a run. */
+void ensemble_stopped_judged(worker *);
+/* The worker's trajectory k stopped, by w->why; `began`: its stepper had begun. */
+void ensemble_stopped_take(worker *, size_t k, bool began);
+void ensemble_stopped_move(motus_ensemble *to, size_t k, const motus_ensemble *from, size_t i);
+/* Those from `first` on whose ends are not final, or not explained, once more by workers. */
+motus_status ensemble_stopped_again(motus_ensemble *, const places *, size_t first, motus_error *);
 
 /* ensemble.c: all trajectories, with the tolerance of the ensemble. p: the room that the caller supplies. */
 motus_status ensemble_run_all(motus_ensemble *, size_t count, const double *const *values, places p, motus_error *);
@@ -146,6 +163,12 @@ motus_status ensemble_accuracy_run(motus_ensemble *, size_t count, const double 
 /* ensemble_single.c: one trajectory at a time, from the first on, up to the one before e->left. ensemble_block.c:
  * blocks of a callback. */
 motus_status ensemble_singly(motus_ensemble *, const places *, size_t first, motus_error *);
+/* Trajectory k; the context is the places. And ensemble_each, after which the system has its own numbers again. */
+motus_status ensemble_one(worker *, size_t k, void *places);
+motus_status ensemble_each_singly(motus_ensemble *, size_t first, size_t items,
+                                  motus_status (*one)(worker *, size_t item, void *ctx), void *ctx, motus_error *);
+/* A callback that computes blocks is told which trajectory it is; other runs of the system are trajectory 0. */
+void ensemble_number_calls(motus_system *, size_t k, size_t count);
 motus_status ensemble_blocks(motus_ensemble *, const places *, motus_error *);
 
 /* How many trajectories a block of a callback has with this method. */

@@ -18,9 +18,9 @@ enum { BLOCK_MOST = 256 };
 size_t ensemble_block_size(const motus_system *s, const chosen *c)
 {
     /* A method that solves equations solves those of one trajectory, and an adaptive one chooses the steps of one. */
-    if (c->row->family == EXACT || c->row->adaptive || stepper_plan(&s->problem, c, NULL).solves) return 1;
+    if (c->row->family == EXACT || c->row->adaptive || stepper_plan(&s->problem, c, NULL).solves) return 0;
     const size_t fits = CALLING_NUMBERS / s->problem.nv;
-    return fits < 1 ? 1 : fits > BLOCK_MOST ? BLOCK_MOST : fits;
+    return fits < 2 ? 0 : fits > BLOCK_MOST ? BLOCK_MOST : fits;
 }
 
 typedef struct trajectory_block {
@@ -142,6 +142,9 @@ static double result(const trajectory_block *b, size_t r, size_t j)
 static void write_results(const trajectory_block *b, bool stopped, double when)
 {
     const motus_ensemble *e = b->w->e;
+    /* a callback that stops a trajectory is its cause */
+    const bool open = stopped && b->w->why.returned <= 0;
+    for (size_t j = 0; j < b->count; j++) b->places->ends[b->first + j] = open ? LANES_STOPPED : LANES_ARRIVED;
     for (size_t r = 0; r < e->record_count; r++)
         for (size_t j = 0; j < b->count; j++) b->places->results[r][b->first + j] = stopped ? NAN : result(b, r, j);
     for (size_t j = 0; b->places->stopped && j < b->count; j++) b->places->stopped[b->first + j] = stopped ? when : NAN;

@@ -91,20 +91,11 @@ motus_status ensemble_errors_worker(worker *w, motus_error *err)
     return vary_create(m, e->places, e->vary_count, true, true, &w->half_vary, err);
 }
 
-/* A callback that computes blocks is told which trajectory it is; other runs of the system are trajectory 0. */
-static void number_calls(motus_system *s, size_t k, size_t count)
-{
-    if (s->model || !s->callback.block) return;
-    s->calling.first = k;
-    s->calling.count = count;
-}
-
 motus_status ensemble_errors_begin(worker *w, const double *values, size_t k, motus_error *err)
 {
     motus_run *r = w->run;
     motus_system *half = r->bars->half.system;
-    number_calls(w->system, k, 1);
-    number_calls(half, k, 1);
+    ensemble_number_calls(half, k, 1);
     if (w->half_vary && w->e->vary_count) {
         if (!vary_apply(w->half_vary, values) || !system_rebind(half))
             return fail(err, MOTUS_MEMORY, "no memory for a trajectory");
@@ -119,8 +110,6 @@ motus_status ensemble_errors_begin(worker *w, const double *values, size_t k, mo
     bars_forget_events(r);
     return MOTUS_OK;
 }
-
-void ensemble_errors_rest(worker *w) { number_calls(w->system, 0, 0); }
 
 void ensemble_errors_end(worker *w)
 {

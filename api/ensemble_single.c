@@ -147,7 +147,15 @@ static motus_status begin_events(worker *w, double until, motus_error *err)
     return events_begin(w->events, w->stepper, until, err);
 }
 
-static motus_status run(trajectory *s, const places *p, size_t k, motus_error *err)
+void ensemble_number_calls(motus_system *s, size_t k, size_t count)
+{
+    if (s->model || !s->callback.block) return;
+    s->calling.first = k;
+    s->calling.count = count;
+}
+
+/* *began: the stepper stands at the start. */
+static motus_status run(trajectory *s, const places *p, size_t k, bool *began, motus_error *err)
 {
     worker *w = s->w;
     const motus_ensemble *e = w->e;
@@ -159,6 +167,8 @@ static motus_status run(trajectory *s, const places *p, size_t k, motus_error *e
     status = w->stepper
                  ? stepper_start(w->stepper, t->t0, t->h, s->x, s->v, err)
                  : stepper_create(&w->machine, &e->chosen, t->t0, t->h, s->x, s->v, &e->allocator, &w->stepper, err);
+    *began = status == MOTUS_OK;
+    if (status == MOTUS_OK) ensemble_stopped_judged(w);
     if (status == MOTUS_OK) status = begin_events(w, t->until, err);
     if (status == MOTUS_OK && s->errors) status = ensemble_errors_begin(w, s->values, k, err);
     const course course = {
@@ -166,7 +176,7 @@ static motus_status run(trajectory *s, const places *p, size_t k, motus_error *e
     return status == MOTUS_OK ? course_run(&course, err) : status;
 }
 
-static motus_status one_trajectory(worker *w, size_t k, void *ctx)
+motus_status ensemble_one(worker *w, size_t k, void *ctx)
 {
     const motus_ensemble *e = w->e;
     const places *p = ctx;
@@ -184,12 +194,16 @@ static motus_status one_trajectory(worker *w, size_t k, void *ctx)
     _Static_assert(sizeof(size_t) <= sizeof(double), "columns lie where doubles would");
     for (size_t r = 0; r < e->record_count; r++) s.columns[r] = e->records[r].column;
     w->trajectories = 1;
+    w->why = motus_default_error();
+    bool began = false;
+    ensemble_number_calls(w->system, k, 1);
     motus_status status = s.errors ? ensemble_errors_worker(w, &w->why) : MOTUS_OK;
-    if (status == MOTUS_OK) status = run(&s, p, k, &w->why);
+    if (status == MOTUS_OK) status = run(&s, p, k, &began, &w->why);
     const bool stopped = status == MOTUS_DIVERGED || status == MOTUS_SOLVE || status == MOTUS_STEPS ||
                          status == MOTUS_EVENTS || (status == MOTUS_CALLBACK && w->why.returned > 0);
     if (stopped || status == MOTUS_OK) {
         motus_error why = motus_default_error();
+        if (stopped) ensemble_stopped_take(w, k, began);
         const motus_status told = ensemble_events_take(w, k, s.errors, &why);
         for (size_t r = 0; r < e->record_count; r++) p->results[r][k] = stopped ? NAN : result(&s, r);
         for (size_t r = 0; p->errors && r < e->record_count; r++) p->errors[r][k] = stopped ? NAN : error(&s, r);
@@ -202,19 +216,25 @@ static motus_status one_trajectory(worker *w, size_t k, void *ctx)
             status = MOTUS_CANCELLED;
         }
     }
-    if (s.errors) ensemble_errors_rest(w);
+    ensemble_number_calls(w->system, 0, 0);
     give(&e->allocator, memory);
     return status;
 }
 
-motus_status ensemble_singly(motus_ensemble *e, const places *p, size_t first, motus_error *err)
+motus_status ensemble_each_singly(motus_ensemble *e, size_t first, size_t items,
+                                  motus_status (*one)(worker *, size_t item, void *ctx), void *ctx, motus_error *err)
 {
     const size_t kept = numbers_kept(e);
     double *own = kept ? take(&e->allocator, kept, sizeof *own) : NULL;
     if (kept && !own) return fail(err, MOTUS_MEMORY, "no memory for the ensemble");
     if (kept) keep_numbers(e, own);
-    motus_status status = ensemble_each(e, first, e->count - first, one_trajectory, (void *)p, err);
+    motus_status status = ensemble_each(e, first, items, one, ctx, err);
     if (kept) put_back(e, own);
     give(&e->allocator, own);
     return status;
+}
+
+motus_status ensemble_singly(motus_ensemble *e, const places *p, size_t first, motus_error *err)
+{
+    return ensemble_each_singly(e, first, e->count - first, ensemble_one, (void *)p, err);
 }

@@ -120,7 +120,7 @@ motus_status ensemble_each(motus_ensemble *e, size_t first, size_t items,
     int threads = items < (size_t)e->threads ? (int)items : e->threads;
     /* a processor for the compiler that is awaited: what it makes computes many times as fast */
     if (e->awaits && threads > 1 && threads >= parallel_processors()) threads = parallel_processors() - 1;
-    if (threads < 1) threads = 1;
+    if (threads < 1 || e->system->allocator.allocate) threads = 1; /* one thread alone calls the hooks */
     if (!e->workers && !(e->workers = take(&e->allocator, (size_t)e->threads, sizeof *e->workers)))
         return fail(err, MOTUS_MEMORY, "no memory for the ensemble");
     for (int i = 0; i < threads; i++) {

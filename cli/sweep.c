@@ -126,6 +126,7 @@ static motus_status create(sweep *s, stop_progress *progress, motus_error *err)
     def.events = o->events || o->plot;
     def.event_columns = s->event_columns;
     def.event_column_count = s->event_columns_count + s->event_columns_more;
+    def.causes = 1;
     def.progress = stop_progress_hook;
     def.context = progress;
     return motus_ensemble_create(s->model.system, &def, &s->ensemble, err);
@@ -220,7 +221,7 @@ static motus_status begin(sweep *s, sweep_section *section, stop_progress *progr
     if (isnan(s->until) && !isnan(o->until))
         return fail(err, MOTUS_ARGUMENT, "--until is one end for all, and --vary until one for each: leave one out");
     s->errors = o->errors;
-    s->columns = 2 + s->grid.count + s->records.count + s->errors;
+    s->columns = 3 + s->grid.count + s->records.count + s->errors;
     for (size_t r = 0; s->errors && r < s->records.count; r++) s->columns += sweep_record_errs(&s->records.items[r]);
     status = read_every(s, err);
     return status ? status : make(s, progress, err);
@@ -309,6 +310,10 @@ static void report_json(const sweep *s, const sweep_file *f, double wall)
     json_number(&j, "seconds", motus_ensemble_seconds(e));
     json_number(&j, "wall", wall);
     json_integer(&j, "stopped", (int64_t)f->stopped);
+    json_open(&j, "stopped_by", '{');
+    for (int k = MOTUS_CAUSE_NONE + 1; k < MOTUS_CAUSE_COUNT; k++)
+        if (f->stopped_by[k]) json_integer(&j, motus_cause_word((motus_cause)k), (int64_t)f->stopped_by[k]);
+    json_close(&j, '}');
     json_string(&j, "output", f->path);
     json_end(&j);
 }
@@ -376,7 +381,8 @@ static motus_status finish(const sweep *s, sweep_file *f, sweep_events *events, 
         report(s, f, wall);
     status = file_flush_output(err);
     if (!status && f->stopped > 0 && !o->quiet)
-        complain_note("%llu of %llu trajectories did not reach their end: their column `stopped` has the time",
+        complain_note("%llu of %llu trajectories did not reach their end: their column `stopped` has the time, and "
+                      "`stopped_by` the cause where it is known",
                       (unsigned long long)f->stopped, (unsigned long long)s->rows);
     return status;
 }

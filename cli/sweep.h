@@ -36,7 +36,7 @@ typedef struct sweep {
     motus_ensemble *ensemble;
     bool noted; /* why no faster machine runs it */
     /* of a row: number, varied, recorded; where errors are told, those of the records that have some, and whether any
-     * digit is significant; stopped */
+     * digit is significant; stopped, stopped_by */
     size_t columns;
     /* of the table of events, NULL: none is asked for; behind them those that the picture of a section needs */
     size_t *event_columns, event_columns_count, event_columns_more;
@@ -65,9 +65,10 @@ typedef struct sweep_file {
     const char *path; /* "-": standard output */
     int descriptor;
     bool npy, regular;
-    uint64_t rows, bytes; /* complete rows in the file, and where they end */
-    uint64_t stopped;     /* how many of these trajectories stopped */
-    uint64_t found;       /* rows of an earlier, interrupted command */
+    uint64_t rows, bytes;                   /* complete rows in the file, and where they end */
+    uint64_t stopped;                       /* how many of these trajectories stopped, */
+    uint64_t stopped_by[MOTUS_CAUSE_COUNT]; /*   and by which cause */
+    uint64_t found;                         /* rows of an earlier, interrupted command */
     char *buffer;
     double *numbers; /* room for those of a row */
     size_t used, room;
@@ -96,7 +97,7 @@ motus_status sweep_file_rows(sweep_file *, size_t count, const sweep_rows *, mot
 motus_status sweep_file_finish(sweep_file *, motus_error *);
 void sweep_file_close(sweep_file *);
 
-/* Finds the rows of an interrupted sweep: sets rows, bytes, stopped. `end`: the file's length. */
+/* Finds the rows of an interrupted sweep: sets rows, bytes, stopped, stopped_by. `end`: the file's length. */
 motus_status sweep_resume(sweep_file *, uint64_t end, motus_error *);
 /* The 128 bytes at the beginning of a .npy. */
 enum { SWEEP_NPY_HEAD = 128 };

@@ -155,6 +155,7 @@ static motus_status put_beside(const sweep_file *f, motus_error *err)
 static motus_status put_head(sweep_file *f, motus_error *err)
 {
     f->rows = f->bytes = f->stopped = 0;
+    memset(f->stopped_by, 0, sizeof f->stopped_by);
     if (f->regular && (ftruncate(f->descriptor, 0) != 0 || lseek(f->descriptor, 0, SEEK_SET) != 0))
         return cannot_write(f, errno, err);
     if (!f->npy) return put_head_bytes(f, f->sweep->head, f->sweep->head_length, err);
@@ -244,6 +245,7 @@ static size_t row_numbers(const sweep *s, const sweep_rows *rows, size_t i, doub
     }
     if (s->errors) out[n++] = stopped ? NAN : significant;
     out[n++] = rows->stopped[i];
+    out[n++] = motus_ensemble_stopped_by(s->ensemble, i);
     return n;
 }
 
@@ -251,7 +253,7 @@ static void csv_row(sweep_file *f, size_t i, const sweep_rows *rows)
 {
     const sweep *s = f->sweep;
     const bool stopped = !isnan(rows->stopped[i]);
-    const size_t count = row_numbers(s, rows, i, f->numbers);
+    const size_t count = row_numbers(s, rows, i, f->numbers) - 1; /* stopped_by is a word */
     char *out = f->buffer + f->used;
     out += decimal_write_whole(shard_trajectory(&s->shard, f->rows), out);
     for (size_t k = 0; k < count; k++) {
@@ -259,6 +261,8 @@ static void csv_row(sweep_file *f, size_t i, const sweep_rows *rows)
         *out++ = ',';
         if (!none) out += decimal_write(f->numbers[k], out);
     }
+    *out++ = ',';
+    for (const char *c = motus_cause_word(motus_ensemble_stopped_by(s->ensemble, i)); *c; c++) *out++ = *c;
     *out++ = '\n';
     f->used = (size_t)(out - f->buffer);
 }
@@ -279,6 +283,7 @@ motus_status sweep_file_rows(sweep_file *f, size_t count, const sweep_rows *give
         (f->npy ? npy_row : csv_row)(f, i, given);
         f->rows++;
         f->stopped += !isnan(given->stopped[i]);
+        f->stopped_by[motus_ensemble_stopped_by(f->sweep->ensemble, i)]++;
         if (f->used >= BUFFER || i + 1 == count) status = flush(f, &rows, err);
     }
     f->rows = rows;

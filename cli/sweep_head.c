@@ -146,7 +146,8 @@ static const char *name_of(const sweep *s, size_t k, char out[SWEEP_NAME])
 {
     if (k == 0) return "index";
     if (k <= s->grid.count) return s->grid.names[k - 1];
-    if (k == s->columns - 1) return "stopped";
+    if (k == s->columns - 2) return "stopped";
+    if (k == s->columns - 1) return "stopped_by";
     k -= 1 + s->grid.count;
     const bool error = k >= s->records.count;
     for (size_t r = 0, left = k - s->records.count; error; r++) {
@@ -205,6 +206,9 @@ static motus_status npy_head(const sweep *s, file_out *f, motus_error *err)
         if (!shard_whole(&s->shard)) json_string(&j, "shard", shard_text(&s->shard, part));
         json_open(&j, "columns", '[');
         for (size_t k = 0; k < s->columns; k++) json_string(&j, NULL, name_of(s, k, name));
+        json_close(&j, ']');
+        json_open(&j, "causes", '['); /* the words of the numbers in stopped_by */
+        for (int k = 0; k < MOTUS_CAUSE_COUNT; k++) json_string(&j, NULL, motus_cause_word((motus_cause)k));
         json_close(&j, ']');
         json_end(&j);
     }

@@ -83,13 +83,15 @@ static motus_status csv_head(const sweep_file *f, uint64_t end, size_t *length, 
 /* A row while it is read. */
 typedef struct scan {
     char number[DECIMAL_MAX]; /* the index it has to begin with */
-    size_t at, commas;
+    size_t at, commas, last;  /* last: the number of the last comma */
     bool good, stopped;
+    char word[16]; /* behind it */
+    size_t letters;
 } scan;
 
-static void scan_row(scan *r, uint64_t number)
+static void scan_row(scan *r, uint64_t number, size_t columns)
 {
-    *r = (scan){.good = true};
+    *r = (scan){.good = true, .last = columns - 1};
     decimal_write_whole(number, r->number);
 }
 
@@ -103,11 +105,23 @@ static void scan_byte(scan *r, char c)
 {
     if (r->commas == 0)
         r->good = r->good && c == (r->number[r->at] ? r->number[r->at] : ',');
-    else
+    else if (r->commas < r->last)
         r->good = r->good && in_numbers[(unsigned char)c];
+    else if (r->letters + 1 < sizeof r->word)
+        r->word[r->letters++] = c;
+    else
+        r->good = false;
+    r->stopped = r->stopped || (r->commas + 1 == r->last && c != ',');
     r->at++;
     r->commas += c == ',';
-    r->stopped = c != ',';
+}
+
+/* The cause that ends the row; MOTUS_CAUSE_COUNT: it is none. */
+static int scan_cause(const scan *r)
+{
+    int k = 0;
+    while (k < MOTUS_CAUSE_COUNT && strcmp(motus_cause_word((motus_cause)k), r->word) != 0) k++;
+    return k;
 }
 
 static motus_status csv_rows(sweep_file *f, motus_error *err)
@@ -117,7 +131,8 @@ static motus_status csv_rows(sweep_file *f, motus_error *err)
     motus_status status = MOTUS_OK;
     uint64_t place = f->bytes;
     scan row;
-    scan_row(&row, shard_trajectory(&f->sweep->shard, 0));
+    const size_t columns = f->sweep->columns;
+    scan_row(&row, shard_trajectory(&f->sweep->shard, 0), columns);
     for (ssize_t got = 1; !status && got > 0 && row.good && f->rows < f->sweep->rows;) {
         got = read_at(f, chunk, CHUNK, place, err);
         status = got < 0 ? MOTUS_FILE : MOTUS_OK;
@@ -127,11 +142,13 @@ static motus_status csv_rows(sweep_file *f, motus_error *err)
                 scan_byte(&row, chunk[i]);
                 continue;
             }
-            row.good = row.good && row.commas == f->sweep->columns - 1;
+            const int cause = scan_cause(&row);
+            row.good = row.good && row.commas == columns - 1 && cause < MOTUS_CAUSE_COUNT;
             if (!row.good) break;
             f->stopped += row.stopped;
+            f->stopped_by[cause]++;
             f->bytes = place;
-            scan_row(&row, shard_trajectory(&f->sweep->shard, ++f->rows));
+            scan_row(&row, shard_trajectory(&f->sweep->shard, ++f->rows), columns);
         }
     }
     free(chunk);
@@ -163,7 +180,8 @@ static motus_status npy_beside(const sweep_file *f, motus_error *err)
     return status;
 }
 
-/* Counts the rows whose last number, the time at which the trajectory stopped, is not NaN. */
+/* Counts the rows whose last number but one, the time at which the trajectory stopped, is not NaN, and the causes
+ * behind it. */
 static motus_status npy_stopped(sweep_file *f, uint64_t rows, uint64_t width, motus_error *err)
 {
     size_t at_once = width < CHUNK ? CHUNK / width : 1;
@@ -175,9 +193,10 @@ static motus_status npy_stopped(sweep_file *f, uint64_t rows, uint64_t width, mo
         if (read_at(f, chunk, count * width, SWEEP_NPY_HEAD + f->rows * width, err) != (ssize_t)(count * width))
             status = MOTUS_FILE;
         for (size_t i = 0; !status && i < count; i++) {
-            double stopped;
-            memcpy(&stopped, chunk + (i + 1) * width - sizeof stopped, sizeof stopped);
-            f->stopped += !isnan(stopped);
+            double ends[2];
+            memcpy(ends, chunk + (i + 1) * width - sizeof ends, sizeof ends);
+            f->stopped += !isnan(ends[0]);
+            if (ends[1] >= 0 && ends[1] < MOTUS_CAUSE_COUNT) f->stopped_by[(int)ends[1]]++;
         }
         f->rows += count;
     }
@@ -208,6 +227,7 @@ static motus_status npy_rows(sweep_file *f, uint64_t end, motus_error *err)
 motus_status sweep_resume(sweep_file *f, uint64_t end, motus_error *err)
 {
     f->rows = f->bytes = f->stopped = 0;
+    memset(f->stopped_by, 0, sizeof f->stopped_by);
     if (f->npy) return npy_rows(f, end, err);
     size_t length = 0;
     motus_status status = csv_head(f, end, &length, err);

@@ -262,14 +262,22 @@ static int take_steps(stepper *s, const stepper_body *body, int64_t steps)
     return !bad && !w->check && !w->finite ? body->check(w) : bad;
 }
 
-/* A run may crawl when the last PACE steps lead so little further that 2^24 more would not lead to the end, and steps
- * were 10^4 times as long before; or when 2^30 would not. Of a force that jumps steps can shrink for good: where it
- * pushes back from both sides of the jump, as dry friction does that sticks, no step follows it; so it does crawl. Of
- * another force such a run may be long and on its way: it ends where the judge finds a cause. The judge is asked after
- * 2, 4, 8 … times PACE steps. The number of steps alone decides where this is asked, so the answer is the same on all
- * machines. */
-enum { PACE = 1 << 16, PACE_LEFT = 1 << 8, PACE_LEFT_ALWAYS = 1 << 14 };
+/* A run may crawl when the last STEPPER_PACE steps lead so little further that 2^24 more would not lead to the end,
+ * and steps were 10^4 times as long before; or when 2^30 would not. Of a force that jumps steps can shrink for
+ * good: where it pushes back from both sides of the jump, as dry friction does that sticks, no step follows it; so
+ * it does crawl. Of another force such a run may be long and on its way: it ends where the judge finds a cause. The
+ * judge is asked after 2, 4, 8 … times STEPPER_PACE steps. The number of steps alone decides where this is asked,
+ * so the answer is the same on all machines. */
+enum { PACE_LEFT = 1 << 8, PACE_LEFT_ALWAYS = 1 << 14 };
 static const double PACE_FALL = 1e4;
+
+bool stepper_may_crawl(int64_t steps, double gone, double left, double longest, bool smooth)
+{
+    const int64_t paces = steps / STEPPER_PACE;
+    if (!(left < INFINITY) || left <= PACE_LEFT * gone) return false;
+    if (left <= PACE_LEFT_ALWAYS * gone && gone / STEPPER_PACE * PACE_FALL > longest) return false;
+    return !smooth || !(paces & (paces - 1));
+}
 
 void stepper_judged(stepper *s, stepper_judge judge, void *ctx) { s->judge = judge, s->judge_ctx = ctx; }
 
@@ -277,14 +285,11 @@ static motus_status get_on(stepper *s, motus_error *err)
 {
     const work *w = &s->work;
     const double now = stepper_time(s), gone = fabs(now - s->pace_t), left = fabs(w->until - now);
-    const bool known = s->pace_n == w->n - PACE, jumps = !s->problem.traits.smooth;
-    const int64_t paces = w->n / PACE;
+    const bool known = s->pace_n == w->n - STEPPER_PACE, smooth = s->problem.traits.smooth;
     s->pace_n = w->n, s->pace_t = now;
-    if (!known || !(left < INFINITY) || left <= PACE_LEFT * gone) return MOTUS_OK;
-    if (left <= PACE_LEFT_ALWAYS * gone && gone / PACE * PACE_FALL > w->longest) return MOTUS_OK;
-    if (!jumps && (!s->judge || (paces & (paces - 1)))) return MOTUS_OK;
-    if (!jumps) return s->judge(s->judge_ctx, s, PACE, gone, err);
-    return stepper_crawls(s, PACE, gone, err);
+    if (!known || !stepper_may_crawl(w->n, gone, left, w->longest, smooth)) return MOTUS_OK;
+    if (!smooth) return stepper_crawls(s, STEPPER_PACE, gone, err);
+    return s->judge ? s->judge(s->judge_ctx, s, STEPPER_PACE, gone, err) : MOTUS_OK;
 }
 
 motus_status stepper_crawls(const stepper *s, int64_t steps, double gone, motus_error *err)
@@ -304,12 +309,12 @@ static motus_status whole_steps(stepper *s, int64_t steps, const stepper_body *b
     const int64_t end = steps < INT64_MAX - w->n ? w->n + steps : INT64_MAX;
     while (w->n < end && !(w->carried && w->t == w->until)) {
         const bool paced = w->carried && (s->judge || !s->problem.traits.smooth);
-        const int64_t due = paced ? PACE - w->n % PACE : INT64_MAX, most = room_of(s), room = most < due ? most : due,
-                      chunk = end - w->n < room ? end - w->n : room;
+        const int64_t due = paced ? STEPPER_PACE - w->n % STEPPER_PACE : INT64_MAX, most = room_of(s),
+                      room = most < due ? most : due, chunk = end - w->n < room ? end - w->n : room;
         int bad = take_steps(s, body, chunk);
         if (!bad) bad = settle(s);
         if (bad) return recover(s, bad, err);
-        if (!paced || w->n % PACE) continue;
+        if (!paced || w->n % STEPPER_PACE) continue;
         const motus_status status = get_on(s, err);
         if (status) return status;
     }

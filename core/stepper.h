@@ -75,6 +75,10 @@ motus_status stepper_move(stepper **, const machine *, motus_error *);
  * scale of the motion, whatever the tolerance. INFINITY of others. */
 double stepper_tolerance_most(const chosen *);
 
+/* Of an adaptive row, every STEPPER_PACE steps: whether a run that has taken `steps` may crawl, since the last
+ * STEPPER_PACE of them led so little further beside what is left to the end, and beside the longest step so far. */
+enum { STEPPER_PACE = 1 << 16 };
+bool stepper_may_crawl(int64_t steps, double gone, double left, double longest, bool smooth);
 /* Asked whether a run that may crawl is to end, when its last `steps` steps have led from t - gone to t: other than
  * MOTUS_OK ends it with that status. Asked at numbers of steps that are the same on all machines. */
 typedef motus_status (*stepper_judge)(void *ctx, stepper *, int64_t steps, double gone, motus_error *);

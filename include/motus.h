@@ -1051,6 +1051,9 @@ typedef struct motus_ensemble_def {
     /* As in motus_run_def, of adaptive methods alone; with MOTUS_SWITCHES_STEP lanes compute trajectories across
      * switches, else those of a system with switches are computed one at a time. */
     motus_switches switches;
+    /* 1: motus_ensemble_stopped_by tells why trajectories stop. Each that does takes a run of its own, with samples and
+     * trial steps, which is some milliseconds. */
+    int causes;
 } motus_ensemble_def;
 
 /* MOTUS_NAME: a name in `vary` is neither a parameter nor an initial value. MOTUS_SHAPE: it stands for several numbers.
@@ -1061,8 +1064,9 @@ MOTUS_API motus_status motus_ensemble_create(motus_system *, const motus_ensembl
                                              motus_error *);
 /* Computes `count` trajectories. values[k]: `count` values of vary[k]; NULL only where vary_count is 0. results[k]:
  * room for `count` numbers of records[k]. stopped: NULL, or room for `count` numbers: NaN, or the time at which a
- * trajectory left the finite numbers, could not solve its implicit equation, got a value above 0 from its callback, or
- * had taken `most_steps` steps; its results are then NaN, and the other trajectories go on. MOTUS_CALLBACK: a callback
+ * trajectory left the finite numbers, could not solve its implicit equation, got a value above 0 from its callback, had
+ * taken `most_steps` steps, had events without end, or crawled, as a run with its values does; its results are then
+ * NaN, and the other trajectories go on. MOTUS_CALLBACK: a callback
  * returned a value below 0. MOTUS_CANCELLED: `progress` returned other than 0. MOTUS_METHOD: with the values of a
  * trajectory the method does not admit the model, or does not reach the end in equal steps. MOTUS_ARGUMENT,
  * MOTUS_LIMIT: an end is not finite, or too many steps away. MOTUS_ACCURACY: all are computed, and some do not reach
@@ -1087,6 +1091,9 @@ MOTUS_API motus_status motus_ensemble_run_errors(motus_ensemble *, size_t count,
 MOTUS_API int64_t motus_ensemble_events(const motus_ensemble *, size_t trajectory);
 MOTUS_API motus_status motus_ensemble_event(const motus_ensemble *, size_t trajectory, int64_t k, motus_event_row *,
                                             double *values, double *after);
+/* Why a trajectory of the last motus_ensemble_run stopped before its end, where the definition asks for it: the `cause`
+ * of a run with its values. MOTUS_CAUSE_NONE: it did not stop, or the cause is not known. */
+MOTUS_API motus_cause motus_ensemble_stopped_by(const motus_ensemble *, size_t trajectory);
 /* Whether motus_ensemble_run would take these values: MOTUS_OK, or what it would return before it computes anything. */
 MOTUS_API motus_status motus_ensemble_check(motus_ensemble *, size_t count, const double *const *values, motus_error *);
 MOTUS_API void motus_ensemble_destroy(motus_ensemble *);

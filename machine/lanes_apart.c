@@ -26,6 +26,9 @@ typedef struct trajectory {     /* of one lane */
     double last;                /* size of the shorter step after them; 0: none */
     int64_t observations;       /* so far, */
     int64_t observed;           /*   and the number of steps at the last one */
+    int64_t paced;              /* adaptive: steps when it was last asked whether it may crawl, */
+    double paced_t;             /*   and the time then */
+    bool crawls;                /* it may */
     lanes_companion *companion; /* of the trajectory in this lane; NULL: errors are not told */
 } trajectory;
 #define NO_TRAJECTORY SIZE_MAX
@@ -108,6 +111,7 @@ static void finish(apart *s, const apart_block *b, size_t lane)
     const trajectory *p = &b->trajectories[lane];
     const int64_t steps = s->adaptive ? steps_of(b, lane) : p->whole + (p->last != 0);
     lanes_block_results(&b->block, s->item->call, lane, lane + 1, p->number, p->observations, steps);
+    if (p->crawls) s->item->call->ends[p->number] = LANES_MAY_CRAWL;
     if (p->companion) lanes_block_errors(s->item->call, p->companion, stopped(b, lane), p->number);
     atomic_fetch_add(&s->item->call->done, 1);
     free_lane(b, lane);
@@ -226,14 +230,14 @@ static void set_lane(apart *s, size_t lane, size_t k)
         h = way.last;
         way = (stepper_way){1, 0};
     }
-    const double most = d->chosen->count > 0 ? (double)d->chosen->count : NAN;
     const double own[LANES_CLOCKS] = {
         [LANES_T0] = d->t0,          [LANES_H] = h,         [LANES_T] = d->t0,
-        [LANES_RISE] = CONTROL_RISE, [LANES_UNTIL] = until, [LANES_STOP] = most,
+        [LANES_RISE] = CONTROL_RISE, [LANES_UNTIL] = until, [LANES_STOP] = NAN,
     };
     for (int i = 0; i < LANES_CLOCKS; i++) *clock_of(b, lane, i) = own[i];
     lanes_companion *companion = b->trajectories[lane].companion;
-    b->trajectories[lane] = (trajectory){.number = k, .whole = way.whole, .last = way.last, .companion = companion};
+    b->trajectories[lane] =
+        (trajectory){.number = k, .whole = way.whole, .last = way.last, .paced_t = d->t0, .companion = companion};
     if (!companion) return;
     for (int i = 0; i < LANES_CLOCKS; i++) *clock_at(&b->half, lane, i) = own[i];
     lanes_companion_begin(companion, d->t0, until);
@@ -443,6 +447,24 @@ static void run_fixed(apart *s)
     lanes_block_trace(&b->block, false, steps, 0, s->l->on_the_way ? examined : 0);
 }
 
+static int64_t next_pace(int64_t steps) { return (steps / STEPPER_PACE + 1) * STEPPER_PACE; }
+
+/* Stops the trajectories that may crawl. */
+static void stop_crawling(const apart *s, const apart_block *b)
+{
+    const bool smooth = s->l->def.problem->traits.smooth;
+    for (size_t i = 0; i < s->lanes; i++) {
+        trajectory *p = &b->trajectories[i];
+        const int64_t n = steps_of(b, i);
+        if (!occupied(b, i) || n == p->paced || n % STEPPER_PACE) continue;
+        const double t = *clock_of(b, i, LANES_T), gone = fabs(t - p->paced_t),
+                     left = fabs(*clock_of(b, i, LANES_UNTIL) - t);
+        p->crawls = stepper_may_crawl(n, gone, left, *clock_of(b, i, LANES_LONGEST), smooth);
+        p->paced = n, p->paced_t = t;
+        if (p->crawls) b->block.stopped[i] = t;
+    }
+}
+
 /* Stops the trajectories that have taken the most steps that they may. */
 static void stop_at_most(const apart *s, const apart_block *b)
 {
@@ -452,14 +474,15 @@ static void stop_at_most(const apart *s, const apart_block *b)
             b->block.stopped[i] = lanes_block_time(&b->block, i);
 }
 
-/* Computes candidates until some lane is at its end or at an observation, or fails. */
+/* Computes candidates until some lane is at its end, at an observation or at a pace, or fails. */
 static void run_adaptive(apart *s)
 {
     const apart_block *b = &s->blocks[RUNNING];
-    const int64_t every = s->l->def.every;
-    for (size_t i = 0; s->l->on_the_way && i < s->lanes; i++)
+    const int64_t every = s->l->def.every, most = s->l->def.chosen->count;
+    for (size_t i = 0; i < s->lanes; i++)
         if (occupied(b, i)) {
-            const int64_t next = (steps_of(b, i) / every + 1) * every, most = s->l->def.chosen->count;
+            const int64_t n = steps_of(b, i), pace = next_pace(n),
+                          due = s->l->on_the_way ? (n / every + 1) * every : pace, next = due < pace ? due : pace;
             *clock_of(b, i, LANES_STOP) = (double)(most > 0 && most < next ? most : next);
         }
     double before[BLOCK_MAX];
@@ -468,6 +491,7 @@ static void run_adaptive(apart *s)
     s->l->run(&b->block.job, told ? 1 : CHUNK, 0);
     for (size_t i = 0; i < s->lanes; i++)
         if (occupied(b, i) && b->block.job.lost[i] != 0) b->block.stopped[i] = lanes_block_time(&b->block, i);
+    stop_crawling(s, b);
     stop_at_most(s, b);
     if (told) follow(s, before);
 }

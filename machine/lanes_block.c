@@ -302,6 +302,8 @@ void lanes_block_results(const lanes_block *b, const lanes_call *c, size_t from,
         for (size_t r = 0; r < d->source_count; r++) c->results[d->sources[r].result][trajectory + i - from] = NAN;
         for (size_t k = 0; k < d->tally_count; k++) c->results[d->tallies[k].result][trajectory + i - from] = NAN;
     }
+    for (size_t i = from; i < to; i++)
+        c->ends[trajectory + i - from] = isnan(b->stopped[i]) ? LANES_ARRIVED : LANES_STOPPED;
     if (c->stopped) memcpy(c->stopped + trajectory, b->stopped + from, (to - from) * sizeof *c->stopped);
 }
 
@@ -397,7 +399,7 @@ static void divide_work(lanes_call *c, size_t threads)
 }
 
 motus_status lanes_run(lanes *l, size_t count, const double *const *values, const double *until, double *const *results,
-                       double *const *errors, double *stopped, motus_error *err)
+                       double *const *errors, double *stopped, unsigned char *ends, motus_error *err)
 {
     const lanes_def *d = &l->def;
     /* Threads take longer to start than a little work takes. */
@@ -409,7 +411,8 @@ motus_status lanes_run(lanes *l, size_t count, const double *const *values, cons
                     .until = until,
                     .results = results,
                     .errors = errors,
-                    .stopped = stopped};
+                    .stopped = stopped,
+                    .ends = ends};
     lanes_call half = {.l = l->half, .count = count, .values = values, .until = until};
     if (errors) c.half = &half;
     c.keeps = half.keeps = errors != NULL;

@@ -71,6 +71,7 @@ typedef struct lanes_call {
     const double *const *values;
     const double *until; /* of every trajectory, or NULL: the same for all */
     double *const *results, *const *errors, *stopped;
+    unsigned char *ends; /* LANES_ARRIVED … */
     double *memory; /* of every thread: its blocks, its scratch, its table, all this of the companions, differences */
     size_t blocks, block_size, scratch_size, table_size, thread_size;
     struct lanes_call *half; /* of the companions: sizes and memory alone; NULL: errors are not told */

@@ -43,7 +43,7 @@ sweep() { "$motus" sweep "$@"; }
 
 # --- steps ----------------------------------------------------------------------------------------------------------------------
 sweep osc.motus --vary F=0.1,0.2 --method dopri5 --tolerance 1e-7 --until 5 --record "steps, rejected, h_min, h_max, evaluations, x" -q >"$out" 2>"$err"
-that "what is recorded of the steps has the words of run --json" is "$(names)" "index,F,steps,rejected,h_min,h_max,evaluations,x,stopped"
+that "what is recorded of the steps has the words of run --json" is "$(names)" "index,F,steps,rejected,h_min,h_max,evaluations,x,stopped,stopped_by"
 "$motus" run osc.motus --set F=0.2 --method dopri5 --tolerance 1e-7 --until 5 --json >one.json
 for key in steps rejected h_min h_max evaluations; do
     n=$(names | tr , '\n' | grep -nx "$key" | cut -d: -f1)
@@ -58,7 +58,7 @@ refuses "a time between samples where steps adapt" 2 "the steps of the method ha
 for method in "rk4 --step 0.02" "dopri5 --tolerance 1e-7"; do
     told=(sweep osc.motus --vary F=0.125:0.5:11 --method $method --until 5 --record "x, max(x), steps, x'" --errors -q)
     "${told[@]}" --machine interpreter -o one.csv --force
-    that "errors by $method have columns after what is recorded" is "$(names one.csv)" "index,F,x,max(x),steps,x',x.error,max(x).error,x'.error,significant,stopped"
+    that "errors by $method have columns after what is recorded" is "$(names one.csv)" "index,F,x,max(x),steps,x',x.error,max(x).error,x'.error,significant,stopped,stopped_by"
     "${told[@]}" --machine compiled --threads 1 -o two.csv --force
     that "... and the same bytes in lanes" cmp one.csv two.csv
     "${told[@]}" --machine compiled --lanes 16 --threads 2 -o two.csv --force
@@ -135,7 +135,7 @@ values "the file of another sweep" --vary "a=@first.csv:x'" "2 3 4"
 
 sweep osc.motus --vary F=1,2 --vary w=3,4,5 --record x -q >"$out"
 that "two --vary: every one with every other, the last fastest" is "$(rows | cut -d, -f1-3 | tr '\n' ' ')" "0,1,3 1,1,4 2,1,5 3,2,3 4,2,4 5,2,5 "
-that "the names of the columns" is "$(names)" "index,F,w,x,stopped"
+that "the names of the columns" is "$(names)" "index,F,w,x,stopped,stopped_by"
 sweep osc.motus --vary F=1,2,3 --vary w=4:6:3 --zip --record x -q >"$out"
 that "--zip: side by side" is "$(rows | cut -d, -f1-3 | tr '\n' ' ')" "0,1,4 1,2,5 2,3,6 "
 sweep osc.motus --vary F=1,2 --random w=0:1 --count 3 --record x -q >"$out"
@@ -173,7 +173,7 @@ that "min, max and their times are those of the rows of a run" is "$(rows | cut 
     NR == 1 || $2 + 0 < least + 0 { least = $2; tl = $1 } NR == 1 || $2 + 0 > most + 0 { most = $2; tm = $1 } NR == 1 || $3 + 0 > e + 0 { e = $3 }
     END { print least "," most "," tl "," tm "," e }')"
 that "mean" near "$(column 7)" "$(rows traj.csv | awk -F, '{ s += $3 } END { printf "%.17g", s/NR }')" 1e-15
-that "their names" is "$(names)" "index,F,min(x),max(x),time_of_min(x),time_of_max(x),mean(energy),max(energy),stopped"
+that "their names" is "$(names)" "index,F,min(x),max(x),time_of_min(x),time_of_max(x),mean(energy),max(energy),stopped,stopped_by"
 "$motus" run osc.motus --set F=0.3 -o traj.csv --columns "t,x" --every "70 steps" -q
 sweep osc.motus --vary F=0.3 --record "max(x),mean(x)" --every "70 steps" -q >"$out"
 that "--every: looks that far apart, and at the end" is "$(column 3)" "$(rows traj.csv | awk -F, 'NR == 1 || $2 > m { m = $2 } END { print m }' OFMT=%.17g CONVFMT=%.17g) "
@@ -182,7 +182,7 @@ sweep osc.motus --vary F=0.3 --record "max(x),mean(x)" --every 0.7 -q >"$out"
 that "--every as a time" cmp steps "$out"
 sweep "$root/models/three-body-figure-eight.motus" --vary "r[1].x(0)=0.97" --until 0.01 -q >"$out" 2>"$err"
 sweep "$root/models/projectile.motus" --vary g.y=-9.81,-1.62 --record "r,max(r'.y)" -q >"$out" 2>"$err"
-that "a name stands for all its numbers; a component varies" is "$(names)" "index,g.y,r.x,r.y,max(r'.y),stopped"
+that "a name stands for all its numbers; a component varies" is "$(names)" "index,g.y,r.x,r.y,max(r'.y),stopped,stopped_by"
 
 # A number that decides the step or the end cannot vary, unless this is given.
 printf '%s\n' "T = 3" "h = 0.1" "x'' = -x" "x(0) = 1" "x'(0) = 0" "step h" "until T" >decides.motus
@@ -297,7 +297,7 @@ gives "--switches step leads across" 0 "$motus" sweep "${kinked[@]}" --switches 
 that "... in lanes" holds '.switches == "step" and .lanes > 1 and .note == null'
 one_of() { "$motus" run kink.motus --set k=2 --method dop853 --json "$@" | jq .state.x; }
 that "... each with the bits of the runs" test "$(tail -n 1 located.csv | cut -d, -f3) $(tail -n 1 across.csv | cut -d, -f3)" = "$(one_of) $(one_of --switches step)"
-head -c 200 located.csv >part.csv && cp part.csv kept.csv
+head -c 211 located.csv >part.csv && cp part.csv kept.csv
 refuses "--resume with other switches" 2 "part.csv was made by another sweep" "$motus" sweep "${kinked[@]}" --switches step -o part.csv --resume
 that "... the file stays" cmp part.csv kept.csv
 gives "... with the same ones" 0 "$motus" sweep "${kinked[@]}" -o part.csv --resume -q
@@ -336,7 +336,7 @@ if mount -t tmpfs -o size=64k none small 2>/dev/null; then
     that "... all of them right" cmp -n "$(stat -c %s full.csv)" full.csv long.csv
     rm small/full.csv
     sweep "${long[@]}" -o small/full.npy >"$out" 2>"$err"
-    that "... a .npy too" eval "[ \$(((\$(stat -c %s small/full.npy) - 128) % 48)) = 0 ] && head -c 128 small/full.npy | grep -aqF \"(\$(((\$(stat -c %s small/full.npy) - 128) / 48)), 6)\""
+    that "... a .npy too" eval "[ \$(((\$(stat -c %s small/full.npy) - 128) % 56)) = 0 ] && head -c 128 small/full.npy | grep -aqF \"(\$(((\$(stat -c %s small/full.npy) - 128) / 56)), 7)\""
     umount small
     that "... finished elsewhere" resume_long full.csv
 fi
@@ -371,23 +371,75 @@ wait $child 2>/dev/null
 sweep "${long[@]}" -q 2>"$err" | head -n 3 >"$out"
 that "a reader that goes away" eval "[ \$(wc -l <'$out') = 3 ] && empty '$err'"
 
+# --- why trajectories stop ------------------------------------------------------------------------------------------------------
+# CAUSE, the lines of a model with a parameter c, the values of c: every trajectory ends as its run does, however it is computed.
+model() { local name=$1; shift; printf '%s\n' "$@" >"$name.motus"; }
+model pole "x'' = c*6*x^2" "c = 1" "x(0) = 1" "x'(0) = 2"
+model relaxes "x'' = -1e10*(x' - cos(t)) + c" "c = 0" "x(0) = 1" "x'(0) = 1"
+model rubs "x'' = -x - c*sign(x')" "c = 0.5" "x(0) = 3" "x'(0) = 0"
+model pushes "y'' = -9.81*c" "c = 1" "y(0) = 1" "y'(0) = 0" "when y = 0 falling as bounce: y' = 0.9 y', record"
+model solves "x'' = -c*x^3" "c = 1" "x(0) = 10" "x'(0) = 0"
+model noise "x'' = -c*x" "e' = x'*((x+0.3)-0.3-x)" "c = 1" "x(0) = 1" "x'(0) = 0" "e(0) = 0"
+model grows "x'' = c*x" "c = 1" "x(0) = 1" "x'(0) = 1"
+model pol "x'' = c*1000*(1 - x^2)*x' - x" "c = 1" "x(0) = 2" "x'(0) = 0"
+model fast "x'' = -c*x + sin(1e8*t)" "c = 1" "x(0) = 1" "x'(0) = 0"
+# "time cause" of the trajectories of out, and of the run with c
+ends() { rows "$1" | awk -F, '{ print $(NF-1), $NF }'; }
+end_of() { "$motus" run "$1" --set "c=$2" "${@:3}" --json | jq -sr '.[-1] | if .diagnosis then "\(.diagnosis.time) \(.diagnosis.cause)" else " " end'; }
+same_ends() {
+    local cause=$1 values=$2 how machine c
+    shift 2
+    for c in ${values//,/ }; do end_of "$1" "$c" "${@:2}"; done >runs.ends
+    that "$cause: $* fails by it" grep -q " $cause\$" runs.ends
+    for machine in "--machine interpreter --threads 1" "--machine compiled" "--machine compiled --lanes 1 --threads 2"; do
+        "$motus" sweep "$@" --vary "c=$values" $machine -q >"$out"
+        that "... $machine: as the runs" cmp <(ends "$out") runs.ends
+    done
+}
+same_ends singular 1,1.5,0 pole.motus --until 3 --method dop853
+same_ends singular 1,1.5,0 pole.motus --until 3 --method rk4 --step 0.01
+same_ends stiff 0,1 relaxes.motus --until 1000 --method dopri5
+same_ends stiff 1,2 pol.motus --until 20 --method rk4 --step 0.01
+same_ends discontinuous 0.5,0 rubs.motus --until 30 --method dop853 --switches step
+same_ends events 1,2 pushes.motus --until 3 --method dop853
+same_ends newton 1,0.001 solves.motus --until 30 --method gauss4 --step 2
+same_ends rounding 1,2 noise.motus --until 30 --method dopri5
+same_ends infinite 1,0.5 grows.motus --until 800 --method dop853
+sweep fast.motus --vary c=1,2 --until 1e6 --method dopri5 --most-steps 1000 -q >"$out"
+that "a failure of which no cause is known has a time and no word" eval "[ \"\$(ends '$out' | grep -c '^[0-9.e-]* \$')\" = 2 ]"
+causes=(pole.motus --vary c=1,0,1.5,2 --until 3 --method dop853)
+sweep "${causes[@]}" -o causes.csv --json >"$out"
+that "JSON counts the causes" holds '.stopped == 3 and .stopped_by == {"singular": 3}'
+resumed_causes() {
+    local n
+    for n in $(seq "$(rows causes.csv | wc -c)"); do
+        head -c "-$n" causes.csv >cut.csv
+        sweep "${causes[@]}" -o cut.csv --resume --json >"$out" && cmp causes.csv cut.csv && holds '.stopped == 3 and .stopped_by == {"singular": 3}' || { echo "without $n bytes"; return 1; }
+    done
+}
+that "... after a cut at every byte of the rows too" resumed_causes
+sweep "${causes[@]}" -o causes.npy -q
+that "a .npy has their numbers" eval "[ \"\$(od -An -v -t f8 -w48 -j 128 causes.npy | awk '{ print \$NF + 0 }' | tr '\n' ' ')\" = '1 0 1 1 ' ] && jq -e '.causes[1] == \"singular\" and .causes[0] == \"\"' causes.npy.json"
+sweep "${causes[@]}" -o causes.npy --resume --json >"$out"
+that "... and JSON counts those that are found" holds '.stopped_by == {"singular": 3} and .resumed == 4'
+
 # --- .npy ------------------------------------------------------------------------------------------------------------------------
 gives ".npy" 0 "$motus" sweep "${ask[@]}" -o whole.npy --json
-that "... is float64 in rows" eval "head -c 10 whole.npy | od -An -tx1 | tr -d ' ' | grep -qx 934e554d505901007600 && head -c 128 whole.npy | grep -aqF \"{'descr': '<f8', 'fortran_order': False, 'shape': (14, 6), }\""
-that "... and nothing else" eval "[ \$(stat -c %s whole.npy) = \$((128 + 14*6*8)) ]"
-number() { od -An -v -t f8 -w8 -j "$((128 + 8*($1*6 + $2)))" -N 8 whole.npy | tr -d ' '; }
+that "... is float64 in rows" eval "head -c 10 whole.npy | od -An -tx1 | tr -d ' ' | grep -qx 934e554d505901007600 && head -c 128 whole.npy | grep -aqF \"{'descr': '<f8', 'fortran_order': False, 'shape': (14, 7), }\""
+that "... and nothing else" eval "[ \$(stat -c %s whole.npy) = \$((128 + 14*7*8)) ]"
+number() { od -An -v -t f8 -w8 -j "$((128 + 8*($1*7 + $2)))" -N 8 whole.npy | tr -d ' '; }
 that "... its numbers are those of the CSV" eval "[ \$(number 9 0) = 9 ] && rows whole.csv | sed -n 10p | tr ',' '\n' | head -n 5 >a && for k in 0 1 2 3 4; do number 9 \$k; done >b && paste a b | awk '{ d = \$1 - \$2; bad += d*d > 1e-28 } END { exit bad || NR != 5 }'"
 that "... what did not stop says nan" eval "number 9 5 | grep -qi nan"
-that "... the names stand beside it" eval "json whole.npy.json && jq -e '.columns == [\"index\",\"F\",\"w\",\"x\",\"max(energy)\",\"stopped\"] and .trajectories == 14' whole.npy.json"
+that "... the names stand beside it" eval "json whole.npy.json && jq -e '.columns == [\"index\",\"F\",\"w\",\"x\",\"max(energy)\",\"stopped\",\"stopped_by\"] and .trajectories == 14' whole.npy.json"
 size=$(stat -c %s whole.npy)
 npy_resumed() {              # bytes left
     head -c "$1" whole.npy >cut.npy && cp whole.npy.json cut.npy.json && sweep "${ask[@]}" -o cut.npy --resume -q && cmp whole.npy cut.npy
 }
 npy_everywhere() { local n; for n in "$@"; do npy_resumed "$n" || { echo "cut at $n"; return 1; }; done; }
-that ".npy resumed after a cut at every byte of the last two rows" npy_everywhere $(seq $((size - 96)) "$size")
+that ".npy resumed after a cut at every byte of the last two rows" npy_everywhere $(seq $((size - 112)) "$size")
 that "... in the head" npy_everywhere 0 1 64 127 128 129
 (ulimit -c 0 -f 100; sweep "${long[@]}" -o killed.npy -q) >"$out" 2>&1
-that ".npy killed in a write: its head tells how many rows are there" eval "n=\$(head -c 128 killed.npy | grep -aoE '\(([0-9]+), 6\)' | tr -dc '0-9,' | cut -d, -f1); [ \$n -gt 0 ] && [ \$((128 + n*48)) -le \$(stat -c %s killed.npy) ]"
+that ".npy killed in a write: its head tells how many rows are there" eval "n=\$(head -c 128 killed.npy | grep -aoE '\(([0-9]+), 7\)' | tr -dc '0-9,' | cut -d, -f1); [ \$n -gt 0 ] && [ \$((128 + n*56)) -le \$(stat -c %s killed.npy) ]"
 sweep "${long[@]}" -o long.npy -q
 that "... finished to the same bytes" eval "sweep \"\${long[@]}\" -o killed.npy --resume -q && cmp long.npy killed.npy && cmp long.npy.json killed.npy.json"
 refuses "--resume of another .npy" 2 "was made by another sweep" "$motus" sweep "${ask[@]}" --step 0.02 -o whole.npy --resume
@@ -398,10 +450,10 @@ refuses "a .npy that is there" 2 "whole.npy exists" "$motus" sweep "${ask[@]}" -
 # --- JSON and text ------------------------------------------------------------------------------------------------------------
 gives "--json" 0 "$motus" sweep blow.motus --vary k=-1,3 -o blow.csv --force --json
 that "... is JSON" json "$out"
-for key in model method step trajectories resumed steps machine compiled_from lanes threads note switches fast seconds wall stopped output; do that "sweep: key $key" holds "has(\"$key\")"; done
+for key in model method step trajectories resumed steps machine compiled_from lanes threads note switches fast seconds wall stopped stopped_by output; do that "sweep: key $key" holds "has(\"$key\")"; done
 that "sweep: what it says of itself" holds '.trajectories == 2 and .steps == 400 and .stopped == 1 and .output == "blow.csv" and .lanes >= 1 and .threads >= 1 and .seconds > 0 and .wall >= .seconds and .resumed == 0 and .fast == false and .method == "rk4" and .step == 0.01'
 gives "for people" 0 "$motus" sweep line.motus --vary a=1:2:5 -o line.csv
-that "... how many, how long" eval "says '5 trajectories' && says 'line.csv: 5 columns'"
+that "... how many, how long" eval "says '5 trajectories' && says 'line.csv: 6 columns'"
 gives "--quiet" 0 "$motus" sweep blow.motus --vary k=3 -o quiet.csv --quiet
 that "... is quiet" eval "empty '$out' && empty '$err'"
 gives "--threads and --lanes" 0 "$motus" sweep line.motus --vary a=1:2:64 -o t.csv --threads 1 --lanes 1 --json
