@@ -279,14 +279,14 @@ static bool stiff(judge *j, double mean)
     const bool early = !e->adaptive;
     if (!evidence_rate(e, early, &re, &im, &which) || !(re < 0) || fabs(im) > -re) return false;
     const double rate = hypot(re, im), bound = evidence_stable(e, re, im), h = e->adaptive ? mean : fabs(e->h);
-    /* a row that solves equations stays where its iteration converges, near 1/rate */
+    /* a row whose steps solve equations, by Newton's method or by iteration, stays where that converges, near 1/rate */
     const double limit = !(bound < UNBOUNDED) && e->adaptive ? 1 : bound;
     if (!(limit > 0) || (e->adaptive && (h * rate > NEAR_BOUND * limit || h * rate < limit / NEAR_BOUND))) return false;
     if (!e->adaptive && h * rate <= limit) return false;
     if (implicit_step(j, early, LONGER * limit / rate, text) == 0) return false;
     error_text(j->cause, "the model is stiff: %s returns to the motion with the rate %.2g, and steps of %s %s %.2g",
                name_of(j, true, which, name), rate, e->row->name,
-               limit < bound ? "do not converge much above" : "would grow above", limit / rate);
+               limit == bound ? "would grow above" : "do not converge much above", limit / rate);
     say(j, MOTUS_CAUSE_STIFF, name);
     snprintf(j->err->attempt, sizeof j->err->attempt, "method = %s, step = %.24s", STIFF_METHOD, text);
     j->err->verified = 1;

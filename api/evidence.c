@@ -431,6 +431,7 @@ double evidence_stable(const evidence *e, double re, double im)
         at_re[i] = z * re / size, at_im[i] = z * fabs(im) / size;
     }
     if (motus_stability(e->row->name, BOUNDS, at_re, at_im, radius, NULL) != MOTUS_OK) return 0;
+    if (isinf(radius[0])) return NAN;
     for (int i = 0; i < BOUNDS && radius[i] <= 1 + GROWS; i++) bound = hypot(at_re[i], at_im[i]);
     return bound;
 }

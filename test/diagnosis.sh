@@ -81,6 +81,9 @@ model pol "x'' = 1000*(1 - x^2)*x' - x" "x(0) = 2" "x'(0) = 0"
 ends_by "a stiff model by an explicit method" stiff "$place/relaxes.motus" --until 1000 --method dopri5
 that "... of which x' decays" diagnosed ".variable == \"x'\""
 obeyed "... and the implicit one succeeds" "'$place/relaxes.motus'" --until 1000
+ends_by "... by one that iterates" stiff "$place/relaxes.motus" --until 1000 --method radau15
+that "... whose steps do not converge" eval "jq -r .error.message '$out' | grep -q 'steps of radau15 do not converge much above 1e-10'"
+obeyed "... and the implicit one succeeds" "'$place/relaxes.motus'" --until 1000
 ends_by "steps of one size that are too long for it" stiff "$place/pol.motus" --until 20 --method rk4 --step 0.01
 obeyed "... and the implicit ones succeed" "'$place/pol.motus'" --until 20
 ends_by "a stiff model with too few steps" stiff "$place/pol.motus" --until 100 --method dopri5 --most-steps 1000
