@@ -330,6 +330,67 @@ static void surfaces(void **state)
     assert_int_equal(motus_switch_at(NULL, 0, &w), MOTUS_ARGUMENT);
 }
 
+/* What an ensemble does at switches, and why it does not locate them: what a run says. */
+static void ensemble_says(const char *text, const char *method, motus_switches asked, motus_switches does,
+                          const char *reason)
+{
+    static const motus_record x = {MOTUS_REDUCE_FINAL, 1};
+    motus_system *s = given_text(text);
+    motus_error err = motus_default_error();
+    motus_ensemble_def def = motus_default_ensemble();
+    motus_ensemble *e = NULL;
+    def.records = &x, def.record_count = 1;
+    def.method = method, def.until = 1, def.machine = "interpreter";
+    if (!strcmp(method, "rk4")) def.step = 0.01;
+    def.switches = asked;
+    const motus_status status = motus_ensemble_create(s, &def, &e, &err);
+    if (does == MOTUS_SWITCHES_RESOLVE) { /* refused */
+        assert_int_equal(status, MOTUS_UNAVAILABLE);
+        assert_null(e);
+        if (!strstr(err.message, reason)) fail_msg("%s: %s", text, err.message);
+    } else {
+        must(status, &err, text);
+        if (motus_ensemble_switches(e) != does)
+            fail_msg("%s by %s: it does %d at switches", text, method, (int)motus_ensemble_switches(e));
+        const char *said = motus_ensemble_not_located(e);
+        if (!*reason != !*said || !strstr(said, reason)) fail_msg("%s: not located, since \"%s\"", text, said);
+        motus_run_def run = motus_default_run();
+        motus_run *r = NULL;
+        run.method = method, run.until = 1, run.machine = "interpreter", run.step = def.step, run.switches = asked;
+        must(motus_run_create(s, &run, &r, &err), &err, text);
+        assert_string_equal(motus_run_not_located(r), said);
+        motus_run_destroy(r);
+    }
+    motus_ensemble_destroy(e);
+    motus_system_destroy(s);
+}
+
+static void ensembles_say_why(void **state)
+{
+    (void)state;
+    static const motus_switches usual = MOTUS_SWITCHES_USUAL, locate = MOTUS_SWITCHES_LOCATE,
+                                step = MOTUS_SWITCHES_STEP, refused = MOTUS_SWITCHES_RESOLVE;
+    static const char
+        kink[] = "x'' = -abs(x)\nx(0) = 1\nx'(0) = 0\n",
+        smooth[] = "x'' = -x\nx(0) = 1\nx'(0) = 0\n",
+        many[] = "x[i]'' = -abs(x[i]) for i = 1..65\nx[i](0) = 1 for i = 1..65\nx[i]'(0) = 0 for i = 1..65\n",
+        beyond[] = "x'' = 1 - max(0, x)^1.5\nx(0) = -1\nx'(0) = 0\n",
+        too_many[] =
+            "x[i]'' = -abs(x[i]) for i = 1..65537\nx[i](0) = 1 for i = 1..65537\nx[i]'(0) = 0 for i = 1..65537\n";
+    ensemble_says(kink, "dop853", usual, locate, "");
+    ensemble_says(kink, "dop853", step, step, "");
+    ensemble_says(kink, "rk4", usual, step, "");
+    ensemble_says(kink, "rk4", locate, refused, "those of rk4 do not");
+    ensemble_says(kink, "dop853", refused, refused, "does not resolve");
+    ensemble_says(smooth, "dop853", usual, usual, "");
+    ensemble_says(many, "dop853", usual, step, "there are many");
+    ensemble_says(many, "dop853", locate, locate, "");
+    ensemble_says(beyond, "dop853", usual, step, "may be undefined beyond one");
+    ensemble_says(beyond, "dop853", locate, locate, "");
+    ensemble_says(too_many, "dop853", usual, step, "cannot be located");
+    ensemble_says(too_many, "dop853", locate, step, "cannot be located");
+}
+
 /* The list follows numbers that are set, and leaves runs as they are. */
 static void surfaces_beside_runs(void **state)
 {
@@ -370,6 +431,7 @@ int main(void)
         cmocka_unit_test(bars_of_what_sticks),
         cmocka_unit_test(on_every_machine),
         cmocka_unit_test(surfaces),
+        cmocka_unit_test(ensembles_say_why),
         cmocka_unit_test(surfaces_beside_runs),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
