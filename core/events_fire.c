@@ -62,8 +62,8 @@ static motus_status not_finite(const events *e, size_t k, bool in_v, size_t whic
     return MOTUS_DIVERGED;
 }
 
-/* After an action a condition that no longer holds may become true again: later, or in the same instant where it is false
- * at the instant itself. */
+/* After an action a condition that no longer holds may become true again: later, or in the same instant where it is
+ * false at the instant itself. */
 static void release(events *e)
 {
     for (int now = 0; now < 2; now++) {
