@@ -85,11 +85,13 @@ static uint32_t hash(uint32_t z) /* Murmur3's finaliser */
     return z ^ z >> 16;
 }
 
-/* Rounding moves every number by up to a unit in the last place: with fewer or smaller moves a chaotic motion of few
- * numbers, whose first errors grow most, would have no errors until the first of them. */
-static void jog(double *y, size_t count, uint32_t salt)
+/* Rounding of an action moves every number by up to a unit in the last place: with fewer moves a chaotic motion of few
+ * numbers, whose first errors grow most, would have no errors until the first of them. A switch computes no number, and
+ * lets the motion go on by other steps: a third of a unit, in the mean square. */
+static void jog(double *y, size_t count, uint32_t salt, bool switched)
 {
-    for (size_t k = 0; k < count; k++) companion_move(y + k, 1, NULL, salt + (uint32_t)k);
+    for (size_t k = 0; k < count; k++)
+        if (!switched || (hash((uint32_t)k + salt) >> 8 & 7) == 0) companion_move(y + k, 1, NULL, salt + (uint32_t)k);
 }
 
 motus_status companion_begin(companion *c, const motus_run *r, double t, const double *x, const double *v,

@@ -63,8 +63,9 @@ motus_status events_step(events *, stepper *, double until, stepper_stop *why, m
 motus_status events_go(events *, stepper *, double until, int64_t most, stepper_stop *why, motus_error *);
 
 /* After every action `jog` moves the numbers of the state, x and then v, by about their rounding; salt: of the event.
- * So a companion meets other roundings at events than the run. */
-typedef void (*events_jogger)(double *y, size_t count, uint32_t salt);
+ * `switched`: no action has computed them, a switch of the force has let the motion go on. So a companion meets other
+ * roundings at events than the run. */
+typedef void (*events_jogger)(double *y, size_t count, uint32_t salt, bool switched);
 void events_jog(events *, events_jogger);
 /* The stepper has begun a new leg where it stands (stepper_turn): the grid of fixed steps begins there. */
 void events_turn(events *, const stepper *);

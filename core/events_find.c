@@ -192,8 +192,8 @@ static motus_status judge_ends(events *e, motus_error *err)
  * times: rounding of either counts with a weight of at most DENSE_WEIGHT / 2 (the largest of all methods is 2.2). */
 enum { DENSE_WEIGHT = 8 };
 
-/* How far rounding may carry function f on dense output from 0, where it stands. */
-static motus_status judge_standing(events *e, size_t f, double *bound, motus_error *err)
+/* How far rounding may carry function f on dense output. */
+static motus_status judge_dense(events *e, size_t f, double *bound, motus_error *err)
 {
     const size_t nx = e->problem.nx;
     motus_status status = judge_ends(e, err);
@@ -222,19 +222,24 @@ static motus_status search_part(events *e, size_t f, const part *p, const double
     /* The bounds on rounding are computed only where an event was near; most steps need none. The times of the points
      * are rounded, too, which counts in steps that are short beside the time. */
     const double moved = steepest * events_ulp(e->right.t) / fabs(e->span * (p->to - p->from));
-    double rounding = largest * 0x1p-44 + moved, standing = 0;
+    double rounding = largest * 0x1p-44 + moved, hidden = 0;
     if (stands) {
-        const motus_status judged = judge_standing(e, f, &standing, err);
+        const motus_status judged = judge_dense(e, f, &hidden, err);
         if (judged) return judged;
-        if (largest <= standing && !e->heads[f]) return MOTUS_OK; /* it stays 0: its values are nothing but rounding */
+        if (largest <= hidden && !e->heads[f]) return MOTUS_OK; /* it stays 0: its values are nothing but rounding */
     }
     roots_fitted fitted;
     roots_fit_status fit = roots_fit(value, stride, degree, rounding, coefficients, &fitted);
-    if (fit == ROOTS_FIT_ROUGH && stands) {
-        rounding += standing;
+    if (fit == ROOTS_FIT_ROUGH) { /* the function may be a small difference of large numbers, whose rounding it has */
+        const motus_status judged = stands ? MOTUS_OK : judge_dense(e, f, &hidden, err);
+        if (judged) return judged;
+        rounding += hidden;
         fit = roots_fit(value, stride, degree, rounding, coefficients, &fitted);
     }
-    if (fit == ROOTS_FIT_NOT_FINITE) return MOTUS_OK;
+    if (fit == ROOTS_FIT_NOT_FINITE) { /* where it is not defined there is no root, and parts tell of the rest */
+        for (int k = 0; k <= degree && p->depth < PARTS_DEEP; k++) *rough |= isfinite(value[(size_t)k * stride]);
+        return MOTUS_OK;
+    }
     const double beyond = fit == ROOTS_FIT_ROUGH ? fitted.unseen : 0;
     if (!stands && !e->open[f] && roots_none(coefficients, fitted.degree, SLACK * largest + fitted.noise + beyond))
         return MOTUS_OK;
@@ -242,7 +247,7 @@ static motus_status search_part(events *e, size_t f, const part *p, const double
     if (*rough) return MOTUS_OK;
     const motus_status status = judge_ends(e, err);
     if (status) return status;
-    const double bound = fmax(standing, fmax(e->left.bound[f], e->right.bound[f]));
+    const double bound = fmax(hidden, fmax(e->left.bound[f], e->right.bound[f]));
     const double noise = bound + moved + fmax(0, fitted.noise - rounding);
     const search of = {p, coefficients, fitted.degree, fmax(SLACK * largest, 2 * noise)};
     roots_root root[ROOTS_ROOM];
@@ -316,7 +321,8 @@ static motus_status find_of(events *e, stepper *s, size_t f, int *degree, motus_
     bool rough;
     if (isnan(e->left.g[f]) && isnan(e->right.g[f])) return MOTUS_OK; /* a cell without a rule */
     motus_status status = search_part(e, f, &all, e->samples + f, n, *degree, &sign, &rough, err);
-    while (!status && rough && *degree < PART_DEGREE) {
+    const bool defined = isfinite(e->left.g[f]) && isfinite(e->right.g[f]);
+    while (!status && rough && *degree < PART_DEGREE && defined) {
         *degree *= 2;
         status = sample(e, s, *degree, err);
         if (!status) status = search_part(e, f, &all, e->samples + f, n, *degree, &sign, &rough, err);

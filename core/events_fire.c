@@ -101,13 +101,13 @@ static motus_status look_again(events *e, motus_error *err)
     return status;
 }
 
-static void jog(events *e, int64_t number)
+static void jog(events *e, int64_t number, bool switched)
 {
     const size_t nx = e->problem.nx - e->problem.modes;
     const uint32_t salt = (uint32_t)number * 0x9e3779b9u;
     if (!e->jog) return;
-    e->jog(e->here.x, nx, salt);
-    e->jog(e->here.v, e->problem.nv, salt + (uint32_t)nx);
+    e->jog(e->here.x, nx, salt, switched);
+    e->jog(e->here.v, e->problem.nv, salt + (uint32_t)nx, switched);
 }
 
 /* A switch changes its side. As many may at once as there are, but not one and the same again and again. */
@@ -117,7 +117,7 @@ static motus_status turn(events *e, size_t k, size_t i, motus_error *err)
     if (e->turned_at != at->t) e->turned_at = at->t, e->turns = 0;
     if (++e->turns > EVENTS_AT_ONCE + 4 * e->rules.functions) return too_many(e, k, i, err);
     memcpy(e->before, at->g, e->rules.functions * sizeof *at->g);
-    jog(e, e->count[k]);
+    jog(e, e->count[k], true);
     const motus_status status = e->rules.turn(e->rules.ctx, k, i, e->way, at->t, at->x, at->v, err);
     return status ? status : look_again(e, err);
 }
@@ -138,7 +138,7 @@ static motus_status act(events *e, size_t k, size_t i, motus_error *err)
     const size_t n = e->rules.functions;
     if (n) memcpy(e->before, at->g, n * sizeof *at->g);
     if (e->rules.act(e->rules.ctx, k, i, at->t, at->x, at->v, &in_v, &which)) return not_finite(e, k, in_v, which, err);
-    jog(e, e->acted);
+    jog(e, e->acted, false);
     const motus_status status =
         e->rules.settle ? e->rules.settle(e->rules.ctx, e->way, at->t, at->x, at->v, err) : MOTUS_OK;
     return status ? status : look_again(e, err);

@@ -154,9 +154,9 @@ void events_kept_forget(events *e)
 
 /* Accumulation ----------------------------------------------------------------------------------------------------- */
 
-/* The limit of times whose intervals shrink by a nearly constant ratio, by Aitken's formula, due when all that is left
- * before it is below 512 units in the last place of the time: rounding soon hides in which order such events would
- * come. */
+/* The limit of times whose intervals shrink by a nearly constant ratio, by Aitken's formula. It is due when all that is
+ * left before it is below 512 units in the last place of the time, or the function goes no farther than 512 times its
+ * rounding: rounding soon hides in which order such events would come. */
 bool events_accumulate(events *e, size_t rule, size_t instance, double t)
 {
     enum { ULPS = 512 };
@@ -172,10 +172,18 @@ bool events_accumulate(events *e, size_t rule, size_t instance, double t)
     const double rounding = 2 * ulp / two;
     if (!(two > 0) || !(now + rounding < 1) || fabs(now - before) > 0.1 * before + 2 * rounding) return false;
     const double left = one * now / (1 - now);
-    if (left > ULPS * ulp) return false;
+    double error = left;
+    if (left > ULPS * ulp) { /* a function may be hidden by its own rounding long before */
+        const struct rule *of = &e->rules.rule[rule];
+        const size_t f = of->first + instance;
+        const double rate = fabs(e->here.rate[f]), bound = e->here.bound[f];
+        const double top = rate * one * now / 4; /* how far it would go until the next event, on a parabola */
+        if (of->kind != RULE_ROOT || !(top <= ULPS * bound)) return false;
+        error = (one * fabs(now - before) + 2 * (bound / rate + ulp) * (1 + now)) / ((1 - now) * (1 - now));
+    }
     e->has_limit = true;
     e->limit_told = false;
-    e->limit = (events_limit){rule, instance, t + e->way * left, left + 4 * ulp};
+    e->limit = (events_limit){rule, instance, t + e->way * left, error + 4 * ulp};
     return true;
 }
 

@@ -327,6 +327,24 @@ text "y[i]'' = if(r[i] == 1, 0, -9.81) for i = 1..2\ny[1](0) = 100\ny[2](0) = 1\
 when y[i] = 0 falling as b: y[i]' = -0.5 y[i]' for i = 1..2
 when b accumulates: r[i] = 1, y[i]' = 0, y[i] = 0 for i = 1..2\nuntil 5\n"
 gives "in a family each member's events accumulate for themselves" 0 "$motus" run one.motus --method dop853 --json
+# A floor that is not at 0: rounding hides the bounces long before that of the time does.
+for c in 0.3 10 1000.1; do
+    text "y'' = -9.81\ny(0) = 1 + $c\ny'(0) = 0\nuntil 30\nwhen y = $c falling as bounce: y' = -0.5 y', record\n"
+    gives "a ball on a floor at $c" 0 "$motus" run one.motus --method dop853 --json
+    that "  comes to rest on it" near "$(value '.state.y')" "$c" 1e-9
+    that "  when its bar says" near "$(value '.accumulated.time')" 1.354570922957192 "$(value '.accumulated.error')"
+done
+text "A = 0.005\ny'' = -1\ny(0) = 0.6\ny'(0) = 0\nuntil 30\ngap = y - A sin(2 pi t)\nwhen gap = 0 falling as bounce: y' = -0.5 y' + 3 pi A cos(2 pi t), record\n"
+for method in "rk4 --step 0.01" dop853 taylor; do
+    gives "a ball on a table that moves, $method" 0 "$motus" run one.motus --method $method --json
+    that "  does not fall through it" near "$(value '.accumulated.time')" 3.542279107235079 "$(value '.accumulated.error')"
+done
+# A function that is not defined everywhere has its roots where it is.
+text "x'' = -x\nx(0) = 1\nx'(0) = 0\nuntil 10\nwhen sqrt(x) = 0.5 as z: record\n"
+for method in taylor dop853 radau15; do
+    gives "a root of a function that is undefined for half of the time, $method" 0 "$motus" run one.motus --method $method --json
+    that "  and the others" [ "$(value '.events | map(.time * 1e6 | round) | join(" ")')" = "1318116 4965069 7601301" ]
+done
 # What is located is a root of true steps, whatever dense output says.
 text "x'' = -x\nx(0) = 1\nx'(0) = 0\nmethod verlet\nstep 1\nuntil 3.5\nwhen x = -0.99: record\n"
 gives "a value that steps do not reach" 0 "$motus" run one.motus --json

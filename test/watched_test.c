@@ -41,13 +41,13 @@ static outcome run_in(const char *text, const char *method, const char *machine,
 #define STAR                                                                                            \
     "V = (x^2 + y^2)/2 + x^2 y - y^3/3\nx'' = -x - 2 x y\ny'' = -y - x^2 + y^2\nx(0) = 0\ny(0) = 0.1\n" \
     "x'(0) = 0.49\ny'(0) = 0\nuntil 300\n"
+#define SUN "r = sqrt(x^2 + y^2)\nx'' = -x/r^3\ny'' = -y/r^3\nx(0) = 1\ny(0) = 0\nx'(0) = 0\ny'(0) = 0.2\nuntil 40\n"
 static const char *const models[] = {
     STAR "when x = 0 rising: record\n",
     STAR "when x = 0 rising: record\nwhen y > 0.3 and x' < 0: record\n",
     "x'' = -x - 0.1 x' + max(0, x - 0.5)\nx(0) = 1\nx'(0) = 0\nuntil 100\n",
     /* near the Sun candidates are refused */
-    "r = sqrt(x^2 + y^2)\nx'' = -x/r^3\ny'' = -y/r^3\nx(0) = 1\ny(0) = 0\nx'(0) = 0\ny'(0) = 0.2\nuntil 40\n"
-    "when y = 0: record\nwhen x = 0.01: record\nwhen x' = y: record\n",
+    SUN "when y = 0: record\nwhen x = 0.01: record\nwhen x' = y: record\n",
     "x'' = -1\nwhen x = 0 falling: x' = -0.9 x', record\nx(0) = 1\nx'(0) = 0\nuntil 10\n",
 };
 static const int least_rows[] = {40, 40, 0, 20, 3};
