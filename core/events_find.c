@@ -420,7 +420,7 @@ motus_status events_watch(events *e, stepper *s, stepper_limit limit, stepper_st
     at->valued = at->valued && left.steps == 1;
     memcpy(at->x, left.x, e->problem.nx * sizeof *at->x);
     memcpy(at->v, left.v, e->problem.nv * sizeof *at->v);
-    e->steps += left.steps - 1;
+    e->steps += status ? left.steps : left.steps - 1; /* the caller counts the last one */
     return status;
 }
 

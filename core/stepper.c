@@ -458,10 +458,10 @@ motus_status stepper_watch(stepper *s, stepper_limit limit, stepper_quiet quiet,
     motus_status status = stepper_advance(s, limit, why, err);
     s->watching = false;
     left->steps = stepper_steps(s) - before;
-    if (status || left->steps == 0) return status;
+    /* where the last step began; one that failed, too, and there the run stands */
     left->t = s->watch.t, left->lost = s->watch.lost;
     left->x = s->watch.from_x, left->v = s->watch.from_v;
-    return mark_watched(s, err);
+    return status || left->steps == 0 ? status : mark_watched(s, err);
 }
 
 motus_status stepper_again(stepper *s, motus_error *err)

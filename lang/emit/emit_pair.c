@@ -38,16 +38,6 @@ static reference exchanged_reference(const reference *r)
     return other;
 }
 
-static bool same_reference(const reference *a, const reference *b)
-{
-    if (a->array != b->array || a->dims != b->dims) return false;
-    for (int d = 0; d < a->dims; d++)
-        if (a->at[d].level != b->at[d].level || a->at[d].slot != b->at[d].slot ||
-            a->at[d].modulus != b->at[d].modulus || a->at[d].literal != b->at[d].literal)
-            return false;
-    return true;
-}
-
 /* Whether m is n with the indices exchanged. */
 static bool is_exchanged(const writer *w, node n, node m, int depth)
 {
@@ -57,7 +47,7 @@ static bool is_exchanged(const writer *w, node n, node m, int depth)
     if (a->op == OP_INDEX) return exchanged_level(a->level) == b->level;
     if (a->op == OP_LOAD) {
         const reference other = exchanged_reference(&w->plan.g->references[a->a]);
-        return same_reference(&other, &w->plan.g->references[b->a]);
+        return graph_same_reference(&other, &w->plan.g->references[b->a]);
     }
     if (a->op == OP_SUM || a->op == OP_TOTAL) return false;
     const node mine[3] = {a->a, a->b, a->c}, other[3] = {b->a, b->b, b->c};

@@ -52,9 +52,21 @@ static uint64_t hash_subscript(uint64_t h, const subscript *s)
     return mix(h, (uint64_t)(uint16_t)s->slot << 16 | (uint16_t)s->modulus);
 }
 
-static bool same_subscript(const subscript *s, const subscript *t)
+bool graph_same_subscript(const subscript *s, const subscript *t)
 {
     return s->level == t->level && s->slot == t->slot && s->modulus == t->modulus && s->literal == t->literal;
+}
+
+bool graph_same_range(const range *a, const range *b)
+{
+    return graph_same_subscript(&a->first, &b->first) && graph_same_subscript(&a->last, &b->last);
+}
+
+bool graph_same_reference(const reference *a, const reference *b)
+{
+    bool same = a->array == b->array && a->dims == b->dims;
+    for (int d = 0; same && d < a->dims; d++) same = graph_same_subscript(&a->at[d], &b->at[d]);
+    return same;
 }
 
 /* LOAD and SUM hold the number of a reference or range; nodes are equal where the references or ranges are. */
@@ -74,16 +86,10 @@ static uint64_t hash_node(const graph_node *n, const reference *ref, const range
 static bool same_node(const graph *g, const graph_node *n, const graph_node *m, const reference *ref, const range *r)
 {
     if (n->op != m->op || n->level != m->level) return false;
-    if (ref) {
-        const reference *q = &g->references[m->a];
-        if (q->array != ref->array || q->dims != ref->dims) return false;
-        for (int d = 0; d < ref->dims; d++)
-            if (!same_subscript(&q->at[d], &ref->at[d])) return false;
-        return true;
-    }
+    if (ref) return graph_same_reference(&g->references[m->a], ref);
     if (n->op == OP_CONST) return bits_of(n->value) == bits_of(m->value);
     if (n->a != m->a || n->b != m->b) return false;
-    if (r) return same_subscript(&r->first, &g->ranges[m->c].first) && same_subscript(&r->last, &g->ranges[m->c].last);
+    if (r) return graph_same_range(r, &g->ranges[m->c]);
     return n->c == m->c;
 }
 

@@ -100,6 +100,11 @@ typedef struct graph {
 } graph;
 enum { GRAPH_NODES_MAX = 1 << 21 };
 
+/* Whether they are the same, member by member: the bytes between members say nothing. */
+bool graph_same_subscript(const subscript *, const subscript *);
+bool graph_same_range(const range *, const range *);
+bool graph_same_reference(const reference *, const reference *);
+
 graph *graph_create(arena *);
 /* Room for so many nodes, so that the graph need not grow: its old copy and the new one would be there together. */
 bool graph_reserve(graph *, uint32_t nodes);

@@ -84,16 +84,6 @@ static uint32_t new_region(plan *p, uint32_t parent, int level)
     return k;
 }
 
-static bool same_subscript(const subscript *s, const subscript *t)
-{
-    return s->level == t->level && s->slot == t->slot && s->modulus == t->modulus && s->literal == t->literal;
-}
-
-static bool same_range(const range *a, const range *b)
-{
-    return same_subscript(&a->first, &b->first) && same_subscript(&a->last, &b->last);
-}
-
 /* The innermost region of the family loops that an output runs over; outputs with the same loops share them. */
 static uint32_t nest_of(plan *p, const output *o)
 {
@@ -101,7 +91,7 @@ static uint32_t nest_of(plan *p, const output *o)
     for (int d = 0; d < o->loops; d++) {
         bool innermost = d == o->loops - 1;
         uint32_t k = p->regions.at[parent].first_child;
-        while (k != NONE && !(same_range(&p->regions.at[k].range, &o->loop[d]) && !p->regions.at[k].sum &&
+        while (k != NONE && !(graph_same_range(&p->regions.at[k].range, &o->loop[d]) && !p->regions.at[k].sum &&
                               p->regions.at[k].innermost == innermost))
             k = p->regions.at[k].next;
         if (k == NONE) {
@@ -121,7 +111,7 @@ static uint32_t loop_of(plan *p, const graph_node *n, uint32_t rank, uint32_t ho
     range r = p->g->ranges[n->c];
     uint32_t k = p->regions.at[home].first_child;
     while (k != NONE && !(p->regions.at[k].sum && p->regions.at[k].level == n->level && p->regions.at[k].rank == rank &&
-                          same_range(&p->regions.at[k].range, &r)))
+                          graph_same_range(&p->regions.at[k].range, &r)))
         k = p->regions.at[k].next;
     if (k != NONE) return k;
     k = new_region(p, home, n->level);

@@ -8,11 +8,6 @@
 
 enum { SHORTENED_MAX = 64 }; /* cells, each of which takes a walk through every sum */
 
-static bool equal_subscripts(const subscript *a, const subscript *b)
-{
-    return a->level == b->level && a->slot == b->slot && a->modulus == b->modulus && a->literal == b->literal;
-}
-
 static bool never_equal(const subscript *a, const subscript *b)
 {
     return a->level == b->level && a->slot == b->slot && a->modulus < 0 && b->modulus < 0 && a->literal != b->literal;
@@ -52,7 +47,7 @@ static node same_cell(lowering *l, const reference *a, const reference *b)
     node same = 0;
     bool any = false;
     for (int d = 0; d < a->dims; d++) {
-        if (equal_subscripts(&a->at[d], &b->at[d])) continue;
+        if (graph_same_subscript(&a->at[d], &b->at[d])) continue;
         if (never_equal(&a->at[d], &b->at[d])) return 0;
         const within constant = constant_within(l, &a->at[d], &b->at[d]);
         if (constant == WITHIN_NEVER) return 0;
@@ -111,7 +106,7 @@ static within one_term(const differential *d, const graph_node *sum, const refer
     for (int k = 0; k < of->dims; k++) {
         if (of->at[k].level == (int8_t)sum->level && e < 0)
             e = k;
-        else if (!equal_subscripts(&of->at[k], &by->at[k]))
+        else if (!graph_same_subscript(&of->at[k], &by->at[k]))
             return WITHIN_SOME;
     }
     if (e < 0 || r->first.level >= 0 || r->last.level >= 0) return WITHIN_SOME;

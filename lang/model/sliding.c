@@ -14,21 +14,10 @@
 
 #include <string.h>
 
-static bool same_subscripts(const subscript *a, const subscript *b, int count)
-{
-    bool same = true;
-    for (int d = 0; d < count && same; d++)
-        same = a[d].level == b[d].level && a[d].slot == b[d].slot && a[d].modulus == b[d].modulus &&
-               a[d].literal == b[d].literal;
-    return same;
-}
-
 static bool same_loops(const output *a, const output *b)
 {
     bool same = a->loops == b->loops;
-    for (int k = 0; k < a->loops && same; k++)
-        same = same_subscripts(&a->loop[k].first, &b->loop[k].first, 1) &&
-               same_subscripts(&a->loop[k].last, &b->loop[k].last, 1);
+    for (int k = 0; k < a->loops && same; k++) same = graph_same_range(&a->loop[k], &b->loop[k]);
     return same;
 }
 
@@ -53,7 +42,7 @@ static node equation_of(graph *g, node leaf, int level, void *ctx)
     if (leaf == in->without) return graph_const(g, 0);
     for (size_t k = 0; k < in->accel_count && level == in->level; k++) {
         const output *o = &in->s->accel[k];
-        if (o->to.array == r->array && same_subscripts(o->to.at, r->at, r->dims) && same_loops(o, in->rate)) {
+        if (graph_same_reference(&o->to, r) && same_loops(o, in->rate)) {
             in->found = k;
             return o->value;
         }

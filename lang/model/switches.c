@@ -188,8 +188,7 @@ static node with_side(graph *g, operation op, node a, node b, node side)
 static bool same_nest(const nest *p, const nest *q, unsigned deps)
 {
     for (int k = 0; k < MAX_LEVELS; k++)
-        if (deps & 1u << k && (k >= p->count || k >= q->count || memcmp(&p->at[k], &q->at[k], sizeof p->at[k]) != 0))
-            return false;
+        if (deps & 1u << k && (k >= p->count || k >= q->count || !graph_same_range(&p->at[k], &q->at[k]))) return false;
     return true;
 }
 

@@ -250,15 +250,6 @@ static bool may_assign(model *m, lowering *l, const tree *t)
     return moving_cells(m, l, name, s.state);
 }
 
-static bool same_place(const reference *a, const reference *b)
-{
-    bool same = a->array == b->array && a->dims == b->dims;
-    for (int d = 0; same && d < a->dims; d++)
-        same = a->at[d].level == b->at[d].level && a->at[d].slot == b->at[d].slot &&
-               a->at[d].modulus == b->at[d].modulus && a->at[d].literal == b->at[d].literal;
-    return same;
-}
-
 bool when_add(model *m, model_rule *r, const model_assignment *one)
 {
     const size_t count = r->assignments;
@@ -277,7 +268,7 @@ static bool add_assignment(model *m, model_rule *r, const action *a, node target
     const reference to = m->graph->references[graph_at(m->graph, target)->a];
     char text[80];
     for (size_t k = 0; k < r->assignments; k++)
-        if (same_place(&r->assignment[k].to, &to)) {
+        if (graph_same_reference(&r->assignment[k].to, &to)) {
             COMPLAIN(m, &a->target->at, "%s is assigned twice by one event", quote(m, &a->target->at, text));
             HINT(m, "all right sides see the state before the event; what comes after it is an event of its own");
             return false;
