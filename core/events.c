@@ -312,19 +312,9 @@ static motus_status go_through(events *e, stepper *s, bool *assigned, stepper_st
     return status;
 }
 
-/* A step, marked; where bounds alone tell of it, more, up to the limit. */
-static motus_status go_on(events *e, stepper *s, stepper_limit limit, stepper_stop *why, motus_error *err)
-{
-    if (limit.steps > 1 && events_watchable(e)) return events_watch(e, s, limit, why, err);
-    const motus_status status = stepper_mark(s, err);
-    return status ? status : stepper_advance(s, (stepper_limit){1, limit.until}, why, err);
-}
-
-/* A step towards `until`, or to an action before its end; where bounds tell that nothing happens in it, up to `most`
- * steps. Where it is too long to tell how a function leaves 0 at its
+/* A step towards `until`, or to an action before its end. Where it is too long to tell how a function leaves 0 at its
  * start, a shorter one. */
-static motus_status piece(events *e, stepper *s, double until, int64_t most, bool *assigned, stepper_stop *why,
-                          motus_error *err)
+static motus_status piece(events *e, stepper *s, double until, bool *assigned, stepper_stop *why, motus_error *err)
 {
     enum { PART = 4, SHORTER_MOST = 12 };
     motus_status status = MOTUS_OK;
@@ -332,7 +322,8 @@ static motus_status piece(events *e, stepper *s, double until, int64_t most, boo
     e->whole = 0;
     e->shorter = SHORTER_MOST;
     for (;;) {
-        if (!status) status = go_on(e, s, (stepper_limit){whole == 0 ? most : 1, until}, why, err);
+        if (!status) status = stepper_mark(s, err);
+        if (!status) status = stepper_advance(s, (stepper_limit){1, until}, why, err);
         if (!status) status = observe(s, &e->right, err);
         if (!status && e->right.t == e->left.t) return MOTUS_OK;
         e->span = (e->right.t - e->left.t) + (e->right.lost - e->left.lost);
@@ -390,11 +381,10 @@ void events_move(events *e, const machine *m)
     e->probe = NULL;
 }
 
-static motus_status adaptive_step(events *e, stepper *s, double until, int64_t most, stepper_stop *why,
-                                  motus_error *err)
+static motus_status adaptive_step(events *e, stepper *s, double until, stepper_stop *why, motus_error *err)
 {
     bool assigned = false;
-    motus_status status = piece(e, s, until, most, &assigned, why, err);
+    motus_status status = piece(e, s, until, &assigned, why, err);
     if (status || *why == STOP_EVENT) return status;
     /* the sizes of a reversible row follow from one another, and a step that was shortened for the events' sake would
      * shorten all that come */
@@ -424,7 +414,7 @@ static motus_status grid_step(events *e, stepper *s, double until, stepper_stop 
     if (last && e->may_save && !events_save_here(e, s)) return events_no_memory(err);
     for (;;) {
         bool assigned = false;
-        motus_status status = piece(e, s, broken ? end : until, 1, &assigned, why, err);
+        motus_status status = piece(e, s, broken ? end : until, &assigned, why, err);
         if (status || *why == STOP_EVENT) return status;
         const double left = assigned ? (end - e->here.t) - e->here.lost : (end - e->right.t) - e->right.lost;
         const bool near = fabs(left) <= 8 * events_ulp(end);
@@ -442,22 +432,17 @@ static motus_status grid_step(events *e, stepper *s, double until, stepper_stop 
     return MOTUS_OK;
 }
 
-motus_status events_go(events *e, stepper *s, double until, int64_t most, stepper_stop *why, motus_error *err)
+motus_status events_step(events *e, stepper *s, double until, stepper_stop *why, motus_error *err)
 {
     *why = STOP_STEPS;
     e->until = until;
     e->pasts = 0;
     events_kept_forget(e);
     motus_status status =
-        row_adaptive(&e->method) ? adaptive_step(e, s, until, most, why, err) : grid_step(e, s, until, why, err);
+        row_adaptive(&e->method) ? adaptive_step(e, s, until, why, err) : grid_step(e, s, until, why, err);
     if (!status) e->steps++;
     if (status) *why = STOP_FAILED;
     return status;
-}
-
-motus_status events_step(events *e, stepper *s, double until, stepper_stop *why, motus_error *err)
-{
-    return events_go(e, s, until, 1, why, err);
 }
 
 events_end events_ended(const events *e, size_t *rule)

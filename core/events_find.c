@@ -360,11 +360,14 @@ static bool add_ticks(events *e)
 
 /* How far each number may be within the step from the middle of its ends: a position from the line between them by
  * h^2/8 times the largest acceleration, a velocity by h/2 times that. The middle is in `next`. False: not known. */
-static void box_between(events *e, const instant *from, const instant *to, double h, const double *most)
+static bool box(events *e, const stepper *s)
 {
     const size_t nx = e->problem.nx, nv = e->problem.nv;
     instant *middle = &e->next;
-    double *dx = e->width, *dv = dx + nx;
+    const instant *from = &e->left, *to = &e->right;
+    const double h = fabs(e->span);
+    double *most = middle->a, *dx = e->width, *dv = dx + nx;
+    if (!e->rules.least || e->problem.refresh || !stepper_swing(s, most)) return false;
     for (size_t k = 0; k < nv; k++) {
         middle->v[k] = from->v[k] + (to->v[k] - from->v[k]) / 2;
         dv[k] = h / 2 * most[k];
@@ -372,56 +375,7 @@ static void box_between(events *e, const instant *from, const instant *to, doubl
         middle->x[k] = from->x[k] + (to->x[k] - from->x[k]) / 2;
         dx[k] = fabs(to->x[k] - from->x[k]) / 2 + h * h / 8 * most[k];
     }
-}
-
-/* Of the present step. False: not known. */
-static bool box(events *e, const stepper *s)
-{
-    if (!e->rules.least || e->problem.refresh || !stepper_swing(s, e->next.a)) return false;
-    box_between(e, &e->left, &e->right, fabs(e->span), e->next.a);
     return true;
-}
-
-/* The sizes of all functions on this box, from below: positive, where they are known. */
-static const double *sizes_in_box(events *e)
-{
-    e->rules.least(e->rules.ctx, e->next.x, e->next.v, e->width, e->width + e->problem.nx, e->before);
-    return e->before; /* room */
-}
-
-static bool quiet(void *ctx, const stepper_shown *step)
-{
-    events *e = ctx;
-    const instant from = {.x = step->from_x, .v = step->from_v}, to = {.x = step->to_x, .v = step->to_v};
-    box_between(e, &from, &to, fabs(step->h), step->most);
-    const double *size = sizes_in_box(e);
-    for (size_t f = 0; f < e->rules.functions; f++)
-        if (!(size[f] > 0)) return false;
-    return true;
-}
-
-bool events_watchable(const events *e)
-{
-    if (e->first || !e->rules.least || e->problem.refresh || !row_watched(&e->method)) return false;
-    for (size_t k = 0; k < e->rules.count; k++)
-        if (e->rules.rule[k].kind == RULE_CLOCK) return false;
-    for (size_t f = 0; f < e->rules.functions; f++)
-        if (e->stands[f] || e->open[f]) return false;
-    return true;
-}
-
-motus_status events_watch(events *e, stepper *s, stepper_limit limit, stepper_stop *why, motus_error *err)
-{
-    stepper_left left;
-    const motus_status status = stepper_watch(s, limit, quiet, e, &left, why, err);
-    if (left.steps == 0) return status;
-    instant *at = &e->left;
-    at->t = left.t, at->lost = left.lost;
-    at->valued = at->valued && left.steps == 1;
-    memcpy(at->x, left.x, e->problem.nx * sizeof *at->x);
-    memcpy(at->v, left.v, e->problem.nv * sizeof *at->v);
-    e->steps += status ? left.steps : left.steps - 1; /* the caller counts the last one */
-    return status;
 }
 
 static motus_status value_ends(events *e, motus_error *err)
@@ -479,7 +433,7 @@ static motus_status choose(events *e, const stepper *s, bool *any, motus_error *
     const bool known = box(e, s);
     bool rates = false;
     motus_status status = MOTUS_OK;
-    if (known) sizes_in_box(e);
+    if (known) e->rules.least(e->rules.ctx, e->next.x, e->next.v, e->width, e->width + e->problem.nx, out);
     *any = false;
     for (size_t f = 0; f < n; f++) {
         const bool free = known && !e->stands[f] && !e->open[f];

@@ -147,10 +147,6 @@ double events_tick(const events *, size_t rule);
 
 /* events_find.c. What may happen in the step from `left` to `right`, whose dense output the stepper has. */
 motus_status events_find(events *, stepper *, motus_error *);
-/* Whether bounds alone may tell of the next steps; takes steps until they do not, or up to the limit. The last one
- * leads from `left`. */
-bool events_watchable(const events *);
-motus_status events_watch(events *, stepper *, stepper_limit, stepper_stop *why, motus_error *);
 bool events_add(events *, candidate);
 motus_status events_no_memory(motus_error *);
 /* The next tick of a clock. False: it is not within the step. */

@@ -160,7 +160,6 @@ void stepper_destroy(stepper *s)
     solver_destroy(s->library.solver);
     give(&allocator, s->ends);
     give(&allocator, s->inside);
-    give(&allocator, s->watched);
     give(&allocator, s);
 }
 
@@ -257,9 +256,7 @@ static int take_steps(stepper *s, const stepper_body *body, int64_t steps)
     work *w = &s->work;
     w->finite = false;
     if (s->library.tracing) trace_begin(w);
-    w->watch = s->watching ? &s->watch : NULL;
     int bad = body->run(w, steps);
-    w->watch = NULL;
     /* a recovery takes these steps once more, and must not trace them again */
     s->library.tracing = NULL;
     return !bad && !w->check && !w->finite ? body->check(w) : bad;
@@ -310,7 +307,7 @@ static motus_status whole_steps(stepper *s, int64_t steps, const stepper_body *b
 {
     work *w = &s->work;
     const int64_t end = steps < INT64_MAX - w->n ? w->n + steps : INT64_MAX;
-    while (w->n < end && !(w->carried && w->t == w->until) && !(s->watching && s->watch.met)) {
+    while (w->n < end && !(w->carried && w->t == w->until)) {
         const bool paced = w->carried && (s->judge || !s->problem.traits.smooth);
         const int64_t due = paced ? STEPPER_PACE - w->n % STEPPER_PACE : INT64_MAX, most = room_of(s),
                       room = most < due ? most : due, chunk = end - w->n < room ? end - w->n : room;
@@ -406,62 +403,6 @@ motus_status stepper_advance(stepper *s, stepper_limit limit, stepper_stop *why,
     const motus_status status = go(s, &limit, s->body, err);
     if (why) *why = status ? STOP_FAILED : s->arrived ? STOP_UNTIL : STOP_STEPS;
     return status;
-}
-
-static bool show(watch *w, double h)
-{
-    const stepper *s = w->ctx;
-    return s->quiet(s->quiet_ctx, &(stepper_shown){h, w->from_x, w->from_v, w->to_x, w->to_v, w->most});
-}
-
-/* Memory for the ends of watched steps. */
-static bool watch_room(stepper *s)
-{
-    const size_t nx = s->work.nx, nv = s->work.nv;
-    if (!s->watched) s->watched = take(&s->allocator, 2 * nx + 3 * nv, sizeof *s->watched);
-    if (!s->watched) return false;
-    watch *to = &s->watch;
-    to->from_x = s->watched, to->from_v = to->from_x + nx;
-    to->to_x = to->from_v + nv, to->to_v = to->to_x + nx;
-    to->most = to->to_v + nv;
-    to->quiet = show, to->ctx = s;
-    return true;
-}
-
-/* The state before the last watched step becomes the mark of dense output. */
-static motus_status mark_watched(stepper *s, motus_error *err)
-{
-    work *w = &s->work;
-    const size_t nx = w->nx, nv = w->nv;
-    double *x = s->ends, *v = x + nx;
-    memcpy(x, s->watch.from_x, nx * sizeof *x);
-    memcpy(v, s->watch.from_v, nv * sizeof *v);
-    s->left = true, s->right = false;
-    s->left_t = s->watch.t;
-    s->left_steps = stepper_steps(s) - 1;
-    if (w->expands) return MOTUS_OK;
-    const int64_t evaluations = w->evaluations;
-    const int bad = s->body->accel(w, s->left_t, x, v, v + nv);
-    w->evaluations = evaluations;
-    return bad ? stepper_report(s, bad, s->left_t, err) : MOTUS_OK;
-}
-
-motus_status stepper_watch(stepper *s, stepper_limit limit, stepper_quiet quiet, void *ctx, stepper_left *left,
-                           stepper_stop *why, motus_error *err)
-{
-    const int64_t before = stepper_steps(s);
-    left->steps = 0;
-    s->watch.met = false;
-    if (!stepper_ends(s) || !watch_room(s)) return fail(err, MOTUS_MEMORY, "out of memory for dense output");
-    s->quiet = quiet, s->quiet_ctx = ctx;
-    s->watching = true;
-    motus_status status = stepper_advance(s, limit, why, err);
-    s->watching = false;
-    left->steps = stepper_steps(s) - before;
-    /* where the last step began; one that failed, too, and there the run stands */
-    left->t = s->watch.t, left->lost = s->watch.lost;
-    left->x = s->watch.from_x, left->v = s->watch.from_v;
-    return status || left->steps == 0 ? status : mark_watched(s, err);
 }
 
 motus_status stepper_again(stepper *s, motus_error *err)

@@ -109,24 +109,9 @@ int64_t stepper_iterations(const stepper *);
  * next step; without a mark stepper_sample takes the last step once more, from the last snapshot, to the same bits. */
 motus_status stepper_mark(stepper *, motus_error *);
 motus_status stepper_sample(stepper *, double t, double *x, double *v, motus_error *);
-/* A bound on the size of every acceleration within the marked last step, nv numbers; of stages (step/swing.h) it holds
+/* A bound on the size of every acceleration within the marked last step, nv numbers; of stages (step/dense.h) it holds
  * where they show the motion. False: none is known. */
 bool stepper_swing(const stepper *, double *most);
-/* Takes steps up to the limit, of rows that can be watched (row_watched), until something may have happened in one:
- * `quiet` is shown the states at its ends and the bounds of stepper_swing. The last step is marked, quiet or not; in
- * those before it nothing has happened. left: where the last step began, and how many there were. */
-typedef struct stepper_shown {
-    double h, *from_x, *from_v, *to_x, *to_v;
-    const double *most;
-} stepper_shown;
-typedef bool (*stepper_quiet)(void *ctx, const stepper_shown *);
-typedef struct stepper_left {
-    int64_t steps;
-    double t, lost;
-    const double *x, *v;
-} stepper_left;
-motus_status stepper_watch(stepper *, stepper_limit, stepper_quiet, void *ctx, stepper_left *, stepper_stop *why,
-                           motus_error *);
 /* How many steps lead to the last time that is not after t; 0 where the stepper is there, or where sizes are not
  * known beforehand. */
 int64_t stepper_steps_before(const stepper *, double t);

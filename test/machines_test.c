@@ -81,6 +81,7 @@ static end run_on(motus_system *s, const char *machine, const char *method)
 {
     motus_settings set = motus_default_settings();
     motus_settings_of(s, &set);
+    if (isnan(set.step)) set.step = (set.until - set.from) / 512; /* its method adapts them */
     motus_run_def def = motus_default_run();
     motus_error err = motus_default_error();
     def.machine = machine;

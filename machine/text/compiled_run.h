@@ -6,9 +6,6 @@
  * loop does, to the same bits, because that text would take the compiler as long as all the rest: the first step of a
  * leg, the steps that fill no vector of times, and the steps in which something fails, from the workspace as it was.
  */
-/* Whether the steps end here, because something may have happened in the last one. */
-static inline bool compiled_met(const work *w) { return WATCHES(w) && w->watch->met; }
-
 #if TERMS
 /* Takes LANES_OF_TIME steps at a time and first computes the table of the steps after them, which the processor
  * overlaps with the latency of the present steps. SMALL: `steps` is a multiple of that. */
@@ -20,7 +17,7 @@ static inline int compiled_steps(work *w, whole steps)
     int bad = STEP_OK;
     w->table = table;
     compiled_fill(host, w->t0, w->h, table, w->n, LANES_OF_TIME);
-    while (!bad && steps > 0 && !compiled_met(w)) {
+    while (!bad && steps > 0) {
         const whole some = SMALL || steps > LANES_OF_TIME ? LANES_OF_TIME : steps;
         w->first = w->n;
         compiled_fill_some(host, w->t0, w->h, table + HALF, w->n + LANES_OF_TIME, false);
@@ -85,7 +82,7 @@ int motus_run(work *given, whole steps)
     if (!FITS(host->u)) return host->run(given, steps);
     if (compiled_begins(given) && steps > 0) {
         const int bad = host->run(given, 1);
-        if (bad || compiled_met(given)) return bad;
+        if (bad) return bad;
         steps--;
     }
 #if TERMS
@@ -93,10 +90,7 @@ int motus_run(work *given, whole steps)
 #else
     const whole some = steps;
 #endif
-    if (some > 0 && compiled_small(given, some)) {
-        if (compiled_met(given)) return STEP_OK;
-        steps -= some;
-    }
+    if (some > 0 && compiled_small(given, some)) steps -= some;
     return steps > 0 ? host->run(given, steps) : STEP_OK;
 }
 #else
@@ -109,7 +103,7 @@ int motus_run(work *given, whole steps)
     w->expanded = 0;
 #if LOCAL
     window_open(w);
-    if (!w->check && !WATCHES(w))
+    if (!w->check)
         tiled_run(w, steps);
     else
 #endif
