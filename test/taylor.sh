@@ -53,7 +53,7 @@ agree "a driven boundary" "$scratch/border.motus" 9 --vary w=0.5:2:9 --until 3 -
 # A fall into the centre: no step is small enough, at a time that depends on where it begins.
 printf "k = 1\nx'' = -k/x^2\nx(0) = 1\nx'(0) = 0\n" >"$scratch/fall.motus"
 agree "a fall into the centre" "$scratch/fall.motus" 40 --vary k=0.1:9:40 --until 3 --record 'x,min(x)'
-check "some fell" "$(rows "$scratch/fall.motus" --vary k=0.1:9:40 --until 3 --record 'x,min(x)' --machine compiled | grep -c ',[0-9.]*[1-9]$' | awk '{ print ($1 > 20) ? "true" : $1 }')" true
+check "some fell" "$(rows "$scratch/fall.motus" --vary k=0.1:9:40 --until 3 --record 'x,min(x)' --machine compiled | grep -c ',[0-9.]*[1-9],[a-z]*$' | awk '{ print ($1 > 20) ? "true" : $1 }')" true
 
 method=radau15 tolerance=(--tolerance 1e-12)
 agree "radau15: the eccentricity varies" models/kepler.motus 23 --vary e=0:0.9:23 --until 3 --record 'r.x,max(r.y),mean(t),time_of_min(r.x)'
