@@ -58,16 +58,20 @@ static motus_status one_left(worker *w, size_t item, void *ctx)
     return ensemble_one(w, list->number[item - list->first], (void *)list->places);
 }
 
+static bool is_left(const motus_ensemble *e, const places *p, size_t k)
+{
+    return p->ends[k] == LANES_MAY_CRAWL || (e->causes && p->ends[k] == LANES_STOPPED);
+}
+
 motus_status ensemble_stopped_again(motus_ensemble *e, const places *p, size_t first, motus_error *err)
 {
     size_t count = 0;
-    for (size_t k = first; k < e->count; k++)
-        if (p->ends[k] == LANES_MAY_CRAWL || (e->causes && p->ends[k] == LANES_STOPPED)) count++;
+    for (size_t k = first; k < e->count; k++) count += is_left(e, p, k);
     if (!count) return MOTUS_OK;
     size_t *number = take(&e->allocator, count, sizeof *number), n = 0;
     if (!number) return fail(err, MOTUS_MEMORY, "no memory for the ensemble");
     for (size_t k = first; k < e->count; k++)
-        if (p->ends[k] == LANES_MAY_CRAWL || (e->causes && p->ends[k] == LANES_STOPPED)) number[n++] = k;
+        if (is_left(e, p, k)) number[n++] = k;
     left_list list = {p, number, e->count - count};
     if (!e->machine.problem) e->machine = e->system->machine;
     const motus_status status = ensemble_each_singly(e, list.first, count, one_left, &list, err);

@@ -15,7 +15,6 @@
 #include <inttypes.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/stat.h>
 
 typedef struct merge {
     const options *options;
@@ -83,29 +82,17 @@ static motus_status check(const options *o, motus_error *err)
         hint(err, "motus merge part*.csv -o all.csv");
         return MOTUS_ARGUMENT;
     }
-    struct stat about;
     for (size_t k = 0; k < o->files.count; k++)
         if (file_same(o->files.items[k], o->output))
             return fail(err, MOTUS_ARGUMENT, "%s is read and would be overwritten", o->output);
-    if (strcmp(o->output, "-") == 0 && o->json) {
-        fail(err, MOTUS_ARGUMENT, "--json and -o - both write to standard output");
-        hint(err, "write the rows to a file: -o all.csv");
-        return MOTUS_ARGUMENT;
-    }
-    if (!o->force && stat(o->output, &about) == 0 && S_ISREG(about.st_mode) && about.st_size > 0) {
-        fail(err, MOTUS_ARGUMENT, "%s exists", o->output);
-        hint(err, "--force replaces it");
-        return MOTUS_ARGUMENT;
-    }
-    return MOTUS_OK;
+    return sweep_file_may_write(o, o->output, err);
 }
 
 /* The .json beside a .npy says what it is, so its name has to end as one's does; and the other way round. */
 static motus_status check_name(const merge *m, motus_error *err)
 {
     const char *name = m->options->output;
-    const size_t length = strlen(name);
-    const bool npy = length > 4 && strcmp(name + length - 4, ".npy") == 0;
+    const bool npy = sweep_npy_name(name);
     if (npy == (m->parts[0].kind == PART_NPY)) return MOTUS_OK;
     fail(err, MOTUS_ARGUMENT, npy ? "-o %s: the shards are CSV" : "-o %s: the shards are .npy", name);
     hint(err, npy ? "give the merged file a name as all.csv" : "give the merged file a name as all.npy");
@@ -156,9 +143,8 @@ static motus_status write_all(const merge *m, stop_progress *progress, motus_err
 {
     const char *output = m->options->output;
     const bool npy = m->of[0]->kind == PART_NPY;
-    char *beside = malloc(strlen(output) + sizeof ".json");
+    char *beside = sweep_npy_beside(output);
     if (!beside) return complain_memory(err);
-    sprintf(beside, "%s.json", output);
     file_out rows = {0}, about = {0};
     motus_status status = file_create(&rows, output, err);
     if (!status && npy) status = file_create(&about, beside, err);

@@ -131,9 +131,8 @@ static motus_status npy_head(part *p, FILE *in, motus_error *err)
     if (memcmp(ours, theirs, sizeof ours) != 0) return no_shard(p, "is not the .npy of a sweep", err);
     p->width = (size_t)columns * sizeof(double);
     p->at = SWEEP_NPY_HEAD;
-    char *beside = malloc(strlen(p->path) + sizeof ".json");
+    char *beside = sweep_npy_beside(p->path);
     if (!beside) return complain_memory(err);
-    sprintf(beside, "%s.json", p->path);
     size_t length;
     motus_status status = file_read(beside, FILE_MODEL_MAX, &p->head, &length, err);
     free(beside);

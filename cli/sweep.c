@@ -184,8 +184,7 @@ static motus_status make(sweep *s, stop_progress *progress, motus_error *err)
     if (status) return status;
     s->method = motus_ensemble_method(s->ensemble);
     s->tolerance = motus_ensemble_tolerance(s->ensemble, &s->absolute);
-    size_t length = o->output ? strlen(o->output) : 0;
-    return sweep_head_make(s, length > 4 && strcmp(o->output + length - 4, ".npy") == 0, err);
+    return sweep_head_make(s, o->output && sweep_npy_name(o->output), err);
 }
 
 static motus_status begin(sweep *s, sweep_section *section, stop_progress *progress, motus_error *err)

@@ -79,6 +79,10 @@ typedef struct sweep_file {
 motus_status sweep_accuracy_refuse(const sweep *, uint64_t first, size_t count, double *const *judged,
                                    const double *stopped, motus_error *);
 
+/* Whether a file of this name is a .npy; and the name of the .json beside it, to be freed, NULL: no memory. */
+bool sweep_npy_name(const char *path);
+char *sweep_npy_beside(const char *path);
+
 motus_status sweep_file_check(const options *, motus_error *);
 /* The same of one file, "-": standard output. */
 motus_status sweep_file_may_write(const options *, const char *path, motus_error *);

@@ -24,10 +24,17 @@
 
 enum { BUFFER = 1 << 20 };
 
-static bool ends_with(const char *s, const char *end)
+bool sweep_npy_name(const char *path)
 {
-    size_t n = strlen(s), m = strlen(end);
-    return n >= m && strcmp(s + n - m, end) == 0;
+    const size_t length = strlen(path);
+    return length > 4 && strcmp(path + length - 4, ".npy") == 0;
+}
+
+char *sweep_npy_beside(const char *path)
+{
+    char *beside = malloc(strlen(path) + sizeof ".json");
+    if (beside) sprintf(beside, "%s.json", path);
+    return beside;
 }
 
 motus_status sweep_file_may_write(const options *o, const char *path, motus_error *err)
@@ -39,12 +46,12 @@ motus_status sweep_file_may_write(const options *o, const char *path, motus_erro
     struct stat about;
     if (output || stat(path, &about) != 0) return MOTUS_OK;
     if (S_ISDIR(about.st_mode)) return fail(err, MOTUS_FILE, "cannot write %s: it is a folder", path);
-    if (!S_ISREG(about.st_mode) && (o->resume || ends_with(path, ".npy")))
+    if (!S_ISREG(about.st_mode) && (o->resume || sweep_npy_name(path)))
         return fail(err, MOTUS_ARGUMENT, "%s is not a regular file: %s", path,
                     o->resume ? "there is nothing to continue" : "a .npy needs one");
     if (S_ISREG(about.st_mode) && about.st_size > 0 && !o->resume && !o->force) {
         fail(err, MOTUS_ARGUMENT, "%s exists", path);
-        hint(err, "--resume continues it, --force replaces it");
+        hint(err, "%s--force replaces it", o->verb == VERB_SWEEP ? "--resume continues it, " : "");
         return MOTUS_ARGUMENT;
     }
     return MOTUS_OK;
@@ -139,9 +146,8 @@ static motus_status put_npy_head(sweep_file *f, motus_error *err)
 /* Writes the head of a .npy to the .json beside it, before the first row. */
 static motus_status put_beside(const sweep_file *f, motus_error *err)
 {
-    char *path = malloc(strlen(f->path) + sizeof ".json");
+    char *path = sweep_npy_beside(f->path);
     if (!path) return complain_memory(err);
-    sprintf(path, "%s.json", f->path);
     file_out out = {0};
     motus_status status = file_create(&out, path, err);
     if (!status) status = file_write(&out, f->sweep->head, f->sweep->head_length, err);
@@ -196,7 +202,7 @@ motus_status sweep_file_open(sweep_file *f, const sweep *s, motus_error *err)
 {
     const options *o = s->options;
     *f = (sweep_file){.sweep = s, .path = o->output ? o->output : "-", .descriptor = -1};
-    f->npy = ends_with(f->path, ".npy");
+    f->npy = sweep_npy_name(f->path);
     f->room = s->columns < SIZE_MAX / 64 - BUFFER ? BUFFER + s->columns * DECIMAL_MAX : 0;
     f->buffer = f->room ? malloc(f->room) : NULL;
     f->numbers = malloc(s->columns * sizeof *f->numbers);

@@ -160,9 +160,8 @@ static motus_status csv_rows(sweep_file *f, motus_error *err)
 /* Checks the fingerprint in the .json beside it. */
 static motus_status npy_beside(const sweep_file *f, motus_error *err)
 {
-    char *path = malloc(strlen(f->path) + sizeof ".json"), *text = NULL, key[96], part[SHARD_TEXT];
+    char *path = sweep_npy_beside(f->path), *text = NULL, key[96], part[SHARD_TEXT];
     if (!path) return complain_memory(err);
-    sprintf(path, "%s.json", f->path);
     size_t length;
     motus_status status = file_read(path, FILE_STATE_MAX, &text, &length, err);
     if (status) hint(err, "it identifies the sweep of %s; --force begins anew", f->path);

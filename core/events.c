@@ -63,6 +63,12 @@ static size_t arrange(events *e, char *block)
     return l.at;
 }
 
+static void forget_happened(events *e)
+{
+    for (size_t k = 0; k < e->rules.count; k++)
+        for (size_t i = 0; i < e->rules.rule[k].instances; i++) e->happened[e->instances[k] + i] = NAN;
+}
+
 motus_status events_create(const rules *r, const machine *m, const chosen *method, const motus_allocator *a,
                            events **out, motus_error *err)
 {
@@ -83,6 +89,7 @@ motus_status events_create(const rules *r, const machine *m, const chosen *metho
         instances += one->instances + 1;
         for (size_t f = 0; f < one->leaves * one->instances; f++) e->rule_of[one->first + f] = (uint32_t)k;
     }
+    forget_happened(e);
     *out = e;
     return MOTUS_OK;
 }
@@ -177,8 +184,7 @@ motus_status events_begin(events *e, stepper *s, double until, motus_error *err)
     if (!status) status = take_sides(e, err);
     if (status) return status;
     events_suppose(e);
-    for (size_t k = 0; k < e->rules.count; k++)
-        for (size_t i = 0; i < e->rules.rule[k].instances; i++) e->happened[e->instances[k] + i] = NAN;
+    forget_happened(e);
     return status || events_keep_now(e, e->start, e->left.x) ? status
                                                              : fail(err, MOTUS_MEMORY, "no memory for the events");
 }

@@ -229,20 +229,22 @@ static motus_status search_part(events *e, size_t f, const part *p, const double
         if (largest <= hidden && !e->heads[f]) return MOTUS_OK; /* it stays 0: its values are nothing but rounding */
     }
     roots_fitted fitted;
-    roots_fit_status fit = roots_fit(value, stride, degree, rounding, coefficients, &fitted);
-    if (fit == ROOTS_FIT_ROUGH) { /* the function may be a small difference of large numbers, whose rounding it has */
-        const motus_status judged = stands ? MOTUS_OK : judge_dense(e, f, &hidden, err);
-        if (judged) return judged;
-        rounding += hidden;
+    roots_fit_status fit;
+    for (bool judged = false;; judged = true) {
         fit = roots_fit(value, stride, degree, rounding, coefficients, &fitted);
+        if (fit == ROOTS_FIT_NOT_FINITE) { /* where it is not defined there is no root, and parts tell of the rest */
+            for (int k = 0; k <= degree && p->depth < PARTS_DEEP; k++) *rough |= isfinite(value[(size_t)k * stride]);
+            return MOTUS_OK;
+        }
+        const double beyond = fit == ROOTS_FIT_ROUGH ? fitted.unseen : 0;
+        if (!stands && !e->open[f] && roots_none(coefficients, fitted.degree, SLACK * largest + fitted.noise + beyond))
+            return MOTUS_OK;
+        if (fit != ROOTS_FIT_ROUGH || judged) break;
+        /* it may be a small difference of large numbers, whose rounding it has */
+        const motus_status status = stands ? MOTUS_OK : judge_dense(e, f, &hidden, err);
+        if (status) return status;
+        rounding += hidden;
     }
-    if (fit == ROOTS_FIT_NOT_FINITE) { /* where it is not defined there is no root, and parts tell of the rest */
-        for (int k = 0; k <= degree && p->depth < PARTS_DEEP; k++) *rough |= isfinite(value[(size_t)k * stride]);
-        return MOTUS_OK;
-    }
-    const double beyond = fit == ROOTS_FIT_ROUGH ? fitted.unseen : 0;
-    if (!stands && !e->open[f] && roots_none(coefficients, fitted.degree, SLACK * largest + fitted.noise + beyond))
-        return MOTUS_OK;
     *rough = fit == ROOTS_FIT_ROUGH;
     if (*rough) return MOTUS_OK;
     const motus_status status = judge_ends(e, err);

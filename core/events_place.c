@@ -194,12 +194,17 @@ static motus_status extremum(events *e, candidate *c, motus_error *err)
     return MOTUS_OK;
 }
 
-/* Whether a function is 0 at `here`: near 0 it carries the rounding of the larger states that led there, and of the
- * time. */
+/* How far rounding may have carried a function at `here`: the state near 0 carries that of the larger ones that led
+ * there. */
+static double carried(const events *e, size_t f)
+{
+    return fmax(e->here.bound[f], fmax(e->left.bound[f], e->right.bound[f]));
+}
+
+/* Whether a function is 0 at `here`, but for rounding and that of the time. */
 static bool vanishes(const events *e, size_t f)
 {
-    const double bound = fmax(e->here.bound[f], fmax(e->left.bound[f], e->right.bound[f]));
-    return fabs(e->here.g[f]) <= 4 * (bound + fabs(e->here.rate[f]) * events_ulp(e->here.t));
+    return fabs(e->here.g[f]) <= 4 * (carried(e, f) + fabs(e->here.rate[f]) * events_ulp(e->here.t));
 }
 
 motus_status events_locate(events *e, size_t k, motus_error *err)
@@ -227,8 +232,7 @@ motus_status events_locate(events *e, size_t k, motus_error *err)
         status = extremum(e, c, err);
         if (status) return status;
         const double g = e->here.g[f], at = c->at;
-        /* the state near 0 carries the rounding of the larger ones that led there */
-        if (fabs(g) <= fmax(e->here.bound[f], fmax(e->left.bound[f], e->right.bound[f]))) {
+        if (fabs(g) <= carried(e, f)) {
             c->near = false;
             c->kind = CANDIDATE_TOUCHES;
             c->located = true;
@@ -246,8 +250,8 @@ motus_status events_locate(events *e, size_t k, motus_error *err)
         }
     }
     if (!c->located && !c->gone) status = crossing(e, c, err);
-    if (!status && c->sure &&
-        !vanishes(e, f)) { /* dense output erred by more than was thought: signs of true steps tell */
+    /* where dense output erred by more than was thought, signs of true steps tell */
+    if (!status && c->sure && !vanishes(e, f)) {
         c->sure = c->located = false;
         c->at = guess;
         return events_locate(e, k, err);

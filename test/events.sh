@@ -299,65 +299,66 @@ that "... leaves no table" absent "$place/none.csv"
 # --- what once went wrong -------------------------------------------------------------------------------------------------------
 value() { jq -r "$1" "$out"; }
 near() { awk -v a="$1" -v b="$2" -v d="$3" 'BEGIN { exit !(a - b <= d && b - a <= d) }'; } # a, b, distance
-text() { printf '%b' "$1" >one.motus; }
+one=$place/one.motus
+text() { printf '%b' "$1" >"$one"; }
 ball="y'' = -9.81\ny(0) = 1\ny'(0) = 0\nuntil 3\n"
 # Friction breaks loose where what holds it reaches its most: 5 units of time pass at rest, then x'' = (t - 5)/10.
 text "x'' = 0.1 t - 0.5 sign(x')\nx(0) = 0\nx'(0) = 0\nuntil 10\n"
 for method in dop853 taylor radau15 auto; do
-    gives "friction breaks loose, $method" 0 "$motus" run one.motus --method $method --json
+    gives "friction breaks loose, $method" 0 "$motus" run "$one" --method $method --json
     that "  and moves by 125/60 in 5" near "$(value '.state.x')" 2.0833333333333333 1e-8
 done
 for numbers in "1 0.5 0.3" "2 0.1 1" "0.5 1 0.7" "4 0.2 0.5" "0.1 0.5 0.2"; do
     set -- $numbers
     text "x'' = $1 ($2 t - x) - $3 sign(x')\nx(0) = 0\nx'(0) = 0\nuntil 20\n"
-    gives "a spring pulls a block that sticks and slips, $numbers" 0 "$motus" run one.motus --method dop853 --tolerance 1e-9
+    gives "a spring pulls a block that sticks and slips, $numbers" 0 "$motus" run "$one" --method dop853 --tolerance 1e-9
 done
 # Conditions that hold at the instant itself.
 text "${ball}when y <= 0: y' = -0.9 y', record\n"
-gives "a closed condition whose action turns the motion back" 0 "$motus" run one.motus --method dop853 --json
+gives "a closed condition whose action turns the motion back" 0 "$motus" run "$one" --method dop853 --json
 that "  happens once at each impact" [ "$(value '.events | length')" = 4 ]
 text "x' = 1\ny' = -1\nx(0) = -1\ny(0) = 1\nn = 0\nwhen x >= 0 and y >= 0 as both: n = n + 1, record\nuntil 2\n"
-gives "a condition of which two parts are 0 at once" 0 "$motus" run one.motus --method dop853 --json
+gives "a condition of which two parts are 0 at once" 0 "$motus" run "$one" --method dop853 --json
 that "  happens once" [ "$(value '.events | length')" = 1 ]
 text "${ball}when y < 0 as b: y' = -0.5 y'\nwhen b accumulates: stop\n"
-gives "a condition whose events accumulate" 0 "$motus" run one.motus --method dop853 --json
+gives "a condition whose events accumulate" 0 "$motus" run "$one" --method dop853 --json
 that "  at sqrt(2 h/g) (1 + e)/(1 - e)" near "$(value '.accumulated.time')" 1.354570922957192 1e-12
 # The ball of a family that comes to rest is the one that rests.
 text "y[i]'' = if(r[i] == 1, 0, -9.81) for i = 1..2\ny[1](0) = 100\ny[2](0) = 1\ny[i]'(0) = 0 for i = 1..2\nr[i] = 0 for i = 1..2
 when y[i] = 0 falling as b: y[i]' = -0.5 y[i]' for i = 1..2
 when b accumulates: r[i] = 1, y[i]' = 0, y[i] = 0 for i = 1..2\nuntil 5\n"
-gives "in a family each member's events accumulate for themselves" 0 "$motus" run one.motus --method dop853 --json
+gives "in a family each member's events accumulate for themselves" 0 "$motus" run "$one" --method dop853 --json
 # A floor that is not at 0: rounding hides the bounces long before that of the time does.
 for c in 0.3 10 1000.1; do
     text "y'' = -9.81\ny(0) = 1 + $c\ny'(0) = 0\nuntil 30\nwhen y = $c falling as bounce: y' = -0.5 y', record\n"
-    gives "a ball on a floor at $c" 0 "$motus" run one.motus --method dop853 --json
+    gives "a ball on a floor at $c" 0 "$motus" run "$one" --method dop853 --json
     that "  comes to rest on it" near "$(value '.state.y')" "$c" 1e-9
     that "  when its bar says" near "$(value '.accumulated.time')" 1.354570922957192 "$(value '.accumulated.error')"
 done
 text "A = 0.005\ny'' = -1\ny(0) = 0.6\ny'(0) = 0\nuntil 30\ngap = y - A sin(2 pi t)\nwhen gap = 0 falling as bounce: y' = -0.5 y' + 3 pi A cos(2 pi t), record\n"
 for method in "rk4 --step 0.01" dop853 taylor; do
-    gives "a ball on a table that moves, $method" 0 "$motus" run one.motus --method $method --json
+    gives "a ball on a table that moves, $method" 0 "$motus" run "$one" --method $method --json
     that "  does not fall through it" near "$(value '.accumulated.time')" 3.542279107235079 "$(value '.accumulated.error')"
 done
 # A function that is not defined everywhere has its roots where it is.
 text "x'' = -x\nx(0) = 1\nx'(0) = 0\nuntil 10\nwhen sqrt(x) = 0.5 as z: record\n"
 for method in taylor dop853 radau15; do
-    gives "a root of a function that is undefined for half of the time, $method" 0 "$motus" run one.motus --method $method --json
+    gives "a root of a function that is undefined for half of the time, $method" 0 "$motus" run "$one" --method $method --json
     that "  and the others" [ "$(value '.events | map(.time * 1e6 | round) | join(" ")')" = "1318116 4965069 7601301" ]
 done
 # What is located is a root of true steps, whatever dense output says.
 text "x'' = -x\nx(0) = 1\nx'(0) = 0\nmethod verlet\nstep 1\nuntil 3.5\nwhen x = -0.99: record\n"
-gives "a value that steps do not reach" 0 "$motus" run one.motus --json
+gives "a value that steps do not reach" 0 "$motus" run "$one" --json
 that "  is no event" [ "$(value '.events | length')" = 0 ]
 # A speed that stays what it is, by methods whose dense output differentiates positions.
 text "x'' = if(x' > 100, 1, 0)\nx(0) = 0\nx'(0) = 0.5\nwhen x' = 0.5: record\nuntil 20\n"
 for method in verlet verlet-literal leapfrog suzuki4 yoshida8 rk4 gauss8; do
-    gives "a function that stays 0 by $method" 0 "$motus" run one.motus --method $method --step 0.001 --switches step --error none --json
+    gives "a function that stays 0 by $method" 0 "$motus" run "$one" --method $method --step 0.001 --switches step --error none --json
     that "  is no event" [ "$(value '.events | length')" = 0 ]
 done
 # The first kick is the one whose rounding grows most.
 text "K = 5.29\nth'' = 0\nth(0) = -1.16\nth'(0) = 2.15\nuntil 20\nwhen every 1 as kick: th' = th' + K sin(th), record\n"
-gives "a motion that only kicks round" 0 "$motus" run one.motus --method taylor --json
+gives "a motion that only kicks round" 0 "$motus" run "$one" --method taylor --json
 that "  is as near as its error says" near "$(value '.state.th')" 372.296079583658923 "$(value '.error.th')"
 
 echo "$passed passed, $failed failed"

@@ -1,5 +1,5 @@
-/* Many steps at once, of which bounds tell that nothing happens in them, lead to the bits of as many steps taken one by
- * one: the motion, the counters, and the rows of the table; also where a part of a run is taken in pieces. */
+/* A run that is taken all at once, or in pieces of some steps, has the bits of one taken step by step: the motion, the
+ * counters, and the rows of its table. */
 #include "test/given.h"
 
 #include <stdbool.h>
