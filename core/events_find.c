@@ -126,10 +126,15 @@ static bool add_roots(events *e, size_t f, const search *of, const roots_root *r
                        .kind = r->kind == ROOTS_RISING    ? CANDIDATE_RISES
                                : r->kind == ROOTS_FALLING ? CANDIDATE_FALLS
                                                           : (candidate_kind)r->side};
-        if (r->open && (of->part->to < 1 ||
-                        e->right.t != e->until)) { /* the next part or step tells it again, and which way it goes on */
-            e->open[f] = 1;
-            continue;
+        if (r->open && (of->part->to < 1 || e->right.t != e->until)) {
+            /* the next part or step tells it again, and which way it goes on; unless the step ends beyond it */
+            const double end = of->part->to < 1 ? 0 : e->right.g[f];
+            const int sign = (end > 0) - (end < 0);
+            if (sign != -r->side || fabs(end) <= e->right.bound[f]) {
+                e->open[f] = 1;
+                continue;
+            }
+            c.near = false, c.kind = (candidate_kind)sign, c.high = e->span;
         }
         c.sure = !c.near && (r->from <= 0 || fabs(polynomial(of->coefficients, of->degree, low)) > of->slack) &&
                  (r->to >= 1 || fabs(polynomial(of->coefficients, of->degree, high)) > of->slack);

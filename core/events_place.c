@@ -207,6 +207,44 @@ static bool vanishes(const events *e, size_t f)
     return fabs(e->here.g[f]) <= 4 * (carried(e, f) + fabs(e->here.rate[f]) * events_ulp(e->here.t));
 }
 
+/* The sign of a function at one end of the step; 0: it is hidden by rounding there. */
+static motus_status sign_at_end(events *e, instant *end, size_t f, int *sign, motus_error *err)
+{
+    const motus_status status = events_judge(e, end, err);
+    const double g = end->g[f];
+    *sign = fabs(g) <= end->bound[f] ? 0 : (g > 0) - (g < 0);
+    return status;
+}
+
+/* Dense output of a method of low order may err by as much as a root is far from the places where it says that the
+ * function is on either side; by true steps the function is on one side at both of them, that of c->kind. Where it is on
+ * the other side at the end of the step before the first of its roots, or after the last, it passes 0 between. */
+static motus_status widen(events *e, size_t k, motus_error *err)
+{
+    candidate *c = &e->candidate[k];
+    const int side = c->kind;
+    bool first = true, last = true;
+    int left = 0, right = 0;
+    for (size_t j = 0; j < e->candidates; j++) {
+        const candidate *other = &e->candidate[j];
+        if (j == k || other->kind == CANDIDATE_TIME || other->of != c->of) continue;
+        first &= e->way * (other->low - c->low) > 0;
+        last &= e->way * (other->low - c->low) < 0;
+    }
+    motus_status status = first ? sign_at_end(e, &e->left, c->of, &left, err) : MOTUS_OK;
+    if (!status && last) status = sign_at_end(e, &e->right, c->of, &right, err);
+    const bool before = left == -side, after = right == -side;
+    if (status || (!before && !after)) return status;
+    candidate one = *c, two = *c;
+    one.near = two.near = false;
+    one.low = 0, one.high = c->low, one.kind = (candidate_kind)side;
+    two.low = c->high, two.high = e->span, two.kind = (candidate_kind)-side;
+    one.at = one.low + (one.high - one.low) / 2;
+    two.at = two.low + (two.high - two.low) / 2;
+    *c = before ? one : two;
+    return before && after && !events_add(e, two) ? events_no_memory(err) : MOTUS_OK;
+}
+
 motus_status events_locate(events *e, size_t k, motus_error *err)
 {
     candidate *c = &e->candidate[k];
@@ -218,14 +256,22 @@ motus_status events_locate(events *e, size_t k, motus_error *err)
     }
     const size_t f = c->of;
     const double guess = c->at;
-    if (!c->near && !c->sure) {
+    if (!c->sure) {
         int low, high;
         status = sign_at(e, c->low, f, &low, err);
         if (!status) status = sign_at(e, c->high, f, &high, err);
         if (status) return status;
-        /* where by the step's own values it does not cross, the extremum decides */
-        c->near = low && high && low == high;
-        if (c->near) c->kind = (candidate_kind)low;
+        /* by the step's own values it crosses, or its extremum decides */
+        if (low && low == -high) {
+            c->near = false;
+            c->kind = (candidate_kind)high;
+        } else if (low && low == high) {
+            c->near = true;
+            c->kind = (candidate_kind)low;
+            status = widen(e, k, err);
+            if (status) return status;
+            c = &e->candidate[k];
+        }
     }
     if (c->near) {
         const int side = c->kind;

@@ -180,6 +180,7 @@ bool events_accumulate(events *e, size_t rule, size_t instance, double t)
         const double top = rate * one * now / 4; /* how far it would go until the next event, on a parabola */
         if (of->kind != RULE_ROOT || !(top <= ULPS * bound)) return false;
         error = (one * fabs(now - before) + 2 * (bound / rate + ulp) * (1 + now)) / ((1 - now) * (1 - now));
+        if (!(error < left)) return false; /* equal intervals end nowhere, and a function may stay 0 after its action */
     }
     e->has_limit = true;
     e->limit_told = false;
