@@ -13,11 +13,13 @@
 
 static int sign_of(double x) { return (x > 0) - (x < 0); }
 
-/* Whether a function is 0 at `here`: by its rounding, and by that of the time. */
+/* Whether a function is 0 at `here`: by its rounding, and by that of the time. The bound counts every number of the state
+ * as rounded by half a unit in its last place; a companion's has been moved by a whole one besides. */
 static bool is_zero(const events *e, size_t f)
 {
     const instant *at = &e->here;
-    return fabs(at->g[f]) <= at->bound[f] + fabs(at->rate[f]) * events_ulp(at->t);
+    const double units = e->jog ? 3 : 1;
+    return fabs(at->g[f]) <= units * at->bound[f] + fabs(at->rate[f]) * events_ulp(at->t);
 }
 
 /* Truth ----------------------------------------------------------------------------------------------------------- */
