@@ -296,15 +296,6 @@ static motus_status make(motus_ensemble *e, const motus_ensemble_def *d, motus_e
     return status;
 }
 
-static motus_status refuse_switches(motus_switches asked, const char *method, motus_error *err)
-{
-    if (asked == MOTUS_SWITCHES_RESOLVE) return fail(err, MOTUS_UNAVAILABLE, "an ensemble does not resolve switches");
-    fail(err, MOTUS_UNAVAILABLE,
-         "an ensemble locates switches by a method that adapts its steps, and those of %s do not", method);
-    hint(err, "choose an adaptive method, dop853 or taylor, or leave `switches` of the definition out");
-    return MOTUS_UNAVAILABLE;
-}
-
 /* The system whose steps end where a switch changes its side, by the rule of runs; NULL: the caller's own, and `why`
  * says why where switches could have been located. */
 static motus_status locate(motus_system *s, const motus_ensemble_def *d, motus_system **out, const char **why,
@@ -317,9 +308,16 @@ static motus_status locate(motus_system *s, const motus_ensemble_def *d, motus_s
     const motus_switches asked = d->switches;
     const motus_status status = choice_method(s, d->method, &c, &card, err);
     if (status != MOTUS_OK) return status;
-    if (asked == MOTUS_SWITCHES_RESOLVE || (asked == MOTUS_SWITCHES_LOCATE && !row_adaptive(&c)))
-        return refuse_switches(asked, c.name, err);
-    return row_adaptive(&c) ? located_of(s, asked, out, why, err) : MOTUS_OK;
+    if (asked == MOTUS_SWITCHES_RESOLVE) return fail(err, MOTUS_UNAVAILABLE, "an ensemble does not resolve switches");
+    const motus_status found = located_for(s, &c, asked, out, why, err);
+    const bool refused = asked == MOTUS_SWITCHES_LOCATE && !*out && s->model && located_kinks(s->model);
+    if (found != MOTUS_OK || !refused || row_adaptive(&c)) return found;
+    fail(err, MOTUS_UNAVAILABLE,
+         "steps of one size in an ensemble do not locate switches beyond which the force may be "
+         "undefined, and those of %s do not adapt",
+         c.name);
+    hint(err, "choose an adaptive method, dop853 or taylor, or leave `switches` of the definition out");
+    return MOTUS_UNAVAILABLE;
 }
 
 motus_status motus_ensemble_create(motus_system *s, const motus_ensemble_def *given, motus_ensemble **out,

@@ -28,7 +28,8 @@ motus_status locate_prepare(motus_run *r, motus_switches switches, motus_error *
     if (switches == MOTUS_SWITCHES_STEP || switches == MOTUS_SWITCHES_USUAL) return MOTUS_OK;
     if (switches != MOTUS_SWITCHES_LOCATE && switches != MOTUS_SWITCHES_RESOLVE)
         return fail(err, MOTUS_ARGUMENT, "there is no way to treat switches of number %d", (int)switches);
-    if (row_adaptive(&r->chosen) && switches == MOTUS_SWITCHES_LOCATE) return MOTUS_OK; /* api/located.h */
+    const bool by_events = row_adaptive(&r->chosen) || system_located(s); /* api/located.h */
+    if (by_events && switches == MOTUS_SWITCHES_LOCATE) return MOTUS_OK;
     if (row_adaptive(&r->chosen)) {
         fail(err, MOTUS_UNAVAILABLE, "steps of one size resolve switches, and %s adapts its steps", r->chosen.name);
         hint(err, "choose another method, or leave `switches` of the definition at MOTUS_SWITCHES_STEP");

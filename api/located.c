@@ -51,15 +51,22 @@ static motus_status make(motus_system *s, motus_error *err)
     return status;
 }
 
-/* Why a run does not locate switches by itself. */
-static const char *unsuited(const model *m)
+/* Whether the force may be undefined beyond a switch. */
+static bool has_domain(const model *m)
 {
     bool domain = false;
-    if (m->located->count > LOCATED_MOST) return "switches are not located unless asked for, since there are many";
     for (size_t k = 0; k < m->accel_count && !domain; k++) domain = graph_domain(m->graph, m->accel[k].value) != 0;
     for (size_t k = 0; k < m->boundary_count && !domain; k++)
         domain = graph_domain(m->graph, m->boundary[k].value) != 0;
-    return domain ? "switches are not located unless asked for, since the force may be undefined beyond one" : "";
+    return domain;
+}
+
+/* Why a run does not locate switches by itself. */
+static const char *unsuited(const model *m)
+{
+    if (m->located->count > LOCATED_MOST) return "switches are not located unless asked for, since there are many";
+    return has_domain(m) ? "switches are not located unless asked for, since the force may be undefined beyond one"
+                         : "";
 }
 
 motus_status located_of(motus_system *s, motus_switches asked, motus_system **out, const char **why, motus_error *err)
@@ -84,4 +91,16 @@ motus_status located_of(motus_system *s, motus_switches asked, motus_system **ou
     if (!s->located && s->located_refused) *why = s->located_refused;
     if (!**why) *out = s->located;
     return MOTUS_OK;
+}
+
+motus_status located_for(motus_system *s, const chosen *method, motus_switches asked, motus_system **out,
+                         const char **why, motus_error *err)
+{
+    *out = NULL;
+    *why = "";
+    if (row_adaptive(method)) return located_of(s, asked, out, why, err);
+    if (asked != MOTUS_SWITCHES_LOCATE || !strcmp(method->name, "exact")) return MOTUS_OK;
+    const motus_status status = located_of(s, asked, out, why, err);
+    if (*out && has_domain((*out)->model)) *out = NULL;
+    return status;
 }

@@ -17,6 +17,10 @@ enum { LOCATED_MOST = 64 };
 /* Whether the force, or what moves a boundary cell, is not smooth. */
 bool located_kinks(const model *);
 motus_status located_of(motus_system *, motus_switches asked, motus_system **, const char **why, motus_error *);
+/* The same for runs of a method. Rows of fixed steps locate switches where that is asked for (MOTUS_SWITCHES_LOCATE),
+ * but for those beyond which the force may be undefined, since a step of theirs cannot become shorter: NULL. */
+motus_status located_for(motus_system *, const chosen *, motus_switches asked, motus_system **, const char **why,
+                         motus_error *);
 /* Reads the text of a system again, with the same modes; nudged: as in lang/text/source.h. */
 motus_status located_read(const motus_system *, bool nudged, motus_system **, motus_error *);
 

@@ -280,7 +280,7 @@ motus_status run_create(motus_system *s, const motus_run_def *complete, const ru
     if (status == MOTUS_OK) status = control_choose(s, &wish, &method, err);
     if (status == MOTUS_OK) status = suggest_missing(s, &method, def.method, def.start, &def.step, &def.until, err);
     const char *why = "";
-    if (status == MOTUS_OK && row_adaptive(&method)) status = located_of(own, def.switches, &s, &why, err);
+    if (status == MOTUS_OK) status = located_for(own, &method, def.switches, &s, &why, err);
     if (status != MOTUS_OK) return status;
     motus_run *r = run_new(s ? s : own);
     if (!r) return fail(err, MOTUS_MEMORY, "no memory for the run");

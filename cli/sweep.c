@@ -274,7 +274,8 @@ static motus_status go(sweep *s, sweep_file *f, sweep_events *events, sweep_sect
 const char *sweep_switches(const sweep *s)
 {
     const motus_switches how = motus_ensemble_switches(s->ensemble);
-    if (isnan(s->tolerance) || how == MOTUS_SWITCHES_USUAL) return NULL;
+    const bool fixed = isnan(s->tolerance); /* such steps lead across unless told otherwise */
+    if (how == MOTUS_SWITCHES_USUAL || (fixed && how == MOTUS_SWITCHES_STEP)) return NULL;
     return how == MOTUS_SWITCHES_LOCATE ? "locate" : "step";
 }
 

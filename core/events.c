@@ -157,7 +157,7 @@ static motus_status take_sides(events *e, motus_error *err)
         const double g = e->left.g[f];
         const bool internal = e->rules.rule[e->rule_of[f]].internal;
         e->fired[f] = NAN, e->open[f] = 0;
-        e->stands[f] = !isnan(g) && fabs(g) <= e->left.bound[f];
+        e->stands[f] = isfinite(g) && fabs(g) <= e->left.bound[f];
         e->heads[f] = 0;
         e->side[f] = (int8_t)(isnan(g) ? 0 : internal ? 1 : e->stands[f] ? 0 : g > 0 ? 1 : -1);
     }

@@ -221,6 +221,8 @@ static motus_status search_part(events *e, size_t f, const part *p, const double
                                 int *sign, bool *rough, motus_error *err)
 {
     double coefficients[ROOTS_DEGREE_MOST + 1], steepest;
+    if (*sign == 0 && !e->stands[f]) /* it has not been defined before */
+        *sign = e->side[f] = (int8_t)((value[0] > 0) - (value[0] < 0));
     const bool stands = *sign == 0;
     *rough = false;
     const double largest = size_of(value, stride, degree, stands, &steepest);

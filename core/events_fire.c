@@ -271,6 +271,7 @@ static motus_status ask(events *e, size_t k, const candidate *c, bool *acted, bo
     if (r->kind == RULE_CLOCK && !e->ticked[k] && fabs(events_tick(e, k) - e->here.t) <= 4 * events_ulp(e->here.t)) {
         e->ticked[k] = 1;
         e->ticks[k]++;
+        *again |= r->assigns;
         return happen(e, k, 0, false, acted, err);
     }
     for (size_t i = 0; !status && i < r->instances; i++) {

@@ -38,28 +38,38 @@ static motus_status values_after(events *e, const instant *at, double h, motus_e
     return events_values(e, to, err);
 }
 
-/* Where no formula is known, by what the functions change when every number does by its rounding. */
+/* Of the functions whose bound is not finite, since no formula is known or its slope is infinite: by what they change
+ * when every number does by its rounding. */
 static motus_status estimate_bounds(events *e, instant *at, motus_error *err)
 {
     instant *to = &e->next;
-    for (size_t k = 0; k < e->rules.functions; k++) at->bound[k] = 2 * events_ulp(at->g[k]);
+    bool any = false;
+    for (size_t k = 0; k < e->rules.functions; k++) any |= isfinite(at->g[k]) && !isfinite(at->bound[k]);
+    if (!any) return MOTUS_OK;
     for (int sign = -1; sign <= 1; sign += 2) {
         to->t = at->t + events_ulp(at->t);
         for (size_t k = 0; k < e->problem.nx; k++) to->x[k] = at->x[k] + (k % 2 ? sign : 1) * events_ulp(at->x[k]);
         for (size_t k = 0; k < e->problem.nv; k++) to->v[k] = at->v[k] + (k % 2 ? sign : 1) * events_ulp(at->v[k]);
         const motus_status status = events_values(e, to, err);
         if (status) return status;
-        for (size_t k = 0; k < e->rules.functions; k++)
-            at->bound[k] = fmax(at->bound[k], 2 * fabs(to->g[k] - at->g[k]));
+        for (size_t k = 0; k < e->rules.functions; k++) {
+            if (sign < 0) to->bound[k] = 0;
+            const double change = fabs(to->g[k] - at->g[k]);
+            if (isfinite(change)) to->bound[k] = fmax(to->bound[k], 2 * change);
+        }
     }
+    for (size_t k = 0; k < e->rules.functions; k++)
+        if (isfinite(at->g[k]) && !isfinite(at->bound[k])) at->bound[k] = fmax(to->bound[k], 2 * events_ulp(at->g[k]));
     return MOTUS_OK;
 }
 
 motus_status events_bounds(events *e, instant *at, motus_error *err)
 {
-    if (!e->rules.rounding) return estimate_bounds(e, at, err);
-    e->rules.rounding(e->rules.ctx, at->t, at->x, at->v, at->bound);
-    return MOTUS_OK;
+    if (e->rules.rounding)
+        e->rules.rounding(e->rules.ctx, at->t, at->x, at->v, at->bound);
+    else
+        for (size_t k = 0; k < e->rules.functions; k++) at->bound[k] = INFINITY;
+    return estimate_bounds(e, at, err);
 }
 
 motus_status events_judge(events *e, instant *at, motus_error *err)

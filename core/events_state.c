@@ -107,7 +107,7 @@ static void pass_rules(pass *p, events *e)
         e->count[k] = counter(p, e->count[k]);
         if (r->kind == RULE_CLOCK) e->ticks[k] = counter(p, e->ticks[k]);
         if (r->kind == RULE_CONDITION) flags(p, e->held + e->instances[k], r->instances);
-        for (size_t i = 0; r->kind == RULE_ROOT && r->assigns && i < r->instances; i++)
+        for (size_t i = 0; (r->kind == RULE_ROOT || r->kind == RULE_CONDITION) && r->assigns && i < r->instances; i++)
             pass_recent(p, &e->recent[e->instances[k] + i]);
     }
 }

@@ -599,14 +599,15 @@ typedef struct motus_run motus_run;
  * or of a comparison passes the value that decides. */
 typedef enum motus_switches {
     MOTUS_SWITCHES_STEP, /* nothing: it steps across, and loses the order of its method there */
-    /* It takes the step that leads across in pieces, each with one smooth formula, and finds by trial steps, to the
-     * rounding of the time, where a piece ends. The times after steps are those of other runs. The interpreter computes
-     * such a run where the model has switches. It cannot be traced, sampled, saved or restored. By a method that adapts
-     * its steps every step ends where a switch changes its side, on every machine; such a run cannot be traced. Where a
-     * sign(s) drives s back to 0 from both sides, as dry friction does that sticks, s stays 0, and the sign has the
-     * value in [-1, 1] that keeps it, until that leaves the interval. MOTUS_SOLVE: another switch would have to be held
-     * so, or two that depend on one another; or the force drives the motion away to both sides, so that it is not
-     * unique. */
+    /* Every step ends where a switch changes its side, located to the rounding of the time; a method whose steps have
+     * one size goes on to the time at which the step would have ended, so the times after steps are those of other
+     * runs but for their rounding. The order of the method remains. Such a run cannot be traced. Where a sign(s) drives s back to 0 from both
+     * sides, as dry friction does that sticks, s stays 0, and the sign has the value in [-1, 1] that keeps it, until
+     * that leaves the interval. MOTUS_SOLVE: another switch would have to be held so, or two that depend on one
+     * another; or the force drives the motion away to both sides, so that it is not unique. In steps of one size, where
+     * the force may be undefined beyond a switch, as max(0, x)^1.5 is: the interpreter takes the step in pieces that
+     * come near it; such a run tells no errors, holds nothing at 0 (MOTUS_SOLVE), and cannot be sampled, saved or
+     * restored; an ensemble refuses it. */
     MOTUS_SWITCHES_LOCATE,
     /* As MOTUS_SWITCHES_LOCATE; pieces are also short enough that no switch changes its side and changes back within
      * one, however narrow its window; and where the force has an operation that may change from one regime to another
@@ -742,8 +743,8 @@ typedef struct motus_statistics {
     double accuracy, reached;
     /* The smallest and the largest step of the present leg, without the one that ended at `until`; NaN before them. */
     double shortest_step, longest_step;
-    /* Of a run that locates switches. How many it has passed; -1: it cannot locate them, or was not asked to. The
-     * lowest derivative of the acceleration along the motion that jumped at one of them, or became infinite: 0 the
+    /* Of a run that locates switches: how many it has passed; -1: it cannot locate them, or was not asked to. Of a run
+     * that resolves them: the lowest derivative of the acceleration along the motion that jumped at one of them, or became infinite: 0 the
      * acceleration itself; -1: none. The time of the first such jump; NaN: there was none. By how much velocities may
      * be off because times are rounded: the sum of the jumps, and of fast changes that were resolved, times the
      * rounding of their times. The power of the time with which the acceleration departs there from a smooth one: the
@@ -1048,8 +1049,8 @@ typedef struct motus_ensemble_def {
     int64_t events;
     const size_t *event_columns;
     size_t event_column_count;
-    /* As in motus_run_def, of adaptive methods alone; with MOTUS_SWITCHES_STEP lanes compute trajectories across
-     * switches, else those of a system with switches are computed one at a time. */
+    /* As in motus_run_def; lanes compute trajectories that lead across switches, while those whose switches are located
+     * are computed one at a time. */
     motus_switches switches;
     /* 1: motus_ensemble_stopped_by tells why trajectories stop. Each that does takes a run of its own, with samples and
      * trial steps, which is some milliseconds. */
@@ -1058,7 +1059,8 @@ typedef struct motus_ensemble_def {
 
 /* MOTUS_NAME: a name in `vary` is neither a parameter nor an initial value. MOTUS_SHAPE: it stands for several numbers.
  * MOTUS_ARGUMENT: it decides what must be the same for all trajectories, or a member of the definition is out of its
- * range. MOTUS_UNAVAILABLE: switches are to be located in steps of one size, or resolved. MOTUS_METHOD, MOTUS_LIMIT,
+ * range. MOTUS_UNAVAILABLE: switches are to be resolved, or, in steps of one size, to be located where the force may be
+ * undefined beyond one. MOTUS_METHOD, MOTUS_LIMIT,
  * MOTUS_TOOL: as from motus_run_create. */
 MOTUS_API motus_status motus_ensemble_create(motus_system *, const motus_ensemble_def *, motus_ensemble **,
                                              motus_error *);

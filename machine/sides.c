@@ -276,7 +276,7 @@ static double unsure(sides *s, size_t k, const double on[2], double t, double *x
 }
 
 /* The side on which the motion goes on where the argument of switch k is 0. */
-static motus_status choose(sides *s, size_t k, double way, double t, double *x, double *v, motus_error *err)
+static motus_status choose(sides *s, size_t k, bool left, double way, double t, double *x, double *v, motus_error *err)
 {
     const operation op = op_of(s, k);
     double *side = x + s->switches->slot + k, on[2], later = 0;
@@ -290,7 +290,9 @@ static motus_status choose(sides *s, size_t k, double way, double t, double *x, 
     if (on[0] > 0 && on[1] < 0)
         return refuse(s, k, "the motion is not unique: the force drives it away to both sides", t, err);
     if (on[0] < 0 && on[1] > 0) return hold(s, k, way * on[0], way * on[1], t, x, v, err);
-    if (on[0] == 0 && on[1] == 0) {
+    if (on[0] == 0 && on[1] == 0 && left && (*side == above || *side == below)) {
+        *side = *side == above ? below : above;
+    } else if (on[0] == 0 && on[1] == 0) {
         status = look_ahead(s, k, way, t, x, v, &later, err);
         *side = switches_side(op, 0, later);
     } else {
@@ -300,7 +302,7 @@ static motus_status choose(sides *s, size_t k, double way, double t, double *x, 
 }
 
 /* The integer side likewise; u is at the whole number `at`. */
-static motus_status choose_count(sides *s, size_t k, double at, double way, double t, double *x, double *v,
+static motus_status choose_count(sides *s, size_t k, bool left, double at, double way, double t, double *x, double *v,
                                  motus_error *err)
 {
     double *side = x + s->switches->slot + k, on[2];
@@ -312,7 +314,10 @@ static motus_status choose_count(sides *s, size_t k, double at, double way, doub
     if (on[0] < 0 && on[1] > 0)
         return refuse(s, k, "the motion slides along a jump of the force, which drives it back from both sides,", t,
                       err);
-    *side = on[0] + on[1] < 0 ? at - 1 : at;
+    if (on[0] == 0 && on[1] == 0 && left)
+        *side = switches_beyond(op_of(s, k), *side, s->u[k]);
+    else
+        *side = on[0] + on[1] < 0 ? at - 1 : at;
     return MOTUS_OK;
 }
 
@@ -322,12 +327,13 @@ static motus_status place(sides *s, size_t k, double u, double bound, double way
 {
     const operation op = op_of(s, k);
     const double whole = switches_counts(op) ? round(u) : 0;
-    if (isnan(u)) return MOTUS_OK; /* a cell without a switch */
-    if (fabs(u - whole) > bound) {
+    if (isnan(u)) return MOTUS_OK;                                /* a cell without a switch */
+    if (isfinite(bound) ? fabs(u - whole) > bound : u != whole) { /* where its slope is infinite no bound is known */
         x[s->switches->slot + k] = switches_side(op, u, 0);
         return MOTUS_OK;
     }
-    return switches_counts(op) ? choose_count(s, k, whole, way, t, x, v, err) : choose(s, k, way, t, x, v, err);
+    return switches_counts(op) ? choose_count(s, k, false, whole, way, t, x, v, err)
+                               : choose(s, k, false, way, t, x, v, err);
 }
 
 /* The new side of switch k, whose argument has left the old one. */
@@ -341,9 +347,9 @@ static motus_status change(sides *s, size_t k, double way, double t, double *x, 
         *side = s->p[k] > 0 ? 1 : -1;
         return MOTUS_OK;
     }
-    if (switches_counts(op)) return choose_count(s, k, round(s->u[k]), way, t, x, v, err);
-    if (*side == 0 && (op == OP_ABS || op == OP_SIGN || op == OP_CBRT)) return choose(s, k, way, t, x, v, err);
-    if (switches_jumps(op)) return choose(s, k, way, t, x, v, err);
+    if (switches_counts(op)) return choose_count(s, k, true, round(s->u[k]), way, t, x, v, err);
+    if (*side == 0 && (op == OP_ABS || op == OP_SIGN || op == OP_CBRT)) return choose(s, k, true, way, t, x, v, err);
+    if (switches_jumps(op)) return choose(s, k, true, way, t, x, v, err);
     *side = switches_beyond(op, *side, 0);
     return MOTUS_OK;
 }

@@ -1,4 +1,4 @@
-/* LAWS OF EVENTS. Through an event that assigns, the error of its time and of the state at a fixed time after it falls
+/* LAWS OF EVENTS. Through an event that assigns, and through a switch of the force that is located, the error of its time and of the state at a fixed time after it falls
  * with the order of the row; by rows of fixed step the run is made of steps that begin anew at the event and end on the
  * grid; where steps adapt, the error falls with the tolerance. An event that only records changes no bit, no step and
  * no evaluation.
@@ -10,6 +10,7 @@
  * slope is only to tell the order from what dense output or a start of low order would leave of it; that no order is
  * lost there is the law of parts, which is exact.
  */
+#include "api/located.h"
 #include "api/system.h"
 #include "core/rows.h"
 #include "test/fit.h"
@@ -27,16 +28,25 @@ enum { STARTS = 8, NUMBERS = 2, POINTS = 64, SERIES = 12, RECORDS = 32 };
 
 typedef struct motion {
     const char *name, *text;
+    bool switches; /* no event acts: the force itself jumps, and steps end there (api/located.h) */
 } motion;
 
 /* A velocity jumps; a mode changes the force alone, so that an acceleration from before the event is wrong after it;
  * both, with a force that depends on the velocity. */
 static const motion motions[] = {
-    {"velocity jumps", "x'' = -x - x^2/4 + cos(t)/8; x(0) = 1; x'(0) = 0.25\nwhen x + 2 t > 17: x' = -0.75 x', record"},
-    {"force jumps",
-     "k = 1; x'' = -k x + x^3/32 + cos(t)/8; x(0) = 1; x'(0) = 0.25\nwhen x + 2 t > 17: k = 0.5, record"},
-    {"drag jumps", "c = 0.25; x'' = -x - x^2/4 - c x'/2 - c x'^2/8 + cos(t)/8; x(0) = 1; x'(0) = 0.25\n"
-                   "when x + 2 t > 17: x' = -0.75 x', c = -0.25, record"},
+    {"velocity jumps", "x'' = -x - x^2/4 + cos(t)/8; x(0) = 1; x'(0) = 0.25\nwhen x + 2 t > 17: x' = -0.75 x', record",
+     false},
+    {"force jumps", "k = 1; x'' = -k x + x^3/32 + cos(t)/8; x(0) = 1; x'(0) = 0.25\nwhen x + 2 t > 17: k = 0.5, record",
+     false},
+    {"drag jumps",
+     "c = 0.25; x'' = -x - x^2/4 - c x'/2 - c x'^2/8 + cos(t)/8; x(0) = 1; x'(0) = 0.25\n"
+     "when x + 2 t > 17: x' = -0.75 x', c = -0.25, record",
+     false},
+    {"force switches",
+     "x'' = -x - x^2/4 + cos(t)/8 + if(x + 2 t > 17, 0.3 - x/4, 0); x(0) = 1; x'(0) = 0.25\nwhen x + 2 t > 17: record",
+     true},
+    {"force has a kink",
+     "x'' = -x - x^3/32 + cos(t)/8 + max(0, x + 2 t - 17)/16; x(0) = 1; x'(0) = 0.25\nwhen x + 2 t > 17: record", true},
 };
 /* By long steps, on which dense output of a row of low order errs as much as the row does. */
 static const char *const crossed = "x'' = -x - x^2/4 + cos(t)/8; x(0) = 1; x'(0) = 0.25\n"
@@ -63,6 +73,16 @@ static motus_system *read(const char *text)
     if (motus_system_from_text(&def, &s, &err)) printf("%s\n", err.message), abort();
     if (s->problem.nx > NUMBERS || s->problem.nv > NUMBERS) abort();
     return s;
+}
+
+/* The system whose steps end where its force switches; the other owns it. */
+static motus_system *located(motus_system *s)
+{
+    motus_system *out;
+    const char *why;
+    if (located_of(s, MOTUS_SWITCHES_LOCATE, &out, &why, NULL) || !out) printf("%s\n", why), abort();
+    if (out->problem.nx > NUMBERS || out->problem.nv > NUMBERS) abort();
+    return out;
 }
 
 static chosen by_name(const char *name)
@@ -122,6 +142,7 @@ static bool follow(motus_system *s, bool alone, int start, const chosen *c, doub
     *out = (outcome){0};
     start_of(s, start, y);
     motus_status status = system_rules(s, &r, NULL);
+    if (!status && alone && r->settle) status = r->settle(r->ctx, 1, 0, y, y + NUMBERS, NULL); /* and there they stay */
     if (!status) status = stepper_create(&s->machine, c, 0, h, y, y + NUMBERS, NULL, &st, NULL);
     if (!status && !alone) status = events_create(r, &s->machine, c, NULL, &e, NULL);
     if (!status && !alone) status = events_begin(e, st, until, NULL);
@@ -398,7 +419,7 @@ void laws_of_events(void)
 {
     for (size_t j = 0; j < sizeof motions / sizeof *motions; j++) {
         const motion *w = &motions[j];
-        motus_system *s = read(w->text);
+        motus_system *home = read(w->text), *s = w->switches ? located(home) : home;
         outcome is[STARTS], smooth[STARTS];
         double off = 0;
         chosen series = by_name("taylor");
@@ -413,12 +434,10 @@ void laws_of_events(void)
             const chosen c = by_name(row_card(m)->name);
             if (!admits(m, s)) continue;
             if (methods_table[m].family != RADAU || !row_adaptive(&c)) order_of(s, w, is, m);
-            if (!row_adaptive(&c))
-                made_of_parts(s, w, is, m);
-            else if (!row_reversible_steps(&c))
-                with_tolerance(s, w, is, smooth, m);
+            if (!row_adaptive(&c) && !w->switches) made_of_parts(s, w, is, m);
+            if (row_adaptive(&c) && !row_reversible_steps(&c)) with_tolerance(s, w, is, smooth, m);
         }
-        motus_system_destroy(s);
+        motus_system_destroy(home);
     }
     motus_system *s = read(recorded);
     for (size_t m = 0; m < row_count(); m++)

@@ -302,7 +302,9 @@ refuses "--resume with other switches" 2 "part.csv was made by another sweep" "$
 that "... the file stays" cmp part.csv kept.csv
 gives "... with the same ones" 0 "$motus" sweep "${kinked[@]}" -o part.csv --resume -q
 that "... it is finished" cmp located.csv part.csv
-refuses "steps of one size locate none in a sweep" 2 "by a method that adapts its steps, and those of verlet do not" "$motus" sweep kink.motus --vary k=1 --method verlet --step 0.1 --switches locate
+gives "steps of one size locate where they are asked to" 0 "$motus" sweep kink.motus --vary k=2 --method verlet --step 0.1 --switches locate -o fixed.csv --json
+that "... which JSON says" holds '.switches == "locate"'
+that "... with the bits of the run" test "$(tail -n 1 fixed.csv | cut -d, -f2)" = "$("$motus" run kink.motus --set k=2 --method verlet --step 0.1 --switches locate --json | jq .state.x)"
 gives "a smooth force has none" 0 "$motus" sweep osc.motus --vary F=0.1 --method dop853 --switches step -o smooth.csv --json
 that "... and says so" holds '.switches == null'
 printf "k = 1\nx'' = -max(0, k x)^1.5\nx(0) = 1\nx'(0) = 0\nuntil 2\n" >beyond.motus
