@@ -1,7 +1,8 @@
-/* LAWS OF EVENTS. Through an event that assigns, and through a switch of the force that is located, the error of its time and of the state at a fixed time after it falls
- * with the order of the row; by rows of fixed step the run is made of steps that begin anew at the event and end on the
- * grid; where steps adapt, the error falls with the tolerance. An event that only records changes no bit, no step and
- * no evaluation.
+/* LAWS OF EVENTS. Through an event that assigns, and through a switch of the force that is located, the error of its
+ * time and of the state at a fixed time after it falls with the order of the row; by rows of fixed step the run is made
+ * of steps that begin anew at the event and end on the grid; where steps adapt, the error falls with the tolerance. An
+ * event that only records changes no bit, no step and no evaluation. Where a function has other signs at the ends of a
+ * step, it has an odd number of events within, else an even one: none is lost, however coarse the step.
  *
  * Invariant: the event divides a step in the same part at all sizes of step, and errors are mean squares over
  * several starts; so an error is a power of the step and little else. Doubles show it from the step where the error is
