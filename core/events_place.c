@@ -227,8 +227,9 @@ static motus_status sign_at_end(events *e, instant *end, size_t f, int *sign, mo
 }
 
 /* Dense output of a method of low order may err by as much as a root is far from the places where it says that the
- * function is on either side; by true steps the function is on one side at both of them, that of c->kind. Where it is on
- * the other side at the end of the step before the first of its roots, or after the last, it passes 0 between. */
+ * function is on either side; by true steps the function is on one side at both of them, that of c->kind. Where it
+ * is on the other side at the end of the step before the first of its roots, or after the last, it passes 0
+ * between. */
 static motus_status widen(events *e, size_t k, motus_error *err)
 {
     candidate *c = &e->candidate[k];

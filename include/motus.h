@@ -599,15 +599,15 @@ typedef struct motus_run motus_run;
  * or of a comparison passes the value that decides. */
 typedef enum motus_switches {
     MOTUS_SWITCHES_STEP, /* nothing: it steps across, and loses the order of its method there */
-    /* Every step ends where a switch changes its side, located to the rounding of the time; a method whose steps have
-     * one size goes on to the time at which the step would have ended, so the times after steps are those of other
-     * runs but for their rounding. The order of the method remains. Such a run cannot be traced. Where a sign(s) drives s back to 0 from both
-     * sides, as dry friction does that sticks, s stays 0, and the sign has the value in [-1, 1] that keeps it, until
-     * that leaves the interval. MOTUS_SOLVE: another switch would have to be held so, or two that depend on one
-     * another; or the force drives the motion away to both sides, so that it is not unique. In steps of one size, where
-     * the force may be undefined beyond a switch, as max(0, x)^1.5 is: the interpreter takes the step in pieces that
-     * come near it; such a run tells no errors, holds nothing at 0 (MOTUS_SOLVE), and cannot be sampled, saved or
-     * restored; an ensemble refuses it. */
+    /* Every step ends where a switch changes its side, located to the rounding of the time; a method whose steps
+     * have one size goes on to the time at which the step would have ended, so the times after steps are those of
+     * other runs but for their rounding. The order of the method remains. Such a run cannot be traced. Where a
+     * sign(s) drives s back to 0 from both sides, as dry friction does that sticks, s stays 0, and the sign has the
+     * value in [-1, 1] that keeps it, until that leaves the interval. MOTUS_SOLVE: another switch would have to be
+     * held so, or two that depend on one another; or the force drives the motion away to both sides, so that it is
+     * not unique. In steps of one size, where the force may be undefined beyond a switch, as max(0, x)^1.5 is: the
+     * interpreter takes the step in pieces that come near it; such a run tells no errors, holds nothing at 0
+     * (MOTUS_SOLVE), and cannot be sampled, saved or restored; an ensemble refuses it. */
     MOTUS_SWITCHES_LOCATE,
     /* As MOTUS_SWITCHES_LOCATE; pieces are also short enough that no switch changes its side and changes back within
      * one, however narrow its window; and where the force has an operation that may change from one regime to another
@@ -743,12 +743,13 @@ typedef struct motus_statistics {
     double accuracy, reached;
     /* The smallest and the largest step of the present leg, without the one that ended at `until`; NaN before them. */
     double shortest_step, longest_step;
-    /* Of a run that locates switches: how many it has passed; -1: it cannot locate them, or was not asked to. Of a run
-     * that resolves them: the lowest derivative of the acceleration along the motion that jumped at one of them, or became infinite: 0 the
-     * acceleration itself; -1: none. The time of the first such jump; NaN: there was none. By how much velocities may
-     * be off because times are rounded: the sum of the jumps, and of fast changes that were resolved, times the
-     * rounding of their times. The power of the time with which the acceleration departs there from a smooth one: the
-     * number of the derivative that jumps; where one is infinite less, as 1/3 of cbrt; NaN: there was none. */
+    /* Of a run that locates switches: how many it has passed; -1: it cannot locate them, or was not asked to. Of a
+     * run that resolves them: the lowest derivative of the acceleration along the motion that jumped at one of
+     * them, or became infinite: 0 the acceleration itself; -1: none. The time of the first such jump; NaN: there
+     * was none. By how much velocities may be off because times are rounded: the sum of the jumps, and of fast
+     * changes that were resolved, times the rounding of their times. The power of the time with which the
+     * acceleration departs there from a smooth one: the number of the derivative that jumps; where one is infinite
+     * less, as 1/3 of cbrt; NaN: there was none. */
     int64_t switches, jump;
     double jump_time, jump_rounding, jump_power;
     int absolute; /* 1: the tolerance and the accuracy are absolute */
