@@ -87,13 +87,20 @@ static void release(events *e)
     }
 }
 
-/* The functions after an action; `before` are those before it. */
-static motus_status look_again(events *e, motus_error *err)
+/* The functions after an action of instance i of rule k; `before` and the rates at `here` are those before it. What has
+ * happened in this instant may happen again where another rule has changed how its function moves: a ball between two
+ * others meets both at once, and one of them again. */
+static motus_status look_again(events *e, size_t k, size_t i, motus_error *err)
 {
     instant *at = &e->here;
+    const rule *r = &e->rules.rule[k];
+    double *const rate = e->next.rate; /* room */
+    memcpy(rate, at->rate, e->rules.functions * sizeof *rate);
     motus_status status = events_values(e, at, err);
     if (!status) status = events_judge(e, at, err);
     for (size_t f = 0; f < e->rules.functions && !status; f++) {
+        const bool own = f >= r->first && f < r->first + r->leaves * r->instances && (f - r->first) % r->instances == i;
+        if (!own && fabs(at->rate[f] - rate[f]) > 0x1p-40 * fabs(rate[f])) e->fired[f] = NAN;
         /* what was 0 and has not changed is 0 whatever the rate is now; and what a switch moved to 0 */
         const double change = e->rules.settle ? fabs(at->g[f]) - fabs(e->before[f]) : fabs(at->g[f] - e->before[f]);
         const bool was = e->zero[f] && change <= at->bound[f];
@@ -121,7 +128,7 @@ static motus_status turn(events *e, size_t k, size_t i, motus_error *err)
     memcpy(e->before, at->g, e->rules.functions * sizeof *at->g);
     jog(e, e->count[k], true);
     const motus_status status = e->rules.turn(e->rules.ctx, k, i, e->way, at->t, at->x, at->v, err);
-    return status ? status : look_again(e, err);
+    return status ? status : look_again(e, k, i, err);
 }
 
 static motus_status act(events *e, size_t k, size_t i, motus_error *err)
@@ -143,7 +150,7 @@ static motus_status act(events *e, size_t k, size_t i, motus_error *err)
     jog(e, e->acted, false);
     const motus_status status =
         e->rules.settle ? e->rules.settle(e->rules.ctx, e->way, at->t, at->x, at->v, err) : MOTUS_OK;
-    return status ? status : look_again(e, err);
+    return status ? status : look_again(e, k, i, err);
 }
 
 static motus_status no_room(motus_error *err) { return fail(err, MOTUS_MEMORY, "no memory for the table of events"); }
@@ -310,7 +317,9 @@ motus_status events_fire(events *e, const candidate *c, bool *assigned, motus_er
 {
     bool again = true;
     motus_status status = MOTUS_OK;
-    for (size_t f = 0; f < e->rules.functions; f++) e->zero[f] = is_zero(e, f);
+    /* what is beyond 0 already has passed it in this very instant: its own candidate comes a rounding later */
+    for (size_t f = 0; f < e->rules.functions; f++)
+        e->zero[f] = is_zero(e, f) || (e->side[f] && sign_of(e->here.g[f]) == -e->side[f]);
     if (c->kind != CANDIDATE_TIME) e->zero[c->of] = 1;
     memset(e->ticked, 0, e->rules.count);
     events_overlay(e, e->here.x);

@@ -170,7 +170,9 @@ bool events_accumulate(events *e, size_t rule, size_t instance, double t)
     const double now = one / two, before = two / three, ulp = events_ulp(t);
     /* the times are rounded, and the shorter the intervals are the less their ratio is known */
     const double rounding = 2 * ulp / two;
-    if (!(two > 0) || !(now + rounding < 1) || fabs(now - before) > 0.1 * before + 2 * rounding) return false;
+    /* two events of one instant, as of a ball that meets two others at once, are no shorter interval of a sequence */
+    if (!(two > 0) || !(three > 0) || !(now + rounding < 1) || !(before < 1)) return false;
+    if (fabs(now - before) > 0.1 * before + 2 * rounding) return false;
     const double left = one * now / (1 - now);
     double error = left;
     if (left > ULPS * ulp) { /* a function may be hidden by its own rounding long before */

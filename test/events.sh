@@ -360,6 +360,10 @@ for method in verlet verlet-literal leapfrog suzuki4 yoshida8 rk4 gauss8; do
     gives "a function that stays 0 by $method" 0 "$motus" run "$one" --method $method --step 0.001 --switches step --error none --json
     that "  is no event" [ "$(value '.events | length')" = 0 ]
 done
+# A mode is true where it is not 0: x = cos t passes 0 at odd multiples of pi/2, and b is 1 from the first to the second, from the third to the fourth.
+text "b = 0\nx'' = -x\nx(0) = 1\nx'(0) = 0\nuntil 10\nwhen x = 0: b = 1 - b\nwhen b and x' > 0.5 as up: record\nwhen not b and x > 0.5: record\nwhen b as on: record\nq = if(b, x, 2)\n"
+gives "a mode as a condition" 0 "$motus" run "$one" --json
+that "  is true where it is not 0" [ "$(value '[.events[] | .name + " " + (.time * 1e6 | round | tostring) + " " + (.state.q * 1e6 | round | tostring)] | join(", ")')" = "on 1570796 0, up 3665191 -866025, event3 5235988 2000000, on 7853982 0, up 9948377 -866025" ]
 # The first kick is the one whose rounding grows most.
 text "K = 5.29\nth'' = 0\nth(0) = -1.16\nth'(0) = 2.15\nuntil 20\nwhen every 1 as kick: th' = th' + K sin(th), record\n"
 gives "a motion that only kicks round" 0 "$motus" run "$one" --method taylor --json

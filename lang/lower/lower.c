@@ -196,6 +196,14 @@ static value lower_power(lowering *l, const tree *t)
     return failed(l) ? wrong(l) : scalar(l, binary(l, OP_POW, b.item[0], e));
 }
 
+void lower_mode_truth(lowering *l, value *v)
+{
+    if (failed(l) || v->boolean || v->count || v->rows) return;
+    const unsigned deps = graph_deps(l->model->graph, v->item[0]), others = DEP_TIME | (DEP_STATE & ~DEP_MODE);
+    if (!(deps & DEP_MODE) || deps & others) return;
+    *v = condition(l, binary(l, OP_NE, v->item[0], graph_const(l->model->graph, 0)));
+}
+
 static value lower_call(lowering *l, const tree *t)
 {
     value v[3] = {{0}};
@@ -207,6 +215,7 @@ static value lower_call(lowering *l, const tree *t)
         if (failed(l)) return wrong(l);
     }
     if (t->operation == CALL_IF) {
+        lower_mode_truth(l, &v[0]);
         if (!v[0].boolean) {
             COMPLAIN(l, &t->item[0]->at, "a condition is expected here");
             HINT(l, "write if(x > 0, …, …)");
@@ -378,6 +387,7 @@ static value lower_sum_part(lowering *l, const tree *t, const sum_part *part)
 static value lower_truth(lowering *l, const tree *t)
 {
     value v = lower_expression(l, t);
+    lower_mode_truth(l, &v);
     if (!failed(l) && !v.boolean) {
         COMPLAIN(l, &t->at, "and, or, not join conditions, such as x > 0");
         return wrong(l);
@@ -442,6 +452,7 @@ static value lower_right(lowering *l, const tree *t, value left)
 {
     const tree *a = t->item[0], *b = t->item[1];
     if (t->kind == TREE_AND || t->kind == TREE_OR) {
+        lower_mode_truth(l, &left);
         if (!left.boolean) COMPLAIN(l, &a->at, "and, or, not join conditions, such as x > 0");
         value right = lower_truth(l, b);
         return failed(l) ? wrong(l)

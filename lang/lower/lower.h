@@ -62,6 +62,8 @@ void lower_start(lowering *, model *, lower_place, const char *what);
 value lower_expression(lowering *, const tree *);
 /* Rows of numbers. */
 value lower_matrix(lowering *, const tree *);
+/* Where a condition is expected a mode, or what depends on modes alone, is true if it is not 0: if(stuck, 0, -x). */
+void lower_mode_truth(lowering *, value *);
 /* The same for a tree that must be a number, neither vector nor condition. */
 node lower_scalar(lowering *, const tree *, const char *what);
 /* A left side, `name[indices] … for loops`: fills to->dims, to->at and the loops of the output, and makes the indices

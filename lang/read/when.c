@@ -117,7 +117,8 @@ static bool lower_condition(model *m, model_rule *r, lowering *l)
 {
     const tree *t = r->statement->when->left;
     char text[80];
-    const value v = lower_expression(l, t);
+    value v = lower_expression(l, t);
+    lower_mode_truth(l, &v);
     if (!whole(m, r) || failed(m)) return false;
     if (!v.boolean) {
         COMPLAIN(m, &t->at, "an event happens when a condition becomes true, or where two numbers are equal");
