@@ -50,7 +50,8 @@ static bool keep_text(motus_system *s, motus_text_def *def)
     char *copy = arena_room(&s->arena, n + 1);
     def->set = keep_list(&s->arena, def->set, def->set_count);
     def->when = keep_list(&s->arena, def->when, def->when_count);
-    if (!copy || !def->set || !def->when) return false;
+    def->define = keep_list(&s->arena, def->define, def->define_count);
+    if (!copy || !def->set || !def->when || !def->define) return false;
     memcpy(copy, def->text, n);
     copy[n] = 0;
     def->text = copy;

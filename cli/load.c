@@ -75,6 +75,7 @@ static char *section_event(const options *o)
 /* Which option the text of an event came from. */
 static void name_option(const char *section, motus_error *err)
 {
+    if (err && strcmp(err->file, "motus_text_def.define") == 0) snprintf(err->file, sizeof err->file, "--record");
     if (!err || strcmp(err->file, "motus_text_def.when") != 0) return;
     const bool its = section[0] != ' ' && err->source[0] && strncmp(err->source, section, strlen(err->source)) == 0;
     snprintf(err->file, sizeof err->file, "%s", its ? "--section" : "--when");
@@ -94,6 +95,10 @@ motus_status load_model(load *m, const options *o, motus_error *err)
     def.text = m->text;
     def.length = length;
     def.file = called(o->operand);
+    status = defined_find(&m->defined, o->record, m->text, err);
+    if (status) return status;
+    def.define = (const char *const *)m->defined.line;
+    def.define_count = m->defined.count;
     const char **set = malloc((o->set.count + 1) * sizeof *set), **when = malloc((o->when.count + 1) * sizeof *when);
     char *const section = section_event(o);
     if (set && when && section) {
@@ -125,6 +130,7 @@ void load_free(load *m)
 {
     motus_system_destroy(m->system);
     free(m->text);
+    defined_free(&m->defined);
     *m = (load){0};
 }
 

@@ -2,6 +2,7 @@
 #ifndef CLI_LOAD_H
 #define CLI_LOAD_H
 
+#include "cli/defined.h"
 #include "cli/options.h"
 
 #define LOAD_SECTION "section" /* the name of the event of --section */
@@ -13,6 +14,7 @@ typedef struct load {
     size_t quantities, invariants; /* their numbers, not their names */
     double step, until;            /* by settle.c: of the options, or suggested; NaN: the model's */
     int suggested;                 /* which of them: SETTLE_STEP | SETTLE_UNTIL */
+    defined defined;               /* quantities that --record adds */
     char title[MOTUS_NAME_MAX];    /* file name without folder and ending, safe to show */
 } load;
 

@@ -1,6 +1,7 @@
 /* The items of --record:
  *
  *     final   NAME   final(NAME)   min(NAME)   max(NAME)   mean(NAME)   time_of_min(NAME)   time_of_max(NAME)
+ *     count(EVENT)   time(EVENT)   at(EVENT, EXPRESSION)   and so on: what events keep, defined.h
  *     steps   rejected   h_min   h_max   evaluations   reached   tolerance
  *
  * Invariant: a name stands for all its numbers, as in --columns of motus run. Where the model has a column of the name
@@ -82,6 +83,14 @@ static motus_status one(sweep_records *r, const load *m, char *item, motus_error
 {
     size_t length = strlen(item), first, count;
     if (strcmp(item, "final") == 0) return add(r, MOTUS_REDUCE_FINAL, 1, m->positions + m->velocities, err);
+    size_t named;
+    const char *const added = defined_name(&m->defined, item, &named);
+    if (added) {
+        char column[MOTUS_NAME_MAX];
+        snprintf(column, sizeof column, "%.*s", (int)named, added);
+        const motus_status found = motus_column_find(m->system, column, &first, &count, err);
+        return found ? found : add(r, MOTUS_REDUCE_FINAL, first, count, err);
+    }
     motus_reduction how = MOTUS_REDUCE_FINAL;
     char *name = item, *open = strchr(item, '(');
     if (open && item[length - 1] == ')') {
@@ -131,7 +140,11 @@ void sweep_record_name(const load *m, const motus_record *r, char out[SWEEP_NAME
     const char *word = "";
     for (size_t i = 1; i < REDUCTIONS; i++)
         if (reductions[i].how == r->how) word = reductions[i].word;
-    snprintf(out, SWEEP_NAME, *word ? "%s(%s)" : "%s%s", word, c.name);
+    const char *rest = "", *const asked = defined_label(&m->defined, c.name, &rest);
+    if (asked)
+        snprintf(out, SWEEP_NAME, "%s%s", asked, rest);
+    else
+        snprintf(out, SWEEP_NAME, *word ? "%s(%s)" : "%s%s", word, c.name);
 }
 
 bool sweep_record_errs(const motus_record *r) { return r->how < MOTUS_REDUCE_STEPS && r->column > 0; }

@@ -191,6 +191,9 @@ typedef struct motus_text_def {
     /* when_count events that are added to those of the text, each what stands behind `when`: "x = 0 rising: record" */
     const char *const *when;
     size_t when_count;
+    /* define_count quantities or parameters that are added to those of the text, each "name = expression" */
+    const char *const *define;
+    size_t define_count;
 } motus_text_def;
 
 /* A system from C. The state is x, `positions` numbers, and v, `positions + first_order` numbers: the velocities of

@@ -244,15 +244,16 @@ static bool replace(model *m, uint32_t text)
     return false;
 }
 
-/* Reads an event that is added to those of the text. */
-static bool add_event(model *m, uint32_t text)
+/* Reads a statement that is added to those of the text: an event, or a quantity. */
+static bool add_line(model *m, uint32_t text, bool event)
 {
     const uint32_t before = m->statements.count;
     if (!parse_text(&m->source, text, &m->statements)) return false;
-    if (m->statements.count == before + 1) return true;
-    source_complain(&m->source, MOTUS_SYNTAX, &(span){text, 0, m->source.texts[text].length}, "this is %s",
-                    m->statements.count == before ? "no event" : "more than one event");
-    source_hint(&m->source, "write x = 0 rising: record");
+    const uint32_t lines = m->statements.count - before;
+    if (lines == 1 && (event || m->statements.item[before].kind == STATEMENT_DEFINITION)) return true;
+    source_complain(&m->source, MOTUS_SYNTAX, &(span){text, 0, m->source.texts[text].length}, "this is %s%s",
+                    lines > 1 ? "more than one " : "no ", event ? "event" : "quantity");
+    source_hint(&m->source, event ? "write x = 0 rising: record" : "write speed = |x'|");
     return false;
 }
 
@@ -260,7 +261,9 @@ bool collect_all(model *m, const motus_text_def *def)
 {
     if (!parse_text(&m->source, 0, &m->statements)) return false;
     for (uint32_t i = 0; i < def->when_count; i++)
-        if (!add_event(m, (uint32_t)def->set_count + i + 1)) return false;
+        if (!add_line(m, (uint32_t)def->set_count + i + 1, true)) return false;
+    for (uint32_t i = 0; i < def->define_count; i++)
+        if (!add_line(m, (uint32_t)(def->set_count + def->when_count) + i + 1, false)) return false;
     for (uint32_t i = 0; i < def->set_count; i++)
         if (!replace(m, i + 1)) return false;
     uint32_t n = m->statements.count;

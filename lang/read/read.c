@@ -70,6 +70,15 @@ static motus_status build(model *m, const motus_text_def *def, const read_how *h
     return MOTUS_OK;
 }
 
+/* What is added to the text of a model. */
+typedef struct added {
+    const char *what, *file;
+    bool event;
+} added;
+static const added kinds[] = {{"a setting", "motus_text_def.set", false},
+                              {"an event", "motus_text_def.when", true},
+                              {"a quantity", "motus_text_def.define", false}};
+
 motus_status read_model(arena *a, const motus_text_def *def, const read_how *how, read_method method, model **out,
                         motus_error *err)
 {
@@ -83,21 +92,19 @@ motus_status read_model(arena *a, const motus_text_def *def, const read_how *how
     memset(m, 0, sizeof *m);
     m->arena = a;
     m->draft = def->draft > 0;
-    const size_t texts = 1 + def->set_count + def->when_count;
+    const size_t sets = def->set_count, whens = sets + def->when_count, texts = 1 + whens + def->define_count;
     m->source = (source){.arena = a, .error = err, .count = (uint32_t)texts, .nudged = how->nudged};
     m->source.texts = arena_room(a, texts * sizeof *m->source.texts);
     m->graph = graph_create(a);
     if (!m->source.texts || !m->graph || a->failed) return fail(err, MOTUS_MEMORY, "no memory for the model");
     m->source.texts[0] = (struct source_text){def->text, (uint32_t)length, def->file, false};
     for (size_t i = 0; i + 1 < texts; i++) {
-        const bool set = i < def->set_count;
-        const char *const text = set ? def->set[i] : def->when[i - def->set_count];
-        const size_t n = strlen(text);
+        const added *const a = &kinds[i < sets ? 0 : i < whens ? 1 : 2];
+        const char *const line = i < sets ? def->set[i] : i < whens ? def->when[i - sets] : def->define[i - whens];
+        const size_t n = strlen(line);
         if (n > SOURCE_BYTES_MAX)
-            return fail(err, MOTUS_LIMIT, "%s has %zu bytes; at most %d are read", set ? "a setting" : "an event", n,
-                        SOURCE_BYTES_MAX);
-        m->source.texts[i + 1] =
-            (struct source_text){text, (uint32_t)n, set ? "motus_text_def.set" : "motus_text_def.when", !set};
+            return fail(err, MOTUS_LIMIT, "%s has %zu bytes; at most %d are read", a->what, n, SOURCE_BYTES_MAX);
+        m->source.texts[i + 1] = (struct source_text){line, (uint32_t)n, a->file, a->event};
     }
     arena trees;
     arena_init(&trees, &a->allocator);
