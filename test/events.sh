@@ -113,6 +113,19 @@ that "... and only it" eval "[ \$(grep -c '  touched  *[01]' '$out') = 1 ]"
 gives "... in the CSV" 0 "$motus" run "$place/touch.motus" --error none --quiet --events -
 that "... too" eval "rows '$out' | cut -d, -f1,3,4 | tr '\n' ' ' | grep -q '^event2,1,0 top,1,1 event2,2,0 $'"
 
+cat >"$place/third.motus" <<'M'
+n = 0
+x'' = -x
+x(0) = 1
+x'(0) = 0
+when x = 0: n = n + 1
+when n == 3 as third: stop
+when x == 0 as zero: record
+until 100
+M
+gives "an event where a mode is equal to a number" 0 "$motus" run "$place/third.motus" --json
+that "... happens, at 5 pi/2" holds '.ended == "third" and (.events | length) == 3 and (.events[2].time - 7.853981633974483 | fabs) < 1e-12'
+
 # --- the stadium, as the comment of the billiard says it ------------------------------------------------------------------------------
 awk -v q="'" '/^#     n = /  { sub(/^# +/, ""); sub(/  +from .*/, ""); wall = $0; next }
      /^#     when / { sub(/^# +/, ""); hit = $0; next }
@@ -188,6 +201,10 @@ if command -v gnuplot >/dev/null; then
     gives "a section in another plane" 0 "$motus" run $henon --method dop853 --until 100 --section "x = 0 rising" --error none --quiet --plot-of "t,x'" --plot "$place/plane.svg"
     that "... has its axes" eval "grep -q \">x'<\" '$place/plane.svg' && grep -q '>t<' '$place/plane.svg'"
     refuses "a section without a plane" 2 "the model does not say in which plane to draw it" "$motus" run models/kepler.motus --section "r.x = 0" --plot "$place/none.svg"
+    refuses "a section that is cut off" 2 '--section "x =" is not what may stand before the colon of an event' "$motus" run $henon --section "x ="
+    refuses "a section that is no event" 2 "an event happens when a condition becomes true" "$motus" run $henon --section "x"
+    that "... is shown without what the program adds" lacks "as section" "$err"
+    refuses "a semicolon in an event" 2 "a comma joins what an event does" "$motus" run $henon --when "x = 0: y = 0; record"
     refuses "a section without a point" 2 "none is left to draw" "$motus" run $henon --method dop853 --until 10 --section "x = 0 rising" --skip 9 --error none --plot "$place/none.svg"
     that "... leaves no file" absent "$place/none.svg"
 fi
@@ -213,7 +230,7 @@ if command -v gnuplot >/dev/null; then
     refuses "two files of one name" 2 "is named for two outputs" "$motus" sweep "$turn" --vary "w=1,2" --section "every 1" --plot "$place/none.svg" -o "$place/none.svg"
 fi
 refuses "points of no section" 2 "--points needs --section" "$motus" run $henon --points 3
-refuses "an event in the text of a section" 2 "--section:1:" "$motus" run $henon --section "x = 0: record"
+refuses "an event in the text of a section" 2 "write an equation or a comparison alone" "$motus" run $henon --section "x = 0: record"
 refuses "a link with an event" 2 "--share and --when exclude each other" "$motus" run "$ball" --when "y = 1: record" --share
 
 # --- continued runs -----------------------------------------------------------------------------------------------------------------
