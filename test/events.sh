@@ -294,6 +294,45 @@ for kept in 0 100 1000 2000; do # as an interruption leaves both files: the even
     that "... has the same rows" cmp "$place/rows.csv" "$place/again.csv"
     that "... and the same events" cmp "$place/flock.csv" "$place/flock2.csv"
 done
+that "the last line says of how many trajectories" eval "[ \"\$(tail -n 1 '$place/flock.csv')\" = '# end of the events of trajectories: 27' ]"
+# The file of events is shortened, and that of rows has all trajectories but three.
+sed '$d' "$place/rows.csv" | sed '$d' | sed '$d' >"$place/again-cut.csv"
+size=$(wc -c <"$place/flock.csv")
+shortened() {
+    local left rows
+    for left in "$@"; do # bytes
+        for rows in again-cut rows; do
+            cp "$place/$rows.csv" "$place/again.csv"
+            head -c "$left" "$place/flock.csv" >"$place/flock2.csv"
+            cp "$place/flock2.csv" "$place/kept.csv"
+            "$motus" sweep $flock -o "$place/again.csv" --events "$place/flock2.csv" --resume >"$out" 2>"$err"
+            [ $? = 2 ] && says "does not have all events of the" "$err" && says "compute both anew: --force" "$err" &&
+                cmp "$place/again.csv" "$place/$rows.csv" && cmp "$place/flock2.csv" "$place/kept.csv" || { echo "$left bytes, $rows"; return 1; }
+        done
+    done
+}
+grep -v '^#' "$place/flock.csv" | sed 1d | awk -F, '$1 < 24' >"$place/early.csv"
+whole=$(($(head -n 3 "$place/flock.csv" | wc -c) + $(wc -c <"$place/early.csv"))) # of the 24 trajectories
+that "events that are missing are refused, and both files stay" shortened 0 $((size / 3)) $((size / 2))
+that "... where a row is not whole, or the last trajectory is not" shortened $((whole - 10)) $((whole - $(tail -n 1 "$place/early.csv" | wc -c)))
+that "... where nothing tells that it is" shortened $whole
+rm -f "$place/flock2.csv"
+cp "$place/again-cut.csv" "$place/again.csv"
+refuses "... and a file that is gone" 2 "does not have all events of the 24 trajectories" "$motus" sweep $flock -o "$place/again.csv" --events "$place/flock2.csv" --resume
+# As a kill leaves the file while events are written over its last line: the # is the last byte that is written over.
+written_over() {
+    local behind
+    for behind in "" " end" $'4,hit,1.5\n24,top,2' $'\n25,hit,1.5\n'; do
+        cp "$place/again-cut.csv" "$place/again.csv"
+        { head -n 3 "$place/flock.csv"; cat "$place/early.csv"; printf '#%s' "$behind"; } >"$place/flock2.csv"
+        "$motus" sweep $flock -o "$place/again.csv" --events "$place/flock2.csv" --resume && cmp "$place/flock.csv" "$place/flock2.csv" && cmp "$place/rows.csv" "$place/again.csv" || { echo "with #$behind"; return 1; }
+    done
+}
+that "events that were being written over are continued" written_over
+{ head -n 3 "$place/flock.csv"; awk -F, '$1 < 20' "$place/early.csv"; echo "# end of the events of trajectories: 20"; } >"$place/flock2.csv"
+cp "$place/again-cut.csv" "$place/again.csv"
+refuses "an older table of events" 2 "does not have all events of the 24 trajectories" "$motus" sweep $flock -o "$place/again.csv" --events "$place/flock2.csv" --resume
+cp "$place/flock.csv" "$place/flock2.csv"
 gives "the events of a sweep with errors" 0 "$motus" sweep $flock --errors -o "$place/again.csv" --events "$place/errors.csv" --force
 that "... have errors of their times" eval "rows '$place/errors.csv' | awk -F, '!(\$4 > 0 && \$4 < 1e-2) { exit 1 } END { exit NR < 100 }'"
 that "... and else the same numbers" eval "diff <(rows '$place/errors.csv' | cut -d, -f1-3,5-) <(rows '$place/flock.csv')"
