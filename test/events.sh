@@ -80,6 +80,10 @@ END { printf "%d bounces, at most %.2f units off\n", seen, most; exit !(seen == 
 A
 that "100 bounces to 4 units in the last place" eval "rows '$place/events.csv' | sed 's/,/ /g' | awk -f '$place/near.awk' '$place/truth' -"
 
+"$motus" run "$ball" --events "$place/loud.csv" >"$out" 2>"$err"
+gives "the events of a quiet run" 0 "$motus" run "$ball" --events "$place/quiet.csv" --quiet
+that "... are the same, with the errors of their times" eval "diff <(rows '$place/loud.csv') <(rows '$place/quiet.csv') && head_of '$place/quiet.csv' | grep -q '^event,t,t.error,'"
+
 gives "the events as JSON" 0 "$motus" run "$ball" --error none --json
 that "... are JSON" json "$out"
 that "... all of them" holds '.events | length == 135'
