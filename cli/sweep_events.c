@@ -61,8 +61,8 @@ static int write_at(const sweep_events *f, uint64_t place, const char *text, siz
                                                             : sweep_file_bytes(f->descriptor, text, length, &written);
 }
 
-/* Writes events and the line behind them, `length` bytes in all, over the line that ends the file; the first byte, which
- * was its #, last. Where there is no such line, to a pipe, the events alone. */
+/* Writes events and the line behind them, `length` bytes in all, over the line that ends the file; the first byte,
+ * which was its #, last. Where there is no such line, to a pipe, the events alone. */
 static motus_status put(sweep_events *f, const char *text, size_t length, size_t events, motus_error *err)
 {
     size_t written;

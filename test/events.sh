@@ -204,6 +204,8 @@ if command -v gnuplot >/dev/null; then
     that "... in the plane of the other number" eval "grep -q '>y</tspan>\|>y<' '$place/section.svg' && grep -q \">y'<\" '$place/section.svg'"
     gives "a section in another plane" 0 "$motus" run $henon --method dop853 --until 100 --section "x = 0 rising" --error none --quiet --plot-of "t,x'" --plot "$place/plane.svg"
     that "... has its axes" eval "grep -q \">x'<\" '$place/plane.svg' && grep -q '>t<' '$place/plane.svg'"
+    gives "a section that fixes the velocity" 0 "$motus" run "$ball" --section "y' = 0 falling" --error none --quiet --plot "$place/tops.svg"
+    that "... is drawn against the time" eval "grep -q '>t<' '$place/tops.svg' && grep -q '>y<' '$place/tops.svg' && lacks \">y'<\" '$place/tops.svg'"
     refuses "a section without a plane" 2 "the model does not say in which plane to draw it" "$motus" run models/kepler.motus --section "r.x = 0" --plot "$place/none.svg"
     refuses "a section that is cut off" 2 '--section "x =" is not what may stand before the colon of an event' "$motus" run $henon --section "x ="
     refuses "a section that is no event" 2 "an event happens when a condition becomes true" "$motus" run $henon --section "x"
