@@ -156,15 +156,15 @@ double accuracy_reached(const accuracy *a, const motus_run *r)
 /* A trial that was far off was not taken to its end, so only the run itself can tell of its errors. */
 motus_status accuracy_refuse(const accuracy *a, const motus_run *r, motus_error *err)
 {
-    char wanted[DECIMAL_MAX], t[DECIMAL_MAX], size[64], part[128] = "";
+    char wanted[DECIMAL_MAX], t[DECIMAL_MAX], size[MOTUS_TEXT_MAX], part[MOTUS_TEXT_MAX] = "";
     const char *const unit = a->absolute ? "" : " of the motion's size";
     const bool lost = r->bars && !isnan(r->bars->differences.until);
     const double reached = accuracy_reached(a, r);
     decimal(a->wanted, wanted);
-    snprintf(size, sizeof size, "with the %s %.2g", a->by_step ? "step" : "tolerance", a->size);
+    error_text(size, "with the %s %.2g", a->by_step ? "step" : "tolerance", a->size);
     if (!isnan(a->rounding))
-        snprintf(part, sizeof part, "; of that, up to %.1e comes from the rounding of the model's decimals to doubles",
-                 a->rounding);
+        error_text(part, "; of that, up to %.1e comes from the rounding of the model's decimals to doubles",
+                   a->rounding);
     if (isfinite(a->reached))
         fail(err, MOTUS_ACCURACY, "the accuracy %s is not reached: the trials reached %.1e%s at best, %s%s", wanted,
              reached, unit, size, part);

@@ -229,6 +229,15 @@ motus_status system_values(motus_system *s, double t, double *x, double *v, cons
     return MOTUS_OK;
 }
 
+motus_status system_values_of(motus_system *s, double t, const double *x, const double *v, double *room,
+                              const size_t *columns, size_t count, double *out, motus_error *err)
+{
+    const problem *p = &s->problem;
+    if (p->nx) memcpy(room, x, p->nx * sizeof *x);
+    memcpy(room + p->nx, v, p->nv * sizeof *v);
+    return system_values(s, t, room, room + p->nx, columns, count, out, err);
+}
+
 /* ---- what a column is ---- */
 
 model_state columns_shape(const motus_system *s, const column_range *g)

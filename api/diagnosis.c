@@ -171,8 +171,8 @@ static bool discontinuous(judge *j)
     if (j->e.problem->traits.smooth && !j->e.problem->returned) return false;
     if (!evidence_jump(&j->e, &which, &before, &after)) return false;
     name_of(j, true, which, name);
-    snprintf(
-        j->cause, sizeof j->cause,
+    error_text(
+        j->cause,
         "the force is discontinuous there, the rate of change of %s jumps from %.3g to %.3g, and steps do not end on "
         "the jump",
         name, before, after);
@@ -198,8 +198,8 @@ static bool noise(judge *j)
     char name[MOTUS_NAME_MAX], value[MOTUS_TEXT_MAX];
     if (!evidence_noise(&j->e, &which)) return false;
     name_of(j, true, which, name);
-    snprintf(
-        j->cause, sizeof j->cause,
+    error_text(
+        j->cause,
         "the tolerance %.2g is below rounding: the rate of change of %s is rounding by more than the tolerance allows",
         j->e.row->absolute > 0 ? j->e.row->absolute : j->e.row->relative, name);
     say(j, MOTUS_CAUSE_ROUNDING, name);

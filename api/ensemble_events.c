@@ -63,16 +63,12 @@ motus_status ensemble_events_begin(motus_ensemble *e, size_t count, motus_error 
 }
 
 /* The columns of row i, on arrival or after it. */
-static motus_status values_of(const worker *w, size_t i, bool after, double *out, double *x, double *v,
-                              motus_error *err)
+static motus_status values_of(const worker *w, size_t i, bool after, double *out, double *room, motus_error *err)
 {
     const motus_ensemble *e = w->e;
-    const problem *p = &w->system->problem;
-    const double *at_x, *at_v;
-    const event row = events_row(w->events, i, after, &at_x, &at_v);
-    memcpy(x, at_x, p->nx * sizeof *x);
-    memcpy(v, at_v, p->nv * sizeof *v);
-    return system_values(w->system, row.t, x, v, e->event_columns, e->event_columns_count, out, err);
+    const double *x, *v;
+    const event row = events_row(w->events, i, after, &x, &v);
+    return system_values_of(w->system, row.t, x, v, room, e->event_columns, e->event_columns_count, out, err);
 }
 
 motus_status ensemble_events_take(worker *w, size_t k, bool errors, motus_error *err)
@@ -85,19 +81,19 @@ motus_status ensemble_events_take(worker *w, size_t k, bool errors, motus_error 
     empty(e, t);
     t->row = take(&e->allocator, rows + 1, sizeof *t->row);
     t->values = take(&e->allocator, rows * each + 1, sizeof *t->values);
-    double *x = take(&e->allocator, p->nx + p->nv + 1, sizeof *x);
+    double *room = take(&e->allocator, p->nx + p->nv + 1, sizeof *room);
     motus_status status =
-        t->row && t->values && x ? MOTUS_OK : fail(err, MOTUS_MEMORY, "no memory for the tables of events");
+        t->row && t->values && room ? MOTUS_OK : fail(err, MOTUS_MEMORY, "no memory for the tables of events");
     if (errors) motus_run_events_significant(w->run); /* its companion comes as far as the trajectory */
     for (size_t i = 0; i < rows && status == MOTUS_OK; i++) {
         double *out = t->values + i * each;
         t->row[i].event = events_row(w->events, i, false, NULL, NULL);
         t->row[i].error = errors ? event_bars_time(w->run, i) : NAN;
-        status = values_of(w, i, false, out, x, x + p->nx, err);
-        if (status == MOTUS_OK) status = values_of(w, i, true, out + each / 2, x, x + p->nx, err);
+        status = values_of(w, i, false, out, room, err);
+        if (status == MOTUS_OK) status = values_of(w, i, true, out + each / 2, room, err);
         t->count = i + 1;
     }
-    give(&e->allocator, x);
+    give(&e->allocator, room);
     return status;
 }
 

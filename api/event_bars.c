@@ -149,12 +149,9 @@ int64_t motus_run_events_significant(motus_run *r)
 static motus_status values_of(motus_run *r, motus_system *s, const events *e, size_t k, bool after,
                               const size_t *columns, size_t count, double *out, motus_error *err)
 {
-    const problem *p = &r->system->problem;
     const double *x, *v;
     const event row = events_row(e, k, after, &x, &v);
-    memcpy(r->mid_x, x, p->nx * sizeof *x);
-    memcpy(r->mid_v, v, p->nv * sizeof *v);
-    return system_values(s, row.t, r->mid_x, r->mid_v, columns, count, out, err);
+    return system_values_of(s, row.t, x, v, r->mid_x, columns, count, out, err);
 }
 
 /* |run - companion| of the columns at row k, to d; room: count numbers. */

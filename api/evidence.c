@@ -418,8 +418,9 @@ bool evidence_rate(evidence *e, bool early, double *re, double *im, size_t *whic
     for (int k = 0; k < count; k++)
         if (hypot(all_re[k], all_im[k]) > most) most = hypot(all_re[k], all_im[k]), *re = all_re[k], *im = all_im[k];
     give(&e->system->allocator, room);
+    if (!(most > 0)) return false;
     *re *= e->way;
-    return count > 0 && most > 0;
+    return true;
 }
 
 double evidence_stable(const evidence *e, double re, double im)

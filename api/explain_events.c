@@ -8,7 +8,7 @@
 
 enum { TARGETS_SHOWN = 8, HOLDING_SHOWN = 8, OCCASION = 200 };
 
-/* "a family of 6 events; assigns x[i]', n; kept: 3 numbers; recorded; the run stops at event 10" */
+/* "; it is a family of events; it assigns x[i]', n; it keeps 3 numbers; it is recorded; the run stops at number 10" */
 static void say_deeds(sentences *w, const model *m, const model_rule *r)
 {
     size_t kept = 0, shown = 0;
@@ -31,7 +31,8 @@ static void say_deeds(sentences *w, const model *m, const model_rule *r)
     sentences_say(w, "\n");
 }
 
-static void say_rule(sentences *w, const model *m, const model_rule *r)
+/* period: of a clock, by the numbers of the system */
+static void say_rule(sentences *w, const model *m, const model_rule *r, double period)
 {
     char occasion[OCCASION];
     source_excerpt(&m->source, &r->occasion, occasion, sizeof occasion);
@@ -43,7 +44,7 @@ static void say_rule(sentences *w, const model *m, const model_rule *r)
                                          : "");
         break;
     case RULE_CONDITION: sentences_say(w, "%s happens when %s becomes true", r->name, occasion); break;
-    case RULE_CLOCK: sentences_say(w, "%s happens every %.17g, from the start on", r->name, r->period); break;
+    case RULE_CLOCK: sentences_say(w, "%s happens every %.17g, from the start on", r->name, period); break;
     default: sentences_say(w, "%s happens where the events of %s accumulate", r->name, m->rules[r->of].name);
     }
     say_deeds(w, m, r);
@@ -113,7 +114,8 @@ const char *motus_explain_events(motus_system *s)
     modes m = modes_enter();
     sentences w = {.allocator = &s->allocator};
     if (system_rules(s, &r, NULL) == MOTUS_OK) {
-        for (uint32_t k = 0; k < s->model->rule_count; k++) say_rule(&w, s->model, &s->model->rules[k]);
+        for (uint32_t k = 0; k < s->model->rule_count; k++)
+            say_rule(&w, s->model, &s->model->rules[k], r->rule[k].period);
         say_modes(&w, s);
         say_start(&w, s, r);
     }

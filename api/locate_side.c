@@ -7,12 +7,12 @@
 motus_status locate_slides(const motus_run *r, size_t k, motus_error *err)
 {
     const locate *l = r->locate;
-    char name[128], t[DECIMAL_MAX];
-    held_name(l->held, k, name, sizeof name);
+    char where[128], t[DECIMAL_MAX];
+    held_surface(l->held, k, where, sizeof where);
     fail(err, MOTUS_SOLVE,
-         "from t = %s on the motion slides along %s = 0: the force drives it there from both sides, as dry friction "
+         "from t = %s on the motion slides along %s: the force drives it there from both sides, as dry friction "
          "that sticks",
-         run_time_text(r, l->from.t, t), name);
+         run_time_text(r, l->from.t, t), where);
     hint(err, "locate no switches in this model");
     return MOTUS_SOLVE;
 }

@@ -96,10 +96,10 @@ static void explain(const fleet *f, size_t chosen, pilot *out)
         if (k == chosen || !isfinite(f->work[k])) continue;
         const double ratio = f->work[k] / f->best;
         const bool first = at == 0;
-        char times[48] = "about as many";
+        char times[MOTUS_TEXT_MAX] = "about as many";
         if (ratio >= 1.05)
-            snprintf(times, sizeof times, "%s%.*f times%s", ratio >= FAR ? "over " : "", ratio < FAR,
-                     ratio >= FAR ? (double)FAR : ratio, first ? " as many" : "");
+            error_text(times, "%s%.*f times%s", ratio >= FAR ? "over " : "", ratio < FAR,
+                       ratio >= FAR ? (double)FAR : ratio, first ? " as many" : "");
         at += (size_t)length;
         length = snprintf(out->why + at, sizeof out->why - at, "%s %s%s %s", first ? ":" : ",", f->names[k],
                           first ? " needs" : "", times);

@@ -53,7 +53,7 @@ struct motus_run {
     bool observing;    /* the observer is being called */
     double *x, *v, *a; /* the synchronised state, valid while `synchronised` */
     bool synchronised, with_a;
-    double *mid_x, *mid_v; /* a state between two steps */
+    double *mid_x, *mid_v; /* a state between two steps, one behind the other */
     int (*progress)(void *context, double fraction);
     void *context;
     pace pace;

@@ -19,11 +19,18 @@ motus_status run_events_begin(motus_run *r, motus_error *err)
     return status == MOTUS_OK ? events_begin(r->events, r->stepper, r->timing.until, err) : status;
 }
 
+static int asks(const void *ctx)
+{
+    const pace *p = ctx;
+    return p->tell(p->ctx, pace_now());
+}
+
 motus_status run_events_steps(events *e, stepper *s, const pace *p, int64_t n, double until, stepper_stop *why,
                               motus_error *err)
 {
     enum { LOOK = 16 }; /* steps between two looks at the clock */
     motus_status status = MOTUS_OK;
+    events_listen(e, p->tell ? asks : NULL, p);
     for (int64_t i = 0; i < n && status == MOTUS_OK && *why == STOP_STEPS; i++) {
         if (i % LOOK == 0 && p->tell && p->tell(p->ctx, pace_now())) return MOTUS_CANCELLED;
         status = events_step(e, s, until, why, err);
@@ -89,8 +96,10 @@ motus_status motus_run_event(motus_run *r, int64_t k, motus_event_row *out)
     if (!r || !out || k < 0 || k >= motus_run_events(r) ||
         motus_struct_check(MOTUS_DEF_EVENT_ROW, out, NULL) != MOTUS_OK)
         return MOTUS_ARGUMENT;
+    const modes m = modes_enter();
     const event row = events_row(r->events, (size_t)k, false, NULL, NULL);
     run_events_row(r->rules, &row, event_bars_time(r, (size_t)k), out);
+    modes_leave(m);
     return MOTUS_OK;
 }
 
@@ -102,13 +111,10 @@ motus_status motus_run_event_values(motus_run *r, int64_t k, int after, const si
         return fail(err, MOTUS_ARGUMENT,
                     "motus_run_event_values needs a run, the number of an event, columns and a "
                     "place for the values");
-    const problem *p = &r->system->problem;
     const double *x, *v;
     const modes m = modes_enter();
     const event row = events_row(r->events, (size_t)k, after != 0, &x, &v);
-    memcpy(r->mid_x, x, p->nx * sizeof *x);
-    memcpy(r->mid_v, v, p->nv * sizeof *v);
-    const motus_status status = system_values(r->system, row.t, r->mid_x, r->mid_v, columns, count, out, err);
+    const motus_status status = system_values_of(r->system, row.t, x, v, r->mid_x, columns, count, out, err);
     modes_leave(m);
     return status;
 }
@@ -128,15 +134,13 @@ motus_status motus_run_jump(motus_run *r, int64_t k, int after, const size_t *co
         return fail(err, MOTUS_ARGUMENT,
                     "motus_run_jump needs a run, the number of an action that is kept, a place for its time, columns "
                     "and a place for the values");
-    const problem *p = &r->system->problem;
     const double *sides[2];
     const modes m = modes_enter();
     const bool assigns = events_jump(r->events, (size_t)k, time, &sides[0], &sides[1]);
     const double *const side = sides[after != 0];
     if (moves) *moves = assigns;
-    memcpy(r->mid_x, side, p->nx * sizeof *side);
-    memcpy(r->mid_v, side + p->nx, p->nv * sizeof *side);
-    const motus_status status = system_values(r->system, *time, r->mid_x, r->mid_v, columns, count, out, err);
+    const double *const v = side + r->system->problem.nx;
+    const motus_status status = system_values_of(r->system, *time, side, v, r->mid_x, columns, count, out, err);
     modes_leave(m);
     return status;
 }
@@ -149,7 +153,11 @@ const char *motus_run_ended(const motus_run *r, int *accumulated, double *time, 
     const bool gathers = r && r->events && events_accumulated(r->events, &limit);
     if (accumulated) *accumulated = gathers;
     if (time) *time = limit.t;
-    if (error) *error = gathers ? event_bars_limit(r, &limit) : NAN;
+    if (error) {
+        const modes m = modes_enter();
+        *error = gathers ? event_bars_limit(r, &limit) : NAN;
+        modes_leave(m);
+    }
     return end == EVENTS_END_NONE ? "" : r->rules->rule[rule].name;
 }
 

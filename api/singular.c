@@ -199,12 +199,12 @@ static bool undefined_start(const judge *j, double from, motus_error *err)
 
 static motus_status accuse(const judge *j, motus_status what, double from, motus_error *err)
 {
-    char a[DECIMAL_MAX], b[DECIMAL_MAX];
+    char a[MOTUS_TEXT_MAX], b[MOTUS_TEXT_MAX];
     const double to = motus_run_time(j->run);
     if (what == MOTUS_SINGULAR && undefined_start(j, from, err)) return what;
     for (int digits = 6; digits <= 17; digits++) {
-        snprintf(a, sizeof a, "%.*g", digits, from);
-        snprintf(b, sizeof b, "%.*g", digits, to);
+        error_text(a, "%.*g", digits, from);
+        error_text(b, "%.*g", digits, to);
         if (strcmp(a, b) != 0) break;
     }
     if (what == MOTUS_SINGULAR)

@@ -262,6 +262,11 @@ motus_status motus_run_save(motus_run *r, const char **text, size_t *length, mot
     if (!r || !text || !length)
         return fail(err, MOTUS_ARGUMENT, "motus_run_save needs a run and places for the text and its length");
     if (run_refuse(r, "saved", err) != MOTUS_OK) return MOTUS_UNAVAILABLE;
+    if (r->events && events_partway(r->events)) {
+        fail(err, MOTUS_UNAVAILABLE, "the run was cancelled within a step, and cannot be saved there");
+        hint(err, "take one step more, then save it");
+        return MOTUS_UNAVAILABLE;
+    }
     const size_t n = stepper_carry(r->stepper);
     const size_t events = r->events ? events_save(r->events, r->stepper, NULL) : 0;
     double *carry = take(&r->allocator, n + events + 1, sizeof *carry);

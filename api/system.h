@@ -85,6 +85,9 @@ void system_inside(const motus_system *, const double *in_x, const double *in_v,
 /* Values of columns at a state in the inside order, whose driven boundary cells are refreshed. */
 motus_status system_values(motus_system *, double t, double *x, double *v, const size_t *columns, size_t count,
                            double *out, motus_error *);
+/* The same at a state that stays as it is; `room`, nx + nv numbers, takes a copy of it. */
+motus_status system_values_of(motus_system *, double t, const double *x, const double *v, double *room,
+                              const size_t *columns, size_t count, double *out, motus_error *);
 /* Finds the switches of the model, once: `switches`, or why they cannot be held. */
 motus_status system_switches(motus_system *, motus_error *);
 /* Whether runs of it end their steps where a switch changes its side. See located.h. */

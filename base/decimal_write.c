@@ -282,6 +282,7 @@ char *decimal_time(double t, double span, char out[DECIMAL_MAX])
     double parts = fabs(t) / fabs(span);
     for (; parts > 1 && digits < 12; digits++) parts /= 10;
     snprintf(out, DECIMAL_MAX, "%.*g", digits, t);
+    set_point(out);
     return out;
 }
 

@@ -72,13 +72,28 @@ static char *section_event(const options *o)
     return text;
 }
 
-/* Which option the text of an event came from. */
-static void name_option(const char *section, motus_error *err)
+/* The number of characters of a text. */
+static int characters(const char *text)
+{
+    int count = 0;
+    for (; *text; text++) count += ((unsigned char)*text & 0xC0) != 0x80;
+    return count;
+}
+
+/* Which option the text of an event came from. What the program has added to that of --section is not shown. */
+static void name_option(const options *o, const char *section, motus_error *err)
 {
     if (err && strcmp(err->file, "motus_text_def.define") == 0) snprintf(err->file, sizeof err->file, "--record");
     if (!err || strcmp(err->file, "motus_text_def.when") != 0) return;
-    const bool its = section[0] != ' ' && err->source[0] && strncmp(err->source, section, strlen(err->source)) == 0;
+    const bool its = o->section && err->source[0] && strncmp(err->source, section, strlen(err->source)) == 0;
     snprintf(err->file, sizeof err->file, "%s", its ? "--section" : "--when");
+    if (!its) return;
+    if (err->column > characters(o->section)) {
+        fail(err, MOTUS_SYNTAX, "--section \"%s\" is not what may stand before the colon of an event", o->section);
+        hint(err, "write an equation or a comparison alone: --section \"x = 0 rising\"");
+    } else if (strlen(o->section) < sizeof err->source) {
+        err->source[strlen(o->section)] = 0;
+    }
 }
 
 motus_status load_model(load *m, const options *o, motus_error *err)
@@ -109,7 +124,7 @@ motus_status load_model(load *m, const options *o, motus_error *err)
         def.set = set;
         def.when = when;
         status = motus_system_from_text(&def, &m->system, err);
-        name_option(section, err);
+        name_option(o, section, err);
     } else {
         status = complain_memory(err);
     }

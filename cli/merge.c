@@ -118,7 +118,10 @@ static motus_status write_rows(const merge *m, file_out *out, stop_progress *pro
             status = fail(err, MOTUS_CANCELLED, "cancelled");
     }
     for (uint64_t k = 0; !status && k < count; k++) status = part_end(m->of[k], err);
-    return status;
+    if (status || m->of[0]->kind != PART_EVENTS) return status;
+    char line[SWEEP_EVENTS_LAST];
+    snprintf(line, sizeof line, SWEEP_EVENTS_END, total);
+    return file_text(out, line, err);
 }
 
 static void report(const merge *m)

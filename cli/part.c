@@ -252,14 +252,14 @@ motus_status part_copy(part *p, uint64_t block, file_out *out, motus_error *err)
 
 motus_status part_end(part *p, motus_error *err)
 {
-    char rest[64] = "", text[SHARD_TEXT], end[64] = "";
-    if (p->kind == PART_EVENTS) snprintf(end, sizeof end, SWEEP_EVENTS_END, shard_text(&p->shard, text));
+    char rest[2 * SWEEP_EVENTS_LAST] = "", end[SWEEP_EVENTS_LAST] = "";
+    if (p->kind == PART_EVENTS) snprintf(end, sizeof end, SWEEP_EVENTS_END, shard_rows(&p->shard, p->total));
     FILE *in = open_at(p);
     if (!in) return cannot_read(p->path, err);
     const size_t got = fread(rest, 1, sizeof rest - 1, in);
     fclose(in);
     if (got == strlen(end) && memcmp(rest, end, got) == 0) return MOTUS_OK;
-    if (got < strlen(end) && memcmp(rest, end, got) == 0) return unfinished(p, err);
+    if (p->kind == PART_EVENTS && (got == 0 || rest[0] == '#')) return unfinished(p, err);
     fail(err, MOTUS_STATE, "%s is damaged: there is more behind its last trajectory", p->path);
     hint(err, "compute this shard again: its command with --force");
     return MOTUS_STATE;

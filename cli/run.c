@@ -87,7 +87,7 @@ static motus_status save(job *j, motus_error *err)
 /* Nothing is computed that nobody sees; a restart state has the errors up to it. */
 static motus_bars bars_wanted(const options *o)
 {
-    const bool seen = !o->quiet || o->json || o->errors || o->plot || o->save_state;
+    const bool seen = !o->quiet || o->json || o->errors || o->plot || o->save_state || o->events;
     if (!seen || (o->error && strcmp(o->error, "none") == 0)) return MOTUS_BARS_NONE;
     return o->error && strcmp(o->error, "full") == 0 ? MOTUS_BARS_FULL : MOTUS_BARS_CHEAP;
 }

@@ -9,15 +9,15 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Whether a text has the name as a word of its own. */
-static bool names(const char *text, const char *name)
+/* Whether a text has the name as a word of its own; `primed` tells whether with or without a prime, NULL: either. */
+static bool names(const char *text, const char *name, const bool *primed)
 {
     static const char letters[] = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_";
     const size_t length = strlen(name);
     for (const char *at = text; (at = strstr(at, name)) != NULL; at++) {
         const bool before = at > text && (strchr(letters, at[-1]) || (at[-1] & 0x80));
         const bool after = at[length] && (strchr(letters, at[length]) || (at[length] & 0x80));
-        if (!before && !after) return true;
+        if (!before && !after && (!primed || *primed == (at[length] == '\''))) return true;
     }
     return false;
 }
@@ -31,7 +31,7 @@ static const char *chosen(const load *m, const options *o)
     for (size_t k = 0; k < count; k++) {
         motus_variable v = motus_default_variable();
         if (motus_variable_at(m->system, k, &v) != MOTUS_OK || v.count != 1 || v.order != 2) return NULL;
-        if (count > 1 && names(o->section, v.name))
+        if (count > 1 && names(o->section, v.name, NULL))
             named++;
         else
             left = v.name;
@@ -49,7 +49,12 @@ motus_status section_plane(const load *m, const options *o, size_t columns[2], m
         hint(err, "choose two columns: --plot-of \"y,y'\"");
         return MOTUS_ARGUMENT;
     }
-    snprintf(text, sizeof text, "%s,%s'", name, name);
+    /* a number that the section holds fixed is no axis */
+    const bool of_x = names(o->section, name, &(bool){false}), of_v = names(o->section, name, &(bool){true});
+    if (of_x != of_v)
+        snprintf(text, sizeof text, "t,%s%s", name, of_x ? "'" : "");
+    else
+        snprintf(text, sizeof text, "%s,%s'", name, name);
     return figure_plane(m, text, columns, err);
 }
 

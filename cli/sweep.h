@@ -7,6 +7,8 @@
 #include "cli/load.h"
 #include "cli/shard.h"
 
+#include <inttypes.h>
+
 /* What is recorded of each trajectory; and behind it SWEEP_JUDGED records, by which an accuracy is judged. */
 typedef struct sweep_records {
     motus_record *items;
@@ -110,14 +112,16 @@ void sweep_npy_head(uint64_t rows, size_t columns, char out[SWEEP_NPY_HEAD]);
 /* sweep_events.c: the table of the events of all trajectories, with their numbers.
  *
  * Invariant: the events of a trajectory are in this file before its row is in the file of rows. */
-/* Behind the events of a shard: without it they are not all there. */
-#define SWEEP_EVENTS_END "# end of shard %s\n"
+/* Behind the events, with the number of the trajectories whose events they are. */
+#define SWEEP_EVENTS_WORDS "# end of the events of trajectories: "
+#define SWEEP_EVENTS_END SWEEP_EVENTS_WORDS "%" PRIu64 "\n"
+enum { SWEEP_EVENTS_LAST = sizeof SWEEP_EVENTS_END + 20 };
 typedef struct sweep_events {
     const sweep *sweep;
     const char *path; /* NULL: none is asked for */
     int descriptor;
     bool regular;
-    uint64_t bytes; /* complete rows of the trajectories in the file of rows */
+    uint64_t bytes; /* where the complete rows end */
     double *values; /* room for those of a row */
 } sweep_events;
 motus_status sweep_events_check(const options *, motus_error *);

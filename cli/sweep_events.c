@@ -1,8 +1,10 @@
 /* The table of the events of a sweep, as CSV: the number of the trajectory, and then what the table of a run has.
  *
  * Invariants: as those of the file of rows (sweep_file.c), and: the head depends on what the numbers depend on alone;
- * the events of a trajectory are on the disk before its row is written, so what the file of rows has can be trusted
- * here. What follows, of trajectories without a row, is removed by --resume.
+ * the events of a trajectory are on the disk before its row is written. Behind them stands a line that begins with #
+ * and says of how many trajectories they are, at every time: new events are written behind its # first, and then over
+ * it. So a file in which that line is missing, and events of trajectories without a row too, has been shortened. Such
+ * events are removed by --resume.
  */
 #define _XOPEN_SOURCE 700
 #include "base/decimal.h"
@@ -45,14 +47,56 @@ static motus_status cannot_write(const sweep_events *f, int code, motus_error *e
     return fail(err, MOTUS_FILE, "cannot write %s: %s", output ? "standard output" : f->path, strerror(code));
 }
 
-/* Writes a text; after a failure the file ends where it did. */
-static motus_status put(sweep_events *f, const char *text, size_t length, motus_error *err)
+/* On the disk before anything that is written from now on; what a file system cannot synchronise is left to it. */
+static int synchronise(const sweep_events *f)
+{
+    const bool failed = fdatasync(f->descriptor) != 0;
+    return failed && (errno == EIO || errno == ENOSPC || errno == EDQUOT) ? errno : 0;
+}
+
+static int write_at(const sweep_events *f, uint64_t place, const char *text, size_t length)
 {
     size_t written;
-    int code = sweep_file_bytes(f->descriptor, text, length, &written);
-    if (code && f->regular && ftruncate(f->descriptor, (off_t)f->bytes) != 0) code = errno;
+    return lseek(f->descriptor, (off_t)place, SEEK_SET) < 0 ? errno
+                                                            : sweep_file_bytes(f->descriptor, text, length, &written);
+}
+
+/* Writes events and the line behind them, `length` bytes in all, over the line that ends the file; the first byte,
+ * which was its #, last. Where there is no such line, to a pipe, the events alone. */
+static motus_status put(sweep_events *f, const char *text, size_t length, size_t events, motus_error *err)
+{
+    size_t written;
+    int code = 0;
+    if (!f->regular) {
+        code = sweep_file_bytes(f->descriptor, text, events, &written);
+    } else {
+        code = write_at(f, f->bytes + 1, text + 1, length - 1);
+        if (!code) code = synchronise(f);
+        if (code && ftruncate(f->descriptor, (off_t)f->bytes + 1) != 0) code = errno;
+        if (!code) code = write_at(f, f->bytes, text, 1);
+        if (!code) code = synchronise(f);
+    }
     if (code) return cannot_write(f, code, err);
-    f->bytes += length;
+    f->bytes += events;
+    return MOTUS_OK;
+}
+
+/* The line behind the events of this many trajectories. Returns its length. */
+static size_t last_line(uint64_t trajectories, char out[SWEEP_EVENTS_LAST])
+{
+    return (size_t)snprintf(out, SWEEP_EVENTS_LAST, SWEEP_EVENTS_END, trajectories);
+}
+
+static motus_status put_head(sweep_events *f, const char *text, size_t length, motus_error *err)
+{
+    char line[SWEEP_EVENTS_LAST];
+    const size_t last = last_line(0, line);
+    size_t written;
+    int code = f->regular && (ftruncate(f->descriptor, 0) != 0 || lseek(f->descriptor, 0, SEEK_SET) < 0) ? errno : 0;
+    if (!code) code = sweep_file_bytes(f->descriptor, text, length, &written);
+    if (!code && f->regular) code = sweep_file_bytes(f->descriptor, line, last, &written);
+    if (code) return cannot_write(f, code, err);
+    f->bytes = length;
     return MOTUS_OK;
 }
 
@@ -108,10 +152,45 @@ static bool same_head(const char *ours, const char *theirs)
     return a && b && strncmp(theirs, "# motus sweep ", 14) == 0 && strncmp(a, b, strlen(a)) == 0;
 }
 
-/* Sets f->bytes behind the complete rows of the first `rows` trajectories; 0: not even the head is complete. */
+static motus_status shortened(const sweep_events *f, uint64_t rows, motus_error *err)
+{
+    fail(err, MOTUS_STATE, "%s does not have all events of the %" PRIu64 " trajectories in %s", f->path, rows,
+         f->sweep->options->output);
+    hint(err, "put back the file as the sweep left it, or compute both anew: --force in place of --resume");
+    return MOTUS_STATE;
+}
+
+/* Behind the head: sets f->bytes behind the complete rows of the first `rows` trajectories. Whether they are all there
+ * is known where their events have an end: a later trajectory's, or the last line. */
+static motus_status find_rows(sweep_events *f, uint64_t rows, FILE *in, motus_error *err)
+{
+    static const char end[] = SWEEP_EVENTS_WORDS;
+    const uint64_t behind = shard_trajectory(&f->sweep->shard, rows); /* the first trajectory without a row */
+    char *line = NULL;
+    size_t room = 0;
+    ssize_t length;
+    uint64_t number;
+    bool all = rows == 0;
+    while ((length = getline(&line, &room, in)) > 0) {
+        if (line[0] == '#') { /* where it was being written over, its number may be none */
+            const bool told = strncmp(line, end, sizeof end - 1) == 0 && line[length - 1] == '\n' &&
+                              decimal_read_whole(line + sizeof end - 1, (size_t)length - sizeof end + 1, &number);
+            all = !told || number >= rows;
+            break;
+        }
+        const size_t digits = decimal_read_whole(line, (size_t)length, &number);
+        if (!digits || line[digits] != ',' || line[length - 1] != '\n') break;
+        all = all || number >= behind;
+        if (number >= behind) break;
+        f->bytes += (uint64_t)length;
+    }
+    free(line);
+    return all ? MOTUS_OK : shortened(f, rows, err);
+}
+
+/* Sets f->bytes behind the events of the first `rows` trajectories; 0: not even the head is complete. */
 static motus_status find_end(sweep_events *f, const memory *ours, uint64_t rows, FILE *in, motus_error *err)
 {
-    const uint64_t behind = shard_trajectory(&f->sweep->shard, rows); /* the first trajectory without a row */
     char *line = NULL;
     size_t room = 0;
     ssize_t length;
@@ -120,16 +199,11 @@ static motus_status find_end(sweep_events *f, const memory *ours, uint64_t rows,
     for (int k = 0; !status && k < 3 && (length = getline(&line, &room, in)) > 0; k++)
         status = file_write(&theirs.file, line, (size_t)length, err);
     status = memory_close(&theirs, status, err);
+    free(line);
     const bool begun = !status && rows == 0 && strncmp(ours->text, theirs.text, theirs.length) == 0;
     f->bytes = begun && theirs.length < ours->length ? 0 : theirs.length;
     if (!status && f->bytes && !same_head(ours->text, theirs.text)) status = another(f, err);
-    while (!status && f->bytes && (length = getline(&line, &room, in)) > 0) {
-        uint64_t number;
-        const size_t digits = decimal_read_whole(line, (size_t)length, &number);
-        if (!digits || line[digits] != ',' || line[length - 1] != '\n' || number >= behind) break;
-        f->bytes += (uint64_t)length;
-    }
-    free(line);
+    if (!status && (f->bytes || rows > 0)) status = find_rows(f, rows, in, err);
     free(theirs.text);
     return status;
 }
@@ -141,9 +215,13 @@ static motus_status go_on(sweep_events *f, const memory *ours, uint64_t rows, mo
     const motus_status status = find_end(f, ours, rows, in, err);
     fclose(in);
     if (status) return status;
-    if (ftruncate(f->descriptor, (off_t)f->bytes) != 0 || lseek(f->descriptor, (off_t)f->bytes, SEEK_SET) < 0)
-        return cannot_write(f, errno, err);
-    return f->bytes ? MOTUS_OK : put(f, ours->text, ours->length, err);
+    if (!f->bytes) return put_head(f, ours->text, ours->length, err);
+    char line[SWEEP_EVENTS_LAST];
+    const size_t last = last_line(rows, line);
+    const int code = write_at(f, f->bytes, line, last);
+    if (code || ftruncate(f->descriptor, (off_t)(f->bytes + last)) != 0)
+        return cannot_write(f, code ? code : errno, err);
+    return MOTUS_OK;
 }
 
 motus_status sweep_events_verify(const sweep *s, motus_error *err)
@@ -175,8 +253,7 @@ motus_status sweep_events_open(sweep_events *f, const sweep *s, uint64_t rows, m
     if (!status && s->options->resume && f->regular) {
         status = go_on(f, &ours, rows, err);
     } else if (!status) {
-        if (f->regular && ftruncate(f->descriptor, 0) != 0) status = cannot_write(f, errno, err);
-        if (!status) status = put(f, ours.text, ours.length, err);
+        status = put_head(f, ours.text, ours.length, err);
     }
     free(ours.text);
     return status;
@@ -206,24 +283,24 @@ motus_status sweep_events_rows(sweep_events *f, uint64_t first, size_t count, mo
 {
     if (!f->path) return MOTUS_OK;
     memory m;
+    char line[SWEEP_EVENTS_LAST];
+    const size_t last = last_line(first + count, line);
     motus_status status = memory_open(&m, err);
     for (size_t k = 0; !status && k < count; k++) status = put_table(f, &m.file, first, k, err);
+    if (!status) status = file_write(&m.file, line, last, err);
     status = memory_close(&m, status, err);
-    if (!status) status = put(f, m.text, m.length, err);
+    if (!status) status = put(f, m.text, m.length, m.length - last, err);
     free(m.text);
-    /* before the rows of these trajectories; what a file system cannot synchronise is left to it */
-    if (!status && f->regular && fdatasync(f->descriptor) != 0 && (errno == EIO || errno == ENOSPC || errno == EDQUOT))
-        status = cannot_write(f, errno, err);
     return status;
 }
 
 motus_status sweep_events_finish(sweep_events *f, motus_error *err)
 {
     const int descriptor = f->descriptor;
-    if (f->path && !shard_whole(&f->sweep->shard)) {
-        char part[SHARD_TEXT], line[sizeof SWEEP_EVENTS_END + SHARD_TEXT];
-        const int length = snprintf(line, sizeof line, SWEEP_EVENTS_END, shard_text(&f->sweep->shard, part));
-        const motus_status status = put(f, line, (size_t)length, err);
+    if (f->path && !f->regular) {
+        char line[SWEEP_EVENTS_LAST];
+        const size_t last = last_line(f->sweep->rows, line);
+        const motus_status status = put(f, line, last, last, err);
         if (status) return status;
     }
     f->descriptor = -1;

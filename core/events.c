@@ -136,6 +136,15 @@ static motus_status check_clocks(const events *e, motus_error *err)
         hint(err, "its period is a positive number that changes the time");
         return MOTUS_ARGUMENT;
     }
+    for (size_t k = 0; k < e->rules.count; k++) {
+        const rule *r = &e->rules.rule[k];
+        const double ticks = r->kind == RULE_CLOCK ? fabs(e->until - e->start) / r->period : 0;
+        if (!(ticks > EVENTS_ROWS_MOST)) continue;
+        fail(err, MOTUS_LIMIT, "%s happens every %g, which is %.2g times in this run; at most %d fit", r->name,
+             r->period, ticks, EVENTS_ROWS_MOST);
+        hint(err, "take a longer period, or let the run end before");
+        return MOTUS_LIMIT;
+    }
     return MOTUS_OK;
 }
 
@@ -171,6 +180,7 @@ motus_status events_begin(events *e, stepper *s, double until, motus_error *err)
     e->until = until;
     e->way = until < e->start ? -1 : 1;
     e->steps = 0;
+    e->broken = false;
     e->first = true;
     e->end = EVENTS_END_NONE;
     e->at_once = NAN;
@@ -272,6 +282,15 @@ static bool comes_back(events *e, const candidate *c)
     return true;
 }
 
+/* Where the caller cancels among many events of one step, it ends at `here`; the next step finds what comes after. */
+static bool cancelled(events *e)
+{
+    enum { LOOK = 16 }; /* events between two questions */
+    if (e->asks && ++e->asked % LOOK == 0) e->cancelled = e->asks(e->asks_ctx) != 0;
+    if (e->cancelled) events_stand(e);
+    return e->cancelled;
+}
+
 /* A candidate of the present step that has been located. */
 static motus_status follow(events *e, stepper *s, candidate *c, bool *assigned, stepper_stop *why, motus_error *err)
 {
@@ -288,6 +307,7 @@ static motus_status follow(events *e, stepper *s, candidate *c, bool *assigned, 
     }
     const bool ends = !status && e->has_limit && (!e->limit_told || (back && !*assigned));
     if (ends) e->end = EVENTS_END_ACCUMULATED, e->end_rule = e->limit.rule;
+    if (e->end == EVENTS_END_NONE && !status && !*assigned) *assigned = cancelled(e);
     if (status || e->end == EVENTS_END_NONE) return status;
     *why = STOP_EVENT;
     if (!keep_past(e, e->here.t)) return events_no_memory(err); /* what lies before the end is sampled */
@@ -295,7 +315,8 @@ static motus_status follow(events *e, stepper *s, candidate *c, bool *assigned, 
     return restart(e, s, stepper_step(s), err);
 }
 
-/* Does what happens in the step from `left` to `right`. *assigned: it ended at `here`, which an action changed. */
+/* Does what happens in the step from `left` to `right`. *assigned: it ended at `here`, which an action changed, or at
+ * which it was cancelled. */
 static motus_status go_through(events *e, stepper *s, bool *assigned, stepper_stop *why, motus_error *err)
 {
     candidate *c;
@@ -409,23 +430,23 @@ static motus_status adaptive_step(events *e, stepper *s, double until, stepper_s
     return status;
 }
 
-/* Of rows of fixed step: to the next time of the grid, by the short steps that lead to actions, and from them on. */
+/* Of rows of fixed step: to the next time of the grid, by the short steps that lead to actions, and from them on.
+ * Cancelled within such a step, it is `broken`. */
 static motus_status grid_step(events *e, stepper *s, double until, stepper_stop *why, motus_error *err)
 {
     const double number = (double)(e->steps + 1), grid = e->grid_start + number * e->grid_step;
     const bool last = e->way * (until - grid) <= 8 * events_ulp(until);
     const double end = last ? until : grid;
-    bool broken = false;
     /* a run to a later end takes another step here, or what happens at the end of this one is told by the next */
-    if (last && e->may_save && !events_save_here(e, s)) return events_no_memory(err);
+    if (last && e->may_save && !e->broken && !events_save_here(e, s)) return events_no_memory(err);
     for (;;) {
         bool assigned = false;
-        motus_status status = piece(e, s, broken ? end : until, &assigned, why, err);
+        motus_status status = piece(e, s, e->broken ? end : until, &assigned, why, err);
         if (status || *why == STOP_EVENT) return status;
         const double left = assigned ? (end - e->here.t) - e->here.lost : (end - e->right.t) - e->right.lost;
         const bool near = fabs(left) <= 8 * events_ulp(end);
-        if (!broken && !assigned && near) break; /* the usual step */
-        broken = true;
+        if (!e->broken && !assigned && near) break; /* the usual step */
+        e->broken = !near;
         const instant *now = assigned ? &e->here : &e->right;
         if (!keep_past(e, now->t)) return events_no_memory(err);
         events_copy(e, &e->left, now);
@@ -433,6 +454,7 @@ static motus_status grid_step(events *e, stepper *s, double until, stepper_stop 
         status = jump(e, s, &e->left, near ? e->grid_step : left, err);
         if (!status && near && last) status = stepper_advance(s, (stepper_limit){0, e->left.t}, why, err);
         if (status || near) return status;
+        if (e->cancelled) return MOTUS_CANCELLED;
     }
     events_copy(e, &e->left, &e->right);
     return MOTUS_OK;
@@ -442,11 +464,13 @@ motus_status events_step(events *e, stepper *s, double until, stepper_stop *why,
 {
     *why = STOP_STEPS;
     e->until = until;
+    e->cancelled = false;
     e->pasts = 0;
     events_kept_forget(e);
     motus_status status =
         row_adaptive(&e->method) ? adaptive_step(e, s, until, why, err) : grid_step(e, s, until, why, err);
     if (!status) e->steps++;
+    if (!status && e->cancelled) status = MOTUS_CANCELLED;
     if (status) *why = STOP_FAILED;
     return status;
 }
@@ -485,7 +509,16 @@ void events_turn(events *e, const stepper *s)
     e->grid_start = stepper_time(s);
     e->grid_step = stepper_step(s);
     e->steps = 0;
+    e->broken = false;
 }
+
+void events_listen(events *e, int (*asks)(const void *ctx), const void *ctx)
+{
+    e->asks = asks;
+    e->asks_ctx = ctx;
+}
+
+bool events_partway(const events *e) { return e->broken && !e->saved; }
 
 double events_latest(const events *e) { return e->at_once; }
 int64_t events_acted(const events *e) { return e->acted; }

@@ -59,6 +59,12 @@ void events_forget(events *);
  * rule ended the run, or events accumulated. */
 motus_status events_step(events *, stepper *, double until, stepper_stop *why, motus_error *);
 
+/* Where a step has many events, `asks` is asked on the way; other than 0: the step ends at the latest of them, and the
+ * call with MOTUS_CANCELLED, without a message. It is asked for as long as it is not replaced; NULL: nobody cancels. */
+void events_listen(events *, int (*asks)(const void *ctx), const void *ctx);
+/* A fixed step has been cancelled on its way, and cannot be saved before another step has led to its end. */
+bool events_partway(const events *);
+
 /* After every action `jog` moves the numbers of the state, x and then v, by about their rounding; salt: of the event.
  * `switched`: no action has computed them, a switch of the force has let the motion go on. So a companion meets other
  * roundings at events than the run. */

@@ -304,6 +304,7 @@ static motus_status too_many(const events *e, size_t f, motus_error *err)
 /* The parts of the step one after the other, halved as long as a function is not resolved. */
 static motus_status find_in_parts(events *e, stepper *s, size_t f, int *sign, motus_error *err)
 {
+    const size_t before = e->candidates; /* of other functions */
     part waiting[PARTS_DEEP + 2] = {{0.5, 1, 1}, {0, 0.5, 1}};
     double value[PART_DEGREE + 1];
     motus_status status = MOTUS_OK;
@@ -313,7 +314,7 @@ static motus_status find_in_parts(events *e, stepper *s, size_t f, int *sign, mo
         bool rough;
         status = sample_part(e, s, f, &now, value, err);
         if (!status) status = search_part(e, f, &now, value, 1, PART_DEGREE, sign, &rough, err);
-        if (!status && e->candidates > EVENTS_IN_STEP) return too_many(e, f, err);
+        if (!status && e->candidates - before > EVENTS_IN_STEP) return too_many(e, f, err);
         if (status || !rough) continue;
         if (now.depth == PARTS_DEEP) return too_fast(e, f, &now, err);
         waiting[count++] = (part){middle, now.to, now.depth + 1};

@@ -64,6 +64,18 @@ static motus_status not_finite(const events *e, size_t k, bool in_v, size_t whic
     return MOTUS_DIVERGED;
 }
 
+/* The action of an event, on the state at `here`. */
+static motus_status change(events *e, size_t k, size_t i, motus_error *err)
+{
+    instant *at = &e->here;
+    bool in_v = false;
+    size_t which = SIZE_MAX;
+    const int answer = e->rules.act(e->rules.ctx, k, i, at->t, at->x, at->v, &in_v, &which);
+    if (!answer) return MOTUS_OK;
+    return which == SIZE_MAX ? events_refuse(e, "event_action", at->t, answer, err)
+                             : not_finite(e, k, in_v, which, err);
+}
+
 /* After an action a condition that no longer holds may become true again: later, or in the same instant where it is
  * false at the instant itself. */
 static void release(events *e)
@@ -134,8 +146,6 @@ static motus_status turn(events *e, size_t k, size_t i, motus_error *err)
 static motus_status act(events *e, size_t k, size_t i, motus_error *err)
 {
     instant *at = &e->here;
-    bool in_v = false;
-    size_t which = 0;
     if (e->rules.rule[k].internal) return turn(e, k, i, err);
     if (e->at_once != at->t) {
         if (!isnan(e->at_once)) e->interval = fabs(at->t - e->at_once);
@@ -146,27 +156,37 @@ static motus_status act(events *e, size_t k, size_t i, motus_error *err)
     if (++e->actions > EVENTS_AT_ONCE) return too_many(e, k, i, err);
     const size_t n = e->rules.functions;
     if (n) memcpy(e->before, at->g, n * sizeof *at->g);
-    if (e->rules.act(e->rules.ctx, k, i, at->t, at->x, at->v, &in_v, &which)) return not_finite(e, k, in_v, which, err);
+    motus_status status = change(e, k, i, err);
+    if (status) return status;
     jog(e, e->acted, false);
-    const motus_status status =
-        e->rules.settle ? e->rules.settle(e->rules.ctx, e->way, at->t, at->x, at->v, err) : MOTUS_OK;
+    if (e->rules.settle) status = e->rules.settle(e->rules.ctx, e->way, at->t, at->x, at->v, err);
     return status ? status : look_again(e, k, i, err);
 }
 
 static motus_status no_room(motus_error *err) { return fail(err, MOTUS_MEMORY, "no memory for the table of events"); }
+
+static motus_status table_full(const events *e, size_t k, motus_error *err)
+{
+    char t[DECIMAL_MAX];
+    const char *const name = e->rules.rule[k].name;
+    fail(err, MOTUS_LIMIT, "the table of events is full at t = %s: it has %d rows, and %s has one more",
+         decimal_time(e->here.t, e->until - e->start, t), EVENTS_ROWS_MOST, name);
+    hint(err, "record fewer events, or let the run end before");
+    if (err) err->time = e->here.t, snprintf(err->variable, sizeof err->variable, "%s", name);
+    return MOTUS_LIMIT;
+}
 
 /* An event of a rule. */
 static motus_status happen(events *e, size_t k, size_t i, bool touched, bool *assigned, motus_error *err)
 {
     const rule *r = &e->rules.rule[k];
     e->count[k]++;
+    if (r->records && e->rows >= EVENTS_ROWS_MOST) return table_full(e, k, err);
     if (r->records && !events_note(e, k, i, touched, &e->here)) return no_room(err);
     if ((r->keeps || r->assigns) && !events_note_jump(e, r, &e->here, false)) return no_room(err);
     if (r->keeps && !r->assigns) {
-        bool in_v = false;
-        size_t which = 0;
-        if (e->rules.act(e->rules.ctx, k, i, e->here.t, e->here.x, e->here.v, &in_v, &which))
-            return not_finite(e, k, in_v, which, err);
+        const motus_status status = change(e, k, i, err);
+        if (status) return status;
         if (!events_keep_now(e, e->here.t, e->here.x)) return no_room(err);
     }
     if (r->assigns) {
@@ -300,9 +320,8 @@ static bool moves(const events *e, size_t f)
     return fabs(e->here.rate[f]) > 0x1p-44 * most;
 }
 
-/* The sides and roots with which the motion goes on after an action. Where that let a function jump over 0, it did not
- * pass 0. */
-static void stand(events *e)
+/* Where an action let a function jump over 0, it did not pass 0. */
+void events_stand(events *e)
 {
     for (size_t f = 0; f < e->rules.functions; f++) {
         e->stands[f] = e->zero[f];
@@ -327,6 +346,6 @@ motus_status events_fire(events *e, const candidate *c, bool *assigned, motus_er
         again = false;
         for (size_t k = 0; k < e->rules.count && !status; k++) status = ask(e, k, c, assigned, &again, err);
     }
-    if (*assigned && !status) stand(e);
+    if (*assigned && !status) events_stand(e);
     return status;
 }

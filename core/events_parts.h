@@ -54,9 +54,14 @@ struct events {
     stepper *probe;
     double start, until, way; /* way: 1 forward, -1 backward */
     double grid_start, grid_step;
-    int64_t steps; /* of the leg */
-    bool first;    /* no step has been taken since the start */
-    bool marked;   /* the bounds at both ends of the step are known */
+    int64_t steps;                /* of the leg */
+    bool broken;                  /* of fixed steps: `left` lies within one, which ends at the next time of the grid */
+    int (*asks)(const void *ctx); /* events_listen; NULL: nobody cancels */
+    const void *asks_ctx;
+    int64_t asked;  /* how often it might have been */
+    bool cancelled; /* the present step */
+    bool first;     /* no step has been taken since the start */
+    bool marked;    /* the bounds at both ends of the step are known */
     events_end end;
     size_t end_rule;
 
@@ -132,6 +137,8 @@ motus_status events_judge(events *, instant *, motus_error *);
 /* The bounds alone, of an instant whose values are known. */
 motus_status events_bounds(events *, instant *, motus_error *);
 motus_status events_values(events *, instant *, motus_error *);
+/* MOTUS_CALLBACK: the callback for `which` returned `answer` at time t. */
+motus_status events_refuse(const events *, const char *which, double t, int answer, motus_error *);
 /* A step of size h from the state of time `from` + `lost`; the end is at *t + *rest. */
 motus_status events_probe(events *, double from, double lost, const double *x, const double *v, double h, double *t,
                           double *rest, motus_error *);
@@ -154,6 +161,8 @@ bool events_next_tick(const events *, size_t rule, candidate *);
 
 /* events_fire.c. All that happens at `here`, to which the candidate leads. */
 motus_status events_fire(events *, const candidate *, bool *assigned, motus_error *);
+/* The sides and roots with which the motion goes on from `here`, where the step ends. */
+void events_stand(events *);
 /* The truth of conditions from the sides, without events. */
 void events_suppose(events *);
 

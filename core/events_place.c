@@ -10,19 +10,21 @@ double events_ulp(double t)
     return nextafter(t, INFINITY) - t;
 }
 
-static motus_status refuse(const events *e, double t, motus_error *err)
+motus_status events_refuse(const events *e, const char *which, double t, int answer, motus_error *err)
 {
     char text[DECIMAL_MAX];
-    if (err) err->time = t;
-    return fail(err, MOTUS_CALLBACK, "the event functions cannot be evaluated at t = %s",
-                decimal_time(t, e->until - e->start, text));
+    fail(err, MOTUS_CALLBACK, "the %s callback reported a failure at t = %s", which,
+         decimal_time(t, e->until - e->start, text));
+    if (err) err->time = t, err->returned = answer;
+    return MOTUS_CALLBACK;
 }
 
 motus_status events_values(events *e, instant *at, motus_error *err)
 {
     at->valued = true;
     if (e->rules.functions == 0) return MOTUS_OK;
-    return e->rules.values(e->rules.ctx, at->t, at->x, at->v, at->g) ? refuse(e, at->t, err) : MOTUS_OK;
+    const int answer = e->rules.values(e->rules.ctx, at->t, at->x, at->v, at->g);
+    return answer ? events_refuse(e, "event_functions", at->t, answer, err) : MOTUS_OK;
 }
 
 /* The values a time h later, by Taylor's formula, into `next`. */
@@ -76,12 +78,15 @@ motus_status events_judge(events *e, instant *at, motus_error *err)
 {
     const problem *p = &e->problem;
     memset(at->a, 0, p->nv * sizeof *at->a);
-    if (p->accel(p->ctx, at->t, at->x, at->v, at->a)) return refuse(e, at->t, err);
+    if (p->accel(p->ctx, at->t, at->x, at->v, at->a))
+        return events_refuse(e, "acceleration", at->t, p->returned ? *p->returned : 0, err);
     if (e->rules.functions == 0) return MOTUS_OK;
     motus_status status = events_bounds(e, at, err);
     if (status) return status;
-    if (e->rules.rates)
-        return e->rules.rates(e->rules.ctx, at->t, at->x, at->v, at->a, at->rate) ? refuse(e, at->t, err) : MOTUS_OK;
+    if (e->rules.rates) {
+        const int answer = e->rules.rates(e->rules.ctx, at->t, at->x, at->v, at->a, at->rate);
+        return answer ? events_refuse(e, "event_functions", at->t, answer, err) : MOTUS_OK;
+    }
     const double h = e->way * fmax(0x1p-16 * fabs(e->span), 64 * events_ulp(at->t));
     status = values_after(e, at, -h, err);
     if (!status) memcpy(at->rate, e->next.g, e->rules.functions * sizeof *at->rate);

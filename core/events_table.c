@@ -22,8 +22,7 @@ static bool grow_rows(events *e)
 {
     size_t room = e->row_room, also = e->row_room;
     void *row = e->row, *at = e->row_at;
-    if (e->rows >= EVENTS_ROWS_MOST || !events_grow(&e->allocator, &row, e->rows, &room, 1, sizeof *e->row))
-        return false;
+    if (!events_grow(&e->allocator, &row, e->rows, &room, 1, sizeof *e->row)) return false;
     e->row = row;
     if (!events_grow(&e->allocator, &at, e->rows, &also, 1, sizeof *e->row_at)) return false;
     e->row_at = at;

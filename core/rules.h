@@ -81,8 +81,8 @@ typedef struct rules {
     void (*least)(void *ctx, double *x, double *v, double *dx, double *dv, double *out);
     void (*least_rates)(void *ctx, double *x, double *v, double *dx, double *dv,
                         double *out); /* the same of the rates */
-    /* What the rule does to x and v, as if at once; other than 0: the caller's own function failed, or a value was not
-     * finite and `which` of `in_v` says where. */
+    /* What the rule does to x and v, as if at once. Other than 0: a value was not finite, and `which` of `in_v` says
+     * where; or, with `which` unchanged, the caller's own function returned it. */
     int (*act)(void *ctx, size_t rule, size_t instance, double t, double *x, double *v, bool *in_v, size_t *which);
     /* Where there are internal rules. What one does: the side on which the motion goes on along `way`, 1 forward or -1
      * backward; and the sides of a state that did not come by motion, as at the start and after another rule acted. */

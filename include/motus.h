@@ -118,7 +118,7 @@ MOTUS_API int motus_status_exit(motus_status);         /* 0, 1 or 2 */
     X(NONE, "")                       /* not known: time, variable and step are all that can be said */        \
     X(SINGULAR, "singular")           /* the force has no finite value at a time that the motion approaches */ \
     X(STIFF, "stiff")                 /* stability, not accuracy, bounds the steps */                          \
-    X(DISCONTINUOUS, "discontinuous") /* the force jumps, and no step ends on the jump */                      \
+    X(DISCONTINUOUS, "discontinuous") /* the force jumps; no step ends there, or no motion goes on */          \
     X(EVENTS, "events")               /* events without end in one instant or in a short time */               \
     X(SOLVER, "newton")               /* the iteration for an implicit equation does not converge */           \
     X(ROUNDING, "rounding")           /* the tolerance asks for less than rounding leaves */                   \
@@ -697,11 +697,11 @@ typedef struct motus_run_def {
 
 /* The definition may be NULL: then everything is the model's. MOTUS_METHOD: there is no such method, it does not admit
  * the force or the start, or it cannot take the shorter last step. MOTUS_ARGUMENT: a callback has no step or no end, a
- * number is not finite or out of its range, or there is no such machine. MOTUS_LIMIT: more than 1e15 steps, or implicit
- * equations too large to solve. MOTUS_TOOL: "compiled" is asked for and not available. MOTUS_CALLBACK: the callback
- * `exact` returned other than 0, where the method is exact; or one returned other than 0 in a pilot or trial run. With
- * an accuracy or "auto" the call integrates, may fail as motus_run_finish does, and calls `progress`; else it does not
- * evaluate the acceleration of a callback. */
+ * number is not finite or out of its range, or there is no such machine. MOTUS_LIMIT: more than 1e15 steps, more than
+ * 2^26 events by a clock, or implicit equations too large to solve. MOTUS_TOOL: "compiled" is asked for and not
+ * available. MOTUS_CALLBACK: the callback `exact` returned other than 0, where the method is exact; or one returned
+ * other than 0 in a pilot or trial run. With an accuracy or "auto" the call integrates, may fail as motus_run_finish
+ * does, and calls `progress`; else it does not evaluate the acceleration of a callback. */
 MOTUS_API motus_status motus_run_create(motus_system *, const motus_run_def *, motus_run **, motus_error *);
 MOTUS_API void motus_run_destroy(motus_run *);
 
@@ -710,8 +710,9 @@ MOTUS_API void motus_run_destroy(motus_run *);
  * a number is no longer finite. MOTUS_SOLVE: an implicit equation could not be solved. MOTUS_STEPS: the run is not at
  * its end after `most_steps` steps, or its force jumps and its steps have shrunk so far that they will not lead there,
  * as with friction that sticks. MOTUS_CALLBACK: a callback returned other than 0. MOTUS_CANCELLED: `progress` or
- * `observer` returned other than 0. MOTUS_ARGUMENT: n < 0, or an observer called it. After a failure the run stands at
- * its last good step, and you may observe it, save it and step again. */
+ * `observer` returned other than 0. MOTUS_LIMIT: the table of events is full, at 2^26 rows. MOTUS_ARGUMENT: n < 0,
+ * or an observer called it. After a failure the run stands at its last good step, cancelled among the events of a step
+ * at the latest of them, and you may observe it, save it and step again. */
 MOTUS_API motus_status motus_run_step(motus_run *, int64_t n, motus_error *);
 /* Takes all steps up to `until`. Fails as motus_run_step does. */
 MOTUS_API motus_status motus_run_finish(motus_run *, motus_error *);
@@ -908,7 +909,8 @@ MOTUS_API motus_status motus_run_estimate(motus_run *, motus_estimate *, motus_e
  * table so far, and of fixed steps at the end of the run the state before the last step. Where both runs tell errors,
  * the text has those up to it, for which the companion is compared once more, and the bars of the second run cover the
  * errors from the very start; a second companion (MOTUS_BARS_FULL) goes on where steps adapt or the run has not ended
- * in a shorter step. Saving fails as motus_run_errors does. MOTUS_STATE: the text is damaged, belongs to another
+ * in a shorter step. Saving fails as motus_run_errors does. MOTUS_UNAVAILABLE: the run was cancelled within a step of
+ * fixed size, among its events; one step more leads to its end. MOTUS_STATE: the text is damaged, belongs to another
  * system, method, step or start, or is beyond the end. MOTUS_ARGUMENT: an observer called motus_run_restore. After a
  * failure the run is unchanged. */
 MOTUS_API motus_status motus_run_save(motus_run *, const char **text, size_t *length, motus_error *);

@@ -105,11 +105,9 @@ size_t held_count(const held *h) { return h->switches.count; }
 size_t held_touches(const held *h) { return h->switches.touches; }
 operation held_operation(const held *h, size_t k) { return (operation)h->switches.op[k]; }
 
-void held_name(const held *h, size_t k, char *out, size_t size)
+void held_surface(const held *h, size_t k, char *out, size_t size)
 {
-    size_t kind = 0;
-    while (kind + 1 < h->switches.kinds && h->switches.first[kind + 1] <= k) kind++;
-    model_print(h->model, h->switches.argument[kind].value, out, size);
+    switches_surface(h->model, h->switches.original[switches_kind(&h->switches, k)], out, size);
 }
 
 bool held_bind(held *h, const double *sides, bool fresh)

@@ -17,8 +17,8 @@ motus_status held_create(model *, held **out, const char **refused, motus_error 
 const problem *held_problem(const held *);
 size_t held_count(const held *); /* switches */
 operation held_operation(const held *, size_t k);
-/* Text of the argument of switch k, in the language. */
-void held_name(const held *, size_t k, char *out, size_t size);
+/* Where switch k changes its side, as switches_surface tells it. */
+void held_surface(const held *, size_t k, char *out, size_t size);
 
 size_t held_touches(const held *); /* see switches.h */
 

@@ -142,16 +142,9 @@ static int act(void *ctx, size_t rule, size_t instance, double t, double *x, dou
 
 /* ---- sides ---- */
 
-static size_t kind_of(const sides *s, size_t k)
-{
-    size_t kind = 0;
-    while (kind + 1 < s->switches->kinds && s->switches->first[kind + 1] <= k) kind++;
-    return kind;
-}
-
 static void print(const sides *s, size_t k, char *out, size_t size)
 {
-    model_print(s->model, s->switches->argument[kind_of(s, k)].value, out, size);
+    switches_surface(s->model, s->switches->original[switches_kind(s->switches, k)], out, size);
 }
 
 static void name(void *ctx, size_t number, size_t instance, char *out, size_t size)
@@ -163,13 +156,15 @@ static void name(void *ctx, size_t number, size_t instance, char *out, size_t si
         print(s, s->switches->first[number - s->own.count] + instance, out, size);
 }
 
+/* The force leads no motion on from where a switch changes its side. */
 static motus_status refuse(const sides *s, size_t k, const char *what, double t, motus_error *err)
 {
     char text[120], at[DECIMAL_MAX];
     print(s, k, text, sizeof text);
-    if (err) err->time = t;
-    return fail(err, MOTUS_SOLVE, "%s where %s = %s, at t = %s", what, text,
-                switches_counts(op_of(s, k)) ? "a whole number" : "0", decimal(t, at));
+    fail(err, MOTUS_SOLVE, "%s where %s, at t = %s", what, text, decimal(t, at));
+    hint(err, "let the run end before; or smooth the jump, tanh(x'/0.001) for sign(x')");
+    if (err) err->time = t, err->cause = MOTUS_CAUSE_DISCONTINUOUS;
+    return MOTUS_SOLVE;
 }
 
 static motus_status accelerate(sides *s, double t, double *x, double *v, motus_error *err)
@@ -177,7 +172,9 @@ static motus_status accelerate(sides *s, double t, double *x, double *v, motus_e
     char at[DECIMAL_MAX];
     memset(s->a, 0, s->problem->nv * sizeof *s->a);
     if (!s->problem->accel(s->problem->ctx, t, x, v, s->a)) return MOTUS_OK;
-    return fail(err, MOTUS_CALLBACK, "the acceleration cannot be evaluated at t = %s", decimal(t, at));
+    fail(err, MOTUS_CALLBACK, "the acceleration cannot be evaluated at t = %s", decimal(t, at));
+    if (err) err->time = t;
+    return MOTUS_CALLBACK;
 }
 
 /* The rate of argument k along the run, with its switch on a side. */
@@ -222,7 +219,7 @@ static motus_status hold(sides *s, size_t k, double above, double below, double 
     const size_t count = s->switches->count, nv = s->problem->nv;
     double *side = x + s->switches->slot, middle;
     char why[160];
-    if (s->switches->slides[kind_of(s, k)] != SLIDES_HELD) return refuse(s, k, slides, t, err);
+    if (s->switches->slides[switches_kind(s->switches, k)] != SLIDES_HELD) return refuse(s, k, slides, t, err);
     motus_status status = rate_on(s, k, 0, 1, t, x, v, &middle, err);
     if (status != MOTUS_OK) return status;
     if (fabs(middle - (above + below) / 2) > 0x1p-30 * (fabs(above) + fabs(below))) {
@@ -268,7 +265,7 @@ static motus_status hold(sides *s, size_t k, double above, double below, double 
  * holds the switch has just reached 1, so that one of the rates is 0 but for rounding of that value and of the time. */
 static double unsure(sides *s, size_t k, const double on[2], double t, double *x, double *v)
 {
-    if (!s->hold || s->switches->slides[kind_of(s, k)] != SLIDES_HELD) return 0;
+    if (!s->hold || s->switches->slides[switches_kind(s->switches, k)] != SLIDES_HELD) return 0;
     run(s, s->hold_rate, t, x, v, s->a, s->p);
     const double moved = fabs(s->p[k]) * (nextafter(fabs(t), INFINITY) - fabs(t));
     run(s, s->hold_rounding, t, x, v, NULL, s->dp);

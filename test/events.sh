@@ -80,6 +80,10 @@ END { printf "%d bounces, at most %.2f units off\n", seen, most; exit !(seen == 
 A
 that "100 bounces to 4 units in the last place" eval "rows '$place/events.csv' | sed 's/,/ /g' | awk -f '$place/near.awk' '$place/truth' -"
 
+"$motus" run "$ball" --events "$place/loud.csv" >"$out" 2>"$err"
+gives "the events of a quiet run" 0 "$motus" run "$ball" --events "$place/quiet.csv" --quiet
+that "... are the same, with the errors of their times" eval "diff <(rows '$place/loud.csv') <(rows '$place/quiet.csv') && head_of '$place/quiet.csv' | grep -q '^event,t,t.error,'"
+
 gives "the events as JSON" 0 "$motus" run "$ball" --error none --json
 that "... are JSON" json "$out"
 that "... all of them" holds '.events | length == 135'
@@ -112,6 +116,19 @@ that "... is called so" eval "grep -qE '^  top +(1|0\.9999999999[0-9]*) +1  touc
 that "... and only it" eval "[ \$(grep -c '  touched  *[01]' '$out') = 1 ]"
 gives "... in the CSV" 0 "$motus" run "$place/touch.motus" --error none --quiet --events -
 that "... too" eval "rows '$out' | cut -d, -f1,3,4 | tr '\n' ' ' | grep -q '^event2,1,0 top,1,1 event2,2,0 $'"
+
+cat >"$place/third.motus" <<'M'
+n = 0
+x'' = -x
+x(0) = 1
+x'(0) = 0
+when x = 0: n = n + 1
+when n == 3 as third: stop
+when x == 0 as zero: record
+until 100
+M
+gives "an event where a mode is equal to a number" 0 "$motus" run "$place/third.motus" --json
+that "... happens, at 5 pi/2" holds '.ended == "third" and (.events | length) == 3 and (.events[2].time - 7.853981633974483 | fabs) < 1e-12'
 
 # --- the stadium, as the comment of the billiard says it ------------------------------------------------------------------------------
 awk -v q="'" '/^#     n = /  { sub(/^# +/, ""); sub(/  +from .*/, ""); wall = $0; next }
@@ -187,7 +204,13 @@ if command -v gnuplot >/dev/null; then
     that "... in the plane of the other number" eval "grep -q '>y</tspan>\|>y<' '$place/section.svg' && grep -q \">y'<\" '$place/section.svg'"
     gives "a section in another plane" 0 "$motus" run $henon --method dop853 --until 100 --section "x = 0 rising" --error none --quiet --plot-of "t,x'" --plot "$place/plane.svg"
     that "... has its axes" eval "grep -q \">x'<\" '$place/plane.svg' && grep -q '>t<' '$place/plane.svg'"
+    gives "a section that fixes the velocity" 0 "$motus" run "$ball" --section "y' = 0 falling" --error none --quiet --plot "$place/tops.svg"
+    that "... is drawn against the time" eval "grep -q '>t<' '$place/tops.svg' && grep -q '>y<' '$place/tops.svg' && lacks \">y'<\" '$place/tops.svg'"
     refuses "a section without a plane" 2 "the model does not say in which plane to draw it" "$motus" run models/kepler.motus --section "r.x = 0" --plot "$place/none.svg"
+    refuses "a section that is cut off" 2 '--section "x =" is not what may stand before the colon of an event' "$motus" run $henon --section "x ="
+    refuses "a section that is no event" 2 "an event happens when a condition becomes true" "$motus" run $henon --section "x"
+    that "... is shown without what the program adds" lacks "as section" "$err"
+    refuses "a semicolon in an event" 2 "a comma joins what an event does" "$motus" run $henon --when "x = 0: y = 0; record"
     refuses "a section without a point" 2 "none is left to draw" "$motus" run $henon --method dop853 --until 10 --section "x = 0 rising" --skip 9 --error none --plot "$place/none.svg"
     that "... leaves no file" absent "$place/none.svg"
 fi
@@ -213,7 +236,7 @@ if command -v gnuplot >/dev/null; then
     refuses "two files of one name" 2 "is named for two outputs" "$motus" sweep "$turn" --vary "w=1,2" --section "every 1" --plot "$place/none.svg" -o "$place/none.svg"
 fi
 refuses "points of no section" 2 "--points needs --section" "$motus" run $henon --points 3
-refuses "an event in the text of a section" 2 "--section:1:" "$motus" run $henon --section "x = 0: record"
+refuses "an event in the text of a section" 2 "write an equation or a comparison alone" "$motus" run $henon --section "x = 0: record"
 refuses "a link with an event" 2 "--share and --when exclude each other" "$motus" run "$ball" --when "y = 1: record" --share
 
 # --- continued runs -----------------------------------------------------------------------------------------------------------------
@@ -277,6 +300,45 @@ for kept in 0 100 1000 2000; do # as an interruption leaves both files: the even
     that "... has the same rows" cmp "$place/rows.csv" "$place/again.csv"
     that "... and the same events" cmp "$place/flock.csv" "$place/flock2.csv"
 done
+that "the last line says of how many trajectories" eval "[ \"\$(tail -n 1 '$place/flock.csv')\" = '# end of the events of trajectories: 27' ]"
+# The file of events is shortened, and that of rows has all trajectories but three.
+sed '$d' "$place/rows.csv" | sed '$d' | sed '$d' >"$place/again-cut.csv"
+size=$(wc -c <"$place/flock.csv")
+shortened() {
+    local left rows
+    for left in "$@"; do # bytes
+        for rows in again-cut rows; do
+            cp "$place/$rows.csv" "$place/again.csv"
+            head -c "$left" "$place/flock.csv" >"$place/flock2.csv"
+            cp "$place/flock2.csv" "$place/kept.csv"
+            "$motus" sweep $flock -o "$place/again.csv" --events "$place/flock2.csv" --resume >"$out" 2>"$err"
+            [ $? = 2 ] && says "does not have all events of the" "$err" && says "compute both anew: --force" "$err" &&
+                cmp "$place/again.csv" "$place/$rows.csv" && cmp "$place/flock2.csv" "$place/kept.csv" || { echo "$left bytes, $rows"; return 1; }
+        done
+    done
+}
+grep -v '^#' "$place/flock.csv" | sed 1d | awk -F, '$1 < 24' >"$place/early.csv"
+whole=$(($(head -n 3 "$place/flock.csv" | wc -c) + $(wc -c <"$place/early.csv"))) # of the 24 trajectories
+that "events that are missing are refused, and both files stay" shortened 0 $((size / 3)) $((size / 2))
+that "... where a row is not whole, or the last trajectory is not" shortened $((whole - 10)) $((whole - $(tail -n 1 "$place/early.csv" | wc -c)))
+that "... where nothing tells that it is" shortened $whole
+rm -f "$place/flock2.csv"
+cp "$place/again-cut.csv" "$place/again.csv"
+refuses "... and a file that is gone" 2 "does not have all events of the 24 trajectories" "$motus" sweep $flock -o "$place/again.csv" --events "$place/flock2.csv" --resume
+# As a kill leaves the file while events are written over its last line: the # is the last byte that is written over.
+written_over() {
+    local behind
+    for behind in "" " end" $'4,hit,1.5\n24,top,2' $'\n25,hit,1.5\n'; do
+        cp "$place/again-cut.csv" "$place/again.csv"
+        { head -n 3 "$place/flock.csv"; cat "$place/early.csv"; printf '#%s' "$behind"; } >"$place/flock2.csv"
+        "$motus" sweep $flock -o "$place/again.csv" --events "$place/flock2.csv" --resume && cmp "$place/flock.csv" "$place/flock2.csv" && cmp "$place/rows.csv" "$place/again.csv" || { echo "with #$behind"; return 1; }
+    done
+}
+that "events that were being written over are continued" written_over
+{ head -n 3 "$place/flock.csv"; awk -F, '$1 < 20' "$place/early.csv"; echo "# end of the events of trajectories: 20"; } >"$place/flock2.csv"
+cp "$place/again-cut.csv" "$place/again.csv"
+refuses "an older table of events" 2 "does not have all events of the 24 trajectories" "$motus" sweep $flock -o "$place/again.csv" --events "$place/flock2.csv" --resume
+cp "$place/flock.csv" "$place/flock2.csv"
 gives "the events of a sweep with errors" 0 "$motus" sweep $flock --errors -o "$place/again.csv" --events "$place/errors.csv" --force
 that "... have errors of their times" eval "rows '$place/errors.csv' | awk -F, '!(\$4 > 0 && \$4 < 1e-2) { exit 1 } END { exit NR < 100 }'"
 that "... and else the same numbers" eval "diff <(rows '$place/errors.csv' | cut -d, -f1-3,5-) <(rows '$place/flock.csv')"

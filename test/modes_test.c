@@ -106,6 +106,14 @@ static int decimal_comma(char *folder)
     return 0;
 }
 
+/* Whether a number in a text has a decimal comma. */
+static int has_comma(const char *text)
+{
+    for (const char *c = strchr(text, ','); c; c = strchr(c + 1, ','))
+        if (c > text && strchr("0123456789", c[-1]) && c[1] && strchr("0123456789", c[1])) return 1;
+    return 0;
+}
+
 static void a_decimal_comma_changes_nothing(void **state)
 {
     (void)state;
@@ -141,7 +149,27 @@ static void a_decimal_comma_changes_nothing(void **state)
     motus_status refused = motus_compare(s, &study, &c, &err);
     motus_run_destroy(r);
     motus_system_destroy(s);
+    char passes[2 * MOTUS_TEXT_MAX], jumps[MOTUS_TEXT_MAX];
+    motus_error what = motus_default_error();
+    s = given_text("x'' = -x/(x^2 + 1e-6)^1.5\nx(0) = 1\nx'(0) = 0\nstep 0.01\nuntil 3\n");
+    const motus_status unresolved = motus_run_singular(s, NULL, &what);
+    snprintf(passes, sizeof passes, "%s %s", what.message, what.hint);
+    motus_system_destroy(s);
+    motus_run_def def = motus_default_run();
+    def.method = "dop853";
+    def.switches = MOTUS_SWITCHES_STEP;
+    def.until = 30;
+    s = given_text("x'' = -x - 0.5 sign(x')\nx(0) = 3\nx'(0) = 0\n");
+    must(motus_run_create(s, &def, &r, &what), &what, "run");
+    const motus_status stuck = motus_run_finish(r, &what);
+    snprintf(jumps, sizeof jumps, "%s", what.message);
+    motus_run_destroy(r);
+    motus_system_destroy(s);
     setlocale(LC_ALL, "C");
+    assert_int_equal(unresolved, MOTUS_UNRESOLVED);
+    assert_false(has_comma(passes));
+    assert_int_equal(stuck, MOTUS_STEPS);
+    if (!strstr(jumps, "jumps from") || has_comma(jumps)) fail_msg("%s", jumps);
     assert_true(other == plain && x == 0.5 && status == MOTUS_ARGUMENT);
     assert_string_equal(method, "newmark(0.25, 0.5)");
     assert_null(strchr(equation, ','));

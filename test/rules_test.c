@@ -672,6 +672,12 @@ static void in_words(void **state)
     assert_null(strstr(motus_explain_events(s), "bounce are equal"));
     assert_null(strstr(motus_explain_events(s), "the condition of"));
     motus_system_destroy(s);
+    const double period = 3;
+    s = given_text("T = 2\ny'' = 0\ny(0) = 0\ny'(0) = 1\nwhen every T as tick: record");
+    assert_non_null(strstr(motus_explain_events(s), "tick happens every 2, from"));
+    must(motus_system_set(s, "T", &period, 1, &err), &err, "T");
+    assert_non_null(strstr(motus_explain_events(s), "tick happens every 3, from"));
+    motus_system_destroy(s);
     s = given_text(BALL);
     assert_string_equal(motus_explain_events(s), "");
     motus_system_destroy(s);

@@ -8,6 +8,8 @@ typedef struct outcome {
     double x[8], v[8];
     motus_statistics did;
     motus_status status;
+    motus_cause cause;
+    double time; /* of the failure */
     char message[MOTUS_TEXT_MAX];
 } outcome;
 
@@ -22,7 +24,11 @@ static outcome done(const char *text, const motus_run_def *def, double errors[2]
     outcome out = {.did = motus_default_statistics()};
     out.status = motus_run_create(s, def, &r, &err);
     if (out.status == MOTUS_OK) out.status = motus_run_finish(r, &err);
-    if (out.status) snprintf(out.message, sizeof out.message, "%s", err.message);
+    if (out.status) {
+        snprintf(out.message, sizeof out.message, "%s", err.message);
+        out.cause = err.cause;
+        out.time = err.time;
+    }
     if (r) {
         must(motus_run_state(r, out.x, out.v, &err), &err, text);
         assert_int_equal(motus_run_statistics(r, &out.did), MOTUS_OK);
@@ -190,20 +196,23 @@ static void together(void **state)
     }
 }
 
-static void refused(const char *text, const char *says)
+static void refused(const char *text, const char *says, double time)
 {
     const outcome o = run_of(text, "dop853", 1e-9, 10);
     assert_int_equal(o.status, MOTUS_SOLVE);
+    assert_int_equal(o.cause, MOTUS_CAUSE_DISCONTINUOUS);
+    NEAR(o.time, time, 1e-9);
     if (!strstr(o.message, says)) fail_msg("%s: it says %s", text, o.message);
 }
 
 static void refusals(void **state)
 {
     (void)state;
-    refused("x'' = sign(x')\nx(0) = 0\nx'(0) = 0\n", "not unique");
-    refused("x'' = if(x' > 0, -1, 1)\nx(0) = 0\nx'(0) = 1\n", "slides");
+    refused("x'' = sign(x')\nx(0) = 0\nx'(0) = 0\n", "not unique", 0);
+    refused("x'' = if(x' > 0, -1, 1)\nx(0) = 0\nx'(0) = 1\n", "slides", 1);
+    refused("x'' = if(x' > 0, -1, 1)\nx(0) = 0\nx'(0) = 1\n", " where x' = 0, at t = ", 1);
     refused("x'' = -sign(x') - sign(y')/2\ny'' = -sign(y') - sign(x')/2\nx(0) = 0\nx'(0) = 1\ny(0) = 0\ny'(0) = 1.5\n",
-            "together with another");
+            "together with another", 4.0 / 3);
 }
 
 /* A run that is told nothing of switches. */

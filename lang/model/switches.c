@@ -90,6 +90,13 @@ static const char *place(builder *b, const nest *around, unsigned deps, size_t *
     return NULL;
 }
 
+size_t switches_kind(const switches *s, size_t k)
+{
+    size_t kind = 0;
+    while (kind + 1 < s->kinds && s->first[kind + 1] <= k) kind++;
+    return kind;
+}
+
 size_t switches_cells(const switches *s, size_t kind)
 {
     return (kind + 1 < s->kinds ? s->first[kind + 1] : s->count) - s->first[kind];

@@ -50,6 +50,7 @@ typedef struct switches {
 bool switches_find(model *, switches *);
 /* How many switches are of a kind, and their shape. */
 size_t switches_cells(const switches *, size_t kind);
+size_t switches_kind(const switches *, size_t k); /* of switch k */
 model_shape switches_shape(const model *, const switches *, size_t kind);
 /* Of a model that has modes for the sides of its switches: its equations read them from now on. It leaves `located`
  * NULL where they are not those switches. */

@@ -162,8 +162,8 @@ void verify_size(const model *m, double rate, const double *x, const double *v, 
 void verify_digits(double a, double b, char of_a[VERIFY_DIGITS], char of_b[VERIFY_DIGITS])
 {
     for (int digits = 6; digits <= 17; digits++) {
-        snprintf(of_a, VERIFY_DIGITS, "%.*g", digits, a);
-        snprintf(of_b, VERIFY_DIGITS, "%.*g", digits, b);
+        error_text(of_a, "%.*g", digits, a);
+        error_text(of_b, "%.*g", digits, b);
         if (strcmp(of_a, of_b) != 0) return;
     }
 }

@@ -49,7 +49,7 @@ double verify_fastest(const model *, double t, double *x, double *v, double *roo
  * and so for velocities. */
 void verify_size(const model *, double rate, const double *x, const double *v, double *size_x, double *size_v);
 /* Two numbers with the digits that tell them apart. */
-enum { VERIFY_DIGITS = 32 };
+enum { VERIFY_DIGITS = MOTUS_TEXT_MAX };
 void verify_digits(double a, double b, char of_a[VERIFY_DIGITS], char of_b[VERIFY_DIGITS]);
 
 /* One time: the exact motion, its acceleration e, the force a there; and how far rounding may carry each off. */

@@ -508,7 +508,7 @@ static bool judge_functions(model *m, const model_rule *r)
         char text[80];
         COMPLAIN(m, &r->occasion, "%s never happens: its sides change at events alone, where they jump and do not pass",
                  quote(m, &r->occasion, text));
-        HINT(m, "write >= or <= in place of =: a condition happens when it becomes true");
+        HINT(m, "write ==, >= or <= in place of =: a condition happens when it becomes true");
         return false;
     }
     return true;

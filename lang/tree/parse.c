@@ -208,21 +208,33 @@ static int relation(const parser *p)
     }
 }
 
+/* 0 < x < 1: the first two operands and the sign between them have been read. */
+static void refuse_chain(parser *p, const tree *left, const span *sign, const tree *middle)
+{
+    const span second = p->token.at;
+    char a[80], b[80], c[80], one[80], two[80];
+    advance(p);
+    skip_lines(p);
+    const tree *right = parse_terms(p);
+    if (failed(p)) return;
+    COMPLAIN(p, &second, "comparisons are not chained");
+    HINT(p, "write %s %s %s and %s %s %s", quote(p, &left->at, a), quote(p, sign, one), quote(p, &middle->at, b), b,
+         quote(p, &second, two), quote(p, &right->at, c));
+}
+
 /* comparison = sum [ ("<" | "<=" | ">" | ">=" | "==" | "!=") sum ] */
 static tree *parse_comparison(parser *p)
 {
     tree *t = parse_terms(p);
     int operation = failed(p) ? -1 : relation(p);
     if (operation < 0) return t;
+    const span sign = p->token.at;
     advance(p);
     skip_lines(p);
     tree *right = parse_terms(p);
     if (failed(p)) return t;
-    char a[80], b[80];
     if (relation(p) >= 0) {
-        COMPLAIN(p, &p->token.at, "comparisons are not chained");
-        HINT(p, "write %s … %s and %s … : two comparisons joined by and", quote(p, &t->at, a), quote(p, &right->at, b),
-             b);
+        refuse_chain(p, t, &sign, right);
         return t;
     }
     t = two(p, TREE_COMPARE, t, right);

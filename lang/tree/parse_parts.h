@@ -184,7 +184,9 @@ tree *parse_or(parser *p);
 /* parse_statement.c: the ranges behind `for`, if there are any; the end of a statement that began in this line */
 void parse_for(parser *p, statement *s);
 void parse_end(parser *p, int line);
-/* parse_when.c */
+/* parse_when.c; whether a text that cannot stand where it does begins with the word of an action */
 void parse_when(parser *p, statement *s);
+bool parse_action(const parser *p, const span *at);
+#define PARSE_COMMAS "a comma joins what an event does: when y = 0: y' = -y', record"
 
 #endif

@@ -167,6 +167,8 @@ static void parse_left(parser *p, statement *s)
             COMPLAIN(p, &s->name_at, "t is the time and cannot be defined");
         else
             COMPLAIN(p, &s->name_at, "%s is a word of the language and cannot be defined", s->name);
+        if (!strcmp(s->name, "if"))
+            HINT(p, "what is to happen is an event, when y < 0: y' = -y'; a value with two cases is if(y < 0, a, b)");
         HINT(p, "take another name");
         return;
     }
@@ -217,7 +219,10 @@ static void parse_left(parser *p, statement *s)
     }
     s->at.to = p->last.at.to;
     if (is(p, '=')) return;
-    if (is(p, '.')) {
+    if (parse_action(p, &s->name_at)) {
+        unexpected(p, "=");
+        HINT(p, "%s", PARSE_COMMAS);
+    } else if (is(p, '.')) {
         COMPLAIN(p, &p->token.at, "a component cannot be given alone");
         HINT(p, "give the whole vector: %s = (…, …)", s->name);
     } else if (s->kind == STATEMENT_EQUATION && (is(p, '+') || is(p, '-'))) {

@@ -11,6 +11,14 @@ static bool ahead_is(const parser *p, const char *text)
     return spelled(p, &next, text);
 }
 
+bool parse_action(const parser *p, const span *at)
+{
+    token first = {.kind = TOKEN_NAME, .at = *at};
+    for (first.at.to = at->from; first.at.to < at->to && p->source->texts[at->text].bytes[first.at.to] != ' ';)
+        first.at.to++;
+    return spelled(p, &first, "record") || spelled(p, &first, "stop");
+}
+
 /* A condition as the parser sees it: it may be a name or a call of a function as well. */
 static bool decides(const tree *t)
 {
@@ -45,11 +53,6 @@ static void parse_occasion(parser *p, when *w)
             refuse_equals(p, &equals);
             return;
         }
-    } else if (w->left->kind == TREE_COMPARE && w->left->operation == OP_EQ) {
-        char a[80], b[80];
-        COMPLAIN(p, &w->left->at, "one = is enough in an event");
-        HINT(p, "write when %s = %s: …", quote(p, &w->left->item[0]->at, a), quote(p, &w->left->item[1]->at, b));
-        return;
     }
     if (!word(p, "rising") && !word(p, "falling")) return;
     if (w->kind == WHEN_CONDITION) {
@@ -126,7 +129,7 @@ static bool at_word(const parser *p, const char *text)
 }
 
 /* action = "record" | "stop" [ "after" or ] | assignment */
-static void parse_action(parser *p, action *a)
+static void parse_deed(parser *p, action *a)
 {
     a->at = p->token.at;
     if (at_word(p, "record")) {
@@ -152,6 +155,7 @@ static void parse_actions(parser *p, when *w)
     action **next = &w->actions;
     if (!is(p, ':')) {
         unexpected(p, ": before what happens");
+        if (w->left && parse_action(p, &w->left->at)) HINT(p, "%s", PARSE_COMMAS);
         HINT(p, "write when y = 0: record, or when y = 0 falling as bounce: y' = -y'");
         return;
     }
@@ -160,7 +164,7 @@ static void parse_actions(parser *p, when *w)
         skip_lines(p);
         *next = arena_take(p->arena, sizeof **next);
         if (p->arena->failed) return;
-        parse_action(p, *next);
+        parse_deed(p, *next);
         next = &(*next)->next;
     } while (!failed(p) && is(p, ','));
     if (failed(p) || (!word(p, "record") && !word(p, "stop"))) return;
