@@ -9,8 +9,8 @@ import type { Ink, Pen } from './types';
 export interface Mark { readonly x: number; readonly y: number; /** On what the event left. */ readonly after: boolean; readonly time: number }
 type Places = (sides: readonly Float64Array[], row: number) => readonly [x: number, y: number];
 
-/* Pixels; where there are more than CROWD of them, so much room is between them that the curve is seen. */
-const APART = 6, CROWD = 80, ROOM = 22, RING = 4, DOT = 2.6;
+/* Pixels. Where more than CROWD rings follow one another so closely that they hide the curve, as most of them do then, some stay away, so that there is ROOM between them. */
+const APART = 6, CROWD = 30, MOST = 0.75, ROOM = 22, RING = 4, DOT = 2.6;
 
 /** The rows of the table in which the body `own` has part: of each body the columns, of which an event changes some; one that changes none of any body's is everybody's. */
 export function partOf({ before, after }: Events, bodies: readonly (readonly number[])[], own: number): (row: number) => boolean {
@@ -35,14 +35,17 @@ export function marksOf(events: Events, place: Places, part: (row: number) => bo
     const cell = `${after} ${Math.round(x / APART)} ${Math.round(y / APART)}`;
     return !taken.has(cell) && taken.add(cell);
   });
-  return kept.length > CROWD ? [...spaced(kept.filter(({ after }) => !after)), ...spaced(kept.filter(({ after }) => after))] : kept;
+  const rings = kept.filter(({ after }) => !after), close = rings.slice(1).filter((mark, k) => distance(mark, rings[k]!) < ROOM);
+  return rings.length > CROWD && close.length > MOST * rings.length ? [...spaced(rings), ...spaced(kept.filter(({ after }) => after))] : kept;
 }
+
+const distance = (a: Mark, b: Mark): number => Math.hypot(a.x - b.x, a.y - b.y);
 
 /** Along the curve, with room between them. */
 function spaced(marks: readonly Mark[]): Mark[] {
   let last: Mark | null = null;
   return marks.filter((mark) => {
-    if (last && Math.hypot(mark.x - last.x, mark.y - last.y) < ROOM) return false;
+    if (last && distance(mark, last) < ROOM) return false;
     last = mark;
     return true;
   });

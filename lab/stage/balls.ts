@@ -10,7 +10,7 @@ import type { Picture, Setting } from './picture';
 import { wideEnough } from './place';
 import { flatPlot } from './plot';
 import { isDone, isOver, placeAt, valueAt } from './rows';
-import { columnsOf } from './subject';
+import { numbersOf } from './subject';
 
 /** Pixels of a unit at most; between the axis and the balls. */
 const UNIT = 120, GAP = 34;
@@ -29,7 +29,7 @@ export function ballsPicture({ scene, subject, place, bounds, before }: Setting,
     return Float64Array.from([...rows.flatMap((i) => [along(of.columns[cell]![i]!), up(of.times[i]!)]), along(valueAt(of.columns[cell]!, at)), up(Math.abs(upTo - from) < Math.abs(of.times[of.times.length - 1]! - from) ? upTo : of.times[of.times.length - 1]!)]);
   };
   // A ball has part in an event that changes how it moves.
-  const parts = cells.map((cell) => columnsOf(scene.solution, { columns: [cell] }));
+  const parts = cells.map((cell) => numbersOf(scene.solution, { columns: [cell] }));
   const rings = lines.map(({ track: { events } }) => cells.map((cell, k) => (events ? marksOf(events, (of, row) => [along(of[cell]![row]!), up(events.times[row]!)], partOf(events, parts, k)) : [])));
   const within = (pen: Pen, draw: () => void): void => pen.clip(plot.box.left - 1, plot.box.top - 6, plot.box.right - plot.box.left + 8, plot.box.bottom - plot.box.top + 12, draw);
   return {

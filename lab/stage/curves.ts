@@ -11,7 +11,7 @@ import type { Plot, Way } from './plot';
 import { inside } from './plot';
 import { placeAt } from './rows';
 import type { Box } from './place';
-import { columnsOf } from './subject';
+import { numbersOf } from './subject';
 
 const NEAR = 2;
 /** The exact curve is smooth: its corners lie nearer to it than can be seen. */
@@ -126,7 +126,7 @@ export function curvesOf(motion: Motion, plot: Plot): Curves {
   const { subject, truth, lines } = motion, waysOf = (of: Rows): Way[] => subject.bodies.map((body) => plot.way(of, body));
   const exact = truth ? waysOf(truth).map((way) => ({ way, path: path(truth.times.length, way.x, way.y, SMOOTH, 0.2) })) : [];
   const size = plot.box.right - plot.box.left + plot.box.bottom - plot.box.top;
-  const bodies = subject.bodies.map((body) => columnsOf(motion.scene.solution, body));
+  const bodies = subject.bodies.map((body) => numbersOf(motion.scene.solution, body));
   const methods = lines.map((line, rank) => {
     const drawn = lineOf(line.track, subject.bodies.flatMap((body) => body.columns)), { times } = drawn, smooth = drawn !== line.track, ends = smooth ? waysOf(line.track) : [];
     return waysOf(drawn).map((way, body): Curve => {

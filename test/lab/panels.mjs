@@ -157,7 +157,7 @@ await attempt('answers are the program’s', async () => {
   const swing = await answerOf(page, 'Phase');
   judge('kepler: between the ends of the axis, once in a period', near(behind(swing, 'between'), -1.6) && near(behind(swing, 'and'), 0.4) && near(behind(swing, 'once in'), 2 * Math.PI), swing);
   const there = await answerOf(page, 'Time');
-  judge('kepler: after ten and a half turns at the far end', near(behind(there, 'r.x ='), -1.6), there);
+  judge('kepler: after ten and a half turns at the far end', near(behind(there, 'rx ='), -1.6), there);
   await clean('answers', page);
 });
 await attempt('the words of a scene are so', async () => {

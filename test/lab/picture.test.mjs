@@ -257,3 +257,8 @@ test('rings stand on the bodies that an event changed, and leave the curve to be
   const kicks = rings(sceneOf('kicked-rotor', ['verlet'], { set: { K: 5 } })).filter(({ x }) => x < 780), near = kicks.slice(1).filter(({ x, y }, k) => Math.hypot(x - kicks[k].x, y - kicks[k].y) < 20);
   assert.ok(kicks.length > 20 && near.length === 0, `${near.length} of ${kicks.length} kicks cover one another`);
 });
+test('the time goes as far as the clock, also where events end the exact motion before', () => {
+  const scene = sceneOf('bouncing-ball', ['explicit-euler']), { truth } = scene.solution;
+  assert.ok(truth.times.at(-1) < 4.1, 'the ball comes to rest');
+  assert.deepEqual(drawn(scene).bounds[0], [0, 5]);
+});
