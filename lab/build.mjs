@@ -85,7 +85,7 @@ const bundle = async (entry, format, modules) => {
 
 /** What is needed once the first picture stands. */
 const later = {
-  data: JSON.stringify({ presets, lessons: lessons.map(({ numbers, ...lesson }) => lesson), cards: made.cards, stagings: drawn.stagings, notes: drawn.notes, theory: made.html }),
+  data: JSON.stringify({ presets, lessons: lessons.map(({ numbers, ...lesson }) => lesson), cards: made.cards, stagings: drawn.stagings, notes: drawn.notes, movedNotes: drawn.movedNotes, theory: made.html }),
   thumbs: JSON.stringify(thumbs),
 };
 const quoted = async (contents) => `import { unpack } from './unpack'; export default () => unpack("${await packed(contents)}").json();`;

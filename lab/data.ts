@@ -17,10 +17,12 @@ export interface Data {
   readonly cards: Readonly<Record<string, { readonly title: string; readonly body: string }>>;
   readonly stagings: Readonly<Record<string, Staging>>;
   readonly notes: Readonly<Record<string, Note>>;
+  /** For other values than the model's. */
+  readonly movedNotes: Readonly<Record<string, Note>>;
   /** The theory, as HTML of the build's own. */
   readonly theory: string;
 }
-export const data: Data = { presets: [], lessons: [], cards: {}, stagings: {}, notes: {}, theory: '' };
+export const data: Data = { presets: [], lessons: [], cards: {}, stagings: {}, notes: {}, movedNotes: {}, theory: '' };
 
 /** The example that this state shows unaltered, by its name; '': it has a text of its own. */
 export const exampleOf = (state: { readonly preset: string; readonly text: string }): string =>

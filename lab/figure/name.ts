@@ -24,8 +24,8 @@ export function nameSpans(name: string, size: number): Span[] {
   if (index) spans.push({ text: index, size: 0.72 * size, sunk: 0.22 * size, italic: !/^\d/.test(index) });
   return spans;
 }
-/** The same as plain text. */
-export const nameText = (name: string): string => nameSpans(name, 1).map((span) => span.text).join('');
+/** The same as plain text, where nothing can be lowered: r′.x, x[1]. */
+export const nameText = (name: string): string => name.replace(/^[\p{L}_]+/u, (word) => GREEK[word] ?? word).replace(/'/g, '′');
 
 /** A text with such names in it, as nodes of the page. */
 export function saidNodes(said: Said): Node[] {

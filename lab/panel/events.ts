@@ -17,7 +17,7 @@ import { endSaid } from '../figure/ended';
 import { bold } from '../figure/ends';
 import { textWidth } from '../figure/shapes';
 import { begin } from '../figure/track';
-import type { Figure, Frame, Ink, Pen, Said, Table } from '../figure/types';
+import type { Figure, Frame, Ink, Pen, Said, Span, Table } from '../figure/types';
 import { words } from '../words';
 import { bandsOf, inPrint } from './band';
 import { movable } from './columns';
@@ -33,9 +33,19 @@ const ROW = 34, HIGH = 9, DIGITS = 6, FOOT = 42;
 /** "contact" of "contact[1,2]". */
 export const kindOf = (name: string): string => name.replace(/\[.*$/s, '');
 
+/** A time as the table says it: with the digits that tell it from those beside it, six at least, and none that is not known. full: with its error, where that is known. */
+export function shortTime(times: ArrayLike<number>, i: number, full: string | undefined): string {
+  const time = times[i]!, number = full?.split(' ')[0] ?? '', known = number.replace(/e.*$/, '').replace(/^-?0*\.?0*/, '').replace('.', '').length || 17;
+  if (full && !/\d/.test(number)) return full;
+  if (String(time).length <= DIGITS + 1) return minus(String(time));
+  const gaps = [times[i - 1], times[i + 1]].flatMap((other) => (other === undefined || other === time ? [] : [Math.abs(other - time)]));
+  const apart = gaps.length ? Math.ceil(Math.log10(Math.abs(time) / Math.min(...gaps))) + 2 : 0;
+  return readable(time, Math.min(known, Math.max(DIGITS, apart), 17));
+}
+
 /** The line of time at the foot, its names of kinds at the left. */
-function timeline(pen: Pen, ink: Ink, [min, max]: readonly [number, number], left: number, unit: string): Frame {
-  const top = 4, height = pen.height - 4 - FOOT, width = Math.max(20, pen.width - left - 14), foot = top + height, x = scaleAlong({ min, max, label: '' }, left, left + width), last = x.ticks[x.ticks.length - 1];
+function timeline(pen: Pen, ink: Ink, [min, max]: readonly [number, number], top: number, left: number, unit: string): Frame {
+  const height = pen.height - top - FOOT, width = Math.max(20, pen.width - left - 14), foot = top + height, x = scaleAlong({ min, max, label: '' }, left, left + width), last = x.ticks[x.ticks.length - 1];
   pen.line([left, foot + 0.5, left + width, foot + 0.5], { colour: ink.axis, width: 1.5 });
   for (const tick of x.ticks) {
     pen.line([Math.round(x(tick)) + 0.5, foot, Math.round(x(tick)) + 0.5, foot + 4], { colour: ink.axis, width: 1 });
@@ -54,11 +64,13 @@ export const eventsPanel = (store: Store): Panel => {
   select.addEventListener('change', () => { which = Number(select.value); all = false; fill(); fig.redraw(); });
   const tableOf = (k: number): Happened | null => scene?.solution.tracks[k]?.events ?? null;
 
+  /** Above the lines, where a limit has its name. */
+  const head = (): number => (scene?.solution.tracks[which]?.ended?.accumulated ? 10 : 4);
   function draw(pen: Pen, ink: Ink): void {
     if (!scene || !kinds.length) return;
     const { tracks } = scene.solution, unit = timeUnit(scene), left = Math.min(0.3 * pen.width, Math.max(...kinds.map((kind) => bold(nameText(kind), 13))) + 12);
     const start = tracks[0]?.times[0] ?? 0, end = endTime(scene), span: [number, number] = start <= end ? [start, end] : [end, start];
-    const f = frame = timeline(pen, ink, span, left, unit), high = f.height / kinds.length;
+    const f = frame = timeline(pen, ink, span, head(), left, unit), high = f.height / kinds.length;
     kinds.forEach((kind, row) => {
       const middle = f.top + (row + 0.5) * high;
       pen.text(f.left - 10, middle, nameSpans(kind, 13), { colour: ink.text, anchor: 'end', baseline: 'middle' });
@@ -76,8 +88,8 @@ export const eventsPanel = (store: Store): Panel => {
         const limit = track.ended?.accumulated;
         if (limit && track.ended?.accumulates === kind && k === which) {
           const x = f.x(limit.time);
-          pen.line([x, f.top, x, f.top + f.height], { colour: ink.quiet, width: 1, dash: [3, 3] });
-          pen.text(x - 6, f.top + 2, say.limit, { colour: ink.quiet, size: 12, anchor: 'end', baseline: 'top', halo: ink.surface });
+          pen.line([x, 2, x, f.top + f.height], { colour: ink.quiet, width: 1, dash: [3, 3] });
+          pen.text(x - 6, 1, say.limit, { colour: ink.quiet, size: 12, anchor: 'end', baseline: 'top' });
         }
       });
     });
@@ -131,14 +143,17 @@ export const eventsPanel = (store: Store): Panel => {
     const events = tableOf(which);
     holder.replaceChildren();
     if (!scene || !events?.times.length) return;
-    const now = scene, { columns } = now.solution, bars = errors.of(now.solution.tracks[which]!.method), names = movable(now).filter((name) => columns.includes(name)), shown = names.slice(0, NUMBERS).map((name) => columns.indexOf(name));
-    const count = events.times.length, any = events.touched.some((t) => t !== 0);
-    const head = [say.head.event, [{ text: 't', italic: true }], say.head.count, ...(any ? [say.head.touched] : []), ...shown.map((c) => nameSpans(columns[c]!, 13))] as Said[];
+    const now = scene, { columns } = now.solution, bars = errors.of(now.solution.tracks[which]!.method), at = movable(now).filter((name) => columns.includes(name)).map((name) => columns.indexOf(name));
+    // What the events change comes first, where the digits of the table show it.
+    const jumps = (c: number): boolean => events.before[c]!.some((value, i) => Math.abs(value - events.after[c]![i]!) > 10 ** -DIGITS * Math.abs(value)), changed = at.filter(jumps).slice(0, NUMBERS), others = at.filter((c) => !jumps(c)).slice(0, NUMBERS - changed.length);
+    const count = events.times.length, any = events.touched.some((t) => t !== 0), time: Span = { text: 't', italic: true };
+    const column = (said: Said, kind?: string): HTMLElement => element('th', { scope: 'col', class: kind }, ...saidNodes(said)), names = (list: readonly number[], kind?: string): HTMLElement[] => list.map((c) => column(nameSpans(columns[c]!, 13), kind));
+    const head = [column(say.head.event), column([time]), ...names(changed, 'words'), column(say.head.count), ...(any ? [column(say.head.touched)] : []), ...names(others), ...(bars ? [column([time, { text: say.head.full }])] : [])];
     const row = (i: number): HTMLElement => {
-      const time = events.times[i]!, text = bars?.events[i] ? inPrint(bars.events[i]!) : minus(String(time)), name = nameText(events.names[i]!);
-      const go = button(text, () => holder.dispatchEvent(new CustomEvent<number>(SEEK, { detail: time, bubbles: true })), { class: 'text-button', 'aria-label': say.seek(name, text) });
-      const numbers = shown.map((c) => { const before = readable(events.before[c]![i]!, DIGITS), after = readable(events.after[c]![i]!, DIGITS); return element('td', {}, before === after ? before : say.jumps(before, after)); });
-      return element('tr', {}, element('th', { scope: 'row' }, ...saidNodes(nameSpans(events.names[i]!, 13))), element('td', {}, go), element('td', {}, grouped(events.counts[i]!)), ...(any ? [element('td', {}, events.touched[i] ? say.touched : '')] : []), ...numbers);
+      const time = events.times[i]!, full = bars?.events[i], text = full ? inPrint(full) : minus(String(time)), name = nameText(events.names[i]!);
+      const go = button(shortTime(events.times, i, full), () => holder.dispatchEvent(new CustomEvent<number>(SEEK, { detail: time, bubbles: true })), { class: 'text-button', title: text, 'aria-label': say.seek(name, text) });
+      const numbers = (list: readonly number[], kind?: string): HTMLElement[] => list.map((c) => { const before = readable(events.before[c]![i]!, DIGITS), after = readable(events.after[c]![i]!, DIGITS); return element('td', { class: kind }, before === after ? before : say.jumps(before, after)); });
+      return element('tr', {}, element('th', { scope: 'row' }, ...saidNodes(nameSpans(events.names[i]!, 13))), element('td', {}, go), ...numbers(changed, 'words'), element('td', {}, grouped(events.counts[i]!)), ...(any ? [element('td', {}, events.touched[i] ? say.touched : '')] : []), ...numbers(others), ...(bars ? [element('td', {}, full ? text : '')] : []));
     };
     const body = element('tbody'), left = count > FIRST + LAST + 1 ? count - FIRST - LAST : 0, upTo = all ? Math.min(count, MORE) : left ? FIRST : count;
     for (let i = 0; i < upTo; i++) body.append(row(i));
@@ -149,10 +164,10 @@ export const eventsPanel = (store: Store): Panel => {
     const known = bars && !bars.reason && bars.significant < events.count ? say.known(grouped(bars.significant + 1)) : '';
     const notes = [known, events.count > count ? say.first(grouped(count), grouped(events.count)) : '', say.state].filter(Boolean).join(' ');
     holder.append(element('div', { class: 'figure-table', tabindex: '0', role: 'region', 'aria-label': say.table },
-      element('table', {}, element('caption', {}, say.table), element('thead', {}, element('tr', {}, ...head.map((name) => element('th', { scope: 'col' }, ...saidNodes(name))))), body)), element('p', { class: 'figure-note' }, notes));
+      element('table', {}, element('caption', {}, say.table), element('thead', {}, element('tr', {}, ...head)), body)), element('p', { class: 'figure-note' }, notes));
   }
 
-  const fig: Figure = figure({ id: 'events', title: say.title, question: say.question, answer, aspect: 0, least: 1, extra: () => 4 + FOOT + Math.max(1, kinds.length) * ROW, draw, overlay, summary, table, controls: [control] });
+  const fig: Figure = figure({ id: 'events', title: say.title, question: say.question, answer, aspect: 0, least: 1, extra: () => head() + FOOT + Math.max(1, kinds.length) * ROW, draw, overlay, summary, table, controls: [control] });
   fig.picture.after(holder);
   const want = errors.inSight(fig.element, () => scene);
   const line = cursor({ figure: fig, title: say.title, frame: () => frame, times: () => scene?.solution.tracks[which]?.times ?? [], text: (t) => { const events = tableOf(which), i = nearest(t); return events && i >= 0 ? `${heading(t)}. ${nameOf(events, i)}: t = ${readable(events.times[i]!, 6)}.` : heading(t); } });

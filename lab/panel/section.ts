@@ -32,15 +32,18 @@ interface Flow {
   time: number; done: boolean; spent: number; problem: Problem | null;
 }
 
-/** A name alone is that of a kind of the model's own events; else it is a condition. */
-const isKind = (when: string): boolean => /^[\p{L}_][\p{L}\p{N}_]*$/u.test(when);
+/** A name alone. */
+const isName = (when: string): boolean => /^[\p{L}_][\p{L}\p{N}_]*$/u.test(when);
+/** A kind of the model's own events, which its text names or which has happened; else it is a condition, of which the core says what is wrong. */
+const isKind = ({ state, solution }: Scene, when: string): boolean =>
+  isName(when) && (new RegExp(`^\\s*when\\b[^#]*\\sas\\s+${when}\\s*:`, 'mu').test(state.text) || solution.tracks.some(({ events }) => events?.names.some((name) => kindOf(name) === when)));
 const plainName = (name: string): string => (name.endsWith(MODULO) ? name.slice(0, -MODULO.length) : name);
 const spansOf = (name: string, size: number): Span[] => [...nameSpans(plainName(name), size), ...(name.endsWith(MODULO) ? [{ text: ' mod 2π' }] : [])];
 const wrapped = (name: string, value: number): number => (name.endsWith(MODULO) ? value - TURN * Math.floor(value / TURN) : value);
 
 /** What is 0 on the section, as an expression; '': no equation gives it. */
-function surfaceOf(text: string, when: string): string {
-  const own = isKind(when) ? new RegExp(`^\\s*when\\s+([^:#]*?)\\s+as\\s+${when}\\s*:(?!.*\\bfor\\b)`, 'mu').exec(text)?.[1] ?? '' : when;
+function surfaceOf(of: Scene, when: string): string {
+  const { text } = of.state, own = isKind(of, when) ? new RegExp(`^\\s*when\\s+([^:#]*?)\\s+as\\s+${when}\\s*:(?!.*\\bfor\\b)`, 'mu').exec(text)?.[1] ?? '' : when;
   const sides = own.replace(/\s+(rising|falling)\s*$/, '').split(/(?<![=<>!])=(?!=)/);
   return sides.length === 2 && !/\b(and|or|not)\b/.test(own) ? `(${sides[0]!.trim()}) - (${sides[1]!.trim()})` : '';
 }
@@ -71,7 +74,11 @@ export const sectionPanel = (store: Store): Panel => {
     section = { ...section, ...part };
     store.look({ section });
   }
-  when.addEventListener('change', () => { if (when.value.trim()) change({ when: when.value.trim(), starts: section?.when === when.value.trim() ? section.starts : [] }); });
+  when.addEventListener('change', () => {
+    const wanted = when.value.trim();
+    if (wanted) { change({ when: wanted, starts: section?.when === wanted ? section.starts : [] }); return; }
+    refuse(say.empty);
+  });
   for (const select of [across, up]) select.addEventListener('change', () => change({ plane: [across.value, up.value] }));
 
   /** Names of the state's numbers, in the order of the core. */
@@ -82,9 +89,9 @@ export const sectionPanel = (store: Store): Panel => {
   const start = (of: Scene): number[] => stateNames(of).map((name) => of.solution.tracks[0]?.columns[of.solution.columns.indexOf(name)]?.[0] ?? NaN);
   /** What replaces numbers of the model, but for where its motion starts. */
   const given = (of: Scene): string[] => Object.entries(of.state.set).filter(([name]) => !name.includes('(0)')).map(([name, value]) => `${name}=${value}`);
-  const model = (of: Scene, { when }: Section) => ({ text: of.state.text, set: given(of), when: isKind(when) ? [] : [[when, 'as', `${NAME}:`, 'record'].join(' ')] });
+  const model = (of: Scene, { when }: Section) => ({ text: of.state.text, set: given(of), when: isKind(of, when) ? [] : [[when, 'as', `${NAME}:`, 'record'].join(' ')] });
   const flowOf = (of: Scene, from: readonly number[]): Flow => {
-    const { method, step, tolerance } = of.solution.tracks[0]!, key = JSON.stringify([model(of, section!), method, tolerance === null ? step : tolerance, from]);
+    const { method, step, tolerance } = of.solution.tracks[0]!, key = JSON.stringify([model(of, section!), section!.when, method, tolerance === null ? step : tolerance, from]);
     let flow = flows.get(key);
     if (!flow) {
       if (flows.size >= KEPT) flows.delete([...flows.keys()][0]!);
@@ -93,9 +100,10 @@ export const sectionPanel = (store: Store): Panel => {
     return flow;
   };
   /** The scene's own motion last: it has the newest colour. */
-  const all = (): Flow[] => (scene && section ? [...section.starts.filter((s) => s.length === stateNames(scene!).length), start(scene)].map((from) => flowOf(scene!, from)) : []);
+  const all = (): Flow[] => (scene && section && !wrong ? [...section.starts.filter((s) => s.length === stateNames(scene!).length), start(scene)].map((from) => flowOf(scene!, from)) : []);
   const column = (flow: Flow, name: string): ArrayLike<number> => flow.columns[shown.indexOf(plainName(name))] ?? [];
 
+  const condition = (): string => section?.when ?? '';
   async function pump(): Promise<void> {
     if (pumping) return;
     pumping = true;
@@ -105,7 +113,7 @@ export const sectionPanel = (store: Store): Panel => {
         if (!of || !now || !next) break;
         const { method, step, tolerance } = of.solution.tracks[0]!;
         const { columns, time, done, problem } = await store.client.ask('section', {
-          model: model(of, now), method, step: tolerance === null ? step : null, tolerance, from: next.from, kind: isKind(now.when) ? now.when : NAME, columns: shown, have: next.columns[0]?.length ?? 0, most: POINTS, milliseconds: SLICE,
+          model: model(of, now), method, step: tolerance === null ? step : null, tolerance, from: next.from, kind: isKind(of, now.when) ? now.when : NAME, columns: shown, have: next.columns[0]?.length ?? 0, most: POINTS, milliseconds: SLICE,
         }, { lane: 'study' });
         columns.forEach((values, k) => { for (const value of values) next.columns[k]!.push(value); });
         Object.assign(next, { time, problem, spent: next.spent + SLICE });
@@ -113,7 +121,7 @@ export const sectionPanel = (store: Store): Panel => {
         fig.redraw();
       }
     } catch (error) {
-      if (error instanceof Refused) { wrong = say.hinted(error.problem.message, error.problem.hint); tell(); fig.redraw(); }
+      if (error instanceof Refused) refuse(isName(condition()) ? say.unknown(condition(), error.problem.message) : say.hinted(error.problem.message, error.problem.hint));
     } finally {
       pumping = false;
     }
@@ -129,9 +137,16 @@ export const sectionPanel = (store: Store): Panel => {
     note.classList.toggle('message', wrong !== '');
   }
 
+  /** There is no such section. */
+  function refuse(why: string): void {
+    wrong = why;
+    tell();
+    fig.redraw();
+  }
+
   /** A motion through a point of the plane. */
   async function begin(x: number, y: number): Promise<void> {
-    if (!scene || !section || !clickable()) return;
+    if (!scene || !section || wrong || !clickable()) return;
     const of = scene, now = section, names = stateNames(of), flowsNow = all(), wide = bounds?.map(([a, b]) => b - a) ?? [1, 1];
     // The nearest point tells what the plane does not.
     let near: number[] = start(of), least = Infinity;
@@ -146,10 +161,11 @@ export const sectionPanel = (store: Store): Panel => {
     const keep = invariants(of).map((name) => ({ name, value: of.solution.tracks[0]!.columns[of.solution.columns.indexOf(name)]![0]! }));
     const plain: readonly [string, string] = [plainName(pair[0]), plainName(pair[1])];
     try {
-      const state = await store.client.ask('through', { model: { text: of.state.text, set: given(of) }, near: near.map((v, k) => { const i = plain.indexOf(names[k]!); return i < 0 ? v : wrapped(pair[i]!, v); }), columns: plain, values: [x, y], surface: surfaceOf(of.state.text, now.when), keep }, { lane: 'study' });
+      const state = await store.client.ask('through', { model: { text: of.state.text, set: given(of) }, near: near.map((v, k) => { const i = plain.indexOf(names[k]!); return i < 0 ? v : wrapped(pair[i]!, v); }), columns: plain, values: [x, y], surface: surfaceOf(of, now.when), keep }, { lane: 'study' });
       if (scene !== of && scene?.state.text !== of.state.text) return;
       tell();
-      take(of, state);
+      // Where the click was to the last digit of it, not of the search.
+      take(of, state.map((v, k) => { const i = plain.indexOf(names[k]!); return i < 0 ? v : [x, y][i]!; }));
     } catch (error) {
       if (!(error instanceof Refused)) throw error;
       tell(error.problem.message);
@@ -205,14 +221,13 @@ export const sectionPanel = (store: Store): Panel => {
   }
   const placed = (f: Frame, x: number, y: number): string => say.at(brief(f.x.invert(x), 3), brief(f.y.invert(y), 3));
 
-  const condition = (): string => section?.when ?? '';
   const count = (flow: Flow | undefined): string => { const n = flow?.columns[0]?.length ?? 0; return say.points(grouped(n), n === 1); };
   function answer(): Said {
     const list = all(), own = list[list.length - 1];
     if (!scene || !own || wrong) return '';
     const by = nameAt(scene, 0), time = moment(scene, Number(own.time.toPrecision(4)));
     if (Number.isNaN(own.time)) return '';
-    if (!own.columns[0]?.length) return own.done ? say.never(by, condition(), time) : '';
+    if (!own.columns[0]?.length) return !own.done ? '' : own.problem ? say.failed(by, condition(), own.problem.message) : say.never(by, condition(), time);
     const others = list.length - 1;
     return `${say.answer(by, condition(), count(own), time, others === 0 ? '' : others === 1 ? say.motion : say.motions(grouped(others)))}${own.problem ? ` ${say.stopped(own.problem.message)}` : ''}`;
   }

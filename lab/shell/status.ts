@@ -3,7 +3,8 @@ import type { LiveStore } from '../state';
 import { button, el, say } from '../dom';
 import { endSaid } from '../figure/ended';
 import { begin } from '../figure/track';
-import { timeUnit } from '../panel/told';
+import { bandsOf } from '../panel/band';
+import { moment, nameAt, timeUnit } from '../panel/told';
 import { words } from '../words';
 
 /** "explicit Euler stopped at t = 1.2: x is no longer finite" of each method that did not reach the end, passed a singularity, or missed the accuracy; or why nothing could be computed, or no
@@ -20,8 +21,9 @@ function stopped(store: LiveStore): string {
     if (trouble?.message.startsWith(`${track.method} `)) own.set(trouble.message, trouble.message.slice(track.method.length + 1));
     if (trouble) whose.set(trouble.message, [...(whose.get(trouble.message) ?? []), store.scene?.looks[k]?.label ?? track.method]);
   });
-  // Where no method comes through, why is said of them.
-  const missing = problem && !truth && tracks.some((t) => !t.problem && !t.singular) ? [words.trouble.noGreen(problem.message.replace(/^there is no reference solution[^:]*: /, ''))] : [];
+  // Where no method comes through, why is said of them; where the errors of one are known, how far it can be known.
+  const lost = tracks.flatMap(({ method }, k) => { const until = bandsOf(store).of(method)?.until ?? null; return until === null || !store.scene ? [] : [words.trouble.noGreenFrom(nameAt(store.scene, k), moment(store.scene, until))]; })[0];
+  const missing = problem && !truth && tracks.some((t) => !t.problem && !t.singular) ? [lost ?? words.trouble.noGreen(problem.message.replace(/^there is no reference solution[^:]*: /, ''))] : [];
   return words.trouble.all([...[...whose].map(([message, names]) => (own.has(message) ? words.trouble.does(begin(words.panel.and(names)), own.get(message)!) : words.trouble.method(words.panel.and(names), message))), ...missing]);
 }
 
@@ -44,5 +46,6 @@ export function status(store: LiveStore): HTMLElement {
     say(line, tells ? told : busy ? words.trouble.computing : '');
   };
   store.subscribe(what => { if (what !== 'state' && what !== 'view') show(); });
+  bandsOf(store).listen(show);
   return element;
 }

@@ -2,7 +2,7 @@
  *
  * Invariant: discs and lines share the axis across; a disc is as wide there as a ball is.
  */
-import { drawMarks, marksOf } from '../figure/marks';
+import { drawMarks, marksOf, partOf } from '../figure/marks';
 import type { Ink, Pen } from '../figure/types';
 import { greenName, type Motion, type Rows } from './motion';
 import { drawNames, type Named } from './names';
@@ -10,6 +10,7 @@ import type { Picture, Setting } from './picture';
 import { wideEnough } from './place';
 import { flatPlot } from './plot';
 import { isDone, isOver, placeAt, valueAt } from './rows';
+import { numbersOf } from './subject';
 
 /** Pixels of a unit at most; between the axis and the balls. */
 const UNIT = 120, GAP = 34;
@@ -27,6 +28,9 @@ export function ballsPicture({ scene, subject, place, bounds, before }: Setting,
     const way = Math.sign(to - from) || 1, rows = [...of.times.keys()].filter((i) => (of.times[i]! - upTo) * way <= 0), at = placeAt(of.times, upTo);
     return Float64Array.from([...rows.flatMap((i) => [along(of.columns[cell]![i]!), up(of.times[i]!)]), along(valueAt(of.columns[cell]!, at)), up(Math.abs(upTo - from) < Math.abs(of.times[of.times.length - 1]! - from) ? upTo : of.times[of.times.length - 1]!)]);
   };
+  // A ball has part in an event that changes how it moves.
+  const parts = cells.map((cell) => numbersOf(scene.solution, { columns: [cell] }));
+  const rings = lines.map(({ track: { events } }) => cells.map((cell, k) => (events ? marksOf(events, (of, row) => [along(of[cell]![row]!), up(events.times[row]!)], partOf(events, parts, k)) : [])));
   const within = (pen: Pen, draw: () => void): void => pen.clip(plot.box.left - 1, plot.box.top - 6, plot.box.right - plot.box.left + 8, plot.box.bottom - plot.box.top + 12, draw);
   return {
     handle: null, end: null, leaving: [], remarks: () => [], over: (time) => [...lines.map(({ track }) => track), ...(truth ? [truth] : [])].every((of) => isDone(of.times, time)),
@@ -42,12 +46,11 @@ export function ballsPicture({ scene, subject, place, bounds, before }: Setting,
       within(pen, () => {
         if (truth) for (const cell of cells) pen.line(line(truth, cell, time), { colour: ink.exact, width: 3 });
         for (let i = lines.length - 1; i >= 0; i--) {
-          const { track, look } = lines[i]!, { events } = track;
-          for (const cell of cells) {
+          const { track, look } = lines[i]!;
+          cells.forEach((cell, k) => {
             pen.line(line(track, cell, time), { colour: look.colour, width: 1.75, dash: look.dash });
-            // A ball has part in an event that changes how it moves.
-            if (events) drawMarks(pen, ink, marksOf(events, (of, row) => [along(of[cell]![row]!), up(events.times[row]!)]).filter((mark) => (mark.time - time) * way <= 0), look);
-          }
+            drawMarks(pen, ink, rings[i]![k]!.filter((mark) => (mark.time - time) * way <= 0), look);
+          });
         }
       });
       const now = main && placeAt(main.times, time);

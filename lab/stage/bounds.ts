@@ -46,7 +46,11 @@ export function untilGround(of: Rows, column: number): { readonly rows: Rows; re
 export function extentOf(motion: Motion, ground = false): { readonly ranges: readonly Range[]; readonly tamed: boolean } {
   const { lines, subject } = motion, still = subject.kind === 'time' ? 1 : 0;
   const seen = (of: Rows): Rows => (ground && subject.kind === 'plane' ? untilGround(of, subject.bodies[0]!.columns[1]!).rows : of);
-  if (motion.truth) return { ranges: rangesOf(motion, seen(motion.truth)), tamed: false };
+  if (motion.truth) {
+    const ranges = rangesOf(motion, seen(motion.truth));
+    // Events may end it before a method's own, whose clock goes on.
+    return { ranges: still ? [lines.reduce((all, { track }) => join(all, rangeOf([track.times])), ranges[0]!), ...ranges.slice(1)] : ranges, tamed: false };
+  }
   let best: readonly Range[] | null = null, tamed = false;
   for (const { track } of lines) {
     const rows = seen(track), middles = columnsOf(motion, rows).map(middleOf);

@@ -4,13 +4,14 @@
  * far out. Markers stand at computed rows, never between them; where a line goes on between them by dense output, its rows are more than those.
  */
 import { lineOf, type Rows } from '../figure/line';
-import { marksOf as eventMarks, type Mark } from '../figure/marks';
+import { marksOf as eventMarks, partOf, type Mark } from '../figure/marks';
 import type { Line, Motion } from './motion';
 import { lengthOf, path, type Path } from './path';
 import type { Plot, Way } from './plot';
 import { inside } from './plot';
 import { placeAt } from './rows';
 import type { Box } from './place';
+import { numbersOf } from './subject';
 
 const NEAR = 2;
 /** The exact curve is smooth: its corners lie nearer to it than can be seen. */
@@ -125,13 +126,14 @@ export function curvesOf(motion: Motion, plot: Plot): Curves {
   const { subject, truth, lines } = motion, waysOf = (of: Rows): Way[] => subject.bodies.map((body) => plot.way(of, body));
   const exact = truth ? waysOf(truth).map((way) => ({ way, path: path(truth.times.length, way.x, way.y, SMOOTH, 0.2) })) : [];
   const size = plot.box.right - plot.box.left + plot.box.bottom - plot.box.top;
+  const bodies = subject.bodies.map((body) => numbersOf(motion.scene.solution, body));
   const methods = lines.map((line, rank) => {
     const drawn = lineOf(line.track, subject.bodies.flatMap((body) => body.columns)), { times } = drawn, smooth = drawn !== line.track, ends = smooth ? waysOf(line.track) : [];
     return waysOf(drawn).map((way, body): Curve => {
       const exit = exitOf(way, times.length, times, plot.box), made = path(exit ? exit.row + 1 : times.length, way.x, way.y, ...(smooth ? [SMOOTH, 0.2] : []));
       const marks = marksOf(motion, line, ends[body] ?? way, rank);
       const { events } = line.track, sides = events && { before: plot.way({ times: events.times, columns: events.before }, subject.bodies[body]!), after: plot.way({ times: events.times, columns: events.after }, subject.bodies[body]!) };
-      return { events: events && sides ? eventMarks(events, (of, row) => { const side = of === events.after ? sides.after : sides.before; return [side.x(row), side.y(row)]; }) : [], line, body, way, times, path: made, marks: smooth ? among(line.track.times, marks, times) : marks, band: lengthOf(made) > BAND * size, exit };
+      return { events: events && sides ? eventMarks(events, (of, row) => { const side = of === events.after ? sides.after : sides.before; return [side.x(row), side.y(row)]; }, partOf(events, bodies, body)) : [], line, body, way, times, path: made, marks: smooth ? among(line.track.times, marks, times) : marks, band: lengthOf(made) > BAND * size, exit };
     });
   });
   const same = methods.map((own, i) => {

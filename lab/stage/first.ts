@@ -19,7 +19,7 @@ import type { Staging } from './staging';
 import { stagings } from './stagings';
 import { subjects } from './subject';
 
-export { notes } from '../words';
+export { movedNotes, notes } from '../words';
 export { html, inkStyle, stagings, words };
 const stagingOf = (name: string): Staging => stagings[name] ?? {};
 

@@ -32,6 +32,8 @@ export function velocityColumn(solution: Solution, position: number): number {
   }
   return -1;
 }
+/** The columns of a body: places, and where there are such their velocities. */
+export const numbersOf = (solution: Solution, { columns }: Pick<Body, 'columns'>): number[] => columns.flatMap((c) => [c, velocityColumn(solution, c)]);
 
 interface Place { readonly column: Column; readonly at: number }
 

@@ -7,5 +7,5 @@ export { words } from './en';
 export { computed } from './en/computed';
 export { faults } from './en/faults';
 export { html } from './en/html';
-export { notes } from './en/notes';
+export { movedNotes, notes } from './en/notes';
 export { page } from './en/page';

@@ -20,16 +20,19 @@ await attempt('a ball that bounces', async () => {
   await page.keyboard.press('Escape');
   judge('rings on the curve where it bounced', [...stage.matchAll(new RegExp(`<circle [^>]*stroke="${VERLET}"`, 'gi'))].length >= 20);
 
+  same('no step is opened that events divide, and why is said', await page.locator('#open-step').evaluate((b) => [b.disabled, b.title]), [true, 'Events divide the steps of this motion: none can be opened.']);
   await closer(page, 'Events');
   const events = figureOf(page, 'Events');
   await page.waitForFunction(() => /±/.test(document.querySelector('.events-table')?.textContent ?? ''), null, { timeout: 20000 });
-  same('the answer', await events.locator('.figure-answer').textContent(), 'By Verlet, bounce 135 times, first at t = 0.4515, last at t = 4.064; bounces accumulate at t = 4.0637127688716(4).');
+  same('the answer', await events.locator('.figure-answer').textContent(), 'By Verlet, bounce happens 135 times, first at t = 0.4515, last at t = 4.064; bounces accumulate at t = 4.0637127688716(4).');
   const rows = await events.locator('.events-table tbody tr').evaluateAll((all) => all.map((row) => [...row.children].map((cell) => cell.textContent)));
   same('ten rows, how many more, three', rows.length, 14);
-  same('… name, count', [rows[0][0], rows[0][2], rows[9][2], rows[11][2], rows[13][2]], ['bounce', '1', '10', '133', '135']);
-  const [value, error] = rows[1][1].split('±').map((part) => Number(part.trim().replace(/×10⁻¹⁵/, 'e-15')));
-  judge('… a time with its error, which covers the true one', Math.abs(value - 1.1739614665629003) <= error && error < 1e-14, rows[1][1]);
-  same('… the state as it came and as it left', rows[0][4], '−4.42945 → 3.54356');
+  same('what jumps comes first', await events.locator('.events-table thead th').allTextContents(), ['event', 't', 'y′', 'count', 'y', 't, with its error']);
+  same('… name, count', [rows[0][0], rows[0][3], rows[9][3], rows[11][3], rows[13][3]], ['bounce', '1', '10', '133', '135']);
+  same('… a time to six digits, and to as many as tell it from the one before', [rows[0][1], rows[1][1], rows[12][1], rows[13][1]], ['0.451524', '1.17396', '4.063712768871112', '4.063712768871206']);
+  const [value, error] = rows[1][5].split('±').map((part) => Number(part.trim().replace(/×10⁻¹⁵/, 'e-15')));
+  judge('… a time with its error, which covers the true one', Math.abs(value - 1.1739614665629003) <= error && error < 1e-14, rows[1][5]);
+  same('… the state as it came and as it left', rows[0][2], '−4.42945 → 3.54356');
   await events.getByRole('button', { name: '… 122 more' }).click();
   same('all rows when asked', await events.locator('.events-table tbody tr').count(), 135);
   const { head, rows: numbers } = await tableOf(page, 'Events');
@@ -63,10 +66,11 @@ await attempt('a section', async () => {
   judge('a click starts another motion, with the same energy', own.length === 2000 && own.every((row) => Math.abs(energy(row) - energy(first.rows[0])) < 1e-6), `${own.length} ${energy(own[0])} ${energy(first.rows[0])}`);
   const mine = new URLSearchParams(new URL(page.url()).hash.slice(1)).getAll('s').map((s) => s.split('='));
   judge('it is the motion of the page', mine.length === 4 && mine.every(([name]) => /\(0\)$/.test(name)), JSON.stringify(mine));
+  judge('… at the place of the click, with the digits that pixels tell', mine.filter(([, value]) => /^-?[\d.]{1,6}$/.test(value)).length >= 2, JSON.stringify(mine));
   const from = mine.map(([, value]) => Number(value)), near = own.map((row) => Math.hypot(Number(row[y]) - from[2], Number(row[v]) - from[3]));
   judge('… and comes back to where it was started', Math.min(...near) < 0.02, String(Math.min(...near)));
   await page.mouse.click(box.x + 0.93 * box.width, box.y + 0.15 * box.height);
-  await page.waitForFunction(() => /no motion with this energy passes there/.test(document.querySelector('.section-note')?.textContent ?? ''));
+  await page.waitForFunction(() => /^No motion with this energy passes there\.$/.test(document.querySelector('.section-note')?.textContent ?? ''));
   await page.mouse.move(2, 2);
   await section.locator('.figure-moving').focus();
   for (const key of ['ArrowLeft', 'ArrowLeft', 'ArrowUp', 'Enter']) await page.keyboard.press(key);
@@ -75,6 +79,14 @@ await attempt('a section', async () => {
   await section.locator('.section-when').fill('x = 0 rissing');
   await section.locator('.section-when').press('Enter');
   await page.waitForFunction(() => /rissing/.test(document.querySelector('.section-note')?.textContent ?? ''));
+  // What is no section says why, and shows none.
+  for (const [text, why] of [['xyz', /no event “xyz”: xyz is not defined/], ['floor(x) = 0', /no section for floor\(x\) = 0: .* its roots cannot be told apart/], ['', /needs a condition/]]) {
+    await section.locator('.section-when').fill(text);
+    await section.locator('.section-when').press('Enter');
+    const told = () => section.evaluate((figure) => `${figure.querySelector('.figure-answer').textContent} ${figure.querySelector('.section-note').textContent}`);
+    for (let n = 0; n < 100 && !why.test(await told()); n++) await page.waitForTimeout(100);
+    judge(`“${text}” is no section`, why.test(await told()) && !/ points up to|does not happen/.test(await told()), await told());
+  }
   await section.locator('.section-when').fill('y = 0');
   await section.locator('.section-when').press('Enter');
   await full('');
@@ -106,6 +118,10 @@ await attempt('on a phone', async () => {
   judge('nothing is wider than the page', wide <= 390, wide);
   const box = await figureOf(page, 'Events').locator('.events-table .figure-table').boundingBox();
   judge('the table scrolls in its own box', box && box.width <= 390, JSON.stringify(box));
+  const first = figureOf(page, 'Events').locator('.events-table tbody tr:first-child'), [row, time] = await Promise.all(['th', 'button'].map((cell) => first.locator(cell).boundingBox()));
+  const jump = await first.locator('td:nth-child(3)').evaluate((cell) => { const text = document.createRange(); text.selectNodeContents(cell); return text.getBoundingClientRect().right; });
+  judge('what a bounce did is in sight', jump <= box.x + box.width, `${jump} ${JSON.stringify(box)}`);
+  judge('a name stands beside its time', Math.abs(row.y + row.height / 2 - time.y - time.height / 2) < 1.5, JSON.stringify([row, time]));
   await page.goto(`${singleFile}#v=1&p=ueda`);
   await settled(page);
   await closer(page, 'Section');

@@ -14,7 +14,7 @@ const text = async (options) => (await build({ bundle: true, write: false, targe
 const { thumbnails, scenes, saidOf, inkStyle } = await import('data:text/javascript;base64,' + Buffer.from(await text({
   stdin: { contents: "export * from './thumbs'; export { scenes, saidOf } from './scenes'; export { inkStyle } from './figure/ink';", resolveDir: lab, loader: 'ts' }, format: 'esm',
 })).toString('base64'));
-const made = { 'virtual:data': { presets: models, lessons: [], cards: {}, stagings: {}, notes: {}, theory: '' }, 'virtual:thumbs': thumbnails(new WebAssembly.Module(readFileSync(join(built, 'motus.wasm'))), models) };
+const made = { 'virtual:data': { presets: models, lessons: [], cards: {}, stagings: {}, notes: {}, movedNotes: {}, theory: '' }, 'virtual:thumbs': thumbnails(new WebAssembly.Module(readFileSync(join(built, 'motus.wasm'))), models) };
 const script = await text({
   stdin: { contents: `import { gallery } from './shell/gallery'; import { loadData } from './data'; window.said = [];
     loadData().then(() => document.body.append(gallery({ state: { preset: 'kepler' } }, { open: name => window.said.push(name), close: () => window.said.push('closed') })));`, resolveDir: lab, loader: 'ts' }, format: 'iife',
@@ -160,5 +160,23 @@ await attempt('every width', async () => {
     same(`${width} px, ${theme}: axe has nothing to say`, violations, []);
     await close(`${width} px`, page);
   }
+});
+/* In the page, whose own margins grow with the window. */
+await attempt('wider and wider', async () => {
+  const page = await page_.open(`${page_.singleFile}#v=1&p=spring&l=gallery`, { width: 1280, height: 900, calm: true });
+  await page.locator('#gallery .thumb svg').first().waitFor();
+  const wide = () => page.evaluate(() => ['#gallery .gallery-row', '#gallery .thumb'].map((s) => document.querySelector(s).getBoundingClientRect().width));
+  let before = [0, 0];
+  for (const width of [1280, 1440, 1590, 1700, 1920, 2560]) {
+    await page.setViewportSize({ width, height: 900 });
+    const now = await wide();
+    judge(`${width} px: a row is no narrower than in a narrower window, a picture has its room`, now[0] >= before[0] && now[1] >= 180, JSON.stringify([before, now]));
+    before = now;
+  }
+  judge('2560 px: it stands in the middle', await page.evaluate(() => { const { left, right } = document.querySelector('#gallery .gallery-row').getBoundingClientRect(); return Math.abs(left + right - document.documentElement.clientWidth) < 2; }));
+  await page_.example(page, 'spring');
+  await page_.closer(page);
+  judge('2560 px: so does what looks closer', await page.evaluate(() => document.querySelector('#panels').clientWidth > 1500));
+  await page_.clean('wider and wider', page);
 });
 await finish();

@@ -139,7 +139,7 @@ test('through a point of the plane: on the section, with the energy, or nowhere'
   const state = through([0.1, 0.2]);
   assert.ok(Math.abs(state[0]) < 1e-12 && Math.abs(state[1] - 0.1) < 1e-12 && Math.abs(state[3] - 0.2) < 1e-12 && state[2] > 0, String(state));
   assert.ok(Math.abs(energy(state) - energy([0, -0.25, 0.42, 0])) < 1e-14);
-  assert.throws(() => through([0.1, 0.6]), /no motion with this energy passes there/);
+  assert.throws(() => through([0.1, 0.6]), /No motion with this energy passes there/);
 });
 test('what is wrong with its condition is told', () => {
   assert.throws(() => asked('section', { ...cut, model: { ...cut.model, when: ['x = 0 sinking as section: record'] } }), /sinking/);

@@ -9,7 +9,7 @@ const built = buildSync({ stdin: { contents: "export * from './figure/name'; exp
 const { nameText, nameSpans, spread, missText } = await import('data:text/javascript;base64,' + Buffer.from(built.outputFiles[0].contents).toString('base64'));
 
 test('a name is set as in the equation', () => {
-  for (const [name, set] of [['theta', 'θ'], ["theta'", 'θ′'], ['r.x', 'rx'], ["r'.y", 'r′y'], ['x1', 'x1'], ['omega0', 'ω0'], ['r[3].x', 'r3, x'], ["x[2]'", 'x′2'], ['theta(0)', 'θ(0)'], ["r'(0).x", 'r′(0).x'], ['energy', 'energy'], ['a+b', 'a+b']]) assert.equal(nameText(name), set, name);
+  for (const [name, set] of [['theta', 'θ'], ["theta'", 'θ′'], ['r.x', 'r.x'], ["r'.y", 'r′.y'], ['x1', 'x1'], ['omega0', 'ω0'], ['r[3].x', 'r[3].x'], ["x[2]'", 'x[2]′'], ['theta(0)', 'θ(0)'], ["r'(0).x", 'r′(0).x'], ['energy', 'energy'], ['a+b', 'a+b']]) assert.equal(nameText(name), set, name);
   assert.equal(nameSpans('r.x', 10)[1].sunk > 0, true);
 });
 

@@ -249,3 +249,16 @@ test('the body that panels and One step show first: not one that nearly rests, a
   const labels = page.seenIn(names, (body) => ({ 'r[1]': 'Sun', 'r[2]': 'Jupiter' })[body]).map((s) => s.label);
   assert.ok(labels.some((l) => l.startsWith('Jupiter')) && !labels.some((l) => /r/.test(l.replace('Jupiter', ''))), labels.join(' | '));
 });
+test('rings stand on the bodies that an event changed, and leave the curve to be seen', () => {
+  const rings = (scene) => drawn(scene).marks.filter(({ shape }) => shape === 'ring');
+  const apart = rings(sceneOf('newtons-cradle', ['verlet'], { set: { d: 0.9 } }));
+  assert.equal(apart.length, 6, 'three contacts of two balls each');
+  // Against time, left of the plane of velocities.
+  const kicks = rings(sceneOf('kicked-rotor', ['verlet'], { set: { K: 5 } })).filter(({ x }) => x < 780), near = kicks.slice(1).filter(({ x, y }, k) => Math.hypot(x - kicks[k].x, y - kicks[k].y) < 20);
+  assert.ok(kicks.length > 20 && near.length === 0, `${near.length} of ${kicks.length} kicks cover one another`);
+});
+test('the time goes as far as the clock, also where events end the exact motion before', () => {
+  const scene = sceneOf('bouncing-ball', ['explicit-euler']), { truth } = scene.solution;
+  assert.ok(truth.times.at(-1) < 4.1, 'the ball comes to rest');
+  assert.deepEqual(drawn(scene).bounds[0], [0, 5]);
+});

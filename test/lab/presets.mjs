@@ -67,5 +67,19 @@ for (const name of names) {
     }
   });
 }
+// Numbers of a note are those of the example's own values.
+for (const [address, own, other] of [['p=bouncing-ball', /4\.0637/, /e² of the height/], ['p=pendulum', /\d\.\d/, /own values, which have been changed/]]) {
+  await attempt(address, async () => {
+    const note = page.locator('#scene-note');
+    await example(page, address.slice(2));
+    judge(`${address}: its numbers`, own.test(await note.textContent()), await note.textContent());
+    await page.evaluate((hash) => { location.hash = hash; }, `#v=1&${address}&s=${address === 'p=pendulum' ? 'theta(0)%3D1' : 'e%3D0.5'}`);
+    await settled(page);
+    judge(`${address}: none of them for other values`, other.test(await note.textContent()) && !own.test(await note.textContent()), await note.textContent());
+  });
+}
+await page.locator('#scene-note button').click();
+await settled(page);
+judge('back to its values: the answer', /\d\.\d/.test(await page.locator('#scene-note').textContent()), await page.locator('#scene-note').textContent());
 await clean('examples', page, /readback/);
 await finish();

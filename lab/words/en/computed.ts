@@ -13,7 +13,7 @@ export const computed = {
   room: (why: string) => `the page has not enough room for this (${why})`,
   smaller: 'fewer brackets and definitions within one another, a smaller model, or the program motus',
   draft: (method: string, step: string) => `${method} at step ${step}`,
-  unreachable: (kept: readonly string[]) => (kept.length ? `no motion with this ${kept.join(' and ')} passes there` : 'no motion passes there'),
+  unreachable: (kept: readonly string[]) => (kept.length ? `No motion with this ${kept.join(' and ')} passes there.` : 'No motion passes there.'),
   undrawn: 'the runs that were tried do not agree well enough to be drawn',
   memory: 'out of memory', fewer: 'a smaller model, fewer steps',
   worker: (why: string) => (why ? `the worker failed: ${why}` : 'the worker failed'), model: 'a smaller model',

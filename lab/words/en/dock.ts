@@ -2,7 +2,7 @@
 const steps = (count: number, text: string): string => `${text} ${count === 1 ? 'step' : 'steps'}`;
 
 export const dock = {
-  all: 'All values', oneStep: 'One step', closer: 'Look closer',
+  all: 'All values', oneStep: 'One step', divided: 'Events divide the steps of this motion: none can be opened.', closer: 'Look closer',
   /** The clock; its keys are in brackets. */
   clock: {
     group: 'Time', play: 'Play (space)', pause: 'Pause (space)', time: 'Present time', speed: 'Speed of the animation',

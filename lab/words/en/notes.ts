@@ -96,7 +96,7 @@ export const notes: Readonly<Record<string, Note>> = {
   ],
   'bouncing-ball': [
     'Infinitely often, before 4.0637 s: bounce n + 1 follows after four fifths of the time that bounce n took, and such times have a sum. 135 of the bounces can be told from that limit in double precision. A bounce leaves 64 % of the height.',
-    'Explicit Euler flies higher than it should between two bounces, each time by the same, and never comes to rest.',
+    'By explicit Euler every flight lasts about one step h longer than it should and ends about g h faster: in steps of 0.125 s the ball comes to rise above its start, and it never comes to rest.',
   ],
   'newtons-cradle': [
     'Because two equal balls that meet exchange their velocities: the push goes from ball to ball, three contacts in the one instant t = 1, and the last ball, which meets none, keeps it. Momentum and energy stay 1 and 1/2.',
@@ -127,5 +127,26 @@ export const notes: Readonly<Record<string, Note>> = {
   ueda: [
     'There is, though nothing in the equation is random and still no two turns are alike. Observed once in each period of the force, at t = 2π n, the points (x, x′) fall on one folded figure, the same from every start. '
     + 'Start at x = 3.0001 in place of 3: the two motions are 0.001 apart after 9 units of time, 0.01 after 37 and 0.1 after 96.',
+  ],
+};
+
+/** The same answers without the numbers of the model's values, for others. Where there is none, the page says that the answer belongs to the example's values. */
+export const movedNotes: Readonly<Record<string, Note>> = {
+  'bouncing-ball': [
+    'Infinitely often, while e is below 1: bounce n + 1 follows after e times the time that bounce n took, and such times have a sum. A bounce leaves e² of the height.',
+    'By explicit Euler every flight lasts about one step h longer than it should and ends about g h faster, and the ball never comes to rest.',
+  ],
+  'newtons-cradle': [
+    'Because two equal balls that meet exchange their velocities: the push goes from ball to ball, and the last one, which meets none, keeps it. Momentum and energy stay.',
+  ],
+  billiard: [
+    'Near the centre. The angle at which it leaves the rim is that at which it came, so that its angular momentum stays, and with it the circle that every chord touches. All chords take the same time.',
+  ],
+  'stick-slip': [
+    'Because friction holds better than it drags, while f is below 1: the mass rides along until the spring pulls with 1, slips back, and rides again.',
+  ],
+  'kicked-rotor': [
+    'Not far from where it is, while the kicks are weak: the section below has a point for every kick, and motions on its closed curves stay on them. Between them some fill an area at random. The last curve from left to right, which no motion crosses, breaks at K = 0.971635; '
+    + 'far above that it wanders as if at random.',
   ],
 };

@@ -69,6 +69,7 @@ export const scenes: Readonly<Record<string, SceneWords>> = {
   'newtons-cradle': {
     title: 'Newton’s cradle', question: 'Why does only the last one roll?',
     sentence: 'One ball comes, three wait in contact. The push runs through them in no time. Time runs upwards.',
+    moved: 'One ball comes, three wait. The push runs from ball to ball. Time runs upwards.',
     dials: { d: 'Diameter' },
   },
   'billiard': {

@@ -9,6 +9,10 @@ export const section = {
   answer: (by: string, of: string, points: string, at: string, motions: string) => `By ${by}, ${of}: ${points} up to ${at}${motions}.`,
   points: (count: string, one: boolean) => (one ? 'one point' : `${count} points`), motions: (count: string) => `, and those of ${count} more motions`, motion: ', and those of one more motion',
   never: (by: string, of: string, at: string) => `By ${by}, ${of} does not happen up to ${at}.`,
+  /** why: what the run said. */
+  failed: (by: string, of: string, why: string) => `By ${by}, there is no section for ${of}: ${why}.`,
+  unknown: (name: string, why: string) => `There is no event “${name}”: ${why}.`,
+  empty: 'A section needs a condition, such as “x = 0 rising”, or the name of an event.',
   hint: 'A click starts a motion there.',
   fixed: 'These axes are no numbers of the state: a click starts nothing.',
   /** Of the plane, for the keyboard. */

@@ -22,6 +22,8 @@ export const trouble = {
   method: (name: string, message: string) => `${name}: ${message}`, does: (name: string, what: string) => `${name} ${what}`, all: (sentences: readonly string[]) => sentences.join('. '),
   /** Why nothing could be computed to compare with, as the core says it. */
   noGreen: (why: string) => `There is no green curve: ${why}`,
+  /** at: "t = 36.1". */
+  noGreenFrom: (by: string, at: string) => `There is no green curve: no digit of ${by} is known from ${at} on`,
   /** What the core says, and what would be right, where it says that. */
   hinted: (message: string, hint: string) => (hint ? `${message}: ${hint}` : message),
 } as const;
