@@ -13,8 +13,8 @@
 
 static int sign_of(double x) { return (x > 0) - (x < 0); }
 
-/* Whether a function is 0 at `here`: by its rounding, and by that of the time. The bound counts every number of the state
- * as rounded by half a unit in its last place; a companion's has been moved by a whole one besides. */
+/* Whether a function is 0 at `here`: by its rounding, and by that of the time. The bound counts every number of the
+ * state as rounded by half a unit in its last place; a companion's has been moved by a whole one besides. */
 static bool is_zero(const events *e, size_t f)
 {
     const instant *at = &e->here;
