@@ -58,6 +58,9 @@ void events_forget(events *);
 /* Takes one step, of fixed steps to the next time of their grid, with all that happens in it. *why: STOP_EVENT where a
  * rule ended the run, or events accumulated. */
 motus_status events_step(events *, stepper *, double until, stepper_stop *why, motus_error *);
+/* The same, and up to `most` steps at once while bounds tell that nothing happens in them: events_steps says how many.
+ */
+motus_status events_go(events *, stepper *, double until, int64_t most, stepper_stop *why, motus_error *);
 
 /* After every action `jog` moves the numbers of the state, x and then v, by about their rounding; salt: of the event.
  * `switched`: no action has computed them, a switch of the force has let the motion go on. So a companion meets other

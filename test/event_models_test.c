@@ -280,8 +280,8 @@ static void the_belt(void **state)
     }
 }
 
-/* Equal periods end nowhere, though what tells the sticking is 0 right after it, by rounding or for good: every slip
- * and every stick up to t = 1000 happens, by any method. */
+/* Equal periods end nowhere, though what tells the sticking is 0 right after it, by rounding or for good: every
+ * slip and every stick up to t = 1000 happens, by any method. */
 static void the_belt_goes_on(void **state)
 {
     (void)state;
