@@ -29,11 +29,17 @@ motus_status run_events_steps(events *e, stepper *s, const pace *p, int64_t n, d
                               motus_error *err)
 {
     enum { LOOK = 16 }; /* steps between two looks at the clock */
+    const int64_t began = events_steps(e);
+    int64_t look = 0;
     motus_status status = MOTUS_OK;
     events_listen(e, p->tell ? asks : NULL, p);
-    for (int64_t i = 0; i < n && status == MOTUS_OK && *why == STOP_STEPS; i++) {
-        if (i % LOOK == 0 && p->tell && p->tell(p->ctx, pace_now())) return MOTUS_CANCELLED;
-        status = events_step(e, s, until, why, err);
+    for (int64_t i = 0; i < n && status == MOTUS_OK && *why == STOP_STEPS; i = events_steps(e) - began) {
+        if (p->tell && i >= look) {
+            if (p->tell(p->ctx, pace_now())) return MOTUS_CANCELLED;
+            look = i + LOOK;
+        }
+        const int64_t room = p->tell && look < n ? look - i : n - i;
+        status = events_go(e, s, until, room, why, err);
     }
     if (status != MOTUS_OK) *why = STOP_FAILED;
     return status;

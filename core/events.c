@@ -34,7 +34,7 @@ static size_t arrange(events *e, char *block)
     const size_t n = e->rules.count, f = e->rules.functions, nx = e->problem.nx, nv = e->problem.nv;
     size_t instances = 0;
     for (size_t k = 0; k < n; k++) instances += e->rules.rule[k].instances + 1;
-    double *numbers = next(&l, 4 * (nx + 2 * nv + 3 * f), sizeof *numbers);
+    double *numbers = next(&l, 5 * (nx + 2 * nv + 3 * f), sizeof *numbers);
     e->after = next(&l, nx + nv, sizeof *e->after);
     e->width = next(&l, nx + nv, sizeof *e->width);
     e->fired = next(&l, f, sizeof *e->fired);
@@ -49,6 +49,7 @@ static size_t arrange(events *e, char *block)
     e->was = next(&l, 4 * f, 1);
     e->sign = next(&l, f, 1);
     e->look = next(&l, f, 1);
+    e->passed = next(&l, f, 1);
     e->zero = next(&l, f, 1);
     e->held = next(&l, instances, 1);
     e->ticked = next(&l, n, 1);
@@ -56,7 +57,8 @@ static size_t arrange(events *e, char *block)
     numbers = place(&e->left, e, numbers);
     numbers = place(&e->right, e, numbers);
     numbers = place(&e->here, e, numbers);
-    place(&e->next, e, numbers);
+    numbers = place(&e->next, e, numbers);
+    place(&e->best, e, numbers);
     e->stands = (uint8_t *)e->side + f;
     e->open = e->stands + f;
     e->heads = (int8_t *)e->open + f;
@@ -339,9 +341,20 @@ static motus_status go_through(events *e, stepper *s, bool *assigned, stepper_st
     return status;
 }
 
-/* A step towards `until`, or to an action before its end. Where it is too long to tell how a function leaves 0 at its
- * start, a shorter one. */
-static motus_status piece(events *e, stepper *s, double until, bool *assigned, stepper_stop *why, motus_error *err)
+/* A step, marked; where bounds alone tell of it, more, up to the limit, and then `left` is where the last one began. */
+static motus_status go_on(events *e, stepper *s, stepper_limit limit, stepper_stop *why, motus_error *err)
+{
+    e->boxed = e->right.valued = false;
+    if (limit.steps > 1 && e->pause == 0 && events_watchable(e, s)) return events_watch(e, s, limit, why, err);
+    if (e->pause > 0) e->pause--;
+    const motus_status status = stepper_mark(s, err);
+    return status ? status : stepper_advance(s, (stepper_limit){1, limit.until}, why, err);
+}
+
+/* A step towards `until`, or to an action before its end; where bounds tell that nothing happens, up to `most` steps.
+ * Where it is too long to tell how a function leaves 0 at its start, a shorter one. */
+static motus_status piece(events *e, stepper *s, double until, int64_t most, bool *assigned, stepper_stop *why,
+                          motus_error *err)
 {
     enum { PART = 4, SHORTER_MOST = 12 };
     motus_status status = MOTUS_OK;
@@ -349,12 +362,10 @@ static motus_status piece(events *e, stepper *s, double until, bool *assigned, s
     e->whole = 0;
     e->shorter = SHORTER_MOST;
     for (;;) {
-        if (!status) status = stepper_mark(s, err);
-        if (!status) status = stepper_advance(s, (stepper_limit){1, until}, why, err);
+        if (!status) status = go_on(e, s, (stepper_limit){whole == 0 ? most : 1, until}, why, err);
         if (!status) status = observe(s, &e->right, err);
         if (!status && e->right.t == e->left.t) return MOTUS_OK;
         e->span = (e->right.t - e->left.t) + (e->right.lost - e->left.lost);
-        e->right.valued = false;
         if (!status) status = events_find(e, s, err);
         if (status || !e->hidden) break;
         if (whole == 0) whole = e->span;
@@ -408,10 +419,11 @@ void events_move(events *e, const machine *m)
     e->probe = NULL;
 }
 
-static motus_status adaptive_step(events *e, stepper *s, double until, stepper_stop *why, motus_error *err)
+static motus_status adaptive_step(events *e, stepper *s, double until, int64_t most, stepper_stop *why,
+                                  motus_error *err)
 {
     bool assigned = false;
-    motus_status status = piece(e, s, until, &assigned, why, err);
+    motus_status status = piece(e, s, until, most, &assigned, why, err);
     if (status || *why == STOP_EVENT) return status;
     /* the sizes of a reversible row follow from one another, and a step that was shortened for the events' sake would
      * shorten all that come */
@@ -441,7 +453,7 @@ static motus_status grid_step(events *e, stepper *s, double until, stepper_stop 
     if (last && e->may_save && !e->broken && !events_save_here(e, s)) return events_no_memory(err);
     for (;;) {
         bool assigned = false;
-        motus_status status = piece(e, s, e->broken ? end : until, &assigned, why, err);
+        motus_status status = piece(e, s, e->broken ? end : until, 1, &assigned, why, err);
         if (status || *why == STOP_EVENT) return status;
         const double left = assigned ? (end - e->here.t) - e->here.lost : (end - e->right.t) - e->right.lost;
         const bool near = fabs(left) <= 8 * events_ulp(end);
@@ -460,19 +472,26 @@ static motus_status grid_step(events *e, stepper *s, double until, stepper_stop 
     return MOTUS_OK;
 }
 
-motus_status events_step(events *e, stepper *s, double until, stepper_stop *why, motus_error *err)
+motus_status events_go(events *e, stepper *s, double until, int64_t most, stepper_stop *why, motus_error *err)
 {
     *why = STOP_STEPS;
     e->until = until;
     e->cancelled = false;
+    e->along = s;
     e->pasts = 0;
     events_kept_forget(e);
     motus_status status =
-        row_adaptive(&e->method) ? adaptive_step(e, s, until, why, err) : grid_step(e, s, until, why, err);
+        row_adaptive(&e->method) ? adaptive_step(e, s, until, most, why, err) : grid_step(e, s, until, why, err);
+    e->along = NULL;
     if (!status) e->steps++;
     if (!status && e->cancelled) status = MOTUS_CANCELLED;
     if (status) *why = STOP_FAILED;
     return status;
+}
+
+motus_status events_step(events *e, stepper *s, double until, stepper_stop *why, motus_error *err)
+{
+    return events_go(e, s, until, 1, why, err);
 }
 
 events_end events_ended(const events *e, size_t *rule)

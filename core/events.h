@@ -58,6 +58,9 @@ void events_forget(events *);
 /* Takes one step, of fixed steps to the next time of their grid, with all that happens in it. *why: STOP_EVENT where a
  * rule ended the run, or events accumulated. */
 motus_status events_step(events *, stepper *, double until, stepper_stop *why, motus_error *);
+/* The same, and up to `most` steps at once while bounds tell that nothing happens in them: events_steps says how many.
+ */
+motus_status events_go(events *, stepper *, double until, int64_t most, stepper_stop *why, motus_error *);
 
 /* Where a step has many events, `asks` is asked on the way; other than 0: the step ends at the latest of them, and the
  * call with MOTUS_CANCELLED, without a message. It is asked for as long as it is not replaced; NULL: nobody cancels. */

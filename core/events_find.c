@@ -368,23 +368,33 @@ static bool add_ticks(events *e)
     return true;
 }
 
-/* How far each number may be within the step from the middle of its ends: a position from the line between them by
- * h^2/8 times the largest acceleration, a velocity by h/2 times that. The middle is in `next`. False: not known. */
-static bool box(events *e, const stepper *s)
+/* How far each number may be within a step from the middle of its ends: a position from the line between them by
+ * h^2/8 times the largest acceleration, a velocity by h/2 times that. The middle is in `next`, and in `before` stands
+ * below what no function falls there. */
+static void look_at_box(events *e, const stepper_shown *step)
 {
     const size_t nx = e->problem.nx, nv = e->problem.nv;
+    const double h = fabs(step->span), *most = step->most;
     instant *middle = &e->next;
-    const instant *from = &e->left, *to = &e->right;
-    const double h = fabs(e->span);
-    double *most = middle->a, *dx = e->width, *dv = dx + nx;
-    if (!e->rules.least || e->problem.refresh || !stepper_swing(s, most)) return false;
+    double *dx = e->width, *dv = dx + nx;
     for (size_t k = 0; k < nv; k++) {
-        middle->v[k] = from->v[k] + (to->v[k] - from->v[k]) / 2;
+        middle->v[k] = step->from_v[k] + (step->to_v[k] - step->from_v[k]) / 2;
         dv[k] = h / 2 * most[k];
         if (k >= nx) continue;
-        middle->x[k] = from->x[k] + (to->x[k] - from->x[k]) / 2;
-        dx[k] = fabs(to->x[k] - from->x[k]) / 2 + h * h / 8 * most[k];
+        middle->x[k] = step->from_x[k] + (step->to_x[k] - step->from_x[k]) / 2;
+        dx[k] = fabs(step->to_x[k] - step->from_x[k]) / 2 + h * h / 8 * most[k];
     }
+    e->rules.least(e->rules.ctx, middle->x, middle->v, dx, dv, e->before);
+}
+
+/* The same of the present step. False: it is not known. */
+static bool box(events *e, const stepper *s)
+{
+    const instant *from = &e->left, *to = &e->right;
+    double *most = e->next.a;
+    if (e->boxed) return true;
+    if (!e->rules.least || e->problem.refresh || !stepper_swing(s, most)) return false;
+    look_at_box(e, &(stepper_shown){e->span, from->t, to->t, from->x, from->v, to->x, to->v, most});
     return true;
 }
 
@@ -412,6 +422,12 @@ static double cubic_root(double h, double g0, double r0, double g1, double r1)
     return u * h;
 }
 
+/* Whether rounding hides the sign of a function at neither end of the step; their bounds are known. */
+static bool clear(const events *e, size_t f)
+{
+    return fabs(e->left.g[f]) > 2 * e->left.bound[f] && fabs(e->right.g[f]) > 2 * e->right.bound[f];
+}
+
 /* A function that is monotone on the step has at most one root there, of which its signs at the ends tell. False: they
  * do not. */
 static bool monotone(events *e, size_t f, motus_status *status, motus_error *err)
@@ -419,31 +435,125 @@ static bool monotone(events *e, size_t f, motus_status *status, motus_error *err
     const double from = e->left.g[f], to = e->right.g[f];
     const int sign = (from > 0) - (from < 0), after = (to > 0) - (to < 0);
     const rule *r = &e->rules.rule[e->rule_of[f]];
+    const bool idle = r->kind == RULE_ROOT && r->direction == -after;
     if (!sign || !after || sign != e->side[f]) return false;
     if (sign == after) return true;
     *status = judge_ends(e, err);
-    if (*status || fabs(from) <= 2 * e->left.bound[f] || fabs(to) <= 2 * e->right.bound[f]) return false;
-    const double at = cubic_root(e->span, from, e->left.rate[f], to, e->right.rate[f]);
+    if (*status || !clear(e, f)) return false;
+    /* of one that is idle nothing depends on the time but its order among others */
     const candidate c = {.of = f,
-                         .at = at,
+                         .at = idle ? e->span * (from / (from - to))
+                                    : cubic_root(e->span, from, e->left.rate[f], to, e->right.rate[f]),
                          .low = 0,
                          .high = e->span,
                          .kind = (candidate_kind)after,
                          .sure = true,
-                         .idle = r->kind == RULE_ROOT && r->direction == -after};
+                         .idle = idle};
     if (!events_add(e, c)) *status = events_no_memory(err);
     return true;
+}
+
+/* Whether a function passes 0 in the other direction than its rule asks for; which the values at the ends say. */
+static bool turns_away(const events *e, size_t f)
+{
+    const rule *r = &e->rules.rule[e->rule_of[f]];
+    const double before = r->direction * e->left.g[f], after = r->direction * e->right.g[f];
+    return r->kind == RULE_ROOT && !r->internal && before > 0 && after < 0;
+}
+
+/* Whether nothing happens in a step of which the box leaves the marked functions open, because each passes 0 once, and
+ * in the direction in which that is no event. Its side follows when the watch ends: the same step may be shown again.
+ */
+static bool passes_idly(events *e, const stepper_shown *step)
+{
+    const size_t n = e->rules.functions, nx = e->problem.nx, nv = e->problem.nv;
+    instant *from = &e->left, *to = &e->right;
+    from->t = step->from_t, to->t = step->to_t;
+    memcpy(from->x, step->from_x, nx * sizeof *from->x), memcpy(from->v, step->from_v, nv * sizeof *from->v);
+    memcpy(to->x, step->to_x, nx * sizeof *to->x), memcpy(to->v, step->to_v, nv * sizeof *to->v);
+    if (value_ends(e, NULL)) return false;
+    for (size_t f = 0; f < n; f++)
+        if (e->look[f] && !turns_away(e, f)) return false;
+    e->boxed = false;
+    e->rules.least_rates(e->rules.ctx, e->next.x, e->next.v, e->width, e->width + nx, e->before);
+    if (events_bounds(e, from, NULL) || events_bounds(e, to, NULL)) return false;
+    for (size_t f = 0; f < n; f++) {
+        if (!e->look[f]) continue;
+        const bool known = e->passed[f] || e->side[f] == (from->g[f] > 0 ? 1 : -1);
+        if (!known || !(e->before[f] > 0) || !clear(e, f)) return false;
+    }
+    for (size_t f = 0; f < n; f++) e->passed[f] |= e->look[f];
+    return true;
+}
+
+static bool quiet(void *ctx, const stepper_shown *step)
+{
+    events *e = ctx;
+    bool any = false;
+    look_at_box(e, step);
+    e->boxed = true;
+    e->left.valued = e->right.valued = false;
+    for (size_t f = 0; f < e->rules.functions; f++) {
+        e->look[f] = !(e->before[f] > 0);
+        any |= e->look[f];
+    }
+    return !any || passes_idly(e, step);
+}
+
+bool events_watchable(const events *e, const stepper *s)
+{
+    if (e->first || !e->rules.least || !stepper_can_watch(s)) return false;
+    for (size_t k = 0; k < e->rules.count; k++)
+        if (e->rules.rule[k].kind == RULE_CLOCK) return false;
+    for (size_t f = 0; f < e->rules.functions; f++)
+        if (e->stands[f] || e->open[f]) return false;
+    return true;
+}
+
+/* The sides of functions that have passed 0 in watched steps, before the last one. */
+static motus_status turn_sides(events *e, motus_error *err)
+{
+    motus_status status = MOTUS_OK;
+    for (size_t f = 0; f < e->rules.functions && !status; f++) {
+        if (!e->passed[f]) continue;
+        if (!e->left.valued) status = events_values(e, &e->left, err);
+        e->side[f] = e->left.g[f] > 0 ? 1 : -1;
+    }
+    return status;
+}
+
+enum { PAUSE_MOST = 31 };
+
+motus_status events_watch(events *e, stepper *s, stepper_limit limit, stepper_stop *why, motus_error *err)
+{
+    stepper_left left;
+    instant *at = &e->left;
+    memset(e->passed, 0, e->rules.functions);
+    const motus_status status = stepper_watch(s, limit, quiet, e, &left, why, err);
+    if (!left.x) return status;
+    e->steps += left.steps;
+    /* where bounds tell nothing, as of functions of the time, they are asked less and less often */
+    e->last_pause = left.steps > 0 ? 0 : e->last_pause < PAUSE_MOST ? 2 * e->last_pause + 1 : PAUSE_MOST;
+    e->pause = e->last_pause;
+    e->boxed &= left.shown;
+    at->valued &= left.shown;
+    e->right.valued &= left.shown;
+    at->t = left.t, at->lost = left.lost;
+    memcpy(at->x, left.x, e->problem.nx * sizeof *at->x);
+    memcpy(at->v, left.v, e->problem.nv * sizeof *at->v);
+    const motus_status turned = turn_sides(e, status ? NULL : err);
+    return status ? status : turned;
 }
 
 /* Marks the functions of which dense output must tell; most steps need none. */
 static motus_status choose(events *e, const stepper *s, bool *any, motus_error *err)
 {
     const size_t n = e->rules.functions;
-    double *out = e->before; /* room */
+    double *out = e->before;
     const bool known = box(e, s);
     bool rates = false;
     motus_status status = MOTUS_OK;
-    if (known) e->rules.least(e->rules.ctx, e->next.x, e->next.v, e->width, e->width + e->problem.nx, out);
+    e->boxed = false;
     *any = false;
     for (size_t f = 0; f < n; f++) {
         const bool free = known && !e->stands[f] && !e->open[f];

@@ -66,6 +66,8 @@ struct events {
     size_t end_rule;
 
     instant left, right, here, next;
+    instant best;         /* of those at which a root was looked for */
+    const stepper *along; /* whose step leads from `left` to `right`; NULL between steps */
     double *past; /* of the present step: states from which pieces began that ended in an action: t, lost, x, v */
     size_t pasts, past_room;
     double past_end; /* where the last of these pieces ended */
@@ -82,8 +84,12 @@ struct events {
     bool hidden; /* the step is so long that rounding hides how a function leaves 0 at its start */
     uint8_t *zero;     /* it is 0 at `here` */
     uint8_t *look;     /* dense output must tell of it in this step */
+    uint8_t *passed;   /* it has passed 0 in watched steps, and nothing happened */
     int8_t *sign;      /* room for the signs of a condition's leaves */
-    double *before;    /* the functions at `here` before an action */
+    double *before;    /* the functions at `here` before an action; room for bounds on a step */
+    bool boxed;        /* these are known of the present step */
+    int pause;         /* so many steps more are not watched, since watching was in vain; */
+    int last_pause;    /*   how many in all */
     double *fired;     /* when it did last; NaN: never */
     uint32_t *rule_of; /* function */
     double *width;     /* how far positions, then velocities, may be within the step from half way between its ends */
@@ -134,7 +140,8 @@ struct events {
 
 /* events_place.c. The acceleration, rates and bounds of an instant whose state and values are known. */
 motus_status events_judge(events *, instant *, motus_error *);
-/* The bounds alone, of an instant whose values are known. */
+/* The rates alone, and the bounds alone. */
+motus_status events_rates(events *, instant *, motus_error *);
 motus_status events_bounds(events *, instant *, motus_error *);
 motus_status events_values(events *, instant *, motus_error *);
 /* MOTUS_CALLBACK: the callback for `which` returned `answer` at time t. */
@@ -154,6 +161,10 @@ double events_tick(const events *, size_t rule);
 
 /* events_find.c. What may happen in the step from `left` to `right`, whose dense output the stepper has. */
 motus_status events_find(events *, stepper *, motus_error *);
+/* Whether bounds alone may tell of the next steps; takes steps until they do not, or up to the limit. The last one
+ * leads from `left`. */
+bool events_watchable(const events *, const stepper *);
+motus_status events_watch(events *, stepper *, stepper_limit, stepper_stop *why, motus_error *);
 bool events_add(events *, candidate);
 motus_status events_no_memory(motus_error *);
 /* The next tick of a clock. False: it is not within the step. */

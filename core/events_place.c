@@ -74,15 +74,16 @@ motus_status events_bounds(events *e, instant *at, motus_error *err)
     return estimate_bounds(e, at, err);
 }
 
-motus_status events_judge(events *e, instant *at, motus_error *err)
+motus_status events_rates(events *e, instant *at, motus_error *err)
 {
     const problem *p = &e->problem;
-    memset(at->a, 0, p->nv * sizeof *at->a);
-    if (p->accel(p->ctx, at->t, at->x, at->v, at->a))
-        return events_refuse(e, "acceleration", at->t, p->returned ? *p->returned : 0, err);
+    motus_status status = MOTUS_OK;
     if (e->rules.functions == 0) return MOTUS_OK;
-    motus_status status = events_bounds(e, at, err);
-    if (status) return status;
+    if (!e->rules.rates || !e->rules.rates_without_a) {
+        memset(at->a, 0, p->nv * sizeof *at->a);
+        if (p->accel(p->ctx, at->t, at->x, at->v, at->a))
+            return events_refuse(e, "acceleration", at->t, p->returned ? *p->returned : 0, err);
+    }
     if (e->rules.rates) {
         const int answer = e->rules.rates(e->rules.ctx, at->t, at->x, at->v, at->a, at->rate);
         return answer ? events_refuse(e, "event_functions", at->t, answer, err) : MOTUS_OK;
@@ -93,6 +94,12 @@ motus_status events_judge(events *e, instant *at, motus_error *err)
     if (!status) status = values_after(e, at, h, err);
     for (size_t k = 0; k < e->rules.functions && !status; k++) at->rate[k] = (e->next.g[k] - at->rate[k]) / (2 * h);
     return status;
+}
+
+motus_status events_judge(events *e, instant *at, motus_error *err)
+{
+    const motus_status status = events_rates(e, at, err);
+    return status || e->rules.functions == 0 ? status : events_bounds(e, at, err);
 }
 
 int events_direction(const events *e, const instant *at, size_t f)
@@ -120,7 +127,7 @@ motus_status events_probe(events *e, double from, double lost, const double *x, 
     *t = end;
     *rest = lost - over;
     if (!e->probe) status = stepper_create(&e->machine, &e->method, from, h, x, v, &e->allocator, &e->probe, err);
-    if (!status) status = stepper_jump(e->probe, from, over, h, x, v, err);
+    if (!status) status = stepper_branch(e->probe, e->along, from, over, h, x, v, err);
     return status ? status : stepper_advance(e->probe, limit, NULL, err);
 }
 
@@ -141,25 +148,35 @@ motus_status events_at(events *e, double h, instant *to, motus_error *err)
 
 enum { TURNS = 100 };
 
+/* The instant `here` and the best one so far change places. */
+static void exchange_best(events *e)
+{
+    const instant here = e->here;
+    e->here = e->best, e->best = here;
+}
+
 /* The time of a crossing, by Newton's method between `low` and `high`, on either side of it, until rounding hides on
  * which side of 0 the function is; `here` is the state there. */
 static motus_status crossing(events *e, candidate *c, motus_error *err)
 {
     const size_t f = c->of;
     instant *at = &e->here;
-    double low = c->low, high = c->high, h = c->at, best = INFINITY, found = h, last = h;
+    double low = c->low, high = c->high, h = c->at, best = INFINITY, found = h;
     for (int turn = 0; turn < TURNS; turn++) {
-        motus_status status = events_at(e, last = h, at, err);
-        if (!status) status = events_judge(e, at, err);
+        motus_status status = events_at(e, h, at, err);
+        if (!status) status = events_rates(e, at, err);
+        const double g = at->g[f], rate = at->rate[f];
+        const bool better = turn == 0 || fabs(g) < best;
+        if (!status && !better) status = events_bounds(e, at, err);
         if (status) return status;
-        const double g = at->g[f], before = best;
-        if (fabs(g) < best) best = fabs(g), found = h;
-        if (g == 0 || (best <= at->bound[f] && fabs(g) >= before)) break;
+        const bool ends = g == 0 || (!better && best <= at->bound[f] && fabs(g) >= best);
+        if (better) best = fmin(best, fabs(g)), found = h, exchange_best(e);
+        if (ends) break;
         if ((g > 0) == (c->kind > 0))
             high = h;
         else
             low = h;
-        double next = h - g / at->rate[f];
+        double next = h - g / rate;
         /* a slope that vanishes leads nowhere, and after some turns halving is faster */
         if (!(e->way * (next - low) > 0 && e->way * (high - next) > 0) || turn > 12) next = low + (high - low) / 2;
         if (next == h || next == low || next == high) break;
@@ -167,9 +184,8 @@ static motus_status crossing(events *e, candidate *c, motus_error *err)
     }
     c->at = found;
     c->located = true;
-    if (last == found) return MOTUS_OK;
-    const motus_status status = events_at(e, found, at, err);
-    return status ? status : events_judge(e, at, err);
+    exchange_best(e); /* it comes back */
+    return events_bounds(e, at, err);
 }
 
 /* The sign of a function at the ends of the times that a candidate has for itself; there it is not 0. */

@@ -37,6 +37,8 @@ motus_geometry row_geometry(const chosen *, const traits *);
 bool row_uniform(const chosen *);
 /* True: step sizes follow from errors, so the number of steps is not known beforehand. */
 bool row_adaptive(const chosen *);
+/* Its steps adapt, and bound the accelerations within them (name_swing): it can be watched (step/watch.h). */
+bool row_watched(const chosen *);
 /* True: a step chooses its order too. */
 bool row_orders(const chosen *);
 /* True: they follow the time scale of the motion, and not an error; row_adaptive holds too. */

@@ -17,6 +17,12 @@ const motus_method *row_card(size_t k) { return k < methods_count ? &methods_tab
 
 bool row_uniform(const chosen *method) { return method->row->uniform; }
 bool row_adaptive(const chosen *method) { return method->row->adaptive; }
+
+bool row_watched(const chosen *method)
+{
+    const row *r = method->row;
+    return r->adaptive && (r->family == RUNGE_KUTTA || r->family == TAYLOR);
+}
 bool row_orders(const chosen *method) { return method->row->orders; }
 bool row_reversible_steps(const chosen *method) { return method->row->density; }
 

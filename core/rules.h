@@ -72,6 +72,7 @@ typedef struct rules {
     int (*values)(void *ctx, double t, double *x, double *v, double *out);
     /* Their rates along the motion, dg/dt + (dg/dx) v + (dg/dv) a; a: the acceleration at the state. */
     int (*rates)(void *ctx, double t, double *x, double *v, double *a, double *out);
+    bool rates_without_a; /* they do not read it, and it need not be computed */
     /* A bound on how far rounding may have carried each of these values, those of t and the state counted as half a
      * unit in the last place each. NULL: no formula is known. */
     void (*rounding)(void *ctx, double t, double *x, double *v, double *out);

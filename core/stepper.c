@@ -160,6 +160,7 @@ void stepper_destroy(stepper *s)
     solver_destroy(s->library.solver);
     give(&allocator, s->ends);
     give(&allocator, s->inside);
+    give(&allocator, s->watched);
     give(&allocator, s);
 }
 
@@ -256,7 +257,9 @@ static int take_steps(stepper *s, const stepper_body *body, int64_t steps)
     work *w = &s->work;
     w->finite = false;
     if (s->library.tracing) trace_begin(w);
+    w->watch = s->watching ? &s->watch : NULL;
     int bad = body->run(w, steps);
+    w->watch = NULL;
     /* a recovery takes these steps once more, and must not trace them again */
     s->library.tracing = NULL;
     return !bad && !w->check && !w->finite ? body->check(w) : bad;
@@ -307,7 +310,7 @@ static motus_status whole_steps(stepper *s, int64_t steps, const stepper_body *b
 {
     work *w = &s->work;
     const int64_t end = steps < INT64_MAX - w->n ? w->n + steps : INT64_MAX;
-    while (w->n < end && !(w->carried && w->t == w->until)) {
+    while (w->n < end && !(w->carried && w->t == w->until) && !(s->watching && s->watch.met)) {
         const bool paced = w->carried && (s->judge || !s->problem.traits.smooth);
         const int64_t due = paced ? STEPPER_PACE - w->n % STEPPER_PACE : INT64_MAX, most = room_of(s),
                       room = most < due ? most : due, chunk = end - w->n < room ? end - w->n : room;
@@ -403,6 +406,75 @@ motus_status stepper_advance(stepper *s, stepper_limit limit, stepper_stop *why,
     const motus_status status = go(s, &limit, s->body, err);
     if (why) *why = status ? STOP_FAILED : s->arrived ? STOP_UNTIL : STOP_STEPS;
     return status;
+}
+
+static bool show(watch *w)
+{
+    const stepper *s = w->ctx;
+    const double span = (w->to_t - w->t) + (w->to_lost - w->lost);
+    return s->quiet(s->quiet_ctx,
+                    &(stepper_shown){span, w->t, w->to_t, w->from_x, w->from_v, w->to_x, w->to_v, w->most});
+}
+
+/* Memory for the ends of watched steps. */
+static bool watch_room(stepper *s)
+{
+    const size_t nx = s->work.nx, nv = s->work.nv;
+    if (!s->watched) s->watched = take(&s->allocator, 2 * nx + 3 * nv, sizeof *s->watched);
+    if (!s->watched) return false;
+    watch *to = &s->watch;
+    to->from_x = s->watched, to->from_v = to->from_x + nx;
+    to->to_x = to->from_v + nv, to->to_v = to->to_x + nx;
+    to->most = to->to_v + nv;
+    to->quiet = show, to->ctx = s;
+    return true;
+}
+
+/* The state before the last watched step becomes the mark of dense output. */
+static motus_status mark_watched(stepper *s, motus_error *err)
+{
+    work *w = &s->work;
+    const size_t nx = w->nx, nv = w->nv;
+    double *x = s->ends, *v = x + nx;
+    memcpy(x, s->watch.from_x, nx * sizeof *x);
+    memcpy(v, s->watch.from_v, nv * sizeof *v);
+    s->left = true, s->right = false;
+    s->left_t = s->watch.t;
+    s->left_steps = s->watch.n;
+    if (w->expands) return MOTUS_OK;
+    const int64_t evaluations = w->evaluations;
+    const int bad = s->body->accel(w, s->left_t, x, v, v + nv);
+    w->evaluations = evaluations;
+    return bad ? stepper_report(s, bad, s->left_t, err) : MOTUS_OK;
+}
+
+bool stepper_can_watch(const stepper *s)
+{
+    return row_watched(&s->method) && !s->problem.refresh && !s->arrived && room_in_leg(s) > 0;
+}
+
+motus_status stepper_watch(stepper *s, stepper_limit limit, stepper_quiet quiet, void *ctx, stepper_left *left,
+                           stepper_stop *why, motus_error *err)
+{
+    watch *w = &s->watch;
+    const int64_t before = stepper_steps(s), room = room_in_leg(s);
+    *left = (stepper_left){0};
+    if (!stepper_ends(s) || !watch_room(s)) return fail(err, MOTUS_MEMORY, "out of memory for dense output");
+    if (limit.steps > room) limit.steps = room; /* that there is no more room, the next step says */
+    s->quiet = quiet, s->quiet_ctx = ctx;
+    w->met = false, w->n = -1;
+    s->watching = true;
+    const motus_status status = stepper_advance(s, limit, why, err);
+    s->watching = false;
+    if (w->n < 0) return status;
+    /* where a failure was found late, the run may stand before the last step that was begun */
+    const bool earlier = w->n > stepper_steps(s);
+    motus_status marked = MOTUS_OK;
+    if (earlier) marked = stepper_sync(s, w->from_x, w->from_v, NULL, NULL);
+    if (earlier) w->n = stepper_steps(s), w->t = stepper_time(s), w->lost = stepper_lost(s);
+    *left = (stepper_left){w->n - before, w->t, w->lost, w->from_x, w->from_v, w->shown && !earlier};
+    if (!marked) marked = mark_watched(s, status ? NULL : err);
+    return status ? status : marked;
 }
 
 motus_status stepper_again(stepper *s, motus_error *err)

@@ -36,6 +36,11 @@ motus_status stepper_start(stepper *, double t0, double h, const double *x, cons
 /* The same, and where steps adapt the first candidate has size h, and the state is that of time t0 + lost. */
 motus_status stepper_jump(stepper *, double t0, double lost, double h, const double *x, const double *v, motus_error *);
 
+/* The same, of a stepper of the machine and the method of `along`, which may be NULL. Where the marked last step of
+ * that began at this state, what it has computed there is not computed again. */
+motus_status stepper_branch(stepper *, const stepper *along, double t0, double lost, double h, const double *x,
+                            const double *v, motus_error *);
+
 /* Begins a new leg at the present state, which counts as that of time t, with step h, of adaptive rows the first. Where
  * additions are compensated the rounding errors of the state stay known. */
 motus_status stepper_turn(stepper *, double t, double h, motus_error *);
@@ -109,9 +114,27 @@ int64_t stepper_iterations(const stepper *);
  * next step; without a mark stepper_sample takes the last step once more, from the last snapshot, to the same bits. */
 motus_status stepper_mark(stepper *, motus_error *);
 motus_status stepper_sample(stepper *, double t, double *x, double *v, motus_error *);
-/* A bound on the size of every acceleration within the marked last step, nv numbers; of stages (step/dense.h) it holds
+/* A bound on the size of every acceleration within the marked last step, nv numbers; of stages (step/swing.h) it holds
  * where they show the motion. False: none is known. */
 bool stepper_swing(const stepper *, double *most);
+/* Takes steps up to the limit, until something may have happened in one: `quiet` is shown the states at its ends and
+ * the bounds of stepper_swing. The last step is marked, quiet or not; in those before it nothing has happened. So that
+ * all is as if these had been taken one by one, `left` tells where the last step began, one that failed too. Where
+ * stepper_can_watch: of rows that can be watched (row_watched), while the leg may take steps. */
+typedef struct stepper_shown {
+    double span, from_t, to_t, *from_x, *from_v, *to_x, *to_v;
+    const double *most;
+} stepper_shown;
+typedef bool (*stepper_quiet)(void *ctx, const stepper_shown *);
+typedef struct stepper_left {
+    int64_t steps; /* before it */
+    double t, lost;
+    const double *x, *v; /* NULL: no step was begun */
+    bool shown;          /* to `quiet` */
+} stepper_left;
+bool stepper_can_watch(const stepper *);
+motus_status stepper_watch(stepper *, stepper_limit, stepper_quiet, void *ctx, stepper_left *, stepper_stop *why,
+                           motus_error *);
 /* How many steps lead to the last time that is not after t; 0 where the stepper is there, or where sizes are not
  * known beforehand. */
 int64_t stepper_steps_before(const stepper *, double t);

@@ -34,6 +34,7 @@ typedef struct stepper_body {
     int (*extend)(work *, const dense_step *);
     int (*dense)(work *, const dense_step *, clock t, real *x, real *v);
     bool (*swing)(const work *, real *most);
+    void (*branch)(work *, const work *from, const real *a); /* advance_branch */
     /* A compiled body calls these of the library's. */
     int (*factor)(work *, mask *where, int s, const clock *ax, const clock *av, clock t, real *x, real *v);
     void (*back)(work *, real *r);

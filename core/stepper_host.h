@@ -49,9 +49,9 @@ static inline void series_order(work *w, int n, clock t)
 
 #include "core/texts.h"
 
-#define STEPPER_BODY(name)                                                                                    \
-    {                                                                                                         \
-        name, work_plan, work_place, family_carry, advance_run, advance_sync, advance_check, advance_observe, \
-            family_between, family_extend, family_dense, family_swing, solve_factor, solve_back, solve_apply, \
-            solve_diagonal, accel                                                                             \
+#define STEPPER_BODY(name)                                                                                       \
+    {                                                                                                            \
+        name, work_plan, work_place, family_carry, advance_run, advance_sync, advance_check, advance_observe,    \
+            family_between, family_extend, family_dense, family_swing, advance_branch, solve_factor, solve_back, \
+            solve_apply, solve_diagonal, accel                                                                   \
     }

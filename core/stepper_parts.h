@@ -39,6 +39,11 @@ struct stepper {
     double left_t;
     int64_t left_steps; /* stepper_steps at the left end */
     bool left, right;   /* which of the two ends are valid */
+    double *watched;    /* x, v before and after a watched step, then `most`; NULL until asked for */
+    watch watch;
+    stepper_quiet quiet;
+    void *quiet_ctx;
+    bool watching; /* the steps that are taken are watched */
     /* the family's arrays and constants, NULL until asked for; extended: the arrays are those of the last step */
     double *inside;
     dense_room room;

@@ -160,13 +160,14 @@ static motus_status check_exact(stepper *s, double t0, double h, const double *x
     return status;
 }
 
-void stepper_begin(stepper *s, double t0, double h, const double *x, const double *v)
+/* cleared: so many numbers of the arrays. Entries without an equation are written by no step: what a failed step left
+ * there must not stay. */
+static void begin(stepper *s, double t0, double h, const double *x, const double *v, size_t cleared)
 {
     work *w = &s->work;
     w->n = s->pace_n = 0;
     s->pace_t = t0;
-    /* Entries without an equation are written by no step: what a failed step left there must not stay. */
-    memset(s->arrays, 0, s->array_count * sizeof(double));
+    memset(s->arrays, 0, cleared * sizeof(double));
     memcpy(w->x, x, w->nx * sizeof *x);
     memcpy(w->v, v, w->nv * sizeof *v);
     w->t0 = w->t = t0;
@@ -179,6 +180,11 @@ void stepper_begin(stepper *s, double t0, double h, const double *x, const doubl
     w->expanded = 0;
     work_scale(w, h);
     if (s->library.solver) solver_forget(s->library.solver);
+}
+
+void stepper_begin(stepper *s, double t0, double h, const double *x, const double *v)
+{
+    begin(s, t0, h, x, v, s->array_count);
 }
 
 motus_status stepper_turn(stepper *s, double t, double h, motus_error *err)
@@ -212,7 +218,8 @@ void stepper_follow(stepper *s, const stepper *like)
     if (s->method.row->orders) s->work.before = like->work.span;
 }
 
-motus_status stepper_start(stepper *s, double t0, double h, const double *x, const double *v, motus_error *err)
+static motus_status start(stepper *s, double t0, double h, const double *x, const double *v, size_t cleared,
+                          motus_error *err)
 {
     motus_status status = check_start(s, t0, h, x, v, err);
     if (!status) status = check_exact(s, t0, h, x, v, err);
@@ -222,14 +229,47 @@ motus_status stepper_start(stepper *s, double t0, double h, const double *x, con
     s->at.steps = s->earlier_at.steps = -1;
     s->shortened = s->arrived = s->left = s->right = false;
     s->left_steps = -1;
-    stepper_begin(s, t0, h, x, v);
+    begin(s, t0, h, x, v, cleared);
     return MOTUS_OK;
+}
+
+motus_status stepper_start(stepper *s, double t0, double h, const double *x, const double *v, motus_error *err)
+{
+    return start(s, t0, h, x, v, s->array_count, err);
+}
+
+static void lead(stepper *s, double lost, double h)
+{
+    if (s->work.carried) s->work.next = h, s->work.lost = lost;
 }
 
 motus_status stepper_jump(stepper *s, double t0, double lost, double h, const double *x, const double *v,
                           motus_error *err)
 {
     const motus_status status = stepper_start(s, t0, h, x, v, err);
-    if (!status && s->work.carried) s->work.next = h, s->work.lost = lost;
+    if (!status) lead(s, lost, h);
     return status;
+}
+
+/* Whether the last step of s is marked, and began at this state. */
+static bool began_at(const stepper *s, double t, const double *x, const double *v)
+{
+    const size_t nx = s->work.nx, nv = s->work.nv;
+    if (!s->left || s->left_steps != stepper_steps(s) - 1 || s->left_t != t) return false;
+    return !memcmp(s->ends, x, nx * sizeof *x) && !memcmp(s->ends + nx, v, nv * sizeof *v);
+}
+
+motus_status stepper_branch(stepper *s, const stepper *along, double t0, double lost, double h, const double *x,
+                            const double *v, motus_error *err)
+{
+    work *w = &s->work;
+    const bool known = along && row_watched(&s->method) && began_at(along, t0, x, v);
+    if (!known) return stepper_jump(s, t0, lost, h, x, v, err);
+    /* the series come last, and all of them that a step reads is taken over, or computed anew */
+    const size_t cleared = w->expands ? (size_t)(w->xs - s->arrays) : s->array_count;
+    const motus_status status = start(s, t0, h, x, v, cleared, err);
+    if (status) return status;
+    lead(s, lost, h);
+    s->body->branch(w, &along->work, along->ends + w->nx + w->nv);
+    return MOTUS_OK;
 }

@@ -85,10 +85,19 @@ static bool find_moments(const work *w, arena *a, moments *m)
     return true;
 }
 
+/* Where rules may be followed, what asks after every step whether something has happened in it. */
+static void add_watch(emit_text *t, const composition *c)
+{
+    const bool watched = row_watched(c->chosen) && (c->model->rule_count || c->model->modes);
+    if (!watched)
+        emit_add(t, "#define WATCHES(w) false\n#define watch_begin(w) ((void)0)\n#define watch_ends(w) false\n");
+    if (watched) add_text(t, "step/swing.h"), add_text(t, "step/watch.h");
+}
+
 /* The functions of families.def that a compiled model calls. */
 static void add_family_names(emit_text *t, const char *name)
 {
-    static const char *const functions[] = {"place", "step", "accept", "observe", "sync", "carry"};
+    static const char *const functions[] = {"place", "step", "accept", "observe", "sync", "carry", "swing"};
     for (size_t i = 0; i < sizeof functions / sizeof *functions; i++)
         emit_add(t, "#define family_%s %s_%s\n", functions[i], name, functions[i]);
 }
@@ -524,6 +533,7 @@ bool compose(emit *e, const composition *c)
     if (windowed) add_text(t, "machine/text/pass.h");
     add_family(t, c);
     if (!lanes || c->chosen->row->adaptive) add_text(t, "step/advance.h");
+    if (!lanes) add_watch(t, c);
     if (!lanes) add_text(t, "step/loop.h");
     if (local) add_text(t, "machine/text/tiled.h");
     for (const char *const *last = c->last; *last; last++) add_text(t, *last);

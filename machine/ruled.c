@@ -162,6 +162,7 @@ static bool make_functions(ruled *r, model *m)
         for (size_t k = 0; k < m->rules[i].leaves; k++, n++) {
             leaves[n] = rate[n] = nearest[n] = slowest[n] = m->rules[i].leaf[k];
             rate[n].value = graph_derivative(m->graph, leaves[n].value, model_seed_motion, m);
+            if (graph_deps(m->graph, rate[n].value) & DEP_A) r->supplied.rates_without_a = false;
             nearest[n].value = least_size(m, leaves[n].value);
             slowest[n].value = least_size(m, rate[n].value);
         }
@@ -265,6 +266,7 @@ static bool make(ruled *r, model *m)
                           .functions = m->rule_functions,
                           .values = values,
                           .rates = rates,
+                          .rates_without_a = true,
                           .rounding = rounding,
                           .least = least,
                           .least_rates = least_rates,

@@ -452,6 +452,7 @@ static bool make(sides *s, model *m)
     s->supplied.functions = s->own.functions + w->count;
     s->supplied.values = values;
     s->supplied.rates = rates;
+    s->supplied.rates_without_a = false;
     s->supplied.rounding = rounding;
     s->supplied.least = least;
     s->supplied.least_rates = least_rates;

@@ -49,9 +49,11 @@ static int advance_run(work *w, whole steps)
 {
     for (const whole end = w->n + steps; w->n < end;) {
         if (FACT(w, carried) && w->t == w->until) break;
+        if (WATCHES(w)) watch_begin(w);
         int bad = advance_step(w);
         if (bad) return bad;
         if (CHECKS(w) && !advance_finite(w)) return STEP_DIVERGED;
+        if (WATCHES(w) && watch_ends(w)) break;
     }
     return STEP_OK;
 }

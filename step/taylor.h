@@ -68,21 +68,29 @@ static inline void taylor_expand(work *w)
     EACHV(k) w->v[k] = TAYLOR_OF(vs, k)[0];
 }
 
-/* Terms `from` … `last` of a series, divided by h^from. Those after the first are taken in four chains, by h^4, which
- * wait a quarter as long for one another; the first is added last, so that the sum is rounded once at its size. */
-static inline real taylor_sum(const real *c, const int from, const int last, const clock h)
+/* Terms `from` … `last` of a series, or their sizes, divided by h^from. Those after the first are taken in four chains,
+ * by h^4, which wait a quarter as long for one another; the first is added last, so that the sum is rounded once at its
+ * size. */
+#define TAYLOR_TERM(n) (sizes ? ABS(c[n]) : c[n])
+static inline real taylor_sum_of(const bool sizes, const real *c, const int from, const int last, const clock h)
 {
     const clock hh = h * h, h4 = hh * hh;
     real s[4] = {TAYLOR_ZERO, TAYLOR_ZERO, TAYLOR_ZERO, TAYLOR_ZERO};
     const int whole = from + 1 + (last - from) / 4 * 4;
-    for (int n = whole, k = 0; n <= last; n++, k++) s[k] = c[n];
+    for (int n = whole, k = 0; n <= last; n++, k++) s[k] = TAYLOR_TERM(n);
     for (int n = whole - 4; n > from; n -= 4) {
-        s[0] = FMA(s[0], h4, c[n]);
-        s[1] = FMA(s[1], h4, c[n + 1]);
-        s[2] = FMA(s[2], h4, c[n + 2]);
-        s[3] = FMA(s[3], h4, c[n + 3]);
+        s[0] = FMA(s[0], h4, TAYLOR_TERM(n));
+        s[1] = FMA(s[1], h4, TAYLOR_TERM(n + 1));
+        s[2] = FMA(s[2], h4, TAYLOR_TERM(n + 2));
+        s[3] = FMA(s[3], h4, TAYLOR_TERM(n + 3));
     }
-    return FMA(FMA(FMA(s[3], h, s[2]), hh, FMA(s[1], h, s[0])), h, c[from]);
+    return FMA(FMA(FMA(s[3], h, s[2]), hh, FMA(s[1], h, s[0])), h, TAYLOR_TERM(from));
+}
+#undef TAYLOR_TERM
+
+static inline real taylor_sum(const real *c, const int from, const int last, const clock h)
+{
+    return taylor_sum_of(false, c, from, last, h);
 }
 
 /* The step ---------------------------------------------------------------------------------------------------------*/
@@ -250,19 +258,17 @@ static inline int taylor_dense(work *w, const dense_step *d, clock t, real *x, r
 static inline bool taylor_swing(const work *w, real *most)
 {
     const int length = TAYLOR_LENGTH(w), last = FACT(w, expands);
-    const clock h = ABS(w->h), hh = h * h;
-    EACHV(k) { /* terms of even powers and of odd ones, in chains that wait for one another half as long */
-        const real *a = TAYLOR_OF(w->r, k);
-        real even = TAYLOR_ZERO, odd = TAYLOR_ZERO;
-        int n = last - 2;
-        if (n % 2 == 0) even = ABS(a[n--]);
-        for (; n > 0; n -= 2) {
-            odd = FMA(odd, hh, ABS(a[n]));
-            even = FMA(even, hh, ABS(a[n - 1]));
-        }
-        most[k] = LARGER(FMA(odd, h, even), most[k]);
-    }
+    EACHV(k) most[k] = LARGER(taylor_sum_of(true, TAYLOR_OF(w->r, k), 0, last - 2, ABS(w->h)), most[k]);
     return true;
+}
+
+/* The series at the present state are those with which the last step of another workspace began. */
+static inline void taylor_take(work *w, const work *from)
+{
+    const size_t length = (size_t)TAYLOR_LENGTH(w), xs = length * FACT(w, nx), vs = length * FACT(w, nv);
+    for (size_t k = 0; k < xs; k++) w->xs[k] = from->xs[k];
+    for (size_t k = 0; k < vs; k++) w->vs[k] = from->vs[k], w->r[k] = from->r[k];
+    w->expanded = TAYLOR_WHOLE;
 }
 
 #define taylor_observe state_is_complete

@@ -110,6 +110,21 @@ typedef struct dense_step {
     const coef *unit;
 } dense_step;
 
+/* Asked after every step whether anything may have happened in it; where it may have, the steps end (loop.h). The
+ * arrays are its own, so that those of a compiled model can stay in registers. */
+typedef struct watch watch;
+struct watch {
+    bool (*quiet)(watch *); /* nothing has happened in the step */
+    void *ctx;
+    real *from_x, *from_v, *to_x, *to_v; /* the states at its ends */
+    real *most;                          /* bounds on the accelerations within it */
+    clock t, lost, to_t, to_lost;        /* where it began, and where it ended */
+    ticks n;                             /* steps before it */
+    bool known;                          /* `most` has the acceleration there */
+    bool shown;                          /* `quiet` has been asked after this step */
+    bool met;                            /* something may have happened in the last step */
+};
+
 typedef struct work {
     const row *row;
     size_t nx, nv, stride; /* stride: distance of two arrays below; at least nv */
@@ -198,6 +213,7 @@ typedef struct work {
     const real *diagonal;
     clock slope;
 
+    watch *watch; /* NULL: nobody watches the steps */
     size_t which; /* the number that failed: entry of v, or of x where !in_v */
     bool in_v;
     struct stepper_host *services;    /* the includer's: what the library's own bodies work with, */

@@ -6,6 +6,9 @@
  * loop does, to the same bits, because that text would take the compiler as long as all the rest: the first step of a
  * leg, the steps that fill no vector of times, and the steps in which something fails, from the workspace as it was.
  */
+/* Whether the steps end here, because something may have happened in the last one. */
+static inline bool compiled_met(const work *w) { return WATCHES(w) && w->watch->met; }
+
 #if TERMS
 /* Takes LANES_OF_TIME steps at a time and first computes the table of the steps after them, which the processor
  * overlaps with the latency of the present steps. SMALL: `steps` is a multiple of that. */
@@ -17,7 +20,7 @@ static inline int compiled_steps(work *w, whole steps)
     int bad = STEP_OK;
     w->table = table;
     compiled_fill(host, w->t0, w->h, table, w->n, LANES_OF_TIME);
-    while (!bad && steps > 0) {
+    while (!bad && steps > 0 && !compiled_met(w)) {
         const whole some = SMALL || steps > LANES_OF_TIME ? LANES_OF_TIME : steps;
         w->first = w->n;
         compiled_fill_some(host, w->t0, w->h, table + HALF, w->n + LANES_OF_TIME, false);
@@ -31,6 +34,17 @@ static inline int compiled_steps(work *w, whole steps)
 #else
 #define compiled_steps advance_run
 #endif
+
+/* What is known of the series at the present state: all, or nothing, since what the library's loop keeps of order 0
+ * lies elsewhere. */
+static inline int compiled_expanded(const work *w)
+{
+#if FACT_expands
+    return w->expanded == TAYLOR_WHOLE ? TAYLOR_WHOLE : TAYLOR_NOTHING;
+#else
+    return (void)w, 0;
+#endif
+}
 
 #if SMALL
 /* Flat, so that the workspace can stay in registers and the plan's numbers are constants. False: something failed, and
@@ -51,7 +65,8 @@ __attribute__((flatten)) static bool compiled_small(work *given, whole steps)
     work_place(w, room);
 #if FACT_expands /* they stay where they are, for dense output */
     w->xs = given->xs, w->vs = given->vs, w->r = given->r, w->ks = given->ks;
-    w->expanded = given->expanded = 0;
+    w->expanded = compiled_expanded(given);
+    given->expanded = 0;
 #endif
     work_move(w, given, NUMBERS);
     if (compiled_steps(w, steps) || !advance_finite(w)) return false;
@@ -82,7 +97,7 @@ int motus_run(work *given, whole steps)
     if (!FITS(host->u)) return host->run(given, steps);
     if (compiled_begins(given) && steps > 0) {
         const int bad = host->run(given, 1);
-        if (bad) return bad;
+        if (bad || compiled_met(given)) return bad;
         steps--;
     }
 #if TERMS
@@ -90,7 +105,10 @@ int motus_run(work *given, whole steps)
 #else
     const whole some = steps;
 #endif
-    if (some > 0 && compiled_small(given, some)) steps -= some;
+    if (some > 0 && compiled_small(given, some)) {
+        if (compiled_met(given)) return STEP_OK;
+        steps -= some;
+    }
     return steps > 0 ? host->run(given, steps) : STEP_OK;
 }
 #else
@@ -100,10 +118,10 @@ int motus_run(work *given, whole steps)
     work local = *given, *w = &local;
     int bad = STEP_OK;
     w->diagonal = NULL;
-    w->expanded = 0;
+    w->expanded = compiled_expanded(given);
 #if LOCAL
     window_open(w);
-    if (!w->check)
+    if (!w->check && !WATCHES(w))
         tiled_run(w, steps);
     else
 #endif
