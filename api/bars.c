@@ -295,10 +295,11 @@ static int64_t due(const motus_run *r)
  * the same order in two computations of one motion. */
 #define CLOSE 1024
 
-/* Whether a companion has had the same events as the run. */
-static bool along(const motus_run *r, const companion *c)
+/* Whether a companion has had the same events as the run at t, the time of its state or one within its last step. */
+static bool along(const motus_run *r, const companion *c, double t, bool between)
 {
     if (!r->events || !c->events) return true;
+    if (between) return !c->over && events_acted_before(r->events, t) == events_acted(c->events);
     if (c->over != run_events_ended(r)) return false;
     /* of events that accumulate each has had as many as it could tell apart */
     return events_acted(r->events) == events_acted(c->events) || events_accumulated(r->events, NULL);
@@ -321,14 +322,14 @@ static motus_status reach(motus_run *r, double t, motus_error *err)
 }
 
 /* Where run and companion remain apart for as long as half the time between events, their motions are not the same. */
-static void notice_gap(motus_run *r, double t)
+static void notice_gap(motus_run *r, double t, bool between)
 {
     bars *b = r->bars;
-    const bool gap = !along(r, &b->half) || (b->twin.events && !along(r, &b->twin));
+    const bool gap = !along(r, &b->half, t, between) || (!between && b->twin.events && !along(r, &b->twin, t, false));
     if (gap && !b->gap) b->gap_since = t;
     b->gap = gap;
     const double least = CLOSE * events_ulp(t), half = events_interval(r->events) / 2;
-    if (gap && (run_events_ended(r) || fabs(t - b->gap_since) > fmax(half, least))) b->differences.until = b->gap_since;
+    if (gap && ((run_events_ended(r) && !between) || fabs(t - b->gap_since) > fmax(half, least))) b->differences.until = b->gap_since;
 }
 
 static motus_status land(motus_run *r, double t, double *x, double *v, bool between, bool observed, motus_error *err)
@@ -340,7 +341,7 @@ static motus_status land(motus_run *r, double t, double *x, double *v, bool betw
     if (status == MOTUS_OK && !strcmp(r->card->family, "exact")) status = companion_jog(&b->half, r, err);
     if (status == MOTUS_OK && b->kind == MOTUS_BARS_FULL && !between) status = companion_repeat(&b->twin, r, err);
     if (status == MOTUS_OK && r->events && !between) status = reach(r, t, err);
-    if (status == MOTUS_OK && r->events) notice_gap(r, t);
+    if (status == MOTUS_OK && r->events) notice_gap(r, t, between);
     if (status == MOTUS_OK && !b->gap) status = bars_take(r, t, x, v, observed, err);
     b->landed = t;
     b->steps = between ? now - 1 : now;

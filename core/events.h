@@ -76,6 +76,7 @@ bool events_accumulated(const events *, events_limit *);
 int64_t events_steps(const events *);   /* since events_begin */
 double events_latest(const events *);   /* time of the latest action; NaN: there was none */
 int64_t events_acted(const events *);   /* how often a rule has assigned */
+int64_t events_acted_before(const events *, double t); /* and before a time within the last step */
 int64_t events_turns(const events *);   /* how often an internal rule has */
 double events_interval(const events *); /* between the latest two instants at which one did; INFINITY: there are none */
 size_t events_rows(const events *);

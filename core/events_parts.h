@@ -61,9 +61,10 @@ struct events {
     size_t end_rule;
 
     instant left, right, here, next;
-    double *past; /* of the present step: states from which pieces began that ended in an action: t, lost, x, v */
+    double *past; /* of the present step: of the pieces that ended in an action: t, lost, what had acted, x, v */
     size_t pasts, past_room;
     double past_end; /* where the last of these pieces ended */
+    int64_t acted_left; /* what had acted when the present piece began */
     int8_t *side;    /* -1, 1, 0: not known, since the function has been 0 from the start on */
     uint8_t *stands; /* it is 0 at `left` */
     uint8_t *open;   /* it is 0 there, and only the next step says whether it passed */
