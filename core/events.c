@@ -32,8 +32,12 @@ static size_t arrange(events *e, char *block)
 {
     layout l = {block, 0};
     const size_t n = e->rules.count, f = e->rules.functions, nx = e->problem.nx, nv = e->problem.nv;
-    size_t instances = 0;
-    for (size_t k = 0; k < n; k++) instances += e->rules.rule[k].instances + 1;
+    size_t instances = 0, times = 0;
+    for (size_t k = 0; k < n; k++) {
+        const rule *r = &e->rules.rule[k];
+        instances += r->instances + 1;
+        times += (r->instances + 1) * RECENT * (size_t)recent_levels(r);
+    }
     double *numbers = next(&l, 4 * (nx + 2 * nv + 3 * f), sizeof *numbers);
     e->after = next(&l, nx + nv, sizeof *e->after);
     e->width = next(&l, nx + nv, sizeof *e->width);
@@ -41,6 +45,8 @@ static size_t arrange(events *e, char *block)
     e->before = next(&l, f, sizeof *e->before);
     e->instances = next(&l, n, sizeof *e->instances);
     e->recent = next(&l, instances, sizeof *e->recent);
+    e->recent_t = next(&l, times, sizeof *e->recent_t);
+    e->limit_off = next(&l, nx + nv, sizeof *e->limit_off);
     e->happened = next(&l, instances, sizeof *e->happened);
     e->count = next(&l, n, sizeof *e->count);
     e->ticks = next(&l, n, sizeof *e->ticks);
@@ -83,10 +89,12 @@ motus_status events_create(const rules *r, const machine *m, const chosen *metho
     e->method = *method;
     arrange(e, block + head);
     size_t instances = 0;
+    double *times = e->recent_t;
     for (size_t k = 0; k < r->count; k++) {
         const rule *one = &r->rule[k];
         e->instances[k] = instances;
-        instances += one->instances + 1;
+        for (size_t i = 0; i <= one->instances; i++, times += RECENT * recent_levels(one))
+            e->recent[instances++].t = times;
         for (size_t f = 0; f < one->leaves * one->instances; f++) e->rule_of[one->first + f] = (uint32_t)k;
     }
     forget_happened(e);
@@ -484,10 +492,11 @@ void events_forget(events *e)
         e->count[k] = e->ticks[k] = 0;
         instances += e->rules.rule[k].instances + 1;
     }
-    memset(e->recent, 0, instances * sizeof *e->recent);
+    for (size_t i = 0; i < instances; i++) e->recent[i].number = 0;
     e->jumps = 0;
     e->rows = e->numbers = e->kept_states = e->pasts = 0;
     e->acted = 0;
+    e->acted_sum = e->tail = 0;
     e->has_limit = e->limit_told = false;
     e->end = EVENTS_END_NONE;
 }
