@@ -19,6 +19,7 @@ enum { BEFORE = 6, AFTER = 2, WINDOW = BEFORE + AFTER, NEARBY = 16 };
 #define OTHERS 0.375
 #define APART 0.25
 #define CLOSE 256 /* or so many units in the last place of the time, where events accumulate */
+#define CLOCK 1.5 /* units in the last place: the period is rounded, n times that, and the sum */
 /* What the companion shares with the run, and so does not show: of the time of the event, units in its last place; and
  * of the state after every event that changed it, a part in 2^52 of its velocities, which acts on all the time since.
  * Step after step a row adds the same numbers in the same order, so such parts have one sign: dopri5 leaves 2^-52 of
@@ -60,6 +61,17 @@ static bool known(const motus_run *r, size_t k)
     return b->half.over || way * (b->half.t - t) >= 0;
 }
 
+/* The time of the instant before that of row k: rows of one instant are judged as one. */
+static double instant_before(const motus_run *r, size_t k)
+{
+    const double t = events_row(r->events, k, false, NULL, NULL).t;
+    while (k-- > 0) {
+        const double before = events_row(r->events, k, false, NULL, NULL).t;
+        if (fabs(t - before) > 4 * events_ulp(t)) return before;
+    }
+    return r->timing.t0;
+}
+
 /* How many of the rows that companions have come to are significant. */
 static size_t significant(motus_run *r)
 {
@@ -72,8 +84,7 @@ static size_t significant(motus_run *r)
     for (; !b->rows_differ && b->rows < rows && known(r, b->rows); b->rows++) {
         const size_t k = b->rows;
         const double t = events_row(r->events, k, false, NULL, NULL).t;
-        const double before = k ? events_row(r->events, k - 1, false, NULL, NULL).t : r->timing.t0;
-        const double room = fmax(APART * fabs(t - before), CLOSE * events_ulp(t));
+        const double room = fmax(APART * fabs(t - instant_before(r, k)), CLOSE * events_ulp(t));
         b->rows_differ = distance(r, &b->half, k) > room;
         if (b->rows_differ) break;
     }
@@ -137,9 +148,10 @@ double event_bars_time(motus_run *r, size_t k)
     double d[WINDOW];
     size_t n = 0;
     if (!r->bars) return NAN;
+    const event this = events_row(r->events, k, false, NULL, NULL);
+    if (r->rules->rule[this.rule].kind == RULE_CLOCK) return CLOCK * events_ulp(this.t); /* whatever the motion is */
     const size_t rows = significant(r);
     if (k >= rows) return ended(r->bars) ? INFINITY : NAN;
-    const event this = events_row(r->events, k, false, NULL, NULL);
     for (size_t i = 0; i < WINDOW; i++) {
         const size_t row = row_of(k, i, rows);
         if (row == SIZE_MAX) continue;
@@ -220,14 +232,19 @@ static motus_status errors(motus_run *r, size_t k, bool after, const size_t *col
     const size_t rows = significant(r);
     for (size_t j = 0; j < count; j++) out[j] = ended(b) ? INFINITY : NAN;
     if (k >= rows) return MOTUS_OK;
-    double *room = take(&r->allocator, (WINDOW + 1) * (count + 1), sizeof *room);
+    double *room = take(&r->allocator, (WINDOW + 2) * (count + 1), sizeof *room);
     if (!room) return fail(err, MOTUS_MEMORY, "no memory for the errors of an event");
     motus_status status = MOTUS_OK;
     size_t n = 0;
     for (size_t i = 0; i < WINDOW && status == MOTUS_OK; i++) {
         const size_t row = row_of(k, i, rows);
         if (row == SIZE_MAX) continue;
-        status = differ(r, &b->half, row, after, columns, count, room + (n + 1) * count, room, err);
+        double *const half = room + (n + 1) * count, *const twin = half + count;
+        status = differ(r, &b->half, row, after, columns, count, half, room, err);
+        if (status == MOTUS_OK && b->twin.events) {
+            status = differ(r, &b->twin, row, after, columns, count, twin, room, err);
+            for (size_t j = 0; j < count; j++) half[j] = fmax(half[j], twin[j]);
+        }
         n++;
     }
     for (size_t j = 0; j < count && status == MOTUS_OK; j++) {

@@ -314,10 +314,64 @@ static void limits_of_balls(void **state)
     }
 }
 
+/* ---- rows of one instant, and clocks ---- */
+
+/* x = cos t: two rules on one function, and one on the velocity. */
+static void rows_of_one_instant(void **state)
+{
+    (void)state;
+    motus_error err = motus_default_error();
+    motus_system *s = given_text("x'' = -x; x(0) = 1; x'(0) = 0; when x = 0.3 as a: record; "
+                                 "when x = 0.3 falling as b: record; when x' = 0 as c: record");
+    motus_run_def def = motus_default_run();
+    motus_run *r = NULL;
+    def.method = "dop853", def.tolerance = 1e-9, def.until = 60, def.error = MOTUS_BARS_FULL;
+    must(motus_run_create(s, &def, &r, &err), &err, "rows");
+    must(motus_run_finish(r, &err), &err, "rows");
+    assert_int_equal(motus_run_events(r), 10 + 10 + 9 + 19); /* twice a period, and once; half periods */
+    assert_int_equal(motus_run_events_significant(r), motus_run_events(r));
+    const long double pi = 3.14159265358979323846L, at = acosl(0.3L);
+    for (int64_t k = 0; k < motus_run_events(r); k++) {
+        motus_event_row row = motus_default_event_row();
+        assert_int_equal(motus_run_event(r, k, &row), MOTUS_OK);
+        const long double n = row.count, turn = row.count % 2 ? (n - 1) * pi + at : n * pi - at;
+        const long double want = row.name[0] == 'c' ? n * pi : row.name[0] == 'b' ? 2 * (n - 1) * pi + at : turn;
+        assert_true(fabsl(row.time - want) <= row.error);
+    }
+    motus_run_destroy(r);
+    motus_system_destroy(s);
+}
+
+/* A kicked rotor is chaotic: its states are lost, but the clock is not. */
+static void clocks_stay_known(void **state)
+{
+    (void)state;
+    motus_error err = motus_default_error();
+    motus_system *s = given_text("x'' = 0; x(0) = 0.5; x'(0) = 0.3; when every 0.1 as kick: x' = x' + 80 sin(x), record");
+    motus_run_def def = motus_default_run();
+    motus_run *r = NULL;
+    def.method = "dop853", def.tolerance = 1e-9, def.until = 20.05, def.error = MOTUS_BARS_CHEAP;
+    must(motus_run_create(s, &def, &r, &err), &err, "rotor");
+    must(motus_run_finish(r, &err), &err, "rotor");
+    assert_int_equal(motus_run_events(r), 200);
+    for (int64_t k = 0; k < 200; k++) {
+        motus_event_row row = motus_default_event_row();
+        assert_int_equal(motus_run_event(r, k, &row), MOTUS_OK);
+        assert_true(fabsl(row.time - (k + 1) / 10.0L) <= row.error && row.error < 1e-14);
+    }
+    const size_t x = column(s, "x");
+    double error;
+    must(motus_run_event_errors(r, 199, 0, &x, 1, NULL, &error, &err), &err, "rotor");
+    assert_true(error == INFINITY);
+    motus_run_destroy(r);
+    motus_system_destroy(s);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {cmocka_unit_test(bars_of_event_times), cmocka_unit_test(bars_between_steps),
-                                       cmocka_unit_test(limits_of_balls),
+                                       cmocka_unit_test(limits_of_balls), cmocka_unit_test(rows_of_one_instant),
+                                       cmocka_unit_test(clocks_stay_known),
                                        cmocka_unit_test(a_stadium_loses_all_digits)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
