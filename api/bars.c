@@ -359,7 +359,8 @@ static void notice_gap(motus_run *r, double t, bool between)
     if (gap && !b->gap) b->gap_since = t;
     b->gap = gap;
     const double least = CLOSE * events_ulp(t), half = events_interval(r->events) / 2;
-    if (gap && ((run_events_ended(r) && !between) || (events_tail(r->events) == 0 && fabs(t - b->gap_since) > fmax(half, least)))) b->differences.until = b->gap_since;
+    const bool gathers = events_tail(r->events) != 0, lasts = !gathers && fabs(t - b->gap_since) > fmax(half, least);
+    if (gap && (lasts || (run_events_ended(r) && !between))) b->differences.until = b->gap_since;
 }
 
 static motus_status land(motus_run *r, double t, double *x, double *v, bool between, bool observed, motus_error *err)

@@ -33,7 +33,7 @@ struct bars {
     bool end_reached; /* the companion was led to where events have ended the run */
     size_t rows;      /* of the table of events, that a companion confirms so far */
     bool rows_differ; /* it has other events from there on */
-    char why[256]; /* no bar; "": there is one */
+    char why[256];    /* no bar; "": there is one */
 };
 
 /* Makes r->bars, where the definition asks for them, of all columns. */

@@ -70,14 +70,14 @@ struct events {
     instant left, right, here, next;
     double *past; /* of the present step: of the pieces that ended in an action: t, lost, what had acted, x, v */
     size_t pasts, past_room;
-    double past_end; /* where the last of these pieces ended */
+    double past_end;    /* where the last of these pieces ended */
     int64_t acted_left; /* what had acted when the present piece began */
-    int8_t *side;    /* -1, 1, 0: not known, since the function has been 0 from the start on */
-    uint8_t *stands; /* it is 0 at `left` */
-    uint8_t *open;   /* it is 0 there, and only the next step says whether it passed */
-    int8_t *heads;   /* where it stands at 0: the direction in which its slope leads it, 0: not known */
-    uint8_t *was;    /* side, stands, open and heads before the present step */
-    double here_at;  /* `here` is so long after `left` */
+    int8_t *side;       /* -1, 1, 0: not known, since the function has been 0 from the start on */
+    uint8_t *stands;    /* it is 0 at `left` */
+    uint8_t *open;      /* it is 0 there, and only the next step says whether it passed */
+    int8_t *heads;      /* where it stands at 0: the direction in which its slope leads it, 0: not known */
+    uint8_t *was;       /* side, stands, open and heads before the present step */
+    double here_at;     /* `here` is so long after `left` */
     double
         whole;   /* the size that the step had before it was shortened to tell how a function leaves 0, 0: it was not */
     double span; /* from `left` to `right` */
@@ -129,7 +129,7 @@ struct events {
     events_limit limit;
     double tail; /* what is left before a limit that the latest events seem to have; 0: they have none */
     double limit_part, limit_part_error; /* what is left before it, in intervals, and how far that may be off */
-    double *limit_off; /* how far the state there may be off for that reason, x and then v */
+    double *limit_off;                   /* how far the state there may be off for that reason, x and then v */
 
     /* Of fixed steps, from the last one on: what a restart state takes in place of the present state, which is that
      * before this step: `saved_head` numbers, and then those of the stepper. Else NULL. */

@@ -44,10 +44,7 @@ static bool add_state(events *e, const instant *at)
     return true;
 }
 
-double events_lasting(const events *e, double t)
-{
-    return fabs((double)e->acted * (t - e->start) - e->acted_sum);
-}
+double events_lasting(const events *e, double t) { return fabs((double)e->acted * (t - e->start) - e->acted_sum); }
 
 bool events_note(events *e, size_t rule, size_t instance, bool touched, const instant *at)
 {

@@ -233,7 +233,8 @@ static void bars_between_steps(void **state)
     int all = 0;
     for (size_t m = 0; m < sizeof methods / sizeof *methods; m++) {
         motus_error err = motus_default_error();
-        motus_system *s = given_text("y'' = -9.81; y(0) = 1; y'(0) = 0; when y = 0 falling as hit: y' = -0.8 y', record");
+        motus_system *s =
+            given_text("y'' = -9.81; y(0) = 1; y'(0) = 0; when y = 0 falling as hit: y' = -0.8 y', record");
         motus_run_def def = motus_default_run();
         motus_run *r = NULL;
         def.method = methods[m], def.until = 3, def.error = MOTUS_BARS_CHEAP;
@@ -275,12 +276,12 @@ static void limits_of_balls(void **state)
     static const struct {
         const char *e;
         long double value;
-    } balls[] = {{"0", 0}, {"0.3", 0.3L}, {"0.6", 0.6L}, {"0.85", 0.85L}, {"0.93", 0.93L}, {"0.95", 0.95L},
-                 {"0.98", 0.98L}, {"0.99", 0.99L}, {"0.995", 0.995L}};
+    } balls[] = {{"0", 0},        {"0.3", 0.3L},   {"0.6", 0.6L},   {"0.85", 0.85L},  {"0.93", 0.93L},
+                 {"0.95", 0.95L}, {"0.98", 0.98L}, {"0.99", 0.99L}, {"0.995", 0.995L}};
     static const struct {
         const char *method;
         double size;
-    } ways[] = {{"verlet", 0.125}, {"rk4", 0.05}, {"pefrl", 0.0625}, {"gauss8", 0.1},
+    } ways[] = {{"verlet", 0.125}, {"rk4", 0.05},    {"pefrl", 0.0625}, {"gauss8", 0.1},
                 {"dop853", 1e-9},  {"dopri5", 1e-6}, {"taylor", 1e-12}, {"radau15", 1e-9}};
     for (size_t b = 0; b < sizeof balls / sizeof *balls; b++) {
         for (size_t w = 0; w < sizeof ways / sizeof *ways; w++) {
@@ -347,7 +348,8 @@ static void clocks_stay_known(void **state)
 {
     (void)state;
     motus_error err = motus_default_error();
-    motus_system *s = given_text("x'' = 0; x(0) = 0.5; x'(0) = 0.3; when every 0.1 as kick: x' = x' + 80 sin(x), record");
+    motus_system *s =
+        given_text("x'' = 0; x(0) = 0.5; x'(0) = 0.3; when every 0.1 as kick: x' = x' + 80 sin(x), record");
     motus_run_def def = motus_default_run();
     motus_run *r = NULL;
     def.method = "dop853", def.tolerance = 1e-9, def.until = 20.05, def.error = MOTUS_BARS_CHEAP;
@@ -369,9 +371,9 @@ static void clocks_stay_known(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(bars_of_event_times), cmocka_unit_test(bars_between_steps),
-                                       cmocka_unit_test(limits_of_balls), cmocka_unit_test(rows_of_one_instant),
-                                       cmocka_unit_test(clocks_stay_known),
-                                       cmocka_unit_test(a_stadium_loses_all_digits)};
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(bars_of_event_times), cmocka_unit_test(bars_between_steps),
+        cmocka_unit_test(limits_of_balls),     cmocka_unit_test(rows_of_one_instant),
+        cmocka_unit_test(clocks_stay_known),   cmocka_unit_test(a_stadium_loses_all_digits)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
