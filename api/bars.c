@@ -189,6 +189,22 @@ motus_status bars_see(motus_run *r, motus_system *s, double t, double *x, double
     return system_values(s, t, x, v, b->columns, b->count, b->differences.values[seen], err);
 }
 
+/* The state where events accumulate follows from those before, which run and companion may have in common: the numbers
+ * of a state that is as far from it as it may be off. */
+static motus_status take_limit(motus_run *r, double t, const double *x, const double *v, motus_error *err)
+{
+    const problem *p = &r->system->problem;
+    double *const other = take(&r->allocator, p->nx + p->nv + 2, sizeof *other), *const moved = other + p->nx + 1;
+    if (!other) return fail(err, MOTUS_MEMORY, "no memory for the errors at a limit of events");
+    const double *const off = events_limit_off(r->events);
+    for (size_t k = 0; k < p->nx; k++) other[k] = x[k] + off[k];
+    for (size_t k = 0; k < p->nv; k++) moved[k] = v[k] + off[p->nx + k];
+    const motus_status status = bars_see(r, r->system, t, other, moved, 1, err);
+    if (status == MOTUS_OK) differences_widen(&r->bars->differences);
+    give(&r->allocator, other);
+    return status;
+}
+
 motus_status bars_take(motus_run *r, double t, double *x, double *v, bool observed, motus_error *err)
 {
     bars *b = r->bars;
@@ -198,7 +214,8 @@ motus_status bars_take(motus_run *r, double t, double *x, double *v, bool observ
     if (status == MOTUS_OK) status = bars_see(r, b->half.system, theirs, b->half.x, b->half.v, 1, err);
     if (status == MOTUS_OK && twin) status = bars_see(r, r->system, t, b->twin.x, b->twin.v, 2, err);
     if (status == MOTUS_OK) differences_take(&b->differences, t, observed, twin);
-    return status;
+    const bool limit = r->events && events_ended(r->events, NULL) == EVENTS_END_ACCUMULATED && t == motus_run_time(r);
+    return status == MOTUS_OK && limit ? take_limit(r, t, x, v, err) : status;
 }
 
 static motus_status begin_at(motus_run *r, bool observed, motus_error *err)
@@ -270,7 +287,7 @@ void bars_forget_events(motus_run *r)
     bars *b = r->bars;
     if (b->half.events) events_forget(b->half.events);
     if (b->twin.events) events_forget(b->twin.events);
-    b->gap = b->rows_differ = false;
+    b->gap = b->rows_differ = b->end_reached = false;
     b->rows = 0;
 }
 
@@ -295,13 +312,20 @@ static int64_t due(const motus_run *r)
  * the same order in two computations of one motion. */
 #define CLOSE 1024
 
-/* Whether a companion has had the same events as the run. */
-static bool along(const motus_run *r, const companion *c)
+/* Whether a companion has had the same events as the run at t, the time of its state or one within its last step. */
+static bool along(const motus_run *r, const companion *c, double t, bool between)
 {
     if (!r->events || !c->events) return true;
+    if (between) return !c->over && events_acted_before(r->events, t) == events_acted(c->events);
     if (c->over != run_events_ended(r)) return false;
     /* of events that accumulate each has had as many as it could tell apart */
     return events_acted(r->events) == events_acted(c->events) || events_accumulated(r->events, NULL);
+}
+
+static motus_status reach_both(bars *b, const companion_goal *to, double span, motus_error *err)
+{
+    const motus_status status = companion_reach(&b->half, to, span, err);
+    return status == MOTUS_OK && b->twin.events ? companion_reach(&b->twin, to, span, err) : status;
 }
 
 /* Where the run stands at an event, its companions go on to theirs, which may come later. */
@@ -315,20 +339,28 @@ static motus_status reach(motus_run *r, double t, motus_error *err)
     if (interval / 4 < least) interval = 4 * least;
     const double span = copysign(!ends && interval / 4 < most ? interval / 4 : most, way);
     if (!ends && events_latest(r->events) != t) return MOTUS_OK;
-    const int64_t acted = events_acted(r->events);
-    const motus_status status = companion_reach(&b->half, acted, ends, span, err);
-    return status == MOTUS_OK && b->twin.events ? companion_reach(&b->twin, acted, ends, span, err) : status;
+    /* Where events accumulate a step much longer than what is left before the limit would not tell the events in it.
+     * And the companion may be so far off then that it does not end there: then it has had as many. */
+    const bool limit = ends && events_accumulated(r->events, NULL);
+    const double tail = limit ? copysign(8 * events_tail(r->events), way) : 0;
+    companion_goal to = {events_acted(r->events), ends, !ends};
+    motus_status status = MOTUS_OK;
+    if (tail != 0 && fabs(tail) < fabs(span)) status = reach_both(b, &to, tail, err);
+    to.enough |= limit;
+    return status == MOTUS_OK ? reach_both(b, &to, span, err) : status;
 }
 
-/* Where run and companion remain apart for as long as half the time between events, their motions are not the same. */
-static void notice_gap(motus_run *r, double t)
+/* Where run and companion remain apart for as long as half the time between events, their motions are not the same. Of
+ * events that are to accumulate they may have had different numbers until then. */
+static void notice_gap(motus_run *r, double t, bool between)
 {
     bars *b = r->bars;
-    const bool gap = !along(r, &b->half) || (b->twin.events && !along(r, &b->twin));
+    const bool gap = !along(r, &b->half, t, between) || (!between && b->twin.events && !along(r, &b->twin, t, false));
     if (gap && !b->gap) b->gap_since = t;
     b->gap = gap;
     const double least = CLOSE * events_ulp(t), half = events_interval(r->events) / 2;
-    if (gap && (run_events_ended(r) || fabs(t - b->gap_since) > fmax(half, least))) b->differences.until = b->gap_since;
+    const bool gathers = events_tail(r->events) != 0, lasts = !gathers && fabs(t - b->gap_since) > fmax(half, least);
+    if (gap && (lasts || (run_events_ended(r) && !between))) b->differences.until = b->gap_since;
 }
 
 static motus_status land(motus_run *r, double t, double *x, double *v, bool between, bool observed, motus_error *err)
@@ -340,7 +372,7 @@ static motus_status land(motus_run *r, double t, double *x, double *v, bool betw
     if (status == MOTUS_OK && !strcmp(r->card->family, "exact")) status = companion_jog(&b->half, r, err);
     if (status == MOTUS_OK && b->kind == MOTUS_BARS_FULL && !between) status = companion_repeat(&b->twin, r, err);
     if (status == MOTUS_OK && r->events && !between) status = reach(r, t, err);
-    if (status == MOTUS_OK && r->events) notice_gap(r, t);
+    if (status == MOTUS_OK && r->events) notice_gap(r, t, between);
     if (status == MOTUS_OK && !b->gap) status = bars_take(r, t, x, v, observed, err);
     b->landed = t;
     b->steps = between ? now - 1 : now;
@@ -355,10 +387,13 @@ static motus_status land_here(motus_run *r, bool observed, motus_error *err)
     motus_error theirs = motus_default_error();
     motus_status status = b->started ? MOTUS_OK : start(r, observed, err);
     const double gone = way * (t - b->landed);
-    if (status != MOTUS_OK || !alive(b) || (b->ahead ? gone < 0 : gone <= 0)) return status;
+    /* the last event of those that accumulate may be at the time of the one before */
+    const bool ends = gone == 0 && !b->ahead && !b->end_reached && run_events_ended(r);
+    if (status != MOTUS_OK || !alive(b) || (b->ahead ? gone < 0 : gone <= 0 && !ends)) return status;
     status = run_sync(r, false, &theirs);
-    if (status == MOTUS_OK && gone > 0) status = land(r, t, r->x, r->v, false, observed, &theirs);
-    if (status == MOTUS_OK && gone == 0) {
+    b->end_reached = run_events_ended(r);
+    if (status == MOTUS_OK && (gone > 0 || ends)) status = land(r, t, r->x, r->v, false, observed, &theirs);
+    if (status == MOTUS_OK && gone == 0 && !ends) {
         status = bars_take(r, t, r->x, r->v, observed, &theirs);
         b->steps = motus_run_steps(r);
     }

@@ -30,11 +30,10 @@ struct bars {
      * the other; since when. Then their states are not compared. */
     bool gap;
     double gap_since;
+    bool end_reached; /* the companion was led to where events have ended the run */
     size_t rows;      /* of the table of events, that a companion confirms so far */
     bool rows_differ; /* it has other events from there on */
-    size_t summed;    /* so many rows are in `sum`, the times of those that changed the state, `changes` of them */
-    double sum, changes;
-    char why[256]; /* no bar; "": there is one */
+    char why[256];    /* no bar; "": there is one */
 };
 
 /* Makes r->bars, where the definition asks for them, of all columns. */

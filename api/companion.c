@@ -144,19 +144,21 @@ static motus_status follow(companion *c, double t, motus_error *err)
     return status;
 }
 
-motus_status companion_reach(companion *c, int64_t acted, bool ends, double span, motus_error *err)
+motus_status companion_reach(companion *c, const companion_goal *to, double span, motus_error *err)
 {
     enum { PARTS = 16 };
     const double t = c->t, h = span / PARTS;
     stepper_stop why = STOP_STEPS;
-    if (!c->events || c->over || (!ends && events_acted(c->events) >= acted) || t + h == t) return MOTUS_OK;
-    motus_status status = stepper_turn(c->stepper, t, h, err);
-    events_turn(c->events, c->stepper);
-    for (int k = 0; status == MOTUS_OK && k < STEPS_FIRST && why == STOP_STEPS; k++) {
+    if (!c->events || c->over || t + h == t) return MOTUS_OK;
+    bool there = to->enough && events_acted(c->events) >= to->acted;
+    if (there && !to->ends) return MOTUS_OK;
+    motus_status status = there ? MOTUS_OK : stepper_turn(c->stepper, t, h, err);
+    if (!there) events_turn(c->events, c->stepper);
+    for (int k = 0; status == MOTUS_OK && k < STEPS_FIRST && why == STOP_STEPS && !there; k++) {
         status = run_events_steps(c->events, c->stepper, &c->pace, 1, t + span, &why, err);
-        if (!ends && events_acted(c->events) >= acted) break;
+        there = to->enough && events_acted(c->events) >= to->acted;
     }
-    c->over = why == STOP_EVENT;
+    c->over = why == STOP_EVENT || (there && to->ends);
     if (status == MOTUS_OK) status = see(c, err);
     if (status == MOTUS_OK) c->t = stepper_time(c->stepper);
     return status;

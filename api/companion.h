@@ -30,9 +30,14 @@ chosen companion_method(const chosen *, const motus_system *);
 motus_status companion_begin(companion *, const motus_run *, double t, const double *x, const double *v, motus_error *);
 /* Lands at t, where the run has taken `steps` steps since the last landing, of which the last may be in part. */
 motus_status companion_land(companion *, const motus_run *, double t, int64_t steps, motus_error *);
-/* The run's step ended where an event acted, or ended it: goes on until as many actions are done, or (ends) until an
- * event ends the companion, but at most `span` further. */
-motus_status companion_reach(companion *, int64_t acted, bool ends, double span, motus_error *);
+/* Where the run stands at an event. */
+typedef struct companion_goal {
+    int64_t acted; /* so often a rule has assigned */
+    bool ends;     /* the event ended the run, and is to end the companion */
+    bool enough;   /* that many actions are enough, even where the last of them does not end it */
+} companion_goal;
+/* Goes on until it stands at such an event too, but at most `span` further. */
+motus_status companion_reach(companion *, const companion_goal *, double span, motus_error *);
 /* Moves its state by what rounding may make of it: of exact motions, which steps do not tell apart. */
 motus_status companion_jog(companion *, const motus_run *, motus_error *);
 /* Moves numbers by at least an ulp, and by `size` where it is given; up or down, by a hash of their places and

@@ -5,6 +5,7 @@
  */
 #include "api/bars.h"
 #include "api/ensemble.h"
+#include "api/event_bars.h"
 #include "api/run_events.h"
 #include "api/symmetry.h"
 
@@ -133,7 +134,13 @@ static double error(const trajectory *s, size_t r)
 {
     const motus_ensemble *e = s->w->e;
     if (ensemble_tallies(&e->records[r])) return 0;
-    return bars_of(s->w->run->bars, stepper_time(s->w->stepper), e->compared_record[r]);
+    const size_t number = e->compared_record[r];
+    motus_run *const run = s->w->run;
+    const double t = stepper_time(s->w->stepper);
+    double bar = bars_of(run->bars, t, number);
+    const bool last = e->records[r].how == MOTUS_REDUCE_FINAL && run->events;
+    if (last && run_sync(run, false, NULL) == MOTUS_OK) event_bars_state(run, t, run->x, run->v, number, &bar, NULL);
+    return bar;
 }
 
 static motus_status begin_events(worker *w, double until, motus_error *err)

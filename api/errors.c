@@ -1,5 +1,6 @@
 /* The calls for bars of error: motus_run_errors, motus_run_sample_errors, motus_run_estimate. */
 #include "api/bars.h"
+#include "api/event_bars.h"
 
 #include <math.h>
 
@@ -20,7 +21,10 @@ static motus_status tell(motus_run *r, double t, double *x, double *v, const siz
         if (columns[k] >= r->system->column_count)
             return fail(err, MOTUS_ARGUMENT, "there is no column %zu", columns[k]);
     if (values) status = system_values(r->system, t, x, v, columns, count, values, err);
-    for (size_t k = 0; status == MOTUS_OK && k < count; k++) errors[k] = bars_of(r->bars, t, columns[k]);
+    for (size_t k = 0; status == MOTUS_OK && k < count; k++) {
+        errors[k] = bars_of(r->bars, t, columns[k]);
+        if (r->events) status = event_bars_state(r, t, x, v, columns[k], errors + k, err);
+    }
     return status;
 }
 

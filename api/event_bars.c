@@ -15,15 +15,21 @@
 
 enum { BEFORE = 6, AFTER = 2, WINDOW = BEFORE + AFTER, NEARBY = 16 };
 #define OWN 2.5
+#define OWN_SLOW 3.75 /* of a method of order 1 */
 #define OTHERS 0.375
 #define APART 0.25
 #define CLOSE 256 /* or so many units in the last place of the time, where events accumulate */
+#define CLOCK 1.5 /* units in the last place: the period is rounded, n times that, and the sum */
 /* What the companion shares with the run, and so does not show: of the time of the event, units in its last place; and
  * of the state after every event that changed it, a part in 2^52 of its velocities, which acts on all the time since.
  * Step after step a row adds the same numbers in the same order, so such parts have one sign: dopri5 leaves 2^-52 of
  * the velocity of each flight of a ball. */
 #define ROUNDINGS 2
 #define LASTING 1.5
+/* Flights of a ball have left up to 8 of these parts (dop853, all of one sign), of which a companion shows most where
+ * it steps otherwise, and nothing else shows them where there is none. */
+#define LASTING_LIMIT 4
+#define LASTING_ALONE 8
 
 /* The companion's row for row k of the run; SIZE_MAX: it has none. */
 static size_t partner(const events *run, const events *other, size_t k)
@@ -55,21 +61,30 @@ static bool known(const motus_run *r, size_t k)
     return b->half.over || way * (b->half.t - t) >= 0;
 }
 
+/* The time of the instant before that of row k: rows of one instant are judged as one. */
+static double instant_before(const motus_run *r, size_t k)
+{
+    const double t = events_row(r->events, k, false, NULL, NULL).t;
+    while (k-- > 0) {
+        const double before = events_row(r->events, k, false, NULL, NULL).t;
+        if (fabs(t - before) > 4 * events_ulp(t)) return before;
+    }
+    return r->timing.t0;
+}
+
 /* How many of the rows that companions have come to are significant. */
 static size_t significant(motus_run *r)
 {
     bars *b = r->bars;
     const size_t rows = events_rows(r->events);
     if (rows < b->rows) { /* the run has begun anew */
-        b->rows = b->summed = 0;
+        b->rows = 0;
         b->rows_differ = false;
-        b->sum = b->changes = 0;
     }
     for (; !b->rows_differ && b->rows < rows && known(r, b->rows); b->rows++) {
         const size_t k = b->rows;
         const double t = events_row(r->events, k, false, NULL, NULL).t;
-        const double before = k ? events_row(r->events, k - 1, false, NULL, NULL).t : r->timing.t0;
-        const double room = fmax(APART * fabs(t - before), CLOSE * events_ulp(t));
+        const double room = fmax(APART * fabs(t - instant_before(r, k)), CLOSE * events_ulp(t));
         b->rows_differ = distance(r, &b->half, k) > room;
         if (b->rows_differ) break;
     }
@@ -94,16 +109,38 @@ static double bar_of(const double *d, size_t n)
     return OWN * d[0] + OTHERS * others;
 }
 
-/* The sum of the times since the events before row k that changed the state. */
-static double lasting(motus_run *r, size_t k)
+/* Of a time, what a companion does not show. */
+static double shared(double t, double lasting, double part)
 {
-    bars *b = r->bars;
-    if (k < b->summed) b->summed = 0, b->sum = b->changes = 0;
-    for (; b->summed < k; b->summed++) {
-        const event row = events_row(r->events, b->summed, false, NULL, NULL);
-        if (row.changed) b->sum += row.t, b->changes++;
+    return ROUNDINGS * events_ulp(t) + part * 0x1p-52 * lasting;
+}
+
+/* The state is late or early by what the times of events share; and it cannot be better known than numbers are rounded
+ * that were added on the way to it: a motion that sticks, or was led to a place, is not that of a smaller one. */
+motus_status event_bars_state(motus_run *r, double t, const double *x, const double *v, size_t number, double *error,
+                              motus_error *err)
+{
+    const problem *p = &r->system->problem;
+    const bars *b = r->bars;
+    if ((events_acted(r->events) == 0 && events_turns(r->events) == 0) || !(*error > 0) || b->columns[number] == 0)
+        return MOTUS_OK;
+    double *const to_x = take(&r->allocator, p->nx + p->nv + 2, sizeof *to_x), *const to_v = to_x + p->nx + 1;
+    if (!to_x) return fail(err, MOTUS_MEMORY, "no memory for the errors of a state after events");
+    const double late = LASTING * 0x1p-52 * events_lasting(r->events, t);
+    double value[2];
+    motus_status status = MOTUS_OK;
+    for (int k = 0; k < 2 && status == MOTUS_OK; k++) {
+        memcpy(to_x, x, p->nx * sizeof *x), memcpy(to_v, v, p->nv * sizeof *v);
+        for (size_t i = 0; k && i < p->nx && i < p->nv; i++) to_x[i] += v[i] * late;
+        status = system_values(r->system, t, to_x, to_v, b->columns + number, 1, value + k, err);
     }
-    return fabs(b->changes * events_row(r->events, k, false, NULL, NULL).t - b->sum);
+    give(&r->allocator, to_x);
+    if (status != MOTUS_OK) return status;
+    const double moved = fabs(value[1] - value[0]);
+    const double part = events_turns(r->events) > 0 ? 1 : 0.5; /* what held it there has been added to as well */
+    *error = fmax(*error, part * events_ulp(b->differences.size[number]));
+    if (isfinite(moved)) *error = fmax(*error, moved);
+    return MOTUS_OK;
 }
 
 double event_bars_time(motus_run *r, size_t k)
@@ -111,9 +148,10 @@ double event_bars_time(motus_run *r, size_t k)
     double d[WINDOW];
     size_t n = 0;
     if (!r->bars) return NAN;
+    const event this = events_row(r->events, k, false, NULL, NULL);
+    if (r->rules->rule[this.rule].kind == RULE_CLOCK) return CLOCK * events_ulp(this.t); /* whatever the motion is */
     const size_t rows = significant(r);
     if (k >= rows) return ended(r->bars) ? INFINITY : NAN;
-    const double t = fabs(events_row(r->events, k, false, NULL, NULL).t);
     for (size_t i = 0; i < WINDOW; i++) {
         const size_t row = row_of(k, i, rows);
         if (row == SIZE_MAX) continue;
@@ -121,18 +159,32 @@ double event_bars_time(motus_run *r, size_t k)
         if (r->bars->twin.events) d[n] = fmax(d[n], distance(r, &r->bars->twin, row));
         n++;
     }
-    const double ulp = events_ulp(t), shared = ROUNDINGS * ulp + LASTING * 0x1p-52 * lasting(r, k);
-    return fmax(bar_of(d, n) + ulp, shared);
+    return fmax(bar_of(d, n) + events_ulp(this.t), shared(this.t, this.lasting, LASTING));
 }
 
-double event_bars_limit(const motus_run *r, const events_limit *limit)
+/* The limit by the companion: its own, or where it has had as many events as the run, what they lead to. */
+static bool other_limit(const companion *c, const events_limit *limit, events_limit *other, double way)
+{
+    if (!c->events) return false;
+    if (events_accumulated(c->events, other)) return other->rule == limit->rule && other->instance == limit->instance;
+    other->t = events_latest(c->events) + way * events_tail(c->events);
+    return c->over && isfinite(other->t);
+}
+
+/* The limit of events that have come in other numbers, and may not have been told apart, can still be the same. */
+double event_bars_limit(motus_run *r, const events_limit *limit)
 {
     events_limit other;
     const bars *const b = r->bars;
-    if (!b) return limit->error;
-    const bool has = !b->why[0] && b->half.events && events_accumulated(b->half.events, &other) &&
-                     other.rule == limit->rule && other.instance == limit->instance;
-    return has ? OWN * fabs(limit->t - other.t) + limit->error : ended(b) ? INFINITY : NAN;
+    if (!b) return limit->error + shared(limit->t, limit->lasting, LASTING_ALONE);
+    const modes m = modes_enter();
+    bars_land(r, NULL);
+    modes_leave(m);
+    const double gone = b->differences.until, way = r->timing.h < 0 ? -1 : 1;
+    if (!isnan(gone) && way * (limit->t - gone) > limit->error) return INFINITY; /* long before it */
+    if (b->why[0] || !other_limit(&b->half, limit, &other, way)) return NAN;
+    const double own = b->differences.shape.slow ? OWN_SLOW : OWN;
+    return own * fabs(limit->t - other.t) + limit->error + shared(limit->t, limit->lasting, LASTING_LIMIT);
 }
 
 int64_t motus_run_events_significant(motus_run *r)
@@ -177,14 +229,19 @@ static motus_status errors(motus_run *r, size_t k, bool after, const size_t *col
     const size_t rows = significant(r);
     for (size_t j = 0; j < count; j++) out[j] = ended(b) ? INFINITY : NAN;
     if (k >= rows) return MOTUS_OK;
-    double *room = take(&r->allocator, (WINDOW + 1) * (count + 1), sizeof *room);
+    double *room = take(&r->allocator, (WINDOW + 2) * (count + 1), sizeof *room);
     if (!room) return fail(err, MOTUS_MEMORY, "no memory for the errors of an event");
     motus_status status = MOTUS_OK;
     size_t n = 0;
     for (size_t i = 0; i < WINDOW && status == MOTUS_OK; i++) {
         const size_t row = row_of(k, i, rows);
         if (row == SIZE_MAX) continue;
-        status = differ(r, &b->half, row, after, columns, count, room + (n + 1) * count, room, err);
+        double *const half = room + (n + 1) * count, *const twin = half + count;
+        status = differ(r, &b->half, row, after, columns, count, half, room, err);
+        if (status == MOTUS_OK && b->twin.events) {
+            status = differ(r, &b->twin, row, after, columns, count, twin, room, err);
+            for (size_t j = 0; j < count; j++) half[j] = fmax(half[j], twin[j]);
+        }
         n++;
     }
     for (size_t j = 0; j < count && status == MOTUS_OK; j++) {

@@ -6,7 +6,11 @@
 
 /* Of the time of row k. NaN: not known; INFINITY: no digit is significant. */
 double event_bars_time(motus_run *, size_t k);
+/* Raises the bar of a number at t, where the run's state is x, v in the inside order, to what roundings at events leave
+ * in every computation alike. */
+motus_status event_bars_state(motus_run *, double t, const double *x, const double *v, size_t number, double *error,
+                              motus_error *);
 /* Of the limit of events that accumulate; the engine knows it to `error`, by the times of its own events. */
-double event_bars_limit(const motus_run *, const events_limit *);
+double event_bars_limit(motus_run *, const events_limit *);
 
 #endif

@@ -151,7 +151,7 @@ motus_status motus_run_jump(motus_run *r, int64_t k, int after, const size_t *co
     return status;
 }
 
-const char *motus_run_ended(const motus_run *r, int *accumulated, double *time, double *error)
+const char *motus_run_ended(motus_run *r, int *accumulated, double *time, double *error)
 {
     size_t rule = 0;
     events_limit limit = {.t = NAN, .error = NAN};

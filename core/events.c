@@ -32,8 +32,12 @@ static size_t arrange(events *e, char *block)
 {
     layout l = {block, 0};
     const size_t n = e->rules.count, f = e->rules.functions, nx = e->problem.nx, nv = e->problem.nv;
-    size_t instances = 0;
-    for (size_t k = 0; k < n; k++) instances += e->rules.rule[k].instances + 1;
+    size_t instances = 0, times = 0;
+    for (size_t k = 0; k < n; k++) {
+        const rule *r = &e->rules.rule[k];
+        instances += r->instances + 1;
+        times += (r->instances + 1) * RECENT * (size_t)recent_levels(r);
+    }
     double *numbers = next(&l, 5 * (nx + 2 * nv + 3 * f), sizeof *numbers);
     e->after = next(&l, nx + nv, sizeof *e->after);
     e->width = next(&l, nx + nv, sizeof *e->width);
@@ -41,6 +45,8 @@ static size_t arrange(events *e, char *block)
     e->before = next(&l, f, sizeof *e->before);
     e->instances = next(&l, n, sizeof *e->instances);
     e->recent = next(&l, instances, sizeof *e->recent);
+    e->recent_t = next(&l, times, sizeof *e->recent_t);
+    e->limit_off = next(&l, nx + nv, sizeof *e->limit_off);
     e->happened = next(&l, instances, sizeof *e->happened);
     e->count = next(&l, n, sizeof *e->count);
     e->ticks = next(&l, n, sizeof *e->ticks);
@@ -85,10 +91,12 @@ motus_status events_create(const rules *r, const machine *m, const chosen *metho
     e->method = *method;
     arrange(e, block + head);
     size_t instances = 0;
+    double *times = e->recent_t;
     for (size_t k = 0; k < r->count; k++) {
         const rule *one = &r->rule[k];
         e->instances[k] = instances;
-        instances += one->instances + 1;
+        for (size_t i = 0; i <= one->instances; i++, times += RECENT * recent_levels(one))
+            e->recent[instances++].t = times;
         for (size_t f = 0; f < one->leaves * one->instances; f++) e->rule_of[one->first + f] = (uint32_t)k;
     }
     forget_happened(e);
@@ -238,18 +246,21 @@ static motus_status jump(const events *e, stepper *s, const instant *to, double 
 
 static motus_status restart(events *e, stepper *s, double h, motus_error *err) { return jump(e, s, &e->here, h, err); }
 
+enum { PAST_HEAD = 3 };
+
 /* Before the motion goes on from an action at time `end`: where the piece that led to it began, for dense output. */
 static bool keep_past(events *e, double end)
 {
-    const size_t nx = e->problem.nx, nv = e->problem.nv, each = 2 + nx + nv;
+    const size_t nx = e->problem.nx, nv = e->problem.nv, each = PAST_HEAD + nx + nv;
     void *past = e->past;
     if (!events_grow(&e->allocator, &past, e->pasts, &e->past_room, 1, each * sizeof *e->past)) return false;
     e->past = past;
     e->past_end = end;
     double *to = e->past + e->pasts++ * each;
-    to[0] = e->left.t, to[1] = e->left.lost;
-    memcpy(to + 2, e->left.x, nx * sizeof *to);
-    memcpy(to + 2 + nx, e->left.v, nv * sizeof *to);
+    to[0] = e->left.t, to[1] = e->left.lost, to[2] = (double)e->acted_left;
+    memcpy(to + PAST_HEAD, e->left.x, nx * sizeof *to);
+    memcpy(to + PAST_HEAD + nx, e->left.v, nv * sizeof *to);
+    e->acted_left = e->acted;
     return true;
 }
 
@@ -389,23 +400,31 @@ static motus_status piece(events *e, stepper *s, double until, int64_t most, boo
     return status;
 }
 
+/* The piece that led to an action and that t lies in; where the last of them ended the stepper's own steps begin:
+ * NULL. */
+static const double *past_at(const events *e, double t)
+{
+    const size_t each = PAST_HEAD + e->problem.nx + e->problem.nv;
+    const double *at = NULL;
+    for (size_t k = 0; k < e->pasts && e->way * (t - e->past[k * each]) >= 0; k++) at = e->past + k * each;
+    return e->way * (t - e->past_end) >= 0 ? NULL : at;
+}
+
 motus_status events_sample(events *e, stepper *s, double t, double *x, double *v, motus_error *err)
 {
-    const size_t nx = e->problem.nx, nv = e->problem.nv, each = 2 + nx + nv;
-    const double *from = NULL;
-    /* where the piece that led to the latest action ended, the stepper's own steps begin */
-    for (size_t k = 0; k < e->pasts && e->way * (t - e->past[k * each]) >= 0; k++) from = e->past + k * each;
-    if (!from || e->way * (t - e->past_end) >= 0) {
+    const size_t nx = e->problem.nx, nv = e->problem.nv;
+    const double *const from = past_at(e, t);
+    if (!from) {
         const motus_status status = stepper_sample(s, t, x, v, err);
         if (!status) events_keep(e, t, x);
         return status;
     }
-    memcpy(x, from + 2, nx * sizeof *x);
-    memcpy(v, from + 2 + nx, nv * sizeof *v);
+    memcpy(x, from + PAST_HEAD, nx * sizeof *x);
+    memcpy(v, from + PAST_HEAD + nx, nv * sizeof *v);
     motus_status status = MOTUS_OK;
     if (t != from[0]) {
         double end, rest;
-        status = events_probe(e, from[0], from[1], from + 2, from + 2 + nx, (t - from[0]) - from[1], &end, &rest, err);
+        status = events_probe(e, from[0], from[1], x, v, (t - from[0]) - from[1], &end, &rest, err);
         if (!status) status = stepper_sync(e->probe, x, v, NULL, err);
     }
     if (!status) events_keep(e, t, x);
@@ -479,6 +498,7 @@ motus_status events_go(events *e, stepper *s, double until, int64_t most, steppe
     e->cancelled = false;
     e->along = s;
     e->pasts = 0;
+    e->acted_left = e->acted;
     events_kept_forget(e);
     motus_status status =
         row_adaptive(&e->method) ? adaptive_step(e, s, until, most, why, err) : grid_step(e, s, until, why, err);
@@ -515,10 +535,11 @@ void events_forget(events *e)
         e->count[k] = e->ticks[k] = 0;
         instances += e->rules.rule[k].instances + 1;
     }
-    memset(e->recent, 0, instances * sizeof *e->recent);
+    for (size_t i = 0; i < instances; i++) e->recent[i].number = 0;
     e->jumps = 0;
     e->rows = e->numbers = e->kept_states = e->pasts = 0;
     e->acted = 0;
+    e->acted_sum = e->tail = 0;
     e->has_limit = e->limit_told = false;
     e->end = EVENTS_END_NONE;
 }
@@ -541,6 +562,12 @@ bool events_partway(const events *e) { return e->broken && !e->saved; }
 
 double events_latest(const events *e) { return e->at_once; }
 int64_t events_acted(const events *e) { return e->acted; }
+
+int64_t events_acted_before(const events *e, double t)
+{
+    const double *const from = past_at(e, t);
+    return from ? (int64_t)from[2] : e->acted;
+}
 
 int64_t events_turns(const events *e)
 {

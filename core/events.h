@@ -29,8 +29,9 @@ typedef struct event {
     size_t rule, instance;
     int64_t count; /* events of this rule so far, this one included */
     double t;
-    bool touched; /* the function touched 0 and went back */
-    bool changed; /* the rule assigns: there is a state after it too */
+    double lasting; /* the sum of the times since the actions before it, of all rules */
+    bool touched;   /* the function touched 0 and went back */
+    bool changed;   /* the rule assigns: there is a state after it too */
 } event;
 
 /* What ended the run before its time. */
@@ -40,6 +41,7 @@ typedef enum events_end { EVENTS_END_NONE, EVENTS_END_STOP, EVENTS_END_ACCUMULAT
 typedef struct events_limit {
     size_t rule, instance;
     double t, error;
+    double lasting; /* as in a row */
 } events_limit;
 
 /* Of a stepper on this machine by this method. The rules and the machine's problem must outlive it. */
@@ -82,10 +84,16 @@ double events_ulp(double t);
 events_end events_ended(const events *, size_t *rule);
 /* False: the events of no rule have accumulated. */
 bool events_accumulated(const events *, events_limit *);
-int64_t events_steps(const events *);   /* since events_begin */
-double events_latest(const events *);   /* time of the latest action; NaN: there was none */
-int64_t events_acted(const events *);   /* how often a rule has assigned */
-int64_t events_turns(const events *);   /* how often an internal rule has */
+/* How long after the latest action the events of its rule seem to accumulate; 0: they do not. */
+double events_tail(const events *);
+/* Where they did: how far the state at the limit, x and then v, may be from that to which they lead. */
+const double *events_limit_off(const events *);
+int64_t events_steps(const events *);                  /* since events_begin */
+double events_latest(const events *);                  /* time of the latest action; NaN: there was none */
+int64_t events_acted(const events *);                  /* how often a rule has assigned */
+int64_t events_acted_before(const events *, double t); /* and before a time within the last step */
+int64_t events_turns(const events *);                  /* how often an internal rule has */
+double events_lasting(const events *, double t);       /* the sum of the times since they did */
 double events_interval(const events *); /* between the latest two instants at which one did; INFINITY: there are none */
 size_t events_rows(const events *);
 /* Row k; x and v, where not NULL: the state on arrival, or where `after` that which the action left. */

@@ -153,6 +153,7 @@ static motus_status act(events *e, size_t k, size_t i, motus_error *err)
         e->actions = 0;
     }
     e->acted++;
+    e->acted_sum += at->t - e->start;
     if (++e->actions > EVENTS_AT_ONCE) return too_many(e, k, i, err);
     const size_t n = e->rules.functions;
     if (n) memcpy(e->before, at->g, n * sizeof *at->g);
@@ -213,7 +214,7 @@ static int leaves(const events *e, size_t f, const candidate *c, bool acted)
 /* An event has acted: where its events accumulate, and the state there. */
 static void approach(events *e, size_t k, size_t i)
 {
-    if (events_accumulate(e, k, i, e->here.t)) events_to_limit(e, k, i);
+    if (events_accumulate(e, k, i, e->here.t)) events_to_limit(e);
     events_after(e, k, i);
 }
 

@@ -38,12 +38,19 @@ typedef struct kept_state { /* the kept numbers from time t on */
     size_t at; /* in `kept`, times rules.kept_count */
 } kept_state;
 
-/* The latest times of one instance of a rule, the last one first; count: how many of them are known. */
-enum { RECENT = 4 };
+/* The latest times of one instance of a rule, by levels: at level k those of every event whose number is a multiple of
+ * 2^k, the last one first, RECENT of them. So a ratio of intervals is also known from intervals so long that roundings
+ * do not matter. A rule of many instances has one level. */
+enum { RECENT = 4, LEVELS = 12, LEVELS_INSTANCES = 256 };
 typedef struct recent {
-    double t[RECENT];
-    int count;
+    double *t;
+    int64_t number; /* of the latest event */
 } recent;
+static inline int recent_levels(const rule *r) { return r->instances <= LEVELS_INSTANCES ? LEVELS : 1; }
+static inline int recent_count(const recent *r, int level)
+{
+    return r->number >> level < RECENT ? (int)(r->number >> level) : RECENT;
+}
 
 struct events {
     rules rules;
@@ -68,15 +75,16 @@ struct events {
     instant left, right, here, next;
     instant best;         /* of those at which a root was looked for */
     const stepper *along; /* whose step leads from `left` to `right`; NULL between steps */
-    double *past; /* of the present step: states from which pieces began that ended in an action: t, lost, x, v */
+    double *past; /* of the present step: of the pieces that ended in an action: t, lost, what had acted, x, v */
     size_t pasts, past_room;
-    double past_end; /* where the last of these pieces ended */
-    int8_t *side;    /* -1, 1, 0: not known, since the function has been 0 from the start on */
-    uint8_t *stands; /* it is 0 at `left` */
-    uint8_t *open;   /* it is 0 there, and only the next step says whether it passed */
-    int8_t *heads;   /* where it stands at 0: the direction in which its slope leads it, 0: not known */
-    uint8_t *was;    /* side, stands, open and heads before the present step */
-    double here_at;  /* `here` is so long after `left` */
+    double past_end;    /* where the last of these pieces ended */
+    int64_t acted_left; /* what had acted when the present piece began */
+    int8_t *side;       /* -1, 1, 0: not known, since the function has been 0 from the start on */
+    uint8_t *stands;    /* it is 0 at `left` */
+    uint8_t *open;      /* it is 0 there, and only the next step says whether it passed */
+    int8_t *heads;      /* where it stands at 0: the direction in which its slope leads it, 0: not known */
+    uint8_t *was;       /* side, stands, open and heads before the present step */
+    double here_at;     /* `here` is so long after `left` */
     double
         whole;   /* the size that the step had before it was shortened to tell how a function leaves 0, 0: it was not */
     double span; /* from `left` to `right` */
@@ -99,6 +107,7 @@ struct events {
     double *happened;  /* likewise: the instant in which it did, unless it has been false there since; NaN: none */
     size_t *instances; /* per rule: the number of its first instance */
     recent *recent;    /* per instance */
+    double *recent_t;  /* their times */
     int64_t *count;    /* per rule */
     int64_t *ticks;    /* per rule: of a clock, how often it has happened */
     uint8_t *ticked;   /* per rule: of a clock, it has in this instant */
@@ -108,7 +117,8 @@ struct events {
     double at_once;    /* the time of the latest action */
     int actions;       /* in that instant */
     events_jogger jog; /* NULL: none */
-    int64_t acted;     /* in all */
+    int64_t acted;     /* in all, and */
+    double acted_sum;  /*   the sum of their times, since the start */
     double turned_at;  /* the time of the latest action of an internal rule */
     size_t turns;      /* in that instant */
     double interval;   /* from the instant of an action before */
@@ -128,6 +138,9 @@ struct events {
     size_t after_rule, after_instance;
     bool has_limit, limit_told; /* events accumulate; a rule has answered to that */
     events_limit limit;
+    double tail; /* what is left before a limit that the latest events seem to have; 0: they have none */
+    double limit_part, limit_part_error; /* what is left before it, in intervals, and how far that may be off */
+    double *limit_off;                   /* how far the state there may be off for that reason, x and then v */
 
     /* Of fixed steps, from the last one on: what a restart state takes in place of the present state, which is that
      * before this step: `saved_head` numbers, and then those of the stepper. Else NULL. */
@@ -192,7 +205,7 @@ bool events_accumulate(events *, size_t rule, size_t instance, double t);
 void events_end_here(events *, size_t rule, size_t instance, double t);
 /* The state after an action, beside which the next one of the same rule is judged; and its limit, to `here`. */
 void events_after(events *, size_t rule, size_t instance);
-void events_to_limit(events *, size_t rule, size_t instance);
+void events_to_limit(events *);
 
 /* events_state.c. Keeps the present state for a restart state; false: no memory. And forgets it. */
 bool events_save_here(events *, const stepper *);

@@ -94,10 +94,10 @@ static void pass_functions(pass *p, events *e)
     for (size_t k = 0; k < f; k++) e->fired[k] = any(p, e->fired[k]);
 }
 
-static void pass_recent(pass *p, recent *r)
+static void pass_recent(pass *p, recent *r, int levels)
 {
-    r->count = (int)whole(p, r->count, 0, RECENT);
-    numbers(p, r->t, (size_t)r->count);
+    r->number = counter(p, r->number);
+    for (int k = 0; k < levels; k++) numbers(p, r->t + RECENT * k, (size_t)recent_count(r, k));
 }
 
 static void pass_rules(pass *p, events *e)
@@ -108,7 +108,7 @@ static void pass_rules(pass *p, events *e)
         if (r->kind == RULE_CLOCK) e->ticks[k] = counter(p, e->ticks[k]);
         if (r->kind == RULE_CONDITION) flags(p, e->held + e->instances[k], r->instances);
         for (size_t i = 0; (r->kind == RULE_ROOT || r->kind == RULE_CONDITION) && r->assigns && i < r->instances; i++)
-            pass_recent(p, &e->recent[e->instances[k] + i]);
+            pass_recent(p, &e->recent[e->instances[k] + i], recent_levels(r));
     }
 }
 
@@ -127,11 +127,13 @@ static void pass_accumulation(pass *p, events *e)
     const bool after = pass_instance(p, e, e->after_rule != SIZE_MAX, &e->after_rule, &e->after_instance);
     if (after) numbers(p, e->after, e->problem.nx + e->problem.nv);
     if (!after) e->after_rule = SIZE_MAX;
+    e->tail = number(p, e->tail);
     e->has_limit = pass_instance(p, e, e->has_limit, &e->limit.rule, &e->limit.instance);
     if (!e->has_limit) return;
     e->limit_told = flag(p, e->limit_told);
     e->limit.t = number(p, e->limit.t);
     e->limit.error = number(p, e->limit.error);
+    e->limit.lasting = number(p, e->limit.lasting);
 }
 
 static void pass_all(pass *p, events *e)
@@ -143,6 +145,7 @@ static void pass_all(pass *p, events *e)
     e->at_once = any(p, e->at_once);
     e->actions = (int)whole(p, e->actions, 0, EVENTS_AT_ONCE);
     e->acted = counter(p, e->acted);
+    e->acted_sum = number(p, e->acted_sum);
     e->interval = any(p, e->interval);
     pass_instant(p, e);
     pass_functions(p, e);
@@ -172,7 +175,7 @@ static void write_row(pass *p, events *e, size_t k)
     const event *row = &e->row[k];
     const size_t all = e->problem.nx + e->problem.nv;
     any(p, (double)row->rule), any(p, (double)row->instance), any(p, (double)row->count);
-    any(p, row->t), any(p, row->touched), any(p, row->changed);
+    any(p, row->t), any(p, row->lasting), any(p, row->touched), any(p, row->changed);
     numbers(p, e->row_state + e->row_at[k], row->changed ? 2 * all : all);
 }
 
@@ -183,6 +186,7 @@ static void read_row(pass *p, events *e)
     const size_t instance = p->bad ? 0 : number_of(p, 0, e->rules.rule[rule].instances);
     const int64_t count = counter(p, 0), now = e->count[rule];
     to->t = number(p, 0);
+    const double lasting = number(p, 0);
     const bool touched = flag(p, false), changed = flag(p, false);
     for (int after = 0; after <= changed && !p->bad; after++) {
         numbers(p, to->x, e->problem.nx);
@@ -191,6 +195,7 @@ static void read_row(pass *p, events *e)
         e->count[rule] = count; /* of the row that is noted */
         p->bad = p->full = !(after ? events_note_after(e, to) : events_note(e, rule, instance, touched, to));
         e->count[rule] = now;
+        if (!p->bad) e->row[e->rows - 1].lasting = lasting;
     }
 }
 

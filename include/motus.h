@@ -811,7 +811,7 @@ MOTUS_API motus_status motus_run_jump(motus_run *, int64_t k, int after, const s
  * and *time is the limit of its events' times, which is known to *error: NaN where no companion has told it,
  * INFINITY where no digit is significant; of a run without bars how far rounding lets the limit of its own events be
  * known. */
-MOTUS_API const char *motus_run_ended(const motus_run *, int *accumulated, double *time, double *error);
+MOTUS_API const char *motus_run_ended(motus_run *, int *accumulated, double *time, double *error);
 /* The name of the kind whose events accumulate, whether or not that ended the run; "": none do. */
 MOTUS_API const char *motus_run_accumulates(const motus_run *);
 /* Why the run's method was chosen, one sentence, where the method is "auto"; else "". Owned by the run. */

@@ -197,6 +197,11 @@ void differences_take(differences *f, double t, bool observed, bool twin)
     judge(f, t, distance_of(f));
 }
 
+void differences_widen(differences *f)
+{
+    for (size_t k = 0; k < f->shape.count; k++) f->d[k] = larger(fabs(f->values[0][k] - f->values[1][k]), f->d[k]);
+}
+
 /* ---- what is kept ---- */
 
 /* The numbers of a differences_growth, which is nothing else. */

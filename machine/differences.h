@@ -61,6 +61,8 @@ void differences_begin(differences *, double start, double until);
 /* Compares what the caller has written to values[0] and [1], at t, and [2] where the twin is there. observed: this is
  * an observation, so it enters what is reduced. */
 void differences_take(differences *, double t, bool observed, bool twin);
+/* What was seen last of the companion in values[1] was replaced by what the run may be as well. */
+void differences_widen(differences *);
 /* The bar of a number at the last landing; 0: it is exact; INFINITY: no digit of it is significant. */
 double differences_bar(const differences *, size_t number);
 /* A bound on the bars that any number of the state had so far, relative to the largest number of its group or in its

@@ -318,7 +318,7 @@ void tell_event(json *j, const motus_event_row *e)
     json_bool(j, "touched", e->touched);
 }
 
-void tell_ended(json *j, const motus_run *run)
+void tell_ended(json *j, motus_run *run)
 {
     int accumulated = 0;
     double time, error;

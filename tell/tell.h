@@ -19,7 +19,7 @@ void tell_convergence(json *, const motus_convergence *);
 void tell_ranking(json *, const motus_ranking *);
 void tell_estimate(json *, const motus_estimate *); /* what bars of error rest on */
 void tell_event(json *, const motus_event_row *);   /* an event, without its state */
-void tell_ended(json *, const motus_run *);         /* which event ended a run, where they accumulate */
+void tell_ended(json *, motus_run *);               /* which event ended a run, where they accumulate */
 void tell_diagnosis(json *, const motus_error *);   /* why a run failed; null: not known, or it did not */
 void tell_error(json *, const motus_error *, const char *message); /* message: the error's, with or without its hint */
 

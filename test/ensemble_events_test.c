@@ -170,7 +170,7 @@ static void tables_are_those_of_runs(void **state)
 static void an_accuracy_has_its_tables(void **state)
 {
     (void)state;
-    const way w = {"dopri5", NAN, NAN, 1e-9, MOTUS_BARS_CHEAP, 3};
+    const way w = {"dopri5", NAN, NAN, 1e-11, MOTUS_BARS_CHEAP, 3};
     flock f;
     make(&f, &w, 2, "interpreter");
     compute(&f, &w, 0, COUNT);

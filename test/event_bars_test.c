@@ -213,9 +213,167 @@ static void a_stadium_loses_all_digits(void **state)
     motus_system_destroy(s);
 }
 
+/* ---- errors between steps ---- */
+
+/* A ball let fall from 1, of which e of the speed is left: its height at t. */
+static long double height(long double g, long double e, long double t)
+{
+    long double v = sqrtl(2 * g), from = v / g;
+    if (t < from) return 1 - g * t * t / 2;
+    for (v *= e; t >= from + 2 * v / g; v *= e) from += 2 * v / g;
+    return v * (t - from) - g * (t - from) * (t - from) / 2;
+}
+
+/* Errors asked for between steps, as a plot does, go on through events, and leave those of the end and of events. */
+static void bars_between_steps(void **state)
+{
+    (void)state;
+    static const char *const methods[] = {"dop853", "taylor", "tsit5", "radau15", "rk4"};
+    enum { TIMES = 300, WAYS = sizeof methods / sizeof *methods };
+    int all = 0;
+    for (size_t m = 0; m < sizeof methods / sizeof *methods; m++) {
+        motus_error err = motus_default_error();
+        motus_system *s =
+            given_text("y'' = -9.81; y(0) = 1; y'(0) = 0; when y = 0 falling as hit: y' = -0.8 y', record");
+        motus_run_def def = motus_default_run();
+        motus_run *r = NULL;
+        def.method = methods[m], def.until = 3, def.error = MOTUS_BARS_CHEAP;
+        *(given_adaptive(methods[m]) ? &def.tolerance : &def.step) = given_adaptive(methods[m]) ? 1e-9 : 0.02;
+        must(motus_run_create(s, &def, &r, &err), &err, methods[m]);
+        const size_t y = column(s, "y");
+        int covered = 0;
+        for (int k = 1; k < TIMES; k++) {
+            const double t = 3.0 * k / TIMES;
+            double value, error;
+            must(motus_run_sample_errors(r, &t, 1, &y, 1, &value, &error, &err), &err, methods[m]);
+            assert_true(isfinite(error));
+            const long double off = fabsl(value - height(9.81L, 0.8L, t));
+            covered += off <= error;
+            if (getenv("SHOW") && off > error)
+                printf("%s at %g: off %.1e, bar %.1e\n", methods[m], t, (double)off, error);
+        }
+        printf("%s: %d of %d between steps\n", methods[m], covered, TIMES - 1);
+        assert_true(covered >= 0.95 * (TIMES - 1));
+        all += covered;
+        must(motus_run_finish(r, &err), &err, methods[m]);
+        double value, error;
+        must(motus_run_errors(r, &y, 1, &value, &error, &err), &err, methods[m]);
+        assert_true(fabsl(value - height(9.81L, 0.8L, 3)) <= error && error < 1e-12);
+        assert_int_equal(motus_run_events_significant(r), motus_run_events(r));
+        motus_run_destroy(r);
+        motus_system_destroy(s);
+    }
+    assert_true(all >= 0.99 * WAYS * (TIMES - 1));
+}
+
+/* ---- where bounces accumulate ---- */
+
+/* sqrt(2 h/g) (1 + e)/(1 - e), with h = 2 and g = 9.81, or a ball that stays where it lands; and the limit of the state
+ * is 0. No event is recorded, so that it is the actions that count. */
+static void limits_of_balls(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *e;
+        long double value;
+    } balls[] = {{"0", 0},        {"0.3", 0.3L},   {"0.6", 0.6L},   {"0.85", 0.85L},  {"0.93", 0.93L},
+                 {"0.95", 0.95L}, {"0.98", 0.98L}, {"0.99", 0.99L}, {"0.995", 0.995L}};
+    static const struct {
+        const char *method;
+        double size;
+    } ways[] = {{"verlet", 0.125}, {"rk4", 0.05},    {"pefrl", 0.0625}, {"gauss8", 0.1},
+                {"dop853", 1e-9},  {"dopri5", 1e-6}, {"taylor", 1e-12}, {"radau15", 1e-9}};
+    for (size_t b = 0; b < sizeof balls / sizeof *balls; b++) {
+        for (size_t w = 0; w < sizeof ways / sizeof *ways; w++) {
+            motus_error err = motus_default_error();
+            char text[200];
+            snprintf(text, sizeof text, "y'' = -9.81; y(0) = 2; y'(0) = 0; e = %s; when y = 0 falling as b: y' = -e y'",
+                     balls[b].e);
+            motus_system *s = given_text(text);
+            motus_run_def def = motus_default_run();
+            motus_run *r = NULL;
+            def.method = ways[w].method, def.until = 2000, def.error = MOTUS_BARS_CHEAP;
+            *(given_adaptive(ways[w].method) ? &def.tolerance : &def.step) = ways[w].size;
+            must(motus_run_create(s, &def, &r, &err), &err, ways[w].method);
+            must(motus_run_finish(r, &err), &err, ways[w].method);
+            int gathers;
+            double limit, error, value[2], bar[2];
+            assert_string_equal(motus_run_ended(r, &gathers, &limit, &error), "b");
+            assert_true(gathers);
+            const long double e = balls[b].value, want = sqrtl(4 / 9.81L) * (1 + e) / (1 - e);
+            const size_t of[] = {column(s, "y"), column(s, "y'")};
+            must(motus_run_errors(r, of, 2, value, bar, &err), &err, ways[w].method);
+            if (getenv("SHOW"))
+                printf("e = %s by %s: off %.1e, bar %.1e; y %.1e, bar %.1e; y' %.1e, bar %.1e\n", balls[b].e,
+                       ways[w].method, (double)fabsl(limit - want), error, value[0], bar[0], value[1], bar[1]);
+            assert_true(fabsl(limit - want) <= error);
+            assert_true(error < 1e-13 * (double)(want / ((1 - e) * (1 - e)))); /* some roundings of every flight */
+            for (int k = 0; k < 2; k++) assert_true(fabs(value[k]) <= bar[k] && bar[k] < 1e-6);
+            motus_run_destroy(r);
+            motus_system_destroy(s);
+        }
+    }
+}
+
+/* ---- rows of one instant, and clocks ---- */
+
+/* x = cos t: two rules on one function, and one on the velocity. */
+static void rows_of_one_instant(void **state)
+{
+    (void)state;
+    motus_error err = motus_default_error();
+    motus_system *s = given_text("x'' = -x; x(0) = 1; x'(0) = 0; when x = 0.3 as a: record; "
+                                 "when x = 0.3 falling as b: record; when x' = 0 as c: record");
+    motus_run_def def = motus_default_run();
+    motus_run *r = NULL;
+    def.method = "dop853", def.tolerance = 1e-9, def.until = 60, def.error = MOTUS_BARS_FULL;
+    must(motus_run_create(s, &def, &r, &err), &err, "rows");
+    must(motus_run_finish(r, &err), &err, "rows");
+    assert_int_equal(motus_run_events(r), 10 + 10 + 9 + 19); /* twice a period, and once; half periods */
+    assert_int_equal(motus_run_events_significant(r), motus_run_events(r));
+    const long double pi = 3.14159265358979323846L, at = acosl(0.3L);
+    for (int64_t k = 0; k < motus_run_events(r); k++) {
+        motus_event_row row = motus_default_event_row();
+        assert_int_equal(motus_run_event(r, k, &row), MOTUS_OK);
+        const long double n = row.count, turn = row.count % 2 ? (n - 1) * pi + at : n * pi - at;
+        const long double want = row.name[0] == 'c' ? n * pi : row.name[0] == 'b' ? 2 * (n - 1) * pi + at : turn;
+        assert_true(fabsl(row.time - want) <= row.error);
+    }
+    motus_run_destroy(r);
+    motus_system_destroy(s);
+}
+
+/* A kicked rotor is chaotic: its states are lost, but the clock is not. */
+static void clocks_stay_known(void **state)
+{
+    (void)state;
+    motus_error err = motus_default_error();
+    motus_system *s =
+        given_text("x'' = 0; x(0) = 0.5; x'(0) = 0.3; when every 0.1 as kick: x' = x' + 80 sin(x), record");
+    motus_run_def def = motus_default_run();
+    motus_run *r = NULL;
+    def.method = "dop853", def.tolerance = 1e-9, def.until = 20.05, def.error = MOTUS_BARS_CHEAP;
+    must(motus_run_create(s, &def, &r, &err), &err, "rotor");
+    must(motus_run_finish(r, &err), &err, "rotor");
+    assert_int_equal(motus_run_events(r), 200);
+    for (int64_t k = 0; k < 200; k++) {
+        motus_event_row row = motus_default_event_row();
+        assert_int_equal(motus_run_event(r, k, &row), MOTUS_OK);
+        assert_true(fabsl(row.time - (k + 1) / 10.0L) <= row.error && row.error < 1e-14);
+    }
+    const size_t x = column(s, "x");
+    double error;
+    must(motus_run_event_errors(r, 199, 0, &x, 1, NULL, &error, &err), &err, "rotor");
+    assert_true(error == INFINITY);
+    motus_run_destroy(r);
+    motus_system_destroy(s);
+}
+
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(bars_of_event_times),
-                                       cmocka_unit_test(a_stadium_loses_all_digits)};
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(bars_of_event_times), cmocka_unit_test(bars_between_steps),
+        cmocka_unit_test(limits_of_balls),     cmocka_unit_test(rows_of_one_instant),
+        cmocka_unit_test(clocks_stay_known),   cmocka_unit_test(a_stadium_loses_all_digits)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
