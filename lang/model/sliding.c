@@ -61,8 +61,9 @@ static node zero_at(graph *g, node leaf, int level, void *side)
 
 static const node NO_NODE = UINT32_MAX; /* no node */
 
-/* Whether a motion may slide along a kind, and the value that holds its argument at 0; NO_NODE: there is none. */
-static switches_sliding holding(const model *m, const switches *s, size_t kind, node *value)
+/* Whether a motion may slide along a kind, and the value that holds its argument at 0, NO_NODE: there is none; grip: how
+ * much the rate of the argument grows with the value. */
+static switches_sliding holding(const model *m, const switches *s, size_t kind, node *value, node *grip)
 {
     graph *g = m->graph;
     const output *rate = &s->rate[kind];
@@ -77,6 +78,7 @@ static switches_sliding holding(const model *m, const switches *s, size_t kind, 
     if (rest == full) return SLIDES_NEVER;
     const node slope = op == OP_SIGN ? graph_derivative(g, full, one_at, &side) : 0;
     if (!slope) return SLIDES_REFUSED;
+    *grip = slope;
     *value = graph_op(g, OP_NEG, graph_op(g, OP_DIV, rest, slope, 0), 0, 0);
     return SLIDES_HELD;
 }
@@ -120,18 +122,23 @@ bool sliding_prepare(model *m, switches *s)
 {
     node *value = arena_room(m->arena, 2 * s->kinds * sizeof *value), *rests = value + s->kinds;
     size_t *resting_at = arena_room(m->arena, s->kinds * sizeof *resting_at);
-    s->hold = arena_room(m->arena, 2 * s->kinds * sizeof *s->hold);
+    s->hold = arena_room(m->arena, 4 * s->kinds * sizeof *s->hold);
     s->slides = arena_room(m->arena, s->kinds * sizeof *s->slides);
     if (!value || !resting_at || !s->hold || !s->slides) return false;
     s->hold_rate = s->hold + s->kinds;
+    s->grip = s->hold_rate + s->kinds, s->grip_rate = s->grip + s->kinds;
     s->hold_kinds = 0;
     for (size_t k = 0; k < s->kinds; k++) {
-        s->slides[k] = (uint8_t)holding(m, s, k, &value[k]);
+        node grip = 0;
+        const size_t to = s->hold_kinds;
+        s->slides[k] = (uint8_t)holding(m, s, k, &value[k], &grip);
         if (value[k] == NO_NODE) continue;
-        output *o = &s->hold[s->hold_kinds];
-        *o = s->hold_rate[s->hold_kinds++] = s->rate[k];
-        o->value = value[k];
-        s->hold_rate[s->hold_kinds - 1].value = graph_derivative(m->graph, value[k], model_seed_motion, m);
+        s->hold[to] = s->hold_rate[to] = s->grip[to] = s->grip_rate[to] = s->rate[k];
+        s->hold[to].value = value[k];
+        s->hold_rate[to].value = graph_derivative(m->graph, value[k], model_seed_motion, m);
+        s->grip[to].value = grip;
+        s->grip_rate[to].value = graph_derivative(m->graph, grip, model_seed_motion, m);
+        s->hold_kinds++;
     }
     if (s->hold_kinds == 0) return !m->arena->failed && !m->graph->too_large;
     held_sides h = {s, value};
