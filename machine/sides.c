@@ -42,6 +42,11 @@ static void run(const sides *s, tape *t, double time, double *x, double *v, doub
     tape_run(t, time, base);
 }
 
+static bool compares(operation op) { return op == OP_LT || op == OP_LE || op == OP_GT || op == OP_GE; }
+
+/* The side of switch k where its argument is positive, way 1, or negative, way -1. */
+static double side_of(const sides *s, size_t k, int way) { return switches_side(op_of(s, k), way, 0); }
+
 /* Whether switch k is held; an integer part is 2 by itself. */
 static bool is_held(const sides *s, const double *side, size_t k)
 {
@@ -209,10 +214,10 @@ static const char not_unique[] = "the motion is not unique: the force drives it 
 static motus_status refuse(const sides *s, size_t k, const char *what, double t, motus_error *err)
 {
     char text[120], at[DECIMAL_MAX];
-    print(s, k, text, sizeof text);
-    if (err) err->time = t;
-    return fail(err, MOTUS_SOLVE, "%s where %s = %s, at t = %s", what, text,
-                switches_counts(op_of(s, k)) ? "a whole number" : "0", decimal(t, at));
+    switches_surface(s->model, s->switches->original[kind_of(s, k)], text, sizeof text);
+    fail(err, MOTUS_SOLVE, "%s where %s, at t = %s", what, text, decimal(t, at));
+    if (err) err->time = t, err->cause = MOTUS_CAUSE_DISCONTINUOUS;
+    return MOTUS_SOLVE;
 }
 
 static motus_status accelerate(sides *s, double t, double *x, double *v, motus_error *err)
@@ -268,30 +273,35 @@ static motus_status hold(sides *s, size_t k, double above, double below, double 
         "the motion slides along a jump of the force, which drives it back from both sides,";
     const size_t count = s->switches->count, nv = s->problem->nv;
     double *side = x + s->switches->slot, middle;
-    char why[160];
-    if (s->switches->slides[kind_of(s, k)] != SLIDES_HELD) return refuse(s, k, slides, t, err);
-    motus_status status = rate_on(s, k, 0, 1, t, x, v, &middle, err);
-    if (status != MOTUS_OK) return status;
-    if (fabs(middle - (above + below) / 2) > 0x1p-30 * (fabs(above) + fabs(below))) {
-        snprintf(why, sizeof why, "%s and no single value of the sign holds it,", slides);
+    char why[200];
+    if (s->switches->slides[kind_of(s, k)] != SLIDES_HELD) {
+        snprintf(why, sizeof why, "%s and no value between those of both sides is known to hold it,", slides);
         return refuse(s, k, why, t, err);
     }
+    motus_status status = MOTUS_OK;
+    if (!compares(op_of(s, k))) { /* a comparison chooses, and its parts are affine */
+        status = rate_on(s, k, 0, 1, t, x, v, &middle, err);
+        if (status != MOTUS_OK) return status;
+        if (fabs(middle - (above + below) / 2) > 0x1p-30 * (fabs(above) + fabs(below))) {
+            snprintf(why, sizeof why, "%s and no single value of the sign holds it,", slides);
+            return refuse(s, k, why, t, err);
+        }
+    }
     /* The force on both sides; what moves another argument that is held, or what that moves, is not known apart. */
-    status = rate_on(s, k, 1, 1, t, x, v, &middle, err);
+    status = rate_on(s, k, side_of(s, k, 1), 1, t, x, v, &middle, err);
     memcpy(s->b, s->a, nv * sizeof *s->b);
     memcpy(s->later, s->du, count * sizeof *s->du);
-    if (status == MOTUS_OK) status = rate_on(s, k, -1, 1, t, x, v, &middle, err);
+    if (status == MOTUS_OK) status = rate_on(s, k, side_of(s, k, -1), 1, t, x, v, &middle, err);
     bool coupled = false;
     for (size_t j = 0; j < count; j++) coupled |= j != k && is_held(s, side, j) && s->du[j] != s->later[j];
     for (size_t j = 0; j < count && status == MOTUS_OK && !coupled; j++) {
         double one = 0, other = 0;
         if (j == k || !is_held(s, side, j)) continue;
-        const double was = side[k], held = side[j];
-        side[k] = 0;
-        side[j] = 1, status = rate_on(s, k, 0, 1, t, x, v, &one, err);
-        side[j] = -1;
-        if (status == MOTUS_OK) status = rate_on(s, k, 0, 1, t, x, v, &other, err);
-        side[j] = held, side[k] = was;
+        const double held = side[j], on = side_of(s, k, 1);
+        side[j] = side_of(s, j, 1), status = rate_on(s, k, on, 1, t, x, v, &one, err);
+        side[j] = side_of(s, j, -1);
+        if (status == MOTUS_OK) status = rate_on(s, k, on, 1, t, x, v, &other, err);
+        side[j] = held;
         coupled = one != other;
     }
     if (status != MOTUS_OK) return status;
@@ -300,7 +310,7 @@ static motus_status hold(sides *s, size_t k, double above, double below, double 
         return refuse(s, k, why, t, err);
     }
     /* The argument is 0 but for rounding: it becomes 0 along the push that the switch exerts. */
-    status = rate_on(s, k, -1, 1, t, x, v, &middle, err);
+    status = rate_on(s, k, side_of(s, k, -1), 1, t, x, v, &middle, err);
     for (int pass = 0; pass < PASSES; pass++) {
         run(s, s->argument, t, x, v, NULL, s->u);
         if (s->u[k] == 0) break;
@@ -351,7 +361,7 @@ static motus_status rate_at_corner(sides *s, size_t k, int to, double way, doubl
         s->was[n] = side[n];
         side[n] = s->beside[n] * to;
     }
-    const motus_status status = rate_on(s, k, to, way, t, x, v, rate, err);
+    const motus_status status = rate_on(s, k, side_of(s, k, to), way, t, x, v, rate, err);
     for (size_t n = 0; n < s->switches->count; n++)
         if (s->beside[n]) side[n] = s->was[n];
     return status;
@@ -364,9 +374,9 @@ static motus_status find_beside(sides *s, size_t k, const bool *of, double way, 
     const double *side = x + s->switches->slot;
     double above, below, rate;
     *found = 0;
-    motus_status status = rate_on(s, k, 1, 1, t, x, v, &above, err);
+    motus_status status = rate_on(s, k, side_of(s, k, 1), 1, t, x, v, &above, err);
     memcpy(s->b, s->a, s->problem->nv * sizeof *s->b);
-    if (status == MOTUS_OK) status = rate_on(s, k, -1, 1, t, x, v, &below, err);
+    if (status == MOTUS_OK) status = rate_on(s, k, side_of(s, k, -1), 1, t, x, v, &below, err);
     if (status != MOTUS_OK) return status;
     for (size_t n = 0; n < s->switches->count; n++) {
         const bool may = n != k && (of ? of[n] && op_of(s, n) == OP_SIGN : op_of(s, n) == OP_SIGN && fabs(side[n]) < 1);
@@ -381,9 +391,9 @@ static motus_status move_to_zero(sides *s, size_t k, size_t n, double t, double 
 {
     enum { PASSES = 32 }; /* as in `hold` */
     double above, below, rate;
-    motus_status status = rate_on(s, k, 1, 1, t, x, v, &above, err);
+    motus_status status = rate_on(s, k, side_of(s, k, 1), 1, t, x, v, &above, err);
     memcpy(s->b, s->a, s->problem->nv * sizeof *s->b);
-    if (status == MOTUS_OK) status = rate_on(s, k, -1, 1, t, x, v, &below, err);
+    if (status == MOTUS_OK) status = rate_on(s, k, side_of(s, k, -1), 1, t, x, v, &below, err);
     if (status != MOTUS_OK) return status;
     moves_with(s, n, above - below, 1, t, x, v, &rate);
     for (int pass = 0; pass < PASSES; pass++) {
@@ -424,7 +434,7 @@ static motus_status stand_at_corner(sides *s, size_t k, int going, double way, d
     if (!*held) {
         if (above > 0 && below < 0) return refuse(s, k, not_unique, t, err);
         const int to = above < 0 && below > 0 ? going : above >= 0 ? 1 : -1;
-        side[k] = to;
+        side[k] = side_of(s, k, to);
         for (size_t n = 0; n < s->switches->count; n++)
             if (s->beside[n]) side[n] = s->beside[n] * to;
         return MOTUS_OK;
@@ -540,7 +550,7 @@ static motus_status change(sides *s, size_t k, double way, double t, double *x, 
         const motus_status status = find_beside(s, k, NULL, way, t, x, v, &beside, err);
         if (status != MOTUS_OK) return status;
         if (beside) return stand_at_corner(s, k, to, way, t, x, v, &held, err);
-        *side = to;
+        *side = side_of(s, k, to);
         return MOTUS_OK;
     }
     if (switches_counts(op)) return choose_count(s, k, true, round(s->u[k]), way, t, x, v, err);
@@ -601,7 +611,7 @@ static motus_status stand_together(sides *s, const bool *of, double way, double 
     *held = true;
     for (size_t k = 0; k < count && status == MOTUS_OK && *held; k++) {
         size_t beside = 0;
-        if (!of[k] || !s->hold || s->switches->slides[kind_of(s, k)] != SLIDES_HELD || op_of(s, k) != OP_SIGN) continue;
+        if (!of[k] || !s->hold || s->switches->slides[kind_of(s, k)] != SLIDES_HELD) continue;
         status = find_beside(s, k, of, way, t, x, v, &beside, err);
         if (status != MOTUS_OK || !beside) continue;
         for (size_t n = 0; n < count && status == MOTUS_OK; n++)

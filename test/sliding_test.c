@@ -247,6 +247,34 @@ static void leaves_the_rest(void **state)
     NEAR(o.x[2], 0.8 * pow(3 - 1.875, 3) / 6, 1e-13);
 }
 
+/* A comparison that drives its own argument back is held between both branches: a third of the one with -2 and two
+ * thirds of the one with 1 hold s, and y moves by as much of 5 and of 2. */
+static void between_branches(void **state)
+{
+    (void)state;
+    static const char *const rest[] = {
+        "s' = if(s > 0, -2, 1)\nz' = if(s > 0, 5, 2)\n", "s' = if(s >= 0, -2, 1)\nz' = 2 + 3 if(s >= 0, 1, 0)\n",
+        "s' = if(s < 0, 1, -2)\nz' = if(s < 0, 2, 5)\n", "s' = 1 - 3 if(s <= 0, 0, 1)\nz' = if(s <= 0, 2, 5)\n"};
+    for (size_t k = 0; k < sizeof rest / sizeof *rest; k++)
+        for (int m = 0; m < METHODS; m++) {
+            char text[300];
+            snprintf(text, sizeof text, "x'' = 0\nx(0) = 0\nx'(0) = 0\n%ss(0) = 1\nz(0) = 0\n", rest[k]);
+            const outcome o = finished(text, methods[m], 1e-12, 10.5);
+            NEAR(o.v[1], 0, 1e-15);
+            NEAR(o.v[2], 2.5 + 30, 1e-13); /* half a unit of time at 5, ten at 3 */
+        }
+    for (int m = 0; m < METHODS; m++) {
+        const outcome dry =
+            finished("x'' = -x - 0.1 if(x' > 0, 1, -1)\nx(0) = 1.05\nx'(0) = 0\n", methods[m], 1e-13, 100);
+        NEAR(dry.x[0], -0.05, 1e-13);
+        NEAR(dry.v[0], 0, 0);
+        /* as on the belt above */
+        const outcome o =
+            finished("x'' = -x + if(x' <= 0.5, 0.6, -0.6)\nx(0) = 0\nx'(0) = 0.5\n", methods[m], 1e-12, 30);
+        NEAR(o.x[0], 0.6 + 0.5 * sin(30 - 1.2), 1e-10);
+    }
+}
+
 static void refused(const char *text, const char *says)
 {
     const outcome o = run_of(text, "dop853", 1e-9, 10);
@@ -265,7 +293,8 @@ static void refusals(void **state)
             "where s = 0, at t = 0.9999999999999999");
     refused("s' = if(t < 1, -sign(s), sign(s))\ns(0) = 0.1\nx'' = 0\nx(0) = 0\nx'(0) = 0\n",
             "the force drives it away to both sides where s = 0, at t = 1");
-    refused("x'' = if(x' > 0, -1, 1)\nx(0) = 0\nx'(0) = 1\n", "slides");
+    refused("x'' = if(x' > 0 or t > 20, -1, 1)\nx(0) = 0\nx'(0) = 1\n", "slides along a jump of the force");
+    refused("x'' = if(x' > 0, -1, 1) (if(x' > 0, 1, 2) + 1)\nx(0) = 0\nx'(0) = 1\n", "no value between those of both");
     refused("x'' = -sign(x') - sign(y')/2\ny'' = -sign(y') - sign(x')/2\nx(0) = 0\nx'(0) = 1\ny(0) = 0\ny'(0) = 1.5\n",
             "together with another");
 }
@@ -503,6 +532,7 @@ int main(void)
         cmocka_unit_test(together),
         cmocka_unit_test(comes_to_rest_by_swings),
         cmocka_unit_test(leaves_the_rest),
+        cmocka_unit_test(between_branches),
         cmocka_unit_test(refusals),
         cmocka_unit_test(multiplies),
         cmocka_unit_test(by_default),

@@ -11,6 +11,7 @@
 #include "lang/model/sliding.h"
 
 #include "lang/base/operation.h"
+#include "lang/graph/graph_walk.h"
 
 #include <string.h>
 
@@ -61,8 +62,100 @@ static node zero_at(graph *g, node leaf, int level, void *side)
 
 static const node NO_NODE = UINT32_MAX; /* no node */
 
-/* Whether a motion may slide along a kind, and the value that holds its argument at 0, NO_NODE: there is none; grip: how
- * much the rate of the argument grows with the value. */
+static bool compares(operation op) { return op == OP_LT || op == OP_LE || op == OP_GT || op == OP_GE; }
+
+/* The value of a comparison that is held, within [0, 1], from one within [-1, 1] that is 1 where its argument is
+ * positive. */
+static node part_of(graph *g, operation op, node value)
+{
+    const double half = op == OP_GT || op == OP_GE ? 0.5 : -0.5;
+    return graph_op(g, OP_ADD, graph_const(g, 0.5), graph_op(g, OP_MUL, graph_const(g, half), value, 0), 0);
+}
+
+/* `a` where the part is 1, `b` where it is 0. */
+static node blend(graph *g, node part, node a, node b)
+{
+    return graph_op(g, OP_ADD, b, graph_op(g, OP_MUL, part, graph_op(g, OP_SUB, a, b, 0), 0), 0);
+}
+
+/* What stands in place of a load, and of a choice by one, outside of sums. A sum goes to `leaf` as a whole. */
+typedef struct replacement {
+    graph_substitute leaf;
+    node (*choice)(graph *, node load, node a, node b, void *ctx);
+    /* a load is an operand of what is no choice by it; NULL: nothing is to be told */
+    void (*otherwise)(const graph_node *, node load, void *ctx);
+    void *ctx;
+} replacement;
+
+static node with_sides(graph *g, node root, int level, const replacement *how)
+{
+    graph_walk w;
+    if (!(graph_deps(g, root) & DEP_MODE)) return root;
+    if (!graph_order(g, &root, 1, DEP_MODE, false, &w)) return 0;
+    node *as = take(&g->arena->allocator, w.count, sizeof *as);
+    if (!as) g->arena->failed = true;
+    for (uint32_t k = 0; as && k < w.count; k++) {
+        const graph_node n = *graph_at(g, w.nodes[k]);
+        as[k] = w.nodes[k];
+        if (n.op == OP_LOAD) as[k] = how->leaf(g, w.nodes[k], level, how->ctx);
+        if (n.op == OP_SUM) as[k] = graph_replace(g, w.nodes[k], DEP_MODE, level, how->leaf, how->ctx);
+    }
+    if (as) graph_order_again(g, &w);
+    for (uint32_t k = 0; as && k < w.count && !g->arena->failed && !g->too_large; k++) {
+        const graph_node n = *graph_at(g, w.nodes[k]);
+        node operand[3] = {0, 0, 0}, was[3];
+        const int arity = graph_operands(&n, operand);
+        bool same = true;
+        if (arity == 0 || n.op == OP_SUM) continue;
+        memcpy(was, operand, sizeof was);
+        for (int j = 0; j < arity; j++) {
+            if (graph_reached(g, &w, was[j])) operand[j] = as[g->place[was[j]]];
+            same &= operand[j] == was[j];
+            const bool chooses = n.op == OP_SELECT && j == 0;
+            if (how->otherwise && !chooses && graph_at(g, was[j])->op == OP_LOAD) how->otherwise(&n, was[j], how->ctx);
+        }
+        node choice = 0;
+        if (n.op == OP_SELECT && graph_at(g, was[0])->op == OP_LOAD)
+            choice = how->choice(g, was[0], operand[1], operand[2], how->ctx);
+        as[k] = choice ? choice : same ? w.nodes[k] : graph_op(g, (operation)n.op, operand[0], operand[1], operand[2]);
+    }
+    const node result = as && w.count ? as[w.count - 1] : 0;
+    give(&g->arena->allocator, as);
+    give(&g->arena->allocator, w.nodes);
+    return g->arena->failed || g->too_large ? 0 : result;
+}
+
+/* The equations as functions of the part that a comparison is held at, in place of its side. */
+typedef struct parts {
+    node side;
+    int level;
+    bool failed; /* something depends on it in another way */
+} parts;
+
+static node as_it_is(graph *g, node n, int level, void *ctx)
+{
+    parts *p = ctx;
+    (void)g;
+    p->failed |= n == p->side && level > p->level; /* in a sum */
+    return n;
+}
+
+static node by_part(graph *g, node load, node a, node b, void *ctx)
+{
+    const parts *p = ctx;
+    return load == p->side ? blend(g, load, a, b) : 0;
+}
+
+static void not_by_part(const graph_node *n, node load, void *ctx)
+{
+    parts *p = ctx;
+    const operation op = (operation)n->op;
+    const bool linear = op == OP_ADD || op == OP_SUB || op == OP_MUL || op == OP_NEG || op == OP_DIV || op == OP_SELECT;
+    p->failed |= load == p->side && !linear;
+}
+
+/* Whether a motion may slide along a kind, and the value that holds its argument at 0, NO_NODE: there is none. grip:
+ * how much the rate of the argument grows with the value. */
 static switches_sliding holding(const model *m, const switches *s, size_t kind, node *value, node *grip)
 {
     graph *g = m->graph;
@@ -74,12 +167,28 @@ static switches_sliding holding(const model *m, const switches *s, size_t kind, 
     *value = NO_NODE;
     if (!switches_jumps(op)) return SLIDES_NEVER;
     if (in.failed) return SLIDES_REFUSED;
-    const node rest = graph_replace(g, full, DEP_MODE, rate->loops, zero_at, &side);
-    if (rest == full) return SLIDES_NEVER;
-    const node slope = op == OP_SIGN ? graph_derivative(g, full, one_at, &side) : 0;
+    const node without = graph_replace(g, full, DEP_MODE, rate->loops, zero_at, &side);
+    if (without == full) return SLIDES_NEVER;
+    if (op != OP_SIGN && !compares(op)) return SLIDES_REFUSED;
+    node force = full;
+    if (compares(op)) {
+        parts by = {side, rate->loops, false};
+        force = with_sides(g, full, rate->loops, &(replacement){as_it_is, by_part, not_by_part, &by});
+        if (by.failed) return SLIDES_REFUSED;
+    }
+    const node rest = graph_replace(g, force, DEP_MODE, rate->loops, zero_at, &side);
+    const node slope = graph_derivative(g, force, one_at, &side);
     if (!slope) return SLIDES_REFUSED;
+    /* of a sign that is tested when the motion comes there */
+    if (compares(op) && graph_replace(g, slope, DEP_MODE, rate->loops, zero_at, &side) != slope) return SLIDES_REFUSED;
+    const node part = graph_op(g, OP_NEG, graph_op(g, OP_DIV, rest, slope, 0), 0, 0);
+    *value = part;
     *grip = slope;
-    *value = graph_op(g, OP_NEG, graph_op(g, OP_DIV, rest, slope, 0), 0, 0);
+    if (compares(op)) {
+        const double two = op == OP_GT || op == OP_GE ? 2 : -2;
+        *value = graph_op(g, OP_MUL, graph_const(g, two), graph_op(g, OP_SUB, part, graph_const(g, 0.5), 0), 0);
+        *grip = graph_op(g, OP_DIV, slope, graph_const(g, two), 0);
+    }
     return SLIDES_HELD;
 }
 
@@ -105,17 +214,40 @@ typedef struct held_sides {
     const node *value; /* kinds: what holds each; NO_NODE: nothing does */
 } held_sides;
 
+/* The kind whose side a load is, if it can be held; else the number of kinds. */
+static size_t kind_at(const held_sides *h, node leaf)
+{
+    size_t k = 0;
+    while (k < h->s->kinds && (h->s->side[k] != leaf || h->value[k] == NO_NODE)) k++;
+    return k;
+}
+
+/* The value with which a kind is held, in place of its side. */
+static node value_at(graph *g, const held_sides *h, size_t k)
+{
+    const operation op = (operation)h->s->op[h->s->first[k]];
+    return compares(op) ? part_of(g, op, h->value[k]) : h->value[k];
+}
+
+static node is_held(graph *g, node side) { return graph_op(g, OP_GT, side, graph_const(g, 1.5), 0); }
+
 /* The side, or where it is SWITCHES_HELD the value that holds. */
 static node side_or_value(graph *g, node leaf, int level, void *ctx)
 {
     const held_sides *h = ctx;
+    const size_t k = kind_at(h, leaf);
     (void)level;
-    for (size_t k = 0; k < h->s->kinds; k++) {
-        if (h->s->side[k] != leaf || h->value[k] == NO_NODE) continue;
-        const node held = graph_op(g, OP_GT, leaf, graph_const(g, 1.5), 0);
-        return graph_op(g, OP_SELECT, held, h->value[k], leaf);
-    }
-    return leaf;
+    return k == h->s->kinds ? leaf : graph_op(g, OP_SELECT, is_held(g, leaf), value_at(g, h, k), leaf);
+}
+
+/* A choice by a side, or where that is held both in parts. */
+static node side_or_parts(graph *g, node side, node a, node b, void *ctx)
+{
+    const held_sides *h = ctx;
+    const size_t k = kind_at(h, side);
+    if (k == h->s->kinds) return 0;
+    return graph_op(g, OP_SELECT, is_held(g, side), blend(g, value_at(g, h, k), a, b),
+                    graph_op(g, OP_SELECT, side, a, b));
 }
 
 bool sliding_prepare(model *m, switches *s)
@@ -142,6 +274,7 @@ bool sliding_prepare(model *m, switches *s)
     }
     if (s->hold_kinds == 0) return !m->arena->failed && !m->graph->too_large;
     held_sides h = {s, value};
+    const replacement with_values = {side_or_value, side_or_parts, NULL, &h};
     for (size_t k = 0; k < s->kinds; k++) {
         size_t at = 0;
         rests[k] = value[k] != NO_NODE ? resting(m, s, k, &at) : NO_NODE;
@@ -154,7 +287,7 @@ bool sliding_prepare(model *m, switches *s)
     for (size_t k = 0; k < sizeof all / sizeof *all; k++)
         for (size_t i = 0; i < all[k].count; i++) {
             output *o = &all[k].of[i];
-            o->value = graph_replace(m->graph, o->value, DEP_MODE, o->loops, side_or_value, &h);
+            o->value = with_sides(m->graph, o->value, o->loops, &with_values);
         }
     for (size_t k = 0; k < s->kinds; k++) {
         graph *g = m->graph;
@@ -162,7 +295,7 @@ bool sliding_prepare(model *m, switches *s)
         if (rests[k] == NO_NODE) continue;
         /* what the others are held by is in it, too */
         const output *o = &s->accel[resting_at[k]];
-        const node is = graph_replace(g, rests[k], DEP_MODE, o->loops, side_or_value, &h);
+        const node is = with_sides(g, rests[k], o->loops, &with_values);
         *to = graph_op(g, OP_SELECT, graph_op(g, OP_GT, s->side[k], graph_const(g, 1.5), 0), is, *to);
     }
     for (size_t k = 0; k < s->kinds; k++)
