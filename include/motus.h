@@ -606,9 +606,9 @@ typedef enum motus_switches {
      * value in [-1, 1] that keeps it, until that leaves the interval. Where swings become ever shorter and come to an
      * end, as under -2 sign(x) - sign(x'), both stay 0. A comparison that drives its own operands back is held between
      * its branches likewise, where the force is affine in it. MOTUS_SOLVE: another switch would have to be held so, or
-     * two that depend on one another; or the force drives the motion away to both sides, so that it is not unique.
-     * MOTUS_EVENTS: switches follow one another ever faster, and nothing holds the motion there. In steps of one size,
-     * where the force may be undefined beyond a switch, as max(0, x)^1.5 is: the
+     * two of families, or more than 8, that depend on one another; or the force drives the motion away to both sides,
+     * so that it is not unique. MOTUS_EVENTS: switches follow one another ever faster, and nothing holds the motion
+     * there. In steps of one size, where the force may be undefined beyond a switch, as max(0, x)^1.5 is: the
      * interpreter takes the step in pieces that come near it; such a run tells no errors, holds nothing at 0
      * (MOTUS_SOLVE), and cannot be sampled, saved or restored; an ensemble refuses it. */
     MOTUS_SWITCHES_LOCATE,

@@ -264,6 +264,13 @@ static motus_status look_ahead(sides *s, size_t k, double side, double way, doub
     return MOTUS_OK;
 }
 
+/* Whether what holds both takes the other one into account. */
+static bool solved(const sides *s, size_t k, size_t j)
+{
+    const output *rate = s->switches->rate;
+    return s->switches->together && rate[kind_of(s, k)].loops == 0 && rate[kind_of(s, j)].loops == 0;
+}
+
 /* Holds the argument of switch k at 0, on whose sides the rates are `above` and `below`. */
 static motus_status hold(sides *s, size_t k, double above, double below, double t, double *x, double *v,
                          motus_error *err)
@@ -293,10 +300,11 @@ static motus_status hold(sides *s, size_t k, double above, double below, double 
     memcpy(s->later, s->du, count * sizeof *s->du);
     if (status == MOTUS_OK) status = rate_on(s, k, side_of(s, k, -1), 1, t, x, v, &middle, err);
     bool coupled = false;
-    for (size_t j = 0; j < count; j++) coupled |= j != k && is_held(s, side, j) && s->du[j] != s->later[j];
+    for (size_t j = 0; j < count; j++)
+        coupled |= j != k && is_held(s, side, j) && !solved(s, k, j) && s->du[j] != s->later[j];
     for (size_t j = 0; j < count && status == MOTUS_OK && !coupled; j++) {
         double one = 0, other = 0;
-        if (j == k || !is_held(s, side, j)) continue;
+        if (j == k || !is_held(s, side, j) || solved(s, k, j)) continue;
         const double held = side[j], on = side_of(s, k, 1);
         side[j] = side_of(s, j, 1), status = rate_on(s, k, on, 1, t, x, v, &one, err);
         side[j] = side_of(s, j, -1);

@@ -247,6 +247,30 @@ static void leaves_the_rest(void **state)
     NEAR(o.x[2], 0.8 * pow(3 - 1.875, 3) / 6, 1e-13);
 }
 
+/* Frictions that act on one another: both rest at last. */
+static void coupled(void **state)
+{
+    (void)state;
+    for (int m = 0; m < METHODS; m++) {
+        /* stacked: with 1/3 from t = 1/3 on, at rest from t = 1 on */
+        const outcome o = finished("x'' = -sign(x') - sign(x' - y')\ny'' = sign(x' - y')\nx(0) = 0\nx'(0) = 1\n"
+                                   "y(0) = 0\ny'(0) = 0\n",
+                                   methods[m], 1e-12, 10);
+        NEAR(o.x[0], 1 / 3.0, 1e-14);
+        NEAR(o.x[1], 1 / 6.0, 1e-14);
+        NEAR(o.v[0], 0, 0);
+        NEAR(o.v[1], 0, 0);
+        /* x stops at 2/3 and goes on to brake y with half of its force */
+        const outcome each = finished("x'' = -sign(x') - sign(y')/2\ny'' = -sign(y') - sign(x')/2\nx(0) = 0\n"
+                                      "x'(0) = 1\ny(0) = 0\ny'(0) = 1.5\n",
+                                      methods[m], 1e-12, 10);
+        NEAR(each.x[0], 1 / 3.0, 1e-14);
+        NEAR(each.x[1], 5 / 6.0, 1e-14);
+        NEAR(each.v[0], 0, 0);
+        NEAR(each.v[1], 0, 0);
+    }
+}
+
 /* A comparison that drives its own argument back is held between both branches: a third of the one with -2 and two
  * thirds of the one with 1 hold s, and y moves by as much of 5 and of 2. */
 static void between_branches(void **state)
@@ -295,8 +319,6 @@ static void refusals(void **state)
             "the force drives it away to both sides where s = 0, at t = 1");
     refused("x'' = if(x' > 0 or t > 20, -1, 1)\nx(0) = 0\nx'(0) = 1\n", "slides along a jump of the force");
     refused("x'' = if(x' > 0, -1, 1) (if(x' > 0, 1, 2) + 1)\nx(0) = 0\nx'(0) = 1\n", "no value between those of both");
-    refused("x'' = -sign(x') - sign(y')/2\ny'' = -sign(y') - sign(x')/2\nx(0) = 0\nx'(0) = 1\ny(0) = 0\ny'(0) = 1.5\n",
-            "together with another");
 }
 
 /* Swings that become ever shorter and have no end: their speed falls as exp(-t/6). */
@@ -532,6 +554,7 @@ int main(void)
         cmocka_unit_test(together),
         cmocka_unit_test(comes_to_rest_by_swings),
         cmocka_unit_test(leaves_the_rest),
+        cmocka_unit_test(coupled),
         cmocka_unit_test(between_branches),
         cmocka_unit_test(refusals),
         cmocka_unit_test(multiplies),

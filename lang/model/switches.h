@@ -45,6 +45,8 @@ typedef struct switches {
      * to the places of their arguments. */
     output *hold, *hold_rate, *grip, *grip_rate;
     size_t hold_kinds;
+    bool
+        together; /* of kinds that are no families these values are right when several are held that depend on others */
     uint8_t *slides;             /* kinds: enum switches_sliding */
     size_t touches, touch_kinds; /* touches, cells counted; families counted once */
     output *touch, *touch_rate;  /* touch_kinds: the arguments, with sides in them, and their rates */
