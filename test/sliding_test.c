@@ -268,6 +268,12 @@ static void coupled(void **state)
         NEAR(each.x[1], 5 / 6.0, 1e-14);
         NEAR(each.v[0], 0, 0);
         NEAR(each.v[1], 0, 0);
+        /* pulled above: both rest until t = 1/2, go on as one, and part at 3/2, where the upper friction is all used */
+        const outcome pulled = finished("x'' = -0.5 sign(x') - sign(x' - y')\ny'' = sign(x' - y') + t\nx(0) = 0\n"
+                                        "x'(0) = 0\ny(0) = 0\ny'(0) = 0\n",
+                                        methods[m], 1e-12, 3);
+        NEAR(pulled.v[0], 1, 1e-13);
+        NEAR(pulled.v[1], 2.125, 1e-13);
     }
 }
 
