@@ -41,6 +41,7 @@ static size_t arrange(events *e, char *block)
     double *numbers = next(&l, 5 * (nx + 2 * nv + 3 * f), sizeof *numbers);
     e->after = next(&l, nx + nv, sizeof *e->after);
     e->width = next(&l, nx + nv, sizeof *e->width);
+    e->swarm_state = next(&l, e->rules.settle ? 2 * SWARMS * (nx + nv) : 0, sizeof *e->swarm_state);
     e->fired = next(&l, f, sizeof *e->fired);
     e->before = next(&l, f, sizeof *e->before);
     e->instances = next(&l, n, sizeof *e->instances);
@@ -198,6 +199,8 @@ motus_status events_begin(events *e, stepper *s, double until, motus_error *err)
     e->interval = INFINITY;
     events_unsave(e);
     e->turned_at = NAN;
+    events_swarm_forget(e);
+    e->pace = INFINITY;
     motus_status status = check_clocks(e, err);
     if (!status) status = observe(s, &e->left, err);
     if (!status && e->rules.settle) status = settle(e, s, err);
@@ -453,6 +456,7 @@ static motus_status adaptive_step(events *e, stepper *s, double until, int64_t m
         if (now->t + h == now->t) h = e->way * 4 * events_ulp(now->t); /* it was cut short by `until` */
         /* the step says how fast the motion changes, but for a last one to a switch that hardly changes t */
         if (e->rules.settle && fabs(h) <= 64 * events_ulp(now->t)) h = e->grid_step;
+        if (assigned && e->rules.settle && fabs(h) > e->pace) h = e->way * e->pace;
         if (!keep_past(e, now->t)) return events_no_memory(err);
         status = jump(e, s, now, h, err);
         if (!status) status = stepper_advance(s, (stepper_limit){0, until}, why, err);
@@ -499,6 +503,7 @@ motus_status events_go(events *e, stepper *s, double until, int64_t most, steppe
     e->along = s;
     e->pasts = 0;
     e->acted_left = e->acted;
+    e->pace = INFINITY;
     events_kept_forget(e);
     motus_status status =
         row_adaptive(&e->method) ? adaptive_step(e, s, until, most, why, err) : grid_step(e, s, until, why, err);

@@ -139,7 +139,8 @@ static motus_status turn(events *e, size_t k, size_t i, motus_error *err)
     if (++e->turns > EVENTS_AT_ONCE + 4 * e->rules.functions) return too_many(e, k, i, err);
     memcpy(e->before, at->g, e->rules.functions * sizeof *at->g);
     jog(e, e->count[k], true);
-    const motus_status status = e->rules.turn(e->rules.ctx, k, i, e->way, at->t, at->x, at->v, err);
+    motus_status status = e->rules.turn(e->rules.ctx, k, i, e->way, at->t, at->x, at->v, err);
+    if (!status) status = events_swarm(e, e->rules.rule[k].first + i, err);
     return status ? status : look_again(e, k, i, err);
 }
 
@@ -154,6 +155,7 @@ static motus_status act(events *e, size_t k, size_t i, motus_error *err)
     }
     e->acted++;
     e->acted_sum += at->t - e->start;
+    events_swarm_forget(e); /* switches that accumulate with events are theirs */
     if (++e->actions > EVENTS_AT_ONCE) return too_many(e, k, i, err);
     const size_t n = e->rules.functions;
     if (n) memcpy(e->before, at->g, n * sizeof *at->g);

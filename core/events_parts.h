@@ -2,8 +2,9 @@
  *
  * events.c: life and steps. events_find.c: the roots of a step, by dense output. events_place.c: true steps, and where
  * a root is by them. events_fire.c: what happens in one instant. events_table.c: rows, kept numbers, accumulation.
- * events_state.c: restart states. Invariant: `left` is the state at which the present step began, and `side` are the
- * sides of all functions there, those of the events that have happened since included.
+ * events_swarm.c: switches that accumulate. events_state.c: restart states. Invariant: `left` is the state at which the
+ * present step began, and `side` are the sides of all functions there, those of the events that have happened since
+ * included.
  */
 #ifndef CORE_EVENTS_PARTS_H
 #define CORE_EVENTS_PARTS_H
@@ -51,6 +52,23 @@ static inline int recent_count(const recent *r, int level)
 {
     return r->number >> level < RECENT ? (int)(r->number >> level) : RECENT;
 }
+
+/* Turns of a switch, function `function` (events_swarm.c). */
+enum { SWARMS = 8 };
+typedef struct swarm_mark {
+    double t, cycle;
+} swarm_mark;
+typedef struct swarm {
+    size_t function;
+    int count;       /* turns so far, 3: three or more; 0: of none */
+    int64_t shorter; /* how many of the latest cycles were shorter than the one before */
+    double t[2];     /* of the latest turns, the last one first */
+    double cycle, longest;
+    swarm_mark mark[2]; /* when the cycles were half as long as at the mark before */
+    int marks;
+    bool slows; /* they fell more slowly since the last mark than before */
+    int parity; /* where the state of the latest turn is kept */
+} swarm;
 
 struct events {
     rules rules;
@@ -121,8 +139,11 @@ struct events {
     double acted_sum;  /*   the sum of their times, since the start */
     double turned_at;  /* the time of the latest action of an internal rule */
     size_t turns;      /* in that instant */
-    double interval;   /* from the instant of an action before */
-    double shift;      /* the largest distance of a located time from that of dense output, of this step */
+    swarm swarm[SWARMS];
+    double *swarm_state; /* of each the states after its latest two turns */
+    double pace;         /* no step from a turn on is longer: it must see the turns to come */
+    double interval;     /* from the instant of an action before */
+    double shift;        /* the largest distance of a located time from that of dense output, of this step */
 
     event *row;
     double *row_state; /* of every row: the state on arrival, and after it where the action changed it */
@@ -206,6 +227,10 @@ void events_end_here(events *, size_t rule, size_t instance, double t);
 /* The state after an action, beside which the next one of the same rule is judged; and its limit, to `here`. */
 void events_after(events *, size_t rule, size_t instance);
 void events_to_limit(events *);
+
+/* events_swarm.c. A switch has turned at `here`, which is moved on to where it and others accumulate, if they do. */
+motus_status events_swarm(events *, size_t function, motus_error *);
+void events_swarm_forget(events *);
 
 /* events_state.c. Keeps the present state for a restart state; false: no memory. And forgets it. */
 bool events_save_here(events *, const stepper *);

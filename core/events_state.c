@@ -136,6 +136,29 @@ static void pass_accumulation(pass *p, events *e)
     e->limit.lasting = number(p, e->limit.lasting);
 }
 
+/* Unless the forces have no switches. */
+static void pass_swarms(pass *p, events *e)
+{
+    const size_t all = e->problem.nx + e->problem.nv;
+    for (int k = 0; e->rules.settle && k < SWARMS && !p->bad; k++) {
+        swarm *s = &e->swarm[k];
+        s->count = (int)whole(p, s->count, 0, 3);
+        if (!s->count) continue;
+        s->function = number_of(p, s->function, e->rules.functions);
+        s->shorter = counter(p, s->shorter);
+        s->parity = flag(p, s->parity);
+        s->slows = flag(p, s->slows);
+        numbers(p, s->t, s->count > 1 ? 2 : 1);
+        s->cycle = number(p, s->cycle);
+        s->longest = number(p, s->longest);
+        s->marks = (int)whole(p, s->marks, 0, 2);
+        for (int j = 0; j < s->marks; j++)
+            s->mark[j].t = number(p, s->mark[j].t), s->mark[j].cycle = number(p, s->mark[j].cycle);
+        double *state = e->swarm_state + 2 * (size_t)k * all;
+        for (size_t j = 0; j < 2 * all; j++) state[j] = any(p, state[j]);
+    }
+}
+
 static void pass_all(pass *p, events *e)
 {
     e->steps = counter(p, e->steps);
@@ -151,6 +174,7 @@ static void pass_all(pass *p, events *e)
     pass_functions(p, e);
     pass_rules(p, e);
     pass_accumulation(p, e);
+    pass_swarms(p, e);
 }
 
 /* The newest kept numbers. */
@@ -278,6 +302,7 @@ motus_status events_load(events *e, const stepper *s, const events_leg *leg, con
     e->until = leg->until;
     e->way = leg->until < leg->start ? -1 : 1;
     e->limit = (events_limit){0};
+    e->pace = INFINITY;
     events_unsave(e);
     e->rows = e->numbers = e->pasts = 0;
     e->began = number(&p, 0);

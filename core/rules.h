@@ -90,6 +90,11 @@ typedef struct rules {
     motus_status (*turn)(void *ctx, size_t rule, size_t instance, double way, double t, double *x, double *v,
                          motus_error *);
     motus_status (*settle)(void *ctx, double way, double t, double *x, double *v, motus_error *);
+    /* Internal rules of these functions, `count` of them, follow one another ever faster, and the state is where they
+     * accumulate, but for rounding: how the motion goes on, which may change by that. MOTUS_EVENTS: that is not known.
+     * NULL: it never is. */
+    motus_status (*gather)(void *ctx, const size_t *functions, size_t count, double way, double t, double *x, double *v,
+                           motus_error *);
     /* Text of an instance for messages and tables: "bounce", "contact[1,2]". */
     void (*name)(void *ctx, size_t rule, size_t instance, char *out, size_t size);
 } rules;

@@ -606,9 +606,12 @@ typedef enum motus_switches {
      * have one size goes on to the time at which the step would have ended, so the times after steps are those of
      * other runs but for their rounding. The order of the method remains. Such a run cannot be traced. Where a
      * sign(s) drives s back to 0 from both sides, as dry friction does that sticks, s stays 0, and the sign has the
-     * value in [-1, 1] that keeps it, until that leaves the interval. MOTUS_SOLVE: another switch would have to be
-     * held so, or two that depend on one another; or the force drives the motion away to both sides, so that it is
-     * not unique. In steps of one size, where the force may be undefined beyond a switch, as max(0, x)^1.5 is: the
+     * value in [-1, 1] that keeps it, until that leaves the interval. Where swings become ever shorter and come to an
+     * end, as under -2 sign(x) - sign(x'), both stay 0. A comparison that drives its own operands back is held between
+     * its branches likewise, where the force is affine in it. MOTUS_SOLVE: another switch would have to be held so, or
+     * two of families, or more than 8, that depend on one another; or the force drives the motion away to both sides,
+     * so that it is not unique. MOTUS_EVENTS: switches follow one another ever faster, and nothing holds the motion
+     * there. In steps of one size, where the force may be undefined beyond a switch, as max(0, x)^1.5 is: the
      * interpreter takes the step in pieces that come near it; such a run tells no errors, holds nothing at 0
      * (MOTUS_SOLVE), and cannot be sampled, saved or restored; an ensemble refuses it. */
     MOTUS_SWITCHES_LOCATE,

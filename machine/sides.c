@@ -21,10 +21,14 @@ struct sides {
     rule *rule;
     tape *argument, *rate, *rounding, *least, *least_rates;
     tape *hold, *hold_rate, *hold_rounding; /* NULL: none can be held */
+    tape *grip, *grip_rate, *grip_rounding; /* likewise */
     double *u, *du, *later;       /* of all switches: arguments, their rates, and the arguments a little later */
     double *before, *now, *bound; /* likewise, while sides are chosen */
-    double *p, *dp;               /* likewise: what holds them, and its rates */
+    double *p, *dp, *r, *dr;      /* likewise: what holds them and how much that drives them, and the rates of both */
     double *a, *b, *x, *v;        /* room for two accelerations and a state */
+    double *was;                  /* of all switches: sides for a while */
+    int8_t *beside;               /* likewise: the way in which a switch leaves 0 with another one, 0: it does not */
+    bool *of, *covered;           /* likewise: switches that are to be held together, and those that are */
 };
 
 /* ---- functions ---- */
@@ -38,10 +42,22 @@ static void run(const sides *s, tape *t, double time, double *x, double *v, doub
     tape_run(t, time, base);
 }
 
+static bool compares(operation op) { return op == OP_LT || op == OP_LE || op == OP_GT || op == OP_GE; }
+
+/* The side of switch k where its argument is positive, way 1, or negative, way -1. */
+static double side_of(const sides *s, size_t k, int way) { return switches_side(op_of(s, k), way, 0); }
+
 /* Whether switch k is held; an integer part is 2 by itself. */
 static bool is_held(const sides *s, const double *side, size_t k)
 {
-    return side[k] == SWITCHES_HELD && !switches_counts(op_of(s, k));
+    return side[k] >= SWITCHES_HELD && !switches_counts(op_of(s, k));
+}
+
+/* Whether switch k stands at 0 beside one that is held, and the motion with both: its side then is a value of the sign
+ * within (-1, 1), not 0, and it leaves with the other one. */
+static bool is_pinned(const sides *s, const double *side, size_t k)
+{
+    return op_of(s, k) == OP_SIGN && fabs(side[k]) > 0 && fabs(side[k]) < 1;
 }
 
 /* Whether any is; the tapes of what holds them are run only then. */
@@ -50,6 +66,27 @@ static bool any_held(const sides *s, const double *side)
     bool any = false;
     for (size_t k = 0; s->hold && k < s->switches->count && !any; k++) any = is_held(s, side, k);
     return any;
+}
+
+/* While a switch is held its function is positive: the value that holds it is within (-1, 1), and drives the argument
+ * back to 0 from both sides. Where it falls to 0 the force does one of them no longer. */
+static double grip_of(const sides *s, const double *side, size_t k)
+{
+    const double back = side[k] == SWITCHES_HELD ? -1 : 1;
+    return back * s->r[k] * (1 - s->p[k]) * (1 + s->p[k]);
+}
+
+static double grip_rate_of(const sides *s, const double *side, size_t k)
+{
+    const double back = side[k] == SWITCHES_HELD ? -1 : 1;
+    return back * (s->dr[k] * (1 - s->p[k]) * (1 + s->p[k]) - 2 * s->r[k] * s->p[k] * s->dp[k]);
+}
+
+/* With bounds on rounding in place of the rates, in units of 2^-53. */
+static double grip_rounding_of(const sides *s, size_t k)
+{
+    const double p = fabs(s->p[k]);
+    return (s->dr[k] + fabs(s->r[k])) * fabs((1 - p) * (1 + p)) + fabs(s->r[k]) * 2 * p * (s->dp[k] + 1);
 }
 
 static int values(void *ctx, double t, double *x, double *v, double *out)
@@ -61,22 +98,26 @@ static int values(void *ctx, double t, double *x, double *v, double *out)
     out += s->own.functions;
     run(s, s->argument, t, x, v, NULL, out);
     const bool held = any_held(s, side);
-    if (held) run(s, s->hold, t, x, v, NULL, s->p);
+    if (held) run(s, s->hold, t, x, v, NULL, s->p), run(s, s->grip, t, x, v, NULL, s->r);
     for (size_t k = 0; k < s->switches->count; k++)
-        out[k] = held && is_held(s, side, k) ? (1 - s->p[k]) * (1 + s->p[k])
+        out[k] = held && is_held(s, side, k) ? grip_of(s, side, k)
+                 : is_pinned(s, side, k)     ? 1
                                              : switches_distance(op_of(s, k), side[k], out[k]);
     return 0;
 }
 
 /* The arguments to u, and what `of` computes of them to out; where a switch is held, what holds it to p, and what
- * `of_hold` computes of that to dp. True: one is. */
-static bool measure(const sides *s, tape *of, tape *of_hold, double t, double *x, double *v, double *a, double *out)
+ * `of_hold` computes of that to dp; its grip to r, and what `of_grip` computes of that to dr. True: one is. */
+static bool measure(const sides *s, tape *of, tape *of_hold, tape *of_grip, double t, double *x, double *v, double *a,
+                    double *out)
 {
     run(s, s->argument, t, x, v, NULL, s->u);
     run(s, of, t, x, v, a, out);
     const bool held = any_held(s, x + s->switches->slot);
-    if (held) run(s, s->hold, t, x, v, NULL, s->p), run(s, of_hold, t, x, v, a, s->dp);
-    return held;
+    if (!held) return false;
+    run(s, s->hold, t, x, v, NULL, s->p), run(s, of_hold, t, x, v, a, s->dp);
+    run(s, s->grip, t, x, v, NULL, s->r), run(s, of_grip, t, x, v, a, s->dr);
+    return true;
 }
 
 static int rates(void *ctx, double t, double *x, double *v, double *a, double *out)
@@ -86,9 +127,10 @@ static int rates(void *ctx, double t, double *x, double *v, double *a, double *o
     const int status = s->own.functions ? s->own.rates(s->own.ctx, t, x, v, a, out) : 0;
     if (status) return status;
     out += s->own.functions;
-    const bool held = measure(s, s->rate, s->hold_rate, t, x, v, a, out);
+    const bool held = measure(s, s->rate, s->hold_rate, s->grip_rate, t, x, v, a, out);
     for (size_t k = 0; k < s->switches->count; k++)
-        out[k] = held && is_held(s, side, k) ? -2 * s->p[k] * s->dp[k]
+        out[k] = held && is_held(s, side, k) ? grip_rate_of(s, side, k)
+                 : is_pinned(s, side, k)     ? 0
                                              : out[k] * switches_distance_slope(op_of(s, k), side[k], s->u[k]);
     return 0;
 }
@@ -99,11 +141,12 @@ static void rounding(void *ctx, double t, double *x, double *v, double *out)
     const double *side = x + s->switches->slot;
     if (s->own.functions) s->own.rounding(s->own.ctx, t, x, v, out);
     out += s->own.functions;
-    const bool held = measure(s, s->rounding, s->hold_rounding, t, x, v, NULL, out);
+    const bool held = measure(s, s->rounding, s->hold_rounding, s->grip_rounding, t, x, v, NULL, out);
     for (size_t k = 0; k < s->switches->count; k++)
-        out[k] = 0x1p-53 * (held && is_held(s, side, k)
-                                ? 2 * fabs(s->p[k]) * (s->dp[k] + 1)
-                                : out[k] * fabs(switches_distance_slope(op_of(s, k), side[k], s->u[k])));
+        out[k] =
+            0x1p-53 * (held && is_held(s, side, k) ? grip_rounding_of(s, k)
+                       : is_pinned(s, side, k)     ? 0
+                                               : out[k] * fabs(switches_distance_slope(op_of(s, k), side[k], s->u[k])));
 }
 
 /* While an argument is 0 it is not known to move; and the value that holds one has no bound. */
@@ -121,7 +164,10 @@ static void least_of(const sides *s, bool rates, double *x, double *v, double *d
     double *base[SPACES] = {[SPACE_X] = x, [SPACE_V] = v, [SPACE_DX] = dx, [SPACE_DV] = dv, [SPACE_OUT] = out};
     tape_run(rates ? s->least_rates : s->least, NAN, base);
     for (size_t k = 0; k < s->switches->count; k++)
-        if (unknown(s, side, k)) out[k] = -1;
+        if (is_pinned(s, side, k))
+            out[k] = rates ? 0 : 1;
+        else if (unknown(s, side, k))
+            out[k] = -1;
 }
 
 static void least(void *ctx, double *x, double *v, double *dx, double *dv, double *out)
@@ -155,6 +201,8 @@ static void name(void *ctx, size_t number, size_t instance, char *out, size_t si
     else
         print(s, s->switches->first[number - s->own.count] + instance, out, size);
 }
+
+static const char not_unique[] = "the motion is not unique: the force drives it away to both sides";
 
 /* The force leads no motion on from where a switch changes its side. */
 static motus_status refuse(const sides *s, size_t k, const char *what, double t, motus_error *err)
@@ -192,12 +240,16 @@ static motus_status rate_on(sides *s, size_t k, double side, double way, double 
 }
 
 /* Where an argument moves that is 0 and whose rate is 0: its value a little later, by Taylor's formula. */
-static motus_status look_ahead(sides *s, size_t k, double way, double t, double *x, double *v, double *out,
+static motus_status look_ahead(sides *s, size_t k, double side, double way, double t, double *x, double *v, double *out,
                                motus_error *err)
 {
     const problem *p = s->problem;
     const double h = way * 0x1p-20 * fmax(1, fabs(t));
+    double *place = x + s->switches->slot + k;
+    const double was = *place;
+    *place = side;
     const motus_status status = accelerate(s, t, x, v, err);
+    *place = was;
     if (status != MOTUS_OK) return status;
     if (p->nx) memcpy(s->x, x, p->nx * sizeof *x);
     for (size_t i = 0; i < p->nv; i++) {
@@ -209,6 +261,14 @@ static motus_status look_ahead(sides *s, size_t k, double way, double t, double 
     return MOTUS_OK;
 }
 
+/* Whether what holds both takes the other one into account. */
+static bool solved(const sides *s, size_t k, size_t j)
+{
+    const output *rate = s->switches->rate;
+    return s->switches->together && rate[switches_kind(s->switches, k)].loops == 0 &&
+           rate[switches_kind(s->switches, j)].loops == 0;
+}
+
 /* Holds the argument of switch k at 0, on whose sides the rates are `above` and `below`. */
 static motus_status hold(sides *s, size_t k, double above, double below, double t, double *x, double *v,
                          motus_error *err)
@@ -218,30 +278,36 @@ static motus_status hold(sides *s, size_t k, double above, double below, double 
         "the motion slides along a jump of the force, which drives it back from both sides,";
     const size_t count = s->switches->count, nv = s->problem->nv;
     double *side = x + s->switches->slot, middle;
-    char why[160];
-    if (s->switches->slides[switches_kind(s->switches, k)] != SLIDES_HELD) return refuse(s, k, slides, t, err);
-    motus_status status = rate_on(s, k, 0, 1, t, x, v, &middle, err);
-    if (status != MOTUS_OK) return status;
-    if (fabs(middle - (above + below) / 2) > 0x1p-30 * (fabs(above) + fabs(below))) {
-        snprintf(why, sizeof why, "%s and no single value of the sign holds it,", slides);
+    char why[200];
+    if (s->switches->slides[switches_kind(s->switches, k)] != SLIDES_HELD) {
+        snprintf(why, sizeof why, "%s and no value between those of both sides is known to hold it,", slides);
         return refuse(s, k, why, t, err);
     }
+    motus_status status = MOTUS_OK;
+    if (!compares(op_of(s, k))) { /* a comparison chooses, and its parts are affine */
+        status = rate_on(s, k, 0, 1, t, x, v, &middle, err);
+        if (status != MOTUS_OK) return status;
+        if (fabs(middle - (above + below) / 2) > 0x1p-30 * (fabs(above) + fabs(below))) {
+            snprintf(why, sizeof why, "%s and no single value of the sign holds it,", slides);
+            return refuse(s, k, why, t, err);
+        }
+    }
     /* The force on both sides; what moves another argument that is held, or what that moves, is not known apart. */
-    status = rate_on(s, k, 1, 1, t, x, v, &middle, err);
+    status = rate_on(s, k, side_of(s, k, 1), 1, t, x, v, &middle, err);
     memcpy(s->b, s->a, nv * sizeof *s->b);
     memcpy(s->later, s->du, count * sizeof *s->du);
-    if (status == MOTUS_OK) status = rate_on(s, k, -1, 1, t, x, v, &middle, err);
+    if (status == MOTUS_OK) status = rate_on(s, k, side_of(s, k, -1), 1, t, x, v, &middle, err);
     bool coupled = false;
-    for (size_t j = 0; j < count; j++) coupled |= j != k && is_held(s, side, j) && s->du[j] != s->later[j];
+    for (size_t j = 0; j < count; j++)
+        coupled |= j != k && is_held(s, side, j) && !solved(s, k, j) && s->du[j] != s->later[j];
     for (size_t j = 0; j < count && status == MOTUS_OK && !coupled; j++) {
         double one = 0, other = 0;
-        if (j == k || !is_held(s, side, j)) continue;
-        const double was = side[k];
-        side[k] = 0;
-        side[j] = 1, status = rate_on(s, k, 0, 1, t, x, v, &one, err);
-        side[j] = -1;
-        if (status == MOTUS_OK) status = rate_on(s, k, 0, 1, t, x, v, &other, err);
-        side[j] = SWITCHES_HELD, side[k] = was;
+        if (j == k || !is_held(s, side, j) || solved(s, k, j)) continue;
+        const double held = side[j], on = side_of(s, k, 1);
+        side[j] = side_of(s, j, 1), status = rate_on(s, k, on, 1, t, x, v, &one, err);
+        side[j] = side_of(s, j, -1);
+        if (status == MOTUS_OK) status = rate_on(s, k, on, 1, t, x, v, &other, err);
+        side[j] = held;
         coupled = one != other;
     }
     if (status != MOTUS_OK) return status;
@@ -250,14 +316,14 @@ static motus_status hold(sides *s, size_t k, double above, double below, double 
         return refuse(s, k, why, t, err);
     }
     /* The argument is 0 but for rounding: it becomes 0 along the push that the switch exerts. */
-    status = rate_on(s, k, -1, 1, t, x, v, &middle, err);
+    status = rate_on(s, k, side_of(s, k, -1), 1, t, x, v, &middle, err);
     for (int pass = 0; pass < PASSES; pass++) {
         run(s, s->argument, t, x, v, NULL, s->u);
         if (s->u[k] == 0) break;
         const double way = -s->u[k] / (above - below);
         for (size_t i = 0; i < nv; i++) v[i] += way * (s->b[i] - s->a[i]);
     }
-    side[k] = SWITCHES_HELD;
+    side[k] = above < below ? SWITCHES_HELD : SWITCHES_HELD_BACKWARD;
     return status;
 }
 
@@ -272,6 +338,124 @@ static double unsure(sides *s, size_t k, const double on[2], double t, double *x
     return fabs(on[0] - on[1]) * (0x1p-52 * (s->dp[k] + 1) + moved);
 }
 
+/* A switch k that the force can hold, and others beside it whose arguments it moves: x' and x, where both accumulate
+ * (`x'' = -2 sign(x) - sign(x')` comes to rest at 0 by ever shorter swings). Both stay at 0 where the force drives the
+ * motion back from either side of both: where k and those beside it, which leave with it, are all on one side, and
+ * where all are on the other. */
+
+/* The way of n's argument when k's becomes positive; 0: that does not move it. s->a and s->b: the accelerations with k
+ * on both sides, whose rates differ by `push`. *rate: how fast s->b - s->a, as a velocity, moves it. */
+static int moves_with(sides *s, size_t n, double push, double way, double t, double *x, double *v, double *rate)
+{
+    const size_t nv = s->problem->nv;
+    for (size_t i = 0; i < nv; i++) s->v[i] = v[i] + (s->b[i] - s->a[i]);
+    run(s, s->rate, t, x, v, s->a, s->du);
+    *rate = -s->du[n];
+    run(s, s->rate, t, x, s->v, s->a, s->du);
+    *rate += s->du[n];
+    const double along = way * *rate * push;
+    return (along > 0) - (along < 0);
+}
+
+/* The rate of argument k with its switch and those beside it on one side, 1 or -1. */
+static motus_status rate_at_corner(sides *s, size_t k, int to, double way, double t, double *x, double *v, double *rate,
+                                   motus_error *err)
+{
+    double *side = x + s->switches->slot;
+    for (size_t n = 0; n < s->switches->count; n++) {
+        if (!s->beside[n]) continue;
+        s->was[n] = side[n];
+        side[n] = s->beside[n] * to;
+    }
+    const motus_status status = rate_on(s, k, side_of(s, k, to), way, t, x, v, rate, err);
+    for (size_t n = 0; n < s->switches->count; n++)
+        if (s->beside[n]) side[n] = s->was[n];
+    return status;
+}
+
+/* The switches beside k: of those that are marked in `of`, or else of those at 0. Their number. */
+static motus_status find_beside(sides *s, size_t k, const bool *of, double way, double t, double *x, double *v,
+                                size_t *found, motus_error *err)
+{
+    const double *side = x + s->switches->slot;
+    double above, below, rate;
+    *found = 0;
+    motus_status status = rate_on(s, k, side_of(s, k, 1), 1, t, x, v, &above, err);
+    memcpy(s->b, s->a, s->problem->nv * sizeof *s->b);
+    if (status == MOTUS_OK) status = rate_on(s, k, side_of(s, k, -1), 1, t, x, v, &below, err);
+    if (status != MOTUS_OK) return status;
+    for (size_t n = 0; n < s->switches->count; n++) {
+        const bool may = n != k && (of ? of[n] && op_of(s, n) == OP_SIGN : op_of(s, n) == OP_SIGN && fabs(side[n]) < 1);
+        s->beside[n] = (int8_t)(may ? moves_with(s, n, above - below, way, t, x, v, &rate) : 0);
+        *found += s->beside[n] != 0;
+    }
+    return MOTUS_OK;
+}
+
+/* Moves the state to where the argument of k, or of n beside it, is 0, along the push that switch k exerts. */
+static motus_status move_to_zero(sides *s, size_t k, size_t n, double t, double *x, double *v, motus_error *err)
+{
+    enum { PASSES = 32 }; /* as in `hold` */
+    double above, below, rate;
+    motus_status status = rate_on(s, k, side_of(s, k, 1), 1, t, x, v, &above, err);
+    memcpy(s->b, s->a, s->problem->nv * sizeof *s->b);
+    if (status == MOTUS_OK) status = rate_on(s, k, side_of(s, k, -1), 1, t, x, v, &below, err);
+    if (status != MOTUS_OK) return status;
+    moves_with(s, n, above - below, 1, t, x, v, &rate);
+    for (int pass = 0; pass < PASSES; pass++) {
+        run(s, s->argument, t, x, v, NULL, s->u);
+        if (s->u[n] == 0) break;
+        const double by = -s->u[n] / (n == k ? above - below : rate);
+        double *to = n == k ? v : x;
+        const size_t count = n == k ? s->problem->nv : s->problem->nx;
+        for (size_t i = 0; i < count; i++) to[i] += by * (s->b[i] - s->a[i]);
+    }
+    return MOTUS_OK;
+}
+
+/* Gives those in s->beside the value c, and returns the one with which k is held then. */
+static double pin(sides *s, size_t k, double c, double t, double *x, double *v)
+{
+    const double tiny = 0x1p-60;
+    double *side = x + s->switches->slot;
+    for (size_t n = 0; n < s->switches->count; n++)
+        if (s->beside[n]) side[n] = s->beside[n] * (fabs(c) < tiny ? tiny : c);
+    run(s, s->hold, t, x, v, NULL, s->p);
+    return s->p[k];
+}
+
+/* Switch k and those in s->beside, all of them at 0: *held, or they go on to one side. `going`: the way in which the
+ * value that holds k has left its bounds, 0: it has not. While those beside it have one value, that of k tells what
+ * changes; where it leaves they take as much of it as they can. */
+static motus_status stand_at_corner(sides *s, size_t k, int going, double way, double t, double *x, double *v,
+                                    bool *held, motus_error *err)
+{
+    const double most = 1 - 0x1p-50, near = 1 - 0x1p-40;
+    double *side = x + s->switches->slot, above, below;
+    motus_status status = rate_at_corner(s, k, 1, way, t, x, v, &above, err);
+    if (status == MOTUS_OK) status = rate_at_corner(s, k, -1, way, t, x, v, &below, err);
+    if (status != MOTUS_OK) return status;
+    const double middle = below / (below - above) * 2 - 1; /* with this value of all signs the rate is 0 */
+    *held = above < 0 && below > 0 && !(going && going * middle >= near);
+    if (!*held) {
+        if (above > 0 && below < 0) return refuse(s, k, not_unique, t, err);
+        const int to = above < 0 && below > 0 ? going : above >= 0 ? 1 : -1;
+        side[k] = side_of(s, k, to);
+        for (size_t n = 0; n < s->switches->count; n++)
+            if (s->beside[n]) side[n] = s->beside[n] * to;
+        return MOTUS_OK;
+    }
+    double c = middle;
+    if (going) {
+        const double one = pin(s, k, 0.5, t, x, v), other = pin(s, k, -0.5, t, x, v);
+        const double aim = (-0.75 * going - (one + other) / 2) / (one - other);
+        if (isfinite(aim)) c = aim;
+    }
+    pin(s, k, fabs(c) > most ? copysign(most, c) : c, t, x, v);
+    side[k] = way > 0 ? SWITCHES_HELD : SWITCHES_HELD_BACKWARD;
+    return MOTUS_OK;
+}
+
 /* The side on which the motion goes on where the argument of switch k is 0. */
 static motus_status choose(sides *s, size_t k, bool left, double way, double t, double *x, double *v, motus_error *err)
 {
@@ -281,16 +465,28 @@ static motus_status choose(sides *s, size_t k, bool left, double way, double t, 
     motus_status status = rate_on(s, k, above, way, t, x, v, &on[0], err);
     if (status == MOTUS_OK) status = rate_on(s, k, below, way, t, x, v, &on[1], err);
     if (status != MOTUS_OK) return status;
+    if (s->hold && s->switches->slides[switches_kind(s->switches, k)] == SLIDES_HELD) {
+        size_t beside;
+        bool held;
+        status = find_beside(s, k, NULL, way, t, x, v, &beside, err);
+        if (status == MOTUS_OK && beside) return stand_at_corner(s, k, 0, way, t, x, v, &held, err);
+        if (status != MOTUS_OK) return status;
+    }
     const double bound = unsure(s, k, on, t, x, v);
     for (int i = 0; i < 2; i++)
         if (fabs(on[i]) <= bound) on[i] = 0;
-    if (on[0] > 0 && on[1] < 0)
-        return refuse(s, k, "the motion is not unique: the force drives it away to both sides", t, err);
+    if (on[0] > 0 && on[1] < 0) return refuse(s, k, not_unique, t, err);
     if (on[0] < 0 && on[1] > 0) return hold(s, k, way * on[0], way * on[1], t, x, v, err);
     if (on[0] == 0 && on[1] == 0 && left && (*side == above || *side == below)) {
         *side = *side == above ? below : above;
     } else if (on[0] == 0 && on[1] == 0) {
-        status = look_ahead(s, k, way, t, x, v, &later, err);
+        double up = 0, down = 0;
+        if (switches_jumps(op)) status = look_ahead(s, k, above, way, t, x, v, &up, err);
+        if (switches_jumps(op) && !status) status = look_ahead(s, k, below, way, t, x, v, &down, err);
+        run(s, s->argument, t, x, v, NULL, s->later);
+        const double hidden = 2 * fabs(s->later[k]);
+        if (up > hidden && down < -hidden) return refuse(s, k, not_unique, t, err);
+        if (!status) status = look_ahead(s, k, *side, way, t, x, v, &later, err);
         *side = switches_side(op, 0, later);
     } else {
         *side = on[0] + on[1] > 0 ? above : below;
@@ -306,8 +502,7 @@ static motus_status choose_count(sides *s, size_t k, bool left, double at, doubl
     motus_status status = rate_on(s, k, at, way, t, x, v, &on[0], err);
     if (status == MOTUS_OK) status = rate_on(s, k, at - 1, way, t, x, v, &on[1], err);
     if (status != MOTUS_OK) return status;
-    if (on[0] > 0 && on[1] < 0)
-        return refuse(s, k, "the motion is not unique: the force drives it away to both sides", t, err);
+    if (on[0] > 0 && on[1] < 0) return refuse(s, k, not_unique, t, err);
     if (on[0] < 0 && on[1] > 0)
         return refuse(s, k, "the motion slides along a jump of the force, which drives it back from both sides,", t,
                       err);
@@ -324,13 +519,27 @@ static motus_status place(sides *s, size_t k, double u, double bound, double way
 {
     const operation op = op_of(s, k);
     const double whole = switches_counts(op) ? round(u) : 0;
-    if (isnan(u)) return MOTUS_OK;                                /* a cell without a switch */
+    if (isnan(u)) return MOTUS_OK;                                                   /* a cell without a switch */
+    if (is_pinned(s, x + s->switches->slot, k) && fabs(u) <= bound) return MOTUS_OK; /* it leaves with another */
     if (isfinite(bound) ? fabs(u - whole) > bound : u != whole) { /* where its slope is infinite no bound is known */
         x[s->switches->slot + k] = switches_side(op, u, 0);
         return MOTUS_OK;
     }
     return switches_counts(op) ? choose_count(s, k, false, whole, way, t, x, v, err)
                                : choose(s, k, false, way, t, x, v, err);
+}
+
+/* Whether switch k, which was held, is held no longer since its value drives the argument no longer back to 0, but for
+ * rounding; that value to p. */
+static bool lost_grip(sides *s, size_t k, double t, double *x, double *v)
+{
+    if (accelerate(s, t, x, v, NULL) != MOTUS_OK) return false;
+    run(s, s->hold, t, x, v, NULL, s->p);
+    run(s, s->grip, t, x, v, NULL, s->r);
+    run(s, s->grip_rate, t, x, v, s->a, s->dr);
+    const double moved = fabs(s->dr[k]) * (nextafter(fabs(t), INFINITY) - fabs(t));
+    run(s, s->grip_rounding, t, x, v, NULL, s->dr);
+    return !(fabs(s->p[k]) > 1 - 0x1p-20) || fabs(s->r[k]) <= 4 * (0x1p-53 * s->dr[k] + moved);
 }
 
 /* The new side of switch k, whose argument has left the old one. */
@@ -340,8 +549,14 @@ static motus_status change(sides *s, size_t k, double way, double t, double *x, 
     double *side = x + s->switches->slot + k;
     run(s, s->argument, t, x, v, NULL, s->u);
     if (s->hold && is_held(s, x + s->switches->slot, k)) {
-        run(s, s->hold, t, x, v, NULL, s->p);
-        *side = s->p[k] > 0 ? 1 : -1;
+        size_t beside;
+        bool held;
+        if (lost_grip(s, k, t, x, v)) return refuse(s, k, not_unique, t, err);
+        const int to = s->p[k] > 0 ? 1 : -1;
+        const motus_status status = find_beside(s, k, NULL, way, t, x, v, &beside, err);
+        if (status != MOTUS_OK) return status;
+        if (beside) return stand_at_corner(s, k, to, way, t, x, v, &held, err);
+        *side = side_of(s, k, to);
         return MOTUS_OK;
     }
     if (switches_counts(op)) return choose_count(s, k, true, round(s->u[k]), way, t, x, v, err);
@@ -349,6 +564,20 @@ static motus_status change(sides *s, size_t k, double way, double t, double *x, 
     if (switches_jumps(op)) return choose(s, k, true, way, t, x, v, err);
     *side = switches_beyond(op, *side, 0);
     return MOTUS_OK;
+}
+
+/* Where another switch has turned, what is held may be no longer. */
+static motus_status check_held(sides *s, double way, double t, double *x, double *v, motus_error *err)
+{
+    const double *side = x + s->switches->slot;
+    motus_status status = MOTUS_OK;
+    for (size_t k = 0; k < s->switches->count && status == MOTUS_OK; k++) {
+        if (!s->hold || !is_held(s, side, k)) continue;
+        run(s, s->hold, t, x, v, NULL, s->p), run(s, s->hold_rounding, t, x, v, NULL, s->dp);
+        run(s, s->grip, t, x, v, NULL, s->r), run(s, s->grip_rounding, t, x, v, NULL, s->dr);
+        if (grip_of(s, side, k) < -0x1p-52 * grip_rounding_of(s, k)) status = choose(s, k, false, way, t, x, v, err);
+    }
+    return status;
 }
 
 /* A switch within the argument of another one may let that jump: mod(floor(t), 2). */
@@ -366,7 +595,7 @@ static motus_status turn(void *ctx, size_t number, size_t instance, double way, 
         run(s, s->rounding, t, x, v, NULL, s->bound);
         for (size_t k = 0; k < count && status == MOTUS_OK; k++) {
             const double bound = 0x1p-53 * s->bound[k];
-            if (is_held(s, side, k)) continue; /* what holds it moved it to 0 */
+            if (is_held(s, side, k) || is_pinned(s, side, k)) continue; /* what holds it moved it to 0 */
             if (!(fabs(s->now[k] - s->before[k]) > bound + fabs(s->before[k]) * 0x1p-40)) continue;
             jumped = true;
             status = place(s, k, s->now[k], bound, way, t, x, v, err);
@@ -374,27 +603,82 @@ static motus_status turn(void *ctx, size_t number, size_t instance, double way, 
         if (!jumped) break;
         memcpy(s->before, s->now, count * sizeof *s->now);
     }
+    return status != MOTUS_OK ? status : check_held(s, way, t, x, v, err);
+}
+
+/* Holds those of the marked switches that can be, with those beside them; *held: that is all of the marked ones. */
+static motus_status stand_together(sides *s, const bool *of, double way, double t, double *x, double *v, bool *held,
+                                   motus_error *err)
+{
+    const size_t count = s->switches->count;
+    double *side = x + s->switches->slot;
+    motus_status status = MOTUS_OK;
+    memset(s->covered, 0, count * sizeof *s->covered);
+    *held = true;
+    for (size_t k = 0; k < count && status == MOTUS_OK && *held; k++) {
+        size_t beside = 0;
+        if (!of[k] || !s->hold || s->switches->slides[switches_kind(s->switches, k)] != SLIDES_HELD) continue;
+        status = find_beside(s, k, of, way, t, x, v, &beside, err);
+        if (status != MOTUS_OK || !beside) continue;
+        for (size_t n = 0; n < count && status == MOTUS_OK; n++)
+            if (s->beside[n]) s->covered[n] = true, status = move_to_zero(s, k, n, t, x, v, err);
+        s->covered[k] = true;
+        if (status == MOTUS_OK) status = move_to_zero(s, k, k, t, x, v, err);
+        if (status == MOTUS_OK) status = stand_at_corner(s, k, 0, way, t, x, v, held, err);
+        *held = *held && is_held(s, side, k);
+    }
+    for (size_t k = 0; k < count; k++) *held = *held && (!of[k] || s->covered[k]);
     return status;
 }
 
+static motus_status gather(void *ctx, const size_t *functions, size_t number, double way, double t, double *x,
+                           double *v, motus_error *err)
+{
+    sides *s = ctx;
+    const size_t count = s->switches->count;
+    char at[DECIMAL_MAX], text[3 * 100];
+    size_t used = 0;
+    bool held;
+    memset(s->of, 0, count * sizeof *s->of);
+    text[0] = 0;
+    for (size_t k = 0; k < number; k++) {
+        const size_t f = functions[k] - s->own.functions;
+        char one[80];
+        s->of[f] = true;
+        print(s, f, one, sizeof one);
+        if (k < 3) used += (size_t)snprintf(text + used, sizeof text - used, k ? " and %s" : "%s", one);
+    }
+    const motus_status status = stand_together(s, s->of, way, t, x, v, &held, err);
+    if (status != MOTUS_OK || held) return status;
+    fail(err, MOTUS_EVENTS, "the switches %s accumulate at t = %s: they follow one another ever faster, without end",
+         text, decimal(t, at));
+    hint(err, "end the run before, or let the force hold the motion there");
+    if (err) err->time = t;
+    return MOTUS_EVENTS;
+}
+
 /* Sides of a state that did not come by motion. They decide the acceleration, which decides where an argument moves
- * that is 0; and they may stand within one another. */
+ * that is 0; and they may stand within one another. Where they find no end, as at rest at 0 under -2 sign(x) -
+ * sign(x'), those that change are held together. */
 static motus_status settle(void *ctx, double way, double t, double *x, double *v, motus_error *err)
 {
     sides *s = ctx;
     const size_t count = s->switches->count;
     double *side = x + s->switches->slot;
     motus_status status = MOTUS_OK;
-    for (int pass = 0; pass < NESTED && status == MOTUS_OK; pass++) {
+    bool settled = false;
+    memset(s->of, 0, count * sizeof *s->of);
+    for (int pass = 0; pass < NESTED && status == MOTUS_OK && !settled; pass++) {
         memcpy(s->before, side, count * sizeof *side);
         for (size_t k = 0; k < count && status == MOTUS_OK; k++) {
             run(s, s->argument, t, x, v, NULL, s->now);
             run(s, s->rounding, t, x, v, NULL, s->bound);
             status = place(s, k, s->now[k], 0x1p-53 * s->bound[k], way, t, x, v, err);
         }
-        if (pass > 0 && memcmp(s->before, side, count * sizeof *side) == 0) break;
+        settled = pass > 0 && memcmp(s->before, side, count * sizeof *side) == 0;
+        for (size_t k = 0; k < count; k++) s->of[k] |= pass >= NESTED - 6 && s->before[k] != side[k];
     }
-    return status;
+    return status != MOTUS_OK || settled ? status : stand_together(s, s->of, way, t, x, v, &settled, err);
 }
 
 /* ---- making ---- */
@@ -429,13 +713,17 @@ static bool make(sides *s, model *m)
 {
     const switches *w = m->located;
     const size_t nx = s->problem->nx, nv = s->problem->nv, own = s->own.count;
-    double *room = arena_room(m->arena, (8 * w->count + nx + 3 * nv + 1) * sizeof *room);
+    double *room = arena_room(m->arena, (11 * w->count + nx + 3 * nv + 1) * sizeof *room);
     s->rule = arena_room(m->arena, (own + w->kinds) * sizeof *s->rule);
-    if (!room || !s->rule) return false;
+    s->beside = arena_room(m->arena, w->count + 1);
+    s->of = arena_room(m->arena, 2 * (w->count + 1) * sizeof *s->of);
+    if (!room || !s->rule || !s->beside || !s->of) return false;
+    s->covered = s->of + w->count;
     s->u = room, s->du = s->u + w->count, s->later = s->du + w->count;
     s->before = s->later + w->count, s->now = s->before + w->count, s->bound = s->now + w->count;
     s->p = s->bound + w->count, s->dp = s->p + w->count;
-    s->a = s->dp + w->count, s->b = s->a + nv, s->v = s->b + nv, s->x = s->v + nv;
+    s->r = s->dp + w->count, s->dr = s->r + w->count;
+    s->a = s->dr + w->count, s->b = s->a + nv, s->v = s->b + nv, s->x = s->v + nv, s->was = s->x + nx;
     for (size_t k = 0; k < w->kinds; k++)
         s->rule[own + k] = (rule){.name = "a switch",
                                   .kind = RULE_ROOT,
@@ -460,6 +748,7 @@ static bool make(sides *s, model *m)
     s->supplied.name = name;
     s->supplied.turn = turn;
     s->supplied.settle = settle;
+    s->supplied.gather = gather;
     s->argument = tape_of(m->arena, m->graph, w->held, w->kinds);
     s->rate = tape_of(m->arena, m->graph, w->rate, w->kinds);
     s->rounding = rounding_tape(m, w->held, w->kinds);
@@ -467,7 +756,11 @@ static bool make(sides *s, model *m)
         s->hold = tape_of(m->arena, m->graph, w->hold, w->hold_kinds);
         s->hold_rate = tape_of(m->arena, m->graph, w->hold_rate, w->hold_kinds);
         s->hold_rounding = rounding_tape(m, w->hold, w->hold_kinds);
-        if (!s->hold || !s->hold_rate || !s->hold_rounding) return false;
+        s->grip = tape_of(m->arena, m->graph, w->grip, w->hold_kinds);
+        s->grip_rate = tape_of(m->arena, m->graph, w->grip_rate, w->hold_kinds);
+        s->grip_rounding = rounding_tape(m, w->grip, w->hold_kinds);
+        if (!s->hold || !s->hold_rate || !s->hold_rounding || !s->grip || !s->grip_rate || !s->grip_rounding)
+            return false;
     }
     return s->argument && s->rate && s->rounding && make_least(s, m) && sides_rebind(s);
 }
@@ -490,8 +783,8 @@ const rules *sides_rules(const sides *s) { return &s->supplied; }
 bool sides_rebind(sides *s)
 {
     const binding b = {s->model->arrays, s->model->ints, s->model->pool};
-    tape *const tapes[] = {s->argument,    s->rate, s->rounding,  s->least,
-                           s->least_rates, s->hold, s->hold_rate, s->hold_rounding};
+    tape *const tapes[] = {s->argument,  s->rate,          s->rounding, s->least,     s->least_rates,  s->hold,
+                           s->hold_rate, s->hold_rounding, s->grip,     s->grip_rate, s->grip_rounding};
     for (size_t k = 0; k < sizeof tapes / sizeof *tapes; k++)
         if (tapes[k] && !tape_bind(tapes[k], &b)) return false;
     /* the periods of clocks depend on parameters */

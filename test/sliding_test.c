@@ -196,6 +196,121 @@ static void together(void **state)
     }
 }
 
+/* Two relays: from x = A each swing takes 2 sqrt(A)/(1 - f)^(1/2) and what brakes it, and ends at -A (1 - f)/(1 + f).
+ * The swings come to an end, and there both signs hold the motion. */
+static double swings_end(double f)
+{
+    const double there = sqrt(2 / (1 - f)), back = sqrt(2 * (1 - f)) / (1 + f);
+    return (there + back) / (1 - sqrt((1 - f) / (1 + f)));
+}
+
+static void comes_to_rest_by_swings(void **state)
+{
+    (void)state;
+    static const char *const text = "x'' = -sign(x) - 0.5 sign(x')\nx(0) = 1\nx'(0) = 0\n";
+    const double end = swings_end(0.5);
+    for (int m = 0; m < METHODS; m++) {
+        const double fifth = end * (1 - pow(3, -2.5));
+        NEAR(finished(text, methods[m], 1e-12, fifth).x[0], -1 / 243.0, 1e-13);
+        const outcome o = finished(text, methods[m], 1e-12, end + 1e-9), later = finished(text, methods[m], 1e-12, 100);
+        NEAR(o.x[0], 0, 0);
+        NEAR(later.x[0], 0, 0);
+        NEAR(later.v[0], 0, 0);
+        assert_true(later.did.switches < 90);
+    }
+    static const char *const slow[] = {"x'' = -sign(x) - 0.1 sign(x')\nx(0) = 1\nx'(0) = 0\n",
+                                       "x'' = -sign(x) - 0.01 sign(x')\nx(0) = 1\nx'(0) = 0\n",
+                                       "x'' = -sign(x) - 0.1 sign(x') - x/10\nx(0) = 1\nx'(0) = 0\n",
+                                       "x'' = -2 sign(x) - sign(x') + 0.3 sin(t)\nx(0) = 1\nx'(0) = 0\n"};
+    for (size_t k = 0; k < sizeof slow / sizeof *slow; k++) {
+        NEAR(finished(slow[k], "dop853", 1e-9, 1000).x[0], 0, 0);
+        NEAR(finished(slow[k], "taylor", 1e-9, 1000).x[0], 0, 0);
+    }
+}
+
+/* What stands at 0 leaves when the force is more than both signs together: 0.4 t = 1.5. */
+static void leaves_the_rest(void **state)
+{
+    (void)state;
+    static const char *const texts[] = {"x'' = -sign(x) - 0.5 sign(x') + 0.4 t\nx(0) = 0\nx'(0) = 0\n",
+                                        "x'' = -sign(x) - 0.5 sign(x') + 0.4 t\nx(0) = 0.001\nx'(0) = 0\n",
+                                        "x'' = -sign(x) - 0.5 sign(x') + 0.4 t\nx(0) = 0\nx'(0) = 0.01\n",
+                                        "x'' = -0.5 sign(x) - sign(x') + 0.4 t\nx(0) = 0\nx'(0) = 0\n",
+                                        "x'' = -0.1 sign(x) - 1.4 sign(x') + 0.4 t\nx(0) = 0\nx'(0) = 0\n",
+                                        "x'' = sign(-x) + 0.5 sign(-x') + 0.4 t\nx(0) = 0.001\nx'(0) = 0\n"};
+    for (size_t k = 0; k < sizeof texts / sizeof *texts; k++)
+        for (int m = 0; m < METHODS; m++) {
+            NEAR(finished(texts[k], methods[m], 1e-12, 3.74).x[0], 0, 0);
+            NEAR(finished(texts[k], methods[m], 1e-12, 5).x[0], 0.4 * pow(1.25, 3) / 6, 1e-13);
+        }
+    static const char *const down = "x'' = -sign(x) - 0.5 sign(x') - 0.4 t\nx(0) = 0.001\nx'(0) = 0\n";
+    NEAR(finished(down, "dop853", 1e-12, 5).x[0], -0.4 * pow(1.25, 3) / 6, 1e-13);
+    static const char *const three = "x[i]'' = -sign(x[i]) - 0.5 sign(x[i]') + 0.4 t (i - 1) for i = 1..3\n"
+                                     "x[i](0) = 0.001 for i = 1..3\nx[i]'(0) = 0 for i = 1..3\n";
+    const outcome o = finished(three, "dop853", 1e-12, 3);
+    NEAR(o.x[0], 0, 0);
+    NEAR(o.x[1], 0, 0);
+    NEAR(o.x[2], 0.8 * pow(3 - 1.875, 3) / 6, 1e-13);
+}
+
+/* Frictions that act on one another: both rest at last. */
+static void coupled(void **state)
+{
+    (void)state;
+    for (int m = 0; m < METHODS; m++) {
+        /* stacked: with 1/3 from t = 1/3 on, at rest from t = 1 on */
+        const outcome o = finished("x'' = -sign(x') - sign(x' - y')\ny'' = sign(x' - y')\nx(0) = 0\nx'(0) = 1\n"
+                                   "y(0) = 0\ny'(0) = 0\n",
+                                   methods[m], 1e-12, 10);
+        NEAR(o.x[0], 1 / 3.0, 1e-14);
+        NEAR(o.x[1], 1 / 6.0, 1e-14);
+        NEAR(o.v[0], 0, 0);
+        NEAR(o.v[1], 0, 0);
+        /* x stops at 2/3 and goes on to brake y with half of its force */
+        const outcome each = finished("x'' = -sign(x') - sign(y')/2\ny'' = -sign(y') - sign(x')/2\nx(0) = 0\n"
+                                      "x'(0) = 1\ny(0) = 0\ny'(0) = 1.5\n",
+                                      methods[m], 1e-12, 10);
+        NEAR(each.x[0], 1 / 3.0, 1e-14);
+        NEAR(each.x[1], 5 / 6.0, 1e-14);
+        NEAR(each.v[0], 0, 0);
+        NEAR(each.v[1], 0, 0);
+        /* pulled above: both rest until t = 1/2, go on as one, and part at 3/2, where the upper friction is all used */
+        const outcome pulled = finished("x'' = -0.5 sign(x') - sign(x' - y')\ny'' = sign(x' - y') + t\nx(0) = 0\n"
+                                        "x'(0) = 0\ny(0) = 0\ny'(0) = 0\n",
+                                        methods[m], 1e-12, 3);
+        NEAR(pulled.v[0], 1, 1e-13);
+        NEAR(pulled.v[1], 2.125, 1e-13);
+    }
+}
+
+/* A comparison that drives its own argument back is held between both branches: a third of the one with -2 and two
+ * thirds of the one with 1 hold s, and y moves by as much of 5 and of 2. */
+static void between_branches(void **state)
+{
+    (void)state;
+    static const char *const rest[] = {
+        "s' = if(s > 0, -2, 1)\nz' = if(s > 0, 5, 2)\n", "s' = if(s >= 0, -2, 1)\nz' = 2 + 3 if(s >= 0, 1, 0)\n",
+        "s' = if(s < 0, 1, -2)\nz' = if(s < 0, 2, 5)\n", "s' = 1 - 3 if(s <= 0, 0, 1)\nz' = if(s <= 0, 2, 5)\n"};
+    for (size_t k = 0; k < sizeof rest / sizeof *rest; k++)
+        for (int m = 0; m < METHODS; m++) {
+            char text[300];
+            snprintf(text, sizeof text, "x'' = 0\nx(0) = 0\nx'(0) = 0\n%ss(0) = 1\nz(0) = 0\n", rest[k]);
+            const outcome o = finished(text, methods[m], 1e-12, 10.5);
+            NEAR(o.v[1], 0, 1e-15);
+            NEAR(o.v[2], 2.5 + 30, 1e-13); /* half a unit of time at 5, ten at 3 */
+        }
+    for (int m = 0; m < METHODS; m++) {
+        const outcome dry =
+            finished("x'' = -x - 0.1 if(x' > 0, 1, -1)\nx(0) = 1.05\nx'(0) = 0\n", methods[m], 1e-13, 100);
+        NEAR(dry.x[0], -0.05, 1e-13);
+        NEAR(dry.v[0], 0, 0);
+        /* as on the belt above */
+        const outcome o =
+            finished("x'' = -x + if(x' <= 0.5, 0.6, -0.6)\nx(0) = 0\nx'(0) = 0.5\n", methods[m], 1e-12, 30);
+        NEAR(o.x[0], 0.6 + 0.5 * sin(30 - 1.2), 1e-10);
+    }
+}
+
 static void refused(const char *text, const char *says, double time)
 {
     const outcome o = run_of(text, "dop853", 1e-9, 10);
@@ -209,10 +324,26 @@ static void refusals(void **state)
 {
     (void)state;
     refused("x'' = sign(x')\nx(0) = 0\nx'(0) = 0\n", "not unique", 0);
-    refused("x'' = if(x' > 0, -1, 1)\nx(0) = 0\nx'(0) = 1\n", "slides", 1);
-    refused("x'' = if(x' > 0, -1, 1)\nx(0) = 0\nx'(0) = 1\n", " where x' = 0, at t = ", 1);
-    refused("x'' = -sign(x') - sign(y')/2\ny'' = -sign(y') - sign(x')/2\nx(0) = 0\nx'(0) = 1\ny(0) = 0\ny'(0) = 1.5\n",
-            "together with another", 4.0 / 3);
+    refused("x'' = sign(x)\nx(0) = 0\nx'(0) = 0\n", "not unique", 0);
+    /* held until t = 1, when the force begins to drive it away */
+    refused("x'' = (t - 1) sign(x')\nx(0) = 0\nx'(0) = 0.1\n", "where x' = 0, at t = 0.9999999999999999", 1);
+    refused("s' = (t - 1) sign(s)\ns(0) = 0.1\nx'' = 0\nx(0) = 0\nx'(0) = 0\n",
+            "where s = 0, at t = 0.9999999999999999", 1);
+    refused("s' = if(t < 1, -sign(s), sign(s))\ns(0) = 0.1\nx'' = 0\nx(0) = 0\nx'(0) = 0\n",
+            "the force drives it away to both sides where s = 0, at t = 1", 1);
+    refused("x'' = if(x' > 0 or t > 20, -1, 1)\nx(0) = 0\nx'(0) = 1\n", "slides along a jump of the force", 1);
+    refused("x'' = if(x' > 0, -1, 1) (if(x' > 0, 1, 2) + 1)\nx(0) = 0\nx'(0) = 1\n", "no value between those of both",
+            0.5);
+}
+
+/* Swings that become ever shorter and have no end: their speed falls as exp(-t/6). */
+static void multiplies(void **state)
+{
+    (void)state;
+    const outcome o = run_of("x'' = -sign(x) - x'/2\nx(0) = 1\nx'(0) = 0\n", "dop853", 1e-9, 100);
+    assert_int_equal(o.status, MOTUS_EVENTS);
+    if (!strstr(o.message, "jumps where x = 0 ever more often")) fail_msg("it says %s", o.message);
+    (void)finished("x'' = -sign(x) - x'/2\nx(0) = 1\nx'(0) = 0\n", "dop853", 1e-9, 40);
 }
 
 /* A run that is told nothing of switches. */
@@ -436,7 +567,12 @@ int main(void)
         cmocka_unit_test(relay),
         cmocka_unit_test(many),
         cmocka_unit_test(together),
+        cmocka_unit_test(comes_to_rest_by_swings),
+        cmocka_unit_test(leaves_the_rest),
+        cmocka_unit_test(coupled),
+        cmocka_unit_test(between_branches),
         cmocka_unit_test(refusals),
+        cmocka_unit_test(multiplies),
         cmocka_unit_test(by_default),
         cmocka_unit_test(bars_of_what_sticks),
         cmocka_unit_test(on_every_machine),

@@ -11,6 +11,7 @@
 #include "lang/model/sliding.h"
 
 #include "lang/base/operation.h"
+#include "lang/graph/graph_walk.h"
 
 #include <string.h>
 
@@ -26,9 +27,10 @@ typedef struct inserting {
     size_t accel_count;
     const output *rate;
     int level;
-    node without; /* this acceleration becomes 0 instead */
-    size_t found; /* the number of an acceleration that there is */
-    bool failed;  /* an acceleration is that of another index, or of another range */
+    node without;      /* this acceleration becomes 0 instead */
+    const bool *taken; /* accelerations that are not to be found, unless there is no other; NULL: none */
+    size_t found;      /* the number of an acceleration that there is */
+    bool failed;       /* an acceleration is that of another index, or of another range */
 } inserting;
 
 /* The equation of an acceleration, over the same indices. */
@@ -43,7 +45,7 @@ static node equation_of(graph *g, node leaf, int level, void *ctx)
     for (size_t k = 0; k < in->accel_count && level == in->level; k++) {
         const output *o = &in->s->accel[k];
         if (graph_same_reference(&o->to, r) && same_loops(o, in->rate)) {
-            in->found = k;
+            if (!in->taken || !in->taken[k]) in->found = k;
             return o->value;
         }
     }
@@ -61,33 +63,198 @@ static node zero_at(graph *g, node leaf, int level, void *side)
 
 static const node NO_NODE = UINT32_MAX; /* no node */
 
-/* Whether a motion may slide along a kind, and the value that holds its argument at 0; NO_NODE: there is none. */
-static switches_sliding holding(const model *m, const switches *s, size_t kind, node *value)
+static bool compares(operation op) { return op == OP_LT || op == OP_LE || op == OP_GT || op == OP_GE; }
+
+/* The value of a comparison that is held, within [0, 1], from one within [-1, 1] that is 1 where its argument is
+ * positive. */
+static node part_of(graph *g, operation op, node value)
+{
+    const double half = op == OP_GT || op == OP_GE ? 0.5 : -0.5;
+    return graph_op(g, OP_ADD, graph_const(g, 0.5), graph_op(g, OP_MUL, graph_const(g, half), value, 0), 0);
+}
+
+/* `a` where the part is 1, `b` where it is 0. */
+static node blend(graph *g, node part, node a, node b)
+{
+    return graph_op(g, OP_ADD, b, graph_op(g, OP_MUL, part, graph_op(g, OP_SUB, a, b, 0), 0), 0);
+}
+
+/* What stands in place of a load, and of a choice by one, outside of sums. A sum goes to `leaf` as a whole. */
+typedef struct replacement {
+    graph_substitute leaf;
+    node (*choice)(graph *, node load, node a, node b, void *ctx);
+    /* a load is an operand of what is no choice by it; NULL: nothing is to be told */
+    void (*otherwise)(const graph_node *, node load, void *ctx);
+    void *ctx;
+} replacement;
+
+static node with_sides(graph *g, node root, int level, const replacement *how)
+{
+    graph_walk w;
+    if (!(graph_deps(g, root) & DEP_MODE)) return root;
+    if (!graph_order(g, &root, 1, DEP_MODE, false, &w)) return 0;
+    node *as = take(&g->arena->allocator, w.count, sizeof *as);
+    if (!as) g->arena->failed = true;
+    for (uint32_t k = 0; as && k < w.count; k++) {
+        const graph_node n = *graph_at(g, w.nodes[k]);
+        as[k] = w.nodes[k];
+        if (n.op == OP_LOAD) as[k] = how->leaf(g, w.nodes[k], level, how->ctx);
+        if (n.op == OP_SUM) as[k] = graph_replace(g, w.nodes[k], DEP_MODE, level, how->leaf, how->ctx);
+    }
+    if (as) graph_order_again(g, &w);
+    for (uint32_t k = 0; as && k < w.count && !g->arena->failed && !g->too_large; k++) {
+        const graph_node n = *graph_at(g, w.nodes[k]);
+        node operand[3] = {0, 0, 0}, was[3];
+        const int arity = graph_operands(&n, operand);
+        bool same = true;
+        if (arity == 0 || n.op == OP_SUM) continue;
+        memcpy(was, operand, sizeof was);
+        for (int j = 0; j < arity; j++) {
+            if (graph_reached(g, &w, was[j])) operand[j] = as[g->place[was[j]]];
+            same &= operand[j] == was[j];
+            const bool chooses = n.op == OP_SELECT && j == 0;
+            if (how->otherwise && !chooses && graph_at(g, was[j])->op == OP_LOAD) how->otherwise(&n, was[j], how->ctx);
+        }
+        node choice = 0;
+        if (n.op == OP_SELECT && graph_at(g, was[0])->op == OP_LOAD)
+            choice = how->choice(g, was[0], operand[1], operand[2], how->ctx);
+        as[k] = choice ? choice : same ? w.nodes[k] : graph_op(g, (operation)n.op, operand[0], operand[1], operand[2]);
+    }
+    const node result = as && w.count ? as[w.count - 1] : 0;
+    give(&g->arena->allocator, as);
+    give(&g->arena->allocator, w.nodes);
+    return g->arena->failed || g->too_large ? 0 : result;
+}
+
+/* The equations as functions of the part that a comparison is held at, in place of its side. */
+typedef struct parts {
+    node side;
+    int level;
+    bool failed; /* something depends on it in another way */
+} parts;
+
+static node as_it_is(graph *g, node n, int level, void *ctx)
+{
+    parts *p = ctx;
+    (void)g;
+    p->failed |= n == p->side && level > p->level; /* in a sum */
+    return n;
+}
+
+static node by_part(graph *g, node load, node a, node b, void *ctx)
+{
+    const parts *p = ctx;
+    return load == p->side ? blend(g, load, a, b) : 0;
+}
+
+static void not_by_part(const graph_node *n, node load, void *ctx)
+{
+    parts *p = ctx;
+    const operation op = (operation)n->op;
+    const bool linear = op == OP_ADD || op == OP_SUB || op == OP_MUL || op == OP_NEG || op == OP_DIV || op == OP_SELECT;
+    p->failed |= load == p->side && !linear;
+}
+
+typedef struct held_sides {
+    const switches *s;
+    const node *value; /* kinds: what holds each; NO_NODE: nothing does */
+} held_sides;
+
+/* The kind whose side a load is, if it can be held; else the number of kinds. */
+static size_t kind_at(const held_sides *h, node leaf)
+{
+    size_t k = 0;
+    while (k < h->s->kinds && (h->s->side[k] != leaf || h->value[k] == NO_NODE)) k++;
+    return k;
+}
+
+/* The value with which a kind is held, in place of its side. */
+static node value_at(graph *g, const held_sides *h, size_t k)
+{
+    const operation op = (operation)h->s->op[h->s->first[k]];
+    return compares(op) ? part_of(g, op, h->value[k]) : h->value[k];
+}
+
+static node is_held(graph *g, node side) { return graph_op(g, OP_GT, side, graph_const(g, 1.5), 0); }
+
+/* The side, or where it is SWITCHES_HELD the value that holds. */
+static node side_or_value(graph *g, node leaf, int level, void *ctx)
+{
+    const held_sides *h = ctx;
+    const size_t k = kind_at(h, leaf);
+    (void)level;
+    return k == h->s->kinds ? leaf : graph_op(g, OP_SELECT, is_held(g, leaf), value_at(g, h, k), leaf);
+}
+
+/* A choice by a side, or where that is held both in parts. */
+static node side_or_parts(graph *g, node side, node a, node b, void *ctx)
+{
+    const held_sides *h = ctx;
+    const size_t k = kind_at(h, side);
+    if (k == h->s->kinds) return 0;
+    return graph_op(g, OP_SELECT, is_held(g, side), blend(g, value_at(g, h, k), a, b),
+                    graph_op(g, OP_SELECT, side, a, b));
+}
+
+/* The values that hold kinds from `first` to before `last` in place of their sides, where they are no families: what
+ * several switches are held by is the solution of linear equations, which are eliminated one by one. */
+static node with_value(const model *m, const held_sides *h, size_t first, size_t last, node n)
+{
+    node *only = take(&m->arena->allocator, h->s->kinds, sizeof *only);
+    if (!only) return m->arena->failed = true, n;
+    for (size_t k = 0; k < h->s->kinds; k++)
+        only[k] = k >= first && k < last && h->s->rate[k].loops == 0 ? h->value[k] : NO_NODE;
+    held_sides some = {h->s, only};
+    const node result = with_sides(m->graph, n, 0, &(replacement){side_or_value, side_or_parts, NULL, &some});
+    give(&m->arena->allocator, only);
+    return result;
+}
+
+/* Whether a motion may slide along a kind, and the value that holds its argument at 0, NO_NODE: there is none. grip:
+ * how much the rate of the argument grows with the value. */
+static switches_sliding holding(const model *m, const switches *s, size_t kind, const held_sides *h, node *value,
+                                node *grip)
 {
     graph *g = m->graph;
     const output *rate = &s->rate[kind];
     const operation op = (operation)s->op[s->first[kind]];
     inserting in = {.s = s, .accel_count = m->accel_count, .rate = rate, .level = rate->loops};
-    const node full = graph_replace(g, rate->value, DEP_A, rate->loops, equation_of, &in);
-    node side = s->side[kind];
+    node full = graph_replace(g, rate->value, DEP_A, rate->loops, equation_of, &in), side = s->side[kind];
     *value = NO_NODE;
     if (!switches_jumps(op)) return SLIDES_NEVER;
     if (in.failed) return SLIDES_REFUSED;
-    const node rest = graph_replace(g, full, DEP_MODE, rate->loops, zero_at, &side);
-    if (rest == full) return SLIDES_NEVER;
-    const node slope = op == OP_SIGN ? graph_derivative(g, full, one_at, &side) : 0;
+    const node without = graph_replace(g, full, DEP_MODE, rate->loops, zero_at, &side);
+    if (without == full) return SLIDES_NEVER;
+    if (op != OP_SIGN && !compares(op)) return SLIDES_REFUSED;
+    for (size_t k = 0; k < kind && rate->loops == 0; k++) full = with_value(m, h, k, k + 1, full);
+    node force = full;
+    if (compares(op)) {
+        parts by = {side, rate->loops, false};
+        force = with_sides(g, full, rate->loops, &(replacement){as_it_is, by_part, not_by_part, &by});
+        if (by.failed) return SLIDES_REFUSED;
+    }
+    const node rest = graph_replace(g, force, DEP_MODE, rate->loops, zero_at, &side);
+    const node slope = graph_derivative(g, force, one_at, &side);
     if (!slope) return SLIDES_REFUSED;
-    *value = graph_op(g, OP_NEG, graph_op(g, OP_DIV, rest, slope, 0), 0, 0);
+    /* of a sign that is tested when the motion comes there */
+    if (compares(op) && graph_replace(g, slope, DEP_MODE, rate->loops, zero_at, &side) != slope) return SLIDES_REFUSED;
+    const node part = graph_op(g, OP_NEG, graph_op(g, OP_DIV, rest, slope, 0), 0, 0);
+    *value = part;
+    *grip = slope;
+    if (compares(op)) {
+        const double two = op == OP_GT || op == OP_GE ? 2 : -2;
+        *value = graph_op(g, OP_MUL, graph_const(g, two), graph_op(g, OP_SUB, part, graph_const(g, 0.5), 0), 0);
+        *grip = graph_op(g, OP_DIV, slope, graph_const(g, two), 0);
+    }
     return SLIDES_HELD;
 }
 
 /* The acceleration of one variable with which the rate of a kind is 0: output *number. NO_NODE: there is none. */
-static node resting(const model *m, const switches *s, size_t kind, size_t *number)
+static node resting(const model *m, const switches *s, const output *rate, const bool *taken, size_t *number)
 {
     enum { MOVES = DEP_TIME | DEP_STATE | DEP_LEVELS };
     graph *g = m->graph;
-    const output *rate = &s->rate[kind];
-    inserting in = {.s = s, .accel_count = m->accel_count, .rate = rate, .level = rate->loops};
+    inserting in = {.s = s, .accel_count = m->accel_count, .rate = rate, .level = rate->loops, .taken = taken};
     graph_replace(g, rate->value, DEP_A, rate->loops, equation_of, &in);
     node own = graph_load(g, &s->accel[in.found].to);
     const node factor = in.failed ? 0 : graph_derivative(g, rate->value, one_at, &own);
@@ -98,48 +265,44 @@ static node resting(const model *m, const switches *s, size_t kind, size_t *numb
     return graph_op(g, OP_SUB, graph_const(g, 0), graph_op(g, OP_DIV, rest, factor, 0), 0);
 }
 
-typedef struct held_sides {
-    const switches *s;
-    const node *value; /* kinds: what holds each; NO_NODE: nothing does */
-} held_sides;
-
-/* The side, or where it is SWITCHES_HELD the value that holds. */
-static node side_or_value(graph *g, node leaf, int level, void *ctx)
-{
-    const held_sides *h = ctx;
-    (void)level;
-    for (size_t k = 0; k < h->s->kinds; k++) {
-        if (h->s->side[k] != leaf || h->value[k] == NO_NODE) continue;
-        const node held = graph_op(g, OP_GT, leaf, graph_const(g, 1.5), 0);
-        return graph_op(g, OP_SELECT, held, h->value[k], leaf);
-    }
-    return leaf;
-}
-
 bool sliding_prepare(model *m, switches *s)
 {
-    node *value = arena_room(m->arena, 2 * s->kinds * sizeof *value), *rests = value + s->kinds;
-    size_t *resting_at = arena_room(m->arena, s->kinds * sizeof *resting_at);
-    s->hold = arena_room(m->arena, 2 * s->kinds * sizeof *s->hold);
+    enum { TOGETHER = 8 }; /* equations of so many grow large */
+    node *value = arena_room(m->arena, 3 * s->kinds * sizeof *value), *rests = value + s->kinds;
+    node *grips = rests + s->kinds;
+    s->hold = arena_room(m->arena, 4 * s->kinds * sizeof *s->hold);
     s->slides = arena_room(m->arena, s->kinds * sizeof *s->slides);
-    if (!value || !resting_at || !s->hold || !s->slides) return false;
+    if (!value || !s->hold || !s->slides) return false;
     s->hold_rate = s->hold + s->kinds;
+    s->grip = s->hold_rate + s->kinds, s->grip_rate = s->grip + s->kinds;
     s->hold_kinds = 0;
+    held_sides h = {s, value};
+    const replacement with_values = {side_or_value, side_or_parts, NULL, &h};
+    size_t alone = 0; /* held kinds that are no families */
+    for (size_t k = 0; k < s->kinds; k++) value[k] = NO_NODE;
     for (size_t k = 0; k < s->kinds; k++) {
-        s->slides[k] = (uint8_t)holding(m, s, k, &value[k]);
+        const held_sides none = {s, rests};
+        rests[k] = NO_NODE;
+        s->slides[k] = (uint8_t)holding(m, s, k, alone < TOGETHER ? &h : &none, &value[k], &grips[k]);
+        alone += value[k] != NO_NODE && s->rate[k].loops == 0;
+    }
+    for (size_t k = s->kinds; k-- > 0 && alone <= TOGETHER;) { /* those after it, too, in that of each */
+        if (value[k] == NO_NODE || s->rate[k].loops) continue;
+        value[k] = with_value(m, &h, k + 1, s->kinds, value[k]);
+        grips[k] = with_value(m, &h, k + 1, s->kinds, grips[k]);
+    }
+    s->together = alone <= TOGETHER;
+    for (size_t k = 0; k < s->kinds; k++) {
+        const size_t to = s->hold_kinds;
         if (value[k] == NO_NODE) continue;
-        output *o = &s->hold[s->hold_kinds];
-        *o = s->hold_rate[s->hold_kinds++] = s->rate[k];
-        o->value = value[k];
-        s->hold_rate[s->hold_kinds - 1].value = graph_derivative(m->graph, value[k], model_seed_motion, m);
+        s->hold[to] = s->hold_rate[to] = s->grip[to] = s->grip_rate[to] = s->rate[k];
+        s->hold[to].value = value[k];
+        s->hold_rate[to].value = graph_derivative(m->graph, value[k], model_seed_motion, m);
+        s->grip[to].value = grips[k];
+        s->grip_rate[to].value = graph_derivative(m->graph, grips[k], model_seed_motion, m);
+        s->hold_kinds++;
     }
     if (s->hold_kinds == 0) return !m->arena->failed && !m->graph->too_large;
-    held_sides h = {s, value};
-    for (size_t k = 0; k < s->kinds; k++) {
-        size_t at = 0;
-        rests[k] = value[k] != NO_NODE ? resting(m, s, k, &at) : NO_NODE;
-        resting_at[k] = at;
-    }
     const struct {
         output *of;
         size_t count;
@@ -147,16 +310,22 @@ bool sliding_prepare(model *m, switches *s)
     for (size_t k = 0; k < sizeof all / sizeof *all; k++)
         for (size_t i = 0; i < all[k].count; i++) {
             output *o = &all[k].of[i];
-            o->value = graph_replace(m->graph, o->value, DEP_MODE, o->loops, side_or_value, &h);
+            o->value = with_sides(m->graph, o->value, o->loops, &with_values);
         }
+    bool *taken = arena_room(m->arena, (m->accel_count + 1) * sizeof *taken);
+    if (!taken) return false;
+    memset(taken, 0, m->accel_count * sizeof *taken);
     for (size_t k = 0; k < s->kinds; k++) {
         graph *g = m->graph;
-        node *to = &s->accel[resting_at[k]].value;
-        if (rests[k] == NO_NODE) continue;
-        /* what the others are held by is in it, too */
-        const output *o = &s->accel[resting_at[k]];
-        const node is = graph_replace(g, rests[k], DEP_MODE, o->loops, side_or_value, &h);
-        *to = graph_op(g, OP_SELECT, graph_op(g, OP_GT, s->side[k], graph_const(g, 1.5), 0), is, *to);
+        output rate = s->rate[k];
+        size_t at = 0;
+        if (value[k] == NO_NODE) continue;
+        /* what the others are held by is in it, and those that rest do */
+        rate.value = with_sides(g, rate.value, rate.loops, &with_values);
+        const node is = resting(m, s, &rate, taken, &at);
+        if (is == NO_NODE || taken[at]) continue;
+        taken[at] = true;
+        s->accel[at].value = graph_op(g, OP_SELECT, is_held(g, s->side[k]), is, s->accel[at].value);
     }
     for (size_t k = 0; k < s->kinds; k++)
         s->rate[k].value = graph_derivative(m->graph, s->held[k].value, model_seed_motion, m);

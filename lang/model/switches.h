@@ -13,7 +13,10 @@
 
 #include "lang/model/model.h"
 
-#define SWITCHES_HELD 2.0 /* the side of a sign whose argument the force holds at 0: sliding.c */
+/* The side of a sign whose argument the force holds at 0, in a run that goes forward and in one that goes backward:
+ * sliding.c. */
+#define SWITCHES_HELD 2.0
+#define SWITCHES_HELD_BACKWARD 3.0
 
 enum { SWITCHES_MAX = 1 << 16, TOUCHES_MAX = 1 << 12 }; /* of one model, cells counted; more touches are not observed */
 
@@ -37,10 +40,13 @@ typedef struct switches {
     node *original;      /* kinds: the operation, as the model has it */
     node *side;          /* kinds: the side as the equations load it */
     size_t *first;       /* kinds: the number of the first cell's switch */
-    /* Of a model that has modes for sides: the value that holds each argument at 0 while its side is SWITCHES_HELD, and
-     * its rate along the motion; hold_kinds of them, to the places of their arguments. */
-    output *hold, *hold_rate;
+    /* Of a model that has modes for sides: the value that holds each argument at 0 while its side is SWITCHES_HELD, how
+     * much the rate of the argument grows with that value, and the rates of both along the motion; hold_kinds of them,
+     * to the places of their arguments. */
+    output *hold, *hold_rate, *grip, *grip_rate;
     size_t hold_kinds;
+    bool
+        together; /* of kinds that are no families these values are right when several are held that depend on others */
     uint8_t *slides;             /* kinds: enum switches_sliding */
     size_t touches, touch_kinds; /* touches, cells counted; families counted once */
     output *touch, *touch_rate;  /* touch_kinds: the arguments, with sides in them, and their rates */
