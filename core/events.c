@@ -563,7 +563,7 @@ void events_listen(events *e, int (*asks)(const void *ctx), const void *ctx)
     e->asks_ctx = ctx;
 }
 
-bool events_partway(const events *e) { return e->broken && !e->saved; }
+bool events_partway(const events *e) { return e->broken && !e->saved && e->end == EVENTS_END_NONE; }
 
 double events_latest(const events *e) { return e->at_once; }
 int64_t events_acted(const events *e) { return e->acted; }
