@@ -37,6 +37,7 @@ static size_t arrange(events *e, char *block)
     double *numbers = next(&l, 4 * (nx + 2 * nv + 3 * f), sizeof *numbers);
     e->after = next(&l, nx + nv, sizeof *e->after);
     e->width = next(&l, nx + nv, sizeof *e->width);
+    e->most = next(&l, nx + nv, sizeof *e->most);
     e->fired = next(&l, f, sizeof *e->fired);
     e->before = next(&l, f, sizeof *e->before);
     e->instances = next(&l, n, sizeof *e->instances);
@@ -147,6 +148,14 @@ static motus_status settle(events *e, stepper *s, motus_error *err)
     return status ? status : stepper_jump(s, at->t, at->lost, stepper_step(s), at->x, at->v, err);
 }
 
+/* A state counts among those since the start. */
+static void extend(events *e, const instant *at)
+{
+    const size_t nx = e->problem.nx, nv = e->problem.nv;
+    for (size_t k = 0; k < nx; k++) e->most[k] = fmax(e->most[k], fabs(at->x[k]));
+    for (size_t k = 0; k < nv; k++) e->most[nx + k] = fmax(e->most[nx + k], fabs(at->v[k]));
+}
+
 /* The sides of all functions at `left`. */
 static motus_status take_sides(events *e, motus_error *err)
 {
@@ -183,6 +192,9 @@ motus_status events_begin(events *e, stepper *s, double until, motus_error *err)
     if (!status && e->rules.settle) status = settle(e, s, err);
     if (!status) status = take_sides(e, err);
     if (status) return status;
+    memset(e->most, 0, (e->problem.nx + e->problem.nv) * sizeof *e->most);
+    e->taken = 0;
+    extend(e, &e->left);
     events_suppose(e);
     forget_happened(e);
     return status || events_keep_now(e, e->start, e->left.x) ? status
@@ -272,10 +284,22 @@ static bool comes_back(events *e, const candidate *c)
     return true;
 }
 
+/* A function jumps, or comes to 0 and stays: that is no root. False: there is a condition that it may change. */
+static bool changes_side(events *e, const candidate *c)
+{
+    e->side[c->of] = (int8_t)c->kind;
+    if (!c->kind) e->stands[c->of] = 1;
+    return e->rules.rule[e->rule_of[c->of]].kind == RULE_ROOT;
+}
+
 /* A candidate of the present step that has been located. */
 static motus_status follow(events *e, stepper *s, candidate *c, bool *assigned, stepper_stop *why, motus_error *err)
 {
     const candidate at = *c;
+    if (at.jumps && changes_side(e, &at)) {
+        c->gone = true;
+        return MOTUS_OK;
+    }
     const bool again = told(e, &at), back = again && comes_back(e, &at), happens = !again || back;
     c->gone = true;
     motus_status status = happens ? events_fire(e, &at, assigned, err) : MOTUS_OK;
@@ -350,6 +374,8 @@ static motus_status piece(events *e, stepper *s, double until, bool *assigned, s
         status = jump(e, s, &e->left, h, err);
     }
     e->whole = whole;
+    e->taken++;
+    extend(e, &e->right);
     if (!status && e->first) events_suppose(e);
     e->first = false;
     e->here_at = NAN;

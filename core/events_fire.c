@@ -311,7 +311,7 @@ motus_status events_fire(events *e, const candidate *c, bool *assigned, motus_er
     bool again = true;
     motus_status status = MOTUS_OK;
     for (size_t f = 0; f < e->rules.functions; f++) e->zero[f] = is_zero(e, f);
-    if (c->kind != CANDIDATE_TIME) e->zero[c->of] = 1;
+    if (c->kind != CANDIDATE_TIME && !(c->jumps && c->kind)) e->zero[c->of] = 1;
     memset(e->ticked, 0, e->rules.count);
     events_overlay(e, e->here.x);
     while (again && !status) {

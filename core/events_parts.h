@@ -1,7 +1,8 @@
 /* What the files of events share: the struct, and what each file does with it.
  *
  * events.c: life and steps. events_find.c: the roots of a step, by dense output. events_place.c: true steps, and where
- * a root is by them. events_fire.c: what happens in one instant. events_table.c: rows, kept numbers, accumulation.
+ * a root is by them. events_jump.c: functions that jump or have a kink.
+ * events_fire.c: what happens in one instant. events_table.c: rows, kept numbers, accumulation.
  * events_state.c: restart states. Invariant: `left` is the state at which the present step began, and `side` are the
  * sides of all functions there, those of the events that have happened since included.
  */
@@ -31,7 +32,19 @@ typedef struct candidate {
     bool idle; /* its function changes its side, and nothing happens */
     bool sure; /* by far more than dense output errs, its function has other signs at `low` and at `high` */
     bool near; /* an extremum near 0, of which true steps are to tell whether it touches, crosses twice, or neither */
+    bool sampled; /* samples told of it: events_jump.c */
+    bool leaves;  /* it has been 0 before; sampled ones */
+    bool jumps;   /* it is no root: the function jumps to this side; CANDIDATE_TOUCHES: it comes to 0 and stays */
 } candidate;
+
+/* A part of the step in which a function is no polynomial, too short to be divided. */
+typedef struct events_cell {
+    size_t of; /* function */
+    int count;
+    double from;                /* where it begins */
+    const double *time, *value; /* since `left`, in their order */
+    double bound;               /* values up to it are 0 */
+} events_cell;
 
 typedef struct kept_state { /* the kept numbers from time t on */
     double t;
@@ -81,6 +94,8 @@ struct events {
     double *before;    /* the functions at `here` before an action */
     double *fired;     /* when it did last; NaN: never */
     uint32_t *rule_of; /* function */
+    double *most;      /* the largest size of positions, then velocities, since the start */
+    int64_t taken;     /* steps since the start */
     double *width;     /* how far positions, then velocities, may be within the step from half way between its ends */
     double *samples;   /* values at the points of the step */
     int samples_room;
@@ -151,6 +166,12 @@ bool events_add(events *, candidate);
 motus_status events_no_memory(motus_error *);
 /* The next tick of a clock. False: it is not within the step. */
 bool events_next_tick(const events *, size_t rule, candidate *);
+
+/* events_jump.c. What happens in a cell, in which the function begins with *sign, 0: it stands; then that with which it
+ * ends. *told false: more than samples can tell apart. */
+motus_status events_sampled(events *, const events_cell *, int *sign, bool *told, motus_error *);
+/* events_locate for a sampled candidate. */
+motus_status events_locate_sampled(events *, size_t candidate, motus_error *);
 
 /* events_fire.c. All that happens at `here`, to which the candidate leads. */
 motus_status events_fire(events *, const candidate *, bool *assigned, motus_error *);

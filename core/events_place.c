@@ -260,6 +260,7 @@ motus_status events_locate(events *e, size_t k, motus_error *err)
 {
     candidate *c = &e->candidate[k];
     motus_status status = MOTUS_OK;
+    if (c->sampled && !c->located) return events_locate_sampled(e, k, err);
     if (c->located || c->kind == CANDIDATE_TIME) {
         c->located = true;
         status = events_at(e, c->at, &e->here, err);
