@@ -51,6 +51,7 @@ static size_t arrange(events *e, char *block)
     e->sign = next(&l, f, 1);
     e->look = next(&l, f, 1);
     e->zero = next(&l, f, 1);
+    e->touched = next(&l, f, 1);
     e->held = next(&l, instances, 1);
     e->ticked = next(&l, n, 1);
     if (!block) return l.at;
@@ -300,7 +301,13 @@ static motus_status follow(events *e, stepper *s, candidate *c, bool *assigned, 
         c->gone = true;
         return MOTUS_OK;
     }
-    const bool again = told(e, &at), back = again && comes_back(e, &at), happens = !again || back;
+    bool same = false;
+    if (at.kind == CANDIDATE_TOUCHES && !told(e, &at)) {
+        motus_status status = events_lingered(e, &at, &same, err);
+        if (!status) status = events_locate(e, (size_t)(c - e->candidate), err);
+        if (status) return status;
+    }
+    const bool again = same || told(e, &at), back = again && comes_back(e, &at), happens = !again || back;
     c->gone = true;
     motus_status status = happens ? events_fire(e, &at, assigned, err) : MOTUS_OK;
     if (at.kind == CANDIDATE_TIME) /* a clock may tick again in this step */

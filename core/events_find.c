@@ -110,15 +110,51 @@ static double place_of(const events *e, const search *of, double tau)
     return time_at(e, of->part->from + tau * (of->part->to - of->part->from));
 }
 
-/* The candidates of one function, from its roots. */
-static bool add_roots(events *e, size_t f, const search *of, const roots_root *root, const roots_found *found)
+/* The largest size of the polynomial between two roots, and where. */
+static double depth_between(const search *of, const roots_root *a, const roots_root *b, double *at)
 {
-    const rule *rule = &e->rules.rule[e->rule_of[f]];
-    for (size_t k = 0; k < found->count; k++) {
-        const roots_root *r = &root[k];
-        const double before = k ? root[k - 1].to : 0, after = k + 1 < found->count ? root[k + 1].from : 1;
-        const double low = before + (r->from - before) / 2, high = r->to + (after - r->to) / 2;
-        candidate c = {.of = f,
+    enum { POINTS = 16 };
+    double most = 0;
+    *at = a->tau + (b->tau - a->tau) / 2;
+    for (int k = 1; k < POINTS; k++) {
+        const double tau = a->tau + (b->tau - a->tau) * k / POINTS;
+        const double size = fabs(polynomial(of->coefficients, of->degree, tau));
+        if (size > most) most = size, *at = tau;
+    }
+    return most;
+}
+
+/* The root that makes a pair with root k, if they are so near to one another that true steps are to tell whether there
+ * are two, one, or none: its number, else k. *at: the extremum between them. */
+static size_t pair_of(const search *of, const roots_root *root, size_t count, size_t k, double *at)
+{
+    const roots_root *a = &root[k];
+    size_t j = k + 1;
+    while (j < count && root[j].kind == ROOTS_NEAR) j++;
+    if (j == count || a->open || root[j].open || (int)a->kind * (int)root[j].kind != -1) return k;
+    return depth_between(of, a, &root[j], at) <= of->slack ? j : k;
+}
+
+/* Whether the step ends so near to 0, and so slowly, that only the next one tells whether the function touches 0: on
+ * either side, by no more than its error so far. */
+static motus_status lingers(events *e, size_t f, const search *of, const roots_root *last, bool *does, motus_error *err)
+{
+    const roots_root end = {.tau = 1};
+    double at, bound = 0;
+    *does = false;
+    if (of->part->to < 1 || e->right.t == e->until || fabs(e->right.rate[f] * e->span) > 8 * of->slack) return MOTUS_OK;
+    if (last && depth_between(of, last, &end, &at) > of->slack) return MOTUS_OK;
+    if (fabs(e->right.g[f]) > of->slack || e->rules.rule[e->rule_of[f]].internal) return MOTUS_OK;
+    events_copy(e, &e->here, &e->right);
+    motus_status status = events_judge(e, &e->here, err);
+    if (!status) status = events_error_of(e, f, 0, &bound, err);
+    *does = !status && fabs(e->right.g[f]) <= bound;
+    return status;
+}
+
+static candidate candidate_of(const events *e, size_t f, const search *of, const roots_root *r, double low, double high)
+{
+    return (candidate){.of = f,
                        .at = place_of(e, of, r->tau),
                        .low = place_of(e, of, low),
                        .high = place_of(e, of, high),
@@ -126,23 +162,49 @@ static bool add_roots(events *e, size_t f, const search *of, const roots_root *r
                        .kind = r->kind == ROOTS_RISING    ? CANDIDATE_RISES
                                : r->kind == ROOTS_FALLING ? CANDIDATE_FALLS
                                                           : (candidate_kind)r->side};
-        if (r->open && (of->part->to < 1 || e->right.t != e->until)) {
+}
+
+/* The candidates of one function, from its roots. */
+static motus_status add_roots(events *e, size_t f, const search *of, const roots_root *root, const roots_found *found,
+                              motus_error *err)
+{
+    const rule *rule = &e->rules.rule[e->rule_of[f]];
+    for (size_t k = 0; k < found->count; k++) {
+        const double before = k ? root[k - 1].to : 0;
+        roots_root one = root[k];
+        const size_t other = pair_of(of, root, found->count, k, &one.tau);
+        if (other > k) one.to = root[other].to, one.kind = ROOTS_TOUCH;
+        k = other;
+        const double after = k + 1 < found->count ? root[k + 1].from : 1;
+        const double low = before + (one.from - before) / 2, high = one.to + (after - one.to) / 2;
+        candidate c = candidate_of(e, f, of, &one, low, high);
+        bool open = false;
+        if (one.open && (of->part->to < 1 || e->right.t != e->until)) {
             /* the next part or step tells it again, and which way it goes on; unless the step ends beyond it */
             const double end = of->part->to < 1 ? 0 : e->right.g[f];
             const int sign = (end > 0) - (end < 0);
-            if (sign != -r->side || fabs(end) <= e->right.bound[f]) {
-                e->open[f] = 1;
-                continue;
-            }
-            c.near = false, c.kind = (candidate_kind)sign, c.high = e->span;
+            const bool away = fabs(end) > e->right.bound[f] && e->way * e->right.rate[f] * end > 0;
+            if (sign != -one.side && !(sign == one.side && away && c.near)) open = true;
+            if (sign == -one.side && fabs(end) <= e->right.bound[f]) open = true;
+            c.near = sign == one.side, c.kind = (candidate_kind)sign, c.high = e->span;
         }
-        c.sure = !c.near && (r->from <= 0 || fabs(polynomial(of->coefficients, of->degree, low)) > of->slack) &&
-                 (r->to >= 1 || fabs(polynomial(of->coefficients, of->degree, high)) > of->slack);
+        motus_status status = MOTUS_OK;
+        if (k + 1 == found->count && !c.near && !open) status = lingers(e, f, of, &one, &open, err);
+        if (status) return status;
+        if (open) {
+            e->open[f] = 1;
+            continue;
+        }
+        c.sure = !c.near && (one.from <= 0 || fabs(polynomial(of->coefficients, of->degree, low)) > of->slack) &&
+                 (one.to >= 1 || fabs(polynomial(of->coefficients, of->degree, high)) > of->slack);
         /* that it passes the other way is no event, and needs no true steps */
         c.idle = c.sure && rule->kind == RULE_ROOT && rule->direction == -c.kind;
-        if (!events_add(e, c)) return false;
+        if (!events_add(e, c)) return events_no_memory(err);
     }
-    return true;
+    bool open = false;
+    const motus_status status = found->count || found->last == 0 ? MOTUS_OK : lingers(e, f, of, NULL, &open, err);
+    e->open[f] |= open;
+    return status;
 }
 
 /* A function that stood at 0 at the start of the step has left it: whether that is an event. */
@@ -281,6 +343,30 @@ static bool begins_beyond(events *e, size_t f, double value, double from, int *s
         e, (candidate){.of = f, .at = time_at(e, from), .kind = (candidate_kind)now, .located = true, .jumps = true});
 }
 
+/* A function that was near 0 at the end of the step before is so by its error since the start, too. */
+static motus_status widen_noise(events *e, size_t f, double *noise, motus_error *err)
+{
+    double error = 0;
+    events_copy(e, &e->here, &e->left);
+    motus_status status = events_judge(e, &e->here, err);
+    if (!status) status = events_error_of(e, f, 0, &error, err);
+    *noise = fmax(*noise, error);
+    return status;
+}
+
+/* A function was near 0 where the part begins, and went back: whether it touched 0 there. False: no memory. */
+static bool went_back(events *e, size_t f, const search *of, int side)
+{
+    const part *p = of->part, before = {p->from - (p->to - p->from), p->from, 0};
+    const candidate c = {.of = f,
+                         .at = place_of(e, of, 0),
+                         .low = before.from > 0 ? time_at(e, before.from) : 0,
+                         .high = place_of(e, of, 1),
+                         .near = true,
+                         .kind = (candidate_kind)side};
+    return events_add(e, c);
+}
+
 /* What happens in a part of the step, from the values of a function at its points. *sign: that of the function where
  * the part begins, 0: it stands; then where it ends. *rough: the values do not tell. */
 static motus_status search_part(events *e, stepper *s, size_t f, const part *p, const double *value, size_t stride,
@@ -332,20 +418,20 @@ static motus_status search_part(events *e, stepper *s, size_t f, const part *p, 
     const double bound = fmax(hidden, bound_of_ends(e, f, largest));
     status = hides_itself(e, s, f, largest, bound, &hides, err);
     if (status || hides) return status ? status : too_fast(e, f, p->from, err);
-    const double noise = bound + moved + fmax(0, fitted.noise - rounding);
+    double noise = bound + moved + fmax(0, fitted.noise - rounding);
+    if (e->open[f] && p->from <= 0 && !stands) status = widen_noise(e, f, &noise, err);
+    if (status) return status;
     const search of = {p, coefficients, fitted.degree, fmax(SLACK * largest, 2 * noise)};
     roots_root root[ROOTS_ROOM];
     roots_found found;
     *rough = roots_find(coefficients, fitted.degree, *sign, noise, of.slack, root, ROOTS_ROOM, &found) == ROOTS_CUT;
     if (*rough) return MOTUS_OK;
     if (stands && !leave(e, f, &of, &found)) return events_no_memory(err);
-    const bool open = e->open[f] && !(found.count && root[0].from <= 0); /* it went back: a touch where it was */
-    const double start = place_of(e, &of, 0);
+    const bool open = e->open[f] && *sign && !(found.count && root[0].from <= 0);
     e->open[f] = 0;
-    if (open && !events_add(e, (candidate){.of = f, .at = start, .kind = CANDIDATE_TOUCHES, .located = true}))
-        return events_no_memory(err);
+    if (open && !went_back(e, f, &of, *sign)) return events_no_memory(err);
     if (found.last) *sign = found.last;
-    return add_roots(e, f, &of, root, &found) ? MOTUS_OK : events_no_memory(err);
+    return add_roots(e, f, &of, root, &found, err);
 }
 
 static motus_status too_many(const events *e, size_t f, motus_error *err)
@@ -365,7 +451,11 @@ static motus_status search_cell(events *e, size_t f, const part *p, const double
     motus_status status = judge_ends(e, err);
     if (status) return status;
     double largest = 0;
-    events_cell cell = {.of = f, .time = time, .value = finite, .from = time_at(e, p->from)};
+    events_cell cell = {.of = f,
+                        .time = time,
+                        .value = finite,
+                        .from = time_at(e, p->from),
+                        .last = p->to >= 1 && e->right.t == e->until};
     for (int k = 0; k <= PART_DEGREE; k++) {
         if (!isfinite(value[k])) continue;
         time[cell.count] = time_at(e, p->from + roots_point(k, PART_DEGREE) * (p->to - p->from));

@@ -61,6 +61,10 @@ motus_status events_sampled(events *e, const events_cell *c, int *sign, bool *to
     *told = true;
     if (!changes) {
         if (*sign == 0 || !may_touch(c, &k)) return MOTUS_OK;
+        if (!c->last && k + 1 == c->count && c->value[k] == 0) { /* the next part tells */
+            e->open[c->of] = 1;
+            return MOTUS_OK;
+        }
         candidate touch = between(c, k ? k - 1 : 0, k + 1 < c->count ? k + 1 : k);
         touch.near = true;
         touch.kind = (candidate_kind)*sign;

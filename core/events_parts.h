@@ -44,6 +44,7 @@ typedef struct events_cell {
     double from;                /* where it begins */
     const double *time, *value; /* since `left`, in their order */
     double bound;               /* values up to it are 0 */
+    bool last;                  /* the run ends here */
 } events_cell;
 
 typedef struct kept_state { /* the kept numbers from time t on */
@@ -89,6 +90,7 @@ struct events {
     int shorter; /* how often the present step may be taken anew, shorter, to resolve an internal function */
     bool hidden; /* the step is so long that rounding hides how a function leaves 0 at its start */
     uint8_t *zero;     /* it is 0 at `here` */
+    uint8_t *touched;  /* it has been told in this instant that it touches 0 */
     uint8_t *look;     /* dense output must tell of it in this step */
     int8_t *sign;      /* room for the signs of a condition's leaves */
     double *before;    /* the functions at `here` before an action */
@@ -154,6 +156,11 @@ motus_status events_probe(events *, double from, double lost, const double *x, c
 motus_status events_at(events *, double h, instant *, motus_error *);
 /* Finds where the candidate is, and the state there, in `here`. It may be gone; a near one may become two. */
 motus_status events_locate(events *, size_t candidate, motus_error *);
+/* How far off a function at `here`, which is judged, may be: by rounding since the start, and by the error of the step
+ * that leads here in the time h, 0: not by that. */
+motus_status events_error_of(events *, size_t function, double h, double *bound, motus_error *);
+/* Whether a function has stayed at 0, but for its error, since it touched 0 the last time; `here` is left elsewhere. */
+motus_status events_lingered(events *, const candidate *, bool *same, motus_error *);
 /* The direction in which a function moves at an instant along the run; 0: too small to tell. */
 int events_direction(const events *, const instant *, size_t function);
 void events_copy(const events *, instant *to, const instant *from); /* time, state and functions */
