@@ -42,6 +42,7 @@ static size_t arrange(events *e, char *block)
     e->after = next(&l, nx + nv, sizeof *e->after);
     e->width = next(&l, nx + nv, sizeof *e->width);
     e->swarm_state = next(&l, e->rules.settle ? 2 * SWARMS * (nx + nv) : 0, sizeof *e->swarm_state);
+    e->most = next(&l, nx + nv, sizeof *e->most);
     e->fired = next(&l, f, sizeof *e->fired);
     e->before = next(&l, f, sizeof *e->before);
     e->instances = next(&l, n, sizeof *e->instances);
@@ -58,6 +59,7 @@ static size_t arrange(events *e, char *block)
     e->look = next(&l, f, 1);
     e->passed = next(&l, f, 1);
     e->zero = next(&l, f, 1);
+    e->touched = next(&l, f, 1);
     e->held = next(&l, instances, 1);
     e->ticked = next(&l, n, 1);
     if (!block) return l.at;
@@ -167,6 +169,14 @@ static motus_status settle(events *e, stepper *s, motus_error *err)
     return status ? status : stepper_jump(s, at->t, at->lost, stepper_step(s), at->x, at->v, err);
 }
 
+/* A state counts among those since the start. */
+static void extend(events *e, const instant *at)
+{
+    const size_t nx = e->problem.nx, nv = e->problem.nv;
+    for (size_t k = 0; k < nx; k++) e->most[k] = fmax(e->most[k], fabs(at->x[k]));
+    for (size_t k = 0; k < nv; k++) e->most[nx + k] = fmax(e->most[nx + k], fabs(at->v[k]));
+}
+
 /* The sides of all functions at `left`. */
 static motus_status take_sides(events *e, motus_error *err)
 {
@@ -206,6 +216,9 @@ motus_status events_begin(events *e, stepper *s, double until, motus_error *err)
     if (!status && e->rules.settle) status = settle(e, s, err);
     if (!status) status = take_sides(e, err);
     if (status) return status;
+    memset(e->most, 0, (e->problem.nx + e->problem.nv) * sizeof *e->most);
+    e->taken = 0;
+    extend(e, &e->left);
     events_suppose(e);
     forget_happened(e);
     return status || events_keep_now(e, e->start, e->left.x) ? status
@@ -307,11 +320,29 @@ static bool cancelled(events *e)
     return e->cancelled;
 }
 
+/* A function jumps, or comes to 0 and stays: that is no root. False: there is a condition that it may change. */
+static bool changes_side(events *e, const candidate *c)
+{
+    e->side[c->of] = (int8_t)c->kind;
+    if (!c->kind) e->stands[c->of] = 1;
+    return e->rules.rule[e->rule_of[c->of]].kind == RULE_ROOT;
+}
+
 /* A candidate of the present step that has been located. */
 static motus_status follow(events *e, stepper *s, candidate *c, bool *assigned, stepper_stop *why, motus_error *err)
 {
     const candidate at = *c;
-    const bool again = told(e, &at), back = again && comes_back(e, &at), happens = !again || back;
+    if (at.jumps && changes_side(e, &at)) {
+        c->gone = true;
+        return MOTUS_OK;
+    }
+    bool same = false;
+    if (at.kind == CANDIDATE_TOUCHES && !told(e, &at)) {
+        motus_status status = events_lingered(e, &at, &same, err);
+        if (!status) status = events_locate(e, (size_t)(c - e->candidate), err);
+        if (status) return status;
+    }
+    const bool again = same || told(e, &at), back = again && comes_back(e, &at), happens = !again || back;
     c->gone = true;
     motus_status status = happens ? events_fire(e, &at, assigned, err) : MOTUS_OK;
     if (at.kind == CANDIDATE_TIME) /* a clock may tick again in this step */
@@ -396,6 +427,8 @@ static motus_status piece(events *e, stepper *s, double until, int64_t most, boo
         status = jump(e, s, &e->left, h, err);
     }
     e->whole = whole;
+    e->taken++;
+    extend(e, &e->right);
     if (!status && e->first) events_suppose(e);
     e->first = false;
     e->here_at = NAN;

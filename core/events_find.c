@@ -110,15 +110,51 @@ static double place_of(const events *e, const search *of, double tau)
     return time_at(e, of->part->from + tau * (of->part->to - of->part->from));
 }
 
-/* The candidates of one function, from its roots. */
-static bool add_roots(events *e, size_t f, const search *of, const roots_root *root, const roots_found *found)
+/* The largest size of the polynomial between two roots, and where. */
+static double depth_between(const search *of, const roots_root *a, const roots_root *b, double *at)
 {
-    const rule *rule = &e->rules.rule[e->rule_of[f]];
-    for (size_t k = 0; k < found->count; k++) {
-        const roots_root *r = &root[k];
-        const double before = k ? root[k - 1].to : 0, after = k + 1 < found->count ? root[k + 1].from : 1;
-        const double low = before + (r->from - before) / 2, high = r->to + (after - r->to) / 2;
-        candidate c = {.of = f,
+    enum { POINTS = 16 };
+    double most = 0;
+    *at = a->tau + (b->tau - a->tau) / 2;
+    for (int k = 1; k < POINTS; k++) {
+        const double tau = a->tau + (b->tau - a->tau) * k / POINTS;
+        const double size = fabs(polynomial(of->coefficients, of->degree, tau));
+        if (size > most) most = size, *at = tau;
+    }
+    return most;
+}
+
+/* The root that makes a pair with root k, if they are so near to one another that true steps are to tell whether there
+ * are two, one, or none: its number, else k. *at: the extremum between them. */
+static size_t pair_of(const search *of, const roots_root *root, size_t count, size_t k, double *at)
+{
+    const roots_root *a = &root[k];
+    size_t j = k + 1;
+    while (j < count && root[j].kind == ROOTS_NEAR) j++;
+    if (j == count || a->open || root[j].open || (int)a->kind * (int)root[j].kind != -1) return k;
+    return depth_between(of, a, &root[j], at) <= of->slack ? j : k;
+}
+
+/* Whether the step ends so near to 0, and so slowly, that only the next one tells whether the function touches 0: on
+ * either side, by no more than its error so far. */
+static motus_status lingers(events *e, size_t f, const search *of, const roots_root *last, bool *does, motus_error *err)
+{
+    const roots_root end = {.tau = 1};
+    double at, bound = 0;
+    *does = false;
+    if (of->part->to < 1 || e->right.t == e->until || fabs(e->right.rate[f] * e->span) > 8 * of->slack) return MOTUS_OK;
+    if (last && depth_between(of, last, &end, &at) > of->slack) return MOTUS_OK;
+    if (fabs(e->right.g[f]) > of->slack || e->rules.rule[e->rule_of[f]].internal) return MOTUS_OK;
+    events_copy(e, &e->here, &e->right);
+    motus_status status = events_judge(e, &e->here, err);
+    if (!status) status = events_error_of(e, f, 0, &bound, err);
+    *does = !status && fabs(e->right.g[f]) <= bound;
+    return status;
+}
+
+static candidate candidate_of(const events *e, size_t f, const search *of, const roots_root *r, double low, double high)
+{
+    return (candidate){.of = f,
                        .at = place_of(e, of, r->tau),
                        .low = place_of(e, of, low),
                        .high = place_of(e, of, high),
@@ -126,23 +162,49 @@ static bool add_roots(events *e, size_t f, const search *of, const roots_root *r
                        .kind = r->kind == ROOTS_RISING    ? CANDIDATE_RISES
                                : r->kind == ROOTS_FALLING ? CANDIDATE_FALLS
                                                           : (candidate_kind)r->side};
-        if (r->open && (of->part->to < 1 || e->right.t != e->until)) {
+}
+
+/* The candidates of one function, from its roots. */
+static motus_status add_roots(events *e, size_t f, const search *of, const roots_root *root, const roots_found *found,
+                              motus_error *err)
+{
+    const rule *rule = &e->rules.rule[e->rule_of[f]];
+    for (size_t k = 0; k < found->count; k++) {
+        const double before = k ? root[k - 1].to : 0;
+        roots_root one = root[k];
+        const size_t other = pair_of(of, root, found->count, k, &one.tau);
+        if (other > k) one.to = root[other].to, one.kind = ROOTS_TOUCH;
+        k = other;
+        const double after = k + 1 < found->count ? root[k + 1].from : 1;
+        const double low = before + (one.from - before) / 2, high = one.to + (after - one.to) / 2;
+        candidate c = candidate_of(e, f, of, &one, low, high);
+        bool open = false;
+        if (one.open && (of->part->to < 1 || e->right.t != e->until)) {
             /* the next part or step tells it again, and which way it goes on; unless the step ends beyond it */
             const double end = of->part->to < 1 ? 0 : e->right.g[f];
             const int sign = (end > 0) - (end < 0);
-            if (sign != -r->side || fabs(end) <= e->right.bound[f]) {
-                e->open[f] = 1;
-                continue;
-            }
-            c.near = false, c.kind = (candidate_kind)sign, c.high = e->span;
+            const bool away = fabs(end) > e->right.bound[f] && e->way * e->right.rate[f] * end > 0;
+            if (sign != -one.side && !(sign == one.side && away && c.near)) open = true;
+            if (sign == -one.side && fabs(end) <= e->right.bound[f]) open = true;
+            c.near = sign == one.side, c.kind = (candidate_kind)sign, c.high = e->span;
         }
-        c.sure = !c.near && (r->from <= 0 || fabs(polynomial(of->coefficients, of->degree, low)) > of->slack) &&
-                 (r->to >= 1 || fabs(polynomial(of->coefficients, of->degree, high)) > of->slack);
+        motus_status status = MOTUS_OK;
+        if (k + 1 == found->count && !c.near && !open) status = lingers(e, f, of, &one, &open, err);
+        if (status) return status;
+        if (open) {
+            e->open[f] = 1;
+            continue;
+        }
+        c.sure = !c.near && (one.from <= 0 || fabs(polynomial(of->coefficients, of->degree, low)) > of->slack) &&
+                 (one.to >= 1 || fabs(polynomial(of->coefficients, of->degree, high)) > of->slack);
         /* that it passes the other way is no event, and needs no true steps */
         c.idle = c.sure && rule->kind == RULE_ROOT && rule->direction == -c.kind;
-        if (!events_add(e, c)) return false;
+        if (!events_add(e, c)) return events_no_memory(err);
     }
-    return true;
+    bool open = false;
+    const motus_status status = found->count || found->last == 0 ? MOTUS_OK : lingers(e, f, of, NULL, &open, err);
+    e->open[f] |= open;
+    return status;
 }
 
 /* A function that stood at 0 at the start of the step has left it: whether that is an event. */
@@ -193,84 +255,37 @@ static motus_status judge_ends(events *e, motus_error *err)
     return status;
 }
 
+/* How far rounding may carry a function in the step: the larger bound of both ends. Near a pole that is larger than all
+ * values elsewhere, and says nothing of them. */
+static double bound_of_ends(const events *e, size_t f, double largest)
+{
+    const double left = e->left.bound[f], right = e->right.bound[f], most = fmax(left, right),
+                 least = fmin(left, right);
+    const bool certain = fabs(left < right ? e->left.g[f] : e->right.g[f]) > least;
+    return certain && 4 * most >= largest && 0x1p20 * least < most ? least : most;
+}
+
 /* Velocities of dense output are differences of positions, divided by the length of the step, which is a difference of
  * times: rounding of either counts with a weight of at most DENSE_WEIGHT / 2 (the largest of all methods is 2.2). */
 enum { DENSE_WEIGHT = 8 };
 
 /* How far rounding may carry function f on dense output. */
-static motus_status judge_dense(events *e, size_t f, double *bound, motus_error *err)
+static motus_status judge_dense(events *e, size_t f, double largest, double *bound, motus_error *err)
 {
     const size_t nx = e->problem.nx;
     motus_status status = judge_ends(e, err);
     if (status) return status;
+    const double ends = bound_of_ends(e, f, largest);
     instant *at = &e->here;
-    events_copy(e, at, &e->left);
+    events_copy(e, at, ends < e->left.bound[f] ? &e->right : &e->left);
     for (size_t k = 0; k < nx; k++) {
         const double far = fmax(fabs(e->left.x[k]), fabs(e->right.x[k]));
         const double lost = far + fabs(e->left.v[k] * e->right.t);
         at->v[k] += copysign(DENSE_WEIGHT * lost / fabs(e->span), at->v[k]);
     }
     status = events_bounds(e, at, err);
-    *bound = fmax(at->bound[f], fmax(e->left.bound[f], e->right.bound[f]));
+    *bound = fmax(at->bound[f], ends);
     return status;
-}
-
-/* What happens in a part of the step, from the values of a function at its points. *sign: that of the function where
- * the part begins, 0: it stands; then where it ends. *rough: the values do not tell. */
-static motus_status search_part(events *e, size_t f, const part *p, const double *value, size_t stride, int degree,
-                                int *sign, bool *rough, motus_error *err)
-{
-    double coefficients[ROOTS_DEGREE_MOST + 1], steepest;
-    if (*sign == 0 && !e->stands[f]) /* it has not been defined before */
-        *sign = e->side[f] = (int8_t)((value[0] > 0) - (value[0] < 0));
-    const bool stands = *sign == 0;
-    *rough = false;
-    const double largest = size_of(value, stride, degree, stands, &steepest);
-    /* The bounds on rounding are computed only where an event was near; most steps need none. The times of the points
-     * are rounded, too, which counts in steps that are short beside the time. */
-    const double moved = steepest * events_ulp(e->right.t) / fabs(e->span * (p->to - p->from));
-    double rounding = largest * 0x1p-44 + moved, hidden = 0;
-    if (stands) {
-        const motus_status judged = judge_dense(e, f, &hidden, err);
-        if (judged) return judged;
-        if (largest <= hidden && !e->heads[f]) return MOTUS_OK; /* it stays 0: its values are nothing but rounding */
-    }
-    roots_fitted fitted;
-    roots_fit_status fit;
-    for (bool judged = false;; judged = true) {
-        fit = roots_fit(value, stride, degree, rounding, coefficients, &fitted);
-        if (fit == ROOTS_FIT_NOT_FINITE) { /* where it is not defined there is no root, and parts tell of the rest */
-            for (int k = 0; k <= degree && p->depth < PARTS_DEEP; k++) *rough |= isfinite(value[(size_t)k * stride]);
-            return MOTUS_OK;
-        }
-        const double beyond = fit == ROOTS_FIT_ROUGH ? fitted.unseen : 0;
-        if (!stands && !e->open[f] && roots_none(coefficients, fitted.degree, SLACK * largest + fitted.noise + beyond))
-            return MOTUS_OK;
-        if (fit != ROOTS_FIT_ROUGH || judged) break;
-        /* it may be a small difference of large numbers, whose rounding it has */
-        const motus_status status = stands ? MOTUS_OK : judge_dense(e, f, &hidden, err);
-        if (status) return status;
-        rounding += hidden;
-    }
-    *rough = fit == ROOTS_FIT_ROUGH;
-    if (*rough) return MOTUS_OK;
-    const motus_status status = judge_ends(e, err);
-    if (status) return status;
-    const double bound = fmax(hidden, fmax(e->left.bound[f], e->right.bound[f]));
-    const double noise = bound + moved + fmax(0, fitted.noise - rounding);
-    const search of = {p, coefficients, fitted.degree, fmax(SLACK * largest, 2 * noise)};
-    roots_root root[ROOTS_ROOM];
-    roots_found found;
-    *rough = roots_find(coefficients, fitted.degree, *sign, noise, of.slack, root, ROOTS_ROOM, &found) == ROOTS_CUT;
-    if (*rough) return MOTUS_OK;
-    if (stands && !leave(e, f, &of, &found)) return events_no_memory(err);
-    const bool open = e->open[f] && !(found.count && root[0].from <= 0); /* it went back: a touch where it was */
-    const double start = place_of(e, &of, 0);
-    e->open[f] = 0;
-    if (open && !events_add(e, (candidate){.of = f, .at = start, .kind = CANDIDATE_TOUCHES, .located = true}))
-        return events_no_memory(err);
-    if (found.last) *sign = found.last;
-    return add_roots(e, f, &of, root, &found) ? MOTUS_OK : events_no_memory(err);
 }
 
 /* Whose function it is, and when. */
@@ -282,14 +297,141 @@ static motus_status of_function(const events *e, size_t f, double at, motus_erro
     return MOTUS_EVENTS;
 }
 
-static motus_status too_fast(const events *e, size_t f, const part *p, motus_error *err)
+static motus_status too_fast(const events *e, size_t f, double from, motus_error *err)
 {
     char t[DECIMAL_MAX];
-    const double at = e->left.t + time_at(e, p->from);
-    fail(err, MOTUS_EVENTS, "the function of %s changes so fast near t = %s that its roots cannot be told apart",
-         e->rules.rule[e->rule_of[f]].name, decimal_time(at, e->until - e->start, t));
-    hint(err, "a function of an event is smooth, and is 0 at times that are apart");
+    const rule *r = &e->rules.rule[e->rule_of[f]];
+    const double at = e->left.t + time_at(e, from);
+    fail(err, MOTUS_EVENTS, "the function of %s changes so fast near t = %s that its roots cannot be told apart%s%s",
+         r->name, decimal_time(at, e->until - e->start, t), r->jump ? ": it jumps with " : "", r->jump ? r->jump : "");
+    if (r->jump)
+        hint(err, "keep the value in a mode, which events change: with n = 0, `when x = n + 1 rising: n = n + 1`");
+    else
+        hint(err, "a function of an event is 0 at times that are apart");
     return of_function(e, f, at, err);
+}
+
+/* Whether a function changes within the rounding of the time by as much as in the step, which is far longer, so that
+ * its values tell nothing of what it does between: at two of three times, since a pole may be near one of them. */
+static motus_status hides_itself(events *e, stepper *s, size_t f, double largest, double bound, bool *hides,
+                                 motus_error *err)
+{
+    const double ulp = events_ulp(e->right.t);
+    instant *at = &e->here;
+    motus_status status = MOTUS_OK;
+    *hides = false;
+    if (!(fabs(e->span) > 1024 * ulp && 64 * bound >= largest) || e->rules.rule[e->rule_of[f]].internal)
+        return MOTUS_OK;
+    at->t = e->left.t + (e->left.lost + e->span / 2);
+    status = stepper_sample(s, at->t, at->x, at->v, err);
+    if (!status) status = events_values(e, at, err);
+    if (!status) status = events_judge(e, at, err);
+    const double rate[] = {e->left.rate[f], at->rate[f], e->right.rate[f]};
+    int fast = 0;
+    for (int k = 0; k < 3; k++) fast += isfinite(rate[k]) && 256 * fabs(rate[k]) * ulp > largest;
+    *hides = fast > 1;
+    return status;
+}
+
+/* A function that is on the other side where a part begins, and far from 0, has jumped there. False: no memory. */
+static bool begins_beyond(events *e, size_t f, double value, double from, int *sign)
+{
+    const int now = value > 0 ? 1 : -1;
+    if (now == *sign || e->rules.rule[e->rule_of[f]].internal) return true;
+    *sign = now;
+    return events_add(
+        e, (candidate){.of = f, .at = time_at(e, from), .kind = (candidate_kind)now, .located = true, .jumps = true});
+}
+
+/* A function that was near 0 at the end of the step before is so by its error since the start, too. */
+static motus_status widen_noise(events *e, size_t f, double *noise, motus_error *err)
+{
+    double error = 0;
+    events_copy(e, &e->here, &e->left);
+    motus_status status = events_judge(e, &e->here, err);
+    if (!status) status = events_error_of(e, f, 0, &error, err);
+    *noise = fmax(*noise, error);
+    return status;
+}
+
+/* A function was near 0 where the part begins, and went back: whether it touched 0 there. False: no memory. */
+static bool went_back(events *e, size_t f, const search *of, int side)
+{
+    const part *p = of->part, before = {p->from - (p->to - p->from), p->from, 0};
+    const candidate c = {.of = f,
+                         .at = place_of(e, of, 0),
+                         .low = before.from > 0 ? time_at(e, before.from) : 0,
+                         .high = place_of(e, of, 1),
+                         .near = true,
+                         .kind = (candidate_kind)side};
+    return events_add(e, c);
+}
+
+/* What happens in a part of the step, from the values of a function at its points. *sign: that of the function where
+ * the part begins, 0: it stands; then where it ends. *rough: the values do not tell. */
+static motus_status search_part(events *e, stepper *s, size_t f, const part *p, const double *value, size_t stride,
+                                int degree, int *sign, bool *rough, motus_error *err)
+{
+    double coefficients[ROOTS_DEGREE_MOST + 1], steepest;
+    if (*sign == 0 && !e->stands[f]) /* it has not been defined before */
+        *sign = e->side[f] = (int8_t)((value[0] > 0) - (value[0] < 0));
+    const bool stands = *sign == 0;
+    *rough = false;
+    const double largest = size_of(value, stride, degree, stands, &steepest);
+    if (!stands && largest == 0) { /* it is 0 all the time: it has come to 0 */
+        const double start = time_at(e, p->from);
+        *sign = e->side[f] = 0, e->stands[f] = 1, e->open[f] = 0;
+        const candidate c = {.of = f, .at = start, .kind = CANDIDATE_TOUCHES, .located = true, .jumps = true};
+        return events_add(e, c) ? MOTUS_OK : events_no_memory(err);
+    }
+    /* The bounds on rounding are computed only where an event was near; most steps need none. The times of the points
+     * are rounded, too, which counts in steps that are short beside the time. */
+    const double moved = steepest * events_ulp(e->right.t) / fabs(e->span * (p->to - p->from));
+    double rounding = largest * 0x1p-44 + moved, hidden = 0;
+    if (stands) {
+        const motus_status judged = judge_dense(e, f, largest, &hidden, err);
+        if (judged) return judged;
+        if (largest <= hidden && !e->heads[f]) return MOTUS_OK; /* it stays 0: its values are nothing but rounding */
+    }
+    roots_fitted fitted;
+    roots_fit_status fit;
+    for (bool judged = false;; judged = true) {
+        fit = roots_fit(value, stride, degree, rounding, coefficients, &fitted);
+        if (fit == ROOTS_FIT_NOT_FINITE) { /* where it is not defined there is no root, and parts tell of the rest */
+            for (int k = 0; k <= degree; k++) *rough |= isfinite(value[(size_t)k * stride]);
+            return MOTUS_OK;
+        }
+        const double beyond = fit == ROOTS_FIT_ROUGH ? fitted.unseen : 0;
+        if (!stands && !e->open[f] && roots_none(coefficients, fitted.degree, SLACK * largest + fitted.noise + beyond))
+            return begins_beyond(e, f, value[0], p->from, sign) ? MOTUS_OK : events_no_memory(err);
+        if (fit != ROOTS_FIT_ROUGH || judged) break;
+        /* it may be a small difference of large numbers, whose rounding it has */
+        const motus_status status = stands ? MOTUS_OK : judge_dense(e, f, largest, &hidden, err);
+        if (status) return status;
+        rounding += hidden;
+    }
+    *rough = fit == ROOTS_FIT_ROUGH;
+    if (*rough) return MOTUS_OK;
+    bool hides;
+    motus_status status = judge_ends(e, err);
+    if (status) return status;
+    const double bound = fmax(hidden, bound_of_ends(e, f, largest));
+    status = hides_itself(e, s, f, largest, bound, &hides, err);
+    if (status || hides) return status ? status : too_fast(e, f, p->from, err);
+    double noise = bound + moved + fmax(0, fitted.noise - rounding);
+    if (e->open[f] && p->from <= 0 && !stands) status = widen_noise(e, f, &noise, err);
+    if (status) return status;
+    const search of = {p, coefficients, fitted.degree, fmax(SLACK * largest, 2 * noise)};
+    roots_root root[ROOTS_ROOM];
+    roots_found found;
+    *rough = roots_find(coefficients, fitted.degree, *sign, noise, of.slack, root, ROOTS_ROOM, &found) == ROOTS_CUT;
+    if (*rough) return MOTUS_OK;
+    if (stands && !leave(e, f, &of, &found)) return events_no_memory(err);
+    const bool open = e->open[f] && *sign && !(found.count && root[0].from <= 0);
+    e->open[f] = 0;
+    if (open && !went_back(e, f, &of, *sign)) return events_no_memory(err);
+    if (found.last) *sign = found.last;
+    return add_roots(e, f, &of, root, &found, err);
 }
 
 static motus_status too_many(const events *e, size_t f, motus_error *err)
@@ -299,6 +441,33 @@ static motus_status too_many(const events *e, size_t f, motus_error *err)
          e->rules.rule[e->rule_of[f]].name, EVENTS_IN_STEP, decimal_time(e->left.t, e->until - e->start, t));
     hint(err, "a motion that leaves the finite numbers may pass ever more events: end the run before");
     return of_function(e, f, e->left.t, err);
+}
+
+/* What the samples of a part tell that is too short to be divided. */
+static motus_status search_cell(events *e, size_t f, const part *p, const double *value, int *sign, motus_error *err)
+{
+    double time[PART_DEGREE + 1], finite[PART_DEGREE + 1];
+    bool told, internal = e->rules.rule[e->rule_of[f]].internal;
+    motus_status status = judge_ends(e, err);
+    if (status) return status;
+    double largest = 0;
+    events_cell cell = {.of = f,
+                        .time = time,
+                        .value = finite,
+                        .from = time_at(e, p->from),
+                        .last = p->to >= 1 && e->right.t == e->until};
+    for (int k = 0; k <= PART_DEGREE; k++) {
+        if (!isfinite(value[k])) continue;
+        time[cell.count] = time_at(e, p->from + roots_point(k, PART_DEGREE) * (p->to - p->from));
+        finite[cell.count++] = value[k];
+        largest = fmax(largest, fabs(value[k]));
+    }
+    cell.bound = bound_of_ends(e, f, largest);
+    const bool whole = cell.count > PART_DEGREE;
+    if (internal && whole) return too_fast(e, f, p->from, err);
+    if (internal || !cell.count) return MOTUS_OK;
+    status = events_sampled(e, &cell, sign, &told, err);
+    return !status && !told && whole ? too_fast(e, f, p->from, err) : status;
 }
 
 /* The parts of the step one after the other, halved as long as a function is not resolved. */
@@ -313,10 +482,13 @@ static motus_status find_in_parts(events *e, stepper *s, size_t f, int *sign, mo
         const double middle = now.from + (now.to - now.from) / 2;
         bool rough;
         status = sample_part(e, s, f, &now, value, err);
-        if (!status) status = search_part(e, f, &now, value, 1, PART_DEGREE, sign, &rough, err);
+        if (!status) status = search_part(e, s, f, &now, value, 1, PART_DEGREE, sign, &rough, err);
         if (!status && e->candidates - before > EVENTS_IN_STEP) return too_many(e, f, err);
         if (status || !rough) continue;
-        if (now.depth == PARTS_DEEP) return too_fast(e, f, &now, err);
+        if (now.depth == PARTS_DEEP) {
+            status = search_cell(e, f, &now, value, sign, err);
+            continue;
+        }
         waiting[count++] = (part){middle, now.to, now.depth + 1};
         waiting[count++] = (part){now.from, middle, now.depth + 1};
     }
@@ -330,12 +502,12 @@ static motus_status find_of(events *e, stepper *s, size_t f, int *degree, motus_
     int sign = e->stands[f] ? 0 : e->side[f];
     bool rough;
     if (isnan(e->left.g[f]) && isnan(e->right.g[f])) return MOTUS_OK; /* a cell without a rule */
-    motus_status status = search_part(e, f, &all, e->samples + f, n, *degree, &sign, &rough, err);
+    motus_status status = search_part(e, s, f, &all, e->samples + f, n, *degree, &sign, &rough, err);
     const bool defined = isfinite(e->left.g[f]) && isfinite(e->right.g[f]);
     while (!status && rough && *degree < PART_DEGREE && defined) {
         *degree *= 2;
         status = sample(e, s, *degree, err);
-        if (!status) status = search_part(e, f, &all, e->samples + f, n, *degree, &sign, &rough, err);
+        if (!status) status = search_part(e, s, f, &all, e->samples + f, n, *degree, &sign, &rough, err);
     }
     if (!status && rough && e->rules.rule[e->rule_of[f]].internal && e->shorter > 0) { /* a switch is not passed */
         e->shorter--;

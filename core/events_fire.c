@@ -213,6 +213,38 @@ static int leaves(const events *e, size_t f, const candidate *c, bool acted)
     return events_direction(e, &e->here, f);
 }
 
+/* Whether a rate is more than rounding has left of larger ones. */
+static bool moves(const events *e, size_t f)
+{
+    const double most = e->marked ? fmax(fabs(e->left.rate[f]), fabs(e->right.rate[f])) : 0;
+    return fabs(e->here.rate[f]) > 0x1p-44 * most;
+}
+
+/* The candidate of function f here, where another event happens; NULL: there is none. */
+static candidate *about(const events *e, size_t f, bool touches)
+{
+    for (size_t k = 0; k < e->candidates; k++) {
+        candidate *c = &e->candidate[k];
+        const bool touch = (c->near || c->kind == CANDIDATE_TOUCHES) && !c->jumps;
+        if (c->gone || c->kind == CANDIDATE_TIME || c->of != f || (touches && !touch)) continue;
+        if (c->located ? fabs(c->at - e->here_at) <= 4 * events_ulp(e->here.t)
+                       : e->way * (e->here_at - c->low) >= 0 && e->way * (c->high - e->here_at) >= 0)
+            return c;
+    }
+    return NULL;
+}
+
+static candidate *touching(const events *e, size_t f) { return about(e, f, true); }
+
+/* The side on which function f goes on, 0: it stays at 0. */
+static int goes_on(const events *e, size_t f, const candidate *c, bool acted)
+{
+    const bool own = !acted && c->kind != CANDIDATE_TIME && c->of == f;
+    if (own && (c->kind != CANDIDATE_TOUCHES || c->jumps)) return c->kind;
+    const bool touched = fabs(e->fired[f] - e->here.t) <= 4 * events_ulp(e->here.t) && !moves(e, f);
+    return own || touched || touching(e, f) ? e->side[f] : events_direction(e, &e->here, f);
+}
+
 /* An event has acted: where its events accumulate, and the state there. */
 static void approach(events *e, size_t k, size_t i)
 {
@@ -227,9 +259,14 @@ static motus_status ask_root(events *e, size_t k, size_t i, const candidate *c, 
     const size_t f = r->first + i;
     const bool here = c->kind != CANDIDATE_TIME && c->of == f;
     if (!e->zero[f] || (e->fired[f] == e->here.t && !*acted)) return MOTUS_OK;
+    const bool told = e->fired[f] == e->here.t;
+    if (e->touched[f] && !moves(e, f)) return MOTUS_OK;
     const int to = leaves(e, f, c, *acted);
-    if (here && !*acted && c->kind == CANDIDATE_TOUCHES) {
+    candidate *touch = told || here ? NULL : touching(e, f);
+    if (touch || (here && !told && c->kind == CANDIDATE_TOUCHES)) {
         e->fired[f] = e->here.t;
+        e->touched[f] = 1;
+        if (touch) touch->gone = true;
         if (r->direction) return MOTUS_OK;
         *again |= r->assigns;
         return happen(e, k, i, true, acted, err);
@@ -265,7 +302,7 @@ static motus_status ask_condition(events *e, size_t k, size_t i, const candidate
     const rule *r = &e->rules.rule[k];
     uint8_t *held = &e->held[e->instances[k] + i];
     int8_t *sign = e->sign;
-    bool any = false;
+    bool any = false, passes = false;
     for (size_t l = 0; l < r->leaves; l++) {
         const size_t f = r->first + l * r->instances + i;
         sign[f] = (int8_t)(e->zero[f] ? 0 : sign_of(e->here.g[f]));
@@ -275,14 +312,18 @@ static motus_status ask_condition(events *e, size_t k, size_t i, const candidate
     for (size_t l = 0; l < r->leaves; l++) {
         const size_t f = r->first + l * r->instances + i;
         if (e->zero[f]) {
-            const int to = leaves(e, f, c, *acted);
-            sign[f] = (int8_t)to;
+            const bool own = c->kind != CANDIDATE_TIME && c->of == f, other = touching(e, f) != NULL;
+            sign[f] = (int8_t)goes_on(e, f, c, *acted);
+            if (other || (own && c->kind == CANDIDATE_TOUCHES && !c->jumps)) e->fired[f] = e->here.t;
+            passes |= own || about(e, f, false);
         }
         if (sign[f]) e->side[f] = sign[f];
     }
     double *happened = &e->happened[e->instances[k] + i];
     const bool before = fabs(*happened - e->here.t) <= 4 * events_ulp(e->here.t);
-    const bool after = any ? rules_hold(r, i, sign) : now, happens = !*held && ((now && !before) || after);
+    /* it becomes true here, or just after; also where it is false for this instant alone */
+    const bool after = any ? rules_hold(r, i, sign) : now;
+    const bool happens = *held ? passes && !now && after && !before : (now && !before) || after;
     *held = after;
     if (!happens) return MOTUS_OK;
     bool assigned = false;
@@ -316,13 +357,6 @@ static motus_status ask(events *e, size_t k, const candidate *c, bool *acted, bo
     return status;
 }
 
-/* Whether a rate is more than rounding has left of larger ones. */
-static bool moves(const events *e, size_t f)
-{
-    const double most = e->marked ? fmax(fabs(e->left.rate[f]), fabs(e->right.rate[f])) : 0;
-    return fabs(e->here.rate[f]) > 0x1p-44 * most;
-}
-
 /* Where an action let a function jump over 0, it did not pass 0. */
 void events_stand(events *e)
 {
@@ -335,6 +369,26 @@ void events_stand(events *e)
     }
 }
 
+/* Whether the rule to which a candidate leads may end the step here. */
+static bool ends_step(const events *e, const candidate *c)
+{
+    return e->rules.rule[c->kind == CANDIDATE_TIME ? c->of : e->rule_of[c->of]].assigns;
+}
+
+/* Functions that touch 0 about here are at 0 in this instant, if their error so far may have carried them off. */
+static motus_status touch_too(events *e, motus_error *err)
+{
+    motus_status status = MOTUS_OK;
+    for (size_t k = 0; k < e->candidates && !status; k++) {
+        const candidate *c = &e->candidate[k];
+        if (c->kind == CANDIDATE_TIME || e->zero[c->of] || !touching(e, c->of)) continue;
+        double bound;
+        status = events_error_of(e, c->of, e->here_at, &bound, err);
+        e->zero[c->of] = !status && fabs(e->here.g[c->of]) <= bound;
+    }
+    return status;
+}
+
 motus_status events_fire(events *e, const candidate *c, bool *assigned, motus_error *err)
 {
     bool again = true;
@@ -342,8 +396,13 @@ motus_status events_fire(events *e, const candidate *c, bool *assigned, motus_er
     /* what is beyond 0 already has passed it in this very instant: its own candidate comes a rounding later */
     for (size_t f = 0; f < e->rules.functions; f++)
         e->zero[f] = is_zero(e, f) || (e->side[f] && sign_of(e->here.g[f]) == -e->side[f]);
-    if (c->kind != CANDIDATE_TIME) e->zero[c->of] = 1;
+    if (c->kind != CANDIDATE_TIME && !(c->jumps && c->kind)) e->zero[c->of] = 1;
+    if (ends_step(e, c)) {
+        status = touch_too(e, err);
+        if (status) return status;
+    }
     memset(e->ticked, 0, e->rules.count);
+    memset(e->touched, 0, e->rules.functions);
     events_overlay(e, e->here.x);
     while (again && !status) {
         again = false;

@@ -1,7 +1,8 @@
 /* What the files of events share: the struct, and what each file does with it.
  *
  * events.c: life and steps. events_find.c: the roots of a step, by dense output. events_place.c: true steps, and where
- * a root is by them. events_fire.c: what happens in one instant. events_table.c: rows, kept numbers, accumulation.
+ * a root is by them. events_jump.c: functions that jump or have a kink.
+ * events_fire.c: what happens in one instant. events_table.c: rows, kept numbers, accumulation.
  * events_swarm.c: switches that accumulate. events_state.c: restart states. Invariant: `left` is the state at which the
  * present step began, and `side` are the sides of all functions there, those of the events that have happened since
  * included.
@@ -32,7 +33,20 @@ typedef struct candidate {
     bool idle; /* its function changes its side, and nothing happens */
     bool sure; /* by far more than dense output errs, its function has other signs at `low` and at `high` */
     bool near; /* an extremum near 0, of which true steps are to tell whether it touches, crosses twice, or neither */
+    bool sampled; /* samples told of it: events_jump.c */
+    bool leaves;  /* it has been 0 before; sampled ones */
+    bool jumps;   /* it is no root: the function jumps to this side; CANDIDATE_TOUCHES: it comes to 0 and stays */
 } candidate;
+
+/* A part of the step in which a function is no polynomial, too short to be divided. */
+typedef struct events_cell {
+    size_t of; /* function */
+    int count;
+    double from;                /* where it begins */
+    const double *time, *value; /* since `left`, in their order */
+    double bound;               /* values up to it are 0 */
+    bool last;                  /* the run ends here */
+} events_cell;
 
 typedef struct kept_state { /* the kept numbers from time t on */
     double t;
@@ -109,6 +123,7 @@ struct events {
     int shorter; /* how often the present step may be taken anew, shorter, to resolve an internal function */
     bool hidden; /* the step is so long that rounding hides how a function leaves 0 at its start */
     uint8_t *zero;     /* it is 0 at `here` */
+    uint8_t *touched;  /* it has been told in this instant that it touches 0 */
     uint8_t *look;     /* dense output must tell of it in this step */
     uint8_t *passed;   /* it has passed 0 in watched steps, and nothing happened */
     int8_t *sign;      /* room for the signs of a condition's leaves */
@@ -118,6 +133,8 @@ struct events {
     int last_pause;    /*   how many in all */
     double *fired;     /* when it did last; NaN: never */
     uint32_t *rule_of; /* function */
+    double *most;      /* the largest size of positions, then velocities, since the start */
+    int64_t taken;     /* steps since the start */
     double *width;     /* how far positions, then velocities, may be within the step from half way between its ends */
     double *samples;   /* values at the points of the step */
     int samples_room;
@@ -187,6 +204,11 @@ motus_status events_probe(events *, double from, double lost, const double *x, c
 motus_status events_at(events *, double h, instant *, motus_error *);
 /* Finds where the candidate is, and the state there, in `here`. It may be gone; a near one may become two. */
 motus_status events_locate(events *, size_t candidate, motus_error *);
+/* How far off a function at `here`, which is judged, may be: by rounding since the start, and by the error of the step
+ * that leads here in the time h, 0: not by that. */
+motus_status events_error_of(events *, size_t function, double h, double *bound, motus_error *);
+/* Whether a function has stayed at 0, but for its error, since it touched 0 the last time; `here` is left elsewhere. */
+motus_status events_lingered(events *, const candidate *, bool *same, motus_error *);
 /* The direction in which a function moves at an instant along the run; 0: too small to tell. */
 int events_direction(const events *, const instant *, size_t function);
 void events_copy(const events *, instant *to, const instant *from); /* time, state and functions */
@@ -203,6 +225,12 @@ bool events_add(events *, candidate);
 motus_status events_no_memory(motus_error *);
 /* The next tick of a clock. False: it is not within the step. */
 bool events_next_tick(const events *, size_t rule, candidate *);
+
+/* events_jump.c. What happens in a cell, in which the function begins with *sign, 0: it stands; then that with which it
+ * ends. *told false: more than samples can tell apart. */
+motus_status events_sampled(events *, const events_cell *, int *sign, bool *told, motus_error *);
+/* events_locate for a sampled candidate. */
+motus_status events_locate_sampled(events *, size_t candidate, motus_error *);
 
 /* events_fire.c. All that happens at `here`, to which the candidate leads. */
 motus_status events_fire(events *, const candidate *, bool *assigned, motus_error *);

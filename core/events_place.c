@@ -218,11 +218,75 @@ static motus_status extremum(events *e, candidate *c, motus_error *err)
             high = h, at_high = rate;
         double next = isnan(at_low) || isnan(at_high) ? h + (before ? 0.25 * (high - h) : 0.25 * (low - h))
                                                       : high - at_high * (high - low) / (at_high - at_low);
-        if (turn % 3 == 2 || !(e->way * (next - low) > 0 && e->way * (high - next) > 0)) next = low + (high - low) / 2;
+        /* halving is faster where the extremum is flat */
+        if (turn % 3 == 2 || turn > 12 || !(e->way * (next - low) > 0 && e->way * (high - next) > 0))
+            next = low + (high - low) / 2;
         if (next == h || next == low || next == high || fabs(high - low) <= events_ulp(at->t)) break;
         h = next;
     }
     return MOTUS_OK;
+}
+
+/* How far off every number of the state at `here` may be, a time h after the beginning of the step, into e->width: by
+ * the rounding since the start, which steps carry one way or the other, and where steps adapt by the error of the step
+ * that leads here, which two steps of half its length tell. */
+static motus_status state_errors(events *e, double h, motus_error *err)
+{
+    const size_t nx = e->problem.nx, nv = e->problem.nv, moving = nx - e->problem.modes;
+    const double units = 8 * (1 + sqrt((double)e->taken)) * 0x1p-53;
+    const instant *here = &e->here, *from = &e->left;
+    instant *to = &e->next;
+    events_copy(e, to, here);
+    if (row_adaptive(&e->method) && from->t + h / 2 != from->t && from->t + h / 2 != from->t + h) {
+        double t, lost;
+        motus_status status = events_probe(e, from->t, from->lost, from->x, from->v, h / 2, &t, &lost, err);
+        if (!status) status = stepper_sync(e->probe, to->x, to->v, NULL, err);
+        if (!status) status = events_probe(e, t, lost, to->x, to->v, h / 2, &to->t, &to->lost, err);
+        if (!status) status = stepper_sync(e->probe, to->x, to->v, NULL, err);
+        if (status) return status;
+    }
+    for (size_t k = 0; k < nx; k++) e->width[k] = k < moving ? 2 * fabs(to->x[k] - here->x[k]) + units * e->most[k] : 0;
+    for (size_t k = 0; k < nv; k++) e->width[nx + k] = 2 * fabs(to->v[k] - here->v[k]) + units * e->most[nx + k];
+    return MOTUS_OK;
+}
+
+/* How much a function at `here` changes when every number does by its error, with the signs that bit `bit` of its place
+ * has; bit < 0: only number `one`. */
+static motus_status change(events *e, size_t f, int bit, size_t one, double *most, motus_error *err)
+{
+    const size_t nx = e->problem.nx, all = nx + e->problem.nv;
+    instant *to = &e->next;
+    for (int sign = -1; sign <= 1; sign += 2) {
+        events_copy(e, to, &e->here);
+        for (size_t k = bit < 0 ? one : 0; k < all && (bit >= 0 || k == one); k++)
+            *(k < nx ? &to->x[k] : &to->v[k - nx]) += (bit > 0 && (k >> (bit - 1) & 1) ? -sign : sign) * e->width[k];
+        const motus_status status = events_values(e, to, err);
+        if (status) return status;
+        const double by = fabs(to->g[f] - e->here.g[f]);
+        if (isfinite(by)) *most = fmax(*most, by);
+    }
+    return MOTUS_OK;
+}
+
+/* By its own rounding, that of the time, and the errors of the state, of few numbers each by itself. */
+motus_status events_error_of(events *e, size_t f, double h, double *bound, motus_error *err)
+{
+    enum { FEW = 32 };
+    const size_t all = e->problem.nx + e->problem.nv;
+    double sum = 0;
+    motus_status status = state_errors(e, h, err);
+    for (size_t k = 0; k < all && all <= FEW && !status; k++) {
+        double by = 0;
+        if (e->width[k] > 0) status = change(e, f, -1, k, &by, err);
+        sum += by;
+    }
+    for (int bit = 0; all > FEW && !status && (bit == 0 || all >> (bit - 1)); bit++) {
+        double by = 0;
+        status = change(e, f, bit, 0, &by, err);
+        sum = fmax(sum, 2 * by);
+    }
+    *bound = sum + e->here.bound[f] + fabs(e->here.rate[f]) * events_ulp(e->here.t);
+    return status;
 }
 
 /* How far rounding may have carried a function at `here`: the state near 0 carries that of the larger ones that led
@@ -277,10 +341,25 @@ static motus_status widen(events *e, size_t k, motus_error *err)
     return before && after && !events_add(e, two) ? events_no_memory(err) : MOTUS_OK;
 }
 
+motus_status events_lingered(events *e, const candidate *c, bool *same, motus_error *err)
+{
+    const double since = (e->fired[c->of] - e->left.t) - e->left.lost,
+                 h = e->way * since > 0 ? since + (c->at - since) / 2 : 0;
+    double bound;
+    *same = false;
+    if (!(fabs(c->at - since) <= fabs(e->span))) return MOTUS_OK;
+    motus_status status = events_at(e, h, &e->here, err);
+    if (!status) status = events_judge(e, &e->here, err);
+    if (!status) status = events_error_of(e, c->of, h, &bound, err);
+    *same = !status && fabs(e->here.g[c->of]) <= bound;
+    return status;
+}
+
 motus_status events_locate(events *e, size_t k, motus_error *err)
 {
     candidate *c = &e->candidate[k];
     motus_status status = MOTUS_OK;
+    if (c->sampled && !c->located) return events_locate_sampled(e, k, err);
     if (c->located || c->kind == CANDIDATE_TIME) {
         c->located = true;
         status = events_at(e, c->at, &e->here, err);
@@ -293,8 +372,10 @@ motus_status events_locate(events *e, size_t k, motus_error *err)
         status = sign_at(e, c->low, f, &low, err);
         if (!status) status = sign_at(e, c->high, f, &high, err);
         if (status) return status;
-        /* by the step's own values it crosses, or its extremum decides */
-        if (low && low == -high) {
+        /* by the step's own values it crosses, or its extremum decides; where the step begins it may be beyond 0 by its
+         * error so far, which the step before has left to this one */
+        const bool lingers = c->near && c->low == 0 && low == -(int)c->kind;
+        if (low && low == -high && !lingers) {
             c->near = false;
             c->kind = (candidate_kind)high;
         } else if (low && low == high) {
@@ -310,7 +391,10 @@ motus_status events_locate(events *e, size_t k, motus_error *err)
         status = extremum(e, c, err);
         if (status) return status;
         const double g = e->here.g[f], at = c->at;
-        if (fabs(g) <= carried(e, f)) {
+        double bound;
+        status = events_error_of(e, f, at, &bound, err);
+        if (status) return status;
+        if (fabs(g) <= bound) {
             c->near = false;
             c->kind = CANDIDATE_TOUCHES;
             c->located = true;

@@ -81,6 +81,8 @@ static void pass_instant(pass *p, events *e)
     at->lost = number(p, at->lost);
     numbers(p, at->x, e->problem.nx);
     numbers(p, at->v, e->problem.nv);
+    numbers(p, e->most, e->problem.nx + e->problem.nv);
+    e->taken = counter(p, e->taken);
     if (p->way == PASS_READ) at->valued = false;
 }
 

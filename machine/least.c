@@ -27,3 +27,8 @@ node least_size(model *m, node value)
     if (graph_deps(g, value) & (DEP_TIME | DEP_A)) return graph_const(g, -1);
     return graph_op(g, OP_SUB, graph_op(g, OP_ABS, value, 0, 0), least_radius(m, value), 0);
 }
+
+node least_rate(model *m, node value, node rate)
+{
+    return graph_jump(m->graph, value) ? graph_const(m->graph, -1) : least_size(m, rate);
+}

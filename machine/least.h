@@ -9,5 +9,7 @@
 node least_radius(model *, node value);
 /* A number that |value| nowhere falls below on the box; not positive: none is known. */
 node least_size(model *, node value);
+/* The same of the rate of `value`, as far as it tells how the value changes: not positive where that may jump. */
+node least_rate(model *, node value, node rate);
 
 #endif

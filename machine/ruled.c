@@ -164,7 +164,7 @@ static bool make_functions(ruled *r, model *m)
             rate[n].value = graph_derivative(m->graph, leaves[n].value, model_seed_motion, m);
             if (graph_deps(m->graph, rate[n].value) & DEP_A) r->supplied.rates_without_a = false;
             nearest[n].value = least_size(m, leaves[n].value);
-            slowest[n].value = least_size(m, rate[n].value);
+            slowest[n].value = least_rate(m, leaves[n].value, rate[n].value);
         }
     r->values = tape_of(m->arena, m->graph, leaves, count);
     r->rates = tape_of(m->arena, m->graph, rate, count);
@@ -223,6 +223,19 @@ static bool find_kept(ruled *r, const model *m)
     return true;
 }
 
+/* The first operation of a rule's functions that may jump, as text in the model's arena, or NULL. */
+static const char *jump_of(model *m, const model_rule *r)
+{
+    char text[64];
+    for (size_t k = 0; k < r->leaves; k++) {
+        const node at = graph_jump(m->graph, r->leaf[k].value);
+        if (!at) continue;
+        model_print(m, at, text, sizeof text);
+        return arena_text(m->arena, text, strlen(text));
+    }
+    return NULL;
+}
+
 static void describe(const model_rule *from, rule *to)
 {
     *to = (rule){.name = from->name,
@@ -255,6 +268,7 @@ static bool make(ruled *r, model *m)
     for (uint32_t i = 0; i < m->rule_count; i++) {
         const model_rule *rule = &m->rules[i];
         describe(rule, &r->rule[i]);
+        r->rule[i].jump = jump_of(m, rule);
         r->act[i] = rule->assignments ? make_act(m, rule) : NULL;
         if (rule->assignments && !r->act[i]) return false;
         if (rule->numbers > most) most = rule->numbers;

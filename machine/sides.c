@@ -702,7 +702,7 @@ static bool make_least(sides *s, model *m)
         const bool counts = switches_counts(op_of(s, w->first[k]));
         nearest[k] = w->held[k], slowest[k] = w->rate[k];
         nearest[k].value = counts ? least_count(m, w->held[k].value, w->side[k]) : least_size(m, w->held[k].value);
-        slowest[k].value = counts ? graph_const(m->graph, -1) : least_size(m, w->rate[k].value);
+        slowest[k].value = counts ? graph_const(m->graph, -1) : least_rate(m, w->held[k].value, w->rate[k].value);
     }
     s->least = tape_of(m->arena, m->graph, nearest, w->kinds);
     s->least_rates = tape_of(m->arena, m->graph, slowest, w->kinds);

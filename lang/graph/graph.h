@@ -137,6 +137,11 @@ int graph_degree(graph *, node, unsigned deps);
 /* The first node, if any, that is not smooth along the motion (ABS MIN MAX FLOOR MOD SIGN SELECT, a comparison), or 0.
  */
 node graph_kink(graph *, node);
+/* The first node, if any, whose value may jump along the motion where its rate is bounded (FLOOR MOD SIGN SELECT ATAN2,
+ * a comparison), or 0. */
+node graph_jump(graph *, node);
+/* Whether the value only jumps along the motion, or stays what it is (floor(x), sign(x) + 1). */
+bool graph_flat(graph *, node);
 /* The first operation, if any, whose operands depend on modes and that is not smooth for all of them: sqrt, a power
  * that is not whole, log, asin, acos; or 0. */
 node graph_domain(graph *, node);

@@ -110,8 +110,15 @@ int graph_degree(graph *g, node root, unsigned deps)
 
 /* Kinks ----------------------------------------------------------------------------------------------------------- */
 
-/* A kink that depends on parameters, modes and indices alone does not count: the value stays on one side of it. */
-node graph_kink(graph *g, node root)
+static bool kinks(operation op) { return !operation_at(op)->smooth; }
+
+static bool jumps(operation op)
+{
+    return op == OP_ATAN2 || (kinks(op) && op != OP_ABS && op != OP_MIN && op != OP_MAX);
+}
+
+/* What depends on parameters, modes and indices alone does not count: the value stays on one side of it. */
+static node first_moving(graph *g, node root, bool (*is)(operation))
 {
     const unsigned moving = DEP_TIME | (DEP_STATE & ~DEP_MODE) | DEP_D;
     graph_walk w;
@@ -120,10 +127,37 @@ node graph_kink(graph *g, node root)
     for (uint32_t k = 0; !found && k < w.count; k++) {
         const graph_node *n = &g->nodes[w.nodes[k]];
         unsigned deps = n->op == OP_SELECT ? g->nodes[n->a].deps : n->deps;
-        if (!operation_at(n->op)->smooth && deps & moving) found = w.nodes[k];
+        if (is((operation)n->op) && deps & moving) found = w.nodes[k];
     }
     give(&g->arena->allocator, w.nodes);
     return found;
+}
+
+node graph_kink(graph *g, node root) { return first_moving(g, root, kinks); }
+node graph_jump(graph *g, node root) { return first_moving(g, root, jumps); }
+
+bool graph_flat(graph *g, node root)
+{
+    const unsigned moving = DEP_TIME | (DEP_STATE & ~DEP_MODE) | DEP_D;
+    graph_walk w;
+    if (!(g->nodes[root].deps & moving)) return true;
+    uint8_t *flat = NULL;
+    bool result = false;
+    if (graph_order(g, &root, 1, moving, true, &w)) flat = take(&g->arena->allocator, w.count, 1);
+    if (!flat) g->arena->failed = true;
+    for (uint32_t k = 0; flat && k < w.count; k++) {
+        const graph_node *n = &g->nodes[w.nodes[k]];
+        node operand[3];
+        const int count = graph_operands(n, operand);
+        result = count > 0;
+        for (int j = n->op == OP_SELECT ? 1 : 0; j < count; j++)
+            result &= !graph_reached(g, &w, operand[j]) || flat[g->place[operand[j]]];
+        result |= n->op == OP_FLOOR || n->op == OP_SIGN || operation_decides((operation)n->op);
+        flat[k] = result;
+    }
+    give(&g->arena->allocator, flat);
+    give(&g->arena->allocator, w.nodes);
+    return result;
 }
 
 static bool has_domain(const graph *g, const graph_node *n)

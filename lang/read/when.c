@@ -499,11 +499,23 @@ static bool judge_assignments(model *m, model_rule *r)
     return true;
 }
 
+/* A function that jumps and is constant between never passes 0: such an event would never happen. */
+static bool flat(model *m, const model_rule *r, node leaf)
+{
+    char text[80];
+    if (!graph_jump(m->graph, leaf) || !graph_flat(m->graph, leaf)) return false;
+    COMPLAIN(m, &r->occasion, "%s never happens: its sides are constant but where they jump, and do not pass",
+             quote(m, &r->occasion, text));
+    HINT(m, "write >= or <= in place of =: a condition happens when it becomes true");
+    return true;
+}
+
 /* A function of modes alone changes at events alone, and so never passes 0: such an event would never happen. */
 static bool judge_functions(model *m, const model_rule *r)
 {
     for (size_t k = 0; r->kind == RULE_ROOT && k < r->leaves; k++) {
         const unsigned deps = graph_deps(m->graph, r->leaf[k].value);
+        if (flat(m, r, r->leaf[k].value)) return false;
         if (!(deps & DEP_MODE) || (deps & (DEP_TIME | (DEP_STATE & ~(unsigned)DEP_MODE)))) continue;
         char text[80];
         COMPLAIN(m, &r->occasion, "%s never happens: its sides change at events alone, where they jump and do not pass",

@@ -1,0 +1,222 @@
+/* Functions that jump or have a kink, in the smallest parts of a step: samples tell what happens there, and true steps
+ * whether a change of sign is a root. See events_parts.h.
+ *
+ * A function that jumps over 0 has no root there: it changes its side. One that comes to 0 and stays has none either,
+ * until it leaves 0. Invariant: a candidate that is `sampled` has its place between two samples.
+ */
+#include "core/events_parts.h"
+
+#include <math.h>
+
+/* ---- what samples tell ---- */
+
+enum { RISES = CANDIDATE_RISES, FALLS = CANDIDATE_FALLS };
+
+static int sign_of(double g, double bound) { return fabs(g) <= bound ? 0 : g > 0 ? 1 : -1; }
+
+/* The samples between which the function changes, from `from` on: *at is the first one that has the new sign, which is
+ * 0 where it stays 0 up to the last sample, and `*before` the last one that has the old sign. False: it does not. */
+static bool next_change(const events_cell *c, int sign, int from, int *before, int *at, int *to)
+{
+    for (int k = from; k < c->count; k++) {
+        const int s = sign_of(c->value[k], c->bound);
+        if (s == sign) continue;
+        int end = k;
+        while (!s && end < c->count && !sign_of(c->value[end], c->bound)) end++;
+        if (!s && end == c->count && c->count - k == 1) return false; /* the next part tells */
+        const bool stays = !s && (end == c->count || end - k > 1);
+        *before = k ? k - 1 : 0;
+        *at = s || stays ? k : end;
+        *to = stays ? 0 : sign_of(c->value[*at], c->bound);
+        if (*to != sign) return true;
+        k = *at;
+    }
+    return false;
+}
+
+static double distance(const events_cell *c, int k)
+{
+    return k >= 0 && k + 1 < c->count ? fabs(c->value[k + 1] - c->value[k]) : 0;
+}
+
+/* Where the function, which keeps its sign, is so near to 0 that it may touch it between samples. */
+static bool may_touch(const events_cell *c, int *at)
+{
+    *at = 0;
+    for (int k = 1; k < c->count; k++)
+        if (fabs(c->value[k]) < fabs(c->value[*at])) *at = k;
+    return fabs(c->value[*at]) <= 2 * fmax(distance(c, *at - 1), distance(c, *at));
+}
+
+static candidate between(const events_cell *c, int low, int high)
+{
+    const double from = low < high ? c->time[low] : c->from, to = c->time[high];
+    return (candidate){.of = c->of, .at = from + (to - from) / 2, .low = from, .high = to, .sampled = true};
+}
+
+motus_status events_sampled(events *e, const events_cell *c, int *sign, bool *told, motus_error *err)
+{
+    int low, high, to, k, more = *sign;
+    const bool changes = next_change(c, *sign, 0, &low, &high, &to);
+    *told = true;
+    if (!changes) {
+        if (*sign == 0 || !may_touch(c, &k)) return MOTUS_OK;
+        if (!c->last && k + 1 == c->count && c->value[k] == 0) { /* the next part tells */
+            e->open[c->of] = 1;
+            return MOTUS_OK;
+        }
+        candidate touch = between(c, k ? k - 1 : 0, k + 1 < c->count ? k + 1 : k);
+        touch.near = true;
+        touch.kind = (candidate_kind)*sign;
+        return events_add(e, touch) ? MOTUS_OK : events_no_memory(err);
+    }
+    more = to;
+    int next_low, next_high;
+    *told = !next_change(c, more, high, &next_low, &next_high, &to);
+    if (!*told) return MOTUS_OK;
+    candidate one = between(c, low, high);
+    one.kind = (candidate_kind)more;
+    one.leaves = *sign == 0;
+    *sign = more;
+    if (!more) e->stands[c->of] = 1, e->side[c->of] = 0;
+    return events_add(e, one) ? MOTUS_OK : events_no_memory(err);
+}
+
+/* ---- what true steps tell ---- */
+
+/* One end of the times between which a function changes. */
+typedef struct end {
+    double at, g;
+    bool zero; /* but for rounding */
+} end;
+
+static motus_status look(events *e, size_t f, double h, end *to, motus_error *err)
+{
+    motus_status status = events_at(e, h, &e->here, err);
+    if (!status) status = events_judge(e, &e->here, err);
+    to->at = h;
+    to->g = e->here.g[f];
+    to->zero = isfinite(to->g) && fabs(to->g) <= 4 * (e->here.bound[f] + fabs(e->here.rate[f]) * events_ulp(e->here.t));
+    return status;
+}
+
+/* Whether the function has already changed at this end. */
+static bool changed(const candidate *c, const end *at)
+{
+    if (c->leaves) return !at->zero;
+    if (c->kind == CANDIDATE_TOUCHES) return at->zero;
+    return at->g != 0 && (at->g > 0) == (c->kind > 0);
+}
+
+/* Dense output errs: makes the times wider until true steps find the change between them. False: it is not there. */
+static motus_status enclose(events *e, const candidate *c, end *low, end *high, bool *found, motus_error *err)
+{
+    enum { TIMES = 24 };
+    double wide = c->high - c->low;
+    motus_status status = look(e, c->of, c->low, low, err);
+    if (!status) status = look(e, c->of, c->high, high, err);
+    for (int k = 0; k < TIMES && !status && changed(c, low) && low->at != 0; k++, wide *= 4)
+        status = look(e, c->of, e->way * (low->at - wide) > 0 ? low->at - wide : 0, low, err);
+    for (int k = 0; k < TIMES && !status && !changed(c, high) && high->at != e->span; k++, wide *= 4)
+        status = look(e, c->of, e->way * (e->span - high->at - wide) > 0 ? high->at + wide : e->span, high, err);
+    *found = !changed(c, low) && changed(c, high);
+    return status;
+}
+
+/* Halves the times between the ends down to the rounding of the time. */
+static motus_status halve(events *e, const candidate *c, end *low, end *high, motus_error *err)
+{
+    motus_status status = MOTUS_OK;
+    while (!status && fabs(high->at - low->at) > events_ulp(e->left.t + high->at) / 2) {
+        end middle;
+        const double h = low->at + (high->at - low->at) / 2;
+        if (h == low->at || h == high->at) break;
+        status = look(e, c->of, h, &middle, err);
+        *(changed(c, &middle) ? high : low) = middle;
+    }
+    return status;
+}
+
+/* Whether the value at an end has come nearer to 0, as it does at a root and not at a jump or a pole. */
+static bool nearer(const end *before, const end *now) { return fabs(now->g) <= fabs(before->g) / 2 || now->g == 0; }
+
+static motus_status place_change(events *e, candidate *c, motus_error *err)
+{
+    end low, high;
+    bool found;
+    motus_status status = enclose(e, c, &low, &high, &found, err);
+    const end first = low, last = high;
+    if (!status && found) status = halve(e, c, &low, &high, err);
+    if (status) return status;
+    c->located = true;
+    if (!found && changed(c, &low)) { /* where the step began */
+        c->jumps = !(c->kind && low.zero);
+        c->at = low.at;
+        return look(e, c->of, c->at, &low, err);
+    }
+    c->gone = !found;
+    const bool wide = fabs(last.at - first.at) > 64 * events_ulp(e->left.t + last.at);
+    const bool low_is = low.zero && (!wide || nearer(c->leaves ? &last : &first, c->leaves ? &high : &low)),
+               high_is = high.zero && (!wide || nearer(&last, &high));
+    const bool root = c->kind && (low_is || high_is);
+    c->jumps = !root;
+    c->at = root && low_is && (!high_is || fabs(low.g) <= fabs(high.g)) ? low.at : high.at;
+    end here;
+    return look(e, c->of, c->at, &here, err);
+}
+
+/* An extremum beyond 0: the function passes 0 twice. */
+static motus_status split(events *e, size_t k, double at, motus_error *err)
+{
+    candidate first = e->candidate[k];
+    first.near = first.located = false;
+    candidate second = first;
+    first.kind = (candidate_kind) - (int)first.kind;
+    first.high = second.low = at;
+    first.at = first.low + (at - first.low) / 2;
+    second.at = at + (second.high - at) / 2;
+    e->candidate[k] = first;
+    return events_add(e, second) ? MOTUS_OK : events_no_memory(err);
+}
+
+/* An extremum at a kink, where the rate changes its sign; where it does not, at a jump. */
+static motus_status place_touch(events *e, size_t k, motus_error *err)
+{
+    candidate *c = &e->candidate[k];
+    const size_t f = c->of;
+    end low, high, middle;
+    motus_status status = look(e, f, c->low, &low, err);
+    const bool falls = e->way * e->here.rate[f] * c->kind < 0; /* towards 0 */
+    if (!status) status = look(e, f, c->high, &high, err);
+    const bool rises = e->way * e->here.rate[f] * c->kind > 0;
+    const bool kink = falls && rises;
+    while (!status && fabs(high.at - low.at) > events_ulp(e->left.t + high.at) / 2) {
+        const double h = low.at + (high.at - low.at) / 2;
+        if (h == low.at || h == high.at) break;
+        status = look(e, f, h, &middle, err);
+        const bool before =
+            kink ? e->way * e->here.rate[f] * c->kind < 0 : fabs(middle.g - low.g) < fabs(middle.g - high.g);
+        *(before ? &low : &high) = middle;
+    }
+    if (status) return status;
+    c->located = true;
+    c->at = fabs(low.g) <= fabs(high.g) ? low.at : high.at;
+    status = look(e, f, c->at, &middle, err);
+    if (status) return status;
+    if (kink && !middle.zero && (middle.g > 0) != (c->kind > 0)) return split(e, k, c->at, err);
+    c->gone = !middle.zero;
+    c->near = false;
+    c->kind = CANDIDATE_TOUCHES;
+    return MOTUS_OK;
+}
+
+motus_status events_locate_sampled(events *e, size_t k, motus_error *err)
+{
+    const double guess = e->candidate[k].at;
+    motus_status status = MOTUS_OK;
+    if (e->candidate[k].near) status = place_touch(e, k, err);
+    candidate *c = &e->candidate[k];
+    if (!status && !c->located) status = place_change(e, c, err);
+    e->shift = fmax(e->shift, fabs(c->at - guess));
+    return status;
+}
