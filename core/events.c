@@ -169,14 +169,6 @@ static motus_status settle(events *e, stepper *s, motus_error *err)
     return status ? status : stepper_jump(s, at->t, at->lost, stepper_step(s), at->x, at->v, err);
 }
 
-/* A state counts among those since the start. */
-static void extend(events *e, const instant *at)
-{
-    const size_t nx = e->problem.nx, nv = e->problem.nv;
-    for (size_t k = 0; k < nx; k++) e->most[k] = fmax(e->most[k], fabs(at->x[k]));
-    for (size_t k = 0; k < nv; k++) e->most[nx + k] = fmax(e->most[nx + k], fabs(at->v[k]));
-}
-
 /* The sides of all functions at `left`. */
 static motus_status take_sides(events *e, motus_error *err)
 {
@@ -218,7 +210,6 @@ motus_status events_begin(events *e, stepper *s, double until, motus_error *err)
     if (status) return status;
     memset(e->most, 0, (e->problem.nx + e->problem.nv) * sizeof *e->most);
     e->taken = 0;
-    extend(e, &e->left);
     events_suppose(e);
     forget_happened(e);
     return status || events_keep_now(e, e->start, e->left.x) ? status
@@ -406,6 +397,8 @@ static motus_status piece(events *e, stepper *s, double until, int64_t most, boo
     double whole = 0;
     e->whole = 0;
     e->shorter = SHORTER_MOST;
+    events_extend(e, e->left.x, e->left.v);
+    e->taken++;
     for (;;) {
         if (!status) status = go_on(e, s, (stepper_limit){whole == 0 ? most : 1, until}, why, err);
         if (!status) status = observe(s, &e->right, err);
@@ -427,8 +420,6 @@ static motus_status piece(events *e, stepper *s, double until, int64_t most, boo
         status = jump(e, s, &e->left, h, err);
     }
     e->whole = whole;
-    e->taken++;
-    extend(e, &e->right);
     if (!status && e->first) events_suppose(e);
     e->first = false;
     e->here_at = NAN;

@@ -19,6 +19,13 @@ motus_status events_no_memory(motus_error *err)
     return fail(err, MOTUS_MEMORY, "no memory for the events of a step");
 }
 
+void events_extend(events *e, const double *x, const double *v)
+{
+    const size_t nx = e->problem.nx, nv = e->problem.nv;
+    for (size_t k = 0; k < nx; k++) e->most[k] = fmax(e->most[k], fabs(x[k]));
+    for (size_t k = 0; k < nv; k++) e->most[nx + k] = fmax(e->most[nx + k], fabs(v[k]));
+}
+
 bool events_add(events *e, candidate c)
 {
     void *list = e->candidate;
@@ -662,6 +669,7 @@ static bool quiet(void *ctx, const stepper_shown *step)
 {
     events *e = ctx;
     bool any = false;
+    events_extend(e, step->from_x, step->from_v);
     look_at_box(e, step);
     e->boxed = true;
     e->left.valued = e->right.valued = false;
@@ -700,10 +708,17 @@ motus_status events_watch(events *e, stepper *s, stepper_limit limit, stepper_st
 {
     stepper_left left;
     instant *at = &e->left;
+    const int64_t before = stepper_steps(s);
     memset(e->passed, 0, e->rules.functions);
     const motus_status status = stepper_watch(s, limit, quiet, e, &left, why, err);
     if (!left.x) return status;
     e->steps += left.steps;
+    e->taken += left.steps;
+    events_extend(e, left.x, left.v); /* a step that is not shown may have begun there */
+    if (status && stepper_steps(s) > before + left.steps && !stepper_sync(s, e->right.x, e->right.v, NULL, NULL)) {
+        events_extend(e, e->right.x, e->right.v); /* the step that failed was not begun to be shown */
+        e->taken++;
+    }
     /* where bounds tell nothing, as of functions of the time, they are asked less and less often */
     e->last_pause = left.steps > 0 ? 0 : e->last_pause < PAUSE_MOST ? 2 * e->last_pause + 1 : PAUSE_MOST;
     e->pause = e->last_pause;

@@ -221,6 +221,8 @@ motus_status events_find(events *, stepper *, motus_error *);
  * leads from `left`. */
 bool events_watchable(const events *, const stepper *);
 motus_status events_watch(events *, stepper *, stepper_limit, stepper_stop *why, motus_error *);
+/* A state of the motion, where a step begins, counts in `most`. */
+void events_extend(events *, const double *x, const double *v);
 bool events_add(events *, candidate);
 motus_status events_no_memory(motus_error *);
 /* The next tick of a clock. False: it is not within the step. */

@@ -197,12 +197,14 @@ static motus_status sign_at(events *e, double h, size_t f, int *sign, motus_erro
     return status;
 }
 
-/* The time between low and high where the rate is 0, by the secant method kept between them. */
-static motus_status extremum(events *e, candidate *c, motus_error *err)
+/* The time between low and high where the rate is 0, by the secant method kept between them. *beyond: the step ends
+ * before it. */
+static motus_status extremum(events *e, candidate *c, bool *beyond, motus_error *err)
 {
     const size_t f = c->of;
     instant *at = &e->here;
     double low = c->low, high = c->high, at_low = NAN, at_high = NAN, h = c->at;
+    *beyond = false;
     for (int turn = 0; turn < TURNS; turn++) {
         c->at = h;
         motus_status status = events_at(e, h, at, err);
@@ -216,6 +218,7 @@ static motus_status extremum(events *e, candidate *c, motus_error *err)
             low = h, at_low = rate;
         else
             high = h, at_high = rate;
+        *beyond = isnan(at_high) && c->high == e->span;
         double next = isnan(at_low) || isnan(at_high) ? h + (before ? 0.25 * (high - h) : 0.25 * (low - h))
                                                       : high - at_high * (high - low) / (at_high - at_low);
         /* halving is faster where the extremum is flat */
@@ -388,13 +391,16 @@ motus_status events_locate(events *e, size_t k, motus_error *err)
     }
     if (c->near) {
         const int side = c->kind;
-        status = extremum(e, c, err);
+        bool beyond;
+        status = extremum(e, c, &beyond, err);
         if (status) return status;
         const double g = e->here.g[f], at = c->at;
         double bound;
         status = events_error_of(e, f, at, &bound, err);
         if (status) return status;
-        if (fabs(g) <= bound) {
+        if (fabs(g) <= bound && beyond) {
+            c->gone = true; /* the next step tells */
+        } else if (fabs(g) <= bound) {
             c->near = false;
             c->kind = CANDIDATE_TOUCHES;
             c->located = true;
