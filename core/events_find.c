@@ -708,17 +708,12 @@ motus_status events_watch(events *e, stepper *s, stepper_limit limit, stepper_st
 {
     stepper_left left;
     instant *at = &e->left;
-    const int64_t before = stepper_steps(s);
     memset(e->passed, 0, e->rules.functions);
     const motus_status status = stepper_watch(s, limit, quiet, e, &left, why, err);
     if (!left.x) return status;
     e->steps += left.steps;
     e->taken += left.steps;
     events_extend(e, left.x, left.v); /* a step that is not shown may have begun there */
-    if (status && stepper_steps(s) > before + left.steps && !stepper_sync(s, e->right.x, e->right.v, NULL, NULL)) {
-        events_extend(e, e->right.x, e->right.v); /* the step that failed was not begun to be shown */
-        e->taken++;
-    }
     /* where bounds tell nothing, as of functions of the time, they are asked less and less often */
     e->last_pause = left.steps > 0 ? 0 : e->last_pause < PAUSE_MOST ? 2 * e->last_pause + 1 : PAUSE_MOST;
     e->pause = e->last_pause;

@@ -232,11 +232,13 @@ static motus_status extremum(events *e, candidate *c, bool *beyond, motus_error 
 
 /* How far off every number of the state at `here` may be, a time h after the beginning of the step, into e->width: by
  * the rounding since the start, which steps carry one way or the other, and where steps adapt by the error of the step
- * that leads here, which two steps of half its length tell. */
-static motus_status state_errors(events *e, double h, motus_error *err)
+ * that leads here, which two steps of half its length tell. Of a function that has just been 0 what counts is how far it
+ * may be off from there: by the rounding of this step alone. */
+static motus_status state_errors(events *e, size_t f, double h, motus_error *err)
 {
     const size_t nx = e->problem.nx, nv = e->problem.nv, moving = nx - e->problem.modes;
-    const double units = 8 * (1 + sqrt((double)e->taken)) * 0x1p-53;
+    const bool anew = e->stands[f] || fabs(e->left.t - e->fired[f]) <= fabs(e->span);
+    const double units = 8 * (1 + (anew ? 1 : sqrt((double)e->taken))) * 0x1p-53;
     const instant *here = &e->here, *from = &e->left;
     instant *to = &e->next;
     events_copy(e, to, here);
@@ -248,8 +250,14 @@ static motus_status state_errors(events *e, double h, motus_error *err)
         if (!status) status = stepper_sync(e->probe, to->x, to->v, NULL, err);
         if (status) return status;
     }
-    for (size_t k = 0; k < nx; k++) e->width[k] = k < moving ? 2 * fabs(to->x[k] - here->x[k]) + units * e->most[k] : 0;
-    for (size_t k = 0; k < nv; k++) e->width[nx + k] = 2 * fabs(to->v[k] - here->v[k]) + units * e->most[nx + k];
+    for (size_t k = 0; k < nx; k++) {
+        const double size = anew ? fmax(fabs(from->x[k]), fabs(here->x[k])) : e->most[k];
+        e->width[k] = k < moving ? 2 * fabs(to->x[k] - here->x[k]) + units * size : 0;
+    }
+    for (size_t k = 0; k < nv; k++) {
+        const double size = anew ? fmax(fabs(from->v[k]), fabs(here->v[k])) : e->most[nx + k];
+        e->width[nx + k] = 2 * fabs(to->v[k] - here->v[k]) + units * size;
+    }
     return MOTUS_OK;
 }
 
@@ -277,7 +285,7 @@ motus_status events_error_of(events *e, size_t f, double h, double *bound, motus
     enum { FEW = 32 };
     const size_t all = e->problem.nx + e->problem.nv;
     double sum = 0;
-    motus_status status = state_errors(e, h, err);
+    motus_status status = state_errors(e, f, h, err);
     for (size_t k = 0; k < all && all <= FEW && !status; k++) {
         double by = 0;
         if (e->width[k] > 0) status = change(e, f, -1, k, &by, err);
