@@ -232,13 +232,13 @@ static motus_status extremum(events *e, candidate *c, bool *beyond, motus_error 
 
 /* How far off every number of the state at `here` may be, a time h after the beginning of the step, into e->width: by
  * the rounding since the start, which steps carry one way or the other, and where steps adapt by the error of the step
- * that leads here, which two steps of half its length tell. Of a function that has just been 0 what counts is how far it
- * may be off from there: by the rounding of this step alone. */
+ * that leads here, which two steps of half its length tell. Of a function that has been 0 what counts is how far it may
+ * be off from there, and so how large numbers have been since then. */
 static motus_status state_errors(events *e, size_t f, double h, motus_error *err)
 {
     const size_t nx = e->problem.nx, nv = e->problem.nv, moving = nx - e->problem.modes;
-    const bool anew = e->stands[f] || fabs(e->left.t - e->fired[f]) <= fabs(e->span);
-    const double units = 8 * (1 + (anew ? 1 : sqrt((double)e->taken))) * 0x1p-53;
+    const double units = 8 * (1 + sqrt((double)e->taken)) * 0x1p-53;
+    const double since = e->stands[f] ? fabs(h) : fabs((e->left.t - e->fired[f]) + h); /* NaN: it has not been 0 */
     const instant *here = &e->here, *from = &e->left;
     instant *to = &e->next;
     events_copy(e, to, here);
@@ -251,11 +251,13 @@ static motus_status state_errors(events *e, size_t f, double h, motus_error *err
         if (status) return status;
     }
     for (size_t k = 0; k < nx; k++) {
-        const double size = anew ? fmax(fabs(from->x[k]), fabs(here->x[k])) : e->most[k];
+        const double fast = k < moving ? fmax(fabs(from->v[k]), fabs(here->v[k])) : 0;
+        const double size = fmin(e->most[k], fmax(fabs(from->x[k]), fabs(here->x[k])) + fast * since);
         e->width[k] = k < moving ? 2 * fabs(to->x[k] - here->x[k]) + units * size : 0;
     }
     for (size_t k = 0; k < nv; k++) {
-        const double size = anew ? fmax(fabs(from->v[k]), fabs(here->v[k])) : e->most[nx + k];
+        const double fast = h != 0 ? fabs((here->v[k] - from->v[k]) / h) : NAN;
+        const double size = fmin(e->most[nx + k], fmax(fabs(from->v[k]), fabs(here->v[k])) + fast * since);
         e->width[nx + k] = 2 * fabs(to->v[k] - here->v[k]) + units * size;
     }
     return MOTUS_OK;
