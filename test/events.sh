@@ -130,6 +130,9 @@ M
 gives "an event where a mode is equal to a number" 0 "$motus" run "$place/third.motus" --json
 that "... happens, at 5 pi/2" holds '.ended == "third" and (.events | length) == 3 and (.events[2].time - 7.853981633974483 | fabs) < 1e-12'
 
+gives "a run that events ended within a step" 0 "$motus" run "$ball" --error none --method rk4 --step 0.03 --save-state "$place/ended.state" -q
+that "... is saved" [ -s "$place/ended.state" ]
+
 # --- the stadium, as the comment of the billiard says it ------------------------------------------------------------------------------
 awk -v q="'" '/^#     n = /  { sub(/^# +/, ""); sub(/  +from .*/, ""); wall = $0; next }
      /^#     when / { sub(/^# +/, ""); hit = $0; next }
