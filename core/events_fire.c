@@ -99,6 +99,25 @@ static void release(events *e)
     }
 }
 
+/* Marks the functions that stay at 0 as the new force has it, but for rounding and that of the time: where a switch lets
+ * go what it has held, they leave 0 with a slope of 0. */
+static motus_status find_level(events *e, motus_error *err)
+{
+    enum { ULPS = 8, MARGIN = 4 };
+    instant *at = &e->next;
+    motus_status status = MOTUS_OK;
+    for (int side = -1; side <= 1 && !status; side += 2) {
+        events_copy(e, at, &e->here);
+        at->t += side * ULPS * events_ulp(at->t);
+        status = events_rates(e, at, err);
+        for (size_t f = 0; f < e->rules.functions && !status; f++) {
+            const double rate = fabs(e->here.rate[f]);
+            e->level[f] |= e->zero[f] && rate <= MARGIN * fabs(at->rate[f] - e->here.rate[f]);
+        }
+    }
+    return status;
+}
+
 /* The functions after an action of instance i of rule k; `before` and the rates at `here` are those before it. What has
  * happened in this instant may happen again where another rule has changed how its function moves: a ball between two
  * others meets both at once, and one of them again. */
@@ -118,6 +137,7 @@ static motus_status look_again(events *e, size_t k, size_t i, motus_error *err)
         const bool was = e->zero[f] && change <= at->bound[f];
         e->zero[f] = was || is_zero(e, f);
     }
+    if (!status && r->internal) status = find_level(e, err);
     if (!status) release(e);
     return status;
 }
@@ -206,13 +226,6 @@ static motus_status happen(events *e, size_t k, size_t i, bool touched, bool *as
 
 /* Asking ---------------------------------------------------------------------------------------------------------- */
 
-/* The direction in which function f leaves 0 here: by its slope, or as the candidate says while nothing has acted. */
-static int leaves(const events *e, size_t f, const candidate *c, bool acted)
-{
-    if (!acted && c->kind != CANDIDATE_TIME && c->of == f) return c->kind;
-    return events_direction(e, &e->here, f);
-}
-
 /* Whether a rate is more than rounding has left of larger ones. */
 static bool moves(const events *e, size_t f)
 {
@@ -234,6 +247,25 @@ static candidate *about(const events *e, size_t f, bool touches)
     return NULL;
 }
 
+/* The side to which a candidate leads function f here, also one that has been followed; 0: none does. */
+static int led(const events *e, size_t f)
+{
+    for (size_t k = 0; k < e->candidates; k++) {
+        const candidate *c = &e->candidate[k];
+        if (c->kind == CANDIDATE_TIME || c->of != f || !c->located || c->jumps) continue;
+        if (fabs(c->at - e->here_at) <= 4 * events_ulp(e->here.t)) return c->kind;
+    }
+    return 0;
+}
+
+/* The direction in which function f leaves 0 here: by its slope, or as its candidate says while nothing has acted. */
+static int leaves(const events *e, size_t f, const candidate *c, bool acted)
+{
+    if (!acted && c->kind != CANDIDATE_TIME && c->of == f) return c->kind;
+    const int side = acted ? 0 : led(e, f);
+    return side ? side : events_direction(e, &e->here, f);
+}
+
 static candidate *touching(const events *e, size_t f) { return about(e, f, true); }
 
 /* The side on which function f goes on, 0: it stays at 0. */
@@ -242,7 +274,7 @@ static int goes_on(const events *e, size_t f, const candidate *c, bool acted)
     const bool own = !acted && c->kind != CANDIDATE_TIME && c->of == f;
     if (own && (c->kind != CANDIDATE_TOUCHES || c->jumps)) return c->kind;
     const bool touched = fabs(e->fired[f] - e->here.t) <= 4 * events_ulp(e->here.t) && !moves(e, f);
-    return own || touched || touching(e, f) ? e->side[f] : events_direction(e, &e->here, f);
+    return own || touched || touching(e, f) ? e->side[f] : leaves(e, f, c, acted);
 }
 
 /* An event has acted: where its events accumulate, and the state there. */
@@ -296,6 +328,23 @@ static motus_status ask_root(events *e, size_t k, size_t i, const candidate *c, 
     return status;
 }
 
+/* Whether a switch of the force is to turn here, and has not yet: only then it is known how functions go on. */
+static bool awaits_switch(const events *e, const candidate *c)
+{
+    if (!e->rules.settle) return false;
+    const double near = 4 * events_ulp(e->here.t);
+    for (size_t k = 0; k <= e->candidates; k++) {
+        const candidate *one = k < e->candidates ? &e->candidate[k] : c;
+        if (one->kind != CANDIDATE_FALLS || (one != c && one->gone) || !e->zero[one->of]) continue;
+        if (!e->rules.rule[e->rule_of[one->of]].internal || fabs(e->fired[one->of] - e->here.t) <= near) continue;
+        if (one == c ||
+            (one->located ? fabs(one->at - e->here_at) <= near
+                          : e->way * (e->here_at - one->low) >= 0 && e->way * (one->high - e->here_at) >= 0))
+            return true;
+    }
+    return false;
+}
+
 static motus_status ask_condition(events *e, size_t k, size_t i, const candidate *c, bool *acted, bool *again,
                                   motus_error *err)
 {
@@ -313,7 +362,7 @@ static motus_status ask_condition(events *e, size_t k, size_t i, const candidate
         const size_t f = r->first + l * r->instances + i;
         if (e->zero[f]) {
             const bool own = c->kind != CANDIDATE_TIME && c->of == f, other = touching(e, f) != NULL;
-            sign[f] = (int8_t)goes_on(e, f, c, *acted);
+            if (!e->awaits) sign[f] = (int8_t)goes_on(e, f, c, *acted);
             if (other || (own && c->kind == CANDIDATE_TOUCHES && !c->jumps)) e->fired[f] = e->here.t;
             passes |= own || about(e, f, false);
         }
@@ -324,6 +373,7 @@ static motus_status ask_condition(events *e, size_t k, size_t i, const candidate
     /* it becomes true here, or just after; also where it is false for this instant alone */
     const bool after = any ? rules_hold(r, i, sign) : now;
     const bool happens = *held ? passes && !now && after && !before : (now && !before) || after;
+    if (*held && now) *happened = e->here.t; /* here it is true still */
     *held = after;
     if (!happens) return MOTUS_OK;
     bool assigned = false;
@@ -361,10 +411,14 @@ static motus_status ask(events *e, size_t k, const candidate *c, bool *acted, bo
 void events_stand(events *e)
 {
     for (size_t f = 0; f < e->rules.functions; f++) {
+        const bool condition = e->rules.rule[e->rule_of[f]].kind == RULE_CONDITION;
+        const bool lets_go = e->stands[f] && e->level[f];
         e->stands[f] = e->zero[f];
         e->open[f] = 0;
         e->heads[f] = (int8_t)(e->zero[f] && moves(e, f) ? events_direction(e, &e->here, f) : 0);
         if (!e->zero[f]) e->side[f] = (int8_t)sign_of(e->here.g[f]);
+        if ((condition || lets_go) && e->zero[f] && !e->heads[f])
+            e->side[f] = 0; /* it changes where the function leaves 0 */
         if (e->rules.rule[e->rule_of[f]].internal) e->side[f] = 1;
     }
 }
@@ -404,10 +458,14 @@ motus_status events_fire(events *e, const candidate *c, bool *assigned, motus_er
     memset(e->ticked, 0, e->rules.count);
     memset(e->touched, 0, e->rules.functions);
     events_overlay(e, e->here.x);
+    bool waits = awaits_switch(e, c);
     while (again && !status) {
         again = false;
+        e->awaits = waits && awaits_switch(e, c);
         for (size_t k = 0; k < e->rules.count && !status; k++) status = ask(e, k, c, assigned, &again, err);
+        if (e->awaits && !again) waits = false, again = true; /* it does not turn */
     }
     if (*assigned && !status) events_stand(e);
+    memset(e->level, 0, e->rules.functions);
     return status;
 }

@@ -123,6 +123,8 @@ struct events {
     int shorter; /* how often the present step may be taken anew, shorter, to resolve an internal function */
     bool hidden; /* the step is so long that rounding hides how a function leaves 0 at its start */
     uint8_t *zero;     /* it is 0 at `here` */
+    uint8_t *level;    /* in this instant it stays at 0, as far as its slope tells */
+    bool awaits;       /* a switch of the force is to turn in this instant */
     uint8_t *touched;  /* it has been told in this instant that it touches 0 */
     uint8_t *look;     /* dense output must tell of it in this step */
     uint8_t *passed;   /* it has passed 0 in watched steps, and nothing happened */

@@ -105,7 +105,7 @@ motus_status events_judge(events *e, instant *at, motus_error *err)
 int events_direction(const events *e, const instant *at, size_t f)
 {
     const double rate = e->way * at->rate[f], change = rate * fabs(e->span);
-    return fabs(change) > 4 * at->bound[f] ? (rate > 0) - (rate < 0) : 0;
+    return fabs(change) > 4 * at->bound[f] && !(at == &e->here && e->level[f]) ? (rate > 0) - (rate < 0) : 0;
 }
 
 void events_copy(const events *e, instant *to, const instant *from)
