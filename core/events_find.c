@@ -227,12 +227,15 @@ static bool leave(events *e, size_t f, const search *of, const roots_found *foun
             e, (candidate){
                    .of = f, .at = start, .low = start, .high = start, .kind = (candidate_kind)after, .located = true});
     if (side) return true;
-    const bool internal = e->rules.rule[e->rule_of[f]].internal;
+    const rule *r = &e->rules.rule[e->rule_of[f]];
+    const bool internal = r->internal;
+    /* what is smooth on the step leaves 0 at once, or never */
+    const bool at_once = found->leaves < 0x1p-20 || (e->rules.settle && r->smooth && of->part->from <= 0);
     if (e->first && of->part->from <= 0 && found->leaves < 1 && !internal) { /* the start is no event */
         e->side[f] = (int8_t)after;
         return true;
     }
-    const double t = found->leaves < 0x1p-20 ? start : place_of(e, of, found->leaves);
+    const double t = at_once ? start : place_of(e, of, found->leaves);
     return events_add(
         e, (candidate){.of = f, .at = t, .low = t, .high = t, .kind = (candidate_kind)after, .located = true});
 }

@@ -236,6 +236,13 @@ static const char *jump_of(model *m, const model_rule *r)
     return NULL;
 }
 
+static bool is_smooth(const model *m, const model_rule *r)
+{
+    for (size_t k = 0; k < r->leaves; k++)
+        if (graph_kink(m->graph, r->leaf[k].value)) return false;
+    return true;
+}
+
 static void describe(const model_rule *from, rule *to)
 {
     *to = (rule){.name = from->name,
@@ -269,6 +276,7 @@ static bool make(ruled *r, model *m)
         const model_rule *rule = &m->rules[i];
         describe(rule, &r->rule[i]);
         r->rule[i].jump = jump_of(m, rule);
+        r->rule[i].smooth = is_smooth(m, rule);
         r->act[i] = rule->assignments ? make_act(m, rule) : NULL;
         if (rule->assignments && !r->act[i]) return false;
         if (rule->numbers > most) most = rule->numbers;
