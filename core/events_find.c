@@ -214,6 +214,23 @@ static motus_status add_roots(events *e, size_t f, const search *of, const roots
     return status;
 }
 
+/* A function leaves 0 with a slope of 0, and dense output says that it comes back within the step: that may be nothing
+ * but its error. Where a true step has the other sign between, it leaves to the other side. */
+static motus_status judge_return(events *e, size_t f, const search *of, roots_root *root, roots_found *found,
+                                 motus_error *err)
+{
+    if (!found->after || !found->count || e->heads[f] || root[0].open) return MOTUS_OK;
+    motus_status status = events_at(e, place_of(e, of, root[0].tau / 2), &e->here, err);
+    if (!status) status = events_judge(e, &e->here, err);
+    if (status || e->here.g[f] * found->after > e->here.bound[f]) return status;
+    const bool passes = root[0].kind == ROOTS_RISING || root[0].kind == ROOTS_FALLING;
+    if (!passes) return MOTUS_OK;
+    found->after = -found->after;
+    found->count--;
+    memmove(root, root + 1, found->count * sizeof *root);
+    return MOTUS_OK;
+}
+
 /* A function that stood at 0 at the start of the step has left it: whether that is an event. */
 static bool leave(events *e, size_t f, const search *of, const roots_found *found)
 {
@@ -436,6 +453,8 @@ static motus_status search_part(events *e, stepper *s, size_t f, const part *p, 
     roots_found found;
     *rough = roots_find(coefficients, fitted.degree, *sign, noise, of.slack, root, ROOTS_ROOM, &found) == ROOTS_CUT;
     if (*rough) return MOTUS_OK;
+    if (stands) status = judge_return(e, f, &of, root, &found, err);
+    if (status) return status;
     if (stands && !leave(e, f, &of, &found)) return events_no_memory(err);
     const bool open = e->open[f] && *sign && !(found.count && root[0].from <= 0);
     e->open[f] = 0;
