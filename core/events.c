@@ -62,6 +62,7 @@ static size_t arrange(events *e, char *block)
     e->touched = next(&l, f, 1);
     e->level = next(&l, f, 1);
     e->held = next(&l, instances, 1);
+    e->steady = next(&l, instances, 1);
     e->ticked = next(&l, n, 1);
     if (!block) return l.at;
     numbers = place(&e->left, e, numbers);

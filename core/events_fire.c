@@ -99,8 +99,8 @@ static void release(events *e)
     }
 }
 
-/* Marks the functions that stay at 0 as the new force has it, but for rounding and that of the time: where a switch lets
- * go what it has held, they leave 0 with a slope of 0. */
+/* Marks the functions that stay at 0 as the new force has it, but for rounding and that of the time: where a switch
+ * lets go what it has held, they leave 0 with a slope of 0. */
 static motus_status find_level(events *e, motus_error *err)
 {
     enum { ULPS = 8, MARGIN = 4 };
@@ -372,7 +372,9 @@ static motus_status ask_condition(events *e, size_t k, size_t i, const candidate
     const bool before = fabs(*happened - e->here.t) <= 4 * events_ulp(e->here.t);
     /* it becomes true here, or just after; also where it is false for this instant alone */
     const bool after = any ? rules_hold(r, i, sign) : now;
-    const bool happens = *held ? passes && !now && after && !before : (now && !before) || after;
+    uint8_t *steady = &e->steady[e->instances[k] + i];
+    const bool happens = *held ? *steady && passes && !now && after && !before : (now && !before) || after;
+    if (happens) *steady = 0;
     if (*held && now) *happened = e->here.t; /* here it is true still */
     *held = after;
     if (!happens) return MOTUS_OK;
@@ -458,6 +460,8 @@ motus_status events_fire(events *e, const candidate *c, bool *assigned, motus_er
     memset(e->ticked, 0, e->rules.count);
     memset(e->touched, 0, e->rules.functions);
     events_overlay(e, e->here.x);
+    const size_t last = e->rules.count - 1;
+    memcpy(e->steady, e->held, e->instances[last] + e->rules.rule[last].instances);
     bool waits = awaits_switch(e, c);
     while (again && !status) {
         again = false;

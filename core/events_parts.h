@@ -141,6 +141,7 @@ struct events {
     double *samples;   /* values at the points of the step */
     int samples_room;
     uint8_t *held;     /* per instance of a condition: it was true; numbered by `instances` */
+    uint8_t *steady;   /* likewise: it was true up to this instant, in which it has not happened */
     double *happened;  /* likewise: the instant in which it did, unless it has been false there since; NaN: none */
     size_t *instances; /* per rule: the number of its first instance */
     recent *recent;    /* per instance */
