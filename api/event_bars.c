@@ -159,7 +159,7 @@ double event_bars_time(motus_run *r, size_t k)
         if (r->bars->twin.events) d[n] = fmax(d[n], distance(r, &r->bars->twin, row));
         n++;
     }
-    return fmax(bar_of(d, n) + events_ulp(this.t), shared(this.t, this.lasting, LASTING));
+    return fmax(bar_of(d, n) + events_ulp(this.t), shared(this.t, this.lasting, LASTING)) + this.doubt;
 }
 
 /* The limit by the companion: its own, or where it has had as many events as the run, what they lead to. */

@@ -337,7 +337,11 @@ static motus_status follow(events *e, stepper *s, candidate *c, bool *assigned, 
     }
     const bool again = same || told(e, &at), back = again && comes_back(e, &at), happens = !again || back;
     c->gone = true;
-    motus_status status = happens ? events_fire(e, &at, assigned, err) : MOTUS_OK;
+    motus_status status = MOTUS_OK;
+    e->doubt = 0;
+    if (happens && at.kind != CANDIDATE_TIME && !at.jumps && !e->rules.rule[e->rule_of[at.of]].internal)
+        status = events_doubt(e, at.of, at.at, at.kind == CANDIDATE_TOUCHES, &e->doubt, err);
+    if (happens && !status) status = events_fire(e, &at, assigned, err);
     if (at.kind == CANDIDATE_TIME) /* a clock may tick again in this step */
         c->gone = !events_next_tick(e, at.of, c) || !(e->way * (c->at - at.at) > 0);
     if (!happens) { /* its function goes on to that side */

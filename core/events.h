@@ -30,6 +30,7 @@ typedef struct event {
     int64_t count; /* events of this rule so far, this one included */
     double t;
     double lasting; /* the sum of the times since the actions before it, of all rules */
+    double doubt;   /* how far off the time may be, because the function is flat there; 0: it is not */
     bool touched;   /* the function touched 0 and went back */
     bool changed;   /* the rule assigns: there is a state after it too */
 } event;

@@ -49,6 +49,14 @@ typedef struct part {
 
 static double time_at(const events *e, double tau) { return tau >= 1 ? e->span : tau * e->span; }
 
+/* The time so long after `left`; what times have lost to rounding leads out of the step where it is short. */
+static double place_in(const events *e, double h)
+{
+    const double t = e->left.t + (e->left.lost + h);
+    if (e->way * (t - e->left.t) < 0) return e->left.t;
+    return e->way * (e->right.t - t) < 0 ? e->right.t : t;
+}
+
 /* Room for the values at degree + 1 points. */
 static bool room_for(events *e, int degree)
 {
@@ -71,7 +79,7 @@ static motus_status sample(events *e, stepper *s, int degree, motus_error *err)
     instant *at = &e->next;
     motus_status status = MOTUS_OK;
     for (int k = 1; k < degree && !status; k++) {
-        at->t = e->left.t + (e->left.lost + time_at(e, roots_point(k, degree)));
+        at->t = place_in(e, time_at(e, roots_point(k, degree)));
         status = stepper_sample(s, at->t, at->x, at->v, err);
         if (!status) status = events_values(e, at, err);
         memcpy(e->samples + (size_t)k * n, at->g, n * sizeof *at->g);
@@ -90,7 +98,7 @@ static motus_status sample_part(events *e, stepper *s, size_t f, const part *p, 
             values[k] = tau <= 0 ? e->left.g[f] : e->right.g[f];
             continue;
         }
-        at->t = e->left.t + (e->left.lost + time_at(e, tau));
+        at->t = place_in(e, time_at(e, tau));
         status = stepper_sample(s, at->t, at->x, at->v, err);
         if (!status) status = events_values(e, at, err);
         values[k] = at->g[f];
@@ -155,7 +163,7 @@ static motus_status lingers(events *e, size_t f, const search *of, const roots_r
     const roots_root end = {.tau = 1};
     double at, bound = 0;
     *does = false;
-    if (of->part->to < 1 || e->right.t == e->until || fabs(e->right.rate[f] * e->span) > 8 * of->slack) return MOTUS_OK;
+    if (of->part->to < 1 || fabs(e->right.rate[f] * e->span) > 8 * of->slack) return MOTUS_OK;
     if (last && depth_between(of, last, &end, &at) > of->slack) return MOTUS_OK;
     if (fabs(e->right.g[f]) > of->slack || e->rules.rule[e->rule_of[f]].internal) return MOTUS_OK;
     events_copy(e, &e->here, &e->right);
@@ -163,6 +171,24 @@ static motus_status lingers(events *e, size_t f, const search *of, const roots_r
     if (!status) status = events_error_of(e, f, 0, &bound, err);
     *does = !status && fabs(e->right.g[f]) <= bound;
     return status;
+}
+
+/* A function lingers near 0 at the end of the step: the next step tells; at the end of the run, and of a leg of it, it
+ * touches 0 there if its slope is 0 but for its error. */
+static motus_status leave_open(events *e, size_t f, motus_error *err)
+{
+    double slope;
+    if (e->right.t != e->until) {
+        e->open[f] = 1;
+        return MOTUS_OK;
+    }
+    events_copy(e, &e->here, &e->right);
+    motus_status status = events_judge(e, &e->here, err);
+    if (!status) status = events_slope_error_of(e, f, 0, &slope, err);
+    if (status || fabs(e->here.rate[f]) > slope) return status;
+    const candidate c = {
+        .of = f, .at = e->span, .low = e->span, .high = e->span, .kind = CANDIDATE_TOUCHES, .located = true};
+    return events_add(e, c) ? MOTUS_OK : events_no_memory(err);
 }
 
 static candidate candidate_of(const events *e, size_t f, const search *of, const roots_root *r, double low, double high)
@@ -201,13 +227,15 @@ static motus_status add_roots(events *e, size_t f, const search *of, const roots
             if (sign == -one.side && fabs(end) <= e->right.bound[f]) open = true;
             c.near = sign == one.side, c.kind = (candidate_kind)sign, c.high = e->span;
         }
-        motus_status status = MOTUS_OK;
-        if (k + 1 == found->count && !c.near && !open) status = lingers(e, f, of, &one, &open, err);
-        if (status) return status;
         if (open) {
             e->open[f] = 1;
             continue;
         }
+        motus_status status = MOTUS_OK;
+        if (k + 1 == found->count && !c.near) status = lingers(e, f, of, &one, &open, err);
+        if (!status && open) status = leave_open(e, f, err);
+        if (status) return status;
+        if (open) continue;
         c.sure = !c.near && (one.from <= 0 || fabs(polynomial(of->coefficients, of->degree, low)) > of->slack) &&
                  (one.to >= 1 || fabs(polynomial(of->coefficients, of->degree, high)) > of->slack);
         /* that it passes the other way is no event, and needs no true steps */
@@ -216,8 +244,7 @@ static motus_status add_roots(events *e, size_t f, const search *of, const roots
     }
     bool open = false;
     const motus_status status = found->count || found->last == 0 ? MOTUS_OK : lingers(e, f, of, NULL, &open, err);
-    e->open[f] |= open;
-    return status;
+    return status || !open ? status : leave_open(e, f, err);
 }
 
 /* A function leaves 0 with a slope of 0, and dense output says that it comes back within the step: that may be nothing
@@ -355,7 +382,7 @@ static motus_status hides_itself(events *e, stepper *s, size_t f, double largest
     *hides = false;
     if (!(fabs(e->span) > 1024 * ulp && 64 * bound >= largest) || e->rules.rule[e->rule_of[f]].internal)
         return MOTUS_OK;
-    at->t = e->left.t + (e->left.lost + e->span / 2);
+    at->t = place_in(e, e->span / 2);
     status = stepper_sample(s, at->t, at->x, at->v, err);
     if (!status) status = events_values(e, at, err);
     if (!status) status = events_judge(e, at, err);

@@ -13,13 +13,30 @@
 
 static int sign_of(double x) { return (x > 0) - (x < 0); }
 
+/* Whether a function is larger at `here` than at both ends of the step, as beside a pole: it does not pass 0 here. */
+static bool is_far(const events *e, size_t f)
+{
+    const double g = fabs(e->here.g[f]);
+    return !isfinite(g) || (g > 4 * e->here.bound[f] && g > fmax(fabs(e->left.g[f]), fabs(e->right.g[f])));
+}
+
 /* Whether a function is 0 at `here`: by its rounding, and by that of the time. The bound counts every number of the
  * state as rounded by half a unit in its last place; a companion's has been moved by a whole one besides. */
 static bool is_zero(const events *e, size_t f)
 {
     const instant *at = &e->here;
     const double units = e->jog ? 3 : 1;
-    return fabs(at->g[f]) <= units * at->bound[f] + fabs(at->rate[f]) * events_ulp(at->t);
+    return !is_far(e, f) && fabs(at->g[f]) <= units * at->bound[f] + fabs(at->rate[f]) * events_ulp(at->t);
+}
+
+/* Whether a function is on the other side here because it jumps: by more than it changes in the rounding of the time.
+ * Its own candidate, which comes a rounding later, tells; till then its side is that before the jump. */
+static bool jumps_here(const events *e, size_t f)
+{
+    const instant *at = &e->here;
+    const bool beyond = e->side[f] && sign_of(at->g[f]) == -e->side[f];
+    const bool wide = fabs(at->g[f]) > 4 * at->bound[f] + 16 * fabs(at->rate[f]) * events_ulp(at->t);
+    return beyond && (is_far(e, f) || (e->rules.rule[e->rule_of[f]].jump && wide));
 }
 
 /* Truth ----------------------------------------------------------------------------------------------------------- */
@@ -247,23 +264,29 @@ static candidate *about(const events *e, size_t f, bool touches)
     return NULL;
 }
 
-/* The side to which a candidate leads function f here, also one that has been followed; 0: none does. */
-static int led(const events *e, size_t f)
+/* Whether a candidate leads function f here, also one that has been followed, and to which side; 0: there it stays 0. */
+static bool is_led(const events *e, size_t f, int *side)
 {
     for (size_t k = 0; k < e->candidates; k++) {
         const candidate *c = &e->candidate[k];
-        if (c->kind == CANDIDATE_TIME || c->of != f || !c->located || c->jumps) continue;
-        if (fabs(c->at - e->here_at) <= 4 * events_ulp(e->here.t)) return c->kind;
+        const bool touch = c->near || (c->kind == CANDIDATE_TOUCHES && !c->jumps && !c->sampled);
+        if (c->kind == CANDIDATE_TIME || c->of != f || touch) continue;
+        if (!c->located && !(c->sampled && c->kind == CANDIDATE_TOUCHES)) continue;
+        const bool here = c->located ? fabs(c->at - e->here_at) <= 4 * events_ulp(e->here.t)
+                                     : e->way * (e->here_at - c->low) >= 0 && e->way * (c->high - e->here_at) >= 0;
+        if (!here) continue;
+        *side = c->kind;
+        return true;
     }
-    return 0;
+    return false;
 }
 
 /* The direction in which function f leaves 0 here: by its slope, or as its candidate says while nothing has acted. */
 static int leaves(const events *e, size_t f, const candidate *c, bool acted)
 {
+    int side;
     if (!acted && c->kind != CANDIDATE_TIME && c->of == f) return c->kind;
-    const int side = acted ? 0 : led(e, f);
-    return side ? side : events_direction(e, &e->here, f);
+    return !acted && is_led(e, f, &side) ? side : events_direction(e, &e->here, f);
 }
 
 static candidate *touching(const events *e, size_t f) { return about(e, f, true); }
@@ -354,7 +377,7 @@ static motus_status ask_condition(events *e, size_t k, size_t i, const candidate
     bool any = false, passes = false;
     for (size_t l = 0; l < r->leaves; l++) {
         const size_t f = r->first + l * r->instances + i;
-        sign[f] = (int8_t)(e->zero[f] ? 0 : sign_of(e->here.g[f]));
+        sign[f] = (int8_t)(e->zero[f] ? 0 : !*acted && jumps_here(e, f) ? e->side[f] : sign_of(e->here.g[f]));
         any |= e->zero[f];
     }
     const bool now = rules_hold(r, i, sign);
@@ -451,8 +474,13 @@ motus_status events_fire(events *e, const candidate *c, bool *assigned, motus_er
     motus_status status = MOTUS_OK;
     /* what is beyond 0 already has passed it in this very instant: its own candidate comes a rounding later */
     for (size_t f = 0; f < e->rules.functions; f++)
-        e->zero[f] = is_zero(e, f) || (e->side[f] && sign_of(e->here.g[f]) == -e->side[f]);
+        e->zero[f] = is_zero(e, f) || (e->side[f] && sign_of(e->here.g[f]) == -e->side[f] && !jumps_here(e, f));
     if (c->kind != CANDIDATE_TIME && !(c->jumps && c->kind)) e->zero[c->of] = 1;
+    for (size_t k = 0; k < e->candidates; k++) {
+        const candidate *other = &e->candidate[k];
+        if (other->kind == CANDIDATE_TIME || !other->located || (other->jumps && other->kind)) continue;
+        if (fabs(other->at - e->here_at) <= 4 * events_ulp(e->here.t)) e->zero[other->of] = 1;
+    }
     if (ends_step(e, c)) {
         status = touch_too(e, err);
         if (status) return status;

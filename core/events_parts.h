@@ -124,6 +124,7 @@ struct events {
     bool hidden; /* the step is so long that rounding hides how a function leaves 0 at its start */
     uint8_t *zero;     /* it is 0 at `here` */
     uint8_t *level;    /* in this instant it stays at 0, as far as its slope tells */
+    double doubt;      /* how far off the time of this instant may be: events_doubt */
     bool awaits;       /* a switch of the force is to turn in this instant */
     uint8_t *touched;  /* it has been told in this instant that it touches 0 */
     uint8_t *look;     /* dense output must tell of it in this step */
@@ -207,9 +208,6 @@ motus_status events_probe(events *, double from, double lost, const double *x, c
 motus_status events_at(events *, double h, instant *, motus_error *);
 /* Finds where the candidate is, and the state there, in `here`. It may be gone; a near one may become two. */
 motus_status events_locate(events *, size_t candidate, motus_error *);
-/* How far off a function at `here`, which is judged, may be: by rounding since the start, and by the error of the step
- * that leads here in the time h, 0: not by that. */
-motus_status events_error_of(events *, size_t function, double h, double *bound, motus_error *);
 /* Whether a function has stayed at 0, but for its error, since it touched 0 the last time; `here` is left elsewhere. */
 motus_status events_lingered(events *, const candidate *, bool *same, motus_error *);
 /* The direction in which a function moves at an instant along the run; 0: too small to tell. */
@@ -230,6 +228,15 @@ bool events_add(events *, candidate);
 motus_status events_no_memory(motus_error *);
 /* The next tick of a clock. False: it is not within the step. */
 bool events_next_tick(const events *, size_t rule, candidate *);
+
+/* events_errors.c. How far off a function at `here`, which is judged, may be: by rounding since the start, and by the
+ * error of the step that leads here in the time h, 0: not by that. */
+motus_status events_error_of(events *, size_t function, double h, double *bound, motus_error *);
+/* The same of the function's rate. */
+motus_status events_slope_error_of(events *, size_t function, double h, double *bound, motus_error *);
+/* How far off the time of a root or touch at `here`, h after the step began, may be because the function is so flat
+ * there that its error hides when it is 0, or its slope; 0: it is not flat. */
+motus_status events_doubt(events *, size_t function, double h, bool touches, double *doubt, motus_error *);
 
 /* events_jump.c. What happens in a cell, in which the function begins with *sign, 0: it stands; then that with which it
  * ends. *told false: more than samples can tell apart. */

@@ -230,78 +230,6 @@ static motus_status extremum(events *e, candidate *c, bool *beyond, motus_error 
     return MOTUS_OK;
 }
 
-/* How far off every number of the state at `here` may be, a time h after the beginning of the step, into e->width: by
- * the rounding since the start, which steps carry one way or the other, and where steps adapt by the error of the step
- * that leads here, which two steps of half its length tell. Of a function that has been 0 what counts is how far it may
- * be off from there, and so how large numbers have been since then. */
-static motus_status state_errors(events *e, size_t f, double h, motus_error *err)
-{
-    const size_t nx = e->problem.nx, nv = e->problem.nv, moving = nx - e->problem.modes;
-    const double units = 8 * (1 + sqrt((double)e->taken)) * 0x1p-53;
-    const double since = e->stands[f] ? fabs(h) : fabs((e->left.t - e->fired[f]) + h); /* NaN: it has not been 0 */
-    const instant *here = &e->here, *from = &e->left;
-    instant *to = &e->next;
-    events_copy(e, to, here);
-    if (row_adaptive(&e->method) && from->t + h / 2 != from->t && from->t + h / 2 != from->t + h) {
-        double t, lost;
-        motus_status status = events_probe(e, from->t, from->lost, from->x, from->v, h / 2, &t, &lost, err);
-        if (!status) status = stepper_sync(e->probe, to->x, to->v, NULL, err);
-        if (!status) status = events_probe(e, t, lost, to->x, to->v, h / 2, &to->t, &to->lost, err);
-        if (!status) status = stepper_sync(e->probe, to->x, to->v, NULL, err);
-        if (status) return status;
-    }
-    for (size_t k = 0; k < nx; k++) {
-        const double fast = k < moving ? fmax(fabs(from->v[k]), fabs(here->v[k])) : 0;
-        const double size = fmin(e->most[k], fmax(fabs(from->x[k]), fabs(here->x[k])) + fast * since);
-        e->width[k] = k < moving ? 2 * fabs(to->x[k] - here->x[k]) + units * size : 0;
-    }
-    for (size_t k = 0; k < nv; k++) {
-        const double fast = h != 0 ? fabs((here->v[k] - from->v[k]) / h) : NAN;
-        const double size = fmin(e->most[nx + k], fmax(fabs(from->v[k]), fabs(here->v[k])) + fast * since);
-        e->width[nx + k] = 2 * fabs(to->v[k] - here->v[k]) + units * size;
-    }
-    return MOTUS_OK;
-}
-
-/* How much a function at `here` changes when every number does by its error, with the signs that bit `bit` of its place
- * has; bit < 0: only number `one`. */
-static motus_status change(events *e, size_t f, int bit, size_t one, double *most, motus_error *err)
-{
-    const size_t nx = e->problem.nx, all = nx + e->problem.nv;
-    instant *to = &e->next;
-    for (int sign = -1; sign <= 1; sign += 2) {
-        events_copy(e, to, &e->here);
-        for (size_t k = bit < 0 ? one : 0; k < all && (bit >= 0 || k == one); k++)
-            *(k < nx ? &to->x[k] : &to->v[k - nx]) += (bit > 0 && (k >> (bit - 1) & 1) ? -sign : sign) * e->width[k];
-        const motus_status status = events_values(e, to, err);
-        if (status) return status;
-        const double by = fabs(to->g[f] - e->here.g[f]);
-        if (isfinite(by)) *most = fmax(*most, by);
-    }
-    return MOTUS_OK;
-}
-
-/* By its own rounding, that of the time, and the errors of the state, of few numbers each by itself. */
-motus_status events_error_of(events *e, size_t f, double h, double *bound, motus_error *err)
-{
-    enum { FEW = 32 };
-    const size_t all = e->problem.nx + e->problem.nv;
-    double sum = 0;
-    motus_status status = state_errors(e, f, h, err);
-    for (size_t k = 0; k < all && all <= FEW && !status; k++) {
-        double by = 0;
-        if (e->width[k] > 0) status = change(e, f, -1, k, &by, err);
-        sum += by;
-    }
-    for (int bit = 0; all > FEW && !status && (bit == 0 || all >> (bit - 1)); bit++) {
-        double by = 0;
-        status = change(e, f, bit, 0, &by, err);
-        sum = fmax(sum, 2 * by);
-    }
-    *bound = sum + e->here.bound[f] + fabs(e->here.rate[f]) * events_ulp(e->here.t);
-    return status;
-}
-
 /* How far rounding may have carried a function at `here`: the state near 0 carries that of the larger ones that led
  * there. */
 static double carried(const events *e, size_t f)
@@ -408,7 +336,10 @@ motus_status events_locate(events *e, size_t k, motus_error *err)
         double bound;
         status = events_error_of(e, f, at, &bound, err);
         if (status) return status;
-        if (fabs(g) <= bound && beyond) {
+        double slope = 0; /* how far that at the end of the step may be off */
+        if (fabs(g) <= bound && beyond) status = events_slope_error_of(e, f, at, &slope, err);
+        if (status) return status;
+        if (fabs(g) <= bound && beyond && fabs(e->here.rate[f]) > slope) {
             c->gone = true; /* the next step tells */
         } else if (fabs(g) <= bound) {
             c->near = false;

@@ -201,7 +201,7 @@ static void write_row(pass *p, events *e, size_t k)
     const event *row = &e->row[k];
     const size_t all = e->problem.nx + e->problem.nv;
     any(p, (double)row->rule), any(p, (double)row->instance), any(p, (double)row->count);
-    any(p, row->t), any(p, row->lasting), any(p, row->touched), any(p, row->changed);
+    any(p, row->t), any(p, row->lasting), any(p, row->doubt), any(p, row->touched), any(p, row->changed);
     numbers(p, e->row_state + e->row_at[k], row->changed ? 2 * all : all);
 }
 
@@ -212,7 +212,7 @@ static void read_row(pass *p, events *e)
     const size_t instance = p->bad ? 0 : number_of(p, 0, e->rules.rule[rule].instances);
     const int64_t count = counter(p, 0), now = e->count[rule];
     to->t = number(p, 0);
-    const double lasting = number(p, 0);
+    const double lasting = number(p, 0), doubt = number(p, 0);
     const bool touched = flag(p, false), changed = flag(p, false);
     for (int after = 0; after <= changed && !p->bad; after++) {
         numbers(p, to->x, e->problem.nx);
@@ -221,7 +221,7 @@ static void read_row(pass *p, events *e)
         e->count[rule] = count; /* of the row that is noted */
         p->bad = p->full = !(after ? events_note_after(e, to) : events_note(e, rule, instance, touched, to));
         e->count[rule] = now;
-        if (!p->bad) e->row[e->rows - 1].lasting = lasting;
+        if (!p->bad) e->row[e->rows - 1].lasting = lasting, e->row[e->rows - 1].doubt = doubt;
     }
 }
 

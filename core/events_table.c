@@ -50,7 +50,13 @@ bool events_note(events *e, size_t rule, size_t instance, bool touched, const in
     const size_t where = e->numbers;
     if (!grow_rows(e) || !add_state(e, at)) return false;
     e->row_at[e->rows] = where;
-    e->row[e->rows++] = (event){rule, instance, e->count[rule], at->t, events_lasting(e, at->t), touched, false};
+    e->row[e->rows++] = (event){.rule = rule,
+                                .instance = instance,
+                                .count = e->count[rule],
+                                .t = at->t,
+                                .lasting = events_lasting(e, at->t),
+                                .doubt = e->doubt,
+                                .touched = touched};
     return true;
 }
 

@@ -142,9 +142,48 @@ static void refused_since_they_never_happen(void **state)
     }
 }
 
+/* Whatever else is asked of the same motion, in the same instants too, an event happens as often. */
+static void beside_others(void **state)
+{
+    (void)state;
+    enum { CASES = sizeof cases / sizeof *cases };
+    int wrong = 0;
+    for (size_t k = 0; k < CASES; k++)
+        for (size_t l = 0; l < CASES; l++) {
+            if (strcmp(cases[k].motion, cases[l].motion) != 0) continue;
+            char text[512];
+            motus_error err;
+            motus_run *r;
+            motus_system *s;
+            const size_t way = (k + l) % (sizeof ways / sizeof *ways);
+            snprintf(text, sizeof text, "%swhen %s as a: record\nwhen %s as b: record\n", cases[k].motion,
+                     cases[k].occasion, cases[l].occasion);
+            must(run_of(text, way, fmin(cases[k].until, cases[l].until), &r, &s, &err), &err, text);
+            int count[2] = {0}, expected[2] = {0};
+            for (int64_t j = 0; j < motus_run_events(r); j++) {
+                motus_event_row e = motus_default_event_row();
+                assert_int_equal(motus_run_event(r, j, &e), MOTUS_OK);
+                count[*e.name == 'b']++;
+            }
+            for (int j = 0; j < TIMES; j++) {
+                const double until = fmin(cases[k].until, cases[l].until);
+                expected[0] += j < cases[k].count && cases[k].t[j] <= until;
+                expected[1] += j < cases[l].count && cases[l].t[j] <= until;
+            }
+            if (count[0] != expected[0] || count[1] != expected[1]) {
+                wrong++;
+                printf("%s and %s by %s: %d and %d instead of %d and %d\n", cases[k].occasion, cases[l].occasion,
+                       ways[way].method, count[0], count[1], expected[0], expected[1]);
+            }
+            motus_run_destroy(r);
+            motus_system_destroy(s);
+        }
+    assert_int_equal(wrong, 0);
+}
+
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(times_of_functions_with_jumps),
+    const struct CMUnitTest tests[] = {cmocka_unit_test(times_of_functions_with_jumps), cmocka_unit_test(beside_others),
                                        cmocka_unit_test(too_fast_to_follow),
                                        cmocka_unit_test(refused_since_they_never_happen)};
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -74,6 +74,40 @@ static void polynomials(void **state)
     assert_int_equal(wrong, 0);
 }
 
+/* How far the time of a touch may be off is told: of a flat function far more than a rounding. */
+static void bars_of_touches(void **state)
+{
+    (void)state;
+    static const char *const adaptive[] = {"dop853", "taylor", "dopri5", "radau15", "verner9"}, *const fixed[] = {
+                                                                                                    "gauss8", "rk4",
+                                                                                                    "yoshida6"};
+    static const double sizes[] = {0.3, 0.1, 1.0 / 64, 0.01}, tolerances[] = {1e-6, 1e-9, 1e-12, 1e-14};
+    for (int flat = 0; flat < 2; flat++)
+        for (size_t k = 0; k < 8; k++)
+            for (size_t j = 0; j < 4; j++) {
+                motus_system *s;
+                motus_error err = motus_default_error();
+                motus_run_def def = motus_default_run();
+                motus_run *r = NULL;
+                const char *method = k < 5 ? adaptive[k] : fixed[k - 5];
+                s = given_text(flat ? FLAT "when x = 0: record\n" : GRAZING "when y = 1: record\n");
+                def.method = method;
+                def.error = MOTUS_BARS_CHEAP;
+                *(k < 5 ? &def.tolerance : &def.step) = k < 5 ? tolerances[j] : sizes[j];
+                must(motus_run_create(s, &def, &r, &err), &err, method);
+                must(motus_run_finish(r, &err), &err, method);
+                assert_int_equal(motus_run_events(r), 1);
+                if (motus_run_events_significant(r) != 1)
+                    fail_msg("%s, number %zu, flat %d: no digit", method, j, flat);
+                const motus_event_row e = event_at(r, 0);
+                const double off = fabs(e.time - (flat ? 0 : 1));
+                if (!(off <= e.error && e.error < (flat ? 1e-2 : 1e-6)))
+                    fail_msg("%s, number %zu: off %g, bar %g", method, j, off, e.error);
+                motus_run_destroy(r);
+                motus_system_destroy(s);
+            }
+}
+
 static const struct {
     const char *method;
     double step, tolerance;
@@ -179,6 +213,7 @@ static void two_roots_near_one_another(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {cmocka_unit_test(polynomials),
+                                       cmocka_unit_test(bars_of_touches),
                                        cmocka_unit_test(powers),
                                        cmocka_unit_test(where_another_event_ends_the_step),
                                        cmocka_unit_test(conditions),

@@ -1,0 +1,132 @@
+/* How far off functions may be, since the state is, and the times at which they are 0 or touch 0. See events_parts.h. */
+#include "core/events_parts.h"
+
+#include <math.h>
+
+/* How far off every number of the state at `here` may be, a time h after the beginning of the step, into e->width: by
+ * the rounding since the start, which steps carry one way or the other, and where steps adapt by the error of the step
+ * that leads here, which two steps of half its length tell. Of a function that has been 0 what counts is how far it may
+ * be off from there, and so how large numbers have been since then. */
+static motus_status state_errors(events *e, size_t f, double h, motus_error *err)
+{
+    const size_t nx = e->problem.nx, nv = e->problem.nv, moving = nx - e->problem.modes;
+    const double jogged = e->jog ? 3 : 1; /* a companion's numbers have been moved by a unit besides */
+    const double units = 8 * jogged * (1 + sqrt((double)e->taken)) * 0x1p-53;
+    const double since = e->stands[f] ? fabs(h) : fabs((e->left.t - e->fired[f]) + h); /* NaN: it has not been 0 */
+    const instant *here = &e->here, *from = &e->left;
+    instant *to = &e->next;
+    events_copy(e, to, here);
+    if (row_adaptive(&e->method) && from->t + h / 2 != from->t && from->t + h / 2 != from->t + h) {
+        double t, lost;
+        motus_status status = events_probe(e, from->t, from->lost, from->x, from->v, h / 2, &t, &lost, err);
+        if (!status) status = stepper_sync(e->probe, to->x, to->v, NULL, err);
+        if (!status) status = events_probe(e, t, lost, to->x, to->v, h / 2, &to->t, &to->lost, err);
+        if (!status) status = stepper_sync(e->probe, to->x, to->v, NULL, err);
+        if (status) return status;
+    }
+    for (size_t k = 0; k < nx; k++) {
+        const double fast = k < moving ? fmax(fabs(from->v[k]), fabs(here->v[k])) : 0;
+        const double size = fmin(e->most[k], fmax(fabs(from->x[k]), fabs(here->x[k])) + fast * since);
+        e->width[k] = k < moving ? 2 * fabs(to->x[k] - here->x[k]) + units * size : 0;
+    }
+    for (size_t k = 0; k < nv; k++) {
+        const double fast = h != 0 ? fabs((here->v[k] - from->v[k]) / h) : NAN;
+        const double size = fmin(e->most[nx + k], fmax(fabs(from->v[k]), fabs(here->v[k])) + fast * since);
+        e->width[nx + k] = 2 * fabs(to->v[k] - here->v[k]) + units * size;
+    }
+    return MOTUS_OK;
+}
+
+/* How much a function at `here`, or its rate, changes when every number does by its error, with the signs that bit `bit`
+ * of its place has; bit < 0: only number `one`. */
+static motus_status change(events *e, size_t f, bool rate, int bit, size_t one, double *most, motus_error *err)
+{
+    const size_t nx = e->problem.nx, all = nx + e->problem.nv;
+    instant *to = &e->next;
+    for (int sign = -1; sign <= 1; sign += 2) {
+        events_copy(e, to, &e->here);
+        for (size_t k = bit < 0 ? one : 0; k < all && (bit >= 0 || k == one); k++)
+            *(k < nx ? &to->x[k] : &to->v[k - nx]) += (bit > 0 && (k >> (bit - 1) & 1) ? -sign : sign) * e->width[k];
+        const motus_status status = rate ? events_rates(e, to, err) : events_values(e, to, err);
+        if (status) return status;
+        const double by = rate ? fabs(to->rate[f] - e->here.rate[f]) : fabs(to->g[f] - e->here.g[f]);
+        if (isfinite(by)) *most = fmax(*most, by);
+    }
+    return MOTUS_OK;
+}
+
+/* By the errors of the state; of few numbers each by itself. */
+static motus_status error_by_state(events *e, size_t f, bool rate, double h, double *bound, motus_error *err)
+{
+    enum { FEW = 32 };
+    const size_t all = e->problem.nx + e->problem.nv;
+    motus_status status = state_errors(e, f, h, err);
+    *bound = 0;
+    for (size_t k = 0; k < all && all <= FEW && !status; k++) {
+        double by = 0;
+        if (e->width[k] > 0) status = change(e, f, rate, -1, k, &by, err);
+        *bound += by;
+    }
+    for (int bit = 0; all > FEW && !status && (bit == 0 || all >> (bit - 1)); bit++) {
+        double by = 0;
+        status = change(e, f, rate, bit, 0, &by, err);
+        *bound = fmax(*bound, 2 * by);
+    }
+    return status;
+}
+
+motus_status events_error_of(events *e, size_t f, double h, double *bound, motus_error *err)
+{
+    const motus_status status = error_by_state(e, f, false, h, bound, err);
+    *bound += e->here.bound[f] + fabs(e->here.rate[f]) * events_ulp(e->here.t);
+    return status;
+}
+
+motus_status events_slope_error_of(events *e, size_t f, double h, double *bound, motus_error *err)
+{
+    const motus_status status = error_by_state(e, f, true, h, bound, err);
+    if (e->marked) *bound += 0x1p-52 * fmax(fabs(e->left.rate[f]), fabs(e->right.rate[f]));
+    return status;
+}
+
+/* The function or its rate at a true step of size h, in `next`. */
+static motus_status look(events *e, size_t f, bool rate, double h, double *value, motus_error *err)
+{
+    motus_status status = events_at(e, h, &e->next, err);
+    if (!status && rate) status = events_rates(e, &e->next, err);
+    *value = rate ? e->next.rate[f] : e->next.g[f];
+    return status;
+}
+
+/* A time within which the function, or its rate, grows beyond a bound on both sides of h, as far as the step goes. */
+static motus_status reach(events *e, size_t f, bool rate, double h, double bound, double *far, motus_error *err)
+{
+    motus_status status = MOTUS_OK;
+    bool hidden = true;
+    double d = events_ulp(e->here.t);
+    for (; hidden && d < fabs(e->span) && !status; d *= 2) {
+        hidden = false;
+        for (int side = -1; side <= 1 && !status; side += 2) {
+            const double at = h + side * d;
+            double value = INFINITY;
+            if (e->way * at < 0 || e->way * (e->span - at) < 0) continue;
+            status = look(e, f, rate, at, &value, err);
+            hidden |= !(fabs(value) > bound);
+        }
+    }
+    *far = d;
+    return status;
+}
+
+motus_status events_doubt(events *e, size_t f, double h, bool touches, double *doubt, motus_error *err)
+{
+    enum { STEEP = 1024 };
+    double bound;
+    *doubt = 0;
+    if (!e->marked) return MOTUS_OK;
+    const double steepest = fmax(fabs(e->left.rate[f]), fabs(e->right.rate[f]));
+    if (!touches && !(STEEP * fabs(e->here.rate[f]) < steepest)) return MOTUS_OK; /* the companion's time tells */
+    const motus_status status =
+        touches ? events_slope_error_of(e, f, h, &bound, err) : events_error_of(e, f, h, &bound, err);
+    return status ? status : reach(e, f, touches, h, bound, doubt, err);
+}
