@@ -32,7 +32,7 @@ parts() {
     start parts 240 node --test --test-reporter=tap test/lab/*.test.mjs
     echo "$(sed -n 's/^# pass //p' $logs/parts.log) passed, $(sed -n 's/^# fail //p' $logs/parts.log) failed" >>$logs/parts.log
 }
-page() { start "$1" 240 node "test/lab/$1.mjs"; }
+page() { start "$1" 300 node "test/lab/$1.mjs"; }
 
 # As many at a time, the longest first, so that all end together.
 together() {

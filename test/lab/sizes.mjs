@@ -135,6 +135,12 @@ await attempt('larger letters', async () => {
       await other.locator('#status button', { hasText: 'Cancel' }).waitFor();
       same(`letters of 32 px, ${width} px, while it computes: not wider than the page`, await sideways(other), 0);
       judge(`letters of 32 px, ${width} px, while it computes: what it does, and the button that ends it`, await other.locator('#status').evaluate((status) => [...status.querySelectorAll('.message span, button')].every((e) => { const { left, right, top, width: w } = e.getBoundingClientRect(); return w > 0 && left >= 0 && right <= innerWidth && top >= 0; })), await other.locator('#status').textContent());
+      judge(`letters of 32 px, ${width} px, while it computes: the title is not on the equation`, await other.evaluate(() => {
+        const words = document.createRange(), pill = document.querySelector('.pill').getBoundingClientRect();
+        words.selectNodeContents(document.querySelector('#scene-title'));
+        const title = words.getBoundingClientRect();
+        return title.right <= pill.left || title.bottom <= pill.top;
+      }));
       await other.screenshot({ path: join(built, 'shots', `letters-computing-${width}.png`) });
       await other.context().close();
     }
