@@ -21,6 +21,7 @@ import type { Sees } from '../stage/stage';
 import { lineOf } from '../figure/line';
 import { words } from '../words';
 import { columnOf, exactAt, movable, positions, states, timeTable, velocityOf } from './columns';
+import { concerning } from './concern';
 import { swingsOf } from './swings';
 import { amount, calledOf, moment, nameAt, timeUnit, unitOf } from './told';
 
@@ -82,7 +83,7 @@ export const phasePanel = (store: Store, stage: () => Sees): Panel => {
         ends.push(endOf(look, end, heights(line.times, px, py)));
       });
       const [ax, ay] = pair.map(at) as [number, number];
-      tracks.forEach(({ events }, k) => { if (events) drawMarks(pen, ink, marksOf(events, (of, row) => [f.x(pair[0] === 't' ? events.times[row]! : of[ax]?.[row] ?? NaN), f.y(pair[1] === 't' ? events.times[row]! : of[ay]?.[row] ?? NaN)]), scene!.looks[k]!); });
+      tracks.forEach(({ events }, k) => { if (events) drawMarks(pen, ink, marksOf(events, (of, row) => [f.x(pair[0] === 't' ? events.times[row]! : of[ax]?.[row] ?? NaN), f.y(pair[1] === 't' ? events.times[row]! : of[ay]?.[row] ?? NaN)], concerning(scene!, events, pair)), scene!.looks[k]!); });
       pen.mark('ring', f.x(track(0, pair[0])[0] ?? NaN), f.y(track(0, pair[1])[0] ?? NaN), 6, ink.text);
     });
     drawEnds(pen, ink, f, names, ends);

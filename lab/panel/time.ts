@@ -23,6 +23,7 @@ import { lineOf } from '../figure/line';
 import { words } from '../words';
 import { bandsOf } from './band';
 import { exactAt, exactText, movable, positions, states, timeTable } from './columns';
+import { concerning } from './concern';
 import { endTime, listed, moment, nameAt, timeUnit, unitOf } from './told';
 
 const say = words.panel.time;
@@ -106,7 +107,7 @@ export const timePanel = (store: Store, stage: () => Sees): Panel => {
         for (const look of scene!.looks) errors.draw(pen, frame, look, name);
         lines.forEach(({ times, values }, k) => drawTrack(pen, frame, times, values, scene!.looks[k]!, ended[k]!.rows, [tracks[k]!.times, columns[k]!]));
         const at = scene!.solution.columns.indexOf(name);
-        tracks.forEach(({ events }, k) => { if (events) drawMarks(pen, ink, marksOf(events, (of, row) => [frame.x(events.times[row]!), frame.y(of[at]?.[row] ?? NaN)]), scene!.looks[k]!); });
+        tracks.forEach(({ events }, k) => { if (events) drawMarks(pen, ink, marksOf(events, (of, row) => [frame.x(events.times[row]!), frame.y(of[at]?.[row] ?? NaN)], concerning(scene!, events, [name])), scene!.looks[k]!); });
       });
       if (exact && truth) { const end = endIn(frame, truth.times, exact); ends.push({ label: greenName(scene!), colour: ink.exact, marker: null, at: end.at, exit: end.exit, heights: heightsIn(frame, truth.times, exact) }); }
       lines.forEach(({ times, values }, k) => ends.push(endOf(scene!.looks[k]!, ended[k]!, heightsIn(frame, times, values))));

@@ -64,7 +64,7 @@ export function mountShell(store: LiveStore, stage: Stage, clock: { replay(): vo
   place('methods').append(chosen.element);
   place('scene-note').append(note(store), goalNote(store));
   place('dials').append(stepSlider(store), toleranceSlider(store), accuracySlider(store), accuracySwitch(store), dials(store));
-  place('dock-links').append(dockLinks(store, pin(store, stage, toasts), stage.choice));
+  place('dock-links').append(dockLinks(store, toasts, pin(store, stage, toasts), stage.choice));
   place('status').append(status(store));
   if (!store.state.embed) {
     const { opener, bar } = lecture(store);

@@ -29,7 +29,6 @@ await attempt('value ± error', async () => {
   const finer = barOf(await figureOf(page, 'Error').locator('.figure-answer').textContent(), 'x');
   judge('an adaptive method, finer, covers it too', finer !== null && finer.error < here.error / 100 && Math.abs(finer.value - 0.04778309565760847) <= finer.error, JSON.stringify(finer));
   await clean('value ± error', page);
-  await page.context().close();
 });
 await attempt('the band', async () => {
   const areas = async (hash) => {
@@ -37,7 +36,6 @@ await attempt('the band', async () => {
     await settled(page, 900);
     const svg = (await saved(page, 'Motion', 'SVG')).bytes.toString('utf8');
     await clean(hash, page);
-    await page.context().close();
     // Areas, not lines.
     return [...svg.matchAll(/<path[^>]*>/g)].filter(([tag]) => /Z"/.test(tag)).flatMap(([tag]) => /opacity="(0\.22|0\.08)"/.exec(tag)?.[1] ?? []);
   };

@@ -14,13 +14,17 @@ const VERLET = '#7a1fc2';
 
 await attempt('a ball that bounces', async () => {
   const page = await open(addressOf(ball, "&q=y&q=y'&f=y&f=y'"));
-  same('what ended it is told', await page.locator('.status .message').textContent(), 'Verlet: bounces accumulate at t = 4.06371276887158(4)');
+  same('what ended it is told', await page.locator('.status .message').textContent(), 'Verlet: bounces accumulate at t = 4.06371276887158(4).');
   same('the clock ends where the motion does', await page.locator('.transport-now').textContent(), '4.064');
   const stage = (await saved(page, 'Motion', 'SVG')).bytes.toString('utf8');
   await page.keyboard.press('Escape');
   judge('rings on the curve where it bounced', [...stage.matchAll(new RegExp(`<circle [^>]*stroke="${VERLET}"`, 'gi'))].length >= 20);
 
-  same('no step is opened that events divide, and why is said', await page.locator('#open-step').evaluate((b) => [b.disabled, b.title]), [true, 'Events divide the steps of this motion: none can be opened.']);
+  const divided = 'Events divide the steps of this motion: none can be opened.', step = page.locator('#open-step');
+  await step.focus();
+  same('no step is opened that events divide, and why is told to who comes there', await step.evaluate((b) => [document.activeElement === b, b.getAttribute('aria-disabled'), document.getElementById(b.getAttribute('aria-describedby')).textContent]), [true, 'true', divided]);
+  await page.keyboard.press('Enter');
+  same('… and shown to who presses it', [await page.locator('#toasts .toast span').allTextContents(), await page.locator('#opened').isVisible()], [[divided], false]);
   await closer(page, 'Events');
   const events = figureOf(page, 'Events');
   await page.waitForFunction(() => /±/.test(document.querySelector('.events-table')?.textContent ?? ''), null, { timeout: 20000 });
@@ -48,6 +52,13 @@ await attempt('a ball that bounces', async () => {
   const phase = linesOf((await saved(page, 'Phase', 'SVG')).bytes.toString('utf8'), VERLET).filter((piece) => piece.length > 1);
   judge('nor a line from speed to speed in the phase plane', phase.length > 20 && phase.every((piece) => piece.every(([, y], i) => i === 0 || y >= piece[i - 1][1] - 0.01)), String(phase.length));
   await clean('a ball that bounces', page);
+});
+
+await attempt('a row of balls', async () => {
+  const page = await open(`${singleFile}#v=1&p=newtons-cradle&a=verlet&q=x[1]&q=energy&f=x[1]&f=x[1]'`), rings = async (title) => [...(await saved(page, title, 'SVG')).bytes.toString('utf8').matchAll(new RegExp(`<circle [^>]*stroke="${VERLET}"`, 'gi'))].length;
+  await closer(page, 'Time');
+  same('a curve has rings of the events that concern it: of those of its ball, and none where all stays as it was', [await rings('Time'), await rings('Phase')], [1, 1]);
+  await clean('a row of balls', page);
 });
 
 await attempt('a section', async () => {

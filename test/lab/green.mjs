@@ -70,7 +70,7 @@ await attempt('where no green line is, it says why', async () => {
   const dry = encodeURIComponent("x'' = -x - 0.1 sign(x')\nx(0) = 1\nx'(0) = 0\nstep 0.05\nuntil 20"), page = await open(`${singleFile}#v=1&m=${dry}&a=rk4`, { width: 390, height: 844, touch: true });
   await settled(page, 500, 40000);
   const said = () => page.locator('#status .message').textContent();
-  judge('the core’s own reason', /^There is no green curve: from t = 15\.708 on the motion slides along x' = 0: .* dry friction that sticks$/.test(await said()), await said());
+  judge('the core’s own reason', /^There is no green curve: from t = 15\.708 on the motion slides along x' = 0: .* dry friction that sticks\.$/.test(await said()), await said());
   same('no green is drawn', await green(page), 0);
   const [told, drawn] = await Promise.all(['#status', '#stage-picture'].map((s) => page.locator(s).boundingBox()));
   judge('on a phone it stands above the picture, not on it', told.y + told.height <= drawn.y + 1 && drawn.height > 200, JSON.stringify([told, drawn]));
@@ -80,7 +80,7 @@ await attempt('where no green line is, it says why', async () => {
   judge('before it sticks there is one', await said() === '' && await green(page) > 200, await said());
   await page.evaluate(() => { location.hash = `#v=1&m=${encodeURIComponent("x'' = 1/x\nx(0) = 0\nx'(0) = 1\nstep 0.5\nuntil 2")}&a=rk4,explicit-euler`; });
   await settled(page, 500, 40000);
-  same('what is undefined at its start says that, once', await said(), 'RK4 and explicit Euler: the motion is undefined at the start, t = 0: x\' has no finite rate of change there');
+  same('what is undefined at its start says that, once', await said(), 'RK4 and explicit Euler: the motion is undefined at the start, t = 0: x\' has no finite rate of change there.');
   judge('… and stops there', /RK4 stops at t = 0:/.test(await page.locator('#stage-figure figcaption').textContent()), await page.locator('#stage-figure figcaption').textContent());
   await clean('no green line', page, /readback/);
 });

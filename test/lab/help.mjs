@@ -92,17 +92,39 @@ function watch() {
   document.addEventListener('securitypolicyviolation', (event) => window.lab.violations.push(`${event.violatedDirective} ${event.blockedURI}`));
 }
 
+/* Pages that were closed without a complaint, by what they were opened with: a new one costs twice what it takes to load it. Their memory is empty. */
+const spare = new Map(), SPARE = 3;
+/** Makes a page as it was when it was new, for the next that is opened in the same way; or closes it. */
+async function putAway(page, good) {
+  if (!page.kind || !good || !page.url().startsWith(singleFile) || page.context().pages().length > 1) return page.context().close();
+  page.removeAllListeners('download');
+  // What the page keeps when it is left is not kept.
+  await page.evaluate(() => { Storage.prototype.setItem = () => {}; localStorage.clear(); sessionStorage.clear(); });
+  await Promise.all([page.unrouteAll(), page.context().clearPermissions(), page.mouse.move(0, 0)]);
+  await page.goto('about:blank');
+  const other = spare.get(page.kind) ?? (spare.size < SPARE ? null : spare.values().next().value);
+  if (other) spare.delete(other.kind);
+  spare.set(page.kind, page);
+  return other?.context().close();
+}
+
 /** A page, watched. address: with its fragment. slower: than this machine, so many times. `wrong` collects what should not be; call `clean` at the end. */
 export async function open(address = singleFile, options = {}) {
   const { width = 1280, height = 900, theme = 'light', calm = false, touch = false, kept = undefined, settle = true, before = undefined, first = false, forced = false, slower = 1 } = options;
-  const context = await (await launch()).newContext({
-    viewport: { width, height }, colorScheme: theme, reducedMotion: calm ? 'reduce' : 'no-preference', acceptDownloads: true, hasTouch: touch, isMobile: touch, locale: 'en-GB', forcedColors: forced ? 'active' : 'none',
-    ...(kept ? { storageState: kept } : {}),
-  });
+  const media = { colorScheme: theme, reducedMotion: calm ? 'reduce' : 'no-preference', forcedColors: forced ? 'active' : 'none' };
+  const kind = kept || slower > 1 ? '' : JSON.stringify([touch, first, String(before)]), page = spare.get(kind) ?? await made({ width, height, touch, media, kept, before, first, slower });
+  if (spare.delete(kind)) await Promise.all([page.setViewportSize({ width, height }), page.emulateMedia({ media: null, ...media })]);
+  Object.assign(page, { kind, wrong: [], asked: [] });
+  await page.goto(address);
+  if (settle) await settled(page);
+  return page;
+}
+/** Such a page, of a browser that knows of no other. */
+async function made({ width, height, touch, media, kept, before, first, slower }) {
+  const context = await (await launch()).newContext({ viewport: { width, height }, ...media, acceptDownloads: true, hasTouch: touch, isMobile: touch, locale: 'en-GB', ...(kept ? { storageState: kept } : {}) });
   const page = await context.newPage();
   page.setDefaultTimeout(20000);
-  page.wrong = [];
-  page.asked = [];
+  Object.assign(page, { wrong: [], asked: [] });
   await page.addInitScript(watch);
   // A first visit begins by itself with a run of the motion, which most tests do not want.
   if (!first) await page.addInitScript(() => { try { localStorage.setItem('motus-lab-1:seen', '1'); } catch { /* about:blank */ } });
@@ -112,8 +134,6 @@ export async function open(address = singleFile, options = {}) {
   page.on('request', (request) => page.asked.push(request.url()));
   page.on('crash', () => page.wrong.push('the page crashed'));
   if (slower > 1) await (await context.newCDPSession(page)).send('Emulation.setCPUThrottlingRate', { rate: slower });
-  await page.goto(address);
-  if (settle) await settled(page);
   return page;
 }
 
@@ -152,7 +172,7 @@ export async function clean(name, page, allowed = null) {
   const wrong = page.wrong.filter((line) => !allowed?.test(line));
   judge(`${name}: no error, no warning`, wrong.length === 0, wrong.join(' | '));
   judge(`${name}: its policy is kept`, violations.length === 0, violations.join(' | '));
-  await page.context().close();
+  await putAway(page, page.wrong.length + violations.length === 0);
 }
 
 /** The fragment of the address once it holds the state, decoded field by field. */

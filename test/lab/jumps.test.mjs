@@ -11,10 +11,10 @@ import test from 'node:test';
 
 const lab = new URL('../../lab/', import.meta.url), need = createRequire(new URL('package.json', lab));
 const built = need('esbuild').buildSync({
-  stdin: { contents: "export { Core } from './core.ts'; export { Answers, reply } from './answers.ts'; export { broken, sample, SEEN } from './sample.ts'; export { placeAt, valueAt } from './stage/rows.ts';", resolveDir: fileURLToPath(lab), loader: 'ts' },
+  stdin: { contents: "export { Core } from './core.ts'; export { Answers, reply } from './answers.ts'; export { broken, sample, SEEN } from './sample.ts'; export { placeAt, valueAt } from './stage/rows.ts'; export { concerning } from './panel/concern.ts';", resolveDir: fileURLToPath(lab), loader: 'ts' },
   bundle: true, format: 'esm', write: false, target: 'es2022', alias: { 'ml-matrix': fileURLToPath(new URL('node_modules/ml-matrix/src/index.js', lab)) },
 });
-const { Core, Answers, reply, broken, sample, SEEN, placeAt, valueAt } = await import('data:text/javascript;base64,' + Buffer.from(built.outputFiles[0].contents).toString('base64'));
+const { Core, Answers, reply, broken, sample, SEEN, placeAt, valueAt, concerning } = await import('data:text/javascript;base64,' + Buffer.from(built.outputFiles[0].contents).toString('base64'));
 const module = new WebAssembly.Module(readFileSync(new URL('../../build/lab/motus.wasm', import.meta.url)));
 const answers = new Answers(new Core(module));
 const ask = (text, more = {}) => {
@@ -71,6 +71,21 @@ test('several events at one instant are one jump', () => {
   assert.equal(pieces(track.curve, columns.indexOf("x[1]'")).length, 2);
   assert.equal(pieces(track.curve, columns.indexOf("x[2]'")).length, 1, 'what it came to and what it left are the same');
   assert.equal(pieces(track.curve, columns.indexOf("x[3]'")).length, 2);
+});
+test('an event concerns the numbers of the bodies that it changes', () => {
+  const of = (text, more) => { const solution = ask(text, more), { events } = solution.tracks[0], { description } = solution; return (...names) => [...events.names].filter((_, row) => concerning({ description, solution }, events, names)(row)); };
+  const cradle = of(readFileSync(new URL('../../models/newtons-cradle.motus', import.meta.url), 'utf8')), all = ['contact[1]', 'contact[2]', 'contact[3]'];
+  for (const name of ['x[1]', "x[1]'"]) assert.deepEqual(cradle(name), all.slice(0, 1));
+  for (const name of ['x[4]', "x[4]'"]) assert.deepEqual(cradle(name), all.slice(2));
+  assert.deepEqual(cradle('x[2]'), all.slice(0, 2));
+  assert.deepEqual(cradle('x[1]', "x[4]'"), [all[0], all[2]], 'a plane has the events of both its axes');
+  assert.deepEqual(cradle('energy'), [], 'what is exchanged stays');
+  const bounces = of(ball());
+  for (const name of ['y', "y'"]) assert.ok(bounces(name).length > 5 && bounces(name).every((event) => event === 'bounce'));
+  const belt = of(readFileSync(new URL('../../models/stick-slip.motus', import.meta.url), 'utf8'), { methods: ['gauss8'] });
+  for (const name of ['x', "x'", 'stuck']) assert.deepEqual(belt(name).slice(0, 2), ['slip', 'stick'], `a mode is no number of the state, so its events concern all: ${name}`);
+  const plane = of("r'' = (0, -1)\nr(0) = (0, 1)\nr'(0) = (1, 0)\nstep 0.1\nuntil 3\nwhen r.y = 0 falling as ground: r'.y = -r'.y, record\nwhen r.x = 1 as line: record\n");
+  assert.deepEqual([...new Set(plane('r.x'))].sort(), ['ground', 'line'], 'both coordinates are one body');
 });
 test('what ends a run', () => {
   const stopped = ask(ball('when y = 0.5 rising as half: stop\n')), [track] = stopped.tracks;

@@ -268,7 +268,6 @@ await attempt('what was refused', async () => {
   await at(page, 2, ['dop853']);
   judge('the next step begins where this one ended', Math.abs(Number(/start, ([\d.]+)/.exec(await page.locator('.opened-picture svg').textContent())?.[1]) - size) < 0.001 + 0.001 * size);
   await clean('refused steps', page);
-  await page.context().close();
 });
 
 await attempt('out of the ordinary', async () => {

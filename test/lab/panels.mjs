@@ -188,7 +188,7 @@ await attempt('the words of a scene are so', async () => {
 await attempt('a run that breaks off', async () => {
   const page = await open(`${singleFile}#v=1&a=verlet&m=${encodeURIComponent("x'' = -sign(x')\nx(0) = 0\nx'(0) = 1\nstep 0.1\nuntil 3\n")}`);
   await page.waitForFunction(() => /could not solve/.test(document.querySelector('.status .message').textContent));
-  same('the name of the method stands once', await page.locator('.status .message').textContent(), 'Verlet could not solve its implicit equation at t = 1: x\' does not converge');
+  same('the name of the method stands once', await page.locator('.status .message').textContent(), 'Verlet could not solve its implicit equation at t = 1: x\' does not converge.');
   judge('the picture is told of in the same way', (await summaryOf(page, 'Motion')).includes('Verlet stops at t = 0.9: the implicit equation of its next step could not be solved.'), await summaryOf(page, 'Motion'));
   same('the clock ends where the run does', Number(await page.locator('.transport-now').textContent()), 0.9);
   const said = await answerOf(page, 'Stability');

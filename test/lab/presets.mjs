@@ -11,7 +11,7 @@ mkdirSync(shots, { recursive: true });
 const names = examples.map(({ name }) => name);
 
 /** A ball that comes to rest does so before its end. */
-const accumulates = /^Verlet: bounces accumulate at t = 4\.06371276887\d+\(\d\)\u2009s$/;
+const accumulates = /^Verlet: bounces accumulate at t = 4\.06371276887\d+\(\d\)\u2009s\.$/;
 /** What a canvas shows, as a number: that two pictures differ. */
 const pixels = (page) => page.locator('#stage-figure canvas.stage-moving').evaluate((canvas) => {
   const { data } = canvas.getContext('2d').getImageData(0, 0, canvas.width, canvas.height);

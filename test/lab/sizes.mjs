@@ -116,20 +116,37 @@ await attempt('larger letters', async () => {
   await clean('a root of 200 %', page);
   // Chosen in the browser, what is asked of the window's width counts in these letters too.
   const large = await chromium.launch({ executablePath: browserPath(), args: ['--no-sandbox', '--disable-dev-shm-usage', '--blink-settings=defaultFontSize=32'] });
-  for (const [width, height] of [[390, 844], [1280, 800], [1920, 1080]]) {
-    const other = await (await large.newContext({ viewport: { width, height }, reducedMotion: 'reduce' })).newPage();
-    for (const hash of ['#v=1&p=thrown-ball', '#v=1&p=thrown-ball&a=explicit-euler&h=0.2&T=2&w=plane&l=too-high-too-low.try.0', '#v=1&p=spring&l=gallery']) {
-      await other.goto(singleFile + hash);
-      await other.reload();
-      await other.locator('.transport-now').filter({ hasText: /\d/ }).waitFor({ state: 'attached' });
-      // The cards of the gallery get their places some frames after the page is there.
-      await other.waitForFunction(() => document.documentElement.scrollWidth === document.documentElement.clientWidth, null, { timeout: 5000 }).catch(() => {});
-      same(`letters of 32 px, ${width} px, ${hash.slice(-8)}: not wider than the page`, await sideways(other), 0);
-      if (/gallery/.test(hash)) continue;
-      judge(`letters of 32 px, ${width} px, ${hash.slice(-8)}: a picture, and a way to play it`, await other.evaluate(() => document.querySelector('#stage').clientHeight >= 180 && document.querySelector('.transport-play').checkVisibility()), await other.evaluate(() => [document.querySelector('#stage').clientHeight, document.querySelector('.transport-play').checkVisibility(), document.body.className]));
+  const slow = "N = 2000\nx[i]'' = -sum(j = 1..N: sin(x[i] - x[j])) for i = 1..N\nx[i](0) = i/N for i = 1..N\nx[i]'(0) = 0 for i = 1..N\nmethod rk4\nstep 0.001\nuntil 1\n";
+  try {
+    for (const [width, height] of [[390, 844], [1280, 800], [1920, 1080]]) {
+      const other = await (await large.newContext({ viewport: { width, height }, reducedMotion: 'reduce' })).newPage();
+      for (const [what, hash] of [['the stage', '#v=1&p=thrown-ball'], ['a lesson', '#v=1&p=thrown-ball&a=explicit-euler&h=0.2&T=2&w=plane&l=too-high-too-low.try.0'], ['the gallery', '#v=1&p=spring&l=gallery']]) {
+        await other.goto(singleFile + hash);
+        await other.reload();
+        await other.locator('.transport-now').filter({ hasText: /\d/ }).waitFor({ state: 'attached' });
+        // The cards of the gallery get their places some frames after the page is there.
+        await other.waitForFunction(() => document.documentElement.scrollWidth === document.documentElement.clientWidth, null, { timeout: 5000 }).catch(() => {});
+        same(`letters of 32 px, ${width} px, ${what}: not wider than the page`, await sideways(other), 0);
+        if (/gallery/.test(hash)) continue;
+        judge(`letters of 32 px, ${width} px, ${what}: a picture, and a way to play it`, await other.evaluate(() => document.querySelector('#stage').clientHeight >= 180 && document.querySelector('.transport-play').checkVisibility()), await other.evaluate(() => [document.querySelector('#stage').clientHeight, document.querySelector('.transport-play').checkVisibility(), document.body.className]));
+      }
+      await other.goto('about:blank');
+      await other.goto(`${singleFile}#v=1&m=${encodeURIComponent(slow)}`);
+      await other.locator('#status button', { hasText: 'Cancel' }).waitFor();
+      same(`letters of 32 px, ${width} px, while it computes: not wider than the page`, await sideways(other), 0);
+      judge(`letters of 32 px, ${width} px, while it computes: what it does, and the button that ends it`, await other.locator('#status').evaluate((status) => [...status.querySelectorAll('.message span, button')].every((e) => { const { left, right, top, width: w } = e.getBoundingClientRect(); return w > 0 && left >= 0 && right <= innerWidth && top >= 0; })), await other.locator('#status').textContent());
+      judge(`letters of 32 px, ${width} px, while it computes: the title is not on the equation`, await other.evaluate(() => {
+        const words = document.createRange(), pill = document.querySelector('.pill').getBoundingClientRect();
+        words.selectNodeContents(document.querySelector('#scene-title'));
+        const title = words.getBoundingClientRect();
+        return title.right <= pill.left || title.bottom <= pill.top;
+      }));
+      await other.screenshot({ path: join(built, 'shots', `letters-computing-${width}.png`) });
+      await other.context().close();
     }
+  } finally {
+    await large.close();
   }
-  await large.close();
 });
 
 // --- paper -----------------------------------------------------------------------------------------------------------------------------------

@@ -17,7 +17,7 @@ export const study = {
   again: 'Try again',
   cancel: 'Cancel',
   cancelled: 'Cancelled.',
-  failed: (why: string) => `This could not be measured: ${why}`,
+  failed: (why: string) => `This could not be measured: ${why}.`,
   earlier: 'The picture is of an earlier state.',
   converge: 'Measuring the error at many steps',
   compare: 'Comparing the methods',

@@ -1,4 +1,7 @@
 /* What is wrong with the state of the page: lab/state.ts, shell/status.ts. */
+/** The core's sentences, which end without a full stop. */
+const ended = (sentence: string): string => (/[.!?…]$/.test(sentence) ? sentence : `${sentence}.`);
+
 export const trouble = {
   tooLarge: (number: string) => `${number} is too large for a number.`,
   noNumber: (text: string) => `“${text}” is no number.`,
@@ -19,11 +22,11 @@ export const trouble = {
   last: 'The last motion that could be read, with its sliders.', model: 'The model has an error; see under its text.',
   numbers: 'The step or the end cannot be used, as said beside them; the picture is the last one that could be computed.',
   /** One method that did not reach the end; all of them. */
-  method: (name: string, message: string) => `${name}: ${message}`, does: (name: string, what: string) => `${name} ${what}`, all: (sentences: readonly string[]) => sentences.join('. '),
+  method: (name: string, message: string) => `${name}: ${message}`, does: (name: string, what: string) => `${name} ${what}`, all: (sentences: readonly string[]) => sentences.map(ended).join(' '),
   /** Why nothing could be computed to compare with, as the core says it. */
   noGreen: (why: string) => `There is no green curve: ${why}`,
   /** at: "t = 36.1". */
   noGreenFrom: (by: string, at: string) => `There is no green curve: no digit of ${by} is known from ${at} on`,
   /** What the core says, and what would be right, where it says that. */
-  hinted: (message: string, hint: string) => (hint ? `${message}: ${hint}` : message),
+  hinted: (message: string, hint: string) => ended(hint ? `${message}: ${hint}` : message),
 } as const;
