@@ -1,4 +1,5 @@
-/* How far off functions may be, since the state is, and the times at which they are 0 or touch 0. See events_parts.h. */
+/* How far off functions may be, since the state is, and the times at which they are 0 or touch 0.
+ * See events_parts.h. */
 #include "core/events_parts.h"
 
 #include <math.h>
@@ -37,8 +38,8 @@ static motus_status state_errors(events *e, size_t f, double h, motus_error *err
     return MOTUS_OK;
 }
 
-/* How much a function at `here`, or its rate, changes when every number does by its error, with the signs that bit `bit`
- * of its place has; bit < 0: only number `one`. */
+/* How much a function at `here`, or its rate, changes when every number does by its error, with the signs that bit
+ * `bit` of its place has; bit < 0: only number `one`. */
 static motus_status change(events *e, size_t f, bool rate, int bit, size_t one, double *most, motus_error *err)
 {
     const size_t nx = e->problem.nx, all = nx + e->problem.nv;

@@ -264,7 +264,8 @@ static candidate *about(const events *e, size_t f, bool touches)
     return NULL;
 }
 
-/* Whether a candidate leads function f here, also one that has been followed, and to which side; 0: there it stays 0. */
+/* Whether a candidate leads function f here, also one that has been followed, and to which side; 0: there it stays
+ * 0. */
 static bool is_led(const events *e, size_t f, int *side)
 {
     for (size_t k = 0; k < e->candidates; k++) {
