@@ -339,8 +339,9 @@ static motus_status follow(events *e, stepper *s, candidate *c, bool *assigned, 
     c->gone = true;
     motus_status status = MOTUS_OK;
     e->doubt = 0;
-    if (happens && at.kind != CANDIDATE_TIME && !at.jumps && !e->rules.rule[e->rule_of[at.of]].internal)
-        status = events_doubt(e, at.of, at.at, at.kind == CANDIDATE_TOUCHES, &e->doubt, err);
+    const bool touches = at.kind == CANDIDATE_TOUCHES, left = !touches && at.low == at.high; /* it has stood at 0 */
+    if (happens && at.kind != CANDIDATE_TIME && !at.jumps && !left && !e->rules.rule[e->rule_of[at.of]].internal)
+        status = events_doubt(e, at.of, at.at, touches, &e->doubt, err);
     if (happens && !status) status = events_fire(e, &at, assigned, err);
     if (at.kind == CANDIDATE_TIME) /* a clock may tick again in this step */
         c->gone = !events_next_tick(e, at.of, c) || !(e->way * (c->at - at.at) > 0);
