@@ -8,7 +8,7 @@
  * the rounding since the start, which steps carry one way or the other, and where steps adapt by the error of the step
  * that leads here, which two steps of half its length tell. Of a function that has been 0 what counts is how far it may
  * be off from there, and so how large numbers have been since then. */
-static motus_status state_errors(events *e, size_t f, double h, motus_error *err)
+static void state_errors(events *e, size_t f, double h)
 {
     const size_t nx = e->problem.nx, nv = e->problem.nv, moving = nx - e->problem.modes;
     const double jogged = e->jog ? 3 : 1; /* a companion's numbers have been moved by a unit besides */
@@ -19,11 +19,11 @@ static motus_status state_errors(events *e, size_t f, double h, motus_error *err
     events_copy(e, to, here);
     if (row_adaptive(&e->method) && from->t + h / 2 != from->t && from->t + h / 2 != from->t + h) {
         double t, lost;
-        motus_status status = events_probe(e, from->t, from->lost, from->x, from->v, h / 2, &t, &lost, err);
-        if (!status) status = stepper_sync(e->probe, to->x, to->v, NULL, err);
-        if (!status) status = events_probe(e, t, lost, to->x, to->v, h / 2, &to->t, &to->lost, err);
-        if (!status) status = stepper_sync(e->probe, to->x, to->v, NULL, err);
-        if (status) return status;
+        motus_status failed = events_probe(e, from->t, from->lost, from->x, from->v, h / 2, &t, &lost, NULL);
+        if (!failed) failed = stepper_sync(e->probe, to->x, to->v, NULL, NULL);
+        if (!failed) failed = events_probe(e, t, lost, to->x, to->v, h / 2, &to->t, &to->lost, NULL);
+        if (!failed) failed = stepper_sync(e->probe, to->x, to->v, NULL, NULL);
+        if (failed) events_copy(e, to, here); /* of steps too short for error control nothing is known */
     }
     for (size_t k = 0; k < nx; k++) {
         const double fast = k < moving ? fmax(fabs(from->v[k]), fabs(here->v[k])) : 0;
@@ -35,7 +35,6 @@ static motus_status state_errors(events *e, size_t f, double h, motus_error *err
         const double size = fmin(e->most[nx + k], fmax(fabs(from->v[k]), fabs(here->v[k])) + fast * since);
         e->width[nx + k] = 2 * fabs(to->v[k] - here->v[k]) + units * size;
     }
-    return MOTUS_OK;
 }
 
 /* How much a function at `here`, or its rate, changes when every number does by its error, with the signs that bit
@@ -61,8 +60,9 @@ static motus_status error_by_state(events *e, size_t f, bool rate, double h, dou
 {
     enum { FEW = 32 };
     const size_t all = e->problem.nx + e->problem.nv;
-    motus_status status = state_errors(e, f, h, err);
+    motus_status status = MOTUS_OK;
     *bound = 0;
+    state_errors(e, f, h);
     for (size_t k = 0; k < all && all <= FEW && !status; k++) {
         double by = 0;
         if (e->width[k] > 0) status = change(e, f, rate, -1, k, &by, err);
@@ -99,24 +99,22 @@ static motus_status look(events *e, size_t f, bool rate, double h, double *value
     return status;
 }
 
-/* A time within which the function, or its rate, grows beyond a bound on both sides of h, as far as the step goes. */
-static motus_status reach(events *e, size_t f, bool rate, double h, double bound, double *far, motus_error *err)
+/* A time within which the function, or its rate, grows beyond a bound on both sides of h, as far as the step goes. A
+ * step so short that its error cannot be controlled tells nothing. */
+static double reach(events *e, size_t f, bool rate, double h, double bound)
 {
-    motus_status status = MOTUS_OK;
     bool hidden = true;
     double d = events_ulp(e->here.t);
-    for (; hidden && d < fabs(e->span) && !status; d *= 2) {
+    for (; hidden && d < fabs(e->span); d *= 2) {
         hidden = false;
-        for (int side = -1; side <= 1 && !status; side += 2) {
+        for (int side = -1; side <= 1; side += 2) {
             const double at = h + side * d;
-            double value = INFINITY;
+            double value;
             if (e->way * at < 0 || e->way * (e->span - at) < 0) continue;
-            status = look(e, f, rate, at, &value, err);
-            hidden |= !(fabs(value) > bound);
+            hidden |= look(e, f, rate, at, &value, NULL) || !(fabs(value) > bound);
         }
     }
-    *far = d;
-    return status;
+    return d;
 }
 
 motus_status events_doubt(events *e, size_t f, double h, bool touches, double *doubt, motus_error *err)
@@ -129,5 +127,6 @@ motus_status events_doubt(events *e, size_t f, double h, bool touches, double *d
     if (!touches && !(STEEP * fabs(e->here.rate[f]) < steepest)) return MOTUS_OK; /* the companion's time tells */
     const motus_status status =
         touches ? events_slope_error_of(e, f, h, &bound, err) : events_error_of(e, f, h, &bound, err);
-    return status ? status : reach(e, f, touches, h, bound, doubt, err);
+    if (!status) *doubt = reach(e, f, touches, h, bound);
+    return status;
 }
