@@ -1105,6 +1105,12 @@ MOTUS_API motus_status motus_ensemble_event(const motus_ensemble *, size_t traje
 /* Why a trajectory of the last motus_ensemble_run stopped before its end, where the definition asks for it: the `cause`
  * of a run with its values. MOTUS_CAUSE_NONE: it did not stop, or the cause is not known. */
 MOTUS_API motus_cause motus_ensemble_stopped_by(const motus_ensemble *, size_t trajectory);
+/* What ended a trajectory, from 0, of the last motus_ensemble_run before its end, as motus_run_ended tells it of a run
+ * with its values: the name of the kind of event that stopped it or whose events accumulate, owned by the ensemble.
+ * "": no event did, the trajectory stopped, or there is no such trajectory. */
+MOTUS_API const char *motus_ensemble_ended(const motus_ensemble *, size_t trajectory);
+/* The name of kind k of the system's events, from 0, in their order; owned by the ensemble. NULL: there are no more. */
+MOTUS_API const char *motus_ensemble_kind(const motus_ensemble *, size_t k);
 /* Whether motus_ensemble_run would take these values: MOTUS_OK, or what it would return before it computes anything. */
 MOTUS_API motus_status motus_ensemble_check(motus_ensemble *, size_t count, const double *const *values, motus_error *);
 MOTUS_API void motus_ensemble_destroy(motus_ensemble *);
