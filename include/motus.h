@@ -824,6 +824,10 @@ MOTUS_API const char *motus_run_note(const motus_run *);
 /* Why a run by steps that adapt does not locate the switches of its force (motus_switches); "": it does, or there are
  * none, or they are not to be. */
 MOTUS_API const char *motus_run_not_located(const motus_run *);
+/* Where an event that assigns breaks a step of the run's method, one sentence: of a symplectic method a step that ends
+ * where the state decides is not symplectic, and a run by reversible steps that adapt is not reversible across one; ""
+ * where no event does. */
+MOTUS_API const char *motus_run_cut(const motus_run *);
 /* The C text that the compiled machine compiles for a run of this model, of whose definition (NULL: everything is the
  * model's) it uses the method and the tolerance, from which the order of Taylor series follows; owned by the system.
  * NULL, and the error says why: MOTUS_ARGUMENT: the system is from a callback, or the method does not take this step or
