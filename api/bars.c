@@ -2,6 +2,7 @@
 #include "api/bars.h"
 
 #include "api/choice.h"
+#include "api/event_bars.h"
 #include "api/later.h"
 #include "api/run_events.h"
 #include "api/shadow.h"
@@ -60,7 +61,7 @@ motus_status bars_make(motus_run *r, motus_bars kind, const size_t *columns, con
     if (!b->columns || !b->memory) return fail(err, MOTUS_MEMORY, "no memory for bars of error");
     for (size_t k = 0; k < count; k++) b->columns[k] = columns ? columns[k] : k;
     differences_place(&b->differences, &shape, b->memory);
-    return MOTUS_OK;
+    return event_bars_whole(r, err);
 }
 
 void bars_destroy(motus_run *r)
@@ -71,6 +72,7 @@ void bars_destroy(motus_run *r)
     companion_end(&r->bars->half, &r->allocator);
     companion_end(&r->bars->twin, &r->allocator);
     give(&r->allocator, r->bars->columns);
+    give(&r->allocator, r->bars->whole);
     give(&r->allocator, r->bars->memory);
     give(&r->allocator, r->bars->resumed);
     give(&r->allocator, r->bars);

@@ -16,6 +16,8 @@ struct bars {
     companion half, twin; /* of about half the step; a twin of the run from a state that is an ulp away */
     size_t count;         /* numbers that are compared: their columns */
     size_t *columns;
+    uint8_t *whole; /* of each number, where there are events, whether it only counts (event_bars.c); NULL */
+    size_t endless; /* 1 + the rule whose events were found to accumulate when it was judged; 0: none */
     double *memory; /* of the differences */
     differences differences;
     double landed;  /* time of the last landing */

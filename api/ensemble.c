@@ -481,6 +481,7 @@ motus_status ensemble_run_all(motus_ensemble *e, size_t count, const double *con
     status = check_ends(e, &p, count, err);
     e->fraction = 0;
     if (status == MOTUS_OK) status = ensemble_events_begin(e, count, err);
+    if (status == MOTUS_OK) status = ensemble_ended_begin(e, count, err);
     if (status == MOTUS_OK) status = ensemble_stopped_begin(e, count, &p, err);
     if (status == MOTUS_OK) status = compute(e, &p, err);
     ensemble_stopped_finish(e);
@@ -528,6 +529,7 @@ void motus_ensemble_destroy(motus_ensemble *e)
     ensemble_workers_destroy(e);
     ensemble_events_end(e);
     ensemble_stopped_end(e);
+    ensemble_ended_end(e);
     motus_system_destroy(e->half);
     give(&a, e->places);
     give(&a, e->records);

@@ -61,7 +61,8 @@ struct motus_ensemble {
     bool tells_causes;
     unsigned char *causes, *ends;
     size_t causes_count;
-    double fraction; /* reported of the present run */
+    size_t *ended, ended_count; /* ensemble_ended.c: of each trajectory of the last run 1 + the rule, or 0; NULL */
+    double fraction;            /* reported of the present run */
     /* Where errors can be told: the columns that are compared, the time and the state and then those of the records,
      * whose reductions `how` are (NULL: none is reduced); and the number of each record among them. */
     motus_bars error;
@@ -148,6 +149,13 @@ void ensemble_stopped_take(worker *, size_t k, bool began);
 void ensemble_stopped_move(motus_ensemble *to, size_t k, const motus_ensemble *from, size_t i);
 /* Those from `first` on whose ends are not final, or not explained, once more by workers. */
 motus_status ensemble_stopped_again(motus_ensemble *, const places *, size_t first, motus_error *);
+
+/* ensemble_ended.c: room for what ended `count` trajectories, where there are rules; and that of the worker's
+ * trajectory k. */
+motus_status ensemble_ended_begin(motus_ensemble *, size_t count, motus_error *);
+void ensemble_ended_end(motus_ensemble *);
+void ensemble_ended_take(worker *, size_t k, bool stopped);
+void ensemble_ended_move(motus_ensemble *to, size_t k, const motus_ensemble *from, size_t i);
 
 /* ensemble.c: all trajectories, with the tolerance of the ensemble. p: the room that the caller supplies. */
 motus_status ensemble_run_all(motus_ensemble *, size_t count, const double *const *values, places p, motus_error *);

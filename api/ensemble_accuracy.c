@@ -251,6 +251,7 @@ static bool take_over(attempt *a, const group *g, motus_ensemble *from, size_t i
         a->stopped[o->number] = g->stopped[i];
         ensemble_events_move(a->e, o->number, from, i);
         ensemble_stopped_move(a->e, o->number, from, i);
+        ensemble_ended_move(a->e, o->number, from, i);
         o->best = bar;
     }
     if (bar <= a->goal->wanted) return false;

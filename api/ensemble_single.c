@@ -211,7 +211,9 @@ motus_status ensemble_one(worker *w, size_t k, void *ctx)
     if (stopped || status == MOTUS_OK) {
         motus_error why = motus_default_error();
         if (stopped) ensemble_stopped_take(w, k, began);
-        const motus_status told = ensemble_events_take(w, k, s.errors, &why);
+        ensemble_ended_take(w, k, stopped);
+        /* without a beginning the events are those of another trajectory */
+        const motus_status told = began ? ensemble_events_take(w, k, s.errors, &why) : MOTUS_OK;
         for (size_t r = 0; r < e->record_count; r++) p->results[r][k] = stopped ? NAN : result(&s, r);
         for (size_t r = 0; p->errors && r < e->record_count; r++) p->errors[r][k] = stopped ? NAN : error(&s, r);
         if (p->stopped) p->stopped[k] = stopped ? w->why.time : NAN;

@@ -8,7 +8,10 @@
  */
 #include "api/event_bars.h"
 
+#include "api/columns.h"
 #include "api/run_events.h"
+
+#include "lang/model/whole.h"
 
 #include <math.h>
 #include <string.h>
@@ -115,34 +118,6 @@ static double shared(double t, double lasting, double part)
     return ROUNDINGS * events_ulp(t) + part * 0x1p-52 * lasting;
 }
 
-/* The state is late or early by what the times of events share; and it cannot be better known than numbers are rounded
- * that were added on the way to it: a motion that sticks, or was led to a place, is not that of a smaller one. */
-motus_status event_bars_state(motus_run *r, double t, const double *x, const double *v, size_t number, double *error,
-                              motus_error *err)
-{
-    const problem *p = &r->system->problem;
-    const bars *b = r->bars;
-    if ((events_acted(r->events) == 0 && events_turns(r->events) == 0) || !(*error > 0) || b->columns[number] == 0)
-        return MOTUS_OK;
-    double *const to_x = take(&r->allocator, p->nx + p->nv + 2, sizeof *to_x), *const to_v = to_x + p->nx + 1;
-    if (!to_x) return fail(err, MOTUS_MEMORY, "no memory for the errors of a state after events");
-    const double late = LASTING * 0x1p-52 * events_lasting(r->events, t);
-    double value[2];
-    motus_status status = MOTUS_OK;
-    for (int k = 0; k < 2 && status == MOTUS_OK; k++) {
-        memcpy(to_x, x, p->nx * sizeof *x), memcpy(to_v, v, p->nv * sizeof *v);
-        for (size_t i = 0; k && i < p->nx && i < p->nv; i++) to_x[i] += v[i] * late;
-        status = system_values(r->system, t, to_x, to_v, b->columns + number, 1, value + k, err);
-    }
-    give(&r->allocator, to_x);
-    if (status != MOTUS_OK) return status;
-    const double moved = fabs(value[1] - value[0]);
-    const double part = events_turns(r->events) > 0 ? 1 : 0.5; /* what held it there has been added to as well */
-    *error = fmax(*error, part * events_ulp(b->differences.size[number]));
-    if (isfinite(moved)) *error = fmax(*error, moved);
-    return MOTUS_OK;
-}
-
 double event_bars_time(motus_run *r, size_t k)
 {
     double d[WINDOW];
@@ -160,6 +135,98 @@ double event_bars_time(motus_run *r, size_t k)
         n++;
     }
     return fmax(bar_of(d, n) + events_ulp(this.t), shared(this.t, this.lasting, LASTING)) + this.doubt;
+}
+
+#define WHOLE_MOST 0x1p53
+enum { ENDLESS = WHOLE_COUNT + 1 };
+
+/* Judges the numbers; those that count what is endless, a rule whose events accumulate, as ENDLESS. */
+static bool judge_whole(motus_run *r, const model_rule *endless)
+{
+    const motus_system *s = r->system;
+    const bars *b = r->bars;
+    whole w;
+    const bool found = whole_find(&w, s->model, endless, &r->allocator);
+    for (size_t k = 0; found && k < b->count; k++) {
+        if (columns_range(s, b->columns[k])->kind != MOTUS_COLUMN_QUANTITY) continue;
+        const whole_kind kind = whole_of(&w, s->model, system_definition(s, b->columns[k], &(size_t){0}));
+        b->whole[k] = endless && b->whole[k] != kind ? ENDLESS : (uint8_t)kind;
+    }
+    give(&r->allocator, w.node);
+    give(&r->allocator, w.array);
+    return found;
+}
+
+motus_status event_bars_whole(motus_run *r, motus_error *err)
+{
+    bars *b = r->bars;
+    if (!r->system->model || r->system->model->rule_count == 0) return MOTUS_OK;
+    b->whole = take(&r->allocator, b->count + 1, sizeof *b->whole);
+    return b->whole && judge_whole(r, NULL) ? MOTUS_OK : fail(err, MOTUS_MEMORY, "no memory for bars of error");
+}
+
+/* Whether run and companion have other events up to t, or the latest may lie beyond it. */
+static bool unsure_at(motus_run *r, double t)
+{
+    const size_t rows = significant(r), all = events_rows(r->events);
+    if (r->bars->rows_differ || rows == 0 || rows < all) return r->bars->rows_differ;
+    const event last = events_row(r->events, rows - 1, false, NULL, NULL);
+    return r->rules->rule[last.rule].kind != RULE_CLOCK && fabs(t - last.t) <= event_bars_time(r, rows - 1);
+}
+
+/* A number that only counts is exact where the companion has the same, and no digit of it is known where the companion
+ * has other events, or where it counts events that have no end. *told: such is the number. */
+static motus_status counts(motus_run *r, double t, size_t number, double *error, bool *told, motus_error *err)
+{
+    bars *b = r->bars;
+    events_limit limit;
+    const bool accumulated = events_accumulated(r->events, &limit);
+    const size_t endless = accumulated && limit.rule < r->system->model->rule_count ? limit.rule + 1 : 0;
+    *told = false;
+    if (!b->whole) return MOTUS_OK;
+    if (endless != b->endless) {
+        if (!judge_whole(r, NULL) || (endless && !judge_whole(r, &r->system->model->rules[limit.rule])))
+            return fail(err, MOTUS_MEMORY, "no memory for bars of error");
+        b->endless = endless;
+    }
+    const double value = fabs(b->differences.values[0][number]);
+    const int kind = b->whole[number];
+    if (kind == WHOLE_NOT || isnan(*error) || floor(value) != value || value > WHOLE_MOST) return MOTUS_OK;
+    if (b->differences.d[number] != 0 && kind != ENDLESS) return MOTUS_OK;
+    const bool unsure = kind == WHOLE_COUNT && unsure_at(r, t);
+    *told = true;
+    *error = isinf(*error) || kind == ENDLESS || unsure ? INFINITY : 0;
+    return MOTUS_OK;
+}
+
+/* The state is late or early by what the times of events share; and it cannot be better known than numbers are rounded
+ * that were added on the way to it: a motion that sticks, or was led to a place, is not that of a smaller one. */
+motus_status event_bars_state(motus_run *r, double t, const double *x, const double *v, size_t number, double *error,
+                              motus_error *err)
+{
+    const problem *p = &r->system->problem;
+    const bars *b = r->bars;
+    bool told;
+    motus_status status = counts(r, t, number, error, &told, err);
+    if (status != MOTUS_OK || told) return status;
+    if ((events_acted(r->events) == 0 && events_turns(r->events) == 0) || !(*error > 0) || b->columns[number] == 0)
+        return MOTUS_OK;
+    double *const to_x = take(&r->allocator, p->nx + p->nv + 2, sizeof *to_x), *const to_v = to_x + p->nx + 1;
+    if (!to_x) return fail(err, MOTUS_MEMORY, "no memory for the errors of a state after events");
+    const double late = LASTING * 0x1p-52 * events_lasting(r->events, t);
+    double value[2];
+    for (int k = 0; k < 2 && status == MOTUS_OK; k++) {
+        memcpy(to_x, x, p->nx * sizeof *x), memcpy(to_v, v, p->nv * sizeof *v);
+        for (size_t i = 0; k && i < p->nx && i < p->nv; i++) to_x[i] += v[i] * late;
+        status = system_values(r->system, t, to_x, to_v, b->columns + number, 1, value + k, err);
+    }
+    give(&r->allocator, to_x);
+    if (status != MOTUS_OK) return status;
+    const double moved = fabs(value[1] - value[0]);
+    const double part = events_turns(r->events) > 0 ? 1 : 0.5; /* what held it there has been added to as well */
+    *error = fmax(*error, part * events_ulp(b->differences.size[number]));
+    if (isfinite(moved)) *error = fmax(*error, moved);
+    return MOTUS_OK;
 }
 
 /* The limit by the companion: its own, or where it has had as many events as the run, what they lead to. */

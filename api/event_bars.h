@@ -12,5 +12,7 @@ motus_status event_bars_state(motus_run *, double t, const double *x, const doub
                               motus_error *);
 /* Of the limit of events that accumulate; the engine knows it to `error`, by the times of its own events. */
 double event_bars_limit(motus_run *, const events_limit *);
+/* Which of the numbers that are compared only count. */
+motus_status event_bars_whole(motus_run *, motus_error *);
 
 #endif

@@ -1,6 +1,8 @@
 /* The events of a system in words: what each waits for and does, the modes that they assign, and what holds at the
  * start, which is no event. */
+#include "api/cuts.h"
 #include "api/sentences.h"
+#include "api/symmetry.h"
 #include "api/system.h"
 
 #include <math.h>
@@ -116,6 +118,9 @@ const char *motus_explain_events(motus_system *s)
     if (system_rules(s, &r, NULL) == MOTUS_OK) {
         for (uint32_t k = 0; k < s->model->rule_count; k++)
             say_rule(&w, s->model, &s->model->rules[k], r->rule[k].period);
+        if (cuts_by_state(s) && symmetry_gradient(s) && s->problem.traits.gradient)
+            sentences_say(&w, "the state decides where an event that assigns ends a step: by a symplectic method that "
+                              "step is not symplectic, while those between are\n");
         say_modes(&w, s);
         say_start(&w, s, r);
     }

@@ -136,6 +136,7 @@ static motus_status begin(job *j, motus_error *err)
     if (motus_run_statistics(j->run, &made) == MOTUS_OK && isnan(made.accuracy)) j->began = NAN;
     if (motus_run_note(j->run)[0] && !o->quiet) complain_note("the interpreter runs this: %s", motus_run_note(j->run));
     if (motus_run_not_located(j->run)[0] && !o->quiet) complain_note("%s", motus_run_not_located(j->run));
+    if (motus_run_cut(j->run)[0] && !o->quiet) complain_note("%s", motus_run_cut(j->run));
     j->start = motus_run_time(j->run);
     j->until = load_until(&j->model);
     status = deviation_begin(&j->deviation, &j->model, j->run, err);

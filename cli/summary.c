@@ -395,6 +395,8 @@ static void events_json(json *j, const summary *s, const double *values, int64_t
     if (rows < motus_run_events(s->run)) json_bool(j, "events_cut", true);
     json_integer(j, "events_significant", motus_run_events_significant(s->run));
     tell_ended(j, s->run);
+    const char *const cut = motus_run_cut(s->run);
+    json_string(j, "events_note", cut[0] ? cut : NULL);
 }
 
 /* State and quantities on arrival at the first *rows events. */

@@ -29,8 +29,11 @@ typedef struct batch {
     double **shifted;                                      /* values, from some trajectory of the batch on */
 } batch;
 
-/* How many records are behind those that were asked for. */
-static size_t judged(const sweep *s) { return isnan(s->accuracy) ? 0 : SWEEP_JUDGED; }
+size_t sweep_kept(const sweep *s)
+{
+    const bool behind = !isnan(s->accuracy) || s->records.count == 0; /* an ensemble has at least one */
+    return s->records.count + (behind ? SWEEP_JUDGED : 0);
+}
 
 /* Of all threads together: as many as advance at once. They may grow, when a compiler has ended. */
 static size_t lanes_of(const sweep *s)
@@ -41,7 +44,7 @@ static size_t lanes_of(const sweep *s)
 
 static motus_status batch_begin(batch *b, const sweep *s, motus_error *err)
 {
-    const size_t records = s->records.count + judged(s);
+    const size_t records = sweep_kept(s);
     const bool errors = s->errors;
     size_t columns = s->grid.count + records * (errors ? 2 : 1) + 1;
     b->lanes = lanes_of(s);
@@ -103,7 +106,7 @@ static motus_status create(sweep *s, stop_progress *progress, motus_error *err)
     def.vary = s->grid.names;
     def.vary_count = s->grid.count;
     def.records = s->records.items;
-    def.record_count = s->records.count + judged(s);
+    def.record_count = sweep_kept(s);
     def.method = o->method;
     def.tolerance = o->tolerance;
     def.accuracy = o->accuracy;
@@ -214,13 +217,14 @@ static motus_status begin(sweep *s, sweep_section *section, stop_progress *progr
     motus_settings_of(s->model.system, &settings);
     const motus_method *card = NULL;
     const char *method = o->method ? o->method : settings.method;
-    const bool adaptive = judged(s) || (method && motus_method_find(method, &card, NULL) == MOTUS_OK && card->adaptive);
+    const bool adaptive =
+        !isnan(s->accuracy) || (method && motus_method_find(method, &card, NULL) == MOTUS_OK && card->adaptive);
     s->step = adaptive ? NAN : isnan(s->model.step) ? settings.step : s->model.step;
     s->until = own_ends ? NAN : load_until(&s->model);
     if (isnan(s->until) && !isnan(o->until))
         return fail(err, MOTUS_ARGUMENT, "--until is one end for all, and --vary until one for each: leave one out");
     s->errors = o->errors;
-    s->columns = 3 + s->grid.count + s->records.count + s->errors;
+    s->columns = 3 + s->grid.count + s->records.count + s->errors + s->records.ended;
     for (size_t r = 0; s->errors && r < s->records.count; r++) s->columns += sweep_record_errs(&s->records.items[r]);
     status = read_every(s, err);
     return status ? status : make(s, progress, err);

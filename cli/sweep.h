@@ -13,6 +13,7 @@
 typedef struct sweep_records {
     motus_record *items;
     size_t count;
+    bool ended; /* also which event ended the trajectory */
 } sweep_records;
 enum { SWEEP_REACHED, SWEEP_TOLERANCE, SWEEP_JUDGED };
 
@@ -38,7 +39,7 @@ typedef struct sweep {
     motus_ensemble *ensemble;
     bool noted; /* why no faster machine runs it */
     /* of a row: number, varied, recorded; where errors are told, those of the records that have some, and whether any
-     * digit is significant; stopped, stopped_by */
+     * digit is significant; where it is recorded, ended; stopped, stopped_by */
     size_t columns;
     /* of the table of events, NULL: none is asked for; behind them those that the picture of a section needs */
     size_t *event_columns, event_columns_count, event_columns_more;
@@ -48,6 +49,12 @@ typedef struct sweep {
     char fingerprint[17]; /* a hash of everything that the numbers depend on */
 } sweep;
 
+/* How many records the ensemble keeps: those that accuracies are judged by too, and where nothing else is recorded. */
+size_t sweep_kept(const sweep *);
+/* Where `ended` is in a row; SIZE_MAX: it is not recorded. */
+static inline size_t sweep_ended(const sweep *s) { return s->records.ended ? s->columns - 3 : SIZE_MAX; }
+/* The number in a .npy of the event that ended a trajectory, 0: none; -1: the model has no event of this name. */
+int sweep_event_number(const sweep *, const char *name);
 /* What an adaptive method does at the switches of the force, a word of --switches; NULL: there are none, or the method
  * is not adaptive. */
 const char *sweep_switches(const sweep *);

@@ -203,7 +203,7 @@ motus_status sweep_file_open(sweep_file *f, const sweep *s, motus_error *err)
     const options *o = s->options;
     *f = (sweep_file){.sweep = s, .path = o->output ? o->output : "-", .descriptor = -1};
     f->npy = sweep_npy_name(f->path);
-    f->room = s->columns < SIZE_MAX / 64 - BUFFER ? BUFFER + s->columns * DECIMAL_MAX : 0;
+    f->room = s->columns < SIZE_MAX / 64 - BUFFER ? BUFFER + s->columns * DECIMAL_MAX + MOTUS_NAME_MAX : 0;
     f->buffer = f->room ? malloc(f->room) : NULL;
     f->numbers = malloc(s->columns * sizeof *f->numbers);
     if (!f->buffer || !f->numbers) return complain_memory(err);
@@ -236,6 +236,15 @@ static motus_status flush(sweep_file *f, uint64_t *rows, motus_error *err)
     return cannot_write(f, code, err);
 }
 
+int sweep_event_number(const sweep *s, const char *name)
+{
+    const char *its;
+    if (!name[0]) return 0;
+    for (int k = 0; (its = motus_ensemble_kind(s->ensemble, (size_t)k)) != NULL; k++)
+        if (strcmp(its, name) == 0) return k + 1;
+    return -1;
+}
+
 /* The numbers of row i after its number: NaN in all that a stopped trajectory has not. Returns how many. */
 static size_t row_numbers(const sweep *s, const sweep_rows *rows, size_t i, double *out)
 {
@@ -250,9 +259,16 @@ static size_t row_numbers(const sweep *s, const sweep_rows *rows, size_t i, doub
         out[n++] = stopped ? NAN : rows->errors[r][i];
     }
     if (s->errors) out[n++] = stopped ? NAN : significant;
+    if (s->records.ended) out[n++] = sweep_event_number(s, motus_ensemble_ended(s->ensemble, i));
     out[n++] = rows->stopped[i];
     out[n++] = motus_ensemble_stopped_by(s->ensemble, i);
     return n;
+}
+
+static char *put_word(char *out, const char *word)
+{
+    while (*word) *out++ = *word++;
+    return out;
 }
 
 static void csv_row(sweep_file *f, size_t i, const sweep_rows *rows)
@@ -265,10 +281,13 @@ static void csv_row(sweep_file *f, size_t i, const sweep_rows *rows)
     for (size_t k = 0; k < count; k++) {
         const bool last = k + 1 == count, none = k < s->grid.count ? false : last ? !stopped : stopped;
         *out++ = ',';
-        if (!none) out += decimal_write(f->numbers[k], out);
+        if (k + 1 == sweep_ended(s)) /* behind the number of the row */
+            out = put_word(out, motus_ensemble_ended(s->ensemble, i));
+        else if (!none)
+            out += decimal_write(f->numbers[k], out);
     }
     *out++ = ',';
-    for (const char *c = motus_cause_word(motus_ensemble_stopped_by(s->ensemble, i)); *c; c++) *out++ = *c;
+    out = put_word(out, motus_cause_word(motus_ensemble_stopped_by(s->ensemble, i)));
     *out++ = '\n';
     f->used = (size_t)(out - f->buffer);
 }

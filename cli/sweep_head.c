@@ -73,6 +73,7 @@ static void fingerprint(sweep *s)
         sweep_record_name(&s->model, &s->records.items[k], name);
         mix_text(&hash, name);
     }
+    if (s->records.ended) mix_text(&hash, "ended");
     if (s->errors) mix_text(&hash, how_told(s));
     if (!isnan(s->accuracy)) mix_number(&hash, s->accuracy);
     snprintf(s->fingerprint, sizeof s->fingerprint, "%016" PRIx64, hash);
@@ -88,6 +89,13 @@ static motus_status option_number(file_out *f, const char *name, double value, m
 {
     char text[DECIMAL_MAX];
     decimal(value, text);
+    return option(f, name, text, err);
+}
+
+static motus_status option_whole(file_out *f, const char *name, uint64_t value, motus_error *err)
+{
+    char text[DECIMAL_MAX];
+    decimal_write_whole(value, text);
     return option(f, name, text, err);
 }
 
@@ -117,13 +125,13 @@ static motus_status command(const sweep *s, file_out *f, motus_error *err)
         status = option(f, s->grid.axes[k].kind <= AXIS_LIST ? "--vary" : "--random", s->grid.axes[k].spec, err);
     if (!status && s->grid.zip) status = option(f, "--zip", NULL, err);
     if (!status && o->random.count > 0) {
-        char number[DECIMAL_MAX];
-        decimal_write_whole(s->grid.draws, number);
-        status = option(f, "--count", number, err);
-        decimal_write_whole(s->grid.seed, number);
-        if (!status) status = option(f, "--seed", number, err);
+        status = option_whole(f, "--count", s->grid.draws, err);
+        if (!status) status = option_whole(f, "--seed", s->grid.seed, err);
     }
     for (size_t i = 0; !status && i < o->set.count; i++) status = option(f, "--set", o->set.items[i], err);
+    for (size_t i = 0; !status && i < o->when.count; i++) status = option(f, "--when", o->when.items[i], err);
+    if (!status && o->section) status = option(f, "--section", o->section, err);
+    if (!status && o->most_points) status = option_whole(f, "--points", (uint64_t)(o->skip + o->most_points), err);
     if (!status) status = option(f, "--record", o->record ? o->record : "final", err);
     if (!status && s->errors) status = option(f, "--errors", NULL, err);
     if (!status && s->errors) status = option(f, "--error", how_told(s), err);
@@ -148,6 +156,7 @@ static const char *name_of(const sweep *s, size_t k, char out[SWEEP_NAME])
     if (k <= s->grid.count) return s->grid.names[k - 1];
     if (k == s->columns - 2) return "stopped";
     if (k == s->columns - 1) return "stopped_by";
+    if (k == sweep_ended(s)) return "ended";
     k -= 1 + s->grid.count;
     const bool error = k >= s->records.count;
     for (size_t r = 0, left = k - s->records.count; error; r++) {
@@ -190,6 +199,16 @@ static motus_status csv_head(const sweep *s, file_out *f, motus_error *err)
     return status ? status : file_text(f, "\n", err);
 }
 
+/* The words of the numbers in `ended`. */
+static void put_events(const sweep *s, json *j)
+{
+    json_open(j, "events", '[');
+    json_string(j, NULL, "");
+    const char *name;
+    for (size_t k = 0; (name = motus_ensemble_kind(s->ensemble, k)) != NULL; k++) json_string(j, NULL, name);
+    json_close(j, ']');
+}
+
 static motus_status npy_head(const sweep *s, file_out *f, motus_error *err)
 {
     char *text = NULL, name[SWEEP_NAME], memory[] = "memory", part[SHARD_TEXT];
@@ -210,6 +229,7 @@ static motus_status npy_head(const sweep *s, file_out *f, motus_error *err)
         json_open(&j, "causes", '['); /* the words of the numbers in stopped_by */
         for (int k = 0; k < MOTUS_CAUSE_COUNT; k++) json_string(&j, NULL, motus_cause_word((motus_cause)k));
         json_close(&j, ']');
+        if (s->records.ended) put_events(s, &j);
         json_end(&j);
     }
     free(text);

@@ -2,7 +2,7 @@
  *
  *     final   NAME   final(NAME)   min(NAME)   max(NAME)   mean(NAME)   time_of_min(NAME)   time_of_max(NAME)
  *     count(EVENT)   time(EVENT)   at(EVENT, EXPRESSION)   and so on: what events keep, defined.h
- *     steps   rejected   h_min   h_max   evaluations   reached   tolerance
+ *     steps   rejected   h_min   h_max   evaluations   reached   tolerance   ended
  *
  * Invariant: a name stands for all its numbers, as in --columns of motus run. Where the model has a column of the name
  * `steps`, that column is meant.
@@ -104,10 +104,13 @@ static motus_status one(sweep_records *r, const load *m, char *item, motus_error
         item[--length] = 0;
         while (item + length > name && item[length - 1] == ' ') item[--length] = 0;
     }
-    const size_t what = how == MOTUS_REDUCE_FINAL && name == item ? of_trajectory_find(item) : OF_TRAJECTORY;
+    const bool plain = how == MOTUS_REDUCE_FINAL && name == item, ended = plain && strcmp(item, "ended") == 0;
+    const size_t what = plain ? of_trajectory_find(item) : OF_TRAJECTORY;
     motus_error none = motus_default_error();
-    if (what < OF_TRAJECTORY && motus_column_find(m->system, name, &first, &count, &none) != MOTUS_OK)
-        return add(r, MOTUS_REDUCE_STEPS + what, 0, 1, err);
+    if ((ended || what < OF_TRAJECTORY) && motus_column_find(m->system, name, &first, &count, &none) != MOTUS_OK) {
+        r->ended = r->ended || ended;
+        return ended ? MOTUS_OK : add(r, MOTUS_REDUCE_STEPS + what, 0, 1, err);
+    }
     motus_status status = motus_column_find(m->system, name, &first, &count, err);
     return status ? status : add(r, how, first, count, err);
 }

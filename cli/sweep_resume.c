@@ -83,34 +83,43 @@ static motus_status csv_head(const sweep_file *f, uint64_t end, size_t *length, 
 /* A row while it is read. */
 typedef struct scan {
     char number[DECIMAL_MAX]; /* the index it has to begin with */
-    size_t at, commas, last;  /* last: the number of the last comma */
+    size_t at, commas;
+    size_t last, ended; /* the numbers of the last comma, and of that before the event that ended the trajectory */
     bool good, stopped;
-    char word[16]; /* behind it */
-    size_t letters;
+    char word[16], event[MOTUS_NAME_MAX]; /* behind them */
+    size_t letters;                       /* of the present one */
 } scan;
 
-static void scan_row(scan *r, uint64_t number, size_t columns)
+static void scan_row(scan *r, uint64_t number, const sweep *s)
 {
-    *r = (scan){.good = true, .last = columns - 1};
+    *r = (scan){.good = true, .last = s->columns - 1, .ended = sweep_ended(s)};
     decimal_write_whole(number, r->number);
 }
 
 static const bool in_numbers[256] = {
-    ['0'] = true, ['1'] = true, ['2'] = true, ['3'] = true, ['4'] = true, ['5'] = true, ['6'] = true,
-    ['7'] = true, ['8'] = true, ['9'] = true, ['+'] = true, ['-'] = true, ['.'] = true, ['e'] = true,
-    [','] = true, ['n'] = true, ['a'] = true, ['i'] = true, ['f'] = true,
+    ['0'] = true, ['1'] = true, ['2'] = true, ['3'] = true, ['4'] = true, ['5'] = true,
+    ['6'] = true, ['7'] = true, ['8'] = true, ['9'] = true, ['+'] = true, ['-'] = true,
+    ['.'] = true, ['e'] = true, ['n'] = true, ['a'] = true, ['i'] = true, ['f'] = true,
 };
+
+static void scan_letter(scan *r, char *word, size_t room, char c)
+{
+    r->good = r->good && r->letters + 1 < room;
+    if (r->good) word[r->letters++] = c;
+}
 
 static void scan_byte(scan *r, char c)
 {
     if (r->commas == 0)
         r->good = r->good && c == (r->number[r->at] ? r->number[r->at] : ',');
+    else if (c == ',')
+        r->letters = 0;
+    else if (r->commas == r->ended)
+        scan_letter(r, r->event, sizeof r->event, c);
     else if (r->commas < r->last)
         r->good = r->good && in_numbers[(unsigned char)c];
-    else if (r->letters + 1 < sizeof r->word)
-        r->word[r->letters++] = c;
     else
-        r->good = false;
+        scan_letter(r, r->word, sizeof r->word, c);
     r->stopped = r->stopped || (r->commas + 1 == r->last && c != ',');
     r->at++;
     r->commas += c == ',';
@@ -131,24 +140,25 @@ static motus_status csv_rows(sweep_file *f, motus_error *err)
     motus_status status = MOTUS_OK;
     uint64_t place = f->bytes;
     scan row;
-    const size_t columns = f->sweep->columns;
-    scan_row(&row, shard_trajectory(&f->sweep->shard, 0), columns);
-    for (ssize_t got = 1; !status && got > 0 && row.good && f->rows < f->sweep->rows;) {
+    const sweep *const s = f->sweep;
+    scan_row(&row, shard_trajectory(&s->shard, 0), s);
+    for (ssize_t got = 1; !status && got > 0 && row.good && f->rows < s->rows;) {
         got = read_at(f, chunk, CHUNK, place, err);
         status = got < 0 ? MOTUS_FILE : MOTUS_OK;
-        for (ssize_t i = 0; i < got && row.good && f->rows < f->sweep->rows; i++) {
+        for (ssize_t i = 0; i < got && row.good && f->rows < s->rows; i++) {
             place++;
             if (chunk[i] != '\n') {
                 scan_byte(&row, chunk[i]);
                 continue;
             }
             const int cause = scan_cause(&row);
-            row.good = row.good && row.commas == columns - 1 && cause < MOTUS_CAUSE_COUNT;
+            row.good = row.good && row.commas == row.last && cause < MOTUS_CAUSE_COUNT &&
+                       sweep_event_number(s, row.event) >= 0;
             if (!row.good) break;
             f->stopped += row.stopped;
             f->stopped_by[cause]++;
             f->bytes = place;
-            scan_row(&row, shard_trajectory(&f->sweep->shard, ++f->rows), columns);
+            scan_row(&row, shard_trajectory(&s->shard, ++f->rows), s);
         }
     }
     free(chunk);

@@ -824,6 +824,10 @@ MOTUS_API const char *motus_run_note(const motus_run *);
 /* Why a run by steps that adapt does not locate the switches of its force (motus_switches); "": it does, or there are
  * none, or they are not to be. */
 MOTUS_API const char *motus_run_not_located(const motus_run *);
+/* Where an event that assigns breaks a step of the run's method, one sentence: of a symplectic method a step that ends
+ * where the state decides is not symplectic, and a run by reversible steps that adapt is not reversible across one; ""
+ * where no event does. */
+MOTUS_API const char *motus_run_cut(const motus_run *);
 /* The C text that the compiled machine compiles for a run of this model, of whose definition (NULL: everything is the
  * model's) it uses the method and the tolerance, from which the order of Taylor series follows; owned by the system.
  * NULL, and the error says why: MOTUS_ARGUMENT: the system is from a callback, or the method does not take this step or
@@ -1105,6 +1109,12 @@ MOTUS_API motus_status motus_ensemble_event(const motus_ensemble *, size_t traje
 /* Why a trajectory of the last motus_ensemble_run stopped before its end, where the definition asks for it: the `cause`
  * of a run with its values. MOTUS_CAUSE_NONE: it did not stop, or the cause is not known. */
 MOTUS_API motus_cause motus_ensemble_stopped_by(const motus_ensemble *, size_t trajectory);
+/* What ended a trajectory, from 0, of the last motus_ensemble_run before its end, as motus_run_ended tells it of a run
+ * with its values: the name of the kind of event that stopped it or whose events accumulate, owned by the ensemble.
+ * "": no event did, the trajectory stopped, or there is no such trajectory. */
+MOTUS_API const char *motus_ensemble_ended(const motus_ensemble *, size_t trajectory);
+/* The name of kind k of the system's events, from 0, in their order; owned by the ensemble. NULL: there are no more. */
+MOTUS_API const char *motus_ensemble_kind(const motus_ensemble *, size_t k);
 /* Whether motus_ensemble_run would take these values: MOTUS_OK, or what it would return before it computes anything. */
 MOTUS_API motus_status motus_ensemble_check(motus_ensemble *, size_t count, const double *const *values, motus_error *);
 MOTUS_API void motus_ensemble_destroy(motus_ensemble *);

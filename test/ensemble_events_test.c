@@ -107,6 +107,7 @@ static void same_table(const flock *f, size_t at, const way *w, size_t k)
         fail_msg("%s, trajectory %zu: %lld events, alone %lld", w->method, k,
                  (long long)motus_ensemble_events(f->e, at), (long long)rows);
     assert_true(rows > 0);
+    assert_string_equal(motus_ensemble_ended(f->e, at), motus_run_ended(r, NULL, NULL, NULL));
     for (int64_t i = 0; i < rows; i++) {
         motus_event_row a = motus_default_event_row(), b = motus_default_event_row();
         double of[2][COLUMNS], alone_of[COLUMNS];
@@ -185,6 +186,57 @@ static void an_accuracy_has_its_tables(void **state)
     end(&f);
 }
 
+/* A stop, a stop after some, an accumulation and nothing: each is what ends the run. A trajectory that fails has no
+ * end, and one without a beginning has no events of its neighbour. */
+static void what_ended(void **state)
+{
+    (void)state;
+    static const char text[] = "e = 0.5; c = 0; y'' = -1; y(0) = sqrt(1 - c); y'(0) = 0; "
+                               "s'' = 6 c s^2; s(0) = 1; s'(0) = 2; "
+                               "when y = 0 falling as bounce: y' = -e y', record; "
+                               "when y' = 0 falling as top: record, stop after 2; when y < -0.1 as below: stop; "
+                               "when t = 9 as late: record";
+    enum { ENDS = 7 };
+    static const double restitution[ENDS] = {0.5, 0.9, 0, -1, 0.9, 0.9, 1e-3}, c[ENDS] = {0, 0, 0, 0, 2, 0.9, 0};
+    static const char *const want[ENDS] = {"top", "top", "bounce", "below", "", "", ""};
+    static const char *const kinds[] = {"bounce", "top", "below", "late"};
+    const double until[ENDS] = {30, 30, 30, 30, 30, 30, 1};
+    const double *const given[] = {restitution, c, until};
+    const char *const vary[] = {"e", "c", "until"};
+    for (int threads = 1; threads <= 2; threads++) {
+        double result[ENDS], stopped[ENDS];
+        double *const results[] = {result};
+        motus_error err = motus_default_error();
+        motus_ensemble *e = NULL;
+        motus_system *s = given_text(text);
+        const motus_record record = {MOTUS_REDUCE_FINAL, 0};
+        motus_ensemble_def def = motus_default_ensemble();
+        def.vary = vary, def.vary_count = 3, def.records = &record, def.record_count = 1;
+        def.method = "dop853", def.tolerance = 1e-9, def.threads = threads, def.machine = "interpreter";
+        def.events = 1;
+        must(motus_ensemble_create(s, &def, &e, &err), &err, "ensemble");
+        assert_string_equal(motus_ensemble_ended(e, 0), "");
+        must(motus_ensemble_run(e, ENDS, given, results, stopped, &err), &err, "run");
+        for (size_t k = 0; k < ENDS; k++) {
+            if (strcmp(motus_ensemble_ended(e, k), want[k]) != 0)
+                fail_msg("trajectory %zu is ended by '%s'", k, motus_ensemble_ended(e, k));
+            assert_int_equal(!isnan(stopped[k]), k == 4 || k == 5);
+        }
+        assert_int_equal(motus_ensemble_events(e, 4), 0); /* sqrt(-1): it has no beginning */
+        assert_string_equal(motus_ensemble_ended(e, ENDS), "");
+        assert_string_equal(motus_ensemble_ended(NULL, 0), "");
+        for (size_t k = 0; k < sizeof kinds / sizeof *kinds; k++)
+            assert_string_equal(motus_ensemble_kind(e, k), kinds[k]);
+        assert_null(motus_ensemble_kind(e, 4));
+        assert_null(motus_ensemble_kind(NULL, 0));
+        must(motus_ensemble_run(e, 1, given, results, stopped, &err), &err, "run");
+        assert_string_equal(motus_ensemble_ended(e, 0), "top");
+        assert_string_equal(motus_ensemble_ended(e, 1), ""); /* of the last call */
+        motus_ensemble_destroy(e);
+        motus_system_destroy(s);
+    }
+}
+
 static void what_there_is_not(void **state)
 {
     (void)state;
@@ -224,6 +276,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(tables_are_those_of_runs),
         cmocka_unit_test(an_accuracy_has_its_tables),
+        cmocka_unit_test(what_ended),
         cmocka_unit_test(what_there_is_not),
     };
     return cmocka_run_group_tests_name("events of ensembles", tests, NULL, NULL);

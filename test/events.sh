@@ -433,6 +433,60 @@ that "  is true where it is not 0" [ "$(value '[.events[] | .name + " " + (.time
 text "K = 5.29\nth'' = 0\nth(0) = -1.16\nth'(0) = 2.15\nuntil 20\nwhen every 1 as kick: th' = th' + K sin(th), record\n"
 gives "a motion that only kicks round" 0 "$motus" run "$one" --method taylor --json
 that "  is as near as its error says" near "$(value '.state.th')" 372.296079583658923 "$(value '.error.th')"
+# A symplectic method is symplectic but where the state decides the size of a step. A method that is reversible by steps of one size stays
+# so: with the velocity turned round a ball that bounces without loss comes back to where it began but for rounding.
+elastic="y'' = -1 - 0.3 sin(3 y)\ny(0) = 1.3\ny'(0) = 0.37\nuntil 20\n"
+cut="the state decides where an event that assigns ends a step, so that step is not symplectic, while those between are"
+text "${elastic}when y = 0 falling as bounce: record, y' = -y'\n"
+for method in verlet gauss4; do
+    gives "events that cut the steps of $method" 0 "$motus" run "$one" --method $method --step 0.125 --error none --json
+    that "  break those steps alone, and it says so" eval "says '$cut' '$err' && holds '.events_note == \"$cut\"'"
+    back=("y(0)=$(value .state.y)" "y'(0)=$(value "-.state[\"y'\"]")")
+    gives "  back" 0 "$motus" run "$one" --method $method --step 0.125 --error none --set "${back[0]}" --set "${back[1]}" --json -q
+    that "  it comes to where it began" holds "(.events | length) == 6 and (.state.y - 1.3 | fabs) < 1e-12 and (.state[\"y'\"] + 0.37 | fabs) < 1e-12"
+    that "  quietly" empty "$err"
+done
+gives "steps that adapt reversibly" 0 "$motus" run "$one" --method verlet-reversible --tolerance 1e-3 --until 0.5 --error none
+that "  begin anew, and it says so" says "the control of steps begins anew after an event that assigns" "$err"
+for method in rk4 newmark; do
+    gives "$method" 0 "$motus" run "$one" --method $method --step 0.125 --error none --json
+    that "  has nothing to break" eval "lacks symplectic '$err' && holds 'has(\"events_note\") and .events_note == null'"
+done
+gives "check" 0 "$motus" check "$one"
+that "  says it of the model" eval "tr -s ' \n' ' ' <'$out' | grep -qF 'the state decides where an event that assigns ends a step: by a symplectic method that step is not symplectic, while those between are'"
+for event in "when y = 0 falling: record" "when every 1: y' = 0.5 y'" "when t = 1.3: y' = 0.5 y'" "n = 0\nwhen y = 0 falling: n = n + 1"; do
+    text "$elastic$event\n"
+    gives "$event" 0 "$motus" run "$one" --method verlet --step 0.125 --error none
+    that "  cuts no step where the state decides" lacks symplectic "$err"
+done
+gives "check" 0 "$motus" check "$one"
+that "  neither" lacks "the state decides"
+text "y'' = -1 - 0.1 y'\ny(0) = 1\ny'(0) = 0\nuntil 3\nwhen y = 0 falling: y' = -y'\n"
+gives "a force that no method is symplectic for" 0 "$motus" run "$one" --method verlet --step 0.125 --error none
+that "  has nothing to break" lacks symplectic "$err"
+# What only counts is exact, where the events are those of the companion.
+counted="$ball""n = 0\nm = 3\ntwice = 2 count(bounce) + 1\nlate = time(tick, last)\nwhole = if(n > 4, n*m, -n)\nwhen y = 0 falling as bounce: record, y' = -0.9 y', n = n + 1, m = 2\nwhen every 0.3 as tick: n = n + 1\n"
+text "$counted"
+for how in "--method rk4 --step 0.01" "--method dop853 --tolerance 1e-6"; do
+    gives "counts by ${how#--method }" 0 "$motus" run "$one" --until 2 $how --json
+    that "  have the error 0, and a time has not" holds '.error | .n == 0 and .m == 0 and .twice == 0 and .whole == 0 and .late > 0'
+    gives "  in print" 0 "$motus" run "$one" --until 2 $how
+    that "  they have none" eval "grep -qx '  n         9' '$out' && grep -qx '  twice     7' '$out' && grep -qx '  m         2' '$out' && grep -qx '  whole     18' '$out' && grep -q '^  late .*±' '$out'"
+done
+gives "an event as late as the end may be" 0 "$motus" run "$one" --until 0.4515236409857309 --method rk4 --step 0.1 --json
+that "  counts for nothing that is known" holds '.error | .n == null and .twice == null'
+gives "a clock that ticks at the end" 0 "$motus" run "$one" --until 0.3 --method rk4 --step 0.1 --json
+that "  counts" holds '.quantities.n == 1 and .error.n == 0'
+gives "events that accumulate" 0 "$motus" run "$one" --until 9 --method rk4 --step 0.01
+that "  have no number, and what each assigns alike is known" eval "grep -qx '  n         —' '$out' && grep -qx '  twice     —' '$out' && grep -qx '  m         2' '$out'"
+text "rest = 0\nhits = count(bounce)\nticks = count(tick)\ny'' = if(rest, 0, -9.81)\ny(0) = 1\ny'(0) = 0\nuntil 2.15\nwhen y = 0 falling as bounce: record, y' = -0.5 y'\nwhen bounce accumulates: y' = 0, y = 0, rest = 1\nwhen every 0.3 as tick: record\n"
+gives "a run that goes on behind them" 0 "$motus" run "$one" --method rk4 --step 0.01 --json
+that "  knows what others count" holds '.quantities.rest == 1 and .quantities.ticks == 7 and .error.rest == 0 and .error.ticks == 0 and .error.hits == null'
+text "x'' = 0\ny'' = 0\nx(0) = 0.7\ny(0) = 0.1\nx'(0) = 0.613\ny'(0) = 0.8\nhits = count(disc)\nside = 0\nk = 3\nodd = 0.5\nwhen x^2 + y^2 = 0.25 falling as disc: record, x' = x' - 8 x*(x*x' + y*y'), y' = y' - 8 y*(x*x' + y*y'), odd = 1 - odd\nwhen abs(x) = 1 rising as wx: record, x' = -x', side = 1\nwhen abs(y) = 1 rising as wy: record, y' = -y', side = 2\n"
+gives "a billiard" 0 "$motus" run "$one" --method rk4 --step 0.05 --until 20 --json
+that "  is counted" holds '.error.hits == 0 and .error.side == 0 and .error.odd > 0'
+gives "a billiard that loses its digits" 0 "$motus" run "$one" --method rk4 --step 0.05 --until 200 --json
+that "  loses its counts with them" holds '.events_significant < (.events | length) and .error.hits == null and .error.side == null'
 
 echo "$passed passed, $failed failed"
 [ "$failed" = 0 ]

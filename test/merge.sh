@@ -94,6 +94,19 @@ that "rows and events of a shard are continued" same row-cut.csv row2.csv
 that "  both" same event-cut.csv event2.csv
 refuses "rows and events are two kinds" 2 "is a table of rows, but event2.csv is a table of events" "$motus" merge row1.csv event2.csv -o no.csv
 
+# --- what ended trajectories ----------------------------------------------------------------------------------------------------
+vary=(ball.motus --vary "e=0.1:0.9:9000" --until 3 --record "ended, y" --when "y > 0.5 and t > 2 as high: stop" -q)
+for kind in csv npy; do
+    sweep "${vary[@]}" -o ends.$kind
+    for k in 1 2; do sweep "${vary[@]}" --shard $k/2 -o "end%K.$kind" --threads $k; done
+    gives "shards with ended as $kind are merged" 0 "$motus" merge end2.$kind end1.$kind -o merged.$kind --force
+    that "  to the bytes of one sweep" same merged.$kind ends.$kind
+done
+that "  with what is beside it" same merged.npy.json ends.npy.json
+that "  the numbers have words there" eval "jq -e '.events == [\"\", \"bounce\", \"high\"]' ends.npy.json"
+that "  each of the ends is there" test "$(grep -v '^#' ends.csv | tail -n +2 | cut -d, -f4 | sort -u | tr '\n' ' ')" = " bounce high "
+vary=(ball.motus --vary "e=0.1:0.9:9000" --until 3 --record "y" -q)
+
 # --- what is refused ------------------------------------------------------------------------------------------------------------
 refuses "a missing shard is named" 2 "1 of 3 shards are missing: 2" "$motus" merge alone1.csv alone3.csv -o no.csv
 cp alone1.csv cut1.csv

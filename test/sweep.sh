@@ -425,6 +425,69 @@ that "a .npy has their numbers" eval "[ \"\$(od -An -v -t f8 -w48 -j 128 causes.
 sweep "${causes[@]}" -o causes.npy --resume --json >"$out"
 that "... and JSON counts those that are found" holds '.stopped_by == {"singular": 3} and .resumed == 4'
 
+# --- which event ended them -----------------------------------------------------------------------------------------------------
+model drops "e = 0.5" "c = 1" "y'' = -1" "y(0) = c" "y'(0) = 0" "when y = 0 falling as bounce: y' = -e y'" "when y > 0.9 and t > 2 as high: stop" "when t = 3 as third: record" "until 6"
+drops=(drops.motus --vary e=0.5,0.9,1,0.3 --record "t, ended, y" --method dop853 --tolerance 1e-9)
+sweep "${drops[@]}" -o drops.csv -q 2>"$err"
+that "--record ended is a column before stopped" is "$(names drops.csv)" "index,e,t,y,ended,stopped,stopped_by"
+that "... accumulated, nothing, stopped, accumulated" is "$(rows drops.csv | cut -d, -f5 | tr '\n' ' ')" "bounce  high bounce "
+ended_of() { local e; for e in 0.5 0.9 1 0.3; do "$motus" run drops.motus --set e=$e --method dop853 --tolerance 1e-9 --until 6 --error none --json 2>"$err" | jq -r '.ended // ""'; done; }
+that "... as the runs" cmp <(rows drops.csv | cut -d, -f5) <(ended_of)
+for how in "--threads 1" "--threads 2" "--machine interpreter" "--machine compiled"; do
+    # shellcheck disable=SC2086
+    sweep "${drops[@]}" $how -o same.csv --force -q 2>"$err"
+    that "the same bytes with $how" cmp drops.csv same.csv
+done
+resumed_ends() {
+    local n
+    for n in $(seq "$(rows drops.csv | wc -c)"); do
+        head -c "-$n" drops.csv >cut.csv
+        sweep "${drops[@]}" -o cut.csv --resume -q 2>"$err" && cmp drops.csv cut.csv || { echo "without $n bytes"; return 1; }
+    done
+}
+that "... after a cut at every byte of the rows too" resumed_ends
+sed '$s/bounce/bounces/' drops.csv >wrong.csv
+sweep "${drops[@]}" -o wrong.csv --resume -q 2>"$err"
+that "a row with an event that there is not is computed again" cmp drops.csv wrong.csv
+refuses "without ended it is another sweep" 2 "drops.csv was made by another sweep" "$motus" sweep "${drops[@]}" --record "t, y" -o drops.csv --resume
+sweep "${drops[@]}" -o drops.npy -q 2>"$err"
+that "a .npy has their numbers" is "$(od -An -v -t f8 -w56 -j 128 drops.npy | awk '{ print $5 + 0 }' | tr '\n' ' ')" "1 0 2 1 "
+that "... and their words beside it" eval "jq -e '.events == [\"\", \"bounce\", \"high\", \"third\"] and .columns[4] == \"ended\"' drops.npy.json"
+sweep "${drops[@]}" --errors -o errors.csv -q 2>"$err"
+that "... behind the errors" is "$(names errors.csv)" "index,e,t,y,y.error,significant,ended,stopped,stopped_by"
+that "... the same" cmp <(rows errors.csv | cut -d, -f7) <(rows drops.csv | cut -d, -f5)
+sweep "${drops[@]}" --record ended -o only.csv -q 2>"$err"
+that "ended alone" is "$(rows only.csv | tr '\n' ' ')" "0,0.5,bounce,, 1,0.9,,, 2,1,high,, 3,0.3,bounce,, "
+sweep drops.motus --vary e=0.5,1 --record ended --accuracy 1e-6 -q >"$out" 2>"$err"
+that "... with an accuracy" is "$(rows | tr '\n' ' ')" "0,0.5,bounce,, 1,1,high,, "
+sweep osc.motus --vary F=0.1,0.2 --record ended --until 1 -q >"$out" 2>"$err"
+that "... of a model without events, empty" is "$(rows | tr '\n' ' ')" "0,0.1,,, 1,0.2,,, "
+model own "x'' = -x" "x(0) = 1" "x'(0) = 0" "ended = 2*x" "f = 1" "until 1" "step 0.1" "method rk4"
+sweep own.motus --vary f=1 --record "ended, x" -q >"$out" 2>"$err"
+that "a quantity of the model with that name goes first" eval "[ '$(names)' = index,f,ended,x,stopped,stopped_by ] && rows | awk -F, '{ exit \$3 != 2*\$4 }'"
+refuses "it is not a number to reduce" 2 "there is no column ended" "$motus" sweep "${drops[@]}" --record "max(ended)" -o no.csv
+model none "y'' = -1" "a = 1" "y(0) = sqrt(a)" "y'(0) = 0" "when y = 0 falling as bounce: record, stop" "method rk4" "step 0.25" "until 6"
+sweep none.motus --vary a=1,-1 --record ended --threads 1 --events begins.csv -q >"$out" 2>"$err"
+that "a trajectory without a beginning has no events of another one" eval "[ \$(grep -c '^[0-9]*,bounce' begins.csv) = 1 ] && [ '$(rows | cut -d, -f3 | tr '\n' ' ')' = 'bounce  ' ]"
+
+# --- events of the command ------------------------------------------------------------------------------------------------------
+added=(drops.motus --vary e=0.5,0.9 --record "t, ended" --method dop853 --tolerance 1e-9 --when "y' = 0 falling as top: stop after 2" --section "y = 0.3" --points 3)
+sweep "${added[@]}" -o added.csv -q 2>"$err"
+that "the first line has --when, --section and --points" is "$(head -n 1 added.csv)" \
+    "# motus sweep drops.motus --vary e=0.5,0.9 --when 'y'\\'' = 0 falling as top: stop after 2' --section 'y = 0.3' --points 3 --record 't, ended' --method dop853 --tolerance 1e-09 --until 6"
+sh -c "$(head -n 1 added.csv | sed "s|^# motus|'$motus'|") -q" >"$out" 2>"$err"
+that "... and makes the same bytes" cmp added.csv "$out"
+that "... what they add ends trajectories" is "$(rows added.csv | cut -d, -f4 | tr '\n' ' ')" "top section "
+sweep "${added[@]}" -o added.npy -q 2>"$err"
+that "... beside a .npy too" eval "jq -e '.command | contains(\"--section\") and contains(\"--when\")' added.npy.json"
+sweep "${added[@]}" --skip 1 --points 2 -o same.csv --force -q 2>"$err"
+that "points that are skipped count for the end alone" cmp added.csv same.csv
+cp added.csv kept.csv
+for change in "--when|y = 0.2 as low: record" "--section|y = 0.4" "--points|2"; do
+    refuses "--resume with another ${change%%|*}" 2 "added.csv was made by another sweep" "$motus" sweep "${added[@]}" "${change%%|*}" "${change#*|}" -o added.csv --resume
+    that "... the file stays" cmp added.csv kept.csv
+done
+
 # --- .npy ------------------------------------------------------------------------------------------------------------------------
 gives ".npy" 0 "$motus" sweep "${ask[@]}" -o whole.npy --json
 that "... is float64 in rows" eval "head -c 10 whole.npy | od -An -tx1 | tr -d ' ' | grep -qx 934e554d505901007600 && head -c 128 whole.npy | grep -aqF \"{'descr': '<f8', 'fortran_order': False, 'shape': (14, 7), }\""

@@ -1,0 +1,43 @@
+/* Events that assign cut a step of a symplectic or reversible method. See cuts.h.
+ *
+ * A step of a size that the state decides is no symplectic map, although every step of a given size is one; a step that
+ * ends at a given time stays one. A method that is reversible by steps of one size stays so: back from the end of the
+ * cut step the same two parts meet the same event. Steps whose size follows the motion begin anew after an event, so
+ * the way back has others.
+ */
+#include "api/cuts.h"
+
+#include "api/run.h"
+
+bool cuts_by_state(const motus_system *s)
+{
+    const model *m = s->model;
+    for (uint32_t k = 0; m && k < m->rule_count; k++) {
+        const model_rule *r = &m->rules[k];
+        if (r->assigns && r->kind == RULE_ACCUMULATES) return true;
+        for (size_t i = 0; r->assigns && i < r->leaves; i++)
+            if (graph_deps(m->graph, r->leaf[i].value) & DEP_STATE) return true;
+    }
+    return false;
+}
+
+static bool assigns(const model *m)
+{
+    for (uint32_t k = 0; m && k < m->rule_count; k++)
+        if (m->rules[k].assigns) return true;
+    return false;
+}
+
+const char *motus_run_cut(const motus_run *r)
+{
+    motus_geometry kept = MOTUS_GEOMETRY_NONE;
+    if (!r || !assigns(r->system->model)) return "";
+    if (row_reversible_steps(&r->chosen))
+        return "the control of steps begins anew after an event that assigns, so the run is not reversible there, "
+               "while it is between";
+    if (!cuts_by_state(r->system) || motus_method_geometry(r->system, r->chosen.name, &kept, NULL) != MOTUS_OK ||
+        kept != MOTUS_GEOMETRY_SYMPLECTIC)
+        return "";
+    return "the state decides where an event that assigns ends a step, so that step is not symplectic, while those "
+           "between are";
+}

@@ -1,0 +1,84 @@
+/* See whole.h. All modes are taken to count, until one has an assignment that does not. */
+#include "lang/model/whole.h"
+
+#include "base/memory.h"
+
+#include <math.h>
+#include <string.h>
+
+/* Whether a node is, where its operands are known. They come before it. */
+static bool counts(const whole *w, const graph *g, node n)
+{
+    const graph_node *k = graph_at(g, n);
+    const uint8_t *is = w->node;
+    switch (k->op) {
+    case OP_CONST: return floor(k->value) == k->value && isfinite(k->value);
+    case OP_PARAM:
+    case OP_INDEX: return true;
+    case OP_LOAD: return w->array[g->references[k->a].array];
+    case OP_SUM: return k->a < n && is[k->a] && (k->b == 0 || (k->b < n && is[k->b]));
+    case OP_NEG:
+    case OP_NOT:
+    case OP_ABS:
+    case OP_FLOOR:
+    case OP_SIGN: return k->a < n && is[k->a];
+    case OP_ADD:
+    case OP_SUB:
+    case OP_MUL:
+    case OP_LT:
+    case OP_LE:
+    case OP_GT:
+    case OP_GE:
+    case OP_EQ:
+    case OP_NE:
+    case OP_AND:
+    case OP_OR:
+    case OP_MIN:
+    case OP_MAX:
+    case OP_MOD: return k->a < n && k->b < n && is[k->a] && is[k->b];
+    case OP_SELECT: return k->a < n && k->b < n && k->c < n && is[k->a] && is[k->b] && is[k->c];
+    default: return false;
+    }
+}
+
+/* Takes back the modes whose assignments do not count; whether there were any. */
+static bool take_back(const whole *w, const model *m, const model_rule *endless)
+{
+    bool any = false;
+    for (uint32_t i = 0; i < m->rule_count; i++)
+        for (size_t k = 0; k < m->rules[i].assignments; k++) {
+            const model_assignment *a = &m->rules[i].assignment[k];
+            uint8_t *to = &w->array[a->to.array];
+            const bool goes_on = &m->rules[i] == endless && graph_deps(m->graph, a->value.value) & DEP_MODE;
+            if (!*to || (w->node[a->value.value] && !goes_on)) continue;
+            *to = 0;
+            any = true;
+        }
+    return any;
+}
+
+bool whole_find(whole *w, const model *m, const model_rule *endless, const motus_allocator *allocator)
+{
+    const graph *g = m->graph;
+    *w = (whole){take(allocator, (size_t)g->count + 1, 1), take(allocator, (size_t)m->array_count + 1, 1)};
+    if (!w->node || !w->array) return false;
+    for (uint32_t k = 0; k < m->array_count; k++) w->array[k] = m->arrays[k].mode || m->arrays[k].space == SPACE_POOL;
+    for (uint32_t k = 0; k < m->side_count; k++) { /* a side is where the motion is */
+        const model_state *s = &m->states[m->side_first + k];
+        for (int c = 0; c < (s->components ? s->components : 1); c++) w->array[m->block[BLOCK_X] + s->array + c] = 0;
+    }
+    do
+        for (node n = 0; n < g->count; n++) w->node[n] = counts(w, g, n);
+    while (take_back(w, m, endless));
+    return true;
+}
+
+whole_kind whole_of(const whole *w, const model *m, const model_definition *d)
+{
+    bool moves = false;
+    for (size_t k = 0; k < d->output_count; k++) {
+        if (!w->node[d->outputs[k].value]) return WHOLE_NOT;
+        moves = moves || graph_deps(m->graph, d->outputs[k].value) & DEP_MODE;
+    }
+    return d->output_count == 0 ? WHOLE_NOT : moves ? WHOLE_COUNT : WHOLE_CONSTANT;
+}
