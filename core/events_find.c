@@ -2,9 +2,14 @@
  * events_parts.h. */
 #include "core/events_parts.h"
 
+#include <float.h>
 #include <math.h>
+#include <stdint.h>
 #include <stdio.h>
 #include <string.h>
+
+#include "core/scalar.h"
+#include "step/box.h"
 
 /* ROOTS_ROOM: of one function in one part of a step; a step is divided where a polynomial of degree PART_DEGREE does
  * not resolve a function, and at most PARTS_DEEP times */
@@ -602,27 +607,17 @@ static bool add_ticks(events *e)
     return true;
 }
 
-/* How far each number may be within a step from the middle of its ends: a position from the line between them by
- * h^2/8 times the largest acceleration, a velocity by h/2 times that. The middle is in `next`, and in `before` stands
- * below what no function falls there. */
+/* The box of a step, whose middle is in `next`; in `before` stands below what no function falls there. */
 static void look_at_box(events *e, const stepper_shown *step)
 {
     const size_t nx = e->problem.nx, nv = e->problem.nv;
-    const double h = fabs(step->span), *most = step->most;
-    instant *middle = &e->next;
-    double *dx = e->width, *dv = dx + nx;
-    for (size_t k = 0; k < nv; k++) {
-        middle->v[k] = step->from_v[k] + (step->to_v[k] - step->from_v[k]) / 2;
-        dv[k] = h / 2 * most[k];
-        if (k >= nx) continue;
-        middle->x[k] = step->from_x[k] + (step->to_x[k] - step->from_x[k]) / 2;
-        dx[k] = fabs(step->to_x[k] - step->from_x[k]) / 2 + h * h / 8 * most[k];
-    }
-    e->rules.least(e->rules.ctx, middle->x, middle->v, dx, dv, e->before);
+    const box to = {e->next.x, e->next.v, e->width, e->width + nx};
+    box_of(&to, nx, nv, step->span, step->from_x, step->from_v, step->to_x, step->to_v, step->most);
+    e->rules.least(e->rules.ctx, to.x, to.v, to.dx, to.dv, e->before);
 }
 
 /* The same of the present step. False: it is not known. */
-static bool box(events *e, const stepper *s)
+static bool boxes(events *e, const stepper *s)
 {
     const instant *from = &e->left, *to = &e->right;
     double *most = e->next.a;
@@ -724,7 +719,6 @@ static bool quiet(void *ctx, const stepper_shown *step)
 {
     events *e = ctx;
     bool any = false;
-    events_extend(e, step->from_x, step->from_v);
     look_at_box(e, step);
     e->boxed = true;
     e->left.valued = e->right.valued = false;
@@ -764,7 +758,14 @@ motus_status events_watch(events *e, stepper *s, stepper_limit limit, stepper_st
     stepper_left left;
     instant *at = &e->left;
     memset(e->passed, 0, e->rules.functions);
-    const motus_status status = stepper_watch(s, limit, quiet, e, &left, why, err);
+    const stepper_watcher watcher = {.quiet = quiet,
+                                     .ctx = e,
+                                     .largest = e->most,
+                                     .middle = e->next.x,
+                                     .width = e->width,
+                                     .least = e->before,
+                                     .functions = e->rules.functions};
+    const motus_status status = stepper_watch(s, limit, &watcher, &left, why, err);
     if (!left.x) return status;
     e->steps += left.steps;
     e->taken += left.steps;
@@ -787,7 +788,7 @@ static motus_status choose(events *e, const stepper *s, bool *any, motus_error *
 {
     const size_t n = e->rules.functions;
     double *out = e->before;
-    const bool known = box(e, s);
+    const bool known = boxes(e, s);
     bool rates = false;
     motus_status status = MOTUS_OK;
     e->boxed = false;

@@ -411,13 +411,12 @@ motus_status stepper_advance(stepper *s, stepper_limit limit, stepper_stop *why,
 static bool show(watch *w)
 {
     const stepper *s = w->ctx;
-    const double span = (w->to_t - w->t) + (w->to_lost - w->lost);
-    return s->quiet(s->quiet_ctx,
-                    &(stepper_shown){span, w->t, w->to_t, w->from_x, w->from_v, w->to_x, w->to_v, w->most});
+    return s->watcher->quiet(s->watcher->ctx, &(stepper_shown){watch_span(w), w->t, w->to_t, w->from_x, w->from_v,
+                                                               w->to_x, w->to_v, w->most});
 }
 
 /* Memory for the ends of watched steps. */
-static bool watch_room(stepper *s)
+static bool watch_room(stepper *s, const stepper_watcher *by)
 {
     const size_t nx = s->work.nx, nv = s->work.nv;
     if (!s->watched) s->watched = take(&s->allocator, 2 * nx + 3 * nv, sizeof *s->watched);
@@ -426,6 +425,9 @@ static bool watch_room(stepper *s)
     to->from_x = s->watched, to->from_v = to->from_x + nx;
     to->to_x = to->from_v + nv, to->to_v = to->to_x + nx;
     to->most = to->to_v + nv;
+    to->largest_x = by->largest, to->largest_v = by->largest + nx;
+    to->middle = by->middle, to->width = by->width;
+    to->least = by->least, to->functions = by->functions;
     to->quiet = show, to->ctx = s;
     return true;
 }
@@ -453,15 +455,15 @@ bool stepper_can_watch(const stepper *s)
     return row_watched(&s->method) && !s->problem.refresh && !s->arrived && room_in_leg(s) > 0;
 }
 
-motus_status stepper_watch(stepper *s, stepper_limit limit, stepper_quiet quiet, void *ctx, stepper_left *left,
+motus_status stepper_watch(stepper *s, stepper_limit limit, const stepper_watcher *by, stepper_left *left,
                            stepper_stop *why, motus_error *err)
 {
     watch *w = &s->watch;
     const int64_t before = stepper_steps(s), room = room_in_leg(s);
     *left = (stepper_left){0};
-    if (!stepper_ends(s) || !watch_room(s)) return fail(err, MOTUS_MEMORY, "out of memory for dense output");
+    if (!stepper_ends(s) || !watch_room(s, by)) return fail(err, MOTUS_MEMORY, "out of memory for dense output");
     if (limit.steps > room) limit.steps = room; /* that there is no more room, the next step says */
-    s->quiet = quiet, s->quiet_ctx = ctx;
+    s->watcher = by;
     w->met = false, w->n = -1;
     s->watching = true;
     const motus_status status = stepper_advance(s, limit, why, err);

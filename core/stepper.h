@@ -120,12 +120,20 @@ bool stepper_swing(const stepper *, double *most);
 /* Takes steps up to the limit, until something may have happened in one: `quiet` is shown the states at its ends and
  * the bounds of stepper_swing. The last step is marked, quiet or not; in those before it nothing has happened. So that
  * all is as if these had been taken one by one, `left` tells where the last step began, one that failed too. Where
- * stepper_can_watch: of rows that can be watched (row_watched), while the leg may take steps. */
+ * stepper_can_watch: of rows that can be watched (row_watched), while the leg may take steps.
+ *
+ * A compiled loop asks of the model's own rules first, and `quiet` only where their bounds leave something open. */
 typedef struct stepper_shown {
     double span, from_t, to_t, *from_x, *from_v, *to_x, *to_v;
     const double *most;
 } stepper_shown;
-typedef bool (*stepper_quiet)(void *ctx, const stepper_shown *);
+typedef struct stepper_watcher {
+    bool (*quiet)(void *ctx, const stepper_shown *);
+    void *ctx;
+    double *largest;                /* raised to the sizes of all states at which steps begin, x and then v */
+    double *middle, *width, *least; /* room for a box, x and then v (step/box.h), and bounds of so many functions: */
+    size_t functions;
+} stepper_watcher;
 typedef struct stepper_left {
     int64_t steps; /* before it */
     double t, lost;
@@ -133,7 +141,7 @@ typedef struct stepper_left {
     bool shown;          /* to `quiet` */
 } stepper_left;
 bool stepper_can_watch(const stepper *);
-motus_status stepper_watch(stepper *, stepper_limit, stepper_quiet, void *ctx, stepper_left *, stepper_stop *why,
+motus_status stepper_watch(stepper *, stepper_limit, const stepper_watcher *, stepper_left *, stepper_stop *why,
                            motus_error *);
 /* How many steps lead to the last time that is not after t; 0 where the stepper is there, or where sizes are not
  * known beforehand. */

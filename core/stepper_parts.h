@@ -41,8 +41,7 @@ struct stepper {
     bool left, right;   /* which of the two ends are valid */
     double *watched;    /* x, v before and after a watched step, then `most`; NULL until asked for */
     watch watch;
-    stepper_quiet quiet;
-    void *quiet_ctx;
+    const stepper_watcher *watcher;
     bool watching; /* the steps that are taken are watched */
     /* the family's arrays and constants, NULL until asked for; extended: the arrays are those of the last step */
     double *inside;

@@ -12,6 +12,7 @@
 #include "lang/graph/expansion.h"
 #include "machine/cache.h"
 #include "machine/compose.h"
+#include "machine/least.h"
 #include "machine/parallel.h"
 #include "machine/tiles.h"
 
@@ -59,7 +60,7 @@ struct compiled {
     object objects[OBJECTS_MAX];
     int count;
     making makings[MAKINGS_MAX];
-    program *force, *boundary, *series, *boundary_series;
+    program *force, *boundary, *series, *boundary_series, *least;
     locality locality;
     const tiling *tiling; /* where the outer indices can be divided; else NULL */
     double *pairs;
@@ -149,6 +150,16 @@ void compiled_close(compiled *c)
 
 /* ---- the text ---- */
 
+/* Whether bounds of all functions that are watched tell of most steps: switches, which have a value to each side of
+ * them, are the interpreter's, and of functions of time alone none are known. */
+static bool bounded(const model *m)
+{
+    bool known = m->rule_functions > 0 && !m->located;
+    for (uint32_t i = 0; i < m->rule_count; i++)
+        for (size_t k = 0; k < m->rules[i].leaves; k++) known &= least_known(m, m->rules[i].leaf[k].value);
+    return known;
+}
+
 static bool write_text(compiled *c, const chosen *chosen, emit *e)
 {
     model *m = c->model;
@@ -162,14 +173,25 @@ static bool write_text(compiled *c, const chosen *chosen, emit *e)
     if (expands && !c->series) c->series = expansion_program(m->arena, m->graph, m->accel, m->accel_count);
     if (expands && m->driven && !c->boundary_series)
         c->boundary_series = expansion_program(m->arena, m->graph, m->boundary, m->boundary_count);
+    const bool bounds = row_watched(chosen) && bounded(m);
+    if (bounds && !c->least) {
+        size_t functions;
+        const output *least = least_sizes(m, &functions);
+        c->least = least ? program_create(m->graph, least, functions) : NULL;
+    }
     if (m->arena->failed) return false;
-    composed_program programs[4];
+    composed_program programs[5];
     size_t count = 0;
-    if (!expands) programs[count++] = (composed_program){c->force, "compiled_force", !row_adaptive(chosen), false};
-    if (m->driven) programs[count++] = (composed_program){c->boundary, "compiled_boundary", false, false};
-    if (expands) programs[count++] = (composed_program){c->series, "compiled_series", false, true};
+    if (!expands)
+        programs[count++] =
+            (composed_program){.program = c->force, .name = "compiled_force", .terms = !row_adaptive(chosen)};
+    if (m->driven) programs[count++] = (composed_program){.program = c->boundary, .name = "compiled_boundary"};
+    if (expands)
+        programs[count++] = (composed_program){.program = c->series, .name = "compiled_series", .series = true};
     if (expands && m->driven)
-        programs[count++] = (composed_program){c->boundary_series, "compiled_boundary_series", false, true};
+        programs[count++] =
+            (composed_program){.program = c->boundary_series, .name = "compiled_boundary_series", .series = true};
+    if (bounds) programs[count++] = (composed_program){.program = c->least, .name = "compiled_least", .along = true};
     static const char *const last[] = {"machine/text/compiled_run.h", NULL};
     return compose(e, &(composition){.model = m,
                                      .problem = c->interpreted,
@@ -177,6 +199,7 @@ static bool write_text(compiled *c, const chosen *chosen, emit *e)
                                      .programs = programs,
                                      .program_count = count,
                                      .locality = &c->locality,
+                                     .bounds = bounds,
                                      .last = last});
 }
 

@@ -88,10 +88,20 @@ static bool find_moments(const work *w, arena *a, moments *m)
 /* Where rules may be followed, what asks after every step whether something has happened in it. */
 static void add_watch(emit_text *t, const composition *c)
 {
-    const bool watched = row_watched(c->chosen) && (c->model->rule_count || c->model->modes);
-    if (!watched)
+    const model *m = c->model;
+    if (!row_watched(c->chosen) || (!m->rule_count && !m->modes)) {
         emit_add(t, "#define WATCHES(w) false\n#define watch_begin(w) ((void)0)\n#define watch_ends(w) false\n");
-    if (watched) add_text(t, "step/swing.h"), add_text(t, "step/watch.h");
+        return;
+    }
+    add_text(t, "step/swing.h");
+    if (c->bounds) {
+        bool single = compose_sizes_are_structure(m);
+        for (uint32_t i = 0; i < m->rule_count; i++) single &= m->rules[i].instances == 1;
+        emit_add(t, "#define BOUNDS %zu\n", single ? m->rule_functions : 0);
+        add_text(t, "step/box.h");
+        add_text(t, "machine/text/watched.h");
+    }
+    add_text(t, "step/watch.h");
 }
 
 /* The functions of families.def that a compiled model calls. */
@@ -473,7 +483,9 @@ bool compose(emit *e, const composition *c)
     e->series_may_be_wide = !c->model->driven;
     const size_t inlined = !lanes && c->chosen->row->family == IMPLICIT ? FORCE_TURNS_MAX : FORCE_INLINE_MAX;
     for (size_t i = 0; i < c->program_count; i++) {
-        e->separate = !i && forced && length_of(c->programs[i].program) > inlined;
+        const bool called = (!i && forced) || (c->bounds && c->programs[i].along);
+        e->separate = called && length_of(c->programs[i].program) > inlined;
+        e->along = c->programs[i].along;
         e->windowed = !i && windowed;
         e->series = c->programs[i].series ? stepper_plan(c->problem, c->chosen, NULL).expands + 1 : 0;
         emit_program(e, c->programs[i].program, c->programs[i].name, c->programs[i].terms);

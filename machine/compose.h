@@ -16,6 +16,7 @@ typedef struct composed_program {
     const char *name;
     bool terms;
     bool series; /* in Taylor series */
+    bool along;  /* it reads a direction, or the widths of a box */
 } composed_program;
 
 typedef struct composition {
@@ -25,6 +26,7 @@ typedef struct composition {
     const composed_program *programs; /* "compiled_force" first, where the text has one */
     size_t program_count;
     const locality *locality; /* of the force, where it may be taken window by window; NULL */
+    bool bounds;              /* "compiled_least" is among them: bounds of the functions of the model's rules */
     bool solves;              /* lanes: the row solves equations, by solve_text.h */
     bool own_clock;           /* lanes: each has a time and a step of its own */
     /* lanes: trajectories in one vector, vectors side by side; width 0: one trajectory */

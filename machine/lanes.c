@@ -187,25 +187,29 @@ static bool write_text(lanes *l)
     char *names = arena_room(m->arena, count * PROGRAM_NAME);
     if (!programs || !names) return false;
     size_t n = 0;
-    programs[n++] =
-        (composed_program){program_create(m->graph, m->accel, m->accel_count), "compiled_force", !d->own_clock, false};
+    programs[n++] = (composed_program){.program = program_create(m->graph, m->accel, m->accel_count),
+                                       .name = "compiled_force",
+                                       .terms = !d->own_clock};
     composed_program along[3] = {{0}};
     size_t alongs = solve_text_programs(m, d->problem, d->chosen, along);
     if (l->plan.expands) {
-        along[0] = (composed_program){expansion_program(m->arena, m->graph, m->accel, m->accel_count),
-                                      "compiled_series", false, true};
+        along[0] = (composed_program){.program = expansion_program(m->arena, m->graph, m->accel, m->accel_count),
+                                      .name = "compiled_series",
+                                      .series = true};
         if (m->driven)
-            along[1] = (composed_program){expansion_program(m->arena, m->graph, m->boundary, m->boundary_count),
-                                          "compiled_boundary_series", false, true};
+            along[1] =
+                (composed_program){.program = expansion_program(m->arena, m->graph, m->boundary, m->boundary_count),
+                                   .name = "compiled_boundary_series",
+                                   .series = true};
         alongs = m->driven ? 2 : 1;
     }
     for (size_t k = 0; k < alongs; k++) programs[n++] = along[k];
     if (m->boundary_count)
-        programs[n++] = (composed_program){program_create(m->graph, m->boundary, m->boundary_count),
-                                           "compiled_boundary", false, false};
+        programs[n++] = (composed_program){.program = program_create(m->graph, m->boundary, m->boundary_count),
+                                           .name = "compiled_boundary"};
     for (uint32_t k = 0; k < entries; k++) {
         snprintf(names + n * PROGRAM_NAME, PROGRAM_NAME, "start_%u", k);
-        programs[n] = (composed_program){active[k].program, names + n * PROGRAM_NAME, false, false};
+        programs[n] = (composed_program){.program = active[k].program, .name = names + n * PROGRAM_NAME};
         n++;
     }
     for (size_t k = 0; k < observed_count; k++) {
@@ -213,8 +217,9 @@ static bool write_text(lanes *l)
         for (size_t i = 0; i < definition->output_count; i++)
             l->needs_a |= (graph_deps(m->graph, definition->outputs[i].value) & DEP_A) != 0;
         snprintf(names + n * PROGRAM_NAME, PROGRAM_NAME, "quantity_%zu", k);
-        programs[n] = (composed_program){program_create(m->graph, definition->outputs, definition->output_count),
-                                         names + n * PROGRAM_NAME, false, false};
+        programs[n] =
+            (composed_program){.program = program_create(m->graph, definition->outputs, definition->output_count),
+                               .name = names + n * PROGRAM_NAME};
         n++;
     }
     static const char *const last[] = {"machine/text/lanes_ways.h", "step/observe.h", "machine/text/reduce.h",

@@ -21,11 +21,26 @@ node least_radius(model *m, node value)
     return graph_op(g, OP_MUL, graph_radius(g, value, half_width, m), graph_const(g, 1.001), 0);
 }
 
+bool least_known(const model *m, node value) { return !(graph_deps(m->graph, value) & (DEP_TIME | DEP_A)); }
+
 node least_size(model *m, node value)
 {
     graph *g = m->graph;
-    if (graph_deps(g, value) & (DEP_TIME | DEP_A)) return graph_const(g, -1);
+    if (!least_known(m, value)) return graph_const(g, -1);
     return graph_op(g, OP_SUB, graph_op(g, OP_ABS, value, 0, 0), least_radius(m, value), 0);
+}
+
+output *least_sizes(model *m, size_t *count)
+{
+    *count = 0;
+    for (uint32_t i = 0; i < m->rule_count; i++) *count += m->rules[i].leaves;
+    output *out = arena_room(m->arena, (*count + 1) * sizeof *out), *to = out;
+    for (uint32_t i = 0; i < m->rule_count && out; i++)
+        for (size_t k = 0; k < m->rules[i].leaves; k++, to++) {
+            *to = m->rules[i].leaf[k];
+            to->value = least_size(m, to->value);
+        }
+    return out;
 }
 
 node least_rate(model *m, node value, node rate)

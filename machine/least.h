@@ -9,6 +9,10 @@
 node least_radius(model *, node value);
 /* A number that |value| nowhere falls below on the box; not positive: none is known. */
 node least_size(model *, node value);
+/* That of every function of the model's rules, in their order. NULL: no memory. */
+output *least_sizes(model *, size_t *count);
+/* Whether such a number may be positive. */
+bool least_known(const model *, node value);
 /* The same of the rate of `value`, as far as it tells how the value changes: not positive where that may jump. */
 node least_rate(model *, node value, node rate);
 

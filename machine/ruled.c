@@ -152,18 +152,16 @@ static void name(void *ctx, size_t number, size_t instance, char *out, size_t si
 
 static bool make_functions(ruled *r, model *m)
 {
-    size_t count = 0;
-    for (uint32_t i = 0; i < m->rule_count; i++) count += m->rules[i].leaves;
-    if (!count) return true;
-    output *leaves = arena_room(m->arena, 4 * count * sizeof *leaves), *rate = leaves + count, *nearest = rate + count,
-           *slowest = nearest + count;
+    size_t count;
+    output *nearest = least_sizes(m, &count);
+    if (!nearest || !count) return nearest != NULL;
+    output *leaves = arena_room(m->arena, 3 * count * sizeof *leaves), *rate = leaves + count, *slowest = rate + count;
     if (!leaves) return false;
     for (uint32_t i = 0, n = 0; i < m->rule_count; i++)
         for (size_t k = 0; k < m->rules[i].leaves; k++, n++) {
-            leaves[n] = rate[n] = nearest[n] = slowest[n] = m->rules[i].leaf[k];
+            leaves[n] = rate[n] = slowest[n] = m->rules[i].leaf[k];
             rate[n].value = graph_derivative(m->graph, leaves[n].value, model_seed_motion, m);
             if (graph_deps(m->graph, rate[n].value) & DEP_A) r->supplied.rates_without_a = false;
-            nearest[n].value = least_size(m, leaves[n].value);
             slowest[n].value = least_rate(m, leaves[n].value, rate[n].value);
         }
     r->values = tape_of(m->arena, m->graph, leaves, count);

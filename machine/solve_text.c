@@ -31,9 +31,11 @@ size_t solve_text_programs(model *m, const problem *p, const chosen *chosen, com
     size_t count = 0;
     if (!plan.solves) return 0;
     if (plan.solves_x)
-        programs[count++] = (composed_program){interpreter_derivative(m, false), "compiled_along_x", false, false};
+        programs[count++] =
+            (composed_program){.program = interpreter_derivative(m, false), .name = "compiled_along_x", .along = true};
     if (p->traits.velocity)
-        programs[count++] = (composed_program){interpreter_derivative(m, true), "compiled_along_v", false, false};
+        programs[count++] =
+            (composed_program){.program = interpreter_derivative(m, true), .name = "compiled_along_v", .along = true};
     return count;
 }
 
@@ -72,7 +74,7 @@ static void write_derivative(emit_text *t, const sparse *m, const char *name)
         for (size_t i = first; i < end; i++) emit_add(t, "    d[%u] = MANY(1.0);\n", m->colour_column[i]);
         emit_add(t,
                  "    compiled_along_%s(host->pool, host->q, host->u, host->bound, host->own, t, (const clock *)0, x, "
-                 "v, image, d);\n",
+                 "v, image, (real *)0, d, d);\n",
                  name);
         for (size_t i = first; i < end; i++) {
             const size_t c = m->colour_column[i];

@@ -4,6 +4,10 @@
 #ifndef WATCHES
 #define WATCHES(w) ((w)->watch != NULL)
 #endif
+/* Whether the includer itself knows of the last step that nothing has happened in it; else `quiet` is asked. */
+#ifndef WATCH_IDLE
+#define WATCH_IDLE(w) false
+#endif
 
 static inline void watch_begin(work *w)
 {
@@ -25,7 +29,11 @@ static inline bool watch_ends(work *w)
     if (w->n == to->n) return false; /* the candidate was refused */
     EACH(k) to->to_x[k] = w->x[k];
     EACHV(k) to->to_v[k] = w->v[k];
+    EACH(k) to->largest_x[k] = LARGER(ABS(to->from_x[k]), to->largest_x[k]);
+    EACHV(k) to->largest_v[k] = LARGER(ABS(to->from_v[k]), to->largest_v[k]);
     to->to_t = w->t, to->to_lost = w->lost;
-    to->shown = to->known && family_swing(w, to->most);
-    return to->met = !to->shown || !to->quiet(to);
+    const bool bounded = to->known && family_swing(w, to->most);
+    if (bounded && WATCH_IDLE(w)) return to->met = false;
+    to->shown = bounded;
+    return to->met = !bounded || !to->quiet(to);
 }

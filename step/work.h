@@ -118,12 +118,17 @@ struct watch {
     void *ctx;
     real *from_x, *from_v, *to_x, *to_v; /* the states at its ends */
     real *most;                          /* bounds on the accelerations within it */
-    clock t, lost, to_t, to_lost;        /* where it began, and where it ended */
-    ticks n;                             /* steps before it */
-    bool known;                          /* `most` has the acceleration there */
-    bool shown;                          /* `quiet` has been asked after this step */
-    bool met;                            /* something may have happened in the last step */
+    real *largest_x, *largest_v;         /* raised to the sizes of the states at which steps begin */
+    real *middle, *width, *least;        /* room for a box (box.h), x and then v, and for so many bounds on it: */
+    size_t functions;
+    clock t, lost, to_t, to_lost; /* where it began, and where it ended */
+    ticks n;                      /* steps before it */
+    bool known;                   /* `most` has the acceleration there */
+    bool shown;                   /* `quiet` has been asked after this step */
+    bool met;                     /* something may have happened in the last step */
 };
+/* From its start to its end. */
+static inline clock watch_span(const watch *of) { return (of->to_t - of->t) + (of->to_lost - of->lost); }
 
 typedef struct work {
     const row *row;

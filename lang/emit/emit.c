@@ -57,12 +57,14 @@ static void write_functions(writer *w, const char *name, bool terms)
     }
     SAY(w,
         "%s void %s(%sconst double *restrict u, const real *restrict w, real *restrict own, clock t, "
-        "const clock *restrict T, real *restrict x, real *restrict v, real *restrict a, real *restrict out%s)\n{\n%s, "
+        "const clock *restrict T, real *restrict x, real *restrict v, real *restrict a, real *restrict "
+        "out%s%s)\n{\n%s, "
         "(void)w, (void)own, "
         "(void)t, (void)T, (void)x, (void)v, (void)a, "
-        "(void)out;\n",
+        "(void)out%s;\n",
         w->e->separate ? "__attribute__((noinline)) static" : "static inline", name, parameters,
-        w->e->windowed ? ", const whole from, const whole to, const window_put *move" : "", silence);
+        w->e->windowed ? ", const whole from, const whole to, const window_put *move" : "",
+        w->e->along ? ", const real *dx, const real *dv" : "", silence, w->e->along ? ", (void)dx, (void)dv" : "");
     write_constants(w);
     emit_region(w, AT_RUN);
     SAY(w, "}\n\n");

@@ -56,6 +56,7 @@ typedef struct emit {
     bool series_may_be_wide; /* their lanes may run along an index of families */
     bool series_wide;        /* and they do */
     bool separate;           /* the next program is compiled once, and called */
+    bool along;              /* it reads a direction or widths, which are two arguments more: dx, dv */
     /* the next program takes a window of outer indices, and PUT(k, value) stands for a[k] = value */
     bool windowed;
     /* The model's numbers, of which those stand in the text that make an operation exact: it serves models whose
@@ -80,10 +81,9 @@ typedef struct emit {
  *     NAME(pool, q, u, w, own, n, t, x, v, p, a)        in series: coefficient n of the outputs, as series_pass of
  *                                                       lang/tape/ describes it; p: the memory, returned behind the end
  *     NAME(pool, q, u, w, own, t, T, x, v, a, out)      outputs, from states; windowed: and `from`, `to`, `move` of
- *                                                       machine/text/window.h
- * A program along a direction has no outputs there: `out` is the direction. The text around it defines real, reals,
- * MANY(a double) → reals and AT(array, element); with `vectors` also WIDTH, how many doubles reals has. False: the
- * arena failed. */
+ *                                                       machine/text/window.h; along: and dx, dv
+ * The text around it defines real, reals, MANY(a double) → reals and AT(array, element); with `vectors` also WIDTH, how
+ * many doubles reals has. False: the arena failed. */
 bool emit_program(emit *, const program *, const char *name, bool terms);
 enum { EMIT_NUMBER = 40 };
 /* A double as C text that reads back to the same bits; returns out. */

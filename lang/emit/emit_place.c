@@ -110,8 +110,8 @@ int64_t emit_int_value(const emit_int *k, const array *arrays, const int64_t *in
 static const char *space_name(space s)
 {
     static const char *const names[SPACES] = {
-        [SPACE_X] = "x",    [SPACE_V] = "v",      [SPACE_A] = "a",    [SPACE_DX] = "out",
-        [SPACE_DV] = "out", [SPACE_POOL] = "own", [SPACE_OUT] = "out"};
+        [SPACE_X] = "x",   [SPACE_V] = "v",      [SPACE_A] = "a",    [SPACE_DX] = "dx",
+        [SPACE_DV] = "dv", [SPACE_POOL] = "own", [SPACE_OUT] = "out"};
     return names[s];
 }
 

@@ -153,4 +153,7 @@ void motus_bind(const double *pool, const int64_t *q, double *u)
     compiled_boundary_series_bind(pool, q, u);
 #endif
 #endif
+#ifdef BOUNDS
+    compiled_least_bind(pool, q, u);
+#endif
 }
