@@ -465,11 +465,11 @@ text "y'' = -1 - 0.1 y'\ny(0) = 1\ny'(0) = 0\nuntil 3\nwhen y = 0 falling: y' = 
 gives "a force that no method is symplectic for" 0 "$motus" run "$one" --method verlet --step 0.125 --error none
 that "  has nothing to break" lacks symplectic "$err"
 # What only counts is exact, where the events are those of the companion.
-counted="$ball""n = 0\nm = 3\ntwice = 2 count(bounce) + 1\nlate = time(tick, last)\nwhole = if(n > 4, n*m, -n)\nwhen y = 0 falling as bounce: record, y' = -0.9 y', n = n + 1, m = 2\nwhen every 0.3 as tick: n = n + 1\n"
+counted="$ball""n = 0\nm = 3\ncell = 0\ntwice = 2 count(bounce) + 1\nlate = time(tick, last)\nwhole = if(n > 4, n*m, -n)\nwhen y = 0 falling as bounce: record, y' = -0.9 y', n = n + 1, m = 2, cell = floor(y + 3.5)\nwhen every 0.3 as tick: n = n + 1\n"
 text "$counted"
 for how in "--method rk4 --step 0.01" "--method dop853 --tolerance 1e-6"; do
     gives "counts by ${how#--method }" 0 "$motus" run "$one" --until 2 $how --json
-    that "  have the error 0, and a time has not" holds '.error | .n == 0 and .m == 0 and .twice == 0 and .whole == 0 and .late > 0'
+    that "  have the error 0, and a time or a place has not" holds '.error | .n == 0 and .m == 0 and .twice == 0 and .whole == 0 and .late > 0 and .cell > 0'
     gives "  in print" 0 "$motus" run "$one" --until 2 $how
     that "  they have none" eval "grep -qx '  n         9' '$out' && grep -qx '  twice     7' '$out' && grep -qx '  m         2' '$out' && grep -qx '  whole     18' '$out' && grep -q '^  late .*±' '$out'"
 done
