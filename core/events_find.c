@@ -216,8 +216,9 @@ static motus_status add_roots(events *e, size_t f, const search *of, const roots
     for (size_t k = 0; k < found->count; k++) {
         const double before = k ? root[k - 1].to : 0;
         roots_root one = root[k];
-        const size_t other = pair_of(of, root, found->count, k, &one.tau);
-        if (other > k) one.to = root[other].to, one.kind = ROOTS_TOUCH;
+        double extremum;
+        const size_t other = pair_of(of, root, found->count, k, &extremum);
+        if (other > k) one.tau = extremum, one.to = root[other].to, one.kind = ROOTS_TOUCH;
         k = other;
         const double after = k + 1 < found->count ? root[k + 1].from : 1;
         const double low = before + (one.from - before) / 2, high = one.to + (after - one.to) / 2;
