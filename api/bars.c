@@ -267,7 +267,7 @@ static motus_status start(motus_run *r, bool observed, motus_error *err)
     motus_error theirs = motus_default_error();
     const double began = pace_now();
     r->bars->started = true;
-    if (r->locate || r->locating) bars_give_up(r, "a run that locates switches has no companion");
+    if (r->locate) bars_give_up(r, "a run that locates switches has no companion");
     if (r->bars->why[0]) return MOTUS_OK;
     const motus_status status = begin_at(r, observed, &theirs);
     r->bars->seconds += pace_now() - began;

@@ -10,7 +10,7 @@ motus_status run_events_begin(motus_run *r, motus_error *err)
 {
     motus_status status = system_rules(r->system, &r->rules, err);
     if (status != MOTUS_OK || !r->rules) return status;
-    if (r->locating)
+    if (r->locate)
         return fail(err, MOTUS_UNAVAILABLE,
                     "a run with events cannot resolve switches, nor locate those beyond which the force may be "
                     "undefined by steps of one size");

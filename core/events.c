@@ -325,6 +325,7 @@ static bool changes_side(events *e, const candidate *c)
 static motus_status follow(events *e, stepper *s, candidate *c, bool *assigned, stepper_stop *why, motus_error *err)
 {
     const candidate at = *c;
+    c->followed = true;
     if (at.jumps && changes_side(e, &at)) {
         c->gone = true;
         return MOTUS_OK;

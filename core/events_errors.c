@@ -117,6 +117,15 @@ static double reach(events *e, size_t f, bool rate, double h, double bound)
     return d;
 }
 
+/* Whether the slope of a root is the same as far as rounding hides where it is. */
+static bool is_steep(events *e, size_t f, double h)
+{
+    const double rate = e->here.rate[f], far = 16 * (e->here.bound[f] / fabs(rate) + events_ulp(e->here.t));
+    const double before = h - e->way * far, at = e->way * before > 0 ? before : h + e->way * far;
+    double there;
+    return far < fabs(e->span) / 2 && !look(e, f, true, at, &there, NULL) && fabs(there - rate) <= fabs(rate) / 2;
+}
+
 motus_status events_doubt(events *e, size_t f, double h, bool touches, double *doubt, motus_error *err)
 {
     enum { STEEP = 1024 };
@@ -125,8 +134,13 @@ motus_status events_doubt(events *e, size_t f, double h, bool touches, double *d
     if (!e->marked) return MOTUS_OK;
     const double steepest = fmax(fabs(e->left.rate[f]), fabs(e->right.rate[f]));
     if (!touches && !(STEEP * fabs(e->here.rate[f]) < steepest)) return MOTUS_OK; /* the companion's time tells */
+    if (!touches && is_steep(e, f, h)) return MOTUS_OK;
     const motus_status status =
         touches ? events_slope_error_of(e, f, h, &bound, err) : events_error_of(e, f, h, &bound, err);
+    /* where a function jumps, what rounding of the state changes it by is no error */
+    if (e->rules.rule[e->rule_of[f]].jump)
+        bound = fmin(bound, 4 * fmax(e->left.bound[f], e->right.bound[f]) + 0x1p-44 * steepest * fabs(e->span));
+    if (!touches) bound += 2 * fabs(e->here.g[f]); /* it is so far from 0 where it has been located */
     if (!status) *doubt = reach(e, f, touches, h, bound);
     return status;
 }

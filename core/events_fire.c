@@ -16,8 +16,18 @@ static int sign_of(double x) { return (x > 0) - (x < 0); }
 /* Whether a function is larger at `here` than at both ends of the step, as beside a pole: it does not pass 0 here. */
 static bool is_far(const events *e, size_t f)
 {
-    const double g = fabs(e->here.g[f]);
-    return !isfinite(g) || (g > 4 * e->here.bound[f] && g > fmax(fabs(e->left.g[f]), fabs(e->right.g[f])));
+    const double g = fabs(e->here.g[f]), ends = fmax(fabs(e->left.g[f]), fabs(e->right.g[f]));
+    return !isfinite(g) || (e->marked && g > ends && g > 4 * fmax(e->left.bound[f], e->right.bound[f]));
+}
+
+/* How far rounding may have carried a function at `here`. Where it jumps a change of the state by rounding changes it by
+ * the jump, and then the ends of the step tell. */
+static double bound_of(const events *e, size_t f)
+{
+    const double here = e->here.bound[f];
+    if (!e->marked || !e->rules.rule[e->rule_of[f]].jump) return here;
+    const double ends = fmax(fabs(e->left.g[f]), fabs(e->right.g[f]));
+    return fmin(here, 4 * fmax(e->left.bound[f], e->right.bound[f]) + 0x1p-44 * ends);
 }
 
 /* Whether a function is 0 at `here`: by its rounding, and by that of the time. The bound counts every number of the
@@ -26,7 +36,7 @@ static bool is_zero(const events *e, size_t f)
 {
     const instant *at = &e->here;
     const double units = e->jog ? 3 : 1;
-    return !is_far(e, f) && fabs(at->g[f]) <= units * at->bound[f] + fabs(at->rate[f]) * events_ulp(at->t);
+    return !is_far(e, f) && fabs(at->g[f]) <= units * bound_of(e, f) + fabs(at->rate[f]) * events_ulp(at->t);
 }
 
 /* Whether a function is on the other side here because it jumps: by more than it changes in the rounding of the time.
@@ -35,7 +45,7 @@ static bool jumps_here(const events *e, size_t f)
 {
     const instant *at = &e->here;
     const bool beyond = e->side[f] && sign_of(at->g[f]) == -e->side[f];
-    const bool wide = fabs(at->g[f]) > 4 * at->bound[f] + 16 * fabs(at->rate[f]) * events_ulp(at->t);
+    const bool wide = fabs(at->g[f]) > 4 * bound_of(e, f) + 16 * fabs(at->rate[f]) * events_ulp(at->t);
     return beyond && (is_far(e, f) || (e->rules.rule[e->rule_of[f]].jump && wide));
 }
 
@@ -255,7 +265,8 @@ static candidate *about(const events *e, size_t f, bool touches)
 {
     for (size_t k = 0; k < e->candidates; k++) {
         candidate *c = &e->candidate[k];
-        const bool touch = (c->near || c->kind == CANDIDATE_TOUCHES) && !c->jumps;
+        const bool stays = c->sampled && !c->located && !c->near; /* of kind 0: it comes to 0 */
+        const bool touch = (c->near || (c->kind == CANDIDATE_TOUCHES && !stays)) && !c->jumps;
         if (c->gone || c->kind == CANDIDATE_TIME || c->of != f || (touches && !touch)) continue;
         if (c->located ? fabs(c->at - e->here_at) <= 4 * events_ulp(e->here.t)
                        : e->way * (e->here_at - c->low) >= 0 && e->way * (c->high - e->here_at) >= 0)
@@ -271,7 +282,7 @@ static bool is_led(const events *e, size_t f, int *side)
     for (size_t k = 0; k < e->candidates; k++) {
         const candidate *c = &e->candidate[k];
         const bool touch = c->near || (c->kind == CANDIDATE_TOUCHES && !c->jumps && !c->sampled);
-        if (c->kind == CANDIDATE_TIME || c->of != f || touch) continue;
+        if (c->kind == CANDIDATE_TIME || c->of != f || touch || (c->gone && !c->followed)) continue;
         if (!c->located && !(c->sampled && c->kind == CANDIDATE_TOUCHES)) continue;
         const bool here = c->located ? fabs(c->at - e->here_at) <= 4 * events_ulp(e->here.t)
                                      : e->way * (e->here_at - c->low) >= 0 && e->way * (c->high - e->here_at) >= 0;
@@ -479,7 +490,8 @@ motus_status events_fire(events *e, const candidate *c, bool *assigned, motus_er
     if (c->kind != CANDIDATE_TIME && !(c->jumps && c->kind)) e->zero[c->of] = 1;
     for (size_t k = 0; k < e->candidates; k++) {
         const candidate *other = &e->candidate[k];
-        if (other->kind == CANDIDATE_TIME || !other->located || (other->jumps && other->kind)) continue;
+        const bool nothing = other->gone && !other->followed;
+        if (other->kind == CANDIDATE_TIME || !other->located || nothing || (other->jumps && other->kind)) continue;
         if (fabs(other->at - e->here_at) <= 4 * events_ulp(e->here.t)) e->zero[other->of] = 1;
     }
     if (ends_step(e, c)) {

@@ -30,8 +30,9 @@ typedef struct candidate {
     double at;        /* time since `left`: by dense output; by true steps where `located` */
     double low, high; /* such times between which this is the function's only root */
     bool located, gone;
-    bool idle; /* its function changes its side, and nothing happens */
-    bool sure; /* by far more than dense output errs, its function has other signs at `low` and at `high` */
+    bool followed; /* it is gone because it has been followed; else nothing was there */
+    bool idle;     /* its function changes its side, and nothing happens */
+    bool sure;     /* by far more than dense output errs, its function has other signs at `low` and at `high` */
     bool near; /* an extremum near 0, of which true steps are to tell whether it touches, crosses twice, or neither */
     bool sampled; /* samples told of it: events_jump.c */
     bool leaves;  /* it has been 0 before; sampled ones */

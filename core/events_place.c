@@ -134,7 +134,8 @@ motus_status events_probe(events *e, double from, double lost, const double *x, 
 motus_status events_at(events *e, double h, instant *to, motus_error *err)
 {
     const instant *from = &e->left;
-    const bool still = from->t + h == from->t; /* too short for a step */
+    /* too short for a step; near t = 0 times are far shorter than what a step can tell */
+    const bool still = from->t + h == from->t || (from->t == 0 && fabs(h) < 0x1p-100 * fabs(e->span));
     if (still || h == e->span) {
         events_copy(e, to, still ? from : &e->right);
         return MOTUS_OK;

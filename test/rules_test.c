@@ -657,6 +657,8 @@ static void in_words(void **state)
         "event3 happens when y >= 0 and t < 1 becomes true; the run stops at number 3\n"
         "event4 happens where the events of bounce accumulate; the run stops there\n"
         "event5 happens every 0.5, from the start on; it is recorded\n"
+        "the state decides where an event that assigns ends a step: by a symplectic method that step is not "
+        "symplectic, while those between are\n"
         "n is a mode: events assign this parameter; at the start it is 0. Neither the force nor an event depends on "
         "it\n"
         "at the start both sides of bounce are equal, which is no event\n"
