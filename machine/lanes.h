@@ -28,6 +28,28 @@ typedef struct lanes_tally {
     size_t result;
 } lanes_tally;
 
+/* Who follows the events of trajectories, of which lanes take the steps in which nothing happens (lanes_watched.c).
+ * A state is that at which the next step begins: of a leg from t0 with step h, the counters, and the numbers of
+ * stepper_save. A trajectory keeps the `place` that it begins with. `idle` is asked of a step of which the bounds leave
+ * something open; where it denies, or a trajectory is to be looked at for another reason, `look` is led to the state
+ * before that step, `steps` after the state that it gave, and gives one from which lanes go on. `arrive` is led to the
+ * end, and `leave` is told that the trajectory is to be computed without lanes. */
+typedef struct lanes_state {
+    double t0, h;
+    stepper_count at;
+    double *carry;
+} lanes_state;
+typedef enum lanes_verdict { LANES_GO_ON, LANES_OVER, LANES_FAILED } lanes_verdict;
+typedef struct lanes_follower {
+    void *ctx;
+    lanes_verdict (*begin)(void *ctx, int thread, size_t place, size_t trajectory, lanes_state *);
+    bool (*idle)(void *ctx, int thread, size_t place, const stepper_shown *);
+    lanes_verdict (*look)(void *ctx, int thread, size_t place, int64_t steps, const double *largest, lanes_state *);
+    lanes_verdict (*arrive)(void *ctx, int thread, size_t place, int64_t steps, const double *largest,
+                            const lanes_state *);
+    void (*leave)(void *ctx, int thread, size_t place);
+} lanes_follower;
+
 typedef struct lanes_def {
     model *model;
     const problem *problem;
@@ -44,7 +66,8 @@ typedef struct lanes_def {
     bool own_clock;            /* steps adapt, or ends differ: whole, last and the sign of h are ignored */
     int lanes, threads;        /* lanes 0: the library chooses */
     bool fast;
-    bool later; /* whoever makes them does not wait for a compiler */
+    const lanes_follower *follower; /* of a model with events; NULL: of one without */
+    bool later;                     /* whoever makes them does not wait for a compiler */
     const motus_allocator *allocator;
     int (*progress)(void *context, double fraction);
     void *context;
