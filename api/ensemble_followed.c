@@ -66,20 +66,21 @@ static bool numbered(const ensemble_followed *f, int thread, followed *t, bool m
     return true;
 }
 
-static lanes_verdict left(const ensemble_followed *f, const followed *t)
+/* A worker alone is to compute the trajectory. */
+static bool left(const ensemble_followed *f, const followed *t)
 {
     f->places->ends[t->number] = LANES_MAY_CRAWL;
-    return LANES_OVER;
+    return false;
 }
 
-static lanes_verdict finish(const ensemble_followed *f, int thread, followed *t)
+static bool finish(const ensemble_followed *f, int thread, followed *t)
 {
     worker *w = &f->threads[thread].worker;
     if (!numbered(f, thread, t, true) || ensemble_single_observe(&t->at, &w->why) != MOTUS_OK ||
         ensemble_single_results(&t->at, f->places, t->number, false, true) != MOTUS_OK)
         return left(f, t);
     f->places->ends[t->number] = LANES_ARRIVED;
-    return LANES_OVER;
+    return false;
 }
 
 /* As the stepper asks itself, which does not see the steps of lanes. */
@@ -99,12 +100,15 @@ static bool crawls(followed *t)
     return may;
 }
 
-/* Takes steps until bounds may tell of the next one. */
-static lanes_verdict lead(const ensemble_followed *f, int thread, followed *t, lanes_state *state)
+/* Takes steps until bounds may tell of the next one; false: the trajectory is over. */
+static bool lead(const ensemble_followed *f, int thread, followed *t, lanes_state *state)
 {
+    enum { LOOK = 1 << 10 }; /* steps between two questions whether all is over */
     worker *w = &f->threads[thread].worker;
     stepper_stop why;
+    int64_t steps = 0;
     do {
+        if (++steps % LOOK == 0 && state->over(state->asked)) return false;
         if (crawls(t) || events_go(w->events, w->stepper, t->timing.until, 1, &why, &w->why) != MOTUS_OK)
             return left(f, t);
         if (why != STOP_STEPS) return finish(f, thread, t);
@@ -113,10 +117,10 @@ static lanes_verdict lead(const ensemble_followed *f, int thread, followed *t, l
     state->t0 = stepper_leg(w->stepper);
     state->h = stepper_step(w->stepper);
     state->at = stepper_save(w->stepper, state->carry);
-    return LANES_GO_ON;
+    return true;
 }
 
-static lanes_verdict begin_one(const ensemble_followed *f, int thread, followed *t, lanes_state *state)
+static bool begin_one(const ensemble_followed *f, int thread, followed *t, lanes_state *state)
 {
     worker *w = &f->threads[thread].worker;
     stepper_stop why;
@@ -132,16 +136,16 @@ static lanes_verdict begin_one(const ensemble_followed *f, int thread, followed 
     return why == STOP_UNTIL ? finish(f, thread, t) : lead(f, thread, t, state);
 }
 
-static lanes_verdict begin(void *ctx, int thread, size_t place, size_t number, lanes_state *state)
+static bool begin(void *ctx, int thread, size_t place, size_t number, lanes_state *state)
 {
     const ensemble_followed *f = ctx;
     worker *w;
     followed *t = take_up(ctx, thread, place, &w);
     t->number = f->first + number;
     w->why = motus_default_error();
-    const lanes_verdict verdict = begin_one(f, thread, t, state);
+    const bool goes_on = begin_one(f, thread, t, state);
     put_down(t, w);
-    return verdict;
+    return goes_on;
 }
 
 static bool idle(void *ctx, int thread, size_t place, const stepper_shown *step)
@@ -161,25 +165,26 @@ static bool come(const ensemble_followed *f, int thread, followed *t, int64_t st
            events_led(w->events, w->stepper, steps, largest, &w->why) == MOTUS_OK;
 }
 
-static lanes_verdict look(void *ctx, int thread, size_t place, int64_t steps, const double *largest, lanes_state *state)
+static bool look(void *ctx, int thread, size_t place, int64_t steps, const double *largest, lanes_state *state)
 {
     const ensemble_followed *f = ctx;
     worker *w;
     followed *t = take_up(ctx, thread, place, &w);
-    const lanes_verdict verdict = come(f, thread, t, steps, largest, state) ? lead(f, thread, t, state) : left(f, t);
+    const bool goes_on = come(f, thread, t, steps, largest, state) ? lead(f, thread, t, state) : left(f, t);
     put_down(t, w);
-    return verdict;
+    return goes_on;
 }
 
-static lanes_verdict arrive(void *ctx, int thread, size_t place, int64_t steps, const double *largest,
-                            const lanes_state *state)
+static void arrive(void *ctx, int thread, size_t place, int64_t steps, const double *largest, const lanes_state *state)
 {
     const ensemble_followed *f = ctx;
     worker *w;
     followed *t = take_up(ctx, thread, place, &w);
-    const lanes_verdict verdict = come(f, thread, t, steps, largest, state) ? finish(f, thread, t) : left(f, t);
+    if (come(f, thread, t, steps, largest, state))
+        (void)finish(f, thread, t);
+    else
+        (void)left(f, t);
     put_down(t, w);
-    return verdict;
 }
 
 static void leave(void *ctx, int thread, size_t place)
@@ -240,22 +245,21 @@ motus_status ensemble_followed_begin(motus_ensemble *e, const places *p, size_t 
     const char *why;
     f->places = p;
     f->first = first;
-    if (f->threads) return MOTUS_OK;
     e->chosen.varies = e->vary_count > 0;
-    motus_status status = choice_compile(e->system, &e->chosen, false, false, &e->machine, &why, err);
-    if (status != MOTUS_OK) return status;
-    f->threads = take(&e->allocator, (size_t)e->threads, sizeof *f->threads);
-    if (!f->threads) return fail(err, MOTUS_MEMORY, "no memory for the ensemble");
-    f->count = e->threads;
-    for (int i = 0; i < f->count && status == MOTUS_OK; i++) {
+    motus_status status =
+        f->threads ? MOTUS_OK : choice_compile(e->system, &e->chosen, false, false, &e->machine, &why, err);
+    if (status == MOTUS_OK && !f->threads) {
+        f->threads = take(&e->allocator, (size_t)e->threads, sizeof *f->threads);
+        f->count = f->threads ? e->threads : 0;
+    }
+    for (int i = 0; i < f->count && status == MOTUS_OK; i++) { /* where a call before has failed, those that are left */
         following *t = &f->threads[i];
         t->numbers = SIZE_MAX;
         status = ensemble_worker_prepare(e, &t->worker, 1 + i, err);
-        t->worker.pace.tell = NULL;
-        if (status == MOTUS_OK && !(t->place = take(&e->allocator, lanes, sizeof *t->place)))
-            status = fail(err, MOTUS_MEMORY, "no memory for the ensemble");
+        if (status == MOTUS_OK && !t->place) t->place = take(&e->allocator, lanes, sizeof *t->place);
+        if (status == MOTUS_OK && !t->place) status = fail(err, MOTUS_MEMORY, "no memory for the ensemble");
     }
-    return status;
+    return status != MOTUS_OK || f->threads ? status : fail(err, MOTUS_MEMORY, "no memory for the ensemble");
 }
 
 void ensemble_followed_destroy(motus_ensemble *e)

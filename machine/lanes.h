@@ -32,21 +32,23 @@ typedef struct lanes_tally {
  * A state is that at which the next step begins: of a leg from t0 with step h, the counters, and the numbers of
  * stepper_save. A trajectory keeps the `place` that it begins with. `idle` is asked of a step of which the bounds leave
  * something open; where it denies, or a trajectory is to be looked at for another reason, `look` is led to the state
- * before that step, `steps` after the state that it gave, and gives one from which lanes go on. `arrive` is led to the
- * end, and `leave` is told that the trajectory is to be computed without lanes. */
+ * before that step, `steps` after the state that it gave. `begin` and `look` give a state from which lanes go on, or
+ * tell that the trajectory is over: then nothing is left to do for it. On a long way they ask whether all is `over`,
+ * and nothing counts any more. `arrive` is led to the end, and `leave` is told of a trajectory that lanes cannot lead
+ * on. */
 typedef struct lanes_state {
     double t0, h;
     stepper_count at;
     double *carry;
+    bool (*over)(void *asked);
+    void *asked;
 } lanes_state;
-typedef enum lanes_verdict { LANES_GO_ON, LANES_OVER, LANES_FAILED } lanes_verdict;
 typedef struct lanes_follower {
     void *ctx;
-    lanes_verdict (*begin)(void *ctx, int thread, size_t place, size_t trajectory, lanes_state *);
+    bool (*begin)(void *ctx, int thread, size_t place, size_t trajectory, lanes_state *);
     bool (*idle)(void *ctx, int thread, size_t place, const stepper_shown *);
-    lanes_verdict (*look)(void *ctx, int thread, size_t place, int64_t steps, const double *largest, lanes_state *);
-    lanes_verdict (*arrive)(void *ctx, int thread, size_t place, int64_t steps, const double *largest,
-                            const lanes_state *);
+    bool (*look)(void *ctx, int thread, size_t place, int64_t steps, const double *largest, lanes_state *);
+    void (*arrive)(void *ctx, int thread, size_t place, int64_t steps, const double *largest, const lanes_state *);
     void (*leave)(void *ctx, int thread, size_t place);
 } lanes_follower;
 

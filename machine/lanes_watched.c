@@ -58,6 +58,14 @@ static void free_lane(watched *s, size_t lane)
 static const int carried[STEPPER_CLOCKS] = {LANES_T,    LANES_LOST,     LANES_NEXT,    LANES_BEFORE,
                                             LANES_RISE, LANES_SHORTEST, LANES_LONGEST, LANES_SPAN};
 
+/* Of a trajectory that takes many steps without lanes. */
+static bool all_over(void *asked)
+{
+    lanes_item *item = asked;
+    if (item->reports) lanes_item_report(item, 0);
+    return lanes_item_over(item);
+}
+
 /* The state of a lane, or that before its latest candidate. */
 static lanes_state state_of(const watched *s, size_t lane, bool before)
 {
@@ -71,7 +79,9 @@ static lanes_state state_of(const watched *s, size_t lane, bool before)
     return (lanes_state){.t0 = *clock_of(s, lane, LANES_T0),
                          .h = *clock_of(s, lane, LANES_H),
                          .at = {.steps = (int64_t)CLOCK_AT(LANES_N), .refused = (int64_t)CLOCK_AT(LANES_REFUSED)},
-                         .carry = to};
+                         .carry = to,
+                         .over = all_over,
+                         .asked = s->item};
 #undef CLOCK_AT
 }
 
@@ -108,14 +118,12 @@ static void over(watched *s, size_t lane)
     free_lane(s, lane);
 }
 
-static void obey(watched *s, size_t lane, lanes_verdict verdict, const lanes_state *state)
+static void go_on(watched *s, size_t lane, bool goes_on, const lanes_state *state)
 {
-    if (verdict == LANES_GO_ON) {
+    if (goes_on)
         put(s, lane, state);
-        return;
-    }
-    if (verdict == LANES_FAILED) atomic_store(&s->item->call->cancelled, true);
-    over(s, lane);
+    else
+        over(s, lane);
 }
 
 /* ---- the start ---- */
@@ -127,9 +135,9 @@ static bool refill(watched *s)
     bool any = false, more = false;
     for (size_t i = 0; i < (size_t)s->l->block; i++) {
         while (s->number[i] == NO_TRAJECTORY && s->next < item->count && !lanes_item_over(item)) {
-            lanes_state state = {.carry = s->room};
+            lanes_state state = {.carry = s->room, .over = all_over, .asked = item};
             s->number[i] = item->first + s->next++;
-            obey(s, i, s->by->begin(s->by->ctx, item->thread, i, s->number[i], &state), &state);
+            go_on(s, i, s->by->begin(s->by->ctx, item->thread, i, s->number[i], &state), &state);
             more |= s->number[i] != NO_TRAJECTORY;
         }
         any |= s->number[i] != NO_TRAJECTORY;
@@ -192,10 +200,12 @@ static void look_after(watched *s, size_t lane)
     lanes_state state = state_of(s, lane, back);
     const int64_t steps = state.at.steps - s->since[lane];
     const double *largest = largest_of(s, lane);
-    obey(s, lane,
-         ends && !back ? s->by->arrive(s->by->ctx, thread, lane, steps, largest, &state)
-                       : s->by->look(s->by->ctx, thread, lane, steps, largest, &state),
-         &state);
+    if (!ends || back) {
+        go_on(s, lane, s->by->look(s->by->ctx, thread, lane, steps, largest, &state), &state);
+        return;
+    }
+    s->by->arrive(s->by->ctx, thread, lane, steps, largest, &state);
+    over(s, lane);
 }
 
 void lanes_watched(lanes_item *item)
