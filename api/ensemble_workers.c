@@ -46,7 +46,7 @@ motus_status ensemble_worker_prepare(motus_ensemble *e, worker *w, int number, m
         if (status == MOTUS_OK && !symmetry_gyroscopic(s))
             status = fail(err, MOTUS_MEMORY, "no memory to examine the velocity term");
         const char *why;
-        w->machine = s->machine;
+        if (status == MOTUS_OK) w->machine = s->machine;
         if (status == MOTUS_OK && e->machine.body)
             status = choice_compile(s, &e->chosen, true, false, &w->machine, &why, err);
         if (status != MOTUS_OK) {
