@@ -148,7 +148,7 @@ static void the_same_bits(void **state)
             for (size_t i = 0; i < COUNT; i++) stopped += !isnan(one->stopped[i]);
             if (one->all < u->rows || stopped < u->stopped)
                 fail_msg("%s by %s: %lld rows, %d stopped", u->text, methods[k], (long long)one->all, stopped);
-            for (int lanes = 1; lanes <= 8; lanes *= 2)
+            for (int lanes = 1; lanes <= 16; lanes *= 2)
                 for (int threads = 1; threads <= 2; threads++) {
                     outcome *many = compute(u, methods[k], "compiled", lanes, threads, lanes == 4 ? 5 : 0);
                     same(u, methods[k], lanes, threads, one, many);
