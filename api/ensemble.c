@@ -165,6 +165,7 @@ static motus_status join_half(motus_ensemble *e, const lanes_def *common, motus_
 
 void ensemble_end_lanes(motus_ensemble *e)
 {
+    ensemble_followed_destroy(e);
     lanes_destroy(e->lanes);
     lanes_destroy(e->half_lanes);
     e->lanes = e->half_lanes = NULL;
@@ -181,7 +182,14 @@ static int report_lanes(void *context, double fraction)
 /* Chooses lanes where they can compute the ensemble; else e->lanes stays NULL and e->note says why. */
 static motus_status try_lanes(motus_ensemble *e, const motus_ensemble_def *d, bool later, motus_error *err)
 {
-    const bool told = e->error != MOTUS_BARS_NONE;
+    const bool told = e->error != MOTUS_BARS_NONE, one = e->rules && e->system->allocator.allocate;
+    const lanes_follower *follower = NULL;
+    if (e->rules && told) {
+        snprintf(e->note, sizeof e->note, "events are followed one trajectory at a time where errors are told");
+        return MOTUS_OK;
+    }
+    motus_status status = e->rules ? ensemble_followed_create(e, &follower, err) : MOTUS_OK;
+    if (status != MOTUS_OK) return status;
     const lanes_def common = {.chosen = &e->chosen,
                               .vary = e->vary,
                               .places = e->places,
@@ -194,8 +202,9 @@ static motus_status try_lanes(motus_ensemble *e, const motus_ensemble_def *d, bo
                               .every = e->every,
                               .own_clock = steps_differ(e),
                               .lanes = d->lanes,
-                              .threads = e->threads,
+                              .threads = one ? 1 : e->threads, /* one thread alone calls the hooks */
                               .fast = d->fast != 0,
+                              .follower = follower,
                               .later = later,
                               .allocator = &e->allocator,
                               .progress = e->progress ? report_lanes : NULL,
@@ -205,7 +214,8 @@ static motus_status try_lanes(motus_ensemble *e, const motus_ensemble_def *d, bo
                  e->error == MOTUS_BARS_FULL ? "trajectories have two companions" : "trajectories have their own ends");
         return MOTUS_OK;
     }
-    motus_status status = make_lanes(e, e->system, &common, &e->lanes, err);
+    status = make_lanes(e, e->system, &common, &e->lanes, err);
+    if (!e->lanes) ensemble_followed_destroy(e);
     if (status != MOTUS_OK || !e->lanes || !told) return status;
     status = join_half(e, &common, err);
     if (!e->half_lanes) ensemble_end_lanes(e);
@@ -276,14 +286,9 @@ static motus_status make(motus_ensemble *e, const motus_ensemble_def *d, motus_e
     }
     /* with `fast` the bits depend on the machine */
     const bool later = automatic && !d->fast;
-    const bool events = e->rules != NULL;
-    if (events)
-        snprintf(e->note, sizeof e->note, "%s",
-                 s->model && s->model->rule_count == 0
-                     ? "switches are located, one trajectory at a time; "
-                       "`switches = step` of the definition leads across them, in lanes"
-                     : "events are followed one trajectory at a time");
-    if (status == MOTUS_OK && s->model && compiled && !events) status = try_lanes(e, d, later, err);
+    if (e->rules && !(s->model && compiled))
+        snprintf(e->note, sizeof e->note, "events are followed one trajectory at a time");
+    if (status == MOTUS_OK && s->model && compiled) status = try_lanes(e, d, later, err);
     if (status != MOTUS_OK) return status;
     e->lane_threads = e->threads;
     if (!e->lanes) {
@@ -442,9 +447,10 @@ static motus_status in_lanes(motus_ensemble *e, const places *p, size_t first, m
         errors[r] = p->errors ? p->errors[r] + first : NULL;
     }
     e->before = first;
-    motus_status status =
-        lanes_run(e->lanes, e->count - first, values, p->until ? p->until + first : NULL, results,
-                  p->errors ? errors : NULL, p->stopped ? p->stopped + first : NULL, p->ends + first, err);
+    motus_status status = e->followed ? ensemble_followed_begin(e, p, first, err) : MOTUS_OK;
+    if (status == MOTUS_OK)
+        status = lanes_run(e->lanes, e->count - first, values, p->until ? p->until + first : NULL, results,
+                           p->errors ? errors : NULL, p->stopped ? p->stopped + first : NULL, p->ends + first, err);
     give(&e->allocator, (void *)values);
     return status;
 }

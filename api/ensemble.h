@@ -32,8 +32,9 @@ typedef struct worker {
     motus_error why;
 } worker;
 
-typedef struct ensemble_goal ensemble_goal;   /* ensemble_accuracy.c */
-typedef struct ensemble_table ensemble_table; /* ensemble_events.c: the events of a trajectory */
+typedef struct ensemble_goal ensemble_goal;         /* ensemble_accuracy.c */
+typedef struct ensemble_followed ensemble_followed; /* ensemble_followed.c: trajectories with events in lanes */
+typedef struct ensemble_table ensemble_table;       /* ensemble_events.c: the events of a trajectory */
 
 struct motus_ensemble {
     motus_system *system;    /* a located one where its switches are (api/located.h), */
@@ -72,9 +73,10 @@ struct motus_ensemble {
     chosen half_chosen;
     vary *half_vary;
     vary *vary;
-    lanes *lanes;      /* NULL, or while they are awaited: workers compute the trajectories */
-    lanes *half_lanes; /* of the companions */
-    machine machine;   /* of the first worker */
+    lanes *lanes;                /* NULL, or while they are awaited: workers compute the trajectories */
+    lanes *half_lanes;           /* of the companions */
+    ensemble_followed *followed; /* NULL: lanes have no events */
+    machine machine;             /* of the first worker */
     /* `threads` of them, each prepared when it is first needed; until then all its bytes are 0 */
     worker *workers;
     size_t count, block; /* trajectories of the present run; of a block of a callback, or 0 */
@@ -157,6 +159,12 @@ void ensemble_ended_end(motus_ensemble *);
 void ensemble_ended_take(worker *, size_t k, bool stopped);
 void ensemble_ended_move(motus_ensemble *to, size_t k, const motus_ensemble *from, size_t i);
 
+/* ensemble_followed.c: who follows the events of lanes, which are made after that; what is needed for the trajectories
+ * from `first` on; and their end, before that of the lanes. */
+motus_status ensemble_followed_create(motus_ensemble *, const lanes_follower **, motus_error *);
+motus_status ensemble_followed_begin(motus_ensemble *, const places *, size_t first, motus_error *);
+void ensemble_followed_destroy(motus_ensemble *);
+
 /* ensemble.c: all trajectories, with the tolerance of the ensemble. p: the room that the caller supplies. */
 motus_status ensemble_run_all(motus_ensemble *, size_t count, const double *const *values, places p, motus_error *);
 
@@ -201,6 +209,7 @@ void ensemble_end_lanes(motus_ensemble *);
 motus_status ensemble_each(motus_ensemble *, size_t first, size_t items,
                            motus_status (*one)(worker *, size_t item, void *ctx), void *ctx, motus_error *);
 /* As stepper_advance, of the worker's stepper; with a progress hook, in pieces of some milliseconds. */
+motus_status ensemble_worker_prepare(motus_ensemble *, worker *, int number, motus_error *);
 motus_status ensemble_advance(worker *, stepper_limit, stepper_stop *, motus_error *);
 int ensemble_tell(void *worker, double now);
 void ensemble_workers_destroy(motus_ensemble *);

@@ -4,7 +4,7 @@
  * Afterwards the system has its own numbers again.
  */
 #include "api/bars.h"
-#include "api/ensemble.h"
+#include "api/ensemble_single.h"
 #include "api/event_bars.h"
 #include "api/run_events.h"
 #include "api/symmetry.h"
@@ -14,15 +14,6 @@
 
 #include <math.h>
 #include <string.h>
-
-typedef struct trajectory {
-    worker *w;
-    double *x, *v, *kept, *now, *values; /* now: of the records; values: what varies */
-    size_t *columns;
-    int64_t observations;
-    bool errors;         /* are told */
-    stepper_count began; /* the stepper's counters at the start */
-} trajectory;
 
 static motus_status observe(void *ctx, motus_error *err)
 {
@@ -74,6 +65,15 @@ static void put_back(motus_ensemble *e, const double *room)
 
 /* ---- a trajectory ---- */
 
+motus_status ensemble_single_numbers(trajectory *s, motus_error *err)
+{
+    const worker *w = s->w;
+    const bool given = !w->system->model || !w->e->vary_count;
+    return given || (vary_apply(w->vary, s->values) && system_rebind(w->system))
+               ? MOTUS_OK
+               : fail(err, MOTUS_MEMORY, "no memory for a trajectory");
+}
+
 /* Sets the values of trajectory k and computes its initial state. */
 static motus_status start(trajectory *s, const double *const *values, size_t k, motus_error *err)
 {
@@ -81,8 +81,8 @@ static motus_status start(trajectory *s, const double *const *values, size_t k, 
     motus_system *y = s->w->system;
     for (size_t i = 0; i < e->vary_count; i++) s->values[i] = values[i][k];
     if (y->model && e->vary_count) {
-        if (!vary_apply(s->w->vary, s->values) || !system_rebind(y))
-            return fail(err, MOTUS_MEMORY, "no memory for a trajectory");
+        const motus_status set = ensemble_single_numbers(s, err);
+        if (set != MOTUS_OK) return set;
         /* whether the velocity term does no work is judged for these parameters */
         if (e->chosen.row->gyroscopic) {
             y->judged_gyroscopic = false;
@@ -161,12 +161,12 @@ void ensemble_number_calls(motus_system *s, size_t k, size_t count)
     s->calling.count = count;
 }
 
-/* *began: the stepper stands at the start. */
-static motus_status run(trajectory *s, const places *p, size_t k, bool *began, motus_error *err)
+motus_status ensemble_single_begin(trajectory *s, const places *p, size_t k, bool *began, motus_error *err)
 {
     worker *w = s->w;
     const motus_ensemble *e = w->e;
     timing *t = &w->timing;
+    if (w->events) events_forget(w->events); /* it may not begin, and has no events then */
     motus_status status = start(s, p->values, k, err);
     if (status == MOTUS_OK) status = ensemble_timing(e, p, k, t, err);
     if (status != MOTUS_OK) return status;
@@ -178,47 +178,74 @@ static motus_status run(trajectory *s, const places *p, size_t k, bool *began, m
     if (status == MOTUS_OK) ensemble_stopped_judged(w);
     if (status == MOTUS_OK) status = begin_events(w, t->until, err);
     if (status == MOTUS_OK && s->errors) status = ensemble_errors_begin(w, s->values, k, err);
-    const course course = {
-        .ctx = s, .until = t->until, .every = p->observes ? e->every : 0, .advance = advance, .observe = observe};
-    return status == MOTUS_OK ? course_run(&course, err) : status;
+    return status;
+}
+
+bool ensemble_single_open(trajectory *s, worker *w)
+{
+    const motus_ensemble *e = w->e;
+    const size_t nx = w->machine.problem->nx + 1, nv = w->machine.problem->nv + 1, records = e->record_count + 1;
+    double *memory = take(&e->allocator, nx + nv + records * (REDUCE_KEPT + 2) + e->vary_count, sizeof(double));
+    if (!memory) return false;
+    *s = (trajectory){.w = w,
+                      .x = memory,
+                      .v = memory + nx,
+                      .kept = memory + nx + nv,
+                      .now = memory + nx + nv + records * REDUCE_KEPT};
+    s->values = s->now + records;
+    s->columns = (size_t *)(void *)(s->values + e->vary_count);
+    _Static_assert(sizeof(size_t) <= sizeof(double), "columns lie where doubles would");
+    for (size_t r = 0; r < e->record_count; r++) s->columns[r] = e->records[r].column;
+    return true;
+}
+
+void ensemble_single_close(trajectory *s)
+{
+    if (s->x) give(&s->w->e->allocator, s->x);
+    s->x = NULL;
+}
+
+motus_status ensemble_single_observe(trajectory *s, motus_error *err) { return observe(s, err); }
+
+motus_status ensemble_single_results(trajectory *s, const places *p, size_t k, bool stopped, bool began)
+{
+    worker *w = s->w;
+    const motus_ensemble *e = w->e;
+    motus_error why = motus_default_error();
+    if (stopped) ensemble_stopped_take(w, k, began);
+    ensemble_ended_take(w, k, stopped);
+    /* without a beginning the events are those of another trajectory */
+    const motus_status told = began ? ensemble_events_take(w, k, s->errors, &why) : MOTUS_OK;
+    for (size_t r = 0; r < e->record_count; r++) p->results[r][k] = stopped ? NAN : result(s, r);
+    for (size_t r = 0; p->errors && r < e->record_count; r++) p->errors[r][k] = stopped ? NAN : error(s, r);
+    if (p->stopped) p->stopped[k] = stopped ? w->why.time : NAN;
+    if (told != MOTUS_OK) w->why = why;
+    return told;
 }
 
 motus_status ensemble_one(worker *w, size_t k, void *ctx)
 {
     const motus_ensemble *e = w->e;
     const places *p = ctx;
-    const size_t nx = w->machine.problem->nx + 1, nv = w->machine.problem->nv + 1, records = e->record_count + 1;
-    double *memory = take(&e->allocator, nx + nv + records * (REDUCE_KEPT + 2) + e->vary_count, sizeof(double));
-    if (!memory) return fail(&w->why, MOTUS_MEMORY, "no memory for a trajectory");
-    trajectory s = {.w = w,
-                    .x = memory,
-                    .v = memory + nx,
-                    .kept = memory + nx + nv,
-                    .now = memory + nx + nv + records * REDUCE_KEPT};
-    s.values = s.now + records;
-    s.columns = (size_t *)(void *)(s.values + e->vary_count);
+    trajectory s;
+    if (!ensemble_single_open(&s, w)) return fail(&w->why, MOTUS_MEMORY, "no memory for a trajectory");
     s.errors = p->errors != NULL;
-    _Static_assert(sizeof(size_t) <= sizeof(double), "columns lie where doubles would");
-    for (size_t r = 0; r < e->record_count; r++) s.columns[r] = e->records[r].column;
     w->trajectories = 1;
     w->why = motus_default_error();
     bool began = false;
     ensemble_number_calls(w->system, k, 1);
     motus_status status = s.errors ? ensemble_errors_worker(w, &w->why) : MOTUS_OK;
-    if (status == MOTUS_OK) status = run(&s, p, k, &began, &w->why);
+    if (status == MOTUS_OK) status = ensemble_single_begin(&s, p, k, &began, &w->why);
+    const course course = {.ctx = &s,
+                           .until = w->timing.until,
+                           .every = p->observes ? e->every : 0,
+                           .advance = advance,
+                           .observe = observe};
+    if (status == MOTUS_OK) status = course_run(&course, &w->why);
     const bool stopped = status == MOTUS_DIVERGED || status == MOTUS_SOLVE || status == MOTUS_STEPS ||
                          status == MOTUS_EVENTS || (status == MOTUS_CALLBACK && w->why.returned > 0);
     if (stopped || status == MOTUS_OK) {
-        motus_error why = motus_default_error();
-        if (stopped) ensemble_stopped_take(w, k, began);
-        ensemble_ended_take(w, k, stopped);
-        /* without a beginning the events are those of another trajectory */
-        const motus_status told = began ? ensemble_events_take(w, k, s.errors, &why) : MOTUS_OK;
-        for (size_t r = 0; r < e->record_count; r++) p->results[r][k] = stopped ? NAN : result(&s, r);
-        for (size_t r = 0; p->errors && r < e->record_count; r++) p->errors[r][k] = stopped ? NAN : error(&s, r);
-        if (p->stopped) p->stopped[k] = stopped ? w->why.time : NAN;
-        status = told;
-        if (told != MOTUS_OK) w->why = why;
+        status = ensemble_single_results(&s, p, k, stopped, began);
         atomic_fetch_add(&w->e->done, 1);
         if (w->number == 0 && ensemble_report(w->e, (double)atomic_load(&e->done) / (double)e->count)) {
             atomic_store(&w->e->stop, true);
@@ -226,7 +253,7 @@ motus_status ensemble_one(worker *w, size_t k, void *ctx)
         }
     }
     ensemble_number_calls(w->system, 0, 0);
-    give(&e->allocator, memory);
+    ensemble_single_close(&s);
     return status;
 }
 

@@ -35,9 +35,8 @@ int ensemble_tell(void *ctx, double now)
     return atomic_load(&e->stop) || atomic_load(&e->over);
 }
 
-static motus_status prepare_worker(motus_ensemble *e, int number, motus_error *err)
+motus_status ensemble_worker_prepare(motus_ensemble *e, worker *w, int number, motus_error *err)
 {
-    worker *w = &e->workers[number];
     motus_system *s = e->system;
     if (w->e) return MOTUS_OK;
     if (number > 0) {
@@ -47,7 +46,7 @@ static motus_status prepare_worker(motus_ensemble *e, int number, motus_error *e
         if (status == MOTUS_OK && !symmetry_gyroscopic(s))
             status = fail(err, MOTUS_MEMORY, "no memory to examine the velocity term");
         const char *why;
-        w->machine = s->machine;
+        if (status == MOTUS_OK) w->machine = s->machine;
         if (status == MOTUS_OK && e->machine.body)
             status = choice_compile(s, &e->chosen, true, false, &w->machine, &why, err);
         if (status != MOTUS_OK) {
@@ -124,7 +123,7 @@ motus_status ensemble_each(motus_ensemble *e, size_t first, size_t items,
     if (!e->workers && !(e->workers = take(&e->allocator, (size_t)e->threads, sizeof *e->workers)))
         return fail(err, MOTUS_MEMORY, "no memory for the ensemble");
     for (int i = 0; i < threads; i++) {
-        motus_status status = prepare_worker(e, i, err);
+        motus_status status = ensemble_worker_prepare(e, &e->workers[i], i, err);
         if (status != MOTUS_OK) return status;
         e->workers[i].status = MOTUS_OK;
         e->workers[i].why = motus_default_error();

@@ -65,6 +65,13 @@ motus_status events_step(events *, stepper *, double until, stepper_stop *why, m
  */
 motus_status events_go(events *, stepper *, double until, int64_t most, stepper_stop *why, motus_error *);
 
+/* Steps that others take. Whether bounds alone may tell of the next steps of the stepper; whether nothing has happened
+ * in such a step, of which other bounds leave something open; and that so many have been taken, at whose starts no
+ * number was larger than `largest`, x and then v, up to where the stepper has been led. */
+bool events_watchable(const events *, const stepper *);
+bool events_idle(events *, const stepper_shown *);
+motus_status events_led(events *, stepper *, int64_t steps, const double *largest, motus_error *);
+
 /* Where a step has many events, `asks` is asked on the way; other than 0: the step ends at the latest of them, and the
  * call with MOTUS_CANCELLED, without a message. It is asked for as long as it is not replaced; NULL: nobody cancels. */
 void events_listen(events *, int (*asks)(const void *ctx), const void *ctx);

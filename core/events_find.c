@@ -730,6 +730,8 @@ static bool quiet(void *ctx, const stepper_shown *step)
     return !any || passes_idly(e, step);
 }
 
+bool events_idle(events *e, const stepper_shown *step) { return quiet(e, step); }
+
 bool events_watchable(const events *e, const stepper *s)
 {
     if (e->first || !e->rules.least || !stepper_can_watch(s)) return false;
@@ -749,6 +751,21 @@ static motus_status turn_sides(events *e, motus_error *err)
         if (!e->left.valued) status = events_values(e, &e->left, err);
         e->side[f] = e->left.g[f] > 0 ? 1 : -1;
     }
+    return status;
+}
+
+motus_status events_led(events *e, stepper *s, int64_t steps, const double *largest, motus_error *err)
+{
+    instant *at = &e->left;
+    const size_t nx = e->problem.nx;
+    at->t = stepper_time(s), at->lost = stepper_lost(s);
+    at->valued = e->right.valued = e->boxed = false;
+    motus_status status = stepper_sync(s, at->x, at->v, NULL, err);
+    if (!status) status = turn_sides(e, err);
+    memset(e->passed, 0, e->rules.functions);
+    events_extend(e, largest, largest + nx);
+    e->steps += steps;
+    e->taken += steps;
     return status;
 }
 

@@ -219,9 +219,7 @@ double events_tick(const events *, size_t rule);
 
 /* events_find.c. What may happen in the step from `left` to `right`, whose dense output the stepper has. */
 motus_status events_find(events *, stepper *, motus_error *);
-/* Whether bounds alone may tell of the next steps; takes steps until they do not, or up to the limit. The last one
- * leads from `left`. */
-bool events_watchable(const events *, const stepper *);
+/* Takes steps that bounds alone tell of until they do not, or up to the limit. The last one leads from `left`. */
 motus_status events_watch(events *, stepper *, stepper_limit, stepper_stop *why, motus_error *);
 /* A state of the motion, where a step begins, counts in `most`. */
 void events_extend(events *, const double *x, const double *v);

@@ -147,9 +147,11 @@ motus_status stepper_watch(stepper *, stepper_limit, const stepper_watcher *, st
  * known beforehand. */
 int64_t stepper_steps_before(const stepper *, double t);
 
-/* Everything that the next step of the leg needs, as `stepper_carry` numbers, and the counters. Loaded into a stepper
+/* Everything that the next step of the leg needs, as `stepper_carry` numbers, and the counters. Of an adaptive row the
+ * last ones are t, its rounding error, and what error control carries. Loaded into a stepper
  * that was created in the same way, it continues to the same bits. After a shorter last step this is the state before
  * it. */
+enum { STEPPER_CLOCKS = 8 };
 typedef struct stepper_count {
     int64_t steps, evaluations, iterations, refused;
 } stepper_count;

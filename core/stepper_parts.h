@@ -7,8 +7,6 @@
 #include "core/stepper_body.h"
 #include "core/trace_body.h"
 
-enum { STEPPER_CLOCKS = 8 }; /* numbers of a carried time: t, its rounding error, and what error control carries */
-
 struct stepper {
     problem problem;
     struct stepper_host library;

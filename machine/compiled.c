@@ -150,16 +150,6 @@ void compiled_close(compiled *c)
 
 /* ---- the text ---- */
 
-/* Whether bounds of all functions that are watched tell of most steps: switches, which have a value to each side of
- * them, are the interpreter's, and of functions of time alone none are known. */
-static bool bounded(const model *m)
-{
-    bool known = m->rule_functions > 0 && !m->located;
-    for (uint32_t i = 0; i < m->rule_count; i++)
-        for (size_t k = 0; k < m->rules[i].leaves; k++) known &= least_known(m, m->rules[i].leaf[k].value);
-    return known;
-}
-
 static bool write_text(compiled *c, const chosen *chosen, emit *e)
 {
     model *m = c->model;
@@ -173,7 +163,7 @@ static bool write_text(compiled *c, const chosen *chosen, emit *e)
     if (expands && !c->series) c->series = expansion_program(m->arena, m->graph, m->accel, m->accel_count);
     if (expands && m->driven && !c->boundary_series)
         c->boundary_series = expansion_program(m->arena, m->graph, m->boundary, m->boundary_count);
-    const bool bounds = row_watched(chosen) && bounded(m);
+    const bool bounds = row_watched(chosen) && least_bounded(m);
     if (bounds && !c->least) {
         size_t functions;
         const output *least = least_sizes(m, &functions);

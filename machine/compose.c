@@ -85,19 +85,29 @@ static bool find_moments(const work *w, arena *a, moments *m)
     return true;
 }
 
+bool compose_bounds_are_structure(const model *m)
+{
+    bool single = compose_sizes_are_structure(m);
+    for (uint32_t i = 0; i < m->rule_count; i++) single &= m->rules[i].instances == 1;
+    return single;
+}
+
 /* Where rules may be followed, what asks after every step whether something has happened in it. */
 static void add_watch(emit_text *t, const composition *c)
 {
     const model *m = c->model;
+    if (c->width) {
+        emit_add(t, "#define WATCHED %d\n#define BOUNDS %zu\n", c->bounds, m->rule_functions);
+        if (c->bounds) add_text(t, "step/swing.h"), add_text(t, "step/box.h");
+        return;
+    }
     if (!row_watched(c->chosen) || (!m->rule_count && !m->modes)) {
         emit_add(t, "#define WATCHES(w) false\n#define watch_begin(w) ((void)0)\n#define watch_ends(w) false\n");
         return;
     }
     add_text(t, "step/swing.h");
     if (c->bounds) {
-        bool single = compose_sizes_are_structure(m);
-        for (uint32_t i = 0; i < m->rule_count; i++) single &= m->rules[i].instances == 1;
-        emit_add(t, "#define BOUNDS %zu\n", single ? m->rule_functions : 0);
+        emit_add(t, "#define BOUNDS %zu\n", compose_bounds_are_structure(m) ? m->rule_functions : 0);
         add_text(t, "step/box.h");
         add_text(t, "machine/text/watched.h");
     }
@@ -545,7 +555,7 @@ bool compose(emit *e, const composition *c)
     if (windowed) add_text(t, "machine/text/pass.h");
     add_family(t, c);
     if (!lanes || c->chosen->row->adaptive) add_text(t, "step/advance.h");
-    if (!lanes) add_watch(t, c);
+    add_watch(t, c);
     if (!lanes) add_text(t, "step/loop.h");
     if (local) add_text(t, "machine/text/tiled.h");
     for (const char *const *last = c->last; *last; last++) add_text(t, *last);

@@ -39,6 +39,8 @@ typedef struct composition {
 bool compose_sizes_are_structure(const model *);
 /* Whether such a state has so few numbers that they may stay in registers. */
 bool compose_small(const model *);
+/* The same of the functions of its rules. */
+bool compose_bounds_are_structure(const model *);
 /* Doubles in the widest vector that this machine has an instruction for: 1, 2, 4 or 8. */
 int compose_width(void);
 /* Writes into e->text, and e->moments; e->lanes and e->varied must be set. False: the arena failed. */

@@ -7,6 +7,7 @@
 
 #include "lang/graph/expansion.h"
 #include "machine/cache.h"
+#include "machine/least.h"
 #include "machine/solve_text.h"
 
 #include <dlfcn.h>
@@ -49,8 +50,34 @@ static int best_groups(const lanes_def *d, const work *plan)
     return groups < 1 ? 1 : groups > GROUPS_MAX ? GROUPS_MAX : (int)groups;
 }
 
+/* Why lanes cannot take the steps between events. */
+static const char *refuse_events(const lanes_def *d)
+{
+    const model *m = d->model;
+    if (m->located)
+        return "switches are located, one trajectory at a time; `switches = step` of the definition leads across them, "
+               "in lanes";
+    if (!row_watched(d->chosen))
+        return "events are followed one trajectory at a time by this method; in lanes by Runge-Kutta methods with "
+               "steps "
+               "that adapt, and by Taylor series";
+    for (uint32_t i = 0; i < m->rule_count; i++)
+        if (m->rules[i].kind == RULE_CLOCK) return "clocks are followed one trajectory at a time";
+    if (!compose_bounds_are_structure(m)) return "events of families are followed one trajectory at a time";
+    if (!least_bounded(m)) return "events that depend on the time are followed one trajectory at a time";
+    for (size_t k = 0; k < d->source_count; k++)
+        if (d->sources[k].how != REDUCE_FINAL)
+            return "what is recorded on the way of trajectories with events is recorded one trajectory at a time";
+    for (size_t k = 0; k < d->tally_count; k++)
+        if (d->tallies[k].which == TALLY_EVALUATIONS)
+            return "the evaluations of trajectories with events are counted one trajectory at a time";
+    return NULL;
+}
+
 const char *lanes_refuse(const lanes_def *d)
 {
+    const char *why = d->follower ? refuse_events(d) : NULL;
+    if (why) return why;
     if (d->chosen->row->family == EXACT) return "the exact motion is computed one trajectory at a time";
     if (!solve_text_admits(d->model, d->problem, d->chosen))
         return "this method solves equations of a family, or of many unknowns, one trajectory at a time";
@@ -182,7 +209,7 @@ static bool write_text(lanes *l)
     uint32_t entries;
     const vary_active *active = vary_entries(d->vary, &entries);
     observed quantities[OBSERVED_MAX];
-    const size_t observed_count = list_observed(d, quantities, &l->outs), count = 4 + entries + observed_count;
+    const size_t observed_count = list_observed(d, quantities, &l->outs), count = 5 + entries + observed_count;
     composed_program *programs = arena_room(m->arena, count * sizeof *programs);
     char *names = arena_room(m->arena, count * PROGRAM_NAME);
     if (!programs || !names) return false;
@@ -190,7 +217,7 @@ static bool write_text(lanes *l)
     programs[n++] = (composed_program){.program = program_create(m->graph, m->accel, m->accel_count),
                                        .name = "compiled_force",
                                        .terms = !d->own_clock};
-    composed_program along[3] = {{0}};
+    composed_program along[4] = {{0}};
     size_t alongs = solve_text_programs(m, d->problem, d->chosen, along);
     if (l->plan.expands) {
         along[0] = (composed_program){.program = expansion_program(m->arena, m->graph, m->accel, m->accel_count),
@@ -202,6 +229,13 @@ static bool write_text(lanes *l)
                                    .name = "compiled_boundary_series",
                                    .series = true};
         alongs = m->driven ? 2 : 1;
+    }
+    if (d->follower) {
+        size_t functions;
+        const output *least = least_sizes(m, &functions);
+        if (!least) return false;
+        along[alongs++] = (composed_program){
+            .program = program_create(m->graph, least, functions), .name = "compiled_least", .along = true};
     }
     for (size_t k = 0; k < alongs; k++) programs[n++] = along[k];
     if (m->boundary_count)
@@ -236,6 +270,7 @@ static bool write_text(lanes *l)
                            .own_clock = d->own_clock,
                            .width = l->width,
                            .solves = l->plan.solves > 0,
+                           .bounds = d->follower != NULL,
                            .groups = l->groups,
                            .glue = write_glue(l, along, entries, quantities, observed_count),
                            .last = last};
@@ -302,6 +337,7 @@ static bool prepare(lanes *l)
     l->clock_size = d->own_clock ? lines(l, LANES_CLOCKS) : 0;
     l->known_size = l->plan.carried ? lines(l, m->nv) + lines(l, 1) : 0;
     l->work_size = lines(l, stepper_arrays(l->plan) * m->nv);
+    if (d->follower) l->watch_size = lines(l, m->nv) + lines(l, m->nx + m->nv) + lines(l, 1);
     l->solve_size =
         (l->solving * (size_t)l->groups + ALIGNMENT - 1) / ALIGNMENT * ALIGNMENT / sizeof(double) + lines(l, 1);
     l->observed_size = lines(l, m->nx + m->nv + m->nv + l->outs);

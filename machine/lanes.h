@@ -28,6 +28,30 @@ typedef struct lanes_tally {
     size_t result;
 } lanes_tally;
 
+/* Who follows the events of trajectories, of which lanes take the steps in which nothing happens (lanes_watched.c).
+ * A state is that at which the next step begins: of a leg from t0 with step h, the counters, and the numbers of
+ * stepper_save. A trajectory keeps the `place` that it begins with. `idle` is asked of a step of which the bounds leave
+ * something open; where it denies, or a trajectory is to be looked at for another reason, `look` is led to the state
+ * before that step, `steps` after the state that it gave. `begin` and `look` give a state from which lanes go on, or
+ * tell that the trajectory is over: then nothing is left to do for it. On a long way they ask whether all is `over`,
+ * and nothing counts any more. `arrive` is led to the end, and `leave` is told of a trajectory that lanes cannot lead
+ * on. */
+typedef struct lanes_state {
+    double t0, h;
+    stepper_count at;
+    double *carry;
+    bool (*over)(void *asked);
+    void *asked;
+} lanes_state;
+typedef struct lanes_follower {
+    void *ctx;
+    bool (*begin)(void *ctx, int thread, size_t place, size_t trajectory, lanes_state *);
+    bool (*idle)(void *ctx, int thread, size_t place, const stepper_shown *);
+    bool (*look)(void *ctx, int thread, size_t place, int64_t steps, const double *largest, lanes_state *);
+    void (*arrive)(void *ctx, int thread, size_t place, int64_t steps, const double *largest, const lanes_state *);
+    void (*leave)(void *ctx, int thread, size_t place);
+} lanes_follower;
+
 typedef struct lanes_def {
     model *model;
     const problem *problem;
@@ -44,7 +68,8 @@ typedef struct lanes_def {
     bool own_clock;            /* steps adapt, or ends differ: whole, last and the sign of h are ignored */
     int lanes, threads;        /* lanes 0: the library chooses */
     bool fast;
-    bool later; /* whoever makes them does not wait for a compiler */
+    const lanes_follower *follower; /* of a model with events; NULL: of one without */
+    bool later;                     /* whoever makes them does not wait for a compiler */
     const motus_allocator *allocator;
     int (*progress)(void *context, double fraction);
     void *context;

@@ -19,7 +19,8 @@ enum { REFILLS = 16 };  /* own clocks: blocks of trajectories that pass through 
 /* Own parameters, numbers that depend on them, carry, records, clocks, times at which lanes stopped. */
 size_t lanes_block_size(const lanes *l)
 {
-    return l->own_size + l->bound_size + l->carry_size + l->kept_size + l->clock_size + l->known_size + lines(l, 1);
+    return l->own_size + l->bound_size + l->carry_size + l->kept_size + l->clock_size + l->known_size + l->watch_size +
+           lines(l, 1);
 }
 
 static size_t saved_size(const lanes *l)
@@ -49,6 +50,11 @@ void lanes_block_place(lanes_block *k, const lanes_item *b, size_t block)
         j->fresh = (bool *)(void *)(j->known + lines(l, l->def.model->nv));
     }
     k->stopped = p + b->call->block_size - lines(l, 1);
+    if (!l->watch_size) return;
+    j->before = k->saved, j->before_clocks = k->saved + l->carry_size;
+    j->bounds = k->stopped - l->watch_size;
+    j->largest = j->bounds + lines(l, l->def.model->nv);
+    j->met = k->stopped - lines(l, 1);
 }
 
 lanes_block lanes_block_of(const lanes_item *b, size_t block)
@@ -139,7 +145,7 @@ static inline void begin_values(const lanes_block *block, const lanes_item *b, c
     }
 }
 
-void lanes_block_begin(const lanes_block *block, const lanes_item *b, const size_t *trajectories)
+void lanes_block_number(const lanes_block *block, const lanes_item *b, const size_t *trajectories)
 {
     const lanes *l = block->l;
     lanes_job j = block->job;
@@ -150,10 +156,15 @@ void lanes_block_begin(const lanes_block *block, const lanes_item *b, const size
     case 2: begin_values(block, b, trajectories, 2); break;
     default: begin_values(block, b, trajectories, (size_t)l->width);
     }
-    for (size_t i = 0; i < (size_t)l->block; i++) block->stopped[i] = NAN;
     j.values = values;
     l->begin(&j);
-    l->set(&j);
+}
+
+void lanes_block_begin(const lanes_block *block, const lanes_item *b, const size_t *trajectories)
+{
+    lanes_block_number(block, b, trajectories);
+    for (size_t i = 0; i < (size_t)block->l->block; i++) block->stopped[i] = NAN;
+    block->l->set(&block->job);
 }
 
 /* ---- lanes that are no longer finite ---- */
@@ -341,7 +352,7 @@ static void run_item(void *ctx, size_t item, int thread)
 {
     lanes_call *c = ctx;
     lanes *l = c->l;
-    lanes_item b = {.l = l, .call = c, .first = item * c->most}, half;
+    lanes_item b = {.l = l, .call = c, .first = item * c->most, .thread = thread}, half;
     if (lanes_item_over(&b)) return;
     b.count = c->count - b.first < c->most ? c->count - b.first : c->most;
     double *memory = c->memory + (size_t)thread * c->thread_size;
@@ -353,7 +364,9 @@ static void run_item(void *ctx, size_t item, int thread)
         b.companions = lanes_companion_place(l, half.table + c->half->table_size, c->companions);
     }
     b.reports = thread == 0 && l->def.progress; /* only the caller's thread calls the caller's hook */
-    if (l->def.own_clock) {
+    if (l->def.follower) {
+        lanes_watched(&b);
+    } else if (l->def.own_clock) {
         lanes_apart(&b);
     } else {
         lanes_together(&b, (b.count + (size_t)l->block - 1) / (size_t)l->block);
@@ -368,8 +381,9 @@ static void measure(lanes_call *c)
     const lanes *l = c->l;
     c->block_size = lanes_block_size(l);
     c->scratch_size = lanes_scratch_size(l);
-    c->table_size =
-        l->def.own_clock ? lanes_apart_size(l) : ((size_t)l->e.moments * l->e.terms * (CHUNK + 1 + 8 + 8) + 7) / 8 * 8;
+    c->table_size = l->def.follower    ? lanes_watched_size(l)
+                    : l->def.own_clock ? lanes_apart_size(l)
+                                       : ((size_t)l->e.moments * l->e.terms * (CHUNK + 1 + 8 + 8) + 7) / 8 * 8;
 }
 
 /* Divides the trajectories into items: several for each thread, to balance the load, but none whose blocks exceed the
@@ -383,7 +397,7 @@ static void divide_work(lanes_call *c, size_t threads)
     measure(c);
     if (half) measure(half);
     const size_t size = c->block_size + (half ? half->block_size + lanes_companion_size(l, block) : 0);
-    c->blocks = l->def.own_clock ? lanes_apart_blocks() : ITEM_BYTES / sizeof(double) / size;
+    c->blocks = l->def.follower ? 1 : l->def.own_clock ? lanes_apart_blocks() : ITEM_BYTES / sizeof(double) / size;
     size_t most = l->def.own_clock ? REFILLS : c->blocks;
     if (most > share) most = share;
     if (most == 0) most = 1;
@@ -415,7 +429,7 @@ motus_status lanes_run(lanes *l, size_t count, const double *const *values, cons
                     .ends = ends};
     lanes_call half = {.l = l->half, .count = count, .values = values, .until = until};
     if (errors) c.half = &half;
-    c.keeps = half.keeps = errors != NULL;
+    c.keeps = half.keeps = errors != NULL || d->follower;
     divide_work(&c, threads);
     if (threads > c.items) threads = c.items;
     double *memory = take(d->allocator, threads * c.thread_size + ALIGNMENT / sizeof(double), sizeof(double));

@@ -50,7 +50,8 @@ struct lanes {
     differences_shape shape;
     lanes_record *compared;
     /* sizes for one block, in doubles, whole cache lines */
-    size_t own_size, bound_size, carry_size, kept_size, clock_size, known_size, work_size, observed_size, solve_size;
+    size_t own_size, bound_size, carry_size, kept_size, clock_size, known_size, work_size, observed_size, solve_size,
+        watch_size;
 };
 
 /* Doubles for `elements` elements of every lane of a block, in whole cache lines. */
@@ -88,12 +89,13 @@ typedef struct lanes_item {
     lanes *l;
     lanes_call *call;
     size_t first, count;
-    bool reports;                       /* calls the progress hook */
-    double *memory, *scratch, *table;   /* of all blocks; of the present block; of values of time alone */
-    double t0, h;                       /* the leg that all share, */
-    int64_t n, first_row;               /*   the steps taken in it, and the first row of the table */
-    int64_t observations;               /* recorded so far */
-    bool ends;                          /* the next observation is the one at the end */
+    bool reports;                     /* calls the progress hook */
+    double *memory, *scratch, *table; /* of all blocks; of the present block; of values of time alone */
+    double t0, h;                     /* the leg that all share, */
+    int64_t n, first_row;             /*   the steps taken in it, and the first row of the table */
+    int64_t observations;             /* recorded so far */
+    bool ends;                        /* the next observation is the one at the end */
+    int thread;
     struct lanes_item *half;            /* the companions, NULL: there are none; */
     struct lanes_companion *companions; /* how far they are; */
     double landed;                      /* of those that share a clock: when they landed last, */
@@ -127,6 +129,8 @@ void lanes_block_save(const lanes_block *);
 void lanes_block_forget(const lanes_block *, size_t lane);
 /* The carry of a lane is what it was when it was saved. */
 void lanes_block_put_back(const lanes_block *, size_t lane);
+/* Gives lane i of the block the numbers of trajectory trajectories[i], where lanes have numbers of their own. */
+void lanes_block_number(const lanes_block *, const lanes_item *, const size_t *trajectories);
 /* Sets lane i of the block to the start of trajectory trajectories[i]. */
 void lanes_block_begin(const lanes_block *, const lanes_item *, const size_t *trajectories);
 /* Whether the carry of a lane that has not stopped is infinite, NaN, or so large that what is observed may be. */
@@ -165,10 +169,12 @@ void lanes_companion_begin(lanes_companion *, double t0, double until);
 void lanes_companion_compare(const lanes_block *, const lanes_block *half, lanes_companion **list,
                              const bool *observed);
 
-/* ---- lanes_together.c, lanes_apart.c ---- */
+/* ---- lanes_together.c, lanes_apart.c, lanes_watched.c ---- */
 
 void lanes_together(lanes_item *, size_t blocks);
 void lanes_apart(lanes_item *);
+void lanes_watched(lanes_item *);
+size_t lanes_watched_size(const lanes *); /* doubles that it needs in the table */
 size_t lanes_apart_blocks(void);
 /* Doubles that lanes_apart needs in the table. */
 size_t lanes_apart_size(const lanes *);

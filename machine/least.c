@@ -21,12 +21,12 @@ node least_radius(model *m, node value)
     return graph_op(g, OP_MUL, graph_radius(g, value, half_width, m), graph_const(g, 1.001), 0);
 }
 
-bool least_known(const model *m, node value) { return !(graph_deps(m->graph, value) & (DEP_TIME | DEP_A)); }
+static bool known(const model *m, node value) { return !(graph_deps(m->graph, value) & (DEP_TIME | DEP_A)); }
 
 node least_size(model *m, node value)
 {
     graph *g = m->graph;
-    if (!least_known(m, value)) return graph_const(g, -1);
+    if (!known(m, value)) return graph_const(g, -1);
     return graph_op(g, OP_SUB, graph_op(g, OP_ABS, value, 0, 0), least_radius(m, value), 0);
 }
 
@@ -41,6 +41,14 @@ output *least_sizes(model *m, size_t *count)
             to->value = least_size(m, to->value);
         }
     return out;
+}
+
+bool least_bounded(const model *m)
+{
+    bool all = m->rule_functions > 0 && !m->located;
+    for (uint32_t i = 0; i < m->rule_count; i++)
+        for (size_t k = 0; k < m->rules[i].leaves; k++) all &= known(m, m->rules[i].leaf[k].value);
+    return all;
 }
 
 node least_rate(model *m, node value, node rate)

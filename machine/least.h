@@ -11,8 +11,9 @@ node least_radius(model *, node value);
 node least_size(model *, node value);
 /* That of every function of the model's rules, in their order. NULL: no memory. */
 output *least_sizes(model *, size_t *count);
-/* Whether such a number may be positive. */
-bool least_known(const model *, node value);
+/* Whether these may tell of most steps that nothing has happened: of functions of time none are known, and those of
+ * located switches (machine/sides.h) are not among the model's own. */
+bool least_bounded(const model *);
 /* The same of the rate of `value`, as far as it tells how the value changes: not positive where that may jump. */
 node least_rate(model *, node value, node rate);
 

@@ -600,7 +600,9 @@ static void studies(void **state)
 
 /* Ensembles -------------------------------------------------------------------------------------------------------- */
 
-/* By the method "machine method": creates, runs twice, hashes all records. */
+static bool with_events; /* of the ensemble: their tables are kept */
+
+/* By the method "machine method": creates, runs twice, hashes all records, or tables. */
 static motus_status flock(motus_system *s, const char *how, uint64_t *result, motus_error *err)
 {
     enum { COUNT = 5 };
@@ -622,7 +624,7 @@ static motus_status flock(motus_system *s, const char *how, uint64_t *result, mo
     names[0] = name;
     names[1] = motus_invariant_count(s) > 1 ? "g" : "w";
     for (size_t k = 0; k < columns; k++) {
-        records[def.record_count] = (motus_record){(motus_reduction)(k % 6), k};
+        records[def.record_count] = (motus_record){with_events ? MOTUS_REDUCE_FINAL : (motus_reduction)(k % 6), k};
         at[k] = room + k * COUNT;
         def.record_count += motus_column_at(s, k, &c) == MOTUS_OK && c.kind != MOTUS_COLUMN_EXACT;
     }
@@ -630,11 +632,12 @@ static motus_status flock(motus_system *s, const char *how, uint64_t *result, mo
     def.vary_count = strstr(machine, "callback") ? 1 : 2;
     def.records = records;
     def.method = method;
-    def.step = 0.05;
+    if (!with_events) def.step = 0.05;
     def.until = 0.205;
     def.every = 2;
     def.threads = 2;
     def.machine = strstr(machine, "callback") ? NULL : machine;
+    def.events = with_events;
     uint64_t h = 1;
     motus_status status = motus_ensemble_create(s, &def, &e, err);
     if (status != MOTUS_OK) assert_null(e);
@@ -642,6 +645,11 @@ static motus_status flock(motus_system *s, const char *how, uint64_t *result, mo
         status = motus_ensemble_run(e, COUNT, values, at, stopped, err);
         for (size_t k = 0; status == MOTUS_OK && k < def.record_count * COUNT; k++)
             h = isnan(room[k]) ? mix(h, "nan", 3) : mix(h, &room[k], sizeof(double));
+        for (size_t k = 0; status == MOTUS_OK && k < COUNT; k++) {
+            const int64_t rows = motus_ensemble_events(e, k);
+            assert_true(!with_events || (rows > 0) == (k != 3)); /* one begins at infinity */
+            h = mix(h, &rows, sizeof rows);
+        }
     }
     *result = h;
     motus_ensemble_destroy(e);
@@ -680,6 +688,11 @@ static void ensembles(void **state)
     in_blocks = true;
     assert_true(refuse_each(NULL, "callback rk4", flock, "ensemble of blocks") > 5);
     in_blocks = false;
+    with_events = true;
+    assert_true(refuse_each("w = 0.7\nx'' = -90000 w x\nx(0) = 1\nx'(0) = 0\nn = 0\nwhen x = 0: record\n"
+                            "when x' = 0 rising as turn: n = n + 1, x' = 0.9 x', record\n",
+                            "compiled dop853", flock, "events in lanes") > 10);
+    with_events = false;
 }
 
 /* Without hooks the library uses malloc; with `allocate` alone it frees nothing. */

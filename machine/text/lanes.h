@@ -242,15 +242,15 @@ static inline void lanes_observe_within(const lanes_job *job, work *w, const com
 /* ---- steps ---- */
 
 #if OWN_CLOCK
-static inline void lanes_store_clock(const work *w, const lanes_job *job, size_t group)
+static inline void lanes_put_clock(const work *w, real *own)
 {
-    real *own = job->clocks + group * LANES_CLOCKS;
     own[LANES_N] = w->n, own[LANES_H] = w->h;
     own[LANES_T] = w->t, own[LANES_LOST] = w->lost, own[LANES_NEXT] = w->next;
     own[LANES_BEFORE] = w->before, own[LANES_RISE] = w->rise;
     own[LANES_SHORTEST] = w->shortest, own[LANES_LONGEST] = w->longest, own[LANES_REFUSED] = w->refused;
     own[LANES_SPAN] = w->span;
 }
+#define lanes_store_clock(w, job, group) lanes_put_clock(w, (job)->clocks + (group)*LANES_CLOCKS)
 #else
 #define lanes_store_clock(w, job, group) ((void)0)
 #endif
@@ -313,6 +313,54 @@ static inline void lanes_remember(const work *w, const lanes_job *job, size_t gr
         EACHV(k) job->known[group * FACT(w, nv) + k] = w->a[k];
 }
 
+#if WATCHED
+/* Of a watched lane what step/watch.h does for one trajectory. A step whose first stage makes room for the next one's
+ * has that before it begins. */
+static inline void lanes_watch_begin(const lanes_job *job, work *w, size_t group)
+{
+    real *most = job->bounds + group * FACT(w, nv);
+    const bool first = !FACT(w, expands) && control_last_is_first(w);
+    lanes_store(w, job->before + group * CARRIED * FACT(w, nv));
+    lanes_put_clock(w, job->before_clocks + group * LANES_CLOCKS);
+    if (first && !w->fresh) {
+        (void)control_begin(w);
+        control_known(w, EVERY);
+    }
+    EACHV(k) most[k] = first ? ABS(w->a[k]) : MANY(0.0);
+}
+
+/* The lanes whose candidate was accepted, and something may have happened in the step. */
+static inline mask lanes_watch_ends(const lanes_job *job, work *w, const compiled_host *host, size_t group)
+{
+    const real *from = job->before + group * CARRIED * FACT(w, nv), *clocks = job->before_clocks + group * LANES_CLOCKS;
+    const clock span = (w->t - clocks[LANES_T]) + (w->lost - clocks[LANES_LOST]);
+    real *most = job->bounds + group * FACT(w, nv), *largest = job->largest + group * (FACT(w, nx) + FACT(w, nv));
+    real x[NUMBERS], v[NUMBERS], dx[NUMBERS], dv[NUMBERS], least[BOUNDS];
+    const box in = {x, v, dx, dv};
+    const mask good = w->n > clocks[LANES_N];
+    mask open = NEVER;
+    (void)family_swing(w, most);
+    box_of(&in, FACT(w, nx), FACT(w, nv), span, from, from + FACT(w, nv), w->x, w->v, most);
+    compiled_least(host->pool, host->q, host->u, host->bound, host->own, CLOCK(0), (const clock *)0, x, v, (real *)0,
+                   least, dx, dv);
+    for (size_t f = 0; f < BOUNDS; f++) open = open | NOT(least[f] > 0);
+    EACH(k) largest[k] = LARGER(ABS(from[k]), largest[k]);
+    EACHV(k) largest[FACT(w, nx) + k] = LARGER(ABS(from[FACT(w, nv) + k]), largest[FACT(w, nx) + k]);
+    open = open & good;
+    job->met[group] = PICK(open, MANY(1.0), MANY(0.0));
+    return open;
+}
+#define LANES_MET(g) mask met_##g = NEVER;
+#define LANES_WATCH(g) lanes_watch_begin(job, w, g)
+#define LANES_WATCHED(g) met_##g = lanes_watch_ends(job, w, &host_##g, g)
+#define LANES_OPEN_TO(g) met_##g
+#else
+#define LANES_MET(g)
+#define LANES_WATCH(g) ((void)0)
+#define LANES_WATCHED(g) ((void)0)
+#define LANES_OPEN_TO(g) NEVER
+#endif
+
 /* In an adaptive row w->fresh tells whether the accelerations of a group are known. */
 #define LANES_FRESH(w) ((void)(ROW_adaptive || ((w)->fresh = fresh)))
 #if ROW_adaptive
@@ -326,7 +374,9 @@ static inline void lanes_remember(const work *w, const lanes_job *job, size_t gr
     {                     \
         LANES_SELECT(g)   \
         LANES_FRESH(w);   \
+        LANES_WATCH(g);   \
         LANES_ADVANCE(w); \
+        LANES_WATCHED(g); \
     }
 /* Of a row that iterates: the turns of all groups side by side, until all equations of all are solved. A group that is
  * done waits for the others; its lanes keep their values. */
@@ -364,13 +414,13 @@ static inline void lanes_remember(const work *w, const lanes_job *job, size_t gr
     }                                                           \
     SOLVE_FAR(job, g, lost_##g)
 
-/* Adaptive: whether some lane has to be looked after: it has taken the steps that it should, is at its end, or cannot
- * go on. */
-#define LANES_DUE(g)                                                                             \
-    {                                                                                            \
-        const real *own = job->clocks + g * LANES_CLOCKS;                                        \
-        const mask here = work_##g.until == work_##g.until, ends = work_##g.t == work_##g.until; \
-        due = due | (here & ((work_##g.n == own[LANES_STOP]) | ends | (*host_##g.lost != 0)));   \
+/* Adaptive: whether some lane has to be looked after: it has taken the steps that it should, is at its end, cannot go
+ * on, or something may have happened in its step. */
+#define LANES_DUE(g)                                                                                              \
+    {                                                                                                             \
+        const real *own = job->clocks + g * LANES_CLOCKS;                                                         \
+        const mask here = work_##g.until == work_##g.until, ends = work_##g.t == work_##g.until;                  \
+        due = due | (here & ((work_##g.n == own[LANES_STOP]) | ends | (*host_##g.lost != 0) | LANES_OPEN_TO(g))); \
     }
 
 /* `steps` more, not the first one, and an observation after every `every` of them; every = 0: none. Adaptive: up to so
@@ -390,6 +440,7 @@ __attribute__((flatten)) void motus_lanes_run(const lanes_job *job, whole steps,
     lanes_clock(w, job, 0, scaled);
 #endif
     EVERY_GROUP(LANES_PREPARE)
+    EVERY_GROUP(LANES_MET)
     while (steps > 0) {
         const whole some = every && every < steps ? every : steps;
         for (whole left = some; left > 0; left--) {

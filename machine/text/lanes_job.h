@@ -67,6 +67,10 @@ typedef struct lanes_job {
     bool ends;              /* it is the observation at the end, whose time is `until` */
     bool begins;            /* own clocks: every lane is at the first step of its leg */
     double until;
+    /* Lanes that are watched: what `carry` and `clocks` were before the latest candidate of each lane, nv bounds on the
+     * accelerations within it, the largest sizes of x and then v with which steps began, and other than 0 where the
+     * bounds of some function of the rules are not positive on its box. Of each group. */
+    real *before, *before_clocks, *bounds, *largest, *met;
     real *where; /* own clocks, of each group: 1 in the lanes that are observed, else 0 */
     real *kept;  /* REDUCE_KEPT numbers of each record of each group */
 } lanes_job;

@@ -1,0 +1,231 @@
+/* Lanes of trajectories with events: they take the steps in which, by bounds alone, nothing happens. See lanes_parts.h.
+ *
+ * There is one block. A trajectory comes to a lane with the state at which its next step begins. After every candidate
+ * the object computes the box of each lane's step, and the bounds of all functions on it, as step/watch.h does for one
+ * trajectory. Where they leave something open the follower is asked; where it does not know either, that step is taken
+ * back, and the follower takes it, with all that happens, and gives the trajectory back from where bounds may tell
+ * again.
+ *
+ * Invariant: a trajectory moves with all its numbers, so its bits depend neither on its lane nor on its neighbours, nor
+ * on which of its steps lanes take.
+ */
+#include "machine/lanes_parts.h"
+
+#include "core/stepper.h"
+
+#include <math.h>
+#include <string.h>
+
+#define NO_TRAJECTORY SIZE_MAX
+enum { REPORT = 64 }; /* calls of the object between two reports */
+
+typedef struct watched {
+    lanes_item *item;
+    const lanes *l;
+    const lanes_follower *by;
+    lanes_block block;
+    size_t number[BLOCK_MAX]; /* of each lane, NO_TRAJECTORY: it is free */
+    int64_t since[BLOCK_MAX]; /* steps of the leg when it came */
+    double *room;             /* lanes_watched_size */
+    size_t next;              /* trajectories of the item that have begun */
+} watched;
+
+/* A state's numbers, and the largest sizes; the ends of a step, and its bounds. */
+size_t lanes_watched_size(const lanes *l)
+{
+    const size_t state = l->carried + STEPPER_CLOCKS + l->def.model->nx + l->def.model->nv, step = 5 * l->def.model->nv;
+    return ((state > step ? state : step) + 7) / 8 * 8;
+}
+
+static double *clock_of(const watched *s, size_t lane, int k)
+{
+    return &s->block.job.clocks[lane_at(s->l, LANES_CLOCKS, (size_t)k, lane)];
+}
+
+static double until_of(const watched *s, size_t lane)
+{
+    const lanes_item *item = s->item;
+    return item->call->until ? item->call->until[s->number[lane]] : s->l->def.until;
+}
+
+static void free_lane(watched *s, size_t lane)
+{
+    s->number[lane] = NO_TRAJECTORY;
+    *clock_of(s, lane, LANES_UNTIL) = *clock_of(s, lane, LANES_STOP) = NAN;
+}
+
+/* The clocks of a lane in the order of stepper_save. */
+static const int carried[STEPPER_CLOCKS] = {LANES_T,    LANES_LOST,     LANES_NEXT,    LANES_BEFORE,
+                                            LANES_RISE, LANES_SHORTEST, LANES_LONGEST, LANES_SPAN};
+
+/* Of a trajectory that takes many steps without lanes. */
+static bool all_over(void *asked)
+{
+    lanes_item *item = asked;
+    if (item->reports) lanes_item_report(item, 0);
+    return lanes_item_over(item);
+}
+
+/* The state of a lane, or that before its latest candidate. */
+static lanes_state state_of(const watched *s, size_t lane, bool before)
+{
+    const lanes *l = s->l;
+    const lanes_job *j = &s->block.job;
+    const double *carry = before ? j->before : j->carry, *clocks = before ? j->before_clocks : j->clocks;
+    double *to = s->room;
+#define CLOCK_AT(k) clocks[lane_at(l, LANES_CLOCKS, (size_t)(k), lane)]
+    for (size_t k = 0; k < l->carried; k++) to[k] = carry[lane_at(l, l->carried, k, lane)];
+    for (size_t k = 0; k < STEPPER_CLOCKS; k++) to[l->carried + k] = CLOCK_AT(carried[k]);
+    return (lanes_state){.t0 = *clock_of(s, lane, LANES_T0),
+                         .h = *clock_of(s, lane, LANES_H),
+                         .at = {.steps = (int64_t)CLOCK_AT(LANES_N), .refused = (int64_t)CLOCK_AT(LANES_REFUSED)},
+                         .carry = to,
+                         .over = all_over,
+                         .asked = s->item};
+#undef CLOCK_AT
+}
+
+static void put(watched *s, size_t lane, const lanes_state *from)
+{
+    const lanes *l = s->l;
+    const lanes_job *j = &s->block.job;
+    const size_t sizes = l->def.model->nx + l->def.model->nv;
+    for (size_t k = 0; k < l->carried; k++) j->carry[lane_at(l, l->carried, k, lane)] = from->carry[k];
+    for (size_t k = 0; k < STEPPER_CLOCKS; k++) *clock_of(s, lane, carried[k]) = from->carry[l->carried + k];
+    for (size_t k = 0; k < sizes; k++) j->largest[lane_at(l, sizes, k, lane)] = 0;
+    *clock_of(s, lane, LANES_T0) = from->t0;
+    *clock_of(s, lane, LANES_H) = from->h;
+    *clock_of(s, lane, LANES_N) = (double)from->at.steps;
+    *clock_of(s, lane, LANES_REFUSED) = (double)from->at.refused;
+    *clock_of(s, lane, LANES_UNTIL) = until_of(s, lane);
+    s->since[lane] = from->at.steps;
+    lanes_block_forget(&s->block, lane);
+}
+
+/* The largest sizes of a lane since it came. */
+static const double *largest_of(const watched *s, size_t lane)
+{
+    const lanes *l = s->l;
+    const size_t sizes = l->def.model->nx + l->def.model->nv;
+    double *to = s->room + l->carried + STEPPER_CLOCKS;
+    for (size_t k = 0; k < sizes; k++) to[k] = s->block.job.largest[lane_at(l, sizes, k, lane)];
+    return to;
+}
+
+static void over(watched *s, size_t lane)
+{
+    atomic_fetch_add(&s->item->call->done, 1);
+    free_lane(s, lane);
+}
+
+static void go_on(watched *s, size_t lane, bool goes_on, const lanes_state *state)
+{
+    if (goes_on)
+        put(s, lane, state);
+    else
+        over(s, lane);
+}
+
+/* ---- the start ---- */
+
+/* Gives free lanes to the next trajectories; whether any lane has one. */
+static bool refill(watched *s)
+{
+    lanes_item *item = s->item;
+    bool any = false, more = false;
+    for (size_t i = 0; i < (size_t)s->l->block; i++) {
+        while (s->number[i] == NO_TRAJECTORY && s->next < item->count && !lanes_item_over(item)) {
+            lanes_state state = {.carry = s->room, .over = all_over, .asked = item};
+            s->number[i] = item->first + s->next++;
+            go_on(s, i, s->by->begin(s->by->ctx, item->thread, i, s->number[i], &state), &state);
+            more |= s->number[i] != NO_TRAJECTORY;
+        }
+        any |= s->number[i] != NO_TRAJECTORY;
+    }
+    if (!more) return any;
+    size_t numbers[BLOCK_MAX];
+    for (size_t i = 0; i < (size_t)s->l->block; i++)
+        numbers[i] = s->number[i] == NO_TRAJECTORY ? item->first : s->number[i];
+    lanes_block_number(&s->block, item, numbers);
+    return any;
+}
+
+/* ---- steps ---- */
+
+/* Whether a step of a lane is idle, though the bounds of the object leave something open. */
+static bool idle(const watched *s, size_t lane)
+{
+    const lanes *l = s->l;
+    const lanes_job *j = &s->block.job;
+    const size_t nx = l->def.model->nx, nv = l->def.model->nv;
+    double *from_x = s->room, *from_v = from_x + nv, *to_x = from_v + nv, *to_v = to_x + nv, *most = to_v + nv;
+    for (size_t k = 0; k < nv; k++) {
+        const size_t x = lane_at(l, l->carried, k, lane), v = lane_at(l, l->carried, nv + k, lane);
+        from_x[k] = k < nx ? j->before[x] : 0, to_x[k] = k < nx ? j->carry[x] : 0;
+        from_v[k] = j->before[v], to_v[k] = j->carry[v];
+        most[k] = j->bounds[lane_at(l, nv, k, lane)];
+    }
+    const double t = j->before_clocks[lane_at(l, LANES_CLOCKS, LANES_T, lane)],
+                 lost = j->before_clocks[lane_at(l, LANES_CLOCKS, LANES_LOST, lane)];
+    const watch was = {
+        .t = t, .lost = lost, .to_t = *clock_of(s, lane, LANES_T), .to_lost = *clock_of(s, lane, LANES_LOST)};
+    return s->by->idle(s->by->ctx, s->item->thread, lane,
+                       &(stepper_shown){watch_span(&was), t, was.to_t, from_x, from_v, to_x, to_v, most});
+}
+
+static bool is_finite(const watched *s, size_t lane)
+{
+    double none = 0;
+    for (size_t k = 0; k < s->l->carried; k++) {
+        const double number = s->block.job.carry[lane_at(s->l, s->l->carried, k, lane)];
+        none += number - number;
+    }
+    return none == 0;
+}
+
+/* After the latest candidates: a lane in whose step something may have happened, one at its end or at the steps that it
+ * should take, and one that cannot go on. */
+static void look_after(watched *s, size_t lane)
+{
+    const lanes_job *j = &s->block.job;
+    const int thread = s->item->thread;
+    const bool met = j->met[lane] != 0, ends = *clock_of(s, lane, LANES_T) == *clock_of(s, lane, LANES_UNTIL);
+    if (j->lost[lane] != 0 || !is_finite(s, lane)) {
+        s->by->leave(s->by->ctx, thread, lane);
+        over(s, lane);
+        return;
+    }
+    const bool back = met && !idle(s, lane);
+    if (!back && !ends && *clock_of(s, lane, LANES_N) != *clock_of(s, lane, LANES_STOP)) return;
+    lanes_state state = state_of(s, lane, back);
+    const int64_t steps = state.at.steps - s->since[lane];
+    const double *largest = largest_of(s, lane);
+    if (!ends || back) {
+        go_on(s, lane, s->by->look(s->by->ctx, thread, lane, steps, largest, &state), &state);
+        return;
+    }
+    s->by->arrive(s->by->ctx, thread, lane, steps, largest, &state);
+    over(s, lane);
+}
+
+void lanes_watched(lanes_item *item)
+{
+    lanes *l = item->l;
+    watched s = {.item = item, .l = l, .by = l->def.follower, .room = item->table};
+    memset(item->memory, 0, item->call->block_size * sizeof(double));
+    s.block = lanes_block_of(item, 0);
+    for (size_t i = 0; i < (size_t)l->block; i++) free_lane(&s, i);
+    for (int64_t calls = 0; refill(&s); calls++) {
+        const int64_t most = l->def.chosen->count;
+        for (size_t i = 0; i < (size_t)l->block; i++) {
+            const int64_t n = (int64_t)*clock_of(&s, i, LANES_N), pace = (n / STEPPER_PACE + 1) * STEPPER_PACE;
+            if (s.number[i] != NO_TRAJECTORY)
+                *clock_of(&s, i, LANES_STOP) = (double)(most > 0 && most < pace ? most : pace);
+        }
+        l->run(&s.block.job, CHUNK, 0);
+        for (size_t i = 0; i < (size_t)l->block; i++)
+            if (s.number[i] != NO_TRAJECTORY) look_after(&s, i);
+        if (item->reports && calls % REPORT == 0) lanes_item_report(item, 0);
+        if (lanes_item_over(item)) return;
+    }
+}
