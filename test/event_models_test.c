@@ -325,8 +325,8 @@ static void the_rotor(void **state)
 
 /* ---- steps that can be taken backward ---- */
 
-/* Steps that follow a time scale go on after an action as before it: a ball that leaves the floor, where its height says
- * nothing of the scale, and one that no force pushes, whose steps stay as long as without walls. */
+/* Steps that follow a time scale go on after an action as before it: a ball that leaves the floor, where its height
+ * says nothing of the scale, and one that no force pushes, whose steps stay as long as without walls. */
 static void reversible_steps(void **state)
 {
     (void)state;
