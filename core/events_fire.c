@@ -20,8 +20,8 @@ static bool is_far(const events *e, size_t f)
     return !isfinite(g) || (e->marked && g > ends && g > 4 * fmax(e->left.bound[f], e->right.bound[f]));
 }
 
-/* How far rounding may have carried a function at `here`. Where it jumps a change of the state by rounding changes it by
- * the jump, and then the ends of the step tell. */
+/* How far rounding may have carried a function at `here`. Where it jumps a change of the state by rounding changes it
+ * by the jump, and then the ends of the step tell. */
 static double bound_of(const events *e, size_t f)
 {
     const double here = e->here.bound[f];
