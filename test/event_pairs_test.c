@@ -1,6 +1,6 @@
 /* An event is told as it is alone, whatever else is asked of the same motion: where another event happens within the
- * same step, before it, after it, or between it and the next root of its function. What only records changes no step, so
- * the times are the same but for the rounding with which a simultaneous event may tell them. */
+ * same step, before it, after it, or between it and the next root of its function. What only records changes no step,
+ * so the times are the same but for the rounding with which a simultaneous event may tell them. */
 #include "given.h"
 
 #include <math.h>
