@@ -4,6 +4,12 @@
 
 #include <math.h>
 
+bool events_far(const events *e, const instant *at, size_t f)
+{
+    const double g = fabs(at->g[f]), ends = fmax(fabs(e->left.g[f]), fabs(e->right.g[f]));
+    return !isfinite(g) || (e->marked && g > ends && g > 4 * fmax(e->left.bound[f], e->right.bound[f]));
+}
+
 /* How far off every number of the state at `here` may be, a time h after the beginning of the step, into e->width: by
  * the rounding since the start, which steps carry one way or the other, and where steps adapt by the error of the step
  * that leads here, which two steps of half its length tell. Of a function that has been 0 what counts is how far it may

@@ -13,13 +13,6 @@
 
 static int sign_of(double x) { return (x > 0) - (x < 0); }
 
-/* Whether a function is larger at `here` than at both ends of the step, as beside a pole: it does not pass 0 here. */
-static bool is_far(const events *e, size_t f)
-{
-    const double g = fabs(e->here.g[f]), ends = fmax(fabs(e->left.g[f]), fabs(e->right.g[f]));
-    return !isfinite(g) || (e->marked && g > ends && g > 4 * fmax(e->left.bound[f], e->right.bound[f]));
-}
-
 /* How far rounding may have carried a function at `here`. Where it jumps a change of the state by rounding changes it
  * by the jump, and then the ends of the step tell. */
 static double bound_of(const events *e, size_t f)
@@ -36,7 +29,8 @@ static bool is_zero(const events *e, size_t f)
 {
     const instant *at = &e->here;
     const double units = e->jog ? 3 : 1;
-    return !is_far(e, f) && fabs(at->g[f]) <= units * bound_of(e, f) + fabs(at->rate[f]) * events_ulp(at->t);
+    return !events_far(e, &e->here, f) &&
+           fabs(at->g[f]) <= units * bound_of(e, f) + fabs(at->rate[f]) * events_ulp(at->t);
 }
 
 /* Whether a function is on the other side here because it jumps: by more than it changes in the rounding of the time.
@@ -46,7 +40,7 @@ static bool jumps_here(const events *e, size_t f)
     const instant *at = &e->here;
     const bool beyond = e->side[f] && sign_of(at->g[f]) == -e->side[f];
     const bool wide = fabs(at->g[f]) > 4 * bound_of(e, f) + 16 * fabs(at->rate[f]) * events_ulp(at->t);
-    return beyond && (is_far(e, f) || (e->rules.rule[e->rule_of[f]].jump && wide));
+    return beyond && (events_far(e, &e->here, f) || (e->rules.rule[e->rule_of[f]].jump && wide));
 }
 
 /* Truth ----------------------------------------------------------------------------------------------------------- */

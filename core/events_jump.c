@@ -96,7 +96,8 @@ static motus_status look(events *e, size_t f, double h, end *to, motus_error *er
     if (!status) status = events_judge(e, &e->here, err);
     to->at = h;
     to->g = e->here.g[f];
-    to->zero = isfinite(to->g) && fabs(to->g) <= 4 * (e->here.bound[f] + fabs(e->here.rate[f]) * events_ulp(e->here.t));
+    to->zero = isfinite(to->g) && !events_far(e, &e->here, f) &&
+               fabs(to->g) <= 4 * (e->here.bound[f] + fabs(e->here.rate[f]) * events_ulp(e->here.t));
     return status;
 }
 

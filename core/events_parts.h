@@ -228,7 +228,10 @@ motus_status events_no_memory(motus_error *);
 /* The next tick of a clock. False: it is not within the step. */
 bool events_next_tick(const events *, size_t rule, candidate *);
 
-/* events_errors.c. How far off a function at `here`, which is judged, may be: by rounding since the start, and by the
+/* events_errors.c. Whether a function is larger at an instant than at both ends of the step, as beside a pole: it does
+ * not pass 0 there. */
+bool events_far(const events *, const instant *, size_t function);
+/* How far off a function at `here`, which is judged, may be: by rounding since the start, and by the
  * error of the step that leads here in the time h, 0: not by that. */
 motus_status events_error_of(events *, size_t function, double h, double *bound, motus_error *);
 /* The same of the function's rate. */

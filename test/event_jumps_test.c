@@ -42,6 +42,8 @@ static const struct {
     {COSINE, "max(x, 0) > 0", 10, 1, 0, {3 * PI / 2}},
     {COSINE, "sign(x) x^2 = 0", 10, 3, 0, {PI / 2, 3 * PI / 2, 5 * PI / 2}},
     {CIRCLE, "atan2(y, x) = 3", 10, 2, 0, {3, 3 + 2 * PI}},
+    {EVEN, "max(x, t/(2 - x)) > -1", 5, 0, 0, {0}},
+    {EVEN, "mod(x, 1) >= 1.5", 5, 0, 0, {0}},
 };
 
 static const struct {
