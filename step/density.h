@@ -141,9 +141,7 @@ static inline real density_length(const work *w, int g, clock d, clock reach)
         x += place * place, v += rate * rate;
         if (moves) a += here * here, j += j_k * j_k, s += s_k * s_k;
     }
-    /* a place nearer to 0 than the motion goes in d tells nothing */
-    const real near = FMA(d * d, a, v) * (d * d), place_most = 256 * LARGER(x, near);
-    const real far = FMA(reach * reach, a, v) * (reach * reach), most = PICK(x > 0, place_most, far);
+    const real far = FMA(reach * reach, a, v) * (reach * reach), most = PICK(x > 0, 256 * x, far);
     const real p = FMA(a, a, v * j), q = FMA(j, j, a * s), root = density_root(p);
     const real amplitude = p * p * (root * root) / (q + SMALLEST);
     const real none = {0}, simple = VARIABLE(w, g) < FACT(w, nx) ? none : PICK(v > 0, PICK(x > 0, x, far / 256), none);
@@ -186,9 +184,9 @@ static inline clock_mask density_turn(work *w, clock_mask begins, clock last, cl
     return far & NOT(begins);
 }
 
-/* The next step, from the accelerations a span d around. Where no force acts it is the last one, and a part of the
- * guess where that is `guessed`. */
-static void density_follow(work *w, clock_mask begins, clock_mask guessed, clock forward, clock d, clock unit)
+/* The next step, from the accelerations a span d around. Where no force acts it is the last one, and at first a part of
+ * the guess. */
+static void density_follow(work *w, clock_mask begins, clock forward, clock d, clock unit)
 {
     const clock last = w->next, guess = ABS(last);
     for (int turn = 0; turn < 2; turn++) {
@@ -197,7 +195,7 @@ static void density_follow(work *w, clock_mask begins, clock_mask guessed, clock
         const clock slope = unit * (ahead - behind) / (2 * d), least = LARGER(slope, CLOCK(-0.5)),
                     z = CHOOSE_WHERE(least < 0.5, least, CLOCK(0.5));
         const clock_mask far =
-            density_turn(w, begins, last, CHOOSE_WHERE(own < 1e60, own, CHOOSE_WHERE(guessed, unit * guess, guess)),
+            density_turn(w, begins, last, CHOOSE_WHERE(own < 1e60, own, CHOOSE_WHERE(begins, unit * guess, guess)),
                          CHOOSE_WHERE(slope == slope, z, CLOCK(0)), forward);
         if (NONE(far)) break;
         w->refused = CHOOSE_WHERE(far, w->refused + 1, w->refused);
@@ -223,7 +221,6 @@ static inline clock density_unit(const work *w)
 /* Before a step: w->next, and the acceleration of the state where the method's first stage takes it. */
 static int density_begin(work *w)
 {
-    const clock_mask guessed = w->next == 0; /* else a step has been taken before an action, or is given */
     int bad = control_first(w);
     if (bad || NONE(NOT(density_free(w)))) return bad;
     bad = control_begin(w);
@@ -235,7 +232,7 @@ static int density_begin(work *w)
                 rough = unit * density_rough(w, unit), most = 1024 * ABS(w->next),
                 span = CHOOSE_WHERE(rough < most, rough, most);
     bad = density_look(w, forward * span);
-    if (!bad) density_follow(w, begins, guessed, forward, span, unit);
+    if (!bad) density_follow(w, begins, forward, span, unit);
     control_known(w, FACT(w, opening) ? EVERY : NOT(EVERY));
     return bad;
 }
