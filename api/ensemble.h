@@ -208,8 +208,9 @@ void ensemble_end_lanes(motus_ensemble *);
  * Where items fail, returns the status of the one with the lowest number. */
 motus_status ensemble_each(motus_ensemble *, size_t first, size_t items,
                            motus_status (*one)(worker *, size_t item, void *ctx), void *ctx, motus_error *);
-/* As stepper_advance, of the worker's stepper; with a progress hook, in pieces of some milliseconds. */
+/* Gives a worker of this number a system and a machine of its own. */
 motus_status ensemble_worker_prepare(motus_ensemble *, worker *, int number, motus_error *);
+/* As stepper_advance, of the worker's stepper; with a progress hook, in pieces of some milliseconds. */
 motus_status ensemble_advance(worker *, stepper_limit, stepper_stop *, motus_error *);
 int ensemble_tell(void *worker, double now);
 void ensemble_workers_destroy(motus_ensemble *);

@@ -423,10 +423,10 @@ static motus_status widen_noise(events *e, size_t f, double *noise, motus_error 
 /* A function was near 0 where the part begins, and went back: whether it touched 0 there. False: no memory. */
 static bool went_back(events *e, size_t f, const search *of, int side)
 {
-    const part *p = of->part, before = {p->from - (p->to - p->from), p->from, 0};
+    const double before = of->part->from - (of->part->to - of->part->from);
     const candidate c = {.of = f,
                          .at = place_of(e, of, 0),
-                         .low = before.from > 0 ? time_at(e, before.from) : 0,
+                         .low = before > 0 ? time_at(e, before) : 0,
                          .high = place_of(e, of, 1),
                          .near = true,
                          .kind = (candidate_kind)side};

@@ -254,6 +254,13 @@ static bool moves(const events *e, size_t f)
     return fabs(e->here.rate[f]) > 0x1p-44 * most;
 }
 
+/* Whether a candidate is in this instant, or has not been located and may be. */
+static bool is_here(const events *e, const candidate *c)
+{
+    if (c->located) return fabs(c->at - e->here_at) <= 4 * events_ulp(e->here.t);
+    return e->way * (e->here_at - c->low) >= 0 && e->way * (c->high - e->here_at) >= 0;
+}
+
 /* The candidate of function f here, where another event happens; NULL: there is none. */
 static candidate *about(const events *e, size_t f, bool touches)
 {
@@ -262,9 +269,7 @@ static candidate *about(const events *e, size_t f, bool touches)
         const bool stays = c->sampled && !c->located && !c->near; /* of kind 0: it comes to 0 */
         const bool touch = (c->near || (c->kind == CANDIDATE_TOUCHES && !stays)) && !c->jumps;
         if (c->gone || c->kind == CANDIDATE_TIME || c->of != f || (touches && !touch)) continue;
-        if (c->located ? fabs(c->at - e->here_at) <= 4 * events_ulp(e->here.t)
-                       : e->way * (e->here_at - c->low) >= 0 && e->way * (c->high - e->here_at) >= 0)
-            return c;
+        if (is_here(e, c)) return c;
     }
     return NULL;
 }
@@ -278,9 +283,7 @@ static bool is_led(const events *e, size_t f, int *side)
         const bool touch = c->near || (c->kind == CANDIDATE_TOUCHES && !c->jumps && !c->sampled);
         if (c->kind == CANDIDATE_TIME || c->of != f || touch || (c->gone && !c->followed)) continue;
         if (!c->located && !(c->sampled && c->kind == CANDIDATE_TOUCHES)) continue;
-        const bool here = c->located ? fabs(c->at - e->here_at) <= 4 * events_ulp(e->here.t)
-                                     : e->way * (e->here_at - c->low) >= 0 && e->way * (c->high - e->here_at) >= 0;
-        if (!here) continue;
+        if (!is_here(e, c)) continue;
         *side = c->kind;
         return true;
     }
@@ -366,10 +369,7 @@ static bool awaits_switch(const events *e, const candidate *c)
         const candidate *one = k < e->candidates ? &e->candidate[k] : c;
         if (one->kind != CANDIDATE_FALLS || (one != c && one->gone) || !e->zero[one->of]) continue;
         if (!e->rules.rule[e->rule_of[one->of]].internal || fabs(e->fired[one->of] - e->here.t) <= near) continue;
-        if (one == c ||
-            (one->located ? fabs(one->at - e->here_at) <= near
-                          : e->way * (e->here_at - one->low) >= 0 && e->way * (one->high - e->here_at) >= 0))
-            return true;
+        if (one == c || is_here(e, one)) return true;
     }
     return false;
 }
@@ -486,7 +486,7 @@ motus_status events_fire(events *e, const candidate *c, bool *assigned, motus_er
         const candidate *other = &e->candidate[k];
         const bool nothing = other->gone && !other->followed;
         if (other->kind == CANDIDATE_TIME || !other->located || nothing || (other->jumps && other->kind)) continue;
-        if (fabs(other->at - e->here_at) <= 4 * events_ulp(e->here.t)) e->zero[other->of] = 1;
+        if (is_here(e, other)) e->zero[other->of] = 1;
     }
     if (ends_step(e, c)) {
         status = touch_too(e, err);

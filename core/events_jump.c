@@ -10,8 +10,6 @@
 
 /* ---- what samples tell ---- */
 
-enum { RISES = CANDIDATE_RISES, FALLS = CANDIDATE_FALLS };
-
 static int sign_of(double g, double bound) { return fabs(g) <= bound ? 0 : g > 0 ? 1 : -1; }
 
 /* The samples between which the function changes, from `from` on: *at is the first one that has the new sign, which is

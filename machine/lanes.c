@@ -59,8 +59,7 @@ static const char *refuse_events(const lanes_def *d)
                "in lanes";
     if (!row_watched(d->chosen))
         return "events are followed one trajectory at a time by this method; in lanes by Runge-Kutta methods with "
-               "steps "
-               "that adapt, and by Taylor series";
+               "steps that adapt, and by Taylor series";
     for (uint32_t i = 0; i < m->rule_count; i++)
         if (m->rules[i].kind == RULE_CLOCK) return "clocks are followed one trajectory at a time";
     if (!compose_bounds_are_structure(m)) return "events of families are followed one trajectory at a time";

@@ -14,8 +14,8 @@
 #define COSINE "x'' = -x\nx(0) = 1\nx'(0) = 0\n"
 #define EVEN "x'' = 0\nx(0) = 0\nx'(0) = 1\n"
 
-static motus_run *finished(const char *text, const char *method, double step, double tolerance, double until,
-                           motus_system **s)
+static motus_run *told(const char *text, const char *method, double step, double tolerance, double until,
+                       motus_bars bars, motus_system **s)
 {
     motus_error err = motus_default_error();
     motus_run_def def = motus_default_run();
@@ -25,10 +25,16 @@ static motus_run *finished(const char *text, const char *method, double step, do
     if (isnan(tolerance)) def.step = step;
     def.tolerance = tolerance;
     if (!isnan(until)) def.until = until;
-    def.error = MOTUS_BARS_NONE;
+    def.error = bars;
     must(motus_run_create(*s, &def, &r, &err), &err, method);
     must(motus_run_finish(r, &err), &err, text);
     return r;
+}
+
+static motus_run *finished(const char *text, const char *method, double step, double tolerance, double until,
+                           motus_system **s)
+{
+    return told(text, method, step, tolerance, until, MOTUS_BARS_NONE, s);
 }
 
 static motus_event_row event_at(motus_run *r, int64_t k)
@@ -86,16 +92,9 @@ static void bars_of_touches(void **state)
         for (size_t k = 0; k < 8; k++)
             for (size_t j = 0; j < 4; j++) {
                 motus_system *s;
-                motus_error err = motus_default_error();
-                motus_run_def def = motus_default_run();
-                motus_run *r = NULL;
                 const char *method = k < 5 ? adaptive[k] : fixed[k - 5];
-                s = given_text(flat ? FLAT "when x = 0: record\n" : GRAZING "when y = 1: record\n");
-                def.method = method;
-                def.error = MOTUS_BARS_CHEAP;
-                *(k < 5 ? &def.tolerance : &def.step) = k < 5 ? tolerances[j] : sizes[j];
-                must(motus_run_create(s, &def, &r, &err), &err, method);
-                must(motus_run_finish(r, &err), &err, method);
+                motus_run *r = told(flat ? FLAT "when x = 0: record\n" : GRAZING "when y = 1: record\n", method,
+                                    sizes[j], k < 5 ? tolerances[j] : NAN, NAN, MOTUS_BARS_CHEAP, &s);
                 assert_int_equal(motus_run_events(r), 1);
                 if (motus_run_events_significant(r) != 1)
                     fail_msg("%s, number %zu, flat %d: no digit", method, j, flat);

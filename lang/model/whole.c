@@ -2,43 +2,43 @@
 #include "lang/model/whole.h"
 
 #include "base/memory.h"
+#include "lang/base/operation.h"
+#include "lang/graph/graph_walk.h"
 
 #include <math.h>
 #include <string.h>
+
+/* Whether an operation makes whole numbers of whole numbers. */
+static bool keeps_whole(operation op)
+{
+    switch (op) {
+    case OP_SUM:
+    case OP_NEG:
+    case OP_ABS:
+    case OP_FLOOR:
+    case OP_SIGN:
+    case OP_ADD:
+    case OP_SUB:
+    case OP_MUL:
+    case OP_MIN:
+    case OP_MAX:
+    case OP_MOD:
+    case OP_SELECT: return true;
+    default: return operation_decides(op);
+    }
+}
 
 /* Whether a node is, where its operands are known. They come before it. */
 static bool counts(const whole *w, const graph *g, node n)
 {
     const graph_node *k = graph_at(g, n);
-    const uint8_t *is = w->node;
-    switch (k->op) {
-    case OP_CONST: return floor(k->value) == k->value && isfinite(k->value);
-    case OP_PARAM:
-    case OP_INDEX: return true;
-    case OP_LOAD: return w->array[g->references[k->a].array];
-    case OP_SUM: return k->a < n && is[k->a] && (k->b == 0 || (k->b < n && is[k->b]));
-    case OP_NEG:
-    case OP_NOT:
-    case OP_ABS:
-    case OP_FLOOR:
-    case OP_SIGN: return k->a < n && is[k->a];
-    case OP_ADD:
-    case OP_SUB:
-    case OP_MUL:
-    case OP_LT:
-    case OP_LE:
-    case OP_GT:
-    case OP_GE:
-    case OP_EQ:
-    case OP_NE:
-    case OP_AND:
-    case OP_OR:
-    case OP_MIN:
-    case OP_MAX:
-    case OP_MOD: return k->a < n && k->b < n && is[k->a] && is[k->b];
-    case OP_SELECT: return k->a < n && k->b < n && k->c < n && is[k->a] && is[k->b] && is[k->c];
-    default: return false;
-    }
+    if (k->op == OP_CONST) return floor(k->value) == k->value && isfinite(k->value);
+    if (k->op == OP_PARAM || k->op == OP_INDEX) return true;
+    if (k->op == OP_LOAD) return w->array[g->references[k->a].array];
+    node of[3];
+    bool is = keeps_whole((operation)k->op);
+    for (int j = graph_operands(k, of) - 1; j >= 0; j--) is = is && of[j] < n && w->node[of[j]];
+    return is;
 }
 
 /* Takes back the modes whose assignments do not count; whether there were any. */

@@ -175,9 +175,10 @@ export async function clean(name, page, allowed = null) {
   await putAway(page, page.wrong.length + violations.length === 0);
 }
 
-/** The fragment of the address once it holds the state, decoded field by field. */
+/** The fragment of the address once it holds the state, decoded field by field. The page writes it by a timer, so a later timer of the page waits for it however
+ *  busy the machine is. */
 export async function fields(page) {
-  await page.waitForTimeout(500);
+  await page.evaluate(() => new Promise((done) => setTimeout(done, 500)));
   const hash = new URL(page.url()).hash.slice(1), found = {};
   for (const part of hash.split('&').filter(Boolean)) {
     const at = part.indexOf('='), key = part.slice(0, at), value = decodeURIComponent(part.slice(at + 1));
