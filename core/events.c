@@ -250,7 +250,7 @@ static bool told(const events *e, const candidate *c)
 static motus_status jump(const events *e, stepper *s, const instant *to, double h, motus_error *err)
 {
     if (to->t + h == to->t) h = e->way * events_ulp(to->t);
-    return stepper_jump(s, to->t, to->lost, h, to->x, to->v, err);
+    return stepper_go_on(s, to->t, to->lost, h, to->x, to->v, err);
 }
 
 static motus_status restart(events *e, stepper *s, double h, motus_error *err) { return jump(e, s, &e->here, h, err); }
@@ -402,13 +402,14 @@ static motus_status piece(events *e, stepper *s, double until, int64_t most, boo
 {
     enum { PART = 4, SHORTER_MOST = 12 };
     motus_status status = MOTUS_OK;
-    double whole = 0;
+    double whole = 0, end = until;
     e->whole = 0;
     e->shorter = SHORTER_MOST;
     events_extend(e, e->left.x, e->left.v);
     e->taken++;
     for (;;) {
-        if (!status) status = go_on(e, s, (stepper_limit){whole == 0 ? most : 1, until}, why, err);
+        if (!status) status = go_on(e, s, (stepper_limit){whole == 0 ? most : 1, end}, why, err);
+        if (end != until && *why == STOP_UNTIL) *why = STOP_STEPS;
         if (!status) status = observe(s, &e->right, err);
         if (!status && e->right.t == e->left.t) return MOTUS_OK;
         e->span = (e->right.t - e->left.t) + (e->right.lost - e->left.lost);
@@ -425,6 +426,8 @@ static motus_status piece(events *e, stepper *s, double until, int64_t most, boo
             h = whole;
         }
         *why = STOP_STEPS;
+        /* reversible steps find their sizes themselves, and only an end makes one shorter */
+        end = row_reversible_steps(&e->method) && h != whole ? e->left.t + h : until;
         status = jump(e, s, &e->left, h, err);
     }
     e->whole = whole;

@@ -126,7 +126,11 @@ motus_status events_probe(events *e, double from, double lost, const double *x, 
     motus_status status = MOTUS_OK;
     *t = end;
     *rest = lost - over;
-    if (!e->probe) status = stepper_create(&e->machine, &e->method, from, h, x, v, &e->allocator, &e->probe, err);
+    if (!e->probe) {
+        chosen method = e->method;
+        if (row_reversible_steps(&method)) method.relative = HUGE_VAL; /* one step leads there, whatever its size */
+        status = stepper_create(&e->machine, &method, from, h, x, v, &e->allocator, &e->probe, err);
+    }
     if (!status) status = stepper_branch(e->probe, e->along, from, over, h, x, v, err);
     return status ? status : stepper_advance(e->probe, limit, NULL, err);
 }

@@ -36,8 +36,13 @@ motus_status stepper_start(stepper *, double t0, double h, const double *x, cons
 /* The same, and where steps adapt the first candidate has size h, and the state is that of time t0 + lost. */
 motus_status stepper_jump(stepper *, double t0, double lost, double h, const double *x, const double *v, motus_error *);
 
-/* The same, of a stepper of the machine and the method of `along`, which may be NULL. Where the marked last step of
- * that began at this state, what it has computed there is not computed again. */
+/* The same after an action: what reversible steps that adapt know of the lengths of the motion (step/density.h) stays
+ * known. */
+motus_status stepper_go_on(stepper *, double t0, double lost, double h, const double *x, const double *v,
+                           motus_error *);
+
+/* As stepper_jump, of a stepper of the machine and the method of `along`, which may be NULL. Where the marked last step
+ * of that began at this state, what it has computed there is not computed again. */
 motus_status stepper_branch(stepper *, const stepper *along, double t0, double lost, double h, const double *x,
                             const double *v, motus_error *);
 

@@ -161,13 +161,15 @@ static motus_status check_exact(stepper *s, double t0, double h, const double *x
 }
 
 /* cleared: so many numbers of the arrays. Entries without an equation are written by no step: what a failed step left
- * there must not stay. */
-static void begin(stepper *s, double t0, double h, const double *x, const double *v, size_t cleared)
+ * there must not stay. goes_on: the lengths of a density stay, which are the motion's and no step's. */
+static void begin(stepper *s, double t0, double h, const double *x, const double *v, size_t cleared, bool goes_on)
 {
     work *w = &s->work;
+    const size_t kept = goes_on && w->row->density ? w->stride : 0, before = kept ? (size_t)(w->old - s->arrays) : 0;
     w->n = s->pace_n = 0;
     s->pace_t = t0;
-    memset(s->arrays, 0, cleared * sizeof(double));
+    memset(s->arrays, 0, before * sizeof(double));
+    memset(s->arrays + before + kept, 0, (cleared - before - kept) * sizeof(double));
     memcpy(w->x, x, w->nx * sizeof *x);
     memcpy(w->v, v, w->nv * sizeof *v);
     w->t0 = w->t = t0;
@@ -184,7 +186,7 @@ static void begin(stepper *s, double t0, double h, const double *x, const double
 
 void stepper_begin(stepper *s, double t0, double h, const double *x, const double *v)
 {
-    begin(s, t0, h, x, v, s->array_count);
+    begin(s, t0, h, x, v, s->array_count, false);
 }
 
 motus_status stepper_turn(stepper *s, double t, double h, motus_error *err)
@@ -219,7 +221,7 @@ void stepper_follow(stepper *s, const stepper *like)
 }
 
 static motus_status start(stepper *s, double t0, double h, const double *x, const double *v, size_t cleared,
-                          motus_error *err)
+                          bool goes_on, motus_error *err)
 {
     motus_status status = check_start(s, t0, h, x, v, err);
     if (!status) status = check_exact(s, t0, h, x, v, err);
@@ -229,13 +231,13 @@ static motus_status start(stepper *s, double t0, double h, const double *x, cons
     s->at.steps = s->earlier_at.steps = -1;
     s->shortened = s->arrived = s->left = s->right = false;
     s->left_steps = -1;
-    begin(s, t0, h, x, v, cleared);
+    begin(s, t0, h, x, v, cleared, goes_on);
     return MOTUS_OK;
 }
 
 motus_status stepper_start(stepper *s, double t0, double h, const double *x, const double *v, motus_error *err)
 {
-    return start(s, t0, h, x, v, s->array_count, err);
+    return start(s, t0, h, x, v, s->array_count, false, err);
 }
 
 static void lead(stepper *s, double lost, double h)
@@ -247,6 +249,14 @@ motus_status stepper_jump(stepper *s, double t0, double lost, double h, const do
                           motus_error *err)
 {
     const motus_status status = stepper_start(s, t0, h, x, v, err);
+    if (!status) lead(s, lost, h);
+    return status;
+}
+
+motus_status stepper_go_on(stepper *s, double t0, double lost, double h, const double *x, const double *v,
+                           motus_error *err)
+{
+    const motus_status status = start(s, t0, h, x, v, s->array_count, true, err);
     if (!status) lead(s, lost, h);
     return status;
 }
@@ -267,7 +277,7 @@ motus_status stepper_branch(stepper *s, const stepper *along, double t0, double 
     if (!known) return stepper_jump(s, t0, lost, h, x, v, err);
     /* the series come last, and all of them that a step reads is taken over, or computed anew */
     const size_t cleared = w->expands ? (size_t)(w->xs - s->arrays) : s->array_count;
-    const motus_status status = start(s, t0, h, x, v, cleared, err);
+    const motus_status status = start(s, t0, h, x, v, cleared, false, err);
     if (status) return status;
     lead(s, lost, h);
     s->body->branch(w, &along->work, along->ends + w->nx + w->nv);

@@ -14,7 +14,8 @@
  *
  * a sum over variables, of which x, v, a and j = da/dt are the sizes. T is 1/ω at every phase of an oscillation of
  * amplitude l, x'' = -ω² x, about (r³/k)^½ on a Kepler orbit, and smooth at turning points and where the force is zero.
- * l, a length of each variable, is constant; away from turning points T hardly depends on it. A first-order variable
+ * l, a length of each variable, is constant, also through an action of an event; away from turning points T hardly
+ * depends on it. A first-order variable
  * has its rate for v, and the rate of that for a.
  *
  * d(log T)/dt is a difference: of T half a span e B before and after the present state, B(x, v, a) a rougher time
@@ -141,7 +142,9 @@ static inline real density_length(const work *w, int g, clock d, clock reach)
         x += place * place, v += rate * rate;
         if (moves) a += here * here, j += j_k * j_k, s += s_k * s_k;
     }
-    const real far = FMA(reach * reach, a, v) * (reach * reach), most = PICK(x > 0, 256 * x, far);
+    /* a place nearer to 0 than the motion goes in d tells nothing */
+    const real near = FMA(d * d, a, v) * (d * d), place_most = 256 * LARGER(x, near);
+    const real far = FMA(reach * reach, a, v) * (reach * reach), most = PICK(x > 0, place_most, far);
     const real p = FMA(a, a, v * j), q = FMA(j, j, a * s), root = density_root(p);
     const real amplitude = p * p * (root * root) / (q + SMALLEST);
     const real none = {0}, simple = VARIABLE(w, g) < FACT(w, nx) ? none : PICK(v > 0, PICK(x > 0, x, far / 256), none);
@@ -161,7 +164,8 @@ static inline clock_mask density_begins(const work *w)
     return begins;
 }
 
-/* Measures the lengths of all variables, where the control begins. */
+/* Measures the lengths of all variables, where the control begins. Those that an action has left are lengths of the
+ * motion: they grow at most. */
 static int density_measure(work *w, clock_mask begins)
 {
     const clock d = ABS(w->next);
@@ -170,7 +174,8 @@ static int density_measure(work *w, clock_mask begins)
     EACH_VARIABLE(g)
     {
         const size_t at = VARIABLE(w, g);
-        w->old[at] = CHOOSE_WHERE(begins, density_length(w, g, d, 100 * d), w->old[at]);
+        const real l = density_length(w, g, d, 100 * d);
+        w->old[at] = CHOOSE_WHERE(begins & (l > w->old[at]), l, w->old[at]);
     }
     return STEP_OK;
 }
@@ -184,9 +189,9 @@ static inline clock_mask density_turn(work *w, clock_mask begins, clock last, cl
     return far & NOT(begins);
 }
 
-/* The next step, from the accelerations a span d around. Where no force acts it is the last one, and at first a part of
- * the guess. */
-static void density_follow(work *w, clock_mask begins, clock forward, clock d, clock unit)
+/* The next step, from the accelerations a span d around. Where no force acts it is the last one, and a part of the
+ * guess where that is `guessed`. */
+static void density_follow(work *w, clock_mask begins, clock_mask guessed, clock forward, clock d, clock unit)
 {
     const clock last = w->next, guess = ABS(last);
     for (int turn = 0; turn < 2; turn++) {
@@ -195,7 +200,7 @@ static void density_follow(work *w, clock_mask begins, clock forward, clock d, c
         const clock slope = unit * (ahead - behind) / (2 * d), least = LARGER(slope, CLOCK(-0.5)),
                     z = CHOOSE_WHERE(least < 0.5, least, CLOCK(0.5));
         const clock_mask far =
-            density_turn(w, begins, last, CHOOSE_WHERE(own < 1e60, own, CHOOSE_WHERE(begins, unit * guess, guess)),
+            density_turn(w, begins, last, CHOOSE_WHERE(own < 1e60, own, CHOOSE_WHERE(guessed, unit * guess, guess)),
                          CHOOSE_WHERE(slope == slope, z, CLOCK(0)), forward);
         if (NONE(far)) break;
         w->refused = CHOOSE_WHERE(far, w->refused + 1, w->refused);
@@ -221,6 +226,7 @@ static inline clock density_unit(const work *w)
 /* Before a step: w->next, and the acceleration of the state where the method's first stage takes it. */
 static int density_begin(work *w)
 {
+    const clock_mask guessed = w->next == 0; /* else a step has been taken before an action, or is given */
     int bad = control_first(w);
     if (bad || NONE(NOT(density_free(w)))) return bad;
     bad = control_begin(w);
@@ -232,7 +238,7 @@ static int density_begin(work *w)
                 rough = unit * density_rough(w, unit), most = 1024 * ABS(w->next),
                 span = CHOOSE_WHERE(rough < most, rough, most);
     bad = density_look(w, forward * span);
-    if (!bad) density_follow(w, begins, forward, span, unit);
+    if (!bad) density_follow(w, begins, guessed, forward, span, unit);
     control_known(w, FACT(w, opening) ? EVERY : NOT(EVERY));
     return bad;
 }
