@@ -27,11 +27,11 @@ motus_status events_values(events *e, instant *at, motus_error *err)
     return answer ? events_refuse(e, "event_functions", at->t, answer, err) : MOTUS_OK;
 }
 
-/* The values a time h later, by Taylor's formula, into `next`. */
-static motus_status values_after(events *e, const instant *at, double h, motus_error *err)
+/* Evaluates the functions a time h after an instant whose acceleration is known, at the state of Taylor's formula,
+ * into another instant. */
+static motus_status values_after(events *e, const instant *at, double h, instant *to, motus_error *err)
 {
     const problem *p = &e->problem;
-    instant *to = &e->next;
     to->t = at->t + h;
     for (size_t k = 0; k < p->nv; k++) {
         if (k < p->nx) to->x[k] = at->x[k] + h * (at->v[k] + h / 2 * at->a[k]);
@@ -88,11 +88,13 @@ motus_status events_rates(events *e, instant *at, motus_error *err)
         const int answer = e->rules.rates(e->rules.ctx, at->t, at->x, at->v, at->a, at->rate);
         return answer ? events_refuse(e, "event_functions", at->t, answer, err) : MOTUS_OK;
     }
+    /* central differences; `crossing` alone needs `best`, and asks for the rates at `here` */
     const double h = e->way * fmax(0x1p-16 * fabs(e->span), 64 * events_ulp(at->t));
-    status = values_after(e, at, -h, err);
-    if (!status) memcpy(at->rate, e->next.g, e->rules.functions * sizeof *at->rate);
-    if (!status) status = values_after(e, at, h, err);
-    for (size_t k = 0; k < e->rules.functions && !status; k++) at->rate[k] = (e->next.g[k] - at->rate[k]) / (2 * h);
+    instant *to = at == &e->next ? &e->best : &e->next;
+    status = values_after(e, at, -h, to, err);
+    if (!status) memcpy(at->rate, to->g, e->rules.functions * sizeof *at->rate);
+    if (!status) status = values_after(e, at, h, to, err);
+    for (size_t k = 0; k < e->rules.functions && !status; k++) at->rate[k] = (to->g[k] - at->rate[k]) / (2 * h);
     return status;
 }
 
