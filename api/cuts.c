@@ -21,17 +21,18 @@ bool cuts_by_state(const motus_system *s)
     return false;
 }
 
-static bool assigns(const model *m)
+/* A switch of the force is a rule, but no event. */
+static bool has_assigning_event(const rules *of)
 {
-    for (uint32_t k = 0; m && k < m->rule_count; k++)
-        if (m->rules[k].assigns) return true;
+    for (size_t k = 0; of && k < of->count; k++)
+        if (of->rule[k].assigns && !of->rule[k].internal) return true;
     return false;
 }
 
 const char *motus_run_cut(const motus_run *r)
 {
     motus_geometry kept = MOTUS_GEOMETRY_NONE;
-    if (!r || !assigns(r->system->model)) return "";
+    if (!r || !has_assigning_event(r->rules)) return "";
     if (row_reversible_steps(&r->chosen))
         return "the control of steps begins anew after an event that assigns, so the run is not reversible there, "
                "while it is between";
