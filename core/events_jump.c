@@ -104,14 +104,14 @@ static bool changed(const candidate *c, const end *at)
 {
     if (c->leaves) return !at->zero;
     if (c->kind == CANDIDATE_TOUCHES) return at->zero;
-    return at->g != 0 && (at->g > 0) == (c->kind > 0);
+    return c->kind > 0 ? at->g > 0 : at->g < 0; /* where it is undefined it has not */
 }
 
 /* Dense output errs: makes the times wider until true steps find the change between them. False: it is not there. */
 static motus_status enclose(events *e, const candidate *c, end *low, end *high, bool *found, motus_error *err)
 {
     enum { TIMES = 24 };
-    double wide = c->high - c->low;
+    double wide = e->way * fmax(fabs(c->high - c->low), events_ulp(e->left.t + c->high));
     motus_status status = look(e, c->of, c->low, low, err);
     if (!status) status = look(e, c->of, c->high, high, err);
     for (int k = 0; k < TIMES && !status && changed(c, low) && low->at != 0; k++, wide *= 4)
