@@ -1,9 +1,8 @@
-/* Events that assign cut a step of a symplectic or reversible method. See cuts.h.
+/* What events that assign, which end a step, make of a symplectic or reversible method. See cuts.h.
  *
- * A step of a size that the state decides is no symplectic map, although every step of a given size is one; a step that
- * ends at a given time stays one. A method that is reversible by steps of one size stays so: back from the end of the
- * cut step the same two parts meet the same event. Steps whose size follows the motion begin anew after an event, so
- * the way back has others.
+ * A step of given size is a symplectic map; one whose size is a function of the state is not, while one that ends at a
+ * given time still is. A method that is reversible by steps of one size stays so: the way back divides the step at the
+ * same event. Where error control chooses the steps it begins anew after an event, so the way back has other steps.
  */
 #include "api/cuts.h"
 

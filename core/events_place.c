@@ -285,6 +285,19 @@ static motus_status widen(events *e, size_t k, motus_error *err)
     return before && after && !events_add(e, two) ? events_no_memory(err) : MOTUS_OK;
 }
 
+motus_status events_split(events *e, size_t k, double at, motus_error *err)
+{
+    candidate first = e->candidate[k];
+    first.near = first.located = false;
+    candidate second = first;
+    first.kind = (candidate_kind)-first.kind;
+    first.high = second.low = at;
+    first.at = first.low + (at - first.low) / 2;
+    second.at = at + (second.high - at) / 2;
+    e->candidate[k] = first;
+    return events_add(e, second) ? MOTUS_OK : events_no_memory(err);
+}
+
 motus_status events_lingered(events *e, const candidate *c, bool *same, motus_error *err)
 {
     const double since = (e->fired[c->of] - e->left.t) - e->left.lost,
@@ -351,13 +364,8 @@ motus_status events_locate(events *e, size_t k, motus_error *err)
         } else if ((g > 0) == (side > 0)) {
             c->gone = true;
         } else {
-            candidate second = *c;
-            second.near = c->near = false;
-            second.kind = (candidate_kind)side, c->kind = (candidate_kind)-side;
-            second.low = c->high = at;
-            second.at = at + (second.high - at) / 2;
-            c->at = c->low + (at - c->low) / 2;
-            if (!events_add(e, second)) return events_no_memory(err);
+            status = events_split(e, k, at, err);
+            if (status) return status;
             c = &e->candidate[k];
         }
     }
