@@ -107,50 +107,70 @@ static motus_status look(events *e, size_t f, bool rate, double h, double *value
     return status;
 }
 
-/* The distance from time h, found by doubling, at which the function or its rate exceeds a bound on both sides, as far
- * as the step goes. A true step that fails, as one too short for error control, counts as within the bound. */
+/* The distance from time h, found by doubling, at which the function or its rate exceeds a bound on both sides; a side
+ * on which the step ends before counts only where the bound hides the whole step. A true step within it that fails, as
+ * one too short for error control, counts as within the bound. */
 static double reach(events *e, size_t f, bool rate, double h, double bound)
 {
+    enum { STEPS_MOST = 1024 };
+    const double span = fabs(e->span);
     bool hidden = true;
     double d = events_ulp(e->here.t);
-    for (; hidden && d < fabs(e->span); d *= 2) {
+    for (; hidden && d < STEPS_MOST * span; d *= 2) {
+        const bool beyond = d >= span;
         hidden = false;
         for (int side = -1; side <= 1; side += 2) {
             const double at = h + side * d;
             double value;
-            if (e->way * at < 0 || e->way * (e->span - at) < 0) continue;
-            hidden |= look(e, f, rate, at, &value, NULL) || !(fabs(value) > bound);
+            if (!beyond && (e->way * at < 0 || e->way * (e->span - at) < 0)) continue;
+            const bool failed = look(e, f, rate, at, &value, NULL) != MOTUS_OK;
+            hidden |= failed ? !beyond : !(fabs(value) > bound);
         }
     }
     return d;
 }
 
-/* Whether the slope at a root stays about the same over the times within which rounding hides the root: then it is a
- * simple one. */
-static bool is_steep(events *e, size_t f, double h)
+/* Whether a root is simple: over the times within which the error bound of the function hides the root, its slope stays
+ * about the same. */
+static bool is_simple(events *e, size_t f, double h, double bound)
 {
-    const double rate = e->here.rate[f], far = 16 * (e->here.bound[f] / fabs(rate) + events_ulp(e->here.t));
-    const double before = h - e->way * far, at = e->way * before > 0 ? before : h + e->way * far;
-    double there;
-    return far < fabs(e->span) / 2 && !look(e, f, true, at, &there, NULL) && fabs(there - rate) <= fabs(rate) / 2;
+    const double rate = e->here.rate[f], far = 4 * (bound / fabs(rate) + events_ulp(e->here.t));
+    if (!(far < fabs(e->span) / 2)) return false;
+    for (int side = -1; side <= 1; side += 2) {
+        const double at = h + side * far;
+        double there;
+        if (e->way * at < 0 || e->way * (e->span - at) < 0) continue;
+        if (look(e, f, true, at, &there, NULL) || !(fabs(there - rate) <= fabs(rate) / 2)) return false;
+    }
+    return true;
+}
+
+/* Whether a function may be flat at its root: its slope is far below that at an end of the step, or in steps of one
+ * size, which may be short beside the flat part, it changes within the step. */
+static bool may_be_flat(const events *e, size_t f)
+{
+    enum { FAR_BELOW = 1024, CHANGES = 64 };
+    const double rate = e->here.rate[f], left = e->left.rate[f], right = e->right.rate[f];
+    const double change = fmax(fabs(left - rate), fabs(right - rate));
+    return FAR_BELOW * fabs(rate) < fmax(fabs(left), fabs(right)) ||
+           (!row_adaptive(&e->method) && fabs(rate) < CHANGES * change);
 }
 
 motus_status events_doubt(events *e, size_t f, double h, bool touches, double *doubt, motus_error *err)
 {
-    enum { STEEP = 1024 };
     double bound;
     *doubt = 0;
-    if (!e->marked) return MOTUS_OK;
-    const double steepest = fmax(fabs(e->left.rate[f]), fabs(e->right.rate[f]));
-    if (!touches && !(STEEP * fabs(e->here.rate[f]) < steepest))
-        return MOTUS_OK; /* the companion's time has its error */
-    if (!touches && is_steep(e, f, h)) return MOTUS_OK;
+    if (!e->marked || !(touches || may_be_flat(e, f))) return MOTUS_OK;
     const motus_status status =
         touches ? events_slope_error_of(e, f, h, &bound, err) : events_error_of(e, f, h, &bound, err);
+    if (status) return status;
     /* a function that jumps beside the root changes by the jump when the state does, which is no error of the root */
-    if (e->rules.rule[e->rule_of[f]].jump)
+    if (e->rules.rule[e->rule_of[f]].jump) {
+        const double steepest = fmax(fabs(e->left.rate[f]), fabs(e->right.rate[f]));
         bound = fmin(bound, 4 * fmax(e->left.bound[f], e->right.bound[f]) + 0x1p-44 * steepest * fabs(e->span));
+    }
     if (!touches) bound += 2 * fabs(e->here.g[f]); /* where it has been located it is not quite 0 */
-    if (!status) *doubt = reach(e, f, touches, h, bound);
-    return status;
+    /* of a simple root the companion's time has the error */
+    if (touches || !is_simple(e, f, h, bound)) *doubt = reach(e, f, touches, h, bound);
+    return MOTUS_OK;
 }
