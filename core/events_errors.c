@@ -149,7 +149,7 @@ static bool is_simple(events *e, size_t f, double h, double bound)
  * size, which may be short beside the flat part, it changes within the step. */
 static bool may_be_flat(const events *e, size_t f)
 {
-    enum { FAR_BELOW = 1024, CHANGES = 64 };
+    enum { FAR_BELOW = 32, CHANGES = 64 };
     const double rate = e->here.rate[f], left = e->left.rate[f], right = e->right.rate[f];
     const double change = fmax(fabs(left - rate), fabs(right - rate));
     return FAR_BELOW * fabs(rate) < fmax(fabs(left), fabs(right)) ||
@@ -170,7 +170,7 @@ motus_status events_doubt(events *e, size_t f, double h, bool touches, double *d
         bound = fmin(bound, 4 * fmax(e->left.bound[f], e->right.bound[f]) + 0x1p-44 * steepest * fabs(e->span));
     }
     if (!touches) bound += 2 * fabs(e->here.g[f]); /* where it has been located it is not quite 0 */
-    /* of a simple root the companion's time has the error */
-    if (touches || !is_simple(e, f, h, bound)) *doubt = reach(e, f, touches, h, bound);
+    const bool simple = !touches && is_simple(e, f, h, bound);
+    *doubt = simple ? bound / fabs(e->here.rate[f]) : reach(e, f, touches, h, bound);
     return MOTUS_OK;
 }

@@ -243,7 +243,8 @@ motus_status events_error_of(events *, size_t function, double h, double *bound,
 /* The same of the function's rate. */
 motus_status events_slope_error_of(events *, size_t function, double h, double *bound, motus_error *);
 /* An error bound of the time of a root or touch at `here`, a time h after `left`, where the function is flat: the time
- * within which the error of the function hides its root, or that of its rate hides the touch. 0: it is not flat. */
+ * within which the error of the function hides its root, or that of its rate hides the touch. 0: it is not flat, and
+ * the time of the companion's event alone tells the error. */
 motus_status events_doubt(events *, size_t function, double h, bool touches, double *doubt, motus_error *);
 
 /* events_jump.c. Adds the candidate of a cell, from its samples. *sign is the sign of the function before the cell, 0
