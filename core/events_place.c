@@ -335,6 +335,11 @@ motus_status events_locate(events *e, size_t k, motus_error *err)
         if (low && low == -high && !lingers) {
             c->near = false;
             c->kind = (candidate_kind)high;
+        } else if (low && low == high && c->low == 0 && e->side[f] == -low) {
+            /* by its error it was beyond 0 when the step before ended, which has left the crossing to this one */
+            c->near = false;
+            c->kind = (candidate_kind)low;
+            c->at = 0;
         } else if (low && low == high) {
             c->near = true;
             c->kind = (candidate_kind)low;
