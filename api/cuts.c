@@ -1,9 +1,8 @@
-/* Events that assign cut a step of a symplectic or reversible method. See cuts.h.
+/* What events that assign, which end a step, make of a symplectic or reversible method. See cuts.h.
  *
- * A step of a size that the state decides is no symplectic map, although every step of a given size is one; a step that
- * ends at a given time stays one. A method that is reversible by steps of one size stays so: back from the end of the
- * cut step the same two parts meet the same event. Steps whose size follows the motion begin anew after an event, so
- * the way back has others.
+ * A step of given size is a symplectic map; one whose size is a function of the state is not, while one that ends at a
+ * given time still is. A method that is reversible by steps of one size stays so: the way back divides the step at the
+ * same event. Where error control chooses the steps it begins anew after an event, so the way back has other steps.
  */
 #include "api/cuts.h"
 
@@ -21,17 +20,18 @@ bool cuts_by_state(const motus_system *s)
     return false;
 }
 
-static bool assigns(const model *m)
+/* A switch of the force is a rule, but no event. */
+static bool has_assigning_event(const rules *of)
 {
-    for (uint32_t k = 0; m && k < m->rule_count; k++)
-        if (m->rules[k].assigns) return true;
+    for (size_t k = 0; of && k < of->count; k++)
+        if (of->rule[k].assigns && !of->rule[k].internal) return true;
     return false;
 }
 
 const char *motus_run_cut(const motus_run *r)
 {
     motus_geometry kept = MOTUS_GEOMETRY_NONE;
-    if (!r || !assigns(r->system->model)) return "";
+    if (!r || !has_assigning_event(r->rules)) return "";
     if (row_reversible_steps(&r->chosen))
         return "the control of steps begins anew after an event that assigns, so the run is not reversible there, "
                "while it is between";

@@ -1,10 +1,11 @@
-/* Trajectories with events whose steps lanes take while nothing happens (machine/lanes_watched.c). See ensemble.h.
+/* Trajectories with events: lanes take the steps in which bounds exclude every event (machine/lanes_watched.c), and the
+ * follower here takes the others. See ensemble.h.
  *
- * Every thread of the lanes has a worker, and for each lane a stepper and events, which take the first step of a
- * trajectory, every step in which something may happen, and those after it until bounds may tell again.
+ * Every thread of the lanes has a worker, and for each lane a stepper and events. These take the first step of a
+ * trajectory, every step in which an event may happen, and those after it until bounds may tell of a step again.
  *
- * Invariant: a trajectory has the bits of a run with its values. One that fails or may crawl is left, to be computed
- * once more by a worker alone (ensemble_stopped.c), which then says why.
+ * Invariant: a trajectory has the bits of a run with its values. One that fails or may crawl is left: a worker computes
+ * it once more by itself (ensemble_stopped.c) and says why it stops.
  */
 #include "api/ensemble_single.h"
 
@@ -18,8 +19,8 @@ typedef struct followed {
     stepper *stepper;
     events *events;
     timing timing;
-    double leg, paced_t; /* when its leg began; the time and */
-    int64_t paced;       /*   the steps when it was last asked whether it crawls */
+    double leg, paced_t; /* when its leg began, and the time at which */
+    int64_t paced;       /*   and the steps after which `crawls` last looked */
 } followed;
 
 typedef struct following { /* of a thread */
@@ -35,11 +36,12 @@ struct ensemble_followed {
     int count;
     const places *places;
     size_t first; /* trajectory that lanes call number 0 */
-    bool differ;  /* the motion and its events depend on numbers that vary */
+    bool differ;  /* the motion, its events or their actions read numbers that vary */
 };
 
 /* ---- a trajectory ---- */
 
+/* Lends the stepper and the events of a lane's trajectory to the worker of the thread, until put_down. */
 static followed *take_up(void *ctx, int thread, size_t place, worker **w)
 {
     const ensemble_followed *f = ctx;
@@ -55,7 +57,7 @@ static void put_down(followed *t, worker *w)
     w->stepper = NULL, w->events = NULL;
 }
 
-/* Whether the worker's system has the trajectory's numbers, where that matters. */
+/* Gives the worker's system the trajectory's numbers, where that matters. False: it failed. */
 static bool numbered(const ensemble_followed *f, int thread, followed *t, bool matters)
 {
     following *of = &f->threads[thread];
@@ -66,24 +68,25 @@ static bool numbered(const ensemble_followed *f, int thread, followed *t, bool m
     return true;
 }
 
-/* A worker alone is to compute the trajectory. */
-static bool left(const ensemble_followed *f, const followed *t)
+/* Leaves the trajectory to a worker by itself. False: lanes do not go on with it. */
+static bool leave_it(const ensemble_followed *f, const followed *t)
 {
     f->places->ends[t->number] = LANES_MAY_CRAWL;
     return false;
 }
 
+/* Writes the results of a trajectory at its end. False: lanes do not go on with it. */
 static bool finish(const ensemble_followed *f, int thread, followed *t)
 {
     worker *w = &f->threads[thread].worker;
     if (!numbered(f, thread, t, true) || ensemble_single_observe(&t->at, &w->why) != MOTUS_OK ||
         ensemble_single_results(&t->at, f->places, t->number, false, true) != MOTUS_OK)
-        return left(f, t);
+        return leave_it(f, t);
     f->places->ends[t->number] = LANES_ARRIVED;
     return false;
 }
 
-/* As the stepper asks itself, which does not see the steps of lanes. */
+/* Whether the trajectory may crawl: the test of the stepper, which does not see the steps that lanes take. */
 static bool crawls(followed *t)
 {
     const stepper *s = t->at.w->stepper;
@@ -100,7 +103,7 @@ static bool crawls(followed *t)
     return may;
 }
 
-/* Takes steps until bounds may tell of the next one; false: the trajectory is over. */
+/* Takes steps until bounds may tell of the next one. False: the trajectory is over. */
 static bool lead(const ensemble_followed *f, int thread, followed *t, lanes_state *state)
 {
     enum { LOOK = 1 << 10 }; /* steps between two questions whether all is over */
@@ -110,10 +113,10 @@ static bool lead(const ensemble_followed *f, int thread, followed *t, lanes_stat
     do {
         if (++steps % LOOK == 0 && state->over(state->asked)) return false;
         if (crawls(t) || events_go(w->events, w->stepper, t->timing.until, 1, &why, &w->why) != MOTUS_OK)
-            return left(f, t);
+            return leave_it(f, t);
         if (why != STOP_STEPS) return finish(f, thread, t);
     } while (!events_watchable(w->events, w->stepper));
-    if (crawls(t)) return left(f, t);
+    if (crawls(t)) return leave_it(f, t);
     state->t0 = stepper_leg(w->stepper);
     state->h = stepper_step(w->stepper);
     state->at = stepper_save(w->stepper, state->carry);
@@ -125,14 +128,15 @@ static bool begin_one(const ensemble_followed *f, int thread, followed *t, lanes
     worker *w = &f->threads[thread].worker;
     stepper_stop why;
     bool began;
-    if (!t->at.x && !ensemble_single_open(&t->at, w)) return left(f, t);
+    if (!t->at.x && !ensemble_single_open(&t->at, w)) return leave_it(f, t);
     t->at.observations = 0;
     f->threads[thread].numbers = SIZE_MAX;
-    if (ensemble_single_begin(&t->at, f->places, t->number, &began, &w->why) != MOTUS_OK) return left(f, t);
+    if (ensemble_single_begin(&t->at, f->places, t->number, &began, &w->why) != MOTUS_OK) return leave_it(f, t);
     f->threads[thread].numbers = t->number;
     t->timing = w->timing;
     t->leg = NAN;
-    if (stepper_advance(w->stepper, (stepper_limit){0, t->timing.until}, &why, &w->why) != MOTUS_OK) return left(f, t);
+    if (stepper_advance(w->stepper, (stepper_limit){0, t->timing.until}, &why, &w->why) != MOTUS_OK)
+        return leave_it(f, t);
     return why == STOP_UNTIL ? finish(f, thread, t) : lead(f, thread, t, state);
 }
 
@@ -155,7 +159,7 @@ static bool idle(void *ctx, int thread, size_t place, const stepper_shown *step)
     return numbered(f, thread, t, f->differ) && events_idle(t->events, step);
 }
 
-/* Leads the worker's stepper to where lanes have come. */
+/* Brings the worker's stepper and events to the state that lanes have reached. */
 static bool come(const ensemble_followed *f, int thread, followed *t, int64_t steps, const double *largest,
                  const lanes_state *state)
 {
@@ -170,7 +174,7 @@ static bool look(void *ctx, int thread, size_t place, int64_t steps, const doubl
     const ensemble_followed *f = ctx;
     worker *w;
     followed *t = take_up(ctx, thread, place, &w);
-    const bool goes_on = come(f, thread, t, steps, largest, state) ? lead(f, thread, t, state) : left(f, t);
+    const bool goes_on = come(f, thread, t, steps, largest, state) ? lead(f, thread, t, state) : leave_it(f, t);
     put_down(t, w);
     return goes_on;
 }
@@ -183,20 +187,20 @@ static void arrive(void *ctx, int thread, size_t place, int64_t steps, const dou
     if (come(f, thread, t, steps, largest, state))
         (void)finish(f, thread, t);
     else
-        (void)left(f, t);
+        (void)leave_it(f, t);
     put_down(t, w);
 }
 
 static void leave(void *ctx, int thread, size_t place)
 {
     const ensemble_followed *f = ctx;
-    (void)left(f, &f->threads[thread].place[place]);
+    (void)leave_it(f, &f->threads[thread].place[place]);
 }
 
 /* ---- all ---- */
 
-/* Whether what leads the motion, its events and their actions reads a number that varies, or follows from one: initial
- * values alone mostly do not matter to them. */
+/* *out: whether the force, the functions of events or their actions read a number that varies, or one that follows from
+ * it; where initial values alone vary they mostly do not. False: no memory. */
 static bool depends(const motus_ensemble *e, bool *out)
 {
     model *m = e->system->model;

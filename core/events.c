@@ -212,6 +212,7 @@ motus_status events_begin(events *e, stepper *s, double until, motus_error *err)
     if (status) return status;
     memset(e->most, 0, (e->problem.nx + e->problem.nv) * sizeof *e->most);
     e->taken = 0;
+    memset(e->passed, 0, e->rules.functions);
     events_suppose(e);
     forget_happened(e);
     return status || events_keep_now(e, e->start, e->left.x) ? status

@@ -1,5 +1,5 @@
-/* How far off functions may be, since the state is, and the times at which they are 0 or touch 0.
- * See events_parts.h. */
+/* Error bounds of functions, which follow from those of the state, and of the times at which they pass or touch 0. See
+ * events_parts.h. */
 #include "core/events_parts.h"
 
 #include <math.h>
@@ -10,11 +10,11 @@ bool events_far(const events *e, const instant *at, size_t f)
     return !isfinite(g) || (e->marked && g > ends && g > 4 * fmax(e->left.bound[f], e->right.bound[f]));
 }
 
-/* How far off every number of the state at `here` may be, a time h after the beginning of the step, into e->width: by
- * the rounding since the start, which steps carry one way or the other, and where steps adapt by the error of the step
- * that leads here, which two steps of half its length tell. Of a function that has been 0 what counts is how far it may
- * be off from there, and so how large numbers have been since then. */
-static void state_errors(events *e, size_t f, double h)
+/* Writes an error bound of every number of the state at `here`, a time h after `left`, into e->width. It has two terms:
+ * - rounding: the errors of all steps so far add up as a random walk. Where the function has been 0 the error counts
+ *   from there, so a number counts with its largest size since then.
+ * - the error of the step that leads here, where steps adapt: twice the difference from two half steps. */
+static void bound_state(events *e, size_t f, double h)
 {
     const size_t nx = e->problem.nx, nv = e->problem.nv, moving = nx - e->problem.modes;
     const double jogged = e->jog ? 3 : 1; /* a companion's numbers have been moved by a unit besides */
@@ -29,7 +29,7 @@ static void state_errors(events *e, size_t f, double h)
         if (!failed) failed = stepper_sync(e->probe, to->x, to->v, NULL, NULL);
         if (!failed) failed = events_probe(e, t, lost, to->x, to->v, h / 2, &to->t, &to->lost, NULL);
         if (!failed) failed = stepper_sync(e->probe, to->x, to->v, NULL, NULL);
-        if (failed) events_copy(e, to, here); /* of steps too short for error control nothing is known */
+        if (failed) events_copy(e, to, here); /* of steps too short for error control this error is not known */
     }
     for (size_t k = 0; k < nx; k++) {
         const double fast = k < moving ? fmax(fabs(from->v[k]), fabs(here->v[k])) : 0;
@@ -43,9 +43,10 @@ static void state_errors(events *e, size_t f, double h)
     }
 }
 
-/* How much a function at `here`, or its rate, changes when every number does by its error, with the signs that bit
- * `bit` of its place has; bit < 0: only number `one`. */
-static motus_status change(events *e, size_t f, bool rate, int bit, size_t one, double *most, motus_error *err)
+/* Raises *most to the change of a function at `here`, or of its rate, when the numbers of the state change by their
+ * error bounds, and by their opposites. bit < 0: number `one` alone changes. bit 0: all do, with one sign; bit > 0: all
+ * do, number k with the sign that bit number bit - 1 of k tells. */
+static motus_status raise_by_change(events *e, size_t f, bool rate, int bit, size_t one, double *most, motus_error *err)
 {
     const size_t nx = e->problem.nx, all = nx + e->problem.nv;
     instant *to = &e->next;
@@ -61,22 +62,23 @@ static motus_status change(events *e, size_t f, bool rate, int bit, size_t one, 
     return MOTUS_OK;
 }
 
-/* By the errors of the state; of few numbers each by itself. */
+/* The error of a function, or of its rate, from those of the state. Of few numbers the sum of the changes by each; of
+ * many, where that would take too long, twice the largest change by some patterns of signs. */
 static motus_status error_by_state(events *e, size_t f, bool rate, double h, double *bound, motus_error *err)
 {
     enum { FEW = 32 };
     const size_t all = e->problem.nx + e->problem.nv;
     motus_status status = MOTUS_OK;
     *bound = 0;
-    state_errors(e, f, h);
+    bound_state(e, f, h);
     for (size_t k = 0; k < all && all <= FEW && !status; k++) {
         double by = 0;
-        if (e->width[k] > 0) status = change(e, f, rate, -1, k, &by, err);
+        if (e->width[k] > 0) status = raise_by_change(e, f, rate, -1, k, &by, err);
         *bound += by;
     }
     for (int bit = 0; all > FEW && !status && (bit == 0 || all >> (bit - 1)); bit++) {
         double by = 0;
-        status = change(e, f, rate, bit, 0, &by, err);
+        status = raise_by_change(e, f, rate, bit, 0, &by, err);
         *bound = fmax(*bound, 2 * by);
     }
     return status;
@@ -96,7 +98,7 @@ motus_status events_slope_error_of(events *e, size_t f, double h, double *bound,
     return status;
 }
 
-/* The function or its rate at a true step of size h, in `next`. */
+/* The function or its rate after a true step of size h, in `next`. */
 static motus_status look(events *e, size_t f, bool rate, double h, double *value, motus_error *err)
 {
     motus_status status = events_at(e, h, &e->next, err);
@@ -105,48 +107,70 @@ static motus_status look(events *e, size_t f, bool rate, double h, double *value
     return status;
 }
 
-/* A time within which the function, or its rate, grows beyond a bound on both sides of h, as far as the step goes. A
- * step so short that its error cannot be controlled tells nothing. */
+/* The distance from time h, found by doubling, at which the function or its rate exceeds a bound on both sides; a side
+ * on which the step ends before counts only where the bound hides the whole step. A true step within it that fails, as
+ * one too short for error control, counts as within the bound. */
 static double reach(events *e, size_t f, bool rate, double h, double bound)
 {
+    enum { STEPS_MOST = 1024 };
+    const double span = fabs(e->span);
     bool hidden = true;
     double d = events_ulp(e->here.t);
-    for (; hidden && d < fabs(e->span); d *= 2) {
+    for (; hidden && d < STEPS_MOST * span; d *= 2) {
+        const bool beyond = d >= span;
         hidden = false;
         for (int side = -1; side <= 1; side += 2) {
             const double at = h + side * d;
             double value;
-            if (e->way * at < 0 || e->way * (e->span - at) < 0) continue;
-            hidden |= look(e, f, rate, at, &value, NULL) || !(fabs(value) > bound);
+            if (!beyond && (e->way * at < 0 || e->way * (e->span - at) < 0)) continue;
+            const bool failed = look(e, f, rate, at, &value, NULL) != MOTUS_OK;
+            hidden |= failed ? !beyond : !(fabs(value) > bound);
         }
     }
     return d;
 }
 
-/* Whether the slope of a root is the same as far as rounding hides where it is. */
-static bool is_steep(events *e, size_t f, double h)
+/* Whether a root is simple: over the times within which the error bound of the function hides the root, its slope stays
+ * about the same. */
+static bool is_simple(events *e, size_t f, double h, double bound)
 {
-    const double rate = e->here.rate[f], far = 16 * (e->here.bound[f] / fabs(rate) + events_ulp(e->here.t));
-    const double before = h - e->way * far, at = e->way * before > 0 ? before : h + e->way * far;
-    double there;
-    return far < fabs(e->span) / 2 && !look(e, f, true, at, &there, NULL) && fabs(there - rate) <= fabs(rate) / 2;
+    const double rate = e->here.rate[f], far = 4 * (bound / fabs(rate) + events_ulp(e->here.t));
+    if (!(far < fabs(e->span) / 2)) return false;
+    for (int side = -1; side <= 1; side += 2) {
+        const double at = h + side * far;
+        double there;
+        if (e->way * at < 0 || e->way * (e->span - at) < 0) continue;
+        if (look(e, f, true, at, &there, NULL) || !(fabs(there - rate) <= fabs(rate) / 2)) return false;
+    }
+    return true;
+}
+
+/* Whether a function may be flat at its root: its slope is far below that at an end of the step, or in steps of one
+ * size, which may be short beside the flat part, it changes within the step. */
+static bool may_be_flat(const events *e, size_t f)
+{
+    enum { FAR_BELOW = 32, CHANGES = 64 };
+    const double rate = e->here.rate[f], left = e->left.rate[f], right = e->right.rate[f];
+    const double change = fmax(fabs(left - rate), fabs(right - rate));
+    return FAR_BELOW * fabs(rate) < fmax(fabs(left), fabs(right)) ||
+           (!row_adaptive(&e->method) && fabs(rate) < CHANGES * change);
 }
 
 motus_status events_doubt(events *e, size_t f, double h, bool touches, double *doubt, motus_error *err)
 {
-    enum { STEEP = 1024 };
     double bound;
     *doubt = 0;
-    if (!e->marked) return MOTUS_OK;
-    const double steepest = fmax(fabs(e->left.rate[f]), fabs(e->right.rate[f]));
-    if (!touches && !(STEEP * fabs(e->here.rate[f]) < steepest)) return MOTUS_OK; /* the companion's time tells */
-    if (!touches && is_steep(e, f, h)) return MOTUS_OK;
+    if (!e->marked || !(touches || may_be_flat(e, f))) return MOTUS_OK;
     const motus_status status =
         touches ? events_slope_error_of(e, f, h, &bound, err) : events_error_of(e, f, h, &bound, err);
-    /* where a function jumps, what rounding of the state changes it by is no error */
-    if (e->rules.rule[e->rule_of[f]].jump)
+    if (status) return status;
+    /* a function that jumps beside the root changes by the jump when the state does, which is no error of the root */
+    if (e->rules.rule[e->rule_of[f]].jump) {
+        const double steepest = fmax(fabs(e->left.rate[f]), fabs(e->right.rate[f]));
         bound = fmin(bound, 4 * fmax(e->left.bound[f], e->right.bound[f]) + 0x1p-44 * steepest * fabs(e->span));
-    if (!touches) bound += 2 * fabs(e->here.g[f]); /* it is so far from 0 where it has been located */
-    if (!status) *doubt = reach(e, f, touches, h, bound);
-    return status;
+    }
+    if (!touches) bound += 2 * fabs(e->here.g[f]); /* where it has been located it is not quite 0 */
+    const bool simple = !touches && is_simple(e, f, h, bound);
+    *doubt = simple ? bound / fabs(e->here.rate[f]) : reach(e, f, touches, h, bound);
+    return MOTUS_OK;
 }

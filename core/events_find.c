@@ -399,7 +399,7 @@ static motus_status hides_itself(events *e, stepper *s, size_t f, double largest
     return status;
 }
 
-/* A function that is on the other side where a part begins, and far from 0, has jumped there. False: no memory. */
+/* Where a part begins far from 0 on the other side, the function has jumped: adds that candidate. False: no memory. */
 static bool begins_beyond(events *e, size_t f, double value, double from, int *sign)
 {
     const int now = value > 0 ? 1 : -1;
@@ -409,7 +409,7 @@ static bool begins_beyond(events *e, size_t f, double value, double from, int *s
         e, (candidate){.of = f, .at = time_at(e, from), .kind = (candidate_kind)now, .located = true, .jumps = true});
 }
 
-/* A function that was near 0 at the end of the step before is so by its error since the start, too. */
+/* Raises the noise of a function that was near 0 at the end of the step before to its error bound since the start. */
 static motus_status widen_noise(events *e, size_t f, double *noise, motus_error *err)
 {
     double error = 0;
@@ -420,7 +420,8 @@ static motus_status widen_noise(events *e, size_t f, double *noise, motus_error 
     return status;
 }
 
-/* A function was near 0 where the part begins, and went back: whether it touched 0 there. False: no memory. */
+/* A function was near 0 where the part begins, and went back: adds a candidate, of which true steps tell whether it
+ * touches 0. False: no memory. */
 static bool went_back(events *e, size_t f, const search *of, int side)
 {
     const double before = of->part->from - (of->part->to - of->part->from);
@@ -433,8 +434,8 @@ static bool went_back(events *e, size_t f, const search *of, int side)
     return events_add(e, c);
 }
 
-/* What happens in a part of the step, from the values of a function at its points. *sign: that of the function where
- * the part begins, 0: it stands; then where it ends. *rough: the values do not tell. */
+/* Adds the candidates of a part of the step, from the values of a function at its points. *sign: that of the function
+ * before the part, 0: it stands at 0; then that at its end. *rough: no polynomial fits the values. */
 static motus_status search_part(events *e, stepper *s, size_t f, const part *p, const double *value, size_t stride,
                                 int degree, int *sign, bool *rough, motus_error *err)
 {
@@ -511,7 +512,7 @@ static motus_status too_many(const events *e, size_t f, motus_error *err)
     return of_function(e, f, e->left.t, err);
 }
 
-/* What the samples of a part tell that is too short to be divided. */
+/* Adds the candidates of a part that is too short to be divided, from its samples. */
 static motus_status search_cell(events *e, size_t f, const part *p, const double *value, int *sign, motus_error *err)
 {
     double time[PART_DEGREE + 1], finite[PART_DEGREE + 1];
@@ -608,7 +609,8 @@ static bool add_ticks(events *e)
     return true;
 }
 
-/* The box of a step, whose middle is in `next`; in `before` stands below what no function falls there. */
+/* Computes the box of a step, its middle in `next`, and in `before` a lower bound on the size of every function in it.
+ */
 static void look_at_box(events *e, const stepper_shown *step)
 {
     const size_t nx = e->problem.nx, nv = e->problem.nv;
@@ -617,7 +619,7 @@ static void look_at_box(events *e, const stepper_shown *step)
     e->rules.least(e->rules.ctx, to.x, to.v, to.dx, to.dv, e->before);
 }
 
-/* The same of the present step. False: it is not known. */
+/* The same of the present step. False: no bounds are known. */
 static bool boxes(events *e, const stepper *s)
 {
     const instant *from = &e->left, *to = &e->right;

@@ -13,8 +13,8 @@
 
 static int sign_of(double x) { return (x > 0) - (x < 0); }
 
-/* How far rounding may have carried a function at `here`. Where it jumps a change of the state by rounding changes it
- * by the jump, and then the ends of the step tell. */
+/* A bound on the rounding error of a function at `here`. Beside a jump the bound there has the size of the jump, so the
+ * bounds at the ends of the step limit it. */
 static double bound_of(const events *e, size_t f)
 {
     const double here = e->here.bound[f];
@@ -23,8 +23,8 @@ static double bound_of(const events *e, size_t f)
     return fmin(here, 4 * fmax(e->left.bound[f], e->right.bound[f]) + 0x1p-44 * ends);
 }
 
-/* Whether a function is 0 at `here`: by its rounding, and by that of the time. The bound counts every number of the
- * state as rounded by half a unit in its last place; a companion's has been moved by a whole one besides. */
+/* Whether a function is 0 at `here`, but for its rounding error and that of the time. The bound takes every number of
+ * the state as rounded by half a unit in the last place; a companion's has been moved by a whole one besides. */
 static bool is_zero(const events *e, size_t f)
 {
     const instant *at = &e->here;
@@ -33,8 +33,9 @@ static bool is_zero(const events *e, size_t f)
            fabs(at->g[f]) <= units * bound_of(e, f) + fabs(at->rate[f]) * events_ulp(at->t);
 }
 
-/* Whether a function is on the other side here because it jumps: by more than it changes in the rounding of the time.
- * Its own candidate, which comes a rounding later, tells; till then its side is that before the jump. */
+/* Whether a function is on the other side of 0 at `here` because it has jumped: its value exceeds what it changes
+ * within the rounding of the time. Its own candidate, a rounding later, changes its side; until then it has that before
+ * the jump. */
 static bool jumps_here(const events *e, size_t f)
 {
     const instant *at = &e->here;
@@ -97,14 +98,14 @@ static motus_status change(events *e, size_t k, size_t i, motus_error *err)
                              : not_finite(e, k, in_v, which, err);
 }
 
-/* After an action a condition that no longer holds may become true again: later, or in the same instant where it is
- * false at the instant itself. */
+/* After an action a condition that is false with the new state may become true again: later, if it is false as the
+ * motion goes on, and in this same instant, if it is false at the instant itself. */
 static void release(events *e)
 {
     for (int now = 0; now < 2; now++) {
         for (size_t f = 0; f < e->rules.functions; f++) {
-            const int moves = now ? 0 : events_direction(e, &e->here, f);
-            e->sign[f] = (int8_t)(e->zero[f] ? moves : sign_of(e->here.g[f]));
+            const int heads = now ? 0 : events_direction(e, &e->here, f);
+            e->sign[f] = (int8_t)(e->zero[f] ? heads : sign_of(e->here.g[f]));
         }
         for (size_t k = 0; k < e->rules.count; k++) {
             const rule *r = &e->rules.rule[k];
@@ -120,8 +121,8 @@ static void release(events *e)
     }
 }
 
-/* Marks the functions that stay at 0 as the new force has it, but for rounding and that of the time: where a switch
- * lets go what it has held, they leave 0 with a slope of 0. */
+/* Marks the functions at 0 whose rate under the new force is 0, but for the rounding of the time: where a switch lets
+ * go what it has held, they leave 0 with a slope of 0. */
 static motus_status find_level(events *e, motus_error *err)
 {
     enum { ULPS = 8, MARGIN = 4 };
@@ -139,9 +140,9 @@ static motus_status find_level(events *e, motus_error *err)
     return status;
 }
 
-/* The functions after an action of instance i of rule k; `before` and the rates at `here` are those before it. What has
- * happened in this instant may happen again where another rule has changed how its function moves: a ball between two
- * others meets both at once, and one of them again. */
+/* Evaluates the functions after an action of instance i of rule k; e->before and the rates at `here` are those before
+ * the action. What has happened in this instant may happen again where another rule has changed the rate of its
+ * function: a ball between two others meets both at once, and one of them again. */
 static motus_status look_again(events *e, size_t k, size_t i, motus_error *err)
 {
     instant *at = &e->here;
@@ -153,10 +154,10 @@ static motus_status look_again(events *e, size_t k, size_t i, motus_error *err)
     for (size_t f = 0; f < e->rules.functions && !status; f++) {
         const bool own = f >= r->first && f < r->first + r->leaves * r->instances && (f - r->first) % r->instances == i;
         if (!own && fabs(at->rate[f] - rate[f]) > 0x1p-40 * fabs(rate[f])) e->fired[f] = NAN;
-        /* what was 0 and has not changed is 0 whatever the rate is now; and what a switch moved to 0 */
-        const double change = e->rules.settle ? fabs(at->g[f]) - fabs(e->before[f]) : fabs(at->g[f] - e->before[f]);
-        const bool was = e->zero[f] && change <= at->bound[f];
-        e->zero[f] = was || is_zero(e, f);
+        /* what was 0 and has not changed stays 0, whatever its rate is now; so does what a switch has moved to 0 */
+        const double moved = e->rules.settle ? fabs(at->g[f]) - fabs(e->before[f]) : fabs(at->g[f] - e->before[f]);
+        const bool still = e->zero[f] && moved <= at->bound[f];
+        e->zero[f] = still || is_zero(e, f);
     }
     if (!status && r->internal) status = find_level(e, err);
     if (!status) release(e);
@@ -172,7 +173,7 @@ static void jog(events *e, int64_t number, bool switched)
     e->jog(e->here.v, e->problem.nv, salt + (uint32_t)nx, switched);
 }
 
-/* A switch changes its side. As many may at once as there are, but not one and the same again and again. */
+/* A switch changes its side. All switches may turn in one instant, but not one and the same again and again. */
 static motus_status turn(events *e, size_t k, size_t i, motus_error *err)
 {
     instant *at = &e->here;
@@ -247,7 +248,7 @@ static motus_status happen(events *e, size_t k, size_t i, bool touched, bool *as
 
 /* Asking ---------------------------------------------------------------------------------------------------------- */
 
-/* Whether a rate is more than rounding has left of larger ones. */
+/* Whether the rate of a function at `here` exceeds the rounding error of its rates at the ends of the step. */
 static bool moves(const events *e, size_t f)
 {
     const double most = e->marked ? fmax(fabs(e->left.rate[f]), fabs(e->right.rate[f])) : 0;
@@ -261,7 +262,7 @@ static bool is_here(const events *e, const candidate *c)
     return e->way * (e->here_at - c->low) >= 0 && e->way * (c->high - e->here_at) >= 0;
 }
 
-/* The candidate of function f here, where another event happens; NULL: there is none. */
+/* The candidate of function f in this instant, of another event or its own; `touches`: of a touch. NULL: none. */
 static candidate *about(const events *e, size_t f, bool touches)
 {
     for (size_t k = 0; k < e->candidates; k++) {
@@ -274,8 +275,8 @@ static candidate *about(const events *e, size_t f, bool touches)
     return NULL;
 }
 
-/* Whether a candidate leads function f here, also one that has been followed, and to which side; 0: there it stays
- * 0. */
+/* Whether a located crossing or jump of function f is in this instant, followed or not, and to which side it leads; 0:
+ * from there on it stays 0. */
 static bool is_led(const events *e, size_t f, int *side)
 {
     for (size_t k = 0; k < e->candidates; k++) {
@@ -335,7 +336,7 @@ static motus_status ask_root(events *e, size_t k, size_t i, const candidate *c, 
         *again |= r->assigns;
         return happen(e, k, i, true, acted, err);
     }
-    /* what has been 0 from the start on leaves it here only where something happened */
+    /* what has been 0 since the start leaves 0 in this instant only by an action */
     if (to == 0 || (e->side[f] ? to == e->side[f] : !here && !*acted)) return MOTUS_OK;
     if (r->direction && r->direction != to) {
         e->side[f] = (int8_t)to;
@@ -360,7 +361,7 @@ static motus_status ask_root(events *e, size_t k, size_t i, const candidate *c, 
     return status;
 }
 
-/* Whether a switch of the force is to turn here, and has not yet: only then it is known how functions go on. */
+/* Whether a switch of the force has yet to turn in this instant: how functions go on is known only after that. */
 static bool awaits_switch(const events *e, const candidate *c)
 {
     if (!e->rules.settle) return false;
@@ -399,12 +400,12 @@ static motus_status ask_condition(events *e, size_t k, size_t i, const candidate
     }
     double *happened = &e->happened[e->instances[k] + i];
     const bool before = fabs(*happened - e->here.t) <= 4 * events_ulp(e->here.t);
-    /* it becomes true here, or just after; also where it is false for this instant alone */
+    /* it becomes true in this instant or right after it, also where it is false in the instant alone */
     const bool after = any ? rules_hold(r, i, sign) : now;
     uint8_t *steady = &e->steady[e->instances[k] + i];
     const bool happens = *held ? *steady && passes && !now && after && !before : (now && !before) || after;
     if (happens) *steady = 0;
-    if (*held && now) *happened = e->here.t; /* here it is true still */
+    if (*held && now) *happened = e->here.t; /* it was true before, and is so in this instant */
     *held = after;
     if (!happens) return MOTUS_OK;
     bool assigned = false;
@@ -438,7 +439,7 @@ static motus_status ask(events *e, size_t k, const candidate *c, bool *acted, bo
     return status;
 }
 
-/* Where an action let a function jump over 0, it did not pass 0. */
+/* A function that an action has moved over 0 changes its side without an event. */
 void events_stand(events *e)
 {
     for (size_t f = 0; f < e->rules.functions; f++) {
@@ -460,7 +461,7 @@ static bool ends_step(const events *e, const candidate *c)
     return e->rules.rule[c->kind == CANDIDATE_TIME ? c->of : e->rule_of[c->of]].assigns;
 }
 
-/* Functions that touch 0 about here are at 0 in this instant, if their error so far may have carried them off. */
+/* Marks the functions that touch 0 about here as 0 in this instant, where their error bounds allow it. */
 static motus_status touch_too(events *e, motus_error *err)
 {
     motus_status status = MOTUS_OK;
@@ -478,7 +479,7 @@ motus_status events_fire(events *e, const candidate *c, bool *assigned, motus_er
 {
     bool again = true;
     motus_status status = MOTUS_OK;
-    /* what is beyond 0 already has passed it in this very instant: its own candidate comes a rounding later */
+    /* a function beyond 0 has passed it in this very instant: its own candidate comes a rounding later */
     for (size_t f = 0; f < e->rules.functions; f++)
         e->zero[f] = is_zero(e, f) || (e->side[f] && sign_of(e->here.g[f]) == -e->side[f] && !jumps_here(e, f));
     if (c->kind != CANDIDATE_TIME && !(c->jumps && c->kind)) e->zero[c->of] = 1;

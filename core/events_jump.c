@@ -1,8 +1,8 @@
-/* Functions that jump or have a kink, in the smallest parts of a step: samples tell what happens there, and true steps
- * whether a change of sign is a root. See events_parts.h.
+/* Functions that jump or have a kink, in the smallest parts of a step: their samples bracket each change of sign, and
+ * bisection by true steps tells whether it is a root. See events_parts.h.
  *
- * A function that jumps over 0 has no root there: it changes its side. One that comes to 0 and stays has none either,
- * until it leaves 0. Invariant: a candidate that is `sampled` has its place between two samples.
+ * A function that jumps over 0 has no root there: it changes its side. One that comes to 0 and stays there has no root
+ * until it leaves 0. Invariant: two samples bracket the place of a `sampled` candidate.
  */
 #include "core/events_parts.h"
 
@@ -12,8 +12,9 @@
 
 static int sign_of(double g, double bound) { return fabs(g) <= bound ? 0 : g > 0 ? 1 : -1; }
 
-/* The samples between which the function changes, from `from` on: *at is the first one that has the new sign, which is
- * 0 where it stays 0 up to the last sample, and `*before` the last one that has the old sign. False: it does not. */
+/* Finds the first change of sign from sample `from` on: *before is the last sample with the old sign, *at the first
+ * with the new one, *to. A single 0 is a value on the way; from two zeros in a row on the function stays at 0, *to = 0.
+ * False: the sign does not change. */
 static bool next_change(const events_cell *c, int sign, int from, int *before, int *at, int *to)
 {
     for (int k = from; k < c->count; k++) {
@@ -32,20 +33,23 @@ static bool next_change(const events_cell *c, int sign, int from, int *before, i
     return false;
 }
 
-static double distance(const events_cell *c, int k)
+/* How far the function goes from sample k to the next one. */
+static double change_after(const events_cell *c, int k)
 {
     return k >= 0 && k + 1 < c->count ? fabs(c->value[k + 1] - c->value[k]) : 0;
 }
 
-/* Where the function, which keeps its sign, is so near to 0 that it may touch it between samples. */
+/* Whether a function that keeps its sign may touch 0 between samples: its smallest value, sample *at, is no more than
+ * twice the change to a neighbour. */
 static bool may_touch(const events_cell *c, int *at)
 {
     *at = 0;
     for (int k = 1; k < c->count; k++)
         if (fabs(c->value[k]) < fabs(c->value[*at])) *at = k;
-    return fabs(c->value[*at]) <= 2 * fmax(distance(c, *at - 1), distance(c, *at));
+    return fabs(c->value[*at]) <= 2 * fmax(change_after(c, *at - 1), change_after(c, *at));
 }
 
+/* A candidate between two samples, or where they are one, between the beginning of the cell and that sample. */
 static candidate between(const events_cell *c, int low, int high)
 {
     const double from = low < high ? c->time[low] : c->from, to = c->time[high];
@@ -54,7 +58,7 @@ static candidate between(const events_cell *c, int low, int high)
 
 motus_status events_sampled(events *e, const events_cell *c, int *sign, bool *told, motus_error *err)
 {
-    int low, high, to, k, more = *sign;
+    int low, high, to, k, next_low, next_high, next_to;
     const bool changes = next_change(c, *sign, 0, &low, &high, &to);
     *told = true;
     if (!changes) {
@@ -68,26 +72,25 @@ motus_status events_sampled(events *e, const events_cell *c, int *sign, bool *to
         touch.kind = (candidate_kind)*sign;
         return events_add(e, touch) ? MOTUS_OK : events_no_memory(err);
     }
-    more = to;
-    int next_low, next_high;
-    *told = !next_change(c, more, high, &next_low, &next_high, &to);
+    *told = !next_change(c, to, high, &next_low, &next_high, &next_to);
     if (!*told) return MOTUS_OK;
     candidate one = between(c, low, high);
-    one.kind = (candidate_kind)more;
+    one.kind = (candidate_kind)to;
     one.leaves = *sign == 0;
-    *sign = more;
-    if (!more) e->stands[c->of] = 1, e->side[c->of] = 0;
+    *sign = to;
+    if (!to) e->stands[c->of] = 1, e->side[c->of] = 0;
     return events_add(e, one) ? MOTUS_OK : events_no_memory(err);
 }
 
 /* ---- what true steps tell ---- */
 
-/* One end of the times between which a function changes. */
+/* One end of the interval in which a function changes. */
 typedef struct end {
-    double at, g;
-    bool zero; /* but for rounding */
+    double at, g; /* time since `left`, and the function there */
+    bool zero;    /* it is 0 but for rounding */
 } end;
 
+/* The function after a true step of size h, in `here`. */
 static motus_status look(events *e, size_t f, double h, end *to, motus_error *err)
 {
     motus_status status = events_at(e, h, &e->here, err);
@@ -99,19 +102,20 @@ static motus_status look(events *e, size_t f, double h, end *to, motus_error *er
     return status;
 }
 
-/* Whether the function has already changed at this end. */
+/* Whether the function has already changed at this end; where it is undefined it has not. */
 static bool changed(const candidate *c, const end *at)
 {
     if (c->leaves) return !at->zero;
     if (c->kind == CANDIDATE_TOUCHES) return at->zero;
-    return at->g != 0 && (at->g > 0) == (c->kind > 0);
+    return c->kind > 0 ? at->g > 0 : at->g < 0;
 }
 
-/* Dense output errs: makes the times wider until true steps find the change between them. False: it is not there. */
+/* Samples have the error of dense output: widens the interval until by true steps the function changes in it, at most
+ * to the ends of the step. *found false: it does not. */
 static motus_status enclose(events *e, const candidate *c, end *low, end *high, bool *found, motus_error *err)
 {
     enum { TIMES = 24 };
-    double wide = c->high - c->low;
+    double wide = e->way * fmax(fabs(c->high - c->low), 0x1p-46 * fabs(e->span)); /* so TIMES lead through the step */
     motus_status status = look(e, c->of, c->low, low, err);
     if (!status) status = look(e, c->of, c->high, high, err);
     for (int k = 0; k < TIMES && !status && changed(c, low) && low->at != 0; k++, wide *= 4)
@@ -122,7 +126,7 @@ static motus_status enclose(events *e, const candidate *c, end *low, end *high, 
     return status;
 }
 
-/* Halves the times between the ends down to the rounding of the time. */
+/* Bisects the interval down to the rounding of the time. */
 static motus_status halve(events *e, const candidate *c, end *low, end *high, motus_error *err)
 {
     motus_status status = MOTUS_OK;
@@ -136,9 +140,10 @@ static motus_status halve(events *e, const candidate *c, end *low, end *high, mo
     return status;
 }
 
-/* Whether the value at an end has come nearer to 0, as it does at a root and not at a jump or a pole. */
+/* Whether bisection has at least halved the value at an end, as it does at a root, but not at a jump or a pole. */
 static bool nearer(const end *before, const end *now) { return fabs(now->g) <= fabs(before->g) / 2 || now->g == 0; }
 
+/* Locates a change of sign, and tells whether it is a root or a jump. */
 static motus_status place_change(events *e, candidate *c, motus_error *err)
 {
     end low, high;
@@ -148,7 +153,7 @@ static motus_status place_change(events *e, candidate *c, motus_error *err)
     if (!status && found) status = halve(e, c, &low, &high, err);
     if (status) return status;
     c->located = true;
-    if (!found && changed(c, &low)) { /* where the step began */
+    if (!found && changed(c, &low)) { /* it has changed where the step begins */
         c->jumps = !(c->kind && low.zero);
         c->at = low.at;
         return look(e, c->of, c->at, &low, err);
@@ -164,21 +169,8 @@ static motus_status place_change(events *e, candidate *c, motus_error *err)
     return look(e, c->of, c->at, &here, err);
 }
 
-/* An extremum beyond 0: the function passes 0 twice. */
-static motus_status split(events *e, size_t k, double at, motus_error *err)
-{
-    candidate first = e->candidate[k];
-    first.near = first.located = false;
-    candidate second = first;
-    first.kind = (candidate_kind) - (int)first.kind;
-    first.high = second.low = at;
-    first.at = first.low + (at - first.low) / 2;
-    second.at = at + (second.high - at) / 2;
-    e->candidate[k] = first;
-    return events_add(e, second) ? MOTUS_OK : events_no_memory(err);
-}
-
-/* An extremum at a kink, where the rate changes its sign; where it does not, at a jump. */
+/* Locates an extremum near 0, and tells whether it touches 0. At a kink bisection goes by the sign of the rate; where
+ * the rate keeps its sign the function jumps, and bisection goes to the larger change. */
 static motus_status place_touch(events *e, size_t k, motus_error *err)
 {
     candidate *c = &e->candidate[k];
@@ -202,7 +194,7 @@ static motus_status place_touch(events *e, size_t k, motus_error *err)
     c->at = fabs(low.g) <= fabs(high.g) ? low.at : high.at;
     status = look(e, f, c->at, &middle, err);
     if (status) return status;
-    if (kink && !middle.zero && (middle.g > 0) != (c->kind > 0)) return split(e, k, c->at, err);
+    if (kink && !middle.zero && (middle.g > 0) != (c->kind > 0)) return events_split(e, k, c->at, err);
     c->gone = !middle.zero;
     c->near = false;
     c->kind = CANDIDATE_TOUCHES;

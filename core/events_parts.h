@@ -1,11 +1,13 @@
 /* What the files of events share: the struct, and what each file does with it.
  *
  * events.c: life and steps. events_find.c: the roots of a step, by dense output. events_place.c: true steps, and where
- * a root is by them. events_jump.c: functions that jump or have a kink.
- * events_fire.c: what happens in one instant. events_table.c: rows, kept numbers, accumulation.
- * events_swarm.c: switches that accumulate. events_state.c: restart states. Invariant: `left` is the state at which the
- * present step began, and `side` are the sides of all functions there, those of the events that have happened since
- * included.
+ * a root is by them. events_jump.c: functions that jump or have a kink. events_errors.c: error bounds of functions and
+ * of the times of events. events_fire.c: what happens in one instant. events_table.c: rows, kept numbers, accumulation.
+ * events_swarm.c: switches that accumulate. events_state.c: restart states.
+ *
+ * A true step is a step of the method itself from `left` to a time within the step; dense output interpolates.
+ * Invariant: `left` is the state at which the present step began, and `side` are the sides of all functions there,
+ * those of the events that have happened since included.
  */
 #ifndef CORE_EVENTS_PARTS_H
 #define CORE_EVENTS_PARTS_H
@@ -17,36 +19,36 @@
 typedef struct instant {
     double t, lost; /* the state is that of time t + lost: stepper_lost */
     double *x, *v, *a;
-    double *g, *rate, *bound; /* bound: how far rounding may have carried g */
-    bool valued;              /* g is known: of the ends of a step where something may happen in it */
+    double *g, *rate, *bound; /* the functions, their rates, and bounds on the rounding errors of g */
+    bool valued;              /* g is known; at the ends of a step only where something may happen in it */
 } instant;
 
 typedef enum candidate_kind { CANDIDATE_FALLS = -1, CANDIDATE_TOUCHES, CANDIDATE_RISES, CANDIDATE_TIME } candidate_kind;
 
 /* What may happen within the present step. */
 typedef struct candidate {
-    candidate_kind kind;
-    size_t of;        /* function; CANDIDATE_TIME: rule */
-    double at;        /* time since `left`: by dense output; by true steps where `located` */
-    double low, high; /* such times between which this is the function's only root */
+    candidate_kind kind; /* of a `near` one: the side of 0 on which the function is */
+    size_t of;           /* function; CANDIDATE_TIME: rule */
+    double at;           /* time since `left`: by dense output; by true steps where `located` */
+    double low, high;    /* this is the function's only root between these times since `left` */
     bool located, gone;
     bool followed; /* it is gone because it has been followed; else nothing was there */
     bool idle;     /* its function changes its side, and nothing happens */
-    bool sure;     /* by far more than dense output errs, its function has other signs at `low` and at `high` */
-    bool near; /* an extremum near 0, of which true steps are to tell whether it touches, crosses twice, or neither */
-    bool sampled; /* samples told of it: events_jump.c */
-    bool leaves;  /* it has been 0 before; sampled ones */
+    bool sure;     /* the signs at `low` and `high` differ, and the values there far exceed the error of dense output */
+    bool near;    /* an extremum near 0: true steps tell whether the function touches 0, crosses it twice, or neither */
+    bool sampled; /* it was found between samples: events_jump.c */
+    bool leaves;  /* of a sampled one: the function has been 0 before it */
     bool jumps;   /* it is no root: the function jumps to this side; CANDIDATE_TOUCHES: it comes to 0 and stays */
 } candidate;
 
-/* A part of the step in which a function is no polynomial, too short to be divided. */
+/* A part of the step, too short to be divided, in which no polynomial fits a function, and its samples there. */
 typedef struct events_cell {
-    size_t of; /* function */
-    int count;
-    double from;                /* where it begins */
-    const double *time, *value; /* since `left`, in their order */
-    double bound;               /* values up to it are 0 */
-    bool last;                  /* the run ends here */
+    size_t of;                  /* function */
+    int count;                  /* samples */
+    double from;                /* the time since `left` at which the part begins */
+    const double *time, *value; /* of the samples, in order; time since `left` */
+    double bound;               /* values up to this size count as 0 */
+    bool last;                  /* the run ends where the part does */
 } events_cell;
 
 typedef struct kept_state { /* the kept numbers from time t on */
@@ -54,9 +56,9 @@ typedef struct kept_state { /* the kept numbers from time t on */
     size_t at; /* in `kept`, times rules.kept_count */
 } kept_state;
 
-/* The latest times of one instance of a rule, by levels: at level k those of every event whose number is a multiple of
- * 2^k, the last one first, RECENT of them. So a ratio of intervals is also known from intervals so long that roundings
- * do not matter. A rule of many instances has one level. */
+/* The latest times of one instance of a rule, by levels: level k has the latest RECENT events whose numbers are
+ * multiples of 2^k, the last one first. So the ratio of intervals is also known from long intervals, whose relative
+ * rounding error is small. A rule of many instances has one level. */
 enum { RECENT = 4, LEVELS = 12, LEVELS_INSTANCES = 256 };
 typedef struct recent {
     double *t;
@@ -68,7 +70,7 @@ static inline int recent_count(const recent *r, int level)
     return r->number >> level < RECENT ? (int)(r->number >> level) : RECENT;
 }
 
-/* Turns of a switch, function `function` (events_swarm.c). */
+/* The latest turns of a switch of the force, and how the cycles between them become shorter (events_swarm.c). */
 enum { SWARMS = 8 };
 typedef struct swarm_mark {
     double t, cycle;
@@ -98,7 +100,7 @@ struct events {
     bool broken;                  /* of fixed steps: `left` lies within one, which ends at the next time of the grid */
     int (*asks)(const void *ctx); /* events_listen; NULL: nobody cancels */
     const void *asks_ctx;
-    int64_t asked;  /* how often it might have been */
+    int64_t asked;  /* events so far; `asks` is called at some of them */
     bool cancelled; /* the present step */
     bool first;     /* no step has been taken since the start */
     bool marked;    /* the bounds at both ends of the step are known */
@@ -108,43 +110,45 @@ struct events {
     instant left, right, here, next;
     instant best;         /* of those at which a root was looked for */
     const stepper *along; /* whose step leads from `left` to `right`; NULL between steps */
-    double *past; /* of the present step: of the pieces that ended in an action: t, lost, what had acted, x, v */
+    double *past; /* where the pieces of the present step began that ended in an action: t, lost, `acted`, x, v */
     size_t pasts, past_room;
     double past_end;    /* where the last of these pieces ended */
-    int64_t acted_left; /* what had acted when the present piece began */
-    int8_t *side;       /* -1, 1, 0: not known, since the function has been 0 from the start on */
-    uint8_t *stands;    /* it is 0 at `left` */
-    uint8_t *open;      /* it is 0 there, and only the next step says whether it passed */
-    int8_t *heads;      /* where it stands at 0: the direction in which its slope leads it, 0: not known */
-    uint8_t *was;       /* side, stands, open and heads before the present step */
-    double here_at;     /* `here` is so long after `left` */
-    double
-        whole;   /* the size that the step had before it was shortened to tell how a function leaves 0, 0: it was not */
-    double span; /* from `left` to `right` */
-    int shorter; /* how often the present step may be taken anew, shorter, to resolve an internal function */
-    bool hidden; /* the step is so long that rounding hides how a function leaves 0 at its start */
-    uint8_t *zero;     /* it is 0 at `here` */
-    uint8_t *level;    /* in this instant it stays at 0, as far as its slope tells */
-    double doubt;      /* how far off the time of this instant may be: events_doubt */
-    bool awaits;       /* a switch of the force is to turn in this instant */
-    uint8_t *touched;  /* it has been told in this instant that it touches 0 */
-    uint8_t *look;     /* dense output must tell of it in this step */
-    uint8_t *passed;   /* it has passed 0 in watched steps, and nothing happened */
-    int8_t *sign;      /* room for the signs of a condition's leaves */
-    double *before;    /* the functions at `here` before an action; room for bounds on a step */
-    bool boxed;        /* these are known of the present step */
-    int pause;         /* so many steps more are not watched, since watching was in vain; */
-    int last_pause;    /*   how many in all */
-    double *fired;     /* when it did last; NaN: never */
-    uint32_t *rule_of; /* function */
-    double *most;      /* the largest size of positions, then velocities, since the start */
-    int64_t taken;     /* steps since the start */
-    double *width;     /* how far positions, then velocities, may be within the step from half way between its ends */
-    double *samples;   /* values at the points of the step */
+    int64_t acted_left; /* `acted` when the present piece began */
+    /* the arrays are of every function: */
+    int8_t *side;    /* -1, 1, 0: not known, since the function has been 0 from the start on */
+    uint8_t *stands; /* it is 0 at `left` */
+    uint8_t *open;   /* it is near 0 at `left`, and only the next step says whether it passes or touches 0 */
+    int8_t *heads;   /* of one that stands at 0: the sign of its slope along the run, 0: not known */
+    uint8_t *was;    /* side, stands, open and heads before the present step */
+    double here_at;  /* the time from `left` to `here` */
+    double whole;    /* the size of the step before it was shortened to tell how a function leaves 0; 0: it was not */
+    double span;     /* from `left` to `right` */
+    int shorter;     /* how often the present step may be taken anew, shorter, to resolve an internal function */
+    bool hidden;     /* the step is so long that rounding hides how a function leaves 0 at its start */
+    /* the arrays are of every function: */
+    uint8_t *zero;    /* it is 0 at `here` */
+    uint8_t *level;   /* it stays at 0 after this instant, because its slope is 0 but for rounding */
+    double doubt;     /* an error bound of the time of this instant: events_doubt */
+    bool awaits;      /* a switch of the force is to turn in this instant */
+    uint8_t *touched; /* that it touches 0 has been told in this instant */
+    uint8_t *look;    /* the bounds on the step leave it open, so dense output is searched for its roots */
+    uint8_t *passed;  /* it has passed 0 in watched steps, which was no event; `side` does not know of it yet */
+    int8_t *sign;     /* working space: the signs of a condition's leaves */
+    double *before;   /* the functions at `here` before an action; while roots are sought, lower bounds on the step */
+    bool boxed;       /* the present step's box is in `next` and `width`, its lower bounds are in `before` */
+    int pause;        /* so many more steps are not watched, since watching was in vain; */
+    int last_pause;   /*   how many in all */
+    double *fired;    /* when it last passed or touched 0; NaN: never, or an action lets it do so again */
+    uint32_t *rule_of;
+    double *most;  /* the largest size of positions, then velocities, since the start */
+    int64_t taken; /* steps since the start */
+    double *width; /* of positions, then velocities: half widths of the step's box, or error bounds (events_errors.c) */
+    double *samples; /* of all functions at the points of the step */
     int samples_room;
-    uint8_t *held;     /* per instance of a condition: it was true; numbered by `instances` */
-    uint8_t *steady;   /* likewise: it was true up to this instant, in which it has not happened */
-    double *happened;  /* likewise: the instant in which it did, unless it has been false there since; NaN: none */
+    /* of every instance of a condition, numbered by `instances`: */
+    uint8_t *held;     /* it was true */
+    uint8_t *steady;   /* it was true up to this instant, in which it has not happened */
+    double *happened;  /* the time at which it last happened or was true already, and is not false since; NaN: none */
     size_t *instances; /* per rule: the number of its first instance */
     recent *recent;    /* per instance */
     double *recent_t;  /* their times */
@@ -209,6 +213,8 @@ motus_status events_probe(events *, double from, double lost, const double *x, c
 motus_status events_at(events *, double h, instant *, motus_error *);
 /* Finds where the candidate is, and the state there, in `here`. It may be gone; a near one may become two. */
 motus_status events_locate(events *, size_t candidate, motus_error *);
+/* An extremum on the other side of 0: replaces a near candidate by the two crossings, before and after that time. */
+motus_status events_split(events *, size_t candidate, double at, motus_error *);
 /* Whether a function has stayed at 0, but for its error, since it touched 0 the last time; `here` is left elsewhere. */
 motus_status events_lingered(events *, const candidate *, bool *same, motus_error *);
 /* The direction in which a function moves at an instant along the run; 0: too small to tell. */
@@ -228,20 +234,21 @@ motus_status events_no_memory(motus_error *);
 /* The next tick of a clock. False: it is not within the step. */
 bool events_next_tick(const events *, size_t rule, candidate *);
 
-/* events_errors.c. Whether a function is larger at an instant than at both ends of the step, as beside a pole: it does
- * not pass 0 there. */
+/* events_errors.c. Whether the size of a function at an instant exceeds that at both ends of the step, as beside a
+ * pole: then it does not pass 0 there. */
 bool events_far(const events *, const instant *, size_t function);
-/* How far off a function at `here`, which is judged, may be: by rounding since the start, and by the
- * error of the step that leads here in the time h, 0: not by that. */
+/* An error bound of a function at `here`, a time h after `left`, whose rates and bounds are known: from the rounding
+ * since the start and, where h is not 0, from the estimated error of the true step to `here`. */
 motus_status events_error_of(events *, size_t function, double h, double *bound, motus_error *);
 /* The same of the function's rate. */
 motus_status events_slope_error_of(events *, size_t function, double h, double *bound, motus_error *);
-/* How far off the time of a root or touch at `here`, h after the step began, may be because the function is so flat
- * there that its error hides when it is 0, or its slope; 0: it is not flat. */
+/* An error bound of the time of a root or touch at `here`, a time h after `left`, where the function is flat: the time
+ * within which the error of the function hides its root, or that of its rate hides the touch. 0: it is not flat, and
+ * the time of the companion's event alone tells the error. */
 motus_status events_doubt(events *, size_t function, double h, bool touches, double *doubt, motus_error *);
 
-/* events_jump.c. What happens in a cell, in which the function begins with *sign, 0: it stands; then that with which it
- * ends. *told false: more than samples can tell apart. */
+/* events_jump.c. Adds the candidate of a cell, from its samples. *sign is the sign of the function before the cell, 0
+ * where it stands at 0, and then that at its end. *told false: the samples change their sign more than once. */
 motus_status events_sampled(events *, const events_cell *, int *sign, bool *told, motus_error *);
 /* events_locate for a sampled candidate. */
 motus_status events_locate_sampled(events *, size_t candidate, motus_error *);

@@ -27,11 +27,11 @@ motus_status events_values(events *e, instant *at, motus_error *err)
     return answer ? events_refuse(e, "event_functions", at->t, answer, err) : MOTUS_OK;
 }
 
-/* The values a time h later, by Taylor's formula, into `next`. */
-static motus_status values_after(events *e, const instant *at, double h, motus_error *err)
+/* Evaluates the functions a time h after an instant whose acceleration is known, at the state of Taylor's formula,
+ * into another instant. */
+static motus_status values_after(events *e, const instant *at, double h, instant *to, motus_error *err)
 {
     const problem *p = &e->problem;
-    instant *to = &e->next;
     to->t = at->t + h;
     for (size_t k = 0; k < p->nv; k++) {
         if (k < p->nx) to->x[k] = at->x[k] + h * (at->v[k] + h / 2 * at->a[k]);
@@ -88,11 +88,13 @@ motus_status events_rates(events *e, instant *at, motus_error *err)
         const int answer = e->rules.rates(e->rules.ctx, at->t, at->x, at->v, at->a, at->rate);
         return answer ? events_refuse(e, "event_functions", at->t, answer, err) : MOTUS_OK;
     }
+    /* central differences; `crossing` alone needs `best`, and asks for the rates at `here` */
     const double h = e->way * fmax(0x1p-16 * fabs(e->span), 64 * events_ulp(at->t));
-    status = values_after(e, at, -h, err);
-    if (!status) memcpy(at->rate, e->next.g, e->rules.functions * sizeof *at->rate);
-    if (!status) status = values_after(e, at, h, err);
-    for (size_t k = 0; k < e->rules.functions && !status; k++) at->rate[k] = (e->next.g[k] - at->rate[k]) / (2 * h);
+    instant *to = at == &e->next ? &e->best : &e->next;
+    status = values_after(e, at, -h, to, err);
+    if (!status) memcpy(at->rate, to->g, e->rules.functions * sizeof *at->rate);
+    if (!status) status = values_after(e, at, h, to, err);
+    for (size_t k = 0; k < e->rules.functions && !status; k++) at->rate[k] = (to->g[k] - at->rate[k]) / (2 * h);
     return status;
 }
 
@@ -287,6 +289,19 @@ static motus_status widen(events *e, size_t k, motus_error *err)
     return before && after && !events_add(e, two) ? events_no_memory(err) : MOTUS_OK;
 }
 
+motus_status events_split(events *e, size_t k, double at, motus_error *err)
+{
+    candidate first = e->candidate[k];
+    first.near = first.located = false;
+    candidate second = first;
+    first.kind = (candidate_kind)-first.kind;
+    first.high = second.low = at;
+    first.at = first.low + (at - first.low) / 2;
+    second.at = at + (second.high - at) / 2;
+    e->candidate[k] = first;
+    return events_add(e, second) ? MOTUS_OK : events_no_memory(err);
+}
+
 motus_status events_lingered(events *e, const candidate *c, bool *same, motus_error *err)
 {
     const double since = (e->fired[c->of] - e->left.t) - e->left.lost,
@@ -324,6 +339,11 @@ motus_status events_locate(events *e, size_t k, motus_error *err)
         if (low && low == -high && !lingers) {
             c->near = false;
             c->kind = (candidate_kind)high;
+        } else if (low && low == high && c->low == 0 && e->side[f] == -low) {
+            /* by its error it was beyond 0 when the step before ended, which has left the crossing to this one */
+            c->near = false;
+            c->kind = (candidate_kind)low;
+            c->at = 0;
         } else if (low && low == high) {
             c->near = true;
             c->kind = (candidate_kind)low;
@@ -353,13 +373,8 @@ motus_status events_locate(events *e, size_t k, motus_error *err)
         } else if ((g > 0) == (side > 0)) {
             c->gone = true;
         } else {
-            candidate second = *c;
-            second.near = c->near = false;
-            second.kind = (candidate_kind)side, c->kind = (candidate_kind)-side;
-            second.low = c->high = at;
-            second.at = at + (second.high - at) / 2;
-            c->at = c->low + (at - c->low) / 2;
-            if (!events_add(e, second)) return events_no_memory(err);
+            status = events_split(e, k, at, err);
+            if (status) return status;
             c = &e->candidate[k];
         }
     }

@@ -1,13 +1,13 @@
-/* Lanes of trajectories with events: they take the steps in which, by bounds alone, nothing happens. See lanes_parts.h.
+/* Lanes of trajectories with events: they take the steps in which bounds exclude every event. See lanes_parts.h.
  *
- * There is one block. A trajectory comes to a lane with the state at which its next step begins. After every candidate
- * the object computes the box of each lane's step, and the bounds of all functions on it, as step/watch.h does for one
- * trajectory. Where they leave something open the follower is asked; where it does not know either, that step is taken
- * back, and the follower takes it, with all that happens, and gives the trajectory back from where bounds may tell
- * again.
+ * There is one block. A trajectory comes to a lane with the state at which its next step begins. After every step that
+ * it tries, accepted or refused, the object computes the box of each lane's step and a lower bound on the size of every
+ * function there, as step/watch.h does for one trajectory. If a bound is not positive, the follower is asked whether
+ * the step has no event all the same. If it cannot tell, the lane takes the step back; the follower takes it again with
+ * its events, and gives the trajectory back at the next step of which bounds may tell.
  *
- * Invariant: a trajectory moves with all its numbers, so its bits depend neither on its lane nor on its neighbours, nor
- * on which of its steps lanes take.
+ * Invariant: all that decides the next step moves with a trajectory, so its bits depend neither on its lane nor on its
+ * neighbours, nor on which of its steps lanes take.
  */
 #include "machine/lanes_parts.h"
 
@@ -25,12 +25,12 @@ typedef struct watched {
     const lanes_follower *by;
     lanes_block block;
     size_t number[BLOCK_MAX]; /* of each lane, NO_TRAJECTORY: it is free */
-    int64_t since[BLOCK_MAX]; /* steps of the leg when it came */
-    double *room;             /* lanes_watched_size */
+    int64_t since[BLOCK_MAX]; /* of each lane, the steps of the leg when its trajectory came */
+    double *room;             /* working space of lanes_watched_size numbers */
     size_t next;              /* trajectories of the item that have begun */
 } watched;
 
-/* A state's numbers, and the largest sizes; the ends of a step, and its bounds. */
+/* Room for the numbers of a state and the largest sizes, or for both ends of a step and its accelerations' bounds. */
 size_t lanes_watched_size(const lanes *l)
 {
     const size_t state = l->carried + STEPPER_CLOCKS + l->def.model->nx + l->def.model->nv, step = 5 * l->def.model->nv;
@@ -58,7 +58,7 @@ static void free_lane(watched *s, size_t lane)
 static const int carried[STEPPER_CLOCKS] = {LANES_T,    LANES_LOST,     LANES_NEXT,    LANES_BEFORE,
                                             LANES_RISE, LANES_SHORTEST, LANES_LONGEST, LANES_SPAN};
 
-/* Of a trajectory that takes many steps without lanes. */
+/* A follower that takes many steps without lanes asks whether the call is over. */
 static bool all_over(void *asked)
 {
     lanes_item *item = asked;
@@ -66,7 +66,7 @@ static bool all_over(void *asked)
     return lanes_item_over(item);
 }
 
-/* The state of a lane, or that before its latest candidate. */
+/* The state of a lane, or that before its latest step. */
 static lanes_state state_of(const watched *s, size_t lane, bool before)
 {
     const lanes *l = s->l;
@@ -85,6 +85,7 @@ static lanes_state state_of(const watched *s, size_t lane, bool before)
 #undef CLOCK_AT
 }
 
+/* Puts a trajectory into a lane at a state. */
 static void put(watched *s, size_t lane, const lanes_state *from)
 {
     const lanes *l = s->l;
@@ -102,7 +103,7 @@ static void put(watched *s, size_t lane, const lanes_state *from)
     lanes_block_forget(&s->block, lane);
 }
 
-/* The largest sizes of a lane since it came. */
+/* The largest sizes of a lane's numbers since its trajectory came. */
 static const double *largest_of(const watched *s, size_t lane)
 {
     const lanes *l = s->l;
@@ -112,12 +113,14 @@ static const double *largest_of(const watched *s, size_t lane)
     return to;
 }
 
+/* The trajectory of a lane is done. */
 static void over(watched *s, size_t lane)
 {
     atomic_fetch_add(&s->item->call->done, 1);
     free_lane(s, lane);
 }
 
+/* The follower has given a trajectory back, or has done with it. */
 static void go_on(watched *s, size_t lane, bool goes_on, const lanes_state *state)
 {
     if (goes_on)
@@ -128,7 +131,7 @@ static void go_on(watched *s, size_t lane, bool goes_on, const lanes_state *stat
 
 /* ---- the start ---- */
 
-/* Gives free lanes to the next trajectories; whether any lane has one. */
+/* Puts the next trajectories into free lanes. False: no lane has a trajectory. */
 static bool refill(watched *s)
 {
     lanes_item *item = s->item;
@@ -152,7 +155,7 @@ static bool refill(watched *s)
 
 /* ---- steps ---- */
 
-/* Whether a step of a lane is idle, though the bounds of the object leave something open. */
+/* Whether the follower knows that the latest step of a lane has no event, though a bound is not positive. */
 static bool idle(const watched *s, size_t lane)
 {
     const lanes *l = s->l;
@@ -175,16 +178,16 @@ static bool idle(const watched *s, size_t lane)
 
 static bool is_finite(const watched *s, size_t lane)
 {
-    double none = 0;
+    double zero = 0;
     for (size_t k = 0; k < s->l->carried; k++) {
         const double number = s->block.job.carry[lane_at(s->l, s->l->carried, k, lane)];
-        none += number - number;
+        zero += number - number;
     }
-    return none == 0;
+    return zero == 0;
 }
 
-/* After the latest candidates: a lane in whose step something may have happened, one at its end or at the steps that it
- * should take, and one that cannot go on. */
+/* Gives a lane to the follower after its latest step: if the step may have an event, if it led to the end or to the
+ * number of steps in LANES_STOP, and if the trajectory cannot go on. */
 static void look_after(watched *s, size_t lane)
 {
     const lanes_job *j = &s->block.job;

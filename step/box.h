@@ -1,5 +1,6 @@
-/* THE BOX of a step: no number is within the step farther than its half width from the middle of its ends. A position
- * leaves the line between them by h^2/8 times the largest acceleration at most, a velocity by h/2 times that.
+/* THE BOX of a step: around the mean of the numbers at both ends of the step, with half widths that no number exceeds
+ * within it. With |x''| <= a, a position departs from the line between its ends by h^2/8 a at most, and a velocity from
+ * the mean of its ends by h/2 a.
  */
 typedef struct box {
     real *x, *v, *dx, *dv; /* the middle, and the half widths */

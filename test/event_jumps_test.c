@@ -102,6 +102,27 @@ static void times_of_functions_with_jumps(void **state)
     assert_int_equal(wrong, 0);
 }
 
+/* g is undefined for a while, and beyond that on the other side. -g has the same roots. */
+static void undefined_for_a_while(void **state)
+{
+    (void)state;
+    static const char text[] = EVEN "g = sqrt((x - 1)^2 - 0.01) (1 - x)\n"
+                                    "when g = 0 falling as one: record\nwhen -g = 0 rising as other: record\n";
+    for (size_t way = 0; way < sizeof ways / sizeof *ways; way++) {
+        motus_error err;
+        motus_run *r;
+        motus_system *s;
+        must(run_of(text, way, 3, &r, &s, &err), &err, text);
+        const int64_t count = motus_run_events(r);
+        assert_true(count == 0 || count == 2);
+        motus_event_row one = motus_default_event_row(), other = motus_default_event_row();
+        if (count) assert_true(!motus_run_event(r, 0, &one) && !motus_run_event(r, 1, &other));
+        assert_true(count == 0 || (one.time == other.time && strcmp(one.name, other.name) != 0));
+        motus_run_destroy(r);
+        motus_system_destroy(s);
+    }
+}
+
 /* What changes faster than steps can be divided, or than the time is known, ends the run, and says what jumps. */
 static void too_fast_to_follow(void **state)
 {
@@ -186,7 +207,7 @@ static void beside_others(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {cmocka_unit_test(times_of_functions_with_jumps), cmocka_unit_test(beside_others),
-                                       cmocka_unit_test(too_fast_to_follow),
+                                       cmocka_unit_test(undefined_for_a_while), cmocka_unit_test(too_fast_to_follow),
                                        cmocka_unit_test(refused_since_they_never_happen)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

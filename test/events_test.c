@@ -391,6 +391,56 @@ static void a_corner(void **state)
     }
 }
 
+static int swing(void *ctx, double t, const double *x, const double *v, double *a)
+{
+    (void)ctx, (void)t, (void)v;
+    a[0] = -x[0];
+    return 0;
+}
+
+static int peak(void *ctx, double t, const double *x, const double *v, double *g)
+{
+    (void)ctx, (void)t, (void)v;
+    g[0] = 1 - x[0];
+    return 0;
+}
+
+/* x = cos(t) touches 1 at 2 pi. The slope of a callback's function is a difference quotient, which the error of the
+ * touch's time counts. */
+static void a_touch_of_a_callback(void **state)
+{
+    (void)state;
+    motus_error err = motus_default_error();
+    const double x0[] = {1}, v0[] = {0};
+    const motus_event_def event = {.name = "peak"};
+    motus_system *s = given_problem(&(problem_def){1, x0, v0, swing, 0, 0, 1, &event, peak, NULL, NULL});
+    motus_run_def def = motus_default_run();
+    motus_run *r = NULL;
+    def.method = "gauss8", def.step = 0.1, def.until = 7, def.error = MOTUS_BARS_CHEAP;
+    must(motus_run_create(s, &def, &r, &err), &err, "a touch");
+    must(motus_run_finish(r, &err), &err, "a touch");
+    assert_int_equal(motus_run_events_significant(r), 1);
+    const motus_event_row e = event_at(r, 0);
+    assert_true(e.touched && fabs(e.time - 6.28318530717958648) <= e.error);
+    if (!(e.error < 1e-6)) fail_msg("the time of the touch has the error %g", e.error);
+    motus_run_destroy(r);
+    motus_system_destroy(s);
+}
+
+/* A run of a callback says, too, that it is not reversible across an event that assigns. */
+static void cuts_of_a_callback(void **state)
+{
+    (void)state;
+    ball b = {9.81, 0.8, 0};
+    motus_system *s = given_ball(&b, 1, 0, 0);
+    motus_run *cut = run_by(s, "verlet-reversible", NAN, 1e-6, 1), *whole = run_by(s, "verlet", 0.01, NAN, 1);
+    assert_non_null(strstr(motus_run_cut(cut), "not reversible"));
+    assert_string_equal(motus_run_cut(whole), "");
+    motus_run_destroy(cut);
+    motus_run_destroy(whole);
+    motus_system_destroy(s);
+}
+
 enum { BALLS = 4 };
 
 static int contacts(void *ctx, double t, const double *x, const double *v, double *g)
@@ -649,6 +699,8 @@ int main(void)
                                        cmocka_unit_test(a_touch_and_what_is_near_one),
                                        cmocka_unit_test(several_roots_in_a_step),
                                        cmocka_unit_test(a_corner),
+                                       cmocka_unit_test(a_touch_of_a_callback),
+                                       cmocka_unit_test(cuts_of_a_callback),
                                        cmocka_unit_test(a_cradle),
                                        cmocka_unit_test(counting_pi),
                                        cmocka_unit_test(kicks_by_the_clock),
