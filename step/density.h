@@ -15,8 +15,7 @@
  * a sum over variables, of which x, v, a and j = da/dt are the sizes. T is 1/ω at every phase of an oscillation of
  * amplitude l, x'' = -ω² x, about (r³/k)^½ on a Kepler orbit, and smooth at turning points and where the force is zero.
  * l, a length of each variable, is constant, also through an action of an event; away from turning points T hardly
- * depends on it. A first-order variable
- * has its rate for v, and the rate of that for a.
+ * depends on it. A first-order variable has its rate for v, and the rate of that for a.
  *
  * d(log T)/dt is a difference: of T half a span e B before and after the present state, B(x, v, a) a rougher time
  * scale. The accelerations there and here give a and j in the middles. So z costs two evaluations, and the formula of
