@@ -193,6 +193,13 @@ static bool evaluated(const motus_system *s, const column_range *g, const column
            (done && done->kind == g->kind && (g->kind == MOTUS_COLUMN_EXACT || (!s->model && !of_state(g->kind))));
 }
 
+/* Where the number of a column is among those of its definition. */
+static size_t observed_place(const motus_system *s, const column_range *g, size_t column)
+{
+    const size_t parts = columns_parts(definition(s, g)->components), hull = g->count / parts, k = column - g->first;
+    return k % parts * hull + k / parts;
+}
+
 motus_status system_values(motus_system *s, double t, double *x, double *v, const size_t *columns, size_t count,
                            double *out, motus_error *err)
 {
@@ -220,12 +227,23 @@ motus_status system_values(motus_system *s, double t, double *x, double *v, cons
                          *from_v = g->kind == MOTUS_COLUMN_EXACT ? s->exact_v : v;
             out[i] = st->order == 2 && !g->prime ? from_x[at] : from_v[at];
         } else if (s->model) {
-            size_t parts = columns_parts(definition(s, g)->components), hull = g->count / parts;
-            out[i] = s->observed[k % parts * hull + k / parts];
+            out[i] = s->observed[observed_place(s, g, columns[i])];
         } else {
             out[i] = s->observed[definition(s, g)->slot + k];
         }
     }
+    return MOTUS_OK;
+}
+
+motus_status system_rounding(motus_system *s, double t, double *x, double *v, size_t column, double *bound,
+                             motus_error *err)
+{
+    const column_range *g = columns_range(s, column);
+    *bound = 0;
+    if (!s->model || (g->kind != MOTUS_COLUMN_QUANTITY && g->kind != MOTUS_COLUMN_INVARIANT)) return MOTUS_OK;
+    if (!interpreter_rounding(s->interpreter, &s->definitions[g->item], t, x, v, s->observed))
+        return fail(err, MOTUS_MEMORY, "no memory for the rounding of %s", definition(s, g)->name);
+    *bound = s->observed[observed_place(s, g, column)];
     return MOTUS_OK;
 }
 

@@ -179,6 +179,17 @@ static int report_lanes(void *context, double fraction)
     return ensemble_report(context, before + fraction * (1 - before));
 }
 
+/* Whether a quantity is recorded at the end, where its own rounding counts. */
+static bool rounds(const motus_ensemble *e)
+{
+    lanes_source source;
+    for (size_t r = 0; r < e->record_count; r++)
+        if (e->records[r].how == MOTUS_REDUCE_FINAL && !ensemble_tallies(&e->records[r]) &&
+            source_of(e->system, &e->records[r], &source) && source.kind == SOURCE_DEFINITION)
+            return true;
+    return false;
+}
+
 /* Chooses lanes where they can compute the ensemble; else e->lanes stays NULL and e->note says why. */
 static motus_status try_lanes(motus_ensemble *e, const motus_ensemble_def *d, bool later, motus_error *err)
 {
@@ -208,6 +219,7 @@ static motus_status try_lanes(motus_ensemble *e, const motus_ensemble_def *d, bo
                               .later = later,
                               .allocator = &e->allocator,
                               .progress = e->progress ? report_lanes : NULL,
+                              .rounding = told && rounds(e) ? ensemble_errors_rounding : NULL,
                               .context = e};
     if (told && (e->error == MOTUS_BARS_FULL || (common.own_clock && !row_adaptive(&e->chosen)))) {
         snprintf(e->note, sizeof e->note, "%s: their errors are told one at a time",

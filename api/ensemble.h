@@ -69,7 +69,9 @@ struct motus_ensemble {
     motus_bars error;
     size_t compared, *compared_columns, *compared_record;
     int *how;
-    motus_system *half; /* of the companions in lanes; NULL */
+    motus_system *half;    /* of the companions in lanes; NULL */
+    atomic_flag rounding;  /* a thread computes with half, for ensemble_errors_rounding */
+    double *rounding_room; /* for that: what varies, then a state */
     chosen half_chosen;
     vary *half_vary;
     vary *vary;
@@ -127,6 +129,9 @@ motus_status ensemble_errors_prepare(motus_ensemble *, motus_error *);
 differences_shape ensemble_errors_shape(const motus_ensemble *);
 /* Makes the system of the companions in lanes, what varies in it, and their method. */
 motus_status ensemble_errors_half(motus_ensemble *, motus_error *);
+/* lanes_def's hook of this name; by one thread at a time. */
+void ensemble_errors_rounding(void *ensemble, const double *const *values, size_t trajectory, const double *state,
+                              double *const *errors);
 motus_status ensemble_errors_worker(worker *, motus_error *);
 /* Trajectory k begins, where the worker's stepper stands; `values` are what varies. */
 motus_status ensemble_errors_begin(worker *, const double *values, size_t k, motus_error *);

@@ -7,6 +7,7 @@
 #include "api/ensemble.h"
 #include "api/shadow.h"
 
+#include <math.h>
 #include <string.h>
 
 /* ---- what is compared ---- */
@@ -61,7 +62,39 @@ motus_status ensemble_errors_half(motus_ensemble *e, motus_error *err)
     motus_status status = shadow_create(e->system, affected, &e->half, err);
     e->half_chosen = companion_method(&e->chosen, e->system);
     if (status != MOTUS_OK) return status;
+    const size_t room = e->vary_count + e->system->problem.nx + e->system->problem.nv + 1;
+    e->rounding_room = arena_room(&e->half->arena, room * sizeof *e->rounding_room);
+    if (!e->rounding_room) return fail(err, MOTUS_MEMORY, "no memory for bars of error");
     return vary_create(e->half->model, e->places, e->vary_count, true, true, &e->half_vary, err);
+}
+
+/* Which side of a decimal the companion's numbers are on changes a bound on rounding by nothing that counts. */
+static void add_rounding(motus_ensemble *e, size_t trajectory, const double *state, double *const *errors)
+{
+    double *const x = e->rounding_room + e->vary_count, *const v = x + e->half->problem.nx;
+    system_inside(e->half, state + 1, state + 1 + e->half->positions, x, v);
+    for (size_t r = 0; r < e->record_count; r++) {
+        const motus_record *record = &e->records[r];
+        double bound;
+        if (record->how != MOTUS_REDUCE_FINAL || ensemble_tallies(record)) continue;
+        if (system_rounding(e->half, state[0], x, v, record->column, &bound, NULL) != MOTUS_OK)
+            errors[r][trajectory] = NAN;
+        else if (isfinite(bound))
+            errors[r][trajectory] += bound;
+    }
+}
+
+void ensemble_errors_rounding(void *ensemble, const double *const *values, size_t trajectory, const double *state,
+                              double *const *errors)
+{
+    motus_ensemble *e = ensemble;
+    while (atomic_flag_test_and_set_explicit(&e->rounding, memory_order_acquire)) continue;
+    for (size_t k = 0; k < e->vary_count; k++) e->rounding_room[k] = values[k][trajectory];
+    if (e->vary_count == 0 || (vary_apply(e->half_vary, e->rounding_room) && system_rebind(e->half)))
+        add_rounding(e, trajectory, state, errors);
+    else
+        for (size_t r = 0; r < e->record_count; r++) errors[r][trajectory] = NAN;
+    atomic_flag_clear_explicit(&e->rounding, memory_order_release);
 }
 
 /* ---- a worker ---- */

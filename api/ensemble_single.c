@@ -138,8 +138,8 @@ static double error(const trajectory *s, size_t r)
     motus_run *const run = s->w->run;
     const double t = stepper_time(s->w->stepper);
     double bar = bars_of(run->bars, t, number);
-    const bool last = e->records[r].how == MOTUS_REDUCE_FINAL && run->events;
-    if (last && run_sync(run, false, NULL) == MOTUS_OK) event_bars_state(run, t, run->x, run->v, number, &bar, NULL);
+    const bool last = e->records[r].how == MOTUS_REDUCE_FINAL;
+    if (last && run_sync(run, false, NULL) == MOTUS_OK) errors_of(run, t, run->x, run->v, number, &bar, NULL);
     return bar;
 }
 

@@ -146,14 +146,13 @@ static bool judge_whole(motus_run *r, const model_rule *endless)
     const motus_system *s = r->system;
     const bars *b = r->bars;
     whole w;
-    const bool found = whole_find(&w, s->model, endless, &r->allocator);
+    const bool found = whole_find(&w, s->model, 0, endless, &r->allocator);
     for (size_t k = 0; found && k < b->count; k++) {
         if (columns_range(s, b->columns[k])->kind != MOTUS_COLUMN_QUANTITY) continue;
         const whole_kind kind = whole_of(&w, s->model, system_definition(s, b->columns[k], &(size_t){0}));
         b->whole[k] = endless && b->whole[k] != kind ? ENDLESS : (uint8_t)kind;
     }
-    give(&r->allocator, w.node);
-    give(&r->allocator, w.array);
+    whole_end(&w, &r->allocator);
     return found;
 }
 

@@ -86,6 +86,16 @@ static motus_status not_finite(const events *e, size_t k, bool in_v, size_t whic
     return MOTUS_DIVERGED;
 }
 
+/* Of a companion: moves the modes that have been assigned in this step by a unit in the last place, always the same
+ * way, since the rounding of a sum of equal numbers has one sign for long. */
+static void jog_modes(events *e)
+{
+    for (size_t k = 0; e->jog && k < e->rules.rounded_count; k++) {
+        const size_t at = e->rules.rounded[k];
+        if (e->here.x[at] != e->left.x[at]) e->jog(e->here.x + at, 1, (uint32_t)at, false);
+    }
+}
+
 /* The action of an event, on the state at `here`. */
 static motus_status change(events *e, size_t k, size_t i, motus_error *err)
 {
@@ -93,7 +103,10 @@ static motus_status change(events *e, size_t k, size_t i, motus_error *err)
     bool in_v = false;
     size_t which = SIZE_MAX;
     const int answer = e->rules.act(e->rules.ctx, k, i, at->t, at->x, at->v, &in_v, &which);
-    if (!answer) return MOTUS_OK;
+    if (!answer) {
+        jog_modes(e);
+        return MOTUS_OK;
+    }
     return which == SIZE_MAX ? events_refuse(e, "event_action", at->t, answer, err)
                              : not_finite(e, k, in_v, which, err);
 }

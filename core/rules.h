@@ -69,6 +69,8 @@ typedef struct rules {
     size_t functions;   /* of all rules */
     const size_t *kept; /* places in x that `keeps` rules change */
     size_t kept_count;
+    const size_t *rounded; /* places in x of modes that rounding of their assignments can change */
+    size_t rounded_count;
     /* The functions at a state, whose driven boundary cells are refreshed: `functions` numbers. Other than 0: the
      * caller's own function failed. */
     int (*values)(void *ctx, double t, double *x, double *v, double *out);

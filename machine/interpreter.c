@@ -7,6 +7,7 @@
 #include "lang/graph/expansion.h"
 #include "lang/tape/tape.h"
 #include "lang/tape/tape_series.h"
+#include "machine/rounding.h"
 
 #include <string.h>
 
@@ -16,6 +17,7 @@ struct interpreter {
     tape *accel, *boundary, *exact;
     tape *jvp[4];        /* along dx (1), dv (2), or both (3) */
     tape **observed;     /* one per definition, made when it is first observed, and kept while there is room */
+    tape **roundings;    /* bounds on the rounding of definitions, likewise; of long ones none */
     uint64_t operations; /* of the observed ones that are kept */
     struct expanded {    /* in Taylor series of so many numbers each, once they are wanted */
         tape_series *equations, *boundary;
@@ -219,8 +221,11 @@ motus_status interpreter_create(model *m, interpreter **out, problem *p, motus_e
     in->boundary = m->boundary_count ? make(m, m->boundary, m->boundary_count) : NULL;
     in->exact = m->exact_count && m->traits.has_exact ? make(m, m->exact, m->exact_count) : NULL;
     in->observed = arena_room(m->arena, (m->definition_count + 1) * sizeof *in->observed);
-    if (m->arena->failed || !in->accel || !in->observed) return fail(err, MOTUS_MEMORY, "no memory for the model");
+    in->roundings = arena_room(m->arena, (m->definition_count + 1) * sizeof *in->roundings);
+    if (m->arena->failed || !in->accel || !in->observed || !in->roundings)
+        return fail(err, MOTUS_MEMORY, "no memory for the model");
     memset(in->observed, 0, (m->definition_count + 1) * sizeof *in->observed);
+    memset(in->roundings, 0, (m->definition_count + 1) * sizeof *in->roundings);
     *p = (problem){.ctx = in,
                    .nx = m->nx,
                    .nv = m->nv,
@@ -281,16 +286,37 @@ static bool observe(interpreter *in, tape *t, bool needs_a, double time, double 
     return true;
 }
 
+static bool needs_a(const interpreter *in, const model_definition *d)
+{
+    bool needs = false;
+    for (size_t k = 0; k < d->output_count; k++)
+        needs |= (graph_deps(in->model->graph, d->outputs[k].value) & DEP_A) != 0;
+    return needs;
+}
+
 bool interpreter_observe(interpreter *in, model_definition *d, double t, double *x, double *v, double *out)
 {
-    const model *m = in->model;
-    bool needs_a = false;
-    for (size_t k = 0; k < d->output_count; k++) needs_a |= (graph_deps(m->graph, d->outputs[k].value) & DEP_A) != 0;
     arena once;
-    arena_init(&once, &m->arena->allocator);
-    const bool known = observe(in, observed(in, d, &once), needs_a, t, x, v, out);
+    arena_init(&once, &in->model->arena->allocator);
+    const bool known = observe(in, observed(in, d, &once), needs_a(in, d), t, x, v, out);
     arena_release(&once);
     return known;
+}
+
+bool interpreter_rounding(interpreter *in, model_definition *d, double t, double *x, double *v, double *out)
+{
+    enum { OPERATIONS_MOST = 1 << 16 };
+    tape **kept = &in->roundings[d - in->model->definitions];
+    memset(out, 0, d->numbers * sizeof *out);
+    if (!*kept && operations_of(in->model, d) > OPERATIONS_MOST) return true;
+    if (!*kept) {
+        binding b = {in->model->arrays, in->model->ints, in->model->pool};
+        tape *made = rounding_tape(in->model, d->outputs, d->output_count);
+        *kept = made && tape_bind(made, &b) ? made : NULL;
+    }
+    if (!*kept || !observe(in, *kept, needs_a(in, d), t, x, v, out)) return false;
+    for (size_t k = 0; k < d->numbers; k++) out[k] *= 0x1p-53;
+    return true;
 }
 
 bool interpreter_rebind(interpreter *in)
@@ -301,7 +327,9 @@ bool interpreter_rebind(interpreter *in)
     for (size_t k = 0; k < sizeof tapes / sizeof *tapes; k++)
         if (tapes[k] && !tape_bind(tapes[k], &b)) return false;
     for (uint32_t k = 0; k < m->definition_count; k++)
-        if (in->observed[k] && !tape_bind(in->observed[k], &b)) return false;
+        if ((in->observed[k] && !tape_bind(in->observed[k], &b)) ||
+            (in->roundings[k] && !tape_bind(in->roundings[k], &b)))
+            return false;
     for (int k = 0; k < LENGTHS; k++) {
         if (in->expanded[k].known) tape_series_bind(in->expanded[k].equations, &b);
         if (in->expanded[k].known && m->driven) tape_series_bind(in->expanded[k].boundary, &b);

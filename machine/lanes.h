@@ -72,6 +72,10 @@ typedef struct lanes_def {
     bool later;                     /* whoever makes them does not wait for a compiler */
     const motus_allocator *allocator;
     int (*progress)(void *context, double fraction);
+    /* Where errors are told: adds to those of a trajectory what rounding makes of its quantities at its last state: t,
+     * positions and velocities. NULL: nothing is added. */
+    void (*rounding)(void *context, const double *const *values, size_t trajectory, const double *state,
+                     double *const *errors);
     void *context;
 } lanes_def;
 

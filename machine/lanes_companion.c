@@ -93,6 +93,8 @@ void lanes_block_errors(const lanes_call *c, const lanes_companion *companion, b
     for (size_t r = 0; r < l->def.source_count; r++)
         c->errors[l->def.sources[r].result][trajectory] =
             stopped || companion->failed ? NAN : differences_bar(&companion->differences, first + r);
+    if (l->def.rounding && !stopped && !companion->failed)
+        l->def.rounding(l->def.context, c->values, trajectory, companion->differences.values[0], c->errors);
     for (size_t k = 0; k < l->def.tally_count; k++) {
         const lanes_tally *t = &l->def.tallies[k];
         c->errors[t->result][trajectory] = stopped ? NAN : 0;

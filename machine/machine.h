@@ -13,6 +13,9 @@ typedef struct interpreter interpreter;
 motus_status interpreter_create(model *, interpreter **, problem *, motus_error *);
 /* Writes the numbers of a quantity or invariant at a state, definition->numbers of them, to `out`. False: no memory. */
 bool interpreter_observe(interpreter *, model_definition *, double t, double *x, double *v, double *out);
+/* The same of a bound on how far rounding carries these numbers off, their operands known to half a unit in the last
+ * place; 0 where a formula has more than 65 536 operations. */
+bool interpreter_rounding(interpreter *, model_definition *, double t, double *x, double *v, double *out);
 
 /* The acceleration's derivative along a direction of v (in_v) or of x, as a program. NULL: the arena failed. */
 program *interpreter_derivative(model *, bool in_v);

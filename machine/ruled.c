@@ -6,6 +6,7 @@
 #include "machine/ruled.h"
 
 #include "lang/graph/graph_place.h"
+#include "lang/model/whole.h"
 #include "lang/tape/tape.h"
 #include "machine/least.h"
 #include "machine/rounding.h"
@@ -221,6 +222,31 @@ static bool find_kept(ruled *r, const model *m)
     return true;
 }
 
+/* The places in x of modes that rules assign and rounding can change: that are not sums of few binary places. */
+static bool find_rounded(ruled *r, const model *m)
+{
+    enum { PLACES = 4 };
+    whole w;
+    size_t count = 0, room = 1;
+    for (uint32_t i = 0; i < m->mode_count; i++) room += model_numbers(&m->states[m->state_count + i]);
+    size_t *places = arena_room(m->arena, room * sizeof *places);
+    uint8_t *listed = arena_room(m->arena, m->mode_count + 1);
+    const bool found = whole_find(&w, m, PLACES, NULL, &m->arena->allocator) && places && listed;
+    if (found) memset(listed, 0, m->mode_count + 1);
+    for (uint32_t i = 0; found && i < m->rule_count; i++)
+        for (size_t k = 0; k < m->rules[i].assignments; k++) {
+            const model_assignment *a = &m->rules[i].assignment[k];
+            const model_state *s = model_state_of(m, a->to.array);
+            const size_t one = (size_t)(s - m->states);
+            if (one < m->state_count || w.array[a->to.array] || listed[one - m->state_count]++) continue;
+            for (size_t n = 0; n < model_numbers(s); n++) places[count++] = s->base + n;
+        }
+    whole_end(&w, &m->arena->allocator);
+    r->supplied.rounded = places;
+    r->supplied.rounded_count = count;
+    return found;
+}
+
 /* The first operation of a rule's functions that may jump, as text in the model's arena, or NULL. */
 static const char *jump_of(model *m, const model_rule *r)
 {
@@ -292,7 +318,8 @@ static bool make(ruled *r, model *m)
                           .least_rates = least_rates,
                           .act = act,
                           .name = name};
-    return r->becomes && find_kept(r, m) && make_functions(r, m) && make_periods(r, m) && ruled_rebind(r);
+    return r->becomes && find_kept(r, m) && find_rounded(r, m) && make_functions(r, m) && make_periods(r, m) &&
+           ruled_rebind(r);
 }
 
 motus_status ruled_create(model *m, ruled **out, motus_error *err)

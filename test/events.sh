@@ -487,6 +487,11 @@ gives "a billiard" 0 "$motus" run "$one" --method rk4 --step 0.05 --until 20 --j
 that "  is counted" holds '.error.hits == 0 and .error.side == 0 and .error.odd > 0'
 gives "a billiard that loses its digits" 0 "$motus" run "$one" --method rk4 --step 0.05 --until 200 --json
 that "  loses its counts with them" holds '.events_significant < (.events | length) and .error.hits == null and .error.side == null'
+# Rounding is an error too: of numbers beyond 2^53, of assignments that repeat, and of a quantity's own formula.
+text "x'' = -x\nx(0) = 1\nx'(0) = 0\nn = 0\nseed = 1\nsmall = 1\nz = 0.3\ns = 0\nc = 0\nwhen x = 0: n = n + 1, seed = mod(1103515245 seed + 12345, 2147483648), small = mod(16807 small, 2147483647), z = 3.99 z (1 - z), s = s + 0.1, c = c + 0.5\nk = (n + 1e17) - 1e17\nq = (x + 1e8) - 1e8\nsq = n^2\n"
+gives "numbers that rounding changes" 0 "$motus" run "$one" --until 400 --method taylor --json
+# 127 events; the truths in integers and, of z, by 120 digits
+that "  have its error" holds '.quantities.n == 127 and .error.n == 0 and .error.sq == 0 and .error.c < 1e-12 and .quantities.c == 63.5 and .error.small == 0 and .quantities.small == 2014119113 and .error.seed > 1e9 and .error.z > 0.1 and .error.s > 3e-14 and .error.k >= 8 and .error.q > 1e-9 and .error.q < 1e-7'
 
 echo "$passed passed, $failed failed"
 [ "$failed" = 0 ]
