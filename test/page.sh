@@ -29,7 +29,7 @@ start() {
 bits() { start bits 200 node test/lab/bits.mjs $logs/core.mjs build/lab/motus.wasm "$MOTUS" models; }
 # Tests without a browser, by node's test runner, whose output differs.
 parts() {
-    start parts 240 node --test --test-reporter=tap test/lab/*.test.mjs
+    start parts 480 node --test --test-reporter=tap test/lab/*.test.mjs
     echo "$(sed -n 's/^# pass //p' $logs/parts.log) passed, $(sed -n 's/^# fail //p' $logs/parts.log) failed" >>$logs/parts.log
 }
 page() { start "$1" 300 node "test/lab/$1.mjs"; }

@@ -102,6 +102,10 @@ async function putAway(page, good) {
   await page.evaluate(() => { Storage.prototype.setItem = () => {}; localStorage.clear(); sessionStorage.clear(); });
   await Promise.all([page.unrouteAll(), page.context().clearPermissions(), page.mouse.move(0, 0)]);
   await page.goto('about:blank');
+  // A browser under load may lose what a page clears just before it is left, so the browser itself is asked, too.
+  const session = await page.context().newCDPSession(page);
+  await session.send('Storage.clearDataForOrigin', { origin: 'file://', storageTypes: 'local_storage' });
+  await session.detach();
   const other = spare.get(page.kind) ?? (spare.size < SPARE ? null : spare.values().next().value);
   if (other) spare.delete(other.kind);
   spare.set(page.kind, page);
