@@ -6,6 +6,7 @@
 #include "api/diagnosis.h"
 
 #include "api/evidence.h"
+#include "api/located.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -163,6 +164,21 @@ static bool undefined(judge *j)
     return true;
 }
 
+/* Whether steps of this row can end where the force jumps, and do not yet. */
+static bool can_locate(const judge *j)
+{
+    motus_system *const s = j->e.system, *to = NULL;
+    const char *why = "";
+    if (!s->model || system_located(s)) return false;
+    return located_for(s, j->e.row, MOTUS_SWITCHES_LOCATE, &to, &why, NULL) == MOTUS_OK && to;
+}
+
+static void propose_locating(judge *j)
+{
+    attempt(j, false, "switches", "locate");
+    hint(j->err, "let steps end where the force jumps, `switches = locate` of the definition");
+}
+
 static bool discontinuous(judge *j)
 {
     size_t which;
@@ -177,6 +193,10 @@ static bool discontinuous(judge *j)
         "the jump",
         name, before, after);
     say(j, MOTUS_CAUSE_DISCONTINUOUS, name);
+    if (can_locate(j)) {
+        propose_locating(j);
+        return true;
+    }
     end_before(j, j->e.t);
     char text[MOTUS_TEXT_MAX];
     snprintf(text, sizeof text, "%s", j->err->hint);
@@ -335,7 +355,11 @@ static void unsolved(judge *j)
     snprintf(name, sizeof name, "%s", j->err->variable);
     if (singular(j)) return;
     j->err->cause = MOTUS_CAUSE_SOLVER;
-    if (!j->e.adaptive) shorter_step(j, false);
+    if (j->e.adaptive || shorter_step(j, false) || !can_locate(j)) return;
+    error_text(j->cause,
+               "it does not with shorter steps either, and the force has jumps or kinks, on which steps do not end");
+    say(j, MOTUS_CAUSE_DISCONTINUOUS, name);
+    propose_locating(j);
 }
 
 /* ---- the judgement ---- */

@@ -105,6 +105,8 @@ obeyed "... and a run that ends before succeeds" "'$place/rubs.motus'" --method 
 ends_by "a force that is switched on" discontinuous "$place/switched.motus" --until 10 --method dop853 --switches step
 that "... at 5" diagnosed '(.time - 5 | fabs) < 1e-9'
 obeyed "... and a run that ends before succeeds" "'$place/switched.motus'" --method dop853
+ends_by "dry friction that holds, by equal steps of a method that solves" discontinuous "$place/rubs.motus" --until 30 --method verlet --step 0.05
+obeyed "... and steps that end there succeed" "'$place/rubs.motus' --until 30 --step 0.05" --method verlet
 model steep "x'' = -x - 0.5*tanh(x'/1e-9)" "x(0) = 3" "x'(0) = 0"
 gives "a steep force" 1 "$motus" run "$place/steep.motus" --until 30 --method dopri5 --most-steps 2000 --json
 that "... does not jump" eval "! diagnosed '.cause == \"discontinuous\"'"

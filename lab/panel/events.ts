@@ -148,12 +148,12 @@ export const eventsPanel = (store: Store): Panel => {
     const jumps = (c: number): boolean => events.before[c]!.some((value, i) => Math.abs(value - events.after[c]![i]!) > 10 ** -DIGITS * Math.abs(value)), changed = at.filter(jumps).slice(0, NUMBERS), others = at.filter((c) => !jumps(c)).slice(0, NUMBERS - changed.length);
     const count = events.times.length, any = events.touched.some((t) => t !== 0), time: Span = { text: 't', italic: true };
     const column = (said: Said, kind?: string): HTMLElement => element('th', { scope: 'col', class: kind }, ...saidNodes(said)), names = (list: readonly number[], kind?: string): HTMLElement[] => list.map((c) => column(nameSpans(columns[c]!, 13), kind));
-    const head = [column(say.head.event), column([time]), ...names(changed, 'words'), column(say.head.count), ...(any ? [column(say.head.touched)] : []), ...names(others), ...(bars ? [column([time, { text: say.head.full }])] : [])];
+    const head = [column(say.head.event), column([time]), ...names(changed, 'words'), ...(bars ? [column([time, { text: say.head.full }])] : []), column(say.head.count), ...(any ? [column(say.head.touched)] : []), ...names(others)];
     const row = (i: number): HTMLElement => {
       const time = events.times[i]!, full = bars?.events[i], text = full ? inPrint(full) : minus(String(time)), name = nameText(events.names[i]!);
       const go = button(shortTime(events.times, i, full), () => holder.dispatchEvent(new CustomEvent<number>(SEEK, { detail: time, bubbles: true })), { class: 'text-button', title: text, 'aria-label': say.seek(name, text) });
       const numbers = (list: readonly number[], kind?: string): HTMLElement[] => list.map((c) => { const before = readable(events.before[c]![i]!, DIGITS), after = readable(events.after[c]![i]!, DIGITS); return element('td', { class: kind }, before === after ? before : say.jumps(before, after)); });
-      return element('tr', {}, element('th', { scope: 'row' }, ...saidNodes(nameSpans(events.names[i]!, 13))), element('td', {}, go), ...numbers(changed, 'words'), element('td', {}, grouped(events.counts[i]!)), ...(any ? [element('td', {}, events.touched[i] ? say.touched : '')] : []), ...numbers(others), ...(bars ? [element('td', {}, full ? text : '')] : []));
+      return element('tr', {}, element('th', { scope: 'row' }, ...saidNodes(nameSpans(events.names[i]!, 13))), element('td', {}, go), ...numbers(changed, 'words'), ...(bars ? [element('td', {}, full ? text : '')] : []), element('td', {}, grouped(events.counts[i]!)), ...(any ? [element('td', {}, events.touched[i] ? say.touched : '')] : []), ...numbers(others));
     };
     const body = element('tbody'), left = count > FIRST + LAST + 1 ? count - FIRST - LAST : 0, upTo = all ? Math.min(count, MORE) : left ? FIRST : count;
     for (let i = 0; i < upTo; i++) body.append(row(i));
