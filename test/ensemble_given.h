@@ -5,14 +5,7 @@
 
 #include "test/given.h"
 #include "test/given_cache.h"
-
-#ifdef __SANITIZE_ADDRESS__
-#define SANITIZED
-#elif defined __has_feature
-#if __has_feature(address_sanitizer)
-#define SANITIZED
-#endif
-#endif
+#include "test/sanitized.h"
 
 enum { COUNT_MAX = 64, VARY_MAX = 5, RECORDS_MAX = 400 };
 
