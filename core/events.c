@@ -581,6 +581,8 @@ void events_forget(events *e)
     e->rows = e->numbers = e->kept_states = e->pasts = 0;
     e->acted = 0;
     e->acted_sum = e->tail = 0;
+    e->flights = e->turned_step = 0;
+    e->flights_sum = 0;
     e->has_limit = e->limit_told = false;
     e->end = EVENTS_END_NONE;
 }

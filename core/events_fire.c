@@ -173,12 +173,18 @@ static void jog(events *e, int64_t number, bool switched)
     e->jog(e->here.v, e->problem.nv, salt + (uint32_t)nx, switched);
 }
 
+/* How many steps a flight between two switches has at most. Where the force is constant its steps, and their roundings,
+ * are those of the next flight. */
+#define FLIGHT 4
+
 /* A switch changes its side. All switches may turn in one instant, but not one and the same again and again. */
 static motus_status turn(events *e, size_t k, size_t i, motus_error *err)
 {
     instant *at = &e->here;
     if (e->turned_at != at->t) e->turned_at = at->t, e->turns = 0;
     if (++e->turns > EVENTS_AT_ONCE + 4 * e->rules.functions) return too_many(e, k, i, err);
+    if (e->steps - e->turned_step <= FLIGHT) e->flights++, e->flights_sum += at->t - e->start;
+    e->turned_step = e->steps;
     memcpy(e->before, at->g, e->rules.functions * sizeof *at->g);
     jog(e, e->count[k], true);
     motus_status status = e->rules.turn(e->rules.ctx, k, i, e->way, at->t, at->x, at->v, err);
