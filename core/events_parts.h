@@ -164,7 +164,7 @@ struct events {
     int64_t acted;       /* in all, and */
     double acted_sum;    /*   the sum of their times, since the start */
     double turned_at;    /* the time of the latest action of an internal rule */
-    int64_t flights;     /* between such actions, of few steps, and */
+    int64_t flights;     /* between such actions, of one step, and */
     double flights_sum;  /* the sum of the times at their ends, since the start */
     int64_t turned_step; /* `steps` at the latest action of an internal rule */
     size_t turns;        /* in that instant */

@@ -5,6 +5,7 @@
 #include <string.h>
 
 #define FLIGHT_COUNTS 2
+#define FLIGHTS_FEW 8
 
 bool events_grow(const motus_allocator *a, void **items, size_t count, size_t *room, size_t more, size_t size)
 {
@@ -45,10 +46,12 @@ static bool add_state(events *e, const instant *at)
     return true;
 }
 
-/* A flight between two switches leaves about twice what one between two actions does. */
+/* A flight between two switches leaves about twice what one between two actions does. What few of them leave the
+ * distance of a companion covers. */
 double events_lasting(const events *e, double t)
 {
-    const double gone = t - e->start, flights = (double)e->flights * gone - e->flights_sum;
+    const double gone = t - e->start;
+    const double flights = e->flights > FLIGHTS_FEW ? (double)e->flights * gone - e->flights_sum : 0;
     return fabs((double)e->acted * gone - e->acted_sum) + FLIGHT_COUNTS * fabs(flights);
 }
 
