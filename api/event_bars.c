@@ -210,12 +210,15 @@ motus_status event_bars_state(motus_run *r, double t, const double *x, const dou
     if (status != MOTUS_OK || told) return status;
     if ((events_acted(r->events) == 0 && events_turns(r->events) == 0) || !(*error > 0) || b->columns[number] == 0)
         return MOTUS_OK;
-    double *const to_x = take(&r->allocator, p->nx + p->nv + 2, sizeof *to_x), *const to_v = to_x + p->nx + 1;
+    double *const to_x = take(&r->allocator, p->nx + 2 * p->nv + 3, sizeof *to_x), *const to_v = to_x + p->nx + 1;
+    double *const a = to_v + p->nv + 1;
     if (!to_x) return fail(err, MOTUS_MEMORY, "no memory for the errors of a state after events");
     const double late = LASTING * 0x1p-52 * events_lasting(r->events, t);
     double value[2];
     for (int k = 0; k < 2 && status == MOTUS_OK; k++) {
         memcpy(to_x, x, p->nx * sizeof *x), memcpy(to_v, v, p->nv * sizeof *v);
+        if (k && !p->accel(p->ctx, t, to_x, to_v, a))
+            for (size_t i = 0; i < p->nv; i++) to_v[i] += isfinite(a[i]) ? a[i] * late : 0;
         for (size_t i = 0; k && i < p->nx && i < p->nv; i++) to_x[i] += v[i] * late;
         status = system_values(r->system, t, to_x, to_v, b->columns + number, 1, value + k, err);
     }

@@ -39,6 +39,14 @@ typedef struct fleet {
     size_t count;
 } fleet;
 
+/* The caller may cancel; of how far these short runs have come nothing is told. */
+static int tell(void *ctx, double fraction)
+{
+    const motus_run_def *const def = ctx;
+    (void)fraction;
+    return def->progress(def->context, 0);
+}
+
 /* Operations of the method itself in one evaluation: a stage sums about half of those before it. */
 static double overhead(const motus_run *r)
 {
@@ -127,7 +135,8 @@ motus_status pilot_choose(motus_system *s, const motus_run_def *def, pilot *out,
     f.def.accuracy = NAN;
     f.def.most_steps = 0;
     f.def.observer = NULL;
-    f.def.progress = NULL; /* pilot runs are short */
+    motus_run_def caller = *def;
+    if (def->progress) f.def.progress = tell, f.def.context = &caller;
     f.def.machine = "interpreter";
     motus_error first = motus_default_error();
     motus_status status = weigh_equations(&f, err);

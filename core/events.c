@@ -305,12 +305,25 @@ static bool comes_back(events *e, const candidate *c)
     return true;
 }
 
+static bool ask(events *e)
+{
+    enum { LOOK = 16 }; /* events, or places, between two questions */
+    if (e->asks && ++e->asked % LOOK == 0) e->cancelled = e->asks(e->asks_ctx) != 0;
+    return e->cancelled;
+}
+
 /* Where the caller cancels among many events of one step, it ends at `here`; the next step finds what comes after. */
 static bool cancelled(events *e)
 {
-    enum { LOOK = 16 }; /* events between two questions */
-    if (e->asks && ++e->asked % LOOK == 0) e->cancelled = e->asks(e->asks_ctx) != 0;
-    if (e->cancelled) events_stand(e);
+    if (ask(e)) events_stand(e);
+    return e->cancelled;
+}
+
+/* Where the caller cancels while the places of many events are sought and nothing has happened yet, the step ends where
+ * it began. */
+static bool cancelled_before(events *e)
+{
+    if (ask(e)) events_copy(e, &e->here, &e->left);
     return e->cancelled;
 }
 
@@ -367,19 +380,24 @@ static motus_status follow(events *e, stepper *s, candidate *c, bool *assigned, 
 static motus_status go_through(events *e, stepper *s, bool *assigned, stepper_stop *why, motus_error *err)
 {
     candidate *c;
+    bool before = true;
     motus_status status = MOTUS_OK;
     while (!status && !*assigned && *why != STOP_EVENT && (c = earliest(e))) {
         if (c->idle) {
             e->side[c->of] = (int8_t)c->kind;
             c->gone = true;
+            before = false;
         } else if (!c->located || c->at != e->here_at) {
             const bool was = c->located;
             const size_t number = (size_t)(c - e->candidate);
             status = events_locate(e, number, err);
             c = &e->candidate[number];
             e->here_at = c->at;
+            if (was) before = false;
             if (was && !status) status = follow(e, s, c, assigned, why, err);
+            if (before && !status) *assigned = cancelled_before(e);
         } else {
+            before = false;
             status = follow(e, s, c, assigned, why, err);
         }
     }
@@ -581,6 +599,8 @@ void events_forget(events *e)
     e->rows = e->numbers = e->kept_states = e->pasts = 0;
     e->acted = 0;
     e->acted_sum = e->tail = 0;
+    e->flights = e->turned_step = 0;
+    e->flights_sum = 0;
     e->has_limit = e->limit_told = false;
     e->end = EVENTS_END_NONE;
 }

@@ -29,7 +29,7 @@ typedef struct event {
     size_t rule, instance;
     int64_t count; /* events of this rule so far, this one included */
     double t;
-    double lasting; /* the sum of the times since the actions before it, of all rules */
+    double lasting; /* the sum of the times since the actions before it, of all rules, and since turns of switches */
     double doubt;   /* how far off the time may be, because the function is flat there; 0: it is not */
     bool touched;   /* the function touched 0 and went back */
     bool changed;   /* the rule assigns: there is a state after it too */
@@ -101,7 +101,7 @@ double events_latest(const events *);                  /* time of the latest act
 int64_t events_acted(const events *);                  /* how often a rule has assigned */
 int64_t events_acted_before(const events *, double t); /* and before a time within the last step */
 int64_t events_turns(const events *);                  /* how often an internal rule has */
-double events_lasting(const events *, double t);       /* the sum of the times since they did */
+double events_lasting(const events *, double t);       /* the sum of the times since they did, or flights ended */
 double events_interval(const events *); /* between the latest two instants at which one did; INFINITY: there are none */
 size_t events_rows(const events *);
 /* Row k; x and v, where not NULL: the state on arrival, or where `after` that which the action left. */

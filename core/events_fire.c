@@ -186,12 +186,29 @@ static void jog(events *e, int64_t number, bool switched)
     e->jog(e->here.v, e->problem.nv, salt + (uint32_t)nx, switched);
 }
 
+/* Whether the step that leads here ends a flight between two switches under a constant force: it is the only one, and
+ * the mean of the velocities leads along it. The steps, and their roundings, are then those of the next flight. */
+static bool ends_flight(const events *e)
+{
+    const size_t moving = e->problem.nx - e->problem.modes;
+    const instant *from = &e->left, *to = &e->here;
+    const double h = (to->t - from->t) + (to->lost - from->lost);
+    bool constant = e->steps - e->turned_step <= 1;
+    for (size_t k = 0; k < moving && constant; k++) {
+        const double way = h * (from->v[k] + to->v[k]) / 2, far = fabs(h) * (fabs(from->v[k]) + fabs(to->v[k]));
+        constant = fabs(to->x[k] - from->x[k] - way) <= 0x1p-40 * (fabs(from->x[k]) + fabs(to->x[k]) + far);
+    }
+    return constant;
+}
+
 /* A switch changes its side. All switches may turn in one instant, but not one and the same again and again. */
 static motus_status turn(events *e, size_t k, size_t i, motus_error *err)
 {
     instant *at = &e->here;
     if (e->turned_at != at->t) e->turned_at = at->t, e->turns = 0;
     if (++e->turns > EVENTS_AT_ONCE + 4 * e->rules.functions) return too_many(e, k, i, err);
+    if (ends_flight(e)) e->flights++, e->flights_sum += at->t - e->start;
+    e->turned_step = e->steps;
     memcpy(e->before, at->g, e->rules.functions * sizeof *at->g);
     jog(e, e->count[k], true);
     motus_status status = e->rules.turn(e->rules.ctx, k, i, e->way, at->t, at->x, at->v, err);

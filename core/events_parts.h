@@ -158,13 +158,16 @@ struct events {
     candidate *candidate;
     size_t candidates, candidate_room;
 
-    double at_once;    /* the time of the latest action */
-    int actions;       /* in that instant */
-    events_jogger jog; /* NULL: none */
-    int64_t acted;     /* in all, and */
-    double acted_sum;  /*   the sum of their times, since the start */
-    double turned_at;  /* the time of the latest action of an internal rule */
-    size_t turns;      /* in that instant */
+    double at_once;      /* the time of the latest action */
+    int actions;         /* in that instant */
+    events_jogger jog;   /* NULL: none */
+    int64_t acted;       /* in all, and */
+    double acted_sum;    /*   the sum of their times, since the start */
+    double turned_at;    /* the time of the latest action of an internal rule */
+    int64_t flights;     /* between such actions, of one step, and */
+    double flights_sum;  /* the sum of the times at their ends, since the start */
+    int64_t turned_step; /* `steps` at the latest action of an internal rule */
+    size_t turns;        /* in that instant */
     swarm swarm[SWARMS];
     double *swarm_state; /* of each the states after its latest two turns */
     double pace;         /* no step from a turn on is longer: it must see the turns to come */

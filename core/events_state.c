@@ -171,6 +171,9 @@ static void pass_all(pass *p, events *e)
     e->actions = (int)whole(p, e->actions, 0, EVENTS_AT_ONCE);
     e->acted = counter(p, e->acted);
     e->acted_sum = number(p, e->acted_sum);
+    e->flights = counter(p, e->flights);
+    e->flights_sum = number(p, e->flights_sum);
+    e->turned_step = counter(p, e->turned_step);
     e->interval = any(p, e->interval);
     pass_instant(p, e);
     pass_functions(p, e);

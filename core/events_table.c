@@ -4,6 +4,9 @@
 #include <math.h>
 #include <string.h>
 
+#define FLIGHT_COUNTS 2
+#define FLIGHTS_FEW 8
+
 bool events_grow(const motus_allocator *a, void **items, size_t count, size_t *room, size_t more, size_t size)
 {
     if (count + more <= *room) return true;
@@ -43,7 +46,14 @@ static bool add_state(events *e, const instant *at)
     return true;
 }
 
-double events_lasting(const events *e, double t) { return fabs((double)e->acted * (t - e->start) - e->acted_sum); }
+/* A flight between two switches leaves about twice what one between two actions does. What few of them leave the
+ * distance of a companion covers. */
+double events_lasting(const events *e, double t)
+{
+    const double gone = t - e->start;
+    const double flights = e->flights > FLIGHTS_FEW ? (double)e->flights * gone - e->flights_sum : 0;
+    return fabs((double)e->acted * gone - e->acted_sum) + FLIGHT_COUNTS * fabs(flights);
+}
 
 bool events_note(events *e, size_t rule, size_t instance, bool touched, const instant *at)
 {

@@ -369,11 +369,85 @@ static void clocks_stay_known(void **state)
     motus_system_destroy(s);
 }
 
+/* A relay x'' = -a sign(x - b) from x, v, up to the time until. */
+static const struct relay {
+    const char *text;
+    long double a, b, x, v, until;
+} relays[] = {
+    {"x'' = if(x > 0.2, -2.91, 2.91); x(0) = 0.64; x'(0) = 0.68; when x = 0.2 as hit: record", 2.91L, 0.2L, 0.64L,
+     0.68L, 26.2L},
+    {"x'' = -2.64 sign(x + 0.19); x(0) = 0.39; x'(0) = -0.82; when x = -0.19 as hit: record", 2.64L, -0.19L, 0.39L,
+     -0.82L, 167.3L},
+    {"x'' = -1.37 sign(x); x(0) = 1.1; x'(0) = 0.3; when x = 0 as hit: record", 1.37L, 0, 1.1L, 0.3L, 90.5L},
+    {"x'' = if(x > -0.3, -0.73, 0.73); x(0) = 0.9; x'(0) = 0; when x = -0.3 as hit: record", 0.73L, -0.3L, 0.9L, 0,
+     120.7L},
+};
+
+/* Its state at the time t behind turn k; k = -1: before the first. */
+static void relay_state(const struct relay *m, long double speed, int k, long double t, long double *x, long double *v)
+{
+    const long double way = k % 2 == 0 ? -1 : 1;
+    *x = k < 0 ? m->x + m->v * t - m->a * t * t / 2 : m->b + way * (speed * t - m->a * t * t / 2);
+    *v = k < 0 ? m->v - m->a * t : way * (speed - m->a * t);
+}
+
+static void count_state(motus_run *r, motus_system *s, long double x, long double v, tally *to)
+{
+    motus_error err = motus_default_error();
+    const size_t columns[] = {column(s, "x"), column(s, "x'")};
+    double values[2], off[2];
+    must(motus_run_errors(r, columns, 2, values, off, &err), &err, "state");
+    to->numbers += 2;
+    to->covered += (fabsl(values[0] - x) <= off[0]) + (fabsl(values[1] - v) <= off[1]);
+}
+
+static void take_relay(const struct relay *m, const char *method, tally *times, tally *states)
+{
+    motus_error err = motus_default_error();
+    motus_system *s = given_text(m->text);
+    motus_run_def def = motus_default_run();
+    motus_run *r = NULL;
+    def.method = method, def.tolerance = 1e-9, def.until = (double)m->until, def.error = MOTUS_BARS_CHEAP;
+    must(motus_run_create(s, &def, &r, &err), &err, m->text);
+    must(motus_run_finish(r, &err), &err, m->text);
+    const long double speed = sqrtl(m->v * m->v + 2 * m->a * (m->x - m->b)), first = (m->v + speed) / m->a;
+    const int64_t rows = motus_run_events(r);
+    assert_int_equal(rows, 1 + (int64_t)((def.until - first) * m->a / (2 * speed)));
+    for (int64_t k = 0; k < rows; k++) {
+        motus_event_row row = motus_default_event_row();
+        assert_int_equal(motus_run_event(r, k, &row), MOTUS_OK);
+        times->numbers++;
+        times->covered += fabsl(row.time - (first + 2 * speed / m->a * k)) <= row.error;
+    }
+    long double x, v;
+    relay_state(m, speed, (int)rows - 1, m->until - first - 2 * speed / m->a * (rows - 1), &x, &v);
+    count_state(r, s, x, v, states);
+    motus_run_destroy(r);
+    motus_system_destroy(s);
+}
+
+/* What the roundings of one flight leave adds up over all that follow. */
+static void relays_of_many_turns(void **state)
+{
+    (void)state;
+    static const char *const methods[] = {"dop853", "dopri5", "verner6", "verner7", "verner8",
+                                          "taylor", "gragg",  "dep6",    "dep12",   "gauss12-reversible"};
+    tally times = {0, 0, 0}, states = {0, 0, 0};
+    for (size_t j = 0; j < sizeof relays / sizeof *relays; j++)
+        for (size_t k = 0; k < sizeof methods / sizeof *methods; k++)
+            take_relay(&relays[j], methods[k], &times, &states);
+    printf("relays: %d of %d times and %d of %d numbers of the state within their bar\n", times.covered, times.numbers,
+           states.covered, states.numbers);
+    assert_true(times.covered >= 0.95 * times.numbers);
+    assert_true(states.covered >= 0.95 * states.numbers);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(bars_of_event_times), cmocka_unit_test(bars_between_steps),
         cmocka_unit_test(limits_of_balls),     cmocka_unit_test(rows_of_one_instant),
-        cmocka_unit_test(clocks_stay_known),   cmocka_unit_test(a_stadium_loses_all_digits)};
+        cmocka_unit_test(clocks_stay_known),   cmocka_unit_test(a_stadium_loses_all_digits),
+        cmocka_unit_test(relays_of_many_turns)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -129,6 +129,37 @@ static void cancelled_within_a_step(void **state)
     }
 }
 
+#define PAIRS                                                                                    \
+    "u[i]'' = -u[i] for i = 1..40\nu[i](0) = sin(i) for i = 1..40\nu[i]'(0) = 0 for i = 1..40\n" \
+    "when u[i] = u[j] as meet: record for i = 1..40, j = i+1..40\n"
+
+/* All pairs meet in one instant. The caller is asked while their places are sought, and none is lost. */
+static void cancelled_while_places_are_sought(void **state)
+{
+    (void)state;
+    static const char *const methods[] = {"rk4", "dop853"};
+    for (size_t k = 0; k < 2; k++) {
+        motus_error err = motus_default_error();
+        motus_run_def def = motus_default_run();
+        motus_system *s = given_text(PAIRS);
+        motus_run *r = NULL;
+        int left = 6;
+        def.method = methods[k];
+        if (k == 0) def.step = 2;
+        def.until = 2;
+        def.machine = "interpreter";
+        def.progress = cancel;
+        def.context = &left;
+        must(motus_run_create(s, &def, &r, &err), &err, "run");
+        assert_int_equal(motus_run_finish(r, &err), MOTUS_CANCELLED);
+        assert_true(motus_run_events(r) < 40 * 39 / 2);
+        must(motus_run_finish(r, &err), &err, "finish");
+        assert_int_equal(motus_run_events(r), 40 * 39 / 2);
+        motus_run_destroy(r);
+        motus_system_destroy(s);
+    }
+}
+
 /* Within a step of fixed size that is not the last one nothing can be saved until the step is at its end. */
 static void saved_after_the_step(void **state)
 {
@@ -212,8 +243,12 @@ static void many_functions_pass(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(callbacks_that_fail),  cmocka_unit_test(cancelled_within_a_step),
-        cmocka_unit_test(saved_after_the_step), cmocka_unit_test(clocks_without_end),
+        cmocka_unit_test(callbacks_that_fail),
+        cmocka_unit_test(cancelled_within_a_step),
+        cmocka_unit_test(cancelled_while_places_are_sought),
+
+        cmocka_unit_test(saved_after_the_step),
+        cmocka_unit_test(clocks_without_end),
         cmocka_unit_test(many_functions_pass),
     };
     return cmocka_run_group_tests_name("events that fail", tests, NULL, NULL);
