@@ -42,7 +42,7 @@ enum { STRICTER_MOST = 10, STEPS_FIRST = 4096, STEPS_EACH = 8 }; /* steps: in al
 static bool controls(const chosen *c, const motus_system *s)
 {
     const bool kinks = s->model && (!s->problem.traits.smooth || system_located(s));
-    return row_adaptive(c) && !row_reversible_steps(c) && (kinks || system_acts(s));
+    return row_adaptive(c) && !row_reversible_steps(c) && kinks;
 }
 
 /* Whether every candidate is compared with the force at its end. */

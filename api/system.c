@@ -179,14 +179,6 @@ motus_status system_switches(motus_system *s, motus_error *err)
 
 bool system_located(const motus_system *s) { return s->model && s->model->located; }
 
-bool system_acts(const motus_system *s)
-{
-    const rules *r = s->sides ? sides_rules(s->sides) : s->ruled ? ruled_rules(s->ruled) : s->rules;
-    bool acts = false;
-    for (size_t k = 0; r && k < r->count; k++) acts |= !r->rule[k].internal && (r->rule[k].assigns || r->rule[k].stop);
-    return acts;
-}
-
 motus_status system_rules(motus_system *s, const rules **out, motus_error *err)
 {
     *out = s->rules;

@@ -96,8 +96,6 @@ motus_status system_values_of(motus_system *, double t, const double *x, const d
 motus_status system_switches(motus_system *, motus_error *);
 /* Whether runs of it end their steps where a switch changes its side. See located.h. */
 bool system_located(const motus_system *);
-/* Whether a rule changes the state, or ends the run. */
-bool system_acts(const motus_system *);
 /* The rules of the model, made once; *out is NULL where it has none. */
 motus_status system_rules(motus_system *, const rules **out, motus_error *);
 /* To be called after the model's numbers have changed: its machines compute with the new ones. False: no memory, which

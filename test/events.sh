@@ -487,6 +487,15 @@ gives "a billiard" 0 "$motus" run "$one" --method rk4 --step 0.05 --until 20 --j
 that "  is counted" holds '.error.hits == 0 and .error.side == 0 and .error.odd > 0'
 gives "a billiard that loses its digits" 0 "$motus" run "$one" --method rk4 --step 0.05 --until 200 --json
 that "  loses its counts with them" holds '.events_significant < (.events | length) and .error.hits == null and .error.side == null'
+# The errors are those of one motion, whatever computes it, and however often.
+text "x'' = -x - 2 x y\ny'' = -y - x^2 + y^2\nx(0) = 0\ny(0) = 0.2\nx'(0) = 0.4\ny'(0) = 0\nwhen x = 0 rising as s: record, stop after 4\nuntil 5\nmethod taylor\ntolerance 1e-9\n"
+for machine in interpreter compiled; do
+    gives "errors by the machine $machine" 0 "$motus" run "$one" --machine $machine --json
+    jq -c '[.error, .state, [.events[] | [.time, .error]]]' "$out" >"$place/alike-$machine"
+done
+that "  are the same by both" cmp -s "$place/alike-interpreter" "$place/alike-compiled"
+gives "errors of a sweep" 0 "$motus" sweep "$one" --vary "y(0)=0.2,0.2,0.2,0.2" --record final --errors --threads 2 -o "$place/twins.csv"
+that "  are the same in all its rows" test "$(grep -v '^#' "$place/twins.csv" | tail -n +2 | cut -d, -f3- | sort -u | wc -l)" = 1
 # Rounding is an error too: of numbers beyond 2^53, of assignments that repeat, and of a quantity's own formula.
 text "x'' = -x\nx(0) = 1\nx'(0) = 0\nn = 0\nseed = 1\nsmall = 1\nz = 0.3\ns = 0\nc = 0\nwhen x = 0: n = n + 1, seed = mod(1103515245 seed + 12345, 2147483648), small = mod(16807 small, 2147483647), z = 3.99 z (1 - z), s = s + 0.1, c = c + 0.5\nk = (n + 1e17) - 1e17\nq = (x + 1e8) - 1e8\nsq = n^2\n"
 gives "numbers that rounding changes" 0 "$motus" run "$one" --until 400 --method taylor --json
