@@ -267,15 +267,13 @@ that "... and is JSON" json "$out"
 gives "a small one" 0 "$motus" run $osc --json
 that "... is not cut" holds 'has("cut") | not'
 
-# Speed: the founding oscillator from start to exit, the best of several runs, since the machine may be busy.
+# Speed: the processor time of the founding oscillator from start to exit, the best of several runs, since the machine may be busy.
 best=999999
 for _ in 1 2 3 4 5 6 7 8 9 10; do
-    began=${EPOCHREALTIME/./}
-    "$motus" run $oscillator >/dev/null
-    spent=$((${EPOCHREALTIME/./} - began))
-    [ $spent -lt $best ] && best=$spent
+    spent=$({ TIMEFORMAT='%3U %3S'; time "$motus" run $oscillator >/dev/null 2>&1; } 2>&1 | awk '{ print int(1000 * ($1 + $2) + 0.5) }')
+    [ "$spent" -lt $best ] && best=$spent
 done
-that "run $oscillator takes less than 30 ms ($best µs)" test $best -lt 30000
+that "run $oscillator takes less than 30 ms of a processor ($best ms)" test $best -lt 30
 
 # --- CSV --------------------------------------------------------------------------------------------------------------------------
 cd "$place" || exit 1
