@@ -356,9 +356,7 @@ static void unsolved(judge *j)
     if (singular(j)) return;
     j->err->cause = MOTUS_CAUSE_SOLVER;
     if (j->e.adaptive || shorter_step(j, false) || !can_locate(j)) return;
-    error_text(j->cause,
-               "it does not with shorter steps either, and the force has jumps or kinks, on which steps do not end");
-    say(j, MOTUS_CAUSE_DISCONTINUOUS, name);
+    j->err->cause = MOTUS_CAUSE_DISCONTINUOUS; /* no shorter step converges, and the force has jumps or kinks */
     propose_locating(j);
 }
 
