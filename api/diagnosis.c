@@ -351,8 +351,6 @@ static bool too_long(judge *j)
 
 static void unsolved(judge *j)
 {
-    char name[MOTUS_NAME_MAX];
-    snprintf(name, sizeof name, "%s", j->err->variable);
     if (singular(j)) return;
     j->err->cause = MOTUS_CAUSE_SOLVER;
     if (j->e.adaptive || shorter_step(j, false) || !can_locate(j)) return;
