@@ -63,8 +63,8 @@ motus_status bars_observe(motus_run *, motus_error *);
 motus_status bars_land_between(motus_run *, double t, double *x, double *v, motus_error *);
 /* The bar of a number at t, at which the companion has landed if it could; NaN: there is none. */
 double bars_of(const bars *, double t, size_t number);
-/* The error of a number at the run's state, or at one between: that, what rounding makes of a quantity there, and what
- * events add. api/errors.c. */
+/* The error of a number at the run's state, or at one between: that, the bound of system_rounding, which *error holds
+ * before, and what events add. api/errors.c. */
 motus_status errors_of(motus_run *, double t, double *x, double *v, size_t number, double *error, motus_error *);
 /* As differences_worst; NaN: there are no bars. */
 double bars_worst(const bars *, bool absolute);

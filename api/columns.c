@@ -235,15 +235,19 @@ motus_status system_values(motus_system *s, double t, double *x, double *v, cons
     return MOTUS_OK;
 }
 
-motus_status system_rounding(motus_system *s, double t, double *x, double *v, size_t column, double *bound,
-                             motus_error *err)
+motus_status system_rounding(motus_system *s, double t, double *x, double *v, const size_t *columns, size_t count,
+                             double *bounds, motus_error *err)
 {
-    const column_range *g = columns_range(s, column);
-    *bound = 0;
-    if (!s->model || (g->kind != MOTUS_COLUMN_QUANTITY && g->kind != MOTUS_COLUMN_INVARIANT)) return MOTUS_OK;
-    if (!interpreter_rounding(s->interpreter, &s->definitions[g->item], t, x, v, s->observed))
-        return fail(err, MOTUS_MEMORY, "no memory for the rounding of %s", definition(s, g)->name);
-    *bound = s->observed[observed_place(s, g, column)];
+    const column_range *done = NULL;
+    for (size_t i = 0; i < count; i++) {
+        const column_range *g = columns_range(s, columns[i]);
+        bounds[i] = 0;
+        if (!s->model || (g->kind != MOTUS_COLUMN_QUANTITY && g->kind != MOTUS_COLUMN_INVARIANT)) continue;
+        if (g != done && !interpreter_rounding(s->interpreter, &s->definitions[g->item], t, x, v, s->observed))
+            return fail(err, MOTUS_MEMORY, "no memory for the rounding of %s", definition(s, g)->name);
+        done = g;
+        bounds[i] = s->observed[observed_place(s, g, columns[i])];
+    }
     return MOTUS_OK;
 }
 

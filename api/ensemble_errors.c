@@ -77,7 +77,7 @@ static void add_rounding(motus_ensemble *e, size_t trajectory, const double *sta
         const motus_record *record = &e->records[r];
         double bound;
         if (record->how != MOTUS_REDUCE_FINAL || ensemble_tallies(record)) continue;
-        if (system_rounding(e->half, state[0], x, v, record->column, &bound, NULL) != MOTUS_OK)
+        if (system_rounding(e->half, state[0], x, v, &record->column, 1, &bound, NULL) != MOTUS_OK)
             errors[r][trajectory] = NAN;
         else if (isfinite(bound))
             errors[r][trajectory] += bound;

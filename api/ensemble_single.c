@@ -139,7 +139,13 @@ static double error(const trajectory *s, size_t r)
     const double t = stepper_time(s->w->stepper);
     double bar = bars_of(run->bars, t, number);
     const bool last = e->records[r].how == MOTUS_REDUCE_FINAL;
-    if (last && run_sync(run, false, NULL) == MOTUS_OK) errors_of(run, t, run->x, run->v, number, &bar, NULL);
+    if (last && run_sync(run, false, NULL) == MOTUS_OK) {
+        double own = NAN; /* without memory for it the error is not known */
+        const size_t *column = &run->bars->columns[number];
+        if (system_rounding(run->system, t, run->x, run->v, column, 1, &own, NULL) != MOTUS_OK) return NAN;
+        errors_of(run, t, run->x, run->v, number, &own, NULL);
+        bar = own;
+    }
     return bar;
 }
 

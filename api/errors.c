@@ -14,11 +14,8 @@ static motus_status sound(const motus_run *r, motus_error *err)
 
 motus_status errors_of(motus_run *r, double t, double *x, double *v, size_t number, double *error, motus_error *err)
 {
-    double rounding;
-    motus_status status = system_rounding(r->system, t, x, v, r->bars->columns[number], &rounding, err);
-    *error = bars_of(r->bars, t, number) + (isfinite(rounding) ? rounding : 0);
-    if (status == MOTUS_OK && r->events) status = event_bars_state(r, t, x, v, number, error, err);
-    return status;
+    *error = bars_of(r->bars, t, number) + (isfinite(*error) ? *error : 0);
+    return r->events ? event_bars_state(r, t, x, v, number, error, err) : MOTUS_OK;
 }
 
 /* The values are the run's own, also where there are no bars. */
@@ -30,6 +27,7 @@ static motus_status tell(motus_run *r, double t, double *x, double *v, const siz
         if (columns[k] >= r->system->column_count)
             return fail(err, MOTUS_ARGUMENT, "there is no column %zu", columns[k]);
     if (values) status = system_values(r->system, t, x, v, columns, count, values, err);
+    if (status == MOTUS_OK) status = system_rounding(r->system, t, x, v, columns, count, errors, err);
     for (size_t k = 0; status == MOTUS_OK && k < count; k++)
         status = errors_of(r, t, x, v, columns[k], errors + k, err);
     return status;

@@ -85,10 +85,10 @@ void system_inside(const motus_system *, const double *in_x, const double *in_v,
 /* Values of columns at a state in the inside order, whose driven boundary cells are refreshed. */
 motus_status system_values(motus_system *, double t, double *x, double *v, const size_t *columns, size_t count,
                            double *out, motus_error *);
-/* A bound on how far rounding carries the number of a column off that is computed at a state: of quantities and
+/* Bounds on how far rounding carries the numbers of columns off that are computed at a state: of quantities and
  * invariants of a text, else 0. */
-motus_status system_rounding(motus_system *, double t, double *x, double *v, size_t column, double *bound,
-                             motus_error *);
+motus_status system_rounding(motus_system *, double t, double *x, double *v, const size_t *columns, size_t count,
+                             double *bounds, motus_error *);
 /* The same at a state that stays as it is; `room`, nx + nv numbers, takes a copy of it. */
 motus_status system_values_of(motus_system *, double t, const double *x, const double *v, double *room,
                               const size_t *columns, size_t count, double *out, motus_error *);
