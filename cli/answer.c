@@ -68,7 +68,9 @@ void answer_print(const summary *s, FILE *out)
         fprintf(out, "± is the error of %s %s: how far the exact motion of the equation may be\n",
                 adaptive ? "tolerance" : "h =", step);
     fprintf(out, "telling the errors took %s × the work of the run", isnan(e->work) ? "0" : work);
-    if (e->kinked) fputs("; the force has kinks, and the errors are wide", out);
+    if (e->kinked)
+        fprintf(out, "; steps lead across kinks of the force, so the errors are rough%s",
+                adaptive || s->options->switches ? "" : ": --switches locate gives sharp ones");
     if (isnan(e->significant_until) && e->growth > FAR_APART && s->options->error == NULL) {
         text_brief(e->growth, 1, growth);
         fprintf(out, "; errors have grown %s times: --error full is safer", growth);

@@ -7,6 +7,7 @@
 #include "base/error.h"
 #include "cli/complain.h"
 #include "cli/csv.h"
+#include "cli/defined.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -28,8 +29,16 @@ static motus_event_row row_at(motus_run *run, int64_t k)
     return row;
 }
 
+/* Whether --record has added the column to the model. */
+static bool added(const load *model, size_t k)
+{
+    motus_column column = motus_default_column();
+    const char *rest;
+    return motus_column_at(model->system, k, &column) == MOTUS_OK && defined_label(&model->defined, column.name, &rest);
+}
+
 /* The columns of the trajectory that are numbers of the motion: without the time, which every row has, and by default
- * without the exact motion. */
+ * without the exact motion and what --record alone asks for. */
 motus_status event_file_columns(const load *model, const options *o, size_t **columns, size_t *count, motus_error *err)
 {
     csv all;
@@ -38,7 +47,8 @@ motus_status event_file_columns(const load *model, const options *o, size_t **co
     *columns = all.columns;
     *count = 0;
     for (size_t k = 0; !status && k < all.count; k++)
-        if (all.columns[k] > 0 && all.columns[k] < end) (*columns)[(*count)++] = all.columns[k];
+        if (all.columns[k] > 0 && all.columns[k] < end && (o->columns || !added(model, all.columns[k])))
+            (*columns)[(*count)++] = all.columns[k];
     return status;
 }
 

@@ -196,6 +196,17 @@ typedef struct motus_text_def {
     size_t define_count;
 } motus_text_def;
 
+/* An event of a callback: something that is to happen where a function of the time and the state passes 0, or at equal
+ * times. */
+typedef struct motus_event_def {
+    const char *name; /* unique; NULL: event1, event2 … by its number. Copied */
+    int direction;    /* 1: the function rises, -1: it falls, along the run; 0: both, and where it touches 0 */
+    double every;     /* 0; or > 0: it happens at start + every, start + 2 every …, and its function is not read */
+    int assigns;      /* 1: `event_action` changes the state; 0: it is not called */
+    int silent;       /* 1: the events of this kind have no row in the table (motus_run_event) */
+    int64_t stop;     /* the run ends at event number `stop` of this kind; 0: it goes on */
+} motus_event_def;
+
 /* A system from C. The state is x, `positions` numbers, and v, `positions + first_order` numbers: the velocities of
  * all positions, then the first-order variables s. The callback writes a, as long as v: x'' first, then s'.
  *
@@ -208,17 +219,6 @@ typedef struct motus_text_def {
  * velocity-verlet and verlet, form the velocity with the acceleration at the end of a step. With them a step is good
  * only if the callback is defined at its end. To find out, a call that takes steps evaluates the acceleration once more
  * at its end; the next step reuses the value. */
-/* An event of a callback: something that is to happen where a function of the time and the state passes 0, or at equal
- * times. */
-typedef struct motus_event_def {
-    const char *name; /* unique; NULL: event1, event2 … by its number. Copied */
-    int direction;    /* 1: the function rises, -1: it falls, along the run; 0: both, and where it touches 0 */
-    double every;     /* 0; or > 0: it happens at start + every, start + 2 every …, and its function is not read */
-    int assigns;      /* 1: `event_action` changes the state; 0: it is not called */
-    int silent;       /* 1: the events of this kind have no row in the table (motus_run_event) */
-    int64_t stop;     /* the run ends at event number `stop` of this kind; 0: it goes on */
-} motus_event_def;
-
 typedef struct motus_callback_def {
     uint32_t size;                 /* by motus_default_callback() */
     size_t positions, first_order; /* how many positions, and how many first-order variables s' = f */
@@ -893,7 +893,7 @@ MOTUS_API motus_status motus_run_sample_errors(motus_run *, const double *times,
                                                motus_error *);
 typedef struct motus_estimate {
     uint32_t size; /* by motus_default_estimate() */
-    int kinked;    /* 1: the force is not smooth, and bars are wider */
+    int kinked;    /* 1: steps lead across kinks of the force; bars are rough */
     /* The largest distance so far of the run from its companion, in units of the largest number of its kind: positions,
      * velocities, first-order variables; and by how much it has grown since the first 1/32 of the run. */
     double distance, growth;

@@ -223,6 +223,8 @@ printf '%s\n' 'w = 1' "x'' = 0" 'x(0) = 0' "x'(0) = w" 'method verlet' 'step 0.1
 turn=$place/turn.motus
 gives "events of a sweep from the command line" 0 "$motus" sweep "$turn" --vary "w=1,2,3" --when "x = pi/2 rising as quarter: record, stop" --events "$place/turns.csv" -o "$place/sweep.csv" --quiet
 that "... of each trajectory" eval "[ \"\$(rows '$place/turns.csv' | awk -F, '{ d = \$3 - atan2(1, 0)/(\$1 + 1); print \$1, \$2, (d < 1e-15 && d > -1e-15) }' | tr '\n' ' ')\" = '0 quarter 1 1 quarter 1 2 quarter 1 ' ]"
+gives "a sweep that records what an event keeps" 0 "$motus" sweep "$turn" --vary "w=1,2" --when "x = pi/2 rising as quarter: record" --record "count(quarter)" --events "$place/kept.csv" --quiet
+that "... its table of events has no column of that" eval "[ \"\$(head_of '$place/kept.csv')\" = \"\$(head_of '$place/turns.csv')\" ]"
 refuses "another event over the rows of the first" 2 "" "$motus" sweep "$turn" --vary "w=1,2,3" --when "x = pi/3 rising as quarter: record, stop" -o "$place/sweep.csv" --resume
 refuses "a sweep drawn without a section" 2 "--plot of a sweep draws the points of a section" "$motus" sweep "$turn" --vary "w=1,2" --plot "$place/none.svg" -o "$place/unwritten.csv"
 refuses "a picture of a part" 2 "exclude each other" "$motus" sweep "$turn" --vary "w=1,2" --section "x = 1" --plot "$place/none.svg" -o "$place/unwritten.csv" --resume

@@ -2,10 +2,11 @@
 # The documents are correct: the table of methods has the rows of the program, every option is documented everywhere, links have targets,
 # the models and the C program in them work as printed.
 set -u
+motus=${MOTUS:+$(realpath "$MOTUS")}
 cd "$(dirname "$0")/.." || exit 1
 export LC_ALL=C.UTF-8
 build=${BUILD:-build}
-motus=${MOTUS:-$PWD/build/motus}
+motus=${motus:-$PWD/build/motus}
 passed=0 failed=0
 place=$(mktemp -d)
 trap 'rm -rf "$place"' EXIT
