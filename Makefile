@@ -75,7 +75,7 @@ format:
 tidy:
 	@cmake/need.sh build tidy
 	@$(CMAKE) --preset release >/dev/null
-	@run-clang-tidy -quiet -p build '^$(CURDIR)/(base|core|lang|machine|api|study|tell|cli)/'
+	@run-clang-tidy -quiet -p build '^$(CURDIR)/(base|core|lang|machine|api|study|archive|tell|cli)/'
 
 functions:
 	@cmake/need.sh build test

@@ -52,7 +52,7 @@ static const page pages[] = {
     {VERB_MERGE, "motus merge FILE ... -o FILE",
      "Joins the files of all shards of a sweep, in any order, to the file that one sweep writes, byte for byte: rows "
      "or\n"
-     "events as CSV, or .npy.",
+     "events as CSV, .npy or .h5.",
      "  motus sweep models/pendulum.motus --vary \"theta(0)=0:pi:9001\" --until 10 --shard 1/2 -o part%K.csv\n"
      "  motus sweep models/pendulum.motus --vary \"theta(0)=0:pi:9001\" --until 10 --shard 2/2 -o part%K.csv\n"
      "  motus merge part1.csv part2.csv -o swings-all.csv\n"},

@@ -26,7 +26,7 @@ static motus_status foreign(const part *a, const part *b, motus_error *err)
 {
     char one[SHARD_TEXT], other[SHARD_TEXT];
     if (a->kind != b->kind) {
-        static const char *const kinds[] = {"a table of rows", "a table of events", "a .npy"};
+        static const char *const kinds[] = {"a table of rows", "a table of events", "a .npy", "an archive"};
         fail(err, MOTUS_STATE, "%s is %s, but %s is %s", a->path, kinds[a->kind], b->path, kinds[b->kind]);
         hint(err, "merge files of one kind");
     } else if (a->shard.count != b->shard.count) {
@@ -88,14 +88,16 @@ static motus_status check(const options *o, motus_error *err)
     return sweep_file_may_write(o, o->output, err);
 }
 
-/* The .json beside a .npy says what it is, so its name has to end as one's does; and the other way round. */
+/* A .npy and an archive are known by their names. */
 static motus_status check_name(const merge *m, motus_error *err)
 {
+    static const char *const kinds[] = {"CSV", "CSV", ".npy", "archives"}, *const ends[] = {"csv", "csv", "npy", "h5"};
     const char *name = m->options->output;
-    const bool npy = sweep_npy_name(name);
-    if (npy == (m->parts[0].kind == PART_NPY)) return MOTUS_OK;
-    fail(err, MOTUS_ARGUMENT, npy ? "-o %s: the shards are CSV" : "-o %s: the shards are .npy", name);
-    hint(err, npy ? "give the merged file a name as all.csv" : "give the merged file a name as all.npy");
+    const part_kind kind = m->parts[0].kind;
+    if (sweep_npy_name(name) == (kind == PART_NPY) && sweep_archive_name(name) == (kind == PART_ARCHIVE))
+        return MOTUS_OK;
+    fail(err, MOTUS_ARGUMENT, "-o %s: the shards are %s", name, kinds[kind]);
+    hint(err, "give the merged file a name as all.%s", ends[kind]);
     return MOTUS_ARGUMENT;
 }
 
@@ -145,6 +147,7 @@ static void report(const merge *m)
 static motus_status write_all(const merge *m, stop_progress *progress, motus_error *err)
 {
     const char *output = m->options->output;
+    if (m->of[0]->kind == PART_ARCHIVE) return part_archive_join(m->of, output, progress, err);
     const bool npy = m->of[0]->kind == PART_NPY;
     char *beside = sweep_npy_beside(output);
     if (!beside) return complain_memory(err);

@@ -25,14 +25,14 @@ static motus_status cannot_read(const char *path, motus_error *err)
     return fail(err, MOTUS_FILE, "cannot read %s: %s", path, strerror(errno ? errno : EIO));
 }
 
-static motus_status no_shard(const part *p, const char *what, motus_error *err)
+motus_status part_no_shard(const part *p, const char *what, motus_error *err)
 {
     fail(err, MOTUS_STATE, "%s %s", p->path, what);
     hint(err, "motus merge joins the files that motus sweep --shard K/N writes");
     return MOTUS_STATE;
 }
 
-static motus_status unfinished(const part *p, motus_error *err)
+motus_status part_unfinished(const part *p, motus_error *err)
 {
     char text[SHARD_TEXT];
     fail(err, MOTUS_STATE, "%s ends before its last trajectory: shard %s was interrupted", p->path,
@@ -106,29 +106,29 @@ static motus_status csv_head(part *p, FILE *in, motus_error *err)
     if (ferror(in)) return cannot_read(p->path, err);
     static const char first[] = "# motus sweep ";
     if (!p->head || strncmp(p->head, first, sizeof first - 1) != 0)
-        return no_shard(p, "is not the table of a sweep", err);
-    if (!ends[2]) return unfinished(p, err);
+        return part_no_shard(p, "is not the table of a sweep", err);
+    if (!ends[2]) return part_unfinished(p, err);
     p->at = used;
     const char *its = p->head + ends[0], *events = strstr(its, ", events of trajectories ");
     p->kind = events && events < p->head + ends[1] ? PART_EVENTS : PART_ROWS;
     return take_shard(p, its, "trajectories ", ", shard ", "") ? MOTUS_OK
-                                                               : no_shard(p, "is a whole sweep, not a shard", err);
+                                                               : part_no_shard(p, "is a whole sweep, not a shard", err);
 }
 
 static motus_status npy_head(part *p, FILE *in, motus_error *err)
 {
     char ours[SWEEP_NPY_HEAD], theirs[SWEEP_NPY_HEAD + 1] = "";
     p->kind = PART_NPY;
-    if (fread(theirs, 1, SWEEP_NPY_HEAD, in) != SWEEP_NPY_HEAD) return unfinished(p, err);
+    if (fread(theirs, 1, SWEEP_NPY_HEAD, in) != SWEEP_NPY_HEAD) return part_unfinished(p, err);
     uint64_t rows = 0, columns = 0;
     const char *shape = strchr(theirs + 10, '('), *comma = shape ? strchr(shape, ',') : NULL;
     if (comma) {
         decimal_read_whole(shape + 1, strlen(shape + 1), &rows);
         decimal_read_whole(comma + 2, strlen(comma + 2), &columns);
     }
-    if (columns == 0 || columns > SIZE_MAX / sizeof(double)) return no_shard(p, "is not the .npy of a sweep", err);
+    if (columns == 0 || columns > SIZE_MAX / sizeof(double)) return part_no_shard(p, "is not the .npy of a sweep", err);
     sweep_npy_head(rows, (size_t)columns, ours);
-    if (memcmp(ours, theirs, sizeof ours) != 0) return no_shard(p, "is not the .npy of a sweep", err);
+    if (memcmp(ours, theirs, sizeof ours) != 0) return part_no_shard(p, "is not the .npy of a sweep", err);
     p->width = (size_t)columns * sizeof(double);
     p->at = SWEEP_NPY_HEAD;
     char *beside = sweep_npy_beside(p->path);
@@ -142,8 +142,8 @@ static motus_status npy_head(part *p, FILE *in, motus_error *err)
     }
     const char *its = strstr(p->head, "\", \"trajectories\": ");
     if (strlen(p->head) != length || !its || !take_shard(p, its, "\"trajectories\": ", "\"shard\": \"", "\", "))
-        return no_shard(p, "is not a shard, by the .json beside it", err);
-    return rows == shard_rows(&p->shard, p->total) ? MOTUS_OK : unfinished(p, err);
+        return part_no_shard(p, "is not a shard, by the .json beside it", err);
+    return rows == shard_rows(&p->shard, p->total) ? MOTUS_OK : part_unfinished(p, err);
 }
 
 static FILE *open_at(const part *p)
@@ -170,7 +170,8 @@ motus_status part_open(part *p, const char *path, motus_error *err)
     }
     const int magic = status ? EOF : getc(in);
     if (magic != EOF) ungetc(magic, in);
-    if (!status) status = magic == 0x93 ? npy_head(p, in, err) : csv_head(p, in, err);
+    if (!status)
+        status = magic == 0x93 ? npy_head(p, in, err) : magic == 'm' ? part_archive_head(p, err) : csv_head(p, in, err);
     fclose(in);
     return status;
 }
@@ -200,7 +201,7 @@ static motus_status copy_lines(part *p, FILE *in, uint64_t first, uint64_t count
     for (uint64_t next = first, behind = first + count; !status && (events || next < behind);) {
         const ssize_t length = getline(&line, &room, in);
         if (length <= 0 || line[length - 1] != '\n') {
-            status = ferror(in) ? cannot_read(p->path, err) : unfinished(p, err);
+            status = ferror(in) ? cannot_read(p->path, err) : part_unfinished(p, err);
             break;
         }
         if (events) { /* a trajectory has any number of them */
@@ -228,7 +229,7 @@ static motus_status copy_numbers(part *p, FILE *in, uint64_t first, uint64_t cou
     for (uint64_t next = first; !status && next < first + count; next++) {
         double number;
         if (fread(row, 1, p->width, in) != p->width) {
-            status = ferror(in) ? cannot_read(p->path, err) : unfinished(p, err);
+            status = ferror(in) ? cannot_read(p->path, err) : part_unfinished(p, err);
             break;
         }
         memcpy(&number, row, sizeof number);
@@ -259,7 +260,7 @@ motus_status part_end(part *p, motus_error *err)
     const size_t got = fread(rest, 1, sizeof rest - 1, in);
     fclose(in);
     if (got == strlen(end) && memcmp(rest, end, got) == 0) return MOTUS_OK;
-    if (p->kind == PART_EVENTS && (got == 0 || rest[0] == '#')) return unfinished(p, err);
+    if (p->kind == PART_EVENTS && (got == 0 || rest[0] == '#')) return part_unfinished(p, err);
     fail(err, MOTUS_STATE, "%s is damaged: there is more behind its last trajectory", p->path);
     hint(err, "compute this shard again: its command with --force");
     return MOTUS_STATE;

@@ -4,27 +4,39 @@
 
 #include "cli/file.h"
 #include "cli/shard.h"
+#include "cli/stop.h"
 
-typedef enum part_kind { PART_ROWS, PART_EVENTS, PART_NPY } part_kind; /* CSV, CSV, .npy */
+typedef enum part_kind { PART_ROWS, PART_EVENTS, PART_NPY, PART_ARCHIVE } part_kind; /* CSV, CSV, .npy, .h5 */
 
 typedef struct part {
     const char *path;
     part_kind kind;
     shard shard;
-    uint64_t total;  /* trajectories of the whole sweep */
-    size_t width;    /* bytes of a row of a .npy */
-    char *head;      /* that of the whole sweep: the lines above the rows, or the .json beside a .npy */
+    uint64_t total; /* trajectories of the whole sweep */
+    size_t width;   /* bytes of a row of a .npy */
+    /* that of the whole sweep: the lines above the rows, or the .json beside a .npy; of an archive what its shards have
+     * in common */
+    char *head;
     const char *its; /* in it: what the heads of all shards of a sweep have in common, to its end */
     uint64_t at;     /* where the first row begins that has not been copied */
 } part;
 
 /* Reads the head. MOTUS_STATE: this is no shard; call part_close() in any case. */
 motus_status part_open(part *, const char *path, motus_error *);
-/* Copies the rows of a block of the sweep to a file, block after block in their order; MOTUS_STATE: they are not all
- * there. */
+/* Copies the rows of a block of the sweep, but not of an archive, to a file, block after block in their order;
+ * MOTUS_STATE: they are not all there. */
 motus_status part_copy(part *, uint64_t block, file_out *, motus_error *);
 /* MOTUS_STATE: the file does not end behind its last block. */
 motus_status part_end(part *, motus_error *);
 void part_close(part *);
+
+/* The errors: it is no shard, by what is said; its last trajectories are missing. */
+motus_status part_no_shard(const part *, const char *what, motus_error *);
+motus_status part_unfinished(const part *, motus_error *);
+
+/* part_archive.c: the head of a shard that is an archive; and makes the archive of the whole sweep, where of[k] is
+ * shard k + 1. */
+motus_status part_archive_head(part *, motus_error *);
+motus_status part_archive_join(part *const *of, const char *output, stop_progress *, motus_error *);
 
 #endif

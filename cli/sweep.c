@@ -248,14 +248,14 @@ static motus_status go(sweep *s, sweep_file *f, sweep_events *events, sweep_sect
     batch b = {0};
     motus_status status = batch_begin(&b, s, err);
     const double total = (double)s->rows;
-    p->before = (double)f->rows / total;
+    uint64_t done = f->found;
+    p->before = (double)done / total;
     p->amount = total;
     p->unit = "trajectories";
-    while (!status && f->rows < s->rows) {
-        uint64_t left = s->rows - f->rows;
+    for (uint64_t left; !status && (left = sweep_file_left(f)) > 0;) {
         size_t count = left < b.count ? (size_t)left : b.count;
         double began = stop_clock();
-        p->from = (double)f->rows / total;
+        p->from = (double)done / total;
         p->span = (double)count / total;
         take_values(s, f->rows, count, b.values, b.shifted);
         const double *const *values = (const double *const *)b.values;
@@ -268,7 +268,8 @@ static motus_status go(sweep *s, sweep_file *f, sweep_events *events, sweep_sect
         if (!status) status = sweep_events_rows(events, f->rows, count, err);
         if (!status) status = sweep_section_take(section, f->rows, count, b.values, err);
         if (!status) status = sweep_file_rows(f, count, &rows, err);
-        if (!status && f->rows < s->rows && stop_progress_hook(p, 1)) status = fail(err, MOTUS_CANCELLED, "cancelled");
+        done += count;
+        if (!status && done < s->rows && stop_progress_hook(p, 1)) status = fail(err, MOTUS_CANCELLED, "cancelled");
         batch_adapt(&b, lanes_of(s), stop_clock() - began);
     }
     batch_free(&b);
@@ -328,7 +329,7 @@ static void report(const sweep *s, const sweep_file *f, double wall)
     bool output = strcmp(f->path, "-") == 0; /* then the report is a message */
     FILE *out = output ? stderr : stdout;
     char step[DECIMAL_MAX], until[DECIMAL_MAX], inside[DECIMAL_MAX], all[DECIMAL_MAX], shard[SHARD_TEXT];
-    double seconds = motus_ensemble_seconds(e), work = (double)(f->rows - f->found) * (double)motus_ensemble_steps(e);
+    double seconds = motus_ensemble_seconds(e), work = (double)(s->rows - f->found) * (double)motus_ensemble_steps(e);
     const bool exact = !isnan(s->accuracy), fixed = isnan(s->tolerance);
     decimal(exact ? s->accuracy : fixed ? s->step : s->tolerance, step);
     decimal(s->until, until);
@@ -365,9 +366,10 @@ static void report(const sweep *s, const sweep_file *f, double wall)
 
 static void note_unfinished(const sweep *s, const sweep_file *f)
 {
-    if (f->regular && f->rows < s->rows)
+    const uint64_t have = sweep_file_have(f);
+    if (f->regular && have < s->rows)
         complain_note("%llu of %llu trajectories are in %s; the same command with --resume continues",
-                      (unsigned long long)f->rows, (unsigned long long)s->rows, f->path);
+                      (unsigned long long)have, (unsigned long long)s->rows, f->path);
 }
 
 static motus_status finish(const sweep *s, sweep_file *f, sweep_events *events, sweep_section *section, double began,

@@ -61,6 +61,10 @@ const char *sweep_switches(const sweep *);
 
 /* sweep_head.c: the line of the command, "# motus sweep …\n", which makes the rows. */
 motus_status sweep_head_command(const sweep *, file_out *, motus_error *);
+/* The command without the comment sign, to be freed also after a failure. */
+motus_status sweep_head_text(const sweep *, char **text, motus_error *);
+/* The name of a column of a row. Returns out. */
+const char *sweep_head_name(const sweep *, size_t column, char out[SWEEP_NAME]);
 /* The second line of a CSV: the version, `what` trajectories and how many, the fingerprint, and the shard where it is
  * not the whole sweep. Returns out. */
 enum { SWEEP_IDENTITY = 240 };
@@ -69,13 +73,15 @@ const char *sweep_head_identity(const sweep *, const char *what, char out[SWEEP_
 motus_status sweep_head_make(sweep *, bool npy, motus_error *);
 
 /* The file of rows. */
+typedef struct sweep_archive sweep_archive;
 typedef struct sweep_file {
     const sweep *sweep;
     const char *path; /* "-": standard output */
     int descriptor;
     bool npy, regular;
-    uint64_t rows, bytes;                   /* complete rows in the file, and where they end */
-    uint64_t stopped;                       /* how many of these trajectories stopped, */
+    sweep_archive *archive; /* NULL: it is none */
+    uint64_t rows, bytes;   /* complete rows in the file, and where they end; of an archive the next row */
+    uint64_t stopped;       /* how many of these trajectories stopped, */
     uint64_t stopped_by[MOTUS_CAUSE_COUNT]; /*   and by which cause */
     uint64_t found;                         /* rows of an earlier, interrupted command */
     char *buffer;
@@ -106,9 +112,25 @@ typedef struct sweep_rows {
 } sweep_rows;
 /* Adds `count` rows. After a failure the file keeps its complete rows. */
 motus_status sweep_file_rows(sweep_file *, size_t count, const sweep_rows *, motus_error *);
+/* How many rows from f->rows on are missing, up to the next that is there, or to the end. */
+uint64_t sweep_file_left(const sweep_file *);
+/* How many rows are there. */
+uint64_t sweep_file_have(const sweep_file *);
+/* The numbers of row i after its number: NaN in all that a stopped trajectory has not. Returns how many. */
+size_t sweep_file_numbers(const sweep *, const sweep_rows *, size_t i, double *out);
 /* Writes everything to the disk. */
 motus_status sweep_file_finish(sweep_file *, motus_error *);
 void sweep_file_close(sweep_file *);
+
+/* sweep_archive.c: the file of rows as an archive, whose blocks may be written in any order. */
+bool sweep_archive_name(const char *path);
+/* `found`: the file is there, and its blocks that are whole are kept. Call sweep_archive_close() in any case. */
+motus_status sweep_archive_open(sweep_file *, bool found, motus_error *);
+uint64_t sweep_archive_left(const sweep_file *);
+uint64_t sweep_archive_have(const sweep_file *);
+motus_status sweep_archive_row(sweep_file *, const double *numbers, motus_error *);
+motus_status sweep_archive_finish(sweep_file *, motus_error *);
+void sweep_archive_close(sweep_file *);
 
 /* Finds the rows of an interrupted sweep: sets rows, bytes, stopped, stopped_by. `end`: the file's length. */
 motus_status sweep_resume(sweep_file *, uint64_t end, motus_error *);

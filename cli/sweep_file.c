@@ -46,9 +46,11 @@ motus_status sweep_file_may_write(const options *o, const char *path, motus_erro
     struct stat about;
     if (output || stat(path, &about) != 0) return MOTUS_OK;
     if (S_ISDIR(about.st_mode)) return fail(err, MOTUS_FILE, "cannot write %s: it is a folder", path);
-    if (!S_ISREG(about.st_mode) && (o->resume || sweep_npy_name(path)))
+    if (!S_ISREG(about.st_mode) && (o->resume || sweep_npy_name(path) || sweep_archive_name(path)))
         return fail(err, MOTUS_ARGUMENT, "%s is not a regular file: %s", path,
-                    o->resume ? "there is nothing to continue" : "a .npy needs one");
+                    o->resume              ? "there is nothing to continue"
+                    : sweep_npy_name(path) ? "a .npy needs one"
+                                           : "an archive needs one");
     if (S_ISREG(about.st_mode) && about.st_size > 0 && !o->resume && !o->force) {
         fail(err, MOTUS_ARGUMENT, "%s exists", path);
         hint(err, "%s--force replaces it", o->verb == VERB_SWEEP ? "--resume continues it, " : "");
@@ -183,6 +185,16 @@ static motus_status go_on(sweep_file *f, uint64_t end, motus_error *err)
     return f->npy ? put_npy_head(f, err) : MOTUS_OK;
 }
 
+/* Asks for the lock by which one program writes; where the file system has none, it is done without. That of an archive
+ * is on a byte far behind its end, so that HDF5, which asks for a shared lock of the file, reads it meanwhile. */
+static bool locked_by_another(const char *path, int descriptor)
+{
+    struct flock behind = {.l_type = F_WRLCK, .l_whence = SEEK_SET, .l_start = (off_t)1 << 62, .l_len = 1};
+    const bool archive = sweep_archive_name(path);
+    const int failed = archive ? fcntl(descriptor, F_OFD_SETLK, &behind) : flock(descriptor, LOCK_EX | LOCK_NB);
+    return failed && (errno == EWOULDBLOCK || (archive && errno == EACCES));
+}
+
 motus_status sweep_file_lock(const char *path, int *descriptor, bool *regular, motus_error *err)
 {
     struct stat about;
@@ -192,10 +204,21 @@ motus_status sweep_file_lock(const char *path, int *descriptor, bool *regular, m
     if (*descriptor < 0 || fstat(*descriptor, &about) != 0)
         return fail(err, MOTUS_FILE, "cannot write %s: %s", path, strerror(errno));
     *regular = S_ISREG(about.st_mode);
-    if (!*regular || flock(*descriptor, LOCK_EX | LOCK_NB) == 0 || errno != EWOULDBLOCK) return MOTUS_OK;
+    if (!*regular || !locked_by_another(path, *descriptor)) return MOTUS_OK;
     fail(err, MOTUS_FILE, "%s is being written by another program", path);
     hint(err, "wait for that sweep, or stop it");
     return MOTUS_FILE;
+}
+
+/* An archive that is made anew takes the place of the file that was locked. */
+static motus_status open_archive(sweep_file *f, bool found, motus_error *err)
+{
+    struct stat about;
+    motus_status status = sweep_archive_open(f, found, err);
+    if (status && fstat(f->descriptor, &about) == 0 && about.st_size == 0) unlink(f->path); /* made by the lock */
+    if (status || found) return status;
+    close(f->descriptor);
+    return sweep_file_lock(f->path, &f->descriptor, &f->regular, err);
 }
 
 motus_status sweep_file_open(sweep_file *f, const sweep *s, motus_error *err)
@@ -216,6 +239,7 @@ motus_status sweep_file_open(sweep_file *f, const sweep *s, motus_error *err)
     struct stat about; /* checked again under the lock */
     status = fstat(f->descriptor, &about) == 0 ? sweep_file_check(o, err) : cannot_write(f, errno, err);
     if (status) return status;
+    if (sweep_archive_name(f->path)) return open_archive(f, o->resume && about.st_size > 0, err);
     return o->resume && about.st_size > 0 ? go_on(f, (uint64_t)about.st_size, err) : put_head(f, err);
 }
 
@@ -245,8 +269,7 @@ int sweep_event_number(const sweep *s, const char *name)
     return -1;
 }
 
-/* The numbers of row i after its number: NaN in all that a stopped trajectory has not. Returns how many. */
-static size_t row_numbers(const sweep *s, const sweep_rows *rows, size_t i, double *out)
+size_t sweep_file_numbers(const sweep *s, const sweep_rows *rows, size_t i, double *out)
 {
     size_t n = 0;
     const bool stopped = !isnan(rows->stopped[i]);
@@ -275,7 +298,7 @@ static void csv_row(sweep_file *f, size_t i, const sweep_rows *rows)
 {
     const sweep *s = f->sweep;
     const bool stopped = !isnan(rows->stopped[i]);
-    const size_t count = row_numbers(s, rows, i, f->numbers) - 1; /* stopped_by is a word */
+    const size_t count = sweep_file_numbers(s, rows, i, f->numbers) - 1; /* stopped_by is a word */
     char *out = f->buffer + f->used;
     out += decimal_write_whole(shard_trajectory(&s->shard, f->rows), out);
     for (size_t k = 0; k < count; k++) {
@@ -294,14 +317,30 @@ static void csv_row(sweep_file *f, size_t i, const sweep_rows *rows)
 
 static void npy_row(sweep_file *f, size_t i, const sweep_rows *rows)
 {
-    const size_t count = row_numbers(f->sweep, rows, i, f->numbers + 1);
+    const size_t count = sweep_file_numbers(f->sweep, rows, i, f->numbers + 1);
     f->numbers[0] = (double)shard_trajectory(&f->sweep->shard, f->rows);
     memcpy(f->buffer + f->used, f->numbers, (count + 1) * sizeof *f->numbers);
     f->used += (count + 1) * sizeof *f->numbers;
 }
 
+static motus_status archive_rows(sweep_file *f, size_t count, const sweep_rows *given, motus_error *err)
+{
+    motus_status status = MOTUS_OK;
+    for (size_t i = 0; !status && i < count; i++) {
+        sweep_file_numbers(f->sweep, given, i, f->numbers);
+        f->stopped += !isnan(given->stopped[i]);
+        f->stopped_by[motus_ensemble_stopped_by(f->sweep->ensemble, i)]++;
+        status = sweep_archive_row(f, f->numbers, err);
+    }
+    return status;
+}
+
+uint64_t sweep_file_left(const sweep_file *f) { return f->archive ? sweep_archive_left(f) : f->sweep->rows - f->rows; }
+uint64_t sweep_file_have(const sweep_file *f) { return f->archive ? sweep_archive_have(f) : f->rows; }
+
 motus_status sweep_file_rows(sweep_file *f, size_t count, const sweep_rows *given, motus_error *err)
 {
+    if (f->archive) return archive_rows(f, count, given, err);
     motus_status status = MOTUS_OK;
     uint64_t rows = f->rows; /* in the file; f->rows counts those in the buffer too */
     for (size_t i = 0; !status && i < count; i++) {
@@ -319,6 +358,7 @@ motus_status sweep_file_rows(sweep_file *f, size_t count, const sweep_rows *give
 
 motus_status sweep_file_finish(sweep_file *f, motus_error *err)
 {
+    if (f->archive) return sweep_archive_finish(f, err);
     /* not every file system can synchronise; a real failure to write reports EIO, ENOSPC or EDQUOT */
     if (f->regular && fsync(f->descriptor) != 0 && errno != EINVAL && errno != ENOTSUP && errno != EINTR)
         return cannot_write(f, errno, err);
@@ -329,6 +369,7 @@ motus_status sweep_file_finish(sweep_file *f, motus_error *err)
 
 void sweep_file_close(sweep_file *f)
 {
+    sweep_archive_close(f);
     if (f->descriptor > STDERR_FILENO) close(f->descriptor);
     free(f->buffer);
     free(f->numbers);

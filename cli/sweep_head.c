@@ -149,8 +149,7 @@ static motus_status command(const sweep *s, file_out *f, motus_error *err)
     return status || shard_whole(&s->shard) ? status : option(f, "--shard", shard_text(&s->shard, part), err);
 }
 
-/* The name of column k of a row. */
-static const char *name_of(const sweep *s, size_t k, char out[SWEEP_NAME])
+const char *sweep_head_name(const sweep *s, size_t k, char out[SWEEP_NAME])
 {
     if (k == 0) return "index";
     if (k <= s->grid.count) return s->grid.names[k - 1];
@@ -169,6 +168,17 @@ static const char *name_of(const sweep *s, size_t k, char out[SWEEP_NAME])
     sweep_record_name(&s->model, &s->records.items[k], out);
     if (error) strcat(out, ".error");
     return out;
+}
+
+motus_status sweep_head_text(const sweep *s, char **text, motus_error *err)
+{
+    char memory[] = "memory";
+    size_t length;
+    *text = NULL;
+    file_out line = {.stream = open_memstream(text, &length), .path = memory};
+    motus_status status = line.stream ? command(s, &line, err) : complain_memory(err);
+    if (line.stream && fclose(line.stream) != 0 && !status) status = complain_memory(err);
+    return status;
 }
 
 motus_status sweep_head_command(const sweep *s, file_out *f, motus_error *err)
@@ -194,7 +204,7 @@ static motus_status csv_head(const sweep *s, file_out *f, motus_error *err)
     if (!status) status = file_text(f, sweep_head_identity(s, "", line), err);
     for (size_t k = 0; !status && k < s->columns; k++) {
         if (k > 0) status = file_text(f, ",", err);
-        if (!status) status = csv_name(f, name_of(s, k, name), err);
+        if (!status) status = csv_name(f, sweep_head_name(s, k, name), err);
     }
     return status ? status : file_text(f, "\n", err);
 }
@@ -211,11 +221,8 @@ static void put_events(const sweep *s, json *j)
 
 static motus_status npy_head(const sweep *s, file_out *f, motus_error *err)
 {
-    char *text = NULL, name[SWEEP_NAME], memory[] = "memory", part[SHARD_TEXT];
-    size_t length = 0;
-    file_out line = {.stream = open_memstream(&text, &length), .path = memory};
-    motus_status status = line.stream ? command(s, &line, err) : complain_memory(err);
-    if (line.stream && fclose(line.stream) != 0 && !status) status = complain_memory(err);
+    char *text, name[SWEEP_NAME], part[SHARD_TEXT];
+    motus_status status = sweep_head_text(s, &text, err);
     if (!status) {
         json j = text_json(f->stream);
         json_string(&j, "motus", motus_version());
@@ -224,7 +231,7 @@ static motus_status npy_head(const sweep *s, file_out *f, motus_error *err)
         json_string(&j, "fingerprint", s->fingerprint);
         if (!shard_whole(&s->shard)) json_string(&j, "shard", shard_text(&s->shard, part));
         json_open(&j, "columns", '[');
-        for (size_t k = 0; k < s->columns; k++) json_string(&j, NULL, name_of(s, k, name));
+        for (size_t k = 0; k < s->columns; k++) json_string(&j, NULL, sweep_head_name(s, k, name));
         json_close(&j, ']');
         json_open(&j, "causes", '['); /* the words of the numbers in stopped_by */
         for (int k = 0; k < MOTUS_CAUSE_COUNT; k++) json_string(&j, NULL, motus_cause_word((motus_cause)k));

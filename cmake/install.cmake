@@ -3,7 +3,11 @@ include(CMakePackageConfigHelpers)
 
 install(TARGETS motus_static motus_shared EXPORT motus
   ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR} LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR})
-install(FILES include/motus.h DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
+install(TARGETS motus_archive ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
+if(TARGET motus_hdf5)
+  install(TARGETS motus_hdf5 LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR})
+endif()
+install(FILES include/motus.h include/motus-archive.h DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
 if(TARGET motus_program)
   install(TARGETS motus_program DESTINATION ${CMAKE_INSTALL_BINDIR})
 endif()

@@ -29,7 +29,7 @@ endforeach()
 function(motus_test_flags target)
   target_include_directories(${target} PRIVATE ${PROJECT_SOURCE_DIR} ${PROJECT_SOURCE_DIR}/test)
   target_compile_definitions(${target} PRIVATE _GNU_SOURCE MOTUS_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
-  target_link_libraries(${target} PRIVATE motus_flags motus_static)
+  target_link_libraries(${target} PRIVATE motus_flags motus_archive motus_static)
 endfunction()
 
 if(MOTUS_TESTS)

@@ -62,13 +62,14 @@ for folder in "${folders[@]}"; do
             if [[ $text =~ \"([^\"]+)\" ]]; then
                 target=${BASH_REMATCH[1]}
                 # A name without a folder is motus.h or a neighbour.
-                [[ $target == */* || $target == motus.h ]] || target=$folder/$target
+                [[ $target == */* || $target == motus.h || $target == motus-archive.h ]] || target=$folder/$target
                 good=no
                 [[ $target == "$folder"/* && $folder != step ]] && good=yes
                 # The list of the families is the only text of step/ that includes others: the families.
                 [[ $file == step/families.def && $target == step/* ]] && good=yes
                 # Every folder may include motus.h, except step/, which includes nothing.
                 [[ $target == motus.h && $folder != step ]] && good=yes
+                [[ $target == motus-archive.h && $folder == archive ]] && good=yes
                 for grant in $may; do
                     [[ $target == "$grant" || ( $grant == */ && $target == "$grant"* ) ]] && good=yes
                 done
@@ -141,7 +142,7 @@ else
     judge "lab/core/ is compiled for its symbols" "$unread"
     # file, symbol, D (defines) or U (uses); of the program's objects those whose source is still there.
     {
-        nm -A "$archive" 2>/dev/null | sed 's/^[^:]*://'
+        nm -A "$archive" "$build/libmotus-archive.a" 2>/dev/null | sed 's/^[^:]*://; /^$/d'
         for file in cli/*.c tell/*.c lab/core/*.c; do
             object=$scratch/$file.o
             [[ $file == lab/* ]] || object=$program/$file.o
@@ -185,7 +186,7 @@ else
         complaint[$folder]=
         may_use[$folder]=$(granted "$folder")
         for grant in ${may_use[$folder]}; do
-            case $grant in motus.h) header=include/motus.h ;; *.h) header=$grant ;; *) continue ;; esac
+            case $grant in motus.h | motus-archive.h) header=include/$grant ;; *.h) header=$grant ;; *) continue ;; esac
             for name in $(declared "$header"); do names["$folder $name"]=1; done
         done
     done

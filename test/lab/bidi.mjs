@@ -123,14 +123,20 @@ export async function firefox() {
       /** "ArrowRight", "Control+a" */
       press: (names) => act('key', stroke(names.split('+').map((name) => keys[name] ?? name))),
       type: (text) => act('key', [...text].flatMap((letter) => stroke([letter === '\n' ? keys.Enter : letter]))),
-      /** With the pointer, in the middle of what is seen first of these; text: which of them. */
+      /** With the pointer, in the middle of what is seen first of these, once it rests there; text: which of them. */
       async click(selector, text = '') {
-        const [x, y] = await until((s, t) => {
+        const [x, y] = await until(async (s, t) => {
           const found = [...document.querySelectorAll(s)].find((e) => e.checkVisibility() && e.textContent.includes(t));
           if (!found) return null;
           found.scrollIntoView({ block: 'nearest' });
-          const { left, top, width: w, height: h } = found.getBoundingClientRect();
-          return [Math.round(left + w / 2), Math.round(top + h / 2)];
+          const middle = () => {
+            const { left, top, width: w, height: h } = found.getBoundingClientRect();
+            return [Math.round(left + w / 2), Math.round(top + h / 2)];
+          };
+          const before = middle();
+          await new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done)));
+          const now = middle(), there = document.elementFromPoint(...now);
+          return String(now) === String(before) && there && (found.contains(there) || there.contains(found)) ? now : null;
         }, selector, text);
         await act('pointer', [{ type: 'pointerMove', x, y }, { type: 'pointerDown', button: 0 }, { type: 'pointerUp', button: 0 }], { parameters: { pointerType: 'mouse' } });
       },

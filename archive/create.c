@@ -1,0 +1,61 @@
+/* Makes an archive, by the module that knows HDF5. See make.h. */
+#define _XOPEN_SOURCE 700
+#include "archive/make.h"
+#include "base/error.h"
+
+#include <dlfcn.h>
+#include <stdbool.h>
+#include <string.h>
+
+static bool one_line(const char *text) { return text && *text && !strchr(text, '\n') && strcmp(text, ".") != 0; }
+
+static motus_status check(const motus_archive_def *d, motus_error *err)
+{
+    if (d->size != sizeof *d) {
+        fail(err, MOTUS_ARGUMENT, "the size in motus_archive_def is wrong: %u, not %zu", d->size, sizeof *d);
+        hint(err, "begin with motus_archive_default()");
+        return MOTUS_ARGUMENT;
+    }
+    if (d->block == 0 || d->column_count == 0)
+        return fail(err, MOTUS_ARGUMENT, "an archive has blocks of at least one row, and a column");
+    if (d->rows > INT64_MAX / 16 || d->block > SIZE_MAX / sizeof(double))
+        return fail(err, MOTUS_LIMIT, "an archive has at most %lld rows", (long long)(INT64_MAX / 16));
+    if (!one_line(d->group) || strchr(d->group, '/') || strcmp(d->group, "blocks") == 0 || !one_line(d->scale))
+        return fail(err, MOTUS_ARGUMENT, "the group or the scale of an archive has no proper name");
+    for (size_t k = 0; k < d->column_count; k++) {
+        const motus_archive_column *c = d->columns + k;
+        if (!one_line(c->name)) return fail(err, MOTUS_ARGUMENT, "column %zu of an archive has no proper name", k);
+        if (c->kind != MOTUS_ARCHIVE_NUMBER && (c->kind != MOTUS_ARCHIVE_WORD || c->word_count > 255))
+            return fail(err, MOTUS_ARGUMENT, "column %s is neither of numbers nor of up to 255 words", c->name);
+        for (size_t w = 0; w < c->word_count; w++)
+            if (strchr(c->words[w], '\n'))
+                return fail(err, MOTUS_ARGUMENT, "a word of column %s has more than one line", c->name);
+    }
+    for (size_t k = 0; k < d->note_count; k++)
+        if (!one_line(d->notes[k].name) || !d->notes[k].text)
+            return fail(err, MOTUS_ARGUMENT, "note %zu of an archive has no name or no text", k);
+    return MOTUS_OK;
+}
+
+/* The module's function; NULL: there is no module, or no HDF5 for it. It stays loaded. */
+static make_archive *maker(void)
+{
+    make_archive *make = NULL;
+    void *const module = dlopen(MAKE_MODULE, RTLD_NOW | RTLD_LOCAL);
+    void *const found = module ? dlsym(module, MAKE_FUNCTION) : NULL;
+    memcpy(&make, &found, sizeof make); /* POSIX lets a function be found so */
+    return make;
+}
+
+int motus_archive_makes(void) { return maker() != NULL; }
+
+motus_status motus_archive_create(const char *path, const motus_archive_def *d, motus_error *err)
+{
+    motus_status status = check(d, err);
+    if (status) return status;
+    make_archive *const make = maker();
+    if (make) return make(path, d, err);
+    fail(err, MOTUS_UNAVAILABLE, "%s: this motus was built without HDF5, and cannot make archives", path);
+    hint(err, "write .npy or CSV; or install libhdf5-dev and build motus again");
+    return MOTUS_UNAVAILABLE;
+}

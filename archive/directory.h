@@ -1,0 +1,74 @@
+/* The directory of an archive: a text at the beginning of the file that says what is where.
+ *
+ *     motus archive 1
+ *     directory 4096 0123456789abcdef
+ *     rows 00000000000000100000
+ *     block 00000000000000004096
+ *     number 00000000000000008192 trajectory
+ *     done 00000000000000016384
+ *     column number 00000000000000020480 x
+ *     column word 00000000000000028672 stopped_by
+ *     word singular
+ *     note 37 command
+ *     motus sweep model.motus --vary k=1:2:9
+ *     end
+ *
+ * The first number is the size of the directory, zeros behind its text included, the second a hash of all that follows
+ * its line. Places are counted in bytes from the beginning of the file and have a fixed width, so that the length of
+ * the text is known before they are. Behind `note` stand the length of the text and its name; the text follows, and a
+ * newline.
+ */
+#ifndef ARCHIVE_DIRECTORY_H
+#define ARCHIVE_DIRECTORY_H
+
+#include "motus-archive.h"
+
+typedef struct directory_column {
+    const char *name;
+    uint64_t place;
+    const char **words;
+    size_t word_count;
+    motus_archive_kind kind;
+} directory_column;
+
+typedef struct directory {
+    char *text;  /* names and notes point into it */
+    size_t size; /* of the directory in the file */
+    uint64_t rows, block, number_place, done_place;
+    directory_column *columns;
+    size_t column_count;
+    motus_archive_note *notes;
+    size_t note_count;
+    const char **words; /* of all columns */
+} directory;
+
+enum {
+    DIRECTORY_LEAST = 4096, /* bytes; a multiple of what the columns are aligned to */
+    DIRECTORY_MOST = 1 << 28,
+    DIRECTORY_HEAD = 80 /* at most: the first two lines */
+};
+extern const char *const directory_kinds[]; /* their words */
+
+/* The bytes of a number of this kind in the file. */
+static inline size_t directory_width(motus_archive_kind kind)
+{
+    return kind == MOTUS_ARCHIVE_WORD ? 1 : sizeof(double);
+}
+
+static inline uint64_t directory_blocks(uint64_t rows, uint64_t block) { return rows / block + (rows % block > 0); }
+
+/* The text for a definition, to be freed; *size: of the directory, a power of 2. places: of the rows' numbers, of
+ * /blocks/done and of each column; NULL: not yet known. NULL: no memory. */
+char *directory_write(const motus_archive_def *, const uint64_t *places, size_t *size);
+/* Reads a directory. `bytes` are the first of the file, `count` of them, which is at least as many as the directory has
+ * or the whole file. On MOTUS_LIMIT it has *size bytes, more than `count`: read them and call again. Call
+ * directory_free() in any case. */
+motus_status directory_read(directory *, const char *bytes, size_t count, uint64_t file_size, const char *path,
+                            size_t *size, motus_error *);
+void directory_free(directory *);
+
+/* A hash of 64 bits, which detects damage, not attacks. */
+uint64_t directory_hash(uint64_t before, const void *bytes, size_t count);
+#define DIRECTORY_HASH UINT64_C(0x6d6f747573313031)
+
+#endif

@@ -1,0 +1,347 @@
+/* Makes the file of an archive, by HDF5, and fills it: a module of its own, since that library takes longer to load
+ * than the program (make.h).
+ *
+ * Invariant: the file has its name only when it is complete. Its bytes depend on the definition alone: HDF5 writes no
+ * times into it, in one version of its format, and everything has its place before any block is written.
+ */
+#define _XOPEN_SOURCE 700
+#include "archive/directory.h"
+#include "archive/make.h"
+#include "base/error.h"
+
+#include <errno.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include <fcntl.h>
+#include <hdf5.h>
+#include <hdf5_hl.h>
+#include <math.h>
+#include <stdbool.h>
+
+enum {
+    ALIGNED = DIRECTORY_LEAST, /* columns begin at pages, so that two machines write no page of a block in common */
+    ATTRIBUTE_MOST = 60000,    /* bytes: HDF5 has no room for more in an object's head */
+    FILL = 1 << 20
+};
+static const char MISSING[] = "\xff"; /* of words */
+
+typedef struct maker {
+    const motus_archive_def *def;
+    const char *path;
+    hid_t file, group, blocks, scale;
+    uint64_t *places;
+    motus_error *err;
+} maker;
+
+static motus_status refused(const maker *m, const char *what)
+{
+    return fail(m->err, MOTUS_FILE, "cannot write %s: HDF5 refuses %s", m->path, what);
+}
+
+/* ---- what HDF5 writes ---- */
+
+/* A text of fixed length. */
+static hid_t text_type(const char *text)
+{
+    const hid_t type = H5Tcopy(H5T_C_S1);
+    const size_t length = strlen(text);
+    H5Tset_size(type, length ? length : 1);
+    H5Tset_cset(type, H5T_CSET_UTF8);
+    H5Tset_strpad(type, H5T_STR_NULLPAD);
+    return type;
+}
+
+static bool put_attribute(hid_t object, const char *name, hid_t type, hid_t space, const void *value)
+{
+    const hid_t attribute = H5Acreate2(object, name, type, space, H5P_DEFAULT, H5P_DEFAULT);
+    const bool good = attribute >= 0 && H5Awrite(attribute, type, value) >= 0;
+    if (attribute >= 0) H5Aclose(attribute);
+    return good;
+}
+
+static bool put_text(hid_t object, const char *name, const char *text)
+{
+    const hid_t type = text_type(text), space = H5Screate(H5S_SCALAR);
+    const bool good = put_attribute(object, name, type, space, text);
+    H5Sclose(space);
+    H5Tclose(type);
+    return good;
+}
+
+static bool put_format(hid_t file)
+{
+    const int format = MOTUS_ARCHIVE_FORMAT;
+    const hid_t space = H5Screate(H5S_SCALAR);
+    const bool good = put_attribute(file, "motus_archive", H5T_NATIVE_INT, space, &format);
+    H5Sclose(space);
+    return good;
+}
+
+static bool put_model(hid_t file, const char *text)
+{
+    const hid_t type = text_type(text), space = H5Screate(H5S_SCALAR), list = H5Pcreate(H5P_DATASET_CREATE);
+    H5Pset_obj_track_times(list, false);
+    const hid_t set = H5Dcreate2(file, "model", type, space, H5P_DEFAULT, list, H5P_DEFAULT);
+    const bool good = set >= 0 && H5Dwrite(set, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, text) >= 0;
+    if (set >= 0) H5Dclose(set);
+    H5Pclose(list);
+    H5Sclose(space);
+    H5Tclose(type);
+    return good;
+}
+
+/* The words of a column, as the CF conventions have them: values, and their meanings separated by spaces. */
+static bool put_words(hid_t set, const motus_archive_column *c)
+{
+    unsigned char values[255];
+    size_t length = 1;
+    for (size_t k = 0; k < c->word_count; k++) length += strlen(c->words[k]) + sizeof "none";
+    char *meanings = calloc(1, length);
+    if (!meanings) return false;
+    for (size_t k = 0; k < c->word_count; k++) {
+        values[k] = (unsigned char)k;
+        if (k) strcat(meanings, " ");
+        strcat(meanings, c->words[k][0] ? c->words[k] : "none");
+    }
+    const hsize_t count = c->word_count;
+    const hid_t space = H5Screate_simple(1, &count, NULL);
+    const bool good =
+        put_attribute(set, "flag_values", H5T_NATIVE_UCHAR, space, values) && put_text(set, "flag_meanings", meanings);
+    H5Sclose(space);
+    free(meanings);
+    return good;
+}
+
+/* A name that HDF5 takes for one: its slashes would be folders. */
+static char *link_name(const char *name)
+{
+    static const char slash[] = "\u2215";
+    size_t length = 1;
+    for (const char *at = name; *at; at++) length += *at == '/' ? sizeof slash - 1 : 1;
+    char *out = calloc(1, length), *to = out;
+    for (const char *at = name; out && *at; at++) {
+        const size_t more = *at == '/' ? sizeof slash - 1 : 1;
+        memcpy(to, *at == '/' ? slash : at, more);
+        to += more;
+    }
+    return out;
+}
+
+/* A piece of `count` numbers at its place, which HDF5 does not fill. The caller closes it. */
+static hid_t make_set(hid_t group, const char *name, hid_t type, uint64_t count, const void *missing, uint64_t *place)
+{
+    const hsize_t size = count;
+    const hid_t space = H5Screate_simple(1, &size, NULL), list = H5Pcreate(H5P_DATASET_CREATE);
+    H5Pset_obj_track_times(list, false);
+    H5Pset_layout(list, H5D_CONTIGUOUS);
+    H5Pset_alloc_time(list, H5D_ALLOC_TIME_EARLY);
+    H5Pset_fill_time(list, H5D_FILL_TIME_NEVER);
+    H5Pset_fill_value(list, type, missing);
+    char *link = link_name(name);
+    const hid_t set = link ? H5Dcreate2(group, link, type, space, H5P_DEFAULT, list, H5P_DEFAULT) : H5I_INVALID_HID;
+    free(link);
+    H5Pclose(list);
+    H5Sclose(space);
+    if (set >= 0) *place = count > 0 ? H5Dget_offset(set) : DIRECTORY_LEAST; /* nothing has a place inside the file */
+    if (set < 0 || *place != HADDR_UNDEF) return set;
+    H5Dclose(set);
+    return H5I_INVALID_HID;
+}
+
+static motus_status put_column(maker *m, size_t k)
+{
+    const motus_archive_column *c = m->def->columns + k;
+    const bool word = c->kind == MOTUS_ARCHIVE_WORD;
+    const double none = NAN;
+    const hid_t set = make_set(m->group, c->name, word ? H5T_STD_U8LE : H5T_IEEE_F64LE, m->def->rows,
+                               word ? (const void *)MISSING : &none, m->places + 2 + k);
+    if (set < 0) return refused(m, c->name);
+    const bool good = H5DSattach_scale(set, m->scale, 0) >= 0 && (!word || put_words(set, c));
+    H5Dclose(set);
+    return good ? MOTUS_OK : refused(m, c->name);
+}
+
+static motus_status put_sets(maker *m)
+{
+    const int64_t no_number = -1;
+    const uint64_t no_hash = 0;
+    const motus_archive_def *d = m->def;
+    m->scale = make_set(m->group, d->scale, H5T_STD_I64LE, d->rows, &no_number, m->places);
+    if (m->scale < 0 || H5DSset_scale(m->scale, d->scale) < 0) return refused(m, d->scale);
+    const hid_t done =
+        make_set(m->blocks, "done", H5T_STD_U64LE, directory_blocks(d->rows, d->block), &no_hash, m->places + 1);
+    if (done < 0) return refused(m, "the list of blocks");
+    H5Dclose(done);
+    motus_status status = MOTUS_OK;
+    for (size_t k = 0; !status && k < d->column_count; k++) status = put_column(m, k);
+    return status;
+}
+
+static motus_status put_notes(maker *m)
+{
+    if (!put_format(m->file)) return refused(m, "the version");
+    for (size_t k = 0; k < m->def->note_count; k++) {
+        const motus_archive_note *n = m->def->notes + k;
+        const bool model = strcmp(n->name, "model") == 0;
+        if (!model && strlen(n->text) > ATTRIBUTE_MOST)
+            return fail(m->err, MOTUS_ARGUMENT, "%s: the %s is longer than the %d bytes that an archive has room for",
+                        m->path, n->name, ATTRIBUTE_MOST);
+        if (!(model ? put_model(m->file, n->text) : put_text(m->file, n->name, n->text))) return refused(m, n->name);
+    }
+    return MOTUS_OK;
+}
+
+static hid_t make_group(hid_t file, const char *name)
+{
+    const hid_t list = H5Pcreate(H5P_GROUP_CREATE);
+    H5Pset_obj_track_times(list, false);
+    H5Pset_link_creation_order(list, H5P_CRT_ORDER_TRACKED | H5P_CRT_ORDER_INDEXED); /* readers keep the order */
+    const hid_t group = H5Gcreate2(file, name, H5P_DEFAULT, list, H5P_DEFAULT);
+    H5Pclose(list);
+    return group;
+}
+
+static hid_t make_file(const char *path, size_t directory)
+{
+    const hid_t made = H5Pcreate(H5P_FILE_CREATE), access = H5Pcreate(H5P_FILE_ACCESS);
+    H5Pset_userblock(made, directory);
+    H5Pset_obj_track_times(made, false);
+    H5Pset_libver_bounds(access, H5F_LIBVER_V18, H5F_LIBVER_V18);
+    H5Pset_alignment(access, ALIGNED, ALIGNED);
+    H5Pset_file_locking(access, true, true);
+    const hid_t file = H5Fcreate(path, H5F_ACC_TRUNC, made, access);
+    H5Pclose(access);
+    H5Pclose(made);
+    return file;
+}
+
+static motus_status by_hdf5(maker *m, const char *path, size_t directory)
+{
+    H5Eset_auto2(H5E_DEFAULT, NULL, NULL);
+    m->group = m->blocks = m->scale = H5I_INVALID_HID;
+    m->file = make_file(path, directory);
+    if (m->file < 0) {
+        fail(m->err, MOTUS_FILE, "cannot write %s: HDF5 cannot make the file beside it, %s", m->path, path);
+        hint(m->err, "look whether the folder may be written, and whether another program makes this archive");
+        return MOTUS_FILE;
+    }
+    m->group = make_group(m->file, m->def->group);
+    m->blocks = make_group(m->file, "blocks");
+    motus_status status = m->group < 0 || m->blocks < 0 ? refused(m, "a group") : put_notes(m);
+    if (!status) status = put_sets(m);
+    if (m->scale >= 0) H5Dclose(m->scale);
+    if (m->blocks >= 0) H5Gclose(m->blocks);
+    if (m->group >= 0) H5Gclose(m->group);
+    if (H5Fclose(m->file) < 0 && !status) status = refused(m, "to close it");
+    return status;
+}
+
+/* ---- what we write ---- */
+
+static motus_status put(const maker *m, int descriptor, const void *bytes, size_t count, uint64_t place)
+{
+    for (const char *at = bytes; count > 0;) {
+        const ssize_t done = pwrite(descriptor, at, count, (off_t)place);
+        if (done < 0 && errno == EINTR) continue;
+        if (done < 0) {
+            const int code = errno;
+            fail(m->err, MOTUS_FILE, "cannot write %s: %s", m->path, strerror(code));
+            if (code == ENOSPC || code == EDQUOT || code == EFBIG)
+                hint(m->err, "an archive takes all its room at the beginning; record less, or write to another disk");
+            return MOTUS_FILE;
+        }
+        at += done, place += (uint64_t)done, count -= (size_t)done;
+    }
+    return MOTUS_OK;
+}
+
+/* Puts `total` bytes of a repeated piece. */
+static motus_status repeat(const maker *m, int descriptor, const char *piece, size_t size, uint64_t total,
+                           uint64_t place)
+{
+    motus_status status = MOTUS_OK;
+    for (uint64_t done = 0; !status && done < total; done += size)
+        status = put(m, descriptor, piece, total - done < size ? (size_t)(total - done) : size, place + done);
+    return status;
+}
+
+static motus_status put_numbers(const maker *m, int descriptor, int64_t *room)
+{
+    const motus_archive_def *d = m->def;
+    const uint64_t most = FILL / sizeof *room;
+    motus_status status = MOTUS_OK;
+    for (uint64_t row = 0; !status && row < d->rows; row += most) {
+        const size_t count = (size_t)(d->rows - row < most ? d->rows - row : most);
+        for (size_t i = 0; i < count; i++) room[i] = (int64_t)(d->number ? d->number(d->context, row + i) : row + i);
+        status = put(m, descriptor, room, count * sizeof *room, m->places[0] + row * sizeof *room);
+    }
+    return status;
+}
+
+/* Gives every byte of the columns its value, so that the file has all its room on the disk. */
+static motus_status fill(const maker *m, int descriptor)
+{
+    const motus_archive_def *d = m->def;
+    double *room = malloc(FILL);
+    if (!room) return fail(m->err, MOTUS_MEMORY, "no memory to fill %s", m->path);
+    motus_status status = put_numbers(m, descriptor, (int64_t *)room);
+    for (size_t i = 0; i < FILL / sizeof *room; i++) room[i] = NAN;
+    for (size_t k = 0; !status && k < d->column_count; k++)
+        if (d->columns[k].kind == MOTUS_ARCHIVE_NUMBER)
+            status = repeat(m, descriptor, (const char *)room, FILL, d->rows * sizeof *room, m->places[2 + k]);
+    memset(room, MISSING[0], FILL);
+    for (size_t k = 0; !status && k < d->column_count; k++)
+        if (d->columns[k].kind == MOTUS_ARCHIVE_WORD)
+            status = repeat(m, descriptor, (const char *)room, FILL, d->rows, m->places[2 + k]);
+    memset(room, 0, FILL);
+    const uint64_t hashes = directory_blocks(d->rows, d->block) * sizeof(uint64_t);
+    if (!status) status = repeat(m, descriptor, (const char *)room, FILL, hashes, m->places[1]);
+    free(room);
+    return status;
+}
+
+static motus_status by_us(const maker *m, const char *path, size_t size)
+{
+    size_t again;
+    char *text = directory_write(m->def, m->places, &again);
+    if (!text || again != size) {
+        free(text);
+        return fail(m->err, MOTUS_MEMORY, "no memory for the directory of %s", m->path);
+    }
+    const int descriptor = open(path, O_RDWR | O_CLOEXEC);
+    motus_status status = descriptor < 0 ? fail(m->err, MOTUS_FILE, "cannot write %s: %s", path, strerror(errno))
+                                         : put(m, descriptor, text, size, 0);
+    if (!status) status = fill(m, descriptor);
+    if (!status && fsync(descriptor) != 0 && errno != EINVAL && errno != ENOTSUP && errno != EINTR)
+        status = fail(m->err, MOTUS_FILE, "cannot write %s: %s", m->path, strerror(errno));
+    if (descriptor >= 0 && close(descriptor) != 0 && !status)
+        status = fail(m->err, MOTUS_FILE, "cannot write %s: %s", m->path, strerror(errno));
+    free(text);
+    return status;
+}
+
+motus_status make_hdf5(const char *path, const motus_archive_def *d, motus_error *err)
+{
+    static const char new[] = ".new";
+    size_t size = 0;
+    motus_status status;
+    maker m = {.def = d, .path = path, .err = err, .places = calloc(2 + d->column_count, sizeof *m.places)};
+    char *text = directory_write(d, NULL, &size), *beside = malloc(strlen(path) + sizeof new);
+    if (!m.places || !text || !beside) {
+        status = fail(err, MOTUS_MEMORY, "no memory to make %s", path);
+    } else {
+        strcat(strcpy(beside, path), new);
+        status = by_hdf5(&m, beside, size);
+        if (!status) status = by_us(&m, beside, size);
+        if (!status && rename(beside, path) != 0)
+            status = fail(err, MOTUS_FILE, "cannot write %s: %s", path, strerror(errno));
+        if (status && m.file >= 0) unlink(beside);
+    }
+    free(beside);
+    free(text);
+    free(m.places);
+    return status;
+}

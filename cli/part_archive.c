@@ -1,0 +1,182 @@
+/* Shards of a sweep that are archives. See part.h.
+ *
+ * Invariant: the joined archive is, byte for byte, what one command without --shard makes: it has the description of
+ * the first shard without the shard, and the blocks of all.
+ */
+#include "base/decimal.h"
+#include "base/error.h"
+#include "cli/complain.h"
+#include "cli/part.h"
+#include "cli/sweep.h"
+
+#include <errno.h>
+#include <motus-archive.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* The fingerprint and the columns, by which the shards of a sweep are known. */
+static char *common(const motus_archive *a)
+{
+    char *text = NULL;
+    size_t length;
+    FILE *out = open_memstream(&text, &length);
+    motus_archive_column c;
+    if (!out) return NULL;
+    fprintf(out, "%s\n", motus_archive_note_of(a, "fingerprint"));
+    for (size_t k = 0; motus_archive_column_at(a, k, &c); k++) fprintf(out, "%d %s\n", (int)c.kind, c.name);
+    return fclose(out) == 0 ? text : NULL;
+}
+
+/* Whether its blocks are those of the shard that it says it is. */
+static bool fits(const motus_archive *a, const part *p)
+{
+    uint64_t first;
+    size_t count;
+    const uint64_t rows = shard_rows(&p->shard, p->total);
+    motus_archive_block(a, 0, &first, &count);
+    return motus_archive_rows(a) == rows && count == (rows < SHARD_BLOCK ? rows : SHARD_BLOCK);
+}
+
+motus_status part_archive_head(part *p, motus_error *err)
+{
+    motus_archive *a;
+    p->kind = PART_ARCHIVE;
+    motus_status status = motus_archive_open(p->path, 0, &a, err);
+    if (status) return status;
+    const char *total = motus_archive_note_of(a, "trajectories"), *share = motus_archive_note_of(a, "shard");
+    if (!share)
+        status = part_no_shard(p, "is a whole sweep, not a shard", err);
+    else if (!total || !motus_archive_note_of(a, "fingerprint") || !motus_archive_note_of(a, "command") ||
+             !decimal_read_whole(total, strlen(total), &p->total) || p->total == 0 || p->total > GRID_MOST ||
+             shard_parse(&p->shard, share) != strlen(share) || p->shard.count < 2 || p->shard.count > SHARD_MOST ||
+             !fits(a, p))
+        status = part_no_shard(p, "is not a shard of a sweep, by what its head says", err);
+    if (!status && !(p->head = common(a))) status = complain_memory(err);
+    p->its = p->head;
+    motus_archive_close(a);
+    return status;
+}
+
+/* ---- joining ---- */
+
+/* The command without the option --shard. */
+static char *whole_command(const char *command, const part *p)
+{
+    char option[SHARD_TEXT + 16], number[SHARD_TEXT], *out = strdup(command);
+    snprintf(option, sizeof option, " --shard %s", shard_text(&p->shard, number));
+    const size_t length = strlen(option);
+    if (out && strlen(out) >= length && strcmp(out + strlen(out) - length, option) == 0) out[strlen(out) - length] = 0;
+    return out;
+}
+
+/* An archive with the columns and the notes of the first shard. */
+static motus_status make(const part *p, const char *output, motus_error *err)
+{
+    motus_archive *a;
+    motus_status status = motus_archive_open(p->path, 0, &a, err);
+    if (status) return status;
+    motus_archive_def d = motus_archive_default();
+    size_t notes = 0;
+    motus_archive_note n;
+    while (motus_archive_note_at(a, notes, &n)) notes++;
+    d.column_count = motus_archive_column_count(a);
+    motus_archive_column *columns = calloc(d.column_count, sizeof *columns);
+    motus_archive_note *kept = calloc(notes, sizeof *kept);
+    char *command = whole_command(motus_archive_note_of(a, "command"), p);
+    if (!columns || !kept || !command) status = complain_memory(err);
+    for (size_t k = 0; !status && k < d.column_count; k++) motus_archive_column_at(a, k, columns + k);
+    for (size_t k = 0; !status && k < notes; k++) {
+        motus_archive_note_at(a, k, &n);
+        if (strcmp(n.name, "shard") == 0) continue;
+        if (strcmp(n.name, "command") == 0) n.text = command;
+        kept[d.note_count++] = n;
+    }
+    d.rows = p->total, d.block = SHARD_BLOCK, d.columns = columns, d.notes = kept;
+    if (!status) status = motus_archive_create(output, &d, err);
+    free(columns);
+    free(kept);
+    free(command);
+    motus_archive_close(a);
+    return status;
+}
+
+typedef struct room {
+    double **columns;
+    const void **written;
+    size_t count;
+} room;
+
+static void room_free(room *r)
+{
+    for (size_t k = 0; r->columns && k < r->count; k++) free(r->columns[k]);
+    free(r->columns);
+    free(r->written);
+}
+
+static motus_status room_make(room *r, size_t count, motus_error *err)
+{
+    *r = (room){calloc(count, sizeof *r->columns), calloc(count, sizeof *r->written), count};
+    bool good = r->columns && r->written;
+    for (size_t k = 0; good && k < count; k++) {
+        r->columns[k] = malloc(SHARD_BLOCK * sizeof **r->columns);
+        r->written[k] = r->columns[k];
+        good = r->columns[k];
+    }
+    return good ? MOTUS_OK : complain_memory(err);
+}
+
+static motus_status copy_block(const part *p, motus_archive *from, uint64_t b, motus_archive *to, room *r,
+                               motus_error *err)
+{
+    uint64_t first;
+    size_t count;
+    int whole;
+    motus_status status = motus_archive_whole(from, b, &whole, err);
+    if (!status && !whole) status = part_unfinished(p, err);
+    motus_archive_block(from, b, &first, &count);
+    for (size_t k = 0; !status && k < r->count; k++)
+        status = motus_archive_read(from, k, first, count, r->columns[k], err);
+    return status ? status : motus_archive_write(to, p->shard.number - 1 + b * p->shard.count, r->written, err);
+}
+
+static motus_status copy(const part *p, motus_archive *to, room *r, stop_progress *progress, motus_error *err)
+{
+    motus_archive *from;
+    motus_status status = motus_archive_open(p->path, 0, &from, err);
+    if (status) return status;
+    const uint64_t blocks = motus_archive_blocks(from);
+    for (uint64_t b = 0; !status && b < blocks; b++) {
+        status = copy_block(p, from, b, to, r, err);
+        const double done = (double)(p->shard.number - 1) + (double)(b + 1) / (double)blocks;
+        if (!status && stop_progress_hook(progress, done / (double)p->shard.count))
+            status = fail(err, MOTUS_CANCELLED, "cancelled");
+    }
+    motus_archive_close(from);
+    return status;
+}
+
+motus_status part_archive_join(part *const *of, const char *output, stop_progress *progress, motus_error *err)
+{
+    static const char ending[] = ".joined"; /* it has its name when all blocks are there */
+    const uint64_t count = of[0]->shard.count;
+    motus_archive *to = NULL;
+    room r = {0};
+    char *beside = malloc(strlen(output) + sizeof ending);
+    if (!beside) return complain_memory(err);
+    strcat(strcpy(beside, output), ending);
+    motus_status status = make(of[0], beside, err);
+    const bool made = !status;
+    if (!status) status = motus_archive_open(beside, 1, &to, err);
+    if (!status) status = room_make(&r, motus_archive_column_count(to), err);
+    for (uint64_t k = 0; !status && k < count; k++)
+        if (shard_rows(&of[k]->shard, of[k]->total) > 0) status = copy(of[k], to, &r, progress, err);
+    if (!status) status = motus_archive_sync(to, err);
+    motus_archive_close(to);
+    if (!status && rename(beside, output) != 0)
+        status = fail(err, MOTUS_FILE, "cannot write %s: %s", output, strerror(errno));
+    if (status && made) remove(beside);
+    room_free(&r);
+    free(beside);
+    return status;
+}

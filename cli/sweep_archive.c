@@ -1,0 +1,298 @@
+/* The archive of a sweep, FILE.h5: its blocks may be written in any order, and those that are whole are kept.
+ *
+ * Invariant: f->rows is the next row of the block that is being computed; what the room of the block holds is what was
+ * computed of it. A block is written when its last row is there.
+ */
+#include "base/decimal.h"
+#include "base/error.h"
+#include "cli/complain.h"
+#include "cli/sweep.h"
+
+#include <motus-archive.h>
+#include <stdlib.h>
+#include <string.h>
+
+struct sweep_archive {
+    motus_archive *file;
+    uint64_t blocks;
+    unsigned char *whole; /* of each block: it need not be computed */
+    double **columns;     /* of the block that is being computed; those of words hold bytes */
+    const void **written;
+    size_t count; /* of columns: those of a row behind its number */
+};
+
+bool sweep_archive_name(const char *path)
+{
+    const size_t length = strlen(path);
+    return (length > 3 && strcmp(path + length - 3, ".h5") == 0) ||
+           (length > 5 && strcmp(path + length - 5, ".hdf5") == 0);
+}
+
+/* ---- what it says ---- */
+
+static uint64_t number_of(void *s, uint64_t row) { return shard_trajectory(&((const sweep *)s)->shard, row); }
+
+/* The words of a column; NULL: it has numbers. To be freed. */
+static const char **words_of(const sweep *s, size_t k, size_t *count)
+{
+    const bool ended = k == sweep_ended(s), cause = k == s->columns - 1;
+    if (!ended && !cause) return NULL;
+    size_t kinds = 0;
+    while (motus_ensemble_kind(s->ensemble, kinds)) kinds++;
+    *count = cause ? MOTUS_CAUSE_COUNT : kinds + 1;
+    const char **words = calloc(*count, sizeof *words);
+    for (size_t w = 0; words && w < *count; w++)
+        words[w] = cause ? motus_cause_word((motus_cause)w) : w ? motus_ensemble_kind(s->ensemble, w - 1) : "";
+    return words;
+}
+
+typedef struct description {
+    motus_archive_column *columns;
+    char (*names)[SWEEP_NAME];
+    const char **words[2];
+    size_t word_columns;
+    char *command;
+    char total[DECIMAL_MAX + 1], seed[DECIMAL_MAX + 1], shard[SHARD_TEXT];
+    motus_archive_note notes[8];
+    motus_archive_def def;
+} description;
+
+static void note(description *d, const char *name, const char *text)
+{
+    d->notes[d->def.note_count++] = (motus_archive_note){name, text};
+}
+
+static motus_status describe_columns(description *d, const sweep *s, motus_error *err)
+{
+    const size_t count = s->columns - 1;
+    d->columns = calloc(count, sizeof *d->columns);
+    d->names = calloc(count, sizeof *d->names);
+    if (!d->columns || !d->names) return complain_memory(err);
+    for (size_t k = 0; k < count; k++) {
+        size_t words = 0;
+        const char **list = words_of(s, k + 1, &words);
+        const char *name = sweep_head_name(s, k + 1, d->names[k]);
+        d->columns[k] = (motus_archive_column){.name = name, .words = list, .word_count = words};
+        if (list) {
+            d->columns[k].kind = MOTUS_ARCHIVE_WORD;
+            d->words[d->word_columns++] = list;
+        } else if (words) {
+            return complain_memory(err);
+        }
+        if (words > 255) return fail(err, MOTUS_LIMIT, "an archive has room for 254 events, and the model has more");
+    }
+    d->def.columns = d->columns;
+    d->def.column_count = count;
+    return MOTUS_OK;
+}
+
+/* What the file is to have; call description_free() in any case. */
+static motus_status describe(description *d, const sweep *s, motus_error *err)
+{
+    *d = (description){.def = motus_archive_default()};
+    motus_status status = describe_columns(d, s, err);
+    if (!status) status = sweep_head_text(s, &d->command, err);
+    if (status) return status;
+    d->def.rows = s->rows;
+    d->def.block = SHARD_BLOCK;
+    d->def.number = number_of;
+    d->def.context = (void *)s;
+    d->total[decimal_write_whole(s->grid.total, d->total)] = 0;
+    d->seed[decimal_write_whole(s->grid.seed, d->seed)] = 0;
+    note(d, "motus", motus_version());
+    note(d, "command", d->command);
+    note(d, "method", s->method);
+    if (s->options->random.count > 0) note(d, "seed", d->seed);
+    note(d, "trajectories", d->total);
+    note(d, "fingerprint", s->fingerprint);
+    if (!shard_whole(&s->shard)) note(d, "shard", shard_text(&s->shard, d->shard));
+    note(d, "model", s->model.text);
+    d->def.notes = d->notes;
+    return MOTUS_OK;
+}
+
+static void description_free(description *d)
+{
+    for (size_t k = 0; k < d->word_columns; k++) free(d->words[k]);
+    free(d->columns);
+    free(d->names);
+    free(d->command);
+}
+
+/* ---- a file that is there ---- */
+
+static motus_status another(const sweep_file *f, motus_error *err)
+{
+    const char *command = motus_archive_note_of(f->archive->file, "command");
+    fail(err, MOTUS_STATE, "%s was made by another sweep", f->path);
+    hint(err, command ? "it was made by: %.300s" : "--force replaces it%s", command ? command : "");
+    return MOTUS_STATE;
+}
+
+static bool says(const motus_archive *file, const char *name, const char *text)
+{
+    const char *its = motus_archive_note_of(file, name);
+    return its ? text && strcmp(its, text) == 0 : !text;
+}
+
+static motus_status compare(const sweep_file *f, const description *d, motus_error *err)
+{
+    char part[SHARD_TEXT];
+    const sweep *s = f->sweep;
+    motus_archive *file = f->archive->file;
+    bool same = motus_archive_rows(file) == s->rows && says(file, "fingerprint", s->fingerprint) &&
+                says(file, "shard", shard_whole(&s->shard) ? NULL : shard_text(&s->shard, part)) &&
+                motus_archive_column_count(file) == d->def.column_count;
+    for (size_t k = 0; same && k < d->def.column_count; k++) {
+        motus_archive_column c;
+        same = motus_archive_column_at(file, k, &c) && c.kind == d->columns[k].kind &&
+               strcmp(c.name, d->columns[k].name) == 0;
+    }
+    uint64_t first;
+    size_t count;
+    motus_archive_block(file, 0, &first, &count);
+    same = same && count == (s->rows < SHARD_BLOCK ? s->rows : SHARD_BLOCK);
+    return same ? MOTUS_OK : another(f, err);
+}
+
+/* Counts the trajectories of a block that stopped, by their causes. */
+static motus_status count_stopped(sweep_file *f, uint64_t block, motus_error *err)
+{
+    sweep_archive *a = f->archive;
+    uint64_t first;
+    size_t count;
+    motus_archive_block(a->file, block, &first, &count);
+    unsigned char *causes = (unsigned char *)a->columns[a->count - 1];
+    motus_status status = motus_archive_read(a->file, a->count - 2, first, count, a->columns[0], err);
+    if (!status) status = motus_archive_read(a->file, a->count - 1, first, count, causes, err);
+    for (size_t i = 0; !status && i < count; i++) {
+        f->stopped += a->columns[0][i] == a->columns[0][i];
+        f->stopped_by[causes[i] < MOTUS_CAUSE_COUNT ? causes[i] : MOTUS_CAUSE_NONE]++;
+    }
+    return status;
+}
+
+static motus_status find_blocks(sweep_file *f, motus_error *err)
+{
+    sweep_archive *a = f->archive;
+    motus_status status = MOTUS_OK;
+    for (uint64_t b = 0; !status && b < a->blocks; b++) {
+        int whole;
+        status = motus_archive_whole(a->file, b, &whole, err);
+        if (status || !whole) continue;
+        uint64_t first;
+        size_t count;
+        motus_archive_block(a->file, b, &first, &count);
+        a->whole[b] = 1;
+        f->found += count;
+        status = count_stopped(f, b, err);
+    }
+    return status;
+}
+
+/* ---- opening ---- */
+
+static motus_status make_room(sweep_archive *a, motus_error *err)
+{
+    a->blocks = motus_archive_blocks(a->file);
+    a->whole = calloc((size_t)a->blocks, 1);
+    a->columns = calloc(a->count, sizeof *a->columns);
+    a->written = calloc(a->count, sizeof *a->written);
+    if (!a->whole || !a->columns || !a->written) return complain_memory(err);
+    for (size_t k = 0; k < a->count; k++) {
+        a->columns[k] = malloc(SHARD_BLOCK * sizeof **a->columns);
+        if (!a->columns[k]) return complain_memory(err);
+        a->written[k] = a->columns[k];
+    }
+    return MOTUS_OK;
+}
+
+/* Moves to the next block that is missing. */
+static void skip(sweep_file *f)
+{
+    const sweep_archive *a = f->archive;
+    uint64_t block = f->rows / SHARD_BLOCK;
+    while (f->rows < f->sweep->rows && a->whole[block]) f->rows = ++block * SHARD_BLOCK;
+    if (f->rows > f->sweep->rows) f->rows = f->sweep->rows;
+}
+
+motus_status sweep_archive_open(sweep_file *f, bool found, motus_error *err)
+{
+    description d;
+    sweep_archive *a = f->archive = calloc(1, sizeof *a);
+    if (!a) return complain_memory(err);
+    motus_status status = describe(&d, f->sweep, err);
+    a->count = d.def.column_count;
+    if (!status && !found) status = motus_archive_create(f->path, &d.def, err);
+    if (!status) status = motus_archive_open(f->path, 1, &a->file, err);
+    if (!status) status = compare(f, &d, err);
+    if (!status) status = make_room(a, err);
+    if (!status && found) status = find_blocks(f, err);
+    if (!status) skip(f);
+    description_free(&d);
+    return status;
+}
+
+void sweep_archive_close(sweep_file *f)
+{
+    sweep_archive *a = f->archive;
+    if (!a) return;
+    motus_archive_close(a->file);
+    for (size_t k = 0; a->columns && k < a->count; k++) free(a->columns[k]);
+    free(a->columns);
+    free(a->written);
+    free(a->whole);
+    free(a);
+    f->archive = NULL;
+}
+
+/* ---- rows ---- */
+
+uint64_t sweep_archive_left(const sweep_file *f)
+{
+    const sweep_archive *a = f->archive;
+    uint64_t block = f->rows / SHARD_BLOCK, end;
+    while (block < a->blocks && !a->whole[block]) block++;
+    end = block * SHARD_BLOCK;
+    if (end > f->sweep->rows) end = f->sweep->rows;
+    return end > f->rows ? end - f->rows : 0;
+}
+
+motus_status sweep_archive_row(sweep_file *f, const double *numbers, motus_error *err)
+{
+    sweep_archive *a = f->archive;
+    const uint64_t block = f->rows / SHARD_BLOCK;
+    const size_t i = (size_t)(f->rows % SHARD_BLOCK);
+    for (size_t k = 0; k < a->count; k++) {
+        motus_archive_column c;
+        motus_archive_column_at(a->file, k, &c);
+        if (c.kind == MOTUS_ARCHIVE_WORD)
+            ((unsigned char *)a->columns[k])[i] = (unsigned char)numbers[k];
+        else
+            a->columns[k][i] = numbers[k];
+    }
+    if (++f->rows % SHARD_BLOCK != 0 && f->rows != f->sweep->rows) return MOTUS_OK;
+    motus_status status = motus_archive_write(a->file, block, a->written, err);
+    if (status) {
+        f->rows -= i + 1; /* of this block nothing is there */
+        return status;
+    }
+    a->whole[block] = 1;
+    skip(f);
+    return MOTUS_OK;
+}
+
+motus_status sweep_archive_finish(sweep_file *f, motus_error *err) { return motus_archive_sync(f->archive->file, err); }
+
+uint64_t sweep_archive_have(const sweep_file *f)
+{
+    const sweep_archive *a = f->archive;
+    uint64_t rows = 0;
+    for (uint64_t b = 0; a && b < a->blocks; b++) {
+        uint64_t first;
+        size_t count = 0;
+        if (a->whole[b]) motus_archive_block(a->file, b, &first, &count);
+        rows += count;
+    }
+    return rows;
+}

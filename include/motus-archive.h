@@ -1,0 +1,103 @@
+/* motus-archive.h: archives, the files in which sweeps keep their numbers (library libmotus-archive).
+ *
+ * An archive is an HDF5 file: h5py, h5dump, xarray and pandas read its columns by name. It has all its bytes from the
+ * beginning on: each column is one contiguous piece of the file, filled with NaN, and nothing but blocks of rows is
+ * written afterwards. So a process that is killed leaves a file that opens, and several processes, on several machines,
+ * may write different blocks of one file at once. /blocks/done holds for each block a hash of its bytes, which tells
+ * what is there.
+ *
+ * The first bytes of the file, which HDF5 leaves to its users, are a directory in plain text: the model, the command,
+ * and where in the file each column begins. By it archives are read and written without HDF5; only
+ * motus_archive_create() needs that library.
+ *
+ * A call that fails returns a status other than MOTUS_OK and fills in the error, which may be NULL.
+ */
+#ifndef MOTUS_ARCHIVE_H
+#define MOTUS_ARCHIVE_H
+
+#include <motus.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* The version of the format that this library writes; it reads that one and all before. */
+#define MOTUS_ARCHIVE_FORMAT 1
+
+typedef struct motus_archive motus_archive;
+
+typedef enum motus_archive_kind {
+    MOTUS_ARCHIVE_NUMBER, /* double; NaN in a block that is missing */
+    MOTUS_ARCHIVE_WORD    /* unsigned char, the number of one of the column's words; 255 in a block that is missing */
+} motus_archive_kind;
+
+typedef struct motus_archive_column {
+    const char *name; /* UTF-8, unique, one line */
+    motus_archive_kind kind;
+    const char *const *words; /* of a WORD: up to 255, each one line */
+    size_t word_count;
+} motus_archive_column;
+
+/* What is said of the file: the model, the command, the version … A text of UTF-8, whose name is unique. */
+typedef struct motus_archive_note {
+    const char *name, *text;
+} motus_archive_note;
+
+typedef struct motus_archive_def {
+    uint32_t size;        /* by motus_archive_default() */
+    const char *group;    /* of the columns: "sweep" */
+    const char *scale;    /* the name of the rows' numbers, the dimension scale of all columns: "trajectory" */
+    uint64_t rows, block; /* rows in all, and of each block but the last, > 0 */
+    uint64_t (*number)(void *context, uint64_t row); /* the number of a row; NULL: rows are numbered from 0 */
+    void *context;
+    const motus_archive_column *columns;
+    size_t column_count;
+    const motus_archive_note
+        *notes; /* the one named "model" is the dataset /model, others are attributes of the file */
+    size_t note_count;
+} motus_archive_def;
+
+MOTUS_API motus_archive_def motus_archive_default(void);
+
+/* Whether this library can make archives: it was built with HDF5. */
+MOTUS_API int motus_archive_makes(void);
+/* Makes an archive without any block. It gets its name when it is complete, in place of a file that has it.
+ * MOTUS_UNAVAILABLE: the library was built without HDF5. MOTUS_FILE: it cannot be written, or there is no room for
+ * all its rows. MOTUS_ARGUMENT: a name or a text that HDF5 cannot hold. */
+MOTUS_API motus_status motus_archive_create(const char *path, const motus_archive_def *, motus_error *);
+
+/* Opens an archive, to read or (`write` 1) also to write blocks. MOTUS_STATE: the file is not an archive, or is
+ * damaged. MOTUS_UNAVAILABLE: a later version of motus wrote it. */
+MOTUS_API motus_status motus_archive_open(const char *path, int write, motus_archive **, motus_error *);
+MOTUS_API void motus_archive_close(motus_archive *); /* NULL: nothing */
+
+MOTUS_API uint64_t motus_archive_rows(const motus_archive *);
+MOTUS_API uint64_t motus_archive_blocks(const motus_archive *);
+/* The rows of a block: the first, and how many. */
+MOTUS_API void motus_archive_block(const motus_archive *, uint64_t block, uint64_t *first, size_t *count);
+MOTUS_API size_t motus_archive_column_count(const motus_archive *);
+/* The column lives as long as the archive. 0: there is none of this number. */
+MOTUS_API int motus_archive_column_at(const motus_archive *, size_t column, motus_archive_column *);
+/* The notes live as long as the archive. 0: there is none of this number. */
+MOTUS_API int motus_archive_note_at(const motus_archive *, size_t note, motus_archive_note *);
+/* The text of the note of this name; NULL: there is none. */
+MOTUS_API const char *motus_archive_note_of(const motus_archive *, const char *name);
+
+/* Writes the rows of a block, and then that it is there: columns[k] are as many double or unsigned char as the block
+ * has rows. */
+MOTUS_API motus_status motus_archive_write(motus_archive *, uint64_t block, const void *const *columns, motus_error *);
+/* Everything that was written is on the disk when it returns MOTUS_OK. */
+MOTUS_API motus_status motus_archive_sync(motus_archive *, motus_error *);
+/* Whether a block is there: *whole 1: its bytes have the hash that was written after them; 0: it is missing, in part or
+ * in all. */
+MOTUS_API motus_status motus_archive_whole(motus_archive *, uint64_t block, int *whole, motus_error *);
+/* Reads `count` numbers of a column from a row on: double or unsigned char. */
+MOTUS_API motus_status motus_archive_read(motus_archive *, size_t column, uint64_t row, size_t count, void *,
+                                          motus_error *);
+/* Reads the numbers of rows. */
+MOTUS_API motus_status motus_archive_numbers(motus_archive *, uint64_t row, size_t count, int64_t *, motus_error *);
+
+#ifdef __cplusplus
+}
+#endif
+#endif

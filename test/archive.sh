@@ -1,0 +1,143 @@
+#!/bin/bash
+# Archives of sweeps: what other programs read in them, kills and what --resume makes of them, shards, damage, a full disk.
+#
+# Each case is one line `ok` or `not ok`; the last line counts them. MOTUS is the program (build/motus).
+cd "$(dirname "$0")/.." || exit 1
+. test/cli/cases.sh
+python=/usr/bin/python3
+[ -x $python ] || python=python3
+
+cat >"$place/swing.motus" <<'M'
+k = 1
+x'' = -k sin(x)
+x(0) = 1
+x'(0) = 0
+energy = x'^2/2 - k cos(x)
+method verlet
+step 0.125
+until 10
+M
+swing=$place/swing.motus
+sweep() { "$motus" sweep "$swing" --vary "x(0)=0.1:3:30000" --record "final,max(energy)" "$@"; }
+sum() { sha256sum "$1" | cut -c 1-64; }
+# How many blocks of a file are there.
+blocks() { $python -c "import h5py, sys; print(int((h5py.File(sys.argv[1])['blocks/done'][()] != 0).sum()))" "$1"; }
+
+if ! sweep --quiet -o "$place/whole.h5" 2>"$err" && says "built without HDF5" "$err"; then
+    refuses "without HDF5 an archive is refused" 2 "built without HDF5" "$motus" sweep "$swing" --vary "x(0)=0.1:3:3" -o "$place/none.h5"
+    echo "$passed passed, $failed failed"
+    exit $((failed > 0))
+fi
+
+# --- what is in it --------------------------------------------------------------------------------------------------------------------
+gives "a sweep into an archive" 0 sweep -o "$place/whole.h5" --force
+that "... says how many columns it has" says "whole.h5: 7 columns"
+gives "the same as CSV" 0 sweep -o "$place/whole.csv" --quiet
+gives "h5py reads it" 0 $python - "$place/whole.h5" "$place/whole.csv" "$swing" <<'P'
+import csv, h5py, math, sys
+archive, table, model = sys.argv[1:]
+rows = list(csv.reader(line for line in open(table) if not line.startswith('#')))
+with h5py.File(archive) as f:
+    assert f.attrs['motus_archive'] == 1 and f['model'][()].decode() == open(model).read()
+    assert b'motus sweep' in f.attrs['command'] and len(f.attrs['fingerprint']) == 16, dict(f.attrs)
+    assert rows[0] == ['index', 'x(0)', 'x', "x'", 'max(energy)', 'stopped', 'stopped_by'], rows[0]
+    assert list(f['sweep/trajectory'][()]) == list(range(30000))
+    for k, name in enumerate(rows[0][1:5], 1):
+        assert all(float(row[k]) == value for row, value in zip(rows[1:], f['sweep'][name][()])), name
+    assert all(math.isnan(value) for value in f['sweep/stopped'][()]) and not f['sweep/stopped_by'][()].any()
+    assert f['sweep/x'].dims[0][0] == f['sweep/trajectory'] and (f['blocks/done'][()] != 0).all() and len(f['blocks/done']) == 8
+P
+gives "xarray reads it, and pandas" 0 $python - "$place/whole.h5" <<'P'
+import sys, xarray
+data = xarray.open_dataset(sys.argv[1], group='sweep', engine='netcdf4')
+assert data.sizes['trajectory'] == 30000 and list(data)[:3] == ['x(0)', 'x', "x'"], data
+assert data['stopped_by'].attrs['flag_meanings'].split()[:2] == ['none', 'singular']
+assert data.to_dataframe().index[-1] == 29999
+P
+that "its first lines tell what it is" eval "[ \"\$(head -c 16 '$place/whole.h5')\" = 'motus archive 1' ]"
+
+# --- the same bytes -------------------------------------------------------------------------------------------------------------------
+whole=$(sum "$place/whole.h5")
+for how in "--threads 1" "--threads 3 --lanes 2" "--machine interpreter" "--machine compiled"; do
+    # shellcheck disable=SC2086
+    gives "a sweep with $how" 0 sweep -o "$place/again.h5" --force --quiet $how
+    that "... has the same bytes" [ "$(sum "$place/again.h5")" = "$whole" ]
+done
+for k in 1 2 3 4 5; do sweep --quiet --shard $k/5 -o "$place/part%K.h5"; done
+sweep --quiet --shard 1/5 -o "$place/rows%K.csv"
+gives "shards are joined" 0 "$motus" merge "$place"/part[35241].h5 -o "$place/joined.h5"
+that "... to the same bytes" [ "$(sum "$place/joined.h5")" = "$whole" ]
+gives "more shards than blocks" 0 eval "for k in 1 2 3; do '$motus' sweep '$swing' --vary 'x(0)=0.1:3:50' --quiet --shard \$k/3 -o '$place/few%K.h5'; done && '$motus' merge '$place'/few[123].h5 -o '$place/few.h5' && '$motus' sweep '$swing' --vary 'x(0)=0.1:3:50' --quiet -o '$place/fifty.h5'"
+that "... are joined too" [ "$(sum "$place/few.h5")" = "$(sum "$place/fifty.h5")" ]
+refuses "a shard that is missing" 2 "1 of 5 shards are missing: 4" "$motus" merge "$place"/part[1235].h5 -o "$place/none.h5"
+refuses "a shard that is named twice" 2 "are both shard 2/5" "$motus" merge "$place"/part[12345].h5 "$place/part2.h5" -o "$place/none.h5"
+refuses "shards of two kinds" 2 "is a table of rows" "$motus" merge "$place/part1.h5" "$place/rows1.csv" -o "$place/none.h5"
+refuses "no shard at all" 2 "is a whole sweep" "$motus" merge "$place/whole.h5" -o "$place/none.h5"
+refuses "shards under the name of a table" 2 "the shards are archives" "$motus" merge "$place"/part[12345].h5 -o "$place/none.csv"
+that "... and nothing is left" eval "[ -z \"\$(ls '$place' | grep none)\" ]"
+
+# --- death ----------------------------------------------------------------------------------------------------------------------------
+# Blocks of half a second, so that a kill finds some of them done.
+longer=("$motus" sweep "$swing" --until 100 --vary "x(0)=0.1:3:30000" --record "final,max(energy)")
+long() { "${longer[@]}" "$@"; }
+gives "a longer sweep" 0 long -o "$place/long.h5"
+whole=$(sum "$place/long.h5")
+for signal in KILL TERM; do
+    rm -f "$place/killed.h5"
+    "${longer[@]}" --machine interpreter --lanes 1 --threads 1 --quiet -o "$place/killed.h5" 2>/dev/null &
+    one=$!
+    for _ in $(seq 200); do [ -e "$place/killed.h5" ] && [ "$(blocks "$place/killed.h5" 2>/dev/null || echo 0)" -ge 2 ] && break; sleep 0.05; done
+    kill -$signal $one
+    wait $one 2>/dev/null
+    there=$(blocks "$place/killed.h5")
+    that "a sweep killed by SIG$signal leaves some blocks, not all" eval "[ $there -ge 2 ] && [ $there -lt 8 ]"
+    that "... and the rest is NaN" $python -c "
+import h5py, numpy, sys
+with h5py.File(sys.argv[1]) as f:
+    done = f['blocks/done'][()] != 0
+    for b in range(8): assert numpy.isnan(f['sweep/x'][4096 * b:4096 * (b + 1)]).any() != done[b], b
+" "$place/killed.h5"
+    cp "$place/killed.h5" "$place/kept.h5"
+    gives "... and is finished by --resume" 0 long -o "$place/killed.h5" --resume
+    that "... which keeps those blocks" says ", $((there * 4096)) of them found in the file"
+    that "... to the same bytes" [ "$(sum "$place/killed.h5")" = "$whole" ]
+done
+# A block in the middle whose bytes are not what they were is computed again.
+gives "a byte is changed" 0 $python -c "
+import h5py, sys
+with h5py.File(sys.argv[1]) as f: at = f['sweep/x'].id.get_offset()
+with open(sys.argv[1], 'r+b') as f: f.seek(at + 8 * 5000); f.write(b'x')
+" "$place/killed.h5"
+gives "--resume finds it" 0 long -o "$place/killed.h5" --resume
+that "... keeps seven blocks of eight" says ", 25904 of them found in the file"
+that "... and mends the other" [ "$(sum "$place/killed.h5")" = "$whole" ]
+refuses "--resume of another sweep" 2 "was made by another sweep" "$motus" sweep "$swing" --vary "x(0)=0.1:2:30000" --record "final,max(energy)" -o "$place/killed.h5" --resume
+that "... touches nothing" [ "$(sum "$place/killed.h5")" = "$whole" ]
+refuses "an archive that is there" 2 "exists" long -o "$place/killed.h5"
+
+# --- files that are none --------------------------------------------------------------------------------------------------------------
+resumes() { refuses "$1" 2 "$2" sweep -o "$place/bad.h5" --resume; }
+echo "hello" >"$place/bad.h5"
+resumes "a text" "is not an archive of motus"
+head -c 3000 "$place/whole.h5" >"$place/bad.h5"
+resumes "the beginning of an archive" "is truncated"
+head -c 500000 "$place/whole.h5" >"$place/bad.h5"
+resumes "half an archive" "is damaged"
+sed '1s/archive 1/archive 7/' "$place/whole.h5" >"$place/bad.h5"
+refuses "an archive of a later version" 2 "has version 7 of the archives" sweep -o "$place/bad.h5" --resume
+{ head -c 100 "$place/whole.h5"; printf 9; tail -c +102 "$place/whole.h5"; } >"$place/bad.h5"
+resumes "another place of a column" "is damaged"
+
+# --- a full disk ----------------------------------------------------------------------------------------------------------------------
+mkdir "$place/small"
+if mount -t tmpfs -o size=512k none "$place/small" 2>/dev/null; then
+    refuses "a disk that is too small" 1 "No space left on device" sweep -o "$place/small/full.h5" --quiet
+    that "... has nothing left on it" eval "[ -z \"\$(ls '$place/small')\" ]"
+    umount "$place/small"
+else
+    echo "not run, since this user cannot mount: a full disk"
+fi
+refuses "a folder that is not there" 1 "cannot" sweep -o "$place/absent/full.h5" --quiet
+
+echo "$passed passed, $failed failed"
+[ $failed = 0 ]
