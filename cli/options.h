@@ -2,6 +2,7 @@
 #ifndef CLI_OPTIONS_H
 #define CLI_OPTIONS_H
 
+#include "cli/team.h"
 #include "motus.h"
 
 #include <stdbool.h>
@@ -51,7 +52,8 @@ typedef struct options {
     bool zip, fast, resume, force;
     char *methods_text; /* the items of `methods` point into it */
     bool errors, json, quiet, help, markdown, points, emit_c, clear, share, no_open;
-    bool *answered; /* where a verb notes that its JSON object is written: a failure after that is no second one */
+    const team *team; /* NULL: the program is alone */
+    bool *answered;   /* where a verb notes that its JSON object is written: a failure after that is no second one */
     int argc;
     char **argv; /* the command line, for the header of files */
 } options;

@@ -13,10 +13,25 @@
 #include <time.h>
 #include <unistd.h>
 
-/* The program's one global that changes: a signal handler has no other way to report. */
+/* The program's globals that change: a signal handler has no other way to report. */
 static volatile sig_atomic_t requested;
 
+static volatile sig_atomic_t warned;
+
 static void store(int number) { requested = number; }
+static void warn(int number) { warned = number; }
+
+void stop_gently(void)
+{
+    struct sigaction action = {0};
+    sigemptyset(&action.sa_mask);
+    action.sa_handler = warn;
+    action.sa_flags = (int)SA_RESETHAND;
+    sigaction(SIGTERM, &action, NULL);
+    sigaction(SIGUSR1, &action, NULL);
+}
+
+bool stop_warned(void) { return warned != 0; }
 
 void stop_catch_signals(void)
 {
@@ -76,6 +91,7 @@ int stop_progress_hook(void *context, double fraction)
 {
     enum { FIRST_MS = 500, REFRESH_MS = 100 };
     stop_progress *p = context;
+    if (p->meanwhile) p->meanwhile(p->with);
     if (p->terminal) {
         double now = stop_clock(), spent = now - p->began;
         if (spent * 1000 > FIRST_MS && (now - p->shown) * 1000 > REFRESH_MS) {

@@ -8,6 +8,10 @@
  * asks for it; before, while a model is read, they kill. */
 void stop_catch_signals(void);
 bool stop_requested(void);
+/* From now on SIGTERM and SIGUSR1, by which batch systems warn, do not stop at once: stop_warned() tells of them, and
+ * the program ends when what it has in hand is done. A second one kills. */
+void stop_gently(void);
+bool stop_warned(void);
 void stop_reader_gone(void); /* standard output was closed by its reader: request a stop as if by SIGPIPE */
 /* If a stop was requested, raises its signal again with the default action, so that the parent process learns of it.
  * Call when everything is cleaned up. */
@@ -21,8 +25,10 @@ typedef struct stop_progress {
     /* Work in parts: the hook's fraction is of the present part, which goes from `from` to `from` + `span` of all the
      * work; `before` of it was done by an earlier command. span 0: one part. */
     double from, span, before;
-    const char *unit; /* with a unit, a bar and the rate are shown, too */
-    double amount;    /* of the unit: all the work */
+    const char *unit;          /* with a unit, a bar and the rate are shown, too */
+    double amount;             /* of the unit: all the work */
+    void (*meanwhile)(void *); /* NULL, or called with `with` whenever the hook is */
+    void *with;
 } stop_progress;
 stop_progress stop_progress_begin(const char *what, bool quiet);
 /* The library's progress hook: context is a stop_progress; not 0 if a stop was requested. */

@@ -118,7 +118,7 @@ static motus_status create(sweep *s, stop_progress *progress, motus_error *err)
     def.until = s->model.until;
     def.every = s->every;
     def.machine = o->machine;
-    def.threads = (int)o->threads;
+    def.threads = o->threads || !o->team ? (int)o->threads : o->team->threads;
     def.lanes = (int)o->lanes;
     def.fast = o->fast;
     def.error = !s->errors                                  ? MOTUS_BARS_NONE
@@ -175,6 +175,19 @@ static motus_status check_options(const options *o, motus_error *err)
     return status ? status : sweep_events_check(o, err);
 }
 
+/* What several processes can write together. */
+static motus_status check_team(const options *o, motus_error *err)
+{
+    if (team_size(o->team) == 1 || (o->output && sweep_archive_name(o->output) && !o->events && !o->plot))
+        return MOTUS_OK;
+    fail(err, MOTUS_ARGUMENT, "several processes together write archives alone%s",
+         o->events ? ", no table of events"
+         : o->plot ? ", no picture"
+                   : "");
+    hint(err, o->events || o->plot ? "use --shard for it, and motus merge" : "add -o FILE.h5");
+    return MOTUS_ARGUMENT;
+}
+
 /* The ensemble and the head of the file. */
 static motus_status make(sweep *s, stop_progress *progress, motus_error *err)
 {
@@ -194,6 +207,7 @@ static motus_status begin(sweep *s, sweep_section *section, stop_progress *progr
 {
     const options *o = s->options;
     motus_status status = check_options(o, err);
+    if (!status) status = check_team(o, err);
     if (!status) status = load_model(&s->model, o, err);
     if (!status) status = grid_read(&s->grid, o, err);
     s->rows = status ? 0 : shard_rows(&s->shard, s->grid.total);
@@ -242,20 +256,35 @@ static void take_values(const sweep *s, uint64_t row, size_t count, double *cons
     }
 }
 
+/* Of so many rows those up to the end of the last block that they complete. */
+static size_t up_to_block(uint64_t row, size_t count)
+{
+    const size_t behind = (size_t)((row + count) % SHARD_BLOCK);
+    return behind < count ? count - behind : count;
+}
+
+/* A batch system has said that it is about to end the program. */
+static motus_status warned(motus_error *err)
+{
+    fail(err, MOTUS_CANCELLED, "stopped by a signal, between two blocks");
+    hint(err, "the same command with --resume goes on");
+    return MOTUS_CANCELLED;
+}
+
 static motus_status go(sweep *s, sweep_file *f, sweep_events *events, sweep_section *section, stop_progress *p,
                        motus_error *err)
 {
     batch b = {0};
     motus_status status = batch_begin(&b, s, err);
     const double total = (double)s->rows;
-    uint64_t done = f->found;
-    p->before = (double)done / total;
+    p->before = (double)f->found / total;
     p->amount = total;
     p->unit = "trajectories";
     for (uint64_t left; !status && (left = sweep_file_left(f)) > 0;) {
         size_t count = left < b.count ? (size_t)left : b.count;
+        if (f->archive) count = up_to_block(f->rows, count);
         double began = stop_clock();
-        p->from = (double)done / total;
+        p->from = sweep_file_done(f) / total;
         p->span = (double)count / total;
         take_values(s, f->rows, count, b.values, b.shifted);
         const double *const *values = (const double *const *)b.values;
@@ -268,10 +297,12 @@ static motus_status go(sweep *s, sweep_file *f, sweep_events *events, sweep_sect
         if (!status) status = sweep_events_rows(events, f->rows, count, err);
         if (!status) status = sweep_section_take(section, f->rows, count, b.values, err);
         if (!status) status = sweep_file_rows(f, count, &rows, err);
-        done += count;
-        if (!status && done < s->rows && stop_progress_hook(p, 1)) status = fail(err, MOTUS_CANCELLED, "cancelled");
+        if (!status && sweep_file_left(f) > 0 && stop_progress_hook(p, 1))
+            status = fail(err, MOTUS_CANCELLED, "cancelled");
+        if (!status && sweep_file_left(f) > 0 && stop_warned() && f->rows % SHARD_BLOCK == 0) status = warned(err);
         batch_adapt(&b, lanes_of(s), stop_clock() - began);
     }
+    if (status) sweep_archive_give_up(f);
     batch_free(&b);
     return status;
 }
@@ -367,9 +398,17 @@ static void report(const sweep *s, const sweep_file *f, double wall)
 static void note_unfinished(const sweep *s, const sweep_file *f)
 {
     const uint64_t have = sweep_file_have(f);
-    if (f->regular && have < s->rows)
+    if (team_first(s->options->team) && f->regular && have < s->rows)
         complain_note("%llu of %llu trajectories are in %s; the same command with --resume continues",
                       (unsigned long long)have, (unsigned long long)s->rows, f->path);
+}
+
+/* What the others have counted, too. */
+static void add_up(const team *t, sweep_file *f)
+{
+    if (team_size(t) == 1) return;
+    f->stopped = t->sum(t->context, f->stopped);
+    for (int k = 0; k < MOTUS_CAUSE_COUNT; k++) f->stopped_by[k] = t->sum(t->context, f->stopped_by[k]);
 }
 
 static motus_status finish(const sweep *s, sweep_file *f, sweep_events *events, sweep_section *section, double began,
@@ -380,7 +419,9 @@ static motus_status finish(const sweep *s, sweep_file *f, sweep_events *events, 
     if (!status) status = sweep_section_draw(section, err);
     if (!status) status = sweep_file_finish(f, err);
     double wall = stop_clock() - began;
-    if (status) return status;
+    status = team_agree(o->team, status, err);
+    if (!status) add_up(o->team, f);
+    if (status || !team_first(o->team)) return status;
     if (o->json)
         report_json(s, f, wall);
     else if (!o->quiet)
@@ -406,6 +447,19 @@ static motus_status name_files(const sweep *s, options *o, char *names[2], motus
     return MOTUS_OK;
 }
 
+/* The first process makes the file, or finds it, before the others open it. */
+static motus_status open_file(sweep_file *f, const sweep *s, motus_error *err)
+{
+    const team *t = s->options->team;
+    motus_status status = team_agree(t, team_first(t) ? sweep_file_open(f, s, err) : MOTUS_OK, err);
+    if (!status && !team_first(t)) status = sweep_file_open(f, s, err);
+    status = team_agree(t, status, err);
+    if (status || !f->archive) return status;
+    sweep_archive_begin(f);
+    stop_gently();
+    return MOTUS_OK;
+}
+
 motus_status sweep_verb(const options *o, motus_error *err)
 {
     options own = *o; /* with the names of the files of this shard */
@@ -414,20 +468,23 @@ motus_status sweep_verb(const options *o, motus_error *err)
     sweep_events events = {.descriptor = -1};
     sweep_section section = {0};
     stop_progress progress = stop_progress_begin("sweep", o->quiet);
+    if (o->team) progress.meanwhile = o->team->answer, progress.with = o->team->context;
     const double began = stop_clock();
     char *names[2] = {NULL, NULL};
     motus_status status = shard_read(&s.shard, o->shard, err);
     if (!status) status = name_files(&s, &own, names, err);
     if (!status) status = begin(&s, &section, &progress, err);
     if (!status) status = sweep_events_verify(&s, err);
+    status = team_agree(o->team, status, err);
     if (!status) {
-        status = sweep_file_open(&f, &s, err);
+        status = open_file(&f, &s, err);
         bool open = !status;
         progress.began = stop_clock();
         if (!status) status = sweep_events_open(&events, &s, f.rows, err);
         if (!status) status = sweep_section_open(&section, err);
         if (!status) status = go(&s, &f, &events, &section, &progress, err);
         stop_progress_end(&progress);
+        status = team_agree(o->team, status, err);
         if (!status)
             status = finish(&s, &f, &events, &section, began, err);
         else if (open && status != MOTUS_ACCURACY)

@@ -114,8 +114,9 @@ typedef struct sweep_rows {
 motus_status sweep_file_rows(sweep_file *, size_t count, const sweep_rows *, motus_error *);
 /* How many rows from f->rows on are missing, up to the next that is there, or to the end. */
 uint64_t sweep_file_left(const sweep_file *);
-/* How many rows are there. */
+/* How many rows are there; waits for all. */
 uint64_t sweep_file_have(const sweep_file *);
+double sweep_file_done(const sweep_file *); /* as far as this process knows */
 /* The numbers of row i after its number: NaN in all that a stopped trajectory has not. Returns how many. */
 size_t sweep_file_numbers(const sweep *, const sweep_rows *, size_t i, double *out);
 /* Writes everything to the disk. */
@@ -126,8 +127,13 @@ void sweep_file_close(sweep_file *);
 bool sweep_archive_name(const char *path);
 /* `found`: the file is there, and its blocks that are whole are kept. Call sweep_archive_close() in any case. */
 motus_status sweep_archive_open(sweep_file *, bool found, motus_error *);
+/* Shares the missing blocks among all, when each has opened the file; waits for all. */
+void sweep_archive_begin(sweep_file *);
 uint64_t sweep_archive_left(const sweep_file *);
-uint64_t sweep_archive_have(const sweep_file *);
+uint64_t sweep_archive_have(const sweep_file *); /* waits for all */
+/* How many rows are done, by all, as far as this process knows; and: the others need compute no more. */
+double sweep_archive_done(const sweep_file *);
+void sweep_archive_give_up(sweep_file *);
 motus_status sweep_archive_row(sweep_file *, const double *numbers, motus_error *);
 motus_status sweep_archive_finish(sweep_file *, motus_error *);
 void sweep_archive_close(sweep_file *);

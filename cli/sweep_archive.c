@@ -1,4 +1,5 @@
-/* The archive of a sweep, FILE.h5: its blocks may be written in any order, and those that are whole are kept.
+/* The archive of a sweep, FILE.h5: its blocks may be written in any order, and those that are whole are kept. Processes
+ * that compute it together take the missing ones from a common counter.
  *
  * Invariant: f->rows is the next row of the block that is being computed; what the room of the block holds is what was
  * computed of it. A block is written when its last row is there.
@@ -8,14 +9,16 @@
 #include "cli/complain.h"
 #include "cli/sweep.h"
 
+#include <math.h>
 #include <motus-archive.h>
 #include <stdlib.h>
 #include <string.h>
 
 struct sweep_archive {
     motus_archive *file;
-    uint64_t blocks;
-    unsigned char *whole; /* of each block: it need not be computed */
+    uint64_t blocks, *missing, missing_count;
+    uint64_t next, end;   /* of the missing ones this process computes those from `next` on, before `end`, */
+    uint64_t written_now; /*   and has written so many rows */
     double **columns;     /* of the block that is being computed; those of words hold bytes */
     const void **written;
     size_t count; /* of columns: those of a row behind its number */
@@ -172,18 +175,21 @@ static motus_status count_stopped(sweep_file *f, uint64_t block, motus_error *er
     return status;
 }
 
-static motus_status find_blocks(sweep_file *f, motus_error *err)
+/* Which blocks are missing, by the first process for all. */
+static motus_status find_blocks(sweep_file *f, bool found, motus_error *err)
 {
     sweep_archive *a = f->archive;
     motus_status status = MOTUS_OK;
     for (uint64_t b = 0; !status && b < a->blocks; b++) {
-        int whole;
-        status = motus_archive_whole(a->file, b, &whole, err);
-        if (status || !whole) continue;
+        int whole = 0;
+        if (found) status = motus_archive_whole(a->file, b, &whole, err);
+        if (status || !whole) {
+            a->missing[a->missing_count++] = b;
+            continue;
+        }
         uint64_t first;
         size_t count;
         motus_archive_block(a->file, b, &first, &count);
-        a->whole[b] = 1;
         f->found += count;
         status = count_stopped(f, b, err);
     }
@@ -195,10 +201,10 @@ static motus_status find_blocks(sweep_file *f, motus_error *err)
 static motus_status make_room(sweep_archive *a, motus_error *err)
 {
     a->blocks = motus_archive_blocks(a->file);
-    a->whole = calloc((size_t)a->blocks, 1);
+    a->missing = calloc((size_t)a->blocks + 1, sizeof *a->missing);
     a->columns = calloc(a->count, sizeof *a->columns);
     a->written = calloc(a->count, sizeof *a->written);
-    if (!a->whole || !a->columns || !a->written) return complain_memory(err);
+    if (!a->missing || !a->columns || !a->written) return complain_memory(err);
     for (size_t k = 0; k < a->count; k++) {
         a->columns[k] = malloc(SHARD_BLOCK * sizeof **a->columns);
         if (!a->columns[k]) return complain_memory(err);
@@ -207,30 +213,57 @@ static motus_status make_room(sweep_archive *a, motus_error *err)
     return MOTUS_OK;
 }
 
-/* Moves to the next block that is missing. */
-static void skip(sweep_file *f)
+/* Takes blocks from the counter of all, the fewer the fewer are left, so that all end together. */
+static void take_blocks(sweep_file *f)
 {
-    const sweep_archive *a = f->archive;
-    uint64_t block = f->rows / SHARD_BLOCK;
-    while (f->rows < f->sweep->rows && a->whole[block]) f->rows = ++block * SHARD_BLOCK;
-    if (f->rows > f->sweep->rows) f->rows = f->sweep->rows;
+    enum { AT_ONCE = 16, SHARES = 4 };
+    sweep_archive *a = f->archive;
+    const team *t = f->sweep->options->team;
+    if (team_size(t) == 1) {
+        a->end = a->missing_count;
+        return;
+    }
+    const uint64_t left = a->missing_count - a->end, share = left / ((uint64_t)t->size * SHARES);
+    const uint64_t count = share < 1 ? 1 : share > AT_ONCE ? AT_ONCE : share;
+    a->next = t->take(t->context, count);
+    if (a->next > a->missing_count) a->next = a->missing_count;
+    a->end = a->next + count < a->missing_count ? a->next + count : a->missing_count;
+}
+
+/* Where the next row is that this process computes. */
+static void move(sweep_file *f)
+{
+    sweep_archive *a = f->archive;
+    if (a->next == a->end) take_blocks(f);
+    f->rows = a->next < a->end ? a->missing[a->next] * SHARD_BLOCK : f->sweep->rows;
 }
 
 motus_status sweep_archive_open(sweep_file *f, bool found, motus_error *err)
 {
     description d;
+    const team *t = f->sweep->options->team;
     sweep_archive *a = f->archive = calloc(1, sizeof *a);
-    if (!a) return complain_memory(err);
-    motus_status status = describe(&d, f->sweep, err);
-    a->count = d.def.column_count;
-    if (!status && !found) status = motus_archive_create(f->path, &d.def, err);
+    motus_status status = a ? describe(&d, f->sweep, err) : complain_memory(err);
+    if (a) a->count = d.def.column_count;
+    if (!status && !found && team_first(t)) status = motus_archive_create(f->path, &d.def, err);
     if (!status) status = motus_archive_open(f->path, 1, &a->file, err);
     if (!status) status = compare(f, &d, err);
     if (!status) status = make_room(a, err);
-    if (!status && found) status = find_blocks(f, err);
-    if (!status) skip(f);
-    description_free(&d);
+    if (!status && team_first(t)) status = find_blocks(f, found, err);
+    if (a) description_free(&d);
     return status;
+}
+
+void sweep_archive_begin(sweep_file *f)
+{
+    sweep_archive *a = f->archive;
+    const team *t = f->sweep->options->team;
+    if (team_size(t) > 1) {
+        t->share(t->context, &a->missing_count, sizeof a->missing_count);
+        t->share(t->context, a->missing, a->missing_count * sizeof *a->missing);
+        t->reset(t->context);
+    }
+    move(f);
 }
 
 void sweep_archive_close(sweep_file *f)
@@ -241,7 +274,7 @@ void sweep_archive_close(sweep_file *f)
     for (size_t k = 0; a->columns && k < a->count; k++) free(a->columns[k]);
     free(a->columns);
     free(a->written);
-    free(a->whole);
+    free(a->missing);
     free(a);
     f->archive = NULL;
 }
@@ -251,11 +284,24 @@ void sweep_archive_close(sweep_file *f)
 uint64_t sweep_archive_left(const sweep_file *f)
 {
     const sweep_archive *a = f->archive;
-    uint64_t block = f->rows / SHARD_BLOCK, end;
-    while (block < a->blocks && !a->whole[block]) block++;
-    end = block * SHARD_BLOCK;
-    if (end > f->sweep->rows) end = f->sweep->rows;
-    return end > f->rows ? end - f->rows : 0;
+    uint64_t run = a->next;
+    if (run == a->end) return 0;
+    while (run + 1 < a->end && a->missing[run + 1] == a->missing[run] + 1) run++;
+    const uint64_t end = (a->missing[run] + 1) * SHARD_BLOCK, rows = f->sweep->rows;
+    return (end < rows ? end : rows) - f->rows;
+}
+
+void sweep_archive_give_up(sweep_file *f)
+{
+    const team *t = f->sweep->options->team;
+    if (f->archive && team_size(t) > 1) t->take(t->context, f->archive->missing_count);
+}
+
+double sweep_archive_done(const sweep_file *f)
+{
+    const sweep_archive *a = f->archive;
+    const double rows = (double)f->found + (double)a->next * SHARD_BLOCK + (double)(f->rows % SHARD_BLOCK);
+    return fmin(rows, (double)f->sweep->rows);
 }
 
 motus_status sweep_archive_row(sweep_file *f, const double *numbers, motus_error *err)
@@ -277,8 +323,9 @@ motus_status sweep_archive_row(sweep_file *f, const double *numbers, motus_error
         f->rows -= i + 1; /* of this block nothing is there */
         return status;
     }
-    a->whole[block] = 1;
-    skip(f);
+    a->written_now += i + 1;
+    a->next++;
+    move(f);
     return MOTUS_OK;
 }
 
@@ -286,13 +333,7 @@ motus_status sweep_archive_finish(sweep_file *f, motus_error *err) { return motu
 
 uint64_t sweep_archive_have(const sweep_file *f)
 {
-    const sweep_archive *a = f->archive;
-    uint64_t rows = 0;
-    for (uint64_t b = 0; a && b < a->blocks; b++) {
-        uint64_t first;
-        size_t count = 0;
-        if (a->whole[b]) motus_archive_block(a->file, b, &first, &count);
-        rows += count;
-    }
-    return rows;
+    const team *t = f->sweep->options->team;
+    const uint64_t rows = f->archive->written_now;
+    return f->found + (team_size(t) > 1 ? t->sum(t->context, rows) : rows);
 }

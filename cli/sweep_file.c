@@ -230,6 +230,7 @@ motus_status sweep_file_open(sweep_file *f, const sweep *s, motus_error *err)
     f->buffer = f->room ? malloc(f->room) : NULL;
     f->numbers = malloc(s->columns * sizeof *f->numbers);
     if (!f->buffer || !f->numbers) return complain_memory(err);
+    if (!team_first(o->team)) return sweep_archive_open(f, true, err); /* the first has made it, and the lock */
     if (strcmp(f->path, "-") == 0) {
         f->descriptor = STDOUT_FILENO;
         return put_head(f, err);
@@ -336,6 +337,7 @@ static motus_status archive_rows(sweep_file *f, size_t count, const sweep_rows *
 }
 
 uint64_t sweep_file_left(const sweep_file *f) { return f->archive ? sweep_archive_left(f) : f->sweep->rows - f->rows; }
+double sweep_file_done(const sweep_file *f) { return f->archive ? sweep_archive_done(f) : (double)f->rows; }
 uint64_t sweep_file_have(const sweep_file *f) { return f->archive ? sweep_archive_have(f) : f->rows; }
 
 motus_status sweep_file_rows(sweep_file *f, size_t count, const sweep_rows *given, motus_error *err)

@@ -127,7 +127,7 @@ else
     # The build writes texts.c, which machine/texts.h declares.
     sources=$(
         for folder in "${folders[@]}"; do
-            [[ $folder == cli || $folder == lab/core ]] || ls "$folder"/*.c 2>/dev/null
+            [[ $folder == cli || $folder == mpi || $folder == lab/core ]] || ls "$folder"/*.c 2>/dev/null
         done
         echo machine/texts.c)
     # nm prints the member (graph.c.o); the folder follows from the file's name, so these names must be unique.

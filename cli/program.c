@@ -1,0 +1,137 @@
+/* The program: the table of verbs.
+ *
+ * Invariant: a verb is one row of the table. Errors are printed once, here; the exit status follows from the error's.
+ */
+#include "base/near.h"
+#include "base/error.h"
+#include "cli/complain.h"
+#include "cli/file.h"
+#include "cli/help.h"
+#include "cli/options.h"
+#include "cli/program.h"
+#include "cli/stop.h"
+#include "cli/text.h"
+#include "cli/verbs.h"
+
+#include <string.h>
+
+typedef struct verb {
+    const char *name;
+    unsigned bit; /* 0: not available in this version */
+    motus_status (*go)(const options *, motus_error *);
+} verb;
+
+static const verb verbs[] = {
+    {"run", VERB_RUN, run_verb},
+    {"compare", VERB_COMPARE, compare_verb},
+    {"converge", VERB_CONVERGE, converge_verb},
+    {"sweep", VERB_SWEEP, sweep_verb},
+    {"merge", VERB_MERGE, merge_verb},
+    {"check", VERB_CHECK, check_verb},
+    {"methods", VERB_METHODS, methods_verb},
+    {"cache", VERB_CACHE, cache_verb},
+    {"lab", VERB_LAB, lab_verb},
+    {"bench", 0, NULL},
+};
+enum { VERBS = sizeof verbs / sizeof *verbs, SHARED = 3 /* the verb that all of a team do: sweep */ };
+
+static const verb *find(const char *name)
+{
+    for (size_t i = 0; i < VERBS; i++)
+        if (strcmp(verbs[i].name, name) == 0) return &verbs[i];
+    return NULL;
+}
+
+static motus_status unknown(const char *name, motus_error *err)
+{
+    size_t length = strlen(name);
+    int best = 6;
+    const char *near = NULL;
+    for (size_t i = 0; i < VERBS; i++) {
+        const int d = near_distance(verbs[i].name, name, best);
+        if (verbs[i].bit && d < best) {
+            best = d;
+            near = verbs[i].name;
+        }
+    }
+    fail(err, MOTUS_ARGUMENT, "unknown %s %s", name[0] == '-' ? "option" : "verb", name);
+    if (length > 6 && strcmp(name + length - 6, ".motus") == 0)
+        hint(err, "to integrate it: motus run %s", name);
+    else if (near)
+        hint(err, "did you mean motus %s?", near);
+    else
+        hint(err, "motus --help lists the verbs");
+    return MOTUS_ARGUMENT;
+}
+
+static void print_version(bool as_json)
+{
+    if (!as_json) {
+        printf("motus %s\n", motus_version());
+        return;
+    }
+    json j = text_json(stdout);
+    json_string(&j, "version", motus_version());
+    json_end(&j);
+}
+
+/* motus [--help | --version | help [VERB]] */
+static bool general(int argc, char **argv, bool as_json)
+{
+    const char *word = argc > 1 ? argv[1] : "";
+    const verb *v = argc > 2 ? find(argv[2]) : NULL;
+    if (strcmp(word, "--version") == 0 || strcmp(word, "-V") == 0 || strcmp(word, "version") == 0)
+        print_version(as_json);
+    else if (strcmp(word, "help") == 0 && v && v->bit)
+        help_verb(stdout, v->bit);
+    else if (strcmp(word, "--help") == 0 || strcmp(word, "-h") == 0 || strcmp(word, "help") == 0)
+        help_program(stdout);
+    else
+        return false;
+    return true;
+}
+
+static motus_status dispatch(int argc, char **argv, bool as_json, bool *answered, const team *t, motus_error *err)
+{
+    if (!team_first(t) && (argc < 2 || strcmp(argv[1], verbs[SHARED].name) != 0)) return MOTUS_OK;
+    if (general(argc, argv, as_json)) return file_flush_output(err);
+    int first = 1;
+    while (first < argc && strcmp(argv[first], "--json") == 0) first++;
+    if (first == argc) {
+        fail(err, MOTUS_ARGUMENT, "a verb is missing");
+        hint(err, "motus run model.motus; motus --help lists the others");
+        return MOTUS_ARGUMENT;
+    }
+    const verb *v = find(argv[first]);
+    if (!v) return unknown(argv[first], err);
+    if (!v->go) return fail(err, MOTUS_UNAVAILABLE, "motus %s is not available in this version", v->name);
+    options o;
+    motus_status status = options_read(&o, v->bit, argc, argv, first + 1, err);
+    o.json = o.json || as_json;
+    o.answered = answered;
+    o.team = t;
+    o.quiet = o.quiet || !team_first(t);
+    if (!status && o.help) {
+        help_verb(stdout, v->bit);
+        status = file_flush_output(err);
+    } else if (!status) {
+        status = v->go(&o, err);
+    }
+    options_free(&o);
+    return status;
+}
+
+int program_main(int argc, char **argv, const team *t)
+{
+    bool as_json = false, answered = false;
+    for (int i = 1; i < argc && strcmp(argv[i], "--") != 0; i++) as_json = as_json || strcmp(argv[i], "--json") == 0;
+    motus_error err = motus_default_error();
+    motus_status status = dispatch(argc, argv, as_json, &answered, t, &err);
+    err.status = status;
+    if (status && !err.message[0] && !t) fail(&err, status, "%s", motus_status_text(status));
+    const bool tells = team_tells(t, status, &err);
+    if (!t) stop_obey();
+    int exit = status ? motus_status_exit(status) : 0;
+    if (tells) exit = complain_show(&err, as_json && !answered);
+    return t ? t->largest(t->context, exit) : exit;
+}

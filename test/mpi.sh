@@ -1,0 +1,115 @@
+#!/bin/bash
+# motus-mpi: the same bytes on any number of ranks, kills of ranks and of mpirun, signals, and errors that are told once.
+#
+# Each case is one line `ok` or `not ok`; the last line counts them. MOTUS is the program (build/motus), beside which motus-mpi lies.
+cd "$(dirname "$0")/.." || exit 1
+. test/cli/cases.sh
+mpi=$(dirname "$motus")/motus-mpi
+python=/usr/bin/python3
+[ -x $python ] || python=python3
+
+that "motus knows nothing of MPI" eval "! ldd '$motus' | grep -qiE 'mpi|pmix|hdf5'"
+if [ ! -x "$mpi" ] || ! command -v mpirun >/dev/null; then
+    echo "not run, since MPI is not installed: motus-mpi"
+    echo "$passed passed, $failed failed"
+    exit $((failed > 0))
+fi
+# The number of ranks, then the words. Tests have more ranks than processors, and may be run by root.
+export OMPI_MCA_rmaps_base_oversubscribe=1 OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1
+ranks() { local n=$1; shift; mpirun --quiet -n "$n" "$mpi" "$@"; }
+sum() { sha256sum "$1" | cut -c 1-64; }
+blocks() { $python -c "import h5py, sys; print(int((h5py.File(sys.argv[1])['blocks/done'][()] != 0).sum()))" "$1"; }
+
+cat >"$place/swing.motus" <<'M'
+k = 1
+x'' = -k sin(x)
+x(0) = 1
+x'(0) = 0
+energy = x'^2/2 - k cos(x)
+method verlet
+step 0.125
+until 100
+M
+swing=$place/swing.motus
+words=(sweep "$swing" --vary "x(0)=0.1:3:100000" --record "final,max(energy)")
+
+gives "--mpi-check" 0 ranks 3 --mpi-check
+that "... says what each rank is" eval "[ \$(grep -c '^rank [012]: motus [0-9.]*, ' '$out') = 3 ] && says '3 ranks, '"
+gives "alone, without mpirun" 0 "$mpi" run "$swing" --json
+that "... it computes what motus does" eval "[ \"\$(jq -c .state '$out')\" = \"\$('$motus' run '$swing' --json | jq -c .state)\" ]"
+gives "a verb that ranks do not share" 0 ranks 3 check "$swing"
+that "... is done once" eval "[ \$(grep -c 'equations' '$out') = 1 ]"
+
+# --- the same bytes -------------------------------------------------------------------------------------------------------------------
+gives "the sweep by motus" 0 "$motus" "${words[@]}" -o "$place/one.h5" --threads 1
+whole=$(sum "$place/one.h5")
+for n in 1 2 3 4 7; do
+    gives "by $n ranks" 0 ranks $n "${words[@]}" -o "$place/many.h5" --force --json
+    that "... one report" json "$out"
+    that "... the same bytes" [ "$(sum "$place/many.h5")" = "$whole" ]
+done
+gives "a shard by ranks, the other by motus" 0 eval 'ranks 3 "${words[@]}" --shard 1/2 -o "$place/part%K.h5" --quiet && "$motus" "${words[@]}" --shard 2/2 -o "$place/part%K.h5" --quiet && "$motus" merge "$place"/part[12].h5 -o "$place/joined.h5" --quiet'
+that "... the same bytes" [ "$(sum "$place/joined.h5")" = "$whole" ]
+unequal=(sweep models/kepler.motus --vary "r'.y(0)=0.3:1.2:9000" --record final --method dop853 --tolerance 1e-9 --until 20)
+gives "trajectories of unequal cost by motus" 0 "$motus" "${unequal[@]}" -o "$place/unequal1.h5" --quiet
+gives "... and by ranks" 0 ranks 3 "${unequal[@]}" -o "$place/unequal3.h5" --quiet
+that "... the same bytes" [ "$(sum "$place/unequal3.h5")" = "$(sum "$place/unequal1.h5")" ]
+
+# --- errors, once ---------------------------------------------------------------------------------------------------------------------
+# name, exit status, words of the message, number of ranks, words: told by one rank
+once() {
+    local name=$1 want=$2 message=$3 got
+    shift 3
+    timeout 60 mpirun --quiet -n "$1" "$mpi" "${@:2}" >"$out" 2>"$err"
+    got=$?
+    that "$name" [ $got = "$want" ]
+    that "... one message" eval "[ \$(grep -c '^motus: \|^[^ ].*:[0-9]*:[0-9]*: ' '$err') = 1 ] && says '$message' '$err'"
+}
+once "a model that is not there" 1 "cannot read" 3 sweep "$place/none.motus" --vary a=1,2 -o "$place/x.h5"
+once "an archive that is there" 2 "exists" 3 "${words[@]}" -o "$place/many.h5"
+once "a table" 2 "together write archives alone" 3 "${words[@]}" -o "$place/x.csv"
+once "another sweep" 2 "was made by another sweep" 2 "${words[@]}" --until 10 -o "$place/many.h5" --resume
+once "a folder that is not there" 1 "cannot write" 4 "${words[@]}" -o "$place/none/x.h5"
+once "a word that there is not" 2 "unknown option" 3 "${words[@]}" --nonsense
+mkdir "$place/small"
+if mount -t tmpfs -o size=1m none "$place/small" 2>/dev/null; then
+    once "a full disk" 1 "No space left" 3 "${words[@]}" -o "$place/small/x.h5"
+    umount "$place/small"
+else
+    echo "not run, since this user cannot mount: a full disk"
+fi
+
+# --- death ----------------------------------------------------------------------------------------------------------------------------
+slow=("${words[@]}" --machine interpreter --threads 1 --quiet)
+# Kills what is asked for when some blocks are there; the exit status is in $status, the blocks in $there.
+dies() {
+    local signal=$1 whom=$2 job all
+    rm -f "$place/killed.h5"
+    mpirun --quiet -n "$3" "$mpi" "${slow[@]}" -o "$place/killed.h5" >"$out" 2>"$err" &
+    job=$!
+    for _ in $(seq 300); do [ -e "$place/killed.h5" ] && [ "$(blocks "$place/killed.h5" 2>/dev/null || echo 0)" -ge 2 ] && break; sleep 0.05; done
+    all=$(pgrep -f "$mpi ${slow[0]} $swing" | grep -vx $job)
+    # shellcheck disable=SC2086
+    case $whom in mpirun) kill -"$signal" $job ;; *) kill -"$signal" "$(shuf -n 1 -e $all)" ;; esac
+    wait $job
+    status=$?
+    for one in $all; do for _ in $(seq 100); do kill -0 "$one" 2>/dev/null || break; sleep 0.05; done; done
+    there=$(blocks "$place/killed.h5")
+}
+# shellcheck disable=SC2034
+for how in "KILL rank 3 2" "KILL mpirun 2 3" "KILL rank 2 0" "TERM mpirun 3 1" "USR1 mpirun 2 0"; do
+    read -r signal whom n again <<<"$how"
+    dies "$signal" "$whom" "$n" 2>/dev/null
+    that "SIG$signal to $whom of $n leaves some blocks, not all" eval "[ $there -ge 2 ] && [ $there -lt 25 ]"
+    if [ "$signal" != KILL ]; then
+        that "... ends with status 1" [ $status = 1 ]
+        that "... and says how to go on, once" eval "[ \$(grep -c 'with --resume goes on' '$err') = 1 ]"
+    fi
+    if [ "$again" = 0 ]; then gives "... --resume by motus" 0 "$motus" "${words[@]}" -o "$place/killed.h5" --resume --json
+    else gives "... --resume by $again ranks" 0 ranks "$again" "${words[@]}" -o "$place/killed.h5" --resume --json; fi
+    that "... computes no block again that was whole" [ "$(jq .resumed "$out")" = $((there * 4096)) ]
+    that "... the same bytes" [ "$(sum "$place/killed.h5")" = "$whole" ]
+done
+
+echo "$passed passed, $failed failed"
+[ $failed = 0 ]
