@@ -82,11 +82,12 @@ static motus_status make(const part *p, const char *output, motus_error *err)
     while (motus_archive_note_at(a, notes, &n)) notes++;
     d.column_count = motus_archive_column_count(a);
     motus_archive_column *columns = calloc(d.column_count, sizeof *columns);
-    motus_archive_note *kept = calloc(notes, sizeof *kept);
+    motus_archive_note *kept = calloc(notes + 1, sizeof *kept);
     char *command = whole_command(motus_archive_note_of(a, "command"), p);
-    if (!columns || !kept || !command) status = complain_memory(err);
-    for (size_t k = 0; !status && k < d.column_count; k++) motus_archive_column_at(a, k, columns + k);
-    for (size_t k = 0; !status && k < notes; k++) {
+    const bool room = columns && kept && command;
+    if (!room) status = complain_memory(err);
+    for (size_t k = 0; room && k < d.column_count; k++) motus_archive_column_at(a, k, columns + k);
+    for (size_t k = 0; room && k < notes; k++) {
         motus_archive_note_at(a, k, &n);
         if (strcmp(n.name, "shard") == 0) continue;
         if (strcmp(n.name, "command") == 0) n.text = command;

@@ -243,14 +243,15 @@ motus_status sweep_archive_open(sweep_file *f, bool found, motus_error *err)
     description d;
     const team *t = f->sweep->options->team;
     sweep_archive *a = f->archive = calloc(1, sizeof *a);
-    motus_status status = a ? describe(&d, f->sweep, err) : complain_memory(err);
-    if (a) a->count = d.def.column_count;
+    if (!a) return complain_memory(err);
+    motus_status status = describe(&d, f->sweep, err);
+    a->count = d.def.column_count;
     if (!status && !found && team_first(t)) status = motus_archive_create(f->path, &d.def, err);
     if (!status) status = motus_archive_open(f->path, 1, &a->file, err);
     if (!status) status = compare(f, &d, err);
     if (!status) status = make_room(a, err);
     if (!status && team_first(t)) status = find_blocks(f, found, err);
-    if (a) description_free(&d);
+    description_free(&d);
     return status;
 }
 

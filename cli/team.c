@@ -3,12 +3,7 @@
 
 #include "base/error.h"
 
-motus_status team_agree(const team *t, motus_status status, motus_error *err)
-{
-    if (!t || t->size == 1) return status;
-    const bool failed = t->largest(t->context, status != MOTUS_OK);
-    return status || !failed ? status : fail(err, MOTUS_CANCELLED, "%s", "");
-}
+motus_status team_failed(motus_error *err) { return fail(err, MOTUS_CANCELLED, "%s", ""); }
 
 bool team_tells(const team *t, motus_status status, const motus_error *err)
 {

@@ -26,8 +26,14 @@ typedef struct team {
 
 static inline bool team_first(const team *t) { return !t || t->rank == 0; }
 static inline int team_size(const team *t) { return t ? t->size : 1; }
-/* A failure of one is a failure of all: those that had none get MOTUS_CANCELLED, without a message. */
-motus_status team_agree(const team *, motus_status, motus_error *);
+motus_status team_failed(motus_error *); /* MOTUS_CANCELLED, without a message: another one failed */
+/* A failure of one is a failure of all. */
+static inline motus_status team_agree(const team *t, motus_status status, motus_error *err)
+{
+    const bool failed = t && t->size > 1 && t->largest(t->context, status != MOTUS_OK);
+    if (status) return status;
+    return failed ? team_failed(err) : MOTUS_OK;
+}
 /* Whether this process is the one that tells of the failure. */
 bool team_tells(const team *, motus_status, const motus_error *);
 
