@@ -10,7 +10,7 @@ if [ "${1-}" = --check ]; then check_only=yes; shift; fi
 missing=
 add() { case " $missing " in *" $1 "*) ;; *) missing="$missing $1" ;; esac; }
 # command, package
-tool() { command -v "$1" >/dev/null 2>&1 || add "$2"; }
+tool() { command -v "$1" >/dev/null 2>&1 || [ -x "/usr/sbin/$1" ] || add "$2"; }
 # header, package: the compiler searches its own include path
 header() { command -v cc >/dev/null 2>&1 && echo "#include <$1>" | cc -E - >/dev/null 2>&1 || add "$2"; }
 # module, package; Debian's Python may not be the first in PATH
