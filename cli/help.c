@@ -56,6 +56,13 @@ static const page pages[] = {
      "  motus sweep models/pendulum.motus --vary \"theta(0)=0:pi:9001\" --until 10 --shard 1/2 -o part%K.csv\n"
      "  motus sweep models/pendulum.motus --vary \"theta(0)=0:pi:9001\" --until 10 --shard 2/2 -o part%K.csv\n"
      "  motus merge part1.csv part2.csv -o swings-all.csv\n"},
+    {VERB_ARCHIVE, "motus archive FILE.h5 [-o FILE]",
+     "Says what an archive has, and whether all of its blocks are there, with the hashes that were written. With -o "
+     "it\n"
+     "writes the rows as the CSV of the sweep, byte for byte, or the model.",
+     "  motus archive swings.h5\n"
+     "  motus archive swings.h5 -o swings.csv\n"
+     "  motus archive swings.h5 -o pendulum.motus\n"},
     {VERB_CHECK, "motus check MODEL [options]",
      "Prints the equations of a model as motus read them, what the acceleration depends on, and for every method "
      "whether\n"

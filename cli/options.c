@@ -23,7 +23,7 @@ enum {
     DRAWN = VERB_RUN | VERB_SWEEP | STUDY,
     ONE = VERB_RUN | VERB_SWEEP,
     SHARED = VERB_RUN | VERB_COMPARE,
-    ANY = MODEL | VERB_METHODS | VERB_CACHE | VERB_MERGE
+    ANY = MODEL | VERB_METHODS | VERB_CACHE | VERB_MERGE | VERB_ARCHIVE
 };
 
 typedef enum kind {
@@ -79,8 +79,8 @@ static const option table[] = {
      "equal work: each method's step is chosen to spend N evaluations"},
     {"--accuracies", NULL, "A:B", ACCURACIES, AT(coarsest), VERB_COMPARE,
      "the work of each method, adaptive ones too, for accuracies from A to B: 1e-3:1e-12, \"1e-3:1e-6 absolute\""},
-    {"--output", "-o", "FILE", WORD, AT(output), ONE | VERB_LAB | VERB_MERGE,
-     "write the CSV (sweep: .npy or .h5 as well; lab: the page) to FILE; - is standard output"},
+    {"--output", "-o", "FILE", WORD, AT(output), ONE | VERB_LAB | VERB_MERGE | VERB_ARCHIVE,
+     "write the CSV (sweep: .npy or .h5 as well; archive: or its .motus; lab: the page) to FILE; - is standard output"},
     {"--error", NULL, "HOW", WORD, AT(error), VERB_RUN | VERB_SWEEP,
      "the error of every final number: cheap (else; by twice the work), full (three times), none"},
     {"--switches", NULL, "HOW", WORD, AT(switches), VERB_RUN | VERB_SWEEP,
@@ -119,7 +119,7 @@ static const option table[] = {
     {"--shard", NULL, "K/N", WORD, AT(shard), VERB_SWEEP,
      "compute only the Kth of N shares, or slurm: that of the array's task; in names of files %K is its number"},
     {"--resume", NULL, NULL, FLAG, AT(resume), VERB_SWEEP, "continue an interrupted sweep in FILE, to the same bytes"},
-    {"--force", NULL, NULL, FLAG, AT(force), VERB_SWEEP | VERB_MERGE, "replace FILE if it exists"},
+    {"--force", NULL, NULL, FLAG, AT(force), VERB_SWEEP | VERB_MERGE | VERB_ARCHIVE, "replace FILE if it exists"},
     {"--lanes", NULL, "N", COUNT, AT(lanes), VERB_SWEEP,
      "trajectories in one vector: 1, 2, 4, ... (for tests); the bits are the same"},
     {"--fast", NULL, NULL, FLAG, AT(fast), VERB_SWEEP,
@@ -133,7 +133,7 @@ static const option table[] = {
 enum { OPTIONS = sizeof table / sizeof *table };
 
 static const char *const verb_names[] = {"run",   "compare", "converge", "check", "methods",
-                                         "cache", "sweep",   "lab",      "merge"};
+                                         "cache", "sweep",   "lab",      "merge", "archive"};
 
 const char *options_verb(unsigned verb)
 {
@@ -182,7 +182,7 @@ static motus_status find(const char *name, unsigned verb, const option **found, 
     }
     if (elsewhere) {
         char verbs[64] = "";
-        for (unsigned bit = 1; bit <= VERB_MERGE; bit <<= 1)
+        for (unsigned bit = 1; bit <= VERB_ARCHIVE; bit <<= 1)
             if (elsewhere->verbs & bit)
                 snprintf(verbs + strlen(verbs), sizeof verbs - strlen(verbs), "%s%s", verbs[0] ? ", " : "",
                          options_verb(bit));
@@ -510,7 +510,9 @@ motus_status options_read(options *o, unsigned verb, int argc, char **argv, int 
             }
             if (o->operand) {
                 fail(err, MOTUS_ARGUMENT, "%s after %s: motus takes one %s", word, o->operand,
-                     verb == VERB_METHODS ? "method" : "model");
+                     verb == VERB_METHODS   ? "method"
+                     : verb == VERB_ARCHIVE ? "archive"
+                                            : "model");
                 hint(err, "quote a name that has blanks");
                 return MOTUS_ARGUMENT;
             }

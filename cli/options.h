@@ -18,7 +18,8 @@ enum {
     VERB_CACHE = 32,
     VERB_SWEEP = 64,
     VERB_LAB = 128,
-    VERB_MERGE = 256
+    VERB_MERGE = 256,
+    VERB_ARCHIVE = 512
 };
 
 typedef struct options_list {

@@ -27,6 +27,7 @@ static const verb verbs[] = {
     {"converge", VERB_CONVERGE, converge_verb},
     {"sweep", VERB_SWEEP, sweep_verb},
     {"merge", VERB_MERGE, merge_verb},
+    {"archive", VERB_ARCHIVE, archive_verb},
     {"check", VERB_CHECK, check_verb},
     {"methods", VERB_METHODS, methods_verb},
     {"cache", VERB_CACHE, cache_verb},

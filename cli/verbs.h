@@ -11,6 +11,7 @@ motus_status check_verb(const options *, motus_error *);
 motus_status methods_verb(const options *, motus_error *);
 motus_status sweep_verb(const options *, motus_error *);
 motus_status merge_verb(const options *, motus_error *);
+motus_status archive_verb(const options *, motus_error *);
 motus_status cache_verb(const options *, motus_error *);
 motus_status lab_verb(const options *, motus_error *);
 

@@ -56,6 +56,37 @@ assert data.to_dataframe().index[-1] == 29999
 P
 that "its first lines tell what it is" eval "[ \"\$(head -c 16 '$place/whole.h5')\" = 'motus archive 1' ]"
 
+gives "motus archive" 0 "$motus" archive "$place/whole.h5"
+that "... says what it has" eval "says '30000, in 8 blocks: all there' && says 'x(0), x, ' && says 'motus sweep'"
+gives "... as JSON" 0 "$motus" archive "$place/whole.h5" --json
+that "... that is good" eval "json '$out' && [ \"\$(jq -c '[.rows, .blocks, .missing]' '$out')\" = '[30000,8,0]' ]"
+gives "... its rows" 0 "$motus" archive "$place/whole.h5" -o "$place/rows.csv"
+that "... are the CSV of the sweep" cmp "$place/rows.csv" "$place/whole.csv"
+gives "... its model" 0 "$motus" archive "$place/whole.h5" -o "$place/model.motus"
+that "... is the model" cmp "$place/model.motus" "$swing"
+refuses "... nothing else" 2 "its rows or its model" "$motus" archive "$place/whole.h5" -o "$place/rows.npy"
+refuses "... and no file that is there" 2 "exists" "$motus" archive "$place/whole.h5" -o "$place/rows.csv"
+refuses "a table that is no archive" 2 "is not an archive of motus" "$motus" archive "$place/whole.csv"
+# Trajectories that stop, that an event ends, and errors.
+cat >"$place/fall.motus" <<'M'
+a = 1
+x'' = if(a > 3, 6 x^2, -a)
+x(0) = 1
+x'(0) = if(a > 3, 2, 0)
+when x = 0 falling as ground: stop
+method dop853
+tolerance 1e-9
+until 2
+M
+for more in "--record final,ended" "--record final --errors" "--record min(x),time --shard 1/1"; do
+    # shellcheck disable=SC2086
+    "$motus" sweep "$place/fall.motus" --vary "a=0.1,1,2,4" $more -o "$place/fall.h5" --force --quiet 2>/dev/null
+    # shellcheck disable=SC2086
+    "$motus" sweep "$place/fall.motus" --vary "a=0.1,1,2,4" $more -o "$place/fall.csv" --force --quiet 2>/dev/null
+    gives "the rows of $more" 0 "$motus" archive "$place/fall.h5" -o "$place/rows.csv" --force
+    that "... are the same CSV" cmp "$place/rows.csv" "$place/fall.csv"
+done
+
 # --- the same bytes -------------------------------------------------------------------------------------------------------------------
 whole=$(sum "$place/whole.h5")
 for how in "--threads 1" "--threads 3 --lanes 2" "--machine interpreter" "--machine compiled"; do
@@ -97,7 +128,9 @@ with h5py.File(sys.argv[1]) as f:
     done = f['blocks/done'][()] != 0
     for b in range(8): assert numpy.isnan(f['sweep/x'][4096 * b:4096 * (b + 1)]).any() != done[b], b
 " "$place/killed.h5"
-    cp "$place/killed.h5" "$place/kept.h5"
+    gives "... motus archive says so" 0 "$motus" archive "$place/killed.h5"
+    that "... and how many are missing" says "$((8 - there)) missing or damaged"
+    refuses "... and writes no CSV of it" 2 "are missing or damaged" "$motus" archive "$place/killed.h5" -o "$place/killed.csv"
     gives "... and is finished by --resume" 0 long -o "$place/killed.h5" --resume
     that "... which keeps those blocks" says ", $((there * 4096)) of them found in the file"
     that "... to the same bytes" [ "$(sum "$place/killed.h5")" = "$whole" ]

@@ -2,11 +2,11 @@
 _motus() {
     local current=${COMP_WORDS[COMP_CWORD]} previous=${COMP_WORDS[COMP_CWORD-1]} verb= i
     for ((i = 1; i < COMP_CWORD; i++)); do
-        case ${COMP_WORDS[i]} in run|compare|converge|sweep|merge|check|methods|lab|cache) verb=${COMP_WORDS[i]}; break ;; esac
+        case ${COMP_WORDS[i]} in run|compare|converge|sweep|merge|archive|check|methods|lab|cache) verb=${COMP_WORDS[i]}; break ;; esac
     done
     COMPREPLY=()
     if [[ -z $verb ]]; then
-        mapfile -t COMPREPLY < <(compgen -W 'run compare converge sweep merge check methods lab cache --help --version' -- "$current")
+        mapfile -t COMPREPLY < <(compgen -W 'run compare converge sweep merge archive check methods lab cache --help --version' -- "$current")
         return
     fi
     local methods='motus methods --json 2>/dev/null | grep -o "\"name\": *\"[^\"]*\"" | cut -d\" -f4'
@@ -29,6 +29,7 @@ _motus() {
         sweep)    options+=' --vary --random --count --seed --zip --record --method --tolerance --shortest-step --longest-step --most-steps --switches --step --until --every --set --when --output --resume --force'
                   options+=' --threads --lanes --machine --fast --accuracy --error --errors --events --section --skip --points --plot --plot-of --shard' ;;
         merge)    options+=' --output --force' ;;
+        archive)  options+=' --output --force' ;;
         lab)      options+=' --method --methods --step --until --set --output --no-open' ;;
         cache)    options+=' --clear' ;;
         check)    options+=' --set --when' ;;
@@ -37,7 +38,7 @@ _motus() {
         mapfile -t COMPREPLY < <(compgen -W "$options" -- "$current")
     elif [[ $verb == methods ]]; then
         mapfile -t COMPREPLY < <(compgen -W "$(eval "$methods")" -- "$current")
-    elif [[ $verb == merge ]]; then
+    elif [[ $verb == merge || $verb == archive ]]; then
         compopt -o default
     else
         compopt -o filenames

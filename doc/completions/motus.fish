@@ -2,7 +2,7 @@
 function __motus_methods
     motus methods --json 2>/dev/null | string match -ra '"name": *"[^"]*"' | string replace -r '.*"([^"]*)"$' '$1'
 end
-set -l verbs run compare converge sweep merge check methods lab cache
+set -l verbs run compare converge sweep merge archive check methods lab cache
 complete -c motus -f
 complete -c motus -n "not __fish_seen_subcommand_from $verbs" -a run -d 'the motion'
 complete -c motus -n "not __fish_seen_subcommand_from $verbs" -a cache -d 'compiled models'
@@ -10,6 +10,7 @@ complete -c motus -n "not __fish_seen_subcommand_from $verbs" -a compare -d 'eve
 complete -c motus -n "not __fish_seen_subcommand_from $verbs" -a converge -d 'observed order and its certificate'
 complete -c motus -n "not __fish_seen_subcommand_from $verbs" -a sweep -d 'many trajectories'
 complete -c motus -n "not __fish_seen_subcommand_from $verbs" -a merge -d 'the shards of a sweep'
+complete -c motus -n "not __fish_seen_subcommand_from $verbs" -a archive -d 'what an archive has'
 complete -c motus -n "not __fish_seen_subcommand_from $verbs" -a check -d 'equations and admitted methods'
 complete -c motus -n "not __fish_seen_subcommand_from $verbs" -a methods -d 'the catalogue of methods'
 complete -c motus -n "not __fish_seen_subcommand_from $verbs" -a lab -d 'the page, in the browser'
@@ -30,7 +31,7 @@ complete -c motus -n "__fish_seen_subcommand_from run compare converge sweep lab
 complete -c motus -n "__fish_seen_subcommand_from run compare converge sweep check lab" -l set -x -d 'replace a parameter or initial value'
 complete -c motus -n "__fish_seen_subcommand_from compare" -l evaluations -x -d 'equal work'
 complete -c motus -n "__fish_seen_subcommand_from compare" -l accuracies -x -d 'work for accuracies from A to B'
-complete -c motus -n "__fish_seen_subcommand_from run sweep merge lab" -s o -l output -r -F -d 'trajectory as CSV, or the page'
+complete -c motus -n "__fish_seen_subcommand_from run sweep merge archive lab" -s o -l output -r -F -d 'trajectory as CSV, or the page'
 complete -c motus -n "__fish_seen_subcommand_from run sweep" -l error -x -a 'cheap full none' -d 'the error of the answer'
 complete -c motus -n "__fish_seen_subcommand_from run sweep" -l errors -d 'errors as columns of the CSV'
 complete -c motus -n "__fish_seen_subcommand_from run sweep" -l switches -x -a 'locate step' -d 'where the force jumps'
@@ -54,11 +55,11 @@ complete -c motus -n "__fish_seen_subcommand_from sweep" -l seed -x -d 'of the d
 complete -c motus -n "__fish_seen_subcommand_from sweep" -l zip -d 'pair the values'
 complete -c motus -n "__fish_seen_subcommand_from sweep" -l record -x -d 'what is recorded'
 complete -c motus -n "__fish_seen_subcommand_from sweep" -l resume -d 'continue the file'
-complete -c motus -n "__fish_seen_subcommand_from sweep merge" -l force -d 'replace the file'
+complete -c motus -n "__fish_seen_subcommand_from sweep merge archive" -l force -d 'replace the file'
 complete -c motus -n "__fish_seen_subcommand_from run sweep" -l threads -x -d threads
 complete -c motus -n "__fish_seen_subcommand_from sweep" -l lanes -x -d 'trajectories in a vector'
 complete -c motus -n "__fish_seen_subcommand_from sweep" -l shard -x -a slurm -d 'a share of the trajectories'
-complete -c motus -n "__fish_seen_subcommand_from merge" -F
+complete -c motus -n "__fish_seen_subcommand_from merge archive" -F
 complete -c motus -n "__fish_seen_subcommand_from sweep" -l fast -d 'let the compiler reorder'
 complete -c motus -n "__fish_seen_subcommand_from run compare" -l share -d 'print the fragment of a link'
 complete -c motus -n "__fish_seen_subcommand_from lab" -l no-open -d 'start no browser'

@@ -1,0 +1,276 @@
+/* motus archive: what an archive has; its rows as CSV, or its model.
+ *
+ * Invariant: the CSV is, byte for byte, what the sweep would have written into a file whose name ends in .csv.
+ */
+#include "base/decimal.h"
+#include "base/error.h"
+#include "cli/complain.h"
+#include "cli/csv.h"
+#include "cli/stop.h"
+#include "cli/sweep.h"
+#include "cli/text.h"
+#include "cli/verbs.h"
+
+#include <inttypes.h>
+#include <math.h>
+#include <motus-archive.h>
+#include <stdlib.h>
+#include <string.h>
+
+typedef struct contents {
+    const options *options;
+    motus_archive *file;
+    uint64_t blocks, missing, first_missing;
+    size_t columns;
+} contents;
+
+static const char *said(const contents *c, const char *name)
+{
+    const char *text = motus_archive_note_of(c->file, name);
+    return text ? text : "";
+}
+
+/* Which blocks are there, by their hashes. */
+static motus_status verify(contents *c, stop_progress *progress, motus_error *err)
+{
+    motus_status status = MOTUS_OK;
+    for (uint64_t b = 0; !status && b < c->blocks; b++) {
+        int whole;
+        status = motus_archive_whole(c->file, b, &whole, err);
+        if (!status && !whole && c->missing++ == 0) c->first_missing = b;
+        if (!status && stop_progress_hook(progress, (double)b / (double)c->blocks))
+            status = fail(err, MOTUS_CANCELLED, "cancelled");
+    }
+    return status;
+}
+
+/* ---- the rows as CSV ---- */
+
+static motus_status put_head(const contents *c, file_out *out, motus_error *err)
+{
+    char line[SWEEP_IDENTITY];
+    const char *share = motus_archive_note_of(c->file, "shard");
+    motus_status status = file_text(out, "# ", err);
+    if (!status) status = file_text(out, said(c, "command"), err);
+    snprintf(line, sizeof line, "\n# motus %.40s, trajectories %.24s, fingerprint %.32s%s%.32s\n", said(c, "motus"),
+             said(c, "trajectories"), said(c, "fingerprint"), share ? ", shard " : "", share ? share : "");
+    if (!status) status = file_text(out, line, err);
+    if (!status) status = file_text(out, "index", err);
+    for (size_t k = 0; !status && k < c->columns; k++) {
+        motus_archive_column column;
+        motus_archive_column_at(c->file, k, &column);
+        status = file_text(out, ",", err);
+        if (!status) status = csv_name(out, column.name, err);
+    }
+    return status ? status : file_text(out, "\n", err);
+}
+
+typedef struct table {
+    motus_archive_column column;
+    double *numbers;
+    unsigned char *words;
+} table;
+
+/* A number, or nothing where a trajectory that stopped has none, and where one did not stop. */
+static motus_status put_cell(const table *t, size_t i, bool stopped, bool time_stopped, file_out *out, motus_error *err)
+{
+    char text[DECIMAL_MAX + 2] = ",";
+    if (t->words) {
+        const size_t w = t->words[i];
+        const motus_status status = file_text(out, ",", err);
+        return status ? status : file_text(out, w < t->column.word_count ? t->column.words[w] : "", err);
+    }
+    if (isnan(t->numbers[i]) && (stopped || time_stopped)) return file_text(out, text, err);
+    text[1 + decimal_write(t->numbers[i], text + 1)] = 0;
+    return file_text(out, text, err);
+}
+
+static motus_status put_rows(const contents *c, table *t, const int64_t *number, size_t count, file_out *out,
+                             motus_error *err)
+{
+    char text[DECIMAL_MAX + 1];
+    const size_t stopped = c->columns - 2;
+    motus_status status = MOTUS_OK;
+    for (size_t i = 0; !status && i < count; i++) {
+        text[decimal_write_whole((uint64_t)number[i], text)] = 0;
+        status = file_text(out, text, err);
+        for (size_t k = 0; !status && k < c->columns; k++)
+            status = put_cell(t + k, i, !isnan(t[stopped].numbers[i]), k == stopped, out, err);
+        if (!status) status = file_text(out, "\n", err);
+    }
+    return status;
+}
+
+static motus_status put_blocks(const contents *c, table *t, int64_t *number, file_out *out, stop_progress *progress,
+                               motus_error *err)
+{
+    motus_status status = MOTUS_OK;
+    for (uint64_t b = 0; !status && b < c->blocks; b++) {
+        uint64_t first;
+        size_t count;
+        motus_archive_block(c->file, b, &first, &count);
+        status = motus_archive_numbers(c->file, first, count, number, err);
+        for (size_t k = 0; !status && k < c->columns; k++) {
+            void *room = t[k].words ? (void *)t[k].words : t[k].numbers;
+            status = motus_archive_read(c->file, k, first, count, room, err);
+        }
+        if (!status) status = put_rows(c, t, number, count, out, err);
+        if (!status && stop_progress_hook(progress, (double)b / (double)c->blocks))
+            status = fail(err, MOTUS_CANCELLED, "cancelled");
+    }
+    return status;
+}
+
+static motus_status write_csv(const contents *c, file_out *out, stop_progress *progress, motus_error *err)
+{
+    uint64_t first;
+    size_t most;
+    motus_archive_block(c->file, 0, &first, &most);
+    table *t = calloc(c->columns, sizeof *t);
+    int64_t *number = calloc(most + 1, sizeof *number);
+    bool room = t && number;
+    for (size_t k = 0; room && k < c->columns; k++) {
+        motus_archive_column_at(c->file, k, &t[k].column);
+        if (t[k].column.kind == MOTUS_ARCHIVE_WORD)
+            t[k].words = malloc(most + 1);
+        else
+            t[k].numbers = malloc((most + 1) * sizeof *t[k].numbers);
+        room = t[k].words || t[k].numbers;
+    }
+    motus_status status = room ? put_head(c, out, err) : complain_memory(err);
+    if (!status) status = put_blocks(c, t, number, out, progress, err);
+    for (size_t k = 0; t && k < c->columns; k++) {
+        free(t[k].words);
+        free(t[k].numbers);
+    }
+    free(t);
+    free(number);
+    return status;
+}
+
+/* The columns that a sweep has behind those that it records. */
+static motus_status check_sweep(const contents *c, motus_error *err)
+{
+    motus_archive_column stopped, cause;
+    if (c->columns >= 2 && motus_archive_column_at(c->file, c->columns - 2, &stopped) &&
+        motus_archive_column_at(c->file, c->columns - 1, &cause) && strcmp(stopped.name, "stopped") == 0 &&
+        stopped.kind == MOTUS_ARCHIVE_NUMBER && strcmp(cause.name, "stopped_by") == 0)
+        return MOTUS_OK;
+    return fail(err, MOTUS_STATE, "%s is not the archive of a sweep", c->options->operand);
+}
+
+static motus_status incomplete(const contents *c, motus_error *err)
+{
+    fail(err, MOTUS_STATE, "%" PRIu64 " of %" PRIu64 " blocks of %s are missing or damaged", c->missing, c->blocks,
+         c->options->operand);
+    hint(err, "compute them: %.400s -o %s --resume", said(c, "command"), c->options->operand);
+    return MOTUS_STATE;
+}
+
+static motus_status extract(const contents *c, stop_progress *progress, motus_error *err)
+{
+    const char *name = c->options->output, *end = strrchr(name, '.');
+    const bool model = end && strcmp(end, ".motus") == 0,
+               rows = strcmp(name, "-") == 0 || (end && !strcmp(end, ".csv"));
+    if (!model && !rows) {
+        fail(err, MOTUS_ARGUMENT, "-o %s: an archive gives its rows or its model", name);
+        hint(err, "-o rows.csv, or -o model.motus");
+        return MOTUS_ARGUMENT;
+    }
+    file_out out = {0};
+    motus_status status = model ? MOTUS_OK : check_sweep(c, err);
+    if (!status && rows && c->missing) status = incomplete(c, err);
+    if (!status) status = file_create(&out, name, err);
+    if (!status) status = model ? file_text(&out, said(c, "model"), err) : write_csv(c, &out, progress, err);
+    if (!status) status = file_finish(&out, err);
+    if (!status) status = file_keep(&out, err);
+    file_drop(&out);
+    return status;
+}
+
+/* ---- what it has ---- */
+
+static void report_json(const contents *c)
+{
+    json j = text_json(stdout);
+    json_string(&j, "motus", said(c, "motus"));
+    json_string(&j, "command", said(c, "command"));
+    json_string(&j, "method", said(c, "method"));
+    json_string(&j, "fingerprint", said(c, "fingerprint"));
+    json_string(&j, "shard", motus_archive_note_of(c->file, "shard"));
+    json_integer(&j, "rows", (int64_t)motus_archive_rows(c->file));
+    json_integer(&j, "blocks", (int64_t)c->blocks);
+    json_integer(&j, "missing", (int64_t)c->missing);
+    json_open(&j, "columns", '[');
+    motus_archive_column column;
+    for (size_t k = 0; motus_archive_column_at(c->file, k, &column); k++) json_string(&j, NULL, column.name);
+    json_close(&j, ']');
+    json_string(&j, "output", c->options->output);
+    json_end(&j);
+}
+
+static void line(const char *what, const char *text)
+{
+    printf("  %-13s", what);
+    text_put(stdout, text);
+    putchar('\n');
+}
+
+static void report(const contents *c)
+{
+    const char *share = motus_archive_note_of(c->file, "shard");
+    text_put(stdout, c->options->operand);
+    printf(": an archive of motus %.40s\n\n", said(c, "motus"));
+    line("command", said(c, "command"));
+    line("method", said(c, "method"));
+    if (share) line("shard", share);
+    printf("  %-13s%" PRIu64 ", in %" PRIu64 " block%s: ", "trajectories", motus_archive_rows(c->file), c->blocks,
+           c->blocks == 1 ? "" : "s");
+    if (c->missing)
+        printf("%" PRIu64 " missing or damaged, the first of them number %" PRIu64 "\n", c->missing,
+               c->first_missing + 1);
+    else
+        puts("all there, with the hashes that were written");
+    printf("  %-13s", "columns");
+    motus_archive_column column;
+    for (size_t k = 0; motus_archive_column_at(c->file, k, &column); k++) {
+        if (k) fputs(", ", stdout);
+        text_put(stdout, column.name);
+    }
+    putchar('\n');
+    if (c->missing) puts("\nthe command with -o and --resume computes what is missing");
+}
+
+static motus_status check(const options *o, motus_error *err)
+{
+    if (!o->operand) {
+        fail(err, MOTUS_ARGUMENT, "the archive is missing");
+        hint(err, "motus archive swings.h5");
+        return MOTUS_ARGUMENT;
+    }
+    if (o->json && o->output && strcmp(o->output, "-") == 0)
+        return fail(err, MOTUS_ARGUMENT, "--json and the rows both go to standard output");
+    return o->output ? sweep_file_may_write(o, o->output, err) : MOTUS_OK;
+}
+
+motus_status archive_verb(const options *o, motus_error *err)
+{
+    contents c = {.options = o};
+    stop_progress progress = stop_progress_begin("archive", o->quiet);
+    motus_status status = check(o, err);
+    if (!status) status = motus_archive_open(o->operand, 0, &c.file, err);
+    if (!status) {
+        stop_catch_signals();
+        c.blocks = motus_archive_blocks(c.file);
+        c.columns = motus_archive_column_count(c.file);
+        status = verify(&c, &progress, err);
+        if (!status && o->output) status = extract(&c, &progress, err);
+        stop_progress_end(&progress);
+    }
+    if (!status && o->json)
+        report_json(&c);
+    else if (!status && !o->quiet && !o->output)
+        report(&c);
+    motus_archive_close(c.file);
+    return status ? status : file_flush_output(err);
+}
