@@ -289,14 +289,18 @@ static motus_status go(sweep *s, sweep_file *f, sweep_events *events, sweep_sect
         take_values(s, f->rows, count, b.values, b.shifted);
         const double *const *values = (const double *const *)b.values;
         const sweep_rows rows = {b.values, b.results, b.errors, b.stopped};
+        const double set = stop_clock();
         status = b.errors ? motus_ensemble_run_errors(s->ensemble, count, values, b.results, b.errors, b.stopped, err)
                           : motus_ensemble_run(s->ensemble, count, values, b.results, b.stopped, err);
+        const double computed = stop_clock();
+        f->share.computing += computed - set;
         note_machine(s);
         if (status == MOTUS_ACCURACY)
             status = sweep_accuracy_refuse(s, f->rows, count, b.results + s->records.count, b.stopped, err);
         if (!status) status = sweep_events_rows(events, f->rows, count, err);
         if (!status) status = sweep_section_take(section, f->rows, count, b.values, err);
         if (!status) status = sweep_file_rows(f, count, &rows, err);
+        f->share.writing += stop_clock() - computed;
         if (!status && sweep_file_left(f) > 0 && stop_progress_hook(p, 1))
             status = fail(err, MOTUS_CANCELLED, "cancelled");
         if (!status && sweep_file_left(f) > 0 && stop_warned() && f->rows % SHARD_BLOCK == 0) status = warned(err);
@@ -315,7 +319,22 @@ const char *sweep_switches(const sweep *s)
     return how == MOTUS_SWITCHES_LOCATE ? "locate" : "step";
 }
 
-static void report_json(const sweep *s, const sweep_file *f, double wall)
+static void put_ranks(json *j, const team *t, const sweep_share *all)
+{
+    json_open(j, "ranks", '[');
+    for (int k = 0; all && k < t->size; k++) {
+        json_open(j, NULL, '{');
+        json_integer(j, "blocks", (int64_t)all[k].blocks);
+        json_integer(j, "trajectories", (int64_t)all[k].rows);
+        json_number(j, "computing", all[k].computing);
+        json_number(j, "waiting", all[k].waiting);
+        json_number(j, "writing", all[k].writing);
+        json_close(j, '}');
+    }
+    json_close(j, ']');
+}
+
+static void report_json(const sweep *s, const sweep_file *f, double wall, const sweep_share *all)
 {
     const motus_ensemble *e = s->ensemble;
     char note[2 * MOTUS_TEXT_MAX], shard[SHARD_TEXT];
@@ -351,6 +370,7 @@ static void report_json(const sweep *s, const sweep_file *f, double wall)
         if (f->stopped_by[k]) json_integer(&j, motus_cause_word((motus_cause)k), (int64_t)f->stopped_by[k]);
     json_close(&j, '}');
     json_string(&j, "output", f->path);
+    if (s->options->team) put_ranks(&j, s->options->team, all);
     json_end(&j);
 }
 
@@ -421,11 +441,16 @@ static motus_status finish(const sweep *s, sweep_file *f, sweep_events *events, 
     double wall = stop_clock() - began;
     status = team_agree(o->team, status, err);
     if (!status) add_up(o->team, f);
-    if (status || !team_first(o->team)) return status;
+    sweep_share *all = status || !o->team ? NULL : sweep_ranks_gather(o->team, &f->share);
+    if (status || !team_first(o->team)) {
+        free(all);
+        return status;
+    }
     if (o->json)
-        report_json(s, f, wall);
+        report_json(s, f, wall, all);
     else if (!o->quiet)
         report(s, f, wall);
+    free(all);
     status = file_flush_output(err);
     if (!status && f->stopped > 0 && !o->quiet)
         complain_note("%llu of %llu trajectories did not reach their end: their column `stopped` has the time, and "
@@ -484,7 +509,9 @@ motus_status sweep_verb(const options *o, motus_error *err)
         if (!status) status = sweep_section_open(&section, err);
         if (!status) status = go(&s, &f, &events, &section, &progress, err);
         stop_progress_end(&progress);
+        const double done = stop_clock();
         status = team_agree(o->team, status, err);
+        f.share.waiting += stop_clock() - done;
         if (!status)
             status = finish(&s, &f, &events, &section, began, err);
         else if (open && status != MOTUS_ACCURACY)

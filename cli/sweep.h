@@ -72,6 +72,14 @@ const char *sweep_head_identity(const sweep *, const char *what, char out[SWEEP_
 /* Makes the head: it depends on the request alone, not on machine or threads, so that files can be compared. */
 motus_status sweep_head_make(sweep *, bool npy, motus_error *);
 
+/* sweep_ranks.c: how the work of a team was shared, for --json. */
+typedef struct sweep_share {
+    uint64_t blocks, rows;
+    double computing, waiting, writing; /* seconds */
+} sweep_share;
+/* What every process has done, by their ranks; waits for all. To be freed; NULL: no memory. */
+sweep_share *sweep_ranks_gather(const team *, const sweep_share *mine);
+
 /* The file of rows. */
 typedef struct sweep_archive sweep_archive;
 typedef struct sweep_file {
@@ -84,6 +92,7 @@ typedef struct sweep_file {
     uint64_t stopped;       /* how many of these trajectories stopped, */
     uint64_t stopped_by[MOTUS_CAUSE_COUNT]; /*   and by which cause */
     uint64_t found;                         /* rows of an earlier, interrupted command */
+    sweep_share share;                      /* of this process, of an archive */
     char *buffer;
     double *numbers; /* room for those of a row */
     size_t used, room;

@@ -7,6 +7,7 @@
 #include "base/decimal.h"
 #include "base/error.h"
 #include "cli/complain.h"
+#include "cli/stop.h"
 #include "cli/sweep.h"
 
 #include <math.h>
@@ -17,9 +18,8 @@
 struct sweep_archive {
     motus_archive *file;
     uint64_t blocks, *missing, missing_count;
-    uint64_t next, end;   /* of the missing ones this process computes those from `next` on, before `end`, */
-    uint64_t written_now; /*   and has written so many rows */
-    double **columns;     /* of the block that is being computed; those of words hold bytes */
+    uint64_t next, end; /* of the missing ones this process computes those from `next` on, before `end` */
+    double **columns;   /* of the block that is being computed; those of words hold bytes */
     const void **written;
     size_t count; /* of columns: those of a row behind its number */
 };
@@ -225,7 +225,11 @@ static void take_blocks(sweep_file *f)
     }
     const uint64_t left = a->missing_count - a->end, share = left / ((uint64_t)t->size * SHARES);
     const uint64_t count = share < 1 ? 1 : share > AT_ONCE ? AT_ONCE : share;
+    const double asked = stop_clock();
     a->next = t->take(t->context, count);
+    const double waited = stop_clock() - asked;
+    f->share.waiting += waited;
+    f->share.writing -= waited; /* rows are being written meanwhile */
     if (a->next > a->missing_count) a->next = a->missing_count;
     a->end = a->next + count < a->missing_count ? a->next + count : a->missing_count;
 }
@@ -324,7 +328,8 @@ motus_status sweep_archive_row(sweep_file *f, const double *numbers, motus_error
         f->rows -= i + 1; /* of this block nothing is there */
         return status;
     }
-    a->written_now += i + 1;
+    f->share.blocks++;
+    f->share.rows += i + 1;
     a->next++;
     move(f);
     return MOTUS_OK;
@@ -335,6 +340,6 @@ motus_status sweep_archive_finish(sweep_file *f, motus_error *err) { return motu
 uint64_t sweep_archive_have(const sweep_file *f)
 {
     const team *t = f->sweep->options->team;
-    const uint64_t rows = f->archive->written_now;
+    const uint64_t rows = f->share.rows;
     return f->found + (team_size(t) > 1 ? t->sum(t->context, rows) : rows);
 }

@@ -46,6 +46,7 @@ whole=$(sum "$place/one.h5")
 for n in 1 2 3 4 7; do
     gives "by $n ranks" 0 ranks $n "${words[@]}" -o "$place/many.h5" --force --json
     that "... one report" json "$out"
+    that "... of all ranks, which did all" eval "[ \"\$(jq -c '[(.ranks | length), ([.ranks[].trajectories] | add), ([.ranks[].blocks] | add)]' '$out')\" = '[$n,100000,25]' ]"
     that "... the same bytes" [ "$(sum "$place/many.h5")" = "$whole" ]
 done
 gives "a shard by ranks, the other by motus" 0 eval 'ranks 3 "${words[@]}" --shard 1/2 -o "$place/part%K.h5" --quiet && "$motus" "${words[@]}" --shard 2/2 -o "$place/part%K.h5" --quiet && "$motus" merge "$place"/part[12].h5 -o "$place/joined.h5" --quiet'
