@@ -190,6 +190,16 @@ motus_status motus_archive_sync(motus_archive *a, motus_error *err)
     return cannot("write", a->path, err);
 }
 
+motus_status motus_archive_written(motus_archive *a, uint64_t block, int *written, motus_error *err)
+{
+    uint64_t hash = 0;
+    *written = 0;
+    if (block >= motus_archive_blocks(a)) return no_block(a, block, err);
+    const motus_status status = get(a, &hash, sizeof hash, a->directory.done_place + block * sizeof hash, err);
+    *written = !status && hash != 0;
+    return status;
+}
+
 motus_status motus_archive_whole(motus_archive *a, uint64_t block, int *whole, motus_error *err)
 {
     const directory *d = &a->directory;

@@ -31,6 +31,14 @@ static motus_status check(const motus_archive_def *d, motus_error *err)
             if (strchr(c->words[w], '\n'))
                 return fail(err, MOTUS_ARGUMENT, "a word of column %s has more than one line", c->name);
     }
+    for (size_t k = 0; k < d->column_count; k++) {
+        bool twice = strcmp(d->columns[k].name, d->scale) == 0;
+        for (size_t i = 0; i < k; i++) twice = twice || strcmp(d->columns[k].name, d->columns[i].name) == 0;
+        if (!twice) continue;
+        fail(err, MOTUS_ARGUMENT, "two columns of the archive are named %s", d->columns[k].name);
+        hint(err, "record it once, or rename it in the model");
+        return MOTUS_ARGUMENT;
+    }
     for (size_t k = 0; k < d->note_count; k++)
         if (!one_line(d->notes[k].name) || !d->notes[k].text)
             return fail(err, MOTUS_ARGUMENT, "note %zu of an archive has no name or no text", k);
@@ -55,7 +63,9 @@ motus_status motus_archive_create(const char *path, const motus_archive_def *d, 
     if (status) return status;
     make_archive *const make = maker();
     if (make) return make(path, d, err);
-    fail(err, MOTUS_UNAVAILABLE, "%s: this motus was built without HDF5, and cannot make archives", path);
-    hint(err, "write .npy or CSV; or install libhdf5-dev and build motus again");
+    const char *why = dlerror();
+    fail(err, MOTUS_UNAVAILABLE, "%s: this motus cannot make archives, since it was built or runs without HDF5: %.200s",
+         path, why ? why : MAKE_MODULE);
+    hint(err, "write .npy or CSV; or install HDF5, and build motus where libhdf5-dev is installed");
     return MOTUS_UNAVAILABLE;
 }

@@ -13,6 +13,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <fcntl.h>
@@ -100,11 +101,17 @@ static bool put_words(hid_t set, const motus_archive_column *c)
     size_t length = 1;
     for (size_t k = 0; k < c->word_count; k++) length += strlen(c->words[k]) + sizeof "none";
     char *meanings = calloc(1, length);
+    const char *none = "none";
     if (!meanings) return false;
+    for (size_t k = 0; k < c->word_count; k++)
+        if (strcmp(c->words[k], none) == 0) none = "-";
     for (size_t k = 0; k < c->word_count; k++) {
         values[k] = (unsigned char)k;
         if (k) strcat(meanings, " ");
-        strcat(meanings, c->words[k][0] ? c->words[k] : "none");
+        char *word = meanings + strlen(meanings);
+        strcat(meanings, c->words[k][0] ? c->words[k] : none);
+        for (; *word; word++)
+            if (*word == ' ') *word = '_';
     }
     const hsize_t count = c->word_count;
     const hid_t space = H5Screate_simple(1, &count, NULL);
@@ -241,18 +248,20 @@ static motus_status by_hdf5(maker *m, const char *path, size_t directory)
 
 /* ---- what we write ---- */
 
+static motus_status no_room(const maker *m, int code)
+{
+    fail(m->err, MOTUS_FILE, "cannot write %s: %s", m->path, strerror(code));
+    if (code == ENOSPC || code == EDQUOT || code == EFBIG)
+        hint(m->err, "an archive takes all its room at the beginning; record less, or write to another disk");
+    return MOTUS_FILE;
+}
+
 static motus_status put(const maker *m, int descriptor, const void *bytes, size_t count, uint64_t place)
 {
     for (const char *at = bytes; count > 0;) {
         const ssize_t done = pwrite(descriptor, at, count, (off_t)place);
         if (done < 0 && errno == EINTR) continue;
-        if (done < 0) {
-            const int code = errno;
-            fail(m->err, MOTUS_FILE, "cannot write %s: %s", m->path, strerror(code));
-            if (code == ENOSPC || code == EDQUOT || code == EFBIG)
-                hint(m->err, "an archive takes all its room at the beginning; record less, or write to another disk");
-            return MOTUS_FILE;
-        }
+        if (done < 0) return no_room(m, errno);
         at += done, place += (uint64_t)done, count -= (size_t)done;
     }
     return MOTUS_OK;
@@ -263,8 +272,10 @@ static motus_status repeat(const maker *m, int descriptor, const char *piece, si
                            uint64_t place)
 {
     motus_status status = MOTUS_OK;
-    for (uint64_t done = 0; !status && done < total; done += size)
+    for (uint64_t done = 0; !status && done < total; done += size) {
+        if (m->def->stop && m->def->stop(m->def->context)) return fail(m->err, MOTUS_CANCELLED, "cancelled");
         status = put(m, descriptor, piece, total - done < size ? (size_t)(total - done) : size, place + done);
+    }
     return status;
 }
 
@@ -303,6 +314,15 @@ static motus_status fill(const maker *m, int descriptor)
     return status;
 }
 
+/* Asks for all the room before a byte of it is written. A file system that cannot do so finds out by writing. */
+static motus_status take_room(const maker *m, int descriptor)
+{
+    struct stat about;
+    if (fstat(descriptor, &about) != 0 || about.st_size == 0) return MOTUS_OK;
+    const int code = posix_fallocate(descriptor, 0, about.st_size);
+    return code == ENOSPC || code == EDQUOT || code == EFBIG ? no_room(m, code) : MOTUS_OK;
+}
+
 static motus_status by_us(const maker *m, const char *path, size_t size)
 {
     size_t again;
@@ -314,6 +334,7 @@ static motus_status by_us(const maker *m, const char *path, size_t size)
     const int descriptor = open(path, O_RDWR | O_CLOEXEC);
     motus_status status = descriptor < 0 ? fail(m->err, MOTUS_FILE, "cannot write %s: %s", path, strerror(errno))
                                          : put(m, descriptor, text, size, 0);
+    if (!status) status = take_room(m, descriptor);
     if (!status) status = fill(m, descriptor);
     if (!status && fsync(descriptor) != 0 && errno != EINVAL && errno != ENOTSUP && errno != EINTR)
         status = fail(m->err, MOTUS_FILE, "cannot write %s: %s", m->path, strerror(errno));
@@ -323,24 +344,41 @@ static motus_status by_us(const maker *m, const char *path, size_t size)
     return status;
 }
 
+/* After a power cut the file has its name if its folder was written. */
+static void synchronise_folder(const char *path)
+{
+    char *folder = strdup(path), *slash = folder ? strrchr(folder, '/') : NULL;
+    if (slash) slash[1] = 0;
+    const int descriptor = folder ? open(slash ? folder : ".", O_RDONLY | O_CLOEXEC) : -1;
+    if (descriptor >= 0) {
+        (void)fsync(descriptor);
+        close(descriptor);
+    }
+    free(folder);
+}
+
 motus_status make_hdf5(const char *path, const motus_archive_def *d, motus_error *err)
 {
     static const char new[] = ".new";
     size_t size = 0;
     motus_status status;
     maker m = {.def = d, .path = path, .err = err, .places = calloc(2 + d->column_count, sizeof *m.places)};
-    char *text = directory_write(d, NULL, &size), *beside = malloc(strlen(path) + sizeof new);
+    char *where = realpath(path, NULL); /* where a link leads; NULL: there is nothing yet */
+    const char *name = where ? where : path;
+    char *text = directory_write(d, NULL, &size), *beside = malloc(strlen(name) + sizeof new);
     if (!m.places || !text || !beside) {
         status = fail(err, MOTUS_MEMORY, "no memory to make %s", path);
     } else {
-        strcat(strcpy(beside, path), new);
+        strcat(strcpy(beside, name), new);
         status = by_hdf5(&m, beside, size);
         if (!status) status = by_us(&m, beside, size);
-        if (!status && rename(beside, path) != 0)
+        if (!status && rename(beside, name) != 0)
             status = fail(err, MOTUS_FILE, "cannot write %s: %s", path, strerror(errno));
+        if (!status) synchronise_folder(name);
         if (status && m.file >= 0) unlink(beside);
     }
     free(beside);
+    free(where);
     free(text);
     free(m.places);
     return status;

@@ -247,7 +247,7 @@ motus_status file_finish(file_out *f, motus_error *err)
 }
 
 /* Makes the rename survive a power cut; a folder that cannot be opened is not synchronised. */
-static void synchronise_folder(const char *path)
+void file_synchronise_folder(const char *path)
 {
     char *folder = strdup(path);
     if (!folder) return;
@@ -295,7 +295,7 @@ motus_status file_keep(file_out *f, motus_error *err)
         f->code = errno;
         return cannot_write(f, err);
     }
-    if (nameless && !f->temporary) synchronise_folder(f->path);
+    if (nameless && !f->temporary) file_synchronise_folder(f->path);
     if (!f->temporary) return MOTUS_OK;
     if (rename(f->temporary, f->path) != 0) {
         f->code = errno;
@@ -303,7 +303,7 @@ motus_status file_keep(file_out *f, motus_error *err)
     }
     free(f->temporary);
     f->temporary = NULL;
-    synchronise_folder(f->path);
+    file_synchronise_folder(f->path);
     return MOTUS_OK;
 }
 

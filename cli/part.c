@@ -164,7 +164,7 @@ motus_status part_open(part *p, const char *path, motus_error *err)
     FILE *in = open_at(p);
     if (!in) return cannot_read(path, err);
     motus_status status = MOTUS_OK;
-    if (flock(fileno(in), LOCK_SH | LOCK_NB) != 0 && errno == EWOULDBLOCK) {
+    if (sweep_file_busy(path, fileno(in))) {
         status = fail(err, MOTUS_STATE, "%s is being written by another program", path);
         hint(err, "wait until its sweep has ended");
     }

@@ -70,6 +70,8 @@ static char *whole_command(const char *command, const part *p)
     return out;
 }
 
+static int cancelled(void *context) { return (void)context, stop_requested(); }
+
 /* An archive with the columns and the notes of the first shard. */
 static motus_status make(const part *p, const char *output, motus_error *err)
 {
@@ -94,6 +96,7 @@ static motus_status make(const part *p, const char *output, motus_error *err)
         kept[d.note_count++] = n;
     }
     d.rows = p->total, d.block = SHARD_BLOCK, d.columns = columns, d.notes = kept;
+    d.stop = cancelled;
     if (!status) status = motus_archive_create(output, &d, err);
     free(columns);
     free(kept);
@@ -163,10 +166,12 @@ motus_status part_archive_join(part *const *of, const char *output, stop_progres
     const uint64_t count = of[0]->shard.count;
     motus_archive *to = NULL;
     room r = {0};
-    char *beside = malloc(strlen(output) + sizeof ending);
-    if (!beside) return complain_memory(err);
-    strcat(strcpy(beside, output), ending);
-    motus_status status = make(of[0], beside, err);
+    char *where = realpath(output, NULL); /* where a link leads; NULL: there is nothing yet */
+    const char *name = where ? where : output;
+    char *beside = malloc(strlen(name) + sizeof ending);
+    motus_status status = beside ? MOTUS_OK : complain_memory(err);
+    if (beside) strcat(strcpy(beside, name), ending);
+    if (!status) status = make(of[0], beside, err);
     const bool made = !status;
     if (!status) status = motus_archive_open(beside, 1, &to, err);
     if (!status) status = room_make(&r, motus_archive_column_count(to), err);
@@ -174,10 +179,12 @@ motus_status part_archive_join(part *const *of, const char *output, stop_progres
         if (shard_rows(&of[k]->shard, of[k]->total) > 0) status = copy(of[k], to, &r, progress, err);
     if (!status) status = motus_archive_sync(to, err);
     motus_archive_close(to);
-    if (!status && rename(beside, output) != 0)
+    if (!status && rename(beside, name) != 0)
         status = fail(err, MOTUS_FILE, "cannot write %s: %s", output, strerror(errno));
+    if (!status) file_synchronise_folder(name);
     if (status && made) remove(beside);
     room_free(&r);
     free(beside);
+    free(where);
     return status;
 }

@@ -94,10 +94,10 @@ static bool general(int argc, char **argv, bool as_json)
 
 static motus_status dispatch(int argc, char **argv, bool as_json, bool *answered, const team *t, motus_error *err)
 {
-    if (!team_first(t) && (argc < 2 || strcmp(argv[1], verbs[SHARED].name) != 0)) return MOTUS_OK;
-    if (general(argc, argv, as_json)) return file_flush_output(err);
     int first = 1;
     while (first < argc && strcmp(argv[first], "--json") == 0) first++;
+    if (!team_first(t) && (first == argc || strcmp(argv[first], verbs[SHARED].name) != 0)) return MOTUS_OK;
+    if (general(argc, argv, as_json)) return file_flush_output(err);
     if (first == argc) {
         fail(err, MOTUS_ARGUMENT, "a verb is missing");
         hint(err, "motus run model.motus; motus --help lists the others");
@@ -113,7 +113,7 @@ static motus_status dispatch(int argc, char **argv, bool as_json, bool *answered
     o.team = t;
     o.quiet = o.quiet || !team_first(t);
     if (!status && o.help) {
-        help_verb(stdout, v->bit);
+        if (team_first(t)) help_verb(stdout, v->bit);
         status = file_flush_output(err);
     } else if (!status) {
         status = v->go(&o, err);

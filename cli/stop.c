@@ -23,12 +23,14 @@ static void warn(int number) { warned = number; }
 
 void stop_gently(void)
 {
-    struct sigaction action = {0};
+    static const int warnings[] = {SIGTERM, SIGUSR1};
+    struct sigaction action = {0}, before;
     sigemptyset(&action.sa_mask);
     action.sa_handler = warn;
     action.sa_flags = (int)SA_RESETHAND;
-    sigaction(SIGTERM, &action, NULL);
-    sigaction(SIGUSR1, &action, NULL);
+    for (size_t i = 0; i < sizeof warnings / sizeof *warnings; i++)
+        if (sigaction(warnings[i], NULL, &before) == 0 && before.sa_handler != SIG_IGN)
+            sigaction(warnings[i], &action, NULL);
 }
 
 bool stop_warned(void) { return warned != 0; }

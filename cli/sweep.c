@@ -394,7 +394,10 @@ static void report(const sweep *s, const sweep_file *f, double wall)
     if (motus_ensemble_steps(e) > 0) fprintf(out, "%lld steps ", (long long)motus_ensemble_steps(e));
     fprintf(out, "to t = %s, ", isnan(s->until) ? "its own end" : until);
     const int64_t from = motus_ensemble_compiled_from(e);
-    if (from > 0)
+    const bool elsewhere = f->archive && (f->found > 0 || s->options->team); /* its trajectories lie among others */
+    if (from > 0 && elsewhere)
+        fputs("interpreter, then compiled", out);
+    else if (from > 0)
         fprintf(out, "interpreter, then compiled from trajectory %llu",
                 (unsigned long long)(f->found + (uint64_t)from + 1));
     else
@@ -415,10 +418,13 @@ static void report(const sweep *s, const sweep_file *f, double wall)
     }
 }
 
-static void note_unfinished(const sweep *s, const sweep_file *f)
+/* After a failure of any: how far the file is. Waits for all. */
+static void note_unfinished(const sweep *s, const sweep_file *f, motus_status status)
 {
+    const team *t = s->options->team;
     const uint64_t have = sweep_file_have(f);
-    if (team_first(s->options->team) && f->regular && have < s->rows)
+    const bool refused = team_any(t, status == MOTUS_ACCURACY); /* the same command would be refused again */
+    if (!refused && team_first(t) && f->regular && have < s->rows)
         complain_note("%llu of %llu trajectories are in %s; the same command with --resume continues",
                       (unsigned long long)have, (unsigned long long)s->rows, f->path);
 }
@@ -438,6 +444,8 @@ static motus_status finish(const sweep *s, sweep_file *f, sweep_events *events, 
     motus_status status = sweep_events_finish(events, err);
     if (!status) status = sweep_section_draw(section, err);
     if (!status) status = sweep_file_finish(f, err);
+    status = team_agree(o->team, status, err);
+    if (!status && team_size(o->team) > 1 && team_first(o->team)) status = sweep_archive_look(f, err);
     double wall = stop_clock() - began;
     status = team_agree(o->team, status, err);
     if (!status) add_up(o->team, f);
@@ -514,8 +522,8 @@ motus_status sweep_verb(const options *o, motus_error *err)
         f.share.waiting += stop_clock() - done;
         if (!status)
             status = finish(&s, &f, &events, &section, began, err);
-        else if (open && status != MOTUS_ACCURACY)
-            note_unfinished(&s, &f);
+        else if (open)
+            note_unfinished(&s, &f, status);
     }
     sweep_file_close(&f);
     sweep_events_close(&events);

@@ -91,7 +91,7 @@ typedef struct sweep_file {
     uint64_t rows, bytes;   /* complete rows in the file, and where they end; of an archive the next row */
     uint64_t stopped;       /* how many of these trajectories stopped, */
     uint64_t stopped_by[MOTUS_CAUSE_COUNT]; /*   and by which cause */
-    uint64_t found;                         /* rows of an earlier, interrupted command */
+    uint64_t found;                         /* rows of an earlier, interrupted command; of an archive anywhere in it */
     sweep_share share;                      /* of this process, of an archive */
     char *buffer;
     double *numbers; /* room for those of a row */
@@ -112,6 +112,8 @@ motus_status sweep_file_check(const options *, motus_error *);
 motus_status sweep_file_may_write(const options *, const char *path, motus_error *);
 /* Opens a regular file that no other program writes; *regular false: another one, for writing alone. */
 motus_status sweep_file_lock(const char *path, int *descriptor, bool *regular, motus_error *);
+/* Whether another program writes the file. */
+bool sweep_file_busy(const char *path, int descriptor);
 int sweep_file_bytes(int descriptor, const char *, size_t count, size_t *written); /* an errno, or 0 */
 motus_status sweep_file_open(sweep_file *, const sweep *, motus_error *);
 /* Rows: values[axis][i], results[record][i], errors[record][i] (NULL: not told), stopped[i]. */
@@ -143,6 +145,8 @@ uint64_t sweep_archive_have(const sweep_file *); /* waits for all */
 /* How many rows are done, by all, as far as this process knows; and: the others need compute no more. */
 double sweep_archive_done(const sweep_file *);
 void sweep_archive_give_up(sweep_file *);
+/* Whether what all have written has come into the file: MOTUS_FILE, it has not. */
+motus_status sweep_archive_look(sweep_file *, motus_error *);
 motus_status sweep_archive_row(sweep_file *, const double *numbers, motus_error *);
 motus_status sweep_archive_finish(sweep_file *, motus_error *);
 void sweep_archive_close(sweep_file *);

@@ -24,6 +24,9 @@ struct sweep_archive {
     size_t count; /* of columns: those of a row behind its number */
 };
 
+/* Added to the counter by a process that fails or is warned; far more than there are blocks. */
+#define GIVEN_UP (UINT64_C(1) << 50)
+
 bool sweep_archive_name(const char *path)
 {
     const size_t length = strlen(path);
@@ -34,6 +37,8 @@ bool sweep_archive_name(const char *path)
 /* ---- what it says ---- */
 
 static uint64_t number_of(void *s, uint64_t row) { return shard_trajectory(&((const sweep *)s)->shard, row); }
+
+static int stopped(void *s) { return (void)s, stop_requested(); }
 
 /* The words of a column; NULL: it has numbers. To be freed. */
 static const char **words_of(const sweep *s, size_t k, size_t *count)
@@ -99,6 +104,7 @@ static motus_status describe(description *d, const sweep *s, motus_error *err)
     d->def.rows = s->rows;
     d->def.block = SHARD_BLOCK;
     d->def.number = number_of;
+    d->def.stop = stopped;
     d->def.context = (void *)s;
     d->total[decimal_write_whole(s->grid.total, d->total)] = 0;
     d->seed[decimal_write_whole(s->grid.seed, d->seed)] = 0;
@@ -182,6 +188,8 @@ static motus_status find_blocks(sweep_file *f, bool found, motus_error *err)
     motus_status status = MOTUS_OK;
     for (uint64_t b = 0; !status && b < a->blocks; b++) {
         int whole = 0;
+        /* the tables of events go on behind the first row that is missing, in the order of the trajectories */
+        if (a->missing_count > 0 && f->sweep->options->events) found = false;
         if (found) status = motus_archive_whole(a->file, b, &whole, err);
         if (status || !whole) {
             a->missing[a->missing_count++] = b;
@@ -238,6 +246,8 @@ static void take_blocks(sweep_file *f)
 static void move(sweep_file *f)
 {
     sweep_archive *a = f->archive;
+    const team *t = f->sweep->options->team;
+    if (team_size(t) > 1 && t->take(t->context, 0) >= GIVEN_UP) a->next = a->end = a->missing_count;
     if (a->next == a->end) take_blocks(f);
     f->rows = a->next < a->end ? a->missing[a->next] * SHARD_BLOCK : f->sweep->rows;
 }
@@ -299,7 +309,7 @@ uint64_t sweep_archive_left(const sweep_file *f)
 void sweep_archive_give_up(sweep_file *f)
 {
     const team *t = f->sweep->options->team;
-    if (f->archive && team_size(t) > 1) t->take(t->context, f->archive->missing_count);
+    if (f->archive && team_size(t) > 1) t->take(t->context, GIVEN_UP);
 }
 
 double sweep_archive_done(const sweep_file *f)
@@ -342,4 +352,22 @@ uint64_t sweep_archive_have(const sweep_file *f)
     const team *t = f->sweep->options->team;
     const uint64_t rows = f->share.rows;
     return f->found + (team_size(t) > 1 ? t->sum(t->context, rows) : rows);
+}
+
+motus_status sweep_archive_look(sweep_file *f, motus_error *err)
+{
+    sweep_archive *a = f->archive;
+    uint64_t lost = 0;
+    motus_status status = MOTUS_OK;
+    for (uint64_t b = 0; !status && b < a->blocks; b++) {
+        int written = 0;
+        status = motus_archive_written(a->file, b, &written, err);
+        lost += !status && !written;
+    }
+    if (status || !lost) return status;
+    fail(err, MOTUS_FILE, "%llu of %llu blocks were written and are not in %s", (unsigned long long)lost,
+         (unsigned long long)a->blocks, f->path);
+    hint(err,
+         "the file system loses what several machines write into one file: use shards; --resume computes the blocks");
+    return MOTUS_FILE;
 }

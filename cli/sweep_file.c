@@ -185,11 +185,24 @@ static motus_status go_on(sweep_file *f, uint64_t end, motus_error *err)
     return f->npy ? put_npy_head(f, err) : MOTUS_OK;
 }
 
-/* Asks for the lock by which one program writes; where the file system has none, it is done without. That of an archive
- * is on a byte far behind its end, so that HDF5, which asks for a shared lock of the file, reads it meanwhile. */
+/* The lock of an archive is on a byte far behind its end, so that HDF5, which asks for a shared lock of the file, reads it
+ * meanwhile. */
+static struct flock lock_behind(void)
+{
+    return (struct flock){.l_type = F_WRLCK, .l_whence = SEEK_SET, .l_start = (off_t)1 << 62, .l_len = 1};
+}
+
+bool sweep_file_busy(const char *path, int descriptor)
+{
+    struct flock behind = lock_behind();
+    if (sweep_archive_name(path)) return fcntl(descriptor, F_OFD_GETLK, &behind) == 0 && behind.l_type != F_UNLCK;
+    return flock(descriptor, LOCK_SH | LOCK_NB) != 0 && errno == EWOULDBLOCK;
+}
+
+/* Asks for the lock by which one program writes; where the file system has none, it is done without. */
 static bool locked_by_another(const char *path, int descriptor)
 {
-    struct flock behind = {.l_type = F_WRLCK, .l_whence = SEEK_SET, .l_start = (off_t)1 << 62, .l_len = 1};
+    struct flock behind = lock_behind();
     const bool archive = sweep_archive_name(path);
     const int failed = archive ? fcntl(descriptor, F_OFD_SETLK, &behind) : flock(descriptor, LOCK_EX | LOCK_NB);
     return failed && (errno == EWOULDBLOCK || (archive && errno == EACCES));
@@ -204,18 +217,23 @@ motus_status sweep_file_lock(const char *path, int *descriptor, bool *regular, m
     if (*descriptor < 0 || fstat(*descriptor, &about) != 0)
         return fail(err, MOTUS_FILE, "cannot write %s: %s", path, strerror(errno));
     *regular = S_ISREG(about.st_mode);
-    if (!*regular || !locked_by_another(path, *descriptor)) return MOTUS_OK;
+    if (!*regular) return MOTUS_OK;
+    if (!locked_by_another(path, *descriptor)) {
+        struct stat named; /* another program may have put a new archive in its place before the lock was there */
+        if (stat(path, &named) != 0 || (named.st_dev == about.st_dev && named.st_ino == about.st_ino)) return MOTUS_OK;
+        close(*descriptor);
+        return sweep_file_lock(path, descriptor, regular, err);
+    }
     fail(err, MOTUS_FILE, "%s is being written by another program", path);
     hint(err, "wait for that sweep, or stop it");
     return MOTUS_FILE;
 }
 
 /* An archive that is made anew takes the place of the file that was locked. */
-static motus_status open_archive(sweep_file *f, bool found, motus_error *err)
+static motus_status open_archive(sweep_file *f, bool found, bool made, motus_error *err)
 {
-    struct stat about;
     motus_status status = sweep_archive_open(f, found, err);
-    if (status && fstat(f->descriptor, &about) == 0 && about.st_size == 0) unlink(f->path); /* made by the lock */
+    if (status && made && !found) unlink(f->path); /* the lock has made it */
     if (status || found) return status;
     close(f->descriptor);
     return sweep_file_lock(f->path, &f->descriptor, &f->regular, err);
@@ -235,12 +253,13 @@ motus_status sweep_file_open(sweep_file *f, const sweep *s, motus_error *err)
         f->descriptor = STDOUT_FILENO;
         return put_head(f, err);
     }
+    const bool made = access(f->path, F_OK) != 0;
     motus_status status = sweep_file_lock(f->path, &f->descriptor, &f->regular, err);
     if (status || !f->regular) return status ? status : put_head(f, err);
     struct stat about; /* checked again under the lock */
     status = fstat(f->descriptor, &about) == 0 ? sweep_file_check(o, err) : cannot_write(f, errno, err);
     if (status) return status;
-    if (sweep_archive_name(f->path)) return open_archive(f, o->resume && about.st_size > 0, err);
+    if (sweep_archive_name(f->path)) return open_archive(f, o->resume && about.st_size > 0, made, err);
     return o->resume && about.st_size > 0 ? go_on(f, (uint64_t)about.st_size, err) : put_head(f, err);
 }
 

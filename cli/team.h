@@ -34,6 +34,10 @@ static inline motus_status team_agree(const team *t, motus_status status, motus_
     if (status) return status;
     return failed ? team_failed(err) : MOTUS_OK;
 }
+static inline bool team_any(const team *t, bool mine)
+{
+    return t && t->size > 1 ? t->largest(t->context, mine) != 0 : mine;
+}
 /* Whether this process is the one that tells of the failure. */
 bool team_tells(const team *, motus_status, const motus_error *);
 

@@ -52,9 +52,10 @@ typedef struct motus_archive_def {
     void *context;
     const motus_archive_column *columns;
     size_t column_count;
-    const motus_archive_note
-        *notes; /* the one named "model" is the dataset /model, others are attributes of the file */
+    /* The note named "model" is the dataset /model; others are attributes of the file. */
+    const motus_archive_note *notes;
     size_t note_count;
+    int (*stop)(void *context); /* asked while the file is made; NULL, or not 0 ends that with MOTUS_CANCELLED */
 } motus_archive_def;
 
 MOTUS_API motus_archive_def motus_archive_default(void);
@@ -91,6 +92,8 @@ MOTUS_API motus_status motus_archive_sync(motus_archive *, motus_error *);
 /* Whether a block is there: *whole 1: its bytes have the hash that was written after them; 0: it is missing, in part or
  * in all. */
 MOTUS_API motus_status motus_archive_whole(motus_archive *, uint64_t block, int *whole, motus_error *);
+/* Whether a hash of the block is there, whatever its bytes are: all that others have written since it was opened. */
+MOTUS_API motus_status motus_archive_written(motus_archive *, uint64_t block, int *written, motus_error *);
 /* Reads `count` numbers of a column from a row on: double or unsigned char. */
 MOTUS_API motus_status motus_archive_read(motus_archive *, size_t column, uint64_t row, size_t count, void *,
                                           motus_error *);

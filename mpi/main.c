@@ -11,7 +11,6 @@
 #include <mpi.h>
 #include <sched.h>
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
 
@@ -78,20 +77,32 @@ static void answer(void *context)
     MPI_Iprobe(MPI_ANY_SOURCE, MPI_ANY_TAG, MPI_COMM_WORLD, &flag, MPI_STATUS_IGNORE);
 }
 
-/* As many threads as this rank has processors: those it is bound to, or its share of those of the machine. */
+static int overlap(const cpu_set_t *a, const cpu_set_t *b)
+{
+    cpu_set_t both;
+    CPU_AND(&both, a, b);
+    return CPU_COUNT(&both) > 0;
+}
+
+/* As many threads as this rank has processors: those that it may run on, shared with the ranks that may run there too. */
 static int threads_of_rank(void)
 {
     MPI_Comm machine;
-    cpu_set_t allowed;
-    int here = 1;
-    const long all = sysconf(_SC_NPROCESSORS_ONLN);
-    if (MPI_Comm_split_type(MPI_COMM_WORLD, MPI_COMM_TYPE_SHARED, 0, MPI_INFO_NULL, &machine) == MPI_SUCCESS) {
-        MPI_Comm_size(machine, &here);
-        MPI_Comm_free(&machine);
+    cpu_set_t mine, other;
+    int here, me, sharers = 0;
+    CPU_ZERO(&mine);
+    if (sched_getaffinity(0, sizeof mine, &mine) != 0) CPU_SET(0, &mine);
+    MPI_Comm_split_type(MPI_COMM_WORLD, MPI_COMM_TYPE_SHARED, 0, MPI_INFO_NULL, &machine);
+    MPI_Comm_size(machine, &here);
+    MPI_Comm_rank(machine, &me);
+    for (int k = 0; k < here; k++) {
+        other = mine;
+        MPI_Bcast(&other, sizeof other, MPI_BYTE, k, machine);
+        sharers += overlap(&mine, &other);
     }
-    const int mine = sched_getaffinity(0, sizeof allowed, &allowed) == 0 ? CPU_COUNT(&allowed) : 1;
-    const int share = mine < all ? mine : (int)all / here;
-    return share > 1 ? share : 1;
+    MPI_Comm_free(&machine);
+    const int threads = CPU_COUNT(&mine) / sharers;
+    return threads > 1 ? threads : 1;
 }
 
 /* ---- versions ---- */
@@ -109,48 +120,48 @@ static const char *instructions(void)
 #endif
 }
 
-/* What every rank says of itself, one behind the other; on rank 0, to be freed. */
-static char *gather(const char *mine, int size)
+/* What rank k says of itself, which all call in the same order. Returns out. */
+static const char *said_by(int k, const char *mine, char out[SAID])
 {
-    char own[SAID] = "", *all = calloc((size_t)size, SAID);
-    snprintf(own, sizeof own, "%s", mine);
-    if (all) MPI_Allgather(own, SAID, MPI_CHAR, all, SAID, MPI_CHAR, MPI_COMM_WORLD);
-    return all;
+    snprintf(out, SAID, "%s", mine);
+    MPI_Bcast(out, SAID, MPI_CHAR, k, MPI_COMM_WORLD);
+    return out;
 }
 
 /* Ranks of several versions would compute different bits. Returns 0, or the exit status. */
 static int versions_differ(int rank, int size)
 {
-    char *all = gather(motus_version(), size);
-    int differs = all == NULL;
-    for (int k = 1; all && k < size && !differs; k++) {
-        differs = strcmp(all, all + (size_t)k * SAID) != 0;
-        if (differs && rank == 0)
+    char first[SAID], other[SAID];
+    int differs = 0;
+    said_by(0, motus_version(), first);
+    for (int k = 1; k < size; k++) {
+        const int now = strcmp(first, said_by(k, motus_version(), other)) != 0;
+        if (now && !differs && rank == 0)
             fprintf(stderr,
-                    "motus: rank 0 is motus %s, and rank %d is motus %s\n  hint: install one version everywhere\n", all,
-                    k, all + (size_t)k * SAID);
+                    "motus: rank 0 is motus %s, and rank %d is motus %s\n  hint: install one version everywhere\n",
+                    first, k, other);
+        differs |= now;
     }
-    free(all);
     return differs ? 2 : 0;
 }
 
-static int check(int rank, int size, int threads)
+static void check(int rank, int size)
 {
-    char own[SAID], name[MPI_MAX_PROCESSOR_NAME] = "";
+    char own[SAID], other[SAID], name[MPI_MAX_PROCESSOR_NAME] = "";
     int length;
+    const int threads = threads_of_rank();
     MPI_Get_processor_name(name, &length);
-    snprintf(own, sizeof own, "motus %s, %s, on %.100s", motus_version(), instructions(), name);
-    char *all = gather(own, size);
-    for (int k = 0; all && rank == 0 && k < size; k++) printf("rank %d: %s\n", k, all + (size_t)k * SAID);
-    if (rank == 0) {
-        char library[MPI_MAX_LIBRARY_VERSION_STRING] = "";
-        MPI_Get_library_version(library, &length);
-        library[strcspn(library, "\n,")] = 0;
-        printf("%d rank%s, %s, %s\n", size, size == 1 ? "" : "s", library,
-               threads >= MPI_THREAD_FUNNELED ? "threads inside a rank" : "no threads inside a rank: use --threads 1");
+    snprintf(own, sizeof own, "motus %s, %s, %d thread%s, on %.100s", motus_version(), instructions(), threads,
+             threads == 1 ? "" : "s", name);
+    for (int k = 0; k < size; k++) {
+        said_by(k, own, other);
+        if (rank == 0) printf("rank %d: %s\n", k, other);
     }
-    free(all);
-    return all ? 0 : 1;
+    if (rank > 0) return;
+    char library[MPI_MAX_LIBRARY_VERSION_STRING] = "";
+    MPI_Get_library_version(library, &length);
+    library[strcspn(library, "\n,")] = 0;
+    printf("%d rank%s, %s\n", size, size == 1 ? "" : "s", library);
 }
 
 int main(int argc, char **argv)
@@ -162,7 +173,7 @@ int main(int argc, char **argv)
     MPI_Comm_size(MPI_COMM_WORLD, &size);
     exit = versions_differ(rank, size);
     if (!exit && argc == 2 && strcmp(argv[1], "--mpi-check") == 0) {
-        exit = check(rank, size, threads);
+        check(rank, size);
     } else if (!exit) {
         c.rank = rank;
         MPI_Win_allocate(rank == 0 ? sizeof *c.value : 0, sizeof *c.value, MPI_INFO_NULL, MPI_COMM_WORLD, &c.value,

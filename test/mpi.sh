@@ -56,6 +56,7 @@ gives "trajectories of unequal cost by motus" 0 "$motus" "${unequal[@]}" -o "$pl
 gives "... and by ranks" 0 ranks 3 "${unequal[@]}" -o "$place/unequal3.h5" --quiet
 that "... the same bytes" [ "$(sum "$place/unequal3.h5")" = "$(sum "$place/unequal1.h5")" ]
 
+printf '%s\n' 'k = 1' "x'' = -k x" 'x(0) = 1' "x'(0) = 0" 'until 10' >"$place/stiff.motus"
 # --- errors, once ---------------------------------------------------------------------------------------------------------------------
 # name, exit status, words of the message, number of ranks, words: told by one rank
 once() {
@@ -71,6 +72,10 @@ once "an archive that is there" 2 "exists" 3 "${words[@]}" -o "$place/many.h5"
 once "a table" 2 "together write archives alone" 3 "${words[@]}" -o "$place/x.csv"
 once "another sweep" 2 "was made by another sweep" 2 "${words[@]}" --until 10 -o "$place/many.h5" --resume
 once "a folder that is not there" 1 "cannot write" 4 "${words[@]}" -o "$place/none/x.h5"
+once "an accuracy that is not reached" 1 "is not reached" 2 sweep "$place/stiff.motus" --vary "k=1,1e5" --accuracy 1e-15 --record final -o "$place/x.h5"
+gives "--json before the verb" 0 timeout 60 mpirun --quiet -n 2 "$mpi" --json "${words[@]}" -o "$place/x.h5" --force
+gives "help" 0 ranks 3 sweep --help
+that "... once" eval "[ \$(grep -c 'motus sweep MODEL' '$out') = 1 ]"
 once "a word that there is not" 2 "unknown option" 3 "${words[@]}" --nonsense
 mkdir "$place/small"
 if mount -t tmpfs -o size=1m none "$place/small" 2>/dev/null; then
