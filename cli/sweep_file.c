@@ -185,8 +185,8 @@ static motus_status go_on(sweep_file *f, uint64_t end, motus_error *err)
     return f->npy ? put_npy_head(f, err) : MOTUS_OK;
 }
 
-/* The lock of an archive is on a byte far behind its end, so that HDF5, which asks for a shared lock of the file, reads it
- * meanwhile. */
+/* The lock of an archive is on a byte far behind its end, so that HDF5, which asks for a shared lock of the file, reads
+ * it meanwhile. */
 static struct flock lock_behind(void)
 {
     return (struct flock){.l_type = F_WRLCK, .l_whence = SEEK_SET, .l_start = (off_t)1 << 62, .l_len = 1};

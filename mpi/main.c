@@ -84,7 +84,8 @@ static int overlap(const cpu_set_t *a, const cpu_set_t *b)
     return CPU_COUNT(&both) > 0;
 }
 
-/* As many threads as this rank has processors: those that it may run on, shared with the ranks that may run there too. */
+/* As many threads as this rank has processors: those that it may run on, shared with the ranks that may run there too.
+ */
 static int threads_of_rank(void)
 {
     MPI_Comm machine;
