@@ -292,13 +292,26 @@ static motus_status put_numbers(const maker *m, int descriptor, int64_t *room)
     return status;
 }
 
-/* Gives every byte of the columns its value, so that the file has all its room on the disk. */
+/* What is not written again: the numbers of the rows, and that no block is there. */
+static motus_status put_rest(const maker *m, int descriptor)
+{
+    const motus_archive_def *d = m->def;
+    char *room = calloc(1, FILL);
+    if (!room) return fail(m->err, MOTUS_MEMORY, "no memory to fill %s", m->path);
+    const uint64_t hashes = directory_blocks(d->rows, d->block) * sizeof(uint64_t);
+    motus_status status = repeat(m, descriptor, room, FILL, hashes, m->places[1]);
+    if (!status) status = put_numbers(m, descriptor, (int64_t *)(void *)room);
+    free(room);
+    return status;
+}
+
+/* Gives every byte of the columns its value. */
 static motus_status fill(const maker *m, int descriptor)
 {
     const motus_archive_def *d = m->def;
     double *room = malloc(FILL);
     if (!room) return fail(m->err, MOTUS_MEMORY, "no memory to fill %s", m->path);
-    motus_status status = put_numbers(m, descriptor, (int64_t *)room);
+    motus_status status = MOTUS_OK;
     for (size_t i = 0; i < FILL / sizeof *room; i++) room[i] = NAN;
     for (size_t k = 0; !status && k < d->column_count; k++)
         if (d->columns[k].kind == MOTUS_ARCHIVE_NUMBER)
@@ -307,9 +320,6 @@ static motus_status fill(const maker *m, int descriptor)
     for (size_t k = 0; !status && k < d->column_count; k++)
         if (d->columns[k].kind == MOTUS_ARCHIVE_WORD)
             status = repeat(m, descriptor, (const char *)room, FILL, d->rows, m->places[2 + k]);
-    memset(room, 0, FILL);
-    const uint64_t hashes = directory_blocks(d->rows, d->block) * sizeof(uint64_t);
-    if (!status) status = repeat(m, descriptor, (const char *)room, FILL, hashes, m->places[1]);
     free(room);
     return status;
 }
@@ -335,9 +345,11 @@ static motus_status by_us(const maker *m, const char *path, size_t size)
     motus_status status = descriptor < 0 ? fail(m->err, MOTUS_FILE, "cannot write %s: %s", path, strerror(errno))
                                          : put(m, descriptor, text, size, 0);
     if (!status) status = take_room(m, descriptor);
-    if (!status) status = fill(m, descriptor);
+    if (!status) status = put_rest(m, descriptor);
+    /* Not what fills the columns: blocks are soon written over it, and a disk would have both. */
     if (!status && fsync(descriptor) != 0 && errno != EINVAL && errno != ENOTSUP && errno != EINTR)
         status = fail(m->err, MOTUS_FILE, "cannot write %s: %s", m->path, strerror(errno));
+    if (!status) status = fill(m, descriptor);
     if (descriptor >= 0 && close(descriptor) != 0 && !status)
         status = fail(m->err, MOTUS_FILE, "cannot write %s: %s", m->path, strerror(errno));
     free(text);
