@@ -5,6 +5,7 @@
  * hash fits is whole.
  */
 #define _XOPEN_SOURCE 700
+#include "archive/bytes.h"
 #include "archive/directory.h"
 #include "base/error.h"
 
@@ -50,13 +51,7 @@ static motus_status get(const motus_archive *a, void *out, size_t count, uint64_
 
 static motus_status put(const motus_archive *a, const void *bytes, size_t count, uint64_t place, motus_error *err)
 {
-    for (const char *at = bytes; count > 0;) {
-        const ssize_t done = pwrite(a->descriptor, at, count, (off_t)place);
-        if (done < 0 && errno == EINTR) continue;
-        if (done < 0) return cannot("write", a->path, err);
-        at += done, place += (uint64_t)done, count -= (size_t)done;
-    }
-    return MOTUS_OK;
+    return bytes_put(a->descriptor, bytes, count, place) ? MOTUS_OK : cannot("write", a->path, err);
 }
 
 /* ---- opening ---- */
@@ -185,9 +180,7 @@ motus_status motus_archive_write(motus_archive *a, uint64_t block, const void *c
 
 motus_status motus_archive_sync(motus_archive *a, motus_error *err)
 {
-    /* not every file system can synchronise; a real failure to write reports EIO, ENOSPC or EDQUOT */
-    if (fsync(a->descriptor) == 0 || errno == EINVAL || errno == ENOTSUP || errno == EINTR) return MOTUS_OK;
-    return cannot("write", a->path, err);
+    return bytes_sync(a->descriptor) ? MOTUS_OK : cannot("write", a->path, err);
 }
 
 motus_status motus_archive_written(motus_archive *a, uint64_t block, int *written, motus_error *err)

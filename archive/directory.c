@@ -12,7 +12,8 @@
 #define PLACE "%020" PRIu64
 const char *const directory_kinds[] = {[MOTUS_ARCHIVE_NUMBER] = "number", [MOTUS_ARCHIVE_WORD] = "word"};
 
-/* FNV-1a over words of 64 bits, whose multiplication is followed by a rotation, so that high bits count too. */
+/* As FNV-1a, over words of 64 bits; the high half is folded into the low one, so that its bits count in what follows.
+ */
 uint64_t directory_hash(uint64_t h, const void *bytes, size_t count)
 {
     const unsigned char *at = bytes;

@@ -5,22 +5,22 @@
  * times into it, in one version of its format, and everything has its place before any block is written.
  */
 #define _XOPEN_SOURCE 700
+#include "archive/bytes.h"
 #include "archive/directory.h"
 #include "archive/make.h"
 #include "base/error.h"
 
 #include <errno.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
-#include <sys/stat.h>
-#include <unistd.h>
-
 #include <fcntl.h>
 #include <hdf5.h>
 #include <hdf5_hl.h>
 #include <math.h>
 #include <stdbool.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
 
 enum {
     ALIGNED = DIRECTORY_LEAST, /* columns begin at pages, so that two machines write no page of a block in common */
@@ -258,13 +258,7 @@ static motus_status no_room(const maker *m, int code)
 
 static motus_status put(const maker *m, int descriptor, const void *bytes, size_t count, uint64_t place)
 {
-    for (const char *at = bytes; count > 0;) {
-        const ssize_t done = pwrite(descriptor, at, count, (off_t)place);
-        if (done < 0 && errno == EINTR) continue;
-        if (done < 0) return no_room(m, errno);
-        at += done, place += (uint64_t)done, count -= (size_t)done;
-    }
-    return MOTUS_OK;
+    return bytes_put(descriptor, bytes, count, place) ? MOTUS_OK : no_room(m, errno);
 }
 
 /* Puts `total` bytes of a repeated piece. */
@@ -347,7 +341,7 @@ static motus_status by_us(const maker *m, const char *path, size_t size)
     if (!status) status = take_room(m, descriptor);
     if (!status) status = put_rest(m, descriptor);
     /* Not what fills the columns: blocks are soon written over it, and a disk would have both. */
-    if (!status && fsync(descriptor) != 0 && errno != EINVAL && errno != ENOTSUP && errno != EINTR)
+    if (!status && !bytes_sync(descriptor))
         status = fail(m->err, MOTUS_FILE, "cannot write %s: %s", m->path, strerror(errno));
     if (!status) status = fill(m, descriptor);
     if (descriptor >= 0 && close(descriptor) != 0 && !status)

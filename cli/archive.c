@@ -4,6 +4,7 @@
  */
 #include "base/decimal.h"
 #include "base/error.h"
+#include "cli/block_room.h"
 #include "cli/complain.h"
 #include "cli/csv.h"
 #include "cli/stop.h"
@@ -67,8 +68,8 @@ static motus_status put_head(const contents *c, file_out *out, motus_error *err)
 
 typedef struct table {
     motus_archive_column column;
-    double *numbers;
-    unsigned char *words;
+    const unsigned char *words; /* NULL: it has numbers */
+    double *numbers;            /* the room of either */
 } table;
 
 /* A number, or nothing where a trajectory that stopped has none, and where one did not stop. */
@@ -110,10 +111,8 @@ static motus_status put_blocks(const contents *c, table *t, int64_t *number, fil
         size_t count;
         motus_archive_block(c->file, b, &first, &count);
         status = motus_archive_numbers(c->file, first, count, number, err);
-        for (size_t k = 0; !status && k < c->columns; k++) {
-            void *room = t[k].words ? (void *)t[k].words : t[k].numbers;
-            status = motus_archive_read(c->file, k, first, count, room, err);
-        }
+        for (size_t k = 0; !status && k < c->columns; k++)
+            status = motus_archive_read(c->file, k, first, count, t[k].numbers, err);
         if (!status) status = put_rows(c, t, number, count, out, err);
         if (!status && stop_progress_hook(progress, (double)b / (double)c->blocks))
             status = fail(err, MOTUS_CANCELLED, "cancelled");
@@ -126,23 +125,19 @@ static motus_status write_csv(const contents *c, file_out *out, stop_progress *p
     uint64_t first;
     size_t most;
     motus_archive_block(c->file, 0, &first, &most);
+    block_room room;
     table *t = calloc(c->columns, sizeof *t);
     int64_t *number = calloc(most + 1, sizeof *number);
-    bool room = t && number;
-    for (size_t k = 0; room && k < c->columns; k++) {
+    motus_status status = block_room_make(&room, c->columns, most, err);
+    if (!status && (!t || !number)) status = complain_memory(err);
+    for (size_t k = 0; !status && k < c->columns; k++) {
         motus_archive_column_at(c->file, k, &t[k].column);
-        if (t[k].column.kind == MOTUS_ARCHIVE_WORD)
-            t[k].words = malloc(most + 1);
-        else
-            t[k].numbers = malloc((most + 1) * sizeof *t[k].numbers);
-        room = t[k].words || t[k].numbers;
+        t[k].numbers = room.columns[k];
+        if (t[k].column.kind == MOTUS_ARCHIVE_WORD) t[k].words = (unsigned char *)room.columns[k];
     }
-    motus_status status = room ? put_head(c, out, err) : complain_memory(err);
+    if (!status) status = put_head(c, out, err);
     if (!status) status = put_blocks(c, t, number, out, progress, err);
-    for (size_t k = 0; t && k < c->columns; k++) {
-        free(t[k].words);
-        free(t[k].numbers);
-    }
+    block_room_free(&room);
     free(t);
     free(number);
     return status;

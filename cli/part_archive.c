@@ -5,6 +5,7 @@
  */
 #include "base/decimal.h"
 #include "base/error.h"
+#include "cli/block_room.h"
 #include "cli/complain.h"
 #include "cli/part.h"
 #include "cli/sweep.h"
@@ -105,32 +106,7 @@ static motus_status make(const part *p, const char *output, motus_error *err)
     return status;
 }
 
-typedef struct room {
-    double **columns;
-    const void **written;
-    size_t count;
-} room;
-
-static void room_free(room *r)
-{
-    for (size_t k = 0; r->columns && k < r->count; k++) free(r->columns[k]);
-    free(r->columns);
-    free(r->written);
-}
-
-static motus_status room_make(room *r, size_t count, motus_error *err)
-{
-    *r = (room){calloc(count, sizeof *r->columns), calloc(count, sizeof *r->written), count};
-    bool good = r->columns && r->written;
-    for (size_t k = 0; good && k < count; k++) {
-        r->columns[k] = malloc(SHARD_BLOCK * sizeof **r->columns);
-        r->written[k] = r->columns[k];
-        good = r->columns[k];
-    }
-    return good ? MOTUS_OK : complain_memory(err);
-}
-
-static motus_status copy_block(const part *p, motus_archive *from, uint64_t b, motus_archive *to, room *r,
+static motus_status copy_block(const part *p, motus_archive *from, uint64_t b, motus_archive *to, block_room *r,
                                motus_error *err)
 {
     uint64_t first;
@@ -144,7 +120,7 @@ static motus_status copy_block(const part *p, motus_archive *from, uint64_t b, m
     return status ? status : motus_archive_write(to, p->shard.number - 1 + b * p->shard.count, r->written, err);
 }
 
-static motus_status copy(const part *p, motus_archive *to, room *r, stop_progress *progress, motus_error *err)
+static motus_status copy(const part *p, motus_archive *to, block_room *r, stop_progress *progress, motus_error *err)
 {
     motus_archive *from;
     motus_status status = motus_archive_open(p->path, 0, &from, err);
@@ -165,7 +141,7 @@ motus_status part_archive_join(part *const *of, const char *output, stop_progres
     static const char ending[] = ".joined"; /* it has its name when all blocks are there */
     const uint64_t count = of[0]->shard.count;
     motus_archive *to = NULL;
-    room r = {0};
+    block_room r = {0};
     char *where = realpath(output, NULL); /* where a link leads; NULL: there is nothing yet */
     const char *name = where ? where : output;
     char *beside = malloc(strlen(name) + sizeof ending);
@@ -174,7 +150,7 @@ motus_status part_archive_join(part *const *of, const char *output, stop_progres
     if (!status) status = make(of[0], beside, err);
     const bool made = !status;
     if (!status) status = motus_archive_open(beside, 1, &to, err);
-    if (!status) status = room_make(&r, motus_archive_column_count(to), err);
+    if (!status) status = block_room_make(&r, motus_archive_column_count(to), SHARD_BLOCK, err);
     for (uint64_t k = 0; !status && k < count; k++)
         if (shard_rows(&of[k]->shard, of[k]->total) > 0) status = copy(of[k], to, &r, progress, err);
     if (!status) status = motus_archive_sync(to, err);
@@ -183,7 +159,7 @@ motus_status part_archive_join(part *const *of, const char *output, stop_progres
         status = fail(err, MOTUS_FILE, "cannot write %s: %s", output, strerror(errno));
     if (!status) file_synchronise_folder(name);
     if (status && made) remove(beside);
-    room_free(&r);
+    block_room_free(&r);
     free(beside);
     free(where);
     return status;

@@ -34,7 +34,7 @@ static const verb verbs[] = {
     {"lab", VERB_LAB, lab_verb},
     {"bench", 0, NULL},
 };
-enum { VERBS = sizeof verbs / sizeof *verbs, SHARED = 3 /* the verb that all of a team do: sweep */ };
+enum { VERBS = sizeof verbs / sizeof *verbs };
 
 static const verb *find(const char *name)
 {
@@ -96,7 +96,7 @@ static motus_status dispatch(int argc, char **argv, bool as_json, bool *answered
 {
     int first = 1;
     while (first < argc && strcmp(argv[first], "--json") == 0) first++;
-    if (!team_first(t) && (first == argc || strcmp(argv[first], verbs[SHARED].name) != 0)) return MOTUS_OK;
+    if (!team_first(t) && (first == argc || strcmp(argv[first], options_verb(VERB_SWEEP)) != 0)) return MOTUS_OK;
     if (general(argc, argv, as_json)) return file_flush_output(err);
     if (first == argc) {
         fail(err, MOTUS_ARGUMENT, "a verb is missing");

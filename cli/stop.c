@@ -21,16 +21,22 @@ static volatile sig_atomic_t warned;
 static void store(int number) { requested = number; }
 static void warn(int number) { warned = number; }
 
+/* Signals that are ignored stay so. */
+static void handle(const int *signals, size_t count, void (*handler)(int))
+{
+    struct sigaction action = {0}, before;
+    sigemptyset(&action.sa_mask);
+    action.sa_handler = handler;
+    action.sa_flags = (int)SA_RESETHAND;
+    for (size_t i = 0; i < count; i++)
+        if (sigaction(signals[i], NULL, &before) == 0 && before.sa_handler != SIG_IGN)
+            sigaction(signals[i], &action, NULL);
+}
+
 void stop_gently(void)
 {
     static const int warnings[] = {SIGTERM, SIGUSR1};
-    struct sigaction action = {0}, before;
-    sigemptyset(&action.sa_mask);
-    action.sa_handler = warn;
-    action.sa_flags = (int)SA_RESETHAND;
-    for (size_t i = 0; i < sizeof warnings / sizeof *warnings; i++)
-        if (sigaction(warnings[i], NULL, &before) == 0 && before.sa_handler != SIG_IGN)
-            sigaction(warnings[i], &action, NULL);
+    handle(warnings, sizeof warnings / sizeof *warnings, warn);
 }
 
 bool stop_warned(void) { return warned != 0; }
@@ -38,17 +44,12 @@ bool stop_warned(void) { return warned != 0; }
 void stop_catch_signals(void)
 {
     static const int caught[] = {SIGINT, SIGTERM, SIGHUP};
-    struct sigaction action = {0}, before;
-    sigemptyset(&action.sa_mask);
-    action.sa_handler = store;
-    action.sa_flags = (int)SA_RESETHAND;
-    for (size_t i = 0; i < sizeof caught / sizeof *caught; i++)
-        if (sigaction(caught[i], NULL, &before) == 0 && before.sa_handler != SIG_IGN)
-            sigaction(caught[i], &action, NULL);
+    struct sigaction ignore = {0};
+    handle(caught, sizeof caught / sizeof *caught, store);
     /* with SIGPIPE ignored, a closed pipe is a failed write, after which temporary files can be removed */
-    action.sa_handler = SIG_IGN;
-    action.sa_flags = 0;
-    sigaction(SIGPIPE, &action, NULL);
+    sigemptyset(&ignore.sa_mask);
+    ignore.sa_handler = SIG_IGN;
+    sigaction(SIGPIPE, &ignore, NULL);
 }
 
 bool stop_requested(void) { return requested != 0; }

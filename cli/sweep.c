@@ -283,6 +283,7 @@ static motus_status go(sweep *s, sweep_file *f, sweep_events *events, sweep_sect
     for (uint64_t left; !status && (left = sweep_file_left(f)) > 0;) {
         size_t count = left < b.count ? (size_t)left : b.count;
         if (f->archive) count = up_to_block(f->rows, count);
+        if (f->rows % SHARD_BLOCK == 0 && sweep_archive_given_up(f)) break; /* with no block in hand */
         double began = stop_clock();
         p->from = sweep_file_done(f) / total;
         p->span = (double)count / total;
@@ -449,7 +450,7 @@ static motus_status finish(const sweep *s, sweep_file *f, sweep_events *events, 
     double wall = stop_clock() - began;
     status = team_agree(o->team, status, err);
     if (!status) add_up(o->team, f);
-    sweep_share *all = status || !o->team ? NULL : sweep_ranks_gather(o->team, &f->share);
+    sweep_share *all = status || !o->team || !o->json ? NULL : sweep_ranks_gather(o->team, &f->share);
     if (status || !team_first(o->team)) {
         free(all);
         return status;

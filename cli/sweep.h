@@ -128,8 +128,6 @@ uint64_t sweep_file_left(const sweep_file *);
 /* How many rows are there; waits for all. */
 uint64_t sweep_file_have(const sweep_file *);
 double sweep_file_done(const sweep_file *); /* as far as this process knows */
-/* The numbers of row i after its number: NaN in all that a stopped trajectory has not. Returns how many. */
-size_t sweep_file_numbers(const sweep *, const sweep_rows *, size_t i, double *out);
 /* Writes everything to the disk. */
 motus_status sweep_file_finish(sweep_file *, motus_error *);
 void sweep_file_close(sweep_file *);
@@ -145,6 +143,7 @@ uint64_t sweep_archive_have(const sweep_file *); /* waits for all */
 /* How many rows are done, by all, as far as this process knows; and: the others need compute no more. */
 double sweep_archive_done(const sweep_file *);
 void sweep_archive_give_up(sweep_file *);
+bool sweep_archive_given_up(const sweep_file *); /* by any of them */
 /* Whether what all have written has come into the file: MOTUS_FILE, it has not. */
 motus_status sweep_archive_look(sweep_file *, motus_error *);
 motus_status sweep_archive_row(sweep_file *, const double *numbers, motus_error *);

@@ -6,6 +6,7 @@
  */
 #include "base/decimal.h"
 #include "base/error.h"
+#include "cli/block_room.h"
 #include "cli/complain.h"
 #include "cli/stop.h"
 #include "cli/sweep.h"
@@ -19,9 +20,7 @@ struct sweep_archive {
     motus_archive *file;
     uint64_t blocks, *missing, missing_count;
     uint64_t next, end; /* of the missing ones this process computes those from `next` on, before `end` */
-    double **columns;   /* of the block that is being computed; those of words hold bytes */
-    const void **written;
-    size_t count; /* of columns: those of a row behind its number */
+    block_room room;    /* of the block that is being computed: the columns behind the number of the row */
 };
 
 /* Added to the counter by a process that fails or is warned; far more than there are blocks. */
@@ -40,11 +39,14 @@ static uint64_t number_of(void *s, uint64_t row) { return shard_trajectory(&((co
 
 static int stopped(void *s) { return (void)s, stop_requested(); }
 
+/* Whether a column of a row has words in place of numbers. */
+static bool has_words(const sweep *s, size_t k) { return k == sweep_ended(s) || k == s->columns - 1; }
+
 /* The words of a column; NULL: it has numbers. To be freed. */
 static const char **words_of(const sweep *s, size_t k, size_t *count)
 {
-    const bool ended = k == sweep_ended(s), cause = k == s->columns - 1;
-    if (!ended && !cause) return NULL;
+    const bool cause = k == s->columns - 1;
+    if (!has_words(s, k)) return NULL;
     size_t kinds = 0;
     while (motus_ensemble_kind(s->ensemble, kinds)) kinds++;
     *count = cause ? MOTUS_CAUSE_COUNT : kinds + 1;
@@ -171,11 +173,11 @@ static motus_status count_stopped(sweep_file *f, uint64_t block, motus_error *er
     uint64_t first;
     size_t count;
     motus_archive_block(a->file, block, &first, &count);
-    unsigned char *causes = (unsigned char *)a->columns[a->count - 1];
-    motus_status status = motus_archive_read(a->file, a->count - 2, first, count, a->columns[0], err);
-    if (!status) status = motus_archive_read(a->file, a->count - 1, first, count, causes, err);
+    unsigned char *causes = (unsigned char *)a->room.columns[a->room.count - 1];
+    motus_status status = motus_archive_read(a->file, a->room.count - 2, first, count, a->room.columns[0], err);
+    if (!status) status = motus_archive_read(a->file, a->room.count - 1, first, count, causes, err);
     for (size_t i = 0; !status && i < count; i++) {
-        f->stopped += a->columns[0][i] == a->columns[0][i];
+        f->stopped += a->room.columns[0][i] == a->room.columns[0][i];
         f->stopped_by[causes[i] < MOTUS_CAUSE_COUNT ? causes[i] : MOTUS_CAUSE_NONE]++;
     }
     return status;
@@ -210,15 +212,8 @@ static motus_status make_room(sweep_archive *a, motus_error *err)
 {
     a->blocks = motus_archive_blocks(a->file);
     a->missing = calloc((size_t)a->blocks + 1, sizeof *a->missing);
-    a->columns = calloc(a->count, sizeof *a->columns);
-    a->written = calloc(a->count, sizeof *a->written);
-    if (!a->missing || !a->columns || !a->written) return complain_memory(err);
-    for (size_t k = 0; k < a->count; k++) {
-        a->columns[k] = malloc(SHARD_BLOCK * sizeof **a->columns);
-        if (!a->columns[k]) return complain_memory(err);
-        a->written[k] = a->columns[k];
-    }
-    return MOTUS_OK;
+    if (!a->missing) return complain_memory(err);
+    return block_room_make(&a->room, motus_archive_column_count(a->file), SHARD_BLOCK, err);
 }
 
 /* Takes blocks from the counter of all, the fewer the fewer are left, so that all end together. */
@@ -246,8 +241,6 @@ static void take_blocks(sweep_file *f)
 static void move(sweep_file *f)
 {
     sweep_archive *a = f->archive;
-    const team *t = f->sweep->options->team;
-    if (team_size(t) > 1 && t->take(t->context, 0) >= GIVEN_UP) a->next = a->end = a->missing_count;
     if (a->next == a->end) take_blocks(f);
     f->rows = a->next < a->end ? a->missing[a->next] * SHARD_BLOCK : f->sweep->rows;
 }
@@ -259,7 +252,6 @@ motus_status sweep_archive_open(sweep_file *f, bool found, motus_error *err)
     sweep_archive *a = f->archive = calloc(1, sizeof *a);
     if (!a) return complain_memory(err);
     motus_status status = describe(&d, f->sweep, err);
-    a->count = d.def.column_count;
     if (!status && !found && team_first(t)) status = motus_archive_create(f->path, &d.def, err);
     if (!status) status = motus_archive_open(f->path, 1, &a->file, err);
     if (!status) status = compare(f, &d, err);
@@ -286,9 +278,7 @@ void sweep_archive_close(sweep_file *f)
     sweep_archive *a = f->archive;
     if (!a) return;
     motus_archive_close(a->file);
-    for (size_t k = 0; a->columns && k < a->count; k++) free(a->columns[k]);
-    free(a->columns);
-    free(a->written);
+    block_room_free(&a->room);
     free(a->missing);
     free(a);
     f->archive = NULL;
@@ -312,6 +302,12 @@ void sweep_archive_give_up(sweep_file *f)
     if (f->archive && team_size(t) > 1) t->take(t->context, GIVEN_UP);
 }
 
+bool sweep_archive_given_up(const sweep_file *f)
+{
+    const team *t = f->sweep->options->team;
+    return f->archive && team_size(t) > 1 && t->take(t->context, 0) >= GIVEN_UP;
+}
+
 double sweep_archive_done(const sweep_file *f)
 {
     const sweep_archive *a = f->archive;
@@ -324,16 +320,14 @@ motus_status sweep_archive_row(sweep_file *f, const double *numbers, motus_error
     sweep_archive *a = f->archive;
     const uint64_t block = f->rows / SHARD_BLOCK;
     const size_t i = (size_t)(f->rows % SHARD_BLOCK);
-    for (size_t k = 0; k < a->count; k++) {
-        motus_archive_column c;
-        motus_archive_column_at(a->file, k, &c);
-        if (c.kind == MOTUS_ARCHIVE_WORD)
-            ((unsigned char *)a->columns[k])[i] = (unsigned char)numbers[k];
+    for (size_t k = 0; k < a->room.count; k++) {
+        if (has_words(f->sweep, k + 1))
+            ((unsigned char *)a->room.columns[k])[i] = (unsigned char)numbers[k];
         else
-            a->columns[k][i] = numbers[k];
+            a->room.columns[k][i] = numbers[k];
     }
     if (++f->rows % SHARD_BLOCK != 0 && f->rows != f->sweep->rows) return MOTUS_OK;
-    motus_status status = motus_archive_write(a->file, block, a->written, err);
+    motus_status status = motus_archive_write(a->file, block, a->room.written, err);
     if (status) {
         f->rows -= i + 1; /* of this block nothing is there */
         return status;

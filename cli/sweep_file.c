@@ -289,7 +289,8 @@ int sweep_event_number(const sweep *s, const char *name)
     return -1;
 }
 
-size_t sweep_file_numbers(const sweep *s, const sweep_rows *rows, size_t i, double *out)
+/* The numbers of row i after its number: NaN in all that a stopped trajectory has not. Returns how many. */
+static size_t row_numbers(const sweep *s, const sweep_rows *rows, size_t i, double *out)
 {
     size_t n = 0;
     const bool stopped = !isnan(rows->stopped[i]);
@@ -318,7 +319,7 @@ static void csv_row(sweep_file *f, size_t i, const sweep_rows *rows)
 {
     const sweep *s = f->sweep;
     const bool stopped = !isnan(rows->stopped[i]);
-    const size_t count = sweep_file_numbers(s, rows, i, f->numbers) - 1; /* stopped_by is a word */
+    const size_t count = row_numbers(s, rows, i, f->numbers) - 1; /* stopped_by is a word */
     char *out = f->buffer + f->used;
     out += decimal_write_whole(shard_trajectory(&s->shard, f->rows), out);
     for (size_t k = 0; k < count; k++) {
@@ -337,22 +338,10 @@ static void csv_row(sweep_file *f, size_t i, const sweep_rows *rows)
 
 static void npy_row(sweep_file *f, size_t i, const sweep_rows *rows)
 {
-    const size_t count = sweep_file_numbers(f->sweep, rows, i, f->numbers + 1);
+    const size_t count = row_numbers(f->sweep, rows, i, f->numbers + 1);
     f->numbers[0] = (double)shard_trajectory(&f->sweep->shard, f->rows);
     memcpy(f->buffer + f->used, f->numbers, (count + 1) * sizeof *f->numbers);
     f->used += (count + 1) * sizeof *f->numbers;
-}
-
-static motus_status archive_rows(sweep_file *f, size_t count, const sweep_rows *given, motus_error *err)
-{
-    motus_status status = MOTUS_OK;
-    for (size_t i = 0; !status && i < count; i++) {
-        sweep_file_numbers(f->sweep, given, i, f->numbers);
-        f->stopped += !isnan(given->stopped[i]);
-        f->stopped_by[motus_ensemble_stopped_by(f->sweep->ensemble, i)]++;
-        status = sweep_archive_row(f, f->numbers, err);
-    }
-    return status;
 }
 
 uint64_t sweep_file_left(const sweep_file *f) { return f->archive ? sweep_archive_left(f) : f->sweep->rows - f->rows; }
@@ -361,16 +350,21 @@ uint64_t sweep_file_have(const sweep_file *f) { return f->archive ? sweep_archiv
 
 motus_status sweep_file_rows(sweep_file *f, size_t count, const sweep_rows *given, motus_error *err)
 {
-    if (f->archive) return archive_rows(f, count, given, err);
     motus_status status = MOTUS_OK;
     uint64_t rows = f->rows; /* in the file; f->rows counts those in the buffer too */
     for (size_t i = 0; !status && i < count; i++) {
-        (f->npy ? npy_row : csv_row)(f, i, given);
-        f->rows++;
         f->stopped += !isnan(given->stopped[i]);
         f->stopped_by[motus_ensemble_stopped_by(f->sweep->ensemble, i)]++;
+        if (f->archive) {
+            row_numbers(f->sweep, given, i, f->numbers);
+            status = sweep_archive_row(f, f->numbers, err);
+            continue;
+        }
+        (f->npy ? npy_row : csv_row)(f, i, given);
+        f->rows++;
         if (f->used >= BUFFER || i + 1 == count) status = flush(f, &rows, err);
     }
+    if (f->archive) return status;
     f->rows = rows;
     if (!f->npy) return status;
     motus_status head = put_npy_head(f, status ? NULL : err);

@@ -4,24 +4,10 @@
 # Each case is one line `ok` or `not ok`; the last line counts them. MOTUS is the program (build/motus).
 cd "$(dirname "$0")/.." || exit 1
 . test/cli/cases.sh
-python=/usr/bin/python3
-[ -x $python ] || python=python3
 
-cat >"$place/swing.motus" <<'M'
-k = 1
-x'' = -k sin(x)
-x(0) = 1
-x'(0) = 0
-energy = x'^2/2 - k cos(x)
-method verlet
-step 0.125
-until 10
-M
+swing_until 10 >"$place/swing.motus"
 swing=$place/swing.motus
 sweep() { "$motus" sweep "$swing" --vary "x(0)=0.1:3:30000" --record "final,max(energy)" "$@"; }
-sum() { sha256sum "$1" | cut -c 1-64; }
-# How many blocks of a file are there.
-blocks() { $python -c "import h5py, sys; print(int((h5py.File(sys.argv[1])['blocks/done'][()] != 0).sum()))" "$1"; }
 
 if ! sweep --quiet -o "$place/whole.h5" 2>"$err" && says "without HDF5" "$err"; then
     refuses "without HDF5 an archive is refused" 2 "without HDF5" "$motus" sweep "$swing" --vary "x(0)=0.1:3:3" -o "$place/none.h5"

@@ -8,7 +8,6 @@ cd "$(dirname "$0")/.." || exit 1
 motus=$(realpath "$motus")
 export PATH=$(dirname "$motus"):$PATH
 page=$PWD/doc/cluster.md
-sum() { sha256sum "$1" 2>/dev/null | cut -c 1-64; }
 # The code block behind the line that is $1; of several such lines the first.
 script() {
     awk -v name="$1" '

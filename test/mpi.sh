@@ -5,8 +5,6 @@
 cd "$(dirname "$0")/.." || exit 1
 . test/cli/cases.sh
 mpi=$(dirname "$motus")/motus-mpi
-python=/usr/bin/python3
-[ -x $python ] || python=python3
 
 that "motus knows nothing of MPI" eval "! ldd '$motus' | grep -qiE 'mpi|pmix|hdf5'"
 if [ ! -x "$mpi" ] || ! command -v mpirun >/dev/null; then
@@ -17,19 +15,8 @@ fi
 # The number of ranks, then the words. Tests have more ranks than processors, and may be run by root.
 export OMPI_MCA_rmaps_base_oversubscribe=1 OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1
 ranks() { local n=$1; shift; mpirun --quiet -n "$n" "$mpi" "$@"; }
-sum() { sha256sum "$1" | cut -c 1-64; }
-blocks() { $python -c "import h5py, sys; print(int((h5py.File(sys.argv[1])['blocks/done'][()] != 0).sum()))" "$1"; }
 
-cat >"$place/swing.motus" <<'M'
-k = 1
-x'' = -k sin(x)
-x(0) = 1
-x'(0) = 0
-energy = x'^2/2 - k cos(x)
-method verlet
-step 0.125
-until 100
-M
+swing_until 100 >"$place/swing.motus"
 swing=$place/swing.motus
 words=(sweep "$swing" --vary "x(0)=0.1:3:100000" --record "final,max(energy)")
 

@@ -61,3 +61,12 @@ json() { "$checker" "$1" && [ "$(wc -l <"$1")" = 1 ]; }
 # jq's result for $out is true
 holds() { [ -s "${2:-$out}" ] && jq -e "$1" "${2:-$out}"; }
 near() { awk -v a="$1" -v b="$2" -v e="$3" 'BEGIN { d = a - b; if (d < 0) d = -d; exit !(a ~ /[0-9]/ && d <= e) }'; }
+
+# --- archives ---
+python=/usr/bin/python3
+[ -x $python ] || python=python3
+sum() { sha256sum "$1" 2>/dev/null | cut -c 1-64; }
+# How many blocks of an archive are there.
+blocks() { $python -c "import h5py, sys; print(int((h5py.File(sys.argv[1])['blocks/done'][()] != 0).sum()))" "$1"; }
+# A pendulum's motion to this time.
+swing_until() { printf '%s\n' 'k = 1' "x'' = -k sin(x)" 'x(0) = 1' "x'(0) = 0" "energy = x'^2/2 - k cos(x)" 'method verlet' 'step 0.125' "until $1"; }

@@ -1,0 +1,23 @@
+/* See bytes.h. */
+#define _XOPEN_SOURCE 700
+#include "archive/bytes.h"
+
+#include <errno.h>
+#include <unistd.h>
+
+bool bytes_put(int descriptor, const void *bytes, size_t count, uint64_t place)
+{
+    for (const char *at = bytes; count > 0;) {
+        const ssize_t done = pwrite(descriptor, at, count, (off_t)place);
+        if (done < 0 && errno == EINTR) continue;
+        if (done < 0) return false;
+        at += done, place += (uint64_t)done, count -= (size_t)done;
+    }
+    return true;
+}
+
+/* A real failure to write reports EIO, ENOSPC or EDQUOT. */
+bool bytes_sync(int descriptor)
+{
+    return fsync(descriptor) == 0 || errno == EINVAL || errno == ENOTSUP || errno == EINTR;
+}

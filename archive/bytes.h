@@ -1,0 +1,13 @@
+/* Bytes at places of a file, written completely or not at all. Failures leave their errno. */
+#ifndef ARCHIVE_BYTES_H
+#define ARCHIVE_BYTES_H
+
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+
+bool bytes_put(int descriptor, const void *, size_t count, uint64_t place);
+/* Everything written is on the disk; where the file system cannot say so, that is left to it. */
+bool bytes_sync(int descriptor);
+
+#endif
