@@ -211,7 +211,7 @@ static motus_status try_lanes(motus_ensemble *e, const motus_ensemble_def *d, bo
                               .until = e->timing.until,
                               .whole = e->timing.whole,
                               .every = e->every,
-                              .own_clock = steps_differ(e),
+                              .own_clock = steps_differ(e) || follower,
                               .lanes = d->lanes,
                               .threads = one ? 1 : e->threads, /* one thread alone calls the hooks */
                               .fast = d->fast != 0,

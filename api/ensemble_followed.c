@@ -90,6 +90,7 @@ static bool finish(const ensemble_followed *f, int thread, followed *t)
 static bool crawls(followed *t)
 {
     const stepper *s = t->at.w->stepper;
+    if (!row_adaptive(stepper_method(s))) return false;
     const int64_t n = stepper_steps(s);
     const double now = stepper_time(s), leg = stepper_leg(s);
     if (leg != t->leg) t->leg = t->paced_t = leg, t->paced = 0;
@@ -101,6 +102,15 @@ static bool crawls(followed *t)
                                                           longest, stepper_problem(s)->traits.smooth);
     t->paced = n, t->paced_t = now;
     return may;
+}
+
+/* Steps of one size: how many of the leg lanes may take; the last ones, and a shorter one, are left to the stepper. */
+static int64_t whole_steps(const followed *t)
+{
+    enum { LAST = 2 };
+    const stepper *s = t->at.w->stepper;
+    if (row_adaptive(stepper_method(s))) return INT64_MAX;
+    return stepper_way_of(stepper_leg(s), stepper_step(s), t->timing.until).whole - LAST;
 }
 
 /* Takes steps until bounds may tell of the next one. False: the trajectory is over. */
@@ -115,8 +125,9 @@ static bool lead(const ensemble_followed *f, int thread, followed *t, lanes_stat
         if (crawls(t) || events_go(w->events, w->stepper, t->timing.until, 1, &why, &w->why) != MOTUS_OK)
             return leave_it(f, t);
         if (why != STOP_STEPS) return finish(f, thread, t);
-    } while (!events_watchable(w->events, w->stepper));
+    } while (!events_bounded(w->events, w->stepper) || stepper_steps(w->stepper) >= whole_steps(t));
     if (crawls(t)) return leave_it(f, t);
+    state->stop = whole_steps(t);
     state->t0 = stepper_leg(w->stepper);
     state->h = stepper_step(w->stepper);
     state->at = stepper_save(w->stepper, state->carry);

@@ -69,6 +69,8 @@ motus_status events_go(events *, stepper *, double until, int64_t most, stepper_
  * in such a step, of which other bounds leave something open; and that so many have been taken, at whose starts no
  * number was larger than `largest`, x and then v, up to where the stepper has been led. */
 bool events_watchable(const events *, const stepper *);
+/* The same where another watches steps, of one size too (stepper_bounded). */
+bool events_bounded(const events *, const stepper *);
 bool events_idle(events *, const stepper_shown *);
 motus_status events_led(events *, stepper *, int64_t steps, const double *largest, motus_error *);
 

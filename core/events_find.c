@@ -620,7 +620,7 @@ static void look_at_box(events *e, const stepper_shown *step)
 }
 
 /* The same of the present step. False: no bounds are known. */
-static bool boxes(events *e, const stepper *s)
+static bool boxes(events *e, stepper *s)
 {
     const instant *from = &e->left, *to = &e->right;
     double *most = e->next.a;
@@ -734,15 +734,19 @@ static bool quiet(void *ctx, const stepper_shown *step)
 
 bool events_idle(events *e, const stepper_shown *step) { return quiet(e, step); }
 
-bool events_watchable(const events *e, const stepper *s)
+/* Whether bounds may tell of the next step that nothing happens in it. */
+static bool boundable(const events *e)
 {
-    if (e->first || !e->rules.least || !stepper_can_watch(s)) return false;
+    if (e->first || e->broken || !e->rules.least) return false;
     for (size_t k = 0; k < e->rules.count; k++)
         if (e->rules.rule[k].kind == RULE_CLOCK) return false;
     for (size_t f = 0; f < e->rules.functions; f++)
         if (e->stands[f] || e->open[f]) return false;
     return true;
 }
+
+bool events_watchable(const events *e, const stepper *s) { return stepper_can_watch(s) && boundable(e); }
+bool events_bounded(const events *e, const stepper *s) { return stepper_bounded(s) && boundable(e); }
 
 /* The sides of functions that have passed 0 in watched steps, before the last one. */
 static motus_status turn_sides(events *e, motus_error *err)
@@ -804,11 +808,11 @@ motus_status events_watch(events *e, stepper *s, stepper_limit limit, stepper_st
 }
 
 /* Marks the functions of which dense output must tell; most steps need none. */
-static motus_status choose(events *e, const stepper *s, bool *any, motus_error *err)
+static motus_status choose(events *e, stepper *s, bool *any, motus_error *err)
 {
     const size_t n = e->rules.functions;
     double *out = e->before;
-    const bool known = boxes(e, s);
+    const bool known = boxes(e, s), once = row_adaptive(&e->method); /* else dense output says where it passes 0 */
     bool rates = false;
     motus_status status = MOTUS_OK;
     e->boxed = false;
@@ -816,7 +820,7 @@ static motus_status choose(events *e, const stepper *s, bool *any, motus_error *
     for (size_t f = 0; f < n; f++) {
         const bool free = known && !e->stands[f] && !e->open[f];
         e->look[f] = !(free && out[f] > 0);
-        rates |= free && e->look[f];
+        rates |= once && free && e->look[f];
         *any |= e->look[f];
     }
     if (!*any) return MOTUS_OK;

@@ -39,6 +39,9 @@ bool row_uniform(const chosen *);
 bool row_adaptive(const chosen *);
 /* Its steps adapt, and bound the accelerations within them (name_swing): it can be watched (step/watch.h). */
 bool row_watched(const chosen *);
+/* Its steps have one size and are no collocation, and dense output follows from their ends: bounds on the
+ * accelerations do, too (swing_of_ends). */
+bool row_bounded_by_ends(const chosen *);
 /* True: a step chooses its order too. */
 bool row_orders(const chosen *);
 /* True: they follow the time scale of the motion, and not an error; row_adaptive holds too. */

@@ -23,6 +23,13 @@ bool row_watched(const chosen *method)
     const row *r = method->row;
     return r->adaptive && (r->family == RUNGE_KUTTA || r->family == TAYLOR);
 }
+
+bool row_bounded_by_ends(const chosen *method)
+{
+    const row *r = method->row;
+    const bool own = r->family == EXACT || r->family == IMPLICIT || r->family == RADAU || r->tableau.dense.terms > 0;
+    return !r->adaptive && !own;
+}
 bool row_orders(const chosen *method) { return method->row->orders; }
 bool row_reversible_steps(const chosen *method) { return method->row->density; }
 

@@ -455,6 +455,12 @@ bool stepper_can_watch(const stepper *s)
     return row_watched(&s->method) && !s->problem.refresh && !s->arrived && room_in_leg(s) > 0;
 }
 
+bool stepper_bounded(const stepper *s)
+{
+    const bool goes_on = row_bounded_by_ends(&s->method) && !s->problem.refresh && !s->arrived && !s->shortened;
+    return stepper_can_watch(s) || (goes_on && s->work.n > 0);
+}
+
 motus_status stepper_watch(stepper *s, stepper_limit limit, const stepper_watcher *by, stepper_left *left,
                            stepper_stop *why, motus_error *err)
 {

@@ -121,11 +121,12 @@ motus_status stepper_mark(stepper *, motus_error *);
 motus_status stepper_sample(stepper *, double t, double *x, double *v, motus_error *);
 /* A bound on the size of every acceleration within the marked last step, nv numbers; of stages (step/swing.h) it holds
  * where they show the motion. False: none is known. */
-bool stepper_swing(const stepper *, double *most);
+bool stepper_swing(stepper *, double *most);
 /* Takes steps up to the limit, until something may have happened in one: `quiet` is shown the states at its ends and
  * the bounds of stepper_swing. The last step is marked, quiet or not; in those before it nothing has happened. So that
  * all is as if these had been taken one by one, `left` tells where the last step began, one that failed too. Where
  * stepper_can_watch: of rows that can be watched (row_watched), while the leg may take steps.
+ * stepper_bounded: the stepper does not watch steps of one size, but lanes may, after the first step of a leg.
  *
  * A compiled loop asks of the model's own rules first, and `quiet` only where their bounds leave something open. */
 typedef struct stepper_shown {
@@ -146,6 +147,7 @@ typedef struct stepper_left {
     bool shown;          /* to `quiet` */
 } stepper_left;
 bool stepper_can_watch(const stepper *);
+bool stepper_bounded(const stepper *);
 motus_status stepper_watch(stepper *, stepper_limit, const stepper_watcher *, stepper_left *, stepper_stop *why,
                            motus_error *);
 /* How many steps lead to the last time that is not after t; 0 where the stepper is there, or where sizes are not

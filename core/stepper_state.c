@@ -1,6 +1,8 @@
 /* The state of a stepper: time and counters, the carried numbers, observation, dense output. See stepper.h. */
 #include "core/stepper_parts.h"
 
+#include "step/swing.h"
+
 #include <math.h>
 #include <string.h>
 
@@ -265,10 +267,25 @@ static bool marked(const stepper *s, double t)
     return s->left && way * (t - s->left_t) >= 0 && way * (stepper_time(s) - t) >= 0;
 }
 
-bool stepper_swing(const stepper *s, double *most)
+static bool swing_by_ends(stepper *s, double *most)
+{
+    const work *w = &s->work;
+    if (!s->right) {
+        if (keep_end(s, 1, NULL)) return false;
+        s->right = true;
+        s->extended = false;
+    }
+    const dense_step d = last_step(s);
+    const dense_end *e = d.end;
+    swing_of_ends(w->nx, w->nv, w->h, e[0].x, e[0].v, e[0].a, e[1].x, e[1].v, e[1].a, most);
+    return true;
+}
+
+bool stepper_swing(stepper *s, double *most)
 {
     const work *w = &s->work;
     if (!s->left || s->left_steps != stepper_steps(s) - 1) return false;
+    if (row_bounded_by_ends(&s->method)) return swing_by_ends(s, most);
     for (size_t k = 0; k < w->nv; k++) most[k] = w->expands ? 0 : fabs(s->ends[w->nx + w->nv + k]);
     return s->body->swing(w, most);
 }

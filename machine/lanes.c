@@ -57,9 +57,9 @@ static const char *refuse_events(const lanes_def *d)
     if (m->located)
         return "switches are located, one trajectory at a time; `switches = step` of the definition leads across them, "
                "in lanes";
-    if (!row_watched(d->chosen))
-        return "events are followed one trajectory at a time by this method; in lanes by Runge-Kutta methods with "
-               "steps that adapt, and by Taylor series";
+    if (!row_watched(d->chosen) && !row_bounded_by_ends(d->chosen))
+        return "events are followed one trajectory at a time by this method; in lanes by Taylor series, by explicit "
+               "Runge-Kutta methods, and by explicit ones of one step size";
     for (uint32_t i = 0; i < m->rule_count; i++)
         if (m->rules[i].kind == RULE_CLOCK) return "clocks are followed one trajectory at a time";
     if (!compose_bounds_are_structure(m)) return "events of families are followed one trajectory at a time";
@@ -336,7 +336,7 @@ static bool prepare(lanes *l)
     l->clock_size = d->own_clock ? lines(l, LANES_CLOCKS) : 0;
     l->known_size = l->plan.carried ? lines(l, m->nv) + lines(l, 1) : 0;
     l->work_size = lines(l, stepper_arrays(l->plan) * m->nv);
-    if (d->follower) l->watch_size = lines(l, m->nv) + lines(l, m->nx + m->nv) + lines(l, 1);
+    if (d->follower) l->watch_size = lines(l, m->nv) + lines(l, m->nx + m->nv) + lanes_shown_size(l) + lines(l, 1);
     l->solve_size =
         (l->solving * (size_t)l->groups + ALIGNMENT - 1) / ALIGNMENT * ALIGNMENT / sizeof(double) + lines(l, 1);
     l->observed_size = lines(l, m->nx + m->nv + m->nv + l->outs);

@@ -54,7 +54,15 @@ void lanes_block_place(lanes_block *k, const lanes_item *b, size_t block)
     j->before = k->saved, j->before_clocks = k->saved + l->carry_size;
     j->bounds = k->stopped - l->watch_size;
     j->largest = j->bounds + lines(l, l->def.model->nv);
+    j->shown = j->largest + lines(l, l->def.model->nx + l->def.model->nv);
     j->met = k->stopped - lines(l, 1);
+}
+
+/* Both ends of the latest step, where steps of one size are watched. */
+size_t lanes_shown_size(const lanes *l)
+{
+    const model *m = l->def.model;
+    return l->plan.carried ? 0 : lines(l, 2 * (m->nx + 2 * m->nv));
 }
 
 lanes_block lanes_block_of(const lanes_item *b, size_t block)

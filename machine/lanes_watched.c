@@ -25,7 +25,8 @@ typedef struct watched {
     const lanes_follower *by;
     lanes_block block;
     size_t number[BLOCK_MAX]; /* of each lane, NO_TRAJECTORY: it is free */
-    int64_t since[BLOCK_MAX]; /* of each lane, the steps of the leg when its trajectory came */
+    int64_t since[BLOCK_MAX]; /* of each lane, the steps of the leg when its trajectory came, */
+    int64_t stop[BLOCK_MAX];  /*   and after which it goes, where steps have one size */
     double *room;             /* working space of lanes_watched_size numbers */
     size_t next;              /* trajectories of the item that have begun */
 } watched;
@@ -33,7 +34,7 @@ typedef struct watched {
 /* Room for the numbers of a state and the largest sizes, or for both ends of a step and its accelerations' bounds. */
 size_t lanes_watched_size(const lanes *l)
 {
-    const size_t state = l->carried + STEPPER_CLOCKS + l->def.model->nx + l->def.model->nv, step = 5 * l->def.model->nv;
+    const size_t state = l->carried + STEPPER_CLOCKS + l->def.model->nx + l->def.model->nv, step = 7 * l->def.model->nv;
     return ((state > step ? state : step) + 7) / 8 * 8;
 }
 
@@ -58,6 +59,9 @@ static void free_lane(watched *s, size_t lane)
 static const int carried[STEPPER_CLOCKS] = {LANES_T,    LANES_LOST,     LANES_NEXT,    LANES_BEFORE,
                                             LANES_RISE, LANES_SHORTEST, LANES_LONGEST, LANES_SPAN};
 
+/* How many of them lead from a step to the next: where steps have one size, none. */
+static size_t carried_clocks(const lanes *l) { return l->plan.carried ? STEPPER_CLOCKS : 0; }
+
 /* A follower that takes many steps without lanes asks whether the call is over. */
 static bool all_over(void *asked)
 {
@@ -75,7 +79,7 @@ static lanes_state state_of(const watched *s, size_t lane, bool before)
     double *to = s->room;
 #define CLOCK_AT(k) clocks[lane_at(l, LANES_CLOCKS, (size_t)(k), lane)]
     for (size_t k = 0; k < l->carried; k++) to[k] = carry[lane_at(l, l->carried, k, lane)];
-    for (size_t k = 0; k < STEPPER_CLOCKS; k++) to[l->carried + k] = CLOCK_AT(carried[k]);
+    for (size_t k = 0; k < carried_clocks(l); k++) to[l->carried + k] = CLOCK_AT(carried[k]);
     return (lanes_state){.t0 = *clock_of(s, lane, LANES_T0),
                          .h = *clock_of(s, lane, LANES_H),
                          .at = {.steps = (int64_t)CLOCK_AT(LANES_N), .refused = (int64_t)CLOCK_AT(LANES_REFUSED)},
@@ -92,7 +96,7 @@ static void put(watched *s, size_t lane, const lanes_state *from)
     const lanes_job *j = &s->block.job;
     const size_t sizes = l->def.model->nx + l->def.model->nv;
     for (size_t k = 0; k < l->carried; k++) j->carry[lane_at(l, l->carried, k, lane)] = from->carry[k];
-    for (size_t k = 0; k < STEPPER_CLOCKS; k++) *clock_of(s, lane, carried[k]) = from->carry[l->carried + k];
+    for (size_t k = 0; k < carried_clocks(l); k++) *clock_of(s, lane, carried[k]) = from->carry[l->carried + k];
     for (size_t k = 0; k < sizes; k++) j->largest[lane_at(l, sizes, k, lane)] = 0;
     *clock_of(s, lane, LANES_T0) = from->t0;
     *clock_of(s, lane, LANES_H) = from->h;
@@ -100,6 +104,7 @@ static void put(watched *s, size_t lane, const lanes_state *from)
     *clock_of(s, lane, LANES_REFUSED) = (double)from->at.refused;
     *clock_of(s, lane, LANES_UNTIL) = until_of(s, lane);
     s->since[lane] = from->at.steps;
+    s->stop[lane] = from->stop;
     lanes_block_forget(&s->block, lane);
 }
 
@@ -155,6 +160,22 @@ static bool refill(watched *s)
 
 /* ---- steps ---- */
 
+/* The same of a step of one size. */
+static bool idle_fixed(const watched *s, size_t lane)
+{
+    const lanes *l = s->l;
+    const lanes_job *j = &s->block.job;
+    const size_t nx = l->def.model->nx, nv = l->def.model->nv, ends = 2 * (nx + 2 * nv);
+    double *from = s->room, *to = from + nx + 2 * nv, *most = from + ends;
+    for (size_t k = 0; k < ends; k++) from[k] = j->shown[lane_at(l, ends, k, lane)];
+    for (size_t k = 0; k < nv; k++) most[k] = j->bounds[lane_at(l, nv, k, lane)];
+    const work before = {.t0 = *clock_of(s, lane, LANES_T0), .h = *clock_of(s, lane, LANES_H)};
+    const double n = *clock_of(s, lane, LANES_N);
+    return s->by->idle(s->by->ctx, s->item->thread, lane,
+                       &(stepper_shown){before.h, TIME_FIXED(&before, n - 1, 0), TIME_FIXED(&before, n, 0), from,
+                                        from + nx, to, to + nx, most});
+}
+
 /* Whether the follower knows that the latest step of a lane has no event, though a bound is not positive. */
 static bool idle(const watched *s, size_t lane)
 {
@@ -192,13 +213,14 @@ static void look_after(watched *s, size_t lane)
 {
     const lanes_job *j = &s->block.job;
     const int thread = s->item->thread;
-    const bool met = j->met[lane] != 0, ends = *clock_of(s, lane, LANES_T) == *clock_of(s, lane, LANES_UNTIL);
+    const bool met = j->met[lane] != 0, adaptive = s->l->plan.carried,
+               ends = adaptive && *clock_of(s, lane, LANES_T) == *clock_of(s, lane, LANES_UNTIL);
     if (j->lost[lane] != 0 || !is_finite(s, lane)) {
         s->by->leave(s->by->ctx, thread, lane);
         over(s, lane);
         return;
     }
-    const bool back = met && !idle(s, lane);
+    const bool back = met && !(adaptive ? idle(s, lane) : idle_fixed(s, lane));
     if (!back && !ends && *clock_of(s, lane, LANES_N) != *clock_of(s, lane, LANES_STOP)) return;
     lanes_state state = state_of(s, lane, back);
     const int64_t steps = state.at.steps - s->since[lane];
@@ -222,8 +244,10 @@ void lanes_watched(lanes_item *item)
         const int64_t most = l->def.chosen->count;
         for (size_t i = 0; i < (size_t)l->block; i++) {
             const int64_t n = (int64_t)*clock_of(&s, i, LANES_N), pace = (n / STEPPER_PACE + 1) * STEPPER_PACE;
-            if (s.number[i] != NO_TRAJECTORY)
-                *clock_of(&s, i, LANES_STOP) = (double)(most > 0 && most < pace ? most : pace);
+            if (s.number[i] == NO_TRAJECTORY) continue;
+            *clock_of(&s, i, LANES_STOP) = (double)(!l->plan.carried          ? s.stop[i]
+                                                    : most > 0 && most < pace ? most
+                                                                              : pace);
         }
         l->run(&s.block.job, CHUNK, 0);
         for (size_t i = 0; i < (size_t)l->block; i++)

@@ -314,10 +314,27 @@ static inline void lanes_remember(const work *w, const lanes_job *job, size_t gr
 }
 
 #if WATCHED
+/* The lanes of which `least`, bounds on the functions of the rules, leave open whether something has happened in their
+ * latest step, which began at (x, v). */
+static inline mask lanes_open(const lanes_job *job, const work *w, const real *x, const real *v, const real *least,
+                              mask good, size_t group)
+{
+    real *largest = job->largest + group * (FACT(w, nx) + FACT(w, nv));
+    mask open = NEVER;
+    for (size_t f = 0; f < BOUNDS; f++) open = open | NOT(least[f] > 0);
+    EACH(k) largest[k] = LARGER(ABS(x[k]), largest[k]);
+    EACHV(k) largest[FACT(w, nx) + k] = LARGER(ABS(v[k]), largest[FACT(w, nx) + k]);
+    open = open & good;
+    job->met[group] = PICK(open, MANY(1.0), MANY(0.0));
+    return open;
+}
+
+#if ROW_adaptive
 /* Of a watched lane what step/watch.h does for one trajectory. A step whose first stage makes room for the next one's
  * has that before it begins. */
-static inline void lanes_watch_begin(const lanes_job *job, work *w, size_t group)
+static inline void lanes_watch_begin(const lanes_job *job, work *w, size_t group, bool known)
 {
+    (void)known;
     real *most = job->bounds + group * FACT(w, nv);
     const bool first = !FACT(w, expands) && control_last_is_first(w);
     lanes_store(w, job->before + group * CARRIED * FACT(w, nv));
@@ -334,24 +351,48 @@ static inline mask lanes_watch_ends(const lanes_job *job, work *w, const compile
 {
     const real *from = job->before + group * CARRIED * FACT(w, nv), *clocks = job->before_clocks + group * LANES_CLOCKS;
     const clock span = (w->t - clocks[LANES_T]) + (w->lost - clocks[LANES_LOST]);
-    real *most = job->bounds + group * FACT(w, nv), *largest = job->largest + group * (FACT(w, nx) + FACT(w, nv));
+    real *most = job->bounds + group * FACT(w, nv);
     real x[NUMBERS], v[NUMBERS], dx[NUMBERS], dv[NUMBERS], least[BOUNDS];
     const box in = {x, v, dx, dv};
-    const mask good = w->n > clocks[LANES_N];
-    mask open = NEVER;
     (void)family_swing(w, most);
     box_of(&in, FACT(w, nx), FACT(w, nv), span, from, from + FACT(w, nv), w->x, w->v, most);
     compiled_least(host->pool, host->q, host->u, host->bound, host->own, CLOCK(0), (const clock *)0, x, v, (real *)0,
                    least, dx, dv);
-    for (size_t f = 0; f < BOUNDS; f++) open = open | NOT(least[f] > 0);
-    EACH(k) largest[k] = LARGER(ABS(from[k]), largest[k]);
-    EACHV(k) largest[FACT(w, nx) + k] = LARGER(ABS(from[FACT(w, nv) + k]), largest[FACT(w, nx) + k]);
-    open = open & good;
-    job->met[group] = PICK(open, MANY(1.0), MANY(0.0));
-    return open;
+    return lanes_open(job, w, from, from + FACT(w, nv), least, w->n > clocks[LANES_N], group);
 }
+#define LANES_ARRIVED(g) (work_##g.t == work_##g.until)
+#else
+/* Steps of one size: the states at both ends are observed, each once in a call: `known` is the end of the step before.
+ */
+static inline void lanes_watch_begin(const lanes_job *job, work *w, size_t group, bool known)
+{
+    const size_t numbers = FACT(w, nx) + 2 * FACT(w, nv);
+    real *from = job->shown + 2 * group * numbers, *to = from + numbers;
+    lanes_store(w, job->before + group * CARRIED * FACT(w, nv));
+    lanes_put_clock(w, job->before_clocks + group * LANES_CLOCKS);
+    if (known)
+        for (size_t k = 0; k < numbers; k++) from[k] = to[k];
+    else
+        advance_sync(w, from, from + FACT(w, nx), from + FACT(w, nx) + FACT(w, nv));
+}
+
+static inline mask lanes_watch_ends(const lanes_job *job, work *w, const compiled_host *host, size_t group)
+{
+    const size_t nx = FACT(w, nx), nv = FACT(w, nv), numbers = nx + 2 * nv;
+    real *from = job->shown + 2 * group * numbers, *to = from + numbers, *most = job->bounds + group * nv;
+    real x[NUMBERS], v[NUMBERS], dx[NUMBERS], dv[NUMBERS], least[BOUNDS];
+    const box in = {x, v, dx, dv};
+    advance_sync(w, to, to + nx, to + nx + nv);
+    swing_of_ends(nx, nv, w->h, from, from + nx, from + nx + nv, to, to + nx, to + nx + nv, most);
+    box_of(&in, nx, nv, w->h, from, from + nx, to, to + nx, most);
+    compiled_least(host->pool, host->q, host->u, host->bound, host->own, CLOCK(0), (const clock *)0, x, v, (real *)0,
+                   least, dx, dv);
+    return lanes_open(job, w, from, from + nx, least, ALWAYS, group);
+}
+#define LANES_ARRIVED(g) NEVER
+#endif
 #define LANES_MET(g) mask met_##g = NEVER;
-#define LANES_WATCH(g) lanes_watch_begin(job, w, g)
+#define LANES_WATCH(g) lanes_watch_begin(job, w, g, watched)
 #define LANES_WATCHED(g) met_##g = lanes_watch_ends(job, w, &host_##g, g)
 #define LANES_OPEN_TO(g) met_##g
 #else
@@ -359,10 +400,11 @@ static inline mask lanes_watch_ends(const lanes_job *job, work *w, const compile
 #define LANES_WATCH(g) ((void)0)
 #define LANES_WATCHED(g) ((void)0)
 #define LANES_OPEN_TO(g) NEVER
+#define LANES_ARRIVED(g) (work_##g.t == work_##g.until)
 #endif
 
-/* In an adaptive row w->fresh tells whether the accelerations of a group are known. */
-#define LANES_FRESH(w) ((void)(ROW_adaptive || ((w)->fresh = fresh)))
+/* In an adaptive row, and where steps are watched, w->fresh tells whether the accelerations of a group are known. */
+#define LANES_FRESH(w) ((void)(ROW_adaptive || WATCHED || ((w)->fresh = fresh)))
 #if ROW_adaptive
 #define LANES_ADVANCE(w) advance_step(w)
 #elif OWN_CLOCK
@@ -414,12 +456,12 @@ static inline mask lanes_watch_ends(const lanes_job *job, work *w, const compile
     }                                                           \
     SOLVE_FAR(job, g, lost_##g)
 
-/* Adaptive: whether some lane has to be looked after: it has taken the steps that it should, is at its end, cannot go
- * on, or something may have happened in its step. */
+/* Adaptive or watched: whether some lane has to be looked after: it has taken the steps that it should, is at its end,
+ * cannot go on, or something may have happened in its step. */
 #define LANES_DUE(g)                                                                                              \
     {                                                                                                             \
         const real *own = job->clocks + g * LANES_CLOCKS;                                                         \
-        const mask here = work_##g.until == work_##g.until, ends = work_##g.t == work_##g.until;                  \
+        const mask here = work_##g.until == work_##g.until, ends = LANES_ARRIVED(g);                              \
         due = due | (here & ((work_##g.n == own[LANES_STOP]) | ends | (*host_##g.lost != 0) | LANES_OPEN_TO(g))); \
     }
 
@@ -441,6 +483,9 @@ __attribute__((flatten)) void motus_lanes_run(const lanes_job *job, whole steps,
 #endif
     EVERY_GROUP(LANES_PREPARE)
     EVERY_GROUP(LANES_MET)
+#if WATCHED
+    bool watched = false; /* a step before has been, in this call */
+#endif
     while (steps > 0) {
         const whole some = every && every < steps ? every : steps;
         for (whole left = some; left > 0; left--) {
@@ -458,7 +503,10 @@ __attribute__((flatten)) void motus_lanes_run(const lanes_job *job, whole steps,
 #endif
             LANES_TICK;
             fresh = false;
-#if ROW_adaptive
+#if WATCHED
+            watched = true;
+#endif
+#if ROW_adaptive || WATCHED
             mask due = NEVER;
             EVERY_GROUP(LANES_DUE)
             if (SOME(due)) break;

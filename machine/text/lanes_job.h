@@ -69,8 +69,9 @@ typedef struct lanes_job {
     double until;
     /* Lanes that are watched: what `carry` and `clocks` were before the latest candidate of each lane, nv bounds on the
      * accelerations within it, the largest sizes of x and then v with which steps began, and other than 0 where the
-     * bounds of some function of the rules are not positive on its box. Of each group. */
-    real *before, *before_clocks, *bounds, *largest, *met;
+     * bounds of some function of the rules are not positive on its box. Of each group. `shown`: of steps of one size
+     * x, v and the accelerations at the start of the latest one, and the same at its end. */
+    real *before, *before_clocks, *bounds, *largest, *met, *shown;
     real *where; /* own clocks, of each group: 1 in the lanes that are observed, else 0 */
     real *kept;  /* REDUCE_KEPT numbers of each record of each group */
 } lanes_job;
