@@ -128,6 +128,7 @@ static bool lead(const ensemble_followed *f, int thread, followed *t, lanes_stat
     } while (!events_bounded(w->events, w->stepper) || stepper_steps(w->stepper) >= whole_steps(t));
     if (crawls(t)) return leave_it(f, t);
     state->stop = whole_steps(t);
+    state->tick = events_next_time(w->events);
     state->t0 = stepper_leg(w->stepper);
     state->h = stepper_step(w->stepper);
     state->at = stepper_save(w->stepper, state->carry);

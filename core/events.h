@@ -69,8 +69,10 @@ motus_status events_go(events *, stepper *, double until, int64_t most, stepper_
  * in such a step, of which other bounds leave something open; and that so many have been taken, at whose starts no
  * number was larger than `largest`, x and then v, up to where the stepper has been led. */
 bool events_watchable(const events *, const stepper *);
-/* The same where another watches steps, of one size too (stepper_bounded). */
+/* The same where another watches steps, of one size too (stepper_bounded), and the time of the next tick of a clock,
+ * infinite where there is none. */
 bool events_bounded(const events *, const stepper *);
+double events_next_time(const events *);
 bool events_idle(events *, const stepper_shown *);
 motus_status events_led(events *, stepper *, int64_t steps, const double *largest, motus_error *);
 

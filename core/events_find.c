@@ -732,20 +732,37 @@ static bool quiet(void *ctx, const stepper_shown *step)
     return !any || passes_idly(e, step);
 }
 
-bool events_idle(events *e, const stepper_shown *step) { return quiet(e, step); }
+double events_next_time(const events *e)
+{
+    double next = e->way * INFINITY;
+    for (size_t k = 0; k < e->rules.count; k++) {
+        const double tick = e->rules.rule[k].kind == RULE_CLOCK ? events_tick(e, k) : next;
+        if (e->way * (next - tick) > 0) next = tick;
+    }
+    return next;
+}
 
-/* Whether bounds may tell of the next step that nothing happens in it. */
+bool events_idle(events *e, const stepper_shown *step)
+{
+    const double left = e->way * (events_next_time(e) - step->to_t);
+    return left > 8 * events_ulp(step->to_t) && quiet(e, step);
+}
+
+/* Whether bounds may tell of the next step that nothing happens in it, but for the ticks of clocks. */
 static bool boundable(const events *e)
 {
     if (e->first || e->broken || !e->rules.least) return false;
-    for (size_t k = 0; k < e->rules.count; k++)
-        if (e->rules.rule[k].kind == RULE_CLOCK) return false;
     for (size_t f = 0; f < e->rules.functions; f++)
         if (e->stands[f] || e->open[f]) return false;
     return true;
 }
 
-bool events_watchable(const events *e, const stepper *s) { return stepper_can_watch(s) && boundable(e); }
+bool events_watchable(const events *e, const stepper *s)
+{
+    for (size_t k = 0; k < e->rules.count; k++)
+        if (e->rules.rule[k].kind == RULE_CLOCK) return false;
+    return stepper_can_watch(s) && boundable(e);
+}
 bool events_bounded(const events *e, const stepper *s) { return stepper_bounded(s) && boundable(e); }
 
 /* The sides of functions that have passed 0 in watched steps, before the last one. */

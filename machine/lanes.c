@@ -60,8 +60,7 @@ static const char *refuse_events(const lanes_def *d)
     if (!row_watched(d->chosen) && !row_bounded_by_ends(d->chosen))
         return "events are followed one trajectory at a time by this method; in lanes by Taylor series, by explicit "
                "Runge-Kutta methods, and by explicit ones of one step size";
-    for (uint32_t i = 0; i < m->rule_count; i++)
-        if (m->rules[i].kind == RULE_CLOCK) return "clocks are followed one trajectory at a time";
+    if (m->rule_functions == 0) return "clocks without other events are followed one trajectory at a time";
     if (!compose_bounds_are_structure(m)) return "events of families are followed one trajectory at a time";
     if (!least_bounded(m)) return "events that depend on the time are followed one trajectory at a time";
     for (size_t k = 0; k < d->source_count; k++)

@@ -103,6 +103,7 @@ static void put(watched *s, size_t lane, const lanes_state *from)
     *clock_of(s, lane, LANES_N) = (double)from->at.steps;
     *clock_of(s, lane, LANES_REFUSED) = (double)from->at.refused;
     *clock_of(s, lane, LANES_UNTIL) = until_of(s, lane);
+    *clock_of(s, lane, LANES_EVENT) = from->tick;
     s->since[lane] = from->at.steps;
     s->stop[lane] = from->stop;
     lanes_block_forget(&s->block, lane);

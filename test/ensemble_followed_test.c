@@ -35,6 +35,14 @@ static const subject subjects[] = {
      .to = {0.95, 3, 0.3},
      .damped = true,
      .rows = 100},
+    /* clocks tick between its passages, at the times of passages, and where a step ends */
+    {.text = STAR "step 0.0625\nn = 0\nwhen every 2.5: record\nwhen every 1: y' = 0.99 y', n = n + 1, record\n"
+                  "when x = 0 rising: record\nuntil 20\n",
+     .varied = {"y(0)", "x'(0)", "until"},
+     .columns = {"x", "y'", "n"},
+     .from = {-0.2, 0.05, -10},
+     .to = {0.3, 0.4, 20},
+     .rows = 100},
     /* some leave the finite numbers, and some take too many steps */
     {.text = "step 1/256\nw = 1\nx'' = x^2 - w y\ny'' = -400 w y\nx(0) = 1\nx'(0) = -0.5\ny(0) = 1\ny'(0) = 0\n"
              "when x' = 0 rising: record\nwhen y = 0: record\nuntil 4\n",

@@ -11,8 +11,9 @@ typedef struct lanes_record {
 } lanes_record; /* from: LANES_TIME, LANES_X, LANES_V, LANES_OUT */
 enum { LANES_TIME, LANES_X, LANES_V, LANES_OUT };
 
-/* The clock of a lane, as in work.h. STOP: the number of steps after which motus_lanes_run returns. A lane without a
- * trajectory has NaN in STOP and in UNTIL. */
+/* The clock of a lane, as in work.h. STOP: the number of steps after which motus_lanes_run returns. EVENT: of a watched
+ * lane the time of an event that is known beforehand; infinite where there is none. A lane without a trajectory has NaN
+ * in STOP and in UNTIL. */
 enum {
     LANES_T0,
     LANES_H,
@@ -28,6 +29,7 @@ enum {
     LANES_SPAN,
     LANES_UNTIL,
     LANES_STOP,
+    LANES_EVENT,
     LANES_CLOCKS
 };
 
