@@ -275,9 +275,9 @@ static bool swing_by_ends(stepper *s, double *most)
         s->right = true;
         s->extended = false;
     }
-    const dense_step d = last_step(s);
-    const dense_end *e = d.end;
-    swing_of_ends(w->nx, w->nv, w->h, e[0].x, e[0].v, e[0].a, e[1].x, e[1].v, e[1].a, most);
+    const size_t nx = w->nx, nv = w->nv;
+    const double *from = s->ends, *to = from + nx + 2 * nv;
+    swing_of_ends(nx, nv, w->h, from, from + nx, from + nx + nv, to, to + nx, to + nx + nv, most);
     return true;
 }
 
