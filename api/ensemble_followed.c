@@ -104,13 +104,14 @@ static bool crawls(followed *t)
     return may;
 }
 
-/* Steps of one size: how many of the leg lanes may take; the last ones, and a shorter one, are left to the stepper. */
-static int64_t whole_steps(const followed *t)
+/* After how many steps of the leg lanes give the trajectory back: where steps have one size, the last ones, and a
+ * shorter one, are the stepper's. */
+static int64_t stop_of(const followed *t)
 {
     enum { LAST = 2 };
     const stepper *s = t->at.w->stepper;
     if (row_adaptive(stepper_method(s))) return INT64_MAX;
-    return stepper_way_of(stepper_leg(s), stepper_step(s), t->timing.until).whole - LAST;
+    return stepper_steps(s) + stepper_steps_before(s, t->timing.until) - LAST;
 }
 
 /* Takes steps until bounds may tell of the next one. False: the trajectory is over. */
@@ -125,9 +126,9 @@ static bool lead(const ensemble_followed *f, int thread, followed *t, lanes_stat
         if (crawls(t) || events_go(w->events, w->stepper, t->timing.until, 1, &why, &w->why) != MOTUS_OK)
             return leave_it(f, t);
         if (why != STOP_STEPS) return finish(f, thread, t);
-    } while (!events_bounded(w->events, w->stepper) || stepper_steps(w->stepper) >= whole_steps(t));
+    } while (!events_bounded(w->events, w->stepper) || stepper_steps(w->stepper) >= stop_of(t));
     if (crawls(t)) return leave_it(f, t);
-    state->stop = whole_steps(t);
+    state->stop = stop_of(t);
     state->tick = events_next_time(w->events);
     state->t0 = stepper_leg(w->stepper);
     state->h = stepper_step(w->stepper);

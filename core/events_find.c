@@ -759,9 +759,7 @@ static bool boundable(const events *e)
 
 bool events_watchable(const events *e, const stepper *s)
 {
-    for (size_t k = 0; k < e->rules.count; k++)
-        if (e->rules.rule[k].kind == RULE_CLOCK) return false;
-    return stepper_can_watch(s) && boundable(e);
+    return isinf(events_next_time(e)) && stepper_can_watch(s) && boundable(e);
 }
 bool events_bounded(const events *e, const stepper *s) { return stepper_bounded(s) && boundable(e); }
 

@@ -267,14 +267,20 @@ static bool marked(const stepper *s, double t)
     return s->left && way * (t - s->left_t) >= 0 && way * (stepper_time(s) - t) >= 0;
 }
 
+/* The right end of the last step, once. */
+static motus_status take_right_end(stepper *s, motus_error *err)
+{
+    if (s->right) return MOTUS_OK;
+    s->extended = false;
+    const motus_status status = keep_end(s, 1, err);
+    s->right = !status;
+    return status;
+}
+
 static bool swing_by_ends(stepper *s, double *most)
 {
     const work *w = &s->work;
-    if (!s->right) {
-        if (keep_end(s, 1, NULL)) return false;
-        s->right = true;
-        s->extended = false;
-    }
+    if (take_right_end(s, NULL)) return false;
     const size_t nx = w->nx, nv = w->nv;
     const double *from = s->ends, *to = from + nx + 2 * nv;
     swing_of_ends(nx, nv, w->h, from, from + nx, from + nx + nv, to, to + nx, to + nx + nv, most);
@@ -313,13 +319,9 @@ motus_status stepper_sample(stepper *s, double t, double *x, double *v, motus_er
         hint(err, "give times within the last step or after it");
         return MOTUS_ARGUMENT;
     }
-    if (!s->right) {
-        status = keep_end(s, 1, err);
-        s->extended = false;
-    }
+    status = take_right_end(s, err);
     if (!status && !s->inside) status = make_room(s, err);
     if (status) return status;
-    s->right = true;
     const dense_step step = last_step(s);
     const int bad = s->extended ? STEP_OK : s->body->extend(&s->work, &step);
     s->extended = !bad;

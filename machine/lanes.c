@@ -335,7 +335,9 @@ static bool prepare(lanes *l)
     l->clock_size = d->own_clock ? lines(l, LANES_CLOCKS) : 0;
     l->known_size = l->plan.carried ? lines(l, m->nv) + lines(l, 1) : 0;
     l->work_size = lines(l, stepper_arrays(l->plan) * m->nv);
-    if (d->follower) l->watch_size = lines(l, m->nv) + lines(l, m->nx + m->nv) + lanes_shown_size(l) + lines(l, 1);
+    const size_t ends =
+        l->plan.carried ? 0 : 2 * (m->nx + 2 * m->nv); /* of the latest step, where steps have one size */
+    if (d->follower) l->watch_size = lines(l, m->nv) + lines(l, m->nx + m->nv) + lines(l, ends) + lines(l, 1);
     l->solve_size =
         (l->solving * (size_t)l->groups + ALIGNMENT - 1) / ALIGNMENT * ALIGNMENT / sizeof(double) + lines(l, 1);
     l->observed_size = lines(l, m->nx + m->nv + m->nv + l->outs);

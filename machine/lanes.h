@@ -31,12 +31,12 @@ typedef struct lanes_tally {
 /* Who follows the events of trajectories, of which lanes take the steps in which nothing happens (lanes_watched.c).
  * A state is that at which the next step begins: of a leg from t0 with step h, the counters, and the numbers of
  * stepper_save; a step that reaches the time `tick` is looked at; where steps have one size, lanes give the trajectory
- * back after `stop` steps of the leg. A trajectory
- * keeps the `place` that it begins with. `idle` is asked of a step of which the bounds leave something open; where it
- * denies, or a trajectory is to be looked at for another reason, `look` is led to the state before that step, `steps`
- * after the state that it gave. `begin` and `look` give a state from which lanes go on, or tell that the trajectory is
- * over: then nothing is left to do for it. On a long way they ask whether all is `over`, and nothing counts any more.
- * `arrive` is led to the end, and `leave` is told of a trajectory that lanes cannot lead on. */
+ * back after `stop` steps of the leg. A trajectory keeps the `place` that it begins with. `idle` is asked of a step of
+ * which the bounds leave something open; where it denies, or a trajectory is to be looked at for another reason, `look`
+ * is led to the state before that step, `steps` after the state that it gave. `begin` and `look` give a state from
+ * which lanes go on, or tell that the trajectory is over: then nothing is left to do for it. On a long way they ask
+ * whether all is `over`, and nothing counts any more. `arrive` is led to the end, and `leave` is told of a trajectory
+ * that lanes cannot lead on. */
 typedef struct lanes_state {
     double t0, h, tick;
     int64_t stop;

@@ -58,13 +58,6 @@ void lanes_block_place(lanes_block *k, const lanes_item *b, size_t block)
     j->met = k->stopped - lines(l, 1);
 }
 
-/* Both ends of the latest step, where steps of one size are watched. */
-size_t lanes_shown_size(const lanes *l)
-{
-    const model *m = l->def.model;
-    return l->plan.carried ? 0 : lines(l, 2 * (m->nx + 2 * m->nv));
-}
-
 lanes_block lanes_block_of(const lanes_item *b, size_t block)
 {
     lanes *l = b->l;

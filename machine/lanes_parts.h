@@ -121,7 +121,6 @@ typedef struct lanes_block {
 
 size_t lanes_block_size(const lanes *);
 size_t lanes_scratch_size(const lanes *);
-size_t lanes_shown_size(const lanes *);
 lanes_block lanes_block_of(const lanes_item *, size_t block);
 /* Turns a block of an item into another one of it. */
 void lanes_block_place(lanes_block *, const lanes_item *, size_t block);

@@ -34,7 +34,7 @@ typedef struct watched {
 /* Room for the numbers of a state and the largest sizes, or for both ends of a step and its accelerations' bounds. */
 size_t lanes_watched_size(const lanes *l)
 {
-    const size_t state = l->carried + STEPPER_CLOCKS + l->def.model->nx + l->def.model->nv, step = 7 * l->def.model->nv;
+    const size_t state = l->carried + STEPPER_CLOCKS + l->def.model->nx + l->def.model->nv, step = 5 * l->def.model->nv;
     return ((state > step ? state : step) + 7) / 8 * 8;
 }
 
@@ -161,41 +161,45 @@ static bool refill(watched *s)
 
 /* ---- steps ---- */
 
-/* The same of a step of one size. */
-static bool idle_fixed(const watched *s, size_t lane)
+/* Number k of the positions, or of the velocities, at an end of the latest step of a lane. */
+static double number_at(const watched *s, size_t lane, bool end, bool in_v, size_t k)
 {
     const lanes *l = s->l;
     const lanes_job *j = &s->block.job;
-    const size_t nx = l->def.model->nx, nv = l->def.model->nv, ends = 2 * (nx + 2 * nv);
-    double *from = s->room, *to = from + nx + 2 * nv, *most = from + ends;
-    for (size_t k = 0; k < ends; k++) from[k] = j->shown[lane_at(l, ends, k, lane)];
-    for (size_t k = 0; k < nv; k++) most[k] = j->bounds[lane_at(l, nv, k, lane)];
-    const work before = {.t0 = *clock_of(s, lane, LANES_T0), .h = *clock_of(s, lane, LANES_H)};
-    const double n = *clock_of(s, lane, LANES_N);
-    return s->by->idle(s->by->ctx, s->item->thread, lane,
-                       &(stepper_shown){before.h, TIME_FIXED(&before, n - 1, 0), TIME_FIXED(&before, n, 0), from,
-                                        from + nx, to, to + nx, most});
+    const size_t nx = l->def.model->nx, nv = l->def.model->nv, each = nx + 2 * nv;
+    if (l->plan.carried) return (end ? j->carry : j->before)[lane_at(l, l->carried, (in_v ? nv : 0) + k, lane)];
+    return j->shown[lane_at(l, 2 * each, (end ? each : 0) + (in_v ? nx : 0) + k, lane)];
+}
+
+/* The clock of a lane at an end of its latest step: its time, and what rounding has left out of it. */
+static double time_at(const watched *s, size_t lane, bool end, double *lost)
+{
+    const double *clocks = end ? s->block.job.clocks : s->block.job.before_clocks;
+#define CLOCK_AT(k) clocks[lane_at(s->l, LANES_CLOCKS, (k), lane)]
+    const work leg = {.t0 = CLOCK_AT(LANES_T0), .h = CLOCK_AT(LANES_H)};
+    *lost = s->l->plan.carried ? CLOCK_AT(LANES_LOST) : 0;
+    return s->l->plan.carried ? CLOCK_AT(LANES_T) : TIME_FIXED(&leg, CLOCK_AT(LANES_N), 0);
+#undef CLOCK_AT
 }
 
 /* Whether the follower knows that the latest step of a lane has no event, though a bound is not positive. */
 static bool idle(const watched *s, size_t lane)
 {
     const lanes *l = s->l;
-    const lanes_job *j = &s->block.job;
     const size_t nx = l->def.model->nx, nv = l->def.model->nv;
-    double *from_x = s->room, *from_v = from_x + nv, *to_x = from_v + nv, *to_v = to_x + nv, *most = to_v + nv;
+    double *from_x = s->room, *from_v = from_x + nx, *to_x = from_v + nv, *to_v = to_x + nx, *most = to_v + nv;
+    for (size_t k = 0; k < nx; k++)
+        from_x[k] = number_at(s, lane, false, false, k), to_x[k] = number_at(s, lane, true, false, k);
     for (size_t k = 0; k < nv; k++) {
-        const size_t x = lane_at(l, l->carried, k, lane), v = lane_at(l, l->carried, nv + k, lane);
-        from_x[k] = k < nx ? j->before[x] : 0, to_x[k] = k < nx ? j->carry[x] : 0;
-        from_v[k] = j->before[v], to_v[k] = j->carry[v];
-        most[k] = j->bounds[lane_at(l, nv, k, lane)];
+        from_v[k] = number_at(s, lane, false, true, k), to_v[k] = number_at(s, lane, true, true, k);
+        most[k] = s->block.job.bounds[lane_at(l, nv, k, lane)];
     }
-    const double t = j->before_clocks[lane_at(l, LANES_CLOCKS, LANES_T, lane)],
-                 lost = j->before_clocks[lane_at(l, LANES_CLOCKS, LANES_LOST, lane)];
-    const watch was = {
-        .t = t, .lost = lost, .to_t = *clock_of(s, lane, LANES_T), .to_lost = *clock_of(s, lane, LANES_LOST)};
+    watch was = {0};
+    was.t = time_at(s, lane, false, &was.lost);
+    was.to_t = time_at(s, lane, true, &was.to_lost);
+    const double span = l->plan.carried ? watch_span(&was) : *clock_of(s, lane, LANES_H);
     return s->by->idle(s->by->ctx, s->item->thread, lane,
-                       &(stepper_shown){watch_span(&was), t, was.to_t, from_x, from_v, to_x, to_v, most});
+                       &(stepper_shown){span, was.t, was.to_t, from_x, from_v, to_x, to_v, most});
 }
 
 static bool is_finite(const watched *s, size_t lane)
@@ -214,14 +218,14 @@ static void look_after(watched *s, size_t lane)
 {
     const lanes_job *j = &s->block.job;
     const int thread = s->item->thread;
-    const bool met = j->met[lane] != 0, adaptive = s->l->plan.carried,
-               ends = adaptive && *clock_of(s, lane, LANES_T) == *clock_of(s, lane, LANES_UNTIL);
+    const bool met = j->met[lane] != 0,
+               ends = s->l->plan.carried && *clock_of(s, lane, LANES_T) == *clock_of(s, lane, LANES_UNTIL);
     if (j->lost[lane] != 0 || !is_finite(s, lane)) {
         s->by->leave(s->by->ctx, thread, lane);
         over(s, lane);
         return;
     }
-    const bool back = met && !(adaptive ? idle(s, lane) : idle_fixed(s, lane));
+    const bool back = met && !idle(s, lane);
     if (!back && !ends && *clock_of(s, lane, LANES_N) != *clock_of(s, lane, LANES_STOP)) return;
     lanes_state state = state_of(s, lane, back);
     const int64_t steps = state.at.steps - s->since[lane];
@@ -234,6 +238,15 @@ static void look_after(watched *s, size_t lane)
     over(s, lane);
 }
 
+/* The number of steps after which a lane is looked at, whatever happens. */
+static int64_t stop_after(const watched *s, size_t lane)
+{
+    if (!s->l->plan.carried) return s->stop[lane];
+    const int64_t n = (int64_t)*clock_of(s, lane, LANES_N), most = s->l->def.chosen->count,
+                  pace = (n / STEPPER_PACE + 1) * STEPPER_PACE;
+    return most > 0 && most < pace ? most : pace;
+}
+
 void lanes_watched(lanes_item *item)
 {
     lanes *l = item->l;
@@ -242,14 +255,8 @@ void lanes_watched(lanes_item *item)
     s.block = lanes_block_of(item, 0);
     for (size_t i = 0; i < (size_t)l->block; i++) free_lane(&s, i);
     for (int64_t calls = 0; refill(&s); calls++) {
-        const int64_t most = l->def.chosen->count;
-        for (size_t i = 0; i < (size_t)l->block; i++) {
-            const int64_t n = (int64_t)*clock_of(&s, i, LANES_N), pace = (n / STEPPER_PACE + 1) * STEPPER_PACE;
-            if (s.number[i] == NO_TRAJECTORY) continue;
-            *clock_of(&s, i, LANES_STOP) = (double)(!l->plan.carried          ? s.stop[i]
-                                                    : most > 0 && most < pace ? most
-                                                                              : pace);
-        }
+        for (size_t i = 0; i < (size_t)l->block; i++)
+            if (s.number[i] != NO_TRAJECTORY) *clock_of(&s, i, LANES_STOP) = (double)stop_after(&s, i);
         l->run(&s.block.job, CHUNK, 0);
         for (size_t i = 0; i < (size_t)l->block; i++)
             if (s.number[i] != NO_TRAJECTORY) look_after(&s, i);

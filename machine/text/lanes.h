@@ -314,32 +314,49 @@ static inline void lanes_remember(const work *w, const lanes_job *job, size_t gr
 }
 
 #if WATCHED
-/* The lanes of which `least`, bounds on the functions of the rules, leave open whether something has happened in their
- * latest step, which began at (x, v). */
-static inline mask lanes_open(const lanes_job *job, const work *w, const real *x, const real *v, const real *least,
+/* The ends of the latest step of a group: numbers of its own, or those of the workspace. */
+typedef struct lanes_ends {
+    clock span;
+    const real *from_x, *from_v, *to_x, *to_v;
+} lanes_ends;
+
+/* Those of the lanes that are `good` in whose latest step something may have happened: job->bounds has bounds on the
+ * accelerations within it. */
+static inline mask lanes_open(const lanes_job *job, const work *w, const compiled_host *host, const lanes_ends *of,
                               mask good, size_t group)
 {
-    real *largest = job->largest + group * (FACT(w, nx) + FACT(w, nv));
+    const size_t nx = FACT(w, nx), nv = FACT(w, nv);
+    real *largest = job->largest + group * (nx + nv);
+    real x[NUMBERS], v[NUMBERS], dx[NUMBERS], dv[NUMBERS], least[BOUNDS];
+    const box in = {x, v, dx, dv};
     const clock t = time_now(w), past = (t - job->clocks[group * LANES_CLOCKS + LANES_EVENT]) * w->h;
     mask open = past >= -8 * EPSILON * ABS(t) * ABS(w->h);
+    box_of(&in, nx, nv, of->span, of->from_x, of->from_v, of->to_x, of->to_v, job->bounds + group * nv);
+    compiled_least(host->pool, host->q, host->u, host->bound, host->own, CLOCK(0), (const clock *)0, x, v, (real *)0,
+                   least, dx, dv);
     for (size_t f = 0; f < BOUNDS; f++) open = open | NOT(least[f] > 0);
-    EACH(k) largest[k] = LARGER(ABS(x[k]), largest[k]);
-    EACHV(k) largest[FACT(w, nx) + k] = LARGER(ABS(v[k]), largest[FACT(w, nx) + k]);
+    EACH(k) largest[k] = LARGER(ABS(of->from_x[k]), largest[k]);
+    EACHV(k) largest[nx + k] = LARGER(ABS(of->from_v[k]), largest[nx + k]);
     open = open & good;
     job->met[group] = PICK(open, MANY(1.0), MANY(0.0));
     return open;
 }
 
+/* What the lanes of a group are before a step. */
+static inline void lanes_keep_before(const lanes_job *job, work *w, size_t group)
+{
+    lanes_store(w, job->before + group * CARRIED * FACT(w, nv));
+    lanes_put_clock(w, job->before_clocks + group * LANES_CLOCKS);
+}
+
 #if ROW_adaptive
 /* Of a watched lane what step/watch.h does for one trajectory. A step whose first stage makes room for the next one's
  * has that before it begins. */
-static inline void lanes_watch_begin(const lanes_job *job, work *w, size_t group, bool known)
+static inline void lanes_watch_begin(const lanes_job *job, work *w, size_t group)
 {
-    (void)known;
     real *most = job->bounds + group * FACT(w, nv);
     const bool first = !FACT(w, expands) && control_last_is_first(w);
-    lanes_store(w, job->before + group * CARRIED * FACT(w, nv));
-    lanes_put_clock(w, job->before_clocks + group * LANES_CLOCKS);
+    lanes_keep_before(job, w, group);
     if (first && !w->fresh) {
         (void)control_begin(w);
         control_known(w, EVERY);
@@ -352,48 +369,36 @@ static inline mask lanes_watch_ends(const lanes_job *job, work *w, const compile
 {
     const real *from = job->before + group * CARRIED * FACT(w, nv), *clocks = job->before_clocks + group * LANES_CLOCKS;
     const clock span = (w->t - clocks[LANES_T]) + (w->lost - clocks[LANES_LOST]);
-    real *most = job->bounds + group * FACT(w, nv);
-    real x[NUMBERS], v[NUMBERS], dx[NUMBERS], dv[NUMBERS], least[BOUNDS];
-    const box in = {x, v, dx, dv};
-    (void)family_swing(w, most);
-    box_of(&in, FACT(w, nx), FACT(w, nv), span, from, from + FACT(w, nv), w->x, w->v, most);
-    compiled_least(host->pool, host->q, host->u, host->bound, host->own, CLOCK(0), (const clock *)0, x, v, (real *)0,
-                   least, dx, dv);
-    return lanes_open(job, w, from, from + FACT(w, nv), least, w->n > clocks[LANES_N], group);
+    (void)family_swing(w, job->bounds + group * FACT(w, nv));
+    return lanes_open(job, w, host, &(lanes_ends){span, from, from + FACT(w, nv), w->x, w->v}, w->n > clocks[LANES_N],
+                      group);
 }
-#define LANES_ARRIVED(g) (work_##g.t == work_##g.until)
+#define LANES_WATCH(g) lanes_watch_begin(job, w, g)
 #else
-/* Steps of one size: the states at both ends are observed, each once in a call: `known` is the end of the step before.
- */
+/* Steps of one size: the states at both ends are observed, each once in a call; `known`: the start is the end of the
+ * step before. */
 static inline void lanes_watch_begin(const lanes_job *job, work *w, size_t group, bool known)
 {
-    const size_t numbers = FACT(w, nx) + 2 * FACT(w, nv);
+    const size_t nx = FACT(w, nx), nv = FACT(w, nv), numbers = nx + 2 * nv;
     real *from = job->shown + 2 * group * numbers, *to = from + numbers;
-    lanes_store(w, job->before + group * CARRIED * FACT(w, nv));
-    lanes_put_clock(w, job->before_clocks + group * LANES_CLOCKS);
+    lanes_keep_before(job, w, group);
     if (known)
         for (size_t k = 0; k < numbers; k++) from[k] = to[k];
     else
-        advance_sync(w, from, from + FACT(w, nx), from + FACT(w, nx) + FACT(w, nv));
+        advance_sync(w, from, from + nx, from + nx + nv);
 }
 
 static inline mask lanes_watch_ends(const lanes_job *job, work *w, const compiled_host *host, size_t group)
 {
     const size_t nx = FACT(w, nx), nv = FACT(w, nv), numbers = nx + 2 * nv;
-    real *from = job->shown + 2 * group * numbers, *to = from + numbers, *most = job->bounds + group * nv;
-    real x[NUMBERS], v[NUMBERS], dx[NUMBERS], dv[NUMBERS], least[BOUNDS];
-    const box in = {x, v, dx, dv};
+    real *from = job->shown + 2 * group * numbers, *to = from + numbers;
     advance_sync(w, to, to + nx, to + nx + nv);
-    swing_of_ends(nx, nv, w->h, from, from + nx, from + nx + nv, to, to + nx, to + nx + nv, most);
-    box_of(&in, nx, nv, w->h, from, from + nx, to, to + nx, most);
-    compiled_least(host->pool, host->q, host->u, host->bound, host->own, CLOCK(0), (const clock *)0, x, v, (real *)0,
-                   least, dx, dv);
-    return lanes_open(job, w, from, from + nx, least, ALWAYS, group);
+    swing_of_ends(nx, nv, w->h, from, from + nx, from + nx + nv, to, to + nx, to + nx + nv, job->bounds + group * nv);
+    return lanes_open(job, w, host, &(lanes_ends){w->h, from, from + nx, to, to + nx}, ALWAYS, group);
 }
-#define LANES_ARRIVED(g) NEVER
+#define LANES_WATCH(g) lanes_watch_begin(job, w, g, watched)
 #endif
 #define LANES_MET(g) mask met_##g = NEVER;
-#define LANES_WATCH(g) lanes_watch_begin(job, w, g, watched)
 #define LANES_WATCHED(g) met_##g = lanes_watch_ends(job, w, &host_##g, g)
 #define LANES_OPEN_TO(g) met_##g
 #else
@@ -401,7 +406,6 @@ static inline mask lanes_watch_ends(const lanes_job *job, work *w, const compile
 #define LANES_WATCH(g) ((void)0)
 #define LANES_WATCHED(g) ((void)0)
 #define LANES_OPEN_TO(g) NEVER
-#define LANES_ARRIVED(g) (work_##g.t == work_##g.until)
 #endif
 
 /* In an adaptive row, and where steps are watched, w->fresh tells whether the accelerations of a group are known. */
@@ -462,7 +466,8 @@ static inline mask lanes_watch_ends(const lanes_job *job, work *w, const compile
 #define LANES_DUE(g)                                                                                              \
     {                                                                                                             \
         const real *own = job->clocks + g * LANES_CLOCKS;                                                         \
-        const mask here = work_##g.until == work_##g.until, ends = LANES_ARRIVED(g);                              \
+        const mask here = work_##g.until == work_##g.until,                                                       \
+                   ends = ROW_adaptive ? work_##g.t == work_##g.until : NEVER;                                    \
         due = due | (here & ((work_##g.n == own[LANES_STOP]) | ends | (*host_##g.lost != 0) | LANES_OPEN_TO(g))); \
     }
 
