@@ -73,31 +73,34 @@ double stop_clock(void)
 
 stop_progress stop_progress_begin(const char *what, bool quiet)
 {
-    return (stop_progress){.what = what, .began = stop_clock(), .terminal = !quiet && isatty(STDERR_FILENO)};
+    return (stop_progress){
+        .what = what, .began = stop_clock(), .terminal = isatty(STDERR_FILENO) == 1, .quiet = quiet};
 }
 
+/* On a terminal each line takes the place of the one before; a log keeps them all. */
 static void show(const stop_progress *p, double fraction, double spent)
 {
     enum { BAR = 20 };
-    double gone = fraction - p->before;
-    fprintf(stderr, "\r\033[K%s %3.0f %%", p->what, 100 * fraction);
-    if (p->unit) {
-        int full = (int)(BAR * fraction);
-        fprintf(stderr, " [%.*s%.*s] %.3g %s/s", full, "####################", BAR - full, "....................",
-                p->amount * gone / spent, p->unit);
+    const double gone = fraction - p->before;
+    fprintf(stderr, "%s%s %3.0f %%", p->terminal ? "\r\033[K" : "motus: ", p->what, 100 * fraction);
+    if (p->unit && p->terminal) {
+        const int full = (int)(BAR * fraction);
+        fprintf(stderr, " [%.*s%.*s]", full, "####################", BAR - full, "....................");
     }
+    if (p->unit) fprintf(stderr, "%s %.3g %s/s", p->terminal ? "" : ",", p->amount * gone / spent, p->unit);
     if (gone > 0.02 * (1 - p->before) && fraction < 1) fprintf(stderr, ", %.0f s left", spent * (1 - fraction) / gone);
+    if (!p->terminal) putc('\n', stderr);
     fflush(stderr);
 }
 
 int stop_progress_hook(void *context, double fraction)
 {
-    enum { FIRST_MS = 500, REFRESH_MS = 100 };
+    enum { FIRST_MS = 500, REFRESH_MS = 100, LOG_MS = 60000 };
     stop_progress *p = context;
     if (p->meanwhile) p->meanwhile(p->with);
-    if (p->terminal) {
-        double now = stop_clock(), spent = now - p->began;
-        if (spent * 1000 > FIRST_MS && (now - p->shown) * 1000 > REFRESH_MS) {
+    if (!p->quiet) {
+        const double now = stop_clock(), spent = now - p->began, since = p->shown > 0 ? now - p->shown : spent;
+        if (spent * 1000 > FIRST_MS && since * 1000 > (p->terminal ? REFRESH_MS : LOG_MS)) {
             show(p, p->span > 0 ? p->from + p->span * fraction : fraction, spent);
             p->shown = now;
         }
@@ -107,7 +110,7 @@ int stop_progress_hook(void *context, double fraction)
 
 void stop_progress_end(stop_progress *p)
 {
-    if (p->terminal && p->shown > 0) {
+    if (p->terminal && !p->quiet && p->shown > 0) {
         fputs("\r\033[K", stderr);
         fflush(stderr);
     }

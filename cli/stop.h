@@ -17,11 +17,12 @@ void stop_reader_gone(void); /* standard output was closed by its reader: reques
  * Call when everything is cleaned up. */
 void stop_obey(void);
 
-/* The progress of long work on standard error, if that is a terminal. */
+/* The progress of long work on standard error: one line that is renewed, on a terminal; elsewhere, as in the log of a
+ * batch job, a line a minute. */
 typedef struct stop_progress {
     const char *what;
     double began, shown; /* seconds; shown 0: not yet */
-    bool terminal;
+    bool terminal, quiet;
     /* Work in parts: the hook's fraction is of the present part, which goes from `from` to `from` + `span` of all the
      * work; `before` of it was done by an earlier command. span 0: one part. */
     double from, span, before;

@@ -118,7 +118,7 @@ declare -A also=(
     [api/columns.c]='system_'                       # parts of api/system.h
 )
 archive=$build/libmotus.a
-program=$build/CMakeFiles/motus_program.dir
+program=$build/CMakeFiles/motus_cli.dir
 if [ ! -f "$archive" ] || [ ! -d "$program/cli" ]; then
     not_ok "symbols: $archive and the program's objects are not built"
 else
@@ -146,6 +146,7 @@ else
         for file in cli/*.c tell/*.c lab/core/*.c; do
             object=$scratch/$file.o
             [[ $file == lab/* ]] || object=$program/$file.o
+            [ $file != cli/main.c ] || object=$build/CMakeFiles/motus_program.dir/$file.o
             [ -f "$object" ] && nm -A "$object" | sed "s:^[^ ]*\.o:$file.o:"
         done
     } | awk -v sources="$sources" '

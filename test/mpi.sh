@@ -1,5 +1,6 @@
 #!/bin/bash
-# motus-mpi: the same bytes on any number of ranks, kills of ranks and of mpirun, signals, and errors that are told once.
+# motus-mpi: the same bytes on any number of ranks, kills of ranks and of mpirun, signals, and errors that are told once; by Open MPI and,
+# where mpicc.mpich is installed, by MPICH.
 #
 # Each case is one line `ok` or `not ok`; the last line counts them. MOTUS is the program (build/motus), beside which motus-mpi lies.
 cd "$(dirname "$0")/.." || exit 1
@@ -12,9 +13,12 @@ if [ ! -x "$mpi" ] || ! command -v mpirun >/dev/null; then
     echo "$passed passed, $failed failed"
     exit $((failed > 0))
 fi
-# The number of ranks, then the words. Tests have more ranks than processors, and may be run by root.
+# Tests have more ranks than processors, and may be run by root.
 export OMPI_MCA_rmaps_base_oversubscribe=1 OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1
-ranks() { local n=$1; shift; mpirun --quiet -n "$n" "$mpi" "$@"; }
+# The number of ranks, then the words.
+launch=(mpirun)
+mpirun --version 2>/dev/null | grep -q "Open MPI" && launch+=(--quiet)
+ranks() { local n=$1; shift; "${launch[@]}" -n "$n" "$mpi" "$@"; }
 
 swing_until 100 >"$place/swing.motus"
 swing=$place/swing.motus
@@ -49,7 +53,7 @@ printf '%s\n' 'k = 1' "x'' = -k x" 'x(0) = 1' "x'(0) = 0" 'until 10' >"$place/st
 once() {
     local name=$1 want=$2 message=$3 got
     shift 3
-    timeout 60 mpirun --quiet -n "$1" "$mpi" "${@:2}" >"$out" 2>"$err"
+    timeout 60 "${launch[@]}" -n "$1" "$mpi" "${@:2}" >"$out" 2>"$err"
     got=$?
     that "$name" [ $got = "$want" ]
     that "... one message" eval "[ \$(grep -c '^motus: \|^[^ ].*:[0-9]*:[0-9]*: ' '$err') = 1 ] && says '$message' '$err'"
@@ -60,7 +64,7 @@ once "a table" 2 "together write archives alone" 3 "${words[@]}" -o "$place/x.cs
 once "another sweep" 2 "was made by another sweep" 2 "${words[@]}" --until 10 -o "$place/many.h5" --resume
 once "a folder that is not there" 1 "cannot write" 4 "${words[@]}" -o "$place/none/x.h5"
 once "an accuracy that is not reached" 1 "is not reached" 2 sweep "$place/stiff.motus" --vary "k=1,1e5" --accuracy 1e-15 --record final -o "$place/x.h5"
-gives "--json before the verb" 0 timeout 60 mpirun --quiet -n 2 "$mpi" --json "${words[@]}" -o "$place/x.h5" --force
+gives "--json before the verb" 0 timeout 60 "${launch[@]}" -n 2 "$mpi" --json "${words[@]}" -o "$place/x.h5" --force
 gives "help" 0 ranks 3 sweep --help
 that "... once" eval "[ \$(grep -c 'motus sweep MODEL' '$out') = 1 ]"
 once "a word that there is not" 2 "unknown option" 3 "${words[@]}" --nonsense
@@ -78,7 +82,7 @@ slow=("${words[@]}" --machine interpreter --threads 1 --quiet)
 dies() {
     local signal=$1 whom=$2 job all
     rm -f "$place/killed.h5"
-    mpirun --quiet -n "$3" "$mpi" "${slow[@]}" -o "$place/killed.h5" >"$out" 2>"$err" &
+    "${launch[@]}" -n "$3" "$mpi" "${slow[@]}" -o "$place/killed.h5" >"$out" 2>"$err" &
     job=$!
     for _ in $(seq 300); do [ -e "$place/killed.h5" ] && [ "$(blocks "$place/killed.h5" 2>/dev/null || echo 0)" -ge 2 ] && break; sleep 0.05; done
     all=$(pgrep -f "$mpi ${slow[0]} $swing" | grep -vx $job)
@@ -89,9 +93,9 @@ dies() {
     for one in $all; do for _ in $(seq 100); do kill -0 "$one" 2>/dev/null || break; sleep 0.05; done; done
     there=$(blocks "$place/killed.h5")
 }
-# shellcheck disable=SC2034
-for how in "KILL rank 3 2" "KILL mpirun 2 3" "KILL rank 2 0" "TERM mpirun 3 1" "USR1 mpirun 2 0"; do
-    read -r signal whom n again <<<"$how"
+# The signal, whom it hits, of how many ranks, and how many go on (0: motus alone).
+dies_and_goes_on() {
+    local signal=$1 whom=$2 n=$3 again=$4
     dies "$signal" "$whom" "$n" 2>/dev/null
     that "SIG$signal to $whom of $n leaves some blocks, not all" eval "[ $there -ge 2 ] && [ $there -lt 25 ]"
     [ "$signal" = KILL ] || that "... ends with status 1" [ $status = 1 ]
@@ -103,7 +107,37 @@ for how in "KILL rank 3 2" "KILL mpirun 2 3" "KILL rank 2 0" "TERM mpirun 3 1" "
     else gives "... --resume by $again ranks" 0 ranks "$again" "${words[@]}" -o "$place/killed.h5" --resume --json; fi
     that "... computes no block again that was whole" [ "$(jq .resumed "$out")" = $((there * 4096)) ]
     that "... the same bytes" [ "$(sum "$place/killed.h5")" = "$whole" ]
-done
+}
+dies_and_goes_on KILL rank 3 2
+dies_and_goes_on KILL mpirun 2 3
+dies_and_goes_on KILL rank 2 0
+dies_and_goes_on TERM mpirun 3 1
+dies_and_goes_on USR1 mpirun 2 0
+
+# --- MPICH ----------------------------------------------------------------------------------------------------------------------------
+build=$(dirname "$motus")
+if command -v mpicc.mpich >/dev/null && command -v mpirun.mpich >/dev/null && [ -e "$build/libmotus-cli.a" ]; then
+    ours=$mpi system=("${launch[@]}") mpi=$place/motus-mpich launch=(mpirun.mpich)
+    gives "it compiles with MPICH" 0 mpicc.mpich -std=c17 -D_GNU_SOURCE -Wall -Wextra -Wpedantic -Werror -I. -Iinclude mpi/main.c \
+        "$build/libmotus-cli.a" "$build/libmotus-archive.a" "$build/libmotus.a" -lm -ldl -lpthread "-Wl,-rpath,$build" -o "$mpi"
+    gives "... --mpi-check" 0 ranks 2 --mpi-check
+    that "... by MPICH" says "2 ranks, MPICH"
+    for n in 1 2 3 4 7; do
+        gives "... $n ranks" 0 ranks $n "${words[@]}" -o "$place/many.h5" --force --quiet
+        that "... the same bytes" [ "$(sum "$place/many.h5")" = "$whole" ]
+    done
+    once "... a model that is not there" 1 "cannot read" 3 sweep "$place/none.motus" --vary a=1,2 -o "$place/y.h5"
+    once "... another sweep" 2 "was made by another sweep" 2 "${words[@]}" --until 10 -o "$place/many.h5" --resume
+    dies_and_goes_on KILL rank 3 2
+    dies_and_goes_on KILL mpirun 2 0
+    mpi=$ours launch=("${system[@]}")
+    dies KILL rank 2 2>/dev/null
+    mpi=$place/motus-mpich launch=(mpirun.mpich)
+    gives "what ranks of Open MPI have begun, those of MPICH go on with" 0 ranks 3 "${words[@]}" -o "$place/killed.h5" --resume --quiet
+    that "... the same bytes" [ "$(sum "$place/killed.h5")" = "$whole" ]
+else
+    echo "not run, since it is not installed: MPICH"
+fi
 
 echo "$passed passed, $failed failed"
 [ $failed = 0 ]

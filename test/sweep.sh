@@ -527,6 +527,27 @@ if command -v script >/dev/null; then
     script -qec "timeout 2 '$motus' sweep osc.motus --vary F=0:0.2:2000000 --until 20 --machine interpreter --threads 1 --lanes 1 -o bar.csv" /dev/null </dev/null >"$out" 2>&1
     that "a bar and a rate on a terminal" grep -qE 'sweep +[0-9]+ % \[[#.]{20}\] [0-9.e+]+ trajectories/s' "$out"
 fi
+# A clock that goes a hundred times as fast: two seconds are three minutes of a batch job.
+cat >fast.c <<'C'
+#define _GNU_SOURCE
+#include <dlfcn.h>
+#include <time.h>
+int clock_gettime(clockid_t which, struct timespec *at)
+{
+    static int (*real)(clockid_t, struct timespec *);
+    if (!real) real = (int (*)(clockid_t, struct timespec *))dlsym(RTLD_NEXT, "clock_gettime");
+    const int code = real(which, at);
+    at->tv_nsec *= 100, at->tv_sec *= 100;
+    at->tv_sec += at->tv_nsec / 1000000000, at->tv_nsec %= 1000000000;
+    return code;
+}
+C
+if "${CC:-cc}" -shared -fPIC -O1 -w fast.c -o fast.so -ldl && ! nm "$motus" 2>/dev/null | grep -q __asan; then
+    LD_PRELOAD=$PWD/fast.so timeout 3 "$motus" sweep osc.motus --vary F=0:0.2:2000000 --until 20 --machine interpreter --threads 1 --lanes 1 -o log.csv >"$out" 2>"$err"
+    that "in the log of a batch job a line a minute" eval "[ \$(grep -cE '^motus: sweep +[0-9]+ %, [0-9.e+]+ trajectories/s(, [0-9]+ s left)?$' '$err') -ge 2 ] && [ \$(grep -c 'motus: sweep' '$err') -le 6 ]"
+    LD_PRELOAD=$PWD/fast.so timeout 3 "$motus" sweep osc.motus --vary F=0:0.2:2000000 --until 20 --machine interpreter --threads 1 --lanes 1 -o log.csv -q --force >"$out" 2>"$err"
+    that "... --quiet has none" eval "lacks 'sweep' '$err'"
+fi
 
 # --- memory -------------------------------------------------------------------------------------------------------------------------
 # Three million trajectories of twelve columns would be 288 MB.
