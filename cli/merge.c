@@ -18,8 +18,9 @@
 
 typedef struct merge {
     const options *options;
-    part *parts, **of; /* of: the part that is shard k + 1 */
+    part *parts, **of; /* of: the part that is shard k + 1; NULL: it is missing */
     size_t count;
+    uint64_t missing; /* blocks that are in no part */
 } merge;
 
 static motus_status foreign(const part *a, const part *b, motus_error *err)
@@ -40,7 +41,7 @@ static motus_status foreign(const part *a, const part *b, motus_error *err)
     return MOTUS_STATE;
 }
 
-/* Gives each shard its part: there must be exactly one. */
+/* Gives each shard its part: there must be exactly one; with --partial at most one. */
 static motus_status arrange(merge *m, motus_error *err)
 {
     char text[SHARD_TEXT];
@@ -68,10 +69,11 @@ static motus_status arrange(merge *m, motus_error *err)
         if (m->of[k] || missing++ >= NAMED) continue;
         sprintf(list + strlen(list), "%s%" PRIu64, *list ? ", " : "", k + 1);
     }
-    if (missing == 0) return MOTUS_OK;
+    if (missing == 0 || m->options->partial) return MOTUS_OK;
     fail(err, MOTUS_STATE, "%" PRIu64 " of %" PRIu64 " shards are missing: %s%s", missing, count, list,
          missing > NAMED ? ", ..." : "");
-    hint(err, "compute them, or name their files too");
+    hint(err, first->kind == PART_ARCHIVE ? "compute them, or name their files too; --partial joins what is there"
+                                          : "compute them, or name their files too");
     return MOTUS_STATE;
 }
 
@@ -94,6 +96,11 @@ static motus_status check_name(const merge *m, motus_error *err)
     static const char *const kinds[] = {"CSV", "CSV", ".npy", "archives"}, *const ends[] = {"csv", "csv", "npy", "h5"};
     const char *name = m->options->output;
     const part_kind kind = m->parts[0].kind;
+    if (m->options->partial && kind != PART_ARCHIVE) {
+        fail(err, MOTUS_ARGUMENT, "--partial: only archives know which of their rows are missing");
+        hint(err, "compute all shards, or write archives: motus sweep ... -o part%%K.h5");
+        return MOTUS_ARGUMENT;
+    }
     if (sweep_npy_name(name) == (kind == PART_NPY) && sweep_archive_name(name) == (kind == PART_ARCHIVE))
         return MOTUS_OK;
     fail(err, MOTUS_ARGUMENT, "-o %s: the shards are %s", name, kinds[kind]);
@@ -129,25 +136,31 @@ static motus_status write_rows(const merge *m, file_out *out, stop_progress *pro
 static void report(const merge *m)
 {
     const options *o = m->options;
-    const part *p = m->of[0];
+    const part *p = &m->parts[0];
     FILE *out = strcmp(o->output, "-") == 0 ? stderr : stdout;
     if (o->json) {
         json j = text_json(stdout);
         json_integer(&j, "shards", (int64_t)p->shard.count);
         json_integer(&j, "trajectories", (int64_t)p->total);
+        if (p->kind == PART_ARCHIVE) json_integer(&j, "missing", (int64_t)m->missing);
         json_string(&j, "output", o->output);
         json_end(&j);
     } else if (!o->quiet) {
         text_put(out, o->output);
-        fprintf(out, ": %" PRIu64 " shards, %s%" PRIu64 " trajectories\n", p->shard.count,
+        fprintf(out, ": %" PRIu64 " shards, %s%" PRIu64 " trajectories", p->shard.count,
                 p->kind == PART_EVENTS ? "events of " : "", p->total);
+        if (m->missing)
+            fprintf(out, "; %" PRIu64 " blocks are missing, which the sweep's command with --resume computes",
+                    m->missing);
+        putc('\n', out);
     }
 }
 
-static motus_status write_all(const merge *m, stop_progress *progress, motus_error *err)
+static motus_status write_all(merge *m, stop_progress *progress, motus_error *err)
 {
     const char *output = m->options->output;
-    if (m->of[0]->kind == PART_ARCHIVE) return part_archive_join(m->of, output, progress, err);
+    if (m->parts[0].kind == PART_ARCHIVE)
+        return part_archive_join(m->of, output, m->options->partial ? &m->missing : NULL, progress, err);
     const bool npy = m->of[0]->kind == PART_NPY;
     char *beside = sweep_npy_beside(output);
     if (!beside) return complain_memory(err);

@@ -106,60 +106,72 @@ static motus_status make(const part *p, const char *output, motus_error *err)
     return status;
 }
 
-static motus_status copy_block(const part *p, motus_archive *from, uint64_t b, motus_archive *to, block_room *r,
-                               motus_error *err)
+typedef struct joining {
+    motus_archive *to;
+    block_room room;
+    uint64_t copied;
+    bool partial; /* blocks may be missing */
+    stop_progress *progress;
+} joining;
+
+static motus_status copy_block(joining *j, const part *p, motus_archive *from, uint64_t b, motus_error *err)
 {
     uint64_t first;
     size_t count;
     int whole;
     motus_status status = motus_archive_whole(from, b, &whole, err);
-    if (!status && !whole) status = part_unfinished(p, err);
+    if (!status && !whole) return j->partial ? MOTUS_OK : part_unfinished(p, err);
     motus_archive_block(from, b, &first, &count);
-    for (size_t k = 0; !status && k < r->count; k++)
-        status = motus_archive_read(from, k, first, count, r->columns[k], err);
-    return status ? status : motus_archive_write(to, p->shard.number - 1 + b * p->shard.count, r->written, err);
+    for (size_t k = 0; !status && k < j->room.count; k++)
+        status = motus_archive_read(from, k, first, count, j->room.columns[k], err);
+    if (!status) status = motus_archive_write(j->to, p->shard.number - 1 + b * p->shard.count, j->room.written, err);
+    j->copied += !status;
+    return status;
 }
 
-static motus_status copy(const part *p, motus_archive *to, block_room *r, stop_progress *progress, motus_error *err)
+static motus_status copy(joining *j, const part *p, motus_error *err)
 {
     motus_archive *from;
     motus_status status = motus_archive_open(p->path, 0, &from, err);
     if (status) return status;
     const uint64_t blocks = motus_archive_blocks(from);
     for (uint64_t b = 0; !status && b < blocks; b++) {
-        status = copy_block(p, from, b, to, r, err);
+        status = copy_block(j, p, from, b, err);
         const double done = (double)(p->shard.number - 1) + (double)(b + 1) / (double)blocks;
-        if (!status && stop_progress_hook(progress, done / (double)p->shard.count))
+        if (!status && stop_progress_hook(j->progress, done / (double)p->shard.count))
             status = fail(err, MOTUS_CANCELLED, "cancelled");
     }
     motus_archive_close(from);
     return status;
 }
 
-motus_status part_archive_join(part *const *of, const char *output, stop_progress *progress, motus_error *err)
+motus_status part_archive_join(part *const *of, const char *output, uint64_t *missing, stop_progress *progress,
+                               motus_error *err)
 {
     static const char ending[] = ".joined"; /* it has its name when all blocks are there */
-    const uint64_t count = of[0]->shard.count;
-    motus_archive *to = NULL;
-    block_room r = {0};
+    joining j = {.partial = missing, .progress = progress};
+    size_t some = 0;
+    while (!of[some]) some++; /* one at least is there */
+    const uint64_t count = of[some]->shard.count;
     char *where = realpath(output, NULL); /* where a link leads; NULL: there is nothing yet */
     const char *name = where ? where : output;
     char *beside = malloc(strlen(name) + sizeof ending);
     motus_status status = beside ? MOTUS_OK : complain_memory(err);
     if (beside) strcat(strcpy(beside, name), ending);
-    if (!status) status = make(of[0], beside, err);
+    if (!status) status = make(of[some], beside, err);
     const bool made = !status;
-    if (!status) status = motus_archive_open(beside, 1, &to, err);
-    if (!status) status = block_room_make(&r, motus_archive_column_count(to), SHARD_BLOCK, err);
+    if (!status) status = motus_archive_open(beside, 1, &j.to, err);
+    if (!status) status = block_room_make(&j.room, motus_archive_column_count(j.to), SHARD_BLOCK, err);
     for (uint64_t k = 0; !status && k < count; k++)
-        if (shard_rows(&of[k]->shard, of[k]->total) > 0) status = copy(of[k], to, &r, progress, err);
-    if (!status) status = motus_archive_sync(to, err);
-    motus_archive_close(to);
+        if (of[k] && shard_rows(&of[k]->shard, of[k]->total) > 0) status = copy(&j, of[k], err);
+    if (!status && missing) *missing = motus_archive_blocks(j.to) - j.copied;
+    if (!status) status = motus_archive_sync(j.to, err);
+    motus_archive_close(j.to);
     if (!status && rename(beside, name) != 0)
         status = fail(err, MOTUS_FILE, "cannot write %s: %s", output, strerror(errno));
     if (!status) file_synchronise_folder(name);
     if (status && made) remove(beside);
-    block_room_free(&r);
+    block_room_free(&j.room);
     free(beside);
     free(where);
     return status;

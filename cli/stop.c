@@ -73,8 +73,7 @@ double stop_clock(void)
 
 stop_progress stop_progress_begin(const char *what, bool quiet)
 {
-    return (stop_progress){
-        .what = what, .began = stop_clock(), .terminal = isatty(STDERR_FILENO) == 1, .quiet = quiet};
+    return (stop_progress){.what = what, .began = stop_clock(), .terminal = isatty(STDERR_FILENO) == 1, .quiet = quiet};
 }
 
 /* On a terminal each line takes the place of the one before; a log keeps them all. */

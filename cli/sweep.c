@@ -11,6 +11,7 @@
 #include "cli/file.h"
 #include "cli/settle.h"
 #include "cli/stop.h"
+#include "cli/sweep_batch.h"
 #include "cli/text.h"
 #include "cli/verbs.h"
 #include "cli/walk.h"
@@ -20,62 +21,10 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* The bounds of a batch; its duration bounds the work that a kill loses. */
-enum { BATCH_MOST = 1 << 16, BATCH_BYTES = 1 << 25, BATCH_MS = 500 };
-
-typedef struct batch {
-    size_t most, count, lanes;                             /* lanes: of all threads together */
-    double **values, **results, **errors, *stopped, *room; /* errors: NULL where none are told */
-    double **shifted;                                      /* values, from some trajectory of the batch on */
-} batch;
-
 size_t sweep_kept(const sweep *s)
 {
     const bool behind = !isnan(s->accuracy) || s->records.count == 0; /* an ensemble has at least one */
     return s->records.count + (behind ? SWEEP_JUDGED : 0);
-}
-
-/* Of all threads together: as many as advance at once. They may grow, when a compiler has ended. */
-static size_t lanes_of(const sweep *s)
-{
-    const int lanes = motus_ensemble_lanes(s->ensemble), threads = motus_ensemble_threads(s->ensemble);
-    return (size_t)(lanes > 0 ? lanes : 1) * (size_t)(threads > 0 ? threads : 1);
-}
-
-static motus_status batch_begin(batch *b, const sweep *s, motus_error *err)
-{
-    const size_t records = sweep_kept(s);
-    const bool errors = s->errors;
-    size_t columns = s->grid.count + records * (errors ? 2 : 1) + 1;
-    b->lanes = lanes_of(s);
-    b->most = BATCH_BYTES / sizeof(double) / columns;
-    if (b->most > BATCH_MOST) b->most = BATCH_MOST;
-    b->most = b->most > b->lanes ? b->most / b->lanes * b->lanes : b->lanes;
-    b->count = 4 * b->lanes < b->most ? 4 * b->lanes : b->most;
-    b->values = calloc(columns + s->grid.count, sizeof *b->values);
-    b->room = b->most < SIZE_MAX / sizeof(double) / columns ? malloc(columns * b->most * sizeof(double)) : NULL;
-    if (!b->values || !b->room) return complain_memory(err);
-    for (size_t k = 0; k < columns; k++) b->values[k] = b->room + k * b->most;
-    b->results = b->values + s->grid.count;
-    b->errors = errors ? b->results + records : NULL;
-    b->stopped = b->room + (columns - 1) * b->most;
-    b->shifted = b->values + columns;
-    return MOTUS_OK;
-}
-
-static void batch_free(batch *b)
-{
-    free(b->values);
-    free(b->room);
-}
-
-/* Changes the count, a multiple of the lanes, towards BATCH_MS for a batch. */
-static void batch_adapt(batch *b, size_t lanes, double seconds)
-{
-    b->lanes = lanes < b->most ? lanes : b->most;
-    double wanted = (double)b->count * fmin(8, BATCH_MS * 1e-3 / fmax(seconds, 1e-6));
-    size_t blocks = (size_t)fmax(1, wanted / (double)b->lanes);
-    b->count = blocks * b->lanes < b->most ? blocks * b->lanes : b->most;
 }
 
 static motus_status read_every(sweep *s, motus_error *err)
@@ -244,18 +193,6 @@ static motus_status begin(sweep *s, sweep_section *section, stop_progress *progr
     return status ? status : make(s, progress, err);
 }
 
-/* The values of `count` trajectories from a row on; shifted: room for as many pointers. */
-static void take_values(const sweep *s, uint64_t row, size_t count, double *const *values, double **shifted)
-{
-    for (size_t i = 0; i < count;) {
-        const uint64_t run = shard_run(&s->shard, row + i);
-        const size_t some = run < count - i ? (size_t)run : count - i;
-        for (size_t k = 0; k < s->grid.count; k++) shifted[k] = values[k] + i;
-        grid_values(&s->grid, shard_trajectory(&s->shard, row + i), some, shifted);
-        i += some;
-    }
-}
-
 /* Of so many rows those up to the end of the last block that they complete. */
 static size_t up_to_block(uint64_t row, size_t count)
 {
@@ -274,8 +211,8 @@ static motus_status warned(motus_error *err)
 static motus_status go(sweep *s, sweep_file *f, sweep_events *events, sweep_section *section, stop_progress *p,
                        motus_error *err)
 {
-    batch b = {0};
-    motus_status status = batch_begin(&b, s, err);
+    sweep_batch b = {0};
+    motus_status status = sweep_batch_make(&b, s, err);
     const double total = (double)s->rows;
     p->before = (double)f->found / total;
     p->amount = total;
@@ -287,17 +224,10 @@ static motus_status go(sweep *s, sweep_file *f, sweep_events *events, sweep_sect
         double began = stop_clock();
         p->from = sweep_file_done(f) / total;
         p->span = (double)count / total;
-        take_values(s, f->rows, count, b.values, b.shifted);
-        const double *const *values = (const double *const *)b.values;
-        const sweep_rows rows = {b.values, b.results, b.errors, b.stopped};
-        const double set = stop_clock();
-        status = b.errors ? motus_ensemble_run_errors(s->ensemble, count, values, b.results, b.errors, b.stopped, err)
-                          : motus_ensemble_run(s->ensemble, count, values, b.results, b.stopped, err);
+        status = sweep_batch_compute(&b, s, f->rows, count, &f->share.computing, err);
         const double computed = stop_clock();
-        f->share.computing += computed - set;
+        const sweep_rows rows = sweep_batch_rows(&b);
         note_machine(s);
-        if (status == MOTUS_ACCURACY)
-            status = sweep_accuracy_refuse(s, f->rows, count, b.results + s->records.count, b.stopped, err);
         if (!status) status = sweep_events_rows(events, f->rows, count, err);
         if (!status) status = sweep_section_take(section, f->rows, count, b.values, err);
         if (!status) status = sweep_file_rows(f, count, &rows, err);
@@ -305,10 +235,10 @@ static motus_status go(sweep *s, sweep_file *f, sweep_events *events, sweep_sect
         if (!status && sweep_file_left(f) > 0 && stop_progress_hook(p, 1))
             status = fail(err, MOTUS_CANCELLED, "cancelled");
         if (!status && sweep_file_left(f) > 0 && stop_warned() && f->rows % SHARD_BLOCK == 0) status = warned(err);
-        batch_adapt(&b, lanes_of(s), stop_clock() - began);
+        sweep_batch_adapt(&b, s, stop_clock() - began);
     }
     if (status) sweep_archive_give_up(f);
-    batch_free(&b);
+    sweep_batch_free(&b);
     return status;
 }
 
@@ -510,7 +440,9 @@ motus_status sweep_verb(const options *o, motus_error *err)
     if (!status) status = begin(&s, &section, &progress, err);
     if (!status) status = sweep_events_verify(&s, err);
     status = team_agree(o->team, status, err);
-    if (!status) {
+    if (!status && o->plan) {
+        if (team_first(o->team)) status = sweep_plan(&s, &progress, err);
+    } else if (!status) {
         status = open_file(&f, &s, err);
         bool open = !status;
         progress.began = stop_clock();

@@ -6,6 +6,7 @@
 #include "cli/grid.h"
 #include "cli/load.h"
 #include "cli/shard.h"
+#include "cli/stop.h"
 
 #include <inttypes.h>
 
@@ -149,6 +150,9 @@ motus_status sweep_archive_look(sweep_file *, motus_error *);
 motus_status sweep_archive_row(sweep_file *, const double *numbers, motus_error *);
 motus_status sweep_archive_finish(sweep_file *, motus_error *);
 void sweep_archive_close(sweep_file *);
+
+/* sweep_plan.c: tells what the sweep would take, from a sample that it computes. Touches no file. */
+motus_status sweep_plan(const sweep *, stop_progress *, motus_error *);
 
 /* Finds the rows of an interrupted sweep: sets rows, bytes, stopped, stopped_by. `end`: the file's length. */
 motus_status sweep_resume(sweep_file *, uint64_t end, motus_error *);

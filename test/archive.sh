@@ -92,6 +92,12 @@ refuses "shards of two kinds" 2 "is a table of rows" "$motus" merge "$place/part
 refuses "no shard at all" 2 "is a whole sweep" "$motus" merge "$place/whole.h5" -o "$place/none.h5"
 refuses "shards under the name of a table" 2 "the shards are archives" "$motus" merge "$place"/part[12345].h5 -o "$place/none.csv"
 that "... and nothing is left" eval "[ -z \"\$(ls '$place' | grep none)\" ]"
+gives "--partial joins what is there" 0 "$motus" merge "$place"/part[15].h5 -o "$place/partial.h5" --partial --json
+that "... of eight blocks three" holds '.missing == 5 and .shards == 5'
+gives "... and --resume computes the rest" 0 sweep -o "$place/partial.h5" --resume --json
+that "... alone" [ "$(jq .resumed "$out")" = $((3 * 4096)) ]
+that "... to the same bytes" [ "$(sum "$place/partial.h5")" = "$whole" ]
+refuses "--partial of tables" 2 "only archives know" "$motus" merge "$place/rows1.csv" -o "$place/none.csv" --partial
 
 # --- death ----------------------------------------------------------------------------------------------------------------------------
 # Blocks of half a second, so that a kill finds some of them done.

@@ -31,7 +31,7 @@ judge "every method's citation is in doc/references.bib" "$(
         while read -r key; do grep -q "{$key," doc/references.bib || echo "$key"; done)"
 
 # --- options ------------------------------------------------------------------------------------------------------------------------
-for verb in run compare converge sweep check methods lab cache; do "$motus" "$verb" --help; done >"$place/help" 2>&1
+for verb in run compare converge sweep merge archive check methods lab cache; do "$motus" "$verb" --help; done >"$place/help" 2>&1
 options=$(grep -oE '^ +(-[a-z], )?--[a-z-]+' "$place/help" | grep -oE -- '--[a-z-]+' | sort -u)
 judge "--help lists options" "$([ "$(wc -l <<<"$options")" -ge 10 ] || echo "only: $options")"
 judge "every option is in the manual" "$(for o in $options; do grep -qE "^\|.*\`([^\`]*, \`)?$o[ \`]|, \`$o[ \`]" doc/manual.md || echo "$o"; done)"

@@ -549,6 +549,27 @@ if "${CC:-cc}" -shared -fPIC -O1 -w fast.c -o fast.so -ldl && ! nm "$motus" 2>/d
     that "... --quiet has none" eval "lacks 'sweep' '$err'"
 fi
 
+# --- plans --------------------------------------------------------------------------------------------------------------------
+for kind in csv npy h5; do
+    gives "a plan of a .$kind" 0 "$motus" sweep line.motus --vary a=1:2:200000 --record "x,x',max(x)" -o plan.$kind --plan --json
+    that "... is JSON, and writes nothing" eval "json '$out' && absent plan.$kind"
+    that "... of all trajectories and blocks" holds '.trajectories == 200000 and .blocks == 49 and .block == 4096'
+    that "... from a sample of a ten-thousandth and more" holds '.sample.trajectories >= 20 and .sample.trajectories <= 200000 and .sample.seconds > 0'
+    that "... by which the hours follow" holds '. as $p | all(.ranks[]; (.hours * 3600 - $p.sample.each * ([200000 / .ranks, 4096] | max)) | fabs < 1e-9)'
+    bytes=$(jq .bytes "$out")
+    if "$motus" sweep line.motus --vary a=1:2:200000 --record "x,x',max(x)" -o plan.$kind -q 2>"$err"; then
+        that "... the file has that size, to 1 %" near "$bytes" "$(stat -c %s plan.$kind)" "$(($(stat -c %s plan.$kind) / 100))"
+    else
+        that "... this motus makes no archives" says "without HDF5" "$err"
+    fi
+done
+gives "a plan for people" 0 "$motus" sweep line.motus --vary a=1:2:1e9 -o huge.npy --plan
+that "... says blocks, size and the time on many ranks" eval "says '1000000000 trajectories, in 244141 blocks of 4096' && says 'huge.npy, 6 columns, 48 GB' && grep -qE '^ +4096 +[0-9.]+ (s|min|h) ' '$out'"
+that "... and writes nothing" absent huge.npy
+gives "a plan of one block" 0 "$motus" sweep line.motus --vary a=1:2:5 --plan
+that "... has nothing for a second rank" says "more than 1 ranks have nothing to do"
+refuses "a plan of a file that is there" 2 "exists" "$motus" sweep line.motus --vary a=1:2:5 --plan -o t.csv
+
 # --- memory -------------------------------------------------------------------------------------------------------------------------
 # Three million trajectories of twelve columns would be 288 MB.
 gives "memory does not grow with the number of trajectories" 0 bash -c \

@@ -26,9 +26,9 @@ _motus() {
         run)      options+=' --method --accuracy --tolerance --shortest-step --longest-step --most-steps --step --until --set --output --events --when --section --skip --points --columns --every --plot --plot-of --save-state --restart --machine --threads --emit-c --share --error --errors --switches' ;;
         compare)  options+=' --methods --step --until --set --evaluations --accuracies --machine --plot --share' ;;
         converge) options+=' --methods --step --until --set --plot --points' ;;
-        sweep)    options+=' --vary --random --count --seed --zip --record --method --tolerance --shortest-step --longest-step --most-steps --switches --step --until --every --set --when --output --resume --force'
+        sweep)    options+=' --vary --random --count --seed --zip --record --method --tolerance --shortest-step --longest-step --most-steps --switches --step --until --every --set --when --output --plan --resume --force'
                   options+=' --threads --lanes --machine --fast --accuracy --error --errors --events --section --skip --points --plot --plot-of --shard' ;;
-        merge)    options+=' --output --force' ;;
+        merge)    options+=' --output --partial --force' ;;
         archive)  options+=' --output --force' ;;
         lab)      options+=' --method --methods --step --until --set --output --no-open' ;;
         cache)    options+=' --clear' ;;

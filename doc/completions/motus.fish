@@ -55,6 +55,8 @@ complete -c motus -n "__fish_seen_subcommand_from sweep" -l seed -x -d 'of the d
 complete -c motus -n "__fish_seen_subcommand_from sweep" -l zip -d 'pair the values'
 complete -c motus -n "__fish_seen_subcommand_from sweep" -l record -x -d 'what is recorded'
 complete -c motus -n "__fish_seen_subcommand_from sweep" -l resume -d 'continue the file'
+complete -c motus -n "__fish_seen_subcommand_from sweep" -l plan -d 'what it would take'
+complete -c motus -n "__fish_seen_subcommand_from merge" -l partial -d 'of archives what is there'
 complete -c motus -n "__fish_seen_subcommand_from sweep merge archive" -l force -d 'replace the file'
 complete -c motus -n "__fish_seen_subcommand_from run sweep" -l threads -x -d threads
 complete -c motus -n "__fish_seen_subcommand_from sweep" -l lanes -x -d 'trajectories in a vector'
