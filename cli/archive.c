@@ -4,6 +4,7 @@
  */
 #include "base/decimal.h"
 #include "base/error.h"
+#include "cli/archive_verify.h"
 #include "cli/block_room.h"
 #include "cli/complain.h"
 #include "cli/csv.h"
@@ -22,7 +23,9 @@ typedef struct contents {
     const options *options;
     motus_archive *file;
     uint64_t blocks, missing, first_missing;
+    uint64_t *whole; /* the others */
     size_t columns;
+    archive_verified verified;
 } contents;
 
 static const char *said(const contents *c, const char *name)
@@ -32,12 +35,14 @@ static const char *said(const contents *c, const char *name)
 }
 
 /* Which blocks are there, by their hashes. */
-static motus_status verify(contents *c, stop_progress *progress, motus_error *err)
+static motus_status find_blocks(contents *c, stop_progress *progress, motus_error *err)
 {
-    motus_status status = MOTUS_OK;
+    c->whole = calloc((size_t)c->blocks + 1, sizeof *c->whole);
+    motus_status status = c->whole ? MOTUS_OK : complain_memory(err);
     for (uint64_t b = 0; !status && b < c->blocks; b++) {
         int whole;
         status = motus_archive_whole(c->file, b, &whole, err);
+        if (!status && whole) c->whole[b - c->missing] = b;
         if (!status && !whole && c->missing++ == 0) c->first_missing = b;
         if (!status && stop_progress_hook(progress, (double)b / (double)c->blocks))
             status = fail(err, MOTUS_CANCELLED, "cancelled");
@@ -196,6 +201,7 @@ static void report_json(const contents *c)
     json_integer(&j, "rows", (int64_t)motus_archive_rows(c->file));
     json_integer(&j, "blocks", (int64_t)c->blocks);
     json_integer(&j, "missing", (int64_t)c->missing);
+    if (c->options->verify) json_integer(&j, "verified", (int64_t)c->verified.computed);
     json_open(&j, "columns", '[');
     motus_archive_column column;
     for (size_t k = 0; motus_archive_column_at(c->file, k, &column); k++) json_string(&j, NULL, column.name);
@@ -226,6 +232,9 @@ static void report(const contents *c)
                c->first_missing + 1);
     else
         puts("all there, with the hashes that were written");
+    if (c->options->verify)
+        printf("  %-13s%" PRIu64 " of these blocks, computed again, %s the same bytes\n", "verified",
+               c->verified.computed, c->verified.computed == 1 ? "has" : "have");
     printf("  %-13s", "columns");
     motus_archive_column column;
     for (size_t k = 0; motus_archive_column_at(c->file, k, &column); k++) {
@@ -243,6 +252,9 @@ static motus_status check(const options *o, motus_error *err)
         hint(err, "motus archive swings.h5");
         return MOTUS_ARGUMENT;
     }
+    double part;
+    motus_status status = o->verify ? archive_verify_part(o->verify, &part, err) : MOTUS_OK;
+    if (status) return status;
     if (o->json && o->output && strcmp(o->output, "-") == 0)
         return fail(err, MOTUS_ARGUMENT, "--json and the rows both go to standard output");
     return o->output ? sweep_file_may_write(o, o->output, err) : MOTUS_OK;
@@ -258,7 +270,10 @@ motus_status archive_verb(const options *o, motus_error *err)
         stop_catch_signals();
         c.blocks = motus_archive_blocks(c.file);
         c.columns = motus_archive_column_count(c.file);
-        status = verify(&c, &progress, err);
+        status = find_blocks(&c, &progress, err);
+        if (!status && o->verify)
+            status = archive_verify(c.file, o, c.whole, c.blocks - c.missing, &c.verified, &progress, err);
+        if (!status && c.verified.differ > 0) status = archive_verify_failed(&c.verified, o, err);
         if (!status && o->output) status = extract(&c, &progress, err);
         stop_progress_end(&progress);
     }
@@ -267,5 +282,6 @@ motus_status archive_verb(const options *o, motus_error *err)
     else if (!status && !o->quiet && !o->output)
         report(&c);
     motus_archive_close(c.file);
+    free(c.whole);
     return status ? status : file_flush_output(err);
 }

@@ -102,8 +102,13 @@ motus_status load_model(load *m, const options *o, motus_error *err)
     if (!o->operand) return no_model(o, err);
     name_of(o->operand, m->title, sizeof m->title);
     size_t length;
-    motus_status status = file_read(o->operand, FILE_MODEL_MAX, &m->text, &length, err);
+    motus_status status = MOTUS_OK;
+    if (!o->text)
+        status = file_read(o->operand, FILE_MODEL_MAX, &m->text, &length, err);
+    else if (!(m->text = strdup(o->text)))
+        status = complain_memory(err);
     if (status) return status;
+    if (o->text) length = strlen(m->text);
     const char *zero = memchr(m->text, 0, length);
     if (zero) return load_complain(m->text, zero, o->operand, "this is not a text: it has a byte 0 here", err);
     motus_text_def def = motus_default_text();

@@ -30,9 +30,10 @@ typedef struct options_list {
 typedef struct options {
     unsigned verb;
     const char *operand; /* the model, or the method of `methods`; NULL: none */
+    const char *text;    /* the model's, where it is not read from the operand; else NULL */
     options_list files;  /* the operands of `merge` */
     const char *method, *error, *switches, *output, *columns, *events, *section, *plot, *plot_of, *save_state;
-    const char *restart, *machine, *shard;
+    const char *restart, *machine, *shard, *verify;
     double step, until;                   /* NaN: the model's */
     double tolerance, accuracy;           /* NaN: the model's */
     double coarsest, finest;              /* accuracies to compare at; NaN: not given */

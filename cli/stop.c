@@ -73,7 +73,8 @@ double stop_clock(void)
 
 stop_progress stop_progress_begin(const char *what, bool quiet)
 {
-    return (stop_progress){.what = what, .began = stop_clock(), .terminal = isatty(STDERR_FILENO) == 1, .quiet = quiet};
+    return (stop_progress){
+        .what = what, .began = stop_clock(), .terminal = isatty(STDERR_FILENO) == 1, .tells = !quiet};
 }
 
 /* On a terminal each line takes the place of the one before; a log keeps them all. */
@@ -97,7 +98,7 @@ int stop_progress_hook(void *context, double fraction)
     enum { FIRST_MS = 500, REFRESH_MS = 100, LOG_MS = 60000 };
     stop_progress *p = context;
     if (p->meanwhile) p->meanwhile(p->with);
-    if (!p->quiet) {
+    if (p->tells) {
         const double now = stop_clock(), spent = now - p->began, since = p->shown > 0 ? now - p->shown : spent;
         if (spent * 1000 > FIRST_MS && since * 1000 > (p->terminal ? REFRESH_MS : LOG_MS)) {
             show(p, p->span > 0 ? p->from + p->span * fraction : fraction, spent);
@@ -109,7 +110,7 @@ int stop_progress_hook(void *context, double fraction)
 
 void stop_progress_end(stop_progress *p)
 {
-    if (p->terminal && !p->quiet && p->shown > 0) {
+    if (p->terminal && p->tells && p->shown > 0) {
         fputs("\r\033[K", stderr);
         fflush(stderr);
     }

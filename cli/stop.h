@@ -21,8 +21,8 @@ void stop_obey(void);
  * batch job, a line a minute. */
 typedef struct stop_progress {
     const char *what;
-    double began, shown; /* seconds; shown 0: not yet */
-    bool terminal, quiet;
+    double began, shown;  /* seconds; shown 0: not yet */
+    bool terminal, tells; /* tells: anything at all */
     /* Work in parts: the hook's fraction is of the present part, which goes from `from` to `from` + `span` of all the
      * work; `before` of it was done by an earlier command. span 0: one part. */
     double from, span, before;

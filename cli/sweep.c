@@ -152,7 +152,7 @@ static motus_status make(sweep *s, stop_progress *progress, motus_error *err)
     return sweep_head_make(s, o->output && sweep_npy_name(o->output), err);
 }
 
-static motus_status begin(sweep *s, sweep_section *section, stop_progress *progress, motus_error *err)
+motus_status sweep_begin(sweep *s, sweep_section *section, stop_progress *progress, motus_error *err)
 {
     const options *o = s->options;
     motus_status status = check_options(o, err);
@@ -191,6 +191,17 @@ static motus_status begin(sweep *s, sweep_section *section, stop_progress *progr
     for (size_t r = 0; s->errors && r < s->records.count; r++) s->columns += sweep_record_errs(&s->records.items[r]);
     status = read_every(s, err);
     return status ? status : make(s, progress, err);
+}
+
+void sweep_free(sweep *s)
+{
+    free(s->head);
+    free(s->event_columns);
+    motus_ensemble_destroy(s->ensemble);
+    free(s->records.items);
+    grid_free(&s->grid);
+    load_free(&s->model);
+    *s = (sweep){0};
 }
 
 /* Of so many rows those up to the end of the last block that they complete. */
@@ -437,7 +448,7 @@ motus_status sweep_verb(const options *o, motus_error *err)
     char *names[2] = {NULL, NULL};
     motus_status status = shard_read(&s.shard, o->shard, err);
     if (!status) status = name_files(&s, &own, names, err);
-    if (!status) status = begin(&s, &section, &progress, err);
+    if (!status) status = sweep_begin(&s, &section, &progress, err);
     if (!status) status = sweep_events_verify(&s, err);
     status = team_agree(o->team, status, err);
     if (!status && o->plan) {
@@ -463,11 +474,6 @@ motus_status sweep_verb(const options *o, motus_error *err)
     sweep_section_close(&section);
     free(names[0]);
     free(names[1]);
-    free(s.head);
-    free(s.event_columns);
-    motus_ensemble_destroy(s.ensemble);
-    free(s.records.items);
-    grid_free(&s.grid);
-    load_free(&s.model);
+    sweep_free(&s);
     return status;
 }

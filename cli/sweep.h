@@ -47,9 +47,14 @@ typedef struct sweep {
     bool errors;
     char *head; /* the lines above the rows of a CSV; of a .npy, the text of the file beside it */
     size_t head_length;
-    char fingerprint[17]; /* a hash of everything that the numbers depend on */
+    char fingerprint[17]; /* sweep_head_fingerprint() of this version */
 } sweep;
 
+typedef struct sweep_section sweep_section;
+/* The sweep of its options, which are set, as is its shard: reads the model, and makes the ensemble. Touches no file of
+ * results. Call sweep_free() in any case. */
+motus_status sweep_begin(sweep *, sweep_section *, stop_progress *, motus_error *);
+void sweep_free(sweep *);
 /* How many records the ensemble keeps: those that accuracies are judged by too, and where nothing else is recorded. */
 size_t sweep_kept(const sweep *);
 /* Where `ended` is in a row; SIZE_MAX: it is not recorded. */
@@ -70,6 +75,9 @@ const char *sweep_head_name(const sweep *, size_t column, char out[SWEEP_NAME]);
  * not the whole sweep. Returns out. */
 enum { SWEEP_IDENTITY = 240 };
 const char *sweep_head_identity(const sweep *, const char *what, char out[SWEEP_IDENTITY]);
+/* The hash of everything that the numbers depend on, as that version of motus makes it. Returns out. */
+enum { SWEEP_FINGERPRINT = 17 };
+const char *sweep_head_fingerprint(const sweep *, const char *version, char out[SWEEP_FINGERPRINT]);
 /* Makes the head: it depends on the request alone, not on machine or threads, so that files can be compared. */
 motus_status sweep_head_make(sweep *, bool npy, motus_error *);
 
@@ -122,6 +130,9 @@ typedef struct sweep_rows {
     double *const *values, *const *results, *const *errors;
     const double *stopped;
 } sweep_rows;
+/* The numbers of row i of them, behind the number of its trajectory: NaN in all that one which stopped has not. Returns
+ * how many. */
+size_t sweep_file_numbers(const sweep *, const sweep_rows *, size_t i, double *out);
 /* Adds `count` rows. After a failure the file keeps its complete rows. */
 motus_status sweep_file_rows(sweep_file *, size_t count, const sweep_rows *, motus_error *);
 /* How many rows from f->rows on are missing, up to the next that is there, or to the end. */
@@ -150,6 +161,29 @@ motus_status sweep_archive_look(sweep_file *, motus_error *);
 motus_status sweep_archive_row(sweep_file *, const double *numbers, motus_error *);
 motus_status sweep_archive_finish(sweep_file *, motus_error *);
 void sweep_archive_close(sweep_file *);
+
+/* sweep_origin.c: the sweep that made an archive, by the command and the model that it has. */
+typedef struct motus_archive motus_archive;
+typedef struct sweep_origin {
+    sweep sweep;
+    options options; /* of its command, but with threads and machine of the one that asks; of no file of results */
+    char *words;     /* of the command */
+    options_list argv;
+    stop_progress progress; /* shows nothing, and hears of signals */
+} sweep_origin;
+/* Call sweep_origin_close() in any case. MOTUS_STATE: the command does not make what the archive says that it is. */
+motus_status sweep_origin_open(sweep_origin *, motus_archive *, const options *, motus_error *);
+void sweep_origin_close(sweep_origin *);
+
+/* sweep_again.c: computes rows of an archive once more. */
+typedef struct sweep_again sweep_again;
+motus_status sweep_again_make(sweep_again **, const sweep *, motus_error *); /* call sweep_again_free() in any case */
+void sweep_again_free(sweep_again *);
+/* Whether rows of an archive have the bytes that are computed; `where`, where they have not: which trajectory and which
+ * number. */
+enum { SWEEP_WHERE = 256 };
+motus_status sweep_again_rows(sweep_again *, motus_archive *, uint64_t row, size_t count, bool *same,
+                              char where[SWEEP_WHERE], motus_error *);
 
 /* sweep_plan.c: tells what the sweep would take, from a sample that it computes. Touches no file. */
 motus_status sweep_plan(const sweep *, stop_progress *, motus_error *);
@@ -186,7 +220,7 @@ motus_status sweep_events_finish(sweep_events *, motus_error *);
 void sweep_events_close(sweep_events *);
 
 /* sweep_section.c: the picture of the points of --section, where --plot asks for it; else each call does nothing. */
-typedef struct sweep_section {
+struct sweep_section {
     const sweep *sweep;
     bool varied[2]; /* whether x and y of the picture are varied numbers: axis[] of the grid; */
     size_t axis[2];
@@ -195,7 +229,7 @@ typedef struct sweep_section {
     double *points;         /* x, y and the number that gives the colour, of each */
     size_t count, room;
     file_out file;
-} sweep_section;
+};
 
 motus_status sweep_section_check(const options *, motus_error *);
 /* Chooses the plane, and adds its columns to those of events. */

@@ -146,12 +146,14 @@ static bool says(const motus_archive *file, const char *name, const char *text)
     return its ? text && strcmp(its, text) == 0 : !text;
 }
 
-static motus_status compare(const sweep_file *f, const description *d, motus_error *err)
+/* Whether it is of this sweep; and by which version of motus. */
+static bool same_sweep(const sweep_file *f, const description *d, const char *version)
 {
-    char part[SHARD_TEXT];
+    char part[SHARD_TEXT], print[SWEEP_FINGERPRINT];
     const sweep *s = f->sweep;
     motus_archive *file = f->archive->file;
-    bool same = motus_archive_rows(file) == s->rows && says(file, "fingerprint", s->fingerprint) &&
+    bool same = motus_archive_rows(file) == s->rows && version &&
+                says(file, "fingerprint", sweep_head_fingerprint(s, version, print)) &&
                 says(file, "shard", shard_whole(&s->shard) ? NULL : shard_text(&s->shard, part)) &&
                 motus_archive_column_count(file) == d->def.column_count;
     for (size_t k = 0; same && k < d->def.column_count; k++) {
@@ -162,8 +164,57 @@ static motus_status compare(const sweep_file *f, const description *d, motus_err
     uint64_t first;
     size_t count;
     motus_archive_block(file, 0, &first, &count);
-    same = same && count == (s->rows < SHARD_BLOCK ? s->rows : SHARD_BLOCK);
-    return same ? MOTUS_OK : another(f, err);
+    return same && count == (s->rows < SHARD_BLOCK ? s->rows : SHARD_BLOCK);
+}
+
+static motus_status other_version(const sweep_file *f, const char *version, const char *why, motus_error *err)
+{
+    fail(err, MOTUS_STATE, "%s was begun by motus %.40s, and %s", f->path, version, why);
+    hint(err, "finish it with that version, or begin anew with --force");
+    return MOTUS_STATE;
+}
+
+/* A file that another version has begun is continued if some of its rows have the bits that this one computes. */
+static motus_status compare_versions(const sweep_file *f, const char *version, motus_error *err)
+{
+    enum { BLOCKS = 8, ROWS = 64 };
+    motus_archive *file = f->archive->file;
+    const uint64_t blocks = motus_archive_blocks(file);
+    sweep_again *again = NULL;
+    uint64_t compared = 0;
+    char where[SWEEP_WHERE], why[SWEEP_WHERE + 64];
+    bool same = true;
+    motus_status status = sweep_again_make(&again, f->sweep, err);
+    for (uint64_t b = 0; !status && same && b < blocks && compared < BLOCKS; b++) {
+        uint64_t first;
+        size_t count;
+        int whole;
+        status = motus_archive_whole(file, b, &whole, err);
+        if (status || !whole) continue;
+        compared++;
+        motus_archive_block(file, b, &first, &count);
+        status = sweep_again_rows(again, file, first, count < ROWS ? count : ROWS, &same, where, err);
+    }
+    sweep_again_free(again);
+    if (status) return status;
+    if (!same) {
+        snprintf(why, sizeof why, "this motus, %s, computes other bits: %s", motus_version(), where);
+        return other_version(f, version, why, err);
+    }
+    if (compared == 0)
+        return other_version(f, version, "there is no block by which to see whether the bits are the same", err);
+    if (!f->sweep->options->quiet)
+        complain_note("%s was begun by motus %.40s; some rows of it, computed again, have the same bits", f->path,
+                      version);
+    return MOTUS_OK;
+}
+
+static motus_status compare(const sweep_file *f, const description *d, motus_error *err)
+{
+    const char *version = motus_archive_note_of(f->archive->file, "motus");
+    if (!same_sweep(f, d, version)) return another(f, err);
+    if (strcmp(version, motus_version()) == 0 || !team_first(f->sweep->options->team)) return MOTUS_OK;
+    return compare_versions(f, version, err);
 }
 
 /* Counts the trajectories of a block that stopped, by their causes. */

@@ -289,8 +289,7 @@ int sweep_event_number(const sweep *s, const char *name)
     return -1;
 }
 
-/* The numbers of row i after its number: NaN in all that a stopped trajectory has not. Returns how many. */
-static size_t row_numbers(const sweep *s, const sweep_rows *rows, size_t i, double *out)
+size_t sweep_file_numbers(const sweep *s, const sweep_rows *rows, size_t i, double *out)
 {
     size_t n = 0;
     const bool stopped = !isnan(rows->stopped[i]);
@@ -319,7 +318,7 @@ static void csv_row(sweep_file *f, size_t i, const sweep_rows *rows)
 {
     const sweep *s = f->sweep;
     const bool stopped = !isnan(rows->stopped[i]);
-    const size_t count = row_numbers(s, rows, i, f->numbers) - 1; /* stopped_by is a word */
+    const size_t count = sweep_file_numbers(s, rows, i, f->numbers) - 1; /* stopped_by is a word */
     char *out = f->buffer + f->used;
     out += decimal_write_whole(shard_trajectory(&s->shard, f->rows), out);
     for (size_t k = 0; k < count; k++) {
@@ -338,7 +337,7 @@ static void csv_row(sweep_file *f, size_t i, const sweep_rows *rows)
 
 static void npy_row(sweep_file *f, size_t i, const sweep_rows *rows)
 {
-    const size_t count = row_numbers(f->sweep, rows, i, f->numbers + 1);
+    const size_t count = sweep_file_numbers(f->sweep, rows, i, f->numbers + 1);
     f->numbers[0] = (double)shard_trajectory(&f->sweep->shard, f->rows);
     memcpy(f->buffer + f->used, f->numbers, (count + 1) * sizeof *f->numbers);
     f->used += (count + 1) * sizeof *f->numbers;
@@ -356,7 +355,7 @@ motus_status sweep_file_rows(sweep_file *f, size_t count, const sweep_rows *give
         f->stopped += !isnan(given->stopped[i]);
         f->stopped_by[motus_ensemble_stopped_by(f->sweep->ensemble, i)]++;
         if (f->archive) {
-            row_numbers(f->sweep, given, i, f->numbers);
+            sweep_file_numbers(f->sweep, given, i, f->numbers);
             status = sweep_archive_row(f, f->numbers, err);
             continue;
         }

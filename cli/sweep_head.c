@@ -41,11 +41,11 @@ static void mix_axis(uint64_t *hash, const axis *a)
 
 static const char *how_told(const sweep *s) { return s->options->error ? s->options->error : "cheap"; }
 
-static void fingerprint(sweep *s)
+const char *sweep_head_fingerprint(const sweep *s, const char *version, char out[SWEEP_FINGERPRINT])
 {
     uint64_t hash = 0xCBF29CE484222325;
     const options *o = s->options;
-    mix_text(&hash, motus_version());
+    mix_text(&hash, version);
     mix_text(&hash, s->model.text);
     for (size_t i = 0; i < o->set.count; i++) mix_text(&hash, o->set.items[i]);
     for (size_t i = 0; i < o->when.count; i++) mix_text(&hash, o->when.items[i]);
@@ -76,7 +76,8 @@ static void fingerprint(sweep *s)
     if (s->records.ended) mix_text(&hash, "ended");
     if (s->errors) mix_text(&hash, how_told(s));
     if (!isnan(s->accuracy)) mix_number(&hash, s->accuracy);
-    snprintf(s->fingerprint, sizeof s->fingerprint, "%016" PRIx64, hash);
+    snprintf(out, SWEEP_FINGERPRINT, "%016" PRIx64, hash);
+    return out;
 }
 
 static motus_status option(file_out *f, const char *name, const char *value, motus_error *err)
@@ -245,7 +246,7 @@ static motus_status npy_head(const sweep *s, file_out *f, motus_error *err)
 
 motus_status sweep_head_make(sweep *s, bool npy, motus_error *err)
 {
-    fingerprint(s);
+    sweep_head_fingerprint(s, motus_version(), s->fingerprint);
     char memory[] = "memory";
     file_out f = {.stream = open_memstream(&s->head, &s->head_length), .path = memory};
     if (!f.stream) return complain_memory(err);

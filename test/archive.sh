@@ -155,6 +155,57 @@ refuses "--resume of another sweep" 2 "was made by another sweep" "$motus" sweep
 that "... touches nothing" [ "$(sum "$place/killed.h5")" = "$whole" ]
 refuses "an archive that is there" 2 "exists" long -o "$place/killed.h5"
 
+# --- computed again -------------------------------------------------------------------------------------------------------------------
+gives "--verify all" 0 "$motus" archive "$place/whole.h5" --verify all
+that "... computes all blocks again" says "8 of these blocks, computed again, have the same bytes"
+gives "--verify 1%" 0 "$motus" archive "$place/whole.h5" --verify 1% --json --machine interpreter
+that "... one of eight" eval "json '$out' && [ \"\$(jq .verified '$out')\" = 1 ]"
+gives "of a shard" 0 "$motus" archive "$place/part3.h5" --verify all
+that "... both blocks" says "2 of these blocks"
+several=(--record "final,min(x),steps,ended" --when "x = 0 as zero: stop after 3" --set "x(0)=1.1" --random "x'(0)=normal:0:0.1" --vary "k=1,2" --count 3000 --seed 7)
+for more in "--method dop853 --tolerance 1e-9" "--errors" "--accuracy 1e-8" "--shard 2/2 --until 3"; do
+    # shellcheck disable=SC2086
+    "$motus" sweep "$swing" "${several[@]}" $more -o "$place/it's one.h5" --force --quiet 2>/dev/null
+    gives "a sweep with $more" 0 "$motus" archive "$place/it's one.h5" --verify all
+    that "... is what its command computes" says "computed again"
+done
+for part in 0% 101% 1 x "%"; do refuses "--verify $part" 2 "this is no part" "$motus" archive "$place/whole.h5" --verify "$part"; done
+build=$(dirname "$motus")
+change=$place/change
+if "${CC:-cc}" -std=c17 -O1 -I include test/archive/change.c "$build/libmotus-archive.a" "$build/libmotus.a" -lm -ldl -lpthread -o "$change" 2>"$err"; then
+    cp "$place/whole.h5" "$place/changed.h5"
+    "$change" "$place/changed.h5" 1 5000
+    gives "a number is changed, and the hash fits" 0 "$motus" archive "$place/changed.h5"
+    refuses "... --verify finds it" 1 "1 of 8 blocks are not what is computed; trajectory 5000, x: " "$motus" archive "$place/changed.h5" --verify all
+else
+    echo "not run, since no C program links here: a number that is changed"
+fi
+printf 'a\n0.5\n0.75\n' >"$place/a.csv"
+(cd "$place" && "$motus" sweep "$swing" --vary "k=@a.csv:a" -o file.h5 -q)
+gives "values of a file" 0 bash -c "cd '$place' && '$motus' archive file.h5 --verify all"
+sed -i s/75/25/ "$place/a.csv"
+refuses "... which has changed" 2 "does not make its fingerprint" bash -c "cd '$place' && '$motus' archive file.h5 --verify all"
+rm "$place/a.csv"
+refuses "... or is not there" 1 "cannot read" bash -c "cd '$place' && '$motus' archive file.h5 --verify all"
+
+# --- archives of other versions: test/archive/README.md ----------------------------------------------------------------------------------
+begun=(sweep test/archive/swing.motus --vary "x(0)=0.1:3:4100" --record "x,max(energy)")
+for file in test/archive/begun-*.h5; do
+    name=$(basename "$file")
+    cp "$file" "$place/$name"
+    gives "$name is verified" 0 "$motus" archive "$place/$name" --verify all
+    that "... its first block" says "1 of these blocks, computed again, has the same bytes"
+    gives "... and completed" 0 "$motus" "${begun[@]}" -o "$place/$name" --resume
+    that "... the second alone" says "4100 trajectories, 4096 of them found"
+    that "... to the bytes that its version makes" [ "$(sum "$place/$name")" = "$(grep " $name" test/archive/completed.sha256 | cut -c 1-64)" ]
+done
+cp test/archive/begun-0.0.9.h5 "$place/old.h5"
+refuses "another sweep does not continue an archive of another version" 2 "was made by another sweep" "$motus" "${begun[@]}" --until 3 -o "$place/old.h5" --resume
+if [ -x "$change" ]; then
+    "$change" "$place/old.h5" 1 3
+    refuses "nor where the bits are others" 2 "was begun by motus 0.0.9, and this motus" "$motus" "${begun[@]}" -o "$place/old.h5" --resume
+fi
+
 # --- files that are none --------------------------------------------------------------------------------------------------------------
 resumes() { refuses "$1" 2 "$2" sweep -o "$place/bad.h5" --resume; }
 echo "hello" >"$place/bad.h5"

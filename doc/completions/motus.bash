@@ -16,6 +16,7 @@ _motus() {
         return ;;
     --machine) mapfile -t COMPREPLY < <(compgen -W 'auto interpreter compiled' -- "$current"); return ;;
     --error) mapfile -t COMPREPLY < <(compgen -W 'cheap full none' -- "$current"); return ;;
+    --verify) mapfile -t COMPREPLY < <(compgen -W '1% all' -- "$current"); return ;;
     --switches) mapfile -t COMPREPLY < <(compgen -W 'locate step' -- "$current"); return ;;
     -o|--output|--events|--plot|--save-state|--restart) compopt -o default; return ;;
     --step|--accuracy|--tolerance|--shortest-step|--longest-step|--most-steps|--until|--set|--when|--section|--skip|--evaluations|--accuracies|--columns|--every|--plot-of|--vary|--random|--count|--seed|--threads|--lanes|--record|--shard) return ;;
@@ -29,7 +30,7 @@ _motus() {
         sweep)    options+=' --vary --random --count --seed --zip --record --method --tolerance --shortest-step --longest-step --most-steps --switches --step --until --every --set --when --output --plan --resume --force'
                   options+=' --threads --lanes --machine --fast --accuracy --error --errors --events --section --skip --points --plot --plot-of --shard' ;;
         merge)    options+=' --output --partial --force' ;;
-        archive)  options+=' --output --force' ;;
+        archive)  options+=' --output --force --verify --threads --machine' ;;
         lab)      options+=' --method --methods --step --until --set --output --no-open' ;;
         cache)    options+=' --clear' ;;
         check)    options+=' --set --when' ;;

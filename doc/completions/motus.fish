@@ -46,7 +46,7 @@ complete -c motus -n "__fish_seen_subcommand_from run compare converge sweep" -l
 complete -c motus -n "__fish_seen_subcommand_from run sweep" -l plot-of -x -d 'column against column'
 complete -c motus -n "__fish_seen_subcommand_from run" -l save-state -r -F -d 'write an exact restart state'
 complete -c motus -n "__fish_seen_subcommand_from run" -l restart -r -F -d 'continue from one'
-complete -c motus -n "__fish_seen_subcommand_from run sweep" -l machine -x -a 'auto interpreter compiled' -d machine
+complete -c motus -n "__fish_seen_subcommand_from run sweep archive" -l machine -x -a 'auto interpreter compiled' -d machine
 complete -c motus -n "__fish_seen_subcommand_from run" -l emit-c -d 'print the C text that runs'
 complete -c motus -n "__fish_seen_subcommand_from sweep" -l vary -x -d 'values of a parameter'
 complete -c motus -n "__fish_seen_subcommand_from sweep" -l random -x -d 'what is drawn'
@@ -56,9 +56,10 @@ complete -c motus -n "__fish_seen_subcommand_from sweep" -l zip -d 'pair the val
 complete -c motus -n "__fish_seen_subcommand_from sweep" -l record -x -d 'what is recorded'
 complete -c motus -n "__fish_seen_subcommand_from sweep" -l resume -d 'continue the file'
 complete -c motus -n "__fish_seen_subcommand_from sweep" -l plan -d 'what it would take'
+complete -c motus -n "__fish_seen_subcommand_from archive" -l verify -x -a '1% all' -d 'compute blocks again'
 complete -c motus -n "__fish_seen_subcommand_from merge" -l partial -d 'of archives what is there'
 complete -c motus -n "__fish_seen_subcommand_from sweep merge archive" -l force -d 'replace the file'
-complete -c motus -n "__fish_seen_subcommand_from run sweep" -l threads -x -d threads
+complete -c motus -n "__fish_seen_subcommand_from run sweep archive" -l threads -x -d threads
 complete -c motus -n "__fish_seen_subcommand_from sweep" -l lanes -x -d 'trajectories in a vector'
 complete -c motus -n "__fish_seen_subcommand_from sweep" -l shard -x -a slurm -d 'a share of the trajectories'
 complete -c motus -n "__fish_seen_subcommand_from merge archive" -F

@@ -1,0 +1,67 @@
+/* See archive_verify.h. */
+#include "cli/archive_verify.h"
+
+#include "base/error.h"
+#include "cli/typed.h"
+
+#include <math.h>
+#include <motus-archive.h>
+#include <string.h>
+
+motus_status archive_verify_part(const char *text, double *part, motus_error *err)
+{
+    char number[32] = "";
+    const size_t length = strlen(text);
+    double percent = 100;
+    *part = 1;
+    if (strcmp(text, "all") == 0) return MOTUS_OK;
+    const bool ends = length > 1 && length <= sizeof number && text[length - 1] == '%';
+    if (ends) memcpy(number, text, length - 1);
+    if (!ends || !typed_number(number, &percent) || !(percent > 0) || percent > 100) {
+        fail(err, MOTUS_ARGUMENT, "--verify %.80s: this is no part of an archive", text);
+        hint(err, "--verify 1%% computes a hundredth of its blocks again, --verify all every one");
+        return MOTUS_ARGUMENT;
+    }
+    *part = percent / 100;
+    return MOTUS_OK;
+}
+
+/* A number from 0 to 1 that is another one each time. */
+static double somewhere(void) { return fmod(stop_clock() * 1e6, 1); }
+
+motus_status archive_verify(motus_archive *a, const options *o, const uint64_t *blocks, uint64_t count,
+                            archive_verified *v, stop_progress *progress, motus_error *err)
+{
+    double part;
+    *v = (archive_verified){0};
+    motus_status status = archive_verify_part(o->verify, &part, err);
+    if (status || count == 0) return status;
+    sweep_origin origin;
+    sweep_again *again = NULL;
+    const double some = fmin(ceil(part * (double)count), (double)count), offset = somewhere();
+    status = sweep_origin_open(&origin, a, o, err);
+    if (!status) status = sweep_again_make(&again, &origin.sweep, err);
+    for (; !status && (double)v->computed < some; v->computed++) {
+        const uint64_t k = (uint64_t)(((double)v->computed + offset) / some * (double)count);
+        uint64_t first;
+        size_t rows;
+        bool same;
+        char where[SWEEP_WHERE];
+        motus_archive_block(a, blocks[k < count ? k : count - 1], &first, &rows);
+        status = sweep_again_rows(again, a, first, rows, &same, where, err);
+        if (!status && !same && v->differ++ == 0) memcpy(v->where, where, sizeof where);
+        if (!status && stop_progress_hook(progress, (double)v->computed / some))
+            status = fail(err, MOTUS_CANCELLED, "cancelled");
+    }
+    sweep_again_free(again);
+    sweep_origin_close(&origin);
+    return status;
+}
+
+motus_status archive_verify_failed(const archive_verified *v, const options *o, motus_error *err)
+{
+    fail(err, MOTUS_FILE, "%s: %" PRIu64 " of %" PRIu64 " blocks are not what is computed; %s", o->operand, v->differ,
+         v->computed, v->where);
+    hint(err, "its sweep's command with --force makes it anew");
+    return MOTUS_FILE;
+}

@@ -1,0 +1,22 @@
+/* motus archive --verify: blocks of an archive are computed again. */
+#ifndef CLI_ARCHIVE_VERIFY_H
+#define CLI_ARCHIVE_VERIFY_H
+
+#include "cli/stop.h"
+#include "cli/sweep.h"
+
+typedef struct archive_verified {
+    uint64_t computed, differ; /* blocks */
+    char where[SWEEP_WHERE];   /* the first difference */
+} archive_verified;
+
+/* Whether the text of --verify is a part: "all", or a percentage from above 0 to 100, "1%". */
+motus_status archive_verify_part(const char *text, double *part, motus_error *);
+/* Computes a part of the `count` blocks, spread over them, other ones each time. MOTUS_STATE: the archive does not say
+ * how. */
+motus_status archive_verify(motus_archive *, const options *, const uint64_t *blocks, uint64_t count,
+                            archive_verified *, stop_progress *, motus_error *);
+/* What to tell of blocks that differ. */
+motus_status archive_verify_failed(const archive_verified *, const options *, motus_error *);
+
+#endif
