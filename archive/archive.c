@@ -90,7 +90,10 @@ motus_status motus_archive_open(const char *path, int write, motus_archive **out
     if (!status) {
         const directory *d = &a->directory;
         const uint64_t most = d->rows < d->block ? d->rows : d->block;
-        a->room = malloc((size_t)most * sizeof(double) + 1);
+        uint64_t widest = 1;
+        for (size_t k = 0; k < d->column_count; k++)
+            if (d->columns[k].width > widest) widest = d->columns[k].width;
+        a->room = malloc((size_t)(most * widest) + 1); /* it is in the file, so it is no overflow */
         if (!a->room) status = fail(err, MOTUS_MEMORY, "no memory for a block of %s", path);
     }
     if (status)
@@ -131,7 +134,7 @@ int motus_archive_column_at(const motus_archive *a, size_t k, motus_archive_colu
 {
     if (k >= a->directory.column_count) return 0;
     const directory_column *c = a->directory.columns + k;
-    *out = (motus_archive_column){c->name, c->kind, c->words, c->word_count};
+    *out = (motus_archive_column){c->name, c->kind, c->words, c->word_count, {c->shape[0], c->shape[1]}};
     return 1;
 }
 
@@ -170,7 +173,7 @@ motus_status motus_archive_write(motus_archive *a, uint64_t block, const void *c
     motus_status status = MOTUS_OK;
     for (size_t k = 0; !status && k < d->column_count; k++) {
         const directory_column *c = d->columns + k;
-        const size_t width = directory_width(c->kind);
+        const size_t width = (size_t)c->width;
         hash = directory_hash(hash, columns[k], count * width);
         status = put(a, columns[k], count * width, c->place + first * width, err);
     }
@@ -205,7 +208,7 @@ motus_status motus_archive_whole(motus_archive *a, uint64_t block, int *whole, m
     motus_archive_block(a, block, &first, &count);
     for (size_t k = 0; !status && k < d->column_count; k++) {
         const directory_column *c = d->columns + k;
-        const size_t width = directory_width(c->kind);
+        const size_t width = (size_t)c->width;
         status = get(a, a->room, count * width, c->place + first * width, err);
         if (!status) hash = directory_hash(hash, a->room, count * width);
     }
@@ -225,7 +228,7 @@ motus_status motus_archive_read(motus_archive *a, size_t column, uint64_t row, s
 {
     const directory *d = &a->directory;
     if (column >= d->column_count) return fail(err, MOTUS_ARGUMENT, "%s has %zu columns", a->path, d->column_count);
-    const size_t width = directory_width(d->columns[column].kind);
+    const size_t width = (size_t)d->columns[column].width;
     motus_status status = rows_inside(a, row, count, err);
     return status ? status : get(a, out, count * width, d->columns[column].place + row * width, err);
 }
@@ -234,4 +237,137 @@ motus_status motus_archive_numbers(motus_archive *a, uint64_t row, size_t count,
 {
     motus_status status = rows_inside(a, row, count, err);
     return status ? status : get(a, out, count * sizeof *out, a->directory.number_place + row * sizeof *out, err);
+}
+
+/* ---- states ---- */
+
+/* A slot begins with this, which is written after the rest. The hash is that of the length and the bytes. */
+typedef struct slot_head {
+    uint64_t turn, length, hash, zero; /* turn 0: there is no state; the next one has the next, in the other slot */
+} slot_head;
+
+size_t motus_archive_slot(const motus_archive *a)
+{
+    const uint64_t slot = a->directory.slot;
+    return slot > sizeof(slot_head) ? (size_t)slot - sizeof(slot_head) : 0;
+}
+
+static uint64_t slot_place(const motus_archive *a, uint64_t turn)
+{
+    return a->directory.slots_place + (turn % 2) * a->directory.slot;
+}
+
+static uint64_t slot_hash(const void *bytes, uint64_t length)
+{
+    return directory_hash(directory_hash(DIRECTORY_HASH, &length, sizeof length), bytes, (size_t)length);
+}
+
+/* The state in slot 0 or 1; *bytes NULL: it is not whole. */
+static motus_status read_slot(motus_archive *a, int which, slot_head *head, char **bytes, motus_error *err)
+{
+    const uint64_t place = slot_place(a, (uint64_t)which);
+    *bytes = NULL;
+    motus_status status = get(a, head, sizeof *head, place, err);
+    if (status || head->turn == 0 || head->turn % 2 != (uint64_t)which || head->length > motus_archive_slot(a)) {
+        head->turn = 0;
+        return status;
+    }
+    char *room = malloc((size_t)head->length + 1);
+    if (!room) return fail(err, MOTUS_MEMORY, "no memory for a state of %s", a->path);
+    status = get(a, room, (size_t)head->length, place + sizeof *head, err);
+    if (!status && slot_hash(room, head->length) == head->hash) {
+        room[head->length] = 0;
+        *bytes = room;
+        return MOTUS_OK;
+    }
+    head->turn = 0;
+    free(room);
+    return status;
+}
+
+static motus_status read_slots(motus_archive *a, slot_head heads[2], char *bytes[2], motus_error *err)
+{
+    bytes[0] = bytes[1] = NULL;
+    heads[0].turn = heads[1].turn = 0;
+    motus_status status = MOTUS_OK;
+    for (int k = 0; !status && k < 2 && motus_archive_slot(a) > 0; k++)
+        status = read_slot(a, k, heads + k, bytes + k, err);
+    return status;
+}
+
+motus_status motus_archive_saved(motus_archive *a, int back, char **bytes, size_t *length, motus_error *err)
+{
+    slot_head heads[2];
+    char *found[2];
+    *bytes = NULL;
+    *length = 0;
+    const motus_status status = read_slots(a, heads, found, err);
+    const int latest = heads[1].turn > heads[0].turn, which = back ? !latest : latest;
+    if (!status) *bytes = found[which], *length = found[which] ? (size_t)heads[which].length : 0;
+    for (int k = 0; k < 2; k++)
+        if (status || k != which) free(found[k]);
+    return status;
+}
+
+static motus_status write_slot(motus_archive *a, uint64_t turn, const void *bytes, size_t length, motus_error *err)
+{
+    const slot_head none = {0}, head = {turn, length, slot_hash(bytes, length), 0};
+    const uint64_t place = slot_place(a, turn);
+    motus_status status = motus_archive_sync(a, err);
+    if (!status) status = put(a, &none, sizeof none, place, err);
+    if (!status) status = put(a, bytes, length, place + sizeof none, err);
+    if (!status) status = motus_archive_sync(a, err);
+    if (!status) status = put(a, &head, sizeof head, place, err);
+    return status ? status : motus_archive_sync(a, err);
+}
+
+static motus_status too_long(const motus_archive *a, size_t length, motus_error *err)
+{
+    return fail(err, MOTUS_LIMIT, "a state of %zu bytes has no room in the %zu of %s", length, motus_archive_slot(a),
+                a->path);
+}
+
+/* The turn of the latest state; 0: there is none. */
+static motus_status latest_turn(motus_archive *a, uint64_t *turn, motus_error *err)
+{
+    slot_head heads[2];
+    char *found[2];
+    const motus_status status = read_slots(a, heads, found, err);
+    *turn = heads[0].turn > heads[1].turn ? heads[0].turn : heads[1].turn;
+    free(found[0]);
+    free(found[1]);
+    return status;
+}
+
+motus_status motus_archive_save(motus_archive *a, const void *bytes, size_t length, motus_error *err)
+{
+    uint64_t turn;
+    if (length > motus_archive_slot(a)) return too_long(a, length, err);
+    const motus_status status = latest_turn(a, &turn, err);
+    return status ? status : write_slot(a, turn + 1, bytes, length, err);
+}
+
+static motus_status put_zeros(motus_archive *a, uint64_t place, uint64_t count, motus_error *err)
+{
+    static const char zeros[1 << 16];
+    motus_status status = MOTUS_OK;
+    for (uint64_t done = 0; !status && done < count; done += sizeof zeros)
+        status = put(a, zeros, count - done < sizeof zeros ? (size_t)(count - done) : sizeof zeros, place + done, err);
+    return status;
+}
+
+/* At last the state is in slot 1 with the turn 1, and all other bytes of the slots are 0. On the way one of the slots is
+ * whole at any time. */
+motus_status motus_archive_settle(motus_archive *a, const void *bytes, size_t length, motus_error *err)
+{
+    uint64_t turn;
+    if (length > motus_archive_slot(a)) return too_long(a, length, err);
+    motus_status status = latest_turn(a, &turn, err);
+    if (!status && turn % 2 == 1) status = write_slot(a, ++turn, bytes, length, err); /* slot 1 becomes free */
+    if (!status) status = write_slot(a, turn + 1, bytes, length, err);
+    const uint64_t first = slot_place(a, 0), second = slot_place(a, 1), behind = sizeof(slot_head) + length;
+    if (!status) status = put_zeros(a, first, a->directory.slot, err);
+    if (!status) status = put_zeros(a, second + behind, a->directory.slot - behind, err);
+    const uint64_t one = 1;
+    return status ? status : put(a, &one, sizeof one, second, err);
 }

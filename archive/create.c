@@ -27,6 +27,10 @@ static motus_status check(const motus_archive_def *d, motus_error *err)
         if (!one_line(c->name)) return fail(err, MOTUS_ARGUMENT, "column %zu of an archive has no proper name", k);
         if (c->kind != MOTUS_ARCHIVE_NUMBER && (c->kind != MOTUS_ARCHIVE_WORD || c->word_count > 255))
             return fail(err, MOTUS_ARGUMENT, "column %s is neither of numbers nor of up to 255 words", c->name);
+        if (c->kind == MOTUS_ARCHIVE_WORD ? c->shape[0] || c->shape[1] : c->shape[1] && !c->shape[0])
+            return fail(err, MOTUS_ARGUMENT, "column %s has no proper shape", c->name);
+        if (c->shape[0] > INT32_MAX || c->shape[1] > INT32_MAX)
+            return fail(err, MOTUS_LIMIT, "column %s has too many numbers in a row", c->name);
         for (size_t w = 0; w < c->word_count; w++)
             if (strchr(c->words[w], '\n'))
                 return fail(err, MOTUS_ARGUMENT, "a word of column %s has more than one line", c->name);
@@ -42,6 +46,14 @@ static motus_status check(const motus_archive_def *d, motus_error *err)
     for (size_t k = 0; k < d->note_count; k++)
         if (!one_line(d->notes[k].name) || !d->notes[k].text)
             return fail(err, MOTUS_ARGUMENT, "note %zu of an archive has no name or no text", k);
+    for (size_t k = 0; k < d->link_count; k++)
+        if (!one_line(d->links[k].path) ||
+            (d->links[k].column >= d->column_count && d->links[k].column != MOTUS_ARCHIVE_SCALE))
+            return fail(err, MOTUS_ARGUMENT, "link %zu of an archive has no path or no column", k);
+    for (size_t k = 0; k < d->attribute_count; k++)
+        if (!one_line(d->attributes[k].group) || !one_line(d->attributes[k].name))
+            return fail(err, MOTUS_ARGUMENT, "attribute %zu of an archive has no group or no name", k);
+    if (d->slot > INT32_MAX / 2) return fail(err, MOTUS_LIMIT, "a slot of an archive has at most 1 GiB");
     return MOTUS_OK;
 }
 

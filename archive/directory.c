@@ -12,6 +12,11 @@
 #define PLACE "%020" PRIu64
 const char *const directory_kinds[] = {[MOTUS_ARCHIVE_NUMBER] = "number", [MOTUS_ARCHIVE_WORD] = "word"};
 
+size_t motus_archive_width(const motus_archive_column *c)
+{
+    return (c->shape[0] ? c->shape[0] : 1) * (c->shape[1] ? c->shape[1] : 1);
+}
+
 /* As FNV-1a, over words of 64 bits; the high half is folded into the low one, so that its bits count in what follows.
  */
 uint64_t directory_hash(uint64_t h, const void *bytes, size_t count)
@@ -37,9 +42,15 @@ static void put_body(FILE *out, const motus_archive_def *d, const uint64_t *plac
     fprintf(out, "rows " PLACE "\nblock " PLACE "\n", d->rows, d->block);
     fprintf(out, "number " PLACE " %s\n", at ? *at++ : 0, d->scale);
     fprintf(out, "done " PLACE "\n", at ? *at++ : 0);
+    if (d->slot) fprintf(out, "slots " PLACE " %zu\n", at ? at[d->column_count] : 0, d->slot);
     for (size_t k = 0; k < d->column_count; k++) {
         const motus_archive_column *c = d->columns + k;
-        fprintf(out, "column %s " PLACE " %s\n", directory_kinds[c->kind], at ? *at++ : 0, c->name);
+        char shape[64] = "";
+        if (c->shape[1])
+            snprintf(shape, sizeof shape, "[%zux%zu]", c->shape[0], c->shape[1]);
+        else if (c->shape[0])
+            snprintf(shape, sizeof shape, "[%zu]", c->shape[0]);
+        fprintf(out, "column %s%s " PLACE " %s\n", directory_kinds[c->kind], shape, at ? *at++ : 0, c->name);
         for (size_t w = 0; w < c->word_count; w++) fprintf(out, "word %s\n", c->words[w]);
     }
     for (size_t k = 0; k < d->note_count; k++)

@@ -6,8 +6,10 @@
  *     block 00000000000000004096
  *     number 00000000000000008192 trajectory
  *     done 00000000000000016384
+ *     slots 00000000000000204800 65536
  *     column number 00000000000000020480 x
- *     column word 00000000000000028672 stopped_by
+ *     column number[100x3] 00000000000000028672 r
+ *     column word 00000000000000126976 stopped_by
  *     word singular
  *     note 37 command
  *     motus sweep model.motus --vary k=1:2:9
@@ -15,7 +17,8 @@
  *
  * The first number is the size of the directory, zeros behind its text included, the second a hash of all that follows
  * its line. Places are counted in bytes from the beginning of the file and have a fixed width, so that the length of
- * the text is known before they are. Behind `note` stand the length of the text and its name; the text follows, and a
+ * the text is known before they are. Where a row has several numbers of a column, their shape stands behind its kind.
+ * `slots` is there if states are: where the first slot begins, and the bytes of each. Behind `note` stand the length of the text and its name; the text follows, and a
  * newline.
  */
 #ifndef ARCHIVE_DIRECTORY_H
@@ -29,12 +32,14 @@ typedef struct directory_column {
     const char **words;
     size_t word_count;
     motus_archive_kind kind;
+    size_t shape[2];
+    uint64_t width; /* bytes of a row in the file */
 } directory_column;
 
 typedef struct directory {
-    char *text;  /* names and notes point into it */
-    size_t size; /* of the directory in the file */
-    uint64_t rows, block, number_place, done_place;
+    char *text;                                                        /* names and notes point into it */
+    size_t size;                                                       /* of the directory in the file */
+    uint64_t rows, block, number_place, done_place, slots_place, slot; /* slot: 0, there are none */
     directory_column *columns;
     size_t column_count;
     motus_archive_note *notes;
@@ -58,7 +63,7 @@ static inline size_t directory_width(motus_archive_kind kind)
 static inline uint64_t directory_blocks(uint64_t rows, uint64_t block) { return rows / block + (rows % block > 0); }
 
 /* The text for a definition, to be freed; *size: of the directory, a power of 2. places: of the rows' numbers, of
- * /blocks/done and of each column; NULL: not yet known. NULL: no memory. */
+ * /blocks/done, of each column and, where there are some, of the slots; NULL: not yet known. NULL: no memory. */
 char *directory_write(const motus_archive_def *, const uint64_t *places, size_t *size);
 /* Reads a directory. `bytes` are the first of the file, `count` of them, which is at least as many as the directory has
  * or the whole file. On MOTUS_LIMIT it has *size bytes, more than `count`: read them and call again. Call

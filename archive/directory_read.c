@@ -62,26 +62,57 @@ static bool number(char **text, uint64_t *value)
 }
 
 /* Whether `count` numbers of `width` bytes from `place` on lie in the file, behind the directory. */
-static bool inside(const reader *r, uint64_t place, uint64_t count, size_t width)
+static bool inside(const reader *r, uint64_t place, uint64_t count, uint64_t width)
 {
     return count == 0 || (place >= r->d->size && place <= r->file_size && count <= (r->file_size - place) / width);
 }
 
+/* "[3]" or "[100x3]" behind the kind of a column, and the space behind it. */
+static bool shape(char **text, size_t out[2])
+{
+    uint64_t n[2] = {0, 0};
+    char *at = *text + 1, *end = strchr(at, ']');
+    if (!end || end[1] != ' ') return false;
+    *end = 0;
+    char *times = strchr(at, 'x');
+    if (times) *times = ' ';
+    if (!number(&at, &n[0]) || (times && (!number(&at, &n[1]) || n[1] == 0)) || *at || n[0] == 0) return false;
+    if (n[0] > SIZE_MAX / 16 || n[1] > SIZE_MAX / 16 / n[0]) return false;
+    out[0] = (size_t)n[0], out[1] = (size_t)n[1];
+    *text = end + 2;
+    return true;
+}
+
 static bool column(reader *r, char *text)
 {
+    static const char several[] = "number[";
     directory *d = r->d;
     directory_column *c = d->columns + d->column_count;
     c->kind = MOTUS_ARCHIVE_NUMBER;
-    if (begins(&text, directory_kinds[MOTUS_ARCHIVE_WORD]))
+    c->shape[0] = c->shape[1] = 0;
+    if (begins(&text, directory_kinds[MOTUS_ARCHIVE_WORD])) {
         c->kind = MOTUS_ARCHIVE_WORD;
-    else if (!begins(&text, directory_kinds[MOTUS_ARCHIVE_NUMBER]))
+    } else if (strncmp(text, several, sizeof several - 1) == 0) {
+        text += sizeof several - 2;
+        if (!shape(&text, c->shape)) return false;
+    } else if (!begins(&text, directory_kinds[MOTUS_ARCHIVE_NUMBER])) {
         return false;
-    if (!number(&text, &c->place) || !*text || !inside(r, c->place, d->rows, directory_width(c->kind))) return false;
+    }
+    const motus_archive_column as = {.shape = {c->shape[0], c->shape[1]}};
+    c->width = directory_width(c->kind) * motus_archive_width(&as);
+    if (!number(&text, &c->place) || !*text || !inside(r, c->place, d->rows, c->width)) return false;
     c->name = text;
     c->words = d->words + r->words;
     c->word_count = 0;
     d->column_count++;
     return true;
+}
+
+static bool slots(reader *r, char *text)
+{
+    directory *d = r->d;
+    if (d->slot || !number(&text, &d->slots_place) || !number(&text, &d->slot) || *text) return false;
+    return d->slot > 0 && d->slot <= SIZE_MAX / 4 && inside(r, d->slots_place, 2, d->slot);
 }
 
 static bool word(reader *r, const char *text)
@@ -143,10 +174,11 @@ static motus_status body(reader *r)
         char *text = line(r);
         if (!text) return damaged(r, "the end is missing");
         if (strcmp(text, "end") == 0) break;
-        if (!(begins(&text, "column") ? column(r, text)
-              : begins(&text, "word") ? word(r, text)
-              : begins(&text, "note") ? note(r, text)
-                                      : false))
+        if (!(begins(&text, "column")  ? column(r, text)
+              : begins(&text, "word")  ? word(r, text)
+              : begins(&text, "note")  ? note(r, text)
+              : begins(&text, "slots") ? slots(r, text)
+                                       : false))
             return damaged(r, "a line is wrong");
     }
     return r->d->column_count ? MOTUS_OK : damaged(r, "the columns are missing");

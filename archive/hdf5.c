@@ -137,11 +137,14 @@ static char *link_name(const char *name)
     return out;
 }
 
-/* A piece of `count` numbers at its place, which HDF5 does not fill. The caller closes it. */
-static hid_t make_set(hid_t group, const char *name, hid_t type, uint64_t count, const void *missing, uint64_t *place)
+/* A piece of `count` rows at its place, which HDF5 does not fill; `shape` of the numbers in a row, NULL: one. The caller
+ * closes it. */
+static hid_t make_set(hid_t group, const char *name, hid_t type, uint64_t count, const size_t *shape,
+                      const void *missing, uint64_t *place)
 {
-    const hsize_t size = count;
-    const hid_t space = H5Screate_simple(1, &size, NULL), list = H5Pcreate(H5P_DATASET_CREATE);
+    const hsize_t sizes[] = {count, shape ? shape[0] : 0, shape ? shape[1] : 0};
+    const int dimensions = sizes[2] ? 3 : sizes[1] ? 2 : 1;
+    const hid_t space = H5Screate_simple(dimensions, sizes, NULL), list = H5Pcreate(H5P_DATASET_CREATE);
     H5Pset_obj_track_times(list, false);
     H5Pset_layout(list, H5D_CONTIGUOUS);
     H5Pset_alloc_time(list, H5D_ALLOC_TIME_EARLY);
@@ -163,7 +166,7 @@ static motus_status put_column(maker *m, size_t k)
     const motus_archive_column *c = m->def->columns + k;
     const bool word = c->kind == MOTUS_ARCHIVE_WORD;
     const double none = NAN;
-    const hid_t set = make_set(m->group, c->name, word ? H5T_STD_U8LE : H5T_IEEE_F64LE, m->def->rows,
+    const hid_t set = make_set(m->group, c->name, word ? H5T_STD_U8LE : H5T_IEEE_F64LE, m->def->rows, c->shape,
                                word ? (const void *)MISSING : &none, m->places + 2 + k);
     if (set < 0) return refused(m, c->name);
     const bool good = H5DSattach_scale(set, m->scale, 0) >= 0 && (!word || put_words(set, c));
@@ -176,15 +179,84 @@ static motus_status put_sets(maker *m)
     const int64_t no_number = -1;
     const uint64_t no_hash = 0;
     const motus_archive_def *d = m->def;
-    m->scale = make_set(m->group, d->scale, H5T_STD_I64LE, d->rows, &no_number, m->places);
+    m->scale = make_set(m->group, d->scale, H5T_STD_I64LE, d->rows, NULL, &no_number, m->places);
     if (m->scale < 0 || H5DSset_scale(m->scale, d->scale) < 0) return refused(m, d->scale);
     const hid_t done =
-        make_set(m->blocks, "done", H5T_STD_U64LE, directory_blocks(d->rows, d->block), &no_hash, m->places + 1);
+        make_set(m->blocks, "done", H5T_STD_U64LE, directory_blocks(d->rows, d->block), NULL, &no_hash, m->places + 1);
     if (done < 0) return refused(m, "the list of blocks");
     H5Dclose(done);
     motus_status status = MOTUS_OK;
     for (size_t k = 0; !status && k < d->column_count; k++) status = put_column(m, k);
     return status;
+}
+
+static hid_t make_group(hid_t file, const char *name);
+
+/* /checkpoint/slots, where states are written in turn. */
+static motus_status put_slots(maker *m)
+{
+    if (!m->def->slot) return MOTUS_OK;
+    const size_t shape[] = {m->def->slot, 0};
+    const unsigned char zero = 0;
+    const hid_t group = make_group(m->file, "checkpoint");
+    const hid_t set = make_set(group, "slots", H5T_STD_U8LE, 2, shape, &zero, m->places + 2 + m->def->column_count);
+    if (set >= 0) H5Dclose(set);
+    if (group >= 0) H5Gclose(group);
+    return set < 0 ? refused(m, "room for states") : MOTUS_OK;
+}
+
+/* ---- other conventions ---- */
+
+/* Makes the groups of a path. */
+static hid_t group_at(hid_t file, const char *path)
+{
+    const hid_t list = H5Pcreate(H5P_LINK_CREATE), made = H5Pcreate(H5P_GROUP_CREATE);
+    H5Pset_create_intermediate_group(list, 1);
+    H5Pset_obj_track_times(made, false);
+    hid_t group = H5Gopen2(file, path, H5P_DEFAULT);
+    if (group < 0) group = H5Gcreate2(file, path, list, made, H5P_DEFAULT);
+    H5Pclose(made);
+    H5Pclose(list);
+    return group;
+}
+
+static bool put_link(const maker *m, const motus_archive_link *l)
+{
+    const bool scale = l->column == MOTUS_ARCHIVE_SCALE;
+    char *name = link_name(scale ? m->def->scale : m->def->columns[l->column].name), *path = strdup(l->path);
+    char *slash = path ? strrchr(path, '/') : NULL;
+    bool good = name && slash && slash > path;
+    if (good) {
+        *slash = 0;
+        const hid_t group = group_at(m->file, path);
+        good = group >= 0 && H5Lcreate_hard(m->group, name, group, slash + 1, H5P_DEFAULT, H5P_DEFAULT) >= 0;
+        if (group >= 0) H5Gclose(group);
+    }
+    free(path);
+    free(name);
+    return good;
+}
+
+static bool put_attribute_of(const maker *m, const motus_archive_attribute *a)
+{
+    const hid_t group = group_at(m->file, a->group);
+    const hsize_t count = a->count;
+    const hid_t space = a->count == 1 ? H5Screate(H5S_SCALAR) : H5Screate_simple(1, &count, NULL);
+    const bool good = group >= 0 && (a->text ? put_text(group, a->name, a->text)
+                                             : put_attribute(group, a->name, H5T_NATIVE_INT, space, a->numbers));
+    H5Sclose(space);
+    if (group >= 0) H5Gclose(group);
+    return good;
+}
+
+static motus_status put_conventions(const maker *m)
+{
+    const motus_archive_def *d = m->def;
+    for (size_t k = 0; k < d->link_count; k++)
+        if (!put_link(m, d->links + k)) return refused(m, d->links[k].path);
+    for (size_t k = 0; k < d->attribute_count; k++)
+        if (!put_attribute_of(m, d->attributes + k)) return refused(m, d->attributes[k].name);
+    return MOTUS_OK;
 }
 
 static motus_status put_notes(maker *m)
@@ -239,6 +311,8 @@ static motus_status by_hdf5(maker *m, const char *path, size_t directory)
     m->blocks = make_group(m->file, "blocks");
     motus_status status = m->group < 0 || m->blocks < 0 ? refused(m, "a group") : put_notes(m);
     if (!status) status = put_sets(m);
+    if (!status) status = put_slots(m);
+    if (!status) status = put_conventions(m);
     if (m->scale >= 0) H5Dclose(m->scale);
     if (m->blocks >= 0) H5Gclose(m->blocks);
     if (m->group >= 0) H5Gclose(m->group);
@@ -294,6 +368,10 @@ static motus_status put_rest(const maker *m, int descriptor)
     if (!room) return fail(m->err, MOTUS_MEMORY, "no memory to fill %s", m->path);
     const uint64_t hashes = directory_blocks(d->rows, d->block) * sizeof(uint64_t);
     motus_status status = repeat(m, descriptor, room, FILL, hashes, m->places[1]);
+    if (!status && d->slot) {
+        memset(room, 0, FILL);
+        status = repeat(m, descriptor, room, FILL, 2 * (uint64_t)d->slot, m->places[2 + d->column_count]);
+    }
     if (!status) status = put_numbers(m, descriptor, (int64_t *)(void *)room);
     free(room);
     return status;
@@ -309,7 +387,8 @@ static motus_status fill(const maker *m, int descriptor)
     for (size_t i = 0; i < FILL / sizeof *room; i++) room[i] = NAN;
     for (size_t k = 0; !status && k < d->column_count; k++)
         if (d->columns[k].kind == MOTUS_ARCHIVE_NUMBER)
-            status = repeat(m, descriptor, (const char *)room, FILL, d->rows * sizeof *room, m->places[2 + k]);
+            status = repeat(m, descriptor, (const char *)room, FILL,
+                            d->rows * motus_archive_width(d->columns + k) * sizeof *room, m->places[2 + k]);
     memset(room, MISSING[0], FILL);
     for (size_t k = 0; !status && k < d->column_count; k++)
         if (d->columns[k].kind == MOTUS_ARCHIVE_WORD)
@@ -368,7 +447,7 @@ motus_status make_hdf5(const char *path, const motus_archive_def *d, motus_error
     static const char new[] = ".new";
     size_t size = 0;
     motus_status status;
-    maker m = {.def = d, .path = path, .err = err, .places = calloc(2 + d->column_count, sizeof *m.places)};
+    maker m = {.def = d, .path = path, .err = err, .places = calloc(3 + d->column_count, sizeof *m.places)};
     char *where = realpath(path, NULL); /* where a link leads; NULL: there is nothing yet */
     const char *name = where ? where : path;
     char *text = directory_write(d, NULL, &size), *beside = malloc(strlen(name) + sizeof new);

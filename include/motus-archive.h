@@ -1,4 +1,4 @@
-/* motus-archive.h: archives, the files in which sweeps keep their numbers (library libmotus-archive).
+/* motus-archive.h: archives, the files in which sweeps and runs keep their numbers (library libmotus-archive).
  *
  * An archive is an HDF5 file: h5py, h5dump, xarray and pandas read its columns by name. It has all its bytes from the
  * beginning on: each column is one contiguous piece of the file, filled with NaN, and nothing but blocks of rows is
@@ -36,12 +36,29 @@ typedef struct motus_archive_column {
     motus_archive_kind kind;
     const char *const *words; /* of a WORD: up to 255, each one line */
     size_t word_count;
+    /* Of a NUMBER: how many there are in a row. {0, 0}: one; {n, 0}: n; {n, d}: n times d, the last index the fastest. */
+    size_t shape[2];
 } motus_archive_column;
 
 /* What is said of the file: the model, the command, the version … A text of UTF-8, whose name is unique. */
 typedef struct motus_archive_note {
     const char *name, *text;
 } motus_archive_note;
+
+/* A second name of a column in the file, "/particles/r/position/value"; its groups are made. MOTUS_ARCHIVE_SCALE in place
+ * of a column is the numbers of the rows. */
+#define MOTUS_ARCHIVE_SCALE ((size_t)-1)
+typedef struct motus_archive_link {
+    const char *path;
+    size_t column;
+} motus_archive_link;
+
+/* An attribute of a group, which is made where it is not there: a text, or else `count` numbers. */
+typedef struct motus_archive_attribute {
+    const char *group, *name, *text;
+    const int *numbers;
+    size_t count;
+} motus_archive_attribute;
 
 typedef struct motus_archive_def {
     uint32_t size;        /* by motus_archive_default() */
@@ -55,6 +72,12 @@ typedef struct motus_archive_def {
     /* The note named "model" is the dataset /model; others are attributes of the file. */
     const motus_archive_note *notes;
     size_t note_count;
+    /* What other conventions than ours want; readers of archives need none of it. */
+    const motus_archive_link *links;
+    size_t link_count;
+    const motus_archive_attribute *attributes;
+    size_t attribute_count;
+    size_t slot; /* bytes of each of the two slots for states, motus_archive_save; 0: there are none */
     int (*stop)(void *context); /* asked while the file is made; NULL, or not 0 ends that with MOTUS_CANCELLED */
 } motus_archive_def;
 
@@ -84,8 +107,10 @@ MOTUS_API int motus_archive_note_at(const motus_archive *, size_t note, motus_ar
 /* The text of the note of this name; NULL: there is none. */
 MOTUS_API const char *motus_archive_note_of(const motus_archive *, const char *name);
 
-/* Writes the rows of a block, and then that it is there: columns[k] are as many double or unsigned char as the block
- * has rows. */
+/* The numbers that a row has of a column. */
+MOTUS_API size_t motus_archive_width(const motus_archive_column *);
+/* Writes the rows of a block, and then that it is there: columns[k] are the double or unsigned char of column k, row
+ * after row. */
 MOTUS_API motus_status motus_archive_write(motus_archive *, uint64_t block, const void *const *columns, motus_error *);
 /* Everything that was written is on the disk when it returns MOTUS_OK. */
 MOTUS_API motus_status motus_archive_sync(motus_archive *, motus_error *);
@@ -94,11 +119,23 @@ MOTUS_API motus_status motus_archive_sync(motus_archive *, motus_error *);
 MOTUS_API motus_status motus_archive_whole(motus_archive *, uint64_t block, int *whole, motus_error *);
 /* Whether a hash of the block is there, whatever its bytes are: all that others have written since it was opened. */
 MOTUS_API motus_status motus_archive_written(motus_archive *, uint64_t block, int *written, motus_error *);
-/* Reads `count` numbers of a column from a row on: double or unsigned char. */
+/* Reads `count` rows of a column from a row on: the double or unsigned char of each. */
 MOTUS_API motus_status motus_archive_read(motus_archive *, size_t column, uint64_t row, size_t count, void *,
                                           motus_error *);
 /* Reads the numbers of rows. */
 MOTUS_API motus_status motus_archive_numbers(motus_archive *, uint64_t row, size_t count, int64_t *, motus_error *);
+
+/* States, from which the work goes on: two slots are written in turn, each with a hash, so that whenever the process is
+ * killed one of them is whole. */
+MOTUS_API size_t motus_archive_slot(const motus_archive *); /* the bytes that a state may have; 0: there are no slots */
+/* Writes a state to the slot that has not the latest, when everything before is on the disk. MOTUS_LIMIT: it is too long
+ * for a slot. */
+MOTUS_API motus_status motus_archive_save(motus_archive *, const void *bytes, size_t length, motus_error *);
+/* Likewise the last state of all: what the slots are afterwards depends on it alone. */
+MOTUS_API motus_status motus_archive_settle(motus_archive *, const void *bytes, size_t length, motus_error *);
+/* The latest state that is whole (`back` 0), or the one before (1); *bytes to be freed by free(), followed by a byte 0.
+ * *bytes NULL: there is none. */
+MOTUS_API motus_status motus_archive_saved(motus_archive *, int back, char **bytes, size_t *length, motus_error *);
 
 #ifdef __cplusplus
 }

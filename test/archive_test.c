@@ -12,13 +12,15 @@
 
 #include <cmocka.h>
 
-enum { ROWS = 1000, BLOCK = 64, BLOCKS = 16, COLUMNS = 3, WORDS = 3 };
+enum { ROWS = 1000, BLOCK = 64, BLOCKS = 16, COLUMNS = 4, WORDS = 3, WIDE = 6, SLOT = 500 };
 static const char *const words[WORDS] = {"", "singular", "two words"};
 static const motus_archive_column columns[COLUMNS] = {
-    {"x", MOTUS_ARCHIVE_NUMBER, NULL, 0},
-    {"max(a/b) \xc3\xa9", MOTUS_ARCHIVE_NUMBER, NULL, 0},
-    {"stopped_by", MOTUS_ARCHIVE_WORD, words, WORDS},
+    {"x", MOTUS_ARCHIVE_NUMBER, NULL, 0, {0, 0}},
+    {"max(a/b) \xc3\xa9", MOTUS_ARCHIVE_NUMBER, NULL, 0, {0, 0}},
+    {"stopped_by", MOTUS_ARCHIVE_WORD, words, WORDS, {0, 0}},
+    {"r", MOTUS_ARCHIVE_NUMBER, NULL, 0, {3, 2}},
 };
+static size_t bytes_of_row(int k) { return directory_width(columns[k].kind) * motus_archive_width(columns + k); }
 static const motus_archive_note notes[] = {
     {"motus", "1.2.3"}, {"model", "x'' = -x\nx(0) = 1\nend\nrows 7\n"}, {"empty", ""}};
 
@@ -27,6 +29,7 @@ static motus_archive_def definition(void)
     motus_archive_def d = motus_archive_default();
     d.rows = ROWS, d.block = BLOCK, d.columns = columns, d.column_count = COLUMNS;
     d.notes = notes, d.note_count = sizeof notes / sizeof *notes;
+    d.slot = SLOT;
     return d;
 }
 
@@ -34,14 +37,15 @@ static motus_archive_def definition(void)
 static char *make_bytes(size_t *size)
 {
     const motus_archive_def d = definition();
-    uint64_t places[2 + COLUMNS];
+    uint64_t places[3 + COLUMNS];
     char *text = directory_write(&d, NULL, size);
     assert_non_null(text);
     free(text);
     size_t all = *size;
     places[0] = all, all += ROWS * sizeof(int64_t);
     places[1] = all, all += BLOCKS * sizeof(uint64_t);
-    for (int k = 0; k < COLUMNS; k++) places[2 + k] = all, all += ROWS * directory_width(columns[k].kind);
+    for (int k = 0; k < COLUMNS; k++) places[2 + k] = all, all += ROWS * bytes_of_row(k);
+    places[2 + COLUMNS] = all, all += (size_t)2 * SLOT;
     text = directory_write(&d, places, size);
     assert_non_null(text);
     char *bytes = calloc(1, all);
@@ -101,6 +105,7 @@ static void says_what_was_said(void **state)
         assert_string_equal(c.name, columns[k].name);
         assert_int_equal(c.kind, columns[k].kind);
         assert_int_equal(c.word_count, columns[k].word_count);
+        assert_memory_equal(c.shape, columns[k].shape, sizeof c.shape);
         for (size_t w = 0; w < c.word_count; w++) assert_string_equal(c.words[w], words[w]);
     }
     assert_false(motus_archive_column_at(a, COLUMNS, &c));
@@ -113,9 +118,10 @@ static void says_what_was_said(void **state)
     motus_archive_close(a);
 }
 
-static void fill(double *x, double *y, unsigned char *w, uint64_t block)
+static void fill(double *x, double *y, unsigned char *w, double *r, uint64_t block)
 {
     for (int i = 0; i < BLOCK; i++) {
+        for (int k = 0; k < WIDE; k++) r[WIDE * i + k] = (double)(block * BLOCK) + i + k / 8.0;
         x[i] = (double)(block * BLOCK) + i;
         y[i] = -x[i] / 3;
         w[i] = (unsigned char)(i % WORDS);
@@ -127,14 +133,14 @@ static void blocks(void **state)
 {
     const fixture *f = *state;
     motus_archive *a;
-    double x[BLOCK], y[BLOCK], back[BLOCK];
+    double x[BLOCK], y[BLOCK], back[BLOCK], r[BLOCK * WIDE], wide[BLOCK * WIDE];
     unsigned char w[BLOCK];
-    const void *const written[COLUMNS] = {x, y, w};
+    const void *const written[COLUMNS] = {x, y, w, r};
     int whole;
     assert_int_equal(motus_archive_open(f->path, 1, &a, NULL), MOTUS_OK);
     for (uint64_t k = 0; k < BLOCKS; k += 2) {
         const uint64_t block = BLOCKS - 1 - k;
-        fill(x, y, w, block);
+        fill(x, y, w, r, block);
         assert_int_equal(motus_archive_write(a, block, written, NULL), MOTUS_OK);
     }
     for (uint64_t b = 0; b < BLOCKS; b++) {
@@ -145,9 +151,11 @@ static void blocks(void **state)
         motus_archive_block(a, b, &first, &count);
         assert_int_equal(count, b < BLOCKS - 1 ? BLOCK : ROWS % BLOCK);
         if (!whole) continue;
-        fill(x, y, w, b);
+        fill(x, y, w, r, b);
         assert_int_equal(motus_archive_read(a, 1, first, count, back, NULL), MOTUS_OK);
         assert_memory_equal(back, y, count * sizeof *y);
+        assert_int_equal(motus_archive_read(a, 3, first + 1, count - 1, wide, NULL), MOTUS_OK);
+        assert_memory_equal(wide, r + WIDE, (count - 1) * WIDE * sizeof *r);
     }
     assert_int_equal(motus_archive_write(a, BLOCKS, written, NULL), MOTUS_ARGUMENT);
     assert_int_equal(motus_archive_read(a, 1, ROWS - 1, 2, back, NULL), MOTUS_ARGUMENT);
@@ -161,8 +169,8 @@ static void blocks(void **state)
     setvbuf(file, NULL, _IONBF, 0);
     assert_int_equal(motus_archive_open(f->path, 0, &a, NULL), MOTUS_OK);
     for (int k = 0; k < COLUMNS; k++)
-        for (size_t i = 0; i < BLOCK * directory_width(columns[k].kind); i++) {
-            const long at = (long)(d.columns[k].place + BLOCK * directory_width(columns[k].kind) + i);
+        for (size_t i = 0; i < BLOCK * bytes_of_row(k); i++) {
+            const long at = (long)(d.columns[k].place + BLOCK * bytes_of_row(k) + i);
             fseek(file, at, SEEK_SET);
             const int byte = getc(file);
             fseek(file, at, SEEK_SET);
@@ -226,24 +234,133 @@ static void places_are_inside(void **state)
     (void)state;
     const motus_archive_def d = definition();
     size_t size;
-    const uint64_t good[2 + COLUMNS] = {8192, 8192, 8192, 8192, 8192};
-    const uint64_t bad[] = {0,     1,          DIRECTORY_LEAST - 1, 16384 - 7,     16384,
-                            16385, UINT64_MAX, UINT64_MAX - 7,      UINT64_MAX / 2};
-    char *bytes = calloc(1, 1 << 15), *text = directory_write(&d, good, &size);
+    const uint64_t good[3 + COLUMNS] = {8192, 8192, 8192, 8192, 8192, 8192, 8192};
+    const uint64_t end = 8192 + ROWS * WIDE * 8, bad[] = {0,       1,          DIRECTORY_LEAST - 1, end - 7,       end,
+                                                          end + 1, UINT64_MAX, UINT64_MAX - 7,      UINT64_MAX / 2};
+    enum { FILE_SIZE = 8192 + ROWS * WIDE * 8 };
+    char *bytes = calloc(1, FILE_SIZE), *text = directory_write(&d, good, &size);
     memcpy(bytes, text, size);
-    assert_true(reads(bytes, 16384 + 8192));
+    assert_true(reads(bytes, FILE_SIZE));
     free(text);
-    for (int k = 0; k < 2 + COLUMNS; k++)
+    for (int k = 0; k < 3 + COLUMNS; k++)
         for (size_t i = 0; i < sizeof bad / sizeof *bad; i++) {
-            uint64_t places[2 + COLUMNS];
+            uint64_t places[3 + COLUMNS];
             memcpy(places, good, sizeof good);
             places[k] = bad[i];
             text = directory_write(&d, places, &size);
             memcpy(bytes, text, size);
-            assert_false(reads(bytes, 16384));
+            assert_false(reads(bytes, FILE_SIZE));
             free(text);
         }
     free(bytes);
+}
+
+/* A shape that no number of bytes has. */
+static void shapes(void **state)
+{
+    static const char *const bad[] = {"[0]",
+                                      "[]",
+                                      "[3",
+                                      "3]",
+                                      "[3x]",
+                                      "[x3]",
+                                      "[3x0]",
+                                      "[3x2x1]",
+                                      "[-3]",
+                                      "[3]x",
+                                      "[18446744073709551615]",
+                                      "[4294967296x4294967296]",
+                                      "[99999999999999999999]"};
+    (void)state;
+    const char *const text = "rows 1\nblock 1\nnumber 4096 n\ndone 4096\ncolumn number%s 4096 x\nend\n";
+    for (size_t k = 0; k <= sizeof bad / sizeof *bad; k++) {
+        char body[512], *bytes = calloc(1, 8192);
+        snprintf(body, sizeof body, text, k < sizeof bad / sizeof *bad ? bad[k] : "[2x3]");
+        snprintf(bytes, 8192, "motus archive 1\ndirectory 4096 %016llx\n%s",
+                 (unsigned long long)directory_hash(DIRECTORY_HASH, body, strlen(body)), body);
+        assert_int_equal(reads(bytes, 8192), k == sizeof bad / sizeof *bad);
+        free(bytes);
+    }
+}
+
+static void saved_is(motus_archive *a, int back, const char *text)
+{
+    char *bytes;
+    size_t length;
+    assert_int_equal(motus_archive_saved(a, back, &bytes, &length, NULL), MOTUS_OK);
+    if (!text) assert_null(bytes);
+    if (text) assert_string_equal(bytes, text);
+    assert_int_equal(length, text ? strlen(text) : 0);
+    free(bytes);
+}
+
+static void change(const char *path, long at)
+{
+    FILE *file = fopen(path, "r+b");
+    assert_int_equal(fseek(file, at, SEEK_SET), 0);
+    const int byte = getc(file);
+    fseek(file, at, SEEK_SET);
+    putc(byte ^ 1, file);
+    assert_int_equal(fclose(file), 0);
+}
+
+static char *bytes_of(const fixture *f)
+{
+    FILE *file = fopen(f->path, "rb");
+    char *bytes = malloc(f->size + 1);
+    assert_int_equal(fread(bytes, 1, f->size + 1, file), f->size);
+    fclose(file);
+    return bytes;
+}
+
+/* Two slots in turn; a byte that changes in one leaves the other. What was written before the last state leaves no
+ * byte. */
+static void states(void **state)
+{
+    const fixture *f = *state;
+    motus_archive *a;
+    directory d;
+    size_t size, length;
+    char text[SLOT], *last = NULL, *bytes;
+    assert_int_equal(directory_read(&d, f->bytes, f->size, f->size, "it", &size, NULL), MOTUS_OK);
+    const long slots = (long)d.slots_place;
+    directory_free(&d);
+    for (int count = 0; count < 6; count++) {
+        write_file(f->path, f->bytes, f->size);
+        assert_int_equal(motus_archive_open(f->path, 1, &a, NULL), MOTUS_OK);
+        saved_is(a, 0, NULL);
+        saved_is(a, 1, NULL);
+        for (int k = 1; k <= count; k++) {
+            memset(text, '.', sizeof text);
+            snprintf(text + 50 * k, sizeof text - 50 * (size_t)k, "%d", k);
+            assert_int_equal(motus_archive_save(a, text, strlen(text), NULL), MOTUS_OK);
+            saved_is(a, 0, text);
+            const long at = slots + k % 2 * SLOT + (k % 3 == 0 ? 8 : k % 3 == 1 ? 20 : 40);
+            change(f->path, at);
+            assert_int_equal(motus_archive_saved(a, 0, &bytes, &length, NULL), MOTUS_OK);
+            if (k == 1) assert_null(bytes);
+            if (k > 1) assert_int_equal(atoi(bytes + 50 * (k - 1)), k - 1);
+            free(bytes);
+            change(f->path, at);
+            saved_is(a, 0, text);
+            if (k > 1) continue;
+            saved_is(a, 1, NULL);
+        }
+        assert_int_equal(motus_archive_save(a, text, motus_archive_slot(a) + 1, NULL), MOTUS_LIMIT);
+        assert_int_equal(motus_archive_settle(a, text, motus_archive_slot(a) + 1, NULL), MOTUS_LIMIT);
+        assert_int_equal(motus_archive_settle(a, "the end", 7, NULL), MOTUS_OK);
+        saved_is(a, 0, "the end");
+        saved_is(a, 1, NULL);
+        bytes = bytes_of(f);
+        if (last) assert_memory_equal(bytes, last, f->size);
+        free(last);
+        last = bytes;
+        assert_int_equal(motus_archive_save(a, "more", 4, NULL), MOTUS_OK);
+        saved_is(a, 0, "more");
+        saved_is(a, 1, "the end");
+        motus_archive_close(a);
+    }
+    free(last);
 }
 
 static void refusals(void **state)
@@ -263,7 +380,8 @@ static void refusals(void **state)
     assert_int_equal(motus_archive_create("/absent/file.h5", &d, &err), MOTUS_ARGUMENT);
     d = definition(), d.size = 0;
     assert_int_equal(motus_archive_create("/absent/file.h5", &d, &err), MOTUS_ARGUMENT);
-    motus_archive_column twice[2] = {{"a\nb", MOTUS_ARCHIVE_NUMBER, NULL, 0}, {"x", (motus_archive_kind)7, NULL, 0}};
+    motus_archive_column twice[2] = {{"a\nb", MOTUS_ARCHIVE_NUMBER, NULL, 0, {0, 0}},
+                                     {"x", (motus_archive_kind)7, NULL, 0, {0, 0}}};
     d = definition(), d.columns = twice, d.column_count = 1;
     assert_int_equal(motus_archive_create("/absent/file.h5", &d, &err), MOTUS_ARGUMENT);
     d.columns = twice + 1;
@@ -278,6 +396,8 @@ int main(void)
         cmocka_unit_test_setup_teardown(blocks, begin, end),
         cmocka_unit_test_setup_teardown(every_byte_matters, begin, end),
         cmocka_unit_test(places_are_inside),
+        cmocka_unit_test(shapes),
+        cmocka_unit_test_setup_teardown(states, begin, end),
         cmocka_unit_test(refusals),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -21,10 +21,12 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     if (directory_read(&d, bytes, sizeof bytes, 1 << 20, "it", &wanted, NULL) == MOTUS_OK) {
         if (!d.column_count || !d.block) abort();
         for (size_t k = 0; k < d.column_count; k++) {
-            const size_t width = directory_width(d.columns[k].kind);
+            const uint64_t width = d.columns[k].width;
+            if (width == 0) abort();
             if (d.rows && (d.columns[k].place < d.size || d.columns[k].place + d.rows * width > 1 << 20)) abort();
             for (size_t w = 0; w < d.columns[k].word_count; w++) (void)strlen(d.columns[k].words[w]);
         }
+        if (d.slot && (d.slots_place < d.size || d.slot > 1 << 19 || d.slots_place + 2 * d.slot > 1 << 20)) abort();
         for (size_t k = 0; k < d.note_count; k++) (void)strlen(d.notes[k].text);
     }
     directory_free(&d);
