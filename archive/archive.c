@@ -245,6 +245,7 @@ motus_status motus_archive_numbers(motus_archive *a, uint64_t row, size_t count,
 typedef struct slot_head {
     uint64_t turn, length, hash, zero; /* turn 0: there is no state; the next one has the next, in the other slot */
 } slot_head;
+_Static_assert(sizeof(slot_head) == DIRECTORY_SLOT, "the room before a state");
 
 size_t motus_archive_slot(const motus_archive *a)
 {

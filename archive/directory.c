@@ -42,7 +42,7 @@ static void put_body(FILE *out, const motus_archive_def *d, const uint64_t *plac
     fprintf(out, "rows " PLACE "\nblock " PLACE "\n", d->rows, d->block);
     fprintf(out, "number " PLACE " %s\n", at ? *at++ : 0, d->scale);
     fprintf(out, "done " PLACE "\n", at ? *at++ : 0);
-    if (d->slot) fprintf(out, "slots " PLACE " %zu\n", at ? at[d->column_count] : 0, d->slot);
+    if (d->slot) fprintf(out, "slots " PLACE " %zu\n", at ? at[d->column_count] : 0, d->slot + DIRECTORY_SLOT);
     for (size_t k = 0; k < d->column_count; k++) {
         const motus_archive_column *c = d->columns + k;
         char shape[64] = "";

@@ -50,7 +50,8 @@ typedef struct directory {
 enum {
     DIRECTORY_LEAST = 4096, /* bytes; a multiple of what the columns are aligned to */
     DIRECTORY_MOST = 1 << 28,
-    DIRECTORY_HEAD = 80 /* at most: the first two lines */
+    DIRECTORY_HEAD = 80, /* at most: the first two lines */
+    DIRECTORY_SLOT = 32  /* bytes before the state in a slot */
 };
 extern const char *const directory_kinds[]; /* their words */
 

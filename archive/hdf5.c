@@ -72,6 +72,19 @@ static bool put_text(hid_t object, const char *name, const char *text)
     return good;
 }
 
+/* The same text, `count` times. */
+static bool put_texts(hid_t object, const char *name, const char *text, hid_t space, size_t count)
+{
+    const hid_t type = text_type(text);
+    const size_t length = H5Tget_size(type);
+    char *all = calloc(count + 1, length);
+    for (size_t k = 0; all && k < (count ? count : 1); k++) memcpy(all + k * length, text, strlen(text));
+    const bool good = all && put_attribute(object, name, type, space, all);
+    free(all);
+    H5Tclose(type);
+    return good;
+}
+
 static bool put_format(hid_t file)
 {
     const int format = MOTUS_ARCHIVE_FORMAT;
@@ -196,7 +209,7 @@ static hid_t make_group(hid_t file, const char *name);
 static motus_status put_slots(maker *m)
 {
     if (!m->def->slot) return MOTUS_OK;
-    const size_t shape[] = {m->def->slot, 0};
+    const size_t shape[] = {m->def->slot + DIRECTORY_SLOT, 0};
     const unsigned char zero = 0;
     const hid_t group = make_group(m->file, "checkpoint");
     const hid_t set = make_set(group, "slots", H5T_STD_U8LE, 2, shape, &zero, m->places + 2 + m->def->column_count);
@@ -207,17 +220,24 @@ static motus_status put_slots(maker *m)
 
 /* ---- other conventions ---- */
 
-/* Makes the groups of a path. */
+/* The group of a path, with those on the way made one by one: what HDF5 makes by itself has the time in it. */
 static hid_t group_at(hid_t file, const char *path)
 {
-    const hid_t list = H5Pcreate(H5P_LINK_CREATE), made = H5Pcreate(H5P_GROUP_CREATE);
-    H5Pset_create_intermediate_group(list, 1);
-    H5Pset_obj_track_times(made, false);
-    hid_t group = H5Gopen2(file, path, H5P_DEFAULT);
-    if (group < 0) group = H5Gcreate2(file, path, list, made, H5P_DEFAULT);
-    H5Pclose(made);
-    H5Pclose(list);
-    return group;
+    hid_t group = H5Gopen2(file, "/", H5P_DEFAULT);
+    char *copy = strdup(path);
+    for (char *at = copy, *end = copy; group >= 0 && end && *at; at = end) {
+        at += strspn(at, "/");
+        end = at + strcspn(at, "/");
+        const char behind = *end;
+        *end = 0;
+        const hid_t inner =
+            H5Lexists(group, at, H5P_DEFAULT) > 0 ? H5Gopen2(group, at, H5P_DEFAULT) : make_group(group, at);
+        H5Gclose(group);
+        group = inner;
+        *end = behind;
+    }
+    free(copy);
+    return copy ? group : H5I_INVALID_HID;
 }
 
 static bool put_link(const maker *m, const motus_archive_link *l)
@@ -241,8 +261,8 @@ static bool put_attribute_of(const maker *m, const motus_archive_attribute *a)
 {
     const hid_t group = group_at(m->file, a->group);
     const hsize_t count = a->count;
-    const hid_t space = a->count == 1 ? H5Screate(H5S_SCALAR) : H5Screate_simple(1, &count, NULL);
-    const bool good = group >= 0 && (a->text ? put_text(group, a->name, a->text)
+    const hid_t space = a->count <= 1 ? H5Screate(H5S_SCALAR) : H5Screate_simple(1, &count, NULL);
+    const bool good = group >= 0 && (a->text ? put_texts(group, a->name, a->text, space, a->count)
                                              : put_attribute(group, a->name, H5T_NATIVE_INT, space, a->numbers));
     H5Sclose(space);
     if (group >= 0) H5Gclose(group);
@@ -370,7 +390,8 @@ static motus_status put_rest(const maker *m, int descriptor)
     motus_status status = repeat(m, descriptor, room, FILL, hashes, m->places[1]);
     if (!status && d->slot) {
         memset(room, 0, FILL);
-        status = repeat(m, descriptor, room, FILL, 2 * (uint64_t)d->slot, m->places[2 + d->column_count]);
+        status =
+            repeat(m, descriptor, room, FILL, 2 * ((uint64_t)d->slot + DIRECTORY_SLOT), m->places[2 + d->column_count]);
     }
     if (!status) status = put_numbers(m, descriptor, (int64_t *)(void *)room);
     free(room);

@@ -37,6 +37,7 @@ typedef enum kind {
     COUNT,
     SEED,
     EVERY,
+    KEEP,
     METHOD_LIST,
     NAMED,
     TEXTS
@@ -98,6 +99,8 @@ static const option table[] = {
      "draw column Y against column X: \"x,x'\"; of a section its plane; sweep: X may be what varies"},
     {"--save-state", NULL, "FILE", WORD, AT(save_state), VERB_RUN, "write an exact restart state at the end"},
     {"--restart", NULL, "FILE", WORD, AT(restart), VERB_RUN, "continue from a restart state, to the same bits"},
+    {"--checkpoint", NULL, "WHEN", KEEP, AT(keep_seconds), VERB_RUN,
+     "how often a run into FILE.h5 keeps its state there: 10min (the default), 90s, 2h, \"1e6 steps\""},
     {"--machine", NULL, "NAME", WORD, AT(machine), ONE | VERB_COMPARE | VERB_ARCHIVE,
      "auto (compiles where the run is long enough), interpreter, compiled; compare: which --accuracies times"},
     {"--threads", NULL, "N", COUNT, AT(threads), ONE | VERB_ARCHIVE,
@@ -120,12 +123,13 @@ static const option table[] = {
      "compute only the Kth of N shares, or slurm: that of the array's task; in names of files %K is its number"},
     {"--plan", NULL, NULL, FLAG, AT(plan), VERB_SWEEP,
      "compute a sample alone, and tell the sizes of memory and file, and the hours on 1 to 4096 ranks"},
-    {"--resume", NULL, NULL, FLAG, AT(resume), VERB_SWEEP, "continue an interrupted sweep in FILE, to the same bytes"},
+    {"--resume", NULL, NULL, FLAG, AT(resume), ONE,
+     "continue an interrupted sweep in FILE, or a run in FILE.h5, to the same bytes"},
     {"--verify", NULL, "PART", WORD, AT(verify), VERB_ARCHIVE,
      "compute this part of the blocks again, 1%, or all, and compare their bytes"},
     {"--partial", NULL, NULL, FLAG, AT(partial), VERB_MERGE,
      "of archives: join what is there; the sweep's command with --resume computes the rest"},
-    {"--force", NULL, NULL, FLAG, AT(force), VERB_SWEEP | VERB_MERGE | VERB_ARCHIVE, "replace FILE if it exists"},
+    {"--force", NULL, NULL, FLAG, AT(force), ONE | VERB_MERGE | VERB_ARCHIVE, "replace FILE if it exists"},
     {"--lanes", NULL, "N", COUNT, AT(lanes), VERB_SWEEP,
      "trajectories in one vector: 1, 2, 4, ... (for tests); the bits are the same"},
     {"--fast", NULL, NULL, FLAG, AT(fast), VERB_SWEEP,
@@ -239,6 +243,36 @@ static motus_status read_every(options *o, const option *row, const char *value,
     o->every_time = t;
     o->every_steps = 0;
     return MOTUS_OK;
+}
+
+/* "1e6 steps", or a time with its unit. */
+static motus_status read_keep(options *o, const option *row, const char *value, motus_error *err)
+{
+    static const struct {
+        const char *word;
+        double seconds;
+    } units[] = {{"s", 1}, {"min", 60}, {"h", 3600}};
+    const char *rest;
+    char number[32] = "";
+    double n;
+    o->keep_steps = 0;
+    o->keep_seconds = 0;
+    const size_t digits = strspn(value, "0123456789.eE+-");
+    rest = value + digits + strspn(value + digits, " ");
+    if (digits < sizeof number) memcpy(number, value, digits);
+    if (typed_number(number, &n) && n > 0 && (!strcmp(rest, "steps") || !strcmp(rest, "step"))) {
+        if (n >= 1 && n <= 9e15 && n == floor(n)) {
+            o->keep_steps = (int64_t)n;
+            return MOTUS_OK;
+        }
+    } else if (typed_number(number, &n) && n > 0) {
+        for (size_t k = 0; k < sizeof units / sizeof *units; k++)
+            if (strcmp(rest, units[k].word) == 0) {
+                o->keep_seconds = n * units[k].seconds;
+                return MOTUS_OK;
+            }
+    }
+    return bad_value(row, value, "a time with its unit, 10min, 90s, 2h, or a count as \"1e6 steps\"", err);
 }
 
 /* The text without the word relative or absolute at its end, which goes to o->absolute. False: it is too long. */
@@ -363,6 +397,7 @@ static motus_status store(options *o, const option *row, const char *value, motu
             return fail(err, MOTUS_ARGUMENT, "%s %s: at most %g", row->name, value, TYPED_COUNT_MAX);
         return bad_value(row, value, "an integer above 0", err);
     case EVERY: return read_every(o, row, value, err);
+    case KEEP: return read_keep(o, row, value, err);
     case METHOD_LIST:
         free(o->methods_text);
         free(o->methods.items);

@@ -43,6 +43,8 @@ typedef struct options {
     const char *step_typed, *until_typed; /* as given; NULL: the model's */
     double every_time;                    /* 0: not given */
     int64_t every_steps;                  /* 0: not given */
+    double keep_seconds;                  /* between two states of a run; 0: not given */
+    int64_t keep_steps;                   /* likewise */
     int64_t evaluations, threads;         /* 0: not given */
     int64_t skip, most_points;            /* of the section; 0: not given */
     options_list set, when, methods;

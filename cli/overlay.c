@@ -104,7 +104,7 @@ static motus_status run_method(overlay *v, const motus_compare_row *row, stop_pr
         if (room && first && s->exact[1]) room = add_curve(v, r, s, s->exact, "exact", PLOT_EXACT);
     }
     walk_observer w = record_observer(r);
-    status = room ? walk(run, motus_run_time(run), load_until(v->model), &w, 1, err) : complain_memory(err);
+    status = room ? walk(run, motus_run_time(run), load_until(v->model), &w, 1, NULL, err) : complain_memory(err);
     for (size_t i = 0; i < v->slot_count; i++) {
         plot_panel *p = &v->plot.panels[v->slots[i].panel];
         for (size_t k = 0; k < p->curve_count; k++)

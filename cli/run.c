@@ -11,11 +11,14 @@
 #include "cli/figure.h"
 #include "cli/file.h"
 #include "cli/load.h"
+#include "cli/run_archive.h"
+#include "cli/run_command.h"
 #include "cli/section.h"
 #include "cli/settle.h"
 #include "cli/share.h"
 #include "cli/stop.h"
 #include "cli/summary.h"
+#include "cli/sweep.h"
 #include "cli/verbs.h"
 #include "cli/walk.h"
 
@@ -37,15 +40,41 @@ typedef struct job {
     double start, until;
     double began; /* the search for the run's method and steps; NaN: they were given */
     csv csv;
+    run_archive *archive; /* NULL: the rows are not an archive */
+    const char *from;     /* the archive with which the run goes on; NULL: it begins */
+    walk_observer rows;
     deviation deviation;
     figure figure;
     size_t plane[2]; /* of the section */
     file_out files[FILES];
 } job;
 
+static bool is_archive(const options *o) { return o->output && sweep_archive_name(o->output); }
+
+static motus_status check_archive(const options *o, motus_error *err)
+{
+    const char *only = o->resume                                  ? "--resume"
+                       : o->force                                 ? "--force"
+                       : o->keep_seconds > 0 || o->keep_steps > 0 ? "--checkpoint"
+                                                                  : NULL;
+    if (only && !is_archive(o)) {
+        fail(err, MOTUS_ARGUMENT, "%s is for a run into an archive", only);
+        hint(err, "write it: -o run.h5");
+        return MOTUS_ARGUMENT;
+    }
+    if (o->force && o->resume) return fail(err, MOTUS_ARGUMENT, "--force and --resume exclude each other");
+    if (o->restart && is_archive(o)) {
+        fail(err, MOTUS_ARGUMENT, "--restart: a run into an archive begins at its start");
+        hint(err, "the archive keeps its own states: motus run FILE.h5 --until T goes on");
+        return MOTUS_ARGUMENT;
+    }
+    return MOTUS_OK;
+}
+
 static motus_status check_names(const options *o, motus_error *err)
 {
-    const char *in[] = {o->operand, o->restart}, *out[FILES] = {o->output, o->plot, o->save_state, o->events};
+    const char *in[] = {o->text ? NULL : o->operand, o->restart},
+               *out[FILES] = {o->output, o->plot, o->save_state, o->events};
     for (size_t i = 0; i < FILES; i++) {
         for (size_t k = 0; out[i] && k < 2; k++)
             /* --save-state may replace the file of --restart; - is both standard input and standard output */
@@ -55,6 +84,8 @@ static motus_status check_names(const options *o, motus_error *err)
             if (out[k] && file_same(out[i], out[k]))
                 return fail(err, MOTUS_ARGUMENT, "%s is named for two outputs", out[k]);
     }
+    const motus_status status = check_archive(o, err);
+    if (status) return status;
     if (o->json && o->plot && strcmp(o->plot, "-") == 0)
         return fail(err, MOTUS_ARGUMENT, "--json and --plot - both write to standard output");
     if (o->save_state && strcmp(o->save_state, "-") == 0)
@@ -87,7 +118,7 @@ static motus_status save(job *j, motus_error *err)
 /* Nothing is computed that nobody sees; a restart state has the errors up to it. */
 static motus_bars bars_wanted(const options *o)
 {
-    const bool seen = !o->quiet || o->json || o->errors || o->plot || o->save_state || o->events;
+    const bool seen = !o->quiet || o->json || o->errors || o->plot || o->save_state || o->events || is_archive(o);
     if (!seen || (o->error && strcmp(o->error, "none") == 0)) return MOTUS_BARS_NONE;
     return o->error && strcmp(o->error, "full") == 0 ? MOTUS_BARS_FULL : MOTUS_BARS_CHEAP;
 }
@@ -102,6 +133,39 @@ static int settled(const load *m, const options *o)
     const motus_method *card = NULL;
     if (!isnan(settle_accuracy(m, o)) || !name || motus_method_find(name, &card, NULL) != MOTUS_OK) return SETTLE_UNTIL;
     return card->adaptive ? SETTLE_UNTIL : SETTLE_STEP | SETTLE_UNTIL;
+}
+
+/* The rows: as the options say, else the model, else every step. */
+static walk_observer rows_observer(job *j)
+{
+    const options *o = j->options;
+    motus_settings settings = motus_default_settings();
+    motus_settings_of(j->model.system, &settings);
+    walk_observer w = {.columns = j->csv.columns,
+                       .count = j->csv.count,
+                       .errors = o->errors,
+                       .take = csv_row,
+                       .jump = csv_jump,
+                       .context = &j->csv};
+    bool ours = o->every_time > 0 || o->every_steps > 0;
+    double period = ours ? o->every_time : settings.every_time > 0 ? settings.every_time : 0;
+    int64_t steps = ours ? o->every_steps : settings.every_steps;
+    w.stride = steps > 0 ? steps : period > 0 ? walk_steps_of_run(j->run, period) : 1;
+    w.period = w.stride > 0 ? 0 : period;
+    return w;
+}
+
+static motus_status open_archive(job *j, motus_error *err)
+{
+    const run_archive_def def = {.options = j->options,
+                                 .model = &j->model,
+                                 .plan = &j->csv,
+                                 .run = j->run,
+                                 .start = j->start,
+                                 .until = j->until,
+                                 .rows = &j->rows,
+                                 .from = j->from};
+    return run_archive_open(&j->archive, &def, err);
 }
 
 static motus_status begin(job *j, motus_error *err)
@@ -144,42 +208,29 @@ static motus_status begin(job *j, motus_error *err)
     const bool errors = j->def.error != MOTUS_BARS_NONE;
     if (!status && o->plot && !o->section)
         status = figure_begin(&j->figure, &j->model, o, j->run, j->until, errors, err);
-    const char *const names[FILES] = {o->output, o->plot, o->save_state, o->events};
+    const char *const names[FILES] = {is_archive(o) ? NULL : o->output, o->plot, o->save_state, o->events};
     for (int i = 0; !status && i < FILES; i++)
         if (names[i]) status = file_create(&j->files[i], names[i], err);
+    if (!status && o->output) j->rows = rows_observer(j);
+    if (!status && is_archive(o)) return open_archive(j, err);
     if (!status && o->output) status = csv_begin(&j->csv, &j->files[CSV], o, j->run, err);
     return status;
-}
-
-/* The rows of the CSV: as the options say, else the model, else every step. */
-static walk_observer rows_observer(job *j)
-{
-    const options *o = j->options;
-    motus_settings settings = motus_default_settings();
-    motus_settings_of(j->model.system, &settings);
-    walk_observer w = {.columns = j->csv.columns,
-                       .count = j->csv.count,
-                       .errors = o->errors,
-                       .take = csv_row,
-                       .jump = csv_jump,
-                       .context = &j->csv};
-    bool ours = o->every_time > 0 || o->every_steps > 0;
-    double period = ours ? o->every_time : settings.every_time > 0 ? settings.every_time : 0;
-    int64_t steps = ours ? o->every_steps : settings.every_steps;
-    w.stride = steps > 0 ? steps : period > 0 ? walk_steps_of_run(j->run, period) : 1;
-    w.period = w.stride > 0 ? 0 : period;
-    return w;
 }
 
 static motus_status go(job *j, motus_error *err)
 {
     walk_observer observers[3 + FIGURE_OBSERVERS];
+    walk_keeper keeper = {0};
     size_t count = 0;
     int64_t steps = motus_run_steps_total(j->run);
+    if (j->archive) {
+        run_archive_observe(j->archive, &j->rows, &keeper);
+        observers[count++] = j->rows;
+    }
     if (j->deviation.count > 0)
         observers[count++] = deviation_observer(&j->deviation, deviation_stride(&j->model, steps));
-    if (j->options->output) {
-        observers[count] = rows_observer(j);
+    if (j->options->output && !j->archive) {
+        observers[count] = j->rows;
         if (j->deviation.count > 0 && observers[count].stride > 0) {
             observers[count + 1] = deviation_observer(&j->deviation, observers[count].stride);
             count++;
@@ -190,7 +241,7 @@ static motus_status go(job *j, motus_error *err)
         figure_observers(&j->figure, observers + count);
         count += FIGURE_OBSERVERS;
     }
-    return walk(j->run, j->start, j->until, observers, count, err);
+    return walk(j->run, j->start, j->until, observers, count, &keeper, err);
 }
 
 static motus_status finish(job *j, double seconds, motus_error *err)
@@ -202,6 +253,7 @@ static motus_status finish(job *j, double seconds, motus_error *err)
     else if (!status && o->plot)
         status = figure_draw(&j->figure, o->plot, &j->files[PLOT], err);
     if (!status && o->events) status = event_file_write(&j->files[EVENTS], &j->model, o, j->run, err);
+    if (!status && j->archive) status = run_archive_finish(j->archive, err);
     for (int i = 0; !status && i < FILES; i++) status = file_finish(&j->files[i], err);
     summary s = {&j->model,
                  o,
@@ -265,11 +317,10 @@ static motus_status emit(const options *o, motus_error *err)
     return status;
 }
 
-motus_status run_verb(const options *o, motus_error *err)
+static motus_status run(const options *o, const char *from, motus_error *err)
 {
-    if (o->emit_c) return emit(o, err);
-    if (o->share) return share_verb(o, err);
     job j = {.options = o,
+             .from = from,
              .estimate = motus_default_estimate(),
              .singular = motus_default_error(),
              .missed = motus_default_error()};
@@ -287,11 +338,31 @@ motus_status run_verb(const options *o, motus_error *err)
         if (!status && j.singular.status) *err = j.singular, status = j.singular.status;
         if (!status && j.missed.status) *err = j.missed, status = j.missed.status;
     }
+    if (status && !j.singular.status && !j.missed.status) run_archive_leave(j.archive);
     for (int i = 0; i < FILES; i++) file_drop(&j.files[i]);
     figure_free(&j.figure);
     deviation_free(&j.deviation);
     csv_free(&j.csv);
+    run_archive_close(j.archive);
     motus_run_destroy(j.run);
     load_free(&j.model);
     return status;
+}
+
+/* Goes on with the run of an archive. */
+static motus_status go_on(const options *o, motus_error *err)
+{
+    run_command c;
+    motus_status status = run_command_read(&c, o, err);
+    if (!status) status = run(&c.options, o->operand, err);
+    run_command_free(&c);
+    return status;
+}
+
+motus_status run_verb(const options *o, motus_error *err)
+{
+    if (o->operand && sweep_archive_name(o->operand)) return go_on(o, err);
+    if (o->emit_c) return emit(o, err);
+    if (o->share) return share_verb(o, err);
+    return run(o, NULL, err);
 }

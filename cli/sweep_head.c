@@ -4,6 +4,7 @@
  * file or interruptions. So two files of the same sweep are equal, and different fingerprints mean different numbers.
  */
 #define _XOPEN_SOURCE 700
+#include "cli/command.h"
 #include "cli/complain.h"
 #include "cli/csv.h"
 #include "cli/sweep.h"
@@ -14,24 +15,16 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* FNV-1a, 64 bits: detects mistakes, not attacks. */
-static void mix(uint64_t *hash, const void *bytes, size_t count)
-{
-    const unsigned char *s = bytes;
-    for (size_t i = 0; i < count; i++) *hash = (*hash ^ s[i]) * 0x100000001B3;
-}
-
-static void mix_number(uint64_t *hash, double value) { mix(hash, &value, sizeof value); }
-static void mix_count(uint64_t *hash, uint64_t value) { mix(hash, &value, sizeof value); }
-static void mix_text(uint64_t *hash, const char *text) { mix(hash, text, strlen(text) + 1); }
+static void mix_number(uint64_t *hash, double value) { command_mix(hash, &value, sizeof value); }
+static void mix_count(uint64_t *hash, uint64_t value) { command_mix(hash, &value, sizeof value); }
 
 static void mix_axis(uint64_t *hash, const axis *a)
 {
-    mix_text(hash, a->name);
+    command_mix_text(hash, a->name);
     mix_count(hash, a->kind);
     mix_count(hash, a->count);
     if (a->kind == AXIS_LIST) {
-        mix(hash, a->list, a->count * sizeof *a->list);
+        command_mix(hash, a->list, a->count * sizeof *a->list);
         return;
     }
     mix_number(hash, a->range.from);
@@ -43,15 +36,15 @@ static const char *how_told(const sweep *s) { return s->options->error ? s->opti
 
 const char *sweep_head_fingerprint(const sweep *s, const char *version, char out[SWEEP_FINGERPRINT])
 {
-    uint64_t hash = 0xCBF29CE484222325;
+    uint64_t hash = COMMAND_HASH;
     const options *o = s->options;
-    mix_text(&hash, version);
-    mix_text(&hash, s->model.text);
-    for (size_t i = 0; i < o->set.count; i++) mix_text(&hash, o->set.items[i]);
-    for (size_t i = 0; i < o->when.count; i++) mix_text(&hash, o->when.items[i]);
-    if (o->section) mix_text(&hash, o->section);
+    command_mix_text(&hash, version);
+    command_mix_text(&hash, s->model.text);
+    for (size_t i = 0; i < o->set.count; i++) command_mix_text(&hash, o->set.items[i]);
+    for (size_t i = 0; i < o->when.count; i++) command_mix_text(&hash, o->when.items[i]);
+    if (o->section) command_mix_text(&hash, o->section);
     if (o->most_points) mix_count(&hash, (uint64_t)(o->skip + o->most_points));
-    mix_text(&hash, s->method);
+    command_mix_text(&hash, s->method);
     mix_number(&hash, s->step);
     if (!isnan(s->tolerance)) {
         mix_number(&hash, s->tolerance);
@@ -59,7 +52,7 @@ const char *sweep_head_fingerprint(const sweep *s, const char *version, char out
         mix_number(&hash, o->shortest_step);
         mix_number(&hash, o->longest_step);
         if (o->most_steps) mix_count(&hash, (uint64_t)o->most_steps);
-        if (sweep_switches(s)) mix_text(&hash, sweep_switches(s));
+        if (sweep_switches(s)) command_mix_text(&hash, sweep_switches(s));
     }
     mix_number(&hash, s->until);
     mix_count(&hash, (uint64_t)s->every);
@@ -71,33 +64,13 @@ const char *sweep_head_fingerprint(const sweep *s, const char *version, char out
     for (size_t k = 0; k < s->records.count; k++) {
         char name[SWEEP_NAME];
         sweep_record_name(&s->model, &s->records.items[k], name);
-        mix_text(&hash, name);
+        command_mix_text(&hash, name);
     }
-    if (s->records.ended) mix_text(&hash, "ended");
-    if (s->errors) mix_text(&hash, how_told(s));
+    if (s->records.ended) command_mix_text(&hash, "ended");
+    if (s->errors) command_mix_text(&hash, how_told(s));
     if (!isnan(s->accuracy)) mix_number(&hash, s->accuracy);
     snprintf(out, SWEEP_FINGERPRINT, "%016" PRIx64, hash);
     return out;
-}
-
-static motus_status option(file_out *f, const char *name, const char *value, motus_error *err)
-{
-    motus_status status = csv_word(f, name, err);
-    return status || !value ? status : csv_word(f, value, err);
-}
-
-static motus_status option_number(file_out *f, const char *name, double value, motus_error *err)
-{
-    char text[DECIMAL_MAX];
-    decimal(value, text);
-    return option(f, name, text, err);
-}
-
-static motus_status option_whole(file_out *f, const char *name, uint64_t value, motus_error *err)
-{
-    char text[DECIMAL_MAX];
-    decimal_write_whole(value, text);
-    return option(f, name, text, err);
 }
 
 /* How long the steps are. */
@@ -107,12 +80,12 @@ static motus_status steps(const sweep *s, file_out *f, motus_error *err)
     char text[DECIMAL_MAX + 16], number[DECIMAL_MAX];
     const bool found = !isnan(s->accuracy);
     const double bound = found ? s->accuracy : s->tolerance;
-    if (isnan(s->tolerance)) return option_number(f, "--step", s->step, err);
+    if (isnan(s->tolerance)) return command_number(f, "--step", s->step, err);
     snprintf(text, sizeof text, "%s%s", decimal(bound, number), s->absolute ? " absolute" : "");
-    motus_status status = option(f, found ? "--accuracy" : "--tolerance", text, err);
-    if (!status && o->shortest_step > 0) status = option_number(f, "--shortest-step", o->shortest_step, err);
-    if (!status && o->longest_step > 0) status = option_number(f, "--longest-step", o->longest_step, err);
-    if (!status && o->most_steps > 0) status = option_number(f, "--most-steps", (double)o->most_steps, err);
+    motus_status status = command_option(f, found ? "--accuracy" : "--tolerance", text, err);
+    if (!status && o->shortest_step > 0) status = command_number(f, "--shortest-step", o->shortest_step, err);
+    if (!status && o->longest_step > 0) status = command_number(f, "--longest-step", o->longest_step, err);
+    if (!status && o->most_steps > 0) status = command_number(f, "--most-steps", (double)o->most_steps, err);
     return status;
 }
 
@@ -123,31 +96,32 @@ static motus_status command(const sweep *s, file_out *f, motus_error *err)
     motus_status status = file_text(f, "motus sweep", err);
     if (!status) status = csv_word(f, o->operand, err);
     for (size_t k = 0; !status && k < s->grid.count; k++)
-        status = option(f, s->grid.axes[k].kind <= AXIS_LIST ? "--vary" : "--random", s->grid.axes[k].spec, err);
-    if (!status && s->grid.zip) status = option(f, "--zip", NULL, err);
+        status =
+            command_option(f, s->grid.axes[k].kind <= AXIS_LIST ? "--vary" : "--random", s->grid.axes[k].spec, err);
+    if (!status && s->grid.zip) status = command_option(f, "--zip", NULL, err);
     if (!status && o->random.count > 0) {
-        status = option_whole(f, "--count", s->grid.draws, err);
-        if (!status) status = option_whole(f, "--seed", s->grid.seed, err);
+        status = command_whole(f, "--count", s->grid.draws, err);
+        if (!status) status = command_whole(f, "--seed", s->grid.seed, err);
     }
-    for (size_t i = 0; !status && i < o->set.count; i++) status = option(f, "--set", o->set.items[i], err);
-    for (size_t i = 0; !status && i < o->when.count; i++) status = option(f, "--when", o->when.items[i], err);
-    if (!status && o->section) status = option(f, "--section", o->section, err);
-    if (!status && o->most_points) status = option_whole(f, "--points", (uint64_t)(o->skip + o->most_points), err);
-    if (!status) status = option(f, "--record", o->record ? o->record : "final", err);
-    if (!status && s->errors) status = option(f, "--errors", NULL, err);
-    if (!status && s->errors) status = option(f, "--error", how_told(s), err);
-    if (!status) status = option(f, "--method", s->method, err);
+    for (size_t i = 0; !status && i < o->set.count; i++) status = command_option(f, "--set", o->set.items[i], err);
+    for (size_t i = 0; !status && i < o->when.count; i++) status = command_option(f, "--when", o->when.items[i], err);
+    if (!status && o->section) status = command_option(f, "--section", o->section, err);
+    if (!status && o->most_points) status = command_whole(f, "--points", (uint64_t)(o->skip + o->most_points), err);
+    if (!status) status = command_option(f, "--record", o->record ? o->record : "final", err);
+    if (!status && s->errors) status = command_option(f, "--errors", NULL, err);
+    if (!status && s->errors) status = command_option(f, "--error", how_told(s), err);
+    if (!status) status = command_option(f, "--method", s->method, err);
     if (!status) status = steps(s, f, err);
-    if (!status && sweep_switches(s)) status = option(f, "--switches", sweep_switches(s), err);
-    if (!status && !isnan(s->until)) status = option_number(f, "--until", s->until, err);
+    if (!status && sweep_switches(s)) status = command_option(f, "--switches", sweep_switches(s), err);
+    if (!status && !isnan(s->until)) status = command_number(f, "--until", s->until, err);
     if (!status && s->every > 1) {
         char text[DECIMAL_MAX + 8];
         snprintf(text, sizeof text, "%" PRId64 " steps", s->every);
-        status = option(f, "--every", text, err);
+        status = command_option(f, "--every", text, err);
     }
-    if (!status && o->fast) status = option(f, "--fast", NULL, err);
+    if (!status && o->fast) status = command_option(f, "--fast", NULL, err);
     char part[SHARD_TEXT];
-    return status || shard_whole(&s->shard) ? status : option(f, "--shard", shard_text(&s->shard, part), err);
+    return status || shard_whole(&s->shard) ? status : command_option(f, "--shard", shard_text(&s->shard, part), err);
 }
 
 const char *sweep_head_name(const sweep *s, size_t k, char out[SWEEP_NAME])

@@ -30,6 +30,10 @@ typedef struct walker {
     const walk_observer *observer;
     progress *done; /* of each observer */
     size_t count;
+    walk_keeper keeper;
+    double kept, looked; /* seconds of the clock: when the run was kept, and when that was asked for */
+    int64_t kept_steps;  /* likewise its steps; */
+    int64_t piece;       /* how many steps are taken before the clock is looked at */
 } walker;
 
 int64_t walk_steps_of(double period, double step)
@@ -70,6 +74,7 @@ static motus_status jumps(walker *w, size_t i, double t, motus_error *err)
         /* what only kept numbers depend on is no jump of other columns */
         if (!moves && same(p->sides, p->sides + row, o->count)) continue;
         p->at = at;
+        if (w->keeper.keep) *w->keeper.time = at;
         status = o->jump(o->context, p->sides, p->sides + row, err);
     }
     return status;
@@ -84,6 +89,7 @@ static motus_status give_row(walker *w, size_t i, double t, const double *values
     motus_status status = jumps(w, i, t, err);
     const bool had =
         !status && p->at == t && (same(values, p->sides, o->count) || same(values, p->sides + row, o->count));
+    if (w->keeper.keep) *w->keeper.time = t;
     return status || had ? status : o->take(o->context, values, err);
 }
 
@@ -153,11 +159,39 @@ static motus_status sample(walker *w, size_t i, double limit, motus_error *err)
     }
 }
 
-/* The next step at which an observer is due; INT64_MAX: none before the end. */
+/* Whether every observer has had its state, so that nothing is lost by going on from here. */
+static bool settled(const walker *w)
+{
+    bool all = true;
+    for (size_t i = 0; i < w->count; i++) all = all && w->done[i].at != motus_run_time(w->run);
+    return all;
+}
+
+/* Pieces of steps between two looks at the clock take about a hundredth of the time between two states that are kept. */
+static motus_status keep(walker *w, motus_error *err)
+{
+    const walk_keeper *k = &w->keeper;
+    if (!k->keep || motus_run_done(w->run)) return MOTUS_OK;
+    const double now = stop_clock();
+    const int64_t steps = motus_run_steps(w->run);
+    if (k->steps == 0 && now - w->looked < 0.005 * k->seconds && w->piece < INT64_MAX / 4) w->piece *= 2;
+    if (k->steps == 0 && now - w->looked > 0.02 * k->seconds && w->piece > 1) w->piece /= 2;
+    w->looked = now;
+    const bool due = k->steps > 0 ? steps - w->kept_steps >= k->steps : now - w->kept >= k->seconds;
+    if (!due || !settled(w)) return MOTUS_OK;
+    *k->samples = w->done[0].samples;
+    const motus_status status = k->keep(k->context, err);
+    w->kept = stop_clock();
+    w->kept_steps = k->steps > 0 ? steps - steps % k->steps : steps;
+    return status;
+}
+
+/* The next step at which an observer is due, or the clock is to be looked at; INT64_MAX: none before the end. */
 static int64_t next_stop(const walker *w)
 {
     int64_t next = INT64_MAX;
     const int64_t now = motus_run_steps(w->run);
+    if (w->keeper.keep) next = w->keeper.steps > 0 ? now + w->keeper.steps - now % w->keeper.steps : now + w->piece;
     for (size_t i = 0; i < w->count; i++) {
         const walk_observer *o = &w->observer[i];
         const int64_t stop = o->stride > 0 ? now + (o->stride - now % o->stride) : INT64_MAX;
@@ -172,6 +206,18 @@ static motus_status observe_due(walker *w, motus_error *err)
     for (size_t i = 0; !status && i < w->count; i++) {
         const walk_observer *o = &w->observer[i];
         const bool due = motus_run_done(w->run) || (o->stride > 0 && motus_run_steps(w->run) % o->stride == 0);
+        if (due) status = observe(w, i, err);
+    }
+    return status;
+}
+
+/* A run that was kept at its end: observers to whom the end alone was due have not had it. */
+static motus_status observe_end(walker *w, motus_error *err)
+{
+    motus_status status = MOTUS_OK;
+    for (size_t i = 0; !status && motus_run_done(w->run) && i < w->count; i++) {
+        const walk_observer *o = &w->observer[i];
+        const bool due = i > 0 || o->stride <= 0 || motus_run_steps(w->run) % o->stride != 0;
         if (due) status = observe(w, i, err);
     }
     return status;
@@ -203,9 +249,20 @@ static void forget_jumps(walker *w)
     for (size_t i = 0; i < w->count; i++) w->done[i].jumps = 0;
 }
 
+/* A run that a signal stops is kept where it stands, if that loses nothing. */
+static void keep_stopped(walker *w)
+{
+    motus_error ignored = motus_default_error();
+    bool had = settled(w);
+    for (size_t i = 0; i < w->count; i++)
+        had = had && (!w->observer[i].jump || w->done[i].jumps == motus_run_jumps(w->run));
+    *w->keeper.samples = w->done[0].samples;
+    if (had) (void)w->keeper.keep(w->keeper.context, &ignored);
+}
+
 static motus_status go(walker *w, motus_error *err)
 {
-    motus_status status = observe_due(w, err);
+    motus_status status = w->keeper.goes_on ? observe_end(w, err) : observe_due(w, err);
     bool periods = false;
     for (size_t i = 0; i < w->count; i++) periods |= w->observer[i].period > 0;
     while (!status && !motus_run_done(w->run)) {
@@ -220,8 +277,11 @@ static motus_status go(walker *w, motus_error *err)
         if (!status && isnan(limit)) status = sample_all(w, motus_run_time(w->run), err);
         if (!status) status = observe_due(w, err);
         forget_jumps(w);
+        if (!status) status = keep(w, err);
         if (!status && stop_requested()) status = fail(err, MOTUS_CANCELLED, "cancelled");
     }
+    if (status == MOTUS_CANCELLED && w->keeper.keep) keep_stopped(w);
+    if (!status && w->keeper.keep) *w->keeper.samples = w->done[0].samples;
     return status;
 }
 
@@ -238,14 +298,16 @@ static motus_status prepare(walker *w, motus_error *err)
         if (o->jump && !w->done[i].sides) status = complain_memory(err);
         for (size_t k = 0; !status && o->jump && k < room; k++) w->done[i].sides[k] = NAN;
         /* a restarted run continues the grid of times from where it is */
-        if (o->period > 0 && !first)
+        if (w->keeper.goes_on && i == 0)
+            w->done[i].samples = o->had;
+        else if (o->period > 0 && !first)
             w->done[i].samples = (int64_t)ceil(fabs(motus_run_time(w->run) - w->start) / o->period * (1 - 1e-12));
     }
     return status;
 }
 
 motus_status walk(motus_run *run, double start, double until, const walk_observer *observers, size_t count,
-                  motus_error *err)
+                  const walk_keeper *keeper, motus_error *err)
 {
     double size = motus_run_step_size(run);
     const bool adapts = isnan(size);
@@ -256,7 +318,12 @@ motus_status walk(motus_run *run, double start, double until, const walk_observe
                 .step = until < start ? -size : size,
                 .adapts = adapts,
                 .observer = observers,
-                .count = count};
+                .count = count,
+                .kept = stop_clock(),
+                .looked = stop_clock(),
+                .kept_steps = motus_run_steps(run),
+                .piece = 1};
+    if (keeper) w.keeper = *keeper;
     size_t widest = 1;
     for (size_t i = 0; i < count; i++) {
         size_t rows = observers[i].errors ? 2 : observers[i].period > 0 ? CHUNK : 1;

@@ -21,10 +21,25 @@ typedef struct walk_observer {
     motus_status (*take)(void *context, const double *values, motus_error *);
     motus_status (*jump)(void *context, const double *before, const double *after, motus_error *);
     void *context;
+    int64_t had; /* of `period`, where the walk goes on: how many samples it has had */
 } walk_observer;
 
-/* start: the time of step 0, until: the end. Steps in as few calls as the observers allow. */
-motus_status walk(motus_run *, double start, double until, const walk_observer *, size_t count, motus_error *);
+/* Who keeps the run as it is between two steps, when every observer has had what was due: every `steps` steps, or else
+ * every `seconds`; both 0: never. */
+typedef struct walk_keeper {
+    int64_t steps;
+    double seconds;
+    motus_status (*keep)(void *context, motus_error *);
+    void *context;
+    int64_t *samples; /* where the walk leaves how many of a period the first observer has had; also at the end */
+    double *time;     /* where it leaves the time of what an observer is given */
+    bool
+        goes_on; /* the run was kept there: what is due at its first state, but not at the end, the observers have had */
+} walk_keeper;
+
+/* start: the time of step 0, until: the end. Steps in as few calls as the observers allow. keeper: NULL, there is none. */
+motus_status walk(motus_run *, double start, double until, const walk_observer *, size_t count, const walk_keeper *,
+                  motus_error *);
 
 /* The number of steps in a period if it is an integer; else, and if steps adapt, 0. */
 int64_t walk_steps_of(double period, double step);

@@ -53,7 +53,8 @@ typedef struct motus_archive_link {
     size_t column;
 } motus_archive_link;
 
-/* An attribute of a group, which is made where it is not there: a text, or else `count` numbers. */
+/* An attribute of a group, which is made where it is not there: `count` times the same text, or else `count` numbers; of a
+ * count below 2 a scalar. */
 typedef struct motus_archive_attribute {
     const char *group, *name, *text;
     const int *numbers;
@@ -77,7 +78,7 @@ typedef struct motus_archive_def {
     size_t link_count;
     const motus_archive_attribute *attributes;
     size_t attribute_count;
-    size_t slot; /* bytes of each of the two slots for states, motus_archive_save; 0: there are none */
+    size_t slot; /* bytes that a state may have, motus_archive_save; 0: there are no slots for states */
     int (*stop)(void *context); /* asked while the file is made; NULL, or not 0 ends that with MOTUS_CANCELLED */
 } motus_archive_def;
 

@@ -45,7 +45,7 @@ static char *make_bytes(size_t *size)
     places[0] = all, all += ROWS * sizeof(int64_t);
     places[1] = all, all += BLOCKS * sizeof(uint64_t);
     for (int k = 0; k < COLUMNS; k++) places[2 + k] = all, all += ROWS * bytes_of_row(k);
-    places[2 + COLUMNS] = all, all += (size_t)2 * SLOT;
+    places[2 + COLUMNS] = all, all += (size_t)2 * (SLOT + DIRECTORY_SLOT);
     text = directory_write(&d, places, size);
     assert_non_null(text);
     char *bytes = calloc(1, all);
@@ -335,7 +335,7 @@ static void states(void **state)
             snprintf(text + 50 * k, sizeof text - 50 * (size_t)k, "%d", k);
             assert_int_equal(motus_archive_save(a, text, strlen(text), NULL), MOTUS_OK);
             saved_is(a, 0, text);
-            const long at = slots + k % 2 * SLOT + (k % 3 == 0 ? 8 : k % 3 == 1 ? 20 : 40);
+            const long at = slots + k % 2 * (SLOT + DIRECTORY_SLOT) + (k % 3 == 0 ? 8 : k % 3 == 1 ? 20 : 40);
             change(f->path, at);
             assert_int_equal(motus_archive_saved(a, 0, &bytes, &length, NULL), MOTUS_OK);
             if (k == 1) assert_null(bytes);

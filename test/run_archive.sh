@@ -1,0 +1,195 @@
+#!/bin/bash
+# Archives of runs: what other programs read in them, states, kills and what --resume makes of them, runs that go on.
+#
+# Each case is one line `ok` or `not ok`; the last line counts them. MOTUS is the program (build/motus).
+cd "$(dirname "$0")/.." || exit 1
+. test/cli/cases.sh
+root=$PWD
+cd "$place" || exit 1
+if ! $python -c 'import h5py' 2>/dev/null; then
+    echo "not run, since h5py is not installed: archives of runs"
+    echo "$passed passed, $failed failed"
+    exit 0
+fi
+cat >drive.motus <<'M'
+k = 1
+x'' = -k sin(x) - 0.1 x' + 0.2 cos(2 t)
+x(0) = 1
+x'(0) = 0
+energy = x'^2/2 - k cos(x)
+method rk4
+step 1/32
+until 400
+M
+if ! "$motus" run drive.motus -o run.h5 -q 2>"$err" && says "without HDF5" "$err"; then
+    that "without HDF5 nothing is left" absent run.h5
+    echo "$passed passed, $failed failed"
+    exit $((failed > 0))
+fi
+run() { "$motus" run drive.motus --error none --quiet "$@"; }
+
+# --- what is in it --------------------------------------------------------------------------------------------------------------------
+gives "a run into an archive" 0 "$motus" run drive.motus -o run.h5 --force
+"$motus" run drive.motus -o run.csv -q
+gives "h5py reads the numbers of the CSV" 0 $python - <<'P'
+import csv, h5py
+rows = list(csv.reader(line for line in open('run.csv') if not line.startswith('#')))
+with h5py.File('run.h5') as f:
+    assert list(f['run']) == ['row'] + rows[0], list(f['run'])
+    for k, name in enumerate(rows[0]):
+        assert [float(row[k]) for row in rows[1:]] == list(f['run'][name][()]), name
+        assert f['run'][name].dims[0][0] == f['run/row']
+    assert (f['blocks/done'][()] != 0).all() and f['model'][()].decode() == open('drive.motus').read()
+    assert list(f['h5md'].attrs['version']) == [1, 1] and f['h5md/creator'].attrs['name'] == b'motus'
+    assert f['observables/energy/value'] == f['run/energy'] and f['observables/energy/time'] == f['run/t']
+P
+gives "xarray reads it" 0 $python -c "
+import xarray
+d = xarray.open_dataset('run.h5', group='run', engine='netcdf4')
+assert d.sizes['row'] == 12801 and float(d.t[-1]) == 400 and abs(float(d.x[-1])) < 4, d"
+gives "the errors as columns" 0 "$motus" run drive.motus --errors -o errors.h5 -q --until 20
+"$motus" run drive.motus --errors -o errors.csv -q --until 20
+gives "... are those of the CSV" 0 $python - <<'P'
+import csv, h5py
+rows = list(csv.reader(line for line in open('errors.csv') if not line.startswith('#')))
+with h5py.File('errors.h5') as f:
+    assert list(f['run']) == ['row'] + rows[0], list(f['run'])
+    for k, name in enumerate(rows[0]): assert [float(row[k]) for row in rows[1:]] == list(f['run'][name][()]), name
+P
+cat >many.motus <<'M'
+r[i]'' = -r[i] (1 + i/10) + (0.1, 0, 0.2)   for i = 1..5
+r[i](0) = (i, 0, -i)    for i = 1..5
+r[i]'(0) = (0, 1, i/2)  for i = 1..5
+u[i]'' = -u[i]  for i = 1..4
+u[i](0) = i     for i = 1..4
+u[i]'(0) = 0    for i = 1..4
+size = sum(i = 1..5: |r[i]|)
+method verlet
+step 1/64
+until 10
+M
+gives "families" 0 "$motus" run many.motus -o many.h5 -q
+"$motus" run many.motus -o many.csv -q
+gives "... are columns of many numbers, and particles of H5MD 1.1" 0 $python - <<'P'
+import csv, h5py
+rows = list(csv.reader(line for line in open('many.csv') if not line.startswith('#')))
+at = {name: k for k, name in enumerate(rows[0])}
+with h5py.File('many.h5') as f:
+    r, v, u = f['run/r'], f["run/r'"], f['run/u']
+    assert r.shape == (641, 5, 3) and v.shape == (641, 5, 3) and u.shape == (641, 4), (r.shape, u.shape)
+    for i in range(5):
+        for c in range(3):
+            for sort, of in (("r[%d].%s", r), ("r[%d]'.%s", v)):
+                k = at[sort % (i + 1, 'xyz'[c])]
+                assert [float(row[k]) for row in rows[1:]] == list(of[:, i, c])
+    for i in range(4): assert [float(row[at['u[%d]' % (i + 1)]]) for row in rows[1:]] == list(u[:, i])
+    p = f['particles/r']
+    assert p['position/value'] == r and p['velocity/value'] == v and p['position/time'] == f['run/t']
+    assert p['position/step'].dtype.kind == 'i' and p['box'].attrs['dimension'] == 3
+    assert list(p['box'].attrs['boundary']) == [b'none'] * 3 and 'u' not in f['particles']
+    assert f['observables/size/value'].shape == (641,)
+P
+
+# --- the same bytes -------------------------------------------------------------------------------------------------------------------
+run -o a.h5
+sleep 1.1
+run -o b.h5 --threads 2 --machine interpreter
+that "the bytes do not depend on the day, threads and machine" cmp a.h5 b.h5
+run -o b.h5 --force --checkpoint "7 steps"
+that "nor on states on the way" cmp a.h5 b.h5
+run -o b.h5 --force --checkpoint "0.001s"
+that "nor on their times" cmp a.h5 b.h5
+run -o b.h5 --resume
+that "--resume of a complete one changes nothing" cmp a.h5 b.h5
+for every in "1/32" 0.5 0.3 "7 steps" "100 steps" 0.011 1000; do
+    [ "$every" = 1/32 ] && rows=() || rows=(--every "$every")
+    run "${rows[@]}" -o a.h5 --force
+    for until in 200 177.77 0.01 399.99; do
+        run "${rows[@]}" -o b.h5 --force --until $until
+        gives "a row every $every, to $until, then to 400" 0 "$motus" run b.h5 --until 400 -q
+        that "... the bytes of one run" cmp a.h5 b.h5
+    done
+done
+run -o half.h5 --until 200
+cp half.h5 kept.h5
+run -o a.h5 --force
+gives "a run goes on in another file" 0 "$motus" run half.h5 --until 400 -o b.h5 --force -q
+that "... the bytes of one run" cmp a.h5 b.h5
+that "... and the first stays as it is" cmp half.h5 kept.h5
+gives "errors go on too" 0 eval '"$motus" run drive.motus -o e.h5 --until 200 -q && "$motus" run e.h5 --until 400 --json'
+that "... from the very start" holds '.error.x > 0 and .error.x < 1e-7 and .time == 400'
+
+# --- death ----------------------------------------------------------------------------------------------------------------------------
+cat >ball.motus <<'M'
+x'' = -sin(3 x)
+y'' = -1
+x(0) = 1
+x'(0) = 0
+y(0) = 1
+y'(0) = 0
+when y = 0 falling as bounce: y' = -y'
+until 3000
+M
+# name, words: the run is killed at random times until it is complete; the bytes are those of a run that was not
+survives() {
+    local name=$1 kills=0 status=1 whole broken=0
+    shift
+    rm -f dead.h5
+    "$motus" run "$@" --error none -q -o one.h5 --force
+    whole=$(sum one.h5)
+    for _ in $(seq 60); do
+        "$motus" run "$@" --error none -q -o dead.h5 --resume 2>"$err" &
+        sleep "0.0$((RANDOM % 90 + 10))"
+        kill -9 $! 2>/dev/null && kills=$((kills + 1))
+        wait $! 2>/dev/null
+        status=$?
+        if [ -s dead.h5 ]; then $python -c "import h5py; h5py.File('dead.h5')['blocks/done'][()]" 2>>"$err" || broken=$((broken + 1)); fi
+        [ $status = 0 ] && break
+    done
+    that "$name: killed again and again, the file opens each time" [ $broken = 0 ]
+    that "... it was killed" [ $kills -ge 1 ]
+    gives "... --resume ends it" 0 "$motus" run "$@" --error none -q -o dead.h5 --resume
+    that "... with the same bytes" [ "$(sum dead.h5)" = "$whole" ]
+    that "... and nothing beside it" eval "[ -z \"\$(ls | grep -E 'grown|new$')\" ] || rm -f dead.h5.grown* dead.h5.new"
+}
+survives "fixed steps" drive.motus --until 40000 --checkpoint "5000 steps" --machine interpreter
+survives "rows in time" drive.motus --until 20000 --every 0.3 --checkpoint "1000 steps" --machine interpreter
+survives "adaptive steps" drive.motus --method dop853 --tolerance 1e-9 --until 20000 --checkpoint "3000 steps" --machine interpreter
+survives "adaptive steps, rows in time" drive.motus --method dopri5 --tolerance 1e-9 --until 9000 --every 0.1 --checkpoint "1000 steps" --machine interpreter
+survives "events" ball.motus --method verlet --step 1/64 --checkpoint "3000 steps" --machine interpreter
+survives "events and adaptive steps" ball.motus --method dop853 --tolerance 1e-9 --checkpoint "1000 steps" --machine interpreter
+survives "a family" many.motus --until 1500 --checkpoint "2000 steps" --machine interpreter
+for signal in TERM INT; do
+    rm -f stopped.h5
+    (trap - INT; exec "$motus" run drive.motus --error none --until 1e7 --every "1000 steps" --machine interpreter -o stopped.h5) >"$out" 2>"$err" &
+    sleep 0.5
+    kill -$signal $!
+    wait $! 2>/dev/null
+    that "SIG$signal leaves a state" eval "says 'goes on' '$err'"
+    gives "... motus archive tells of it" 0 "$motus" archive stopped.h5
+done
+
+# --- what is refused ------------------------------------------------------------------------------------------------------------------
+refuses "an archive that is there" 2 "exists" run -o a.h5
+refuses "--resume of another run" 2 "was made by another run" "$motus" run drive.motus --error none --set k=2 -q -o a.h5 --resume
+that "... which stays as it is" cmp a.h5 b.h5
+refuses "--resume of a table" 2 "for a run into an archive" run -o run.csv --resume
+refuses "--checkpoint of a table" 2 "for a run into an archive" run -o run.csv --checkpoint 10min
+for when in 10 0min x "1.5 steps" "-1s" "10 days"; do refuses "--checkpoint $when" 2 "a time with its unit" run -o x.h5 "--checkpoint=$when"; done
+refuses "another force for an archive" 2 "a.h5 decides it" "$motus" run a.h5 --set k=2 --until 500
+refuses "another method" 2 "a.h5 decides it" "$motus" run a.h5 --method verlet --until 500
+refuses "an end before the state" 2 "" "$motus" run a.h5 --until 100
+that "... leaves it as it is" cmp a.h5 b.h5
+"$motus" sweep drive.motus --vary "x(0)=1,2" --until 1 -o sweep.h5 -q
+refuses "a sweep's archive does not run on" 2 "is not the archive of a run" "$motus" run sweep.h5 --until 500
+refuses "nor is it resumed by a run" 2 "was made by another run" run -o sweep.h5 --resume
+refuses "a run's archive is no sweep's" 2 "" "$motus" sweep drive.motus --vary "x(0)=1,2" --until 1 -o a.h5 --resume
+head -c 100000 a.h5 >cut.h5
+refuses "half an archive" 2 "is damaged" "$motus" run cut.h5 --until 500
+refuses "a file that is not there" 1 "cannot open" "$motus" run none.h5 --until 500
+refuses "a device" 2 "not a regular file" bash -c "ln -s /dev/null null.h5 && '$motus' run drive.motus -o null.h5"
+gives "a run that fails leaves no archive" 1 "$motus" run drive.motus --set k=-1e308 -o fails.h5 -q
+that "... none at all" absent fails.h5
+
+echo "$passed passed, $failed failed"
+[ $failed = 0 ]
