@@ -1,9 +1,10 @@
-/* motus archive: what an archive has; its rows as CSV, or its model.
+/* motus archive: what an archive has; its rows as CSV, its model, or its state.
  *
  * Invariant: the CSV is, byte for byte, what the sweep would have written into a file whose name ends in .csv.
  */
 #include "base/decimal.h"
 #include "base/error.h"
+#include "cli/archive_run.h"
 #include "cli/archive_verify.h"
 #include "cli/block_room.h"
 #include "cli/complain.h"
@@ -25,6 +26,7 @@ typedef struct contents {
     uint64_t blocks, missing, first_missing;
     uint64_t *whole; /* the others */
     size_t columns;
+    bool run; /* it is that of a run, not of a sweep */
     archive_verified verified;
 } contents;
 
@@ -167,21 +169,36 @@ static motus_status incomplete(const contents *c, motus_error *err)
     return MOTUS_STATE;
 }
 
-static motus_status extract(const contents *c, stop_progress *progress, motus_error *err)
+typedef enum wanted { ROWS, MODEL, STATE, NOTHING } wanted;
+
+/* What the file is to have, by its name. */
+static wanted by_name(const contents *c)
 {
     const char *name = c->options->output, *end = strrchr(name, '.');
-    const bool model = end && strcmp(end, ".motus") == 0,
-               rows = strcmp(name, "-") == 0 || (end && !strcmp(end, ".csv"));
-    if (!model && !rows) {
-        fail(err, MOTUS_ARGUMENT, "-o %s: an archive gives its rows or its model", name);
-        hint(err, "-o rows.csv, or -o model.motus");
+    if (strcmp(name, "-") == 0 || (end && strcmp(end, ".csv") == 0)) return ROWS;
+    if (end && strcmp(end, ".motus") == 0) return MODEL;
+    return c->run && end && strcmp(end, ".state") == 0 ? STATE : NOTHING;
+}
+
+static motus_status extract(const contents *c, stop_progress *progress, motus_error *err)
+{
+    const char *name = c->options->output;
+    const wanted what = by_name(c);
+    if (what == NOTHING) {
+        fail(err, MOTUS_ARGUMENT, "-o %s: an archive gives its rows or its model%s", name,
+             c->run ? ", that of a run its state" : "");
+        hint(err, "-o rows.csv, or -o model.motus%s", c->run ? ", or -o end.state" : "");
         return MOTUS_ARGUMENT;
     }
     file_out out = {0};
-    motus_status status = model ? MOTUS_OK : check_sweep(c, err);
-    if (!status && rows && c->missing) status = incomplete(c, err);
+    motus_status status = what == ROWS && !c->run ? check_sweep(c, err) : MOTUS_OK;
+    if (!status && what == ROWS && c->missing) status = incomplete(c, err);
     if (!status) status = file_create(&out, name, err);
-    if (!status) status = model ? file_text(&out, said(c, "model"), err) : write_csv(c, &out, progress, err);
+    if (!status)
+        status = what == MODEL   ? file_text(&out, said(c, "model"), err)
+                 : what == STATE ? archive_run_state(c->file, c->options, &out, err)
+                 : c->run        ? archive_run_csv(c->file, c->options, &out, progress, err)
+                                 : write_csv(c, &out, progress, err);
     if (!status) status = file_finish(&out, err);
     if (!status) status = file_keep(&out, err);
     file_drop(&out);
@@ -225,14 +242,17 @@ static void report(const contents *c)
     line("command", said(c, "command"));
     line("method", said(c, "method"));
     if (share) line("shard", share);
-    printf("  %-13s%" PRIu64 ", in %" PRIu64 " block%s: ", "trajectories", motus_archive_rows(c->file), c->blocks,
-           c->blocks == 1 ? "" : "s");
+    printf("  %-13s%" PRIu64 ", in %" PRIu64 " block%s: ", c->run ? "rows" : "trajectories",
+           motus_archive_rows(c->file), c->blocks, c->blocks == 1 ? "" : "s");
     if (c->missing)
         printf("%" PRIu64 " missing or damaged, the first of them number %" PRIu64 "\n", c->missing,
                c->first_missing + 1);
     else
         puts("all there, with the hashes that were written");
-    if (c->options->verify)
+    if (c->options->verify && c->run)
+        printf("  %-13sthe first %" PRIu64 " rows, computed again, have the same bytes\n", "verified",
+               c->verified.computed);
+    else if (c->options->verify)
         printf("  %-13s%" PRIu64 " of these blocks, computed again, %s the same bytes\n", "verified",
                c->verified.computed, c->verified.computed == 1 ? "has" : "have");
     printf("  %-13s", "columns");
@@ -242,7 +262,10 @@ static void report(const contents *c)
         text_put(stdout, column.name);
     }
     putchar('\n');
-    if (c->missing) puts("\nthe command with -o and --resume computes what is missing");
+    if (c->missing && c->run)
+        puts("\nmotus run goes on with this file");
+    else if (c->missing)
+        puts("\nthe command with -o and --resume computes what is missing");
 }
 
 static motus_status check(const options *o, motus_error *err)
@@ -270,10 +293,13 @@ motus_status archive_verb(const options *o, motus_error *err)
         stop_catch_signals();
         c.blocks = motus_archive_blocks(c.file);
         c.columns = motus_archive_column_count(c.file);
+        c.run = archive_run_is(c.file);
         status = find_blocks(&c, &progress, err);
-        if (!status && o->verify)
+        if (!status && o->verify && c.run)
+            status = archive_verify_run(c.file, o, c.first_missing, c.missing > 0, &c.verified, err);
+        else if (!status && o->verify)
             status = archive_verify(c.file, o, c.whole, c.blocks - c.missing, &c.verified, &progress, err);
-        if (!status && c.verified.differ > 0) status = archive_verify_failed(&c.verified, o, err);
+        if (!status && c.verified.differ > 0) status = archive_verify_failed(&c.verified, o, c.run, err);
         if (!status && o->output) status = extract(&c, &progress, err);
         stop_progress_end(&progress);
     }

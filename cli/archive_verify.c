@@ -2,6 +2,8 @@
 #include "cli/archive_verify.h"
 
 #include "base/error.h"
+#include "cli/run_again.h"
+#include "cli/run_command.h"
 #include "cli/typed.h"
 
 #include <math.h>
@@ -58,10 +60,33 @@ motus_status archive_verify(motus_archive *a, const options *o, const uint64_t *
     return status;
 }
 
-motus_status archive_verify_failed(const archive_verified *v, const options *o, motus_error *err)
+motus_status archive_verify_run(motus_archive *a, const options *o, uint64_t first_missing, bool missing,
+                                archive_verified *v, motus_error *err)
 {
-    fail(err, MOTUS_FILE, "%s: %" PRIu64 " of %" PRIu64 " blocks are not what is computed; %s", o->operand, v->differ,
-         v->computed, v->where);
-    hint(err, "its sweep's command with --force makes it anew");
+    double part;
+    uint64_t rows = motus_archive_rows(a);
+    size_t count;
+    run_command command;
+    bool same = true;
+    *v = (archive_verified){0};
+    motus_status status = archive_verify_part(o->verify, &part, err);
+    if (status) return status;
+    if (missing) motus_archive_block(a, first_missing, &rows, &count);
+    v->computed = (uint64_t)fmin(ceil(part * (double)rows), (double)rows);
+    status = run_command_of(&command, a, o, err);
+    if (!status && v->computed > 0) status = run_again_rows(&command.options, a, v->computed, &same, v->where, err);
+    v->differ = !same;
+    run_command_free(&command);
+    return status;
+}
+
+motus_status archive_verify_failed(const archive_verified *v, const options *o, bool run, motus_error *err)
+{
+    if (run)
+        fail(err, MOTUS_FILE, "%s is not what is computed; %s", o->operand, v->where);
+    else
+        fail(err, MOTUS_FILE, "%s: %" PRIu64 " of %" PRIu64 " blocks are not what is computed; %s", o->operand,
+             v->differ, v->computed, v->where);
+    hint(err, "its command with --force makes it anew");
     return MOTUS_FILE;
 }

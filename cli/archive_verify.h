@@ -6,7 +6,7 @@
 #include "cli/sweep.h"
 
 typedef struct archive_verified {
-    uint64_t computed, differ; /* blocks */
+    uint64_t computed, differ; /* blocks; of a run rows, and whether one differs */
     char where[SWEEP_WHERE];   /* the first difference */
 } archive_verified;
 
@@ -16,7 +16,11 @@ motus_status archive_verify_part(const char *text, double *part, motus_error *);
  * how. */
 motus_status archive_verify(motus_archive *, const options *, const uint64_t *blocks, uint64_t count,
                             archive_verified *, stop_progress *, motus_error *);
-/* What to tell of blocks that differ. */
-motus_status archive_verify_failed(const archive_verified *, const options *, motus_error *);
+/* Of a run: its first rows, since there is no other way to a row than from the start; where blocks are missing
+ * (`missing`), those before the first of them. */
+motus_status archive_verify_run(motus_archive *, const options *, uint64_t first_missing, bool missing,
+                                archive_verified *, motus_error *);
+/* What to tell of blocks, or rows, that differ. */
+motus_status archive_verify_failed(const archive_verified *, const options *, bool run, motus_error *);
 
 #endif

@@ -119,12 +119,12 @@ motus_status csv_numbers(file_out *f, const double *values, size_t count, motus_
     return status;
 }
 
-motus_status csv_begin(csv *c, file_out *file, const options *o, const motus_run *run, motus_error *err)
+motus_status csv_names(csv *c, file_out *file, motus_error *err)
 {
+    motus_status status = MOTUS_OK;
     c->file = file;
     c->line = c->count < SIZE_MAX / DECIMAL_MAX / 2 - 2 ? malloc((2 * c->count + 2) * DECIMAL_MAX) : NULL;
     if (!c->line) return complain_memory(err);
-    motus_status status = csv_comment(file, o, run, err);
     for (size_t k = 0; !status && k < (c->errors ? 2 : 1) * c->count; k++) {
         motus_column column = motus_default_column();
         const bool error = k >= c->count;
@@ -138,6 +138,12 @@ motus_status csv_begin(csv *c, file_out *file, const options *o, const motus_run
         if (!status) status = csv_name(c->file, name, err);
     }
     return status ? status : file_text(c->file, c->errors ? ",significant\n" : "\n", err);
+}
+
+motus_status csv_begin(csv *c, file_out *file, const options *o, const motus_run *run, motus_error *err)
+{
+    const motus_status status = csv_comment(file, o, run, err);
+    return status ? status : csv_names(c, file, err);
 }
 
 motus_status csv_row(void *context, const double *values, motus_error *err)

@@ -18,6 +18,8 @@ typedef struct csv {
 /* Chooses the columns (the options', or all). */
 motus_status csv_plan(csv *, const load *, const options *, motus_error *);
 motus_status csv_begin(csv *, file_out *, const options *, const motus_run *, motus_error *);
+/* The line of the names, for csv_row(). */
+motus_status csv_names(csv *, file_out *, motus_error *);
 /* Writes one row; context is a csv. The take of a walk_observer. */
 motus_status csv_row(void *context, const double *values, motus_error *);
 /* Writes both sides of a jump; the jump of a walk_observer. */

@@ -13,8 +13,8 @@
 #include "cli/load.h"
 #include "cli/run_archive.h"
 #include "cli/run_command.h"
+#include "cli/run_make.h"
 #include "cli/section.h"
-#include "cli/settle.h"
 #include "cli/share.h"
 #include "cli/stop.h"
 #include "cli/summary.h"
@@ -123,36 +123,14 @@ static motus_bars bars_wanted(const options *o)
     return o->error && strcmp(o->error, "full") == 0 ? MOTUS_BARS_FULL : MOTUS_BARS_CHEAP;
 }
 
-/* Which of step and end must be known: a step where a method is named whose steps have one size, and no accuracy. */
-static int settled(const load *m, const options *o)
+static void plan_rows(job *j)
 {
-    motus_settings set = motus_default_settings();
-    motus_settings_of(m->system, &set);
-    const bool own = !o->method && isnan(o->accuracy); /* what the model says of its method counts */
-    const char *const name = o->method ? o->method : own ? set.method : NULL;
-    const motus_method *card = NULL;
-    if (!isnan(settle_accuracy(m, o)) || !name || motus_method_find(name, &card, NULL) != MOTUS_OK) return SETTLE_UNTIL;
-    return card->adaptive ? SETTLE_UNTIL : SETTLE_STEP | SETTLE_UNTIL;
-}
-
-/* The rows: as the options say, else the model, else every step. */
-static walk_observer rows_observer(job *j)
-{
-    const options *o = j->options;
-    motus_settings settings = motus_default_settings();
-    motus_settings_of(j->model.system, &settings);
-    walk_observer w = {.columns = j->csv.columns,
-                       .count = j->csv.count,
-                       .errors = o->errors,
-                       .take = csv_row,
-                       .jump = csv_jump,
-                       .context = &j->csv};
-    bool ours = o->every_time > 0 || o->every_steps > 0;
-    double period = ours ? o->every_time : settings.every_time > 0 ? settings.every_time : 0;
-    int64_t steps = ours ? o->every_steps : settings.every_steps;
-    w.stride = steps > 0 ? steps : period > 0 ? walk_steps_of_run(j->run, period) : 1;
-    w.period = w.stride > 0 ? 0 : period;
-    return w;
+    j->rows = run_make_rows(j->options, &j->model, j->run);
+    j->rows.columns = j->csv.columns;
+    j->rows.count = j->csv.count;
+    j->rows.take = csv_row;
+    j->rows.jump = csv_jump;
+    j->rows.context = &j->csv;
 }
 
 static motus_status open_archive(job *j, motus_error *err)
@@ -173,34 +151,14 @@ static motus_status begin(job *j, motus_error *err)
     const options *o = j->options;
     motus_status status = check_names(o, err);
     if (!status) status = load_model(&j->model, o, err);
-    if (!status) status = settle_timing(&j->model, o, settled(&j->model, o), o->method, err);
     if (!status && o->output) status = csv_plan(&j->csv, &j->model, o, err);
     if (!status && o->section && o->plot) status = section_plane(&j->model, o, j->plane, err);
     if (status) return status;
-    j->def = motus_default_run();
-    j->def.method = o->method;
-    j->def.step = j->model.step;
-    j->def.tolerance = j->options->tolerance;
-    j->def.accuracy = j->options->accuracy;
-    j->def.absolute = j->options->absolute;
-    j->def.shortest_step = j->options->shortest_step;
-    j->def.longest_step = j->options->longest_step;
-    j->def.most_steps = j->options->most_steps;
-    j->def.until = j->model.until;
-    j->def.machine = o->machine;
-    j->def.threads = (int)o->threads;
-    j->def.progress = stop_progress_hook;
-    j->def.context = &j->progress;
-    j->def.switches = options_switches(o);
-    j->def.error = bars_wanted(o);
     j->began = stop_clock();
-    status = motus_run_create(j->model.system, &j->def, &j->run, err);
+    status = run_make(o, &j->model, &j->progress, bars_wanted(o), &j->def, &j->run, err);
     if (status) return status;
     motus_statistics made = motus_default_statistics();
     if (motus_run_statistics(j->run, &made) == MOTUS_OK && isnan(made.accuracy)) j->began = NAN;
-    if (motus_run_note(j->run)[0] && !o->quiet) complain_note("the interpreter runs this: %s", motus_run_note(j->run));
-    if (motus_run_not_located(j->run)[0] && !o->quiet) complain_note("%s", motus_run_not_located(j->run));
-    if (motus_run_cut(j->run)[0] && !o->quiet) complain_note("%s", motus_run_cut(j->run));
     j->start = motus_run_time(j->run);
     j->until = load_until(&j->model);
     status = deviation_begin(&j->deviation, &j->model, j->run, err);
@@ -211,7 +169,7 @@ static motus_status begin(job *j, motus_error *err)
     const char *const names[FILES] = {is_archive(o) ? NULL : o->output, o->plot, o->save_state, o->events};
     for (int i = 0; !status && i < FILES; i++)
         if (names[i]) status = file_create(&j->files[i], names[i], err);
-    if (!status && o->output) j->rows = rows_observer(j);
+    if (!status && o->output) plan_rows(j);
     if (!status && is_archive(o)) return open_archive(j, err);
     if (!status && o->output) status = csv_begin(&j->csv, &j->files[CSV], o, j->run, err);
     return status;
@@ -223,20 +181,12 @@ static motus_status go(job *j, motus_error *err)
     walk_keeper keeper = {0};
     size_t count = 0;
     int64_t steps = motus_run_steps_total(j->run);
-    if (j->archive) {
-        run_archive_observe(j->archive, &j->rows, &keeper);
-        observers[count++] = j->rows;
-    }
+    if (j->archive) run_archive_observe(j->archive, &j->rows, &keeper);
+    if (j->options->output) observers[count++] = j->rows;
+    if (j->deviation.count > 0 && j->options->output && j->rows.stride > 0)
+        observers[count++] = deviation_observer(&j->deviation, j->rows.stride);
     if (j->deviation.count > 0)
         observers[count++] = deviation_observer(&j->deviation, deviation_stride(&j->model, steps));
-    if (j->options->output && !j->archive) {
-        observers[count] = j->rows;
-        if (j->deviation.count > 0 && observers[count].stride > 0) {
-            observers[count + 1] = deviation_observer(&j->deviation, observers[count].stride);
-            count++;
-        }
-        count++;
-    }
     if (j->options->plot && !j->options->section) {
         figure_observers(&j->figure, observers + count);
         count += FIGURE_OBSERVERS;

@@ -12,6 +12,7 @@
 #include "base/decimal.h"
 #include "base/error.h"
 #include "cli/complain.h"
+#include "cli/run_again.h"
 #include "cli/run_columns.h"
 #include "cli/run_command.h"
 #include "cli/stop.h"
@@ -254,26 +255,44 @@ static bool word(const char **at, const char *name, uint64_t *value)
     return true;
 }
 
+typedef struct state_head {
+    uint64_t rows, samples, count;
+} state_head;
+
+static bool read_head(const char *bytes, size_t length, state_head *h)
+{
+    const char *at = bytes;
+    return length >= HEAD && memchr(bytes, 0, HEAD) && word(&at, "motus run\nrows ", &h->rows) &&
+           word(&at, "samples ", &h->samples) && word(&at, "state ", &h->count) && h->count <= length - HEAD;
+}
+
+const char *run_archive_state(const char *bytes, size_t length, size_t *count)
+{
+    state_head h;
+    if (!read_head(bytes, length, &h)) return NULL;
+    *count = (size_t)h.count;
+    return bytes + HEAD;
+}
+
 /* Moves the run to a state of `from`; *found false: it has not that state, or not the blocks before it. */
 static motus_status take_state(run_archive *a, motus_archive *from, int back, bool *found, motus_error *err)
 {
     char *bytes;
     size_t length;
-    uint64_t rows = 0, samples = 0, count = 0;
+    state_head h = {0};
     *found = false;
     motus_status status = motus_archive_saved(from, back, &bytes, &length, err);
     if (status || !bytes) return status;
-    const char *at = bytes;
-    const bool good = length >= HEAD && word(&at, "motus run\nrows ", &rows) && word(&at, "samples ", &samples) &&
-                      word(&at, "state ", &count) && count <= length - HEAD && rows <= motus_archive_rows(from) &&
-                      (rows % a->block) * a->columns.width * sizeof(double) == length - HEAD - count;
+    const bool good = read_head(bytes, length, &h) && h.rows <= motus_archive_rows(from) &&
+                      (h.rows % a->block) * a->columns.width * sizeof(double) == length - HEAD - h.count;
+    const uint64_t rows = h.rows;
     int whole = good;
     for (uint64_t b = 0; !status && whole && b < rows / a->block; b++)
         status = motus_archive_whole(from, b, &whole, err);
-    if (!status && good && whole) status = motus_run_restore(a->of.run, bytes + HEAD, (size_t)count, err);
+    if (!status && good && whole) status = motus_run_restore(a->of.run, bytes + HEAD, (size_t)h.count, err);
     if (!status && good && whole) {
         const size_t some = (size_t)(rows % a->block) * sizeof(double);
-        at = bytes + HEAD + count;
+        const char *at = bytes + HEAD + h.count;
         for (size_t c = 0; c < a->columns.count; c++) {
             const size_t size = some * a->columns.columns[c].width;
             memcpy(a->rooms[c], at, size);
@@ -281,7 +300,7 @@ static motus_status take_state(run_archive *a, motus_archive *from, int back, bo
         }
         for (size_t i = 0; i < (size_t)(rows % a->block); i++) a->times[i] = NAN; /* before the state */
         a->rows = rows;
-        a->samples = (int64_t)samples;
+        a->samples = (int64_t)h.samples;
         a->goes_on = a->kept = *found = true;
     }
     free(bytes);
@@ -337,21 +356,49 @@ static bool says(motus_archive *file, const char *name, const char *text)
     return its && strcmp(its, text) == 0;
 }
 
+static motus_status other_version(const char *path, const char *version, const char *why, motus_error *err)
+{
+    fail(err, MOTUS_STATE, "%s was begun by motus %.40s, and %s", path, version, why);
+    hint(err, "finish it with that version, or begin anew with --force");
+    return MOTUS_STATE;
+}
+
+/* A file that another version has begun goes on if its first rows have the bits that this one computes. */
+static motus_status compare_versions(const run_archive *a, const char *path, motus_archive *from, const char *version,
+                                     motus_error *err)
+{
+    enum { ROWS = 64 };
+    int whole = 0;
+    uint64_t first;
+    size_t count;
+    bool same = true;
+    char where[RUN_WHERE] = "", why[RUN_WHERE + 64];
+    motus_status status = motus_archive_whole(from, 0, &whole, err);
+    motus_archive_block(from, 0, &first, &count);
+    if (!status && !whole)
+        return other_version(path, version, "there is no block by which to see whether the bits are the same", err);
+    if (!status) status = run_again_rows(a->of.options, from, count < ROWS ? count : ROWS, &same, where, err);
+    if (status) return status;
+    snprintf(why, sizeof why, "this motus, %s, computes other bits: %s", motus_version(), where);
+    if (!same) return other_version(path, version, why, err);
+    if (!a->of.options->quiet)
+        complain_note("%s was begun by motus %.40s; its first rows, computed again, have the same bits", path, version);
+    return MOTUS_OK;
+}
+
 /* Opens the file to go on with; `same`: it must be of this very command. */
 static motus_status open_source(run_archive *a, const char *path, bool same, motus_archive **from, motus_error *err)
 {
+    char print[RUN_FINGERPRINT];
     motus_status status = motus_archive_open(path, 0, from, err);
     if (status) return status;
     const char *version = motus_archive_note_of(*from, "motus");
-    if (version && strcmp(version, motus_version()) != 0) {
-        fail(err, MOTUS_STATE, "%s was begun by motus %.40s, and this is motus %s, whose bits may be others", path,
-             version, motus_version());
-        hint(err, "finish it with that version, or begin anew with --force");
-        return MOTUS_STATE;
-    }
-    if (!fits(a, *from) || (same && !says(*from, "fingerprint", a->fingerprint))) return another(a, *from, err);
+    if (!version || !fits(a, *from)) return another(a, *from, err);
+    run_command_fingerprint(version, a->of.model->text, a->command, print);
+    if (same && !says(*from, "fingerprint", print)) return another(a, *from, err);
+    if (strcmp(version, motus_version()) != 0) status = compare_versions(a, path, *from, version, err);
     bool found = false;
-    status = take_state(a, *from, 0, &found, err);
+    if (!status) status = take_state(a, *from, 0, &found, err);
     if (!status && !found) status = take_state(a, *from, 1, &found, err);
     return status;
 }
@@ -368,7 +415,7 @@ static motus_status make_new(run_archive *a, motus_error *err)
 /* The file that there is goes on as it is, or by another one of the right sizes. */
 static motus_status go_on(run_archive *a, motus_archive *source, bool own, motus_error *err)
 {
-    if (own && says(source, "fingerprint", a->fingerprint)) {
+    if (own && says(source, "command", a->command)) { /* by whatever version it was begun */
         a->capacity = motus_archive_rows(source);
         a->slot = motus_archive_slot(source);
         return motus_archive_open(a->path, 1, &a->file, err);
@@ -491,8 +538,6 @@ void run_archive_leave(run_archive *a)
                       a->rows, a->path);
     if (a->made && !a->kept) unlink(a->path);
 }
-
-int64_t run_archive_rows(const run_archive *a) { return (int64_t)a->rows; }
 
 void run_archive_close(run_archive *a)
 {

@@ -28,7 +28,8 @@ void run_archive_observe(run_archive *, walk_observer *, walk_keeper *);
 motus_status run_archive_finish(run_archive *, motus_error *);
 /* After a failure: says what the file has. A new one from which nothing goes on is removed. */
 void run_archive_leave(run_archive *);
-int64_t run_archive_rows(const run_archive *);
+/* The library's restart state in a state of an archive, *count bytes of it; NULL: it is none. */
+const char *run_archive_state(const char *bytes, size_t length, size_t *count);
 void run_archive_close(run_archive *);
 
 #endif

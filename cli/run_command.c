@@ -9,7 +9,6 @@
 
 #include <inttypes.h>
 #include <math.h>
-#include <motus-archive.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -110,8 +109,6 @@ static const char *decided(const options *o)
 static void take_over(run_command *c, const options *o)
 {
     options *own = &c->options;
-    own->text = c->model;
-    own->threads = o->threads, own->machine = o->machine;
     own->json = o->json, own->quiet = o->quiet, own->answered = o->answered, own->team = o->team;
     own->output = o->output ? o->output : o->operand;
     own->plot = o->plot, own->plot_of = o->plot_of, own->events = o->events, own->save_state = o->save_state;
@@ -119,6 +116,29 @@ static void take_over(run_command *c, const options *o)
     own->force = o->force;
     if (!isnan(o->until)) own->until = o->until, own->until_typed = o->until_typed;
     own->argc = o->argc, own->argv = o->argv;
+}
+
+motus_status run_command_of(run_command *c, motus_archive *a, const options *asked, motus_error *err)
+{
+    *c = (run_command){0};
+    const char *command = motus_archive_note_of(a, "command"), *model = motus_archive_note_of(a, "model");
+    if (!command || !model) return no_run(asked->operand, err);
+    if (!(c->model = strdup(model))) return complain_memory(err);
+    motus_status status = words_split(command, &c->words, &c->argv, err);
+    if (status) return status;
+    const char **words = c->argv.items;
+    if (c->argv.count < 2 || strcmp(words[0], "motus") != 0 || strcmp(words[1], "run") != 0)
+        return no_run(asked->operand, err);
+    words[c->argv.count++] = "-o"; /* there is room for two more; some options need it */
+    words[c->argv.count++] = "archive.h5";
+    status = options_read(&c->options, VERB_RUN, (int)c->argv.count, (char **)words, 2, err);
+    if (!status && (c->options.help || !c->options.operand)) return no_run(asked->operand, err);
+    options *own = &c->options;
+    own->text = c->model;
+    own->output = own->plot = own->plot_of = own->events = own->save_state = own->restart = NULL;
+    own->emit_c = own->share = own->json = own->resume = own->force = false;
+    own->threads = asked->threads, own->machine = asked->machine;
+    return status;
 }
 
 motus_status run_command_read(run_command *c, const options *o, motus_error *err)
@@ -131,20 +151,8 @@ motus_status run_command_read(run_command *c, const options *o, motus_error *err
     }
     motus_archive *a;
     motus_status status = motus_archive_open(o->operand, 0, &a, err);
-    if (status) return status;
-    const char *command = motus_archive_note_of(a, "command"), *model = motus_archive_note_of(a, "model");
-    if (command && model && !(c->model = strdup(model))) status = complain_memory(err);
-    if (!status && !c->model) status = no_run(o->operand, err);
-    if (!status) status = words_split(command, &c->words, &c->argv, err);
+    if (!status) status = run_command_of(c, a, o, err);
     motus_archive_close(a);
-    if (status) return status;
-    const char **words = c->argv.items;
-    if (c->argv.count < 2 || strcmp(words[0], "motus") != 0 || strcmp(words[1], "run") != 0)
-        return no_run(o->operand, err);
-    words[c->argv.count++] = "-o"; /* there is room for two more; some options need it */
-    words[c->argv.count++] = "archive.h5";
-    status = options_read(&c->options, VERB_RUN, (int)c->argv.count, (char **)words, 2, err);
-    if (!status && (c->options.help || !c->options.operand)) return no_run(o->operand, err);
     if (!status) take_over(c, o);
     return status;
 }

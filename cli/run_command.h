@@ -4,6 +4,8 @@
 
 #include "cli/load.h"
 
+#include <motus-archive.h>
+
 /* The command with every setting written out, to be freed also after a failure: of the method and the steps those that
  * the run has found. */
 motus_status run_command_text(const options *, const motus_run *, double until, char **text, motus_error *);
@@ -18,8 +20,10 @@ typedef struct run_command {
     options_list argv;
     char *words, *model;
 } run_command;
-/* MOTUS_STATE: the file is not the archive of a run. MOTUS_ARGUMENT: an option that the archive decides. Call
- * run_command_free() in any case. */
+/* The command of an archive alone, with threads and machine of the one that asks. MOTUS_STATE: it is not that of a run.
+ * Call run_command_free() in any case. */
+motus_status run_command_of(run_command *, motus_archive *, const options *, motus_error *);
+/* Of the archive that the options name, for a run that goes on; MOTUS_ARGUMENT: an option that the archive decides. */
 motus_status run_command_read(run_command *, const options *, motus_error *);
 void run_command_free(run_command *);
 

@@ -90,6 +90,51 @@ with h5py.File('many.h5') as f:
     assert f['observables/size/value'].shape == (641,)
 P
 
+# --- motus archive --------------------------------------------------------------------------------------------------------------------
+gives "motus archive" 0 "$motus" archive run.h5
+that "... says what it has" eval "says 'rows         12801, in 4 blocks: all there' && says 'motus run drive.motus --method rk4'"
+for file in run errors many; do
+    gives "the rows of $file" 0 "$motus" archive $file.h5 -o rows.csv --force
+    that "... are those of the CSV" eval "cmp <(grep -v '^#' rows.csv) <(grep -v '^#' $file.csv)"
+done
+gives "the model" 0 "$motus" archive run.h5 -o model.motus
+that "... is the model" cmp model.motus drive.motus
+gives "the state" 0 "$motus" archive run.h5 -o end.state
+gives "... is a restart state" 0 "$motus" run drive.motus --method rk4 --restart end.state --until 500 --json
+that "... that goes on" holds '.time == 500'
+refuses "nothing else" 2 "its rows or its model, that of a run its state" "$motus" archive run.h5 -o x.npy
+for file in run errors many; do
+    gives "--verify all of $file" 0 "$motus" archive $file.h5 --verify all
+    that "... all rows" says "rows, computed again, have the same bytes"
+done
+gives "--verify 10%" 0 "$motus" archive run.h5 --verify 10% --json --machine interpreter
+that "... a tenth of the rows" eval "json '$out' && [ \"\$(jq .verified '$out')\" = 1281 ]"
+cp run.h5 changed.h5
+build=$(dirname "$motus")
+if "${CC:-cc}" -std=c17 -O1 -I "$root/include" "$root/test/archive/change.c" "$build/libmotus-archive.a" "$build/libmotus.a" -lm -ldl -lpthread -o change 2>"$err"; then
+    ./change changed.h5 1 5000
+    gives "a number is changed, and the hash fits" 0 "$motus" archive changed.h5
+    refuses "... --verify finds it" 1 "row 5000, x: " "$motus" archive changed.h5 --verify all
+else
+    echo "not run, since no C program links here: a number that is changed"
+fi
+
+# --- archives of other versions: test/archive/README.md -------------------------------------------------------------------------------
+cp "$root/test/archive/swing.motus" .
+"$motus" run swing.motus --until 800 --every "4 steps" --columns t,x --error none -o in-one-go.h5 -q
+for file in "$root"/test/archive/run-*.h5; do
+    name=$(basename "$file")
+    cp "$file" "$name"
+    gives "$name is verified" 0 "$motus" archive "$name" --verify all
+    gives "... and goes on" 0 "$motus" run "$name" --until 800 -q
+    that "... to the bytes that this version makes in one go" cmp "$name" in-one-go.h5
+done
+if [ -x change ]; then
+    cp "$root/test/archive/run-0.0.9.h5" old.h5
+    ./change old.h5 1 3
+    refuses "where the bits are others it does not go on" 2 "was begun by motus 0.0.9, and this motus" "$motus" run old.h5 --until 800 -q
+fi
+
 # --- the same bytes -------------------------------------------------------------------------------------------------------------------
 run -o a.h5
 sleep 1.1

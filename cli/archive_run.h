@@ -1,0 +1,18 @@
+/* motus archive of the archive of a run. */
+#ifndef CLI_ARCHIVE_RUN_H
+#define CLI_ARCHIVE_RUN_H
+
+#include "cli/file.h"
+#include "cli/options.h"
+#include "cli/stop.h"
+
+#include <motus-archive.h>
+
+/* Whether the command in the archive is that of a run. */
+bool archive_run_is(const motus_archive *);
+/* Its rows as CSV, as the run would have written them, below a comment with the command and the fingerprint. */
+motus_status archive_run_csv(motus_archive *, const options *, file_out *, stop_progress *, motus_error *);
+/* The latest restart state, for --restart. */
+motus_status archive_run_state(motus_archive *, const options *, file_out *, motus_error *);
+
+#endif
