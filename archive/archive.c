@@ -357,8 +357,8 @@ static motus_status put_zeros(motus_archive *a, uint64_t place, uint64_t count, 
     return status;
 }
 
-/* At last the state is in slot 1 with the turn 1, and all other bytes of the slots are 0. On the way one of the slots is
- * whole at any time. */
+/* At last the state is in slot 1 with the turn 1, and all other bytes of the slots are 0. On the way one of the slots
+ * is whole at any time. */
 motus_status motus_archive_settle(motus_archive *a, const void *bytes, size_t length, motus_error *err)
 {
     uint64_t turn;

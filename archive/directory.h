@@ -18,8 +18,8 @@
  * The first number is the size of the directory, zeros behind its text included, the second a hash of all that follows
  * its line. Places are counted in bytes from the beginning of the file and have a fixed width, so that the length of
  * the text is known before they are. Where a row has several numbers of a column, their shape stands behind its kind.
- * `slots` is there if states are: where the first slot begins, and the bytes of each. Behind `note` stand the length of the text and its name; the text follows, and a
- * newline.
+ * `slots` is there if states are: where the first slot begins, and the bytes of each. Behind `note` stand the length of
+ * the text and its name; the text follows, and a newline.
  */
 #ifndef ARCHIVE_DIRECTORY_H
 #define ARCHIVE_DIRECTORY_H

@@ -150,8 +150,8 @@ static char *link_name(const char *name)
     return out;
 }
 
-/* A piece of `count` rows at its place, which HDF5 does not fill; `shape` of the numbers in a row, NULL: one. The caller
- * closes it. */
+/* A piece of `count` rows at its place, which HDF5 does not fill; `shape` of the numbers in a row, NULL: one. The
+ * caller closes it. */
 static hid_t make_set(hid_t group, const char *name, hid_t type, uint64_t count, const size_t *shape,
                       const void *missing, uint64_t *place)
 {

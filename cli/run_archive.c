@@ -3,10 +3,9 @@
  * The rows lie in blocks, which are written when they are complete. A state has the rows of the block that is not, so
  * that a run goes on from it even if that block was being written when the process was killed.
  *
- * Invariants: the file opens at any time and tells which blocks are there. It grows by another file, which takes its name
- * when it has all that the old one had. At the end its bytes depend on the run alone: how many rows it has room for and
- * how large the slots of states are follow from the rows and from the first and the last state.
- */
+ * Invariants: the file opens at any time and tells which blocks are there. It grows by another file, which takes its
+ * name when it has all that the old one had. At the end its bytes depend on the run alone: how many rows it has room
+ * for and how large the slots of states are follow from the rows and from the first and the last state. / */
 #include "cli/run_archive.h"
 
 #include "base/decimal.h"
@@ -127,8 +126,8 @@ static motus_status copy_state(motus_archive *from, motus_archive *to, motus_err
     return status;
 }
 
-/* Another file takes the place of this one, with the complete blocks and the state of `from`, which may be this one, and
- * other sizes. */
+/* Another file takes the place of this one, with the complete blocks and the state of `from`, which may be this one,
+ * and other sizes. */
 static motus_status rebuild(run_archive *a, motus_archive *from, uint64_t rows, size_t slot, motus_error *err)
 {
     static const char ending[] = ".grown";
@@ -204,8 +203,8 @@ static motus_status jump(void *context, const double *before, const double *afte
 
 static const char head_format[] = "motus run\nrows %" PRIu64 "\nsamples %" PRId64 "\nstate %zu\n";
 
-/* The state of the run: a head of HEAD bytes, the library's restart state, and the first `rows` % block rows of the block
- * that is not complete, column after column. */
+/* The state of the run: a head of HEAD bytes, the library's restart state, and the first `rows` % block rows of the
+ * block that is not complete, column after column. */
 static motus_status write_state(run_archive *a, uint64_t rows, char **bytes, size_t *length, motus_error *err)
 {
     const char *text;

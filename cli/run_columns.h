@@ -1,6 +1,6 @@
-/* The columns of a run in an archive. A family is one column, whose rows have its members, and their components. Families
- * of vectors in 2 or 3 dimensions, quantities and invariants have the names of H5MD 1.1 too (nongnu.org/h5md), so that
- * programs for the motion of particles read them. */
+/* The columns of a run in an archive. A family is one column, whose rows have its members, and their components.
+ * Families of vectors in 2 or 3 dimensions, quantities and invariants have the names of H5MD 1.1 too (nongnu.org/h5md),
+ * so that programs for the motion of particles read them. */
 #ifndef CLI_RUN_COLUMNS_H
 #define CLI_RUN_COLUMNS_H
 

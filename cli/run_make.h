@@ -6,11 +6,12 @@
 #include "cli/stop.h"
 #include "cli/walk.h"
 
-/* Settles step and end of the model, which is loaded, and creates the run; *def is its definition. Names in the notes of
- * the run are told unless the command is quiet. */
+/* Settles step and end of the model, which is loaded, and creates the run; *def is its definition. Names in the notes
+ * of the run are told unless the command is quiet. */
 motus_status run_make(const options *, load *, stop_progress *, motus_bars, motus_run_def *def, motus_run **,
                       motus_error *);
-/* When rows are taken: as the options say, else the model, else every step. Stride or period, of which the other is 0. */
+/* When rows are taken: as the options say, else the model, else every step. Stride or period, of which the other is
+ * 0. */
 walk_observer run_make_rows(const options *, const load *, const motus_run *);
 
 #endif

@@ -167,7 +167,8 @@ static bool settled(const walker *w)
     return all;
 }
 
-/* Pieces of steps between two looks at the clock take about a hundredth of the time between two states that are kept. */
+/* Pieces of steps between two looks at the clock take about a hundredth of the time between two states that are
+ * kept. */
 static motus_status keep(walker *w, motus_error *err)
 {
     const walk_keeper *k = &w->keeper;

@@ -33,11 +33,12 @@ typedef struct walk_keeper {
     void *context;
     int64_t *samples; /* where the walk leaves how many of a period the first observer has had; also at the end */
     double *time;     /* where it leaves the time of what an observer is given */
-    bool
-        goes_on; /* the run was kept there: what is due at its first state, but not at the end, the observers have had */
+    /* The run was kept where it is: what is due there, unless it is the end, the observers have had. */
+    bool goes_on;
 } walk_keeper;
 
-/* start: the time of step 0, until: the end. Steps in as few calls as the observers allow. keeper: NULL, there is none. */
+/* start: the time of step 0, until: the end. Steps in as few calls as the observers allow. keeper: NULL, there is
+ * none. */
 motus_status walk(motus_run *, double start, double until, const walk_observer *, size_t count, const walk_keeper *,
                   motus_error *);
 

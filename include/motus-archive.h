@@ -36,7 +36,8 @@ typedef struct motus_archive_column {
     motus_archive_kind kind;
     const char *const *words; /* of a WORD: up to 255, each one line */
     size_t word_count;
-    /* Of a NUMBER: how many there are in a row. {0, 0}: one; {n, 0}: n; {n, d}: n times d, the last index the fastest. */
+    /* Of a NUMBER: how many there are in a row. {0, 0}: one; {n, 0}: n; {n, d}: n times d, the last index the
+     * fastest. */
     size_t shape[2];
 } motus_archive_column;
 
@@ -45,16 +46,16 @@ typedef struct motus_archive_note {
     const char *name, *text;
 } motus_archive_note;
 
-/* A second name of a column in the file, "/particles/r/position/value"; its groups are made. MOTUS_ARCHIVE_SCALE in place
- * of a column is the numbers of the rows. */
+/* A second name of a column in the file, "/particles/r/position/value"; its groups are made. MOTUS_ARCHIVE_SCALE in
+ * place of a column is the numbers of the rows. */
 #define MOTUS_ARCHIVE_SCALE ((size_t)-1)
 typedef struct motus_archive_link {
     const char *path;
     size_t column;
 } motus_archive_link;
 
-/* An attribute of a group, which is made where it is not there: `count` times the same text, or else `count` numbers; of a
- * count below 2 a scalar. */
+/* An attribute of a group, which is made where it is not there: `count` times the same text, or else `count` numbers;
+ * of a count below 2 a scalar. */
 typedef struct motus_archive_attribute {
     const char *group, *name, *text;
     const int *numbers;
@@ -78,7 +79,7 @@ typedef struct motus_archive_def {
     size_t link_count;
     const motus_archive_attribute *attributes;
     size_t attribute_count;
-    size_t slot; /* bytes that a state may have, motus_archive_save; 0: there are no slots for states */
+    size_t slot;                /* bytes that a state may have, motus_archive_save; 0: there are no slots for states */
     int (*stop)(void *context); /* asked while the file is made; NULL, or not 0 ends that with MOTUS_CANCELLED */
 } motus_archive_def;
 
@@ -129,8 +130,8 @@ MOTUS_API motus_status motus_archive_numbers(motus_archive *, uint64_t row, size
 /* States, from which the work goes on: two slots are written in turn, each with a hash, so that whenever the process is
  * killed one of them is whole. */
 MOTUS_API size_t motus_archive_slot(const motus_archive *); /* the bytes that a state may have; 0: there are no slots */
-/* Writes a state to the slot that has not the latest, when everything before is on the disk. MOTUS_LIMIT: it is too long
- * for a slot. */
+/* Writes a state to the slot that has not the latest, when everything before is on the disk. MOTUS_LIMIT: it is too
+ * long for a slot. */
 MOTUS_API motus_status motus_archive_save(motus_archive *, const void *bytes, size_t length, motus_error *);
 /* Likewise the last state of all: what the slots are afterwards depends on it alone. */
 MOTUS_API motus_status motus_archive_settle(motus_archive *, const void *bytes, size_t length, motus_error *);
