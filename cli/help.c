@@ -20,6 +20,8 @@ static const page pages[] = {
      "  motus run models/henon-heiles.motus --until 5000 --section \"x = 0 rising\" --plot section.svg\n"
      "  motus run models/kepler.motus --save-state half.state --until 10\n"
      "  motus run models/kepler.motus --restart half.state --until 20\n"
+     "  motus run models/kepler.motus --until 10 -o kepler.h5\n"
+     "  motus run kepler.h5 --until 20\n"
      "  printf \"x'' = -x\\nx(0) = 1\\nx'(0) = 0\\n\" | motus run - --step 0.01 --until 10\n"
      "  motus run models/pendulum.motus --set \"theta(0)=3\" --step 1/64 --share\n"},
     {VERB_COMPARE, "motus compare MODEL [options]",
@@ -59,10 +61,11 @@ static const page pages[] = {
     {VERB_ARCHIVE, "motus archive FILE.h5 [-o FILE]",
      "Says what an archive has, and whether all of its blocks are there, with the hashes that were written. With -o "
      "it\n"
-     "writes the rows as the CSV of the sweep, byte for byte, or the model.",
+     "writes the rows as CSV, the model, or the state of a run.",
      "  motus archive swings.h5\n"
      "  motus archive swings.h5 -o swings.csv\n"
-     "  motus archive swings.h5 -o pendulum.motus\n"},
+     "  motus archive swings.h5 -o pendulum.motus\n"
+     "  motus archive swings.h5 --verify 10%\n"},
     {VERB_CHECK, "motus check MODEL [options]",
      "Prints the equations of a model as motus read them, what the acceleration depends on, and for every method "
      "whether\n"

@@ -81,7 +81,7 @@ static const option table[] = {
     {"--accuracies", NULL, "A:B", ACCURACIES, AT(coarsest), VERB_COMPARE,
      "the work of each method, adaptive ones too, for accuracies from A to B: 1e-3:1e-12, \"1e-3:1e-6 absolute\""},
     {"--output", "-o", "FILE", WORD, AT(output), ONE | VERB_LAB | VERB_MERGE | VERB_ARCHIVE,
-     "write the CSV (sweep: .npy or .h5 as well; archive: or its .motus; lab: the page) to FILE; - is standard output"},
+     "write the CSV (or .h5; sweep: or .npy; archive: or its .motus; lab: the page) to FILE; - is standard output"},
     {"--error", NULL, "HOW", WORD, AT(error), VERB_RUN | VERB_SWEEP,
      "the error of every final number: cheap (else; by twice the work), full (three times), none"},
     {"--switches", NULL, "HOW", WORD, AT(switches), VERB_RUN | VERB_SWEEP,

@@ -19,12 +19,12 @@ _motus() {
     --verify) mapfile -t COMPREPLY < <(compgen -W '1% all' -- "$current"); return ;;
     --switches) mapfile -t COMPREPLY < <(compgen -W 'locate step' -- "$current"); return ;;
     -o|--output|--events|--plot|--save-state|--restart) compopt -o default; return ;;
-    --step|--accuracy|--tolerance|--shortest-step|--longest-step|--most-steps|--until|--set|--when|--section|--skip|--evaluations|--accuracies|--columns|--every|--plot-of|--vary|--random|--count|--seed|--threads|--lanes|--record|--shard) return ;;
+    --step|--accuracy|--tolerance|--shortest-step|--longest-step|--most-steps|--until|--set|--when|--section|--skip|--evaluations|--accuracies|--columns|--every|--plot-of|--vary|--random|--count|--seed|--threads|--lanes|--record|--shard|--checkpoint) return ;;
     esac
     if [[ $current == -* ]]; then
         local options='--json --quiet --help'
         case $verb in
-        run)      options+=' --method --accuracy --tolerance --shortest-step --longest-step --most-steps --step --until --set --output --events --when --section --skip --points --columns --every --plot --plot-of --save-state --restart --machine --threads --emit-c --share --error --errors --switches' ;;
+        run)      options+=' --method --accuracy --tolerance --shortest-step --longest-step --most-steps --step --until --set --output --events --when --section --skip --points --columns --every --plot --plot-of --save-state --restart --machine --threads --emit-c --share --error --errors --switches --checkpoint --resume --force' ;;
         compare)  options+=' --methods --step --until --set --evaluations --accuracies --machine --plot --share' ;;
         converge) options+=' --methods --step --until --set --plot --points' ;;
         sweep)    options+=' --vary --random --count --seed --zip --record --method --tolerance --shortest-step --longest-step --most-steps --switches --step --until --every --set --when --output --plan --resume --force'
