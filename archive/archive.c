@@ -134,7 +134,7 @@ int motus_archive_column_at(const motus_archive *a, size_t k, motus_archive_colu
 {
     if (k >= a->directory.column_count) return 0;
     const directory_column *c = a->directory.columns + k;
-    *out = (motus_archive_column){c->name, c->kind, c->words, c->word_count, {c->shape[0], c->shape[1]}};
+    *out = (motus_archive_column){c->name, c->kind, c->words, c->word_count, {c->shape[0], c->shape[1]}, c->comment};
     return 1;
 }
 

@@ -31,6 +31,8 @@ static motus_status check(const motus_archive_def *d, motus_error *err)
             return fail(err, MOTUS_ARGUMENT, "column %s has no proper shape", c->name);
         if (c->shape[0] > INT32_MAX || c->shape[1] > INT32_MAX)
             return fail(err, MOTUS_LIMIT, "column %s has too many numbers in a row", c->name);
+        if (c->comment && !one_line(c->comment))
+            return fail(err, MOTUS_ARGUMENT, "the comment of column %s is not one line", c->name);
         for (size_t w = 0; w < c->word_count; w++)
             if (strchr(c->words[w], '\n'))
                 return fail(err, MOTUS_ARGUMENT, "a word of column %s has more than one line", c->name);

@@ -51,6 +51,7 @@ static void put_body(FILE *out, const motus_archive_def *d, const uint64_t *plac
         else if (c->shape[0])
             snprintf(shape, sizeof shape, "[%zu]", c->shape[0]);
         fprintf(out, "column %s%s " PLACE " %s\n", directory_kinds[c->kind], shape, at ? *at++ : 0, c->name);
+        if (c->comment) fprintf(out, "comment %s\n", c->comment);
         for (size_t w = 0; w < c->word_count; w++) fprintf(out, "word %s\n", c->words[w]);
     }
     for (size_t k = 0; k < d->note_count; k++)

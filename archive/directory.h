@@ -8,6 +8,7 @@
  *     done 00000000000000016384
  *     slots 00000000000000204800 65536
  *     column number 00000000000000020480 x
+ *     comment m
  *     column number[100x3] 00000000000000028672 r
  *     column word 00000000000000126976 stopped_by
  *     word singular
@@ -27,7 +28,7 @@
 #include "motus-archive.h"
 
 typedef struct directory_column {
-    const char *name;
+    const char *name, *comment; /* comment: NULL, there is none */
     uint64_t place;
     const char **words;
     size_t word_count;

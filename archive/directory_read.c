@@ -102,6 +102,7 @@ static bool column(reader *r, char *text)
     c->width = directory_width(c->kind) * motus_archive_width(&as);
     if (!number(&text, &c->place) || !*text || !inside(r, c->place, d->rows, c->width)) return false;
     c->name = text;
+    c->comment = NULL;
     c->words = d->words + r->words;
     c->word_count = 0;
     d->column_count++;
@@ -113,6 +114,15 @@ static bool slots(reader *r, char *text)
     directory *d = r->d;
     if (d->slot || !number(&text, &d->slots_place) || !number(&text, &d->slot) || *text) return false;
     return d->slot > 0 && d->slot <= SIZE_MAX / 4 && inside(r, d->slots_place, 2, d->slot);
+}
+
+static bool comment(reader *r, const char *text)
+{
+    directory *d = r->d;
+    directory_column *c = d->column_count ? d->columns + d->column_count - 1 : NULL;
+    if (!c || c->comment || !*text) return false;
+    c->comment = text;
+    return true;
 }
 
 static bool word(reader *r, const char *text)
@@ -174,11 +184,12 @@ static motus_status body(reader *r)
         char *text = line(r);
         if (!text) return damaged(r, "the end is missing");
         if (strcmp(text, "end") == 0) break;
-        if (!(begins(&text, "column")  ? column(r, text)
-              : begins(&text, "word")  ? word(r, text)
-              : begins(&text, "note")  ? note(r, text)
-              : begins(&text, "slots") ? slots(r, text)
-                                       : false))
+        if (!(begins(&text, "column")    ? column(r, text)
+              : begins(&text, "word")    ? word(r, text)
+              : begins(&text, "comment") ? comment(r, text)
+              : begins(&text, "note")    ? note(r, text)
+              : begins(&text, "slots")   ? slots(r, text)
+                                         : false))
             return damaged(r, "a line is wrong");
     }
     return r->d->column_count ? MOTUS_OK : damaged(r, "the columns are missing");

@@ -182,7 +182,8 @@ static motus_status put_column(maker *m, size_t k)
     const hid_t set = make_set(m->group, c->name, word ? H5T_STD_U8LE : H5T_IEEE_F64LE, m->def->rows, c->shape,
                                word ? (const void *)MISSING : &none, m->places + 2 + k);
     if (set < 0) return refused(m, c->name);
-    const bool good = H5DSattach_scale(set, m->scale, 0) >= 0 && (!word || put_words(set, c));
+    const bool good = H5DSattach_scale(set, m->scale, 0) >= 0 && (!word || put_words(set, c)) &&
+                      (!c->comment || put_text(set, "comment", c->comment));
     H5Dclose(set);
     return good ? MOTUS_OK : refused(m, c->name);
 }

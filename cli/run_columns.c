@@ -1,6 +1,7 @@
 /* See run_columns.h. */
 #include "cli/run_columns.h"
 
+#include "cli/comments.h"
 #include "cli/complain.h"
 
 #include <stdio.h>
@@ -34,14 +35,19 @@ static void shape_of(const csv *c, size_t k, size_t count, size_t shape[2])
     shape[1] = inner > 1 && count % inner == 0 ? inner : 0;
 }
 
-static void add(run_columns *r, const char *name, const char *more, size_t from, size_t width, const size_t *shape)
+static void add(run_columns *r, const csv *c, const char *name, const char *more, size_t from, size_t width,
+                const size_t *shape)
 {
     run_column *own = r->columns + r->count;
     snprintf(own->name, sizeof own->name, "%s%s", name, more);
     own->from = from;
     own->width = width;
-    r->described[r->count++] = (motus_archive_column){
-        .name = own->name, .kind = MOTUS_ARCHIVE_NUMBER, .shape = {shape ? shape[0] : 0, shape ? shape[1] : 0}};
+    char *comment = comments_find(c->model->text, own->name);
+    if (comment) r->texts[r->text_count++] = comment;
+    r->described[r->count++] = (motus_archive_column){.name = own->name,
+                                                      .kind = MOTUS_ARCHIVE_NUMBER,
+                                                      .shape = {shape ? shape[0] : 0, shape ? shape[1] : 0},
+                                                      .comment = comment};
     r->width += width;
 }
 
@@ -141,7 +147,7 @@ static bool conventions(run_columns *r, const csv *c)
 
 motus_status run_columns_make(run_columns *r, const csv *c, motus_error *err)
 {
-    enum { EACH = 4 }; /* links and texts of a column, at most */
+    enum { EACH = 5 }; /* links and texts of a column, at most */
     const size_t most = 2 * c->count + 2;
     *r = (run_columns){.columns = calloc(most, sizeof *r->columns),
                        .described = calloc(most, sizeof *r->described),
@@ -158,9 +164,9 @@ motus_status run_columns_make(run_columns *r, const csv *c, motus_error *err)
             if (count > 1) shape_of(c, k, count, shape);
             motus_column_at(c->model->system, c->columns[k], &column);
             if (errors && column.kind == MOTUS_COLUMN_TIME) continue;
-            add(r, count > 1 ? name : column.name, errors ? ".error" : "", errors ? c->count + k : k, count, shape);
+            add(r, c, count > 1 ? name : column.name, errors ? ".error" : "", errors ? c->count + k : k, count, shape);
         }
-    if (c->errors) add(r, "significant", "", SIZE_MAX, 1, NULL);
+    if (c->errors) add(r, c, "significant", "", SIZE_MAX, 1, NULL);
     return conventions(r, c) ? MOTUS_OK : complain_memory(err);
 }
 

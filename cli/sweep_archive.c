@@ -7,6 +7,7 @@
 #include "base/decimal.h"
 #include "base/error.h"
 #include "cli/block_room.h"
+#include "cli/comments.h"
 #include "cli/complain.h"
 #include "cli/stop.h"
 #include "cli/sweep.h"
@@ -58,7 +59,7 @@ static const char **words_of(const sweep *s, size_t k, size_t *count)
 
 typedef struct description {
     motus_archive_column *columns;
-    char (*names)[SWEEP_NAME];
+    char (*names)[SWEEP_NAME], **comments; /* of the columns; a comment may be NULL */
     const char **words[2];
     size_t word_columns;
     char *command;
@@ -77,12 +78,15 @@ static motus_status describe_columns(description *d, const sweep *s, motus_error
     const size_t count = s->columns - 1;
     d->columns = calloc(count, sizeof *d->columns);
     d->names = calloc(count, sizeof *d->names);
-    if (!d->columns || !d->names) return complain_memory(err);
+    d->comments = calloc(count, sizeof *d->comments);
+    if (!d->columns || !d->names || !d->comments) return complain_memory(err);
     for (size_t k = 0; k < count; k++) {
         size_t words = 0;
         const char **list = words_of(s, k + 1, &words);
         const char *name = sweep_head_name(s, k + 1, d->names[k]);
-        d->columns[k] = (motus_archive_column){.name = name, .words = list, .word_count = words};
+        if (!list) d->comments[k] = comments_find(s->model.text, name);
+        d->columns[k] =
+            (motus_archive_column){.name = name, .words = list, .word_count = words, .comment = d->comments[k]};
         if (list) {
             d->columns[k].kind = MOTUS_ARCHIVE_WORD;
             d->words[d->word_columns++] = list;
@@ -125,6 +129,8 @@ static motus_status describe(description *d, const sweep *s, motus_error *err)
 static void description_free(description *d)
 {
     for (size_t k = 0; k < d->word_columns; k++) free(d->words[k]);
+    for (size_t k = 0; d->comments && k < d->def.column_count; k++) free(d->comments[k]);
+    free(d->comments);
     free(d->columns);
     free(d->names);
     free(d->command);

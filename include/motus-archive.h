@@ -39,6 +39,7 @@ typedef struct motus_archive_column {
     /* Of a NUMBER: how many there are in a row. {0, 0}: one; {n, 0}: n; {n, d}: n times d, the last index the
      * fastest. */
     size_t shape[2];
+    const char *comment; /* of one line; NULL: none. The attribute `comment` of the column */
 } motus_archive_column;
 
 /* What is said of the file: the model, the command, the version … A text of UTF-8, whose name is unique. */

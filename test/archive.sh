@@ -31,6 +31,8 @@ with h5py.File(archive) as f:
     for k, name in enumerate(rows[0][1:5], 1):
         assert all(float(row[k]) == value for row, value in zip(rows[1:], f['sweep'][name][()])), name
     assert all(math.isnan(value) for value in f['sweep/stopped'][()]) and not f['sweep/stopped_by'][()].any()
+    comments = [f['sweep'][name].attrs.get('comment') for name in ('trajectory', 'x(0)', 'x', "x'", 'max(energy)', 'stopped')]
+    assert comments == [None, b'rad', b'rad', None, b'per mass', None], comments
     assert f['sweep/x'].dims[0][0] == f['sweep/trajectory'] and (f['blocks/done'][()] != 0).all() and len(f['blocks/done']) == 8
 P
 gives "xarray reads it, and pandas" 0 $python - "$place/whole.h5" <<'P'

@@ -15,10 +15,10 @@
 enum { ROWS = 1000, BLOCK = 64, BLOCKS = 16, COLUMNS = 4, WORDS = 3, WIDE = 6, SLOT = 500 };
 static const char *const words[WORDS] = {"", "singular", "two words"};
 static const motus_archive_column columns[COLUMNS] = {
-    {"x", MOTUS_ARCHIVE_NUMBER, NULL, 0, {0, 0}},
-    {"max(a/b) \xc3\xa9", MOTUS_ARCHIVE_NUMBER, NULL, 0, {0, 0}},
-    {"stopped_by", MOTUS_ARCHIVE_WORD, words, WORDS, {0, 0}},
-    {"r", MOTUS_ARCHIVE_NUMBER, NULL, 0, {3, 2}},
+    {"x", MOTUS_ARCHIVE_NUMBER, NULL, 0, {0, 0}, "m, column"},
+    {"max(a/b) \xc3\xa9", MOTUS_ARCHIVE_NUMBER, NULL, 0, {0, 0}, NULL},
+    {"stopped_by", MOTUS_ARCHIVE_WORD, words, WORDS, {0, 0}, NULL},
+    {"r", MOTUS_ARCHIVE_NUMBER, NULL, 0, {3, 2}, NULL},
 };
 static size_t bytes_of_row(int k) { return directory_width(columns[k].kind) * motus_archive_width(columns + k); }
 static const motus_archive_note notes[] = {
@@ -105,6 +105,7 @@ static void says_what_was_said(void **state)
         assert_string_equal(c.name, columns[k].name);
         assert_int_equal(c.kind, columns[k].kind);
         assert_int_equal(c.word_count, columns[k].word_count);
+        assert_true(c.comment ? columns[k].comment && !strcmp(c.comment, columns[k].comment) : !columns[k].comment);
         assert_memory_equal(c.shape, columns[k].shape, sizeof c.shape);
         for (size_t w = 0; w < c.word_count; w++) assert_string_equal(c.words[w], words[w]);
     }
@@ -380,8 +381,8 @@ static void refusals(void **state)
     assert_int_equal(motus_archive_create("/absent/file.h5", &d, &err), MOTUS_ARGUMENT);
     d = definition(), d.size = 0;
     assert_int_equal(motus_archive_create("/absent/file.h5", &d, &err), MOTUS_ARGUMENT);
-    motus_archive_column twice[2] = {{"a\nb", MOTUS_ARCHIVE_NUMBER, NULL, 0, {0, 0}},
-                                     {"x", (motus_archive_kind)7, NULL, 0, {0, 0}}};
+    motus_archive_column twice[2] = {{"a\nb", MOTUS_ARCHIVE_NUMBER, NULL, 0, {0, 0}, NULL},
+                                     {"x", (motus_archive_kind)7, NULL, 0, {0, 0}, NULL}};
     d = definition(), d.columns = twice, d.column_count = 1;
     assert_int_equal(motus_archive_create("/absent/file.h5", &d, &err), MOTUS_ARGUMENT);
     d.columns = twice + 1;

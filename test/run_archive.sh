@@ -58,12 +58,12 @@ with h5py.File('errors.h5') as f:
 P
 cat >many.motus <<'M'
 r[i]'' = -r[i] (1 + i/10) + (0.1, 0, 0.2)   for i = 1..5
-r[i](0) = (i, 0, -i)    for i = 1..5
+r[i](0) = (i, 0, -i)    for i = 1..5  # m, of each
 r[i]'(0) = (0, 1, i/2)  for i = 1..5
 u[i]'' = -u[i]  for i = 1..4
 u[i](0) = i     for i = 1..4
 u[i]'(0) = 0    for i = 1..4
-size = sum(i = 1..5: |r[i]|)
+size = sum(i = 1..5: |r[i]|)#m
 method verlet
 step 1/64
 until 10
@@ -88,6 +88,7 @@ with h5py.File('many.h5') as f:
     assert p['position/step'].dtype.kind == 'i' and p['box'].attrs['dimension'] == 3
     assert list(p['box'].attrs['boundary']) == [b'none'] * 3 and 'u' not in f['particles']
     assert f['observables/size/value'].shape == (641,)
+    assert [f['run'][name].attrs.get('comment') for name in ('t', 'r', "r'", 'size')] == [None, b'm, of each', None, b'm']
 P
 
 # --- motus archive --------------------------------------------------------------------------------------------------------------------

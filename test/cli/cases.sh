@@ -69,4 +69,4 @@ sum() { sha256sum "$1" 2>/dev/null | cut -c 1-64; }
 # How many blocks of an archive are there.
 blocks() { $python -c "import h5py, sys; print(int((h5py.File(sys.argv[1])['blocks/done'][()] != 0).sum()))" "$1"; }
 # A pendulum's motion to this time.
-swing_until() { printf '%s\n' 'k = 1' "x'' = -k sin(x)" 'x(0) = 1' "x'(0) = 0" "energy = x'^2/2 - k cos(x)" 'method verlet' 'step 0.125' "until $1"; }
+swing_until() { printf '%s\n' 'k = 1' "x'' = -k sin(x)  # rad/s²" 'x(0) = 1  # rad' "x'(0) = 0" "energy = x'^2/2 - k cos(x)  # per mass" 'method verlet' 'step 0.125' "until $1"; }
