@@ -157,6 +157,21 @@ refuses "--resume of another sweep" 2 "was made by another sweep" "$motus" sweep
 that "... touches nothing" [ "$(sum "$place/killed.h5")" = "$whole" ]
 refuses "an archive that is there" 2 "exists" long -o "$place/killed.h5"
 
+# --- compressed by HDF5's own tool ----------------------------------------------------------------------------------------------------
+if command -v h5repack >/dev/null; then
+    gives "h5repack" 0 h5repack -f SHUF -f GZIP=6 "$place/whole.h5" "$place/packed.h5"
+    gives "... its copy has the same numbers" 0 $python - "$place/whole.h5" "$place/packed.h5" <<'P'
+import h5py, numpy, os, sys
+a, b = [h5py.File(name) for name in sys.argv[1:]]
+for name in a['sweep']: assert numpy.array_equal(a['sweep'][name][()], b['sweep'][name][()], equal_nan=True), name
+assert b['sweep/x'].dims[0][0] == b['sweep/trajectory'] and b.attrs['command'] == a.attrs['command']
+assert os.path.getsize(sys.argv[2]) < os.path.getsize(sys.argv[1])
+P
+    refuses "... motus says that it cannot read it" 2 "is damaged" "$motus" archive "$place/packed.h5"
+else
+    echo "not run, since it is not installed: h5repack"
+fi
+
 # --- computed again -------------------------------------------------------------------------------------------------------------------
 gives "--verify all" 0 "$motus" archive "$place/whole.h5" --verify all
 that "... computes all blocks again" says "8 of these blocks, computed again, have the same bytes"
