@@ -1,9 +1,8 @@
-/* An open archive: its blocks are read and written in place, by the directory, without HDF5.
+/* An open archive: its blocks and states are read and written in place, by the directory, without HDF5.
  *
- * Invariants: nothing but blocks, and the hashes that tell they are there, is ever written; a hash is written after the
- * bytes of its block. So however many processes write different blocks, and whenever they are killed, every block whose
- * hash fits is whole.
- */
+ * Invariants: nothing but blocks and states, and the hashes that tell they are there, is ever written; a hash is
+ * written after the bytes of its block or state. So however many processes write different blocks, and whenever they
+ * are killed, every block whose hash fits is whole. / */
 #define _XOPEN_SOURCE 700
 #include "archive/bytes.h"
 #include "archive/directory.h"
@@ -11,6 +10,7 @@
 
 #include <errno.h>
 #include <fcntl.h>
+#include <stdbool.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
@@ -241,7 +241,8 @@ motus_status motus_archive_numbers(motus_archive *a, uint64_t row, size_t count,
 
 /* ---- states ---- */
 
-/* A slot begins with this, which is written after the rest. The hash is that of the length and the bytes. */
+/* A slot begins with this, which is written after the rest. The hash is that of all the other bytes of the slot that
+ * count. */
 typedef struct slot_head {
     uint64_t turn, length, hash, zero; /* turn 0: there is no state; the next one has the next, in the other slot */
 } slot_head;
@@ -258,9 +259,10 @@ static uint64_t slot_place(const motus_archive *a, uint64_t turn)
     return a->directory.slots_place + (turn % 2) * a->directory.slot;
 }
 
-static uint64_t slot_hash(const void *bytes, uint64_t length)
+static uint64_t slot_hash(uint64_t turn, const void *bytes, uint64_t length)
 {
-    return directory_hash(directory_hash(DIRECTORY_HASH, &length, sizeof length), bytes, (size_t)length);
+    const uint64_t numbers[] = {turn, length};
+    return directory_hash(directory_hash(DIRECTORY_HASH, numbers, sizeof numbers), bytes, (size_t)length);
 }
 
 /* The state in slot 0 or 1; *bytes NULL: it is not whole. */
@@ -276,7 +278,7 @@ static motus_status read_slot(motus_archive *a, int which, slot_head *head, char
     char *room = malloc((size_t)head->length + 1);
     if (!room) return fail(err, MOTUS_MEMORY, "no memory for a state of %s", a->path);
     status = get(a, room, (size_t)head->length, place + sizeof *head, err);
-    if (!status && slot_hash(room, head->length) == head->hash) {
+    if (!status && slot_hash(head->turn, room, head->length) == head->hash) {
         room[head->length] = 0;
         *bytes = room;
         return MOTUS_OK;
@@ -310,20 +312,34 @@ motus_status motus_archive_saved(motus_archive *a, int back, char **bytes, size_
     return status;
 }
 
-static motus_status write_slot(motus_archive *a, uint64_t turn, const void *bytes, size_t length, motus_error *err)
+static motus_status put_zeros(motus_archive *a, uint64_t place, uint64_t count, motus_error *err)
 {
-    const slot_head none = {0}, head = {turn, length, slot_hash(bytes, length), 0};
+    static const char zeros[1 << 16];
+    motus_status status = MOTUS_OK;
+    for (uint64_t done = 0; !status && done < count; done += sizeof zeros)
+        status = put(a, zeros, count - done < sizeof zeros ? (size_t)(count - done) : sizeof zeros, place + done, err);
+    return status;
+}
+
+/* `last`: the bytes behind the state become 0. */
+static motus_status write_slot(motus_archive *a, uint64_t turn, const void *bytes, size_t length, bool last,
+                               motus_error *err)
+{
+    const slot_head none = {0}, head = {turn, length, slot_hash(turn, bytes, length), 0};
     const uint64_t place = slot_place(a, turn);
     motus_status status = motus_archive_sync(a, err);
     if (!status) status = put(a, &none, sizeof none, place, err);
     if (!status) status = put(a, bytes, length, place + sizeof none, err);
+    if (!status && last) status = put_zeros(a, place + sizeof none + length, motus_archive_slot(a) - length, err);
     if (!status) status = motus_archive_sync(a, err);
     if (!status) status = put(a, &head, sizeof head, place, err);
     return status ? status : motus_archive_sync(a, err);
 }
 
-static motus_status too_long(const motus_archive *a, size_t length, motus_error *err)
+static motus_status has_room(const motus_archive *a, size_t length, motus_error *err)
 {
+    if (motus_archive_slot(a) == 0) return fail(err, MOTUS_LIMIT, "%s has no slots for states", a->path);
+    if (length <= motus_archive_slot(a)) return MOTUS_OK;
     return fail(err, MOTUS_LIMIT, "a state of %zu bytes has no room in the %zu of %s", length, motus_archive_slot(a),
                 a->path);
 }
@@ -343,32 +359,19 @@ static motus_status latest_turn(motus_archive *a, uint64_t *turn, motus_error *e
 motus_status motus_archive_save(motus_archive *a, const void *bytes, size_t length, motus_error *err)
 {
     uint64_t turn;
-    if (length > motus_archive_slot(a)) return too_long(a, length, err);
-    const motus_status status = latest_turn(a, &turn, err);
-    return status ? status : write_slot(a, turn + 1, bytes, length, err);
+    motus_status status = has_room(a, length, err);
+    if (!status) status = latest_turn(a, &turn, err);
+    return status ? status : write_slot(a, turn + 1, bytes, length, false, err);
 }
 
-static motus_status put_zeros(motus_archive *a, uint64_t place, uint64_t count, motus_error *err)
-{
-    static const char zeros[1 << 16];
-    motus_status status = MOTUS_OK;
-    for (uint64_t done = 0; !status && done < count; done += sizeof zeros)
-        status = put(a, zeros, count - done < sizeof zeros ? (size_t)(count - done) : sizeof zeros, place + done, err);
-    return status;
-}
-
-/* At last the state is in slot 1 with the turn 1, and all other bytes of the slots are 0. On the way one of the slots
- * is whole at any time. */
+/* At last both slots have the state, with the turns 1 and 2. On the way one of them is whole at any time. */
 motus_status motus_archive_settle(motus_archive *a, const void *bytes, size_t length, motus_error *err)
 {
     uint64_t turn;
-    if (length > motus_archive_slot(a)) return too_long(a, length, err);
-    motus_status status = latest_turn(a, &turn, err);
-    if (!status && turn % 2 == 1) status = write_slot(a, ++turn, bytes, length, err); /* slot 1 becomes free */
-    if (!status) status = write_slot(a, turn + 1, bytes, length, err);
-    const uint64_t first = slot_place(a, 0), second = slot_place(a, 1), behind = sizeof(slot_head) + length;
-    if (!status) status = put_zeros(a, first, a->directory.slot, err);
-    if (!status) status = put_zeros(a, second + behind, a->directory.slot - behind, err);
-    const uint64_t one = 1;
-    return status ? status : put(a, &one, sizeof one, second, err);
+    motus_status status = has_room(a, length, err);
+    if (!status) status = latest_turn(a, &turn, err);
+    if (!status) status = write_slot(a, turn + 1, bytes, length, true, err);
+    for (uint64_t k = 0; !status && k < 2; k++)
+        status = write_slot(a, (turn + k) % 2 ? 1 : 2, bytes, length, true, err);
+    return status;
 }

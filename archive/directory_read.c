@@ -198,7 +198,7 @@ static motus_status body(reader *r)
 static motus_status foreign(const char *path, motus_error *err)
 {
     fail(err, MOTUS_STATE, "%s is not an archive of motus", path);
-    hint(err, "archives are the files that `motus sweep -o FILE.h5` writes");
+    hint(err, "archives are the files that motus sweep and motus run write, -o FILE.h5");
     return MOTUS_STATE;
 }
 

@@ -42,6 +42,14 @@ static motus_status refused(const maker *m, const char *what)
     return fail(m->err, MOTUS_FILE, "cannot write %s: HDF5 refuses %s", m->path, what);
 }
 
+static motus_status no_room(const maker *m, int code)
+{
+    fail(m->err, MOTUS_FILE, "cannot write %s: %s", m->path, strerror(code));
+    if (code == ENOSPC || code == EDQUOT || code == EFBIG)
+        hint(m->err, "an archive takes all its room at the beginning; record less, or write to another disk");
+    return MOTUS_FILE;
+}
+
 /* ---- what HDF5 writes ---- */
 
 /* A text of fixed length. */
@@ -320,6 +328,7 @@ static hid_t make_file(const char *path, size_t directory)
 
 static motus_status by_hdf5(maker *m, const char *path, size_t directory)
 {
+    H5dont_atexit(); /* at the exit it would crash where a file could not be closed, as on a full disk */
     H5Eset_auto2(H5E_DEFAULT, NULL, NULL);
     m->group = m->blocks = m->scale = H5I_INVALID_HID;
     m->file = make_file(path, directory);
@@ -337,19 +346,12 @@ static motus_status by_hdf5(maker *m, const char *path, size_t directory)
     if (m->scale >= 0) H5Dclose(m->scale);
     if (m->blocks >= 0) H5Gclose(m->blocks);
     if (m->group >= 0) H5Gclose(m->group);
-    if (H5Fclose(m->file) < 0 && !status) status = refused(m, "to close it");
+    errno = 0;
+    if (H5Fclose(m->file) < 0 && !status) status = errno ? no_room(m, errno) : refused(m, "to close it");
     return status;
 }
 
 /* ---- what we write ---- */
-
-static motus_status no_room(const maker *m, int code)
-{
-    fail(m->err, MOTUS_FILE, "cannot write %s: %s", m->path, strerror(code));
-    if (code == ENOSPC || code == EDQUOT || code == EFBIG)
-        hint(m->err, "an archive takes all its room at the beginning; record less, or write to another disk");
-    return MOTUS_FILE;
-}
 
 static motus_status put(const maker *m, int descriptor, const void *bytes, size_t count, uint64_t place)
 {
@@ -469,7 +471,11 @@ motus_status make_hdf5(const char *path, const motus_archive_def *d, motus_error
     static const char new[] = ".new";
     size_t size = 0;
     motus_status status;
-    maker m = {.def = d, .path = path, .err = err, .places = calloc(3 + d->column_count, sizeof *m.places)};
+    maker m = {.def = d,
+               .path = path,
+               .err = err,
+               .file = H5I_INVALID_HID,
+               .places = calloc(3 + d->column_count, sizeof *m.places)};
     char *where = realpath(path, NULL); /* where a link leads; NULL: there is nothing yet */
     const char *name = where ? where : path;
     char *text = directory_write(d, NULL, &size), *beside = malloc(strlen(name) + sizeof new);
@@ -477,7 +483,10 @@ motus_status make_hdf5(const char *path, const motus_archive_def *d, motus_error
         status = fail(err, MOTUS_MEMORY, "no memory to make %s", path);
     } else {
         strcat(strcpy(beside, name), new);
+        struct stat about; /* a file that is replaced leaves its permissions */
+        const bool there = stat(name, &about) == 0;
         status = by_hdf5(&m, beside, size);
+        if (!status && there) (void)chmod(beside, about.st_mode & 07777);
         if (!status) status = by_us(&m, beside, size);
         if (!status && rename(beside, name) != 0)
             status = fail(err, MOTUS_FILE, "cannot write %s: %s", path, strerror(errno));

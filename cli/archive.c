@@ -296,7 +296,7 @@ motus_status archive_verb(const options *o, motus_error *err)
         c.run = archive_run_is(c.file);
         status = find_blocks(&c, &progress, err);
         if (!status && o->verify && c.run)
-            status = archive_verify_run(c.file, o, c.first_missing, c.missing > 0, &c.verified, err);
+            status = archive_verify_run(c.file, o, c.first_missing, c.missing > 0, &c.verified, &progress, err);
         else if (!status && o->verify)
             status = archive_verify(c.file, o, c.whole, c.blocks - c.missing, &c.verified, &progress, err);
         if (!status && c.verified.differ > 0) status = archive_verify_failed(&c.verified, o, c.run, err);

@@ -3,9 +3,9 @@
 
 #include "base/error.h"
 #include "cli/complain.h"
-#include "cli/run_archive.h"
 #include "cli/run_columns.h"
 #include "cli/run_command.h"
+#include "cli/run_state.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -31,19 +31,6 @@ static motus_status put_head(motus_archive *a, csv *plan, file_out *out, motus_e
              said(a, "method"), said(a, "fingerprint"));
     if (!status) status = file_text(out, line, err);
     return status ? status : csv_names(plan, out, err);
-}
-
-/* Whether the file has the columns of its command. */
-static motus_status check(motus_archive *a, const run_columns *columns, motus_error *err)
-{
-    bool same = motus_archive_column_count(a) == columns->count;
-    for (size_t k = 0; same && k < columns->count; k++) {
-        motus_archive_column c;
-        motus_archive_column_at(a, k, &c);
-        same = c.kind == MOTUS_ARCHIVE_NUMBER && motus_archive_width(&c) == columns->columns[k].width &&
-               strcmp(c.name, columns->columns[k].name) == 0;
-    }
-    return same ? MOTUS_OK : fail(err, MOTUS_STATE, "the archive has other columns than those that its command makes");
 }
 
 static motus_status put_rows(motus_archive *a, csv *plan, const run_columns *columns, stop_progress *progress,
@@ -72,8 +59,7 @@ static motus_status put_rows(motus_archive *a, csv *plan, const run_columns *col
         if (!status && stop_progress_hook(progress, (double)b / (double)blocks))
             status = fail(err, MOTUS_CANCELLED, "cancelled");
     }
-    for (size_t k = 0; rooms && k < columns->count; k++) free(rooms[k]);
-    free(rooms);
+    run_columns_drop(columns, rooms);
     free(row);
     return status;
 }
@@ -89,7 +75,8 @@ motus_status archive_run_csv(motus_archive *a, const options *o, file_out *out, 
     if (!status) status = load_model(&model, &command.options, err);
     if (!status) status = csv_plan(&plan, &model, &command.options, err);
     if (!status) status = run_columns_make(&columns, &plan, err);
-    if (!status) status = check(a, &columns, err);
+    if (!status && !run_columns_fit(&columns, a))
+        status = fail(err, MOTUS_STATE, "the archive has other columns than those that its command makes");
     if (!status) status = put_head(a, &plan, out, err);
     if (!status) status = put_rows(a, &plan, &columns, progress, err);
     run_columns_free(&columns);
@@ -102,12 +89,12 @@ motus_status archive_run_csv(motus_archive *a, const options *o, file_out *out, 
 motus_status archive_run_state(motus_archive *a, const options *o, file_out *out, motus_error *err)
 {
     char *bytes;
-    const char *text = NULL;
-    size_t length, count = 0;
+    size_t length;
+    run_state s;
     motus_status status = motus_archive_saved(a, 0, &bytes, &length, err);
-    if (!status && bytes) text = run_archive_state(bytes, length, &count);
-    if (!status && !text) status = fail(err, MOTUS_STATE, "%s has no state", o->operand);
-    if (!status) status = file_write(out, text, count, err);
+    if (!status && !(bytes && run_state_read(bytes, length, &s)))
+        status = fail(err, MOTUS_STATE, "%s has no state", o->operand);
+    if (!status) status = file_write(out, s.text, s.length, err);
     free(bytes);
     return status;
 }

@@ -61,7 +61,7 @@ motus_status archive_verify(motus_archive *a, const options *o, const uint64_t *
 }
 
 motus_status archive_verify_run(motus_archive *a, const options *o, uint64_t first_missing, bool missing,
-                                archive_verified *v, motus_error *err)
+                                archive_verified *v, stop_progress *progress, motus_error *err)
 {
     double part;
     uint64_t rows = motus_archive_rows(a);
@@ -74,7 +74,8 @@ motus_status archive_verify_run(motus_archive *a, const options *o, uint64_t fir
     if (missing) motus_archive_block(a, first_missing, &rows, &count);
     v->computed = (uint64_t)fmin(ceil(part * (double)rows), (double)rows);
     status = run_command_of(&command, a, o, err);
-    if (!status && v->computed > 0) status = run_again_rows(&command.options, a, v->computed, &same, v->where, err);
+    if (!status && v->computed > 0)
+        status = run_again_rows(&command.options, a, v->computed, &same, v->where, progress, err);
     v->differ = !same;
     run_command_free(&command);
     return status;

@@ -19,7 +19,7 @@ motus_status archive_verify(motus_archive *, const options *, const uint64_t *bl
 /* Of a run: its first rows, since there is no other way to a row than from the start; where blocks are missing
  * (`missing`), those before the first of them. */
 motus_status archive_verify_run(motus_archive *, const options *, uint64_t first_missing, bool missing,
-                                archive_verified *, motus_error *);
+                                archive_verified *, stop_progress *, motus_error *);
 /* What to tell of blocks, or rows, that differ. */
 motus_status archive_verify_failed(const archive_verified *, const options *, bool run, motus_error *);
 

@@ -146,19 +146,25 @@ motus_status csv_begin(csv *c, file_out *file, const options *o, const motus_run
     return status ? status : csv_names(c, file, err);
 }
 
+bool csv_significant(const csv *c, const double *values)
+{
+    bool known = true;
+    for (size_t k = 0; c->errors && k < c->count; k++)
+        known = known && (c->columns[k] == 0 || !isinf(values[c->count + k])); /* 0: t */
+    return known;
+}
+
 motus_status csv_row(void *context, const double *values, motus_error *err)
 {
     csv *c = context;
     char *s = c->line;
-    bool significant = true;
     for (size_t k = 0; k < (c->errors ? 2 : 1) * c->count; k++) {
         if (k >= c->count && c->columns[k - c->count] == 0) continue; /* t */
         if (k > 0) *s++ = ',';
-        if (k >= c->count && isinf(values[k])) significant = false;
         decimal(values[k], s);
         s += strlen(s);
     }
-    if (c->errors) *s++ = ',', *s++ = significant ? '1' : '0';
+    if (c->errors) *s++ = ',', *s++ = csv_significant(c, values) ? '1' : '0';
     *s++ = '\n';
     c->rows++;
     return file_write(c->file, c->line, (size_t)(s - c->line), err);

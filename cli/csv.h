@@ -22,6 +22,8 @@ motus_status csv_begin(csv *, file_out *, const options *, const motus_run *, mo
 motus_status csv_names(csv *, file_out *, motus_error *);
 /* Writes one row; context is a csv. The take of a walk_observer. */
 motus_status csv_row(void *context, const double *values, motus_error *);
+/* Whether any digit of the values is known, by the errors behind them. */
+bool csv_significant(const csv *, const double *values);
 /* Writes both sides of a jump; the jump of a walk_observer. */
 motus_status csv_jump(void *context, const double *before, const double *after, motus_error *err);
 void csv_free(csv *);

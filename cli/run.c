@@ -71,14 +71,19 @@ static motus_status check_archive(const options *o, motus_error *err)
     return MOTUS_OK;
 }
 
-static motus_status check_names(const options *o, motus_error *err)
+/* `from`: the archive that is read; NULL: none is. */
+static motus_status check_names(const options *o, const char *from, motus_error *err)
 {
-    const char *in[] = {o->text ? NULL : o->operand, o->restart},
+    const char *in[] = {from      ? from
+                        : o->text ? NULL
+                                  : o->operand,
+                        o->restart},
                *out[FILES] = {o->output, o->plot, o->save_state, o->events};
     for (size_t i = 0; i < FILES; i++) {
         for (size_t k = 0; out[i] && k < 2; k++)
             /* --save-state may replace the file of --restart; - is both standard input and standard output */
-            if (in[k] && strcmp(out[i], "-") != 0 && !(i == STATE && k == 1) && file_same(out[i], in[k]))
+            if (in[k] && strcmp(out[i], "-") != 0 && !(i == STATE && k == 1) && !(i == CSV && from) &&
+                file_same(out[i], in[k]))
                 return fail(err, MOTUS_ARGUMENT, "%s is read and would be overwritten", in[k]);
         for (size_t k = i + 1; out[i] && k < FILES; k++)
             if (out[k] && file_same(out[i], out[k]))
@@ -149,7 +154,7 @@ static motus_status open_archive(job *j, motus_error *err)
 static motus_status begin(job *j, motus_error *err)
 {
     const options *o = j->options;
-    motus_status status = check_names(o, err);
+    motus_status status = check_names(o, j->from, err);
     if (!status) status = load_model(&j->model, o, err);
     if (!status && o->output) status = csv_plan(&j->csv, &j->model, o, err);
     if (!status && o->section && o->plot) status = section_plane(&j->model, o, j->plane, err);
@@ -197,13 +202,13 @@ static motus_status go(job *j, motus_error *err)
 static motus_status finish(job *j, double seconds, motus_error *err)
 {
     const options *o = j->options;
-    motus_status status = o->save_state ? save(j, err) : MOTUS_OK;
+    motus_status status = j->archive ? run_archive_finish(j->archive, err) : MOTUS_OK;
+    if (!status && o->save_state) status = save(j, err);
     if (!status && o->plot && o->section)
         status = section_draw(&j->model, o, j->run, j->plane, &j->files[PLOT], err);
     else if (!status && o->plot)
         status = figure_draw(&j->figure, o->plot, &j->files[PLOT], err);
     if (!status && o->events) status = event_file_write(&j->files[EVENTS], &j->model, o, j->run, err);
-    if (!status && j->archive) status = run_archive_finish(j->archive, err);
     for (int i = 0; !status && i < FILES; i++) status = file_finish(&j->files[i], err);
     summary s = {&j->model,
                  o,
@@ -274,21 +279,24 @@ static motus_status run(const options *o, const char *from, motus_error *err)
              .estimate = motus_default_estimate(),
              .singular = motus_default_error(),
              .missed = motus_default_error()};
+    bool whole = false, finished = false;
     motus_status status = begin(&j, err);
     if (!status) {
         j.progress = stop_progress_begin("run", o->quiet);
         const double began = isnan(j.began) ? stop_clock() : j.began;
         status = go(&j, err);
+        whole = !status;
         if (!status && j.def.error != MOTUS_BARS_NONE) status = motus_run_estimate(j.run, &j.estimate, err);
         double seconds = fmax(0, stop_clock() - began - j.estimate.seconds); /* without its companions */
         stop_progress_end(&j.progress);
         if (!status && look_for_poles(&j) == MOTUS_MEMORY) *err = j.singular, status = MOTUS_MEMORY;
         if (!status) j.missed.status = motus_run_step(j.run, 0, &j.missed);
         if (!status) status = finish(&j, seconds, err);
+        finished = !status;
         if (!status && j.singular.status) *err = j.singular, status = j.singular.status;
         if (!status && j.missed.status) *err = j.missed, status = j.missed.status;
     }
-    if (status && !j.singular.status && !j.missed.status) run_archive_leave(j.archive);
+    if (status && !finished) run_archive_leave(j.archive, whole);
     for (int i = 0; i < FILES; i++) file_drop(&j.files[i]);
     figure_free(&j.figure);
     deviation_free(&j.deviation);

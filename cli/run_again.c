@@ -18,10 +18,12 @@ typedef struct comparison {
     motus_archive *file;
     const csv *plan;
     run_columns columns;
-    double *its; /* a row of a column */
+    double **ours, **its; /* a row that is computed; a block of the file */
+    size_t block;
     uint64_t rows, wanted;
     bool same;
     char *where;
+    stop_progress *progress;
 } comparison;
 
 static void tell(comparison *c, size_t k, size_t i, double its, double ours)
@@ -32,21 +34,32 @@ static void tell(comparison *c, size_t k, size_t i, double its, double ours)
              c->columns.columns[k].name, place, decimal(its, a), decimal(ours, b));
 }
 
+/* The block of the next row. */
+static motus_status read_block(comparison *c, motus_error *err)
+{
+    const uint64_t left = motus_archive_rows(c->file) - c->rows;
+    motus_status status = MOTUS_OK;
+    for (size_t k = 0; !status && k < c->columns.count; k++)
+        status = motus_archive_read(c->file, k, c->rows, left < c->block ? (size_t)left : c->block, c->its[k], err);
+    if (!status && c->progress && stop_progress_hook(c->progress, (double)c->rows / (double)c->wanted))
+        status = fail(err, MOTUS_CANCELLED, "cancelled");
+    return status;
+}
+
 static motus_status take(void *context, const double *values, motus_error *err)
 {
     comparison *c = context;
-    double significant = 1;
     if (c->rows == c->wanted || !c->same) return ENOUGH;
-    for (size_t k = c->plan->count; c->plan->errors && k < 2 * c->plan->count; k++)
-        if (isinf(values[k])) significant = 0;
+    const size_t at = (size_t)(c->rows % c->block);
+    const motus_status status = at == 0 ? read_block(c, err) : MOTUS_OK;
+    if (status) return status;
+    run_columns_put(&c->columns, c->plan, values, c->ours, 0);
     for (size_t k = 0; c->same && k < c->columns.count; k++) {
-        const run_column *column = c->columns.columns + k;
-        const double *ours = column->from == SIZE_MAX ? &significant : values + column->from;
-        const motus_status status = motus_archive_read(c->file, k, c->rows, 1, c->its, err);
-        if (status) return status;
-        for (size_t i = 0; c->same && i < column->width; i++) {
-            c->same = memcmp(ours + i, c->its + i, sizeof *ours) == 0;
-            if (!c->same) tell(c, k, i, c->its[i], ours[i]);
+        const size_t width = c->columns.columns[k].width;
+        const double *ours = c->ours[k], *its = c->its[k] + at * width;
+        for (size_t i = 0; c->same && i < width; i++) {
+            c->same = memcmp(ours + i, its + i, sizeof *ours) == 0;
+            if (!c->same) tell(c, k, i, its[i], ours[i]);
         }
     }
     c->rows++;
@@ -59,25 +72,19 @@ static motus_status jump(void *context, const double *before, const double *afte
     return status ? status : take(context, after, err);
 }
 
-/* Whether the file has these columns; the room for a row of the widest. */
-static motus_status check(comparison *c, motus_error *err)
+static motus_status begin(comparison *c, motus_error *err)
 {
-    size_t widest = 1;
-    bool same = motus_archive_column_count(c->file) == c->columns.count;
-    for (size_t k = 0; same && k < c->columns.count; k++) {
-        motus_archive_column its;
-        motus_archive_column_at(c->file, k, &its);
-        same = its.kind == MOTUS_ARCHIVE_NUMBER && motus_archive_width(&its) == c->columns.columns[k].width &&
-               strcmp(its.name, c->columns.columns[k].name) == 0;
-        if (c->columns.columns[k].width > widest) widest = c->columns.columns[k].width;
-    }
-    if (!same) return fail(err, MOTUS_STATE, "the archive has other columns than those that its command makes");
-    c->its = malloc(widest * sizeof *c->its);
-    return c->its ? MOTUS_OK : complain_memory(err);
+    uint64_t first;
+    if (!run_columns_fit(&c->columns, c->file))
+        return fail(err, MOTUS_STATE, "the archive has other columns than those that its command makes");
+    motus_archive_block(c->file, 0, &first, &c->block);
+    c->ours = run_columns_rooms(&c->columns, 1);
+    c->its = run_columns_rooms(&c->columns, c->block);
+    return c->ours && c->its ? MOTUS_OK : complain_memory(err);
 }
 
 motus_status run_again_rows(const options *o, motus_archive *file, uint64_t rows, bool *same, char where[RUN_WHERE],
-                            motus_error *err)
+                            stop_progress *progress, motus_error *err)
 {
     load model;
     csv plan = {0};
@@ -85,16 +92,16 @@ motus_status run_again_rows(const options *o, motus_archive *file, uint64_t rows
     motus_run_def def;
     options quiet = *o;
     quiet.quiet = true;
-    stop_progress progress = stop_progress_begin("archive", true);
-    comparison c = {.file = file, .plan = &plan, .wanted = rows, .same = true, .where = where};
+    stop_progress silent = stop_progress_begin("archive", true);
+    comparison c = {.file = file, .plan = &plan, .wanted = rows, .same = true, .where = where, .progress = progress};
     const motus_bars bars = !o->errors                                  ? MOTUS_BARS_NONE
                             : o->error && strcmp(o->error, "full") == 0 ? MOTUS_BARS_FULL
                                                                         : MOTUS_BARS_CHEAP;
     motus_status status = load_model(&model, &quiet, err);
-    if (!status) status = run_make(&quiet, &model, &progress, bars, &def, &run, err);
+    if (!status) status = run_make(&quiet, &model, &silent, bars, &def, &run, err);
     if (!status) status = csv_plan(&plan, &model, &quiet, err);
     if (!status) status = run_columns_make(&c.columns, &plan, err);
-    if (!status) status = check(&c, err);
+    if (!status) status = begin(&c, err);
     if (!status) {
         walk_observer w = run_make_rows(&quiet, &model, run);
         w.columns = plan.columns, w.count = plan.count;
@@ -105,7 +112,8 @@ motus_status run_again_rows(const options *o, motus_archive *file, uint64_t rows
             status = fail(err, MOTUS_STATE, "the run of the archive's command has only %" PRIu64 " rows", c.rows);
     }
     *same = c.same;
-    free(c.its);
+    run_columns_drop(&c.columns, c.ours);
+    run_columns_drop(&c.columns, c.its);
     run_columns_free(&c.columns);
     csv_free(&plan);
     motus_run_destroy(run);

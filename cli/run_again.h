@@ -3,13 +3,15 @@
 #define CLI_RUN_AGAIN_H
 
 #include "cli/options.h"
+#include "cli/stop.h"
 
 #include <motus-archive.h>
 
 enum { RUN_WHERE = 256 };
 /* Whether the first `rows` rows have the bytes that the run of the options has; `where`, where they have not: which row
- * and which number. MOTUS_STATE: the archive has other columns. */
+ * and which number. progress: NULL, none is told. MOTUS_STATE: the archive
+ * has other columns. */
 motus_status run_again_rows(const options *, motus_archive *, uint64_t rows, bool *same, char where[RUN_WHERE],
-                            motus_error *);
+                            stop_progress *, motus_error *);
 
 #endif

@@ -5,15 +5,15 @@
  *
  * Invariants: the file opens at any time and tells which blocks are there. It grows by another file, which takes its
  * name when it has all that the old one had. At the end its bytes depend on the run alone: how many rows it has room
- * for and how large the slots of states are follow from the rows and from the first and the last state. / */
+ * for and how large the slots of states are follow from the rows and from the first and the last state. */
 #include "cli/run_archive.h"
 
-#include "base/decimal.h"
 #include "base/error.h"
 #include "cli/complain.h"
 #include "cli/run_again.h"
 #include "cli/run_columns.h"
 #include "cli/run_command.h"
+#include "cli/run_state.h"
 #include "cli/stop.h"
 #include "cli/sweep.h"
 
@@ -26,7 +26,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-enum { BLOCK_BYTES = 1 << 20, BLOCK_MOST = 4096, UNKNOWN = 4 * BLOCK_MOST, HEAD = 256, PAGE = 4096, USUAL_S = 600 };
+enum { BLOCK_BYTES = 1 << 20, BLOCK_MOST = 4096, UNKNOWN = 4 * BLOCK_MOST, USUAL_S = 600, JUMPS = 256 };
 
 struct run_archive {
     run_archive_def of;
@@ -36,35 +36,38 @@ struct run_archive {
     motus_archive *file;
     run_columns columns;
     double **rooms; /* of each column, for a block of rows */
-    const void **written;
     size_t block;
     uint64_t rows, capacity;
-    size_t slot;         /* what a state may have, */
-    size_t first_slot;   /*   and what the first one asks for */
-    size_t state_length; /* of the last that was written, without rows */
+    uint64_t kept;           /* how many rows the last state has that is in the file */
+    size_t slot, first_slot; /* what a state may have, and what the first one asks for */
     int64_t samples;
-    double time, *times;      /* of the row that is taken; of the last rows, that of row i in times[i % block] */
-    bool made, kept, goes_on; /* the file is new; it has a state; the run stands at one */
+    double time;         /* of the row that is taken */
+    double jumps[JUMPS]; /* the times of the last rows at jumps, */
+    uint64_t jump_rows;  /*   of so many */
+    bool made, goes_on;  /* this command has made the file; the run stands at a state of it, */
+    bool finished;       /* all is in the file */
+    bool due;            /*   and the row that may be due there has not been taken */
+    char *last;          /* a state of the last steps, where there are events; NULL: there is none */
+    size_t last_length, last_needs;
+    bool end_row; /* the last row was taken at the end, not at a jump */
 };
 
 /* ---- sizes ---- */
 
-static size_t slot_for(const run_archive *a, size_t state)
-{
-    const size_t rows = a->block * (a->columns.width + 1) * sizeof(double);
-    return (HEAD + state + state / 4 + rows + PAGE - 1) / PAGE * PAGE;
-}
+static size_t rest_most(const run_archive *a) { return a->block * a->columns.width * sizeof(double); }
 
-/* How many rows the run has up to its end, if nothing happens on the way; where steps adapt, a guess. */
-static uint64_t expected_rows(const run_archive *a)
+/* How many rows the run has up to its end, if nothing happens on the way; where steps adapt, a guess: *known false. */
+static uint64_t expected_rows(const run_archive *a, bool *known)
 {
     const walk_observer *rows = a->of.rows;
     const int64_t total = motus_run_steps_total(a->of.run);
+    *known = true;
     if (rows->stride > 0 && total > 0) return (uint64_t)(total / rows->stride + 1 + (total % rows->stride != 0));
     if (rows->period > 0) {
         const double span = fabs(a->of.until - a->of.start), all = ceil(span / rows->period * (1 - 1e-12)) + 1;
         if (all < 1e15) return (uint64_t)all;
     }
+    *known = false;
     return UNKNOWN / a->block * a->block + a->block;
 }
 
@@ -89,143 +92,162 @@ static motus_status create(const run_archive *a, const char *path, uint64_t rows
 }
 
 /* Only one program writes the file. */
-static motus_status lock(run_archive *a, motus_error *err)
+static motus_status lock(const char *path, int *descriptor, motus_error *err)
 {
     bool regular = true;
-    if (a->descriptor >= 0) close(a->descriptor);
-    a->descriptor = -1;
-    const motus_status status = sweep_file_lock(a->path, &a->descriptor, &regular, err);
+    const motus_status status = sweep_file_lock(path, descriptor, &regular, err);
     if (status || regular) return status;
-    return fail(err, MOTUS_ARGUMENT, "%s is not a regular file, which an archive must be", a->path);
+    return fail(err, MOTUS_ARGUMENT, "%s is not a regular file, which an archive must be", path);
 }
 
 static motus_status copy_blocks(const run_archive *a, motus_archive *from, motus_archive *to, motus_error *err)
 {
-    double **rooms = calloc(a->columns.count, sizeof *rooms);
+    double **rooms = run_columns_rooms(&a->columns, a->block);
     motus_status status = rooms ? MOTUS_OK : complain_memory(err);
-    for (size_t k = 0; !status && k < a->columns.count; k++)
-        if (!(rooms[k] = malloc(a->block * a->columns.columns[k].width * sizeof **rooms)))
-            status = complain_memory(err);
     for (uint64_t b = 0; !status && b < a->rows / a->block; b++) {
+        int whole;
         for (size_t k = 0; !status && k < a->columns.count; k++)
             status = motus_archive_read(from, k, b * a->block, a->block, rooms[k], err);
+        if (!status) status = motus_archive_whole(from, b, &whole, err); /* else damage would get a hash that fits */
+        if (!status && !whole) status = fail(err, MOTUS_STATE, "block %" PRIu64 " of %s is damaged", b + 1, a->path);
         if (!status) status = motus_archive_write(to, b, (const void *const *)rooms, err);
     }
-    for (size_t k = 0; rooms && k < a->columns.count; k++) free(rooms[k]);
-    free(rooms);
+    run_columns_drop(&a->columns, rooms);
     return status;
 }
 
-static motus_status copy_state(motus_archive *from, motus_archive *to, motus_error *err)
+/* The latest state of the file, where there are bytes of none. */
+static motus_status put_state(motus_archive *from, motus_archive *to, const char *bytes, size_t length,
+                              motus_error *err)
 {
-    char *bytes;
-    size_t length;
-    motus_status status = motus_archive_saved(from, 0, &bytes, &length, err);
-    if (!status && bytes) status = motus_archive_save(to, bytes, length, err);
-    free(bytes);
+    char *its = NULL;
+    motus_status status = bytes ? MOTUS_OK : motus_archive_saved(from, 0, &its, &length, err);
+    if (!status && (bytes || its)) status = motus_archive_save(to, bytes ? bytes : its, length, err);
+    free(its);
     return status;
 }
 
-/* Another file takes the place of this one, with the complete blocks and the state of `from`, which may be this one,
- * and other sizes. */
-static motus_status rebuild(run_archive *a, motus_archive *from, uint64_t rows, size_t slot, motus_error *err)
+static char *beside(const char *name, const char *ending)
 {
-    static const char ending[] = ".grown";
+    char *out = malloc(strlen(name) + strlen(ending) + 1);
+    if (out) strcat(strcpy(out, name), ending);
+    return out;
+}
+
+static const char grown[] = ".grown", grown_new[] = ".grown.new";
+
+/* Puts another file in the place of the one that is locked: with the complete blocks of `from`, which may be that one
+ * (NULL: none), the state of these bytes (NULL: the latest of `from`), and room for so many rows. It is locked before
+ * it has its name. */
+static motus_status replace(run_archive *a, motus_archive *from, uint64_t rows, size_t slot, const char *state,
+                            size_t length, motus_error *err)
+{
     motus_archive *to = NULL;
+    struct stat about;
+    int descriptor = -1;
     char *where = realpath(a->path, NULL); /* where a link leads */
     const char *name = where ? where : a->path;
-    char *beside = malloc(strlen(name) + sizeof ending);
-    motus_status status = beside ? MOTUS_OK : complain_memory(err);
-    if (beside) strcat(strcpy(beside, name), ending);
-    if (!status) status = create(a, beside, rows, slot, err);
+    char *path = beside(name, grown);
+    motus_status status = path ? create(a, path, rows, slot, err) : complain_memory(err);
     const bool made = !status;
-    if (!status) status = motus_archive_open(beside, 1, &to, err);
-    if (!status) status = copy_blocks(a, from, to, err);
-    if (!status) status = copy_state(from, to, err);
+    if (!status && stat(name, &about) == 0) (void)chmod(path, about.st_mode & 07777);
+    if (!status) status = motus_archive_open(path, 1, &to, err);
+    if (!status && from) status = copy_blocks(a, from, to, err);
+    if (!status) status = put_state(from, to, state, length, err);
     if (!status) status = motus_archive_sync(to, err);
-    if (!status && rename(beside, name) != 0)
+    if (!status) status = lock(path, &descriptor, err);
+    if (!status && rename(path, name) != 0)
         status = fail(err, MOTUS_FILE, "cannot write %s: %s", a->path, strerror(errno));
     if (!status) {
         file_synchronise_folder(name);
         motus_archive_close(a->file);
+        close(a->descriptor);
         a->file = to;
+        a->descriptor = descriptor;
         a->capacity = rows;
         a->slot = slot;
-        status = lock(a, err);
     } else {
         motus_archive_close(to);
-        if (made) remove(beside);
+        if (descriptor >= 0) close(descriptor);
+        if (made) remove(path);
     }
-    free(beside);
+    free(path);
     free(where);
     return status;
+}
+
+/* What a killed program has left beside the file, which is locked. */
+static void remove_remains(const run_archive *a)
+{
+    char *where = realpath(a->path, NULL);
+    const char *const endings[] = {grown, grown_new};
+    for (int k = 0; where && k < 2; k++) {
+        char *path = beside(where, endings[k]);
+        if (path) remove(path);
+        free(path);
+    }
+    free(where);
 }
 
 /* ---- rows ---- */
 
 static motus_status write_block(run_archive *a, uint64_t block, motus_error *err)
 {
-    return motus_archive_write(a->file, block, a->written, err);
+    return motus_archive_write(a->file, block, (const void *const *)a->rooms, err);
+}
+
+static motus_status add(run_archive *a, const double *values, motus_error *err)
+{
+    if (a->rows == a->capacity) {
+        const uint64_t more = (2 * a->capacity / a->block + 1) * a->block;
+        const motus_status status = replace(a, a->file, more, a->slot, NULL, 0, err);
+        if (status) return status;
+    }
+    run_columns_put(&a->columns, a->of.plan, values, a->rooms, (size_t)(a->rows % a->block));
+    a->rows++;
+    return a->rows % a->block == 0 ? write_block(a, a->rows / a->block - 1, err) : MOTUS_OK;
 }
 
 static motus_status take(void *context, const double *values, motus_error *err)
 {
     run_archive *a = context;
-    const size_t i = (size_t)(a->rows % a->block), count = a->of.plan->count;
-    bool significant = true;
-    if (a->rows == a->capacity) {
-        const uint64_t more = (2 * a->capacity / a->block + 1) * a->block;
-        const motus_status status = rebuild(a, a->file, more, a->slot, err);
-        if (status) return status;
-    }
-    for (size_t k = count; a->of.plan->errors && k < 2 * count; k++)
-        if (isinf(values[k])) significant = false;
-    for (size_t c = 0; c < a->columns.count; c++) {
-        const run_column *column = a->columns.columns + c;
-        double *to = a->rooms[c] + i * column->width;
-        if (column->from == SIZE_MAX)
-            *to = significant;
-        else
-            memcpy(to, values + column->from, column->width * sizeof *to);
-    }
-    a->times[i] = a->time;
-    a->rows++;
-    return a->rows % a->block == 0 ? write_block(a, a->rows / a->block - 1, err) : MOTUS_OK;
+    a->end_row = motus_run_done(a->of.run) && a->time == motus_run_time(a->of.run);
+    return add(a, values, err);
 }
 
 static motus_status jump(void *context, const double *before, const double *after, motus_error *err)
 {
-    const motus_status status = take(context, before, err);
-    return status ? status : take(context, after, err);
+    run_archive *a = context;
+    a->end_row = false;
+    for (int k = 0; k < 2; k++) a->jumps[a->jump_rows++ % JUMPS] = a->time;
+    const motus_status status = add(a, before, err);
+    return status ? status : add(a, after, err);
 }
 
 /* ---- states ---- */
 
-static const char head_format[] = "motus run\nrows %" PRIu64 "\nsamples %" PRId64 "\nstate %zu\n";
-
-/* The state of the run: a head of HEAD bytes, the library's restart state, and the first `rows` % block rows of the
- * block that is not complete, column after column. */
-static motus_status write_state(run_archive *a, uint64_t rows, char **bytes, size_t *length, motus_error *err)
+/* The state of the run with the first `rows` rows; to be freed. *needs: what a slot for such states has. */
+static motus_status write_state(run_archive *a, uint64_t rows, bool due, char **bytes, size_t *length, size_t *needs,
+                                motus_error *err)
 {
-    const char *text;
-    size_t count, some = (size_t)(rows % a->block) * sizeof(double);
-    motus_status status = motus_run_save(a->of.run, &text, &count, err);
+    const size_t some = (size_t)(rows % a->block);
+    run_state s = {
+        .rows = rows, .samples = a->samples, .due = due, .rest_length = some * a->columns.width * sizeof(double)};
+    char *rest;
+    *bytes = NULL;
+    motus_status status = motus_run_save(a->of.run, &s.text, &s.length, err);
     if (status) return status;
-    *length = HEAD + count + some * a->columns.width;
-    a->state_length = count;
-    char *out = *bytes = calloc(1, *length);
-    if (!out) return complain_memory(err);
-    snprintf(out, HEAD, head_format, rows, a->samples, count);
-    memcpy(out + HEAD, text, count);
-    out += HEAD + count;
+    *needs = run_state_slot(s.length, rest_most(a));
+    *bytes = run_state_write(&s, length, &rest);
+    if (!*bytes) return complain_memory(err);
     const bool written = rows / a->block < a->rows / a->block; /* then the rooms have later rows */
-    for (size_t c = 0; !status && c < a->columns.count; c++) {
-        const size_t size = some * a->columns.columns[c].width;
+    for (size_t c = 0; !status && some > 0 && c < a->columns.count; c++) {
+        const size_t size = some * a->columns.columns[c].width * sizeof(double);
         if (written)
-            status = motus_archive_read(a->file, c, rows / a->block * a->block, (size_t)(rows % a->block), out, err);
+            status = motus_archive_read(a->file, c, rows / a->block * a->block, some, rest, err);
         else
-            memcpy(out, a->rooms[c], size);
-        out += size;
+            memcpy(rest, a->rooms[c], size);
+        rest += size;
     }
     return status;
 }
@@ -233,44 +255,57 @@ static motus_status write_state(run_archive *a, uint64_t rows, char **bytes, siz
 static motus_status keep(void *context, motus_error *err)
 {
     run_archive *a = context;
-    char *bytes = NULL;
-    size_t length;
-    motus_status status = write_state(a, a->rows, &bytes, &length, err);
-    if (!status && length > a->slot) status = rebuild(a, a->file, a->capacity, slot_for(a, a->state_length), err);
-    if (!status) status = motus_archive_save(a->file, bytes, length, err);
-    a->kept = a->kept || !status;
+    char *bytes;
+    size_t length, needs;
+    motus_status status = write_state(a, a->rows, false, &bytes, &length, &needs, err);
+    if (!status && length > a->slot)
+        status = replace(a, a->file, a->capacity, needs, bytes, length, err);
+    else if (!status)
+        status = motus_archive_save(a->file, bytes, length, err);
+    if (!status) a->kept = a->rows;
     free(bytes);
     return status;
 }
 
-/* A number behind a word of the head of a state. */
-static bool word(const char **at, const char *name, uint64_t *value)
+/* Where there are events the library's state at the end is before the last step, with or without what happens where
+ * that begins: then one of the last steps serves for the end. */
+static motus_status remember(void *context, motus_error *err)
 {
-    const size_t length = strlen(name);
-    if (strncmp(*at, name, length) != 0) return false;
-    const size_t digits = decimal_read_whole(*at + length, strlen(*at + length), value);
-    if (digits == 0 || (*at)[length + digits] != '\n') return false;
-    *at += length + digits + 1;
-    return true;
+    run_archive *a = context;
+    char *bytes;
+    motus_status status = write_state(a, a->rows, false, &bytes, &a->last_length, &a->last_needs, err);
+    free(a->last);
+    a->last = status ? NULL : bytes;
+    if (status) free(bytes);
+    return status;
 }
 
-typedef struct state_head {
-    uint64_t rows, samples, count;
-} state_head;
+static bool has_events(const char *state) { return strstr(state, "\nevents ") != NULL; }
 
-static bool read_head(const char *bytes, size_t length, state_head *h)
+/* The time of so many steps of one size from the start, as a run to a later end has it. */
+static double time_of(const run_archive *a, int64_t steps)
 {
-    const char *at = bytes;
-    return length >= HEAD && memchr(bytes, 0, HEAD) && word(&at, "motus run\nrows ", &h->rows) &&
-           word(&at, "samples ", &h->samples) && word(&at, "state ", &h->count) && h->count <= length - HEAD;
+    const double h = motus_run_step_size(a->of.run);
+    return a->of.start + (a->of.until < a->of.start ? -h : h) * (double)steps;
 }
 
-const char *run_archive_state(const char *bytes, size_t length, size_t *count)
+/* Whether the last step, of steps of one size, is a shorter one. */
+static bool shorter_last(const run_archive *a)
 {
-    state_head h;
-    if (!read_head(bytes, length, &h)) return NULL;
-    *count = (size_t)h.count;
-    return bytes + HEAD;
+    const int64_t total = motus_run_steps_total(a->of.run);
+    return total > 0 && fabs(time_of(a, total) - a->of.until) > 1e-6 * motus_run_step_size(a->of.run);
+}
+
+/* Likewise where the end is a whole number of steps only up to rounding: it is no time of a longer run, nor are the times
+ * within the last step those of one. */
+static bool wants_last(const run_archive *a)
+{
+    const char *text;
+    size_t length;
+    motus_error ignored = motus_default_error();
+    const int64_t total = motus_run_steps_total(a->of.run);
+    if (total == 0 || motus_run_save(a->of.run, &text, &length, &ignored) != MOTUS_OK) return false;
+    return has_events(text) || (!shorter_last(a) && time_of(a, total) != a->of.until);
 }
 
 /* Moves the run to a state of `from`; *found false: it has not that state, or not the blocks before it. */
@@ -278,29 +313,25 @@ static motus_status take_state(run_archive *a, motus_archive *from, int back, bo
 {
     char *bytes;
     size_t length;
-    state_head h = {0};
-    *found = false;
+    run_state s;
     motus_status status = motus_archive_saved(from, back, &bytes, &length, err);
+    *found = false;
     if (status || !bytes) return status;
-    const bool good = read_head(bytes, length, &h) && h.rows <= motus_archive_rows(from) &&
-                      (h.rows % a->block) * a->columns.width * sizeof(double) == length - HEAD - h.count;
-    const uint64_t rows = h.rows;
-    int whole = good;
-    for (uint64_t b = 0; !status && whole && b < rows / a->block; b++)
+    int whole = run_state_read(bytes, length, &s) && s.rows <= motus_archive_rows(from) &&
+                (s.rows % a->block) * a->columns.width * sizeof(double) == s.rest_length;
+    for (uint64_t b = 0; !status && whole && b < s.rows / a->block; b++)
         status = motus_archive_whole(from, b, &whole, err);
-    if (!status && good && whole) status = motus_run_restore(a->of.run, bytes + HEAD, (size_t)h.count, err);
-    if (!status && good && whole) {
-        const size_t some = (size_t)(rows % a->block) * sizeof(double);
-        const char *at = bytes + HEAD + h.count;
+    if (!status && whole) status = motus_run_restore(a->of.run, s.text, s.length, err);
+    if (!status && whole) {
         for (size_t c = 0; c < a->columns.count; c++) {
-            const size_t size = some * a->columns.columns[c].width;
-            memcpy(a->rooms[c], at, size);
-            at += size;
+            const size_t size = (size_t)(s.rows % a->block) * a->columns.columns[c].width * sizeof(double);
+            memcpy(a->rooms[c], s.rest, size);
+            s.rest += size;
         }
-        for (size_t i = 0; i < (size_t)(rows % a->block); i++) a->times[i] = NAN; /* before the state */
-        a->rows = rows;
-        a->samples = (int64_t)h.samples;
-        a->goes_on = a->kept = *found = true;
+        a->rows = a->kept = s.rows;
+        a->samples = s.samples;
+        a->due = s.due;
+        a->goes_on = *found = true;
     }
     free(bytes);
     return status;
@@ -312,22 +343,14 @@ static motus_status make_rooms(run_archive *a, motus_error *err)
 {
     const size_t row = (a->columns.width + 1) * sizeof(double), rows = BLOCK_BYTES / row;
     a->block = rows < 1 ? 1 : rows < BLOCK_MOST ? rows : BLOCK_MOST;
-    a->rooms = calloc(a->columns.count, sizeof *a->rooms);
-    a->written = calloc(a->columns.count, sizeof *a->written);
-    a->times = calloc(a->block, sizeof *a->times);
-    if (!a->rooms || !a->written || !a->times) return complain_memory(err);
-    for (size_t k = 0; k < a->columns.count; k++) {
-        a->rooms[k] = calloc(a->block * a->columns.columns[k].width, sizeof **a->rooms);
-        a->written[k] = a->rooms[k];
-        if (!a->rooms[k]) return complain_memory(err);
-    }
-    return MOTUS_OK;
+    a->rooms = run_columns_rooms(&a->columns, a->block);
+    return a->rooms ? MOTUS_OK : complain_memory(err);
 }
 
-static motus_status another(const run_archive *a, motus_archive *file, motus_error *err)
+static motus_status another(const char *path, motus_archive *file, motus_error *err)
 {
     const char *command = motus_archive_note_of(file, "command");
-    fail(err, MOTUS_STATE, "%s was made by another run", a->path);
+    fail(err, MOTUS_STATE, "%s was made by another run", path);
     hint(err, command ? "it was made by: %.300s" : "--force replaces it%s", command ? command : "");
     return MOTUS_STATE;
 }
@@ -337,16 +360,9 @@ static bool fits(const run_archive *a, motus_archive *file)
 {
     uint64_t first;
     size_t count;
-    bool same = motus_archive_column_count(file) == a->columns.count;
-    for (size_t k = 0; same && k < a->columns.count; k++) {
-        motus_archive_column c;
-        motus_archive_column_at(file, k, &c);
-        same = strcmp(c.name, a->columns.described[k].name) == 0 && c.kind == MOTUS_ARCHIVE_NUMBER &&
-               motus_archive_width(&c) == a->columns.columns[k].width;
-    }
-    motus_archive_block(file, 0, &first, &count);
     const uint64_t rows = motus_archive_rows(file);
-    return same && count == (rows < a->block ? rows : a->block);
+    motus_archive_block(file, 0, &first, &count);
+    return run_columns_fit(&a->columns, file) && count == (rows < a->block ? rows : a->block);
 }
 
 static bool says(motus_archive *file, const char *name, const char *text)
@@ -376,7 +392,7 @@ static motus_status compare_versions(const run_archive *a, const char *path, mot
     motus_archive_block(from, 0, &first, &count);
     if (!status && !whole)
         return other_version(path, version, "there is no block by which to see whether the bits are the same", err);
-    if (!status) status = run_again_rows(a->of.options, from, count < ROWS ? count : ROWS, &same, where, err);
+    if (!status) status = run_again_rows(a->of.options, from, count < ROWS ? count : ROWS, &same, where, NULL, err);
     if (status) return status;
     snprintf(why, sizeof why, "this motus, %s, computes other bits: %s", motus_version(), where);
     if (!same) return other_version(path, version, why, err);
@@ -385,67 +401,73 @@ static motus_status compare_versions(const run_archive *a, const char *path, mot
     return MOTUS_OK;
 }
 
-/* Opens the file to go on with; `same`: it must be of this very command. */
+/* Opens the file to go on with, and moves the run to its state; `same`: it must be of this very command. */
 static motus_status open_source(run_archive *a, const char *path, bool same, motus_archive **from, motus_error *err)
 {
     char print[RUN_FINGERPRINT];
+    bool found = false;
     motus_status status = motus_archive_open(path, 0, from, err);
     if (status) return status;
     const char *version = motus_archive_note_of(*from, "motus");
-    if (!version || !fits(a, *from)) return another(a, *from, err);
+    if (!version || !fits(a, *from)) return another(path, *from, err);
     run_command_fingerprint(version, a->of.model->text, a->command, print);
-    if (same && !says(*from, "fingerprint", print)) return another(a, *from, err);
+    if (same && !says(*from, "fingerprint", print)) return another(path, *from, err);
     if (strcmp(version, motus_version()) != 0) status = compare_versions(a, path, *from, version, err);
-    bool found = false;
-    if (!status) status = take_state(a, *from, 0, &found, err);
-    if (!status && !found) status = take_state(a, *from, 1, &found, err);
-    return status;
+    for (int back = 0; !status && !found && back < 2; back++) status = take_state(a, *from, back, &found, err);
+    if (status || found) return status;
+    fail(err, MOTUS_STATE, "%s is damaged: it has no state with all the rows before it", path);
+    hint(err, "take a copy; or begin anew: its command with --force");
+    return MOTUS_STATE;
 }
 
-static motus_status make_new(run_archive *a, motus_error *err)
-{
-    a->capacity = expected_rows(a);
-    a->slot = a->first_slot;
-    motus_status status = create(a, a->path, a->capacity, a->slot, err);
-    if (!status) status = motus_archive_open(a->path, 1, &a->file, err);
-    return status ? status : lock(a, err);
-}
-
-/* The file that there is goes on as it is, or by another one of the right sizes. */
+/* The file that there is goes on as it is, or by another one of the right size. */
 static motus_status go_on(run_archive *a, motus_archive *source, bool own, motus_error *err)
 {
-    if (own && says(source, "command", a->command)) { /* by whatever version it was begun */
-        a->capacity = motus_archive_rows(source);
-        a->slot = motus_archive_slot(source);
-        return motus_archive_open(a->path, 1, &a->file, err);
+    bool known;
+    const uint64_t capacity = expected_rows(a, &known);
+    const bool stays = own && says(source, "command", a->command); /* by whatever version it was begun */
+    if (!motus_archive_makes() && !(stays && known && capacity == motus_archive_rows(source))) {
+        fail(err, MOTUS_UNAVAILABLE, "%s: the file would have to grow, which needs HDF5", a->path);
+        hint(err, "install HDF5, and build motus where libhdf5-dev is installed");
+        return MOTUS_UNAVAILABLE;
     }
-    const uint64_t capacity = expected_rows(a);
-    return rebuild(a, source, a->rows > capacity ? a->rows : capacity, a->first_slot, err);
+    if (!stays) return replace(a, source, a->rows > capacity ? a->rows : capacity, a->first_slot, NULL, 0, err);
+    a->capacity = motus_archive_rows(source);
+    a->slot = motus_archive_slot(source);
+    return motus_archive_open(a->path, 1, &a->file, err);
 }
 
 static motus_status begin(run_archive *a, motus_error *err)
 {
     motus_archive *source = NULL;
-    const char *text, *from = a->of.from;
+    char *bytes;
     size_t length;
     struct stat about;
+    bool known;
     const options *o = a->of.options;
+    motus_status status = lock(a->path, &a->descriptor, err);
+    if (!status && fstat(a->descriptor, &about) != 0)
+        status = fail(err, MOTUS_FILE, "cannot read %s: %s", a->path, strerror(errno));
+    if (status) return status;
+    a->made = about.st_size == 0;
+    const char *from = a->of.from;
     const bool own = from && file_same(from, a->path);
-    a->made = stat(a->path, &about) != 0;
-    const bool there = !a->made && about.st_size > 0;
-    if (there && !own && !o->resume && !o->force) {
+    if (!a->made && !own && !o->resume && !o->force) {
         fail(err, MOTUS_ARGUMENT, "%s exists", a->path);
         hint(err, "--resume continues it, --force replaces it");
         return MOTUS_ARGUMENT;
     }
-    motus_status status = lock(a, err);
-    if (!status) status = motus_run_save(a->of.run, &text, &length, err); /* the first state */
-    if (status) return status;
-    a->first_slot = slot_for(a, length);
-    if (!from && !(there && o->resume)) return make_new(a, err);
-    status = open_source(a, from ? from : a->path, !from, &source, err);
-    if (!status) status = go_on(a, source, own || !from, err);
+    remove_remains(a);
+    const bool same = !a->made && o->resume;
+    if (same) from = a->path; /* what was begun there goes on */
+    status = write_state(a, 0, true, &bytes, &length, &a->first_slot, err);
+    if (!status && !from)
+        status = replace(a, NULL, expected_rows(a, &known), a->first_slot, bytes, length, err);
+    else if (!status)
+        status = open_source(a, from, same, &source, err);
+    if (!status && from) status = go_on(a, source, own || same, err);
     motus_archive_close(source);
+    free(bytes);
     return status;
 }
 
@@ -474,68 +496,91 @@ void run_archive_observe(run_archive *a, walk_observer *rows, walk_keeper *keepe
                             .seconds = o->keep_seconds > 0 ? o->keep_seconds : USUAL_S,
                             .keep = keep,
                             .context = a,
+                            .remember = wants_last(a) ? remember : NULL,
                             .samples = &a->samples,
                             .time = &a->time,
-                            .goes_on = a->goes_on};
+                            .goes_on = a->goes_on,
+                            .due = a->due};
 }
 
 /* ---- the end ---- */
 
-/* How many steps a restart state has. */
-static int64_t steps_of(const char *state)
+/* How many times of the period there are up to this time, as walk() counts them. */
+static int64_t samples_up_to(const run_archive *a, double time)
 {
-    uint64_t steps = 0;
-    const char *at = strstr(state, "\nat ");
-    if (at) decimal_read_whole(at + 4, strlen(at + 4), &steps);
-    return (int64_t)steps;
+    const double period = a->of.rows->period, sign = a->of.until < a->of.start ? -1 : 1;
+    int64_t k = a->samples;
+    while (k > 0 && sign * (a->of.start + sign * (double)(k - 1) * period - time) > 0) k--;
+    return k;
 }
 
-/* How many rows, and samples, a run to a later end has too: those up to the last state, which is before a shorter last
- * step, but not that of the end, unless it was due there anyway. */
-static motus_status rows_to_keep(run_archive *a, uint64_t *rows, motus_error *err)
+/* How many rows, and samples, a run to a later end has too: those up to the last state, but not that of the end, unless
+ * it was due there anyway. With steps of one size the last state is before a shorter last step, and where there are
+ * events before the last one in any case (motus_run_save). */
+static motus_status rows_to_keep(run_archive *a, uint64_t *rows, bool *due, motus_error *err)
 {
     const char *text;
     size_t length;
-    const motus_status status = motus_run_save(a->of.run, &text, &length, err);
     const walk_observer *o = a->of.rows;
-    *rows = a->rows;
-    if (status || a->rows == 0) return status;
-    /* steps that adapt have no times that are known before, and no shorter last one that a longer run does not take */
-    const bool adapts = isnan(motus_run_time_of(a->of.run, 0));
-    const int64_t taken = motus_run_steps(a->of.run), steps = adapts ? taken : steps_of(text);
-    const bool due = o->stride > 0 && taken % o->stride == 0 && steps == taken;
-    const double now = motus_run_time_of(a->of.run, steps);
-    *rows -= !due;
-    if (o->period > 0 && steps < taken && !isnan(now))
-        for (; *rows > 0 && fabs(a->times[(*rows - 1) % a->block] - a->of.start) > fabs(now - a->of.start); --*rows)
-            a->samples--;
+    const motus_status status = motus_run_save(a->of.run, &text, &length, err);
+    if (status) return status;
+    const int64_t taken = motus_run_steps(a->of.run), total = motus_run_steps_total(a->of.run);
+    const bool before = total > 0 && taken == total && (has_events(text) || shorter_last(a));
+    const bool regular = o->stride > 0 && taken % o->stride == 0 && !before;
+    uint64_t more = a->end_row && !regular;
+    *due = more > 0 && !before;
+    if (before) {
+        const double at = motus_run_time_of(a->of.run, total - 1), sign = a->of.until < a->of.start ? -1 : 1;
+        const int64_t samples = o->period > 0 ? samples_up_to(a, at) : a->samples;
+        more += (uint64_t)(a->samples - samples);
+        a->samples = samples;
+        for (uint64_t k = 1; k <= JUMPS && k <= a->jump_rows; k++)
+            more += sign * (a->jumps[(a->jump_rows - k) % JUMPS] - at) > 0;
+    }
+    *rows = a->rows - (more < a->rows ? more : a->rows);
     return MOTUS_OK;
 }
 
 motus_status run_archive_finish(run_archive *a, motus_error *err)
 {
     uint64_t rows;
+    bool due;
     char *bytes = NULL;
-    size_t length = 0;
-    motus_status status = rows_to_keep(a, &rows, err);
-    if (!status) status = write_state(a, rows, &bytes, &length, err);
-    const size_t slot = length <= a->first_slot ? a->first_slot : slot_for(a, a->state_length);
-    if (!status && (a->slot != slot || a->capacity != a->rows)) status = rebuild(a, a->file, a->rows, slot, err);
+    size_t length = 0, needs = 0;
+    motus_status status = MOTUS_OK;
+    if (a->last) {
+        bytes = a->last, length = a->last_length, needs = a->last_needs;
+        a->last = NULL;
+    } else {
+        status = rows_to_keep(a, &rows, &due, err);
+        if (!status) status = write_state(a, rows, due, &bytes, &length, &needs, err);
+    }
+    const size_t slot = length <= a->first_slot ? a->first_slot : needs;
+    if (!status && (a->slot != slot || a->capacity != a->rows))
+        status = replace(a, a->file, a->rows, slot, bytes, length, err);
     if (!status && a->rows % a->block != 0) status = write_block(a, a->rows / a->block, err);
     if (!status) status = motus_archive_settle(a->file, bytes, length, err);
     if (!status) status = motus_archive_sync(a->file, err);
-    a->kept = a->kept || !status;
+    if (!status) a->kept = a->rows;
+    a->finished = !status;
     free(bytes);
     return status;
 }
 
-void run_archive_leave(run_archive *a)
+void run_archive_leave(run_archive *a, bool whole)
 {
+    struct stat own, named;
     if (!a) return;
-    if (a->kept && !a->of.options->quiet)
-        complain_note("%s has %" PRIu64 " rows; the same command with --resume, or motus run %s, goes on", a->path,
-                      a->rows, a->path);
-    if (a->made && !a->kept) unlink(a->path);
+    motus_error ignored = motus_default_error();
+    if (whole && a->file && !a->finished) (void)run_archive_finish(a, &ignored);
+    if (a->file && a->kept > 0) {
+        if (!a->of.options->quiet)
+            complain_note("%s has %" PRIu64 " rows; the same command with --resume, or motus run %s, goes on", a->path,
+                          a->kept, a->path);
+    } else if (a->made && a->descriptor >= 0 && fstat(a->descriptor, &own) == 0 && stat(a->path, &named) == 0 &&
+               own.st_dev == named.st_dev && own.st_ino == named.st_ino) {
+        unlink(a->path);
+    }
 }
 
 void run_archive_close(run_archive *a)
@@ -543,11 +588,9 @@ void run_archive_close(run_archive *a)
     if (!a) return;
     motus_archive_close(a->file);
     if (a->descriptor >= 0) close(a->descriptor);
-    for (size_t k = 0; a->rooms && k < a->columns.count; k++) free(a->rooms[k]);
-    free(a->rooms);
-    free(a->written);
-    free(a->times);
+    run_columns_drop(&a->columns, a->rooms);
     run_columns_free(&a->columns);
+    free(a->last);
     free(a->command);
     free(a);
 }

@@ -180,3 +180,44 @@ void run_columns_free(run_columns *r)
     free(r->texts);
     *r = (run_columns){0};
 }
+
+bool run_columns_fit(const run_columns *r, const motus_archive *a)
+{
+    bool same = motus_archive_column_count(a) == r->count;
+    for (size_t k = 0; same && k < r->count; k++) {
+        motus_archive_column c;
+        motus_archive_column_at(a, k, &c);
+        same = c.kind == MOTUS_ARCHIVE_NUMBER && motus_archive_width(&c) == r->columns[k].width &&
+               strcmp(c.name, r->columns[k].name) == 0;
+    }
+    return same;
+}
+
+double **run_columns_rooms(const run_columns *r, size_t rows)
+{
+    double **rooms = calloc(r->count, sizeof *rooms);
+    bool good = rooms;
+    for (size_t k = 0; good && k < r->count; k++)
+        good = (rooms[k] = calloc(rows * r->columns[k].width, sizeof **rooms));
+    if (good) return rooms;
+    run_columns_drop(r, rooms);
+    return NULL;
+}
+
+void run_columns_drop(const run_columns *r, double **rooms)
+{
+    for (size_t k = 0; rooms && k < r->count; k++) free(rooms[k]);
+    free(rooms);
+}
+
+void run_columns_put(const run_columns *r, const csv *plan, const double *values, double *const *rooms, size_t i)
+{
+    for (size_t k = 0; k < r->count; k++) {
+        const run_column *c = r->columns + k;
+        double *to = rooms[k] + i * c->width;
+        if (c->from == SIZE_MAX)
+            *to = csv_significant(plan, values);
+        else
+            memcpy(to, values + c->from, c->width * sizeof *to);
+    }
+}

@@ -30,5 +30,12 @@ typedef struct run_columns {
 /* Call run_columns_free() in any case. */
 motus_status run_columns_make(run_columns *, const csv *, motus_error *);
 void run_columns_free(run_columns *);
+/* Whether the archive has these columns. */
+bool run_columns_fit(const run_columns *, const motus_archive *);
+/* Room for so many rows of each column, to be freed by run_columns_drop(); NULL: no memory. */
+double **run_columns_rooms(const run_columns *, size_t rows);
+void run_columns_drop(const run_columns *, double **rooms);
+/* Puts the values that a walk gives, of which row i is to consist, into the rooms. */
+void run_columns_put(const run_columns *, const csv *, const double *values, double *const *rooms, size_t i);
 
 #endif

@@ -113,7 +113,7 @@ static void take_over(run_command *c, const options *o)
     own->output = o->output ? o->output : o->operand;
     own->plot = o->plot, own->plot_of = o->plot_of, own->events = o->events, own->save_state = o->save_state;
     own->keep_steps = o->keep_steps, own->keep_seconds = o->keep_seconds;
-    own->force = o->force;
+    own->force = o->force, own->resume = o->resume;
     if (!isnan(o->until)) own->until = o->until, own->until_typed = o->until_typed;
     own->argc = o->argc, own->argv = o->argv;
 }
@@ -147,6 +147,11 @@ motus_status run_command_read(run_command *c, const options *o, motus_error *err
     if (decided(o)) {
         fail(err, MOTUS_ARGUMENT, "%s: %s decides it", decided(o), o->operand);
         hint(err, "take its model, motus archive %.80s -o model.motus, for a run of its own", o->operand);
+        return MOTUS_ARGUMENT;
+    }
+    if ((o->force || o->resume) && !o->output) {
+        fail(err, MOTUS_ARGUMENT, "%s: the run goes on in %s itself", o->force ? "--force" : "--resume", o->operand);
+        hint(err, "leave it out, or name another file: -o other.h5");
         return MOTUS_ARGUMENT;
     }
     motus_archive *a;

@@ -17,6 +17,7 @@
 static volatile sig_atomic_t requested;
 
 static volatile sig_atomic_t warned;
+static bool holding;
 
 static void store(int number) { requested = number; }
 static void warn(int number) { warned = number; }
@@ -38,6 +39,8 @@ void stop_gently(void)
     static const int warnings[] = {SIGTERM, SIGUSR1};
     handle(warnings, sizeof warnings / sizeof *warnings, warn);
 }
+
+void stop_hold(bool held) { holding = held; }
 
 bool stop_warned(void) { return warned != 0; }
 
@@ -105,7 +108,7 @@ int stop_progress_hook(void *context, double fraction)
             p->shown = now;
         }
     }
-    return stop_requested();
+    return stop_requested() && !holding;
 }
 
 void stop_progress_end(stop_progress *p)

@@ -34,6 +34,8 @@ typedef struct stop_progress {
 stop_progress stop_progress_begin(const char *what, bool quiet);
 /* The library's progress hook: context is a stop_progress; not 0 if a stop was requested. */
 int stop_progress_hook(void *context, double fraction);
+/* While `held`, the hook does not tell of a stop: what is done now must not be left halfway. */
+void stop_hold(bool held);
 void stop_progress_end(stop_progress *);
 
 double stop_clock(void); /* seconds of a monotonic clock */

@@ -12,7 +12,7 @@
 #include <math.h>
 #include <stdlib.h>
 
-enum { CHUNK = 64 };
+enum { CHUNK = 64, LAST = 3 /* steps before the end that a keeper remembers */ };
 
 /* What an observer has had. */
 typedef struct progress {
@@ -34,6 +34,8 @@ typedef struct walker {
     double kept, looked; /* seconds of the clock: when the run was kept, and when that was asked for */
     int64_t kept_steps;  /* likewise its steps; */
     int64_t piece;       /* how many steps are taken before the clock is looked at */
+    bool held;           /* signals are held back until the run is kept */
+    int64_t observed;    /* the steps of the run when it was last looked who is due */
 } walker;
 
 int64_t walk_steps_of(double period, double step)
@@ -46,6 +48,9 @@ int64_t walk_steps_of_run(const motus_run *run, double period)
 {
     return isnan(motus_run_time_of(run, 0)) ? 0 : walk_steps_of(period, motus_run_step_size(run));
 }
+
+/* Between a step and what observers have of it no signal stops a run that is kept. */
+static void hold(const walker *w, bool on) { stop_hold(on || w->held); }
 
 /* Whether every one of the numbers is the same. */
 static bool same(const double *a, const double *b, size_t count)
@@ -139,32 +144,43 @@ static motus_status sample_errors(walker *w, size_t i, double t, motus_error *er
 static motus_status sample(walker *w, size_t i, double limit, motus_error *err)
 {
     const walk_observer *o = &w->observer[i];
+    /* the run moves to times that it samples: one that is kept must not be left beyond a time that nobody has had; and
+     * at the instant of a jump the values are those of one side or the other, by what was asked for before */
+    const bool kept = w->keeper.keep != NULL;
+    const size_t most = kept || o->jump ? 1 : CHUNK;
     int64_t *k = &w->done[i].samples;
     double sign = w->step < 0 ? -1 : 1, slack = 1e-9 * fabs(w->step);
     if (limit == w->until) limit -= sign * slack;
     for (;;) {
         double times[CHUNK];
         size_t n = 0;
-        for (; n < CHUNK; n++, ++*k) {
+        for (; n < most; n++, ++*k) {
             times[n] = w->start + sign * (double)*k * o->period;
             if (sign * (times[n] - limit) > 0) break;
         }
         if (n == 0) return MOTUS_OK;
+        const size_t wanted = n;
+        if (kept) hold(w, true);
         motus_status status = o->errors ? MOTUS_OK : sample_values(w, o, times, &n, err);
         for (size_t s = 0; o->errors && !status && s < n; s++) status = sample_errors(w, i, times[s], err);
         for (size_t s = 0; !o->errors && !status && s < n; s++)
             status = give_row(w, i, times[s], w->values + s * o->count, err);
-        if (!status && stop_requested()) status = fail(err, MOTUS_CANCELLED, "cancelled");
-        if (status || n < CHUNK) return status;
+        hold(w, false);
+        if (!status && stop_requested() && !w->held) status = fail(err, MOTUS_CANCELLED, "cancelled");
+        if (status || n < wanted || wanted < most) return status;
     }
 }
 
-/* Whether every observer has had its state, so that nothing is lost by going on from here. */
-static bool settled(const walker *w)
+/* Gives the observers the jumps up to the present time. *all: that is all that the run knows of; it may know of some
+ * that lie ahead, and a state would not tell of them again. */
+static motus_status give_jumps(walker *w, bool *all, motus_error *err)
 {
-    bool all = true;
-    for (size_t i = 0; i < w->count; i++) all = all && w->done[i].at != motus_run_time(w->run);
-    return all;
+    motus_status status = MOTUS_OK;
+    for (size_t i = 0; !status && i < w->count; i++) status = jumps(w, i, motus_run_time(w->run), err);
+    const int64_t known = motus_run_jumps(w->run);
+    *all = true;
+    for (size_t i = 0; i < w->count; i++) *all = *all && (!w->observer[i].jump || w->done[i].jumps == known);
+    return status;
 }
 
 /* Pieces of steps between two looks at the clock take about a hundredth of the time between two states that are
@@ -179,12 +195,31 @@ static motus_status keep(walker *w, motus_error *err)
     if (k->steps == 0 && now - w->looked > 0.02 * k->seconds && w->piece > 1) w->piece /= 2;
     w->looked = now;
     const bool due = k->steps > 0 ? steps - w->kept_steps >= k->steps : now - w->kept >= k->seconds;
-    if (!due || !settled(w)) return MOTUS_OK;
+    bool all = false;
+    motus_status status = due ? give_jumps(w, &all, err) : MOTUS_OK;
+    if (status || !all) return status;
     *k->samples = w->done[0].samples;
-    const motus_status status = k->keep(k->context, err);
+    status = k->keep(k->context, err);
     w->kept = stop_clock();
     w->kept_steps = k->steps > 0 ? steps - steps % k->steps : steps;
     return status;
+}
+
+/* The first of the last steps; INT64_MAX: nobody remembers them. */
+static int64_t last_steps(const walker *w)
+{
+    const int64_t total = motus_run_steps_total(w->run);
+    return w->keeper.remember && total > 0 ? total - LAST : INT64_MAX;
+}
+
+static motus_status remember(walker *w, motus_error *err)
+{
+    bool all = false;
+    if (motus_run_steps(w->run) < last_steps(w) || motus_run_done(w->run)) return MOTUS_OK;
+    const motus_status status = give_jumps(w, &all, err);
+    if (status || !all) return status;
+    *w->keeper.samples = w->done[0].samples;
+    return w->keeper.remember(w->keeper.context, err);
 }
 
 /* The next step at which an observer is due, or the clock is to be looked at; INT64_MAX: none before the end. */
@@ -192,7 +227,9 @@ static int64_t next_stop(const walker *w)
 {
     int64_t next = INT64_MAX;
     const int64_t now = motus_run_steps(w->run);
+    const int64_t last = last_steps(w);
     if (w->keeper.keep) next = w->keeper.steps > 0 ? now + w->keeper.steps - now % w->keeper.steps : now + w->piece;
+    if (last < INT64_MAX && next > (now < last ? last : now + 1)) next = now < last ? last : now + 1;
     for (size_t i = 0; i < w->count; i++) {
         const walk_observer *o = &w->observer[i];
         const int64_t stop = o->stride > 0 ? now + (o->stride - now % o->stride) : INT64_MAX;
@@ -204,21 +241,10 @@ static int64_t next_stop(const walker *w)
 static motus_status observe_due(walker *w, motus_error *err)
 {
     motus_status status = MOTUS_OK;
+    w->observed = motus_run_steps(w->run);
     for (size_t i = 0; !status && i < w->count; i++) {
         const walk_observer *o = &w->observer[i];
         const bool due = motus_run_done(w->run) || (o->stride > 0 && motus_run_steps(w->run) % o->stride == 0);
-        if (due) status = observe(w, i, err);
-    }
-    return status;
-}
-
-/* A run that was kept at its end: observers to whom the end alone was due have not had it. */
-static motus_status observe_end(walker *w, motus_error *err)
-{
-    motus_status status = MOTUS_OK;
-    for (size_t i = 0; !status && motus_run_done(w->run) && i < w->count; i++) {
-        const walk_observer *o = &w->observer[i];
-        const bool due = i > 0 || o->stride <= 0 || motus_run_steps(w->run) % o->stride != 0;
         if (due) status = observe(w, i, err);
     }
     return status;
@@ -250,38 +276,70 @@ static void forget_jumps(walker *w)
     for (size_t i = 0; i < w->count; i++) w->done[i].jumps = 0;
 }
 
-/* A run that a signal stops is kept where it stands, if that loses nothing. */
-static void keep_stopped(walker *w)
+/* The steps up to the next at which an observer, or the keeper, is due, at most `most`. */
+static motus_status advance(walker *w, int64_t most, bool periods, motus_error *err)
 {
+    motus_status status = MOTUS_OK;
+    const int64_t now = motus_run_steps(w->run);
+    int64_t next = next_stop(w);
+    if (next - now > most) next = now + most;
+    const double limit = w->adapts ? NAN : motus_run_time_of(w->run, next);
+    /* where steps adapt, the times within a step are sampled after it */
+    const bool after = periods && isnan(limit);
+    if (after)
+        next = now + 1;
+    else
+        status = sample_all(w, limit, err);
+    const bool held = w->held;
+    w->held = held || (w->keeper.keep && after); /* as in sample(): this one step, and the times in it */
+    hold(w, false);
+    if (!status && motus_run_steps(w->run) < next) status = step(w->run, next - motus_run_steps(w->run), err);
+    if (!status && isnan(limit)) status = sample_all(w, motus_run_time(w->run), err);
+    w->held = held;
+    hold(w, false);
+    if (!status) status = observe_due(w, err);
+    forget_jumps(w);
+    return status;
+}
+
+/* A run that a signal stops goes on to where it can be kept. True: that is its end, and all is observed. */
+static bool keep_stopped(walker *w, bool periods)
+{
+    enum { MOST = 1000 };
     motus_error ignored = motus_default_error();
-    bool had = settled(w);
-    for (size_t i = 0; i < w->count; i++)
-        had = had && (!w->observer[i].jump || w->done[i].jumps == motus_run_jumps(w->run));
+    bool all;
+    w->held = true;
+    hold(w, true);
+    /* the signal may have come with the step at which somebody is due, or between two times of one step */
+    motus_status status = sample_all(w, motus_run_time(w->run), &ignored);
+    if (!status && motus_run_steps(w->run) != w->observed) status = observe_due(w, &ignored);
+    if (!status) status = give_jumps(w, &all, &ignored);
+    for (int n = 0; n < MOST && !status && !all && !motus_run_done(w->run); n++) {
+        status = advance(w, 1, periods, &ignored);
+        if (!status) status = give_jumps(w, &all, &ignored);
+    }
     *w->keeper.samples = w->done[0].samples;
-    if (had) (void)w->keeper.keep(w->keeper.context, &ignored);
+    const bool done = !status && motus_run_done(w->run);
+    if (!status && all && !done) (void)w->keeper.keep(w->keeper.context, &ignored);
+    w->held = false;
+    hold(w, false);
+    return done;
 }
 
 static motus_status go(walker *w, motus_error *err)
 {
-    motus_status status = w->keeper.goes_on ? observe_end(w, err) : observe_due(w, err);
+    motus_status status = w->keeper.goes_on && !w->keeper.due ? MOTUS_OK : observe_due(w, err);
     bool periods = false;
     for (size_t i = 0; i < w->count; i++) periods |= w->observer[i].period > 0;
+    w->observed = motus_run_steps(w->run);
+    if (!status && w->keeper.goes_on && !w->keeper.due) status = remember(w, err);
     while (!status && !motus_run_done(w->run)) {
-        int64_t next = next_stop(w);
-        const double limit = w->adapts ? NAN : motus_run_time_of(w->run, next);
-        /* where steps adapt, the times within a step are sampled after it */
-        if (periods && isnan(limit))
-            next = motus_run_steps(w->run) + 1;
-        else
-            status = sample_all(w, limit, err);
-        if (!status && motus_run_steps(w->run) < next) status = step(w->run, next - motus_run_steps(w->run), err);
-        if (!status && isnan(limit)) status = sample_all(w, motus_run_time(w->run), err);
-        if (!status) status = observe_due(w, err);
-        forget_jumps(w);
+        status = advance(w, INT64_MAX, periods, err);
+        if (!status) status = remember(w, err);
         if (!status) status = keep(w, err);
-        if (!status && stop_requested()) status = fail(err, MOTUS_CANCELLED, "cancelled");
+        if (!status && stop_requested() && !motus_run_done(w->run)) status = fail(err, MOTUS_CANCELLED, "cancelled");
     }
-    if (status == MOTUS_CANCELLED && w->keeper.keep) keep_stopped(w);
+    if (status == MOTUS_CANCELLED && w->keeper.keep && keep_stopped(w, periods)) status = MOTUS_OK;
     if (!status && w->keeper.keep) *w->keeper.samples = w->done[0].samples;
     return status;
 }

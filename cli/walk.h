@@ -31,10 +31,13 @@ typedef struct walk_keeper {
     double seconds;
     motus_status (*keep)(void *context, motus_error *);
     void *context;
+    /* NULL, or called at the last steps before the end too, where steps have one size and nothing lies ahead: a run to
+     * a later end stands there as well. */
+    motus_status (*remember)(void *context, motus_error *);
     int64_t *samples; /* where the walk leaves how many of a period the first observer has had; also at the end */
     double *time;     /* where it leaves the time of what an observer is given */
-    /* The run was kept where it is: what is due there, unless it is the end, the observers have had. */
-    bool goes_on;
+    /* The run was kept where it is, and goes on; `due`: what is due there, the observers have not had. */
+    bool goes_on, due;
 } walk_keeper;
 
 /* start: the time of step 0, until: the end. Steps in as few calls as the observers allow. keeper: NULL, there is

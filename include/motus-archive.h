@@ -1,17 +1,16 @@
 /* motus-archive.h: archives, the files in which sweeps and runs keep their numbers (library libmotus-archive).
  *
  * An archive is an HDF5 file: h5py, h5dump, xarray and pandas read its columns by name. It has all its bytes from the
- * beginning on: each column is one contiguous piece of the file, filled with NaN, and nothing but blocks of rows is
- * written afterwards. So a process that is killed leaves a file that opens, and several processes, on several machines,
- * may write different blocks of one file at once. /blocks/done holds for each block a hash of its bytes, which tells
- * what is there.
+ * beginning on: each column is one contiguous piece of the file, filled with NaN, and nothing but blocks of rows, and
+ * states, is written afterwards. So a process that is killed leaves a file that opens, and several processes, on
+ * several machines, may write different blocks of one file at once. /blocks/done holds for each block a hash of its
+ * bytes, which tells what is there.
  *
  * The first bytes of the file, which HDF5 leaves to its users, are a directory in plain text: the model, the command,
  * and where in the file each column begins. By it archives are read and written without HDF5; only
  * motus_archive_create() needs that library.
  *
- * A call that fails returns a status other than MOTUS_OK and fills in the error, which may be NULL.
- */
+ * A call that fails returns a status other than MOTUS_OK and fills in the error, which may be NULL. / */
 #ifndef MOTUS_ARCHIVE_H
 #define MOTUS_ARCHIVE_H
 
@@ -122,7 +121,7 @@ MOTUS_API motus_status motus_archive_sync(motus_archive *, motus_error *);
 MOTUS_API motus_status motus_archive_whole(motus_archive *, uint64_t block, int *whole, motus_error *);
 /* Whether a hash of the block is there, whatever its bytes are: all that others have written since it was opened. */
 MOTUS_API motus_status motus_archive_written(motus_archive *, uint64_t block, int *written, motus_error *);
-/* Reads `count` rows of a column from a row on: the double or unsigned char of each. */
+/* Reads `count` rows of a column from a row on: motus_archive_width() double, or an unsigned char, of each. */
 MOTUS_API motus_status motus_archive_read(motus_archive *, size_t column, uint64_t row, size_t count, void *,
                                           motus_error *);
 /* Reads the numbers of rows. */
@@ -134,7 +133,7 @@ MOTUS_API size_t motus_archive_slot(const motus_archive *); /* the bytes that a 
 /* Writes a state to the slot that has not the latest, when everything before is on the disk. MOTUS_LIMIT: it is too
  * long for a slot. */
 MOTUS_API motus_status motus_archive_save(motus_archive *, const void *bytes, size_t length, motus_error *);
-/* Likewise the last state of all: what the slots are afterwards depends on it alone. */
+/* Likewise the last state of all, which both slots then have: what they are afterwards depends on it alone. */
 MOTUS_API motus_status motus_archive_settle(motus_archive *, const void *bytes, size_t length, motus_error *);
 /* The latest state that is whole (`back` 0), or the one before (1); *bytes to be freed by free(), followed by a byte 0.
  * *bytes NULL: there is none. */

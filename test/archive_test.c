@@ -351,7 +351,7 @@ static void states(void **state)
         assert_int_equal(motus_archive_settle(a, text, motus_archive_slot(a) + 1, NULL), MOTUS_LIMIT);
         assert_int_equal(motus_archive_settle(a, "the end", 7, NULL), MOTUS_OK);
         saved_is(a, 0, "the end");
-        saved_is(a, 1, NULL);
+        saved_is(a, 1, "the end");
         bytes = bytes_of(f);
         if (last) assert_memory_equal(bytes, last, f->size);
         free(last);
@@ -362,6 +362,30 @@ static void states(void **state)
         motus_archive_close(a);
     }
     free(last);
+    write_file(f->path, f->bytes, f->size);
+}
+
+/* Where there are no slots no state is written, not even one without bytes. */
+static void no_states(void **state)
+{
+    static const char body[] = "rows 1\nblock 1\nnumber 4096 n\ndone 4104\ncolumn number 4112 x\nend\n";
+    const fixture *f = *state;
+    motus_archive *a;
+    char bytes[8192] = "";
+    snprintf(bytes, sizeof bytes, "motus archive 1\ndirectory 4096 %016llx\n%s",
+             (unsigned long long)directory_hash(DIRECTORY_HASH, body, strlen(body)), body);
+    write_file(f->path, bytes, sizeof bytes);
+    assert_int_equal(motus_archive_open(f->path, 1, &a, NULL), MOTUS_OK);
+    assert_int_equal(motus_archive_slot(a), 0);
+    saved_is(a, 0, NULL);
+    assert_int_equal(motus_archive_save(a, "", 0, NULL), MOTUS_LIMIT);
+    assert_int_equal(motus_archive_settle(a, "", 0, NULL), MOTUS_LIMIT);
+    motus_archive_close(a);
+    FILE *file = fopen(f->path, "rb");
+    char now[sizeof bytes];
+    assert_int_equal(fread(now, 1, sizeof now, file), sizeof now);
+    fclose(file);
+    assert_memory_equal(now, bytes, sizeof bytes);
 }
 
 static void refusals(void **state)
@@ -399,6 +423,7 @@ int main(void)
         cmocka_unit_test(places_are_inside),
         cmocka_unit_test(shapes),
         cmocka_unit_test_setup_teardown(states, begin, end),
+        cmocka_unit_test_setup_teardown(no_states, begin, end),
         cmocka_unit_test(refusals),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
