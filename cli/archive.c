@@ -150,14 +150,9 @@ static motus_status write_csv(const contents *c, file_out *out, stop_progress *p
     return status;
 }
 
-/* The columns that a sweep has behind those that it records. */
 static motus_status check_sweep(const contents *c, motus_error *err)
 {
-    motus_archive_column stopped, cause;
-    if (c->columns >= 2 && motus_archive_column_at(c->file, c->columns - 2, &stopped) &&
-        motus_archive_column_at(c->file, c->columns - 1, &cause) && strcmp(stopped.name, "stopped") == 0 &&
-        stopped.kind == MOTUS_ARCHIVE_NUMBER && strcmp(cause.name, "stopped_by") == 0)
-        return MOTUS_OK;
+    if (sweep_archive_is(c->file)) return MOTUS_OK;
     return fail(err, MOTUS_STATE, "%s is not the archive of a sweep", c->options->operand);
 }
 

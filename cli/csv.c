@@ -64,7 +64,7 @@ motus_status csv_word(file_out *f, const char *word, motus_error *err)
     motus_status status = file_text(f, quote ? " '" : " ", err);
     while (!status && *word) {
         uint32_t c = 0;
-        char bytes[8];
+        char bytes[16];
         size_t n = utf8_read(word, SIZE_MAX, &c);
         const bool good = n > 0;
         n += !good;
@@ -72,7 +72,7 @@ motus_status csv_word(file_out *f, const char *word, motus_error *err)
             status = file_text(f, "'\\''", err);
         else if (!good || !utf8_visible(c))
             for (size_t i = 0; !status && i < n; i++) {
-                snprintf(bytes, sizeof bytes, "\\x%02x", (unsigned)(unsigned char)word[i]);
+                snprintf(bytes, sizeof bytes, "'$'\\x%02x''", (unsigned)(unsigned char)word[i]);
                 status = file_text(f, bytes, err);
             }
         else

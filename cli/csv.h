@@ -28,7 +28,7 @@ bool csv_significant(const csv *, const double *values);
 motus_status csv_jump(void *context, const double *before, const double *after, motus_error *err);
 void csv_free(csv *);
 
-/* A blank and a word of a command, quoted for a shell, control characters as \xNN. */
+/* A blank and a word of a command, quoted for a shell, control characters as $'\xNN'; words_split() undoes it. */
 motus_status csv_word(file_out *, const char *word, motus_error *);
 /* The comment with the command and the run's method. */
 motus_status csv_comment(file_out *, const options *, const motus_run *, motus_error *);

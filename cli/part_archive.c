@@ -36,7 +36,7 @@ static bool fits(const motus_archive *a, const part *p)
     size_t count;
     const uint64_t rows = shard_rows(&p->shard, p->total);
     motus_archive_block(a, 0, &first, &count);
-    return motus_archive_rows(a) == rows && count == (rows < SHARD_BLOCK ? rows : SHARD_BLOCK);
+    return sweep_archive_is(a) && motus_archive_rows(a) == rows && count == (rows < SHARD_BLOCK ? rows : SHARD_BLOCK);
 }
 
 motus_status part_archive_head(part *p, motus_error *err)

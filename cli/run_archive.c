@@ -296,8 +296,8 @@ static bool shorter_last(const run_archive *a)
     return total > 0 && fabs(time_of(a, total) - a->of.until) > 1e-6 * motus_run_step_size(a->of.run);
 }
 
-/* Likewise where the end is a whole number of steps only up to rounding: it is no time of a longer run, nor are the times
- * within the last step those of one. */
+/* Likewise where the end is a whole number of steps only up to rounding: it is no time of a longer run, nor are the
+ * times within the last step those of one. */
 static bool wants_last(const run_archive *a)
 {
     const char *text;

@@ -145,7 +145,11 @@ motus_status sweep_file_finish(sweep_file *, motus_error *);
 void sweep_file_close(sweep_file *);
 
 /* sweep_archive.c: the file of rows as an archive, whose blocks may be written in any order. */
+typedef struct motus_archive motus_archive;
 bool sweep_archive_name(const char *path);
+/* Whether the archive is that of a sweep, by its columns: one number or word in a row, at last when and why a
+ * trajectory stopped. */
+bool sweep_archive_is(const motus_archive *);
 /* `found`: the file is there, and its blocks that are whole are kept. Call sweep_archive_close() in any case. */
 motus_status sweep_archive_open(sweep_file *, bool found, motus_error *);
 /* Shares the missing blocks among all, when each has opened the file; waits for all. */
@@ -163,7 +167,6 @@ motus_status sweep_archive_finish(sweep_file *, motus_error *);
 void sweep_archive_close(sweep_file *);
 
 /* sweep_origin.c: the sweep that made an archive, by the command and the model that it has. */
-typedef struct motus_archive motus_archive;
 typedef struct sweep_origin {
     sweep sweep;
     options options; /* of its command, but with threads and machine of the one that asks; of no file of results */

@@ -34,6 +34,17 @@ bool sweep_archive_name(const char *path)
            (length > 5 && strcmp(path + length - 5, ".hdf5") == 0);
 }
 
+bool sweep_archive_is(const motus_archive *a)
+{
+    const size_t count = motus_archive_column_count(a);
+    motus_archive_column c;
+    for (size_t k = 0; motus_archive_column_at(a, k, &c); k++)
+        if (motus_archive_width(&c) != 1) return false;
+    return count >= 2 && motus_archive_column_at(a, count - 2, &c) && c.kind == MOTUS_ARCHIVE_NUMBER &&
+           strcmp(c.name, "stopped") == 0 && motus_archive_column_at(a, count - 1, &c) &&
+           c.kind == MOTUS_ARCHIVE_WORD && strcmp(c.name, "stopped_by") == 0;
+}
+
 /* ---- what it says ---- */
 
 static uint64_t number_of(void *s, uint64_t row) { return shard_trajectory(&((const sweep *)s)->shard, row); }
@@ -158,7 +169,7 @@ static bool same_sweep(const sweep_file *f, const description *d, const char *ve
     char part[SHARD_TEXT], print[SWEEP_FINGERPRINT];
     const sweep *s = f->sweep;
     motus_archive *file = f->archive->file;
-    bool same = motus_archive_rows(file) == s->rows && version &&
+    bool same = sweep_archive_is(file) && motus_archive_rows(file) == s->rows && version &&
                 says(file, "fingerprint", sweep_head_fingerprint(s, version, print)) &&
                 says(file, "shard", shard_whole(&s->shard) ? NULL : shard_text(&s->shard, part)) &&
                 motus_archive_column_count(file) == d->def.column_count;

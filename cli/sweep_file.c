@@ -44,7 +44,7 @@ motus_status sweep_file_may_write(const options *o, const char *path, motus_erro
     if (o->operand && !output && file_same(path, o->operand))
         return fail(err, MOTUS_ARGUMENT, "%s is read and would be overwritten", o->operand);
     struct stat about;
-    if (output || stat(path, &about) != 0) return MOTUS_OK;
+    if (output || o->plan || stat(path, &about) != 0) return MOTUS_OK; /* a plan writes no file */
     if (S_ISDIR(about.st_mode)) return fail(err, MOTUS_FILE, "cannot write %s: it is a folder", path);
     if (!S_ISREG(about.st_mode) && (o->resume || sweep_npy_name(path) || sweep_archive_name(path)))
         return fail(err, MOTUS_ARGUMENT, "%s is not a regular file: %s", path,
@@ -225,7 +225,7 @@ motus_status sweep_file_lock(const char *path, int *descriptor, bool *regular, m
         return sweep_file_lock(path, descriptor, regular, err);
     }
     fail(err, MOTUS_FILE, "%s is being written by another program", path);
-    hint(err, "wait for that sweep, or stop it");
+    hint(err, "wait for that sweep or run, or stop it");
     return MOTUS_FILE;
 }
 

@@ -286,6 +286,7 @@ static motus_status open_text(plan *p, sweep *of, options *o, motus_error *err)
 
 motus_status sweep_plan(const sweep *s, stop_progress *progress, motus_error *err)
 {
+    if (s->rows == 0) return fail(err, MOTUS_ARGUMENT, "this shard has no trajectories: there are fewer blocks");
     plan *p = calloc(1, sizeof *p);
     sweep of;
     options o;

@@ -3,6 +3,7 @@
 
 #include "cli/complain.h"
 
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -11,7 +12,12 @@ static char *copy(char *to, const char **at)
 {
     const char *s = *at;
     for (bool quoted = false; *s && (quoted || *s != ' '); s++) {
-        if (*s == '\'')
+        unsigned byte;
+        int length = 0;
+        if (!quoted && sscanf(s, "$'\\x%2x'%n", &byte, &length) == 1 && length > 0) {
+            *to++ = (char)byte;
+            s += length - 1;
+        } else if (*s == '\'')
             quoted = !quoted;
         else if (*s == '\\' && !quoted && s[1])
             *to++ = *++s;

@@ -176,7 +176,8 @@ y'(0) = 0
 when y = 0 falling as bounce: y' = -y'
 until 3000
 M
-# name, words: the run is killed at random times until it is complete; the bytes are those of a run that was not
+# name, words: the run is killed and stopped at random times until it is complete; the bytes are those of a run that was not
+signals=(KILL TERM INT)
 survives() {
     local name=$1 kills=0 status=1 whole broken=0
     shift
@@ -184,9 +185,9 @@ survives() {
     "$motus" run "$@" --error none -q -o one.h5 --force
     whole=$(sum one.h5)
     for _ in $(seq 60); do
-        "$motus" run "$@" --error none -q -o dead.h5 --resume 2>"$err" &
-        sleep "0.0$((RANDOM % 90 + 10))"
-        kill -9 $! 2>/dev/null && kills=$((kills + 1))
+        (trap - INT; exec "$motus" run "$@" --error none -q -o dead.h5 --resume) 2>"$err" &
+        sleep "0.0$((RANDOM % 50 + 10))"
+        kill -${signals[RANDOM % 3]} $! 2>/dev/null && kills=$((kills + 1))
         wait $! 2>/dev/null
         status=$?
         if [ -s dead.h5 ]; then $python -c "import h5py; h5py.File('dead.h5')['blocks/done'][()]" 2>>"$err" || broken=$((broken + 1)); fi
@@ -196,7 +197,7 @@ survives() {
     that "... it was killed" [ $kills -ge 1 ]
     gives "... --resume ends it" 0 "$motus" run "$@" --error none -q -o dead.h5 --resume
     that "... with the same bytes" [ "$(sum dead.h5)" = "$whole" ]
-    that "... and nothing beside it" eval "[ -z \"\$(ls | grep -E 'grown|new$')\" ] || rm -f dead.h5.grown* dead.h5.new"
+    that "... and nothing beside it" eval "[ -z \"\$(ls | grep -E 'grown|new$')\" ]"
 }
 survives "fixed steps" drive.motus --until 40000 --checkpoint "5000 steps" --machine interpreter
 survives "rows in time" drive.motus --until 20000 --every 0.3 --checkpoint "1000 steps" --machine interpreter
@@ -205,6 +206,8 @@ survives "adaptive steps, rows in time" drive.motus --method dopri5 --tolerance 
 survives "events" ball.motus --method verlet --step 1/64 --checkpoint "3000 steps" --machine interpreter
 survives "events and adaptive steps" ball.motus --method dop853 --tolerance 1e-9 --checkpoint "1000 steps" --machine interpreter
 survives "a family" many.motus --until 1500 --checkpoint "2000 steps" --machine interpreter
+survives "events, rows in time" ball.motus --method verlet --step 1/64 --every 0.01 --until 1500 --machine interpreter
+survives "backward" drive.motus --method dop853 --tolerance 1e-9 --set k=0 --until -60 --every 0.0003 --machine interpreter
 for signal in TERM INT; do
     rm -f stopped.h5
     (trap - INT; exec "$motus" run drive.motus --error none --until 1e7 --every "1000 steps" --machine interpreter -o stopped.h5) >"$out" 2>"$err" &
@@ -214,6 +217,27 @@ for signal in TERM INT; do
     that "SIG$signal leaves a state" eval "says 'goes on' '$err'"
     gives "... motus archive tells of it" 0 "$motus" archive stopped.h5
 done
+
+# --- what else goes wrong ----------------------------------------------------------------------------------------------------------------
+mkdir bin
+printf '#!/bin/sh\nexit 3\n' >bin/gnuplot
+chmod +x bin/gnuplot
+gives "a drawing that fails" 1 env PATH="$place/bin:$PATH" "$motus" run drive.motus -o drawn.h5 -q --plot drawn.svg
+that "... leaves the archive" "$motus" archive drawn.h5 --verify all
+refuses "a state in place of the archive" 2 "is read and would be overwritten" "$motus" run drawn.h5 -o other.h5 --save-state drawn.h5
+refuses "events in place of it" 2 "is read and would be overwritten" "$motus" run drawn.h5 -o other.h5 --events drawn.h5
+gives "words with blanks and a line end" 0 "$motus" run drive.motus --set "k=	2" --when "x = 0:
+ record" --until 5 -o words.h5 -q
+gives "... are the same words in the file" 0 "$motus" run words.h5 --until 9 -q
+gives "... and compute the same" 0 "$motus" archive words.h5 --verify all
+chmod 600 words.h5
+gives "a file that grows" 0 "$motus" run words.h5 --until 12 -q
+that "... keeps its permissions" [ "$(stat -c %a words.h5)" = 600 ]
+"$motus" run drive.motus --until 1e8 --every 1000 -o locked.h5 -q --machine interpreter >/dev/null 2>&1 &
+sleep 0.3
+refuses "two programs do not write one file" 1 "is being written by another program" run -o locked.h5 --resume
+kill -9 $! 2>/dev/null; wait $! 2>/dev/null
+that "... and the first keeps it" [ -s locked.h5 ]
 
 # --- what is refused ------------------------------------------------------------------------------------------------------------------
 refuses "an archive that is there" 2 "exists" run -o a.h5

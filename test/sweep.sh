@@ -568,7 +568,9 @@ that "... says blocks, size and the time on many ranks" eval "says '1000000000 t
 that "... and writes nothing" absent huge.npy
 gives "a plan of one block" 0 "$motus" sweep line.motus --vary a=1:2:5 --plan
 that "... has nothing for a second rank" says "more than 1 ranks have nothing to do"
-refuses "a plan of a file that is there" 2 "exists" "$motus" sweep line.motus --vary a=1:2:5 --plan -o t.csv
+gives "a plan of a file that is there" 0 eval 'cp t.csv t.copy && "$motus" sweep line.motus --vary a=1:2:5 --plan -o t.csv'
+that "... does not touch it" cmp t.csv t.copy
+refuses "a plan of an empty shard" 2 "this shard has no trajectories" "$motus" sweep line.motus --vary a=1:2:5 --plan --shard 2/2
 
 # --- memory -------------------------------------------------------------------------------------------------------------------------
 # Three million trajectories of twelve columns would be 288 MB.
