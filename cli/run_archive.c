@@ -134,7 +134,8 @@ static char *beside(const char *name, const char *ending)
     return out;
 }
 
-static const char grown[] = ".grown", grown_new[] = ".grown.new";
+/* The first ends as the names of archives do: by that the lock is known. */
+static const char grown[] = ".grown.h5", grown_new[] = ".grown.h5.new";
 
 /* Puts another file in the place of the one that is locked: with the complete blocks of `from`, which may be that one
  * (NULL: none), the state of these bytes (NULL: the latest of `from`), and room for so many rows. It is locked before
