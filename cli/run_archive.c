@@ -529,6 +529,7 @@ static motus_status rows_to_keep(run_archive *a, uint64_t *rows, bool *due, motu
     const bool before = total > 0 && taken == total && (has_events(text) || shorter_last(a));
     const bool regular = o->stride > 0 && taken % o->stride == 0 && !before;
     uint64_t more = a->end_row && !regular;
+    if (o->period > 0) a->samples = samples_up_to(a, motus_run_time(a->of.run)); /* an event may have ended it */
     *due = more > 0 && !before;
     if (before) {
         const double at = motus_run_time_of(a->of.run, total - 1), sign = a->of.until < a->of.start ? -1 : 1;

@@ -311,7 +311,10 @@ static bool keep_stopped(walker *w, bool periods)
     w->held = true;
     hold(w, true);
     /* the signal may have come with the step at which somebody is due, or between two times of one step */
-    motus_status status = sample_all(w, motus_run_time(w->run), &ignored);
+    motus_status status = MOTUS_OK;
+    /* or with the last step, so that the run does not know yet that it is at its end */
+    if (!motus_run_done(w->run) && motus_run_time(w->run) == w->until) status = step(w->run, 1, &ignored);
+    if (!status) status = sample_all(w, motus_run_time(w->run), &ignored);
     if (!status && motus_run_steps(w->run) != w->observed) status = observe_due(w, &ignored);
     if (!status) status = give_jumps(w, &all, &ignored);
     for (int n = 0; n < MOST && !status && !all && !motus_run_done(w->run); n++) {

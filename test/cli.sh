@@ -331,7 +331,7 @@ gives "... is overridden" 0 "$motus" run every.motus -o - --columns t --every 0.
 that "... 11 rows" eval "[ \$(grep -vc '^[#t]' '$out') = 11 ]"
 cp osc.motus $'we\nird, \033[31mname\'s.motus'
 gives "a name with a newline and an escape" 0 "$motus" run $'we\nird, \033[31mname\'s.motus' -o weird.csv
-that "... stays one line of the head" eval "[ \$(grep -c '^#' weird.csv) = 2 ] && head -n 1 weird.csv | grep -qF 'we\\x0aird, \\x1b[31m'"
+that "... stays one line of the head" eval "[ \$(grep -c '^#' weird.csv) = 2 ] && head -n 1 weird.csv | grep -qF \"we'\\\$'\\\\x0a''ird, '\\\$'\\\\x1b''[31m\""
 that "... never reaches the terminal" eval "! grep -q $'\033' '$out' '$err'"
 gives "... is escaped in JSON" 0 "$motus" run $'we\nird, \033[31mname\'s.motus' --json
 that "... which stays JSON" json "$out"
