@@ -458,6 +458,12 @@ static motus_status begin(run_archive *a, motus_error *err)
         hint(err, "--resume continues it, --force replaces it");
         return MOTUS_ARGUMENT;
     }
+    if (!o->resume && !from && !motus_archive_makes()) {
+        fail(err, MOTUS_UNAVAILABLE, "%s: this motus cannot make archives, since it was built or runs without HDF5",
+             a->path);
+        hint(err, "write CSV; or install HDF5, and build motus where libhdf5-dev is installed");
+        return MOTUS_UNAVAILABLE;
+    }
     remove_remains(a);
     const bool same = !a->made && o->resume;
     if (same) from = a->path; /* what was begun there goes on */

@@ -47,8 +47,10 @@ for verb in run compare converge sweep merge check methods lab; do
 done
 # The examples of --help work; slow ones are tested below.
 mkdir "$place/examples" && ln -s "$root/models" "$place/examples/models"
+"$motus" run models/spring.motus --until 1 -q -o "$place/examples/one.h5" 2>/dev/null && archives=yes || archives= # without HDF5 none
 for verb in run sweep check methods; do
     sed -n '/^examples:/,$p' "$place/help-$verb" | sed 1d | while read -r line; do
+        [[ $line == *.h5* && -z $archives ]] && continue
         (cd "$place/examples" && PATH=$(dirname "$motus"):$PATH bash -c "set -o pipefail; $line" >/dev/null 2>"$err") &&
             echo "ok $line" || echo "not $line: $(cat "$err")"
     done >"$place/ran"

@@ -14,7 +14,7 @@ swing_until 2 >"$place/swing.motus"
 cd "$place" || exit 1
 vary=(--vary "x(0)=0.1:3:9000" --record final -q)
 if ! "$motus" sweep swing.motus "${vary[@]}" -o sweep.h5 2>"$err"; then
-    echo "not run, since this motus makes no archives: hostile files"
+    that "without HDF5 a message says so; not run: hostile files" says "without HDF5" "$err"
     echo "$passed passed, $failed failed"
     exit 0
 fi

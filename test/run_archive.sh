@@ -7,7 +7,7 @@ cd "$(dirname "$0")/.." || exit 1
 root=$PWD
 cd "$place" || exit 1
 if ! $python -c 'import h5py' 2>/dev/null; then
-    echo "not run, since h5py is not installed: archives of runs"
+    ok "not run, since h5py is not installed: archives of runs"
     echo "$passed passed, $failed failed"
     exit 0
 fi
