@@ -2,7 +2,7 @@
  *
  * Invariants: nothing but blocks and states, and the hashes that tell they are there, is ever written; a hash is
  * written after the bytes of its block or state. So however many processes write different blocks, and whenever they
- * are killed, every block whose hash fits is whole. / */
+ * are killed, every block whose hash fits is whole. */
 #define _XOPEN_SOURCE 700
 #include "archive/bytes.h"
 #include "archive/directory.h"
@@ -21,6 +21,7 @@ struct motus_archive {
     char *path;
     int descriptor;
     unsigned char *room; /* for a column of a block */
+    uint64_t turn;       /* of the latest state, as far as it was asked for; 0: not yet, or there is none */
 };
 
 motus_archive_def motus_archive_default(void)
@@ -333,7 +334,9 @@ static motus_status write_slot(motus_archive *a, uint64_t turn, const void *byte
     if (!status && last) status = put_zeros(a, place + sizeof none + length, motus_archive_slot(a) - length, err);
     if (!status) status = motus_archive_sync(a, err);
     if (!status) status = put(a, &head, sizeof head, place, err);
-    return status ? status : motus_archive_sync(a, err);
+    if (!status) status = motus_archive_sync(a, err);
+    a->turn = status ? 0 : turn;
+    return status;
 }
 
 static motus_status has_room(const motus_archive *a, size_t length, motus_error *err)
@@ -349,6 +352,8 @@ static motus_status latest_turn(motus_archive *a, uint64_t *turn, motus_error *e
 {
     slot_head heads[2];
     char *found[2];
+    *turn = a->turn;
+    if (*turn) return MOTUS_OK; /* it is this process that writes them */
     const motus_status status = read_slots(a, heads, found, err);
     *turn = heads[0].turn > heads[1].turn ? heads[0].turn : heads[1].turn;
     free(found[0]);
@@ -373,5 +378,6 @@ motus_status motus_archive_settle(motus_archive *a, const void *bytes, size_t le
     if (!status) status = write_slot(a, turn + 1, bytes, length, true, err);
     for (uint64_t k = 0; !status && k < 2; k++)
         status = write_slot(a, (turn + k) % 2 ? 1 : 2, bytes, length, true, err);
+    a->turn = 0; /* the latest need not be the last that was written */
     return status;
 }

@@ -372,13 +372,6 @@ static bool says(motus_archive *file, const char *name, const char *text)
     return its && strcmp(its, text) == 0;
 }
 
-static motus_status other_version(const char *path, const char *version, const char *why, motus_error *err)
-{
-    fail(err, MOTUS_STATE, "%s was begun by motus %.40s, and %s", path, version, why);
-    hint(err, "finish it with that version, or begin anew with --force");
-    return MOTUS_STATE;
-}
-
 /* A file that another version has begun goes on if its first rows have the bits that this one computes. */
 static motus_status compare_versions(const run_archive *a, const char *path, motus_archive *from, const char *version,
                                      motus_error *err)
@@ -392,11 +385,12 @@ static motus_status compare_versions(const run_archive *a, const char *path, mot
     motus_status status = motus_archive_whole(from, 0, &whole, err);
     motus_archive_block(from, 0, &first, &count);
     if (!status && !whole)
-        return other_version(path, version, "there is no block by which to see whether the bits are the same", err);
+        return sweep_archive_other_version(path, version,
+                                           "there is no block by which to see whether the bits are the same", err);
     if (!status) status = run_again_rows(a->of.options, from, count < ROWS ? count : ROWS, &same, where, NULL, err);
     if (status) return status;
     snprintf(why, sizeof why, "this motus, %s, computes other bits: %s", motus_version(), where);
-    if (!same) return other_version(path, version, why, err);
+    if (!same) return sweep_archive_other_version(path, version, why, err);
     if (!a->of.options->quiet)
         complain_note("%s was begun by motus %.40s; its first rows, computed again, have the same bits", path, version);
     return MOTUS_OK;

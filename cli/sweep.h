@@ -150,6 +150,8 @@ bool sweep_archive_name(const char *path);
 /* Whether the archive is that of a sweep, by its columns: one number or word in a row, at last when and why a
  * trajectory stopped. */
 bool sweep_archive_is(const motus_archive *);
+/* The error: another version has begun the file of a sweep or a run, and it cannot be continued, by what is said. */
+motus_status sweep_archive_other_version(const char *path, const char *version, const char *why, motus_error *);
 /* `found`: the file is there, and its blocks that are whole are kept. Call sweep_archive_close() in any case. */
 motus_status sweep_archive_open(sweep_file *, bool found, motus_error *);
 /* Shares the missing blocks among all, when each has opened the file; waits for all. */

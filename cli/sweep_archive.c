@@ -184,9 +184,9 @@ static bool same_sweep(const sweep_file *f, const description *d, const char *ve
     return same && count == (s->rows < SHARD_BLOCK ? s->rows : SHARD_BLOCK);
 }
 
-static motus_status other_version(const sweep_file *f, const char *version, const char *why, motus_error *err)
+motus_status sweep_archive_other_version(const char *path, const char *version, const char *why, motus_error *err)
 {
-    fail(err, MOTUS_STATE, "%s was begun by motus %.40s, and %s", f->path, version, why);
+    fail(err, MOTUS_STATE, "%s was begun by motus %.40s, and %s", path, version, why);
     hint(err, "finish it with that version, or begin anew with --force");
     return MOTUS_STATE;
 }
@@ -216,10 +216,11 @@ static motus_status compare_versions(const sweep_file *f, const char *version, m
     if (status) return status;
     if (!same) {
         snprintf(why, sizeof why, "this motus, %s, computes other bits: %s", motus_version(), where);
-        return other_version(f, version, why, err);
+        return sweep_archive_other_version(f->path, version, why, err);
     }
     if (compared == 0)
-        return other_version(f, version, "there is no block by which to see whether the bits are the same", err);
+        return sweep_archive_other_version(f->path, version,
+                                           "there is no block by which to see whether the bits are the same", err);
     if (!f->sweep->options->quiet)
         complain_note("%s was begun by motus %.40s; some rows of it, computed again, have the same bits", f->path,
                       version);

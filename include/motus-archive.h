@@ -10,7 +10,7 @@
  * and where in the file each column begins. By it archives are read and written without HDF5; only
  * motus_archive_create() needs that library.
  *
- * A call that fails returns a status other than MOTUS_OK and fills in the error, which may be NULL. / */
+ * A call that fails returns a status other than MOTUS_OK and fills in the error, which may be NULL. */
 #ifndef MOTUS_ARCHIVE_H
 #define MOTUS_ARCHIVE_H
 
