@@ -127,13 +127,20 @@ static motus_status check_options(const options *o, motus_error *err)
 /* What several processes can write together. */
 static motus_status check_team(const options *o, motus_error *err)
 {
-    if (team_size(o->team) == 1 || (o->output && sweep_archive_name(o->output) && !o->events && !o->plot))
-        return MOTUS_OK;
-    fail(err, MOTUS_ARGUMENT, "several processes together write archives alone%s",
-         o->events ? ", no table of events"
-         : o->plot ? ", no picture"
-                   : "");
-    hint(err, o->events || o->plot ? "use --shard for it, and motus merge" : "add -o FILE.h5");
+    if (team_size(o->team) == 1) return MOTUS_OK;
+    if (!o->output || !sweep_archive_name(o->output)) {
+        fail(err, MOTUS_ARGUMENT, "several processes together write rows to an archive alone");
+        hint(err, "add -o FILE.h5");
+        return MOTUS_ARGUMENT;
+    }
+    if (o->plot) {
+        fail(err, MOTUS_ARGUMENT, "several processes together draw no picture");
+        hint(err, "write the points, --events points.csv, and draw them from there");
+        return MOTUS_ARGUMENT;
+    }
+    if (!o->events || sweep_events_in_segments(o)) return MOTUS_OK;
+    fail(err, MOTUS_ARGUMENT, "several processes together write events to a file alone, not to a pipe");
+    hint(err, "--events events.csv");
     return MOTUS_ARGUMENT;
 }
 
@@ -387,6 +394,7 @@ static motus_status finish(const sweep *s, sweep_file *f, sweep_events *events, 
     if (!status) status = sweep_section_draw(section, err);
     if (!status) status = sweep_file_finish(f, err);
     status = team_agree(o->team, status, err);
+    if (!status && team_first(o->team)) status = sweep_events_join(events, err);
     if (!status && team_size(o->team) > 1 && team_first(o->team)) status = sweep_archive_look(f, err);
     double wall = stop_clock() - began;
     status = team_agree(o->team, status, err);
@@ -449,15 +457,16 @@ motus_status sweep_verb(const options *o, motus_error *err)
     motus_status status = shard_read(&s.shard, o->shard, err);
     if (!status) status = name_files(&s, &own, names, err);
     if (!status) status = sweep_begin(&s, &section, &progress, err);
-    if (!status) status = sweep_events_verify(&s, err);
+    if (!status) status = sweep_events_begin(&events, &s, err);
     status = team_agree(o->team, status, err);
     if (!status && o->plan) {
         if (team_first(o->team)) status = sweep_plan(&s, &progress, err);
     } else if (!status) {
+        f.events = &events;
         status = open_file(&f, &s, err);
         bool open = !status;
         progress.began = stop_clock();
-        if (!status) status = sweep_events_open(&events, &s, f.rows, err);
+        if (!status) status = sweep_events_open(&events, f.rows, err);
         if (!status) status = sweep_section_open(&section, err);
         if (!status) status = go(&s, &f, &events, &section, &progress, err);
         stop_progress_end(&progress);

@@ -96,9 +96,10 @@ typedef struct sweep_file {
     const char *path; /* "-": standard output */
     int descriptor;
     bool npy, regular;
-    sweep_archive *archive; /* NULL: it is none */
-    uint64_t rows, bytes;   /* complete rows in the file, and where they end; of an archive the next row */
-    uint64_t stopped;       /* how many of these trajectories stopped, */
+    sweep_archive *archive;      /* NULL: it is none */
+    struct sweep_events *events; /* whose events are to be there before its rows are */
+    uint64_t rows, bytes;        /* complete rows in the file, and where they end; of an archive the next row */
+    uint64_t stopped;            /* how many of these trajectories stopped, */
     uint64_t stopped_by[MOTUS_CAUSE_COUNT]; /*   and by which cause */
     uint64_t found;                         /* rows of an earlier, interrupted command; of an archive anywhere in it */
     sweep_share share;                      /* of this process, of an archive */
@@ -199,13 +200,15 @@ motus_status sweep_resume(sweep_file *, uint64_t end, motus_error *);
 enum { SWEEP_NPY_HEAD = 128 };
 void sweep_npy_head(uint64_t rows, size_t columns, char out[SWEEP_NPY_HEAD]);
 
-/* sweep_events.c: the table of the events of all trajectories, with their numbers.
+/* sweep_events.c: the table of the events of all trajectories, with their numbers. Beside an archive, whose blocks are
+ * computed in any order, a file is joined from segments at the end (segments.h).
  *
- * Invariant: the events of a trajectory are in this file before its row is in the file of rows. */
+ * Invariant: the events of a trajectory are written before its row is. */
 /* Behind the events, with the number of the trajectories whose events they are. */
 #define SWEEP_EVENTS_WORDS "# end of the events of trajectories: "
 #define SWEEP_EVENTS_END SWEEP_EVENTS_WORDS "%" PRIu64 "\n"
 enum { SWEEP_EVENTS_LAST = sizeof SWEEP_EVENTS_END + 20 };
+struct segments;
 typedef struct sweep_events {
     const sweep *sweep;
     const char *path; /* NULL: none is asked for */
@@ -213,15 +216,27 @@ typedef struct sweep_events {
     bool regular;
     uint64_t bytes; /* where the complete rows end */
     double *values; /* room for those of a row */
+    char *head;     /* the lines above the rows */
+    size_t head_length;
+    struct segments *segments; /* NULL: the events are written in their order */
+    bool complete;             /* the table was found, with all events */
 } sweep_events;
 motus_status sweep_events_check(const options *, motus_error *);
-/* Before any file is touched: whether what --resume is to continue is the table of this sweep. */
-motus_status sweep_events_verify(const sweep *, motus_error *);
+/* Whether the table is a file beside an archive. */
+bool sweep_events_in_segments(const options *);
+/* Before any file is touched: whether what --resume is to continue is the table of this sweep. Call
+ * sweep_events_close() in any case. */
+motus_status sweep_events_begin(sweep_events *, const sweep *, motus_error *);
+/* Finds which events beside an archive are there; then, whether those of a block are. */
+motus_status sweep_events_find(sweep_events *, motus_error *);
+bool sweep_events_have(const sweep_events *, uint64_t block);
 /* `rows`: trajectories whose rows are in the file of rows already. */
-motus_status sweep_events_open(sweep_events *, const sweep *, uint64_t rows, motus_error *);
+motus_status sweep_events_open(sweep_events *, uint64_t rows, motus_error *);
 /* Adds those of the last batch, whose first trajectory has the row `first`. */
 motus_status sweep_events_rows(sweep_events *, uint64_t first, size_t count, motus_error *);
 motus_status sweep_events_finish(sweep_events *, motus_error *);
+/* When all processes have finished: makes the table of segments. */
+motus_status sweep_events_join(sweep_events *, motus_error *);
 void sweep_events_close(sweep_events *);
 
 /* sweep_section.c: the picture of the points of --section, where --plot asks for it; else each call does nothing. */

@@ -256,13 +256,11 @@ static motus_status count_stopped(sweep_file *f, uint64_t block, motus_error *er
 static motus_status find_blocks(sweep_file *f, bool found, motus_error *err)
 {
     sweep_archive *a = f->archive;
-    motus_status status = MOTUS_OK;
+    motus_status status = found ? sweep_events_find(f->events, err) : MOTUS_OK;
     for (uint64_t b = 0; !status && b < a->blocks; b++) {
         int whole = 0;
-        /* the tables of events go on behind the first row that is missing, in the order of the trajectories */
-        if (a->missing_count > 0 && f->sweep->options->events) found = false;
         if (found) status = motus_archive_whole(a->file, b, &whole, err);
-        if (status || !whole) {
+        if (status || !whole || !sweep_events_have(f->events, b)) {
             a->missing[a->missing_count++] = b;
             continue;
         }

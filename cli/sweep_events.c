@@ -12,6 +12,7 @@
 #include "cli/complain.h"
 #include "cli/event_file.h"
 #include "cli/file.h"
+#include "cli/segments.h"
 #include "cli/stop.h"
 #include "cli/sweep.h"
 
@@ -19,7 +20,15 @@
 #include <inttypes.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
 #include <unistd.h>
+
+bool sweep_events_in_segments(const options *o)
+{
+    struct stat about;
+    return o->events && o->output && sweep_archive_name(o->output) && strcmp(o->events, "-") != 0 &&
+           (stat(o->events, &about) != 0 || S_ISREG(about.st_mode));
+}
 
 motus_status sweep_events_check(const options *o, motus_error *err)
 {
@@ -35,6 +44,11 @@ motus_status sweep_events_check(const options *o, motus_error *err)
     if (output && o->resume) {
         fail(err, MOTUS_ARGUMENT, "--resume continues the table of events too, and needs a file");
         hint(err, "--events events.csv");
+        return MOTUS_ARGUMENT;
+    }
+    if (sweep_events_in_segments(o) && !o->plan && !o->resume && !o->force && segments_there(o->events)) {
+        fail(err, MOTUS_ARGUMENT, "%s.segments is there: events of a sweep that was interrupted", o->events);
+        hint(err, "--resume continues it, --force replaces it");
         return MOTUS_ARGUMENT;
     }
     return sweep_file_may_write(o, o->events, err);
@@ -87,16 +101,16 @@ static size_t last_line(uint64_t trajectories, char out[SWEEP_EVENTS_LAST])
     return (size_t)snprintf(out, SWEEP_EVENTS_LAST, SWEEP_EVENTS_END, trajectories);
 }
 
-static motus_status put_head(sweep_events *f, const char *text, size_t length, motus_error *err)
+static motus_status put_head(sweep_events *f, motus_error *err)
 {
     char line[SWEEP_EVENTS_LAST];
     const size_t last = last_line(0, line);
     size_t written;
     int code = f->regular && (ftruncate(f->descriptor, 0) != 0 || lseek(f->descriptor, 0, SEEK_SET) < 0) ? errno : 0;
-    if (!code) code = sweep_file_bytes(f->descriptor, text, length, &written);
+    if (!code) code = sweep_file_bytes(f->descriptor, f->head, f->head_length, &written);
     if (!code && f->regular) code = sweep_file_bytes(f->descriptor, line, last, &written);
     if (code) return cannot_write(f, code, err);
-    f->bytes = length;
+    f->bytes = f->head_length;
     return MOTUS_OK;
 }
 
@@ -123,17 +137,20 @@ static motus_status memory_close(memory *m, motus_status status, motus_error *er
     return (fclose(m->file.stream) != 0 || failed) && !status ? complain_memory(err) : status;
 }
 
-static motus_status head(const sweep_events *f, memory *m, motus_error *err)
+static motus_status make_head(sweep_events *f, motus_error *err)
 {
     const sweep *s = f->sweep;
     char line[SWEEP_IDENTITY];
-    motus_status status = memory_open(m, err);
-    if (!status) status = sweep_head_command(s, &m->file, err);
-    if (!status) status = file_text(&m->file, sweep_head_identity(s, "events of ", line), err);
-    if (!status) status = file_text(&m->file, "index,", err);
+    memory m;
+    motus_status status = memory_open(&m, err);
+    if (!status) status = sweep_head_command(s, &m.file, err);
+    if (!status) status = file_text(&m.file, sweep_head_identity(s, "events of ", line), err);
+    if (!status) status = file_text(&m.file, "index,", err);
     if (!status)
-        status = event_file_names(&m->file, &s->model, s->event_columns, s->event_columns_count, s->errors, err);
-    return memory_close(m, status, err);
+        status = event_file_names(&m.file, &s->model, s->event_columns, s->event_columns_count, s->errors, err);
+    status = memory_close(&m, status, err);
+    f->head = m.text, f->head_length = m.length;
+    return status;
 }
 
 /* ---- what an interrupted sweep left ---- */
@@ -189,7 +206,7 @@ static motus_status find_rows(sweep_events *f, uint64_t rows, FILE *in, motus_er
 }
 
 /* Sets f->bytes behind the events of the first `rows` trajectories; 0: not even the head is complete. */
-static motus_status find_end(sweep_events *f, const memory *ours, uint64_t rows, FILE *in, motus_error *err)
+static motus_status find_end(sweep_events *f, uint64_t rows, FILE *in, motus_error *err)
 {
     char *line = NULL;
     size_t room = 0;
@@ -200,22 +217,28 @@ static motus_status find_end(sweep_events *f, const memory *ours, uint64_t rows,
         status = file_write(&theirs.file, line, (size_t)length, err);
     status = memory_close(&theirs, status, err);
     free(line);
-    const bool begun = !status && rows == 0 && strncmp(ours->text, theirs.text, theirs.length) == 0;
-    f->bytes = begun && theirs.length < ours->length ? 0 : theirs.length;
-    if (!status && f->bytes && !same_head(ours->text, theirs.text)) status = another(f, err);
+    const bool begun = !status && rows == 0 && strncmp(f->head, theirs.text, theirs.length) == 0;
+    f->bytes = begun && theirs.length < f->head_length ? 0 : theirs.length;
+    if (!status && f->bytes && !same_head(f->head, theirs.text)) status = another(f, err);
     if (!status && (f->bytes || rows > 0)) status = find_rows(f, rows, in, err);
     free(theirs.text);
     return status;
 }
 
-static motus_status go_on(sweep_events *f, const memory *ours, uint64_t rows, motus_error *err)
+static motus_status find_table(sweep_events *f, uint64_t rows, motus_error *err)
 {
-    FILE *in = fopen(f->path, "r");
+    FILE *in = fopen(f->path, "re");
     if (!in) return fail(err, MOTUS_FILE, "cannot read %s: %s", f->path, strerror(errno));
-    const motus_status status = find_end(f, ours, rows, in, err);
+    const motus_status status = find_end(f, rows, in, err);
     fclose(in);
+    return status;
+}
+
+static motus_status go_on(sweep_events *f, uint64_t rows, motus_error *err)
+{
+    const motus_status status = find_table(f, rows, err);
     if (status) return status;
-    if (!f->bytes) return put_head(f, ours->text, ours->length, err);
+    if (!f->bytes) return put_head(f, err);
     char line[SWEEP_EVENTS_LAST];
     const size_t last = last_line(rows, line);
     const int code = write_at(f, f->bytes, line, last);
@@ -224,39 +247,54 @@ static motus_status go_on(sweep_events *f, const memory *ours, uint64_t rows, mo
     return MOTUS_OK;
 }
 
-motus_status sweep_events_verify(const sweep *s, motus_error *err)
-{
-    sweep_events f = {.sweep = s, .path = s->options->events, .descriptor = -1};
-    FILE *in = f.path && s->options->resume ? fopen(f.path, "r") : NULL;
-    if (!in) return MOTUS_OK; /* there is none yet */
-    memory ours;
-    motus_status status = head(&f, &ours, err);
-    if (!status) status = find_end(&f, &ours, 0, in, err);
-    free(ours.text);
-    fclose(in);
-    return status;
-}
-
-motus_status sweep_events_open(sweep_events *f, const sweep *s, uint64_t rows, motus_error *err)
+motus_status sweep_events_begin(sweep_events *f, const sweep *s, motus_error *err)
 {
     *f = (sweep_events){.sweep = s, .path = s->options->events, .descriptor = -1};
     if (!f->path) return MOTUS_OK;
+    motus_status status = make_head(f, err);
+    if (!status && sweep_events_in_segments(s->options))
+        status = segments_make(&f->segments, f->path, f->head, same_head, (s->rows - 1) / SHARD_BLOCK + 1, err);
+    struct stat about;
+    if (status || !s->options->resume || stat(f->path, &about) != 0) return status;
+    if (f->segments && about.st_size == 0) return MOTUS_OK; /* one that was to be replaced */
+    f->complete = f->segments;                              /* or it is an error */
+    return find_table(f, f->segments ? s->rows : 0, err);
+}
+
+motus_status sweep_events_find(sweep_events *f, motus_error *err)
+{
+    return f->segments ? segments_find(f->segments, err) : MOTUS_OK;
+}
+
+bool sweep_events_have(const sweep_events *f, uint64_t block)
+{
+    return !f->segments || f->complete || segments_have(f->segments, block);
+}
+
+/* What is replaced is removed at the beginning, so that --resume finds nothing of it. */
+static motus_status begin_segments(const sweep_events *f, motus_error *err)
+{
+    const options *o = f->sweep->options;
+    if (o->resume || !team_first(o->team)) return MOTUS_OK;
+    segments_remove(f->segments);
+    return truncate(f->path, 0) == 0 || errno == ENOENT ? MOTUS_OK : cannot_write(f, errno, err);
+}
+
+motus_status sweep_events_open(sweep_events *f, uint64_t rows, motus_error *err)
+{
+    const sweep *s = f->sweep;
+    if (!f->path) return MOTUS_OK;
     f->values = malloc((2 * (s->event_columns_count + s->event_columns_more) + 1) * sizeof *f->values);
     if (!f->values) return complain_memory(err);
-    memory ours;
-    motus_status status = head(f, &ours, err);
-    if (!status && strcmp(f->path, "-") == 0)
+    if (f->segments) return begin_segments(f, err);
+    motus_status status = MOTUS_OK;
+    if (strcmp(f->path, "-") == 0)
         f->descriptor = STDOUT_FILENO;
-    else if (!status)
+    else
         status = sweep_file_lock(f->path, &f->descriptor, &f->regular, err);
     if (!status) status = sweep_file_may_write(s->options, f->path, err);
-    if (!status && s->options->resume && f->regular) {
-        status = go_on(f, &ours, rows, err);
-    } else if (!status) {
-        status = put_head(f, ours.text, ours.length, err);
-    }
-    free(ours.text);
-    return status;
+    if (status) return status;
+    return s->options->resume && f->regular ? go_on(f, rows, err) : put_head(f, err);
 }
 
 /* ---- rows ---- */
@@ -279,16 +317,42 @@ static motus_status put_table(const sweep_events *f, file_out *out, uint64_t fir
     return status;
 }
 
+/* The rows of `count` trajectories, followed by `last`. To be freed. */
+static motus_status table_text(const sweep_events *f, uint64_t first, size_t from, size_t count, const char *last,
+                               memory *m, motus_error *err)
+{
+    motus_status status = memory_open(m, err);
+    for (size_t k = from; !status && k < from + count; k++) status = put_table(f, &m->file, first, k, err);
+    if (!status) status = file_text(&m->file, last, err);
+    return memory_close(m, status, err);
+}
+
+/* Block by block. */
+static motus_status to_segments(sweep_events *f, uint64_t first, size_t count, motus_error *err)
+{
+    motus_status status = MOTUS_OK;
+    for (size_t from = 0, some; !status && from < count; from += some) {
+        const uint64_t row = first + from;
+        const size_t left = SHARD_BLOCK - (size_t)(row % SHARD_BLOCK);
+        memory m;
+        some = left < count - from ? left : count - from;
+        status = table_text(f, first, from, some, "", &m, err);
+        if (!status) status = segments_put(f->segments, m.text, m.length, err);
+        free(m.text);
+        if (!status && (some == left || row + some == f->sweep->rows))
+            status = segments_end_block(f->segments, row / SHARD_BLOCK, err);
+    }
+    return status;
+}
+
 motus_status sweep_events_rows(sweep_events *f, uint64_t first, size_t count, motus_error *err)
 {
     if (!f->path) return MOTUS_OK;
+    if (f->segments) return to_segments(f, first, count, err);
     memory m;
     char line[SWEEP_EVENTS_LAST];
     const size_t last = last_line(first + count, line);
-    motus_status status = memory_open(&m, err);
-    for (size_t k = 0; !status && k < count; k++) status = put_table(f, &m.file, first, k, err);
-    if (!status) status = file_write(&m.file, line, last, err);
-    status = memory_close(&m, status, err);
+    motus_status status = table_text(f, first, 0, count, line, &m, err);
     if (!status) status = put(f, m.text, m.length, m.length - last, err);
     free(m.text);
     return status;
@@ -297,6 +361,7 @@ motus_status sweep_events_rows(sweep_events *f, uint64_t first, size_t count, mo
 motus_status sweep_events_finish(sweep_events *f, motus_error *err)
 {
     const int descriptor = f->descriptor;
+    if (f->segments) return segments_finish(f->segments, err);
     if (f->path && !f->regular) {
         char line[SWEEP_EVENTS_LAST];
         const size_t last = last_line(f->sweep->rows, line);
@@ -307,9 +372,21 @@ motus_status sweep_events_finish(sweep_events *f, motus_error *err)
     return descriptor > STDERR_FILENO && close(descriptor) != 0 ? cannot_write(f, errno, err) : MOTUS_OK;
 }
 
+motus_status sweep_events_join(sweep_events *f, motus_error *err)
+{
+    if (!f->segments) return MOTUS_OK;
+    char line[SWEEP_EVENTS_LAST];
+    last_line(f->sweep->rows, line);
+    if (!f->complete) return segments_join(f->segments, line, err);
+    segments_remove(f->segments);
+    return MOTUS_OK;
+}
+
 void sweep_events_close(sweep_events *f)
 {
     if (f->descriptor > STDERR_FILENO) close(f->descriptor);
+    segments_free(f->segments);
+    free(f->head);
     free(f->values);
     *f = (sweep_events){.descriptor = -1};
 }

@@ -242,7 +242,7 @@ static motus_status open_archive(sweep_file *f, bool found, bool made, motus_err
 motus_status sweep_file_open(sweep_file *f, const sweep *s, motus_error *err)
 {
     const options *o = s->options;
-    *f = (sweep_file){.sweep = s, .path = o->output ? o->output : "-", .descriptor = -1};
+    *f = (sweep_file){.sweep = s, .path = o->output ? o->output : "-", .descriptor = -1, .events = f->events};
     f->npy = sweep_npy_name(f->path);
     f->room = s->columns < SIZE_MAX / 64 - BUFFER ? BUFFER + s->columns * DECIMAL_MAX + MOTUS_NAME_MAX : 0;
     f->buffer = f->room ? malloc(f->room) : NULL;

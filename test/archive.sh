@@ -149,6 +149,46 @@ with open(sys.argv[1], 'r+b') as f: f.seek(at + 8 * 5000); f.write(b'x')
 " "$place/turn.h5"
 gives "... and --resume" 0 "${turn[@]}" -o "$place/turn.h5" --events "$place/turn.csv" --resume
 that "... has all events" cmp "$place/turn.csv" "$place/turns.csv"
+# Until all blocks are there their events are in segments, each with a hash.
+gives "... the table is gone" 0 rm "$place/turn.csv"
+gives "... it is computed again" 0 "${turn[@]}" -o "$place/turn.h5" --events "$place/turn.csv" --resume
+that "... with the same bytes" cmp "$place/turn.csv" "$place/turns.csv"
+# stops behind the second of four blocks, and leaves its segment in cut.csv.segments
+cut_short() {
+    rm -rf "$place/cut.h5" "$place/cut.csv" "$place/cut.csv.segments"
+    "${turn[@]}" -o "$place/cut.h5" --events "$place/cut.csv" --machine interpreter --until 150 --threads 1 &
+    job=$!
+    for _ in $(seq 300); do [ "$(blocks "$place/cut.h5" 2>/dev/null || echo 0)" -ge 2 ] && break; sleep 0.02; done
+    kill -9 $job
+    wait $job 2>/dev/null
+    there=$(blocks "$place/cut.h5")
+}
+longer=("${turn[@]}" --until 150)
+gives "a longer table of events" 0 "${longer[@]}" -o "$place/longer.h5" --events "$place/longer.csv"
+for damage in none "a byte of a block" "a byte of the line behind it" "all"; do
+    cut_short
+    that "killed, it leaves a segment and some blocks" eval "[ -s '$place/cut.csv.segments/segment-1' ] && [ $there -ge 2 ] && [ $there -lt 4 ] && [ ! -e '$place/cut.csv' ]"
+    segment=$place/cut.csv.segments/segment-1 lost=1
+    case $damage in
+    none) lost=0 ;;
+    "a byte of a block") printf 9 | dd of="$segment" bs=1 seek=3000 conv=notrunc 2>/dev/null ;;
+    "a byte of the line behind it") sed -i 's/^# end of block 1, /# end of block 7, /' "$segment" ;;
+    all) rm -r "$place/cut.csv.segments"; lost=$there ;;
+    esac
+    if [ "$damage" = none ]; then
+        refuses "... without --resume the archive is there" 2 "exists" "${longer[@]}" -o "$place/cut.h5" --events "$place/cut.csv"
+        refuses "... nor may another sweep take the segments" 2 "of a sweep that was interrupted" "${turn[@]}" -o "$place/cut2.h5" --events "$place/cut.csv"
+        refuses "... also with --resume" 2 "events of another sweep" "${turn[@]}" -o "$place/turn.h5" --events "$place/cut.csv" --resume
+    fi
+    gives "damaged: $damage; --resume" 0 "${longer[@]}" -o "$place/cut.h5" --events "$place/cut.csv" --resume --json
+    that "... keeps the other blocks" holds ".resumed == $(((there - lost) * 4096))"
+    that "... has all events" cmp "$place/cut.csv" "$place/longer.csv"
+    that "... and all rows" [ "$(sum "$place/cut.h5")" = "$(sum "$place/longer.h5")" ]
+    that "... and nothing beside them" absent "$place/cut.csv.segments"
+done
+refuses "a table that was shortened" 2 "does not have all events" eval "head -n 500 '$place/longer.csv' >'$place/cut.csv'; ${longer[*]@Q} -o '$place/cut.h5' --events '$place/cut.csv' --resume"
+gives "... is replaced by --force" 0 "${longer[@]}" -o "$place/cut.h5" --events "$place/cut.csv" --force
+that "... with the same bytes" cmp "$place/cut.csv" "$place/longer.csv"
 refuses "two columns of one name" 2 "two columns of the archive are named x" "$motus" sweep "$swing" --vary "x(0)=0.1,1" --record "final,x" -o "$place/twice.h5"
 ln -s "$place/elsewhere.h5" "$place/link.h5"
 gives "an archive behind a link" 0 "$motus" sweep "$swing" --vary "x(0)=0.1,1" -o "$place/link.h5" --quiet

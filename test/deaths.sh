@@ -26,16 +26,22 @@ if ! $python -c 'import h5py' 2>/dev/null; then
     echo "$passed passed, $failed failed"
     exit 0
 fi
-whole=$(sum "$place/whole.h5") blocks=30 ranks=$([ -x "$mpi" ] && command -v mpirun >/dev/null && echo 4 || echo 0)
+whole=$(sum "$place/whole.h5")
+# ... and with a table of events, of every second job
+events=(--when "x = 0: record" --events)
+"$motus" "${words[@]}" "${events[@]}" "$place/whole.csv" -o "$place/told.h5"
+told=$(sum "$place/told.h5")
+blocks=30 ranks=$([ -x "$mpi" ] && command -v mpirun >/dev/null && echo 4 || echo 0)
 
 # The number of ranks, 0: motus alone; then the words.
 job() { local n=$1; shift; if [ "$n" = 0 ]; then exec "$motus" "$@"; else exec "${launch[@]}" -n "$n" "$mpi" "$@"; fi; }
 processes() { pgrep -f "${words[0]} $place/swing.motus"; }
 
 for ((k = 1; k <= deaths; k++)); do
-    rm -f "$place/dead.h5"
+    rm -rf "$place/dead.h5" "$place/dead.csv" "$place/dead.csv.segments"
+    if [ $((k % 2)) = 1 ]; then job=("${words[@]}") want=$whole; else job=("${words[@]}" "${events[@]}" "$place/dead.csv") want=$told; fi
     n=$((RANDOM % (ranks + 1))) again=$((RANDOM % 2 ? n : RANDOM % (ranks + 1))) delay=$((RANDOM % 3000 + 30))
-    (job $n "${words[@]}" --machine interpreter -o "$place/dead.h5") >"$out" 2>"$err" &
+    (job $n "${job[@]}" --machine interpreter -o "$place/dead.h5") >"$out" 2>"$err" &
     one=$!
     sleep "$(printf '%d.%03d' $((delay / 1000)) $((delay % 1000)))"
     victim=$one what="the job"
@@ -49,9 +55,11 @@ for ((k = 1; k <= deaths; k++)); do
     there=0
     if [ -s "$place/dead.h5" ]; then there=$(blocks "$place/dead.h5" 2>"$err" || echo none); fi
     that "death $k: $n ranks, $what after $delay ms: the file opens, with $there of $blocks blocks" [ "$there" != none ]
-    (job $again "${words[@]}" -o "$place/dead.h5" --resume --json) >"$out" 2>"$err"
+    (job $again "${job[@]}" -o "$place/dead.h5" --resume --json) >"$out" 2>"$err"
     that "... --resume by $again ranks keeps what was whole" [ "$(jq .resumed "$out" 2>/dev/null)" = $((there * 4096 < 120000 ? there * 4096 : 120000)) ]
-    that "... to the same bytes" [ "$(sum "$place/dead.h5")" = "$whole" ]
+    that "... to the same bytes" [ "$(sum "$place/dead.h5")" = "$want" ]
+    [ $((k % 2)) = 1 ] || that "... with the same events" cmp "$place/dead.csv" "$place/whole.csv"
+    [ $((k % 2)) = 1 ] || that "... and nothing beside them" absent "$place/dead.csv.segments"
 done
 
 # --- disks that are too small -------------------------------------------------------------------------------------------------------------

@@ -47,6 +47,17 @@ gives "trajectories of unequal cost by motus" 0 "$motus" "${unequal[@]}" -o "$pl
 gives "... and by ranks" 0 ranks 3 "${unequal[@]}" -o "$place/unequal3.h5" --quiet
 that "... the same bytes" [ "$(sum "$place/unequal3.h5")" = "$(sum "$place/unequal1.h5")" ]
 
+# ... and events, which ranks write to segments
+hits=("${words[@]}" --when "x = 0: record")
+gives "a table of rows and one of events, by motus" 0 "$motus" "${hits[@]}" -o "$place/hits.csv" --events "$place/hits0.csv" --quiet
+gives "an archive and a table of events, by motus" 0 "$motus" "${hits[@]}" -o "$place/hits1.h5" --events "$place/hits1.csv" --quiet
+that "... the same events" cmp "$place/hits0.csv" "$place/hits1.csv"
+for n in 2 3 7; do
+    gives "... by $n ranks" 0 ranks $n "${hits[@]}" -o "$place/hits.h5" --events "$place/hits.csv" --force --quiet
+    that "... the same rows" [ "$(sum "$place/hits.h5")" = "$(sum "$place/hits1.h5")" ]
+    that "... and the same events, with nothing beside them" eval "cmp '$place/hits.csv' '$place/hits1.csv' && [ ! -e '$place/hits.csv.segments' ]"
+done
+
 printf '%s\n' 'k = 1' "x'' = -k x" 'x(0) = 1' "x'(0) = 0" 'until 10' >"$place/stiff.motus"
 # --- errors, once ---------------------------------------------------------------------------------------------------------------------
 # name, exit status, words of the message, number of ranks, words: told by one rank
@@ -60,7 +71,9 @@ once() {
 }
 once "a model that is not there" 1 "cannot read" 3 sweep "$place/none.motus" --vary a=1,2 -o "$place/x.h5"
 once "an archive that is there" 2 "exists" 3 "${words[@]}" -o "$place/many.h5"
-once "a table" 2 "together write archives alone" 3 "${words[@]}" -o "$place/x.csv"
+once "a table" 2 "together write rows to an archive alone" 3 "${words[@]}" -o "$place/x.csv"
+once "events to a pipe" 2 "events to a file alone" 2 "${hits[@]}" -o "$place/x.h5" --events -
+once "a picture" 2 "draw no picture" 2 sweep models/henon-heiles.motus --vary "y(0)=0:0.3:9" --section "x = 0 rising" --until 9 -o "$place/x.h5" --plot "$place/x.svg"
 once "another sweep" 2 "was made by another sweep" 2 "${words[@]}" --until 10 -o "$place/many.h5" --resume
 once "a folder that is not there" 1 "cannot write" 4 "${words[@]}" -o "$place/none/x.h5"
 once "an accuracy that is not reached" 1 "is not reached" 2 sweep "$place/stiff.motus" --vary "k=1,1e5" --accuracy 1e-15 --record final -o "$place/x.h5"
