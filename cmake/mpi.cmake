@@ -3,6 +3,7 @@
 if(MOTUS_MPI)
   find_package(MPI REQUIRED COMPONENTS C)
   add_program(motus_mpi motus-mpi mpi/main.c)
+  target_sources(motus_mpi PRIVATE mpi/bits.c)
   target_include_directories(motus_mpi SYSTEM PRIVATE ${MPI_C_INCLUDE_DIRS})
   target_link_libraries(motus_mpi PRIVATE MPI::MPI_C)
   install(TARGETS motus_mpi DESTINATION ${CMAKE_INSTALL_BINDIR})

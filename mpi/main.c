@@ -7,7 +7,9 @@
  * and never by MPI_Abort; what MPI itself refuses ends the job as MPI does.
  */
 #include "cli/program.h"
+#include "mpi/bits.h"
 
+#include <inttypes.h>
 #include <mpi.h>
 #include <sched.h>
 #include <stdio.h>
@@ -146,23 +148,39 @@ static int versions_differ(int rank, int size)
     return differs ? 2 : 0;
 }
 
-static void check(int rank, int size)
+/* What each rank is and computes. Returns the exit status. */
+static int check(int rank, int size)
 {
-    char own[SAID], other[SAID], name[MPI_MAX_PROCESSOR_NAME] = "";
-    int length;
+    char own[SAID], first[SAID] = "", other[SAID], name[MPI_MAX_PROCESSOR_NAME] = "", bits[24];
+    int length, differs = 0;
+    uint64_t hash = 0;
+    motus_error err = motus_default_error();
     const int threads = threads_of_rank();
+    const motus_status status = bits_compute(&hash, &err);
+    snprintf(bits, sizeof bits, "%016" PRIx64, hash);
     MPI_Get_processor_name(name, &length);
-    snprintf(own, sizeof own, "motus %s, %s, %d thread%s, on %.100s", motus_version(), instructions(), threads,
-             threads == 1 ? "" : "s", name);
+    if (status) snprintf(bits, sizeof bits, "not computed");
+    snprintf(own, sizeof own, "motus %s, bits %s, %s, %d thread%s, on %.60s", motus_version(), bits, instructions(),
+             threads, threads == 1 ? "" : "s", name);
     for (int k = 0; k < size; k++) {
+        char its[SAID];
+        snprintf(other, SAID, "%s", said_by(k, bits, its));
+        if (k == 0) memcpy(first, other, SAID);
+        differs |= strcmp(first, other) != 0;
         said_by(k, own, other);
         if (rank == 0) printf("rank %d: %s\n", k, other);
     }
-    if (rank > 0) return;
-    char library[MPI_MAX_LIBRARY_VERSION_STRING] = "";
-    MPI_Get_library_version(library, &length);
-    library[strcspn(library, "\n,")] = 0;
-    printf("%d rank%s, %s\n", size, size == 1 ? "" : "s", library);
+    if (rank == 0) {
+        char library[MPI_MAX_LIBRARY_VERSION_STRING] = "";
+        MPI_Get_library_version(library, &length);
+        library[strcspn(library, "\n,")] = 0;
+        printf("%d rank%s, %s\n", size, size == 1 ? "" : "s", library);
+        if (status) fprintf(stderr, "motus: rank 0 cannot compute: %s\n", err.message);
+        if (differs)
+            fprintf(stderr, "motus: these ranks compute different bits\n  hint: take ranks of one kind; the bits of "
+                            "motus do not depend on the processor, so please report this\n");
+    }
+    return differs ? 2 : status ? 1 : 0;
 }
 
 int main(int argc, char **argv)
@@ -174,7 +192,7 @@ int main(int argc, char **argv)
     MPI_Comm_size(MPI_COMM_WORLD, &size);
     exit = versions_differ(rank, size);
     if (!exit && argc == 2 && strcmp(argv[1], "--mpi-check") == 0) {
-        check(rank, size);
+        exit = check(rank, size);
     } else if (!exit) {
         c.rank = rank;
         MPI_Win_allocate(rank == 0 ? sizeof *c.value : 0, sizeof *c.value, MPI_INFO_NULL, MPI_COMM_WORLD, &c.value,

@@ -25,7 +25,8 @@ swing=$place/swing.motus
 words=(sweep "$swing" --vary "x(0)=0.1:3:100000" --record "final,max(energy)")
 
 gives "--mpi-check" 0 ranks 3 --mpi-check
-that "... says what each rank is" eval "[ \$(grep -c '^rank [012]: motus [0-9.]*, ' '$out') = 3 ] && says '3 ranks, '"
+that "... says what each rank is" eval "[ \$(grep -c '^rank [012]: motus [0-9.]*, bits [0-9a-f]*, ' '$out') = 3 ] && says '3 ranks, '"
+that "... and that they compute the same bits" eval "[ \$(grep -o 'bits [0-9a-f]*' '$out' | sort -u | wc -l) = 1 ]"
 gives "alone, without mpirun" 0 "$mpi" run "$swing" --json
 that "... it computes what motus does" eval "[ \"\$(jq -c .state '$out')\" = \"\$('$motus' run '$swing' --json | jq -c .state)\" ]"
 gives "a verb that ranks do not share" 0 ranks 3 check "$swing"
@@ -131,7 +132,7 @@ dies_and_goes_on USR1 mpirun 2 0
 build=$(dirname "$motus")
 if command -v mpicc.mpich >/dev/null && command -v mpirun.mpich >/dev/null && [ -e "$build/libmotus-cli.a" ]; then
     ours=$mpi system=("${launch[@]}") mpi=$place/motus-mpich launch=(mpirun.mpich)
-    gives "it compiles with MPICH" 0 mpicc.mpich -std=c17 -D_GNU_SOURCE -Wall -Wextra -Wpedantic -Werror -I. -Iinclude mpi/main.c \
+    gives "it compiles with MPICH" 0 mpicc.mpich -std=c17 -D_GNU_SOURCE -Wall -Wextra -Wpedantic -Werror -I. -Iinclude mpi/*.c \
         "$build/libmotus-cli.a" "$build/libmotus-archive.a" "$build/libmotus.a" -lm -ldl -lpthread "-Wl,-rpath,$build" -o "$mpi"
     gives "... --mpi-check" 0 ranks 2 --mpi-check
     that "... by MPICH" says "2 ranks, MPICH"
