@@ -6,6 +6,7 @@
 #define _XOPEN_SOURCE 700
 #include "archive/bytes.h"
 #include "archive/directory.h"
+#include "archive/make.h"
 #include "base/error.h"
 
 #include <errno.h>
@@ -22,6 +23,9 @@ struct motus_archive {
     int descriptor;
     unsigned char *room; /* for a column of a block */
     uint64_t turn;       /* of the latest state, as far as it was asked for; 0: not yet, or there is none */
+    unpack_archive *unpack;
+    unsigned char *piece, *unpacked;  /* of compressed rows: room for what the file has of a block, and the last one */
+    uint64_t piece_room, unpacked_of; /* of which it is, 1 + the number of its piece in the table; 0: of none */
 };
 
 motus_archive_def motus_archive_default(void)
@@ -78,6 +82,26 @@ static motus_status read_directory(motus_archive *a, motus_error *err)
     return status;
 }
 
+static uint64_t widest(const directory *d)
+{
+    uint64_t width = sizeof(int64_t);
+    for (size_t k = 0; k < d->column_count; k++)
+        if (d->columns[k].width > width) width = d->columns[k].width;
+    return width;
+}
+
+static motus_status make_room(motus_archive *a, motus_error *err)
+{
+    const directory *d = &a->directory;
+    const uint64_t most = d->rows < d->block ? d->rows : d->block;
+    const size_t size = (size_t)(most * widest(d)) + 1; /* it is in the file, so it is no overflow */
+    a->room = malloc(size);
+    if (a->room && d->packed_place) a->unpacked = malloc(size);
+    if (!a->room || (d->packed_place && !a->unpacked))
+        return fail(err, MOTUS_MEMORY, "no memory for a block of %s", a->path);
+    return MOTUS_OK;
+}
+
 motus_status motus_archive_open(const char *path, int write, motus_archive **out, motus_error *err)
 {
     *out = NULL;
@@ -88,15 +112,7 @@ motus_status motus_archive_open(const char *path, int write, motus_archive **out
     }
     a->descriptor = open(path, (write ? O_RDWR : O_RDONLY) | O_CLOEXEC);
     motus_status status = a->descriptor < 0 ? cannot("open", path, err) : read_directory(a, err);
-    if (!status) {
-        const directory *d = &a->directory;
-        const uint64_t most = d->rows < d->block ? d->rows : d->block;
-        uint64_t widest = 1;
-        for (size_t k = 0; k < d->column_count; k++)
-            if (d->columns[k].width > widest) widest = d->columns[k].width;
-        a->room = malloc((size_t)(most * widest) + 1); /* it is in the file, so it is no overflow */
-        if (!a->room) status = fail(err, MOTUS_MEMORY, "no memory for a block of %s", path);
-    }
+    if (!status) status = make_room(a, err);
     if (status)
         motus_archive_close(a);
     else
@@ -110,9 +126,13 @@ void motus_archive_close(motus_archive *a)
     if (a->descriptor >= 0) close(a->descriptor);
     directory_free(&a->directory);
     free(a->room);
+    free(a->piece);
+    free(a->unpacked);
     free(a->path);
     free(a);
 }
+
+int motus_archive_compressed(const motus_archive *a) { return a->directory.packed_place > 0; }
 
 /* ---- what it says ---- */
 
@@ -153,12 +173,76 @@ const char *motus_archive_note_of(const motus_archive *a, const char *name)
     return NULL;
 }
 
-/* ---- blocks ---- */
-
 static motus_status no_block(const motus_archive *a, uint64_t block, motus_error *err)
 {
     return fail(err, MOTUS_ARGUMENT, "%s has no block %llu", a->path, (unsigned long long)block);
 }
+
+/* ---- compressed rows ---- */
+
+#define NUMBERS ((size_t)-1) /* in place of a column: the numbers of the rows */
+
+static motus_status find_unpack(motus_archive *a, motus_error *err)
+{
+    void *const found = a->unpack ? NULL : create_find(MAKE_UNPACK);
+    if (!a->unpack) memcpy(&a->unpack, &found, sizeof a->unpack);
+    if (a->unpack) return MOTUS_OK;
+    fail(err, MOTUS_UNAVAILABLE, "%s is compressed, and this motus was built or runs without HDF5 and zlib", a->path);
+    hint(err, "install HDF5, and build motus where libhdf5-dev is installed");
+    return MOTUS_UNAVAILABLE;
+}
+
+static motus_status damaged(const motus_archive *a, uint64_t block, motus_error *err)
+{
+    return fail(err, MOTUS_STATE, "%s is damaged: block %llu cannot be unpacked", a->path, (unsigned long long)block);
+}
+
+/* Makes a->unpacked the rows of a block. */
+static motus_status unpack(motus_archive *a, size_t column, uint64_t block, uint64_t width, motus_error *err)
+{
+    const directory *d = &a->directory;
+    const uint64_t number = (column + 1) * motus_archive_blocks(a) + block; /* that of NUMBERS is 0 */
+    const uint64_t most = (d->rows < d->block ? d->rows : d->block) * width;
+    const size_t unit = column == NUMBERS ? sizeof(int64_t) : directory_width(d->columns[column].kind);
+    directory_piece p;
+    if (a->unpacked_of == number + 1) return MOTUS_OK;
+    motus_status status = find_unpack(a, err);
+    if (!status) status = get(a, &p, sizeof p, d->packed_place + number * sizeof p, err);
+    if (status) return status;
+    if (p.size > most + most / 100 + 1024 || p.place > INT64_MAX / 2) return damaged(a, block, err);
+    if (p.size > a->piece_room) {
+        unsigned char *more = realloc(a->piece, (size_t)p.size);
+        if (!more) return fail(err, MOTUS_MEMORY, "no memory for a block of %s", a->path);
+        a->piece = more, a->piece_room = p.size;
+    }
+    a->unpacked_of = 0;
+    status = get(a, a->piece, (size_t)p.size, p.place, err);
+    if (status) return status;
+    if (!a->unpack(a->piece, (size_t)p.size, p.left_out, unit, a->unpacked, (size_t)most))
+        return damaged(a, block, err);
+    a->unpacked_of = number + 1;
+    return MOTUS_OK;
+}
+
+/* Rows of a column, or of NUMBERS. */
+static motus_status get_rows(motus_archive *a, size_t column, uint64_t row, size_t count, void *out, motus_error *err)
+{
+    const directory *d = &a->directory;
+    const uint64_t width = column == NUMBERS ? sizeof(int64_t) : d->columns[column].width;
+    const uint64_t place = column == NUMBERS ? d->number_place : d->columns[column].place;
+    if (!d->packed_place) return get(a, out, count * (size_t)width, place + row * width, err);
+    motus_status status = MOTUS_OK;
+    for (unsigned char *at = out; !status && count > 0;) {
+        const uint64_t within = row % d->block, left = d->block - within;
+        const size_t some = left < count ? (size_t)left : count;
+        status = unpack(a, column, row / d->block, width, err);
+        if (!status) memcpy(at, a->unpacked + within * width, some * (size_t)width);
+        at += some * (size_t)width, row += some, count -= some;
+    }
+    return status;
+}
+
+/* ---- blocks ---- */
 
 /* A hash is never 0, which says that a block is missing. */
 static uint64_t some(uint64_t hash) { return hash ? hash : 1; }
@@ -170,6 +254,11 @@ motus_status motus_archive_write(motus_archive *a, uint64_t block, const void *c
     uint64_t first, hash = hash_begin(block);
     size_t count;
     if (block >= motus_archive_blocks(a)) return no_block(a, block, err);
+    if (d->packed_place) {
+        fail(err, MOTUS_STATE, "%s is compressed: its blocks are read, and never written again", a->path);
+        hint(err, "compute them into a new file");
+        return MOTUS_STATE;
+    }
     motus_archive_block(a, block, &first, &count);
     motus_status status = MOTUS_OK;
     for (size_t k = 0; !status && k < d->column_count; k++) {
@@ -210,7 +299,8 @@ motus_status motus_archive_whole(motus_archive *a, uint64_t block, int *whole, m
     for (size_t k = 0; !status && k < d->column_count; k++) {
         const directory_column *c = d->columns + k;
         const size_t width = (size_t)c->width;
-        status = get(a, a->room, count * width, c->place + first * width, err);
+        status = get_rows(a, k, first, count, a->room, err);
+        if (status == MOTUS_STATE && d->packed_place) return MOTUS_OK; /* what cannot be unpacked is damaged */
         if (!status) hash = directory_hash(hash, a->room, count * width);
     }
     *whole = !status && some(hash) == wanted;
@@ -229,15 +319,14 @@ motus_status motus_archive_read(motus_archive *a, size_t column, uint64_t row, s
 {
     const directory *d = &a->directory;
     if (column >= d->column_count) return fail(err, MOTUS_ARGUMENT, "%s has %zu columns", a->path, d->column_count);
-    const size_t width = (size_t)d->columns[column].width;
     motus_status status = rows_inside(a, row, count, err);
-    return status ? status : get(a, out, count * width, d->columns[column].place + row * width, err);
+    return status ? status : get_rows(a, column, row, count, out, err);
 }
 
 motus_status motus_archive_numbers(motus_archive *a, uint64_t row, size_t count, int64_t *out, motus_error *err)
 {
     motus_status status = rows_inside(a, row, count, err);
-    return status ? status : get(a, out, count * sizeof *out, a->directory.number_place + row * sizeof *out, err);
+    return status ? status : get_rows(a, NUMBERS, row, count, out, err);
 }
 
 /* ---- states ---- */
@@ -379,5 +468,23 @@ motus_status motus_archive_settle(motus_archive *a, const void *bytes, size_t le
     for (uint64_t k = 0; !status && k < 2; k++)
         status = write_slot(a, (turn + k) % 2 ? 1 : 2, bytes, length, true, err);
     a->turn = 0; /* the latest need not be the last that was written */
+    return status;
+}
+
+/* ---- a copy ---- */
+
+motus_status archive_copy(const motus_archive *a, int slots, int descriptor, uint64_t place, motus_error *err)
+{
+    enum { AT_ONCE = 1 << 16 };
+    const directory *d = &a->directory;
+    char bytes[AT_ONCE];
+    const uint64_t from = slots ? d->slots_place : d->done_place;
+    const uint64_t count = slots ? 2 * d->slot : motus_archive_blocks(a) * sizeof(uint64_t);
+    motus_status status = MOTUS_OK;
+    for (uint64_t done = 0; !status && done < count; done += AT_ONCE) {
+        const size_t some = count - done < AT_ONCE ? (size_t)(count - done) : AT_ONCE;
+        status = get(a, bytes, some, from + done, err);
+        if (!status && !bytes_put(descriptor, bytes, some, place + done)) status = cannot("write", "a copy", err);
+    }
     return status;
 }

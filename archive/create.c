@@ -55,16 +55,23 @@ static motus_status check(const motus_archive_def *d, motus_error *err)
     for (size_t k = 0; k < d->attribute_count; k++)
         if (!one_line(d->attributes[k].group) || !one_line(d->attributes[k].name))
             return fail(err, MOTUS_ARGUMENT, "attribute %zu of an archive has no group or no name", k);
+    if (d->from && (motus_archive_rows(d->from) != d->rows || motus_archive_slot(d->from) != d->slot ||
+                    motus_archive_column_count(d->from) != d->column_count))
+        return fail(err, MOTUS_ARGUMENT, "the archive that is to be compressed has another definition");
     if (d->slot > INT32_MAX / 2) return fail(err, MOTUS_LIMIT, "a slot of an archive has at most 1 GiB");
     return MOTUS_OK;
 }
 
-/* The module's function; NULL: there is no module, or no HDF5 for it. It stays loaded. */
+void *create_find(const char *name)
+{
+    void *const module = dlopen(MAKE_MODULE, RTLD_NOW | RTLD_LOCAL);
+    return module ? dlsym(module, name) : NULL;
+}
+
 static make_archive *maker(void)
 {
     make_archive *make = NULL;
-    void *const module = dlopen(MAKE_MODULE, RTLD_NOW | RTLD_LOCAL);
-    void *const found = module ? dlsym(module, MAKE_FUNCTION) : NULL;
+    void *const found = create_find(MAKE_FUNCTION);
     memcpy(&make, &found, sizeof make); /* POSIX lets a function be found so */
     return make;
 }

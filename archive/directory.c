@@ -42,6 +42,7 @@ static void put_body(FILE *out, const motus_archive_def *d, const uint64_t *plac
     fprintf(out, "rows " PLACE "\nblock " PLACE "\n", d->rows, d->block);
     fprintf(out, "number " PLACE " %s\n", at ? *at++ : 0, d->scale);
     fprintf(out, "done " PLACE "\n", at ? *at++ : 0);
+    if (d->from) fprintf(out, "packed " PLACE "\n", at ? at[d->column_count + 1] : 0);
     if (d->slot) fprintf(out, "slots " PLACE " %zu\n", at ? at[d->column_count] : 0, d->slot + DIRECTORY_SLOT);
     for (size_t k = 0; k < d->column_count; k++) {
         const motus_archive_column *c = d->columns + k;
@@ -74,7 +75,7 @@ char *directory_write(const motus_archive_def *d, const uint64_t *places, size_t
         text = calloc(1, *size);
     }
     if (text) {
-        snprintf(head, sizeof head, FIRST "%d\ndirectory %zu %016" PRIx64 "\n", MOTUS_ARCHIVE_FORMAT, *size,
+        snprintf(head, sizeof head, FIRST "%d\ndirectory %zu %016" PRIx64 "\n", d->from ? 2 : 1, *size,
                  directory_hash(DIRECTORY_HASH, body, length));
         memcpy(text, head, strlen(head));
         memcpy(text + strlen(head), body, length);

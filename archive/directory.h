@@ -21,6 +21,13 @@
  * the text is known before they are. Where a row has several numbers of a column, their shape stands behind its kind.
  * `slots` is there if states are: where the first slot begins, and the bytes of each. Behind `note` stand the length of
  * the text and its name; the text follows, and a newline.
+ *
+ * Where the rows are compressed the first line says `motus archive 2`, and behind `done` follows
+ *
+ *     packed 00000000000000020480
+ *
+ * the place of a table with a directory_piece of the rows' numbers in each block, then of the first column in each, and
+ * so on; the places of numbers and columns are 0.
  */
 #ifndef ARCHIVE_DIRECTORY_H
 #define ARCHIVE_DIRECTORY_H
@@ -37,10 +44,17 @@ typedef struct directory_column {
     uint64_t width; /* bytes of a row in the file */
 } directory_column;
 
+/* Where the bytes of a compressed block of a column are, and which filters of HDF5 were left out: bits 0 and 1, of
+ * shuffling and of deflating. */
+typedef struct directory_piece {
+    uint64_t place, size, left_out;
+} directory_piece;
+
 typedef struct directory {
     char *text;                                                        /* names and notes point into it */
     size_t size;                                                       /* of the directory in the file */
     uint64_t rows, block, number_place, done_place, slots_place, slot; /* slot: 0, there are none */
+    uint64_t packed_place;                                             /* 0: the rows are not compressed */
     directory_column *columns;
     size_t column_count;
     motus_archive_note *notes;
@@ -65,7 +79,8 @@ static inline size_t directory_width(motus_archive_kind kind)
 static inline uint64_t directory_blocks(uint64_t rows, uint64_t block) { return rows / block + (rows % block > 0); }
 
 /* The text for a definition, to be freed; *size: of the directory, a power of 2. places: of the rows' numbers, of
- * /blocks/done, of each column and, where there are some, of the slots; NULL: not yet known. NULL: no memory. */
+ * /blocks/done, of each column, of the slots and of the pieces, 0 where there are none; NULL: not yet known. NULL: no
+ * memory. */
 char *directory_write(const motus_archive_def *, const uint64_t *places, size_t *size);
 /* Reads a directory. `bytes` are the first of the file, `count` of them, which is at least as many as the directory has
  * or the whole file. On MOTUS_LIMIT it has *size bytes, more than `count`: read them and call again. Call

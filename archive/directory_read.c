@@ -100,7 +100,8 @@ static bool column(reader *r, char *text)
     }
     const motus_archive_column as = {.shape = {c->shape[0], c->shape[1]}};
     c->width = directory_width(c->kind) * motus_archive_width(&as);
-    if (!number(&text, &c->place) || !*text || !inside(r, c->place, d->rows, c->width)) return false;
+    if (!number(&text, &c->place) || !*text) return false;
+    if (!d->packed_place && !inside(r, c->place, d->rows, c->width)) return false;
     c->name = text;
     c->comment = NULL;
     c->words = d->words + r->words;
@@ -158,10 +159,31 @@ static bool measures(reader *r)
     if (d->block == 0 || d->block > SIZE_MAX / sizeof(double)) return false;
     text = line(r);
     if (!text || !begins(&text, "number") || !number(&text, &d->number_place) || !*text) return false;
-    if (!inside(r, d->number_place, d->rows, sizeof(int64_t))) return false;
     text = line(r);
     if (!text || !begins(&text, "done") || !number(&text, &d->done_place) || *text) return false;
-    return inside(r, d->done_place, directory_blocks(d->rows, d->block), sizeof(uint64_t));
+    if (!inside(r, d->done_place, directory_blocks(d->rows, d->block), sizeof(uint64_t))) return false;
+    char *const next = r->at;
+    text = line(r);
+    if (text && begins(&text, "packed")) return number(&text, &d->packed_place) && !*text && d->packed_place > 0;
+    if (text) r->at[-1] = '\n';
+    r->at = next;
+    return inside(r, d->number_place, d->rows, sizeof(int64_t));
+}
+
+/* A compressed block is at most this many times as large as its bytes in the file (zlib's limit is 1032). */
+enum { SHRINKS = 1100 };
+
+/* Whether the pieces lie in the file, and a block of each column is not larger than they can hold. */
+static bool pieces(const reader *r)
+{
+    const directory *d = r->d;
+    const uint64_t most = d->rows < d->block ? d->rows : d->block, room = r->file_size * SHRINKS;
+    if (!d->packed_place) return true;
+    for (size_t k = 0; k < d->column_count; k++)
+        if (most > room / d->columns[k].width) return false;
+    const uint64_t blocks = directory_blocks(d->rows, d->block);
+    return most <= room / sizeof(int64_t) &&
+           inside(r, d->packed_place, blocks, (d->column_count + 1) * sizeof(directory_piece));
 }
 
 /* Room for as many columns, words and notes as there are lines. */
@@ -192,7 +214,8 @@ static motus_status body(reader *r)
                                          : false))
             return damaged(r, "a line is wrong");
     }
-    return r->d->column_count ? MOTUS_OK : damaged(r, "the columns are missing");
+    if (!r->d->column_count) return damaged(r, "the columns are missing");
+    return pieces(r) ? MOTUS_OK : damaged(r, "the number of rows is wrong");
 }
 
 static motus_status foreign(const char *path, motus_error *err)
@@ -217,7 +240,7 @@ motus_status directory_read(directory *d, const char *bytes, size_t count, uint6
     if (!number(&text, &format) || format == 0) return foreign(path, err);
     if (format > MOTUS_ARCHIVE_FORMAT) {
         fail(err, MOTUS_UNAVAILABLE, "%s has version %" PRIu64 " of the archives, and motus %s reads up to version %d",
-             path, format, motus_version(), MOTUS_ARCHIVE_FORMAT);
+             path, format, MOTUS_VERSION, MOTUS_ARCHIVE_FORMAT);
         hint(err, "take a later version of motus; the numbers may be read by h5py or h5dump");
         return MOTUS_UNAVAILABLE;
     }

@@ -8,6 +8,7 @@
 #include "archive/bytes.h"
 #include "archive/directory.h"
 #include "archive/make.h"
+#include "archive/pack.h"
 #include "base/error.h"
 
 #include <errno.h>
@@ -34,6 +35,7 @@ typedef struct maker {
     const char *path;
     hid_t file, group, blocks, scale;
     uint64_t *places;
+    directory_piece *pieces; /* of compressed rows, as in the file */
     motus_error *err;
 } maker;
 
@@ -93,9 +95,8 @@ static bool put_texts(hid_t object, const char *name, const char *text, hid_t sp
     return good;
 }
 
-static bool put_format(hid_t file)
+static bool put_format(hid_t file, int format)
 {
-    const int format = MOTUS_ARCHIVE_FORMAT;
     const hid_t space = H5Screate(H5S_SCALAR);
     const bool good = put_attribute(file, "motus_archive", H5T_NATIVE_INT, space, &format);
     H5Sclose(space);
@@ -158,28 +159,43 @@ static char *link_name(const char *name)
     return out;
 }
 
-/* A piece of `count` rows at its place, which HDF5 does not fill; `shape` of the numbers in a row, NULL: one. The
- * caller closes it. */
+/* `count` rows at their place, which HDF5 does not fill; `shape` of the numbers in a row, NULL: one. `chunk` above 0:
+ * they are to be compressed, so many rows at a time, and have no place yet. The caller closes it. */
 static hid_t make_set(hid_t group, const char *name, hid_t type, uint64_t count, const size_t *shape,
-                      const void *missing, uint64_t *place)
+                      const void *missing, uint64_t chunk, uint64_t *place)
 {
     const hsize_t sizes[] = {count, shape ? shape[0] : 0, shape ? shape[1] : 0};
     const int dimensions = sizes[2] ? 3 : sizes[1] ? 2 : 1;
     const hid_t space = H5Screate_simple(dimensions, sizes, NULL), list = H5Pcreate(H5P_DATASET_CREATE);
     H5Pset_obj_track_times(list, false);
-    H5Pset_layout(list, H5D_CONTIGUOUS);
-    H5Pset_alloc_time(list, H5D_ALLOC_TIME_EARLY);
-    H5Pset_fill_time(list, H5D_FILL_TIME_NEVER);
     H5Pset_fill_value(list, type, missing);
+    if (chunk > 0 && !pack_layout(list, dimensions, (const hsize_t[]){chunk, sizes[1], sizes[2]})) {
+        H5Pclose(list);
+        H5Sclose(space);
+        return H5I_INVALID_HID;
+    }
+    if (chunk == 0) {
+        H5Pset_layout(list, H5D_CONTIGUOUS);
+        H5Pset_alloc_time(list, H5D_ALLOC_TIME_EARLY);
+        H5Pset_fill_time(list, H5D_FILL_TIME_NEVER);
+    }
     char *link = link_name(name);
     const hid_t set = link ? H5Dcreate2(group, link, type, space, H5P_DEFAULT, list, H5P_DEFAULT) : H5I_INVALID_HID;
     free(link);
     H5Pclose(list);
     H5Sclose(space);
-    if (set >= 0) *place = count > 0 ? H5Dget_offset(set) : DIRECTORY_LEAST; /* nothing has a place inside the file */
+    if (set >= 0)
+        *place = chunk > 0 ? 0 : count > 0 ? H5Dget_offset(set) : DIRECTORY_LEAST; /* nothing has one inside */
     if (set < 0 || *place != HADDR_UNDEF) return set;
     H5Dclose(set);
     return H5I_INVALID_HID;
+}
+
+/* How many rows are compressed together; 0: they are not compressed. */
+static uint64_t chunk_of(const maker *m)
+{
+    const motus_archive_def *d = m->def;
+    return d->from ? d->rows < d->block ? d->rows : d->block : 0;
 }
 
 static motus_status put_column(maker *m, size_t k)
@@ -188,7 +204,7 @@ static motus_status put_column(maker *m, size_t k)
     const bool word = c->kind == MOTUS_ARCHIVE_WORD;
     const double none = NAN;
     const hid_t set = make_set(m->group, c->name, word ? H5T_STD_U8LE : H5T_IEEE_F64LE, m->def->rows, c->shape,
-                               word ? (const void *)MISSING : &none, m->places + 2 + k);
+                               word ? (const void *)MISSING : &none, chunk_of(m), m->places + 2 + k);
     if (set < 0) return refused(m, c->name);
     const bool good = H5DSattach_scale(set, m->scale, 0) >= 0 && (!word || put_words(set, c)) &&
                       (!c->comment || put_text(set, "comment", c->comment));
@@ -201,10 +217,10 @@ static motus_status put_sets(maker *m)
     const int64_t no_number = -1;
     const uint64_t no_hash = 0;
     const motus_archive_def *d = m->def;
-    m->scale = make_set(m->group, d->scale, H5T_STD_I64LE, d->rows, NULL, &no_number, m->places);
+    m->scale = make_set(m->group, d->scale, H5T_STD_I64LE, d->rows, NULL, &no_number, chunk_of(m), m->places);
     if (m->scale < 0 || H5DSset_scale(m->scale, d->scale) < 0) return refused(m, d->scale);
-    const hid_t done =
-        make_set(m->blocks, "done", H5T_STD_U64LE, directory_blocks(d->rows, d->block), NULL, &no_hash, m->places + 1);
+    const hid_t done = make_set(m->blocks, "done", H5T_STD_U64LE, directory_blocks(d->rows, d->block), NULL, &no_hash,
+                                0, m->places + 1);
     if (done < 0) return refused(m, "the list of blocks");
     H5Dclose(done);
     motus_status status = MOTUS_OK;
@@ -221,7 +237,7 @@ static motus_status put_slots(maker *m)
     const size_t shape[] = {m->def->slot + DIRECTORY_SLOT, 0};
     const unsigned char zero = 0;
     const hid_t group = make_group(m->file, "checkpoint");
-    const hid_t set = make_set(group, "slots", H5T_STD_U8LE, 2, shape, &zero, m->places + 2 + m->def->column_count);
+    const hid_t set = make_set(group, "slots", H5T_STD_U8LE, 2, shape, &zero, 0, m->places + 2 + m->def->column_count);
     if (set >= 0) H5Dclose(set);
     if (group >= 0) H5Gclose(group);
     return set < 0 ? refused(m, "room for states") : MOTUS_OK;
@@ -290,7 +306,7 @@ static motus_status put_conventions(const maker *m)
 
 static motus_status put_notes(maker *m)
 {
-    if (!put_format(m->file)) return refused(m, "the version");
+    if (!put_format(m->file, m->def->from ? 2 : 1)) return refused(m, "the version");
     for (size_t k = 0; k < m->def->note_count; k++) {
         const motus_archive_note *n = m->def->notes + k;
         const bool model = strcmp(n->name, "model") == 0;
@@ -326,6 +342,32 @@ static hid_t make_file(const char *path, size_t directory)
     return file;
 }
 
+/* The rows of the archive that is compressed, and where HDF5 puts them, /blocks/packed. */
+static motus_status put_packed(maker *m)
+{
+    const motus_archive_def *d = m->def;
+    const uint64_t count = (d->column_count + 1) * directory_blocks(d->rows, d->block);
+    const size_t shape[] = {sizeof(directory_piece) / sizeof(uint64_t), 0};
+    const uint64_t none = 0;
+    if (!d->from) return MOTUS_OK;
+    const hid_t set =
+        make_set(m->blocks, "packed", H5T_STD_U64LE, count, shape, &none, 0, m->places + 3 + d->column_count);
+    if (set < 0) return refused(m, "the places of the blocks");
+    H5Dclose(set);
+    m->pieces = calloc((size_t)count + 1, sizeof *m->pieces);
+    if (!m->pieces) return fail(m->err, MOTUS_MEMORY, "no memory to compress %s", m->path);
+    motus_status status = MOTUS_OK;
+    for (size_t k = 0; !status && k <= d->column_count; k++) {
+        char *link = link_name(k ? d->columns[k - 1].name : d->scale);
+        const hid_t its = link ? H5Dopen2(m->group, link, H5P_DEFAULT) : H5I_INVALID_HID;
+        free(link);
+        if (its < 0) return refused(m, "to open what it made");
+        status = pack_rows(its, d, k, m->pieces + k * directory_blocks(d->rows, d->block), m->path, m->err);
+        H5Dclose(its);
+    }
+    return status;
+}
+
 static motus_status by_hdf5(maker *m, const char *path, size_t directory)
 {
     H5dont_atexit(); /* at the exit it would crash where a file could not be closed, as on a full disk */
@@ -343,6 +385,7 @@ static motus_status by_hdf5(maker *m, const char *path, size_t directory)
     if (!status) status = put_sets(m);
     if (!status) status = put_slots(m);
     if (!status) status = put_conventions(m);
+    if (!status) status = put_packed(m);
     if (m->scale >= 0) H5Dclose(m->scale);
     if (m->blocks >= 0) H5Gclose(m->blocks);
     if (m->group >= 0) H5Gclose(m->group);
@@ -430,6 +473,31 @@ static motus_status take_room(const maker *m, int descriptor)
     return code == ENOSPC || code == EDQUOT || code == EFBIG ? no_room(m, code) : MOTUS_OK;
 }
 
+/* Everything of an archive without a block. */
+static motus_status put_missing(const maker *m, int descriptor)
+{
+    motus_status status = take_room(m, descriptor);
+    if (!status) status = put_rest(m, descriptor);
+    /* Not what fills the columns: blocks are soon written over it, and a disk would have both. */
+    if (!status && !bytes_sync(descriptor))
+        status = fail(m->err, MOTUS_FILE, "cannot write %s: %s", m->path, strerror(errno));
+    return status ? status : fill(m, descriptor);
+}
+
+/* Of a compressed archive: the hashes of its blocks, its states, and where its pieces are. */
+static motus_status put_hashes(const maker *m, int descriptor, size_t size)
+{
+    const motus_archive_def *d = m->def;
+    const uint64_t blocks = directory_blocks(d->rows, d->block), *at = m->places + 2 + d->column_count;
+    motus_status status = pack_check(d, m->pieces, descriptor, size, m->path, m->err);
+    if (!status) status = put(m, descriptor, m->pieces, (d->column_count + 1) * blocks * sizeof *m->pieces, at[1]);
+    if (!status) status = archive_copy(d->from, 0, descriptor, m->places[1], m->err);
+    if (!status && d->slot) status = archive_copy(d->from, 1, descriptor, at[0], m->err);
+    if (!status && !bytes_sync(descriptor))
+        status = fail(m->err, MOTUS_FILE, "cannot write %s: %s", m->path, strerror(errno));
+    return status;
+}
+
 static motus_status by_us(const maker *m, const char *path, size_t size)
 {
     size_t again;
@@ -441,12 +509,7 @@ static motus_status by_us(const maker *m, const char *path, size_t size)
     const int descriptor = open(path, O_RDWR | O_CLOEXEC);
     motus_status status = descriptor < 0 ? fail(m->err, MOTUS_FILE, "cannot write %s: %s", path, strerror(errno))
                                          : put(m, descriptor, text, size, 0);
-    if (!status) status = take_room(m, descriptor);
-    if (!status) status = put_rest(m, descriptor);
-    /* Not what fills the columns: blocks are soon written over it, and a disk would have both. */
-    if (!status && !bytes_sync(descriptor))
-        status = fail(m->err, MOTUS_FILE, "cannot write %s: %s", m->path, strerror(errno));
-    if (!status) status = fill(m, descriptor);
+    if (!status) status = m->def->from ? put_hashes(m, descriptor, size) : put_missing(m, descriptor);
     if (descriptor >= 0 && close(descriptor) != 0 && !status)
         status = fail(m->err, MOTUS_FILE, "cannot write %s: %s", m->path, strerror(errno));
     free(text);
@@ -475,7 +538,7 @@ motus_status make_hdf5(const char *path, const motus_archive_def *d, motus_error
                .path = path,
                .err = err,
                .file = H5I_INVALID_HID,
-               .places = calloc(3 + d->column_count, sizeof *m.places)};
+               .places = calloc(4 + d->column_count, sizeof *m.places)};
     char *where = realpath(path, NULL); /* where a link leads; NULL: there is nothing yet */
     const char *name = where ? where : path;
     char *text = directory_write(d, NULL, &size), *beside = malloc(strlen(name) + sizeof new);
@@ -497,5 +560,6 @@ motus_status make_hdf5(const char *path, const motus_archive_def *d, motus_error
     free(where);
     free(text);
     free(m.places);
+    free(m.pieces);
     return status;
 }

@@ -15,4 +15,16 @@
 typedef motus_status make_archive(const char *path, const motus_archive_def *, motus_error *);
 __attribute__((visibility("default"))) make_archive make_hdf5;
 
+/* The numbers of a compressed block, `count` bytes in units of `width`, whatever the bytes are. Returns 0: they are
+ * not. */
+#define MAKE_UNPACK "unpack_piece"
+typedef int unpack_archive(const void *bytes, size_t size, uint64_t left_out, size_t width, void *out, size_t count);
+__attribute__((visibility("default"))) unpack_archive unpack_piece;
+
+/* archive.c: copies the hashes of the blocks, or (`slots` 1) the states, to a place of another file. */
+motus_status archive_copy(const motus_archive *, int slots, int descriptor, uint64_t place, motus_error *);
+
+/* create.c: a function of the module; NULL: there is no module, or no HDF5 for it. It stays loaded. */
+void *create_find(const char *name);
+
 #endif

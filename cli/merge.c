@@ -101,6 +101,10 @@ static motus_status check_name(const merge *m, motus_error *err)
         hint(err, "compute all shards, or write archives: motus sweep ... -o part%%K.h5");
         return MOTUS_ARGUMENT;
     }
+    if (m->options->compress && kind != PART_ARCHIVE) {
+        fail(err, MOTUS_ARGUMENT, "--compress is for archives");
+        return MOTUS_ARGUMENT;
+    }
     if (sweep_npy_name(name) == (kind == PART_NPY) && sweep_archive_name(name) == (kind == PART_ARCHIVE))
         return MOTUS_OK;
     fail(err, MOTUS_ARGUMENT, "-o %s: the shards are %s", name, kinds[kind]);
@@ -160,7 +164,8 @@ static motus_status write_all(merge *m, stop_progress *progress, motus_error *er
 {
     const char *output = m->options->output;
     if (m->parts[0].kind == PART_ARCHIVE)
-        return part_archive_join(m->of, output, m->options->partial ? &m->missing : NULL, progress, err);
+        return part_archive_join(m->of, output, m->options->partial ? &m->missing : NULL, m->options->compress,
+                                 progress, err);
     const bool npy = m->of[0]->kind == PART_NPY;
     char *beside = sweep_npy_beside(output);
     if (!beside) return complain_memory(err);

@@ -127,6 +127,8 @@ static const option table[] = {
      "continue an interrupted sweep in FILE, or a run in FILE.h5, to the same bytes"},
     {"--verify", NULL, "PART", WORD, AT(verify), VERB_ARCHIVE,
      "compute this part of the blocks again, 1%, or all, and compare their bytes"},
+    {"--compress", NULL, NULL, FLAG, AT(compress), ONE | VERB_MERGE,
+     "compress FILE.h5 at the end; it is read as before, and what goes on makes a new one"},
     {"--partial", NULL, NULL, FLAG, AT(partial), VERB_MERGE,
      "of archives: join what is there; the sweep's command with --resume computes the rest"},
     {"--force", NULL, NULL, FLAG, AT(force), ONE | VERB_MERGE | VERB_ARCHIVE, "replace FILE if it exists"},

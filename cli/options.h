@@ -53,7 +53,7 @@ typedef struct options {
     int64_t count, lanes; /* 0: not given */
     uint64_t seed;
     bool seeded; /* a seed was given */
-    bool zip, fast, resume, force, plan, partial;
+    bool zip, fast, resume, force, plan, partial, compress;
     char *methods_text; /* the items of `methods` point into it */
     bool errors, json, quiet, help, markdown, points, emit_c, clear, share, no_open;
     const team *team; /* NULL: the program is alone */

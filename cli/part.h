@@ -37,6 +37,7 @@ motus_status part_unfinished(const part *, motus_error *);
 /* part_archive.c: the head of a shard that is an archive; and makes the archive of the whole sweep, where of[k] is
  * shard k + 1. *missing is how many blocks no part has; NULL: that is an error, and no part is NULL. */
 motus_status part_archive_head(part *, motus_error *);
-motus_status part_archive_join(part *const *of, const char *output, uint64_t *missing, stop_progress *, motus_error *);
+motus_status part_archive_join(part *const *of, const char *output, uint64_t *missing, bool compress, stop_progress *,
+                               motus_error *);
 
 #endif

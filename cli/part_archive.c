@@ -73,8 +73,9 @@ static char *whole_command(const char *command, const part *p)
 
 static int cancelled(void *context) { return (void)context, stop_requested(); }
 
-/* An archive with the columns and the notes of the first shard. */
-static motus_status make(const part *p, const char *output, motus_error *err)
+/* An archive with the columns and the notes of the first shard; `from`: NULL, or the one whose rows it has,
+ * compressed. */
+static motus_status make(const part *p, const char *output, motus_archive *from, motus_error *err)
 {
     motus_archive *a;
     motus_status status = motus_archive_open(p->path, 0, &a, err);
@@ -98,6 +99,7 @@ static motus_status make(const part *p, const char *output, motus_error *err)
     }
     d.rows = p->total, d.block = SHARD_BLOCK, d.columns = columns, d.notes = kept;
     d.stop = cancelled;
+    d.from = from;
     if (!status) status = motus_archive_create(output, &d, err);
     free(columns);
     free(kept);
@@ -145,8 +147,8 @@ static motus_status copy(joining *j, const part *p, motus_error *err)
     return status;
 }
 
-motus_status part_archive_join(part *const *of, const char *output, uint64_t *missing, stop_progress *progress,
-                               motus_error *err)
+motus_status part_archive_join(part *const *of, const char *output, uint64_t *missing, bool compress,
+                               stop_progress *progress, motus_error *err)
 {
     static const char ending[] = ".joined"; /* it has its name when all blocks are there */
     joining j = {.partial = missing, .progress = progress};
@@ -158,7 +160,7 @@ motus_status part_archive_join(part *const *of, const char *output, uint64_t *mi
     char *beside = malloc(strlen(name) + sizeof ending);
     motus_status status = beside ? MOTUS_OK : complain_memory(err);
     if (beside) strcat(strcpy(beside, name), ending);
-    if (!status) status = make(of[some], beside, err);
+    if (!status) status = make(of[some], beside, NULL, err);
     const bool made = !status;
     if (!status) status = motus_archive_open(beside, 1, &j.to, err);
     if (!status) status = block_room_make(&j.room, motus_archive_column_count(j.to), SHARD_BLOCK, err);
@@ -166,6 +168,7 @@ motus_status part_archive_join(part *const *of, const char *output, uint64_t *mi
         if (of[k] && shard_rows(&of[k]->shard, of[k]->total) > 0) status = copy(&j, of[k], err);
     if (!status && missing) *missing = motus_archive_blocks(j.to) - j.copied;
     if (!status) status = motus_archive_sync(j.to, err);
+    if (!status && compress) status = make(of[some], beside, j.to, err);
     motus_archive_close(j.to);
     if (!status && rename(beside, name) != 0)
         status = fail(err, MOTUS_FILE, "cannot write %s: %s", output, strerror(errno));

@@ -55,6 +55,7 @@ static motus_status check_archive(const options *o, motus_error *err)
 {
     const char *only = o->resume                                  ? "--resume"
                        : o->force                                 ? "--force"
+                       : o->compress                              ? "--compress"
                        : o->keep_seconds > 0 || o->keep_steps > 0 ? "--checkpoint"
                                                                   : NULL;
     if (only && !is_archive(o)) {
@@ -203,6 +204,7 @@ static motus_status finish(job *j, double seconds, motus_error *err)
 {
     const options *o = j->options;
     motus_status status = j->archive ? run_archive_finish(j->archive, err) : MOTUS_OK;
+    if (!status && j->archive && j->options->compress) status = run_archive_compress(j->archive, err);
     if (!status && o->save_state) status = save(j, err);
     if (!status && o->plot && o->section)
         status = section_draw(&j->model, o, j->run, j->plane, &j->files[PLOT], err);

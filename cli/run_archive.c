@@ -73,7 +73,9 @@ static uint64_t expected_rows(const run_archive *a, bool *known)
 
 /* ---- the file ---- */
 
-static motus_status create(const run_archive *a, const char *path, uint64_t rows, size_t slot, motus_error *err)
+/* `from`: NULL, or the archive whose rows the file has, compressed. */
+static motus_status create(const run_archive *a, const char *path, uint64_t rows, size_t slot, motus_archive *from,
+                           motus_error *err)
 {
     const motus_archive_note notes[] = {{"motus", motus_version()},
                                         {"command", a->command},
@@ -88,6 +90,7 @@ static motus_status create(const run_archive *a, const char *path, uint64_t rows
     d.links = a->columns.links, d.link_count = a->columns.link_count;
     d.attributes = a->columns.attributes, d.attribute_count = a->columns.attribute_count;
     d.slot = slot;
+    d.from = from;
     return motus_archive_create(path, &d, err);
 }
 
@@ -149,7 +152,7 @@ static motus_status replace(run_archive *a, motus_archive *from, uint64_t rows, 
     char *where = realpath(a->path, NULL); /* where a link leads */
     const char *name = where ? where : a->path;
     char *path = beside(name, grown);
-    motus_status status = path ? create(a, path, rows, slot, err) : complain_memory(err);
+    motus_status status = path ? create(a, path, rows, slot, NULL, err) : complain_memory(err);
     const bool made = !status;
     if (!status && stat(name, &about) == 0) (void)chmod(path, about.st_mode & 07777);
     if (!status) status = motus_archive_open(path, 1, &to, err);
@@ -420,7 +423,7 @@ static motus_status go_on(run_archive *a, motus_archive *source, bool own, motus
 {
     bool known;
     const uint64_t capacity = expected_rows(a, &known);
-    const bool stays = own && says(source, "command", a->command); /* by whatever version it was begun */
+    const bool stays = own && says(source, "command", a->command) && !motus_archive_compressed(source);
     if (!motus_archive_makes() && !(stays && known && capacity == motus_archive_rows(source))) {
         fail(err, MOTUS_UNAVAILABLE, "%s: the file would have to grow, which needs HDF5", a->path);
         hint(err, "install HDF5, and build motus where libhdf5-dev is installed");
@@ -567,6 +570,11 @@ motus_status run_archive_finish(run_archive *a, motus_error *err)
     a->finished = !status;
     free(bytes);
     return status;
+}
+
+motus_status run_archive_compress(run_archive *a, motus_error *err)
+{
+    return create(a, a->path, a->rows, a->slot, a->file, err);
 }
 
 void run_archive_leave(run_archive *a, bool whole)

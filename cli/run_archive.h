@@ -26,6 +26,8 @@ motus_status run_archive_open(run_archive **, const run_archive_def *, motus_err
 void run_archive_observe(run_archive *, walk_observer *, walk_keeper *);
 /* At the end: all rows and the last state are in the file, which has no room for more. */
 motus_status run_archive_finish(run_archive *, motus_error *);
+/* Then: replaces the file by a compressed one. */
+motus_status run_archive_compress(run_archive *, motus_error *);
 /* After a failure: says what the file has. A new one from which nothing goes on is removed. `whole`: the run itself has
  * reached its end. */
 void run_archive_leave(run_archive *, bool whole);

@@ -113,7 +113,7 @@ static void take_over(run_command *c, const options *o)
     own->output = o->output ? o->output : o->operand;
     own->plot = o->plot, own->plot_of = o->plot_of, own->events = o->events, own->save_state = o->save_state;
     own->keep_steps = o->keep_steps, own->keep_seconds = o->keep_seconds;
-    own->force = o->force, own->resume = o->resume;
+    own->force = o->force, own->resume = o->resume, own->compress = o->compress;
     if (!isnan(o->until)) own->until = o->until, own->until_typed = o->until_typed;
     own->argc = o->argc, own->argv = o->argv;
 }
@@ -136,7 +136,7 @@ motus_status run_command_of(run_command *c, motus_archive *a, const options *ask
     options *own = &c->options;
     own->text = c->model;
     own->output = own->plot = own->plot_of = own->events = own->save_state = own->restart = NULL;
-    own->emit_c = own->share = own->json = own->resume = own->force = false;
+    own->emit_c = own->share = own->json = own->resume = own->force = own->compress = false;
     own->threads = asked->threads, own->machine = asked->machine;
     return status;
 }

@@ -396,6 +396,7 @@ static motus_status finish(const sweep *s, sweep_file *f, sweep_events *events, 
     status = team_agree(o->team, status, err);
     if (!status && team_first(o->team)) status = sweep_events_join(events, err);
     if (!status && team_size(o->team) > 1 && team_first(o->team)) status = sweep_archive_look(f, err);
+    if (!status && o->compress && team_first(o->team)) status = sweep_archive_compress(f, err);
     double wall = stop_clock() - began;
     status = team_agree(o->team, status, err);
     if (!status) add_up(o->team, f);

@@ -167,6 +167,8 @@ bool sweep_archive_given_up(const sweep_file *); /* by any of them */
 motus_status sweep_archive_look(sweep_file *, motus_error *);
 motus_status sweep_archive_row(sweep_file *, const double *numbers, motus_error *);
 motus_status sweep_archive_finish(sweep_file *, motus_error *);
+/* Then, where it is asked for: replaces the file by a compressed one. */
+motus_status sweep_archive_compress(sweep_file *, motus_error *);
 void sweep_archive_close(sweep_file *);
 
 /* sweep_origin.c: the sweep that made an archive, by the command and the model that it has. */

@@ -270,7 +270,11 @@ static motus_status find_blocks(sweep_file *f, bool found, motus_error *err)
         f->found += count;
         status = count_stopped(f, b, err);
     }
-    return status;
+    if (status || a->missing_count == 0 || !motus_archive_compressed(a->file)) return status;
+    fail(err, MOTUS_STATE, "%s is compressed, and %llu of its blocks are damaged, or have no events", f->path,
+         (unsigned long long)a->missing_count);
+    hint(err, "--force computes all of it again");
+    return MOTUS_STATE;
 }
 
 /* ---- opening ---- */
@@ -407,6 +411,18 @@ motus_status sweep_archive_row(sweep_file *f, const double *numbers, motus_error
 }
 
 motus_status sweep_archive_finish(sweep_file *f, motus_error *err) { return motus_archive_sync(f->archive->file, err); }
+
+motus_status sweep_archive_compress(sweep_file *f, motus_error *err)
+{
+    description d;
+    motus_archive *file = f->archive->file;
+    if (motus_archive_compressed(file)) return MOTUS_OK; /* it was found so */
+    motus_status status = describe(&d, f->sweep, err);
+    d.def.from = file;
+    if (!status) status = motus_archive_create(f->path, &d.def, err);
+    description_free(&d);
+    return status;
+}
 
 uint64_t sweep_archive_have(const sweep_file *f)
 {

@@ -69,6 +69,11 @@ motus_status sweep_file_check(const options *o, motus_error *err)
         hint(err, "--resume continues the file, --force replaces it");
         return MOTUS_ARGUMENT;
     }
+    if (o->compress && (output || !sweep_archive_name(path))) {
+        fail(err, MOTUS_ARGUMENT, "--compress is for archives");
+        hint(err, "-o FILE.h5");
+        return MOTUS_ARGUMENT;
+    }
     if (output && (o->resume || o->force)) {
         fail(err, MOTUS_ARGUMENT, "%s needs a file", o->resume ? "--resume" : "--force");
         hint(err, "add -o FILE");

@@ -8,7 +8,10 @@
  *
  * The first bytes of the file, which HDF5 leaves to its users, are a directory in plain text: the model, the command,
  * and where in the file each column begins. By it archives are read and written without HDF5; only
- * motus_archive_create() needs that library.
+ * motus_archive_create() needs that library, and zlib what is compressed.
+ *
+ * An archive that is complete may be compressed: each block of a column is then a piece of its own (a chunk of HDF5,
+ * shuffled and deflated), which is read as before and never written again.
  *
  * A call that fails returns a status other than MOTUS_OK and fills in the error, which may be NULL. */
 #ifndef MOTUS_ARCHIVE_H
@@ -20,8 +23,9 @@
 extern "C" {
 #endif
 
-/* The version of the format that this library writes; it reads that one and all before. */
-#define MOTUS_ARCHIVE_FORMAT 1
+/* The latest version of the format: this library reads it and all before. It writes version 1, and 2 where the rows are
+ * compressed. */
+#define MOTUS_ARCHIVE_FORMAT 2
 
 typedef struct motus_archive motus_archive;
 
@@ -81,6 +85,9 @@ typedef struct motus_archive_def {
     size_t attribute_count;
     size_t slot;                /* bytes that a state may have, motus_archive_save; 0: there are no slots for states */
     int (*stop)(void *context); /* asked while the file is made; NULL, or not 0 ends that with MOTUS_CANCELLED */
+    /* NULL: no block is there. Else an archive of the same definition, all of whose blocks are there: the file that is
+     * made has them, compressed, and its states. It may replace that archive, which is not changed. */
+    motus_archive *from;
 } motus_archive_def;
 
 MOTUS_API motus_archive_def motus_archive_default(void);
@@ -89,13 +96,14 @@ MOTUS_API motus_archive_def motus_archive_default(void);
 MOTUS_API int motus_archive_makes(void);
 /* Makes an archive without any block. It gets its name when it is complete, in place of a file that has it.
  * MOTUS_UNAVAILABLE: the library was built without HDF5. MOTUS_FILE: it cannot be written, or there is no room for
- * all its rows. MOTUS_ARGUMENT: a name or a text that HDF5 cannot hold. */
+ * all its rows. MOTUS_ARGUMENT: a name or a text that HDF5 cannot hold. MOTUS_STATE: a block of `from` is missing. */
 MOTUS_API motus_status motus_archive_create(const char *path, const motus_archive_def *, motus_error *);
 
 /* Opens an archive, to read or (`write` 1) also to write blocks. MOTUS_STATE: the file is not an archive, or is
  * damaged. MOTUS_UNAVAILABLE: a later version of motus wrote it. */
 MOTUS_API motus_status motus_archive_open(const char *path, int write, motus_archive **, motus_error *);
-MOTUS_API void motus_archive_close(motus_archive *); /* NULL: nothing */
+MOTUS_API void motus_archive_close(motus_archive *);           /* NULL: nothing */
+MOTUS_API int motus_archive_compressed(const motus_archive *); /* 1: its blocks are not to be written */
 
 MOTUS_API uint64_t motus_archive_rows(const motus_archive *);
 MOTUS_API uint64_t motus_archive_blocks(const motus_archive *);
@@ -112,7 +120,7 @@ MOTUS_API const char *motus_archive_note_of(const motus_archive *, const char *n
 /* The numbers that a row has of a column. */
 MOTUS_API size_t motus_archive_width(const motus_archive_column *);
 /* Writes the rows of a block, and then that it is there: columns[k] are the double or unsigned char of column k, row
- * after row. */
+ * after row. MOTUS_STATE: the archive is compressed. */
 MOTUS_API motus_status motus_archive_write(motus_archive *, uint64_t block, const void *const *columns, motus_error *);
 /* Everything that was written is on the disk when it returns MOTUS_OK. */
 MOTUS_API motus_status motus_archive_sync(motus_archive *, motus_error *);

@@ -158,14 +158,21 @@ static void allowed(motus_status status, const motus_error *err, const char *wha
     assert_true(strlen(err->message) > 3);
 }
 
-/* Refuses every request of `try` in turn; each time the system is made anew with enough memory. Of very many
- * requests, as in studies, which repeat themselves run after run, later ones are sampled at growing distances. */
+/* Of very many requests, as in studies, which repeat themselves run after run, later ones are sampled at growing
+ * distances; at larger ones under the sanitizers, which take several times as long. */
+#ifdef SANITIZED
+enum { CLOSE = 12 };
+#else
+enum { CLOSE = 64 };
+#endif
+
+/* Refuses every request of `try` in turn; each time the system is made anew with enough memory. */
 static int64_t refuse_each(const char *text, const char *method, attempt try, const char *what)
 {
     uint64_t whole = 0;
     int64_t requests = 0;
     for (int forever = 0; forever < 2; forever++) /* k = 0: nothing is refused; sets the expected result */
-        for (int64_t k = 0;; k += 1 + k / 64) {
+        for (int64_t k = 0;; k += 1 + k / CLOSE) {
             bank b = {0};
             motus_system *s = NULL;
             motus_error err;

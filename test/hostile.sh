@@ -22,6 +22,8 @@ for kind in h5 csv npy; do for k in 1 2; do "$motus" sweep swing.motus "${vary[@
 "$motus" run swing.motus -q -o run.h5 --checkpoint "3 steps"
 printf '%s\n' 'r[i]'"''"' = -r[i]  for i = 1..3' 'r[i](0) = (i, 1, 0)  for i = 1..3' "r[i]'(0) = (0, i, 1)  for i = 1..3" 'method verlet' 'step 0.125' 'until 5' >many.motus
 "$motus" run many.motus -q -o many.h5
+"$motus" sweep swing.motus "${vary[@]}" -o packed.h5 --compress
+"$motus" run swing.motus -q -o short.h5 --checkpoint "3 steps" --compress
 cat >change.py <<'P'
 import random, subprocess, sys, time, os, shutil
 program, seconds, seed = sys.argv[1], float(sys.argv[2]), int(sys.argv[3])
@@ -67,6 +69,8 @@ commands = {
     'run.h5': [['archive', 'F'], ['archive', 'F', '-o', 'x.csv', '--force'], ['archive', 'F', '-o', 'x.state', '--force'],
                ['archive', 'F', '--verify', 'all'], ['run', 'F', '--until', '3', '-q'], ['run', 'swing.motus', '-q', '-o', 'F', '--resume']],
     'many.h5': [['archive', 'F', '-o', 'x.csv', '--force'], ['archive', 'F', '--verify', 'all'], ['run', 'F', '--until', '6', '-q']],
+    'packed.h5': [['archive', 'F'], ['archive', 'F', '-o', 'x.csv', '--force'], sweep + ['-o', 'F', '--resume', '--machine', 'interpreter']],
+    'short.h5': [['archive', 'F', '-o', 'x.csv', '--force'], ['archive', 'F', '--verify', 'all'], ['run', 'F', '--until', '3', '-q']],
     'part1.h5': [['merge', 'F', 'part2.h5', '-o', 'x.h5', '--force', '-q'], ['merge', 'F', '-o', 'x.h5', '--force', '-q', '--partial']],
     'part1.csv': [['merge', 'F', 'part2.csv', '-o', 'y.csv', '--force', '-q']],
     'part1.npy': [['merge', 'F', 'part2.npy', '-o', 'y.npy', '--force', '-q']],

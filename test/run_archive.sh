@@ -218,6 +218,33 @@ for signal in TERM INT; do
     gives "... motus archive tells of it" 0 "$motus" archive stopped.h5
 done
 
+# --- compressed -------------------------------------------------------------------------------------------------------------------------
+gives "a run and its archive, compressed" 0 eval 'run -o plain.h5 && run -o packed.h5 --compress'
+gives "... for h5py the same numbers" 0 $python - <<'P'
+import h5py, numpy, os
+a, b = h5py.File('plain.h5'), h5py.File('packed.h5')
+for name in a['run']: assert numpy.array_equal(a['run'][name][()], b['run'][name][()]), name
+assert numpy.array_equal(a['checkpoint/slots'][()], b['checkpoint/slots'][()]) and b['run/x'].compression == 'gzip'
+assert os.path.getsize('packed.h5') < os.path.getsize('plain.h5')
+P
+gives "... motus archive verifies it" 0 "$motus" archive packed.h5 --verify all
+gives "... goes on, in a new file" 0 "$motus" run packed.h5 --until 500 -o longer.h5 -q
+gives "... and in its place" 0 "$motus" run packed.h5 --until 500 -q
+gives "... as the other does" 0 "$motus" run plain.h5 --until 500 -q
+that "... to the same bytes" eval "cmp plain.h5 packed.h5 && cmp plain.h5 longer.h5"
+gives "... compressed again" 0 eval '"$motus" run packed.h5 --until 600 -q --compress && "$motus" run plain.h5 --until 600 -q'
+that "... which is smaller" [ "$(stat -c %s packed.h5)" -lt "$(stat -c %s plain.h5)" ]
+gives "... with the same rows" 0 eval '"$motus" archive packed.h5 -o packed.csv && "$motus" archive plain.h5 -o plain.csv && cmp packed.csv plain.csv'
+gives "--resume of a compressed run that is complete" 0 eval 'run -o done.h5 --compress && cp done.h5 done2.h5 && run -o done.h5 --resume --compress'
+that "... the same bytes" cmp done.h5 done2.h5
+gives "a family, compressed" 0 "$motus" run many.motus --error none --until 20 -q -o many-packed.h5 --compress
+gives "... is verified" 0 "$motus" archive many-packed.h5 --verify all
+gives "... H5MD finds its particles" 0 $python -c "
+import h5py
+f = h5py.File('many-packed.h5'); r = [n for n in f['particles']][0]
+assert f['particles'][r]['position/value'].compression == 'gzip' and f['particles'][r]['position/value'].ndim == 3"
+refuses "--compress of a table" 2 "for a run into an archive" run -o run.csv --compress
+
 # --- what else goes wrong ----------------------------------------------------------------------------------------------------------------
 mkdir bin
 printf '#!/bin/sh\nexit 3\n' >bin/gnuplot

@@ -24,12 +24,12 @@ _motus() {
     if [[ $current == -* ]]; then
         local options='--json --quiet --help'
         case $verb in
-        run)      options+=' --method --accuracy --tolerance --shortest-step --longest-step --most-steps --step --until --set --output --events --when --section --skip --points --columns --every --plot --plot-of --save-state --restart --machine --threads --emit-c --share --error --errors --switches --checkpoint --resume --force' ;;
+        run)      options+=' --method --accuracy --tolerance --shortest-step --longest-step --most-steps --step --until --set --output --events --when --section --skip --points --columns --every --plot --plot-of --save-state --restart --machine --threads --emit-c --share --error --errors --switches --checkpoint --resume --force --compress' ;;
         compare)  options+=' --methods --step --until --set --evaluations --accuracies --machine --plot --share' ;;
         converge) options+=' --methods --step --until --set --plot --points' ;;
-        sweep)    options+=' --vary --random --count --seed --zip --record --method --tolerance --shortest-step --longest-step --most-steps --switches --step --until --every --set --when --output --plan --resume --force'
+        sweep)    options+=' --vary --random --count --seed --zip --record --method --tolerance --shortest-step --longest-step --most-steps --switches --step --until --every --set --when --output --plan --resume --force --compress'
                   options+=' --threads --lanes --machine --fast --accuracy --error --errors --events --section --skip --points --plot --plot-of --shard' ;;
-        merge)    options+=' --output --partial --force' ;;
+        merge)    options+=' --output --partial --force --compress' ;;
         archive)  options+=' --output --force --verify --threads --machine' ;;
         lab)      options+=' --method --methods --step --until --set --output --no-open' ;;
         cache)    options+=' --clear' ;;

@@ -58,6 +58,7 @@ complete -c motus -n "__fish_seen_subcommand_from run sweep" -l resume -d 'conti
 complete -c motus -n "__fish_seen_subcommand_from run" -l checkpoint -x -d 'how often the archive keeps a state'
 complete -c motus -n "__fish_seen_subcommand_from sweep" -l plan -d 'what it would take'
 complete -c motus -n "__fish_seen_subcommand_from archive" -l verify -x -a '1% all' -d 'compute blocks again'
+complete -c motus -n "__fish_seen_subcommand_from run sweep merge" -l compress -d 'the archive at the end'
 complete -c motus -n "__fish_seen_subcommand_from merge" -l partial -d 'of archives what is there'
 complete -c motus -n "__fish_seen_subcommand_from run sweep merge archive" -l force -d 'replace the file'
 complete -c motus -n "__fish_seen_subcommand_from run sweep archive" -l threads -x -d threads
