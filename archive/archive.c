@@ -23,6 +23,7 @@ struct motus_archive {
     int descriptor;
     unsigned char *room; /* for a column of a block */
     uint64_t turn;       /* of the latest state, as far as it was asked for; 0: not yet, or there is none */
+    bool named; /* its name is on the disk, too */
     unpack_archive *unpack;
     unsigned char *piece, *unpacked;  /* of compressed rows: room for what the file has of a block, and the last one */
     uint64_t piece_room, unpacked_of; /* of which it is, 1 + the number of its piece in the table; 0: of none */
@@ -273,6 +274,9 @@ motus_status motus_archive_write(motus_archive *a, uint64_t block, const void *c
 
 motus_status motus_archive_sync(motus_archive *a, motus_error *err)
 {
+    /* When it is made its name is not waited for, since a disk would first write all that fills the columns. */
+    if (!a->named) bytes_sync_name(a->path);
+    a->named = true;
     return bytes_sync(a->descriptor) ? MOTUS_OK : cannot("write", a->path, err);
 }
 

@@ -64,7 +64,7 @@ static motus_status check(const motus_archive_def *d, motus_error *err)
 
 void *create_find(const char *name)
 {
-    void *const module = dlopen(MAKE_MODULE, RTLD_NOW | RTLD_LOCAL);
+    void *const module = dlopen(MAKE_MODULE, RTLD_LAZY | RTLD_LOCAL);
     return module ? dlsym(module, name) : NULL;
 }
 

@@ -516,19 +516,6 @@ static motus_status by_us(const maker *m, const char *path, size_t size)
     return status;
 }
 
-/* After a power cut the file has its name if its folder was written. */
-static void synchronise_folder(const char *path)
-{
-    char *folder = strdup(path), *slash = folder ? strrchr(folder, '/') : NULL;
-    if (slash) slash[1] = 0;
-    const int descriptor = folder ? open(slash ? folder : ".", O_RDONLY | O_CLOEXEC) : -1;
-    if (descriptor >= 0) {
-        (void)fsync(descriptor);
-        close(descriptor);
-    }
-    free(folder);
-}
-
 motus_status make_hdf5(const char *path, const motus_archive_def *d, motus_error *err)
 {
     static const char new[] = ".new";
@@ -553,7 +540,6 @@ motus_status make_hdf5(const char *path, const motus_archive_def *d, motus_error
         if (!status) status = by_us(&m, beside, size);
         if (!status && rename(beside, name) != 0)
             status = fail(err, MOTUS_FILE, "cannot write %s: %s", path, strerror(errno));
-        if (!status) synchronise_folder(name);
         if (status && m.file >= 0) unlink(beside);
     }
     free(beside);

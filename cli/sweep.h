@@ -131,9 +131,10 @@ typedef struct sweep_rows {
     double *const *values, *const *results, *const *errors;
     const double *stopped;
 } sweep_rows;
-/* The numbers of row i of them, behind the number of its trajectory: NaN in all that one which stopped has not. Returns
- * how many. */
-size_t sweep_file_numbers(const sweep *, const sweep_rows *, size_t i, double *out);
+/* The numbers of `count` of them, behind the number of the trajectory: NaN in all that one which stopped has not. The
+ * next number of a row is `next_column` behind one, that of the next row `next_row`. */
+void sweep_file_numbers(const sweep *, const sweep_rows *, size_t from, size_t count, double *out, size_t next_row,
+                        size_t next_column);
 /* Adds `count` rows. After a failure the file keeps its complete rows. */
 motus_status sweep_file_rows(sweep_file *, size_t count, const sweep_rows *, motus_error *);
 /* How many rows from f->rows on are missing, up to the next that is there, or to the end. */
@@ -165,7 +166,7 @@ void sweep_archive_give_up(sweep_file *);
 bool sweep_archive_given_up(const sweep_file *); /* by any of them */
 /* Whether what all have written has come into the file: MOTUS_FILE, it has not. */
 motus_status sweep_archive_look(sweep_file *, motus_error *);
-motus_status sweep_archive_row(sweep_file *, const double *numbers, motus_error *);
+motus_status sweep_archive_rows(sweep_file *, size_t count, const sweep_rows *, motus_error *);
 motus_status sweep_archive_finish(sweep_file *, motus_error *);
 /* Then, where it is asked for: replaces the file by a compressed one. */
 motus_status sweep_archive_compress(sweep_file *, motus_error *);

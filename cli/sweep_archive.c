@@ -22,7 +22,9 @@ struct sweep_archive {
     uint64_t blocks, *missing, missing_count;
     uint64_t next, end; /* of the missing ones this process computes those from `next` on, before `end` */
     block_room room;    /* of the block that is being computed: the columns behind the number of the row */
+    double *numbers;    /* of AT_A_TIME rows, column after column */
 };
+enum { AT_A_TIME = 256 };
 
 /* Added to the counter by a process that fails or is warned; far more than there are blocks. */
 #define GIVEN_UP (UINT64_C(1) << 50)
@@ -283,7 +285,8 @@ static motus_status make_room(sweep_archive *a, motus_error *err)
 {
     a->blocks = motus_archive_blocks(a->file);
     a->missing = calloc((size_t)a->blocks + 1, sizeof *a->missing);
-    if (!a->missing) return complain_memory(err);
+    a->numbers = malloc(motus_archive_column_count(a->file) * AT_A_TIME * sizeof *a->numbers);
+    if (!a->missing || !a->numbers) return complain_memory(err);
     return block_room_make(&a->room, motus_archive_column_count(a->file), SHARD_BLOCK, err);
 }
 
@@ -351,6 +354,7 @@ void sweep_archive_close(sweep_file *f)
     motus_archive_close(a->file);
     block_room_free(&a->room);
     free(a->missing);
+    free(a->numbers);
     free(a);
     f->archive = NULL;
 }
@@ -386,28 +390,44 @@ double sweep_archive_done(const sweep_file *f)
     return fmin(rows, (double)f->sweep->rows);
 }
 
-motus_status sweep_archive_row(sweep_file *f, const double *numbers, motus_error *err)
+/* Writes the block that is complete. */
+static motus_status write_block(sweep_file *f, motus_error *err)
 {
     sweep_archive *a = f->archive;
-    const uint64_t block = f->rows / SHARD_BLOCK;
-    const size_t i = (size_t)(f->rows % SHARD_BLOCK);
-    for (size_t k = 0; k < a->room.count; k++) {
-        if (has_words(f->sweep, k + 1))
-            ((unsigned char *)a->room.columns[k])[i] = (unsigned char)numbers[k];
-        else
-            a->room.columns[k][i] = numbers[k];
-    }
-    if (++f->rows % SHARD_BLOCK != 0 && f->rows != f->sweep->rows) return MOTUS_OK;
-    motus_status status = motus_archive_write(a->file, block, a->room.written, err);
+    const uint64_t block = (f->rows - 1) / SHARD_BLOCK, rows = f->rows - block * SHARD_BLOCK;
+    const motus_status status = motus_archive_write(a->file, block, a->room.written, err);
     if (status) {
-        f->rows -= i + 1; /* of this block nothing is there */
+        f->rows -= rows; /* of this block nothing is there */
         return status;
     }
     f->share.blocks++;
-    f->share.rows += i + 1;
+    f->share.rows += rows;
     a->next++;
     move(f);
     return MOTUS_OK;
+}
+
+motus_status sweep_archive_rows(sweep_file *f, size_t count, const sweep_rows *given, motus_error *err)
+{
+    sweep_archive *a = f->archive;
+    motus_status status = MOTUS_OK;
+    for (size_t done = 0, some; !status && done < count; done += some) {
+        const size_t at = (size_t)(f->rows % SHARD_BLOCK), left = SHARD_BLOCK - at;
+        some = count - done < left ? count - done : left;
+        if (some > AT_A_TIME) some = AT_A_TIME;
+        sweep_file_numbers(f->sweep, given, done, some, a->numbers, 1, AT_A_TIME);
+        for (size_t k = 0; k < a->room.count; k++) {
+            const double *numbers = a->numbers + k * AT_A_TIME;
+            unsigned char *words = (unsigned char *)a->room.columns[k] + at;
+            if (has_words(f->sweep, k + 1))
+                for (size_t i = 0; i < some; i++) words[i] = (unsigned char)numbers[i];
+            else
+                memcpy(a->room.columns[k] + at, numbers, some * sizeof *numbers);
+        }
+        f->rows += some;
+        if (some == left || f->rows == f->sweep->rows) status = write_block(f, err);
+    }
+    return status;
 }
 
 motus_status sweep_archive_finish(sweep_file *f, motus_error *err) { return motus_archive_sync(f->archive->file, err); }

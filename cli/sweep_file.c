@@ -294,23 +294,37 @@ int sweep_event_number(const sweep *s, const char *name)
     return -1;
 }
 
-size_t sweep_file_numbers(const sweep *s, const sweep_rows *rows, size_t i, double *out)
+void sweep_file_numbers(const sweep *s, const sweep_rows *rows, size_t from, size_t count, double *out, size_t next_row,
+                        size_t next_column)
 {
-    size_t n = 0;
-    const bool stopped = !isnan(rows->stopped[i]);
-    bool significant = true;
-    for (size_t k = 0; k < s->grid.count; k++) out[n++] = rows->values[k][i];
-    for (size_t r = 0; r < s->records.count; r++) out[n++] = stopped ? NAN : rows->results[r][i];
+    const double *stopped = rows->stopped + from;
+    for (size_t k = 0; k < s->grid.count; k++, out += next_column)
+        for (size_t i = 0; i < count; i++) out[i * next_row] = rows->values[k][from + i];
+    for (size_t r = 0; r < s->records.count; r++, out += next_column)
+        for (size_t i = 0; i < count; i++) out[i * next_row] = isnan(stopped[i]) ? rows->results[r][from + i] : NAN;
+    double *const errors = out;
     for (size_t r = 0; s->errors && r < s->records.count; r++) {
         if (!sweep_record_errs(&s->records.items[r])) continue;
-        significant = significant && !isinf(rows->errors[r][i]);
-        out[n++] = stopped ? NAN : rows->errors[r][i];
+        for (size_t i = 0; i < count; i++) out[i * next_row] = isnan(stopped[i]) ? rows->errors[r][from + i] : NAN;
+        out += next_column;
     }
-    if (s->errors) out[n++] = stopped ? NAN : significant;
-    if (s->records.ended) out[n++] = sweep_event_number(s, motus_ensemble_ended(s->ensemble, i));
-    out[n++] = rows->stopped[i];
-    out[n++] = motus_ensemble_stopped_by(s->ensemble, i);
-    return n;
+    if (s->errors) {
+        for (size_t i = 0; i < count; i++) {
+            bool significant = true;
+            for (const double *e = errors; e < out; e += next_column)
+                significant = significant && !isinf(e[i * next_row]);
+            out[i * next_row] = isnan(stopped[i]) ? significant : NAN;
+        }
+        out += next_column;
+    }
+    if (s->records.ended) {
+        for (size_t i = 0; i < count; i++)
+            out[i * next_row] = sweep_event_number(s, motus_ensemble_ended(s->ensemble, from + i));
+        out += next_column;
+    }
+    for (size_t i = 0; i < count; i++) out[i * next_row] = stopped[i];
+    out += next_column;
+    for (size_t i = 0; i < count; i++) out[i * next_row] = motus_ensemble_stopped_by(s->ensemble, from + i);
 }
 
 static char *put_word(char *out, const char *word)
@@ -323,7 +337,8 @@ static void csv_row(sweep_file *f, size_t i, const sweep_rows *rows)
 {
     const sweep *s = f->sweep;
     const bool stopped = !isnan(rows->stopped[i]);
-    const size_t count = sweep_file_numbers(s, rows, i, f->numbers) - 1; /* stopped_by is a word */
+    const size_t count = s->columns - 2; /* behind the number of the row; stopped_by is a word */
+    sweep_file_numbers(s, rows, i, 1, f->numbers, 0, 1);
     char *out = f->buffer + f->used;
     out += decimal_write_whole(shard_trajectory(&s->shard, f->rows), out);
     for (size_t k = 0; k < count; k++) {
@@ -342,10 +357,11 @@ static void csv_row(sweep_file *f, size_t i, const sweep_rows *rows)
 
 static void npy_row(sweep_file *f, size_t i, const sweep_rows *rows)
 {
-    const size_t count = sweep_file_numbers(f->sweep, rows, i, f->numbers + 1);
+    const size_t size = f->sweep->columns * sizeof *f->numbers;
     f->numbers[0] = (double)shard_trajectory(&f->sweep->shard, f->rows);
-    memcpy(f->buffer + f->used, f->numbers, (count + 1) * sizeof *f->numbers);
-    f->used += (count + 1) * sizeof *f->numbers;
+    sweep_file_numbers(f->sweep, rows, i, 1, f->numbers + 1, 0, 1);
+    memcpy(f->buffer + f->used, f->numbers, size);
+    f->used += size;
 }
 
 uint64_t sweep_file_left(const sweep_file *f) { return f->archive ? sweep_archive_left(f) : f->sweep->rows - f->rows; }
@@ -356,19 +372,16 @@ motus_status sweep_file_rows(sweep_file *f, size_t count, const sweep_rows *give
 {
     motus_status status = MOTUS_OK;
     uint64_t rows = f->rows; /* in the file; f->rows counts those in the buffer too */
-    for (size_t i = 0; !status && i < count; i++) {
+    for (size_t i = 0; i < count; i++) {
         f->stopped += !isnan(given->stopped[i]);
         f->stopped_by[motus_ensemble_stopped_by(f->sweep->ensemble, i)]++;
-        if (f->archive) {
-            sweep_file_numbers(f->sweep, given, i, f->numbers);
-            status = sweep_archive_row(f, f->numbers, err);
-            continue;
-        }
+    }
+    if (f->archive) return sweep_archive_rows(f, count, given, err);
+    for (size_t i = 0; !status && i < count; i++) {
         (f->npy ? npy_row : csv_row)(f, i, given);
         f->rows++;
         if (f->used >= BUFFER || i + 1 == count) status = flush(f, &rows, err);
     }
-    if (f->archive) return status;
     f->rows = rows;
     if (!f->npy) return status;
     motus_status head = put_npy_head(f, status ? NULL : err);
