@@ -1,7 +1,7 @@
 /* make bench: what motus takes, beside the best that was written by hand for one problem, and beside what one would
  * pick instead.
  *
- *     bench [--save DIRECTORY] [accuracy] [ensembles] [energy] [events] [single] [large] [programs]
+ *     bench [--save DIRECTORY] [accuracy] [ensembles] [energy] [events] [single] [large] [programs] [sweeps]
  *
  * Run it where models/ and bench/ are. It never fails because of a figure; "short" says that a limit was missed.
  * --save writes the lines to DIRECTORY/<machine>.txt as well, and prints that name last.
@@ -18,7 +18,7 @@ int main(int count, char **words)
         void (*run)(void);
     } parts[] = {{"programs", compare_programs}, {"ensembles", compare_ensembles}, {"single", compare_single},
                  {"large", compare_large},       {"accuracy", compare_accuracy},   {"energy", compare_energy},
-                 {"events", compare_events}};
+                 {"events", compare_events},     {"sweeps", compare_sweeps}};
     enum { PARTS = sizeof parts / sizeof *parts };
     const char *directory = NULL;
     char file[512] = "";
@@ -32,7 +32,7 @@ int main(int count, char **words)
                 if (!strcmp(words[k], parts[p].name)) wanted[p] = known = true, all = false;
         if (!known) {
             fprintf(stderr,
-                    "bench: \"%s\" is none of accuracy, ensembles, energy, events, single, large, programs, "
+                    "bench: \"%s\" is none of accuracy, ensembles, energy, events, single, large, programs, sweeps, "
                     "--save DIRECTORY\n",
                     words[k]);
             return 2;

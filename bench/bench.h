@@ -141,6 +141,7 @@ void compare_ensembles(void);
 void compare_events(void);
 void compare_sections(void); /* a part of it */
 void compare_single(void);
+void compare_sweeps(void);
 void compare_large(void);
 void compare_programs(void);
 
