@@ -23,7 +23,7 @@ struct motus_archive {
     int descriptor;
     unsigned char *room; /* for a column of a block */
     uint64_t turn;       /* of the latest state, as far as it was asked for; 0: not yet, or there is none */
-    bool named; /* its name is on the disk, too */
+    bool named;          /* its name is on the disk, too */
     unpack_archive *unpack;
     unsigned char *piece, *unpacked;  /* of compressed rows: room for what the file has of a block, and the last one */
     uint64_t piece_room, unpacked_of; /* of which it is, 1 + the number of its piece in the table; 0: of none */
