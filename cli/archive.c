@@ -213,6 +213,7 @@ static void report_json(const contents *c)
     json_integer(&j, "rows", (int64_t)motus_archive_rows(c->file));
     json_integer(&j, "blocks", (int64_t)c->blocks);
     json_integer(&j, "missing", (int64_t)c->missing);
+    json_bool(&j, "compressed", motus_archive_compressed(c->file));
     if (c->options->verify) json_integer(&j, "verified", (int64_t)c->verified.computed);
     json_open(&j, "columns", '[');
     motus_archive_column column;
@@ -237,8 +238,9 @@ static void report(const contents *c)
     line("command", said(c, "command"));
     line("method", said(c, "method"));
     if (share) line("shard", share);
-    printf("  %-13s%" PRIu64 ", in %" PRIu64 " block%s: ", c->run ? "rows" : "trajectories",
-           motus_archive_rows(c->file), c->blocks, c->blocks == 1 ? "" : "s");
+    printf("  %-13s%" PRIu64 ", in %" PRIu64 " %sblock%s: ", c->run ? "rows" : "trajectories",
+           motus_archive_rows(c->file), c->blocks, motus_archive_compressed(c->file) ? "compressed " : "",
+           c->blocks == 1 ? "" : "s");
     if (c->missing)
         printf("%" PRIu64 " missing or damaged, the first of them number %" PRIu64 "\n", c->missing,
                c->first_missing + 1);

@@ -222,7 +222,7 @@ gives "... once more" 0 long -o "$place/packed1.h5" --resume --compress --json
 that "... finds all of it" holds '.resumed == 30000'
 that "... and touches nothing" [ "$(sum "$place/packed1.h5")" = "$packed" ]
 gives "motus archive lists it" 0 "$motus" archive "$place/packed.h5"
-that "... whose blocks are all there" says "all there, with the hashes that were written"
+that "... whose blocks are all there" says "in 8 compressed blocks: all there, with the hashes that were written"
 gives "... verifies it" 0 "$motus" archive "$place/packed.h5" --verify all
 gives "... writes its CSV" 0 "$motus" archive "$place/packed.h5" -o "$place/packed.csv"
 gives "... as that of the other" 0 "$motus" archive "$place/long.h5" -o "$place/unpacked.csv"
