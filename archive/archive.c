@@ -95,7 +95,8 @@ static motus_status make_room(motus_archive *a, motus_error *err)
 {
     const directory *d = &a->directory;
     const uint64_t most = d->rows < d->block ? d->rows : d->block;
-    const size_t size = (size_t)(most * widest(d)) + 1; /* it is in the file, so it is no overflow */
+    const size_t size =
+        (size_t)(most * widest(d)) + 1; /* no overflow: it is in the file, or directory_read() bounds it */
     a->room = malloc(size);
     if (a->room && d->packed_place) a->unpacked = malloc(size);
     if (!a->room || (d->packed_place && !a->unpacked))
@@ -195,7 +196,8 @@ static motus_status find_unpack(motus_archive *a, motus_error *err)
 
 static motus_status damaged(const motus_archive *a, uint64_t block, motus_error *err)
 {
-    return fail(err, MOTUS_STATE, "%s is damaged: block %llu cannot be unpacked", a->path, (unsigned long long)block);
+    return fail(err, MOTUS_STATE, "%s is damaged: block %llu cannot be unpacked", a->path,
+                (unsigned long long)block + 1);
 }
 
 /* Makes a->unpacked the rows of a block. */

@@ -5,9 +5,29 @@
 
 #include <dlfcn.h>
 #include <stdbool.h>
+#include <stdlib.h>
 #include <string.h>
 
 static bool one_line(const char *text) { return text && *text && !strchr(text, '\n') && strcmp(text, ".") != 0; }
+
+/* Whether the archive that is to be compressed has these blocks and columns. */
+static bool same_shape(const motus_archive_def *d)
+{
+    uint64_t first;
+    size_t count;
+    motus_archive_block(d->from, 0, &first, &count);
+    bool same = motus_archive_rows(d->from) == d->rows && motus_archive_slot(d->from) == d->slot &&
+                motus_archive_column_count(d->from) == d->column_count &&
+                count == (d->rows < d->block ? d->rows : d->block);
+    for (size_t k = 0; same && k < d->column_count; k++) {
+        const motus_archive_column *c = d->columns + k;
+        motus_archive_column its;
+        motus_archive_column_at(d->from, k, &its);
+        same = its.kind == c->kind && its.shape[0] == c->shape[0] && its.shape[1] == c->shape[1] &&
+               strcmp(its.name, c->name) == 0;
+    }
+    return same;
+}
 
 static motus_status check(const motus_archive_def *d, motus_error *err)
 {
@@ -55,8 +75,7 @@ static motus_status check(const motus_archive_def *d, motus_error *err)
     for (size_t k = 0; k < d->attribute_count; k++)
         if (!one_line(d->attributes[k].group) || !one_line(d->attributes[k].name))
             return fail(err, MOTUS_ARGUMENT, "attribute %zu of an archive has no group or no name", k);
-    if (d->from && (motus_archive_rows(d->from) != d->rows || motus_archive_slot(d->from) != d->slot ||
-                    motus_archive_column_count(d->from) != d->column_count))
+    if (d->from && !same_shape(d))
         return fail(err, MOTUS_ARGUMENT, "the archive that is to be compressed has another definition");
     if (d->slot > INT32_MAX / 2) return fail(err, MOTUS_LIMIT, "a slot of an archive has at most 1 GiB");
     return MOTUS_OK;
@@ -78,11 +97,28 @@ static make_archive *maker(void)
 
 int motus_archive_makes(void) { return maker() != NULL; }
 
+/* What is said of the file stays, also what another version of motus said. */
+static motus_status make_from(make_archive *make, const char *path, const motus_archive_def *d, motus_error *err)
+{
+    motus_archive_def own = *d;
+    motus_archive_note note;
+    size_t count = 0;
+    while (motus_archive_note_at(d->from, count, &note)) count++;
+    motus_archive_note *notes = calloc(count + 1, sizeof *notes);
+    if (!notes) return fail(err, MOTUS_MEMORY, "no memory to make %s", path);
+    for (size_t k = 0; k < count; k++) motus_archive_note_at(d->from, k, notes + k);
+    own.notes = notes, own.note_count = count;
+    const motus_status status = make(path, &own, err);
+    free(notes);
+    return status;
+}
+
 motus_status motus_archive_create(const char *path, const motus_archive_def *d, motus_error *err)
 {
     motus_status status = check(d, err);
     if (status) return status;
     make_archive *const make = maker();
+    if (make && d->from) return make_from(make, path, d, err);
     if (make) return make(path, d, err);
     const char *why = dlerror();
     fail(err, MOTUS_UNAVAILABLE, "%s: this motus cannot make archives, since it was built or runs without HDF5: %.200s",

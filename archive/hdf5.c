@@ -2,7 +2,8 @@
  * than the program (make.h).
  *
  * Invariant: the file has its name only when it is complete. Its bytes depend on the definition alone: HDF5 writes no
- * times into it, in one version of its format, and everything has its place before any block is written.
+ * times into it, in one version of its format, and everything has its place before any block is written. Those of a
+ * compressed one depend on its numbers and on the versions of HDF5 and zlib, too.
  */
 #define _XOPEN_SOURCE 700
 #include "archive/bytes.h"
@@ -184,8 +185,7 @@ static hid_t make_set(hid_t group, const char *name, hid_t type, uint64_t count,
     free(link);
     H5Pclose(list);
     H5Sclose(space);
-    if (set >= 0)
-        *place = chunk > 0 ? 0 : count > 0 ? H5Dget_offset(set) : DIRECTORY_LEAST; /* nothing has one inside */
+    if (set >= 0) *place = chunk > 0 ? 0 : count > 0 ? H5Dget_offset(set) : DIRECTORY_LEAST; /* of no rows: any */
     if (set < 0 || *place != HADDR_UNDEF) return set;
     H5Dclose(set);
     return H5I_INVALID_HID;
@@ -328,13 +328,14 @@ static hid_t make_group(hid_t file, const char *name)
     return group;
 }
 
-static hid_t make_file(const char *path, size_t directory)
+/* `aligned`: what is large begins at a page. */
+static hid_t make_file(const char *path, size_t directory, bool aligned)
 {
     const hid_t made = H5Pcreate(H5P_FILE_CREATE), access = H5Pcreate(H5P_FILE_ACCESS);
     H5Pset_userblock(made, directory);
     H5Pset_obj_track_times(made, false);
     H5Pset_libver_bounds(access, H5F_LIBVER_V18, H5F_LIBVER_V18);
-    H5Pset_alignment(access, ALIGNED, ALIGNED);
+    if (aligned) H5Pset_alignment(access, ALIGNED, ALIGNED);
     H5Pset_file_locking(access, true, true);
     const hid_t file = H5Fcreate(path, H5F_ACC_TRUNC, made, access);
     H5Pclose(access);
@@ -373,7 +374,7 @@ static motus_status by_hdf5(maker *m, const char *path, size_t directory)
     H5dont_atexit(); /* at the exit it would crash where a file could not be closed, as on a full disk */
     H5Eset_auto2(H5E_DEFAULT, NULL, NULL);
     m->group = m->blocks = m->scale = H5I_INVALID_HID;
-    m->file = make_file(path, directory);
+    m->file = make_file(path, directory, !m->def->from);
     if (m->file < 0) {
         fail(m->err, MOTUS_FILE, "cannot write %s: HDF5 cannot make the file beside it, %s", m->path, path);
         hint(m->err, "look whether the folder may be written, and whether another program makes this archive");
@@ -516,7 +517,7 @@ static motus_status by_us(const maker *m, const char *path, size_t size)
     return status;
 }
 
-motus_status make_hdf5(const char *path, const motus_archive_def *d, motus_error *err)
+motus_status make_hdf5_2(const char *path, const motus_archive_def *d, motus_error *err)
 {
     static const char new[] = ".new";
     size_t size = 0;

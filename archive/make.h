@@ -9,17 +9,18 @@
 #include "motus-archive.h"
 
 #define MAKE_MODULE "motus-hdf5.so"
-#define MAKE_FUNCTION "make_hdf5"
+/* The number changes with whatever crosses the border, motus_archive too: a module of another build is not taken. */
+#define MAKE_FUNCTION "make_hdf5_2"
+#define MAKE_UNPACK "unpack_piece_2"
 
 /* As motus_archive_create(), of a definition that was checked. */
 typedef motus_status make_archive(const char *path, const motus_archive_def *, motus_error *);
-__attribute__((visibility("default"))) make_archive make_hdf5;
+__attribute__((visibility("default"))) make_archive make_hdf5_2;
 
-/* The numbers of a compressed block, `count` bytes in units of `width`, whatever the bytes are. Returns 0: they are
- * not. */
-#define MAKE_UNPACK "unpack_piece"
+/* Fills `out` with the numbers of a compressed block, `count` bytes in units of `width`, whatever the bytes are.
+ * Returns 0 if these are not so many numbers. */
 typedef int unpack_archive(const void *bytes, size_t size, uint64_t left_out, size_t width, void *out, size_t count);
-__attribute__((visibility("default"))) unpack_archive unpack_piece;
+__attribute__((visibility("default"))) unpack_archive unpack_piece_2;
 
 /* archive.c: copies the hashes of the blocks, or (`slots` 1) the states, to a place of another file. */
 motus_status archive_copy(const motus_archive *, int slots, int descriptor, uint64_t place, motus_error *);

@@ -93,7 +93,7 @@ motus_status pack_rows(hid_t set, const motus_archive_def *d, size_t column, dir
         if (column == 0) status = motus_archive_whole(d->from, b, &whole, err);
         if (!status && !whole) {
             fail(err, MOTUS_STATE, "%s is not compressed, since block %llu of its %llu is missing", path,
-                 (unsigned long long)b, (unsigned long long)blocks);
+                 (unsigned long long)b + 1, (unsigned long long)blocks);
             hint(err, "--resume computes it");
             status = MOTUS_STATE;
         }
@@ -104,8 +104,7 @@ motus_status pack_rows(hid_t set, const motus_archive_def *d, size_t column, dir
     }
     for (uint64_t b = 0; !status && b < blocks; b++)
         if (!find_piece(set, b * d->block, pieces + b))
-            status =
-                fail(err, MOTUS_FILE, "cannot write %s: HDF5 does not tell where it puts what it compresses", path);
+            status = fail(err, MOTUS_FILE, "cannot write %s: HDF5 cannot compress it; is the disk full?", path);
     free(rows);
     return status;
 }
@@ -120,7 +119,7 @@ static void unshuffle(const unsigned char *in, size_t width, unsigned char *out,
         for (size_t i = 0; i < numbers; i++) out[i * width + b] = in[b * numbers + i];
 }
 
-int unpack_piece(const void *bytes, size_t size, uint64_t left_out, size_t width, void *out, size_t count)
+int unpack_piece_2(const void *bytes, size_t size, uint64_t left_out, size_t width, void *out, size_t count)
 {
     enum { SHUFFLE = 1, DEFLATE = 2 };
     const bool shuffled = !(left_out & SHUFFLE) && width > 1;
@@ -162,7 +161,7 @@ static motus_status same(checker *c, size_t column, uint64_t block, directory_pi
     motus_archive_block(d->from, block, &first, &count);
     const motus_status status = read_rows(d, column, first, count, c->rows, err);
     *yes = !status && p.size <= c->room && get(c->descriptor, c->packed, (size_t)p.size, p.place) &&
-           unpack_piece(c->packed, (size_t)p.size, p.left_out, k.unit, c->unpacked, all) &&
+           unpack_piece_2(c->packed, (size_t)p.size, p.left_out, k.unit, c->unpacked, all) &&
            memcmp(c->unpacked, c->rows, count * k.width) == 0;
     return status;
 }
@@ -181,8 +180,10 @@ motus_status pack_check(const motus_archive_def *d, directory_piece *pieces, int
     if (!status && count > 0) status = same(&c, 0, 0, pieces[0], &good, err);
     for (uint64_t k = 0; !good && k < count; k++) pieces[k].place += before;
     good = true;
-    for (uint64_t k = 0; !status && good && k < count; k++)
+    for (uint64_t k = 0; !status && good && k < count; k++) {
         status = same(&c, (size_t)(k / blocks), k % blocks, pieces[k], &good, err);
+        if (!status && d->stop && d->stop(d->context)) status = fail(err, MOTUS_CANCELLED, "cancelled");
+    }
     if (!status && !good)
         status = fail(err, MOTUS_FILE, "cannot write %s: what HDF5 compressed does not unpack to the same bytes", path);
     free(c.packed);

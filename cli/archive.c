@@ -44,6 +44,7 @@ static motus_status find_blocks(contents *c, stop_progress *progress, motus_erro
     for (uint64_t b = 0; !status && b < c->blocks; b++) {
         int whole;
         status = motus_archive_whole(c->file, b, &whole, err);
+        if (!status) status = sweep_archive_numbers(c->file, c->options->operand, b, err);
         if (!status && whole) c->whole[b - c->missing] = b;
         if (!status && !whole && c->missing++ == 0) c->first_missing = b;
         if (!status && stop_progress_hook(progress, (double)b / (double)c->blocks))

@@ -85,8 +85,13 @@ static motus_status check(const options *o, motus_error *err)
         return MOTUS_ARGUMENT;
     }
     for (size_t k = 0; k < o->files.count; k++)
-        if (file_same(o->files.items[k], o->output))
+        if (file_same(o->files.items[k], o->output) || sweep_archive_replaces(o->output, o->files.items[k]))
             return fail(err, MOTUS_ARGUMENT, "%s is read and would be overwritten", o->output);
+    if (o->partial && o->compress) {
+        fail(err, MOTUS_ARGUMENT, "--partial and --compress exclude each other: only what is complete is compressed");
+        hint(err, "compress at the end: the sweep's command with --resume --compress");
+        return MOTUS_ARGUMENT;
+    }
     return sweep_file_may_write(o, o->output, err);
 }
 

@@ -15,6 +15,8 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
 
 /* The fingerprint and the columns, by which the shards of a sweep are known. */
 static char *common(const motus_archive *a)
@@ -159,7 +161,13 @@ motus_status part_archive_join(part *const *of, const char *output, uint64_t *mi
     const char *name = where ? where : output;
     char *beside = malloc(strlen(name) + sizeof ending);
     motus_status status = beside ? MOTUS_OK : complain_memory(err);
+    struct stat about;
+    const bool there = stat(name, &about) == 0;
+    int lock = -1; /* of the file that is replaced, which is made empty where there is none */
+    bool regular = true;
     if (beside) strcat(strcpy(beside, name), ending);
+    if (!status) status = sweep_file_lock(name, &lock, &regular, err);
+    const bool locked = !status;
     if (!status) status = make(of[some], beside, NULL, err);
     const bool made = !status;
     if (!status) status = motus_archive_open(beside, 1, &j.to, err);
@@ -174,6 +182,8 @@ motus_status part_archive_join(part *const *of, const char *output, uint64_t *mi
         status = fail(err, MOTUS_FILE, "cannot write %s: %s", output, strerror(errno));
     if (!status) file_synchronise_folder(name);
     if (status && made) remove(beside);
+    if (status && locked && !there) remove(name);
+    if (lock >= 0) close(lock);
     block_room_free(&j.room);
     free(beside);
     free(where);

@@ -84,7 +84,7 @@ static motus_status check_names(const options *o, const char *from, motus_error 
         for (size_t k = 0; out[i] && k < 2; k++)
             /* --save-state may replace the file of --restart; - is both standard input and standard output */
             if (in[k] && strcmp(out[i], "-") != 0 && !(i == STATE && k == 1) && !(i == CSV && from) &&
-                file_same(out[i], in[k]))
+                (file_same(out[i], in[k]) || (i == CSV && is_archive(o) && sweep_archive_replaces(out[i], in[k]))))
                 return fail(err, MOTUS_ARGUMENT, "%s is read and would be overwritten", in[k]);
         for (size_t k = i + 1; out[i] && k < FILES; k++)
             if (out[k] && file_same(out[i], out[k]))

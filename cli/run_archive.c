@@ -73,6 +73,8 @@ static uint64_t expected_rows(const run_archive *a, bool *known)
 
 /* ---- the file ---- */
 
+static int cancelled(void *context) { return (void)context, stop_requested(); }
+
 /* `from`: NULL, or the archive whose rows the file has, compressed. */
 static motus_status create(const run_archive *a, const char *path, uint64_t rows, size_t slot, motus_archive *from,
                            motus_error *err)
@@ -91,6 +93,7 @@ static motus_status create(const run_archive *a, const char *path, uint64_t rows
     d.attributes = a->columns.attributes, d.attribute_count = a->columns.attribute_count;
     d.slot = slot;
     d.from = from;
+    d.stop = cancelled;
     return motus_archive_create(path, &d, err);
 }
 
@@ -138,7 +141,7 @@ static char *beside(const char *name, const char *ending)
 }
 
 /* The first ends as the names of archives do: by that the lock is known. */
-static const char grown[] = ".grown.h5", grown_new[] = ".grown.h5.new";
+static const char grown[] = ".grown.h5", grown_new[] = ".grown.h5.new", compressed[] = ".new";
 
 /* Puts another file in the place of the one that is locked: with the complete blocks of `from`, which may be that one
  * (NULL: none), the state of these bytes (NULL: the latest of `from`), and room for so many rows. It is locked before
@@ -184,8 +187,8 @@ static motus_status replace(run_archive *a, motus_archive *from, uint64_t rows, 
 static void remove_remains(const run_archive *a)
 {
     char *where = realpath(a->path, NULL);
-    const char *const endings[] = {grown, grown_new};
-    for (int k = 0; where && k < 2; k++) {
+    const char *const endings[] = {grown, grown_new, compressed};
+    for (int k = 0; where && k < 3; k++) {
         char *path = beside(where, endings[k]);
         if (path) remove(path);
         free(path);
@@ -425,7 +428,7 @@ static motus_status go_on(run_archive *a, motus_archive *source, bool own, motus
     const uint64_t capacity = expected_rows(a, &known);
     const bool stays = own && says(source, "command", a->command) && !motus_archive_compressed(source);
     if (!motus_archive_makes() && !(stays && known && capacity == motus_archive_rows(source))) {
-        fail(err, MOTUS_UNAVAILABLE, "%s: the file would have to grow, which needs HDF5", a->path);
+        fail(err, MOTUS_UNAVAILABLE, "%s: the file would have to be made anew, which needs HDF5", a->path);
         hint(err, "install HDF5, and build motus where libhdf5-dev is installed");
         return MOTUS_UNAVAILABLE;
     }

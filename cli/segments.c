@@ -2,7 +2,6 @@
 #define _XOPEN_SOURCE 700
 #include "cli/segments.h"
 
-#include "base/decimal.h"
 #include "base/error.h"
 #include "cli/command.h"
 #include "cli/complain.h"
@@ -50,15 +49,6 @@ static char *folder_of(const char *table)
     return folder;
 }
 
-bool segments_there(const char *table)
-{
-    char *folder = folder_of(table);
-    struct stat about;
-    const bool there = folder && stat(folder, &about) == 0;
-    free(folder);
-    return there;
-}
-
 motus_status segments_make(segments **out, const char *table, const char *head,
                            bool (*same)(const char *, const char *), uint64_t blocks, motus_error *err)
 {
@@ -97,13 +87,28 @@ static char *name_of(const segments *s, size_t number)
     return name;
 }
 
-static bool is_segment(const char *name) { return strncmp(name, "segment-", 8) == 0; }
+static bool is_segment(const char *name)
+{
+    return strncmp(name, "segment-", 8) == 0 && name[8] && strspn(name + 8, "0123456789") == strlen(name + 8);
+}
+
+bool segments_there(const char *table)
+{
+    char *name = folder_of(table);
+    DIR *folder = name ? opendir(name) : NULL;
+    bool there = name && !folder && errno != ENOENT; /* a file of this name is in the way */
+    for (const struct dirent *entry; folder && (entry = readdir(folder));) there = there || is_segment(entry->d_name);
+    if (folder) closedir(folder);
+    free(name);
+    return there;
+}
 
 static motus_status list(segments *s, motus_error *err)
 {
     DIR *folder = opendir(s->folder);
     if (!folder) return errno == ENOENT ? MOTUS_OK : cannot("read", s->folder, err);
     motus_status status = MOTUS_OK;
+    errno = 0;
     for (const struct dirent *entry; !status && (entry = readdir(folder));) {
         if (!is_segment(entry->d_name)) continue;
         char **more = realloc(s->files, (s->file_count + 1) * sizeof *more);
@@ -115,19 +120,23 @@ static motus_status list(segments *s, motus_error *err)
         }
         sprintf(name, "%s/%s", s->folder, entry->d_name);
         s->files[s->file_count++] = name;
+        errno = 0;
     }
+    if (!status && errno) status = cannot("read", s->folder, err);
     closedir(folder);
     return status;
 }
 
-void segments_remove(const segments *s)
+motus_status segments_remove(const segments *s, motus_error *err)
 {
     DIR *folder = opendir(s->folder);
-    if (!folder) return;
+    if (!folder) return errno == ENOENT ? MOTUS_OK : cannot("remove", s->folder, err);
+    bool good = true;
     for (const struct dirent *entry; (entry = readdir(folder));)
-        if (is_segment(entry->d_name)) unlinkat(dirfd(folder), entry->d_name, 0);
+        if (is_segment(entry->d_name)) good = unlinkat(dirfd(folder), entry->d_name, 0) == 0 && good;
     closedir(folder);
-    rmdir(s->folder);
+    if (good && (rmdir(s->folder) == 0 || errno == ENOTEMPTY || errno == EEXIST)) return MOTUS_OK;
+    return cannot("remove", s->folder, err);
 }
 
 /* ---- reading ---- */
@@ -150,7 +159,8 @@ static motus_status read_head(const segments *s, const char *name, FILE *in, boo
     if (!theirs) return complain_memory(err);
     for (int c; lines < 3 && used + 1 < room && (c = getc(in)) != EOF; lines += c == '\n') theirs[used++] = (char)c;
     theirs[used] = 0;
-    *whole = lines == 3;
+    /* after a power cut there may be zeros in place of what was written last */
+    *whole = lines == 3 && strncmp(theirs, "# motus sweep ", 14) == 0;
     const bool good = !*whole || s->same(s->head, theirs);
     free(theirs);
     if (good) return MOTUS_OK;
@@ -180,7 +190,7 @@ static motus_status read_segment(segments *s, size_t number, motus_error *err)
         begin = at + (uint64_t)got;
         hash = COMMAND_HASH;
     }
-    if (!status && ferror(in)) status = cannot("read", name, err);
+    if (!status && whole && !feof(in)) status = ferror(in) ? cannot("read", name, err) : complain_memory(err);
     free(line);
     fclose(in);
     return status;
@@ -189,7 +199,7 @@ static motus_status read_segment(segments *s, size_t number, motus_error *err)
 motus_status segments_find(segments *s, motus_error *err)
 {
     forget(s);
-    s->of = calloc((size_t)s->blocks, sizeof *s->of);
+    s->of = calloc((size_t)s->blocks + 1, sizeof *s->of);
     motus_status status = s->of ? list(s, err) : complain_memory(err);
     for (size_t k = 0; !status && k < s->file_count; k++) status = read_segment(s, k, err);
     return status;
@@ -259,6 +269,7 @@ static motus_status copy(const segments *s, const stretch *p, file_out *out, mot
     motus_status status = fseeko(in, (off_t)p->at, SEEK_SET) == 0 ? MOTUS_OK : cannot("read", name, err);
     for (uint64_t left = p->length; !status && left > 0;) {
         const size_t some = left < AT_ONCE ? (size_t)left : AT_ONCE;
+        errno = 0;
         status = fread(bytes, 1, some, in) == some ? file_write(out, bytes, some, err) : cannot("read", name, err);
         left -= some;
     }
@@ -277,18 +288,20 @@ static motus_status look(const segments *s, motus_error *err)
     return MOTUS_FILE;
 }
 
-motus_status segments_join(segments *s, const char *last, motus_error *err)
+motus_status segments_join(segments *s, const char *last, stop_progress *progress, motus_error *err)
 {
     file_out out = {0};
     motus_status status = segments_find(s, err);
     if (!status) status = look(s, err);
     if (!status) status = file_create(&out, s->table, err);
     if (!status) status = file_text(&out, s->head, err);
-    for (uint64_t b = 0; !status && b < s->blocks; b++) status = copy(s, &s->of[b], &out, err);
+    for (uint64_t b = 0; !status && b < s->blocks; b++) {
+        status = copy(s, &s->of[b], &out, err);
+        if (!status && stop_progress_hook(progress, 1)) status = fail(err, MOTUS_CANCELLED, "cancelled");
+    }
     if (!status) status = file_text(&out, last, err);
     if (!status) status = file_finish(&out, err);
     if (!status) status = file_keep(&out, err);
     file_drop(&out);
-    if (!status) segments_remove(s);
-    return status;
+    return status ? status : segments_remove(s, err);
 }

@@ -10,6 +10,7 @@
 #ifndef CLI_SEGMENTS_H
 #define CLI_SEGMENTS_H
 
+#include "cli/stop.h"
 #include "motus.h"
 
 #include <stdbool.h>
@@ -22,9 +23,11 @@ typedef struct segments segments;
 bool segments_there(const char *table);
 
 /* `head`: the lines above the rows, which every segment begins with; `same` tells whether those of a segment found are
- * of the same sweep. Touches no file. Call segments_free() in any case. */
+ * of the same sweep; `first`: the number that this process tries to give to its segment. Touches no file. Call
+ * segments_free() in any case. */
 motus_status segments_make(segments **, const char *table, const char *head,
-                           bool (*same)(const char *ours, const char *theirs), uint64_t blocks, motus_error *);
+                           bool (*same)(const char *ours, const char *theirs), uint64_t blocks, size_t first,
+                           motus_error *);
 void segments_free(segments *);
 
 /* Reads all segments: segments_have() then tells which blocks are there, whole. MOTUS_STATE: one is of another
@@ -32,7 +35,7 @@ void segments_free(segments *);
 motus_status segments_find(segments *, motus_error *);
 bool segments_have(const segments *, uint64_t block);
 /* Removes the segments and their folder. */
-void segments_remove(const segments *);
+motus_status segments_remove(const segments *, motus_error *);
 
 /* Appends rows of the block that is being computed; and: it is whole. */
 motus_status segments_put(segments *, const char *rows, size_t length, motus_error *);
@@ -41,6 +44,6 @@ motus_status segments_end_block(segments *, uint64_t block, motus_error *);
 motus_status segments_finish(segments *, motus_error *);
 
 /* When all processes have finished: writes the table, with `last` behind its rows, and removes the segments. */
-motus_status segments_join(segments *, const char *last, motus_error *);
+motus_status segments_join(segments *, const char *last, stop_progress *, motus_error *);
 
 #endif

@@ -27,6 +27,8 @@ bool shard_whole(const shard *);
 const char *shard_text(const shard *, char out[SHARD_TEXT]);
 /* How many of `total` trajectories it has. */
 uint64_t shard_rows(const shard *, uint64_t total);
+/* The blocks that so many rows are. */
+static inline uint64_t shard_blocks(uint64_t rows) { return rows / SHARD_BLOCK + (rows % SHARD_BLOCK > 0); }
 /* The number of the trajectory of a row, both from 0. */
 uint64_t shard_trajectory(const shard *, uint64_t row);
 /* How many rows from `row` on are trajectories of consecutive numbers. */

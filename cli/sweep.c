@@ -168,7 +168,8 @@ motus_status sweep_begin(sweep *s, sweep_section *section, stop_progress *progre
     if (!status) status = grid_read(&s->grid, o, err);
     s->rows = status ? 0 : shard_rows(&s->shard, s->grid.total);
     for (size_t k = 0; !status && o->output && k < s->grid.count; k++)
-        if (s->grid.axes[k].path && file_same(s->grid.axes[k].path, o->output))
+        if (s->grid.axes[k].path &&
+            (file_same(s->grid.axes[k].path, o->output) || sweep_archive_replaces(o->output, s->grid.axes[k].path)))
             status = fail(err, MOTUS_ARGUMENT, "%s is read and would be overwritten", s->grid.axes[k].path);
     for (size_t k = 0; !status && o->events && k < s->grid.count; k++)
         if (s->grid.axes[k].path && file_same(s->grid.axes[k].path, o->events))
@@ -386,15 +387,15 @@ static void add_up(const team *t, sweep_file *f)
     for (int k = 0; k < MOTUS_CAUSE_COUNT; k++) f->stopped_by[k] = t->sum(t->context, f->stopped_by[k]);
 }
 
-static motus_status finish(const sweep *s, sweep_file *f, sweep_events *events, sweep_section *section, double began,
-                           motus_error *err)
+static motus_status finish(const sweep *s, sweep_file *f, sweep_events *events, sweep_section *section,
+                           stop_progress *progress, double began, motus_error *err)
 {
     const options *o = s->options;
     motus_status status = sweep_events_finish(events, err);
     if (!status) status = sweep_section_draw(section, err);
     if (!status) status = sweep_file_finish(f, err);
     status = team_agree(o->team, status, err);
-    if (!status && team_first(o->team)) status = sweep_events_join(events, err);
+    if (!status && team_first(o->team)) status = sweep_events_join(events, progress, err);
     if (!status && team_size(o->team) > 1 && team_first(o->team)) status = sweep_archive_look(f, err);
     if (!status && o->compress && team_first(o->team)) status = sweep_archive_compress(f, err);
     double wall = stop_clock() - began;
@@ -431,12 +432,18 @@ static motus_status name_files(const sweep *s, options *o, char *names[2], motus
     return MOTUS_OK;
 }
 
-/* The first process makes the file, or finds it, before the others open it. */
-static motus_status open_file(sweep_file *f, const sweep *s, motus_error *err)
+static motus_status open_both(sweep_file *f, const sweep *s, motus_error *err)
+{
+    const motus_status status = sweep_file_open(f, s, err);
+    return status ? status : sweep_events_open(f->events, f->rows, err);
+}
+
+/* The first process makes the files, or finds them, before the others open them. */
+static motus_status open_files(sweep_file *f, const sweep *s, motus_error *err)
 {
     const team *t = s->options->team;
-    motus_status status = team_agree(t, team_first(t) ? sweep_file_open(f, s, err) : MOTUS_OK, err);
-    if (!status && !team_first(t)) status = sweep_file_open(f, s, err);
+    motus_status status = team_agree(t, team_first(t) ? open_both(f, s, err) : MOTUS_OK, err);
+    if (!status && !team_first(t)) status = open_both(f, s, err);
     status = team_agree(t, status, err);
     if (status || !f->archive) return status;
     sweep_archive_begin(f);
@@ -464,10 +471,9 @@ motus_status sweep_verb(const options *o, motus_error *err)
         if (team_first(o->team)) status = sweep_plan(&s, &progress, err);
     } else if (!status) {
         f.events = &events;
-        status = open_file(&f, &s, err);
+        status = open_files(&f, &s, err);
         bool open = !status;
         progress.began = stop_clock();
-        if (!status) status = sweep_events_open(&events, f.rows, err);
         if (!status) status = sweep_section_open(&section, err);
         if (!status) status = go(&s, &f, &events, &section, &progress, err);
         stop_progress_end(&progress);
@@ -475,7 +481,7 @@ motus_status sweep_verb(const options *o, motus_error *err)
         status = team_agree(o->team, status, err);
         f.share.waiting += stop_clock() - done;
         if (!status)
-            status = finish(&s, &f, &events, &section, began, err);
+            status = finish(&s, &f, &events, &section, &progress, began, err);
         else if (open)
             note_unfinished(&s, &f, status);
     }

@@ -149,6 +149,10 @@ void sweep_file_close(sweep_file *);
 /* sweep_archive.c: the file of rows as an archive, whose blocks may be written in any order. */
 typedef struct motus_archive motus_archive;
 bool sweep_archive_name(const char *path);
+/* Whether an input has the name of a file that is made on the way to this archive. */
+bool sweep_archive_replaces(const char *archive, const char *input);
+/* MOTUS_STATE: the numbers of a block's rows are not those of its trajectories, or of a run's rows. */
+motus_status sweep_archive_numbers(motus_archive *, const char *path, uint64_t block, motus_error *);
 /* Whether the archive is that of a sweep, by its columns: one number or word in a row, at last when and why a
  * trajectory stopped. */
 bool sweep_archive_is(const motus_archive *);
@@ -239,7 +243,7 @@ motus_status sweep_events_open(sweep_events *, uint64_t rows, motus_error *);
 motus_status sweep_events_rows(sweep_events *, uint64_t first, size_t count, motus_error *);
 motus_status sweep_events_finish(sweep_events *, motus_error *);
 /* When all processes have finished: makes the table of segments. */
-motus_status sweep_events_join(sweep_events *, motus_error *);
+motus_status sweep_events_join(sweep_events *, stop_progress *, motus_error *);
 void sweep_events_close(sweep_events *);
 
 /* sweep_section.c: the picture of the points of --section, where --plot asks for it; else each call does nothing. */

@@ -36,6 +36,41 @@ bool sweep_archive_name(const char *path)
            (length > 5 && strcmp(path + length - 5, ".hdf5") == 0);
 }
 
+bool sweep_archive_replaces(const char *archive, const char *input)
+{
+    static const char *const endings[] = {".new", ".joined", ".joined.new", ".grown.h5", ".grown.h5.new"};
+    bool same = false;
+    char *name = malloc(strlen(archive) + 32);
+    for (size_t k = 0; name && !same && k < sizeof endings / sizeof *endings; k++)
+        same = file_same(strcat(strcpy(name, archive), endings[k]), input);
+    free(name);
+    return same;
+}
+
+motus_status sweep_archive_numbers(motus_archive *a, const char *path, uint64_t block, motus_error *err)
+{
+    enum { SOME = 512 };
+    int64_t its[SOME];
+    shard of;
+    uint64_t row;
+    size_t left;
+    motus_status status = shard_read(&of, motus_archive_note_of(a, "shard"), err);
+    motus_archive_block(a, block, &row, &left);
+    for (size_t some; !status && left > 0; left -= some, row += some) {
+        some = left < SOME ? left : SOME;
+        status = motus_archive_numbers(a, row, some, its, err);
+        for (size_t i = 0; !status && i < some; i++) {
+            const uint64_t number = sweep_archive_is(a) ? shard_trajectory(&of, row + i) : row + i;
+            if (its[i] == (int64_t)number) continue;
+            fail(err, MOTUS_STATE, "%s is damaged: row %" PRIu64 " has the number %" PRId64 " in place of %" PRIu64,
+                 path, row + i, its[i], number);
+            hint(err, "take a copy, or compute it anew: --force");
+            status = MOTUS_STATE;
+        }
+    }
+    return status;
+}
+
 bool sweep_archive_is(const motus_archive *a)
 {
     const size_t count = motus_archive_column_count(a);
@@ -258,10 +293,11 @@ static motus_status count_stopped(sweep_file *f, uint64_t block, motus_error *er
 static motus_status find_blocks(sweep_file *f, bool found, motus_error *err)
 {
     sweep_archive *a = f->archive;
-    motus_status status = found ? sweep_events_find(f->events, err) : MOTUS_OK;
+    motus_status status = f->sweep->options->resume ? sweep_events_find(f->events, err) : MOTUS_OK;
     for (uint64_t b = 0; !status && b < a->blocks; b++) {
         int whole = 0;
         if (found) status = motus_archive_whole(a->file, b, &whole, err);
+        if (found && !status) status = sweep_archive_numbers(a->file, f->path, b, err);
         if (status || !whole || !sweep_events_have(f->events, b)) {
             a->missing[a->missing_count++] = b;
             continue;
@@ -273,7 +309,7 @@ static motus_status find_blocks(sweep_file *f, bool found, motus_error *err)
         status = count_stopped(f, b, err);
     }
     if (status || a->missing_count == 0 || !motus_archive_compressed(a->file)) return status;
-    fail(err, MOTUS_STATE, "%s is compressed, and %llu of its blocks are damaged, or have no events", f->path,
+    fail(err, MOTUS_STATE, "%s is compressed, and %llu of its blocks are damaged, or their events are gone", f->path,
          (unsigned long long)a->missing_count);
     hint(err, "--force computes all of it again");
     return MOTUS_STATE;
@@ -319,6 +355,15 @@ static void move(sweep_file *f)
     f->rows = a->next < a->end ? a->missing[a->next] * SHARD_BLOCK : f->sweep->rows;
 }
 
+/* What a program that was killed while it compressed has left beside the file, which is locked. */
+static void remove_remains(const sweep_file *f)
+{
+    char *where = realpath(f->path, NULL), *path = where ? malloc(strlen(where) + sizeof ".new") : NULL;
+    if (path) remove(strcat(strcpy(path, where), ".new"));
+    free(path);
+    free(where);
+}
+
 motus_status sweep_archive_open(sweep_file *f, bool found, motus_error *err)
 {
     description d;
@@ -326,6 +371,7 @@ motus_status sweep_archive_open(sweep_file *f, bool found, motus_error *err)
     sweep_archive *a = f->archive = calloc(1, sizeof *a);
     if (!a) return complain_memory(err);
     motus_status status = describe(&d, f->sweep, err);
+    if (!status && found && team_first(t)) remove_remains(f);
     if (!status && !found && team_first(t)) status = motus_archive_create(f->path, &d.def, err);
     if (!status) status = motus_archive_open(f->path, 1, &a->file, err);
     if (!status) status = compare(f, &d, err);
@@ -435,11 +481,12 @@ motus_status sweep_archive_finish(sweep_file *f, motus_error *err) { return motu
 motus_status sweep_archive_compress(sweep_file *f, motus_error *err)
 {
     description d;
-    motus_archive *file = f->archive->file;
-    if (motus_archive_compressed(file)) return MOTUS_OK; /* it was found so */
+    if (motus_archive_compressed(f->archive->file)) return MOTUS_OK; /* it was found so */
     motus_status status = describe(&d, f->sweep, err);
-    d.def.from = file;
+    /* opened anew, for a file system that then sees what other machines have written */
+    if (!status) status = motus_archive_open(f->path, 0, &d.def.from, err);
     if (!status) status = motus_archive_create(f->path, &d.def, err);
+    motus_archive_close(d.def.from);
     description_free(&d);
     return status;
 }

@@ -1,10 +1,14 @@
 /* The table of the events of a sweep, as CSV: the number of the trajectory, and then what the table of a run has.
  *
  * Invariants: as those of the file of rows (sweep_file.c), and: the head depends on what the numbers depend on alone;
- * the events of a trajectory are on the disk before its row is written. Behind them stands a line that begins with #
- * and says of how many trajectories they are, at every time: new events are written behind its # first, and then over
- * it. So a file in which that line is missing, and events of trajectories without a row too, has been shortened. Such
- * events are removed by --resume.
+ * the events of a trajectory are written, and on the disk, before its row is. Behind them stands a line that begins
+ * with # and says of how many trajectories they are, at every time: new events are written behind its # first, and then
+ * over it. So a file in which that line is missing, and events of trajectories without a row too, has been shortened.
+ * Such events are removed by --resume.
+ *
+ * Beside an archive, whose blocks come in any order, a table that is a file is joined from segments when all are there
+ * (segments.h); until then it is empty. Segments are written before the rows, but reach the disk when the sweep ends:
+ * after a power cut their hashes tell what is there.
  */
 #define _XOPEN_SOURCE 700
 #include "base/decimal.h"
@@ -247,18 +251,48 @@ static motus_status go_on(sweep_events *f, uint64_t rows, motus_error *err)
     return MOTUS_OK;
 }
 
+/* By the first process, before others write segments. What is replaced is removed at the beginning, so that --resume
+ * finds nothing of it. */
+static motus_status begin_segments(sweep_events *f, motus_error *err)
+{
+    if (f->sweep->options->resume) return MOTUS_OK;
+    const motus_status status = segments_remove(f->segments, err);
+    return status || ftruncate(f->descriptor, 0) == 0 ? status : cannot_write(f, errno, err);
+}
+
+/* The table is locked until it is joined, and empty where there is none. */
+static motus_status lock_table(sweep_events *f, motus_error *err)
+{
+    const options *o = f->sweep->options;
+    const motus_status status = sweep_file_lock(f->path, &f->descriptor, &f->regular, err);
+    if (status || !file_same(o->output, f->path)) return status;
+    return fail(err, MOTUS_ARGUMENT, "%s is named for two outputs", f->path);
+}
+
+/* Removes the table that was made empty, where nothing goes on from it. */
+static void unlock_table(const sweep_events *f)
+{
+    struct stat own, named;
+    if (f->descriptor < 0 || fstat(f->descriptor, &own) != 0 || own.st_size > 0 || segments_there(f->path)) return;
+    if (stat(f->path, &named) == 0 && named.st_dev == own.st_dev && named.st_ino == own.st_ino) unlink(f->path);
+}
+
 motus_status sweep_events_begin(sweep_events *f, const sweep *s, motus_error *err)
 {
     *f = (sweep_events){.sweep = s, .path = s->options->events, .descriptor = -1};
     if (!f->path) return MOTUS_OK;
     motus_status status = make_head(f, err);
     if (!status && sweep_events_in_segments(s->options))
-        status = segments_make(&f->segments, f->path, f->head, same_head, (s->rows - 1) / SHARD_BLOCK + 1, err);
+        status = segments_make(&f->segments, f->path, f->head, same_head, shard_blocks(s->rows), err);
+    const bool first = team_first(s->options->team); /* it joins */
+    if (!status && f->segments && first && !s->options->plan) status = lock_table(f, err);
     struct stat about;
     if (status || !s->options->resume || stat(f->path, &about) != 0) return status;
-    if (f->segments && about.st_size == 0) return MOTUS_OK; /* one that was to be replaced */
-    f->complete = f->segments;                              /* or it is an error */
-    return find_table(f, f->segments ? s->rows : 0, err);
+    if (!f->segments) return find_table(f, 0, err);
+    if (about.st_size == 0 || !first) return MOTUS_OK; /* empty: it is not joined yet */
+    status = find_table(f, s->rows, err);
+    f->complete = !status;
+    return status;
 }
 
 motus_status sweep_events_find(sweep_events *f, motus_error *err)
@@ -271,22 +305,13 @@ bool sweep_events_have(const sweep_events *f, uint64_t block)
     return !f->segments || f->complete || segments_have(f->segments, block);
 }
 
-/* What is replaced is removed at the beginning, so that --resume finds nothing of it. */
-static motus_status begin_segments(const sweep_events *f, motus_error *err)
-{
-    const options *o = f->sweep->options;
-    if (o->resume || !team_first(o->team)) return MOTUS_OK;
-    segments_remove(f->segments);
-    return truncate(f->path, 0) == 0 || errno == ENOENT ? MOTUS_OK : cannot_write(f, errno, err);
-}
-
 motus_status sweep_events_open(sweep_events *f, uint64_t rows, motus_error *err)
 {
     const sweep *s = f->sweep;
     if (!f->path) return MOTUS_OK;
     f->values = malloc((2 * (s->event_columns_count + s->event_columns_more) + 1) * sizeof *f->values);
     if (!f->values) return complain_memory(err);
-    if (f->segments) return begin_segments(f, err);
+    if (f->segments) return team_first(s->options->team) ? begin_segments(f, err) : MOTUS_OK;
     motus_status status = MOTUS_OK;
     if (strcmp(f->path, "-") == 0)
         f->descriptor = STDOUT_FILENO;
@@ -348,6 +373,7 @@ static motus_status to_segments(sweep_events *f, uint64_t first, size_t count, m
 motus_status sweep_events_rows(sweep_events *f, uint64_t first, size_t count, motus_error *err)
 {
     if (!f->path) return MOTUS_OK;
+    if (f->complete) return MOTUS_OK;
     if (f->segments) return to_segments(f, first, count, err);
     memory m;
     char line[SWEEP_EVENTS_LAST];
@@ -372,18 +398,17 @@ motus_status sweep_events_finish(sweep_events *f, motus_error *err)
     return descriptor > STDERR_FILENO && close(descriptor) != 0 ? cannot_write(f, errno, err) : MOTUS_OK;
 }
 
-motus_status sweep_events_join(sweep_events *f, motus_error *err)
+motus_status sweep_events_join(sweep_events *f, stop_progress *progress, motus_error *err)
 {
     if (!f->segments) return MOTUS_OK;
     char line[SWEEP_EVENTS_LAST];
     last_line(f->sweep->rows, line);
-    if (!f->complete) return segments_join(f->segments, line, err);
-    segments_remove(f->segments);
-    return MOTUS_OK;
+    return f->complete ? segments_remove(f->segments, err) : segments_join(f->segments, line, progress, err);
 }
 
 void sweep_events_close(sweep_events *f)
 {
+    if (f->segments) unlock_table(f);
     if (f->descriptor > STDERR_FILENO) close(f->descriptor);
     segments_free(f->segments);
     free(f->head);

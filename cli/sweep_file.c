@@ -43,6 +43,9 @@ motus_status sweep_file_may_write(const options *o, const char *path, motus_erro
     if (!*path) return fail(err, MOTUS_ARGUMENT, "the name of an output file is empty");
     if (o->operand && !output && file_same(path, o->operand))
         return fail(err, MOTUS_ARGUMENT, "%s is read and would be overwritten", o->operand);
+    if (o->operand && sweep_archive_name(path) && sweep_archive_replaces(path, o->operand))
+        return fail(err, MOTUS_ARGUMENT, "%s is read and would be overwritten: %s is made by way of it", o->operand,
+                    path);
     struct stat about;
     if (output || o->plan || stat(path, &about) != 0) return MOTUS_OK; /* a plan writes no file */
     if (S_ISDIR(about.st_mode)) return fail(err, MOTUS_FILE, "cannot write %s: it is a folder", path);
@@ -217,8 +220,10 @@ motus_status sweep_file_lock(const char *path, int *descriptor, bool *regular, m
 {
     struct stat about;
     *descriptor = open(path, O_RDWR | O_CREAT | O_CLOEXEC, 0666);
-    if (*descriptor < 0) /* a pipe or a device may not be readable */
+    const int code = errno;
+    if (*descriptor < 0 && access(path, F_OK) == 0) /* a pipe or a device may not be readable */
         *descriptor = open(path, O_WRONLY | O_CLOEXEC);
+    if (*descriptor < 0) errno = code;
     if (*descriptor < 0 || fstat(*descriptor, &about) != 0)
         return fail(err, MOTUS_FILE, "cannot write %s: %s", path, strerror(errno));
     *regular = S_ISREG(about.st_mode);

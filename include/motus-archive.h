@@ -86,7 +86,7 @@ typedef struct motus_archive_def {
     size_t slot;                /* bytes that a state may have, motus_archive_save; 0: there are no slots for states */
     int (*stop)(void *context); /* asked while the file is made; NULL, or not 0 ends that with MOTUS_CANCELLED */
     /* NULL: no block is there. Else an archive of the same definition, all of whose blocks are there: the file that is
-     * made has them, compressed, and its states. It may replace that archive, which is not changed. */
+     * made has them, compressed, its states and its notes. It may replace that archive, which is not changed. */
     motus_archive *from;
 } motus_archive_def;
 

@@ -167,7 +167,7 @@ further=("${turn[@]}" --until 150)
 gives "a longer table of events" 0 "${further[@]}" -o "$place/further.h5" --events "$place/further.csv"
 for damage in none "a byte of a block" "a byte of the line behind it" "all"; do
     cut_short
-    that "killed, it leaves a segment and some blocks" eval "[ -s '$place/cut.csv.segments/segment-1' ] && [ $there -ge 2 ] && [ $there -lt 4 ] && [ ! -e '$place/cut.csv' ]"
+    that "killed, it leaves a segment and some blocks" eval "[ -s '$place/cut.csv.segments/segment-1' ] && [ $there -ge 2 ] && [ $there -lt 4 ] && [ ! -s '$place/cut.csv' ]"
     segment=$place/cut.csv.segments/segment-1 lost=1
     case $damage in
     none) lost=0 ;;
@@ -196,6 +196,38 @@ that "... is where the link leads" eval "[ -L '$place/link.h5' ] && [ \"\$(head 
 refuses "--resume of another sweep" 2 "was made by another sweep" "$motus" sweep "$swing" --vary "x(0)=0.1:2:30000" --record "final,max(energy)" -o "$place/killed.h5" --resume
 that "... touches nothing" [ "$(sum "$place/killed.h5")" = "$whole" ]
 refuses "an archive that is there" 2 "exists" long -o "$place/killed.h5"
+
+gives "a shard without a row, with events" 0 "${turn[@]}" --shard 5/5 -o "$place/none%K.h5" --events "$place/none%K.csv"
+that "... has a table without one" says "# end of the events of trajectories: 0" "$place/none5.csv"
+refuses "the archive is no table of events, whatever its name" 2 "is named for two outputs" "${turn[@]}" -o "$place/twice.h5" --events "$place/./twice.h5" --force
+refuses "nor may it be among the segments" 1 "cannot remove" eval "mkdir -p '$place/in.csv.segments/segment-2'; ${turn[*]@Q} -o '$place/in.h5' --events '$place/in.csv' --force"
+: >"$place/way.csv.segments"
+refuses "a file where the segments are to be" 2 "is there" "${turn[@]}" -o "$place/way.h5" --events "$place/way.csv"
+that "... begins nothing" absent "$place/way.h5"
+refuses "a table in a folder that is not there" 1 "cannot write" "${turn[@]}" -o "$place/way.h5" --events "$place/nowhere/way.csv"
+that "... begins nothing" absent "$place/way.h5"
+"${further[@]}" -o "$place/first.h5" --events "$place/both.csv" --machine interpreter --threads 1 &
+job=$!
+for _ in $(seq 100); do [ -e "$place/both.csv.segments/segment-1" ] && break; sleep 0.02; done
+refuses "another sweep with the same table" 1 "is being written by another program" "${turn[@]}" -o "$place/second.h5" --events "$place/both.csv" --force
+wait $job
+that "... and the first one has all events" cmp "$place/both.csv" "$place/further.csv"
+gives "an input with the name that an archive has until it is made" 0 cp "$swing" "$place/own.h5.new"
+refuses "... is not overwritten" 2 "would be overwritten" "$motus" sweep "$place/own.h5.new" --vary k=1,2 -o "$place/own.h5"
+gives "the number of a trajectory is changed" 0 $python -c "
+import h5py, sys
+with h5py.File(sys.argv[1]) as f: at = f['sweep/trajectory'].id.get_offset()
+with open(sys.argv[1], 'r+b') as f: f.seek(at + 80); f.write(b'x')
+" "$place/turn.h5"
+refuses "... motus archive finds it" 2 "row 10 has the number 120 in place of 10" "$motus" archive "$place/turn.h5"
+refuses "... and --resume" 2 "in place of 10" "${turn[@]}" -o "$place/turn.h5" --events "$place/turn.csv" --resume
+# Merges of one name at the same time: one of them is refused, and the file is whole.
+for _ in 1 2 3 4 5; do
+    "$motus" merge "$place"/part[1-5].h5 -o "$place/same.h5" -q --force 2>/dev/null &
+    "$motus" merge "$place"/part[1-5].h5 -o "$place/same.h5" -q --force 2>"$err"
+    wait $!
+    that "two merges at once leave one whole file" cmp "$place/same.h5" "$place/joined.h5"
+done
 
 # --- compressed -----------------------------------------------------------------------------------------------------------------------
 gives "--compress" 0 long -o "$place/packed.h5" --compress
@@ -232,7 +264,7 @@ gives "... are merged" 0 "$motus" merge "$place"/small[123].h5 -o "$place/merged
 that "... to the same bytes" [ "$(sum "$place/merged.h5")" = "$whole" ]
 gives "... and compressed again" 0 "$motus" merge "$place"/small[123].h5 -o "$place/merged.h5" --quiet --compress --force
 that "... to the same bytes" [ "$(sum "$place/merged.h5")" = "$packed" ]
-refuses "--compress of what is not complete" 2 "is missing" "$motus" merge "$place/small1.h5" -o "$place/partial.h5" --partial --compress --force
+refuses "--compress of what is not complete" 2 "exclude each other" "$motus" merge "$place/small1.h5" -o "$place/partial.h5" --partial --compress --force
 refuses "--compress of a table" 2 "--compress is for archives" long -o "$place/x.csv" --compress
 # One byte in the middle: that block is damaged, and nothing is written into such a file.
 gives "a byte of it is changed" 0 $python -c "

@@ -59,6 +59,14 @@ for n in 2 3 7; do
     that "... and the same events, with nothing beside them" eval "cmp '$place/hits.csv' '$place/hits1.csv' && [ ! -e '$place/hits.csv.segments' ]"
 done
 
+# Few rows: ranks begin to write before the first one has made everything, or have nothing to do.
+few=(sweep "$swing" --vary "x(0)=0.1:3:5000" --record final --when "x = 0: record" --threads 1 --quiet --force)
+gives "... of few rows, by motus" 0 "$motus" "${few[@]}" -o "$place/few1.h5" --events "$place/few1.csv"
+for k in 1 2 3 4 5 6; do
+    gives "... by 4 ranks, $k" 0 ranks 4 "${few[@]}" -o "$place/few.h5" --events "$place/few.csv"
+    that "... the same events" cmp "$place/few.csv" "$place/few1.csv"
+done
+
 printf '%s\n' 'k = 1' "x'' = -k x" 'x(0) = 1' "x'(0) = 0" 'until 10' >"$place/stiff.motus"
 # --- errors, once ---------------------------------------------------------------------------------------------------------------------
 # name, exit status, words of the message, number of ranks, words: told by one rank
