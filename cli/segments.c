@@ -27,6 +27,7 @@ struct segments {
     bool (*same)(const char *, const char *);
     char *folder;
     uint64_t blocks;
+    size_t first; /* the number to try first */
     stretch *of;  /* the blocks */
     char **files; /* the segments that were found */
     size_t file_count;
@@ -50,11 +51,11 @@ static char *folder_of(const char *table)
 }
 
 motus_status segments_make(segments **out, const char *table, const char *head,
-                           bool (*same)(const char *, const char *), uint64_t blocks, motus_error *err)
+                           bool (*same)(const char *, const char *), uint64_t blocks, size_t first, motus_error *err)
 {
     segments *s = *out = calloc(1, sizeof *s);
     if (!s) return complain_memory(err);
-    s->table = table, s->head = head, s->same = same, s->blocks = blocks;
+    s->table = table, s->head = head, s->same = same, s->blocks = blocks, s->first = first;
     s->hash = COMMAND_HASH;
     s->folder = folder_of(table);
     return s->folder ? MOTUS_OK : complain_memory(err);
@@ -212,7 +213,7 @@ bool segments_have(const segments *s, uint64_t block) { return s->of && s->of[bl
 static motus_status open_own(segments *s, motus_error *err)
 {
     if (mkdir(s->folder, 0777) != 0 && errno != EEXIST) return cannot("make the folder", s->folder, err);
-    for (size_t number = 1; !s->own; number++) {
+    for (size_t number = s->first; !s->own; number++) {
         free(s->own_name);
         s->own_name = name_of(s, number);
         if (!s->own_name) return complain_memory(err);

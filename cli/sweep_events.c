@@ -277,13 +277,15 @@ static void unlock_table(const sweep_events *f)
     if (stat(f->path, &named) == 0 && named.st_dev == own.st_dev && named.st_ino == own.st_ino) unlink(f->path);
 }
 
+static size_t first_segment(const sweep *s) { return 1 + (s->options->team ? (size_t)s->options->team->rank : 0); }
+
 motus_status sweep_events_begin(sweep_events *f, const sweep *s, motus_error *err)
 {
     *f = (sweep_events){.sweep = s, .path = s->options->events, .descriptor = -1};
     if (!f->path) return MOTUS_OK;
     motus_status status = make_head(f, err);
     if (!status && sweep_events_in_segments(s->options))
-        status = segments_make(&f->segments, f->path, f->head, same_head, shard_blocks(s->rows), err);
+        status = segments_make(&f->segments, f->path, f->head, same_head, shard_blocks(s->rows), first_segment(s), err);
     const bool first = team_first(s->options->team); /* it joins */
     if (!status && f->segments && first && !s->options->plan) status = lock_table(f, err);
     struct stat about;
