@@ -233,6 +233,11 @@ motus_status directory_read(directory *d, const char *bytes, size_t count, uint6
     const size_t first = count < DIRECTORY_HEAD ? count : DIRECTORY_HEAD;
     *d = (directory){0};
     memcpy(head, bytes, first);
+    if (count == 0) {
+        fail(err, MOTUS_STATE, "%s is empty: what makes it was interrupted, or has not begun", path);
+        hint(err, "its command with --resume makes it");
+        return MOTUS_STATE;
+    }
     if (!begins(&text, "motus") || !begins(&text, "archive")) return foreign(path, err);
     char *end = strchr(text, '\n'), *hash_end;
     if (!end) return foreign(path, err);

@@ -206,8 +206,9 @@ static motus_status put_column(maker *m, size_t k)
     const hid_t set = make_set(m->group, c->name, word ? H5T_STD_U8LE : H5T_IEEE_F64LE, m->def->rows, c->shape,
                                word ? (const void *)MISSING : &none, chunk_of(m), m->places + 2 + k);
     if (set < 0) return refused(m, c->name);
-    const bool good = H5DSattach_scale(set, m->scale, 0) >= 0 && (!word || put_words(set, c)) &&
-                      (!c->comment || put_text(set, "comment", c->comment));
+    /* Not where a row has several numbers: netCDF wants a scale for each dimension of a column, or for none. */
+    const bool scaled = c->shape[0] || H5DSattach_scale(set, m->scale, 0) >= 0;
+    const bool good = scaled && (!word || put_words(set, c)) && (!c->comment || put_text(set, "comment", c->comment));
     H5Dclose(set);
     return good ? MOTUS_OK : refused(m, c->name);
 }

@@ -161,7 +161,8 @@ static motus_status incomplete(const contents *c, motus_error *err)
 {
     fail(err, MOTUS_STATE, "%" PRIu64 " of %" PRIu64 " blocks of %s are missing or damaged", c->missing, c->blocks,
          c->options->operand);
-    hint(err, "compute them: %.400s -o %s --resume", said(c, "command"), c->options->operand);
+    hint(err, "compute them: %.400s -o %s --%s", said(c, "command"), c->options->operand,
+         !c->run || archive_run_goes_on(c->file, c->missing, c->first_missing) ? "resume" : "force");
     return MOTUS_STATE;
 }
 
@@ -260,7 +261,10 @@ static void report(const contents *c)
         text_put(stdout, column.name);
     }
     putchar('\n');
-    if (c->missing && c->run)
+    if (c->run && !archive_run_goes_on(c->file, c->missing, c->first_missing))
+        puts("\nmotus run cannot go on with this file: it has no state with all the rows before it; its command with "
+             "--force makes it anew");
+    else if (c->missing && c->run)
         puts("\nmotus run goes on with this file");
     else if (c->missing)
         puts("\nthe command with -o and --resume computes what is missing");

@@ -86,6 +86,26 @@ motus_status archive_run_csv(motus_archive *a, const options *o, file_out *out, 
     return status;
 }
 
+bool archive_run_goes_on(motus_archive *a, bool missing, uint64_t first_missing)
+{
+    bool good = false;
+    size_t width = 0; /* bytes of a row in a state */
+    motus_archive_column c;
+    motus_error ignored = motus_default_error();
+    for (size_t k = 0; motus_archive_column_at(a, k, &c); k++) width += motus_archive_width(&c) * sizeof(double);
+    for (int back = 0; !good && back < 2; back++) {
+        char *bytes;
+        size_t length, count;
+        uint64_t rows = UINT64_MAX;
+        run_state s;
+        if (missing) motus_archive_block(a, first_missing, &rows, &count);
+        good = motus_archive_saved(a, back, &bytes, &length, &ignored) == MOTUS_OK && bytes &&
+               run_state_read(bytes, length, &s) && s.rows - s.rest_length / width <= rows; /* the others it has */
+        free(bytes);
+    }
+    return good;
+}
+
 motus_status archive_run_state(motus_archive *a, const options *o, file_out *out, motus_error *err)
 {
     char *bytes;

@@ -1,8 +1,10 @@
 /* See archive_verify.h. */
 #include "cli/archive_verify.h"
 
+#include "base/decimal.h"
 #include "base/error.h"
 #include "cli/run_again.h"
+#include "cli/run_archive.h"
 #include "cli/run_command.h"
 #include "cli/typed.h"
 
@@ -60,6 +62,19 @@ motus_status archive_verify(motus_archive *a, const options *o, const uint64_t *
     return status;
 }
 
+/* A run that went on is computed to its first end, with the rows before it. */
+static void up_to_first_end(options *o, motus_archive *a, uint64_t *rows)
+{
+    const char *text = motus_archive_note_of(a, RUN_FIRST_END);
+    double time;
+    uint64_t most;
+    const size_t length = text ? decimal_read(text, strlen(text), &time) : 0;
+    if (!length || text[length] != ' ' || !decimal_read_whole(text + length + 1, strlen(text + length + 1), &most))
+        return;
+    o->until = time;
+    if (*rows > most) *rows = most;
+}
+
 motus_status archive_verify_run(motus_archive *a, const options *o, uint64_t first_missing, bool missing,
                                 archive_verified *v, stop_progress *progress, motus_error *err)
 {
@@ -74,6 +89,7 @@ motus_status archive_verify_run(motus_archive *a, const options *o, uint64_t fir
     if (missing) motus_archive_block(a, first_missing, &rows, &count);
     v->computed = (uint64_t)fmin(ceil(part * (double)rows), (double)rows);
     status = run_command_of(&command, a, o, err);
+    if (!status) up_to_first_end(&command.options, a, &v->computed);
     if (!status && v->computed > 0)
         status = run_again_rows(&command.options, a, v->computed, &same, v->where, progress, err);
     v->differ = !same;

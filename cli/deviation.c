@@ -48,6 +48,16 @@ static motus_status take(void *context, const double *values, motus_error *err)
     return MOTUS_OK;
 }
 
+motus_status deviation_here(deviation *d, motus_run *run, motus_error *err)
+{
+    if (d->count == 0) return MOTUS_OK;
+    double *values = calloc(d->count, sizeof *values);
+    motus_status status = values ? motus_run_values(run, d->columns, d->count, values, err) : complain_memory(err);
+    if (!status) status = take(d, values, err);
+    free(values);
+    return status;
+}
+
 walk_observer deviation_observer(deviation *d, int64_t stride)
 {
     return (walk_observer){.stride = stride, .columns = d->columns, .count = d->count, .take = take, .context = d};

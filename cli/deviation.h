@@ -12,6 +12,8 @@ typedef struct deviation {
 } deviation;
 
 motus_status deviation_begin(deviation *, const load *, motus_run *, motus_error *);
+/* Observes where the run stands, which a run that is restored need not come to otherwise. */
+motus_status deviation_here(deviation *, motus_run *, motus_error *);
 walk_observer deviation_observer(deviation *, int64_t stride);
 /* A stride at which observing costs little beside stepping: about a thousand samples, fewer where the state is
  * large. */

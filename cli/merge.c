@@ -156,7 +156,9 @@ static void report(const merge *m)
         json_end(&j);
     } else if (!o->quiet) {
         text_put(out, o->output);
-        fprintf(out, ": %" PRIu64 " shards, %s%" PRIu64 " trajectories", p->shard.count,
+        fprintf(out, ": ");
+        if (m->count < p->shard.count) fprintf(out, "%zu of ", m->count);
+        fprintf(out, "%" PRIu64 " shards, %s%" PRIu64 " trajectories", p->shard.count,
                 p->kind == PART_EVENTS ? "events of " : "", p->total);
         if (m->missing)
             fprintf(out, "; %" PRIu64 " blocks are missing, which the sweep's command with --resume computes",

@@ -49,6 +49,13 @@ static motus_status damaged(const part *p, uint64_t trajectory, motus_error *err
     return MOTUS_STATE;
 }
 
+static motus_status empty(const part *p, motus_error *err)
+{
+    fail(err, MOTUS_STATE, "%s is empty: its sweep was interrupted, or not begun", p->path);
+    hint(err, "its command with --resume completes it");
+    return MOTUS_STATE;
+}
+
 /* ---- heads ---- */
 
 /* Removes `what` where it last stands before `end`. False: it is not there. */
@@ -170,6 +177,7 @@ motus_status part_open(part *p, const char *path, motus_error *err)
     }
     const int magic = status ? EOF : getc(in);
     if (magic != EOF) ungetc(magic, in);
+    if (!status && magic == EOF) status = empty(p, err);
     if (!status)
         status = magic == 0x93 ? npy_head(p, in, err) : magic == 'm' ? part_archive_head(p, err) : csv_head(p, in, err);
     fclose(in);

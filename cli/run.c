@@ -197,7 +197,9 @@ static motus_status go(job *j, motus_error *err)
         figure_observers(&j->figure, observers + count);
         count += FIGURE_OBSERVERS;
     }
-    return walk(j->run, j->start, j->until, observers, count, &keeper, err);
+    const motus_status status =
+        motus_run_done(j->run) ? deviation_here(&j->deviation, j->run, err) : MOTUS_OK; /* the walk observes nothing */
+    return status ? status : walk(j->run, j->start, j->until, observers, count, &keeper, err);
 }
 
 static motus_status finish(job *j, double seconds, motus_error *err)

@@ -8,6 +8,7 @@
  * for and how large the slots of states are follow from the rows and from the first and the last state. */
 #include "cli/run_archive.h"
 
+#include "base/decimal.h"
 #include "base/error.h"
 #include "cli/complain.h"
 #include "cli/run_again.h"
@@ -32,7 +33,8 @@ struct run_archive {
     run_archive_def of;
     const char *path;
     char *command, fingerprint[RUN_FINGERPRINT];
-    int descriptor; /* of the lock */
+    char first_end[64]; /* the note: the time and the rows; "": steps do not adapt, or it has gone to one end alone */
+    int descriptor;     /* of the lock */
     motus_archive *file;
     run_columns columns;
     double **rooms; /* of each column, for a block of rows */
@@ -79,21 +81,20 @@ static int cancelled(void *context) { return (void)context, stop_requested(); }
 static motus_status create(const run_archive *a, const char *path, uint64_t rows, size_t slot, motus_archive *from,
                            motus_error *err)
 {
-    const motus_archive_note notes[] = {{"motus", motus_version()},
-                                        {"command", a->command},
-                                        {"method", motus_run_method(a->of.run)},
-                                        {"fingerprint", a->fingerprint},
-                                        {"model", a->of.model->text}};
+    enum { NOTES = 6 };
+    const motus_archive_note notes[NOTES] = {
+        {"motus", motus_version()},      {"command", a->command},      {"method", motus_run_method(a->of.run)},
+        {"fingerprint", a->fingerprint}, {"model", a->of.model->text}, {RUN_FIRST_END, a->first_end}};
     motus_archive_def d = motus_archive_default();
     d.group = "run", d.scale = "row";
     d.rows = rows, d.block = a->block;
     d.columns = a->columns.described, d.column_count = a->columns.count;
-    d.notes = notes, d.note_count = sizeof notes / sizeof *notes;
+    d.notes = notes, d.note_count = a->first_end[0] ? NOTES : NOTES - 1;
     d.links = a->columns.links, d.link_count = a->columns.link_count;
     d.attributes = a->columns.attributes, d.attribute_count = a->columns.attribute_count;
     d.slot = slot;
     d.from = from;
-    d.stop = cancelled;
+    d.stop = from ? cancelled : NULL; /* a run that is stopped makes its file the right size */
     return motus_archive_create(path, &d, err);
 }
 
@@ -421,6 +422,18 @@ static motus_status open_source(run_archive *a, const char *path, bool same, mot
     return MOTUS_STATE;
 }
 
+/* Steps that adapt have landed on the end of the file that goes on: those before are not the steps of one run to the
+ * later end, by which they could be verified. */
+static void note_first_end(run_archive *a, motus_archive *source)
+{
+    char time[DECIMAL_MAX];
+    const char *its = motus_archive_note_of(source, RUN_FIRST_END);
+    if (its && strlen(its) < sizeof a->first_end)
+        strcpy(a->first_end, its);
+    else if (motus_run_steps_total(a->of.run) == 0 && !says(source, "command", a->command))
+        snprintf(a->first_end, sizeof a->first_end, "%s %" PRIu64, decimal(motus_run_time(a->of.run), time), a->rows);
+}
+
 /* The file that there is goes on as it is, or by another one of the right size. */
 static motus_status go_on(run_archive *a, motus_archive *source, bool own, motus_error *err)
 {
@@ -432,6 +445,7 @@ static motus_status go_on(run_archive *a, motus_archive *source, bool own, motus
         hint(err, "install HDF5, and build motus where libhdf5-dev is installed");
         return MOTUS_UNAVAILABLE;
     }
+    note_first_end(a, source);
     if (!stays) return replace(a, source, a->rows > capacity ? a->rows : capacity, a->first_slot, NULL, 0, err);
     a->capacity = motus_archive_rows(source);
     a->slot = motus_archive_slot(source);

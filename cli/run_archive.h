@@ -8,6 +8,10 @@
 typedef struct run_archive run_archive;
 
 /* What the archive of a run is of. */
+/* The name of the note with the time and the number of rows at which a run that adapts its steps went on to a later
+ * end. */
+#define RUN_FIRST_END "first_end"
+
 typedef struct run_archive_def {
     const options *options;
     const load *model;

@@ -46,7 +46,7 @@ bool stop_warned(void) { return warned != 0; }
 
 void stop_catch_signals(void)
 {
-    static const int caught[] = {SIGINT, SIGTERM, SIGHUP};
+    static const int caught[] = {SIGINT, SIGTERM, SIGHUP, SIGUSR1};
     struct sigaction ignore = {0};
     handle(caught, sizeof caught / sizeof *caught, store);
     /* with SIGPIPE ignored, a closed pipe is a failed write, after which temporary files can be removed */

@@ -4,8 +4,8 @@
 
 #include <stdbool.h>
 
-/* From now on SIGINT, SIGTERM and SIGHUP set stop_requested() instead of killing. To be called where work begins that
- * asks for it; before, while a model is read, they kill. */
+/* From now on SIGINT, SIGTERM, SIGHUP and SIGUSR1 set stop_requested() and do not kill. To be called where work begins
+ * that asks for it; before, while a model is read, they kill. */
 void stop_catch_signals(void);
 bool stop_requested(void);
 /* From now on SIGTERM and SIGUSR1, by which batch systems warn, do not stop at once: stop_warned() tells of them, and

@@ -13,6 +13,7 @@
 #include <mpi.h>
 #include <sched.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
 
@@ -191,6 +192,7 @@ int main(int argc, char **argv)
     if (MPI_Init_thread(&argc, &argv, MPI_THREAD_FUNNELED, &threads) != MPI_SUCCESS) return 1;
     MPI_Comm_rank(MPI_COMM_WORLD, &rank);
     MPI_Comm_size(MPI_COMM_WORLD, &size);
+    setenv("NO_COLOR", "1", 0); /* mpirun gives rank 0 a terminal, and what it prints to a file */
     exit = versions_differ(rank, size);
     if (!exit && argc == 2 && strcmp(argv[1], "--mpi-check") == 0) {
         exit = check(rank, size);

@@ -245,6 +245,33 @@ f = h5py.File('many-packed.h5'); r = [n for n in f['particles']][0]
 assert f['particles'][r]['position/value'].compression == 'gzip' and f['particles'][r]['position/value'].ndim == 3"
 refuses "--compress of a table" 2 "for a run into an archive" run -o run.csv --compress
 
+# --- a file that is told of --------------------------------------------------------------------------------------------------------------
+gives "xarray reads a family" 0 $python -W ignore -c "
+import xarray
+f = xarray.open_dataset('many.h5', group='run', engine='netcdf4')
+assert f['r'].ndim == 3 and f['t'].dims == ('row',), f"
+gives "a run that conserves its energy" 0 "$motus" run "$root/models/pendulum.motus" --error none --until 500 -o told.h5 --json
+jq -c '[.invariants[].final]' "$out" >told.json
+gives "... when it is complete" 0 "$motus" run told.h5 --json
+that "... tells the same energy at the end" eval "[ \"\$(jq -c '[.invariants[].final]' '$out')\" = \"\$(cat told.json)\" ] && holds '.invariants | to_entries[0].value | .final != .initial'"
+gives "a run that adapts its steps and goes on" 0 eval 'run --method dop853 --tolerance 1e-9 --until 50 -o lands.h5 && "$motus" run lands.h5 --until 90 -q && "$motus" run lands.h5 --until 99 -q'
+gives "... is verified up to its first end" 0 "$motus" archive lands.h5 --verify all --json
+that "... and says how far" holds '.verified > 100 and .verified < .rows'
+gives "a block before the state is damaged" 0 $python -c "
+import h5py
+with h5py.File('told.h5') as f: at = f['run/t'].id.get_offset()
+with open('told.h5', 'r+b') as f: f.seek(at + 80); f.write(b'x')"
+gives "... motus archive says so" 0 "$motus" archive told.h5
+that "... and that it cannot go on" says "cannot go on with this file"
+refuses "... nor does it" 2 "no state with all the rows before it" "$motus" run told.h5 --until 600
+: >empty.h5
+refuses "an empty file" 2 "is empty" "$motus" archive empty.h5
+(trap - INT; exec "$motus" run drive.motus --error none --until 1e7 --every "1000 steps" --machine interpreter -o usr1.h5) >"$out" 2>"$err" &
+sleep 0.5
+kill -USR1 $!
+wait $! 2>/dev/null
+that "SIGUSR1 leaves a state, too" eval "says 'goes on' '$err'"
+
 # --- what else goes wrong ----------------------------------------------------------------------------------------------------------------
 mkdir bin
 printf '#!/bin/sh\nexit 3\n' >bin/gnuplot
