@@ -36,7 +36,7 @@ static void describe(sweeping *s, const char *name, const char *vary, const char
         add(s, process_motus());
     }
     add(s, "sweep"), add(s, "bench/swings.motus"), add(s, "--vary"), add(s, vary), add(s, "--until"), add(s, until);
-    add(s, "--record"), add(s, "final"), add(s, "--threads"), add(s, threads), add(s, "--force");
+    add(s, "--record"), add(s, "final"), add(s, "--threads"), add(s, threads);
     add(s, "-o"), add(s, s->output), add(s, "--json");
 }
 
@@ -54,6 +54,7 @@ static double told(const char *json, const char *name)
 static double by_sweep(void *context)
 {
     sweeping *s = context;
+    remove(s->output);
     const process run = process_run(s->words);
     if (run.status != 0) return NAN;
     const double computing = told(run.out, "computing");
