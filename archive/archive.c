@@ -44,15 +44,9 @@ static motus_status cannot(const char *what, const char *path, motus_error *err)
 
 static motus_status get(const motus_archive *a, void *out, size_t count, uint64_t place, motus_error *err)
 {
-    for (char *at = out; count > 0;) {
-        const ssize_t got = pread(a->descriptor, at, count, (off_t)place);
-        if (got < 0 && errno == EINTR) continue;
-        if (got < 0) return cannot("read", a->path, err);
-        if (got == 0)
-            return fail(err, MOTUS_STATE, "%s is truncated: it has fewer bytes than when it was opened", a->path);
-        at += got, place += (uint64_t)got, count -= (size_t)got;
-    }
-    return MOTUS_OK;
+    if (bytes_get(a->descriptor, out, count, place)) return MOTUS_OK;
+    if (errno) return cannot("read", a->path, err);
+    return fail(err, MOTUS_STATE, "%s is truncated: it has fewer bytes than when it was opened", a->path);
 }
 
 static motus_status put(const motus_archive *a, const void *bytes, size_t count, uint64_t place, motus_error *err)

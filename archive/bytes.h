@@ -6,6 +6,8 @@
 #include <stddef.h>
 #include <stdint.h>
 
+/* False with errno 0: the file ends before. */
+bool bytes_get(int descriptor, void *, size_t count, uint64_t place);
 bool bytes_put(int descriptor, const void *, size_t count, uint64_t place);
 /* Everything written is on the disk; where the file system cannot say so, that is left to it. */
 bool bytes_sync(int descriptor);

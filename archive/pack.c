@@ -5,12 +5,12 @@
 #define _XOPEN_SOURCE 700
 #include "archive/pack.h"
 
+#include "archive/bytes.h"
 #include "archive/make.h"
 #include "base/error.h"
 
 #include <stdlib.h>
 #include <string.h>
-#include <unistd.h>
 #include <zlib.h>
 
 enum { LEVEL = 6 };
@@ -133,16 +133,6 @@ int unpack_piece_2(const void *bytes, size_t size, uint64_t left_out, size_t wid
     return good;
 }
 
-static bool get(int descriptor, void *out, size_t count, uint64_t place)
-{
-    for (char *at = out; count > 0;) {
-        const ssize_t got = pread(descriptor, at, count, (off_t)place);
-        if (got <= 0) return false;
-        at += got, place += (uint64_t)got, count -= (size_t)got;
-    }
-    return true;
-}
-
 typedef struct checker {
     const motus_archive_def *d;
     int descriptor;
@@ -160,7 +150,7 @@ static motus_status same(checker *c, size_t column, uint64_t block, directory_pi
     size_t count;
     motus_archive_block(d->from, block, &first, &count);
     const motus_status status = read_rows(d, column, first, count, c->rows, err);
-    *yes = !status && p.size <= c->room && get(c->descriptor, c->packed, (size_t)p.size, p.place) &&
+    *yes = !status && p.size <= c->room && bytes_get(c->descriptor, c->packed, (size_t)p.size, p.place) &&
            unpack_piece_2(c->packed, (size_t)p.size, p.left_out, k.unit, c->unpacked, all) &&
            memcmp(c->unpacked, c->rows, count * k.width) == 0;
     return status;

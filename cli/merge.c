@@ -128,7 +128,7 @@ static motus_status write_head(const merge *m, file_out *out, motus_error *err)
 
 static motus_status write_rows(const merge *m, file_out *out, stop_progress *progress, motus_error *err)
 {
-    const uint64_t total = m->of[0]->total, blocks = (total - 1) / SHARD_BLOCK + 1, count = m->of[0]->shard.count;
+    const uint64_t total = m->of[0]->total, blocks = shard_blocks(total), count = m->of[0]->shard.count;
     motus_status status = MOTUS_OK;
     for (uint64_t b = 0; !status && b < blocks; b++) {
         status = part_copy(m->of[b % count], b, out, err);

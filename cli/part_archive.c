@@ -73,8 +73,6 @@ static char *whole_command(const char *command, const part *p)
     return out;
 }
 
-static int cancelled(void *context) { return (void)context, stop_requested(); }
-
 /* An archive with the columns and the notes of the first shard; `from`: NULL, or the one whose rows it has,
  * compressed. */
 static motus_status make(const part *p, const char *output, motus_archive *from, motus_error *err)
@@ -100,7 +98,7 @@ static motus_status make(const part *p, const char *output, motus_archive *from,
         kept[d.note_count++] = n;
     }
     d.rows = p->total, d.block = SHARD_BLOCK, d.columns = columns, d.notes = kept;
-    d.stop = cancelled;
+    d.stop = stop_asked;
     d.from = from;
     if (!status) status = motus_archive_create(output, &d, err);
     free(columns);

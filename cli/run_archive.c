@@ -75,8 +75,6 @@ static uint64_t expected_rows(const run_archive *a, bool *known)
 
 /* ---- the file ---- */
 
-static int cancelled(void *context) { return (void)context, stop_requested(); }
-
 /* `from`: NULL, or the archive whose rows the file has, compressed. */
 static motus_status create(const run_archive *a, const char *path, uint64_t rows, size_t slot, motus_archive *from,
                            motus_error *err)
@@ -94,7 +92,7 @@ static motus_status create(const run_archive *a, const char *path, uint64_t rows
     d.attributes = a->columns.attributes, d.attribute_count = a->columns.attribute_count;
     d.slot = slot;
     d.from = from;
-    d.stop = from ? cancelled : NULL; /* a run that is stopped makes its file the right size */
+    d.stop = from ? stop_asked : NULL; /* a run that is stopped makes its file the right size */
     return motus_archive_create(path, &d, err);
 }
 

@@ -56,6 +56,7 @@ void stop_catch_signals(void)
 }
 
 bool stop_requested(void) { return requested != 0; }
+int stop_asked(void *context) { return (void)context, stop_requested(); }
 
 void stop_reader_gone(void) { requested = SIGPIPE; }
 

@@ -8,6 +8,7 @@
  * that asks for it; before, while a model is read, they kill. */
 void stop_catch_signals(void);
 bool stop_requested(void);
+int stop_asked(void *); /* the same, as a hook of archives; NULL */
 /* From now on SIGTERM and SIGUSR1, by which batch systems warn, do not stop at once: stop_warned() tells of them, and
  * the program ends when what it has in hand is done. A second one kills. */
 void stop_gently(void);

@@ -86,8 +86,6 @@ bool sweep_archive_is(const motus_archive *a)
 
 static uint64_t number_of(void *s, uint64_t row) { return shard_trajectory(&((const sweep *)s)->shard, row); }
 
-static int stopped(void *s) { return (void)s, stop_requested(); }
-
 /* Whether a column of a row has words in place of numbers. */
 static bool has_words(const sweep *s, size_t k) { return k == sweep_ended(s) || k == s->columns - 1; }
 
@@ -158,7 +156,7 @@ static motus_status describe(description *d, const sweep *s, motus_error *err)
     d->def.rows = s->rows;
     d->def.block = SHARD_BLOCK;
     d->def.number = number_of;
-    d->def.stop = stopped;
+    d->def.stop = stop_asked;
     d->def.context = (void *)s;
     d->total[decimal_write_whole(s->grid.total, d->total)] = 0;
     d->seed[decimal_write_whole(s->grid.seed, d->seed)] = 0;
