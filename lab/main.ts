@@ -15,7 +15,7 @@ import { closer } from './shell/closer';
 import { early } from './shell/early';
 import { stage as makeStage } from './stage/stage';
 import { stagingOf } from './stage/staging';
-import { forgetful, recall, remember } from './shell/memory';
+import { forgetful, loadedAgain, recall, remember } from './shell/memory';
 import { data, exampleOf, loadData } from './data';
 import { place } from './dom';
 import { failed } from './failed';
@@ -87,7 +87,7 @@ async function start(): Promise<void> {
 
   /** On the first visit of this device the motion runs once by itself, unless somebody was quicker, or asked for less motion. */
   function gentle(): void {
-    if (touched || store.state.embed || recall('seen') !== null || matchMedia('(prefers-reduced-motion: reduce)').matches) return;
+    if (touched || store.state.embed || loadedAgain() || recall('seen') !== null || matchMedia('(prefers-reduced-motion: reduce)').matches) return;
     const hand = new AbortController(), { signal } = hand;
     for (const kind of ['pointerdown', 'keydown', 'wheel', 'touchstart']) document.addEventListener(kind, () => hand.abort(), { capture: true, passive: true, signal });
     window.setTimeout(() => {

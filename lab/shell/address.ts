@@ -6,7 +6,7 @@
 import { decode, encode, longest, presetState, type Presets } from '../share';
 import type { State } from '../scene';
 import type { LiveStore } from '../state';
-import { recall, remember } from './memory';
+import { loadedAgain, recall, remember } from './memory';
 import type { Toasts } from './toasts';
 
 const pause = 400;                        // milliseconds: browsers refuse addresses that change too often
@@ -51,10 +51,9 @@ export function followAddress(store: LiveStore, presets: Presets, toasts: Toasts
     try { if (address !== location.href) history[how](null, '', address); } catch { /* Some viewers forbid it; the memory holds it. */ }
   };
   if (!embed) store.subscribe(what => { if ((what === 'state' || what === 'view') && !timer) timer = window.setTimeout(write, pause); });
-  // The page that was opened without a state is one to come back to. One that is loaded again is the reader's own, and a browser under load may have
-  // lost what was stored just before; somebody else's address leaves the memory alone until the reader changes something.
-  const again = performance.getEntriesByType('navigation').some(entry => (entry as PerformanceNavigationTiming).type === 'reload');
-  if (!embed && (again || !location.hash.includes('='))) write();
+  // The page that was opened without a state is one to come back to. One that is loaded again is the reader's own; somebody else's address leaves the
+  // memory alone until the reader changes something.
+  if (!embed && (loadedAgain() || !location.hash.includes('='))) write();
   window.addEventListener('pagehide', () => { if (timer) write(); });
   window.addEventListener('hashchange', () => {
     if (!location.hash.includes('=')) { if (!embed) write(); return; }          // a place in the page, none of our addresses

@@ -17,3 +17,7 @@ export function forget(key: string): void {
   if (!kept) return;
   try { localStorage.removeItem(prefix + key); } catch { /* As above. */ }
 }
+/** Whether the reader loaded the page again: a browser under load may have lost what was stored just before, but it knows this. */
+export function loadedAgain(): boolean {
+  return performance.getEntriesByType('navigation').some(entry => (entry as PerformanceNavigationTiming).type === 'reload');
+}

@@ -44,7 +44,7 @@ await attempt('a ball that bounces', async () => {
   judge('… and its numbers', numbers.length === wanted.events.length && numbers.every((row, k) => Number(row[2]) === wanted.events[k].time && Number(row[3]) === wanted.events[k].count), JSON.stringify(numbers[0]));
 
   await events.getByRole('button', { name: /Go to bounce at t = 1\.7519/ }).click();
-  judge('a time in the table sets the clock', Math.abs(Number(await figureOf(page, 'Time').locator('.figure-moving').getAttribute('aria-valuenow')) - 1.751911727) < 1e-6 || await page.waitForFunction(() => Math.abs(Number(document.querySelector('#panels figure[data-title="Time"] .figure-moving')?.getAttribute('aria-valuenow')) - 1.751911727) < 1e-6, null, { timeout: 3000 }).then(() => true, () => false));
+  judge('a time in the table sets the clock', Math.abs(Number(await figureOf(page, 'Time').locator('.figure-moving').getAttribute('aria-valuenow')) - 1.751911727) < 1e-6 || await page.waitForFunction(() => Math.abs(Number(document.querySelector('#panels figure[data-title="Time"] .figure-moving')?.getAttribute('aria-valuenow')) - 1.751911727) < 1e-6, null, { timeout: 40000 }).then(() => true, () => false));
   const slow = (await saved(page, 'Time', 'SVG')).bytes.toString('utf8'), pieces = linesOf(slow, VERLET).filter((piece) => piece.length > 1 && piece.length < 60 && Math.abs(piece[0][1] - piece[piece.length - 1][1]) > 3);
   // Of the strip of the velocity, which only falls: down is more pixels.
   const velocity = pieces.filter((piece) => piece.every(([, y], i) => i === 0 || y >= piece[i - 1][1] - 0.01));

@@ -115,7 +115,7 @@ const answerOf = async (page, title) => {
   await closer(page, title);
   const answer = figureOf(page, title).locator('.figure-answer');
   // A sentence comes some frames after its figure; a figure that never gets one says so by its absence.
-  await answer.filter({ hasText: /\S/ }).waitFor({ state: 'attached', timeout: 5000 }).catch(() => {});
+  await answer.filter({ hasText: /\S/ }).waitFor({ state: 'attached', timeout: 10000 }).catch(() => {});
   return answer.textContent();
 };
 /** The energy at each row of a run of the program. */
@@ -223,7 +223,7 @@ await attempt('what has nothing to say is not there, and what is not seen costs 
   await example(page, 'spring');
   await closer(page);
   judge('the spring’s stage shows both: neither is there again', !(await there()).some((t) => t === 'Time' || t === 'Phase') && (await there()).includes('Energy'), (await there()).join());
-  const phaseIs = (hidden) => page.waitForFunction((wanted) => document.querySelector('figure[data-figure="phase"]').hidden === wanted, hidden, { timeout: 5000 }).then(() => true, () => false);
+  const phaseIs = (hidden) => page.waitForFunction((wanted) => document.querySelector('figure[data-figure="phase"]').hidden === wanted, hidden, { timeout: 40000 }).then(() => true, () => false);
   await page.setViewportSize({ width: 390, height: 844 });
   judge('a narrow stage has no room for the phase plane: it is a question below', await phaseIs(false));
   await page.setViewportSize({ width: 1280, height: 900 });

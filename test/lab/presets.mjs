@@ -61,7 +61,7 @@ for (const name of names) {
       await page.emulateMedia({ colorScheme: theme });
       await page.evaluate(() => scrollTo(0, 0));
       await page.waitForTimeout(150);
-      const fits = await page.waitForFunction(() => document.documentElement.scrollWidth <= innerWidth, null, { timeout: 3000 }).then(() => true, () => false);
+      const fits = await page.waitForFunction(() => document.documentElement.scrollWidth <= innerWidth, null, { timeout: 40000 }).then(() => true, () => false);
       judge(`${name}, ${width} px: the page does not scroll sideways`, fits, await page.evaluate(() => `${document.documentElement.scrollWidth} of ${innerWidth}`));
       await page.screenshot({ path: join(shots, `${name}-${theme}.png`) });
     }

@@ -210,7 +210,22 @@ await attempt('the first visit', async () => {
   await page.waitForFunction(() => { const t = Number(document.querySelector('.transport-now')?.textContent); return t > 0 && t < 1.9; });
   await page.waitForFunction(() => document.querySelector('.transport-now').textContent === '2.00');
   judge('it runs once by itself and ends where it began', true);
+  const seen = () => page.evaluate(() => localStorage.getItem('motus-lab-1:seen'));
+  same('… which the page remembers', await seen(), '1');
+  // Even a browser that lost what was stored knows that a page is loaded again.
+  await page.evaluate(() => localStorage.removeItem('motus-lab-1:seen'));
   await page.reload();
+  await settled(page);
+  await page.waitForTimeout(1200);
+  same('… and not when it is loaded again', await time(page), '2.00');
+  // A browser under load now and then hands the page of a file no memory at all: then the visit is repeated.
+  for (let visit = 0; visit < 8; visit++) {
+    await page.evaluate(() => localStorage.setItem('motus-lab-1:seen', '1'));
+    await page.waitForTimeout(300);
+    await page.goto('about:blank');
+    await page.goto(singleFile);
+    if (await seen() === '1') break;
+  }
   await settled(page);
   await page.waitForTimeout(1200);
   same('… and never again on this device', await time(page), '2.00');

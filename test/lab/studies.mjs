@@ -76,7 +76,7 @@ await attempt('spring', async () => {
   judge('spring: the line has moved', has((await drawn(page, 'Stability')).texts, 'here: 2.2'));
   await page.evaluate(() => { location.hash = '#v=1&p=spring&a=verlet&s=k=4'; });
   await settled(page, 600);
-  await page.waitForFunction(() => /^Below 1\u2009s for Verlet\.$/.test(document.querySelector('figure[data-title="Stability"] .figure-answer')?.textContent ?? ''), null, { timeout: 15000 }).catch(() => {});
+  await page.waitForFunction(() => /^Below 1\u2009s for Verlet\.$/.test(document.querySelector('figure[data-title="Stability"] .figure-answer')?.textContent ?? ''), null, { timeout: 40000 }).catch(() => {});
   same('spring: four times as stiff, half the step', await answerOf(page, 'Stability'), `Below 1${THIN}s for Verlet.`);
   await clean('spring', page);
 });
@@ -177,7 +177,7 @@ await attempt('a field', async () => {
   same('charged particle: Boris is not judged by a rate', await answerOf(page, 'Stability'), `Below ${digits(Math.sqrt(8) / 2, 3)} for RK4; no step is small enough for explicit Euler; for Boris no largest step can be given here.`);
   await page.evaluate(() => { location.hash = '#v=1&p=charged-particle&a=boris'; });
   await settled(page, 600);
-  await page.waitForFunction(() => /rotation/.test(document.querySelector('figure[data-title="Stability"] .figure-answer')?.textContent ?? ''), null, { timeout: 15000 }).catch(() => {});
+  await page.waitForFunction(() => /rotation/.test(document.querySelector('figure[data-title="Stability"] .figure-answer')?.textContent ?? ''), null, { timeout: 40000 }).catch(() => {});
   judge('charged particle: Boris alone is a sentence', /^Boris turns the velocity about the field by a rotation, which is stable at any step;/.test(await answerOf(page, 'Stability')) && await figureOf(page, 'Stability').locator('.figure-picture').isHidden());
   await clean('a field', page);
 });
@@ -193,7 +193,7 @@ await attempt('a dear study', async () => {
   await page.waitForFunction(() => /^Measure, /.test(document.querySelector('figure[data-title="Order"] .study button')?.textContent ?? '') && !document.querySelector('figure[data-title="Order"] .study').hidden, null, { timeout: 60000 });
   judge('dear: the button says what it will take', /^Measure, (more than 2\u2009s|about \d+(\.\d)?\u2009s)$/.test(await button.textContent()), await button.textContent());
   await button.click();
-  await page.waitForFunction(() => document.querySelector('figure[data-title="Order"] .study button')?.textContent === 'Cancel', null, { timeout: 15000 });
+  await page.waitForFunction(() => document.querySelector('figure[data-title="Order"] .study button')?.textContent === 'Cancel', null, { timeout: 40000 });
   await button.click();
   judge('dear: it can be called off', /^Measure, /.test(await button.textContent()) && await figure.locator('.figure-message').textContent() === 'Cancelled.');
   await clean('a dear study', page);
