@@ -7,6 +7,7 @@
 #include "archive/bytes.h"
 #include "archive/directory.h"
 #include "archive/make.h"
+#include "base/disk.h"
 #include "base/error.h"
 
 #include <errno.h>
@@ -271,9 +272,9 @@ motus_status motus_archive_write(motus_archive *a, uint64_t block, const void *c
 motus_status motus_archive_sync(motus_archive *a, motus_error *err)
 {
     /* When it is made its name is not waited for, since a disk would first write all that fills the columns. */
-    if (!a->named) bytes_sync_name(a->path);
+    if (!a->named) disk_sync_name(a->path);
     a->named = true;
-    return bytes_sync(a->descriptor) ? MOTUS_OK : cannot("write", a->path, err);
+    return disk_sync(a->descriptor) ? MOTUS_OK : cannot("write", a->path, err);
 }
 
 motus_status motus_archive_written(motus_archive *a, uint64_t block, int *written, motus_error *err)

@@ -3,9 +3,6 @@
 #include "archive/bytes.h"
 
 #include <errno.h>
-#include <fcntl.h>
-#include <stdlib.h>
-#include <string.h>
 #include <unistd.h>
 
 bool bytes_get(int descriptor, void *bytes, size_t count, uint64_t place)
@@ -29,22 +26,4 @@ bool bytes_put(int descriptor, const void *bytes, size_t count, uint64_t place)
         at += done, place += (uint64_t)done, count -= (size_t)done;
     }
     return true;
-}
-
-/* A real failure to write reports EIO, ENOSPC or EDQUOT. */
-bool bytes_sync(int descriptor)
-{
-    return fsync(descriptor) == 0 || errno == EINVAL || errno == ENOTSUP || errno == EINTR;
-}
-
-void bytes_sync_name(const char *path)
-{
-    char *folder = realpath(path, NULL), *slash = folder ? strrchr(folder, '/') : NULL; /* where a link leads */
-    if (slash) slash[1] = 0;
-    const int descriptor = folder ? open(slash ? folder : ".", O_RDONLY | O_CLOEXEC) : -1;
-    if (descriptor >= 0) {
-        (void)fsync(descriptor);
-        close(descriptor);
-    }
-    free(folder);
 }

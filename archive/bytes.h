@@ -9,9 +9,5 @@
 /* False with errno 0: the file ends before. */
 bool bytes_get(int descriptor, void *, size_t count, uint64_t place);
 bool bytes_put(int descriptor, const void *, size_t count, uint64_t place);
-/* Everything written is on the disk; where the file system cannot say so, that is left to it. */
-bool bytes_sync(int descriptor);
-/* Likewise the name of a file. */
-void bytes_sync_name(const char *path);
 
 #endif

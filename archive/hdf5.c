@@ -10,6 +10,7 @@
 #include "archive/directory.h"
 #include "archive/make.h"
 #include "archive/pack.h"
+#include "base/disk.h"
 #include "base/error.h"
 
 #include <errno.h>
@@ -481,7 +482,7 @@ static motus_status put_missing(const maker *m, int descriptor)
     motus_status status = take_room(m, descriptor);
     if (!status) status = put_rest(m, descriptor);
     /* Not what fills the columns: blocks are soon written over it, and a disk would have both. */
-    if (!status && !bytes_sync(descriptor))
+    if (!status && !disk_sync(descriptor))
         status = fail(m->err, MOTUS_FILE, "cannot write %s: %s", m->path, strerror(errno));
     return status ? status : fill(m, descriptor);
 }
@@ -495,7 +496,7 @@ static motus_status put_hashes(const maker *m, int descriptor, size_t size)
     if (!status) status = put(m, descriptor, m->pieces, (d->column_count + 1) * blocks * sizeof *m->pieces, at[1]);
     if (!status) status = archive_copy(d->from, 0, descriptor, m->places[1], m->err);
     if (!status && d->slot) status = archive_copy(d->from, 1, descriptor, at[0], m->err);
-    if (!status && !bytes_sync(descriptor))
+    if (!status && !disk_sync(descriptor))
         status = fail(m->err, MOTUS_FILE, "cannot write %s: %s", m->path, strerror(errno));
     return status;
 }
@@ -520,7 +521,6 @@ static motus_status by_us(const maker *m, const char *path, size_t size)
 
 motus_status make_hdf5_2(const char *path, const motus_archive_def *d, motus_error *err)
 {
-    static const char new[] = ".new";
     size_t size = 0;
     motus_status status;
     maker m = {.def = d,
@@ -528,13 +528,11 @@ motus_status make_hdf5_2(const char *path, const motus_archive_def *d, motus_err
                .err = err,
                .file = H5I_INVALID_HID,
                .places = calloc(4 + d->column_count, sizeof *m.places)};
-    char *where = realpath(path, NULL); /* where a link leads; NULL: there is nothing yet */
-    const char *name = where ? where : path;
-    char *text = directory_write(d, NULL, &size), *beside = malloc(strlen(name) + sizeof new);
+    char *name = disk_real(path), *beside = name ? disk_beside(name, ".new") : NULL;
+    char *text = directory_write(d, NULL, &size);
     if (!m.places || !text || !beside) {
         status = fail(err, MOTUS_MEMORY, "no memory to make %s", path);
     } else {
-        strcat(strcpy(beside, name), new);
         struct stat about; /* a file that is replaced leaves its permissions */
         const bool there = stat(name, &about) == 0;
         status = by_hdf5(&m, beside, size);
@@ -545,7 +543,7 @@ motus_status make_hdf5_2(const char *path, const motus_archive_def *d, motus_err
         if (status && m.file >= 0) unlink(beside);
     }
     free(beside);
-    free(where);
+    free(name);
     free(text);
     free(m.places);
     free(m.pieces);

@@ -9,6 +9,7 @@
 #endif
 #include "cli/file.h"
 
+#include "base/disk.h"
 #include "base/error.h"
 #include "cli/complain.h"
 #include "cli/stop.h"
@@ -237,28 +238,10 @@ motus_status file_finish(file_out *f, motus_error *err)
 {
     if (!f->stream) return MOTUS_OK;
     if (f->code == 0 && (fflush(f->stream) != 0 || ferror(f->stream))) f->code = errno ? errno : EIO;
-    /* not every file system can synchronise; a real failure to write reports EIO, ENOSPC or EDQUOT */
-    if (f->code == 0 && !f->direct && fsync(fileno(f->stream)) != 0 && errno != EINVAL && errno != ENOTSUP &&
-        errno != EINTR)
-        f->code = errno;
+    if (f->code == 0 && !f->direct && !disk_sync(fileno(f->stream))) f->code = errno;
     if (f->stream != stdout && fclose(f->stream) != 0 && f->code == 0) f->code = errno;
     f->stream = NULL;
     return f->code ? cannot_write(f, err) : MOTUS_OK;
-}
-
-/* Makes the rename survive a power cut; a folder that cannot be opened is not synchronised. */
-void file_synchronise_folder(const char *path)
-{
-    char *folder = strdup(path);
-    if (!folder) return;
-    char *slash = strrchr(folder, '/');
-    if (slash) slash[1] = 0;
-    int fd = open(slash ? folder : ".", O_RDONLY | O_CLOEXEC);
-    if (fd >= 0) {
-        (void)fsync(fd);
-        close(fd);
-    }
-    free(folder);
 }
 
 /* Gives a file without a name f->path or, where a file has that name, one that is free, to be renamed. False: errno
@@ -295,15 +278,14 @@ motus_status file_keep(file_out *f, motus_error *err)
         f->code = errno;
         return cannot_write(f, err);
     }
-    if (nameless && !f->temporary) file_synchronise_folder(f->path);
+    if (nameless && !f->temporary) disk_sync_name(f->path);
     if (!f->temporary) return MOTUS_OK;
-    if (rename(f->temporary, f->path) != 0) {
+    if (!disk_replace(f->temporary, f->path)) {
         f->code = errno;
         return cannot_write(f, err);
     }
     free(f->temporary);
     f->temporary = NULL;
-    file_synchronise_folder(f->path);
     return MOTUS_OK;
 }
 

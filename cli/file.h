@@ -35,8 +35,6 @@ motus_status file_text(file_out *, const char *, motus_error *);
 motus_status file_finish(file_out *, motus_error *);
 /* Gives the file its name, atomically. */
 motus_status file_keep(file_out *, motus_error *);
-/* So that a file keeps its new name after a power cut. */
-void file_synchronise_folder(const char *path);
 /* Removes a file that was not kept, and frees. Call in any case. */
 void file_drop(file_out *);
 

@@ -4,6 +4,7 @@
  * the first shard without the shard, and the blocks of all.
  */
 #include "base/decimal.h"
+#include "base/disk.h"
 #include "base/error.h"
 #include "cli/block_room.h"
 #include "cli/complain.h"
@@ -150,20 +151,17 @@ static motus_status copy(joining *j, const part *p, motus_error *err)
 motus_status part_archive_join(part *const *of, const char *output, uint64_t *missing, bool compress,
                                stop_progress *progress, motus_error *err)
 {
-    static const char ending[] = ".joined"; /* it has its name when all blocks are there */
     joining j = {.partial = missing, .progress = progress};
     size_t some = 0;
     while (!of[some]) some++; /* one at least is there */
     const uint64_t count = of[some]->shard.count;
-    char *where = realpath(output, NULL); /* where a link leads; NULL: there is nothing yet */
-    const char *name = where ? where : output;
-    char *beside = malloc(strlen(name) + sizeof ending);
+    /* It has its name when all blocks are there. */
+    char *name = disk_real(output), *beside = name ? disk_beside(name, ARCHIVE_JOINED) : NULL;
     motus_status status = beside ? MOTUS_OK : complain_memory(err);
     struct stat about;
-    const bool there = stat(name, &about) == 0;
+    const bool there = name && stat(name, &about) == 0;
     int lock = -1; /* of the file that is replaced, which is made empty where there is none */
     bool regular = true;
-    if (beside) strcat(strcpy(beside, name), ending);
     if (!status) status = sweep_file_lock(name, &lock, &regular, err);
     const bool locked = !status;
     if (!status) status = make(of[some], beside, NULL, err);
@@ -176,14 +174,13 @@ motus_status part_archive_join(part *const *of, const char *output, uint64_t *mi
     if (!status) status = motus_archive_sync(j.to, err);
     if (!status && compress) status = make(of[some], beside, j.to, err);
     motus_archive_close(j.to);
-    if (!status && rename(beside, name) != 0)
+    if (!status && !disk_replace(beside, name))
         status = fail(err, MOTUS_FILE, "cannot write %s: %s", output, strerror(errno));
-    if (!status) file_synchronise_folder(name);
     if (status && made) remove(beside);
     if (status && locked && !there) remove(name);
     if (lock >= 0) close(lock);
     block_room_free(&j.room);
     free(beside);
-    free(where);
+    free(name);
     return status;
 }

@@ -9,6 +9,7 @@
 #include "cli/run_archive.h"
 
 #include "base/decimal.h"
+#include "base/disk.h"
 #include "base/error.h"
 #include "cli/complain.h"
 #include "cli/run_again.h"
@@ -132,16 +133,6 @@ static motus_status put_state(motus_archive *from, motus_archive *to, const char
     return status;
 }
 
-static char *beside(const char *name, const char *ending)
-{
-    char *out = malloc(strlen(name) + strlen(ending) + 1);
-    if (out) strcat(strcpy(out, name), ending);
-    return out;
-}
-
-/* The first ends as the names of archives do: by that the lock is known. */
-static const char grown[] = ".grown.h5", grown_new[] = ".grown.h5.new", compressed[] = ".new";
-
 /* Puts another file in the place of the one that is locked: with the complete blocks of `from`, which may be that one
  * (NULL: none), the state of these bytes (NULL: the latest of `from`), and room for so many rows. It is locked before
  * it has its name. */
@@ -151,9 +142,7 @@ static motus_status replace(run_archive *a, motus_archive *from, uint64_t rows, 
     motus_archive *to = NULL;
     struct stat about;
     int descriptor = -1;
-    char *where = realpath(a->path, NULL); /* where a link leads */
-    const char *name = where ? where : a->path;
-    char *path = beside(name, grown);
+    char *name = disk_real(a->path), *path = name ? disk_beside(name, ARCHIVE_GROWN) : NULL;
     motus_status status = path ? create(a, path, rows, slot, NULL, err) : complain_memory(err);
     const bool made = !status;
     if (!status && stat(name, &about) == 0) (void)chmod(path, about.st_mode & 07777);
@@ -162,10 +151,9 @@ static motus_status replace(run_archive *a, motus_archive *from, uint64_t rows, 
     if (!status) status = put_state(from, to, state, length, err);
     if (!status) status = motus_archive_sync(to, err);
     if (!status) status = lock(path, &descriptor, err);
-    if (!status && rename(path, name) != 0)
+    if (!status && !disk_replace(path, name))
         status = fail(err, MOTUS_FILE, "cannot write %s: %s", a->path, strerror(errno));
     if (!status) {
-        file_synchronise_folder(name);
         motus_archive_close(a->file);
         close(a->descriptor);
         a->file = to;
@@ -178,21 +166,8 @@ static motus_status replace(run_archive *a, motus_archive *from, uint64_t rows, 
         if (made) remove(path);
     }
     free(path);
-    free(where);
+    free(name);
     return status;
-}
-
-/* What a killed program has left beside the file, which is locked. */
-static void remove_remains(const run_archive *a)
-{
-    char *where = realpath(a->path, NULL);
-    const char *const endings[] = {grown, grown_new, compressed};
-    for (int k = 0; where && k < 3; k++) {
-        char *path = beside(where, endings[k]);
-        if (path) remove(path);
-        free(path);
-    }
-    free(where);
 }
 
 /* ---- rows ---- */
@@ -353,14 +328,6 @@ static motus_status make_rooms(run_archive *a, motus_error *err)
     return a->rooms ? MOTUS_OK : complain_memory(err);
 }
 
-static motus_status another(const char *path, motus_archive *file, motus_error *err)
-{
-    const char *command = motus_archive_note_of(file, "command");
-    fail(err, MOTUS_STATE, "%s was made by another run", path);
-    hint(err, command ? "it was made by: %.300s" : "--force replaces it%s", command ? command : "");
-    return MOTUS_STATE;
-}
-
 /* Whether the file has the columns of this run in blocks of the same size. */
 static bool fits(const run_archive *a, motus_archive *file)
 {
@@ -369,12 +336,6 @@ static bool fits(const run_archive *a, motus_archive *file)
     const uint64_t rows = motus_archive_rows(file);
     motus_archive_block(file, 0, &first, &count);
     return run_columns_fit(&a->columns, file) && count == (rows < a->block ? rows : a->block);
-}
-
-static bool says(motus_archive *file, const char *name, const char *text)
-{
-    const char *its = motus_archive_note_of(file, name);
-    return its && strcmp(its, text) == 0;
 }
 
 /* A file that another version has begun goes on if its first rows have the bits that this one computes. */
@@ -409,9 +370,9 @@ static motus_status open_source(run_archive *a, const char *path, bool same, mot
     motus_status status = motus_archive_open(path, 0, from, err);
     if (status) return status;
     const char *version = motus_archive_note_of(*from, "motus");
-    if (!version || !fits(a, *from)) return another(path, *from, err);
+    if (!version || !fits(a, *from)) return sweep_archive_another(*from, path, "run", err);
     run_command_fingerprint(version, a->of.model->text, a->command, print);
-    if (same && !says(*from, "fingerprint", print)) return another(path, *from, err);
+    if (same && !sweep_archive_says(*from, "fingerprint", print)) return sweep_archive_another(*from, path, "run", err);
     if (strcmp(version, motus_version()) != 0) status = compare_versions(a, path, *from, version, err);
     for (int back = 0; !status && !found && back < 2; back++) status = take_state(a, *from, back, &found, err);
     if (status || found) return status;
@@ -428,7 +389,7 @@ static void note_first_end(run_archive *a, motus_archive *source)
     const char *its = motus_archive_note_of(source, RUN_FIRST_END);
     if (its && strlen(its) < sizeof a->first_end)
         strcpy(a->first_end, its);
-    else if (motus_run_steps_total(a->of.run) == 0 && !says(source, "command", a->command))
+    else if (motus_run_steps_total(a->of.run) == 0 && !sweep_archive_says(source, "command", a->command))
         snprintf(a->first_end, sizeof a->first_end, "%s %" PRIu64, decimal(motus_run_time(a->of.run), time), a->rows);
 }
 
@@ -437,7 +398,7 @@ static motus_status go_on(run_archive *a, motus_archive *source, bool own, motus
 {
     bool known;
     const uint64_t capacity = expected_rows(a, &known);
-    const bool stays = own && says(source, "command", a->command) && !motus_archive_compressed(source);
+    const bool stays = own && sweep_archive_says(source, "command", a->command) && !motus_archive_compressed(source);
     if (!motus_archive_makes() && !(stays && known && capacity == motus_archive_rows(source))) {
         fail(err, MOTUS_UNAVAILABLE, "%s: the file would have to be made anew, which needs HDF5", a->path);
         hint(err, "install HDF5, and build motus where libhdf5-dev is installed");
@@ -476,7 +437,7 @@ static motus_status begin(run_archive *a, motus_error *err)
         hint(err, "write CSV; or install HDF5, and build motus where libhdf5-dev is installed");
         return MOTUS_UNAVAILABLE;
     }
-    remove_remains(a);
+    sweep_archive_tidy(a->path);
     const bool same = !a->made && o->resume;
     if (same) from = a->path; /* what was begun there goes on */
     status = write_state(a, 0, true, &bytes, &length, &a->first_slot, err);

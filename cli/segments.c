@@ -2,6 +2,7 @@
 #define _XOPEN_SOURCE 700
 #include "cli/segments.h"
 
+#include "base/disk.h"
 #include "base/error.h"
 #include "cli/command.h"
 #include "cli/complain.h"
@@ -37,17 +38,11 @@ struct segments {
 };
 
 #define END "# end of block "
+#define FOLDER ".segments"
 
 static motus_status cannot(const char *what, const char *path, motus_error *err)
 {
     return fail(err, MOTUS_FILE, "cannot %s %s: %s", what, path, strerror(errno ? errno : EIO));
-}
-
-static char *folder_of(const char *table)
-{
-    char *folder = malloc(strlen(table) + sizeof ".segments");
-    if (folder) sprintf(folder, "%s.segments", table);
-    return folder;
 }
 
 motus_status segments_make(segments **out, const char *table, const char *head,
@@ -57,7 +52,7 @@ motus_status segments_make(segments **out, const char *table, const char *head,
     if (!s) return complain_memory(err);
     s->table = table, s->head = head, s->same = same, s->blocks = blocks, s->first = first;
     s->hash = COMMAND_HASH;
-    s->folder = folder_of(table);
+    s->folder = disk_beside(table, FOLDER);
     return s->folder ? MOTUS_OK : complain_memory(err);
 }
 
@@ -95,7 +90,7 @@ static bool is_segment(const char *name)
 
 bool segments_there(const char *table)
 {
-    char *name = folder_of(table);
+    char *name = disk_beside(table, FOLDER);
     DIR *folder = name ? opendir(name) : NULL;
     bool there = name && !folder && errno != ENOENT; /* a file of this name is in the way */
     for (const struct dirent *entry; folder && (entry = readdir(folder));) there = there || is_segment(entry->d_name);
@@ -250,8 +245,7 @@ motus_status segments_finish(segments *s, motus_error *err)
     FILE *own = s->own;
     if (!own) return MOTUS_OK;
     s->own = NULL;
-    const int failed =
-        fflush(own) != 0 || (fsync(fileno(own)) != 0 && errno != EINVAL && errno != ENOTSUP && errno != EINTR);
+    const bool failed = fflush(own) != 0 || !disk_sync(fileno(own));
     const int code = failed ? errno : 0;
     if (fclose(own) == 0 && !code) return MOTUS_OK;
     if (code) errno = code;

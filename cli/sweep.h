@@ -151,6 +151,17 @@ typedef struct motus_archive motus_archive;
 bool sweep_archive_name(const char *path);
 /* Whether an input has the name of a file that is made on the way to this archive. */
 bool sweep_archive_replaces(const char *archive, const char *input);
+/* Whether a note of the archive is this text; NULL: whether it has no such note. */
+bool sweep_archive_says(const motus_archive *, const char *name, const char *text);
+/* Complains of an archive of another sweep or run (`what`), and says which command made it. */
+motus_status sweep_archive_another(motus_archive *, const char *path, const char *what, motus_error *);
+/* Removes what a killed program left beside an archive, which this program has locked. */
+void sweep_archive_tidy(const char *archive);
+/* The endings of such files: the rows of shards that are being joined, those of a run that needs more room. The latter
+ * ends as the names of archives do, since it is locked before it replaces one. Making one of these, and compressing an
+ * archive, goes by way of ".new". */
+#define ARCHIVE_JOINED ".joined"
+#define ARCHIVE_GROWN ".grown.h5"
 /* MOTUS_STATE: the numbers of a block's rows are not those of its trajectories, or of a run's rows. */
 motus_status sweep_archive_numbers(motus_archive *, const char *path, uint64_t block, motus_error *);
 /* Whether the archive is that of a sweep, by its columns: one number or word in a row, at last when and why a

@@ -5,6 +5,7 @@
  * computed of it. A block is written when its last row is there.
  */
 #include "base/decimal.h"
+#include "base/disk.h"
 #include "base/error.h"
 #include "cli/block_room.h"
 #include "cli/comments.h"
@@ -38,13 +39,29 @@ bool sweep_archive_name(const char *path)
 
 bool sweep_archive_replaces(const char *archive, const char *input)
 {
-    static const char *const endings[] = {".new", ".joined", ".joined.new", ".grown.h5", ".grown.h5.new"};
+    static const char *const endings[] = {".new", ARCHIVE_JOINED, ARCHIVE_JOINED ".new", ARCHIVE_GROWN,
+                                          ARCHIVE_GROWN ".new"};
     bool same = false;
-    char *name = malloc(strlen(archive) + 32);
-    for (size_t k = 0; name && !same && k < sizeof endings / sizeof *endings; k++)
-        same = file_same(strcat(strcpy(name, archive), endings[k]), input);
+    char *name = disk_real(archive);
+    for (size_t k = 0; name && !same && k < sizeof endings / sizeof *endings; k++) {
+        char *beside = disk_beside(name, endings[k]);
+        same = beside && file_same(beside, input);
+        free(beside);
+    }
     free(name);
     return same;
+}
+
+void sweep_archive_tidy(const char *archive)
+{
+    static const char *const endings[] = {".new", ARCHIVE_GROWN, ARCHIVE_GROWN ".new"};
+    char *name = disk_real(archive);
+    for (size_t k = 0; name && k < sizeof endings / sizeof *endings; k++) {
+        char *beside = disk_beside(name, endings[k]);
+        if (beside) remove(beside);
+        free(beside);
+    }
+    free(name);
 }
 
 motus_status sweep_archive_numbers(motus_archive *a, const char *path, uint64_t block, motus_error *err)
@@ -184,15 +201,15 @@ static void description_free(description *d)
 
 /* ---- a file that is there ---- */
 
-static motus_status another(const sweep_file *f, motus_error *err)
+motus_status sweep_archive_another(motus_archive *file, const char *path, const char *what, motus_error *err)
 {
-    const char *command = motus_archive_note_of(f->archive->file, "command");
-    fail(err, MOTUS_STATE, "%s was made by another sweep", f->path);
+    const char *command = motus_archive_note_of(file, "command");
+    fail(err, MOTUS_STATE, "%s was made by another %s", path, what);
     hint(err, command ? "it was made by: %.300s" : "--force replaces it%s", command ? command : "");
     return MOTUS_STATE;
 }
 
-static bool says(const motus_archive *file, const char *name, const char *text)
+bool sweep_archive_says(const motus_archive *file, const char *name, const char *text)
 {
     const char *its = motus_archive_note_of(file, name);
     return its ? text && strcmp(its, text) == 0 : !text;
@@ -205,8 +222,8 @@ static bool same_sweep(const sweep_file *f, const description *d, const char *ve
     const sweep *s = f->sweep;
     motus_archive *file = f->archive->file;
     bool same = sweep_archive_is(file) && motus_archive_rows(file) == s->rows && version &&
-                says(file, "fingerprint", sweep_head_fingerprint(s, version, print)) &&
-                says(file, "shard", shard_whole(&s->shard) ? NULL : shard_text(&s->shard, part)) &&
+                sweep_archive_says(file, "fingerprint", sweep_head_fingerprint(s, version, print)) &&
+                sweep_archive_says(file, "shard", shard_whole(&s->shard) ? NULL : shard_text(&s->shard, part)) &&
                 motus_archive_column_count(file) == d->def.column_count;
     for (size_t k = 0; same && k < d->def.column_count; k++) {
         motus_archive_column c;
@@ -265,7 +282,7 @@ static motus_status compare_versions(const sweep_file *f, const char *version, m
 static motus_status compare(const sweep_file *f, const description *d, motus_error *err)
 {
     const char *version = motus_archive_note_of(f->archive->file, "motus");
-    if (!same_sweep(f, d, version)) return another(f, err);
+    if (!same_sweep(f, d, version)) return sweep_archive_another(f->archive->file, f->path, "sweep", err);
     if (strcmp(version, motus_version()) == 0 || !team_first(f->sweep->options->team)) return MOTUS_OK;
     return compare_versions(f, version, err);
 }
@@ -353,15 +370,6 @@ static void move(sweep_file *f)
     f->rows = a->next < a->end ? a->missing[a->next] * SHARD_BLOCK : f->sweep->rows;
 }
 
-/* What a program that was killed while it compressed has left beside the file, which is locked. */
-static void remove_remains(const sweep_file *f)
-{
-    char *where = realpath(f->path, NULL), *path = where ? malloc(strlen(where) + sizeof ".new") : NULL;
-    if (path) remove(strcat(strcpy(path, where), ".new"));
-    free(path);
-    free(where);
-}
-
 motus_status sweep_archive_open(sweep_file *f, bool found, motus_error *err)
 {
     description d;
@@ -369,7 +377,7 @@ motus_status sweep_archive_open(sweep_file *f, bool found, motus_error *err)
     sweep_archive *a = f->archive = calloc(1, sizeof *a);
     if (!a) return complain_memory(err);
     motus_status status = describe(&d, f->sweep, err);
-    if (!status && found && team_first(t)) remove_remains(f);
+    if (!status && found && team_first(t)) sweep_archive_tidy(f->path);
     if (!status && !found && team_first(t)) status = motus_archive_create(f->path, &d.def, err);
     if (!status) status = motus_archive_open(f->path, 1, &a->file, err);
     if (!status) status = compare(f, &d, err);

@@ -12,6 +12,7 @@
  */
 #define _XOPEN_SOURCE 700
 #include "base/decimal.h"
+#include "base/disk.h"
 #include "base/error.h"
 #include "cli/complain.h"
 #include "cli/event_file.h"
@@ -65,12 +66,8 @@ static motus_status cannot_write(const sweep_events *f, int code, motus_error *e
     return fail(err, MOTUS_FILE, "cannot write %s: %s", output ? "standard output" : f->path, strerror(code));
 }
 
-/* On the disk before anything that is written from now on; what a file system cannot synchronise is left to it. */
-static int synchronise(const sweep_events *f)
-{
-    const bool failed = fdatasync(f->descriptor) != 0;
-    return failed && (errno == EIO || errno == ENOSPC || errno == EDQUOT) ? errno : 0;
-}
+/* On the disk before anything that is written from now on. */
+static int synchronise(const sweep_events *f) { return disk_sync(f->descriptor) ? 0 : errno; }
 
 static int write_at(const sweep_events *f, uint64_t place, const char *text, size_t length)
 {

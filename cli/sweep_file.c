@@ -6,6 +6,7 @@
  */
 #define _XOPEN_SOURCE 700
 #define _DEFAULT_SOURCE
+#include "base/disk.h"
 #include "base/error.h"
 #include "cli/complain.h"
 #include "base/decimal.h"
@@ -30,12 +31,7 @@ bool sweep_npy_name(const char *path)
     return length > 4 && strcmp(path + length - 4, ".npy") == 0;
 }
 
-char *sweep_npy_beside(const char *path)
-{
-    char *beside = malloc(strlen(path) + sizeof ".json");
-    if (beside) sprintf(beside, "%s.json", path);
-    return beside;
-}
+char *sweep_npy_beside(const char *path) { return disk_beside(path, ".json"); }
 
 motus_status sweep_file_may_write(const options *o, const char *path, motus_error *err)
 {
@@ -396,9 +392,7 @@ motus_status sweep_file_rows(sweep_file *f, size_t count, const sweep_rows *give
 motus_status sweep_file_finish(sweep_file *f, motus_error *err)
 {
     if (f->archive) return sweep_archive_finish(f, err);
-    /* not every file system can synchronise; a real failure to write reports EIO, ENOSPC or EDQUOT */
-    if (f->regular && fsync(f->descriptor) != 0 && errno != EINVAL && errno != ENOTSUP && errno != EINTR)
-        return cannot_write(f, errno, err);
+    if (f->regular && !disk_sync(f->descriptor)) return cannot_write(f, errno, err);
     int descriptor = f->descriptor;
     f->descriptor = -1;
     return descriptor > STDERR_FILENO && close(descriptor) != 0 ? cannot_write(f, errno, err) : MOTUS_OK;
