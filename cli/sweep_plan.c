@@ -61,20 +61,22 @@ static motus_status one(plan *p, size_t k, double *seconds, motus_error *err)
     return status;
 }
 
-/* Interpreter and compiled machine differ in their pace, and the sweep soon has the latter. Pieces become as large as
- * the batches of the sweep. */
+/* Interpreter and compiled machine differ in their pace, and the sweep soon has the latter, unless it is over before:
+ * then nothing may be compiled at all. Pieces become as large as the batches of the sweep. */
 static motus_status warm_up(plan *p, motus_error *err)
 {
     motus_status status = MOTUS_OK;
     const uint64_t rows = p->sweep->rows;
     const double began = stop_clock();
     bool grows = true;
-    for (size_t k = 0; !status && (grows || waits_for_compiler(p->sweep)) && stop_clock() - began < WARM_S; k++) {
-        double seconds;
+    double seconds, most = WARM_S;
+    for (size_t k = 0; !status && (grows || (waits_for_compiler(p->sweep) && stop_clock() - began < most)); k++) {
         p->piece = p->batch.count < rows ? p->batch.count : (size_t)rows;
         status = one(p, k, &seconds, err);
         sweep_batch_adapt(&p->batch, p->sweep, seconds);
-        grows = p->piece < rows && p->batch.count > p->piece + p->piece / 2;
+        const double all = seconds * (double)rows / (double)p->piece;
+        most = all < WARM_S ? all : WARM_S;
+        grows = p->piece < rows && p->batch.count > p->piece + p->piece / 2 && stop_clock() - began < WARM_S;
         if (!status && stop_requested()) status = fail(err, MOTUS_CANCELLED, "cancelled");
     }
     return status;

@@ -28,7 +28,7 @@ if ! $python -c 'import h5py' 2>/dev/null; then
 fi
 whole=$(sum "$place/whole.h5")
 # ... and with a table of events, of every second job
-events=(--when "x = 0: record" --events)
+events=(--until 20 --when "x = 0: record" --events)
 "$motus" "${words[@]}" "${events[@]}" "$place/whole.csv" -o "$place/told.h5"
 told=$(sum "$place/told.h5")
 blocks=30 ranks=$([ -x "$mpi" ] && command -v mpirun >/dev/null && echo 4 || echo 0)

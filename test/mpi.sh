@@ -49,7 +49,7 @@ gives "... and by ranks" 0 ranks 3 "${unequal[@]}" -o "$place/unequal3.h5" --qui
 that "... the same bytes" [ "$(sum "$place/unequal3.h5")" = "$(sum "$place/unequal1.h5")" ]
 
 # ... and events, which ranks write to segments
-hits=("${words[@]}" --when "x = 0: record")
+hits=(sweep "$swing" --vary "x(0)=0.1:3:30000" --record "final,max(energy)" --until 20 --when "x = 0: record")
 gives "a table of rows and one of events, by motus" 0 "$motus" "${hits[@]}" -o "$place/hits.csv" --events "$place/hits0.csv" --quiet
 gives "an archive and a table of events, by motus" 0 "$motus" "${hits[@]}" -o "$place/hits1.h5" --events "$place/hits1.csv" --quiet
 that "... the same events" cmp "$place/hits0.csv" "$place/hits1.csv"
