@@ -214,6 +214,8 @@ wait $job
 that "... and the first one has all events" cmp "$place/both.csv" "$place/further.csv"
 gives "an input with the name that an archive has until it is made" 0 cp "$swing" "$place/own.h5.new"
 refuses "... is not overwritten" 2 "would be overwritten" "$motus" sweep "$place/own.h5.new" --vary k=1,2 -o "$place/own.h5"
+gives "such an input beside an archive to which a link leads" 0 eval 'cp "$place/turn.h5" "$place/own.h5" && ln -s own.h5 "$place/lead.h5"'
+refuses "... is not overwritten, either" 2 "would be overwritten" "$motus" sweep "$place/own.h5.new" --vary k=1,2 -o "$place/lead.h5" --force
 gives "the number of a trajectory is changed" 0 $python -c "
 import h5py, sys
 with h5py.File(sys.argv[1]) as f: at = f['sweep/trajectory'].id.get_offset()
