@@ -24,7 +24,8 @@ typedef struct contents {
     const options *options;
     motus_archive *file;
     uint64_t blocks, missing, first_missing;
-    uint64_t *whole; /* the others */
+    uint64_t damaged; /* of those missing: they have a hash, but not that of their bytes */
+    uint64_t *whole;  /* the others */
     size_t columns;
     bool run; /* it is that of a run, not of a sweep */
     archive_verified verified;
@@ -42,11 +43,14 @@ static motus_status find_blocks(contents *c, stop_progress *progress, motus_erro
     c->whole = calloc((size_t)c->blocks + 1, sizeof *c->whole);
     motus_status status = c->whole ? MOTUS_OK : complain_memory(err);
     for (uint64_t b = 0; !status && b < c->blocks; b++) {
-        int whole;
-        status = motus_archive_whole(c->file, b, &whole, err);
+        int written, whole;
+        /* In this order, since another program may be writing it: a block has its hash last. */
+        status = motus_archive_written(c->file, b, &written, err);
+        if (!status) status = motus_archive_whole(c->file, b, &whole, err);
         if (!status) status = sweep_archive_numbers(c->file, c->options->operand, b, err);
         if (!status && whole) c->whole[b - c->missing] = b;
         if (!status && !whole && c->missing++ == 0) c->first_missing = b;
+        if (!status && !whole && written) c->damaged++;
         if (!status && stop_progress_hook(progress, (double)b / (double)c->blocks))
             status = fail(err, MOTUS_CANCELLED, "cancelled");
     }
@@ -157,12 +161,18 @@ static motus_status check_sweep(const contents *c, motus_error *err)
     return fail(err, MOTUS_STATE, "%s is not the archive of a sweep", c->options->operand);
 }
 
+/* By which option the file's own command computes what is missing. */
+static const char *again(const contents *c)
+{
+    if (motus_archive_compressed(c->file)) return "--force --compress";
+    return !c->run || archive_run_goes_on(c->file, c->missing, c->first_missing) ? "--resume" : "--force";
+}
+
 static motus_status incomplete(const contents *c, motus_error *err)
 {
     fail(err, MOTUS_STATE, "%" PRIu64 " of %" PRIu64 " blocks of %s are missing or damaged", c->missing, c->blocks,
          c->options->operand);
-    hint(err, "compute them: %.400s -o %s --%s", said(c, "command"), c->options->operand,
-         !c->run || archive_run_goes_on(c->file, c->missing, c->first_missing) ? "resume" : "force");
+    hint(err, "compute them: %.400s -o %s %s", said(c, "command"), c->options->operand, again(c));
     return MOTUS_STATE;
 }
 
@@ -243,11 +253,10 @@ static void report(const contents *c)
     printf("  %-13s%" PRIu64 ", in %" PRIu64 " %sblock%s: ", c->run ? "rows" : "trajectories",
            motus_archive_rows(c->file), c->blocks, motus_archive_compressed(c->file) ? "compressed " : "",
            c->blocks == 1 ? "" : "s");
-    if (c->missing)
-        printf("%" PRIu64 " missing or damaged, the first of them number %" PRIu64 "\n", c->missing,
-               c->first_missing + 1);
-    else
-        puts("all there, with the hashes that were written");
+    if (!c->missing) puts("all there, with the hashes that were written");
+    if (c->missing > c->damaged) printf("%" PRIu64 " missing%s", c->missing - c->damaged, c->damaged ? " and " : "");
+    if (c->damaged) printf("%" PRIu64 " damaged", c->damaged);
+    if (c->missing) printf(", the first of them number %" PRIu64 "\n", c->first_missing + 1);
     if (c->options->verify && c->run)
         printf("  %-13sthe first %" PRIu64 " rows, computed again, have the same bytes\n", "verified",
                c->verified.computed);
@@ -266,8 +275,20 @@ static void report(const contents *c)
              "--force makes it anew");
     else if (c->missing && c->run)
         puts("\nmotus run goes on with this file");
-    else if (c->missing)
+    else if (c->missing > c->damaged)
         puts("\nthe command with -o and --resume computes what is missing");
+}
+
+/* A block of a sweep is written once. The last one of a run is written again when the run goes on, which may be
+ * killed. */
+static motus_status judge(const contents *c, motus_error *err)
+{
+    if (c->run || !c->damaged) return MOTUS_OK;
+    fail(err, MOTUS_STATE, "%s is damaged: %" PRIu64 " of its %" PRIu64 " blocks %s not have the hash that was written",
+         c->options->operand, c->damaged, c->blocks, c->damaged == 1 ? "does" : "do");
+    hint(err, "take a copy; or compute what is damaged: %.400s -o %s %s", said(c, "command"), c->options->operand,
+         again(c));
+    return MOTUS_STATE;
 }
 
 static motus_status check(const options *o, motus_error *err)
@@ -305,10 +326,9 @@ motus_status archive_verb(const options *o, motus_error *err)
         if (!status && o->output) status = extract(&c, &progress, err);
         stop_progress_end(&progress);
     }
-    if (!status && o->json)
-        report_json(&c);
-    else if (!status && !o->quiet && !o->output)
-        report(&c);
+    if (!status && !o->json && !o->quiet && !o->output) report(&c);
+    if (!status && !o->output) status = judge(&c, err);
+    if (!status && o->json) report_json(&c);
     motus_archive_close(c.file);
     free(c.whole);
     return status ? status : file_flush_output(err);

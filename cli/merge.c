@@ -161,8 +161,8 @@ static void report(const merge *m)
         fprintf(out, "%" PRIu64 " shards, %s%" PRIu64 " trajectories", p->shard.count,
                 p->kind == PART_EVENTS ? "events of " : "", p->total);
         if (m->missing)
-            fprintf(out, "; %" PRIu64 " blocks are missing, which the sweep's command with --resume computes",
-                    m->missing);
+            fprintf(out, "; %" PRIu64 " block%s missing, which the sweep's command with --resume computes", m->missing,
+                    m->missing == 1 ? " is" : "s are");
         putc('\n', out);
     }
 }

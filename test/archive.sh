@@ -123,7 +123,7 @@ with h5py.File(sys.argv[1]) as f:
     for b in range(8): assert numpy.isnan(f['sweep/x'][4096 * b:4096 * (b + 1)]).any() != done[b], b
 " "$place/killed.h5"
     gives "... motus archive says so" 0 "$motus" archive "$place/killed.h5"
-    that "... and how many are missing" says "$((8 - there)) missing or damaged"
+    that "... and how many are missing" says "$((8 - there)) missing, the first of them"
     refuses "... and writes no CSV of it" 2 "are missing or damaged" "$motus" archive "$place/killed.h5" -o "$place/killed.csv"
     gives "... and is finished by --resume" 0 long -o "$place/killed.h5" --resume
     that "... which keeps those blocks" says ", $((there * 4096)) of them found in the file"
@@ -275,8 +275,9 @@ with h5py.File(sys.argv[1]) as f: place, size, left_out = map(int, f['blocks/pac
 with open(sys.argv[1], 'r+b') as f:
     f.seek(place + size // 2); byte = f.read(1); f.seek(place + size // 2); f.write(bytes([byte[0] ^ 64]))
 " "$place/packed1.h5"
-gives "... motus archive finds the block" 0 "$motus" archive "$place/packed1.h5"
-that "... and says so" says "1 missing or damaged"
+gives "... motus archive finds the block" 2 "$motus" archive "$place/packed1.h5"
+that "... and says so" eval "says ' 1 damaged, the first of them number 2' && says 'is damaged: 1 of its 8 blocks does not have the hash' '$err' && says ' --force --compress' '$err'"
+refuses "... quietly, too" 2 "is damaged: 1 of its 8 blocks does not have the hash" "$motus" archive "$place/packed1.h5" --quiet
 refuses "... --resume cannot mend it" 2 "of its blocks are damaged" long -o "$place/packed1.h5" --resume
 gives "... --force does" 0 long -o "$place/packed1.h5" --force --compress
 that "... to the same bytes" [ "$(sum "$place/packed1.h5")" = "$packed" ]
