@@ -37,11 +37,13 @@ export function addressOf(state: State, presets: Presets): string {
 }
 
 export function followAddress(store: LiveStore, presets: Presets, toasts: Toasts): void {
-  let timer = 0, { preset, place } = store.state;
+  let timer = 0, known = location.href, { preset, place } = store.state;
   const { embed } = store.state;
   const write = (): void => {
     window.clearTimeout(timer);
     timer = 0;
+    // A link was followed whose event is still to come: the address is the newer state.
+    if (location.href !== known) { known = location.href; timer = window.setTimeout(write, pause); return; }
     remember('state', written() + '\n' + encode(store.state, presets));
     // An address of an older state would win over the memory at the next visit: rather none.
     const address = addressOf(store.state, presets) || location.href.replace(/#.*$/s, '');
@@ -49,6 +51,7 @@ export function followAddress(store: LiveStore, presets: Presets, toasts: Toasts
     const how = store.state.preset !== preset || store.state.place !== place ? 'pushState' : 'replaceState';
     ({ preset, place } = store.state);
     try { if (address !== location.href) history[how](null, '', address); } catch { /* Some viewers forbid it; the memory holds it. */ }
+    known = location.href;
   };
   if (!embed) store.subscribe(what => { if ((what === 'state' || what === 'view') && !timer) timer = window.setTimeout(write, pause); });
   // The page that was opened without a state is one to come back to. One that is loaded again is the reader's own; somebody else's address leaves the
@@ -56,6 +59,7 @@ export function followAddress(store: LiveStore, presets: Presets, toasts: Toasts
   if (!embed && (loadedAgain() || !location.hash.includes('='))) write();
   window.addEventListener('pagehide', () => { if (timer) write(); });
   window.addEventListener('hashchange', () => {
+    known = location.href;
     if (!location.hash.includes('=')) { if (!embed) write(); return; }          // a place in the page, none of our addresses
     const { state, problem } = decode(location.hash, presets);
     // What a page shows beside the picture is decided when it is opened.

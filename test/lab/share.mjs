@@ -47,6 +47,19 @@ await attempt('share and reload', async () => {
   await page.evaluate(() => { location.hash = '#v=1&p=kepler'; });
   await settled(page);
   same('a new address in the same page', await page.locator('#scene-title').textContent(), 'Planet');
+  // A link is followed while a change is still to be written to the address: the link wins. (That the page is left is what makes it write at once.)
+  await page.evaluate(async () => {
+    const step = document.querySelector('#step');
+    step.value = '0.07';
+    for (const event of ['input', 'change']) step.dispatchEvent(new Event(event, { bubbles: true }));
+    await new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done)));
+    location.hash = '#v=1&p=spring';
+    dispatchEvent(new PageTransitionEvent('pagehide'));
+  });
+  await settled(page);
+  same('a link followed just after a change', [(await fields(page)).p, await page.locator('#step').inputValue() === '0.07'], ['spring', false]);
+  await page.evaluate(() => { location.hash = '#v=1&p=kepler'; });
+  await settled(page);
   await page.evaluate(() => { location.hash = '#theory'; });
   await page.waitForTimeout(700);
   same('a place in the page is no address', await page.locator('#scene-title').textContent(), 'Planet');
