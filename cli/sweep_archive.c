@@ -37,13 +37,16 @@ bool sweep_archive_name(const char *path)
            (length > 5 && strcmp(path + length - 5, ".hdf5") == 0);
 }
 
+/* Of the files by way of which an archive is made: first those of sweeps and runs, then those of merges. */
+static const char *const endings[] = {".new", ARCHIVE_GROWN, ARCHIVE_GROWN ".new", ARCHIVE_JOINED,
+                                      ARCHIVE_JOINED ".new"};
+enum { OF_MERGES = 3, ENDINGS = 5 };
+
 bool sweep_archive_replaces(const char *archive, const char *input)
 {
-    static const char *const endings[] = {".new", ARCHIVE_JOINED, ARCHIVE_JOINED ".new", ARCHIVE_GROWN,
-                                          ARCHIVE_GROWN ".new"};
     bool same = false;
     char *name = disk_real(archive);
-    for (size_t k = 0; name && !same && k < sizeof endings / sizeof *endings; k++) {
+    for (size_t k = 0; name && !same && k < ENDINGS; k++) {
         char *beside = disk_beside(name, endings[k]);
         same = beside && file_same(beside, input);
         free(beside);
@@ -54,9 +57,8 @@ bool sweep_archive_replaces(const char *archive, const char *input)
 
 void sweep_archive_tidy(const char *archive)
 {
-    static const char *const endings[] = {".new", ARCHIVE_GROWN, ARCHIVE_GROWN ".new"};
     char *name = disk_real(archive);
-    for (size_t k = 0; name && k < sizeof endings / sizeof *endings; k++) {
+    for (size_t k = 0; name && k < OF_MERGES; k++) {
         char *beside = disk_beside(name, endings[k]);
         if (beside) remove(beside);
         free(beside);

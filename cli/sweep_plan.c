@@ -68,15 +68,14 @@ static motus_status warm_up(plan *p, motus_error *err)
     motus_status status = MOTUS_OK;
     const uint64_t rows = p->sweep->rows;
     const double began = stop_clock();
-    bool grows = true;
     double seconds, most = WARM_S;
-    for (size_t k = 0; !status && (grows || (waits_for_compiler(p->sweep) && stop_clock() - began < most)); k++) {
+    for (size_t k = 0; !status && stop_clock() - began < most; k++) {
         p->piece = p->batch.count < rows ? p->batch.count : (size_t)rows;
         status = one(p, k, &seconds, err);
         sweep_batch_adapt(&p->batch, p->sweep, seconds);
         const double all = seconds * (double)rows / (double)p->piece;
-        most = all < WARM_S ? all : WARM_S;
-        grows = p->piece < rows && p->batch.count > p->piece + p->piece / 2 && stop_clock() - began < WARM_S;
+        const bool grows = p->piece < rows && p->batch.count > p->piece + p->piece / 2;
+        most = grows ? WARM_S : waits_for_compiler(p->sweep) ? fmin(all, WARM_S) : 0;
         if (!status && stop_requested()) status = fail(err, MOTUS_CANCELLED, "cancelled");
     }
     return status;

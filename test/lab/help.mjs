@@ -70,7 +70,7 @@ const servers = [];
 /* Runs in the page before all else: counts what the workers owe, and keeps violations of the policy and what the browser remembers of earlier visits. */
 function watch() {
   let kept = '';
-  try { kept = Object.values(localStorage).join(' '); } catch { /* about:blank has no memory. */ }
+  try { kept = Object.entries(localStorage).join(' '); } catch { /* about:blank has no memory. */ }
   window.lab = { owed: 0, asked: 0, quiet: performance.now(), violations: [], kept };
   const post = Worker.prototype.postMessage, stop = Worker.prototype.terminate;
   const owes = new WeakMap();
@@ -192,19 +192,23 @@ export async function fields(page) {
   }
   return found;
 }
-/** Fills in a text, leaves the page and visits it anew, without a state in the address. A browser under load now and then hands the page of a file no memory at
- *  all, whatever was stored there: then the visit is repeated. */
-export async function visitAgain(page, address, text) {
+/** Does what is to be remembered (kept: a part of that), leaves the page and visits it anew, without a state in the address. A browser under load now and then
+ *  hands the page of a file no memory at all, whatever was stored there: then the visit is repeated. */
+export async function visitAgain(page, address, leave, kept) {
   for (let visit = 0; visit < 8; visit++) {
-    await (await editorOf(page)).fill(text);
-    await settled(page);
-    await fields(page);
+    await leave();
     await page.goto('about:blank');
     await page.goto(address);
     await settled(page);
-    if (await page.evaluate(() => window.lab.kept.includes('v=1&'))) return;
+    if (await page.evaluate((part) => window.lab.kept.includes(part), kept)) return;
   }
 }
+/** Fills in a text, and visits the page anew. */
+export const visitAgainWith = (page, address, text) => visitAgain(page, address, async () => {
+  await (await editorOf(page)).fill(text);
+  await settled(page);
+  await fields(page);
+}, 'v=1&');
 /** A figure by its short name; its heading is a question. */
 export const figureOf = (page, title) => page.locator(`#panels figure[data-title="${title}"]`);
 /** What looks closer is made when somebody comes to it, and shown what is near: this goes there, and to a figure of it. */

@@ -2,7 +2,7 @@
  * `motus run --share` prints. Addresses that are broken or hostile get a message, and the page lives.
  */
 import { spawnSync } from 'node:child_process';
-import { attempt, clean, editorOf, example, fields, figureOf, finish, judge, motus, open, program, readCsv, root, same, settled, singleFile, shareOf, summaryOf, numbersOf, tableOf, valuesOf, visitAgain } from './help.mjs';
+import { attempt, clean, editorOf, example, fields, figureOf, finish, judge, motus, open, program, readCsv, root, same, settled, singleFile, shareOf, summaryOf, numbersOf, tableOf, valuesOf, visitAgainWith } from './help.mjs';
 
 const numbers = async (page) => numbersOf(page);
 const hash = (page) => new URL(page.url()).hash;
@@ -42,7 +42,7 @@ await attempt('share and reload', async () => {
   await page.reload();
   await settled(page);
   same('the text survives a reload', await page.locator('#model-text').inputValue(), text);
-  await visitAgain(page, singleFile, text);
+  await visitAgainWith(page, singleFile, text);
   same('… and a new visit without an address', await page.locator('#model-text').inputValue(), text);
   await page.evaluate(() => { location.hash = '#v=1&p=kepler'; });
   await settled(page);

@@ -1,7 +1,7 @@
 /* The stage: the first picture before any script, what fills the screen at each size, that nothing moves when it should not, frames that hold still, names and
  * brackets with the program's numbers, runaways, ghosts, undo, pinned runs.
  */
-import { attempt, clean, example, fields, finish, held, judge, launch, motus, open, same, saved, settled, singleFile } from './help.mjs';
+import { attempt, clean, example, fields, finish, held, judge, launch, motus, open, same, saved, settled, singleFile, visitAgain } from './help.mjs';
 
 /** All texts of the picture, and its paths, as its SVG has them. */
 async function drawn(page) {
@@ -218,15 +218,7 @@ await attempt('the first visit', async () => {
   await settled(page);
   await page.waitForTimeout(1200);
   same('… and not when it is loaded again', await time(page), '2.00');
-  // A browser under load now and then hands the page of a file no memory at all: then the visit is repeated.
-  for (let visit = 0; visit < 8; visit++) {
-    await page.evaluate(() => localStorage.setItem('motus-lab-1:seen', '1'));
-    await page.waitForTimeout(300);
-    await page.goto('about:blank');
-    await page.goto(singleFile);
-    if (await seen() === '1') break;
-  }
-  await settled(page);
+  await visitAgain(page, singleFile, () => page.evaluate(() => localStorage.setItem('motus-lab-1:seen', '1')), 'seen,1');
   await page.waitForTimeout(1200);
   same('… and never again on this device', await time(page), '2.00');
   await clean('the first visit', page);

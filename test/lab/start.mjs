@@ -6,7 +6,7 @@ import { readFileSync, statSync } from 'node:fs';
 import { join } from 'node:path';
 import { pathToFileURL } from 'node:url';
 import { gzipSync } from 'node:zlib';
-import { attempt, built, clean, finish, held, judge, launch, motus, open, place, program, readCsv, root, same, serve, settled, singleFile, summaryOf, numbersOf, tableOf, visitAgain } from './help.mjs';
+import { attempt, built, clean, finish, held, judge, launch, motus, open, place, program, readCsv, root, same, serve, settled, singleFile, summaryOf, numbersOf, tableOf, visitAgainWith } from './help.mjs';
 
 const founding = '#v=1&p=projectile&a=explicit-euler,symplectic-euler,midpoint,verlet,velocity-verlet';
 const { address, asked } = await serve();
@@ -120,7 +120,7 @@ await attempt('motus lab', async () => {
   const page = await open(pathToFileURL(out).href);
   same('motus lab: the model is in the page', await page.locator('#model-text').inputValue(), readFileSync(join(root, 'models/pendulum.motus'), 'utf8'));
   judge('motus lab: its motion is shown', /^Path|against time/.test(await summaryOf(page, 'Motion')));
-  await visitAgain(page, pathToFileURL(out).href, `${await page.locator('#model-text').inputValue()}# mine\n`);
+  await visitAgainWith(page, pathToFileURL(out).href, `${await page.locator('#model-text').inputValue()}# mine\n`);
   judge('motus lab: what was typed there survives', (await page.locator('#model-text').inputValue()).endsWith('# mine\n'));
   await page.goto(singleFile);
   await settled(page);
