@@ -4,7 +4,8 @@
  * Invariants: the layout of a version begins with the layout of the version before, padding included; what it adds
  * has no padding (which an assignment by the caller need not copy) and means "as before" where it is zero. So a
  * struct of an older caller is the beginning of ours, and a struct of a newer caller is ours and zeros, unless it
- * sets a member that this library does not have.
+ * sets a member that this library does not have. Where a member counts what another points to, a definition that was
+ * read has an array as soon as the count is above 0, and no text in it is NULL.
  */
 #include "api/system.h"
 
@@ -93,6 +94,30 @@ void motus_default(motus_def_kind kind, void *made, uint32_t size)
     memcpy(made, &size, sizeof size);
 }
 
+/* An array that a definition points to, and the member that counts it. */
+typedef struct list {
+    motus_def_kind of;
+    const char *name;
+    size_t array, count;
+    bool texts;    /* of texts; else of numbers or structs */
+    bool may_lack; /* NULL has a meaning of its own, whatever the count is */
+} list;
+
+#define LIST(KIND, type, array, count, ...)                                                 \
+    {                                                                                       \
+        MOTUS_DEF_##KIND, #array, offsetof(type, array), offsetof(type, count), __VA_ARGS__ \
+    }
+static const list lists[] = {
+    LIST(TEXT, motus_text_def, set, set_count, true, false),
+    LIST(TEXT, motus_text_def, when, when_count, true, false),
+    LIST(TEXT, motus_text_def, define, define_count, true, false),
+    LIST(CALLBACK, motus_callback_def, events, event_count, false, false),
+    LIST(ENSEMBLE, motus_ensemble_def, vary, vary_count, true, false),
+    LIST(ENSEMBLE, motus_ensemble_def, records, record_count, false, false),
+    LIST(ENSEMBLE, motus_ensemble_def, event_columns, event_column_count, false, false),
+    LIST(STUDY, motus_study_def, methods, method_count, true, true),
+};
+
 /* ---- sizes ---- */
 
 /* No version of any struct is larger: a size beyond it was never filled in. */
@@ -142,11 +167,31 @@ static void copy(motus_def_kind kind, void *to, const void *from, uint32_t size)
     memcpy((char *)to + sizeof size, (const char *)from + sizeof size, most - sizeof size);
 }
 
+/* Whether a definition has the array that its count promises. */
+static motus_status check_list(const list *l, const void *ours, motus_error *err)
+{
+    const void *array;
+    size_t count;
+    memcpy(&array, (const char *)ours + l->array, sizeof array);
+    memcpy(&count, (const char *)ours + l->count, sizeof count);
+    if (count > 0 && !array && !l->may_lack) {
+        fail(err, MOTUS_ARGUMENT, "`%s` of the %s is NULL, and its count is %zu", l->name, layouts[l->of].type, count);
+        hint(err, "give the array, or the count 0");
+        return MOTUS_ARGUMENT;
+    }
+    for (size_t k = 0; array && l->texts && k < count; k++)
+        if (!((const char *const *)array)[k])
+            return fail(err, MOTUS_ARGUMENT, "text %zu of `%s` of the %s is NULL", k + 1, l->name, layouts[l->of].type);
+    return MOTUS_OK;
+}
+
 motus_status motus_struct_read(motus_def_kind kind, const void *given, void *ours, motus_error *err)
 {
     motus_default(kind, ours, size_now(&layouts[kind]));
     motus_status status = given ? motus_struct_check(kind, given, err) : MOTUS_OK;
     if (given && status == MOTUS_OK) copy(kind, ours, given, size_said(given));
+    for (size_t k = 0; given && status == MOTUS_OK && k < sizeof lists / sizeof *lists; k++)
+        if (lists[k].of == kind) status = check_list(&lists[k], ours, err);
     return status;
 }
 

@@ -30,8 +30,7 @@ int ensemble_report(void *context, double fraction)
 
 static motus_status check(const motus_system *s, const motus_ensemble_def *d, motus_error *err)
 {
-    if (d->vary_count && !d->vary) return fail(err, MOTUS_ARGUMENT, "vary is NULL");
-    if (!d->record_count || !d->records) return fail(err, MOTUS_ARGUMENT, "nothing is recorded");
+    if (!d->record_count) return fail(err, MOTUS_ARGUMENT, "nothing is recorded");
     for (size_t r = 0; r < d->record_count; r++)
         if (d->records[r].column >= s->column_count || (unsigned)d->records[r].how > MOTUS_REDUCE_TOLERANCE)
             return fail(err, MOTUS_ARGUMENT, "record %zu names column %zu of %zu, or no reduction", r,

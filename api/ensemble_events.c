@@ -24,7 +24,6 @@ struct ensemble_table {
 motus_status ensemble_events_prepare(motus_ensemble *e, const motus_ensemble_def *d, motus_error *err)
 {
     if (!d->events) return MOTUS_OK;
-    if (d->event_column_count && !d->event_columns) return fail(err, MOTUS_ARGUMENT, "event_columns is NULL");
     for (size_t k = 0; k < d->event_column_count; k++)
         if (d->event_columns[k] >= e->system->column_count)
             return fail(err, MOTUS_ARGUMENT, "event_columns has column %zu of %zu", d->event_columns[k],

@@ -101,7 +101,8 @@ static motus_status make_room(motus_archive *a, motus_error *err)
 
 motus_status motus_archive_open(const char *path, int write, motus_archive **out, motus_error *err)
 {
-    *out = NULL;
+    if (out) *out = NULL;
+    if (!path || !out) return fail(err, MOTUS_ARGUMENT, "motus_archive_open needs a path and a place for the archive");
     motus_archive *a = calloc(1, sizeof *a);
     if (!a || !(a->path = strdup(path))) {
         free(a);

@@ -29,6 +29,8 @@ static bool same_shape(const motus_archive_def *d)
     return same;
 }
 
+static bool lacks(const void *array, size_t count) { return count > 0 && !array; }
+
 static motus_status check(const motus_archive_def *d, motus_error *err)
 {
     if (d->size != sizeof *d) {
@@ -36,6 +38,13 @@ static motus_status check(const motus_archive_def *d, motus_error *err)
         hint(err, "begin with motus_archive_default()");
         return MOTUS_ARGUMENT;
     }
+    const char *const missing = lacks(d->columns, d->column_count)         ? "columns"
+                                : lacks(d->notes, d->note_count)           ? "notes"
+                                : lacks(d->links, d->link_count)           ? "links"
+                                : lacks(d->attributes, d->attribute_count) ? "attributes"
+                                                                           : NULL;
+    if (missing)
+        return fail(err, MOTUS_ARGUMENT, "`%s` of the motus_archive_def is NULL, and its count is not 0", missing);
     if (d->block == 0 || d->column_count == 0)
         return fail(err, MOTUS_ARGUMENT, "an archive has blocks of at least one row, and a column");
     if (d->rows > INT64_MAX / 16 || d->block > SIZE_MAX / sizeof(double))
@@ -53,9 +62,10 @@ static motus_status check(const motus_archive_def *d, motus_error *err)
             return fail(err, MOTUS_LIMIT, "column %s has too many numbers in a row", c->name);
         if (c->comment && !one_line(c->comment))
             return fail(err, MOTUS_ARGUMENT, "the comment of column %s is not one line", c->name);
-        for (size_t w = 0; w < c->word_count; w++)
-            if (strchr(c->words[w], '\n'))
-                return fail(err, MOTUS_ARGUMENT, "a word of column %s has more than one line", c->name);
+        for (size_t w = 0; c->kind == MOTUS_ARCHIVE_WORD && w < c->word_count; w++)
+            if (!c->words || !c->words[w] || strchr(c->words[w], '\n'))
+                return fail(err, MOTUS_ARGUMENT, "word %zu of column %s is missing, or has more than one line", w,
+                            c->name);
     }
     for (size_t k = 0; k < d->column_count; k++) {
         bool twice = strcmp(d->columns[k].name, d->scale) == 0;
@@ -73,8 +83,9 @@ static motus_status check(const motus_archive_def *d, motus_error *err)
             (d->links[k].column >= d->column_count && d->links[k].column != MOTUS_ARCHIVE_SCALE))
             return fail(err, MOTUS_ARGUMENT, "link %zu of an archive has no path or no column", k);
     for (size_t k = 0; k < d->attribute_count; k++)
-        if (!one_line(d->attributes[k].group) || !one_line(d->attributes[k].name))
-            return fail(err, MOTUS_ARGUMENT, "attribute %zu of an archive has no group or no name", k);
+        if (!one_line(d->attributes[k].group) || !one_line(d->attributes[k].name) ||
+            (!d->attributes[k].text && lacks(d->attributes[k].numbers, 1)))
+            return fail(err, MOTUS_ARGUMENT, "attribute %zu of an archive has no group, no name or no value", k);
     if (d->from && !same_shape(d))
         return fail(err, MOTUS_ARGUMENT, "the archive that is to be compressed has another definition");
     if (d->slot > INT32_MAX / 2) return fail(err, MOTUS_LIMIT, "a slot of an archive has at most 1 GiB");
@@ -115,6 +126,7 @@ static motus_status make_from(make_archive *make, const char *path, const motus_
 
 motus_status motus_archive_create(const char *path, const motus_archive_def *d, motus_error *err)
 {
+    if (!path || !d) return fail(err, MOTUS_ARGUMENT, "motus_archive_create needs a path and a definition");
     motus_status status = check(d, err);
     if (status) return status;
     make_archive *const make = maker();

@@ -299,6 +299,21 @@ void file_drop(file_out *f)
     *f = (file_out){0};
 }
 
+/* Opened the other way round, so that reading and writing fail: what is asked for and cannot be told is an error. */
+void file_open_standard(void)
+{
+    for (int wanted = STDIN_FILENO; wanted <= STDERR_FILENO; wanted++) {
+        if (fcntl(wanted, F_GETFD) >= 0) continue;
+        if (open("/dev/null", wanted == STDIN_FILENO ? O_WRONLY : O_RDONLY) < 0) (void)open("/", O_RDONLY);
+    }
+}
+
+bool file_output_closed(void)
+{
+    const int mode = fcntl(STDOUT_FILENO, F_GETFL);
+    return mode < 0 || (mode & O_ACCMODE) == O_RDONLY;
+}
+
 motus_status file_flush_output(motus_error *err)
 {
     const int before = ferror(stdout) ? errno : 0; /* of the write that failed while more was printed */

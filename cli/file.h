@@ -38,6 +38,9 @@ motus_status file_keep(file_out *, motus_error *);
 /* Removes a file that was not kept, and frees. Call in any case. */
 void file_drop(file_out *);
 
+/* Opens the descriptors 0 to 2 where they are closed: what reads or writes them then fails, as if they were closed. */
+void file_open_standard(void);
+bool file_output_closed(void); /* standard output was closed when the program began, or cannot be written */
 /* Flushes standard output and reports what could not be written. */
 motus_status file_flush_output(motus_error *);
 

@@ -1,4 +1,8 @@
 /* motus, the program, alone on its machine. */
 #include "cli/program.h"
 
-int main(int argc, char **argv) { return program_main(argc, argv, NULL); }
+int main(int argc, char **argv)
+{
+    program_begin();
+    return program_main(argc, argv, NULL);
+}

@@ -111,7 +111,9 @@ static motus_status dispatch(int argc, char **argv, bool as_json, bool *answered
     o.json = o.json || as_json;
     o.answered = answered;
     o.team = t;
-    o.quiet = o.quiet || !team_first(t);
+    /* without standard output nobody asks for a report beside a file */
+    const bool file = o.output || o.plot || o.events || o.save_state;
+    o.quiet = o.quiet || !team_first(t) || (file && file_output_closed());
     if (!status && o.help) {
         if (team_first(t)) help_verb(stdout, v->bit);
         status = file_flush_output(err);
@@ -120,6 +122,12 @@ static motus_status dispatch(int argc, char **argv, bool as_json, bool *answered
     }
     options_free(&o);
     return status;
+}
+
+void program_begin(void)
+{
+    file_open_standard();
+    stop_file_limit();
 }
 
 int program_main(int argc, char **argv, const team *t)

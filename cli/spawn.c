@@ -23,6 +23,7 @@ int spawn_program(pid_t *process, char *const arguments[], const int streams[3],
     sigset_t plain;
     sigemptyset(&plain);
     sigaddset(&plain, SIGPIPE);
+    sigaddset(&plain, SIGXFSZ);
     int code = posix_spawnattr_setsigdefault(&attributes, &plain);
     for (int i = 0; !code && i < 3; i++) code = posix_spawn_file_actions_adddup2(&actions, streams[i], i);
     const int group = apart ? POSIX_SPAWN_SETPGROUP : 0;

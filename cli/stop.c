@@ -44,15 +44,21 @@ void stop_hold(bool held) { holding = held; }
 
 bool stop_warned(void) { return warned != 0; }
 
+static void ignore(int number)
+{
+    struct sigaction action = {0};
+    sigemptyset(&action.sa_mask);
+    action.sa_handler = SIG_IGN;
+    sigaction(number, &action, NULL);
+}
+
+void stop_file_limit(void) { ignore(SIGXFSZ); }
+
 void stop_catch_signals(void)
 {
     static const int caught[] = {SIGINT, SIGTERM, SIGHUP, SIGUSR1};
-    struct sigaction ignore = {0};
     handle(caught, sizeof caught / sizeof *caught, store);
-    /* with SIGPIPE ignored, a closed pipe is a failed write, after which temporary files can be removed */
-    sigemptyset(&ignore.sa_mask);
-    ignore.sa_handler = SIG_IGN;
-    sigaction(SIGPIPE, &ignore, NULL);
+    ignore(SIGPIPE); /* a closed pipe is then a failed write, after which temporary files can be removed */
 }
 
 bool stop_requested(void) { return requested != 0; }

@@ -7,6 +7,8 @@
 /* From now on SIGINT, SIGTERM, SIGHUP and SIGUSR1 set stop_requested() and do not kill. To be called where work begins
  * that asks for it; before, while a model is read, they kill. */
 void stop_catch_signals(void);
+/* From now on a write beyond the largest size that a file may have (SIGXFSZ) fails and does not kill. */
+void stop_file_limit(void);
 bool stop_requested(void);
 int stop_asked(void *); /* the same, as a hook of archives; NULL */
 /* From now on SIGTERM and SIGUSR1, by which batch systems warn, do not stop at once: stop_warned() tells of them, and

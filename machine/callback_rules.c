@@ -62,7 +62,6 @@ motus_status callback_rules(calling *c, arena *a, const rules **out, motus_error
     const size_t n = def->event_count;
     *out = NULL;
     if (n == 0) return MOTUS_OK;
-    if (!def->events) return fail(err, MOTUS_ARGUMENT, "the definition has no events, though event_count is %zu", n);
     if (n > RULES_MOST) return fail(err, MOTUS_LIMIT, "at most %d events fit", RULES_MOST);
     motus_event_def *own = arena_room(a, n * sizeof *own);
     rules *made = arena_room(a, sizeof *made);

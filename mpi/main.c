@@ -189,6 +189,7 @@ int main(int argc, char **argv)
 {
     int rank, size, threads, exit;
     counter c;
+    program_begin();
     if (MPI_Init_thread(&argc, &argv, MPI_THREAD_FUNNELED, &threads) != MPI_SUCCESS) return 1;
     MPI_Comm_rank(MPI_COMM_WORLD, &rank);
     MPI_Comm_size(MPI_COMM_WORLD, &size);

@@ -242,7 +242,6 @@ motus_status study_methods(study *s, const motus_study_def *def, bool adaptive, 
                 (*names)[(*count)++] = m->name;
             continue;
         }
-        if (!def->methods[k]) return fail(s->err, MOTUS_ARGUMENT, "name %zu of the methods is NULL", k + 1);
         motus_status status = motus_method_find(def->methods[k], &m, s->err);
         if (status != MOTUS_OK) return status;
         if (m->adaptive && !adaptive) {

@@ -255,6 +255,50 @@ static void filled_structs_of_every_size(void **state)
     motus_system_destroy(s);
 }
 
+static void refuses_list(motus_status status, motus_error *err, const char *name)
+{
+    assert_int_equal(status, MOTUS_ARGUMENT);
+    if (!strstr(err->message, name) || !strstr(err->message, "NULL")) fail_msg("%s: %s", name, err->message);
+    *err = motus_default_error();
+}
+
+/* A count above 0 whose array is NULL is an error, as is a text of an array that is NULL. */
+static void counts_need_arrays(void **state)
+{
+    (void)state;
+    static const char *const nothing[] = {NULL, NULL};
+    motus_error err = motus_default_error();
+    motus_system *s = NULL, *held = given_text(spring);
+    for (int given = 0; given < 2; given++) {
+        const char *const *const texts = given ? nothing : NULL;
+        motus_text_def t = motus_default_text();
+        t.text = spring;
+        t.set = texts, t.set_count = 1;
+        refuses_list(motus_system_from_text(&t, &s, &err), &err, "set");
+        t.set_count = 0, t.when = texts, t.when_count = 2;
+        refuses_list(motus_system_from_text(&t, &s, &err), &err, "when");
+        t.when_count = 0, t.define = texts, t.define_count = 1;
+        refuses_list(motus_system_from_text(&t, &s, &err), &err, "define");
+        const motus_record record = {MOTUS_REDUCE_FINAL, 1};
+        motus_ensemble *e = NULL;
+        motus_ensemble_def d = motus_default_ensemble();
+        d.records = &record, d.record_count = 1, d.vary = texts, d.vary_count = 1;
+        refuses_list(motus_ensemble_create(held, &d, &e, &err), &err, "vary");
+        d.vary_count = 0, d.events = 1, d.event_column_count = 1;
+        refuses_list(motus_ensemble_create(held, &d, &e, &err), &err, "event_columns");
+        d.event_column_count = 0, d.records = NULL;
+        refuses_list(motus_ensemble_create(held, &d, &e, &err), &err, "records");
+    }
+    motus_callback_def c = motus_default_callback();
+    c.event_count = 1;
+    refuses_list(motus_system_from_callback(&c, &s, &err), &err, "events");
+    motus_study_def study = motus_default_study();
+    motus_comparison *comparison = NULL;
+    study.method_count = 2, study.methods = nothing;
+    refuses_list(motus_compare(held, &study, &comparison, &err), &err, "methods");
+    motus_system_destroy(held);
+}
+
 /* Every call that takes an error checks its size first. */
 static void errors_of_every_size(void **state)
 {
@@ -952,6 +996,7 @@ int main(void)
         cmocka_unit_test(sizes_of_versions_fit),
         cmocka_unit_test(definitions_of_every_size),
         cmocka_unit_test(filled_structs_of_every_size),
+        cmocka_unit_test(counts_need_arrays),
         cmocka_unit_test(errors_of_every_size),
         cmocka_unit_test(every_status_of_a_text_is_reached),
         cmocka_unit_test(errors_name_the_place),

@@ -411,6 +411,20 @@ static void refusals(void **state)
     assert_int_equal(motus_archive_create("/absent/file.h5", &d, &err), MOTUS_ARGUMENT);
     d.columns = twice + 1;
     assert_int_equal(motus_archive_create("/absent/file.h5", &d, &err), MOTUS_ARGUMENT);
+    const motus_archive_column lacking = {"w", MOTUS_ARCHIVE_WORD, NULL, 2, {0, 0}, NULL};
+    d = definition(), d.columns = &lacking, d.column_count = 1;
+    assert_int_equal(motus_archive_create("/absent/file.h5", &d, &err), MOTUS_ARGUMENT);
+    d = definition(), d.columns = NULL;
+    assert_int_equal(motus_archive_create("/absent/file.h5", &d, &err), MOTUS_ARGUMENT);
+    d = definition(), d.notes = NULL;
+    assert_int_equal(motus_archive_create("/absent/file.h5", &d, &err), MOTUS_ARGUMENT);
+    d = definition(), d.link_count = 1;
+    assert_int_equal(motus_archive_create("/absent/file.h5", &d, &err), MOTUS_ARGUMENT);
+    d = definition(), d.attribute_count = 1;
+    assert_int_equal(motus_archive_create("/absent/file.h5", &d, &err), MOTUS_ARGUMENT);
+    assert_int_equal(motus_archive_create(NULL, &d, &err), MOTUS_ARGUMENT);
+    assert_int_equal(motus_archive_create("/absent/file.h5", NULL, &err), MOTUS_ARGUMENT);
+    assert_int_equal(motus_archive_open(NULL, 0, &a, &err), MOTUS_ARGUMENT);
     motus_archive_close(NULL);
 }
 

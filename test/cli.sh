@@ -403,6 +403,29 @@ for verb in "compare osc.motus --methods verlet" "converge osc.motus --methods v
     "$motus" $verb >/dev/full 2>"$err"
     that "full: motus $verb" eval "[ $? = 1 ] && [ \$(wc -l <'$err') = 1 ] && grep -q 'No space left' '$err'"
 done
+# With descriptors 0 to 2 closed an output file must not get one of them, and with it the report.
+closed() { "$@" <&- >&- 2>&-; }
+for kind in csv svg npy table; do
+    case $kind in
+    csv) words=(run osc.motus -o) ;;
+    svg) words=(run osc.motus --plot) ;;
+    npy) words=(sweep osc.motus --vary "x(0)=1:2:9" -o) ;;
+    table) words=(run osc.motus --when "x = 0: record" --events) ;;
+    esac
+    "$motus" "${words[@]}" open.$kind >"$out" 2>"$err"
+    closed "$motus" "${words[@]}" closed.$kind
+    that "descriptors 0 to 2 closed: $kind has its bytes" eval "[ $? = 0 ] && cmp <(sed 's/open[.]$kind/closed.$kind/' open.$kind) closed.$kind"
+done
+closed "$motus" run osc.motus
+that "... a report without a file is not lost with status 0" [ $? = 1 ]
+"$motus" run osc.motus -o only.csv >&- 2>"$err"
+that "... a closed standard output alone wants no report" eval "[ $? = 0 ] && empty '$err' && says 0, only.csv"
+# A limit of the size of files is an error, and no signal that kills.
+(ulimit -f 1; exec "$motus" run osc.motus --until 1000 -o limited.csv) >"$out" 2>"$err"
+that "a limit of the size of files: exit status 1" [ $? = 1 ]
+that "... with a message, and no file" eval "says 'cannot write limited.csv: File too large' '$err' && absent limited.csv && nothing_left ."
+(ulimit -f 1; exec "$motus" sweep osc.motus --vary "x(0)=1:2:9000" -o limited.npy) >"$out" 2>"$err"
+that "... of a sweep" eval "[ $? = 1 ] && says 'cannot write limited.npy: File too large' '$err'"
 mkdir small
 if mount -t tmpfs -o size=64k none small 2>/dev/null; then
     refuses "a full file system" 1 "No space left" "$motus" run "$root/$oscillator" -o small/traj.csv

@@ -295,7 +295,7 @@ static void names(void **state)
     refused(s, &def, MOTUS_ARGUMENT, "varies twice");
     def.vary = none;
     def.vary_count = 1;
-    refused(s, &def, MOTUS_ARGUMENT, "no name");
+    refused(s, &def, MOTUS_ARGUMENT, "NULL");
     motus_system_destroy(s);
 }
 
@@ -360,11 +360,11 @@ static void definitions(void **state)
     BAD(def.every = 0, MOTUS_ARGUMENT, "every");
     BAD(def.every = -3, MOTUS_ARGUMENT, "every");
     BAD(def.machine = "abacus", MOTUS_ARGUMENT, "abacus");
-    BAD(def.records = NULL, MOTUS_ARGUMENT, "recorded");
+    BAD(def.records = NULL, MOTUS_ARGUMENT, "`records`");
     BAD(def.record_count = 0, MOTUS_ARGUMENT, "recorded");
     BAD((def.records = bad, def.record_count = 1), MOTUS_ARGUMENT, "column 1000");
     BAD((def.records = bad + 1, def.record_count = 1), MOTUS_ARGUMENT, "no reduction");
-    BAD(def.vary = NULL, MOTUS_ARGUMENT, "vary is NULL");
+    BAD(def.vary = NULL, MOTUS_ARGUMENT, "`vary`");
     BAD(def.method = "rk5000", MOTUS_METHOD, "rk5000");
     BAD(def.method = "boris", MOTUS_METHOD, "boris");
     BAD(def.step = 0, MOTUS_ARGUMENT, "step");

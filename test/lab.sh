@@ -170,6 +170,9 @@ echo precious >kept.html
 "$motus" lab osc.motus --no-open -o kept.html >/dev/full 2>"$err"
 that "a full standard output" eval "[ $? = 1 ] && says 'standard output' '$err'"
 that "... leaves the old page as it was" is "$(cat kept.html)" precious
+"$motus" lab osc.motus --no-open -o open.html >"$out"
+"$motus" lab osc.motus --no-open -o closed.html <&- >&- 2>&-
+that "descriptors 0 to 2 closed: the page has its bytes" eval "[ $? = 0 ] && cmp open.html closed.html"
 mkdir small
 if mount -t tmpfs -o size=64k none small 2>/dev/null; then
     { cat page.html; head -c 100000 /dev/zero | tr '\0' ' '; } >large.html

@@ -27,6 +27,9 @@ words=(sweep "$swing" --vary "x(0)=0.1:3:100000" --record "final,max(energy)")
 gives "--mpi-check" 0 ranks 3 --mpi-check
 that "... says what each rank is" eval "[ \$(grep -c '^rank [012]: motus [0-9.]*, bits [0-9a-f]*, ' '$out') = 3 ] && says '3 ranks, '"
 that "... and that they compute the same bits" eval "[ \$(grep -o 'bits [0-9a-f]*' '$out' | sort -u | wc -l) = 1 ]"
+gives "descriptors 0 to 2 closed: a file gets no report" 0 "$motus" run "$swing" -o "$place/open.csv"
+"$mpi" run "$swing" -o "$place/closed.csv" <&- >&- 2>&-
+that "... of motus-mpi" eval "[ $? = 0 ] && cmp <(sed 's/open[.]csv/closed.csv/' '$place/open.csv') '$place/closed.csv'"
 gives "alone, without mpirun" 0 "$mpi" run "$swing" --json
 that "... it computes what motus does" eval "[ \"\$(jq -c .state '$out')\" = \"\$('$motus' run '$swing' --json | jq -c .state)\" ]"
 gives "a verb that ranks do not share" 0 ranks 3 check "$swing"
