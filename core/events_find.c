@@ -394,7 +394,7 @@ static motus_status hides_itself(events *e, stepper *s, size_t f, double largest
     if (!status) status = events_judge(e, at, err);
     const double rate[] = {e->left.rate[f], at->rate[f], e->right.rate[f]};
     int fast = 0;
-    for (int k = 0; k < 3; k++) fast += isfinite(rate[k]) && 256 * fabs(rate[k]) * ulp > largest;
+    for (int k = 0; k < 3; k++) fast += isfinite(rate[k]) && 256 * fabs(rate[k]) * ulp > fmax(largest, bound);
     *hides = fast > 1;
     return status;
 }
@@ -434,6 +434,14 @@ static bool went_back(events *e, size_t f, const search *of, int side)
     return events_add(e, c);
 }
 
+/* Whether a function that stands at 0 cannot be seen to leave it in a part of the step: its values are nothing but
+ * rounding, and it moves by no more than that. */
+static bool stays(const events *e, size_t f, const part *p, double largest, double hidden)
+{
+    const double way = fabs(e->left.rate[f] * e->span * (p->to - p->from));
+    return largest <= hidden && (!e->heads[f] || way <= hidden);
+}
+
 /* Adds the candidates of a part of the step, from the values of a function at its points. *sign: that of the function
  * before the part, 0: it stands at 0; then that at its end. *rough: no polynomial fits the values. */
 static motus_status search_part(events *e, stepper *s, size_t f, const part *p, const double *value, size_t stride,
@@ -458,7 +466,7 @@ static motus_status search_part(events *e, stepper *s, size_t f, const part *p, 
     if (stands) {
         const motus_status judged = judge_dense(e, f, largest, &hidden, err);
         if (judged) return judged;
-        if (largest <= hidden && !e->heads[f]) return MOTUS_OK; /* it stays 0: its values are nothing but rounding */
+        if (stays(e, f, p, largest, hidden)) return MOTUS_OK;
     }
     roots_fitted fitted;
     roots_fit_status fit;

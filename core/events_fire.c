@@ -1,9 +1,9 @@
 /* What happens in one instant: rules act in the order of the text, each seeing what the former left, until none asks
  * any more. See events_parts.h.
  *
- * A rule whose function passes 0 acts once for that passage. Where its action changed how the function moves, and the
- * function still moves in the event's direction, it acts again: so a push that does not turn a motion back is repeated
- * until it does, while a counter counts once.
+ * A rule whose function passes 0 acts once for that passage. A function that still moves in the event's direction after
+ * the action has left 0 to that side, however fast it moves; one that the action turns back has not, and a further action
+ * of another rule may let it pass in this same instant.
  */
 #include "core/events_parts.h"
 
@@ -64,8 +64,7 @@ static motus_status too_many(const events *e, size_t k, size_t i, motus_error *e
     if (e->rules.name) e->rules.name(e->rules.ctx, k, i, name, sizeof name);
     fail(err, MOTUS_EVENTS, "more than %d events in one instant, t = %s; the latest is %s", EVENTS_AT_ONCE,
          decimal_time(now, e->until - e->start, t), name[0] ? name : e->rules.rule[k].name);
-    hint(err, "an action must end what it answers to; where it is to happen once, when the condition becomes true, "
-              "write `when x > 0` in place of `when x = 0 rising`");
+    hint(err, "events answer one another without end: let the action of one end what the other waits for");
     if (!err) return MOTUS_EVENTS;
     err->time = now;
     snprintf(err->variable, sizeof err->variable, "%s", name[0] ? name : e->rules.rule[k].name);
@@ -134,16 +133,32 @@ static void release(events *e)
     }
 }
 
-/* Marks the functions at 0 whose rate under the new force is 0, but for the rounding of the time: where a switch lets
- * go what it has held, they leave 0 with a slope of 0. */
+/* The state at `here`, moved along the motion by a few roundings of the time, and every number by its own rounding. */
+static void move_by_rounding(const events *e, int turn, instant *to)
+{
+    enum { ULPS = 8 };
+    const instant *at = &e->here;
+    const int side = turn & 1 ? 1 : -1, other = turn & 2 ? -side : side;
+    const double h = side * ULPS * events_ulp(at->t);
+    events_copy(e, to, at);
+    to->t += h;
+    for (size_t k = 0; k < e->problem.nx - e->problem.modes; k++)
+        to->x[k] += (k < e->problem.nv ? h * at->v[k] : 0) + (k % 2 ? other : side) * events_ulp(at->x[k]);
+    for (size_t k = 0; k < e->problem.nv; k++) to->v[k] += h * at->a[k] + (k % 2 ? other : side) * events_ulp(at->v[k]);
+}
+
+/* Marks the functions at 0 whose rate under the new force is 0, but for rounding: where what has held them lets go, they
+ * leave 0 with a slope of 0. */
 static motus_status find_level(events *e, motus_error *err)
 {
-    enum { ULPS = 8, MARGIN = 4 };
+    enum { MARGIN = 4, TURNS = 4 };
     instant *at = &e->next;
+    const problem *p = &e->problem;
+    if (p->accel(p->ctx, e->here.t, e->here.x, e->here.v, e->here.a))
+        return events_refuse(e, "acceleration", e->here.t, p->returned ? *p->returned : 0, err);
     motus_status status = MOTUS_OK;
-    for (int side = -1; side <= 1 && !status; side += 2) {
-        events_copy(e, at, &e->here);
-        at->t += side * ULPS * events_ulp(at->t);
+    for (int turn = 0; turn < TURNS && !status; turn++) {
+        move_by_rounding(e, turn, at);
         status = events_rates(e, at, err);
         for (size_t f = 0; f < e->rules.functions && !status; f++) {
             const double rate = fabs(e->here.rate[f]);
@@ -151,6 +166,13 @@ static motus_status find_level(events *e, motus_error *err)
         }
     }
     return status;
+}
+
+/* Whether a function at 0 may leave it with a slope of 0: it has had none, or an action has taken nearly all of it. */
+static bool may_be_level(const events *e, size_t f, double before)
+{
+    const double rate = fabs(e->here.rate[f]);
+    return e->zero[f] && rate > 0 && (before == 0 || rate <= 0x1p-20 * fabs(before));
 }
 
 /* Evaluates the functions after an action of instance i of rule k; e->before and the rates at `here` are those before
@@ -164,6 +186,7 @@ static motus_status look_again(events *e, size_t k, size_t i, motus_error *err)
     memcpy(rate, at->rate, e->rules.functions * sizeof *rate);
     motus_status status = events_values(e, at, err);
     if (!status) status = events_judge(e, at, err);
+    bool level = r->internal;
     for (size_t f = 0; f < e->rules.functions && !status; f++) {
         const bool own = f >= r->first && f < r->first + r->leaves * r->instances && (f - r->first) % r->instances == i;
         if (!own && fabs(at->rate[f] - rate[f]) > 0x1p-40 * fabs(rate[f])) e->fired[f] = NAN;
@@ -171,8 +194,9 @@ static motus_status look_again(events *e, size_t k, size_t i, motus_error *err)
         const double moved = e->rules.settle ? fabs(at->g[f]) - fabs(e->before[f]) : fabs(at->g[f] - e->before[f]);
         const bool still = e->zero[f] && moved <= at->bound[f];
         e->zero[f] = still || is_zero(e, f);
+        level |= may_be_level(e, f, rate[f]);
     }
-    if (!status && r->internal) status = find_level(e, err);
+    if (!status && level) status = find_level(e, err);
     if (!status) release(e);
     return status;
 }
@@ -285,6 +309,9 @@ static bool moves(const events *e, size_t f)
     return fabs(e->here.rate[f]) > 0x1p-44 * most;
 }
 
+/* The direction in which a function at 0 leaves it after an action; 0: rounding hides it. */
+static int heads(const events *e, size_t f) { return moves(e, f) ? events_direction(e, &e->here, f) : 0; }
+
 /* Whether a candidate is in this instant, or has not been located and may be. */
 static bool is_here(const events *e, const candidate *c)
 {
@@ -372,7 +399,6 @@ static motus_status ask_root(events *e, size_t k, size_t i, const candidate *c, 
         e->side[f] = (int8_t)to;
         return MOTUS_OK;
     }
-    const double rate = e->here.rate[f];
     const bool was = *acted;
     bool assigned = false;
     e->fired[f] = e->here.t;
@@ -383,10 +409,9 @@ static motus_status ask_root(events *e, size_t k, size_t i, const candidate *c, 
         return status;
     }
     *again = true;
-    const int now = e->zero[f] ? events_direction(e, &e->here, f) : sign_of(e->here.g[f]);
+    const int now = e->zero[f] ? heads(e, f) : sign_of(e->here.g[f]);
     if (e->side[f] == 0) e->side[f] = (int8_t)-to;
-    const bool turned = fabs(e->here.rate[f] - rate) > 0x1p-40 * fabs(rate);
-    if (now == to && (!turned || !e->zero[f])) e->side[f] = (int8_t)to;
+    if (now == to) e->side[f] = (int8_t)to;
     if (!r->internal) approach(e, k, i);
     return status;
 }
@@ -477,7 +502,7 @@ void events_stand(events *e)
         const bool lets_go = e->stands[f] && e->level[f];
         e->stands[f] = e->zero[f];
         e->open[f] = 0;
-        e->heads[f] = (int8_t)(e->zero[f] && moves(e, f) ? events_direction(e, &e->here, f) : 0);
+        e->heads[f] = (int8_t)(e->zero[f] ? heads(e, f) : 0);
         if (!e->zero[f]) e->side[f] = (int8_t)sign_of(e->here.g[f]);
         if ((condition || lets_go) && e->zero[f] && !e->heads[f])
             e->side[f] = 0; /* it changes where the function leaves 0 */

@@ -237,7 +237,7 @@ static double noise_of(const events *e, size_t rule, size_t instance, double t)
  * farther than 512 times its rounding: rounding soon hides in which order such events would come. */
 bool events_accumulate(events *e, size_t rule, size_t instance, double t)
 {
-    enum { ULPS = 512, ULPS_EACH = 64 };
+    enum { ULPS = 512, ULPS_EACH = 64, HIDDEN = 1 << 18 };
     const struct rule *of = &e->rules.rule[rule];
     const int levels = recent_levels(of);
     recent *r = &e->recent[e->instances[rule] + instance];
@@ -261,7 +261,7 @@ bool events_accumulate(events *e, size_t rule, size_t instance, double t)
         /* a function may be hidden by its own rounding long before */
         const size_t f = of->first + instance;
         const double top = fabs(e->here.rate[f]) * one * k.ratio / 4; /* on a parabola */
-        if (of->kind != RULE_ROOT || !(top <= ULPS * e->here.bound[f])) return false;
+        if (of->kind != RULE_ROOT || !(top <= HIDDEN * e->here.bound[f])) return false;
         if (!(k.error < k.left)) return false; /* equal intervals end nowhere, and a function may stay 0 */
     }
     set_limit(e, rule, instance, t, &k);

@@ -112,8 +112,8 @@ gives "a steep force" 1 "$motus" run "$place/steep.motus" --until 30 --method do
 that "... does not jump" eval "! diagnosed '.cause == \"discontinuous\"'"
 
 # --- events, Newton, rounding, the finite numbers ---------------------------------------------------------------------------------
-model pushes "y'' = -9.81" "y(0) = 1" "y'(0) = 0" "when y = 0 falling as bounce: y' = 0.9 y', record"
-ends_by "an action that does not end what it answers to" events "$place/pushes.motus" --until 3
+model pushes "y'' = -9.81" "y(0) = 1" "y'(0) = 0" "when y = 0 falling as bounce: y' = -y', record" "when y' > 0 as back: y' = -y'"
+ends_by "actions that answer one another without end" events "$place/pushes.motus" --until 3
 that "... bounce" diagnosed '.variable == "bounce" and (.time - 0.4515236409857309 | fabs) < 1e-9'
 model solves "x'' = -x^3" "x(0) = 10" "x'(0) = 0"
 ends_by "an equation that Newton's method does not solve" newton "$place/solves.motus" --until 30 --method gauss4 --step 2

@@ -359,7 +359,7 @@ refuses "events and rows in one file" 2 "is named for two outputs" "$motus" run 
 gives "events and JSON in one place" 2 "$motus" run "$ball" --events - --json
 that "... are refused" holds '.error.message | contains("both write to standard output")'
 refuses "events of a link" 2 "exclude each other" "$motus" run "$ball" --events "$place/x.csv" --share
-sed "s/y' = -e y'/y' = 0.9 y'/" "$ball" >"$place/pushes.motus"
+{ cat "$ball"; echo "when y' > 0 as back: y' = -y'"; } >"$place/pushes.motus"
 refuses "a run that fails" 1 "events in one instant" "$motus" run "$place/pushes.motus" --events "$place/none.csv"
 that "... leaves no table" absent "$place/none.csv"
 

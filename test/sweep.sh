@@ -379,7 +379,7 @@ model() { local name=$1; shift; printf '%s\n' "$@" >"$name.motus"; }
 model pole "x'' = c*6*x^2" "c = 1" "x(0) = 1" "x'(0) = 2"
 model relaxes "x'' = -1e10*(x' - cos(t)) + c" "c = 0" "x(0) = 1" "x'(0) = 1"
 model rubs "x'' = -x - c*sign(x')" "c = 0.5" "x(0) = 3" "x'(0) = 0"
-model pushes "y'' = -9.81*c" "c = 1" "y(0) = 1" "y'(0) = 0" "when y = 0 falling as bounce: y' = 0.9 y', record"
+model pushes "y'' = -9.81*c" "c = 1" "y(0) = 1" "y'(0) = 0" "when y = 0 falling as bounce: y' = -y', record" "when y' > 0 as back: y' = -y'"
 model solves "x'' = -c*x^3" "c = 1" "x(0) = 10" "x'(0) = 0"
 model noise "x'' = -c*x" "e' = x'*((x+0.3)-0.3-x)" "c = 1" "x(0) = 1" "x'(0) = 0" "e(0) = 0"
 model grows "x'' = c*x" "c = 1" "x(0) = 1" "x'(0) = 1"

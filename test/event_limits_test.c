@@ -1,0 +1,116 @@
+/* Events at the limit of what rounding tells: bounces that accumulate at any height, passages that an action slows down,
+ * functions that an action lets go of 0. Against closed forms. */
+#include "given.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+static motus_run *finished(motus_system *s, const char *method)
+{
+    motus_error err = motus_default_error();
+    motus_run_def def = motus_default_run();
+    motus_run *r = NULL;
+    def.method = method;
+    def.error = MOTUS_BARS_CHEAP;
+    must(motus_run_create(s, &def, &r, &err), &err, "run");
+    must(motus_run_finish(r, &err), &err, "finish");
+    return r;
+}
+
+static motus_event_row row_of(motus_run *r, int64_t k)
+{
+    motus_event_row row = motus_default_event_row();
+    assert_int_equal(motus_run_event(r, k, &row), MOTUS_OK);
+    return row;
+}
+
+static const char *const methods[] = {NULL, "taylor", "dop853", "radau15", "rk4", "verlet"};
+enum { METHODS = sizeof methods / sizeof *methods };
+
+/* A ball from 1 above a floor, thrown up by 1, that keeps a part e of its speed. */
+static void floors(void **state)
+{
+    (void)state;
+    static const double heights[] = {0, -1, 0.1, 1, 2, 100, -3.7};
+    const long double g = 9.8L, up = 1, hit = sqrtl(up * up + 2 * g);
+    for (size_t i = 0; i < sizeof heights / sizeof *heights; i++)
+        for (size_t k = 0; k < METHODS; k++) {
+            const char *const e = i % 2 ? "0.5" : "0.7";
+            const long double part = i % 2 ? 0.5L : 0.7L, limit = (up + hit) / g + 2 * hit / g * part / (1 - part);
+            char text[256];
+            double time, error;
+            int accumulated;
+            snprintf(text, sizeof text,
+                     "e = %s\ny'' = -9.8\ny(0) = %.17g\ny'(0) = 1\nstep 0.01\nuntil 5\n"
+                     "when y = %.17g falling as hit: y' = -e y', record",
+                     e, heights[i] + 1, heights[i]);
+            motus_system *s = given_text(text);
+            motus_run *r = finished(s, methods[k]);
+            assert_string_equal(motus_run_ended(r, &accumulated, &time, &error), "hit");
+            if (!accumulated || !(fabsl(time - limit) <= error) || !(error <= 1e-9))
+                fail_msg("a floor at %g by %s: %.17g ± %g, not %.17Lg", heights[i], motus_run_method(r), time, error,
+                         limit);
+            motus_run_destroy(r);
+            motus_system_destroy(s);
+        }
+}
+
+/* A body passes 0 at t = 1 and is slowed down there to a part of its speed, or driven on: it passes once. */
+static void passages(void **state)
+{
+    (void)state;
+    static const double parts[] = {0.9, 0.3, 1e-3, 1, 2.5};
+    for (size_t i = 0; i < sizeof parts / sizeof *parts; i++)
+        for (size_t k = 0; k < METHODS; k++) {
+            char text[256];
+            snprintf(text, sizeof text,
+                     "x'' = 0\nx(0) = 1\nx'(0) = -1\nstep 0.03\nuntil 2\n"
+                     "when x = 0 falling as passes: x' = %.17g x', record\nwhen x = 0 rising as back: record",
+                     parts[i]);
+            motus_system *s = given_text(text);
+            motus_run *r = finished(s, methods[k]);
+            assert_int_equal(motus_run_events(r), 1);
+            assert_true(fabs(row_of(r, 0).time - 1) <= 0x1p-49); /* 33 steps, each rounded */
+            double end;
+            motus_error err = motus_default_error();
+            const size_t x = 1;
+            must(motus_run_values(r, &x, 1, &end, &err), &err, "x");
+            if (!(fabs(end + parts[i]) <= 0x1p-48 * (1 + parts[i]))) fail_msg("x = %.17g after %g", end, parts[i]);
+            motus_run_destroy(r);
+            motus_system_destroy(s);
+        }
+}
+
+/* A rocket stands until its thrust, which grows, is its weight: its speed is 0 until then, and rises from 0 with the
+ * slope 0. It never falls, wherever rounding puts the thrust at that instant. */
+static void lifts_off(void **state)
+{
+    (void)state;
+    static const char *const thrusts[] = {"F = 15000 (t - 8)", "F = 15000 q\nq' = 1\nq(0) = -8", "F = 1e-3 t^3 m"};
+    static const char *const apogees[] = {"when y' = 0 falling as apogee: record", "when y' < 0 as apogee: record",
+                                          "when y' = 0 rising as off: record"};
+    for (size_t i = 0; i < sizeof thrusts / sizeof *thrusts; i++)
+        for (size_t j = 0; j < sizeof apogees / sizeof *apogees; j++)
+            for (int m = 16; m <= 24; m++)
+                for (size_t k = 0; k < 3; k++) {
+                    char text[512];
+                    snprintf(text, sizeof text,
+                             "g = 9.81\nm = %d\n%s\nonpad = 1\ny'' = if(onpad, 0, F/m - g)\ny(0) = 0\ny'(0) = 0\n"
+                             "until 30\nwhen F = m g rising as liftoff: onpad = 0, record\n%s",
+                             m, thrusts[i], apogees[j]);
+                    motus_system *s = given_text(text);
+                    motus_run *r = finished(s, methods[k]);
+                    if (motus_run_events(r) != (j == 2 ? 2 : 1))
+                        fail_msg("%s by %s: %d events", text, motus_run_method(r), (int)motus_run_events(r));
+                    motus_run_destroy(r);
+                    motus_system_destroy(s);
+                }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {cmocka_unit_test(floors), cmocka_unit_test(passages),
+                                       cmocka_unit_test(lifts_off)};
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
