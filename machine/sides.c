@@ -11,7 +11,10 @@
 #include <stdio.h>
 #include <string.h>
 
-enum { NESTED = 16 }; /* switches within the arguments of others, at most, that change at once */
+enum {
+    NESTED = 16, /* switches within the arguments of others, at most, that change at once */
+    AHEAD = 12   /* the order of the series that tell how an argument leaves 0 */
+};
 
 struct sides {
     const model *model;
@@ -19,13 +22,14 @@ struct sides {
     const problem *problem;
     rules supplied, own;
     rule *rule;
-    tape *argument, *rate, *rounding, *least, *least_rates;
+    tape *argument, *rate, *rounding, *force_rounding, *least, *least_rates;
     tape *hold, *hold_rate, *hold_rounding; /* NULL: none can be held */
     tape *grip, *grip_rate, *grip_rounding; /* likewise */
     double *u, *du, *later;       /* of all switches: arguments, their rates, and the arguments a little later */
     double *before, *now, *bound; /* likewise, while sides are chosen */
     double *p, *dp, *r, *dr;      /* likewise: what holds them and how much that drives them, and the rates of both */
     double *a, *b, *x, *v;        /* room for two accelerations and a state */
+    double *xs, *vs;              /* the series of a motion; NULL: none was wanted */
     double *was;                  /* of all switches: sides for a while */
     int8_t *beside;               /* likewise: the way in which a switch leaves 0 with another one, 0: it does not */
     bool *of, *covered;           /* likewise: switches that are to be held together, and those that are */
@@ -239,26 +243,83 @@ static motus_status rate_on(sides *s, size_t k, double side, double way, double 
     return status;
 }
 
-/* Where an argument moves that is 0 and whose rate is 0: its value a little later, by Taylor's formula. */
-static motus_status look_ahead(sides *s, size_t k, double side, double way, double t, double *x, double *v, double *out,
-                               motus_error *err)
+/* The Taylor series of the motion from a state, to order AHEAD, in s->xs and s->vs. */
+static motus_status expand(sides *s, double t, double *x, double *v, motus_error *err)
 {
+    enum { LENGTH = AHEAD + 1 };
     const problem *p = s->problem;
-    const double h = way * 0x1p-20 * fmax(1, fabs(t));
+    const size_t kept = p->series_numbers(p->ctx, LENGTH);
+    const size_t numbers = LENGTH * (p->nx + p->nv) + kept;
+    if (!s->xs && kept) s->xs = arena_room(s->model->arena, (numbers + 1) * sizeof *s->xs);
+    if (!s->xs || !kept) return fail(err, MOTUS_MEMORY, "no memory for the switches of the model");
+    s->vs = s->xs + LENGTH * p->nx;
+    memset(s->xs, 0, numbers * sizeof *s->xs);
+    for (size_t i = 0; i < p->nx; i++) s->xs[i * LENGTH] = x[i], s->xs[i * LENGTH + 1] = v[i];
+    for (size_t i = 0; i < p->nv; i++) s->vs[i * LENGTH] = v[i];
+    memset(s->a, 0, p->nv * sizeof *s->a);
+    for (int n = 0; n < AHEAD; n++) {
+        p->series(p->ctx, LENGTH, n, t, s->xs, s->vs, s->a, s->vs + LENGTH * p->nv);
+        for (size_t i = 0; i < p->nv; i++) s->vs[i * LENGTH + (size_t)n + 1] = s->a[i] / (n + 1);
+        for (size_t i = 0; i < p->nx && n + 2 < LENGTH; i++)
+            s->xs[i * LENGTH + (size_t)n + 2] = s->a[i] / ((n + 1) * (n + 2));
+    }
+    return MOTUS_OK;
+}
+
+/* The series at a distance h. False: so far its last terms count, or it is not finite. */
+static bool reaches(const double *series, size_t count, double h, double *out)
+{
+    enum { LENGTH = AHEAD + 1 };
+    for (size_t i = 0; i < count; i++) {
+        const double *c = series + i * LENGTH;
+        double power = 1, most = 0, last = 0, moved = 0;
+        for (int n = 1; n < LENGTH; n++) {
+            power *= h;
+            const double term = c[n] * power;
+            moved += term;
+            most = fmax(most, fabs(term));
+            if (n >= LENGTH - 2) last = fmax(last, fabs(term));
+        }
+        out[i] = c[0] + moved;
+        if (!isfinite(out[i]) || last > 0x1p-20 * most) return false;
+    }
+    return true;
+}
+
+/* The way in which an argument leaves 0 whose rate is 0, with its switch on a side: its sign at the least distance at
+ * which it exceeds its rounding and that of the force, since a derivative that vanishes does so but for that. 0: it
+ * stays 0 as far as the series of the motion tell. */
+static motus_status look_ahead(sides *s, size_t k, double side, double origin, double way, double t, double *x,
+                               double *v, int *leaves, motus_error *err)
+{
+    enum { FACTOR = 16, TIMES = 64 };
+    const size_t nv = s->problem->nv;
     double *place = x + s->switches->slot + k;
     const double was = *place;
+    *leaves = 0;
     *place = side;
-    const motus_status status = accelerate(s, t, x, v, err);
+    memset(s->b, 0, nv * sizeof *s->b);
+    double *base[SPACES] = {[SPACE_X] = x, [SPACE_V] = v, [SPACE_A] = s->b};
+    tape_run(s->force_rounding, t, base);
+    motus_status status = expand(s, t, x, v, err);
     *place = was;
-    if (status != MOTUS_OK) return status;
-    if (p->nx) memcpy(s->x, x, p->nx * sizeof *x);
-    for (size_t i = 0; i < p->nv; i++) {
-        if (i < p->nx) s->x[i] += h * (v[i] + h / 2 * s->a[i]);
-        s->v[i] = v[i] + h * s->a[i];
+    double h = way * 0x1p-120;
+    for (int times = 0; times < TIMES && status == MOTUS_OK && !*leaves; times++, h *= FACTOR) {
+        if (t + h == t && t != 0) continue;
+        if (!reaches(s->xs, s->problem->nx, h, s->x) || !reaches(s->vs, nv, h, s->v)) break;
+        run(s, s->argument, t + h, s->x, s->v, NULL, s->later);
+        const double u = s->later[k] - origin;
+        run(s, s->rounding, t + h, s->x, s->v, NULL, s->later);
+        double hidden = 0x1p-52 * s->later[k];
+        for (int pattern = 1; pattern <= 2; pattern++) { /* with one sign, and with both in turn */
+            for (size_t i = 0; i < nv; i++)
+                s->a[i] = s->v[i] + (i % (size_t)pattern ? -1 : 1) * 0x1p-52 * fabs(h) * fmin(s->b[i], 0x1p1000);
+            run(s, s->argument, t + h, s->x, s->a, NULL, s->later);
+            hidden += fabs(s->later[k] - origin - u);
+        }
+        if (fabs(u) > hidden) *leaves = u > 0 ? 1 : -1;
     }
-    run(s, s->argument, t + h, s->x, s->v, NULL, s->later);
-    *out = s->later[k];
-    return MOTUS_OK;
+    return status;
 }
 
 /* Whether what holds both takes the other one into account. */
@@ -460,7 +521,7 @@ static motus_status stand_at_corner(sides *s, size_t k, int going, double way, d
 static motus_status choose(sides *s, size_t k, bool left, double way, double t, double *x, double *v, motus_error *err)
 {
     const operation op = op_of(s, k);
-    double *side = x + s->switches->slot + k, on[2], later = 0;
+    double *side = x + s->switches->slot + k, on[2];
     const double above = switches_side(op, 1, 0), below = switches_side(op, -1, 0);
     motus_status status = rate_on(s, k, above, way, t, x, v, &on[0], err);
     if (status == MOTUS_OK) status = rate_on(s, k, below, way, t, x, v, &on[1], err);
@@ -480,14 +541,19 @@ static motus_status choose(sides *s, size_t k, bool left, double way, double t, 
     if (on[0] == 0 && on[1] == 0 && left && (*side == above || *side == below)) {
         *side = *side == above ? below : above;
     } else if (on[0] == 0 && on[1] == 0) {
-        double up = 0, down = 0;
-        if (switches_jumps(op)) status = look_ahead(s, k, above, way, t, x, v, &up, err);
-        if (switches_jumps(op) && !status) status = look_ahead(s, k, below, way, t, x, v, &down, err);
-        run(s, s->argument, t, x, v, NULL, s->later);
-        const double hidden = 2 * fabs(s->later[k]);
-        if (up > hidden && down < -hidden) return refuse(s, k, not_unique, t, err);
-        if (!status) status = look_ahead(s, k, *side, way, t, x, v, &later, err);
-        *side = switches_side(op, 0, later);
+        int up, down, there = 0;
+        status = look_ahead(s, k, above, 0, way, t, x, v, &up, err);
+        if (!status) status = look_ahead(s, k, below, 0, way, t, x, v, &down, err);
+        if (status != MOTUS_OK) return status;
+        if (switches_jumps(op) && up > 0 && down < 0) return refuse(s, k, not_unique, t, err);
+        if ((up > 0) != (down < 0)) {
+            *side = up > 0 ? above : below;
+        } else if (switches_jumps(op)) {
+            status = look_ahead(s, k, *side, 0, way, t, x, v, &there, err);
+            *side = switches_side(op, 0, there);
+        } else { /* while it is 0 its formulas agree */
+            *side = above;
+        }
     } else {
         *side = on[0] + on[1] > 0 ? above : below;
     }
@@ -506,11 +572,16 @@ static motus_status choose_count(sides *s, size_t k, bool left, double at, doubl
     if (on[0] < 0 && on[1] > 0)
         return refuse(s, k, "the motion slides along a jump of the force, which drives it back from both sides,", t,
                       err);
-    if (on[0] == 0 && on[1] == 0 && left)
+    if (on[0] == 0 && on[1] == 0 && left) {
         *side = switches_beyond(op_of(s, k), *side, s->u[k]);
-    else
+    } else if (on[0] == 0 && on[1] == 0) {
+        int up;
+        status = look_ahead(s, k, at, at, way, t, x, v, &up, err);
+        *side = up < 0 ? at - 1 : at;
+    } else {
         *side = on[0] + on[1] < 0 ? at - 1 : at;
-    return MOTUS_OK;
+    }
+    return status;
 }
 
 /* The side that belongs to the argument of switch k as it is in `u`; rounding may have carried it by `bound`. */
@@ -752,6 +823,7 @@ static bool make(sides *s, model *m)
     s->argument = tape_of(m->arena, m->graph, w->held, w->kinds);
     s->rate = tape_of(m->arena, m->graph, w->rate, w->kinds);
     s->rounding = rounding_tape(m, w->held, w->kinds);
+    s->force_rounding = rounding_tape(m, w->accel, m->accel_count);
     if (w->hold_kinds) {
         s->hold = tape_of(m->arena, m->graph, w->hold, w->hold_kinds);
         s->hold_rate = tape_of(m->arena, m->graph, w->hold_rate, w->hold_kinds);
@@ -762,7 +834,7 @@ static bool make(sides *s, model *m)
         if (!s->hold || !s->hold_rate || !s->hold_rounding || !s->grip || !s->grip_rate || !s->grip_rounding)
             return false;
     }
-    return s->argument && s->rate && s->rounding && make_least(s, m) && sides_rebind(s);
+    return s->argument && s->rate && s->rounding && s->force_rounding && make_least(s, m) && sides_rebind(s);
 }
 
 motus_status sides_create(model *m, const rules *own, const problem *p, sides **out, motus_error *err)
@@ -783,8 +855,9 @@ const rules *sides_rules(const sides *s) { return &s->supplied; }
 bool sides_rebind(sides *s)
 {
     const binding b = {s->model->arrays, s->model->ints, s->model->pool};
-    tape *const tapes[] = {s->argument,  s->rate,          s->rounding, s->least,     s->least_rates,  s->hold,
-                           s->hold_rate, s->hold_rounding, s->grip,     s->grip_rate, s->grip_rounding};
+    tape *const tapes[] = {s->argument,      s->rate,        s->rounding,  s->force_rounding,
+                           s->least,         s->least_rates, s->hold,      s->hold_rate,
+                           s->hold_rounding, s->grip,        s->grip_rate, s->grip_rounding};
     for (size_t k = 0; k < sizeof tapes / sizeof *tapes; k++)
         if (tapes[k] && !tape_bind(tapes[k], &b)) return false;
     /* the periods of clocks depend on parameters */

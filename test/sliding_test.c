@@ -163,6 +163,32 @@ static void relay(void **state)
     }
 }
 
+/* Arguments that leave 0 with a derivative of 0, at the start or after they have stuck there, each to the side that its
+ * first derivative says that is not 0. The numbers are those of the classical method of order 4 in steps of 1e-4 on the
+ * side that is known. */
+static void leaves_without_slope(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *text;
+        double until, x, v;
+    } cases[] = {
+        {"x'' = sin(t) - |x'| x'\nx(0) = 0\nx'(0) = 0\n", 4, 2.16188407704518, 0.14481977380395},
+        {"x'' = -max(0, t - 1)^2 - |x'| x'\nx(0) = 0\nx'(0) = 0\n", 4, -3.25918092910797, -2.81361972954188},
+        {"x'' = 1.2 sin(t) - sign(x') - 0.5 |x'| x'\nx(0) = 0\nx'(0) = 0\n", 2, 0.06631510686895, 0.14447530119832},
+        {"a = t - 1 - 0.5 |x'| x'\nx'' = if(x <= 0 and a < 0, 0, a)\nx(0) = 0\nx'(0) = 0\n", 3, 1.13136198297093,
+         1.46515336962322},
+        {"x'' = -t - if(x < 0, t/2, 0)\nx(0) = 0\nx'(0) = 0\n", 2, -2, -3},
+    };
+    const size_t count = sizeof cases / sizeof *cases;
+    for (size_t k = 0; k < count; k++)
+        for (int m = 0; m < METHODS; m++) {
+            const outcome o = finished(cases[k].text, methods[m], 1e-11, cases[k].until);
+            NEAR(o.x[0], cases[k].x, 1e-9);
+            NEAR(o.v[0], cases[k].v, 1e-9);
+        }
+}
+
 /* Each by itself: bodies that stop at different times. */
 static void many(void **state)
 {
@@ -565,6 +591,7 @@ int main(void)
         cmocka_unit_test(comes_to_rest),
         cmocka_unit_test(slips_from_a_belt),
         cmocka_unit_test(relay),
+        cmocka_unit_test(leaves_without_slope),
         cmocka_unit_test(many),
         cmocka_unit_test(together),
         cmocka_unit_test(comes_to_rest_by_swings),
