@@ -105,11 +105,13 @@ static size_t row_of(size_t k, size_t i, size_t rows)
     return row < rows ? row : SIZE_MAX;
 }
 
-static double bar_of(const double *d, size_t n)
+static double own_part(const motus_run *r) { return r->bars->differences.shape.slow ? OWN_SLOW : OWN; }
+
+static double bar_of(const motus_run *r, const double *d, size_t n)
 {
     double others = 0;
     for (size_t i = 1; i < n; i++) others = fmax(others, d[i]);
-    return OWN * d[0] + OTHERS * others;
+    return own_part(r) * d[0] + OTHERS * others;
 }
 
 /* Of a time, what a companion does not show. */
@@ -134,7 +136,7 @@ double event_bars_time(motus_run *r, size_t k)
         if (r->bars->twin.events) d[n] = fmax(d[n], distance(r, &r->bars->twin, row));
         n++;
     }
-    return fmax(bar_of(d, n) + events_ulp(this.t), shared(this.t, this.lasting, LASTING)) + this.doubt;
+    return fmax(bar_of(r, d, n) + events_ulp(this.t), shared(this.t, this.lasting, LASTING)) + this.doubt;
 }
 
 #define WHOLE_MOST 0x1p53
@@ -252,8 +254,7 @@ double event_bars_limit(motus_run *r, const events_limit *limit)
     const double gone = b->differences.until, way = r->timing.h < 0 ? -1 : 1;
     if (!isnan(gone) && way * (limit->t - gone) > limit->error) return INFINITY; /* long before it */
     if (b->why[0] || !other_limit(&b->half, limit, &other, way)) return NAN;
-    const double own = b->differences.shape.slow ? OWN_SLOW : OWN;
-    return own * fabs(limit->t - other.t) + limit->error + shared(limit->t, limit->lasting, LASTING_LIMIT);
+    return own_part(r) * fabs(limit->t - other.t) + limit->error + shared(limit->t, limit->lasting, LASTING_LIMIT);
 }
 
 int64_t motus_run_events_significant(motus_run *r)
@@ -316,7 +317,7 @@ static motus_status errors(motus_run *r, size_t k, bool after, const size_t *col
     for (size_t j = 0; j < count && status == MOTUS_OK; j++) {
         double d[WINDOW];
         for (size_t i = 0; i < n; i++) d[i] = room[(i + 1) * count + j];
-        out[j] = bar_of(d, n);
+        out[j] = bar_of(r, d, n);
     }
     if (status == MOTUS_OK) status = values_of(r, r->system, r->events, k, after, columns, count, room, err);
     for (size_t j = 0; j < count && status == MOTUS_OK;

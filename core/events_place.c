@@ -120,20 +120,26 @@ void events_copy(const events *e, instant *to, const instant *from)
     if (e->rules.functions) memcpy(to->g, from->g, e->rules.functions * sizeof *to->g);
 }
 
+enum { PARTS = 2, PARTS_ULPS = 1 << 12 };
+
 motus_status events_probe(events *e, double from, double lost, const double *x, const double *v, double h, double *t,
                           double *rest, motus_error *err)
 {
     const double end = from + (lost + h), over = (end - from) - h; /* its rounding, and what was lost */
-    const stepper_limit limit = row_adaptive(&e->method) ? (stepper_limit){INT64_MAX, end} : (stepper_limit){1, NAN};
+    const bool adaptive = row_adaptive(&e->method);
+    /* a companion that took the one step of the run to an event would have its error */
+    const int parts = e->jog && !adaptive && fabs(h) > PARTS_ULPS * events_ulp(end) ? PARTS : 1;
+    const stepper_limit limit = adaptive ? (stepper_limit){INT64_MAX, end} : (stepper_limit){parts, NAN};
+    const double step = h / parts;
     motus_status status = MOTUS_OK;
     *t = end;
     *rest = lost - over;
     if (!e->probe) {
         chosen method = e->method;
         if (row_reversible_steps(&method)) method.relative = HUGE_VAL; /* one step leads there, whatever its size */
-        status = stepper_create(&e->machine, &method, from, h, x, v, &e->allocator, &e->probe, err);
+        status = stepper_create(&e->machine, &method, from, step, x, v, &e->allocator, &e->probe, err);
     }
-    if (!status) status = stepper_branch(e->probe, e->along, from, over, h, x, v, err);
+    if (!status) status = stepper_branch(e->probe, e->along, from, over, step, x, v, err);
     return status ? status : stepper_advance(e->probe, limit, NULL, err);
 }
 

@@ -1,5 +1,5 @@
 /* Events at the limit of what rounding tells: bounces that accumulate at any height, passages that an action slows down,
- * functions that an action lets go of 0. Against closed forms. */
+ * functions that an action lets go of 0, events in the first steps of methods of fixed step. Against closed forms. */
 #include "given.h"
 
 #include <math.h>
@@ -108,9 +108,37 @@ static void lifts_off(void **state)
                 }
 }
 
+/* x = cos(t + 0.2): events in the first step, and in what is left of it after an action, which a companion of
+ * the same steps would meet with the same error. */
+static void first_steps(void **state)
+{
+    (void)state;
+    static const char *const ways[] = {"midpoint", "verlet", "rk4", "explicit-euler", "symplectic-euler", "heun"};
+    for (size_t k = 0; k < sizeof ways / sizeof *ways; k++)
+        for (double at = 0.01; at < 0.3; at += 0.04) {
+            const double second = at + 0.03, a = at + 0.2; /* it goes on from where its speed was doubled */
+            char text[400];
+            snprintf(text, sizeof text,
+                     "x'' = -x\nx(0) = cos(0.2)\nx'(0) = -sin(0.2)\nstep 1\nuntil 2\n"
+                     "when x' = %.17g falling as first: x' = 2 x', record\nwhen x' = %.17g falling as second: record",
+                     -sin(a), -(2 * sin(a) * cos(second - at) + cos(a) * sin(second - at)));
+            motus_system *s = given_text(text);
+            motus_run *r = finished(s, ways[k]);
+            assert_true(motus_run_events(r) >= 2);
+            const double truths[] = {at, second};
+            for (int i = 0; i < 2; i++) {
+                const motus_event_row row = row_of(r, i);
+                if (!(fabs(row.time - truths[i]) <= row.error))
+                    fail_msg("%s by %s: %.17g ± %g, not %.17g", row.name, ways[k], row.time, row.error, truths[i]);
+            }
+            motus_run_destroy(r);
+            motus_system_destroy(s);
+        }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {cmocka_unit_test(floors), cmocka_unit_test(passages),
-                                       cmocka_unit_test(lifts_off)};
+                                       cmocka_unit_test(lifts_off), cmocka_unit_test(first_steps)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
