@@ -5,7 +5,7 @@ if(MOTUS_SANITIZE AND CMAKE_CROSSCOMPILING)
 endif()
 
 include(CheckCSourceCompiles)
-# The laws and the tests of claims and series need _Float128, which clang has from version 15 on; with an older one they are not built.
+# The laws and the tests of claims, series and motions need _Float128, which clang has from version 15 on; with an older one they are not built.
 check_c_source_compiles("__extension__ typedef _Float128 wide; int main(void) { wide w = 1; return (int)w - 1; }" HAVE_FLOAT128)
 
 file(GLOB test_files CONFIGURE_DEPENDS RELATIVE ${PROJECT_SOURCE_DIR} test/*.c test/cli/*.c)
@@ -13,7 +13,7 @@ set(test_programs "")
 set(test_help "")
 set(test_fuzzers "")
 foreach(file IN LISTS test_files)
-  if(file MATCHES "^test/(laws|claims|series)" AND (NOT HAVE_FLOAT128 OR MOTUS_SANITIZE))
+  if(file MATCHES "^test/(laws|claims|series|motion)" AND (NOT HAVE_FLOAT128 OR MOTUS_SANITIZE))
     continue()
   endif()
   file(STRINGS ${PROJECT_SOURCE_DIR}/${file} has_main REGEX "^(static )?(int )?main *\\(")
