@@ -64,6 +64,44 @@ static bool is_pinned(const sides *s, const double *side, size_t k)
     return op_of(s, k) == OP_SIGN && fabs(side[k]) > 0 && fabs(side[k]) < 1;
 }
 
+/* The switch whose surface that of switch k is, and whether that is another one: then k changes its side with it, and
+ * has no function of its own. */
+static size_t first_of(const sides *s, size_t k)
+{
+    const switches *w = s->switches;
+    if (!w->shared) return k;
+    const size_t kind = switches_kind(w, k);
+    return w->first[w->as[kind]] + (k - w->first[kind]);
+}
+static bool follows(const sides *s, size_t k) { return first_of(s, k) != k; }
+
+/* Gives switch k, which follows none, a side; those that follow it have what belongs to that. */
+static void put(const sides *s, double *side, size_t k, double value)
+{
+    const switches *w = s->switches;
+    const size_t kind = switches_kind(w, k), cell = k - w->first[kind];
+    side[k] = value;
+    if (!w->shared) return;
+    const bool held = is_held(s, side, k);
+    const double way = compares(op_of(s, k)) ? (value == side_of(s, k, 1) ? 1 : -1) : value;
+    for (size_t j = kind + 1; j < w->kinds; j++) {
+        const size_t n = w->first[j] + cell;
+        if (w->as[j] != kind) continue;
+        const double own = w->turned[j] * way;
+        side[n] = held ? value : op_of(s, n) == OP_SIGN ? own : switches_side(op_of(s, n), own, 0);
+    }
+}
+
+/* Whether a switch that has the surface of k is a comparison, be it k itself. */
+static bool chooses(const sides *s, size_t k)
+{
+    const switches *w = s->switches;
+    const size_t kind = switches_kind(w, k);
+    bool any = false;
+    for (size_t j = kind; j < w->kinds; j++) any |= w->as[j] == kind && compares(op_of(s, w->first[j]));
+    return any;
+}
+
 /* Whether any is; the tapes of what holds them are run only then. */
 static bool any_held(const sides *s, const double *side)
 {
@@ -104,9 +142,10 @@ static int values(void *ctx, double t, double *x, double *v, double *out)
     const bool held = any_held(s, side);
     if (held) run(s, s->hold, t, x, v, NULL, s->p), run(s, s->grip, t, x, v, NULL, s->r);
     for (size_t k = 0; k < s->switches->count; k++)
-        out[k] = held && is_held(s, side, k) ? grip_of(s, side, k)
-                 : is_pinned(s, side, k)     ? 1
-                                             : switches_distance(op_of(s, k), side[k], out[k]);
+        out[k] = follows(s, k)                 ? 1
+                 : held && is_held(s, side, k) ? grip_of(s, side, k)
+                 : is_pinned(s, side, k)       ? 1
+                                               : switches_distance(op_of(s, k), side[k], out[k]);
     return 0;
 }
 
@@ -133,9 +172,10 @@ static int rates(void *ctx, double t, double *x, double *v, double *a, double *o
     out += s->own.functions;
     const bool held = measure(s, s->rate, s->hold_rate, s->grip_rate, t, x, v, a, out);
     for (size_t k = 0; k < s->switches->count; k++)
-        out[k] = held && is_held(s, side, k) ? grip_rate_of(s, side, k)
-                 : is_pinned(s, side, k)     ? 0
-                                             : out[k] * switches_distance_slope(op_of(s, k), side[k], s->u[k]);
+        out[k] = follows(s, k)                 ? 0
+                 : held && is_held(s, side, k) ? grip_rate_of(s, side, k)
+                 : is_pinned(s, side, k)       ? 0
+                                               : out[k] * switches_distance_slope(op_of(s, k), side[k], s->u[k]);
     return 0;
 }
 
@@ -148,8 +188,9 @@ static void rounding(void *ctx, double t, double *x, double *v, double *out)
     const bool held = measure(s, s->rounding, s->hold_rounding, s->grip_rounding, t, x, v, NULL, out);
     for (size_t k = 0; k < s->switches->count; k++)
         out[k] =
-            0x1p-53 * (held && is_held(s, side, k) ? grip_rounding_of(s, k)
-                       : is_pinned(s, side, k)     ? 0
+            0x1p-53 * (follows(s, k)                 ? 0
+                       : held && is_held(s, side, k) ? grip_rounding_of(s, k)
+                       : is_pinned(s, side, k)       ? 0
                                                : out[k] * fabs(switches_distance_slope(op_of(s, k), side[k], s->u[k])));
 }
 
@@ -168,7 +209,7 @@ static void least_of(const sides *s, bool rates, double *x, double *v, double *d
     double *base[SPACES] = {[SPACE_X] = x, [SPACE_V] = v, [SPACE_DX] = dx, [SPACE_DV] = dv, [SPACE_OUT] = out};
     tape_run(rates ? s->least_rates : s->least, NAN, base);
     for (size_t k = 0; k < s->switches->count; k++)
-        if (is_pinned(s, side, k))
+        if (follows(s, k) || is_pinned(s, side, k))
             out[k] = rates ? 0 : 1;
         else if (unknown(s, side, k))
             out[k] = -1;
@@ -233,12 +274,12 @@ static motus_status accelerate(sides *s, double t, double *x, double *v, motus_e
 static motus_status rate_on(sides *s, size_t k, double side, double way, double t, double *x, double *v, double *rate,
                             motus_error *err)
 {
-    double *place = x + s->switches->slot + k;
-    const double was = *place;
-    *place = side;
+    double *sides = x + s->switches->slot;
+    const double was = sides[k];
+    put(s, sides, k, side);
     const motus_status status = accelerate(s, t, x, v, err);
     if (status == MOTUS_OK) run(s, s->rate, t, x, v, s->a, s->du);
-    *place = was;
+    put(s, sides, k, was);
     *rate = way * s->du[k];
     return status;
 }
@@ -294,15 +335,15 @@ static motus_status look_ahead(sides *s, size_t k, double side, double origin, d
 {
     enum { FACTOR = 16, TIMES = 64 };
     const size_t nv = s->problem->nv;
-    double *place = x + s->switches->slot + k;
-    const double was = *place;
+    double *sides = x + s->switches->slot;
+    const double was = sides[k];
     *leaves = 0;
-    *place = side;
+    put(s, sides, k, side);
     memset(s->b, 0, nv * sizeof *s->b);
     double *base[SPACES] = {[SPACE_X] = x, [SPACE_V] = v, [SPACE_A] = s->b};
     tape_run(s->force_rounding, t, base);
     motus_status status = expand(s, t, x, v, err);
-    *place = was;
+    put(s, sides, k, was);
     double h = way * 0x1p-120;
     for (int times = 0; times < TIMES && status == MOTUS_OK && !*leaves; times++, h *= FACTOR) {
         if (t + h == t && t != 0) continue;
@@ -345,7 +386,7 @@ static motus_status hold(sides *s, size_t k, double above, double below, double 
         return refuse(s, k, why, t, err);
     }
     motus_status status = MOTUS_OK;
-    if (!compares(op_of(s, k))) { /* a comparison chooses, and its parts are affine */
+    if (!chooses(s, k)) { /* a comparison chooses, and its parts are affine */
         status = rate_on(s, k, 0, 1, t, x, v, &middle, err);
         if (status != MOTUS_OK) return status;
         if (fabs(middle - (above + below) / 2) > 0x1p-30 * (fabs(above) + fabs(below))) {
@@ -360,15 +401,15 @@ static motus_status hold(sides *s, size_t k, double above, double below, double 
     if (status == MOTUS_OK) status = rate_on(s, k, side_of(s, k, -1), 1, t, x, v, &middle, err);
     bool coupled = false;
     for (size_t j = 0; j < count; j++)
-        coupled |= j != k && is_held(s, side, j) && !solved(s, k, j) && s->du[j] != s->later[j];
+        coupled |= first_of(s, j) != k && is_held(s, side, j) && !solved(s, k, j) && s->du[j] != s->later[j];
     for (size_t j = 0; j < count && status == MOTUS_OK && !coupled; j++) {
         double one = 0, other = 0;
-        if (j == k || !is_held(s, side, j) || solved(s, k, j)) continue;
+        if (j == k || follows(s, j) || !is_held(s, side, j) || solved(s, k, j)) continue;
         const double held = side[j], on = side_of(s, k, 1);
-        side[j] = side_of(s, j, 1), status = rate_on(s, k, on, 1, t, x, v, &one, err);
-        side[j] = side_of(s, j, -1);
+        put(s, side, j, side_of(s, j, 1)), status = rate_on(s, k, on, 1, t, x, v, &one, err);
+        put(s, side, j, side_of(s, j, -1));
         if (status == MOTUS_OK) status = rate_on(s, k, on, 1, t, x, v, &other, err);
-        side[j] = held;
+        put(s, side, j, held);
         coupled = one != other;
     }
     if (status != MOTUS_OK) return status;
@@ -384,7 +425,7 @@ static motus_status hold(sides *s, size_t k, double above, double below, double 
         const double way = -s->u[k] / (above - below);
         for (size_t i = 0; i < nv; i++) v[i] += way * (s->b[i] - s->a[i]);
     }
-    side[k] = above < below ? SWITCHES_HELD : SWITCHES_HELD_BACKWARD;
+    put(s, side, k, above < below ? SWITCHES_HELD : SWITCHES_HELD_BACKWARD);
     return status;
 }
 
@@ -426,11 +467,11 @@ static motus_status rate_at_corner(sides *s, size_t k, int to, double way, doubl
     for (size_t n = 0; n < s->switches->count; n++) {
         if (!s->beside[n]) continue;
         s->was[n] = side[n];
-        side[n] = s->beside[n] * to;
+        put(s, side, n, s->beside[n] * to);
     }
     const motus_status status = rate_on(s, k, side_of(s, k, to), way, t, x, v, rate, err);
     for (size_t n = 0; n < s->switches->count; n++)
-        if (s->beside[n]) side[n] = s->was[n];
+        if (s->beside[n]) put(s, side, n, s->was[n]);
     return status;
 }
 
@@ -446,7 +487,8 @@ static motus_status find_beside(sides *s, size_t k, const bool *of, double way, 
     if (status == MOTUS_OK) status = rate_on(s, k, side_of(s, k, -1), 1, t, x, v, &below, err);
     if (status != MOTUS_OK) return status;
     for (size_t n = 0; n < s->switches->count; n++) {
-        const bool may = n != k && (of ? of[n] && op_of(s, n) == OP_SIGN : op_of(s, n) == OP_SIGN && fabs(side[n]) < 1);
+        const bool may = n != k && !follows(s, n) &&
+                         (of ? of[n] && op_of(s, n) == OP_SIGN : op_of(s, n) == OP_SIGN && fabs(side[n]) < 1);
         s->beside[n] = (int8_t)(may ? moves_with(s, n, above - below, way, t, x, v, &rate) : 0);
         *found += s->beside[n] != 0;
     }
@@ -480,7 +522,7 @@ static double pin(sides *s, size_t k, double c, double t, double *x, double *v)
     const double tiny = 0x1p-60;
     double *side = x + s->switches->slot;
     for (size_t n = 0; n < s->switches->count; n++)
-        if (s->beside[n]) side[n] = s->beside[n] * (fabs(c) < tiny ? tiny : c);
+        if (s->beside[n]) put(s, side, n, s->beside[n] * (fabs(c) < tiny ? tiny : c));
     run(s, s->hold, t, x, v, NULL, s->p);
     return s->p[k];
 }
@@ -501,9 +543,9 @@ static motus_status stand_at_corner(sides *s, size_t k, int going, double way, d
     if (!*held) {
         if (above > 0 && below < 0) return refuse(s, k, not_unique, t, err);
         const int to = above < 0 && below > 0 ? going : above >= 0 ? 1 : -1;
-        side[k] = side_of(s, k, to);
+        put(s, side, k, side_of(s, k, to));
         for (size_t n = 0; n < s->switches->count; n++)
-            if (s->beside[n]) side[n] = s->beside[n] * to;
+            if (s->beside[n]) put(s, side, n, s->beside[n] * to);
         return MOTUS_OK;
     }
     double c = middle;
@@ -513,7 +555,7 @@ static motus_status stand_at_corner(sides *s, size_t k, int going, double way, d
         if (isfinite(aim)) c = aim;
     }
     pin(s, k, fabs(c) > most ? copysign(most, c) : c, t, x, v);
-    side[k] = way > 0 ? SWITCHES_HELD : SWITCHES_HELD_BACKWARD;
+    put(s, side, k, way > 0 ? SWITCHES_HELD : SWITCHES_HELD_BACKWARD);
     return MOTUS_OK;
 }
 
@@ -521,7 +563,7 @@ static motus_status stand_at_corner(sides *s, size_t k, int going, double way, d
 static motus_status choose(sides *s, size_t k, bool left, double way, double t, double *x, double *v, motus_error *err)
 {
     const operation op = op_of(s, k);
-    double *side = x + s->switches->slot + k, on[2];
+    double *all = x + s->switches->slot, on[2], side = all[k];
     const double above = switches_side(op, 1, 0), below = switches_side(op, -1, 0);
     motus_status status = rate_on(s, k, above, way, t, x, v, &on[0], err);
     if (status == MOTUS_OK) status = rate_on(s, k, below, way, t, x, v, &on[1], err);
@@ -538,8 +580,8 @@ static motus_status choose(sides *s, size_t k, bool left, double way, double t, 
         if (fabs(on[i]) <= bound) on[i] = 0;
     if (on[0] > 0 && on[1] < 0) return refuse(s, k, not_unique, t, err);
     if (on[0] < 0 && on[1] > 0) return hold(s, k, way * on[0], way * on[1], t, x, v, err);
-    if (on[0] == 0 && on[1] == 0 && left && (*side == above || *side == below)) {
-        *side = *side == above ? below : above;
+    if (on[0] == 0 && on[1] == 0 && left && (side == above || side == below)) {
+        side = side == above ? below : above;
     } else if (on[0] == 0 && on[1] == 0) {
         int up, down, there = 0;
         status = look_ahead(s, k, above, 0, way, t, x, v, &up, err);
@@ -547,16 +589,17 @@ static motus_status choose(sides *s, size_t k, bool left, double way, double t, 
         if (status != MOTUS_OK) return status;
         if (switches_jumps(op) && up > 0 && down < 0) return refuse(s, k, not_unique, t, err);
         if ((up > 0) != (down < 0)) {
-            *side = up > 0 ? above : below;
+            side = up > 0 ? above : below;
         } else if (switches_jumps(op)) {
-            status = look_ahead(s, k, *side, 0, way, t, x, v, &there, err);
-            *side = switches_side(op, 0, there);
+            status = look_ahead(s, k, side, 0, way, t, x, v, &there, err);
+            side = switches_side(op, 0, there);
         } else { /* while it is 0 its formulas agree */
-            *side = above;
+            side = above;
         }
     } else {
-        *side = on[0] + on[1] > 0 ? above : below;
+        side = on[0] + on[1] > 0 ? above : below;
     }
+    put(s, all, k, side);
     return status;
 }
 
@@ -590,10 +633,10 @@ static motus_status place(sides *s, size_t k, double u, double bound, double way
 {
     const operation op = op_of(s, k);
     const double whole = switches_counts(op) ? round(u) : 0;
-    if (isnan(u)) return MOTUS_OK;                                                   /* a cell without a switch */
+    if (isnan(u) || follows(s, k)) return MOTUS_OK; /* a cell without a switch; another one places it */
     if (is_pinned(s, x + s->switches->slot, k) && fabs(u) <= bound) return MOTUS_OK; /* it leaves with another */
     if (isfinite(bound) ? fabs(u - whole) > bound : u != whole) { /* where its slope is infinite no bound is known */
-        x[s->switches->slot + k] = switches_side(op, u, 0);
+        put(s, x + s->switches->slot, k, switches_side(op, u, 0));
         return MOTUS_OK;
     }
     return switches_counts(op) ? choose_count(s, k, false, whole, way, t, x, v, err)
@@ -627,7 +670,7 @@ static motus_status change(sides *s, size_t k, double way, double t, double *x, 
         const motus_status status = find_beside(s, k, NULL, way, t, x, v, &beside, err);
         if (status != MOTUS_OK) return status;
         if (beside) return stand_at_corner(s, k, to, way, t, x, v, &held, err);
-        *side = side_of(s, k, to);
+        put(s, x + s->switches->slot, k, side_of(s, k, to));
         return MOTUS_OK;
     }
     if (switches_counts(op)) return choose_count(s, k, true, round(s->u[k]), way, t, x, v, err);
@@ -747,7 +790,7 @@ static motus_status settle(void *ctx, double way, double t, double *x, double *v
             status = place(s, k, s->now[k], 0x1p-53 * s->bound[k], way, t, x, v, err);
         }
         settled = pass > 0 && memcmp(s->before, side, count * sizeof *side) == 0;
-        for (size_t k = 0; k < count; k++) s->of[k] |= pass >= NESTED - 6 && s->before[k] != side[k];
+        for (size_t k = 0; k < count; k++) s->of[k] |= pass >= NESTED - 6 && s->before[k] != side[k] && !follows(s, k);
     }
     return status != MOTUS_OK || settled ? status : stand_together(s, s->of, way, t, x, v, &settled, err);
 }

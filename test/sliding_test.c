@@ -309,6 +309,38 @@ static void coupled(void **state)
     }
 }
 
+/* One surface, whatever forms it is written in, has one value: the friction of a block on another, which slides on ice,
+ * and of three on one another. They go on as one once they are equally fast, from t = 1 and from t = 5/6 on. */
+static void written_twice(void **state)
+{
+    (void)state;
+    static const char *const two[][2] = {{"sign(x' - y')", "sign(y' - x')"},
+                                         {"sign(x' - y')", "-sign(2 x' - 2 y')"},
+                                         {"if(x' > y', 1, -1)", "-sign((x' - y')/3)"},
+                                         {"if(x' > y', 1, -1)", "if(y' > x', 1, -1)"},
+                                         {"-sign(y' - x')", "if(y' <= x', -1, 1)"}};
+    static const char *const start = "x(0) = 0\nx'(0) = 1\ny(0) = 0\ny'(0) = 0\n";
+    for (size_t k = 0; k < sizeof two / sizeof *two; k++)
+        for (int m = 0; m < METHODS; m++) {
+            char text[300];
+            snprintf(text, sizeof text, "x'' = 0.5 - (%s) - 0 |y' - x'|\ny'' = -(%s)/2\n%s", two[k][0], two[k][1],
+                     start);
+            const outcome o = finished(text, methods[m], 1e-12, 4);
+            NEAR(o.x[0], 3, 1e-13);
+            NEAR(o.x[1], 2.5, 1e-13);
+            NEAR(o.v[0], 1, 1e-14);
+            NEAR(o.v[1], 1, 1e-14);
+        }
+    const outcome o =
+        finished("x'' = 0.3 - sign(x' - y')\ny'' = -sign(y' - x') - if(y' > z', 1, -1)\n"
+                 "z'' = sign(2 y' - 2 z')\nx(0) = 0\nx'(0) = 1\ny(0) = 0\ny'(0) = 0\nz(0) = 0\nz'(0) = 0\n",
+                 "dop853", 1e-12, 4);
+    NEAR(o.x[0], 217 / 90.0, 1e-13);
+    NEAR(o.x[1], 359 / 180.0, 1e-13);
+    NEAR(o.x[2], 359 / 180.0, 1e-13);
+    NEAR(o.v[0], 2.2 / 3, 1e-14);
+}
+
 /* A comparison that drives its own argument back is held between both branches: a third of the one with -2 and two
  * thirds of the one with 1 hold s, and y moves by as much of 5 and of 2. */
 static void between_branches(void **state)
@@ -597,6 +629,7 @@ int main(void)
         cmocka_unit_test(comes_to_rest_by_swings),
         cmocka_unit_test(leaves_the_rest),
         cmocka_unit_test(coupled),
+        cmocka_unit_test(written_twice),
         cmocka_unit_test(between_branches),
         cmocka_unit_test(refusals),
         cmocka_unit_test(multiplies),

@@ -13,6 +13,7 @@
 #include "lang/base/operation.h"
 #include "lang/graph/graph_walk.h"
 
+#include <math.h>
 #include <string.h>
 
 static bool same_loops(const output *a, const output *b)
@@ -203,11 +204,140 @@ static node with_value(const model *m, const held_sides *h, size_t first, size_t
     node *only = take(&m->arena->allocator, h->s->kinds, sizeof *only);
     if (!only) return m->arena->failed = true, n;
     for (size_t k = 0; k < h->s->kinds; k++)
-        only[k] = k >= first && k < last && h->s->rate[k].loops == 0 ? h->value[k] : NO_NODE;
+        only[k] = h->s->as[k] >= first && h->s->as[k] < last && h->s->rate[k].loops == 0 ? h->value[k] : NO_NODE;
     held_sides some = {h->s, only};
     const node result = with_sides(m->graph, n, 0, &(replacement){side_or_value, side_or_parts, NULL, &some});
     give(&m->arena->allocator, only);
     return result;
+}
+
+/* Surfaces ------------------------------------------------------------------------------------------------------- */
+
+/* An argument as a sum of terms with numbers for factors. */
+enum { TERMS_MOST = 32, TERMS_DEEP = 64 };
+typedef struct terms {
+    node of[TERMS_MOST];
+    double factor[TERMS_MOST];
+    int count; /* TERMS_MOST + 1: there are more */
+} terms;
+
+static void add_terms(graph *g, node n, double factor, int depth, terms *to)
+{
+    const graph_node at = *graph_at(g, n);
+    const graph_node *a = graph_at(g, at.a), *b = at.op == OP_CONST ? NULL : graph_at(g, at.b);
+    const bool deep = depth < TERMS_DEEP;
+    if (deep && (at.op == OP_ADD || at.op == OP_SUB)) {
+        add_terms(g, at.a, factor, depth + 1, to);
+        add_terms(g, at.b, at.op == OP_SUB ? -factor : factor, depth + 1, to);
+    } else if (deep && at.op == OP_NEG) {
+        add_terms(g, at.a, -factor, depth + 1, to);
+    } else if (deep && at.op == OP_MUL && a->op == OP_CONST) {
+        add_terms(g, at.b, factor * a->value, depth + 1, to);
+    } else if (deep && (at.op == OP_MUL || at.op == OP_DIV) && b->op == OP_CONST) {
+        add_terms(g, at.a, at.op == OP_MUL ? factor * b->value : factor / b->value, depth + 1, to);
+    } else {
+        const node one = at.op == OP_CONST                ? graph_const(g, 1)
+                         : at.op == OP_MUL && at.b < at.a ? graph_op(g, OP_MUL, at.b, at.a, 0) /* in one order */
+                                                          : n;
+        const double by = at.op == OP_CONST ? factor * at.value : factor;
+        int k = 0;
+        while (k < to->count && k < TERMS_MOST && to->of[k] != one) k++;
+        if (k >= TERMS_MOST || to->count > TERMS_MOST) {
+            to->count = TERMS_MOST + 1;
+            return;
+        }
+        if (k == to->count) to->of[to->count] = one, to->factor[to->count++] = 0;
+        to->factor[k] += by;
+    }
+}
+
+static void drop_zeros(terms *t)
+{
+    int kept = 0;
+    for (int k = 0; k < t->count && t->count <= TERMS_MOST; k++)
+        if (t->factor[k] != 0) t->of[kept] = t->of[k], t->factor[kept++] = t->factor[k];
+    if (t->count <= TERMS_MOST) t->count = kept;
+}
+
+/* 1 or -1 where two arguments are 0 at the same places, since one is the other by a positive or a negative number; 0:
+ * they are not, or it is not seen. */
+static int same_surface(graph *g, node u, node w)
+{
+    terms a = {.count = 0}, b = {.count = 0};
+    double ratio = 0;
+    add_terms(g, u, 1, 0, &a), add_terms(g, w, 1, 0, &b);
+    drop_zeros(&a), drop_zeros(&b);
+    if (a.count != b.count || a.count == 0 || a.count > TERMS_MOST) return 0;
+    for (int i = 0; i < a.count; i++) {
+        int j = 0;
+        while (j < b.count && b.of[j] != a.of[i]) j++;
+        if (j == b.count) return 0;
+        const double here = b.factor[j] / a.factor[i];
+        if (i && !(fabs(here - ratio) <= 0x1p-50 * fabs(ratio))) return 0;
+        ratio = here;
+    }
+    return ratio > 0 ? 1 : -1;
+}
+
+static bool links(operation op) { return op == OP_SIGN || compares(op); }
+
+/* Links every kind to the first one of the same surface. */
+static bool find_surfaces(model *m, switches *s)
+{
+    s->as = arena_room(m->arena, s->kinds * sizeof *s->as);
+    s->turned = arena_room(m->arena, s->kinds * sizeof *s->turned);
+    if (!s->as || !s->turned) return false;
+    for (size_t k = 0; k < s->kinds; k++) {
+        const operation op = (operation)s->op[s->first[k]];
+        s->as[k] = (uint32_t)k, s->turned[k] = 1;
+        for (size_t j = 0; j < k && links(op) && s->as[k] == k; j++) {
+            const bool may = s->as[j] == j && links((operation)s->op[s->first[j]]) &&
+                             same_loops(&s->argument[j], &s->argument[k]) &&
+                             switches_cells(s, j) == switches_cells(s, k);
+            const int turned = may ? same_surface(m->graph, s->argument[j].value, s->argument[k].value) : 0;
+            if (turned) s->as[k] = (uint32_t)j, s->turned[k] = (int8_t)turned;
+        }
+    }
+    return true;
+}
+
+/* The value within [-1, 1] that is 1 where the argument is positive, from that of the surface. */
+static node turned_value(graph *g, const switches *s, size_t kind, node value)
+{
+    return s->turned[kind] < 0 ? graph_op(g, OP_NEG, value, 0, 0) : value;
+}
+
+typedef struct placing {
+    node side, as;
+} placing;
+
+static node placed_at(graph *g, node leaf, int level, void *ctx)
+{
+    const placing *p = ctx;
+    (void)g, (void)level;
+    return leaf == p->side ? p->as : leaf;
+}
+
+/* An equation in which those of the same surface have what belongs to the side of `kind`. 0: it is no such function. */
+static node by_surface(graph *g, const switches *s, size_t kind, int loops, node n)
+{
+    const operation op = (operation)s->op[s->first[kind]];
+    const double half = op == OP_GT || op == OP_GE ? 2 : -2;
+    node value = s->side[kind];
+    if (compares(op))
+        value = graph_op(g, OP_MUL, graph_const(g, half), graph_op(g, OP_SUB, value, graph_const(g, 0.5), 0), 0);
+    for (size_t j = kind + 1; j < s->kinds && n; j++) {
+        if (s->as[j] != kind) continue;
+        const operation other = (operation)s->op[s->first[j]];
+        placing p = {s->side[j], turned_value(g, s, j, value)};
+        parts by = {s->side[j], loops, false};
+        if (compares(other)) {
+            p.as = part_of(g, other, p.as);
+            n = with_sides(g, n, loops, &(replacement){as_it_is, by_part, not_by_part, &by});
+        }
+        n = by.failed ? 0 : graph_replace(g, n, DEP_MODE, loops, placed_at, &p);
+    }
+    return n;
 }
 
 /* Whether a motion may slide along a kind, and the value that holds its argument at 0, NO_NODE: there is none. grip:
@@ -223,6 +353,8 @@ static switches_sliding holding(const model *m, const switches *s, size_t kind, 
     *value = NO_NODE;
     if (!switches_jumps(op)) return SLIDES_NEVER;
     if (in.failed) return SLIDES_REFUSED;
+    full = by_surface(g, s, kind, rate->loops, full);
+    if (!full) return SLIDES_REFUSED;
     const node without = graph_replace(g, full, DEP_MODE, rate->loops, zero_at, &side);
     if (without == full) return SLIDES_NEVER;
     if (op != OP_SIGN && !compares(op)) return SLIDES_REFUSED;
@@ -236,8 +368,10 @@ static switches_sliding holding(const model *m, const switches *s, size_t kind, 
     const node rest = graph_replace(g, force, DEP_MODE, rate->loops, zero_at, &side);
     const node slope = graph_derivative(g, force, one_at, &side);
     if (!slope) return SLIDES_REFUSED;
-    /* of a sign that is tested when the motion comes there */
-    if (compares(op) && graph_replace(g, slope, DEP_MODE, rate->loops, zero_at, &side) != slope) return SLIDES_REFUSED;
+    /* where all are signs that is tested when the motion comes there */
+    bool chooses = compares(op);
+    for (size_t j = kind; j < s->kinds; j++) chooses |= s->as[j] == kind && compares((operation)s->op[s->first[j]]);
+    if (chooses && graph_replace(g, slope, DEP_MODE, rate->loops, zero_at, &side) != slope) return SLIDES_REFUSED;
     const node part = graph_op(g, OP_NEG, graph_op(g, OP_DIV, rest, slope, 0), 0, 0);
     *value = part;
     *grip = slope;
@@ -265,6 +399,20 @@ static node resting(const model *m, const switches *s, const output *rate, const
     return graph_op(g, OP_SUB, graph_const(g, 0), graph_op(g, OP_DIV, rest, factor, 0), 0);
 }
 
+/* Those of the same surface have the value of kind k. */
+static void share_value(graph *g, const switches *s, size_t k, node *value)
+{
+    for (size_t j = k + 1; j < s->kinds; j++)
+        if (s->as[j] == k && value[k] != NO_NODE) value[j] = turned_value(g, s, j, value[k]);
+}
+
+/* Those of a surface on which nothing can slide are switches by themselves. */
+static void part_surface(const switches *s, size_t k)
+{
+    for (size_t j = k + 1; j < s->kinds; j++)
+        if (s->as[j] == k) s->as[j] = (uint32_t)j, s->turned[j] = 1;
+}
+
 bool sliding_prepare(model *m, switches *s)
 {
     enum { TOGETHER = 8 }; /* equations of so many grow large */
@@ -272,29 +420,37 @@ bool sliding_prepare(model *m, switches *s)
     node *grips = rests + s->kinds;
     s->hold = arena_room(m->arena, 4 * s->kinds * sizeof *s->hold);
     s->slides = arena_room(m->arena, s->kinds * sizeof *s->slides);
-    if (!value || !s->hold || !s->slides) return false;
+    if (!value || !s->hold || !s->slides || !find_surfaces(m, s)) return false;
     s->hold_rate = s->hold + s->kinds;
     s->grip = s->hold_rate + s->kinds, s->grip_rate = s->grip + s->kinds;
     s->hold_kinds = 0;
+    s->shared = false;
     held_sides h = {s, value};
     const replacement with_values = {side_or_value, side_or_parts, NULL, &h};
     size_t alone = 0; /* held kinds that are no families */
-    for (size_t k = 0; k < s->kinds; k++) value[k] = NO_NODE;
+    for (size_t k = 0; k < s->kinds; k++) value[k] = rests[k] = NO_NODE;
     for (size_t k = 0; k < s->kinds; k++) {
         const held_sides none = {s, rests};
-        rests[k] = NO_NODE;
+        if (s->as[k] != k) {
+            s->slides[k] = s->slides[s->as[k]];
+            continue;
+        }
         s->slides[k] = (uint8_t)holding(m, s, k, alone < TOGETHER ? &h : &none, &value[k], &grips[k]);
         alone += value[k] != NO_NODE && s->rate[k].loops == 0;
+        if (s->slides[k] == SLIDES_NEVER) part_surface(s, k);
+        share_value(m->graph, s, k, value);
     }
     for (size_t k = s->kinds; k-- > 0 && alone <= TOGETHER;) { /* those after it, too, in that of each */
-        if (value[k] == NO_NODE || s->rate[k].loops) continue;
+        if (value[k] == NO_NODE || s->rate[k].loops || s->as[k] != k) continue;
         value[k] = with_value(m, &h, k + 1, s->kinds, value[k]);
         grips[k] = with_value(m, &h, k + 1, s->kinds, grips[k]);
+        share_value(m->graph, s, k, value);
     }
     s->together = alone <= TOGETHER;
+    for (size_t k = 0; k < s->kinds; k++) s->shared |= s->as[k] != k;
     for (size_t k = 0; k < s->kinds; k++) {
         const size_t to = s->hold_kinds;
-        if (value[k] == NO_NODE) continue;
+        if (value[k] == NO_NODE || s->as[k] != k) continue;
         s->hold[to] = s->hold_rate[to] = s->grip[to] = s->grip_rate[to] = s->rate[k];
         s->hold[to].value = value[k];
         s->hold_rate[to].value = graph_derivative(m->graph, value[k], model_seed_motion, m);
@@ -319,7 +475,7 @@ bool sliding_prepare(model *m, switches *s)
         graph *g = m->graph;
         output rate = s->rate[k];
         size_t at = 0;
-        if (value[k] == NO_NODE) continue;
+        if (value[k] == NO_NODE || s->as[k] != k) continue;
         /* what the others are held by is in it, and those that rest do */
         rate.value = with_sides(g, rate.value, rate.loops, &with_values);
         const node is = resting(m, s, &rate, taken, &at);

@@ -47,7 +47,10 @@ typedef struct switches {
     size_t hold_kinds;
     bool
         together; /* of kinds that are no families these values are right when several are held that depend on others */
-    uint8_t *slides;             /* kinds: enum switches_sliding */
+    uint8_t *slides; /* kinds: enum switches_sliding */
+    uint32_t *as;    /* kinds: the first one of the same surface, with which it is held and changes its side */
+    bool shared;     /* some kind has the surface of another */
+    int8_t *turned;  /* kinds: 1 where its argument has the sign of that one's, -1 the other */
     size_t touches, touch_kinds; /* touches, cells counted; families counted once */
     output *touch, *touch_rate;  /* touch_kinds: the arguments, with sides in them, and their rates */
 } switches;
