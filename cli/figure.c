@@ -395,12 +395,39 @@ static bool fill_heat(figure *f, const figure_heat *h)
     return true;
 }
 
-motus_status figure_draw(figure *f, const char *path, file_out *file, motus_error *err)
+/* How many rows are not later than a time; NaN: all. */
+static size_t rows_until(const figure *f, double time)
 {
+    const size_t rows = f->fine.rows;
+    if (isnan(time) || rows == 0) return rows;
+    const double way = f->t[rows - 1] < f->t[0] ? -1 : 1;
+    size_t n = rows;
+    while (n > 0 && !((f->t[n - 1] - time) * way <= 0)) n--;
+    return n;
+}
+
+/* The title says from when on no digit is known, in the words of the run's table. */
+static void tell_unknown(figure *f, double known_until)
+{
+    char time[DECIMAL_MAX];
+    const size_t rows = f->fine.rows;
+    if (rows == 0 || rows_until(f, known_until) == rows) return;
+    decimal_time(known_until, f->t[rows - 1] - f->t[0], time);
+    const size_t length = strlen(f->plot.title);
+    snprintf(f->plot.title + length, sizeof f->plot.title - length, "; no digit is known after t = %s (dotted)", time);
+    for (size_t i = 0; i < f->heat_count; i++)
+        if (!f->heats[i].field) f->plot.panels[f->heats[i].panel].unknown_from = known_until;
+}
+
+motus_status figure_draw(figure *f, double known_until, const char *path, file_out *file, motus_error *err)
+{
+    tell_unknown(f, known_until);
+    const size_t known = rows_until(f, known_until);
     for (size_t i = 0; i < f->plot.count; i++)
         for (size_t k = 0; k < f->plot.panels[i].curve_count; k++) {
             plot_curve *c = &f->plot.panels[i].curves[k];
             c->count = f->fine.rows;
+            c->known = c->change ? c->count : known; /* how far the run has strayed is known */
             /* up to where no digit is significant any more, or no error is known */
             for (c->band_count = 0; c->at && c->band_count < f->bars.rows; c->band_count++)
                 if (!isfinite(c->error[c->band_count])) break;

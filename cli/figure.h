@@ -35,7 +35,8 @@ motus_status figure_column(const load *, const char *name, size_t *column, motus
 motus_status figure_plane(const load *, const char *text, size_t columns[2], motus_error *);
 /* The observers that record it along the run. */
 void figure_observers(figure *, walk_observer out[FIGURE_OBSERVERS]);
-motus_status figure_draw(figure *, const char *path, file_out *, motus_error *);
+/* known_until: no digit of its numbers is known later; NaN: of all of them some are. */
+motus_status figure_draw(figure *, double known_until, const char *path, file_out *, motus_error *);
 void figure_free(figure *);
 
 /* The columns of a variable: component c of cell i is first + i cell_step + c component_step. */

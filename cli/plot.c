@@ -41,7 +41,7 @@ plot_panel *plot_panel_add(plot_figure *f, const char *title, const char *x_labe
     if (!panels) return NULL;
     f->panels = panels;
     plot_panel *p = &panels[f->count++];
-    *p = (plot_panel){0};
+    *p = (plot_panel){.unknown_from = NAN};
     snprintf(p->title, sizeof p->title, "%s", title);
     snprintf(p->x_label, sizeof p->x_label, "%s", x_label);
     snprintf(p->y_label, sizeof p->y_label, "%s", y_label);
@@ -55,7 +55,7 @@ plot_curve *plot_curve_add(plot_panel *p, const char *label, const double *x, co
     if (!curves) return NULL;
     p->curves = curves;
     plot_curve *c = &curves[p->curve_count++];
-    *c = (plot_curve){.x = x, .y = y, .count = count, .stride = stride};
+    *c = (plot_curve){.x = x, .y = y, .count = count, .stride = stride, .known = SIZE_MAX};
     snprintf(c->label, sizeof c->label, "%s", label);
     return c;
 }
@@ -224,6 +224,36 @@ static bool has_band(const plot_curve *c)
     return widest > BAND_LEAST * extent(c->y, c->count, c->stride);
 }
 
+/* Whether a part of it is drawn of which no digit is known. */
+static bool has_rest(const plot_curve *c) { return c->role == PLOT_LINE && c->known < c->count; }
+
+/* The points from `begin` to `end` as a curve of their own. */
+static plot_curve part_of(const plot_curve *c, size_t begin, size_t end)
+{
+    plot_curve part = *c;
+    part.x += begin * c->stride;
+    part.y += begin * c->stride;
+    if (c->z) part.z += begin * c->stride;
+    part.count = end - begin;
+    return part;
+}
+
+/* What is known of a curve, and the rest, which begins where that ends. */
+static void put_parts(FILE *out, plot_curve *c, size_t panel, size_t index)
+{
+    fprintf(out, "$d%zu_%zu << END_OF_DATA\n", panel, index);
+    plot_curve known = *c;
+    if (has_rest(c)) known = part_of(c, 0, c->known);
+    put_curve(out, &known);
+    c->drawn = known.drawn;
+    fputs("END_OF_DATA\n", out);
+    if (!has_rest(c)) return;
+    fprintf(out, "$u%zu_%zu << END_OF_DATA\n", panel, index);
+    plot_curve rest = part_of(c, c->known > 0 ? c->known - 1 : 0, c->count);
+    put_curve(out, &rest);
+    fputs("END_OF_DATA\n", out);
+}
+
 static void put_band(FILE *out, const plot_curve *c)
 {
     for (size_t i = 0; i < c->band_count; i++)
@@ -252,9 +282,7 @@ static void put_data(FILE *out, plot_figure *f)
             fputs("END_OF_DATA\n", out);
         }
         for (size_t k = 0; k < p->curve_count; k++) {
-            fprintf(out, "$d%zu_%zu << END_OF_DATA\n", i, k);
-            put_curve(out, &p->curves[k]);
-            fputs("END_OF_DATA\n", out);
+            put_parts(out, &p->curves[k], i, k);
             if (!has_band(&p->curves[k])) continue;
             fprintf(out, "$b%zu_%zu << END_OF_DATA\n", i, k);
             put_band(out, &p->curves[k]);
@@ -332,6 +360,9 @@ static void put_curves(FILE *out, const plot_panel *p, size_t panel)
                 fprintf(out, ", $d%zu_%zu using 1:2:3 every %zu with points pt %d ps 0.9 lc rgb '%s' notitle", panel, k,
                         c->drawn / 5 + 1, styles[own % STYLES].marker, styles[own % STYLES].colour);
             first = false;
+            if (!has_rest(c)) continue;
+            fprintf(out, ", $u%zu_%zu using %s with lines lw 1.2 dt (2,4) lc rgb '%s' notitle", panel, k,
+                    c->z ? "1:2:3" : "1:2", styles[own % STYLES].colour);
         }
     }
     putc('\n', out);
@@ -362,6 +393,11 @@ static void put_panel(FILE *out, const plot_panel *p, size_t index)
     fputs(" offset 0,0.4\nset ylabel ", out);
     quoted(out, p->y_label);
     fputs("\nset autoscale\n", out);
+    if (p->heat && !isnan(p->unknown_from))
+        for (int k = 1; k <= 2; k++) /* on a light one, so that it is seen on every colour */
+            fprintf(out, "set arrow %d from first %.12g, graph 0 to first %.12g, graph 1 nohead front %s\n", k,
+                    p->unknown_from, p->unknown_from,
+                    k == 1 ? "lw 5 lc rgb '#f8fafc'" : "lw 2.5 dt (2,3) lc rgb '#0f172a'");
     fputs(solid ? "set border 31 lc rgb '#64748b'\n" : "set border 3 lc rgb '#64748b'\n", out);
     /* the key lies outside, so that it hides no curve; a single curve is named by its axis */
     bool beside = p->curve_count > 6;
@@ -388,7 +424,7 @@ static void put_panel(FILE *out, const plot_panel *p, size_t index)
         put_heat_map(out, p, index);
     else
         put_curves(out, p, index);
-    fputs("unset logscale\nset format\nset size noratio\nunset zlabel\n", out);
+    fputs("unset logscale\nset format\nset size noratio\nunset zlabel\nunset arrow\n", out);
 }
 
 typedef struct layout {

@@ -23,6 +23,7 @@ typedef struct plot_curve {
     size_t count, stride;
     bool change;   /* draws y minus its first value */
     bool timelike; /* x grows along the curve, so thinning can go by columns of the picture */
+    size_t known;  /* of a line: of so many points a digit is known; the rest of the line is thin and dotted */
     size_t drawn;  /* points left after thinning; set by plot_draw() */
     /* NULL, or a band between middle - error and middle + error at the times `at`; of a curve against t */
     const double *at, *middle, *error;
@@ -31,8 +32,9 @@ typedef struct plot_curve {
 
 typedef struct plot_panel {
     char title[PLOT_LABEL], x_label[PLOT_LABEL], y_label[PLOT_LABEL], z_label[PLOT_LABEL], shade_label[PLOT_LABEL];
-    bool spatial;     /* both axes are positions: one scale if the shape allows it */
-    bool logarithmic; /* both axes; every point is marked */
+    double unknown_from; /* of a heat map against time: where no digit is known any more, a line; NaN: nowhere */
+    bool spatial;        /* both axes are positions: one scale if the shape allows it */
+    bool logarithmic;    /* both axes; every point is marked */
     plot_curve *curves;
     size_t curve_count;
     /* A heat map instead of curves: heat[row * heat_columns + column], row upwards; owned by the panel. */

@@ -211,7 +211,7 @@ static motus_status finish(job *j, double seconds, motus_error *err)
     if (!status && o->plot && o->section)
         status = section_draw(&j->model, o, j->run, j->plane, &j->files[PLOT], err);
     else if (!status && o->plot)
-        status = figure_draw(&j->figure, o->plot, &j->files[PLOT], err);
+        status = figure_draw(&j->figure, j->estimate.significant_until, o->plot, &j->files[PLOT], err);
     if (!status && o->events) status = event_file_write(&j->files[EVENTS], &j->model, o, j->run, err);
     for (int i = 0; !status && i < FILES; i++) status = file_finish(&j->files[i], err);
     summary s = {&j->model,

@@ -639,6 +639,15 @@ gives "a coarse run" 0 "$motus" run "$root/$oscillator" --step 0.2 --until 60 --
 that "... draws its error" says "fill-opacity = '0.250000'" band.svg
 gives "a fine run" 0 "$motus" run "$root/$oscillator" --plot line.svg -q
 that "... whose error is thinner than the line, does not" lacks "fill-opacity" line.svg
+gives "a run whose error becomes total" 0 "$motus" run "$root/models/spring.motus" --method explicit-euler --plot total.svg -q
+that "... is dotted from there on" says "stroke-dasharray='1.2,2.4'" total.svg
+that "... and the title says from when" says "no digit is known after t = 20.4 (dotted)" total.svg
+gives "a path whose error becomes total" 0 "$motus" run "$root/models/charged-particle.motus" --method explicit-euler --plot path.svg -q
+that "... says so" says "no digit is known after t = 4.85 (dotted)" path.svg
+gives "... and a phase plane" 0 "$motus" run "$root/$oscillator" --step 0.5 --until 100 --plot-of "x,x'" --plot plane.svg -q
+that "... says so" says "no digit is known after t = 51 (dotted)" plane.svg
+gives "one that tells no errors" 0 "$motus" run "$root/models/spring.motus" --method explicit-euler --error none --plot none.svg -q
+that "... has nothing dotted" lacks "no digit" none.svg
 gives "a phase plane" 0 "$motus" run osc.motus --plot phase.svg --plot-of "x,x'" -q
 that "... names its axes" grep -q "x&apos; against x\|x' against x\|x&#39; against x" phase.svg
 gives "a quantity against time" 0 "$motus" run osc.motus --plot energy.svg --plot-of "t,energy" -q
