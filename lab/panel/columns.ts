@@ -52,7 +52,7 @@ export function exactText(scene: Scene, name: string, t: number, digits = DIGITS
 const DIGITS = 6;
 
 /** off: by how much the value may be wrong, roughly. */
-function readExact(scene: Scene, name: string, t: number): { value: number; off: number } {
+export function readExact(scene: Scene, name: string, t: number): { value: number; off: number } {
   const { solution } = scene, exact = solution.columns.indexOf(`exact ${name}`);
   if (exact >= 0) {
     for (const track of solution.tracks) {

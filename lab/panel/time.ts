@@ -105,7 +105,8 @@ export const timePanel = (store: Store, stage: () => Sees): Panel => {
       pen.clip(frame.left, frame.top - 2, frame.width + 2, frame.height + 3, () => {
         if (exact && truth) pen.line(thin(truth.times, exact, frame.x, frame.y), { colour: ink.exact, width: EXACT_WIDTH });
         for (const look of scene!.looks) errors.draw(pen, frame, look, name);
-        lines.forEach(({ times, values }, k) => drawTrack(pen, frame, times, values, scene!.looks[k]!, ended[k]!.rows, [tracks[k]!.times, columns[k]!]));
+        lines.forEach(({ times, values }, k) => errors.split(pen, frame, scene!.looks[k]!, (look) => drawTrack(pen, frame, times, values, look, ended[k]!.rows, [tracks[k]!.times, columns[k]!])));
+        if (i === 0) errors.note(pen, ink, frame, scene!.looks);
         const at = scene!.solution.columns.indexOf(name);
         tracks.forEach(({ events }, k) => { if (events) drawMarks(pen, ink, marksOf(events, (of, row) => [frame.x(events.times[row]!), frame.y(of[at]?.[row] ?? NaN)], concerning(scene!, events, [name])), scene!.looks[k]!); });
       });

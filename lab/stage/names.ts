@@ -1,7 +1,7 @@
 /* Who is where, and by how much it misses: names at the ends of the curves, brackets with the length of a miss.
  *
- * Invariant: a number is the length of what it stands beside: the core's error at the last step that was made, and where what is drawn between steps
- * differs from it visibly, the distance that is drawn. What coincides has one label.
+ * Invariant: a number is the length of what it stands beside: the core's error where a step ends, between steps the distance of the lines that are drawn
+ * (missAt). What coincides has one label.
  */
 import { minus } from '../figure/number';
 import { textWidth } from '../figure/shapes';

@@ -3,7 +3,6 @@
  * Invariant: pictures of the screen, of exports and of the build are drawn by these two functions, on whatever pen. What a time shows follows from the
  * scene and that time alone.
  */
-import type { ErrorTrack } from '../protocol';
 import { extent, rangeOf } from '../figure/axes';
 import { endSaid } from '../figure/ended';
 import { shortLabel } from '../figure/ends';
@@ -12,14 +11,14 @@ import { brief } from '../figure/number';
 import { textWidth } from '../figure/shapes';
 import type { Ink, Pen } from '../figure/types';
 import type { Bands } from '../panel/band';
-import type { Scene } from '../scene';
+import type { Look, Scene } from '../scene';
 import { words } from '../words';
 import { allOf, extentOf, join, roomy, suits, untilGround, type Bounds, type Range } from './bounds';
 import { curvesOf, pointAt, type Curve, type Exit, type Point } from './curves';
 import { bodyNames, drawBodies } from './bodies';
 import { floor, person, rod, spring } from './decor';
 import { freePlaces } from './free';
-import { errorsOf, furthestOf, greenName, motionOf, type Line, type Motion, type Rows } from './motion';
+import { bodyOf, greenName, missAt, motionOf, type Line, type Motion, type Rows } from './motion';
 import { briefly, drawNames, missText, type Named } from './names';
 import { trail } from './path';
 import { apart, wideEnough, type Box, type Place } from './place';
@@ -59,8 +58,6 @@ export interface Picture {
 
 const TO_COME_EXACT = 0.22, TO_COME = 0.25, STROBE = 0.16, EXACT_WIDTH = 4, WIDTH = 2;
 const LIVE_MARKS = 400, STEPS_SEEN = 40, WALL = 180;
-/** Pixels that tell a distance from another one. */
-const SEEN = 2;
 
 /** Which other plot stands beside a number against time. */
 export type Side = 'phase' | 'rod' | '';
@@ -242,6 +239,14 @@ export function pictureOf(setting: Setting): Picture {
     return places.reduce((best, b) => (cost(b) < cost(best) ? b : best));
   }
 
+  /** Against time: where it is drawn. */
+  const area = subject.kind === 'time' && main.along ? { left: main.box.left, top: main.box.top, width: main.box.right - main.box.left, height: main.box.bottom - main.box.top, x: main.along } : null;
+  /** A method's line with its dashes; against time it is dotted where no digit is known. */
+  function split(pen: Pen, plot: Plot, { line: { look }, band }: Curve, line: (dash: readonly number[]) => void): void {
+    const draw = (of: Look): void => line(band && of.dash === look.dash ? [] : of.dash);
+    if (area && plot === main && setting.bars) setting.bars.split(pen, area, look, draw); else draw(look);
+  }
+
   function still(pen: Pen, ink: Ink, finished = false): void {
     if (staging.decor === 'throw' && main.up && main.along && main.unit && main.unit >= 30 && truth) {
       const last = truth.times.length - 1, { way } = curves.exact[0]!, ground = main.up(0);
@@ -265,6 +270,7 @@ export function pictureOf(setting: Setting): Picture {
     if (subject.kind === 'time' && along && up) clipped(pen, main, () => {
       for (const { look } of lines) for (const { columns } of subject.bodies) setting.bars?.draw(pen, { x: along, y: up, top: main.box.top, height: main.box.bottom - main.box.top }, look, scene.solution.columns[columns[0]!] ?? '');
     });
+    if (area) setting.bars?.note(pen, ink, area, lines.map(({ look }) => look));
     before?.ghost(pen, ink);
     drawPinned(pen, ink);
     if (finished) return;
@@ -273,7 +279,7 @@ export function pictureOf(setting: Setting): Picture {
         for (const { path } of own.exact) pen.line(path.xy, { colour: ink.exact, width: EXACT_WIDTH, alpha: TO_COME_EXACT }, 2 * path.count);
         own.methods.forEach((of, i) => {
           if (nowhere.has(i)) return;
-          for (const c of of) pen.line(c.path.xy, { colour: c.line.look.colour, width: WIDTH, dash: c.band ? [] : c.line.look.dash, alpha: TO_COME }, 2 * c.path.count);
+          for (const c of of) split(pen, plot, c, (dash) => pen.line(c.path.xy, { colour: c.line.look.colour, width: WIDTH, dash, alpha: TO_COME }, 2 * c.path.count));
         });
       });
     }
@@ -315,19 +321,14 @@ export function pictureOf(setting: Setting): Picture {
   const last = (line: Line): number => line.track.times[line.track.times.length - 1] ?? NaN;
   const gone = (curve: Curve, time: number): boolean => (curve.exit !== null && time >= curve.exit.time) || isOver(curve.line.track.times, time);
 
-  const offOf = (of: ErrorTrack, row: number): string => { const body = single ? '' : furthestOf(of, row, staging.bodies); return body ? words.stage.miss.offOf(body) : words.stage.miss.off; };
-  /** How far a line is from the exact motion: the core's error at the last step that was made, unless the two are seen at another distance; null: not known. */
-  function miss(line: Line, time: number, at: Point, exact: Point): Named['miss'] {
-    const of = scene.solution.errors[line.index], errors = of && errorsOf(of);
-    if (!errors?.length || !truth) return null;
-    const { row, part } = placeAt(line.track.times, time), made = errors[part === 1 ? row + 1 : row];
-    if (made === undefined || !Number.isFinite(made)) return null;
-    const pixels = main.unit ?? (upright && main.up ? Math.abs(main.up(1) - main.up(0)) : 0), seen = upright ? Math.abs(at.y - exact.y) : Math.hypot(at.x - exact.x, at.y - exact.y);
-    // In space the picture shortens distances.
-    const value = single && flat && pixels > 0 && Math.abs(seen - made * pixels) > SEEN ? seen / pixels : made;
-    const frame = bounds[subject.kind === 'time' ? 1 : 0]!, size = frame[1] - frame[0], unit = staging.units && single ? `\u2009${staging.units.x}` : '';
-    if (value <= 1e-12 * size) return { size: 0, text: words.stage.miss.none, how: '' };
-    return { size: value, text: `${missText(value, flat && upright ? bounds[1]![1] - bounds[1]![0] : size)}${unit}`, how: upright ? (at.y < exact.y ? words.stage.miss.high : words.stage.miss.low) : offOf(of!, part === 1 ? row + 1 : row) };
+  /** Between which points it is told how far a line is from the exact motion; null: of all bodies, whose distances the picture may shorten, or of numbers that have no common unit. */
+  const between = single && flat && !subject.unlike ? (upright || subject.kind === 'time' ? subject.bodies[0]!.columns.slice(-1) : subject.bodies[0]!.columns) : null;
+  function miss(line: Line, time: number): Named['miss'] {
+    const far = truth && missAt(scene, line, time, between), of = scene.solution.errors[line.index];
+    if (!far || !of || !Number.isFinite(far.size)) return null;
+    const frame = bounds[subject.kind === 'time' ? 1 : 0]!, size = frame[1] - frame[0], unit = staging.units && single ? `\u2009${staging.units.x}` : '', body = single ? '' : bodyOf(of, far.body, staging.bodies);
+    if (far.size <= 1e-12 * size) return { size: 0, text: words.stage.miss.none, how: '' };
+    return { size: far.size, text: `${missText(far.size, flat && upright ? bounds[1]![1] - bounds[1]![0] : size)}${unit}`, how: upright ? (far.up > 0 ? words.stage.miss.high : words.stage.miss.low) : body ? words.stage.miss.offOf(body) : words.stage.miss.off };
   }
 
   /** Of the time. */
@@ -354,7 +355,7 @@ export function pictureOf(setting: Setting): Picture {
             if (over) { present.x = c.way.x(c.exit!.row); present.y = c.way.y(c.exit!.row); } else pointAt(c.way, times, time, present);
             if (!nowhere.has(i)) {
               const so = trail(c.path, row, present.x, present.y);
-              pen.line(so.xy, { colour: c.line.look.colour, width: WIDTH, dash: c.band ? [] : c.line.look.dash }, so.count);
+              split(pen, plot, c, (dash) => pen.line(so.xy, { colour: c.line.look.colour, width: WIDTH, dash }, so.count));
             }
             if (live <= LIVE_MARKS) marks(pen, ink, c, row, plot);
           }
@@ -447,7 +448,7 @@ export function pictureOf(setting: Setting): Picture {
       if (!Number.isFinite(at.x + at.y) || !inside(main.box, at.x, at.y, 8)) continue;
       labels.push({
         names: own.map((l) => ({ text: shortLabel(l.look.label), colour: l.look.tone })), colour: own[0]!.look.tone, line: own[0]!.look.colour, ...at,
-        miss: miss(own[0]!, time, at, exactPoint), exact: false,
+        miss: miss(own[0]!, time), exact: false,
       });
     }
     return labels.length > 14 ? labels.slice(0, 14) : labels;

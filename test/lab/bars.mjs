@@ -30,18 +30,34 @@ await attempt('value ± error', async () => {
   judge('an adaptive method, finer, covers it too', finer !== null && finer.error < here.error / 100 && Math.abs(finer.value - 0.04778309565760847) <= finer.error, JSON.stringify(finer));
   await clean('value ± error', page);
 });
+await attempt('an error that is known', async () => {
+  // A bar as wide as the flight is high says less than the error beside it.
+  const page = await open(`${singleFile}#v=1&p=thrown-ball`);
+  await settled(page, 1500);
+  await closer(page, 'Error');
+  await figureOf(page, 'Error').scrollIntoViewIfNeeded();
+  await settled(page, 1500);
+  const text = await figureOf(page, 'Error').locator('.figure-answer').textContent();
+  judge('where a formula gives the motion, no bar stands beside the error', /explicit Euler off by 1\.96/.test(text) && !text.includes('±'), text);
+  await clean('an error that is known', page);
+});
 await attempt('the band', async () => {
+  let said = [], dots = 0;
   const areas = async (hash) => {
     const page = await open(`${singleFile}#v=1&${hash}`);
     await settled(page, 900);
     const svg = (await saved(page, 'Motion', 'SVG')).bytes.toString('utf8');
     await clean(hash, page);
+    said = [...svg.matchAll(/<text[^>]*>([^<]*no digit[^<]*)</g)].map(([, text]) => text);
+    dots = (svg.match(/stroke-dasharray="1\.5[ ,]6"/g) ?? []).length;
     // Areas, not lines.
     return [...svg.matchAll(/<path[^>]*>/g)].filter(([tag]) => /Z"/.test(tag)).flatMap(([tag]) => /opacity="(0\.22|0\.08)"/.exec(tag)?.[1] ?? []);
   };
   judge('errors that can be seen have a band', (await areas('p=driven-oscillator&h=0.5&T=40')).includes('0.22'));
   same('errors that cannot have none', await areas('p=driven-oscillator&a=dop853&r=1e-10&T=40'), []);
   judge('where no digit is known it fills the picture, paler', (await areas('p=driven-oscillator&h=0.5&T=100')).includes('0.08'));
+  same('… and the picture says so, where the line is dotted', said.slice(0, 1), ['Verlet: no digit known from here on']);
+  judge('… and there alone', dots > 0, dots);
 });
 await attempt('no digit', async () => {
   const page = await open(`${singleFile}#v=1&p=driven-oscillator&h=0.5&T=100`);

@@ -1,6 +1,6 @@
 /* One step as a recipe (lab/panel/steps/recipe.ts), by the module of build/lab. Run by `node --test`. Laws, for every model and every method that it admits, at the
  * first step, the second and a later one: at most four lines; each calculation, evaluated with the figures as they are written, gives its own right-hand
- * side within what their rounding allows; the last place or velocity is the core's; each line has a mark for its disc.
+ * side, rounded to the digits that stand there; the last place or velocity is the core's; each line has a mark for its disc.
  */
 import assert from 'node:assert/strict';
 import { readFileSync } from 'node:fs';
@@ -95,7 +95,9 @@ for (const [name, text] of models) {
               calculated++;
               const left = evaluate(parts.at(-2), names);
               left.forEach(({ value, off }, i) => {
-                const limit = off + result[i].off + 1e-9 * Math.abs(result[i].value) + 1e-300;
+                const { text } = right[0].figures[i], [, digits = '', power = ''] = /^[^.×]*(?:\.(\d*))?(?:×10(.*))?$/.exec(text), place = 10 ** (-digits.length + (power ? Math.round(Math.log10(read({ text: `1×10${power}`, rounded: false }).value)) : 0));
+                // A result that was not rounded leaves out zeros.
+                const limit = (right[0].figures[i].rounded ? 0.5 * place : Math.min(0.5 * place, off)) * (1 + 1e-5) + 1e-9 * Math.abs(result[i].value) + 1e-300;
                 assert.ok(Math.abs(value - result[i].value) <= limit, `${written}: ${value} is not ${result[i].value} within ${limit}`);
                 // What rounding allows is little beside what is written.
                 assert.ok(off <= 25 * Math.max(result[i].off, 0.5 * 10 ** -9 * Math.abs(value), 1e-300) || off <= 0.02 * Math.max(Math.abs(value), 1e-300) || result[i].off === 0, `${written}: off by ${off}`);
@@ -134,7 +136,7 @@ test('a step without parts of its own is one sentence', () => {
 test('what does not fit is not said: a start that is written in another way, numbers of a part that are not its formula’s', async () => {
   const text = "x'' = -x + cos(t)\nx(abs(0)) = 1\nx'(abs(0)) = 0\nstep 0.1\nuntil 2\n", answers = new Answers(new Core(module)), model = { text, set: [] }, description = answers.answer('describe', { model }), client = { ask: async (kind, ask) => answers.answer(kind, ask) };
   const trace = answers.answer('trace', { model, method: 'leapfrog', step: null, until: null, index: 5 });
-  assert.equal(await localExact(client, { description, state: { text, set: {} } }, trace), null);
+  assert.deepEqual(await localExact(client, { description, state: { text, set: {} } }, trace), { exact: null, earlier: null });
   const [start, drift, kick, ...rest] = trace.entries, other = { ...trace, entries: [start, drift, { ...kick, v: [kick.v[0] + 0.001] }, ...rest] };
   const lines = (of) => recipeOf(of, seenIn(of.names)[0], false).lines.map((l) => l.sums[0].filter((t) => t.kind === 'sign' && t.sign === '=').length);
   assert.deepEqual([lines(trace), lines(other)], [[2, 2, 2], [2, 1, 2]]);
@@ -150,20 +152,20 @@ test('figures', () => {
   const kind = { decimals: 3, most: 1 };
   assert.deepEqual([figure(1, kind), figure(-0.4, kind), figure(0.68, kind, true), figure(0.69671, kind), figure(-0, kind), figure(1e-17, kind)].map((f) => f.text), ['1', '−0.4', '0.680', '0.697', '0', '0']);
   assert.deepEqual([figure(1e-9, { decimals: 12, most: 1e-9 }).text, figure(123456789, { decimals: 0, most: 2e8 }).text, figure(12345.678, { decimals: 1, most: 2e4 }).text], ['1×10⁻⁹', '1.23456789×10⁸', '12\u2009345.7']);
-  assert.deepEqual([factor(Math.PI / 100, 4), factor(0.4, 4)], [{ text: '0.03142', rounded: true }, { text: '0.4', rounded: false }]);
+  assert.deepEqual([factor(Math.PI / 100, 4), factor(0.4, 4)].map(({ text, rounded, shown }) => [text, rounded, shown]), [['0.03142', true, 0.03142], ['0.4', false, 0.4]]);
 });
 
 test('the exact motion from where a step starts: for every model, and no further from a step by Gauss’ method than that errs', async () => {
   const cells = (start) => `x[i]'' = -x[i] for i = 1..3\n${start}\nx[i]'(0) = 0 for i = 1..3\nstep 0.1\nuntil 2\n`;
   for (const [name, text] of [...models, ['one cell', cells('x[i](0) = 0 for i = 1..3\nx[2](0) = 1')], ['two ranges', cells('x[i](0) = 0 for i = 1..2 # at rest\nx[3](0) = 1 # pulled')]]) {
     const answers = new Answers(new Core(module)), model = { text, set: [] }, description = answers.answer('describe', { model }), client = { ask: async (kind, ask) => answers.answer(kind, ask) };
-    for (const index of [0, 5]) for (const way of [1, -1]) {
+    for (const index of [0, 5]) {
       const trace = answers.answer('trace', { model, method: 'gauss8', step: null, until: null, index }), end = trace.entries.at(-1), start = trace.entries[0];
-      const found = await localExact(client, { description, state: { text, set: {} } }, trace, way), what = `${name}, step ${index + 1}, way ${way}`;
-      assert.ok(found, `${what}: it is there`);
+      const { exact: found, earlier } = await localExact(client, { description, state: { text, set: {} } }, trace), what = `${name}, step ${index + 1}`;
+      assert.ok(found && !earlier, `${what}: it is there`);
       const all = [...trace.names.x, ...trace.names.v], of = (e) => [...e.x, ...e.v], at = all.map((column) => found.columns.get(column)?.[found.end]), size = Math.max(...[...of(start), ...of(end)].map(Math.abs));
-      assert.ok(Math.abs(found.times[found.end] - (start.time + way * start.step)) <= 1e-9 * Math.abs(start.step), `${what}: its times`);
-      if (way > 0) at.forEach((x, k) => assert.ok(Math.abs(x - of(end)[k]) <= 1e-7 * size, `${what}, ${all[k]}: ${x} is not ${of(end)[k]}`));
+      assert.ok(Math.abs(found.times[found.end] - (start.time + start.step)) <= 1e-9 * Math.abs(start.step), `${what}: its times`);
+      at.forEach((x, k) => assert.ok(Math.abs(x - of(end)[k]) <= 1e-7 * size, `${what}, ${all[k]}: ${x} is not ${of(end)[k]}`));
       all.forEach((column, k) => assert.equal(found.columns.get(column)?.[0], of(start)[k], `${what}, ${column}: it starts where the step starts`));
     }
   }
@@ -173,10 +175,33 @@ test('a mantissa is below ten, also after it was rounded', () => {
   assert.equal(figure(999999, { decimals: -3, most: 1e6 }).text, '1.00×10⁶');
 });
 test('a miss that the digits of the place do not show is told alone', () => {
-  const kind = { decimals: 10, most: 5e-8 };
-  assert.equal(against([5e-8 + 8.3e-15], [5e-8], kind, 'Verlet', '8.3×10⁻¹⁵ too high', true, false), 'Against the motion computed in small steps, Verlet is 8.3×10⁻¹⁵ too high.');
-  assert.equal(against([5.1e-8], [5e-8], kind, 'Verlet', '1×10⁻⁹ too high', false, true), 'Exact from here is 5.00×10⁻⁸: Verlet is 1×10⁻⁹ too high.');
-  assert.match(against([1], [1], { decimals: 2, most: 1 }, 'Verlet', '', true, true), /Verlet is on it/);
+  const kind = { decimals: 10, most: 5e-8 }, miss = (text, shown, unit) => ({ text, shown, unit });
+  assert.equal(against([5e-8 + 8.3e-15], [5e-8], kind, 'Verlet', miss('8.3×10⁻¹⁵ too high', 8.3e-15, 1e-16), 'start', false), 'Against the motion computed in small steps, Verlet is 8.3×10⁻¹⁵ too high.');
+  assert.equal(against([5.1e-8], [5e-8], kind, 'Verlet', miss('1×10⁻⁹ too high', 1e-9, 1e-10), 'here', true), 'Exact from here is 5.00×10⁻⁸: Verlet is 1×10⁻⁹ too high.');
+  assert.match(against([1], [1], { decimals: 2, most: 1 }, 'Verlet', miss('', 0, 0), 'start', true), /Verlet is on it/);
+});
+test('a place and a miss agree with where the step is written to end; else the place has more digits, or is left out', () => {
+  const of = (end, exact, text, shown, unit) => against([end], [exact], { decimals: 4, most: 1 }, 'midpoint', { text, shown, unit }, 'start', true);
+  assert.equal(of(0.905, 0.904837, '1.6×10⁻⁴ too large', 1.6e-4, 1e-5), 'Exact is 0.90484: midpoint is 1.6×10⁻⁴ too large.');
+  assert.equal(of(0.12345, 0.12305, '0.0004 too large', 4e-4, 1e-4), 'Exact is 0.1231: midpoint is 0.0004 too large.');
+  assert.equal(of(0.12344, 0.12336, '8×10⁻⁵ too large', 8e-5, 1e-5), 'Against the exact motion, midpoint is 8×10⁻⁵ too large.');
+});
+test('a step of a recurrence is measured against the exact motion through both of its places', async () => {
+  const client = (answers) => ({ ask: async (kind, ask) => answers.answer(kind, ask) });
+  for (const [name, text, places, h] of [['spring', "x'' = -x\nx(0) = 1\nx'(0) = 0\nstep 0.8\nuntil 20\n", 1, 0.8], ['long steps', "x'' = -x\nx(0) = 1\nx'(0) = 0\nstep 1.9\nuntil 20\n", 1, 1.9], ['driven', "x'' = -x + 0.3 cos(t)\nx(0) = 1\nx'(0) = 0\nstep 0.5\nuntil 20\n", 0, 0.5],
+    ['plane', "r'' = -r/|r|^3\nr(0) = (1, 0)\nr'(0) = (0, 1.1)\nstep 0.3\nuntil 5\n", 0, 0.3], ['cells', "x[i]'' = x[i+1] - 2 x[i] + x[i-1] for i = 1..6\nx[0] = 0\nx[7] = 0\nx[i](0) = sin(i) for i = 1..6\nx[i]'(0) = 0 for i = 1..6\nstep 0.4\nuntil 9\n", 0, 0.4]]) {
+    const answers = new Answers(new Core(module)), model = { text, set: [] }, description = answers.answer('describe', { model }), size = 3;
+    for (const index of [1, 6]) {
+      const trace = answers.answer('trace', { model, method: 'verlet', step: null, until: null, index }), { exact, earlier } = await localExact(client(answers), { description, state: { text, set: {} } }, trace), { before_x: before } = trace.entries.find((e) => e.before_x), { x } = trace.entries[0], what = `${name}, step ${index + 1}`;
+      assert.ok(exact && earlier, `${what}: it is there`);
+      trace.names.x.forEach((column, k) => {
+        assert.equal(exact.columns.get(column)[0], x[k], what);
+        assert.ok(Math.abs(earlier.columns.get(column)[earlier.end] - before[k]) < 1e-11 * size, `${what}, ${column}: the place before`);
+        // Of a spring in closed form.
+        if (places) assert.ok(Math.abs(exact.columns.get(column)[exact.end] - (2 * Math.cos(h) * x[k] - before[k])) < 1e-10, `${what}: ${exact.columns.get(column)[exact.end]}`);
+      });
+    }
+  }
 });
 test('of first order: a rate is read at a place, and the place is calculated', () => {
   const answers = new Answers(new Core(module)), text = "x' = 10 (y - x)\ny' = x (28 - z) - y\nz' = x y - 8/3 z\nx(0) = 1\ny(0) = 1\nz(0) = 1\nstep 0.01\nuntil 1";

@@ -9,7 +9,7 @@ import { Refused, type Client, type Scene } from '../../scene';
 import { words } from '../../words';
 import { localExact, type LocalExact } from './local_exact';
 
-/** A method's step. trace null: why there is none. exact, earlier: on from its start, and back to the step before a recurrence. */
+/** A method's step. trace null: why there is none. exact, earlier: on from its start, and back to the step before a recurrence, through both of whose places it goes. */
 export interface Opened { readonly method: string; readonly index: number; readonly trace: Trace | null; readonly exact: LocalExact | null; readonly earlier: LocalExact | null; readonly why: string }
 export interface Wanted { readonly scene: Scene; readonly tracks: readonly Track[]; readonly index: number }
 
@@ -59,9 +59,7 @@ export function asker(client: Client, wanted: () => Wanted | null, told: (steps:
       const steps = await Promise.all(now.tracks.map((track) => traced(client, now, track)));
       if (mine !== version) continue;
       const late = window.setTimeout(() => { if (mine === version) told(steps); }, PATIENCE);
-      const whole = await Promise.all(steps.map(async (s): Promise<Opened> => (s.trace ? {
-        ...s, exact: await localExact(client, now.scene, s.trace), earlier: s.trace.entries.some((e) => e.before_x) ? await localExact(client, now.scene, s.trace, -1) : null,
-      } : s)));
+      const whole = await Promise.all(steps.map(async (s): Promise<Opened> => (s.trace ? { ...s, ...await localExact(client, now.scene, s.trace) } : s)));
       window.clearTimeout(late);
       if (mine === version) told(whole);
     }

@@ -91,11 +91,11 @@ export function column(method: string, wide: Set<string>): Column {
     const next = order === 2 && !r.last && !r.lines.some((l) => l.sums.some(isVelocity)) ? told.newVelocity(vector(velocity)) : r.last;
     const row = step?.exact?.end ?? -1, exact: Place | null = forward && row >= 0 && row < forward.x.length ? [forward.x[row]!, forward.y[row]!] : null;
     if (!exact) return { exact, miss: '', says: [soFar(), next].filter(Boolean).join(' ') };
-    const is = indices.length > 1 ? exact : [exact[1]], apart = apartOf(ends, is), far = Math.hypot(...apart), up = apart[apart.length - 1]!, length = `${missed(far, value)}${unit}`;
+    const is = indices.length > 1 ? exact : [exact[1]], apart = apartOf(ends, is), far = Math.hypot(...apart), up = apart[apart.length - 1]!, off = missed(far, value), length = `${off.text}${unit}`;
     // What is left of a difference between numbers of this size is rounding.
     const on = far <= 64 * Number.EPSILON * Math.max(...[...ends, ...is].map(Math.abs)), upright = apart.length === 1 || Math.abs(apart[0]!) <= 1e-6 * Math.abs(up);
     const miss = on ? '' : !upright ? told.off(length) : told.tooFar(length, up > 0, order === 2 && !GREEK.test(nameText(seen.names[seen.names.length - 1]!)));
-    return { exact, miss, says: [against(ends, is, value, bare(look().label), miss, step?.index === 0, setting?.scene.description.has_exact === true), next].filter(Boolean).join(' ') };
+    return { exact, miss, says: [against(ends, is, value, bare(look().label), { ...off, text: miss }, r.before ? 'two' : step?.index === 0 ? 'start' : 'here', setting?.scene.description.has_exact === true), next].filter(Boolean).join(' ') };
   }
   /** The error of the whole run up to here, where the step's own is not known. */
   function soFar(): string {

@@ -1,12 +1,13 @@
 /* One step as a recipe of at most four lines: what is done, the calculation with this step's figures, and what of it is drawn.
  *
  * Invariant: every figure is the core's, or follows from the core's by the arithmetic that the line shows; a calculation that does not give the number that
- * the core told is not written (`sum` then gives that number alone). Line k and what is drawn with the disc k are made here together. A step of more
+ * the core told is not written (`sum` then gives that number alone). Done with the figures as they are written it gives the last one of them, rounded: where a few digits do not,
+ * there are more. Line k and what is drawn with the disc k are made here together. A step of more
  * parts than lines shows the first three and the last, and says how many there are.
  */
 import type { Trace, TraceEntry } from '../../protocol';
 import { words } from '../../words';
-import { factor, figure, kindsOf, lettersOf, type Figure, type Kind, type Kinds } from './figures';
+import { factor, figure, kindsOf, lettersOf, type Figure, type Kind, type Kinds, type More } from './figures';
 import type { Seen } from './seen';
 
 type Sign = '=' | '+' | '−' | '·' | '/' | '(' | ')';
@@ -49,13 +50,25 @@ function close(a: Vec, b: Vec, size: number): boolean { return a.every((x, k) =>
 function common(weights: readonly number[]): number | null {
   return [1, 2, 3, 4, 6, 8, 12].find((d) => weights.every((w) => Math.abs(w * d - Math.round(w * d)) < 1e-12 * d)) ?? null;
 }
-const plainNumber = (text: string): Token => ({ kind: 'number', figures: [{ text, rounded: false }] });
+const plainNumber = (text: string): Token => ({ kind: 'number', figures: [{ text, rounded: false, shown: text === '½' ? 0.5 : Number(text), unit: 0 }] });
 const some = (weights: readonly number[] | null): boolean => weights?.some((w) => w !== 0) ?? false;
 
+/** Decimals that may be added, the fewest first. */
+const MORE: readonly More[] = Array.from({ length: 12 }, (_, k): More => [k & 3, k >> 2]).sort((a, b) => a[0] + a[1] - b[0] - b[1]);
+
 export function recipeOf(trace: Trace, seen: Seen, byVelocity: boolean): Recipe | null {
+  for (const more of MORE) {
+    const made = recipeIn(kindsOf(trace, seen, more), trace, seen, byVelocity);
+    if (!made || wrongSums(made).size === 0) return made;
+  }
+  const made = recipeIn(kindsOf(trace, seen), trace, seen, byVelocity)!, wrong = wrongSums(made);
+  return { ...made, lines: made.lines.map((line) => ({ ...line, sums: line.sums.map((sum) => (wrong.has(sum) ? resultOf(sum) : sum)) })) };
+}
+
+function recipeIn(kinds: Kinds, trace: Trace, seen: Seen, byVelocity: boolean): Recipe | null {
   const { entries } = trace, start = entries[0], end = entries[entries.length - 1];
   if (!start || !end || start === end) return null;
-  const kinds = kindsOf(trace, seen), { order, indices } = seen, flat = indices.length === 1, h = start.step, told = words.opened;
+  const { order, indices } = seen, flat = indices.length === 1, h = start.step, told = words.opened;
   const pick = (of: readonly number[] | null): Vec => indices.map((k) => of?.[k] ?? NaN);
   const value = (e: TraceEntry): Vec => pick(order === 2 ? e.x : e.v), rate = (e: TraceEntry): Vec => pick(order === 2 ? e.v : e.a), force = (e: TraceEntry): Vec => pick(e.a);
   const place = (at: Vec, time: number): Place => (flat ? [time, at[0]!] : [at[0]!, at[1]!]);
@@ -72,12 +85,13 @@ export function recipeOf(trace: Trace, seen: Seen, byVelocity: boolean): Recipe 
   const rateName = order === 2 ? 'v' : `${whole}'`;
   const one = (name: string, index?: number): Token[] => (index === undefined ? [{ kind: 'name', name }] : [{ kind: 'name', name, index }]);
 
+  const operand = (kind: Kind): Kind => (kind === kinds.rate ? kinds.rates : kind === kinds.value || kind === kinds.between ? kinds.operand : kind);
   /** name = from + by · of + … = to; without the calculation where that does not give `to`. */
   function sum(name: readonly Token[], kind: Kind, from_: Vec, terms: readonly { readonly by: number; readonly of: Vec; readonly kind: Kind }[], to_: Vec, keep = false): Sum {
     const right = terms.reduce<Vec>((s, t) => add(s, t.of, t.by), from_), size = Math.max(...[...from_, ...to_, ...terms.flatMap((t) => scaled(t.of, t.by))].map(Math.abs));
     const result = number(to_, kind, { result: keep, keep });
     if (!close(right, to_, size)) return [...name, sign('=', true), result];
-    return [...name, sign('=', true), number(from_, kind), ...terms.flatMap((t) => [sign(t.by < 0 ? '−' : '+', true), times(Math.abs(t.by)), sign('·'), number(t.of, t.kind, { bracket: true })]), sign('=', true), result];
+    return [...name, sign('=', true), number(from_, operand(kind)), ...terms.flatMap((t) => [sign(t.by < 0 ? '−' : '+', true), times(Math.abs(t.by)), sign('·'), number(t.of, operand(t.kind), { bracket: true })]), sign('=', true), result];
   }
   /** name = value, told by the core. */
   const is = (name: readonly Token[], kind: Kind, v: Vec): Sum => [...name, sign('=', true), number(v, kind)];
@@ -90,14 +104,14 @@ export function recipeOf(trace: Trace, seen: Seen, byVelocity: boolean): Recipe 
     const terms = used.flatMap(({ w, k }, i) => [
       ...(i ? [sign(w < 0 ? '−' : '+')] : w < 0 && !alone ? [sign('−')] : []),
       ...(Math.abs(w) === 1 || alone ? [] : [d !== null ? plainNumber(String(Math.abs(w))) : times(Math.abs(w)), sign('·')]),
-      ...(of.names ? one(of.name, k + 1) : [number(of.values[k]!, of.kind, { bracket: i > 0 || alone || w !== 1 })]),
+      ...(of.names ? one(of.name, k + 1) : [number(of.values[k]!, operand(of.kind), { bracket: i > 0 || alone || w !== 1 })]),
     ]);
     const by = alone ? step * (d === null ? used[0]!.w : used[0]!.w / d) : d === null ? step : step / d;
     // A sixth of a step is told as that where it has no end.
     const apart = !alone && d !== null && d > 1 && factor(by, kinds.factor).rounded, multiple: Token[] = apart ? [times(step), sign('/'), plainNumber(String(d))] : [times(by)];
     return [...name, sign('=', true), ...from_.flatMap((f, k) => [...(k ? [sign('+', true)] : []), ...f.tokens]), sign('+', true), ...multiple, sign('·'), ...(alone ? terms : [sign('('), ...terms, sign(')')]), sign('=', true), result];
   }
-  const begun = { tokens: [number(x0, kinds.value)], value: x0 };
+  const begun = { tokens: [number(x0, kinds.operand)], value: x0 };
 
   // --- what is drawn ---------------------------------------------------------------------------------------------------------------------
   const stroke = (at: Place, v: Vec): Mark => ({ kind: 'stroke', at, along: flat ? [h, h * v[0]!] : [h * v[0]!, h * v[1]!] });
@@ -202,8 +216,8 @@ export function recipeOf(trace: Trace, seen: Seen, byVelocity: boolean): Recipe 
       return;
     }
     seek.forEach((s, k) => line(k ? told.seekForce(rounds) : told.forceAtStart, [is(one('a', k + 1), kinds.force, force(s))], [pull(k ? to : from, force(s))]));
-    line(told.forces, [mean(named, kinds.value, [begun, { tokens: [times(h), sign('·'), number(rate(start!), kinds.rate, { bracket: true })], value: scaled(rate(start!), h) }], h * h, stages.map((s) => s.weight_x), some_, x1)], [go, arrived]);
-    line(told.forcesVelocity, [mean(one(rateName), kinds.rate, [{ tokens: [number(rate(start!), kinds.rate)], value: rate(start!) }], h, stages.map((s) => s.weight), some_, rate(end!))], [stroke(to, rate(end!))]);
+    line(told.forces, [mean(named, kinds.value, [begun, { tokens: [times(h), sign('·'), number(rate(start!), kinds.rates, { bracket: true })], value: scaled(rate(start!), h) }], h * h, stages.map((s) => s.weight_x), some_, x1)], [go, arrived]);
+    line(told.forcesVelocity, [mean(one(rateName), kinds.rate, [{ tokens: [number(rate(start!), kinds.rates)], value: rate(start!) }], h, stages.map((s) => s.weight), some_, rate(end!))], [stroke(to, rate(end!))]);
   }
 
   /** Verlet, Beeman: places, and what the force adds to going on straight. */
@@ -213,24 +227,79 @@ export function recipeOf(trace: Trace, seen: Seen, byVelocity: boolean): Recipe 
     if (earlier) before = place(earlier, start!.time - h);
     const dotted: Mark = { kind: 'probe', from: before ?? from, to: ahead };
     // The disc stands beyond the present place.
-    line(earlier ? told.keepGoing : told.go(1, true, false, noun), [earlier ? [plainNumber('2'), sign('·'), number(x0, kinds.value, { bracket: true }), sign('−', true), number(earlier, kinds.value, { bracket: true }), sign('=', true), number(straight, kinds.value)]
-      : sum(named, kinds.value, x0, [{ by: h, of: rate(start!), kind: kinds.rate }], straight)], [dotted, { kind: 'stage', at: ahead }], { kind: 'probe', from, to: ahead });
+    line(earlier ? told.keepGoing : told.go(1, true, false, noun), [earlier ? [plainNumber('2'), sign('·'), number(x0, kinds.operand, { bracket: true }), sign('−', true), number(earlier, kinds.operand, { bracket: true }), sign('=', true), number(straight, kinds.between)]
+      : sum(named, kinds.between, x0, [{ by: h, of: rate(start!), kind: kinds.rate }], straight)], [dotted, { kind: 'stage', at: ahead }], { kind: 'probe', from, to: ahead });
     const squared: Token[] = [{ kind: 'name', name: 'h', power: 2 }, { kind: 'name', name: 'a' }];
     const pull = beeman ? null : (earlier ? 1 : 0.5) * h * h, size = Math.max(...[...x0, ...x1, ...straight].map(Math.abs));
-    const fall: Sum = pull !== null && close(scaled(a, pull), fallen, size) ? [...(earlier ? squared : [plainNumber('½'), ...squared]), sign('=', true), times(pull), sign('·'), number(a, kinds.force, { bracket: true }), sign('=', true), number(fallen, kinds.value)]
-      : beeman && e.before_a ? beemans(a, pick(e.before_a), fallen) : is(squared, kinds.value, fallen);
+    const fall: Sum = pull !== null && close(scaled(a, pull), fallen, size) ? [...(earlier ? squared : [plainNumber('½'), ...squared]), sign('=', true), times(pull), sign('·'), number(a, kinds.force, { bracket: true }), sign('=', true), number(fallen, kinds.between)]
+      : beeman && e.before_a ? beemans(a, pick(e.before_a), fallen) : is(squared, kinds.between, fallen);
     line(beeman ? told.fallBeeman : told.fall(earlier !== null && byVelocity, earlier === null), [fall], [{ kind: 'fall', from: ahead, to }]);
-    line(earlier ? told.there(byVelocity) : beeman ? told.thereBeeman : told.thereFirst, [[...named, sign('=', true), number(straight, kinds.value), ...(flat && fallen[0]! < 0 ? [sign('−', true), number(scaled(fallen, -1), kinds.value)] : [sign('+', true), number(fallen, kinds.value)]), sign('=', true), number(x1, kinds.value, { result: true, keep: true })]], [arrived]);
+    line(earlier ? told.there(byVelocity) : beeman ? told.thereBeeman : told.thereFirst, [[...named, sign('=', true), number(straight, kinds.between), ...(flat && fallen[0]! < 0 ? [sign('−', true), number(scaled(fallen, -1), kinds.between)] : [sign('+', true), number(fallen, kinds.between)]), sign('=', true), number(x1, kinds.value, { result: true, keep: true })]], [arrived]);
     if (beeman && e.before_a) {
       const forces = [force(end!), a, pick(e.before_a)];
-      line(told.velocityBeeman, [mean(one(rateName), kinds.rate, [{ tokens: [number(rate(start!), kinds.rate)], value: rate(start!) }], h / 6, [2, 5, -1], { name: 'a', values: forces, kind: kinds.force, names: false }, rate(end!))], [stroke(to, rate(end!))]);
+      line(told.velocityBeeman, [mean(one(rateName), kinds.rate, [{ tokens: [number(rate(start!), kinds.rates)], value: rate(start!) }], h / 6, [2, 5, -1], { name: 'a', values: forces, kind: kinds.force, names: false }, rate(end!))], [stroke(to, rate(end!))]);
     } else last = earlier ? told.twoPlaces : '';
   }
   function beemans(now: Vec, earlier: Vec, fallen: Vec): Sum {
     const by = (h * h) / 6;
-    if (!close(scaled(add(scaled(now, 4), earlier, -1), by), fallen, Math.max(...[...x0, ...x1].map(Math.abs)))) return [number(fallen, kinds.value)];
-    return [times(by), sign('·'), sign('('), plainNumber('4'), sign('·'), number(now, kinds.force, { bracket: true }), sign('−'), number(earlier, kinds.force, { bracket: true }), sign(')'), sign('=', true), number(fallen, kinds.value)];
+    if (!close(scaled(add(scaled(now, 4), earlier, -1), by), fallen, Math.max(...[...x0, ...x1].map(Math.abs)))) return [number(fallen, kinds.between)];
+    return [times(by), sign('·'), sign('('), plainNumber('4'), sign('·'), number(now, kinds.force, { bracket: true }), sign('−'), number(earlier, kinds.force, { bracket: true }), sign(')'), sign('=', true), number(fallen, kinds.between)];
   }
+}
+
+/** What stands between the signs of equality. */
+function sides(sum: Sum): Token[][] {
+  const out: Token[][] = [[]];
+  for (const token of sum) if (token.kind === 'sign' && token.sign === '=') out.push([]); else out[out.length - 1]!.push(token);
+  return out;
+}
+/** A calculation without its middle; of one that has no name its result. */
+function resultOf(sum: Sum): Sum {
+  const all = sides(sum);
+  return all.length < 3 ? all[all.length - 1]! : [...all[0]!, { kind: 'sign', sign: '=', outer: true }, ...all[all.length - 1]!];
+}
+const nameOf = (token: Token | undefined): string => (token?.kind === 'name' ? `${token.name}${token.index ?? ''}` : '');
+
+/** The calculations that do not give their results, done with the figures as they are written. */
+function wrongSums({ lines }: Recipe): Set<Sum> {
+  const names = new Map<string, Vec>(), wrong = new Set<Sum>();
+  for (const sum of lines.flatMap((line) => line.sums)) {
+    const all = sides(sum), [result] = all[all.length - 1]!, [name] = all[0]!, middle = all[all.length - 2] ?? [];
+    if (result?.kind !== 'number') continue;
+    if (all[0]!.length === 1 && nameOf(name)) names.set(nameOf(name), result.figures.map((f) => f.shown));
+    if (all.length < 3 && !middle.some((t) => t.kind === 'sign' && t.sign === '·')) continue;
+    const found = done(middle, names);
+    if (!result.figures.every(({ shown, unit }, k) => Math.abs((found[found.length === 1 ? 0 : k] ?? NaN) - shown) <= 0.5 * unit * (1 + 1e-6) + 1e-12 * Math.abs(shown))) wrong.add(sum);
+  }
+  return wrong;
+}
+/** A calculation done; numbers of one kind of sign after the other. */
+function done(tokens: readonly Token[], names: ReadonlyMap<string, Vec>): Vec {
+  let at = 0;
+  const sign = (s: Sign): boolean => { const token = tokens[at]; const is = token?.kind === 'sign' && token.sign === s; if (is) at++; return is; };
+  const both = (a: Vec, b: Vec, act: (x: number, y: number) => number): Vec => Array.from({ length: Math.max(a.length, b.length) }, (_, k) => act(a[a.length === 1 ? 0 : k] ?? NaN, b[b.length === 1 ? 0 : k] ?? NaN));
+  function one(): Vec {
+    if (sign('(')) { const inside = total(); sign(')'); return inside; }
+    const token = tokens[at++];
+    return token?.kind === 'number' ? token.figures.map((f) => f.shown) : names.get(nameOf(token)) ?? [NaN];
+  }
+  function product(): Vec {
+    let left = one();
+    for (;;) {
+      if (sign('·')) left = both(left, one(), (a, b) => a * b);
+      else if (sign('/')) left = both(left, one(), (a, b) => a / b);
+      else return left;
+    }
+  }
+  function total(): Vec {
+    let left = sign('−') ? product().map((x) => -x) : product();
+    for (;;) {
+      if (sign('+')) left = both(left, product(), (a, b) => a + b);
+      else if (sign('−')) left = both(left, product(), (a, b) => a - b);
+      else return left;
+    }
+  }
+  return total();
 }
 
 /** A calculation as plain text. */

@@ -3,6 +3,9 @@ const share = (c: number): string => {
   const size = Math.abs(c), of = [[1 / 3, 'a third'], [2 / 3, 'two thirds'], [1 / 4, 'a quarter'], [3 / 4, 'three quarters']] as const;
   return size > 1 ? `${Number(size.toPrecision(3))} steps` : size === 1 ? 'the whole step' : size === 0.5 ? 'half a step' : `${of.find(([value]) => Math.abs(value - size) < 1e-12)?.[1] ?? String(Number(size.toPrecision(3)))} of a step`;
 };
+/** From where the exact motion goes on. */
+type From = 'start' | 'here' | 'two';
+const since = (from: From): string => (from === 'two' ? ' through both places' : from === 'here' ? ' from here' : '');
 const numerals = ['no', 'one', 'two', 'three', 'four', 'five', 'six', 'seven', 'eight'], ordinals = ['first', 'second', 'third', 'fourth', 'fifth', 'sixth', 'seventh', 'eighth'];
 const counted = (n: number): string => numerals[n] ?? String(n);
 /** A title inside a sentence. */
@@ -31,11 +34,11 @@ export const opened = {
   at: (what: string, time: string) => `${what}, ${time}`,
   /** height: of a place; else of an angle, or any number. */
   tooFar: (size: string, more: boolean, height: boolean) => `${size} too ${height ? (more ? 'high' : 'low') : more ? 'large' : 'small'}`, off: (size: string) => `${size} off`,
-  /** known: a formula gives the motion; first: the start of the run, through which the motion goes. */
-  exact: (value: string, method: string, miss: string, first: boolean, known: boolean) =>
-    `${known ? 'Exact' : 'Computed in small steps'}${first ? '' : ' from here'}${known ? '' : ' it'} is ${value}: ${method} is ${miss || 'on it'}.`,
+  /** known: a formula gives the motion; from: the start of the run, the start of the step, or the two places that the step takes: through these the motion goes. */
+  exact: (value: string, method: string, miss: string, from: From, known: boolean) =>
+    `${known ? 'Exact' : 'Computed in small steps'}${since(from)}${known ? '' : ' it'} is ${value}: ${method} is ${miss || 'on it'}.`,
   /** Where the digits of the place do not show the miss. */
-  missOnly: (method: string, miss: string, first: boolean, known: boolean) => `Against the ${known ? 'exact motion' : 'motion computed in small steps'}${first ? '' : ' from here'}, ${method} is ${miss}.`,
+  missOnly: (method: string, miss: string, from: From, known: boolean) => `Against the ${known ? 'exact motion' : 'motion computed in small steps'}${since(from)}, ${method} is ${miss}.`,
   soFar: (miss: string) => `After all steps up to here it is ${miss} off.`,
   newVelocity: (value: string) => `The velocity is now ${value}.`,
   over: 'The run is over: there is no step left to open.',

@@ -15,6 +15,8 @@ export const panel = {
     bars: (by: string) => `By ${by} with its error: `,
     barsOf: (by: string, list: string) => `${by} with its error, the band about its line: ${list}.`,
     noBars: (by: string, why: string) => `The error of ${by} is not known: ${why}.`,
+    /** Beside the place from which its line is dotted. */
+    dotted: (by: string) => `${by}: no digit known from here on`, unknown: (by: string) => (by ? `${by}: no digit known` : 'no digit known'),
     noDigit: (by: string, at: string) => `By its own error no digit of ${by} is known from ${at} on.`,
     quantities: 'Quantities',
     shown: (names: string) => `Quantities: ${names}`,
