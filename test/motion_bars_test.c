@@ -16,11 +16,11 @@
 
 #include <time.h>
 
-/* Kinds of which some answers are still wrong: they are judged when EVERY or KIND asks for them. */
+/* Kinds of which even the motions tried by default get wrong answers, or in the plane mostly none, after a long time.
+ * They are judged when EVERY or KIND asks for them. More motions find rarer wrong answers of other kinds as well. */
 static const int failing[] = {
-    MOTION_OFFSET_KIND, MOTION_CANCEL_KIND, MOTION_VANISH_KIND,  MOTION_BUMP_KIND,
-    MOTION_PULSE_KIND,  MOTION_FLIGHT_KIND, MOTION_REST_KIND,    MOTION_TWICE_KIND,
-    MOTION_BLOCKS_KIND, MOTION_PLANE_KIND,  MOTION_PENALTY_KIND, MOTION_THERMOSTAT_KIND,
+    MOTION_CANCEL_KIND, MOTION_BUMP_KIND,   MOTION_PULSE_KIND, MOTION_FLIGHT_KIND,
+    MOTION_TWICE_KIND,  MOTION_BLOCKS_KIND, MOTION_PLANE_KIND, MOTION_PENALTY_KIND,
 };
 static bool fails(int kind)
 {
