@@ -69,6 +69,7 @@ void bars_destroy(motus_run *r)
     if (!r->bars) return;
     const chosen method = companion_method(&r->chosen, r->system);
     if (bars_wait(r)) choice_leave(r->bars->half.system, &method);
+    witness_destroy(r->bars->witness, &r->allocator);
     companion_end(&r->bars->half, &r->allocator);
     companion_end(&r->bars->twin, &r->allocator);
     give(&r->allocator, r->bars->columns);
@@ -373,6 +374,9 @@ static motus_status land(motus_run *r, double t, double *x, double *v, bool betw
     motus_status status = companion_land(&b->half, r, t, taken > 0 ? taken : 1, err);
     if (status == MOTUS_OK && !strcmp(r->card->family, "exact")) status = companion_jog(&b->half, r, err);
     if (status == MOTUS_OK && b->kind == MOTUS_BARS_FULL && !between) status = companion_repeat(&b->twin, r, err);
+    const double *dx, *dv;
+    if (status == MOTUS_OK && !between && witness_moves(b->witness, &dx, &dv))
+        status = companion_shift(&b->half, r, dx, dv, err);
     if (status == MOTUS_OK && r->events && !between) status = reach(r, t, err);
     if (status == MOTUS_OK && r->events) notice_gap(r, t, between);
     if (status == MOTUS_OK && !b->gap) status = bars_take(r, t, x, v, observed, err);

@@ -6,6 +6,7 @@
 #define API_BARS_H
 
 #include "api/companion.h"
+#include "api/witness.h"
 #include "machine/differences.h"
 
 struct bars {
@@ -13,6 +14,7 @@ struct bars {
     bool kept;             /* the companion, as the run, uses a compiled object only where there is one */
     bool given_x, given_v; /* the run's state at its start is not the model's */
     bool started;
+    witness *witness;     /* NULL: the run is none that one can look at */
     companion half, twin; /* of about half the step; a twin of the run from a state that is an ulp away */
     size_t count;         /* numbers that are compared: their columns */
     size_t *columns;

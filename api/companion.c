@@ -226,6 +226,14 @@ motus_status companion_jog(companion *c, const motus_run *r, motus_error *err)
     return MOTUS_OK;
 }
 
+motus_status companion_shift(companion *c, const motus_run *r, const double *dx, const double *dv, motus_error *err)
+{
+    const problem *p = &r->system->problem;
+    for (size_t k = 0; k < p->nx; k++) c->x[k] += dx[k];
+    for (size_t k = 0; k < p->nv; k++) c->v[k] += dv[k];
+    return stepper_start(c->stepper, c->t, r->timing.h, c->x, c->v, err);
+}
+
 motus_status companion_repeat(companion *c, const motus_run *r, motus_error *err)
 {
     if (row_adaptive(&r->chosen)) return go(c, r, stepper_time(r->stepper), 1, err);

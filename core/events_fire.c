@@ -2,8 +2,8 @@
  * any more. See events_parts.h.
  *
  * A rule whose function passes 0 acts once for that passage. A function that still moves in the event's direction after
- * the action has left 0 to that side, however fast it moves; one that the action turns back has not, and a further action
- * of another rule may let it pass in this same instant.
+ * the action has left 0 to that side, however fast it moves; one that the action turns back has not, and a further
+ * action of another rule may let it pass in this same instant.
  */
 #include "core/events_parts.h"
 
@@ -147,8 +147,8 @@ static void move_by_rounding(const events *e, int turn, instant *to)
     for (size_t k = 0; k < e->problem.nv; k++) to->v[k] += h * at->a[k] + (k % 2 ? other : side) * events_ulp(at->v[k]);
 }
 
-/* Marks the functions at 0 whose rate under the new force is 0, but for rounding: where what has held them lets go, they
- * leave 0 with a slope of 0. */
+/* Marks the functions at 0 whose rate under the new force is 0, but for rounding: where what has held them lets go,
+ * they leave 0 with a slope of 0. */
 static motus_status find_level(events *e, motus_error *err)
 {
     enum { MARGIN = 4, TURNS = 4 };

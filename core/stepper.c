@@ -401,9 +401,49 @@ static motus_status go(stepper *s, const stepper_limit *limit, const stepper_bod
     return !status && !s->arrived && limit->steps > room ? too_many(s, err) : status;
 }
 
+/* The last step is refused like one whose error is too large: it has changed nothing but the size of the next one. A
+ * recovery begins after it, since it would take the step again. */
+static motus_status take_back(stepper *s, double h, motus_error *err)
+{
+    work *w = &s->work;
+    const int64_t before = w->n - 1, evaluations = w->evaluations, iterations = w->iterations, refused = w->refused;
+    const double t = time_now(w);
+    go_back(s);
+    const int bad = before > w->n ? s->body->run(w, before - w->n) : STEP_OK;
+    if (bad) return stepper_report(s, bad, t, err);
+    w->next = h, w->rise = 0;
+    w->evaluations = evaluations, w->iterations = iterations, w->refused = refused + 1;
+    s->at = stepper_get(s, s->snapshot);
+    s->arrived = s->right = false;
+    return MOTUS_OK;
+}
+
+void stepper_inspected(stepper *s, stepper_inspector inspector, void *ctx)
+{
+    const bool judged = row_adaptive(&s->method) && !row_reversible_steps(&s->method);
+    s->inspector = judged ? inspector : NULL, s->inspector_ctx = ctx;
+}
+
+/* One step at a time. */
+static motus_status inspected(stepper *s, stepper_limit limit, motus_error *err)
+{
+    const stepper_limit one = {1, limit.until};
+    motus_status status = MOTUS_OK;
+    for (int64_t n = 0; n < limit.steps && !status && !s->arrived; n++) {
+        status = stepper_mark(s, err);
+        if (!status) status = go(s, &one, s->body, err);
+        for (double h; !status && (h = s->inspector(s->inspector_ctx, s)) != 0;) {
+            status = take_back(s, h, err);
+            if (!status) status = go(s, &one, s->body, err);
+        }
+    }
+    return status;
+}
+
 motus_status stepper_advance(stepper *s, stepper_limit limit, stepper_stop *why, motus_error *err)
 {
-    const motus_status status = go(s, &limit, s->body, err);
+    const bool looks = s->inspector && !s->watching && limit.steps > 0;
+    const motus_status status = looks ? inspected(s, limit, err) : go(s, &limit, s->body, err);
     if (why) *why = status ? STOP_FAILED : s->arrived ? STOP_UNTIL : STOP_STEPS;
     return status;
 }
@@ -442,6 +482,7 @@ static motus_status mark_watched(stepper *s, motus_error *err)
     memcpy(v, s->watch.from_v, nv * sizeof *v);
     s->left = true, s->right = false;
     s->left_t = s->watch.t;
+    s->left_lost = s->watch.lost;
     s->left_steps = s->watch.n;
     if (w->expands) return MOTUS_OK;
     const int64_t evaluations = w->evaluations;

@@ -95,6 +95,10 @@ typedef motus_status (*stepper_judge)(void *ctx, stepper *, int64_t steps, doubl
 /* The status of a run that crawls, and what it says. */
 motus_status stepper_crawls(const stepper *, int64_t steps, double gone, motus_error *);
 void stepper_judged(stepper *, stepper_judge, void *ctx);
+/* Shown every step of a row that finds its steps by their errors, marked: 0 lets it stand, and another answer has it
+ * taken again, by a candidate of that size, with its sign. */
+typedef double (*stepper_inspector)(void *ctx, stepper *);
+void stepper_inspected(stepper *, stepper_inspector, void *ctx);
 const chosen *stepper_method(const stepper *);
 const problem *stepper_problem(const stepper *);
 double stepper_limit_of(const stepper *); /* the `until` of the latest advance */
@@ -112,12 +116,15 @@ void stepper_sizes(const stepper *, double *shortest, double *longest);
 int64_t stepper_refused(const stepper *);
 /* finished since the start of the leg, a shorter last one included */
 int64_t stepper_steps(const stepper *);
+bool stepper_compiled(const stepper *);
 int64_t stepper_evaluations(const stepper *); /* by the method itself; observing is not counted */
 int64_t stepper_iterations(const stepper *);
 
 /* Dense output: the state at a time within the last step. stepper_mark keeps the present state as the left end of the
  * next step; without a mark stepper_sample takes the last step once more, from the last snapshot, to the same bits. */
 motus_status stepper_mark(stepper *, motus_error *);
+/* The time of the mark, what its rounding has left out, and the state there. */
+double stepper_marked(const stepper *, double *lost, const double **x, const double **v);
 motus_status stepper_sample(stepper *, double t, double *x, double *v, motus_error *);
 /* A bound on the size of every acceleration within the marked last step, nv numbers; of stages (step/swing.h) it holds
  * where they show the motion. False: none is known. */

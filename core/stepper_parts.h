@@ -32,9 +32,11 @@ struct stepper {
     int64_t pace_n;
     stepper_judge judge; /* NULL: nobody judges whether it crawls */
     void *judge_ctx;
+    stepper_inspector inspector; /* NULL: steps stand as they are accepted */
+    void *inspector_ctx;
     /* of dense output: x, v, a at the left end, then at the right; NULL until asked for */
     double *ends;
-    double left_t;
+    double left_t, left_lost;
     int64_t left_steps; /* stepper_steps at the left end */
     bool left, right;   /* which of the two ends are valid */
     double *watched;    /* x, v before and after a watched step, then `most`; NULL until asked for */

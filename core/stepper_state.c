@@ -38,6 +38,7 @@ void stepper_sizes(const stepper *s, double *shortest, double *longest)
 }
 int64_t stepper_refused(const stepper *s) { return s->work.refused; }
 int64_t stepper_steps(const stepper *s) { return s->shortened ? s->at.steps + 1 : s->work.n; }
+bool stepper_compiled(const stepper *s) { return s->work.host != NULL; }
 int64_t stepper_evaluations(const stepper *s) { return s->work.evaluations; }
 int64_t stepper_iterations(const stepper *s) { return s->work.iterations; }
 
@@ -163,6 +164,7 @@ static void move_ends(stepper *from, stepper *to)
     to->left = from->left;
     to->right = from->right;
     to->left_t = from->left_t;
+    to->left_lost = from->left_lost;
     to->left_steps = from->left_steps;
 }
 
@@ -185,6 +187,7 @@ motus_status stepper_move(stepper **s, const machine *m, motus_error *err)
     to->work.h = from->work.h;
     to->pace_n = from->pace_n, to->pace_t = from->pace_t;
     to->judge = from->judge, to->judge_ctx = from->judge_ctx;
+    to->inspector = from->inspector, to->inspector_ctx = from->inspector_ctx;
     to->at = from->at, to->earlier_at = from->earlier_at;
     memcpy(to->snapshot, from->snapshot, stepper_carry(from) * sizeof *to->snapshot);
     if (from->earlier) memcpy(to->earlier, from->earlier, stepper_carry(from) * sizeof *to->earlier);
@@ -234,8 +237,16 @@ motus_status stepper_mark(stepper *s, motus_error *err)
     s->left = !status;
     s->right = false;
     s->left_t = stepper_time(s);
+    s->left_lost = stepper_lost(s);
     s->left_steps = stepper_steps(s);
     return status;
+}
+
+double stepper_marked(const stepper *s, double *lost, const double **x, const double **v)
+{
+    *lost = s->left_lost;
+    *x = s->ends, *v = *x + s->work.nx;
+    return s->left_t;
 }
 
 /* The room that the family's dense output needs besides the ends, with its constants. */

@@ -628,7 +628,9 @@ typedef enum motus_switches {
 } motus_switches;
 
 /* Whether a run tells how far its numbers are from the exact motion, that of the equations and the numbers as they are
- * written: bars of error. Its own bits are the same. What it costs: see motus_run_errors. */
+ * written: bars of error. Its own bits are the same, but where its steps adapt and one of them leads over a change of
+ * the force that it does not show: with bars it is taken again, by shorter ones. What it costs: see
+ * motus_run_errors. */
 typedef enum motus_bars {
     MOTUS_BARS_NONE,
     /* By a companion, a run of about half the step, or of two halves of every step that adapts, with every decimal

@@ -1,0 +1,30 @@
+/* A witness of a run: holds its motion against the force as it is typed.
+ *
+ * Run and companion have the same force, often one that was rewritten for them: with sides in place of switches, values
+ * that hold what sticks, series. Where that force is not the typed one, or where both step over what happens between
+ * the places at which they evaluate it, they agree on a wrong motion. The witness shares none of it: it has the typed
+ * equations, evaluated by the tape, along the dense output of every step that it looks at.
+ *
+ * What it finds missing of a step is looked at more closely, by a probe: a stepper of the method that takes the step
+ * once more in as many parts as the force asks for. Where both ends are farther apart than the run's tolerance allows,
+ * the run takes the step again as the probe did. Where they are farther apart than the errors told so far, the
+ * companion is moved by the difference, so that the bars cover it from then on.
+ */
+#ifndef API_WITNESS_H
+#define API_WITNESS_H
+
+#include "api/run.h"
+#include "machine/differences.h"
+
+typedef struct witness witness;
+
+/* Of a run that has its stepper, whose steps it looks at from now on, and what is known of the run's errors; *out NULL:
+ * the run is none that it can look at. */
+motus_status witness_create(const motus_run *, const differences *, witness **out, motus_error *);
+void witness_destroy(witness *, const motus_allocator *);
+/* Once: by how much the companion is to be moved, nx and nv numbers in the inside order; false: it is not. */
+bool witness_moves(witness *, const double **x, const double **v);
+/* The time near which no step keeps to the typed force; NaN: there is none. */
+double witness_differs(const witness *);
+
+#endif
