@@ -1267,8 +1267,8 @@ typedef struct motus_converge_row {
      * and dense_order + 1); both with the standard errors of the fits, NaN where there is none. */
     int adaptive, between_due;
     double power, power_error, power_due, between, between_error;
-    /* 1: too few errors lie between the coarsest steps and round-off for one of the three statements, or they are no
-     * power: so the row has neither passed nor failed. */
+    /* 1: too few errors lie between the coarsest steps and round-off for the order, or for one of the three statements
+     * of an adaptive method, or they are no power: so the row has neither passed nor failed. */
     int uncertain;
 } motus_converge_row;
 typedef struct motus_convergence {

@@ -147,10 +147,22 @@ static inline void control_settle(work *w, clock_mask good)
     w->refused = CHOOSE_WHERE(good, w->refused, w->refused + 1);
 }
 
+/* Whether the candidate is accepted. The clock has no time between the start of a step of a few roundings and its end,
+ * so the force at its stages is off by what it changes in one rounding of the time; where the motion comes from rest at
+ * 0, that is a large part of its size. The last such step before an end, which no shorter ones replace, may err by as
+ * many parts of the size as one rounding of the time is of the step. */
+static inline clock_mask control_good(const work *w)
+{
+    const clock h = ABS(w->h), t = ABS(w->t);
+    const clock_mask short_end = w->ends & (h <= 0x1p-32 * t);
+    const clock off = w->error * w->relative;
+    return (w->error <= 1) | (short_end & (off > 0) & (off * h <= 0x1p-50 * t));
+}
+
 /* Of rows that find their own sizes: w->after is the next one. */
 static inline clock_mask control_judge_own(work *w)
 {
-    const clock_mask good = w->error <= 1;
+    const clock_mask good = control_good(w);
     w->next = w->after;
     control_settle(w, good);
     return good;
@@ -159,7 +171,7 @@ static inline clock_mask control_judge_own(work *w)
 /* An error that is not a number is refused like one that is too large. */
 static inline clock_mask control_judge(work *w)
 {
-    const clock_mask good = w->error <= 1;
+    const clock_mask good = control_good(w);
     const clock level = control_level(w->error);
     const clock next = w->h * control_factor(w, good, level);
     /* a step that was cut short tells nothing of the next one */

@@ -47,6 +47,9 @@
 #define OVERALL_LARGE 0.1 /* errors above this, or below OVERALL_CLEAR times round-off, tell no order */
 #define OVERALL_CLEAR 30.0
 #define OVERALL_OCTAVES 6.0
+#define LOST 0.5        /* an order, of the power by which errors fall over LOST_OCTAVES: it refutes a row, */
+#define LOST_PART 0.125 /* or a part of a high one */
+#define LOST_OCTAVES 1.999
 #define REFERENCE_SHARE 0.1 /* of the progress */
 
 typedef struct row_text {
@@ -71,9 +74,10 @@ typedef struct converge {
     study_grid grid;
     double uncut;   /* the end that was asked for */
     bool cut;       /* the motion was cut far before it */
+    double share;   /* of the motion, which steps of one size divide; the last step of all is shorter unless it is 1 */
     double allowed; /* the highest order that the smoothness of the force allows; 0: any */
     char why[MOTUS_TEXT_MAX / 2];
-    double *table;   /* INTERVALS × numbers */
+    double *table;   /* (INTERVALS + 1) × numbers */
     size_t *columns; /* of the numbers of a state */
     const char **methods;
     size_t count;
@@ -88,7 +92,7 @@ static motus_status make_result(converge *c)
     size_t points = aligned(c->count * POINTS_MAX * sizeof(motus_point)), texts = aligned(c->count * sizeof(row_text));
     size_t row_list = aligned(c->count * sizeof(void *)), point_list = c->count * POINTS_MAX * sizeof(void *);
     char *block = take(c->s.allocator, head + rows + points + texts + row_list + point_list, 1);
-    c->table = take(c->s.allocator, INTERVALS * c->s.numbers, sizeof(double));
+    c->table = take(c->s.allocator, (INTERVALS + 1) * c->s.numbers, sizeof(double));
     c->columns = take(c->s.allocator, c->s.numbers, sizeof *c->columns);
     for (size_t k = 0; c->columns && k < c->s.numbers; k++) c->columns[k] = k + 1;
     if (!block || !c->table || !c->columns) {
@@ -123,13 +127,14 @@ static motus_status make_result(converge *c)
 
 /* The motion ----------------------------------------------------------------------------------------------------- */
 
-static study_grid even_grid(const study *s, double until, size_t intervals)
+/* So many intervals over the part `share` of the motion, and a shorter one over what is left of it. */
+static study_grid grid_of(const study *s, double until, size_t intervals, double share)
 {
     return (study_grid){.from = s->from,
                         .until = until,
-                        .interval = fabs(until - s->from) / (double)intervals,
+                        .interval = share * fabs(until - s->from) / (double)intervals,
                         .intervals = intervals,
-                        .points = intervals};
+                        .points = share < 1 ? intervals + 1 : intervals};
 }
 
 /* Down to 1, 2 or 5 times a power of ten. */
@@ -143,13 +148,10 @@ static double round_down(double duration)
 }
 
 /* Bounds the length of the motion by its speed along a survey and by the fastest rate of the linearised motion. */
-static motus_status bound_length(converge *c, double *until)
+static motus_status bound_length(converge *c, bool smooth, double *until)
 {
     study *s = &c->s;
-    motus_analysis analysis = motus_default_analysis();
-    study_note(s, motus_analysis_of(s->system, &analysis));
-    if (study_broken(s) != MOTUS_OK) return study_broken(s);
-    study_grid g = even_grid(s, s->until, SURVEY);
+    study_grid g = grid_of(s, s->until, SURVEY, 1);
     solution survey;
     motus_status status = solution_find(s, &g, SURVEY, SURVEY_TRUST / 100, &survey);
     double phase_rate = 0, peak = 0, stiff = 0, direction = s->until > s->from ? 1 : -1;
@@ -168,26 +170,27 @@ static motus_status bound_length(converge *c, double *until)
     double duration = fabs(s->until - s->from);
     double longest = duration;
     if (phase_rate * duration > PHASE_MOST) longest = PHASE_GOOD / phase_rate;
-    if (analysis.smooth && peak * longest > PEAK_MOST) longest = PEAK_MOST / peak;
+    if (smooth && peak * longest > PEAK_MOST) longest = PEAK_MOST / peak;
     /* Where a force jumps, its derivative is no rate of the motion. */
-    if (analysis.smooth && stiff * longest > STIFF_MOST) longest = STIFF_MOST / stiff;
+    if (smooth && stiff * longest > STIFF_MOST) longest = STIFF_MOST / stiff;
     if (longest == duration) return MOTUS_OK;
     c->cut = true;
     *until = s->from + direction * round_down(longest);
     return MOTUS_OK;
 }
 
-/* A force often jumps at a simple fraction of the run, such as half of it, and steps that end there by chance would
- * show an order that no other step has. So the motion ends a little earlier, at a fraction of its length that is none
- * of these, and so do all steps. */
+/* A force that is not smooth often jumps at a simple fraction of the run, such as half of it, and steps that end there
+ * by chance would show an order that no other step has. So the steps divide a part of such a motion that is none of
+ * these, and the last step of all is a shorter one. */
 static motus_status choose_end(converge *c, double *until)
 {
     study *s = &c->s;
+    motus_analysis analysis = motus_default_analysis();
+    study_note(s, motus_analysis_of(s->system, &analysis));
+    if (study_broken(s) != MOTUS_OK) return study_broken(s);
     *until = c->uncut = s->until;
-    motus_status status = MOTUS_OK;
-    if (isnan(c->def.until)) status = bound_length(c, until); /* else the user chose the end */
-    *until = s->from + INCOMMENSURATE * (*until - s->from);
-    return status;
+    c->share = analysis.smooth ? 1 : INCOMMENSURATE;
+    return isnan(c->def.until) ? bound_length(c, analysis.smooth, until) : MOTUS_OK; /* else the user chose the end */
 }
 
 /* One method ----------------------------------------------------------------------------------------------------- */
@@ -219,8 +222,9 @@ static motus_status measure(converge *c, const motus_method *card, const char *m
         return MOTUS_OK;
     }
     double error = 0;
-    for (size_t p = 0, every = INTERVALS / g->intervals; p < g->intervals; p++) {
-        const double *at = c->reference.rows + (p + 1) * every * s->numbers;
+    for (size_t p = 0, every = INTERVALS / g->intervals; p < g->points; p++) {
+        const size_t row = p < g->intervals ? (p + 1) * every : c->grid.points;
+        const double *at = c->reference.rows + row * s->numbers;
         error = study_larger(error, study_measure(s, c->table + p * s->numbers, at).scaled);
     }
     point->error = isfinite(error) ? error : NAN;
@@ -233,7 +237,7 @@ static motus_status measure_all(converge *c, const motus_method *card, const cha
                                 motus_status *failed)
 {
     study *s = &c->s;
-    study_grid g = even_grid(s, c->grid.until, intervals);
+    study_grid g = grid_of(s, c->grid.until, intervals, c->share);
     double work = 0, bound = WORK, base = s->base, span = s->span, duration = fabs(g.until - g.from);
     *fit = (fit_order_result){.verdict = FIT_FEW, .observed = NAN, .standard_error = NAN, .fall = NAN};
     for (size_t i = 0; i < POINTS_MAX; i++) {
@@ -247,6 +251,12 @@ static motus_status measure_all(converge *c, const motus_method *card, const cha
         }
         study_part(s, base + span * fmin(1, work / bound), span * fmin(1, next / bound));
         motus_status status = measure(c, card, method, &g, per, &points[i], &spent, e, failed);
+        if (status == MOTUS_OK && *failed == MOTUS_METHOD && g.points > g.intervals) { /* it takes equal steps only */
+            *failed = MOTUS_OK;
+            g.points = g.intervals;
+            g.until = g.from + c->share * (g.until - g.from);
+            status = measure(c, card, method, &g, per, &points[i], &spent, e, failed);
+        }
         if (status != MOTUS_OK) return status;
         work += fmax(next, spent);
         row->point_count = i + 1;
@@ -277,6 +287,16 @@ static bool falls(const converge *c, const motus_converge_row *row, const fit_or
     return row->declared > SHOWN_ORDER && c->allowed == 0 && fit->settled && fit->fall >= SHOWN_ORDER;
 }
 
+/* Whether steady slopes over some octaves are clearly below the order. Else round-off came before they had settled, or
+ * they have not settled yet, and the row neither passes nor fails. Of orders that a double cannot show the highest one
+ * that it can is due. */
+static bool refutes(const fit_order_result *fit, int declared)
+{
+    const double due = declared < SHOWN_ORDER ? declared : SHOWN_ORDER;
+    return fit->verdict == FIT_SLOPE && fit->octaves >= LOST_OCTAVES &&
+           fit->observed + 2 * fit->standard_error < due - fmax(LOST, LOST_PART * due);
+}
+
 static void certify(const converge *c, motus_converge_row *row, const fit_order_result *fit, char *text, size_t size)
 {
     row->observed = fit->observed;
@@ -299,23 +319,27 @@ static void certify(const converge *c, motus_converge_row *row, const fit_order_
         snprintf(text, size, "observed %.2f, down to round-off, declared %d", row->observed, row->declared);
         return;
     }
+    row->uncertain = !row->passed && allowed && !refutes(fit, row->declared);
+    const char *const colon = allowed ? "" : ": ", *const why = allowed ? "" : c->why;
+    const char *const uncertain = row->uncertain ? " (not certified)" : "";
     switch (fit->verdict) {
     case FIT_EXACT: snprintf(text, size, "exact here, declared %d", row->declared); break;
     case FIT_SLOPE:
         if (allowed)
-            snprintf(text, size, "observed %.2f, declared %d", row->observed, row->declared);
+            snprintf(text, size, "observed %.2f, declared %d%s", row->observed, row->declared, uncertain);
         else
             snprintf(text, size, "observed %.2f, declared %d: %s, which allows order %.3g", row->observed,
-                     row->declared, c->why, c->allowed);
-        if (!row->passed) row->status = MOTUS_ORDER;
+                     row->declared, why, c->allowed);
+        if (!row->passed && !row->uncertain) row->status = MOTUS_ORDER;
         break;
     case FIT_ROUGH:
-        snprintf(text, size, "no slope: the errors follow no power of the step, declared %d%s%s", row->declared,
-                 allowed ? "" : ": ", allowed ? "" : c->why);
+        snprintf(text, size, "no slope: the errors follow no power of the step, declared %d%s%s%s", row->declared,
+                 colon, why, uncertain);
         break;
     case FIT_FEW:
-        snprintf(text, size, "no slope: %zu of the %d steps needed lie between instability and round-off, declared %d",
-                 fit->above, FIT_POINTS_MIN, row->declared);
+        snprintf(text, size,
+                 "no slope: %zu of the %d steps needed lie between instability and round-off, declared %d%s%s%s",
+                 fit->above, FIT_POINTS_MIN, row->declared, colon, why, uncertain);
         break;
     }
 }
@@ -425,22 +449,21 @@ static void describe(converge *c)
     char until[DECIMAL_MAX], uncut[DECIMAL_MAX];
     const double span = c->uncut - c->s.from;
     int n = snprintf(r->reference, sizeof r->reference, "%s", c->reference.text);
-    if (n > 0 && (size_t)n < sizeof r->reference)
-        snprintf(r->reference + n, sizeof r->reference - (size_t)n, "; until %s, not %s: %s",
-                 decimal_time(c->grid.until, span, until), decimal_time(c->uncut, span, uncut),
-                 c->cut ? "over a longer motion low orders would need too many steps to converge"
-                        : "so no step is a simple fraction of the run, at which a force may jump");
+    if (c->cut && n > 0 && (size_t)n < sizeof r->reference)
+        snprintf(r->reference + n, sizeof r->reference - (size_t)n,
+                 "; until %s, not %s: over a longer motion low orders would need too many steps to converge",
+                 decimal_time(c->grid.until, span, until), decimal_time(c->uncut, span, uncut));
     r->seen.reference_error = c->reference.scaled;
 }
 
 static motus_status converge_all(converge *c)
 {
     study *s = &c->s;
-    double until;
+    double until = NAN;
     study_part(s, 0, REFERENCE_SHARE / 2);
     motus_status status = choose_end(c, &until);
     if (status != MOTUS_OK) return status;
-    c->grid = even_grid(s, until, INTERVALS);
+    c->grid = grid_of(s, until, INTERVALS, c->share);
     study_part(s, REFERENCE_SHARE / 2, REFERENCE_SHARE / 2);
     if ((status = solution_find(s, &c->grid, INTERVALS, 0, &c->reference)) != MOTUS_OK) return status;
     if (!c->reference.known) {

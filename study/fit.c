@@ -165,6 +165,7 @@ fit_order_result fit_order(motus_point *points, size_t count, double duration, d
     }
     for (size_t i = least; i < n; i++) clear[i]->used = 1;
     r.verdict = FIT_SLOPE;
+    r.octaves = log(clear[least]->step / clear[n - 1]->step) / log(2);
     r.observed = line.slope;
     r.standard_error = line.slope_error;
     return r;

@@ -26,6 +26,7 @@ typedef struct fit_order_result {
     double floor;                    /* the round-off found, in the errors' units */
     double fall;                     /* the slope from the first of these to the last; NaN: there is one at most */
     double slope_change;             /* difference of the two finest local slopes in use */
+    double octaves;                  /* of steps, from the first point of the fit to the last */
     int settled;                     /* the plateau of round-off has been reached: finer steps add nothing */
 } fit_order_result;
 

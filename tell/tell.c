@@ -207,8 +207,8 @@ static void converge_row(json *j, const motus_converge_row *r)
     json_bool(j, "exact_here", r->exact_here);
     json_bool(j, "passed", r->passed);
     json_bool(j, "adaptive", r->adaptive);
+    json_bool(j, "uncertain", r->uncertain);
     if (r->adaptive) {
-        json_bool(j, "uncertain", r->uncertain);
         json_number(j, "power", r->power);
         json_number(j, "power_error", r->power_error);
         json_number(j, "power_due", r->power_due);

@@ -402,8 +402,6 @@ static void a_step_beyond_the_limit(void **state)
 
 /* Converge ------------------------------------------------------------------------------------------------------- */
 
-#define SHORTER 0.95225424859373685603 /* the part of a motion that converge takes: see study/converge.c */
-
 static void certificates(void **state)
 {
     (void)state;
@@ -413,7 +411,7 @@ static void certificates(void **state)
     def.until = 5;
     motus_convergence *c = converge(s, &def);
     assert_true(c->passed);
-    assert_int_equal(strncmp(c->reference, "exact; until 4.76127, not 5", 27), 0);
+    assert_string_equal(c->reference, "exact");
     for (size_t k = 0; k < c->row_count; k++) {
         const motus_converge_row *r = c->rows[k];
         char text[64];
@@ -432,7 +430,7 @@ static void certificates(void **state)
         for (size_t i = 0; i < r->point_count; i++) {
             used += r->points[i]->used != 0;
             /* as the card says, and one more for the first step of a FSAL method */
-            double expected = card->evaluations * round(SHORTER * 5 / r->points[i]->step),
+            double expected = card->evaluations * ceil(5 / r->points[i]->step),
                    spent = (double)r->points[i]->evaluations;
             assert_true(card->evaluations ? spent == expected || spent == expected + 1 : spent > 0);
         }
@@ -475,7 +473,7 @@ static void adaptive_certificates(void **state)
         motus_error e = motus_default_error();
         run_def.method = r->method;
         run_def.tolerance = p->tolerance;
-        run_def.until = 6 * 0.95225424859373685603;
+        run_def.until = 6;
         assert_int_equal(motus_run_create(s, &run_def, &run, &e), MOTUS_OK);
         assert_int_equal(motus_run_finish(run, &e), MOTUS_OK);
         NEAR(p->step * (double)motus_run_steps(run), run_def.until, 1e-12);
@@ -684,8 +682,52 @@ static void long_motions_are_cut(void **state)
     motus_convergence_destroy(c);
     def.until = 60; /* an end that the user gives is not cut */
     c = converge(s, &def);
-    assert_non_null(strstr(c->reference, "not 60: so no step is a simple fraction"));
-    NEAR(c->rows[0]->points[0]->step, SHORTER * 7.5, 1e-12);
+    assert_null(strstr(c->reference, "not 60"));
+    NEAR(c->rows[0]->points[0]->step, 7.5, 1e-12);
+    motus_convergence_destroy(c);
+    motus_system_destroy(s);
+}
+
+/* Round-off may come before the slope of a good method has settled: that is no failure. */
+static void round_off_that_comes_too_soon_is_no_failure(void **state)
+{
+    (void)state;
+    static const char *const texts[] = {
+        "x'' = -sin(x) + 0.3 cos(t)\nx(0) = 1; x'(0) = 0\nuntil 10\n",
+        "x'' = -1.61 sin(x) + 0.2 cos(1.1 t)\nx(0) = 0.83; x'(0) = -0.4\nuntil 14.67\n",
+        "x'' = -1.3 tanh(1.7 x)\nx(0) = 1.2; x'(0) = 0.5\nuntil 12\n",
+        "x'' = -x exp(-0.3 x^2)\nx(0) = -1.1; x'(0) = 0.7\nuntil 17\n",
+    };
+    size_t uncertain = 0;
+    for (size_t m = 0; m < sizeof texts / sizeof *texts; m++) {
+        motus_system *s = system_of_text(texts[m]);
+        const char *const methods[] = {"blanes-moan6-14", "kahan-li8", "rk4",     "rk4-38",  "gauss8",
+                                       "gauss10",         "gauss12",   "gauss14", "gauss16", "radau15-fixed"};
+        motus_study_def def = study_of((const char **)methods, 10, NAN, NAN);
+        motus_convergence *c = converge(s, &def);
+        for (size_t k = 0; k < c->row_count; k++) {
+            const motus_converge_row *r = c->rows[k];
+            if (!(r->passed || r->uncertain) || r->status != MOTUS_OK)
+                fail_msg("%s: %s: %s", texts[m], r->method, r->certificate);
+            uncertain += r->uncertain != 0;
+        }
+        assert_true(c->passed);
+        motus_convergence_destroy(c);
+        motus_system_destroy(s);
+    }
+    assert_true(uncertain > 0);
+}
+
+/* An order is measured up to the end that was asked for, and a jump just before it is seen. */
+static void the_last_twentieth_counts(void **state)
+{
+    (void)state;
+    motus_system *s = system_of_text("x'' = if(t < 9.8, -x, 1 - x)\nx(0) = 1\nx'(0) = 0\nuntil 10\n");
+    const char *methods[] = {"rk4", "verlet"};
+    motus_study_def def = study_of(methods, 2, NAN, NAN);
+    motus_convergence *c = converge(s, &def);
+    for (size_t k = 0; k < 2; k++) assert_non_null(strstr(c->rows[k]->certificate, "the force jumps at t = 9.8"));
+    assert_true(!c->passed);
     motus_convergence_destroy(c);
     motus_system_destroy(s);
 }
@@ -709,7 +751,7 @@ static void models_certify_every_method(void **state)
         for (size_t k = 0; k < c->row_count; k++) certified += c->rows[k]->adaptive && c->rows[k]->passed;
         if (certified < 3) fail_msg("%s: %zu adaptive rows", models[m], certified);
         for (size_t k = 0; k < c->row_count; k++)
-            if (!c->rows[k]->passed && !(c->rows[k]->adaptive && c->rows[k]->uncertain))
+            if (!c->rows[k]->passed && !c->rows[k]->uncertain)
                 fail_msg("%s: %s: %s", models[m], c->rows[k]->method, c->rows[k]->certificate);
         assert_true(c->passed);
         motus_convergence_destroy(c);
@@ -929,6 +971,8 @@ int main(void)
         cmocka_unit_test(no_certificate_by_luck),
         cmocka_unit_test(exact_here),
         cmocka_unit_test(long_motions_are_cut),
+        cmocka_unit_test(round_off_that_comes_too_soon_is_no_failure),
+        cmocka_unit_test(the_last_twentieth_counts),
 #ifdef MOTUS_SOURCE_DIR
         cmocka_unit_test(models_certify_every_method),
         cmocka_unit_test(the_error_of_verlet_to_twenty_digits),
