@@ -61,8 +61,8 @@ size_t sweep_kept(const sweep *);
 static inline size_t sweep_ended(const sweep *s) { return s->records.ended ? s->columns - 3 : SIZE_MAX; }
 /* The number in a .npy of the event that ended a trajectory, 0: none; -1: the model has no event of this name. */
 int sweep_event_number(const sweep *, const char *name);
-/* What an adaptive method does at the switches of the force, a word of --switches; NULL: there are none, or the method
- * is not adaptive. */
+/* What the steps do at the switches of the force, a word of --switches; NULL: there are none, or steps of one size lead
+ * across them, as they do unless told otherwise. */
 const char *sweep_switches(const sweep *);
 
 /* sweep_head.c: the line of the command, "# motus sweep …\n", which makes the rows. */

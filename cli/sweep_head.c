@@ -34,6 +34,7 @@ static void mix_axis(uint64_t *hash, const axis *a)
 
 static const char *how_told(const sweep *s) { return s->options->error ? s->options->error : "cheap"; }
 
+/* Every option that changes a number is mixed in here, and nowhere else; test/sweep.sh tries all of them. */
 const char *sweep_head_fingerprint(const sweep *s, const char *version, char out[SWEEP_FINGERPRINT])
 {
     uint64_t hash = COMMAND_HASH;
@@ -52,8 +53,8 @@ const char *sweep_head_fingerprint(const sweep *s, const char *version, char out
         mix_number(&hash, o->shortest_step);
         mix_number(&hash, o->longest_step);
         if (o->most_steps) mix_count(&hash, (uint64_t)o->most_steps);
-        if (sweep_switches(s)) command_mix_text(&hash, sweep_switches(s));
     }
+    if (sweep_switches(s)) command_mix_text(&hash, sweep_switches(s));
     mix_number(&hash, s->until);
     mix_count(&hash, (uint64_t)s->every);
     mix_count(&hash, o->fast);
