@@ -369,6 +369,14 @@ static void between_branches(void **state)
     }
 }
 
+/* Hertz's contact: the power is undefined beyond the switch, and a step that ends there rounds to either side. */
+static void undefined_beyond(void **state)
+{
+    (void)state;
+    const outcome o = finished("x'' = -9.16 + 1e5 max(0, -x)^1.5\nx(0) = 1.6\nx'(0) = 0\n", "dop853", 1e-12, 4.0704);
+    NEAR(o.x[0], 0.6523677066442, 1e-9);
+}
+
 static void refused(const char *text, const char *says, double time)
 {
     const outcome o = run_of(text, "dop853", 1e-9, 10);
@@ -631,6 +639,7 @@ int main(void)
         cmocka_unit_test(coupled),
         cmocka_unit_test(written_twice),
         cmocka_unit_test(between_branches),
+        cmocka_unit_test(undefined_beyond),
         cmocka_unit_test(refusals),
         cmocka_unit_test(multiplies),
         cmocka_unit_test(by_default),

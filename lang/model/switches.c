@@ -331,6 +331,17 @@ static node rewrite_sum(builder *b, node sum, const nest *around)
     return graph_sum(g, n.level, &inner.at[n.level], condition, body);
 }
 
+/* `with` in place of an operand that is nowhere negative, as |u| and max(u, 0) are, of a root or a power: rounding leads
+ * a little beyond its side, and the operation is defined there, too. */
+static node defined_beyond(graph *g, operation op, node operand, node with)
+{
+    const graph_node n = *graph_at(g, operand), *a = graph_at(g, n.a);
+    const graph_node *b = n.op == OP_MAX ? graph_at(g, n.b) : a;
+    const bool above = n.op == OP_MAX && ((a->op == OP_CONST && a->value >= 0) || (b->op == OP_CONST && b->value >= 0));
+    const bool roots = (op == OP_SQRT || op == OP_POW) && with != operand;
+    return roots && (above || n.op == OP_ABS) ? graph_op(g, OP_ABS, with, 0, 0) : with;
+}
+
 /* The node with sides in place of switches. */
 static node rewrite(builder *b, node root, const nest *around)
 {
@@ -359,7 +370,7 @@ static node rewrite(builder *b, node root, const nest *around)
                 if (n.op == OP_CBRT) note_touch(b, w.nodes[k], to[0], to[1], around);
                 if (kind < UINT32_MAX) map[k] = with_side(g, n.op, to[0], to[1], b->kinds[kind].side);
             } else {
-                if (changed) map[k] = graph_op(g, n.op, to[0], to[1], to[2]);
+                if (changed) map[k] = graph_op(g, n.op, defined_beyond(g, (operation)n.op, n.a, to[0]), to[1], to[2]);
                 note_touch(b, w.nodes[k], to[0], to[1], around);
             }
         }
