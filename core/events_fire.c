@@ -162,7 +162,8 @@ static motus_status find_level(events *e, motus_error *err)
         status = events_rates(e, at, err);
         for (size_t f = 0; f < e->rules.functions && !status; f++) {
             const double rate = fabs(e->here.rate[f]);
-            e->level[f] |= e->zero[f] && rate <= MARGIN * fabs(at->rate[f] - e->here.rate[f]);
+            e->level[f] |=
+                e->zero[f] && (rate > 0 || e->rules.settle) && rate <= MARGIN * fabs(at->rate[f] - e->here.rate[f]);
         }
     }
     return status;
