@@ -2,6 +2,7 @@
 #include "api/bars.h"
 
 #include "api/choice.h"
+#include "api/columns.h"
 #include "api/event_bars.h"
 #include "api/later.h"
 #include "api/run_events.h"
@@ -58,7 +59,8 @@ motus_status bars_make(motus_run *r, motus_bars kind, const size_t *columns, con
     *b = (bars){.kind = kind, .count = count};
     b->columns = take(&r->allocator, count, sizeof *b->columns);
     b->memory = take(&r->allocator, differences_size(&shape), sizeof *b->memory);
-    if (!b->columns || !b->memory) return fail(err, MOTUS_MEMORY, "no memory for bars of error");
+    b->room = take(&r->allocator, r->system->problem.nx + 2 * r->system->problem.nv + 3, sizeof *b->room);
+    if (!b->columns || !b->memory || !b->room) return fail(err, MOTUS_MEMORY, "no memory for bars of error");
     for (size_t k = 0; k < count; k++) b->columns[k] = columns ? columns[k] : k;
     differences_place(&b->differences, &shape, b->memory);
     return event_bars_whole(r, err);
@@ -75,6 +77,7 @@ void bars_destroy(motus_run *r)
     give(&r->allocator, r->bars->columns);
     give(&r->allocator, r->bars->whole);
     give(&r->allocator, r->bars->memory);
+    give(&r->allocator, r->bars->room);
     give(&r->allocator, r->bars->resumed);
     give(&r->allocator, r->bars);
 }
@@ -173,7 +176,46 @@ motus_status bars_ready(motus_run *r, const uint8_t *affected, motus_error *err)
     return choice_compile(c->system, &method, false, r->bars->kept, &c->machine, &why, err);
 }
 
-/* The companion begins where the model says, with its own decimals, or where the run was told to. */
+motus_status bars_later(motus_run *r, motus_system *s, double t, double late, const double *x, const double *v,
+                        double **to_x, double **to_v, motus_error *err)
+{
+    const problem *p = &s->problem;
+    double *const x1 = *to_x = r->bars->room, *const v1 = *to_v = x1 + p->nx + 1, *const a = v1 + p->nv + 1;
+    if (p->nx) memcpy(x1, x, p->nx * sizeof *x);
+    memcpy(v1, v, p->nv * sizeof *v);
+    if (late == 0) return MOTUS_OK;
+    if (p->refresh) p->refresh(p->ctx, t, x1, v1);
+    memset(a, 0, p->nv * sizeof *a);
+    const int answer = p->accel(p->ctx, t, x1, v1, a);
+    if (answer && !s->model) return columns_callback_failed("acceleration", t, answer, err);
+    for (size_t k = 0; k < p->nx && k < p->nv; k++) x1[k] += v[k] * late;
+    for (size_t k = 0; k < p->nv && !answer; k++) v1[k] += isfinite(a[k]) ? a[k] * late : 0;
+    return MOTUS_OK;
+}
+
+/* How much later a time is that was written than the double which was read: of a decimal of at most 13 digits that is
+ * exact, also where it was computed, as 1e9 + 0.3 was. Any other double that a caller gives is the time itself; what
+ * the model has computed (pi/2) lies within a unit in the last place. */
+static double time_rounding(double t, double of_model)
+{
+    /* few doubles are such decimals by chance; powers of ten up to the largest are doubles */
+    static const double most = 1e13, largest = 1e22;
+    for (double power = 1; power <= largest && fabs(t) * power < most; power *= 10) {
+        const double digits = rint(t * power);
+        if (digits / power == t) return fma(-t, power, digits) / power;
+    }
+    return t == of_model ? nextafter(t, INFINITY) - t : 0;
+}
+
+#define SHARED 0.2 /* of a unit in the last place of the time: the bar is 2.5 or 3 times that */
+
+static double end_rounding(const motus_run *r)
+{
+    return time_rounding(r->timing.until, r->system->model ? r->system->model->until : NAN);
+}
+
+/* The companion begins where the model says, with its own decimals, or where the run was told to. The start is rounded
+ * as well: it begins as much later or earlier as was written. */
 static motus_status begin_half(motus_run *r, double *x, double *v, motus_error *err)
 {
     bars *b = r->bars;
@@ -183,7 +225,11 @@ static motus_status begin_half(motus_run *r, double *x, double *v, motus_error *
     if (!b->given_x && p->nx) memcpy(x, s->x0, p->nx * sizeof *x);
     if (!b->given_v) memcpy(v, s->v0, p->nv * sizeof *v);
     if (p->refresh) p->refresh(p->ctx, t, x, v);
-    return companion_begin(&b->half, r, t, x, v, err);
+    const double off = b->given_x || b->given_v ? 0 : time_rounding(t, s->model ? r->system->start : NAN);
+    double *to_x = x, *to_v = v;
+    motus_status status = MOTUS_OK;
+    if (off != 0) status = bars_later(r, b->half.system, t, -off, x, v, &to_x, &to_v, err);
+    return status == MOTUS_OK ? companion_begin(&b->half, r, t, to_x, to_v, err) : status;
 }
 
 motus_status bars_see(motus_run *r, motus_system *s, double t, double *x, double *v, int seen, motus_error *err)
@@ -208,15 +254,68 @@ static motus_status take_limit(motus_run *r, double t, const double *x, const do
     return status;
 }
 
+/* Whether the run is so short, beside the time at which it begins, that the rounding of times moves what it compares. */
+static bool starts_late(const motus_run *r)
+{
+    enum { FAR = 64 };
+    return fabs(r->timing.t0) > FAR * fabs(r->timing.until - r->timing.t0);
+}
+
+/* The numbers of a companion at t, at the instant of the run's: that is later by what the rounding of its time has
+ * left out, up to 6e-8 s after 1e9 s. */
+static motus_status see_companion(motus_run *r, companion *c, double t, int seen, motus_error *err)
+{
+    motus_system *const s = c->system ? c->system : r->system;
+    const double theirs = c->events ? c->t : t;
+    const bool here = starts_late(r) && theirs == stepper_time(r->stepper) && theirs == stepper_time(c->stepper);
+    const double late = here ? stepper_lost(r->stepper) - stepper_lost(c->stepper) : 0;
+    double *x = c->x, *v = c->v;
+    motus_status status = late == 0 ? MOTUS_OK : bars_later(r, s, theirs, late, c->x, c->v, &x, &v, err);
+    return status == MOTUS_OK ? bars_see(r, s, theirs, x, v, seen, err) : status;
+}
+
+/* Of each number, how far it moves in that time. */
+static motus_status moved_in(motus_run *r, double t, double late, const double *x, const double *v, double *out,
+                             motus_error *err)
+{
+    const bars *b = r->bars;
+    double *to_x, *to_v;
+    motus_status status = bars_later(r, r->system, t, late, x, v, &to_x, &to_v, err);
+    if (status == MOTUS_OK) status = system_values(r->system, t, to_x, to_v, b->columns, b->count, out, err);
+    for (size_t k = 0; status == MOTUS_OK && k < b->count; k++) {
+        const double apart = fabs(out[k] - b->differences.values[0][k]);
+        out[k] = k > 0 && isfinite(apart) ? apart : 0;
+    }
+    return status;
+}
+
+/* At the end of the run: what its rounding leaves unknown of each number; and where the force depends on the time, that
+ * run and companion begin their steps at times with the same roundings, which may move a number as far as it goes in
+ * one of them. */
+static motus_status take_end(motus_run *r, double t, const double *x, const double *v, motus_error *err)
+{
+    bars *b = r->bars;
+    differences *f = &b->differences;
+    const bool end = t == r->timing.until && !f->shape.how;
+    const double late = end ? end_rounding(r) : 0, ulp = nextafter(fabs(t), INFINITY) - fabs(t);
+    motus_status status = MOTUS_OK;
+    if (end && r->system->problem.traits.time) {
+        status = moved_in(r, t, ulp, x, v, f->apart, err);
+        for (size_t k = 0; k < b->count; k++) f->d[k] = fmax(f->d[k], SHARED * f->apart[k]);
+    }
+    memset(f->apart, 0, b->count * sizeof *f->apart);
+    return status == MOTUS_OK && late != 0 ? moved_in(r, t, late, x, v, f->apart, err) : status;
+}
+
 motus_status bars_take(motus_run *r, double t, double *x, double *v, bool observed, motus_error *err)
 {
     bars *b = r->bars;
     const bool twin = b->kind == MOTUS_BARS_FULL && t == b->twin.t;
     motus_status status = bars_see(r, r->system, t, x, v, 0, err);
-    const double theirs = b->half.events ? b->half.t : t;
-    if (status == MOTUS_OK) status = bars_see(r, b->half.system, theirs, b->half.x, b->half.v, 1, err);
-    if (status == MOTUS_OK && twin) status = bars_see(r, r->system, t, b->twin.x, b->twin.v, 2, err);
+    if (status == MOTUS_OK) status = see_companion(r, &b->half, t, 1, err);
+    if (status == MOTUS_OK && twin) status = see_companion(r, &b->twin, t, 2, err);
     if (status == MOTUS_OK) differences_take(&b->differences, t, observed, twin);
+    if (status == MOTUS_OK) status = take_end(r, t, x, v, err);
     const bool limit = r->events && events_ended(r->events, NULL) == EVENTS_END_ACCUMULATED && t == motus_run_time(r);
     return status == MOTUS_OK && limit ? take_limit(r, t, x, v, err) : status;
 }
@@ -379,6 +478,7 @@ static motus_status land(motus_run *r, double t, double *x, double *v, bool betw
         status = companion_shift(&b->half, r, dx, dv, err);
     if (status == MOTUS_OK && r->events && !between) status = reach(r, t, err);
     if (status == MOTUS_OK && r->events) notice_gap(r, t, between);
+    b->differences.between = between;
     if (status == MOTUS_OK && !b->gap) status = bars_take(r, t, x, v, observed, err);
     b->landed = t;
     b->steps = between ? now - 1 : now;

@@ -21,6 +21,7 @@ struct bars {
     uint8_t *whole; /* of each number, where there are events, whether it only counts (event_bars.c); NULL */
     size_t endless; /* 1 + the rule whose events were found to accumulate when it was judged; 0: none */
     double *memory; /* of the differences */
+    double *room;   /* a state, and its acceleration (bars_later) */
     differences differences;
     double landed;  /* time of the last landing */
     int64_t steps;  /* whole steps of the run before it */
@@ -82,6 +83,9 @@ motus_status bars_kept_begin(motus_run *, const double *x, const double *v, motu
 motus_status bars_take(motus_run *, double t, double *x, double *v, bool observed, motus_error *);
 /* The numbers of a state of the run, of its companion or of its twin. */
 motus_status bars_see(motus_run *, motus_system *, double t, double *x, double *v, int seen, motus_error *);
+/* The state a short time later than x, v at t, in the bars' room: as long as they are not asked again. */
+motus_status bars_later(motus_run *, motus_system *, double t, double late, const double *x, const double *v,
+                        double **to_x, double **to_v, motus_error *);
 /* The run goes on compiled, and so do its companions, at once or when an object for their system is there. */
 motus_status bars_compile(motus_run *, motus_error *);
 /* Whether they wait for one; and a look for it. */

@@ -166,13 +166,21 @@ motus_status event_bars_whole(motus_run *r, motus_error *err)
     return b->whole && judge_whole(r, NULL) ? MOTUS_OK : fail(err, MOTUS_MEMORY, "no memory for bars of error");
 }
 
-/* Whether run and companion have other events up to t, or the latest may lie beyond it. */
+/* Whether run and companion have other events up to t, or one of them may lie beyond it. Not the event that has ended
+ * the run: the run ends there, wherever that is. */
 static bool unsure_at(motus_run *r, double t)
 {
     const size_t rows = significant(r), all = events_rows(r->events);
-    if (r->bars->rows_differ || rows == 0 || rows < all) return r->bars->rows_differ;
-    const event last = events_row(r->events, rows - 1, false, NULL, NULL);
-    return r->rules->rule[last.rule].kind != RULE_CLOCK && fabs(t - last.t) <= event_bars_time(r, rows - 1);
+    size_t rule;
+    if (r->bars->rows_differ || rows < all) return r->bars->rows_differ;
+    const bool ended = events_ended(r->events, &rule) == EVENTS_END_STOP && t == motus_run_time(r);
+    for (size_t k = rows; k-- > 0;) {
+        const event row = events_row(r->events, k, false, NULL, NULL);
+        if (ended && row.rule == rule && row.t == t) continue;
+        if (r->rules->rule[row.rule].kind == RULE_CLOCK) continue;
+        return fabs(t - row.t) <= event_bars_time(r, k);
+    }
+    return false;
 }
 
 /* A number that only counts is exact where the companion has the same, and no digit of it is known where the companion
@@ -205,26 +213,20 @@ static motus_status counts(motus_run *r, double t, size_t number, double *error,
 motus_status event_bars_state(motus_run *r, double t, const double *x, const double *v, size_t number, double *error,
                               motus_error *err)
 {
-    const problem *p = &r->system->problem;
     const bars *b = r->bars;
     bool told;
     motus_status status = counts(r, t, number, error, &told, err);
     if (status != MOTUS_OK || told) return status;
     if ((events_acted(r->events) == 0 && events_turns(r->events) == 0) || !(*error > 0) || b->columns[number] == 0)
         return MOTUS_OK;
-    double *const to_x = take(&r->allocator, p->nx + 2 * p->nv + 3, sizeof *to_x), *const to_v = to_x + p->nx + 1;
-    double *const a = to_v + p->nv + 1;
-    if (!to_x) return fail(err, MOTUS_MEMORY, "no memory for the errors of a state after events");
     const double late = LASTING * 0x1p-52 * events_lasting(r->events, t);
     double value[2];
     for (int k = 0; k < 2 && status == MOTUS_OK; k++) {
-        memcpy(to_x, x, p->nx * sizeof *x), memcpy(to_v, v, p->nv * sizeof *v);
-        if (k && !p->accel(p->ctx, t, to_x, to_v, a))
-            for (size_t i = 0; i < p->nv; i++) to_v[i] += isfinite(a[i]) ? a[i] * late : 0;
-        for (size_t i = 0; k && i < p->nx && i < p->nv; i++) to_x[i] += v[i] * late;
-        status = system_values(r->system, t, to_x, to_v, b->columns + number, 1, value + k, err);
+        double *to_x, *to_v;
+        status = bars_later(r, r->system, t, k ? late : 0, x, v, &to_x, &to_v, err);
+        if (status == MOTUS_OK)
+            status = system_values(r->system, t, to_x, to_v, b->columns + number, 1, value + k, err);
     }
-    give(&r->allocator, to_x);
     if (status != MOTUS_OK) return status;
     const double moved = fabs(value[1] - value[0]);
     const double part = events_turns(r->events) > 0 ? 1 : 0.5; /* what held it there has been added to as well */

@@ -8,6 +8,8 @@
  *     bodies differ in scale.
  *   - Where round-off rules, one sample of a random number has to bound another: 3 d + 1/4 of the envelope.
  *   - Where the force has kinks the companion's error is not small beside the run's: 3 d + 1/2 of a longer envelope.
+ *   - A number cannot be better known than the numbers were rounded that were added to it: where it passes 0 it is known
+ *     to a unit in the last place of what it was a step before.
  *   - With a twin, which begins an ulp away, its envelope is another sample of what the motion makes of round-off.
  * Invariant: every number is judged by its own differences; bars are never propagated through a formula.
  */
@@ -29,6 +31,7 @@ enum { PARTS = 32, SLOTS = 6, SLOTS_KINKED = 12, FITTED = 64 };
 #define LOST 0.1
 #define LOST_SLOWLY 0.25
 #define SLOWLY 3e3
+#define STEPPED 0.5   /* units in the last place of the number before, which a step adds to */
 #define STRAIGHT 0.03 /* up to this distance the growth is fitted */
 
 /* How many landings a long run has; the steps that are well apart; how many landings a short run has at least. */
@@ -55,7 +58,7 @@ static int seen_of(const differences_shape *s) { return s->full ? DIFFERENCES_SE
 size_t differences_size(const differences_shape *s)
 {
     const size_t seen = (size_t)seen_of(s), slots = (size_t)slots_of(s);
-    return s->count * (seen * (1 + (s->how ? REDUCE_KEPT : 0)) + 2 + slots * (1 + s->full));
+    return s->count * (seen * (1 + (s->how ? REDUCE_KEPT : 0)) + 5 + slots * (1 + s->full));
 }
 
 static double *place(double **memory, size_t numbers)
@@ -75,6 +78,9 @@ void differences_place(differences *f, const differences_shape *s, double *memor
     }
     f->d = place(&memory, n);
     f->size = place(&memory, n);
+    f->now = place(&memory, n);
+    f->before = place(&memory, n);
+    f->apart = place(&memory, n);
     f->envelope = place(&memory, rows);
     if (s->full) f->twin = place(&memory, rows);
 }
@@ -91,7 +97,10 @@ void differences_begin(differences *f, double start, double until)
     f->until = NAN;
     f->growth = (differences_growth){0};
     memset(f->scale, 0, sizeof f->scale);
-    memset(f->size, 0, n * sizeof *f->size);
+    f->taken = start;
+    f->between = false;
+    double *const none[] = {f->size, f->now, f->before, f->apart};
+    for (size_t i = 0; i < sizeof none / sizeof *none; i++) memset(none[i], 0, n * sizeof **none);
     memset(f->d, 0, n * sizeof *f->d);
     memset(f->envelope, 0, rows * sizeof *f->envelope);
     if (f->twin) memset(f->twin, 0, rows * sizeof *f->twin);
@@ -180,16 +189,28 @@ static void judge(differences *f, double t, double now)
     if (f->distance >= (slowly ? LOST_SLOWLY : LOST)) f->until = t;
 }
 
+/* A landing within a step, or at the time of the last one, shows no other sizes to begin with. */
+static void begin_step(differences *f, double t)
+{
+    const size_t n = f->shape.count;
+    if (f->between || t == f->taken) return;
+    memcpy(f->before, f->now, n * sizeof *f->now);
+    memset(f->now, 0, n * sizeof *f->now);
+    f->taken = t;
+}
+
 void differences_take(differences *f, double t, bool observed, bool twin)
 {
     const size_t n = f->shape.count;
     double *twins, *row = row_of(f, t, &twins), *const *seen = f->values;
+    begin_step(f, t);
     for (int i = 0; i < 2; i++) reduce(f, i, observed);
     for (size_t k = 0; k < n; k++) {
         const double run = seen[0][k], other = seen[1][k];
         f->d[k] = fabs(run - other);
         row[k] = larger(f->d[k], row[k]);
-        f->size[k] = larger(larger(fabs(run), fabs(other)), f->size[k]);
+        f->now[k] = larger(larger(fabs(run), fabs(other)), f->now[k]);
+        f->size[k] = larger(f->now[k], f->size[k]);
     }
     if (twins && twin) reduce(f, 2, observed);
     for (size_t k = 0; twins && twin && k < n; k++) twins[k] = larger(fabs(seen[0][k] - seen[2][k]), twins[k]);
@@ -269,22 +290,34 @@ static rule rule_of(const differences *f)
 }
 static const rule with_kinks = {3, 0.5};
 
+static double ulp_of(double size) { return nextafter(size, INFINITY) - size; }
+
 double differences_bar(const differences *f, size_t number)
 {
     const double value = fabs(f->values[0][number]), d = f->d[number], e = largest(f, f->envelope, number);
     if (number == 0 || f->size[number] == 0) return 0;
     if (!isnan(f->until)) return INFINITY;
     if (!isfinite(value) || !isfinite(d)) return NAN;
-    const double ulp = nextafter(value, INFINITY) - value;
     const rule now = rule_of(f);
     double bar = now.d * d + now.e * e;
     if (f->twin) bar += 0.5 * largest(f, f->twin, number);
     if (f->shape.kinked) bar = fmax(bar, with_kinks.d * d + with_kinks.e * e);
     if (value == 0 && bar == 0) { /* the terms that made it 0 may have been as large as it has been */
-        const double size = f->size[number];
-        return 4 * (nextafter(size, INFINITY) - size);
+        return 4 * ulp_of(f->size[number]) + f->apart[number];
     }
-    return fmax(4 * ulp, bar);
+    const double least = fmax(4 * ulp_of(value), STEPPED * ulp_of(larger(f->now[number], f->before[number])));
+    return fmax(least, bar) + f->apart[number];
+}
+
+/* The largest of a group that neither run nor companion knows. */
+static double apart_of(const differences *f, size_t group)
+{
+    const size_t count[] = {f->shape.positions, f->shape.positions, f->shape.velocities - f->shape.positions};
+    double most = 0;
+    size_t from = 1;
+    for (size_t g = 0; g < group; g++) from += count[g];
+    for (size_t k = from; k < from + count[group]; k++) most = larger(f->apart[k], most);
+    return most;
 }
 
 double differences_worst(const differences *f, bool absolute)
@@ -293,8 +326,8 @@ double differences_worst(const differences *f, bool absolute)
     double worst = 0;
     if (!f->first_known) return 0; /* as long as the motion has no size of its own */
     for (size_t g = 0; g < DIFFERENCES_GROUPS; g++) {
-        const double scale = f->scale[g], ulp = nextafter(scale, INFINITY) - scale;
-        const double bar = fmax(4 * ulp, (now.d + now.e) * f->most[g]);
+        const double scale = f->scale[g];
+        const double bar = fmax(4 * ulp_of(scale), (now.d + now.e) * f->most[g]) + apart_of(f, g);
         if (scale > 0) worst = fmax(worst, absolute ? bar : bar / scale);
     }
     return isnan(f->until) ? worst : INFINITY;

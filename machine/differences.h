@@ -36,7 +36,12 @@ typedef struct differences {
     double *d, *envelope, *twin;
     int slots;
     int64_t part;
-    double *size;                     /* the largest that the run or its companion has had at a landing */
+    double *size;         /* the largest that the run or its companion has had at a landing */
+    double *now, *before; /* the same at the last landing alone, and at the one before */
+    /* Of each number what neither run nor companion knows of its error: 0 until the caller writes it. */
+    double *apart;
+    double taken; /* the time of the last landing */
+    bool between; /* the next one is within a step that the run has taken, which the caller writes */
     double scale[DIFFERENCES_GROUPS]; /* the largest number of each group so far */
     double most[DIFFERENCES_GROUPS];  /* the largest |run - companion| of each group so far */
     double distance;                  /* the largest |run - companion| / scale so far */

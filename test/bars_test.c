@@ -319,9 +319,50 @@ static void forces_with_kinks(void **state)
     }
 }
 
+/* ---- numbers that vanish, times that are rounded ---- */
+
+static void end_of(const char *text, double until, const long double *truth, size_t count, double least, double most)
+{
+    motus_system *s = given_text(text);
+    motus_run_def def = motus_default_run();
+    motus_error err = motus_default_error();
+    motus_run *r = NULL;
+    def.error = MOTUS_BARS_CHEAP, def.accuracy = 1e-6, def.machine = "interpreter", def.until = until;
+    must(motus_run_create(s, &def, &r, &err), &err, text);
+    must(motus_run_finish(r, &err), &err, text);
+    for (size_t k = 0; k < count; k++) {
+        const size_t column = k + 1;
+        double value, error;
+        must(motus_run_errors(r, &column, 1, &value, &error, &err), &err, text);
+        if (!(fabsl(value - truth[k]) <= error)) fail_msg("%s: number %zu is %g ± %g", text, column, value, error);
+        if (!(error >= least && error <= most)) fail_msg("%s: ± %g of number %zu", text, error, column);
+    }
+    motus_run_destroy(r);
+    motus_system_destroy(s);
+}
+
+/* At a quarter of the period x is 0; pi/2 is a double only nearly. */
+static void numbers_that_vanish(void **state)
+{
+    (void)state;
+    static const long double quarter[] = {0, -1}, third[] = {0, 1};
+    end_of("x'' = -x\nx(0) = 1\nx'(0) = 0\nuntil pi/2\naccuracy 1e-9", NAN, quarter, 2, 1e-16, 2e-6);
+    end_of("x'' = -x\nx(0) = 1\nx'(0) = 0\nuntil 3 pi/2\naccuracy 1e-9", NAN, third, 2, 1e-16, 2e-6);
+}
+
+/* 1e9 + 20.3 is 5e-8 before what was written; the double that a caller gives may be meant. Truths: 34 digits. */
+static void rounded_ends(void **state)
+{
+    (void)state;
+    static const char text[] = "x'' = -sin(x)\nx(1e9) = -0.504\nx'(1e9) = -0.1\nuntil 1e9 + 20.3";
+    static const long double truth[] = {-0.3150195572360L};
+    end_of(text, NAN, truth, 1, 1.8e-8, 1e-6);
+    end_of(text, 1000000020.3, truth, 1, 1.8e-8, 1e-6);
+}
+
 int main(void)
 {
-    static struct CMUnitTest tests[CASES_MAX + 2];
+    static struct CMUnitTest tests[CASES_MAX + 4];
     size_t count = 0;
     read_cases();
     if (motus_method_count() > METHODS_MAX) return 1;
@@ -331,5 +372,7 @@ int main(void)
                 (struct CMUnitTest){.name = cases[i].label, .test_func = one_case, .initial_state = &cases[i]};
     tests[count++] = (struct CMUnitTest)cmocka_unit_test(all_together);
     tests[count++] = (struct CMUnitTest)cmocka_unit_test(forces_with_kinks);
+    tests[count++] = (struct CMUnitTest)cmocka_unit_test(numbers_that_vanish);
+    tests[count++] = (struct CMUnitTest)cmocka_unit_test(rounded_ends);
     return _cmocka_run_group_tests("bars of error", tests, count, NULL, NULL);
 }

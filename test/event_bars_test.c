@@ -442,12 +442,38 @@ static void relays_of_many_turns(void **state)
     assert_true(states.covered >= 0.95 * states.numbers);
 }
 
+/* The event that ends a run happens where the run ends; a mode that another one assigned is known there. */
+static void modes_at_the_end(void **state)
+{
+    (void)state;
+    static const char *const texts[] = {
+        "A = 0.75\ny'' = -A\ny(0) = 10\ny'(0) = 0\nwhen t = 1: A = 30\nwhen y = 1 falling: stop\nuntil 20",
+        "A = 0\ny'' = -1\ny(0) = 10\ny'(0) = 0\nwhen y = 5 falling: A = 30\nwhen y = 1 falling: stop\nuntil 20",
+        "A = 0\ny'' = -1\ny(0) = 10\ny'(0) = 0\nwhen y = 1 falling: A = 30, stop\nuntil 20"};
+    for (size_t k = 0; k < sizeof texts / sizeof *texts; k++) {
+        motus_system *s = given_text(texts[k]);
+        motus_run_def def = motus_default_run();
+        motus_error err = motus_default_error();
+        motus_run *r = NULL;
+        size_t column, count;
+        double value, error;
+        def.error = MOTUS_BARS_CHEAP, def.machine = "interpreter", def.accuracy = 1e-9;
+        must(motus_run_create(s, &def, &r, &err), &err, texts[k]);
+        must(motus_run_finish(r, &err), &err, texts[k]);
+        must(motus_column_find(s, "A", &column, &count, &err), &err, texts[k]);
+        must(motus_run_errors(r, &column, 1, &value, &error, &err), &err, texts[k]);
+        if (value != 30 || error != 0) fail_msg("%s: A is %g ± %g", texts[k], value, error);
+        motus_run_destroy(r);
+        motus_system_destroy(s);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(bars_of_event_times), cmocka_unit_test(bars_between_steps),
-        cmocka_unit_test(limits_of_balls),     cmocka_unit_test(rows_of_one_instant),
-        cmocka_unit_test(clocks_stay_known),   cmocka_unit_test(a_stadium_loses_all_digits),
-        cmocka_unit_test(relays_of_many_turns)};
+        cmocka_unit_test(modes_at_the_end),           cmocka_unit_test(bars_of_event_times),
+        cmocka_unit_test(bars_between_steps),         cmocka_unit_test(limits_of_balls),
+        cmocka_unit_test(rows_of_one_instant),        cmocka_unit_test(clocks_stay_known),
+        cmocka_unit_test(a_stadium_loses_all_digits), cmocka_unit_test(relays_of_many_turns)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
