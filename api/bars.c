@@ -254,7 +254,8 @@ static motus_status take_limit(motus_run *r, double t, const double *x, const do
     return status;
 }
 
-/* Whether the run is so short, beside the time at which it begins, that the rounding of times moves what it compares. */
+/* Whether the run is so short, beside the time at which it begins, that the rounding of times moves what it
+ * compares. */
 static bool starts_late(const motus_run *r)
 {
     enum { FAR = 64 };

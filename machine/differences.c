@@ -8,8 +8,8 @@
  *     bodies differ in scale.
  *   - Where round-off rules, one sample of a random number has to bound another: 3 d + 1/4 of the envelope.
  *   - Where the force has kinks the companion's error is not small beside the run's: 3 d + 1/2 of a longer envelope.
- *   - A number cannot be better known than the numbers were rounded that were added to it: where it passes 0 it is known
- *     to a unit in the last place of what it was a step before.
+ *   - A number cannot be better known than the numbers were rounded that were added to it: where it passes 0 it is
+ *     known to half a unit in the last place of what it was a step before.
  *   - With a twin, which begins an ulp away, its envelope is another sample of what the motion makes of round-off.
  * Invariant: every number is judged by its own differences; bars are never propagated through a formula.
  */
