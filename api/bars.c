@@ -474,7 +474,11 @@ static motus_status land(motus_run *r, double t, double *x, double *v, bool betw
     motus_status status = companion_land(&b->half, r, t, taken > 0 ? taken : 1, err);
     if (status == MOTUS_OK && !strcmp(r->card->family, "exact")) status = companion_jog(&b->half, r, err);
     if (status == MOTUS_OK && b->kind == MOTUS_BARS_FULL && !between) status = companion_repeat(&b->twin, r, err);
-    const double *dx, *dv;
+    const double *dx, *dv, differs = witness_differs(b->witness);
+    char at[DECIMAL_MAX];
+    if (!isnan(differs))
+        bars_give_up(r, "near t = %s the force changes more within every step than the step shows",
+                     run_time_text(r, differs, at));
     if (status == MOTUS_OK && !between && witness_moves(b->witness, &dx, &dv))
         status = companion_shift(&b->half, r, dx, dv, err);
     if (status == MOTUS_OK && r->events && !between) status = reach(r, t, err);

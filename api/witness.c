@@ -351,12 +351,12 @@ static double inspect(void *ctx, stepper *s)
     if (!probe(w, s, size)) return 0;
     const double far = apart(w);
     const bool beyond = beyond_bars(w, w->dv);
-    if (far > REFUSED || (beyond && w->events)) {
+    if (far > REFUSED) {
         w->until = to->t;
         w->tries = 1;
         w->spent = spent;
         return size;
     }
-    w->moves = beyond;
+    w->moves = beyond && !w->events;
     return 0;
 }
