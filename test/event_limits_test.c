@@ -1,5 +1,6 @@
 /* Events at the limit of what rounding tells: bounces that accumulate at any height, passages that an action slows
- * down, functions that an action lets go of 0, events in the first steps of methods of fixed step. Against closed forms. */
+ * down, functions that an action lets go of 0, events in the first steps of methods of fixed step. Against closed
+ * forms. */
 #include "given.h"
 
 #include <math.h>

@@ -331,8 +331,8 @@ static node rewrite_sum(builder *b, node sum, const nest *around)
     return graph_sum(g, n.level, &inner.at[n.level], condition, body);
 }
 
-/* `with` in place of an operand that is nowhere negative, as |u| and max(u, 0) are, of a root or a power: rounding leads
- * a little beyond its side, and the operation is defined there, too. */
+/* `with` in place of an operand that is nowhere negative, as |u| and max(u, 0) are, of a root or a power: rounding
+ * leads a little beyond its side, and the operation is defined there, too. */
 static node defined_beyond(graph *g, operation op, node operand, node with)
 {
     const graph_node n = *graph_at(g, operand), *a = graph_at(g, n.a);
