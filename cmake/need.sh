@@ -32,7 +32,7 @@ for what; do
     case $what in
     build) tool cmake cmake; tool make make; tool cc build-essential; header math.h build-essential ;;
     demo)  tool gnuplot gnuplot-nox ;;
-    test)  tool mpicc libopenmpi-dev; tool mpirun openmpi-bin; tool mpicc.mpich libmpich-dev; tool mpirun.mpich mpich; tool parallel parallel; tool snakemake snakemake
+    test)  tool mpicc.openmpi libopenmpi-dev; tool mpirun.openmpi openmpi-bin; tool mpicc.mpich libmpich-dev; tool mpirun.mpich mpich; tool parallel parallel; tool snakemake snakemake
            tool slurmctld slurmctld; tool slurmd slurmd; tool sbatch slurm-client; tool munged munge
            pkg-config --exists hdf5-serial 2>/dev/null || add libhdf5-dev; tool h5dump hdf5-tools; module h5py python3-h5py; module netCDF4 python3-netcdf4
            module xarray python3-xarray; tool g++ build-essential; header cmocka.h libcmocka-dev; header mpfr.h libmpfr-dev; tool pkg-config pkg-config; tool jq jq
