@@ -71,7 +71,7 @@ void bars_destroy(motus_run *r)
     if (!r->bars) return;
     const chosen method = companion_method(&r->chosen, r->system);
     if (bars_wait(r)) choice_leave(r->bars->half.system, &method);
-    witness_destroy(r->bars->witness, &r->allocator);
+    witness_destroy(r->bars->witness);
     companion_end(&r->bars->half, &r->allocator);
     companion_end(&r->bars->twin, &r->allocator);
     give(&r->allocator, r->bars->columns);
@@ -298,10 +298,10 @@ static motus_status take_end(motus_run *r, double t, const double *x, const doub
     bars *b = r->bars;
     differences *f = &b->differences;
     const bool end = t == r->timing.until && !f->shape.how;
-    const double late = end ? end_rounding(r) : 0, ulp = nextafter(fabs(t), INFINITY) - fabs(t);
+    const double late = end ? end_rounding(r) : 0;
     motus_status status = MOTUS_OK;
     if (end && r->system->problem.traits.time) {
-        status = moved_in(r, t, ulp, x, v, f->apart, err);
+        status = moved_in(r, t, events_ulp(t), x, v, f->apart, err);
         for (size_t k = 0; k < b->count; k++) f->d[k] = fmax(f->d[k], SHARED * f->apart[k]);
     }
     memset(f->apart, 0, b->count * sizeof *f->apart);

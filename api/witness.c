@@ -6,6 +6,9 @@
  * operation may pass through more than points can show; such a part is halved. So no peak and no window is too narrow
  * to be seen. Sizes are added up over the parts, because a force that pushes and then pulls shifts a motion and leaves
  * its velocity.
+ *
+ * A part in which a switch of the force may stand at 0 is not judged, however short it becomes: the force has more than
+ * one value there, and what a sign does that friction holds no single value tells.
  */
 #include "api/witness.h"
 
@@ -32,7 +35,12 @@ enum {
 #define COMPILED (1 / 30.0)
 #define BOUNDS 4.0  /* what bounds over a step cost */
 #define LONGER 1.25 /* than all before: such a step is looked at, whatever was spent */
-#define FIRST 0.01
+/* Operations, too: what one probe may spend, and what all steps that were rightly refused, and those that follow such a
+ * step up to its end, may cost besides. */
+#define SPEND_PROBE 2e7
+#define SPEND_SPARED 1e8
+#define FIRST \
+    0.01 /* times what a step may lose: the first part of which so much is missing is where a step is to end */
 #define SUSPICIOUS 10.0 /* times what a step may lose */
 #define REFUSED 30.0    /* likewise, between the step and the probe */
 #define ROUNDING 0x1p-46
@@ -58,7 +66,7 @@ struct witness {
     const differences *seen;
     size_t nx, nv;     /* of the run, */
     size_t own, other; /*   of whose velocities the typed system has the first `own`, and those from `other` on */
-    resolution *bends; /* NULL: nothing in the force can hide between points */
+    resolution *bends; /* what in the force can hide between points */
     state at[STATES];
     double *a, *sum, *v; /* of the typed force, and velocities as it wants them */
     double *most;        /* bounds on the accelerations of the step */
@@ -68,15 +76,17 @@ struct witness {
     interval *in_x, *in_v;
     int parts, tries;
     double worst, start,
-        length;             /* the most that is missing of a part, in units of what is allowed; the first with much */
-    double earned, spent;   /* evaluations: the part of the run's that it may spend, and what it has spent */
-    int64_t evaluations;    /* of the run, so far */
-    double longest;         /* of the steps that it has looked at */
-    int64_t looked, passed; /* steps; those that it would have had to look at, and could not afford */
-    bool probes;            /* it looks at a probe, and refuses at once */
-    bool events;            /* the run has some */
-    bool moves;             /* dx and dv are for the companion */
-    double until;           /* a probe has differed from the step that led there; NaN */
+        length;           /* the most that is missing of a part, in units of what is allowed; the first with much */
+    double earned, spent; /* evaluations: the part of the run's that it may spend, and what it has spent */
+    int64_t evaluations;  /* of the run, so far */
+    double longest;       /* of the steps that it has looked at */
+    double operations;    /* of one evaluation */
+    double spared;        /* evaluations that are not counted, since they led to a step that was refused */
+    bool kinked;          /* the typed force has switches */
+    bool probes;          /* it looks at a probe, and refuses at once */
+    bool events;          /* the run has some */
+    bool moves;           /* dx and dv are for the companion */
+    double until;         /* a probe has differed from the step that led there; NaN */
     double differs;
     stepper *probe;
     struct witness *inner; /* that looks at the probe */
@@ -106,41 +116,50 @@ static witness *make(const motus_run *r, const differences *seen)
 
 static double inspect(void *ctx, stepper *);
 
+/* It lives in the system's arena, for all its runs. */
+static bool find_bends(motus_system *s)
+{
+    const model *const m = s->model;
+    const output *const lists[] = {m->boundary, m->accel};
+    const size_t counts[] = {m->boundary_count, m->accel_count};
+    bool sums = false;
+    if (!s->bends_known) s->bends_known = verify_resolution(s->model, lists, counts, 2, &s->bends, &sums);
+    return s->bends_known;
+}
+
 motus_status witness_create(const motus_run *r, const differences *seen, witness **out, motus_error *err)
 {
     motus_system *const s = r->home ? r->home : r->system;
     *out = NULL;
     if (!s->model || !row_adaptive(&r->chosen) || row_reversible_steps(&r->chosen)) return MOTUS_OK;
-    const model *const m = s->model;
-    const output *const lists[] = {m->boundary, m->accel};
-    const size_t counts[] = {m->boundary_count, m->accel_count};
-    bool sums = false;
+    if (!find_bends(s)) return fail(err, MOTUS_MEMORY, "no memory for a witness of the run");
+    weight each;
+    motus_status status = s->bends ? choice_weigh(s, &each, err) : MOTUS_OK;
+    if (status != MOTUS_OK || !s->bends) return status;
     witness *const w = make(r, seen);
     if (w) w->inner = make(r, seen);
-    if (!w || !w->inner || !verify_resolution(s->model, lists, counts, 2, &w->bends, &sums)) {
-        witness_destroy(w, &r->allocator);
+    if (!w || !w->inner) {
+        witness_destroy(w);
         return fail(err, MOTUS_MEMORY, "no memory for a witness of the run");
     }
-    weight each;
-    if (choice_weigh(s, &each, err) != MOTUS_OK) {
-        witness_destroy(w, &r->allocator);
-        return MOTUS_MEMORY;
-    }
-    w->earned = fmax(SPEND_LEAST, SPEND_FIRST / (each.values + 10 * (double)s->problem.nv));
+    w->operations = w->inner->operations = each.values + 10 * (double)s->problem.nv;
+    w->earned = fmax(SPEND_LEAST, SPEND_FIRST / w->operations);
     w->events = r->events != NULL;
-    w->inner->bends = w->bends;
+    w->kinked = w->inner->kinked = !s->problem.traits.smooth;
+    w->bends = w->inner->bends = s->bends;
     w->inner->probes = true;
     stepper_inspected(r->stepper, inspect, w);
     *out = w;
     return MOTUS_OK;
 }
 
-void witness_destroy(witness *w, const motus_allocator *a)
+void witness_destroy(witness *w)
 {
     if (!w) return;
+    const motus_allocator a = w->allocator;
     stepper_destroy(w->probe);
-    give(a, w->inner);
-    give(a, w);
+    give(&a, w->inner);
+    give(&a, w);
 }
 
 bool witness_moves(witness *w, const double **x, const double **v)
@@ -178,7 +197,6 @@ static bool fits(witness *w, const state *from, const state *to)
         w->in_x[k] =
             about(from->x[k] + (to->x[k] - from->x[k]) / 2, fabs(to->x[k] - from->x[k]) / 2 + h * h / 8 * w->most[k]);
     const interval t = {fmin(from->t, to->t), fmax(from->t, to->t)};
-    w->spent += BOUNDS;
     return resolution_fits(w->bends, t, w->in_x, w->in_v, w->typed->model->pool);
 }
 
@@ -213,7 +231,10 @@ static bool hold(witness *w, stepper *s, const state *from, const state *to)
 static bool look(witness *w, stepper *s, const state *from, const state *to, int depth)
 {
     state *const middle = &w->at[MIDDLE + depth];
-    if (!w->bends || depth == DEPTH || w->parts >= PARTS || fits(w, from, to)) return hold(w, s, from, to);
+    const bool last = depth == DEPTH || w->parts >= PARTS;
+    if (last && w->kinked) return w->parts++, true;
+    w->spent += BOUNDS;
+    if (last || fits(w, from, to)) return hold(w, s, from, to);
     return see(s, from->t + (to->t - from->t) / 2, middle) && look(w, s, from, middle, depth + 1) &&
            look(w, s, middle, to, depth + 1);
 }
@@ -270,10 +291,13 @@ static bool probe(witness *w, stepper *s, double size)
         status = stepper_create(&w->machine, &w->method, t, size, from->x, from->v, &w->allocator, &w->probe, NULL);
         if (!status) stepper_inspected(w->probe, inspect, inner);
     }
+    const double spent = inner->spent;
     inner->tries = 0, inner->differs = NAN;
+    inner->earned = spent + fmax(SPEND_LEAST, SPEND_PROBE / w->operations);
     if (!status) status = stepper_jump(w->probe, t, lost, size, from->x, from->v, NULL);
     if (!status) status = stepper_advance(w->probe, (stepper_limit){PROBED, to->t}, &why, NULL);
     if (!status && why != STOP_UNTIL) inner->differs = stepper_time(w->probe);
+    w->spent += inner->spent - spent;
     return !status && !stepper_sync(w->probe, end->x, end->v, NULL, NULL);
 }
 
@@ -299,13 +323,21 @@ static bool affords(witness *w, const stepper *s)
                  each = w->method.row->expands ? now * now / 4 : now, h = fabs(stepper_last_step(s));
     w->evaluations = all;
     w->earned += 3 * SPEND * each * (stepper_compiled(s) ? COMPILED : 1);
-    if (!w->probes && w->spent > w->earned && h < LONGER * w->longest && !w->tries && !known(w, s)) {
-        w->passed++;
-        return false;
-    }
+    const bool follows = !w->probes && (w->tries > 0 || known(w, s));
+    const double most = w->earned + (follows ? SPEND_SPARED / w->operations : 0);
+    if (w->spent > most && (w->probes || h < LONGER * w->longest)) return false;
     w->longest = fmax(h, w->longest);
-    w->looked++;
     return true;
+}
+
+/* The step is to be taken again: what the run has spent to see that is not counted, within bounds. */
+static double refuse(witness *w, double size, double spent)
+{
+    w->tries++;
+    if (w->probes) return size;
+    w->spared += w->spent - spent;
+    if (w->spared < SPEND_SPARED / w->operations) w->spent = spent;
+    return size;
 }
 
 static double inspect(void *ctx, stepper *s)
@@ -314,11 +346,12 @@ static double inspect(void *ctx, stepper *s)
     state *const from = &w->at[FROM], *const to = &w->at[TO];
     const double *x, *v;
     double lost;
-    if (!w->bends || (stepper_compiled(s) && !affords(w, s)) || !stepper_swing(s, w->most)) return 0;
+    if ((stepper_compiled(s) && !affords(w, s)) || !stepper_swing(s, w->most)) return 0;
     to->t = stepper_time(s), from->t = stepper_marked(s, &lost, &x, &v);
     memcpy(from->x, x, w->nx * sizeof *x);
     memcpy(from->v, v, w->nv * sizeof *v);
     if (stepper_sync(s, to->x, to->v, NULL, NULL)) return 0;
+    w->spent += stepper_compiled(s) ? BOUNDS : 0; /* beside a step in the interpreter that is little */
     if (fits(w, from, to) || (!stepper_compiled(s) && !affords(w, s))) {
         w->tries = 0;
         return 0;
@@ -330,7 +363,6 @@ static double inspect(void *ctx, stepper *s)
     if (!look(w, s, from, to, 0)) return 0;
     double most = 0;
     for (size_t k = 0; k < w->nv; k++) most = fmax(most, w->missing[k] / w->allowed[k]);
-    const bool within = !isnan(w->until) && (to->t - from->t) * (w->until - from->t) > 0;
     const bool suspicious = w->parts > 1 && (most > SUSPICIOUS || (!w->probes && beyond_bars(w, w->missing)));
     if (!suspicious) {
         w->tries = 0;
@@ -343,19 +375,13 @@ static double inspect(void *ctx, stepper *s)
         w->differs = from->t;
         return 0;
     }
-    if (w->probes || within) {
-        w->tries++;
-        w->spent = spent;
-        return size;
-    }
+    if (w->probes || known(w, s)) return refuse(w, size, spent);
     if (!probe(w, s, size)) return 0;
     const double far = apart(w);
     const bool beyond = beyond_bars(w, w->dv);
     if (far > REFUSED) {
         w->until = to->t;
-        w->tries = 1;
-        w->spent = spent;
-        return size;
+        return refuse(w, size, spent);
     }
     w->moves = beyond && !w->events;
     return 0;

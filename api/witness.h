@@ -21,7 +21,7 @@ typedef struct witness witness;
 /* Of a run that has its stepper, whose steps it looks at from now on, and what is known of the run's errors; *out NULL:
  * the run is none that it can look at. */
 motus_status witness_create(const motus_run *, const differences *, witness **out, motus_error *);
-void witness_destroy(witness *, const motus_allocator *);
+void witness_destroy(witness *);
 /* Once: by how much the companion is to be moved, nx and nv numbers in the inside order; false: it is not. */
 bool witness_moves(witness *, const double **x, const double **v);
 /* The time near which no step keeps to the typed force; NaN: there is none. */

@@ -192,10 +192,10 @@ static void judge(differences *f, double t, double now)
 /* A landing within a step, or at the time of the last one, shows no other sizes to begin with. */
 static void begin_step(differences *f, double t)
 {
-    const size_t n = f->shape.count;
     if (f->between || t == f->taken) return;
-    memcpy(f->before, f->now, n * sizeof *f->now);
-    memset(f->now, 0, n * sizeof *f->now);
+    double *const last = f->now;
+    f->now = f->before, f->before = last;
+    memset(f->now, 0, f->shape.count * sizeof *f->now);
     f->taken = t;
 }
 

@@ -122,6 +122,18 @@ static void pulses(void **state)
     }
 }
 
+/* What friction holds is no error of the steps, and looking at it ends: two blocks slip until t = 1, and then stick. */
+static void sticks(void **state)
+{
+    (void)state;
+    for (int i = 0; i < WAYS; i++) {
+        if (ways[i].method && !strcmp(ways[i].method, "dep12")) continue; /* of forces without velocities */
+        judge("F = 0.5; mu = 1\nx1'' = F - mu sign(x1' - x2')\nx2'' = -mu/2 sign(x2' - x1')\n"
+              "x1(0) = 0; x2(0) = 0; x1'(0) = 1; x2'(0) = 0\nuntil 4",
+              ways[i].method, ways[i].tolerance, 3);
+    }
+}
+
 /* The witness refuses steps where a force is leapt, and moves no bit elsewhere. */
 static void bits(void **state)
 {
@@ -156,7 +168,7 @@ static void bits(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(flights), cmocka_unit_test(pulses), cmocka_unit_test(bars_hold),
-                                       cmocka_unit_test(bits)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(flights), cmocka_unit_test(pulses), cmocka_unit_test(sticks),
+                                       cmocka_unit_test(bars_hold), cmocka_unit_test(bits)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
