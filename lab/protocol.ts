@@ -197,6 +197,8 @@ export interface ConvergePoint { readonly tolerance?: number; readonly step: num
 export interface ConvergeRow {
   readonly method: string; readonly declared: number; readonly observed: number | null; readonly standard_error: number | null;
   readonly exact_here: boolean; readonly passed: boolean; readonly points: readonly ConvergePoint[]; readonly certificate: string;
+  /** It has neither passed nor failed: too few of its errors lie between the coarsest steps and round-off. */
+  readonly uncertain: boolean;
   /** Of a method that chooses its steps: the power of the tolerance with which its error falls; null: it cannot be told. */
   readonly power?: number | null;
 }

@@ -69,7 +69,7 @@ export function atTolerances(core: Core, lab: number, methods: readonly string[]
       if (last.steps > 0) points.push({ step: Math.abs(to - from) / last.steps, tolerance, error, evaluations: last.evaluations, used: error !== null && error < LARGE && error > least && last.steps >= STEPS });
     }
     return {
-      method, declared: catalogue.find((m) => m.name === method)?.order ?? 0, observed: null, standard_error: null, exact_here: false, passed: true, points, certificate: '',
+      method, declared: catalogue.find((m) => m.name === method)?.order ?? 0, observed: null, standard_error: null, exact_here: false, passed: true, uncertain: false, points, certificate: '',
       power: powerOf(points.filter((p) => p.used) as { tolerance: number; error: number }[]),
     };
   });

@@ -58,7 +58,8 @@ export function halfStep(rows: readonly ConvergeRow[], names: readonly string[])
 function verdict(row: ConvergeRow, name: string): string {
   if (row.exact_here) return say.roundOff(name);
   if (row.power !== undefined) return row.power === null ? say.unchosen(name) : say.chosenPower(name, row.power.toFixed(2));
-  if (row.observed === null) return say.slopeless(name, row.certificate);
+  // A slope that had no room to settle above round-off denies no order.
+  if (row.observed === null || row.uncertain) return say.slopeless(name, row.certificate);
   const slope = row.standard_error === null ? row.observed.toFixed(2) : `${row.observed.toFixed(2)} ± ${brief(row.standard_error, 1)}`;
   return row.passed ? say.confirmed(name, String(row.declared), slope) : say.denied(name, String(row.declared), slope);
 }

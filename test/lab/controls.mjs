@@ -357,7 +357,7 @@ await attempt('everything pressed', async () => {
         control.click();
       }
     }, '^Save|^(Gallery|Lessons|Leave|Back to the gallery)$');      // other places of the page have tests of their own
-    await settled(page, 300, 60000);
+    await settled(page);
   }
   for (const select of await page.locator('figure select:visible').all()) {
     for (const value of await select.locator('option').evaluateAll((all) => all.map((o) => o.value))) {

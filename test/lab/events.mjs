@@ -27,7 +27,7 @@ await attempt('a ball that bounces', async () => {
   same('… and shown to who presses it', [await page.locator('#toasts .toast span').allTextContents(), await page.locator('#opened').isVisible()], [[divided], false]);
   await closer(page, 'Events');
   const events = figureOf(page, 'Events');
-  await page.waitForFunction(() => /±/.test(document.querySelector('.events-table')?.textContent ?? ''), null, { timeout: 20000 });
+  await page.waitForFunction(() => /±/.test(document.querySelector('.events-table')?.textContent ?? ''), null, { timeout: 60000 });
   same('the answer', await events.locator('.figure-answer').textContent(), 'By Verlet, bounce happens 135 times, first at t = 0.4515, last at t = 4.064; bounces accumulate at t = 4.06371276887158(4).');
   const rows = await events.locator('.events-table tbody tr').evaluateAll((all) => all.map((row) => [...row.children].map((cell) => cell.textContent)));
   same('ten rows, how many more, three', rows.length, 14);
@@ -64,7 +64,7 @@ await attempt('a row of balls', async () => {
 await attempt('a section', async () => {
   const page = await open(`${singleFile}#v=1&p=henon-heiles`);
   await closer(page, 'Section');
-  const section = figureOf(page, 'Section'), full = (motions) => page.waitForFunction((n) => new RegExp(`2.000 points up to t = \\d+${n}`).test(document.querySelector('#panels figure[data-title="Section"] .figure-answer')?.textContent ?? ''), motions, { timeout: 20000 });
+  const section = figureOf(page, 'Section'), full = (motions) => page.waitForFunction((n) => new RegExp(`2.000 points up to t = \\d+${n}`).test(document.querySelector('#panels figure[data-title="Section"] .figure-answer')?.textContent ?? ''), motions, { timeout: 60000 });
   await page.waitForFunction(() => /\d+ points/.test(document.querySelector('#panels figure[data-title="Section"] .figure-answer')?.textContent ?? ''));
   await full('');
   const first = await tableOf(page, 'Section'), x = first.head.indexOf('x'), y = first.head.indexOf('y'), u = first.head.indexOf("x'"), v = first.head.indexOf("y'");
@@ -104,7 +104,7 @@ await attempt('a section', async () => {
   await clean('a section', page);
   const again = await open(address);
   await closer(again, 'Section');
-  await again.waitForFunction(() => /and those of 2 more motions/.test(document.querySelector('#panels figure[data-title="Section"] .figure-answer')?.textContent ?? ''), null, { timeout: 20000 });
+  await again.waitForFunction(() => /and those of 2 more motions/.test(document.querySelector('#panels figure[data-title="Section"] .figure-answer')?.textContent ?? ''), null, { timeout: 60000 });
   await clean('a section that was shared', again);
 });
 
@@ -136,7 +136,7 @@ await attempt('on a phone', async () => {
   await page.goto(`${singleFile}#v=1&p=ueda`);
   await settled(page);
   await closer(page, 'Section');
-  await page.waitForFunction(() => /points/.test(document.querySelector('#panels figure[data-title="Section"] .figure-answer')?.textContent ?? ''), null, { timeout: 20000 });
+  await page.waitForFunction(() => /points/.test(document.querySelector('#panels figure[data-title="Section"] .figure-answer')?.textContent ?? ''), null, { timeout: 60000 });
   judge('nor is the section', await page.evaluate(() => document.documentElement.scrollWidth) <= 390);
   await fingers('the section', page);
   await clean('on a phone', page);

@@ -119,7 +119,7 @@ async function drawn(page, model) {
   await page.evaluate((hash) => { scrollTo(0, 0); location.hash = hash; }, `#v=1&p=${model}`);
   await page.waitForFunction((question) => document.querySelector('.ask-button')?.textContent === question && document.querySelector('.stage-figure')?.getAttribute('aria-busy') === 'false', saidOf(model).question, { timeout: 40000 }).catch(() => {});
   await page.evaluate(() => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done))));
-  if (/^\s*when /m.test(models.find(({ name }) => name === model).text)) await page_.settled(page, 300, 40000);
+  if (/^\s*when /m.test(models.find(({ name }) => name === model).text)) await page_.settled(page);
 }
 const lessonsOf = { 'thrown-ball': 'Too high, too low', spring: 'Who keeps the energy?' };
 for (const [width, height] of [[390, 844], [1280, 800]]) {

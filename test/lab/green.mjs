@@ -33,7 +33,7 @@ const green = (page) => page.locator('#stage-figure canvas.stage-moving').evalua
 
 await attempt('order', async () => {
   const page = await open(`${singleFile}#v=1&p=duffing`, { before: keep });
-  await settled(page, 500, 40000);
+  await settled(page, 500);
   same('the picture, a draft, the reference', order(await answers(page)), ['none', 'coarse', 'reference with errors']);
   judge('the exact line is drawn', await green(page) > 200, await green(page));
   judge('errors are told by the reference', /Measured against a reference, .*whose own error is about/.test(await summaryOf(page, 'Error')), await summaryOf(page, 'Error'));
@@ -43,7 +43,7 @@ await attempt('order', async () => {
 await attempt('a draft is drawn, and tells no error', async () => {
   // The reference of this one takes seconds.
   const page = await open(`${singleFile}#v=1&p=double-pendulum`, { before: keep, settle: false });
-  await page.waitForFunction(() => window.answers.some((a) => a.truth === 'coarse'), null, { timeout: 20000, polling: 20 });
+  await page.waitForFunction(() => window.answers.some((a) => a.truth === 'coarse'), null, { timeout: 60000, polling: 20 });
   let some = 0;
   for (let i = 0; i < 20 && some < 100 && (await answers(page)).length === 2; i++) {
     await page.waitForTimeout(50);
@@ -59,7 +59,7 @@ await attempt('a draft is drawn, and tells no error', async () => {
   // The state changes while the reference is computed: what follows is of the new one.
   await valuesOf(page);
   await page.locator('#until').fill('3');
-  await settled(page, 600, 60000);
+  await settled(page, 600);
   const list = await answers(page), last = list[list.length - 1];
   same('the last answer is the reference of the new state', [last.truth, last.errors, last.until], ["reference", 2, 3]);
   const summary = await page.locator('#stage-figure figcaption').textContent();
@@ -68,7 +68,7 @@ await attempt('a draft is drawn, and tells no error', async () => {
 });
 await attempt('where no green line is, it says why', async () => {
   const dry = encodeURIComponent("x'' = -x - 0.1 sign(x')\nx(0) = 1\nx'(0) = 0\nstep 0.05\nuntil 20"), page = await open(`${singleFile}#v=1&m=${dry}&a=rk4`, { width: 390, height: 844, touch: true });
-  await settled(page, 500, 40000);
+  await settled(page, 500);
   const said = () => page.locator('#status .message').textContent();
   judge('the core’s own reason', /^There is no green curve: from t = 15\.708 on the motion slides along x' = 0: .* dry friction that sticks\.$/.test(await said()), await said());
   same('no green is drawn', await green(page), 0);
@@ -76,10 +76,10 @@ await attempt('where no green line is, it says why', async () => {
   judge('on a phone it stands above the picture, not on it', told.y + told.height <= drawn.y + 1 && drawn.height > 200, JSON.stringify([told, drawn]));
   await valuesOf(page);
   await page.locator('#until').fill('10');
-  await settled(page, 600, 40000);
+  await settled(page, 600);
   judge('before it sticks there is one', await said() === '' && await green(page) > 200, await said());
   await page.evaluate(() => { location.hash = `#v=1&m=${encodeURIComponent("x'' = 1/x\nx(0) = 0\nx'(0) = 1\nstep 0.5\nuntil 2")}&a=rk4,explicit-euler`; });
-  await settled(page, 500, 40000);
+  await settled(page, 500);
   same('what is undefined at its start says that, once', await said(), 'RK4 and explicit Euler: the motion is undefined at the start, t = 0: x\' has no finite rate of change there.');
   judge('… and stops there', /RK4 stops at t = 0:/.test(await page.locator('#stage-figure figcaption').textContent()), await page.locator('#stage-figure figcaption').textContent());
   await clean('no green line', page, /readback/);

@@ -129,7 +129,7 @@ export async function open(address = singleFile, options = {}) {
 async function made({ width, height, touch, media, kept, before, first, slower }) {
   const context = await (await launch()).newContext({ viewport: { width, height }, ...media, acceptDownloads: true, hasTouch: touch, isMobile: touch, locale: 'en-GB', ...(kept ? { storageState: kept } : {}) });
   const page = await context.newPage();
-  page.setDefaultTimeout(20000);
+  page.setDefaultTimeout(60000);
   Object.assign(page, { wrong: [], asked: [] });
   await page.addInitScript(watch);
   // A first visit begins by itself with a run of the motion, which most tests do not want.
@@ -159,7 +159,7 @@ export async function held(address, options = {}) {
 }
 
 /** Waits until the workers have owed nothing for a while, and what they answered is drawn. */
-export async function settled(page, calm = 300, limit = 25000) {
+export async function settled(page, calm = 300, limit = 90000) {
   // What was just done is asked in the next frame.
   await page.evaluate(() => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done))));
   await page.waitForFunction((ms) => window.lab.owed === 0 && window.lab.asked > 0 && performance.now() - window.lab.quiet > ms, calm, { timeout: limit, polling: 50 });
@@ -227,7 +227,7 @@ export async function closer(page, title = '') {
 /** Another example, as its address opens it; the gallery is tested by itself. */
 export async function example(page, name) {
   await page.evaluate((hash) => { if (location.hash === hash) history.replaceState(null, '', '#'); location.hash = hash; }, `#v=1&p=${name}`);
-  await settled(page, 300, 40000);
+  await settled(page);
 }
 /** The text of the model, in the open editor. */
 export async function editorOf(page) {

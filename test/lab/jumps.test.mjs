@@ -113,9 +113,13 @@ test('a mode is a number to look at, not a coordinate', () => {
 test('a hostile model ends with a sentence', () => {
   const { tracks: [track] } = ask("x'' = 0\nx(0) = 0\nx'(0) = 1\nstep 0.25\nuntil 2\nwhen x = 1 rising: x = 0.5\n");
   assert.ok(track.problem === null || track.problem.message, 'it ends');
-  const endless = ask("y'' = -1\ny(0) = 1\ny'(0) = 0\nstep 0.25\nuntil 3\nwhen y = 0 falling as bounce: y' = 2 y'\n").tracks[0];
+  const falling = "y'' = -1\ny(0) = 1\ny'(0) = 0\nstep 0.25\nuntil 3\n", endless = ask(`${falling}when y = 0 falling as bounce: y' = -y'\nwhen y' > 0 as back: y' = -y'\n`).tracks[0];
   assert.equal(endless.problem.kind, 'events');
-  assert.match(endless.problem.message, /bounce/);
+  assert.match(endless.problem.message, /bounce|back/);
+  // Its action does not turn it round, so it has passed: once, and falls on.
+  const through = ask(`${falling}when y = 0 falling as bounce: y' = 2 y', record\n`).tracks[0];
+  assert.equal(through.problem, null);
+  assert.equal(through.events.count, 1);
 });
 test('a curve is sampled in pieces', () => {
   let asked = 0;

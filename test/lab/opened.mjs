@@ -12,7 +12,7 @@ const usual = ['explicit-euler', 'symplectic-euler', 'midpoint', 'verlet', 'rk4'
 const at = (page, step, methods) => page.waitForFunction(([n, list]) => {
   const columns = [...document.querySelectorAll('.opened-column')];
   return columns.map((c) => c.dataset.method).join() === list.join() && columns.every((c) => c.dataset.step === String(n) && (c.querySelector('.opened-picture svg') || !c.querySelector('.opened-why').hidden));
-}, [step, methods], { timeout: 20000 });
+}, [step, methods], { timeout: 60000 });
 
 /** A column: its lines, each with its calculations as tokens of MathML, and the discs of the picture. */
 const columnOf = (page, method) => page.locator(`.opened-column[data-method="${method}"]`).evaluate((column) => ({
@@ -89,7 +89,7 @@ for (const preset of ['spring', 'thrown-ball', 'kepler', 'duffing']) {
       if (k > 0) await page.evaluate((hash) => { location.hash = hash; }, `v=1&p=${preset}&a=${methods}&l=step`);
       await at(page, k > 0 ? 2 : 1, methods);
       if (k === 0) { await page.keyboard.press('ArrowRight'); await at(page, 2, methods); }
-      await settled(page, 250, 40000);
+      await settled(page, 250);
       for (const method of methods) {
         const { lines, discs, closing } = await columnOf(page, method), what = `${preset} by ${method}`, names = new Map();
         judge(`${what}: at most four lines`, lines.length >= 1 && lines.length <= 4, lines.length);

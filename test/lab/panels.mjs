@@ -15,7 +15,7 @@ async function compute(page, title) {
   const button = figureOf(page, title).locator('.figure-controls .study button');
   if (!await button.count() || !await button.isVisible()) return;
   await button.click();
-  await settled(page, 600, 60000);
+  await settled(page, 600);
 }
 /** A cell of the table is the file's number, written shorter at most. */
 function agree(cell, other) {
@@ -44,7 +44,7 @@ for (const [preset, theme, width] of [['spring', 'light', 1280], ['projectile', 
   // Studies begin when they come into view.
   for (const title of preset === 'three-body-figure-eight' ? [] : titles.slice(4).filter((t) => !without(preset, t))) {
     await closer(page, title);
-    await settled(page, 600, 60000);
+    await settled(page, 600);
     await compute(page, title);
   }
   for (const title of preset === 'three-body-figure-eight' ? titles.slice(0, 4) : titles.filter((t) => !without(preset, t))) {

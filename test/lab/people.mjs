@@ -15,7 +15,7 @@ for (const width of [1280, 320]) {
     };
     for (const title of ['Error', 'Phase', 'Order', 'Cost', 'Stability']) {
       await closer(page, title);
-      await settled(page, 300, 60000);
+      await settled(page);
     }
     await page.evaluate(() => scrollTo(0, 0));
     await both('as it is');

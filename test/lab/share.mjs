@@ -242,7 +242,7 @@ await attempt('hostile links', async () => {
       if (what === 'a sum without end') {
         await page.locator('#status button', { hasText: 'Cancel' }).click();
       }
-      await settled(page, 300, 40000);
+      await settled(page);
       const said = await page.evaluate(() => ['#toasts', '#status', '#model-problem', '#step-message', '#until-message', '#all-values .sliders > .message', '.methods > .message'].map((s) => document.querySelector(s)?.textContent ?? '').join(' '));
       if (words) judge(`a link with ${what}: a message`, words.test(said.trim()), said.slice(0, 200));
       judge(`a link with ${what}: nothing of it runs`, await page.evaluate(() => window.hit === undefined && document.querySelectorAll('main img, main script').length === 0));

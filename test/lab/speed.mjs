@@ -42,13 +42,13 @@ await attempt('sliders', async () => {
   for (const preset of presets) {
     await page.goto('about:blank');
     await page.goto(`${singleFile}#v=1&p=${preset}`);
-    await settled(page, 400, 60000);
+    await settled(page, 400);
     const [low, high, value] = await page.locator('#all-values input[type=range]').first().evaluate((s) => { s.id = 'dragged'; return [s.min, s.max, s.value].map(Number); });
     const { asked, drawn } = await page.evaluate(dragged, { low, high, value, frames: 60 });
     judge(`a slider of ${preset} redraws`, drawn > 0);
     judge(`… and asks at most once a frame for the methods, which are not examined meanwhile: ${preset}`,
       asked.length > 0 && asked.filter((a) => a.methods && a.unexamined).length <= 60 && asked.filter((a) => a.methods && !a.unexamined).length <= 1, JSON.stringify(asked.slice(0, 8)));
-    await settled(page, 300, 60000);
+    await settled(page);
     judge(`when the hand rests they are: ${preset}`, await page.evaluate(() => window.told.asked.filter((a) => a.methods).at(-1).unexamined === false));
   }
   await clean('sliders', page);
