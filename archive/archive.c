@@ -108,7 +108,7 @@ motus_status motus_archive_open(const char *path, int write, motus_archive **out
         free(a);
         return fail(err, MOTUS_MEMORY, "no memory to open %s", path);
     }
-    a->descriptor = open(path, (write ? O_RDWR : O_RDONLY) | O_CLOEXEC);
+    a->descriptor = open(path, (write ? O_RDWR : O_RDONLY) | O_CLOEXEC | O_NONBLOCK); /* of a pipe it would wait */
     motus_status status = a->descriptor < 0 ? cannot("open", path, err) : read_directory(a, err);
     if (!status) status = make_room(a, err);
     if (status)

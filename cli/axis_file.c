@@ -4,6 +4,7 @@
  */
 #include "base/error.h"
 #include "cli/complain.h"
+#include "cli/file.h"
 #include "cli/grid.h"
 #include "cli/typed.h"
 
@@ -45,23 +46,61 @@ static char *field(char *s, size_t k)
     }
 }
 
-/* Reads the next line that is neither empty nor a comment. 1: there is one; 0: the end; -1: it cannot be read. */
-static int next_line(table_file *f)
-{
-    errno = 0;
-    for (ssize_t length; (length = getline(&f->line, &f->room, f->stream)) >= 0;) {
-        static const char mark[] = "\xEF\xBB\xBF"; /* some programs begin a file of UTF-8 with it */
-        if (f->number++ == 0 && strncmp(f->line, mark, strlen(mark)) == 0)
-            memmove(f->line, f->line + strlen(mark), (size_t)(length -= (ssize_t)strlen(mark)) + 1);
-        while (length > 0 && (f->line[length - 1] == '\n' || f->line[length - 1] == '\r')) f->line[--length] = 0;
-        if (strlen(f->line) > 0 && f->line[0] != '#') return 1;
-    }
-    return ferror(f->stream) || errno == ENOMEM ? -1 : 0;
-}
-
 static motus_status cannot_read(const table_file *f, motus_error *err)
 {
     return fail(err, MOTUS_FILE, "cannot read %s: %s", f->path, strerror(errno ? errno : EIO));
+}
+
+static motus_status bad(const table_file *f, motus_status status, const char *what, motus_error *err)
+{
+    return fail(err, status, "%s:%lld: %s", f->path, f->number, what);
+}
+
+/* Reads a line, without its end. *more false: there is none. The stream may have no end, nor its lines. */
+static motus_status read_line(table_file *f, size_t *length, bool *more, motus_error *err)
+{
+    enum { FIRST = 256 };
+    size_t used = 0;
+    int c = EOF;
+    errno = 0;
+    f->number++;
+    for (;;) {
+        if (used == f->room) {
+            const size_t room = f->room ? 2 * f->room : FIRST;
+            char *larger = realloc(f->line, room);
+            if (!larger) return complain_memory(err);
+            f->line = larger;
+            f->room = room;
+        }
+        c = getc_unlocked(f->stream);
+        if (c == EOF || c == '\n') break;
+        if (c == 0) return bad(f, MOTUS_ARGUMENT, "the line has a byte 0: this is no text", err);
+        if (used == FILE_LINE_MAX) {
+            fail(err, MOTUS_LIMIT, "%s:%lld: the line is longer than %zu bytes", f->path, f->number, FILE_LINE_MAX);
+            hint(err, "a file of values has a value a line, or a line for the values of all columns");
+            return MOTUS_LIMIT;
+        }
+        f->line[used++] = (char)c;
+    }
+    f->line[used] = 0;
+    *length = used;
+    *more = c != EOF || used > 0;
+    return c == EOF && ferror(f->stream) ? cannot_read(f, err) : MOTUS_OK;
+}
+
+/* Reads the next line that is neither empty nor a comment. *more false: there is none. */
+static motus_status next_line(table_file *f, bool *more, motus_error *err)
+{
+    static const char mark[] = "\xEF\xBB\xBF"; /* some programs begin a file of UTF-8 with it */
+    for (;;) {
+        size_t length = 0;
+        const motus_status status = read_line(f, &length, more, err);
+        if (status || !*more) return status;
+        if (f->number == 1 && length >= strlen(mark) && memcmp(f->line, mark, strlen(mark)) == 0)
+            memmove(f->line, f->line + strlen(mark), (length -= strlen(mark)) + 1);
+        while (length > 0 && f->line[length - 1] == '\r') f->line[--length] = 0;
+        if (length > 0 && f->line[0] != '#') return MOTUS_OK;
+    }
 }
 
 /* Whether the text is a number, which may be infinite or NaN. */
@@ -111,11 +150,6 @@ static motus_status find_column(table_file *f, bool *is_row, motus_error *err)
     return status;
 }
 
-static motus_status bad(const table_file *f, motus_status status, const char *what, motus_error *err)
-{
-    return fail(err, status, "%s:%lld: %s", f->path, f->number, what);
-}
-
 static motus_status read_row(table_file *f, double **list, uint64_t *count, motus_error *err)
 {
     char *s = field(f->line, f->place), what[128];
@@ -125,6 +159,8 @@ static motus_status read_row(table_file *f, double **list, uint64_t *count, motu
         snprintf(what, sizeof what, "%.60s is not a finite number", *s ? s : "nothing");
         return bad(f, MOTUS_ARGUMENT, what, err);
     }
+    if (*count == FILE_VALUES_MAX)
+        return fail(err, MOTUS_LIMIT, "%s has more than %d values", f->path, FILE_VALUES_MAX);
     if ((*count & (*count - 1)) == 0) { /* full: 0, 1, 2, 4, 8, … */
         double *larger = realloc(*list, (*count ? 2 * *count : 1) * sizeof **list);
         if (!larger) return complain_memory(err);
@@ -139,16 +175,14 @@ motus_status axis_file(const char *path, const char *column, double **list, uint
     table_file f = {.path = path, .column = column, .place = SIZE_MAX};
     *list = NULL;
     *count = 0;
-    f.stream = fopen(path, "r");
-    if (!f.stream) return cannot_read(&f, err);
-    motus_status status = MOTUS_OK;
-    int more = 1;
-    while (!status && (more = next_line(&f)) > 0) {
+    motus_status status = file_open(path, &f.stream, err);
+    if (status) return status;
+    bool more = true;
+    while (!status && !(status = next_line(&f, &more, err)) && more) {
         bool is_row = f.place != SIZE_MAX;
         if (!is_row) status = find_column(&f, &is_row, err);
         if (!status && is_row) status = read_row(&f, list, count, err);
     }
-    if (!status && more < 0) status = cannot_read(&f, err);
     if (!status && *count == 0) status = fail(err, MOTUS_ARGUMENT, "%s holds no values", path);
     fclose(f.stream);
     free(f.line);

@@ -16,6 +16,7 @@
 
 #include <errno.h>
 #include <fcntl.h>
+#include <poll.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
@@ -38,7 +39,7 @@ static motus_status cannot_read(const char *path, const char *why, motus_error *
     return fail(err, MOTUS_FILE, "cannot read %s: %s", called(path, true), why);
 }
 
-static motus_status read_all(int fd, const char *path, size_t most, size_t guess, char **text, size_t *length,
+static motus_status read_all(FILE *in, const char *path, size_t most, size_t guess, char **text, size_t *length,
                              motus_error *err)
 {
     size_t room = guess < most ? guess + 2 : most + 2, used = 0;
@@ -53,19 +54,14 @@ static motus_status read_all(int fd, const char *path, size_t most, size_t guess
             }
             buffer = larger;
         }
-        ssize_t got = read(fd, buffer + used, room - used - 1);
-        if (got < 0 && errno == EINTR) continue;
-        if (got < 0) {
-            int code = errno;
-            free(buffer);
-            return cannot_read(path, strerror(code), err);
-        }
-        if (got == 0) break;
-        used += (size_t)got;
-        if (used > most) {
-            free(buffer);
-            return too_long(path, most, err);
-        }
+        errno = 0;
+        const size_t got = fread(buffer + used, 1, room - used - 1, in);
+        used += got;
+        if (got > 0 && used <= most) continue;
+        if (got == 0 && !ferror(in)) break;
+        const int code = errno;
+        free(buffer);
+        return used > most ? too_long(path, most, err) : cannot_read(path, strerror(code), err);
     }
     buffer[used] = 0;
     *text = buffer;
@@ -73,22 +69,61 @@ static motus_status read_all(int fd, const char *path, size_t most, size_t guess
     return MOTUS_OK;
 }
 
-motus_status file_read(const char *path, size_t most, char **text, size_t *length, motus_error *err)
+/* A named pipe that nobody writes would be waited for without end. *first: a byte that was read, else EOF. */
+static motus_status wait_for_writer(int fd, const char *path, int *first, motus_error *err)
 {
-    if (strcmp(path, "-") == 0) return read_all(STDIN_FILENO, path, most, 4096, text, length, err);
-    int fd = open(path, O_RDONLY | O_CLOEXEC);
-    if (fd < 0) return cannot_read(path, strerror(errno), err);
+    enum { WAIT_MS = 10000 };
+    struct pollfd in = {.fd = fd, .events = POLLIN};
+    unsigned char byte;
+    if (poll(&in, 1, WAIT_MS) > 0) return MOTUS_OK;
+    const ssize_t got = read(fd, &byte, 1);
+    if (got > 0) *first = byte;
+    if (got != 0) return MOTUS_OK;
+    fail(err, MOTUS_FILE, "cannot read %s: it is a pipe, and no program has opened it to write within %d s", path,
+         WAIT_MS / 1000);
+    hint(err, "start the program that writes it before");
+    return MOTUS_FILE;
+}
+
+motus_status file_open(const char *path, FILE **in, motus_error *err)
+{
     struct stat about;
+    int first = EOF;
+    *in = NULL;
+    const int fd = open(path, O_RDONLY | O_CLOEXEC | O_NONBLOCK | O_NOCTTY);
+    if (fd < 0) return cannot_read(path, strerror(errno), err);
     motus_status status = MOTUS_OK;
     if (fstat(fd, &about) != 0)
         status = cannot_read(path, strerror(errno), err);
     else if (S_ISDIR(about.st_mode))
         status = cannot_read(path, "it is a folder", err);
-    else if (S_ISREG(about.st_mode) && about.st_size > 0 && (uintmax_t)about.st_size > most)
+    else if (!S_ISREG(about.st_mode) && !S_ISFIFO(about.st_mode) && !isatty(fd))
+        status = cannot_read(path, "it is a device, no file and no pipe", err);
+    else if (S_ISFIFO(about.st_mode))
+        status = wait_for_writer(fd, path, &first, err);
+    const int flags = fcntl(fd, F_GETFL);
+    if (!status && (flags < 0 || fcntl(fd, F_SETFL, flags & ~O_NONBLOCK) < 0 || !(*in = fdopen(fd, "r"))))
+        status = cannot_read(path, strerror(errno), err);
+    if (status)
+        close(fd);
+    else if (first != EOF)
+        ungetc(first, *in);
+    return status;
+}
+
+motus_status file_read(const char *path, size_t most, char **text, size_t *length, motus_error *err)
+{
+    if (strcmp(path, "-") == 0) return read_all(stdin, path, most, 4096, text, length, err);
+    FILE *in;
+    struct stat about;
+    motus_status status = file_open(path, &in, err);
+    if (status) return status;
+    const bool regular = fstat(fileno(in), &about) == 0 && S_ISREG(about.st_mode) && about.st_size > 0;
+    if (regular && (uintmax_t)about.st_size > most)
         status = too_long(path, most, err);
     else
-        status = read_all(fd, path, most, S_ISREG(about.st_mode) ? (size_t)about.st_size : 4096, text, length, err);
-    close(fd);
+        status = read_all(in, path, most, regular ? (size_t)about.st_size : 4096, text, length, err);
+    fclose(in);
     return status;
 }
 

@@ -9,7 +9,11 @@
 
 #define FILE_MODEL_MAX ((size_t)16 << 20) /* bytes of a model */
 #define FILE_STATE_MAX ((size_t)1 << 30)  /* bytes of a restart state */
+#define FILE_VALUES_MAX 50000000          /* numbers of a file of values */
+#define FILE_LINE_MAX ((size_t)16 << 20)  /* bytes of a line of one */
 
+/* Opens a file, a pipe or a terminal to be read; the caller closes it. */
+motus_status file_open(const char *path, FILE **, motus_error *);
 /* The bytes of a file ("-": standard input) followed by a 0; the caller frees *text. LIMIT beyond `most` bytes. */
 motus_status file_read(const char *path, size_t most, char **text, size_t *length, motus_error *);
 bool file_same(const char *a, const char *b); /* whether both name one file, also through links */

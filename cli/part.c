@@ -18,6 +18,7 @@
 #include <stdlib.h>
 #include <string.h>
 #include <sys/file.h>
+#include <sys/stat.h>
 #include <sys/types.h>
 
 static motus_status cannot_read(const char *path, motus_error *err)
@@ -168,6 +169,8 @@ static FILE *open_at(const part *p)
 motus_status part_open(part *p, const char *path, motus_error *err)
 {
     *p = (part){.path = path};
+    struct stat about; /* it is read in pieces, and opened again for each */
+    if (stat(path, &about) == 0 && !S_ISREG(about.st_mode)) return part_no_shard(p, "is no regular file", err);
     FILE *in = open_at(p);
     if (!in) return cannot_read(path, err);
     motus_status status = MOTUS_OK;
@@ -178,6 +181,7 @@ motus_status part_open(part *p, const char *path, motus_error *err)
     const int magic = status ? EOF : getc(in);
     if (magic != EOF) ungetc(magic, in);
     if (!status && magic == EOF) status = empty(p, err);
+    if (!status && magic == 0) status = part_no_shard(p, "is not a shard of a sweep", err);
     if (!status)
         status = magic == 0x93 ? npy_head(p, in, err) : magic == 'm' ? part_archive_head(p, err) : csv_head(p, in, err);
     fclose(in);

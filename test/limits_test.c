@@ -67,6 +67,8 @@ static const limit limits[] = {
     {"seconds a compiler may take", COMPILER_SECONDS_MAX, NULL, NULL},
     {"bytes of memory a compiler may take", COMPILER_MEMORY_MAX, NULL, NULL},
     {"bytes of a restart state", FILE_STATE_MAX, NULL, NULL},
+    {"values of a file of `--vary NAME=@FILE`", FILE_VALUES_MAX, NULL, NULL},
+    {"bytes of a line of such a file", FILE_LINE_MAX, NULL, NULL},
     {"bytes of the model in an address", SHARE_TEXT_MAX, NULL, NULL},
 };
 enum { LIMITS = sizeof limits / sizeof *limits };

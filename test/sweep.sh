@@ -129,6 +129,23 @@ printf '\357\273\277a,b\r\n1,5\r\n2,6\r\n' >marked.csv
 values "a file that begins with a byte order mark" --vary a=@marked.csv:a "1 2"
 printf '\357\273\2771\n2\n' >marked.csv
 values "... and has no head" --vary a=@marked.csv "1 2"
+# A file that has no end, or is none: an error at once, in bounded memory.
+printf 'a\n1\n2\0\n' >zero.csv
+head -c 17000000 /dev/zero | tr '\0' 1 >long.csv
+mkdir folder.csv
+mkfifo pipe.csv
+values_refused() { refuses "$1" "$2" "$3" timeout 20 bash -c 'ulimit -v 2000000; exec "$@"' - "$motus" sweep osc.motus --vary "F=@$4" --until 1; }
+values_refused "values: a device without end" 1 "/dev/zero: it is a device" /dev/zero:k
+values_refused "... a byte 0" 2 "zero.csv:3: the line has a byte 0" zero.csv:a
+values_refused "... a line without end" 2 "long.csv:1: the line is longer than 16777216 bytes" long.csv
+values_refused "... a folder" 1 "folder.csv: it is a folder" folder.csv
+values_refused "... a pipe that nobody writes" 1 "no program has opened it to write" pipe.csv
+(sleep 0.3; timeout 20 bash -c "printf '1\\n2\\n4\\n' >pipe.csv") &
+values "a pipe that is written later" --vary a=@pipe.csv "1 2 4"
+wait
+refuses "merge of what is no file" 2 "pipe.csv is no regular file" "$motus" merge pipe.csv pipe.csv -o nothing.csv
+rm zero.csv long.csv pipe.csv
+rmdir folder.csv
 values "a file of one column without a head" --vary a=@plain.csv "1 2 4"
 sweep line.motus --vary a=1:2:3 --record "x,x'" -o first.csv -q
 values "the file of another sweep" --vary "a=@first.csv:x'" "2 3 4"

@@ -30,50 +30,99 @@ value lower_argument(lowering *l, argument *a)
     return v;
 }
 
-/* The last call of a function. The same call again gives the same nodes, so f(q) + f(q) within f(q) + f(q) … takes no
- * time that doubles with every function. */
-enum { NODES_KEPT = 16 };
+/* The calls of a function that were lowered. The same call again gives the same nodes, so that functions of functions,
+ * g(q) + g(q/2) + g(q) within the like, take no time that doubles with every function. What a call depends on are its
+ * words: the place, the levels around it with the indices by which subscripts are checked, and the nodes of its
+ * arguments. */
 typedef struct expansion {
-    lower_place place;
-    int levels;
-    double terms;
-    int64_t low[MAX_LEVELS], high[MAX_LEVELS]; /* of the indices around it, by which subscripts are checked */
-    uint32_t count;
-    node nodes[NODES_KEPT]; /* of the arguments */
+    uint64_t *words;
+    size_t count;
+    uint64_t hash;
     value is;
 } expansion;
+struct expansions {
+    expansion *slots;
+    uint32_t used, room; /* a power of two, more than twice `used` */
+};
+enum { EXPANSIONS_MOST = 1 << 12 }; /* of one function; what is not kept is lowered again */
 
-/* What the call depends on; false: more than is kept. */
+static size_t words_of(const lowering *l, const argument *arguments, uint32_t count)
+{
+    size_t words = 2 + 2 * (size_t)l->levels;
+    for (uint32_t i = 0; i < count; i++) {
+        const value *v = &arguments[i].known[l->levels];
+        words += 1 + (size_t)(v->count ? v->count : 1) * (size_t)(v->rows ? v->rows : 1);
+    }
+    return words;
+}
+
+/* What the call depends on; to be given back. False: no memory. */
 static bool describe(const lowering *l, const argument *arguments, uint32_t count, expansion *out)
 {
-    *out = (expansion){.place = l->place, .levels = l->levels, .terms = l->terms};
-    for (int k = 0; k < l->levels; k++) {
-        out->low[k] = l->low[k];
-        out->high[k] = l->high[k];
-    }
+    *out = (expansion){.count = words_of(l, arguments, count)};
+    uint64_t *to = out->words = take(&l->model->arena->allocator, out->count, sizeof *to);
+    if (!to) return false;
+    *to++ = (uint64_t)l->place << 32 | (uint32_t)l->levels;
+    memcpy(to++, &l->terms, sizeof *to);
+    for (int k = 0; k < l->levels; k++) *to++ = (uint64_t)l->low[k], *to++ = (uint64_t)l->high[k];
     for (uint32_t i = 0; i < count; i++) {
-        const value v = arguments[i].known[l->levels];
-        const int parts = v.count ? v.count : 1;
-        if (v.boolean || out->count + (uint32_t)parts + 1 > NODES_KEPT) return false;
-        out->nodes[out->count++] = (node)v.count;
-        for (int k = 0; k < parts; k++) out->nodes[out->count++] = v.item[k];
+        const value *v = &arguments[i].known[l->levels];
+        const int parts = (v->count ? v->count : 1) * (v->rows ? v->rows : 1);
+        *to++ = (uint64_t)v->count << 32 | (uint64_t)v->rows << 2 | (uint64_t)v->boolean << 1 | v->derived;
+        for (int k = 0; k < parts; k++) *to++ = v->item[k];
+    }
+    for (const uint64_t *w = out->words; w < to; w++) {
+        out->hash = (out->hash ^ *w) * 0x9e3779b97f4a7c15u;
+        out->hash ^= out->hash >> 29;
     }
     return true;
 }
 
-static bool same_call(const expansion *a, const expansion *b)
+/* The place of the call in the table, or where it would be. */
+static expansion *place_of(const struct expansions *t, const expansion *call)
 {
-    return a->place == b->place && a->levels == b->levels && a->terms == b->terms && a->count == b->count &&
-           !memcmp(a->low, b->low, sizeof a->low) && !memcmp(a->high, b->high, sizeof a->high) &&
-           !memcmp(a->nodes, b->nodes, a->count * sizeof *a->nodes);
+    for (uint64_t k = call->hash;; k++) {
+        expansion *e = &t->slots[k & (t->room - 1)];
+        if (!e->words) return e;
+        if (e->hash == call->hash && e->count == call->count &&
+            !memcmp(e->words, call->words, e->count * sizeof *e->words))
+            return e;
+    }
 }
 
-static void keep(lowering *l, model_function *f, const expansion *call, value is)
+static bool grow(arena *a, struct expansions *t)
 {
-    if (!f->last) f->last = arena_room(l->model->arena, sizeof *f->last);
-    if (!f->last) return;
-    *f->last = *call;
-    f->last->is = is;
+    enum { FIRST = 8 };
+    const struct expansions old = *t;
+    if (old.room > 2 * old.used + 2) return true;
+    expansion *slots = arena_room(a, (old.room ? 2 * old.room : FIRST) * sizeof *slots);
+    if (!slots) return false;
+    *t = (struct expansions){.slots = slots, .used = old.used, .room = old.room ? 2 * old.room : FIRST};
+    for (uint32_t k = 0; k < old.room; k++)
+        if (old.slots[k].words) *place_of(t, &old.slots[k]) = old.slots[k];
+    arena_drop(a, old.slots, old.room * sizeof *slots);
+    return true;
+}
+
+static void keep(const lowering *l, model_function *f, const expansion *call, value is)
+{
+    arena *a = l->model->arena;
+    if (!f->calls) f->calls = arena_room(a, sizeof *f->calls);
+    if (!f->calls || f->calls->used == EXPANSIONS_MOST || !grow(a, f->calls)) return;
+    expansion *to = place_of(f->calls, call);
+    uint64_t *words = arena_room(a, call->count * sizeof *words);
+    if (!words) return;
+    memcpy(words, call->words, call->count * sizeof *words);
+    f->calls->used++;
+    *to = *call;
+    to->words = words;
+    to->is = is;
+}
+
+static const expansion *kept_expansion(const model_function *f, const expansion *call)
+{
+    const expansion *e = f->calls && f->calls->room ? place_of(f->calls, call) : NULL;
+    return e && e->words ? e : NULL;
 }
 
 value lower_function(lowering *l, const tree *call, model_function *f)
@@ -95,10 +144,11 @@ value lower_function(lowering *l, const tree *call, model_function *f)
     }
     if (failed(l)) return wrong(l);
     expansion now;
-    const bool kept = describe(l, arguments, inner.argument_count, &now);
-    if (kept && f->last && same_call(f->last, &now)) return f->last->is;
-    value v = lower_expression(&inner, s->value);
-    if (kept && !failed(l)) keep(l, f, &now, v);
+    if (!describe(l, arguments, inner.argument_count, &now)) return l->model->arena->failed = true, wrong(l);
+    const expansion *same = kept_expansion(f, &now);
+    value v = same ? same->is : lower_expression(&inner, s->value);
+    if (!same && !failed(l)) keep(l, f, &now, v);
+    give(&l->model->arena->allocator, now.words);
     if (source_failed(&l->model->source)) {
         char text[80];
         source_hint(&l->model->source, "it is called as %s", quote(l, &call->at, text));

@@ -121,10 +121,10 @@ typedef struct model_definition {
 typedef struct model_function {
     const char *name;
     const statement *statement;
-    uint8_t progress;       /* of classifying: 0 not yet, 1 now (needed now, it calls itself), 2 done */
-    uint8_t reads;          /* lower_ghost.c: 0 unknown, 1 its body reads no state, 2 it does */
-    bool moves;             /* its body uses a state or t, besides its arguments */
-    struct expansion *last; /* lower_function.c: the last call; NULL: none */
+    uint8_t progress;         /* of classifying: 0 not yet, 1 now (needed now, it calls itself), 2 done */
+    uint8_t reads;            /* lower_ghost.c: 0 unknown, 1 its body reads no state, 2 it does */
+    bool moves;               /* its body uses a state or t, besides its arguments */
+    struct expansions *calls; /* lower_function.c: those that were lowered; NULL: none */
 } model_function;
 
 /* An assignment of an event: its value, to SPACE_OUT, for all indices of its rule; and the number of x or v that it
