@@ -78,6 +78,17 @@ for (const [width, height] of [[320, 640], [390, 844], [844, 390], [820, 1180], 
     await page.waitForTimeout(300);
     const shift = await page.evaluate(() => window.shift);
     judge(`${name}: nothing shifts while it loads`, shift <= 0.02, shift);
+    // What a slow browser shows in parts, the equation last and first in a font that is 7 px wider: the question below keeps its place.
+    const stood = await page.evaluate(() => {
+      const pill = document.querySelector('#words .pill'), top = () => document.querySelector('#words .ask').getBoundingClientRect().top, now = top();
+      pill.style.paddingRight = `${parseFloat(getComputedStyle(pill).paddingRight) + 7}px`;
+      const wider = top();
+      pill.style.display = 'none';
+      const without = top();
+      pill.removeAttribute('style');
+      return [wider - now, without - now];
+    });
+    if (width < 1280) same(`${name}: the question stands before the equation does`, stood, [0, 0]);
     const box = (selector) => page.locator(selector).evaluate((e) => { const r = e.getBoundingClientRect(); return [r.left, r.top, r.right, r.bottom]; });
     const [left, top, right, bottom] = await box('#stage-picture'), area = (right - left) * (bottom - top) / (width * height);
     judge(`${name}: the picture is the largest thing on the first screen`, area > 0.36 && bottom <= height + 1 && right <= width + 1 && top >= 0, [left, top, right, bottom, area].join());
