@@ -7,6 +7,7 @@
 
 #include "api/evidence.h"
 #include "api/located.h"
+#include "api/stability.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -298,7 +299,8 @@ static bool stiff(judge *j, double mean)
     char name[MOTUS_NAME_MAX], text[MOTUS_TEXT_MAX];
     const bool early = !e->adaptive;
     if (!evidence_rate(e, early, &re, &im, &which) || !(re < 0) || fabs(im) > -re) return false;
-    const double rate = hypot(re, im), bound = evidence_stable(e, re, im), h = e->adaptive ? mean : fabs(e->h);
+    const double rate = hypot(re, im), bound = stability_bound(e->row->name, re, im),
+                 h = e->adaptive ? mean : fabs(e->h);
     /* a row whose steps solve equations, by Newton's method or by iteration, stays where that converges, near 1/rate */
     const double limit = !(bound < UNBOUNDED) && e->adaptive ? 1 : bound;
     if (!(limit > 0) || (e->adaptive && (h * rate > NEAR_BOUND * limit || h * rate < limit / NEAR_BOUND))) return false;

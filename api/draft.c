@@ -151,7 +151,7 @@ static double step_of(const draft_scales *d, bool ends, proposal *p)
     const double within = d->duration > 0 ? d->duration : INFINITY;
     if (ends && within < INFINITY && within / p->step > STEPS_MOST) {
         p->counts = true;
-        return rounded(within / STEPS_MOST, 2, NEAR);
+        return fmin(rounded(within / STEPS_MOST, 2, NEAR), rounded(d->stable, 2, DOWN));
     }
     if (within / STEPS_A_FLIGHT < p->step) p->counts = true;
     return rounded(fmin(p->step, within / STEPS_A_FLIGHT), 2, NEAR);

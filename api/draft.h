@@ -12,6 +12,7 @@ typedef struct draft_scales {
     double from, duration; /* duration: 0: not given */
     bool uniform;          /* all steps are equal */
     double way;            /* 1, or -1 backward; draft_choose fills it in */
+    double stable;         /* no step that is chosen is longer */
 } draft_scales;
 
 /* Fills in step and until where they are NaN, and why. */

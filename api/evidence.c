@@ -9,16 +9,7 @@
 #include <math.h>
 #include <string.h>
 
-enum {
-    STEPS_LEAST = 200,
-    STEPS_MOST = 20000,
-    DEEPER = 8,
-    AHEAD = 2,
-    BISECTIONS = 80,
-    SIZES = 11,
-    SCATTER = 8,
-    BOUNDS = 64
-};
+enum { STEPS_LEAST = 200, STEPS_MOST = 20000, DEEPER = 8, AHEAD = 2, BISECTIONS = 80, SIZES = 11, SCATTER = 8 };
 #define LOOK_METHOD "dop853"
 #define LOOK_TOLERANCE 1e-12
 #define WORK 4e8            /* operations of one trial */
@@ -33,8 +24,6 @@ enum {
 #define JUMP 1e-3           /* of the force, that a jump has at least */
 #define LASTS 0.5           /* of the first change, that is left of a jump however near both sides are */
 #define NOISY 0.1           /* of what is allowed, that rounding has at least */
-#define GROWS 1e-9          /* of the spectral radius over 1: more is growth */
-#define BOUND_MOST 1e3      /* of step times rate, up to which a bound is searched */
 
 /* ---- the scene ---- */
 
@@ -412,29 +401,13 @@ bool evidence_rate(evidence *e, bool early, double *re, double *im, size_t *whic
         rate_fastest(&map, basis, basis + n);
     }
     *which = largest_at(basis + p->nx, p->nv);
-    const int count = fastest > 0 ? rate_motion(&map, p->jvp ? LINEAR_ROUNDING_EXACT : LINEAR_ROUNDING_QUOTIENT, basis,
-                                                all_re, all_im)
-                                  : 0;
+    const int count = fastest > 0 ? rate_motion(&map, linear_rounding(p), basis, all_re, all_im) : 0;
     for (int k = 0; k < count; k++)
         if (hypot(all_re[k], all_im[k]) > most) most = hypot(all_re[k], all_im[k]), *re = all_re[k], *im = all_im[k];
     give(&e->system->allocator, room);
     if (!(most > 0)) return false;
     *re *= e->way;
     return true;
-}
-
-double evidence_stable(const evidence *e, double re, double im)
-{
-    double at_re[BOUNDS], at_im[BOUNDS], radius[BOUNDS], bound = 0;
-    const double size = hypot(re, im);
-    for (int i = 0; i < BOUNDS; i++) {
-        const double z = BOUND_MOST * exp2(-10.0 * (BOUNDS - 1 - i) / (BOUNDS - 1));
-        at_re[i] = z * re / size, at_im[i] = z * fabs(im) / size;
-    }
-    if (motus_stability(e->row->name, BOUNDS, at_re, at_im, radius, NULL) != MOTUS_OK) return 0;
-    if (isinf(radius[0])) return NAN;
-    for (int i = 0; i < BOUNDS && radius[i] <= 1 + GROWS; i++) bound = hypot(at_re[i], at_im[i]);
-    return bound;
 }
 
 /* ---- trials ---- */

@@ -57,9 +57,6 @@ bool evidence_noise(evidence *, size_t *which);
 /* The eigenvalue of largest size of the equations linearised at a state, and the number of v that takes part in it
  * most. False: it cannot be computed. */
 bool evidence_rate(evidence *, bool early, double *re, double *im, size_t *which);
-/* The largest step times |rate| along the direction of a rate up to which steps of the row do not grow; 0: none. NaN:
- * the shortest of them have no result, as where an iteration does not converge. */
-double evidence_stable(const evidence *, double re, double im);
 
 /* Trial steps with another method, step (0: the run's), or tolerance (0: the run's). */
 typedef struct evidence_trial {

@@ -19,8 +19,8 @@ typedef struct linear {
     bool failed, no_memory; /* failed: a callback */
 } linear;
 
-#define LINEAR_ROUNDING_EXACT 1e-13   /* of a product with the Jacobian matrix, relative to it, */
-#define LINEAR_ROUNDING_QUOTIENT 1e-8 /*   and with difference quotients */
+/* Of a product with the Jacobian matrix, relative to it: more where that is of difference quotients. */
+double linear_rounding(const problem *);
 
 /* How many numbers of room it takes; shares them out. */
 size_t linear_room(const problem *);
@@ -31,5 +31,16 @@ size_t linear_positions(const problem *);
 bool linear_evaluate(linear *, double t, bool moved, double *a);
 /* (x', v') along u = (x, v), in units of the sizes; of rate_map. */
 bool linear_product(void *ctx, const double *u, double *out);
+
+/* The rates of the motion at the state. `fastest`: the largest size of an eigenvalue, NaN: it cannot be computed; re[k]
+ * + i im[k]: those that take part in the motion, or at rest in any: as rate_motion tells them. */
+typedef struct linear_rates {
+    double fastest;
+    int count;
+    double re[RATE_MOTION_MAX], im[RATE_MOTION_MAX];
+} linear_rates;
+/* The sizes are set, and size_v becomes that which the fastest rate gives. basis: room for (RATE_MOTION_MAX + 1) n
+ * numbers, n of x and v together. */
+void linear_rates_of(linear *, double *basis, linear_rates *out);
 
 #endif

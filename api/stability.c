@@ -9,6 +9,7 @@
  *
  * Invariant: no memory is taken but the stack's; a point without a result does not affect the others.
  */
+#include "api/stability.h"
 #include "api/system.h"
 
 #include <math.h>
@@ -17,6 +18,9 @@
 enum { POINTS = 8, PLACES = 2 * POINTS, ROOM = 24 << 10 };
 /* two steps and the square of one differ by less, by rounding; by more than 1e-3 where a method carries more */
 #define FORGETFUL 1e-6
+#define GROWS 1e-9     /* of the spectral radius over 1: more is growth */
+#define BOUND_MOST 1e3 /* of step times rate, up to which a bound is searched, at so many points: */
+enum { BOUNDS = 64 };
 
 typedef struct matrix {
     double xx, xv, vx, vv;
@@ -254,4 +258,18 @@ motus_status motus_stability(const char *method, size_t count, const double *re,
     if (status == MOTUS_OK) status = ask_all(&p, false, count, re, im, radius, err);
     modes_leave(m);
     return status;
+}
+
+double stability_bound(const char *method, double re, double im)
+{
+    double at_re[BOUNDS], at_im[BOUNDS], radius[BOUNDS], bound = 0;
+    const double size = hypot(re, im);
+    for (int i = 0; i < BOUNDS; i++) {
+        const double z = BOUND_MOST * exp2(-10.0 * (BOUNDS - 1 - i) / (BOUNDS - 1));
+        at_re[i] = z * re / size, at_im[i] = z * fabs(im) / size;
+    }
+    if (motus_stability(method, BOUNDS, at_re, at_im, radius, NULL) != MOTUS_OK) return 0;
+    if (isinf(radius[0])) return NAN;
+    for (int i = 0; i < BOUNDS && radius[i] <= 1 + GROWS; i++) bound = hypot(at_re[i], at_im[i]);
+    return bound;
 }

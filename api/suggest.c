@@ -1,17 +1,18 @@
 /* The step and the end of a model that gives none: motus_suggest.
  *
- * Two scales of time decide: the fastest rate and the longest period at the start. They come from the equations
- * linearised there (rate.h), from how fast the state changes, and from samples of the force in time; where the force is
- * constant, from the initial values. Invariant: the same system gives the same numbers on every machine, and nothing
- * about the system changes.
+ * Two scales of time decide: the fastest rate of the motion and the longest period at its start. They come from the
+ * equations linearised along it (along.h) and there, from how fast the state changes, and from samples of the force in
+ * time; where the force is constant, from the initial values. Invariant: the same system gives the same numbers on
+ * every machine, and nothing about the system changes.
  */
-#include "api/vector.h"
 #include "api/suggest.h"
 
+#include "api/along.h"
 #include "api/choice.h"
 #include "api/draft.h"
 #include "api/pilot.h"
-#include "api/linear.h"
+#include "api/stability.h"
+#include "api/vector.h"
 
 #include <math.h>
 #include <string.h>
@@ -26,7 +27,11 @@
 #define NOISE_EXACT 1e-6    /* slower than this part of the fastest rate: rounding, with exact derivatives, */
 #define NOISE_QUOTIENT 1e-4 /*   and with difference quotients */
 #define NO_RATE 1e-15       /* of a draft: no motion is so slow, it is rounding */
-#define DECAY 0.05          /* an eigenvalue is real if its imaginary part is less than this part of it */
+#define FASTER 1.05         /* than at the start: the motion is, by more than the pilot's errors */
+#define FAR 100.0           /* faster than the start, which tells no period then */
+#define STABLE 0.5          /* of the step up to which the method does not grow: a default step stays within this, */
+#define RADIANS 2.0         /*   of what swings within this in one step, */
+#define SHORT 0.25          /*   and where no such step is known, within this of the rate */
 
 typedef struct scales {
     motus_system *system;
@@ -36,7 +41,11 @@ typedef struct scales {
     bool turns, lands;          /* the longest is one of an oscillation; the period is a flight's */
     size_t falling;             /* the position with the largest force */
     double rate, period;        /* the fastest, 0: the force is constant; and the longest */
+    double longest;             /* the way to the end, where none is given */
+    linear_rates first, fast;   /* at the start, and where the motion is fastest */
 } scales;
+
+static double noise(const problem *p) { return p->jvp ? NOISE_EXACT : NOISE_QUOTIENT; }
 
 static bool evaluate(scales *s, double t, bool moved, double *a) { return linear_evaluate(&s->at, t, moved, a); }
 
@@ -45,32 +54,10 @@ static bool evaluate(scales *s, double t, bool moved, double *a) { return linear
 /* Raises rate and period to those of the linearised motion. */
 static void linearise(scales *s, double *basis)
 {
-    const problem *p = s->at.problem;
-    const size_t n = p->nx + p->nv;
-    const rate_map map = {n, linear_product, &s->at};
-    const double rate = rate_fastest(&map, basis, basis + n);
-    double re[RATE_MOTION_MAX], im[RATE_MOTION_MAX], most = isfinite(rate) ? rate : 0, size[RATE_MOTION_MAX];
-    /* Position and velocity of the fastest oscillation get the same size, so that no root is lost beside the others. */
-    if (most > 0 && p->nx) s->at.size_v = most * s->at.size_x;
-    /* The motion's own direction, (v, a); at rest, all directions. */
-    for (size_t k = 0; k < p->nx; k++) basis[k] = s->at.v[k] / s->at.size_x;
-    const bool moves = evaluate(s, s->at.t, false, s->at.a) &&
-                       (vector_largest(s->at.a, p->nv) > 0 || vector_largest(basis, p->nx) > 0);
-    for (size_t k = 0; k < p->nv; k++) basis[p->nx + k] = s->at.a[k] / s->at.size_v;
-    for (size_t k = 0; k < n && !moves; k++) basis[k] = rate_scatter(k);
-    const int count = rate_motion(&map, p->jvp ? LINEAR_ROUNDING_EXACT : LINEAR_ROUNDING_QUOTIENT, basis, re, im);
-    for (int k = 0; k < count; k++) {
-        size[k] = sqrt(re[k] * re[k] + im[k] * im[k]);
-        most = fmax(most, size[k]);
-    }
-    s->rate = most;
-    for (int k = 0; k < count; k++) {
-        const bool turns = fabs(im[k]) >= DECAY * size[k];
-        const double period = (turns ? TWO_PI : 1) / size[k];
-        if (size[k] > most * (p->jvp ? NOISE_EXACT : NOISE_QUOTIENT) && period > s->period)
-            s->period = period, s->turns = turns;
-    }
-    if (most > 0 && s->period == 0) s->period = TWO_PI / most, s->turns = true;
+    linear_rates_of(&s->at, basis, &s->first);
+    s->fast = s->first;
+    s->rate = s->first.fastest;
+    s->period = along_period(&s->first, noise(s->at.problem) * s->rate, &s->turns);
 }
 
 /* ---- the force in time ---- */
@@ -134,6 +121,61 @@ static void drive(scales *s, double horizon, double *samples)
     }
     s->rate = fmax(s->rate, rate);
     s->period = fmax(s->period, TWO_PI / rate);
+}
+
+/* ---- the motion ---- */
+
+/* Raises the rate to that of the motion, and shortens a period that is the start's alone, as at an inflection of the
+ * potential. Afterwards the state is one of the motion. */
+static motus_status follow(scales *s, double horizon, double *work, motus_error *err)
+{
+    const problem *p = s->at.problem;
+    if (s->system->text.draft || p->traits.constant || (p->traits.affine && !p->traits.time)) return MOTUS_OK;
+    along *a = take(&s->system->allocator, 1, sizeof *a);
+    if (!a) return fail(err, MOTUS_MEMORY, "no memory to follow the motion");
+    const motus_status status = along_motion(s->system, s->way, horizon, &s->at, work, &s->first, a, err);
+    const along_place *fastest = along_fastest(a);
+    const double rate = fastest->rates.fastest, period = along_mean_period(a, noise(p));
+    if (s->rate > 0 && rate > FAR * s->rate && period > 0 && s->period > FAR * period) {
+        s->period = period;
+        s->longest = PERIODS * period;
+    }
+    if (rate > FASTER * s->rate) s->rate = rate, s->fast = fastest->rates;
+    give(&s->system->allocator, a);
+    return status;
+}
+
+/* What depends on t by a factor that is 0 at the start shows in a state of the motion. */
+static void drive_again(scales *s, double horizon, double *work)
+{
+    const double rate = s->rate, period = s->period;
+    drive(s, horizon, work);
+    if (!(s->rate > FASTER * rate)) s->rate = rate;
+    s->period = period;
+}
+
+/* The longest step that serves for a rate. What swings is followed besides. The shortest steps of explicit Euler grow
+ * too, and those of an iteration that does not converge have no result. */
+static double stable_for(const chosen *row, const motus_method *card, double re, double im)
+{
+    double bound = re == 0 ? card->stability_limit : stability_bound(row->name, re, im);
+    if (!(bound > 0)) bound = SHORT;
+    if (fabs(im) > fabs(re)) bound = fmin(bound, RADIANS);
+    return STABLE * bound / hypot(re, im);
+}
+
+/* The longest step that the method can take where the motion is fastest, with room to spare. */
+static double stable_step(const scales *s, const chosen *row, const motus_method *card)
+{
+    const linear_rates *r = &s->fast;
+    double step = INFINITY, known = 0;
+    for (int k = 0; k < r->count; k++) {
+        const double size = hypot(r->re[k], r->im[k]), re = s->way * r->re[k];
+        known = fmax(known, size);
+        if (size > noise(s->at.problem) * r->fastest)
+            step = fmin(step, re < 0 ? stable_for(row, card, re, r->im[k]) : stable_for(row, card, 0, size));
+    }
+    return r->fastest > FASTER * known ? fmin(step, stable_for(row, card, 0, r->fastest)) : step;
 }
 
 /* ---- the start ---- */
@@ -202,7 +244,14 @@ static motus_status measure(scales *s, double duration, motus_error *err)
         s->period = time_of_values(s);
     else if (vector_largest(s->at.x, linear_positions(p)) > 0 && s->size_moving > 0)
         s->rate = fmax(s->rate, fmin(s->size_moving / s->at.size_x, s->size_a / s->size_moving));
+    s->longest = s->rate > 0 ? PERIODS * s->period : s->period;
+    const double start = s->at.t;
+    const motus_status status = s->at.failed ? MOTUS_OK : follow(s, duration > 0 ? duration : s->longest, work, err);
+    const bool moved = s->at.t != start;
+    s->at.t = start;
+    if (status == MOTUS_OK && moved && p->traits.time) drive_again(s, horizon, work);
     give(&s->system->allocator, room);
+    if (status != MOTUS_OK) return status;
     if (s->at.no_memory) return fail(err, MOTUS_MEMORY, "no memory for the derivatives");
     if (!s->at.failed) return MOTUS_OK;
     char t[DECIMAL_MAX];
@@ -240,23 +289,24 @@ static double round_near(double x)
 
 /* ---- the suggestion ---- */
 
-static void choose(const scales *s, bool uniform, double from, double duration, motus_settings *set)
+static void choose(const scales *s, const chosen *row, const motus_method *card, double from, double duration,
+                   motus_settings *set)
 {
     const problem *p = s->at.problem;
     const double steps = fmin(STEPS_MOST, fmax(STEPS_ALWAYS, NUMBERS_MOST / (double)(p->nx + p->nv)));
-    const double longest = s->rate > 0 ? PERIODS * s->period : s->period;
     const bool ends = !isnan(set->until);
-    if (!(duration > 0)) duration = round_near(longest);
+    if (!(duration > 0)) duration = round_near(s->longest);
     if (isnan(set->step)) {
         double step = duration / STEPS_LEAST;
         if (s->rate > 0) step = fmin(step, TWO_PI / s->rate / STEPS_A_PERIOD);
         set->step = round_down(step);
         if (!ends && duration > steps * set->step) duration = round_down(steps * set->step);
-        if (ends && duration > steps * set->step) set->step = round_up(duration / steps);
-        if (ends && uniform) set->step = duration / ceil(duration / set->step);
+        if (ends && duration > steps * set->step)
+            set->step = fmin(round_up(duration / steps), round_down(stable_step(s, row, card)));
+        if (ends && row_uniform(row)) set->step = duration / ceil(duration / set->step);
     } else if (!ends) {
         duration = fmin(fmax(duration, set->step), steps * set->step);
-        if (uniform) duration = ceil(duration / set->step) * set->step;
+        if (row_uniform(row)) duration = ceil(duration / set->step) * set->step;
     }
     if (!ends) set->until = from + duration;
 }
@@ -277,10 +327,11 @@ static motus_status suggest(motus_system *system, motus_settings *set, motus_err
     if (system->text.draft) {
         draft_scales d = {.rate = s.rate, .period = s.period, .lands = s.lands, .falling = s.falling, .turns = s.turns};
         d.from = from, d.duration = duration, d.uniform = row_uniform(&row);
+        d.stable = isnan(set->step) && duration > 0 ? stable_step(&s, &row, card) : INFINITY;
         status = draft_choose(system, &d, set, err);
         if (status != MOTUS_OK) return status;
     } else {
-        choose(&s, row_uniform(&row), from, duration, set);
+        choose(&s, &row, card, from, duration, set);
     }
     set->rate = s.rate;
     set->period = s.period;

@@ -36,6 +36,11 @@ size_t grid_find(const grid *, const char *name);
 size_t grid_axis_values(const grid *, size_t axis, uint64_t first, size_t count, double *values);
 void grid_free(grid *);
 
+/* grid_extremes.c: values[axis][row], at the ends of the axes: every trajectory of a few, else the corners, or of many
+ * axes one end after the other. They are those of the whole sweep, whatever part of it is computed. */
+motus_status grid_extremes(const grid *, double ***values, size_t *rows, motus_error *);
+void grid_extremes_free(double **values);
+
 /* Reads the value of --vary or --random; call axis_free() also after a failure. */
 motus_status axis_read(axis *, const char *option, const char *spec, motus_error *);
 void axis_free(axis *);

@@ -22,7 +22,7 @@ motus_status run_make(const options *o, load *m, stop_progress *progress, motus_
                       motus_run **run, motus_error *err)
 {
     *def = motus_default_run();
-    motus_status status = settle_timing(m, o, settled(m, o), o->method, err);
+    motus_status status = settle_timing(m, o, settled(m, o), o->method, NULL, err);
     if (status) return status;
     def->method = o->method;
     def->step = m->step;

@@ -10,9 +10,9 @@
 #include <math.h>
 #include <stdio.h>
 
-static void note(const load *m, const motus_settings *set)
+static void note(const load *m, bool sweep, const motus_settings *set)
 {
-    char line[128], step[DECIMAL_MAX], until[DECIMAL_MAX], why[128];
+    char line[128], step[DECIMAL_MAX], until[DECIMAL_MAX], why[192];
     const bool both = m->suggested == (SETTLE_STEP | SETTLE_UNTIL);
     decimal(set->step, step);
     decimal(set->until, until);
@@ -22,9 +22,8 @@ static void note(const load *m, const motus_settings *set)
         snprintf(line, sizeof line, "%s %s", m->suggested == SETTLE_STEP ? "step" : "until",
                  m->suggested == SETTLE_STEP ? step : until);
     if (set->rate > 0)
-        snprintf(why, sizeof why,
-                 "its fastest rate at the start, %.3g, and its longest period, or time of growth, there, %.3g",
-                 set->rate, set->period);
+        snprintf(why, sizeof why, "the fastest rate of %s, %.3g, and its longest period, or time of growth, %.3g",
+                 sweep ? "the motions at the ends of what varies" : "its motion", set->rate, set->period);
     else
         snprintf(why, sizeof why, "its initial values, which change in a time of %.3g", set->period);
     complain_note("the model gives no %s: motus takes %s from %s. To keep %s, add to the model:",
@@ -35,7 +34,21 @@ static void note(const load *m, const motus_settings *set)
     fprintf(stderr, "%s\n", line);
 }
 
-motus_status settle_timing(load *m, const options *o, int needed, const char *method, motus_error *err)
+static motus_status suggest(const load *m, const grid *sweep, motus_settings *set, motus_error *err)
+{
+    double **values;
+    size_t rows;
+    if (!sweep || !(m->suggested & SETTLE_STEP)) return motus_suggest(m->system, set, err);
+    motus_status status = grid_extremes(sweep, &values, &rows, err);
+    if (!status)
+        status =
+            motus_suggest_varied(m->system, sweep->count, sweep->names, rows, (const double *const *)values, set, err);
+    grid_extremes_free(values);
+    return status;
+}
+
+motus_status settle_timing(load *m, const options *o, int needed, const char *method, const grid *sweep,
+                           motus_error *err)
 {
     motus_settings set = motus_default_settings();
     motus_settings_of(m->system, &set);
@@ -51,11 +64,11 @@ motus_status settle_timing(load *m, const options *o, int needed, const char *me
     if (!isnan(o->step)) set.step = o->step;
     if (!isnan(o->until)) set.until = o->until;
     if (method) set.method = method;
-    motus_status status = motus_suggest(m->system, &set, err);
+    motus_status status = suggest(m, sweep, &set, err);
     if (status) return status;
     if (m->suggested & SETTLE_STEP) m->step = set.step;
     if (m->suggested & SETTLE_UNTIL) m->until = set.until;
-    if (!o->quiet) note(m, &set);
+    if (!o->quiet) note(m, sweep != NULL, &set);
     return MOTUS_OK;
 }
 

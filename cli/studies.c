@@ -19,7 +19,7 @@ motus_status studies_begin(studies *s, const char *what, int needed, const optio
         status = fail(err, MOTUS_ARGUMENT, "%s is read and would be overwritten", o->operand);
     if (!status) status = load_model(&s->model, o, err);
     /* By a method that takes all steps and forces: the model's own need not be among those that are studied. */
-    if (!status) status = settle_timing(&s->model, o, needed, "explicit-euler", err);
+    if (!status) status = settle_timing(&s->model, o, needed, "explicit-euler", NULL, err);
     if (status) return status;
     *def = motus_default_study();
     def->methods = o->methods.count ? o->methods.items : NULL;

@@ -182,7 +182,7 @@ motus_status sweep_begin(sweep *s, sweep_section *section, stop_progress *progre
     const bool own_ends = grid_find(&s->grid, "until") < s->grid.count;
     s->accuracy = settle_accuracy(&s->model, o);
     const int step = isnan(s->accuracy) ? SETTLE_STEP : 0; /* with an accuracy steps adapt */
-    status = settle_timing(&s->model, o, step | (own_ends ? 0 : SETTLE_UNTIL), o->method, err);
+    status = settle_timing(&s->model, o, step | (own_ends ? 0 : SETTLE_UNTIL), o->method, &s->grid, err);
     if (status) return status;
     motus_settings settings = motus_default_settings();
     motus_settings_of(s->model.system, &settings);

@@ -400,8 +400,8 @@ typedef struct motus_settings {
     double accuracy;     /* of the answer; NaN: none is set */
     double every_time;   /* every T */
     int64_t every_steps; /* every n steps */
-    /* Of motus_suggest alone, where it had to find a number: the fastest rate at the start, in radians per time, 0: the
-     * force is constant; and the longest period, or the scale of time where nothing oscillates. Else 0. */
+    /* Of motus_suggest alone, where it had to find a number: the fastest rate of the motion, in radians per time, 0:
+     * the force is constant; and the longest period, or the scale of time where nothing oscillates. Else 0. */
     double rate, period;
     /* Of motus_suggest, of a system with `draft`: why it chose this step and this end, "60 to a swing", "three swings".
      * Else "". */
@@ -414,15 +414,17 @@ MOTUS_API motus_status motus_settings_of(const motus_system *, motus_settings *)
  * given. What creates runs, ensembles and studies of a model does so itself where neither its definition nor the model
  * gives a number; of a callback only this call does, since it evaluates the acceleration.
  *
- * The rates at the start are the sizes of the eigenvalues of the equations linearised there, the rate at which the
- * force changes with t, and how fast the state changes, min(|x'|/|x|, |x''|/|x'|). The step is at most 1/80 of the
- * period of the fastest rate, 2 pi/rate, and at most 1/100 of the way to the end. The end comes after 10 of the longest
- * periods that the motion has; of what does not oscillate, after 10 times its scale of time, 1/rate. Where the force is
- * constant the scale of time follows from the initial values: 2 max(|x'|/|x''|, sqrt(|x|/|x''|)), after which the run
- * ends; without a force after 10 |x|/|x'|, or at 10. Both numbers are rounded to 1, 2 or 5 times a power of ten. There
- * are at most 1e6 steps, of large systems fewer, and the end comes earlier to keep to that, or if it is given the step
- * grows. The method is verlet. MOTUS_METHOD: as motus_method_admits. MOTUS_CALLBACK: a callback returned other than
- * 0.
+ * The rates of a motion are the sizes of the eigenvalues of the equations linearised along it, which a short run with
+ * steps that adapt follows, and at the start also the rate at which the force changes with t, and how fast the state
+ * changes, min(|x'|/|x|, |x''|/|x'|). The step is at most 1/80 of the period of the fastest rate, 2 pi/rate, and at
+ * most 1/100 of the way to the end. The end comes after 10 of the longest periods that the equations have at the start
+ * (where these say nothing, as at an inflection of the potential, along the motion); of what does not oscillate, after
+ * 10 times its scale of time, 1/rate. Where the force is constant the scale of time follows from the initial values: 2
+ * max(|x'|/|x''|, sqrt(|x|/|x''|)), after which the run ends; without a force after 10 |x|/|x'|, or at 10. Both
+ * numbers are rounded to 1, 2 or 5 times a power of ten. There are at most 1e6 steps, of large systems fewer, and the
+ * end comes earlier to keep to that, or if it is given the step grows: to half of the method's stability limit, and
+ * then there are more. The method is verlet. MOTUS_METHOD: as motus_method_admits. MOTUS_CALLBACK: a callback returned
+ * other than 0 at the start.
  *
  * Of a system with `draft` it follows the motion itself, by an embedded pair of orders 3 and 2, and says of it what
  * happened in what was followed. Of what swings, the step is 1/60 of the shortest swing, from a turning point to the
@@ -434,6 +436,13 @@ MOTUS_API motus_status motus_settings_of(const motus_system *, motus_settings *)
  * scales of time of what does not oscillate, "for a start". The numbers have two digits, the end of a fall three, and
  * there are at most 10000 steps. */
 MOTUS_API motus_status motus_suggest(motus_system *, motus_settings *, motus_error *);
+
+/* motus_suggest for an ensemble: the step is the shortest that one of `trajectories` trajectories needs, those at the
+ * ends of what varies, say. names and values: as `vary` of motus_ensemble_def and the values of motus_ensemble_run,
+ * `until` is passed over; trajectories that have no step, as they stop at once, count for nothing. The end is that of
+ * the system as it is. MOTUS_NAME: as motus_ensemble_create. */
+MOTUS_API motus_status motus_suggest_varied(motus_system *, size_t count, const char *const *names, size_t trajectories,
+                                            const double *const *values, motus_settings *, motus_error *);
 
 /* What the library knows of the equations: read off a model, given by the definition of a callback. 1: yes; 0: no, or
  * not known. */

@@ -557,7 +557,7 @@ refuses "auto and step" 2 "give --accuracy 1e-9 in its place" "$motus" run noste
 refuses "an accuracy below rounding" 2 "is below the rounding of the numbers" "$motus" run nostep.motus --accuracy 1e-17
 refuses "a negative accuracy" 2 "--accuracy" "$motus" run nostep.motus --accuracy -1
 "$motus" run nostep.motus --method verlet >"$out" 2>"$err"
-that "no step anywhere: one is suggested" eval "grep -qF 'the model gives no step: motus takes it from its fastest rate at the start, 1, and its longest period, or time of growth, there, 6.28. To keep it' '$err'"
+that "no step anywhere: one is suggested" eval "grep -qF 'the model gives no step: motus takes it from the fastest rate of its motion, 1, and its longest period, or time of growth, 6.28. To keep it' '$err'"
 that "... as a line of a model" eval "grep -qx 'step 0.01' '$err'"
 "$motus" run nostep.motus --method verlet --json >"$out" 2>"$err"
 that "... and marked in JSON" holds '.step == 0.01 and .suggested == {"step": 0.01}'

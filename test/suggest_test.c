@@ -47,6 +47,19 @@ static const struct {
     {"r'' = -r/|r|^3; r(0) = (0.4, 0); r'(0) = (0, 2)", 5.5902, 1.5895, 0.01, 20},
     {"r'' = -3.986e14 r/|r|^3; r(0) = (7e6, 0); r'(0) = (0, 7546)", NAN, 5828.5, 50, 50000},
     {"x'' = if(t > 2.5, 1, 0); x(0) = 0; x'(0) = 0", NAN, NAN, 0.2, 200}, /* within the run */
+    /* The start tells nothing of the motion: an inflection of the potential, a flight, a place far away. */
+    {"x'' = -9.81 sin(x); x(0) = pi/2; x'(0) = 0", 3.1321, NAN, 0.02, NAN},
+    {"x'' = -9.81 sin(x); x(1e6) = pi/2; x'(1e6) = 0; until 1000100", 3.1321, NAN, 0.02, 1000100},
+    {"x'' = -9.81 sin(x); x(0) = pi/2; x'(0) = 0; until -10", 3.1321, NAN, 0.02, -10},
+    {"x'' = if(x < 0, -1e4 x, 0) - 9.81; x(0) = 1; x'(0) = 0", 100, NAN, 0.0005, 0.5},
+    {"r'' = -r/|r|^3; r(0) = (1.9, 0); r'(0) = (0, 0.22942)", NAN, 16.456, 0.001, 200}, /* e = 0.9 */
+    {"x'' = -(1 + 0.5 cos(20 t)) x; x(0) = 0; x'(0) = 1", 20, 5.1302, 0.002, 50},
+    {"k = 1; x'' = -k x; x(0) = 1; x'(0) = 0; when x = 0 falling: k = 100; when x = 0 rising: k = 1", 10, 6.2832, 0.005,
+     50},
+    /* what runs into a singularity becomes faster without end */
+    {"s' = s^2; s(0) = 1", 2, 0.5, 0.02, 5},
+    {"x'' = exp(x); x(0) = 0; x'(0) = 0", 1, 1, 0.05, 10},
+    {"r'' = -r/|r|^3; r(0) = (1, 0); r'(0) = (0, 0)", 1.4142, 0.70711, 0.05, 5},
 };
 
 static void rates(void **state)
@@ -57,10 +70,12 @@ static void rates(void **state)
         const motus_settings set = suggestion(s, NAN, NAN);
         if (!(isnan(known[k].rate) || fabs(set.rate - known[k].rate) <= 0.02 * known[k].rate) ||
             !(isnan(known[k].period) || fabs(set.period - known[k].period) <= 0.02 * known[k].period) ||
-            set.step != known[k].step || set.until != known[k].until)
+            set.step != known[k].step || !(isnan(known[k].until) || set.until == known[k].until))
             fail_msg("%s: rate %g, period %g, step %.17g, until %.17g", known[k].text, set.rate, set.period, set.step,
                      set.until);
-        assert_true(is_round(set.step) && is_round(set.until));
+        assert_true(is_round(set.step) && (is_round(set.until) || set.until == known[k].until));
+        if (!(set.until / set.step <= 1e6 * (1 + 1e-9) || set.until > 1e6))
+            fail_msg("%s: too many steps", known[k].text);
         assert_string_equal(set.method, "verlet");
         motus_system_destroy(s);
     }
@@ -92,8 +107,8 @@ static void given_numbers_stay(void **state)
     assert_true(set.step == 0.25 && set.until == 53);
     set = suggestion(s, NAN, 4);
     assert_true(set.step == 0.01 && set.until == 4); /* at least 100 steps */
-    set = suggestion(s, NAN, -1e6);                  /* at most a million */
-    assert_true(set.step == 2 && set.until == -1e6);
+    set = suggestion(s, NAN, -1e6);                  /* a million; at 2 verlet would be at its stability limit */
+    assert_true(set.step == 1 && set.until == -1e6);
     set = suggestion(s, 1e-6, NAN);
     assert_true(set.step == 1e-6 && fabs(set.until - 4) < 1e-9);
     set = suggestion(s, 0.5, 4);
@@ -103,6 +118,78 @@ static void given_numbers_stay(void **state)
     motus_run *r = given_run(s, NULL, NAN, NAN);
     assert_true(motus_run_last_step(r) == 0 && motus_run_step_size(r) < 0.0785);
     motus_run_destroy(r);
+    motus_system_destroy(s);
+}
+
+/* However far the end is, no step grows where the motion does not: of the fastest rate of oscillations and of what
+ * decays, by every method. */
+static void stable_steps(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *text;
+        double re, im;
+    } motions[] = {{"x'' = -4 x; x(0) = 1; x'(0) = 0", 0, 2},
+                   {"x'' = -x' - 4 x; x(0) = 1; x'(0) = 0", -0.5, 1.9364916731037084},
+                   {"x'' = -100 x' - x; x(0) = 1; x'(0) = 0", -99.98999899979995, 0},
+                   {"x'' = -4 sin(x); x(0) = pi/2; x'(0) = 0", 0, 2}};
+    motus_error err = motus_default_error();
+    size_t judged = 0;
+    for (size_t m = 0; m < sizeof motions / sizeof *motions; m++) {
+        motus_system *s = given_text(motions[m].text);
+        const motus_method *card;
+        for (size_t k = 0; (card = motus_method_at(k)) != NULL; k++) {
+            if (card->adaptive || motus_method_admits(s, card->name, NULL) != MOTUS_OK) continue;
+            motus_settings set = motus_default_settings();
+            set.method = card->name;
+            set.until = 1e9;
+            must(motus_suggest(s, &set, &err), &err, "motus_suggest");
+            const double longer[] = {set.step * motions[m].re, set.step * motions[m].im};
+            double radius;
+            if (card->stability_limit == 0 && motions[m].re == 0) continue; /* every step grows */
+            must(motus_stability(card->name, 1, &longer[0], &longer[1], &radius, &err), &err, "motus_stability");
+            if (!(radius <= 1 + 1e-9))
+                fail_msg("%s, %s: step %g grows by %g", motions[m].text, card->name, set.step, radius);
+            judged++;
+        }
+        motus_system_destroy(s);
+    }
+    assert_true(judged > 60);
+}
+
+/* The step suits the fastest of the trajectories, and only them; the end is the system's own. */
+static void varied(void **state)
+{
+    (void)state;
+    motus_error err = motus_default_error();
+    motus_system *s = given_text("k = 1e6; x'' = -k x; x(0) = 1; x'(0) = 0");
+    const char *names[] = {"k", "until", "x(0)"};
+    const double k[] = {1, 100, 4}, ends[] = {1, 2, 3}, x[] = {1, 2, INFINITY}, *values[] = {k, ends, x};
+    motus_settings set = motus_default_settings();
+    set.until = 50;
+    must(motus_suggest_varied(s, 3, names, 3, values, &set, &err), &err, "motus_suggest_varied");
+    assert_true(set.step == 0.005 && set.until == 50 && fabs(set.rate - 10) < 1e-9);
+    set = motus_default_settings();
+    must(motus_suggest_varied(s, 3, names, 1, values, &set, &err), &err, "motus_suggest_varied");
+    assert_true(set.step == 0.05 && set.until == 0.05); /* at least one step */
+    motus_parameter p = motus_default_parameter();
+    double own;
+    must(motus_parameter_at(s, 0, &p), NULL, "parameter");
+    must(motus_parameter_values(s, 0, &own), NULL, "parameter");
+    assert_true(own == 1e6); /* the system is as it was */
+    set = motus_default_settings();
+    assert_int_equal(motus_suggest_varied(s, 1, (const char *[]){"q"}, 1, values, &set, &err), MOTUS_NAME);
+    assert_int_equal(motus_suggest_varied(s, 1, NULL, 1, values, &set, &err), MOTUS_ARGUMENT);
+    assert_int_equal(motus_suggest_varied(s, 1, names, 1, NULL, &set, &err), MOTUS_ARGUMENT);
+    must(motus_suggest_varied(s, 0, NULL, 0, NULL, &set, &err), &err, "nothing varies");
+    assert_true(set.rate > 999);
+    motus_system_destroy(s);
+    s = given_text("x'' = -9.81 sin(x); x(0) = 0; x'(0) = 0");
+    const double starts[] = {1.5707963267948966, 3.14159}, *both[] = {starts};
+    set = motus_default_settings();
+    set.until = 1000;
+    must(motus_suggest_varied(s, 1, (const char *[]){"x(0)"}, 2, both, &set, &err), &err, "motus_suggest_varied");
+    assert_true(set.step == 0.02);
     motus_system_destroy(s);
 }
 
@@ -221,7 +308,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(rates),      cmocka_unit_test(slow_and_fast), cmocka_unit_test(given_numbers_stay),
         cmocka_unit_test(everywhere), cmocka_unit_test(callbacks),     cmocka_unit_test(wrong_requests),
-        cmocka_unit_test(no_scale),
+        cmocka_unit_test(no_scale),   cmocka_unit_test(stable_steps),  cmocka_unit_test(varied),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -748,5 +748,31 @@ that "sweeps for their fingerprints were made" [ "$(wc -l <prints)" -gt 100 ]
 sort -u prints | sed 's/ [0-9a-f]*  -$//' | uniq -d >twice
 that "different numbers have different fingerprints" empty twice
 
+# --- a step that nobody gives -----------------------------------------------------------------------------------------------------
+# At pi/2 the linearised pendulum does not move; on its way it has the rate sqrt(9.81), 3.13.
+printf "x'' = -9.81 sin(x)\nx(0) = pi/2\nx'(0) = 0\n" >pendulum.motus
+sweep pendulum.motus --vary "x(0)=pi/2,pi/3,1" --until 1000 >"$out" 2>"$err"
+that "a sweep takes the fastest rate of its motions" eval "grep -qx 'step 0.02' '$err' && grep -q 'the fastest rate of the motions at the ends of what varies, 3\.' '$err'"
+that "... and no pendulum leaves its swing" eval "column 3 | tr ' ' '\n' | awk 'NF && (\$1 > 1.58 || \$1 < -1.58) { exit 1 }'"
+sed "s/^θ1(0).*/θ1(0) = pi\/2/; s/^θ2(0).*/θ2(0) = pi\/2/" "$root/models/double-pendulum.motus" | grep -v '^method\|^step\|^until' >double.motus
+sweep double.motus --vary "θ1(0)=pi/2,1.5,1.6" --until 20 --json -o double.csv >"$out" 2>"$err"
+that "a double pendulum goes to its end" holds '.stopped == 0 and .suggested.step <= 0.01'
+# k is 1 in the model: the step is for the end of the sweep, whatever part of it is computed, in whatever order
+printf "k = 1\nx'' = -k x\nx(0) = 1\nx'(0) = 0\nuntil 10\n" >stiffness.motus
+for values in "k=1:100:200" "k=100:1:200" "k=@k.csv:k" "k=log:1:100:50"; do
+    { echo k; seq 1 40; echo 100; seq 41 50; } >k.csv
+    for part in 1/3 2/3 3/3; do
+        sweep stiffness.motus --vary "$values" --shard $part -o /dev/null --force >/dev/null 2>"$err"
+        that "the step is that of the stiffest, $values, part $part" grep -qx 'step 0.005' "$err"
+    done
+done
+sweep stiffness.motus --random k=1:100 --count 50 -o /dev/null --force >/dev/null 2>"$err"
+that "... of draws" grep -qx 'step 0.005' "$err"
+sweep stiffness.motus --vary k=1:100:20 --vary "x(0)=1:2:20" --zip -o /dev/null --force >/dev/null 2>"$err"
+that "... of axes that go together" grep -qx 'step 0.005' "$err"
+printf "a = 1; b = 1; c = 1; d = 1; e = 1; f = 1\nx'' = -a b c d e f x\nx(0) = 1\nx'(0) = 0\nuntil 10\n" >six.motus
+sweep six.motus --vary a=1:4:2 --vary b=1,2 --vary c=1,1 --vary d=1,1,1 --vary e=2,1 --vary f=1:2:2 -o /dev/null --force >/dev/null 2>"$err"
+that "... of six axes" grep -qx 'step 0.01' "$err"
+
 echo "$passed passed, $failed failed"
 [ $failed = 0 ]
