@@ -5,7 +5,9 @@
  * times into it, in one version of its format, and everything has its place before any block is written. Those of a
  * compressed one depend on its numbers and on the versions of HDF5 and zlib, too.
  */
-#define _XOPEN_SOURCE 700
+#ifndef _GNU_SOURCE
+#define _GNU_SOURCE /* SEEK_DATA */
+#endif
 #include "archive/bytes.h"
 #include "archive/directory.h"
 #include "archive/make.h"
@@ -31,6 +33,8 @@ enum {
     FILL = 1 << 20
 };
 static const char MISSING[] = "\xff"; /* of words */
+
+enum { TAKEN = 1 << 26, SYNCED = 1 << 25 }; /* bytes between two looks whether to stop */
 
 typedef struct maker {
     const motus_archive_def *def;
@@ -404,14 +408,21 @@ static motus_status put(const maker *m, int descriptor, const void *bytes, size_
     return bytes_put(descriptor, bytes, count, place) ? MOTUS_OK : no_room(m, errno);
 }
 
+static motus_status stopped(const maker *m)
+{
+    const bool stops = m->def->stop && m->def->stop(m->def->context);
+    return stops ? fail(m->err, MOTUS_CANCELLED, "cancelled") : MOTUS_OK;
+}
+
 /* Puts `total` bytes of a repeated piece. */
 static motus_status repeat(const maker *m, int descriptor, const char *piece, size_t size, uint64_t total,
                            uint64_t place)
 {
     motus_status status = MOTUS_OK;
     for (uint64_t done = 0; !status && done < total; done += size) {
-        if (m->def->stop && m->def->stop(m->def->context)) return fail(m->err, MOTUS_CANCELLED, "cancelled");
-        status = put(m, descriptor, piece, total - done < size ? (size_t)(total - done) : size, place + done);
+        status = stopped(m);
+        if (!status)
+            status = put(m, descriptor, piece, total - done < size ? (size_t)(total - done) : size, place + done);
     }
     return status;
 }
@@ -420,11 +431,18 @@ static motus_status put_numbers(const maker *m, int descriptor, int64_t *room)
 {
     const motus_archive_def *d = m->def;
     const uint64_t most = FILL / sizeof *room;
+    uint64_t written = 0;
     motus_status status = MOTUS_OK;
     for (uint64_t row = 0; !status && row < d->rows; row += most) {
         const size_t count = (size_t)(d->rows - row < most ? d->rows - row : most);
         for (size_t i = 0; i < count; i++) room[i] = (int64_t)(d->number ? d->number(d->context, row + i) : row + i);
-        status = put(m, descriptor, room, count * sizeof *room, m->places[0] + row * sizeof *room);
+        status = stopped(m);
+        if (!status) status = put(m, descriptor, room, count * sizeof *room, m->places[0] + row * sizeof *room);
+        /* in pieces, since no signal ends the wait for the disk */
+        written += count * sizeof *room;
+        if (status || written < SYNCED) continue;
+        if (!disk_sync(descriptor)) status = no_room(m, errno);
+        written = 0;
     }
     return status;
 }
@@ -471,9 +489,15 @@ static motus_status fill(const maker *m, int descriptor)
 static motus_status take_room(const maker *m, int descriptor)
 {
     struct stat about;
-    if (fstat(descriptor, &about) != 0 || about.st_size == 0) return MOTUS_OK;
-    const int code = posix_fallocate(descriptor, 0, about.st_size);
-    return code == ENOSPC || code == EDQUOT || code == EFBIG ? no_room(m, code) : MOTUS_OK;
+    motus_status status = MOTUS_OK;
+    int code = 0;
+    if (fstat(descriptor, &about) != 0) return MOTUS_OK;
+    for (off_t at = 0; !status && !code && at < about.st_size; at += TAKEN) {
+        status = stopped(m);
+        const off_t left = about.st_size - at;
+        if (!status) code = posix_fallocate(descriptor, at, left < TAKEN ? left : TAKEN);
+    }
+    return code == ENOSPC || code == EDQUOT || code == EFBIG ? no_room(m, code) : status;
 }
 
 /* Everything of an archive without a block. */
@@ -510,7 +534,7 @@ static motus_status by_us(const maker *m, const char *path, size_t size)
         return fail(m->err, MOTUS_MEMORY, "no memory for the directory of %s", m->path);
     }
     const int descriptor = open(path, O_RDWR | O_CLOEXEC);
-    motus_status status = descriptor < 0 ? fail(m->err, MOTUS_FILE, "cannot write %s: %s", path, strerror(errno))
+    motus_status status = descriptor < 0 ? fail(m->err, MOTUS_FILE, "cannot write %s: %s", m->path, strerror(errno))
                                          : put(m, descriptor, text, size, 0);
     if (!status) status = m->def->from ? put_hashes(m, descriptor, size) : put_missing(m, descriptor);
     if (descriptor >= 0 && close(descriptor) != 0 && !status)
@@ -519,7 +543,40 @@ static motus_status by_us(const maker *m, const char *path, size_t size)
     return status;
 }
 
-motus_status make_hdf5_2(const char *path, const motus_archive_def *d, motus_error *err)
+/* Copies what HDF5 has written, all but holes, into our file. HDF5 takes a name only, and a named file would stay where
+ * the program is killed while it is filled. */
+static motus_status take_over(const maker *m, const char *from, int to)
+{
+    enum { PIECE = 1 << 20 };
+    const int descriptor = open(from, O_RDONLY | O_CLOEXEC);
+    struct stat about;
+    char *room = malloc(PIECE);
+    motus_status status = room ? MOTUS_OK : fail(m->err, MOTUS_MEMORY, "no memory to make %s", m->path);
+    if (!status && (descriptor < 0 || fstat(descriptor, &about) != 0 || ftruncate(to, about.st_size) != 0))
+        status = no_room(m, errno);
+    for (off_t at = 0, end = 0; !status && at < about.st_size;) {
+        if (at == end) {
+            at = lseek(descriptor, at, SEEK_DATA);
+            end = at < 0 ? at : lseek(descriptor, at, SEEK_HOLE);
+            if (at < 0 && errno == ENXIO) break; /* a hole up to the end */
+        }
+        if (at < 0 || end <= at) {
+            status = no_room(m, errno);
+            continue;
+        }
+        const size_t some = end - at < PIECE ? (size_t)(end - at) : PIECE;
+        errno = EIO;
+        status = stopped(m);
+        if (!status && !bytes_get(descriptor, room, some, (uint64_t)at)) status = no_room(m, errno);
+        if (!status) status = put(m, to, room, some, (uint64_t)at);
+        at += (off_t)some;
+    }
+    if (descriptor >= 0) close(descriptor);
+    free(room);
+    return status;
+}
+
+motus_status make_hdf5_3(const char *path, const motus_archive_def *d, motus_error *err)
 {
     size_t size = 0;
     motus_status status;
@@ -528,20 +585,26 @@ motus_status make_hdf5_2(const char *path, const motus_archive_def *d, motus_err
                .err = err,
                .file = H5I_INVALID_HID,
                .places = calloc(4 + d->column_count, sizeof *m.places)};
-    char *name = disk_real(path), *beside = name ? disk_beside(name, ".new") : NULL;
+    char *name = disk_real(path), *beside = name ? disk_beside(name, ".new") : NULL, place[DISK_PLACE];
     char *text = directory_write(d, NULL, &size);
+    const int nameless = d->descriptor || d->from || !name ? -1 : disk_nameless(name, 0666);
+    const int own = d->descriptor ? d->descriptor - 1 : nameless;
+    const char *at = own >= 0 ? disk_place(own, place) : beside;
     if (!m.places || !text || !beside) {
         status = fail(err, MOTUS_MEMORY, "no memory to make %s", path);
     } else {
         struct stat about; /* a file that is replaced leaves its permissions */
-        const bool there = stat(name, &about) == 0;
+        const bool there = !d->descriptor && stat(name, &about) == 0;
         status = by_hdf5(&m, beside, size);
-        if (!status && there) (void)chmod(beside, about.st_mode & 07777);
-        if (!status) status = by_us(&m, beside, size);
-        if (!status && rename(beside, name) != 0)
+        if (!status && own >= 0) status = take_over(&m, beside, own);
+        if (own >= 0 && m.file >= 0) unlink(beside);
+        if (!status && there) (void)chmod(at, about.st_mode & 07777);
+        if (!status) status = by_us(&m, at, size);
+        if (!status && !d->descriptor && (own >= 0 ? !disk_name(own, name) : rename(beside, name) != 0))
             status = fail(err, MOTUS_FILE, "cannot write %s: %s", path, strerror(errno));
-        if (status && m.file >= 0) unlink(beside);
+        if (status && own < 0 && m.file >= 0) unlink(beside);
     }
+    if (nameless >= 0) close(nameless);
     free(beside);
     free(name);
     free(text);

@@ -10,12 +10,12 @@
 
 #define MAKE_MODULE "motus-hdf5.so"
 /* The number changes with whatever crosses the border, motus_archive too: a module of another build is not taken. */
-#define MAKE_FUNCTION "make_hdf5_2"
+#define MAKE_FUNCTION "make_hdf5_3"
 #define MAKE_UNPACK "unpack_piece_2"
 
 /* As motus_archive_create(), of a definition that was checked. */
 typedef motus_status make_archive(const char *path, const motus_archive_def *, motus_error *);
-__attribute__((visibility("default"))) make_archive make_hdf5_2;
+__attribute__((visibility("default"))) make_archive make_hdf5_3;
 
 /* Fills `out` with the numbers of a compressed block, `count` bytes in units of `width`, whatever the bytes are.
  * Returns 0 if these are not so many numbers. */

@@ -1,5 +1,7 @@
 /* See disk.h. */
-#define _XOPEN_SOURCE 700
+#ifndef _GNU_SOURCE
+#define _GNU_SOURCE /* O_TMPFILE */
+#endif
 #include "base/disk.h"
 
 #include <errno.h>
@@ -46,4 +48,71 @@ bool disk_replace(const char *from, const char *name)
     if (rename(from, name) != 0) return false;
     disk_sync_name(name);
     return true;
+}
+
+const char *disk_place(int descriptor, char out[DISK_PLACE])
+{
+    snprintf(out, DISK_PLACE, "/proc/self/fd/%d", descriptor);
+    return out;
+}
+
+int disk_nameless(const char *name, int mode)
+{
+#ifdef O_TMPFILE
+    char *folder = strdup(name), place[DISK_PLACE];
+    if (!folder) return -1;
+    char *slash = strrchr(folder, '/');
+    if (slash) slash[1] = 0;
+    const int descriptor = open(slash ? folder : ".", O_TMPFILE | O_RDWR | O_CLOEXEC, mode);
+    free(folder);
+    if (descriptor < 0 || access(disk_place(descriptor, place), F_OK) == 0) return descriptor;
+    close(descriptor);
+#else
+    (void)name, (void)mode;
+#endif
+    return -1;
+}
+
+/* A name that is free, in the folder of `name`; the caller frees it. NULL: errno says why. */
+static char *free_name(const char *name)
+{
+    static const char beside[] = ".motus-XXXXXX";
+    const char *slash = strrchr(name, '/');
+    const size_t folder = slash ? (size_t)(slash - name) + 1 : 0;
+    char *made = malloc(folder + sizeof beside);
+    if (!made) return NULL;
+    memcpy(made, name, folder);
+    memcpy(made + folder, beside, sizeof beside);
+    const int descriptor = mkstemp(made);
+    if (descriptor < 0) {
+        free(made);
+        return NULL;
+    }
+    close(descriptor);
+    unlink(made);
+    return made;
+}
+
+bool disk_name(int descriptor, const char *name)
+{
+    char place[DISK_PLACE], *between = NULL;
+    disk_place(descriptor, place);
+    bool named = linkat(AT_FDCWD, place, AT_FDCWD, name, AT_SYMLINK_FOLLOW) == 0;
+    if (named) disk_sync_name(name);
+    for (int tries = 0; !named && errno == EEXIST && tries < 100; tries++) {
+        free(between);
+        between = free_name(name);
+        if (!between) break;
+        if (linkat(AT_FDCWD, place, AT_FDCWD, between, AT_SYMLINK_FOLLOW) != 0) continue;
+        named = disk_replace(between, name);
+        if (named) break;
+        const int code = errno;
+        unlink(between);
+        errno = code;
+        break;
+    }
+    const int code = errno;
+    free(between);
+    errno = code;
+    return named;
 }

@@ -17,4 +17,13 @@ char *disk_beside(const char *name, const char *ending);
 /* Puts a complete file in the place of another, atomically and for good. False: errno says why not. */
 bool disk_replace(const char *from, const char *name);
 
+/* A file in the folder of `name` that has no name, so that it is gone with its last descriptor, however the program
+ * ends. -1: the system has none, or could not name it later. */
+int disk_nameless(const char *name, int mode);
+enum { DISK_PLACE = 40 };
+/* By which name such a file can be opened as long as the descriptor is. Returns out. */
+const char *disk_place(int descriptor, char out[DISK_PLACE]);
+/* Gives it the name, in place of a file that has it, atomically and for good. False: errno says why not. */
+bool disk_name(int descriptor, const char *name);
+
 #endif

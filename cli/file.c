@@ -155,33 +155,16 @@ static motus_status cannot_write(file_out *f, motus_error *err)
     return fail(err, MOTUS_FILE, "cannot write %s: %s", called(f->path, false), strerror(f->code));
 }
 
-/* Where a file without a name can be linked from. */
-static const char *descriptor_path(int fd, char out[40])
-{
-    snprintf(out, 40, "/proc/self/fd/%d", fd);
-    return out;
-}
-
-/* A file without a name beside f->path; -1: the system has none, or could not name it later. */
+/* A file without a name beside f->path; -1: see disk_nameless(). */
 static int open_nameless(file_out *f)
 {
-#ifdef O_TMPFILE
-    char *folder = strdup(f->path), from[40];
-    if (!folder) return -1;
-    char *slash = strrchr(folder, '/');
-    if (slash) slash[1] = 0;
-    int fd = open(slash ? folder : ".", O_TMPFILE | O_WRONLY | O_CLOEXEC, 0600);
-    free(folder);
-    if (fd < 0) return -1;
-    const int kept = access(descriptor_path(fd, from), F_OK) == 0 ? fcntl(fd, F_DUPFD_CLOEXEC, 0) : -1;
+    const int fd = disk_nameless(f->path, 0600);
+    const int kept = fd >= 0 ? fcntl(fd, F_DUPFD_CLOEXEC, 0) : -1;
     if (kept >= 0) {
         f->nameless = kept + 1;
         return fd;
     }
-    close(fd);
-#else
-    (void)f;
-#endif
+    if (fd >= 0) close(fd);
     return -1;
 }
 
@@ -279,46 +262,15 @@ motus_status file_finish(file_out *f, motus_error *err)
     return f->code ? cannot_write(f, err) : MOTUS_OK;
 }
 
-/* Gives a file without a name f->path or, where a file has that name, one that is free, to be renamed. False: errno
- * says why. */
-static bool link_nameless(file_out *f)
-{
-    char from[40];
-    const int fd = f->nameless - 1;
-    bool linked = linkat(AT_FDCWD, descriptor_path(fd, from), AT_FDCWD, f->path, AT_SYMLINK_FOLLOW) == 0;
-    for (int tries = 0; !linked && errno == EEXIST && tries < 100; tries++) {
-        free(f->temporary);
-        if (!name_temporary(f)) break;
-        const int free_name = mkstemp(f->temporary); /* only to have a name that is free */
-        if (free_name < 0) break;
-        close(free_name);
-        unlink(f->temporary);
-        linked = linkat(AT_FDCWD, from, AT_FDCWD, f->temporary, AT_SYMLINK_FOLLOW) == 0;
-    }
-    const int code = errno;
-    if (!linked) {
-        free(f->temporary);
-        f->temporary = NULL;
-    }
-    close(fd);
-    f->nameless = 0;
-    errno = code;
-    return linked;
-}
-
 motus_status file_keep(file_out *f, motus_error *err)
 {
-    const bool nameless = f->nameless != 0;
-    if (nameless && !link_nameless(f)) {
+    if (!f->nameless && !f->temporary) return MOTUS_OK;
+    if (f->nameless ? !disk_name(f->nameless - 1, f->path) : !disk_replace(f->temporary, f->path)) {
         f->code = errno;
         return cannot_write(f, err);
     }
-    if (nameless && !f->temporary) disk_sync_name(f->path);
-    if (!f->temporary) return MOTUS_OK;
-    if (!disk_replace(f->temporary, f->path)) {
-        f->code = errno;
-        return cannot_write(f, err);
-    }
+    if (f->nameless) close(f->nameless - 1);
+    f->nameless = 0;
     free(f->temporary);
     f->temporary = NULL;
     return MOTUS_OK;
@@ -332,6 +284,55 @@ void file_drop(file_out *f)
     free(f->temporary);
     free(f->path);
     *f = (file_out){0};
+}
+
+motus_status file_beside_make(file_beside *f, const char *name, const char *ending, motus_error *err)
+{
+    char place[DISK_PLACE];
+    *f = (file_beside)FILE_BESIDE;
+    f->name = disk_real(name);
+    f->descriptor = f->name ? disk_nameless(f->name, 0666) : -1;
+    f->path = f->descriptor >= 0 ? strdup(disk_place(f->descriptor, place))
+              : f->name          ? disk_beside(f->name, ending)
+                                 : NULL;
+    return f->path ? MOTUS_OK : complain_memory(err);
+}
+
+motus_status file_beside_keep(file_beside *f, motus_error *err)
+{
+    if (f->descriptor >= 0 ? !disk_name(f->descriptor, f->name) : !disk_replace(f->path, f->name))
+        return fail(err, MOTUS_FILE, "cannot write %s: %s", f->name, strerror(errno));
+    if (f->descriptor >= 0) close(f->descriptor);
+    f->descriptor = -1;
+    free(f->path);
+    f->path = NULL;
+    return MOTUS_OK;
+}
+
+static void put_name(char *text, size_t size, const char *path, const char *name)
+{
+    char whole[2 * MOTUS_TEXT_MAX], *at = strstr(text, path);
+    if (!at) return;
+    snprintf(whole, sizeof whole, "%.*s%.400s%s", (int)(at - text), text, name, at + strlen(path));
+    snprintf(text, size, "%.*s", (int)size - 1, whole);
+}
+
+void file_beside_complain(const file_beside *f, const char *name, motus_error *err)
+{
+    if (!err || !f->path) return;
+    put_name(err->message, sizeof err->message, f->path, name);
+    put_name(err->hint, sizeof err->hint, f->path, name);
+}
+
+void file_beside_drop(file_beside *f)
+{
+    if (f->descriptor >= 0)
+        close(f->descriptor);
+    else if (f->path)
+        unlink(f->path);
+    free(f->name);
+    free(f->path);
+    *f = (file_beside)FILE_BESIDE;
 }
 
 /* Opened the other way round, so that reading and writing fail: what is asked for and cannot be told is an error. */

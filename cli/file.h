@@ -42,6 +42,24 @@ motus_status file_keep(file_out *, motus_error *);
 /* Removes a file that was not kept, and frees. Call in any case. */
 void file_drop(file_out *);
 
+/* An archive beside the one in whose place it comes when it is complete; where the system has files without a name, it
+ * has none until then, so that a killed program leaves nothing behind. */
+typedef struct file_beside {
+    char *name; /* of the file in whose place it comes */
+    char *path; /* by which it is opened until it is kept */
+    int descriptor;
+} file_beside;
+#define FILE_BESIDE    \
+    {                  \
+        NULL, NULL, -1 \
+    }
+motus_status file_beside_make(file_beside *, const char *name, const char *ending, motus_error *);
+motus_status file_beside_keep(file_beside *, motus_error *);
+/* In a message the name that the user has given takes the place of the path. */
+void file_beside_complain(const file_beside *, const char *name, motus_error *);
+/* Removes a file that was not kept, and frees. Call in any case. */
+void file_beside_drop(file_beside *);
+
 /* Opens the descriptors 0 to 2 where they are closed: what reads or writes them then fails, as if they were closed. */
 void file_open_standard(void);
 bool file_output_closed(void); /* standard output was closed when the program began, or cannot be written */

@@ -4,14 +4,13 @@
  * the first shard without the shard, and the blocks of all.
  */
 #include "base/decimal.h"
-#include "base/disk.h"
 #include "base/error.h"
 #include "cli/block_room.h"
 #include "cli/complain.h"
+#include "cli/file.h"
 #include "cli/part.h"
 #include "cli/sweep.h"
 
-#include <errno.h>
 #include <motus-archive.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -74,9 +73,9 @@ static char *whole_command(const char *command, const part *p)
     return out;
 }
 
-/* An archive with the columns and the notes of the first shard; `from`: NULL, or the one whose rows it has,
- * compressed. */
-static motus_status make(const part *p, const char *output, motus_archive *from, motus_error *err)
+/* An archive with the columns and the notes of the first shard, in the empty file of this descriptor (-1: it gets its
+ * name); `from`: NULL, or the one whose rows it has, compressed. */
+static motus_status make(const part *p, const char *output, int descriptor, motus_archive *from, motus_error *err)
 {
     motus_archive *a;
     motus_status status = motus_archive_open(p->path, 0, &a, err);
@@ -101,6 +100,7 @@ static motus_status make(const part *p, const char *output, motus_archive *from,
     d.rows = p->total, d.block = SHARD_BLOCK, d.columns = columns, d.notes = kept;
     d.stop = stop_asked;
     d.from = from;
+    d.descriptor = descriptor + 1;
     if (!status) status = motus_archive_create(output, &d, err);
     free(columns);
     free(kept);
@@ -156,31 +156,30 @@ motus_status part_archive_join(part *const *of, const char *output, uint64_t *mi
     while (!of[some]) some++; /* one at least is there */
     const uint64_t count = of[some]->shard.count;
     /* It has its name when all blocks are there. */
-    char *name = disk_real(output), *beside = name ? disk_beside(name, ARCHIVE_JOINED) : NULL;
-    motus_status status = beside ? MOTUS_OK : complain_memory(err);
+    file_beside beside = FILE_BESIDE;
+    motus_status status = file_beside_make(&beside, output, ARCHIVE_JOINED, err);
     struct stat about;
-    const bool there = name && stat(name, &about) == 0;
+    const bool there = beside.name && stat(beside.name, &about) == 0;
     int lock = -1; /* of the file that is replaced, which is made empty where there is none */
     bool regular = true;
-    if (!status) status = sweep_file_lock(name, &lock, &regular, err);
+    if (!status) status = sweep_file_lock(beside.name, &lock, &regular, err);
     const bool locked = !status;
-    if (!status) status = make(of[some], beside, NULL, err);
-    const bool made = !status;
-    if (!status) status = motus_archive_open(beside, 1, &j.to, err);
+    if (!status) status = make(of[some], beside.descriptor < 0 ? beside.path : output, beside.descriptor, NULL, err);
+    if (!status) status = motus_archive_open(beside.path, 1, &j.to, err);
     if (!status) status = block_room_make(&j.room, motus_archive_column_count(j.to), SHARD_BLOCK, err);
     for (uint64_t k = 0; !status && k < count; k++)
         if (of[k] && shard_rows(&of[k]->shard, of[k]->total) > 0) status = copy(&j, of[k], err);
     if (!status && missing) *missing = motus_archive_blocks(j.to) - j.copied;
     if (!status) status = motus_archive_sync(j.to, err);
-    if (!status && compress) status = make(of[some], beside, j.to, err);
+    if (!status && compress)
+        status = make(of[some], beside.name, -1, j.to, err);
+    else if (!status)
+        status = file_beside_keep(&beside, err);
     motus_archive_close(j.to);
-    if (!status && !disk_replace(beside, name))
-        status = fail(err, MOTUS_FILE, "cannot write %s: %s", output, strerror(errno));
-    if (status && made) remove(beside);
-    if (status && locked && !there) remove(name);
+    if (status) file_beside_complain(&beside, output, err);
+    if (status && locked && !there) remove(beside.name);
     if (lock >= 0) close(lock);
+    file_beside_drop(&beside);
     block_room_free(&j.room);
-    free(beside);
-    free(name);
     return status;
 }

@@ -9,9 +9,9 @@
 #include "cli/run_archive.h"
 
 #include "base/decimal.h"
-#include "base/disk.h"
 #include "base/error.h"
 #include "cli/complain.h"
+#include "cli/file.h"
 #include "cli/run_again.h"
 #include "cli/run_columns.h"
 #include "cli/run_command.h"
@@ -20,6 +20,7 @@
 #include "cli/sweep.h"
 
 #include <errno.h>
+#include <fcntl.h>
 #include <inttypes.h>
 #include <math.h>
 #include <motus-archive.h>
@@ -76,9 +77,10 @@ static uint64_t expected_rows(const run_archive *a, bool *known)
 
 /* ---- the file ---- */
 
-/* `from`: NULL, or the archive whose rows the file has, compressed. */
-static motus_status create(const run_archive *a, const char *path, uint64_t rows, size_t slot, motus_archive *from,
-                           motus_error *err)
+/* In the empty file of this descriptor; -1: it gets its name. `from`: NULL, or the archive whose rows the file has,
+ * compressed. */
+static motus_status create(const run_archive *a, const char *path, int descriptor, uint64_t rows, size_t slot,
+                           motus_archive *from, motus_error *err)
 {
     enum { NOTES = 6 };
     const motus_archive_note notes[NOTES] = {
@@ -93,6 +95,7 @@ static motus_status create(const run_archive *a, const char *path, uint64_t rows
     d.attributes = a->columns.attributes, d.attribute_count = a->columns.attribute_count;
     d.slot = slot;
     d.from = from;
+    d.descriptor = descriptor + 1;
     d.stop = from ? stop_asked : NULL; /* a run that is stopped makes its file the right size */
     return motus_archive_create(path, &d, err);
 }
@@ -133,26 +136,47 @@ static motus_status put_state(motus_archive *from, motus_archive *to, const char
     return status;
 }
 
+/* The lock of a file that has no name yet, by another descriptor of it. */
+static motus_status lock_beside(const run_archive *a, const file_beside *f, int *descriptor, motus_error *err)
+{
+    if (f->descriptor < 0) return lock(f->path, descriptor, err);
+    *descriptor = fcntl(f->descriptor, F_DUPFD_CLOEXEC, 0);
+    if (*descriptor < 0) return fail(err, MOTUS_FILE, "cannot write %s: %s", a->path, strerror(errno));
+    (void)sweep_file_take(a->path, *descriptor); /* nobody else has it */
+    return MOTUS_OK;
+}
+
+/* Makes the file that replace() puts there. */
+static motus_status make_beside(const run_archive *a, const file_beside *f, motus_archive *from, uint64_t rows,
+                                size_t slot, const char *state, size_t length, motus_error *err)
+{
+    struct stat about;
+    motus_archive *to = NULL;
+    motus_status status = create(a, f->descriptor < 0 ? f->path : a->path, f->descriptor, rows, slot, NULL, err);
+    if (!status && stat(f->name, &about) == 0) (void)chmod(f->path, about.st_mode & 07777);
+    if (!status) status = motus_archive_open(f->path, 1, &to, err);
+    if (!status && from) status = copy_blocks(a, from, to, err);
+    if (!status) status = put_state(from, to, state, length, err);
+    if (!status) status = motus_archive_sync(to, err);
+    motus_archive_close(to);
+    return status;
+}
+
 /* Puts another file in the place of the one that is locked: with the complete blocks of `from`, which may be that one
  * (NULL: none), the state of these bytes (NULL: the latest of `from`), and room for so many rows. It is locked before
  * it has its name. */
 static motus_status replace(run_archive *a, motus_archive *from, uint64_t rows, size_t slot, const char *state,
                             size_t length, motus_error *err)
 {
-    motus_archive *to = NULL;
-    struct stat about;
     int descriptor = -1;
-    char *name = disk_real(a->path), *path = name ? disk_beside(name, ARCHIVE_GROWN) : NULL;
-    motus_status status = path ? create(a, path, rows, slot, NULL, err) : complain_memory(err);
-    const bool made = !status;
-    if (!status && stat(name, &about) == 0) (void)chmod(path, about.st_mode & 07777);
-    if (!status) status = motus_archive_open(path, 1, &to, err);
-    if (!status && from) status = copy_blocks(a, from, to, err);
-    if (!status) status = put_state(from, to, state, length, err);
-    if (!status) status = motus_archive_sync(to, err);
-    if (!status) status = lock(path, &descriptor, err);
-    if (!status && !disk_replace(path, name))
-        status = fail(err, MOTUS_FILE, "cannot write %s: %s", a->path, strerror(errno));
+    file_beside beside = FILE_BESIDE;
+    motus_archive *to = NULL;
+    motus_status status = file_beside_make(&beside, a->path, ARCHIVE_GROWN, err);
+    if (!status) status = make_beside(a, &beside, from, rows, slot, state, length, err);
+    if (!status) status = lock_beside(a, &beside, &descriptor, err);
+    if (!status) status = file_beside_keep(&beside, err);
+    if (status) file_beside_complain(&beside, a->path, err);
+    if (!status) status = motus_archive_open(a->path, 1, &to, err); /* by the name that its messages are to have */
     if (!status) {
         motus_archive_close(a->file);
         close(a->descriptor);
@@ -160,13 +184,10 @@ static motus_status replace(run_archive *a, motus_archive *from, uint64_t rows, 
         a->descriptor = descriptor;
         a->capacity = rows;
         a->slot = slot;
-    } else {
-        motus_archive_close(to);
-        if (descriptor >= 0) close(descriptor);
-        if (made) remove(path);
+    } else if (descriptor >= 0) {
+        close(descriptor);
     }
-    free(path);
-    free(name);
+    file_beside_drop(&beside);
     return status;
 }
 
@@ -550,7 +571,7 @@ motus_status run_archive_finish(run_archive *a, motus_error *err)
 
 motus_status run_archive_compress(run_archive *a, motus_error *err)
 {
-    return create(a, a->path, a->rows, a->slot, a->file, err);
+    return create(a, a->path, -1, a->rows, a->slot, a->file, err);
 }
 
 void run_archive_leave(run_archive *a, bool whole)

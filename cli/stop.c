@@ -1,8 +1,9 @@
 /* Signals that stop the program, and progress.
  *
- * Invariant: the handler only stores the signal; work ends when it next asks stop_requested(), temporary files are
- * removed, and then the program raises that signal again, so that a shell and its loops stop as well. A second signal
- * kills at once.
+ * Invariant: the handler stores the signal and starts a clock; work ends when it next asks stop_requested(), temporary
+ * files are removed, and then the program raises that signal again, so that a shell and its loops stop as well. Where
+ * nobody has asked when the time is over, in a library call or a loop without end, the clock raises the signal: what is
+ * left is what kill -9 leaves, which --resume takes up. A second signal kills at once.
  */
 #define _XOPEN_SOURCE 700
 #include "cli/stop.h"
@@ -10,17 +11,37 @@
 #include <signal.h>
 #include <stddef.h>
 #include <stdio.h>
+#include <sys/time.h>
 #include <time.h>
 #include <unistd.h>
 
+enum { PATIENCE = 150000, PATIENCE_KEEPING = 2000000 }; /* microseconds from the signal on */
+
 /* The program's globals that change: a signal handler has no other way to report. */
-static volatile sig_atomic_t requested;
+static volatile sig_atomic_t requested, heard;
 
 static volatile sig_atomic_t warned;
 static bool holding;
+static volatile sig_atomic_t keeping;
 
-static void store(int number) { requested = number; }
+static void store(int number)
+{
+    const struct itimerval once = {
+        .it_value = {keeping ? PATIENCE_KEEPING / 1000000 : 0, keeping ? PATIENCE_KEEPING % 1000000 : PATIENCE}};
+    requested = number;
+    setitimer(ITIMER_REAL, &once, NULL);
+}
+
 static void warn(int number) { warned = number; }
+
+/* The time is over. */
+static void end(int number)
+{
+    (void)number;
+    if (heard || !requested) return;
+    signal((int)requested, SIG_DFL);
+    raise((int)requested);
+}
 
 /* Signals that are ignored stay so. */
 static void handle(const int *signals, size_t count, void (*handler)(int))
@@ -41,6 +62,7 @@ void stop_gently(void)
 }
 
 void stop_hold(bool held) { holding = held; }
+void stop_keep(bool keeps) { keeping = keeps; }
 
 bool stop_warned(void) { return warned != 0; }
 
@@ -57,11 +79,18 @@ void stop_file_limit(void) { ignore(SIGXFSZ); }
 void stop_catch_signals(void)
 {
     static const int caught[] = {SIGINT, SIGTERM, SIGHUP, SIGUSR1};
+    struct sigaction clock = {.sa_handler = end, .sa_flags = SA_RESTART};
+    sigemptyset(&clock.sa_mask);
+    sigaction(SIGALRM, &clock, NULL);
     handle(caught, sizeof caught / sizeof *caught, store);
     ignore(SIGPIPE); /* a closed pipe is then a failed write, after which temporary files can be removed */
 }
 
-bool stop_requested(void) { return requested != 0; }
+bool stop_requested(void)
+{
+    if (requested) heard = 1;
+    return requested != 0;
+}
 int stop_asked(void *context) { return (void)context, stop_requested(); }
 
 void stop_reader_gone(void) { requested = SIGPIPE; }
@@ -115,7 +144,7 @@ int stop_progress_hook(void *context, double fraction)
             p->shown = now;
         }
     }
-    return stop_requested() && !holding;
+    return !holding && stop_requested();
 }
 
 void stop_progress_end(stop_progress *p)

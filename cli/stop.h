@@ -4,8 +4,8 @@
 
 #include <stdbool.h>
 
-/* From now on SIGINT, SIGTERM, SIGHUP and SIGUSR1 set stop_requested() and do not kill. To be called where work begins
- * that asks for it; before, while a model is read, they kill. */
+/* From now on SIGINT, SIGTERM, SIGHUP and SIGUSR1 set stop_requested() and do not kill, unless nobody asks for it within
+ * 0.15 s. To be called where work begins that asks for it; before, while a model is read, they kill. */
 void stop_catch_signals(void);
 /* From now on a write beyond the largest size that a file may have (SIGXFSZ) fails and does not kill. */
 void stop_file_limit(void);
@@ -39,6 +39,8 @@ stop_progress stop_progress_begin(const char *what, bool quiet);
 int stop_progress_hook(void *context, double fraction);
 /* While `held`, the hook does not tell of a stop: what is done now must not be left halfway. */
 void stop_hold(bool held);
+/* While the work `keeps` a state, from which it goes on, it has 2 s after a signal to write one. */
+void stop_keep(bool keeps);
 void stop_progress_end(stop_progress *);
 
 double stop_clock(void); /* seconds of a monotonic clock */

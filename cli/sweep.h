@@ -121,6 +121,8 @@ motus_status sweep_file_check(const options *, motus_error *);
 /* The same of one file, "-": standard output. */
 motus_status sweep_file_may_write(const options *, const char *path, motus_error *);
 /* Opens a regular file that no other program writes; *regular false: another one, for writing alone. */
+/* Asks for the lock of the file of this name, by a descriptor of it; false: another program has it. */
+bool sweep_file_take(const char *path, int descriptor);
 motus_status sweep_file_lock(const char *path, int *descriptor, bool *regular, motus_error *);
 /* Whether another program writes the file. */
 bool sweep_file_busy(const char *path, int descriptor);

@@ -212,6 +212,8 @@ static bool locked_by_another(const char *path, int descriptor)
     return failed && (errno == EWOULDBLOCK || (archive && errno == EACCES));
 }
 
+bool sweep_file_take(const char *path, int descriptor) { return !locked_by_another(path, descriptor); }
+
 motus_status sweep_file_lock(const char *path, int *descriptor, bool *regular, motus_error *err)
 {
     struct stat about;
@@ -224,7 +226,7 @@ motus_status sweep_file_lock(const char *path, int *descriptor, bool *regular, m
         return fail(err, MOTUS_FILE, "cannot write %s: %s", path, strerror(errno));
     *regular = S_ISREG(about.st_mode);
     if (!*regular) return MOTUS_OK;
-    if (!locked_by_another(path, *descriptor)) {
+    if (sweep_file_take(path, *descriptor)) {
         struct stat named; /* another program may have put a new archive in its place before the lock was there */
         if (stat(path, &named) != 0 || (named.st_dev == about.st_dev && named.st_ino == about.st_ino)) return MOTUS_OK;
         close(*descriptor);

@@ -398,7 +398,9 @@ motus_status walk(motus_run *run, double start, double until, const walk_observe
     bool jumps = false;
     for (size_t i = 0; i < count; i++) jumps |= observers[i].jump != NULL;
     if (jumps) motus_run_keep_jumps(run, 1);
+    stop_keep(w.keeper.keep != NULL);
     if (!status) status = go(&w, err);
+    stop_keep(false);
     if (jumps) motus_run_keep_jumps(run, 0);
     for (size_t i = 0; w.done && i < count; i++) free(w.done[i].sides);
     free(w.values);

@@ -88,6 +88,9 @@ typedef struct motus_archive_def {
     /* NULL: no block is there. Else an archive of the same definition, all of whose blocks are there: the file that is
      * made has them, compressed, its states and its notes. It may replace that archive, which is not changed. */
     motus_archive *from;
+    /* 0: the file gets its name when it is complete. Else 1 + the descriptor of an empty file, open to read and write,
+     * in which the archive is made, for a time by way of a file beside `path`: it keeps the name that it has, or none. */
+    int descriptor;
 } motus_archive_def;
 
 MOTUS_API motus_archive_def motus_archive_default(void);

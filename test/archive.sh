@@ -86,6 +86,14 @@ for k in 1 2 3 4 5; do sweep --quiet --shard $k/5 -o "$place/part%K.h5"; done
 sweep --quiet --shard 1/5 -o "$place/rows%K.csv"
 gives "shards are joined" 0 "$motus" merge "$place"/part[35241].h5 -o "$place/joined.h5"
 that "... to the same bytes" [ "$(sum "$place/joined.h5")" = "$whole" ]
+mkdir "$place/killed"
+for wait in 02 04 07 1 15 2; do
+    "$motus" merge "$place"/part[12345].h5 -o "$place/killed/joined.h5" --force --quiet >"$out" 2>&1 &
+    sleep 0.$wait
+    kill -KILL $! 2>/dev/null
+    wait $! 2>/dev/null
+done
+that "a merge that is killed leaves nothing beside its file" eval "[ -z \"\$(ls '$place/killed' | grep joined.h5.joined)\" ]"
 gives "more shards than blocks" 0 eval "for k in 1 2 3; do '$motus' sweep '$swing' --vary 'x(0)=0.1:3:50' --quiet --shard \$k/3 -o '$place/few%K.h5'; done && '$motus' merge '$place'/few[123].h5 -o '$place/few.h5' && '$motus' sweep '$swing' --vary 'x(0)=0.1:3:50' --quiet -o '$place/fifty.h5'"
 that "... are joined too" [ "$(sum "$place/few.h5")" = "$(sum "$place/fifty.h5")" ]
 refuses "a shard that is missing" 2 "1 of 5 shards are missing: 4" "$motus" merge "$place"/part[1235].h5 -o "$place/none.h5"

@@ -475,6 +475,19 @@ for signal in $signals; do
     that "SIG$signal: the program dies of it" test $status = $((128 + $(kill -l $signal)))
     that "... and leaves no file, whole or temporary" eval "absent stopped-$signal.csv && nothing_left ."
 done
+# Where nobody asks for the signal, as in `check` of a large model, the program ends all the same.
+printf '%s\n' "x[i]'' = x[i+1] - 2 x[i] + x[i-1] for i = 2..999999" "x[1]'' = 0" "x[1000000]'' = 0" 'x[i](0) = sin(i) for i = 1..1000000' \
+    "x[i]'(0) = 0 for i = 1..1000000" >large.motus
+"$motus" check large.motus >"$out" 2>"$err" &
+child=$!
+caught() { (($((0x$(sed -n 's/^SigCgt:[[:space:]]*//p' "/proc/$1/status"))) & 0x4000)); } # SIGTERM
+for _ in $(seq 500); do caught $child 2>/dev/null && break; sleep 0.02; done
+kill -TERM $child
+for _ in $(seq 40); do kill -0 $child 2>/dev/null || break; sleep 0.05; done
+that "SIGTERM ends check of a large model within 2 s, however busy the machine is" eval "! kill -0 $child 2>/dev/null"
+kill -9 $child 2>/dev/null
+wait $child
+rm large.motus
 "$motus" run "$root/$oscillator" -o - 2>"$err" | head -n 3 >"$out"
 that "a reader that goes away" eval "[ \${PIPESTATUS[0]} != 0 ] || true; [ \$(wc -l <'$out') = 3 ] && empty '$err'"
 

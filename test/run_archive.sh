@@ -185,7 +185,7 @@ survives() {
     "$motus" run "$@" --error none -q -o one.h5 --force
     whole=$(sum one.h5)
     for _ in $(seq 60); do
-        (trap - INT; exec "$motus" run "$@" --error none -q -o dead.h5 --resume) 2>"$err" &
+        (trap - INT EXIT; exec "$motus" run "$@" --error none -q -o dead.h5 --resume) 2>"$err" &
         sleep "0.0$((RANDOM % 50 + 10))"
         kill -${signals[RANDOM % 3]} $! 2>/dev/null && kills=$((kills + 1))
         wait $! 2>/dev/null
@@ -208,9 +208,11 @@ survives "events and adaptive steps" ball.motus --method dop853 --tolerance 1e-9
 survives "a family" many.motus --until 1500 --checkpoint "2000 steps" --machine interpreter
 survives "events, rows in time" ball.motus --method verlet --step 1/64 --every 0.01 --until 1500 --machine interpreter
 survives "backward" drive.motus --method dop853 --tolerance 1e-9 --set k=0 --until -60 --every 0.0003 --machine interpreter
+rm -f full.h5
+refuses "a file that cannot grow is named as the user does" 1 "cannot write full.h5: File too large" bash -c 'ulimit -f 600; exec "$@"' - "$motus" run drive.motus --method dopri5 --tolerance 1e-8 --until 1e5 --error none -q -o full.h5
 for signal in TERM INT; do
     rm -f stopped.h5
-    (trap - INT; exec "$motus" run drive.motus --error none --until 1e7 --every "1000 steps" --machine interpreter -o stopped.h5) >"$out" 2>"$err" &
+    (trap - INT EXIT; exec "$motus" run drive.motus --error none --until 1e7 --every "1000 steps" --machine interpreter -o stopped.h5) >"$out" 2>"$err" &
     sleep 0.5
     kill -$signal $!
     wait $! 2>/dev/null
@@ -266,7 +268,7 @@ that "... and that it cannot go on" says "cannot go on with this file"
 refuses "... nor does it" 2 "no state with all the rows before it" "$motus" run told.h5 --until 600
 : >empty.h5
 refuses "an empty file" 2 "is empty" "$motus" archive empty.h5
-(trap - INT; exec "$motus" run drive.motus --error none --until 1e7 --every "1000 steps" --machine interpreter -o usr1.h5) >"$out" 2>"$err" &
+(trap - INT EXIT; exec "$motus" run drive.motus --error none --until 1e7 --every "1000 steps" --machine interpreter -o usr1.h5) >"$out" 2>"$err" &
 sleep 0.5
 kill -USR1 $!
 wait $! 2>/dev/null
