@@ -9,6 +9,7 @@
 #include "api/choice.h"
 #include "api/decimals.h"
 #include "api/suggest.h"
+#include "api/witness.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -35,7 +36,7 @@ typedef struct trial {
     motus_run_def def;
     search search;
     double *size;   /* the tolerance of the definition, or its step */
-    double steps;   /* about how many a trial takes, 0: not known */
+    run_hint hint;  /* of a trial */
     motus_run *run; /* the trial in hand */
     double bar;     /* the largest of it, INFINITY: it has none, or failed */
     double done;    /* how far it came, as a part of the whole way */
@@ -59,6 +60,14 @@ static bool ends_all(motus_status status)
            motus_status_exit(status) == 2;
 }
 
+/* Whether its switches cannot be located: the force that it had then is not the typed one. */
+static bool refuted(const motus_run *r)
+{
+    size_t number = SIZE_MAX;
+    if (r && r->bars) witness_differs(r->bars->witness, &number);
+    return number != SIZE_MAX;
+}
+
 /* One trial. MOTUS_OK also where the run itself failed: then its bar is infinite. */
 static motus_status try(trial *s, motus_error *err)
 {
@@ -68,8 +77,7 @@ static motus_status try(trial *s, motus_error *err)
     s->bar = INFINITY;
     s->done = 0;
     s->share.size = (1 - s->share.from) / 2;
-    const run_hint hint = {.steps = s->steps};
-    motus_status status = run_create(s->system, &s->def, &hint, &s->run, &s->failure);
+    motus_status status = run_create(s->system, &s->def, &s->hint, &s->run, &s->failure);
     /* the tolerance with which it runs */
     if (status == MOTUS_OK && row_adaptive(&s->run->chosen) && !absolute && s->run->chosen.relative < *s->size) {
         search_set(&s->search, s->run->chosen.relative);
@@ -81,13 +89,26 @@ static motus_status try(trial *s, motus_error *err)
         motus_estimate e = motus_default_estimate();
         status = motus_run_estimate(s->run, &e, &s->failure);
     }
+    if (s->def.switches == MOTUS_SWITCHES_USUAL && refuted(s->run)) {
+        motus_error located = s->failure;
+        motus_run_destroy(s->run);
+        s->run = NULL;
+        s->def.switches = MOTUS_SWITCHES_STEP;
+        s->hint.not_located = "switches are not located: their sides would give another force than the one that is "
+                              "written";
+        status = try(s, err);
+        if (status != MOTUS_ACCURACY || !err) return status;
+        located.hint[0] = 0; /* that has been tried */
+        motus_struct_write(MOTUS_DEF_ERROR, &located, err);
+        return located.status;
+    }
     if (status == MOTUS_OK) {
         const timing *t = &s->run->timing;
         s->bar = bar_of(s->run, absolute);
         s->done = motus_run_done(s->run) ? 1
                   : t->until != t->t0    ? (motus_run_time(s->run) - t->t0) / (t->until - t->t0)
                                          : 1;
-        s->steps = s->done > 0 ? (double)motus_run_steps(s->run) / s->done : 0;
+        s->hint.steps = s->done > 0 ? (double)motus_run_steps(s->run) / s->done : 0;
         if (!s->run->bars->why[0]) return MOTUS_OK;
         fail(&s->failure, MOTUS_ACCURACY, "no accuracy can be promised, because %s", s->run->bars->why);
         status = MOTUS_ACCURACY;
@@ -118,7 +139,7 @@ static motus_status begin(trial *s, const accuracy *a, motus_error *err)
     set.from = s->def.start;
     status = motus_suggest(s->system, &set, err);
     s->size = &s->def.step;
-    s->steps = 0;
+    s->hint.steps = 0;
     s->search = search_by_step(a->wanted, a->absolute, set.step, fabs(s->def.until - s->def.start), card->order);
     return status;
 }
@@ -185,9 +206,9 @@ motus_status accuracy_refuse(const accuracy *a, const motus_run *r, motus_error 
     return MOTUS_ACCURACY;
 }
 
-motus_status accuracy_find(motus_system *system, motus_run_def *def, double steps, accuracy *a, motus_error *err)
+motus_status accuracy_find(motus_system *system, motus_run_def *def, run_hint *hint, accuracy *a, motus_error *err)
 {
-    trial s = {.system = system, .def = *def, .steps = steps};
+    trial s = {.system = system, .def = *def, .hint = *hint};
     s.def.accuracy = NAN;
     s.def.observer = NULL;
     s.def.error = MOTUS_BARS_CHEAP;
@@ -217,6 +238,8 @@ motus_status accuracy_find(motus_system *system, motus_run_def *def, double step
     *s.size = size;
     def->tolerance = s.def.tolerance;
     def->step = s.def.step;
+    def->switches = s.def.switches;
+    hint->not_located = s.hint.not_located;
     a->by_step = s.search.length > 0;
     a->size = size;
     if (a->reached <= a->wanted) return MOTUS_OK;

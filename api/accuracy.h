@@ -18,9 +18,10 @@ typedef struct accuracy {
     double rounding;      /* of `reached`, the part of the model's decimals; NaN: it is less than what is wanted */
 } accuracy;
 
-/* Completes a definition that names its method: with the tolerance, or the step, of the best trial. `steps` is about
- * how many the run takes, 0: not known. */
-motus_status accuracy_find(motus_system *, motus_run_def *, double steps, accuracy *, motus_error *);
+/* Completes a definition that names its method: with the tolerance, or the step, of the best trial, and without
+ * located switches where these have another force than the typed one. The hint is what is known of the run, and what
+ * has become known. */
+motus_status accuracy_find(motus_system *, motus_run_def *, run_hint *, accuracy *, motus_error *);
 void accuracy_end(accuracy *);
 /* The largest error of a run that is at its end, with the size of the best trial, where the trial has none. */
 double accuracy_reached(const accuracy *, const motus_run *);

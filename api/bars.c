@@ -474,7 +474,7 @@ static motus_status land(motus_run *r, double t, double *x, double *v, bool betw
     motus_status status = companion_land(&b->half, r, t, taken > 0 ? taken : 1, err);
     if (status == MOTUS_OK && !strcmp(r->card->family, "exact")) status = companion_jog(&b->half, r, err);
     if (status == MOTUS_OK && b->kind == MOTUS_BARS_FULL && !between) status = companion_repeat(&b->twin, r, err);
-    const double *dx, *dv, differs = witness_differs(b->witness);
+    const double *dx, *dv, differs = witness_differs(b->witness, NULL);
     char at[DECIMAL_MAX];
     if (!isnan(differs))
         bars_give_up(r, "near t = %s the force changes more within every step than the step shows",
@@ -489,6 +489,24 @@ static motus_status land(motus_run *r, double t, double *x, double *v, bool betw
     b->steps = between ? now - 1 : now;
     b->seconds += pace_now() - began;
     return status;
+}
+
+/* A motion that the typed force does not make is no answer. */
+static motus_status refute(const motus_run *r, motus_error *err)
+{
+    size_t k;
+    const double t = witness_differs(r->bars->witness, &k);
+    const problem *const p = &r->home->problem;
+    char at[DECIMAL_MAX], name[MOTUS_NAME_MAX] = "";
+    if (isnan(t) || k == SIZE_MAX) return MOTUS_OK;
+    if (p->name) p->name(p->ctx, true, k, name, sizeof name);
+    fail(
+        err, MOTUS_SOLVE,
+        "from t = %s on the run has another force on %s than the one that is written, whatever sides its switches have "
+        "there",
+        run_time_text(r, t, at), name);
+    hint(err, "lead across the switches, with `switches = MOTUS_SWITCHES_STEP` of the definition");
+    return MOTUS_SOLVE;
 }
 
 static motus_status land_here(motus_run *r, bool observed, motus_error *err)
@@ -509,7 +527,8 @@ static motus_status land_here(motus_run *r, bool observed, motus_error *err)
         b->steps = motus_run_steps(r);
     }
     b->ahead = false;
-    return judge(r, status, &theirs, err);
+    status = judge(r, status, &theirs, err);
+    return status ? status : refute(r, err);
 }
 
 motus_status bars_land(motus_run *r, motus_error *err) { return land_here(r, false, err); }

@@ -90,7 +90,7 @@ static motus_status reach(motus_system *s, motus_run_def *def, const goal_wish *
     if (status != MOTUS_OK || isnan(w->accuracy)) return status;
     g->accuracy.wanted = w->accuracy;
     g->accuracy.absolute = w->absolute;
-    status = accuracy_find(s, def, hint->steps, &g->accuracy, err);
+    status = accuracy_find(s, def, hint, &g->accuracy, err);
     if (status == MOTUS_OK) hint->steps = (double)motus_run_steps(g->accuracy.best);
     return status;
 }

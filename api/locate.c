@@ -32,7 +32,7 @@ motus_status locate_prepare(motus_run *r, motus_switches switches, motus_error *
     if (by_events && switches == MOTUS_SWITCHES_LOCATE) return MOTUS_OK;
     if (row_adaptive(&r->chosen)) {
         fail(err, MOTUS_UNAVAILABLE, "steps of one size resolve switches, and %s adapts its steps", r->chosen.name);
-        hint(err, "choose another method, or leave `switches` of the definition at MOTUS_SWITCHES_STEP");
+        hint(err, "choose another method, or `switches = MOTUS_SWITCHES_STEP` of the definition");
         return MOTUS_UNAVAILABLE;
     }
     r->locating = true;

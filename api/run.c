@@ -301,7 +301,7 @@ motus_status run_create(motus_system *s, const motus_run_def *complete, const ru
     r->chosen.threads = def.threads;
     if (status == MOTUS_OK) status = later_choose(r, def.machine, hint->steps, err);
     if (status == MOTUS_OK) status = locate_prepare(r, def.switches, err);
-    r->not_located = why;
+    r->not_located = hint && hint->not_located ? hint->not_located : why;
     if (status == MOTUS_OK) status = bars_prepare(r, &def, err);
     if (r->locate) later_end(r), r->compiled_from = -1;
     if (status == MOTUS_OK && r->bars) r->bars->kept = r->kept;

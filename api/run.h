@@ -74,7 +74,8 @@ struct motus_run {
 
 /* What is known of a run before it is made. */
 typedef struct run_hint {
-    double steps; /* about how many it takes; 0: not known */
+    double steps;            /* about how many it takes; 0: not known */
+    const char *not_located; /* why its switches are not; NULL: its definition says whether they are */
 } run_hint;
 /* motus_run_create, of a complete definition: its method is none but NULL, and it wants no accuracy. */
 motus_status run_create(motus_system *, const motus_run_def *, const run_hint *, motus_run **, motus_error *);

@@ -44,8 +44,12 @@ struct motus_system {
     uint64_t changes, located_changes; /* how often its numbers were set, and when `located` was made */
     resolution *poles; /* NULL until a run is asked for a singularity, and where the force has no poles */
     bool poles_known;
-    resolution *bends; /* NULL until a run has a witness, and where nothing in the force can hide between points */
-    bool bends_known;
+    struct bends {
+        bool known;               /* since a run had a witness */
+        resolution *all, *smooth; /* what in the force can hide between points, and what can where its switches keep
+                                     their sides; NULL: nothing */
+        bool sums;                /* it has switches within sums, which are not among these */
+    } bends;
     weight weight; /* of the equations, where `weighed` */
     bool weighed;
     const char *switches_refused; /* why they cannot be located; NULL */

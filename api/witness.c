@@ -7,12 +7,16 @@
  * to be seen. Sizes are added up over the parts, because a force that pushes and then pulls shifts a motion and leaves
  * its velocity.
  *
- * A part in which a switch of the force may stand at 0 is not judged, however short it becomes: the force has more than
- * one value there, and what a sign does that friction holds no single value tells.
+ * Where a switch of the force may stand at 0, the force has more than one value. Of a run whose switches are located
+ * what has happened has to be a mean of what the force does beside the motion, a way on each side: there every switch
+ * has one side, however often it is written [Filippov88]. Other runs step across, and such a part of theirs is not
+ * judged, however short it becomes.
  */
 #include "api/witness.h"
 
 #include "api/choice.h"
+#include "api/convex.h"
+#include "core/events.h"
 #include "core/rows.h"
 #include "lang/read/verify.h"
 
@@ -20,19 +24,27 @@
 #include <string.h>
 
 enum {
-    POINTS = 8,   /* an even number */
-    DEPTH = 40,   /* halvings of a step */
-    PARTS = 4096, /* of one step */
-    TRIES = 64,   /* candidates that are refused one after the other */
-    PROBED = 4096 /* steps of a probe */
+    POINTS = 8,    /* an even number */
+    DEPTH = 40,    /* halvings of a step */
+    PARTS = 4096,  /* of one step */
+    TRIES = 64,    /* candidates that are refused one after the other */
+    PROBED = 4096, /* steps of a probe */
+    HELD = 4,      /* halvings of a step, after which ways beside the motion are taken: */
+    WAYS = 64,     /*   at first so many, then one of as many others that leads nearest, */
+    MORE = 64,     /*   and at most so many such; */
+    IDLE = 4,      /*   where so many of these do not help, none does. */
+    SHORTER = 6,   /* times that a probe is shorter, before it is no matter of its steps that no way does it */
+    WIDTH = 64     /* velocities of a run: of more of them ways say too little */
 };
+#define NEAR 0x1p-16 /* of the way that a part may lead: so far beside it */
+#define SLACK 0x1p-8 /* of the accelerations there: dense output is so exact */
 /* What it may spend, in evaluations of the typed force by the interpreter: at the beginning so many operations, but at
- * least so many evaluations, and then a part of what run and companion spend. A series of order n costs as much as
- * n^2/4 evaluations, and a compiled evaluation a thirtieth. */
-#define SPEND_FIRST 4e5 /* operations, and */
+ * least so many evaluations, and then a part of the evaluations of the run. That part suits a compiled run, whose
+ * evaluation costs a thirtieth: what is looked at decides steps, and the machine decides none. A series of order n
+ * costs as much as n^2/4 evaluations. */
+#define SPEND_FIRST 8e5 /* operations, and */
 #define SPEND_LEAST 200.0
-#define SPEND 0.1
-#define COMPILED (1 / 30.0)
+#define SPEND 0.02
 #define BOUNDS 4.0  /* what bounds over a step cost */
 #define LONGER 1.25 /* than all before: such a step is looked at, whatever was spent */
 /* Operations, too: what one probe may spend, and what all steps that were rightly refused, and those that follow such a
@@ -44,7 +56,8 @@ enum {
 #define SUSPICIOUS 10.0 /* times what a step may lose */
 #define REFUSED 30.0    /* likewise, between the step and the probe */
 #define ROUNDING 0x1p-46
-#define ROOM 0.75 /* of a step that is refused: the next one is shorter */
+#define NOTHING 0x1p-500 /* is lost of what rests */
+#define ROOM 0.75        /* of a step that is refused: the next one is shorter */
 
 /* Gauss's abscissae in (0, 1) beyond the middle, less 1/2, and their weights [DLMF, table 3.5.2]. */
 static const double abscissa[POINTS / 2] = {0.0917173212478248849, 0.2627662049581645044, 0.3983332387068134038,
@@ -71,8 +84,16 @@ struct witness {
     double *a, *sum, *v; /* of the typed force, and velocities as it wants them */
     double *most;        /* bounds on the accelerations of the step */
     double *missing;     /* of every velocity, sizes added up over the parts */
-    double *allowed;     /* what a step may lose of it */
+    double *allowed;     /* what a step may lose of it, */
+    double *rounded;     /*   and what rounding takes from it, */
+    double *rounded_x;   /*   and from places: parts of the largest that they have been */
     double *dx, *dv;     /* how far the probe is from the step */
+    double share[WAYS + MORE];
+    double *ways, *room; /* of a run with located switches: what the force does beside a part, less what has happened */
+    double *scale;       /* how large accelerations are there, */
+    double *weight;      /*   and how little may be off */
+    double *other_way;   /* one more of these */
+    resolution *smooth;  /* what can hide in the force where its switches keep their sides; NULL: nothing */
     interval *in_x, *in_v;
     int parts, tries;
     double worst, start,
@@ -82,10 +103,16 @@ struct witness {
     double longest;       /* of the steps that it has looked at */
     double operations;    /* of one evaluation */
     double spared;        /* evaluations that are not counted, since they led to a step that was refused */
-    bool kinked;          /* the typed force has switches */
+    bool kinked;          /* the typed force has switches, */
+    bool located;         /*   at which steps of the run end; */
+    bool strict;          /*   whose sides are looked at; */
+    bool covered;         /*   some within sums, where nothing says that they stand at 0 */
+    bool beside;          /* no way beside the part at `start` does what has happened */
     bool probes;          /* it looks at a probe, and refuses at once */
     bool events;          /* the run has some */
     bool moves;           /* dx and dv are for the companion */
+    size_t number;        /* the velocity of which the most was missing where `beside` became true */
+    bool held;            /* the motion is none of the typed force, from `differs` on */
     double until;         /* a probe has differed from the step that led there; NaN */
     double differs;
     stepper *probe;
@@ -98,33 +125,41 @@ static witness *make(const motus_run *r, const differences *seen)
 {
     const problem *const p = &r->system->problem;
     const motus_system *const s = r->home ? r->home : r->system;
-    const size_t nx = p->nx + 1, nv = p->nv + 1, numbers = STATES * (nx + nv) + 7 * nv + nx + 2 * (nx + nv);
+    const bool ways = r->home && p->nv <= WIDTH;
+    const size_t nx = p->nx + 1, nv = p->nv + 1,
+                 numbers = STATES * (nx + nv) + 13 * nv + nx + 2 * (nx + nv) + (ways ? (WAYS + MORE) * nv : 0);
     witness *w = take(&r->allocator, 1, sizeof *w + numbers * sizeof(double));
     if (!w) return NULL;
     *w = (witness){.typed = s, .machine = r->machine, .method = r->chosen, .allocator = r->allocator, .seen = seen};
     w->nx = p->nx, w->nv = p->nv;
     w->own = s->problem.nx, w->other = p->nx;
+    w->located = ways;
     w->until = w->differs = NAN;
     double *at = (double *)(void *)(w + 1);
     w->in_x = (interval *)(void *)at, w->in_v = w->in_x + nx;
     at += 2 * (nx + nv);
     for (size_t k = 0; k < STATES; k++, at += nx + nv) w->at[k] = (state){.x = at, .v = at + nx};
-    double **const arrays[] = {&w->a, &w->sum, &w->v, &w->most, &w->missing, &w->allowed, &w->dv, &w->dx};
+    double **const arrays[] = {&w->a,       &w->sum,       &w->v,         &w->most, &w->missing,
+                               &w->allowed, &w->rounded,   &w->dv,        &w->room, &w->scale,
+                               &w->weight,  &w->other_way, &w->rounded_x, &w->dx,   &w->ways};
     for (size_t k = 0; k < sizeof arrays / sizeof *arrays; k++, at += nv) *arrays[k] = at;
     return w;
 }
 
 static double inspect(void *ctx, stepper *);
+static void inspect_sides(void *ctx, stepper *, double until);
 
-/* It lives in the system's arena, for all its runs. */
+/* They live in the system's arena, for all its runs. */
 static bool find_bends(motus_system *s)
 {
-    const model *const m = s->model;
+    model *const m = s->model;
     const output *const lists[] = {m->boundary, m->accel};
     const size_t counts[] = {m->boundary_count, m->accel_count};
-    bool sums = false;
-    if (!s->bends_known) s->bends_known = verify_resolution(s->model, lists, counts, 2, &s->bends, &sums);
-    return s->bends_known;
+    struct bends *const b = &s->bends;
+    if (!b->known)
+        b->known = verify_resolution(m, lists, counts, 2, true, &b->all, &b->sums) &&
+                   verify_resolution(m, lists, counts, 2, false, &b->smooth, &b->sums);
+    return b->known;
 }
 
 motus_status witness_create(const motus_run *r, const differences *seen, witness **out, motus_error *err)
@@ -134,8 +169,9 @@ motus_status witness_create(const motus_run *r, const differences *seen, witness
     if (!s->model || !row_adaptive(&r->chosen) || row_reversible_steps(&r->chosen)) return MOTUS_OK;
     if (!find_bends(s)) return fail(err, MOTUS_MEMORY, "no memory for a witness of the run");
     weight each;
-    motus_status status = s->bends ? choice_weigh(s, &each, err) : MOTUS_OK;
-    if (status != MOTUS_OK || !s->bends) return status;
+    const bool any = s->bends.all || (r->home && s->bends.sums);
+    motus_status status = any ? choice_weigh(s, &each, err) : MOTUS_OK;
+    if (status != MOTUS_OK || !any) return status;
     witness *const w = make(r, seen);
     if (w) w->inner = make(r, seen);
     if (!w || !w->inner) {
@@ -146,9 +182,12 @@ motus_status witness_create(const motus_run *r, const differences *seen, witness
     w->earned = fmax(SPEND_LEAST, SPEND_FIRST / w->operations);
     w->events = r->events != NULL;
     w->kinked = w->inner->kinked = !s->problem.traits.smooth;
-    w->bends = w->inner->bends = s->bends;
+    w->bends = w->inner->bends = s->bends.all;
+    w->smooth = w->inner->smooth = s->bends.smooth;
+    w->covered = w->inner->covered = s->bends.sums;
     w->inner->probes = true;
     stepper_inspected(r->stepper, inspect, w);
+    if (w->located) events_witnessed(r->events, inspect_sides, w);
     *out = w;
     return MOTUS_OK;
 }
@@ -170,7 +209,11 @@ bool witness_moves(witness *w, const double **x, const double **v)
     return true;
 }
 
-double witness_differs(const witness *w) { return w ? w->differs : NAN; }
+double witness_differs(const witness *w, size_t *number)
+{
+    if (number) *number = w && w->held ? w->inner->number : SIZE_MAX;
+    return w ? w->differs : NAN;
+}
 
 /* ---- looking ---- */
 
@@ -185,46 +228,166 @@ static size_t place(const witness *w, size_t k) { return k < w->own ? k : k - w-
 
 static interval about(double middle, double half) { return (interval){middle - half, middle + half}; }
 
-static bool fits(witness *w, const state *from, const state *to)
+static bool fits(witness *w, resolution *bends, const state *from, const state *to)
 {
     const problem *const p = &w->typed->problem;
     const double h = fabs(to->t - from->t);
+    if (!bends) return true;
     for (size_t k = 0; k < p->nv; k++) {
         const size_t at = place(w, k);
-        w->in_v[k] = about(from->v[at] + (to->v[at] - from->v[at]) / 2, h / 2 * w->most[at]);
+        const double around = w->strict ? SUSPICIOUS * w->rounded[at] : 0;
+        w->in_v[k] = about(from->v[at] + (to->v[at] - from->v[at]) / 2, h / 2 * w->most[at] + around);
     }
-    for (size_t k = 0; k < p->nx; k++)
-        w->in_x[k] =
-            about(from->x[k] + (to->x[k] - from->x[k]) / 2, fabs(to->x[k] - from->x[k]) / 2 + h * h / 8 * w->most[k]);
+    for (size_t k = 0; k < p->nx; k++) {
+        const double way = to->x[k] - from->x[k], around = w->strict ? SUSPICIOUS * w->rounded_x[k] : 0;
+        w->in_x[k] = about(from->x[k] + way / 2, fabs(way) / 2 + h * h / 8 * w->most[k] + around);
+    }
     const interval t = {fmin(from->t, to->t), fmax(from->t, to->t)};
-    return resolution_fits(w->bends, t, w->in_x, w->in_v, w->typed->model->pool);
+    return resolution_fits(bends, t, w->in_x, w->in_v, w->typed->model->pool);
+}
+
+/* In [-1, 1), from the number of a way and of a variable [Steele14, its mixing]. */
+static double turn(uint32_t way, size_t k)
+{
+    uint64_t z = (uint64_t)way * 0x9e3779b97f4a7c15u + ((uint64_t)k + 1) * 0xd1b54a32d192ed03u;
+    z = (z ^ z >> 30) * 0xbf58476d1ce4e5b9u;
+    z = (z ^ z >> 27) * 0x94d049bb133111ebu;
+    return (double)((z ^ z >> 31) >> 11) * 0x1p-52 - 1;
+}
+
+/* What a step may lose of a place. */
+static double lost_of_place(const witness *w, size_t k, double x, double h)
+{
+    return fmax(fmax(w->method.relative, ROUNDING) * fabs(x), h * w->allowed[k]);
+}
+
+/* From a state of the motion to the way beside a part, farther than rounding and what a step may lose. */
+static void step_aside(const witness *w, double *x, double *v, double h, uint32_t way)
+{
+    const problem *const p = &w->typed->problem;
+    h = fabs(h);
+    for (size_t k = 0; k < p->nx; k++) {
+        const double lost = fmax(lost_of_place(w, k, x[k], h), w->rounded_x[k]);
+        const double far = NEAR * h * (fabs(v[k]) + h * w->scale[k]) + SUSPICIOUS * lost;
+        x[k] += far * turn(way, p->nv + k);
+    }
+    for (size_t k = 0; k < p->nv; k++)
+        v[k] += (NEAR * h * w->scale[k] + SUSPICIOUS * w->allowed[place(w, k)]) * turn(way, k);
+}
+
+/* Of one part: the most that is missing, in units of what is allowed. */
+static void count_part(witness *w, const state *from, double h, double most)
+{
+    if (most > w->worst && !(w->worst > FIRST)) w->start = from->t, w->length = h;
+    w->worst = fmax(w->worst, most);
+    w->parts++;
+}
+
+/* The integral of the force over a part, and the largest accelerations in it; way 0: along the motion, and another
+ * beside it, on the same side from its beginning to its end. */
+static bool integrate(witness *w, stepper *s, const state *from, double h, uint32_t way, double *sum)
+{
+    const problem *const p = &w->typed->problem;
+    state *const point = &w->at[POINT];
+    for (size_t k = 0; k < p->nv; k++) sum[k] = 0;
+    for (int i = 0; i < POINTS; i++) {
+        const double c = i & 1 ? abscissa[i / 2] : -abscissa[i / 2];
+        if (!see(s, from->t + h * (0.5 + c), point)) return false;
+        for (size_t k = 0; k < p->nv; k++) w->v[k] = point->v[place(w, k)];
+        if (way) step_aside(w, point->x, w->v, h, way);
+        if (p->accel(p->ctx, point->t, point->x, w->v, w->a)) return false;
+        for (size_t k = 0; k < p->nv; k++) {
+            sum[k] += part_of[i / 2] * h * w->a[k];
+            w->scale[k] = fmax(w->scale[k], fabs(w->a[k]));
+        }
+    }
+    w->spent += POINTS;
+    return true;
+}
+
+/* By how much each velocity may be off in a part before what moves it is another force. */
+static void find_weights(witness *w, double h)
+{
+    for (size_t k = 0; k < w->typed->problem.nv; k++) {
+        const size_t at = place(w, k);
+        w->weight[k] = 1 / (SLACK * fabs(h) * w->scale[k] + SUSPICIOUS * (w->probes ? w->rounded : w->allowed)[at]);
+    }
+}
+
+/* `room` is missing of a part, and is too much. */
+static void note_beside(witness *w)
+{
+    double most = 0;
+    w->beside = true;
+    for (size_t k = 0; k < w->typed->problem.nv; k++) {
+        const double off = fabs(w->room[k]) * w->weight[k];
+        if (off > most) most = off, w->number = k;
+    }
 }
 
 /* What is missing of one part. */
 static bool hold(witness *w, stepper *s, const state *from, const state *to)
 {
-    const problem *const p = &w->typed->problem;
-    state *const point = &w->at[POINT];
     const double h = to->t - from->t;
-    double most = 0;
-    for (size_t k = 0; k < p->nv; k++) w->sum[k] = 0;
-    for (int i = 0; i < POINTS; i++) {
-        const double c = i & 1 ? abscissa[i / 2] : -abscissa[i / 2];
-        if (!see(s, from->t + h * (0.5 + c), point)) return false;
-        for (size_t k = 0; k < p->nv; k++) w->v[k] = point->v[place(w, k)];
-        if (p->accel(p->ctx, point->t, point->x, w->v, w->a)) return false;
-        for (size_t k = 0; k < p->nv; k++) w->sum[k] += part_of[i / 2] * w->a[k];
-    }
-    for (size_t k = 0; k < p->nv; k++) {
+    double most = 0, off = 0;
+    for (size_t k = 0; k < w->typed->problem.nv; k++) w->scale[k] = w->most[place(w, k)];
+    if (!integrate(w, s, from, h, 0, w->sum)) return false;
+    find_weights(w, h);
+    for (size_t k = 0; k < w->typed->problem.nv; k++) {
         const size_t at = place(w, k);
-        const double missing = fabs((to->v[at] - from->v[at]) - h * w->sum[k]);
+        const double missing = fabs((to->v[at] - from->v[at]) - w->sum[k]);
         w->missing[at] += missing;
         most = fmax(most, missing / w->allowed[at]);
+        off = fmax(off, missing * w->weight[k]);
+        w->room[k] = missing;
     }
-    w->spent += POINTS;
-    if (most > w->worst && !(w->worst > FIRST)) w->start = from->t, w->length = h;
-    w->worst = fmax(w->worst, most);
-    w->parts++;
+    if (w->strict && off > 1) note_beside(w);
+    count_part(w, from, h, most);
+    return true;
+}
+
+/* What the force does along a way, less what has happened. */
+static bool follow(witness *w, stepper *s, const state *from, const state *to, uint32_t way, double *less)
+{
+    if (!integrate(w, s, from, to->t - from->t, way, less)) return false;
+    for (size_t k = 0; k < w->typed->problem.nv; k++) less[k] -= to->v[place(w, k)] - from->v[place(w, k)];
+    return true;
+}
+
+/* Of WAYS ways the one that leads farthest from `room` to the origin. */
+static bool nearest(witness *w, stepper *s, const state *from, const state *to, uint32_t *way, double *best)
+{
+    const size_t n = w->typed->problem.nv;
+    double least = INFINITY, *const one = w->other_way;
+    for (const uint32_t end = *way + WAYS; *way < end; (*way)++) {
+        if (!follow(w, s, from, to, *way, one)) return false;
+        const double along = convex_product(w->room, one, w->weight, n);
+        if (along < least) least = along, memcpy(best, one, n * sizeof *best);
+    }
+    return true;
+}
+
+/* ... where a switch may stand at 0. */
+static bool hold_beside(witness *w, stepper *s, const state *from, const state *to)
+{
+    const size_t n = w->typed->problem.nv;
+    const double h = to->t - from->t;
+    uint32_t way = 0, count = 0;
+    for (size_t k = 0; k < n; k++) w->scale[k] = w->most[place(w, k)];
+    for (; way < WAYS; way++, count++)
+        if (!follow(w, s, from, to, way, w->ways + way * n)) return false;
+    find_weights(w, h);
+    double off = convex_distance(w->ways, count, n, w->weight, 1, w->share, w->room);
+    for (int idle = 0; off > 1 && count < WAYS + MORE && idle < IDLE;) {
+        const double least = off;
+        if (!nearest(w, s, from, to, &way, w->ways + count * n)) return false;
+        off = convex_distance(w->ways, ++count, n, w->weight, 1, w->share, w->room);
+        idle = off < (1 - SLACK) * least ? 0 : idle + 1;
+    }
+    const bool is = off > 1;
+    for (size_t k = 0; is && k < n; k++) w->missing[place(w, k)] += fabs(w->room[k]);
+    if (is) note_beside(w);
+    count_part(w, from, h, is ? SUSPICIOUS * off : 0);
     return true;
 }
 
@@ -232,9 +395,11 @@ static bool look(witness *w, stepper *s, const state *from, const state *to, int
 {
     state *const middle = &w->at[MIDDLE + depth];
     const bool last = depth == DEPTH || w->parts >= PARTS;
-    if (last && w->kinked) return w->parts++, true;
     w->spent += BOUNDS;
-    if (last || fits(w, from, to)) return hold(w, s, from, to);
+    if (!w->covered && fits(w, w->bends, from, to)) return hold(w, s, from, to);
+    if (w->located && depth >= HELD && fits(w, w->smooth, from, to))
+        return w->strict ? hold_beside(w, s, from, to) : (w->parts++, true);
+    if (last) return w->kinked ? (w->parts++, true) : hold(w, s, from, to);
     return see(s, from->t + (to->t - from->t) / 2, middle) && look(w, s, from, middle, depth + 1) &&
            look(w, s, middle, to, depth + 1);
 }
@@ -253,8 +418,13 @@ static void allow(witness *w, const problem *p)
         for (size_t k = variable[g]; k < variable[g + 1]; k++)
             speed = fmax(speed, fmax(fmax(fabs(from->v[k]), fabs(to->v[k])), h * w->most[k]));
         const double lost = fmax(ROUNDING * speed, fmax(w->method.relative * speed, w->method.absolute));
-        for (size_t k = variable[g]; k < variable[g + 1]; k++) w->allowed[k] = lost > 0 ? lost : 1;
+        for (size_t k = variable[g]; k < variable[g + 1]; k++) {
+            w->rounded[k] = fmax(fmax(ROUNDING * speed, w->rounded[k]), NOTHING);
+            w->allowed[k] = fmax(lost, w->strict ? w->rounded[k] : NOTHING);
+        }
     }
+    for (size_t k = 0; k < w->nx; k++)
+        w->rounded_x[k] = fmax(ROUNDING * fmax(fabs(from->x[k]), fabs(to->x[k])), w->rounded_x[k]);
 }
 
 /* How far the probe and the step are apart, in units of what is allowed. */
@@ -269,8 +439,7 @@ static double apart(witness *w)
     }
     for (size_t k = 0; k < w->nx; k++) {
         w->dx[k] = end->x[k] - to->x[k];
-        const double size = fmax(fabs(from->x[k]), fabs(to->x[k]));
-        const double lost = fmax(fmax(w->method.relative, ROUNDING) * size, h * w->allowed[k]);
+        const double lost = lost_of_place(w, k, fmax(fabs(from->x[k]), fabs(to->x[k])), h);
         if (lost > 0) most = fmax(most, fabs(w->dx[k]) / lost);
     }
     return most;
@@ -292,7 +461,7 @@ static bool probe(witness *w, stepper *s, double size)
         if (!status) stepper_inspected(w->probe, inspect, inner);
     }
     const double spent = inner->spent;
-    inner->tries = 0, inner->differs = NAN;
+    inner->tries = 0, inner->differs = NAN, inner->held = false;
     inner->earned = spent + fmax(SPEND_LEAST, SPEND_PROBE / w->operations);
     if (!status) status = stepper_jump(w->probe, t, lost, size, from->x, from->v, NULL);
     if (!status) status = stepper_advance(w->probe, (stepper_limit){PROBED, to->t}, &why, NULL);
@@ -322,7 +491,7 @@ static bool affords(witness *w, const stepper *s)
     const double now = all > w->evaluations ? (double)(all - w->evaluations) : 0,
                  each = w->method.row->expands ? now * now / 4 : now, h = fabs(stepper_last_step(s));
     w->evaluations = all;
-    w->earned += 3 * SPEND * each * (stepper_compiled(s) ? COMPILED : 1);
+    w->earned += SPEND * each;
     const bool follows = !w->probes && (w->tries > 0 || known(w, s));
     const double most = w->earned + (follows ? SPEND_SPARED / w->operations : 0);
     if (w->spent > most && (w->probes || h < LONGER * w->longest)) return false;
@@ -340,39 +509,51 @@ static double refuse(witness *w, double size, double spent)
     return size;
 }
 
-static double inspect(void *ctx, stepper *s)
+/* The ends of a marked step. */
+static bool see_ends(witness *w, stepper *s)
 {
-    witness *const w = ctx;
     state *const from = &w->at[FROM], *const to = &w->at[TO];
     const double *x, *v;
     double lost;
-    if ((stepper_compiled(s) && !affords(w, s)) || !stepper_swing(s, w->most)) return 0;
     to->t = stepper_time(s), from->t = stepper_marked(s, &lost, &x, &v);
     memcpy(from->x, x, w->nx * sizeof *x);
     memcpy(from->v, v, w->nv * sizeof *v);
-    if (stepper_sync(s, to->x, to->v, NULL, NULL)) return 0;
-    w->spent += stepper_compiled(s) ? BOUNDS : 0; /* beside a step in the interpreter that is little */
-    if (fits(w, from, to) || (!stepper_compiled(s) && !affords(w, s))) {
-        w->tries = 0;
+    w->spent += BOUNDS;
+    return stepper_sync(s, to->x, to->v, NULL, NULL) == MOTUS_OK;
+}
+
+/* What is missing of the whole. */
+static bool look_at_all(witness *w, stepper *s)
+{
+    allow(w, stepper_problem(s));
+    w->parts = 0, w->worst = 0, w->beside = false;
+    memset(w->missing, 0, w->nv * sizeof *w->missing);
+    return look(w, s, &w->at[FROM], &w->at[TO], 0);
+}
+
+static double inspect(void *ctx, stepper *s)
+{
+    witness *const w = ctx;
+    const state *const from = &w->at[FROM], *const to = &w->at[TO];
+    if (!affords(w, s) || !stepper_swing(s, w->most) || !see_ends(w, s)) return 0;
+    const bool short_enough = !w->strict && fits(w, w->bends, from, to);
+    const double spent = w->spent;
+    if (short_enough || !look_at_all(w, s)) {
+        if (short_enough) w->tries = 0;
         return 0;
     }
-    const double spent = w->spent;
-    allow(w, stepper_problem(s));
-    w->parts = 0, w->worst = 0;
-    memset(w->missing, 0, w->nv * sizeof *w->missing);
-    if (!look(w, s, from, to, 0)) return 0;
     double most = 0;
     for (size_t k = 0; k < w->nv; k++) most = fmax(most, w->missing[k] / w->allowed[k]);
     const bool suspicious = w->parts > 1 && (most > SUSPICIOUS || (!w->probes && beyond_bars(w, w->missing)));
-    if (!suspicious) {
+    if (!suspicious && !w->beside) {
         w->tries = 0;
         return 0;
     }
     const double whole = to->t - from->t, before = w->start - from->t,
                  first = fabs(before) > fabs(w->length) ? before : w->length,
-                 size = fabs(first) < ROOM * fabs(whole) ? first : whole / 4;
-    if (w->tries >= TRIES) {
-        w->differs = from->t;
+                 size = !w->beside && fabs(first) < ROOM * fabs(whole) ? first : whole / 4;
+    if (w->tries >= (w->beside ? SHORTER : TRIES)) { /* where a switch stands at 0 at its start, every step is off */
+        if (w->beside || !w->kinked) w->differs = from->t, w->held |= w->beside;
         return 0;
     }
     if (w->probes || known(w, s)) return refuse(w, size, spent);
@@ -385,4 +566,25 @@ static double inspect(void *ctx, stepper *s)
     }
     w->moves = beyond && !w->events;
     return 0;
+}
+
+/* A step, up to where a switch of the force changes its side: the sides that the run has are those of the typed force,
+ * or a probe in shorter steps shows that they are not. */
+static void inspect_sides(void *ctx, stepper *s, double until)
+{
+    witness *const w = ctx;
+    state *const to = &w->at[TO];
+    if (w->held || !affords(w, s) || !stepper_swing(s, w->most) || !see_ends(w, s)) return;
+    if (until == w->at[FROM].t || (to->t != until && !see(s, until, to))) return;
+    w->strict = true;
+    if (look_at_all(w, s) && w->beside) {
+        witness *const inner = w->inner;
+        memcpy(inner->rounded, w->rounded, w->nv * sizeof *w->rounded);
+        memcpy(inner->rounded_x, w->rounded_x, w->nx * sizeof *w->rounded_x);
+        inner->strict = true;
+        probe(w, s, (to->t - w->at[FROM].t) / 4);
+        inner->strict = false;
+        if (inner->held) w->differs = inner->differs, w->held = true;
+    }
+    w->strict = false;
 }

@@ -24,7 +24,8 @@ motus_status witness_create(const motus_run *, const differences *, witness **ou
 void witness_destroy(witness *);
 /* Once: by how much the companion is to be moved, nx and nv numbers in the inside order; false: it is not. */
 bool witness_moves(witness *, const double **x, const double **v);
-/* The time near which no step keeps to the typed force; NaN: there is none. */
-double witness_differs(const witness *);
+/* The time near which no step keeps to the typed force; NaN: there is none. *number: of the typed system, the velocity
+ * on which another force acts from there on, whatever sides the switches have; SIZE_MAX: none is known. */
+double witness_differs(const witness *, size_t *number);
 
 #endif

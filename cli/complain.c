@@ -24,8 +24,8 @@ bool complain_colours(int descriptor)
     return isatty(descriptor) && !(no && *no) && !(terminal && strcmp(terminal, "dumb") == 0);
 }
 
-/* The library speaks of its definitions: "`until` of the definition", "`until = 3` of the definition". Here their
- * members are options: --until, --until 3. */
+/* The library speaks of its definitions: "`until` of the definition", "`until = 3` of the definition", "`switches =
+ * MOTUS_SWITCHES_STEP` of the definition". Here their members are options: --until, --until 3, --switches step. */
 void complain_named(const char *text, char *out, size_t size)
 {
     static const char of[] = "` of the definition";
@@ -38,12 +38,17 @@ void complain_named(const char *text, char *out, size_t size)
             continue;
         }
         const char *value = strncmp(text + 1 + word, " = ", 3) ? end : text + 4 + word;
+        const bool constant = strncmp(value, "MOTUS_", 6) == 0;
+        for (const char *c = value; constant && c < end; c++)
+            if (*c == '_') value = c + 1;
         const size_t from = n;
         const char *const quote = memchr(value, ' ', (size_t)(end - value)) ? "\"" : "";
         n += (size_t)snprintf(out + n, size - n, "--%.*s%s%s%.*s%s", (int)word, text + 1, value < end ? " " : "", quote,
                               (int)(end - value), value, quote);
         for (size_t k = from; k < n && k < from + 2 + word; k++)
             if (out[k] == '_') out[k] = '-';
+        for (size_t k = from; constant && k < n && k < size; k++)
+            out[k] = (char)(out[k] + (out[k] >= 'A' && out[k] <= 'Z' ? 'a' - 'A' : 0));
         text = end + strlen(of);
     }
     out[n < size ? n : size - 1] = 0;

@@ -454,6 +454,7 @@ static motus_status piece(events *e, stepper *s, double until, int64_t most, boo
     e->first = false;
     e->here_at = NAN;
     if (!status && e->candidates) status = go_through(e, s, assigned, why, err);
+    if (!status && e->witness) e->witness(e->witness_ctx, s, *assigned || *why == STOP_EVENT ? e->here.t : e->right.t);
     return status;
 }
 
@@ -586,6 +587,8 @@ bool events_accumulated(const events *e, events_limit *out)
 }
 
 void events_jog(events *e, events_jogger jog) { e->jog = jog; }
+
+void events_witnessed(events *e, events_witness witness, void *ctx) { e->witness = witness, e->witness_ctx = ctx; }
 
 void events_forget(events *e)
 {

@@ -87,6 +87,9 @@ bool events_partway(const events *);
  * roundings at events than the run. */
 typedef void (*events_jogger)(double *y, size_t count, uint32_t salt, bool switched);
 void events_jog(events *, events_jogger);
+/* Shown every step, marked, and the time up to which it counts: an action that is to follow may be before its end. */
+typedef void (*events_witness)(void *ctx, stepper *, double until);
+void events_witnessed(events *, events_witness, void *ctx);
 /* The stepper has begun a new leg where it stands (stepper_turn): the grid of fixed steps begins there. */
 void events_turn(events *, const stepper *);
 

@@ -158,9 +158,11 @@ struct events {
     candidate *candidate;
     size_t candidates, candidate_room;
 
-    double at_once;      /* the time of the latest action */
-    int actions;         /* in that instant */
-    events_jogger jog;   /* NULL: none */
+    double at_once;         /* the time of the latest action */
+    int actions;            /* in that instant */
+    events_jogger jog;      /* NULL: none */
+    events_witness witness; /* likewise */
+    void *witness_ctx;
     int64_t acted;       /* in all, and */
     double acted_sum;    /*   the sum of their times, since the start */
     double turned_at;    /* the time of the latest action of an internal rule */

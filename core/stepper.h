@@ -116,7 +116,6 @@ void stepper_sizes(const stepper *, double *shortest, double *longest);
 int64_t stepper_refused(const stepper *);
 /* finished since the start of the leg, a shorter last one included */
 int64_t stepper_steps(const stepper *);
-bool stepper_compiled(const stepper *);
 int64_t stepper_evaluations(const stepper *); /* by the method itself; observing is not counted */
 int64_t stepper_iterations(const stepper *);
 

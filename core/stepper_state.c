@@ -38,7 +38,6 @@ void stepper_sizes(const stepper *s, double *shortest, double *longest)
 }
 int64_t stepper_refused(const stepper *s) { return s->work.refused; }
 int64_t stepper_steps(const stepper *s) { return s->shortened ? s->at.steps + 1 : s->work.n; }
-bool stepper_compiled(const stepper *s) { return s->work.host != NULL; }
 int64_t stepper_evaluations(const stepper *s) { return s->work.evaluations; }
 int64_t stepper_iterations(const stepper *s) { return s->work.iterations; }
 

@@ -388,7 +388,8 @@ sweep "${long[@]}" -q 2>"$err" | head -n 3 >"$out"
 that "a reader that goes away" eval "[ \$(wc -l <'$out') = 3 ] && empty '$err'"
 
 # --- why trajectories stop ------------------------------------------------------------------------------------------------------
-# CAUSE, the lines of a model with a parameter c, the values of c: every trajectory ends as its run does, however it is computed.
+# CAUSE, the lines of a model with a parameter c, the values of c: every trajectory ends as its run without errors does,
+# however it is computed.
 model() { local name=$1; shift; printf '%s\n' "$@" >"$name.motus"; }
 model pole "x'' = c*6*x^2" "c = 1" "x(0) = 1" "x'(0) = 2"
 model relaxes "x'' = -1e10*(x' - cos(t)) + c" "c = 0" "x(0) = 1" "x'(0) = 1"
@@ -401,7 +402,7 @@ model pol "x'' = c*1000*(1 - x^2)*x' - x" "c = 1" "x(0) = 2" "x'(0) = 0"
 model fast "x'' = -c*x + sin(1e8*t)" "c = 1" "x(0) = 1" "x'(0) = 0"
 # "time cause" of the trajectories of out, and of the run with c
 ends() { rows "$1" | awk -F, '{ print $(NF-1), $NF }'; }
-end_of() { "$motus" run "$1" --set "c=$2" "${@:3}" --json | jq -sr '.[-1] | if .diagnosis then "\(.diagnosis.time) \(.diagnosis.cause)" else " " end'; }
+end_of() { "$motus" run "$1" --set "c=$2" "${@:3}" --error none --json | jq -sr '.[-1] | if .diagnosis then "\(.diagnosis.time) \(.diagnosis.cause)" else " " end'; }
 same_ends() {
     local cause=$1 values=$2 how machine c
     shift 2

@@ -8,6 +8,8 @@
  *
  * WITNESS=n tries n of each; they print what they find.
  */
+#include "api/located.h"
+#include "api/system.h"
 #include "test/given.h"
 #include "test/sanitized.h"
 
@@ -166,9 +168,84 @@ static void bits(void **state)
     }
 }
 
+/* A run whose sides, or values at what it holds, are those of another force than the typed one is no answer: it ends.
+ * The sides of the one are put in place of those of the other. */
+static void sides(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *typed, *other;
+    } forces[] = {
+        {"x'' = -x - 0.2 sign(x - 7)\nx(0) = 1; x'(0) = 0.1\nuntil 9", "x'' = -x + 0.2 sign(x - 7)"},
+        {"x'' = -x + abs(x - 7)\nx(0) = 1; x'(0) = 0.1\nuntil 9", "x'' = -x - abs(x - 7)"},
+        {"x'' = if(x < 7, 1, 1.2)\nx(0) = -1; x'(0) = 0.1\nuntil 3", "x'' = if(x < 7, 1.2, 1)"},
+        {"x'' = 1.3 - sign(x')\nx(0) = 1; x'(0) = 0\nuntil 3", "x'' = 0.3 - sign(x')"},
+        {"x'' = 0.3 - sign(x')\nx(0) = 1; x'(0) = 0\nuntil 3", "x'' = 1.3 - sign(x')"},
+        {"x'' = sin(t) - abs(x') x'\nx(0) = 0; x'(0) = 0\nuntil 2", "x'' = 0 sin(t) - abs(x') x'"},
+    };
+    for (size_t m = 0; m < sizeof forces / sizeof *forces; m++)
+        for (int i = 1; i < WAYS; i++)
+            for (int wrong = 0; wrong < 2; wrong++) {
+                char text[256];
+                motus_error err = motus_default_error();
+                snprintf(text, sizeof text, "%s%s", forces[m].other, strchr(forces[m].typed, '\n'));
+                motus_system *const s = given_text(forces[m].typed), *const other = given_text(text), *to;
+                const char *why;
+                must(located_of(s, MOTUS_SWITCHES_LOCATE, &to, &why, &err), &err, text);
+                must(located_of(other, MOTUS_SWITCHES_LOCATE, &to, &why, &err), &err, text);
+                motus_system *const own = s->located;
+                if (wrong) s->located = other->located, other->located = own;
+                motus_run_def def = motus_default_run();
+                motus_run *r = NULL;
+                def.method = ways[i].method;
+                def.tolerance = ways[i].tolerance;
+                def.error = MOTUS_BARS_CHEAP;
+                motus_status status = motus_run_create(s, &def, &r, &err);
+                if (status == MOTUS_OK) status = motus_run_finish(r, &err);
+                motus_run_destroy(r);
+                if (wrong) other->located = s->located, s->located = own;
+                motus_system_destroy(s);
+                motus_system_destroy(other);
+                if (status == MOTUS_METHOD) break;
+                if (wrong != (status == MOTUS_SOLVE) || (wrong && !strstr(err.message, "another force on x' than")))
+                    fail_msg("%s by %s: %d %s", forces[m].typed, def.method, status, err.message);
+            }
+}
+
+/* The machine decides no step: a run in which the witness refuses steps has the same bits on each. */
+static void machines(void **state)
+{
+    (void)state;
+    for (int i = 1; i < WAYS; i++) {
+        double x[2], v[2];
+        int64_t steps[2];
+        for (int k = 0; k < 2; k++) {
+            motus_error err = motus_default_error();
+            motus_system *const s = given_text("x'' = -x + exp(-((t - 7.3)/0.01)^2) - 0.3 tanh((x - 0.2)/1e-3)\n"
+                                               "x(0) = 1; x'(0) = 0\nuntil 40");
+            motus_run_def def = motus_default_run();
+            motus_run *r = NULL;
+            def.method = ways[i].method;
+            def.tolerance = ways[i].tolerance;
+            def.error = MOTUS_BARS_CHEAP;
+            def.machine = k ? "compiled" : "interpreter";
+            must(motus_run_create(s, &def, &r, &err), &err, def.method);
+            must(motus_run_finish(r, &err), &err, def.method);
+            must(motus_run_state(r, &x[k], &v[k], &err), &err, def.method);
+            steps[k] = motus_run_steps(r);
+            motus_run_destroy(r);
+            motus_system_destroy(s);
+        }
+        assert_memory_equal(&x[0], &x[1], sizeof *x);
+        assert_memory_equal(&v[0], &v[1], sizeof *v);
+        assert_int_equal(steps[0], steps[1]);
+    }
+}
+
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(flights), cmocka_unit_test(pulses), cmocka_unit_test(sticks),
-                                       cmocka_unit_test(bars_hold), cmocka_unit_test(bits)};
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(flights), cmocka_unit_test(pulses),   cmocka_unit_test(sticks), cmocka_unit_test(bars_hold),
+        cmocka_unit_test(bits),    cmocka_unit_test(machines), cmocka_unit_test(sides)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

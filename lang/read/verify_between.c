@@ -70,8 +70,8 @@ static bool add_switches(model *m, const output *o, output *to, size_t *count, b
     return true;
 }
 
-bool verify_resolution(model *m, const output *const lists[], const size_t counts[], size_t n, resolution **out,
-                       bool *sums)
+bool verify_resolution(model *m, const output *const lists[], const size_t counts[], size_t n, bool switches,
+                       resolution **out, bool *sums)
 {
     size_t plain = 0, room = 0, count = 0;
     for (size_t l = 0; l < n; l++)
@@ -81,7 +81,7 @@ bool verify_resolution(model *m, const output *const lists[], const size_t count
     if (!all) return false;
     for (size_t l = 0; l < n; l++)
         for (size_t k = 0; k < counts[l]; k++) all[count++] = lists[l][k];
-    for (size_t k = 0; k < plain; k++)
+    for (size_t k = 0; switches && k < plain; k++)
         if (!add_switches(m, &all[k], all, &count, sums)) return false;
     return resolution_create(m, all, count, count > plain, out);
 }
@@ -92,7 +92,7 @@ bool verify_between_make(model *m)
     if (!b || !m->verify->bounded) return b != NULL;
     const output *const lists[] = {m->exact, m->boundary, m->accel};
     const size_t counts[] = {m->exact_count, m->boundary_count, m->accel_count};
-    return verify_resolution(m, lists, counts, 3, &b->force, &b->sums) &&
+    return verify_resolution(m, lists, counts, 3, true, &b->force, &b->sums) &&
            resolution_create_poles(m, m->exact, m->exact_count, &b->poles);
 }
 
