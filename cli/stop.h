@@ -4,8 +4,8 @@
 
 #include <stdbool.h>
 
-/* From now on SIGINT, SIGTERM, SIGHUP and SIGUSR1 set stop_requested() and do not kill, unless nobody asks for it within
- * 0.15 s. To be called where work begins that asks for it; before, while a model is read, they kill. */
+/* From now on SIGINT, SIGTERM, SIGHUP and SIGUSR1 set stop_requested() and do not kill, unless nobody asks for it
+ * within 0.15 s. To be called where work begins that asks for it; before, while a model is read, they kill. */
 void stop_catch_signals(void);
 /* From now on a write beyond the largest size that a file may have (SIGXFSZ) fails and does not kill. */
 void stop_file_limit(void);

@@ -89,7 +89,8 @@ typedef struct motus_archive_def {
      * made has them, compressed, its states and its notes. It may replace that archive, which is not changed. */
     motus_archive *from;
     /* 0: the file gets its name when it is complete. Else 1 + the descriptor of an empty file, open to read and write,
-     * in which the archive is made, for a time by way of a file beside `path`: it keeps the name that it has, or none. */
+     * in which the archive is made, for a time by way of a file beside `path`: it keeps the name that it has, or
+     * none. */
     int descriptor;
 } motus_archive_def;
 
