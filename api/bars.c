@@ -496,9 +496,9 @@ static motus_status refute(const motus_run *r, motus_error *err)
 {
     size_t k;
     const double t = witness_differs(r->bars->witness, &k);
-    const problem *const p = &r->home->problem;
     char at[DECIMAL_MAX], name[MOTUS_NAME_MAX] = "";
     if (isnan(t) || k == SIZE_MAX) return MOTUS_OK;
+    const problem *const p = &r->home->problem;
     if (p->name) p->name(p->ctx, true, k, name, sizeof name);
     fail(
         err, MOTUS_SOLVE,

@@ -9,7 +9,7 @@
 
 #include <math.h>
 
-enum { DEPTH = 44, LOOKS = 5000, SHORTEST = -34, LONGEST = -12, SCALES = 10, SAME = 3, BETWEEN = 5 };
+enum { DEPTH = 44, LOOKS = 5000, PLACES = 64, SHORTEST = -34, LONGEST = -12, SCALES = 10, SAME = 3, BETWEEN = 5 };
 #define CLEAR 1e3    /* times its rounding, a change of the force is none */
 #define FAR 0x1p9    /* roundings of a time or a state that distances are at least */
 #define ALIKE 0.02   /* powers this near to one another are the same */
@@ -17,7 +17,7 @@ enum { DEPTH = 44, LOOKS = 5000, SHORTEST = -34, LONGEST = -12, SCALES = 10, SAM
 
 typedef struct search {
     const pole_way *way;
-    int looks; /* left */
+    int looks, places; /* left */
 } search;
 
 /* The way in number k of x, as a polynomial of the fraction z of the time: x + first z + second z² + third z³. */
@@ -132,10 +132,11 @@ static bool grows(const pole_way *w, double z, double side)
 
 static bool found(search *s, double low, double high, int depth)
 {
-    if (s->looks-- <= 0 || excluded(s->way, low, high)) return false;
+    if (s->looks-- <= 0 || s->places <= 0 || excluded(s->way, low, high)) return false;
     const double middle = low + (high - low) / 2;
+    if (depth == 0) s->places--; /* a divisor that stays at 0 leaves all places of the way */
     if (depth == 0) return grows(s->way, middle, 1) || grows(s->way, middle, -1);
     return found(s, low, middle, depth - 1) || found(s, middle, high, depth - 1);
 }
 
-bool pole_on(const pole_way *w) { return found(&(search){w, LOOKS}, 0, 1, DEPTH); }
+bool pole_on(const pole_way *w) { return found(&(search){w, LOOKS, PLACES}, 0, 1, DEPTH); }

@@ -29,8 +29,9 @@ enum {
     PARTS = 4096,  /* of one step */
     TRIES = 64,    /* candidates that are refused one after the other */
     PROBED = 4096, /* steps of a probe */
-    HELD = 4,      /* halvings of a step, after which ways beside the motion are taken: */
-    WAYS = 64,     /*   at first so many, then one of as many others that leads nearest, */
+    HELD = 2,      /* halvings of a step, after which ways beside the motion are taken, */
+    DEEP = 4,      /*   and where other operations change there too, as u/|u|: */
+    WAYS = 32,     /*   at first so many, then one of as many others that leads nearest, */
     MORE = 64,     /*   and at most so many such; */
     IDLE = 4,      /*   where so many of these do not help, none does. */
     SHORTER = 6,   /* times that a probe is shorter, before it is no matter of its steps that no way does it */
@@ -47,8 +48,11 @@ enum {
 #define SPEND 0.02
 #define BOUNDS 4.0  /* what bounds over a step cost */
 #define LONGER 1.25 /* than all before: such a step is looked at, whatever was spent */
-/* Operations, too: what one probe may spend, and what all steps that were rightly refused, and those that follow such a
- * step up to its end, may cost besides. */
+/* Operations, too: what looking at sides may take at the beginning, what looking at one step may take, what one probe
+ * may spend, and what all steps that were rightly refused, and those that follow such a step up to its end, may cost
+ * besides. */
+#define SPEND_SIDES 4e6
+#define SPEND_STEP 2e7
 #define SPEND_PROBE 2e7
 #define SPEND_SPARED 1e8
 #define FIRST \
@@ -98,6 +102,8 @@ struct witness {
     int parts, tries;
     double worst, start,
         length;           /* the most that is missing of a part, in units of what is allowed; the first with much */
+    double sides;         /* spent on sides of switches, which is counted by itself */
+    double most_spent;    /* at the end of the step that is looked at */
     double earned, spent; /* evaluations: the part of the run's that it may spend, and what it has spent */
     int64_t evaluations;  /* of the run, so far */
     double longest;       /* of the steps that it has looked at */
@@ -394,10 +400,11 @@ static bool hold_beside(witness *w, stepper *s, const state *from, const state *
 static bool look(witness *w, stepper *s, const state *from, const state *to, int depth)
 {
     state *const middle = &w->at[MIDDLE + depth];
-    const bool last = depth == DEPTH || w->parts >= PARTS;
+    const bool last = depth == DEPTH || w->parts >= PARTS || w->spent > w->most_spent;
     w->spent += BOUNDS;
     if (!w->covered && fits(w, w->bends, from, to)) return hold(w, s, from, to);
-    if (w->located && depth >= HELD && fits(w, w->smooth, from, to))
+    const bool sided = w->located && depth >= HELD, deep = w->strict && (depth >= DEEP || last);
+    if (sided && (deep || fits(w, w->smooth, from, to)))
         return w->strict ? hold_beside(w, s, from, to) : (w->parts++, true);
     if (last) return w->kinked ? (w->parts++, true) : hold(w, s, from, to);
     return see(s, from->t + (to->t - from->t) / 2, middle) && look(w, s, from, middle, depth + 1) &&
@@ -527,6 +534,7 @@ static bool look_at_all(witness *w, stepper *s)
 {
     allow(w, stepper_problem(s));
     w->parts = 0, w->worst = 0, w->beside = false;
+    w->most_spent = w->spent + fmax(SPEND_LEAST, SPEND_STEP / w->operations);
     memset(w->missing, 0, w->nv * sizeof *w->missing);
     return look(w, s, &w->at[FROM], &w->at[TO], 0);
 }
@@ -574,7 +582,9 @@ static void inspect_sides(void *ctx, stepper *s, double until)
 {
     witness *const w = ctx;
     state *const to = &w->at[TO];
-    if (w->held || !affords(w, s) || !stepper_swing(s, w->most) || !see_ends(w, s)) return;
+    const double spent = w->spent, first = fmax(SPEND_LEAST, SPEND_FIRST / w->operations);
+    if (w->held || w->sides > SPEND_SIDES / w->operations + (w->earned - first)) return;
+    if (!stepper_swing(s, w->most) || !see_ends(w, s)) return;
     if (until == w->at[FROM].t || (to->t != until && !see(s, until, to))) return;
     w->strict = true;
     if (look_at_all(w, s) && w->beside) {
@@ -587,4 +597,5 @@ static void inspect_sides(void *ctx, stepper *s, double until)
         if (inner->held) w->differs = inner->differs, w->held = true;
     }
     w->strict = false;
+    w->sides += w->spent - spent, w->spent = spent;
 }
