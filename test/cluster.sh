@@ -100,8 +100,8 @@ that "... the same bytes" [ "$(sum swings.h5)" = "$whole" ]
 
 # By the interpreter, so that a task takes some seconds: one is killed by the controller and starts again.
 work
-script '`swings.sbatch`:' | sed 's/--quiet/--machine interpreter --lanes 1 --quiet/; s/1e6/2e5/; s/^#SBATCH --requeue/&\n#SBATCH --open-mode=append/' >swings.sbatch
-gives "the sweep in short" 0 motus sweep pendulum.motus --vary "theta(0)=0.1:3:2e5" --record final --until 10 -o short.h5
+script '`swings.sbatch`:' | sed 's/--quiet/--machine interpreter --lanes 1 --quiet/; s/1e6/2e5/; s/--until 10/--until 40/; s/^#SBATCH --requeue/&\n#SBATCH --open-mode=append/' >swings.sbatch
+gives "the sweep in short" 0 motus sweep pendulum.motus --vary "theta(0)=0.1:3:2e5" --record final --until 40 -o short.h5
 job=$(sbatch --parsable swings.sbatch)
 for _ in $(seq 200); do [ -s part2.h5 ] && break; sleep 0.1; done
 sleep 1
@@ -116,7 +116,7 @@ that "... the task was started twice" [ "$(scontrol show job "${job}_2" | grep -
 
 # Slurm's warning: the task ends behind its block, and its command goes on by itself.
 work
-script '`swings.sbatch`:' | sed 's/--quiet/--machine interpreter --lanes 1/; s/1e6/2e5/; s/^#SBATCH --array.*/#SBATCH --array=1-2/' >swings.sbatch
+script '`swings.sbatch`:' | sed 's/--quiet/--machine interpreter --lanes 1/; s/1e6/2e5/; s/--until 10/--until 40/; s/^#SBATCH --array.*/#SBATCH --array=1-2/' >swings.sbatch
 job=$(sbatch --parsable swings.sbatch)
 for _ in $(seq 200); do [ -s part1.h5 ] && break; sleep 0.1; done
 sleep 1
