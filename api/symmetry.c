@@ -6,6 +6,7 @@
  */
 #include "api/symmetry.h"
 
+#include "api/vector.h"
 #include "lang/model/field.h"
 #include "machine/held.h"
 
@@ -13,14 +14,6 @@
 #include <string.h>
 
 enum { MASSES_MAX = 96 }; /* numbers up to which masses are found, from as many derivatives */
-
-static double random_number(uint64_t *state) /* splitmix64, to (-1, 1) */
-{
-    uint64_t z = *state += 0x9E3779B97F4A7C15u;
-    z = (z ^ (z >> 30)) * 0xBF58476D1CE4E5B9u;
-    z = (z ^ (z >> 27)) * 0x94D049BB133111EBu;
-    return (double)((z ^ (z >> 31)) >> 11) * 0x1p-52 - 1;
-}
 
 static double power_of_ten(double e) { return exp(2.302585092994046 * e); }
 
@@ -47,7 +40,7 @@ static void choose_sides(const held *h, double *sides, uint64_t *random)
 {
     for (size_t k = 0; k < held_count(h); k++) {
         const operation op = held_operation(h, k);
-        const double r = random_number(random);
+        const double r = vector_random(random);
         sides[k] = op == OP_FLOOR || op == OP_MOD                   ? floor(4 * r)
                    : op == OP_ABS || op == OP_SIGN || op == OP_CBRT ? (r < 0 ? -1 : 1)
                                                                     : r < 0;
@@ -63,15 +56,15 @@ typedef struct sample {
 static void draw(const motus_system *s, int round, const sample *at, uint64_t *random)
 {
     const problem *p = &s->problem;
-    const double size = round == 0 ? 0 : power_of_ten(3 * random_number(random));
+    const double size = round == 0 ? 0 : power_of_ten(3 * vector_random(random));
     memcpy(at->x, s->x0, p->nx * sizeof *at->x);
     memcpy(at->v, s->v0, p->nv * sizeof *at->v);
     for (size_t k = 0; k < p->nv; k++) {
-        const double of_x = size * random_number(random), of_v = size * random_number(random);
+        const double of_x = size * vector_random(random), of_v = size * vector_random(random);
         if (k < p->nx) at->x[k] += at->mask[k] * of_x * (fabs(at->x[k]) + 1);
         at->v[k] += at->mask[k] * of_v * (fabs(at->v[k]) + 1);
-        at->u[k] = at->mask[k] * random_number(random) * power_of_ten(12 * random_number(random));
-        at->w[k] = at->mask[k] * random_number(random) * power_of_ten(12 * random_number(random));
+        at->u[k] = at->mask[k] * vector_random(random) * power_of_ten(12 * vector_random(random));
+        at->w[k] = at->mask[k] * vector_random(random) * power_of_ten(12 * vector_random(random));
         at->ju[k] = at->jw[k] = 0;
     }
 }
@@ -103,7 +96,7 @@ static bool sample_symmetric(motus_system *s, bool in_v, double sign, const doub
     bool ok = true, memory = true;
     mark(s, at.mask);
     for (int round = 0, all = rounds(s); round < all && ok && memory; round++) {
-        const double t = s->start + (round == 0 ? 0 : power_of_ten(4 * random_number(&random)));
+        const double t = s->start + (round == 0 ? 0 : power_of_ten(4 * vector_random(&random)));
         if (h) choose_sides(h, at.sides, &random);
         memory = (!h || held_bind(h, at.sides, round == 0)) && (!p->prepare || p->prepare(p->ctx, in_v));
         if (!memory) break;
@@ -182,7 +175,7 @@ static bool masses_of(motus_system *s, double *masses, bool *found)
         memcpy(x, s->x0, p->nx * sizeof *x);
         memcpy(v, s->v0, n * sizeof *v);
         mark(s, mask);
-        for (size_t k = 0; k < p->nx; k++) x[k] += 0.1 * mask[k] * (fabs(x[k]) + 1) * random_number(&random);
+        for (size_t k = 0; k < p->nx; k++) x[k] += 0.1 * mask[k] * (fabs(x[k]) + 1) * vector_random(&random);
         *found = true;
         for (size_t k = 0; k < n && *found; k++) {
             u[k] = mask[k];

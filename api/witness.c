@@ -16,6 +16,7 @@
 
 #include "api/choice.h"
 #include "api/convex.h"
+#include "api/vector.h"
 #include "core/events.h"
 #include "core/rows.h"
 #include "lang/read/verify.h"
@@ -85,13 +86,13 @@ struct witness {
     size_t own, other; /*   of whose velocities the typed system has the first `own`, and those from `other` on */
     resolution *bends; /* what in the force can hide between points */
     state at[STATES];
-    double *a, *sum, *v; /* of the typed force, and velocities as it wants them */
-    double *most;        /* bounds on the accelerations of the step */
-    double *missing;     /* of every velocity, sizes added up over the parts */
-    double *allowed;     /* what a step may lose of it, */
-    double *rounded;     /*   and what rounding takes from it, */
-    double *rounded_x;   /*   and from places: parts of the largest that they have been */
-    double *dx, *dv;     /* how far the probe is from the step */
+    double *a, *v;     /* of the typed force, and velocities as it wants them */
+    double *most;      /* bounds on the accelerations of the step */
+    double *missing;   /* of every velocity, sizes added up over the parts */
+    double *allowed;   /* what a step may lose of it, */
+    double *rounded;   /*   and what rounding takes from it, */
+    double *rounded_x; /*   and from places: parts of the largest that they have been */
+    double *dx, *dv;   /* how far the probe is from the step */
     double share[WAYS + MORE];
     double *ways, *room; /* of a run with located switches: what the force does beside a part, less what has happened */
     double *scale;       /* how large accelerations are there, */
@@ -133,7 +134,7 @@ static witness *make(const motus_run *r, const differences *seen)
     const motus_system *const s = r->home ? r->home : r->system;
     const bool ways = r->home && p->nv <= WIDTH;
     const size_t nx = p->nx + 1, nv = p->nv + 1,
-                 numbers = STATES * (nx + nv) + 13 * nv + nx + 2 * (nx + nv) + (ways ? (WAYS + MORE) * nv : 0);
+                 numbers = STATES * (nx + nv) + 13 * nv + 2 * (nx + nv) + (ways ? (WAYS + MORE) * nv : 0);
     witness *w = take(&r->allocator, 1, sizeof *w + numbers * sizeof(double));
     if (!w) return NULL;
     *w = (witness){.typed = s, .machine = r->machine, .method = r->chosen, .allocator = r->allocator, .seen = seen};
@@ -145,9 +146,8 @@ static witness *make(const motus_run *r, const differences *seen)
     w->in_x = (interval *)(void *)at, w->in_v = w->in_x + nx;
     at += 2 * (nx + nv);
     for (size_t k = 0; k < STATES; k++, at += nx + nv) w->at[k] = (state){.x = at, .v = at + nx};
-    double **const arrays[] = {&w->a,       &w->sum,       &w->v,         &w->most, &w->missing,
-                               &w->allowed, &w->rounded,   &w->dv,        &w->room, &w->scale,
-                               &w->weight,  &w->other_way, &w->rounded_x, &w->dx,   &w->ways};
+    double **const arrays[] = {&w->a,    &w->v,     &w->most,   &w->missing,   &w->allowed,   &w->rounded, &w->dv,
+                               &w->room, &w->scale, &w->weight, &w->other_way, &w->rounded_x, &w->dx,      &w->ways};
     for (size_t k = 0; k < sizeof arrays / sizeof *arrays; k++, at += nv) *arrays[k] = at;
     return w;
 }
@@ -164,7 +164,7 @@ static bool find_bends(motus_system *s)
     struct bends *const b = &s->bends;
     if (!b->known)
         b->known = verify_resolution(m, lists, counts, 2, true, &b->all, &b->sums) &&
-                   verify_resolution(m, lists, counts, 2, false, &b->smooth, &b->sums);
+                   (s->problem.traits.smooth || verify_resolution(m, lists, counts, 2, false, &b->smooth, &b->sums));
     return b->known;
 }
 
@@ -252,13 +252,11 @@ static bool fits(witness *w, resolution *bends, const state *from, const state *
     return resolution_fits(bends, t, w->in_x, w->in_v, w->typed->model->pool);
 }
 
-/* In [-1, 1), from the number of a way and of a variable [Steele14, its mixing]. */
+/* In [-1, 1), from the number of a way and of a variable. */
 static double turn(uint32_t way, size_t k)
 {
-    uint64_t z = (uint64_t)way * 0x9e3779b97f4a7c15u + ((uint64_t)k + 1) * 0xd1b54a32d192ed03u;
-    z = (z ^ z >> 30) * 0xbf58476d1ce4e5b9u;
-    z = (z ^ z >> 27) * 0x94d049bb133111ebu;
-    return (double)((z ^ z >> 31) >> 11) * 0x1p-52 - 1;
+    uint64_t state = ((uint64_t)way - 1) * 0x9e3779b97f4a7c15u + ((uint64_t)k + 1) * 0xd1b54a32d192ed03u;
+    return vector_random(&state);
 }
 
 /* What a step may lose of a place. */
@@ -331,32 +329,30 @@ static void note_beside(witness *w)
     }
 }
 
+/* What the force does along a way, less what has happened. */
+static bool follow(witness *w, stepper *s, const state *from, const state *to, uint32_t way, double *less)
+{
+    if (!integrate(w, s, from, to->t - from->t, way, less)) return false;
+    for (size_t k = 0; k < w->typed->problem.nv; k++) less[k] -= to->v[place(w, k)] - from->v[place(w, k)];
+    return true;
+}
+
 /* What is missing of one part. */
 static bool hold(witness *w, stepper *s, const state *from, const state *to)
 {
     const double h = to->t - from->t;
     double most = 0, off = 0;
     for (size_t k = 0; k < w->typed->problem.nv; k++) w->scale[k] = w->most[place(w, k)];
-    if (!integrate(w, s, from, h, 0, w->sum)) return false;
+    if (!follow(w, s, from, to, 0, w->room)) return false;
     find_weights(w, h);
     for (size_t k = 0; k < w->typed->problem.nv; k++) {
-        const size_t at = place(w, k);
-        const double missing = fabs((to->v[at] - from->v[at]) - w->sum[k]);
-        w->missing[at] += missing;
-        most = fmax(most, missing / w->allowed[at]);
+        const double missing = fabs(w->room[k]);
+        w->missing[place(w, k)] += missing;
+        most = fmax(most, missing / w->allowed[place(w, k)]);
         off = fmax(off, missing * w->weight[k]);
-        w->room[k] = missing;
     }
     if (w->strict && off > 1) note_beside(w);
     count_part(w, from, h, most);
-    return true;
-}
-
-/* What the force does along a way, less what has happened. */
-static bool follow(witness *w, stepper *s, const state *from, const state *to, uint32_t way, double *less)
-{
-    if (!integrate(w, s, from, to->t - from->t, way, less)) return false;
-    for (size_t k = 0; k < w->typed->problem.nv; k++) less[k] -= to->v[place(w, k)] - from->v[place(w, k)];
     return true;
 }
 

@@ -76,7 +76,7 @@ bool verify_resolution(model *m, const output *const lists[], const size_t count
     size_t plain = 0, room = 0, count = 0;
     for (size_t l = 0; l < n; l++)
         for (size_t k = 0; k < counts[l]; k++, plain++)
-            if (!add_switches(m, &lists[l][k], NULL, &room, sums)) return false;
+            if (switches && !add_switches(m, &lists[l][k], NULL, &room, sums)) return false;
     output *all = arena_room(m->arena, (plain + room + 1) * sizeof *all);
     if (!all) return false;
     for (size_t l = 0; l < n; l++)
