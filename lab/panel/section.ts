@@ -107,11 +107,11 @@ export const sectionPanel = (store: Store): Panel => {
   async function pump(): Promise<void> {
     if (pumping) return;
     pumping = true;
-    try {
-      for (;;) {
-        const of = scene, now = section, next = seen && of && now && !wrong ? [...all()].reverse().find((f) => !f.done) : undefined;
-        if (!of || !now || !next) break;
-        const { method, step, tolerance } = of.solution.tracks[0]!;
+    for (;;) {
+      const of = scene, now = section, next = seen && of && now && !wrong ? [...all()].reverse().find((f) => !f.done) : undefined;
+      if (!of || !now || !next) break;
+      const { method, step, tolerance } = of.solution.tracks[0]!;
+      try {
         const { columns, time, done, problem } = await store.client.ask('section', {
           model: model(of, now), method, step: tolerance === null ? step : null, tolerance, from: next.from, kind: isKind(of, now.when) ? now.when : NAME, columns: shown, have: next.columns[0]?.length ?? 0, most: POINTS, milliseconds: SLICE,
         }, { lane: 'study' });
@@ -119,12 +119,13 @@ export const sectionPanel = (store: Store): Panel => {
         Object.assign(next, { time, problem, spent: next.spent + SLICE });
         next.done = done || (next.columns[0]?.length ?? 0) >= POINTS || next.spent >= ENOUGH;
         fig.redraw();
+      } catch (error) {
+        if (!(error instanceof Refused)) break;
+        // An answer about a condition that has been replaced meanwhile says nothing of the new one.
+        if (scene === of && condition() === now.when) refuse(isName(now.when) ? say.unknown(now.when, error.problem.message) : say.hinted(error.problem.message, error.problem.hint));
       }
-    } catch (error) {
-      if (error instanceof Refused) refuse(isName(condition()) ? say.unknown(condition(), error.problem.message) : say.hinted(error.problem.message, error.problem.hint));
-    } finally {
-      pumping = false;
     }
+    pumping = false;
   }
   function soon(): void {
     window.clearTimeout(timer);

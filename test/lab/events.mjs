@@ -95,7 +95,7 @@ await attempt('a section', async () => {
     await section.locator('.section-when').fill(text);
     await section.locator('.section-when').press('Enter');
     const told = () => section.evaluate((figure) => `${figure.querySelector('.figure-answer').textContent} ${figure.querySelector('.section-note').textContent}`);
-    for (let n = 0; n < 100 && !why.test(await told()); n++) await page.waitForTimeout(100);
+    for (let n = 0; n < 600 && !why.test(await told()); n++) await page.waitForTimeout(100);
     judge(`“${text}” is no section`, why.test(await told()) && !/ points up to|does not happen/.test(await told()), await told());
   }
   await section.locator('.section-when').fill('y = 0');
