@@ -13,9 +13,19 @@
 #include <stdio.h>
 #include <string.h>
 
-enum { TRIAL_STEPS = 2000, HALVINGS = 14, LOOSER = 8, IMPLICIT_STEPS = 100, IMPLICIT_NUMBERS = 200, ROUNDINGS = 4 };
+enum {
+    TRIAL_STEPS = 2000,
+    HALVINGS = 14,
+    LOOSER = 8,
+    IMPLICIT_STEPS = 100,
+    IMPLICIT_NUMBERS = 200,
+    FEW_NUMBERS = 16,
+    ROUNDINGS = 4
+};
 #define BEFORE 0.99 /* of the way to a singularity, at which a run may end */
 #define STIFF_METHOD "gauss4"
+#define TRIED_METHOD "dop853"
+#define TRIED_TOLERANCE 1e-9
 #define NEAR_BOUND 4.0  /* steps that stability bounds are so near to the bound, in both directions */
 #define UNBOUNDED 500.0 /* step times rate: no bound of stability is as large */
 #define LONGER 10.0     /* times as long are the steps of an implicit method at least, where the model is stiff */
@@ -29,6 +39,8 @@ typedef struct judge {
     motus_error *err;
     evidence_ahead ahead;
     bool looked;
+    trial_course whole; /* the way to `whole_to` by TRIED_METHOD */
+    double whole_to;    /* NaN: it was not tried */
     char cause[MOTUS_TEXT_MAX];
 } judge;
 
@@ -82,8 +94,8 @@ static void attempt(judge *j, bool verified, const char *member, const char *val
     j->err->verified = verified;
 }
 
-/* An end of few digits shortly before an instant. */
-static void end_before(judge *j, double instant)
+/* An end of few digits shortly before an instant; returns it. */
+static double end_before(judge *j, double instant)
 {
     char text[MOTUS_TEXT_MAX] = "";
     const double whole = instant - j->e.begin, wanted = j->e.begin + BEFORE * whole,
@@ -96,6 +108,90 @@ static void end_before(judge *j, double instant)
     decimal(value, text);
     attempt(j, (j->e.t - value) * j->e.way >= 0, "until", text);
     hint(j->err, "end the run before, `until = %s` of the definition", text);
+    return value;
+}
+
+/* ---- what is tried before it is named ---- */
+
+/* Trials begin where the run did, for what is named has to lead the whole way. */
+static evidence_place from_of(const judge *j) { return j->e.origin ? EVIDENCE_FROM_START : EVIDENCE_FROM_EARLY; }
+static double way_to(const judge *j, double end) { return fabs(end - (j->e.origin ? j->e.begin : j->e.early_t)); }
+
+/* The way to there by a method that adapts its steps, whose largest number says which trials have left the motion. */
+static const trial_course *whole(judge *j, double end)
+{
+    const evidence_trial trial = {.method = TRIED_METHOD, .tolerance = TRIED_TOLERANCE, .from = from_of(j)};
+    if (j->whole_to != end) j->whole = evidence_try(&j->e, &trial, INT64_MAX, way_to(j, end), NULL);
+    j->whole_to = end;
+    return &j->whole;
+}
+
+/* Whether trial steps have led as far as asked, without growing beyond the motion. */
+static bool succeeds(judge *j, const trial_course *c, double end)
+{
+    if (c->status != MOTUS_OK) return false;
+    const trial_course *const w = whole(j, end);
+    const double size = w->status == MOTUS_OK ? w->largest : j->looked ? j->ahead.largest : INFINITY;
+    return c->largest <= NO_LARGER * fmax(size, 1e-300);
+}
+
+/* The largest step of one digit among halvings of the run's that leads to there. False: none does in a bounded time. */
+static bool shorter_step(judge *j, double end, char text[MOTUS_TEXT_MAX])
+{
+    for (int k = 1; k <= HALVINGS; k++) {
+        error_text(text, "%.1g", ldexp(fabs(j->e.h), -k));
+        const evidence_trial trial = {.step = read_number(text), .from = from_of(j)};
+        if (way_to(j, end) / trial.step > 10 * TRIAL_STEPS) break;
+        const trial_course c = evidence_try(&j->e, &trial, 10 * TRIAL_STEPS, way_to(j, end), NULL);
+        if (succeeds(j, &c, end)) return true;
+    }
+    return false;
+}
+
+/* Names such a step to the end of the run, else a method that adapts its steps. */
+static bool propose_steps(judge *j)
+{
+    char text[MOTUS_TEXT_MAX], tolerance[DECIMAL_MAX];
+    if (!j->e.adaptive && shorter_step(j, j->e.until, text)) {
+        attempt(j, true, "step", text);
+        hint(j->err, "take smaller steps, `step = %s` of the definition", text);
+        return true;
+    }
+    if (whole(j, j->e.until)->status != MOTUS_OK) return false;
+    decimal(TRIED_TOLERANCE, tolerance);
+    snprintf(j->err->attempt, sizeof j->err->attempt, "method = %s, tolerance = %.24s", TRIED_METHOD, tolerance);
+    j->err->verified = 1;
+    hint(j->err, "take steps that adapt, `method = %s` of the definition with `tolerance = %s` of the definition",
+         TRIED_METHOD, tolerance);
+    return true;
+}
+
+/* The run with switches located, once, to its end. */
+static bool locating_leads(const judge *j)
+{
+    const evidence *e = &j->e;
+    motus_run_def def = motus_default_run();
+    motus_run *run = NULL;
+    const problem *const p = &e->system->problem;
+    const bool known = e->origin && e->begin == e->system->start &&
+                       !memcmp(e->origin_v, e->system->v0, p->nv * sizeof(double)) &&
+                       (!p->nx || !memcmp(e->origin_x, e->system->x0, p->nx * sizeof(double)));
+    if (!known) return false;
+    def.method = e->row->name;
+    def.machine = "interpreter";
+    def.error = MOTUS_BARS_NONE;
+    def.switches = MOTUS_SWITCHES_LOCATE;
+    def.start = e->begin, def.until = e->until;
+    if (e->adaptive)
+        def.tolerance = e->row->absolute > 0 ? e->row->absolute : e->row->relative, def.absolute = e->row->absolute > 0;
+    else
+        def.step = fabs(e->h);
+    motus_status status = motus_run_create(e->system, &def, &run, NULL);
+    while (status == MOTUS_OK && !motus_run_done(run) && motus_run_steps(run) < e->steps)
+        status = motus_run_step(run, TRIAL_STEPS / 10, NULL);
+    const bool leads = status == MOTUS_OK && motus_run_done(run);
+    motus_run_destroy(run);
+    return leads;
 }
 
 /* ---- causes of the motion ---- */
@@ -127,6 +223,13 @@ static bool tell_singular(judge *j)
                    with_error(a->exponent, a->exponent_error, p));
     else
         error_text(j->cause, "%s is singular at t = %s", name, t);
+    /* errors of steps of one size have no tolerance that bounds them */
+    if (!a->from_start && !j->e.adaptive && j->e.early_t != j->e.begin) {
+        char text[MOTUS_TEXT_MAX];
+        snprintf(text, sizeof text, "%s", j->cause);
+        error_text(j->cause,
+                   "from where the run stands, %s; whether the motion from the start comes there is not known", text);
+    }
     say(j, MOTUS_CAUSE_SINGULAR, name);
     j->err->singular = a->t;
     j->err->singular_error = a->t_error;
@@ -135,10 +238,22 @@ static bool tell_singular(judge *j)
     return true;
 }
 
+/* Where the run has failed long before the motion does, its steps are to blame as well. */
 static bool singular(judge *j)
 {
+    char step[MOTUS_TEXT_MAX], text[MOTUS_TEXT_MAX];
     if (!tell_singular(j)) return false;
-    end_before(j, j->ahead.t);
+    const double end = end_before(j, j->ahead.t);
+    if (j->err->verified) return true;
+    if (!j->e.adaptive && shorter_step(j, end, step)) {
+        snprintf(text, sizeof text, "%s", j->err->hint);
+        const size_t length = strlen(j->err->attempt);
+        snprintf(j->err->attempt + length, sizeof j->err->attempt - length, ", step = %.24s", step);
+        j->err->verified = 1;
+        hint(j->err, "%s with `step = %s` of the definition", text, step);
+    } else {
+        end_before(j, j->e.t);
+    }
     return true;
 }
 
@@ -174,10 +289,13 @@ static bool can_locate(const judge *j)
     return located_for(s, j->e.row, MOTUS_SWITCHES_LOCATE, &to, &why, NULL) == MOTUS_OK && to;
 }
 
-static void propose_locating(judge *j)
+/* False: such steps do not lead to the end. */
+static bool propose_locating(judge *j)
 {
-    attempt(j, false, "switches", "locate");
+    if (!can_locate(j) || !locating_leads(j)) return false;
+    attempt(j, true, "switches", "locate");
     hint(j->err, "let steps end where the force jumps, `switches = locate` of the definition");
+    return true;
 }
 
 static bool discontinuous(judge *j)
@@ -194,10 +312,7 @@ static bool discontinuous(judge *j)
         "the jump",
         name, before, after);
     say(j, MOTUS_CAUSE_DISCONTINUOUS, name);
-    if (can_locate(j)) {
-        propose_locating(j);
-        return true;
-    }
+    if (propose_locating(j)) return true;
     end_before(j, j->e.t);
     char text[MOTUS_TEXT_MAX];
     snprintf(text, sizeof text, "%s", j->err->hint);
@@ -206,12 +321,6 @@ static bool discontinuous(judge *j)
 }
 
 /* ---- causes of the steps ---- */
-
-/* Whether trial steps have led as far as asked, without growing beyond the motion. */
-static bool succeeds(const judge *j, const trial_course *c)
-{
-    return c->status == MOTUS_OK && c->largest <= NO_LARGER * fmax(j->ahead.largest, 1e-300);
-}
 
 static bool noise(judge *j)
 {
@@ -239,6 +348,9 @@ static bool noise(judge *j)
         const evidence_trial trial = {.tolerance = tolerance, .absolute = absolute};
         const trial_course c = evidence_try(&j->e, &trial, TRIAL_STEPS, far, NULL);
         if (c.status != MOTUS_OK) continue;
+        const evidence_trial again = {.tolerance = tolerance, .absolute = absolute, .from = from_of(j)};
+        const motus_status status = evidence_try(&j->e, &again, INT64_MAX, way_to(j, j->e.until), NULL).status;
+        if (status != MOTUS_OK && status != MOTUS_STEPS) continue;
         if (absolute) strcat(value, " absolute");
         attempt(j, true, "tolerance", value);
         hint(j->err, "allow more, `tolerance = %s` of the definition", value);
@@ -264,18 +376,18 @@ static bool time_rounding(judge *j)
     return true;
 }
 
-/* The largest step, of one digit, with which a method that no stability bounds leads on and agrees with half of it; 0:
- * none above `least`. */
-static double implicit_step(judge *j, bool early, double least, char text[MOTUS_TEXT_MAX])
+/* The largest step, of one digit, with which a method that no stability bounds leads on, agrees with half of it, and
+ * leads the whole way; or, where that is too far to be tried, as far as it was. 0: none above `least`. */
+static double implicit_step(judge *j, evidence_place from, double least, char text[MOTUS_TEXT_MAX], bool *tried)
 {
     evidence *e = &j->e;
     const size_t n = e->problem->nx + e->problem->nv;
     double *one = take(&e->system->allocator, 2 * n, sizeof *one), *two = one ? one + n : NULL, found = 0;
     if (n > IMPLICIT_NUMBERS) found = NAN; /* its equations would take too long */
-    double step = fabs(e->until - (early ? e->early_t : e->t)) / IMPLICIT_STEPS;
+    double step = fabs(e->until - (from == EVIDENCE_FROM_EARLY ? e->early_t : e->t)) / IMPLICIT_STEPS;
     for (; one && found == 0 && step >= least; step /= 2) {
         error_text(text, "%.0e", step);
-        evidence_trial trial = {.method = STIFF_METHOD, .step = read_number(text), .early = early};
+        evidence_trial trial = {.method = STIFF_METHOD, .step = read_number(text), .from = from};
         decimal(trial.step, text);
         const double far = IMPLICIT_STEPS * trial.step, whole = trial.step;
         const trial_course c = evidence_try(e, &trial, TRIAL_STEPS, far, one);
@@ -283,7 +395,12 @@ static double implicit_step(judge *j, bool early, double least, char text[MOTUS_
         if (c.status != MOTUS_OK || evidence_try(e, &trial, TRIAL_STEPS, far, two).status != MOTUS_OK) continue;
         double off = 0, size = 0;
         for (size_t k = 0; k < n; k++) off = fmax(off, fabs(one[k] - two[k])), size = fmax(size, fabs(two[k]));
-        if (off <= AGREES * size) found = whole;
+        trial.step = whole, trial.from = from_of(j);
+        if (off > AGREES * size) continue;
+        const int64_t steps = n <= FEW_NUMBERS ? 10 * TRIAL_STEPS : TRIAL_STEPS;
+        const trial_course all = evidence_try(e, &trial, steps, way_to(j, e->until), NULL);
+        if (all.status == MOTUS_OK || all.status == MOTUS_STEPS) found = whole;
+        *tried = all.status == MOTUS_OK;
     }
     give(&e->system->allocator, one);
     return isnan(found) ? 0 : found;
@@ -296,8 +413,10 @@ static bool stiff(judge *j, double mean)
     evidence *e = &j->e;
     double re, im;
     size_t which;
+    bool tried = false;
     char name[MOTUS_NAME_MAX], text[MOTUS_TEXT_MAX];
     const bool early = !e->adaptive;
+    const evidence_place from = early ? EVIDENCE_FROM_EARLY : EVIDENCE_FROM_LAST;
     if (!evidence_rate(e, early, &re, &im, &which) || !(re < 0) || fabs(im) > -re) return false;
     const double rate = hypot(re, im), bound = stability_bound(e->row->name, re, im),
                  h = e->adaptive ? mean : fabs(e->h);
@@ -305,49 +424,39 @@ static bool stiff(judge *j, double mean)
     const double limit = !(bound < UNBOUNDED) && e->adaptive ? 1 : bound;
     if (!(limit > 0) || (e->adaptive && (h * rate > NEAR_BOUND * limit || h * rate < limit / NEAR_BOUND))) return false;
     if (!e->adaptive && h * rate <= limit) return false;
-    if (implicit_step(j, early, LONGER * limit / rate, text) == 0) return false;
+    if (implicit_step(j, from, LONGER * limit / rate, text, &tried) == 0) return false;
     error_text(j->cause, "the model is stiff: %s returns to the motion with the rate %.2g, and steps of %s %s %.2g",
                name_of(j, true, which, name), rate, e->row->name,
                limit == bound ? "would grow above" : "do not converge much above", limit / rate);
     say(j, MOTUS_CAUSE_STIFF, name);
     snprintf(j->err->attempt, sizeof j->err->attempt, "method = %s, step = %.24s", STIFF_METHOD, text);
-    j->err->verified = 1;
+    j->err->verified = tried;
     hint(j->err,
-         "take a method that no stability bounds, `method = %s` of the definition with `step = %s` of the definition",
-         STIFF_METHOD, text);
+         "take a method that no stability bounds, `method = %s` of the definition with `step = %s` of the definition%s",
+         STIFF_METHOD, text, tried ? "" : "; or smaller ones: these were tried for a part of the way");
     return true;
 }
 
-/* The largest step among halvings of the run's that leads beyond the failure. */
-static bool shorter_step(judge *j, bool early)
+static void nothing_leads(judge *j)
 {
-    evidence *e = &j->e;
-    char text[MOTUS_TEXT_MAX];
-    const double far = fmin(fabs(e->until - (early ? e->early_t : e->t)),
-                            2 * fabs(e->noted - (early ? e->early_t : e->t)) + 10 * fabs(e->h));
-    for (int k = 1; k <= HALVINGS; k++) {
-        error_text(text, "%.1g", ldexp(fabs(e->h), -k));
-        const evidence_trial trial = {.step = read_number(text), .early = early};
-        if (far / trial.step > 10 * TRIAL_STEPS) break;
-        const trial_course c = evidence_try(e, &trial, 10 * TRIAL_STEPS, far, NULL);
-        if (early ? !succeeds(j, &c) : c.status != MOTUS_OK) continue;
-        attempt(j, true, "step", text);
-        hint(j->err, "take smaller steps, `step = %s` of the definition", text);
-        return true;
-    }
-    return false;
+    hint(j->err, "take a smaller step, or another method: none that could be tried in a short time leads to the end");
 }
 
-/* Steps of one size have left the motion, which goes on. */
-static bool too_long(judge *j)
+/* Steps have left the motion, which goes on: those of one size, or errors within a tolerance. */
+static bool left_motion(judge *j)
 {
+    const evidence *const e = &j->e;
     char name[MOTUS_NAME_MAX];
-    if (look(j)->way != EVIDENCE_ON) return false;
+    if (look(j)->way != EVIDENCE_ON || (e->adaptive && !j->ahead.drifted)) return false;
     snprintf(name, sizeof name, "%s", j->err->variable);
-    error_text(j->cause, "the motion itself goes on, and steps of %.3g by %s are too long for it", fabs(j->e.h),
-               j->e.row->name);
+    if (e->adaptive)
+        error_text(j->cause, "the motion itself goes on, and the tolerance %.2g of %s is too large for it",
+                   fmax(e->row->absolute, e->row->relative), e->row->name);
+    else
+        error_text(j->cause, "the motion itself goes on, and steps of %.3g by %s are too long for it", fabs(e->h),
+                   e->row->name);
     say(j, MOTUS_CAUSE_INFINITE, name);
-    if (!shorter_step(j, true)) hint(j->err, "take a smaller step, or an adaptive method");
+    if (!propose_steps(j)) nothing_leads(j);
     return true;
 }
 
@@ -355,9 +464,11 @@ static void unsolved(judge *j)
 {
     if (singular(j)) return;
     j->err->cause = MOTUS_CAUSE_SOLVER;
-    if (j->e.adaptive || shorter_step(j, false) || !can_locate(j)) return;
-    j->err->cause = MOTUS_CAUSE_DISCONTINUOUS; /* no shorter step converges, and the force has jumps or kinks */
-    propose_locating(j);
+    if (propose_steps(j)) return;
+    if (propose_locating(j))
+        j->err->cause = MOTUS_CAUSE_DISCONTINUOUS; /* no shorter step converges, and the force has jumps or kinks */
+    else if (!j->e.adaptive)
+        nothing_leads(j);
 }
 
 /* ---- the judgement ---- */
@@ -371,10 +482,10 @@ static void judge_all(judge *j, double mean)
     }
     if (!j->e.adaptive) {
         if (status == MOTUS_DIVERGED)
-            (void)(singular(j) || infinite(j) || stiff(j, mean) || undefined(j) || too_long(j));
+            (void)(singular(j) || infinite(j) || stiff(j, mean) || undefined(j) || left_motion(j));
         return;
     }
-    if (discontinuous(j) || singular(j) || infinite(j) || noise(j) || stiff(j, mean)) return;
+    if (discontinuous(j) || singular(j) || infinite(j) || left_motion(j) || noise(j) || stiff(j, mean)) return;
     if (status == MOTUS_DIVERGED) (void)(undefined(j) || time_rounding(j));
 }
 
@@ -382,7 +493,7 @@ static void add(motus_system *s, stepper *of, double mean, motus_error *err)
 {
     if (err->status == MOTUS_EVENTS) err->cause = MOTUS_CAUSE_EVENTS;
     if (err->status != MOTUS_DIVERGED && err->status != MOTUS_SOLVE && err->status != MOTUS_STEPS) return;
-    judge j = {.err = err};
+    judge j = {.err = err, .whole_to = NAN};
     if (!evidence_begin(&j.e, s, of, err->time)) return;
     judge_all(&j, isnan(mean) ? fabs(j.e.h) : mean);
     evidence_end(&j.e);

@@ -12,6 +12,7 @@
 enum { STEPS_LEAST = 200, STEPS_MOST = 20000, DEEPER = 8, AHEAD = 2, BISECTIONS = 80, SIZES = 11, SCATTER = 8 };
 #define LOOK_METHOD "dop853"
 #define LOOK_TOLERANCE 1e-12
+#define LOOSER_TOLERANCE 1e-10
 #define WORK 4e8            /* operations of one trial */
 #define CALLBACK_WORK 100.0 /* operations of a callback, for each number */
 #define STAGES 12.0         /* evaluations of one of its steps */
@@ -66,11 +67,13 @@ bool evidence_begin(evidence *e, motus_system *s, stepper *of, double noted)
                     .t = stepper_time(of)};
     e->adaptive = row_adaptive(e->row);
     e->way = e->until < e->begin || (!(e->until > e->begin) && stepper_step(of) < 0) ? -1 : 1;
-    double *room = take(&s->allocator, 3 * nx + 6 * nv, sizeof *room);
+    double *room = take(&s->allocator, 4 * nx + 7 * nv, sizeof *room);
     if (!room) return false;
     e->early_x = room, e->x = room + nx, e->other_x = room + 2 * nx;
     e->early_v = room + 3 * nx, e->v = e->early_v + nv, e->a = e->v + nv, e->other_v = e->a + nv;
     e->b = e->other_v + nv, e->c = e->b + nv;
+    e->origin_x = e->c + nv, e->origin_v = e->origin_x + nx;
+    e->origin = stepper_origin(of, e->origin_x, e->origin_v);
     e->steps = steps_of(s, p);
     if (isnan(e->noted)) e->noted = e->t;
     const bool early = stepper_earlier(of, &e->early_t, e->early_x, e->early_v),
@@ -86,6 +89,7 @@ void evidence_from(evidence *e, double t, const double *x, const double *v)
 {
     copy_state(e, &e->t, e->x, e->v, t, x, v);
     copy_state(e, &e->early_t, e->early_x, e->early_v, t, x, v);
+    e->origin = false;
     force(e, t, e->x, e->v, e->a);
 }
 
@@ -135,7 +139,7 @@ static motus_status collect(evidence *e, trial *p, double until, samples *out)
     }
 }
 
-static void judge_ahead(evidence *e, const samples *s, motus_status status, double gone, double span,
+static void judge_ahead(evidence *e, const samples *s, motus_status status, double from, double gone, double span,
                         evidence_ahead *out)
 {
     power fit;
@@ -150,12 +154,10 @@ static void judge_ahead(evidence *e, const samples *s, motus_status status, doub
     const double rounding = gone * DBL_EPSILON;
     if (power_fit(s->t, s->y, s->count, rounding, &fit) && fabs(fit.at - gone) <= HALTED * gone + fit.at_error &&
         fit.at <= span) {
-        const double order = s->which < e->problem->nx ? 2 : 1, earlier = e->adaptive ? e->row->relative : 0,
-                     whole = fabs(e->early_t - e->begin);
+        const double order = s->which < e->problem->nx ? 2 : 1;
         out->way = EVIDENCE_SINGULAR;
-        out->t = e->early_t + e->way * fit.at;
-        out->t_error = fit.at_error + LOOK_TOLERANCE * gone + DBL_EPSILON * fabs(out->t) + 10 * earlier * whole;
-        if (!e->adaptive && whole > 0) out->t_error += fabs(e->h);
+        out->t = from + e->way * fit.at;
+        out->t_error = fit.at_error + LOOK_TOLERANCE * gone + DBL_EPSILON * fabs(out->t);
         out->exponent = order - fit.exponent;
         out->exponent_error = fit.exponent_error + 1e-9;
     } else if (s->state >= LARGEST) {
@@ -225,28 +227,62 @@ static bool look_back(evidence *e, samples *s, evidence_ahead *out)
     return true;
 }
 
-evidence_ahead evidence_look(evidence *e)
+/* Controlled steps from a state over a time `span`, of which at most so many are taken; where these come as far as
+ * `past`, the motion goes on. UNKNOWN with a time: it is an encounter. */
+static evidence_ahead look_from(evidence *e, double t, const double *x, const double *v, double span, double past,
+                                double tolerance, int64_t steps, samples *s)
 {
     evidence_ahead out = {.t = NAN, .t_error = NAN, .exponent = NAN, .exponent_error = NAN};
     chosen look;
     trial p;
-    const double span = AHEAD * fabs(e->noted - e->early_t) + 4 * fabs(e->h);
-    samples s = {.t = take(&e->system->allocator, 2 * (size_t)(e->steps + 2), sizeof *s.t)};
-    s.y = s.t ? s.t + e->steps + 2 : NULL;
-    if (s.t && row_choose(LOOK_METHOD, &look, NULL, NULL) == MOTUS_OK) {
-        look.relative = LOOK_TOLERANCE;
-        if (trial_begin(&p, e->problem, &e->system->allocator, &look, e->early_t, e->way, e->early_x, e->early_v,
-                        e->steps)) {
-            const motus_status status = collect(e, &p, e->way * span, &s);
-            judge_ahead(e, &s, status, fabs(stepper_time(p.stepper)), span, &out);
-            trial_end(&p);
-            const bool other = e->adaptive && out.way != EVIDENCE_SINGULAR && out.way != EVIDENCE_INFINITE;
-            if (other && e->problem->traits.time)
-                look_back(e, &s, &out);
-            else if (out.way == EVIDENCE_SINGULAR && passes(e, &look, DEEP * out.gone))
-                out.way = EVIDENCE_UNKNOWN;
-        }
+    s->count = 0, s->largest = 0;
+    if (row_choose(LOOK_METHOD, &look, NULL, NULL) != MOTUS_OK) return out;
+    look.relative = tolerance;
+    if (!trial_begin(&p, e->problem, &e->system->allocator, &look, t, e->way, x, v, steps)) return out;
+    const motus_status status = collect(e, &p, e->way * span, s);
+    judge_ahead(e, s, status, t, fabs(stepper_time(p.stepper)), span, &out);
+    trial_end(&p);
+    if (status == MOTUS_STEPS && out.gone >= past) out.way = EVIDENCE_ON;
+    if (out.way == EVIDENCE_SINGULAR && passes(e, &look, DEEP * out.gone)) out.way = EVIDENCE_UNKNOWN;
+    return out;
+}
+
+/* The same from the start. What two tolerances find differs by what the errors of the looser one make of it, a hundred
+ * times those of the other. */
+static evidence_ahead look_from_start(evidence *e, samples *s)
+{
+    const double past = fabs(e->noted - e->begin) + 4 * fabs(e->h), span = AHEAD * past;
+    const int64_t steps = e->steps / 2;
+    evidence_ahead out = look_from(e, e->begin, e->origin_x, e->origin_v, span, past, LOOK_TOLERANCE, steps, s);
+    if (out.way == EVIDENCE_UNKNOWN) return out;
+    evidence_ahead loose = look_from(e, e->begin, e->origin_x, e->origin_v, span, past, LOOSER_TOLERANCE, steps, s);
+    if (loose.way != out.way) return loose.way = EVIDENCE_UNKNOWN, loose;
+    if (out.way == EVIDENCE_SINGULAR) {
+        out.t_error += fabs(out.t - loose.t);
+        out.exponent_error += fabs(out.exponent - loose.exponent);
     }
+    out.from_start = true;
+    return out;
+}
+
+evidence_ahead evidence_look(evidence *e)
+{
+    evidence_ahead out = {.t = NAN, .t_error = NAN, .exponent = NAN, .exponent_error = NAN};
+    samples s = {.t = take(&e->system->allocator, 2 * (size_t)(e->steps + 2), sizeof *s.t)};
+    if (!s.t) return out;
+    s.y = s.t + e->steps + 2;
+    const double whole = fabs(e->early_t - e->begin);
+    out = look_from(e, e->early_t, e->early_x, e->early_v, AHEAD * fabs(e->noted - e->early_t) + 4 * fabs(e->h),
+                    INFINITY, LOOK_TOLERANCE, e->steps, &s);
+    if (out.way == EVIDENCE_SINGULAR) out.t_error += 10 * (e->adaptive ? e->row->relative : 0) * whole;
+    if (out.way == EVIDENCE_SINGULAR && !e->adaptive && whole > 0) out.t_error += fabs(e->h);
+    const bool leads = out.way == EVIDENCE_SINGULAR || out.way == EVIDENCE_INFINITE;
+    if (e->origin && whole > 0 && (leads || !e->adaptive)) {
+        evidence_ahead start = look_from_start(e, &s);
+        start.drifted = leads && start.way == EVIDENCE_ON;
+        if (start.from_start) out = start;
+    }
+    if (e->adaptive && !leads && !out.from_start && isnan(out.t) && e->problem->traits.time) look_back(e, &s, &out);
     give(&e->system->allocator, s.t);
     return out;
 }
@@ -428,8 +464,9 @@ trial_course evidence_try(evidence *e, const evidence_trial *trial, int64_t step
     }
     row.count = 0;
     row.least = 0;
-    const double t = trial->early ? e->early_t : e->t;
+    const double times[] = {e->t, e->early_t, e->begin};
+    const double *const x[] = {e->x, e->early_x, e->origin_x}, *const v[] = {e->v, e->early_v, e->origin_v};
     if (steps > e->steps) steps = e->steps;
-    return trial_run(e->problem, &e->system->allocator, &row, t, h, trial->early ? e->early_x : e->x,
-                     trial->early ? e->early_v : e->v, steps, e->way * until, end);
+    return trial_run(e->problem, &e->system->allocator, &row, times[trial->from], h, x[trial->from], v[trial->from],
+                     steps, e->way * until, end);
 }

@@ -19,6 +19,8 @@ typedef struct evidence {
     double begin, until;                /* of the leg */
     double h, noted;                    /* the size of the last step, and the time of the failure */
     double early_t, *early_x, *early_v; /* some steps before it */
+    bool origin;                        /* the state at `begin` is known: */
+    double *origin_x, *origin_v;        /*   it has no error yet */
     double t, *x, *v, *a;               /* the last good state, and the force there */
     double *other_x, *other_v, *b, *c;  /* room */
     double *rate_room;
@@ -31,20 +33,22 @@ bool evidence_begin(evidence *, motus_system *, stepper *, double noted);
 void evidence_from(evidence *, double t, const double *x, const double *v);
 void evidence_end(evidence *);
 
-/* How controlled steps from the early state go on. */
+/* How controlled steps go on: from the start where they are not too many, else from the early state. */
 typedef enum evidence_way {
-    EVIDENCE_UNKNOWN,  /* they were too few, or come to a halt for another reason */
+    EVIDENCE_UNKNOWN,  /* they were too few, come to a halt for another reason, or do not agree */
     EVIDENCE_ON,       /* beyond the failure */
     EVIDENCE_SINGULAR, /* to a time at which the force has no finite value */
     EVIDENCE_INFINITE  /* to the largest numbers */
 } evidence_way;
 typedef struct evidence_ahead {
     evidence_way way;
-    double gone;                                 /* the time that was covered, from the early state on */
+    double gone;                                 /* the time that was covered */
     double t, t_error, exponent, exponent_error; /* SINGULAR: the run's time, and the power of the number */
     size_t which;                                /* the number of v whose change is the largest at the end */
     bool in_v;                                   /* INFINITE: it is a number of v, else of x */
     double largest;                              /* number of the states on the way */
+    bool from_start;                             /* these are steps from the start, so no errors of the run are in it */
+    bool drifted;                                /* and go on, where those from the early state do not */
 } evidence_ahead;
 evidence_ahead evidence_look(evidence *);
 
@@ -58,12 +62,14 @@ bool evidence_noise(evidence *, size_t *which);
  * most. False: it cannot be computed. */
 bool evidence_rate(evidence *, bool early, double *re, double *im, size_t *which);
 
+/* From the last good state, the early one, or that at the start, which has to be known. */
+typedef enum evidence_place { EVIDENCE_FROM_LAST, EVIDENCE_FROM_EARLY, EVIDENCE_FROM_START } evidence_place;
 /* Trial steps with another method, step (0: the run's), or tolerance (0: the run's). */
 typedef struct evidence_trial {
     const char *method; /* NULL: the run's */
     double step, tolerance;
     bool absolute;
-    bool early; /* from the early state, else from the last good one */
+    evidence_place from;
 } evidence_trial;
 /* end: NULL, or room for nx + nv numbers. */
 trial_course evidence_try(evidence *, const evidence_trial *, int64_t steps, double until, double *end);

@@ -118,9 +118,10 @@ motus_status stepper_create(const machine *m, const chosen *method, double t0, d
     const size_t arrays = stepper_arrays(sizes), carried = stepper_carried(sizes) * p->nv + STEPPER_CLOCKS;
     const size_t head = (sizeof(stepper) + LINE - 1) / LINE * LINE, plan = work_plan_size(&sizes);
     const size_t twice = p->nx + p->nv <= CHECK_ALWAYS ? 2 : 1; /* snapshots */
-    if (sizes.stride > (SIZE_MAX - head - LINE) / sizeof(double) / (arrays + 2 * CARRY_MAX + 1) - plan)
+    if (sizes.stride > (SIZE_MAX - head - LINE) / sizeof(double) / (arrays + 2 * CARRY_MAX + 3) - plan)
         return fail(err, MOTUS_MEMORY, "out of memory for the state");
-    char *block = take(allocator, head + LINE + (arrays * sizes.stride + twice * carried + plan) * sizeof(double), 1);
+    char *block = take(
+        allocator, head + LINE + (arrays * sizes.stride + twice * carried + plan + p->nx + p->nv) * sizeof(double), 1);
     if (!block) return fail(err, MOTUS_MEMORY, "out of memory for the state");
     stepper *s = (stepper *)(void *)block;
     double *memory = (double *)(void *)(block + head + (LINE - (uintptr_t)(block + head) % LINE) % LINE);
@@ -132,7 +133,8 @@ motus_status stepper_create(const machine *m, const chosen *method, double t0, d
     s->array_count = arrays * sizes.stride;
     s->snapshot = memory + s->array_count;
     s->earlier = twice > 1 ? s->snapshot + carried : NULL;
-    s->work = stepper_plan(p, method, s->snapshot + twice * carried);
+    s->origin = s->snapshot + twice * carried;
+    s->work = stepper_plan(p, method, s->origin + p->nx + p->nv);
     s->library.problem = &s->problem;
     if (!p->variables) {
         s->all[1] = p->nv;

@@ -175,6 +175,8 @@ motus_status stepper_load(stepper *, stepper_count, const double *carry, motus_e
 /* The same, of a leg that began at t0 with step h; and the start of the present leg. */
 motus_status stepper_load_leg(stepper *, double t0, double h, stepper_count, const double *carry, motus_error *);
 double stepper_leg(const stepper *);
+/* The state at that start. False: it is not known. */
+bool stepper_origin(const stepper *, double *x, double *v);
 
 /* Gives a stepper another body before its first step, for tests that all bodies give the same bits. */
 void stepper_use_body(stepper *, const stepper_body *);

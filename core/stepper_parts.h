@@ -26,6 +26,8 @@ struct stepper {
     /* the carried numbers at `at`, and those of the snapshot before, of the same leg; steps < 0: none */
     double *snapshot, *earlier;
     stepper_count at, earlier_at;
+    double *origin; /* x, v at the start of the leg, which is known unless its state was loaded */
+    bool origin_known;
     double main_t0; /* of the leg, while the shorter last step has its own */
     /* where steps adapt: the time after the latest multiple of PACE steps, and that number; < 0: not known */
     double pace_t;

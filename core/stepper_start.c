@@ -231,6 +231,9 @@ static motus_status start(stepper *s, double t0, double h, const double *x, cons
     s->at.steps = s->earlier_at.steps = -1;
     s->shortened = s->arrived = s->left = s->right = false;
     s->left_steps = -1;
+    memcpy(s->origin, x, s->work.nx * sizeof *x);
+    memcpy(s->origin + s->work.nx, v, s->work.nv * sizeof *v);
+    s->origin_known = true;
     begin(s, t0, h, x, v, cleared, goes_on);
     return MOTUS_OK;
 }

@@ -114,7 +114,16 @@ motus_status stepper_load(stepper *s, stepper_count at, const double *carry, mot
     s->shortened = s->arrived = s->left = s->right = false;
     s->left_steps = -1;
     s->at.steps = s->earlier_at.steps = -1;
+    s->origin_known = false;
     return MOTUS_OK;
+}
+
+bool stepper_origin(const stepper *s, double *x, double *v)
+{
+    if (!s->origin_known) return false;
+    memcpy(x, s->origin, s->work.nx * sizeof *x);
+    memcpy(v, s->origin + s->work.nx, s->work.nv * sizeof *v);
+    return true;
 }
 
 double stepper_leg(const stepper *s) { return s->main_t0; }
@@ -188,6 +197,7 @@ motus_status stepper_move(stepper **s, const machine *m, motus_error *err)
     to->judge = from->judge, to->judge_ctx = from->judge_ctx;
     to->inspector = from->inspector, to->inspector_ctx = from->inspector_ctx;
     to->at = from->at, to->earlier_at = from->earlier_at;
+    to->origin_known = stepper_origin(from, to->origin, to->origin + nx);
     memcpy(to->snapshot, from->snapshot, stepper_carry(from) * sizeof *to->snapshot);
     if (from->earlier) memcpy(to->earlier, from->earlier, stepper_carry(from) * sizeof *to->earlier);
     *s = to;

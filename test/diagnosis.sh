@@ -91,6 +91,14 @@ model oscillates "x'' = -1e4*x" "x(0) = 1" "x'(0) = 0"
 ends_by "an oscillation that steps do not resolve" infinite "$place/oscillates.motus" --until 500 --method verlet --step 0.03
 that "... is not stiff: the motion goes on" eval "jq -r .error.message '$out' | grep -q 'the motion itself goes on'"
 obeyed "... with a smaller step" "'$place/oscillates.motus'" --until 500 --method verlet
+# Errors carry the run over the hill of the potential, beyond which x becomes infinite; the motion itself has no singularity.
+model hill "x'' = -x + x^3 + 0.1*cos(t)" "x(0) = 0" "x'(0) = 0"
+for how in "explicit-euler --step 0.03" "explicit-euler --step 0.02" "heun --step 0.6"; do
+    ends_by "steps that carry the run over a hill, $how" infinite "$place/hill.motus" --until 100 --method $how
+    that "... the motion itself goes on" eval "jq -r .error.message '$out' | grep -q 'the motion itself goes on'"
+    that "... what to take was tried" diagnosed '.verified == true'
+    obeyed "... and leads to the end" "'$place/hill.motus'" --until 100 --method "${how%% *}"
+done
 model transient "x'' = -1e6*(x' - cos(t))" "x(0) = 1" "x'(0) = 0"
 gives "a fast transient that ends" 0 "$motus" run "$place/transient.motus" --until 1e-4 --method dopri5
 model fast "x'' = -x + sin(1e8*t)" "x(0) = 1" "x'(0) = 0"
@@ -118,6 +126,13 @@ that "... bounce" diagnosed '.variable == "bounce" and (.time - 0.45152364098573
 model solves "x'' = -x^3" "x(0) = 10" "x'(0) = 0"
 ends_by "an equation that Newton's method does not solve" newton "$place/solves.motus" --until 30 --method gauss4 --step 2
 obeyed "... and smaller steps are solved" "'$place/solves.motus'" --until 30 --method gauss4
+# Half the step is solved up to t = 16 alone.
+model late "x'' = -exp(4.984*x) + 2.506" "x(0) = -2.748" "x'(0) = -1.528"
+ends_by "a step that is solved for a while" newton "$place/late.motus" --until 47 --method gauss4 --step 1.1
+obeyed "... and the one that is named, to the end" "'$place/late.motus'" --until 47 --method gauss4
+# The motion is singular long after the step has failed.
+ends_by "a step that is not solved, before a singularity" singular "$place/cubic.motus" --until 3 --method gauss4 --step 0.9
+obeyed "... by smaller steps, to an end before it" "'$place/cubic.motus'" --method gauss4
 model noise "x'' = -x" "e' = x'*((x+0.3)-0.3-x)" "x(0) = 1" "x'(0) = 0" "e(0) = 0"
 ends_by "a variable that is rounding" rounding "$place/noise.motus" --until 30 --method dopri5
 that "... e" diagnosed '.variable == "e" and .verified'

@@ -236,6 +236,11 @@ static void true_invariants(void **unused)
         "x'' = -x\n" START "invariant e = max(x, 0) - max(cos(t), 0)\nuntil -100\n",
         "x'' = -x\n" START "invariant e = sign(x) - sign(cos(t))\nuntil 100\n",
         "x'' = -x\n" START "invariant e = atan2(x', x) + t - 2 pi floor((t + pi)/(2 pi))\nuntil 100\n",
+        /* an angle whose cut shows in nothing, and one that stays off it */
+        "x'' = -x\n" START "invariant e = sin(atan2(x', x) + t)\nuntil 100\n",
+        "x'' = -x\n" START "invariant e = atan2(x' sin(t) - x cos(t), x sin(t) + x' cos(t))\nuntil 100\n",
+        "r'' = -r/|r|^3\nr(0) = (1, 0)\nr'(0) = (0, 1.1)\ninvariant w = atan2(-r'.x (r.x r'.y - r.y r'.x) - r.y/|r|, "
+        "r'.y (r.x r'.y - r.y r'.x) - r.x/|r|)\nuntil 30\n",
     };
     for (size_t k = 0; k < sizeof texts / sizeof *texts; k++) takes(texts[k]);
 }
@@ -267,7 +272,8 @@ static void late_changes(void **unused)
     static const char *const frictions[] = {"if(t > 9, x', 0)", "exp(-((x + 0.9)/0.001)^2) x'",
                                             "if(x < -0.9, if(x > -0.901, x', 0), 0)",
                                             "if(t > 5, if(t < 5.001, x', 0), 0)"};
-    static const char *const jumps[] = {"floor(x - 0.5)", "sign(x)", "x'^2 + x^2 + if(t > 9, 1, 2)"};
+    static const char *const jumps[] = {"floor(x - 0.5)", "sign(x)", "x'^2 + x^2 + if(t > 9, 1, 2)", "atan2(x', x) + t",
+                                        "x^2 + x'^2 + atan2(x' + 2 x, x - 2 x') + t"};
     char text[256];
     for (size_t k = 0; k < sizeof frictions / sizeof *frictions; k++) {
         snprintf(text, sizeof text, "x'' = -x - %s\n" START "invariant e = x'^2/2 + x^2/2\nuntil 10\n", frictions[k]);

@@ -30,10 +30,18 @@ struct verify_between {
 
 /* Making it -------------------------------------------------------------------------------------------------------- */
 
-/* What is 0 where the operation switches; 0: it is no switch. */
-static node switched_at(graph *g, const graph_node *n)
+/* Whether an operation counts as a switch. An angle that is told jumps on its cut; a force that reads one may well be
+ * the same on both sides. */
+static bool counts(const graph *g, const graph_node *n, bool told)
 {
-    if (!switches_is(g, n)) return 0;
+    return switches_is(g, n) || (told && n->op == OP_ATAN2);
+}
+
+/* What is 0 where the operation switches; 0: it is no switch. */
+static node switched_at(graph *g, const graph_node *n, bool told)
+{
+    if (!counts(g, n, told)) return 0;
+    if (n->op == OP_ATAN2) return graph_op(g, OP_MAX, graph_op(g, OP_ABS, n->a, 0, 0), n->b, 0);
     const operation op = (operation)n->op;
     const node u = switches_argument(g, op, n->a, n->b);
     if (!switches_counts(op)) return u;
@@ -45,14 +53,16 @@ static bool add_switches(model *m, const output *o, output *to, size_t *count, b
 {
     graph *g = m->graph;
     graph_walk w;
+    const space into = m->arrays[o->to.array].space;
+    const bool told = into == SPACE_OUT;
     if (!graph_order(g, &o->value, 1, MOVING, true, &w)) return false;
     for (uint32_t k = 0; k < w.count; k++) {
         const graph_node n = g->nodes[w.nodes[k]];
         if (!to) {
-            *count += switches_is(g, &n);
+            *count += counts(g, &n, told);
             continue;
         }
-        const node zero = switched_at(g, &n);
+        const node zero = switched_at(g, &n, told);
         if (!zero || !(graph_deps(g, zero) & MOVING)) continue;
         const unsigned outer = (1u << o->loops) - 1, levels = (1u << MAX_LEVELS) - 1;
         if (graph_deps(g, zero) & levels & ~outer) {
@@ -62,9 +72,8 @@ static bool add_switches(model *m, const output *o, output *to, size_t *count, b
         output *made = &to[(*count)++];
         *made = *o;
         made->value = graph_op(g, OP_DIV, graph_const(g, 1), zero, 0);
-        const space s = m->arrays[o->to.array].space;
-        if (s == SPACE_X) made->to.array = (uint16_t)(o->to.array - m->block[BLOCK_X] + m->block[BLOCK_A]);
-        if (s == SPACE_V) made->to.array = (uint16_t)(o->to.array - m->block[BLOCK_V] + m->block[BLOCK_A]);
+        if (into == SPACE_X) made->to.array = (uint16_t)(o->to.array - m->block[BLOCK_X] + m->block[BLOCK_A]);
+        if (into == SPACE_V) made->to.array = (uint16_t)(o->to.array - m->block[BLOCK_V] + m->block[BLOCK_A]);
     }
     give(&m->arena->allocator, w.nodes);
     return true;

@@ -88,11 +88,19 @@ static bool kinked(const model *m, const model_definition *d)
     return kinks;
 }
 
+/* Whether its value may jump: by a switch, or as an angle does on its cut. */
+static bool has_jumps(const model *m, const model_definition *d)
+{
+    bool any = kinked(m, d);
+    for (size_t k = 0; k < d->output_count && !any; k++) any = graph_jump(m->graph, d->outputs[k].value) != 0;
+    return any;
+}
+
 static bool make_values(model *m, uint32_t i)
 {
     const model_definition *d = &m->definitions[i];
     verify *c = m->verify;
-    if (!kinked(m, d)) return true;
+    if (!has_jumps(m, d)) return true;
     c->value[i] = verify_tape(m, d->outputs, d->output_count);
     c->value_rounding[i] =
         verify_tape(m, verify_rounding(m, d->outputs, d->output_count, leaf_of_rate), d->output_count);
