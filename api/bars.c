@@ -271,7 +271,16 @@ static motus_status see_companion(motus_run *r, companion *c, double t, int seen
     const bool here = starts_late(r) && theirs == stepper_time(r->stepper) && theirs == stepper_time(c->stepper);
     const double late = here ? stepper_lost(r->stepper) - stepper_lost(c->stepper) : 0;
     double *x = c->x, *v = c->v;
-    motus_status status = late == 0 ? MOTUS_OK : bars_later(r, s, theirs, late, c->x, c->v, &x, &v, err);
+    const double *dx, *dv;
+    motus_status status = MOTUS_OK;
+    if (r->bars->differences.between && witness_moves(r->bars->witness, &dx, &dv)) {
+        /* somewhere in this step the run goes astray by as much: it may be before t */
+        status = bars_later(r, s, theirs, 0, c->x, c->v, &x, &v, err);
+        for (size_t k = 0; k < r->system->problem.nx; k++) x[k] += dx[k];
+        for (size_t k = 0; k < r->system->problem.nv; k++) v[k] += dv[k];
+    } else if (late != 0) {
+        status = bars_later(r, s, theirs, late, c->x, c->v, &x, &v, err);
+    }
     return status == MOTUS_OK ? bars_see(r, s, theirs, x, v, seen, err) : status;
 }
 
@@ -479,8 +488,10 @@ static motus_status land(motus_run *r, double t, double *x, double *v, bool betw
     if (!isnan(differs))
         bars_give_up(r, "near t = %s the force changes more within every step than the step shows",
                      run_time_text(r, differs, at));
-    if (status == MOTUS_OK && !between && witness_moves(b->witness, &dx, &dv))
+    if (status == MOTUS_OK && !between && witness_moves(b->witness, &dx, &dv)) {
         status = companion_shift(&b->half, r, dx, dv, err);
+        witness_moved(b->witness);
+    }
     if (status == MOTUS_OK && r->events && !between) status = reach(r, t, err);
     if (status == MOTUS_OK && r->events) notice_gap(r, t, between);
     b->differences.between = between;

@@ -44,7 +44,7 @@ enum {
  * least so many evaluations, and then a part of the evaluations of the run. That part suits a compiled run, whose
  * evaluation costs a thirtieth: what is looked at decides steps, and the machine decides none. A series of order n
  * costs as much as n^2/4 evaluations. */
-#define SPEND_FIRST 8e5 /* operations, and */
+#define SPEND_FIRST 4e6 /* operations, and */
 #define SPEND_LEAST 200.0
 #define SPEND 0.02
 #define BOUNDS 4.0  /* what bounds over a step cost */
@@ -60,6 +60,7 @@ enum {
     0.01 /* times what a step may lose: the first part of which so much is missing is where a step is to end */
 #define SUSPICIOUS 10.0 /* times what a step may lose */
 #define REFUSED 30.0    /* likewise, between the step and the probe */
+#define PROBE_SEES 4.0  /* times less than what is missing */
 #define ROUNDING 0x1p-46
 #define NOTHING 0x1p-500 /* is lost of what rests */
 #define ROOM 0.75        /* of a step that is refused: the next one is shorter */
@@ -109,6 +110,7 @@ struct witness {
     int64_t evaluations;  /* of the run, so far */
     double longest;       /* of the steps that it has looked at */
     double operations;    /* of one evaluation */
+    double least;         /* what matters to the bars, of a velocity; INFINITY: what a step may lose is all that does */
     double spared;        /* evaluations that are not counted, since they led to a step that was refused */
     bool kinked;          /* the typed force has switches, */
     bool located;         /*   at which steps of the run end; */
@@ -142,6 +144,7 @@ static witness *make(const motus_run *r, const differences *seen)
     w->own = s->problem.nx, w->other = p->nx;
     w->located = ways;
     w->until = w->differs = NAN;
+    w->least = INFINITY;
     double *at = (double *)(void *)(w + 1);
     w->in_x = (interval *)(void *)at, w->in_v = w->in_x + nx;
     at += 2 * (nx + nv);
@@ -207,13 +210,14 @@ void witness_destroy(witness *w)
     give(&a, w);
 }
 
-bool witness_moves(witness *w, const double **x, const double **v)
+bool witness_moves(const witness *w, const double **x, const double **v)
 {
     if (!w || !w->moves) return false;
     *x = w->dx, *v = w->dv;
-    w->moves = false;
     return true;
 }
+
+void witness_moved(witness *w) { w->moves = false; }
 
 double witness_differs(const witness *w, size_t *number)
 {
@@ -420,7 +424,8 @@ static void allow(witness *w, const problem *p)
         double speed = 0;
         for (size_t k = variable[g]; k < variable[g + 1]; k++)
             speed = fmax(speed, fmax(fmax(fabs(from->v[k]), fabs(to->v[k])), h * w->most[k]));
-        const double lost = fmax(ROUNDING * speed, fmax(w->method.relative * speed, w->method.absolute));
+        const double most = fmax(w->method.relative * speed, w->method.absolute);
+        const double lost = fmax(ROUNDING * speed, fmin(most, w->least));
         for (size_t k = variable[g]; k < variable[g + 1]; k++) {
             w->rounded[k] = fmax(fmax(ROUNDING * speed, w->rounded[k]), NOTHING);
             w->allowed[k] = fmax(lost, w->strict ? w->rounded[k] : NOTHING);
@@ -449,7 +454,7 @@ static double apart(witness *w)
 }
 
 /* Takes the step once more, as the force asks for; the end is at[END]. */
-static bool probe(witness *w, stepper *s, double size)
+static bool probe(witness *w, stepper *s, double size, double least)
 {
     const state *const from = &w->at[FROM], *const to = &w->at[TO];
     state *const end = &w->at[END];
@@ -465,6 +470,7 @@ static bool probe(witness *w, stepper *s, double size)
     }
     const double spent = inner->spent;
     inner->tries = 0, inner->differs = NAN, inner->held = false;
+    inner->least = least;
     inner->earned = spent + fmax(SPEND_LEAST, SPEND_PROBE / w->operations);
     if (!status) status = stepper_jump(w->probe, t, lost, size, from->x, from->v, NULL);
     if (!status) status = stepper_advance(w->probe, (stepper_limit){PROBED, to->t}, &why, NULL);
@@ -473,12 +479,15 @@ static bool probe(witness *w, stepper *s, double size)
     return !status && !stepper_sync(w->probe, end->x, end->v, NULL, NULL);
 }
 
-/* Whether more is missing than the run's errors are said to be. */
-static bool beyond_bars(const witness *w, const double *v)
+/* Whether more is missing, of n places or velocities, than their errors are said to be; y: how large they are. */
+static bool beyond_bars(const double *missing, const double *y, size_t n, double errors)
 {
-    double most = 0, size = 0;
-    for (size_t k = 0; k < w->nv; k++) most = fmax(most, fabs(v[k])), size = fmax(size, fabs(w->at[TO].v[k]));
-    return most > fmax(2.5 * fmax(w->seen->most[1], w->seen->most[2]), ROUNDING * size);
+    return vector_largest(missing, n) > fmax(2.5 * errors, ROUNDING * vector_largest(y, n));
+}
+
+static bool beyond_velocities(const witness *w, const double *missing)
+{
+    return beyond_bars(missing, w->at[TO].v, w->nv, fmax(w->seen->most[1], w->seen->most[2]));
 }
 
 /* Whether the stepper is within a step whose end a probe did not come to. */
@@ -548,7 +557,7 @@ static double inspect(void *ctx, stepper *s)
     }
     double most = 0;
     for (size_t k = 0; k < w->nv; k++) most = fmax(most, w->missing[k] / w->allowed[k]);
-    const bool suspicious = w->parts > 1 && (most > SUSPICIOUS || (!w->probes && beyond_bars(w, w->missing)));
+    const bool suspicious = w->parts > 1 && (most > SUSPICIOUS || (!w->probes && beyond_velocities(w, w->missing)));
     if (!suspicious && !w->beside) {
         w->tries = 0;
         return 0;
@@ -561,9 +570,10 @@ static double inspect(void *ctx, stepper *s)
         return 0;
     }
     if (w->probes || known(w, s)) return refuse(w, size, spent);
-    if (!probe(w, s, size)) return 0;
+    const double least = vector_largest(w->missing, w->nv) / (PROBE_SEES * SUSPICIOUS);
+    if (!probe(w, s, size, most > SUSPICIOUS ? INFINITY : least)) return 0;
     const double far = apart(w);
-    const bool beyond = beyond_bars(w, w->dv);
+    const bool beyond = beyond_velocities(w, w->dv) || beyond_bars(w->dx, w->at[TO].x, w->nx, w->seen->most[0]);
     if (far > REFUSED) {
         w->until = to->t;
         return refuse(w, size, spent);
@@ -588,7 +598,7 @@ static void inspect_sides(void *ctx, stepper *s, double until)
         memcpy(inner->rounded, w->rounded, w->nv * sizeof *w->rounded);
         memcpy(inner->rounded_x, w->rounded_x, w->nx * sizeof *w->rounded_x);
         inner->strict = true;
-        probe(w, s, (to->t - w->at[FROM].t) / 4);
+        probe(w, s, (to->t - w->at[FROM].t) / 4, INFINITY);
         inner->strict = false;
         if (inner->held) w->differs = inner->differs, w->held = true;
     }

@@ -22,8 +22,10 @@ typedef struct witness witness;
  * the run is none that it can look at. */
 motus_status witness_create(const motus_run *, const differences *, witness **out, motus_error *);
 void witness_destroy(witness *);
-/* Once: by how much the companion is to be moved, nx and nv numbers in the inside order; false: it is not. */
-bool witness_moves(witness *, const double **x, const double **v);
+/* By how much the companion is to be moved at the end of the step that the run has taken last, nx and nv numbers in the
+ * inside order; false: it is not. And that this was done. */
+bool witness_moves(const witness *, const double **x, const double **v);
+void witness_moved(witness *);
 /* The time near which no step keeps to the typed force; NaN: there is none. *number: of the typed system, the velocity
  * on which another force acts from there on, whatever sides the switches have; SIZE_MAX: none is known. */
 double witness_differs(const witness *, size_t *number);

@@ -19,8 +19,16 @@
 /* Kinds of which even the motions tried by default get wrong answers, or in the plane mostly none, after a long time.
  * They are judged when EVERY or KIND asks for them. More motions find rarer wrong answers of other kinds as well. */
 static const int failing[] = {
-    MOTION_CANCEL_KIND, MOTION_BUMP_KIND,   MOTION_PULSE_KIND, MOTION_FLIGHT_KIND,
-    MOTION_TWICE_KIND,  MOTION_BLOCKS_KIND, MOTION_PLANE_KIND, MOTION_PENALTY_KIND,
+    MOTION_CANCEL_KIND, MOTION_BUMP_KIND, MOTION_PULSE_KIND, MOTION_BLOCKS_KIND, MOTION_PLANE_KIND, MOTION_PENALTY_KIND,
+};
+/* Motions that had wrong bars once, each for a reason of its own; they are judged besides. */
+static const struct {
+    int kind, motion;
+} mended[] = {
+    {MOTION_REST_KIND, 59},  /* sqrt(v^2) had no kink */
+    {MOTION_BUMP_KIND, 251}, /* less than a step may lose is more than its error */
+    {MOTION_PULSE_KIND, 20}, /* a number within a step that goes astray */
+    {MOTION_PULSE_KIND, 98}, /* a push and a pull shift the motion and leave its velocity */
 };
 static bool fails(int kind)
 {
@@ -369,8 +377,21 @@ static void bars_by_kind(void **state)
     assert_int_equal(all.wrong, 0);
 }
 
+static void bars_that_were_wrong(void **state)
+{
+    (void)state;
+    tally t = {0};
+    if (getenv("KIND")) skip();
+    patience = 10;
+    for (size_t i = 0; i < sizeof mended / sizeof *mended; i++)
+        judge(mended[i].kind, (uint64_t)mended[i].motion, false, &t);
+    print_tally("mended", &t);
+    assert_int_equal(t.wrong, 0);
+    assert_int_equal(t.refused + t.dropped, 0);
+}
+
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(bars_by_kind)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(bars_by_kind), cmocka_unit_test(bars_that_were_wrong)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

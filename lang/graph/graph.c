@@ -290,6 +290,14 @@ static bool simplified(graph *g, operation op, node a, node b, node c, node *out
     }
 }
 
+/* sqrt(u u), which is |u| to the last bit, but where u u is no double: so that its kink is known, which series and bars
+ * of error must know of. */
+static bool of_square(const graph *g, operation op, node a, node b)
+{
+    const graph_node *const n = &g->nodes[a];
+    return (op == OP_SQRT || (op == OP_POW && is_const(g, b, 0.5))) && n->op == OP_MUL && n->a == n->b;
+}
+
 node graph_op(graph *g, operation op, node a, node b, node c)
 {
     int arity = operation_at(op)->arity;
@@ -302,6 +310,7 @@ node graph_op(graph *g, operation op, node a, node b, node c)
     }
     a = operand[0], b = operand[1], c = operand[2];
     if (constant) return graph_const(g, operation_value(op, g->nodes[a].value, g->nodes[b].value, g->nodes[c].value));
+    if (of_square(g, op, a, b)) return graph_op(g, OP_ABS, g->nodes[a].a, 0, 0);
     node out;
     if (g->tidy && !g->arena->failed && !g->too_large && graph_tidied(g, op, a, b, &out)) return out;
     if (g->simplify && !g->arena->failed && !g->too_large && simplified(g, op, a, b, c, &out)) return out;
