@@ -12,6 +12,8 @@ size_t system_place(const model_state *s, size_t cell, int component)
     return s->base + (size_t)component * s->hull + offset;
 }
 
+#define TWICE 2.0 /* a spread that is as much larger than an error is that of a jump */
+
 static const model_definition *definition(const motus_system *s, const column_range *g)
 {
     return &s->definitions[g->item];
@@ -249,6 +251,67 @@ motus_status system_rounding(motus_system *s, double t, double *x, double *v, co
         bounds[i] = s->observed[observed_place(s, g, columns[i])];
     }
     return MOTUS_OK;
+}
+
+/* The state, each number anywhere within its bar. False: of one there is none. */
+static bool boxed(const motus_system *s, const double *x, const double *v, system_bar bar, void *ctx, interval *in_x,
+                  interval *in_v)
+{
+    for (size_t k = 0; k < s->problem.nx; k++) in_x[k] = (interval){x[k], x[k]};
+    for (size_t k = 0; k < s->problem.nv; k++) in_v[k] = (interval){v[k], v[k]};
+    for (size_t i = 0; i < s->range_count; i++) {
+        const column_range *g = &s->ranges[i];
+        if (!of_state(g->kind) || g->kind == MOTUS_COLUMN_EXACT) continue;
+        const model_state *st = &s->states[g->item];
+        const size_t parts = columns_parts(st->components);
+        for (size_t k = 0; k < g->count; k++) {
+            const size_t at = system_place(st, k / parts, (int)(k % parts));
+            interval *to = st->order == 2 && !g->prime ? &in_x[at] : &in_v[at];
+            const double off = bar(ctx, g->first + k);
+            if (!isfinite(off)) return false;
+            *to = (interval){to->low - off, to->high + off};
+        }
+    }
+    return true;
+}
+
+motus_status system_leaps(motus_system *s, double t, double *x, double *v, system_bar bar, void *ctx,
+                          const size_t *columns, size_t count, double *errors, motus_error *err)
+{
+    const size_t nx = s->problem.nx, nv = s->problem.nv;
+    const column_range *done = NULL;
+    interval *box = NULL, *out = NULL;
+    bool flat, undecided = false;
+    motus_status status = MOTUS_OK;
+    for (size_t i = 0; i < count && status == MOTUS_OK; i++) {
+        const column_range *g = columns_range(s, columns[i]);
+        if (!s->model || (g->kind != MOTUS_COLUMN_QUANTITY && g->kind != MOTUS_COLUMN_INVARIANT)) continue;
+        model_definition *d = &s->definitions[g->item];
+        if (!interpreter_leaps(s->interpreter, d, &flat)) continue;
+        if (g != done) {
+            give(&s->allocator, box);
+            box = take(&s->allocator, nx + nv + d->numbers + 1, sizeof *box);
+            if (!box) return fail(err, MOTUS_MEMORY, "no memory for the errors of %s", d->name);
+            out = box + nx + nv;
+            if (!boxed(s, x, v, bar, ctx, box, box + nx)) break;
+            status = evaluate(s, g, t, x, v, err);
+            if (status == MOTUS_OK && !interpreter_leap(s->interpreter, d, t, box, box + nx, out, &undecided))
+                status = fail(err, MOTUS_MEMORY, "no memory for the errors of %s", d->name);
+        }
+        done = g;
+        if (status != MOTUS_OK) break;
+        const size_t at = observed_place(s, g, columns[i]);
+        const double value = s->observed[at], off = fmax(out[at].high - value, value - out[at].low);
+        const double own = 4 * (nextafter(fabs(value), INFINITY) - fabs(value));
+        if (flat && off <= own)
+            errors[i] = value == 0 ? 0 : own;
+        else if (flat)
+            errors[i] = off < fabs(value) ? off : INFINITY;
+        else if (undecided && off > errors[i])
+            errors[i] = off < fabs(value) || off < TWICE * errors[i] ? off : INFINITY;
+    }
+    give(&s->allocator, box);
+    return status;
 }
 
 motus_status system_values_of(motus_system *s, double t, const double *x, const double *v, double *room,

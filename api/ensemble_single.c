@@ -144,6 +144,7 @@ static double error(const trajectory *s, size_t r)
         const size_t *column = &run->bars->columns[number];
         if (system_rounding(run->system, t, run->x, run->v, column, 1, &own, NULL) != MOTUS_OK) return NAN;
         errors_of(run, t, run->x, run->v, number, &own, NULL);
+        if (errors_leaps(run, t, run->x, run->v, column, 1, &own, NULL) != MOTUS_OK) return NAN;
         bar = own;
     }
     return bar;

@@ -95,6 +95,12 @@ motus_status system_values(motus_system *, double t, double *x, double *v, const
  * invariants of a text, else 0. */
 motus_status system_rounding(motus_system *, double t, double *x, double *v, const size_t *columns, size_t count,
                              double *bounds, motus_error *);
+/* Quantities and invariants of a text that jump: where the bars of the state leave open on which side of a jump one is,
+ * its error is the spread of what it may be; INFINITY, where a jump makes that as large as itself. One that does
+ * nothing but jump, and is decided, is as exact as its formula. */
+typedef double (*system_bar)(void *ctx, size_t column);
+motus_status system_leaps(motus_system *, double t, double *x, double *v, system_bar, void *ctx, const size_t *columns,
+                          size_t count, double *errors, motus_error *);
 /* The same at a state that stays as it is; `room`, nx + nv numbers, takes a copy of it. */
 motus_status system_values_of(motus_system *, double t, const double *x, const double *v, double *room,
                               const size_t *columns, size_t count, double *out, motus_error *);

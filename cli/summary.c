@@ -61,7 +61,10 @@ static motus_status final_cell(const summary *s, table *t, size_t column, double
 {
     double error = NAN;
     motus_status status = s->errors ? motus_run_errors(s->run, &column, 1, NULL, &error, err) : MOTUS_OK;
-    if (s->errors)
+    const bool undecided = isinf(error) && isnan(s->estimate.significant_until);
+    if (s->errors && undecided)
+        table_cell(t, "undecided: it jumps within the error of the state");
+    else if (s->errors)
         table_bar(t, value, s->estimate.reason[0] ? NAN : error);
     else
         table_exact(t, value);

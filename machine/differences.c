@@ -309,6 +309,11 @@ double differences_bar(const differences *f, size_t number)
     return fmax(least, bar) + f->apart[number];
 }
 
+bool differences_agree(const differences *f, size_t number)
+{
+    return f->d[number] == 0 && f->apart[number] == 0 && largest(f, f->envelope, number) == 0;
+}
+
 /* The largest of a group that neither run nor companion knows. */
 static double apart_of(const differences *f, size_t group)
 {

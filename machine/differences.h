@@ -70,6 +70,8 @@ void differences_take(differences *, double t, bool observed, bool twin);
 void differences_widen(differences *);
 /* The bar of a number at the last landing; 0: it is exact; INFINITY: no digit of it is significant. */
 double differences_bar(const differences *, size_t number);
+/* Whether run and companion have had the same number of late, so that nothing is known to move it. */
+bool differences_agree(const differences *, size_t number);
 /* A bound on the bars that any number of the state had so far, relative to the largest number of its group or in its
  * own units. INFINITY: of some no digit was significant. */
 double differences_worst(const differences *, bool absolute);

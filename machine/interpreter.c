@@ -8,6 +8,7 @@
 #include "lang/tape/tape.h"
 #include "lang/tape/tape_series.h"
 #include "machine/rounding.h"
+#include "lang/model/resolution.h"
 
 #include <string.h>
 
@@ -18,6 +19,8 @@ struct interpreter {
     tape *jvp[4];        /* along dx (1), dv (2), or both (3) */
     tape **observed;     /* one per definition, made when it is first observed, and kept while there is room */
     tape **roundings;    /* bounds on the rounding of definitions, likewise; of long ones none */
+    resolution **leaps;  /* of definitions that may jump, likewise */
+    uint8_t *leaping;    /* per definition: 0 not known, else 1 + LEAPS + FLAT */
     uint64_t operations; /* of the observed ones that are kept */
     struct expanded {    /* in Taylor series of so many numbers each, once they are wanted */
         tape_series *equations, *boundary;
@@ -222,10 +225,14 @@ motus_status interpreter_create(model *m, interpreter **out, problem *p, motus_e
     in->exact = m->exact_count && m->traits.has_exact ? make(m, m->exact, m->exact_count) : NULL;
     in->observed = arena_room(m->arena, (m->definition_count + 1) * sizeof *in->observed);
     in->roundings = arena_room(m->arena, (m->definition_count + 1) * sizeof *in->roundings);
-    if (m->arena->failed || !in->accel || !in->observed || !in->roundings)
+    in->leaps = arena_room(m->arena, (m->definition_count + 1) * sizeof *in->leaps);
+    in->leaping = arena_room(m->arena, m->definition_count + 1);
+    if (m->arena->failed || !in->accel || !in->observed || !in->roundings || !in->leaps || !in->leaping)
         return fail(err, MOTUS_MEMORY, "no memory for the model");
     memset(in->observed, 0, (m->definition_count + 1) * sizeof *in->observed);
     memset(in->roundings, 0, (m->definition_count + 1) * sizeof *in->roundings);
+    memset(in->leaps, 0, (m->definition_count + 1) * sizeof *in->leaps);
+    memset(in->leaping, 0, m->definition_count + 1);
     *p = (problem){.ctx = in,
                    .nx = m->nx,
                    .nv = m->nv,
@@ -316,6 +323,37 @@ bool interpreter_rounding(interpreter *in, model_definition *d, double t, double
     }
     if (!*kept || !observe(in, *kept, needs_a(in, d), t, x, v, out)) return false;
     for (size_t k = 0; k < d->numbers; k++) out[k] *= 0x1p-53;
+    return true;
+}
+
+enum { LEAPS = 1, FLAT = 2 };
+
+bool interpreter_leaps(interpreter *in, model_definition *d, bool *flat)
+{
+    enum { OPERATIONS_MOST = 1 << 16 };
+    graph *g = in->model->graph;
+    uint8_t *known = &in->leaping[d - in->model->definitions];
+    if (!*known) {
+        bool leaps = false, all = true;
+        for (size_t k = 0; k < d->output_count; k++) {
+            leaps |= graph_jump(g, d->outputs[k].value) != 0;
+            all &= graph_flat(g, d->outputs[k].value);
+        }
+        leaps = leaps && !needs_a(in, d) && operations_of(in->model, d) <= OPERATIONS_MOST;
+        *known = (uint8_t)(1 + (leaps ? LEAPS : 0) + (all ? FLAT : 0));
+    }
+    *flat = (*known - 1) & FLAT;
+    return (*known - 1) & LEAPS;
+}
+
+bool interpreter_leap(interpreter *in, model_definition *d, double t, interval *x, interval *v, interval *out,
+                      bool *undecided)
+{
+    resolution **kept = &in->leaps[d - in->model->definitions];
+    if (!*kept && !resolution_create_jumps(in->model, d->outputs, d->output_count, kept)) return false;
+    const interval now = {t, t};
+    resolution_values(*kept, now, x, v, NULL, in->model->pool, out);
+    *undecided = resolution_jump(*kept, now, x, v, in->model->pool);
     return true;
 }
 

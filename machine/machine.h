@@ -6,6 +6,7 @@
 
 #include "core/rules.h"
 #include "core/stepper.h"
+#include "lang/base/interval.h"
 #include "lang/model/model.h"
 
 /* The interpreter's problem for a model, in the model's arena. */
@@ -16,6 +17,14 @@ bool interpreter_observe(interpreter *, model_definition *, double t, double *x,
 /* The same of a bound on how far rounding carries these numbers off, their operands known to half a unit in the last
  * place; 0 where a formula has more than 65 536 operations. */
 bool interpreter_rounding(interpreter *, model_definition *, double t, double *x, double *v, double *out);
+
+/* Whether a quantity or invariant may jump along the motion by a formula that can be examined: it reads no
+ * acceleration, and is not long. `flat`: it does nothing else. */
+bool interpreter_leaps(interpreter *, model_definition *, bool *flat);
+/* Of such a one: between which bounds its numbers lie where the state is anywhere in the intervals, and whether these
+ * leave open on which side of a jump it is. False: no memory. */
+bool interpreter_leap(interpreter *, model_definition *, double t, interval *x, interval *v, interval *out,
+                      bool *undecided);
 
 /* The acceleration's derivative along a direction of v (in_v) or of x, as a program. NULL: the arena failed. */
 program *interpreter_derivative(model *, bool in_v);

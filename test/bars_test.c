@@ -360,9 +360,43 @@ static void rounded_ends(void **state)
     end_of(text, 1000000020.3, truth, 1, 1.8e-8, 1e-6);
 }
 
+/* Of a motion that is cos(t) - 0.839 is 7e-5 from cos(10) -, quantities whose jumps lie within the error of the state,
+ * and such as have jumped before and are decided: INFINITY, and at least the truth's distance; and an ulp. */
+static void quantities_that_jump(void **state)
+{
+    (void)state;
+    static const char text[] = "x'' = -x\nx(0) = 1\nx'(0) = 0\nbig = if(x > -0.839, 1, 0)\ns = sign(x + 0.839)\n"
+                               "turn = x + if(x > -0.839 and x' > 0, 3, 0)\nf = floor(1000 x)\nk = if(x > -0.5, 1, 2)\n"
+                               "c = floor(3 sin(t)) + 2\nn = 3\nwhen x = 0: n = n - 1\nodd = if(n > 0, 4, 5)";
+    static const double truth[] = {0, -1, -0.839071529, -840, 2, 0, 0, 5},
+                        verlet[] = {INFINITY, INFINITY, INFINITY, 1, 0, 0, 0, 0};
+    for (int fine = 0; fine < 2; fine++) {
+        motus_error err = motus_default_error();
+        motus_system *s = given_text(text);
+        motus_run *r = NULL;
+        motus_run_def def = motus_default_run();
+        def.method = fine ? "dop853" : "verlet", def.machine = "interpreter", def.until = 10,
+        def.error = MOTUS_BARS_CHEAP;
+        if (!fine) def.step = 0.05;
+        must(motus_run_create(s, &def, &r, &err), &err, text);
+        must(motus_run_finish(r, &err), &err, text);
+        size_t column = 0, numbers = 0;
+        must(motus_column_find(s, "big", &column, &numbers, &err), &err, "big");
+        for (size_t k = 0; k < sizeof truth / sizeof *truth; k++, column++) {
+            double value, error;
+            must(motus_run_errors(r, &column, 1, &value, &error, &err), &err, text);
+            const double least = fine ? 0 : verlet[k], most = fine || least == 0 ? 1e-8 : fmax(1.5, least);
+            if (!(fabs(value - truth[k]) <= fmax(error, 1e-9)) || !(error >= least && error <= most))
+                fail_msg("quantity %zu is %g ± %g by %s", k, value, error, def.method);
+        }
+        motus_run_destroy(r);
+        motus_system_destroy(s);
+    }
+}
+
 int main(void)
 {
-    static struct CMUnitTest tests[CASES_MAX + 4];
+    static struct CMUnitTest tests[CASES_MAX + 5];
     size_t count = 0;
     read_cases();
     if (motus_method_count() > METHODS_MAX) return 1;
@@ -374,5 +408,6 @@ int main(void)
     tests[count++] = (struct CMUnitTest)cmocka_unit_test(forces_with_kinks);
     tests[count++] = (struct CMUnitTest)cmocka_unit_test(numbers_that_vanish);
     tests[count++] = (struct CMUnitTest)cmocka_unit_test(rounded_ends);
+    tests[count++] = (struct CMUnitTest)cmocka_unit_test(quantities_that_jump);
     return _cmocka_run_group_tests("bars of error", tests, count, NULL, NULL);
 }

@@ -76,6 +76,13 @@ static bool hides_waves(operation op) { return hides(op, true); }
 /* Whether an operation has poles. */
 static bool has_poles(operation op) { return op == OP_DIV || op == OP_POW || op == OP_LOG || op == OP_TAN; }
 
+/* Whether an operation may jump. */
+static bool leaps(operation op)
+{
+    return op == OP_FLOOR || op == OP_SIGN || op == OP_MOD || op == OP_ATAN2 || op == OP_SELECT ||
+           operation_decides(op);
+}
+
 /* Whether an operation that counts has an argument that moves. */
 static bool any_counts(const resolution *r, uint32_t count)
 {
@@ -140,7 +147,7 @@ static bool create(model *m, const output *outputs, size_t count, bool (*counts)
     if (r && steps && stack && root) {
         *r = (resolution){.model = m, .outputs = outputs, .count = count, .steps = steps, .root = root, .stack = stack};
         fill(r, g, &w, counts);
-        if (!counts || any_counts(r, w.count)) *out = r;
+        if (!counts || counts == leaps || any_counts(r, w.count)) *out = r;
     }
     give(&g->arena->allocator, w.nodes);
     return !m->arena->failed;
@@ -159,6 +166,11 @@ bool resolution_create_values(model *m, const output *outputs, size_t count, res
 bool resolution_create_poles(model *m, const output *outputs, size_t count, resolution **out)
 {
     return create(m, outputs, count, has_poles, out);
+}
+
+bool resolution_create_jumps(model *m, const output *outputs, size_t count, resolution **out)
+{
+    return create(m, outputs, count, leaps, out);
 }
 
 /* What an operation may do ------------------------------------------------------------------------------------- */
@@ -212,6 +224,20 @@ static bool pole(operation op, interval a, interval b)
     case OP_LOG: return a.low <= 0 || near_zero(a);
     case OP_TAN: return isinf(interval_value(op, a, b, b, false).low);
     default: return false;
+    }
+}
+
+/* Whether an operation with these arguments may lie on either side of a jump. */
+static bool undecided(operation op, interval a, interval b)
+{
+    const bool zero = a.low <= 0 && a.high >= 0;
+    const interval none = {0, 0};
+    interval side;
+    switch (op) {
+    case OP_ATAN2: return zero && b.low < 0;
+    case OP_SELECT: return zero && a.low < a.high;
+    case OP_MOD: side = interval_value(OP_DIV, a, b, none, false); return !(floor(side.low) == floor(side.high));
+    default: side = interval_value(op, a, b, none, false); return !(side.low == side.high);
     }
 }
 
@@ -383,10 +409,16 @@ static bool finds(resolution *r, interval t, interval *x, interval *v, const dou
     return false;
 }
 
+static bool nothing(operation op, interval a, interval b)
+{
+    (void)op, (void)a, (void)b;
+    return false;
+}
+
 void resolution_values(resolution *r, interval t, interval *x, interval *v, interval *a, const double *pool,
                        interval *out)
 {
-    begin(r, t, x, v, pool, NULL);
+    begin(r, t, x, v, pool, nothing);
     r->a = a;
     r->out = out;
     for (size_t k = 0; k < r->count; k++) cells(r, k, 0);
@@ -400,4 +432,9 @@ bool resolution_fits(resolution *r, interval t, interval *x, interval *v, const 
 bool resolution_pole(resolution *r, interval t, interval *x, interval *v, const double *pool)
 {
     return finds(r, t, x, v, pool, pole);
+}
+
+bool resolution_jump(resolution *r, interval t, interval *x, interval *v, const double *pool)
+{
+    return finds(r, t, x, v, pool, undecided);
 }

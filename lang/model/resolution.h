@@ -30,4 +30,9 @@ void resolution_values(resolution *, interval t, interval *x, interval *v, inter
 bool resolution_create_poles(model *, const output *, size_t count, resolution **out);
 bool resolution_pole(resolution *, interval t, interval *x, interval *v, const double *pool);
 
+/* The same for jumps: a comparison, if, floor, mod or sign whose side the intervals do not decide, or the cut of atan2.
+ * resolution_values may be asked of it, too. */
+bool resolution_create_jumps(model *, const output *, size_t count, resolution **out);
+bool resolution_jump(resolution *, interval t, interval *x, interval *v, const double *pool);
+
 #endif
