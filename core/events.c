@@ -353,7 +353,7 @@ static motus_status follow(events *e, stepper *s, candidate *c, bool *assigned, 
     const bool again = same || told(e, &at), back = again && comes_back(e, &at), happens = !again || back;
     c->gone = true;
     motus_status status = MOTUS_OK;
-    e->doubt = 0;
+    e->doubt = e->blurred = 0;
     const bool touches = at.kind == CANDIDATE_TOUCHES, left = !touches && at.low == at.high; /* it has stood at 0 */
     if (happens && at.kind != CANDIDATE_TIME && !at.jumps && !left && !e->rules.rule[e->rule_of[at.of]].internal)
         status = events_doubt(e, at.of, at.at, touches, &e->doubt, err);

@@ -156,11 +156,19 @@ static bool may_be_flat(const events *e, size_t f)
            (!row_adaptive(&e->method) && fabs(rate) < CHANGES * change);
 }
 
+#define COARSE 4
+
 motus_status events_doubt(events *e, size_t f, double h, bool touches, double *doubt, motus_error *err)
 {
     double bound;
     *doubt = 0;
-    if (!e->marked || !(touches || may_be_flat(e, f))) return MOTUS_OK;
+    if (!e->marked) return MOTUS_OK;
+    if (!touches && !may_be_flat(e, f)) { /* rounding of the state, where it is coarser than that of the time */
+        const double rounded = e->here.bound[f] / fabs(e->here.rate[f]);
+        if (isfinite(rounded)) e->blurred = fmin(rounded, fabs(e->span));
+        if (e->blurred > COARSE * events_ulp(e->here.t)) *doubt = e->blurred;
+        return MOTUS_OK;
+    }
     const motus_status status =
         touches ? events_slope_error_of(e, f, h, &bound, err) : events_error_of(e, f, h, &bound, err);
     if (status) return status;

@@ -211,6 +211,20 @@ static void jog(events *e, int64_t number, bool switched)
     e->jog(e->here.v, e->problem.nv, salt + (uint32_t)nx, switched);
 }
 
+/* Rounding of the state hides where a function passes 0: a companion acts as much earlier or later, and moves on by the
+ * velocities and accelerations that it has after the action. */
+static void lag(events *e, int64_t number)
+{
+    const problem *p = &e->problem;
+    instant *at = &e->here;
+    const double late = ((uint32_t)number * 0x9e3779b9u >> 31 ? 1 : -1) * e->blurred;
+    if (!e->jog || late == 0) return;
+    memset(at->a, 0, p->nv * sizeof *at->a);
+    if (p->accel(p->ctx, at->t, at->x, at->v, at->a)) return;
+    for (size_t k = 0; k < p->nx - p->modes; k++) at->x[k] += late * at->v[k];
+    for (size_t k = 0; k < p->nv; k++) at->v[k] += isfinite(at->a[k]) ? late * at->a[k] : 0;
+}
+
 /* Whether the step that leads here ends a flight between two switches under a constant force: it is the only one, and
  * the mean of the velocities leads along it. The steps, and their roundings, are then those of the next flight. */
 static bool ends_flight(const events *e)
@@ -259,6 +273,7 @@ static motus_status act(events *e, size_t k, size_t i, motus_error *err)
     motus_status status = change(e, k, i, err);
     if (status) return status;
     jog(e, e->acted, false);
+    lag(e, e->acted);
     if (e->rules.settle) status = e->rules.settle(e->rules.ctx, e->way, at->t, at->x, at->v, err);
     return status ? status : look_again(e, k, i, err);
 }

@@ -126,10 +126,11 @@ struct events {
     int shorter;     /* how often the present step may be taken anew, shorter, to resolve an internal function */
     bool hidden;     /* the step is so long that rounding hides how a function leaves 0 at its start */
     /* the arrays are of every function: */
-    uint8_t *zero;    /* it is 0 at `here` */
-    uint8_t *level;   /* it stays at 0 after this instant, because its slope is 0 but for rounding */
-    double doubt;     /* an error bound of the time of this instant: events_doubt */
-    bool awaits;      /* a switch of the force is to turn in this instant */
+    uint8_t *zero;  /* it is 0 at `here` */
+    uint8_t *level; /* it stays at 0 after this instant, because its slope is 0 but for rounding */
+    double doubt;   /* an error bound of the time of this instant: events_doubt */
+    double blurred; /* the same, where it is rounding of the state that hides the root of a function that is not flat */
+    bool awaits;    /* a switch of the force is to turn in this instant */
     uint8_t *touched; /* that it touches 0 has been told in this instant */
     uint8_t *look;    /* the bounds on the step leave it open, so dense output is searched for its roots */
     uint8_t *passed;  /* it has passed 0 in watched steps, which was no event; `side` does not know of it yet */
