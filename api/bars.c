@@ -271,17 +271,24 @@ static motus_status see_companion(motus_run *r, companion *c, double t, int seen
     const bool here = starts_late(r) && theirs == stepper_time(r->stepper) && theirs == stepper_time(c->stepper);
     const double late = here ? stepper_lost(r->stepper) - stepper_lost(c->stepper) : 0;
     double *x = c->x, *v = c->v;
-    const double *dx, *dv;
-    motus_status status = MOTUS_OK;
-    if (r->bars->differences.between && witness_moves(r->bars->witness, &dx, &dv)) {
-        /* somewhere in this step the run goes astray by as much: it may be before t */
-        status = bars_later(r, s, theirs, 0, c->x, c->v, &x, &v, err);
-        for (size_t k = 0; k < r->system->problem.nx; k++) x[k] += dx[k];
-        for (size_t k = 0; k < r->system->problem.nv; k++) v[k] += dv[k];
-    } else if (late != 0) {
-        status = bars_later(r, s, theirs, late, c->x, c->v, &x, &v, err);
-    }
+    motus_status status = late == 0 ? MOTUS_OK : bars_later(r, s, theirs, late, c->x, c->v, &x, &v, err);
     return status == MOTUS_OK ? bars_see(r, s, theirs, x, v, seen, err) : status;
+}
+
+/* At a time within a step by whose end the companion is to be moved: the run may have gone astray before or after it. */
+static motus_status take_astray(motus_run *r, double t, motus_error *err)
+{
+    companion *c = &r->bars->half;
+    motus_system *const s = c->system ? c->system : r->system;
+    const double *dx, *dv;
+    double *x, *v;
+    if (!r->bars->differences.between || !witness_moves(r->bars->witness, &dx, &dv)) return MOTUS_OK;
+    motus_status status = bars_later(r, s, t, 0, c->x, c->v, &x, &v, err);
+    for (size_t k = 0; k < r->system->problem.nx; k++) x[k] += dx[k];
+    for (size_t k = 0; k < r->system->problem.nv; k++) v[k] += dv[k];
+    if (status == MOTUS_OK) status = bars_see(r, s, t, x, v, 1, err);
+    if (status == MOTUS_OK) differences_widen(&r->bars->differences);
+    return status;
 }
 
 /* Of each number, how far it moves in that time. */
@@ -325,6 +332,7 @@ motus_status bars_take(motus_run *r, double t, double *x, double *v, bool observ
     if (status == MOTUS_OK) status = see_companion(r, &b->half, t, 1, err);
     if (status == MOTUS_OK && twin) status = see_companion(r, &b->twin, t, 2, err);
     if (status == MOTUS_OK) differences_take(&b->differences, t, observed, twin);
+    if (status == MOTUS_OK) status = take_astray(r, t, err);
     if (status == MOTUS_OK) status = take_end(r, t, x, v, err);
     const bool limit = r->events && events_ended(r->events, NULL) == EVENTS_END_ACCUMULATED && t == motus_run_time(r);
     return status == MOTUS_OK && limit ? take_limit(r, t, x, v, err) : status;

@@ -25,10 +25,11 @@ static const int failing[] = {
 static const struct {
     int kind, motion;
 } mended[] = {
-    {MOTION_REST_KIND, 59},  /* sqrt(v^2) had no kink */
-    {MOTION_BUMP_KIND, 251}, /* less than a step may lose is more than its error */
-    {MOTION_PULSE_KIND, 20}, /* a number within a step that goes astray */
-    {MOTION_PULSE_KIND, 98}, /* a push and a pull shift the motion and leave its velocity */
+    {MOTION_REST_KIND, 59},    /* sqrt(v^2) had no kink */
+    {MOTION_BUMP_KIND, 251},   /* less than a step may lose is more than its error */
+    {MOTION_PULSE_KIND, 20},   /* a number within a step that goes astray */
+    {MOTION_PULSE_KIND, 98},   /* a push and a pull shift the motion and leave its velocity */
+    {MOTION_VECTOR_KIND, 339}, /* what a step loses was taken for the whole error within it */
     /* rounding of the state hides the time of an event, and moves what follows from it */
     {MOTION_THERMOSTAT_KIND, 49},
     {MOTION_THERMOSTAT_KIND, 96},
