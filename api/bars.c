@@ -275,7 +275,7 @@ static motus_status see_companion(motus_run *r, companion *c, double t, int seen
     return status == MOTUS_OK ? bars_see(r, s, theirs, x, v, seen, err) : status;
 }
 
-/* At a time within a step by whose end the companion is to be moved: the run may have gone astray before or after it. */
+/* At a time within a step by whose end the companion is to be moved: the run may have gone astray by then, or not. */
 static motus_status take_astray(motus_run *r, double t, motus_error *err)
 {
     companion *c = &r->bars->half;
