@@ -23,7 +23,6 @@ enum { LOOKS_FEW = 16, LOOKS_EVEN = 4 }; /* LOOKS_EVEN: at one interval */
 #define EVALUATIONS_LEAST (2 * LOOK)
 #define EVALUATIONS_MOST (2400 + ALONG_MOST * LOOK)
 #define OVERHEAD 8  /* operations of the method for each number, in each evaluation */
-#define CALLBACK 30 /* operations of a callback for each number; what it does is not known */
 #define SETTLED 3   /* steps, until their length no longer follows from the first */
 #define SHORTER 0.8 /* than the shortest step before: here the motion is faster */
 #define TWO_PI 6.283185307179586
@@ -62,8 +61,8 @@ static void look(pilot_run *p, double time, double span)
 static motus_status afford(motus_system *s, double *evaluations, motus_error *err)
 {
     const double numbers = (double)(s->problem.nx + s->problem.nv);
-    weight w = {.values = CALLBACK * numbers};
-    const motus_status status = s->model ? choice_weigh(s, &w, err) : MOTUS_OK;
+    weight w;
+    const motus_status status = choice_weigh(s, &w, err);
     const double most = OPERATIONS / (w.values + OVERHEAD * numbers);
     *evaluations = fmin(EVALUATIONS_MOST, fmax(EVALUATIONS_LEAST, most));
     return status;

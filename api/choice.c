@@ -6,6 +6,8 @@
 
 #include <string.h>
 
+#define CALLBACK 30.0 /* operations of a callback, for each number; what it does is not known */
+
 bool choice_is_auto(const char *method)
 {
     static const char word[] = CHOICE_AUTO;
@@ -90,12 +92,38 @@ void choice_leave(motus_system *s, const chosen *chosen) { compiled_leave(s->com
 
 motus_status choice_weigh(motus_system *s, weight *out, motus_error *err)
 {
+    if (!s->model) {
+        *out = (weight){.values = CALLBACK * (double)(s->problem.nx + s->problem.nv)};
+        return MOTUS_OK;
+    }
     if (!s->weighed) {
         const program *p = program_create(s->model->graph, s->model->accel, s->model->accel_count);
         s->weighed = p && weigh(&s->arena, p, s->model->ints, &s->weight);
     }
     *out = s->weight;
     return s->weighed ? MOTUS_OK : fail(err, MOTUS_MEMORY, "no memory to count the operations of the equations");
+}
+
+/* A stage sums about half of those before it. */
+double choice_evaluation(const problem *p, const weight *w, const motus_method *card)
+{
+    return w->values + (1 + card->stages / 2.0) * (double)(p->traits.velocity ? p->nx + p->nv : p->nv);
+}
+
+/* Of a Taylor series to order n: a recurrence of a product has n (n + 1)/2 terms in all. They count half, because the
+ * terms of a sum do not wait for each other as the stages of a Runge-Kutta step do. */
+double choice_expansion(const problem *p, const weight *w, double order)
+{
+    const double numbers = (double)(p->nx + p->nv);
+    return 0.5 * (w->products * order * (order + 1) / 2 + (w->sums + 6 * numbers) * order);
+}
+
+static double evaluations(const motus_method *card) { return card->evaluations ? card->evaluations : 4 * card->stages; }
+
+double choice_step(const problem *p, const weight *w, const chosen *chosen, const motus_method *card)
+{
+    const int order = stepper_plan(p, chosen, NULL).expands;
+    return order ? choice_expansion(p, w, order) : evaluations(card) * choice_evaluation(p, w, card);
 }
 
 /* Below this much work for the interpreter, compiling (some 0.1 s when the cache is cold) does not pay. */
@@ -108,10 +136,6 @@ double choice_worth(const motus_system *s, const chosen *chosen, const motus_met
     const int orders = stepper_plan(&s->problem, chosen, NULL).expands; /* of a Taylor series: an evaluation each */
 
     const double nodes = (double)s->model->graph->count;
-    const double operations = steps *
-                              (orders              ? orders
-                               : card->evaluations ? card->evaluations
-                                                   : 4 * card->stages) *
-                              (nodes + 4 * (double)s->problem.nv);
+    const double operations = steps * (orders ? orders : evaluations(card)) * (nodes + 4 * (double)s->problem.nv);
     return operations / (WORTH_COMPILING + WORTH_AN_OPERATION * nodes);
 }

@@ -22,8 +22,13 @@ motus_status choice_begin(motus_system *, const chosen *, compiled_state *, mach
 motus_status choice_look(motus_system *, const chosen *, compiled_state *, machine *out, const char **why,
                          motus_error *);
 void choice_leave(motus_system *, const chosen *);
-/* The operations of the model's equations, in all cells and all terms of sums. MOTUS_MEMORY. */
+/* The operations of the equations, in all cells and all terms of sums. MOTUS_MEMORY. */
 motus_status choice_weigh(motus_system *, weight *, motus_error *);
+/* Those of an evaluation, with what the method adds; of a step by a Taylor series to this order; and of a step, by
+ * any method. */
+double choice_evaluation(const problem *, const weight *, const motus_method *);
+double choice_expansion(const problem *, const weight *, double order);
+double choice_step(const problem *, const weight *, const chosen *, const motus_method *);
 /* The work of so many steps relative to the compiler's. At 1 and more compiling pays; at CHOICE_KEPT and more it
  * pays to search for an object that was compiled before. */
 double choice_worth(const motus_system *, const chosen *, const motus_method *, double steps);

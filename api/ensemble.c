@@ -558,6 +558,12 @@ void motus_ensemble_destroy(motus_ensemble *e)
 }
 
 int64_t motus_ensemble_steps(const motus_ensemble *e) { return !e || steps_differ(e) ? 0 : e->timing.total; }
+double motus_ensemble_step_work(motus_ensemble *e)
+{
+    weight w;
+    if (!e || choice_weigh(e->system, &w, NULL) != MOTUS_OK) return NAN;
+    return choice_step(&e->system->problem, &w, &e->chosen, e->card);
+}
 const char *motus_ensemble_method(const motus_ensemble *e) { return e ? e->chosen.name : ""; }
 double motus_ensemble_tolerance(const motus_ensemble *e, int *absolute)
 {

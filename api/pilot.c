@@ -21,7 +21,6 @@
 
 /* FAR: a candidate that has taken so many times the work of the best stops. CHUNK: steps between two looks at it. */
 enum { STEPS = 256, FAR = 4, CHUNK = 16 };
-#define CALLBACK_OPERATIONS 30.0 /* of a callback, for each number; what it does is not known */
 
 /* The first one admits every force. Those of low order are for forces that are not smooth. */
 static const char *const smooth[] = {PILOT_FIRST, "dep12", "dep6", "taylor"}, *const kinked[] = {PILOT_FIRST, "dopri5"};
@@ -47,26 +46,12 @@ static int tell(void *ctx, double fraction)
     return def->progress(def->context, 0);
 }
 
-/* Operations of the method itself in one evaluation: a stage sums about half of those before it. */
-static double overhead(const motus_run *r)
-{
-    const problem *p = &r->system->problem;
-    return (1 + r->card->stages / 2.0) * (double)(p->traits.velocity ? p->nx + p->nv : p->nv);
-}
-
-/* Of a Taylor series to order n: a recurrence of a product has n (n + 1)/2 terms in all. They count half, because the
- * terms of a sum do not wait for each other as the stages of a Runge-Kutta step do. */
-static double expansion(const fleet *f, const motus_run *r, double order)
-{
-    const double numbers = (double)(r->system->problem.nx + r->system->problem.nv);
-    return 0.5 * (f->weight.products * order * (order + 1) / 2 + (f->weight.sums + 6 * numbers) * order);
-}
-
 /* order: of its Taylor series; 0: it is another method. */
 static double work_of(const fleet *f, const motus_run *r, int order)
 {
-    if (order) return (double)motus_run_steps(r) * expansion(f, r, order);
-    return (double)motus_run_evaluations(r) * (f->weight.values + overhead(r));
+    const problem *p = &r->system->problem;
+    if (order) return (double)motus_run_steps(r) * choice_expansion(p, &f->weight, order);
+    return (double)motus_run_evaluations(r) * choice_evaluation(p, &f->weight, r->card);
 }
 
 /* One candidate, as far as it is worth while. */
@@ -114,14 +99,6 @@ static void explain(const fleet *f, size_t chosen, pilot *out)
     }
 }
 
-static motus_status weigh_equations(fleet *f, motus_error *err)
-{
-    motus_system *s = f->system;
-    const double numbers = (double)(s->problem.nx + s->problem.nv);
-    f->weight = (weight){.values = CALLBACK_OPERATIONS * numbers};
-    return s->model ? choice_weigh(s, &f->weight, err) : MOTUS_OK;
-}
-
 motus_status pilot_choose(motus_system *s, const motus_run_def *def, pilot *out, motus_error *err)
 {
     motus_system *located = NULL;
@@ -139,7 +116,7 @@ motus_status pilot_choose(motus_system *s, const motus_run_def *def, pilot *out,
     if (def->progress) f.def.progress = tell, f.def.context = &caller;
     f.def.machine = "interpreter";
     motus_error first = motus_default_error();
-    motus_status status = weigh_equations(&f, err);
+    motus_status status = choice_weigh(f.system, &f.weight, err);
     size_t best = f.count;
     for (size_t k = 0; status == MOTUS_OK && k < f.count; k++) {
         motus_error why = motus_default_error();

@@ -139,6 +139,7 @@ uint64_t motus_archive_blocks(const motus_archive *a)
 {
     return directory_blocks(a->directory.rows, a->directory.block);
 }
+uint64_t motus_archive_block_rows(const motus_archive *a) { return a->directory.block; }
 size_t motus_archive_column_count(const motus_archive *a) { return a->directory.column_count; }
 
 void motus_archive_block(const motus_archive *a, uint64_t block, uint64_t *first, size_t *count)

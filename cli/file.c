@@ -244,6 +244,7 @@ motus_status file_create(file_out *f, const char *path, motus_error *err)
 motus_status file_write(file_out *f, const char *bytes, size_t count, motus_error *err)
 {
     if (f->code == 0 && fwrite(bytes, 1, count, f->stream) != count) f->code = errno ? errno : EIO;
+    if (f->code == 0 && f->seen) f->seen(f->with, bytes, count);
     return f->code ? cannot_write(f, err) : MOTUS_OK;
 }
 

@@ -30,6 +30,8 @@ typedef struct file_out {
     int nameless;           /* 1 + the descriptor of a file without a name; 0: there is none */
     char *path, *temporary; /* temporary: NULL when written directly, or without a name */
     int code;               /* errno of the first failure */
+    void (*seen)(void *with, const char *bytes, size_t count); /* NULL, or is told all that is written, */
+    void *with;                                                /*   with this */
 } file_out;
 
 motus_status file_create(file_out *, const char *path, motus_error *);

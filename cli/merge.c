@@ -25,14 +25,14 @@ typedef struct merge {
 
 static motus_status foreign(const part *a, const part *b, motus_error *err)
 {
-    char one[SHARD_TEXT], other[SHARD_TEXT];
+    char one[SHARD_TITLE], other[SHARD_TITLE];
     if (a->kind != b->kind) {
         static const char *const kinds[] = {"a table of rows", "a table of events", "a .npy", "an archive"};
         fail(err, MOTUS_STATE, "%s is %s, but %s is %s", a->path, kinds[a->kind], b->path, kinds[b->kind]);
         hint(err, "merge files of one kind");
-    } else if (a->shard.count != b->shard.count) {
-        fail(err, MOTUS_STATE, "%s is shard %s, but %s is shard %s", a->path, shard_text(&a->shard, one), b->path,
-             shard_text(&b->shard, other));
+    } else if (a->shard.count != b->shard.count || a->shard.block != b->shard.block) {
+        fail(err, MOTUS_STATE, "%s is shard %s, but %s is shard %s", a->path, shard_title(&a->shard, one), b->path,
+             shard_title(&b->shard, other));
         hint(err, "merge the shards of one division");
     } else {
         fail(err, MOTUS_STATE, "%s and %s are of different sweeps", a->path, b->path);
@@ -49,7 +49,7 @@ static motus_status arrange(merge *m, motus_error *err)
     const uint64_t count = first->shard.count;
     for (size_t k = 1; k < m->count; k++)
         if (m->parts[k].kind != first->kind || m->parts[k].shard.count != count ||
-            strcmp(m->parts[k].its, first->its) != 0)
+            m->parts[k].shard.block != first->shard.block || strcmp(m->parts[k].its, first->its) != 0)
             return foreign(first, &m->parts[k], err);
     m->of = calloc((size_t)count, sizeof *m->of);
     if (!m->of) return complain_memory(err);
@@ -128,7 +128,8 @@ static motus_status write_head(const merge *m, file_out *out, motus_error *err)
 
 static motus_status write_rows(const merge *m, file_out *out, stop_progress *progress, motus_error *err)
 {
-    const uint64_t total = m->of[0]->total, blocks = shard_blocks(total), count = m->of[0]->shard.count;
+    const uint64_t total = m->of[0]->total, blocks = shard_blocks(&m->of[0]->shard, total),
+                   count = m->of[0]->shard.count;
     motus_status status = MOTUS_OK;
     for (uint64_t b = 0; !status && b < blocks; b++) {
         status = part_copy(m->of[b % count], b, out, err);
@@ -139,6 +140,7 @@ static motus_status write_rows(const merge *m, file_out *out, stop_progress *pro
     if (status || m->of[0]->kind != PART_EVENTS) return status;
     char line[SWEEP_EVENTS_LAST];
     snprintf(line, sizeof line, SWEEP_EVENTS_END, total);
+    out->seen = NULL;
     return file_text(out, line, err);
 }
 
@@ -177,19 +179,39 @@ static motus_status write_all(merge *m, stop_progress *progress, motus_error *er
     char *beside = sweep_npy_beside(output);
     if (!beside) return complain_memory(err);
     file_out rows = {0}, about = {0};
+    checks c = {.descriptor = -1};
     motus_status status = file_create(&rows, output, err);
+    if (!status && !rows.direct) status = checks_begin(&c, output, npy ? SWEEP_NPY_HEAD : 0, true, err);
     if (!status && npy) status = file_create(&about, beside, err);
     if (!status && npy) status = file_text(&about, m->of[0]->head, err);
-    if (!status) status = write_head(m, &rows, err);
+    if (!status && npy) status = write_head(m, &rows, err);
+    rows.seen = checks_seen, rows.with = &c;
+    if (!status && !npy) status = write_head(m, &rows, err);
     if (!status) status = write_rows(m, &rows, progress, err);
     if (!status && npy) status = file_finish(&about, err);
     if (!status) status = file_finish(&rows, err);
+    if (!status) status = checks_finish(&c, err);
     if (!status && npy) status = file_keep(&about, err);
     if (!status) status = file_keep(&rows, err);
     file_drop(&rows);
     file_drop(&about);
+    checks_close(&c);
     free(beside);
     return status;
+}
+
+/* A shard without checks is taken, and that is said. */
+static void note_unchecked(const merge *m)
+{
+    size_t count = 0;
+    const part *first = NULL;
+    for (size_t k = 0; k < m->count; k++) {
+        if (m->parts[k].kind == PART_ARCHIVE || m->parts[k].checked < UINT64_MAX) continue;
+        if (!count++) first = &m->parts[k];
+    }
+    if (count && !m->options->quiet)
+        complain_note("%s.check is not there%s: whether these rows are those that were written was not checked",
+                      first->path, count > 1 ? ", nor are others" : "");
 }
 
 motus_status merge_verb(const options *o, motus_error *err)
@@ -205,6 +227,7 @@ motus_status merge_verb(const options *o, motus_error *err)
     if (!status) status = check_name(&m, err);
     if (!status) status = write_all(&m, &progress, err);
     stop_progress_end(&progress);
+    if (!status) note_unchecked(&m);
     if (!status) report(&m);
     for (size_t k = 0; m.parts && k < m.count; k++) part_close(&m.parts[k]);
     free(m.parts);

@@ -1,8 +1,8 @@
 /* The file of one shard. See part.h.
  *
  * Invariant: a row is copied only if its trajectory is the one that must come next, so whatever is in a file, the rows
- * of the merged one are those of the trajectories in their order. A file is open only while a block of it is copied:
- * there may be more shards than a process may have files.
+ * of the merged one are those of the trajectories in their order; and where the checks of its rows are there, only if
+ * they fit. A file is open only while a block of it is copied: there may be more shards than a process may have files.
  */
 #define _XOPEN_SOURCE 700
 #define _DEFAULT_SOURCE
@@ -73,19 +73,19 @@ static bool cut(char *text, const char *end, const char *what)
  * the whole sweep. False: they are not there. */
 static bool take_shard(part *p, const char *its, const char *trajectories, const char *before, const char *after)
 {
-    char words[64], text[SHARD_TEXT];
+    char words[96], text[SHARD_TEXT], title[SHARD_TITLE];
     const char *count = strstr(its, trajectories), *mark = strstr(its, before);
     if (!count || !mark) return false;
     count += strlen(trajectories);
     if (!decimal_read_whole(count, strlen(count), &p->total) || p->total == 0 || p->total > GRID_MOST) return false;
     const size_t length = shard_parse(&p->shard, mark + strlen(before));
-    if (length == 0 || length >= SHARD_TEXT || p->shard.count < 2 || p->shard.count > SHARD_MOST) return false;
+    if (length == 0 || length >= SHARD_TITLE || p->shard.count < 2 || p->shard.count > SHARD_MOST) return false;
     shard_text(&p->shard, text);
     snprintf(words, sizeof words, " --shard %s", text);
     const size_t from = (size_t)(its - p->head);
     if (!cut(p->head, p->head + from, words)) return false;
     p->its = p->head + from - strlen(words);
-    snprintf(words, sizeof words, "%s%s%s", before, text, after);
+    snprintf(words, sizeof words, "%s%s%s", before, shard_title(&p->shard, title), after);
     return cut(p->head, p->head + strlen(p->head), words);
 }
 
@@ -166,6 +166,17 @@ static FILE *open_at(const part *p)
     return in;
 }
 
+/* Up to where its bytes are those that were written. */
+static motus_status find_checks(part *p, FILE *in, motus_error *err)
+{
+    checks c = {.descriptor = -1};
+    const motus_status status = checks_find(&c, p->path, fileno(in), p->kind == PART_NPY ? p->at : 0, err);
+    p->checked = c.missing ? UINT64_MAX : c.end;
+    p->broken = c.broken;
+    checks_close(&c);
+    return status;
+}
+
 motus_status part_open(part *p, const char *path, motus_error *err)
 {
     *p = (part){.path = path};
@@ -184,6 +195,7 @@ motus_status part_open(part *p, const char *path, motus_error *err)
     if (!status && magic == 0) status = part_no_shard(p, "is not a shard of a sweep", err);
     if (!status)
         status = magic == 0x93 ? npy_head(p, in, err) : magic == 'm' ? part_archive_head(p, err) : csv_head(p, in, err);
+    if (!status && p->kind != PART_ARCHIVE) status = find_checks(p, in, err);
     fclose(in);
     return status;
 }
@@ -252,15 +264,25 @@ static motus_status copy_numbers(part *p, FILE *in, uint64_t first, uint64_t cou
     return status;
 }
 
+static motus_status not_as_written(const part *p, motus_error *err)
+{
+    fail(err, MOTUS_STATE, "%s is damaged: what is behind its byte %" PRIu64 " is not what was written", p->path,
+         p->checked);
+    hint(err, p->kind == PART_EVENTS ? "compute this shard again: its command with --force"
+                                     : "its command with --resume computes that again");
+    return MOTUS_STATE;
+}
+
 motus_status part_copy(part *p, uint64_t block, file_out *out, motus_error *err)
 {
-    const uint64_t first = block * SHARD_BLOCK, left = p->total - first;
-    const uint64_t count = left < SHARD_BLOCK ? left : SHARD_BLOCK;
+    const uint64_t first = block * p->shard.block, left = p->total - first;
+    const uint64_t count = left < p->shard.block ? left : p->shard.block;
     FILE *in = open_at(p);
     if (!in) return cannot_read(p->path, err);
     const motus_status status = (p->kind == PART_NPY ? copy_numbers : copy_lines)(p, in, first, count, out, err);
     fclose(in);
-    return status;
+    if (status || p->at <= p->checked) return status;
+    return p->broken ? not_as_written(p, err) : part_unfinished(p, err);
 }
 
 motus_status part_end(part *p, motus_error *err)
@@ -271,7 +293,8 @@ motus_status part_end(part *p, motus_error *err)
     if (!in) return cannot_read(p->path, err);
     const size_t got = fread(rest, 1, sizeof rest - 1, in);
     fclose(in);
-    if (got == strlen(end) && memcmp(rest, end, got) == 0) return MOTUS_OK;
+    const bool ends = got == strlen(end) && memcmp(rest, end, got) == 0;
+    if (ends) return p->broken ? not_as_written(p, err) : MOTUS_OK;
     if (p->kind == PART_EVENTS && (got == 0 || rest[0] == '#')) return part_unfinished(p, err);
     fail(err, MOTUS_STATE, "%s is damaged: there is more behind its last trajectory", p->path);
     hint(err, "compute this shard again: its command with --force");

@@ -17,8 +17,10 @@ typedef struct part {
     /* that of the whole sweep: the lines above the rows, or the .json beside a .npy; of an archive what its shards have
      * in common */
     char *head;
-    const char *its; /* in it: what the heads of all shards of a sweep have in common, to its end */
-    uint64_t at;     /* where the first row begins that has not been copied */
+    const char *its;  /* in it: what the heads of all shards of a sweep have in common, to its end */
+    uint64_t at;      /* where the first row begins that has not been copied */
+    uint64_t checked; /* up to where its bytes have their checks; UINT64_MAX: there are none */
+    bool broken;      /* those behind do not have them */
 } part;
 
 /* Reads the head. MOTUS_STATE: this is no shard; call part_close() in any case. */

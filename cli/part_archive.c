@@ -34,11 +34,7 @@ static char *common(const motus_archive *a)
 /* Whether its blocks are those of the shard that it says it is. */
 static bool fits(const motus_archive *a, const part *p)
 {
-    uint64_t first;
-    size_t count;
-    const uint64_t rows = shard_rows(&p->shard, p->total);
-    motus_archive_block(a, 0, &first, &count);
-    return sweep_archive_is(a) && motus_archive_rows(a) == rows && count == (rows < SHARD_BLOCK ? rows : SHARD_BLOCK);
+    return sweep_archive_is(a) && motus_archive_rows(a) == shard_rows(&p->shard, p->total);
 }
 
 motus_status part_archive_head(part *p, motus_error *err)
@@ -52,10 +48,12 @@ motus_status part_archive_head(part *p, motus_error *err)
         status = part_no_shard(p, "is a whole sweep, not a shard", err);
     else if (!total || !motus_archive_note_of(a, "fingerprint") || !motus_archive_note_of(a, "command") ||
              !decimal_read_whole(total, strlen(total), &p->total) || p->total == 0 || p->total > GRID_MOST ||
-             shard_parse(&p->shard, share) != strlen(share) || p->shard.count < 2 || p->shard.count > SHARD_MOST ||
-             !fits(a, p))
+             shard_parse(&p->shard, share) != strlen(share) ||
+             (p->shard.block = motus_archive_block_rows(a)) > SHARD_BLOCK || p->shard.count < 2 ||
+             p->shard.count > SHARD_MOST || !fits(a, p))
         status = part_no_shard(p, "is not a shard of a sweep, by what its head says", err);
-    if (!status && !(p->head = common(a))) status = complain_memory(err);
+    p->head = status ? NULL : common(a);
+    if (!status && !p->head) status = complain_memory(err);
     p->its = p->head;
     motus_archive_close(a);
     return status;
@@ -97,7 +95,7 @@ static motus_status make(const part *p, const char *output, int descriptor, motu
         if (strcmp(n.name, "command") == 0) n.text = command;
         kept[d.note_count++] = n;
     }
-    d.rows = p->total, d.block = SHARD_BLOCK, d.columns = columns, d.notes = kept;
+    d.rows = p->total, d.block = p->shard.block, d.columns = columns, d.notes = kept;
     d.stop = stop_asked;
     d.from = from;
     d.descriptor = descriptor + 1;
@@ -166,7 +164,8 @@ motus_status part_archive_join(part *const *of, const char *output, uint64_t *mi
     const bool locked = !status;
     if (!status) status = make(of[some], beside.descriptor < 0 ? beside.path : output, beside.descriptor, NULL, err);
     if (!status) status = motus_archive_open(beside.path, 1, &j.to, err);
-    if (!status) status = block_room_make(&j.room, motus_archive_column_count(j.to), SHARD_BLOCK, err);
+    if (!status)
+        status = block_room_make(&j.room, motus_archive_column_count(j.to), (size_t)of[some]->shard.block, err);
     for (uint64_t k = 0; !status && k < count; k++)
         if (of[k] && shard_rows(&of[k]->shard, of[k]->total) > 0) status = copy(&j, of[k], err);
     if (!status && missing) *missing = motus_archive_blocks(j.to) - j.copied;

@@ -4,6 +4,7 @@
 
 #include "base/disk.h"
 #include "base/error.h"
+#include "cli/checks.h"
 #include "cli/command.h"
 #include "cli/complain.h"
 #include "cli/file.h"
@@ -286,17 +287,23 @@ static motus_status look(const segments *s, motus_error *err)
 motus_status segments_join(segments *s, const char *last, stop_progress *progress, motus_error *err)
 {
     file_out out = {0};
+    checks c = {.descriptor = -1};
     motus_status status = segments_find(s, err);
     if (!status) status = look(s, err);
     if (!status) status = file_create(&out, s->table, err);
+    if (!status) status = checks_begin(&c, s->table, 0, true, err);
+    out.seen = checks_seen, out.with = &c;
     if (!status) status = file_text(&out, s->head, err);
     for (uint64_t b = 0; !status && b < s->blocks; b++) {
         status = copy(s, &s->of[b], &out, err);
         if (!status && stop_progress_hook(progress, 1)) status = fail(err, MOTUS_CANCELLED, "cancelled");
     }
+    out.seen = NULL;
     if (!status) status = file_text(&out, last, err);
     if (!status) status = file_finish(&out, err);
+    if (!status) status = checks_finish(&c, err);
     if (!status) status = file_keep(&out, err);
     file_drop(&out);
+    checks_close(&c);
     return status ? status : segments_remove(s, err);
 }

@@ -27,7 +27,7 @@ static motus_status of_slurm(shard *s, motus_error *err)
         hint(err, "submit an array, sbatch --array=1-100, or name the shard: --shard 3/100");
         return MOTUS_ARGUMENT;
     }
-    *s = (shard){value[0], value[1]};
+    *s = (shard){value[0], value[1], SHARD_BLOCK};
     if (value[2] == 1 && value[3] == value[1] && s->number >= 1 && s->number <= s->count) return MOTUS_OK;
     fail(err, MOTUS_ARGUMENT,
          "--shard slurm: this array has the tasks %" PRIu64 " to %" PRIu64 ", %" PRIu64 " of them, not 1 to N",
@@ -36,24 +36,31 @@ static motus_status of_slurm(shard *s, motus_error *err)
     return MOTUS_ARGUMENT;
 }
 
+#define BLOCKS " in blocks of "
+
 size_t shard_parse(shard *s, const char *text)
 {
     const size_t length = strlen(text), first = decimal_read_whole(text, length, &s->number);
     if (first == 0 || text[first] != '/') return 0;
     const size_t second = decimal_read_whole(text + first + 1, length - first - 1, &s->count);
-    return second > 0 && s->number >= 1 && s->number <= s->count ? first + 1 + second : 0;
+    s->block = SHARD_BLOCK;
+    if (second == 0 || s->number < 1 || s->number > s->count) return 0;
+    const size_t short_end = first + 1 + second, words = sizeof BLOCKS - 1;
+    if (strncmp(text + short_end, BLOCKS, words) != 0) return short_end;
+    const size_t third = decimal_read_whole(text + short_end + words, length - short_end - words, &s->block);
+    return third > 0 && s->block > 0 && s->block < SHARD_BLOCK ? short_end + words + third : 0;
 }
 
 motus_status shard_read(shard *s, const char *text, motus_error *err)
 {
-    *s = (shard){1, 1};
+    *s = (shard){1, 1, SHARD_BLOCK};
     if (!text) return MOTUS_OK;
     motus_status status = MOTUS_OK;
     if (strcmp(text, "slurm") == 0) {
         status = of_slurm(s, err);
     } else {
         const size_t length = shard_parse(s, text);
-        if (length == 0 || text[length]) {
+        if (length == 0 || text[length] || s->block != SHARD_BLOCK) {
             fail(err, MOTUS_ARGUMENT, "--shard %s: this is no shard", text);
             hint(err, "--shard 3/100 is the third of a hundred: from 1/100 to 100/100");
             status = MOTUS_ARGUMENT;
@@ -74,22 +81,29 @@ const char *shard_text(const shard *s, char out[SHARD_TEXT])
     return out;
 }
 
+const char *shard_title(const shard *s, char out[SHARD_TITLE])
+{
+    char text[SHARD_TEXT];
+    if (s->block == SHARD_BLOCK)
+        snprintf(out, SHARD_TITLE, "%s", shard_text(s, text));
+    else
+        snprintf(out, SHARD_TITLE, "%s" BLOCKS "%u", shard_text(s, text), (unsigned)s->block);
+    return out;
+}
+
 uint64_t shard_rows(const shard *s, uint64_t total)
 {
-    const uint64_t full = total / SHARD_BLOCK, last = total % SHARD_BLOCK, first = s->number - 1;
+    const uint64_t full = total / s->block, last = total % s->block, first = s->number - 1;
     const uint64_t mine = full > first ? (full - first - 1) / s->count + 1 : 0;
-    return mine * SHARD_BLOCK + (full % s->count == first ? last : 0);
+    return mine * s->block + (full % s->count == first ? last : 0);
 }
 
 uint64_t shard_trajectory(const shard *s, uint64_t row)
 {
-    return (s->number - 1 + row / SHARD_BLOCK * s->count) * SHARD_BLOCK + row % SHARD_BLOCK;
+    return (s->number - 1 + row / s->block * s->count) * s->block + row % s->block;
 }
 
-uint64_t shard_run(const shard *s, uint64_t row)
-{
-    return shard_whole(s) ? UINT64_MAX : SHARD_BLOCK - row % SHARD_BLOCK;
-}
+uint64_t shard_run(const shard *s, uint64_t row) { return shard_whole(s) ? UINT64_MAX : s->block - row % s->block; }
 
 char *shard_file(const shard *s, const char *name)
 {

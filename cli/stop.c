@@ -16,12 +16,15 @@
 #include <unistd.h>
 
 enum { PATIENCE = 150000, PATIENCE_KEEPING = 2000000 }; /* microseconds from the signal on */
+/* Of SIGTERM where a block may be completed: so long it goes on; and so long until the clock raises the signal. */
+#define HURRY 0.2
+enum { PATIENCE_BLOCK = 400000 };
 
 /* The program's globals that change: a signal handler has no other way to report. */
 static volatile sig_atomic_t requested, heard;
 
-static volatile sig_atomic_t warned;
-static bool holding;
+static volatile sig_atomic_t warned, hurries;
+static bool holding, alone; /* alone: no other process waits for this one */
 static volatile sig_atomic_t keeping;
 
 static void store(int number)
@@ -29,18 +32,27 @@ static void store(int number)
     const struct itimerval once = {
         .it_value = {keeping ? PATIENCE_KEEPING / 1000000 : 0, keeping ? PATIENCE_KEEPING % 1000000 : PATIENCE}};
     requested = number;
+    heard = 0;
     setitimer(ITIMER_REAL, &once, NULL);
 }
 
-static void warn(int number) { warned = number; }
+static void warn(int number)
+{
+    const struct itimerval once = {.it_value = {0, PATIENCE_BLOCK}};
+    warned = number;
+    if (number != SIGTERM) return;
+    hurries = number;
+    if (alone) setitimer(ITIMER_REAL, &once, NULL);
+}
 
 /* The time is over. */
 static void end(int number)
 {
+    const int late = requested ? requested : hurries;
     (void)number;
-    if (heard || !requested) return;
-    signal((int)requested, SIG_DFL);
-    raise((int)requested);
+    if (heard || !late) return;
+    signal(late, SIG_DFL);
+    raise(late);
 }
 
 /* Signals that are ignored stay so. */
@@ -55,8 +67,9 @@ static void handle(const int *signals, size_t count, void (*handler)(int))
             sigaction(signals[i], &action, NULL);
 }
 
-void stop_gently(void)
+void stop_gently(bool by_itself)
 {
+    alone = by_itself;
     static const int warnings[] = {SIGTERM, SIGUSR1};
     handle(warnings, sizeof warnings / sizeof *warnings, warn);
 }
@@ -64,7 +77,23 @@ void stop_gently(void)
 void stop_hold(bool held) { holding = held; }
 void stop_keep(bool keeps) { keeping = keeps; }
 
-bool stop_warned(void) { return warned != 0; }
+bool stop_warned(void)
+{
+    if (warned) heard = 1;
+    return warned != 0;
+}
+
+/* SIGTERM was heard, and there has been time to complete what would soon be complete. */
+static bool is_over(void)
+{
+    static double since;
+    if (!hurries) return false;
+    const double now = stop_clock();
+    if (!since) since = now;
+    if (now - since < HURRY) return false;
+    heard = 1;
+    return true;
+}
 
 static void ignore(int number)
 {
@@ -144,7 +173,7 @@ int stop_progress_hook(void *context, double fraction)
             p->shown = now;
         }
     }
-    return !holding && stop_requested();
+    return !holding && (stop_requested() || is_over());
 }
 
 void stop_progress_end(stop_progress *p)

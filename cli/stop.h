@@ -12,8 +12,10 @@ void stop_file_limit(void);
 bool stop_requested(void);
 int stop_asked(void *); /* the same, as a hook of archives; NULL */
 /* From now on SIGTERM and SIGUSR1, by which batch systems warn, do not stop at once: stop_warned() tells of them, and
- * the program ends when what it has in hand is done. A second one kills. */
-void stop_gently(void);
+ * the program ends when what it has in hand is done; after SIGTERM within half a second, done or not: then the progress
+ * hook asks for an end, and where nobody asks the hook, of a process that works alone, the clock raises the signal. A
+ * second one kills. */
+void stop_gently(bool alone);
 bool stop_warned(void);
 void stop_reader_gone(void); /* standard output was closed by its reader: request a stop as if by SIGPIPE */
 /* If a stop was requested, raises its signal again with the default action, so that the parent process learns of it.

@@ -73,7 +73,7 @@ static motus_status create(sweep *s, stop_progress *progress, motus_error *err)
     def.error = !s->errors                                  ? MOTUS_BARS_NONE
                 : o->error && strcmp(o->error, "full") == 0 ? MOTUS_BARS_FULL
                                                             : MOTUS_BARS_CHEAP;
-    def.expected = s->rows;
+    def.expected = s->grid.total / s->shard.count + 1; /* the blocks of a shard are not known yet */
     def.switches = options_switches(o);
     def.events = o->events || o->plot;
     def.event_columns = s->event_columns;
@@ -156,6 +156,9 @@ static motus_status make(sweep *s, stop_progress *progress, motus_error *err)
     if (status) return status;
     s->method = motus_ensemble_method(s->ensemble);
     s->tolerance = motus_ensemble_tolerance(s->ensemble, &s->absolute);
+    status = sweep_block_choose(s, &s->shard.block, err);
+    if (status) return status;
+    s->rows = shard_rows(&s->shard, s->grid.total);
     return sweep_head_make(s, o->output && sweep_npy_name(o->output), err);
 }
 
@@ -166,7 +169,6 @@ motus_status sweep_begin(sweep *s, sweep_section *section, stop_progress *progre
     if (!status) status = check_team(o, err);
     if (!status) status = load_model(&s->model, o, err);
     if (!status) status = grid_read(&s->grid, o, err);
-    s->rows = status ? 0 : shard_rows(&s->shard, s->grid.total);
     for (size_t k = 0; !status && o->output && k < s->grid.count; k++)
         if (s->grid.axes[k].path &&
             (file_same(s->grid.axes[k].path, o->output) || sweep_archive_replaces(o->output, s->grid.axes[k].path)))
@@ -213,16 +215,16 @@ void sweep_free(sweep *s)
 }
 
 /* Of so many rows those up to the end of the last block that they complete. */
-static size_t up_to_block(uint64_t row, size_t count)
+static size_t up_to_block(uint64_t row, size_t count, uint64_t block)
 {
-    const size_t behind = (size_t)((row + count) % SHARD_BLOCK);
+    const size_t behind = (size_t)((row + count) % block);
     return behind < count ? count - behind : count;
 }
 
 /* A batch system has said that it is about to end the program. */
 static motus_status warned(motus_error *err)
 {
-    fail(err, MOTUS_CANCELLED, "stopped by a signal, between two blocks");
+    fail(err, MOTUS_CANCELLED, "stopped by a signal");
     hint(err, "the same command with --resume goes on");
     return MOTUS_CANCELLED;
 }
@@ -238,8 +240,8 @@ static motus_status go(sweep *s, sweep_file *f, sweep_events *events, sweep_sect
     p->unit = "trajectories";
     for (uint64_t left; !status && (left = sweep_file_left(f)) > 0;) {
         size_t count = left < b.count ? (size_t)left : b.count;
-        if (f->archive) count = up_to_block(f->rows, count);
-        if (f->rows % SHARD_BLOCK == 0 && sweep_archive_given_up(f)) break; /* with no block in hand */
+        if (f->archive) count = up_to_block(f->rows, count, s->shard.block);
+        if (f->rows % s->shard.block == 0 && sweep_archive_given_up(f)) break; /* with no block in hand */
         double began = stop_clock();
         p->from = sweep_file_done(f) / total;
         p->span = (double)count / total;
@@ -253,9 +255,10 @@ static motus_status go(sweep *s, sweep_file *f, sweep_events *events, sweep_sect
         f->share.writing += stop_clock() - computed;
         if (!status && sweep_file_left(f) > 0 && stop_progress_hook(p, 1))
             status = fail(err, MOTUS_CANCELLED, "cancelled");
-        if (!status && sweep_file_left(f) > 0 && stop_warned() && f->rows % SHARD_BLOCK == 0) status = warned(err);
+        if (!status && sweep_file_left(f) > 0 && f->rows % s->shard.block == 0 && stop_warned()) status = warned(err);
         sweep_batch_adapt(&b, s, stop_clock() - began);
     }
+    if (status == MOTUS_CANCELLED && f->archive && stop_warned()) status = warned(err);
     if (status) sweep_archive_give_up(f);
     sweep_batch_free(&b);
     return status;
@@ -447,7 +450,7 @@ static motus_status open_files(sweep_file *f, const sweep *s, motus_error *err)
     status = team_agree(t, status, err);
     if (status || !f->archive) return status;
     sweep_archive_begin(f);
-    stop_gently();
+    stop_gently(team_size(t) == 1);
     return MOTUS_OK;
 }
 
@@ -463,6 +466,7 @@ motus_status sweep_verb(const options *o, motus_error *err)
     const double began = stop_clock();
     char *names[2] = {NULL, NULL};
     motus_status status = shard_read(&s.shard, o->shard, err);
+    s.block = sweep_archive_block(&own);
     if (!status) status = name_files(&s, &own, names, err);
     if (!status) status = sweep_begin(&s, &section, &progress, err);
     if (!status) status = sweep_events_begin(&events, &s, err);

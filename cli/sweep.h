@@ -2,6 +2,7 @@
 #ifndef CLI_SWEEP_H
 #define CLI_SWEEP_H
 
+#include "cli/checks.h"
 #include "cli/file.h"
 #include "cli/grid.h"
 #include "cli/load.h"
@@ -28,8 +29,9 @@ typedef struct sweep {
     const options *options;
     load model;
     grid grid;
-    shard shard;   /* which of the trajectories this command computes, */
-    uint64_t rows; /*   and how many they are: the rows of the complete file */
+    shard shard;    /* which of the trajectories this command computes, in which blocks, */
+    uint64_t rows;  /*   and how many they are: the rows of the complete file */
+    uint64_t block; /* of a file that is continued or examined; 0: it follows from the work (sweep_block.c) */
     sweep_records records;
     const char *method;
     double step, until; /* step NaN: it adapts, */
@@ -81,6 +83,9 @@ const char *sweep_head_fingerprint(const sweep *, const char *version, char out[
 /* Makes the head: it depends on the request alone, not on machine or threads, so that files can be compared. */
 motus_status sweep_head_make(sweep *, bool npy, motus_error *);
 
+/* sweep_block.c: how many trajectories a block has, a power of two up to SHARD_BLOCK. */
+motus_status sweep_block_choose(const sweep *, uint64_t *block, motus_error *);
+
 /* sweep_ranks.c: how the work of a team was shared, for --json. */
 typedef struct sweep_share {
     uint64_t blocks, rows;
@@ -103,6 +108,7 @@ typedef struct sweep_file {
     uint64_t stopped_by[MOTUS_CAUSE_COUNT]; /*   and by which cause */
     uint64_t found;                         /* rows of an earlier, interrupted command; of an archive anywhere in it */
     sweep_share share;                      /* of this process, of an archive */
+    checks checks;                          /* of a CSV or .npy */
     char *buffer;
     double *numbers; /* room for those of a row */
     size_t used, room;
@@ -151,6 +157,8 @@ void sweep_file_close(sweep_file *);
 /* sweep_archive.c: the file of rows as an archive, whose blocks may be written in any order. */
 typedef struct motus_archive motus_archive;
 bool sweep_archive_name(const char *path);
+/* The rows of a block of the archive that is continued; 0: there is none. */
+uint64_t sweep_archive_block(const options *);
 /* Whether an input has the name of a file that is made on the way to this archive. */
 bool sweep_archive_replaces(const char *archive, const char *input);
 /* Whether a note of the archive is this text; NULL: whether it has no such note. */
@@ -214,7 +222,8 @@ motus_status sweep_again_rows(sweep_again *, motus_archive *, uint64_t row, size
 /* sweep_plan.c: tells what the sweep would take, from a sample that it computes. Touches no file. */
 motus_status sweep_plan(const sweep *, stop_progress *, motus_error *);
 
-/* Finds the rows of an interrupted sweep: sets rows, bytes, stopped, stopped_by. `end`: the file's length. */
+/* Finds the rows of an interrupted sweep that have their checks: sets rows, bytes, stopped, stopped_by. `end`: the
+ * file's length. */
 motus_status sweep_resume(sweep_file *, uint64_t end, motus_error *);
 /* The 128 bytes at the beginning of a .npy. */
 enum { SWEEP_NPY_HEAD = 128 };
@@ -240,6 +249,7 @@ typedef struct sweep_events {
     size_t head_length;
     struct segments *segments; /* NULL: the events are written in their order */
     bool complete;             /* the table was found, with all events */
+    checks checks;
 } sweep_events;
 motus_status sweep_events_check(const options *, motus_error *);
 /* Whether the table is a file beside an archive. */

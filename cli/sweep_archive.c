@@ -12,6 +12,7 @@
 #include "cli/complain.h"
 #include "cli/stop.h"
 #include "cli/sweep.h"
+#include "cli/sweep_batch.h"
 
 #include <math.h>
 #include <motus-archive.h>
@@ -41,6 +42,17 @@ bool sweep_archive_name(const char *path)
 static const char *const endings[] = {".new", ARCHIVE_GROWN, ARCHIVE_GROWN ".new", ARCHIVE_JOINED,
                                       ARCHIVE_JOINED ".new"};
 enum { OF_MERGES = 3, ENDINGS = 5 };
+
+uint64_t sweep_archive_block(const options *o)
+{
+    motus_archive *a;
+    if (!o->resume || !o->output || !sweep_archive_name(o->output) ||
+        motus_archive_open(o->output, 0, &a, NULL) != MOTUS_OK)
+        return 0;
+    const uint64_t rows = motus_archive_block_rows(a);
+    motus_archive_close(a);
+    return rows <= SHARD_BLOCK ? rows : 0;
+}
 
 bool sweep_archive_replaces(const char *archive, const char *input)
 {
@@ -74,6 +86,7 @@ motus_status sweep_archive_numbers(motus_archive *a, const char *path, uint64_t 
     uint64_t row;
     size_t left;
     motus_status status = shard_read(&of, motus_archive_note_of(a, "shard"), err);
+    of.block = motus_archive_block_rows(a);
     motus_archive_block(a, block, &row, &left);
     for (size_t some; !status && left > 0; left -= some, row += some) {
         some = left < SOME ? left : SOME;
@@ -173,7 +186,7 @@ static motus_status describe(description *d, const sweep *s, motus_error *err)
     if (!status) status = sweep_head_text(s, &d->command, err);
     if (status) return status;
     d->def.rows = s->rows;
-    d->def.block = SHARD_BLOCK;
+    d->def.block = s->shard.block;
     d->def.number = number_of;
     d->def.stop = stop_asked;
     d->def.context = (void *)s;
@@ -232,10 +245,7 @@ static bool same_sweep(const sweep_file *f, const description *d, const char *ve
         same = motus_archive_column_at(file, k, &c) && c.kind == d->columns[k].kind &&
                strcmp(c.name, d->columns[k].name) == 0;
     }
-    uint64_t first;
-    size_t count;
-    motus_archive_block(file, 0, &first, &count);
-    return same && count == (s->rows < SHARD_BLOCK ? s->rows : SHARD_BLOCK);
+    return same && motus_archive_block_rows(file) == s->shard.block;
 }
 
 motus_status sweep_archive_other_version(const char *path, const char *version, const char *why, motus_error *err)
@@ -340,21 +350,27 @@ static motus_status make_room(sweep_archive *a, motus_error *err)
     a->missing = calloc((size_t)a->blocks + 1, sizeof *a->missing);
     a->numbers = malloc(motus_archive_column_count(a->file) * AT_A_TIME * sizeof *a->numbers);
     if (!a->missing || !a->numbers) return complain_memory(err);
-    return block_room_make(&a->room, motus_archive_column_count(a->file), SHARD_BLOCK, err);
+    return block_room_make(&a->room, motus_archive_column_count(a->file), (size_t)motus_archive_block_rows(a->file),
+                           err);
 }
 
-/* Takes blocks from the counter of all, the fewer the fewer are left, so that all end together. */
+static uint64_t block_of(const sweep_file *f) { return f->sweep->shard.block; }
+
+/* Takes blocks from the counter of all, the fewer the fewer are left, so that all end together; but, as long as there
+ * are so many for each, trajectories for all lanes. */
 static void take_blocks(sweep_file *f)
 {
-    enum { AT_ONCE = 16, SHARES = 4 };
+    enum { AT_ONCE = 16 * SHARD_BLOCK, SHARES = 4 };
     sweep_archive *a = f->archive;
     const team *t = f->sweep->options->team;
     if (team_size(t) == 1) {
         a->end = a->missing_count;
         return;
     }
-    const uint64_t left = a->missing_count - a->end, share = left / ((uint64_t)t->size * SHARES);
-    const uint64_t count = share < 1 ? 1 : share > AT_ONCE ? AT_ONCE : share;
+    const uint64_t left = a->missing_count - a->end, even = left / (uint64_t)t->size, most = AT_ONCE / block_of(f);
+    const uint64_t lanes = shard_blocks(&f->sweep->shard, sweep_batch_lanes(f->sweep));
+    const uint64_t share = even / SHARES < lanes ? (even < lanes ? even : lanes) : even / SHARES;
+    const uint64_t count = share < 1 ? 1 : share > most ? most : share;
     const double asked = stop_clock();
     a->next = t->take(t->context, count);
     const double waited = stop_clock() - asked;
@@ -369,7 +385,7 @@ static void move(sweep_file *f)
 {
     sweep_archive *a = f->archive;
     if (a->next == a->end) take_blocks(f);
-    f->rows = a->next < a->end ? a->missing[a->next] * SHARD_BLOCK : f->sweep->rows;
+    f->rows = a->next < a->end ? a->missing[a->next] * block_of(f) : f->sweep->rows;
 }
 
 motus_status sweep_archive_open(sweep_file *f, bool found, motus_error *err)
@@ -421,7 +437,7 @@ uint64_t sweep_archive_left(const sweep_file *f)
     uint64_t run = a->next;
     if (run == a->end) return 0;
     while (run + 1 < a->end && a->missing[run + 1] == a->missing[run] + 1) run++;
-    const uint64_t end = (a->missing[run] + 1) * SHARD_BLOCK, rows = f->sweep->rows;
+    const uint64_t end = (a->missing[run] + 1) * block_of(f), rows = f->sweep->rows;
     return (end < rows ? end : rows) - f->rows;
 }
 
@@ -440,7 +456,7 @@ bool sweep_archive_given_up(const sweep_file *f)
 double sweep_archive_done(const sweep_file *f)
 {
     const sweep_archive *a = f->archive;
-    const double rows = (double)f->found + (double)a->next * SHARD_BLOCK + (double)(f->rows % SHARD_BLOCK);
+    const double rows = (double)f->found + (double)(a->next * block_of(f) + f->rows % block_of(f));
     return fmin(rows, (double)f->sweep->rows);
 }
 
@@ -448,7 +464,7 @@ double sweep_archive_done(const sweep_file *f)
 static motus_status write_block(sweep_file *f, motus_error *err)
 {
     sweep_archive *a = f->archive;
-    const uint64_t block = (f->rows - 1) / SHARD_BLOCK, rows = f->rows - block * SHARD_BLOCK;
+    const uint64_t block = (f->rows - 1) / block_of(f), rows = f->rows - block * block_of(f);
     const motus_status status = motus_archive_write(a->file, block, a->room.written, err);
     if (status) {
         f->rows -= rows; /* of this block nothing is there */
@@ -466,7 +482,7 @@ motus_status sweep_archive_rows(sweep_file *f, size_t count, const sweep_rows *g
     sweep_archive *a = f->archive;
     motus_status status = MOTUS_OK;
     for (size_t done = 0, some; !status && done < count; done += some) {
-        const size_t at = (size_t)(f->rows % SHARD_BLOCK), left = SHARD_BLOCK - at;
+        const size_t at = (size_t)(f->rows % block_of(f)), left = (size_t)block_of(f) - at;
         some = count - done < left ? count - done : left;
         if (some > AT_A_TIME) some = AT_A_TIME;
         sweep_file_numbers(f->sweep, given, done, some, a->numbers, 1, AT_A_TIME);

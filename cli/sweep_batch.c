@@ -10,8 +10,7 @@
 /* The bounds of a batch; its duration bounds the work that a kill loses. */
 enum { BATCH_MOST = 1 << 16, BATCH_BYTES = 1 << 25, BATCH_MS = 500 };
 
-/* Of all threads together: as many as advance at once. They may grow, when a compiler has ended. */
-static size_t lanes_of(const sweep *s)
+size_t sweep_batch_lanes(const sweep *s)
 {
     const int lanes = motus_ensemble_lanes(s->ensemble), threads = motus_ensemble_threads(s->ensemble);
     return (size_t)(lanes > 0 ? lanes : 1) * (size_t)(threads > 0 ? threads : 1);
@@ -23,11 +22,12 @@ static size_t columns_of(const sweep *s) { return s->grid.count + sweep_kept(s) 
 motus_status sweep_batch_make(sweep_batch *b, const sweep *s, motus_error *err)
 {
     const size_t records = sweep_kept(s), columns = columns_of(s);
-    b->lanes = lanes_of(s);
+    b->lanes = sweep_batch_lanes(s);
     b->most = BATCH_BYTES / sizeof(double) / columns;
     if (b->most > BATCH_MOST) b->most = BATCH_MOST;
     b->most = b->most > b->lanes ? b->most / b->lanes * b->lanes : b->lanes;
-    b->count = 4 * b->lanes < b->most ? 4 * b->lanes : b->most;
+    const size_t count = s->shard.block < SHARD_BLOCK ? b->lanes : 4 * b->lanes; /* of dear ones few to begin with */
+    b->count = count < b->most ? count : b->most;
     b->values = calloc(columns + s->grid.count, sizeof *b->values);
     b->room = b->most < SIZE_MAX / sizeof(double) / columns ? malloc(columns * b->most * sizeof(double)) : NULL;
     if (!b->values || !b->room) return complain_memory(err);
@@ -76,7 +76,7 @@ sweep_rows sweep_batch_rows(const sweep_batch *b) { return (sweep_rows){b->value
 
 void sweep_batch_adapt(sweep_batch *b, const sweep *s, double seconds)
 {
-    const size_t lanes = lanes_of(s);
+    const size_t lanes = sweep_batch_lanes(s);
     b->lanes = lanes < b->most ? lanes : b->most;
     double wanted = (double)b->count * fmin(8, BATCH_MS * 1e-3 / fmax(seconds, 1e-6));
     size_t blocks = (size_t)fmax(1, wanted / (double)b->lanes);

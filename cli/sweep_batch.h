@@ -11,6 +11,8 @@ typedef struct sweep_batch {
     double **shifted;                                      /* values, from some trajectory of the batch on */
 } sweep_batch;
 
+/* Lanes of all threads together: as many trajectories as advance at once. They may grow, when a compiler has ended. */
+size_t sweep_batch_lanes(const sweep *);
 /* Call sweep_batch_free() in any case. */
 motus_status sweep_batch_make(sweep_batch *, const sweep *, motus_error *);
 void sweep_batch_free(sweep_batch *);

@@ -4,7 +4,7 @@
  * the events of a trajectory are written, and on the disk, before its row is. Behind them stands a line that begins
  * with # and says of how many trajectories they are, at every time: new events are written behind its # first, and then
  * over it. So a file in which that line is missing, and events of trajectories without a row too, has been shortened.
- * Such events are removed by --resume.
+ * Such events are removed by --resume. All above that line has its checks (checks.h), before the rows are written.
  *
  * Beside an archive, whose blocks come in any order, a table that is a file is joined from segments when all are there
  * (segments.h); until then it is empty. Segments are written before the rows, but reach the disk when the sweep ends:
@@ -67,7 +67,10 @@ static motus_status cannot_write(const sweep_events *f, int code, motus_error *e
 }
 
 /* On the disk before anything that is written from now on. */
-static int synchronise(const sweep_events *f) { return disk_sync(f->descriptor) ? 0 : errno; }
+static int synchronise(const sweep_events *f)
+{
+    return disk_sync(f->descriptor) && checks_sync(&f->checks) ? 0 : errno;
+}
 
 static int write_at(const sweep_events *f, uint64_t place, const char *text, size_t length)
 {
@@ -89,6 +92,9 @@ static motus_status put(sweep_events *f, const char *text, size_t length, size_t
         if (!code) code = synchronise(f);
         if (code && ftruncate(f->descriptor, (off_t)f->bytes + 1) != 0) code = errno;
         if (!code) code = write_at(f, f->bytes, text, 1);
+        if (!code) checks_add(&f->checks, text, events);
+        const motus_status status = code ? MOTUS_OK : checks_mark(&f->checks, err);
+        if (status) return status;
         if (!code) code = synchronise(f);
     }
     if (code) return cannot_write(f, code, err);
@@ -107,11 +113,14 @@ static motus_status put_head(sweep_events *f, motus_error *err)
     char line[SWEEP_EVENTS_LAST];
     const size_t last = last_line(0, line);
     size_t written;
+    const motus_status status = f->regular ? checks_begin(&f->checks, f->path, 0, false, err) : MOTUS_OK;
+    if (status) return status;
     int code = f->regular && (ftruncate(f->descriptor, 0) != 0 || lseek(f->descriptor, 0, SEEK_SET) < 0) ? errno : 0;
     if (!code) code = sweep_file_bytes(f->descriptor, f->head, f->head_length, &written);
     if (!code && f->regular) code = sweep_file_bytes(f->descriptor, line, last, &written);
     if (code) return cannot_write(f, code, err);
     f->bytes = f->head_length;
+    checks_add(&f->checks, f->head, f->head_length);
     return MOTUS_OK;
 }
 
@@ -178,6 +187,14 @@ static motus_status shortened(const sweep_events *f, uint64_t rows, motus_error 
     return MOTUS_STATE;
 }
 
+static motus_status damaged(const sweep_events *f, motus_error *err)
+{
+    fail(err, MOTUS_STATE, "%s is damaged: what is behind its byte %" PRIu64 " is not what was written", f->path,
+         f->checks.end);
+    hint(err, "put back the file as the sweep left it, or compute both anew: --force in place of --resume");
+    return MOTUS_STATE;
+}
+
 /* Behind the head: sets f->bytes behind the complete rows of the first `rows` trajectories. Whether they are all there
  * is known where their events have an end: a later trajectory's, or the last line. */
 static motus_status find_rows(sweep_events *f, uint64_t rows, FILE *in, motus_error *err)
@@ -189,6 +206,7 @@ static motus_status find_rows(sweep_events *f, uint64_t rows, FILE *in, motus_er
     ssize_t length;
     uint64_t number;
     bool all = rows == 0;
+    if (rows > 0 && f->bytes > 0 && f->checks.missing) return checks_refuse(&f->checks, f->path, err);
     while ((length = getline(&line, &room, in)) > 0) {
         if (line[0] == '#') { /* where it was being written over, its number may be none */
             const bool told = strncmp(line, end, sizeof end - 1) == 0 && line[length - 1] == '\n' &&
@@ -198,11 +216,14 @@ static motus_status find_rows(sweep_events *f, uint64_t rows, FILE *in, motus_er
         }
         const size_t digits = decimal_read_whole(line, (size_t)length, &number);
         if (!digits || line[digits] != ',' || line[length - 1] != '\n') break;
+        if (f->bytes + (uint64_t)length > f->checks.end && (number < behind || f->checks.broken)) break;
         all = all || number >= behind;
         if (number >= behind) break;
         f->bytes += (uint64_t)length;
     }
     free(line);
+    const bool needed = rows > 0 && f->bytes > 0; /* 0: the file is empty */
+    if (needed && f->checks.broken && (!all || f->bytes >= f->checks.end)) return damaged(f, err);
     return all ? MOTUS_OK : shortened(f, rows, err);
 }
 
@@ -230,16 +251,19 @@ static motus_status find_table(sweep_events *f, uint64_t rows, motus_error *err)
 {
     FILE *in = fopen(f->path, "re");
     if (!in) return fail(err, MOTUS_FILE, "cannot read %s: %s", f->path, strerror(errno));
-    const motus_status status = find_end(f, rows, in, err);
+    motus_status status = checks_find(&f->checks, f->path, fileno(in), 0, err);
+    if (!status) status = find_end(f, rows, in, err);
     fclose(in);
     return status;
 }
 
 static motus_status go_on(sweep_events *f, uint64_t rows, motus_error *err)
 {
-    const motus_status status = find_table(f, rows, err);
+    motus_status status = find_table(f, rows, err);
     if (status) return status;
-    if (!f->bytes) return put_head(f, err);
+    if (!f->bytes || rows == 0) return put_head(f, err);
+    status = checks_go_on(&f->checks, f->descriptor, f->bytes, err);
+    if (status) return status;
     char line[SWEEP_EVENTS_LAST];
     const size_t last = last_line(rows, line);
     const int code = write_at(f, f->bytes, line, last);
@@ -282,7 +306,8 @@ motus_status sweep_events_begin(sweep_events *f, const sweep *s, motus_error *er
     if (!f->path) return MOTUS_OK;
     motus_status status = make_head(f, err);
     if (!status && sweep_events_in_segments(s->options))
-        status = segments_make(&f->segments, f->path, f->head, same_head, shard_blocks(s->rows), first_segment(s), err);
+        status = segments_make(&f->segments, f->path, f->head, same_head, shard_blocks(&s->shard, s->rows),
+                               first_segment(s), err);
     const bool first = team_first(s->options->team); /* it joins */
     if (!status && f->segments && first && !s->options->plan) status = lock_table(f, err);
     struct stat about;
@@ -357,14 +382,15 @@ static motus_status to_segments(sweep_events *f, uint64_t first, size_t count, m
     motus_status status = MOTUS_OK;
     for (size_t from = 0, some; !status && from < count; from += some) {
         const uint64_t row = first + from;
-        const size_t left = SHARD_BLOCK - (size_t)(row % SHARD_BLOCK);
+        const uint64_t block = f->sweep->shard.block;
+        const size_t left = (size_t)(block - row % block);
         memory m;
         some = left < count - from ? left : count - from;
         status = table_text(f, first, from, some, "", &m, err);
         if (!status) status = segments_put(f->segments, m.text, m.length, err);
         free(m.text);
         if (!status && (some == left || row + some == f->sweep->rows))
-            status = segments_end_block(f->segments, row / SHARD_BLOCK, err);
+            status = segments_end_block(f->segments, row / block, err);
     }
     return status;
 }
@@ -387,6 +413,8 @@ motus_status sweep_events_finish(sweep_events *f, motus_error *err)
 {
     const int descriptor = f->descriptor;
     if (f->segments) return segments_finish(f->segments, err);
+    const motus_status checked = checks_finish(&f->checks, err);
+    if (checked) return checked;
     if (f->path && !f->regular) {
         char line[SWEEP_EVENTS_LAST];
         const size_t last = last_line(f->sweep->rows, line);
@@ -410,6 +438,7 @@ void sweep_events_close(sweep_events *f)
     if (f->segments) unlock_table(f);
     if (f->descriptor > STDERR_FILENO) close(f->descriptor);
     segments_free(f->segments);
+    checks_close(&f->checks);
     free(f->head);
     free(f->values);
     *f = (sweep_events){.descriptor = -1};

@@ -2,7 +2,8 @@
  *
  * Invariant: however the program ends, the file holds its head and complete rows; only a kill or a power cut may leave
  * an incomplete last one, which --resume removes. After a failed write the file is cut to its last complete row. The
- * head of a .npy has the number of rows; it is written after them.
+ * head of a .npy has the number of rows; it is written after them. A row has its check (checks.h) after it is written;
+ * before the first one the file of checks is there.
  */
 #define _XOPEN_SOURCE 700
 #define _DEFAULT_SOURCE
@@ -170,8 +171,14 @@ static motus_status put_head(sweep_file *f, motus_error *err)
     memset(f->stopped_by, 0, sizeof f->stopped_by);
     if (f->regular && (ftruncate(f->descriptor, 0) != 0 || lseek(f->descriptor, 0, SEEK_SET) != 0))
         return cannot_write(f, errno, err);
-    if (!f->npy) return put_head_bytes(f, f->sweep->head, f->sweep->head_length, err);
-    motus_status status = put_beside(f, err);
+    motus_status status = MOTUS_OK;
+    if (f->regular) status = checks_begin(&f->checks, f->path, f->npy ? SWEEP_NPY_HEAD : 0, false, err);
+    if (!status && !f->npy) {
+        status = put_head_bytes(f, f->sweep->head, f->sweep->head_length, err);
+        if (!status) checks_add(&f->checks, f->sweep->head, f->sweep->head_length);
+    }
+    if (status || !f->npy) return status;
+    status = put_beside(f, err);
     if (!status) status = put_npy_head(f, err);
     if (!status && lseek(f->descriptor, SWEEP_NPY_HEAD, SEEK_SET) < 0) return cannot_write(f, errno, err);
     f->bytes = SWEEP_NPY_HEAD;
@@ -181,9 +188,14 @@ static motus_status put_head(sweep_file *f, motus_error *err)
 static motus_status go_on(sweep_file *f, uint64_t end, motus_error *err)
 {
     motus_status status = sweep_resume(f, end, err);
-    if (status || f->bytes == 0) /* 0: the head is missing or incomplete */
-        return status ? status : put_head(f, err);
+    if (!status && f->checks.broken && !f->sweep->options->quiet)
+        complain_note(
+            "%s is damaged: only its first %llu rows are those that were written; the others are computed again",
+            f->path, (unsigned long long)f->rows);
+    if (status || f->rows == 0) return status ? status : put_head(f, err);
     f->found = f->rows;
+    status = checks_go_on(&f->checks, f->descriptor, f->bytes, err);
+    if (status) return status;
     if (f->bytes != end && ftruncate(f->descriptor, (off_t)f->bytes) != 0) return cannot_write(f, errno, err);
     if (lseek(f->descriptor, (off_t)f->bytes, SEEK_SET) < 0) return cannot_write(f, errno, err);
     return f->npy ? put_npy_head(f, err) : MOTUS_OK;
@@ -280,10 +292,13 @@ static motus_status flush(sweep_file *f, uint64_t *rows, motus_error *err)
     if (!code) {
         *rows = f->rows;
         f->bytes += written;
-        return MOTUS_OK;
+        checks_add(&f->checks, f->buffer, written);
+        return checks_mark(&f->checks, err);
     }
     *rows += complete_rows(f, f->buffer, written, &end);
     f->bytes += end;
+    checks_add(&f->checks, f->buffer, end);
+    checks_mark(&f->checks, NULL);
     if (f->regular && ftruncate(f->descriptor, (off_t)f->bytes) != 0) code = errno;
     return cannot_write(f, code, err);
 }
@@ -395,6 +410,8 @@ motus_status sweep_file_finish(sweep_file *f, motus_error *err)
 {
     if (f->archive) return sweep_archive_finish(f, err);
     if (f->regular && !disk_sync(f->descriptor)) return cannot_write(f, errno, err);
+    const motus_status status = checks_finish(&f->checks, err);
+    if (status) return status;
     int descriptor = f->descriptor;
     f->descriptor = -1;
     return descriptor > STDERR_FILENO && close(descriptor) != 0 ? cannot_write(f, errno, err) : MOTUS_OK;
@@ -403,6 +420,7 @@ motus_status sweep_file_finish(sweep_file *f, motus_error *err)
 void sweep_file_close(sweep_file *f)
 {
     sweep_archive_close(f);
+    checks_close(&f->checks);
     if (f->descriptor > STDERR_FILENO) close(f->descriptor);
     free(f->buffer);
     free(f->numbers);

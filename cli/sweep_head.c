@@ -166,10 +166,10 @@ motus_status sweep_head_command(const sweep *s, file_out *f, motus_error *err)
 
 const char *sweep_head_identity(const sweep *s, const char *what, char out[SWEEP_IDENTITY])
 {
-    char part[SHARD_TEXT];
+    char part[SHARD_TITLE];
     const bool whole = shard_whole(&s->shard);
     snprintf(out, SWEEP_IDENTITY, "# motus %s, %strajectories %" PRIu64 ", fingerprint %s%s%s\n", motus_version(), what,
-             s->grid.total, s->fingerprint, whole ? "" : ", shard ", whole ? "" : shard_text(&s->shard, part));
+             s->grid.total, s->fingerprint, whole ? "" : ", shard ", whole ? "" : shard_title(&s->shard, part));
     return out;
 }
 
@@ -197,7 +197,7 @@ static void put_events(const sweep *s, json *j)
 
 static motus_status npy_head(const sweep *s, file_out *f, motus_error *err)
 {
-    char *text, name[SWEEP_NAME], part[SHARD_TEXT];
+    char *text, name[SWEEP_NAME], part[SHARD_TITLE];
     motus_status status = sweep_head_text(s, &text, err);
     if (!status) {
         json j = text_json(f->stream);
@@ -205,7 +205,7 @@ static motus_status npy_head(const sweep *s, file_out *f, motus_error *err)
         json_string(&j, "command", text);
         json_integer(&j, "trajectories", (int64_t)s->grid.total);
         json_string(&j, "fingerprint", s->fingerprint);
-        if (!shard_whole(&s->shard)) json_string(&j, "shard", shard_text(&s->shard, part));
+        if (!shard_whole(&s->shard)) json_string(&j, "shard", shard_title(&s->shard, part));
         json_open(&j, "columns", '[');
         for (size_t k = 0; k < s->columns; k++) json_string(&j, NULL, sweep_head_name(s, k, name));
         json_close(&j, ']');

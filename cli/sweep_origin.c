@@ -55,6 +55,7 @@ motus_status sweep_origin_open(sweep_origin *g, motus_archive *a, const options 
     g->options.text = model;
     g->progress = stop_progress_begin("sweep", true);
     g->sweep.options = &g->options;
+    g->sweep.block = motus_archive_block_rows(a);
     if (!status) status = shard_read(&g->sweep.shard, g->options.shard, err);
     if (!status) status = sweep_begin(&g->sweep, &none, &g->progress, err);
     if (status) return status;

@@ -126,6 +126,8 @@ static motus_status sample(plan *p, stop_progress *progress, motus_error *err)
 
 /* ---- what follows ---- */
 
+static uint64_t blocks_of(const sweep *s) { return shard_blocks(&s->shard, s->rows); }
+
 static double pages(double bytes) { return ceil(bytes / 4096) * 4096; }
 
 /* Of a .npy or an archive, of which no row is written to know it. */
@@ -136,7 +138,7 @@ static double bytes_of_file(const sweep *s)
     double columns = 0;
     for (size_t k = 0; k < s->columns; k++) /* the number of a trajectory is one of them */
         columns += pages(rows * (k == s->columns - 1 || k == sweep_ended(s) ? 1 : sizeof(double)));
-    return columns + pages(8 * ceil(rows / SHARD_BLOCK));
+    return columns + pages(8 * (double)blocks_of(s));
 }
 
 /* The process as it is, with all that it does not use yet. */
@@ -146,7 +148,7 @@ static double memory_of(const plan *p)
     struct rusage usage;
     const sweep *s = p->sweep;
     const bool archive = s->options->output && sweep_archive_name(s->options->output);
-    const double blocks = ceil((double)s->rows / SHARD_BLOCK), room = (double)s->columns * SHARD_BLOCK * sizeof(double);
+    const double blocks = (double)blocks_of(s), room = (double)(s->columns * s->shard.block * sizeof(double));
     if (archive) (void)motus_archive_makes(); /* now its libraries are loaded */
     getrusage(RUSAGE_SELF, &usage);
     return (archive ? FILL : 0) + (double)usage.ru_maxrss * 1024 + (double)sweep_batch_bytes(&p->batch, s) + room +
@@ -157,7 +159,7 @@ static double memory_of(const plan *p)
 static double seconds_by(const plan *p, int ranks)
 {
     const double rows = (double)p->sweep->rows;
-    return p->mean * fmax(rows / ranks, fmin(rows, SHARD_BLOCK));
+    return p->mean * fmax(rows / ranks, fmin(rows, (double)p->sweep->shard.block));
 }
 
 /* ---- telling ---- */
@@ -171,8 +173,6 @@ static const char *size_text(double bytes, char out[DECIMAL_MAX])
     return out;
 }
 
-static uint64_t blocks_of(const sweep *s) { return (s->rows + SHARD_BLOCK - 1) / SHARD_BLOCK; }
-
 static void report_json(const plan *p)
 {
     const sweep *s = p->sweep;
@@ -183,7 +183,7 @@ static void report_json(const plan *p)
     json_integer(&j, "trajectories", (int64_t)s->rows);
     json_string(&j, "shard", shard_whole(&s->shard) ? NULL : shard_text(&s->shard, shard));
     json_integer(&j, "blocks", (int64_t)blocks_of(s));
-    json_integer(&j, "block", SHARD_BLOCK);
+    json_integer(&j, "block", (int64_t)s->shard.block);
     json_integer(&j, "steps", motus_ensemble_steps(s->ensemble));
     json_string(&j, "machine", motus_ensemble_machine(s->ensemble));
     json_integer(&j, "lanes", motus_ensemble_lanes(s->ensemble));
@@ -258,8 +258,8 @@ static void report(const plan *p)
     if (steps > 0) printf("%lld step%s, ", (long long)steps, steps == 1 ? "" : "s");
     printf("%s, %d lane%s, %d thread%s\n", motus_ensemble_machine(s->ensemble), lanes, lanes == 1 ? "" : "s", threads,
            threads == 1 ? "" : "s");
-    printf("%llu trajectories, in %llu block%s of %d\n\n", (unsigned long long)s->rows,
-           (unsigned long long)blocks_of(s), blocks_of(s) == 1 ? "" : "s", SHARD_BLOCK);
+    printf("%llu trajectories, in %llu block%s of %llu\n\n", (unsigned long long)s->rows,
+           (unsigned long long)blocks_of(s), blocks_of(s) == 1 ? "" : "s", (unsigned long long)s->shard.block);
     put_file(p);
     printf("  memory   about %s for each rank\n", size_text(p->memory, text));
     text_seconds(p->mean, text);

@@ -1,6 +1,7 @@
 /* The complete rows in the file of an interrupted sweep, from its beginning to the first that is not one.
  *
- * Invariant: a file with another fingerprint, or that is not a sweep's, is refused and not changed.
+ * Invariant: a file with another fingerprint, or that is not a sweep's, is refused and not changed. No row is taken
+ * whose bytes do not have their check.
  */
 #define _XOPEN_SOURCE 700
 #include "base/error.h"
@@ -133,7 +134,8 @@ static int scan_cause(const scan *r)
     return k;
 }
 
-static motus_status csv_rows(sweep_file *f, motus_error *err)
+/* The complete rows before the byte `end`. */
+static motus_status csv_rows(sweep_file *f, uint64_t end, motus_error *err)
 {
     char *chunk = malloc(CHUNK);
     if (!chunk) return complain_memory(err);
@@ -143,7 +145,7 @@ static motus_status csv_rows(sweep_file *f, motus_error *err)
     const sweep *const s = f->sweep;
     scan_row(&row, shard_trajectory(&s->shard, 0), s);
     for (ssize_t got = 1; !status && got > 0 && row.good && f->rows < s->rows;) {
-        got = read_at(f, chunk, CHUNK, place, err);
+        got = read_at(f, chunk, end - place < CHUNK ? (size_t)(end - place) : CHUNK, place, err);
         status = got < 0 ? MOTUS_FILE : MOTUS_OK;
         for (ssize_t i = 0; i < got && row.good && f->rows < s->rows; i++) {
             place++;
@@ -170,7 +172,7 @@ static motus_status csv_rows(sweep_file *f, motus_error *err)
 /* Checks the fingerprint in the .json beside it. */
 static motus_status npy_beside(const sweep_file *f, motus_error *err)
 {
-    char *path = sweep_npy_beside(f->path), *text = NULL, key[96], part[SHARD_TEXT];
+    char *path = sweep_npy_beside(f->path), *text = NULL, key[128], part[SHARD_TITLE];
     if (!path) return complain_memory(err);
     size_t length;
     motus_status status = file_read(path, FILE_STATE_MAX, &text, &length, err);
@@ -178,7 +180,7 @@ static motus_status npy_beside(const sweep_file *f, motus_error *err)
     free(path);
     const bool whole = shard_whole(&f->sweep->shard);
     snprintf(key, sizeof key, "\"fingerprint\": \"%s\", \"%s%s\"", f->sweep->fingerprint,
-             whole ? "columns" : "shard\": \"", whole ? "" : shard_text(&f->sweep->shard, part));
+             whole ? "columns" : "shard\": \"", whole ? "" : shard_title(&f->sweep->shard, part));
     if (!status && !strstr(text, key)) {
         char *command = strstr(text, "\"command\": \""),
              *end = command ? strstr(command, "\", \"trajectories\"") : NULL;
@@ -213,6 +215,16 @@ static motus_status npy_stopped(sweep_file *f, uint64_t rows, uint64_t width, mo
     return status;
 }
 
+/* Holds the file of this length against its checks: *end becomes where they end. A file without a row needs none. */
+static motus_status find_checks(sweep_file *f, uint64_t head, uint64_t *end, motus_error *err)
+{
+    const motus_status status = checks_find(&f->checks, f->path, f->descriptor, f->npy ? head : 0, err);
+    if (status) return status;
+    if (f->checks.missing && *end > head) return checks_refuse(&f->checks, f->path, err);
+    *end = f->checks.missing ? head : f->checks.end;
+    return MOTUS_OK;
+}
+
 static motus_status npy_rows(sweep_file *f, uint64_t end, motus_error *err)
 {
     char head[SWEEP_NPY_HEAD + 1] = "", ours[SWEEP_NPY_HEAD];
@@ -226,6 +238,8 @@ static motus_status npy_rows(sweep_file *f, uint64_t end, motus_error *err)
     decimal_read_whole(head + (shape + 1 - ours), SWEEP_NPY_HEAD, &rows); /* ends at the comma */
     sweep_npy_head(rows, f->sweep->columns, ours);
     if (memcmp(head, ours, sizeof ours) != 0) return another(f, NULL, err);
+    status = find_checks(f, SWEEP_NPY_HEAD, &end, err);
+    if (status) return status;
     uint64_t width = f->sweep->columns * sizeof(double), there = (end - SWEEP_NPY_HEAD) / width;
     if (rows > there) rows = there;
     if (rows > f->sweep->rows) rows = f->sweep->rows;
@@ -240,6 +254,8 @@ motus_status sweep_resume(sweep_file *f, uint64_t end, motus_error *err)
     if (f->npy) return npy_rows(f, end, err);
     size_t length = 0;
     motus_status status = csv_head(f, end, &length, err);
+    if (status || length == 0) return status;
+    status = find_checks(f, length, &end, err);
     f->bytes = length;
-    return status || length == 0 ? status : csv_rows(f, err);
+    return status || end <= length ? status : csv_rows(f, end, err);
 }

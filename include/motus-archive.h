@@ -111,6 +111,8 @@ MOTUS_API int motus_archive_compressed(const motus_archive *); /* 1: its blocks 
 
 MOTUS_API uint64_t motus_archive_rows(const motus_archive *);
 MOTUS_API uint64_t motus_archive_blocks(const motus_archive *);
+/* Rows of each block but the last. */
+MOTUS_API uint64_t motus_archive_block_rows(const motus_archive *);
 /* The rows of a block: the first, and how many. */
 MOTUS_API void motus_archive_block(const motus_archive *, uint64_t block, uint64_t *first, size_t *count);
 MOTUS_API size_t motus_archive_column_count(const motus_archive *);

@@ -137,6 +137,37 @@ with h5py.File(sys.argv[1]) as f:
     that "... which keeps those blocks" says ", $((there * 4096)) of them found in the file"
     that "... to the same bytes" [ "$(sum "$place/killed.h5")" = "$whole" ]
 done
+# Of dear trajectories blocks are small: by what a trajectory takes, which is counted, so that every command cuts the sweep alike.
+dear=("$motus" sweep "$swing" --until 1e5 --method rk4 --step 0.125 --vary "x(0)=0.1:3:60" --record final)
+gives "a sweep of dear trajectories" 0 "${dear[@]}" -o "$place/dear.h5" --quiet
+gives "... has many blocks" 0 "$motus" archive "$place/dear.h5" --json
+that "... of a power of two" holds '.rows == 60 and .blocks == 8 and .missing == 0'
+"${dear[@]}" --machine interpreter --threads 1 --quiet -o "$place/killed-dear.h5" 2>/dev/null &
+one=$!
+for _ in $(seq 200); do [ -e "$place/killed-dear.h5" ] && [ "$(blocks "$place/killed-dear.h5" 2>/dev/null || echo 0)" -ge 1 ] && break; sleep 0.05; done
+kill -KILL $one
+wait $one 2>/dev/null
+there=$(blocks "$place/killed-dear.h5")
+that "... keeps some of them when it is killed" eval "[ $there -ge 1 ] && [ $there -lt 8 ]"
+"${dear[@]}" --machine interpreter --threads 1 --resume --quiet -o "$place/killed-dear.h5" 2>"$err" &
+one=$!
+sleep 1
+kill -TERM $one
+began=$(date +%s%N)
+wait $one
+status=$?
+that "SIGTERM ends it in the middle of a block, however busy the machine is within 3 s" eval "[ $(($(date +%s%N) - began)) -lt 3000000000 ] && { [ $status = 1 ] || [ $status = 143 ]; }"
+gives "... it is finished by --resume" 0 "${dear[@]}" -o "$place/killed-dear.h5" --resume --json
+that "... which keeps what was there" holds ".resumed >= $((there * 8)) and .resumed < 60"
+that "... to the same bytes" cmp "$place/killed-dear.h5" "$place/dear.h5"
+few=("$motus" sweep "$swing" --until 500 --method rk4 --step 0.125 --vary "x(0)=0.1:3:2100" --record final --quiet)
+gives "shards of it" 0 eval "for k in 1 2; do for kind in h5 csv; do ${few[*]@Q} --shard \$k/2 -o '$place'/dear%K.\$kind; done; done"
+that "... say how large their blocks are" says "shard 2/2 in blocks of 2048" "$place/dear2.csv"
+for kind in h5 csv; do
+    gives "... are joined as $kind" 0 "$motus" merge "$place/dear1.$kind" "$place/dear2.$kind" -o "$place/dear-joined.$kind" --quiet
+done
+"${few[@]}" -o "$place/few.csv" && "${few[@]}" -o "$place/few-dear.h5"
+that "... to the bytes of the sweep" eval "cmp '$place/dear-joined.h5' '$place/few-dear.h5' && cmp '$place/dear-joined.csv' '$place/few.csv'"
 # A block in the middle whose bytes are not what they were is computed again.
 gives "a byte is changed" 0 $python -c "
 import h5py, sys
@@ -194,7 +225,7 @@ for damage in none "a byte of a block" "a byte of the line behind it" "all"; do
     that "... and all rows" [ "$(sum "$place/cut.h5")" = "$(sum "$place/further.h5")" ]
     that "... and nothing beside them" absent "$place/cut.csv.segments"
 done
-refuses "a table that was shortened" 2 "does not have all events" eval "head -n 500 '$place/further.csv' >'$place/cut.csv'; ${further[*]@Q} -o '$place/cut.h5' --events '$place/cut.csv' --resume"
+refuses "a table that was shortened" 2 "is damaged: what is behind its byte" eval "head -n 500 '$place/further.csv' >'$place/cut.csv'; ${further[*]@Q} -o '$place/cut.h5' --events '$place/cut.csv' --resume"
 gives "... is replaced by --force" 0 "${further[@]}" -o "$place/cut.h5" --events "$place/cut.csv" --force
 that "... with the same bytes" cmp "$place/cut.csv" "$place/further.csv"
 refuses "two columns of one name" 2 "two columns of the archive are named x" "$motus" sweep "$swing" --vary "x(0)=0.1,1" --record "final,x" -o "$place/twice.h5"

@@ -427,6 +427,10 @@ static void large_family(void **unused)
     say(&t, "x'' = -x%sq = sum(i = 1..1000000, j = 1..1000000: i/j)\n", start);
     answer(t, "a constant of 1e12 terms", MOTUS_LIMIT, "terms", 0.1, 10);
     t = make(65536);
+    say(&t, "x'' = -f42(x)%sf0(u) = sin(u)\n", start);
+    for (int i = 1; i <= 42; i++) say(&t, "f%d(u) = f%d(u) + f%d(u + %d)\n", i, i - 1, i - 1, i);
+    answer(t, "functions that expand to 2^42 calls", MOTUS_LIMIT, "use one another too often", 1, 200);
+    t = make(65536);
     say(&t, "x'' = -x%s", start);
     for (int i = 0; i < 1000; i++) say(&t, "q%d = sum(i = 1..10000000: i)\n", i);
     answer(t, "constants of 1e10 terms together", MOTUS_LIMIT, "terms", 1, 50);

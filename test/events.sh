@@ -296,14 +296,18 @@ for how in "--threads 2" "--machine interpreter" "--machine compiled --threads 2
     gives "the same with $how" 0 "$motus" sweep $flock $how -o "$place/again.csv" --events "$place/flock2.csv" --force
     that "... has the same bytes" cmp "$place/flock.csv" "$place/flock2.csv"
 done
+row_checks "$place/rows.csv" "$place/rows.rows"
+row_checks "$place/flock.csv" "$place/flock.rows"
 for kept in 0 100 1000 2000; do # as an interruption leaves both files: the events of trajectories that have no row yet
     head -c $kept "$place/rows.csv" >"$place/again.csv"
     head -c $((8 * kept + 50)) "$place/flock.csv" >"$place/flock2.csv"
     [ $kept = 2000 ] && cp "$place/flock.csv" "$place/flock2.csv"
     [ $kept = 1000 ] && { cat "$place/flock.csv"; printf '26,hit,1.2'; } >"$place/flock2.csv"
+    cp "$place/rows.rows" "$place/again.csv.check" && cp "$place/flock.rows" "$place/flock2.csv.check"
     gives "a sweep that was interrupted after $kept bytes" 0 "$motus" sweep $flock -o "$place/again.csv" --events "$place/flock2.csv" --resume --threads 2
     that "... has the same rows" cmp "$place/rows.csv" "$place/again.csv"
     that "... and the same events" cmp "$place/flock.csv" "$place/flock2.csv"
+    that "... with their checks" eval "cmp '$place/rows.csv.check' '$place/again.csv.check' && cmp '$place/flock.csv.check' '$place/flock2.csv.check'"
 done
 that "the last line says of how many trajectories" eval "[ \"\$(tail -n 1 '$place/flock.csv')\" = '# end of the events of trajectories: 27' ]"
 # The file of events is shortened, and that of rows has all trajectories but three.
@@ -313,11 +317,11 @@ shortened() {
     local left rows
     for left in "$@"; do # bytes
         for rows in again-cut rows; do
-            cp "$place/$rows.csv" "$place/again.csv"
+            cp "$place/$rows.csv" "$place/again.csv" && cp "$place/rows.rows" "$place/again.csv.check"
             head -c "$left" "$place/flock.csv" >"$place/flock2.csv"
-            cp "$place/flock2.csv" "$place/kept.csv"
+            cp "$place/flock2.csv" "$place/kept.csv" && cp "$place/flock.rows" "$place/flock2.csv.check"
             "$motus" sweep $flock -o "$place/again.csv" --events "$place/flock2.csv" --resume >"$out" 2>"$err"
-            [ $? = 2 ] && says "does not have all events of the" "$err" && says "compute both anew: --force" "$err" &&
+            [ $? = 2 ] && grep -q "does not have all events of the\|is damaged: what is behind its byte" "$err" && says "compute both anew: --force" "$err" &&
                 cmp "$place/again.csv" "$place/$rows.csv" && cmp "$place/flock2.csv" "$place/kept.csv" || { echo "$left bytes, $rows"; return 1; }
         done
     done
@@ -328,22 +332,29 @@ that "events that are missing are refused, and both files stay" shortened 0 $((s
 that "... where a row is not whole, or the last trajectory is not" shortened $((whole - 10)) $((whole - $(tail -n 1 "$place/early.csv" | wc -c)))
 that "... where nothing tells that it is" shortened $whole
 rm -f "$place/flock2.csv"
-cp "$place/again-cut.csv" "$place/again.csv"
+cp "$place/again-cut.csv" "$place/again.csv" && cp "$place/rows.rows" "$place/again.csv.check"
 refuses "... and a file that is gone" 2 "does not have all events of the 24 trajectories" "$motus" sweep $flock -o "$place/again.csv" --events "$place/flock2.csv" --resume
 # As a kill leaves the file while events are written over its last line: the # is the last byte that is written over.
+{ head -n 3 "$place/flock.csv"; cat "$place/early.csv"; } >"$place/begun.csv" && cp "$place/flock.csv.check" "$place/begun.csv.check" && row_checks "$place/begun.csv" "$place/early.rows"
 written_over() {
     local behind
     for behind in "" " end" $'4,hit,1.5\n24,top,2' $'\n25,hit,1.5\n'; do
-        cp "$place/again-cut.csv" "$place/again.csv"
+        cp "$place/again-cut.csv" "$place/again.csv" && cp "$place/rows.rows" "$place/again.csv.check" && cp "$place/early.rows" "$place/flock2.csv.check"
         { head -n 3 "$place/flock.csv"; cat "$place/early.csv"; printf '#%s' "$behind"; } >"$place/flock2.csv"
         "$motus" sweep $flock -o "$place/again.csv" --events "$place/flock2.csv" --resume && cmp "$place/flock.csv" "$place/flock2.csv" && cmp "$place/rows.csv" "$place/again.csv" || { echo "with #$behind"; return 1; }
     done
 }
 that "events that were being written over are continued" written_over
 { head -n 3 "$place/flock.csv"; awk -F, '$1 < 20' "$place/early.csv"; echo "# end of the events of trajectories: 20"; } >"$place/flock2.csv"
-cp "$place/again-cut.csv" "$place/again.csv"
+cp "$place/again-cut.csv" "$place/again.csv" && cp "$place/rows.rows" "$place/again.csv.check" && cp "$place/flock.rows" "$place/flock2.csv.check"
+row_checks "$place/flock2.csv" "$place/early.check" && cp "$place/early.check" "$place/flock2.csv.check"
 refuses "an older table of events" 2 "does not have all events of the 24 trajectories" "$motus" sweep $flock -o "$place/again.csv" --events "$place/flock2.csv" --resume
 cp "$place/flock.csv" "$place/flock2.csv"
+cp "$place/flock.csv" "$place/flock2.csv" && cp "$place/flock.rows" "$place/flock2.csv.check"
+sed -i '20s/1/2/' "$place/flock2.csv"
+refuses "an event that was changed" 2 "flock2.csv is damaged: what is behind its byte" "$motus" sweep $flock -o "$place/again.csv" --events "$place/flock2.csv" --resume
+rm "$place/flock2.csv.check" && cp "$place/flock.csv" "$place/flock2.csv"
+refuses "events without their checks" 2 "flock2.csv has rows, but" "$motus" sweep $flock -o "$place/again.csv" --events "$place/flock2.csv" --resume
 gives "the events of a sweep with errors" 0 "$motus" sweep $flock --errors -o "$place/again.csv" --events "$place/errors.csv" --force
 that "... have errors of their times" eval "rows '$place/errors.csv' | awk -F, '!(\$4 > 0 && \$4 < 1e-2) { exit 1 } END { exit NR < 100 }'"
 that "... and else the same numbers" eval "diff <(rows '$place/errors.csv' | cut -d, -f1-3,5-) <(rows '$place/flock.csv')"

@@ -73,6 +73,7 @@ commands = {
     'short.h5': [['archive', 'F', '-o', 'x.csv', '--force'], ['archive', 'F', '--verify', 'all'], ['run', 'F', '--until', '3', '-q']],
     'part1.h5': [['merge', 'F', 'part2.h5', '-o', 'x.h5', '--force', '-q'], ['merge', 'F', '-o', 'x.h5', '--force', '-q', '--partial']],
     'part1.csv': [['merge', 'F', 'part2.csv', '-o', 'y.csv', '--force', '-q']],
+    'part1.csv.check': [['merge', 'h.csv', 'part2.csv', '-o', 'y.csv', '--force', '-q']],
     'part1.npy': [['merge', 'F', 'part2.npy', '-o', 'y.npy', '--force', '-q']],
     'part1.npy.json': [['merge', 'F', 'part2.npy', '-o', 'y.npy', '--force', '-q']],
 }
@@ -82,10 +83,11 @@ until, names = time.monotonic() + seconds, list(commands)
 while time.monotonic() < until:
     name = random.choice(names)
     with open(name, 'rb') as f: data = change(f.read())
-    file = 'h' + name[name.index('.'):] if not name.endswith('.json') else 'h.npy.json'
+    file = 'h' + name[name.index('.'):]
     with open(file, 'wb') as f: f.write(data)
     if name == 'part1.npy': shutil.copy('part1.npy.json', 'h.npy.json')
     if name == 'part1.npy.json': shutil.copy('part1.npy', 'h.npy')
+    if name == 'part1.csv.check': shutil.copy('part1.csv', 'h.csv')
     words = [{'F': 'h.npy' if name.endswith('.json') else file}.get(w, w) for w in random.choice(commands[name])]
     try:
         done = subprocess.run([program] + words, stdin=subprocess.DEVNULL, capture_output=True, timeout=60)

@@ -51,6 +51,7 @@ static const limit limits[] = {
     {"operations of all expressions together", GRAPH_NODES_MAX, NULL, NULL},
     {"operations of equations, exact lines and invariants, for invariants to be checked", VERIFY_NODES_MAX, NULL, NULL},
     {"terms of families and sums in one evaluation, for invariants to be checked", VERIFY_TERMS_MAX, NULL, NULL},
+    {"calls of functions by functions", MODEL_CALLS_MAX, NULL, NULL},
     {"steps to read the expressions, those of a quantity or a function at each of its uses", MODEL_LOWERED_MAX, NULL,
      NULL},
     {"terms of all sums in one evaluation", MODEL_TERMS_MAX, NULL, NULL},

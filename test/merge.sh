@@ -39,6 +39,7 @@ for count in 2 3 5; do
         files=($(ls part*.$kind | sort -r))
         gives "$count shards as $kind are merged" 0 "$motus" merge "${files[@]}" -o merged.$kind --force
         that "  to the bytes of one sweep" same merged.$kind all.$kind
+        that "  with their checks" same merged.$kind.check all.$kind.check
         if [ $kind = npy ]; then that "  with what is beside it" same merged.npy.json all.npy.json; fi
     done
 done
@@ -55,7 +56,7 @@ gives "shard 2 says what it has" 0 "$motus" sweep "${vary[@]::5}" --shard 2/3 -o
 that "  4096 of 9000" says "4096 trajectories of 9000, shard 2/3"
 
 # --- interruptions --------------------------------------------------------------------------------------------------------------
-head -c 100000 alone2.csv >cut.csv
+head -c 100000 alone2.csv >cut.csv && cp alone2.csv.check cut.csv.check
 refuses "an interrupted shard is not merged" 2 "ends before its last trajectory: shard 2/3" "$motus" merge alone1.csv cut.csv alone3.csv -o no.csv
 that "  and nothing is written" absent no.csv
 gives "the same command with --resume" 0 "$motus" sweep "${vary[@]}" --shard 2/3 --resume -o cut.csv
@@ -68,13 +69,14 @@ refuses "nor of a .npy" 2 "made by another sweep" "$motus" sweep "${vary[@]}" --
 long=(swing.motus --vary "g=0.5:2:12288" --until 400 -q)
 sweep "${long[@]}" --shard 2/2 -o whole.csv
 for delay in 0.01 0.02 0.04 0.08; do
-    rm -f killed.csv
+    rm -f killed.csv killed.csv.check
     "$motus" sweep "${long[@]}" --shard 2/2 -o killed.csv &
     sleep $delay
     kill -9 $! 2>/dev/null
     wait $! 2>/dev/null
     sweep "${long[@]}" --shard 2/2 -o killed.csv --resume
     that "killed after $delay s and resumed" same killed.csv whole.csv
+    that "  with their checks" same killed.csv.check whole.csv.check
 done
 
 # --- events ---------------------------------------------------------------------------------------------------------------------
@@ -83,12 +85,13 @@ sweep "${vary[@]}" -o rows.csv --events events.csv
 for k in 1 2; do sweep "${vary[@]}" --shard $k/2 -o "row%K.csv" --events "event%K.csv"; done
 gives "events of shards are merged" 0 "$motus" merge event2.csv event1.csv -o merged.csv --force
 that "  to the bytes of one sweep" same merged.csv events.csv
+that "  with their checks" same merged.csv.check events.csv.check
 gives "and the rows" 0 "$motus" merge row2.csv row1.csv -o merged.csv --force
 that "  too" same merged.csv rows.csv
 sed '$d' event2.csv >cut.csv
 refuses "events that do not end are not merged" 2 "ends before its last trajectory: shard 2/2" "$motus" merge event1.csv cut.csv -o no.csv
-head -n 100 row2.csv >row-cut.csv
-head -n 500 event2.csv >event-cut.csv
+head -n 700 row2.csv >row-cut.csv && cp row2.csv.check row-cut.csv.check
+head -n 3700 event2.csv >event-cut.csv && cp event2.csv.check event-cut.csv.check
 sweep "${vary[@]}" --shard 2/2 -o row-cut.csv --events event-cut.csv --resume
 that "rows and events of a shard are continued" same row-cut.csv row2.csv
 that "  both" same event-cut.csv event2.csv
@@ -128,6 +131,25 @@ refuses "a row that is not in its place" 2 "damaged.csv is damaged: the row of t
 { cat row2.csv; tail -n 1 row2.csv; } >damaged.csv
 refuses "a row too many" 2 "there is more behind its last trajectory" "$motus" merge row1.csv damaged.csv -o no.csv
 that "nothing of what was refused is written" absent no.csv
+# What has another digit than its sweep wrote, or has bytes too many, is refused; what has no checks is taken, and that is said.
+changed() {                  # file, copy, what is done to the digit b[at]
+    cp "$1" "$2" && cp "$1.check" "$2.check" && $python -c "
+b = bytearray(open('$2', 'rb').read()); at = len(b)*2//3
+while not 49 <= b[at] <= 57: at += 1
+$3
+open('$2', 'wb').write(b)"
+}
+for change in 'b[at] ^= 1' 'b[at:at] = b[at:at + 1]' 'del b[at]'; do
+    changed row2.csv damaged.csv "$change"
+    refuses "rows changed by $change" 2 "damaged.csv is damaged: what is behind its byte" "$motus" merge row1.csv damaged.csv -o no.csv
+    changed event2.csv damaged.csv "$change"
+    refuses "events changed by $change" 2 "damaged.csv is damaged: what is behind its byte" "$motus" merge event1.csv damaged.csv -o no.csv
+done
+changed end2.npy damaged.npy 'b[at] ^= 1' && cp end2.npy.json damaged.npy.json
+refuses "rows of a .npy" 2 "damaged.npy is damaged: what is behind its byte" "$motus" merge end1.npy damaged.npy -o no.npy
+cp row2.csv damaged.csv && rm damaged.csv.check
+gives "rows without checks" 0 "$motus" merge row1.csv damaged.csv -o merged.csv --force
+that "  are said" says "damaged.csv.check is not there: whether these rows are those that were written was not checked" "$err"
 for wrong in 0/3 4/3 3 a/3 3/ 1/3x 1/0 -1/3 1/99999999999999999999; do
     refuses "--shard $wrong" 2 "this is no shard" "$motus" sweep "${vary[@]}" --shard "$wrong"
 done

@@ -70,6 +70,9 @@ for k in 1 2 3 4 5 6; do
     that "... the same events" cmp "$place/few.csv" "$place/few1.csv"
 done
 
+# Of dear trajectories blocks are so small that all ranks have some.
+gives "dear trajectories by 3 ranks" 0 ranks 3 sweep "$swing" --until 1e5 --method rk4 --step 0.125 --vary "x(0)=0.1:3:30" --record final --threads 1 -o "$place/dear.h5" --json
+that "... of which more than one has some" holds '[.ranks[] | select(.trajectories > 0)] | length > 1'
 printf '%s\n' 'k = 1' "x'' = -k x" 'x(0) = 1' "x'(0) = 0" 'until 10' >"$place/stiff.motus"
 # --- errors, once ---------------------------------------------------------------------------------------------------------------------
 # name, exit status, words of the message, number of ranks, words: told by one rank

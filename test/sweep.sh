@@ -63,7 +63,7 @@ for method in "rk4 --step 0.02" "dopri5 --tolerance 1e-7"; do
     that "... and the same bytes in lanes" cmp one.csv two.csv
     "${told[@]}" --machine compiled --lanes 16 --threads 2 -o two.csv --force
     that "... with other lanes and threads" cmp one.csv two.csv
-    head -n 8 one.csv >part.csv
+    head -n 8 one.csv >part.csv && row_checks one.csv part.csv.check
     "${told[@]}" -o part.csv --resume
     that "... and when they are resumed" cmp one.csv part.csv
     "$motus" run osc.motus --set F=0.125 --method $method --until 5 --json >one.json
@@ -91,7 +91,7 @@ done >differ.txt
 that "... which give a run the same numbers" is "$(cat differ.txt)" ""
 "${exact[@]}" -o alone.csv --machine interpreter --threads 1
 that "... by any machine and number of threads" cmp exact.csv alone.csv
-head -n 6 exact.csv >part.csv
+head -n 6 exact.csv >part.csv && row_checks exact.csv part.csv.check
 "${exact[@]}" -o part.csv --resume
 that "... also resumed" cmp exact.csv part.csv
 "${exact[@]}" >"$out"
@@ -218,8 +218,8 @@ while IFS=, read -r _ end x v _; do
     rm -f end.csv
 done < <(rows ends-compiled.csv)
 sweep osc.motus --vary until=0:20:500 --record x -o ends-cut.csv -q
-cp ends-cut.csv ends-whole.csv
-truncate -s 3000 ends-cut.csv
+cp ends-cut.csv ends-whole.csv && cp ends-cut.csv.check ends-whole.csv.check
+truncate -s 3000 ends-cut.csv && row_checks ends-whole.csv ends-cut.csv.check
 sweep osc.motus --vary until=0:20:500 --record x -o ends-cut.csv -q --resume
 that "... and resumed to the same bytes" cmp -s ends-cut.csv ends-whole.csv
 
@@ -251,34 +251,35 @@ that "the first line is a command that makes the file" cmp whole.csv "$out"
 refuses "a file that is there" 2 "whole.csv exists" "$motus" sweep "${ask[@]}" -o whole.csv
 that "... the remedies" eval "says --resume '$err' && says --force '$err'"
 refuses "... with another request as well" 2 "exists" "$motus" sweep line.motus --vary a=1 -o whole.csv
-cp whole.csv copy.csv
+cp whole.csv copy.csv && cp whole.csv.check copy.csv.check
 gives "--resume of a whole file" 0 "$motus" sweep "${ask[@]}" -o copy.csv --resume --json
 that "... does nothing" eval "cmp whole.csv copy.csv && holds '.resumed == 14 and .seconds == 0'"
 : >none.csv
 gives "an empty file is no loss" 0 "$motus" sweep "${ask[@]}" -o none.csv
 that "... and is filled" cmp whole.csv none.csv
 
+row_checks whole.csv whole.rows
 # Cut in the last two rows, at their ends, in the head, to nothing.
 size=$(stat -c %s whole.csv) tail=$(tail -n 2 whole.csv | wc -c) head=$(grep -E '^(#|index)' whole.csv | wc -c)
-resumed() { head -c "$1" whole.csv >cut.csv && sweep "${ask[@]}" -o cut.csv --resume -q && cmp whole.csv cut.csv; }
+resumed() { head -c "$1" whole.csv >cut.csv && cp whole.rows cut.csv.check && sweep "${ask[@]}" -o cut.csv --resume -q && cmp whole.csv cut.csv && cmp whole.csv.check cut.csv.check; }
 everywhere() { local n; for n in "$@"; do resumed "$n" || { echo "cut at $n"; return 1; }; done; }
 that "resumed after a cut at every byte of the last two rows" everywhere $(seq $((size - tail)) "$size")
 that "... at every byte of the head and the first row" everywhere $(seq 0 $((head + 20)))
-head -c $((size - 30)) whole.csv >cut.csv && head -c 4000 /dev/zero >>cut.csv
+head -c $((size - 30)) whole.csv >cut.csv && head -c 4000 /dev/zero >>cut.csv && cp whole.rows cut.csv.check
 that "... after a power cut that left zeros" eval "sweep \"\${ask[@]}\" -o cut.csv --resume -q && cmp whole.csv cut.csv"
-head -n 6 whole.csv >cut.csv && tail -n 3 whole.csv >>cut.csv
+head -n 6 whole.csv >cut.csv && tail -n 3 whole.csv >>cut.csv && cp whole.rows cut.csv.check
 that "... with rows that do not follow" eval "sweep \"\${ask[@]}\" -o cut.csv --resume -q && cmp whole.csv cut.csv"
-head -n 8 whole.csv >cut.csv && echo 5,0.1 >>cut.csv
+head -n 8 whole.csv >cut.csv && echo 5,0.1 >>cut.csv && cp whole.rows cut.csv.check
 that "... with half a row" eval "sweep \"\${ask[@]}\" -o cut.csv --resume -q && cmp whole.csv cut.csv"
-cp whole.csv longer.csv && echo 14,1,2,3,4, >>longer.csv
+cp whole.csv longer.csv && cp whole.csv.check longer.csv.check && echo 14,1,2,3,4, >>longer.csv
 that "... with rows that do not belong" eval "sweep \"\${ask[@]}\" -o longer.csv --resume -q && cmp whole.csv longer.csv"
 gives "--resume of nothing begins" 0 "$motus" sweep "${ask[@]}" -o fresh.csv --resume
 that "... and is the same" cmp whole.csv fresh.csv
-head -c $((size - 30)) whole.csv >cut.csv
+head -c $((size - 30)) whole.csv >cut.csv && cp whole.rows cut.csv.check
 gives "another way to the same model" 0 "$motus" sweep "$PWD/osc.motus" "${ask[@]:1}" -o cut.csv --resume -q
 that "... is the same sweep" cmp whole.csv cut.csv
 
-head -c $((size - 30)) whole.csv >part.csv
+head -c $((size - 30)) whole.csv >part.csv && cp whole.rows part.csv.check
 cp part.csv kept.csv
 sed 's/x^3/x^5/' osc.motus >osc5.motus
 other() {                    # name, the command's changes
@@ -317,6 +318,7 @@ that "... each with the bits of the runs" test "$(tail -n 1 located.csv | cut -d
 head -c 211 located.csv >part.csv && cp part.csv kept.csv
 refuses "--resume with other switches" 2 "part.csv was made by another sweep" "$motus" sweep "${kinked[@]}" --switches step -o part.csv --resume
 that "... the file stays" cmp part.csv kept.csv
+cp located.csv.check part.csv.check
 gives "... with the same ones" 0 "$motus" sweep "${kinked[@]}" -o part.csv --resume -q
 that "... it is finished" cmp located.csv part.csv
 gives "steps of one size locate where they are asked to" 0 "$motus" sweep kink.motus --vary k=2 --method verlet --step 0.1 --switches locate -o fixed.csv --json
@@ -377,7 +379,7 @@ for signal in KILL INT TERM HUP; do
     sweep osc.motus --vary "F=@stopped.csv:F" --until 20 --record final -q >"$out"
     that "... right ones" cmp <(rows stopped.csv | head -n "$count" | cut -d, -f 1-4) <(rows | cut -d, -f 1-4)
 done
-cp stopped.csv twice.csv
+cp stopped.csv twice.csv && cp stopped.csv.check twice.csv.check
 (exec "$motus" sweep "${slow[@]}" -o twice.csv --resume >/dev/null 2>&1) &
 child=$!
 for _ in $(seq 500); do [ "$(wc -l 2>/dev/null <twice.csv)" -gt $((count + 5)) ] && break; sleep 0.02; done
@@ -426,11 +428,12 @@ sweep fast.motus --vary c=1,2 --until 1e6 --method dopri5 --most-steps 1000 -q >
 that "a failure of which no cause is known has a time and no word" eval "[ \"\$(ends '$out' | grep -c '^[0-9.e-]* \$')\" = 2 ]"
 causes=(pole.motus --vary c=1,0,1.5,2 --until 3 --method dop853)
 sweep "${causes[@]}" -o causes.csv --json >"$out"
+row_checks causes.csv causes.rows
 that "JSON counts the causes" holds '.stopped == 3 and .stopped_by == {"singular": 3}'
 resumed_causes() {
     local n
     for n in $(seq "$(rows causes.csv | wc -c)"); do
-        head -c "-$n" causes.csv >cut.csv
+        head -c "-$n" causes.csv >cut.csv && cp causes.rows cut.csv.check
         sweep "${causes[@]}" -o cut.csv --resume --json >"$out" && cmp causes.csv cut.csv && holds '.stopped == 3 and .stopped_by == {"singular": 3}' || { echo "without $n bytes"; return 1; }
     done
 }
@@ -453,15 +456,16 @@ for how in "--threads 1" "--threads 2" "--machine interpreter" "--machine compil
     sweep "${drops[@]}" $how -o same.csv --force -q 2>"$err"
     that "the same bytes with $how" cmp drops.csv same.csv
 done
+row_checks drops.csv drops.rows
 resumed_ends() {
     local n
     for n in $(seq "$(rows drops.csv | wc -c)"); do
-        head -c "-$n" drops.csv >cut.csv
+        head -c "-$n" drops.csv >cut.csv && cp drops.rows cut.csv.check
         sweep "${drops[@]}" -o cut.csv --resume -q 2>"$err" && cmp drops.csv cut.csv || { echo "without $n bytes"; return 1; }
     done
 }
 that "... after a cut at every byte of the rows too" resumed_ends
-sed '$s/bounce/bounces/' drops.csv >wrong.csv
+sed '$s/bounce/bounces/' drops.csv >wrong.csv && cp drops.rows wrong.csv.check
 sweep "${drops[@]}" -o wrong.csv --resume -q 2>"$err"
 that "a row with an event that there is not is computed again" cmp drops.csv wrong.csv
 refuses "without ended it is another sweep" 2 "drops.csv was made by another sweep" "$motus" sweep "${drops[@]}" --record "t, y" -o drops.csv --resume
@@ -512,8 +516,9 @@ that "... its numbers are those of the CSV" eval "[ \$(number 9 0) = 9 ] && rows
 that "... what did not stop says nan" eval "number 9 5 | grep -qi nan"
 that "... the names stand beside it" eval "json whole.npy.json && jq -e '.columns == [\"index\",\"F\",\"w\",\"x\",\"max(energy)\",\"stopped\",\"stopped_by\"] and .trajectories == 14' whole.npy.json"
 size=$(stat -c %s whole.npy)
+row_checks whole.npy whole.rows 56
 npy_resumed() {              # bytes left
-    head -c "$1" whole.npy >cut.npy && cp whole.npy.json cut.npy.json && sweep "${ask[@]}" -o cut.npy --resume -q && cmp whole.npy cut.npy
+    head -c "$1" whole.npy >cut.npy && cp whole.npy.json cut.npy.json && cp whole.rows cut.npy.check && sweep "${ask[@]}" -o cut.npy --resume -q && cmp whole.npy cut.npy
 }
 npy_everywhere() { local n; for n in "$@"; do npy_resumed "$n" || { echo "cut at $n"; return 1; }; done; }
 that ".npy resumed after a cut at every byte of the last two rows" npy_everywhere $(seq $((size - 112)) "$size")
@@ -525,6 +530,35 @@ that "... finished to the same bytes" eval "sweep \"\${long[@]}\" -o killed.npy 
 refuses "--resume of another .npy" 2 "was made by another sweep" "$motus" sweep "${ask[@]}" --step 0.02 -o whole.npy --resume
 rm cut.npy.json
 refuses "--resume of a .npy whose text is gone" 1 "cannot read cut.npy.json" "$motus" sweep "${ask[@]}" -o cut.npy --resume
+cp whole.npy.json cut.npy.json
+# Rows that were changed, or moved by bytes that were put in or taken out, are not taken.
+changed() {                  # kind, a command that changes $1 at byte $2
+    local kind=$1 at
+    for at in 400 600 $(($(stat -c %s "whole.$kind") - 40)); do
+        cp "whole.$kind" "cut.$kind"
+        $python -c "
+b = bytearray(open('cut.$kind', 'rb').read()); at = $at
+while '$kind' == 'csv' and not 49 <= b[at] <= 57: at += 1
+$2
+open('cut.$kind', 'wb').write(b)"
+        cp "$3" "cut.$kind.check"
+        sweep "${ask[@]}" -o "cut.$kind" --resume 2>"$err" >"$out" && cmp "whole.$kind" "cut.$kind" && cmp "whole.$kind.check" "cut.$kind.check" && says "cut.$kind is damaged: only its first" "$err" || { echo "at $at: $(cat "$err")"; return 1; }
+    done
+}
+row_checks whole.csv csv.rows
+for kind in csv npy; do
+    for rows in whole.$kind.check $([ $kind = csv ] && echo csv.rows || echo whole.rows); do
+        that ".$kind with a digit that was changed, by $rows" changed $kind 'b[at] ^= 1' $rows
+        that "... with a byte too many" changed $kind 'b[at:at] = b[at:at + 1]' $rows
+        that "... with a byte too few" changed $kind 'del b[at]' $rows
+        that "... with 8 bytes too many" changed $kind 'b[at:at] = b[at:at + 8]' $rows
+    done
+    cp whole.$kind cut.$kind && rm cut.$kind.check
+    refuses "--resume of a .$kind without its checks" 2 "cut.$kind has rows, but cut.$kind.check is gone" "$motus" sweep "${ask[@]}" -o cut.$kind --resume
+    that "... the file stays" cmp whole.$kind cut.$kind
+    echo something >cut.$kind.check
+    refuses "a file that has their name" 2 "cut.$kind.check is in the way" "$motus" sweep "${ask[@]}" -o cut.$kind --force
+done
 refuses "a .npy that is there" 2 "whole.npy exists" "$motus" sweep "${ask[@]}" -o whole.npy
 
 # --- JSON and text ------------------------------------------------------------------------------------------------------------

@@ -146,6 +146,9 @@ value lower_function(lowering *l, const tree *call, model_function *f)
     expansion now;
     if (!describe(l, arguments, inner.argument_count, &now)) return l->model->arena->failed = true, wrong(l);
     const expansion *same = kept_expansion(f, &now);
+    if (!same && inner.chain > 1 && ++l->model->calls > MODEL_CALLS_MAX)
+        source_complain(&l->model->source, MOTUS_LIMIT, &call->at,
+                        "functions use one another too often: more than %u calls by functions", MODEL_CALLS_MAX);
     value v = same ? same->is : lower_expression(&inner, s->value);
     if (!same && !failed(l)) keep(l, f, &now, v);
     give(&l->model->arena->allocator, now.words);

@@ -22,6 +22,7 @@ enum {
     MODEL_KEEPS_MAX = 4096,       /* numbers and vectors that events keep */
     MODEL_DEPTH_MAX = 2000        /* brackets and definitions within one another, together: it bounds the C stack */
 };
+#define MODEL_CALLS_MAX 131072u      /* calls of functions by functions */
 #define MODEL_LOWERED_MAX 50000000u  /* trees lowered, those of a quantity at each of its uses */
 #define MODEL_TERMS_MAX 1e11         /* of nested sums and families, per evaluation */
 #define MODEL_CONSTANT_TERMS_MAX 1e8 /* of all sums in constants together, which are computed while the model is read */
@@ -212,6 +213,7 @@ typedef struct model {
     int depth;             /* present depth of expressions within expressions */
     int start_depth;       /* present depth of initial values that use one another */
     uint64_t lowered;      /* trees lowered so far, which bounds the cost of quantities of quantities */
+    uint64_t calls;        /* of functions by functions that were lowered, which bounds the cost of those */
     model_cut cut;         /* lower_ghost.c: what is lowered just now must be divided */
     bool divided;          /* something was */
     /* Modes, numbers that events alone change, are positions without velocity and acceleration, behind all others of x;

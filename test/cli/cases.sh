@@ -70,3 +70,24 @@ sum() { sha256sum "$1" 2>/dev/null | cut -c 1-64; }
 blocks() { $python -c "import h5py, sys; print(int((h5py.File(sys.argv[1])['blocks/done'][()] != 0).sum()))" "$1"; }
 # A pendulum's motion to this time.
 swing_until() { printf '%s\n' 'k = 1' "x'' = -k sin(x)  # rad/s²" 'x(0) = 1  # rad' "x'(0) = 0" "energy = x'^2/2 - k cos(x)  # per mass" 'method verlet' 'step 0.125' "until $1"; }
+# --- tables ---
+# The checks of a table that is whole, as a sweep leaves them which is killed after batches of one row each: TABLE, OUT, and of a .npy the
+# bytes of a row.
+row_checks() {
+    $python - "$@" <<'P'
+import struct, sys
+table, out, width = sys.argv[1], sys.argv[2], int((sys.argv + [0])[3])
+text, piece = open(table, 'rb').read(), 16384
+first = 128 if width else 0
+if width: ends = range(128 + width, len(text) + 1, width)
+else: ends = [k + 1 for k, c in enumerate(text) if c == 10 and not text.rfind(b'\n', 0, k) + 1 == text.rfind(b'# end of')]
+ends = sorted(set(ends if width else ends[3:]) | set(range(piece, len(text) + 1, piece)))
+with open(out, 'w') as f:
+    f.write(open(table + '.check').readline())
+    for end in ends:
+        begin = max(first, (end - 1)//piece*piece)
+        hash = 0xCBF29CE484222325
+        for c in struct.pack('<Q', begin) + text[begin:end]: hash = (hash ^ c)*0x100000001B3 & (1 << 64) - 1
+        f.write('%020d %016x\n' % (end, hash))
+P
+}
