@@ -280,12 +280,12 @@ static motus_status take_astray(motus_run *r, double t, motus_error *err)
 {
     companion *c = &r->bars->half;
     motus_system *const s = c->system ? c->system : r->system;
-    const double *dx, *dv;
+    witness_move move;
     double *x, *v;
-    if (!r->bars->differences.between || !witness_moves(r->bars->witness, &dx, &dv)) return MOTUS_OK;
+    if (!r->bars->differences.between || !witness_moves(r->bars->witness, &move) || !isnan(move.from)) return MOTUS_OK;
     motus_status status = bars_later(r, s, t, 0, c->x, c->v, &x, &v, err);
-    for (size_t k = 0; k < r->system->problem.nx; k++) x[k] += dx[k];
-    for (size_t k = 0; k < r->system->problem.nv; k++) v[k] += dv[k];
+    for (size_t k = 0; k < r->system->problem.nx; k++) x[k] += move.x[k];
+    for (size_t k = 0; k < r->system->problem.nv; k++) v[k] += move.v[k];
     if (status == MOTUS_OK) status = bars_see(r, s, t, x, v, 1, err);
     if (status == MOTUS_OK) differences_widen(&r->bars->differences);
     return status;
@@ -488,18 +488,19 @@ static motus_status land(motus_run *r, double t, double *x, double *v, bool betw
     bars *b = r->bars;
     const int64_t now = motus_run_steps(r), taken = now - b->steps;
     const double began = pace_now();
-    motus_status status = companion_land(&b->half, r, t, taken > 0 ? taken : 1, err);
+    witness_move move = {NAN, NULL, NULL};
+    const bool moves = witness_moves(b->witness, &move), leads = moves && !isnan(move.from);
+    motus_status status = companion_land(&b->half, r, leads ? move.from : t, taken > 1 ? taken - leads : 1, err);
+    if (status == MOTUS_OK && leads) status = companion_led(&b->half, r, b->witness, t, err);
+    if (status == MOTUS_OK && moves && !leads && !between) status = companion_shift(&b->half, r, move.x, move.v, err);
+    if (moves && !between) witness_moved(b->witness);
     if (status == MOTUS_OK && !strcmp(r->card->family, "exact")) status = companion_jog(&b->half, r, err);
     if (status == MOTUS_OK && b->kind == MOTUS_BARS_FULL && !between) status = companion_repeat(&b->twin, r, err);
-    const double *dx, *dv, differs = witness_differs(b->witness, NULL);
+    const double differs = witness_differs(b->witness, NULL);
     char at[DECIMAL_MAX];
     if (!isnan(differs))
         bars_give_up(r, "near t = %s the force changes more within every step than the step shows",
                      run_time_text(r, differs, at));
-    if (status == MOTUS_OK && !between && witness_moves(b->witness, &dx, &dv)) {
-        status = companion_shift(&b->half, r, dx, dv, err);
-        witness_moved(b->witness);
-    }
     if (status == MOTUS_OK && r->events && !between) status = reach(r, t, err);
     if (status == MOTUS_OK && r->events) notice_gap(r, t, between);
     b->differences.between = between;
@@ -559,7 +560,7 @@ motus_status bars_room(motus_run *r, int64_t *steps, motus_error *err)
     const int64_t now = motus_run_steps(r);
     motus_status status = b->started ? MOTUS_OK : start(r, false, err);
     *steps = INT64_MAX;
-    if (status == MOTUS_OK && alive(b) && now >= due(r)) status = bars_land(r, err);
+    if (status == MOTUS_OK && alive(b) && (now >= due(r) || witness_waits(b->witness))) status = bars_land(r, err);
     if (status == MOTUS_OK && alive(b)) *steps = due(r) > now ? due(r) - now : 1;
     return status;
 }

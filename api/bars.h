@@ -6,7 +6,6 @@
 #define API_BARS_H
 
 #include "api/companion.h"
-#include "api/witness.h"
 #include "machine/differences.h"
 
 struct bars {

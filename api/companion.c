@@ -226,12 +226,27 @@ motus_status companion_jog(companion *c, const motus_run *r, motus_error *err)
     return MOTUS_OK;
 }
 
+/* Its stepper begins where it was put. */
+static motus_status put(companion *c, const motus_run *r, motus_error *err)
+{
+    const motus_status status = stepper_start(c->stepper, c->t, r->timing.h, c->x, c->v, err);
+    return status == MOTUS_OK && c->events ? events_shift(c->events, c->stepper, err) : status;
+}
+
 motus_status companion_shift(companion *c, const motus_run *r, const double *dx, const double *dv, motus_error *err)
 {
     const problem *p = &r->system->problem;
     for (size_t k = 0; k < p->nx; k++) c->x[k] += dx[k];
     for (size_t k = 0; k < p->nv; k++) c->v[k] += dv[k];
-    return stepper_start(c->stepper, c->t, r->timing.h, c->x, c->v, err);
+    return put(c, r, err);
+}
+
+motus_status companion_led(companion *c, const motus_run *r, witness *w, double t, motus_error *err)
+{
+    if ((t - c->t) * r->timing.h <= 0) return MOTUS_OK;
+    if (!witness_lead(w, c->t, t, c->x, c->v)) return companion_land(c, r, t, 1, err);
+    c->t = t;
+    return put(c, r, err);
 }
 
 motus_status companion_repeat(companion *c, const motus_run *r, motus_error *err)

@@ -6,7 +6,7 @@
 #ifndef API_COMPANION_H
 #define API_COMPANION_H
 
-#include "api/run.h"
+#include "api/witness.h"
 
 typedef struct companion {
     motus_system *system; /* its own; NULL: the run's */
@@ -43,8 +43,10 @@ motus_status companion_jog(companion *, const motus_run *, motus_error *);
 /* Moves numbers by at least an ulp, and by `size` where it is given; up or down, by a hash of their places and
  * `salt`. */
 void companion_move(double *y, size_t count, const double *size, uint32_t salt);
-/* Moves its state by these differences; it has no events. */
+/* Moves its state by these differences. */
 motus_status companion_shift(companion *, const motus_run *, const double *dx, const double *dv, motus_error *);
+/* To t, in place of steps of its own as the witness leads it; it has no events. */
+motus_status companion_led(companion *, const motus_run *, witness *, double t, motus_error *);
 /* Repeats the steps of the run, and so stands where the run stands. */
 motus_status companion_repeat(companion *, const motus_run *, motus_error *);
 /* What a restart state has of a companion with events, besides its state: tells how many numbers, and writes them where

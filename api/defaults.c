@@ -67,7 +67,8 @@ static const layout layouts[] = {
                                                         .jump_time = NAN,
                                                         .jump_power = NAN}},
     [MOTUS_DEF_ESTIMATE] = {"motus_estimate", "estimate", SIZES(motus_estimate),
-                            &(const motus_estimate){.significant_until = NAN, .rate = NAN, .work = NAN, .reason = ""}},
+                            &(const motus_estimate){
+                                .significant_until = NAN, .rate = NAN, .work = NAN, .reason = "", .looked = NAN}},
     [MOTUS_DEF_EVENT_ROW] = {"motus_event_row", "event_row", SIZES(motus_event_row),
                              &(const motus_event_row){.name = "", .time = NAN, .error = NAN}},
     [MOTUS_DEF_SWITCH] = {"motus_switch", "switch", SIZES(motus_switch),

@@ -110,6 +110,7 @@ motus_status motus_run_estimate(motus_run *r, motus_estimate *out, motus_error *
     ours.rate = differences_rate(&b->differences);
     ours.seconds = b->seconds;
     ours.reason = b->why;
+    ours.looked = witness_looked(r);
     const int64_t run = stepper_evaluations(r->stepper);
     const int64_t beside = (b->half.stepper ? stepper_evaluations(b->half.stepper) : 0) +
                            (b->twin.stepper ? stepper_evaluations(b->twin.stepper) : 0);

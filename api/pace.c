@@ -29,6 +29,6 @@ motus_status pace_advance(pace *p, stepper *s, stepper_limit limit, stepper_stop
             *why = STOP_FAILED;
             return MOTUS_CANCELLED;
         }
-        if (*why == STOP_UNTIL || limit.steps <= 0) return MOTUS_OK;
+        if (*why != STOP_STEPS || limit.steps <= 0) return MOTUS_OK;
     }
 }

@@ -144,6 +144,7 @@ static motus_status advance_on(motus_run *r, int64_t n, motus_error *err)
                                 : n > 0              ? pace_advance(&r->pace, r->stepper, limit, &why, err)
                                                      : stepper_advance(r->stepper, limit, &why, err);
     r->arrived = why == STOP_UNTIL || why == STOP_EVENT || (n == 0 && run_events_ended(r));
+    r->halted = why == STOP_HALT;
     if (status != MOTUS_OK && status != MOTUS_CANCELLED) diagnosis_add(r->system, r->stepper, err);
     if (isnan(r->first_step) && motus_run_steps(r) > 0) r->first_step = fabs(stepper_last_step(r->stepper));
     if (status != MOTUS_CANCELLED) return status;
@@ -151,12 +152,14 @@ static motus_status advance_on(motus_run *r, int64_t n, motus_error *err)
     return fail(err, status, "cancelled at t = %s", run_time_text(r, stepper_time(r->stepper), t));
 }
 
-/* The same, and on the way it goes over to the compiled machine. */
+/* The same, until it halts, and on the way it goes over to the compiled machine. */
 static motus_status advance(motus_run *r, int64_t n, motus_error *err)
 {
     motus_status status = MOTUS_OK;
+    r->halted = false;
     for (int64_t room; n > 0 && status == MOTUS_OK && !r->arrived && (room = later_room(r)) < n;) {
         if (room > 0) status = advance_on(r, room, err), n -= room;
+        if (r->halted) return status;
         if (status == MOTUS_OK && !r->arrived) status = later_look(r, err);
     }
     return status == MOTUS_OK && (n == 0 || !r->arrived) ? advance_on(r, n, err) : status;
@@ -199,11 +202,11 @@ static motus_status advance_beside(motus_run *r, int64_t n, motus_error *err)
     while (n > 0 && status == MOTUS_OK && !r->arrived) {
         int64_t room;
         status = bars_room(r, &room, err);
-        const int64_t piece = n < room ? n : room;
+        const int64_t piece = n < room ? n : room, before = motus_run_steps(r);
         if (status != MOTUS_OK) return status;
         status = advance(r, piece, err);
         if (status != MOTUS_OK && status != MOTUS_CANCELLED) bars_give_up(r, "the run failed");
-        n -= piece;
+        n -= r->halted ? motus_run_steps(r) - before : piece;
     }
     return status;
 }

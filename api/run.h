@@ -45,10 +45,10 @@ struct motus_run {
     const motus_method *card;
     timing timing; /* of the present leg */
     stepper *stepper;
-    bool arrived;
-    int legs;          /* a leg begins at the start and at every motus_run_set_state */
-    int64_t before;    /* steps taken in earlier legs */
-    double first_step; /* size of the first step of all; NaN before it */
+    bool arrived, halted; /* halted: the last advance ended before its steps were taken, since a landing is due */
+    int legs;             /* a leg begins at the start and at every motus_run_set_state */
+    int64_t before;       /* steps taken in earlier legs */
+    double first_step;    /* size of the first step of all; NaN before it */
     int (*observer)(void *context, motus_run *);
     bool observing;    /* the observer is being called */
     double *x, *v, *a; /* the synchronised state, valid while `synchronised` */

@@ -14,6 +14,7 @@
  */
 #include "api/witness.h"
 
+#include "api/bars.h"
 #include "api/choice.h"
 #include "api/convex.h"
 #include "api/vector.h"
@@ -29,13 +30,15 @@ enum {
     DEPTH = 40,    /* halvings of a step */
     PARTS = 4096,  /* of one step */
     TRIES = 64,    /* candidates that are refused one after the other */
-    PROBED = 4096, /* steps of a probe */
+    PROBED = 4096, /* steps of a probe, */
+    LED = 256,     /*   and of one that leads the companion */
     HELD = 2,      /* halvings of a step, after which ways beside the motion are taken, */
     DEEP = 4,      /*   and where other operations change there too, as u/|u|: */
     WAYS = 32,     /*   at first so many, then one of as many others that leads nearest, */
     MORE = 64,     /*   and at most so many such; */
     IDLE = 4,      /*   where so many of these do not help, none does. */
     SHORTER = 6,   /* times that a probe is shorter, before it is no matter of its steps that no way does it */
+    BEHIND = 3,    /* steps that the companion is led through, the first of which lacks something */
     WIDTH = 64     /* velocities of a run: of more of them ways say too little */
 };
 #define NEAR 0x1p-16 /* of the way that a part may lead: so far beside it */
@@ -55,6 +58,7 @@ enum {
 #define SPEND_SIDES 4e6
 #define SPEND_STEP 2e7
 #define SPEND_PROBE 2e7
+#define SPEND_LEAD 2e6
 #define SPEND_SPARED 1e8
 #define FIRST \
     0.01 /* times what a step may lose: the first part of which so much is missing is where a step is to end */
@@ -64,6 +68,13 @@ enum {
 #define ROUNDING 0x1p-46
 #define NOTHING 0x1p-500 /* is lost of what rests */
 #define ROOM 0.75        /* of a step that is refused: the next one is shorter */
+/* Times the largest error that is told so far. Where steps stand, what is missing of the next ones may cancel what was
+ * missing of one, and all of it has to move the companion. */
+#define BARS 2.5
+#define PART_OF_BARS 0x1p-4
+#define SHOWN 0x1p-16 /* of what is missing: so much may be hidden */
+#define PROBE "dop853"
+#define PROBE_TOLERANCE 1e-10
 
 /* Gauss's abscissae in (0, 1) beyond the middle, less 1/2, and their weights [DLMF, table 3.5.2]. */
 static const double abscissa[POINTS / 2] = {0.0917173212478248849, 0.2627662049581645044, 0.3983332387068134038,
@@ -80,7 +91,8 @@ enum { FROM, TO, MIDDLE, POINT = MIDDLE + DEPTH, END, STATES };
 struct witness {
     const motus_system *typed;
     machine machine; /* of the probe, and */
-    chosen method;   /*   its method */
+    chosen method;   /*   its method: the run's, or PROBE where the run's steps stand as they are */
+    bool steady;     /*   which is so */
     motus_allocator allocator;
     const differences *seen;
     size_t nx, nv;     /* of the run, */
@@ -89,7 +101,8 @@ struct witness {
     state at[STATES];
     double *a, *v;     /* of the typed force, and velocities as it wants them */
     double *most;      /* bounds on the accelerations of the step */
-    double *missing;   /* of every velocity, sizes added up over the parts */
+    double *missing;   /* of every velocity, sizes added up over the parts, */
+    double *lack;      /*   and with their signs */
     double *allowed;   /* what a step may lose of it, */
     double *rounded;   /*   and what rounding takes from it, */
     double *rounded_x; /*   and from places: parts of the largest that they have been */
@@ -111,15 +124,21 @@ struct witness {
     double longest;       /* of the steps that it has looked at */
     double operations;    /* of one evaluation */
     double least;         /* what matters to the bars, of a velocity; INFINITY: what a step may lose is all that does */
+    double each;          /* what it earns in a step */
+    int64_t steps;        /* of the run, that stand, as far as it was shown them, */
+    int64_t looked;       /*   and at how many of them it has looked; */
+    int64_t rested, rest; /*   how many it was to leave aside after the last one, and how many of these are to come */
     double spared;        /* evaluations that are not counted, since they led to a step that was refused */
     bool kinked;          /* the typed force has switches, */
     bool located;         /*   at which steps of the run end; */
     bool strict;          /*   whose sides are looked at; */
     bool covered;         /*   some within sums, where nothing says that they stand at 0 */
+    bool crosses;         /* a switch may stand at 0 within the step */
     bool beside;          /* no way beside the part at `start` does what has happened */
     bool probes;          /* it looks at a probe, and refuses at once */
     bool events;          /* the run has some */
-    bool moves;           /* dx and dv are for the companion */
+    int behind;           /* steps behind one that lacked something, which the companion may not have passed, to come */
+    bool moves, leads;    /* dx and dv are for the companion, or (leads) a probe is to take its step for it */
     size_t number;        /* the velocity of which the most was missing where `beside` became true */
     bool held;            /* the motion is none of the typed force, from `differs` on */
     double until;         /* a probe has differed from the step that led there; NaN */
@@ -136,10 +155,15 @@ static witness *make(const motus_run *r, const differences *seen)
     const motus_system *const s = r->home ? r->home : r->system;
     const bool ways = r->home && p->nv <= WIDTH;
     const size_t nx = p->nx + 1, nv = p->nv + 1,
-                 numbers = STATES * (nx + nv) + 13 * nv + 2 * (nx + nv) + (ways ? (WAYS + MORE) * nv : 0);
+                 numbers = STATES * (nx + nv) + 14 * nv + 2 * (nx + nv) + (ways ? (WAYS + MORE) * nv : 0);
     witness *w = take(&r->allocator, 1, sizeof *w + numbers * sizeof(double));
     if (!w) return NULL;
     *w = (witness){.typed = s, .machine = r->machine, .method = r->chosen, .allocator = r->allocator, .seen = seen};
+    if (!stepper_refuses(&r->chosen) && row_choose(PROBE, &w->method, NULL, NULL) == MOTUS_OK) {
+        w->machine = r->system->machine;
+        w->method.relative = PROBE_TOLERANCE;
+        w->steady = true;
+    }
     w->nx = p->nx, w->nv = p->nv;
     w->own = s->problem.nx, w->other = p->nx;
     w->located = ways;
@@ -149,14 +173,15 @@ static witness *make(const motus_run *r, const differences *seen)
     w->in_x = (interval *)(void *)at, w->in_v = w->in_x + nx;
     at += 2 * (nx + nv);
     for (size_t k = 0; k < STATES; k++, at += nx + nv) w->at[k] = (state){.x = at, .v = at + nx};
-    double **const arrays[] = {&w->a,    &w->v,     &w->most,   &w->missing,   &w->allowed,   &w->rounded, &w->dv,
-                               &w->room, &w->scale, &w->weight, &w->other_way, &w->rounded_x, &w->dx,      &w->ways};
+    double **const arrays[] = {&w->a,         &w->v,         &w->most, &w->missing, &w->allowed,
+                               &w->rounded,   &w->dv,        &w->room, &w->scale,   &w->weight,
+                               &w->other_way, &w->rounded_x, &w->dx,   &w->lack,    &w->ways};
     for (size_t k = 0; k < sizeof arrays / sizeof *arrays; k++, at += nv) *arrays[k] = at;
     return w;
 }
 
-static double inspect(void *ctx, stepper *);
-static void inspect_sides(void *ctx, stepper *, double until);
+static stepper_verdict inspect(void *ctx, stepper *);
+static bool inspect_piece(void *ctx, stepper *, double until);
 
 /* They live in the system's arena, for all its runs. */
 static bool find_bends(motus_system *s)
@@ -175,7 +200,7 @@ motus_status witness_create(const motus_run *r, const differences *seen, witness
 {
     motus_system *const s = r->home ? r->home : r->system;
     *out = NULL;
-    if (!s->model || !row_adaptive(&r->chosen) || row_reversible_steps(&r->chosen)) return MOTUS_OK;
+    if (!s->model || r->locate) return MOTUS_OK;
     if (!find_bends(s)) return fail(err, MOTUS_MEMORY, "no memory for a witness of the run");
     weight each;
     const bool any = s->bends.all || (r->home && s->bends.sums);
@@ -194,9 +219,9 @@ motus_status witness_create(const motus_run *r, const differences *seen, witness
     w->bends = w->inner->bends = s->bends.all;
     w->smooth = w->inner->smooth = s->bends.smooth;
     w->covered = w->inner->covered = s->bends.sums;
-    w->inner->probes = true;
-    stepper_inspected(r->stepper, inspect, w);
-    if (w->located) events_witnessed(r->events, inspect_sides, w);
+    w->inner->probes = true, w->inner->steady = false;
+    if (!w->steady || !r->events) stepper_inspected(r->stepper, inspect, w);
+    if (r->events) events_witnessed(r->events, inspect_piece, w);
     *out = w;
     return MOTUS_OK;
 }
@@ -210,10 +235,12 @@ void witness_destroy(witness *w)
     give(&a, w);
 }
 
-bool witness_moves(const witness *w, const double **x, const double **v)
+bool witness_waits(const witness *w) { return w && w->moves; }
+
+bool witness_moves(const witness *w, witness_move *to)
 {
     if (!w || !w->moves) return false;
-    *x = w->dx, *v = w->dv;
+    *to = (witness_move){w->leads ? w->at[FROM].t : NAN, w->dx, w->dv};
     return true;
 }
 
@@ -223,6 +250,14 @@ double witness_differs(const witness *w, size_t *number)
 {
     if (number) *number = w && w->held ? w->inner->number : SIZE_MAX;
     return w ? w->differs : NAN;
+}
+
+double witness_looked(const motus_run *r)
+{
+    const struct bends *const b = r->home ? &r->home->bends : &r->system->bends;
+    const witness *const w = r->bars ? r->bars->witness : NULL;
+    if (!w) return b->known && !b->all && !(r->home && b->sums) ? 1 : NAN;
+    return w->steps ? (double)w->looked / (double)w->steps : 1;
 }
 
 /* ---- looking ---- */
@@ -341,6 +376,19 @@ static bool follow(witness *w, stepper *s, const state *from, const state *to, u
     return true;
 }
 
+/* Bounds on the accelerations of a marked step that begins at[FROM]. Where the method knows none they are twice what
+ * the force is at points between. */
+static bool bound(witness *w, stepper *s)
+{
+    const double h = stepper_time(s) - w->at[FROM].t;
+    if (stepper_swing(s, w->most)) return true;
+    memset(w->scale, 0, w->nv * sizeof *w->scale);
+    memset(w->most, 0, w->nv * sizeof *w->most);
+    if (!w->steady || !integrate(w, s, &w->at[FROM], h, 0, w->room)) return false;
+    for (size_t k = 0; k < w->typed->problem.nv; k++) w->most[place(w, k)] = 2 * w->scale[k];
+    return true;
+}
+
 /* What is missing of one part. */
 static bool hold(witness *w, stepper *s, const state *from, const state *to)
 {
@@ -352,6 +400,7 @@ static bool hold(witness *w, stepper *s, const state *from, const state *to)
     for (size_t k = 0; k < w->typed->problem.nv; k++) {
         const double missing = fabs(w->room[k]);
         w->missing[place(w, k)] += missing;
+        w->lack[place(w, k)] += w->room[k];
         most = fmax(most, missing / w->allowed[place(w, k)]);
         off = fmax(off, missing * w->weight[k]);
     }
@@ -403,10 +452,14 @@ static bool look(witness *w, stepper *s, const state *from, const state *to, int
     const bool last = depth == DEPTH || w->parts >= PARTS || w->spent > w->most_spent;
     w->spent += BOUNDS;
     if (!w->covered && fits(w, w->bends, from, to)) return hold(w, s, from, to);
-    const bool sided = w->located && depth >= HELD, deep = w->strict && (depth >= DEEP || last);
-    if (sided && (deep || fits(w, w->smooth, from, to)))
+    const bool sided = (w->located || (w->steady && w->kinked)) && depth >= HELD,
+               deep = w->strict && (depth >= DEEP || last);
+    if (sided && (deep || fits(w, w->smooth, from, to))) {
+        w->crosses = true;
         return w->strict ? hold_beside(w, s, from, to) : (w->parts++, true);
-    if (last) return w->kinked ? (w->parts++, true) : hold(w, s, from, to);
+    }
+    if (last && w->kinked) return w->crosses = true, w->parts++, true;
+    if (last) return hold(w, s, from, to);
     return see(s, from->t + (to->t - from->t) / 2, middle) && look(w, s, from, middle, depth + 1) &&
            look(w, s, middle, to, depth + 1);
 }
@@ -453,41 +506,64 @@ static double apart(witness *w)
     return most;
 }
 
-/* Takes the step once more, as the force asks for; the end is at[END]. */
-static bool probe(witness *w, stepper *s, double size, double least)
+/* Leads from a state at t + lost to `until` as the force asks for; the end is at[END]. least: as in the struct. */
+static bool lead(witness *w, double t, double lost, const double *x, const double *v, double until, double size,
+                 double least)
 {
-    const state *const from = &w->at[FROM], *const to = &w->at[TO];
     state *const end = &w->at[END];
-    const double *x, *v;
-    double lost;
-    const double t = stepper_marked(s, &lost, &x, &v);
     witness *const inner = w->inner;
     motus_status status = MOTUS_OK;
     stepper_stop why;
     if (!w->probe) {
-        status = stepper_create(&w->machine, &w->method, t, size, from->x, from->v, &w->allocator, &w->probe, NULL);
+        status = stepper_create(&w->machine, &w->method, t, size, x, v, &w->allocator, &w->probe, NULL);
         if (!status) stepper_inspected(w->probe, inspect, inner);
     }
     const double spent = inner->spent;
+    const int64_t before = w->probe ? stepper_evaluations(w->probe) : 0;
     inner->tries = 0, inner->differs = NAN, inner->held = false;
     inner->least = least;
-    inner->earned = spent + fmax(SPEND_LEAST, SPEND_PROBE / w->operations);
-    if (!status) status = stepper_jump(w->probe, t, lost, size, from->x, from->v, NULL);
-    if (!status) status = stepper_advance(w->probe, (stepper_limit){PROBED, to->t}, &why, NULL);
+    inner->earned = spent + fmax(SPEND_LEAST, (w->steady ? SPEND_LEAD : SPEND_PROBE) / w->operations);
+    if (!status) status = stepper_jump(w->probe, t, lost, size, x, v, NULL);
+    const int64_t most = w->steady ? LED : PROBED;
+    if (!status) status = stepper_advance(w->probe, (stepper_limit){most, until}, &why, NULL);
     if (!status && why != STOP_UNTIL) inner->differs = stepper_time(w->probe);
-    w->spent += inner->spent - spent;
+    w->spent += inner->spent - spent + (w->steady ? (double)(stepper_evaluations(w->probe) - before) : 0);
+    if (w->steady && !status && why != STOP_UNTIL) return false;
     return !status && !stepper_sync(w->probe, end->x, end->v, NULL, NULL);
 }
 
-/* Whether more is missing, of n places or velocities, than their errors are said to be; y: how large they are. */
-static bool beyond_bars(const double *missing, const double *y, size_t n, double errors)
+/* Takes the step once more. */
+static bool probe(witness *w, stepper *s, double size, double least)
 {
-    return vector_largest(missing, n) > fmax(2.5 * errors, ROUNDING * vector_largest(y, n));
+    const state *const from = &w->at[FROM];
+    const double *x, *v;
+    double lost;
+    const double t = stepper_marked(s, &lost, &x, &v);
+    return lead(w, t, lost, from->x, from->v, w->at[TO].t, size, least);
 }
 
-static bool beyond_velocities(const witness *w, const double *missing)
+bool witness_lead(witness *w, double t, double until, double *x, double *v)
 {
-    return beyond_bars(missing, w->at[TO].v, w->nv, fmax(w->seen->most[1], w->seen->most[2]));
+    if (!lead(w, t, 0, x, v, until, (until - t) / 4, INFINITY)) return false;
+    memcpy(x, w->at[END].x, w->nx * sizeof *x);
+    memcpy(v, w->at[END].v, w->nv * sizeof *v);
+    return true;
+}
+
+/* Whether more is missing, of n places or velocities, than so many times their errors; y: how large they are. */
+static bool beyond_bars(const double *missing, const double *y, size_t n, double errors)
+{
+    return vector_largest(missing, n) > fmax(errors, ROUNDING * vector_largest(y, n));
+}
+
+static bool beyond_velocities(const witness *w, const double *missing, double times)
+{
+    return beyond_bars(missing, w->at[TO].v, w->nv, times * fmax(w->seen->most[1], w->seen->most[2]));
+}
+
+static bool beyond_places(const witness *w, const double *missing, double times)
+{
+    return beyond_bars(missing, w->at[TO].x, w->nx, times * w->seen->most[0]);
 }
 
 /* Whether the stepper is within a step whose end a probe did not come to. */
@@ -496,14 +572,20 @@ static bool known(const witness *w, const stepper *s)
     return !isnan(w->until) && (w->until - (stepper_time(s) - stepper_last_step(s))) * stepper_last_step(s) > 0;
 }
 
-/* Whether it can afford to look at this step. */
-static bool affords(witness *w, const stepper *s)
+static void earn(witness *w, const stepper *s)
 {
     const int64_t all = stepper_evaluations(s);
     const double now = all > w->evaluations ? (double)(all - w->evaluations) : 0,
-                 each = w->method.row->expands ? now * now / 4 : now, h = fabs(stepper_last_step(s));
+                 each = w->method.row->expands ? now * now / 4 : now;
     w->evaluations = all;
     w->earned += SPEND * each;
+}
+
+/* Whether it can afford to look at this step. */
+static bool affords(witness *w, const stepper *s)
+{
+    const double h = fabs(stepper_last_step(s));
+    earn(w, s);
     const bool follows = !w->probes && (w->tries > 0 || known(w, s));
     const double most = w->earned + (follows ? SPEND_SPARED / w->operations : 0);
     if (w->spent > most && (w->probes || h < LONGER * w->longest)) return false;
@@ -538,17 +620,72 @@ static bool see_ends(witness *w, stepper *s)
 static bool look_at_all(witness *w, stepper *s)
 {
     allow(w, stepper_problem(s));
-    w->parts = 0, w->worst = 0, w->beside = false;
+    w->parts = 0, w->worst = 0, w->beside = w->crosses = false;
     w->most_spent = w->spent + fmax(SPEND_LEAST, SPEND_STEP / w->operations);
     memset(w->missing, 0, w->nv * sizeof *w->missing);
+    memset(w->lack, 0, w->nv * sizeof *w->lack);
     return look(w, s, &w->at[FROM], &w->at[TO], 0);
 }
 
-static double inspect(void *ctx, stepper *s)
+/* Whether what is missing of a step is not what the points of Gauss's rule show of it. */
+static bool hides(witness *w, stepper *s)
 {
-    witness *const w = ctx;
+    double most = 0, hidden = 0;
+    if (!follow(w, s, &w->at[FROM], &w->at[TO], 0, w->room)) return false;
+    for (size_t k = 0; k < w->typed->problem.nv; k++) {
+        const double lack = w->lack[place(w, k)];
+        most = fmax(most, fabs(lack)), hidden = fmax(hidden, fabs(lack - w->room[k]));
+    }
+    return hidden > SHOWN * most;
+}
+
+/* Whether a step lacks something that it does not show. Of a switch that it leads across run and companion know. */
+static bool lacks(witness *w, stepper *s)
+{
+    return !fits(w, w->bends, &w->at[FROM], &w->at[TO]) && look_at_all(w, s) && w->parts > 1 && !w->crosses &&
+           beyond_velocities(w, w->missing, PART_OF_BARS) && hides(w, s);
+}
+
+/* What a step that stands lacks moves the companion, which waits for it. */
+static void compare(witness *w, stepper *s, double until)
+{
     const state *const from = &w->at[FROM], *const to = &w->at[TO];
-    if (!affords(w, s) || !stepper_swing(s, w->most) || !see_ends(w, s)) return 0;
+    if (w->moves || !see_ends(w, s) || !bound(w, s) || (until != to->t && !see(s, until, &w->at[TO]))) return;
+    if (from->t == until) return;
+    w->behind = lacks(w, s) ? BEHIND : w->behind > 0 ? w->behind - 1 : 0;
+    w->leads = !w->events, w->moves = w->leads && w->behind > 0;
+    if (w->leads || w->behind < BEHIND || !probe(w, s, (until - from->t) / 4, INFINITY)) return;
+    apart(w);
+    w->moves = beyond_velocities(w, w->dv, PART_OF_BARS) || beyond_places(w, w->dx, PART_OF_BARS);
+}
+
+/* How many steps it has to leave aside before it can afford to look again: of a motion that repeats itself not always
+ * the same. */
+static int64_t rest_of(const witness *w)
+{
+    const double owes = w->spent - w->earned;
+    return owes > 0 ? (int64_t)(owes / w->each * (1 + turn((uint32_t)w->steps, 0) / 2)) : 0;
+}
+
+static stepper_verdict inspect_steady(witness *w, stepper *s, double until)
+{
+    const double before = w->earned;
+    earn(w, s);
+    w->each = fmax(SPEND, (w->earned - before) / (double)(w->rested + 1));
+    w->steps += w->rested + 1;
+    if (rest_of(w) == 0) {
+        compare(w, s, until);
+        w->looked++;
+    }
+    w->rested = rest_of(w);
+    return (stepper_verdict){.rest = w->rested, .halt = w->moves};
+}
+
+/* The size by which the step is to be taken again; 0: it stands. */
+static double judge(witness *w, stepper *s)
+{
+    const state *const from = &w->at[FROM], *const to = &w->at[TO];
+    if (!see_ends(w, s) || !bound(w, s)) return 0;
     const bool short_enough = !w->strict && fits(w, w->bends, from, to);
     const double spent = w->spent;
     if (short_enough || !look_at_all(w, s)) {
@@ -557,7 +694,8 @@ static double inspect(void *ctx, stepper *s)
     }
     double most = 0;
     for (size_t k = 0; k < w->nv; k++) most = fmax(most, w->missing[k] / w->allowed[k]);
-    const bool suspicious = w->parts > 1 && (most > SUSPICIOUS || (!w->probes && beyond_velocities(w, w->missing)));
+    const bool suspicious =
+        w->parts > 1 && (most > SUSPICIOUS || (!w->probes && beyond_velocities(w, w->missing, BARS)));
     if (!suspicious && !w->beside) {
         w->tries = 0;
         return 0;
@@ -573,24 +711,34 @@ static double inspect(void *ctx, stepper *s)
     const double least = vector_largest(w->missing, w->nv) / (PROBE_SEES * SUSPICIOUS);
     if (!probe(w, s, size, most > SUSPICIOUS ? INFINITY : least)) return 0;
     const double far = apart(w);
-    const bool beyond = beyond_velocities(w, w->dv) || beyond_bars(w->dx, w->at[TO].x, w->nx, w->seen->most[0]);
+    const bool beyond = beyond_velocities(w, w->dv, BARS) || beyond_places(w, w->dx, BARS);
     if (far > REFUSED) {
         w->until = to->t;
         return refuse(w, size, spent);
     }
-    w->moves = beyond && !w->events;
+    w->moves = beyond && !w->located;
     return 0;
+}
+
+static stepper_verdict inspect(void *ctx, stepper *s)
+{
+    witness *const w = ctx;
+    if (w->steady) return inspect_steady(w, s, stepper_time(s));
+    w->moves = false;
+    const bool afforded = affords(w, s);
+    const double again = afforded ? judge(w, s) : 0;
+    if (again == 0) w->looked += afforded, w->steps++;
+    return (stepper_verdict){.again = again};
 }
 
 /* A step, up to where a switch of the force changes its side: the sides that the run has are those of the typed force,
  * or a probe in shorter steps shows that they are not. */
-static void inspect_sides(void *ctx, stepper *s, double until)
+static void inspect_sides(witness *w, stepper *s, double until)
 {
-    witness *const w = ctx;
     state *const to = &w->at[TO];
     const double spent = w->spent, first = fmax(SPEND_LEAST, SPEND_FIRST / w->operations);
     if (w->held || w->sides > SPEND_SIDES / w->operations + (w->earned - first)) return;
-    if (!stepper_swing(s, w->most) || !see_ends(w, s)) return;
+    if (!see_ends(w, s) || !bound(w, s)) return;
     if (until == w->at[FROM].t || (to->t != until && !see(s, until, to))) return;
     w->strict = true;
     if (look_at_all(w, s) && w->beside) {
@@ -604,4 +752,18 @@ static void inspect_sides(void *ctx, stepper *s, double until)
     }
     w->strict = false;
     w->sides += w->spent - spent, w->spent = spent;
+}
+
+/* What was missing behind the end of a piece has not happened. */
+static bool inspect_piece(void *ctx, stepper *s, double until)
+{
+    witness *const w = ctx;
+    if (w->located) inspect_sides(w, s, until);
+    if (!w->steady && until != stepper_time(s)) w->moves = false;
+    if (!w->steady) return false;
+    if (w->rest > 0)
+        w->rest--;
+    else
+        w->rest = inspect_steady(w, s, until).rest;
+    return w->moves;
 }

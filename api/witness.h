@@ -8,7 +8,8 @@
  * What it finds missing of a step is looked at more closely, by a probe: a stepper of the method that takes the step
  * once more in as many parts as the force asks for. Where both ends are farther apart than the run's tolerance allows,
  * the run takes the step again as the probe did. Where they are farther apart than the errors told so far, the
- * companion is moved by the difference, so that the bars cover it from then on.
+ * companion is moved by the difference, so that the bars cover it from then on. Steps that are not found by their
+ * errors stand; in their place the companion is led by a probe through what they do not show.
  */
 #ifndef API_WITNESS_H
 #define API_WITNESS_H
@@ -22,10 +23,21 @@ typedef struct witness witness;
  * the run is none that it can look at. */
 motus_status witness_create(const motus_run *, const differences *, witness **out, motus_error *);
 void witness_destroy(witness *);
-/* By how much the companion is to be moved at the end of the step that the run has taken last, nx and nv numbers in the
- * inside order; false: it is not. And that this was done. */
-bool witness_moves(const witness *, const double **x, const double **v);
+/* Whether a companion is to be moved, where the run stands. */
+bool witness_waits(const witness *);
+/* How the companion is to be moved; false: it is not. `from` NaN: at the end of the step that the run has taken last, by
+ * these nx and nv numbers in the inside order; else witness_lead takes that step, which began at `from`, in place of the
+ * companion. And that this was done. */
+typedef struct witness_move {
+    double from;
+    const double *x, *v;
+} witness_move;
+bool witness_moves(const witness *, witness_move *);
 void witness_moved(witness *);
+/* From the state x, v at t to that at `until`. False: no way leads there. */
+bool witness_lead(witness *, double t, double until, double *x, double *v);
+/* The part of the run's steps that its witness has looked at, or need not; NaN: it has none. */
+double witness_looked(const motus_run *);
 /* The time near which no step keeps to the typed force; NaN: there is none. *number: of the typed system, the velocity
  * on which another force acts from there on, whatever sides the switches have; SIZE_MAX: none is known. */
 double witness_differs(const witness *, size_t *number);

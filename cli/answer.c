@@ -48,7 +48,7 @@ void answer_choice(const summary *s, FILE *out)
 void answer_print(const summary *s, FILE *out)
 {
     const motus_estimate *e = &s->estimate;
-    char step[DECIMAL_MAX], work[DECIMAL_MAX], growth[DECIMAL_MAX];
+    char step[DECIMAL_MAX], work[DECIMAL_MAX], growth[DECIMAL_MAX], looked[DECIMAL_MAX];
     putc('\n', out);
     if (e->reason[0]) {
         fputs("error: not known, because ", out);
@@ -74,6 +74,10 @@ void answer_print(const summary *s, FILE *out)
     if (isnan(e->significant_until) && e->growth > FAR_APART && s->options->error == NULL) {
         text_brief(e->growth, 1, growth);
         fprintf(out, "; errors have grown %s times: --error full is safer", growth);
+    }
+    if (e->looked < 1) {
+        text_brief(100 * e->looked, 2, looked);
+        fprintf(out, "; what the force does within a step was looked at in %s %% of the steps", looked);
     }
     putc('\n', out);
 }

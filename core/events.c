@@ -454,7 +454,8 @@ static motus_status piece(events *e, stepper *s, double until, int64_t most, boo
     e->first = false;
     e->here_at = NAN;
     if (!status && e->candidates) status = go_through(e, s, assigned, why, err);
-    if (!status && e->witness) e->witness(e->witness_ctx, s, *assigned || *why == STOP_EVENT ? e->here.t : e->right.t);
+    const bool cut = *assigned || *why == STOP_EVENT;
+    if (!status && e->witness) e->halted |= e->witness(e->witness_ctx, s, cut ? e->here.t : e->right.t);
     return status;
 }
 
@@ -554,7 +555,7 @@ motus_status events_go(events *e, stepper *s, double until, int64_t most, steppe
 {
     *why = STOP_STEPS;
     e->until = until;
-    e->cancelled = false;
+    e->cancelled = e->halted = false;
     e->along = s;
     e->pasts = 0;
     e->acted_left = e->acted;
@@ -565,6 +566,7 @@ motus_status events_go(events *e, stepper *s, double until, int64_t most, steppe
     e->along = NULL;
     if (!status) e->steps++;
     if (!status && e->cancelled) status = MOTUS_CANCELLED;
+    if (!status && e->halted && *why == STOP_STEPS) *why = STOP_HALT;
     if (status) *why = STOP_FAILED;
     return status;
 }

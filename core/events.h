@@ -87,11 +87,14 @@ bool events_partway(const events *);
  * roundings at events than the run. */
 typedef void (*events_jogger)(double *y, size_t count, uint32_t salt, bool switched);
 void events_jog(events *, events_jogger);
-/* Shown every step, marked, and the time up to which it counts: an action that is to follow may be before its end. */
-typedef void (*events_witness)(void *ctx, stepper *, double until);
+/* Shown every step that is not watched, marked, and the time up to which it counts: an action that is to follow may be
+ * before its end. Whether the advance ends here, with STOP_HALT. */
+typedef bool (*events_witness)(void *ctx, stepper *, double until);
 void events_witnessed(events *, events_witness, void *ctx);
 /* The stepper has begun a new leg where it stands (stepper_turn): the grid of fixed steps begins there. */
 void events_turn(events *, const stepper *);
+/* The stepper was put into another state near by, at the same time. */
+motus_status events_shift(events *, stepper *, motus_error *);
 
 /* One unit in the last place of a time, whatever its sign. */
 double events_ulp(double t);

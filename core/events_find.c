@@ -798,6 +798,15 @@ motus_status events_led(events *e, stepper *s, int64_t steps, const double *larg
     return status;
 }
 
+motus_status events_shift(events *e, stepper *s, motus_error *err)
+{
+    instant *const at = &e->left;
+    at->valued = e->right.valued = e->boxed = false;
+    const motus_status status = stepper_sync(s, at->x, at->v, NULL, err);
+    if (!status) events_extend(e, at->x, at->v);
+    return status;
+}
+
 enum { PAUSE_MOST = 31 };
 
 motus_status events_watch(events *e, stepper *s, stepper_limit limit, stepper_stop *why, motus_error *err)

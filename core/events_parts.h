@@ -100,10 +100,10 @@ struct events {
     bool broken;                  /* of fixed steps: `left` lies within one, which ends at the next time of the grid */
     int (*asks)(const void *ctx); /* events_listen; NULL: nobody cancels */
     const void *asks_ctx;
-    int64_t asked;  /* events so far; `asks` is called at some of them */
-    bool cancelled; /* the present step */
-    bool first;     /* no step has been taken since the start */
-    bool marked;    /* the bounds at both ends of the step are known */
+    int64_t asked;          /* events so far; `asks` is called at some of them */
+    bool cancelled, halted; /* the present step */
+    bool first;             /* no step has been taken since the start */
+    bool marked;            /* the bounds at both ends of the step are known */
     events_end end;
     size_t end_rule;
 

@@ -422,22 +422,36 @@ static motus_status take_back(stepper *s, double h, motus_error *err)
 
 void stepper_inspected(stepper *s, stepper_inspector inspector, void *ctx)
 {
-    const bool judged = row_adaptive(&s->method) && !row_reversible_steps(&s->method);
-    s->inspector = judged ? inspector : NULL, s->inspector_ctx = ctx;
+    s->inspector = inspector, s->inspector_ctx = ctx, s->rest = 0;
 }
 
-/* One step at a time. */
-static motus_status inspected(stepper *s, stepper_limit limit, motus_error *err)
+bool stepper_refuses(const chosen *c) { return row_adaptive(c) && !row_reversible_steps(c); }
+
+/* A step that is shown. */
+static motus_status inspected_step(stepper *s, double until, bool *halt, motus_error *err)
 {
-    const stepper_limit one = {1, limit.until};
-    motus_status status = MOTUS_OK;
-    for (int64_t n = 0; n < limit.steps && !status && !s->arrived; n++) {
-        status = stepper_mark(s, err);
+    const stepper_limit one = {1, until};
+    stepper_verdict verdict = {0};
+    motus_status status = stepper_mark(s, err);
+    if (!status) status = go(s, &one, s->body, err);
+    while (!status && (verdict = s->inspector(s->inspector_ctx, s)).again != 0) {
+        status = take_back(s, verdict.again, err);
         if (!status) status = go(s, &one, s->body, err);
-        for (double h; !status && (h = s->inspector(s->inspector_ctx, s)) != 0;) {
-            status = take_back(s, h, err);
-            if (!status) status = go(s, &one, s->body, err);
-        }
+    }
+    s->rest = verdict.rest, *halt = verdict.halt;
+    return status;
+}
+
+static motus_status inspected(stepper *s, stepper_limit limit, bool *halt, motus_error *err)
+{
+    motus_status status = MOTUS_OK;
+    *halt = false;
+    while (limit.steps > 0 && !status && !s->arrived && !*halt) {
+        const int64_t rest = s->rest < limit.steps ? s->rest : limit.steps;
+        status =
+            rest ? go(s, &(stepper_limit){rest, limit.until}, s->body, err) : inspected_step(s, limit.until, halt, err);
+        limit.steps -= rest ? rest : 1;
+        if (rest) s->rest -= rest;
     }
     return status;
 }
@@ -445,8 +459,9 @@ static motus_status inspected(stepper *s, stepper_limit limit, motus_error *err)
 motus_status stepper_advance(stepper *s, stepper_limit limit, stepper_stop *why, motus_error *err)
 {
     const bool looks = s->inspector && !s->watching && limit.steps > 0;
-    const motus_status status = looks ? inspected(s, limit, err) : go(s, &limit, s->body, err);
-    if (why) *why = status ? STOP_FAILED : s->arrived ? STOP_UNTIL : STOP_STEPS;
+    bool halt = false;
+    const motus_status status = looks ? inspected(s, limit, &halt, err) : go(s, &limit, s->body, err);
+    if (why) *why = status ? STOP_FAILED : s->arrived ? STOP_UNTIL : halt ? STOP_HALT : STOP_STEPS;
     return status;
 }
 

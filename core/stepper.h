@@ -58,7 +58,13 @@ typedef struct stepper_limit {
     int64_t steps;
     double until;
 } stepper_limit;
-typedef enum stepper_stop { STOP_STEPS, STOP_UNTIL, STOP_EVENT /* core/events.h */, STOP_FAILED } stepper_stop;
+typedef enum stepper_stop {
+    STOP_STEPS,
+    STOP_UNTIL,
+    STOP_EVENT, /* core/events.h */
+    STOP_HALT,  /* an inspector has asked for it: fewer steps than the limit may have been taken */
+    STOP_FAILED
+} stepper_stop;
 
 /* Whole steps of size h from t0 to `until`, and the size of the shorter one after them; 0: none, also where only a few
  * roundings of the quotient are left. */
@@ -95,10 +101,17 @@ typedef motus_status (*stepper_judge)(void *ctx, stepper *, int64_t steps, doubl
 /* The status of a run that crawls, and what it says. */
 motus_status stepper_crawls(const stepper *, int64_t steps, double gone, motus_error *);
 void stepper_judged(stepper *, stepper_judge, void *ctx);
-/* Shown every step of a row that finds its steps by their errors, marked: 0 lets it stand, and another answer has it
- * taken again, by a candidate of that size, with its sign. */
-typedef double (*stepper_inspector)(void *ctx, stepper *);
+/* Shown a step, marked, and what it answers: the size, with its sign, of a candidate by which the step is taken again,
+ * 0: it stands; how many steps are then taken before the next one is shown; and whether the advance ends here. Only
+ * where stepper_refuses a step is taken again: rows that find their steps by their errors. */
+typedef struct stepper_verdict {
+    double again;
+    int64_t rest;
+    bool halt;
+} stepper_verdict;
+typedef stepper_verdict (*stepper_inspector)(void *ctx, stepper *);
 void stepper_inspected(stepper *, stepper_inspector, void *ctx);
+bool stepper_refuses(const chosen *);
 const chosen *stepper_method(const stepper *);
 const problem *stepper_problem(const stepper *);
 double stepper_limit_of(const stepper *); /* the `until` of the latest advance */

@@ -36,6 +36,7 @@ struct stepper {
     void *judge_ctx;
     stepper_inspector inspector; /* NULL: steps stand as they are accepted */
     void *inspector_ctx;
+    int64_t rest; /* steps before it is shown the next one */
     /* of dense output: x, v, a at the left end, then at the right; NULL until asked for */
     double *ends;
     double left_t, left_lost;

@@ -195,7 +195,7 @@ motus_status stepper_move(stepper **s, const machine *m, motus_error *err)
     to->work.h = from->work.h;
     to->pace_n = from->pace_n, to->pace_t = from->pace_t;
     to->judge = from->judge, to->judge_ctx = from->judge_ctx;
-    to->inspector = from->inspector, to->inspector_ctx = from->inspector_ctx;
+    to->inspector = from->inspector, to->inspector_ctx = from->inspector_ctx, to->rest = from->rest;
     to->at = from->at, to->earlier_at = from->earlier_at;
     to->origin_known = stepper_origin(from, to->origin, to->origin + nx);
     memcpy(to->snapshot, from->snapshot, stepper_carry(from) * sizeof *to->snapshot);

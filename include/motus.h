@@ -915,6 +915,9 @@ typedef struct motus_estimate {
     double work;        /* evaluations by companions, in units of the run's; NaN: there are none yet */
     double seconds;     /* elapsed in companions, reading and compiling included */
     const char *reason; /* why there is no bar, one sentence; "": there is. Owned by the run */
+    /* The part of the steps in which it was looked whether the force does something between the times at which the
+     * method evaluates it; 1: in all, or it can do nothing there. NaN: nobody looked, as with a callback. */
+    double looked;
 } motus_estimate;
 /* What the bars at the present state rest on. Fails as motus_run_errors does. */
 MOTUS_API motus_status motus_run_estimate(motus_run *, motus_estimate *, motus_error *);
