@@ -26,6 +26,7 @@ motus_status motus_run_statistics(const motus_run *r, motus_statistics *out)
     goal_statistics(r, &ours);
     stepper_sizes(r->stepper, &ours.shortest_step, &ours.longest_step);
     locate_statistics(r, &ours);
+    run_events_statistics(r, &ours);
     motus_struct_write(MOTUS_DEF_STATISTICS, &ours, out);
     return MOTUS_OK;
 }

@@ -53,6 +53,14 @@ motus_status run_events_advance(motus_run *r, int64_t n, stepper_stop *why, motu
 
 int64_t run_events_turns(const motus_run *r) { return r->events ? events_turns(r->events) : 0; }
 
+void run_events_statistics(const motus_run *r, motus_statistics *out)
+{
+    size_t rule;
+    if (!r->events) return;
+    out->events_unseen = events_unseen(r->events, &rule, &out->events_unseen_from);
+    if (out->events_unseen) out->events_unseen_of = r->rules->rule[rule].name;
+}
+
 bool run_events_ended(const motus_run *r) { return r->events && events_ended(r->events, NULL) != EVENTS_END_NONE; }
 
 motus_status run_events_sample(motus_run *r, double t, double *x, double *v, motus_error *err)

@@ -119,6 +119,18 @@ void event_table_note(const summary *s, FILE *out)
 
 /* ---- sentences ---- */
 
+void event_table_unseen(const summary *s, FILE *out)
+{
+    char from[DECIMAL_MAX];
+    motus_statistics done = motus_default_statistics();
+    if (motus_run_statistics(s->run, &done) != MOTUS_OK || !done.events_unseen) return;
+    text_brief(done.events_unseen_from, 6, from);
+    fprintf(out,
+            "\nevents of %s that are far shorter than a step may have been missed in %lld step%s, from t = %s on: "
+            "no bound excludes them there, and smaller steps see more\n",
+            done.events_unseen_of, (long long)done.events_unseen, done.events_unseen == 1 ? "" : "s", from);
+}
+
 /* "bounces accumulate"; a name whose plural is not one more s stays as it is: "event1 accumulates". */
 static void put_accumulate(const char *name, FILE *out)
 {

@@ -62,9 +62,12 @@ static motus_status final_cell(const summary *s, table *t, size_t column, double
     double error = NAN;
     motus_status status = s->errors ? motus_run_errors(s->run, &column, 1, NULL, &error, err) : MOTUS_OK;
     const bool undecided = isinf(error) && isnan(s->estimate.significant_until);
+    motus_statistics done = motus_default_statistics();
+    motus_run_statistics(s->run, &done);
     if (s->errors && undecided)
         table_cell(t, "undecided: it jumps within the error of the state");
-    else if (s->errors)
+    else if (s->errors &&
+             !(error == 0 && done.events_unseen)) /* what an event changes may be anything where one is missed */
         table_bar(t, value, s->estimate.reason[0] ? NAN : error);
     else
         table_exact(t, value);
@@ -259,6 +262,7 @@ motus_status summary_print(const summary *s, motus_error *err)
             printed = table_print(tables[i], out, 2, colours) && printed;
             if (i == EVENTS) event_table_note(s, out);
         }
+        event_table_unseen(s, out);
         if (s->errors) answer_print(s, out);
         answer_choice(s, out);
     }
@@ -400,6 +404,10 @@ static void events_json(json *j, const summary *s, const double *values, int64_t
     tell_ended(j, s->run);
     const char *const cut = motus_run_cut(s->run);
     json_string(j, "events_note", cut[0] ? cut : NULL);
+    motus_statistics done = motus_default_statistics();
+    motus_run_statistics(s->run, &done);
+    json_integer(j, "events_unseen", done.events_unseen);
+    json_number(j, "events_unseen_from", done.events_unseen_from);
 }
 
 /* State and quantities on arrival at the first *rows events. */

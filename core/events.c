@@ -212,6 +212,8 @@ motus_status events_begin(events *e, stepper *s, double until, motus_error *err)
     if (status) return status;
     memset(e->most, 0, (e->problem.nx + e->problem.nv) * sizeof *e->most);
     e->taken = 0;
+    e->pieces = 0, e->unseen = 0, e->unseen_at = NAN;
+    events_may_look(e, INT64_MAX);
     memset(e->passed, 0, e->rules.functions);
     events_suppose(e);
     forget_happened(e);
@@ -426,6 +428,7 @@ static motus_status piece(events *e, stepper *s, double until, int64_t most, boo
     e->shorter = SHORTER_MOST;
     events_extend(e, e->left.x, e->left.v);
     e->taken++;
+    events_may_look(e, 1);
     for (;;) {
         if (!status) status = go_on(e, s, (stepper_limit){whole == 0 ? most : 1, end}, why, err);
         if (end != until && *why == STOP_UNTIL) *why = STOP_STEPS;

@@ -106,6 +106,9 @@ bool events_accumulated(const events *, events_limit *);
 double events_tail(const events *);
 /* Where they did: how far the state at the limit, x and then v, may be from that to which they lead. */
 const double *events_limit_off(const events *);
+/* In how many steps since events_begin an event may have been missed because it is narrow beside the step: what the
+ * points of dense output tell, no bound has confirmed. The rule, and the start of the first of these steps. */
+int64_t events_unseen(const events *, size_t *rule, double *t);
 int64_t events_steps(const events *);                  /* since events_begin */
 double events_latest(const events *);                  /* time of the latest action; NaN: there was none */
 int64_t events_acted(const events *);                  /* how often a rule has assigned */

@@ -15,10 +15,6 @@
  * not resolve a function, and at most PARTS_DEEP times */
 enum { ROOTS_ROOM = 128, PART_DEGREE = 64, PARTS_DEEP = 12 };
 
-/* Dense output errs by far less than this part of a function's largest value on the step; where a function comes nearer
- * to 0, or a root lies where it hardly leaves 0, true steps tell what happens. It costs time alone. */
-#define SLACK 0x1p-13
-
 motus_status events_no_memory(motus_error *err)
 {
     return fail(err, MOTUS_MEMORY, "no memory for the events of a step");
@@ -54,8 +50,7 @@ typedef struct part {
 
 static double time_at(const events *e, double tau) { return tau >= 1 ? e->span : tau * e->span; }
 
-/* The time so long after `left`; what times have lost to rounding leads out of the step where it is short. */
-static double place_in(const events *e, double h)
+double events_place_in(const events *e, double h)
 {
     const double t = e->left.t + (e->left.lost + h);
     if (e->way * (t - e->left.t) < 0) return e->left.t;
@@ -84,7 +79,7 @@ static motus_status sample(events *e, stepper *s, int degree, motus_error *err)
     instant *at = &e->next;
     motus_status status = MOTUS_OK;
     for (int k = 1; k < degree && !status; k++) {
-        at->t = place_in(e, time_at(e, roots_point(k, degree)));
+        at->t = events_place_in(e, time_at(e, roots_point(k, degree)));
         status = stepper_sample(s, at->t, at->x, at->v, err);
         if (!status) status = events_values(e, at, err);
         memcpy(e->samples + (size_t)k * n, at->g, n * sizeof *at->g);
@@ -103,7 +98,7 @@ static motus_status sample_part(events *e, stepper *s, size_t f, const part *p, 
             values[k] = tau <= 0 ? e->left.g[f] : e->right.g[f];
             continue;
         }
-        at->t = place_in(e, time_at(e, tau));
+        at->t = events_place_in(e, time_at(e, tau));
         status = stepper_sample(s, at->t, at->x, at->v, err);
         if (!status) status = events_values(e, at, err);
         values[k] = at->g[f];
@@ -388,7 +383,7 @@ static motus_status hides_itself(events *e, stepper *s, size_t f, double largest
     *hides = false;
     if (!(fabs(e->span) > 1024 * ulp && 64 * bound >= largest) || e->rules.rule[e->rule_of[f]].internal)
         return MOTUS_OK;
-    at->t = place_in(e, e->span / 2);
+    at->t = events_place_in(e, e->span / 2);
     status = stepper_sample(s, at->t, at->x, at->v, err);
     if (!status) status = events_values(e, at, err);
     if (!status) status = events_judge(e, at, err);
@@ -477,7 +472,8 @@ static motus_status search_part(events *e, stepper *s, size_t f, const part *p, 
             return MOTUS_OK;
         }
         const double beyond = fit == ROOTS_FIT_ROUGH ? fitted.unseen : 0;
-        if (!stands && !e->open[f] && roots_none(coefficients, fitted.degree, SLACK * largest + fitted.noise + beyond))
+        if (!stands && !e->open[f] &&
+            roots_none(coefficients, fitted.degree, EVENTS_SLACK * largest + fitted.noise + beyond))
             return begins_beyond(e, f, value[0], p->from, sign) ? MOTUS_OK : events_no_memory(err);
         if (fit != ROOTS_FIT_ROUGH || judged) break;
         /* it may be a small difference of large numbers, whose rounding it has */
@@ -496,7 +492,7 @@ static motus_status search_part(events *e, stepper *s, size_t f, const part *p, 
     double noise = bound + moved + fmax(0, fitted.noise - rounding);
     if (e->open[f] && p->from <= 0 && !stands) status = widen_noise(e, f, &noise, err);
     if (status) return status;
-    const search of = {p, coefficients, fitted.degree, fmax(SLACK * largest, 2 * noise)};
+    const search of = {p, coefficients, fitted.degree, fmax(EVENTS_SLACK * largest, 2 * noise)};
     roots_root root[ROOTS_ROOM];
     roots_found found;
     *rough = roots_find(coefficients, fitted.degree, *sign, noise, of.slack, root, ROOTS_ROOM, &found) == ROOTS_CUT;
@@ -572,7 +568,7 @@ static motus_status find_in_parts(events *e, stepper *s, size_t f, int *sign, mo
     return status;
 }
 
-static motus_status find_of(events *e, stepper *s, size_t f, int *degree, motus_error *err)
+static motus_status find_by_points(events *e, stepper *s, size_t f, int *degree, motus_error *err)
 {
     const part all = {0, 1, 0};
     const size_t n = e->rules.functions;
@@ -593,6 +589,20 @@ static motus_status find_of(events *e, stepper *s, size_t f, int *degree, motus_
     }
     if (!status && rough) status = find_in_parts(e, s, f, &sign, err);
     e->stands[f] = e->stands[f] && !sign;
+    return status;
+}
+
+/* What the points of dense output tell, and what bounds tell besides. */
+static motus_status find_of(events *e, stepper *s, size_t f, int *degree, motus_error *err)
+{
+    const size_t first = e->candidates;
+    motus_error theirs = {.size = sizeof theirs, .time = NAN};
+    bool more = false;
+    const motus_status points = find_by_points(e, s, f, degree, &theirs);
+    motus_status status = points && points != MOTUS_EVENTS ? points : MOTUS_OK;
+    if (!status && !e->hidden) status = events_narrow(e, s, f, first, *degree, points != MOTUS_OK, &more, &theirs);
+    if (!status && !more) status = points;
+    if (status && err) *err = theirs;
     return status;
 }
 
@@ -688,6 +698,7 @@ static bool monotone(events *e, size_t f, motus_status *status, motus_error *err
                          .high = e->span,
                          .kind = (candidate_kind)after,
                          .sure = true,
+                         .guessed = !idle,
                          .idle = idle};
     if (!events_add(e, c)) *status = events_no_memory(err);
     return true;
@@ -795,6 +806,7 @@ motus_status events_led(events *e, stepper *s, int64_t steps, const double *larg
     events_extend(e, largest, largest + nx);
     e->steps += steps;
     e->taken += steps;
+    events_may_look(e, steps);
     return status;
 }
 
@@ -825,6 +837,7 @@ motus_status events_watch(events *e, stepper *s, stepper_limit limit, stepper_st
     if (!left.x) return status;
     e->steps += left.steps;
     e->taken += left.steps;
+    events_may_look(e, left.steps);
     events_extend(e, left.x, left.v); /* a step that is not shown may have begun there */
     /* where bounds tell nothing, as of functions of the time, they are asked less and less often */
     e->last_pause = left.steps > 0 ? 0 : e->last_pause < PAUSE_MOST ? 2 * e->last_pause + 1 : PAUSE_MOST;
@@ -867,6 +880,42 @@ static motus_status choose(events *e, stepper *s, bool *any, motus_error *err)
     return status;
 }
 
+/* Whether another candidate may come before this one where its time, which the ends of the step alone tell, is off. */
+static bool has_neighbour(const events *e, size_t k)
+{
+    for (size_t j = 0; j < e->candidates; j++) {
+        const candidate *other = &e->candidate[j];
+        if (j != k && !other->idle && fabs(other->at - e->candidate[k].at) < fabs(e->span) / 8) return true;
+    }
+    return false;
+}
+
+/* Where dense output says that the function of a guessed candidate is 0, by false position with halved weights
+ * [DowellJarratt71]. */
+static motus_status place_guessed(events *e, stepper *s, candidate *c, motus_error *err)
+{
+    enum { TURNS = 60 };
+    const double enough = 0x1p-40 * fabs(e->span);
+    double low = 0, high = e->span, at_low = e->left.g[c->of], at_high = e->right.g[c->of];
+    instant *at = &e->next;
+    motus_status status = MOTUS_OK;
+    for (int turn = 0, last = 0; turn < TURNS && !status && fabs(high - low) > enough; turn++) {
+        const double inner = low + (high - low) * (at_low / (at_low - at_high));
+        c->at = turn % 8 == 7 ? low + (high - low) / 2 : inner;
+        at->t = events_place_in(e, c->at);
+        status = stepper_sample(s, at->t, at->x, at->v, err);
+        if (!status) status = events_values(e, at, err);
+        const double g = at->g[c->of];
+        if (status || g == 0 || !isfinite(g)) break;
+        const bool before = (g > 0) != (c->kind > 0);
+        *(before ? &low : &high) = c->at;
+        *(before ? &at_low : &at_high) = g;
+        if (last == (before ? -1 : 1)) *(before ? &at_high : &at_low) /= 2;
+        last = before ? -1 : 1;
+    }
+    return status;
+}
+
 motus_status events_find(events *e, stepper *s, motus_error *err)
 {
     int degree = ROOTS_DEGREE_LEAST;
@@ -882,6 +931,10 @@ motus_status events_find(events *e, stepper *s, motus_error *err)
     for (size_t f = 0; any && f < e->rules.functions && !status; f++)
         if (e->look[f]) status = find_of(e, s, f, &degree, err);
     if (e->hidden) memcpy(e->side, e->was, flags);
+    for (size_t k = 0; k < e->candidates && !status; k++) {
+        candidate *c = &e->candidate[k];
+        if (c->guessed && has_neighbour(e, k)) status = place_guessed(e, s, c, err);
+    }
     if (!status && !add_ticks(e)) status = events_no_memory(err);
     return status || !e->candidates ? status : value_ends(e, err);
 }

@@ -3,7 +3,8 @@
  * events.c: life and steps. events_find.c: the roots of a step, by dense output. events_place.c: true steps, and where
  * a root is by them. events_jump.c: functions that jump or have a kink. events_errors.c: error bounds of functions and
  * of the times of events. events_fire.c: what happens in one instant. events_table.c: rows, kept numbers, accumulation.
- * events_swarm.c: switches that accumulate. events_state.c: restart states.
+ * events_swarm.c: switches that accumulate. events_narrow.c: roots that dense output leaps. events_state.c: restart
+ * states.
  *
  * A true step is a step of the method itself from `left` to a time within the step; dense output interpolates.
  * Invariant: `left` is the state at which the present step began, and `side` are the sides of all functions there,
@@ -14,6 +15,10 @@
 
 #include "core/events.h"
 #include "core/roots.h"
+
+/* Dense output errs by far less than this part of a function's largest value on the step; where a function comes nearer
+ * to 0, or a root lies where it hardly leaves 0, true steps tell what happens. It costs time alone. */
+#define EVENTS_SLACK 0x1p-13
 
 /* A state of the trajectory, and the functions there. */
 typedef struct instant {
@@ -37,6 +42,7 @@ typedef struct candidate {
     bool sure;     /* the signs at `low` and `high` differ, and the values there far exceed the error of dense output */
     bool near;    /* an extremum near 0: true steps tell whether the function touches 0, crosses it twice, or neither */
     bool sampled; /* it was found between samples: events_jump.c */
+    bool guessed; /* `at` is by the values and slopes at the ends of the step alone */
     bool leaves;  /* of a sampled one: the function has been 0 before it */
     bool jumps;   /* it is no root: the function jumps to this side; CANDIDATE_TOUCHES: it comes to 0 and stays */
 } candidate;
@@ -143,6 +149,11 @@ struct events {
     uint32_t *rule_of;
     double *most;  /* the largest size of positions, then velocities, since the start */
     int64_t taken; /* steps since the start */
+    int64_t
+        pieces; /* in which narrow events may still be looked for; steps where that was not possible, the first one */
+    int64_t unseen; /*   of them and a function there: events_unseen */
+    double unseen_at;
+    size_t unseen_function;
     double *width; /* of positions, then velocities: half widths of the step's box, or error bounds (events_errors.c) */
     double *samples; /* of all functions at the points of the step */
     int samples_room;
@@ -237,6 +248,8 @@ motus_status events_watch(events *, stepper *, stepper_limit, stepper_stop *why,
 void events_extend(events *, const double *x, const double *v);
 bool events_add(events *, candidate);
 motus_status events_no_memory(motus_error *);
+/* The time so long after `left`; what times have lost to rounding leads out of the step where it is short. */
+double events_place_in(const events *, double h);
 /* The next tick of a clock. False: it is not within the step. */
 bool events_next_tick(const events *, size_t rule, candidate *);
 
@@ -252,6 +265,14 @@ motus_status events_slope_error_of(events *, size_t function, double h, double *
  * within which the error of the function hides its root, or that of its rate hides the touch. 0: it is not flat, and
  * the time of the companion's event alone tells the error. */
 motus_status events_doubt(events *, size_t function, double h, bool touches, double *doubt, motus_error *);
+
+/* events_narrow.c. `degree`: of the samples of the step; `failed`: the points do not tell the roots of the function.
+ * Bounds tell of more roots of a function than its candidates from number `first` on, *more: they take
+ * the place of these. */
+motus_status events_narrow(events *, stepper *, size_t function, size_t first, int degree, bool failed, bool *more,
+                           motus_error *);
+/* So many more steps have been taken, in which narrow events may be looked for. */
+void events_may_look(events *, int64_t steps);
 
 /* events_jump.c. Adds the candidate of a cell, from its samples. *sign is the sign of the function before the cell, 0
  * where it stands at 0, and then that at its end. *told false: the samples change their sign more than once. */

@@ -83,6 +83,10 @@ static void pass_instant(pass *p, events *e)
     numbers(p, at->v, e->problem.nv);
     numbers(p, e->most, e->problem.nx + e->problem.nv);
     e->taken = counter(p, e->taken);
+    e->pieces = counter(p, e->pieces);
+    e->unseen = counter(p, e->unseen);
+    e->unseen_at = any(p, e->unseen_at);
+    e->unseen_function = number_of(p, e->unseen_function, e->rules.functions);
     if (p->way == PASS_READ) at->valued = false;
 }
 

@@ -86,6 +86,11 @@ typedef struct rules {
     void (*least)(void *ctx, double *x, double *v, double *dx, double *dv, double *out);
     void (*least_rates)(void *ctx, double *x, double *v, double *dx, double *dv,
                         double *out); /* the same of the rates */
+    /* Whether a function, or with `rate` its rate, is nowhere 0 at all times from t[0] to t[1], at all such states with
+     * accelerations of at most these sizes. It takes more than `least`, and tells of functions of the time and of any
+     * operation. NULL: it is known of none. */
+    bool (*apart)(void *ctx, size_t function, bool rate, const double t[2], const double *x, const double *v,
+                  const double *dx, const double *dv, const double *most);
     /* What the rule does to x and v, as if at once. Other than 0: a value was not finite, and `which` of `in_v` says
      * where; or, with `which` unchanged, the caller's own function returned it. */
     int (*act)(void *ctx, size_t rule, size_t instance, double t, double *x, double *v, bool *in_v, size_t *which);

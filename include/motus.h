@@ -774,6 +774,12 @@ typedef struct motus_statistics {
     int trials;   /* runs to the end that found the tolerance or the step for the accuracy */
     /* How many steps the interpreter took before the run went on compiled; 0: none; -1: all of them. */
     int64_t compiled_from;
+    /* In how many steps of the run an event may have been missed because it is shorter than what the points of dense
+     * output tell: no bound could exclude it there, as of functions that a callback computes. 0: in none. When the
+     * first of them began, NaN: there is none, and the rule whose event that is, "". */
+    int64_t events_unseen;
+    double events_unseen_from;
+    const char *events_unseen_of;
 } motus_statistics;
 MOTUS_API motus_status motus_run_statistics(const motus_run *, motus_statistics *);
 /* Whether such a run passes a singularity of the force, which its step does not resolve: the state after it is a finite

@@ -6,6 +6,7 @@
 #include "machine/ruled.h"
 
 #include "lang/graph/graph_place.h"
+#include "lang/model/resolution.h"
 #include "lang/model/whole.h"
 #include "lang/tape/tape.h"
 #include "machine/least.h"
@@ -20,6 +21,8 @@ struct ruled {
     rules supplied;
     rule *rule;
     tape *values, *rates, *rounding, *least, *least_rates; /* NULL: there are no functions */
+    resolution *within, *rates_within;                     /* the functions and their rates as intervals */
+    interval *in_x, *in_v, *in_a, *is;                     /* room for those of the state and of all functions */
     tape *periods; /* of the clocks, by the numbers of their rules; NULL: there are none */
     double *period;
     tape **act;      /* of each rule, NULL: it assigns nothing */
@@ -69,6 +72,34 @@ static void least_rates(void *ctx, double *x, double *v, double *dx, double *dv,
     const ruled *r = ctx;
     run(r, r->least_rates, NAN, INFINITY,
         (double *[SPACES]){[SPACE_X] = x, [SPACE_V] = v, [SPACE_DX] = dx, [SPACE_DV] = dv, [SPACE_OUT] = out});
+}
+
+static const rule *rule_of(const ruled *r, size_t f)
+{
+    size_t k = 0;
+    while (f - r->rule[k].first >= r->rule[k].leaves * r->rule[k].instances) k++;
+    return &r->rule[k];
+}
+
+static void enclose(interval *to, const double *middle, const double *half, size_t count)
+{
+    for (size_t k = 0; k < count; k++) to[k] = (interval){middle[k] - half[k], middle[k] + half[k]};
+}
+
+static bool apart(void *ctx, size_t f, bool rate, const double t[2], const double *x, const double *v, const double *dx,
+                  const double *dv, const double *most)
+{
+    const ruled *r = ctx;
+    const model *m = r->model;
+    if (rate && rule_of(r, f)->jump) return false; /* the rate does not tell how it jumps */
+    enclose(r->in_x, x, dx, m->nx);
+    enclose(r->in_v, v, dv, m->nv);
+    for (size_t k = 0; k < m->nv; k++) r->in_a[k] = (interval){-most[k], most[k]};
+    r->is[f] = (interval){1, 1}; /* a cell without a rule */
+    resolution_values(rate ? r->rates_within : r->within, (interval){fmin(t[0], t[1]), fmax(t[0], t[1])}, r->in_x,
+                      r->in_v, r->in_a, m->pool, r->is);
+    const interval size = interval_magnitude(r->is[f]);
+    return size.low > 0x1p-40 * size.high; /* intervals are not rounded outward */
 }
 
 /* ---- actions ---- */
@@ -170,6 +201,11 @@ static bool make_functions(ruled *r, model *m)
     r->rounding = rounding_tape(m, leaves, count);
     r->least = tape_of(m->arena, m->graph, nearest, count);
     r->least_rates = tape_of(m->arena, m->graph, slowest, count);
+    r->in_x = arena_room(m->arena, (m->nx + 2 * m->nv + m->rule_functions) * sizeof *r->in_x);
+    if (!r->in_x || !resolution_create_values(m, leaves, count, &r->within) ||
+        !resolution_create_values(m, rate, count, &r->rates_within))
+        return false;
+    r->in_v = r->in_x + m->nx, r->in_a = r->in_v + m->nv, r->is = r->in_a + m->nv;
     return r->values && r->rates && r->rounding && r->least && r->least_rates;
 }
 
@@ -316,6 +352,7 @@ static bool make(ruled *r, model *m)
                           .rounding = rounding,
                           .least = least,
                           .least_rates = least_rates,
+                          .apart = apart,
                           .act = act,
                           .name = name};
     return r->becomes && find_kept(r, m) && find_rounded(r, m) && make_functions(r, m) && make_periods(r, m) &&

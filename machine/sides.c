@@ -225,6 +225,13 @@ static void least_rates(void *ctx, double *x, double *v, double *dx, double *dv,
     least_of(ctx, true, x, v, dx, dv, out);
 }
 
+static bool apart(void *ctx, size_t f, bool rate, const double t[2], const double *x, const double *v, const double *dx,
+                  const double *dv, const double *most)
+{
+    const sides *s = ctx;
+    return f < s->own.functions && s->own.apart && s->own.apart(s->own.ctx, f, rate, t, x, v, dx, dv, most);
+}
+
 static int act(void *ctx, size_t rule, size_t instance, double t, double *x, double *v, bool *in_v, size_t *which)
 {
     const sides *s = ctx;
@@ -858,6 +865,7 @@ static bool make(sides *s, model *m)
     s->supplied.rounding = rounding;
     s->supplied.least = least;
     s->supplied.least_rates = least_rates;
+    s->supplied.apart = apart;
     s->supplied.act = act;
     s->supplied.name = name;
     s->supplied.turn = turn;

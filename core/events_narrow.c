@@ -1,0 +1,260 @@
+/* Events that are narrow beside the step, which the points of dense output leap. See events_parts.h.
+ *
+ * The step is halved until bounds on boxes say of every piece that a function is nowhere 0 in it, or that it is
+ * monotone there: then its signs at the ends of the pieces tell all its roots. Where that takes too many pieces the
+ * step is counted as unseen. Near roots that the points have found, where a function is small beside its size in the
+ * step, the points tell, since no bound decides where a function is flat.
+ *
+ * Invariant: `here` is the state at the end of the pieces that are told, `next` that at the end of the present one.
+ */
+#include "core/events_parts.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "core/scalar.h"
+#include "step/box.h"
+
+#define SHORTEST 0x1p-32 /* of the step: a shorter piece is not halved */
+#define NEAR 0.125       /* of the step: what is nearer to a root is left to the points */
+enum { DEEP = 33, PIECES_MOST = 1024, PASSES_MOST = 64 };
+
+/* Pieces that a run may take: so many at once and so many more in a step, and a piece costs more the more functions
+ * there are. */
+enum { PIECES_AT_ONCE = 4096, PIECES_IN_STEP = 16, FUNCTIONS_IN_PIECE = 8 };
+
+/* A function passes 0 between two times, as parts of the step. */
+typedef struct pass {
+    double from, to;
+    int sign; /* at its end */
+} pass;
+
+typedef struct narrow {
+    events *e;
+    stepper *s;
+    size_t f;
+    double *most; /* of the accelerations in the step */
+    double noise; /* a value of this size has no sign */
+    double slack; /* near to what the points have found neither has one of this size */
+    size_t first; /* of the candidates that they have found, */
+    bool starts;  /*   and whether the function is near 0 at the start of the step, */
+    bool ends;    /*   and at its end */
+    int sign;     /* the latest that was certain, at `since` */
+    double since;
+    pass pass[PASSES_MOST];
+    size_t passes;
+} narrow;
+
+void events_may_look(events *e, int64_t steps)
+{
+    const int64_t room = PIECES_AT_ONCE - e->pieces;
+    e->pieces += steps < room / PIECES_IN_STEP ? PIECES_IN_STEP * steps : room;
+}
+
+int64_t events_unseen(const events *e, size_t *rule, double *t)
+{
+    *rule = e->unseen ? e->rule_of[e->unseen_function] : 0;
+    *t = e->unseen ? e->unseen_at : NAN;
+    return e->unseen;
+}
+
+static void count_unseen(events *e, size_t f)
+{
+    if (!e->unseen++) e->unseen_at = e->left.t, e->unseen_function = f;
+}
+
+/* Whether a part of the step is near to a root that the points have found. */
+static bool is_near(const narrow *n, double tau)
+{
+    const events *e = n->e;
+    if ((n->starts && tau < NEAR) || (n->ends && tau > 1 - NEAR)) return true;
+    for (size_t k = n->first; k < e->candidates; k++)
+        if (fabs(e->candidate[k].at - tau * e->span) < NEAR * fabs(e->span)) return true;
+    return false;
+}
+
+static int sign_of(const narrow *n, double tau, double g)
+{
+    const bool hidden = isnan(g) || fabs(g) <= n->noise || (fabs(g) <= n->slack && is_near(n, tau));
+    return hidden ? 0 : g > 0 ? 1 : -1;
+}
+
+/* The state a part tau of the step after its start, and the functions there. */
+static motus_status state_at(const narrow *n, double tau, instant *to, motus_error *err)
+{
+    events *e = n->e;
+    if (tau >= 1) {
+        events_copy(e, to, &e->right);
+        return MOTUS_OK;
+    }
+    to->t = events_place_in(e, tau * e->span);
+    const motus_status status = stepper_sample(n->s, to->t, to->x, to->v, err);
+    return status ? status : events_values(e, to, err);
+}
+
+/* Whether the function is told in a box around `here` and `next`, at the ends of this part of the step. */
+static bool is_told(const narrow *n, double first, double last)
+{
+    events *e = n->e;
+    const size_t nx = e->problem.nx, nv = e->problem.nv;
+    const double from = e->here.g[n->f], to = e->next.g[n->f], t[2] = {e->here.t, e->next.t};
+    if (fabs(from) <= n->slack && fabs(to) <= n->slack && is_near(n, first) && is_near(n, last)) return true;
+    const box in = {e->best.x, e->best.v, e->width, e->width + nx};
+    box_of(&in, nx, nv, (last - first) * e->span, e->here.x, e->here.v, e->next.x, e->next.v, n->most);
+    for (int rate = 0; rate < 2; rate++)
+        if (e->rules.apart(e->rules.ctx, n->f, rate, t, in.x, in.v, in.dx, in.dv, n->most)) return true;
+    return false;
+}
+
+/* The present piece is told, up to tau. False: there is no room for more. */
+static bool accept(narrow *n, double tau)
+{
+    events *e = n->e;
+    const int sign = sign_of(n, tau, e->next.g[n->f]);
+    if (sign && n->sign && sign != n->sign) {
+        if (n->passes == PASSES_MOST) return false;
+        n->pass[n->passes++] = (pass){n->since, tau, sign};
+    }
+    if (sign) n->sign = sign, n->since = tau;
+    events_copy(e, &e->here, &e->next);
+    return true;
+}
+
+/* Finds the pieces in which the function passes 0. *all false: there are too many pieces. */
+static motus_status look(narrow *n, bool *all, motus_error *err)
+{
+    events *e = n->e;
+    const int64_t cost = 1 + (int64_t)(e->rules.functions / FUNCTIONS_IN_PIECE);
+    double ends[DEEP + 2] = {1}, from = 0;
+    motus_status status = MOTUS_OK;
+    events_copy(e, &e->here, &e->left);
+    n->passes = 0, n->since = 0;
+    int pieces = 0;
+    for (int count = 1; count > 0;) {
+        const double to = ends[count - 1];
+        *all = pieces++ < PIECES_MOST && e->pieces >= cost;
+        if (!*all) return MOTUS_OK;
+        e->pieces -= cost;
+        status = state_at(n, to, &e->next, err);
+        if (status) return status;
+        if (to - from > SHORTEST && !is_told(n, from, to)) {
+            ends[count++] = from + (to - from) / 2;
+            continue;
+        }
+        *all = accept(n, to);
+        if (!*all) return MOTUS_OK;
+        from = to;
+        count--;
+    }
+    return MOTUS_OK;
+}
+
+/* Where the function passes 0 in a piece, by dense output; so candidates of several functions come in their order. */
+static motus_status root_of(const narrow *n, const pass *p, double *tau, motus_error *err)
+{
+    enum { HALVINGS = 48 };
+    double low = p->from, high = p->to;
+    motus_status status = MOTUS_OK;
+    for (int k = 0; k < HALVINGS && !status; k++) {
+        const double middle = low + (high - low) / 2;
+        status = state_at(n, middle, &n->e->next, err);
+        *((n->e->next.g[n->f] > 0) == (p->sign > 0) ? &high : &low) = middle;
+    }
+    *tau = low + (high - low) / 2;
+    return status;
+}
+
+/* How many roots the candidates from number `first` on stand for, at most. */
+static size_t known(const events *e, size_t first)
+{
+    size_t count = 0;
+    for (size_t k = first; k < e->candidates; k++) count += e->candidate[k].near ? 2 : 1;
+    return count;
+}
+
+/* The largest size of the function at the ends of the step and at the points between. */
+static double size_of(const events *e, size_t f, int degree)
+{
+    double most = fmax(fabs(e->left.g[f]), fabs(e->right.g[f]));
+    for (int k = 1; k < degree; k++) {
+        const double size = fabs(e->samples[(size_t)k * e->rules.functions + f]);
+        if (size > most && isfinite(size)) most = size;
+    }
+    return most;
+}
+
+/* Puts candidates of the passes in the place of those that the points have found, but for what is before them. */
+static motus_status replace(const narrow *n, motus_error *err)
+{
+    events *e = n->e;
+    const size_t all = e->rules.functions;
+    const double from = n->pass[0].from * e->span;
+    size_t count = n->first;
+    motus_status status = MOTUS_OK;
+    for (size_t k = n->first; k < e->candidates; k++) {
+        candidate *c = &e->candidate[k];
+        if (e->way * (c->at - from) > 0) continue;
+        if (e->way * (c->high - from) > 0) c->high = from;
+        e->candidate[count++] = *c;
+    }
+    e->candidates = count;
+    if (!n->starts) e->side[n->f] = (int8_t)e->was[n->f], e->stands[n->f] = e->was[all + n->f];
+    e->open[n->f] = 0;
+    for (size_t k = 0; k < n->passes && !status; k++) {
+        const pass *p = &n->pass[k];
+        /* bisection tells a root from a pole or a jump */
+        candidate c = {.of = n->f,
+                       .low = p->from * e->span,
+                       .high = p->to * e->span,
+                       .kind = (candidate_kind)p->sign,
+                       .sampled = true};
+        status = root_of(n, p, &c.at, err);
+        c.at *= e->span;
+        if (!status && !events_add(e, c)) status = events_no_memory(err);
+    }
+    return status;
+}
+
+/* Bounds on the accelerations within the step; of a row whose stages tell none, twice the largest that the velocities
+ * of dense output show between points. */
+static motus_status bound_accelerations(const narrow *n, motus_error *err)
+{
+    enum { POINTS = 16 };
+    events *e = n->e;
+    if (stepper_swing(n->s, n->most)) return MOTUS_OK;
+    motus_status status = MOTUS_OK;
+    memset(n->most, 0, e->problem.nv * sizeof *n->most);
+    events_copy(e, &e->here, &e->left);
+    for (int i = 1; i <= POINTS && !status; i++) {
+        status = state_at(n, (double)i / POINTS, &e->next, err);
+        for (size_t k = 0; k < e->problem.nv; k++)
+            n->most[k] = fmax(n->most[k], 2 * POINTS * fabs((e->next.v[k] - e->here.v[k]) / e->span));
+        events_copy(e, &e->here, &e->next);
+    }
+    return status;
+}
+
+motus_status events_narrow(events *e, stepper *s, size_t f, size_t first, int degree, bool failed, bool *more,
+                           motus_error *err)
+{
+    const size_t all = e->rules.functions;
+    narrow n = {.e = e, .s = s, .f = f, .most = e->best.a, .first = failed ? e->candidates : first};
+    bool looked = false;
+    *more = false;
+    if (e->rules.rule[e->rule_of[f]].internal) return MOTUS_OK;
+    if (!e->rules.apart || e->problem.refresh) return count_unseen(e, f), MOTUS_OK;
+    motus_status status = bound_accelerations(&n, err);
+    if (!status) status = events_bounds(e, &e->left, err);
+    if (!status) status = events_bounds(e, &e->right, err);
+    n.noise = 4 * fmin(e->left.bound[f], e->right.bound[f]);
+    n.slack = failed ? 0 : EVENTS_SLACK * size_of(e, f, degree);
+    n.starts = !e->was[f] || e->was[all + f] || e->was[2 * all + f];
+    n.ends = e->open[f] || e->stands[f];
+    n.sign = n.starts ? 0 : (int8_t)e->was[f];
+    if (!status) status = look(&n, &looked, err);
+    if (status) return status;
+    if (!looked) return count_unseen(e, f), MOTUS_OK;
+    *more = n.passes > (failed ? 0 : known(e, first));
+    n.first = first;
+    return *more ? replace(&n, err) : MOTUS_OK;
+}

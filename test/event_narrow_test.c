@@ -1,0 +1,124 @@
+/* Events that last far shorter than a step, which the points of its dense output leap: x = sin t, so all times are
+ * closed forms. */
+#include "given.h"
+
+#include <math.h>
+#include <stdbool.h>
+#include <stdio.h>
+#include <string.h>
+
+#define SWING "x'' = -x\nx(0) = 0\nx'(0) = 1\nn = 0\nuntil 20\n"
+
+typedef struct way {
+    const char *method;
+    double step, tolerance, margin;
+} way;
+static const way ways[] = {{"dop853", NAN, 1e-9, 1e-7}, {"taylor", NAN, 1e-10, 1e-8}, {"radau15", NAN, 1e-10, 1e-8},
+                           {"gauss8", 0.25, NAN, 1e-7}, {"rk4", 0.05, NAN, 1e-4},     {"dep12", NAN, 1e-10, 1e-7}};
+enum { WAYS = sizeof ways / sizeof *ways };
+
+static motus_run *finished(const char *text, const way *w, motus_system **s)
+{
+    motus_error err = motus_default_error();
+    motus_run_def def = motus_default_run();
+    motus_run *r = NULL;
+    *s = given_text(text);
+    def.method = w->method;
+    if (!isnan(w->step)) def.step = w->step;
+    def.tolerance = w->tolerance;
+    def.error = MOTUS_BARS_NONE;
+    must(motus_run_create(*s, &def, &r, &err), &err, w->method);
+    must(motus_run_finish(r, &err), &err, text);
+    return r;
+}
+
+static int64_t unseen(const motus_run *r)
+{
+    motus_statistics done = motus_default_statistics();
+    assert_int_equal(motus_run_statistics(r, &done), MOTUS_OK);
+    return done.events_unseen;
+}
+
+/* Whether the condition becomes true when x comes to c - d upwards and to c + d downwards, or once at the time `at`. */
+static bool is_found(const char *when, const way *w, double c, double d, double at)
+{
+    char text[512];
+    motus_system *s;
+    int64_t seen = 0, right = 0;
+    snprintf(text, sizeof text, SWING "when %s: n = n + 1, record\n", when);
+    motus_run *r = finished(text, w, &s);
+    const int64_t count = motus_run_events(r);
+    for (int turn = 0; turn < 4; turn++)
+        for (int half = 0; half < 2; half++) {
+            const double t =
+                isnan(at) ? 6.28318530717958648 * turn + (half ? 3.14159265358979324 - asin(c + d) : asin(c - d)) : at;
+            motus_event_row e = motus_default_event_row();
+            if (t > 20 || (!isnan(at) && turn + half)) continue;
+            right += seen < count && motus_run_event(r, seen, &e) == MOTUS_OK && fabs(e.time - t) <= w->margin;
+            seen++;
+        }
+    const bool found = right == seen && count == seen && unseen(r) == 0;
+    if (!found)
+        printf("%s, %s: %lld of %lld events, %lld steps unseen\n", when, w->method, (long long)right, (long long)seen,
+               (long long)unseen(r));
+    motus_run_destroy(r);
+    motus_system_destroy(s);
+    return found;
+}
+
+static void peaks(void **state)
+{
+    (void)state;
+    int wrong = 0;
+    for (size_t k = 0; k < WAYS; k++) {
+        wrong += !is_found("exp(-(300 (x - 0.5))^2) > 0.5", &ways[k], 0.5, sqrt(log(2)) / 300, NAN);
+        wrong += !is_found("exp(-((x - 0.7)/1e-4)^2) > 0.9", &ways[k], 0.7, sqrt(-log(0.9)) * 1e-4, NAN);
+        wrong += !is_found("1/|x - 0.5| > 300", &ways[k], 0.5, 1.0 / 300, NAN);
+        wrong += !is_found("exp(-((t - 7.3)/1e-4)^2) > 0.5", &ways[k], 0, 0, 7.3 - sqrt(log(2)) * 1e-4);
+    }
+    assert_int_equal(wrong, 0);
+}
+
+static void windows(void **state)
+{
+    (void)state;
+    int wrong = 0;
+    for (size_t k = 0; k < WAYS; k++)
+        for (double d = 1e-4; d > 2e-9; d /= 3.3) {
+            char when[96];
+            snprintf(when, sizeof when, "|x - 0.5| < %.17g", d);
+            wrong += !is_found(when, &ways[k], 0.5, d, NAN);
+            snprintf(when, sizeof when, "x > %.17g and x < %.17g", 0.5 - d, 0.5 + d);
+            wrong += !is_found(when, &ways[k], 0.5, d, NAN);
+        }
+    assert_int_equal(wrong, 0);
+}
+
+/* Of what no bound tells it is said that something may have been missed; what bounds tell of is not said to be. */
+static void what_is_not_seen(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *when;
+        bool seen;
+    } cases[] = {{"sin(1e6 x) - 2 sin(5e5 x) cos(5e5 x) + 1e-30 > 0.1", false},
+                 {"x = 0.5", true},
+                 {"x^2 + x'^2 > 1.1", true},
+                 {"abs(x) = 1 + x'^2", true}};
+    for (size_t k = 0; k < sizeof cases / sizeof *cases; k++) {
+        char text[512];
+        motus_system *s;
+        snprintf(text, sizeof text, SWING "when %s: record\n", cases[k].when);
+        motus_run *r = finished(text, &ways[0], &s);
+        if ((unseen(r) == 0) != cases[k].seen) fail_msg("%s: %lld", cases[k].when, (long long)unseen(r));
+        motus_run_destroy(r);
+        motus_system_destroy(s);
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {cmocka_unit_test(peaks), cmocka_unit_test(windows),
+                                       cmocka_unit_test(what_is_not_seen)};
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
