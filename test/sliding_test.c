@@ -318,11 +318,17 @@ static void written_twice(void **state)
                                          {"sign(x' - y')", "-sign(2 x' - 2 y')"},
                                          {"if(x' > y', 1, -1)", "-sign((x' - y')/3)"},
                                          {"if(x' > y', 1, -1)", "if(y' > x', 1, -1)"},
-                                         {"-sign(y' - x')", "if(y' <= x', -1, 1)"}};
-    static const char *const start = "x(0) = 0\nx'(0) = 1\ny(0) = 0\ny'(0) = 0\n";
+                                         {"-sign(y' - x')", "if(y' <= x', -1, 1)"},
+                                         {"sign(x' - y')", "sign(k (y' - x'))"},
+                                         {"sign((x' - y')/k)", "-sign(k x' - k y')"},
+                                         {"-sign(n y' n - n^2 x')", "-sign(n (y' - x'))"},
+                                         {"(x' - y')/|x' - y'|", "sign(y' - x')"},
+                                         {"k (x' - y')/(k abs(x' - y'))", "(y' - x')/sqrt((y' - x')^2)"},
+                                         {"-n (x' - y')/|n (x' - y')|", "sign(n (x' - y'))"}};
+    static const char *const start = "k = 2.5\nn = -3\nx(0) = 0\nx'(0) = 1\ny(0) = 0\ny'(0) = 0\n";
     for (size_t k = 0; k < sizeof two / sizeof *two; k++)
         for (int m = 0; m < METHODS; m++) {
-            char text[300];
+            char text[400];
             snprintf(text, sizeof text, "x'' = 0.5 - (%s) - 0 |y' - x'|\ny'' = -(%s)/2\n%s", two[k][0], two[k][1],
                      start);
             const outcome o = finished(text, methods[m], 1e-12, 4);

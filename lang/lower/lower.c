@@ -120,7 +120,7 @@ static value lower_quotient(lowering *l, const tree *t, const tree *a, value va,
         HINT(l, "divide by its length |%s|, or by a component", quote(l, &b->at, x));
         return wrong(l);
     }
-    if (!va.count) return scalar(l, binary(l, OP_DIV, va.item[0], vb.item[0]));
+    if (!va.count) return scalar(l, lower_ratio(l, va.item[0], vb.item[0]));
     /* v/s is v*(1/s), so it divides once */
     node once = binary(l, OP_DIV, graph_const(l->model->graph, 1), vb.item[0]);
     value v = vector(l, va.rows ? va.rows * va.count : va.count);
@@ -256,6 +256,7 @@ static value lower_call(lowering *l, const tree *t)
             if (v[i].count) HINT(l, "its length is |%s|, a component %s.x", quote(l, &t->item[i]->at, x), x);
             return wrong(l);
         }
+    if (t->operation == OP_SIGN) return scalar(l, lower_sign(l, v[0].item[0]));
     return scalar(l, graph_op(l->model->graph, (operation)t->operation, v[0].item[0], n > 1 ? v[1].item[0] : 0, 0));
 }
 

@@ -54,6 +54,10 @@ static inline void lower_tidy(lowering *l, bool on) { l->model->graph->simplify 
 
 static inline node binary(lowering *l, operation op, node a, node b) { return graph_op(l->model->graph, op, a, b, 0); }
 
+/* lower_direction.c. sign(u), and a/b where that may be a direction u/|u|. */
+node lower_sign(lowering *, node u);
+node lower_ratio(lowering *, node a, node b);
+
 static inline const char *shape_name(const value *v, char out[40])
 {
     if (v->boolean) return "a condition";

@@ -1,0 +1,85 @@
+/* Directions of numbers that move, sign(u) and u/|u|: as few surfaces as the text has, on which a motion may slide.
+ * Factors that do not move stand outside, sign(k u) is sign(k) sign(u), so that two ways to write one surface meet in
+ * the same nodes (lang/model/sliding.h). See lower_parts.h. */
+#include "lang/lower/lower_parts.h"
+
+enum { MOVES = DEP_TIME | DEP_STATE, DEEP = 64 };
+
+/* A number as a product: a factor that does not move, and the rest. */
+typedef struct split {
+    node factor, rest;
+} split;
+
+static split split_of(graph *g, node n, int depth)
+{
+    const graph_node m = *graph_at(g, n);
+    const split whole = {graph_const(g, 1), n};
+    const node one = whole.factor;
+    if (depth == DEEP || !(m.deps & MOVES)) return whole;
+    if (m.op == OP_NEG) {
+        const split a = split_of(g, m.a, depth + 1);
+        return a.factor == one ? whole : (split){a.factor, graph_op(g, OP_NEG, a.rest, 0, 0)};
+    }
+    if (m.op == OP_MUL || m.op == OP_DIV) {
+        const bool first = graph_deps(g, m.a) & MOVES, second = graph_deps(g, m.b) & MOVES;
+        if (first == second || (m.op == OP_DIV && second)) return whole;
+        const split a = split_of(g, first ? m.a : m.b, depth + 1);
+        const node by = first ? m.b : m.a;
+        const node factor = a.factor == one && m.op == OP_MUL ? by : graph_op(g, (operation)m.op, a.factor, by, 0);
+        return (split){factor, a.rest};
+    }
+    if (m.op != OP_ADD && m.op != OP_SUB) return whole;
+    const split a = split_of(g, m.a, depth + 1), b = split_of(g, m.b, depth + 1);
+    if (a.factor != b.factor || a.factor == one) return whole;
+    return (split){a.factor, graph_op(g, (operation)m.op, a.rest, b.rest, 0)};
+}
+
+node lower_sign(lowering *l, node u)
+{
+    graph *g = l->model->graph;
+    const split s = split_of(g, u, 0);
+    const node way = graph_op(g, OP_SIGN, s.rest, 0, 0);
+    if (s.rest == u) return way;
+    const graph_node f = *graph_at(g, s.factor);
+    if (f.op == OP_CONST && f.value != 0) return f.value > 0 ? way : graph_op(g, OP_NEG, way, 0, 0);
+    return graph_op(g, OP_MUL, graph_op(g, OP_SIGN, s.factor, 0, 0), way, 0);
+}
+
+/* The product without one factor u. False: it has none. */
+static bool without_factor(graph *g, node product, node u, int depth, node *rest)
+{
+    const graph_node n = *graph_at(g, product);
+    node inner;
+    if (product == u) return *rest = graph_const(g, 1), true;
+    if (depth == DEEP || (n.op != OP_MUL && n.op != OP_NEG && n.op != OP_DIV)) return false;
+    if (without_factor(g, n.a, u, depth + 1, &inner))
+        return *rest = graph_op(g, (operation)n.op, inner, n.op == OP_NEG ? 0 : n.b, 0), true;
+    if (n.op != OP_MUL || !without_factor(g, n.b, u, depth + 1, &inner)) return false;
+    return *rest = graph_op(g, OP_MUL, n.a, inner, 0), true;
+}
+
+/* A factor |u| of a divisor: u, or UINT32_MAX. */
+static node size_in(graph *g, node divisor, int depth)
+{
+    const graph_node n = *graph_at(g, divisor);
+    if (n.op == OP_ABS) return n.a;
+    if (n.op != OP_MUL || depth == DEEP) return UINT32_MAX;
+    const node u = size_in(g, n.b, depth + 1);
+    return u == UINT32_MAX ? size_in(g, n.a, depth + 1) : u;
+}
+
+/* a/b, where u/|u| of a number that moves is its direction, sign(u): it jumps at 0, and has no pole there. */
+node lower_ratio(lowering *l, node a, node b)
+{
+    graph *g = l->model->graph;
+    const node u = size_in(g, b, 0);
+    node above, below, again;
+    if (u == UINT32_MAX || !(graph_deps(g, u) & MOVES) || failed(l)) return binary(l, OP_DIV, a, b);
+    const node size = graph_op(g, OP_ABS, u, 0, 0);
+    if (!without_factor(g, b, size, 0, &below) || without_factor(g, below, size, 0, &again) ||
+        !without_factor(g, a, u, 0, &above))
+        return binary(l, OP_DIV, a, b);
+    const node way = lower_sign(l, u), one = graph_const(g, 1);
+    const node top = above == one ? way : binary(l, OP_MUL, above, way);
+    return below == one ? top : binary(l, OP_DIV, top, below);
+}
