@@ -61,6 +61,8 @@ void run_events_statistics(const motus_run *r, motus_statistics *out)
     if (out->events_unseen) out->events_unseen_of = r->rules->rule[rule].name;
 }
 
+int64_t run_events_acted(const motus_run *r) { return r->events ? events_acted(r->events) : 0; }
+
 bool run_events_ended(const motus_run *r) { return r->events && events_ended(r->events, NULL) != EVENTS_END_NONE; }
 
 motus_status run_events_sample(motus_run *r, double t, double *x, double *v, motus_error *err)

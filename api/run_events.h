@@ -15,6 +15,7 @@ motus_status run_events_steps(events *, stepper *, const pace *, int64_t n, doub
 void run_events_row(const rules *, const event *, double error, motus_event_row *);
 int64_t run_events_turns(const motus_run *);                       /* how often switches have changed their sides */
 void run_events_statistics(const motus_run *, motus_statistics *); /* what may have been missed */
+int64_t run_events_acted(const motus_run *); /* how often an event or a switch has changed the motion */
 bool run_events_ended(const motus_run *);
 /* The state at a time within the last step. */
 motus_status run_events_sample(motus_run *, double t, double *x, double *v, motus_error *);

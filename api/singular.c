@@ -10,6 +10,7 @@
 #include "api/diagnosis.h"
 #include "api/pole.h"
 #include "api/run.h"
+#include "api/run_events.h"
 #include "api/vector.h"
 
 #include <float.h>
@@ -146,14 +147,15 @@ static course follow(judge *j, double t)
 }
 
 /* Whether the run's step from `from` is another motion than that of the controlled steps, which lead to `now`. `to` is
- * lost. */
-static motus_status judged(judge *j)
+ * lost. Where an event has acted at its end the run's state is not the one to which its step has led. */
+static motus_status judged(judge *j, bool acted)
 {
     const problem *p = j->problem;
     const motus_run *r = j->run;
     const double way = vector_apart(j->to.x, j->from.x, p->nx), until = j->to.t;
     const course course = follow(j, until);
     if (course == HALTS || course == PASSES) return MOTUS_SINGULAR;
+    if (acted) return MOTUS_OK;
     const double x = fmax(way, vector_apart(j->now.x, j->from.x, p->nx)),
                  v = fmax(vector_largest(j->from.v, p->nv), vector_largest(j->now.v, p->nv));
     if (vector_apart(j->now.x, r->x, p->nx) <= APART * x && vector_apart(j->now.v, r->v, p->nv) <= APART * v)
@@ -241,12 +243,13 @@ static motus_status walk(judge *j, motus_error *err)
     int64_t left = (int64_t)(MOTUS_SINGULAR_WORK / ((evaluations + 2) * operations));
     status = observe(j, &j->from, NULL);
     while (status == MOTUS_OK && left-- > 0 && j->pieces < PIECES_MAX && !motus_run_done(r)) {
+        const int64_t acted = run_events_acted(r);
         status = motus_run_step(r, 1, NULL);
         if (status == MOTUS_OK) status = observe(j, &j->to, NULL);
         if (status != MOTUS_OK) break;
         if (may_meet_pole(j)) {
             const double from = j->from.t;
-            const motus_status what = judged(j);
+            const motus_status what = judged(j, run_events_acted(r) != acted);
             if (what != MOTUS_OK) return accuse(j, what, from, err);
             observe(j, &j->to, NULL);
         }
