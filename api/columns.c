@@ -1,8 +1,9 @@
 /* Columns: the one numbering of all numbers that can be observed, their values, and the description of each. */
 #include "api/columns.h"
 
-#include <math.h>
+#include "api/vector.h"
 
+#include <math.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -275,6 +276,31 @@ static bool boxed(const motus_system *s, const double *x, const double *v, syste
     return true;
 }
 
+/* The hull of what a quantity is at states of a box: its corners, some at random, and the middles of its faces. Bounds
+ * do not see that one condition holds where another one does not, as in a table of pieces that join. */
+static motus_status spread(motus_system *s, const column_range *g, double t, const interval *x, double *room,
+                           interval *out, motus_error *err)
+{
+    enum { CORNERS = 32, FACES = 32 };
+    const size_t nx = s->problem.nx, n = nx + s->problem.nv, faces = n < FACES ? n : FACES;
+    uint64_t state = 1;
+    motus_status status = MOTUS_OK;
+    for (size_t i = 0; i < CORNERS + 2 * faces && status == MOTUS_OK; i++) {
+        for (size_t k = 0; k < n; k++) {
+            const bool face = i >= CORNERS, own = face && (i - CORNERS) / 2 == k;
+            const double way = i < 2 ? (i ? 1 : -1) : !face ? (vector_random(&state) < 0 ? -1 : 1) : i % 2 ? 1 : -1;
+            room[k] = x[k].low + (x[k].high - x[k].low) * (face && !own ? 0.5 : (1 + way) / 2);
+        }
+        status = evaluate(s, g, t, room, room + nx, err);
+        for (size_t k = 0; k < g->count && status == MOTUS_OK; k++) {
+            const size_t at = observed_place(s, g, g->first + k);
+            const interval here = {s->observed[at], s->observed[at]};
+            out[at] = i ? interval_hull(out[at], here) : here;
+        }
+    }
+    return status;
+}
+
 motus_status system_leaps(motus_system *s, double t, double *x, double *v, system_bar bar, void *ctx,
                           const size_t *columns, size_t count, double *errors, motus_error *err)
 {
@@ -290,13 +316,15 @@ motus_status system_leaps(motus_system *s, double t, double *x, double *v, syste
         if (!interpreter_leaps(s->interpreter, d, &flat)) continue;
         if (g != done) {
             give(&s->allocator, box);
-            box = take(&s->allocator, nx + nv + d->numbers + 1, sizeof *box);
+            box = take(&s->allocator, 2 * (nx + nv) + d->numbers + 1, sizeof *box);
             if (!box) return fail(err, MOTUS_MEMORY, "no memory for the errors of %s", d->name);
-            out = box + nx + nv;
+            out = box + 2 * (nx + nv);
             if (!boxed(s, x, v, bar, ctx, box, box + nx)) break;
-            status = evaluate(s, g, t, x, v, err);
-            if (status == MOTUS_OK && !interpreter_leap(s->interpreter, d, t, box, box + nx, out, &undecided))
+            if (!interpreter_leap(s->interpreter, d, t, box, box + nx, out, &undecided))
                 status = fail(err, MOTUS_MEMORY, "no memory for the errors of %s", d->name);
+            double *const room = (double *)(void *)(box + nx + nv);
+            if (status == MOTUS_OK && undecided) status = spread(s, g, t, box, room, out, err);
+            if (status == MOTUS_OK) status = evaluate(s, g, t, x, v, err);
         }
         done = g;
         if (status != MOTUS_OK) break;

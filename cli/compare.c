@@ -103,9 +103,10 @@ static motus_status print_tables(const studies *s, const void *result, motus_err
     bool space = false;
     for (size_t k = 0; k < c->row_count; k++)
         if (c->rows[k]->note && c->rows[k]->note[0]) {
-            char line[MOTUS_TEXT_MAX + MOTUS_NAME_MAX];
+            char line[2 * MOTUS_TEXT_MAX + MOTUS_NAME_MAX], note[2 * MOTUS_TEXT_MAX];
             bool named = strncmp(c->rows[k]->note, c->rows[k]->method, strlen(c->rows[k]->method)) == 0;
-            snprintf(line, sizeof line, "%s%s%s", named ? "" : c->rows[k]->method, named ? "" : ": ", c->rows[k]->note);
+            complain_named(c->rows[k]->note, note, sizeof note);
+            snprintf(line, sizeof line, "%s%s%s", named ? "" : c->rows[k]->method, named ? "" : ": ", note);
             fputs(space ? "" : "\n", stdout);
             text_wrap(stdout, line, 2, 100);
             space = true;

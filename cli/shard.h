@@ -1,8 +1,8 @@
 /* Which trajectories of a sweep one command computes.
  *
- * A sweep is cut into blocks of trajectories by their number alone: of SHARD_BLOCK, or of fewer where a trajectory takes
- * much work (sweep_block.c). Shard K of N has every Nth block from block K on, so that work which grows along an axis is
- * shared evenly. The rows of its file are its trajectories in their order. A whole sweep is shard 1 of 1.
+ * A sweep is cut into blocks of trajectories by their number alone: of SHARD_BLOCK, or of fewer where a trajectory
+ * takes much work (sweep_block.c). Shard K of N has every Nth block from block K on, so that work which grows along an
+ * axis is shared evenly. The rows of its file are its trajectories in their order. A whole sweep is shard 1 of 1.
  */
 #ifndef CLI_SHARD_H
 #define CLI_SHARD_H

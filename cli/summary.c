@@ -61,7 +61,7 @@ static motus_status final_cell(const summary *s, table *t, size_t column, double
 {
     double error = NAN;
     motus_status status = s->errors ? motus_run_errors(s->run, &column, 1, NULL, &error, err) : MOTUS_OK;
-    const bool undecided = isinf(error) && isnan(s->estimate.significant_until);
+    const bool undecided = isinf(error) && isnan(s->estimate.significant_until) && !motus_run_accumulates(s->run)[0];
     motus_statistics done = motus_default_statistics();
     motus_run_statistics(s->run, &done);
     if (s->errors && undecided)

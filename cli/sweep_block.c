@@ -1,9 +1,9 @@
 /* How many trajectories a block of a sweep has.
  *
  * A block is the unit in which work is shared by processes, and in which an archive keeps it; so it is to take a moment
- * of one lane, and no more. What a trajectory takes is counted: the steps of some, as far as a few hundred of them lead,
- * times the operations of a step. A clock would choose otherwise on every machine, and the bytes of an archive and the
- * division into shards depend on it.
+ * of one lane, and no more. What a trajectory takes is counted: the steps of some, as far as a few hundred of them
+ * lead, times the operations of a step. A clock would choose otherwise on every machine, and the bytes of an archive
+ * and the division into shards depend on it.
  *
  * Invariant: the size follows from what the numbers follow from alone.
  */

@@ -1140,8 +1140,8 @@ MOTUS_API motus_status motus_ensemble_check(motus_ensemble *, size_t count, cons
 MOTUS_API void motus_ensemble_destroy(motus_ensemble *);
 
 MOTUS_API int64_t motus_ensemble_steps(const motus_ensemble *); /* of each trajectory; 0 where they differ */
-/* The operations of a step, of the equations and of the method, in units of a multiplication: counted, not timed, and so
- * the same on every machine. NaN: there is no memory to count them. */
+/* The operations of a step, of the equations and of the method, in units of a multiplication: counted, not timed, and
+ * so the same on every machine. NaN: there is no memory to count them. */
 MOTUS_API double motus_ensemble_step_work(motus_ensemble *);
 MOTUS_API const char *motus_ensemble_method(const motus_ensemble *);
 /* Of an adaptive method; NaN: steps have one size. With an accuracy: the first one. *absolute (may be NULL): 1 where it
