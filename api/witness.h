@@ -25,9 +25,9 @@ motus_status witness_create(const motus_run *, const differences *, witness **ou
 void witness_destroy(witness *);
 /* Whether a companion is to be moved, where the run stands. */
 bool witness_waits(const witness *);
-/* How the companion is to be moved; false: it is not. `from` NaN: at the end of the step that the run has taken last, by
- * these nx and nv numbers in the inside order; else witness_lead takes that step, which began at `from`, in place of the
- * companion. And that this was done. */
+/* How the companion is to be moved; false: it is not. `from` NaN: at the end of the step that the run has taken last,
+ * by these nx and nv numbers in the inside order; else witness_lead takes that step, which began at `from`, in place of
+ * the companion. And that this was done. */
 typedef struct witness_move {
     double from;
     const double *x, *v;
