@@ -242,6 +242,7 @@ motus_status events_narrow(events *e, stepper *s, size_t f, size_t first, int de
     bool looked = false;
     *more = false;
     if (e->rules.rule[e->rule_of[f]].internal) return MOTUS_OK;
+    if (e->rules.may_be_narrow && !e->rules.may_be_narrow(e->rules.ctx, f)) return MOTUS_OK;
     if (!e->rules.apart || e->problem.refresh) return count_unseen(e, f), MOTUS_OK;
     motus_status status = bound_accelerations(&n, err);
     if (!status) status = events_bounds(e, &e->left, err);

@@ -23,6 +23,7 @@ struct ruled {
     tape *values, *rates, *rounding, *least, *least_rates; /* NULL: there are no functions */
     resolution *within, *rates_within;                     /* the functions and their rates as intervals */
     interval *in_x, *in_v, *in_a, *is;                     /* room for those of the state and of all functions */
+    bool *bends;                                           /* of each rule: some function is no polynomial */
     tape *periods; /* of the clocks, by the numbers of their rules; NULL: there are none */
     double *period;
     tape **act;      /* of each rule, NULL: it assigns nothing */
@@ -79,6 +80,12 @@ static const rule *rule_of(const ruled *r, size_t f)
     size_t k = 0;
     while (f - r->rule[k].first >= r->rule[k].leaves * r->rule[k].instances) k++;
     return &r->rule[k];
+}
+
+static bool may_be_narrow(void *ctx, size_t f)
+{
+    const ruled *r = ctx;
+    return r->bends[rule_of(r, f) - r->rule];
 }
 
 static void enclose(interval *to, const double *middle, const double *half, size_t count)
@@ -206,6 +213,9 @@ static bool make_functions(ruled *r, model *m)
         !resolution_create_values(m, rate, count, &r->rates_within))
         return false;
     r->in_v = r->in_x + m->nx, r->in_a = r->in_v + m->nv, r->is = r->in_a + m->nv;
+    if (!(r->bends = arena_take(m->arena, m->rule_count + 1))) return false;
+    for (uint32_t i = 0, n = 0; i < m->rule_count; i++)
+        for (size_t k = 0; k < m->rules[i].leaves; k++, n++) r->bends[i] |= resolution_bends(r->within, n);
     return r->values && r->rates && r->rounding && r->least && r->least_rates;
 }
 
@@ -353,6 +363,7 @@ static bool make(ruled *r, model *m)
                           .least = least,
                           .least_rates = least_rates,
                           .apart = apart,
+                          .may_be_narrow = may_be_narrow,
                           .act = act,
                           .name = name};
     return r->becomes && find_kept(r, m) && find_rounded(r, m) && make_functions(r, m) && make_periods(r, m) &&

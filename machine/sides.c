@@ -225,6 +225,12 @@ static void least_rates(void *ctx, double *x, double *v, double *dx, double *dv,
     least_of(ctx, true, x, v, dx, dv, out);
 }
 
+static bool may_be_narrow(void *ctx, size_t f)
+{
+    const sides *s = ctx;
+    return f < s->own.functions && (!s->own.may_be_narrow || s->own.may_be_narrow(s->own.ctx, f));
+}
+
 static bool apart(void *ctx, size_t f, bool rate, const double t[2], const double *x, const double *v, const double *dx,
                   const double *dv, const double *most)
 {
@@ -866,6 +872,7 @@ static bool make(sides *s, model *m)
     s->supplied.least = least;
     s->supplied.least_rates = least_rates;
     s->supplied.apart = apart;
+    s->supplied.may_be_narrow = may_be_narrow;
     s->supplied.act = act;
     s->supplied.name = name;
     s->supplied.turn = turn;

@@ -26,6 +26,7 @@ typedef struct step {
     uint32_t operand[3]; /* earlier steps */
     uint8_t arity;       /* a sum has none: it asks for its operands itself */
     bool counts;         /* it may be what is looked for */
+    bool bends;          /* it is no polynomial of low degree of the time and the state */
     uint32_t base;       /* a product is base^power, where its factors are powers of the same step; else power is 1 */
     double power;
     int home;       /* 1 + the innermost level that it depends on, 0: none */
@@ -114,6 +115,35 @@ static int home_of(const graph_node *n)
     return home;
 }
 
+static bool in_polynomials(operation op)
+{
+    switch (op) {
+    case OP_CONST:
+    case OP_TIME:
+    case OP_PARAM:
+    case OP_INDEX:
+    case OP_LOAD:
+    case OP_SUM:
+    case OP_NEG:
+    case OP_ADD:
+    case OP_SUB:
+    case OP_MUL: return true;
+    default: return false;
+    }
+}
+
+/* Whether a step is no polynomial; its operands are known. */
+static bool bends(const resolution *r, const step *s, int operands)
+{
+    const operation op = (operation)s->node.op;
+    const unsigned moves = DEP_TIME | DEP_STATE;
+    bool own = s->power > STEEP || !in_polynomials(op);
+    if (op == OP_DIV) own = r->steps[s->operand[1]].node.deps & moves;
+    if (!(s->node.deps & moves)) return false;
+    for (int j = 0; j < operands; j++) own |= r->steps[s->operand[j]].bends;
+    return own;
+}
+
 static void fill(resolution *r, graph *g, const graph_walk *w, bool (*counts)(operation))
 {
     for (uint32_t k = 0; k < w->count; k++) {
@@ -123,9 +153,11 @@ static void fill(resolution *r, graph *g, const graph_walk *w, bool (*counts)(op
         s->home = home_of(&s->node);
         s->counts = counts && counts((operation)s->node.op);
         s->arity = s->node.op == OP_SUM ? 0 : operation_at((operation)s->node.op)->arity;
-        for (int j = graph_operands(&s->node, operand); j-- > 0;) s->operand[j] = g->place[operand[j]];
+        const int operands = graph_operands(&s->node, operand);
+        for (int j = 0; j < operands; j++) s->operand[j] = g->place[operand[j]];
         find_power(r, k);
         if (s->power > STEEP) s->counts = counts && counts(OP_POW);
+        s->bends = bends(r, s, operands);
     }
     for (size_t k = 0; k < r->count; k++) r->root[k] = g->place[r->outputs[k].value];
 }
@@ -414,6 +446,8 @@ static bool nothing(operation op, interval a, interval b)
     (void)op, (void)a, (void)b;
     return false;
 }
+
+bool resolution_bends(const resolution *r, size_t output) { return r->steps[r->root[output]].bends; }
 
 void resolution_values(resolution *r, interval t, interval *x, interval *v, interval *a, const double *pool,
                        interval *out)

@@ -22,6 +22,8 @@ bool resolution_fits(resolution *, interval t, interval *x, interval *v, const d
 
 /* The values of outputs into OUT, of which place k is out[k]; these may read A, too, whose intervals are a. */
 bool resolution_create_values(model *, const output *, size_t count, resolution **out);
+/* Whether an output is something else than a polynomial of low degree of the time and the state. */
+bool resolution_bends(const resolution *, size_t output);
 void resolution_values(resolution *, interval t, interval *x, interval *v, interval *a, const double *pool,
                        interval *out);
 
