@@ -147,11 +147,11 @@ struct events {
     int last_pause;   /*   how many in all */
     double *fired;    /* when it last passed or touched 0; NaN: never, or an action lets it do so again */
     uint32_t *rule_of;
-    double *most;  /* the largest size of positions, then velocities, since the start */
-    int64_t taken; /* steps since the start */
-    int64_t
-        pieces; /* in which narrow events may still be looked for; steps where that was not possible, the first one */
-    int64_t unseen; /*   of them and a function there: events_unseen */
+    double *most;   /* the largest size of positions, then velocities, since the start */
+    int64_t taken;  /* steps since the start */
+    int64_t pieces; /* in which narrow events may still be looked for */
+    /* steps where that was not possible; the time of the first, and a function there */
+    int64_t unseen;
     double unseen_at;
     size_t unseen_function;
     double *width; /* of positions, then velocities: half widths of the step's box, or error bounds (events_errors.c) */

@@ -86,8 +86,8 @@ typedef struct rules {
     void (*least)(void *ctx, double *x, double *v, double *dx, double *dv, double *out);
     void (*least_rates)(void *ctx, double *x, double *v, double *dx, double *dv,
                         double *out); /* the same of the rates */
-    /* Whether a function is no polynomial of low degree, of which the points of a step tell all roots; NULL: none may
-     * be one. */
+    /* Whether a function may have roots that the points of a step miss, being no polynomial of low degree; NULL: each
+     * may. */
     bool (*may_be_narrow)(void *ctx, size_t function);
     /* Whether a function, or with `rate` its rate, is nowhere 0 at all times from t[0] to t[1], at all such states with
      * accelerations of at most these sizes. It takes more than `least`, and tells of functions of the time and of any

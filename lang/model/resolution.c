@@ -115,33 +115,16 @@ static int home_of(const graph_node *n)
     return home;
 }
 
-static bool in_polynomials(operation op)
-{
-    switch (op) {
-    case OP_CONST:
-    case OP_TIME:
-    case OP_PARAM:
-    case OP_INDEX:
-    case OP_LOAD:
-    case OP_SUM:
-    case OP_NEG:
-    case OP_ADD:
-    case OP_SUB:
-    case OP_MUL: return true;
-    default: return false;
-    }
-}
-
 /* Whether a step is no polynomial; its operands are known. */
 static bool bends(const resolution *r, const step *s, int operands)
 {
-    const operation op = (operation)s->node.op;
     const unsigned moves = DEP_TIME | DEP_STATE;
-    bool own = s->power > STEEP || !in_polynomials(op);
-    if (op == OP_DIV) own = r->steps[s->operand[1]].node.deps & moves;
+    const degree_rule rule = (degree_rule)operation_at((operation)s->node.op)->degree;
     if (!(s->node.deps & moves)) return false;
-    for (int j = 0; j < operands; j++) own |= r->steps[s->operand[j]].bends;
-    return own;
+    bool any = rule == DEGREE_QUOTIENT ? r->steps[s->operand[1]].node.deps & moves : rule > DEGREE_PRODUCT;
+    any |= s->power > STEEP;
+    for (int j = 0; j < operands; j++) any |= r->steps[s->operand[j]].bends;
+    return any;
 }
 
 static void fill(resolution *r, graph *g, const graph_walk *w, bool (*counts)(operation))
