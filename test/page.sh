@@ -26,13 +26,13 @@ start() {
     timeout --foreground --kill-after=5 "$limit" "$@" >"$logs/$name.log" 2>&1 </dev/null
     echo "$? $((SECONDS - since))" >"$logs/$name.status"
 }
-bits() { start bits 200 node test/lab/bits.mjs $logs/core.mjs build/lab/motus.wasm "$MOTUS" models; }
+bits() { start bits 600 node test/lab/bits.mjs $logs/core.mjs build/lab/motus.wasm "$MOTUS" models; }
 # Tests without a browser, by node's test runner, whose output differs.
 parts() {
-    start parts 480 node --test --test-reporter=tap test/lab/*.test.mjs
+    start parts 900 node --test --test-reporter=tap test/lab/*.test.mjs
     echo "$(sed -n 's/^# pass //p' $logs/parts.log) passed, $(sed -n 's/^# fail //p' $logs/parts.log) failed" >>$logs/parts.log
 }
-page() { start "$1" 300 node "test/lab/$1.mjs"; }
+page() { start "$1" 900 node "test/lab/$1.mjs"; }
 
 # As many at a time, the longest first, so that all end together.
 together() {

@@ -13,7 +13,7 @@ function barOf(text, name) {
 const answer = async (page) => {
   await closer(page, 'Error');
   await figureOf(page, 'Error').scrollIntoViewIfNeeded();
-  await page.waitForFunction(() => /±|no digit/.test(document.querySelector('#panels figure[data-title="Error"] .figure-answer')?.textContent ?? ''), null, { timeout: 20000 });
+  await page.waitForFunction(() => /±|no digit/.test(document.querySelector('#panels figure[data-title="Error"] .figure-answer')?.textContent ?? ''));
   return figureOf(page, 'Error').locator('.figure-answer').textContent();
 };
 
@@ -25,7 +25,7 @@ await attempt('value ± error', async () => {
   judge('… and covers the exact motion', Math.abs(here.value - 0.04778309565760847) <= here.error);
   await page.goto(`${singleFile}#v=1&p=driven-oscillator&a=dop853&r=1e-10`);
   await settled(page);
-  await page.waitForFunction(() => /Dormand.*±/.test(document.querySelector('#panels figure[data-title="Error"] .figure-answer')?.textContent ?? ''), null, { timeout: 20000 });
+  await page.waitForFunction(() => /Dormand.*±/.test(document.querySelector('#panels figure[data-title="Error"] .figure-answer')?.textContent ?? ''));
   const finer = barOf(await figureOf(page, 'Error').locator('.figure-answer').textContent(), 'x');
   judge('an adaptive method, finer, covers it too', finer !== null && finer.error < here.error / 100 && Math.abs(finer.value - 0.04778309565760847) <= finer.error, JSON.stringify(finer));
   await clean('value ± error', page);

@@ -72,7 +72,7 @@ export async function firefox() {
   const over = new Promise((done) => browser.on('exit', done));
   const listening = await new Promise((done, fail) => {
     let said = '';
-    const late = setTimeout(() => fail(new Error(`Firefox does not answer: ${said.slice(-300)}`)), 40000);
+    const late = setTimeout(() => fail(new Error(`Firefox does not answer: ${said.slice(-300)}`)), 120000);
     browser.stderr.on('data', (more) => {
       said += more;
       const found = /WebDriver BiDi listening on (ws:\S+)/.exec(said);

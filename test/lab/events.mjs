@@ -27,7 +27,7 @@ await attempt('a ball that bounces', async () => {
   same('… and shown to who presses it', [await page.locator('#toasts .toast span').allTextContents(), await page.locator('#opened').isVisible()], [[divided], false]);
   await closer(page, 'Events');
   const events = figureOf(page, 'Events');
-  await page.waitForFunction(() => /±/.test(document.querySelector('.events-table')?.textContent ?? ''), null, { timeout: 60000 });
+  await page.waitForFunction(() => /±/.test(document.querySelector('.events-table')?.textContent ?? ''));
   same('the answer', await events.locator('.figure-answer').textContent(), 'By Verlet, bounce happens 135 times, first at t = 0.4515, last at t = 4.064; bounces accumulate at t = 4.06371276887158(4).');
   const rows = await events.locator('.events-table tbody tr').evaluateAll((all) => all.map((row) => [...row.children].map((cell) => cell.textContent)));
   same('ten rows, how many more, three', rows.length, 14);
@@ -44,7 +44,7 @@ await attempt('a ball that bounces', async () => {
   judge('… and its numbers', numbers.length === wanted.events.length && numbers.every((row, k) => Number(row[2]) === wanted.events[k].time && Number(row[3]) === wanted.events[k].count), JSON.stringify(numbers[0]));
 
   await events.getByRole('button', { name: /Go to bounce at t = 1\.7519/ }).click();
-  judge('a time in the table sets the clock', Math.abs(Number(await figureOf(page, 'Time').locator('.figure-moving').getAttribute('aria-valuenow')) - 1.751911727) < 1e-6 || await page.waitForFunction(() => Math.abs(Number(document.querySelector('#panels figure[data-title="Time"] .figure-moving')?.getAttribute('aria-valuenow')) - 1.751911727) < 1e-6, null, { timeout: 40000 }).then(() => true, () => false));
+  judge('a time in the table sets the clock', Math.abs(Number(await figureOf(page, 'Time').locator('.figure-moving').getAttribute('aria-valuenow')) - 1.751911727) < 1e-6 || await page.waitForFunction(() => Math.abs(Number(document.querySelector('#panels figure[data-title="Time"] .figure-moving')?.getAttribute('aria-valuenow')) - 1.751911727) < 1e-6).then(() => true, () => false));
   const slow = (await saved(page, 'Time', 'SVG')).bytes.toString('utf8'), pieces = linesOf(slow, VERLET).filter((piece) => piece.length > 1 && piece.length < 60 && Math.abs(piece[0][1] - piece[piece.length - 1][1]) > 3);
   // Of the strip of the velocity, which only falls: down is more pixels.
   const velocity = pieces.filter((piece) => piece.every(([, y], i) => i === 0 || y >= piece[i - 1][1] - 0.01));
@@ -64,7 +64,7 @@ await attempt('a row of balls', async () => {
 await attempt('a section', async () => {
   const page = await open(`${singleFile}#v=1&p=henon-heiles`);
   await closer(page, 'Section');
-  const section = figureOf(page, 'Section'), full = (motions) => page.waitForFunction((n) => new RegExp(`2.000 points up to t = \\d+${n}`).test(document.querySelector('#panels figure[data-title="Section"] .figure-answer')?.textContent ?? ''), motions, { timeout: 60000 });
+  const section = figureOf(page, 'Section'), full = (motions) => page.waitForFunction((n) => new RegExp(`2.000 points up to t = \\d+${n}`).test(document.querySelector('#panels figure[data-title="Section"] .figure-answer')?.textContent ?? ''), motions);
   await page.waitForFunction(() => /\d+ points/.test(document.querySelector('#panels figure[data-title="Section"] .figure-answer')?.textContent ?? ''));
   await full('');
   const first = await tableOf(page, 'Section'), x = first.head.indexOf('x'), y = first.head.indexOf('y'), u = first.head.indexOf("x'"), v = first.head.indexOf("y'");
@@ -104,7 +104,7 @@ await attempt('a section', async () => {
   await clean('a section', page);
   const again = await open(address);
   await closer(again, 'Section');
-  await again.waitForFunction(() => /and those of 2 more motions/.test(document.querySelector('#panels figure[data-title="Section"] .figure-answer')?.textContent ?? ''), null, { timeout: 60000 });
+  await again.waitForFunction(() => /and those of 2 more motions/.test(document.querySelector('#panels figure[data-title="Section"] .figure-answer')?.textContent ?? ''));
   await clean('a section that was shared', again);
 });
 
@@ -136,7 +136,7 @@ await attempt('on a phone', async () => {
   await page.goto(`${singleFile}#v=1&p=ueda`);
   await settled(page);
   await closer(page, 'Section');
-  await page.waitForFunction(() => /points/.test(document.querySelector('#panels figure[data-title="Section"] .figure-answer')?.textContent ?? ''), null, { timeout: 60000 });
+  await page.waitForFunction(() => /points/.test(document.querySelector('#panels figure[data-title="Section"] .figure-answer')?.textContent ?? ''));
   judge('nor is the section', await page.evaluate(() => document.documentElement.scrollWidth) <= 390);
   await fingers('the section', page);
   await clean('on a phone', page);

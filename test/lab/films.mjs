@@ -35,7 +35,7 @@ async function played(bytes) {
 }
 await attempt('a film', async () => {
   const page = await open(singleFile + '#v=1&p=thrown-ball'), popup = await shareOf(page), button = popup.getByRole('button', { name: 'Save “Motion” as WebM' }), said = popup.locator('p[role=status]');
-  const [download] = await Promise.all([page.waitForEvent('download', { timeout: 60000 }), (async () => {
+  const [download] = await Promise.all([page.waitForEvent('download'), (async () => {
     await button.click();
     const telling = await said.textContent();
     // As it goes on, by the clock: an encoder on a busy machine takes its time to begin, and the film is two seconds after that.
@@ -71,7 +71,7 @@ await attempt('a film', async () => {
   judge('a browser without a recorder is told', /records no WebM/.test(await share.locator('p[role=status]').textContent()));
   await clean('without a recorder', without);
   const dark = await open(singleFile + '#v=1&p=kepler', { theme: 'dark' }), menu = await shareOf(dark);
-  const [other] = await Promise.all([dark.waitForEvent('download', { timeout: 30000 }), menu.getByRole('button', { name: 'Save “Motion” as WebM' }).click()]);
+  const [other] = await Promise.all([dark.waitForEvent('download'), menu.getByRole('button', { name: 'Save “Motion” as WebM' }).click()]);
   await other.saveAs(join(place, 'dark.webm'));
   const night = await played(readFileSync(join(place, 'dark.webm')));
   judge('no longer than twelve seconds, and of the theme', night.duration > 6 && night.duration < 12.6 && night.ground.every((c) => c < 60), JSON.stringify(night));

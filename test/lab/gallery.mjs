@@ -117,7 +117,7 @@ await attempt('bodies run', async () => {
 async function drawn(page, model) {
   // What is out of sight is not drawn.
   await page.evaluate((hash) => { scrollTo(0, 0); location.hash = hash; }, `#v=1&p=${model}`);
-  await page.waitForFunction((question) => document.querySelector('.ask-button')?.textContent === question && document.querySelector('.stage-figure')?.getAttribute('aria-busy') === 'false', saidOf(model).question, { timeout: 40000 }).catch(() => {});
+  await page.waitForFunction((question) => document.querySelector('.ask-button')?.textContent === question && document.querySelector('.stage-figure')?.getAttribute('aria-busy') === 'false', saidOf(model).question).catch(() => {});
   await page.evaluate(() => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done))));
   if (/^\s*when /m.test(models.find(({ name }) => name === model).text)) await page_.settled(page);
 }

@@ -43,7 +43,7 @@ await attempt('order', async () => {
 await attempt('a draft is drawn, and tells no error', async () => {
   // The reference of this one takes seconds.
   const page = await open(`${singleFile}#v=1&p=double-pendulum`, { before: keep, settle: false });
-  await page.waitForFunction(() => window.answers.some((a) => a.truth === 'coarse'), null, { timeout: 60000, polling: 20 });
+  await page.waitForFunction(() => window.answers.some((a) => a.truth === 'coarse'), null, { polling: 20 });
   let some = 0;
   for (let i = 0; i < 20 && some < 100 && (await answers(page)).length === 2; i++) {
     await page.waitForTimeout(50);

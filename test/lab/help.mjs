@@ -129,7 +129,7 @@ export async function open(address = singleFile, options = {}) {
 async function made({ width, height, touch, media, kept, before, first, slower }) {
   const context = await (await launch()).newContext({ viewport: { width, height }, ...media, acceptDownloads: true, hasTouch: touch, isMobile: touch, locale: 'en-GB', ...(kept ? { storageState: kept } : {}) });
   const page = await context.newPage();
-  page.setDefaultTimeout(60000);
+  page.setDefaultTimeout(120000);
   Object.assign(page, { wrong: [], asked: [] });
   await page.addInitScript(watch);
   // A first visit begins by itself with a run of the motion, which most tests do not want.
@@ -211,13 +211,18 @@ export const visitAgainWith = (page, address, text) => visitAgain(page, address,
 }, 'v=1&');
 /** A figure by its short name; its heading is a question. */
 export const figureOf = (page, title) => page.locator(`#panels figure[data-title="${title}"]`);
+/** Scrolls to a figure without waiting for its picture: one that has nothing to show is hidden as soon as the core has answered, and its sentence stays. */
+export const intoView = (locator) => locator.evaluate((figure) => {
+  const picture = figure.querySelector('.figure-picture');
+  (picture.checkVisibility() ? picture : figure).scrollIntoView({ block: 'nearest', behavior: 'instant' });
+});
 /** What looks closer is made when somebody comes to it, and shown what is near: this goes there, and to a figure of it. */
 export async function closer(page, title = '') {
   await page.locator('#looking > h2').evaluate((heading) => heading.scrollIntoView());
   await page.waitForFunction(() => document.querySelector('#panels figure'));
   if (title) {
     await figureOf(page, title).waitFor();
-    await figureOf(page, title).locator('.figure-picture').scrollIntoViewIfNeeded();
+    await intoView(figureOf(page, title));
   }
   // What comes into sight may ask the core.
   await settled(page, 150);

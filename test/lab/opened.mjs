@@ -12,7 +12,7 @@ const usual = ['explicit-euler', 'symplectic-euler', 'midpoint', 'verlet', 'rk4'
 const at = (page, step, methods) => page.waitForFunction(([n, list]) => {
   const columns = [...document.querySelectorAll('.opened-column')];
   return columns.map((c) => c.dataset.method).join() === list.join() && columns.every((c) => c.dataset.step === String(n) && (c.querySelector('.opened-picture svg') || !c.querySelector('.opened-why').hidden));
-}, [step, methods], { timeout: 60000 });
+}, [step, methods]);
 
 /** A column: its lines, each with its calculations as tokens of MathML, and the discs of the picture. */
 const columnOf = (page, method) => page.locator(`.opened-column[data-method="${method}"]`).evaluate((column) => ({

@@ -197,7 +197,7 @@ await attempt('a run that breaks off', async () => {
 });
 await attempt('digits that are not the motion’s', async () => {
   const page = await open(`${singleFile}#v=1&a=rk4&q=x&m=${encodeURIComponent("x' = 10 (y - x)\ny' = x (28 - z) - y\nz' = x y - 8/3 z\nx(0) = 1\ny(0) = 1\nz(0) = 1\nstep 0.01\nuntil 40\n")}`);
-  await page.waitForFunction(() => /no green curve/.test(document.querySelector('.status .message').textContent), null, { timeout: 60000 });
+  await page.waitForFunction(() => /no green curve/.test(document.querySelector('.status .message').textContent));
   const said = await answerOf(page, 'Time');
   judge('are called so', /^By RK4, at t = 40: x = .*There is no green curve: these digits are the method’s, and need not be the motion’s\.$/.test(said), said);
   await clean('digits', page);
@@ -223,7 +223,7 @@ await attempt('what has nothing to say is not there, and what is not seen costs 
   await example(page, 'spring');
   await closer(page);
   judge('the spring’s stage shows both: neither is there again', !(await there()).some((t) => t === 'Time' || t === 'Phase') && (await there()).includes('Energy'), (await there()).join());
-  const phaseIs = (hidden) => page.waitForFunction((wanted) => document.querySelector('figure[data-figure="phase"]').hidden === wanted, hidden, { timeout: 40000 }).then(() => true, () => false);
+  const phaseIs = (hidden) => page.waitForFunction((wanted) => document.querySelector('figure[data-figure="phase"]').hidden === wanted, hidden).then(() => true, () => false);
   await page.setViewportSize({ width: 390, height: 844 });
   judge('a narrow stage has no room for the phase plane: it is a question below', await phaseIs(false));
   await page.setViewportSize({ width: 1280, height: 900 });

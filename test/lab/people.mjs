@@ -48,7 +48,7 @@ for (const [width, height] of [[320, 568], [375, 667], [768, 1024], [3840, 2160]
     judge(`${width} px: the picture begins on the first screen`, picture[0] < height * 0.75 && picture[1] > Math.min(width * 0.7, 600), picture.join());
     if (width < 800) {
       await page.evaluate(() => scrollTo(0, 1500));
-      await page.locator('.mini-play').waitFor({ timeout: 40000 }).catch(() => {});
+      await page.locator('.mini-play').waitFor().catch(() => {});
       await page.waitForTimeout(100);
       judge(`${width} px: and further down`, await inView('.mini-play'));
       // No scroll trap: a finger that begins on the picture moves the page.

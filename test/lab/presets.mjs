@@ -4,7 +4,7 @@
 import { mkdirSync } from 'node:fs';
 import { join } from 'node:path';
 import { examples } from '../../lab/models.mjs';
-import { attempt, built, clean, closer, example, finish, judge, open, same, settled, singleFile } from './help.mjs';
+import { attempt, built, clean, closer, example, finish, intoView, judge, open, same, settled, singleFile } from './help.mjs';
 
 const shots = join(built, 'shots');
 mkdirSync(shots, { recursive: true });
@@ -41,9 +41,9 @@ for (const name of names) {
     judge(`${name}: there are questions`, count >= 1, count);
     for (let k = 0; k < count; k++) {
       const figure = figures.nth(k), id = await figure.getAttribute('data-figure');
-      await figure.locator('.figure-picture').scrollIntoViewIfNeeded();
+      await intoView(figure);
       // A reference may be computed first.
-      await page.waitForFunction((of) => !document.querySelector(`figure[data-figure="${of}"] .figure-answer`).hidden, id, { timeout: 60000 });
+      await page.waitForFunction((of) => !document.querySelector(`figure[data-figure="${of}"] .figure-answer`).hidden, id);
       const [question, answer, summary] = await Promise.all(['h3', '.figure-answer', '.figure-summary'].map((part) => figure.locator(part).textContent()));
       judge(`${name}: ${id}: a question with an answer`, /\?$/.test(question) && /^\S.{8,}\.$/.test(answer), `${question} ${answer}`);
       judge(`${name}: ${id}: numbers are numbers`, !/NaN|undefined|null|Infinity|∞|–\.| – /.test(`${question} ${answer} ${summary}`) && /\d|on it|round-off/.test(answer), `${answer} ${summary}`);
@@ -61,7 +61,7 @@ for (const name of names) {
       await page.emulateMedia({ colorScheme: theme });
       await page.evaluate(() => scrollTo(0, 0));
       await page.waitForTimeout(150);
-      const fits = await page.waitForFunction(() => document.documentElement.scrollWidth <= innerWidth, null, { timeout: 40000 }).then(() => true, () => false);
+      const fits = await page.waitForFunction(() => document.documentElement.scrollWidth <= innerWidth).then(() => true, () => false);
       judge(`${name}, ${width} px: the page does not scroll sideways`, fits, await page.evaluate(() => `${document.documentElement.scrollWidth} of ${innerWidth}`));
       await page.screenshot({ path: join(shots, `${name}-${theme}.png`) });
     }

@@ -16,7 +16,7 @@ async function answerOf(page, title) {
     // What takes long on a busy machine waits for its button.
     if (press && /^Measure/.test(press.textContent)) press.click();
     return f && (f.hidden || (a && !a.hidden && a.textContent.length > 10 && f.querySelector('.figure-message').hidden));
-  }, title, { timeout: 60000, polling: 100 });
+  }, title, { polling: 100 });
   return sentence.textContent();
 }
 const page1 = (model, methods) => open(`${singleFile}#v=1&p=${model}&a=${methods}`);
@@ -76,7 +76,7 @@ await attempt('spring', async () => {
   judge('spring: the line has moved', has((await drawn(page, 'Stability')).texts, 'here: 2.2'));
   await page.evaluate(() => { location.hash = '#v=1&p=spring&a=verlet&s=k=4'; });
   await settled(page, 600);
-  await page.waitForFunction(() => /^Below 1\u2009s for Verlet\.$/.test(document.querySelector('figure[data-title="Stability"] .figure-answer')?.textContent ?? ''), null, { timeout: 40000 }).catch(() => {});
+  await page.waitForFunction(() => /^Below 1\u2009s for Verlet\.$/.test(document.querySelector('figure[data-title="Stability"] .figure-answer')?.textContent ?? '')).catch(() => {});
   same('spring: four times as stiff, half the step', await answerOf(page, 'Stability'), `Below 1${THIN}s for Verlet.`);
   await clean('spring', page);
 });
@@ -125,7 +125,7 @@ await attempt('damped spring', async () => {
   const own = largest(2, 0.1, 1);
   for (const [h, sentence] of [['0.4', 'Below 0.4 for midpoint (RK2).'], ['0.4003', '0.4003 is too large for midpoint (RK2): below 0.4 for midpoint (RK2).']]) {
     await page.evaluate((step) => { location.hash = `#v=1&p=damped-spring&a=midpoint&h=${step}`; }, h);
-    await page.waitForFunction((text) => document.querySelector('figure[data-title="Stability"] .figure-answer')?.textContent === text, sentence, { timeout: 30000 }).catch(() => {});
+    await page.waitForFunction((text) => document.querySelector('figure[data-title="Stability"] .figure-answer')?.textContent === text, sentence).catch(() => {});
     judge(`damped spring: midpoint at its limit, the step ${h}`, Math.abs(own - 0.4) < 1e-9 && await answerOf(page, 'Stability') === sentence, `${own} ${await answerOf(page, 'Stability')}`);
   }
   await clean('damped spring', page);
@@ -179,7 +179,7 @@ await attempt('a field', async () => {
   same('charged particle: Boris is not judged by a rate', await answerOf(page, 'Stability'), `Below ${digits(Math.sqrt(8) / 2, 3)} for RK4; no step is small enough for explicit Euler; for Boris no largest step can be given here.`);
   await page.evaluate(() => { location.hash = '#v=1&p=charged-particle&a=boris'; });
   await settled(page, 600);
-  await page.waitForFunction(() => /rotation/.test(document.querySelector('figure[data-title="Stability"] .figure-answer')?.textContent ?? ''), null, { timeout: 40000 }).catch(() => {});
+  await page.waitForFunction(() => /rotation/.test(document.querySelector('figure[data-title="Stability"] .figure-answer')?.textContent ?? '')).catch(() => {});
   judge('charged particle: Boris alone is a sentence', /^Boris turns the velocity about the field by a rotation, which is stable at any step;/.test(await answerOf(page, 'Stability')) && await figureOf(page, 'Stability').locator('.figure-picture').isHidden());
   await clean('a field', page);
 });
@@ -189,13 +189,13 @@ await attempt('a dear study', async () => {
   // Its reference takes long as well: this does not wait until nothing is computed any more.
   await page.waitForFunction(() => window.lab.asked > 0);
   await page.locator('#looking > h2').evaluate((heading) => heading.scrollIntoView());
-  await figure.waitFor({ timeout: 60000 });
+  await figure.waitFor();
   await figure.locator('h3').scrollIntoViewIfNeeded();
   const button = figure.locator('.figure-controls .study button');
-  await page.waitForFunction(() => /^Measure, /.test(document.querySelector('figure[data-title="Order"] .study button')?.textContent ?? '') && !document.querySelector('figure[data-title="Order"] .study').hidden, null, { timeout: 60000 });
+  await page.waitForFunction(() => /^Measure, /.test(document.querySelector('figure[data-title="Order"] .study button')?.textContent ?? '') && !document.querySelector('figure[data-title="Order"] .study').hidden);
   judge('dear: the button says what it will take', /^Measure, (more than 2\u2009s|about \d+(\.\d)?\u2009s)$/.test(await button.textContent()), await button.textContent());
   await button.click();
-  await page.waitForFunction(() => document.querySelector('figure[data-title="Order"] .study button')?.textContent === 'Cancel', null, { timeout: 40000 });
+  await page.waitForFunction(() => document.querySelector('figure[data-title="Order"] .study button')?.textContent === 'Cancel');
   await button.click();
   judge('dear: it can be called off', /^Measure, /.test(await button.textContent()) && await figure.locator('.figure-message').textContent() === 'Cancelled.');
   await clean('a dear study', page);
