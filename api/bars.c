@@ -195,23 +195,29 @@ motus_status bars_later(motus_run *r, motus_system *s, double t, double late, co
 
 /* How much later a time is that was written than the double which was read: of a decimal of at most 13 digits that is
  * exact, also where it was computed, as 1e9 + 0.3 was. Any other double that a caller gives is the time itself; what
- * the model has computed (pi/2) lies within a unit in the last place. */
-static double time_rounding(double t, double of_model)
+ * the model has computed (pi/2) lies within a unit in the last place, but for differences of decimals, which the
+ * companion's system reads as they are written. */
+static double time_rounding(double t, double of_model, double of_half)
 {
+    enum { CLEARLY = 4 };
+    const double unit = nextafter(t, INFINITY) - t;
     /* few doubles are such decimals by chance; powers of ten up to the largest are doubles */
     static const double most = 1e13, largest = 1e22;
     for (double power = 1; power <= largest && fabs(t) * power < most; power *= 10) {
         const double digits = rint(t * power);
         if (digits / power == t) return fma(-t, power, digits) / power;
     }
-    return t == of_model ? nextafter(t, INFINITY) - t : 0;
+    if (t != of_model) return 0;
+    return fabs(of_half - t) > CLEARLY * unit ? of_half - t : unit;
 }
 
 #define SHARED 0.2 /* of a unit in the last place of the time: the bar is 2.5 or 3 times that */
 
 static double end_rounding(const motus_run *r)
 {
-    return time_rounding(r->timing.until, r->system->model ? r->system->model->until : NAN);
+    const motus_system *const half = r->bars->half.system;
+    return time_rounding(r->timing.until, r->system->model ? r->system->model->until : NAN,
+                         half && half->model ? half->model->until : NAN);
 }
 
 /* The companion begins where the model says, with its own decimals, or where the run was told to. The start is rounded
@@ -225,7 +231,7 @@ static motus_status begin_half(motus_run *r, double *x, double *v, motus_error *
     if (!b->given_x && p->nx) memcpy(x, s->x0, p->nx * sizeof *x);
     if (!b->given_v) memcpy(v, s->v0, p->nv * sizeof *v);
     if (p->refresh) p->refresh(p->ctx, t, x, v);
-    const double off = b->given_x || b->given_v ? 0 : time_rounding(t, s->model ? r->system->start : NAN);
+    const double off = b->given_x || b->given_v ? 0 : time_rounding(t, s->model ? r->system->start : NAN, s->start);
     double *to_x = x, *to_v = v;
     motus_status status = MOTUS_OK;
     if (off != 0) status = bars_later(r, b->half.system, t, -off, x, v, &to_x, &to_v, err);

@@ -28,8 +28,8 @@ size_t decimal_write_plain(double, char out[DECIMAL_MAX]);
  * number that is too large becomes infinite. Returns the bytes of the number; 0: there is none. */
 size_t decimal_read(const char *s, size_t length, double *);
 /* The same, and the double on the other side of the number as written, so that it lies between the two; where the
- * number is a double, that double. */
-size_t decimal_read_between(const char *s, size_t length, double *, double *other);
+ * number is a double, that double. rest: the number as written less the double, to 53 bits; 0 beyond the range. */
+size_t decimal_read_between(const char *s, size_t length, double *, double *other, double *rest);
 /* The same of digits alone; 0 as well where the number is too large. */
 size_t decimal_read_whole(const char *s, size_t length, uint64_t *);
 /* The nearest double to digits * 10^power; digits: a whole number of at most 15 digits. */

@@ -56,41 +56,45 @@ static void times(number *n, uint32_t factor) { times_plus(n, factor, 0); }
 
 static uint64_t bit(const number *n, int k) { return k >= 0 && k < 32 * n->count ? n->word[k / 32] >> k % 32 & 1 : 0; }
 
-/* n × 2^exponent as a double, and the double on its other side. */
-static double rounded(const number *n, int exponent, double *other)
+/* n × 2^exponent as a double, the double on its other side, and what rounding has left out. */
+static double rounded(const number *n, int exponent, double *other, double *rest)
 {
+    enum { BITS = 53 };
     int top = 32 * n->count - 1;
     while (!bit(n, top)) top--;
     int last = top - 52; /* the last bit that a double keeps: not below 2^-1074 */
     if (last + exponent < -1074) last = -1074 - exponent;
     uint64_t mantissa = 0;
     for (int k = top; k >= last; k--) mantissa = mantissa << 1 | bit(n, k);
-    bool rest = n->more;
-    for (int k = last - 2; !rest && k >= 0; k--) rest = bit(n, k);
-    const bool half = bit(n, last - 1), up = half && (rest || mantissa & 1);
+    bool more = n->more;
+    for (int k = last - 2; !more && k >= 0; k--) more = bit(n, k);
+    const bool half = bit(n, last - 1), up = half && (more || mantissa & 1);
     mantissa += up;
+    uint64_t left = 0;
+    for (int k = last - 1; k >= last - BITS; k--) left = left << 1 | bit(n, k);
+    *rest = ldexp((double)left - (up ? (double)(UINT64_C(1) << BITS) : 0), last + exponent - BITS);
     /* above a power of two the neighbour below is nearer than the last bit says */
     const double value = ldexp((double)mantissa, last + exponent);
-    *other = !half && !rest ? value : nextafter(value, up ? 0 : INFINITY);
+    *other = !half && !more ? value : nextafter(value, up ? 0 : INFINITY);
     return value;
 }
 
-/* n × 10^exponent as a double, and the double on its other side. */
-static double scaled(number *n, int exponent, double *other)
+/* n × 10^exponent as a double, the double on its other side, and what rounding has left out. */
+static double scaled(number *n, int exponent, double *other, double *rest)
 {
     int words = 0;
     if (exponent >= 0) {
         by_fives(n, exponent, times);
     } else {
-        /* zeros behind it, so that the quotient has more bits than a double: log2 of 5 is below 7/3 */
-        words = -exponent * 7 / 3 / 32 + 4 - n->count;
+        /* zeros behind it, so that the quotient has more bits than two doubles: log2 of 5 is below 7/3 */
+        words = -exponent * 7 / 3 / 32 + 6 - n->count;
         words = words > 0 ? words : 0;
         memmove(n->word + words, n->word, (size_t)n->count * sizeof *n->word);
         memset(n->word, 0, (size_t)words * sizeof *n->word);
         n->count += words;
         by_fives(n, -exponent, over);
     }
-    return rounded(n, exponent - 32 * words, other);
+    return rounded(n, exponent - 32 * words, other, rest);
 }
 
 static bool digit(const char *s, size_t length, size_t at) { return at < length && s[at] >= '0' && s[at] <= '9'; }
@@ -109,7 +113,7 @@ static size_t read_exponent(const char *s, size_t length, size_t at, int64_t *ex
     return end;
 }
 
-size_t decimal_read_between(const char *s, size_t length, double *value, double *other)
+size_t decimal_read_between(const char *s, size_t length, double *value, double *other, double *rest)
 {
     number n = {.count = 0};
     size_t at = 0, digits = 0;
@@ -132,6 +136,7 @@ size_t decimal_read_between(const char *s, size_t length, double *value, double 
         exponent -= fraction;
     }
     if (digits == 0) return 0;
+    *rest = 0;
     at = read_exponent(s, length, at, &exponent);
     if (n.count == 0)
         *other = *value = 0;
@@ -140,14 +145,14 @@ size_t decimal_read_between(const char *s, size_t length, double *value, double 
     else if (significant + exponent > LARGEST)
         *value = INFINITY, *other = nextafter(INFINITY, 0);
     else
-        *value = scaled(&n, (int)exponent, other);
+        *value = scaled(&n, (int)exponent, other, rest);
     return at;
 }
 
 size_t decimal_read(const char *s, size_t length, double *value)
 {
-    double other;
-    return decimal_read_between(s, length, value, &other);
+    double other, rest;
+    return decimal_read_between(s, length, value, &other, &rest);
 }
 
 size_t decimal_read_whole(const char *s, size_t length, uint64_t *value)

@@ -360,6 +360,21 @@ static void rounded_ends(void **state)
     end_of(text, 1000000020.3, truth, 1, 1.8e-8, 1e-6);
 }
 
+/* Differences of decimals that are rounded alike: what the rounding leaves is in the error, wherever they stand. */
+static void decimals_that_cancel(void **state)
+{
+    (void)state;
+    static const long double damped[] = {0.40528393032138L}, late[] = {-0.8129520370998899826L},
+                             far[] = {-0.2163963550045140412L};
+    static const char *const forces[] = {
+        "x'' = -(1000000.85 - 1000000.33) x - 0.1 x'\nx(0) = 1\nx'(0) = 0\nuntil 10",
+        "k = 1000000.85 - 1000000.33\nx'' = -k x - 0.1 x'\nx(0) = 1\nx'(0) = 0\nuntil 10",
+        "a = 1000000.85\nb = 1000000.33\nx'' = -(a - b) x - 0.1 x'\nx(0) = 1\nx'(0) = 0\nuntil 10"};
+    for (size_t k = 0; k < sizeof forces / sizeof *forces; k++) end_of(forces[k], NAN, damped, 1, 5e-11, 1e-8);
+    end_of("x'' = -x\nx(0) = 1\nx'(0) = 0\nuntil 1000002.85 - 1000000.33", NAN, late, 1, 1e-11, 1e-8);
+    end_of("x'' = -x\nx(0) = 1000000.85 - 1000000.33\nx'(0) = 0\nuntil 2", NAN, far, 1, 1e-11, 1e-8);
+}
+
 /* Of a motion that is cos(t) - 0.839 is 7e-5 from cos(10) -, quantities whose jumps lie within the error of the state,
  * and such as have jumped before and are decided: INFINITY, and at least the truth's distance; and an ulp. */
 static void quantities_that_jump(void **state)
@@ -396,7 +411,7 @@ static void quantities_that_jump(void **state)
 
 int main(void)
 {
-    static struct CMUnitTest tests[CASES_MAX + 5];
+    static struct CMUnitTest tests[CASES_MAX + 6];
     size_t count = 0;
     read_cases();
     if (motus_method_count() > METHODS_MAX) return 1;
@@ -409,5 +424,6 @@ int main(void)
     tests[count++] = (struct CMUnitTest)cmocka_unit_test(numbers_that_vanish);
     tests[count++] = (struct CMUnitTest)cmocka_unit_test(rounded_ends);
     tests[count++] = (struct CMUnitTest)cmocka_unit_test(quantities_that_jump);
+    tests[count++] = (struct CMUnitTest)cmocka_unit_test(decimals_that_cancel);
     return _cmocka_run_group_tests("bars of error", tests, count, NULL, NULL);
 }

@@ -176,6 +176,36 @@ static void test_reading(void **context)
     }
 }
 
+/* What rounding has left out: with the double it is the number. */
+static void test_rest(void **context)
+{
+    (void)context;
+    static const struct {
+        const char *text;
+        double rest;
+    } known[] = {{"0.1", -5.5511151231257827e-18},
+                 {"0.3", 1.1102230246251565e-17},
+                 {"1000000.85", 2.3283064365386963e-11},
+                 {"0.25", 0},
+                 {"1e400", 0},
+                 {"1e-400", 0},
+                 {"1e23", 8388608},
+                 {"12345678901234567890", 722}};
+    for (size_t k = 0; k < sizeof known / sizeof *known; k++) {
+        double value, other, rest;
+        decimal_read_between(known[k].text, SIZE_MAX, &value, &other, &rest);
+        assert_true(fabs(rest - known[k].rest) <= 1e-15 * fabs(known[k].rest));
+    }
+    for (int i = 0; i < 10000; i++) {
+        char text[48];
+        double value, other, rest;
+        snprintf(text, sizeof text, "%.*fe%d", (int)(next() % 17), 1e6 * uniform(), (int)(next() % 400) - 200);
+        decimal_read_between(text, SIZE_MAX, &value, &other, &rest);
+        assert_true(value == 0 || other == value ? rest == 0 : (rest > 0) == (other > value));
+        assert_true(fabsl(strtold(text, NULL) - value - rest) <= 0x1p-63L * fabsl(value));
+    }
+}
+
 static void test_reading_edges(void **context)
 {
     (void)context;
@@ -312,9 +342,10 @@ static void test_times(void **context)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_powers),   cmocka_unit_test(test_random_bits), cmocka_unit_test(test_usual),
-        cmocka_unit_test(test_integers), cmocka_unit_test(test_reading),     cmocka_unit_test(test_reading_edges),
-        cmocka_unit_test(test_whole),    cmocka_unit_test(test_fast),        cmocka_unit_test(test_times),
+        cmocka_unit_test(test_powers),        cmocka_unit_test(test_random_bits), cmocka_unit_test(test_usual),
+        cmocka_unit_test(test_integers),      cmocka_unit_test(test_reading),     cmocka_unit_test(test_rest),
+        cmocka_unit_test(test_reading_edges), cmocka_unit_test(test_whole),       cmocka_unit_test(test_fast),
+        cmocka_unit_test(test_times),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -469,7 +469,7 @@ void motion_text(const motion *m, char *out, size_t size)
         }
     }
     starts(m, out, size);
-    whens(m, out, size);
+    if (!strstr(m->equations, "when ")) whens(m, out, size);
     char end[MOTION_NUMBER], decimals[32];
     snprintf(decimals, sizeof decimals, "%.3f", (double)m->until);
     if (f->until[0])

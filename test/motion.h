@@ -19,7 +19,7 @@ enum {
     MOTION_VARIABLES = 6,
     MOTION_LAYERS = 4,
     MOTION_MODES = 2,
-    MOTION_EVENTS = 2,
+    MOTION_EVENTS = 4,
     MOTION_NAME = 16,
     MOTION_NUMBER = 64,
     MOTION_TEXT = 16384
@@ -98,7 +98,7 @@ typedef struct motion {
     quad slides;
     quad gathers; /* the time at which events accumulate, beyond `until`; 0: they do not */
     motion_frame frame;
-    char equations[MOTION_TEXT]; /* "": as the trees say */
+    char equations[MOTION_TEXT]; /* "": as the trees say; with what happens where it has a `when` */
     /* Of a family of two cells with the same force: as a cell is called there; NULL: none. Where its first cell starts;
      * the other as x and v say. */
     const char *index;

@@ -720,6 +720,66 @@ static void thermostat(motion *m)
     m->events[m->event_count++] = (motion_event){cold, -1, MOTION_MODE, 0, number(m, 1)};
 }
 
+/* Two to four balls, each with springs to the others in half of them, which bounce on one floor. */
+static void balls(motion *m)
+{
+    static const char *const cells[] = {"y[1]", "y[2]", "y[3]", "y[4]"};
+    begin(m, 2 + below(3));
+    motion_names(m, cells);
+    const double g = between(5, 10);
+    double first = 1e9;
+    const int level = number(m, level_of()), e = number(m, between(0.6, 0.95)), gravity = number(m, -g);
+    const int c = number(m, below(2) ? 0 : between(0.1, 1)), d = number(m, below(2) ? 0 : between(0.05, 0.3));
+    for (int i = 0; i < m->variables; i++) {
+        const double height = between(0.5, 2), v = below(2) ? 0 : between(-1, 1);
+        m->x[i] = round(1000 * ((double)m->nodes[level].value + height)) / 1000;
+        m->v[i] = v;
+        const double hit = sqrt(v * v + 2 * g * height), rest = (double)m->nodes[e].value;
+        first = fmin(first, (v + hit) / g + 2 * hit / g * rest / (1 - rest));
+    }
+    /* some bounces each, well before those of one accumulate */
+    until(m, fmin(0.4 * first, between(1, 5)));
+    for (int i = 0; i < m->variables; i++) {
+        int sum = minus(m, gravity, times(m, d, v_of(m, i)));
+        for (int j = 0; j < m->variables; j++)
+            if (j != i) sum = plus(m, sum, times(m, c, minus(m, x_of(m, j), x_of(m, i))));
+        m->force[i] = sum;
+        const int cross = motion_switch(m, MOTION_CROSS, x_of(m, i), level, 0);
+        const int after = scaled(m, -1, times(m, e, v_of(m, i)));
+        m->events[m->event_count++] = (motion_event){cross, -1, MOTION_SPEED, i, after};
+    }
+    snprintf(m->equations, sizeof m->equations,
+             "y[i]'' = %s - %s y[i]' + sum(j = 1..%d: %s (y[j] - y[i])) for i = 1..%d\n"
+             "when y[i] = %s falling: y[i]' = -%s y[i]', record for i = 1..%d",
+             m->nodes[gravity].text, m->nodes[d].text, m->variables, m->nodes[c].text, m->variables,
+             m->nodes[level].text, m->nodes[e].text, m->variables);
+}
+
+/* Two to four cells that charge and fire, each fed by the others. */
+static void fire(motion *m)
+{
+    static const char *const cells[] = {"u[1]", "u[2]", "u[3]", "u[4]"};
+    begin(m, 2 + below(3));
+    motion_names(m, cells);
+    until(m, between(3, 10));
+    const int drive = number(m, between(1.2, 2)), k = number(m, between(0.2, 0.9)), c = number(m, between(0, 0.2));
+    const int top = number(m, 1), rest = number(m, below(2) ? 0 : between(-0.3, 0.3));
+    for (int i = 0; i < m->variables; i++) m->first_order[i] = true, m->x[i] = between(0, 0.9), m->v[i] = 0;
+    for (int i = 0; i < m->variables; i++) {
+        int sum = minus(m, drive, times(m, k, x_of(m, i)));
+        for (int j = 0; j < m->variables; j++)
+            if (j != i) sum = plus(m, sum, times(m, c, sine(m, minus(m, x_of(m, j), x_of(m, i)))));
+        m->force[i] = sum;
+        const int cross = motion_switch(m, MOTION_CROSS, x_of(m, i), top, 0);
+        m->events[m->event_count++] = (motion_event){cross, 1, MOTION_PLACE, i, rest};
+    }
+    snprintf(m->equations, sizeof m->equations,
+             "u[i]' = %s - %s u[i] + sum(j = 1..%d: %s sin(u[j] - u[i])) for i = 1..%d\n"
+             "when u[i] = 1 rising: u[i] = %s, record for i = 1..%d",
+             m->nodes[drive].text, m->nodes[k].text, m->variables, m->nodes[c].text, m->variables, m->nodes[rest].text,
+             m->variables);
+}
+
 static void penalty(motion *m)
 {
     begin(m, 1);

@@ -5,35 +5,37 @@
 #include "test/motion.h"
 
 /* Each kind: its enumerator, its name, the function that makes one. */
-#define MOTION_KINDS(X)                \
-    X(SMOOTH, "smooth", smooth)        \
-    X(COUPLED, "coupled", coupled)     \
-    X(VECTOR, "vector", vector)        \
-    X(FAMILY, "family", family)        \
-    X(FRICTION, "friction", belt)      \
-    X(KINKED, "kinked", kinked)        \
-    X(SEVERAL, "several", several)     \
-    X(NEAR, "near-singular", close_by) \
-    X(STIFF, "stiff", stiff)           \
-    X(CHAOS, "chaos", chaos)           \
-    X(LONG, "long", lasting)           \
-    X(BACKWARD, "backward", backward)  \
-    X(OFFSET, "offset", offset)        \
-    X(SCALE, "scale", scale)           \
-    X(CANCEL, "cancel", cancel)        \
-    X(VANISH, "vanish", vanish)        \
-    X(BUMP, "bump", bump)              \
-    X(PULSE, "pulse", pulse)           \
-    X(WALL, "wall", wall)              \
-    X(FLIGHT, "flight", flight)        \
-    X(REST, "rest", at_rest)           \
-    X(TWICE, "twice", twice)           \
-    X(BLOCKS, "blocks", blocks)        \
-    X(PLANE, "plane", plane)           \
-    X(BOUNCE, "bounce", bounce)        \
-    X(PENALTY, "penalty", penalty)     \
-    X(GATHER, "gather", gather)        \
-    X(THERMOSTAT, "thermostat", thermostat)
+#define MOTION_KINDS(X)                     \
+    X(SMOOTH, "smooth", smooth)             \
+    X(COUPLED, "coupled", coupled)          \
+    X(VECTOR, "vector", vector)             \
+    X(FAMILY, "family", family)             \
+    X(FRICTION, "friction", belt)           \
+    X(KINKED, "kinked", kinked)             \
+    X(SEVERAL, "several", several)          \
+    X(NEAR, "near-singular", close_by)      \
+    X(STIFF, "stiff", stiff)                \
+    X(CHAOS, "chaos", chaos)                \
+    X(LONG, "long", lasting)                \
+    X(BACKWARD, "backward", backward)       \
+    X(OFFSET, "offset", offset)             \
+    X(SCALE, "scale", scale)                \
+    X(CANCEL, "cancel", cancel)             \
+    X(VANISH, "vanish", vanish)             \
+    X(BUMP, "bump", bump)                   \
+    X(PULSE, "pulse", pulse)                \
+    X(WALL, "wall", wall)                   \
+    X(FLIGHT, "flight", flight)             \
+    X(REST, "rest", at_rest)                \
+    X(TWICE, "twice", twice)                \
+    X(BLOCKS, "blocks", blocks)             \
+    X(PLANE, "plane", plane)                \
+    X(BOUNCE, "bounce", bounce)             \
+    X(PENALTY, "penalty", penalty)          \
+    X(GATHER, "gather", gather)             \
+    X(THERMOSTAT, "thermostat", thermostat) \
+    X(BALLS, "balls", balls)                \
+    X(FIRE, "fire", fire)
 
 #define MOTION_KINDS_ENUMERATOR(name, word, make) MOTION_##name##_KIND,
 enum { MOTION_KINDS(MOTION_KINDS_ENUMERATOR) MOTION_KIND_COUNT };

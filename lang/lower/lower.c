@@ -46,6 +46,7 @@ static value lower_sum_of_two(lowering *l, const tree *t, const tree *a, value v
     value v = vector(l, va.count);
     for (int k = 0; k < (v.count ? v.count : 1); k++)
         v.item[k] = binary(l, add ? OP_ADD : OP_SUB, va.item[k], vb.item[k]);
+    lower_typed_sum(l, &v, &va, &vb, add);
     return v;
 }
 
@@ -510,7 +511,7 @@ static value lower_any(lowering *l, const tree *t)
     graph *g = l->model->graph;
     value v;
     switch (t->kind) {
-    case TREE_NUMBER: return scalar(l, graph_const(g, t->number));
+    case TREE_NUMBER: return lower_number(l, t);
     case TREE_NAME: return lower_name(l, t);
     case TREE_APPLY: {
         model_function *function = symbols_find(l->model, t->item[0]->name).function;
@@ -529,6 +530,7 @@ static value lower_any(lowering *l, const tree *t)
         lower_tidy(l, false);
         r.count = v.count;
         r.rows = v.rows;
+        lower_typed_negative(l, &r, &v);
         return r;
     case TREE_POWER: return lower_power(l, t);
     case TREE_COMPARE: {

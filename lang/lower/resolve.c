@@ -57,6 +57,7 @@ static bool resolve_plain(model *m, model_definition *d)
     for (int k = 0; k < n; k++)
         if (!vary_record_scalar(m, v.item[k], d->slot + (uint32_t)k)) return false;
     m->scalar_used += (uint32_t)n;
+    d->typed = v.typed;
     return true;
 }
 

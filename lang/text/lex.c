@@ -88,8 +88,8 @@ static token lex_number(lexer *l, bool blank)
         source_complain(l->source, MOTUS_SYNTAX, &t.at, "a number has one decimal point");
         return stop(l, from);
     }
-    double other;
-    decimal_read_between(b + from, l->at - from, &t.number, &other);
+    double other, rest;
+    decimal_read_between(b + from, l->at - from, &t.number, &other, &rest);
     if (l->source->nudged) t.number = other;
     if (!isfinite(t.number)) {
         source_complain(l->source, MOTUS_LIMIT, &t.at, "this number is beyond the range of a double (1.8e308)");
