@@ -103,6 +103,7 @@ motus_status events_create(const rules *r, const machine *m, const chosen *metho
         for (size_t i = 0; i <= one->instances; i++, times += RECENT * recent_levels(one))
             e->recent[instances++].t = times;
         for (size_t f = 0; f < one->leaves * one->instances; f++) e->rule_of[one->first + f] = (uint32_t)k;
+        e->clocks |= one->kind == RULE_CLOCK;
     }
     forget_happened(e);
     *out = e;
@@ -227,11 +228,13 @@ motus_status events_begin(events *e, stepper *s, double until, motus_error *err)
  * there is none. */
 static candidate *earliest(events *e)
 {
-    const double margin = 16 * e->shift + 0x1p-20 * fabs(e->span);
+    const double margin = events_margin(e), far = margin + 2 * e->shift;
     candidate *best = NULL;
     double at = INFINITY;
-    for (size_t k = 0; k < e->candidates; k++) {
+    while (e->in_order && e->next_one < e->candidates && e->candidate[e->next_one].gone) e->next_one++;
+    for (size_t k = e->in_order ? e->next_one : 0; k < e->candidates; k++) {
         candidate *c = &e->candidate[k];
+        if (e->in_order && e->way * c->at - far > at) break;
         const bool rough = !c->located && !c->idle && c->kind != CANDIDATE_TIME;
         const double t = e->way * c->at - (rough ? margin : 0);
         if (c->gone || !(t < at || (t == at && !c->located))) continue;
@@ -315,10 +318,12 @@ static bool ask(events *e)
 }
 
 /* Where the caller cancels among many events of one step, it ends at `here`; the next step finds what comes after. */
-static bool cancelled(events *e)
+static motus_status cancelled(events *e, bool *is, motus_error *err)
 {
-    if (ask(e)) events_stand(e);
-    return e->cancelled;
+    *is = ask(e);
+    const motus_status status = *is ? events_complete(e, err) : MOTUS_OK;
+    if (*is && !status) events_stand(e);
+    return status;
 }
 
 /* Where the caller cancels while the places of many events are sought and nothing has happened yet, the step ends where
@@ -369,7 +374,7 @@ static motus_status follow(events *e, stepper *s, candidate *c, bool *assigned, 
     }
     const bool ends = !status && e->has_limit && (!e->limit_told || (back && !*assigned));
     if (ends) e->end = EVENTS_END_ACCUMULATED, e->end_rule = e->limit.rule;
-    if (e->end == EVENTS_END_NONE && !status && !*assigned) *assigned = cancelled(e);
+    if (e->end == EVENTS_END_NONE && !status && !*assigned) status = cancelled(e, assigned, err);
     if (status || e->end == EVENTS_END_NONE) return status;
     *why = STOP_EVENT;
     if (!keep_past(e, e->here.t)) return events_no_memory(err); /* what lies before the end is sampled */

@@ -54,7 +54,7 @@ static motus_status raise_by_change(events *e, size_t f, bool rate, int bit, siz
         events_copy(e, to, &e->here);
         for (size_t k = bit < 0 ? one : 0; k < all && (bit >= 0 || k == one); k++)
             *(k < nx ? &to->x[k] : &to->v[k - nx]) += (bit > 0 && (k >> (bit - 1) & 1) ? -sign : sign) * e->width[k];
-        const motus_status status = rate ? events_rates(e, to, err) : events_values(e, to, err);
+        const motus_status status = rate ? events_rate_of(e, f, to, err) : events_value_of(e, f, to, err);
         if (status) return status;
         const double by = rate ? fabs(to->rate[f] - e->here.rate[f]) : fabs(to->g[f] - e->here.g[f]);
         if (isfinite(by)) *most = fmax(*most, by);
@@ -101,8 +101,8 @@ motus_status events_slope_error_of(events *e, size_t f, double h, double *bound,
 /* The function or its rate after a true step of size h, in `next`. */
 static motus_status look(events *e, size_t f, bool rate, double h, double *value, motus_error *err)
 {
-    motus_status status = events_at(e, h, &e->next, err);
-    if (!status && rate) status = events_rates(e, &e->next, err);
+    motus_status status = events_at_of(e, f, h, &e->next, err);
+    if (!status && rate) status = events_rate_of(e, f, &e->next, err);
     *value = rate ? e->next.rate[f] : e->next.g[f];
     return status;
 }

@@ -39,7 +39,50 @@ bool events_add(events *e, candidate c)
     if (!events_grow(&e->allocator, &list, e->candidates, &e->candidate_room, 1, sizeof c)) return false;
     e->candidate = list;
     e->candidate[e->candidates++] = c;
+    e->in_order = false;
     return true;
+}
+
+void events_about(const events *e, double at, double far, size_t *first, size_t *end)
+{
+    *first = 0, *end = e->candidates;
+    if (!e->in_order) return;
+    far += 2 * e->shift;
+    *first = *end = e->next_one;
+    while (*first > 0 && e->way * (at - e->candidate[*first - 1].at) <= far) --*first;
+    while (*end < e->candidates && e->way * (e->candidate[*end].at - at) <= far) ++*end;
+}
+
+/* Whether a candidate has no other time than its own, nor a near one. */
+static bool is_settled(const candidate *c)
+{
+    return c->kind != CANDIDATE_TIME && c->sure && !c->near && !c->sampled && !c->jumps;
+}
+
+static bool is_before(const events *e, const candidate *a, const candidate *b)
+{
+    return a->at == b->at ? a->of < b->of : e->way * (b->at - a->at) > 0;
+}
+
+/* Puts many candidates in the order of their times, where these are told; by Shell's sort. */
+static void put_in_order(events *e)
+{
+    enum { MANY = 16 };
+    bool all = e->candidates >= MANY;
+    size_t gap = 1;
+    for (size_t k = 0; k < e->candidates && all; k++) all = is_settled(&e->candidate[k]);
+    if (!all) return;
+    while (gap < e->candidates / 3) gap = 3 * gap + 1;
+    for (; gap > 0; gap /= 3)
+        for (size_t k = gap; k < e->candidates; k++) {
+            const candidate one = e->candidate[k];
+            size_t to = k;
+            for (; to >= gap && is_before(e, &one, &e->candidate[to - gap]); to -= gap)
+                e->candidate[to] = e->candidate[to - gap];
+            e->candidate[to] = one;
+        }
+    e->in_order = true;
+    e->next_one = 0;
 }
 
 /* A part of the step in which a function is a polynomial: all of it, where that can be. */
@@ -57,17 +100,24 @@ double events_place_in(const events *e, double h)
     return e->way * (e->right.t - t) < 0 ? e->right.t : t;
 }
 
-/* Room for the values at degree + 1 points. */
+/* Room for the values at degree + 1 points, and behind them for the arguments. */
 static bool room_for(events *e, int degree)
 {
     if (degree + 1 <= e->samples_room) return true;
     const size_t room = (size_t)degree + 1;
-    double *more = take(&e->allocator, room * e->rules.functions, sizeof *more);
+    double *more = take(&e->allocator, room * e->rules.functions * (1 + e->rules.arguments), sizeof *more);
     if (!more) return false;
     give(&e->allocator, e->samples);
     e->samples = more;
+    e->arguments = more + room * e->rules.functions;
     e->samples_room = degree + 1;
     return true;
+}
+
+static void sample_arguments(events *e, const instant *at, int k)
+{
+    const size_t each = e->rules.arguments * e->rules.functions;
+    if (each) e->rules.arguments_at(e->rules.ctx, at->t, at->x, at->v, e->arguments + (size_t)k * each);
 }
 
 static motus_status sample(events *e, stepper *s, int degree, motus_error *err)
@@ -76,6 +126,8 @@ static motus_status sample(events *e, stepper *s, int degree, motus_error *err)
     if (!room_for(e, degree)) return events_no_memory(err);
     memcpy(e->samples, e->left.g, n * sizeof *e->samples);
     memcpy(e->samples + (size_t)degree * n, e->right.g, n * sizeof *e->samples);
+    sample_arguments(e, &e->left, 0);
+    sample_arguments(e, &e->right, degree);
     instant *at = &e->next;
     motus_status status = MOTUS_OK;
     for (int k = 1; k < degree && !status; k++) {
@@ -83,6 +135,7 @@ static motus_status sample(events *e, stepper *s, int degree, motus_error *err)
         status = stepper_sample(s, at->t, at->x, at->v, err);
         if (!status) status = events_values(e, at, err);
         memcpy(e->samples + (size_t)k * n, at->g, n * sizeof *at->g);
+        sample_arguments(e, at, k);
     }
     return status;
 }
@@ -100,7 +153,7 @@ static motus_status sample_part(events *e, stepper *s, size_t f, const part *p, 
         }
         at->t = events_place_in(e, time_at(e, tau));
         status = stepper_sample(s, at->t, at->x, at->v, err);
-        if (!status) status = events_values(e, at, err);
+        if (!status) status = events_value_of(e, f, at, err);
         values[k] = at->g[f];
     }
     return status;
@@ -587,6 +640,7 @@ static motus_status find_by_points(events *e, stepper *s, size_t f, int *degree,
         e->hidden = true;
         return MOTUS_OK;
     }
+    e->in_parts = rough;
     if (!status && rough) status = find_in_parts(e, s, f, &sign, err);
     e->stands[f] = e->stands[f] && !sign;
     return status;
@@ -904,7 +958,7 @@ static motus_status place_guessed(events *e, stepper *s, candidate *c, motus_err
         c->at = turn % 8 == 7 ? low + (high - low) / 2 : inner;
         at->t = events_place_in(e, c->at);
         status = stepper_sample(s, at->t, at->x, at->v, err);
-        if (!status) status = events_values(e, at, err);
+        if (!status) status = events_value_of(e, c->of, at, err);
         const double g = at->g[c->of];
         if (status || g == 0 || !isfinite(g)) break;
         const bool before = (g > 0) != (c->kind > 0);
@@ -916,11 +970,21 @@ static motus_status place_guessed(events *e, stepper *s, candidate *c, motus_err
     return status;
 }
 
+static bool lingers_any(const events *e)
+{
+    const size_t n = e->rules.functions;
+    uint8_t any = 0;
+    for (size_t f = n; f < 3 * n; f++) any |= e->was[f];
+    for (size_t f = 0; f < n; f++) any |= e->stands[f] | e->open[f];
+    return any;
+}
+
 motus_status events_find(events *e, stepper *s, motus_error *err)
 {
     int degree = ROOTS_DEGREE_LEAST;
     const size_t flags = 4 * e->rules.functions;
     e->candidates = 0;
+    e->in_order = false;
     e->hidden = false;
     memcpy(e->was, e->side, flags);
     e->shift = 0;
@@ -936,5 +1000,7 @@ motus_status events_find(events *e, stepper *s, motus_error *err)
         if (c->guessed && has_neighbour(e, k)) status = place_guessed(e, s, c, err);
     }
     if (!status && !add_ticks(e)) status = events_no_memory(err);
+    if (!status) put_in_order(e);
+    e->lingers = lingers_any(e);
     return status || !e->candidates ? status : value_ends(e, err);
 }

@@ -546,20 +546,151 @@ static motus_status touch_too(events *e, motus_error *err)
     return status;
 }
 
-motus_status events_fire(events *e, const candidate *c, bool *assigned, motus_error *err)
+/* Whether a function is 0 at `here`, or beyond it: then it has passed 0 in this very instant, and its own candidate
+ * comes a rounding later. */
+static bool is_passed(const events *e, size_t f)
 {
-    bool again = true;
+    return is_zero(e, f) || (e->side[f] && sign_of(e->here.g[f]) == -e->side[f] && !jumps_here(e, f));
+}
+
+/* ---- few of many rules ---- */
+
+/* An instance of a rule, one of whose functions may be 0 in this instant. */
+typedef struct asked {
+    size_t rule, instance;
+} asked;
+enum { ASKED_MOST = 64 };
+
+/* Whether a root of the step may be in this instant, as far as dense output tells. */
+static bool may_be_here(const events *e, const candidate *c)
+{
+    const double margin = events_margin(e);
+    if (fabs(c->at - e->here_at) <= margin) return true;
+    const bool settled = c->located || (c->sure && !c->near && !c->sampled);
+    return !settled && e->way * (e->here_at - c->low) >= -margin && e->way * (c->high - e->here_at) >= -margin;
+}
+
+static bool any_ticks(const events *e)
+{
+    const double near = 4 * events_ulp(e->here.t);
+    for (size_t k = 0; e->clocks && k < e->rules.count; k++)
+        if (e->rules.rule[k].kind == RULE_CLOCK && fabs(events_tick(e, k) - e->here.t) <= near) return true;
+    return false;
+}
+
+/* Into a list in the order of the text. False: it is full. */
+static bool insert(asked *list, size_t *count, asked one)
+{
+    size_t k = *count;
+    while (k > 0 &&
+           (list[k - 1].rule > one.rule || (list[k - 1].rule == one.rule && list[k - 1].instance > one.instance)))
+        k--;
+    if (k > 0 && list[k - 1].rule == one.rule && list[k - 1].instance == one.instance) return true;
+    if (*count == ASKED_MOST) return false;
+    memmove(list + k + 1, list + k, (*count - k) * sizeof *list);
+    list[k] = one;
+    ++*count;
+    return true;
+}
+
+/* Lists the instances of rules of which something may be in this instant, where these do nothing but record and keep:
+ * all others go on as they are. False: they are not known, or every rule has to be asked. */
+static bool asks_few(const events *e, const candidate *c, asked *list, size_t *count)
+{
+    size_t first, end;
+    *count = 0;
+    if (!e->rules.alone || e->lingers || c->kind == CANDIDATE_TIME || (e->has_limit && !e->limit_told) || any_ticks(e))
+        return false;
+    events_about(e, e->here_at, events_margin(e), &first, &end);
+    for (size_t k = first; k < end; k++) {
+        const candidate *other = &e->candidate[k];
+        if (other->kind == CANDIDATE_TIME || (other->gone && !other->followed) || !may_be_here(e, other)) continue;
+        const size_t number = e->rule_of[other->of];
+        const rule *r = &e->rules.rule[number];
+        if (r->assigns || r->internal || r->stop) return false;
+        if (!insert(list, count, (asked){number, (other->of - r->first) % r->instances})) return false;
+    }
+    return true;
+}
+
+/* Evaluates the functions of one instance at `here`. */
+static motus_status look_at(events *e, const asked *one, motus_error *err)
+{
+    const rule *r = &e->rules.rule[one->rule];
     motus_status status = MOTUS_OK;
-    /* a function beyond 0 has passed it in this very instant: its own candidate comes a rounding later */
-    for (size_t f = 0; f < e->rules.functions; f++)
-        e->zero[f] = is_zero(e, f) || (e->side[f] && sign_of(e->here.g[f]) == -e->side[f] && !jumps_here(e, f));
+    for (size_t l = 0; l < r->leaves && !status; l++) {
+        const size_t f = r->first + l * r->instances + one->instance;
+        status = events_value_of(e, f, &e->here, err);
+        if (!status) status = events_judge_of(e, f, &e->here, err);
+        e->zero[f] = is_passed(e, f);
+        e->touched[f] = 0;
+    }
+    e->steady[e->instances[one->rule] + one->instance] = e->held[e->instances[one->rule] + one->instance];
+    return status;
+}
+
+/* All at `here`. */
+static motus_status look_at_all(events *e, motus_error *err)
+{
+    motus_status status = MOTUS_OK;
+    if (e->rules.alone) {
+        status = events_values(e, &e->here, err);
+        if (!status) status = events_judge(e, &e->here, err);
+    }
+    for (size_t f = 0; f < e->rules.functions; f++) e->zero[f] = is_passed(e, f);
+    return status;
+}
+
+/* Marks the functions of this candidate, and of those that have been located here, as 0. */
+static void mark_located(events *e, const candidate *c)
+{
+    size_t first, end;
+    events_about(e, e->here_at, events_margin(e), &first, &end);
     if (c->kind != CANDIDATE_TIME && !(c->jumps && c->kind)) e->zero[c->of] = 1;
-    for (size_t k = 0; k < e->candidates; k++) {
+    for (size_t k = first; k < end; k++) {
         const candidate *other = &e->candidate[k];
         const bool nothing = other->gone && !other->followed;
         if (other->kind == CANDIDATE_TIME || !other->located || nothing || (other->jumps && other->kind)) continue;
         if (is_here(e, other)) e->zero[other->of] = 1;
     }
+}
+
+static motus_status fire_few(events *e, const candidate *c, const asked *list, size_t count, motus_error *err)
+{
+    bool acted = false, again;
+    motus_status status = MOTUS_OK;
+    for (size_t k = 0; k < count && !status; k++) status = look_at(e, &list[k], err);
+    if (status) return status;
+    mark_located(e, c);
+    events_overlay(e, e->here.x);
+    e->awaits = false;
+    e->partial = true;
+    for (size_t k = 0; k < count && !status; k++) {
+        const bool root = e->rules.rule[list[k].rule].kind == RULE_ROOT;
+        status = (root ? ask_root : ask_condition)(e, list[k].rule, list[k].instance, c, &acted, &again, err);
+    }
+    return status;
+}
+
+motus_status events_complete(events *e, motus_error *err)
+{
+    if (!e->partial) return MOTUS_OK;
+    const motus_status status = look_at_all(e, err);
+    for (size_t f = 0; f < e->rules.functions; f++) e->zero[f] |= e->fired[f] == e->here.t;
+    e->partial = false;
+    return status;
+}
+
+motus_status events_fire(events *e, const candidate *c, bool *assigned, motus_error *err)
+{
+    asked list[ASKED_MOST];
+    size_t count;
+    if (asks_few(e, c, list, &count)) return fire_few(e, c, list, count, err);
+    bool again = true;
+    e->partial = false;
+    motus_status status = look_at_all(e, err);
+    if (status) return status;
+    mark_located(e, c);
     if (ends_step(e, c)) {
         status = touch_too(e, err);
         if (status) return status;

@@ -17,6 +17,8 @@
 
 #define SHORTEST 0x1p-32 /* of the step: a shorter piece is not halved */
 #define NEAR 0.125       /* of the step: what is nearer to a root is left to the points */
+#define BETWEEN 0.125    /* of the range of a polynomial at the points: so far it goes between them */
+#define ROUNDED 0x1p-44  /* of a value */
 enum { DEEP = 33, PIECES_MOST = 1024, PASSES_MOST = 64 };
 
 /* Pieces that a run may take: so many at once and so many more in a step, and a piece costs more the more functions
@@ -89,7 +91,7 @@ static motus_status state_at(const narrow *n, double tau, instant *to, motus_err
     }
     to->t = events_place_in(e, tau * e->span);
     const motus_status status = stepper_sample(n->s, to->t, to->x, to->v, err);
-    return status ? status : events_values(e, to, err);
+    return status ? status : events_value_of(e, n->f, to, err);
 }
 
 /* Whether the function is told in a box around `here` and `next`, at the ends of this part of the step. */
@@ -234,6 +236,31 @@ static motus_status bound_accelerations(const narrow *n, motus_error *err)
     return status;
 }
 
+/* Whether the points of the step tell all roots of a function that they resolve, since its operations are regular over
+ * all that their arguments are in the step: what these are at the points, and between by as much as the points do not
+ * resolve. */
+static bool is_regular(const events *e, size_t f, int degree)
+{
+    const size_t all = e->rules.functions, each = e->rules.arguments * all;
+    double low[RULE_ARGUMENTS_MOST], high[RULE_ARGUMENTS_MOST], coefficients[ROOTS_DEGREE_MOST + 1];
+    if (e->in_parts || !e->rules.arguments) return false;
+    for (size_t k = 0; k < e->rules.arguments; k++) {
+        const double *value = e->arguments + k * all + f;
+        roots_fitted fitted;
+        low[k] = high[k] = value[0];
+        for (int i = 1; i <= degree; i++) {
+            const double one = value[(size_t)i * each];
+            low[k] = fmin(low[k], one), high[k] = fmax(high[k], one);
+        }
+        const double largest = fmax(fabs(low[k]), fabs(high[k]));
+        const bool told =
+            roots_fit(value, each, degree, largest * ROUNDED, coefficients, &fitted) != ROOTS_FIT_NOT_FINITE;
+        const double beyond = told ? BETWEEN * (high[k] - low[k]) + fitted.unseen : NAN;
+        low[k] -= beyond, high[k] += beyond;
+    }
+    return e->rules.regular(e->rules.ctx, f, low, high);
+}
+
 motus_status events_narrow(events *e, stepper *s, size_t f, size_t first, int degree, bool failed, bool *more,
                            motus_error *err)
 {
@@ -243,6 +270,7 @@ motus_status events_narrow(events *e, stepper *s, size_t f, size_t first, int de
     *more = false;
     if (e->rules.rule[e->rule_of[f]].internal) return MOTUS_OK;
     if (e->rules.may_be_narrow && !e->rules.may_be_narrow(e->rules.ctx, f)) return MOTUS_OK;
+    if (!failed && is_regular(e, f, degree)) return MOTUS_OK;
     if (!e->rules.apart || e->problem.refresh) return count_unseen(e, f), MOTUS_OK;
     motus_status status = bound_accelerations(&n, err);
     if (!status) status = events_bounds(e, &e->left, err);

@@ -16,6 +16,8 @@
 #include "core/events.h"
 #include "core/roots.h"
 
+#include <math.h>
+
 /* Dense output errs by far less than this part of a function's largest value on the step; where a function comes nearer
  * to 0, or a root lies where it hardly leaves 0, true steps tell what happens. It costs time alone. */
 #define EVENTS_SLACK 0x1p-13
@@ -155,8 +157,13 @@ struct events {
     double unseen_at;
     size_t unseen_function;
     double *width; /* of positions, then velocities: half widths of the step's box, or error bounds (events_errors.c) */
-    double *samples; /* of all functions at the points of the step */
+    double *samples;   /* of all functions at the points of the step, */
+    double *arguments; /*   and there arguments of their operations (core/rules.h) */
     int samples_room;
+    bool clocks;   /* there are rules of that kind */
+    bool lingers;  /* a function stands at 0 or is open, at the start of the step or at its end */
+    bool partial;  /* `here` has been fired with few of its functions evaluated */
+    bool in_parts; /* the points do not resolve the function that is looked at: parts of the step do */
     /* of every instance of a condition, numbered by `instances`: */
     uint8_t *held;     /* it was true */
     uint8_t *steady;   /* it was true up to this instant, in which it has not happened */
@@ -169,6 +176,10 @@ struct events {
     uint8_t *ticked;   /* per rule: of a clock, it has in this instant */
     candidate *candidate;
     size_t candidates, candidate_room;
+    /* They are in the order of their times, but for what locating them moves these, and all before number `next_one`
+     * are gone. */
+    bool in_order;
+    size_t next_one;
 
     double at_once;         /* the time of the latest action */
     int actions;            /* in that instant */
@@ -221,13 +232,20 @@ motus_status events_judge(events *, instant *, motus_error *);
 motus_status events_rates(events *, instant *, motus_error *);
 motus_status events_bounds(events *, instant *, motus_error *);
 motus_status events_values(events *, instant *, motus_error *);
+/* The same of one function alone, where that costs less; the numbers of the others are then those of another instant.
+ */
+motus_status events_value_of(events *, size_t function, instant *, motus_error *);
+motus_status events_rate_of(events *, size_t function, instant *, motus_error *);
+motus_status events_bound_of(events *, size_t function, instant *, motus_error *);
+motus_status events_judge_of(events *, size_t function, instant *, motus_error *); /* rate and bound */
 /* MOTUS_CALLBACK: the callback for `which` returned `answer` at time t. */
 motus_status events_refuse(const events *, const char *which, double t, int answer, motus_error *);
 /* A step of size h from the state of time `from` + `lost`; the end is at *t + *rest. */
 motus_status events_probe(events *, double from, double lost, const double *x, const double *v, double h, double *t,
                           double *rest, motus_error *);
-/* The state after a step of size h from `left`; with values. */
+/* The state after a step of size h from `left`; with values, or that of one function. */
 motus_status events_at(events *, double h, instant *, motus_error *);
+motus_status events_at_of(events *, size_t function, double h, instant *, motus_error *);
 /* Finds where the candidate is, and the state there, in `here`. It may be gone; a near one may become two. */
 motus_status events_locate(events *, size_t candidate, motus_error *);
 /* An extremum on the other side of 0: replaces a near candidate by the two crossings, before and after that time. */
@@ -247,6 +265,10 @@ motus_status events_watch(events *, stepper *, stepper_limit, stepper_stop *why,
 /* A state of the motion, where a step begins, counts in `most`. */
 void events_extend(events *, const double *x, const double *v);
 bool events_add(events *, candidate);
+/* How far a candidate that is not located may be from its time by dense output. */
+static inline double events_margin(const events *e) { return 16 * e->shift + 0x1p-20 * fabs(e->span); }
+/* The candidates from *first to before *end are all whose times are no farther than `far` from this one. */
+void events_about(const events *, double at, double far, size_t *first, size_t *end);
 motus_status events_no_memory(motus_error *);
 /* The time so long after `left`; what times have lost to rounding leads out of the step where it is short. */
 double events_place_in(const events *, double h);
@@ -282,6 +304,8 @@ motus_status events_locate_sampled(events *, size_t candidate, motus_error *);
 
 /* events_fire.c. All that happens at `here`, to which the candidate leads. */
 motus_status events_fire(events *, const candidate *, bool *assigned, motus_error *);
+/* Of the instant that was last fired, evaluates the functions that have not been asked for. */
+motus_status events_complete(events *, motus_error *);
 /* The sides and roots with which the motion goes on from `here`, where the step ends. */
 void events_stand(events *);
 /* The truth of conditions from the sides, without events. */

@@ -74,16 +74,22 @@ motus_status events_bounds(events *e, instant *at, motus_error *err)
     return estimate_bounds(e, at, err);
 }
 
-motus_status events_rates(events *e, instant *at, motus_error *err)
+/* The accelerations, where rates read them. */
+static motus_status accelerate(const events *e, instant *at, motus_error *err)
 {
     const problem *p = &e->problem;
-    motus_status status = MOTUS_OK;
+    if (e->rules.rates && e->rules.rates_without_a) return MOTUS_OK;
+    memset(at->a, 0, p->nv * sizeof *at->a);
+    return p->accel(p->ctx, at->t, at->x, at->v, at->a)
+               ? events_refuse(e, "acceleration", at->t, p->returned ? *p->returned : 0, err)
+               : MOTUS_OK;
+}
+
+motus_status events_rates(events *e, instant *at, motus_error *err)
+{
     if (e->rules.functions == 0) return MOTUS_OK;
-    if (!e->rules.rates || !e->rules.rates_without_a) {
-        memset(at->a, 0, p->nv * sizeof *at->a);
-        if (p->accel(p->ctx, at->t, at->x, at->v, at->a))
-            return events_refuse(e, "acceleration", at->t, p->returned ? *p->returned : 0, err);
-    }
+    motus_status status = accelerate(e, at, err);
+    if (status) return status;
     if (e->rules.rates) {
         const int answer = e->rules.rates(e->rules.ctx, at->t, at->x, at->v, at->a, at->rate);
         return answer ? events_refuse(e, "event_functions", at->t, answer, err) : MOTUS_OK;
@@ -102,6 +108,42 @@ motus_status events_judge(events *e, instant *at, motus_error *err)
 {
     const motus_status status = events_rates(e, at, err);
     return status || e->rules.functions == 0 ? status : events_bounds(e, at, err);
+}
+
+static double alone(const events *e, rule_number what, size_t f, const instant *at)
+{
+    return e->rules.alone(e->rules.ctx, what, f, at->t, at->x, at->v, at->a);
+}
+
+motus_status events_value_of(events *e, size_t f, instant *at, motus_error *err)
+{
+    if (!e->rules.alone) return events_values(e, at, err);
+    at->valued = false;
+    at->g[f] = alone(e, RULE_VALUE, f, at);
+    return MOTUS_OK;
+}
+
+motus_status events_rate_of(events *e, size_t f, instant *at, motus_error *err)
+{
+    if (!e->rules.alone) return events_rates(e, at, err);
+    const motus_status status = accelerate(e, at, err);
+    if (!status) at->rate[f] = alone(e, RULE_RATE, f, at);
+    return status;
+}
+
+motus_status events_bound_of(events *e, size_t f, instant *at, motus_error *err)
+{
+    if (!e->rules.alone) return events_bounds(e, at, err);
+    at->bound[f] = alone(e, RULE_ROUNDING, f, at);
+    if (isfinite(at->bound[f]) || !isfinite(at->g[f])) return MOTUS_OK;
+    const motus_status status = events_values(e, at, err);
+    return status ? status : events_bounds(e, at, err);
+}
+
+motus_status events_judge_of(events *e, size_t f, instant *at, motus_error *err)
+{
+    const motus_status status = events_rate_of(e, f, at, err);
+    return status ? status : events_bound_of(e, f, at, err);
 }
 
 int events_direction(const events *e, const instant *at, size_t f)
@@ -143,18 +185,33 @@ motus_status events_probe(events *e, double from, double lost, const double *x, 
     return status ? status : stepper_advance(e->probe, limit, NULL, err);
 }
 
-motus_status events_at(events *e, double h, instant *to, motus_error *err)
+/* *ends: the state is that of an end of the step, whose values are known. */
+static motus_status state_at(events *e, double h, instant *to, bool *ends, motus_error *err)
 {
     const instant *from = &e->left;
     /* too short for a step; near t = 0 times are far shorter than what a step can tell */
     const bool still = from->t + h == from->t || (from->t == 0 && fabs(h) < 0x1p-100 * fabs(e->span));
-    if (still || h == e->span) {
+    *ends = still || h == e->span;
+    if (*ends) {
         events_copy(e, to, still ? from : &e->right);
         return MOTUS_OK;
     }
     motus_status status = events_probe(e, from->t, from->lost, from->x, from->v, h, &to->t, &to->lost, err);
-    if (!status) status = stepper_sync(e->probe, to->x, to->v, NULL, err);
-    return status ? status : events_values(e, to, err);
+    return status ? status : stepper_sync(e->probe, to->x, to->v, NULL, err);
+}
+
+motus_status events_at(events *e, double h, instant *to, motus_error *err)
+{
+    bool ends;
+    const motus_status status = state_at(e, h, to, &ends, err);
+    return status || ends ? status : events_values(e, to, err);
+}
+
+motus_status events_at_of(events *e, size_t f, double h, instant *to, motus_error *err)
+{
+    bool ends;
+    const motus_status status = state_at(e, h, to, &ends, err);
+    return status || ends ? status : events_value_of(e, f, to, err);
 }
 
 /* Where a root is -------------------------------------------------------------------------------------------------- */
@@ -176,11 +233,11 @@ static motus_status crossing(events *e, candidate *c, motus_error *err)
     instant *at = &e->here;
     double low = c->low, high = c->high, h = c->at, best = INFINITY, found = h;
     for (int turn = 0; turn < TURNS; turn++) {
-        motus_status status = events_at(e, h, at, err);
-        if (!status) status = events_rates(e, at, err);
+        motus_status status = events_at_of(e, f, h, at, err);
+        if (!status) status = events_rate_of(e, f, at, err);
         const double g = at->g[f], rate = at->rate[f];
         const bool better = turn == 0 || fabs(g) < best;
-        if (!status && !better) status = events_bounds(e, at, err);
+        if (!status && !better) status = events_bound_of(e, f, at, err);
         if (status) return status;
         const bool ends = g == 0 || (!better && best <= at->bound[f] && fabs(g) >= best);
         if (better) best = fmin(best, fabs(g)), found = h, exchange_best(e);
@@ -198,13 +255,13 @@ static motus_status crossing(events *e, candidate *c, motus_error *err)
     c->at = found;
     c->located = true;
     exchange_best(e); /* it comes back */
-    return events_bounds(e, at, err);
+    return events_bound_of(e, f, at, err);
 }
 
 /* The sign of a function at the ends of the times that a candidate has for itself; there it is not 0. */
 static motus_status sign_at(events *e, double h, size_t f, int *sign, motus_error *err)
 {
-    const motus_status status = events_at(e, h, &e->here, err);
+    const motus_status status = events_at_of(e, f, h, &e->here, err);
     const double g = e->here.g[f];
     *sign = (g > 0) - (g < 0);
     return status;
@@ -328,9 +385,11 @@ motus_status events_locate(events *e, size_t k, motus_error *err)
     motus_status status = MOTUS_OK;
     if (c->sampled && !c->located) return events_locate_sampled(e, k, err);
     if (c->located || c->kind == CANDIDATE_TIME) {
+        const bool ticks = c->kind == CANDIDATE_TIME;
         c->located = true;
-        status = events_at(e, c->at, &e->here, err);
-        return status ? status : events_judge(e, &e->here, err);
+        status = ticks ? events_at(e, c->at, &e->here, err) : events_at_of(e, c->of, c->at, &e->here, err);
+        if (status) return status;
+        return ticks ? events_judge(e, &e->here, err) : events_judge_of(e, c->of, &e->here, err);
     }
     const size_t f = c->of;
     const double guess = c->at;
@@ -387,7 +446,7 @@ motus_status events_locate(events *e, size_t k, motus_error *err)
     if (!c->located && !c->gone) status = crossing(e, c, err);
     /* where dense output erred by more than was thought, signs of true steps tell */
     if (!status && c->sure && !vanishes(e, f)) {
-        c->sure = c->located = false;
+        c->sure = c->located = e->in_order = false;
         c->at = guess;
         return events_locate(e, k, err);
     }

@@ -37,6 +37,7 @@ enum {
     RULE_NOT = -3,
     RULE_FORMULA_MOST = 128,      /* words of a formula */
     RULES_MOST = 4096,            /* rules of a model */
+    RULE_ARGUMENTS_MOST = 8,      /* of operations that are no polynomials, of one function */
     RULE_FUNCTIONS_MOST = 1 << 20 /* functions of all rules, instances counted */
 };
 
@@ -62,6 +63,8 @@ typedef struct rule {
     bool internal;
 } rule;
 
+typedef enum rule_number { RULE_VALUE, RULE_RATE, RULE_ROUNDING, RULE_NUMBERS } rule_number;
+
 typedef struct rules {
     void *ctx;
     const rule *rule;
@@ -80,6 +83,9 @@ typedef struct rules {
     /* A bound on how far rounding may have carried each of these values, those of t and the state counted as half a
      * unit in the last place each. NULL: no formula is known. */
     void (*rounding)(void *ctx, double t, double *x, double *v, double *out);
+    /* What these three give of one function alone, with the same bits, in a time that the number of functions hardly
+     * enters; NULL: only all together are known. */
+    double (*alone)(void *ctx, rule_number, size_t function, double t, double *x, double *v, double *a);
     /* Of each function a number that its size nowhere falls below, at any time and at all states whose numbers are no
      * farther from x and v than dx and dv; not positive, or no number: none is known; infinite of a cell
      * without a rule. NULL: of none. */
@@ -89,6 +95,13 @@ typedef struct rules {
     /* Whether a function may have roots that the points of a step miss, being no polynomial of low degree; NULL: each
      * may. */
     bool (*may_be_narrow)(void *ctx, size_t function);
+    /* Arguments of the operations of a function that are no polynomials. Where these are regular while the arguments go
+     * through ranges, argument k from low[k] to high[k], the function has no feature that is narrow beside points which
+     * resolve the arguments. Argument k of function f is out[k * functions + f]; of a function that has fewer it is no
+     * number. `arguments` is their largest number of a function, 0: none is known. */
+    size_t arguments;
+    void (*arguments_at)(void *ctx, double t, double *x, double *v, double *out);
+    bool (*regular)(void *ctx, size_t function, const double *low, const double *high);
     /* Whether a function, or with `rate` its rate, is nowhere 0 at all times from t[0] to t[1], at all such states with
      * accelerations of at most these sizes. It takes more than `least`, and tells of functions of the time and of any
      * operation. NULL: it is known of none. */

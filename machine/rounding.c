@@ -11,12 +11,18 @@ static node of_leaf(graph *g, node leaf, void *ctx)
     return moves ? graph_op(g, OP_ABS, leaf, 0, 0) : 0;
 }
 
-tape *rounding_tape(model *m, const output *of, size_t count)
+output *rounding_outputs(model *m, const output *of, size_t count)
 {
     output *to = arena_room(m->arena, (count + 1) * sizeof *to);
     for (size_t k = 0; to && k < count; k++) {
         to[k] = of[k];
         to[k].value = graph_rounding(m->graph, of[k].value, of_leaf, NULL);
     }
-    return to && !m->arena->failed ? tape_of(m->arena, m->graph, to, count) : NULL;
+    return m->arena->failed ? NULL : to;
+}
+
+tape *rounding_tape(model *m, const output *of, size_t count)
+{
+    const output *to = rounding_outputs(m, of, count);
+    return to ? tape_of(m->arena, m->graph, to, count) : NULL;
 }

@@ -8,5 +8,6 @@
 /* The bounds of these outputs, in units of 2^-53; time and state are known to half a unit in the last place. In the
  * model's arena; NULL: no memory. */
 tape *rounding_tape(model *, const output *, size_t count);
+output *rounding_outputs(model *, const output *, size_t count); /* the outputs of that tape */
 
 #endif

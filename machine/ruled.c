@@ -8,13 +8,23 @@
 #include "lang/graph/graph_place.h"
 #include "lang/model/resolution.h"
 #include "lang/model/whole.h"
+#include "lang/tape/lone.h"
 #include "lang/tape/tape.h"
+#include "machine/arguments.h"
 #include "machine/least.h"
 #include "machine/rounding.h"
 
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
+
+enum { FEW = 16 }; /* functions, which take no longer together than one alone */
+
+typedef struct leaf {
+    const rule *rule;
+    size_t first; /* function */
+    bool bends;   /* it is no polynomial */
+} leaf;
 
 struct ruled {
     const model *model;
@@ -23,8 +33,11 @@ struct ruled {
     tape *values, *rates, *rounding, *least, *least_rates; /* NULL: there are no functions */
     resolution *within, *rates_within;                     /* the functions and their rates as intervals */
     interval *in_x, *in_v, *in_a, *is;                     /* room for those of the state and of all functions */
-    bool *bends;                                           /* of each rule: some function is no polynomial */
-    tape *periods; /* of the clocks, by the numbers of their rules; NULL: there are none */
+    leaf *leaf;                                            /* of all rules, in the order of their functions */
+    size_t leaves;
+    arguments *arguments;
+    lone *alone[RULE_NUMBERS]; /* of every leaf; NULL: there are few functions, or sums in them */
+    tape *periods;             /* of the clocks, by the numbers of their rules; NULL: there are none */
     double *period;
     tape **act;      /* of each rule, NULL: it assigns nothing */
     int64_t *ints;   /* those of the model, then the present values of MAX_DIMS indices */
@@ -75,17 +88,56 @@ static void least_rates(void *ctx, double *x, double *v, double *dx, double *dv,
         (double *[SPACES]){[SPACE_X] = x, [SPACE_V] = v, [SPACE_DX] = dx, [SPACE_DV] = dv, [SPACE_OUT] = out});
 }
 
-static const rule *rule_of(const ruled *r, size_t f)
+/* The number of the leaf that a function is one of. */
+static size_t leaf_of(const ruled *r, size_t f)
 {
-    size_t k = 0;
-    while (f - r->rule[k].first >= r->rule[k].leaves * r->rule[k].instances) k++;
-    return &r->rule[k];
+    size_t low = 0, high = r->leaves;
+    while (high - low > 1) {
+        const size_t middle = low + (high - low) / 2;
+        *(r->leaf[middle].first <= f ? &low : &high) = middle;
+    }
+    return low;
 }
 
 static bool may_be_narrow(void *ctx, size_t f)
 {
     const ruled *r = ctx;
-    return r->bends[rule_of(r, f) - r->rule];
+    return r->leaf[leaf_of(r, f)].bends;
+}
+
+/* The indices of an instance. */
+static void indices_of(const model_rule *rule, size_t instance, int64_t *index)
+{
+    for (int k = rule->own - 1; k >= 0; k--) {
+        const size_t length = (size_t)(rule->last[k] - rule->first[k] + 1);
+        index[k] = rule->first[k] + (int64_t)(instance % length);
+        instance /= length;
+    }
+}
+
+static double alone(void *ctx, rule_number what, size_t f, double t, double *x, double *v, double *a)
+{
+    const ruled *r = ctx;
+    const size_t number = leaf_of(r, f);
+    const leaf *l = &r->leaf[number];
+    int64_t index[MAX_LEVELS] = {0};
+    indices_of(&r->model->rules[l->rule - r->rule], f - l->first, index);
+    const binding b = {r->model->arrays, r->ints, r->model->pool};
+    const double value =
+        lone_run(r->alone[what], number, index, &b, t, (double *[SPACES]){[SPACE_X] = x, [SPACE_V] = v, [SPACE_A] = a});
+    return what == RULE_ROUNDING ? value * 0x1p-53 : value;
+}
+
+static void arguments_at(void *ctx, double t, double *x, double *v, double *out)
+{
+    const ruled *r = ctx;
+    arguments_run(r->arguments, r->supplied.functions, t, x, v, out);
+}
+
+static bool regular(void *ctx, size_t f, const double *low, const double *high)
+{
+    const ruled *r = ctx;
+    return arguments_regular(r->arguments, leaf_of(r, f), low, high);
 }
 
 static void enclose(interval *to, const double *middle, const double *half, size_t count)
@@ -98,7 +150,7 @@ static bool apart(void *ctx, size_t f, bool rate, const double t[2], const doubl
 {
     const ruled *r = ctx;
     const model *m = r->model;
-    if (rate && rule_of(r, f)->jump) return false; /* the rate does not tell how it jumps */
+    if (rate && r->leaf[leaf_of(r, f)].rule->jump) return false; /* the rate does not tell how it jumps */
     enclose(r->in_x, x, dx, m->nx);
     enclose(r->in_v, v, dv, m->nv);
     for (size_t k = 0; k < m->nv; k++) r->in_a[k] = (interval){-most[k], most[k]};
@@ -110,16 +162,6 @@ static bool apart(void *ctx, size_t f, bool rate, const double t[2], const doubl
 }
 
 /* ---- actions ---- */
-
-/* The indices of an instance. */
-static void indices_of(const model_rule *rule, size_t instance, int64_t *index)
-{
-    for (int k = rule->own - 1; k >= 0; k--) {
-        const size_t length = (size_t)(rule->last[k] - rule->first[k] + 1);
-        index[k] = rule->first[k] + (int64_t)(instance % length);
-        instance /= length;
-    }
-}
 
 typedef struct assigning {
     const ruled *ruled;
@@ -189,6 +231,20 @@ static void name(void *ctx, size_t number, size_t instance, char *out, size_t si
 
 /* ---- making ---- */
 
+/* The functions, their rates and the bounds on their rounding one by one. */
+static bool make_alone(ruled *r, model *m, const output *leaves, const output *rates, size_t count)
+{
+    if (r->supplied.functions < FEW) return true;
+    const output *const of[RULE_NUMBERS] = {leaves, rates, rounding_outputs(m, leaves, count)};
+    bool all = true;
+    for (int k = 0; k < RULE_NUMBERS; k++) {
+        if (!of[k] || !lone_create(m->arena, m->graph, of[k], count, &r->alone[k])) return false;
+        all &= r->alone[k] != NULL;
+    }
+    if (all) r->supplied.alone = alone;
+    return true;
+}
+
 static bool make_functions(ruled *r, model *m)
 {
     size_t count;
@@ -213,9 +269,15 @@ static bool make_functions(ruled *r, model *m)
         !resolution_create_values(m, rate, count, &r->rates_within))
         return false;
     r->in_v = r->in_x + m->nx, r->in_a = r->in_v + m->nv, r->is = r->in_a + m->nv;
-    if (!(r->bends = arena_take(m->arena, m->rule_count + 1))) return false;
-    for (uint32_t i = 0, n = 0; i < m->rule_count; i++)
-        for (size_t k = 0; k < m->rules[i].leaves; k++, n++) r->bends[i] |= resolution_bends(r->within, n);
+    r->leaf = arena_room(m->arena, count * sizeof *r->leaf);
+    if (!r->leaf || !arguments_create(m, &r->arguments)) return false;
+    for (uint32_t i = 0; i < m->rule_count; i++)
+        for (size_t k = 0; k < m->rules[i].leaves; k++, r->leaves++)
+            r->leaf[r->leaves] = (leaf){.rule = &r->rule[i],
+                                        .first = r->rule[i].first + k * r->rule[i].instances,
+                                        .bends = resolution_bends(r->within, r->leaves)};
+    r->supplied.arguments = arguments_most(r->arguments);
+    if (!make_alone(r, m, leaves, rate, count)) return false;
     return r->values && r->rates && r->rounding && r->least && r->least_rates;
 }
 
@@ -364,6 +426,8 @@ static bool make(ruled *r, model *m)
                           .least_rates = least_rates,
                           .apart = apart,
                           .may_be_narrow = may_be_narrow,
+                          .arguments_at = arguments_at,
+                          .regular = regular,
                           .act = act,
                           .name = name};
     return r->becomes && find_kept(r, m) && find_rounded(r, m) && make_functions(r, m) && make_periods(r, m) &&
@@ -391,6 +455,7 @@ bool ruled_rebind(ruled *r)
     tape *const tapes[] = {r->values, r->rates, r->rounding, r->least, r->least_rates, r->periods};
     for (size_t k = 0; k < sizeof tapes / sizeof *tapes; k++)
         if (tapes[k] && !tape_bind(tapes[k], &b)) return false;
+    if (r->arguments && !arguments_bind(r->arguments, &b)) return false;
     double *base[SPACES] = {[SPACE_OUT] = r->period};
     if (r->periods) tape_run(r->periods, 0, base);
     for (size_t k = 0; r->periods && k < r->supplied.count; k++)

@@ -238,6 +238,21 @@ static bool apart(void *ctx, size_t f, bool rate, const double t[2], const doubl
     return f < s->own.functions && s->own.apart && s->own.apart(s->own.ctx, f, rate, t, x, v, dx, dv, most);
 }
 
+/* Behind the own functions there is room for arguments of the switches, which need none. */
+static void arguments_at(void *ctx, double t, double *x, double *v, double *out)
+{
+    const sides *s = ctx;
+    const size_t own = s->own.functions, all = s->supplied.functions;
+    s->own.arguments_at(s->own.ctx, t, x, v, out);
+    for (size_t k = s->own.arguments; k-- > 1;) memmove(out + k * all, out + k * own, own * sizeof *out);
+}
+
+static bool regular(void *ctx, size_t f, const double *low, const double *high)
+{
+    const sides *s = ctx;
+    return f < s->own.functions && s->own.regular(s->own.ctx, f, low, high);
+}
+
 static int act(void *ctx, size_t rule, size_t instance, double t, double *x, double *v, bool *in_v, size_t *which)
 {
     const sides *s = ctx;
@@ -871,8 +886,11 @@ static bool make(sides *s, model *m)
     s->supplied.rounding = rounding;
     s->supplied.least = least;
     s->supplied.least_rates = least_rates;
+    s->supplied.alone = NULL;
     s->supplied.apart = apart;
     s->supplied.may_be_narrow = may_be_narrow;
+    s->supplied.arguments_at = arguments_at;
+    s->supplied.regular = regular;
     s->supplied.act = act;
     s->supplied.name = name;
     s->supplied.turn = turn;

@@ -79,6 +79,46 @@ static void peaks(void **state)
     assert_int_equal(wrong, 0);
 }
 
+/* Poles, kinks and branch points that come as near to the motion as these, without an argument that is 0. */
+static void near_singular(void **state)
+{
+    (void)state;
+    int wrong = 0;
+    for (size_t k = 0; k < WAYS; k++) {
+        wrong += !is_found("1/((x - 0.5)^2 + 1e-6) > 5e5", &ways[k], 0.5, 1e-3, NAN);
+        wrong += !is_found("sqrt((x - 0.5)^2 + 1e-8) < 2e-4", &ways[k], 0.5, sqrt(3) * 1e-4, NAN);
+        wrong += !is_found("log((x - 0.5)^2 + 1e-8) < log(4e-8)", &ways[k], 0.5, sqrt(3) * 1e-4, NAN);
+        wrong += !is_found("tanh((x - 0.5)/1e-4)^2 < 0.25", &ways[k], 0.5, atanh(0.5) * 1e-4, NAN);
+        wrong += !is_found("max(x - 0.5, 0.5 - x) < 1e-5", &ways[k], 0.5, 1e-5, NAN);
+        wrong += !is_found("hypot(x - 0.5, 1e-4) < 2e-4", &ways[k], 0.5, sqrt(3) * 1e-4, NAN);
+        wrong += !is_found("if(x > 0.4999, if(x < 0.5001, 1, 0), 0) > 0.5", &ways[k], 0.5, 1e-4, NAN);
+        wrong += !is_found("cbrt((x - 0.5)^2) < 1e-3", &ways[k], 0.5, sqrt(1e-9), NAN);
+        wrong += !is_found("(cos(x - 0.5)^64)^64 > 0.5", &ways[k], 0.5, acos(pow(0.5, 1.0 / 4096)), NAN);
+    }
+    assert_int_equal(wrong, 0);
+}
+
+/* Where such arguments stay away from all that, the points tell of every step: bounds on the function have its terms
+ * cancel too slowly. */
+static void regular(void **state)
+{
+    (void)state;
+    static const char *const when[] = {"sqrt(x^2 + x'^2) = 1.01", "1/(2 + x) - x'/(3 + x') = 0.2",
+                                       "exp(-x^2 - x'^2) = 0.35", "|x^2 + x'^2 + 1| = 2.02"};
+    for (size_t k = 0; k < sizeof when / sizeof *when; k++)
+        for (int i = 0; i < 2; i++) {
+            char text[512];
+            motus_system *s;
+            snprintf(text, sizeof text, "x'' = -x + 0.1 cos(1.3 t)\nx(0) = 1\nx'(0) = 0\nuntil 200\nwhen %s: record\n",
+                     when[k]);
+            motus_run *r = finished(text, &ways[i], &s);
+            if (unseen(r) != 0) fail_msg("%s, %s: %lld", when[k], ways[i].method, (long long)unseen(r));
+            assert_true(motus_run_events(r) > 0);
+            motus_run_destroy(r);
+            motus_system_destroy(s);
+        }
+}
+
 static void windows(void **state)
 {
     (void)state;
@@ -118,7 +158,8 @@ static void what_is_not_seen(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(peaks), cmocka_unit_test(windows),
+    const struct CMUnitTest tests[] = {cmocka_unit_test(peaks), cmocka_unit_test(near_singular),
+                                       cmocka_unit_test(regular), cmocka_unit_test(windows),
                                        cmocka_unit_test(what_is_not_seen)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -15,6 +15,7 @@
 #define EDGE 8.0   /* tanh, erf and atan hardly change beyond this */
 #define RATIO 2.0  /* by which a divisor, or the base of a power, may change */
 #define STEEP 8.0  /* powers above this are narrow where they change by more than e to this */
+#define FAR 8.0    /* by which an argument may change that a pole or a branch point at 0 is far from */
 #define POLE 1e-3  /* a divisor that may become this part of itself, may become 0 */
 
 #define NO_STEP UINT32_MAX
@@ -223,6 +224,13 @@ static bool hidden(operation op, interval a, interval b)
     }
 }
 
+/* Whether a is nowhere small beside its largest values, so that a pole or a branch point at 0 is far. */
+static bool far_from_zero(interval a)
+{
+    const interval m = interval_magnitude(a);
+    return m.low > 0 && m.high <= FAR * m.low;
+}
+
 /* Whether a may be 0, or so near to it as it is small beside its largest values. */
 static bool near_zero(interval a)
 {
@@ -253,6 +261,26 @@ static bool undecided(operation op, interval a, interval b)
     case OP_SELECT: return zero && a.low < a.high;
     case OP_MOD: side = interval_value(OP_DIV, a, b, none, false); return !(floor(side.low) == floor(side.high));
     default: side = interval_value(op, a, b, none, false); return !(side.low == side.high);
+    }
+}
+
+bool resolution_regular(operation op, interval a, interval b)
+{
+    switch (op) {
+    case OP_ABS: return a.low > 0 || a.high < 0;
+    case OP_MIN:
+    case OP_MAX: return a.high < b.low || b.high < a.low;
+    case OP_DIV: return far_from_zero(b);
+    case OP_SQRT:
+    case OP_LOG:
+    case OP_CBRT: return far_from_zero(a);
+    case OP_HYPOT: return far_from_zero(a) || far_from_zero(b);
+    case OP_POW: return b.low == b.high && fabs(b.low) <= STEEP && far_from_zero(a);
+    case OP_ATAN2: return far_from_zero(a) || (b.low > 0 && far_from_zero(b));
+    case OP_ASIN:
+    case OP_ACOS: return interval_magnitude(a).high < 1 - 1 / FAR;
+    case OP_TAN: return !pole(op, a, b) && !hidden(op, a, b);
+    default: return leaps(op) ? !undecided(op, a, b) : hides_waves(op) && !hidden(op, a, b);
     }
 }
 

@@ -27,6 +27,10 @@ bool resolution_bends(const resolution *, size_t output);
 void resolution_values(resolution *, interval t, interval *x, interval *v, interval *a, const double *pool,
                        interval *out);
 
+/* Whether an operation that is no polynomial changes so slowly, without kinks, while its arguments go through the
+ * intervals, that points which resolve these resolve its value. */
+bool resolution_regular(operation, interval a, interval b);
+
 /* The same for poles: a divisor of 0, or the base of a negative power; log at 0, tan at odd multiples of π/2. Whether
  * there may be one in the intervals. */
 bool resolution_create_poles(model *, const output *, size_t count, resolution **out);
