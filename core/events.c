@@ -224,26 +224,6 @@ motus_status events_begin(events *e, stepper *s, double until, motus_error *err)
 
 /* Steps ----------------------------------------------------------------------------------------------------------- */
 
-/* The candidate that comes next; those of dense output may be as far off as the ones that have been located. NULL:
- * there is none. */
-static candidate *earliest(events *e)
-{
-    const double margin = events_margin(e), far = margin + 2 * e->shift;
-    candidate *best = NULL;
-    double at = INFINITY;
-    while (e->in_order && e->next_one < e->candidates && e->candidate[e->next_one].gone) e->next_one++;
-    for (size_t k = e->in_order ? e->next_one : 0; k < e->candidates; k++) {
-        candidate *c = &e->candidate[k];
-        if (e->in_order && e->way * c->at - far > at) break;
-        const bool rough = !c->located && !c->idle && c->kind != CANDIDATE_TIME;
-        const double t = e->way * c->at - (rough ? margin : 0);
-        if (c->gone || !(t < at || (t == at && !c->located))) continue;
-        at = t;
-        best = c;
-    }
-    return best;
-}
-
 /* Whether a candidate was part of what has happened already. */
 static bool told(const events *e, const candidate *c)
 {
@@ -389,7 +369,7 @@ static motus_status go_through(events *e, stepper *s, bool *assigned, stepper_st
     candidate *c;
     bool before = true;
     motus_status status = MOTUS_OK;
-    while (!status && !*assigned && *why != STOP_EVENT && (c = earliest(e))) {
+    while (!status && !*assigned && *why != STOP_EVENT && (c = events_earliest(e))) {
         if (c->idle) {
             e->side[c->of] = (int8_t)c->kind;
             c->gone = true;

@@ -10,6 +10,11 @@ bool events_far(const events *e, const instant *at, size_t f)
     return !isfinite(g) || (e->marked && g > ends && g > 4 * fmax(e->left.bound[f], e->right.bound[f]));
 }
 
+bool events_clear(const events *e, size_t f)
+{
+    return fabs(e->left.g[f]) > 2 * e->left.bound[f] && fabs(e->right.g[f]) > 2 * e->right.bound[f];
+}
+
 /* Writes an error bound of every number of the state at `here`, a time h after `left`, into e->width. It has two terms:
  * - rounding: the errors of all steps so far add up as a random walk. Where the function has been 0 the error counts
  *   from there, so a number counts with its largest size since then.

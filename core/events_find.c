@@ -8,9 +8,6 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "core/scalar.h"
-#include "step/box.h"
-
 /* ROOTS_ROOM: of one function in one part of a step; a step is divided where a polynomial of degree PART_DEGREE does
  * not resolve a function, and at most PARTS_DEEP times */
 enum { ROOTS_ROOM = 128, PART_DEGREE = 64, PARTS_DEEP = 12 };
@@ -18,19 +15,6 @@ enum { ROOTS_ROOM = 128, PART_DEGREE = 64, PARTS_DEEP = 12 };
 motus_status events_no_memory(motus_error *err)
 {
     return fail(err, MOTUS_MEMORY, "no memory for the events of a step");
-}
-
-/* A comparison, which costs less than a call of fmax: this is asked of every step. */
-static void raise_to(double *most, const double *numbers, size_t count)
-{
-    for (size_t k = 0; k < count; k++)
-        if (fabs(numbers[k]) > most[k]) most[k] = fabs(numbers[k]);
-}
-
-void events_extend(events *e, const double *x, const double *v)
-{
-    raise_to(e->most, x, e->problem.nx);
-    raise_to(e->most + e->problem.nx, v, e->problem.nv);
 }
 
 bool events_add(events *e, candidate c)
@@ -41,48 +25,6 @@ bool events_add(events *e, candidate c)
     e->candidate[e->candidates++] = c;
     e->in_order = false;
     return true;
-}
-
-void events_about(const events *e, double at, double far, size_t *first, size_t *end)
-{
-    *first = 0, *end = e->candidates;
-    if (!e->in_order) return;
-    far += 2 * e->shift;
-    *first = *end = e->next_one;
-    while (*first > 0 && e->way * (at - e->candidate[*first - 1].at) <= far) --*first;
-    while (*end < e->candidates && e->way * (e->candidate[*end].at - at) <= far) ++*end;
-}
-
-/* Whether a candidate has no other time than its own, nor a near one. */
-static bool is_settled(const candidate *c)
-{
-    return c->kind != CANDIDATE_TIME && c->sure && !c->near && !c->sampled && !c->jumps;
-}
-
-static bool is_before(const events *e, const candidate *a, const candidate *b)
-{
-    return a->at == b->at ? a->of < b->of : e->way * (b->at - a->at) > 0;
-}
-
-/* Puts many candidates in the order of their times, where these are told; by Shell's sort. */
-static void put_in_order(events *e)
-{
-    enum { MANY = 16 };
-    bool all = e->candidates >= MANY;
-    size_t gap = 1;
-    for (size_t k = 0; k < e->candidates && all; k++) all = is_settled(&e->candidate[k]);
-    if (!all) return;
-    while (gap < e->candidates / 3) gap = 3 * gap + 1;
-    for (; gap > 0; gap /= 3)
-        for (size_t k = gap; k < e->candidates; k++) {
-            const candidate one = e->candidate[k];
-            size_t to = k;
-            for (; to >= gap && is_before(e, &one, &e->candidate[to - gap]); to -= gap)
-                e->candidate[to] = e->candidate[to - gap];
-            e->candidate[to] = one;
-        }
-    e->in_order = true;
-    e->next_one = 0;
 }
 
 /* A part of the step in which a function is a polynomial: all of it, where that can be. */
@@ -681,34 +623,6 @@ static bool add_ticks(events *e)
     return true;
 }
 
-/* Computes the box of a step, its middle in `next`, and in `before` a lower bound on the size of every function in it.
- */
-static void look_at_box(events *e, const stepper_shown *step)
-{
-    const size_t nx = e->problem.nx, nv = e->problem.nv;
-    const box to = {e->next.x, e->next.v, e->width, e->width + nx};
-    box_of(&to, nx, nv, step->span, step->from_x, step->from_v, step->to_x, step->to_v, step->most);
-    e->rules.least(e->rules.ctx, to.x, to.v, to.dx, to.dv, e->before);
-}
-
-/* The same of the present step. False: no bounds are known. */
-static bool boxes(events *e, stepper *s)
-{
-    const instant *from = &e->left, *to = &e->right;
-    double *most = e->next.a;
-    if (e->boxed) return true;
-    if (!e->rules.least || e->problem.refresh || !stepper_swing(s, most)) return false;
-    look_at_box(e, &(stepper_shown){e->span, from->t, to->t, from->x, from->v, to->x, to->v, most});
-    return true;
-}
-
-static motus_status value_ends(events *e, motus_error *err)
-{
-    motus_status status = e->left.valued ? MOTUS_OK : events_values(e, &e->left, err);
-    if (!status && !e->right.valued) status = events_values(e, &e->right, err);
-    return status;
-}
-
 /* Where the cubic with these values and slopes at the ends of [0, h], which has other signs there, is 0. */
 static double cubic_root(double h, double g0, double r0, double g1, double r1)
 {
@@ -726,12 +640,6 @@ static double cubic_root(double h, double g0, double r0, double g1, double r1)
     return u * h;
 }
 
-/* Whether rounding hides the sign of a function at neither end of the step; their bounds are known. */
-static bool clear(const events *e, size_t f)
-{
-    return fabs(e->left.g[f]) > 2 * e->left.bound[f] && fabs(e->right.g[f]) > 2 * e->right.bound[f];
-}
-
 /* A function that is monotone on the step has at most one root there, of which its signs at the ends tell. False: they
  * do not. */
 static bool monotone(events *e, size_t f, motus_status *status, motus_error *err)
@@ -743,7 +651,7 @@ static bool monotone(events *e, size_t f, motus_status *status, motus_error *err
     if (!sign || !after || sign != e->side[f]) return false;
     if (sign == after) return true;
     *status = judge_ends(e, err);
-    if (*status || !clear(e, f)) return false;
+    if (*status || !events_clear(e, f)) return false;
     /* of one that is idle nothing depends on the time but its order among others */
     const candidate c = {.of = f,
                          .at = idle ? e->span * (from / (from - to))
@@ -758,160 +666,12 @@ static bool monotone(events *e, size_t f, motus_status *status, motus_error *err
     return true;
 }
 
-/* Whether a function passes 0 in the other direction than its rule asks for; which the values at the ends say. */
-static bool turns_away(const events *e, size_t f)
-{
-    const rule *r = &e->rules.rule[e->rule_of[f]];
-    const double before = r->direction * e->left.g[f], after = r->direction * e->right.g[f];
-    return r->kind == RULE_ROOT && !r->internal && before > 0 && after < 0;
-}
-
-/* Whether nothing happens in a step of which the box leaves the marked functions open, because each passes 0 once, and
- * in the direction in which that is no event. Its side follows when the watch ends: the same step may be shown again.
- */
-static bool passes_idly(events *e, const stepper_shown *step)
-{
-    const size_t n = e->rules.functions, nx = e->problem.nx, nv = e->problem.nv;
-    instant *from = &e->left, *to = &e->right;
-    from->t = step->from_t, to->t = step->to_t;
-    memcpy(from->x, step->from_x, nx * sizeof *from->x), memcpy(from->v, step->from_v, nv * sizeof *from->v);
-    memcpy(to->x, step->to_x, nx * sizeof *to->x), memcpy(to->v, step->to_v, nv * sizeof *to->v);
-    if (value_ends(e, NULL)) return false;
-    for (size_t f = 0; f < n; f++)
-        if (e->look[f] && !turns_away(e, f)) return false;
-    e->boxed = false;
-    e->rules.least_rates(e->rules.ctx, e->next.x, e->next.v, e->width, e->width + nx, e->before);
-    if (events_bounds(e, from, NULL) || events_bounds(e, to, NULL)) return false;
-    for (size_t f = 0; f < n; f++) {
-        if (!e->look[f]) continue;
-        const bool known = e->passed[f] || e->side[f] == (from->g[f] > 0 ? 1 : -1);
-        if (!known || !(e->before[f] > 0) || !clear(e, f)) return false;
-    }
-    for (size_t f = 0; f < n; f++) e->passed[f] |= e->look[f];
-    return true;
-}
-
-static bool quiet(void *ctx, const stepper_shown *step)
-{
-    events *e = ctx;
-    bool any = false;
-    look_at_box(e, step);
-    e->boxed = true;
-    e->left.valued = e->right.valued = false;
-    for (size_t f = 0; f < e->rules.functions; f++) {
-        e->look[f] = !(e->before[f] > 0);
-        any |= e->look[f];
-    }
-    return !any || passes_idly(e, step);
-}
-
-double events_next_time(const events *e)
-{
-    double next = e->way * INFINITY;
-    for (size_t k = 0; k < e->rules.count; k++) {
-        const double tick = e->rules.rule[k].kind == RULE_CLOCK ? events_tick(e, k) : next;
-        if (e->way * (next - tick) > 0) next = tick;
-    }
-    return next;
-}
-
-bool events_idle(events *e, const stepper_shown *step)
-{
-    const double left = e->way * (events_next_time(e) - step->to_t);
-    return left > 8 * events_ulp(step->to_t) && quiet(e, step);
-}
-
-/* Whether bounds may tell of the next step that nothing happens in it, but for the ticks of clocks. */
-static bool boundable(const events *e)
-{
-    if (e->first || e->broken || !e->rules.least) return false;
-    for (size_t f = 0; f < e->rules.functions; f++)
-        if (e->stands[f] || e->open[f]) return false;
-    return true;
-}
-
-bool events_watchable(const events *e, const stepper *s)
-{
-    return isinf(events_next_time(e)) && stepper_can_watch(s) && boundable(e);
-}
-bool events_bounded(const events *e, const stepper *s) { return stepper_bounded(s) && boundable(e); }
-
-/* The sides of functions that have passed 0 in watched steps, before the last one. */
-static motus_status turn_sides(events *e, motus_error *err)
-{
-    motus_status status = MOTUS_OK;
-    for (size_t f = 0; f < e->rules.functions && !status; f++) {
-        if (!e->passed[f]) continue;
-        if (!e->left.valued) status = events_values(e, &e->left, err);
-        e->side[f] = e->left.g[f] > 0 ? 1 : -1;
-    }
-    return status;
-}
-
-motus_status events_led(events *e, stepper *s, int64_t steps, const double *largest, motus_error *err)
-{
-    instant *at = &e->left;
-    const size_t nx = e->problem.nx;
-    at->t = stepper_time(s), at->lost = stepper_lost(s);
-    at->valued = e->right.valued = e->boxed = false;
-    motus_status status = stepper_sync(s, at->x, at->v, NULL, err);
-    if (!status) status = turn_sides(e, err);
-    memset(e->passed, 0, e->rules.functions);
-    events_extend(e, largest, largest + nx);
-    e->steps += steps;
-    e->taken += steps;
-    events_may_look(e, steps);
-    return status;
-}
-
-motus_status events_shift(events *e, stepper *s, motus_error *err)
-{
-    instant *const at = &e->left;
-    at->valued = e->right.valued = e->boxed = false;
-    const motus_status status = stepper_sync(s, at->x, at->v, NULL, err);
-    if (!status) events_extend(e, at->x, at->v);
-    return status;
-}
-
-enum { PAUSE_MOST = 31 };
-
-motus_status events_watch(events *e, stepper *s, stepper_limit limit, stepper_stop *why, motus_error *err)
-{
-    stepper_left left;
-    instant *at = &e->left;
-    memset(e->passed, 0, e->rules.functions);
-    const stepper_watcher watcher = {.quiet = quiet,
-                                     .ctx = e,
-                                     .largest = e->most,
-                                     .middle = e->next.x,
-                                     .width = e->width,
-                                     .least = e->before,
-                                     .functions = e->rules.functions};
-    const motus_status status = stepper_watch(s, limit, &watcher, &left, why, err);
-    if (!left.x) return status;
-    e->steps += left.steps;
-    e->taken += left.steps;
-    events_may_look(e, left.steps);
-    events_extend(e, left.x, left.v); /* a step that is not shown may have begun there */
-    /* where bounds tell nothing, as of functions of the time, they are asked less and less often */
-    e->last_pause = left.steps > 0 ? 0 : e->last_pause < PAUSE_MOST ? 2 * e->last_pause + 1 : PAUSE_MOST;
-    e->pause = e->last_pause;
-    e->boxed &= left.shown;
-    at->valued &= left.shown;
-    e->right.valued &= left.shown;
-    at->t = left.t, at->lost = left.lost;
-    memcpy(at->x, left.x, e->problem.nx * sizeof *at->x);
-    memcpy(at->v, left.v, e->problem.nv * sizeof *at->v);
-    const motus_status turned = turn_sides(e, status ? NULL : err);
-    return status ? status : turned;
-}
-
 /* Marks the functions of which dense output must tell; most steps need none. */
 static motus_status choose(events *e, stepper *s, bool *any, motus_error *err)
 {
     const size_t n = e->rules.functions;
     double *out = e->before;
-    const bool known = boxes(e, s), once = row_adaptive(&e->method); /* else dense output says where it passes 0 */
+    const bool known = events_box(e, s), once = row_adaptive(&e->method); /* else dense output says where it passes 0 */
     bool rates = false;
     motus_status status = MOTUS_OK;
     e->boxed = false;
@@ -923,49 +683,13 @@ static motus_status choose(events *e, stepper *s, bool *any, motus_error *err)
         *any |= e->look[f];
     }
     if (!*any) return MOTUS_OK;
-    status = value_ends(e, err);
+    status = events_value_ends(e, err);
     if (!rates || status) return status;
     e->rules.least_rates(e->rules.ctx, e->next.x, e->next.v, e->width, e->width + e->problem.nx, out);
     *any = false;
     for (size_t f = 0; f < n && !status; f++) {
         if (e->look[f] && !e->stands[f] && !e->open[f] && out[f] > 0) e->look[f] = !monotone(e, f, &status, err);
         *any |= e->look[f];
-    }
-    return status;
-}
-
-/* Whether another candidate may come before this one where its time, which the ends of the step alone tell, is off. */
-static bool has_neighbour(const events *e, size_t k)
-{
-    for (size_t j = 0; j < e->candidates; j++) {
-        const candidate *other = &e->candidate[j];
-        if (j != k && !other->idle && fabs(other->at - e->candidate[k].at) < fabs(e->span) / 8) return true;
-    }
-    return false;
-}
-
-/* Where dense output says that the function of a guessed candidate is 0, by false position with halved weights
- * [DowellJarratt71]. */
-static motus_status place_guessed(events *e, stepper *s, candidate *c, motus_error *err)
-{
-    enum { TURNS = 60 };
-    const double enough = 0x1p-40 * fabs(e->span);
-    double low = 0, high = e->span, at_low = e->left.g[c->of], at_high = e->right.g[c->of];
-    instant *at = &e->next;
-    motus_status status = MOTUS_OK;
-    for (int turn = 0, last = 0; turn < TURNS && !status && fabs(high - low) > enough; turn++) {
-        const double inner = low + (high - low) * (at_low / (at_low - at_high));
-        c->at = turn % 8 == 7 ? low + (high - low) / 2 : inner;
-        at->t = events_place_in(e, c->at);
-        status = stepper_sample(s, at->t, at->x, at->v, err);
-        if (!status) status = events_value_of(e, c->of, at, err);
-        const double g = at->g[c->of];
-        if (status || g == 0 || !isfinite(g)) break;
-        const bool before = (g > 0) != (c->kind > 0);
-        *(before ? &low : &high) = c->at;
-        *(before ? &at_low : &at_high) = g;
-        if (last == (before ? -1 : 1)) *(before ? &at_high : &at_low) /= 2;
-        last = before ? -1 : 1;
     }
     return status;
 }
@@ -995,12 +719,8 @@ motus_status events_find(events *e, stepper *s, motus_error *err)
     for (size_t f = 0; any && f < e->rules.functions && !status; f++)
         if (e->look[f]) status = find_of(e, s, f, &degree, err);
     if (e->hidden) memcpy(e->side, e->was, flags);
-    for (size_t k = 0; k < e->candidates && !status; k++) {
-        candidate *c = &e->candidate[k];
-        if (c->guessed && has_neighbour(e, k)) status = place_guessed(e, s, c, err);
-    }
     if (!status && !add_ticks(e)) status = events_no_memory(err);
-    if (!status) put_in_order(e);
+    if (!status) status = events_order(e, s, err);
     e->lingers = lingers_any(e);
-    return status || !e->candidates ? status : value_ends(e, err);
+    return status || !e->candidates ? status : events_value_ends(e, err);
 }

@@ -1,10 +1,10 @@
 /* What the files of events share: the struct, and what each file does with it.
  *
- * events.c: life and steps. events_find.c: the roots of a step, by dense output. events_place.c: true steps, and where
- * a root is by them. events_jump.c: functions that jump or have a kink. events_errors.c: error bounds of functions and
- * of the times of events. events_fire.c: what happens in one instant. events_table.c: rows, kept numbers, accumulation.
- * events_swarm.c: switches that accumulate. events_narrow.c: roots that dense output leaps. events_state.c: restart
- * states.
+ * events.c: life and steps. events_find.c: the roots of a step, by dense output. events_order.c: their order.
+ * events_watch.c: steps in which nothing happens, by bounds. events_place.c: true steps, and where a root is by them.
+ * events_jump.c: functions that jump or have a kink. events_errors.c: error bounds of functions and of the times of
+ * events. events_fire.c: what happens in one instant. events_table.c: rows, kept numbers, accumulation. events_swarm.c:
+ * switches that accumulate. events_narrow.c: roots that dense output leaps. events_state.c: restart states.
  *
  * A true step is a step of the method itself from `left` to a time within the step; dense output interpolates.
  * Invariant: `left` is the state at which the present step began, and `side` are the sides of all functions there,
@@ -15,8 +15,6 @@
 
 #include "core/events.h"
 #include "core/roots.h"
-
-#include <math.h>
 
 /* Dense output errs by far less than this part of a function's largest value on the step; where a function comes nearer
  * to 0, or a root lies where it hardly leaves 0, true steps tell what happens. It costs time alone. */
@@ -232,6 +230,8 @@ motus_status events_judge(events *, instant *, motus_error *);
 motus_status events_rates(events *, instant *, motus_error *);
 motus_status events_bounds(events *, instant *, motus_error *);
 motus_status events_values(events *, instant *, motus_error *);
+/* At both ends of the step. */
+motus_status events_value_ends(events *, motus_error *);
 /* The same of one function alone, where that costs less; the numbers of the others are then those of another instant.
  */
 motus_status events_value_of(events *, size_t function, instant *, motus_error *);
@@ -260,24 +260,38 @@ double events_tick(const events *, size_t rule);
 
 /* events_find.c. What may happen in the step from `left` to `right`, whose dense output the stepper has. */
 motus_status events_find(events *, stepper *, motus_error *);
-/* Takes steps that bounds alone tell of until they do not, or up to the limit. The last one leads from `left`. */
-motus_status events_watch(events *, stepper *, stepper_limit, stepper_stop *why, motus_error *);
-/* A state of the motion, where a step begins, counts in `most`. */
-void events_extend(events *, const double *x, const double *v);
 bool events_add(events *, candidate);
-/* How far a candidate that is not located may be from its time by dense output. */
-static inline double events_margin(const events *e) { return 16 * e->shift + 0x1p-20 * fabs(e->span); }
-/* The candidates from *first to before *end are all whose times are no farther than `far` from this one. */
-void events_about(const events *, double at, double far, size_t *first, size_t *end);
 motus_status events_no_memory(motus_error *);
 /* The time so long after `left`; what times have lost to rounding leads out of the step where it is short. */
 double events_place_in(const events *, double h);
 /* The next tick of a clock. False: it is not within the step. */
 bool events_next_tick(const events *, size_t rule, candidate *);
 
+/* events_watch.c. Takes steps that bounds alone tell of until they do not, or up to the limit. The last one leads from
+ * `left`. */
+motus_status events_watch(events *, stepper *, stepper_limit, stepper_stop *why, motus_error *);
+/* A state of the motion, where a step begins, counts in `most`. */
+void events_extend(events *, const double *x, const double *v);
+/* The box of the present step, its middle in `next`, its half widths in `width`, and in `before` a lower bound on the
+ * size of every function in it. False: no bounds are known. */
+bool events_box(events *, stepper *);
+
+/* events_order.c. Places the candidates of a step so well that their order can be told, and orders them where they are
+ * many. */
+motus_status events_order(events *, stepper *, motus_error *);
+/* The candidate that comes next; those of dense output may be as far off as the ones that have been located. NULL:
+ * there is none. */
+candidate *events_earliest(events *);
+/* How far a candidate that is not located may be from its time by dense output. */
+double events_margin(const events *);
+/* The candidates from *first to before *end are all whose times are no farther than `far` from this one. */
+void events_about(const events *, double at, double far, size_t *first, size_t *end);
+
 /* events_errors.c. Whether the size of a function at an instant exceeds that at both ends of the step, as beside a
  * pole: then it does not pass 0 there. */
 bool events_far(const events *, const instant *, size_t function);
+/* Whether rounding hides the sign of a function at neither end of the step; their bounds are known. */
+bool events_clear(const events *, size_t function);
 /* An error bound of a function at `here`, a time h after `left`, whose rates and bounds are known: from the rounding
  * since the start and, where h is not 0, from the estimated error of the true step to `here`. */
 motus_status events_error_of(events *, size_t function, double h, double *bound, motus_error *);

@@ -27,6 +27,13 @@ motus_status events_values(events *e, instant *at, motus_error *err)
     return answer ? events_refuse(e, "event_functions", at->t, answer, err) : MOTUS_OK;
 }
 
+motus_status events_value_ends(events *e, motus_error *err)
+{
+    motus_status status = e->left.valued ? MOTUS_OK : events_values(e, &e->left, err);
+    if (!status && !e->right.valued) status = events_values(e, &e->right, err);
+    return status;
+}
+
 /* Evaluates the functions a time h after an instant whose acceleration is known, at the state of Taylor's formula,
  * into another instant. */
 static motus_status values_after(events *e, const instant *at, double h, instant *to, motus_error *err)
