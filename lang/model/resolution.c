@@ -40,6 +40,8 @@ struct resolution {
     const output *outputs;
     size_t count;
     step *steps;
+    uint32_t step_count;
+    bool straight;   /* every step is evaluated once, in their order: there are no loops, sums or branches */
     uint32_t *root;  /* by output */
     uint32_t *stack; /* of steps that wait for their operands */
     uint32_t top;
@@ -128,6 +130,18 @@ static bool bends(const resolution *r, const step *s, int operands)
     return any;
 }
 
+static bool is_straight(const resolution *r)
+{
+    bool is = true;
+    for (uint32_t k = 0; k < r->step_count && is; k++)
+        is = r->steps[k].node.op != OP_SUM && r->steps[k].node.op != OP_SELECT && r->steps[k].home == 0;
+    for (size_t k = 0; k < r->count && is; k++) {
+        const space to = r->model->arrays[r->outputs[k].to.array].space;
+        is = r->outputs[k].loops == 0 && to != SPACE_X && to != SPACE_V;
+    }
+    return is;
+}
+
 static void fill(resolution *r, graph *g, const graph_walk *w, bool (*counts)(operation))
 {
     for (uint32_t k = 0; k < w->count; k++) {
@@ -144,6 +158,7 @@ static void fill(resolution *r, graph *g, const graph_walk *w, bool (*counts)(op
         s->bends = bends(r, s, operands);
     }
     for (size_t k = 0; k < r->count; k++) r->root[k] = g->place[r->outputs[k].value];
+    r->straight = is_straight(r);
 }
 
 /* counts NULL: nothing is looked for, but values are asked for. */
@@ -161,7 +176,13 @@ static bool create(model *m, const output *outputs, size_t count, bool (*counts)
     uint32_t *stack = arena_room(m->arena, (w.count + 1) * sizeof *stack);
     uint32_t *root = arena_room(m->arena, (count + 1) * sizeof *root);
     if (r && steps && stack && root) {
-        *r = (resolution){.model = m, .outputs = outputs, .count = count, .steps = steps, .root = root, .stack = stack};
+        *r = (resolution){.model = m,
+                          .outputs = outputs,
+                          .count = count,
+                          .steps = steps,
+                          .step_count = w.count,
+                          .root = root,
+                          .stack = stack};
         fill(r, g, &w, counts);
         if (!counts || counts == leaps || any_counts(r, w.count)) *out = r;
     }
@@ -447,6 +468,11 @@ static bool finds(resolution *r, interval t, interval *x, interval *v, const dou
                   bool (*found)(operation, interval, interval))
 {
     begin(r, t, x, v, pool, found);
+    if (r->straight) {
+        for (uint32_t k = 0; k < r->step_count; k++)
+            if (!compute(r, &r->steps[k])) return true;
+        return false;
+    }
     for (size_t k = 0; k < r->count; k++)
         if (!cells(r, k, 0)) return true;
     return false;
