@@ -60,6 +60,8 @@ static motus_status find_places(motus_ensemble *e, const motus_ensemble_def *d, 
         } else {
             size_t *place = &e->places[e->vary_count];
             motus_status status = ensemble_place(e->system, d->vary[k], place, err);
+            if (status == MOTUS_OK && e->home)
+                status = ensemble_place(e->home, d->vary[k], &e->home_places[e->vary_count], err);
             if (status != MOTUS_OK) return status;
             for (size_t i = 0; i < e->vary_count; i++) twice |= e->places[i] == *place;
             e->vary_count++;
@@ -384,7 +386,8 @@ motus_status motus_ensemble_create(motus_system *s, const motus_ensemble_def *gi
     e->records = take(&s->allocator, d.record_count, sizeof *e->records);
     e->values = take(&s->allocator, d.vary_count + 1, sizeof *e->values);
     modes m = modes_enter();
-    if (!e->places || !e->records || !e->values) {
+    if (located) e->home_places = take(&s->allocator, d.vary_count + 1, sizeof *e->home_places);
+    if (!e->places || !e->records || !e->values || (located && !e->home_places)) {
         status = fail(err, MOTUS_MEMORY, "no memory for the ensemble");
     } else {
         memcpy(e->records, d.records, d.record_count * sizeof *e->records);
@@ -445,6 +448,19 @@ motus_status motus_ensemble_check(motus_ensemble *e, size_t count, const double 
     return status;
 }
 
+motus_status motus_ensemble_pilots(motus_ensemble *e, size_t count, const double *const *values, motus_error *err)
+{
+    places p = {0};
+    if (!motus_error_sound(err)) return MOTUS_ARGUMENT;
+    motus_status status = find_values(e, values, &p, err);
+    if (status != MOTUS_OK) return status;
+    modes m = modes_enter();
+    e->count = count;
+    status = ensemble_witness_ask(e, &p, count, err);
+    modes_leave(m);
+    return status;
+}
+
 /* The trajectories from `first` on, by lanes. MOTUS_METHOD: as lanes_run. */
 static motus_status in_lanes(motus_ensemble *e, const places *p, size_t first, motus_error *err)
 {
@@ -466,10 +482,24 @@ static motus_status in_lanes(motus_ensemble *e, const places *p, size_t first, m
     return status;
 }
 
+/* Lanes have no witness. */
+static motus_status give_up_lanes(motus_ensemble *e, motus_error *err)
+{
+    ensemble_end_lanes(e);
+    e->awaits = AWAITS_NOTHING;
+    ensemble_workers_destroy(e);
+    const motus_status status = ensemble_choose_single(e, NULL, true, err);
+    snprintf(e->note, sizeof e->note, "the force does within steps what they do not show: one trajectory at a time");
+    return status;
+}
+
 static motus_status compute(motus_ensemble *e, const places *p, motus_error *err)
 {
     size_t first = 0;
-    motus_status status = e->awaits ? ensemble_meanwhile(e, p, &first, err) : MOTUS_OK;
+    motus_status status = ensemble_witness_first(e, p, err);
+    if (status == MOTUS_OK && p->errors && e->looks && e->lanes) status = give_up_lanes(e, err);
+    if (status != MOTUS_OK) return status;
+    status = e->awaits ? ensemble_meanwhile(e, p, &first, err) : MOTUS_OK;
     if (status != MOTUS_OK || first == e->count) return status;
     if (e->lanes && !e->awaits) {
         status = in_lanes(e, p, first, err);
@@ -549,6 +579,7 @@ void motus_ensemble_destroy(motus_ensemble *e)
     ensemble_ended_end(e);
     motus_system_destroy(e->half);
     give(&a, e->places);
+    give(&a, e->home_places);
     give(&a, e->records);
     give(&a, (void *)e->values);
     give(&a, e->compared_columns);

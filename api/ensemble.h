@@ -22,8 +22,10 @@ typedef struct worker {
     stepper *stepper; /* made for the first trajectory, and started again for the others; NULL */
     events *events;   /* likewise; NULL also where the system has no rules */
     int number;
-    motus_run *run;  /* where errors are told: the same trajectory as a run, with the worker's stepper; NULL */
-    vary *half_vary; /* of its companion's system */
+    motus_run *run;     /* where errors are told: the same trajectory as a run, with the worker's stepper; NULL */
+    vary *half_vary;    /* of its companion's system */
+    motus_system *home; /* of a located one: the typed system, with the same numbers; NULL */
+    vary *home_vary;
     pace pace;
     beside beside;       /* while the ensemble awaits its object */
     size_t trajectories; /* of the present item */
@@ -47,6 +49,7 @@ struct motus_ensemble {
     int64_t every;
     size_t vary_count, record_count; /* vary_count: without `until` */
     size_t *places;                  /* of the numbers that vary: in the pool; of a callback: in x, then v */
+    size_t *home_places;             /*   of `home`; NULL */
     const double **values;           /* of the present run, at these places */
     size_t given;                    /* arrays of values that a run is given, `until` included */
     size_t until;                    /* its index among them where it varies, or SIZE_MAX */
@@ -84,6 +87,7 @@ struct motus_ensemble {
     size_t count, block; /* trajectories of the present run; of a block of a callback, or 0 */
     atomic_size_t done;  /* trajectories */
     atomic_bool stop;    /* an item failed, or the run was cancelled */
+    bool decided, looks; /* ensemble_witness.c: whether trajectories that tell errors have a witness each */
     /* ensemble_later.c: workers begin in the interpreter while a compiler works, and the trajectories that are left
      * are computed by what it makes. */
     enum { AWAITS_NOTHING, AWAITS_LANES, AWAITS_MACHINE } awaits;
@@ -135,7 +139,14 @@ void ensemble_errors_rounding(void *ensemble, const double *const *values, size_
 motus_status ensemble_errors_worker(worker *, motus_error *);
 /* Trajectory k begins, where the worker's stepper stands; `values` are what varies. */
 motus_status ensemble_errors_begin(worker *, const double *values, size_t k, motus_error *);
-void ensemble_errors_end(worker *); /* the worker is over */
+void ensemble_errors_blind(worker *); /* no witness looks at its steps any more */
+void ensemble_errors_end(worker *);   /* the worker is over */
+
+/* ensemble_witness.c: decides whether trajectories need a witness each, where that is not decided: by `pilots`
+ * trajectories of those given; by some of a call; as another ensemble of the same system. */
+motus_status ensemble_witness_ask(motus_ensemble *, const places *, size_t pilots, motus_error *);
+motus_status ensemble_witness_first(motus_ensemble *, const places *, motus_error *);
+motus_status ensemble_witness_as(motus_ensemble *, const motus_ensemble *, motus_error *);
 
 /* ensemble_events.c: whether the definition asks for tables, and room for those of `count` trajectories; the table of a
  * worker's trajectory k, `errors`: with those of the times; takes over that of another ensemble. */

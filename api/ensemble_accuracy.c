@@ -208,7 +208,7 @@ static motus_status find_other(attempt *a, double tolerance, motus_ensemble **ou
     }
     g->others = o;
     *out = o->ensemble;
-    return MOTUS_OK;
+    return ensemble_witness_as(o->ensemble, a->e, err);
 }
 
 /* One tolerance: its trajectories in a row, which are `count` of those that are open. */

@@ -105,6 +105,17 @@ static int tell(void *ctx, double now)
     return ensemble_tell(r->context, now);
 }
 
+/* What the witness judges by. */
+static motus_status take_home(worker *w, motus_error *err)
+{
+    const motus_ensemble *e = w->e;
+    motus_status status = motus_system_clone(e->home, &w->home, err);
+    if (status == MOTUS_OK && w->vary)
+        status = vary_create(w->home->model, e->home_places, e->vary_count, true, true, &w->home_vary, err);
+    if (status == MOTUS_OK) motus_system_hold(w->run->home = w->home, true);
+    return status;
+}
+
 motus_status ensemble_errors_worker(worker *w, motus_error *err)
 {
     const motus_ensemble *e = w->e;
@@ -117,11 +128,31 @@ motus_status ensemble_errors_worker(worker *w, motus_error *err)
     r->context = w;
     r->first_step = 0; /* which nobody asks for */
     r->pace = (pace){.seconds = w->pace.seconds, .tell = w->pace.tell ? tell : NULL, .ctx = r};
-    motus_status status = bars_make(r, e->error, e->compared_columns, e->how, e->compared, err);
+    motus_status status = e->home ? take_home(w, err) : MOTUS_OK;
+    if (status == MOTUS_OK) status = bars_make(r, e->error, e->compared_columns, e->how, e->compared, err);
     if (status == MOTUS_OK) status = bars_ready(r, w->vary ? vary_affected(w->vary) : NULL, err);
     if (status != MOTUS_OK || !w->vary) return status;
     model *m = r->bars->half.system->model;
     return vary_create(m, e->places, e->vary_count, true, true, &w->half_vary, err);
+}
+
+/* The trajectory has a witness, where trajectories have any. */
+static motus_status look(worker *w, motus_error *err)
+{
+    motus_run *const r = w->run;
+    if (!w->e->looks) return ensemble_errors_blind(w), MOTUS_OK;
+    if (!r->bars->witness) return witness_create(r, &r->bars->differences, true, &r->bars->witness, err);
+    witness_begin(r->bars->witness, r);
+    return MOTUS_OK;
+}
+
+void ensemble_errors_blind(worker *w)
+{
+    if (!w->run || !w->run->bars->witness) return;
+    if (w->stepper) stepper_inspected(w->stepper, NULL, NULL);
+    if (w->events) events_witnessed(w->events, NULL, NULL);
+    witness_destroy(w->run->bars->witness);
+    w->run->bars->witness = NULL;
 }
 
 motus_status ensemble_errors_begin(worker *w, const double *values, size_t k, motus_error *err)
@@ -132,6 +163,8 @@ motus_status ensemble_errors_begin(worker *w, const double *values, size_t k, mo
     if (w->half_vary && w->e->vary_count) {
         if (!vary_apply(w->half_vary, values) || !system_rebind(half))
             return fail(err, MOTUS_MEMORY, "no memory for a trajectory");
+        if (w->home_vary && (!vary_apply(w->home_vary, values) || !system_rebind(w->home)))
+            return fail(err, MOTUS_MEMORY, "no memory for a trajectory");
     }
     r->stepper = w->stepper;
     motus_status status = system_rules(w->system, &r->rules, err);
@@ -141,7 +174,7 @@ motus_status ensemble_errors_begin(worker *w, const double *values, size_t k, mo
     run_leg(r, &w->timing);
     bars_again(r, !half->model);
     bars_forget_events(r);
-    return MOTUS_OK;
+    return look(w, err);
 }
 
 void ensemble_errors_end(worker *w)
@@ -151,5 +184,7 @@ void ensemble_errors_end(worker *w)
     w->run->events = NULL;
     motus_run_destroy(w->run);
     w->run = NULL;
-    w->half_vary = NULL;
+    w->half_vary = w->home_vary = NULL;
+    motus_system_destroy(w->home);
+    w->home = NULL;
 }

@@ -46,12 +46,11 @@ static int tell(void *ctx, double fraction)
     return def->progress(def->context, 0);
 }
 
-/* order: of its Taylor series; 0: it is another method. */
-static double work_of(const fleet *f, const motus_run *r, int order)
+double pilot_work(const motus_run *r, const weight *each, int order)
 {
     const problem *p = &r->system->problem;
-    if (order) return (double)motus_run_steps(r) * choice_expansion(p, &f->weight, order);
-    return (double)motus_run_evaluations(r) * choice_evaluation(p, &f->weight, r->card);
+    if (order) return (double)motus_run_steps(r) * choice_expansion(p, each, order);
+    return (double)motus_run_evaluations(r) * choice_evaluation(p, each, r->card);
 }
 
 /* One candidate, as far as it is worth while. */
@@ -63,11 +62,11 @@ static motus_status fly(fleet *f, size_t k, motus_error *err)
     if (!isnan(f->until)) def.until = f->until;
     motus_status status = motus_run_create(f->system, &def, &r, err);
     const int order = r ? stepper_plan(&f->system->problem, &r->chosen, NULL).expands : 0;
-    while (status == MOTUS_OK && !motus_run_done(r) && work_of(f, r, order) < FAR * f->best &&
+    while (status == MOTUS_OK && !motus_run_done(r) && pilot_work(r, &f->weight, order) < FAR * f->best &&
            !(isnan(f->until) && motus_run_steps(r) >= STEPS))
         status = motus_run_step(r, CHUNK, err);
     if (status == MOTUS_OK) {
-        f->work[k] = work_of(f, r, order);
+        f->work[k] = pilot_work(r, &f->weight, order);
         f->steps[k] = (double)motus_run_steps(r);
         if (isnan(f->until)) f->until = motus_run_time(r);
     }

@@ -2,7 +2,7 @@
 #ifndef API_PILOT_H
 #define API_PILOT_H
 
-#include "api/system.h"
+#include "api/run.h"
 
 #define PILOT_FIRST "dop853" /* it admits every force, and chooses its steps */
 
@@ -15,5 +15,7 @@ typedef struct pilot {
 /* Which method needs the fewest operations for the run of this definition, whose end and tolerance are known. Fails as
  * the first method of the list does where none of them gets through. */
 motus_status pilot_choose(motus_system *, const motus_run_def *, pilot *, motus_error *);
+/* What a run has taken so far, in operations; order: of its Taylor series, 0: it is another method. */
+double pilot_work(const motus_run *, const weight *, int order);
 
 #endif

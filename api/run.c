@@ -248,7 +248,7 @@ static motus_status begin(motus_run *r, const motus_run_def *def, motus_error *e
     if (status == MOTUS_OK) stepper_judged(r->stepper, diagnosis_crawls, r->system);
     if (status == MOTUS_OK && r->locate) status = locate_begin(r, err);
     if (status == MOTUS_OK) status = run_events_begin(r, err);
-    if (status == MOTUS_OK && r->bars) status = witness_create(r, &r->bars->differences, &r->bars->witness, err);
+    if (status == MOTUS_OK && r->bars) status = witness_create(r, &r->bars->differences, false, &r->bars->witness, err);
     return status == MOTUS_OK ? go_on(r, 0, err) : status;
 }
 

@@ -47,15 +47,15 @@ enum {
  * least so many evaluations, and then a part of the evaluations of the run. That part suits a compiled run, whose
  * evaluation costs a thirtieth: what is looked at decides steps, and the machine decides none. A series of order n
  * costs as much as n^2/4 evaluations. */
-#define SPEND_FIRST 4e6 /* operations, and */
+#define SPEND_FIRST 4e6     /* operations, */
+#define SPEND_OF_MANY 2.5e5 /*   of a run that is one of many, and */
 #define SPEND_LEAST 200.0
 #define SPEND 0.02
 #define BOUNDS 4.0  /* what bounds over a step cost */
 #define LONGER 1.25 /* than all before: such a step is looked at, whatever was spent */
-/* Operations, too: what looking at sides may take at the beginning, what looking at one step may take, what one probe
- * may spend, and what all steps that were rightly refused, and those that follow such a step up to its end, may cost
- * besides. */
-#define SPEND_SIDES 4e6
+/* Operations, too: what looking at one step may take, what one probe may spend, and what all steps that were rightly
+ * refused, and those that follow such a step up to its end, may cost besides. Looking at sides is counted by itself,
+ * and may take as much. */
 #define SPEND_STEP 2e7
 #define SPEND_PROBE 2e7
 #define SPEND_LEAD 2e6
@@ -114,37 +114,40 @@ struct witness {
     double *other_way;   /* one more of these */
     resolution *smooth;  /* what can hide in the force where its switches keep their sides; NULL: nothing */
     interval *in_x, *in_v;
+    double operations; /* of one evaluation */
+    double first;      /* evaluations that it may spend in any case */
+    bool kinked;       /* the typed force has switches, */
+    bool located;      /*   at which steps of the run end; */
+    bool covered;      /*   some within sums, where nothing says that they stand at 0 */
+    bool probes;       /* it looks at a probe, and refuses at once */
+    bool events;       /* the run has some */
+    stepper *probe;
+    struct witness *inner; /* that looks at the probe */
+    /* From here on, of the present motion. */
     int parts, tries;
     double worst, start,
         length;           /* the most that is missing of a part, in units of what is allowed; the first with much */
     double sides;         /* spent on sides of switches, which is counted by itself */
     double most_spent;    /* at the end of the step that is looked at */
-    double earned, spent; /* evaluations: the part of the run's that it may spend, and what it has spent */
+    double earned, spent; /* evaluations: what it may spend so far, and what it has spent */
     int64_t evaluations;  /* of the run, so far */
     double longest;       /* of the steps that it has looked at */
-    double operations;    /* of one evaluation */
     double least;         /* what matters to the bars, of a velocity; INFINITY: what a step may lose is all that does */
     double each;          /* what it earns in a step */
     int64_t steps;        /* of the run, that stand, as far as it was shown them, */
     int64_t looked;       /*   and at how many of them it has looked; */
     int64_t rested, rest; /*   how many it was to leave aside after the last one, and how many of these are to come */
     double spared;        /* evaluations that are not counted, since they led to a step that was refused */
-    bool kinked;          /* the typed force has switches, */
-    bool located;         /*   at which steps of the run end; */
-    bool strict;          /*   whose sides are looked at; */
-    bool covered;         /*   some within sums, where nothing says that they stand at 0 */
+    bool strict;          /* sides of switches are looked at */
     bool crosses;         /* a switch may stand at 0 within the step */
     bool beside;          /* no way beside the part at `start` does what has happened */
-    bool probes;          /* it looks at a probe, and refuses at once */
-    bool events;          /* the run has some */
     int behind;           /* steps behind one that lacked something, which the companion may not have passed, to come */
     bool moves, leads;    /* dx and dv are for the companion, or (leads) a probe is to take its step for it */
+    bool objected;        /* to a step of the run */
     size_t number;        /* the velocity of which the most was missing where `beside` became true */
     bool held;            /* the motion is none of the typed force, from `differs` on */
     double until;         /* a probe has differed from the step that led there; NaN */
     double differs;
-    stepper *probe;
-    struct witness *inner; /* that looks at the probe */
 };
 
 /* ---- life ---- */
@@ -167,8 +170,6 @@ static witness *make(const motus_run *r, const differences *seen)
     w->nx = p->nx, w->nv = p->nv;
     w->own = s->problem.nx, w->other = p->nx;
     w->located = ways;
-    w->until = w->differs = NAN;
-    w->least = INFINITY;
     double *at = (double *)(void *)(w + 1);
     w->in_x = (interval *)(void *)at, w->in_v = w->in_x + nx;
     at += 2 * (nx + nv);
@@ -196,7 +197,27 @@ static bool find_bends(motus_system *s)
     return b->known;
 }
 
-motus_status witness_create(const motus_run *r, const differences *seen, witness **out, motus_error *err)
+/* Forgets what it has seen. */
+static void forget(witness *w, const stepper *s)
+{
+    memset((char *)w + offsetof(witness, parts), 0, sizeof *w - offsetof(witness, parts));
+    memset(w->rounded, 0, (w->nv + 1) * sizeof *w->rounded);
+    memset(w->rounded_x, 0, (w->nv + 1) * sizeof *w->rounded_x);
+    w->until = w->differs = NAN;
+    w->least = INFINITY;
+    w->earned = w->first;
+    w->evaluations = s ? stepper_evaluations(s) : 0;
+}
+
+void witness_begin(witness *w, const motus_run *r)
+{
+    forget(w, r->stepper);
+    forget(w->inner, w->probe);
+    stepper_inspected(r->stepper, w->steady && r->events ? NULL : inspect, w);
+    if (r->events) events_witnessed(r->events, inspect_piece, w);
+}
+
+motus_status witness_create(const motus_run *r, const differences *seen, bool many, witness **out, motus_error *err)
 {
     motus_system *const s = r->home ? r->home : r->system;
     *out = NULL;
@@ -213,18 +234,19 @@ motus_status witness_create(const motus_run *r, const differences *seen, witness
         return fail(err, MOTUS_MEMORY, "no memory for a witness of the run");
     }
     w->operations = w->inner->operations = each.values + 10 * (double)s->problem.nv;
-    w->earned = fmax(SPEND_LEAST, SPEND_FIRST / w->operations);
+    w->first = w->inner->first = fmax(SPEND_LEAST, (many ? SPEND_OF_MANY : SPEND_FIRST) / w->operations);
     w->events = r->events != NULL;
     w->kinked = w->inner->kinked = !s->problem.traits.smooth;
     w->bends = w->inner->bends = s->bends.all;
     w->smooth = w->inner->smooth = s->bends.smooth;
     w->covered = w->inner->covered = s->bends.sums;
     w->inner->probes = true, w->inner->steady = false;
-    if (!w->steady || !r->events) stepper_inspected(r->stepper, inspect, w);
-    if (r->events) events_witnessed(r->events, inspect_piece, w);
+    witness_begin(w, r);
     *out = w;
     return MOTUS_OK;
 }
+
+bool witness_objected(const witness *w) { return w && w->objected; }
 
 void witness_destroy(witness *w)
 {
@@ -596,7 +618,7 @@ static bool affords(witness *w, const stepper *s)
 /* The step is to be taken again: what the run has spent to see that is not counted, within bounds. */
 static double refuse(witness *w, double size, double spent)
 {
-    w->tries++;
+    w->tries++, w->objected = true;
     if (w->probes) return size;
     w->spared += w->spent - spent;
     if (w->spared < SPEND_SPARED / w->operations) w->spent = spent;
@@ -678,6 +700,7 @@ static stepper_verdict inspect_steady(witness *w, stepper *s, double until)
         w->looked++;
     }
     w->rested = rest_of(w);
+    w->objected |= w->moves;
     return (stepper_verdict){.rest = w->rested, .halt = w->moves};
 }
 
@@ -704,7 +727,7 @@ static double judge(witness *w, stepper *s)
                  first = fabs(before) > fabs(w->length) ? before : w->length,
                  size = !w->beside && fabs(first) < ROOM * fabs(whole) ? first : whole / 4;
     if (w->tries >= (w->beside ? SHORTER : TRIES)) { /* where a switch stands at 0 at its start, every step is off */
-        if (w->beside || !w->kinked) w->differs = from->t, w->held |= w->beside;
+        if (w->beside || !w->kinked) w->differs = from->t, w->held |= w->beside, w->objected = true;
         return 0;
     }
     if (w->probes || known(w, s)) return refuse(w, size, spent);
@@ -717,6 +740,7 @@ static double judge(witness *w, stepper *s)
         return refuse(w, size, spent);
     }
     w->moves = beyond && !w->located;
+    w->objected |= w->moves;
     return 0;
 }
 
@@ -736,8 +760,8 @@ static stepper_verdict inspect(void *ctx, stepper *s)
 static void inspect_sides(witness *w, stepper *s, double until)
 {
     state *const to = &w->at[TO];
-    const double spent = w->spent, first = fmax(SPEND_LEAST, SPEND_FIRST / w->operations);
-    if (w->held || w->sides > SPEND_SIDES / w->operations + (w->earned - first)) return;
+    const double spent = w->spent;
+    if (w->held || w->sides > w->earned) return;
     if (!see_ends(w, s) || !bound(w, s)) return;
     if (until == w->at[FROM].t || (to->t != until && !see(s, until, to))) return;
     w->strict = true;
@@ -748,7 +772,7 @@ static void inspect_sides(witness *w, stepper *s, double until)
         inner->strict = true;
         probe(w, s, (to->t - w->at[FROM].t) / 4, INFINITY);
         inner->strict = false;
-        if (inner->held) w->differs = inner->differs, w->held = true;
+        if (inner->held) w->differs = inner->differs, w->held = w->objected = true;
     }
     w->strict = false;
     w->sides += w->spent - spent, w->spent = spent;

@@ -19,9 +19,11 @@
 
 typedef struct witness witness;
 
-/* Of a run that has its stepper, whose steps it looks at from now on, and what is known of the run's errors; *out NULL:
- * the run is none that it can look at. */
-motus_status witness_create(const motus_run *, const differences *, witness **out, motus_error *);
+/* Of a run that has its stepper, whose steps it looks at from now on, and what is known of the run's errors; many: it
+ * is one of many, each of which is looked at less. *out NULL: the run is none that it can look at. witness_begin: of
+ * another motion of the same run, which begins at its stepper. */
+motus_status witness_create(const motus_run *, const differences *, bool many, witness **out, motus_error *);
+void witness_begin(witness *, const motus_run *);
 void witness_destroy(witness *);
 /* Whether a companion is to be moved, where the run stands. */
 bool witness_waits(const witness *);
@@ -36,6 +38,8 @@ bool witness_moves(const witness *, witness_move *);
 void witness_moved(witness *);
 /* From the state x, v at t to that at `until`. False: no way leads there. */
 bool witness_lead(witness *, double t, double until, double *x, double *v);
+/* Whether it has found that a step differs from what the force does within it by what counts. */
+bool witness_objected(const witness *);
 /* The part of the run's steps that its witness has looked at, or need not; NaN: it has none. */
 double witness_looked(const motus_run *);
 /* The time near which no step keeps to the typed force; NaN: there is none. *number: of the typed system, the velocity

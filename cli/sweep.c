@@ -84,6 +84,17 @@ static motus_status create(sweep *s, stop_progress *progress, motus_error *err)
     return motus_ensemble_create(s->model.system, &def, &s->ensemble, err);
 }
 
+/* All pieces of a sweep decide by the same trajectories. */
+static motus_status lead_pilots(const sweep *s, motus_error *err)
+{
+    double **values;
+    size_t rows;
+    motus_status status = grid_extremes(&s->grid, &values, &rows, err);
+    if (!status) status = motus_ensemble_pilots(s->ensemble, rows, (const double *const *)values, err);
+    grid_extremes_free(values);
+    return status;
+}
+
 /* Why no faster machine runs the sweep, as soon as that is known, once. */
 static void note_machine(sweep *s)
 {
@@ -153,6 +164,7 @@ static motus_status make(sweep *s, stop_progress *progress, motus_error *err)
     if (!status && !o->quiet && motus_ensemble_not_located(s->ensemble)[0])
         complain_note("%s", motus_ensemble_not_located(s->ensemble));
     if (!status) status = check_ends(s, err);
+    if (!status) status = lead_pilots(s, err);
     if (status) return status;
     s->method = motus_ensemble_method(s->ensemble);
     s->tolerance = motus_ensemble_tolerance(s->ensemble, &s->absolute);

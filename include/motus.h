@@ -1137,6 +1137,14 @@ MOTUS_API const char *motus_ensemble_ended(const motus_ensemble *, size_t trajec
 MOTUS_API const char *motus_ensemble_kind(const motus_ensemble *, size_t k);
 /* Whether motus_ensemble_run would take these values: MOTUS_OK, or what it would return before it computes anything. */
 MOTUS_API motus_status motus_ensemble_check(motus_ensemble *, size_t count, const double *const *values, motus_error *);
+/* Where errors are told, decides whether the force does more within the steps of the trajectories than steps show:
+ * these `count` trajectories, those at the ends of what varies, say, are led with a witness, which takes some
+ * milliseconds in all. Where it objects, all trajectories are computed one at a time, with a witness each: slower, and
+ * their errors hold. Without this call the first of motus_ensemble_run_errors decides, by its first, middle and last
+ * trajectories; so whoever computes one ensemble in several pieces calls it first, with the same values for each.
+ * MOTUS_ARGUMENT, MOTUS_CANCELLED, MOTUS_MEMORY: as motus_ensemble_run. */
+MOTUS_API motus_status motus_ensemble_pilots(motus_ensemble *, size_t count, const double *const *values,
+                                             motus_error *);
 MOTUS_API void motus_ensemble_destroy(motus_ensemble *);
 
 MOTUS_API int64_t motus_ensemble_steps(const motus_ensemble *); /* of each trajectory; 0 where they differ */

@@ -296,6 +296,59 @@ static void covered(void **state)
     }
 }
 
+/* ---- what steps do not show ---- */
+
+#define BUMP "k = 0.3\nx'' = -x + k exp(-((x - 0.2)/0.015)^2)\nx(0) = 0.9\nx'(0) = 0.1\nuntil 11\n"
+
+/* A force with a bump that the steps of a series leap: a witness looks at each trajectory, so that the bars hold, and
+ * all machines, threads and pieces have the same bits. The numbers without errors are those of the leaping steps. */
+static void leapt(void **state)
+{
+    (void)state;
+    static const motus_record finals[] = {{MOTUS_REDUCE_FINAL, 1}, {MOTUS_REDUCE_FINAL, 2}};
+    static const char *const machines[] = {"interpreter", "compiled", "auto"};
+    double values[COUNT], exact[NUMBERS_MAX];
+    const double *const list[] = {values};
+    motus_error err = motus_default_error();
+    task t = {BUMP, "taylor", "k", NAN, 1e-9, 0.25, 0.35, 11, finals, 2, 1, NULL, 0, 1, MOTUS_BARS_CHEAP};
+    fill(&t, values);
+    told first = {{0}, {0}};
+    for (int m = 0; m < 3; m++) {
+        motus_system *s = given_text(BUMP);
+        motus_ensemble_def def = definition(&t);
+        def.machine = machines[m];
+        def.threads = 1 + m % 2;
+        motus_ensemble *e = given_ensemble(s, &def, "a bump");
+        told o = {room_for(COUNT, t.count), room_for(COUNT, t.count)};
+        if (m == 2) must(motus_ensemble_pilots(e, COUNT, list, &err), &err, "pilots");
+        for (size_t from = 0, n = m == 2 ? 8 : COUNT; from < COUNT; from += n, n = COUNT - from) {
+            const double *const piece[] = {values + from};
+            double *const results[] = {o.values.at[0] + from, o.values.at[1] + from};
+            double *const errors[] = {o.errors.at[0] + from, o.errors.at[1] + from};
+            must(motus_ensemble_run_errors(e, n, piece, results, errors, o.values.stopped + from, &err), &err,
+                 "a bump");
+        }
+        if (m) same_outcome(&first.values, &o.values, machines[m]), same_outcome(&first.errors, &o.errors, machines[m]);
+        motus_ensemble_destroy(e);
+        motus_system_destroy(s);
+        if (m)
+            forget_told(&o);
+        else
+            first = o;
+    }
+    motus_system *s = given_text(BUMP);
+    for (size_t i = 0; i < COUNT; i++) {
+        truth(&t, s, values[i], exact);
+        for (size_t k = 0; k < t.count; k++) {
+            const double error = fabs(first.values.at[k][i] - exact[k]), bar = first.errors.at[k][i];
+            if (!(error <= bar && bar < 1e-8))
+                fail_msg("k = %g: %.17g, is %.17g, bar %.3g", values[i], first.values.at[k][i], exact[k], bar);
+        }
+    }
+    forget_told(&first);
+    motus_system_destroy(s);
+}
+
 /* ---- what has no bar ---- */
 
 static void refused(void **state)
@@ -465,7 +518,8 @@ int main(void)
     open_shared_cache();
     const struct CMUnitTest tests[] = {cmocka_unit_test(refused),   cmocka_unit_test(callbacks),
                                        cmocka_unit_test(cancelled), cmocka_unit_test(neighbours),
-                                       cmocka_unit_test(covered),   cmocka_unit_test(same_as_runs)};
+                                       cmocka_unit_test(covered),   cmocka_unit_test(same_as_runs),
+                                       cmocka_unit_test(leapt)};
     const int failed = cmocka_run_group_tests_name("errors of ensembles", tests, NULL, NULL);
     close_cache();
     return failed;

@@ -391,6 +391,8 @@ static void definitions(void **state)
     assert_int_equal(motus_ensemble_check(e, 2, values, NULL), MOTUS_OK);
     assert_int_equal(motus_ensemble_check(e, 2, nothing, NULL), MOTUS_ARGUMENT);
     assert_int_equal(motus_ensemble_check(NULL, 2, values, NULL), MOTUS_ARGUMENT);
+    assert_int_equal(motus_ensemble_pilots(e, 2, nothing, NULL), MOTUS_ARGUMENT);
+    assert_int_equal(motus_ensemble_pilots(NULL, 2, values, NULL), MOTUS_ARGUMENT);
     motus_ensemble_destroy(e);
     ends_that_differ(s, at);
     motus_ensemble_destroy(NULL);
