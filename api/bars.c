@@ -188,7 +188,7 @@ motus_status bars_later(motus_run *r, motus_system *s, double t, double late, co
     memset(a, 0, p->nv * sizeof *a);
     const int answer = p->accel(p->ctx, t, x1, v1, a);
     if (answer && !s->model) return columns_callback_failed("acceleration", t, answer, err);
-    for (size_t k = 0; k < p->nx && k < p->nv; k++) x1[k] += v[k] * late;
+    for (size_t k = 0; k < p->nx - p->modes; k++) x1[k] += v[k] * late;
     for (size_t k = 0; k < p->nv && !answer; k++) v1[k] += isfinite(a[k]) ? a[k] * late : 0;
     return MOTUS_OK;
 }
@@ -260,22 +260,16 @@ static motus_status take_limit(motus_run *r, double t, const double *x, const do
     return status;
 }
 
-/* Whether the run is so short, beside the time at which it begins, that the rounding of times moves what it
- * compares. */
-static bool starts_late(const motus_run *r)
-{
-    enum { FAR = 64 };
-    return fabs(r->timing.t0) > FAR * fabs(r->timing.until - r->timing.t0);
-}
-
-/* The numbers of a companion at t, at the instant of the run's: that is later by what the rounding of its time has
- * left out, up to 6e-8 s after 1e9 s. */
+/* The numbers of a companion at t, at the instant of the run's: at the end of a step that is later by what the rounding
+ * of its time has left out, up to 6e-8 s after 1e9 s, and between steps t itself. */
 static motus_status see_companion(motus_run *r, companion *c, double t, int seen, motus_error *err)
 {
     motus_system *const s = c->system ? c->system : r->system;
     const double theirs = c->events ? c->t : t;
-    const bool here = starts_late(r) && theirs == stepper_time(r->stepper) && theirs == stepper_time(c->stepper);
-    const double late = here ? stepper_lost(r->stepper) - stepper_lost(c->stepper) : 0;
+    const bool here = theirs == stepper_time(r->stepper), between = r->bars->differences.between;
+    const double run_lost = between ? 0 : stepper_lost(r->stepper);
+    const bool off = run_starts_late(r) && (here || between) && theirs == stepper_time(c->stepper);
+    const double late = off ? run_lost - stepper_lost(c->stepper) : 0;
     double *x = c->x, *v = c->v;
     motus_status status = late == 0 ? MOTUS_OK : bars_later(r, s, theirs, late, c->x, c->v, &x, &v, err);
     return status == MOTUS_OK ? bars_see(r, s, theirs, x, v, seen, err) : status;
@@ -312,17 +306,18 @@ static motus_status moved_in(motus_run *r, double t, double late, const double *
     return status;
 }
 
-/* At the end of the run: what its rounding leaves unknown of each number; and where the force depends on the time, that
- * run and companion begin their steps at times with the same roundings, which may move a number as far as it goes in
- * one of them. */
+/* At the end of the run: what its rounding leaves unknown of each number; and there, or anywhere after a late start,
+ * where the force depends on the time, that run and companion begin their steps at times with the same roundings, which
+ * may move a number as far as it goes in one of them. */
 static motus_status take_end(motus_run *r, double t, const double *x, const double *v, motus_error *err)
 {
     bars *b = r->bars;
     differences *f = &b->differences;
     const bool end = t == r->timing.until && !f->shape.how;
     const double late = end ? end_rounding(r) : 0;
+    const bool shared = end || (run_starts_late(r) && !f->shape.how);
     motus_status status = MOTUS_OK;
-    if (end && r->system->problem.traits.time) {
+    if (shared && r->system->problem.traits.time) {
         status = moved_in(r, t, events_ulp(t), x, v, f->apart, err);
         for (size_t k = 0; k < b->count; k++) f->d[k] = fmax(f->d[k], SHARED * f->apart[k]);
     }

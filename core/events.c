@@ -478,6 +478,8 @@ motus_status events_sample(events *e, stepper *s, double t, double *x, double *v
     return status;
 }
 
+bool events_sampled_exactly(const events *e, double t) { return past_at(e, t) != NULL; }
+
 void events_move(events *e, const machine *m)
 {
     e->machine = *m;

@@ -122,6 +122,8 @@ event events_row(const events *, size_t k, bool after, const double **x, const d
 /* The state at a time within the last step, of fixed steps within the last step of the grid; before an action by true
  * steps, else by dense output of the stepper. */
 motus_status events_sample(events *, stepper *, double t, double *x, double *v, motus_error *);
+/* Whether that is the state of t itself, not of what t and the start of the step have lost to rounding. */
+bool events_sampled_exactly(const events *, double t);
 /* Whether from now on what actions change is kept, of every rule; either forgets what was kept before. */
 void events_keep_jumps(events *, bool keep);
 size_t events_jumps(const events *);
