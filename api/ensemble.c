@@ -488,8 +488,13 @@ static motus_status give_up_lanes(motus_ensemble *e, motus_error *err)
     ensemble_end_lanes(e);
     e->awaits = AWAITS_NOTHING;
     ensemble_workers_destroy(e);
+    e->note[0] = 0;
     const motus_status status = ensemble_choose_single(e, NULL, true, err);
-    snprintf(e->note, sizeof e->note, "the force does within steps what they do not show: one trajectory at a time");
+    const bool compiled = !e->awaits && !strcmp(motus_ensemble_machine(e), "compiled");
+    e->compiled_from = compiled ? (int64_t)e->computed : -1;
+    if (!e->note[0])
+        snprintf(e->note, sizeof e->note,
+                 "the force does within steps what they do not show: one trajectory at a time");
     return status;
 }
 

@@ -1,7 +1,8 @@
 /* An ensemble: which numbers vary, which are recorded, and one of three ways to compute the trajectories: in lanes, in
  * blocks of a callback, or one at a time.
  *
- * Invariant: a trajectory has the bits of a run with its values, in each of these ways and on every thread.
+ * Invariant: a trajectory has the same bits in each of these ways and on every thread; they are those of a run with its
+ * values, unless a witness objects to a step.
  */
 #ifndef API_ENSEMBLE_H
 #define API_ENSEMBLE_H

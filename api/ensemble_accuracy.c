@@ -202,13 +202,15 @@ static motus_status find_other(attempt *a, double tolerance, motus_ensemble **ou
     if (a->e->awaits) def.machine = "interpreter"; /* a compiler is at work for the same text */
     *o = (other){.next = g->others, .tolerance = tolerance};
     motus_status status = motus_ensemble_create(a->e->system, &def, &o->ensemble, err);
+    if (status == MOTUS_OK) status = ensemble_witness_as(o->ensemble, a->e, err);
     if (status != MOTUS_OK) {
+        motus_ensemble_destroy(o->ensemble);
         give(&g->allocator, o);
         return status;
     }
     g->others = o;
     *out = o->ensemble;
-    return ensemble_witness_as(o->ensemble, a->e, err);
+    return MOTUS_OK;
 }
 
 /* One tolerance: its trajectories in a row, which are `count` of those that are open. */

@@ -1,6 +1,6 @@
 /* Errors of an ensemble's trajectories: what is compared, and a trajectory as a run with a companion. See ensemble.h.
  *
- * Invariant: the bits of a trajectory are the same with and without. The companion's system is the shadow of the
+ * Invariant: the bits of a trajectory are the same with and without, unless its witness objects to a step. The companion's system is the shadow of the
  * ensemble's, in which the same numbers vary; the values that a caller gives are doubles, and the same in both.
  */
 #include "api/bars.h"
@@ -116,10 +116,9 @@ static motus_status take_home(worker *w, motus_error *err)
     return status;
 }
 
-motus_status ensemble_errors_worker(worker *w, motus_error *err)
+static motus_status make_run(worker *w, motus_error *err)
 {
     const motus_ensemble *e = w->e;
-    if (w->run) return MOTUS_OK;
     motus_run *r = w->run = run_new(w->system);
     if (!r) return fail(err, MOTUS_MEMORY, "no memory for bars of error");
     r->chosen = e->chosen;
@@ -134,6 +133,13 @@ motus_status ensemble_errors_worker(worker *w, motus_error *err)
     if (status != MOTUS_OK || !w->vary) return status;
     model *m = r->bars->half.system->model;
     return vary_create(m, e->places, e->vary_count, true, true, &w->half_vary, err);
+}
+
+motus_status ensemble_errors_worker(worker *w, motus_error *err)
+{
+    const motus_status status = w->run ? MOTUS_OK : make_run(w, err);
+    if (status != MOTUS_OK) ensemble_errors_end(w);
+    return status;
 }
 
 /* The trajectory has a witness, where trajectories have any. */

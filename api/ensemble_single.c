@@ -1,6 +1,6 @@
 /* One trajectory at a time, by any method and machine. See ensemble.h.
  *
- * Invariant: a trajectory has the bits of a run with its values, and is observed at the same steps as in lanes.
+ * Invariant: a trajectory has the bits of a run with its values, unless a witness objects, and is observed at the same steps as in lanes.
  * Afterwards the system has its own numbers again.
  */
 #include "api/bars.h"

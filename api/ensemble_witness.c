@@ -67,9 +67,7 @@ static motus_status fly(worker *w, size_t pilot, void *ctx)
 motus_status ensemble_witness_ask(motus_ensemble *e, const places *p, size_t pilots, motus_error *err)
 {
     flight f = {.places = p, .count = e->count, .pilots = pilots, .most = WORK / (double)pilots};
-    if (e->decided || e->error == MOTUS_BARS_NONE) return MOTUS_OK;
-    e->decided = true;
-    if (!e->system->model || !pilots) return MOTUS_OK;
+    if (e->decided || e->error == MOTUS_BARS_NONE || !e->system->model || !pilots) return MOTUS_OK;
     motus_status status = choice_weigh(e->system, &f.weight, err);
     if (status != MOTUS_OK) return status;
     /* They are led to their ends, whatever comes meanwhile. */
@@ -80,8 +78,9 @@ motus_status ensemble_witness_ask(motus_ensemble *e, const places *p, size_t pil
     if (!e->machine.problem) e->machine = e->system->machine;
     status = ensemble_each_singly(e, 0, pilots, fly, &f, err);
     e->awaits = awaits, e->exactly = exactly;
-    e->looks = atomic_load(&f.objected);
+    if (awaits) ensemble_workers_destroy(e); /* those who await something ask for it */
     e->decided = status == MOTUS_OK;
+    e->looks = e->decided && atomic_load(&f.objected);
     return status;
 }
 

@@ -195,7 +195,8 @@ motus_status motus_system_clone(const motus_system *s, motus_system **out, motus
     motus_callback_def def = s->callback;
     def.x = s->x0; /* the copies: the caller's arrays may be gone */
     def.v = s->v0;
-    motus_status status = s->model ? located_read(s, false, &made, err) : motus_system_from_callback(&def, &made, err);
+    motus_status status =
+        s->model ? located_read(s, false, false, &made, err) : motus_system_from_callback(&def, &made, err);
     if (status == MOTUS_OK) status = take_over(s, made, err);
     if (status != MOTUS_OK) {
         motus_system_destroy(made);

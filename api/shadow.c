@@ -115,12 +115,19 @@ static bool alike(const motus_system *a, const motus_system *b)
            a->model->pool_count == b->model->pool_count && a->state_count == b->state_count;
 }
 
+static bool any_overridden(const model *m)
+{
+    for (size_t k = 0; m->overridden && k < m->pool_count; k++)
+        if (m->overridden[k]) return true;
+    return false;
+}
+
 motus_status shadow_create(const motus_system *s, const uint8_t *affected, motus_system **out, motus_error *err)
 {
     *out = NULL;
     if (!s->model) return motus_system_clone(s, out, err);
     motus_error ours = motus_default_error();
-    motus_status status = located_read(s, true, out, &ours);
+    motus_status status = located_read(s, true, affected || any_overridden(s->model), out, &ours);
     if (status == MOTUS_OK && alike(s, *out)) status = move_rounded(s, affected, *out, &ours);
     if (status == MOTUS_OK && alike(s, *out)) status = shadow_numbers(s, *out, &ours);
     if (status == MOTUS_OK && alike(s, *out)) {

@@ -657,7 +657,7 @@ static void mark_located(events *e, const candidate *c)
 
 static motus_status fire_few(events *e, const candidate *c, const asked *list, size_t count, motus_error *err)
 {
-    bool acted = false, again;
+    bool acted = false, again = false;
     motus_status status = MOTUS_OK;
     for (size_t k = 0; k < count && !status; k++) status = look_at(e, &list[k], err);
     if (status) return status;

@@ -88,7 +88,10 @@ motus_status events_order(events *e, stepper *s, motus_error *err)
     return status;
 }
 
-double events_margin(const events *e) { return 16 * e->shift + 0x1p-20 * fabs(e->span); }
+double events_margin(const events *e)
+{
+    return fmax(16 * e->shift + 0x1p-20 * fabs(e->span), 4 * events_ulp(e->right.t));
+}
 
 candidate *events_earliest(events *e)
 {

@@ -1115,7 +1115,8 @@ MOTUS_API motus_status motus_ensemble_run(motus_ensemble *, size_t count, const 
  * minimum, a maximum or a mean is that of the exact motion's over the same times, and follows from its own difference
  * between trajectory and companion; where such a record is, the companion is compared at every observation: with one
  * after every step it takes three times the evaluations of the trajectory instead of twice. Numbers of steps have the
- * bar 0. The results are those of motus_ensemble_run. MOTUS_ARGUMENT: the definition asks for no errors. */
+ * bar 0. The results are those of motus_ensemble_run, unless a witness objects (motus_ensemble_pilots). MOTUS_ARGUMENT:
+ * the definition asks for no errors. */
 MOTUS_API motus_status motus_ensemble_run_errors(motus_ensemble *, size_t count, const double *const *values,
                                                  double *const *results, double *const *errors, double *stopped,
                                                  motus_error *);
@@ -1138,8 +1139,8 @@ MOTUS_API const char *motus_ensemble_kind(const motus_ensemble *, size_t k);
 /* Whether motus_ensemble_run would take these values: MOTUS_OK, or what it would return before it computes anything. */
 MOTUS_API motus_status motus_ensemble_check(motus_ensemble *, size_t count, const double *const *values, motus_error *);
 /* Where errors are told, decides whether the force does more within the steps of the trajectories than steps show:
- * these `count` trajectories, those at the ends of what varies, say, are led with a witness, which takes some
- * milliseconds in all. Where it objects, all trajectories are computed one at a time, with a witness each: slower, and
+ * these `count` trajectories, those at the ends of what varies, say, are led with a witness, mostly in some
+ * milliseconds. Where it objects, all trajectories are computed one at a time, with a witness each: slower, and
  * their errors hold. Without this call the first of motus_ensemble_run_errors decides, by its first, middle and last
  * trajectories; so whoever computes one ensemble in several pieces calls it first, with the same values for each.
  * MOTUS_ARGUMENT, MOTUS_CANCELLED, MOTUS_MEMORY: as motus_ensemble_run. */

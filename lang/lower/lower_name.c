@@ -308,7 +308,7 @@ static value lower_definition(lowering *l, const tree *t, model_definition *d)
         v = vector(l, d->components);
         for (int k = 0; k < (d->components ? d->components : 1) && !failed(l); k++)
             v.item[k] = graph_param(l->model->graph, d->slot + (uint32_t)k);
-        v.typed = d->typed;
+        v.typed = l->model->source.varied ? NULL : d->typed;
     }
     if (t->index_count > 1 || (t->index_count == 1 && d->components == 0)) {
         COMPLAIN(l, &t->at, "%s is %s and takes no such index", d->name, d->components ? "a vector" : "one number");

@@ -285,6 +285,12 @@ static bool undecided(operation op, interval a, interval b)
     }
 }
 
+/* An angle over a leg that is far from 0 turns by little where the other leg changes by no more than that. */
+static bool turns_little(interval far, interval other)
+{
+    return far_from_zero(far) && other.high - other.low <= interval_magnitude(far).low;
+}
+
 bool resolution_regular(operation op, interval a, interval b)
 {
     switch (op) {
@@ -297,7 +303,7 @@ bool resolution_regular(operation op, interval a, interval b)
     case OP_CBRT: return far_from_zero(a);
     case OP_HYPOT: return far_from_zero(a) || far_from_zero(b);
     case OP_POW: return b.low == b.high && fabs(b.low) <= STEEP && far_from_zero(a);
-    case OP_ATAN2: return far_from_zero(a) || (b.low > 0 && far_from_zero(b));
+    case OP_ATAN2: return turns_little(a, b) || (b.low > 0 && turns_little(b, a));
     case OP_ASIN:
     case OP_ACOS: return interval_magnitude(a).high < 1 - 1 / FAR;
     case OP_TAN: return !pole(op, a, b) && !hidden(op, a, b);

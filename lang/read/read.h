@@ -8,10 +8,10 @@
  */
 typedef motus_status (*read_method)(const char *name, motus_error *);
 
-/* How a text is read. nudged: as in source.h; claims are not judged then. sides: the shapes of its switches, in the
+/* How a text is read. nudged, varied: as in source.h; claims are not judged then. sides: the shapes of its switches, in the
  * order of switches_find; their sides are modes then, which the equations read in place of the switches. NULL: no. */
 typedef struct read_how {
-    bool nudged;
+    bool nudged, varied;
     const model_shape *sides;
     uint32_t side_count;
 } read_how;

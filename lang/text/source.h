@@ -34,6 +34,7 @@ typedef struct source {
     bool failed;
     /* The numbers that are no doubles are read as the double on their other side: for bars of error (api/shadow.c). */
     bool nudged;
+    bool varied; /* parameters get other numbers than the text gives them: what these are says nothing of a formula */
     struct {
         uint32_t text, at;
         int line;
