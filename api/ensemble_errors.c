@@ -1,7 +1,8 @@
 /* Errors of an ensemble's trajectories: what is compared, and a trajectory as a run with a companion. See ensemble.h.
  *
- * Invariant: the bits of a trajectory are the same with and without, unless its witness objects to a step. The companion's system is the shadow of the
- * ensemble's, in which the same numbers vary; the values that a caller gives are doubles, and the same in both.
+ * Invariant: the bits of a trajectory are the same with and without, unless its witness objects to a step. The
+ * companion's system is the shadow of the ensemble's, in which the same numbers vary; the values that a caller gives
+ * are doubles, and the same in both.
  */
 #include "api/bars.h"
 #include "api/ensemble.h"

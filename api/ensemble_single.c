@@ -1,7 +1,7 @@
 /* One trajectory at a time, by any method and machine. See ensemble.h.
  *
- * Invariant: a trajectory has the bits of a run with its values, unless a witness objects, and is observed at the same steps as in lanes.
- * Afterwards the system has its own numbers again.
+ * Invariant: a trajectory has the bits of a run with its values, unless a witness objects, and is observed at the same
+ * steps as in lanes. Afterwards the system has its own numbers again.
  */
 #include "api/bars.h"
 #include "api/ensemble_single.h"

@@ -8,8 +8,9 @@
  */
 typedef motus_status (*read_method)(const char *name, motus_error *);
 
-/* How a text is read. nudged, varied: as in source.h; claims are not judged then. sides: the shapes of its switches, in the
- * order of switches_find; their sides are modes then, which the equations read in place of the switches. NULL: no. */
+/* How a text is read. nudged, varied: as in source.h; a nudged text's claims are not judged. sides: the shapes of its
+ * switches, in the order of switches_find; their sides are modes then, which the equations read in place of the
+ * switches. NULL: no. */
 typedef struct read_how {
     bool nudged, varied;
     const model_shape *sides;
