@@ -375,6 +375,27 @@ static void decimals_that_cancel(void **state)
     end_of("x'' = -x\nx(0) = 1000000.85 - 1000000.33\nx'(0) = 0\nuntil 2", NAN, far, 1, 1e-11, 1e-8);
 }
 
+/* ... also where a parameter gets another number than its text has. */
+static void decimals_that_cancel_when_set(void **state)
+{
+    (void)state;
+    const double a = 1000.75;
+    motus_error err = motus_default_error();
+    motus_system *s = given_text("a = 1000.06\nx'' = a - 1000.69\nx(0) = 0\nx'(0) = 0\nuntil 1");
+    must(motus_system_set(s, "a", &a, 1, &err), &err, "a");
+    motus_run *r = NULL;
+    motus_run_def def = motus_default_run();
+    def.method = "dop853", def.machine = "interpreter", def.error = MOTUS_BARS_CHEAP;
+    must(motus_run_create(s, &def, &r, &err), &err, "a");
+    must(motus_run_finish(r, &err), &err, "a");
+    const size_t column = 1;
+    double value, error;
+    must(motus_run_errors(r, &column, 1, &value, &error, &err), &err, "a");
+    if (!(fabs(value - 0.03) <= error && error < 1e-12)) fail_msg("0.03 is %.17g, error %.3g", value, error);
+    motus_run_destroy(r);
+    motus_system_destroy(s);
+}
+
 /* Of a motion that is cos(t) - 0.839 is 7e-5 from cos(10) -, quantities whose jumps lie within the error of the state,
  * and such as have jumped before and are decided: INFINITY, and at least the truth's distance; and an ulp. */
 static void quantities_that_jump(void **state)
@@ -411,7 +432,7 @@ static void quantities_that_jump(void **state)
 
 int main(void)
 {
-    static struct CMUnitTest tests[CASES_MAX + 6];
+    static struct CMUnitTest tests[CASES_MAX + 7];
     size_t count = 0;
     read_cases();
     if (motus_method_count() > METHODS_MAX) return 1;
@@ -425,5 +446,6 @@ int main(void)
     tests[count++] = (struct CMUnitTest)cmocka_unit_test(rounded_ends);
     tests[count++] = (struct CMUnitTest)cmocka_unit_test(quantities_that_jump);
     tests[count++] = (struct CMUnitTest)cmocka_unit_test(decimals_that_cancel);
+    tests[count++] = (struct CMUnitTest)cmocka_unit_test(decimals_that_cancel_when_set);
     return _cmocka_run_group_tests("bars of error", tests, count, NULL, NULL);
 }

@@ -93,6 +93,7 @@ static void near_singular(void **state)
         wrong += !is_found("hypot(x - 0.5, 1e-4) < 2e-4", &ways[k], 0.5, sqrt(3) * 1e-4, NAN);
         wrong += !is_found("if(x > 0.4999, if(x < 0.5001, 1, 0), 0) > 0.5", &ways[k], 0.5, 1e-4, NAN);
         wrong += !is_found("cbrt((x - 0.5)^2) < 1e-3", &ways[k], 0.5, sqrt(1e-9), NAN);
+        wrong += !is_found("atan2(x - 0.5, 1e-4)^2 < 1", &ways[k], 0.5, 1e-4 * tan(1), NAN);
         wrong += !is_found("(cos(x - 0.5)^64)^64 > 0.5", &ways[k], 0.5, acos(pow(0.5, 1.0 / 4096)), NAN);
     }
     assert_int_equal(wrong, 0);
