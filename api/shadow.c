@@ -115,12 +115,7 @@ static bool alike(const motus_system *a, const motus_system *b)
            a->model->pool_count == b->model->pool_count && a->state_count == b->state_count;
 }
 
-static bool any_overridden(const model *m)
-{
-    for (size_t k = 0; m->overridden && k < m->pool_count; k++)
-        if (m->overridden[k]) return true;
-    return false;
-}
+static bool any_overridden(const model *m) { return m->overridden && memchr(m->overridden, true, m->pool_count); }
 
 motus_status shadow_create(const motus_system *s, const uint8_t *affected, motus_system **out, motus_error *err)
 {
