@@ -41,9 +41,11 @@ static motus_status lead(trajectory *s, flight *f, size_t k, motus_error *err)
     if (status == MOTUS_OK) status = ensemble_single_begin(s, f->places, k, &began, err);
     motus_run *const r = s->w->run;
     if (status != MOTUS_OK || !r->bars->witness) return status; /* without one there is nothing to find */
+    witness_leave(r->bars->witness);
     const double most = work_of(s->w, f) + f->most;
     while (status == MOTUS_OK && !motus_run_done(r) && work_of(s->w, f) < most && !atomic_load(&f->objected)) {
         status = motus_run_step(r, CHUNK, err);
+        if (status == MOTUS_OK) status = bars_land(r, err);
         if (witness_objected(r->bars->witness)) atomic_store(&f->objected, true);
     }
     return status;

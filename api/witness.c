@@ -72,6 +72,10 @@ enum {
  * missing of one, and all of it has to move the companion. */
 #define BARS 2.5
 #define PART_OF_BARS 0x1p-4
+/* ... and where the companion is left as it is: the error of one step is at most twice the largest that it has shown by
+ * then, unless it hides. There the probe has to be better than the step by far. */
+#define LEFT_BARS 8.0
+#define LEFT_TOLERANCE 0x1p-10
 #define SHOWN 0x1p-16 /* of what is missing: so much may be hidden */
 #define PROBE "dop853"
 #define PROBE_TOLERANCE 1e-10
@@ -121,6 +125,7 @@ struct witness {
     bool covered;      /*   some within sums, where nothing says that they stand at 0 */
     bool probes;       /* it looks at a probe, and refuses at once */
     bool events;       /* the run has some */
+    bool leaves;       /* the companion, too, as it is */
     stepper *probe;
     struct witness *inner; /* that looks at the probe */
     /* From here on, of the present motion. */
@@ -144,6 +149,7 @@ struct witness {
     int behind;           /* steps behind one that lacked something, which the companion may not have passed, to come */
     bool moves, leads;    /* dx and dv are for the companion, or (leads) a probe is to take its step for it */
     bool objected;        /* to a step of the run */
+    bool left;            /* dx and dv, where it leaves the companion as it is */
     size_t number;        /* the velocity of which the most was missing where `beside` became true */
     bool held;            /* the motion is none of the typed force, from `differs` on */
     double until;         /* a probe has differed from the step that led there; NaN */
@@ -246,7 +252,7 @@ motus_status witness_create(const motus_run *r, const differences *seen, bool ma
     return MOTUS_OK;
 }
 
-bool witness_objected(const witness *w) { return w && w->objected; }
+void witness_leave(witness *w) { w->leaves = true; }
 
 void witness_destroy(witness *w)
 {
@@ -537,7 +543,9 @@ static bool lead(witness *w, double t, double lost, const double *x, const doubl
     motus_status status = MOTUS_OK;
     stepper_stop why;
     if (!w->probe) {
-        status = stepper_create(&w->machine, &w->method, t, size, x, v, &w->allocator, &w->probe, NULL);
+        chosen method = w->method;
+        if (w->leaves) method.relative = fmax(LEFT_TOLERANCE * method.relative, ROUNDING);
+        status = stepper_create(&w->machine, &method, t, size, x, v, &w->allocator, &w->probe, NULL);
         if (!status) stepper_inspected(w->probe, inspect, inner);
     }
     const double spent = inner->spent;
@@ -573,19 +581,25 @@ bool witness_lead(witness *w, double t, double until, double *x, double *v)
 }
 
 /* Whether more is missing, of n places or velocities, than so many times their errors; y: how large they are. */
-static bool beyond_bars(const double *missing, const double *y, size_t n, double errors)
+static bool beyond_errors(const double *missing, const double *y, size_t n, double errors)
 {
     return vector_largest(missing, n) > fmax(errors, ROUNDING * vector_largest(y, n));
 }
 
 static bool beyond_velocities(const witness *w, const double *missing, double times)
 {
-    return beyond_bars(missing, w->at[TO].v, w->nv, times * fmax(w->seen->most[1], w->seen->most[2]));
+    return beyond_errors(missing, w->at[TO].v, w->nv, times * fmax(w->seen->most[1], w->seen->most[2]));
 }
 
 static bool beyond_places(const witness *w, const double *missing, double times)
 {
-    return beyond_bars(missing, w->at[TO].x, w->nx, times * w->seen->most[0]);
+    return beyond_errors(missing, w->at[TO].x, w->nx, times * w->seen->most[0]);
+}
+
+/* Whether a probe is as far from the end of the step. */
+static bool beyond_bars(const witness *w, double times)
+{
+    return beyond_velocities(w, w->dv, times) || beyond_places(w, w->dx, times);
 }
 
 /* Whether the stepper is within a step whose end a probe did not come to. */
@@ -734,20 +748,31 @@ static double judge(witness *w, stepper *s)
     const double least = vector_largest(w->missing, w->nv) / (PROBE_SEES * SUSPICIOUS);
     if (!probe(w, s, size, most > SUSPICIOUS ? INFINITY : least)) return 0;
     const double far = apart(w);
-    const bool beyond = beyond_velocities(w, w->dv, BARS) || beyond_places(w, w->dx, BARS);
+    const bool beyond = !w->located && beyond_bars(w, BARS);
     if (far > REFUSED) {
         w->until = to->t;
         return refuse(w, size, spent);
     }
-    w->moves = beyond && !w->located;
+    w->moves = beyond && !w->leaves;
+    w->left = beyond && w->leaves;
     w->objected |= w->moves;
     return 0;
+}
+
+/* Where the companion has come to the end of a step as well, its distance may show what the step lacks. */
+bool witness_objected(witness *w)
+{
+    if (!w) return false;
+    if (w->left) w->objected |= w->seen->taken == w->at[TO].t && beyond_bars(w, LEFT_BARS);
+    w->left = false;
+    return w->objected;
 }
 
 static stepper_verdict inspect(void *ctx, stepper *s)
 {
     witness *const w = ctx;
     if (w->steady) return inspect_steady(w, s, stepper_time(s));
+    witness_objected(w);
     w->moves = false;
     const bool afforded = affords(w, s);
     const double again = afforded ? judge(w, s) : 0;

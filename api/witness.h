@@ -38,8 +38,11 @@ bool witness_moves(const witness *, witness_move *);
 void witness_moved(witness *);
 /* From the state x, v at t to that at `until`. False: no way leads there. */
 bool witness_lead(witness *, double t, double until, double *x, double *v);
-/* Whether it has found that a step differs from what the force does within it by what counts. */
-bool witness_objected(const witness *);
+/* It leaves the companion as it is, from now on. */
+void witness_leave(witness *);
+/* Whether it has found that a step differs from what the force does within it by what counts; where it leaves the
+ * companion, by more than that shows at the end of the step. The companion has come as far as the run. */
+bool witness_objected(witness *);
 /* The part of the run's steps that its witness has looked at, or need not; NaN: it has none. */
 double witness_looked(const motus_run *);
 /* The time near which no step keeps to the typed force; NaN: there is none. *number: of the typed system, the velocity
