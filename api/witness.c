@@ -412,7 +412,7 @@ static bool bound(witness *w, stepper *s)
     if (stepper_swing(s, w->most)) return true;
     memset(w->scale, 0, w->nv * sizeof *w->scale);
     memset(w->most, 0, w->nv * sizeof *w->most);
-    if (!w->steady || !integrate(w, s, &w->at[FROM], h, 0, w->room)) return false;
+    if (!integrate(w, s, &w->at[FROM], h, 0, w->room)) return false;
     for (size_t k = 0; k < w->typed->problem.nv; k++) w->most[place(w, k)] = 2 * w->scale[k];
     return true;
 }

@@ -30,6 +30,7 @@ static const struct {
     {MOTION_BUMP_KIND, 251},   /* less than a step may lose is more than its error */
     {MOTION_PULSE_KIND, 20},   /* a number within a step that goes astray */
     {MOTION_PULSE_KIND, 98},   /* a push and a pull shift the motion and leave its velocity */
+    {MOTION_FLIGHT_KIND, 222}, /* the witness looked at no step of an extrapolation */
     {MOTION_VECTOR_KIND, 339}, /* what a step loses was taken for the whole error within it */
     {MOTION_OFFSET_KIND, 225}, /* between steps the state is that of another time, after 1e9 s */
     /* rounding of the state hides the time of an event, and moves what follows from it */
