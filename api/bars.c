@@ -59,7 +59,7 @@ motus_status bars_make(motus_run *r, motus_bars kind, const size_t *columns, con
     *b = (bars){.kind = kind, .count = count};
     b->columns = take(&r->allocator, count, sizeof *b->columns);
     b->memory = take(&r->allocator, differences_size(&shape), sizeof *b->memory);
-    b->room = take(&r->allocator, r->system->problem.nx + 2 * r->system->problem.nv + 3, sizeof *b->room);
+    b->room = take(&r->allocator, bars_moved_room(r->system, count), sizeof *b->room);
     if (!b->columns || !b->memory || !b->room) return fail(err, MOTUS_MEMORY, "no memory for bars of error");
     for (size_t k = 0; k < count; k++) b->columns[k] = columns ? columns[k] : k;
     differences_place(&b->differences, &shape, b->memory);
@@ -183,14 +183,8 @@ motus_status bars_later(motus_run *r, motus_system *s, double t, double late, co
     double *const x1 = *to_x = r->bars->room, *const v1 = *to_v = x1 + p->nx + 1, *const a = v1 + p->nv + 1;
     if (p->nx) memcpy(x1, x, p->nx * sizeof *x);
     memcpy(v1, v, p->nv * sizeof *v);
-    if (late == 0) return MOTUS_OK;
-    if (p->refresh) p->refresh(p->ctx, t, x1, v1);
-    memset(a, 0, p->nv * sizeof *a);
-    const int answer = p->accel(p->ctx, t, x1, v1, a);
-    if (answer && !s->model) return columns_callback_failed("acceleration", t, answer, err);
-    for (size_t k = 0; k < p->nx - p->modes; k++) x1[k] += v[k] * late;
-    for (size_t k = 0; k < p->nv && !answer; k++) v1[k] += isfinite(a[k]) ? a[k] * late : 0;
-    return MOTUS_OK;
+    const int answer = late == 0 ? 0 : system_later(s, t, late, x1, v1, a);
+    return answer && !s->model ? columns_callback_failed("acceleration", t, answer, err) : MOTUS_OK;
 }
 
 /* How much later a time is that was written than the double which was read: of a decimal of at most 13 digits that is
@@ -211,13 +205,20 @@ static double time_rounding(double t, double of_model, double of_half)
     return fabs(of_half - t) > CLEARLY * unit ? of_half - t : unit;
 }
 
-#define SHARED 0.2 /* of a unit in the last place of the time: the bar is 2.5 or 3 times that */
+/* Where the force depends on the time, run and companion begin their steps at times with the same roundings, which may
+ * move a number as far as it goes in so much of a unit in the last place. */
+#define SHARED 0.5
 
-static double end_rounding(const motus_run *r)
+static double shared_rounding(double t, const motus_system *s)
 {
-    const motus_system *const half = r->bars->half.system;
-    return time_rounding(r->timing.until, r->system->model ? r->system->model->until : NAN,
-                         half && half->model ? half->model->until : NAN);
+    return s->problem.traits.time ? SHARED * events_ulp(t) : 0;
+}
+
+double bars_end_rounding(double until, const motus_system *s, const motus_system *half)
+{
+    const double late =
+        time_rounding(until, s->model ? s->model->until : NAN, half && half->model ? half->model->until : NAN);
+    return fabs(late) + shared_rounding(until, s);
 }
 
 /* The companion begins where the model says, with its own decimals, or where the run was told to. The start is rounded
@@ -268,7 +269,7 @@ static motus_status see_companion(motus_run *r, companion *c, double t, int seen
     const double theirs = c->events ? c->t : t;
     const bool here = theirs == stepper_time(r->stepper), between = r->bars->differences.between;
     const double run_lost = between ? 0 : stepper_lost(r->stepper);
-    const bool off = run_starts_late(r) && (here || between) && theirs == stepper_time(c->stepper);
+    const bool off = run_starts_late(&r->timing) && (here || between) && theirs == stepper_time(c->stepper);
     const double late = off ? run_lost - stepper_lost(c->stepper) : 0;
     double *x = c->x, *v = c->v;
     motus_status status = late == 0 ? MOTUS_OK : bars_later(r, s, theirs, late, c->x, c->v, &x, &v, err);
@@ -291,38 +292,39 @@ static motus_status take_astray(motus_run *r, double t, motus_error *err)
     return status;
 }
 
-/* Of each number, how far it moves in that time. */
-static motus_status moved_in(motus_run *r, double t, double late, const double *x, const double *v, double *out,
-                             motus_error *err)
+motus_status bars_moved(motus_system *s, double t, double late, const double *x, const double *v, const size_t *columns,
+                        size_t count, double *room, double *out, motus_error *err)
 {
-    const bars *b = r->bars;
-    double *to_x, *to_v;
-    motus_status status = bars_later(r, r->system, t, late, x, v, &to_x, &to_v, err);
-    if (status == MOTUS_OK) status = system_values(r->system, t, to_x, to_v, b->columns, b->count, out, err);
-    for (size_t k = 0; status == MOTUS_OK && k < b->count; k++) {
-        const double apart = fabs(out[k] - b->differences.values[0][k]);
-        out[k] = k > 0 && isfinite(apart) ? apart : 0;
+    const problem *const p = &s->problem;
+    double *const to_x = room, *const to_v = to_x + p->nx + 1, *const a = to_v + p->nv + 1,
+                  *const before = a + p->nv + 1;
+    if (p->nx) memcpy(to_x, x, p->nx * sizeof *x);
+    memcpy(to_v, v, p->nv * sizeof *v);
+    motus_status status = system_values(s, t, to_x, to_v, columns, count, before, err);
+    const int answer = status == MOTUS_OK ? system_later(s, t, late, to_x, to_v, a) : 0;
+    if (answer && !s->model) status = columns_callback_failed("acceleration", t, answer, err);
+    if (status == MOTUS_OK) status = system_values(s, t, to_x, to_v, columns, count, out, err);
+    for (size_t k = 0; status == MOTUS_OK && k < count; k++) {
+        const double moved = fabs(out[k] - before[k]);
+        out[k] = isfinite(moved) ? moved : 0;
     }
     return status;
 }
 
-/* At the end of the run: what its rounding leaves unknown of each number; and there, or anywhere after a late start,
- * where the force depends on the time, that run and companion begin their steps at times with the same roundings, which
- * may move a number as far as it goes in one of them. */
-static motus_status take_end(motus_run *r, double t, const double *x, const double *v, motus_error *err)
+/* What roundings of times leave unknown of each number, at the end of the run, and after a late start anywhere. */
+static motus_status take_times(motus_run *r, double t, const double *x, const double *v, motus_error *err)
 {
     bars *b = r->bars;
     differences *f = &b->differences;
-    const bool end = t == r->timing.until && !f->shape.how;
-    const double late = end ? end_rounding(r) : 0;
-    const bool shared = end || (run_starts_late(r) && !f->shape.how);
-    motus_status status = MOTUS_OK;
-    if (shared && r->system->problem.traits.time) {
-        status = moved_in(r, t, events_ulp(t), x, v, f->apart, err);
-        for (size_t k = 0; k < b->count; k++) f->d[k] = fmax(f->d[k], SHARED * f->apart[k]);
-    }
+    motus_system *const s = b->half.system ? b->half.system : r->system;
+    double late = run_starts_late(&r->timing) ? shared_rounding(t, s) : 0;
+    if (t == r->timing.until) late = bars_end_rounding(t, r->system, s);
     memset(f->apart, 0, b->count * sizeof *f->apart);
-    return status == MOTUS_OK && late != 0 ? moved_in(r, t, late, x, v, f->apart, err) : status;
+    if (late == 0) return MOTUS_OK;
+    const motus_status status = bars_moved(s, t, late, x, v, b->columns, b->count, b->room, f->apart, err);
+    for (size_t k = 0; f->shape.how && k < b->count; k++)
+        if (f->shape.how[k] != MOTUS_REDUCE_FINAL) f->apart[k] = 0;
+    return status;
 }
 
 motus_status bars_take(motus_run *r, double t, double *x, double *v, bool observed, motus_error *err)
@@ -334,7 +336,7 @@ motus_status bars_take(motus_run *r, double t, double *x, double *v, bool observ
     if (status == MOTUS_OK && twin) status = see_companion(r, &b->twin, t, 2, err);
     if (status == MOTUS_OK) differences_take(&b->differences, t, observed, twin);
     if (status == MOTUS_OK) status = take_astray(r, t, err);
-    if (status == MOTUS_OK) status = take_end(r, t, x, v, err);
+    if (status == MOTUS_OK) status = take_times(r, t, x, v, err);
     const bool limit = r->events && events_ended(r->events, NULL) == EVENTS_END_ACCUMULATED && t == motus_run_time(r);
     return status == MOTUS_OK && limit ? take_limit(r, t, x, v, err) : status;
 }

@@ -20,7 +20,7 @@ struct bars {
     uint8_t *whole; /* of each number, where there are events, whether it only counts (event_bars.c); NULL */
     size_t endless; /* 1 + the rule whose events were found to accumulate when it was judged; 0: none */
     double *memory; /* of the differences */
-    double *room;   /* a state, and its acceleration (bars_later) */
+    double *room;   /* bars_moved_room; a state, and its acceleration (bars_later) */
     differences differences;
     double landed;  /* time of the last landing */
     int64_t steps;  /* whole steps of the run before it */
@@ -88,6 +88,16 @@ motus_status bars_see(motus_run *, motus_system *, double t, double *x, double *
 /* The state a short time later than x, v at t, in the bars' room: as long as they are not asked again. */
 motus_status bars_later(motus_run *, motus_system *, double t, double late, const double *x, const double *v,
                         double **to_x, double **to_v, motus_error *);
+/* How far the numbers of columns move in a time `late`, in which the state x, v at t is moved to first order. */
+static inline size_t bars_moved_room(const motus_system *s, size_t count)
+{
+    return s->problem.nx + 2 * s->problem.nv + 3 + count;
+}
+motus_status bars_moved(motus_system *, double t, double late, const double *x, const double *v, const size_t *columns,
+                        size_t count, double *room, double *out, motus_error *);
+/* How much later or earlier than the double `until` runs of a system may end, as it was written and by what rounding
+ * leaves out of their times. half: the companion's; NULL: it is not known yet. */
+double bars_end_rounding(double until, const motus_system *, const motus_system *half);
 /* The run goes on compiled, and so do its companions, at once or when an object for their system is there. */
 motus_status bars_compile(motus_run *, motus_error *);
 /* Whether they wait for one; and a look for it. */

@@ -238,6 +238,18 @@ motus_status system_values(motus_system *s, double t, double *x, double *v, cons
     return MOTUS_OK;
 }
 
+int system_later(const motus_system *s, double t, double late, double *x, double *v, double *a)
+{
+    const problem *const p = &s->problem;
+    if (p->refresh) p->refresh(p->ctx, t, x, v);
+    memset(a, 0, p->nv * sizeof *a);
+    const int answer = p->accel(p->ctx, t, x, v, a);
+    for (size_t k = 0; k < p->nx - p->modes; k++) x[k] += v[k] * late;
+    for (size_t k = 0; k < p->nv && !answer; k++) v[k] += isfinite(a[k]) ? a[k] * late : 0;
+    if (p->refresh) p->refresh(p->ctx, t, x, v);
+    return answer;
+}
+
 motus_status system_rounding(motus_system *s, double t, double *x, double *v, const size_t *columns, size_t count,
                              double *bounds, motus_error *err)
 {
@@ -301,6 +313,18 @@ static motus_status spread(motus_system *s, const column_range *g, double t, con
     return status;
 }
 
+static bool jumps(motus_system *s, const column_range *g, bool *flat)
+{
+    const bool formula = s->model && (g->kind == MOTUS_COLUMN_QUANTITY || g->kind == MOTUS_COLUMN_INVARIANT);
+    return formula && interpreter_leaps(s->interpreter, &s->definitions[g->item], flat);
+}
+
+bool system_jumps(motus_system *s, size_t column)
+{
+    bool flat;
+    return jumps(s, columns_range(s, column), &flat);
+}
+
 motus_status system_leaps(motus_system *s, double t, double *x, double *v, system_bar bar, void *ctx,
                           const size_t *columns, size_t count, double *errors, motus_error *err)
 {
@@ -311,9 +335,8 @@ motus_status system_leaps(motus_system *s, double t, double *x, double *v, syste
     motus_status status = MOTUS_OK;
     for (size_t i = 0; i < count && status == MOTUS_OK; i++) {
         const column_range *g = columns_range(s, columns[i]);
-        if (!s->model || (g->kind != MOTUS_COLUMN_QUANTITY && g->kind != MOTUS_COLUMN_INVARIANT)) continue;
+        if (!jumps(s, g, &flat)) continue;
         model_definition *d = &s->definitions[g->item];
-        if (!interpreter_leaps(s->interpreter, d, &flat)) continue;
         if (g != done) {
             give(&s->allocator, box);
             box = take(&s->allocator, 2 * (nx + nv) + d->numbers + 1, sizeof *box);

@@ -2,6 +2,7 @@
 #include "api/ensemble.h"
 #include "api/located.h"
 
+#include "api/bars.h"
 #include "api/choice.h"
 #include "api/control.h"
 #include "api/suggest.h"
@@ -180,10 +181,11 @@ static int report_lanes(void *context, double fraction)
     return ensemble_report(context, before + fraction * (1 - before));
 }
 
-/* Whether a quantity is recorded at the end, where its own rounding counts. */
+/* Whether what is recorded at the end has roundings of its own: of the end, or of the formula of a quantity. */
 static bool rounds(const motus_ensemble *e)
 {
     lanes_source source;
+    if (e->until != SIZE_MAX || bars_end_rounding(e->timing.until, e->system, NULL) != 0) return true;
     for (size_t r = 0; r < e->record_count; r++)
         if (e->records[r].how == MOTUS_REDUCE_FINAL && !ensemble_tallies(&e->records[r]) &&
             source_of(e->system, &e->records[r], &source) && source.kind == SOURCE_DEFINITION)
@@ -191,13 +193,32 @@ static bool rounds(const motus_ensemble *e)
     return false;
 }
 
+/* Why errors are told one trajectory at a time, also where lanes compute what has none; NULL: lanes tell them. Of ends
+ * that vary it is not known here how far from the start they are. */
+static const char *told_singly(const motus_ensemble *e)
+{
+    const bool ends = e->until != SIZE_MAX;
+    if (e->rules) return "events are followed one trajectory at a time where errors are told";
+    if (e->error == MOTUS_BARS_FULL) return "trajectories have two companions: their errors are told one at a time";
+    if (ends && !row_adaptive(&e->chosen))
+        return "trajectories have their own ends: their errors are told one at a time";
+    if (ends ? e->timing.t0 != 0 : run_starts_late(&e->timing))
+        return "trajectories start late: their errors are told one at a time";
+    for (size_t r = 0; r < e->record_count; r++)
+        if (e->records[r].how == MOTUS_REDUCE_FINAL && !ensemble_tallies(&e->records[r]) &&
+            system_jumps(e->system, e->records[r].column))
+            return "a number that jumps is recorded: its errors are told one trajectory at a time";
+    return NULL;
+}
+
 /* Chooses lanes where they can compute the ensemble; else e->lanes stays NULL and e->note says why. */
 static motus_status try_lanes(motus_ensemble *e, const motus_ensemble_def *d, bool later, motus_error *err)
 {
     const bool told = e->error != MOTUS_BARS_NONE, one = e->rules && e->system->allocator.allocate;
     const lanes_follower *follower = NULL;
-    if (e->rules && told) {
-        snprintf(e->note, sizeof e->note, "events are followed one trajectory at a time where errors are told");
+    const char *const why = told ? told_singly(e) : NULL;
+    if (why) {
+        snprintf(e->note, sizeof e->note, "%s", why);
         return MOTUS_OK;
     }
     motus_status status = e->rules ? ensemble_followed_create(e, &follower, err) : MOTUS_OK;
@@ -222,11 +243,6 @@ static motus_status try_lanes(motus_ensemble *e, const motus_ensemble_def *d, bo
                               .progress = e->progress ? report_lanes : NULL,
                               .rounding = told && rounds(e) ? ensemble_errors_rounding : NULL,
                               .context = e};
-    if (told && (e->error == MOTUS_BARS_FULL || (common.own_clock && !row_adaptive(&e->chosen)))) {
-        snprintf(e->note, sizeof e->note, "%s: their errors are told one at a time",
-                 e->error == MOTUS_BARS_FULL ? "trajectories have two companions" : "trajectories have their own ends");
-        return MOTUS_OK;
-    }
     status = make_lanes(e, e->system, &common, &e->lanes, err);
     if (!e->lanes) ensemble_followed_destroy(e);
     if (status != MOTUS_OK || !e->lanes || !told) return status;

@@ -75,7 +75,7 @@ struct motus_ensemble {
     int *how;
     motus_system *half;    /* of the companions in lanes; NULL */
     atomic_flag rounding;  /* a thread computes with half, for ensemble_errors_rounding */
-    double *rounding_room; /* for that: what varies, then a state */
+    double *rounding_room; /* for that: what varies, a state, and bars_moved_room */
     chosen half_chosen;
     vary *half_vary;
     vary *vary;

@@ -63,25 +63,28 @@ motus_status ensemble_errors_half(motus_ensemble *e, motus_error *err)
     motus_status status = shadow_create(e->system, affected, &e->half, err);
     e->half_chosen = companion_method(&e->chosen, e->system);
     if (status != MOTUS_OK) return status;
-    const size_t room = e->vary_count + e->system->problem.nx + e->system->problem.nv + 1;
+    const problem *const p = &e->system->problem;
+    const size_t room = e->vary_count + p->nx + p->nv + bars_moved_room(e->system, 1);
     e->rounding_room = arena_room(&e->half->arena, room * sizeof *e->rounding_room);
     if (!e->rounding_room) return fail(err, MOTUS_MEMORY, "no memory for bars of error");
     return vary_create(e->half->model, e->places, e->vary_count, true, true, &e->half_vary, err);
 }
 
-/* Which side of a decimal the companion's numbers are on changes a bound on rounding by nothing that counts. */
+/* Which side of a decimal the companion's numbers are on changes by nothing that counts how far they are moved. */
 static void add_rounding(motus_ensemble *e, size_t trajectory, const double *state, double *const *errors)
 {
-    double *const x = e->rounding_room + e->vary_count, *const v = x + e->half->problem.nx;
-    system_inside(e->half, state + 1, state + 1 + e->half->positions, x, v);
+    motus_system *const s = e->half;
+    double *const x = e->rounding_room + e->vary_count, *const v = x + s->problem.nx, *const room = v + s->problem.nv;
+    const double late = bars_end_rounding(state[0], e->system, s);
     for (size_t r = 0; r < e->record_count; r++) {
         const motus_record *record = &e->records[r];
-        double bound;
+        double bound, moved = 0, *const error = &errors[r][trajectory];
         if (record->how != MOTUS_REDUCE_FINAL || ensemble_tallies(record)) continue;
-        if (system_rounding(e->half, state[0], x, v, &record->column, 1, &bound, NULL) != MOTUS_OK)
-            errors[r][trajectory] = NAN;
-        else if (isfinite(bound))
-            errors[r][trajectory] += bound;
+        system_inside(s, state + 1, state + 1 + s->positions, x, v);
+        motus_status status = MOTUS_OK;
+        if (late != 0) status = bars_moved(s, state[0], late, x, v, &record->column, 1, room, &moved, NULL);
+        if (status == MOTUS_OK) status = system_rounding(s, state[0], x, v, &record->column, 1, &bound, NULL);
+        *error = status == MOTUS_OK ? *error + moved + (isfinite(bound) ? bound : 0) : NAN;
     }
 }
 

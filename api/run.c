@@ -457,10 +457,10 @@ static motus_status go_to(motus_run *r, double t, motus_error *err)
     return status;
 }
 
-bool run_starts_late(const motus_run *r)
+bool run_starts_late(const timing *t)
 {
     enum { FAR = 64 };
-    return fabs(r->timing.t0) > FAR * fabs(r->timing.until - r->timing.t0);
+    return fabs(t->t0) > FAR * fabs(t->until - t->t0);
 }
 
 /* Dense output counts from the time at which the step begins, a series alone, others to that at which it ends; of both
@@ -472,16 +472,13 @@ static motus_status bring_to_time(const motus_run *r, double t, double *x, doubl
     double lost;
     const double from = stepper_marked(r->stepper, &lost, &from_x, &from_v), to = stepper_time(r->stepper);
     if (!r->chosen.row->expands) lost += (t - from) / (to - from) * (stepper_lost(r->stepper) - lost);
-    if (!isfinite(lost) || lost == 0 || !run_starts_late(r) || !strcmp(r->card->family, "exact") ||
+    if (!isfinite(lost) || lost == 0 || !run_starts_late(&r->timing) || !strcmp(r->card->family, "exact") ||
         (r->events && events_sampled_exactly(r->events, t)))
         return MOTUS_OK;
     double *const a = take(&r->allocator, p->nv + 1, sizeof *a);
     if (!a) return fail(err, MOTUS_MEMORY, "no memory for a state between steps");
-    const bool known = !p->accel(p->ctx, t, x, v, a);
-    for (size_t k = 0; k < p->nx - p->modes; k++) x[k] -= v[k] * lost;
-    for (size_t k = 0; k < p->nv && known; k++) v[k] -= isfinite(a[k]) ? a[k] * lost : 0;
+    system_later(r->system, t, -lost, x, v, a);
     give(&r->allocator, a);
-    if (p->refresh) p->refresh(p->ctx, t, x, v);
     return MOTUS_OK;
 }
 

@@ -87,7 +87,7 @@ motus_status run_timing(const motus_system *, const chosen *, double step, doubl
                         motus_error *);
 motus_status run_sync(motus_run *, bool with_a, motus_error *);
 /* Whether it is so short, beside the time at which it begins, that the rounding of times moves what it tells. */
-bool run_starts_late(const motus_run *);
+bool run_starts_late(const timing *);
 /* The state at a time that is not before the last step, in the inside order: where it is kept. Takes steps as needed.
  * MOTUS_ARGUMENT: t lies beyond the end, or before that step. */
 motus_status run_between(motus_run *, double t, double **x, double **v, motus_error *);

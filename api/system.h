@@ -99,11 +99,15 @@ motus_status system_rounding(motus_system *, double t, double *x, double *v, con
  * its error is the spread of what it may be; INFINITY, where a jump makes that as large as itself. One that does
  * nothing but jump, and is decided, is as exact as its formula. */
 typedef double (*system_bar)(void *ctx, size_t column);
+bool system_jumps(motus_system *, size_t column); /* whether its column is one of those */
 motus_status system_leaps(motus_system *, double t, double *x, double *v, system_bar, void *ctx, const size_t *columns,
                           size_t count, double *errors, motus_error *);
 /* The same at a state that stays as it is; `room`, nx + nv numbers, takes a copy of it. */
 motus_status system_values_of(motus_system *, double t, const double *x, const double *v, double *room,
                               const size_t *columns, size_t count, double *out, motus_error *);
+/* Moves a state at t to one that is later by little, to first order; a: room for its acceleration. Other than 0: the
+ * answer of the acceleration, without which velocities stay as they are. */
+int system_later(const motus_system *, double t, double late, double *x, double *v, double *a);
 /* Finds the switches of the model, once: `switches`, or why they cannot be held. */
 motus_status system_switches(motus_system *, motus_error *);
 /* Whether runs of it end their steps where a switch changes its side. See located.h. */

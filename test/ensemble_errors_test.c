@@ -138,6 +138,9 @@ static void as_runs(const task *t, const told *o)
     "= "                                                                                                              \
     "0.1 i for i = 1..N\nu[i]'(0) = 0 for i = 1..N\n"
 
+#define LATE "F = 1\nx'' = -x + F cos(t)\nx(1e6) = 1\nx'(1e6) = 0\ny = x^2\n"
+#define SIDES "F = 1\nx'' = -x + F cos(t)\nx(0) = 1\nx'(0) = 0\nside = if(x > 0.3, 1, 0) + x\n"
+
 static const motus_record finals[] = {
     {MOTUS_REDUCE_FINAL, 1}, {MOTUS_REDUCE_STEPS, 0}, {MOTUS_REDUCE_FINAL, 2}, {MOTUS_REDUCE_FINAL, 3}};
 static const motus_record reduced[] = {
@@ -149,10 +152,13 @@ static void same_as_runs(void **state)
     const task tasks[] = {
         {PENDULUM, "dopri5", "F", NAN, 1e-7, 0.5, 1.5, 9, finals, 4, 1, .lanes = 8},
         {PENDULUM, "dop853", "F", NAN, 1e-6, 0.5, 1.5, 9, reduced, 4, 3, .lanes = 8},
-        {PENDULUM, "rk4", "F", 0.05, NAN, 0.5, 1.5, 9.03125, finals, 4, 1, .lanes = 16},
-        {PENDULUM, "rk4", "F", 0.05, NAN, 0.5, 1.5, 9.03125, reduced, 4, 7, .lanes = 16},
+        {PENDULUM, "rk4", "F", 0.05, NAN, 0.5, 1.5, 9.03, finals, 4, 1, .lanes = 16},
+        {PENDULUM, "rk4", "F", 0.05, NAN, 0.5, 1.5, 9.03, reduced, 4, 7, .lanes = 16},
         {PENDULUM, "verlet", "g", 0.02, NAN, 0, 0.2, 9, reduced, 4, 1, .lanes = 8},
         {KEPLER, "kahan-li8", "e", 0.1, NAN, 0.05, 0.5, 20, finals, 4, 1, .lanes = 8},
+        {KEPLER, "dop853", "e", NAN, 1e-13, 0.05, 0.7, 20.3, finals, 4, 1, .lanes = 8},
+        {LATE, "dop853", "F", NAN, 1e-10, 0.5, 1.5, 1000020.3, finals, 4, 1, .lanes = 0},
+        {SIDES, "dop853", "F", NAN, 1e-10, 0.5, 1.5, 9, finals, 4, 1, .lanes = 0},
         {KEPLER, "dep6", "e", NAN, 1e-8, 0.05, 0.7, 20, finals, 4, 1, .lanes = 8},
         {CHAIN, "verner6", "k", NAN, 1e-8, 0.5, 1.5, 9, finals, 3, 1, .lanes = 8},
         {CHAIN, "gauss4", "k", 0.1, NAN, 0.5, 1.5, 9, finals, 3, 1, .lanes = 0},
