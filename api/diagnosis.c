@@ -97,15 +97,9 @@ static void attempt(judge *j, bool verified, const char *member, const char *val
 /* An end of few digits shortly before an instant; returns it. */
 static double end_before(judge *j, double instant)
 {
-    char text[MOTUS_TEXT_MAX] = "";
-    const double whole = instant - j->e.begin, wanted = j->e.begin + BEFORE * whole,
-                 off = (1 - BEFORE) / 2 * fabs(whole);
-    double value = NAN;
-    for (int digits = 1; digits <= 17 && !(fabs(value - wanted) <= off); digits++) {
-        error_text(text, "%.*g", digits, wanted);
-        value = read_number(text);
-    }
-    decimal(value, text);
+    char text[DECIMAL_MAX];
+    const double whole = instant - j->e.begin, off = (1 - BEFORE) / 2 * fabs(whole);
+    const double value = decimal_near(j->e.begin + BEFORE * whole, off, text);
     attempt(j, (j->e.t - value) * j->e.way >= 0, "until", text);
     hint(j->err, "end the run before, `until = %s` of the definition", text);
     return value;

@@ -15,6 +15,8 @@ enum { DECIMAL_MAX = 32 }; /* room for any number and a 0 */
 char *decimal(double, char out[DECIMAL_MAX]);
 /* The same; returns the length. */
 size_t decimal_write(double, char out[DECIMAL_MAX]);
+/* The number of the fewest digits that is no farther than `off` from `wanted`. Returns it. */
+double decimal_near(double wanted, double off, char out[DECIMAL_MAX]);
 /* A time for a message: with at least 6 digits, and as many as tell times apart that differ by 1e-5 of `span`, the
  * length of the motion, but no more than 12, of which rounding takes none; all digits where that is 0 or not finite.
  * Returns out. */

@@ -286,6 +286,21 @@ char *decimal_time(double t, double span, char out[DECIMAL_MAX])
     return out;
 }
 
+double decimal_near(double wanted, double off, char out[DECIMAL_MAX])
+{
+    double value = wanted;
+    for (int digits = 1; digits <= 17; digits++) {
+        snprintf(out, DECIMAL_MAX, "%.*g", digits, wanted);
+        set_point(out);
+        const bool negative = *out == '-';
+        if (!decimal_read(out + negative, DECIMAL_MAX, &value)) break;
+        if (negative) value = -value;
+        if (fabs(value - wanted) <= off) break;
+    }
+    decimal(value, out);
+    return value;
+}
+
 char *decimal(double value, char out[DECIMAL_MAX])
 {
     decimal_write(value, out);

@@ -43,6 +43,7 @@ static size_t arrange(events *e, char *block)
     e->width = next(&l, nx + nv, sizeof *e->width);
     e->swarm_state = next(&l, e->rules.settle ? 2 * SWARMS * (nx + nv) : 0, sizeof *e->swarm_state);
     e->most = next(&l, nx + nv, sizeof *e->most);
+    e->growth_most = next(&l, GROWTH_MARKS * (nx + nv), sizeof *e->growth_most);
     e->fired = next(&l, f, sizeof *e->fired);
     e->before = next(&l, f, sizeof *e->before);
     e->instances = next(&l, n, sizeof *e->instances);
@@ -342,7 +343,9 @@ static motus_status follow(events *e, stepper *s, candidate *c, bool *assigned, 
     motus_status status = MOTUS_OK;
     e->doubt = e->blurred = 0;
     const bool touches = at.kind == CANDIDATE_TOUCHES, left = !touches && at.low == at.high; /* it has stood at 0 */
-    if (happens && at.kind != CANDIDATE_TIME && !at.jumps && !left && !e->rules.rule[e->rule_of[at.of]].internal)
+    if (back) status = events_unbounded(e, err);
+    if (happens && !status && at.kind != CANDIDATE_TIME && !at.jumps && !left &&
+        !e->rules.rule[e->rule_of[at.of]].internal)
         status = events_doubt(e, at.of, at.at, touches, &e->doubt, err);
     if (happens && !status) status = events_fire(e, &at, assigned, err);
     if (at.kind == CANDIDATE_TIME) /* a clock may tick again in this step */
@@ -594,6 +597,7 @@ void events_forget(events *e)
     e->rows = e->numbers = e->kept_states = e->pasts = 0;
     e->acted = 0;
     e->acted_sum = e->tail = 0;
+    e->growths = 0;
     e->flights = e->turned_step = 0;
     e->flights_sum = 0;
     e->has_limit = e->limit_told = false;

@@ -275,7 +275,8 @@ static motus_status act(events *e, size_t k, size_t i, motus_error *err)
     jog(e, e->acted, false);
     lag(e, e->acted);
     if (e->rules.settle) status = e->rules.settle(e->rules.ctx, e->way, at->t, at->x, at->v, err);
-    return status ? status : look_again(e, k, i, err);
+    if (!status) status = look_again(e, k, i, err);
+    return status ? status : events_growth(e, k, i, err);
 }
 
 static motus_status no_room(motus_error *err) { return fail(err, MOTUS_MEMORY, "no memory for the table of events"); }
@@ -384,10 +385,15 @@ static int goes_on(const events *e, size_t f, const candidate *c, bool acted)
 }
 
 /* An event has acted: where its events accumulate, and the state there. */
-static void approach(events *e, size_t k, size_t i)
+static motus_status approach(events *e, size_t k, size_t i, motus_error *err)
 {
-    if (events_accumulate(e, k, i, e->here.t)) events_to_limit(e);
+    motus_status status = MOTUS_OK;
+    if (events_accumulate(e, k, i, e->here.t)) {
+        status = events_unbounded(e, err);
+        events_to_limit(e);
+    }
     events_after(e, k, i);
+    return status;
 }
 
 static motus_status ask_root(events *e, size_t k, size_t i, const candidate *c, bool *acted, bool *again,
@@ -428,8 +434,7 @@ static motus_status ask_root(events *e, size_t k, size_t i, const candidate *c, 
     const int now = e->zero[f] ? heads(e, f) : sign_of(e->here.g[f]);
     if (e->side[f] == 0) e->side[f] = (int8_t)-to;
     if (now == to) e->side[f] = (int8_t)to;
-    if (!r->internal) approach(e, k, i);
-    return status;
+    return r->internal ? status : approach(e, k, i, err);
 }
 
 /* Whether a switch of the force has yet to turn in this instant: how functions go on is known only after that. */
@@ -484,8 +489,7 @@ static motus_status ask_condition(events *e, size_t k, size_t i, const candidate
     const motus_status status = happen(e, k, i, false, &assigned, err);
     *acted |= assigned;
     *again |= assigned;
-    if (assigned && !status) approach(e, k, i);
-    return status;
+    return assigned && !status ? approach(e, k, i, err) : status;
 }
 
 static motus_status ask(events *e, size_t k, const candidate *c, bool *acted, bool *again, motus_error *err)

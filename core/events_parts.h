@@ -4,7 +4,8 @@
  * events_watch.c: steps in which nothing happens, by bounds. events_place.c: true steps, and where a root is by them.
  * events_jump.c: functions that jump or have a kink. events_errors.c: error bounds of functions and of the times of
  * events. events_fire.c: what happens in one instant. events_table.c: rows, kept numbers, accumulation. events_swarm.c:
- * switches that accumulate. events_narrow.c: roots that dense output leaps. events_state.c: restart states.
+ * switches that accumulate. events_growth.c: actions that come without end. events_narrow.c: roots that
+ * dense output leaps. events_state.c: restart states.
  *
  * A true step is a step of the method itself from `left` to a time within the step; dense output interpolates.
  * Invariant: `left` is the state at which the present step began, and `side` are the sides of all functions there,
@@ -92,6 +93,9 @@ typedef struct swarm {
     bool slows; /* they fell more slowly since the last mark than before */
     int parity; /* where the state of the latest turn is kept */
 } swarm;
+
+/* After 2^k actions: events_growth.c. */
+enum { GROWTH_MARKS = 6 };
 
 struct events {
     rules rules;
@@ -209,6 +213,9 @@ struct events {
     size_t kept_states, kept_room;
     double *after; /* the state after the latest event of `after_rule`, instance `after_instance` */
     size_t after_rule, after_instance;
+    int growths; /* marks so far, and of the latest */
+    double growth_t[GROWTH_MARKS];
+    double *growth_most;        /*   the largest numbers, x and then v */
     bool has_limit, limit_told; /* events accumulate; a rule has answered to that */
     events_limit limit;
     double tail; /* what is left before a limit that the latest events seem to have; 0: they have none */
@@ -345,6 +352,12 @@ void events_to_limit(events *);
 /* events_swarm.c. A switch has turned at `here`, which is moved on to where it and others accumulate, if they do. */
 motus_status events_swarm(events *, size_t function, motus_error *);
 void events_swarm_forget(events *);
+
+/* events_growth.c. A rule has acted. MOTUS_DIVERGED, MOTUS_EVENTS: there is no end of such actions before a time that
+ * the run is to pass. */
+motus_status events_growth(events *, size_t rule, size_t instance, motus_error *);
+/* Actions accumulate at events.limit. MOTUS_DIVERGED: a number grows without bound on the way there. */
+motus_status events_unbounded(const events *, motus_error *);
 
 /* events_state.c. Keeps the present state for a restart state; false: no memory. And forgets it. */
 bool events_save_here(events *, const stepper *);

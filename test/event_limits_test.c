@@ -137,9 +137,70 @@ static void first_steps(void **state)
         }
 }
 
+/* Kicks each of which lets the next come sooner: by a constant factor, or by a power of their number. `limit` is their
+ * sum; NAN: they do not accumulate, or the state there is finite and known, and the run goes on. */
+static void growths(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *text;
+        motus_status status;
+        double limit, within;
+    } rows[] = {
+        /* between two walls: 1/2 + 1/2 + 1/4 + … */
+        {"x'' = 0\nx(0) = 0.5\nx'(0) = 1\nwhen x = 0 falling as low: x' = -2 x', record\n"
+         "when x = 1 rising as high: x' = -2 x', record",
+         MOTUS_DIVERGED, 1.5, 1e-8},
+        {"s' = v\nv' = 0\ns(0) = 0\nv(0) = 1\nwhen s = 1 as kick: s = 0, v = 1.02 v", MOTUS_DIVERGED, 51, 1e-6},
+        {"v = 1\ns' = v\ns(0) = 0\nwhen s = 1 as kick: s = 0, v = 2 v\nwhen kick accumulates: stop", MOTUS_DIVERGED, 2,
+         1e-8},
+        /* 1 + 1/1.1^2 + 1/1.2^2 + …, 100 times the trigamma function of 10 */
+        {"s' = v^2\nv' = 0\ns(0) = 0\nv(0) = 1\nwhen s = 1 as kick: s = 0, v = v + 0.1", MOTUS_DIVERGED,
+         10.516633568168574, 1e-4},
+        /* 1 + 1/4 + 1/9 + … */
+        {"s' = 1\np' = 0\ns(0) = 0\np(0) = 1\nwhen s = p^2 as kick: s = 0, p = p/(1 + p)", MOTUS_EVENTS,
+         1.6449340668482264, 1e-6},
+        /* 1 + 1/1.01 + 1/1.02 + …; and a power only for a while */
+        {"s' = v\nv' = 0\ns(0) = 0\nv(0) = 1\nwhen s = 1 as kick: s = 0, v = v + 0.01", MOTUS_OK, NAN, 0},
+        {"s' = v^2\nv' = 0\ns(0) = 0\nv(0) = 1\nwhen s = 1 as kick: s = 0, v = min(v + 0.1, 50)", MOTUS_OK, NAN, 0},
+        /* a ball comes to rest, and a number counts its bounces */
+        {"x'' = -9.81\nn' = 0\nx(0) = 1\nx'(0) = 0\nn(0) = 1\nwhen x = 0 falling as hit: x' = -0.5 x', n = n + 1",
+         MOTUS_OK, NAN, 0},
+    };
+    static const char *const ways[] = {"taylor", "rk4"};
+    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++)
+        for (size_t k = 0; k < sizeof ways / sizeof *ways; k++) {
+            motus_error err = motus_default_error();
+            motus_run_def def = motus_default_run();
+            motus_run *r = NULL;
+            def.method = ways[k];
+            def.error = MOTUS_BARS_NONE;
+            if (k) def.step = 0.02;
+            def.until = isnan(rows[i].limit) ? 11 : 100;
+            motus_system *s = given_text(rows[i].text);
+            must(motus_run_create(s, &def, &r, &err), &err, "run");
+            const motus_status status = motus_run_finish(r, &err);
+            if (status != rows[i].status) fail_msg("%s by %s: %s", rows[i].text, ways[k], err.message);
+            const int singular = status == MOTUS_DIVERGED;
+            if (singular && !(fabs(err.singular - rows[i].limit) <= err.singular_error))
+                fail_msg("%s by %s: %.17g ± %g", rows[i].text, ways[k], err.singular, err.singular_error);
+            if (singular && !(err.singular_error <= rows[i].within))
+                fail_msg("%s by %s: ± %g", rows[i].text, ways[k], err.singular_error);
+            double end = NAN;
+            if (status) assert_int_equal(sscanf(err.attempt, "until = %lf", &end), 1);
+            motus_run_destroy(r);
+            def.until = end; /* the hint leads to its end */
+            if (status) must(motus_run_create(s, &def, &r, &err), &err, "run");
+            if (status) must(motus_run_finish(r, &err), &err, "finish");
+            if (status) motus_run_destroy(r);
+            motus_system_destroy(s);
+        }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {cmocka_unit_test(floors), cmocka_unit_test(passages),
-                                       cmocka_unit_test(lifts_off), cmocka_unit_test(first_steps)};
+                                       cmocka_unit_test(lifts_off), cmocka_unit_test(first_steps),
+                                       cmocka_unit_test(growths)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
