@@ -2,7 +2,9 @@
 #include "api/located.h"
 
 #include "api/shadow.h"
+#include "core/rows.h"
 #include "lang/model/switches.h"
+#include "machine/sides.h"
 
 #include <string.h>
 
@@ -34,7 +36,8 @@ motus_status located_read(const motus_system *s, bool nudged, bool varied, motus
 static motus_status make(motus_system *s, motus_error *err)
 {
     switches found;
-    if (!switches_find(s->model, &found)) return fail(err, MOTUS_MEMORY, "no memory for the switches of the model");
+    if (!switches_find(s->model, true, &found))
+        return fail(err, MOTUS_MEMORY, "no memory for the switches of the model");
     if (found.refused) s->located_refused = "the switches of the model cannot be located";
     if (found.refused || found.kinds == 0) return MOTUS_OK;
     model_shape *shapes = take(&s->allocator, found.kinds, sizeof *shapes);
@@ -93,12 +96,27 @@ motus_status located_of(motus_system *s, motus_switches asked, motus_system **ou
     return MOTUS_OK;
 }
 
+/* Where friction along a direction stops a motion that turns, no series of its reaches so far. */
+static motus_status check_series(motus_system *located, motus_error *err)
+{
+    const rules *rules;
+    const motus_status status = system_rules(located, &rules, err);
+    if (status != MOTUS_OK || !sides_rub(located->sides, located->start, located->x0, located->v0)) return status;
+    fail(err, MOTUS_UNAVAILABLE,
+         "Taylor series do not lead to where friction along a direction, r'/|r'|, stops the motion");
+    hint(err, "take the method dop853, which does");
+    return MOTUS_UNAVAILABLE;
+}
+
 motus_status located_for(motus_system *s, const chosen *method, motus_switches asked, motus_system **out,
                          const char **why, motus_error *err)
 {
     *out = NULL;
     *why = "";
-    if (row_adaptive(method)) return located_of(s, asked, out, why, err);
+    if (row_adaptive(method)) {
+        const motus_status found = located_of(s, asked, out, why, err);
+        return found == MOTUS_OK && *out && method->row->expands ? check_series(*out, err) : found;
+    }
     if (asked != MOTUS_SWITCHES_LOCATE || !strcmp(method->name, "exact")) return MOTUS_OK;
     const motus_status status = located_of(s, asked, out, why, err);
     if (*out && has_domain((*out)->model)) *out = NULL;

@@ -11,7 +11,7 @@ static const switches *found_in(motus_system *s)
 {
     switches *found = s->surfaces ? s->surfaces : arena_take(&s->arena, sizeof *found);
     if (!found) return NULL;
-    if (!s->surfaces && !switches_find(s->model, found)) return NULL;
+    if (!s->surfaces && !switches_find(s->model, true, found)) return NULL;
     return s->surfaces = found;
 }
 

@@ -111,8 +111,9 @@ typedef struct rules {
      * where; or, with `which` unchanged, the caller's own function returned it. */
     int (*act)(void *ctx, size_t rule, size_t instance, double t, double *x, double *v, bool *in_v, size_t *which);
     /* Where there are internal rules. What one does: the side on which the motion goes on along `way`, 1 forward or -1
-     * backward; and the sides of a state that did not come by motion, as at the start and after another rule acted. */
-    motus_status (*turn)(void *ctx, size_t rule, size_t instance, double way, double t, double *x, double *v,
+     * backward; and the sides of a state that did not come by motion, as at the start and after another rule acted.
+     * A turn may lead on to where the motion comes to rest, within a time that no method resolves: then t grows. */
+    motus_status (*turn)(void *ctx, size_t rule, size_t instance, double way, double *t, double *x, double *v,
                          motus_error *);
     motus_status (*settle)(void *ctx, double way, double t, double *x, double *v, motus_error *);
     /* Internal rules of these functions, `count` of them, follow one another ever faster, and the state is where they

@@ -63,7 +63,8 @@ motus_status held_create(model *m, held **out, const char **refused, motus_error
     *out = NULL;
     *refused = NULL;
     held *h = arena_take(m->arena, sizeof *h);
-    if (!h || !switches_find(m, &h->switches)) return fail(err, MOTUS_MEMORY, "no memory for the model's switches");
+    if (!h || !switches_find(m, false, &h->switches))
+        return fail(err, MOTUS_MEMORY, "no memory for the model's switches");
     const switches *s = &h->switches;
     *refused = s->refused;
     if (s->refused) return MOTUS_OK;

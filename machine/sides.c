@@ -29,8 +29,10 @@ struct sides {
     double *before, *now, *bound; /* likewise, while sides are chosen */
     double *p, *dp, *r, *dr;      /* likewise: what holds them and how much that drives them, and the rates of both */
     double *a, *b, *x, *v;        /* room for two accelerations and a state */
+    double *push;                 /* and for what has moved velocities */
     double *xs, *vs;              /* the series of a motion; NULL: none was wanted */
     double *was;                  /* of all switches: sides for a while */
+    double way;                   /* of the run: 1, or -1 backward */
     int8_t *beside;               /* likewise: the way in which a switch leaves 0 with another one, 0: it does not */
     bool *of, *covered;           /* likewise: switches that are to be held together, and those that are */
 };
@@ -74,6 +76,30 @@ static size_t first_of(const sides *s, size_t k)
     return w->first[w->as[kind]] + (k - w->first[kind]);
 }
 static bool follows(const sides *s, size_t k) { return first_of(s, k) != k; }
+
+/* The switches of a direction are those of its components, of which the first one has the function of all. */
+typedef struct parts {
+    size_t of[GRAPH_COMPONENTS];
+    int count; /* 0: switch k is no direction */
+} parts;
+
+static parts parts_of(const sides *s, size_t k)
+{
+    const switches *w = s->switches;
+    parts p = {.count = 0};
+    if (!switches_directs(op_of(s, k))) return p;
+    const size_t kind = switches_kind(w, k), cell = k - w->first[kind], first = w->leader[kind];
+    for (; p.count < w->parts[kind]; p.count++) p.of[p.count] = w->first[first + (size_t)p.count] + cell;
+    return p;
+}
+
+/* Whether it has no function of its own. */
+static bool silent(const sides *s, size_t k)
+{
+    if (!switches_directs(op_of(s, k))) return follows(s, k);
+    const size_t kind = switches_kind(s->switches, k);
+    return s->switches->leader[kind] != kind;
+}
 
 /* Gives switch k, which follows none, a side; those that follow it have what belongs to that. */
 static void put(const sides *s, double *side, size_t k, double value)
@@ -131,6 +157,73 @@ static double grip_rounding_of(const sides *s, size_t k)
     return (s->dr[k] + fabs(s->r[k])) * fabs((1 - p) * (1 + p)) + fabs(s->r[k]) * 2 * p * (s->dp[k] + 1);
 }
 
+/* What would have to hold every vector at 0 whose sides are held, to p; 0: what no force moves and none drives back. */
+static void measure_hold(const sides *s, double t, double *x, double *v)
+{
+    run(s, s->hold, t, x, v, NULL, s->p), run(s, s->grip, t, x, v, NULL, s->r);
+    for (size_t k = 0; k < s->switches->count; k++)
+        if (switches_directs(op_of(s, k)) && isnan(s->p[k]) && s->r[k] == 0) s->p[k] = 0;
+}
+
+/* A part of the length within which a vector stays along its unit vector, about 75 degrees. */
+#define TURNS 0.25
+
+/* The sum of the products of two vectors' components. */
+static double along(const parts *p, const double *a, const double *b)
+{
+    double sum = 0;
+    for (int i = 0; i < p->count; i++) sum += a[p->of[i]] * b[p->of[i]];
+    return sum;
+}
+
+static void put_held(double *side, const parts *p, double way)
+{
+    for (int i = 0; i < p->count; i++) side[p->of[i]] = way > 0 ? SWITCHES_HELD : SWITCHES_HELD_BACKWARD;
+}
+
+/* The length from which a vector comes to rest along a way that is below the rounding of the largest place: so short
+ * is it that the force changes no more. 0: it does not come to rest. */
+#define SHORT 0x1p-24
+static double short_of(const sides *s, const parts *p, double t, double *x, double *v)
+{
+    double *side = x + s->switches->slot, was[GRAPH_COMPONENTS], far = 0, back = -INFINITY;
+    if (!s->hold || s->switches->slides[switches_kind(s->switches, p->of[0])] != SLIDES_HELD) return 0;
+    for (int i = 0; i < p->count; i++) was[i] = side[p->of[i]];
+    put_held(side, p, s->way);
+    run(s, s->hold, t, x, v, NULL, s->p), run(s, s->grip, t, x, v, NULL, s->r);
+    for (int i = 0; i < p->count; i++) side[p->of[i]] = was[i], back = fmax(back, s->way * s->r[p->of[i]]);
+    for (size_t i = 0; i < s->problem->nx - s->problem->modes; i++) far = fmax(far, fabs(x[i]));
+    const double slack = 1 - along(p, s->p, s->p);
+    return back < 0 && slack > 0 ? SHORT * sqrt(far * -back * slack) : 0;
+}
+
+/* The function of a direction falls to 0 where the vector has turned away from its unit vector, or is short, and has
+ * no kink where the motion stops without a turn. While the vector is held at 0 it is 1 - |p|^2. */
+static double direction_of(const sides *s, const parts *p, const double *side, const double *u, double least)
+{
+    if (is_held(s, side, p->of[0])) return 1 - along(p, s->p, s->p);
+    const double q = along(p, side, u);
+    return q - copysign(TURNS, q) * sqrt(along(p, u, u)) - (1 - TURNS) * least;
+}
+
+static double direction_rate_of(const sides *s, const parts *p, const double *side, const double *du)
+{
+    if (is_held(s, side, p->of[0])) return -2 * along(p, s->p, s->dp);
+    const double length = sqrt(along(p, s->u, s->u)), turns = copysign(TURNS, along(p, side, s->u));
+    return along(p, side, du) - (length > 0 ? turns * along(p, s->u, du) / length : 0);
+}
+
+/* du: bounds on rounding. */
+static double direction_rounding_of(const sides *s, const parts *p, const double *side, const double *du)
+{
+    double sum = 0;
+    for (int i = 0; i < p->count; i++) {
+        const size_t k = p->of[i];
+        sum += is_held(s, side, k) ? 2 * fabs(s->p[k]) * (s->dp[k] + 1) : (1 + TURNS) * du[k] + 4 * fabs(s->u[k]);
+    }
+    return sum;
+}
+
 static int values(void *ctx, double t, double *x, double *v, double *out)
 {
     const sides *s = ctx;
@@ -138,14 +231,20 @@ static int values(void *ctx, double t, double *x, double *v, double *out)
     const int status = s->own.functions ? s->own.values(s->own.ctx, t, x, v, out) : 0;
     if (status) return status;
     out += s->own.functions;
-    run(s, s->argument, t, x, v, NULL, out);
+    run(s, s->argument, t, x, v, NULL, s->u);
     const bool held = any_held(s, side);
-    if (held) run(s, s->hold, t, x, v, NULL, s->p), run(s, s->grip, t, x, v, NULL, s->r);
-    for (size_t k = 0; k < s->switches->count; k++)
-        out[k] = follows(s, k)                 ? 1
+    if (held) measure_hold(s, t, x, v);
+    for (size_t k = 0; k < s->switches->count; k++) {
+        const parts p = parts_of(s, k);
+        const bool slides = p.count && !silent(s, k) && !is_held(s, side, k);
+        const double least = slides ? short_of(s, &p, t, x, v) : 0;
+        if (slides && held) measure_hold(s, t, x, v);
+        out[k] = silent(s, k)                  ? 1
+                 : p.count                     ? direction_of(s, &p, side, s->u, least)
                  : held && is_held(s, side, k) ? grip_of(s, side, k)
                  : is_pinned(s, side, k)       ? 1
-                                               : switches_distance(op_of(s, k), side[k], out[k]);
+                                               : switches_distance(op_of(s, k), side[k], s->u[k]);
+    }
     return 0;
 }
 
@@ -170,12 +269,15 @@ static int rates(void *ctx, double t, double *x, double *v, double *a, double *o
     const int status = s->own.functions ? s->own.rates(s->own.ctx, t, x, v, a, out) : 0;
     if (status) return status;
     out += s->own.functions;
-    const bool held = measure(s, s->rate, s->hold_rate, s->grip_rate, t, x, v, a, out);
-    for (size_t k = 0; k < s->switches->count; k++)
-        out[k] = follows(s, k)                 ? 0
+    const bool held = measure(s, s->rate, s->hold_rate, s->grip_rate, t, x, v, a, s->du);
+    for (size_t k = 0; k < s->switches->count; k++) {
+        const parts p = parts_of(s, k);
+        out[k] = silent(s, k)                  ? 0
+                 : p.count                     ? direction_rate_of(s, &p, side, s->du)
                  : held && is_held(s, side, k) ? grip_rate_of(s, side, k)
                  : is_pinned(s, side, k)       ? 0
-                                               : out[k] * switches_distance_slope(op_of(s, k), side[k], s->u[k]);
+                                               : s->du[k] * switches_distance_slope(op_of(s, k), side[k], s->u[k]);
+    }
     return 0;
 }
 
@@ -185,19 +287,23 @@ static void rounding(void *ctx, double t, double *x, double *v, double *out)
     const double *side = x + s->switches->slot;
     if (s->own.functions) s->own.rounding(s->own.ctx, t, x, v, out);
     out += s->own.functions;
-    const bool held = measure(s, s->rounding, s->hold_rounding, s->grip_rounding, t, x, v, NULL, out);
-    for (size_t k = 0; k < s->switches->count; k++)
-        out[k] =
-            0x1p-53 * (follows(s, k)                 ? 0
-                       : held && is_held(s, side, k) ? grip_rounding_of(s, k)
-                       : is_pinned(s, side, k)       ? 0
-                                               : out[k] * fabs(switches_distance_slope(op_of(s, k), side[k], s->u[k])));
+    const bool held = measure(s, s->rounding, s->hold_rounding, s->grip_rounding, t, x, v, NULL, s->du);
+    for (size_t k = 0; k < s->switches->count; k++) {
+        const parts p = parts_of(s, k);
+        out[k] = 0x1p-53 * (silent(s, k)                  ? 0
+                            : p.count                     ? direction_rounding_of(s, &p, side, s->du)
+                            : held && is_held(s, side, k) ? grip_rounding_of(s, k)
+                            : is_pinned(s, side, k)
+                                ? 0
+                                : s->du[k] * fabs(switches_distance_slope(op_of(s, k), side[k], s->u[k])));
+    }
 }
 
-/* While an argument is 0 it is not known to move; and the value that holds one has no bound. */
+/* While an argument is 0 it is not known to move; and the value that holds one, and a direction, have no bound. */
 static bool unknown(const sides *s, const double *side, size_t k)
 {
-    return is_held(s, side, k) || switches_distance_slope(op_of(s, k), side[k], 0) == 0;
+    return switches_directs(op_of(s, k)) || is_held(s, side, k) ||
+           switches_distance_slope(op_of(s, k), side[k], 0) == 0;
 }
 
 static void least_of(const sides *s, bool rates, double *x, double *v, double *dx, double *dv, double *out)
@@ -209,7 +315,7 @@ static void least_of(const sides *s, bool rates, double *x, double *v, double *d
     double *base[SPACES] = {[SPACE_X] = x, [SPACE_V] = v, [SPACE_DX] = dx, [SPACE_DV] = dv, [SPACE_OUT] = out};
     tape_run(rates ? s->least_rates : s->least, NAN, base);
     for (size_t k = 0; k < s->switches->count; k++)
-        if (follows(s, k) || is_pinned(s, side, k))
+        if (silent(s, k) || is_pinned(s, side, k))
             out[k] = rates ? 0 : 1;
         else if (unknown(s, side, k))
             out[k] = -1;
@@ -283,7 +389,10 @@ static motus_status refuse(const sides *s, size_t k, const char *what, double t,
     char text[120], at[DECIMAL_MAX];
     print(s, k, text, sizeof text);
     fail(err, MOTUS_SOLVE, "%s where %s, at t = %s", what, text, decimal(t, at));
-    hint(err, "let the run end before; or smooth the jump, tanh(x'/0.001) for sign(x')");
+    if (switches_directs(op_of(s, k)))
+        hint(err, "let the run end before; or smooth the jump, r'/sqrt(|r'|^2 + 0.001^2) for r'/|r'|");
+    else
+        hint(err, "let the run end before; or smooth the jump, tanh(x'/0.001) for sign(x')");
     if (err) err->time = t, err->cause = MOTUS_CAUSE_DISCONTINUOUS;
     return MOTUS_SOLVE;
 }
@@ -433,6 +542,10 @@ static motus_status hold(sides *s, size_t k, double above, double below, double 
     for (size_t j = 0; j < count && status == MOTUS_OK && !coupled; j++) {
         double one = 0, other = 0;
         if (j == k || follows(s, j) || !is_held(s, side, j) || solved(s, k, j)) continue;
+        if (switches_directs(op_of(s, j))) {
+            coupled = true;
+            break;
+        }
         const double held = side[j], on = side_of(s, k, 1);
         put(s, side, j, side_of(s, j, 1)), status = rate_on(s, k, on, 1, t, x, v, &one, err);
         put(s, side, j, side_of(s, j, -1));
@@ -631,6 +744,243 @@ static motus_status choose(sides *s, size_t k, bool left, double way, double t, 
     return status;
 }
 
+/* ---- directions ---- */
+
+static void put_direction(double *side, const parts *p, const double *d, double length)
+{
+    for (int i = 0; i < p->count; i++) side[p->of[i]] = d[p->of[i]] / length;
+}
+
+/* The accelerations to `a`, the rates of all arguments to `du`. */
+static motus_status push_of(sides *s, double t, double *x, double *v, double *a, double *du, motus_error *err)
+{
+    const motus_status status = accelerate(s, t, x, v, err);
+    if (status != MOTUS_OK) return status;
+    run(s, s->rate, t, x, v, s->a, du);
+    if (a != s->a) memcpy(a, s->a, s->problem->nv * sizeof *a);
+    return MOTUS_OK;
+}
+
+static const char no_disc[] =
+    "the force along a direction drives its vector not straight back, and nothing is known to "
+    "hold it,";
+
+/* Moves the state to where the vector is 0, along the push of the force against it: the accelerations with the vector's
+ * own direction and with the opposite one differ by twice that. Only a push that drives the vector straight back, by
+ * the same rate in every direction, is one of friction that can hold it. */
+static motus_status move_to_rest(sides *s, const parts *p, double way, double t, double *x, double *v, double *first,
+                                 double *drives, motus_error *err)
+{
+    enum { PASSES = 32 };            /* as in `hold` */
+    const double nothing = 0x1p-480; /* whose square is still a number */
+    double *side = x + s->switches->slot, least = INFINITY;
+    motus_status status = MOTUS_OK;
+    for (int pass = 0; pass < PASSES && status == MOTUS_OK; pass++) {
+        run(s, s->argument, t, x, v, NULL, s->now);
+        const double length = sqrt(along(p, s->now, s->now));
+        if (!(length > nothing && length < least)) break;
+        least = length;
+        put_direction(side, p, s->now, length);
+        status = push_of(s, t, x, v, s->b, s->later, err);
+        put_direction(side, p, s->now, -length);
+        if (status == MOTUS_OK) status = push_of(s, t, x, v, s->a, s->du, err);
+        if (status != MOTUS_OK) break;
+        double back = 0, aside = 0;
+        for (int i = 0; i < p->count; i++) s->later[p->of[i]] = (s->later[p->of[i]] - s->du[p->of[i]]) / 2;
+        back = -along(p, s->later, s->now) / length;
+        for (int i = 0; i < p->count; i++) aside += fabs(s->later[p->of[i]] + back * s->now[p->of[i]] / length);
+        if (pass == 0 && !(way * back > 0 && aside <= 0x1p-20 * fabs(back)))
+            return refuse(s, p->of[0], no_disc, t, err);
+        if (pass == 0 && drives) *drives = way * back;
+        for (size_t i = 0; i < s->problem->nv; i++) {
+            const double by = length / back * (s->b[i] - s->a[i]) / 2;
+            if (pass == 0 && first) first[i] = by;
+            v[i] += by;
+        }
+    }
+    for (size_t i = 0; i < s->problem->nv; i++)
+        if (fabs(v[i]) <= nothing) v[i] = 0;
+    return status;
+}
+
+/* The motion leaves 0 along what would have to hold it, where that is more than 1. The vector becomes as long as
+ * rounding allows to tell its direction. */
+static motus_status leave(sides *s, const parts *p, double way, double t, double *x, double *v, motus_error *err)
+{
+    double *side = x + s->switches->slot;
+    const size_t nv = s->problem->nv;
+    put_held(side, p, way);
+    motus_status status = push_of(s, t, x, v, s->b, s->later, err);
+    run(s, s->hold, t, x, v, NULL, s->p);
+    const double length = sqrt(along(p, s->p, s->p));
+    if (s->p[p->of[0]] != s->p[p->of[0]] || !(length > 0)) return refuse(s, p->of[0], no_disc, t, err);
+    if (length <= 1 + 0x1p-20) { /* it breaks loose where it has been held so far */
+        double across = 0;
+        run(s, s->hold_rate, t, x, v, s->b, s->dp);
+        const double grows = along(p, s->p, s->dp) / length, rate = sqrt(along(p, s->dp, s->dp));
+        for (int i = 0; i < p->count; i++) {
+            const double part = s->dp[p->of[i]] - grows * s->p[p->of[i]] / length;
+            across += part * part;
+        }
+        if (!(sqrt(across) <= 0x1p-20 * rate))
+            return refuse(s, p->of[0],
+                          "the motion breaks loose along a direction that turns, which steps cannot follow,", t, err);
+    }
+    memcpy(s->before, s->p, s->switches->count * sizeof *s->p);
+    put_direction(side, p, s->p, length);
+    for (int i = 0; i < p->count; i++) s->now[p->of[i]] = side[p->of[i]];
+    if (status == MOTUS_OK) status = push_of(s, t, x, v, s->a, s->du, err); /* without friction, at 0 */
+    if (status != MOTUS_OK) return status;
+    run(s, s->rounding, t, x, v, NULL, s->bound);
+    double bound = 0, back = 0;
+    for (int i = 0; i < p->count; i++) {
+        const size_t k = p->of[i];
+        bound += 0x1p-53 * s->bound[k];
+        back += s->now[k] * (s->du[k] - s->later[k]) / length;
+    }
+    const double ulp = nextafter(fabs(t), INFINITY) - fabs(t);
+    const double speed = fmax(64 * bound, fmax(64 * ulp, 0x1p-70) * fabs(back));
+    if (!(back != 0)) return refuse(s, p->of[0], no_disc, t, err);
+    for (size_t i = 0; i < nv; i++) v[i] -= speed / back * (s->b[i] - s->a[i]) / length;
+    return MOTUS_OK;
+}
+
+/* Whether the vector is driven back along each component, as much as by that alone: of two that are held by one force,
+ * the second has no rate of its own. */
+static bool drives_back(sides *s, const parts *p, double way, double t, double *x, double *v)
+{
+    double *side = x + s->switches->slot;
+    measure_hold(s, t, x, v);
+    memcpy(s->was, side, s->switches->count * sizeof *side);
+    for (size_t k = 0; k < s->switches->count; k++)
+        if (switches_directs(op_of(s, k)) && k != p->of[0]) side[k] = 0;
+    run(s, s->grip, t, x, v, NULL, s->before);
+    memcpy(side, s->was, s->switches->count * sizeof *side);
+    bool back = true;
+    for (int i = 0; i < p->count; i++)
+        back = back && way * s->r[p->of[i]] < 0 && fabs(s->r[p->of[i]]) > 0x1p-20 * fabs(s->before[p->of[0]]);
+    return back;
+}
+
+/* Whether another vector that is 0 as well may be this one in another form, which nothing has shown: held together
+ * they have no rates of their own. */
+static bool is_twice(sides *s, const parts *p, double way, double t, double *x, double *v)
+{
+    double *side = x + s->switches->slot;
+    bool twice = false;
+    run(s, s->argument, t, x, v, NULL, s->now);
+    run(s, s->rounding, t, x, v, NULL, s->bound);
+    for (size_t k = 0; k < s->switches->count && !twice; k++) {
+        const parts o = parts_of(s, k);
+        double was[GRAPH_COMPONENTS], bound = 0;
+        if (!o.count || silent(s, k) || k == p->of[0]) continue;
+        for (int i = 0; i < o.count; i++) was[i] = side[o.of[i]], bound += 0x1p-53 * s->bound[o.of[i]];
+        if (!(along(&o, s->now, s->now) <= bound * bound)) continue;
+        put_held(side, &o, way);
+        run(s, s->grip, t, x, v, NULL, s->r);
+        if (s->r[k] != 0) twice = !drives_back(s, &o, way, t, x, v) || !drives_back(s, p, way, t, x, v);
+        for (int i = 0; i < o.count; i++) side[o.of[i]] = was[i];
+    }
+    return twice;
+}
+
+/* The vector is 0, but for rounding: it stays 0 where no more than the whole of the disc is needed for that. */
+static motus_status stand(sides *s, const parts *p, double way, double t, double *x, double *v, motus_error *err)
+{
+    double *side = x + s->switches->slot;
+    if (!s->hold || s->switches->slides[switches_kind(s->switches, p->of[0])] != SLIDES_HELD)
+        return refuse(s, p->of[0], "the motion stops, and nothing is known to hold it,", t, err);
+    put_held(side, p, way);
+    measure_hold(s, t, x, v);
+    bool acts = false;
+    for (int i = 0; i < p->count; i++) acts |= s->r[p->of[i]] != 0;
+    if (!acts) { /* friction is switched off */
+        for (int i = 0; i < p->count; i++) side[p->of[i]] = i == 0;
+        motus_status status = push_of(s, t, x, v, s->a, s->du, err);
+        const double pull = sqrt(along(p, s->du, s->du));
+        if (status == MOTUS_OK && pull > 0) put_direction(side, p, s->du, way * pull);
+        if (!(pull > 0)) put_held(side, p, way);
+        return status;
+    }
+    const motus_status status = move_to_rest(s, p, way, t, x, v, NULL, NULL, err);
+    if (status != MOTUS_OK) return status;
+    put_held(side, p, way);
+    if (!drives_back(s, p, way, t, x, v)) return refuse(s, p->of[0], no_disc, t, err);
+    if (is_twice(s, p, way, t, x, v))
+        return refuse(s, p->of[0], "two forms of one direction, which nothing shows to be one, come to 0 together", t,
+                      err);
+    measure_hold(s, t, x, v);
+    return along(p, s->p, s->p) <= 1 ? MOTUS_OK : leave(s, p, way, t, x, v, err);
+}
+
+/* The way on to rest of a short vector u, and the time that it takes. With the force constant, F without friction and
+ * -c u/|u| by it, c|u| + F u falls by c^2 - F^2 in a time, and so do quadratic forms in u whose rates are linear in u:
+ * where the motion stops, how far it goes and when are known in closed form, though no power of the time leads
+ * there. */
+static motus_status come_to_rest(sides *s, const parts *p, double way, double *t, double *x, double *v,
+                                 motus_error *err)
+{
+    double *side = x + s->switches->slot, u[GRAPH_COMPONENTS], F[GRAPH_COMPONENTS], back = 0;
+    const size_t nv = s->problem->nv, moving = s->problem->nx - s->problem->modes;
+    run(s, s->argument, *t, x, v, NULL, s->now);
+    const double length = sqrt(along(p, s->now, s->now));
+    for (int i = 0; i < p->count; i++) u[i] = s->now[p->of[i]];
+    memset(s->push, 0, nv * sizeof *s->push);
+    motus_status status = move_to_rest(s, p, way, *t, x, v, s->push, &back, err);
+    if (status != MOTUS_OK) return status;
+    for (int i = 0; i < p->count; i++) side[p->of[i]] = u[i] / length;
+    status = push_of(s, *t, x, v, s->a, s->du, err); /* without friction, at 0 */
+    put_held(side, p, way);
+    if (status == MOTUS_OK) status = push_of(s, *t, x, v, s->b, s->later, err);
+    measure_hold(s, *t, x, v);
+    double pull = 0, with = 0;
+    for (int i = 0; i < p->count; i++) F[i] = back * s->p[p->of[i]], pull += F[i] * F[i], with += F[i] * u[i];
+    pull = sqrt(pull);
+    if (status != MOTUS_OK || !(pull < back)) return status;
+    const double ahead = pull > 0 ? with / pull : 0; /* the part of u along F */
+    const double time = (back * length + with) / (back * back - pull * pull);
+    const double turned = (2 * back * length + with) / (4 * back * back - pull * pull);
+    const double far =
+        (back * length * ahead + pull * (ahead * ahead + length * length) / 2) / (2 * (back * back - pull * pull));
+    /* the push for u has been found by its own direction, that along F by what holds the vector */
+    const double of_u = turned, of_hold = pull > 0 ? (far - turned * ahead) / pull : 0;
+    for (size_t i = 0; i < moving; i++) {
+        const double friction = -of_u * s->push[i] - of_hold * (s->b[i] - s->a[i]);
+        x[i] += way * (v[i] * time + friction) + s->b[i] * time * time / 2;
+    }
+    for (size_t i = 0; i < nv; i++) v[i] += way * s->b[i] * time;
+    *t += way * time;
+    return MOTUS_OK;
+}
+
+/* The side of a direction. left: the vector has turned away from the old one, or is short, or what holds it has left
+ * the disc. */
+static motus_status choose_direction(sides *s, size_t k, bool left, double way, double *t, double *x, double *v,
+                                     motus_error *err)
+{
+    const parts p = parts_of(s, k);
+    double *side = x + s->switches->slot, bound = 0;
+    run(s, s->argument, *t, x, v, NULL, s->now);
+    const double length = sqrt(along(&p, s->now, s->now));
+    if (left && is_held(s, side, k)) return leave(s, &p, way, *t, x, v, err);
+    run(s, s->rounding, *t, x, v, NULL, s->bound);
+    for (int i = 0; i < p.count; i++) bound += 0x1p-53 * s->bound[p.of[i]];
+    if (length <= bound) return stand(s, &p, way, *t, x, v, err);
+    put_direction(side, &p, s->now, length);
+    if (!left) return MOTUS_OK;
+    const double ulp = nextafter(fabs(*t), INFINITY) - fabs(*t), least = short_of(s, &p, *t, x, v);
+    motus_status status = MOTUS_OK;
+    if (length <= 1.25 * least) {
+        status = come_to_rest(s, &p, way, t, x, v, err);
+    } else { /* what is left of the motion is less than times can tell */
+        status = push_of(s, *t, x, v, s->a, s->du, err);
+        if (status != MOTUS_OK || !(length <= -0x1p13 * ulp * way * along(&p, s->du, s->now) / length)) return status;
+    }
+    return status == MOTUS_OK ? stand(s, &p, way, *t, x, v, err) : status;
+}
+
+/* ---- all switches ---- */
+
 /* The integer side likewise; u is at the whole number `at`. */
 static motus_status choose_count(sides *s, size_t k, bool left, double at, double way, double t, double *x, double *v,
                                  motus_error *err)
@@ -661,7 +1011,8 @@ static motus_status place(sides *s, size_t k, double u, double bound, double way
 {
     const operation op = op_of(s, k);
     const double whole = switches_counts(op) ? round(u) : 0;
-    if (isnan(u) || follows(s, k)) return MOTUS_OK; /* a cell without a switch; another one places it */
+    if (isnan(u) || silent(s, k)) return MOTUS_OK; /* a cell without a switch; another one places it */
+    if (switches_directs(op)) return choose_direction(s, k, false, way, &t, x, v, err);
     if (is_pinned(s, x + s->switches->slot, k) && fabs(u) <= bound) return MOTUS_OK; /* it leaves with another */
     if (isfinite(bound) ? fabs(u - whole) > bound : u != whole) { /* where its slope is infinite no bound is known */
         put(s, x + s->switches->slot, k, switches_side(op, u, 0));
@@ -714,7 +1065,13 @@ static motus_status check_held(sides *s, double way, double t, double *x, double
     const double *side = x + s->switches->slot;
     motus_status status = MOTUS_OK;
     for (size_t k = 0; k < s->switches->count && status == MOTUS_OK; k++) {
-        if (!s->hold || !is_held(s, side, k)) continue;
+        if (!s->hold || !is_held(s, side, k) || silent(s, k)) continue;
+        if (switches_directs(op_of(s, k))) {
+            const parts p = parts_of(s, k);
+            run(s, s->hold, t, x, v, NULL, s->p);
+            if (along(&p, s->p, s->p) > 1 + 0x1p-40) status = leave(s, &p, way, t, x, v, err);
+            continue;
+        }
         run(s, s->hold, t, x, v, NULL, s->p), run(s, s->hold_rounding, t, x, v, NULL, s->dp);
         run(s, s->grip, t, x, v, NULL, s->r), run(s, s->grip_rounding, t, x, v, NULL, s->dr);
         if (grip_of(s, side, k) < -0x1p-52 * grip_rounding_of(s, k)) status = choose(s, k, false, way, t, x, v, err);
@@ -723,21 +1080,25 @@ static motus_status check_held(sides *s, double way, double t, double *x, double
 }
 
 /* A switch within the argument of another one may let that jump: mod(floor(t), 2). */
-static motus_status turn(void *ctx, size_t number, size_t instance, double way, double t, double *x, double *v,
+static motus_status turn(void *ctx, size_t number, size_t instance, double way, double *at, double *x, double *v,
                          motus_error *err)
 {
     sides *s = ctx;
-    const size_t count = s->switches->count;
+    const size_t count = s->switches->count, switched = s->switches->first[number - s->own.count] + instance;
     const double *side = x + s->switches->slot;
-    run(s, s->argument, t, x, v, NULL, s->before);
-    motus_status status = change(s, s->switches->first[number - s->own.count] + instance, way, t, x, v, err);
+    s->way = way;
+    run(s, s->argument, *at, x, v, NULL, s->before);
+    motus_status status = switches_directs(op_of(s, switched)) ? choose_direction(s, switched, true, way, at, x, v, err)
+                                                               : change(s, switched, way, *at, x, v, err);
+    const double t = *at;
     for (size_t pass = 0; pass < NESTED && status == MOTUS_OK; pass++) {
         bool jumped = false;
         run(s, s->argument, t, x, v, NULL, s->now);
         run(s, s->rounding, t, x, v, NULL, s->bound);
         for (size_t k = 0; k < count && status == MOTUS_OK; k++) {
             const double bound = 0x1p-53 * s->bound[k];
-            if (is_held(s, side, k) || is_pinned(s, side, k)) continue; /* what holds it moved it to 0 */
+            if (is_held(s, side, k) || is_pinned(s, side, k) || switches_directs(op_of(s, k)))
+                continue; /* what holds it moved it to 0 */
             if (!(fabs(s->now[k] - s->before[k]) > bound + fabs(s->before[k]) * 0x1p-40)) continue;
             jumped = true;
             status = place(s, k, s->now[k], bound, way, t, x, v, err);
@@ -783,6 +1144,11 @@ static motus_status gather(void *ctx, const size_t *functions, size_t number, do
     bool held;
     memset(s->of, 0, count * sizeof *s->of);
     text[0] = 0;
+    if (number == 1 && switches_directs(op_of(s, functions[0] - s->own.functions))) {
+        const parts p = parts_of(s, functions[0] - s->own.functions);
+        s->way = way;
+        return stand(s, &p, way, t, x, v, err);
+    }
     for (size_t k = 0; k < number; k++) {
         const size_t f = functions[k] - s->own.functions;
         char one[80];
@@ -809,6 +1175,7 @@ static motus_status settle(void *ctx, double way, double t, double *x, double *v
     double *side = x + s->switches->slot;
     motus_status status = MOTUS_OK;
     bool settled = false;
+    s->way = way;
     memset(s->of, 0, count * sizeof *s->of);
     for (int pass = 0; pass < NESTED && status == MOTUS_OK && !settled; pass++) {
         memcpy(s->before, side, count * sizeof *side);
@@ -855,7 +1222,7 @@ static bool make(sides *s, model *m)
 {
     const switches *w = m->located;
     const size_t nx = s->problem->nx, nv = s->problem->nv, own = s->own.count;
-    double *room = arena_room(m->arena, (11 * w->count + nx + 3 * nv + 1) * sizeof *room);
+    double *room = arena_room(m->arena, (11 * w->count + nx + 4 * nv + 1) * sizeof *room);
     s->rule = arena_room(m->arena, (own + w->kinds) * sizeof *s->rule);
     s->beside = arena_room(m->arena, w->count + 1);
     s->of = arena_room(m->arena, 2 * (w->count + 1) * sizeof *s->of);
@@ -865,7 +1232,9 @@ static bool make(sides *s, model *m)
     s->before = s->later + w->count, s->now = s->before + w->count, s->bound = s->now + w->count;
     s->p = s->bound + w->count, s->dp = s->p + w->count;
     s->r = s->dp + w->count, s->dr = s->r + w->count;
-    s->a = s->dr + w->count, s->b = s->a + nv, s->v = s->b + nv, s->x = s->v + nv, s->was = s->x + nx;
+    s->a = s->dr + w->count, s->b = s->a + nv, s->v = s->b + nv, s->push = s->v + nv;
+    s->x = s->push + nv, s->was = s->x + nx;
+    s->way = 1;
     for (size_t k = 0; k < w->kinds; k++)
         s->rule[own + k] = (rule){.name = "a switch",
                                   .kind = RULE_ROOT,
@@ -924,6 +1293,22 @@ motus_status sides_create(model *m, const rules *own, const problem *p, sides **
     if (!s || !make(s, m)) return fail(err, MOTUS_MEMORY, "no memory for the switches of the model");
     *out = s;
     return MOTUS_OK;
+}
+
+bool sides_rub(sides *s, double t, const double *x, const double *v)
+{
+    const problem *p = s->problem;
+    bool rubs = false;
+    if (!s->grip) return false;
+    memcpy(s->x, x, p->nx * sizeof *x);
+    memcpy(s->v, v, p->nv * sizeof *v);
+    run(s, s->grip, t, s->x, s->v, NULL, s->r);
+    for (size_t k = 0; k < s->switches->count && !rubs; k++) {
+        const parts of = parts_of(s, k);
+        rubs = of.count && !silent(s, k);
+        for (int i = 0; i < of.count; i++) rubs &= s->r[of.of[i]] < 0;
+    }
+    return rubs;
 }
 
 const rules *sides_rules(const sides *s) { return &s->supplied; }

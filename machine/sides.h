@@ -18,6 +18,8 @@ typedef struct sides sides;
  * model. Both must outlive it. */
 motus_status sides_create(model *, const rules *own, const problem *, sides **, motus_error *);
 const rules *sides_rules(const sides *);
+/* Whether a direction at this state is that of friction, which drives its vector to 0, at time t. */
+bool sides_rub(sides *, double t, const double *x, const double *v);
 /* To be called after the model's numbers have changed. False: no memory. */
 bool sides_rebind(sides *);
 

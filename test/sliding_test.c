@@ -628,9 +628,130 @@ static void surfaces_beside_runs(void **state)
     motus_system_destroy(s);
 }
 
+static const char *const in_plane[] = {"dop853", "tsit5", "verner9", "radau15", "gragg"};
+enum { IN_PLANE = sizeof in_plane / sizeof *in_plane };
+
+/* Friction in a plane, along r'/|r'|: a straight way to rest, v^2/(2 f), is a root of the speed. On others the
+ * direction turns towards the other force with a power of the time that is no whole number; the end of these has been
+ * computed in 40 digits, by the time s with dt = |r'| ds. */
+static void stops_in_plane(void **state)
+{
+    (void)state;
+    static const char *const straight = "r'' = -2.943 r'/|r'|\nr(0) = (0, 0)\nr'(0) = (1, 0.5)\n",
+                             *const turning[] = {"r'' = (0.3, -0.2) - 0.9 r'/|r'|\nr(0) = (0, 0)\nr'(0) = (1, 0.5)\n",
+                                                 "x'' = 0.3 - 0.9 x'/hypot(x', y')\ny'' = -0.2 - 0.9/hypot(x', y') y'\n"
+                                                 "x(0) = 0\nx'(0) = 1\ny(0) = 0\ny'(0) = 0.5\n"},
+                             *const spring = "r'' = (0.035, -0.769) - 0.734 r - 2.027 r'/|r'|\nr(0) = (0, -0.857)\n"
+                                             "r'(0) = (-1.613, -1.176)\n";
+    for (int m = 0; m < IN_PLANE; m++) {
+        const outcome one = finished(straight, in_plane[m], 1e-12, 2), three = finished(spring, in_plane[m], 1e-12, 3);
+        NEAR(one.x[0], 0.18994801032108305, 1e-15);
+        NEAR(one.x[1], 0.09497400516054152, 1e-15);
+        NEAR(three.x[0], -0.68811647015455082, 1e-11);
+        NEAR(three.x[1], -1.38981155265790713, 1e-11);
+        for (int k = 0; k < 2; k++) {
+            const outcome two = finished(turning[k], in_plane[m], 1e-12, 4);
+            NEAR(two.x[0], 0.89634804961160052, 1e-11);
+            NEAR(two.x[1], 0.23240399362702919, 1e-11);
+            NEAR(two.v[0], 0, 0);
+            NEAR(two.v[1], 0, 0);
+            assert_true(two.did.steps < 1000);
+        }
+    }
+}
+
+/* Uphill and straight back, where friction does not hold; and from rest, where it does not or does. */
+static void leaves_in_plane(void **state)
+{
+    (void)state;
+    static const char *const hill = "r'' = (-0.8, -0.4) - 0.5 r'/|r'|\nr(0) = (0, 0)\nr'(0) = (1, 0.5)\n",
+                             *const rest = "r'' = (0.8, 0.6) - f r'/|r'|\nf = 0.5\nr(0) = (0, 0)\nr'(0) = (0, 0)\n";
+    const double h = sqrt(0.8), up = h + 0.5, down = h - 0.5, turn = sqrt(1.25) / up, after = 4 - turn;
+    for (int m = 0; m < IN_PLANE; m++) {
+        const outcome o = finished(hill, in_plane[m], 1e-12, 4), at_rest = finished(rest, in_plane[m], 1e-12, 2);
+        const double way = 1.25 / (2 * up) - down * after * after / 2;
+        NEAR(o.x[0], way * 2 / sqrt(5), 1e-12);
+        NEAR(o.x[1], way / sqrt(5), 1e-12);
+        NEAR(at_rest.x[0], 0.8, 1e-12);
+        NEAR(at_rest.x[1], 0.6, 1e-12);
+    }
+}
+
+/* One block on another, with friction written on each; a ball that slides and then rolls; blocks of a family. */
+static void slides_on_another(void **state)
+{
+    (void)state;
+    static const char *const lower[] = {"(a' - b')/|a' - b'|", "-(b' - a')/|b' - a'|", "-(b' - a')/|a' - b'|",
+                                        "(2 a' - 2 b')/|2 a' - 2 b'|"};
+    static const char *const ball = "mu = 0.2; g = 9.81; R = 0.028575\nk = (0, 0, 1)\nslip = r' + R cross(k, w)\n"
+                                    "r'' = -mu g slip/|slip|\nw' = 5/2 mu g/R cross(k, slip)/|slip|\nr(0) = (0, 0, 0)\n"
+                                    "r'(0) = (2, 0.5, 0)\nw(0) = (0, 40, 10)\n";
+    for (size_t k = 0; k < sizeof lower / sizeof *lower; k++) {
+        char text[400];
+        snprintf(text, sizeof text,
+                 "a'' = (0.1, 0) - 0.7 (a' - b')/|a' - b'|\nb'' = 0.35 (%s)\na(0) = (0, 0)\nb(0) = (0, 0)\n"
+                 "a'(0) = (1, 0.4)\nb'(0) = (0, 0.1)\n",
+                 lower[k]);
+        for (int m = 0; m < IN_PLANE; m++) {
+            const outcome o = finished(text, in_plane[m], 1e-12, 4);
+            for (int block = 0; block < 2; block++) { /* the momentum of masses 1 and 2 */
+                NEAR(o.v[2 * block], 1.4 / 3, 1e-13);
+                NEAR(o.v[2 * block + 1], 0.2, 1e-13);
+            }
+        }
+    }
+    const outcome o = finished(ball, "dop853", 1e-12, 2);
+    const double stop = hypot(2 - 0.028575 * 40, 0.5) / (3.5 * 0.2 * 9.81),
+                 v[2] = {2 - (2 - 0.028575 * 40) / 3.5, 0.5 - 0.5 / 3.5};
+    NEAR(o.x[0], (2 + v[0]) / 2 * stop + v[0] * (2 - stop), 1e-12);
+    NEAR(o.x[1], (0.5 + v[1]) / 2 * stop + v[1] * (2 - stop), 1e-12);
+    NEAR(o.v[0], v[0], 1e-12);
+    NEAR(o.v[1], v[1], 1e-12);
+    const outcome family = finished("b[i]'' = -i b[i]'/|b[i]'| for i = 1..2\nb[i](0) = (0, 0) for i = 1..2\n"
+                                    "b[i]'(0) = (0.6, -0.8) for i = 1..2\n",
+                                    "dop853", 1e-12, 3);
+    for (int i = 0; i < 2; i++) {
+        NEAR(family.x[2 * i], 0.3 / (i + 1), 1e-15);
+        NEAR(family.x[2 * i + 1], -0.4 / (i + 1), 1e-15);
+    }
+}
+
+/* A branch that is not taken, in which the direction has no value, is no singularity. */
+static void rests_by_an_event(void **state)
+{
+    (void)state;
+    motus_system *s = given_text("rest = 0\nr'' = if(rest > 0, (0, 0), -2 r'/|r'|)\nr(0) = (0, 0)\nr'(0) = (0.6, 0.8)\n"
+                                 "when dot(r', r') < 1e-16: rest = 1, r' = (0, 0)\nuntil 2\n");
+    motus_error err = motus_default_error();
+    motus_run_def def = motus_default_run();
+    def.method = "dop853";
+    must(motus_run_singular(s, &def, &err), &err, "rest");
+    motus_system_destroy(s);
+}
+
+/* Where steps do not lead on, a sentence says so soon. */
+static void refused_in_plane(void **state)
+{
+    (void)state;
+    refused("r'' = (0.9 sin(t), 0.3 cos(2 t)) - 0.5 r - 0.6 r'/|r'|\nr(0) = (0, 0)\nr'(0) = (0.5, 0.4)\n",
+            "breaks loose along a direction that turns", 3.246718351);
+    refused("r'' = -(r'.x, 2 r'.y)/|r'|\nr(0) = (0, 0)\nr'(0) = (1, 1)\n", "drives its vector not straight back",
+            1.147793528);
+    refused("k = 2\na'' = -(a' - b')/|a' - b'|\nb'' = -k (b' - a')/|k (b' - a')|\na(0) = (0, 0)\nb(0) = (0, 0)\n"
+            "a'(0) = (0.6, 0.8)\nb'(0) = (0, 0)\n",
+            "two forms of one direction", 0.5);
+    const outcome o = run_of("r'' = -r'/|r'|\nr(0) = (0, 0)\nr'(0) = (1, 1)\n", "taylor", 1e-9, 2);
+    assert_int_equal(o.status, MOTUS_UNAVAILABLE);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(stops_in_plane),
+        cmocka_unit_test(leaves_in_plane),
+        cmocka_unit_test(slides_on_another),
+        cmocka_unit_test(rests_by_an_event),
+        cmocka_unit_test(refused_in_plane),
         cmocka_unit_test(kinks),
         cmocka_unit_test(jumps_in_time),
         cmocka_unit_test(sticks),

@@ -134,9 +134,21 @@ const graph_node *graph_at(const graph *, node);
 unsigned graph_deps(const graph *, node);
 /* 0: does not depend on the spaces in `deps`; 1: affine in them; 2: neither, or not recognised as affine. */
 int graph_degree(graph *, node, unsigned deps);
-/* The first node, if any, that is not smooth along the motion (ABS MIN MAX FLOOR MOD SIGN SELECT, a comparison), or 0.
- */
+/* The first node, if any, that is not smooth along the motion (ABS MIN MAX FLOOR MOD SIGN SELECT, a comparison, a
+ * direction), or 0. */
 node graph_kink(graph *, node);
+/* A sum of components of a vector over the vector's length, which depends on velocities: factor above/length, where
+ * `above` is linear in the components, as each component of u/|u| and of cross(k, u)/|u| is. */
+enum { GRAPH_COMPONENTS = 3 };
+typedef struct graph_directed {
+    node length, above, component[GRAPH_COMPONENTS];
+    node factor; /* UINT32_MAX: 1 */
+    int count;
+} graph_directed;
+/* The number of the components, 0: the node is no such quotient. */
+int graph_direction(const graph *, node, graph_directed *);
+/* What stands above the length, with others in place of the components. */
+node graph_along(graph *, node above, const node *component, const node *with, int count);
 /* The first node, if any, whose value may jump along the motion where its rate is bounded (FLOOR MOD SIGN SELECT ATAN2,
  * a comparison), or 0. */
 node graph_jump(graph *, node);

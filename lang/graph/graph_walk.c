@@ -128,6 +128,8 @@ static node first_moving(graph *g, node root, bool (*is)(operation))
         const graph_node *n = &g->nodes[w.nodes[k]];
         unsigned deps = n->op == OP_SELECT ? g->nodes[n->a].deps : n->deps;
         if (is((operation)n->op) && deps & moving) found = w.nodes[k];
+        graph_directed direction;
+        if (graph_direction(g, w.nodes[k], &direction)) found = w.nodes[k];
     }
     give(&g->arena->allocator, w.nodes);
     return found;

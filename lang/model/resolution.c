@@ -161,6 +161,21 @@ static void fill(resolution *r, graph *g, const graph_walk *w, bool (*counts)(op
     r->straight = is_straight(r);
 }
 
+/* A direction jumps where its vector is 0, and has no pole there. */
+static void spare_directions(resolution *r, const graph *g, const graph_walk *w)
+{
+    for (uint32_t k = 0; k < w->count; k++) {
+        graph_directed d;
+        step *s = &r->steps[k];
+        if (!graph_direction(g, w->nodes[k], &d)) continue;
+        for (int j = 0; j < s->arity && s->node.op == OP_MUL; j++) {
+            step *quotient = &r->steps[s->operand[j]];
+            if (quotient->node.op == OP_DIV && quotient->node.b == d.length) quotient->counts = false;
+        }
+        if (s->node.op == OP_DIV) s->counts = false;
+    }
+}
+
 /* counts NULL: nothing is looked for, but values are asked for. */
 static bool create(model *m, const output *outputs, size_t count, bool (*counts)(operation), resolution **out)
 {
@@ -184,6 +199,7 @@ static bool create(model *m, const output *outputs, size_t count, bool (*counts)
                           .root = root,
                           .stack = stack};
         fill(r, g, &w, counts);
+        if (counts == has_poles) spare_directions(r, g, &w);
         if (!counts || counts == leaps || any_counts(r, w.count)) *out = r;
     }
     give(&g->arena->allocator, w.nodes);

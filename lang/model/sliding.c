@@ -178,13 +178,27 @@ static node value_at(graph *g, const held_sides *h, size_t k)
 
 static node is_held(graph *g, node side) { return graph_op(g, OP_GT, side, graph_const(g, 1.5), 0); }
 
+/* What a side that is not held stands for. */
+static node side_itself(const switches *s, size_t k, node side) { return s->parts[k] ? s->sliding[k] : side; }
+
 /* The side, or where it is SWITCHES_HELD the value that holds. */
 static node side_or_value(graph *g, node leaf, int level, void *ctx)
 {
     const held_sides *h = ctx;
     const size_t k = kind_at(h, leaf);
     (void)level;
-    return k == h->s->kinds ? leaf : graph_op(g, OP_SELECT, is_held(g, leaf), value_at(g, h, k), leaf);
+    if (k == h->s->kinds) return leaf;
+    return graph_op(g, OP_SELECT, is_held(g, leaf), value_at(g, h, k), side_itself(h->s, k, leaf));
+}
+
+/* Directions that are never held, in place of their sides. */
+static node side_that_slides(graph *g, node leaf, int level, void *ctx)
+{
+    const held_sides *h = ctx;
+    (void)g, (void)level;
+    for (size_t k = 0; k < h->s->kinds; k++)
+        if (h->s->parts[k] && h->value[k] == NO_NODE && h->s->side[k] == leaf) return h->s->sliding[k];
+    return leaf;
 }
 
 /* A choice by a side, or where that is held both in parts. */
@@ -197,16 +211,16 @@ static node side_or_parts(graph *g, node side, node a, node b, void *ctx)
                     graph_op(g, OP_SELECT, side, a, b));
 }
 
-/* The values that hold kinds from `first` to before `last` in place of their sides, where they are no families: what
- * several switches are held by is the solution of linear equations, which are eliminated one by one. */
-static node with_value(const model *m, const held_sides *h, size_t first, size_t last, node n)
+/* The values that hold kinds from `first` to before `last` in place of their sides, in loops as deep: what several
+ * switches are held by is the solution of linear equations, which are eliminated one by one. */
+static node with_value(const model *m, const held_sides *h, size_t first, size_t last, int loops, node n)
 {
     node *only = take(&m->arena->allocator, h->s->kinds, sizeof *only);
     if (!only) return m->arena->failed = true, n;
     for (size_t k = 0; k < h->s->kinds; k++)
-        only[k] = h->s->as[k] >= first && h->s->as[k] < last && h->s->rate[k].loops == 0 ? h->value[k] : NO_NODE;
+        only[k] = h->s->as[k] >= first && h->s->as[k] < last && h->s->rate[k].loops == loops ? h->value[k] : NO_NODE;
     held_sides some = {h->s, only};
-    const node result = with_sides(m->graph, n, 0, &(replacement){side_or_value, side_or_parts, NULL, &some});
+    const node result = with_sides(m->graph, n, loops, &(replacement){side_or_value, side_or_parts, NULL, &some});
     give(&m->arena->allocator, only);
     return result;
 }
@@ -259,9 +273,7 @@ static void drop_zeros(terms *t)
     if (t->count <= TERMS_MOST) t->count = kept;
 }
 
-/* 1 or -1 where two arguments are 0 at the same places, since one is the other by a positive or a negative number; 0:
- * they are not, or it is not seen. */
-static int same_surface(graph *g, node u, node w)
+double sliding_ratio(graph *g, node u, node w)
 {
     terms a = {.count = 0}, b = {.count = 0};
     double ratio = 0;
@@ -276,7 +288,14 @@ static int same_surface(graph *g, node u, node w)
         if (i && !(fabs(here - ratio) <= 0x1p-50 * fabs(ratio))) return 0;
         ratio = here;
     }
-    return ratio > 0 ? 1 : -1;
+    return ratio;
+}
+
+/* 1 or -1 where two arguments are 0 at the same places; 0: they are not, or it is not seen. */
+static int same_surface(graph *g, node u, node w)
+{
+    const double ratio = sliding_ratio(g, u, w);
+    return (ratio > 0) - (ratio < 0);
 }
 
 static bool links(operation op) { return op == OP_SIGN || compares(op); }
@@ -357,8 +376,9 @@ static switches_sliding holding(const model *m, const switches *s, size_t kind, 
     if (!full) return SLIDES_REFUSED;
     const node without = graph_replace(g, full, DEP_MODE, rate->loops, zero_at, &side);
     if (without == full) return SLIDES_NEVER;
-    if (op != OP_SIGN && !compares(op)) return SLIDES_REFUSED;
-    for (size_t k = 0; k < kind && rate->loops == 0; k++) full = with_value(m, h, k, k + 1, full);
+    if (op != OP_SIGN && !compares(op) && !switches_directs(op)) return SLIDES_REFUSED;
+    for (size_t k = 0; k < kind; k++)
+        if (rate->loops == 0 || s->leader[k] == s->leader[kind]) full = with_value(m, h, k, k + 1, rate->loops, full);
     node force = full;
     if (compares(op)) {
         parts by = {side, rate->loops, false};
@@ -383,8 +403,10 @@ static switches_sliding holding(const model *m, const switches *s, size_t kind, 
     return SLIDES_HELD;
 }
 
-/* The acceleration of one variable with which the rate of a kind is 0: output *number. NO_NODE: there is none. */
-static node resting(const model *m, const switches *s, const output *rate, const bool *taken, size_t *number)
+/* The acceleration of one variable with which the rate of a kind is 0: output *number. NO_NODE: there is none.
+ * literal: its factor has to be a number, as of a parameter that may be 0 nothing follows. */
+static node resting(const model *m, const switches *s, const output *rate, const bool *taken, bool literal,
+                    size_t *number)
 {
     enum { MOVES = DEP_TIME | DEP_STATE | DEP_LEVELS };
     graph *g = m->graph;
@@ -392,10 +414,11 @@ static node resting(const model *m, const switches *s, const output *rate, const
     graph_replace(g, rate->value, DEP_A, rate->loops, equation_of, &in);
     node own = graph_load(g, &s->accel[in.found].to);
     const node factor = in.failed ? 0 : graph_derivative(g, rate->value, one_at, &own);
+    *number = in.found;
     if (!factor || graph_deps(g, factor) & MOVES) return NO_NODE;
+    if (literal && graph_at(g, factor)->op != OP_CONST) return NO_NODE;
     in.without = own;
     const node rest = graph_replace(g, rate->value, DEP_A, rate->loops, equation_of, &in);
-    *number = in.found;
     return graph_op(g, OP_SUB, graph_const(g, 0), graph_op(g, OP_DIV, rest, factor, 0), 0);
 }
 
@@ -411,6 +434,17 @@ static void part_surface(const switches *s, size_t k)
 {
     for (size_t j = k + 1; j < s->kinds; j++)
         if (s->as[j] == k) s->as[j] = (uint32_t)j, s->turned[j] = 1;
+}
+
+/* Where one component of a direction cannot be held none of them is. */
+static void hold_all_or_none(const switches *s, size_t last, node *value)
+{
+    const size_t first = s->leader[last], end = first + s->parts[last];
+    uint8_t slides = SLIDES_HELD;
+    if (last + 1 < end) return;
+    for (size_t k = first; k < end; k++)
+        if (s->slides[k] != SLIDES_HELD) slides = s->slides[k];
+    for (size_t k = first; k < end && slides != SLIDES_HELD; k++) s->slides[k] = slides, value[k] = NO_NODE;
 }
 
 bool sliding_prepare(model *m, switches *s)
@@ -435,15 +469,19 @@ bool sliding_prepare(model *m, switches *s)
             s->slides[k] = s->slides[s->as[k]];
             continue;
         }
-        s->slides[k] = (uint8_t)holding(m, s, k, alone < TOGETHER ? &h : &none, &value[k], &grips[k]);
+        const bool eliminates = alone < TOGETHER || s->leader[k] != k;
+        s->slides[k] = (uint8_t)holding(m, s, k, eliminates ? &h : &none, &value[k], &grips[k]);
         alone += value[k] != NO_NODE && s->rate[k].loops == 0;
+        if (s->parts[k]) hold_all_or_none(s, k, value);
         if (s->slides[k] == SLIDES_NEVER) part_surface(s, k);
         share_value(m->graph, s, k, value);
     }
-    for (size_t k = s->kinds; k-- > 0 && alone <= TOGETHER;) { /* those after it, too, in that of each */
-        if (value[k] == NO_NODE || s->rate[k].loops || s->as[k] != k) continue;
-        value[k] = with_value(m, &h, k + 1, s->kinds, value[k]);
-        grips[k] = with_value(m, &h, k + 1, s->kinds, grips[k]);
+    for (size_t k = s->kinds; k-- > 0;) { /* those after it, too, in that of each */
+        const bool all = alone <= TOGETHER && s->rate[k].loops == 0;
+        const size_t end = all ? s->kinds : s->leader[k] + s->parts[k];
+        if (value[k] == NO_NODE || s->as[k] != k || k + 1 >= end) continue;
+        value[k] = with_value(m, &h, k + 1, end, s->rate[k].loops, value[k]);
+        grips[k] = with_value(m, &h, k + 1, end, s->rate[k].loops, grips[k]);
         share_value(m->graph, s, k, value);
     }
     s->together = alone <= TOGETHER;
@@ -451,6 +489,8 @@ bool sliding_prepare(model *m, switches *s)
     for (size_t k = 0; k < s->kinds; k++) {
         const size_t to = s->hold_kinds;
         if (value[k] == NO_NODE || s->as[k] != k) continue;
+        value[k] = graph_replace(m->graph, value[k], DEP_MODE, s->rate[k].loops, side_that_slides, &h);
+        grips[k] = graph_replace(m->graph, grips[k], DEP_MODE, s->rate[k].loops, side_that_slides, &h);
         s->hold[to] = s->hold_rate[to] = s->grip[to] = s->grip_rate[to] = s->rate[k];
         s->hold[to].value = value[k];
         s->hold_rate[to].value = graph_derivative(m->graph, value[k], model_seed_motion, m);
@@ -458,7 +498,6 @@ bool sliding_prepare(model *m, switches *s)
         s->grip_rate[to].value = graph_derivative(m->graph, grips[k], model_seed_motion, m);
         s->hold_kinds++;
     }
-    if (s->hold_kinds == 0) return !m->arena->failed && !m->graph->too_large;
     const struct {
         output *of;
         size_t count;
@@ -466,9 +505,11 @@ bool sliding_prepare(model *m, switches *s)
     for (size_t k = 0; k < sizeof all / sizeof *all; k++)
         for (size_t i = 0; i < all[k].count; i++) {
             output *o = &all[k].of[i];
-            o->value = with_sides(m->graph, o->value, o->loops, &with_values);
+            if (s->hold_kinds) o->value = with_sides(m->graph, o->value, o->loops, &with_values);
+            o->value = graph_replace(m->graph, o->value, DEP_MODE, o->loops, side_that_slides, &h);
         }
-    bool *taken = arena_room(m->arena, (m->accel_count + 1) * sizeof *taken);
+    if (s->hold_kinds == 0) return !m->arena->failed && !m->graph->too_large;
+    bool *taken = arena_room(m->arena, 2 * (m->accel_count + 1) * sizeof *taken), *tried = taken + m->accel_count + 1;
     if (!taken) return false;
     memset(taken, 0, m->accel_count * sizeof *taken);
     for (size_t k = 0; k < s->kinds; k++) {
@@ -478,7 +519,12 @@ bool sliding_prepare(model *m, switches *s)
         if (value[k] == NO_NODE || s->as[k] != k) continue;
         /* what the others are held by is in it, and those that rest do */
         rate.value = with_sides(g, rate.value, rate.loops, &with_values);
-        const node is = resting(m, s, &rate, taken, &at);
+        memcpy(tried, taken, m->accel_count * sizeof *tried);
+        node is = resting(m, s, &rate, tried, s->parts[k], &at);
+        for (size_t n = 0; s->parts[k] && is == NO_NODE && n < m->accel_count && !tried[at]; n++) {
+            tried[at] = true;
+            is = resting(m, s, &rate, tried, true, &at);
+        }
         if (is == NO_NODE || taken[at]) continue;
         taken[at] = true;
         s->accel[at].value = graph_op(g, OP_SELECT, is_held(g, s->side[k]), is, s->accel[at].value);

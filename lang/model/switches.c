@@ -23,6 +23,9 @@ typedef struct kind {
     nest around;
     node side;
     uint32_t before; /* 1 + the number of another kind of the same operation, 0: none */
+    uint32_t first;  /* the kind of the first component of a direction, otherwise this one */
+    uint8_t parts;   /* components of the direction, 0: it is none */
+    node sliding;
 } kind;
 
 typedef struct builder {
@@ -31,6 +34,7 @@ typedef struct builder {
     kind *kinds, *touches;
     uint32_t room, touch_room;
     uint32_t *last, *last_touch; /* by node of the model: 1 + the number of the last kind of this operation, 0: none */
+    bool directions;             /* they are switches, too */
 } builder;
 
 static bool broken(const builder *b) { return b->m->arena->failed || b->m->graph->too_large; }
@@ -207,15 +211,11 @@ static output output_to(const reference *value, unsigned levels, const nest *aro
     return o;
 }
 
-/* The number of the kind of switch, found or added; UINT32_MAX: refused, or no memory. */
-static uint32_t kind_of(builder *b, node n, node a, node c, const nest *around)
+/* A new kind of switch; UINT32_MAX: refused, or no memory. */
+static uint32_t add_kind(builder *b, node n, unsigned levels, node argument, node held, const nest *around)
 {
     graph *g = b->m->graph;
     switches *s = b->s;
-    const graph_node original = g->nodes[n];
-    const unsigned levels = original.deps & DEP_LEVELS;
-    for (uint32_t k = b->last[n]; k; k = b->kinds[k - 1].before)
-        if (same_nest(&b->kinds[k - 1].around, around, levels)) return k - 1;
     reference value;
     s->refused = place(b, around, levels, &s->count, SWITCHES_MAX, &value);
     if (s->refused) s->refused_at = n;
@@ -237,16 +237,124 @@ static uint32_t kind_of(builder *b, node n, node a, node c, const nest *around)
     }
     const output o = output_to(&value, levels, around);
     const uint32_t k = (uint32_t)s->kinds++;
-    b->kinds[k] = (kind){n, *around, graph_load(g, &side), b->last[n]};
+    b->kinds[k] = (kind){.n = n, .around = *around, .side = graph_load(g, &side), .first = k};
     s->original[k] = n;
     s->side[k] = b->kinds[k].side;
-    b->last[n] = k + 1;
     s->first[k] = b->m->arrays[value.array].base;
     s->argument[k] = s->held[k] = s->rate[k] = o;
-    s->argument[k].value = switches_argument(g, original.op, original.a, original.b);
-    s->held[k].value = switches_argument(g, original.op, a, c);
-    s->rate[k].value = graph_derivative(g, s->held[k].value, model_seed_motion, b->m);
+    s->argument[k].value = argument;
+    s->held[k].value = held;
+    s->rate[k].value = graph_derivative(g, held, model_seed_motion, b->m);
     return k;
+}
+
+/* The number of the kind of switch, found or added; UINT32_MAX: refused, or no memory. */
+static uint32_t kind_of(builder *b, node n, node a, node c, const nest *around)
+{
+    graph *g = b->m->graph;
+    const graph_node original = g->nodes[n];
+    const unsigned levels = original.deps & DEP_LEVELS;
+    for (uint32_t k = b->last[n]; k; k = b->kinds[k - 1].before)
+        if (same_nest(&b->kinds[k - 1].around, around, levels)) return k - 1;
+    const uint32_t k = add_kind(b, n, levels, switches_argument(g, original.op, original.a, original.b),
+                                switches_argument(g, original.op, a, c), around);
+    if (k == UINT32_MAX) return k;
+    b->kinds[k].before = b->last[n];
+    b->last[n] = k + 1;
+    return k;
+}
+
+/* Directions ------------------------------------------------------------------------------------------------------ */
+
+static node product(graph *g, node a, node b) { return graph_op(g, OP_MUL, a, b, 0); }
+static node difference(graph *g, node a, node b) { return graph_op(g, OP_SUB, a, b, 0); }
+
+/* The components of u over |u| along a unit vector d, from which u is less than a right angle away: with q = d u, |u|
+ * is q sqrt(1 + |d x u|^2/q^2), which is smooth where the motion stops without a turn, and negative beyond. */
+static void find_sliding(builder *b, uint32_t first, const graph_directed *d)
+{
+    graph *g = b->m->graph;
+    node q = graph_const(g, 1e-300), across[GRAPH_COMPONENTS]; /* at u = 0 the quotients are 0, not 0/0 */
+    const int count = d->count, areas = count == 2 ? 1 : 3;
+    node *const side = b->s->side + first;
+    for (int k = 0; k < count; k++) q = graph_op(g, OP_ADD, q, product(g, side[k], d->component[k]), 0);
+    for (int k = 0; k < areas; k++) {
+        const int i = (k + 1) % count, j = areas == 1 ? 0 : (k + 2) % count;
+        across[k] = difference(g, product(g, side[j], d->component[i]), product(g, side[i], d->component[j]));
+    }
+    node length = graph_const(g, 1);
+    for (int k = 0; k < areas; k++) length = graph_op(g, OP_HYPOT, length, graph_op(g, OP_DIV, across[k], q, 0), 0);
+    length = product(g, q, length);
+    for (int k = 0; k < count; k++)
+        b->kinds[first + (uint32_t)k].sliding = graph_op(g, OP_DIV, d->component[k], length, 0);
+}
+
+/* Whether a vector has the components of that of the kinds from `first` on, in any order, all with one factor, whose
+ * sign is *way: then both have one direction. Their places to `at`. */
+static bool same_direction(const builder *b, uint32_t first, const graph_directed *d, int *at, double *way)
+{
+    double factor = 0;
+    for (int i = 0; i < d->count; i++) {
+        double ratio = 0;
+        for (int j = 0; j < d->count && ratio == 0; j++) {
+            ratio = sliding_ratio(b->m->graph, b->s->argument[first + (uint32_t)j].value, d->component[i]);
+            at[i] = j;
+        }
+        if (ratio == 0 || (i && !(fabs(ratio - factor) <= 0x1p-50 * fabs(factor)))) return false;
+        factor = ratio;
+        for (int j = 0; j < i; j++)
+            if (at[j] == at[i]) return false;
+    }
+    *way = factor < 0 ? -1 : 1;
+    return true;
+}
+
+/* The sides of a direction in the order of its components, turned where it is the opposite one. */
+static bool direction_of(builder *b, const graph_directed *d, const nest *around, node *sides)
+{
+    graph *g = b->m->graph;
+    const unsigned levels = g->nodes[d->length].deps & DEP_LEVELS;
+    for (uint32_t k = 0; k < b->s->kinds; k++) {
+        int at[GRAPH_COMPONENTS];
+        double way;
+        if (b->kinds[k].parts != d->count || b->kinds[k].first != k) continue;
+        if ((g->nodes[g->nodes[b->kinds[k].n].b].deps & DEP_LEVELS) != levels) continue;
+        if (!same_nest(&b->kinds[k].around, around, levels) || !same_direction(b, k, d, at, &way)) continue;
+        for (int i = 0; i < d->count; i++) {
+            const node side = b->s->side[k + (uint32_t)at[i]];
+            sides[i] = way < 0 ? graph_op(g, OP_NEG, side, 0, 0) : side;
+        }
+        return true;
+    }
+    const uint32_t first = (uint32_t)b->s->kinds;
+    for (int i = 0; i < d->count; i++) {
+        const node n = graph_op(g, OP_DIV, d->component[i], d->length, 0);
+        const uint32_t k = add_kind(b, n, levels, d->component[i], d->component[i], around);
+        if (k == UINT32_MAX) return false;
+        b->kinds[k].first = first, b->kinds[k].parts = (uint8_t)d->count;
+        sides[i] = b->s->side[k];
+    }
+    find_sliding(b, first, d);
+    return true;
+}
+
+/* A quotient along a direction, with the sides of its components in place of these over the length; `to`: its operands,
+ * rewritten. UINT32_MAX: it is none. */
+static node along_direction(builder *b, node n, const node to[3], const nest *around)
+{
+    graph *g = b->m->graph;
+    graph_directed d;
+    if (!b->directions || !graph_direction(g, n, &d)) return UINT32_MAX;
+    for (int k = 0; k < d.count; k++)
+        if (graph_kink(g, d.component[k])) return UINT32_MAX;
+    const graph_node at = g->nodes[n];
+    const bool second = at.op == OP_MUL && at.b == d.above;
+    const graph_node quotient = g->nodes[to[second ? 0 : 1]];
+    if (at.op == OP_MUL && (quotient.op != OP_DIV || quotient.b != d.length)) return UINT32_MAX;
+    node sides[GRAPH_COMPONENTS];
+    if (!direction_of(b, &d, around, sides)) return n;
+    const node by = graph_along(g, to[second ? 1 : 0], d.component, sides, d.count);
+    return d.factor == UINT32_MAX ? by : product(g, quotient.a, by);
 }
 
 /* Touches ---------------------------------------------------------------------------------------------------------- */
@@ -290,7 +398,7 @@ static void note_touch(builder *b, node n, node x, node y, const nest *around)
         b->touch_room = room;
     }
     const size_t k = s->touch_kinds++;
-    b->touches[k] = (kind){n, *around, 0, b->last_touch[n]};
+    b->touches[k] = (kind){.n = n, .around = *around, .before = b->last_touch[n]};
     b->last_touch[n] = (uint32_t)k + 1;
     s->touch[k] = s->touch_rate[k] = output_to(&value, levels, around);
     s->touch[k].value = argument;
@@ -365,7 +473,10 @@ static node rewrite(builder *b, node root, const nest *around)
                 if (operands_of[k].at[j]) to[j] = map[operands_of[k].at[j] - 1];
                 changed |= to[j] != was;
             }
-            if (switches_is(g, &n)) {
+            const node directed = along_direction(b, w.nodes[k], to, around);
+            if (directed < UINT32_MAX) {
+                map[k] = directed;
+            } else if (switches_is(g, &n)) {
                 const uint32_t kind = kind_of(b, w.nodes[k], to[0], to[1], around);
                 if (n.op == OP_CBRT) note_touch(b, w.nodes[k], to[0], to[1], around);
                 if (kind < UINT32_MAX) map[k] = with_side(g, n.op, to[0], to[1], b->kinds[kind].side);
@@ -394,27 +505,33 @@ static output *rewrite_all(builder *b, const output *from, size_t count)
     return to;
 }
 
-bool switches_find(model *m, switches *s)
+bool switches_find(model *m, bool directions, switches *s)
 {
     *s = (switches){.slot = m->pool_count};
     const size_t nodes = m->graph->count;
-    builder b = {.m = m, .s = s, .last = take(&m->arena->allocator, nodes, 2 * sizeof *b.last)};
+    builder b = {
+        .m = m, .s = s, .directions = directions, .last = take(&m->arena->allocator, nodes, 2 * sizeof *b.last)};
     if (!b.last) return m->arena->failed = true, false;
     b.last_touch = b.last + nodes;
     s->accel = rewrite_all(&b, m->accel, m->accel_count);
     s->boundary = rewrite_all(&b, m->boundary, m->boundary_count);
     s->op = arena_room(m->arena, s->count + 1);
     give(&m->arena->allocator, b.last);
-    if (broken(&b) || !s->op) return false;
-    for (size_t k = 0; k < s->kinds; k++)
+    s->leader = arena_room(m->arena, (s->kinds + 1) * sizeof *s->leader);
+    s->parts = arena_room(m->arena, s->kinds + 1);
+    s->sliding = arena_room(m->arena, (s->kinds + 1) * sizeof *s->sliding);
+    if (broken(&b) || !s->op || !s->leader || !s->parts || !s->sliding) return false;
+    for (size_t k = 0; k < s->kinds; k++) {
+        s->leader[k] = b.kinds[k].first, s->parts[k] = b.kinds[k].parts, s->sliding[k] = b.kinds[k].sliding;
         memset(s->op + s->first[k], m->graph->nodes[b.kinds[k].n].op, switches_cells(s, k));
+    }
     return true;
 }
 
 void switches_locate(model *m)
 {
     switches *s = arena_room(m->arena, sizeof *s);
-    if (!s || !switches_find(m, s) || s->refused || s->kinds != m->side_count || !sliding_prepare(m, s)) return;
+    if (!s || !switches_find(m, true, s) || s->refused || s->kinds != m->side_count || !sliding_prepare(m, s)) return;
     s->slot = m->states[m->side_first].base;
     m->accel = s->accel;
     m->boundary = s->boundary;
@@ -426,13 +543,19 @@ void switches_surface(const model *m, node original, char *out, size_t size)
     const graph_node n = *graph_at(m->graph, original);
     const operation op = (operation)n.op;
     const bool turned = compares(op) && m->graph->nodes[n.a].op == OP_CONST;
-    model_print(m, turned ? n.b : compares(op) ? n.a : switches_argument(m->graph, op, n.a, n.b), out, size);
+    model_print(m,
+                op == OP_DIV || turned ? n.b
+                : compares(op)         ? n.a
+                                       : switches_argument(m->graph, op, n.a, n.b),
+                out, size);
     const size_t used = strlen(out);
     snprintf(out + used, size - used, " = %s", switches_counts(op) ? "a whole number" : "0");
     if (compares(op) && used + 3 < size) model_print(m, turned ? n.a : n.b, out + used + 3, size - used - 3);
 }
 
 /* Sides -------------------------------------------------------------------------------------------------------- */
+
+bool switches_directs(operation op) { return op == OP_DIV; }
 
 bool switches_counts(operation op) { return op == OP_FLOOR || op == OP_MOD; }
 

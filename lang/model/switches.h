@@ -5,6 +5,9 @@
  * held, the force is smooth, also beyond the place where a switch would change its side; so a step can lead across that
  * place, and a root of the argument tells where it is. In a family there is a switch for each cell.
  *
+ * A direction u/|u| of a vector of velocities is a switch in each component, where that is asked for. The side of a
+ * component is that of a unit vector from which u is less than a right angle away, or SWITCHES_HELD, while u stays 0.
+ *
  * A touch is a place where a formula has no derivative without changing: sqrt, cbrt, a power or hypot at 0, asin and
  * acos at ±1, atan2 on its cut. Its argument is positive elsewhere, and 0 there.
  */
@@ -40,6 +43,9 @@ typedef struct switches {
     node *original;      /* kinds: the operation, as the model has it */
     node *side;          /* kinds: the side as the equations load it */
     size_t *first;       /* kinds: the number of the first cell's switch */
+    uint32_t *leader;    /* kinds: of a component of a direction that of the first one, otherwise itself */
+    uint8_t *parts;      /* kinds: how many components that direction has, one kind behind the other, 0: it is none */
+    node *sliding;       /* kinds: the component over the length, while the vector is not 0 */
     /* Of a model that has modes for sides: the value that holds each argument at 0 while its side is SWITCHES_HELD, how
      * much the rate of the argument grows with that value, and the rates of both along the motion; hold_kinds of them,
      * to the places of their arguments. */
@@ -55,8 +61,8 @@ typedef struct switches {
     output *touch, *touch_rate;  /* touch_kinds: the arguments, with sides in them, and their rates */
 } switches;
 
-/* Finds the switches of accelerations and boundary lines. False: no memory. */
-bool switches_find(model *, switches *);
+/* Finds the switches of accelerations and boundary lines, and `directions` as such. False: no memory. */
+bool switches_find(model *, bool directions, switches *);
 /* How many switches are of a kind, and their shape. */
 size_t switches_cells(const switches *, size_t kind);
 size_t switches_kind(const switches *, size_t k); /* of switch k */
@@ -70,6 +76,8 @@ void switches_locate(model *);
 bool switches_is(const graph *, const graph_node *);
 node switches_argument(graph *, operation, node a, node b);
 bool switches_counts(operation);
+/* Whether the operation of a kind is a component of a direction. */
+bool switches_directs(operation);
 
 /* The side that belongs to the value u of the argument; where u is 0, or at the lower end of a floor, to the side
  * towards which it moves. */
