@@ -875,10 +875,10 @@ static bool is_twice(sides *s, const parts *p, double way, double t, double *x, 
         double was[GRAPH_COMPONENTS], bound = 0;
         if (!o.count || silent(s, k) || k == p->of[0]) continue;
         for (int i = 0; i < o.count; i++) was[i] = side[o.of[i]], bound += 0x1p-53 * s->bound[o.of[i]];
-        if (!(along(&o, s->now, s->now) <= bound * bound)) continue;
+        if (!(along(&o, s->now, s->now) <= 0x1p20 * bound * bound)) continue; /* rounding of the other form */
         put_held(side, &o, way);
-        run(s, s->grip, t, x, v, NULL, s->r);
-        if (s->r[k] != 0) twice = !drives_back(s, &o, way, t, x, v) || !drives_back(s, p, way, t, x, v);
+        const bool back = drives_back(s, &o, way, t, x, v);
+        if (s->before[k] != 0) twice = !back || !drives_back(s, p, way, t, x, v);
         for (int i = 0; i < o.count; i++) side[o.of[i]] = was[i];
     }
     return twice;
