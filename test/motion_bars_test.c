@@ -20,7 +20,10 @@
 /* Kinds of which even the motions tried by default get wrong answers. They are judged when EVERY or KIND asks for them.
  * More motions find rarer wrong answers of other kinds as well. */
 static const int failing[] = {
-    MOTION_BUMP_KIND, MOTION_PULSE_KIND, MOTION_BLOCKS_KIND, MOTION_PENALTY_KIND,
+    MOTION_BUMP_KIND,
+    MOTION_PULSE_KIND,
+    MOTION_BLOCKS_KIND,
+    MOTION_PENALTY_KIND,
 };
 /* Motions that had wrong bars once, each for a reason of its own; they are judged besides. */
 static const struct {
