@@ -862,24 +862,46 @@ static bool drives_back(sides *s, const parts *p, double way, double t, double *
     return back;
 }
 
-/* Whether another vector that is 0 as well may be this one in another form, which nothing has shown: held together
- * they have no rates of their own. */
-static bool is_twice(sides *s, const parts *p, double way, double t, double *x, double *v)
+static const char two_forms[] = "the force has one direction in two forms, which nothing shows to be one,";
+
+/* How much the force along a direction drives its vector alone, to `alone`, and with another one held as well, to r. */
+static void measure_both(sides *s, const parts *p, const parts *other, double way, double t, double *x, double *v,
+                         double *alone)
+{
+    double *side = x + s->switches->slot;
+    put_held(side, p, way);
+    for (int i = 0; i < other->count; i++) side[other->of[i]] = 0;
+    run(s, s->grip, t, x, v, NULL, alone);
+    put_held(side, other, way);
+    run(s, s->grip, t, x, v, NULL, s->r);
+}
+
+/* Whether another vector may be this one in another form, which nothing has shown: with one of them held the force no
+ * longer drives the other one. short: only one that is 0, too, of which the force drives a part no longer. */
+static bool is_twice(sides *s, const parts *p, bool is_short, double way, double t, double *x, double *v)
 {
     double *side = x + s->switches->slot;
     bool twice = false;
+    if (!s->hold) return false;
     run(s, s->argument, t, x, v, NULL, s->now);
     run(s, s->rounding, t, x, v, NULL, s->bound);
+    memcpy(s->was, side, s->switches->count * sizeof *side);
     for (size_t k = 0; k < s->switches->count && !twice; k++) {
         const parts o = parts_of(s, k);
-        double was[GRAPH_COMPONENTS], bound = 0;
+        double bound = 0;
         if (!o.count || silent(s, k) || k == p->of[0]) continue;
-        for (int i = 0; i < o.count; i++) was[i] = side[o.of[i]], bound += 0x1p-53 * s->bound[o.of[i]];
-        if (!(along(&o, s->now, s->now) <= 0x1p20 * bound * bound)) continue; /* rounding of the other form */
-        put_held(side, &o, way);
-        const bool back = drives_back(s, &o, way, t, x, v);
-        if (s->before[k] != 0) twice = !back || !drives_back(s, p, way, t, x, v);
-        for (int i = 0; i < o.count; i++) side[o.of[i]] = was[i];
+        for (int i = 0; i < o.count; i++) bound += 0x1p-53 * s->bound[o.of[i]];
+        if (is_short && !(along(&o, s->now, s->now) <= 0x1p20 * bound * bound))
+            continue; /* rounding of the other form */
+        for (int both = 0; both < 2 && !twice; both++) {
+            const parts *one = both ? p : &o, *other = both ? &o : p;
+            int lost = 0;
+            measure_both(s, one, other, way, t, x, v, s->before);
+            for (int i = 0; i < one->count && s->before[one->of[0]] != 0; i++)
+                lost += !(fabs(s->r[one->of[i]]) > 0x1p-20 * fabs(s->before[one->of[0]]));
+            twice = is_short ? lost > 0 : lost == one->count;
+            memcpy(side, s->was, s->switches->count * sizeof *side);
+        }
     }
     return twice;
 }
@@ -906,9 +928,7 @@ static motus_status stand(sides *s, const parts *p, double way, double t, double
     if (status != MOTUS_OK) return status;
     put_held(side, p, way);
     if (!drives_back(s, p, way, t, x, v)) return refuse(s, p->of[0], no_disc, t, err);
-    if (is_twice(s, p, way, t, x, v))
-        return refuse(s, p->of[0], "two forms of one direction, which nothing shows to be one, come to 0 together", t,
-                      err);
+    if (is_twice(s, p, true, way, t, x, v)) return refuse(s, p->of[0], two_forms, t, err);
     measure_hold(s, t, x, v);
     return along(p, s->p, s->p) <= 1 ? MOTUS_OK : leave(s, p, way, t, x, v, err);
 }
@@ -967,6 +987,7 @@ static motus_status choose_direction(sides *s, size_t k, bool left, double way, 
     for (int i = 0; i < p.count; i++) bound += 0x1p-53 * s->bound[p.of[i]];
     if (length <= bound) return stand(s, &p, way, *t, x, v, err);
     put_direction(side, &p, s->now, length);
+    if (is_twice(s, &p, false, way, *t, x, v)) return refuse(s, k, two_forms, *t, err);
     if (!left) return MOTUS_OK;
     const double ulp = nextafter(fabs(*t), INFINITY) - fabs(*t), least = short_of(s, &p, *t, x, v);
     motus_status status = MOTUS_OK;

@@ -716,6 +716,37 @@ static void slides_on_another(void **state)
     }
 }
 
+/* One direction that text after text writes with a factor that does not move, as the other block's. */
+static void one_direction_in_many_forms(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *factors, *on_b;
+    } forms[] = {
+        {"k = 2", "-k (b' - a')/|k (b' - a')|"},
+        {"k = -2", "(k (b' - a'))/|k (b' - a')|"},
+        {"k = -2; m = 3", "(k/m b' - k/m a')/|k/m b' - k/m a'|"},
+        {"k = -2; m = 3", "-(m b' k^2 - m a' k^2)/|m k^2 b' - k^2 m a'|"},
+        {"k = 2", "k (a' - b')/sqrt((k b'.x - k a'.x)^2 + (k b'.y - k a'.y)^2)"},
+        {"k = -2; m = 3", "m (a' - b')/(2 m |b' - a'|) + 0.5 (k b' - k a')/|k (b' - a')|"},
+        {"k = 2", "((a'.x - b'.x)/hypot(k a'.y - k b'.y, k (a'.x - b'.x)) k, "
+                  "(a'.y - b'.y)/hypot(k a'.y - k b'.y, k (a'.x - b'.x)) k)"},
+    };
+    for (size_t k = 0; k < sizeof forms / sizeof *forms; k++) {
+        char text[400];
+        snprintf(text, sizeof text,
+                 "%s\na'' = -(a' - b')/|a' - b'|\nb'' = %s\na(0) = (0, 0)\nb(0) = (0, 0)\na'(0) = (0.6, 0.8)\n"
+                 "b'(0) = (0, 0)\n",
+                 forms[k].factors, forms[k].on_b);
+        const outcome o = finished(text, "dop853", 1e-9, 2);
+        const double at[] = {0.675, 0.9, 0.525, 0.7}, by[] = {0.3, 0.4, 0.3, 0.4};
+        for (int i = 0; i < 4; i++) {
+            NEAR(o.x[i], at[i], 1e-13);
+            NEAR(o.v[i], by[i], 1e-13);
+        }
+    }
+}
+
 /* A branch that is not taken, in which the direction has no value, is no singularity. */
 static void rests_by_an_event(void **state)
 {
@@ -737,9 +768,9 @@ static void refused_in_plane(void **state)
             "breaks loose along a direction that turns", 3.246718351);
     refused("r'' = -(r'.x, 2 r'.y)/|r'|\nr(0) = (0, 0)\nr'(0) = (1, 1)\n", "drives its vector not straight back",
             1.147793528);
-    refused("k = 2\na'' = -(a' - b')/|a' - b'|\nb'' = -k (b' - a')/|k (b' - a')|\na(0) = (0, 0)\nb(0) = (0, 0)\n"
-            "a'(0) = (0.6, 0.8)\nb'(0) = (0, 0)\n",
-            "two forms of one direction", 0.5);
+    refused("k = 2\na'' = -(a' - b')/|a' - b'|\nb'' = -((k + 1) b' - (k a' + a'))/|(k + 1) b' - (k a' + a')|\n"
+            "a(0) = (0, 0)\nb(0) = (0, 0)\na'(0) = (0.6, 0.8)\nb'(0) = (0, 0)\n",
+            "one direction in two forms", 0);
     const outcome o = run_of("r'' = -r'/|r'|\nr(0) = (0, 0)\nr'(0) = (1, 1)\n", "taylor", 1e-9, 2);
     assert_int_equal(o.status, MOTUS_UNAVAILABLE);
 }
@@ -750,6 +781,7 @@ int main(void)
         cmocka_unit_test(stops_in_plane),
         cmocka_unit_test(leaves_in_plane),
         cmocka_unit_test(slides_on_another),
+        cmocka_unit_test(one_direction_in_many_forms),
         cmocka_unit_test(rests_by_an_event),
         cmocka_unit_test(refused_in_plane),
         cmocka_unit_test(kinks),

@@ -137,18 +137,21 @@ int graph_degree(graph *, node, unsigned deps);
 /* The first node, if any, that is not smooth along the motion (ABS MIN MAX FLOOR MOD SIGN SELECT, a comparison, a
  * direction), or 0. */
 node graph_kink(graph *, node);
-/* A sum of components of a vector over the vector's length, which depends on velocities: factor above/length, where
- * `above` is linear in the components, as each component of u/|u| and of cross(k, u)/|u| is. */
+/* A sum of components of a vector over the vector's length, which depends on velocities: factor above/divisor, where
+ * `above` is linear in the components, as each component of u/|u| and of cross(k, u)/|u| is, and the divisor is the
+ * length times what does not move. */
 enum { GRAPH_COMPONENTS = 3 };
 typedef struct graph_directed {
-    node length, above, component[GRAPH_COMPONENTS];
+    node length, divisor, above, component[GRAPH_COMPONENTS];
     node factor; /* UINT32_MAX: 1 */
     int count;
 } graph_directed;
 /* The number of the components, 0: the node is no such quotient. */
 int graph_direction(const graph *, node, graph_directed *);
 /* What stands above the length, with others in place of the components. */
-node graph_along(graph *, node above, const node *component, const node *with, int count);
+node graph_along(graph *, node above, const graph_directed *, const node *with);
+/* n over what is beside the length in the divisor. */
+node graph_over(graph *, node n, node divisor, node length);
 /* The first node, if any, whose value may jump along the motion where its rate is bounded (FLOOR MOD SIGN SELECT ATAN2,
  * a comparison), or 0. */
 node graph_jump(graph *, node);

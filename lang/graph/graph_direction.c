@@ -1,10 +1,8 @@
 /* Directions of vectors that move, u/|u|: a force along one jumps where all components of u are 0, as dry friction in a
  * plane does where the motion stops. See graph.h. */
-#include "lang/graph/graph.h"
+#include "lang/graph/ratio.h"
 
-#include <string.h>
-
-enum { DEEP = 32 };
+enum { DEEP = 32, MOVES = DEP_TIME | (DEP_STATE & ~DEP_MODE) };
 
 static bool add_square(const graph *g, node n, node *of, int *count)
 {
@@ -26,7 +24,6 @@ static bool add_squares(const graph *g, node n, int depth, node *of, int *count)
 /* The components of a vector of which n is the length: two or three that move, and not with the time alone. */
 static int length_of(const graph *g, node n, node *of)
 {
-    const unsigned moving = DEP_TIME | (DEP_STATE & ~DEP_MODE);
     const graph_node *m = graph_at(g, n);
     int count = 0;
     if (!(m->deps & DEP_V) || m->deps & (DEP_A | DEP_D)) return 0;
@@ -37,73 +34,76 @@ static int length_of(const graph *g, node n, node *of)
         return 0;
     }
     for (int k = 0; k < count; k++)
-        if (!(graph_deps(g, of[k]) & moving)) return 0;
+        if (!(graph_deps(g, of[k]) & MOVES)) return 0;
     return count >= 2 ? count : 0;
 }
 
-static bool is_one(const graph *g, node n)
+/* The vector whose length is a factor of a divisor, beside others that do not move. */
+static int length_in(const graph *g, node n, int depth, graph_directed *d)
 {
     const graph_node *m = graph_at(g, n);
-    return m->op == OP_CONST && m->value == 1;
-}
-
-/* n as a component: 1, or -1 where it is b - a of a - b; 0: it is none of it. */
-static int as_component(const graph *g, node n, node component)
-{
-    const graph_node *m = graph_at(g, n), *c = graph_at(g, component);
-    if (n == component) return 1;
-    return m->op == OP_SUB && c->op == OP_SUB && m->a == c->b && m->b == c->a ? -1 : 0;
+    if (m->op != OP_MUL || depth == DEEP) return d->length = n, length_of(g, n, d->component);
+    const bool first = graph_deps(g, m->a) & MOVES, second = graph_deps(g, m->b) & MOVES;
+    return first == second ? 0 : length_in(g, first ? m->a : m->b, depth + 1, d);
 }
 
 /* Whether n is a sum of components with factors. */
-static bool along(const graph *g, node n, const node *of, int count, int depth)
+static bool along(const graph *g, node n, const graph_directed *d, int depth)
 {
     const graph_node *m = graph_at(g, n);
-    for (int k = 0; k < count; k++)
-        if (as_component(g, n, of[k])) return true;
+    for (int k = 0; k < d->count; k++)
+        if (ratio_of(g, d->component[k], n).number != 0) return true;
     if (depth == DEEP || !(m->deps & DEP_V)) return false;
     switch ((operation)m->op) {
     case OP_NEG:
-    case OP_DIV: return along(g, m->a, of, count, depth + 1);
-    case OP_MUL: return along(g, m->a, of, count, depth + 1) || along(g, m->b, of, count, depth + 1);
+    case OP_DIV: return along(g, m->a, d, depth + 1);
+    case OP_MUL: return along(g, m->a, d, depth + 1) || along(g, m->b, d, depth + 1);
     case OP_ADD:
-    case OP_SUB: return along(g, m->a, of, count, depth + 1) && along(g, m->b, of, count, depth + 1);
+    case OP_SUB: return along(g, m->a, d, depth + 1) && along(g, m->b, d, depth + 1);
     default: return false;
     }
 }
 
-int graph_direction(const graph *g, node n, graph_directed *out)
+int graph_direction(const graph *g, node n, graph_directed *d)
 {
     const graph_node *m = graph_at(g, n);
-    if (m->op == OP_DIV && (out->count = length_of(g, m->b, out->component)) &&
-        along(g, m->a, out->component, out->count, 0)) {
-        out->length = m->b, out->above = m->a, out->factor = UINT32_MAX;
-        return out->count;
+    d->factor = UINT32_MAX;
+    if (m->op == OP_DIV && (d->count = length_in(g, m->b, 0, d)) && along(g, m->a, d, 0)) {
+        d->divisor = m->b, d->above = m->a;
+        return d->count;
     }
     for (int k = 0; m->op == OP_MUL && k < 2; k++) {
         const node quotient = k ? m->a : m->b, other = k ? m->b : m->a;
         const graph_node *q = graph_at(g, quotient);
-        if (q->op != OP_DIV || !(out->count = length_of(g, q->b, out->component))) continue;
-        if (!along(g, other, out->component, out->count, 0) || along(g, q->a, out->component, out->count, 0)) continue;
-        out->length = q->b, out->above = other, out->factor = is_one(g, q->a) ? UINT32_MAX : q->a;
-        return out->count;
+        if (q->op != OP_DIV || !(d->count = length_in(g, q->b, 0, d))) continue;
+        if (!along(g, other, d, 0) || along(g, q->a, d, 0)) continue;
+        d->divisor = q->b, d->above = other, d->factor = q->a;
+        return d->count;
     }
     return 0;
 }
 
-node graph_along(graph *g, node n, const node *component, const node *with, int count)
+node graph_along(graph *g, node n, const graph_directed *d, const node *with)
 {
     const graph_node m = *graph_at(g, n);
-    for (int k = 0; k < count; k++) {
-        const int way = as_component(g, n, component[k]);
-        if (way) return way > 0 ? with[k] : graph_op(g, OP_NEG, with[k], 0, 0);
+    for (int k = 0; k < d->count; k++) {
+        const ratio r = ratio_of(g, d->component[k], n);
+        if (r.number != 0) return ratio_times(g, &r, with[k]);
     }
     if (m.op == OP_ADD || m.op == OP_SUB) {
-        const node a = graph_along(g, m.a, component, with, count), b = graph_along(g, m.b, component, with, count);
+        const node a = graph_along(g, m.a, d, with), b = graph_along(g, m.b, d, with);
         return graph_op(g, (operation)m.op, a, b, 0);
     }
-    const bool second = m.op == OP_MUL && !along(g, m.a, component, count, 0);
-    const node inner = graph_along(g, second ? m.b : m.a, component, with, count);
+    const bool second = m.op == OP_MUL && !along(g, m.a, d, 0);
+    const node inner = graph_along(g, second ? m.b : m.a, d, with);
     return second ? graph_op(g, OP_MUL, m.a, inner, 0)
                   : graph_op(g, (operation)m.op, inner, m.op == OP_NEG ? 0 : m.b, 0);
+}
+
+node graph_over(graph *g, node n, node divisor, node length)
+{
+    const graph_node m = *graph_at(g, divisor);
+    if (divisor == length) return n;
+    const bool first = graph_deps(g, m.a) & MOVES;
+    return graph_op(g, OP_DIV, graph_over(g, n, first ? m.a : m.b, length), first ? m.b : m.a, 0);
 }

@@ -170,7 +170,7 @@ static void spare_directions(resolution *r, const graph *g, const graph_walk *w)
         if (!graph_direction(g, w->nodes[k], &d)) continue;
         for (int j = 0; j < s->arity && s->node.op == OP_MUL; j++) {
             step *quotient = &r->steps[s->operand[j]];
-            if (quotient->node.op == OP_DIV && quotient->node.b == d.length) quotient->counts = false;
+            if (quotient->node.op == OP_DIV && quotient->node.b == d.divisor) quotient->counts = false;
         }
         if (s->node.op == OP_DIV) s->counts = false;
     }

@@ -12,6 +12,7 @@
 
 #include "lang/base/operation.h"
 #include "lang/graph/graph_walk.h"
+#include "lang/graph/ratio.h"
 
 #include <math.h>
 #include <string.h>
@@ -227,75 +228,11 @@ static node with_value(const model *m, const held_sides *h, size_t first, size_t
 
 /* Surfaces ------------------------------------------------------------------------------------------------------- */
 
-/* An argument as a sum of terms with numbers for factors. */
-enum { TERMS_MOST = 32, TERMS_DEEP = 64 };
-typedef struct terms {
-    node of[TERMS_MOST];
-    double factor[TERMS_MOST];
-    int count; /* TERMS_MOST + 1: there are more */
-} terms;
-
-static void add_terms(graph *g, node n, double factor, int depth, terms *to)
-{
-    const graph_node at = *graph_at(g, n);
-    const graph_node *a = graph_at(g, at.a), *b = at.op == OP_CONST ? NULL : graph_at(g, at.b);
-    const bool deep = depth < TERMS_DEEP;
-    if (deep && (at.op == OP_ADD || at.op == OP_SUB)) {
-        add_terms(g, at.a, factor, depth + 1, to);
-        add_terms(g, at.b, at.op == OP_SUB ? -factor : factor, depth + 1, to);
-    } else if (deep && at.op == OP_NEG) {
-        add_terms(g, at.a, -factor, depth + 1, to);
-    } else if (deep && at.op == OP_MUL && a->op == OP_CONST) {
-        add_terms(g, at.b, factor * a->value, depth + 1, to);
-    } else if (deep && (at.op == OP_MUL || at.op == OP_DIV) && b->op == OP_CONST) {
-        add_terms(g, at.a, at.op == OP_MUL ? factor * b->value : factor / b->value, depth + 1, to);
-    } else {
-        const node one = at.op == OP_CONST                ? graph_const(g, 1)
-                         : at.op == OP_MUL && at.b < at.a ? graph_op(g, OP_MUL, at.b, at.a, 0) /* in one order */
-                                                          : n;
-        const double by = at.op == OP_CONST ? factor * at.value : factor;
-        int k = 0;
-        while (k < to->count && k < TERMS_MOST && to->of[k] != one) k++;
-        if (k >= TERMS_MOST || to->count > TERMS_MOST) {
-            to->count = TERMS_MOST + 1;
-            return;
-        }
-        if (k == to->count) to->of[to->count] = one, to->factor[to->count++] = 0;
-        to->factor[k] += by;
-    }
-}
-
-static void drop_zeros(terms *t)
-{
-    int kept = 0;
-    for (int k = 0; k < t->count && t->count <= TERMS_MOST; k++)
-        if (t->factor[k] != 0) t->of[kept] = t->of[k], t->factor[kept++] = t->factor[k];
-    if (t->count <= TERMS_MOST) t->count = kept;
-}
-
-double sliding_ratio(graph *g, node u, node w)
-{
-    terms a = {.count = 0}, b = {.count = 0};
-    double ratio = 0;
-    add_terms(g, u, 1, 0, &a), add_terms(g, w, 1, 0, &b);
-    drop_zeros(&a), drop_zeros(&b);
-    if (a.count != b.count || a.count == 0 || a.count > TERMS_MOST) return 0;
-    for (int i = 0; i < a.count; i++) {
-        int j = 0;
-        while (j < b.count && b.of[j] != a.of[i]) j++;
-        if (j == b.count) return 0;
-        const double here = b.factor[j] / a.factor[i];
-        if (i && !(fabs(here - ratio) <= 0x1p-50 * fabs(ratio))) return 0;
-        ratio = here;
-    }
-    return ratio;
-}
-
 /* 1 or -1 where two arguments are 0 at the same places; 0: they are not, or it is not seen. */
 static int same_surface(graph *g, node u, node w)
 {
-    const double ratio = sliding_ratio(g, u, w);
-    return (ratio > 0) - (ratio < 0);
+    const ratio r = ratio_of(g, u, w);
+    return r.count ? 0 : (r.number > 0) - (r.number < 0);
 }
 
 static bool links(operation op) { return op == OP_SIGN || compares(op); }

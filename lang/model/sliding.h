@@ -7,7 +7,5 @@
 /* Of a model that has modes for the sides of its switches. Those that the force can hold may be held from now on: the
  * equations of the switches know that side, too. False: no memory. */
 bool sliding_prepare(model *, switches *);
-/* w over u, where w is u with a number for a factor; 0: it is not, or that is not seen. */
-double sliding_ratio(graph *, node u, node w);
 
 #endif

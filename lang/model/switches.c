@@ -1,6 +1,7 @@
 /* Finds the switches of a model, and writes its equations with a side in place of each. See switches.h. */
 #include "lang/model/switches.h"
 
+#include "lang/graph/ratio.h"
 #include "lang/model/sliding.h"
 
 #include "lang/base/operation.h"
@@ -289,23 +290,20 @@ static void find_sliding(builder *b, uint32_t first, const graph_directed *d)
         b->kinds[first + (uint32_t)k].sliding = graph_op(g, OP_DIV, d->component[k], length, 0);
 }
 
-/* Whether a vector has the components of that of the kinds from `first` on, in any order, all with one factor, whose
- * sign is *way: then both have one direction. Their places to `at`. */
-static bool same_direction(const builder *b, uint32_t first, const graph_directed *d, int *at, double *way)
+/* Whether a vector has the components of that of the kinds from `first` on, in any order, all with one factor that does
+ * not move: both have one direction, or with a negative factor opposite ones. Their places to `at`. */
+static bool same_direction(const builder *b, uint32_t first, const graph_directed *d, int *at, ratio *factor)
 {
-    double factor = 0;
+    bool taken[GRAPH_COMPONENTS] = {false};
     for (int i = 0; i < d->count; i++) {
-        double ratio = 0;
-        for (int j = 0; j < d->count && ratio == 0; j++) {
-            ratio = sliding_ratio(b->m->graph, b->s->argument[first + (uint32_t)j].value, d->component[i]);
-            at[i] = j;
+        bool found = false;
+        for (int j = 0; j < d->count && !found; j++) {
+            const ratio r = ratio_of(b->m->graph, b->s->argument[first + (uint32_t)j].value, d->component[i]);
+            found = !taken[j] && r.number != 0 && (i == 0 || ratio_same(&r, factor));
+            if (found) at[i] = j, taken[j] = true, *factor = r;
         }
-        if (ratio == 0 || (i && !(fabs(ratio - factor) <= 0x1p-50 * fabs(factor)))) return false;
-        factor = ratio;
-        for (int j = 0; j < i; j++)
-            if (at[j] == at[i]) return false;
+        if (!found) return false;
     }
-    *way = factor < 0 ? -1 : 1;
     return true;
 }
 
@@ -316,13 +314,13 @@ static bool direction_of(builder *b, const graph_directed *d, const nest *around
     const unsigned levels = g->nodes[d->length].deps & DEP_LEVELS;
     for (uint32_t k = 0; k < b->s->kinds; k++) {
         int at[GRAPH_COMPONENTS];
-        double way;
+        ratio factor;
         if (b->kinds[k].parts != d->count || b->kinds[k].first != k) continue;
         if ((g->nodes[g->nodes[b->kinds[k].n].b].deps & DEP_LEVELS) != levels) continue;
-        if (!same_nest(&b->kinds[k].around, around, levels) || !same_direction(b, k, d, at, &way)) continue;
+        if (!same_nest(&b->kinds[k].around, around, levels) || !same_direction(b, k, d, at, &factor)) continue;
         for (int i = 0; i < d->count; i++) {
             const node side = b->s->side[k + (uint32_t)at[i]];
-            sides[i] = way < 0 ? graph_op(g, OP_NEG, side, 0, 0) : side;
+            sides[i] = ratio_way_times(g, &factor, side);
         }
         return true;
     }
@@ -350,10 +348,10 @@ static node along_direction(builder *b, node n, const node to[3], const nest *ar
     const graph_node at = g->nodes[n];
     const bool second = at.op == OP_MUL && at.b == d.above;
     const graph_node quotient = g->nodes[to[second ? 0 : 1]];
-    if (at.op == OP_MUL && (quotient.op != OP_DIV || quotient.b != d.length)) return UINT32_MAX;
+    if (at.op == OP_MUL && (quotient.op != OP_DIV || quotient.b != d.divisor)) return UINT32_MAX;
     node sides[GRAPH_COMPONENTS];
     if (!direction_of(b, &d, around, sides)) return n;
-    const node by = graph_along(g, to[second ? 1 : 0], d.component, sides, d.count);
+    const node way = graph_along(g, to[second ? 1 : 0], &d, sides), by = graph_over(g, way, d.divisor, d.length);
     return d.factor == UINT32_MAX ? by : product(g, quotient.a, by);
 }
 
