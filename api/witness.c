@@ -37,6 +37,8 @@ enum {
     WAYS = 32,     /*   at first so many, then one of as many others that leads nearest, */
     MORE = 64,     /*   and at most so many such; */
     IDLE = 4,      /*   where so many of these do not help, none does. */
+    AHEAD = 256,   /* steps, at most, ahead of which the force is looked at */
+    VAIN = 32,     /* steps after which that is tried again, where it has failed */
     SHORTER = 6,   /* times that a probe is shorter, before it is no matter of its steps that no way does it */
     BEHIND = 3,    /* steps that the companion is led through, the first of which lacks something */
     WIDTH = 64     /* velocities of a run: of more of them ways say too little */
@@ -47,11 +49,11 @@ enum {
  * least so many evaluations, and then a part of the evaluations of the run. That part suits a compiled run, whose
  * evaluation costs a thirtieth: what is looked at decides steps, and the machine decides none. A series of order n
  * costs as much as n^2/4 evaluations. */
-#define SPEND_FIRST 4e6     /* operations, */
-#define SPEND_OF_MANY 2.5e5 /*   of a run that is one of many, and */
+#define SPEND_FIRST 4e6   /* operations, */
+#define SPEND_OF_MANY 1e6 /*   of a run that is one of many, and */
 #define SPEND_LEAST 200.0
-#define SPEND 0.02
-#define BOUNDS 4.0  /* what bounds over a step cost */
+#define SPEND 0.05
+#define BOUNDS 12.0 /* what bounds over a step cost */
 #define LONGER 1.25 /* than all before: such a step is looked at, whatever was spent */
 /* Operations, too: what looking at one step may take, what one probe may spend, and what all steps that were rightly
  * refused, and those that follow such a step up to its end, may cost besides. Looking at sides is counted by itself,
@@ -118,14 +120,15 @@ struct witness {
     double *other_way;   /* one more of these */
     resolution *smooth;  /* what can hide in the force where its switches keep their sides; NULL: nothing */
     interval *in_x, *in_v;
-    double operations; /* of one evaluation */
-    double first;      /* evaluations that it may spend in any case */
-    bool kinked;       /* the typed force has switches, */
-    bool located;      /*   at which steps of the run end; */
-    bool covered;      /*   some within sums, where nothing says that they stand at 0 */
-    bool probes;       /* it looks at a probe, and refuses at once */
-    bool events;       /* the run has some */
-    bool leaves;       /* the companion, too, as it is */
+    interval *clear_x, *clear_v; /* where and when the force hides nothing, in any step */
+    double operations;           /* of one evaluation */
+    double first;                /* evaluations that it may spend in any case */
+    bool kinked;                 /* the typed force has switches, */
+    bool located;                /*   at which steps of the run end; */
+    bool covered;                /*   some within sums, where nothing says that they stand at 0 */
+    bool probes;                 /* it looks at a probe, and refuses at once */
+    bool events;                 /* the run has some */
+    bool leaves;                 /* the companion, too, as it is */
     stepper *probe;
     struct witness *inner; /* that looks at the probe */
     /* From here on, of the present motion. */
@@ -142,6 +145,9 @@ struct witness {
     int64_t steps;        /* of the run, that stand, as far as it was shown them, */
     int64_t looked;       /*   and at how many of them it has looked; */
     int64_t rested, rest; /*   how many it was to leave aside after the last one, and how many of these are to come */
+    interval clear;       /* the times of clear_x, clear_v; empty: there is none */
+    double ahead;         /* steps that the force is looked at ahead, less than 2: */
+    int vain;             /*   not for so many steps */
     double spared;        /* evaluations that are not counted, since they led to a step that was refused */
     bool strict;          /* sides of switches are looked at */
     bool crosses;         /* a switch may stand at 0 within the step */
@@ -164,7 +170,7 @@ static witness *make(const motus_run *r, const differences *seen)
     const motus_system *const s = r->home ? r->home : r->system;
     const bool ways = r->home && p->nv <= WIDTH;
     const size_t nx = p->nx + 1, nv = p->nv + 1,
-                 numbers = STATES * (nx + nv) + 14 * nv + 2 * (nx + nv) + (ways ? (WAYS + MORE) * nv : 0);
+                 numbers = STATES * (nx + nv) + 14 * nv + 4 * (nx + nv) + (ways ? (WAYS + MORE) * nv : 0);
     witness *w = take(&r->allocator, 1, sizeof *w + numbers * sizeof(double));
     if (!w) return NULL;
     *w = (witness){.typed = s, .machine = r->machine, .method = r->chosen, .allocator = r->allocator, .seen = seen};
@@ -178,7 +184,8 @@ static witness *make(const motus_run *r, const differences *seen)
     w->located = ways;
     double *at = (double *)(void *)(w + 1);
     w->in_x = (interval *)(void *)at, w->in_v = w->in_x + nx;
-    at += 2 * (nx + nv);
+    w->clear_x = w->in_v + nv, w->clear_v = w->clear_x + nx;
+    at += 4 * (nx + nv);
     for (size_t k = 0; k < STATES; k++, at += nx + nv) w->at[k] = (state){.x = at, .v = at + nx};
     double **const arrays[] = {&w->a,         &w->v,         &w->most, &w->missing, &w->allowed,
                                &w->rounded,   &w->dv,        &w->room, &w->scale,   &w->weight,
@@ -211,6 +218,8 @@ static void forget(witness *w, const stepper *s)
     memset(w->rounded_x, 0, (w->nv + 1) * sizeof *w->rounded_x);
     w->until = w->differs = NAN;
     w->least = INFINITY;
+    w->clear = (interval){1, -1};
+    w->ahead = AHEAD / 16;
     w->earned = w->first;
     w->evaluations = s ? stepper_evaluations(s) : 0;
 }
@@ -301,11 +310,11 @@ static size_t place(const witness *w, size_t k) { return k < w->own ? k : k - w-
 
 static interval about(double middle, double half) { return (interval){middle - half, middle + half}; }
 
-static bool fits(witness *w, resolution *bends, const state *from, const state *to)
+/* Where the motion is, in a part of a step. */
+static interval surround(witness *w, const state *from, const state *to)
 {
     const problem *const p = &w->typed->problem;
     const double h = fabs(to->t - from->t);
-    if (!bends) return true;
     for (size_t k = 0; k < p->nv; k++) {
         const size_t at = place(w, k);
         const double around = w->strict ? SUSPICIOUS * w->rounded[at] : 0;
@@ -315,8 +324,54 @@ static bool fits(witness *w, resolution *bends, const state *from, const state *
         const double way = to->x[k] - from->x[k], around = w->strict ? SUSPICIOUS * w->rounded_x[k] : 0;
         w->in_x[k] = about(from->x[k] + way / 2, fabs(way) / 2 + h * h / 8 * w->most[k] + around);
     }
-    const interval t = {fmin(from->t, to->t), fmax(from->t, to->t)};
-    return resolution_fits(bends, t, w->in_x, w->in_v, w->typed->model->pool);
+    return (interval){fmin(from->t, to->t), fmax(from->t, to->t)};
+}
+
+static bool passes(witness *w, resolution *bends, interval t, interval *x, interval *v)
+{
+    w->spent += BOUNDS;
+    return resolution_fits(bends, t, x, v, w->typed->model->pool);
+}
+
+static bool inside(const interval *part, const interval *whole, size_t count)
+{
+    for (size_t k = 0; k < count; k++)
+        if (!(part[k].low >= whole[k].low && part[k].high <= whole[k].high)) return false;
+    return true;
+}
+
+/* Where it will be in the next steps, if it goes on like that: widened on the side to which it moves, and somewhat on
+ * both. */
+static interval extend(interval now, double way, double steps)
+{
+    const double most = (now.high - now.low) * steps / 4, far = way * steps;
+    return (interval){now.low + fmin(far, 0) - most, now.high + fmax(far, 0) + most};
+}
+
+/* Whether nothing hides in a whole step, whose surroundings are in_x and in_v at t. What fits over a box fits over all
+ * that lies in it, so many short steps need but one look, at where they may lead. */
+static bool clear(witness *w, const state *from, const state *to, interval t)
+{
+    const problem *const p = &w->typed->problem;
+    if (inside(&t, &w->clear, 1) && inside(w->in_x, w->clear_x, p->nx) && inside(w->in_v, w->clear_v, p->nv))
+        return true;
+    if (w->vain > 0) return w->vain--, passes(w, w->bends, t, w->in_x, w->in_v);
+    for (size_t k = 0; k < p->nx; k++) w->clear_x[k] = extend(w->in_x[k], to->x[k] - from->x[k], w->ahead);
+    for (size_t k = 0; k < p->nv; k++)
+        w->clear_v[k] = extend(w->in_v[k], to->v[place(w, k)] - from->v[place(w, k)], w->ahead);
+    w->clear = extend(t, to->t - from->t, w->ahead);
+    if (passes(w, w->bends, w->clear, w->clear_x, w->clear_v)) return w->ahead = fmin(2 * w->ahead, AHEAD), true;
+    w->clear = (interval){1, -1};
+    w->ahead /= 4;
+    if (w->ahead < 2) w->ahead = AHEAD / 16, w->vain = VAIN;
+    return passes(w, w->bends, t, w->in_x, w->in_v);
+}
+
+static bool fits(witness *w, resolution *bends, const state *from, const state *to)
+{
+    const interval t = bends ? surround(w, from, to) : (interval){0, 0};
+    const bool whole = bends == w->bends && from == &w->at[FROM] && to == &w->at[TO] && !w->strict;
+    return !bends || (whole ? clear(w, from, to, t) : passes(w, bends, t, w->in_x, w->in_v));
 }
 
 /* In [-1, 1), from the number of a way and of a variable. */
@@ -478,8 +533,8 @@ static bool look(witness *w, stepper *s, const state *from, const state *to, int
 {
     state *const middle = &w->at[MIDDLE + depth];
     const bool last = depth == DEPTH || w->parts >= PARTS || w->spent > w->most_spent;
-    w->spent += BOUNDS;
-    if (!w->covered && fits(w, w->bends, from, to)) return hold(w, s, from, to);
+    const bool known = depth == 0 && !w->strict; /* it has not fitted */
+    if (!w->covered && !known && fits(w, w->bends, from, to)) return hold(w, s, from, to);
     const bool sided = (w->located || (w->steady && w->kinked)) && depth >= HELD,
                deep = w->strict && (depth >= DEEP || last);
     if (sided && (deep || fits(w, w->smooth, from, to))) {
@@ -648,7 +703,7 @@ static bool see_ends(witness *w, stepper *s)
     to->t = stepper_time(s), from->t = stepper_marked(s, &lost, &x, &v);
     memcpy(from->x, x, w->nx * sizeof *x);
     memcpy(from->v, v, w->nv * sizeof *v);
-    w->spent += BOUNDS;
+    w->spent++;
     return stepper_sync(s, to->x, to->v, NULL, NULL) == MOTUS_OK;
 }
 
