@@ -8,6 +8,7 @@
 #include "api/bars.h"
 #include "api/choice.h"
 #include "api/decimals.h"
+#include "api/diagnosis.h"
 #include "api/suggest.h"
 #include "api/witness.h"
 
@@ -15,7 +16,7 @@
 #include <stdio.h>
 #include <string.h>
 
-enum { CHUNK = 256 };
+enum { CHUNK = 256, EARLY = 1 << 12 };
 
 /* A search may have any number of trials, so each takes half of what is left of it. */
 typedef struct share {
@@ -68,6 +69,27 @@ static bool refuted(const motus_run *r)
     return number != SIZE_MAX;
 }
 
+/* Takes the trial's steps. The stepper asks late whether a run crawls, so that hardly any is asked; one of which these
+ * first steps lead nowhere is asked now. */
+static motus_status integrate(trial *s)
+{
+    motus_run *r = s->run;
+    const timing *t = &r->timing;
+    bool asked = !row_adaptive(&r->chosen) || !stepper_problem(r->stepper)->traits.smooth;
+    motus_status status = MOTUS_OK;
+    while (status == MOTUS_OK && !motus_run_done(r) && !hopeless(s)) {
+        status = motus_run_step(r, CHUNK, &s->failure);
+        const int64_t steps = motus_run_steps(r);
+        if (status != MOTUS_OK || asked || steps < EARLY) continue;
+        const double now = motus_run_time(r), gone = fabs(now - t->t0);
+        const double pace = gone * STEPPER_PACE / (double)steps;
+        asked = true;
+        if (stepper_may_crawl(STEPPER_PACE, pace, fabs(t->until - now), 0, true))
+            status = diagnosis_crawls(s->system, r->stepper, steps, gone, &s->failure);
+    }
+    return status;
+}
+
 /* One trial. MOTUS_OK also where the run itself failed: then its bar is infinite. */
 static motus_status try(trial *s, motus_error *err)
 {
@@ -83,8 +105,7 @@ static motus_status try(trial *s, motus_error *err)
         search_set(&s->search, s->run->chosen.relative);
         *s->size = s->search.size;
     }
-    while (status == MOTUS_OK && !motus_run_done(s->run) && !hopeless(s))
-        status = motus_run_step(s->run, CHUNK, &s->failure);
+    if (status == MOTUS_OK) status = integrate(s);
     if (status == MOTUS_OK) {
         motus_estimate e = motus_default_estimate();
         status = motus_run_estimate(s->run, &e, &s->failure);
@@ -113,10 +134,11 @@ static motus_status try(trial *s, motus_error *err)
         fail(&s->failure, MOTUS_ACCURACY, "no accuracy can be promised, because %s", s->run->bars->why);
         status = MOTUS_ACCURACY;
     }
-    /* what the motion itself does no smaller tolerance avoids */
+    /* what the motion itself does no smaller tolerance avoids, nor that the first one is below rounding */
     const motus_cause cause = s->failure.cause;
     const bool motions = cause == MOTUS_CAUSE_SINGULAR || cause == MOTUS_CAUSE_STIFF || cause == MOTUS_CAUSE_INFINITE;
-    const bool ends = motions && s->search.length == 0;
+    const bool rounds = cause == MOTUS_CAUSE_ROUNDING && s->search.trials == 0;
+    const bool ends = (motions || rounds) && s->search.length == 0;
     if (!ends_all(status) && status != MOTUS_ACCURACY && !ends) return MOTUS_OK;
     if (err) motus_struct_write(MOTUS_DEF_ERROR, &s->failure, err);
     return status;

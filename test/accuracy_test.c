@@ -504,6 +504,31 @@ static void refused(void **state)
     assert_string_equal(err.message, "a tolerance and an accuracy are set");
 }
 
+/* Of a body that others hold in balance the force is rounding, which a tolerance relative to its own speed asks to be
+ * followed: no smaller one is tried, it is said soon, and what is said to try works. */
+static void held_in_balance(void **state)
+{
+    (void)state;
+    motus_system *s = given_text("N = 7\nc'' = sum(i = 1..N: 1e-6 (p[i] - c)/|p[i] - c|^3)\n"
+                                 "p[i]'' = (c - p[i])/|p[i] - c|^3 for i = 1..N\nc(0) = (0, 0); c'(0) = (0, 0)\n"
+                                 "p[i](0) = (1.01 cos(2 pi i/N), 1.01 sin(2 pi i/N)) for i = 1..N\n"
+                                 "p[i]'(0) = (0, 0) for i = 1..N");
+    motus_error err = motus_default_error();
+    motus_run *r = NULL;
+    motus_run_def def = wanted("dop853", 1e-9, 0.4);
+    assert_int_equal(made(s, &def, &r, &err), MOTUS_STEPS);
+    assert_int_equal(err.cause, MOTUS_CAUSE_ROUNDING);
+    assert_non_null(strstr(err.message, "its last 4096 steps"));
+    assert_non_null(strstr(err.message, "the tolerance 1e-10 is below rounding"));
+    assert_string_equal(err.attempt, "tolerance = 1e-10 absolute");
+    motus_run_destroy(r);
+    def.accuracy = NAN, def.tolerance = 1e-10, def.absolute = 1;
+    must(made(s, &def, &r, &err), &err, "the attempt");
+    assert_true(motus_run_steps(r) < 100);
+    motus_run_destroy(r);
+    motus_system_destroy(s);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {cmocka_unit_test(no_false_claim),
@@ -517,6 +542,7 @@ int main(void)
                                        cmocka_unit_test(callbacks),
                                        cmocka_unit_test(out_of_reach),
                                        cmocka_unit_test(the_part_of_decimals),
+                                       cmocka_unit_test(held_in_balance),
                                        cmocka_unit_test(refused)};
     open_cache();
     const int failed = cmocka_run_group_tests(tests, NULL, NULL);
