@@ -31,6 +31,7 @@
 #define FAR 100.0           /* faster than the start, which tells no period then */
 #define STABLE 0.5          /* of the step up to which the method does not grow: a default step stays within this, */
 #define RADIANS 2.0         /*   of what swings within this in one step, */
+#define DECAYS 1e-6         /* of a rate, and the part by which a step grows: what is smaller is rounding */
 #define SHORT 0.25          /*   and where no such step is known, within this of the rate */
 
 typedef struct scales {
@@ -43,6 +44,8 @@ typedef struct scales {
     double rate, period;        /* the fastest, 0: the force is constant; and the longest */
     double longest;             /* the way to the end, where none is given */
     linear_rates first, fast;   /* at the start, and where the motion is fastest */
+    const chosen *row;          /* whose steps of this size are judged, NULL: none are; */
+    double step, grown;         /*   by how many powers of ten they have grown in a time of 1 */
 } scales;
 
 static double noise(const problem *p) { return p->jvp ? NOISE_EXACT : NOISE_QUOTIENT; }
@@ -125,11 +128,39 @@ static void drive(scales *s, double horizon, double *samples)
 
 /* ---- the motion ---- */
 
+/* By how many powers of ten a step grows at rates of the motion that swing or decay. */
+static double grows(const scales *s, const linear_rates *r)
+{
+    double re[RATE_MOTION_MAX], im[RATE_MOTION_MAX], radius[RATE_MOTION_MAX], most = 0;
+    size_t count = 0;
+    for (int k = 0; k < r->count; k++) {
+        const double size = s->step * hypot(r->re[k], r->im[k]);
+        if (s->way * r->re[k] > DECAYS * hypot(r->re[k], r->im[k]) || !(size > 0 && size <= MOTUS_STABILITY_FAR))
+            continue;
+        re[count] = s->step * fmin(s->way * r->re[k], 0);
+        im[count++] = s->step * fabs(r->im[k]);
+    }
+    if (!count || motus_stability(s->row->name, count, re, im, radius, NULL) != MOTUS_OK) return 0;
+    for (size_t k = 0; k < count; k++) most = fmax(most, isfinite(radius[k]) ? radius[k] : 0); /* NaN: not known */
+    return most > 1 + DECAYS ? log10(most) : 0;
+}
+
+static void judge(scales *s, const along *a)
+{
+    double sum = 0, time = 0;
+    for (size_t k = 1; k < a->count; k++) {
+        sum += a->places[k].span / s->step * grows(s, &a->places[k].rates);
+        time += a->places[k].span;
+    }
+    s->grown = time > 0 ? sum / time : 0;
+}
+
 /* Raises the rate to that of the motion, and shortens a period that is the start's alone, as at an inflection of the
  * potential. Afterwards the state is one of the motion. */
 static motus_status follow(scales *s, double horizon, double *work, motus_error *err)
 {
     const problem *p = s->at.problem;
+    if (s->row) s->grown = grows(s, &s->first) / s->step;
     if (s->system->text.draft || p->traits.constant || (p->traits.affine && !p->traits.time)) return MOTUS_OK;
     along *a = take(&s->system->allocator, 1, sizeof *a);
     if (!a) return fail(err, MOTUS_MEMORY, "no memory to follow the motion");
@@ -141,6 +172,7 @@ static motus_status follow(scales *s, double horizon, double *work, motus_error 
         s->longest = PERIODS * period;
     }
     if (rate > FASTER * s->rate) s->rate = rate, s->fast = fastest->rates;
+    if (s->row) judge(s, a);
     give(&s->system->allocator, a);
     return status;
 }
@@ -336,6 +368,21 @@ static motus_status suggest(motus_system *system, motus_settings *set, motus_err
     set->rate = s.rate;
     set->period = s.period;
     return MOTUS_OK;
+}
+
+motus_status suggest_growth(motus_system *system, const motus_settings *set, double *powers, motus_error *err)
+{
+    chosen row;
+    const motus_method *card;
+    *powers = 0;
+    motus_status status = choice_method(system, set->method, &row, &card, err);
+    if (status != MOTUS_OK || row_adaptive(&row)) return status;
+    const double from = isnan(set->from) ? system->start : set->from, duration = fabs(set->until - from);
+    scales s = {.system = system, .at = {.problem = &system->problem, .t = from}, .way = set->until < from ? -1 : 1};
+    s.row = &row, s.step = set->step;
+    status = measure(&s, duration, err);
+    if (status == MOTUS_OK) *powers = s.grown * duration;
+    return status;
 }
 
 motus_status motus_suggest(motus_system *s, motus_settings *set, motus_error *err)

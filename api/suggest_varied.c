@@ -104,3 +104,36 @@ motus_status motus_suggest_varied(motus_system *s, size_t count, const char *con
     if (status == MOTUS_OK) motus_struct_write(MOTUS_DEF_SETTINGS, &ours, set);
     return status;
 }
+
+motus_status motus_step_growth(motus_system *s, size_t count, const char *const *names, size_t trajectories,
+                               const double *const *values, const motus_settings *set, double *powers, motus_error *err)
+{
+    if (!motus_error_sound(err)) return MOTUS_ARGUMENT;
+    if (!s || !set || !powers || (count && !names) || (trajectories && count && !values))
+        return fail(err, MOTUS_ARGUMENT, "motus_step_growth needs a system, names, values, settings and a place");
+    motus_settings ours;
+    *powers = 0;
+    motus_status status = motus_struct_read(MOTUS_DEF_SETTINGS, set, &ours, err);
+    if (status == MOTUS_OK && !(ours.step > 0 && isfinite(ours.step) && isfinite(ours.until) && !isinf(ours.from)))
+        status = fail(err, MOTUS_ARGUMENT, "motus_step_growth needs a step and an end");
+    if (status != MOTUS_OK) return status;
+    varied y = {0};
+    modes m = modes_enter();
+    status = begin(&y, s, names, count, err);
+    for (size_t i = 0; i < trajectories && status == MOTUS_OK; i++) {
+        double one = 0;
+        motus_error why = motus_default_error();
+        if (!become(&y, values, i)) status = fail(err, MOTUS_MEMORY, "no memory to judge a step");
+        if (status != MOTUS_OK) break;
+        const motus_status found = suggest_growth(y.system, &ours, &one, &why);
+        if (found == MOTUS_MEMORY || found == MOTUS_CALLBACK) {
+            if (err) motus_struct_write(MOTUS_DEF_ERROR, &why, err);
+            status = found;
+        } else if (found == MOTUS_OK) {
+            *powers = fmax(*powers, one);
+        }
+    }
+    modes_leave(m);
+    end(&y, &s->allocator);
+    return status;
+}

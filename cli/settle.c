@@ -9,6 +9,9 @@
 
 #include <math.h>
 #include <stdio.h>
+#include <string.h>
+
+#define GROWN 2.0 /* powers of ten: more is no motion any more */
 
 static void note(const load *m, bool sweep, const motus_settings *set)
 {
@@ -47,6 +50,29 @@ static motus_status suggest(const load *m, const grid *sweep, motus_settings *se
     return status;
 }
 
+/* What nothing else would show: steps that grow where the motion does not. sweep: NULL: of a run. */
+static motus_status judge(const load *m, const grid *sweep, const motus_settings *given, motus_error *err)
+{
+    double **values = NULL, powers = 0;
+    size_t rows = 1;
+    motus_settings set = *given;
+    if (!set.method) set.method = "verlet";
+    const motus_status status = sweep ? grid_extremes(sweep, &values, &rows, err) : MOTUS_OK;
+    if (!status)
+        motus_step_growth(m->system, sweep ? sweep->count : 0, sweep ? sweep->names : NULL, rows,
+                          (const double *const *)values, &set, &powers, NULL);
+    if (powers > GROWN) {
+        char step[DECIMAL_MAX];
+        complain_note(
+            "steps of %s by %s are too long: where %s swings or decays they make it grow, and what is %s is not "
+            "the motion. Give a smaller --step",
+            decimal(set.step, step), set.method, sweep ? "a motion at the ends of what varies" : "the motion",
+            sweep ? "recorded" : "printed");
+    }
+    if (sweep) grid_extremes_free(values);
+    return status;
+}
+
 motus_status settle_timing(load *m, const options *o, int needed, const char *method, const grid *sweep,
                            motus_error *err)
 {
@@ -60,10 +86,12 @@ motus_status settle_timing(load *m, const options *o, int needed, const char *me
     m->suggested = (!adaptive && isnan(o->step) && isnan(set.step) ? SETTLE_STEP : 0) |
                    (isnan(o->until) && isnan(set.until) ? SETTLE_UNTIL : 0);
     m->suggested &= needed;
-    if (!m->suggested) return MOTUS_OK;
     if (!isnan(o->step)) set.step = o->step;
     if (!isnan(o->until)) set.until = o->until;
     if (method) set.method = method;
+    const bool blind = sweep ? !o->errors : o->error && !strcmp(o->error, "none");
+    const bool told = !blind || o->quiet || !(needed & SETTLE_STEP) || adaptive;
+    if (!m->suggested) return told || isnan(set.step) || isnan(set.until) ? MOTUS_OK : judge(m, sweep, &set, err);
     motus_status status = suggest(m, sweep, &set, err);
     if (status) return status;
     if (m->suggested & SETTLE_STEP) m->step = set.step;

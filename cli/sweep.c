@@ -329,6 +329,7 @@ static void report_json(const sweep *s, const sweep_file *f, double wall, const 
     json_bool(&j, "fast", s->options->fast);
     json_number(&j, "seconds", motus_ensemble_seconds(e));
     json_number(&j, "wall", wall);
+    json_integer(&j, "lost", (int64_t)f->lost);
     json_integer(&j, "stopped", (int64_t)f->stopped);
     json_open(&j, "stopped_by", '{');
     for (int k = MOTUS_CAUSE_NONE + 1; k < MOTUS_CAUSE_COUNT; k++)
@@ -399,6 +400,7 @@ static void add_up(const team *t, sweep_file *f)
 {
     if (team_size(t) == 1) return;
     f->stopped = t->sum(t->context, f->stopped);
+    f->lost = t->sum(t->context, f->lost);
     for (int k = 0; k < MOTUS_CAUSE_COUNT; k++) f->stopped_by[k] = t->sum(t->context, f->stopped_by[k]);
 }
 
@@ -431,6 +433,10 @@ static motus_status finish(const sweep *s, sweep_file *f, sweep_events *events, 
         complain_note("%llu of %llu trajectories did not reach their end: their column `stopped` has the time, and "
                       "`stopped_by` the cause where it is known",
                       (unsigned long long)f->stopped, (unsigned long long)s->rows);
+    if (!status && f->lost > 0 && !o->quiet)
+        complain_note("no digit is known to be significant at the end of %llu of %llu trajectories: their column "
+                      "`significant` is 0",
+                      (unsigned long long)f->lost, (unsigned long long)s->rows);
     return status;
 }
 

@@ -104,8 +104,9 @@ typedef struct sweep_file {
     sweep_archive *archive;      /* NULL: it is none */
     struct sweep_events *events; /* whose events are to be there before its rows are */
     uint64_t rows, bytes;        /* complete rows in the file, and where they end; of an archive the next row */
-    uint64_t stopped;            /* how many of these trajectories stopped, */
-    uint64_t stopped_by[MOTUS_CAUSE_COUNT]; /*   and by which cause */
+    uint64_t lost;               /* how many of these trajectories have no significant digit at their end, */
+    uint64_t stopped;            /*   and how many stopped, */
+    uint64_t stopped_by[MOTUS_CAUSE_COUNT]; /*   by which cause */
     uint64_t found;                         /* rows of an earlier, interrupted command; of an archive anywhere in it */
     sweep_share share;                      /* of this process, of an archive */
     checks checks;                          /* of a CSV or .npy */

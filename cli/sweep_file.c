@@ -167,7 +167,7 @@ static motus_status put_beside(const sweep_file *f, motus_error *err)
 
 static motus_status put_head(sweep_file *f, motus_error *err)
 {
-    f->rows = f->bytes = f->stopped = 0;
+    f->rows = f->bytes = f->stopped = f->lost = 0;
     memset(f->stopped_by, 0, sizeof f->stopped_by);
     if (f->regular && (ftruncate(f->descriptor, 0) != 0 || lseek(f->descriptor, 0, SEEK_SET) != 0))
         return cannot_write(f, errno, err);
@@ -312,6 +312,14 @@ int sweep_event_number(const sweep *s, const char *name)
     return -1;
 }
 
+/* Whether a number of trajectory i has no significant digit. */
+static bool is_lost(const sweep *s, const sweep_rows *rows, size_t i)
+{
+    for (size_t r = 0; r < s->records.count; r++)
+        if (sweep_record_errs(&s->records.items[r]) && isinf(rows->errors[r][i])) return true;
+    return false;
+}
+
 void sweep_file_numbers(const sweep *s, const sweep_rows *rows, size_t from, size_t count, double *out, size_t next_row,
                         size_t next_column)
 {
@@ -320,7 +328,6 @@ void sweep_file_numbers(const sweep *s, const sweep_rows *rows, size_t from, siz
         for (size_t i = 0; i < count; i++) out[i * next_row] = rows->values[k][from + i];
     for (size_t r = 0; r < s->records.count; r++, out += next_column)
         for (size_t i = 0; i < count; i++) out[i * next_row] = isnan(stopped[i]) ? rows->results[r][from + i] : NAN;
-    double *const errors = out;
     for (size_t r = 0; s->errors && r < s->records.count; r++) {
         if (!sweep_record_errs(&s->records.items[r])) continue;
         for (size_t i = 0; i < count; i++) out[i * next_row] = isnan(stopped[i]) ? rows->errors[r][from + i] : NAN;
@@ -328,10 +335,7 @@ void sweep_file_numbers(const sweep *s, const sweep_rows *rows, size_t from, siz
     }
     if (s->errors) {
         for (size_t i = 0; i < count; i++) {
-            bool significant = true;
-            for (const double *e = errors; e < out; e += next_column)
-                significant = significant && !isinf(e[i * next_row]);
-            out[i * next_row] = isnan(stopped[i]) ? significant : NAN;
+            out[i * next_row] = isnan(stopped[i]) ? !is_lost(s, rows, from + i) : NAN;
         }
         out += next_column;
     }
@@ -392,6 +396,7 @@ motus_status sweep_file_rows(sweep_file *f, size_t count, const sweep_rows *give
     uint64_t rows = f->rows; /* in the file; f->rows counts those in the buffer too */
     for (size_t i = 0; i < count; i++) {
         f->stopped += !isnan(given->stopped[i]);
+        f->lost += f->sweep->errors && isnan(given->stopped[i]) && is_lost(f->sweep, given, i);
         f->stopped_by[motus_ensemble_stopped_by(f->sweep->ensemble, i)]++;
     }
     if (f->archive) return sweep_archive_rows(f, count, given, err);

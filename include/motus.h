@@ -443,6 +443,12 @@ MOTUS_API motus_status motus_suggest(motus_system *, motus_settings *, motus_err
  * the system as it is. MOTUS_NAME: as motus_ensemble_create. */
 MOTUS_API motus_status motus_suggest_varied(motus_system *, size_t count, const char *const *names, size_t trajectories,
                                             const double *const *values, motus_settings *, motus_error *);
+/* By how many powers of ten the steps of these settings, which give step and end, grow up to the end where the motion
+ * of one of the trajectories swings or decays: from the spectral radius of the steps (motus_stability) at the rates
+ * along it. More than 1: what such a run prints is not the motion. 0: not known, or the method adapts its steps. */
+MOTUS_API motus_status motus_step_growth(motus_system *, size_t count, const char *const *names, size_t trajectories,
+                                         const double *const *values, const motus_settings *, double *powers,
+                                         motus_error *);
 
 /* What the library knows of the equations: read off a model, given by the definition of a callback. 1: yes; 0: no, or
  * not known. */

@@ -193,6 +193,50 @@ static void varied(void **state)
     motus_system_destroy(s);
 }
 
+/* Explicit Euler takes x'' = -w^2 x to (1 + w^2 h^2)^(1/2) of its size in a step, and rk4 leaps a pendulum by steps of
+ * 2. Steps within the limit of stability do not grow, nor do those of a motion that grows itself. */
+static void growth(void **state)
+{
+    (void)state;
+    motus_error err = motus_default_error();
+    motus_system *s = given_text("k = 1; x'' = -k x; x(0) = 1; x'(0) = 0");
+    const char *names[] = {"k"};
+    const double k[] = {1, 4}, *values[] = {k};
+    motus_settings set = motus_default_settings();
+    double powers;
+    set.method = "explicit-euler", set.step = 0.1, set.until = 1000;
+    must(motus_step_growth(s, 0, NULL, 1, NULL, &set, &powers, &err), &err, "motus_step_growth");
+    assert_true(fabs(powers - 5000 * log10(1.01)) < 1e-6);
+    must(motus_step_growth(s, 1, names, 2, values, &set, &powers, &err), &err, "motus_step_growth");
+    assert_true(fabs(powers - 5000 * log10(1.04)) < 1e-6);
+    set.method = "verlet", set.step = 0.99, set.until = 1e9;
+    must(motus_step_growth(s, 1, names, 2, values, &set, &powers, &err), &err, "motus_step_growth");
+    assert_true(powers == 0);
+    set.method = "dop853";
+    must(motus_step_growth(s, 0, NULL, 1, NULL, &set, &powers, &err), &err, "motus_step_growth");
+    assert_true(powers == 0);
+    set.step = NAN;
+    assert_int_equal(motus_step_growth(s, 0, NULL, 1, NULL, &set, &powers, &err), MOTUS_ARGUMENT);
+    motus_system_destroy(s);
+    static const struct {
+        const char *text;
+        double step;
+        int grows;
+    } rows[] = {{"x'' = -9.81 sin(x); x(0) = pi/2; x'(0) = 0", 2, 1},
+                {"x'' = -9.81 sin(x); x(0) = pi/2; x'(0) = 0", 0.2, 0},
+                {"x'' = x; x(0) = 1; x'(0) = 0", 2, 0},
+                {"y' = -50 y + 49; y(0) = 0", 0.1, 1},
+                {"y' = -50 y + 49; y(0) = 0", 0.05, 0}};
+    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
+        set = motus_default_settings();
+        set.method = "rk4", set.step = rows[i].step, set.until = 100;
+        s = given_text(rows[i].text);
+        must(motus_step_growth(s, 0, NULL, 1, NULL, &set, &powers, &err), &err, "motus_step_growth");
+        if ((powers > 2) != rows[i].grows) fail_msg("%s by steps of %g: 10^%g", rows[i].text, rows[i].step, powers);
+        motus_system_destroy(s);
+    }
+}
+
 /* Runs, ensembles and studies have what motus_suggest says; a system that is set anew is measured anew. */
 static void everywhere(void **state)
 {
@@ -309,6 +353,7 @@ int main(void)
         cmocka_unit_test(rates),      cmocka_unit_test(slow_and_fast), cmocka_unit_test(given_numbers_stay),
         cmocka_unit_test(everywhere), cmocka_unit_test(callbacks),     cmocka_unit_test(wrong_requests),
         cmocka_unit_test(no_scale),   cmocka_unit_test(stable_steps),  cmocka_unit_test(varied),
+        cmocka_unit_test(growth),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -71,6 +71,16 @@ for method in "rk4 --step 0.02" "dopri5 --tolerance 1e-7"; do
     that "... the error is that of the run" grep -q "\"error\": {\"x\": $(column 4 | cut -d' ' -f1)," one.json
     refuses "... which are another sweep without" 2 "made by another sweep" "$motus" sweep osc.motus --vary F=0.125:0.5:11 --method $method --until 5 --record "x, max(x), steps, x'" -q -o one.csv --resume
 done
+printf "x'' = -9.81 sin(x)\nx(0) = pi/2\nx'(0) = 0\n" >pendulum.motus
+leaps=(sweep pendulum.motus --method rk4 --vary "x(0)=pi/2,pi/3,1" --until 1000)
+"${leaps[@]}" --step 2 >"$out" 2>"$err"
+that "steps that grow where the motion does not are told" grep -q "steps of 2 by rk4 are too long: .* what is recorded is not the motion" "$err"
+"${leaps[@]}" --step 0.1 >"$out" 2>"$err"
+that "... and others not" is "$(grep -c "too long" "$err")" 0
+"${leaps[@]}" --step 2 --errors >"$out" 2>"$err"
+that "a line counts the trajectories without a significant digit" grep -q "no digit is known to be significant at the end of 3 of 3 trajectories" "$err"
+"$motus" run pendulum.motus --method rk4 --step 2 --until 1000 --error none >"$out" 2>"$err"
+that "... and a run without errors says that its steps are too long" grep -q "steps of 2 by rk4 are too long: where the motion swings" "$err"
 refuses "the error of a time" 2 "record 1 is the time of a maximum, which has no error" "$motus" sweep osc.motus --vary F=1 --record "x, time_of_max(x)" --errors
 refuses "errors by no companion" 2 "--errors needs errors" "$motus" sweep osc.motus --vary F=1 --errors --error none
 refuses "a companion for nothing" 2 "a sweep tells errors in columns of their own" "$motus" sweep osc.motus --vary F=1 --error full
