@@ -32,7 +32,8 @@ enum {
     TRIES = 64,    /* candidates that are refused one after the other */
     PROBED = 4096, /* steps of a probe, */
     LED = 256,     /*   and of one that leads the companion */
-    HELD = 2,      /* halvings of a step, after which ways beside the motion are taken, */
+    FINE = 8,      /* halvings of a step that tell where a switch may change its side, */
+    HELD = 2,      /*   those of a step, after which ways beside the motion are taken, */
     DEEP = 4,      /*   and where other operations change there too, as u/|u|: */
     WAYS = 32,     /*   at first so many, then one of as many others that leads nearest, */
     MORE = 64,     /*   and at most so many such; */
@@ -141,6 +142,7 @@ struct witness {
     int64_t evaluations;  /* of the run, so far */
     double longest;       /* of the steps that it has looked at */
     double least;         /* what matters to the bars, of a velocity; INFINITY: what a step may lose is all that does */
+    double sees;          /* likewise, of a probe */
     double each;          /* what it earns in a step */
     int64_t steps;        /* of the run, that stand, as far as it was shown them, */
     int64_t looked;       /*   and at how many of them it has looked; */
@@ -151,8 +153,11 @@ struct witness {
     double spared;        /* evaluations that are not counted, since they led to a step that was refused */
     bool strict;          /* sides of switches are looked at */
     bool crosses;         /* a switch may stand at 0 within the step */
+    bool counted, whole;  /* it has parts before that, or (whole) all parts count */
+    double past;          /* the beginning of the first part behind these; NaN */
     bool beside;          /* no way beside the part at `start` does what has happened */
     int behind;           /* steps behind one that lacked something, which the companion may not have passed, to come */
+    bool open;            /* what is missing of the step from `past` on */
     bool moves, leads;    /* dx and dv are for the companion, or (leads) a probe is to take its step for it */
     bool objected;        /* to a step of the run */
     bool left;            /* dx and dv, where it leaves the companion as it is */
@@ -529,20 +534,35 @@ static bool hold_beside(witness *w, stepper *s, const state *from, const state *
     return true;
 }
 
+/* A part in which no switch stands at 0; it counts where the sides of all are those of the beginning. */
+static bool hold_before(witness *w, stepper *s, const state *from, const state *to)
+{
+    if (!isnan(w->past) && !w->whole) return w->parts++, true;
+    w->counted = true;
+    return hold(w, s, from, to);
+}
+
+/* A switch may stand at 0 in a part that begins at t. */
+static void cross(witness *w, double t)
+{
+    w->crosses = true;
+    if (w->counted && isnan(w->past)) w->past = t;
+}
+
 static bool look(witness *w, stepper *s, const state *from, const state *to, int depth)
 {
     state *const middle = &w->at[MIDDLE + depth];
     const bool last = depth == DEPTH || w->parts >= PARTS || w->spent > w->most_spent;
     const bool known = depth == 0 && !w->strict; /* it has not fitted */
-    if (!w->covered && !known && fits(w, w->bends, from, to)) return hold(w, s, from, to);
-    const bool sided = (w->located || (w->steady && w->kinked)) && depth >= HELD,
+    if (!w->covered && !known && fits(w, w->bends, from, to)) return hold_before(w, s, from, to);
+    const bool sided = (w->located || (w->steady && w->kinked)) && depth >= (w->whole ? HELD : FINE),
                deep = w->strict && (depth >= DEEP || last);
     if (sided && (deep || fits(w, w->smooth, from, to))) {
-        w->crosses = true;
+        cross(w, from->t);
         return w->strict ? hold_beside(w, s, from, to) : (w->parts++, true);
     }
-    if (last && w->kinked) return w->crosses = true, w->parts++, true;
-    if (last) return hold(w, s, from, to);
+    if (last && w->kinked) return cross(w, from->t), w->parts++, true;
+    if (last) return hold_before(w, s, from, to);
     return see(s, from->t + (to->t - from->t) / 2, middle) && look(w, s, from, middle, depth + 1) &&
            look(w, s, middle, to, depth + 1);
 }
@@ -708,10 +728,11 @@ static bool see_ends(witness *w, stepper *s)
 }
 
 /* What is missing of the whole. */
-static bool look_at_all(witness *w, stepper *s)
+static bool look_at_all(witness *w, stepper *s, bool whole)
 {
     allow(w, stepper_problem(s));
-    w->parts = 0, w->worst = 0, w->beside = w->crosses = false;
+    w->parts = 0, w->worst = 0, w->beside = w->crosses = w->counted = false;
+    w->past = NAN, w->whole = whole;
     w->most_spent = w->spent + fmax(SPEND_LEAST, SPEND_STEP / w->operations);
     memset(w->missing, 0, w->nv * sizeof *w->missing);
     memset(w->lack, 0, w->nv * sizeof *w->lack);
@@ -733,7 +754,7 @@ static bool hides(witness *w, stepper *s)
 /* Whether a step lacks something that it does not show. Of a switch that it leads across run and companion know. */
 static bool lacks(witness *w, stepper *s)
 {
-    return !fits(w, w->bends, &w->at[FROM], &w->at[TO]) && look_at_all(w, s) && w->parts > 1 && !w->crosses &&
+    return !fits(w, w->bends, &w->at[FROM], &w->at[TO]) && look_at_all(w, s, true) && w->parts > 1 && !w->crosses &&
            beyond_velocities(w, w->missing, PART_OF_BARS) && hides(w, s);
 }
 
@@ -773,25 +794,35 @@ static stepper_verdict inspect_steady(witness *w, stepper *s, double until)
     return (stepper_verdict){.rest = w->rested, .halt = w->moves};
 }
 
-/* The size by which the step is to be taken again; 0: it stands. */
+/* Whether too much is missing of a step; and by how much less a probe is to tell. */
+static bool suspects(witness *w)
+{
+    double most = 0;
+    for (size_t k = 0; k < w->nv; k++) most = fmax(most, w->missing[k] / w->allowed[k]);
+    const double least = vector_largest(w->missing, w->nv) / (PROBE_SEES * SUSPICIOUS);
+    w->sees = most > SUSPICIOUS ? INFINITY : least;
+    return most > SUSPICIOUS || (!w->probes && beyond_velocities(w, w->missing, BARS));
+}
+
+/* The size by which the step is to be taken again; 0: it stands. A located run may end it at a switch, behind which
+ * there is another force: then what is missing from there on is open. */
 static double judge(witness *w, stepper *s)
 {
     const state *const from = &w->at[FROM], *const to = &w->at[TO];
     if (!see_ends(w, s) || !bound(w, s)) return 0;
     const bool short_enough = !w->strict && fits(w, w->bends, from, to);
     const double spent = w->spent;
-    if (short_enough || !look_at_all(w, s)) {
+    if (short_enough || !look_at_all(w, s, !w->located || w->strict)) {
         if (short_enough) w->tries = 0;
         return 0;
     }
-    double most = 0;
-    for (size_t k = 0; k < w->nv; k++) most = fmax(most, w->missing[k] / w->allowed[k]);
-    const bool suspicious =
-        w->parts > 1 && (most > SUSPICIOUS || (!w->probes && beyond_velocities(w, w->missing, BARS)));
+    const bool suspicious = w->parts > 1 && suspects(w);
+    w->open = !w->whole && !isnan(w->past);
     if (!suspicious && !w->beside) {
         w->tries = 0;
         return 0;
     }
+    if (w->open && !see(s, w->past, &w->at[TO])) return 0;
     const double whole = to->t - from->t, before = w->start - from->t,
                  first = fabs(before) > fabs(w->length) ? before : w->length,
                  size = !w->beside && fabs(first) < ROOM * fabs(whole) ? first : whole / 4;
@@ -800,10 +831,9 @@ static double judge(witness *w, stepper *s)
         return 0;
     }
     if (w->probes || known(w, s)) return refuse(w, size, spent);
-    const double least = vector_largest(w->missing, w->nv) / (PROBE_SEES * SUSPICIOUS);
-    if (!probe(w, s, size, most > SUSPICIOUS ? INFINITY : least)) return 0;
+    if (!probe(w, s, size, w->sees)) return 0;
     const double far = apart(w);
-    const bool beyond = !w->located && beyond_bars(w, BARS);
+    const bool beyond = beyond_bars(w, BARS);
     if (far > REFUSED) {
         w->until = to->t;
         return refuse(w, size, spent);
@@ -828,7 +858,7 @@ static stepper_verdict inspect(void *ctx, stepper *s)
     witness *const w = ctx;
     if (w->steady) return inspect_steady(w, s, stepper_time(s));
     witness_objected(w);
-    w->moves = false;
+    w->moves = w->open = false;
     const bool afforded = affords(w, s);
     const double again = afforded ? judge(w, s) : 0;
     if (again == 0) w->looked += afforded, w->steps++;
@@ -845,7 +875,7 @@ static void inspect_sides(witness *w, stepper *s, double until)
     if (!see_ends(w, s) || !bound(w, s)) return;
     if (until == w->at[FROM].t || (to->t != until && !see(s, until, to))) return;
     w->strict = true;
-    if (look_at_all(w, s) && w->beside) {
+    if (look_at_all(w, s, true) && w->beside) {
         witness *const inner = w->inner;
         memcpy(inner->rounded, w->rounded, w->nv * sizeof *w->rounded);
         memcpy(inner->rounded_x, w->rounded_x, w->nx * sizeof *w->rounded_x);
@@ -858,12 +888,23 @@ static void inspect_sides(witness *w, stepper *s, double until)
     w->sides += w->spent - spent, w->spent = spent;
 }
 
-/* What was missing behind the end of a piece has not happened. */
+/* What was missing of a step behind the end of a piece has not happened. What is missing before moves the companion. */
+static void judge_piece(witness *w, stepper *s, double until)
+{
+    const double h = until - w->at[FROM].t;
+    w->moves =
+        h != 0 && see(s, until, &w->at[TO]) && look_at_all(w, s, true) && suspects(w) && probe(w, s, h / 4, w->sees);
+    if (w->moves) apart(w);
+    w->moves = w->moves && beyond_bars(w, BARS) && !w->leaves;
+    w->objected |= w->moves;
+}
+
 static bool inspect_piece(void *ctx, stepper *s, double until)
 {
     witness *const w = ctx;
+    if (w->open || (!w->steady && w->moves && until != stepper_time(s))) judge_piece(w, s, until);
+    w->open = false;
     if (w->located) inspect_sides(w, s, until);
-    if (!w->steady && until != stepper_time(s)) w->moves = false;
     if (!w->steady) return false;
     if (w->rest > 0)
         w->rest--;

@@ -26,7 +26,7 @@ static double between(double a, double b) { return round(1000 * (a + (b - a) * u
 typedef struct tally {
     int all, told, within, wrong;
 } tally;
-static tally all, steady;
+static tally all, steady, located;
 
 static int tries(void)
 {
@@ -84,7 +84,7 @@ static void bars_hold(void **state)
 {
     (void)state;
     const bool chosen = holds("steps that are chosen", &all), given = holds("steps of one size", &steady);
-    assert_true(chosen && given);
+    assert_true(chosen && given && holds("steps that end at switches", &located));
     assert_true(100 * all.told >= 95 * all.all);
 }
 
@@ -141,6 +141,24 @@ static void pulses(void **state)
 }
 
 /* What friction holds is no error of the steps, and looking at it ends: two blocks slip until t = 1, and then stick. */
+/* The same beside dry friction, at whose switch steps end: the body turns at pi, and moves on to the other side. */
+static void brakes(void **state)
+{
+    (void)state;
+    char text[512];
+    const long double pi = 3.14159265358979323846264338327950288L;
+    for (int i = 0; i < tries(); i++) {
+        const double a = exp2(round(-14 * uniform())), c = between(3.4, 5.6), mu = between(0.05, 0.2),
+                     w = exp2(round(-8 * uniform())) / 32;
+        snprintf(text, sizeof text,
+                 "x'' = -x - %.17g sign(x') + (%.17g) exp(-((t - %.17g)/%.17g)^2)\nx(0) = 1.5; x'(0) = 0\nuntil 6", mu,
+                 a, c, w);
+        const long double truth = -mu + (3 * mu - 1.5L) * cosl(6 - pi) +
+                                  a * sqrtl(pi) * w * expl(-(long double)w * w / 4) * sinl(6 - (long double)c);
+        judge(&located, text, ways[i % WAYS].method, ways[i % WAYS].tolerance, NAN, truth);
+    }
+}
+
 static void sticks(void **state)
 {
     (void)state;
@@ -318,8 +336,8 @@ static void machines(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(flights), cmocka_unit_test(pulses),   cmocka_unit_test(sticks), cmocka_unit_test(bars_hold),
-        cmocka_unit_test(bits),    cmocka_unit_test(machines), cmocka_unit_test(sides),  cmocka_unit_test(share)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(flights),   cmocka_unit_test(pulses), cmocka_unit_test(brakes),
+                                       cmocka_unit_test(bars_hold), cmocka_unit_test(sticks), cmocka_unit_test(bits),
+                                       cmocka_unit_test(machines),  cmocka_unit_test(sides),  cmocka_unit_test(share)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
