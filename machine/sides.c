@@ -906,6 +906,38 @@ static bool is_twice(sides *s, const parts *p, bool is_short, double way, double
     return twice;
 }
 
+/* Whether what holds `of` depends on the sides of `by`, which then are not solved for. */
+static bool depends(sides *s, const parts *of, const parts *by, double t, double *x, double *v)
+{
+    double *side = x + s->switches->slot, was[GRAPH_COMPONENTS];
+    bool differs = false;
+    for (int i = 0; i < by->count; i++) was[i] = side[by->of[i]], side[by->of[i]] = 0;
+    run(s, s->hold, t, x, v, NULL, s->before);
+    for (int i = 0; i < by->count; i++) side[by->of[i]] = 1;
+    run(s, s->hold, t, x, v, NULL, s->later);
+    for (int i = 0; i < by->count; i++) side[by->of[i]] = was[i];
+    for (int i = 0; i < of->count; i++) {
+        const double before = s->before[of->of[i]], later = s->later[of->of[i]];
+        differs = differs || (before != later && !(isnan(before) && isnan(later)));
+    }
+    return differs;
+}
+
+/* Whether what holds this vector, or another one that is held, depends on a side that is not known while both are. */
+static bool is_coupled(sides *s, const parts *p, double t, double *x, double *v)
+{
+    const double *side = x + s->switches->slot;
+    bool coupled = false;
+    for (size_t k = 0; k < s->switches->count && !coupled; k++) {
+        parts o = parts_of(s, k);
+        const bool held = is_held(s, side, k);
+        if (silent(s, k) || k == p->of[0] || solved(s, k, p->of[0]) || !(o.count || held)) continue;
+        if (!o.count) o = (parts){.of = {k}, .count = 1};
+        coupled = depends(s, p, &o, t, x, v) || (held && depends(s, &o, p, t, x, v));
+    }
+    return coupled;
+}
+
 /* The vector is 0, but for rounding: it stays 0 where no more than the whole of the disc is needed for that. */
 static motus_status stand(sides *s, const parts *p, double way, double t, double *x, double *v, motus_error *err)
 {
@@ -929,6 +961,8 @@ static motus_status stand(sides *s, const parts *p, double way, double t, double
     put_held(side, p, way);
     if (!drives_back(s, p, way, t, x, v)) return refuse(s, p->of[0], no_disc, t, err);
     if (is_twice(s, p, true, way, t, x, v)) return refuse(s, p->of[0], two_forms, t, err);
+    if (is_coupled(s, p, t, x, v))
+        return refuse(s, p->of[0], "the motion stops together with others, more than are held at once,", t, err);
     measure_hold(s, t, x, v);
     return along(p, s->p, s->p) <= 1 ? MOTUS_OK : leave(s, p, way, t, x, v, err);
 }

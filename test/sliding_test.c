@@ -5,7 +5,7 @@
 #define PI 3.14159265358979323846
 
 typedef struct outcome {
-    double x[8], v[8];
+    double x[16], v[16];
     motus_statistics did;
     motus_status status;
     motus_cause cause;
@@ -716,6 +716,37 @@ static void slides_on_another(void **state)
     }
 }
 
+/* A stack of blocks in the plane: those that have come to rest on one another slide on the ground as one, straight on
+ * and slower by the friction of the lowest over all masses. More than four are not held at once, which is said. */
+static void stacks_in_plane(void **state)
+{
+    (void)state;
+    static const char *const stack =
+        "b1'' = -0.4 b1'/|b1'| + 0.5 (b2' - b1')/|b2' - b1'|\nb2'' = -0.5 (b2' - b1')/|b2' - b1'|\nb1(0) = (0, 0)\n"
+        "b2(0) = (0, 0)\nb1'(0) = (0.1, -0.13)\nb2'(0) = (0.2, 0.08)\n";
+    const outcome early = finished(stack, "dop853", 1e-12, 0.4), late = finished(stack, "dop853", 1e-12, 0.6);
+    const double before = hypot(early.v[0], early.v[1]), after = hypot(late.v[0], late.v[1]);
+    NEAR(before - after, 0.2 * 0.2, 1e-13);
+    NEAR(late.v[0] / after, early.v[0] / before, 1e-11);
+    NEAR(late.x[0] - early.x[0], (early.v[0] + late.v[0]) / 2 * 0.2, 1e-13);
+    NEAR(late.v[2], late.v[0], 1e-13);
+    NEAR(late.v[3], late.v[1], 1e-13);
+    char text[1000];
+    int used = 0;
+    for (int k = 1; k <= 5; k++) {
+        used += snprintf(text + used, sizeof text - (size_t)used, "b%d'' = -0.4 (b%d' - (%s%d'))/|b%d' - (%s%d')|", k,
+                         k, k > 1 ? "b" : "0 b", k > 1 ? k - 1 : 1, k, k > 1 ? "b" : "0 b", k > 1 ? k - 1 : 1);
+        if (k < 5)
+            used += snprintf(text + used, sizeof text - (size_t)used, " + 0.4 (b%d' - b%d')/|b%d' - b%d'|", k + 1, k,
+                             k + 1, k);
+        used += snprintf(text + used, sizeof text - (size_t)used, "\nb%d(0) = (0, 0)\nb%d'(0) = (0.1, %d.07)\n", k, k,
+                         k * k);
+    }
+    const outcome five = run_of(text, "dop853", 1e-9, 100);
+    assert_int_equal(five.status, MOTUS_SOLVE);
+    assert_non_null(strstr(five.message, "more than are held at once"));
+}
+
 /* One direction that text after text writes with a factor that does not move, as the other block's. */
 static void one_direction_in_many_forms(void **state)
 {
@@ -781,6 +812,7 @@ int main(void)
         cmocka_unit_test(stops_in_plane),
         cmocka_unit_test(leaves_in_plane),
         cmocka_unit_test(slides_on_another),
+        cmocka_unit_test(stacks_in_plane),
         cmocka_unit_test(one_direction_in_many_forms),
         cmocka_unit_test(rests_by_an_event),
         cmocka_unit_test(refused_in_plane),

@@ -271,7 +271,8 @@ static node product(graph *g, node a, node b) { return graph_op(g, OP_MUL, a, b,
 static node difference(graph *g, node a, node b) { return graph_op(g, OP_SUB, a, b, 0); }
 
 /* The components of u over |u| along a unit vector d, from which u is less than a right angle away: with q = d u, |u|
- * is q sqrt(1 + |d x u|^2/q^2), which is smooth where the motion stops without a turn, and negative beyond. */
+ * is q sqrt(1 + |d x u|^2/q^2), which is smooth where the motion stops without a turn, and negative beyond. What holds
+ * other vectors may have u/|u| in place of some components of d, which then is no unit vector: hence over |d|. */
 static void find_sliding(builder *b, uint32_t first, const graph_directed *d)
 {
     graph *g = b->m->graph;
@@ -286,8 +287,10 @@ static void find_sliding(builder *b, uint32_t first, const graph_directed *d)
     node length = graph_const(g, 1);
     for (int k = 0; k < areas; k++) length = graph_op(g, OP_HYPOT, length, graph_op(g, OP_DIV, across[k], q, 0), 0);
     length = product(g, q, length);
+    node unit = side[0];
+    for (int k = 1; k < count; k++) unit = graph_op(g, OP_HYPOT, unit, side[k], 0);
     for (int k = 0; k < count; k++)
-        b->kinds[first + (uint32_t)k].sliding = graph_op(g, OP_DIV, d->component[k], length, 0);
+        b->kinds[first + (uint32_t)k].sliding = product(g, unit, graph_op(g, OP_DIV, d->component[k], length, 0));
 }
 
 /* Whether a vector has the components of that of the kinds from `first` on, in any order, all with one factor that does
