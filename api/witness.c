@@ -751,11 +751,13 @@ static bool hides(witness *w, stepper *s)
     return hidden > SHOWN * most;
 }
 
-/* Whether a step lacks something that it does not show. Of a switch that it leads across run and companion know. */
+/* Whether a step lacks something that it does not show, or leads across a switch, which the companion may do at the
+ * same time; in runs with events both know of it. */
 static bool lacks(witness *w, stepper *s)
 {
-    return !fits(w, w->bends, &w->at[FROM], &w->at[TO]) && look_at_all(w, s, true) && w->parts > 1 && !w->crosses &&
-           beyond_velocities(w, w->missing, PART_OF_BARS) && hides(w, s);
+    if (fits(w, w->bends, &w->at[FROM], &w->at[TO]) || !look_at_all(w, s, true)) return false;
+    if (w->crosses) return !w->events && !w->covered && !w->leaves;
+    return w->parts > 1 && beyond_velocities(w, w->missing, PART_OF_BARS) && hides(w, s);
 }
 
 /* What a step that stands lacks moves the companion, which waits for it. */

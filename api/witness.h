@@ -9,7 +9,7 @@
  * once more in as many parts as the force asks for. Where both ends are farther apart than the run's tolerance allows,
  * the run takes the step again as the probe did. Where they are farther apart than the errors told so far, the
  * companion is moved by the difference, so that the bars cover it from then on. Steps that are not found by their
- * errors stand; in their place the companion is led by a probe through what they do not show.
+ * errors stand; in their place the companion is led by a probe through what they do not show, and across switches.
  */
 #ifndef API_WITNESS_H
 #define API_WITNESS_H

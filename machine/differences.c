@@ -5,7 +5,7 @@
  *   - Where truncation rules, d = |run - companion| is e (1 - r), r = 2^-p: 4/3 of it is due at order 2, and 2.5 leaves
  *     room for a companion whose error is not 2^-p of the run's; at order 1, 3.75 leaves as much. The envelope, the
  *     largest d of the last 3/16 of the run, covers times at which d passes zero. Never an envelope over other columns:
- *     bodies differ in scale.
+ *     bodies differ in scale. A step may be longer than that: the landing before the last one counts as well.
  *   - Where round-off rules, one sample of a random number has to bound another: 3 d + 1/4 of the envelope.
  *   - Where the force has kinks the companion's error is not small beside the run's: 3 d + 1/2 of a longer envelope.
  *   - A number cannot be better known than the numbers were rounded that were added to it: where it passes 0 it is
@@ -31,6 +31,7 @@ enum { PARTS = 32, SLOTS = 6, SLOTS_KINKED = 12, FITTED = 64 };
 #define LOST 0.1
 #define LOST_SLOWLY 0.25
 #define SLOWLY 3e3
+#define LAST 0.4      /* of |run - companion| at the landing before: a bar is no smaller */
 #define STEPPED 0.5   /* units in the last place of the number before, which a step adds to */
 #define STRAIGHT 0.03 /* up to this distance the growth is fitted */
 
@@ -58,7 +59,7 @@ static int seen_of(const differences_shape *s) { return s->full ? DIFFERENCES_SE
 size_t differences_size(const differences_shape *s)
 {
     const size_t seen = (size_t)seen_of(s), slots = (size_t)slots_of(s);
-    return s->count * (seen * (1 + (s->how ? REDUCE_KEPT : 0)) + 5 + slots * (1 + s->full));
+    return s->count * (seen * (1 + (s->how ? REDUCE_KEPT : 0)) + 6 + slots * (1 + s->full));
 }
 
 static double *place(double **memory, size_t numbers)
@@ -81,6 +82,7 @@ void differences_place(differences *f, const differences_shape *s, double *memor
     f->now = place(&memory, n);
     f->before = place(&memory, n);
     f->apart = place(&memory, n);
+    f->last = place(&memory, n);
     f->envelope = place(&memory, rows);
     if (s->full) f->twin = place(&memory, rows);
 }
@@ -99,7 +101,7 @@ void differences_begin(differences *f, double start, double until)
     memset(f->scale, 0, sizeof f->scale);
     f->taken = start;
     f->between = false;
-    double *const none[] = {f->size, f->now, f->before, f->apart};
+    double *const none[] = {f->size, f->now, f->before, f->apart, f->last};
     for (size_t i = 0; i < sizeof none / sizeof *none; i++) memset(none[i], 0, n * sizeof **none);
     memset(f->d, 0, n * sizeof *f->d);
     memset(f->envelope, 0, rows * sizeof *f->envelope);
@@ -192,6 +194,7 @@ static void judge(differences *f, double t, double now)
 /* A landing within a step, or at the time of the last one, shows no other sizes to begin with. */
 static void begin_step(differences *f, double t)
 {
+    if (t != f->taken) memcpy(f->last, f->d, f->shape.count * sizeof *f->last);
     if (f->between || t == f->taken) return;
     double *const last = f->now;
     f->now = f->before, f->before = last;
@@ -300,6 +303,7 @@ double differences_bar(const differences *f, size_t number)
     if (!isfinite(value) || !isfinite(d)) return NAN;
     const rule now = rule_of(f);
     double bar = now.d * d + now.e * e;
+    if (!f->shape.kinked) bar = fmax(bar, LAST * f->last[number]);
     if (f->twin) bar += 0.5 * largest(f, f->twin, number);
     if (f->shape.kinked) bar = fmax(bar, with_kinks.d * d + with_kinks.e * e);
     if (value == 0 && bar == 0) { /* the terms that made it 0 may have been as large as it has been */

@@ -38,6 +38,7 @@ typedef struct differences {
     int64_t part;
     double *size;         /* the largest that the run or its companion has had at a landing */
     double *now, *before; /* the same at the last landing alone, and at the one before */
+    double *last;         /* |run - companion| at the landing before, or within the last step */
     /* Of each number what neither run nor companion knows of its error: 0 until the caller writes it. */
     double *apart;
     double taken; /* the time of the last landing */
