@@ -7,6 +7,7 @@
 #include "api/later.h"
 #include "api/run_events.h"
 #include "api/shadow.h"
+#include "api/vector.h"
 
 #include <math.h>
 #include <stdarg.h>
@@ -434,6 +435,8 @@ static int64_t due(const motus_run *r)
 /* Units in the last place of the time. Events that are not farther apart, as those that accumulate, need not come in
  * the same order in two computations of one motion. */
 #define CLOSE 1024
+/* Times as far as a companion is from the run it need not be moved. */
+#define SHOWN 2.0
 
 /* Whether a companion has had the same events as the run at t, the time of its state or one within its last step. */
 static bool along(const motus_run *r, const companion *c, double t, bool between)
@@ -486,6 +489,15 @@ static void notice_gap(motus_run *r, double t, bool between)
     if (gap && (lasts || (run_events_ended(r) && !between))) b->differences.until = b->gap_since;
 }
 
+/* Whether a companion that has come to t shows by itself how far it is to be moved from the run's state. */
+static bool shows(const companion *c, const problem *p, const double *x, const double *v, const witness_move *to)
+{
+    double apart[2] = {0, 0};
+    for (size_t k = 0; k < p->nx; k++) apart[0] = fmax(apart[0], fabs(c->x[k] - x[k]));
+    for (size_t k = 0; k < p->nv; k++) apart[1] = fmax(apart[1], fabs(c->v[k] - v[k]));
+    return SHOWN * apart[0] >= vector_largest(to->x, p->nx) && SHOWN * apart[1] >= vector_largest(to->v, p->nv);
+}
+
 static motus_status land(motus_run *r, double t, double *x, double *v, bool between, bool observed, motus_error *err)
 {
     bars *b = r->bars;
@@ -495,7 +507,8 @@ static motus_status land(motus_run *r, double t, double *x, double *v, bool betw
     const bool moves = witness_moves(b->witness, &move), leads = moves && !isnan(move.from);
     motus_status status = companion_land(&b->half, r, leads ? move.from : t, taken > 1 ? taken - leads : 1, err);
     if (status == MOTUS_OK && leads) status = companion_led(&b->half, r, b->witness, t, err);
-    if (status == MOTUS_OK && moves && !leads && !between) status = companion_shift(&b->half, r, move.x, move.v, err);
+    const bool shifts = moves && !leads && !between && !shows(&b->half, &r->system->problem, x, v, &move);
+    if (status == MOTUS_OK && shifts) status = companion_shift(&b->half, r, move.x, move.v, err);
     if (moves && !between) witness_moved(b->witness);
     if (status == MOTUS_OK && !strcmp(r->card->family, "exact")) status = companion_jog(&b->half, r, err);
     if (status == MOTUS_OK && b->kind == MOTUS_BARS_FULL && !between) status = companion_repeat(&b->twin, r, err);

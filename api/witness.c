@@ -80,6 +80,7 @@ enum {
 #define LEFT_BARS 8.0
 #define LEFT_TOLERANCE 0x1p-10
 #define SHOWN 0x1p-16 /* of what is missing: so much may be hidden */
+#define MOSTLY 0.5    /*   in steps of located runs; less is what the companion sees, too */
 #define PROBE "dop853"
 #define PROBE_TOLERANCE 1e-10
 
@@ -555,7 +556,7 @@ static bool look(witness *w, stepper *s, const state *from, const state *to, int
     const bool last = depth == DEPTH || w->parts >= PARTS || w->spent > w->most_spent;
     const bool known = depth == 0 && !w->strict; /* it has not fitted */
     if (!w->covered && !known && fits(w, w->bends, from, to)) return hold_before(w, s, from, to);
-    const bool sided = (w->located || (w->steady && w->kinked)) && depth >= (w->whole ? HELD : FINE),
+    const bool sided = (w->located || (w->steady && w->kinked)) && depth >= (w->steady || w->strict ? HELD : FINE),
                deep = w->strict && (depth >= DEEP || last);
     if (sided && (deep || fits(w, w->smooth, from, to))) {
         cross(w, from->t);
@@ -739,8 +740,8 @@ static bool look_at_all(witness *w, stepper *s, bool whole)
     return look(w, s, &w->at[FROM], &w->at[TO], 0);
 }
 
-/* Whether what is missing of a step is not what the points of Gauss's rule show of it. */
-static bool hides(witness *w, stepper *s)
+/* Whether so large a part of what is missing of a step is not what the points of Gauss's rule show of it. */
+static bool hides(witness *w, stepper *s, double part)
 {
     double most = 0, hidden = 0;
     if (!follow(w, s, &w->at[FROM], &w->at[TO], 0, w->room)) return false;
@@ -748,7 +749,7 @@ static bool hides(witness *w, stepper *s)
         const double lack = w->lack[place(w, k)];
         most = fmax(most, fabs(lack)), hidden = fmax(hidden, fabs(lack - w->room[k]));
     }
-    return hidden > SHOWN * most;
+    return hidden > part * most;
 }
 
 /* Whether a step lacks something that it does not show, or leads across a switch, which the companion may do at the
@@ -757,7 +758,7 @@ static bool lacks(witness *w, stepper *s)
 {
     if (fits(w, w->bends, &w->at[FROM], &w->at[TO]) || !look_at_all(w, s, true)) return false;
     if (w->crosses) return !w->events && !w->covered && !w->leaves;
-    return w->parts > 1 && beyond_velocities(w, w->missing, PART_OF_BARS) && hides(w, s);
+    return w->parts > 1 && beyond_velocities(w, w->missing, PART_OF_BARS) && hides(w, s, SHOWN);
 }
 
 /* What a step that stands lacks moves the companion, which waits for it. */
@@ -835,7 +836,7 @@ static double judge(witness *w, stepper *s)
     if (w->probes || known(w, s)) return refuse(w, size, spent);
     if (!probe(w, s, size, w->sees)) return 0;
     const double far = apart(w);
-    const bool beyond = beyond_bars(w, BARS);
+    const bool beyond = beyond_bars(w, BARS) && (!w->located || (far > FIRST && hides(w, s, MOSTLY)));
     if (far > REFUSED) {
         w->until = to->t;
         return refuse(w, size, spent);
@@ -896,8 +897,7 @@ static void judge_piece(witness *w, stepper *s, double until)
     const double h = until - w->at[FROM].t;
     w->moves =
         h != 0 && see(s, until, &w->at[TO]) && look_at_all(w, s, true) && suspects(w) && probe(w, s, h / 4, w->sees);
-    if (w->moves) apart(w);
-    w->moves = w->moves && beyond_bars(w, BARS) && !w->leaves;
+    w->moves = w->moves && apart(w) > FIRST && beyond_bars(w, BARS) && hides(w, s, MOSTLY) && !w->leaves;
     w->objected |= w->moves;
 }
 
