@@ -46,7 +46,7 @@ typedef struct trial {
 
 static double bar_of(const motus_run *r, bool absolute)
 {
-    return r->bars->why[0] ? INFINITY : differences_worst(&r->bars->differences, absolute);
+    return r->bars->why[0] ? INFINITY : differences_worst(&r->bars->differences, absolute, true);
 }
 
 static bool hopeless(const trial *s)
@@ -193,7 +193,7 @@ static motus_status find_decimals(accuracy *a, trial *s, motus_error *err)
 
 double accuracy_reached(const accuracy *a, const motus_run *r)
 {
-    return isfinite(a->reached) || !motus_run_done(r) || !r->bars ? a->reached : bars_worst(r->bars, a->absolute);
+    return isfinite(a->reached) || !motus_run_done(r) || !r->bars ? a->reached : bars_worst(r->bars, a->absolute, true);
 }
 
 /* A trial that was far off was not taken to its end, so only the run itself can tell of its errors. */

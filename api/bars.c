@@ -597,7 +597,7 @@ double bars_of(const bars *b, double t, size_t number)
     return known ? differences_bar(&b->differences, number) : NAN;
 }
 
-double bars_worst(const bars *b, bool absolute)
+double bars_worst(const bars *b, bool absolute, bool unknown)
 {
-    return b->why[0] ? NAN : differences_worst(&b->differences, absolute);
+    return b->why[0] ? NAN : differences_worst(&b->differences, absolute, unknown);
 }

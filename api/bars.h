@@ -72,7 +72,7 @@ motus_status errors_of(motus_run *, double t, double *x, double *v, size_t numbe
 motus_status errors_leaps(motus_run *, double t, double *x, double *v, const size_t *columns, size_t count,
                           double *errors, motus_error *);
 /* As differences_worst; NaN: there are no bars. */
-double bars_worst(const bars *, bool absolute);
+double bars_worst(const bars *, bool absolute, bool unknown);
 /* From now on there are no bars, and why. The first reason stays. */
 void bars_give_up(motus_run *, const char *format, ...) __attribute__((format(printf, 2, 3)));
 /* bars_kept.c: what a restart state has of them: `count` numbers to give back, 0: there are no bars. `t`: of the state,

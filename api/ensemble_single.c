@@ -124,7 +124,8 @@ static double result(const trajectory *s, size_t r)
     if (ensemble_tallies(record)) {
         tally taken = tally_of(s->w->stepper, s->began);
         if (s->w->events) taken.steps = events_steps(s->w->events);
-        if (s->errors) taken.accuracy = bars_worst(s->w->run->bars, s->w->e->chosen.absolute > 0);
+        if (s->errors)
+            taken.accuracy = bars_worst(s->w->run->bars, s->w->e->chosen.absolute > 0, run_starts_late(&s->w->timing));
         return tally_number(&taken, ensemble_tally(record));
     }
     return reduce_last(s->kept + r * REDUCE_KEPT, (int)record->how, (double)s->observations);

@@ -83,7 +83,7 @@ motus_status ensemble_witness_ask(motus_ensemble *e, const places *p, size_t pil
     if (!e->machine.problem) e->machine = e->system->machine;
     status = ensemble_each_singly(e, 0, pilots, fly, &f, err);
     e->awaits = awaits, e->exactly = exactly;
-    if (awaits) ensemble_workers_destroy(e); /* those who await something ask for it */
+    ensemble_workers_destroy(e); /* their witnesses leave companions as they are, and those who await something ask */
     e->decided = status == MOTUS_OK;
     e->looks = e->decided && atomic_load(&f.objected);
     return status;

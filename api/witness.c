@@ -897,7 +897,9 @@ static void judge_piece(witness *w, stepper *s, double until)
     const double h = until - w->at[FROM].t;
     w->moves =
         h != 0 && see(s, until, &w->at[TO]) && look_at_all(w, s, true) && suspects(w) && probe(w, s, h / 4, w->sees);
-    w->moves = w->moves && apart(w) > FIRST && beyond_bars(w, BARS) && hides(w, s, MOSTLY) && !w->leaves;
+    const bool beyond = w->moves && apart(w) > FIRST && beyond_bars(w, BARS) && hides(w, s, MOSTLY);
+    w->moves = beyond && !w->leaves;
+    w->left = beyond && w->leaves;
     w->objected |= w->moves;
 }
 

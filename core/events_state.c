@@ -134,7 +134,7 @@ static void pass_accumulation(pass *p, events *e)
     if (after) numbers(p, e->after, e->problem.nx + e->problem.nv);
     if (!after) e->after_rule = SIZE_MAX;
     e->tail = number(p, e->tail);
-    e->growths = (int)whole(p, e->growths, 0, 64);
+    e->growths = (int)whole(p, e->growths, 0, 48);
     const int marks = e->growths < GROWTH_MARKS ? e->growths : GROWTH_MARKS;
     numbers(p, e->growth_t, (size_t)marks);
     numbers(p, e->growth_most, (size_t)marks * (e->problem.nx + e->problem.nv));

@@ -231,7 +231,7 @@ void differences_widen(differences *f)
 /* The numbers of a differences_growth, which is nothing else. */
 enum { GROWTH = sizeof(differences_growth) / sizeof(double), HEAD = 2 * DIFFERENCES_GROUPS + 5 + GROWTH };
 
-size_t differences_kept(const differences_shape *s) { return HEAD + s->count * (2 + s->full); }
+size_t differences_kept(const differences_shape *s) { return HEAD + s->count * (4 + s->full); }
 
 static double largest(const differences *f, const double *rows, size_t number)
 {
@@ -250,7 +250,8 @@ bool differences_keep(const differences *f, double *out)
     *at++ = isnan(f->until), *at++ = isnan(f->until) ? 0 : f->until;
     memcpy(at, &f->growth, sizeof f->growth);
     at += GROWTH;
-    for (size_t k = 0; k < n; k++) *at++ = f->size[k], *at++ = largest(f, f->envelope, k);
+    for (size_t k = 0; k < n; k++)
+        *at++ = f->size[k], *at++ = f->d[k], *at++ = f->last[k], *at++ = largest(f, f->envelope, k);
     for (size_t k = 0; f->twin && k < n; k++) *at++ = largest(f, f->twin, k);
     double none = 0;
     for (const double *k = out; k < at; k++) none += *k - *k;
@@ -272,7 +273,9 @@ void differences_resume(differences *f, double t, const double *kept)
     for (size_t k = 0; k < n; k++) {
         f->size[k] = *at++;
         f->d[k] = *at++;
-        for (int i = 0; i < f->slots; i++) f->envelope[(size_t)i * n + k] = f->d[k];
+        f->last[k] = *at++;
+        for (int i = 0; i < f->slots; i++) f->envelope[(size_t)i * n + k] = *at;
+        at++;
     }
     for (size_t k = 0; f->twin && k < n; k++, at++)
         for (int i = 0; i < f->slots; i++) f->twin[(size_t)i * n + k] = *at;
@@ -329,14 +332,14 @@ static double apart_of(const differences *f, size_t group)
     return most;
 }
 
-double differences_worst(const differences *f, bool absolute)
+double differences_worst(const differences *f, bool absolute, bool unknown)
 {
     const rule now = f->shape.kinked ? with_kinks : rule_of(f);
     double worst = 0;
     if (!f->first_known) return 0; /* as long as the motion has no size of its own */
     for (size_t g = 0; g < DIFFERENCES_GROUPS; g++) {
         const double scale = f->scale[g];
-        const double bar = fmax(4 * ulp_of(scale), (now.d + now.e) * f->most[g]) + apart_of(f, g);
+        const double bar = fmax(4 * ulp_of(scale), (now.d + now.e) * f->most[g]) + (unknown ? apart_of(f, g) : 0);
         if (scale > 0) worst = fmax(worst, absolute ? bar : bar / scale);
     }
     return isnan(f->until) ? worst : INFINITY;

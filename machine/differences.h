@@ -74,11 +74,10 @@ double differences_bar(const differences *, size_t number);
 /* Whether run and companion have had the same number of late, so that nothing is known to move it. */
 bool differences_agree(const differences *, size_t number);
 /* A bound on the bars that any number of the state had so far, relative to the largest number of its group or in its
- * own units. INFINITY: of some no digit was significant. */
-double differences_worst(const differences *, bool absolute);
+ * own units. INFINITY: of some no digit was significant. unknown: what neither run nor companion knows counts. */
+double differences_worst(const differences *, bool absolute, bool unknown);
 /* How many numbers tell what was seen so far; writes them, all finite, or returns false: it cannot be told. And goes on
- * from them at t, after differences_begin; until differences_take is called again the bars are those of the largest
- * differences of late. */
+ * from them at t, after differences_begin; the bars are those that it had. */
 size_t differences_kept(const differences_shape *);
 bool differences_keep(const differences *, double *out);
 void differences_resume(differences *, double t, const double *kept);

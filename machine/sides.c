@@ -25,16 +25,16 @@ struct sides {
     tape *argument, *rate, *rounding, *force_rounding, *least, *least_rates;
     tape *hold, *hold_rate, *hold_rounding; /* NULL: none can be held */
     tape *grip, *grip_rate, *grip_rounding; /* likewise */
-    double *u, *du, *later;       /* of all switches: arguments, their rates, and the arguments a little later */
-    double *before, *now, *bound; /* likewise, while sides are chosen */
-    double *p, *dp, *r, *dr;      /* likewise: what holds them and how much that drives them, and the rates of both */
-    double *a, *b, *x, *v;        /* room for two accelerations and a state */
-    double *push;                 /* and for what has moved velocities */
-    double *xs, *vs;              /* the series of a motion; NULL: none was wanted */
-    double *was;                  /* of all switches: sides for a while */
-    double way;                   /* of the run: 1, or -1 backward */
-    int8_t *beside;               /* likewise: the way in which a switch leaves 0 with another one, 0: it does not */
-    bool *of, *covered;           /* likewise: switches that are to be held together, and those that are */
+    double *u, *du, *later;              /* of all switches: arguments, their rates, and the arguments a little later */
+    double *kept, *before, *now, *bound; /* likewise, while sides are chosen; kept: by those who place all of them */
+    double *p, *dp, *r, *dr; /* likewise: what holds them and how much that drives them, and the rates of both */
+    double *a, *b, *x, *v;   /* room for two accelerations and a state */
+    double *push;            /* and for what has moved velocities */
+    double *xs, *vs;         /* the series of a motion; NULL: none was wanted */
+    double *was;             /* of all switches: sides for a while */
+    double way;              /* of the run: 1, or -1 backward */
+    int8_t *beside;          /* likewise: the way in which a switch leaves 0 with another one, 0: it does not */
+    bool *of, *covered;      /* likewise: switches that are to be held together, and those that are */
 };
 
 /* ---- functions ---- */
@@ -1142,7 +1142,7 @@ static motus_status turn(void *ctx, size_t number, size_t instance, double way, 
     const size_t count = s->switches->count, switched = s->switches->first[number - s->own.count] + instance;
     const double *side = x + s->switches->slot;
     s->way = way;
-    run(s, s->argument, *at, x, v, NULL, s->before);
+    run(s, s->argument, *at, x, v, NULL, s->kept);
     motus_status status = switches_directs(op_of(s, switched)) ? choose_direction(s, switched, true, way, at, x, v, err)
                                                                : change(s, switched, way, *at, x, v, err);
     const double t = *at;
@@ -1154,12 +1154,12 @@ static motus_status turn(void *ctx, size_t number, size_t instance, double way, 
             const double bound = 0x1p-53 * s->bound[k];
             if (is_held(s, side, k) || is_pinned(s, side, k) || switches_directs(op_of(s, k)))
                 continue; /* what holds it moved it to 0 */
-            if (!(fabs(s->now[k] - s->before[k]) > bound + fabs(s->before[k]) * 0x1p-40)) continue;
+            if (!(fabs(s->now[k] - s->kept[k]) > bound + fabs(s->kept[k]) * 0x1p-40)) continue;
             jumped = true;
             status = place(s, k, s->now[k], bound, way, t, x, v, err);
         }
         if (!jumped) break;
-        memcpy(s->before, s->now, count * sizeof *s->now);
+        memcpy(s->kept, s->now, count * sizeof *s->now);
     }
     return status != MOTUS_OK ? status : check_held(s, way, t, x, v, err);
 }
@@ -1233,14 +1233,14 @@ static motus_status settle(void *ctx, double way, double t, double *x, double *v
     s->way = way;
     memset(s->of, 0, count * sizeof *s->of);
     for (int pass = 0; pass < NESTED && status == MOTUS_OK && !settled; pass++) {
-        memcpy(s->before, side, count * sizeof *side);
+        memcpy(s->kept, side, count * sizeof *side);
         for (size_t k = 0; k < count && status == MOTUS_OK; k++) {
             run(s, s->argument, t, x, v, NULL, s->now);
             run(s, s->rounding, t, x, v, NULL, s->bound);
             status = place(s, k, s->now[k], 0x1p-53 * s->bound[k], way, t, x, v, err);
         }
-        settled = pass > 0 && memcmp(s->before, side, count * sizeof *side) == 0;
-        for (size_t k = 0; k < count; k++) s->of[k] |= pass >= NESTED - 6 && s->before[k] != side[k] && !follows(s, k);
+        settled = pass > 0 && memcmp(s->kept, side, count * sizeof *side) == 0;
+        for (size_t k = 0; k < count; k++) s->of[k] |= pass >= NESTED - 6 && s->kept[k] != side[k] && !follows(s, k);
     }
     return status != MOTUS_OK || settled ? status : stand_together(s, s->of, way, t, x, v, &settled, err);
 }
@@ -1277,7 +1277,7 @@ static bool make(sides *s, model *m)
 {
     const switches *w = m->located;
     const size_t nx = s->problem->nx, nv = s->problem->nv, own = s->own.count;
-    double *room = arena_room(m->arena, (11 * w->count + nx + 4 * nv + 1) * sizeof *room);
+    double *room = arena_room(m->arena, (12 * w->count + nx + 4 * nv + 1) * sizeof *room);
     s->rule = arena_room(m->arena, (own + w->kinds) * sizeof *s->rule);
     s->beside = arena_room(m->arena, w->count + 1);
     s->of = arena_room(m->arena, 2 * (w->count + 1) * sizeof *s->of);
@@ -1286,8 +1286,8 @@ static bool make(sides *s, model *m)
     s->u = room, s->du = s->u + w->count, s->later = s->du + w->count;
     s->before = s->later + w->count, s->now = s->before + w->count, s->bound = s->now + w->count;
     s->p = s->bound + w->count, s->dp = s->p + w->count;
-    s->r = s->dp + w->count, s->dr = s->r + w->count;
-    s->a = s->dr + w->count, s->b = s->a + nv, s->v = s->b + nv, s->push = s->v + nv;
+    s->r = s->dp + w->count, s->dr = s->r + w->count, s->kept = s->dr + w->count;
+    s->a = s->kept + w->count, s->b = s->a + nv, s->v = s->b + nv, s->push = s->v + nv;
     s->x = s->push + nv, s->was = s->x + nx;
     s->way = 1;
     for (size_t k = 0; k < w->kinds; k++)

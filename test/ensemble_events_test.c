@@ -77,8 +77,8 @@ static void end(flock *f)
     motus_system_destroy(f->s);
 }
 
-/* Trajectory k as a run of its own. */
-static motus_run *alone(const way *w, size_t k, motus_system **s)
+/* Trajectory k as a run of its own; blind: it tells no errors, since its witness might refuse steps. */
+static motus_run *alone(const way *w, size_t k, int blind, motus_system **s)
 {
     motus_error err = motus_default_error();
     motus_run_def def = motus_default_run();
@@ -89,7 +89,7 @@ static motus_run *alone(const way *w, size_t k, motus_system **s)
     def.step = w->step, def.tolerance = w->tolerance, def.accuracy = w->accuracy;
     def.until = w->until;
     def.machine = "interpreter";
-    def.error = w->error;
+    def.error = blind ? MOTUS_BARS_NONE : w->error;
     must(motus_run_create(*s, &def, &r, &err), &err, "alone");
     must(motus_run_finish(r, &err), &err, "alone");
     motus_run_events_significant(r); /* its companion comes as far */
@@ -98,10 +98,10 @@ static motus_run *alone(const way *w, size_t k, motus_system **s)
 
 static int same(double a, double b) { return a == b || (isnan(a) && isnan(b)); }
 
-static void same_table(const flock *f, size_t at, const way *w, size_t k)
+static void same_table(const flock *f, size_t at, const way *w, size_t k, int blind)
 {
     motus_system *s;
-    motus_run *r = alone(w, k, &s);
+    motus_run *r = alone(w, k, blind, &s);
     const int64_t rows = motus_run_events(r);
     if (motus_ensemble_events(f->e, at) != rows)
         fail_msg("%s, trajectory %zu: %lld events, alone %lld", w->method, k,
@@ -120,7 +120,7 @@ static void same_table(const flock *f, size_t at, const way *w, size_t k)
         assert_int_equal(a.touched, b.touched);
         assert_int_equal(a.changed, b.changed);
         if (!same(a.time, b.time)) fail_msg("%s %zu: %s at %a, alone %a", w->method, k, a.name, a.time, b.time);
-        if (w->error && !same(a.error, b.error))
+        if (w->error && !blind && !same(a.error, b.error))
             fail_msg("%s %zu: %s at %.9g is known to %g, alone to %g", w->method, k, a.name, a.time, a.error, b.error);
         assert_true(w->error ? !isnan(a.error) : isnan(a.error));
         for (int after = 0; after < 2; after++) {
@@ -133,7 +133,7 @@ static void same_table(const flock *f, size_t at, const way *w, size_t k)
     }
     double y = value(s, r, "y");
     assert_true(same(y, f->result[at]));
-    if (w->error) {
+    if (w->error && !blind) {
         double error = NAN;
         motus_error err = motus_default_error();
         must(motus_run_errors(r, &f->columns[0], 1, &y, &error, &err), &err, "error");
@@ -159,10 +159,10 @@ static void tables_are_those_of_runs(void **state)
             flock f;
             make(&f, w, threads, "interpreter");
             compute(&f, w, 0, COUNT);
-            for (size_t k = 0; k < COUNT; k++) same_table(&f, k, w, k);
+            for (size_t k = 0; k < COUNT; k++) same_table(&f, k, w, k, 0);
             compute(&f, w, 4, 2); /* other neighbours */
             assert_int_equal(motus_ensemble_events(f.e, 2), 0);
-            for (size_t k = 0; k < 2; k++) same_table(&f, k, w, 4 + k);
+            for (size_t k = 0; k < 2; k++) same_table(&f, k, w, 4 + k, 0);
             end(&f);
         }
 }
@@ -179,7 +179,7 @@ static void an_accuracy_has_its_tables(void **state)
     for (size_t k = 0; k < COUNT; k++) {
         way found = w;
         found.accuracy = NAN, found.tolerance = f.tolerance[k];
-        same_table(&f, k, &found, k);
+        same_table(&f, k, &found, k, 1);
         other += f.tolerance[k] != motus_ensemble_tolerance(f.e, NULL);
     }
     assert_true(other > 0); /* some were computed again */

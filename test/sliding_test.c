@@ -747,6 +747,24 @@ static void stacks_in_plane(void **state)
     assert_non_null(strstr(five.message, "more than are held at once"));
 }
 
+/* Directions beside a switch that is far from its side; and directions within a direction, which are none. */
+static void beside_others(void **state)
+{
+    (void)state;
+    static const char *const block =
+        "x'' = -x'/hypot(x', y')%s\ny'' = -y'/hypot(x', y')\nx(0) = 0\ny(0) = 0\nx'(0) = 1\n"
+        "y'(0) = 0.5\n";
+    char text[600];
+    snprintf(text, sizeof text, block, " - 0.1 sign(x - 5)");
+    const outcome one = finished(text, "dop853", 1e-12, 0.5);
+    strcat(text, "p'' = -p'/hypot(p', q')\nq'' = -q'/hypot(p', q')\np(0) = 0\nq(0) = 0\np'(0) = 1\nq'(0) = -0.3\n");
+    const outcome two = finished(text, "dop853", 1e-12, 0.5);
+    NEAR(two.x[0], one.x[0], 1e-11);
+    NEAR(two.x[1], one.x[1], 1e-11);
+    snprintf(text, sizeof text, block, "*0.5/hypot(x', y')");
+    run_of(text, "dop853", 1e-9, 0.3);
+}
+
 /* One direction that text after text writes with a factor that does not move, as the other block's. */
 static void one_direction_in_many_forms(void **state)
 {
@@ -813,6 +831,7 @@ int main(void)
         cmocka_unit_test(leaves_in_plane),
         cmocka_unit_test(slides_on_another),
         cmocka_unit_test(stacks_in_plane),
+        cmocka_unit_test(beside_others),
         cmocka_unit_test(one_direction_in_many_forms),
         cmocka_unit_test(rests_by_an_event),
         cmocka_unit_test(refused_in_plane),

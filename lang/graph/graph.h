@@ -149,6 +149,7 @@ typedef struct graph_directed {
 /* The number of the components, 0: the node is no such quotient. */
 int graph_direction(const graph *, node, graph_directed *);
 /* What stands above the length, with others in place of the components. */
+bool graph_is_along(const graph *, node above, const graph_directed *); /* whether it is one of that form */
 node graph_along(graph *, node above, const graph_directed *, const node *with);
 /* n over what is beside the length in the divisor. */
 node graph_over(graph *, node n, node divisor, node length);

@@ -83,6 +83,8 @@ int graph_direction(const graph *g, node n, graph_directed *d)
     return 0;
 }
 
+bool graph_is_along(const graph *g, node n, const graph_directed *d) { return along(g, n, d, 0); }
+
 node graph_along(graph *g, node n, const graph_directed *d, const node *with)
 {
     const graph_node m = *graph_at(g, n);

@@ -352,9 +352,11 @@ static node along_direction(builder *b, node n, const node to[3], const nest *ar
     const bool second = at.op == OP_MUL && at.b == d.above;
     const graph_node quotient = g->nodes[to[second ? 0 : 1]];
     if (at.op == OP_MUL && (quotient.op != OP_DIV || quotient.b != d.divisor)) return UINT32_MAX;
+    const node above = to[second ? 1 : 0]; /* where an inner direction of that length has gone from it, there is none */
+    if (!graph_is_along(g, above, &d)) return UINT32_MAX;
     node sides[GRAPH_COMPONENTS];
     if (!direction_of(b, &d, around, sides)) return n;
-    const node way = graph_along(g, to[second ? 1 : 0], &d, sides), by = graph_over(g, way, d.divisor, d.length);
+    const node way = graph_along(g, above, &d, sides), by = graph_over(g, way, d.divisor, d.length);
     return d.factor == UINT32_MAX ? by : product(g, quotient.a, by);
 }
 
