@@ -99,6 +99,7 @@ void lanes_block_errors(const lanes_call *c, const lanes_companion *companion, b
         const lanes_tally *t = &l->def.tallies[k];
         c->errors[t->result][trajectory] = stopped ? NAN : 0;
         if (t->which == TALLY_ACCURACY && !stopped && !companion->failed)
-            c->results[t->result][trajectory] = differences_worst(&companion->differences, l->def.chosen->absolute > 0, false);
+            c->results[t->result][trajectory] =
+                differences_worst(&companion->differences, l->def.chosen->absolute > 0, false);
     }
 }
