@@ -250,8 +250,12 @@ bool differences_keep(const differences *f, double *out)
     *at++ = isnan(f->until), *at++ = isnan(f->until) ? 0 : f->until;
     memcpy(at, &f->growth, sizeof f->growth);
     at += GROWTH;
-    for (size_t k = 0; k < n; k++)
-        *at++ = f->size[k], *at++ = f->d[k], *at++ = f->last[k], *at++ = largest(f, f->envelope, k);
+    for (size_t k = 0; k < n; k++) {
+        const double late = largest(f, f->envelope, k);
+        *at++ = f->size[k], *at++ = late;
+        *at++ = isfinite(f->d[k]) ? f->d[k] : late;
+        *at++ = isfinite(f->last[k]) ? f->last[k] : late;
+    }
     for (size_t k = 0; f->twin && k < n; k++) *at++ = largest(f, f->twin, k);
     double none = 0;
     for (const double *k = out; k < at; k++) none += *k - *k;
@@ -272,10 +276,9 @@ void differences_resume(differences *f, double t, const double *kept)
     at += GROWTH;
     for (size_t k = 0; k < n; k++) {
         f->size[k] = *at++;
-        f->d[k] = *at++;
-        f->last[k] = *at++;
         for (int i = 0; i < f->slots; i++) f->envelope[(size_t)i * n + k] = *at;
         at++;
+        f->d[k] = *at++, f->last[k] = *at++;
     }
     for (size_t k = 0; f->twin && k < n; k++, at++)
         for (int i = 0; i < f->slots; i++) f->twin[(size_t)i * n + k] = *at;
