@@ -177,15 +177,22 @@ motus_status bars_ready(motus_run *r, const uint8_t *affected, motus_error *err)
     return choice_compile(c->system, &method, false, r->bars->kept, &c->machine, &why, err);
 }
 
-motus_status bars_later(motus_run *r, motus_system *s, double t, double late, const double *x, const double *v,
-                        double **to_x, double **to_v, motus_error *err)
+/* Copies a state to the room and moves it. */
+static motus_status move_later(motus_system *s, double t, double late, const double *x, const double *v, double *room,
+                               double **to_x, double **to_v, motus_error *err)
 {
     const problem *p = &s->problem;
-    double *const x1 = *to_x = r->bars->room, *const v1 = *to_v = x1 + p->nx + 1, *const a = v1 + p->nv + 1;
+    double *const x1 = *to_x = room, *const v1 = *to_v = x1 + p->nx + 1, *const a = v1 + p->nv + 1;
     if (p->nx) memcpy(x1, x, p->nx * sizeof *x);
     memcpy(v1, v, p->nv * sizeof *v);
     const int answer = late == 0 ? 0 : system_later(s, t, late, x1, v1, a);
     return answer && !s->model ? columns_callback_failed("acceleration", t, answer, err) : MOTUS_OK;
+}
+
+motus_status bars_later(motus_run *r, motus_system *s, double t, double late, const double *x, const double *v,
+                        double **to_x, double **to_v, motus_error *err)
+{
+    return move_later(s, t, late, x, v, r->bars->room, to_x, to_v, err);
 }
 
 /* How much later a time is that was written than the double which was read: of a decimal of at most 13 digits that is
@@ -297,13 +304,10 @@ motus_status bars_moved(motus_system *s, double t, double late, const double *x,
                         size_t count, double *room, double *out, motus_error *err)
 {
     const problem *const p = &s->problem;
-    double *const to_x = room, *const to_v = to_x + p->nx + 1, *const a = to_v + p->nv + 1,
-                  *const before = a + p->nv + 1;
-    if (p->nx) memcpy(to_x, x, p->nx * sizeof *x);
-    memcpy(to_v, v, p->nv * sizeof *v);
-    motus_status status = system_values(s, t, to_x, to_v, columns, count, before, err);
-    const int answer = status == MOTUS_OK ? system_later(s, t, late, to_x, to_v, a) : 0;
-    if (answer && !s->model) status = columns_callback_failed("acceleration", t, answer, err);
+    double *to_x, *to_v, *const before = room + p->nx + 2 * p->nv + 3;
+    motus_status status = move_later(s, t, 0, x, v, room, &to_x, &to_v, err);
+    if (status == MOTUS_OK) status = system_values(s, t, to_x, to_v, columns, count, before, err);
+    if (status == MOTUS_OK) status = move_later(s, t, late, x, v, room, &to_x, &to_v, err);
     if (status == MOTUS_OK) status = system_values(s, t, to_x, to_v, columns, count, out, err);
     for (size_t k = 0; status == MOTUS_OK && k < count; k++) {
         const double moved = fabs(out[k] - before[k]);
