@@ -251,8 +251,7 @@ static motus_status turn(events *e, size_t k, size_t i, motus_error *err)
     memcpy(e->before, at->g, e->rules.functions * sizeof *at->g);
     jog(e, e->count[k], true);
     const double before = at->t;
-    motus_status status = e->rules.turn(e->rules.ctx, k, i, e->way, &at->t, at->x, at->v, err);
-    if (e->way * (at->t - e->until) > 0) at->t = e->until;
+    motus_status status = e->rules.turn(e->rules.ctx, k, i, e->way, e->until, &at->t, at->x, at->v, err);
     if (at->t != before) at->lost = 0;
     if (!status) status = events_swarm(e, e->rules.rule[k].first + i, err);
     return status ? status : look_again(e, k, i, err);

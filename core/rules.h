@@ -112,9 +112,10 @@ typedef struct rules {
     int (*act)(void *ctx, size_t rule, size_t instance, double t, double *x, double *v, bool *in_v, size_t *which);
     /* Where there are internal rules. What one does: the side on which the motion goes on along `way`, 1 forward or -1
      * backward; and the sides of a state that did not come by motion, as at the start and after another rule acted.
-     * A turn may lead on to where the motion comes to rest, within a time that no method resolves: then t grows. */
-    motus_status (*turn)(void *ctx, size_t rule, size_t instance, double way, double *t, double *x, double *v,
-                         motus_error *);
+     * A turn may lead on to where the motion comes to rest, within a time that no method resolves: then t grows, but
+     * not beyond `until`. */
+    motus_status (*turn)(void *ctx, size_t rule, size_t instance, double way, double until, double *t, double *x,
+                         double *v, motus_error *);
     motus_status (*settle)(void *ctx, double way, double t, double *x, double *v, motus_error *);
     /* Internal rules of these functions, `count` of them, follow one another ever faster, and the state is where they
      * accumulate, but for rounding: how the motion goes on, which may change by that. MOTUS_EVENTS: that is not known.

@@ -967,12 +967,12 @@ static motus_status stand(sides *s, const parts *p, double way, double t, double
     return along(p, s->p, s->p) <= 1 ? MOTUS_OK : leave(s, p, way, t, x, v, err);
 }
 
-/* The way on to rest of a short vector u, and the time that it takes. With the force constant, F without friction and
+/* The way on to rest of a short vector u, and the time that it takes; not *rests: it rests after `until`. With the force constant, F without friction and
  * -c u/|u| by it, c|u| + F u falls by c^2 - F^2 in a time, and so do quadratic forms in u whose rates are linear in u:
  * where the motion stops, how far it goes and when are known in closed form, though no power of the time leads
  * there. */
-static motus_status come_to_rest(sides *s, const parts *p, double way, double *t, double *x, double *v,
-                                 motus_error *err)
+static motus_status come_to_rest(sides *s, const parts *p, double way, double until, double *t, double *x, double *v,
+                                 bool *rests, motus_error *err)
 {
     double *side = x + s->switches->slot, u[GRAPH_COMPONENTS], F[GRAPH_COMPONENTS], back = 0;
     const size_t nv = s->problem->nv, moving = s->problem->nx - s->problem->modes;
@@ -980,6 +980,7 @@ static motus_status come_to_rest(sides *s, const parts *p, double way, double *t
     const double length = sqrt(along(p, s->now, s->now));
     for (int i = 0; i < p->count; i++) u[i] = s->now[p->of[i]];
     memset(s->push, 0, nv * sizeof *s->push);
+    memcpy(s->v, v, nv * sizeof *v);
     motus_status status = move_to_rest(s, p, way, *t, x, v, s->push, &back, err);
     if (status != MOTUS_OK) return status;
     for (int i = 0; i < p->count; i++) side[p->of[i]] = u[i] / length;
@@ -993,6 +994,12 @@ static motus_status come_to_rest(sides *s, const parts *p, double way, double *t
     if (status != MOTUS_OK || !(pull < back)) return status;
     const double ahead = pull > 0 ? with / pull : 0; /* the part of u along F */
     const double time = (back * length + with) / (back * back - pull * pull);
+    if (!(time <= way * (until - *t))) { /* the run ends before */
+        memcpy(v, s->v, nv * sizeof *v);
+        for (int i = 0; i < p->count; i++) side[p->of[i]] = u[i] / length;
+        *rests = false;
+        return MOTUS_OK;
+    }
     const double turned = (2 * back * length + with) / (4 * back * back - pull * pull);
     const double far =
         (back * length * ahead + pull * (ahead * ahead + length * length) / 2) / (2 * (back * back - pull * pull));
@@ -1009,8 +1016,8 @@ static motus_status come_to_rest(sides *s, const parts *p, double way, double *t
 
 /* The side of a direction. left: the vector has turned away from the old one, or is short, or what holds it has left
  * the disc. */
-static motus_status choose_direction(sides *s, size_t k, bool left, double way, double *t, double *x, double *v,
-                                     motus_error *err)
+static motus_status choose_direction(sides *s, size_t k, bool left, double way, double until, double *t, double *x,
+                                     double *v, motus_error *err)
 {
     const parts p = parts_of(s, k);
     double *side = x + s->switches->slot, bound = 0;
@@ -1025,13 +1032,14 @@ static motus_status choose_direction(sides *s, size_t k, bool left, double way, 
     if (!left) return MOTUS_OK;
     const double ulp = nextafter(fabs(*t), INFINITY) - fabs(*t), least = short_of(s, &p, *t, x, v);
     motus_status status = MOTUS_OK;
+    bool rests = true;
     if (length <= 1.25 * least) {
-        status = come_to_rest(s, &p, way, t, x, v, err);
+        status = come_to_rest(s, &p, way, until, t, x, v, &rests, err);
     } else { /* what is left of the motion is less than times can tell */
         status = push_of(s, *t, x, v, s->a, s->du, err);
         if (status != MOTUS_OK || !(length <= -0x1p13 * ulp * way * along(&p, s->du, s->now) / length)) return status;
     }
-    return status == MOTUS_OK ? stand(s, &p, way, *t, x, v, err) : status;
+    return status == MOTUS_OK && rests ? stand(s, &p, way, *t, x, v, err) : status;
 }
 
 /* ---- all switches ---- */
@@ -1067,7 +1075,7 @@ static motus_status place(sides *s, size_t k, double u, double bound, double way
     const operation op = op_of(s, k);
     const double whole = switches_counts(op) ? round(u) : 0;
     if (isnan(u) || silent(s, k)) return MOTUS_OK; /* a cell without a switch; another one places it */
-    if (switches_directs(op)) return choose_direction(s, k, false, way, &t, x, v, err);
+    if (switches_directs(op)) return choose_direction(s, k, false, way, t, &t, x, v, err);
     if (is_pinned(s, x + s->switches->slot, k) && fabs(u) <= bound) return MOTUS_OK; /* it leaves with another */
     if (isfinite(bound) ? fabs(u - whole) > bound : u != whole) { /* where its slope is infinite no bound is known */
         put(s, x + s->switches->slot, k, switches_side(op, u, 0));
@@ -1135,16 +1143,17 @@ static motus_status check_held(sides *s, double way, double t, double *x, double
 }
 
 /* A switch within the argument of another one may let that jump: mod(floor(t), 2). */
-static motus_status turn(void *ctx, size_t number, size_t instance, double way, double *at, double *x, double *v,
-                         motus_error *err)
+static motus_status turn(void *ctx, size_t number, size_t instance, double way, double until, double *at, double *x,
+                         double *v, motus_error *err)
 {
     sides *s = ctx;
     const size_t count = s->switches->count, switched = s->switches->first[number - s->own.count] + instance;
     const double *side = x + s->switches->slot;
     s->way = way;
     run(s, s->argument, *at, x, v, NULL, s->kept);
-    motus_status status = switches_directs(op_of(s, switched)) ? choose_direction(s, switched, true, way, at, x, v, err)
-                                                               : change(s, switched, way, *at, x, v, err);
+    motus_status status = switches_directs(op_of(s, switched))
+                              ? choose_direction(s, switched, true, way, until, at, x, v, err)
+                              : change(s, switched, way, *at, x, v, err);
     const double t = *at;
     for (size_t pass = 0; pass < NESTED && status == MOTUS_OK; pass++) {
         bool jumped = false;

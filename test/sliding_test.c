@@ -647,6 +647,9 @@ static void stops_in_plane(void **state)
         const outcome one = finished(straight, in_plane[m], 1e-12, 2), three = finished(spring, in_plane[m], 1e-12, 3);
         NEAR(one.x[0], 0.18994801032108305, 1e-15);
         NEAR(one.x[1], 0.09497400516054152, 1e-15);
+        const double stop = hypot(1, 0.5) / 2.943, before = 0x1p-27; /* which no step resolves */
+        const outcome nearly = finished(straight, in_plane[m], 1e-12, stop - before);
+        NEAR(hypot(nearly.v[0], nearly.v[1]), 2.943 * before, 1e-15);
         NEAR(three.x[0], -0.68811647015455082, 1e-11);
         NEAR(three.x[1], -1.38981155265790713, 1e-11);
         for (int k = 0; k < 2; k++) {
