@@ -967,10 +967,10 @@ static motus_status stand(sides *s, const parts *p, double way, double t, double
     return along(p, s->p, s->p) <= 1 ? MOTUS_OK : leave(s, p, way, t, x, v, err);
 }
 
-/* The way on to rest of a short vector u, and the time that it takes; not *rests: it rests after `until`. With the force
- * constant, F without friction and -c u/|u| by it, c|u| + F u falls by c^2 - F^2 in a time, and so do quadratic forms
- * in u whose rates are linear in u: where the motion stops, how far it goes and when are known in closed form, though
- * no power of the time leads there. */
+/* The way on to rest of a short vector u, and the time that it takes; not *rests: it rests after `until`. With the
+ * force constant, F without friction and -c u/|u| by it, c|u| + F u falls by c^2 - F^2 in a time, and so do quadratic
+ * forms in u whose rates are linear in u: where the motion stops, how far it goes and when are known in closed form,
+ * though no power of the time leads there. */
 static motus_status come_to_rest(sides *s, const parts *p, double way, double until, double *t, double *x, double *v,
                                  bool *rests, motus_error *err)
 {
