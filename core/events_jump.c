@@ -74,6 +74,10 @@ motus_status events_sampled(events *e, const events_cell *c, int *sign, bool *to
     }
     *told = !next_change(c, to, high, &next_low, &next_high, &next_to);
     if (!*told) return MOTUS_OK;
+    if (*sign == 0 && e->heads[c->of]) { /* it leaves 0 to the other side, and comes back before the first sample */
+        e->hidden |= to != e->heads[c->of];
+        e->heads[c->of] = 0;
+    }
     candidate one = between(c, low, high);
     one.kind = (candidate_kind)to;
     one.leaves = *sign == 0;

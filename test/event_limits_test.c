@@ -151,6 +151,8 @@ static void growths(void **state)
         {"x'' = 0\nx(0) = 0.5\nx'(0) = 1\nwhen x = 0 falling as low: x' = -2 x', record\n"
          "when x = 1 rising as high: x' = -2 x', record",
          MOTUS_DIVERGED, 1.5, 1e-8},
+        /* the same, of which one function with a kink between them tells */
+        {"x'' = 0\nx(0) = 0.5\nx'(0) = 1\nwhen |x - 0.5| = 0.5 rising: x' = -2 x'", MOTUS_DIVERGED, 1.5, 1e-8},
         {"s' = v\nv' = 0\ns(0) = 0\nv(0) = 1\nwhen s = 1 as kick: s = 0, v = 1.02 v", MOTUS_DIVERGED, 51, 1e-6},
         {"v = 1\ns' = v\ns(0) = 0\nwhen s = 1 as kick: s = 0, v = 2 v\nwhen kick accumulates: stop", MOTUS_DIVERGED, 2,
          1e-8},
