@@ -380,7 +380,13 @@ static motus_status by_hdf5(maker *m, const char *path, size_t directory)
     H5dont_atexit(); /* at the exit it would crash where a file could not be closed, as on a full disk */
     H5Eset_auto2(H5E_DEFAULT, NULL, NULL);
     m->group = m->blocks = m->scale = H5I_INVALID_HID;
+    errno = 0;
     m->file = make_file(path, directory, !m->def->from);
+    if (m->file < 0 && (errno == ENOSPC || errno == EDQUOT || errno == EFBIG)) { /* the file has been made, empty */
+        const motus_status status = no_room(m, errno);
+        unlink(path);
+        return status;
+    }
     if (m->file < 0) {
         fail(m->err, MOTUS_FILE, "cannot write %s: HDF5 cannot make the file beside it, %s", m->path, path);
         hint(m->err, "look whether the folder may be written, and whether another program makes this archive");

@@ -210,6 +210,8 @@ survives "events, rows in time" ball.motus --method verlet --step 1/64 --every 0
 survives "backward" drive.motus --method dop853 --tolerance 1e-9 --set k=0 --until -60 --every 0.0003 --machine interpreter
 rm -f full.h5
 refuses "a file that cannot grow is named as the user does" 1 "cannot write full.h5: File too large" bash -c 'ulimit -f 600; exec "$@"' - "$motus" run drive.motus --method dopri5 --tolerance 1e-8 --until 1e5 --error none -q -o full.h5
+refuses "... nor even begin" 1 "cannot write tiny.h5: File too large" bash -c 'ulimit -f 1; exec "$@"' - "$motus" run drive.motus --method dopri5 --tolerance 1e-8 --until 1e5 --error none -q -o tiny.h5
+that "... and leaves nothing beside it" test ! -e tiny.h5.new
 for signal in TERM INT; do
     rm -f stopped.h5
     (trap - INT EXIT; exec "$motus" run drive.motus --error none --until 1e7 --every "1000 steps" --machine interpreter -o stopped.h5) >"$out" 2>"$err" &
