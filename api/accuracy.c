@@ -191,6 +191,35 @@ static motus_status find_decimals(accuracy *a, trial *s, motus_error *err)
     return status;
 }
 
+/* Why errors are as large as they are, where that is the force: for the end of a sentence. */
+static const char *because(const accuracy *a, char out[MOTUS_TEXT_MAX])
+{
+    out[0] = 0;
+    if (a->steep.text[0]) error_text(out, "; %s", a->steep.text);
+    return out;
+}
+
+bool accuracy_wants_another(const accuracy *a, const motus_error *failure)
+{
+    if (failure->status == MOTUS_OK) return a->missed && a->steep.text[0];
+    return !ends_all(failure->status) && failure->cause == MOTUS_CAUSE_NONE;
+}
+
+/* The trials have failed so. */
+static motus_status tell_failure(accuracy *a, const trial *s, motus_error *failure, motus_error *err)
+{
+    char of[MOTUS_TEXT_MAX];
+    accuracy_end(a);
+    if (accuracy_wants_another(a, failure)) {
+        const motus_status status = steep_find(s->system, &s->def, &a->steep, err);
+        if (status != MOTUS_OK) return status;
+        const motus_error kept = *failure;
+        error_text(failure->message, "%s%s", kept.message, because(a, of));
+    }
+    if (err) motus_struct_write(MOTUS_DEF_ERROR, failure, err);
+    return failure->status;
+}
+
 double accuracy_reached(const accuracy *a, const motus_run *r)
 {
     return isfinite(a->reached) || !motus_run_done(r) || !r->bars ? a->reached : bars_worst(r->bars, a->absolute, true);
@@ -199,7 +228,7 @@ double accuracy_reached(const accuracy *a, const motus_run *r)
 /* A trial that was far off was not taken to its end, so only the run itself can tell of its errors. */
 motus_status accuracy_refuse(const accuracy *a, const motus_run *r, motus_error *err)
 {
-    char wanted[DECIMAL_MAX], t[DECIMAL_MAX], size[MOTUS_TEXT_MAX], part[MOTUS_TEXT_MAX] = "";
+    char wanted[DECIMAL_MAX], t[DECIMAL_MAX], size[MOTUS_TEXT_MAX], part[MOTUS_TEXT_MAX] = "", why[MOTUS_TEXT_MAX];
     const char *const unit = a->absolute ? "" : " of the motion's size";
     const bool lost = r->bars && !isnan(r->bars->differences.until);
     const double reached = accuracy_reached(a, r);
@@ -208,20 +237,21 @@ motus_status accuracy_refuse(const accuracy *a, const motus_run *r, motus_error 
     if (!isnan(a->rounding))
         error_text(part, "; of that, up to %.1e comes from the rounding of the model's decimals to doubles",
                    a->rounding);
+    because(a, why);
     if (isfinite(a->reached))
-        fail(err, MOTUS_ACCURACY, "the accuracy %s is not reached: the trials reached %.1e%s at best, %s%s", wanted,
-             reached, unit, size, part);
+        fail(err, MOTUS_ACCURACY, "the accuracy %s is not reached: the trials reached %.1e%s at best, %s%s%s", wanted,
+             reached, unit, size, part, why);
     else if (lost)
         fail(err, MOTUS_ACCURACY,
-             "the accuracy %s is not reached: no digit of the answer is known to be significant after t = %s", wanted,
-             run_time_text(r, r->bars->differences.until, t));
+             "the accuracy %s is not reached: no digit of the answer is known to be significant after t = %s%s", wanted,
+             run_time_text(r, r->bars->differences.until, t), why);
     else if (isfinite(reached))
-        fail(err, MOTUS_ACCURACY, "the accuracy %s is not reached: the error is %.1e%s, %s", wanted, reached, unit,
-             size);
+        fail(err, MOTUS_ACCURACY, "the accuracy %s is not reached: the error is %.1e%s, %s%s", wanted, reached, unit,
+             size, why);
     else
-        fail(err, MOTUS_ACCURACY, "the accuracy %s is not reached: the best trial was beyond it at t = %s, %s", wanted,
-             run_time_text(r, a->time, t), size);
-    if (lost)
+        fail(err, MOTUS_ACCURACY, "the accuracy %s is not reached: the best trial was beyond it at t = %s, %s%s",
+             wanted, run_time_text(r, a->time, t), size, why);
+    if (lost && !why[0])
         hint(err, "errors grow with the time: end earlier, with a smaller `until` of the definition");
     else
         hint(err, "the numbers are there, with the errors that they have; allow a larger error");
@@ -238,25 +268,20 @@ motus_status accuracy_find(motus_system *system, motus_run_def *def, run_hint *h
     if (def->progress) s.def.progress = tell, s.def.context = &s.share;
     double size = NAN;
     bool more = true;
-    motus_status status = begin(&s, a, err);
+    motus_error failure = motus_default_error();
+    motus_status status = begin(&s, a, &failure);
     a->best = NULL;
     while (status == MOTUS_OK && more) {
-        status = try(&s, err);
+        status = try(&s, &failure);
         if (status != MOTUS_OK) break;
         s.share.from += s.share.size;
         if (s.run) keep(&s, a, &size);
         more = search_next(&s.search, s.bar, s.done);
     }
-    a->trials = s.search.trials;
+    a->trials += s.search.trials;
     motus_run_destroy(s.run);
-    if (status == MOTUS_OK && !a->best) {
-        status = s.failure.status;
-        if (err) motus_struct_write(MOTUS_DEF_ERROR, &s.failure, err);
-    }
-    if (status != MOTUS_OK) {
-        accuracy_end(a);
-        return status;
-    }
+    if (status == MOTUS_OK && !a->best) failure = s.failure, status = failure.status;
+    if (status != MOTUS_OK) return tell_failure(a, &s, &failure, err);
     *s.size = size;
     def->tolerance = s.def.tolerance;
     def->step = s.def.step;
@@ -267,7 +292,8 @@ motus_status accuracy_find(motus_system *system, motus_run_def *def, run_hint *h
     if (a->reached <= a->wanted) return MOTUS_OK;
     a->missed = true;
     a->time = motus_run_time(a->best);
-    if (isfinite(a->reached)) status = find_decimals(a, &s, err);
+    status = steep_find(s.system, &s.def, &a->steep, err);
+    if (status == MOTUS_OK && isfinite(a->reached)) status = find_decimals(a, &s, err);
     if (status != MOTUS_OK) accuracy_end(a);
     return status;
 }

@@ -18,6 +18,10 @@
  * step apart. Where a force holds the motion at a jump (Coulomb friction) steps as short as a smaller tolerance
  * wants them may be thousands for one of the run's; the companion then gives up.
  *
+ * A Taylor series is refused by its companion as by the run: half a step from a state that is off by rounding is beyond
+ * the circle of convergence where the run passes a singularity by steps that are as short as its distance, as at the
+ * infinite slope of cbrt(x); elsewhere half a step is allowed.
+ *
  * Beeman's companion is velocity Verlet's method, which has the same positions: Beeman's velocities are not those by
  * which its positions go on, so that beginning anew at every landing would be an error of its own.
  *
@@ -71,6 +75,10 @@ chosen companion_method(const chosen *c, const motus_system *s)
 {
     chosen method = *c;
     if (controls(c, s)) return with_less(c);
+    if (c->row->expands) {
+        method.least = 0, method.most = INFINITY;
+        return method;
+    }
     if (!strcmp(c->name, "beeman") && row_choose("velocity-verlet", &method, NULL, NULL) == MOTUS_OK) {
         method.varies = c->varies;
         method.threads = c->threads;

@@ -24,7 +24,8 @@ typedef struct companion {
 } companion;
 
 /* The method of the companion of about half the step: that of the run, without error control, or with less allowed
- * where the system's force is not smooth; Beeman's has another, see companion.c. */
+ * where the system's force is not smooth; a Taylor series keeps its tolerance, and Beeman's has another method, see
+ * companion.c. */
 chosen companion_method(const chosen *, const motus_system *);
 /* From the state x, v at t, where the run stands, with the run's method. The state is copied. */
 motus_status companion_begin(companion *, const motus_run *, double t, const double *x, const double *v, motus_error *);

@@ -13,6 +13,7 @@
 #include "api/suggest.h"
 
 #include <math.h>
+#include <stdio.h>
 #include <string.h>
 
 #define ACCURACY 1e-9 /* of a run for which nobody says how exact it is to be */
@@ -72,27 +73,84 @@ static motus_status settle(motus_system *s, motus_run_def *def, const goal_wish 
     return status;
 }
 
+/* With this method: what it reaches, how it may fail, and with what definition. */
+typedef struct attempt {
+    motus_run_def def;
+    run_hint hint;
+    accuracy accuracy;
+    motus_error failure;
+} attempt;
+
+static void attempt_find(attempt *t, motus_system *s, const char *method)
+{
+    if (method) t->def.method = method;
+    t->failure = motus_default_error();
+    t->failure.status = accuracy_find(s, &t->def, &t->hint, &t->accuracy, &t->failure);
+}
+
+static bool better(const attempt *a, const attempt *b)
+{
+    if (a->failure.status != MOTUS_OK || b->failure.status != MOTUS_OK) return a->failure.status == MOTUS_OK;
+    if (!isfinite(a->accuracy.reached) && !isfinite(b->accuracy.reached)) /* neither came to the end with digits */
+        return fabs(a->accuracy.time - a->def.start) > fabs(b->accuracy.time - b->def.start);
+    return a->accuracy.reached < b->accuracy.reached;
+}
+
+/* Other methods that pilots have flown, where the first fails for a reason of its own. */
+static void try_others(motus_system *s, const attempt *asked, const pilot *p, attempt *best, char choice[256])
+{
+    const char *const first = best->def.method;
+    for (size_t k = 1; k < p->count && accuracy_wants_another(&best->accuracy, &best->failure); k++) {
+        attempt t = *asked;
+        t.accuracy.trials = best->accuracy.trials;
+        t.accuracy.steep = best->accuracy.steep;
+        t.hint.steps = 0;
+        attempt_find(&t, s, p->names[k]);
+        const int trials = t.accuracy.trials;
+        attempt *const worse = better(&t, best) ? best : &t;
+        accuracy_end(&worse->accuracy);
+        if (worse == best) *best = t;
+        best->accuracy.trials = trials;
+        /* what ends all ends this, too */
+        if (t.failure.status == MOTUS_CANCELLED || t.failure.status == MOTUS_MEMORY) {
+            accuracy_end(&best->accuracy);
+            best->failure = t.failure;
+            return;
+        }
+    }
+    if (best->def.method != first)
+        snprintf(choice, 256, "%s %s, and %s, which needs fewer operations, does not", best->def.method,
+                 best->accuracy.missed ? "comes nearest to the accuracy" : "keeps to the accuracy", first);
+}
+
 static motus_status reach(motus_system *s, motus_run_def *def, const goal_wish *w, run_hint *hint, struct goal *g,
                           motus_error *err)
 {
+    pilot p = {.count = 0};
     motus_status status = settle(s, def, w, err);
     if (status == MOTUS_OK && w->automatic) {
-        pilot p;
         motus_run_def first = *def;
         if (isnan(first.tolerance)) first.tolerance = w->absolute ? w->accuracy / 10 : fmax(1e-14, w->accuracy / 10);
         status = pilot_choose(s, &first, &p, err);
         if (status != MOTUS_OK) return status;
         memcpy(g->choice, p.why, sizeof g->choice);
-        memcpy(g->method, p.name, sizeof g->method);
-        def->method = g->method;
+        def->method = p.names[0];
         hint->steps = p.steps;
     }
     if (status != MOTUS_OK || isnan(w->accuracy)) return status;
     g->accuracy.wanted = w->accuracy;
     g->accuracy.absolute = w->absolute;
-    status = accuracy_find(s, def, hint, &g->accuracy, err);
-    if (status == MOTUS_OK) hint->steps = (double)motus_run_steps(g->accuracy.best);
-    return status;
+    const attempt asked = {.def = *def, .hint = *hint, .accuracy = g->accuracy};
+    attempt best = asked;
+    attempt_find(&best, s, NULL);
+    if (w->automatic) try_others(s, &asked, &p, &best, g->choice);
+    g->accuracy = best.accuracy;
+    *def = best.def, *hint = best.hint;
+    if (best.failure.status == MOTUS_OK)
+        hint->steps = (double)motus_run_steps(g->accuracy.best);
+    else if (err)
+        motus_struct_write(MOTUS_DEF_ERROR, &best.failure, err);
+    return best.failure.status;
 }
 
 motus_status goal_reach(motus_system *s, motus_run_def *def, run_hint *hint, struct goal **goal, motus_error *err)

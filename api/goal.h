@@ -6,7 +6,7 @@
 
 struct goal {
     accuracy accuracy;
-    char method[MOTUS_NAME_MAX], choice[256]; /* which method "auto" chose, and why; "" */
+    char choice[256]; /* which method "auto" chose, and why; "" */
 };
 
 /* What is asked for: by the caller's definition first, then by the model. */

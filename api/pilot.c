@@ -24,7 +24,6 @@ enum { STEPS = 256, FAR = 4, CHUNK = 16 };
 
 /* The first one admits every force. Those of low order are for forces that are not smooth. */
 static const char *const smooth[] = {PILOT_FIRST, "dep12", "dep6", "taylor"}, *const kinked[] = {PILOT_FIRST, "dopri5"};
-enum { CANDIDATES = 4 };
 
 typedef struct fleet {
     motus_system *system;
@@ -32,8 +31,8 @@ typedef struct fleet {
     weight weight;
     double until; /* of the part that all of them integrate; NaN: the first one finds it */
     double best;  /* the least work so far, and */
-    double work[CANDIDATES];
-    double steps[CANDIDATES]; /* of the part */
+    double work[PILOT_CANDIDATES];
+    double steps[PILOT_CANDIDATES]; /* of the part */
     const char *const *names;
     size_t count;
 } fleet;
@@ -98,6 +97,21 @@ static void explain(const fleet *f, size_t chosen, pilot *out)
     }
 }
 
+/* By their work; of those that are alike in it, as they stand. */
+static void list(const fleet *f, pilot *out)
+{
+    double work[PILOT_CANDIDATES];
+    out->count = 0;
+    for (size_t k = 0; k < f->count; k++) {
+        size_t at = out->count;
+        if (!isfinite(f->work[k])) continue;
+        for (; at > 0 && work[at - 1] > f->work[k]; at--) work[at] = work[at - 1], out->names[at] = out->names[at - 1];
+        work[at] = f->work[k];
+        out->names[at] = f->names[k];
+        out->count++;
+    }
+}
+
 motus_status pilot_choose(motus_system *s, const motus_run_def *def, pilot *out, motus_error *err)
 {
     motus_system *located = NULL;
@@ -134,7 +148,7 @@ motus_status pilot_choose(motus_system *s, const motus_run_def *def, pilot *out,
         return status;
     }
     const double part = fabs(f.until - def->start), all = fabs(def->until - def->start);
-    snprintf(out->name, sizeof out->name, "%s", f.names[best]);
+    list(&f, out);
     out->steps = f.steps[best] * (part > 0 ? all / part : 1);
     explain(&f, best, out);
     return MOTUS_OK;

@@ -5,11 +5,13 @@
 #include "api/run.h"
 
 #define PILOT_FIRST "dop853" /* it admits every force, and chooses its steps */
+enum { PILOT_CANDIDATES = 4 };
 
 typedef struct pilot {
-    char name[MOTUS_NAME_MAX]; /* of the method that was chosen */
-    char why[256];             /* one sentence */
-    double steps;              /* about so many will the run take up to its end */
+    const char *names[PILOT_CANDIDATES]; /* that came through, by what they need: the first was chosen */
+    size_t count;
+    char why[256]; /* one sentence */
+    double steps;  /* about so many will the run take up to its end */
 } pilot;
 
 /* Which method needs the fewest operations for the run of this definition, whose end and tolerance are known. Fails as

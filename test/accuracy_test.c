@@ -419,6 +419,58 @@ static void out_of_reach(void **state)
 
 /* Where a model's decimals are no doubles, what their rounding does to the end is that of the same model with the
  * doubles on their other sides; where they are doubles there is nothing to say. */
+/* x'' = -cbrt(x) from rest at A has the period sqrt(6) A^(1/3) B(3/4, 1/2), since x'^2/2 + 3/4 x^(4/3) is constant. At
+ * every passage of 0 the force has an infinite slope. Written with |x|, with a switch besides, Taylor series do not get
+ * over it, so that auto takes another method. */
+static void infinite_slopes(void **state)
+{
+    (void)state;
+    static const char *const forces[] = {"-cbrt(x)", "-sign(x)*cbrt(abs(x))"};
+    static const double amplitudes[] = {0.1, 1, 30}, accuracies[] = {NAN, 1e-6};
+    const double beta = tgamma(0.75) * tgamma(0.5) / tgamma(1.25);
+    for (int i = 0; i < 2 * 3 * 2; i++) {
+        const double size = amplitudes[i / 2 % 3], period = sqrt(6) * cbrt(size) * beta;
+        const double promise = i % 2 ? 1e-6 : 1e-9;
+        char text[200];
+        snprintf(text, sizeof text, "x'' = %s; x(0) = %g; x'(0) = 0", forces[i / 6], size);
+        motus_system *s = given_text(text);
+        motus_error err = motus_default_error();
+        motus_run_def def = wanted(NULL, accuracies[i % 2], 2.5 * period);
+        motus_run *r = NULL;
+        must(made(s, &def, &r, &err), &err, text);
+        assert_true(fabs(value(s, r, "x") + size) <= 1.01 * promise * size);
+        assert_true(fabs(value(s, r, "x'")) <= 1.01 * promise * sqrt(1.5) * cbrt(size * size));
+        if (i >= 6 && strcmp(motus_run_method(r), "taylor") != 0 && !strstr(motus_run_choice(r), "needs the fewest"))
+            assert_non_null(strstr(motus_run_choice(r), "keeps to the accuracy, and taylor"));
+        motus_run_destroy(r);
+        motus_system_destroy(s);
+    }
+}
+
+/* What is told of a method that is named, and of all where none has it. */
+static void the_place_of_an_infinite_slope(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *method, *force, *place;
+        double accuracy;
+    } rows[] = {{"taylor", "-sign(x - 0.5)*cbrt(abs(x - 0.5))", "where x - 0.5 is 0, first at t = 1.1", 1e-9},
+                {NULL, "-cbrt(x)", "where x is 0, first at t = 1.46", 1e-15}};
+    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
+        char text[200];
+        snprintf(text, sizeof text, "x'' = %s; x(0) = 1; x'(0) = 0", rows[i].force);
+        motus_system *s = given_text(text);
+        motus_error err = motus_default_error();
+        motus_run_def def = wanted(rows[i].method, rows[i].accuracy, 20);
+        motus_run *r = NULL;
+        assert_int_equal(made(s, &def, &r, &err), MOTUS_ACCURACY);
+        if (!strstr(err.message, rows[i].place) || strstr(err.hint, "errors grow"))
+            fail_msg("%s: %s; %s", text, err.message, err.hint);
+        motus_run_destroy(r);
+        motus_system_destroy(s);
+    }
+}
+
 static void the_part_of_decimals(void **state)
 {
     (void)state;
@@ -541,6 +593,8 @@ int main(void)
                                        cmocka_unit_test(suits_the_force),
                                        cmocka_unit_test(callbacks),
                                        cmocka_unit_test(out_of_reach),
+                                       cmocka_unit_test(infinite_slopes),
+                                       cmocka_unit_test(the_place_of_an_infinite_slope),
                                        cmocka_unit_test(the_part_of_decimals),
                                        cmocka_unit_test(held_in_balance),
                                        cmocka_unit_test(refused)};

@@ -69,6 +69,16 @@ quad motion_root(quad x)
     return r * scale;
 }
 
+static quad cube_root(quad x)
+{
+    if (x == 0) return 0;
+    quad scale = 1; /* a double holds the root of what is left */
+    for (; motion_absolute(x) < Q(1e-200); x *= Q(1e60)) scale *= Q(1e-20);
+    quad r = cbrt((double)x);
+    for (int k = 0; k < 3; k++) r -= (r - x / (r * r)) / 3;
+    return r * scale;
+}
+
 quad motion_power_of_ten(int n)
 {
     quad p = 1;
@@ -241,6 +251,7 @@ void motion_values(const motion *m, const motion_point *at, const quad *sides, q
         case MOTION_SIN: values[n] = sine(a); break;
         case MOTION_EXP: values[n] = exponential(a); break;
         case MOTION_SQRT: values[n] = motion_root(a); break;
+        case MOTION_CBRT: values[n] = cube_root(a); break;
         case MOTION_IF:
             values[n] = a >= 1 ? b : a <= -1 ? values[p->c] : ((1 + a) * b + (1 - a) * values[p->c]) / 2;
             break;
@@ -289,6 +300,7 @@ void motion_rates(const motion *m, const motion_point *at, const quad *sides, co
         case MOTION_SIN: along[n] = da * sine(x + motion_pi() / 2); break;
         case MOTION_EXP: along[n] = da * values[n]; break;
         case MOTION_SQRT: along[n] = values[n] > 0 ? da / (2 * values[n]) : 0; break;
+        case MOTION_CBRT: along[n] = values[n] != 0 ? da / (3 * values[n] * values[n]) : 0; break;
         case MOTION_IF:
             along[n] = x >= 1 ? db : x <= -1 ? along[p->c] : ((1 + x) * db + (1 - x) * along[p->c]) / 2;
             break;
@@ -353,8 +365,8 @@ void motion_print(const motion *m, int n, char *out, size_t size)
         return;
     }
     char a[2048] = "", b[2048] = "", c[2048] = "";
-    const bool one = p->op == MOTION_SIN || p->op == MOTION_EXP || p->op == MOTION_SQRT || p->op == MOTION_ABS ||
-                     p->op == MOTION_SIGN;
+    const bool one = p->op == MOTION_SIN || p->op == MOTION_EXP || p->op == MOTION_SQRT || p->op == MOTION_CBRT ||
+                     p->op == MOTION_ABS || p->op == MOTION_SIGN;
     motion_print(m, p->a, a, sizeof a);
     if (!one) motion_print(m, p->b, b, sizeof b);
     if (p->op == MOTION_IF) motion_print(m, p->c, c, sizeof c);
@@ -368,6 +380,7 @@ void motion_print(const motion *m, int n, char *out, size_t size)
     case MOTION_SIN: snprintf(out, size, "sin(%s)", a); break;
     case MOTION_EXP: snprintf(out, size, "exp(%s)", a); break;
     case MOTION_SQRT: snprintf(out, size, "sqrt(%s)", a); break;
+    case MOTION_CBRT: snprintf(out, size, "cbrt(%s)", a); break;
     case MOTION_IF: snprintf(out, size, "if(%s, %s, %s)", a, b, c); break;
     case MOTION_ABS: snprintf(out, size, abs_forms[p->c], a); break;
     case MOTION_SIGN: snprintf(out, size, "sign(%s)", a); break;

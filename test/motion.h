@@ -39,6 +39,7 @@ typedef enum motion_op {
     MOTION_SIN,
     MOTION_EXP,
     MOTION_SQRT,
+    MOTION_CBRT,
     MOTION_IF,      /* a: a comparison */
     MOTION_ABS,     /* the argument: a */
     MOTION_SIGN,    /* a */

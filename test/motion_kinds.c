@@ -250,6 +250,31 @@ static void family(motion *m)
              m->nodes[d].text, m->variables, m->nodes[c].text, m->variables);
 }
 
+/* A root of what the motion carries through 0, where its slope is infinite. */
+static int root_of(motion *m, int u)
+{
+    if (below(3)) return two(m, MOTION_CBRT, u, 0);
+    const int size = flip(m, MOTION_ABS, u, 0), power = below(2) ? MOTION_SQRT : MOTION_CBRT;
+    return times(m, flip(m, MOTION_SIGN, u, 0), two(m, (motion_op)power, size, 0));
+}
+
+static void root(motion *m)
+{
+    begin(m, below(3) ? 1 : 2);
+    until(m, between(3, 12));
+    for (int i = 0; i < m->variables; i++) {
+        const double size = pow(10, below(3) - 1), at = below(2) ? 0 : between(-0.3, 0.3);
+        const int u =
+            m->variables > 1 && below(2) ? minus(m, x_of(m, i), x_of(m, 1 - i)) : minus(m, x_of(m, i), number(m, at));
+        int sum = scaled(m, -between(0.3, 3), root_of(m, u));
+        if (below(3) == 0) sum = plus(m, sum, scaled(m, -between(0.05, 0.3), v_of(m, i)));
+        if (below(3) == 0) sum = plus(m, sum, drive(m, between(0.1, 1)));
+        if (below(3) == 0) sum = plus(m, sum, scaled(m, -between(0.1, 1), x_of(m, i)));
+        m->force[i] = sum;
+        m->x[i] = round(1000 * size * m->x[i]) / 1000, m->v[i] = round(1000 * size * m->v[i]) / 1000;
+    }
+}
+
 /* A block on a belt or on the ground, at a spring. */
 static void belt(motion *m)
 {

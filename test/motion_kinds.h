@@ -35,7 +35,8 @@
     X(GATHER, "gather", gather)             \
     X(THERMOSTAT, "thermostat", thermostat) \
     X(BALLS, "balls", balls)                \
-    X(FIRE, "fire", fire)
+    X(FIRE, "fire", fire)                   \
+    X(ROOT, "root", root)
 
 #define MOTION_KINDS_ENUMERATOR(name, word, make) MOTION_##name##_KIND,
 enum { MOTION_KINDS(MOTION_KINDS_ENUMERATOR) MOTION_KIND_COUNT };

@@ -414,7 +414,7 @@ static void go(going *g, motion_point *at, quad end, quad *size, motion_truth *o
     const quad grows = g->tolerance * Q(1e-4);
     quad h = *size, u[MOTION_LAYERS], du[MOTION_LAYERS], later[MOTION_LAYERS], none[MOTION_LAYERS];
     for (int steps = 0; at->t < end && !g->why; steps++) {
-        if (steps > 60000 || !(h > Q(1e-15))) {
+        if (steps > 60000 || !(h > Q(1e-24))) {
             g->why = "too many steps";
             return;
         }

@@ -161,6 +161,10 @@ bool graph_flat(graph *, node);
 /* The first operation, if any, whose operands depend on modes and that is not smooth for all of them: sqrt, a power
  * that is not whole, log, asin, acos; or 0. */
 node graph_domain(graph *, node);
+/* Operands of the operations below a node that have an infinite slope where the operand is 0: of a root, a logarithm, a
+ * power between 0 and 1; the u of |u| where that is the operand. Those that move, and not within sums; at most `most`.
+ * Returns how many. */
+size_t graph_steep(graph *, node, size_t most, node *of);
 /* Derivative: `seed` gives the derivative of a leaf (TIME, LOAD, PARAM) as a node; all else follows by the rules of
  * calculus. */
 typedef node (*graph_seed)(graph *, node leaf, void *ctx);

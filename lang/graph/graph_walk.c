@@ -185,6 +185,32 @@ node graph_domain(graph *g, node root)
     return found;
 }
 
+static bool steep(const graph *g, const graph_node *n)
+{
+    const graph_node *const power = &g->nodes[n->b];
+    return n->op == OP_SQRT || n->op == OP_CBRT || n->op == OP_LOG ||
+           (n->op == OP_POW && power->op == OP_CONST && power->value > 0 && power->value < 1);
+}
+
+size_t graph_steep(graph *g, node root, size_t most, node *of)
+{
+    const unsigned moving = DEP_TIME | (DEP_STATE & ~DEP_MODE);
+    graph_walk w;
+    size_t count = 0;
+    if (!graph_order(g, &root, 1, moving, false, &w)) return 0;
+    for (uint32_t k = 0; count < most && k < w.count; k++) {
+        const graph_node *n = &g->nodes[w.nodes[k]];
+        if (!steep(g, n)) continue;
+        node u = n->a;
+        while (g->nodes[u].op == OP_ABS || g->nodes[u].op == OP_NEG) u = g->nodes[u].a;
+        bool known = !(g->nodes[u].deps & moving);
+        for (size_t i = 0; i < count; i++) known |= of[i] == u;
+        if (!known) of[count++] = u;
+    }
+    give(&g->arena->allocator, w.nodes);
+    return count;
+}
+
 /* Loads ----------------------------------------------------------------------------------------------------------- */
 
 typedef struct visit_loads {
