@@ -24,8 +24,8 @@ typedef struct accuracy {
  * located switches where these have another force than the typed one. The hint is what is known of the run, and what
  * has become known. */
 motus_status accuracy_find(motus_system *, motus_run_def *, run_hint *, accuracy *, motus_error *);
-/* Whether another method may reach what this one, which has come to such an end, did not: it failed for no reason of the
- * motion, or the motion passes what it is not made for. */
+/* Whether another method may reach what this one, which has come to such an end, did not: it failed for no reason of
+ * the motion, or the motion passes an infinite slope. */
 bool accuracy_wants_another(const accuracy *, const motus_error *);
 void accuracy_end(accuracy *);
 /* The largest error of a run that is at its end, with the size of the best trial, where the trial has none. */

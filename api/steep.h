@@ -1,5 +1,5 @@
-/* Where a motion passes an infinite slope of its force, as that of cbrt(x) at x = 0. There no method has the errors that
- * its order says, and Taylor series end. */
+/* Where a motion passes an infinite slope of its force, as that of cbrt(x) at x = 0. There no method has the errors
+ * that its order says, and Taylor series end. */
 #ifndef API_STEEP_H
 #define API_STEEP_H
 
