@@ -79,6 +79,7 @@ void bars_destroy(motus_run *r)
     give(&r->allocator, r->bars->whole);
     give(&r->allocator, r->bars->memory);
     give(&r->allocator, r->bars->room);
+    give(&r->allocator, r->bars->steep);
     give(&r->allocator, r->bars->resumed);
     give(&r->allocator, r->bars);
 }
@@ -346,6 +347,37 @@ motus_status bars_take(motus_run *r, double t, double *x, double *v, bool observ
     return status == MOTUS_OK && limit ? take_limit(r, t, x, v, err) : status;
 }
 
+/* Writes how far the rounding of the places moves each acceleration; room: accelerations, places. Returns the largest
+ * of these roundings; 0: it is not known. */
+static double take_steep(const problem *p, double t, double *x, double *v, double *steep, double *room)
+{
+    double unit = 0, *const there = room, *const moved = there + p->nv;
+    memcpy(moved, x, p->nx * sizeof *x);
+    for (size_t k = 0; k < p->nx - p->modes; k++) {
+        companion_move(moved + k, 1, NULL, (uint32_t)k);
+        unit = fmax(unit, fabs(moved[k] - x[k]));
+    }
+    memset(steep, 0, p->nv * sizeof *steep);
+    memset(there, 0, p->nv * sizeof *there);
+    const bool known = !p->accel(p->ctx, t, x, v, steep) && !p->accel(p->ctx, t, moved, v, there);
+    for (size_t k = 0; k < p->nv; k++) {
+        const double apart = fabs(there[k] - steep[k]);
+        steep[k] = known && isfinite(apart) ? apart : 0;
+    }
+    return known ? unit : 0;
+}
+
+static motus_status begin_steep(motus_run *r, motus_error *err)
+{
+    bars *b = r->bars;
+    const problem *const p = &r->system->problem;
+    if (!r->events) return MOTUS_OK;
+    if (!b->steep) b->steep = take(&r->allocator, 3 * p->nv + p->nx + 1, sizeof *b->steep);
+    if (!b->steep) return fail(err, MOTUS_MEMORY, "no memory for bars of error");
+    take_steep(p, stepper_time(r->stepper), r->x, r->v, b->steep, b->steep + 2 * p->nv);
+    return MOTUS_OK;
+}
+
 static motus_status begin_at(motus_run *r, bool observed, motus_error *err)
 {
     bars *b = r->bars;
@@ -357,6 +389,8 @@ static motus_status begin_at(motus_run *r, bool observed, motus_error *err)
         bars_give_up(r, "the callback gives another acceleration when it is called again with the same numbers");
         return MOTUS_OK;
     }
+    status = begin_steep(r, err);
+    if (status != MOTUS_OK) return status;
     if (b->resumed) return bars_kept_begin(r, r->x, r->v, err);
     double *x = r->mid_x, *v = r->mid_v;
     memcpy(x, r->x, p->nx * sizeof *x);
@@ -439,6 +473,9 @@ static int64_t due(const motus_run *r)
 /* Units in the last place of the time. Events that are not farther apart, as those that accumulate, need not come in
  * the same order in two computations of one motion. */
 #define CLOSE 1024
+/* Of what a steep force makes of rounding. With 0.3 1.1 % of 22 500 numbers of balls on stiff floors were beyond their
+ * bars, 0.2 per mille of them far, and 81 % of the bars were tight; with 0, 1.8 %, 0.9 per mille and 84 %. */
+#define STEEP 0.3
 /* Times as far as a companion is from the run it need not be moved. */
 #define SHOWN 2.0
 
@@ -502,6 +539,30 @@ static bool shows(const companion *c, const problem *p, const double *x, const d
     return SHOWN * apart[0] >= vector_largest(to->x, p->nx) && SHOWN * apart[1] >= vector_largest(to->v, p->nv);
 }
 
+/* A steep force makes of the rounding of places, δ, a part of the velocity: that of a contact of rate ω about ω δ. The
+ * roundings of one contact are so few that run and companion make the same of them as often as not, to a tenth or less.
+ * So the companion is moved away from the run, and their distance grows as a random walk of such parts does. */
+static motus_status spread(motus_run *r, double t, double *x, double *v, motus_error *err)
+{
+    bars *b = r->bars;
+    companion *const c = &b->half;
+    const problem *const p = &r->system->problem;
+    double *const before = b->steep, *const now = before + p->nv, *const room = now + p->nv;
+    double *const dv = room, *const dx = dv + p->nv;
+    const double unit = take_steep(p, t, x, v, now, room), h = fabs(t - b->landed);
+    bool moves = false;
+    memset(dv, 0, (p->nv + p->nx) * sizeof *dv);
+    for (size_t k = 0; k < p->nx - p->modes; k++) {
+        const double most = fmax(before[k], now[k]), size = STEEP * fmin(h * most, sqrt(unit * most));
+        const double apart = c->v[k] - v[k];
+        if (!(size > events_ulp(v[k]))) continue; /* which a companion shows */
+        dv[k] = copysign(hypot(apart, size), apart) - apart;
+        moves = true;
+    }
+    memcpy(before, now, p->nv * sizeof *before);
+    return moves ? companion_shift(c, r, dx, dv, err) : MOTUS_OK;
+}
+
 static motus_status land(motus_run *r, double t, double *x, double *v, bool between, bool observed, motus_error *err)
 {
     bars *b = r->bars;
@@ -523,6 +584,8 @@ static motus_status land(motus_run *r, double t, double *x, double *v, bool betw
                      run_time_text(r, differs, at));
     if (status == MOTUS_OK && r->events && !between) status = reach(r, t, err);
     if (status == MOTUS_OK && r->events) notice_gap(r, t, between);
+    const bool together = r->events && !between && !b->gap && !b->half.over && b->half.t == t;
+    if (status == MOTUS_OK && together) status = spread(r, t, x, v, err);
     b->differences.between = between;
     if (status == MOTUS_OK && !b->gap) status = bars_take(r, t, x, v, observed, err);
     b->landed = t;

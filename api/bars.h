@@ -22,6 +22,9 @@ struct bars {
     double *memory; /* of the differences */
     double *room;   /* bars_moved_room; a state, and its acceleration (bars_later) */
     differences differences;
+    /* Of a run with events, how far the rounding of its places moves each acceleration at the last landing, and room
+     * for what `spread` of bars.c needs besides; NULL: it has none. */
+    double *steep;
     double landed;  /* time of the last landing */
     int64_t steps;  /* whole steps of the run before it */
     double seconds; /* elapsed in all this */

@@ -8,7 +8,7 @@
  *
  * MOTIONS=n tries n motions of each kind; KIND=word only those; MOTION=k motion k alone, with its text, its numbers and
  * their truth; HOW=auto, accuracy, 1e-12, tolerance, step runs them all so; WHAT=states, events judges these alone;
- * MISSED=1 tells all numbers beyond their bars. EVERY=1 judges the kinds that fail, too.
+ * MISSED=1 tells all numbers beyond their bars. More motions find rare wrong answers that are known.
  */
 #include "test/given.h"
 
@@ -17,9 +17,6 @@
 
 #include <time.h>
 
-/* Kinds of which even the motions tried by default get wrong answers. They are judged when EVERY or KIND asks for them.
- * More motions find rarer wrong answers of other kinds as well. */
-static const int failing[] = {MOTION_PENALTY_KIND};
 /* Motions that had wrong bars once, each for a reason of its own; they are judged besides. */
 static const struct {
     int kind, motion;
@@ -38,13 +35,11 @@ static const struct {
     /* rounding of the state hides the time of an event, and moves what follows from it */
     {MOTION_THERMOSTAT_KIND, 49},
     {MOTION_THERMOSTAT_KIND, 96},
+    /* run and companion made the same of the few roundings of a contact with a stiff floor */
+    {MOTION_PENALTY_KIND, 11},
+    {MOTION_PENALTY_KIND, 117},
+    {MOTION_PENALTY_KIND, 305},
 };
-static bool fails(int kind)
-{
-    for (size_t i = 0; i < sizeof failing / sizeof *failing; i++)
-        if (failing[i] == kind) return true;
-    return false;
-}
 
 /* How a run is asked for ------------------------------------------------------------------------------------------ */
 
@@ -385,7 +380,7 @@ static void bars_by_kind(void **state)
     patience = getenv("PATIENCE") ? atof(getenv("PATIENCE")) : 10;
     print_heads();
     for (int i = 0; i < MOTION_KIND_COUNT; i++) {
-        if (kind ? strcmp(kind, motion_kinds_name(i)) != 0 : fails(i) && !getenv("EVERY")) continue;
+        if (kind && strcmp(kind, motion_kinds_name(i)) != 0) continue;
         tally t = {0};
         for (int k = from; k < from + n; k++) judge(i, (uint64_t)k, one, &t);
         print_tally(motion_kinds_name(i), &t);
