@@ -201,7 +201,7 @@ static const char *because(const accuracy *a, char out[MOTUS_TEXT_MAX])
 
 bool accuracy_wants_another(const accuracy *a, const motus_error *failure)
 {
-    if (failure->status == MOTUS_OK) return a->missed && a->steep.text[0];
+    if (failure->status == MOTUS_OK) return a->missed && (a->steep.text[0] || a->failed);
     return !ends_all(failure->status) && failure->cause == MOTUS_CAUSE_NONE;
 }
 
@@ -291,6 +291,7 @@ motus_status accuracy_find(motus_system *system, motus_run_def *def, run_hint *h
     a->size = size;
     if (a->reached <= a->wanted) return MOTUS_OK;
     a->missed = true;
+    a->failed = !isfinite(a->reached) && s.failure.status != MOTUS_OK && s.failure.cause == MOTUS_CAUSE_NONE;
     a->time = motus_run_time(a->best);
     status = steep_find(s.system, &s.def, &a->steep, err);
     if (status == MOTUS_OK && isfinite(a->reached)) status = find_decimals(a, &s, err);

@@ -14,6 +14,7 @@ typedef struct accuracy {
     int trials;
     motus_run *best;      /* the trial run with that bar */
     bool missed, by_step; /* no trial kept to the accuracy; the trials differed in their step, not in their tolerance */
+    bool failed;          /* none came to its end, and the last one failed for no reason of the motion */
     double size;          /* of the best: its step or tolerance, */
     double time;          /*   and the time to which it went */
     double rounding;      /* of `reached`, the part of the model's decimals; NaN: it is less than what is wanted */

@@ -110,7 +110,9 @@ struct witness {
     double *a, *v;     /* of the typed force, and velocities as it wants them */
     double *most;      /* bounds on the accelerations of the step */
     double *missing;   /* of every velocity, sizes added up over the parts, */
-    double *lack;      /*   and with their signs */
+    double *lack;      /*   and with their signs; */
+    double *speed;     /* how large a velocity is, with those of its variable, in the step, */
+    double *felt;      /*   and the most that was missing of it in a step where it was no larger */
     double *allowed;   /* what a step may lose of it, */
     double *rounded;   /*   and what rounding takes from it, */
     double *rounded_x; /*   and from places: parts of the largest that they have been */
@@ -162,6 +164,7 @@ struct witness {
     bool moves, leads;    /* dx and dv are for the companion, or (leads) a probe is to take its step for it */
     bool objected;        /* to a step of the run */
     bool left;            /* dx and dv, where it leaves the companion as it is */
+    bool failed;          /* the last probe, by an error of its own */
     size_t number;        /* the velocity of which the most was missing where `beside` became true */
     bool held;            /* the motion is none of the typed force, from `differs` on */
     double until;         /* a probe has differed from the step that led there; NaN */
@@ -176,7 +179,7 @@ static witness *make(const motus_run *r, const differences *seen)
     const motus_system *const s = r->home ? r->home : r->system;
     const bool ways = r->home && p->nv <= WIDTH;
     const size_t nx = p->nx + 1, nv = p->nv + 1,
-                 numbers = STATES * (nx + nv) + 14 * nv + 4 * (nx + nv) + (ways ? (WAYS + MORE) * nv : 0);
+                 numbers = STATES * (nx + nv) + 16 * nv + 4 * (nx + nv) + (ways ? (WAYS + MORE) * nv : 0);
     witness *w = take(&r->allocator, 1, sizeof *w + numbers * sizeof(double));
     if (!w) return NULL;
     *w = (witness){.typed = s, .machine = r->machine, .method = r->chosen, .allocator = r->allocator, .seen = seen};
@@ -193,9 +196,9 @@ static witness *make(const motus_run *r, const differences *seen)
     w->clear_x = w->in_v + nv, w->clear_v = w->clear_x + nx;
     at += 4 * (nx + nv);
     for (size_t k = 0; k < STATES; k++, at += nx + nv) w->at[k] = (state){.x = at, .v = at + nx};
-    double **const arrays[] = {&w->a,         &w->v,         &w->most, &w->missing, &w->allowed,
-                               &w->rounded,   &w->dv,        &w->room, &w->scale,   &w->weight,
-                               &w->other_way, &w->rounded_x, &w->dx,   &w->lack,    &w->ways};
+    double **const arrays[] = {&w->a,  &w->v,    &w->most,  &w->missing, &w->allowed,   &w->rounded,
+                               &w->dv, &w->room, &w->scale, &w->weight,  &w->other_way, &w->rounded_x,
+                               &w->dx, &w->lack, &w->speed, &w->felt,    &w->ways};
     for (size_t k = 0; k < sizeof arrays / sizeof *arrays; k++, at += nv) *arrays[k] = at;
     return w;
 }
@@ -222,6 +225,7 @@ static void forget(witness *w, const stepper *s)
     memset((char *)w + offsetof(witness, parts), 0, sizeof *w - offsetof(witness, parts));
     memset(w->rounded, 0, (w->nv + 1) * sizeof *w->rounded);
     memset(w->rounded_x, 0, (w->nv + 1) * sizeof *w->rounded_x);
+    memset(w->felt, 0, (w->nv + 1) * sizeof *w->felt);
     w->until = w->differs = NAN;
     w->least = INFINITY;
     w->clear = (interval){1, -1};
@@ -580,10 +584,11 @@ static void allow(witness *w, const problem *p)
     for (int g = 0; g < count; g++) {
         double speed = 0;
         for (size_t k = variable[g]; k < variable[g + 1]; k++)
-            speed = fmax(speed, fmax(fmax(fabs(from->v[k]), fabs(to->v[k])), h * w->most[k]));
+            speed = fmax(speed, fmax(fmax(fabs(from->v[k]), fabs(to->v[k])), fmax(h * w->most[k], w->felt[k])));
         const double most = fmax(w->method.relative * speed, w->method.absolute);
         const double lost = fmax(ROUNDING * speed, fmin(most, w->least));
         for (size_t k = variable[g]; k < variable[g + 1]; k++) {
+            w->speed[k] = speed;
             w->rounded[k] = fmax(fmax(ROUNDING * speed, w->rounded[k]), NOTHING);
             w->allowed[k] = fmax(lost, w->strict ? w->rounded[k] : NOTHING);
         }
@@ -632,6 +637,7 @@ static bool lead(witness *w, double t, double lost, const double *x, const doubl
     if (!status) status = stepper_jump(w->probe, t, lost, size, x, v, NULL);
     const int64_t most = w->steady ? LED : PROBED;
     if (!status) status = stepper_advance(w->probe, (stepper_limit){most, until}, &why, NULL);
+    w->failed = status != MOTUS_OK;
     if (!status && why != STOP_UNTIL) inner->differs = stepper_time(w->probe);
     w->spent += inner->spent - spent + (w->steady ? (double)(stepper_evaluations(w->probe) - before) : 0);
     if (w->steady && !status && why != STOP_UNTIL) return false;
@@ -728,16 +734,34 @@ static bool see_ends(witness *w, stepper *s)
     return stepper_sync(s, to->x, to->v, NULL, NULL) == MOTUS_OK;
 }
 
+/* Whether more is missing of a number than it is large. Of what rests a step may lose nothing, and what is missing is
+ * its size: else the least of it would count as much as all. */
+static bool feels(witness *w)
+{
+    bool more = false;
+    for (size_t k = 0; k < w->nv; k++) {
+        if (!(w->missing[k] > w->speed[k])) continue;
+        w->felt[k] = w->missing[k];
+        more = true;
+    }
+    return more;
+}
+
 /* What is missing of the whole. */
 static bool look_at_all(witness *w, stepper *s, bool whole)
 {
-    allow(w, stepper_problem(s));
-    w->parts = 0, w->worst = 0, w->beside = w->crosses = w->counted = false;
-    w->past = NAN, w->whole = whole;
     w->most_spent = w->spent + fmax(SPEND_LEAST, SPEND_STEP / w->operations);
-    memset(w->missing, 0, w->nv * sizeof *w->missing);
-    memset(w->lack, 0, w->nv * sizeof *w->lack);
-    return look(w, s, &w->at[FROM], &w->at[TO], 0);
+    w->whole = whole;
+    for (int time = 0; time < 2; time++) {
+        allow(w, stepper_problem(s));
+        w->parts = 0, w->worst = 0, w->beside = w->crosses = w->counted = false;
+        w->past = NAN;
+        memset(w->missing, 0, w->nv * sizeof *w->missing);
+        memset(w->lack, 0, w->nv * sizeof *w->lack);
+        if (!look(w, s, &w->at[FROM], &w->at[TO], 0)) return false;
+        if (!feels(w)) break;
+    }
+    return true;
 }
 
 /* Whether so large a part of what is missing of a step is not what the points of Gauss's rule show of it. */
@@ -834,7 +858,8 @@ static double judge(witness *w, stepper *s)
         return 0;
     }
     if (w->probes || known(w, s)) return refuse(w, size, spent);
-    if (!probe(w, s, size, w->sees)) return 0;
+    if (!probe(w, s, size, w->sees)) /* shorter steps of the run may fail as well, and tell why */
+        return w->failed && !w->kinked ? refuse(w, size, spent) : 0;
     const double far = apart(w);
     const bool beyond = beyond_bars(w, BARS) && (!w->located || (far > FIRST && hides(w, s, MOSTLY)));
     if (far > REFUSED) {

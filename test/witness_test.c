@@ -101,6 +101,41 @@ static long double lateness(long double k, long double w)
     return h * sum;
 }
 
+/* Peaks in other words: what falls off behind a divisor or by a power. They act on first-order variables, too, one of
+ * which rests until then, so that a series of it does not show the peak. The work done on a body is the integral of the
+ * peak. */
+static void peaks(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *peak; /* in z */
+        long double integral;
+    } forms[] = {
+        {"exp(-z^2)", 1.7724538509055160273L},
+        {"1/cosh(z)^2", 2},
+        {"2^(-z^2)", 2.1289340388624523600L},
+        {"0.5^(z^2)", 2.1289340388624523600L},
+        {"1/exp(z^2)", 1.7724538509055160273L},
+        {"1/(2 + exp(z) + exp(-z))", 1},
+        {"cosh(z)^(-4)", 4.0L / 3},
+    };
+    static const char *const methods[] = {NULL, "taylor", "dop853", "dopri5", "radau15", "verner9"};
+    enum { FORMS = sizeof forms / sizeof *forms, METHODS = sizeof methods / sizeof *methods };
+    for (int i = 0; i < tries(); i++) {
+        char text[300];
+        const double c = between(3, 17), w = exp2(round(-14 * uniform())) * 0.1, k = between(0.1, 1);
+        const int form = i % FORMS, body = i % METHODS, number = (i + 1) % METHODS;
+        const double starts = number == 1;
+        const long double work = (long double)k * forms[form].integral;
+        snprintf(text, sizeof text, "z = (x - %.17g)/%.17g\nv' = %.17g/%.17g*%s\nx' = v\nv(0) = 1; x(0) = 0\nuntil 25",
+                 c, w, k, w, forms[form].peak);
+        judge(&all, text, methods[body], body ? 1e-9 : NAN, NAN, sqrtl(1 + 2 * work));
+        snprintf(text, sizeof text, "z = (x - %.17g)/%.17g\ns' = %.17g/%.17g*%s\nx' = 1\ns(0) = %g; x(0) = 0\nuntil 25",
+                 c, w, k, w, forms[form].peak, starts);
+        judge(&all, text, methods[number], number ? 1e-9 : NAN, NAN, starts + work);
+    }
+}
+
 static const char *const steps[] = {"rk4",    "yoshida4",          "gauss4", "velocity-verlet", "midpoint",
                                     "verlet", "implicit-midpoint", "fine4",  "explicit-euler",  "beeman"};
 enum { STEPS = sizeof steps / sizeof *steps };
@@ -336,8 +371,9 @@ static void machines(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(flights),   cmocka_unit_test(pulses), cmocka_unit_test(brakes),
-                                       cmocka_unit_test(bars_hold), cmocka_unit_test(sticks), cmocka_unit_test(bits),
-                                       cmocka_unit_test(machines),  cmocka_unit_test(sides),  cmocka_unit_test(share)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(flights), cmocka_unit_test(peaks),     cmocka_unit_test(pulses),
+                                       cmocka_unit_test(brakes),  cmocka_unit_test(bars_hold), cmocka_unit_test(sticks),
+                                       cmocka_unit_test(bits),    cmocka_unit_test(machines),  cmocka_unit_test(sides),
+                                       cmocka_unit_test(share)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

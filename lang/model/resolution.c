@@ -18,6 +18,12 @@
 #define FAR 8.0    /* by which an argument may change that a pole or a branch point at 0 is far from */
 #define POLE 1e-3  /* a divisor that may become this part of itself, may become 0 */
 
+/* What a value may hide. */
+enum {
+    HIDES = 1, /* something, */
+    GROWS = 2  /*   behind what grows as exp does: nothing where that is a large divisor */
+};
+
 #define NO_STEP UINT32_MAX
 
 /* A node. It is known while no loop variable that it depends on has changed since; the innermost of these changes
@@ -28,6 +34,8 @@ typedef struct step {
     uint8_t arity;       /* a sum has none: it asks for its operands itself */
     bool counts;         /* it may be what is looked for */
     bool bends;          /* it is no polynomial of low degree of the time and the state */
+    bool divides;        /* it is part of a divisor, or of the base of a power */
+    uint8_t taint;       /* what it may hide, in the intervals */
     uint32_t base;       /* a product is base^power, where its factors are powers of the same step; else power is 1 */
     double power;
     int home;       /* 1 + the innermost level that it depends on, 0: none */
@@ -92,8 +100,9 @@ static bool any_counts(const resolution *r, uint32_t count)
 {
     for (uint32_t k = 0; k < count; k++) {
         const step *s = &r->steps[k];
-        const uint32_t varies = s->operand[s->node.op == OP_DIV];
-        if (s->counts && r->steps[varies].node.deps & (DEP_TIME | DEP_STATE)) return true;
+        unsigned deps = r->steps[s->operand[s->node.op == OP_DIV]].node.deps;
+        if (s->node.op == OP_POW) deps |= r->steps[s->operand[1]].node.deps;
+        if (s->counts && deps & (DEP_TIME | DEP_STATE)) return true;
     }
     return false;
 }
@@ -142,6 +151,19 @@ static bool is_straight(const resolution *r)
     return is;
 }
 
+/* Marks what is part of a divisor or of a base. */
+static void find_divisors(resolution *r)
+{
+    for (uint32_t k = r->step_count; k-- > 0;) {
+        const step *s = &r->steps[k];
+        const int arity = s->node.op == OP_SUM ? 2 : s->arity;
+        for (int j = 0; j < arity; j++) {
+            const bool here = (s->node.op == OP_DIV && j == 1) || (s->node.op == OP_POW && j == 0);
+            if ((here || s->divides) && s->operand[j] < k) r->steps[s->operand[j]].divides = true;
+        }
+    }
+}
+
 static void fill(resolution *r, graph *g, const graph_walk *w, bool (*counts)(operation))
 {
     for (uint32_t k = 0; k < w->count; k++) {
@@ -157,6 +179,7 @@ static void fill(resolution *r, graph *g, const graph_walk *w, bool (*counts)(op
         if (s->power > STEEP) s->counts = counts && counts(OP_POW);
         s->bends = bends(r, s, operands);
     }
+    find_divisors(r);
     for (size_t k = 0; k < r->count; k++) r->root[k] = g->place[r->outputs[k].value];
     r->straight = is_straight(r);
 }
@@ -241,6 +264,18 @@ static bool steep(interval a, double power)
     return power > STEEP && power * log(m.high) > FLAT && !(power * log(m.high / m.low) <= STEEP);
 }
 
+/* Whether a^b, whose exponent varies, may hide a peak, as exp(b log a) does. */
+static bool hides_power(interval a, interval b)
+{
+    const interval m = interval_magnitude(a);
+    const double low = log(m.low), high = log(m.high);
+    if (!(b.low < b.high)) return false;
+    if (!isfinite(low) || !isfinite(high)) return true;
+    const double least = fmin(fmin(b.low * low, b.low * high), fmin(b.high * low, b.high * high)),
+                 most = fmax(fmax(b.low * low, b.low * high), fmax(b.high * low, b.high * high));
+    return !(most - least <= WIDE) && most > FLAT;
+}
+
 /* Whether an operation with these arguments may hide something. */
 static bool hidden(operation op, interval a, interval b)
 {
@@ -256,9 +291,20 @@ static bool hidden(operation op, interval a, interval b)
     case OP_COS:
     case OP_TAN: return !(a.high - a.low <= WAVE);
     case OP_DIV: return changes(b);
-    case OP_POW: return (b.low < 0 && changes(a)) || steep(a, b.high);
+    case OP_POW: return (b.low < 0 && changes(a)) || steep(a, b.high) || hides_power(a, b);
     default: return false;
     }
+}
+
+static bool grows(operation op) { return op == OP_EXP || op == OP_SINH || op == OP_COSH || op == OP_POW; }
+
+/* Whether the divisor or base of a step, which may hide something that grows, is so large that nothing is left, as
+ * exp is nothing below FLAT. */
+static bool vanishes(operation op, uint8_t taint, interval a, interval b)
+{
+    if (!(taint & GROWS)) return false;
+    if (op == OP_DIV) return log(interval_magnitude(b).low) >= -FLAT;
+    return op == OP_POW && b.high < 0 && -b.high * log(interval_magnitude(a).low) >= -FLAT;
 }
 
 /* Whether a is nowhere small beside its largest values, so that a pole or a branch point at 0 is far. */
@@ -382,16 +428,19 @@ static bool sum(resolution *r, step *s)
     const int64_t *ints = r->model->ints;
     const int64_t last = graph_subscript(&over->last, r->index, ints);
     interval total = {0, 0};
+    s->taint = 0;
     for (int64_t i = graph_subscript(&over->first, r->index, ints); i <= last; i++) {
         interval condition = {1, 1};
         set_index(r, n->level, i);
         if (n->b) {
             if (!evaluate(r, s->operand[1])) return false;
             condition = r->steps[s->operand[1]].interval;
+            s->taint |= r->steps[s->operand[1]].taint;
         }
         if (is_zero(condition)) continue;
         if (!evaluate(r, s->operand[0])) return false;
         interval term = r->steps[s->operand[0]].interval;
+        s->taint |= r->steps[s->operand[0]].taint;
         if (may_be_zero(condition)) term = interval_hull(term, number(0));
         total = interval_value(OP_ADD, total, term, total, false);
     }
@@ -399,11 +448,25 @@ static bool sum(resolution *r, step *s)
     return true;
 }
 
-/* Computes a step whose operands are known. False: what is looked for was found. */
+/* What the operands of a step may hide; a branch that is not taken hides nothing. */
+static uint8_t taint_of(const resolution *r, const step *s)
+{
+    uint8_t taint = 0;
+    for (int j = 0; j < s->arity; j++) {
+        const interval c = r->steps[s->operand[0]].interval;
+        if (s->node.op == OP_SELECT && (j == 1 ? is_zero(c) : j == 2 && !may_be_zero(c))) continue;
+        taint |= r->steps[s->operand[j]].taint;
+    }
+    return taint;
+}
+
+/* Computes a step whose operands are known. False: what is looked for was found; or, of what may be hidden by a step
+ * that is part of a divisor, `taint` says so. */
 static bool compute(resolution *r, step *s)
 {
     const graph_node *n = &s->node;
     const operation op = (operation)n->op;
+    s->taint = 0;
     switch (op) {
     case OP_CONST: s->interval = number(n->value); return true;
     case OP_TIME: s->interval = r->t; return true;
@@ -417,8 +480,14 @@ static bool compute(resolution *r, step *s)
                    b = s->arity > 1 ? r->steps[s->operand[1]].interval : none,
                    c = s->arity > 2 ? r->steps[s->operand[2]].interval : none;
     const bool power = op == OP_MUL && s->power > STEEP;
-    if (s->counts && (power ? r->found(OP_POW, r->steps[s->base].interval, number(s->power)) : r->found(op, a, b)))
-        return false;
+    s->taint = taint_of(r, s);
+    if (s->taint && vanishes(op, r->steps[s->operand[op == OP_DIV]].taint, a, b)) {
+        s->taint = r->steps[s->operand[op == OP_POW]].taint;
+    } else if (s->counts &&
+               (power ? r->found(OP_POW, r->steps[s->base].interval, number(s->power)) : r->found(op, a, b))) {
+        if (!s->divides || r->found != hidden) return false;
+        s->taint |= grows(op) ? GROWS : HIDES;
+    }
     s->interval = interval_value(op, a, b, c, s->arity > 1 && s->operand[0] == s->operand[1]);
     return true;
 }
@@ -460,7 +529,7 @@ static bool cells(resolution *r, size_t k, int level)
 {
     const output *o = &r->outputs[k];
     if (level == o->loops) {
-        if (!evaluate(r, r->root[k])) return false;
+        if (!evaluate(r, r->root[k]) || r->steps[r->root[k]].taint) return false;
         put(r, o, r->steps[r->root[k]].interval);
         return true;
     }
@@ -493,6 +562,8 @@ static bool finds(resolution *r, interval t, interval *x, interval *v, const dou
     if (r->straight) {
         for (uint32_t k = 0; k < r->step_count; k++)
             if (!compute(r, &r->steps[k])) return true;
+        for (size_t k = 0; k < r->count; k++)
+            if (r->steps[r->root[k]].taint) return true;
         return false;
     }
     for (size_t k = 0; k < r->count; k++)
