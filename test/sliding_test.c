@@ -324,7 +324,10 @@ static void written_twice(void **state)
                                          {"-sign(n y' n - n^2 x')", "-sign(n (y' - x'))"},
                                          {"(x' - y')/|x' - y'|", "sign(y' - x')"},
                                          {"k (x' - y')/(k abs(x' - y'))", "(y' - x')/sqrt((y' - x')^2)"},
-                                         {"-n (x' - y')/|n (x' - y')|", "sign(n (x' - y'))"}};
+                                         {"-n (x' - y')/|n (x' - y')|", "sign(n (x' - y'))"},
+                                         {"if(x' > y', 1, if(x' < y', -1, 0))", "if(y' < x', -1, if(y' > x', 1, 0))"},
+                                         {"if(x' == y', 0, if(x' > y', 1, -1))", "if(not (y' <= x'), 1, -1)"},
+                                         {"if(x' - y' == 0, 0, sign(x' - y'))", "if(y' != x', -sign(x' - y'), 0.3)"}};
     static const char *const start = "k = 2.5\nn = -3\nx(0) = 0\nx'(0) = 1\ny(0) = 0\ny'(0) = 0\n";
     for (size_t k = 0; k < sizeof two / sizeof *two; k++)
         for (int m = 0; m < METHODS; m++) {

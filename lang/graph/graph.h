@@ -189,6 +189,9 @@ node graph_radius(graph *, node, graph_seed leaf, void *ctx);
  * for. */
 typedef node (*graph_substitute)(graph *, node, int level, void *ctx);
 node graph_replace(graph *, node, unsigned deps, int level, graph_substitute with, void *ctx);
+
+/* graph_choices.c: the node with choices among u > w, u < w and u = w, of what moves, as choices between two sides. */
+node graph_choices(graph *, node);
 /* Leaves LOAD of the given space that the node can reach: calls visit for each distinct reference, once for every
  * nest of sums around it. sums[k] is the range of level first_level + k, k < inside. */
 void graph_loads(graph *, node, space,

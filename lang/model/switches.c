@@ -508,16 +508,26 @@ static output *rewrite_all(builder *b, const output *from, size_t count)
     return to;
 }
 
+static output *choose_all(model *m, const output *from, size_t count)
+{
+    output *to = arena_room(m->arena, (count + 1) * sizeof *to);
+    for (size_t i = 0; to && i < count; i++) to[i] = from[i], to[i].value = graph_choices(m->graph, from[i].value);
+    return to;
+}
+
 bool switches_find(model *m, bool directions, switches *s)
 {
     *s = (switches){.slot = m->pool_count};
+    const output *const accel = choose_all(m, m->accel, m->accel_count), *const boundary = choose_all(
+                                                                             m, m->boundary, m->boundary_count);
+    if (!accel || !boundary) return false;
     const size_t nodes = m->graph->count;
     builder b = {
         .m = m, .s = s, .directions = directions, .last = take(&m->arena->allocator, nodes, 2 * sizeof *b.last)};
     if (!b.last) return m->arena->failed = true, false;
     b.last_touch = b.last + nodes;
-    s->accel = rewrite_all(&b, m->accel, m->accel_count);
-    s->boundary = rewrite_all(&b, m->boundary, m->boundary_count);
+    s->accel = rewrite_all(&b, accel, m->accel_count);
+    s->boundary = rewrite_all(&b, boundary, m->boundary_count);
     s->op = arena_room(m->arena, s->count + 1);
     give(&m->arena->allocator, b.last);
     s->leader = arena_room(m->arena, (s->kinds + 1) * sizeof *s->leader);
