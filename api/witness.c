@@ -112,7 +112,7 @@ struct witness {
     double *missing;   /* of every velocity, sizes added up over the parts, */
     double *lack;      /*   and with their signs; */
     double *speed;     /* how large a velocity is, with those of its variable, in the step, */
-    double *felt;      /*   and the most that was missing of it in a step where it was no larger */
+    double *felt;      /*   and what was missing of it in a step where it rested */
     double *allowed;   /* what a step may lose of it, */
     double *rounded;   /*   and what rounding takes from it, */
     double *rounded_x; /*   and from places: parts of the largest that they have been */
@@ -734,13 +734,13 @@ static bool see_ends(witness *w, stepper *s)
     return stepper_sync(s, to->x, to->v, NULL, NULL) == MOTUS_OK;
 }
 
-/* Whether more is missing of a number than it is large. Of what rests a step may lose nothing, and what is missing is
- * its size: else the least of it would count as much as all. */
+/* Whether something is missing of a number that rests. Of it a step may lose nothing, and what is missing is its size:
+ * else the least of it would count as much as all. */
 static bool feels(witness *w)
 {
     bool more = false;
     for (size_t k = 0; k < w->nv; k++) {
-        if (!(w->missing[k] > w->speed[k])) continue;
+        if (!(w->speed[k] <= NOTHING && w->missing[k] > NOTHING && isfinite(w->missing[k]))) continue;
         w->felt[k] = w->missing[k];
         more = true;
     }

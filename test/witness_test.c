@@ -101,6 +101,23 @@ static long double lateness(long double k, long double w)
     return h * sum;
 }
 
+/* A wall that is thinner than a step throws a body back, which then has its velocity again:
+ * x = -a + w ln(2 w/v²) + 2 w ln cosh(v (t - s)/(2 w)). */
+static void walls(void **state)
+{
+    (void)state;
+    for (int i = 0; i < tries(); i++) {
+        char text[300];
+        const double a = between(0.5, 9), v = between(0.3, 2), w = exp2(round(-12 * uniform())) * 0.02;
+        const long double from = -(long double)a + w * logl(w / (2 * (long double)v * v)),
+                          until = (long double)(4 + a) / v, met = (3 - from) / v;
+        snprintf(text, sizeof text, "x'' = exp(-(x + %.17g)/%.17g)\nx(0) = 3; x'(0) = -%.17g\nuntil %.17g", a, w, v,
+                 2 * (double)until);
+        judge(&all, text, ways[i % WAYS].method, ways[i % WAYS].tolerance, NAN,
+              from + v * ((long double)(2 * (double)until) - met));
+    }
+}
+
 /* Peaks in other words: what falls off behind a divisor or by a power. They act on first-order variables, too, one of
  * which rests until then, so that a series of it does not show the peak. The work done on a body is the integral of the
  * peak. */
@@ -371,9 +388,9 @@ static void machines(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(flights), cmocka_unit_test(peaks),     cmocka_unit_test(pulses),
-                                       cmocka_unit_test(brakes),  cmocka_unit_test(bars_hold), cmocka_unit_test(sticks),
-                                       cmocka_unit_test(bits),    cmocka_unit_test(machines),  cmocka_unit_test(sides),
-                                       cmocka_unit_test(share)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(flights), cmocka_unit_test(pulses), cmocka_unit_test(brakes),
+                                       cmocka_unit_test(peaks),   cmocka_unit_test(walls),  cmocka_unit_test(bars_hold),
+                                       cmocka_unit_test(sticks),  cmocka_unit_test(bits),   cmocka_unit_test(machines),
+                                       cmocka_unit_test(sides),   cmocka_unit_test(share)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
