@@ -124,10 +124,12 @@ static void release(events *e)
             for (size_t i = 0; r->kind == RULE_CONDITION && i < r->instances; i++) {
                 const size_t one = e->instances[k] + i;
                 if (rules_hold(r, i, e->sign)) continue;
-                if (now)
+                if (now) {
                     e->happened[one] = NAN;
-                else
+                } else {
+                    if (e->held[one]) e->happened[one] = e->here.t; /* it need not become true in this instant */
                     e->held[one] = 0;
+                }
             }
         }
     }

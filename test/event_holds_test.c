@@ -117,8 +117,32 @@ static void belt(void **state)
     }
 }
 
+/* Of two conditions that hold on either side of 0 and at it, the one that an action leaves behind does not happen in the
+ * instant in which the other one does. */
+static void on_both_sides(void **state)
+{
+    (void)state;
+    static const char *const forms[][2] = {{"x <= 0", "x >= 0"}, {"x < 0", "x >= 0"}, {"x <= 0", "not x < 0"}};
+    const double hits[] = {TAU / 4, TAU * 5 / 4}, leaves[] = {TAU * 3 / 4, TAU * 7 / 4};
+    for (size_t way = 0; way < WAYS; way++)
+        for (size_t k = 0; k < sizeof forms / sizeof *forms; k++) {
+            char text[200];
+            motus_system *s;
+            snprintf(text, sizeof text,
+                     "x'' = -x\nx(0) = 1\nx'(0) = 0\nwhen %s as hit: x' = 2 x', record\n"
+                     "when %s as leave: x' = x'/2, record\nuntil 12",
+                     forms[k][0], forms[k][1]);
+            motus_run *const r = finished(text, way, &s);
+            told(r, "hit", hits, 2, way);
+            told(r, "leave", leaves, 2, way);
+            motus_run_destroy(r);
+            motus_system_destroy(s);
+        }
+}
+
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(friction), cmocka_unit_test(belt)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(friction), cmocka_unit_test(belt),
+                                       cmocka_unit_test(on_both_sides)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
