@@ -117,8 +117,8 @@ static void belt(void **state)
     }
 }
 
-/* Of two conditions that hold on either side of 0 and at it, the one that an action leaves behind does not happen in the
- * instant in which the other one does. */
+/* Of two conditions that hold on either side of 0 and at it, the one that an action leaves behind does not happen in
+ * the instant in which the other one does. */
 static void on_both_sides(void **state)
 {
     (void)state;
