@@ -266,9 +266,8 @@ motus_status system_rounding(motus_system *s, double t, double *x, double *v, co
     return MOTUS_OK;
 }
 
-/* The state, each number anywhere within its bar. False: of one there is none. */
-static bool boxed(const motus_system *s, const double *x, const double *v, system_bar bar, void *ctx, interval *in_x,
-                  interval *in_v)
+bool system_box(const motus_system *s, const double *x, const double *v, system_bar bar, void *ctx, interval *in_x,
+                interval *in_v)
 {
     for (size_t k = 0; k < s->problem.nx; k++) in_x[k] = (interval){x[k], x[k]};
     for (size_t k = 0; k < s->problem.nv; k++) in_v[k] = (interval){v[k], v[k]};
@@ -342,7 +341,7 @@ motus_status system_leaps(motus_system *s, double t, double *x, double *v, syste
             box = take(&s->allocator, 2 * (nx + nv) + d->numbers + 1, sizeof *box);
             if (!box) return fail(err, MOTUS_MEMORY, "no memory for the errors of %s", d->name);
             out = box + 2 * (nx + nv);
-            if (!boxed(s, x, v, bar, ctx, box, box + nx)) break;
+            if (!system_box(s, x, v, bar, ctx, box, box + nx)) break;
             if (!interpreter_leap(s->interpreter, d, t, box, box + nx, out, &undecided))
                 status = fail(err, MOTUS_MEMORY, "no memory for the errors of %s", d->name);
             double *const room = (double *)(void *)(box + nx + nv);

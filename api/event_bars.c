@@ -9,6 +9,7 @@
 #include "api/event_bars.h"
 
 #include "api/columns.h"
+#include "api/event_counts.h"
 #include "api/run_events.h"
 
 #include "lang/model/whole.h"
@@ -105,13 +106,13 @@ static size_t row_of(size_t k, size_t i, size_t rows)
     return row < rows ? row : SIZE_MAX;
 }
 
-static double own_part(const motus_run *r) { return r->bars->differences.shape.slow ? OWN_SLOW : OWN; }
+double event_bars_part(const motus_run *r) { return r->bars->differences.shape.slow ? OWN_SLOW : OWN; }
 
 static double bar_of(const motus_run *r, const double *d, size_t n)
 {
     double others = 0;
     for (size_t i = 1; i < n; i++) others = fmax(others, d[i]);
-    return own_part(r) * d[0] + OTHERS * others;
+    return event_bars_part(r) * d[0] + OTHERS * others;
 }
 
 /* Of a time, what a companion does not show. */
@@ -166,26 +167,42 @@ motus_status event_bars_whole(motus_run *r, motus_error *err)
     return b->whole && judge_whole(r, NULL) ? MOTUS_OK : fail(err, MOTUS_MEMORY, "no memory for bars of error");
 }
 
-/* Whether run and companion have other events up to t, or one of them may lie beyond it. Not the event that has ended
- * the run: the run ends there, wherever that is. */
-static bool unsure_at(motus_run *r, double t)
+/* Whether run and companion have other events up to t, or one of them may lie beyond it. Not those of the instant in
+ * which one has ended the run: the run ends there, wherever that is. */
+static bool rows_unsure(motus_run *r, double t, bool ended)
 {
     const size_t rows = significant(r), all = events_rows(r->events);
-    size_t rule;
     if (r->bars->rows_differ || rows < all) return r->bars->rows_differ;
-    const bool ended = events_ended(r->events, &rule) == EVENTS_END_STOP && t == motus_run_time(r);
     for (size_t k = rows; k-- > 0;) {
         const event row = events_row(r->events, k, false, NULL, NULL);
-        if (ended && row.rule == rule && row.t == t) continue;
-        if (r->rules->rule[row.rule].kind == RULE_CLOCK) continue;
+        if ((ended && row.t == t) || r->rules->rule[row.rule].kind == RULE_CLOCK) continue;
         return fabs(t - row.t) <= event_bars_time(r, k);
     }
     return false;
 }
 
+/* The same of the latest action, which need not have a row. */
+static bool action_unsure(const motus_run *r, double t, bool ended)
+{
+    const companion *half = &r->bars->half;
+    const double latest = events_latest(r->events);
+    if (isnan(latest) || !half->events || (ended && latest == t) || events_ticks(r->events, latest)) return false;
+    const double off = event_bars_part(r) * fabs(latest - events_latest(half->events));
+    return fabs(t - latest) <= off + shared(latest, events_lasting(r->events, latest), LASTING);
+}
+
+/* Whether it is open which events have happened up to t. */
+static motus_status unsure_at(motus_run *r, double t, const double *x, const double *v, bool *unsure, motus_error *err)
+{
+    const bool ended = events_ended(r->events, NULL) != EVENTS_END_NONE && t == motus_run_time(r);
+    *unsure = rows_unsure(r, t, ended) || action_unsure(r, t, ended);
+    return *unsure ? MOTUS_OK : event_counts_open(r, t, x, v, unsure, err);
+}
+
 /* A number that only counts is exact where the companion has the same, and no digit of it is known where the companion
  * has other events, or where it counts events that have no end. *told: such is the number. */
-static motus_status counts(motus_run *r, double t, size_t number, double *error, bool *told, motus_error *err)
+static motus_status counts(motus_run *r, double t, const double *x, const double *v, size_t number, double *error,
+                           bool *told, motus_error *err)
 {
     bars *b = r->bars;
     events_limit limit;
@@ -202,10 +219,19 @@ static motus_status counts(motus_run *r, double t, size_t number, double *error,
     const int kind = b->whole[number];
     if (kind == WHOLE_NOT || isnan(*error) || floor(value) != value || value > WHOLE_MOST) return MOTUS_OK;
     if (b->differences.d[number] != 0 && kind != ENDLESS) return MOTUS_OK;
-    const bool unsure = kind == WHOLE_COUNT && unsure_at(r, t);
+    bool unsure = false;
+    const motus_status status = kind == WHOLE_COUNT ? unsure_at(r, t, x, v, &unsure, err) : MOTUS_OK;
     *told = true;
     *error = isinf(*error) || kind == ENDLESS || unsure ? INFINITY : 0;
-    return MOTUS_OK;
+    return status;
+}
+
+static double late_at(const motus_run *r, double t) { return LASTING * 0x1p-52 * events_lasting(r->events, t); }
+
+double event_bars_late(const motus_run *r, double t)
+{
+    const double end = t == r->timing.until ? bars_end_rounding(t, r->system, r->bars->half.system) : 0;
+    return late_at(r, t) + end;
 }
 
 /* The state is late or early by what the times of events share; and it cannot be better known than numbers are rounded
@@ -215,11 +241,11 @@ motus_status event_bars_state(motus_run *r, double t, const double *x, const dou
 {
     const bars *b = r->bars;
     bool told;
-    motus_status status = counts(r, t, number, error, &told, err);
+    motus_status status = counts(r, t, x, v, number, error, &told, err);
     if (status != MOTUS_OK || told) return status;
     if ((events_acted(r->events) == 0 && events_turns(r->events) == 0) || !(*error > 0) || b->columns[number] == 0)
         return MOTUS_OK;
-    const double late = LASTING * 0x1p-52 * events_lasting(r->events, t);
+    const double late = late_at(r, t);
     double value[2];
     for (int k = 0; k < 2 && status == MOTUS_OK; k++) {
         double *to_x, *to_v;
@@ -256,7 +282,8 @@ double event_bars_limit(motus_run *r, const events_limit *limit)
     const double gone = b->differences.until, way = r->timing.h < 0 ? -1 : 1;
     if (!isnan(gone) && way * (limit->t - gone) > limit->error) return INFINITY; /* long before it */
     if (b->why[0] || !other_limit(&b->half, limit, &other, way)) return NAN;
-    return own_part(r) * fabs(limit->t - other.t) + limit->error + shared(limit->t, limit->lasting, LASTING_LIMIT);
+    return event_bars_part(r) * fabs(limit->t - other.t) + limit->error +
+           shared(limit->t, limit->lasting, LASTING_LIMIT);
 }
 
 int64_t motus_run_events_significant(motus_run *r)

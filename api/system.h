@@ -99,6 +99,9 @@ motus_status system_rounding(motus_system *, double t, double *x, double *v, con
  * its error is the spread of what it may be; INFINITY, where a jump makes that as large as itself. One that does
  * nothing but jump, and is decided, is as exact as its formula. */
 typedef double (*system_bar)(void *ctx, size_t column);
+/* The state x and v, each number anywhere within its bar. False: of one there is none. */
+bool system_box(const motus_system *, const double *x, const double *v, system_bar, void *ctx, interval *in_x,
+                interval *in_v);
 bool system_jumps(motus_system *, size_t column); /* whether its column is one of those */
 motus_status system_leaps(motus_system *, double t, double *x, double *v, system_bar, void *ctx, const size_t *columns,
                           size_t count, double *errors, motus_error *);

@@ -621,6 +621,21 @@ void events_listen(events *e, int (*asks)(const void *ctx), const void *ctx)
 bool events_partway(const events *e) { return e->broken && !e->saved && e->end == EVENTS_END_NONE; }
 
 double events_latest(const events *e) { return e->at_once; }
+
+bool events_ticks(const events *e, double t)
+{
+    for (size_t k = 0; k < e->rules.count; k++) {
+        const rule *r = &e->rules.rule[k];
+        const double n = r->kind == RULE_CLOCK ? rint((t - e->start) / (e->way * r->period)) : 0;
+        if (n > 0 && fabs(e->start + n * e->way * r->period - t) <= 4 * events_ulp(t)) return true;
+    }
+    return false;
+}
+
+bool events_settled(const events *e, size_t f)
+{
+    return !e->side[f] || (e->stands[f] && !e->heads[f]) || (e->end == EVENTS_END_STOP && e->zero[f]);
+}
 int64_t events_acted(const events *e) { return e->acted; }
 
 int64_t events_acted_before(const events *e, double t)

@@ -109,8 +109,12 @@ const double *events_limit_off(const events *);
 /* In how many steps since events_begin an event may have been missed because it is narrow beside the step: what the
  * points of dense output tell, no bound has confirmed. The rule, and the start of the first of these steps. */
 int64_t events_unseen(const events *, size_t *rule, double *t);
-int64_t events_steps(const events *);                  /* since events_begin */
-double events_latest(const events *);                  /* time of the latest action; NaN: there was none */
+int64_t events_steps(const events *);        /* since events_begin */
+double events_latest(const events *);        /* time of the latest action; NaN: there was none */
+bool events_ticks(const events *, double t); /* whether that is a time of a clock */
+/* Whether a function that is near 0 at the run's state leaves no event open: it has been 0 from the start on or has
+ * come to rest at 0, or is 0 in the very instant in which an event has ended the run. */
+bool events_settled(const events *, size_t function);
 int64_t events_acted(const events *);                  /* how often a rule has assigned */
 int64_t events_acted_before(const events *, double t); /* and before a time within the last step */
 int64_t events_turns(const events *);                  /* how often an internal rule has */

@@ -468,9 +468,92 @@ static void modes_at_the_end(void **state)
     }
 }
 
+/* A number at the end of a run. */
+static double told(const char *text, const char *name, const char *method, double size, double until, double *error)
+{
+    motus_system *s = given_text(text);
+    motus_run_def def = motus_default_run();
+    motus_error err = motus_default_error();
+    motus_run *r = NULL;
+    size_t column, count;
+    double value;
+    def.error = MOTUS_BARS_CHEAP, def.machine = "interpreter", def.method = method, def.until = until;
+    *(given_adaptive(method) ? &def.tolerance : &def.step) = size;
+    must(motus_run_create(s, &def, &r, &err), &err, text);
+    must(motus_run_finish(r, &err), &err, text);
+    must(motus_column_find(s, name, &column, &count, &err), &err, text);
+    must(motus_run_errors(r, &column, 1, &value, error, &err), &err, text);
+    motus_run_destroy(r);
+    motus_system_destroy(s);
+    return value;
+}
+
+/* A counter; *error: 0 where it is known, at least 1 where it is not. */
+static double counted(const char *text, const char *method, double size, double until, double *error)
+{
+    return told(text, "n", method, size, until, error);
+}
+
+#define QUARTER 1.5707963267948966
+
+/* An event within the error of the run's end has happened or not; one that is farther off is decided, and so is one
+ * that the motion would pass the other way. */
+static void counts_near_the_end(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *method;
+        double size;
+    } ways[] = {{"rk4", 0.1},     {"rk4", 0.3},     {"verlet", 0.01}, {"explicit-euler", 0.01},
+                {"dopri5", 1e-3}, {"dopri5", 1e-6}, {"dop853", 1e-9}, {"taylor", 1e-9}};
+    static const char *const texts[] = {"x'' = -x; x(0) = 1; x'(0) = 0; n = 0; when x = 0: n = n + 1",
+                                        "x'' = -x; x(0) = 1; x'(0) = 0; n = 0; when x < 0: n = n + 1, record"};
+    double error, bar;
+    for (size_t w = 0; w < sizeof ways / sizeof *ways; w++) {
+        const char *const method = ways[w].method;
+        told(texts[0], "x", method, ways[w].size, QUARTER, &bar);
+        for (size_t k = 0; k < sizeof texts / sizeof *texts; k++) {
+            for (int side = -1; side <= 1; side++) {
+                counted(texts[k], method, ways[w].size, QUARTER + side * bar / 8, &error);
+                if (!(error >= 1)) fail_msg("%s by %s: an event %g off is counted", texts[k], method, side * bar / 8);
+            }
+            for (int side = 0; side <= 1; side++) {
+                const double value = counted(texts[k], method, ways[w].size, side ? 1.7 : 1.45, &error);
+                if (value != side || error != 0)
+                    fail_msg("%s by %s: %g ± %g for %d", texts[k], method, value, error, side);
+            }
+        }
+        const double value = counted("x'' = -x; x(0) = 1; x'(0) = 0; n = 0; when x = 0 rising: n = n + 1", method,
+                                     ways[w].size, QUARTER, &error);
+        if (value != 0 || error != 0) fail_msg("by %s: %g ± %g for 0 events that rise", method, value, error);
+    }
+}
+
+/* The run ends where an event ends it, whatever has happened in that instant; what rests at 0 has come there, and what
+ * a clock does is done at its time. */
+static void counts_that_are_decided(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *text;
+        double until, value;
+    } known[] = {{"y'' = -9.81; y(0) = 1; y'(0) = 0; n = 0; when y = 0 falling: y' = -0.8 y', n = n + 1, record; when "
+                  "n >= 4: stop",
+                  9, 4},
+                 {"x'' = -0.3 sign(x'); x(0) = 0; x'(0) = 1; n = 0; when x' = 0: n = n + 1", 5, 1},
+                 {"x'' = -1; x(0) = 1; x'(0) = 1; n = 0; when every 0.125: x' = x' + 0.1, n = n + 1", 1, 8},
+                 {"x'' = -x; x(0) = 1; x'(0) = 0; n = 0; when x > 0: n = n + 1", QUARTER, 0}};
+    double error;
+    for (size_t k = 0; k < sizeof known / sizeof *known; k++) {
+        const double value = counted(known[k].text, "dop853", 1e-9, known[k].until, &error);
+        if (value != known[k].value || error != 0) fail_msg("%s: %g ± %g", known[k].text, value, error);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(counts_near_the_end),        cmocka_unit_test(counts_that_are_decided),
         cmocka_unit_test(modes_at_the_end),           cmocka_unit_test(bars_of_event_times),
         cmocka_unit_test(bars_between_steps),         cmocka_unit_test(limits_of_balls),
         cmocka_unit_test(rows_of_one_instant),        cmocka_unit_test(clocks_stay_known),

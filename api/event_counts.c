@@ -1,0 +1,170 @@
+/* See event_counts.h.
+ *
+ * A function that is nowhere 0 within the bars of the state has passed 0 as often as the run's has. Where it may be 0,
+ * the exact motion may be on its other side, so that an event has happened which the run has not had, or the reverse;
+ * unless the function moves the other way than the event asks.
+ */
+#include "api/event_counts.h"
+
+#include "api/columns.h"
+#include "api/event_bars.h"
+
+#include <math.h>
+#include <string.h>
+
+typedef struct look {
+    motus_run *run;
+    double t, late;
+    const double *x, *v;
+    double *dx, *dv, *a;  /* half the widths of the box, and the accelerations */
+    double *to_x, *to_v;  /* room for a state */
+    double *size;         /* of the accelerations */
+    double *g, *now;      /* of the functions: values, and room for as many numbers */
+    int8_t *sign, *heads; /* of the values and of the rates along the run; 0: open */
+    bool slopes;          /* `heads` is known */
+} look;
+
+static double bar(void *ctx, size_t column)
+{
+    const look *l = ctx;
+    return bars_of(l->run->bars, l->t, column);
+}
+
+static void take_state(look *l, double part)
+{
+    const problem *p = &l->run->system->problem;
+    for (size_t k = 0; k < p->nx; k++) l->to_x[k] = l->x[k] + part * l->dx[k];
+    for (size_t k = 0; k < p->nv; k++) l->to_v[k] = l->v[k] + part * l->dv[k];
+    if (p->refresh) p->refresh(p->ctx, l->t, l->to_x, l->to_v);
+}
+
+/* The state within its bars; modes have none, and are as far off as the companion's. All is late by what the times of
+ * events share and the end of the run is rounded by. */
+static bool find_box(look *l, interval *box)
+{
+    const motus_run *r = l->run;
+    const problem *p = &r->system->problem;
+    const size_t moving = p->nx - p->modes;
+    if (!system_box(r->system, l->x, l->v, bar, l, box, box + p->nx)) return false;
+    memset(l->dx, 0, p->nx * sizeof *l->dx);
+    memset(l->dv, 0, p->nv * sizeof *l->dv);
+    memset(l->a, 0, p->nv * sizeof *l->a);
+    take_state(l, 0);
+    if (p->accel(p->ctx, l->t, l->to_x, l->to_v, l->a)) return false;
+    for (size_t k = 0; k < moving; k++)
+        l->dx[k] = (box[k].high - box[k].low) / 2 + l->late * fabs(l->v[k]) + events_ulp(l->x[k]);
+    for (size_t k = moving; k < p->nx; k++) l->dx[k] = event_bars_part(r) * fabs(l->x[k] - r->bars->half.x[k]);
+    for (size_t k = 0; k < p->nv; k++) {
+        const interval *in = &box[p->nx + k];
+        l->dv[k] = (in->high - in->low) / 2 + l->late * fabs(l->a[k]) + events_ulp(l->v[k]);
+        l->size[k] = fabs(l->a[k]);
+    }
+    return true;
+}
+
+/* The signs of the functions; whether the box leaves one open. */
+static bool find_signs(look *l)
+{
+    const rules *rules = l->run->rules;
+    const bool bounded = rules->least && !l->run->system->problem.refresh;
+    const double t[2] = {l->t - l->late, l->t + l->late};
+    bool open = false;
+    if (bounded) rules->least(rules->ctx, l->to_x, l->to_v, l->dx, l->dv, l->now);
+    for (size_t f = 0; f < rules->functions; f++) {
+        const bool settled = (bounded && l->now[f] > 0) || events_settled(l->run->events, f) || isnan(l->g[f]);
+        const bool apart =
+            settled || (rules->apart && rules->apart(rules->ctx, f, false, t, l->to_x, l->to_v, l->dx, l->dv, l->size));
+        l->sign[f] = (int8_t)(apart ? (l->g[f] > 0) - (l->g[f] < 0) : 0);
+        open |= !apart;
+    }
+    return open;
+}
+
+/* The ways that functions go along the run, where rates at the middle of the box and at some of its corners agree. */
+static bool find_slopes(look *l)
+{
+    const motus_run *r = l->run;
+    const rules *rules = r->rules;
+    const problem *p = &r->system->problem;
+    const double way = r->timing.h < 0 ? -1 : 1;
+    if (l->slopes) return true;
+    memset(l->heads, 0, rules->functions);
+    if (!rules->rates) return true;
+    for (int turn = -1; turn <= 1; turn++) {
+        take_state(l, turn);
+        if (p->accel(p->ctx, l->t, l->to_x, l->to_v, l->a)) return true;
+        if (rules->rates(rules->ctx, l->t, l->to_x, l->to_v, l->a, l->now)) return false;
+        for (size_t f = 0; f < rules->functions; f++) {
+            const int8_t heads = (int8_t)((way * l->now[f] > 0) - (way * l->now[f] < 0));
+            l->heads[f] = turn < 0 || l->heads[f] == heads ? heads : 0;
+        }
+    }
+    return l->slopes = true;
+}
+
+/* Whether an event may happen where function f, of instance i of a rule, passes 0 or touches it. */
+static bool may_happen(look *l, const rule *r, size_t i, size_t f)
+{
+    const int heads = l->heads[f];
+    if (r->kind == RULE_ROOT) return !r->direction || !heads || heads == r->direction;
+    bool holds[3];
+    for (int sign = -1; sign <= 1; sign++) {
+        l->sign[f] = (int8_t)sign;
+        holds[sign + 1] = rules_hold(r, i, l->sign);
+    }
+    l->sign[f] = 0;
+    if (!heads) return holds[0] != holds[1] || holds[1] != holds[2];
+    const bool before = holds[1 - heads], after = holds[1 + heads];
+    return !before && (holds[1] || after);
+}
+
+static bool instance_open(look *l, const rule *r, size_t i)
+{
+    size_t open = 0, which = 0;
+    for (size_t k = 0; k < r->leaves; k++) {
+        const size_t f = r->first + k * r->instances + i;
+        const bool known = l->sign[f] != 0 || events_settled(l->run->events, f) || isnan(l->g[f]);
+        if (!known) open++, which = f;
+    }
+    if (open == 0) return false;
+    if (!find_slopes(l)) return true;
+    return open > 1 || may_happen(l, r, i, which);
+}
+
+/* Events that accumulate have no number, and leave no other open. */
+static bool any_open(look *l)
+{
+    const rules *rules = l->run->rules;
+    events_limit limit = {.rule = SIZE_MAX};
+    events_accumulated(l->run->events, &limit);
+    if (!find_signs(l)) return false;
+    for (size_t k = 0; k < rules->count; k++) {
+        const rule *r = &rules->rule[k];
+        if (r->internal || (r->kind != RULE_ROOT && r->kind != RULE_CONDITION) || k == limit.rule) continue;
+        for (size_t i = 0; i < r->instances; i++)
+            if (instance_open(l, r, i)) return true;
+    }
+    return false;
+}
+
+motus_status event_counts_open(motus_run *r, double t, const double *x, const double *v, bool *open, motus_error *err)
+{
+    const problem *p = &r->system->problem;
+    const size_t nx = p->nx, nv = p->nv, n = r->rules->functions;
+    *open = false;
+    if (n == 0 || t == r->timing.t0) return MOTUS_OK; /* what is 0 at the start is no event there */
+    double *const room = take(&r->allocator, 2 * nx + 4 * nv + 2 * n + 1, sizeof *room);
+    interval *const box = take(&r->allocator, nx + nv + 1, sizeof *box);
+    int8_t *const sign = take(&r->allocator, 2 * n, sizeof *sign);
+    motus_status status = room && box && sign ? MOTUS_OK : fail(err, MOTUS_MEMORY, "no memory for bars of error");
+    if (status == MOTUS_OK) {
+        look l = {.run = r, .t = t, .late = event_bars_late(r, t), .x = x, .v = v, .dx = room};
+        l.to_x = l.dx + nx, l.dv = l.to_x + nx, l.to_v = l.dv + nv, l.a = l.to_v + nv, l.size = l.a + nv;
+        l.g = l.size + nv, l.now = l.g + n, l.sign = sign, l.heads = sign + n;
+        *open = !find_box(&l, box) || r->rules->values(r->rules->ctx, t, l.to_x, l.to_v, l.g) || any_open(&l);
+    }
+    give(&r->allocator, room);
+    give(&r->allocator, box);
+    give(&r->allocator, sign);
+    return status;
+}

@@ -1,0 +1,10 @@
+/* Whether the errors of the state leave open which events have happened. */
+#ifndef API_EVENT_COUNTS_H
+#define API_EVENT_COUNTS_H
+
+#include "api/bars.h"
+
+/* *open: at t, where the run's state is x, v in the inside order, a function of an event may have passed 0 or not. */
+motus_status event_counts_open(motus_run *, double t, const double *x, const double *v, bool *open, motus_error *);
+
+#endif
