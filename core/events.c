@@ -61,6 +61,7 @@ static size_t arrange(events *e, char *block)
     e->passed = next(&l, f, 1);
     e->zero = next(&l, f, 1);
     e->touched = next(&l, f, 1);
+    e->arrives = next(&l, f, 1);
     e->level = next(&l, f, 1);
     e->held = next(&l, instances, 1);
     e->steady = next(&l, instances, 1);

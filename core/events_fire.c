@@ -242,6 +242,28 @@ static bool ends_flight(const events *e)
     return constant;
 }
 
+enum { WAS_ZERO = UINT8_MAX }; /* or has been told to be */
+
+/* A turn leads on to where the motion comes to rest, within a time that no step resolves, and functions that were not 0
+ * come to 0 with it. One that has the other sign where the motion would go on from there passes 0, else it touches 0.
+ * `best` is the state before the turn. */
+static motus_status arrive(events *e, motus_error *err)
+{
+    instant *at = &e->here, *beyond = &e->best;
+    memcpy(beyond->x, at->x, e->problem.nx * sizeof *at->x);
+    for (size_t k = 0; k < e->problem.nv; k++) beyond->v[k] = 2 * at->v[k] - beyond->v[k];
+    beyond->t = at->t;
+    const motus_status status = events_values(e, beyond, err);
+    for (size_t f = 0; f < e->rules.functions; f++) {
+        const bool rests = at->t != e->until || at->g[f] == 0; /* else the end has cut it short */
+        const bool comes = !e->arrives[f] && e->zero[f] && e->side[f] && rests;
+        if (e->arrives[f] && e->arrives[f] != WAS_ZERO) continue; /* by another turn of this instant */
+        const int kind = sign_of(beyond->g[f]) == -e->side[f] ? -e->side[f] : CANDIDATE_TOUCHES;
+        e->arrives[f] = (uint8_t)(comes && !e->rules.rule[e->rule_of[f]].internal ? kind + 2 : 0);
+    }
+    return status;
+}
+
 /* A switch changes its side. All switches may turn in one instant, but not one and the same again and again. */
 static motus_status turn(events *e, size_t k, size_t i, motus_error *err)
 {
@@ -253,10 +275,17 @@ static motus_status turn(events *e, size_t k, size_t i, motus_error *err)
     memcpy(e->before, at->g, e->rules.functions * sizeof *at->g);
     jog(e, e->count[k], true);
     const double before = at->t;
+    events_copy(e, &e->best, at);
     motus_status status = e->rules.turn(e->rules.ctx, k, i, e->way, e->until, &at->t, at->x, at->v, err);
     if (at->t != before) at->lost = 0;
     if (!status) status = events_swarm(e, e->rules.rule[k].first + i, err);
-    return status ? status : look_again(e, k, i, err);
+    const bool moved = e->best.t != at->t || memcmp(e->best.v, at->v, e->problem.nv * sizeof *at->v) != 0;
+    for (size_t f = 0; f < e->rules.functions && moved; f++) {
+        const bool told = e->way * (e->fired[f] - before) >= -4 * events_ulp(before);
+        if ((e->zero[f] || told) && !e->arrives[f]) e->arrives[f] = WAS_ZERO;
+    }
+    if (!status) status = look_again(e, k, i, err);
+    return status || !moved ? status : arrive(e, err);
 }
 
 static motus_status act(events *e, size_t k, size_t i, motus_error *err)
@@ -400,12 +429,27 @@ static motus_status approach(events *e, size_t k, size_t i, motus_error *err)
     return status;
 }
 
+/* A turn has led function f of instance i to 0. */
+static motus_status ask_arrived(events *e, size_t k, size_t i, size_t f, bool *acted, bool *again, motus_error *err)
+{
+    const rule *r = &e->rules.rule[k];
+    const int to = e->arrives[f] - 2;
+    e->arrives[f] = 0;
+    e->fired[f] = e->here.t;
+    e->touched[f] = to == CANDIDATE_TOUCHES;
+    if (to) e->side[f] = (int8_t)to;
+    if (r->direction && r->direction != to) return MOTUS_OK;
+    *again |= r->assigns;
+    return happen(e, k, i, to == CANDIDATE_TOUCHES, acted, err);
+}
+
 static motus_status ask_root(events *e, size_t k, size_t i, const candidate *c, bool *acted, bool *again,
                              motus_error *err)
 {
     const rule *r = &e->rules.rule[k];
     const size_t f = r->first + i;
     const bool here = c->kind != CANDIDATE_TIME && c->of == f;
+    if (e->zero[f] && e->arrives[f]) return ask_arrived(e, k, i, f, acted, again, err);
     if (!e->zero[f] || (e->fired[f] == e->here.t && !*acted)) return MOTUS_OK;
     const bool told = e->fired[f] == e->here.t;
     if (e->touched[f] && !moves(e, f)) return MOTUS_OK;
@@ -705,6 +749,7 @@ motus_status events_fire(events *e, const candidate *c, bool *assigned, motus_er
     }
     memset(e->ticked, 0, e->rules.count);
     memset(e->touched, 0, e->rules.functions);
+    memset(e->arrives, 0, e->rules.functions);
     events_overlay(e, e->here.x);
     const size_t last = e->rules.count - 1;
     memcpy(e->steady, e->held, e->instances[last] + e->rules.rule[last].instances);

@@ -142,14 +142,16 @@ struct events {
     double blurred; /* the same, where it is rounding of the state that hides the root of a function that is not flat */
     bool awaits;    /* a switch of the force is to turn in this instant */
     uint8_t *touched; /* that it touches 0 has been told in this instant */
-    uint8_t *look;    /* the bounds on the step leave it open, so dense output is searched for its roots */
-    uint8_t *passed;  /* it has passed 0 in watched steps, which was no event; `side` does not know of it yet */
-    int8_t *sign;     /* working space: the signs of a condition's leaves */
-    double *before;   /* the functions at `here` before an action; while roots are sought, lower bounds on the step */
-    bool boxed;       /* the present step's box is in `next` and `width`, its lower bounds are in `before` */
-    int pause;        /* so many more steps are not watched, since watching was in vain; */
-    int last_pause;   /*   how many in all */
-    double *fired;    /* when it last passed or touched 0; NaN: never, or an action lets it do so again */
+    /* candidate_kind + 2 of one that a turn has led to 0 in this instant, where the motion rests; 0: it has not */
+    uint8_t *arrives;
+    uint8_t *look;   /* the bounds on the step leave it open, so dense output is searched for its roots */
+    uint8_t *passed; /* it has passed 0 in watched steps, which was no event; `side` does not know of it yet */
+    int8_t *sign;    /* working space: the signs of a condition's leaves */
+    double *before;  /* the functions at `here` before an action; while roots are sought, lower bounds on the step */
+    bool boxed;      /* the present step's box is in `next` and `width`, its lower bounds are in `before` */
+    int pause;       /* so many more steps are not watched, since watching was in vain; */
+    int last_pause;  /*   how many in all */
+    double *fired;   /* when it last passed or touched 0; NaN: never, or an action lets it do so again */
     uint32_t *rule_of;
     double *most;   /* the largest size of positions, then velocities, since the start */
     int64_t taken;  /* steps since the start */
