@@ -196,22 +196,22 @@ motus_status bars_later(motus_run *r, motus_system *s, double t, double late, co
     return move_later(s, t, late, x, v, r->bars->room, to_x, to_v, err);
 }
 
-/* How much later a time is that was written than the double which was read: of a decimal of at most 13 digits that is
- * exact, also where it was computed, as 1e9 + 0.3 was. Any other double that a caller gives is the time itself; what
- * the model has computed (pi/2) lies within a unit in the last place, but for differences of decimals, which the
- * companion's system reads as they are written. */
+/* How much later a time is that was written than the double which was read. What the model has computed by differences
+ * of decimals the companion's system reads as it is written. A decimal of at most 13 digits is exact, also where it was
+ * computed, as 1e9 + 0.3 was. Any other double that a caller gives is the time itself, and what the model has computed
+ * (pi/2) lies within a unit in the last place. */
 static double time_rounding(double t, double of_model, double of_half)
 {
     enum { CLEARLY = 4 };
     const double unit = nextafter(t, INFINITY) - t;
+    if (t == of_model && fabs(of_half - t) > CLEARLY * unit) return of_half - t;
     /* few doubles are such decimals by chance; powers of ten up to the largest are doubles */
     static const double most = 1e13, largest = 1e22;
     for (double power = 1; power <= largest && fabs(t) * power < most; power *= 10) {
         const double digits = rint(t * power);
         if (digits / power == t) return fma(-t, power, digits) / power;
     }
-    if (t != of_model) return 0;
-    return fabs(of_half - t) > CLEARLY * unit ? of_half - t : unit;
+    return t == of_model ? unit : 0;
 }
 
 /* Where the force depends on the time, run and companion begin their steps at times with the same roundings, which may

@@ -15,10 +15,11 @@ bool located_kinks(const model *m)
     return kinks;
 }
 
-motus_status located_read(const motus_system *s, bool nudged, bool varied, motus_system **out, motus_error *err)
+motus_status located_read(const motus_system *s, bool nudged, const uint8_t *varied, motus_system **out,
+                          motus_error *err)
 {
     const model *m = s->model;
-    read_how how = {.nudged = nudged, .varied = varied, .side_count = m->side_count};
+    read_how how = {.nudged = nudged, .varied = varied, .varied_count = m->pool_count, .side_count = m->side_count};
     model_shape *shapes = take(&s->allocator, m->side_count + 1, sizeof *shapes);
     if (!shapes) return fail(err, MOTUS_MEMORY, "no memory for a system");
     for (uint32_t k = 0; k < m->side_count; k++) {

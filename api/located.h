@@ -22,6 +22,6 @@ motus_status located_of(motus_system *, motus_switches asked, motus_system **, c
 motus_status located_for(motus_system *, const chosen *, motus_switches asked, motus_system **, const char **why,
                          motus_error *);
 /* Reads the text of a system again, with the same modes; nudged, varied: as in lang/text/source.h. */
-motus_status located_read(const motus_system *, bool nudged, bool varied, motus_system **, motus_error *);
+motus_status located_read(const motus_system *, bool nudged, const uint8_t *varied, motus_system **, motus_error *);
 
 #endif

@@ -196,7 +196,7 @@ motus_status motus_system_clone(const motus_system *s, motus_system **out, motus
     def.x = s->x0; /* the copies: the caller's arrays may be gone */
     def.v = s->v0;
     motus_status status =
-        s->model ? located_read(s, false, false, &made, err) : motus_system_from_callback(&def, &made, err);
+        s->model ? located_read(s, false, NULL, &made, err) : motus_system_from_callback(&def, &made, err);
     if (status == MOTUS_OK) status = take_over(s, made, err);
     if (status != MOTUS_OK) {
         motus_system_destroy(made);

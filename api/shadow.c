@@ -6,6 +6,7 @@
 
 #include "api/located.h"
 #include "api/parameters.h"
+#include "lang/model/vary.h"
 
 #include <math.h>
 #include <string.h>
@@ -37,8 +38,9 @@ motus_status shadow_numbers(const motus_system *from, motus_system *to, motus_er
     return status;
 }
 
-/* Parameters that were rounded when they were computed, 1/3 or sqrt(2), are moved to the next double. Not those that
- * decimals or moved ones enter: which way the rounding went is not known, and the two must not cancel. */
+/* Parameters that were rounded when they were computed, and of which the shadow has the same number, as of a sum over
+ * an index, are moved to the next double. Not those that decimals or moved ones enter: which way the rounding went is
+ * not known, and the two must not cancel. */
 
 enum { PARAMETERS_MAX = 256 }; /* of a model with more none is moved, since each looks at all others */
 
@@ -115,14 +117,16 @@ static bool alike(const motus_system *a, const motus_system *b)
            a->model->pool_count == b->model->pool_count && a->state_count == b->state_count;
 }
 
-static bool any_overridden(const model *m) { return m->overridden && memchr(m->overridden, true, m->pool_count); }
-
 motus_status shadow_create(const motus_system *s, const uint8_t *affected, motus_system **out, motus_error *err)
 {
     *out = NULL;
     if (!s->model) return motus_system_clone(s, out, err);
     motus_error ours = motus_default_error();
-    motus_status status = located_read(s, true, affected || any_overridden(s->model), out, &ours);
+    uint8_t *varied = NULL;
+    if (!vary_changed(s->model, affected, &s->allocator, &varied))
+        return fail(err, MOTUS_MEMORY, "no memory for the shadow of a system");
+    motus_status status = located_read(s, true, varied, out, &ours);
+    give(&s->allocator, varied);
     if (status == MOTUS_OK && alike(s, *out)) status = move_rounded(s, affected, *out, &ours);
     if (status == MOTUS_OK && alike(s, *out)) status = shadow_numbers(s, *out, &ours);
     if (status == MOTUS_OK && alike(s, *out)) {

@@ -123,6 +123,11 @@ bool graph_reserve(graph *g, uint32_t capacity)
     uint32_t *place = arena_replace(g->arena, g->place, g->capacity * sizeof *place, capacity * sizeof *place);
     if (!place) return false;
     g->place = place;
+    if (g->typed) {
+        graph_typed *typed = arena_replace(g->arena, g->typed, g->capacity * sizeof *typed, capacity * sizeof *typed);
+        if (!typed) return false;
+        g->typed = typed;
+    }
     g->capacity = capacity;
     if (size == g->table_size) return true;
     arena_drop(g->arena, g->table, g->table_size * sizeof *g->table);
@@ -154,12 +159,13 @@ static void *grow_rows(graph *g, void *rows, uint32_t count, size_t size)
     return arena_replace(g->arena, rows, count * size, (count ? 2 * (size_t)count : FIRST_REFERENCES) * size);
 }
 
-static node share(graph *g, graph_node n, const reference *ref, const range *r)
+/* typed: of a constant, what is known of it; NULL: it is what it is read as. */
+static node share_typed(graph *g, graph_node n, const reference *ref, const range *r, const graph_typed *typed)
 {
     if (g->arena->failed || g->too_large) return 0;
     uint64_t h = hash_node(&n, ref, r);
     for (node k; (k = g->table[h & (g->table_size - 1)]) != 0; h++)
-        if (same_node(g, &n, &g->nodes[k], ref, r)) return k;
+        if (same_node(g, &n, &g->nodes[k], ref, r) && graph_same_typed(g, k, typed)) return k;
     if (ref) {
         reference *rows = grow_rows(g, g->references, g->reference_count, sizeof *rows);
         if (!rows) return 0;
@@ -180,8 +186,14 @@ static node share(graph *g, graph_node n, const reference *ref, const range *r)
         while (g->table[h & (g->table_size - 1)]) h++;
     }
     g->nodes[g->count] = n;
+    if (g->typed) g->typed[g->count] = typed ? *typed : (graph_typed){.known = false};
     g->table[h & (g->table_size - 1)] = g->count;
     return g->count++;
+}
+
+static node share(graph *g, graph_node n, const reference *ref, const range *r)
+{
+    return share_typed(g, n, ref, r, NULL);
 }
 
 /* Leaves ---------------------------------------------------------------------------------------------------------- */
@@ -189,6 +201,11 @@ static node share(graph *g, graph_node n, const reference *ref, const range *r)
 node graph_const(graph *g, double value)
 {
     return bits_of(value) ? share(g, (graph_node){.op = OP_CONST, .value = value}, NULL, NULL) : 0;
+}
+
+node graph_typed_const(graph *g, double value, const graph_typed *typed)
+{
+    return share_typed(g, (graph_node){.op = OP_CONST, .value = value}, NULL, NULL, typed);
 }
 
 node graph_time(graph *g) { return share(g, (graph_node){.op = OP_TIME, .deps = DEP_TIME}, NULL, NULL); }
@@ -269,7 +286,7 @@ static bool simplified(graph *g, operation op, node a, node b, node c, node *out
         }
         if (nb->op == OP_CONST) return *out = graph_op(g, OP_MUL, b, a, 0), true;
         if (na->op == OP_CONST && nb->op == OP_MUL && g->nodes[nb->a].op == OP_CONST) {
-            node rest = nb->b, factor = graph_const(g, na->value * g->nodes[nb->a].value);
+            node rest = nb->b, factor = graph_op(g, OP_MUL, a, nb->a, 0);
             return *out = graph_op(g, OP_MUL, factor, rest, 0), true;
         }
         return false;
@@ -298,7 +315,7 @@ static bool of_square(const graph *g, operation op, node a, node b)
     return (op == OP_SQRT || (op == OP_POW && is_const(g, b, 0.5))) && n->op == OP_MUL && n->a == n->b;
 }
 
-node graph_op(graph *g, operation op, node a, node b, node c)
+node graph_plain_op(graph *g, operation op, node a, node b, node c)
 {
     int arity = operation_at(op)->arity;
     node operand[3] = {a, arity > 1 ? b : 0, arity > 2 ? c : 0};
@@ -315,6 +332,12 @@ node graph_op(graph *g, operation op, node a, node b, node c)
     if (g->tidy && !g->arena->failed && !g->too_large && graph_tidied(g, op, a, b, &out)) return out;
     if (g->simplify && !g->arena->failed && !g->too_large && simplified(g, op, a, b, c, &out)) return out;
     return share(g, (graph_node){.op = (uint8_t)op, .deps = (uint16_t)deps, .a = a, .b = b, .c = c}, NULL, NULL);
+}
+
+node graph_op(graph *g, operation op, node a, node b, node c)
+{
+    const node n = graph_plain_op(g, op, a, b, c);
+    return g->typed ? graph_typed_op(g, n, op, (const node[]){a, b, c}) : n;
 }
 
 node graph_power(graph *g, node base, int exponent)

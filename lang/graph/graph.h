@@ -11,6 +11,7 @@
 #include "lang/base/arena.h"
 #include "lang/base/limits.h"
 #include "lang/base/operation.h"
+#include "lang/base/twofold.h"
 
 typedef uint32_t node;
 
@@ -82,9 +83,19 @@ typedef struct graph_node {
     };
 } graph_node;
 
+/* Of a constant of a text whose decimals are read as the doubles on their other side (lang/text/source.h). */
+typedef struct graph_typed {
+    bool known;
+    double plain;  /* what doubles make of it where the text is read as usual ... */
+    double spread; /*   but for so much, since a run may fuse products and sums */
+    double read;   /* what they make of it in this text */
+    twofold is;    /* what its decimals say */
+} graph_typed;
+
 typedef struct graph {
     arena *arena;
     graph_node *nodes;
+    graph_typed *typed; /* by node; NULL: the text is read as usual */
     uint32_t count, capacity;
     reference *references;
     uint32_t reference_count;
@@ -110,6 +121,13 @@ graph *graph_create(arena *);
 bool graph_reserve(graph *, uint32_t nodes);
 /* Gives back what only constructors need; they must not be called any more. */
 void graph_complete(graph *);
+/* From now on the graph knows of constants what their decimals say: graph_typed.c. False: no memory. */
+bool graph_keep_typed(graph *);
+/* A decimal, as it is read here, as usual, and as it is written. */
+node graph_decimal(graph *, double read, double plain, twofold is);
+/* The number of a place that holds a constant, which is `number` by its nodes; says so of a leaf that is read from
+ * there, if it is not 0. */
+double graph_holds(graph *, node value, node leaf, double number);
 /* Constructors. Operands must exist. Constants fold to what the machine would compute. Identical nodes are shared. */
 node graph_const(graph *, double);
 node graph_time(graph *);

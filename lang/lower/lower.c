@@ -46,7 +46,6 @@ static value lower_sum_of_two(lowering *l, const tree *t, const tree *a, value v
     value v = vector(l, va.count);
     for (int k = 0; k < (v.count ? v.count : 1); k++)
         v.item[k] = binary(l, add ? OP_ADD : OP_SUB, va.item[k], vb.item[k]);
-    lower_typed_sum(l, &v, &va, &vb, add);
     return v;
 }
 
@@ -530,7 +529,6 @@ static value lower_any(lowering *l, const tree *t)
         lower_tidy(l, false);
         r.count = v.count;
         r.rows = v.rows;
-        lower_typed_negative(l, &r, &v);
         return r;
     case TREE_POWER: return lower_power(l, t);
     case TREE_COMPARE: {

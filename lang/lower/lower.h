@@ -10,18 +10,11 @@
 
 #include "lang/model/model.h"
 
-/* A constant of a text whose decimals are read as the doubles on their other side (source.h). */
-typedef struct typed {
-    double plain, read; /* what doubles make of it, in the text as usual and in this one */
-    double high, low;   /* their sum is what its decimals say */
-} typed;
-
 typedef struct value {
     node *item;
     int count;             /* 0: a scalar, item[0] */
     int rows;              /* 0: no matrix; else row by row, `count` numbers each: a factor alone may be one */
     bool boolean, derived; /* derived: made by diff, see lower_tidy */
-    const typed *typed;    /* NULL: it is no such constant */
 } value;
 
 /* A name of an index that may be used here: as a subscript, as a number, and its range. */

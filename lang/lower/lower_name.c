@@ -308,7 +308,6 @@ static value lower_definition(lowering *l, const tree *t, model_definition *d)
         v = vector(l, d->components);
         for (int k = 0; k < (d->components ? d->components : 1) && !failed(l); k++)
             v.item[k] = graph_param(l->model->graph, d->slot + (uint32_t)k);
-        v.typed = l->model->source.varied ? NULL : d->typed;
     }
     if (t->index_count > 1 || (t->index_count == 1 && d->components == 0)) {
         COMPLAIN(l, &t->at, "%s is %s and takes no such index", d->name, d->components ? "a vector" : "one number");
@@ -332,9 +331,6 @@ static value lower_use(lowering *l, const tree *t, argument *a)
     return t->index_count == 1 && !failed(l) ? lower_component(l, v, t->item[0], t) : v;
 }
 
-/* pi, 3.14159265358979323846…, lies between this double and the next one. */
-static double pi_of(const source *s) { return s->nudged ? 0x1.921fb54442d19p1 : 0x1.921fb54442d18p1; }
-
 /* Every name is defined: names.c has seen to that. */
 value lower_name(lowering *l, const tree *t)
 {
@@ -348,7 +344,7 @@ value lower_name(lowering *l, const tree *t)
     }
     if (!strcmp(t->name, "t") || !strcmp(t->name, "pi")) {
         if (t->primes || t->index_count) COMPLAIN(l, &t->at, "%s takes no primes and no index", t->name);
-        if (t->name[0] == 'p') return scalar(l, graph_const(l->model->graph, pi_of(&l->model->source)));
+        if (t->name[0] == 'p') return lower_pi(l);
         if (l->place == PLACE_CONSTANT) {
             COMPLAIN(l, &t->at, "%s is constant and cannot depend on the time t", l->what);
             return wrong(l);

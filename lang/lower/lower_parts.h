@@ -58,11 +58,9 @@ static inline node binary(lowering *l, operation op, node a, node b) { return gr
 node lower_sign(lowering *, node u);
 node lower_ratio(lowering *, node a, node b);
 
-/* lower_typed.c. A number of the text. */
+/* lower_number.c */
 value lower_number(lowering *, const tree *);
-/* Makes a sum or difference of two the double on the other side of what their decimals say. */
-void lower_typed_sum(lowering *, value *sum, const value *a, const value *b, bool add);
-void lower_typed_negative(lowering *, value *, const value *of);
+value lower_pi(lowering *);
 
 static inline const char *shape_name(const value *v, char out[40])
 {

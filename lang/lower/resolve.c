@@ -56,8 +56,9 @@ static bool resolve_plain(model *m, model_definition *d)
     for (int k = 0; k < n; k++) m->slot_owner[d->slot + (uint32_t)k] = (uint32_t)(d - m->definitions) + 1;
     for (int k = 0; k < n; k++)
         if (!vary_record_scalar(m, v.item[k], d->slot + (uint32_t)k)) return false;
+    for (int k = 0; k < n; k++)
+        evaluate_held(m, v.item[k], d->slot + (uint32_t)k, graph_param(m->graph, d->slot + (uint32_t)k));
     m->scalar_used += (uint32_t)n;
-    d->typed = v.typed;
     return true;
 }
 
@@ -94,6 +95,7 @@ static bool resolve_matrix(model *m, model_definition *d)
         place.to.at[1] = (subscript){.level = -1, .slot = -1, .modulus = -1, .literal = 1 + k % v.count};
         if (!vary_record(m, &place, v.item + k, 1, base, 2, d->first, d->last, (size_t)n, NULL, 0, &d->log_array))
             return false;
+        evaluate_held_cell(m, &place, v.item + k, 1, at);
     }
     return true;
 }
@@ -142,6 +144,7 @@ static bool place_entries(model *m, model_definition *d, const node *nodes, int 
         const output place = {.to = {.dims = 1, .at = {{.level = -1, .slot = -1, .modulus = -1, .literal = i + 1}}}};
         ok = vary_record(m, &place, nodes + (size_t)i * (size_t)parts, parts, base, 1, d->first, d->last, (size_t)n,
                          NULL, 0, &d->log_array);
+        if (ok) evaluate_held_cell(m, &place, nodes + (size_t)i * (size_t)parts, parts, at);
     }
     return ok;
 }
@@ -288,6 +291,7 @@ static bool family_lines(model *m, model_definition *d, int rank, const uint8_t 
             !vary_record(m, &o, v.item, parts, base, d->dims, d->first, d->last, hull, map, (uint8_t)rank,
                          &d->log_array))
             return false;
+        evaluate_held_cell(m, &o, v.item, parts, d->array);
     }
     return true;
 }

@@ -51,6 +51,30 @@ bool evaluate_into_pool(model *m, const output *target, const node *values, int 
     return ok;
 }
 
+void evaluate_held(model *m, node value, size_t place, node leaf)
+{
+    const source *const s = &m->source;
+    if (!s->nudged || source_failed(s)) return;
+    const bool varied = s->varied && place < s->varied_count && s->varied[place];
+    m->pool[place] = graph_holds(m->graph, value, varied ? 0 : leaf, m->pool[place]);
+}
+
+void evaluate_held_cell(model *m, const output *target, const node *values, int parts, uint16_t first)
+{
+    const bool crowded = m->graph->count > GRAPH_NODES_MAX / 2; /* so many numbers have no leaves of their own */
+    if (!m->source.nudged || target->loops) return;
+    for (int k = 0; k < parts; k++) {
+        reference r = target->to;
+        r.array = (uint16_t)(first + k);
+        const array *const a = &m->arrays[r.array];
+        int64_t place = (int64_t)a->base;
+        for (int d = 0; d < r.dims; d++)
+            place += (r.at[d].literal + (r.at[d].slot >= 0 ? m->ints[r.at[d].slot] : 0) - a->over->first[d]) *
+                     a->over->stride[d];
+        evaluate_held(m, values[k], (size_t)place, crowded ? 0 : graph_load(m->graph, &r));
+    }
+}
+
 bool evaluate_nodes(model *m, const node *nodes, int count, double *out)
 {
     bool literal = true;

@@ -106,14 +106,13 @@ typedef struct model_definition {
     uint32_t mode;    /* of a parameter that an event assigns: 1 + the number of its mode in states; 0: none does */
     bool list;        /* list or family: an array over indices */
     uint8_t dims;
-    int components;            /* 0: scalar */
-    uint32_t last_line;        /* 1 + number of its last line: a family may have several, each naming the next */
-    uint32_t slot;             /* parameter without indices: its first pool slot */
-    uint16_t log_array;        /* vary_record.h: 1 + its array over the pool, 0 none */
-    uint16_t array;            /* list: POOL array of component 0; quantity or invariant: OUT array */
-    int64_t *first, *last;     /* MAX_DIMS of each; those without indices share one array of zeros */
-    const struct typed *typed; /* of a parameter that its decimals define (lower.h); NULL: it is none */
-    struct value **known;      /* quantity without indices: its nodes, by kind of place and level of its use */
+    int components;        /* 0: scalar */
+    uint32_t last_line;    /* 1 + number of its last line: a family may have several, each naming the next */
+    uint32_t slot;         /* parameter without indices: its first pool slot */
+    uint16_t log_array;    /* vary_record.h: 1 + its array over the pool, 0 none */
+    uint16_t array;        /* list: POOL array of component 0; quantity or invariant: OUT array */
+    int64_t *first, *last; /* MAX_DIMS of each; those without indices share one array of zeros */
+    struct value **known;  /* quantity without indices: its nodes, by kind of place and level of its use */
     output *outputs;
     size_t output_count; /* quantity, invariant: into OUT from 0 */
     size_t numbers;

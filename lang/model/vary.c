@@ -163,6 +163,21 @@ uint8_t *vary_follows(model *m, const array *of)
     return v.affected;
 }
 
+bool vary_changed(const model *m, const uint8_t *affected, const motus_allocator *allocator, uint8_t **out)
+{
+    uint8_t *changed = take(allocator, m->graph->count + 1, 1);
+    vary v = {.model = (model *)m, .affected = *out = take(allocator, m->pool_count + 1, 1)};
+    if (changed && *out) {
+        for (size_t k = 0; k < m->pool_count; k++)
+            v.affected[k] = (affected && affected[k]) || (m->overridden && m->overridden[k]);
+        follow(&v, changed);
+    }
+    const bool done = changed && *out;
+    if (!done) give(allocator, *out);
+    give(allocator, changed);
+    return done;
+}
+
 static motus_status refuse(const model *m, const uint8_t *changed, bool own_step, bool own_until, motus_error *err)
 {
     for (uint32_t k = 0; k < m->log.frozen_count; k++) {

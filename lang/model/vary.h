@@ -27,6 +27,9 @@ bool vary_decides(const model *, size_t first, size_t count, const motus_allocat
 /* A byte for each place of the pool: whether its number follows from those of the array. In the model's arena; NULL: no
  * memory. */
 uint8_t *vary_follows(model *, const array *);
+/* A byte for each place of the pool: whether it is marked in `affected` (NULL: none is), was overridden, or follows
+ * from such a place; to be given back. False: no memory. */
+bool vary_changed(const model *, const uint8_t *affected, const motus_allocator *, uint8_t **);
 /* Marks numbers [first, first + count) of the pool as set (yes), so that no line computes them, or as computed by the
  * model's lines again: all numbers of a parameter or of a state's x(0) or x'(0), boundary cells included. It applies to
  * varies made before, too. False: no memory. */

@@ -93,10 +93,15 @@ motus_status read_model(arena *a, const motus_text_def *def, const read_how *how
     m->arena = a;
     m->draft = def->draft > 0;
     const size_t sets = def->set_count, whens = sets + def->when_count, texts = 1 + whens + def->define_count;
-    m->source =
-        (source){.arena = a, .error = err, .count = (uint32_t)texts, .nudged = how->nudged, .varied = how->varied};
+    m->source = (source){.arena = a,
+                         .error = err,
+                         .count = (uint32_t)texts,
+                         .nudged = how->nudged,
+                         .varied = how->varied,
+                         .varied_count = how->varied_count};
     m->source.texts = arena_room(a, texts * sizeof *m->source.texts);
     m->graph = graph_create(a);
+    if (m->graph && how->nudged) graph_keep_typed(m->graph);
     if (!m->source.texts || !m->graph || a->failed) return fail(err, MOTUS_MEMORY, "no memory for the model");
     m->source.texts[0] = (struct source_text){def->text, (uint32_t)length, def->file, false};
     for (size_t i = 0; i + 1 < texts; i++) {

@@ -12,7 +12,9 @@ typedef motus_status (*read_method)(const char *name, motus_error *);
  * switches, in the order of switches_find; their sides are modes then, which the equations read in place of the
  * switches. NULL: no. */
 typedef struct read_how {
-    bool nudged, varied;
+    bool nudged;
+    const uint8_t *varied;
+    size_t varied_count;
     const model_shape *sides;
     uint32_t side_count;
 } read_how;

@@ -34,7 +34,10 @@ typedef struct source {
     bool failed;
     /* The numbers that are no doubles are read as the double on their other side: for bars of error (api/shadow.c). */
     bool nudged;
-    bool varied; /* parameters get other numbers than the text gives them: what these are says nothing of a formula */
+    /* By place of the pool, where it is not 0: the place gets another number than the text gives it, of which a formula
+     * knows nothing; NULL: none does. */
+    const uint8_t *varied;
+    size_t varied_count;
     struct {
         uint32_t text, at;
         int line;

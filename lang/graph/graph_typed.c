@@ -1,0 +1,140 @@
+/* What decimals say of a constant, beside what doubles make of it. See graph.h.
+ *
+ * The shadow of a model (api/shadow.c) has every decimal as the double on its other side. In 1000.7 - 1000.6 both may
+ * move by the same amount, of which the difference shows nothing, and of sqrt(2)^2 - 2 nothing moves at all. So every
+ * constant expression, of literals and of parameters that are such, is computed as it is written, to twice the bits,
+ * and is in the shadow the double on the other side of that.
+ */
+#include "lang/graph/graph_walk.h"
+
+#include <math.h>
+
+enum { CLEARLY = 4 }; /* units in the last place: a smaller change of a formula's result is left to its terms */
+
+bool graph_keep_typed(graph *g)
+{
+    g->typed = arena_room(g->arena, g->capacity * sizeof *g->typed);
+    if (g->typed) g->typed[0].known = false;
+    return g->typed != NULL;
+}
+
+static graph_typed exactly(double value)
+{
+    return (graph_typed){.known = true, .plain = value, .read = value, .is = twofold_of(value)};
+}
+
+static bool same_number(double a, double b) { return a == b && signbit(a) == signbit(b); }
+
+bool graph_same_typed(const graph *g, node n, const graph_typed *typed)
+{
+    if (!g->typed || g->nodes[n].op != OP_CONST) return true;
+    const graph_typed *const t = &g->typed[n];
+    if (!typed || !t->known) return !typed && !t->known;
+    return same_number(t->plain, typed->plain) && t->is.high == typed->is.high && t->is.low == typed->is.low &&
+           t->is.error == typed->is.error;
+}
+
+/* Of a constant without more its number is what is known. */
+static graph_typed known(const graph *g, node n)
+{
+    const graph_node *const of = &g->nodes[n];
+    return g->typed[n].known || of->op != OP_CONST ? g->typed[n] : exactly(of->value);
+}
+
+node graph_decimal(graph *g, double read, double plain, twofold is)
+{
+    if (!g->typed) return graph_const(g, read);
+    return graph_typed_const(g, read, &(graph_typed){.known = true, .plain = plain, .read = read, .is = is});
+}
+
+/* What a constant is to be here: the number on the other side of what is written, as seen from the plain one. */
+static double beyond(const graph_typed *t)
+{
+    const double off = (t->is.high - t->plain) + t->is.low, far = fabs(off) + t->is.error + t->spread;
+    const double way = off > 0 || (off == 0 && t->read > t->plain) ? 1 : -1;
+    if (!(far > TWOFOLD_KNOWN * fabs(t->plain))) return t->plain;
+    if (!isfinite(far)) return 2 * t->plain; /* nothing is left of it */
+    const double to = t->plain + way * far;
+    return fabs(to - t->plain) < far ? nextafter(to, way * INFINITY) : to;
+}
+
+double graph_holds(graph *g, node value, node leaf, double number)
+{
+    if (!g->typed || g->arena->failed || g->too_large || !known(g, value).known) return number;
+    graph_typed t = known(g, value);
+    t.read = beyond(&t);
+    if (leaf) g->typed[leaf] = t;
+    return t.read;
+}
+
+static bool is_exact(const graph_typed *t)
+{
+    return t->is.high == t->plain && t->is.low == 0 && t->is.error == 0 && t->spread == 0;
+}
+
+/* Half of the last place of a product, which a run may leave out where it adds the product to something. */
+static double of_product(const graph *g, node n, const graph_typed *t)
+{
+    const graph_node *const of = &g->nodes[n];
+    const bool product = of->op == OP_MUL || (of->op == OP_NEG && g->nodes[of->a].op == OP_MUL);
+    return product && !is_exact(t) ? twofold_unit(t->plain) / 2 : 0;
+}
+
+static double spread_of(const graph *g, operation op, const node *operand, const graph_typed t[3], double plain)
+{
+    double all = 0;
+    twofold by[3];
+    for (int k = 0; k < 3; k++) {
+        double spread = t[k].spread;
+        if (op == OP_ADD || op == OP_SUB) spread += of_product(g, operand[k], &t[k]);
+        by[k] = (twofold){t[k].plain, 0, spread};
+        all += spread;
+    }
+    if (all == 0) return 0;
+    const twofold r = twofold_value(op, by[0], by[1], by[2]);
+    return r.error + fabs((r.high - plain) + r.low) + twofold_unit(plain);
+}
+
+/* A sum that is smaller than decimals can be beside its terms is 0. */
+static twofold without_noise(operation op, twofold is, const graph_typed t[3])
+{
+    if (op != OP_ADD && op != OP_SUB) return is;
+    const double size = fabs(t[0].is.high) + fabs(t[1].is.high);
+    return fabs(is.high) + is.error <= TWOFOLD_KNOWN * size ? twofold_of(0) : is;
+}
+
+node graph_typed_op(graph *g, node n, operation op, const node operand[3])
+{
+    const int arity = operation_at(op)->arity;
+    graph_typed t[3] = {exactly(0), exactly(0), exactly(0)};
+    bool exact = true;
+    if (g->arena->failed || g->too_large) return n;
+    for (int k = 0; k < arity; k++) {
+        if (n == operand[k]) return n;
+        t[k] = known(g, operand[k]);
+        if (!t[k].known) return n;
+        exact &= is_exact(&t[k]);
+    }
+    const bool constant = g->nodes[n].op == OP_CONST;
+    graph_typed r = {.known = true,
+                     .plain = operation_value(op, t[0].plain, t[1].plain, t[2].plain),
+                     .read = operation_value(op, t[0].read, t[1].read, t[2].read),
+                     .is = without_noise(op, twofold_value(op, t[0].is, t[1].is, t[2].is), t)};
+    if (!isfinite(r.plain)) return n;
+    if (!constant) r.spread = spread_of(g, op, operand, t, r.plain);
+    if (exact && is_exact(&r)) {
+        if (!constant) g->typed[n] = r;
+        return n;
+    }
+    const double to = beyond(&r), by = to - r.read;
+    if (constant) {
+        r.read = to;
+        return graph_typed_const(g, to, &r);
+    }
+    if (fabs(by) > CLEARLY * twofold_unit(to)) {
+        n = graph_plain_op(g, OP_ADD, n, graph_const(g, by), 0);
+        r.read += by;
+    }
+    if (!g->arena->failed && !g->too_large) g->typed[n] = r;
+    return n;
+}
