@@ -285,6 +285,32 @@ static void late_changes(void **unused)
     }
 }
 
+/* The time that is told is that of the jump, to the digits told: in the first steps too, just before the end, and where
+ * the invariant soon jumps back. What happens beyond the end is no matter. */
+static void times_of_jumps(void **unused)
+{
+    (void)unused;
+    static const struct {
+        const char *e, *when;
+    } jumps[] = {{"atan2(x', x) + t", "at t = 3.14159"},
+                 {"x^2 + x'^2 + floor(mod(t, 7.77)/7)", "from 1 to 2 at t = 7"},
+                 {"mod(floor(t/7.77), 2)", "from 0 to 1 at t = 7.77"},
+                 {"if(mod(t, 7.77) > 7.76, 1, 0)", "from 0 to 1 at t = 7.76"},
+                 {"floor(mod(t, 7.77)/7.77 + 0.5)", "from 0 to 1 at t = 3.885"},
+                 {"if(mod(t, 7.77) < 0.001, 1, 0)", "from 1 to 0 at t = 0.001"},
+                 {"if(t > 9.9999, 1, 0)", "from 0 to 1 at t = 9.9999"},
+                 {"x^2 + x'^2 + if(|x - 0.3| < 1e-3, 1, 0)", "from 1 to 2 at t = 1.26506"},
+                 {"x^2 + x'^2 + if(|x - 0.3| < 1e-6, 1, 0)", "from 1 to 2 at t = 1.2661"},
+                 {"x^2 + x'^2 + exp(-((x - 0.3)/1e-5)^2)", "it changes at the rate"},
+                 {"x^2 + x'^2 + 2/cosh((x + 0.2)/1e-4)^2", "it changes at the rate"}};
+    char text[256];
+    for (size_t k = 0; k < sizeof jumps / sizeof *jumps; k++) {
+        snprintf(text, sizeof text, "x'' = -x\n" START "invariant e = %s\nuntil 10\n", jumps[k].e);
+        refuses(text, "e is no invariant", jumps[k].when, 4);
+    }
+    takes("x'' = -x\n" START "invariant e = x^2 + x'^2 + if(t > 10.0001, 1, 0)\nuntil 10\n");
+}
+
 /* Numbers that are set are checked as those of the text. */
 static void set_numbers(void **unused)
 {
@@ -309,7 +335,8 @@ int main(void)
         cmocka_unit_test(starts_of_exact_runs), cmocka_unit_test(exact_lines_between),
         cmocka_unit_test(exact_lines_unseen),   cmocka_unit_test(exact_callbacks),
         cmocka_unit_test(true_invariants),      cmocka_unit_test(false_invariants),
-        cmocka_unit_test(late_changes),         cmocka_unit_test(set_numbers),
+        cmocka_unit_test(times_of_jumps),       cmocka_unit_test(late_changes),
+        cmocka_unit_test(set_numbers),
     };
     return cmocka_run_group_tests_name("verify", tests, NULL, NULL);
 }

@@ -18,8 +18,10 @@
 enum {
     STEPS = 24,       /* at most, of the run with whole steps, and in the length of the run at least */
     FAR_STEPS = 4000, /* beyond them, of what the algebra does not prove */
-    DEPTH = 20,       /* halvings of a step that resolves too little */
-    KINKED_LEAST = 3  /* of a formula with kinks, as many rates must differ: a state may lie on one */
+    FINER = 3, /* halvings of all steps beyond the first ones, where that takes no more than a SPAREth of FAR_STEPS */
+    SPARE = 8,
+    DEPTH = 20,      /* halvings of a step that resolves too little */
+    KINKED_LEAST = 3 /* of a formula with kinks, as many rates must differ: a state may lie on one */
 };
 #define STEP 0.1     /* of the reciprocal of the fastest rate */
 #define APART 16     /* times the difference of the runs, the rate may be off */
@@ -149,8 +151,10 @@ bool verify_invariant_make(model *m)
 typedef struct runs {
     model *model;
     double t, h;
-    double last; /* the last step */
-    double lag;  /* beyond the first steps: how late the runs may be at a kink */
+    double last;                 /* the last step */
+    double scale;                /* of the time in which the motion changes */
+    double lag;                  /* beyond the first steps: how late the runs may be at a kink */
+    double jumps_from, jumps_to; /* steps between these times cannot be resolved */
     double most_x, most_v;
     bool far;            /* beyond the first steps: what is proved is judged no more */
     double *x[2], *v[2]; /* with whole steps, with half steps */
@@ -240,14 +244,32 @@ static motus_status refuse(model *m, const model_definition *d, size_t k, double
     return MOTUS_ARGUMENT;
 }
 
-static motus_status refuse_jump(model *m, const model_definition *d, size_t k, double from, double to, double t)
+enum { WHEN_MAX = 2 * DECIMAL_MAX + 32 };
+
+/* When something happens that lies between two times: the digits that are the same in both, else both. */
+static char *between_times(double from, double to, char out[WHEN_MAX])
 {
-    char number[64] = "", time[DECIMAL_MAX], a[VERIFY_DIGITS], b[VERIFY_DIGITS];
+    enum { MOST = 6, LEAST = 3 };
+    char a[DECIMAL_MAX], b[DECIMAL_MAX];
+    for (int digits = MOST; digits >= LEAST; digits--) {
+        snprintf(a, sizeof a, "%.*g", digits, from);
+        snprintf(b, sizeof b, "%.*g", digits, to);
+        if (!strcmp(a, b)) return snprintf(out, WHEN_MAX, "at t = %s", a), out;
+    }
+    snprintf(out, WHEN_MAX, "between t = %.*g and t = %.*g", MOST, from, MOST, to);
+    return out;
+}
+
+static motus_status refuse_jump(const runs *r, const model_definition *d, size_t k, double from, double to)
+{
+    model *m = r->model;
+    char number[64] = "", at[WHEN_MAX], a[VERIFY_DIGITS], b[VERIFY_DIGITS];
+    const double late = r->h < 0 ? -r->lag : r->lag;
     if (d->numbers > 1) snprintf(number, sizeof number, " (number %zu of %zu)", k + 1, d->numbers);
     verify_digits(from, to, a, b);
     source_complain(&m->source, MOTUS_ARGUMENT, &d->statement->at,
-                    "%s%s is no invariant: along the motion it jumps from %s to %s at t = %s", d->name, number, a, b,
-                    decimal_time(t, m->until - m->start, time));
+                    "%s%s is no invariant: along the motion it jumps from %s to %s %s", d->name, number, a, b,
+                    between_times(r->jumps_from - late, r->jumps_to + late, at));
     source_hint(&m->source,
                 "correct it or the equations; without the word invariant it is a quantity, which may change");
     return MOTUS_ARGUMENT;
@@ -332,7 +354,8 @@ static bool resolved(const runs *r, double h)
 }
 
 /* An invariant that has changed by a part of its terms over steps in which the motion cannot change it jumps. That it
- * jumps and comes back shows nothing: of this motion alone two terms may jump at once, and here do so one by one. */
+ * jumps and comes back as soon as the runs may be late shows nothing: of this motion alone two terms may jump at once,
+ * and here do so one by one. */
 static motus_status judge_jump(runs *r, uint32_t i, const double *before)
 {
     model *m = r->model;
@@ -342,7 +365,7 @@ static motus_status judge_jump(runs *r, uint32_t i, const double *before)
     tape_run(c->value[i], r->t, base);
     for (size_t k = 0; k < d->numbers; k++)
         if (fabs(r->rate[1][k] - before[k]) > JUMP * fmax(r->size[i], fabs(r->rate[1][k])))
-            return refuse_jump(m, d, k, before[k], r->rate[1][k], r->t);
+            return refuse_jump(r, d, k, before[k], r->rate[1][k]);
     return MOTUS_OK;
 }
 
@@ -399,48 +422,61 @@ static double apart(runs *r)
     return (r->most_x > 0 ? x / r->most_x : 0) + (r->most_v > 0 ? v / r->most_v : 0);
 }
 
-/* On to the end of the run, in steps as long as the first ones where these resolve what they go over. */
+/* Along the whole run, in steps which are shorter where they do not resolve what they go over. */
 static motus_status go_far(runs *r, double way, int steps)
 {
     const model *m = r->model;
+    const double whole = r->h;
     motus_status status = MOTUS_OK;
     double h = r->h;
     int depth = 0;
     bool noted = false;
     for (int n = 0; n < steps && status == MOTUS_OK && fabs(r->t - m->start) < fabs(way); n++) {
-        step_both(r, h);
-        const bool short_enough = finite_states(r) && resolved(r, h);
+        const double left = way - (r->t - m->start), now = fabs(left) < fabs(h) ? left : h;
+        step_both(r, now);
+        const bool short_enough = finite_states(r) && resolved(r, now);
         if (!short_enough && depth < DEPTH) {
             step_back(r);
             h /= 2, depth++;
             continue;
         }
         if (!finite_states(r)) break;
-        if (!short_enough && !noted) note_before(r), noted = true;
-        r->t += h;
-        r->last = h;
-        r->lag = fmax(r->lag, APART * fabs(r->h / STEP) * apart(r));
+        if (!short_enough && !noted) note_before(r), noted = true, r->jumps_from = r->t;
+        r->t += now;
+        r->last = now;
+        if (!short_enough) r->jumps_to = r->t;
+        r->lag = fmax(r->lag, APART * r->scale * apart(r));
         note_sizes(r);
-        if (noted && short_enough && depth == 0) status = judge_jumps(r), noted = false;
+        const bool over = depth == 0 || fabs(r->t - r->jumps_to) > r->lag;
+        if (noted && short_enough && over) status = judge_jumps(r), noted = false;
         if (status == MOTUS_OK) status = judge_all(r, false);
         if (depth > 0 && short_enough) h *= 2, depth--;
+        if (depth == 0) h = whole;
     }
     return status;
+}
+
+static void start(runs *r)
+{
+    const model *m = r->model;
+    r->t = m->start;
+    for (int k = 0; k < 2; k++) {
+        memcpy(r->x[k], m->x0, m->nx * sizeof(double));
+        memcpy(r->v[k], m->v0, m->nv * sizeof(double));
+    }
 }
 
 static motus_status go(runs *r)
 {
     const model *m = r->model;
     const double way = isfinite(m->until) ? m->until - m->start : 1;
-    for (int k = 0; k < 2; k++) {
-        memcpy(r->x[k], m->x0, m->nx * sizeof(double));
-        memcpy(r->v[k], m->v0, m->nv * sizeof(double));
-    }
+    start(r);
     const double rate = verify_fastest(m, m->start, r->x[0], r->v[0], r->stage_x); /* stage_x … sum_x: 3 nv */
     const double work = fmax(m->terms, (double)m->nv) * (1 + (double)m->verify->nodes) * 20;
     const int steps = work * STEPS <= WORK_MAX ? STEPS : (int)(WORK_MAX / work);
     const double most = way / STEPS, least = rate > 0 ? STEP / rate : STEP * fabs(most);
     r->h = copysign(fmin(fabs(most), least), way);
+    r->scale = fabs(r->h / STEP);
     motus_status status = judge_all(r, true);
     note_sizes(r);
     for (int n = 0; n < steps && status == MOTUS_OK; n++) {
@@ -452,8 +488,12 @@ static motus_status go(runs *r)
     }
     bool proved = true;
     for (uint32_t i = 0; i < m->definition_count; i++) proved &= !m->verify->rate[i] || m->verify->proved[i];
+    if (status != MOTUS_OK || proved) return status;
+    const int far = (int)fmin(FAR_STEPS, WORK_MAX / work);
+    start(r);
     r->far = true;
-    return status != MOTUS_OK || proved ? status : go_far(r, way, (int)fmin(FAR_STEPS, WORK_MAX / work));
+    for (int k = 0; k < FINER && fabs(way / r->h) * SPARE < far; k++) r->h /= 2;
+    return go_far(r, way, far);
 }
 
 /* By the algebra: what is proved is judged along the first steps alone, in which the rate counts to rounding. */
