@@ -71,8 +71,8 @@ double bars_of(const bars *, double t, size_t number);
 /* The error of a number at the run's state, or at one between: that, the bound of system_rounding, which *error holds
  * before, and what events add. api/errors.c. */
 motus_status errors_of(motus_run *, double t, double *x, double *v, size_t number, double *error, motus_error *);
-/* Afterwards: what quantities that jump add to theirs, system_leaps. */
-motus_status errors_leaps(motus_run *, double t, double *x, double *v, const size_t *columns, size_t count,
+/* Afterwards: what quantities that jump, or are sharp, add to theirs, system_leaps. */
+motus_status errors_leaps(motus_run *, double t, double *x, double *v, bool sharp, const size_t *columns, size_t count,
                           double *errors, motus_error *);
 /* As differences_worst; NaN: there are no bars. */
 double bars_worst(const bars *, bool absolute, bool unknown);

@@ -305,17 +305,22 @@ static motus_status spread(motus_system *s, const column_range *g, double t, con
         status = evaluate(s, g, t, room, room + nx, err);
         for (size_t k = 0; k < g->count && status == MOTUS_OK; k++) {
             const size_t at = observed_place(s, g, g->first + k);
-            const interval here = {s->observed[at], s->observed[at]};
-            out[at] = i ? interval_hull(out[at], here) : here;
+            const interval here = {s->observed[at], s->observed[at]}, none = {INFINITY, -INFINITY};
+            if (i == 0) out[at] = none;
+            if (!isnan(here.low)) out[at] = interval_hull(out[at], here);
         }
     }
     return status;
 }
 
+static bool is_formula(const motus_system *s, const column_range *g)
+{
+    return s->model && (g->kind == MOTUS_COLUMN_QUANTITY || g->kind == MOTUS_COLUMN_INVARIANT);
+}
+
 static bool jumps(motus_system *s, const column_range *g, bool *flat)
 {
-    const bool formula = s->model && (g->kind == MOTUS_COLUMN_QUANTITY || g->kind == MOTUS_COLUMN_INVARIANT);
-    return formula && interpreter_leaps(s->interpreter, &s->definitions[g->item], flat);
+    return is_formula(s, g) && interpreter_leaps(s->interpreter, &s->definitions[g->item], flat);
 }
 
 bool system_jumps(motus_system *s, size_t column)
@@ -324,17 +329,33 @@ bool system_jumps(motus_system *s, size_t column)
     return jumps(s, columns_range(s, column), &flat);
 }
 
-motus_status system_leaps(motus_system *s, double t, double *x, double *v, system_bar bar, void *ctx,
+/* The error of a value that lies within bounds, beside the one that run and companion tell. */
+static double doubted(doubt open, bool flat, double value, interval bounds, double error)
+{
+    const double off = fmax(bounds.high - value, value - bounds.low);
+    const double own = 4 * (nextafter(fabs(value), INFINITY) - fabs(value));
+    if (open == DOUBT_POLE) return INFINITY;
+    if (flat && off <= own) return value == 0 ? 0 : own;
+    if (flat) return off < fabs(value) ? off : INFINITY;
+    if (open == DOUBT_NONE || !(off > error)) return error;
+    return open == DOUBT_STEEP || off < fabs(value) || off < TWICE * error ? off : INFINITY;
+}
+
+motus_status system_leaps(motus_system *s, double t, double *x, double *v, system_bar bar, void *ctx, bool sharp,
                           const size_t *columns, size_t count, double *errors, motus_error *err)
 {
     const size_t nx = s->problem.nx, nv = s->problem.nv;
     const column_range *done = NULL;
     interval *box = NULL, *out = NULL;
-    bool flat, undecided = false;
+    doubt open = DOUBT_NONE;
     motus_status status = MOTUS_OK;
     for (size_t i = 0; i < count && status == MOTUS_OK; i++) {
         const column_range *g = columns_range(s, columns[i]);
-        if (!jumps(s, g, &flat)) continue;
+        bool flat = false;
+        if (!jumps(s, g, &flat)) {
+            if (!sharp || !is_formula(s, g) || !interpreter_sharp(s->interpreter, &s->definitions[g->item])) continue;
+            flat = false;
+        }
         model_definition *d = &s->definitions[g->item];
         if (g != done) {
             give(&s->allocator, box);
@@ -342,23 +363,18 @@ motus_status system_leaps(motus_system *s, double t, double *x, double *v, syste
             if (!box) return fail(err, MOTUS_MEMORY, "no memory for the errors of %s", d->name);
             out = box + 2 * (nx + nv);
             if (!system_box(s, x, v, bar, ctx, box, box + nx)) break;
-            if (!interpreter_leap(s->interpreter, d, t, box, box + nx, out, &undecided))
+            if (!interpreter_doubt(s->interpreter, d, t, box, box + nx, out, &open))
                 status = fail(err, MOTUS_MEMORY, "no memory for the errors of %s", d->name);
+            bool bounded = open == DOUBT_STEEP;
+            for (size_t k = 0; k < d->numbers; k++) bounded = bounded && isfinite(out[k].high - out[k].low);
             double *const room = (double *)(void *)(box + nx + nv);
-            if (status == MOTUS_OK && undecided) status = spread(s, g, t, box, room, out, err);
+            if (status == MOTUS_OK && open != DOUBT_NONE && !bounded) status = spread(s, g, t, box, room, out, err);
             if (status == MOTUS_OK) status = evaluate(s, g, t, x, v, err);
         }
         done = g;
         if (status != MOTUS_OK) break;
         const size_t at = observed_place(s, g, columns[i]);
-        const double value = s->observed[at], off = fmax(out[at].high - value, value - out[at].low);
-        const double own = 4 * (nextafter(fabs(value), INFINITY) - fabs(value));
-        if (flat && off <= own)
-            errors[i] = value == 0 ? 0 : own;
-        else if (flat)
-            errors[i] = off < fabs(value) ? off : INFINITY;
-        else if (undecided && off > errors[i])
-            errors[i] = off < fabs(value) || off < TWICE * errors[i] ? off : INFINITY;
+        errors[i] = doubted(open, flat, s->observed[at], out[at], errors[i]);
     }
     give(&s->allocator, box);
     return status;

@@ -35,11 +35,11 @@ static double state_bar(void *ctx, size_t column)
     return errors_of(a->run, a->t, a->x, a->v, column, &error, NULL) == MOTUS_OK ? error : NAN;
 }
 
-motus_status errors_leaps(motus_run *r, double t, double *x, double *v, const size_t *columns, size_t count,
+motus_status errors_leaps(motus_run *r, double t, double *x, double *v, bool sharp, const size_t *columns, size_t count,
                           double *errors, motus_error *err)
 {
     at a = {r, t, x, v};
-    return system_leaps(r->system, t, x, v, state_bar, &a, columns, count, errors, err);
+    return system_leaps(r->system, t, x, v, state_bar, &a, sharp, columns, count, errors, err);
 }
 
 /* The values are the run's own, also where there are no bars. */
@@ -54,7 +54,7 @@ static motus_status tell(motus_run *r, double t, double *x, double *v, const siz
     if (status == MOTUS_OK) status = system_rounding(r->system, t, x, v, columns, count, errors, err);
     for (size_t k = 0; status == MOTUS_OK && k < count; k++)
         status = errors_of(r, t, x, v, columns[k], errors + k, err);
-    return status == MOTUS_OK ? errors_leaps(r, t, x, v, columns, count, errors, err) : status;
+    return status == MOTUS_OK ? errors_leaps(r, t, x, v, true, columns, count, errors, err) : status;
 }
 
 motus_status motus_run_errors(motus_run *r, const size_t *columns, size_t count, double *values, double *errors,

@@ -97,14 +97,15 @@ motus_status system_rounding(motus_system *, double t, double *x, double *v, con
                              double *bounds, motus_error *);
 /* Quantities and invariants of a text that jump: where the bars of the state leave open on which side of a jump one is,
  * its error is the spread of what it may be; INFINITY, where a jump makes that as large as itself. One that does
- * nothing but jump, and is decided, is as exact as its formula. */
+ * nothing but jump, and is decided, is as exact as its formula. sharp: those, too, whose value or slope is infinite
+ * somewhere: near there the error is the spread of what they may be; INFINITY, where they may have a pole. */
 typedef double (*system_bar)(void *ctx, size_t column);
 /* The state x and v, each number anywhere within its bar. False: of one there is none. */
 bool system_box(const motus_system *, const double *x, const double *v, system_bar, void *ctx, interval *in_x,
                 interval *in_v);
 bool system_jumps(motus_system *, size_t column); /* whether its column is one of those */
-motus_status system_leaps(motus_system *, double t, double *x, double *v, system_bar, void *ctx, const size_t *columns,
-                          size_t count, double *errors, motus_error *);
+motus_status system_leaps(motus_system *, double t, double *x, double *v, system_bar, void *ctx, bool sharp,
+                          const size_t *columns, size_t count, double *errors, motus_error *);
 /* The same at a state that stays as it is; `room`, nx + nv numbers, takes a copy of it. */
 motus_status system_values_of(motus_system *, double t, const double *x, const double *v, double *room,
                               const size_t *columns, size_t count, double *out, motus_error *);

@@ -65,7 +65,7 @@ static motus_status final_cell(const summary *s, table *t, size_t column, double
     motus_statistics done = motus_default_statistics();
     motus_run_statistics(s->run, &done);
     if (s->errors && undecided)
-        table_cell(t, "undecided: it jumps within the error of the state");
+        table_cell(t, "undecided: it jumps, or is infinite, within the error of the state");
     else if (s->errors &&
              !(error == 0 && done.events_unseen)) /* what an event changes may be anything where one is missed */
         table_bar(t, value, s->estimate.reason[0] ? NAN : error);

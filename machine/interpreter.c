@@ -20,7 +20,7 @@ struct interpreter {
     tape **observed;     /* one per definition, made when it is first observed, and kept while there is room */
     tape **roundings;    /* bounds on the rounding of definitions, likewise; of long ones none */
     resolution **leaps;  /* of definitions that may jump, likewise */
-    uint8_t *leaping;    /* per definition: 0 not known, else 1 + LEAPS + FLAT */
+    uint8_t *leaping;    /* per definition: 0 not known, else 1 + LEAPS + FLAT + SHARP */
     uint64_t operations; /* of the observed ones that are kept */
     struct expanded {    /* in Taylor series of so many numbers each, once they are wanted */
         tape_series *equations, *boundary;
@@ -326,34 +326,43 @@ bool interpreter_rounding(interpreter *in, model_definition *d, double t, double
     return true;
 }
 
-enum { LEAPS = 1, FLAT = 2 };
+enum { LEAPS = 1, FLAT = 2, SHARP = 4 };
 
-bool interpreter_leaps(interpreter *in, model_definition *d, bool *flat)
+static uint8_t kind_of(interpreter *in, model_definition *d)
 {
     enum { OPERATIONS_MOST = 1 << 16 };
     graph *g = in->model->graph;
     uint8_t *known = &in->leaping[d - in->model->definitions];
     if (!*known) {
-        bool leaps = false, all = true;
+        bool leaps = false, sharp = false, all = true;
         for (size_t k = 0; k < d->output_count; k++) {
             leaps |= graph_jump(g, d->outputs[k].value) != 0;
+            sharp |= graph_sharp(g, d->outputs[k].value) != 0;
             all &= graph_flat(g, d->outputs[k].value);
         }
-        leaps = leaps && !needs_a(in, d) && operations_of(in->model, d) <= OPERATIONS_MOST;
-        *known = (uint8_t)(1 + (leaps ? LEAPS : 0) + (all ? FLAT : 0));
+        const bool examined = !needs_a(in, d) && operations_of(in->model, d) <= OPERATIONS_MOST;
+        *known = (uint8_t)(1 + (examined && leaps ? LEAPS : 0) + (examined && sharp ? SHARP : 0) + (all ? FLAT : 0));
     }
-    *flat = (*known - 1) & FLAT;
-    return (*known - 1) & LEAPS;
+    return (uint8_t)(*known - 1);
 }
 
-bool interpreter_leap(interpreter *in, model_definition *d, double t, interval *x, interval *v, interval *out,
-                      bool *undecided)
+bool interpreter_leaps(interpreter *in, model_definition *d, bool *flat)
+{
+    const uint8_t kind = kind_of(in, d);
+    *flat = kind & FLAT;
+    return kind & LEAPS;
+}
+
+bool interpreter_sharp(interpreter *in, model_definition *d) { return kind_of(in, d) & SHARP; }
+
+bool interpreter_doubt(interpreter *in, model_definition *d, double t, interval *x, interval *v, interval *out,
+                       doubt *open)
 {
     resolution **kept = &in->leaps[d - in->model->definitions];
-    if (!*kept && !resolution_create_jumps(in->model, d->outputs, d->output_count, kept)) return false;
+    if (!*kept && !resolution_create_doubts(in->model, d->outputs, d->output_count, kept)) return false;
     const interval now = {t, t};
     resolution_values(*kept, now, x, v, NULL, in->model->pool, out);
-    *undecided = resolution_jump(*kept, now, x, v, in->model->pool);
+    *open = resolution_doubt(*kept, now, x, v, in->model->pool);
     return true;
 }
 

@@ -7,7 +7,7 @@
 #include "core/rules.h"
 #include "core/stepper.h"
 #include "lang/base/interval.h"
-#include "lang/model/model.h"
+#include "lang/model/resolution.h"
 
 /* The interpreter's problem for a model, in the model's arena. */
 typedef struct interpreter interpreter;
@@ -21,10 +21,11 @@ bool interpreter_rounding(interpreter *, model_definition *, double t, double *x
 /* Whether a quantity or invariant may jump along the motion by a formula that can be examined: it reads no
  * acceleration, and is not long. `flat`: it does nothing else. */
 bool interpreter_leaps(interpreter *, model_definition *, bool *flat);
-/* Of such a one: between which bounds its numbers lie where the state is anywhere in the intervals, and whether these
- * leave open on which side of a jump it is. False: no memory. */
-bool interpreter_leap(interpreter *, model_definition *, double t, interval *x, interval *v, interval *out,
-                      bool *undecided);
+/* The same of one whose value or slope may be infinite. */
+bool interpreter_sharp(interpreter *, model_definition *);
+/* Of such ones: between which bounds its numbers lie where the state is anywhere in the intervals, and what these leave
+ * open. False: no memory. */
+bool interpreter_doubt(interpreter *, model_definition *, double t, interval *x, interval *v, interval *out, doubt *);
 
 /* The acceleration's derivative along a direction of v (in_v) or of x, as a program. NULL: the arena failed. */
 program *interpreter_derivative(model *, bool in_v);

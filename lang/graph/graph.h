@@ -174,6 +174,9 @@ node graph_over(graph *, node n, node divisor, node length);
 /* The first node, if any, whose value may jump along the motion where its rate is bounded (FLOOR MOD SIGN SELECT ATAN2,
  * a comparison), or 0. */
 node graph_jump(graph *, node);
+/* The first node, if any, that moves and whose value or slope may be infinite (a quotient, SQRT CBRT LOG POW TAN ASIN
+ * ACOS), or 0. */
+node graph_sharp(graph *, node);
 /* Whether the value only jumps along the motion, or stays what it is (floor(x), sign(x) + 1). */
 bool graph_flat(graph *, node);
 /* The first operation, if any, whose operands depend on modes and that is not smooth for all of them: sqrt, a power

@@ -117,6 +117,12 @@ static bool jumps(operation op)
     return op == OP_ATAN2 || (kinks(op) && op != OP_ABS && op != OP_MIN && op != OP_MAX);
 }
 
+static bool sharp(operation op)
+{
+    return op == OP_DIV || op == OP_SQRT || op == OP_CBRT || op == OP_LOG || op == OP_POW || op == OP_TAN ||
+           op == OP_ASIN || op == OP_ACOS;
+}
+
 /* What depends on parameters, modes and indices alone does not count: the value stays on one side of it. */
 static node first_moving(graph *g, node root, bool (*is)(operation))
 {
@@ -126,7 +132,7 @@ static node first_moving(graph *g, node root, bool (*is)(operation))
     if (!graph_order(g, &root, 1, moving, true, &w)) return 0;
     for (uint32_t k = 0; !found && k < w.count; k++) {
         const graph_node *n = &g->nodes[w.nodes[k]];
-        unsigned deps = n->op == OP_SELECT ? g->nodes[n->a].deps : n->deps;
+        unsigned deps = n->op == OP_SELECT ? g->nodes[n->a].deps : n->op == OP_DIV ? g->nodes[n->b].deps : n->deps;
         if (is((operation)n->op) && deps & moving) found = w.nodes[k];
         graph_directed direction;
         if (graph_direction(g, w.nodes[k], &direction)) found = w.nodes[k];
@@ -137,6 +143,7 @@ static node first_moving(graph *g, node root, bool (*is)(operation))
 
 node graph_kink(graph *g, node root) { return first_moving(g, root, kinks); }
 node graph_jump(graph *g, node root) { return first_moving(g, root, jumps); }
+node graph_sharp(graph *g, node root) { return first_moving(g, root, sharp); }
 
 bool graph_flat(graph *g, node root)
 {

@@ -56,8 +56,7 @@ static bool resolve_plain(model *m, model_definition *d)
     for (int k = 0; k < n; k++) m->slot_owner[d->slot + (uint32_t)k] = (uint32_t)(d - m->definitions) + 1;
     for (int k = 0; k < n; k++)
         if (!vary_record_scalar(m, v.item[k], d->slot + (uint32_t)k)) return false;
-    for (int k = 0; k < n; k++)
-        evaluate_held(m, v.item[k], d->slot + (uint32_t)k, graph_param(m->graph, d->slot + (uint32_t)k));
+    for (int k = 0; k < n; k++) evaluate_held(m, v.item[k], d->slot + (uint32_t)k);
     m->scalar_used += (uint32_t)n;
     return true;
 }

@@ -51,12 +51,18 @@ bool evaluate_into_pool(model *m, const output *target, const node *values, int 
     return ok;
 }
 
-void evaluate_held(model *m, node value, size_t place, node leaf)
+/* leaf: what is read from the place; 0: nothing is. */
+static void held(model *m, node value, size_t place, node leaf)
 {
     const source *const s = &m->source;
-    if (!s->nudged || source_failed(s)) return;
+    if (source_failed(s)) return;
     const bool varied = s->varied && place < s->varied_count && s->varied[place];
     m->pool[place] = graph_holds(m->graph, value, varied ? 0 : leaf, m->pool[place]);
+}
+
+void evaluate_held(model *m, node value, uint32_t slot)
+{
+    if (m->source.nudged) held(m, value, slot, graph_param(m->graph, slot));
 }
 
 void evaluate_held_cell(model *m, const output *target, const node *values, int parts, uint16_t first)
@@ -71,7 +77,7 @@ void evaluate_held_cell(model *m, const output *target, const node *values, int 
         for (int d = 0; d < r.dims; d++)
             place += (r.at[d].literal + (r.at[d].slot >= 0 ? m->ints[r.at[d].slot] : 0) - a->over->first[d]) *
                      a->over->stride[d];
-        evaluate_held(m, values[k], (size_t)place, crowded ? 0 : graph_load(m->graph, &r));
+        held(m, values[k], (size_t)place, crowded ? 0 : graph_load(m->graph, &r));
     }
 }
 

@@ -95,6 +95,12 @@ static bool leaps(operation op)
            operation_decides(op);
 }
 
+/* Whether an operation may leave its value open, within bounds of its arguments: see doubt. */
+static bool doubtful(operation op)
+{
+    return leaps(op) || has_poles(op) || op == OP_SQRT || op == OP_CBRT || op == OP_ASIN || op == OP_ACOS;
+}
+
 /* Whether an operation that counts has an argument that moves. */
 static bool any_counts(const resolution *r, uint32_t count)
 {
@@ -223,7 +229,7 @@ static bool create(model *m, const output *outputs, size_t count, bool (*counts)
                           .stack = stack};
         fill(r, g, &w, counts);
         if (counts == has_poles) spare_directions(r, g, &w);
-        if (!counts || counts == leaps || any_counts(r, w.count)) *out = r;
+        if (!counts || counts == doubtful || any_counts(r, w.count)) *out = r;
     }
     give(&g->arena->allocator, w.nodes);
     return !m->arena->failed;
@@ -244,9 +250,9 @@ bool resolution_create_poles(model *m, const output *outputs, size_t count, reso
     return create(m, outputs, count, has_poles, out);
 }
 
-bool resolution_create_jumps(model *m, const output *outputs, size_t count, resolution **out)
+bool resolution_create_doubts(model *m, const output *outputs, size_t count, resolution **out)
 {
-    return create(m, outputs, count, leaps, out);
+    return create(m, outputs, count, doubtful, out);
 }
 
 /* What an operation may do ------------------------------------------------------------------------------------- */
@@ -373,10 +379,34 @@ bool resolution_regular(operation op, interval a, interval b)
     }
 }
 
+static bool single(interval a) { return a.low == a.high; }
+static bool may_be_zero(interval a) { return a.low <= 0 && a.high >= 0; }
+
+static bool doubt_pole(operation op, interval a, interval b)
+{
+    switch (op) {
+    case OP_DIV: return may_be_zero(b) && !single(b) && !may_be_zero(a);
+    case OP_POW: return b.low < 0 && may_be_zero(a) && !single(a);
+    case OP_LOG: return may_be_zero(a) && !single(a);
+    default: return op == OP_TAN && !single(a) && pole(op, a, b);
+    }
+}
+
+static bool doubt_jump(operation op, interval a, interval b)
+{
+    return op == OP_DIV ? may_be_zero(b) && !single(b) : leaps(op) && undecided(op, a, b);
+}
+
+static bool doubt_steep(operation op, interval a, interval b)
+{
+    const bool moves = op == OP_DIV ? !single(b) : !single(a) || (op == OP_POW && !single(b));
+    if (!moves || leaps(op) || (op == OP_POW && single(b) && b.low >= 1)) return false;
+    return !resolution_regular(op, a, b);
+}
+
 /* Evaluating --------------------------------------------------------------------------------------------------- */
 
 static bool is_zero(interval a) { return a.low == 0 && a.high == 0; }
-static bool may_be_zero(interval a) { return a.low <= 0 && a.high >= 0; }
 
 static bool known(const resolution *r, uint32_t k) { return r->steps[k].known >= r->changed[r->steps[k].home]; }
 
@@ -598,7 +628,9 @@ bool resolution_pole(resolution *r, interval t, interval *x, interval *v, const 
     return finds(r, t, x, v, pool, pole);
 }
 
-bool resolution_jump(resolution *r, interval t, interval *x, interval *v, const double *pool)
+doubt resolution_doubt(resolution *r, interval t, interval *x, interval *v, const double *pool)
 {
-    return finds(r, t, x, v, pool, undecided);
+    if (finds(r, t, x, v, pool, doubt_pole)) return DOUBT_POLE;
+    if (finds(r, t, x, v, pool, doubt_jump)) return DOUBT_JUMP;
+    return finds(r, t, x, v, pool, doubt_steep) ? DOUBT_STEEP : DOUBT_NONE;
 }

@@ -36,9 +36,15 @@ bool resolution_regular(operation, interval a, interval b);
 bool resolution_create_poles(model *, const output *, size_t count, resolution **out);
 bool resolution_pole(resolution *, interval t, interval *x, interval *v, const double *pool);
 
-/* The same for jumps: a comparison, if, floor, mod or sign whose side the intervals do not decide, or the cut of atan2.
- * resolution_values may be asked of it, too. */
-bool resolution_create_jumps(model *, const output *, size_t count, resolution **out);
-bool resolution_jump(resolution *, interval t, interval *x, interval *v, const double *pool);
+/* The same for what intervals may leave open of a value, the worst that there is. resolution_values may be asked of it,
+ * too. */
+typedef enum doubt {
+    DOUBT_NONE,
+    DOUBT_STEEP, /* an operation is near a pole, or an infinite slope, so that its value may change by much */
+    DOUBT_JUMP,  /* a comparison, if, floor, mod or sign whose side is not decided, the cut of atan2, or 0/0 */
+    DOUBT_POLE   /* it may be infinite */
+} doubt;
+bool resolution_create_doubts(model *, const output *, size_t count, resolution **out);
+doubt resolution_doubt(resolution *, interval t, interval *x, interval *v, const double *pool);
 
 #endif
