@@ -8,6 +8,7 @@
 #include "api/evidence.h"
 #include "api/located.h"
 #include "api/stability.h"
+#include "lang/model/undefined.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -37,6 +38,7 @@ enum {
 typedef struct judge {
     evidence e;
     motus_error *err;
+    motus_system *home; /* as it was written; NULL: it is that of the evidence */
     evidence_ahead ahead;
     bool looked;
     trial_course whole; /* the way to `whole_to` by TRIED_METHOD */
@@ -263,6 +265,36 @@ static bool infinite(judge *j)
     return true;
 }
 
+/* The force has no value at the start itself: says which term has none, and what may be written in its place. */
+static bool undefined_start(judge *j)
+{
+    const evidence *e = &j->e;
+    motus_system *const s = j->home ? j->home : e->system;
+    undefined_term u;
+    size_t which;
+    char name[MOTUS_NAME_MAX], limit[MOTUS_TEXT_MAX];
+    if (e->t != e->begin || !s->model || !evidence_undefined_here(&j->e, &which)) return false;
+    name_of(j, true, which, name);
+    const bool found = !system_located(s) && undefined_find(s->model, which, e->t, e->x, e->v, &u);
+    if (!found) {
+        error_text(j->cause, "its equation has no number there");
+    } else if (!u.divisor[0]) {
+        error_text(j->cause, "%s is no number there", u.term);
+    } else {
+        error_text(j->cause, "%s is %s there, since %s is 0", u.term, u.both ? "0/0" : "a division by 0", u.divisor);
+    }
+    say(j, MOTUS_CAUSE_INFINITE, name);
+    error_text(limit, "%.6g", found ? u.limit : NAN);
+    if (found && u.has_limit)
+        hint(j->err, "write the value that it has there, `if(%s == 0, %s, %s)`", u.divisor, limit, u.term);
+    else if (found && u.both)
+        hint(j->err, "write the value that it has there, as by `if(%s == 0, …, %s)`; or begin elsewhere", u.divisor,
+             u.term);
+    else
+        hint(j->err, "begin elsewhere, or write what the force is to be there");
+    return true;
+}
+
 static bool undefined(judge *j)
 {
     size_t which;
@@ -470,6 +502,7 @@ static void unsolved(judge *j)
 static void judge_all(judge *j, double mean)
 {
     const motus_status status = j->err->status;
+    if (status == MOTUS_DIVERGED && undefined_start(j)) return;
     if (status == MOTUS_SOLVE) {
         unsolved(j);
         return;
@@ -483,19 +516,19 @@ static void judge_all(judge *j, double mean)
     if (status == MOTUS_DIVERGED) (void)(undefined(j) || time_rounding(j));
 }
 
-static void add(motus_system *s, stepper *of, double mean, motus_error *err)
+static void add(motus_system *s, motus_system *home, stepper *of, double mean, motus_error *err)
 {
     if (err->status == MOTUS_EVENTS) err->cause = MOTUS_CAUSE_EVENTS;
     if (err->status != MOTUS_DIVERGED && err->status != MOTUS_SOLVE && err->status != MOTUS_STEPS) return;
-    judge j = {.err = err, .whole_to = NAN};
+    judge j = {.err = err, .home = home, .whole_to = NAN};
     if (!evidence_begin(&j.e, s, of, err->time)) return;
     judge_all(&j, isnan(mean) ? fabs(j.e.h) : mean);
     evidence_end(&j.e);
 }
 
-void diagnosis_add(motus_system *s, stepper *of, motus_error *err)
+void diagnosis_add(motus_system *s, motus_system *home, stepper *of, motus_error *err)
 {
-    if (err && of && err->cause == MOTUS_CAUSE_NONE) add(s, of, NAN, err);
+    if (err && of && err->cause == MOTUS_CAUSE_NONE) add(s, home, of, NAN, err);
 }
 
 void diagnosis_singular(motus_system *s, stepper *of, double t, const double *x, const double *v, const char *end,
@@ -515,7 +548,7 @@ motus_status diagnosis_crawls(void *system, stepper *of, int64_t steps, double g
 {
     motus_error why = motus_default_error();
     const motus_status status = stepper_crawls(of, steps, gone, &why);
-    add(system, of, gone / (double)steps, &why);
+    add(system, NULL, of, gone / (double)steps, &why);
     if (why.cause == MOTUS_CAUSE_NONE) return MOTUS_OK;
     if (err) motus_struct_write(MOTUS_DEF_ERROR, &why, err);
     return status;

@@ -10,8 +10,9 @@
 #include "api/system.h"
 #include "core/stepper.h"
 
-/* Adds the cause to the error of a stepper that has failed; one that has a cause stays as it is. */
-void diagnosis_add(motus_system *, stepper *, motus_error *);
+/* Adds the cause to the error of a stepper that has failed; one that has a cause stays as it is. home: the system as it
+ * was written, where the first one is located; NULL. */
+void diagnosis_add(motus_system *, motus_system *home, stepper *, motus_error *);
 /* Of a run whose steps pass a singularity of the force after the time t, where it had the state (x, v): the instant and
  * the power. end: the time as a text, at which the run may end. */
 void diagnosis_singular(motus_system *, stepper *, double t, const double *x, const double *v, const char *end,

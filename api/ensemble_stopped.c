@@ -35,7 +35,7 @@ void ensemble_stopped_take(worker *w, size_t k, bool began)
 {
     const motus_ensemble *e = w->e;
     if (!e->causes) return;
-    if (began) diagnosis_add(w->system, w->stepper, &w->why);
+    if (began) diagnosis_add(w->system, NULL, w->stepper, &w->why);
     e->causes[k] = began ? (unsigned char)w->why.cause : MOTUS_CAUSE_NONE;
 }
 

@@ -379,6 +379,16 @@ bool evidence_jump(evidence *e, size_t *which, double *before, double *after)
     return false;
 }
 
+bool evidence_undefined_here(evidence *e, size_t *which)
+{
+    memcpy(e->other_x, e->x, e->problem->nx * sizeof *e->x);
+    memcpy(e->other_v, e->v, e->problem->nv * sizeof *e->v);
+    if (!force(e, e->t, e->other_x, e->other_v, e->b)) return false;
+    for (size_t k = 0; k < e->problem->nv; k++)
+        if (!isfinite(e->b[k])) return *which = k, true;
+    return false;
+}
+
 bool evidence_undefined(evidence *e, size_t *which)
 {
     for (int i = -SIZES; i < SIZES; i++) {

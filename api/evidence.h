@@ -56,6 +56,8 @@ evidence_ahead evidence_look(evidence *);
 bool evidence_jump(evidence *, size_t *which, double *before, double *after);
 /* Whether the force has no finite value just after the last good state, and which number of it. */
 bool evidence_undefined(evidence *, size_t *which);
+/* The same at that state itself. */
+bool evidence_undefined_here(evidence *, size_t *which);
 /* Whether the rounding of the force alone makes steps of the present size fail the tolerance: which number. */
 bool evidence_noise(evidence *, size_t *which);
 /* The eigenvalue of largest size of the equations linearised at a state, and the number of v that takes part in it

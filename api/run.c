@@ -146,7 +146,7 @@ static motus_status advance_on(motus_run *r, int64_t n, motus_error *err)
                                                      : stepper_advance(r->stepper, limit, &why, err);
     r->arrived = why == STOP_UNTIL || why == STOP_EVENT || (n == 0 && run_events_ended(r));
     r->halted = why == STOP_HALT;
-    if (status != MOTUS_OK && status != MOTUS_CANCELLED) diagnosis_add(r->system, r->stepper, err);
+    if (status != MOTUS_OK && status != MOTUS_CANCELLED) diagnosis_add(r->system, r->home, r->stepper, err);
     if (isnan(r->first_step) && motus_run_steps(r) > 0) r->first_step = fabs(stepper_last_step(r->stepper));
     if (status != MOTUS_CANCELLED) return status;
     char t[DECIMAL_MAX];
@@ -394,7 +394,7 @@ motus_status run_sync(motus_run *r, bool with_a, motus_error *err)
     if (r->synchronised && (r->with_a || !with_a)) return MOTUS_OK;
     if (r->locate && !locate_bind(r)) return fail(err, MOTUS_MEMORY, "no memory for the model's switches");
     motus_status status = stepper_sync(r->stepper, r->x, r->v, with_a ? r->a : NULL, err);
-    if (status != MOTUS_OK) diagnosis_add(r->system, r->stepper, err);
+    if (status != MOTUS_OK) diagnosis_add(r->system, r->home, r->stepper, err);
     if (status == MOTUS_OK && r->events) events_keep(r->events, stepper_time(r->stepper), r->x);
     r->synchronised = status == MOTUS_OK;
     r->with_a = with_a;

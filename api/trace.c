@@ -182,7 +182,7 @@ static motus_status walk(motus_run *r, motus_error *err)
         status = stepper_trace(
             r->stepper, r->timing.until,
             &(tracer){.ctx = t, .see = see, .again = again, .judged = judged, .x = r->mid_x, .v = r->mid_v}, err);
-    if (status != MOTUS_OK) diagnosis_add(r->system, r->stepper, err);
+    if (status != MOTUS_OK) diagnosis_add(r->system, r->home, r->stepper, err);
     if (status == MOTUS_OK) status = run_moved(r, err);
     if (status == MOTUS_OK) status = observe(r, MOTUS_EVENT_END, err);
     if (status == MOTUS_OK) complete(t);

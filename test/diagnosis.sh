@@ -147,6 +147,23 @@ model root "x'' = sqrt(1-t)" "x(0) = 0" "x'(0) = 0"
 ends_by "a force that ends" infinite "$place/root.motus" --until 5 --method dop853
 obeyed "... and a run that ends before succeeds" "'$place/root.motus'" --method dop853
 
+# The term that has no value at the start, and what can be written in its place, which succeeds.
+for case in "sin(x)/x|x|1|sin(x)/x is 0/0 there, since x is 0" "x'^2/x'|x'|0|x'^2/x' is 0/0 there, since x' is 0" "x/sin(x)|sin(x)|1|x/sin(x) is 0/0 there, since sin(x) is 0"; do
+    IFS='|' read -r term divisor value sentence <<<"$case"
+    for how in "" "--method rk4 --step 0.01" "--method taylor"; do
+        model undefined "x'' = 2 - $term" "x(0) = 0" "x'(0) = 0"
+        gives "$term at the start${how:+, $how}" 1 "$motus" run "$place/undefined.motus" --until 1 $how
+        that "... is named" says "$sentence" "$err"
+        instead=$(sed -n 's/.*hint: write the value that it has there, `\(.*\)`.*/\1/p' "$err")
+        that "... with its value there" eval '[[ $instead == "if($divisor == 0, $value, "* ]]'
+        model undefined "x'' = 2 - $instead" "x(0) = 0" "x'(0) = 0"
+        gives "... which succeeds" 0 "$motus" run "$place/undefined.motus" --until 1 $how
+    done
+done
+model undefined "x'' = 1/x" "x(0) = 0" "x'(0) = 0"
+gives "a division by 0 at the start" 1 "$motus" run "$place/undefined.motus" --until 2
+that "... is named" eval 'says "1/x is a division by 0 there, since x is 0" "$err" && says "begin elsewhere" "$err"'
+
 # --- what is not a failure ------------------------------------------------------------------------------------------------------
 gives "a run that succeeds" 0 "$motus" run models/kepler.motus --json
 that "... has no diagnosis" eval "jq -e '.diagnosis == null and has(\"switches\")' '$out' >/dev/null"

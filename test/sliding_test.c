@@ -771,6 +771,23 @@ static void beside_others(void **state)
     run_of(text, "dop853", 1e-9, 0.3);
 }
 
+/* sign(v) as |v|/v and v/|v|, with factors, also at the start and at rest at v = 0. */
+static void one_sign_in_many_forms(void **state)
+{
+    (void)state;
+    static const char *const forms[] = {"0.3 sign(x')",   "0.3 x'/|x'|",     "0.3 |x'|/x'",       "-0.3 |x'|/(-x')",
+                                        "0.15 |2 x'|/x'", "0.6 |x'|/(2 x')", "0.3 sqrt(x'^2)/x'", "0.3 |v|/v",
+                                        "k |x'|/(m x')",  "|k x'|/(m x')",   "-|3 x'|/(-10 x')"};
+    for (size_t k = 0; k < sizeof forms / sizeof *forms; k++) {
+        char text[300];
+        snprintf(text, sizeof text, "k = -0.6; m = -2\nv = x'\nx'' = if(t < 1, 1, 0) - (%s)\nx(0) = 0\nx'(0) = 0\n",
+                 forms[k]);
+        if (!strcmp(forms[k], "|k x'|/(m x')")) memcpy(text, "k = -0.6; m =  2", 16);
+        const outcome o = finished(text, "dop853", 1e-9, 5);
+        if (fabs(o.x[0] - 0.35 - 0.49 / 0.6) > 1e-9 || o.v[0] != 0) fail_msg("%s: x = %.17g", forms[k], o.x[0]);
+    }
+}
+
 /* One direction that text after text writes with a factor that does not move, as the other block's. */
 static void one_direction_in_many_forms(void **state)
 {
@@ -839,6 +856,7 @@ int main(void)
         cmocka_unit_test(stacks_in_plane),
         cmocka_unit_test(beside_others),
         cmocka_unit_test(one_direction_in_many_forms),
+        cmocka_unit_test(one_sign_in_many_forms),
         cmocka_unit_test(rests_by_an_event),
         cmocka_unit_test(refused_in_plane),
         cmocka_unit_test(kinks),

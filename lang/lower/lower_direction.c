@@ -58,28 +58,51 @@ static bool without_factor(graph *g, node product, node u, int depth, node *rest
     return *rest = graph_op(g, OP_MUL, n.a, inner, 0), true;
 }
 
-/* A factor |u| of a divisor: u, or UINT32_MAX. */
-static node size_in(graph *g, node divisor, int depth)
+/* A factor |u|: u, or UINT32_MAX. */
+static node size_in(graph *g, node product, int depth)
 {
-    const graph_node n = *graph_at(g, divisor);
+    const graph_node n = *graph_at(g, product);
     if (n.op == OP_ABS) return n.a;
-    if (n.op != OP_MUL || depth == DEEP) return UINT32_MAX;
-    const node u = size_in(g, n.b, depth + 1);
+    if (depth == DEEP || (n.op != OP_MUL && n.op != OP_NEG && n.op != OP_DIV)) return UINT32_MAX;
+    const node u = n.op == OP_MUL ? size_in(g, n.b, depth + 1) : UINT32_MAX;
     return u == UINT32_MAX ? size_in(g, n.a, depth + 1) : u;
 }
 
-/* a/b, where u/|u| of a number that moves is its direction, sign(u): it jumps at 0, and has no pole there. */
+/* a/b as above sign(u)/below. */
+typedef struct direction {
+    node u, above, below;
+} direction;
+
+/* Whether a/b is of the form u/|k u|, or with `inverse` |k u|/u, of a number that moves and a factor that does not. */
+static bool find_direction(graph *g, node a, node b, bool inverse, direction *d)
+{
+    node again;
+    const node of = size_in(g, inverse ? a : b, 0);
+    if (of == UINT32_MAX || !(graph_deps(g, of) & MOVES)) return false;
+    const split s = split_of(g, of, 0);
+    const node size = graph_op(g, OP_ABS, of, 0, 0), factor = graph_op(g, OP_ABS, s.factor, 0, 0);
+    const node forms[] = {of, s.rest};
+    for (int k = 0; k < (s.rest == of ? 1 : 2); k++) {
+        const node u = forms[k], divisor = inverse ? u : size;
+        if (!without_factor(g, b, divisor, 0, &d->below) || without_factor(g, d->below, divisor, 0, &again) ||
+            !without_factor(g, a, inverse ? size : u, 0, &d->above))
+            continue;
+        node *const with = inverse ? &d->above : &d->below;
+        if (k > 0) *with = graph_op(g, OP_MUL, *with, factor, 0);
+        d->u = u;
+        return true;
+    }
+    return false;
+}
+
+/* a/b, where u/|u| and |u|/u of a number that moves are its direction, sign(u): it jumps at 0, and has no pole. */
 node lower_ratio(lowering *l, node a, node b)
 {
     graph *g = l->model->graph;
-    const node u = size_in(g, b, 0);
-    node above, below, again;
-    if (u == UINT32_MAX || !(graph_deps(g, u) & MOVES) || failed(l)) return binary(l, OP_DIV, a, b);
-    const node size = graph_op(g, OP_ABS, u, 0, 0);
-    if (!without_factor(g, b, size, 0, &below) || without_factor(g, below, size, 0, &again) ||
-        !without_factor(g, a, u, 0, &above))
+    direction d;
+    if (failed(l) || (!find_direction(g, a, b, false, &d) && !find_direction(g, a, b, true, &d)))
         return binary(l, OP_DIV, a, b);
-    const node way = lower_sign(l, u), one = graph_const(g, 1);
-    const node top = above == one ? way : binary(l, OP_MUL, above, way);
-    return below == one ? top : binary(l, OP_DIV, top, below);
+    const node way = lower_sign(l, d.u), one = graph_const(g, 1);
+    const node top = d.above == one ? way : binary(l, OP_MUL, d.above, way);
+    return d.below == one ? top : binary(l, OP_DIV, top, d.below);
 }
