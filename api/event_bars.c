@@ -130,6 +130,7 @@ double event_bars_time(motus_run *r, size_t k)
     if (r->rules->rule[this.rule].kind == RULE_CLOCK) return CLOCK * events_ulp(this.t); /* whatever the motion is */
     const size_t rows = significant(r);
     if (k >= rows) return ended(r->bars) ? INFINITY : NAN;
+    if (this.doubt >= fabs(r->timing.until - r->timing.t0)) return INFINITY; /* it may be anywhere in the run */
     for (size_t i = 0; i < WINDOW; i++) {
         const size_t row = row_of(k, i, rows);
         if (row == SIZE_MAX) continue;

@@ -161,6 +161,16 @@ static bool may_be_flat(const events *e, size_t f)
            (!row_adaptive(&e->method) && fabs(rate) < CHANGES * change);
 }
 
+/* The slope of a function jumps at a kink when the state changes by its error, which says nothing of where the kink is:
+ * the function touches 0 no farther off than its own error bound hides it. */
+static motus_status doubt_at_kink(events *e, size_t f, double h, double *doubt, motus_error *err)
+{
+    double bound;
+    const motus_status status = events_error_of(e, f, h, &bound, err);
+    if (!status) *doubt = fmin(*doubt, reach(e, f, false, h, bound + 2 * fabs(e->here.g[f])));
+    return status;
+}
+
 #define COARSE 4
 
 motus_status events_doubt(events *e, size_t f, double h, bool touches, double *doubt, motus_error *err)
@@ -185,5 +195,5 @@ motus_status events_doubt(events *e, size_t f, double h, bool touches, double *d
     if (!touches) bound += 2 * fabs(e->here.g[f]); /* where it has been located it is not quite 0 */
     const bool simple = !touches && is_simple(e, f, h, bound);
     *doubt = simple ? bound / fabs(e->here.rate[f]) : reach(e, f, touches, h, bound);
-    return MOTUS_OK;
+    return touches && !e->rules.rule[e->rule_of[f]].smooth ? doubt_at_kink(e, f, h, doubt, err) : MOTUS_OK;
 }

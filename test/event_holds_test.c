@@ -149,6 +149,46 @@ static void stops_in_plane(void **state)
         }
 }
 
+/* The time at which friction stops a block has the error of a root also where a function with a kink is asked, |x'|. */
+static void errors_of_halts(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *force;
+        double speed, stop;
+    } blocks[] = {{"-3 sign(x')", -1.3, 1.3 / 3},
+                  {"if(t > 1, 4, 0) - 3*sign(x')", 0.7, 0.7 / 3},
+                  {"-x - 0.3 sign(x')", 0.1, NAN}};
+    static const char *const methods[] = {"dop853", "dopri5", "taylor", "radau15"};
+    for (size_t k = 0; k < sizeof blocks / sizeof *blocks; k++)
+        for (size_t m = 0; m < sizeof methods / sizeof *methods; m++) {
+            char text[256];
+            motus_error err = motus_default_error();
+            motus_run_def def = motus_default_run();
+            motus_run *r = NULL;
+            snprintf(
+                text, sizeof text,
+                "x'' = %s\nx(0) = 0\nx'(0) = %g\nuntil 0.9\nwhen |x'| = 0 as halt: record\nwhen x' = 0 as also: record",
+                blocks[k].force, blocks[k].speed);
+            motus_system *s = given_text(text);
+            def.method = methods[m], def.tolerance = 1e-9, def.error = MOTUS_BARS_CHEAP;
+            must(motus_run_create(s, &def, &r, &err), &err, text);
+            must(motus_run_finish(r, &err), &err, text);
+            assert_int_equal(motus_run_events(r), 2);
+            /* x'' = -x - 0.3: x' = 0.1 cos(t) - 0.3 sin(t) */
+            const double stop = isnan(blocks[k].stop) ? atan(1.0 / 3) : blocks[k].stop;
+            for (int i = 0; i < 2; i++) {
+                motus_event_row e = motus_default_event_row();
+                assert_int_equal(motus_run_event(r, i, &e), MOTUS_OK);
+                if (!(fabs(e.time - stop) <= e.error && e.error < 1e-6))
+                    fail_msg("%s by %s: %s at %.17g, which is off by %.2g, ± %.2g", text, methods[m], e.name, e.time,
+                             e.time - stop, e.error);
+            }
+            motus_run_destroy(r);
+            motus_system_destroy(s);
+        }
+}
+
 /* Of two conditions that hold on either side of 0 and at it, the one that an action leaves behind does not happen in
  * the instant in which the other one does. */
 static void on_both_sides(void **state)
@@ -175,6 +215,7 @@ static void on_both_sides(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {cmocka_unit_test(friction), cmocka_unit_test(belt),
-                                       cmocka_unit_test(on_both_sides), cmocka_unit_test(stops_in_plane)};
+                                       cmocka_unit_test(on_both_sides), cmocka_unit_test(stops_in_plane),
+                                       cmocka_unit_test(errors_of_halts)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
