@@ -582,6 +582,9 @@ static motus_status land(motus_run *r, double t, double *x, double *v, bool betw
     if (!isnan(differs))
         bars_give_up(r, "near t = %s the force changes more within every step than the step shows",
                      run_time_text(r, differs, at));
+    else if (!isnan(witness_unseen(b->witness)))
+        bars_give_up(r, "the force has so many narrow peaks that from t = %s on not all steps were searched for them",
+                     run_time_text(r, witness_unseen(b->witness), at));
     if (status == MOTUS_OK && r->events && !between) status = reach(r, t, err);
     if (status == MOTUS_OK && r->events) notice_gap(r, t, between);
     const bool together = r->events && !between && !b->gap && !b->half.over && b->half.t == t;

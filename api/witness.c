@@ -5,7 +5,8 @@
  * abscissae which are not those of the method. Interval arithmetic over all states of a part says whether some
  * operation may pass through more than points can show; such a part is halved. So no peak and no window is too narrow
  * to be seen. Sizes are added up over the parts, because a force that pushes and then pulls shifts a motion and leaves
- * its velocity.
+ * its velocity. Where they are too large already, the look ends, and the step is to end there as well, so that a force
+ * of many peaks costs a search for each. Where not all of them can be searched for, no bar is told.
  *
  * Where a switch of the force may stand at 0, the force has more than one value. Of a run whose switches are located
  * what has happened has to be a mean of what the force does beside the motion, a way on each side: there every switch
@@ -42,6 +43,7 @@ enum {
     VAIN = 32,     /* steps after which that is tried again, where it has failed */
     SHORTER = 6,   /* times that a probe is shorter, before it is no matter of its steps that no way does it */
     BEHIND = 3,    /* steps that the companion is led through, the first of which lacks something */
+    MANY = 8,      /* parts of a step, of which there are more where a force has narrow peaks */
     WIDTH = 64     /* velocities of a run: of more of them ways say too little */
 };
 #define NEAR 0x1p-16 /* of the way that a part may lead: so far beside it */
@@ -62,13 +64,15 @@ enum {
 #define SPEND_STEP 2e7
 #define SPEND_PROBE 2e7
 #define SPEND_LEAD 2e6
-#define SPEND_SPARED 1e8
+#define SPEND_SPARED 1e9
+#define SPARED_OF_MANY 1e8
 #define FIRST \
     0.01 /* times what a step may lose: the first part of which so much is missing is where a step is to end */
 #define SUSPICIOUS 10.0 /* times what a step may lose */
 #define REFUSED 30.0    /* likewise, between the step and the probe */
 #define PROBE_SEES 4.0  /* times less than what is missing */
 #define ROUNDING 0x1p-46
+#define ULP 0x1p-52
 #define NOTHING 0x1p-500 /* is lost of what rests */
 #define ROOM 0.75        /* of a step that is refused: the next one is shorter */
 /* Times the largest error that is told so far. Where steps stand, what is missing of the next ones may cancel what was
@@ -102,7 +106,7 @@ struct witness {
     chosen method;   /*   its method: the run's, or PROBE where the run's steps stand as they are */
     bool steady;     /*   which is so */
     motus_allocator allocator;
-    const differences *seen;
+    const differences *differences;
     size_t nx, nv;     /* of the run, */
     size_t own, other; /*   of whose velocities the typed system has the first `own`, and those from `other` on */
     resolution *bends; /* what in the force can hide between points */
@@ -126,7 +130,8 @@ struct witness {
     interval *in_x, *in_v;
     interval *clear_x, *clear_v; /* where and when the force hides nothing, in any step */
     double operations;           /* of one evaluation */
-    double first;                /* evaluations that it may spend in any case */
+    double first;                /* evaluations that it may spend in any case, */
+    double most_spared;          /*   and where it sees what the run does not */
     bool kinked;                 /* the typed force has switches, */
     bool located;                /*   at which steps of the run end; */
     bool covered;                /*   some within sums, where nothing says that they stand at 0 */
@@ -146,6 +151,7 @@ struct witness {
     double longest;       /* of the steps that it has looked at */
     double least;         /* what matters to the bars, of a velocity; INFINITY: what a step may lose is all that does */
     double sees;          /* likewise, of a probe */
+    bool far;             /* so much is missing that no probe has to tell */
     double each;          /* what it earns in a step */
     int64_t steps;        /* of the run, that stand, as far as it was shown them, */
     int64_t looked;       /*   and at how many of them it has looked; */
@@ -153,22 +159,32 @@ struct witness {
     interval clear;       /* the times of clear_x, clear_v; empty: there is none */
     double ahead;         /* steps that the force is looked at ahead, less than 2: */
     int vain;             /*   not for so many steps */
-    double spared;        /* evaluations that are not counted, since they led to a step that was refused */
-    bool strict;          /* sides of switches are looked at */
-    bool crosses;         /* a switch may stand at 0 within the step */
-    bool counted, whole;  /* it has parts before that, or (whole) all parts count */
-    double past;          /* the beginning of the first part behind these; NaN */
-    bool beside;          /* no way beside the part at `start` does what has happened */
-    int behind;           /* steps behind one that lacked something, which the companion may not have passed, to come */
-    bool open;            /* what is missing of the step from `past` on */
-    bool moves, leads;    /* dx and dv are for the companion, or (leads) a probe is to take its step for it */
-    bool objected;        /* to a step of the run */
-    bool left;            /* dx and dv, where it leaves the companion as it is */
-    bool failed;          /* the last probe, by an error of its own */
-    size_t number;        /* the velocity of which the most was missing where `beside` became true */
-    bool held;            /* the motion is none of the typed force, from `differs` on */
-    double until;         /* a probe has differed from the step that led there; NaN */
+    double spared;        /* evaluations that are not counted, */
+    bool peaks;           /*   since the force has some that are narrow */
+    double empty[2];      /* nothing is missing there, */
+    double peak, peak_end; /*   and much between these times: so an earlier step has shown; NaN */
+    bool strict;           /* sides of switches are looked at */
+    bool crosses;          /* a switch may stand at 0 within the step */
+    bool counted, whole;   /* it has parts before that, or (whole) all parts count */
+    bool first_only;       /* the look ends behind the first parts of which too much is missing, */
+    bool rests;            /*   unless some number rests: all that is missing of it is its size; */
+    bool ended;            /*   it has ended, at */
+    double behind_first;
+    double clean;      /* up to here nothing is missing */
+    bool exhausted;    /* it has ended before it could tell what hides in some part */
+    double past;       /* the beginning of the first part behind these; NaN */
+    bool beside;       /* no way beside the part at `start` does what has happened */
+    int behind;        /* steps behind one that lacked something, which the companion may not have passed, to come */
+    bool open;         /* what is missing of the step from `past` on */
+    bool moves, leads; /* dx and dv are for the companion, or (leads) a probe is to take its step for it */
+    bool objected;     /* to a step of the run */
+    bool left;         /* dx and dv, where it leaves the companion as it is */
+    bool failed;       /* the last probe, by an error of its own */
+    size_t number;     /* the velocity of which the most was missing where `beside` became true */
+    bool held;         /* the motion is none of the typed force, from `differs` on */
+    double until;      /* a probe has differed from the step that led there; NaN */
     double differs;
+    double unseen; /* from here on it could not afford to look, shortly after it had to refuse steps; NaN */
 };
 
 /* ---- life ---- */
@@ -182,7 +198,8 @@ static witness *make(const motus_run *r, const differences *seen)
                  numbers = STATES * (nx + nv) + 16 * nv + 4 * (nx + nv) + (ways ? (WAYS + MORE) * nv : 0);
     witness *w = take(&r->allocator, 1, sizeof *w + numbers * sizeof(double));
     if (!w) return NULL;
-    *w = (witness){.typed = s, .machine = r->machine, .method = r->chosen, .allocator = r->allocator, .seen = seen};
+    *w = (witness){
+        .typed = s, .machine = r->machine, .method = r->chosen, .allocator = r->allocator, .differences = seen};
     if (!stepper_refuses(&r->chosen) && row_choose(PROBE, &w->method, NULL, NULL) == MOTUS_OK) {
         w->machine = r->system->machine;
         w->method.relative = PROBE_TOLERANCE;
@@ -226,7 +243,7 @@ static void forget(witness *w, const stepper *s)
     memset(w->rounded, 0, (w->nv + 1) * sizeof *w->rounded);
     memset(w->rounded_x, 0, (w->nv + 1) * sizeof *w->rounded_x);
     memset(w->felt, 0, (w->nv + 1) * sizeof *w->felt);
-    w->until = w->differs = NAN;
+    w->until = w->differs = w->unseen = w->empty[0] = w->empty[1] = w->peak = w->peak_end = NAN;
     w->least = INFINITY;
     w->clear = (interval){1, -1};
     w->ahead = AHEAD / 16;
@@ -260,6 +277,7 @@ motus_status witness_create(const motus_run *r, const differences *seen, bool ma
     }
     w->operations = w->inner->operations = each.values + 10 * (double)s->problem.nv;
     w->first = w->inner->first = fmax(SPEND_LEAST, (many ? SPEND_OF_MANY : SPEND_FIRST) / w->operations);
+    w->most_spared = (many ? SPARED_OF_MANY : SPEND_SPARED) / w->operations;
     w->events = r->events != NULL;
     w->kinked = w->inner->kinked = !s->problem.traits.smooth;
     w->bends = w->inner->bends = s->bends.all;
@@ -298,6 +316,8 @@ double witness_differs(const witness *w, size_t *number)
     if (number) *number = w && w->held ? w->inner->number : SIZE_MAX;
     return w ? w->differs : NAN;
 }
+
+double witness_unseen(const witness *w) { return w ? w->unseen : NAN; }
 
 double witness_looked(const motus_run *r)
 {
@@ -539,12 +559,43 @@ static bool hold_beside(witness *w, stepper *s, const state *from, const state *
     return true;
 }
 
+/* Whether more is missing, of n places or velocities, than so many times their errors; y: how large they are. */
+static bool beyond_errors(const double *missing, const double *y, size_t n, double errors)
+{
+    return vector_largest(missing, n) > fmax(errors, ROUNDING * vector_largest(y, n));
+}
+
+static bool beyond_velocities(const witness *w, const double *missing, double times)
+{
+    return beyond_errors(missing, w->at[TO].v, w->nv, times * fmax(w->differences->most[1], w->differences->most[2]));
+}
+
+static bool beyond_places(const witness *w, const double *missing, double times)
+{
+    return beyond_errors(missing, w->at[TO].x, w->nx, times * w->differences->most[0]);
+}
+
+/* Whether too much is missing of a step; and by how much less a probe is to tell. */
+static bool suspects(witness *w)
+{
+    double most = 0;
+    for (size_t k = 0; k < w->nv; k++) most = fmax(most, w->missing[k] / w->allowed[k]);
+    const double least = vector_largest(w->missing, w->nv) / (PROBE_SEES * SUSPICIOUS);
+    w->sees = most > SUSPICIOUS ? INFINITY : least;
+    w->far = most > SUSPICIOUS * REFUSED;
+    return most > SUSPICIOUS || (!w->probes && beyond_velocities(w, w->missing, BARS));
+}
+
 /* A part in which no switch stands at 0; it counts where the sides of all are those of the beginning. */
 static bool hold_before(witness *w, stepper *s, const state *from, const state *to)
 {
     if (!isnan(w->past) && !w->whole) return w->parts++, true;
     w->counted = true;
-    return hold(w, s, from, to);
+    if (!hold(w, s, from, to)) return false;
+    if (vector_largest(w->missing, w->nv) <= ULP * vector_largest(to->v, w->nv)) w->clean = to->t;
+    w->ended = w->first_only && !w->rests && (from != &w->at[FROM] || to != &w->at[TO]) && suspects(w) && w->far;
+    if (w->ended) w->behind_first = to->t;
+    return true;
 }
 
 /* A switch may stand at 0 in a part that begins at t. */
@@ -556,8 +607,9 @@ static void cross(witness *w, double t)
 
 static bool look(witness *w, stepper *s, const state *from, const state *to, int depth)
 {
+    if (w->ended) return true;
     state *const middle = &w->at[MIDDLE + depth];
-    const bool last = depth == DEPTH || w->parts >= PARTS || w->spent > w->most_spent;
+    const bool spent = w->parts >= PARTS || w->spent > w->most_spent, last = depth == DEPTH || spent;
     const bool known = depth == 0 && !w->strict; /* it has not fitted */
     if (!w->covered && !known && fits(w, w->bends, from, to)) return hold_before(w, s, from, to);
     const bool sided = (w->located || (w->steady && w->kinked)) && depth >= (w->steady || w->strict ? HELD : FINE),
@@ -567,6 +619,7 @@ static bool look(witness *w, stepper *s, const state *from, const state *to, int
         return w->strict ? hold_beside(w, s, from, to) : (w->parts++, true);
     }
     if (last && w->kinked) return cross(w, from->t), w->parts++, true;
+    w->exhausted |= spent;
     if (last) return hold_before(w, s, from, to);
     return see(s, from->t + (to->t - from->t) / 2, middle) && look(w, s, from, middle, depth + 1) &&
            look(w, s, middle, to, depth + 1);
@@ -593,6 +646,8 @@ static void allow(witness *w, const problem *p)
             w->allowed[k] = fmax(lost, w->strict ? w->rounded[k] : NOTHING);
         }
     }
+    w->rests = false;
+    for (size_t k = 0; k < w->nv; k++) w->rests |= w->speed[k] <= NOTHING;
     for (size_t k = 0; k < w->nx; k++)
         w->rounded_x[k] = fmax(ROUNDING * fmax(fabs(from->x[k]), fabs(to->x[k])), w->rounded_x[k]);
 }
@@ -662,22 +717,6 @@ bool witness_lead(witness *w, double t, double until, double *x, double *v)
     return true;
 }
 
-/* Whether more is missing, of n places or velocities, than so many times their errors; y: how large they are. */
-static bool beyond_errors(const double *missing, const double *y, size_t n, double errors)
-{
-    return vector_largest(missing, n) > fmax(errors, ROUNDING * vector_largest(y, n));
-}
-
-static bool beyond_velocities(const witness *w, const double *missing, double times)
-{
-    return beyond_errors(missing, w->at[TO].v, w->nv, times * fmax(w->seen->most[1], w->seen->most[2]));
-}
-
-static bool beyond_places(const witness *w, const double *missing, double times)
-{
-    return beyond_errors(missing, w->at[TO].x, w->nx, times * w->seen->most[0]);
-}
-
 /* Whether a probe is as far from the end of the step. */
 static bool beyond_bars(const witness *w, double times)
 {
@@ -699,25 +738,32 @@ static void earn(witness *w, const stepper *s)
     w->earned += SPEND * each;
 }
 
+/* Where a force has hidden something once, it may again: from then on what is spent is not counted, within bounds, and
+ * else as much as the run costs. */
+static double most_spared(const witness *w) { return w->probes ? 0 : w->most_spared + (w->earned - w->first) / SPEND; }
+
+static void spare(witness *w, double spent)
+{
+    if (!w->peaks) return;
+    w->spared += w->spent - spent;
+    if (w->spared < most_spared(w)) w->spent = spent;
+}
+
 /* Whether it can afford to look at this step. */
 static bool affords(witness *w, const stepper *s)
 {
     const double h = fabs(stepper_last_step(s));
     earn(w, s);
-    const bool follows = !w->probes && (w->tries > 0 || known(w, s));
-    const double most = w->earned + (follows ? SPEND_SPARED / w->operations : 0);
+    const double most = w->earned + (w->peaks || known(w, s) ? most_spared(w) : 0);
     if (w->spent > most && (w->probes || h < LONGER * w->longest)) return false;
     w->longest = fmax(h, w->longest);
     return true;
 }
 
-/* The step is to be taken again: what the run has spent to see that is not counted, within bounds. */
-static double refuse(witness *w, double size, double spent)
+/* The step is to be taken again. */
+static double refuse(witness *w, double size)
 {
-    w->tries++, w->objected = true;
-    if (w->probes) return size;
-    w->spared += w->spent - spent;
-    if (w->spared < SPEND_SPARED / w->operations) w->spent = spent;
+    w->tries++, w->objected = w->peaks = true;
     return size;
 }
 
@@ -754,8 +800,9 @@ static bool look_at_all(witness *w, stepper *s, bool whole)
     w->whole = whole;
     for (int time = 0; time < 2; time++) {
         allow(w, stepper_problem(s));
-        w->parts = 0, w->worst = 0, w->beside = w->crosses = w->counted = false;
+        w->parts = 0, w->worst = 0, w->beside = w->crosses = w->counted = w->ended = w->exhausted = false;
         w->past = NAN;
+        w->clean = w->at[FROM].t;
         memset(w->missing, 0, w->nv * sizeof *w->missing);
         memset(w->lack, 0, w->nv * sizeof *w->lack);
         if (!look(w, s, &w->at[FROM], &w->at[TO], 0)) return false;
@@ -821,62 +868,103 @@ static stepper_verdict inspect_steady(witness *w, stepper *s, double until)
     return (stepper_verdict){.rest = w->rested, .halt = w->moves};
 }
 
-/* Whether too much is missing of a step; and by how much less a probe is to tell. */
-static bool suspects(witness *w)
+/* The size by which a step of which too much is missing is to be taken again: to the first of what is missing. */
+static double shorter(const witness *w, double whole)
 {
-    double most = 0;
-    for (size_t k = 0; k < w->nv; k++) most = fmax(most, w->missing[k] / w->allowed[k]);
-    const double least = vector_largest(w->missing, w->nv) / (PROBE_SEES * SUSPICIOUS);
-    w->sees = most > SUSPICIOUS ? INFINITY : least;
-    return most > SUSPICIOUS || (!w->probes && beyond_velocities(w, w->missing, BARS));
+    const double before = w->start - w->at[FROM].t, first = fabs(before) > fabs(w->length) ? before : w->length;
+    return !w->beside && fabs(first) < ROOM * fabs(whole) ? first : whole / 4;
 }
 
-/* The size by which the step is to be taken again; 0: it stands. A located run may end it at a switch, behind which
- * there is another force: then what is missing from there on is open. */
-static double judge(witness *w, stepper *s)
+/* The same, where a probe that leads to at[TO] says so as well; 0: the step stands. */
+static double object(witness *w, stepper *s, double whole)
 {
-    const state *const from = &w->at[FROM], *const to = &w->at[TO];
-    if (!see_ends(w, s) || !bound(w, s)) return 0;
-    const bool short_enough = !w->strict && fits(w, w->bends, from, to);
-    const double spent = w->spent;
-    if (short_enough || !look_at_all(w, s, !w->located || w->strict)) {
-        if (short_enough) w->tries = 0;
-        return 0;
-    }
-    const bool suspicious = w->parts > 1 && suspects(w);
-    w->open = !w->whole && !isnan(w->past);
-    if (!suspicious && !w->beside) {
-        w->tries = 0;
-        return 0;
-    }
-    if (w->open && !see(s, w->past, &w->at[TO])) return 0;
-    const double whole = to->t - from->t, before = w->start - from->t,
-                 first = fabs(before) > fabs(w->length) ? before : w->length,
-                 size = !w->beside && fabs(first) < ROOM * fabs(whole) ? first : whole / 4;
+    const state *const from = &w->at[FROM];
+    const double size = shorter(w, whole);
     if (w->tries >= (w->beside ? SHORTER : TRIES)) { /* where a switch stands at 0 at its start, every step is off */
         if (w->beside || !w->kinked) w->differs = from->t, w->held |= w->beside, w->objected = true;
         return 0;
     }
-    if (w->probes || known(w, s)) return refuse(w, size, spent);
+    if (w->probes || known(w, s)) return refuse(w, size);
     if (!probe(w, s, size, w->sees)) /* shorter steps of the run may fail as well, and tell why */
-        return w->failed && !w->kinked ? refuse(w, size, spent) : 0;
+        return w->failed && !w->kinked ? refuse(w, size) : 0;
     const double far = apart(w);
     const bool beyond = beyond_bars(w, BARS) && (!w->located || (far > FIRST && hides(w, s, MOSTLY)));
     if (far > REFUSED) {
-        w->until = to->t;
-        return refuse(w, size, spent);
+        w->until = w->at[TO].t;
+        return refuse(w, size);
     }
     w->moves = beyond && !w->leaves;
     w->left = beyond && w->leaves;
-    w->objected |= w->moves;
     return 0;
+}
+
+/* A look finds nothing: the step stands, unless the look has ended before it saw all. */
+static double pass(witness *w, double whole)
+{
+    w->peaks |= w->parts > MANY || w->exhausted;
+    if (w->exhausted && !w->kinked && w->tries < SHORTER) return refuse(w, whole / 4);
+    return w->tries = 0;
+}
+
+static double earlier(double a, double b, double way) { return way < 0 ? fmax(a, b) : fmin(a, b); }
+
+/* Looks for the first peak that the step does not show, by which it is to be taken again without a probe: a step pays
+ * for the first of many peaks, not for all of them. *again 0: it shows them, or there is none; false: the look
+ * failed. */
+static bool judge_first(witness *w, stepper *s, double *again)
+{
+    state *const to = &w->at[TO];
+    const double from = w->at[FROM].t, end = to->t, whole = end - from;
+    w->first_only = true;
+    const bool looked = look_at_all(w, s, true);
+    w->first_only = false;
+    *again = 0;
+    if (!looked || !w->ended || w->kinked || w->tries >= TRIES) return looked;
+    const bool hidden = see(s, w->behind_first, to) && hides(w, s, MOSTLY), back = see(s, end, to);
+    if (!back || !hidden) return back;
+    w->until = end;
+    w->empty[0] = from, w->empty[1] = earlier(w->start, w->clean, whole);
+    w->peak = w->start, w->peak_end = w->start + w->length;
+    *again = refuse(w, shorter(w, whole));
+    return true;
+}
+
+/* Whether what an earlier step has shown decides: nothing is missing before the peak, and a long step leaps it.
+ * *again: as judge gives it. */
+static bool meets_peak(witness *w, double *again)
+{
+    const double from = w->at[FROM].t, to = w->at[TO].t, sign = to < from ? -1 : 1, whole = fabs(to - from),
+                 before = sign * (w->peak - from), length = sign * (w->peak_end - w->peak),
+                 first = fmax(before, length);
+    *again = 0;
+    if (sign * (from - w->empty[0]) >= 0 && sign * (w->empty[1] - to) >= 0) return true;
+    if (!(sign * (w->peak_end - from) > 0 && whole > before && first < ROOM * whole) || w->tries >= TRIES) return false;
+    *again = refuse(w, sign * first);
+    return true;
+}
+
+/* The size by which a step is to be taken again; 0: it stands. A located run may end it at a switch, behind which there
+ * is another force: then what is missing from there on is open. */
+static double judge(witness *w, stepper *s)
+{
+    const state *const from = &w->at[FROM], *const to = &w->at[TO];
+    double again = 0;
+    if (!see_ends(w, s) || !bound(w, s)) return 0;
+    const double whole = to->t - from->t;
+    const bool all = w->located || w->strict;
+    if (!w->strict && fits(w, w->bends, from, to)) return w->tries = 0;
+    if (!all && (meets_peak(w, &again) || !judge_first(w, s, &again) || again != 0)) return again;
+    if ((all || w->ended) && !look_at_all(w, s, !w->located || w->strict)) return 0;
+    w->open = !w->whole && !isnan(w->past);
+    if (!(w->parts > 1 && suspects(w)) && !w->beside) return pass(w, whole);
+    return w->open && !see(s, w->past, &w->at[TO]) ? 0 : object(w, s, whole);
 }
 
 /* Where the companion has come to the end of a step as well, its distance may show what the step lacks. */
 bool witness_objected(witness *w)
 {
     if (!w) return false;
-    if (w->left) w->objected |= w->seen->taken == w->at[TO].t && beyond_bars(w, LEFT_BARS);
+    if (w->left) w->objected |= w->differences->taken == w->at[TO].t && beyond_bars(w, LEFT_BARS);
     w->left = false;
     return w->objected;
 }
@@ -886,10 +974,13 @@ static stepper_verdict inspect(void *ctx, stepper *s)
     witness *const w = ctx;
     if (w->steady) return inspect_steady(w, s, stepper_time(s));
     witness_objected(w);
-    w->moves = w->open = false;
+    w->moves = w->open = w->exhausted = false;
     const bool afforded = affords(w, s);
-    const double again = afforded ? judge(w, s) : 0;
-    if (again == 0) w->looked += afforded, w->steps++;
+    if (!afforded && w->spared > most_spared(w) && isnan(w->unseen)) w->unseen = stepper_time(s) - stepper_last_step(s);
+    const double spent = w->spent, again = afforded ? judge(w, s) : 0;
+    spare(w, spent);
+    if (again == 0) w->looked += afforded && !w->exhausted, w->steps++;
+    w->objected |= w->moves;
     return (stepper_verdict){.again = again};
 }
 

@@ -45,6 +45,9 @@ void witness_leave(witness *);
 bool witness_objected(witness *);
 /* The part of the run's steps that its witness has looked at, or need not; NaN: it has none. */
 double witness_looked(const motus_run *);
+/* The time from which on it could not look at steps, although it had just seen more in some than they show: of what the
+ * force does there nothing is known. NaN: there is none. */
+double witness_unseen(const witness *);
 /* The time near which no step keeps to the typed force; NaN: there is none. *number: of the typed system, the velocity
  * on which another force acts from there on, whatever sides the switches have; SIZE_MAX: none is known. */
 double witness_differs(const witness *, size_t *number);

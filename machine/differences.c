@@ -33,6 +33,7 @@ enum { PARTS = 32, SLOTS = 6, SLOTS_KINKED = 12, FITTED = 64 };
 #define SLOWLY 3e3
 #define LAST 0.4      /* of |run - companion| at the landing before: a bar is no smaller */
 #define STEPPED 0.5   /* units in the last place of the number before, which a step adds to */
+#define GROWN 1e3     /* a motion that is so many times as large is another one */
 #define STRAIGHT 0.03 /* up to this distance the growth is fitted */
 
 /* How many landings a long run has; the steps that are well apart; how many landings a short run has at least. */
@@ -99,6 +100,7 @@ void differences_begin(differences *f, double start, double until)
     f->until = NAN;
     f->growth = (differences_growth){0};
     memset(f->scale, 0, sizeof f->scale);
+    for (int g = 0; g < DIFFERENCES_GROUPS; g++) f->growing[g] = (differences_size_of){0, start, start};
     f->taken = start;
     f->between = false;
     double *const none[] = {f->size, f->now, f->before, f->apart, f->last};
@@ -144,12 +146,26 @@ static double *row_of(differences *f, double t, double **twin)
     return f->envelope + now;
 }
 
-/* How far the companion is from the run, by groups, in units of the group's largest number. */
-static double distance_of(differences *f)
+/* A motion that begins at rest, or at 0, has no size of its own at first: in its first part, and in so long a time after
+ * it has grown by far, what it was before does not matter. */
+static bool has_size(differences *f, size_t group, double t)
+{
+    differences_size_of *const s = &f->growing[group];
+    const double now = f->scale[group], part = fabs(f->length) * ((1 - 1e-9) / PARTS);
+    const bool grows = now > GROWN * s->size;
+    if (grows) s->grew = t;
+    if (grows || fabs(t - s->since) >= part) s->size = now, s->since = t;
+    return fabs(t - s->grew) >= part;
+}
+
+/* How far the companion is from the run, by groups, in units of the group's largest number. *judged: of those alone that
+ * have a size. */
+static double distance_of(differences *f, double t, double *judged)
 {
     const differences_shape *s = &f->shape;
     const double *values = f->values[0];
     double most = 0;
+    *judged = 0;
     for (size_t g = 0, from = 1; g < DIFFERENCES_GROUPS; g++) {
         const size_t n = g < 2 ? s->positions : s->velocities - s->positions;
         double far = 0;
@@ -159,6 +175,7 @@ static double distance_of(differences *f)
         }
         f->most[g] = larger(far, f->most[g]);
         if (f->scale[g] > 0) most = larger(far / f->scale[g], most);
+        if (f->scale[g] > 0 && has_size(f, g, t)) *judged = larger(far / f->scale[g], *judged);
         from += n;
     }
     return most;
@@ -177,12 +194,13 @@ static void grow(differences *f, double t, double now)
     g->y += y, g->yy += y * y, g->ty += gone * y, g->ly += l * y;
 }
 
-/* A motion that begins at rest, or at 0, has no size of its own at first, so its first part is not judged. */
-static void judge(differences *f, double t, double now)
+static void judge(differences *f, double t)
 {
     const bool begins = fabs(t - f->start) * PARTS < fabs(f->length) * (1 - 1e-9);
+    double judged;
+    const double now = distance_of(f, t, &judged);
     if (begins || !f->first_known) f->first = now;
-    f->distance = larger(now, begins ? 0 : f->distance);
+    f->distance = begins ? now : f->first_known ? larger(judged, f->distance) : judged;
     f->first_known = !begins;
     if (begins) return;
     grow(f, t, f->distance);
@@ -218,7 +236,7 @@ void differences_take(differences *f, double t, bool observed, bool twin)
     if (twins && twin) reduce(f, 2, observed);
     for (size_t k = 0; twins && twin && k < n; k++) twins[k] = larger(fabs(seen[0][k] - seen[2][k]), twins[k]);
     f->observations += observed;
-    judge(f, t, distance_of(f));
+    judge(f, t);
 }
 
 void differences_widen(differences *f)
@@ -229,7 +247,7 @@ void differences_widen(differences *f)
 /* ---- what is kept ---- */
 
 /* The numbers of a differences_growth, which is nothing else. */
-enum { GROWTH = sizeof(differences_growth) / sizeof(double), HEAD = 2 * DIFFERENCES_GROUPS + 5 + GROWTH };
+enum { GROWTH = sizeof(differences_growth) / sizeof(double), HEAD = 5 * DIFFERENCES_GROUPS + 5 + GROWTH };
 
 size_t differences_kept(const differences_shape *s) { return HEAD + s->count * (4 + s->full); }
 
@@ -246,6 +264,8 @@ bool differences_keep(const differences *f, double *out)
     double *at = out;
     for (int g = 0; g < DIFFERENCES_GROUPS; g++) *at++ = f->scale[g];
     for (int g = 0; g < DIFFERENCES_GROUPS; g++) *at++ = f->most[g];
+    for (int g = 0; g < DIFFERENCES_GROUPS; g++)
+        *at++ = f->growing[g].size, *at++ = f->growing[g].since, *at++ = f->growing[g].grew;
     *at++ = f->distance, *at++ = f->first, *at++ = f->first_known;
     *at++ = isnan(f->until), *at++ = isnan(f->until) ? 0 : f->until;
     memcpy(at, &f->growth, sizeof f->growth);
@@ -269,6 +289,8 @@ void differences_resume(differences *f, double t, const double *kept)
     const double *at = kept;
     for (int g = 0; g < DIFFERENCES_GROUPS; g++) f->scale[g] = *at++;
     for (int g = 0; g < DIFFERENCES_GROUPS; g++) f->most[g] = *at++;
+    for (int g = 0; g < DIFFERENCES_GROUPS; g++)
+        f->growing[g].size = *at++, f->growing[g].since = *at++, f->growing[g].grew = *at++;
     f->distance = *at++, f->first = *at++, f->first_known = *at++ != 0;
     f->until = at[0] != 0 ? NAN : at[1];
     at += 2;

@@ -15,6 +15,11 @@ typedef struct differences_growth {
 enum { DIFFERENCES_GROUPS = 3 };   /* positions, velocities, first-order variables */
 enum { DIFFERENCES_SEEN_MAX = 3 }; /* the run, its companion, a twin of the run */
 
+/* How large a group of numbers was at a time shortly before, and when it had last grown by far. */
+typedef struct differences_size_of {
+    double size, since, grew;
+} differences_size_of;
+
 /* Which numbers are compared: the time, the state, and others. */
 typedef struct differences_shape {
     size_t count, positions, velocities; /* numbers; of the state: positions, velocities and first-order variables */
@@ -45,8 +50,9 @@ typedef struct differences {
     bool between; /* the next one is within a step that the run has taken, which the caller writes */
     double scale[DIFFERENCES_GROUPS]; /* the largest number of each group so far */
     double most[DIFFERENCES_GROUPS];  /* the largest |run - companion| of each group so far */
-    double distance;                  /* the largest |run - companion| / scale so far */
-    double first;                     /* the distance when 1/32 of the run was done */
+    differences_size_of growing[DIFFERENCES_GROUPS];
+    double distance; /* the largest |run - companion| / scale so far, of groups that have a size of their own */
+    double first;    /* the distance when 1/32 of the run was done */
     bool first_known;
     double until; /* the first time with a distance at which no digit is significant; NaN: none */
     differences_growth growth;

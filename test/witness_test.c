@@ -153,6 +153,31 @@ static void peaks(void **state)
     }
 }
 
+/* Many pulses, each much shorter than a step, drive a body that is free or on a spring: whoever looks for one has to
+ * look for all of them. A pulse k exp(-((t - c)/w)²) acts as k w √π at c; on a spring it acts by a part exp(-w²/4) of
+ * that. */
+static void trains(void **state)
+{
+    (void)state;
+    enum { MOST = 30 };
+    for (int i = 0; i < tries() / 2; i++) {
+        char text[90 * MOST + 200];
+        const bool spring = i & 1;
+        const int count = 1 + (int)((MOST - 1) * uniform());
+        const double until = between(10, 150), w = exp2(-4 - round(12 * uniform()));
+        const long double impulse = w * sqrtl(3.14159265358979323846L), part = expl(-(long double)w * w / 4);
+        long double x = spring ? cosl(until) : 1;
+        size_t n = (size_t)snprintf(text, sizeof text, "x(0) = 1; x'(0) = 0\nuntil %.17g\nx'' = %s", until,
+                                    spring ? "-x" : "0");
+        for (int k = 0; k < count; k++) {
+            const double c = between(1, until - 1), strength = between(0.1, 5);
+            n += (size_t)snprintf(text + n, sizeof text - n, " + %.17g exp(-((t - %.17g)/%.17g)^2)", strength, c, w);
+            x += strength * impulse * (spring ? part * sinl((long double)until - c) : (long double)until - c);
+        }
+        judge(&all, text, ways[i % WAYS].method, ways[i % WAYS].tolerance, NAN, x);
+    }
+}
+
 static const char *const steps[] = {"rk4",    "yoshida4",          "gauss4", "velocity-verlet", "midpoint",
                                     "verlet", "implicit-midpoint", "fine4",  "explicit-euler",  "beeman"};
 enum { STEPS = sizeof steps / sizeof *steps };
@@ -388,9 +413,9 @@ static void machines(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(flights), cmocka_unit_test(pulses), cmocka_unit_test(brakes),
-                                       cmocka_unit_test(peaks),   cmocka_unit_test(walls),  cmocka_unit_test(bars_hold),
-                                       cmocka_unit_test(sticks),  cmocka_unit_test(bits),   cmocka_unit_test(machines),
-                                       cmocka_unit_test(sides),   cmocka_unit_test(share)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(flights),   cmocka_unit_test(pulses), cmocka_unit_test(brakes),
+                                       cmocka_unit_test(peaks),     cmocka_unit_test(walls),  cmocka_unit_test(trains),
+                                       cmocka_unit_test(bars_hold), cmocka_unit_test(sticks), cmocka_unit_test(bits),
+                                       cmocka_unit_test(machines),  cmocka_unit_test(sides),  cmocka_unit_test(share)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
