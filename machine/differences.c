@@ -146,8 +146,8 @@ static double *row_of(differences *f, double t, double **twin)
     return f->envelope + now;
 }
 
-/* A motion that begins at rest, or at 0, has no size of its own at first: in its first part, and in so long a time after
- * it has grown by far, what it was before does not matter. */
+/* A motion that begins at rest, or at 0, has no size of its own at first: in its first part, and in so long a time
+ * after it has grown by far, what it was before does not matter. */
 static bool has_size(differences *f, size_t group, double t)
 {
     differences_size_of *const s = &f->growing[group];
@@ -158,8 +158,8 @@ static bool has_size(differences *f, size_t group, double t)
     return fabs(t - s->grew) >= part;
 }
 
-/* How far the companion is from the run, by groups, in units of the group's largest number. *judged: of those alone that
- * have a size. */
+/* How far the companion is from the run, by groups, in units of the group's largest number. *judged: of those alone
+ * that have a size. */
 static double distance_of(differences *f, double t, double *judged)
 {
     const differences_shape *s = &f->shape;
