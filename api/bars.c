@@ -4,6 +4,7 @@
 #include "api/choice.h"
 #include "api/columns.h"
 #include "api/event_bars.h"
+#include "api/event_counts.h"
 #include "api/later.h"
 #include "api/run_events.h"
 #include "api/shadow.h"
@@ -80,6 +81,7 @@ void bars_destroy(motus_run *r)
     give(&r->allocator, r->bars->memory);
     give(&r->allocator, r->bars->room);
     give(&r->allocator, r->bars->steep);
+    give(&r->allocator, r->bars->open_since);
     give(&r->allocator, r->bars->resumed);
     give(&r->allocator, r->bars);
 }
@@ -451,6 +453,8 @@ void bars_forget_events(motus_run *r)
     if (b->twin.events) events_forget(b->twin.events);
     b->gap = b->rows_differ = b->end_reached = false;
     b->rows = 0;
+    give(&r->allocator, b->open_since);
+    b->open_since = NULL;
 }
 
 void bars_leg(motus_run *r)
@@ -592,6 +596,7 @@ static motus_status land(motus_run *r, double t, double *x, double *v, bool betw
     b->differences.between = between;
     if (status == MOTUS_OK && !b->gap) status = bars_take(r, t, x, v, observed, err);
     b->landed = t;
+    if (status == MOTUS_OK && together && b->whole) status = event_counts_touched(r, t, x, v, err);
     b->steps = between ? now - 1 : now;
     b->seconds += pace_now() - began;
     return status;

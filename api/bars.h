@@ -37,10 +37,11 @@ struct bars {
      * the other; since when. Then their states are not compared. */
     bool gap;
     double gap_since;
-    bool end_reached; /* the companion was led to where events have ended the run */
-    size_t rows;      /* of the table of events, that a companion confirms so far */
-    bool rows_differ; /* it has other events from there on */
-    char why[256];    /* no bar; "": there is one */
+    bool end_reached;   /* the companion was led to where events have ended the run */
+    double *open_since; /* of every rule, since when it is open how often it has happened; NULL: of none */
+    size_t rows;        /* of the table of events, that a companion confirms so far */
+    bool rows_differ;   /* it has other events from there on */
+    char why[256];      /* no bar; "": there is one */
 };
 
 /* Makes r->bars, where the definition asks for them, of all columns. */

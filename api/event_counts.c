@@ -14,6 +14,7 @@
 
 typedef struct look {
     motus_run *run;
+    double landed; /* the time of the bars */
     double t, late;
     const double *x, *v;
     double *dx, *dv, *a;  /* half the widths of the box, and the accelerations */
@@ -27,7 +28,7 @@ typedef struct look {
 static double bar(void *ctx, size_t column)
 {
     const look *l = ctx;
-    return bars_of(l->run->bars, l->t, column);
+    return bars_of(l->run->bars, l->landed, column);
 }
 
 static void take_state(look *l, double part)
@@ -62,22 +63,28 @@ static bool find_box(look *l, interval *box)
     return true;
 }
 
+/* Whether the box leaves open on which side of 0 a function is. least: a bound on its size, where it is positive. */
+static bool is_open(const look *l, size_t f, double least)
+{
+    const rules *rules = l->run->rules;
+    const double t[2] = {l->t - l->late, l->t + l->late};
+    if (least > 0 || isnan(l->g[f]) || events_settled(l->run->events, f)) return false;
+    return !rules->apart || !rules->apart(rules->ctx, f, false, t, l->to_x, l->to_v, l->dx, l->dv, l->size);
+}
+
 /* The signs of the functions; whether the box leaves one open. */
 static bool find_signs(look *l)
 {
     const rules *rules = l->run->rules;
     const bool bounded = rules->least && !l->run->system->problem.refresh;
-    const double t[2] = {l->t - l->late, l->t + l->late};
-    bool open = false;
+    bool any = false;
     if (bounded) rules->least(rules->ctx, l->to_x, l->to_v, l->dx, l->dv, l->now);
     for (size_t f = 0; f < rules->functions; f++) {
-        const bool settled = (bounded && l->now[f] > 0) || events_settled(l->run->events, f) || isnan(l->g[f]);
-        const bool apart =
-            settled || (rules->apart && rules->apart(rules->ctx, f, false, t, l->to_x, l->to_v, l->dx, l->dv, l->size));
-        l->sign[f] = (int8_t)(apart ? (l->g[f] > 0) - (l->g[f] < 0) : 0);
-        open |= !apart;
+        const bool open = is_open(l, f, bounded ? l->now[f] : 0);
+        l->sign[f] = (int8_t)(open ? 0 : (l->g[f] > 0) - (l->g[f] < 0));
+        any |= open;
     }
-    return open;
+    return any;
 }
 
 /* The ways that functions go along the run, where rates at the middle of the box and at some of its corners agree. */
@@ -123,8 +130,7 @@ static bool instance_open(look *l, const rule *r, size_t i)
     size_t open = 0, which = 0;
     for (size_t k = 0; k < r->leaves; k++) {
         const size_t f = r->first + k * r->instances + i;
-        const bool known = l->sign[f] != 0 || events_settled(l->run->events, f) || isnan(l->g[f]);
-        if (!known) open++, which = f;
+        if (l->sign[f] == 0 && is_open(l, f, 0)) open++, which = f;
     }
     if (open == 0) return false;
     if (!find_slopes(l)) return true;
@@ -147,24 +153,97 @@ static bool any_open(look *l)
     return false;
 }
 
-motus_status event_counts_open(motus_run *r, double t, const double *x, const double *v, bool *open, motus_error *err)
+/* Room for a look, to be given back. */
+static double *begin(look *l, motus_run *r, double landed)
 {
     const problem *p = &r->system->problem;
     const size_t nx = p->nx, nv = p->nv, n = r->rules->functions;
-    *open = false;
-    if (n == 0 || t == r->timing.t0) return MOTUS_OK; /* what is 0 at the start is no event there */
-    double *const room = take(&r->allocator, 2 * nx + 4 * nv + 2 * n + 1, sizeof *room);
-    interval *const box = take(&r->allocator, nx + nv + 1, sizeof *box);
-    int8_t *const sign = take(&r->allocator, 2 * n, sizeof *sign);
-    motus_status status = room && box && sign ? MOTUS_OK : fail(err, MOTUS_MEMORY, "no memory for bars of error");
-    if (status == MOTUS_OK) {
-        look l = {.run = r, .t = t, .late = event_bars_late(r, t), .x = x, .v = v, .dx = room};
-        l.to_x = l.dx + nx, l.dv = l.to_x + nx, l.to_v = l.dv + nv, l.a = l.to_v + nv, l.size = l.a + nv;
-        l.g = l.size + nv, l.now = l.g + n, l.sign = sign, l.heads = sign + n;
-        *open = !find_box(&l, box) || r->rules->values(r->rules->ctx, t, l.to_x, l.to_v, l.g) || any_open(&l);
-    }
+    double *const room = take(&r->allocator, 2 * nx + 4 * nv + 3 * n + 1, sizeof *room);
+    if (!room) return NULL;
+    *l = (look){.run = r, .landed = landed, .late = event_bars_late(r, landed), .dx = room};
+    l->dv = l->dx + nx, l->to_x = l->dv + nv, l->to_v = l->to_x + nx, l->a = l->to_v + nv, l->size = l->a + nv;
+    l->g = l->size + nv, l->now = l->g + n;
+    l->sign = (int8_t *)(void *)(l->now + n), l->heads = l->sign + n;
+    return room;
+}
+
+/* The box and the functions about a state. */
+static bool look_at(look *l, double t, const double *x, const double *v, interval *box)
+{
+    const rules *rules = l->run->rules;
+    l->t = t, l->x = x, l->v = v, l->slopes = false;
+    return find_box(l, box) && !rules->values(rules->ctx, t, l->to_x, l->to_v, l->g);
+}
+
+/* Whether a touch or another has left open how often events have happened up to t. */
+static bool open_before(const motus_run *r, double t)
+{
+    const double *const since = r->bars->open_since, way = r->timing.h < 0 ? -1 : 1;
+    events_limit limit = {.rule = SIZE_MAX};
+    events_accumulated(r->events, &limit);
+    for (size_t k = 0; since && k < r->rules->count; k++)
+        if (k != limit.rule && way * (t - since[k]) >= 0) return true;
+    return false;
+}
+
+motus_status event_counts_open(motus_run *r, double t, const double *x, const double *v, bool *open, motus_error *err)
+{
+    const problem *p = &r->system->problem;
+    look l;
+    *open = open_before(r, t);
+    /* what is 0 at the start is no event there */
+    if (*open || r->rules->functions == 0 || t == r->timing.t0) return MOTUS_OK;
+    double *const room = begin(&l, r, t);
+    interval *const box = take(&r->allocator, p->nx + p->nv + 1, sizeof *box);
+    const bool known = room && box;
+    if (known) *open = !look_at(&l, t, x, v, box) || any_open(&l);
     give(&r->allocator, room);
     give(&r->allocator, box);
-    give(&r->allocator, sign);
-    return status;
+    return known ? MOTUS_OK : fail(err, MOTUS_MEMORY, "no memory for bars of error");
+}
+
+/* Whether the rule of function f may have an event, or two, where the function has an extremum. */
+static bool touches(look *l, size_t f, size_t *rule_of)
+{
+    const rules *rules = l->run->rules;
+    size_t k = 0;
+    while (k + 1 < rules->count && rules->rule[k + 1].first <= f) k++;
+    while (k > 0 && rules->rule[k].leaves == 0) k--;
+    const rule *r = &rules->rule[k];
+    *rule_of = k;
+    find_signs(l);
+    if (l->sign[f] != 0 || !is_open(l, f, 0)) return false;
+    return find_slopes(l) && l->heads[f] == 0 && may_happen(l, r, (f - r->first) % r->instances, f);
+}
+
+static bool note_open(motus_run *r, size_t k, double t)
+{
+    bars *b = r->bars;
+    if (!b->open_since) {
+        b->open_since = take(&r->allocator, r->rules->count, sizeof *b->open_since);
+        for (size_t i = 0; b->open_since && i < r->rules->count; i++) b->open_since[i] = NAN;
+    }
+    if (b->open_since && isnan(b->open_since[k])) b->open_since[k] = t;
+    return b->open_since;
+}
+
+motus_status event_counts_touched(motus_run *r, double t, const double *x, const double *v, motus_error *err)
+{
+    const problem *p = &r->system->problem;
+    look l;
+    size_t rule;
+    if (r->rules->functions == 0) return MOTUS_OK;
+    double *const room = begin(&l, r, t);
+    interval *const box = take(&r->allocator, p->nx + p->nv + 1, sizeof *box);
+    bool memory = room && box;
+    for (size_t k = 0; memory && k < events_extrema(r->events); k++) {
+        const double *at_x, *at_v;
+        double at;
+        const size_t f = events_extremum(r->events, k, &at, &at_x, &at_v);
+        if (look_at(&l, at, at_x, at_v, box) && touches(&l, f, &rule)) memory = note_open(r, rule, at);
+    }
+    if (memory && look_at(&l, t, x, v, box)) events_near(r->events, l.dx);
+    give(&r->allocator, room);
+    give(&r->allocator, box);
+    return memory ? MOTUS_OK : fail(err, MOTUS_MEMORY, "no memory for bars of error");
 }

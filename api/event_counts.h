@@ -4,7 +4,11 @@
 
 #include "api/bars.h"
 
-/* *open: at t, where the run's state is x, v in the inside order, a function of an event may have passed 0 or not. */
+/* *open: at t, where the run's state is x, v in the inside order, or at a touch before, a function of an event may have
+ * passed 0 or not. */
 motus_status event_counts_open(motus_run *, double t, const double *x, const double *v, bool *open, motus_error *);
+
+/* At a landing: finds the rules whose functions may have touched 0 or not since the last one. */
+motus_status event_counts_touched(motus_run *, double t, const double *x, const double *v, motus_error *);
 
 #endif

@@ -131,6 +131,8 @@ void events_destroy(events *e)
     give(&a, e->kept);
     give(&a, e->kept_state);
     give(&a, e->jump);
+    give(&a, e->off);
+    give(&a, e->extremum);
     give(&a, e->saved);
     give(&a, e);
 }
@@ -595,6 +597,7 @@ void events_forget(events *e)
     }
     for (size_t i = 0; i < instances; i++) e->recent[i].number = 0;
     e->jumps = 0;
+    e->extrema = 0;
     e->rows = e->numbers = e->kept_states = e->pasts = 0;
     e->acted = 0;
     e->acted_sum = e->tail = 0;

@@ -115,6 +115,12 @@ bool events_ticks(const events *, double t); /* whether that is a time of a cloc
 /* Whether a function that is near 0 at the run's state leaves no event open: it has been 0 from the start on or has
  * come to rest at 0, or is 0 in the very instant in which an event has ended the run. */
 bool events_settled(const events *, size_t function);
+/* From now on the numbers of the state, x and then v, are off by so much: extrema of functions that come so near to 0
+ * are kept, and those of before are forgotten. */
+void events_near(events *, const double *off);
+size_t events_extrema(const events *);
+/* Its function, the time and the state. */
+size_t events_extremum(const events *, size_t k, double *t, const double **x, const double **v);
 int64_t events_acted(const events *);                  /* how often a rule has assigned */
 int64_t events_acted_before(const events *, double t); /* and before a time within the last step */
 int64_t events_turns(const events *);                  /* how often an internal rule has */

@@ -101,8 +101,8 @@ static motus_status sample_part(events *e, stepper *s, size_t f, const part *p, 
     return status;
 }
 
-/* p(tau), by Clenshaw's formula. */
-static double polynomial(const double *c, int degree, double tau)
+/* By Clenshaw's formula. */
+double events_polynomial(const double *c, int degree, double tau)
 {
     const double z = 2 * tau - 1;
     double one = 0, two = 0;
@@ -134,7 +134,7 @@ static double depth_between(const search *of, const roots_root *a, const roots_r
     *at = a->tau + (b->tau - a->tau) / 2;
     for (int k = 1; k < POINTS; k++) {
         const double tau = a->tau + (b->tau - a->tau) * k / POINTS;
-        const double size = fabs(polynomial(of->coefficients, of->degree, tau));
+        const double size = fabs(events_polynomial(of->coefficients, of->degree, tau));
         if (size > most) most = size, *at = tau;
     }
     return most;
@@ -232,8 +232,8 @@ static motus_status add_roots(events *e, size_t f, const search *of, const roots
         if (!status && open) status = leave_open(e, f, err);
         if (status) return status;
         if (open) continue;
-        c.sure = !c.near && (one.from <= 0 || fabs(polynomial(of->coefficients, of->degree, low)) > of->slack) &&
-                 (one.to >= 1 || fabs(polynomial(of->coefficients, of->degree, high)) > of->slack);
+        c.sure = !c.near && (one.from <= 0 || fabs(events_polynomial(of->coefficients, of->degree, low)) > of->slack) &&
+                 (one.to >= 1 || fabs(events_polynomial(of->coefficients, of->degree, high)) > of->slack);
         /* that it passes the other way is no event, and needs no true steps */
         c.idle = c.sure && rule->kind == RULE_ROOT && rule->direction == -c.kind;
         if (!events_add(e, c)) return events_no_memory(err);
@@ -467,6 +467,10 @@ static motus_status search_part(events *e, stepper *s, size_t f, const part *p, 
             return MOTUS_OK;
         }
         const double beyond = fit == ROOTS_FIT_ROUGH ? fitted.unseen : 0;
+        if (fit != ROOTS_FIT_ROUGH) {
+            const motus_status noted = events_note_extrema(e, s, f, p->from, p->to, coefficients, fitted.degree, err);
+            if (noted) return noted;
+        }
         if (!stands && !e->open[f] &&
             roots_none(coefficients, fitted.degree, EVENTS_SLACK * largest + fitted.noise + beyond))
             return begins_beyond(e, f, value[0], p->from, sign) ? MOTUS_OK : events_no_memory(err);

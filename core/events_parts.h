@@ -207,6 +207,9 @@ struct events {
     double *row_state; /* of every row: the state on arrival, and after it where the action changed it */
     size_t *row_at;
     size_t rows, row_room, numbers, number_room;
+    double *off; /* of positions, then velocities: how far they may be off (events_near.c); NULL: it is not known */
+    double *extremum; /* of each its function, time and state */
+    size_t extrema, extremum_room;
     bool keeps_jumps;
     double *jump; /* time, 1 where the rule assigns, the state before it and after it, of every action that is kept */
     size_t jumps, jump_room;
@@ -304,6 +307,13 @@ bool events_clear(const events *, size_t function);
 /* An error bound of a function at `here`, a time h after `left`, whose rates and bounds are known: from the rounding
  * since the start and, where h is not 0, from the estimated error of the true step to `here`. */
 motus_status events_error_of(events *, size_t function, double h, double *bound, motus_error *);
+/* events_near.c. Keeps the extrema near 0 of a polynomial that function f is on a part of the step. */
+motus_status events_note_extrema(events *, stepper *, size_t f, double from, double to, const double *coefficients,
+                                 int degree, motus_error *);
+/* Widens the box of a step by what the motion may be off by. */
+void events_widen(events *);
+/* events_find.c. p(tau), of Chebyshev coefficients. */
+double events_polynomial(const double *coefficients, int degree, double tau);
 /* The same of the function's rate. */
 motus_status events_slope_error_of(events *, size_t function, double h, double *bound, motus_error *);
 /* An error bound of the time of a root or touch at `here`, a time h after `left`, where the function is flat: the time

@@ -21,13 +21,14 @@ void events_extend(events *e, const double *x, const double *v)
     raise_to(e->most + e->problem.nx, v, e->problem.nv);
 }
 
-/* Computes the box of a step, its middle in `next`, and in `before` a lower bound on the size of every function in it.
- */
+/* Computes the box of a step, its middle in `next`, with what the motion may be off by, and in `before` a lower bound on
+ * the size of every function in it. */
 static void look_at_box(events *e, const stepper_shown *step)
 {
     const size_t nx = e->problem.nx, nv = e->problem.nv;
     const box to = {e->next.x, e->next.v, e->width, e->width + nx};
     box_of(&to, nx, nv, step->span, step->from_x, step->from_v, step->to_x, step->to_v, step->most);
+    events_widen(e); /* an extremum that the exact motion may lead beyond 0 is to be found */
     e->rules.least(e->rules.ctx, to.x, to.v, to.dx, to.dv, e->before);
 }
 

@@ -529,6 +529,39 @@ static void counts_near_the_end(void **state)
     }
 }
 
+/* The largest x is 1, and a function has its extremum there: where it is nearer to 0 than the bar of the state, it
+ * passes 0 twice or not at all; where it is farther, it is counted. */
+static void counts_near_a_touch(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *method;
+        double size;
+    } ways[] = {{"rk4", 0.1},     {"rk4", 0.3},     {"verlet", 0.05}, {"leapfrog", 0.1}, {"explicit-euler", 0.01},
+                {"dopri5", 1e-3}, {"dopri5", 1e-6}, {"dop853", 1e-6}};
+    static const char *const occasions[] = {"when x = A", "when x - A = 0 rising", "when x > A"};
+    for (size_t w = 0; w < sizeof ways / sizeof *ways; w++)
+        for (size_t k = 0; k < sizeof occasions / sizeof *occasions; k++) {
+            char text[256];
+            double bar, error;
+            const char *const form = "x'' = -x; x(0) = cos(2); x'(0) = sin(2); n = 0; A = %.17g; %s: n = n + 1";
+            snprintf(text, sizeof text, form, 2.0, occasions[k]);
+            told(text, "x", ways[w].method, ways[w].size, 2, &bar); /* where it is largest */
+            const double at[] = {-bar / 32, bar / 1000, bar / 32};
+            for (size_t i = 0; i < sizeof at / sizeof *at; i++) {
+                snprintf(text, sizeof text, form, 1 + at[i], occasions[k]);
+                counted(text, ways[w].method, ways[w].size, 5, &error);
+                if (!(error >= 1)) fail_msg("%s by %s: a touch %g off is counted", text, ways[w].method, at[i]);
+            }
+            for (int beyond = 0; beyond <= 1; beyond++) {
+                snprintf(text, sizeof text, form, beyond ? 1.2 : 0.8, occasions[k]);
+                const double want = beyond ? 0 : k == 0 ? 2 : 1;
+                const double value = counted(text, ways[w].method, ways[w].size, 5, &error);
+                if (value != want || error != 0) fail_msg("%s by %s: %g ± %g", text, ways[w].method, value, error);
+            }
+        }
+}
+
 /* The run ends where an event ends it, whatever has happened in that instant; what rests at 0 has come there, and what
  * a clock does is done at its time. */
 static void counts_that_are_decided(void **state)
@@ -553,10 +586,11 @@ static void counts_that_are_decided(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(counts_near_the_end),        cmocka_unit_test(counts_that_are_decided),
-        cmocka_unit_test(modes_at_the_end),           cmocka_unit_test(bars_of_event_times),
-        cmocka_unit_test(bars_between_steps),         cmocka_unit_test(limits_of_balls),
-        cmocka_unit_test(rows_of_one_instant),        cmocka_unit_test(clocks_stay_known),
-        cmocka_unit_test(a_stadium_loses_all_digits), cmocka_unit_test(relays_of_many_turns)};
+        cmocka_unit_test(counts_near_the_end),     cmocka_unit_test(counts_near_a_touch),
+        cmocka_unit_test(counts_that_are_decided), cmocka_unit_test(modes_at_the_end),
+        cmocka_unit_test(bars_of_event_times),     cmocka_unit_test(bars_between_steps),
+        cmocka_unit_test(limits_of_balls),         cmocka_unit_test(rows_of_one_instant),
+        cmocka_unit_test(clocks_stay_known),       cmocka_unit_test(a_stadium_loses_all_digits),
+        cmocka_unit_test(relays_of_many_turns)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
