@@ -21,8 +21,9 @@ void events_extend(events *e, const double *x, const double *v)
     raise_to(e->most + e->problem.nx, v, e->problem.nv);
 }
 
-/* Computes the box of a step, its middle in `next`, with what the motion may be off by, and in `before` a lower bound on
- * the size of every function in it. */
+/* Computes the box of a step and what the motion may be off by, its middle in `next`, and in `before` a lower bound on
+ * the size of every function in it.
+ */
 static void look_at_box(events *e, const stepper_shown *step)
 {
     const size_t nx = e->problem.nx, nv = e->problem.nv;
