@@ -334,9 +334,9 @@ static double doubted(doubt open, bool flat, double value, interval bounds, doub
 {
     const double off = fmax(bounds.high - value, value - bounds.low);
     const double own = 4 * (nextafter(fabs(value), INFINITY) - fabs(value));
-    if (open == DOUBT_POLE) return INFINITY;
     if (flat && off <= own) return value == 0 ? 0 : own;
     if (flat) return off < fabs(value) ? off : INFINITY;
+    if (open == DOUBT_POLE) return off <= own ? error : INFINITY;
     if (open == DOUBT_NONE || !(off > error)) return error;
     return open == DOUBT_STEEP || off < fabs(value) || off < TWICE * error ? off : INFINITY;
 }

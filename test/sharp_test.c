@@ -21,6 +21,7 @@ static long double turn(long double u, long double v) { return (void)v, atanl(1 
 static long double tangent(long double u, long double v) { return (void)v, tanl(4 * atanl(1) / 2 + u); }
 static long double angle(long double u, long double v) { return (void)v, acosl(fminl(1, fmaxl(-1, 1 - u))); }
 static long double smooth(long double u, long double v) { return (void)v, sinl(u) / u; }
+static long double shut(long double u, long double v) { return (void)v, expl(-1 / (u * u)); }
 static long double kink(long double u, long double v) { return (void)v, fabsl(u); }
 
 static const struct sharp {
@@ -41,6 +42,7 @@ static const struct sharp {
               {"tan(pi/2 + x - c)", tangent, false},
               {"acos(min(1, max(-1, 1 - (x - c))))", angle, true},
               {"sin(x - c)/(x - c)", smooth, true},
+              {"exp(-1/(x - c)^2)", shut, true},
               {"|x - c|", kink, true}};
 enum { SHARPS = sizeof sharps / sizeof *sharps };
 
