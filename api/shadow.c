@@ -38,8 +38,8 @@ motus_status shadow_numbers(const motus_system *from, motus_system *to, motus_er
     return status;
 }
 
-/* Parameters that were rounded when they were computed, and of which the shadow has the same number, as of a sum over
- * an index, are moved to the next double. Not those that decimals or moved ones enter: which way the rounding went is
+/* Parameters that were rounded when they were computed, and of which the shadow has the same number, as of a long
+ * sum, are moved to the next double. Not those that decimals or moved ones enter: which way the rounding went is
  * not known, and the two must not cancel. */
 
 enum { PARAMETERS_MAX = 256 }; /* of a model with more none is moved, since each looks at all others */

@@ -64,6 +64,12 @@ static const form forms[] = {
     {"m = [" A ", " B "]", "m[1]^2 - m[2]^2", true},
     {"m = [[" A ", 3], [4, " B "]]", "m[1, 1] - m[2, 2]", false},
     {"m[1] = " A "\nm[2] = " B, "m[1] - m[2]", false},
+    {"m = [" A ", -" B "]", "sum(i = 1..2: m[i])", false},
+    {"m = [" A ", 5, -" B "]\ns = sum(i = 1..3, i != 2: m[i])", "s", false},
+    {"m = [" A ", " B "]", "sum(i = 1..2: (3 - 2 i) m[i]^2)", true},
+    {"c[i] = " A " + i - 1 for i = 1..3", "c[1] - " B, false},
+    {"c[i] = (" A " + i) - (" B " + 2) for i = 1..3\nd[i] = c[i] c[2] for i = 1..3", "d[2]/c[2]", false},
+    {"m = [" A ", " B "]\nc[i] = m[i]^2 for i = 1..2", "c[1] - c[2]", true},
     {"r = (" A ", 2, " B ")", "r.x - r.z", false},
     {"r = (" A ", 2, " B ")", "dot(r, (1, 0, -1))", false},
     {"r = (" A ", 2, " B ")\ne = r[1]\nf = e - r[3]", "f", false},
@@ -119,7 +125,10 @@ static const struct {
 static void trial(tally *t, int k)
 {
     const form *const f = &forms[k % (int)(sizeof forms / sizeof *forms)];
-    const int place = f->define[0] ? below(2) : below(3), scale = (int[]){10, 1000, 30000, 1000000}[below(4)];
+    /* an end that is decided otherwise lies too far away for the first order, by which it is in the errors */
+    const bool decides = strstr(f->text, "floor") || strstr(f->text, "if(");
+    const int place = f->define[0] || decides ? below(2) : below(3),
+              scale = (int[]){10, 1000, 30000, 1000000}[below(4)];
     const long long small = 20 + below(3000), b = scale * 1000ll + below(1000), a = b + small;
     const long double c = f->square ? (long double)(small * (a + b)) / 1e6L : small / 1e3L;
     char of_a[48], of_b[48], set[64], define[TEXT_ROOM], constant[TEXT_ROOM], model[2 * TEXT_ROOM], text[4 * TEXT_ROOM];
@@ -154,7 +163,7 @@ static void decimals_that_cancel(void **state)
     for (int k = 0; k < TRIALS; k++) trial(&t, k);
     print_message("# %d numbers, %.2f %% within their bars, %.1f %% close\n", t.counted, 100.0 * t.within / t.counted,
                   100.0 * t.close / t.counted);
-    assert_true(t.within >= 0.98 * t.counted);
+    assert_true(t.within >= 0.995 * t.counted);
     assert_true(t.close >= 0.85 * t.counted);
 }
 

@@ -128,6 +128,8 @@ node graph_decimal(graph *, double read, double plain, twofold is);
 /* The number of a place that holds a constant, which is `number` by its nodes; says so of a leaf that is read from
  * there, if it is not 0. */
 double graph_holds(graph *, node value, node leaf, double number);
+/* A sum of constants is what it is written out: the one of both nodes that is to stand for it here. */
+node graph_written_out(graph *, node sum, node written);
 /* Constructors. Operands must exist. Constants fold to what the machine would compute. Identical nodes are shared. */
 node graph_const(graph *, double);
 node graph_time(graph *);

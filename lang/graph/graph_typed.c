@@ -9,7 +9,7 @@
 
 #include <math.h>
 
-enum { CLEARLY = 4 }; /* units in the last place: a smaller change of a formula's result is left to its terms */
+enum { CLEARLY = 4 }; /* units in the last place: a formula whose terms move its result by so much too much stays */
 
 bool graph_keep_typed(graph *g)
 {
@@ -47,15 +47,25 @@ node graph_decimal(graph *g, double read, double plain, twofold is)
     return graph_typed_const(g, read, &(graph_typed){.known = true, .plain = plain, .read = read, .is = is});
 }
 
-/* What a constant is to be here: the number on the other side of what is written, as seen from the plain one. */
+/* What a constant is to be here: the number on the other side of what is written, as seen from the plain one. Thrice
+ * the spread: both texts have theirs, and what is written is further from the run's number by it. */
 static double beyond(const graph_typed *t)
 {
-    const double off = (t->is.high - t->plain) + t->is.low, far = fabs(off) + t->is.error + t->spread;
+    const double off = (t->is.high - t->plain) + t->is.low, far = fabs(off) + t->is.error + 3 * t->spread;
     const double way = off > 0 || (off == 0 && t->read > t->plain) ? 1 : -1;
     if (!(far > TWOFOLD_KNOWN * fabs(t->plain))) return t->plain;
     if (!isfinite(far)) return 2 * t->plain; /* nothing is left of it */
     const double to = t->plain + way * far;
     return fabs(to - t->plain) < far ? nextafter(to, way * INFINITY) : to;
+}
+
+node graph_written_out(graph *g, node sum, node written)
+{
+    if (!g->typed || g->arena->failed || g->too_large || !known(g, written).known) return sum;
+    const graph_typed t = known(g, written);
+    if (fabs(beyond(&t) - t.plain) > CLEARLY * twofold_unit(t.plain)) return written;
+    g->typed[sum] = t;
+    return sum;
 }
 
 double graph_holds(graph *g, node value, node leaf, double number)
@@ -131,7 +141,8 @@ node graph_typed_op(graph *g, node n, operation op, const node operand[3])
         r.read = to;
         return graph_typed_const(g, to, &r);
     }
-    if (fabs(by) > CLEARLY * twofold_unit(to)) {
+    const double short_of = fabs(to - r.plain) - fabs(r.read - r.plain), unit = twofold_unit(to);
+    if (short_of > unit || fabs(by) > CLEARLY * unit) {
         n = graph_plain_op(g, OP_ADD, n, graph_const(g, by), 0);
         r.read += by;
     }

@@ -3,6 +3,7 @@
 #include "lang/lower/lower_ghost.h"
 #include "lang/lower/lower_parts.h"
 
+#include "lang/model/evaluate.h"
 #include "lang/model/kept.h"
 #include "lang/model/symbols.h"
 
@@ -350,7 +351,7 @@ static node lower_sum_over(lowering *l, const sum_levels *s, bool masked, node m
     if (s->count == 0) return masked ? graph_op(g, OP_SELECT, mask, n, 0) : n;
     for (int i = s->count - 1; i >= 0; i--)
         n = graph_sum(g, s->first + i, &s->ranges[i], i == s->count - 1 ? mask : 0, n);
-    return n;
+    return evaluate_sum(l->model, n);
 }
 
 /* sum(j = a..b, condition, …: body) [12]: each index is a loop; the innermost contains the conditions and the body. */

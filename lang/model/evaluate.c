@@ -2,6 +2,7 @@
  * compute. */
 #include "lang/model/evaluate.h"
 
+#include "lang/graph/graph_place.h"
 #include "lang/model/vary_record.h"
 #include "lang/tape/tape.h"
 
@@ -51,6 +52,81 @@ bool evaluate_into_pool(model *m, const output *target, const node *values, int 
     return ok;
 }
 
+/* ---- what decimals say of sums and families ---- */
+
+enum { SINGLES_MOST = 1 << 12 }; /* of a model: more are left to what rounding makes of their terms */
+
+/* Values of loop variables, of the levels below `level`. */
+typedef struct singling {
+    model *model;
+    int64_t index[MAX_LEVELS];
+    int level;
+    bool failed;
+} singling;
+
+static node single_at(graph *, node, int level, void *);
+
+static node single(singling *s, node n)
+{
+    return graph_replace(s->model->graph, n, DEP_LEVELS | DEP_PARAM, s->level, single_at, s);
+}
+
+/* One more cell or term. */
+static bool counted(singling *s)
+{
+    const graph *const g = s->model->graph;
+    if (s->model->singles >= SINGLES_MOST || source_failed(&s->model->source) || g->too_large) s->failed = true;
+    s->model->singles++;
+    return !s->failed;
+}
+
+static node single_sum(singling *s, graph_node sum)
+{
+    graph *const g = s->model->graph;
+    const range over = g->ranges[sum.c];
+    const int64_t *const ints = s->model->ints;
+    const int64_t last = graph_subscript(&over.last, s->index, ints);
+    const int before = s->level;
+    node total = 0;
+    bool any = false;
+    s->level = sum.level + 1;
+    for (int64_t i = graph_subscript(&over.first, s->index, ints); i <= last && counted(s); i++) {
+        s->index[sum.level] = i;
+        const node condition = sum.b ? single(s, sum.b) : 0, term = single(s, sum.a);
+        if (sum.b && graph_at(g, condition)->op != OP_CONST) s->failed = true;
+        if (s->failed || (sum.b && graph_at(g, condition)->value == 0)) continue;
+        total = any ? graph_op(g, OP_ADD, total, term, 0) : term;
+        any = true;
+    }
+    s->level = before;
+    return total;
+}
+
+static node single_at(graph *g, node n, int level, void *ctx)
+{
+    singling *const s = ctx;
+    const graph_node of = *graph_at(g, n);
+    (void)level;
+    if (s->failed) return n;
+    if (of.op == OP_INDEX) return of.level < s->level ? graph_const(g, (double)s->index[of.level]) : n;
+    if (of.op == OP_SUM) return single_sum(s, of);
+    reference r = g->references[of.a];
+    for (int d = 0; d < r.dims; d++)
+        r.at[d] = (subscript){.level = -1,
+                              .slot = -1,
+                              .modulus = -1,
+                              .literal = (int32_t)graph_subscript(&r.at[d], s->index, s->model->ints)};
+    return graph_load(g, &r);
+}
+
+node evaluate_sum(model *m, node n)
+{
+    singling s = {.model = m};
+    if (!m->source.nudged || source_failed(&m->source) || graph_deps(m->graph, n) & ~(unsigned)DEP_PARAM) return n;
+    const node written = single_sum(&s, *graph_at(m->graph, n));
+    return s.failed || source_failed(&m->source) ? n : graph_written_out(m->graph, n, written);
+}
+
 /* leaf: what is read from the place; 0: nothing is. */
 static void held(model *m, node value, size_t place, node leaf)
 {
@@ -65,20 +141,40 @@ void evaluate_held(model *m, node value, uint32_t slot)
     if (m->source.nudged) held(m, value, slot, graph_param(m->graph, slot));
 }
 
-void evaluate_held_cell(model *m, const output *target, const node *values, int parts, uint16_t first)
+/* One cell: of level `level` on all values of the loops. */
+static void held_cells(singling *s, const output *target, const node *values, int parts, uint16_t first)
 {
-    const bool crowded = m->graph->count > GRAPH_NODES_MAX / 2; /* so many numbers have no leaves of their own */
-    if (!m->source.nudged || target->loops) return;
-    for (int k = 0; k < parts; k++) {
+    model *const m = s->model;
+    graph *const g = m->graph;
+    if (s->level < target->loops) {
+        const range over = target->loop[s->level];
+        const int64_t last = graph_subscript(&over.last, s->index, m->ints);
+        for (int64_t i = graph_subscript(&over.first, s->index, m->ints); i <= last && counted(s); i++) {
+            s->index[s->level++] = i;
+            held_cells(s, target, values, parts, first);
+            s->level--;
+        }
+        return;
+    }
+    const bool crowded = g->count > GRAPH_NODES_MAX / 2; /* so many numbers have no leaves of their own */
+    for (int k = 0; k < parts && !s->failed && !source_failed(&m->source); k++) {
         reference r = target->to;
         r.array = (uint16_t)(first + k);
-        const array *const a = &m->arrays[r.array];
-        int64_t place = (int64_t)a->base;
         for (int d = 0; d < r.dims; d++)
-            place += (r.at[d].literal + (r.at[d].slot >= 0 ? m->ints[r.at[d].slot] : 0) - a->over->first[d]) *
-                     a->over->stride[d];
-        held(m, values[k], (size_t)place, crowded ? 0 : graph_load(m->graph, &r));
+            r.at[d] = (subscript){.level = -1,
+                                  .slot = -1,
+                                  .modulus = -1,
+                                  .literal = (int32_t)graph_subscript(&r.at[d], s->index, m->ints)};
+        const size_t place = graph_element(m->arrays, &r, s->index, m->ints);
+        const node value = target->loops ? single(s, values[k]) : values[k];
+        if (!s->failed) held(m, value, place, crowded ? 0 : graph_load(g, &r));
     }
+}
+
+void evaluate_held_cells(model *m, const output *target, const node *values, int parts, uint16_t first)
+{
+    singling s = {.model = m};
+    if (m->source.nudged) held_cells(&s, target, values, parts, first);
 }
 
 bool evaluate_nodes(model *m, const node *nodes, int count, double *out)

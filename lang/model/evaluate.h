@@ -10,10 +10,13 @@ bool evaluate_outputs(model *, const output *, size_t count, double t, double *c
  * other from `base` on. */
 bool evaluate_into_pool(model *, const output *target, const node *values, int parts, size_t base,
                         const int64_t first[], const int64_t last[], size_t hull);
-/* Of a text that is nudged: what a scalar slot holds of a constant. */
+/* Of a text that is nudged: a sum of constants, of which is known what its decimals say, unless it has too many terms;
+ * another sum is returned as it is. */
+node evaluate_sum(model *, node);
+/* The same: what a scalar slot holds of a constant. */
 void evaluate_held(model *, node value, uint32_t slot);
-/* The same of components that a line without loops has, and their arrays, from `first` on, over the pool. */
-void evaluate_held_cell(model *, const output *target, const node *values, int parts, uint16_t first);
+/* The same of components that a line has, and their arrays, from `first` on, over the pool. */
+void evaluate_held_cells(model *, const output *target, const node *values, int parts, uint16_t first);
 bool evaluate_nodes(model *, const node *, int count, double *out); /* constants */
 /* Evaluates a constant. It complains where the node is not constant. */
 bool evaluate_constant(model *, node, const span *at, double *value);

@@ -208,6 +208,7 @@ typedef struct model {
     struct verify *verify; /* verify.h: the checks of exact lines and invariants; NULL: there are none */
     double constant_terms; /* of sums in constants so far */
     double terms;          /* of the largest nest of families and sums that moves */
+    uint32_t singles;      /* cells and terms that were made single, which bounds the cost of those: evaluate.h */
     uint16_t leaf_array;   /* lower_diff.c: the array of the leaves of its own, 0 none */
     int32_t leaf_count;    /* how many there are */
     int depth;             /* present depth of expressions within expressions */
