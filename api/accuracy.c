@@ -10,6 +10,7 @@
 #include "api/decimals.h"
 #include "api/diagnosis.h"
 #include "api/suggest.h"
+#include "api/vector.h"
 #include "api/witness.h"
 
 #include <math.h>
@@ -41,6 +42,7 @@ typedef struct trial {
     motus_run *run; /* the trial in hand */
     double bar;     /* the largest of it, INFINITY: it has none, or failed */
     double done;    /* how far it came, as a part of the whole way */
+    bool once;      /* no other trial follows one without digits */
     motus_error failure;
 } trial;
 
@@ -258,6 +260,61 @@ motus_status accuracy_refuse(const accuracy *a, const motus_run *r, motus_error 
     return MOTUS_ACCURACY;
 }
 
+void accuracy_end(accuracy *a)
+{
+    motus_run_destroy(a->best);
+    a->best = NULL;
+}
+
+/* The trials; the best one has the size. */
+static motus_status find(trial *s, accuracy *a, double *size, motus_error *failure)
+{
+    bool more = true;
+    motus_status status = begin(s, a, failure);
+    a->best = NULL;
+    while (status == MOTUS_OK && more) {
+        status = try(s, failure);
+        if (status != MOTUS_OK) break;
+        s->share.from += s->share.size;
+        if (s->run) keep(s, a, size);
+        more = search_next(&s->search, s->bar, s->done) && (isfinite(s->bar) || !s->once);
+    }
+    a->trials += s->search.trials;
+    if (status != MOTUS_OK || a->best) return status;
+    *failure = s->failure;
+    return failure->status;
+}
+
+/* The part of the largest number of the state, which counts as a power of ten. */
+static double part_of_largest(const motus_run *r, double part)
+{
+    const problem *const p = stepper_problem(r->stepper);
+    const double most = fmax(vector_largest(r->x, p->nx), vector_largest(r->v, p->nv)),
+                 digits = most > 0 ? floor(log10(most)) : 0;
+    return digits < 0 ? part / pow(10, -digits) : part * pow(10, digits);
+}
+
+/* The trials, once more, where a number is rounding alone and has no part that can be asked for: its tolerance, and so
+ * the accuracy, is that of the largest numbers. Else the first failure stays. */
+static motus_status find_absolute(trial *s, accuracy *a, double *size, motus_error *failure)
+{
+    motus_error theirs = motus_default_error();
+    accuracy whole = *a;
+    whole.wanted = part_of_largest(s->run, whole.wanted);
+    whole.absolute = true;
+    s->def.absolute = s->once = true;
+    motus_run_destroy(s->run);
+    s->run = NULL;
+    const motus_status status = find(s, &whole, size, &theirs);
+    if (status == MOTUS_OK && whole.reached <= whole.wanted) {
+        *a = whole;
+        return MOTUS_OK;
+    }
+    accuracy_end(&whole);
+    if (ends_all(status)) *failure = theirs;
+    return failure->status;
+}
+
 motus_status accuracy_find(motus_system *system, motus_run_def *def, run_hint *hint, accuracy *a, motus_error *err)
 {
     trial s = {.system = system, .def = *def, .hint = *hint};
@@ -267,23 +324,15 @@ motus_status accuracy_find(motus_system *system, motus_run_def *def, run_hint *h
     s.share = (share){.progress = def->progress, .context = def->context};
     if (def->progress) s.def.progress = tell, s.def.context = &s.share;
     double size = NAN;
-    bool more = true;
     motus_error failure = motus_default_error();
-    motus_status status = begin(&s, a, &failure);
-    a->best = NULL;
-    while (status == MOTUS_OK && more) {
-        status = try(&s, &failure);
-        if (status != MOTUS_OK) break;
-        s.share.from += s.share.size;
-        if (s.run) keep(&s, a, &size);
-        more = search_next(&s.search, s.bar, s.done);
-    }
-    a->trials += s.search.trials;
+    motus_status status = find(&s, a, &size, &failure);
+    const bool rounds = status != MOTUS_OK && failure.cause == MOTUS_CAUSE_ROUNDING && !a->absolute && s.run;
+    if (rounds) status = find_absolute(&s, a, &size, &failure);
     motus_run_destroy(s.run);
-    if (status == MOTUS_OK && !a->best) failure = s.failure, status = failure.status;
     if (status != MOTUS_OK) return tell_failure(a, &s, &failure, err);
     *s.size = size;
     def->tolerance = s.def.tolerance;
+    def->absolute = s.def.absolute;
     def->step = s.def.step;
     def->switches = s.def.switches;
     hint->not_located = s.hint.not_located;
@@ -297,10 +346,4 @@ motus_status accuracy_find(motus_system *system, motus_run_def *def, run_hint *h
     if (status == MOTUS_OK && isfinite(a->reached)) status = find_decimals(a, &s, err);
     if (status != MOTUS_OK) accuracy_end(a);
     return status;
-}
-
-void accuracy_end(accuracy *a)
-{
-    motus_run_destroy(a->best);
-    a->best = NULL;
 }
