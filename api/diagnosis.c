@@ -331,12 +331,16 @@ static bool discontinuous(judge *j)
     char name[MOTUS_NAME_MAX];
     if (j->e.problem->traits.smooth && !j->e.problem->returned) return false;
     if (!evidence_jump(&j->e, &which, &before, &after)) return false;
+    char from[MOTUS_TEXT_MAX], to[MOTUS_TEXT_MAX];
+    error_text(from, "%.3g", before);
+    error_text(to, "%.3g", after);
+    if (!strcmp(from, to)) return false; /* so little is no jump, but a force that is steep */
     name_of(j, true, which, name);
     error_text(
         j->cause,
-        "the force is discontinuous there, the rate of change of %s jumps from %.3g to %.3g, and steps do not end on "
+        "the force is discontinuous there, the rate of change of %s jumps from %.24s to %.24s, and steps do not end on "
         "the jump",
-        name, before, after);
+        name, from, to);
     say(j, MOTUS_CAUSE_DISCONTINUOUS, name);
     if (propose_locating(j)) return true;
     end_before(j, j->e.t);
@@ -521,7 +525,7 @@ static void add(motus_system *s, motus_system *home, stepper *of, double mean, m
     if (err->status == MOTUS_EVENTS) err->cause = MOTUS_CAUSE_EVENTS;
     if (err->status != MOTUS_DIVERGED && err->status != MOTUS_SOLVE && err->status != MOTUS_STEPS) return;
     judge j = {.err = err, .home = home, .whole_to = NAN};
-    if (!evidence_begin(&j.e, s, of, err->time)) return;
+    if (!evidence_begin(&j.e, s, home, of, err->time)) return;
     judge_all(&j, isnan(mean) ? fabs(j.e.h) : mean);
     evidence_end(&j.e);
 }
@@ -535,7 +539,7 @@ void diagnosis_singular(motus_system *s, stepper *of, double t, const double *x,
                         motus_error *err)
 {
     judge j = {.err = err};
-    if (evidence_begin(&j.e, s, of, t)) {
+    if (evidence_begin(&j.e, s, NULL, of, t)) {
         evidence_from(&j.e, t, x, v);
         tell_singular(&j);
         evidence_end(&j.e);

@@ -53,7 +53,7 @@ static void copy_state(const evidence *e, double *t, double *x, double *v, doubl
     memcpy(v, from_v, e->problem->nv * sizeof *v);
 }
 
-bool evidence_begin(evidence *e, motus_system *s, stepper *of, double noted)
+bool evidence_begin(evidence *e, motus_system *s, motus_system *home, stepper *of, double noted)
 {
     const problem *p = stepper_problem(of);
     const size_t nx = p->nx, nv = p->nv;
@@ -80,6 +80,7 @@ bool evidence_begin(evidence *e, motus_system *s, stepper *of, double noted)
                now = stepper_sync(of, e->x, e->v, NULL, NULL) == MOTUS_OK;
     if (early && !now) copy_state(e, &e->t, e->x, e->v, e->early_t, e->early_x, e->early_v);
     if (now && !early) copy_state(e, &e->early_t, e->early_x, e->early_v, e->t, e->x, e->v);
+    if (home) e->problem = &home->problem;
     if ((early || now) && force(e, e->t, e->x, e->v, e->a)) return true;
     evidence_end(e);
     return false;

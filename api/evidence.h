@@ -27,8 +27,10 @@ typedef struct evidence {
     int64_t steps; /* that one trial may take */
 } evidence;
 
-/* False: there is no memory, no state, or no finite force at the last good one. */
-bool evidence_begin(evidence *, motus_system *, stepper *, double noted);
+/* home: where the system is located, as it was written, with the force of which trials are made: one with sides goes on
+ * beyond a switch as it was before. Its positions are the first ones. NULL: it is the stepper's. False: there is no
+ * memory, no state, or no finite force at the last good one. */
+bool evidence_begin(evidence *, motus_system *, motus_system *home, stepper *, double noted);
 /* The same from another state, for which the evidence is sought. */
 void evidence_from(evidence *, double t, const double *x, const double *v);
 void evidence_end(evidence *);
