@@ -8,6 +8,7 @@
 #include "api/evidence.h"
 #include "api/located.h"
 #include "api/stability.h"
+#include "base/decimal.h"
 #include "lang/model/undefined.h"
 
 #include <math.h>
@@ -272,24 +273,24 @@ static bool undefined_start(judge *j)
     motus_system *const s = j->home ? j->home : e->system;
     undefined_term u;
     size_t which;
-    char name[MOTUS_NAME_MAX], limit[MOTUS_TEXT_MAX];
+    char name[MOTUS_NAME_MAX], limit[DECIMAL_MAX];
     if (e->t != e->begin || !s->model || !evidence_undefined_here(&j->e, &which)) return false;
     name_of(j, true, which, name);
     const bool found = !system_located(s) && undefined_find(s->model, which, e->t, e->x, e->v, &u);
     if (!found) {
         error_text(j->cause, "its equation has no number there");
     } else if (!u.divisor[0]) {
-        error_text(j->cause, "%s is no number there", u.term);
+        error_text(j->cause, "%s is %s there", u.term, u.infinite ? "infinite" : "no number");
     } else {
         error_text(j->cause, "%s is %s there, since %s is 0", u.term, u.both ? "0/0" : "a division by 0", u.divisor);
     }
     say(j, MOTUS_CAUSE_INFINITE, name);
-    error_text(limit, "%.6g", found ? u.limit : NAN);
     if (found && u.has_limit)
-        hint(j->err, "write the value that it has there, `if(%s == 0, %s, %s)`", u.divisor, limit, u.term);
-    else if (found && u.both)
-        hint(j->err, "write the value that it has there, as by `if(%s == 0, …, %s)`; or begin elsewhere", u.divisor,
+        hint(j->err, "write the value that it has there, `if(%s == 0, %s, %s)`", u.divisor, decimal(u.limit, limit),
              u.term);
+    else if (found && u.both)
+        hint(j->err, "write the value that it is to have there, as by `if(%s == 0, …, %s)`; or begin elsewhere",
+             u.divisor, u.term);
     else
         hint(j->err, "begin elsewhere, or write what the force is to be there");
     return true;

@@ -167,6 +167,36 @@ for case in "sin(x)/x|x|1|sin(x)/x is 0/0 there, since x is 0" "x'^2/x'|x'|0|x'^
         gives "... which succeeds" 0 "$motus" run "$place/undefined.motus" --until 1 $how
     done
 done
+# TERM, what is said of it, and the value that the hint names, if any: y(0) = 0, z(0) = 2 and u(0) = 1e9 do not rest.
+while IFS='|' read -r term sentence divisor value; do
+    model undefined "x'' = 2 - $term" "y'' = 1; z'' = 1; u'' = 1" "x(0) = 0; y(0) = 0; z(0) = 2; u(0) = 1e9" \
+        "x'(0) = 0; y'(0) = 1; z'(0) = 1; u'(0) = 1"
+    gives "$term at the start" 1 "$motus" run "$place/undefined.motus" --until 1
+    that "... $sentence" says " $sentence" "$err"
+    if [ -z "$divisor" ]; then
+        that "... and has no value to be named" eval '! says "that it has there" "$err"'
+    else
+        that "... and goes to $value" says "that it has there, \`if($divisor == 0, $value, " "$err"
+    fi
+done <<'CASES'
+1e-5 sin(x)/x|is 0/0 there, since x is 0|x|1e-05
+1/3 sin(x/3)/x|is 0/0 there|x|0.1111111111111111
+(1 - cos(x))/x^2|is 0/0 there|x^2|0.5
+sin(1000 x)/x|is 0/0 there|x|1000
+sin(u - 1e9)/(u - 1e9)|is 0/0 there|u - 1000000000|1
+sin(t)/t|is 0/0 there, since t is 0|t|1
+sin(hypot(x, y))/hypot(x, y)|is 0/0 there|hypot(x, y)|1
+x y/(x^2 + y^2)|is 0/0 there
+x^2 y/(x^4 + y^2)|is 0/0 there
+(4 y^2 - x^2)/(2 y - x)|is 0/0 there
+z sin(x)/x|is 0/0 there
+sin(x + 1e-9)/x|is a division by 0 there, since x is 0
+if(x == 0, 1, sin(x)/x) + 1/y|1/y is a division by 0 there, since y is 0
+if(x != 0, sin(x)/x, 1) + 1/y|1/y is a division by 0 there, since y is 0
+exp(1000 + x)|exp(1000 + x) is infinite there
+log(x)|log(x) is infinite there
+sqrt(x - 1)|sqrt(x - 1) is no number there
+CASES
 model undefined "x'' = 1/x" "x(0) = 0" "x'(0) = 0"
 gives "a division by 0 at the start" 1 "$motus" run "$place/undefined.motus" --until 2
 that "... is named" eval 'says "1/x is a division by 0 there, since x is 0" "$err" && says "begin elsewhere" "$err"'

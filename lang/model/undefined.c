@@ -1,63 +1,203 @@
-/* See undefined.h. All nodes of a formula are evaluated, at the state and on both sides of it. */
+/* See undefined.h. All nodes of a formula are evaluated: at the state as a run does, and beside it with twice the bits.
+ *
+ * What a term goes to is looked for on straight and bent ways that lead to the state, from both sides of it. Only where
+ * all of them agree in every digit of a double is there a value to be told.
+ */
 #include "lang/model/undefined.h"
 
+#include "base/decimal.h"
 #include "base/memory.h"
 #include "lang/graph/graph_place.h"
 #include "lang/graph/graph_walk.h"
-#include "lang/model/evaluate.h"
 
 #include <math.h>
 #include <string.h>
 
-enum { NODES_MOST = 4096 };
-#define BESIDE 0x1p-20 /* as far on either side the term is looked at */
-#define AGREE 1e-4     /* so near the values there are to one another where it has a limit */
+enum {
+    NODES_MOST = 4096,
+    WAYS = 8,
+    POINTS = 4,  /* on either side of a way, each half as far as the one before */
+    NEARER = -8, /* of the farthest point, a power of 2: where the ways disagree, it is so much nearer */
+    NEAREST = -40,
+    ROUNDED = 4 /* units in the last place by which numbers may differ that are the same to all digits */
+};
 
-/* The values of nodes at a state, every number of which is moved by this. */
-static bool values(model *m, const node *nodes, size_t count, double t, const double *x, const double *v, double by,
-                   double *room, double *out)
+typedef struct place {
+    const model *model;
+    const graph_walk *walk;
+    double t;
+    const double *x, *v;
+} place;
+
+/* A way to the state, from so far. The numbers go at rates of their own, of a bent one some as the square. */
+typedef struct way {
+    int which;
+    bool bent;
+    double by;
+} way;
+
+static twofold beside(double number, const way *w, size_t k)
 {
-    double *const to_x = room, *const to_v = room + m->nx + 1;
-    const uint32_t arrays = m->array_count;
-    uint16_t first;
-    output *o = model_take_arrays(m, (int)count, &first) ? take(&m->arena->allocator, count, sizeof *o) : NULL;
-    for (size_t k = 0; k < m->nx; k++) to_x[k] = x[k] + by * fmax(1, fabs(x[k]));
-    for (size_t k = 0; k < m->nv; k++) to_v[k] = v[k] + by * fmax(1, fabs(v[k]));
-    for (size_t k = 0; o && k < count; k++) {
-        graph_shape(m->arena, &m->arrays[first + k], SPACE_OUT, k, 0, NULL, NULL);
-        o[k] = (output){.value = nodes[k], .to = {.array = (uint16_t)(first + k)}};
-    }
-    double *base[SPACES] = {[SPACE_X] = to_x, [SPACE_V] = to_v, [SPACE_OUT] = out};
-    const bool known = o && evaluate_outputs(m, o, count, t, base);
-    m->array_count = arrays; /* only this call needs them */
-    give(&m->arena->allocator, o);
-    return known;
+    const uint32_t bits = (uint32_t)w->which * (uint32_t)(k + 1) * 2654435761u;
+    const double rate = 1 + (bits >> 8 & 255) / 256.0, by = w->bent && bits >> 30 & 1 ? w->by * w->by : w->by;
+    const twofold off = twofold_of(bits >> 31 ? -rate * by : rate * by);
+    return w->by == 0 ? twofold_of(number) : twofold_value(OP_ADD, twofold_of(number), off, off);
 }
 
-/* The first node that is no number, although its operands are. */
-static size_t first_undefined(const graph *g, const graph_walk *w, const double *value)
+static twofold leaf(const place *p, const graph_node *n, const way *w)
 {
-    for (size_t k = 0; k < w->count; k++) {
+    const model *m = p->model;
+    if (n->op == OP_CONST) return twofold_of(n->value);
+    if (n->op == OP_PARAM) return twofold_of(m->pool[n->a]);
+    if (n->op == OP_TIME) return beside(p->t, w, 0);
+    if (n->op != OP_LOAD) return twofold_of(NAN);
+    const reference *ref = &m->graph->references[n->a];
+    const size_t at = graph_element(m->arrays, ref, NULL, m->ints);
+    switch (m->arrays[ref->array].space) {
+    case SPACE_X: return beside(p->x[at], w, 1 + at);
+    case SPACE_V: return beside(p->v[at], w, 1 + m->nx + at);
+    case SPACE_POOL: return twofold_of(m->pool[at]);
+    default: return twofold_of(NAN);
+    }
+}
+
+/* The values of all nodes up to this one. */
+static twofold values(const place *p, size_t up_to, const way *w, twofold *out)
+{
+    const graph *g = p->model->graph;
+    for (size_t k = 0; k <= up_to; k++) {
         node of[3];
-        const graph_node *n = graph_at(g, w->nodes[k]);
-        bool numbers = !isfinite(value[k]);
-        for (int i = graph_operands(n, of) - 1; i >= 0 && numbers; i--) numbers = isfinite(value[g->place[of[i]]]);
+        twofold a[3] = {twofold_of(0), twofold_of(0), twofold_of(0)};
+        const graph_node *n = graph_at(g, p->walk->nodes[k]);
+        const int count = graph_operands(n, of);
+        for (int i = 0; i < count; i++) a[i] = out[g->place[of[i]]];
+        if (count == 0)
+            out[k] = leaf(p, n, w);
+        else if (w->by == 0)
+            out[k] = twofold_of(operation_value((operation)n->op, a[0].high, a[1].high, a[2].high));
+        else
+            out[k] = twofold_value((operation)n->op, a[0], a[1], a[2]);
+    }
+    return out[up_to];
+}
+
+/* Marks the nodes that a node takes; value: of all nodes, at a state in which `if` takes one side alone. Returns how
+ * many of them move. */
+static size_t mark(const place *p, size_t root, const twofold *value, bool *taken)
+{
+    const graph *g = p->model->graph;
+    size_t moving = 0;
+    memset(taken, 0, p->walk->count * sizeof *taken);
+    taken[root] = true;
+    for (size_t k = root + 1; k-- > 0;) {
+        node of[3];
+        const graph_node *n = graph_at(g, p->walk->nodes[k]);
+        const int count = graph_operands(n, of);
+        if (!taken[k]) continue;
+        moving += count == 0 && n->deps & (DEP_TIME | DEP_STATE);
+        for (int i = 0; i < count; i++) {
+            const double chosen = value && n->op == OP_SELECT && i > 0 ? value[g->place[of[0]]].high : NAN;
+            if (isnan(chosen) || (i == 1) == (chosen != 0)) taken[g->place[of[i]]] = true;
+        }
+    }
+    return moving;
+}
+
+/* The first node that is no number, although its operands are, among those that are taken. */
+static size_t first_undefined(const place *p, const twofold *value, const bool *taken)
+{
+    const graph *g = p->model->graph;
+    for (size_t k = 0; k < p->walk->count; k++) {
+        node of[3];
+        const graph_node *n = graph_at(g, p->walk->nodes[k]);
+        bool numbers = taken[k] && !isfinite(value[k].high);
+        for (int i = graph_operands(n, of) - 1; i >= 0 && numbers; i--)
+            numbers = !taken[g->place[of[i]]] || isfinite(value[g->place[of[i]]].high);
         if (numbers) return k;
     }
     return SIZE_MAX;
 }
 
-static void describe(model *m, const graph_walk *w, size_t at, const double *value, const double *before,
-                     const double *after, undefined_term *out)
+/* What numbers go to that come nearer by a factor, as those do that change as a power. */
+static double limit_of(const double f[3])
 {
-    const graph_node *n = graph_at(m->graph, w->nodes[at]);
-    const bool divides = n->op == OP_DIV && value[m->graph->place[n->b]] == 0;
-    model_print(m, w->nodes[at], out->term, sizeof out->term);
-    if (divides) model_print(m, n->b, out->divisor, sizeof out->divisor);
-    out->both = divides && value[m->graph->place[n->a]] == 0;
-    const double middle = (before[at] + after[at]) / 2;
-    out->has_limit = out->both && fabs(before[at] - after[at]) <= AGREE * fmax(1, fabs(middle));
-    out->limit = fabs(middle) < AGREE ? 0 : middle;
+    const double first = f[1] - f[0], second = f[2] - f[1];
+    return second == 0 || second == first ? f[2] : f[2] - second * (second / (second - first));
+}
+
+/* On a way: what the quotient goes to, how far rounding moves that, and by how much it and the divisor differ on both
+ * sides. */
+typedef struct approach {
+    double limit, rounded, slope, divisor;
+} approach;
+
+static bool come_near(const place *p, size_t at, way w, twofold *room, approach *out)
+{
+    const graph *g = p->model->graph;
+    const size_t divisor = g->place[graph_at(g, p->walk->nodes[at])->b];
+    double middle[POINTS];
+    for (int k = 0; k < POINTS; k++, w.by /= 2) {
+        const way back = {w.which, w.bent, -w.by};
+        const twofold f = values(p, at, &w, room), d = room[divisor], of_f = values(p, at, &back, room),
+                      of_d = room[divisor];
+        const double most = fmax(fabs(f.high), fabs(of_f.high));
+        middle[k] = ((f.high + of_f.high) + (f.low + of_f.low)) / 2;
+        *out = (approach){.rounded = ROUNDED * twofold_unit(most),
+                          .slope = (f.high - of_f.high) + (f.low - of_f.low),
+                          .divisor = (d.high - of_d.high) + (d.low - of_d.low)};
+        if (!(f.error + of_f.error <= out->rounded)) return false;
+    }
+    out->limit = limit_of(middle + 1);
+    return fabs(out->limit - limit_of(middle)) <= out->rounded;
+}
+
+/* Where two ways show the slope of the quotient, it must be that of the divisor: otherwise it has another value
+ * elsewhere where the divisor is 0. */
+static bool agree(const approach *a, const approach *b, double by)
+{
+    const double ab = a->slope * b->divisor, ba = b->slope * a->divisor;
+    return fabs(a->limit - b->limit) <= fmax(a->rounded, b->rounded) && fabs(ab - ba) <= by * (fabs(ab) + fabs(ba));
+}
+
+/* The number with the fewest digits that is so near. */
+static double short_number(double number, double off)
+{
+    char text[DECIMAL_MAX];
+    return fabs(number) <= off ? 0 : decimal_near(number, off, text);
+}
+
+/* moving: how many numbers of the state the quotient is of. */
+static bool find_limit(const place *p, size_t at, size_t moving, twofold *room, double *limit)
+{
+    for (int power = 2 * NEARER; power >= NEAREST; power += NEARER) {
+        approach first = {0}, next;
+        bool all = true;
+        for (int k = 0; k < WAYS && all; k++) {
+            const way w = {k, moving > 1, ldexp(1, power)};
+            all = come_near(p, at, w, room, k ? &next : &first) && (k == 0 || agree(&first, &next, w.by));
+        }
+        if (all) {
+            *limit = short_number(first.limit, first.rounded);
+            return true;
+        }
+    }
+    return false;
+}
+
+/* A value is told of a quotient that depends on no number which the divisor does not depend on: of others it may have
+ * one for each value of these. */
+static void describe(model *m, const place *p, size_t at, twofold *value, bool *taken, undefined_term *out)
+{
+    const graph *g = m->graph;
+    const graph_node n = *graph_at(g, p->walk->nodes[at]);
+    const bool divides = n.op == OP_DIV && value[g->place[n.b]].high == 0;
+    out->infinite = isinf(value[at].high);
+    out->both = divides && value[g->place[n.a]].high == 0;
+    const size_t moving = mark(p, at, NULL, taken);
+    if (out->both && moving == mark(p, g->place[n.b], NULL, taken))
+        out->has_limit = find_limit(p, at, moving, value, &out->limit);
+    model_print(m, p->walk->nodes[at], out->term, sizeof out->term);
+    if (divides) model_print(m, n.b, out->divisor, sizeof out->divisor);
 }
 
 /* Whether all nodes can be evaluated by themselves. */
@@ -84,19 +224,19 @@ bool undefined_find(model *m, size_t which, double t, const double *x, const dou
     graph_walk w;
     *out = (undefined_term){.has_limit = false};
     if (!o || !graph_order(m->graph, &o->value, 1, 0, false, &w)) return false;
-    const size_t count = w.count;
-    double *const room = take(&m->arena->allocator, 3 * count + m->nx + m->nv + 2, sizeof *room);
-    double *const value = room, *const before = room + count, *const after = before + count, *const to = after + count;
-    bool found = room && single(m->graph, &w) && values(m, w.nodes, count, t, x, v, 0, to, value) &&
-                 values(m, w.nodes, count, t, x, v, -BESIDE, to, before) &&
-                 values(m, w.nodes, count, t, x, v, BESIDE, to, after);
+    const place p = {m, &w, t, x, v};
+    twofold *const value = take(&m->arena->allocator, w.count, sizeof *value);
+    bool *const taken = take(&m->arena->allocator, w.count, sizeof *taken);
+    bool found = value && taken && single(m->graph, &w);
     if (found) {
-        graph_order_again(m->graph, &w);
-        const size_t at = first_undefined(m->graph, &w, value);
+        values(&p, w.count - 1, &(way){0}, value);
+        mark(&p, w.count - 1, value, taken);
+        const size_t at = first_undefined(&p, value, taken);
         found = at != SIZE_MAX;
-        if (found) describe(m, &w, at, value, before, after, out);
+        if (found) describe(m, &p, at, value, taken, out);
     }
-    give(&m->arena->allocator, room);
+    give(&m->arena->allocator, taken);
+    give(&m->arena->allocator, value);
     give(&m->arena->allocator, w.nodes);
     return found;
 }

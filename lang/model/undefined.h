@@ -8,8 +8,8 @@ enum { UNDEFINED_TEXT = 160 };
 
 typedef struct undefined_term {
     char term[UNDEFINED_TEXT], divisor[UNDEFINED_TEXT]; /* of a quotient by 0; else the second is empty */
-    bool both;                                          /* 0/0 */
-    bool has_limit; /* beside the state the term has values that agree on both sides, and there goes to this one: */
+    bool infinite, both;                                /* both: 0/0 */
+    bool has_limit; /* on all ways to the state the term goes to this value, to all digits of a double: */
     double limit;
 } undefined_term;
 
