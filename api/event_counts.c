@@ -202,47 +202,76 @@ motus_status event_counts_open(motus_run *r, double t, const double *x, const do
     return known ? MOTUS_OK : fail(err, MOTUS_MEMORY, "no memory for bars of error");
 }
 
-/* Whether the rule of function f may have an event, or two, where the function has an extremum. */
-static bool touches(look *l, size_t f, size_t *rule_of)
+static size_t rule_of(const rules *rules, size_t f)
 {
-    const rules *rules = l->run->rules;
     size_t k = 0;
     while (k + 1 < rules->count && rules->rule[k + 1].first <= f) k++;
     while (k > 0 && rules->rule[k].leaves == 0) k--;
-    const rule *r = &rules->rule[k];
-    *rule_of = k;
+    return k;
+}
+
+/* Whether the rule of function f may have an event, or two, where the function has an extremum: there it goes neither
+ * way, whatever rounding leaves of its slope. Not level: only if its slope may be 0. */
+static bool touches(look *l, size_t f, bool level)
+{
+    const rules *rules = l->run->rules;
+    const rule *r = &rules->rule[rule_of(rules, f)];
     find_signs(l);
     if (l->sign[f] != 0 || !is_open(l, f, 0)) return false;
-    return find_slopes(l) && l->heads[f] == 0 && may_happen(l, r, (f - r->first) % r->instances, f);
+    if (!level && !find_slopes(l)) return true;
+    if (level) l->heads[f] = 0;
+    return l->heads[f] == 0 && may_happen(l, r, (f - r->first) % r->instances, f);
+}
+
+/* Between two landings an error may be as large as at either. */
+static void widen(look *l)
+{
+    const problem *p = &l->run->system->problem;
+    for (size_t k = 0; k < p->nx; k++) l->dx[k] = fmax(l->dx[k], events_off(l->run->events, k));
+    for (size_t k = 0; k < p->nv; k++) l->dv[k] = fmax(l->dv[k], events_off(l->run->events, p->nx + k));
 }
 
 static bool note_open(motus_run *r, size_t k, double t)
 {
     bars *b = r->bars;
+    const double way = r->timing.h < 0 ? -1 : 1;
     if (!b->open_since) {
         b->open_since = take(&r->allocator, r->rules->count, sizeof *b->open_since);
         for (size_t i = 0; b->open_since && i < r->rules->count; i++) b->open_since[i] = NAN;
     }
-    if (b->open_since && isnan(b->open_since[k])) b->open_since[k] = t;
+    if (b->open_since && !(way * (t - b->open_since[k]) >= 0)) b->open_since[k] = t;
     return b->open_since;
+}
+
+/* Rules with extrema that have not been kept. */
+static bool note_unkept(motus_run *r)
+{
+    bool memory = true;
+    for (size_t k = 0; memory && k < r->rules->count; k++) {
+        const double since = events_unkept(r->events, k);
+        if (!isnan(since)) memory = note_open(r, k, since);
+    }
+    return memory;
 }
 
 motus_status event_counts_touched(motus_run *r, double t, const double *x, const double *v, motus_error *err)
 {
     const problem *p = &r->system->problem;
     look l;
-    size_t rule;
     if (r->rules->functions == 0) return MOTUS_OK;
     double *const room = begin(&l, r, t);
     interval *const box = take(&r->allocator, p->nx + p->nv + 1, sizeof *box);
-    bool memory = room && box;
+    bool memory = room && box && note_unkept(r);
     for (size_t k = 0; memory && k < events_extrema(r->events); k++) {
         const double *at_x, *at_v;
         double at;
-        const size_t f = events_extremum(r->events, k, &at, &at_x, &at_v);
-        if (look_at(&l, at, at_x, at_v, box) && touches(&l, f, &rule)) memory = note_open(r, rule, at);
+        bool level;
+        const size_t f = events_extremum(r->events, k, &level, &at, &at_x, &at_v);
+        if (!look_at(&l, at, at_x, at_v, box)) continue;
+        widen(&l);
+        if (touches(&l, f, level)) memory = note_open(r, rule_of(r->rules, f), at);
     }
-    if (memory && look_at(&l, t, x, v, box)) events_near(r->events, l.dx);
+    if (memory && look_at(&l, t, x, v, box)) memory = events_near(r->events, l.dx);
     give(&r->allocator, room);
     give(&r->allocator, box);
     return memory ? MOTUS_OK : fail(err, MOTUS_MEMORY, "no memory for bars of error");

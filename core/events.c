@@ -66,6 +66,7 @@ static size_t arrange(events *e, char *block)
     e->held = next(&l, instances, 1);
     e->steady = next(&l, instances, 1);
     e->ticked = next(&l, n, 1);
+    e->unkept = next(&l, n, sizeof *e->unkept);
     if (!block) return l.at;
     numbers = place(&e->left, e, numbers);
     numbers = place(&e->right, e, numbers);
@@ -108,6 +109,7 @@ motus_status events_create(const rules *r, const machine *m, const chosen *metho
         e->clocks |= one->kind == RULE_CLOCK;
     }
     forget_happened(e);
+    events_forget_extrema(e);
     *out = e;
     return MOTUS_OK;
 }
@@ -449,6 +451,7 @@ static motus_status piece(events *e, stepper *s, double until, int64_t most, boo
     e->here_at = NAN;
     if (!status && e->candidates) status = go_through(e, s, assigned, why, err);
     const bool cut = *assigned || *why == STOP_EVENT;
+    if (cut) events_cut_extrema(e, e->here.t);
     if (!status && e->witness) e->halted |= e->witness(e->witness_ctx, s, cut ? e->here.t : e->right.t);
     return status;
 }
@@ -597,7 +600,7 @@ void events_forget(events *e)
     }
     for (size_t i = 0; i < instances; i++) e->recent[i].number = 0;
     e->jumps = 0;
-    e->extrema = 0;
+    events_forget_extrema(e);
     e->rows = e->numbers = e->kept_states = e->pasts = 0;
     e->acted = 0;
     e->acted_sum = e->tail = 0;

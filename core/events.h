@@ -116,11 +116,15 @@ bool events_ticks(const events *, double t); /* whether that is a time of a cloc
  * come to rest at 0, or is 0 in the very instant in which an event has ended the run. */
 bool events_settled(const events *, size_t function);
 /* From now on the numbers of the state, x and then v, are off by so much: extrema of functions that come so near to 0
- * are kept, and those of before are forgotten. */
-void events_near(events *, const double *off);
+ * are kept, and those of before are forgotten. False: no memory. */
+bool events_near(events *, const double *off);
+/* By how much number k was told to be off last; 0: it was not told. */
+double events_off(const events *, size_t k);
 size_t events_extrema(const events *);
-/* Its function, the time and the state. */
-size_t events_extremum(const events *, size_t k, double *t, const double **x, const double **v);
+/* Its function, the time and the state; not level: it is the end of a step, which may be none. */
+size_t events_extremum(const events *, size_t k, bool *level, double *t, const double **x, const double **v);
+/* Since when they had no room, of functions of a rule; NaN: all have been kept. */
+double events_unkept(const events *, size_t rule);
 int64_t events_acted(const events *);                  /* how often a rule has assigned */
 int64_t events_acted_before(const events *, double t); /* and before a time within the last step */
 int64_t events_turns(const events *);                  /* how often an internal rule has */

@@ -468,7 +468,8 @@ static motus_status search_part(events *e, stepper *s, size_t f, const part *p, 
         }
         const double beyond = fit == ROOTS_FIT_ROUGH ? fitted.unseen : 0;
         if (fit != ROOTS_FIT_ROUGH) {
-            const motus_status noted = events_note_extrema(e, s, f, p->from, p->to, coefficients, fitted.degree, err);
+            const events_piece piece = {p->from, p->to, fitted.noise, coefficients, fitted.degree};
+            const motus_status noted = events_note_extrema(e, s, f, &piece, err);
             if (noted) return noted;
         }
         if (!stands && !e->open[f] &&

@@ -5,82 +5,119 @@
 #include <math.h>
 #include <string.h>
 
-enum { PARTS = 16, TURNS = 40, EXTREMA_MOST = 1 << 12, MARGIN = 16 };
-#define END 0x1p-10 /* so near to the ends of a part the way of a polynomial there is looked at */
+enum { TURNS = 40, EXTREMA_MOST = 1 << 12, MARGIN = 16 };
+enum { OF, TIME, LEVEL, STATE }; /* what is kept of each; LEVEL: 1: of an extremum, 0: of the end of a step */
 
-void events_near(events *e, const double *off)
+void events_forget_extrema(events *e)
+{
+    e->extrema = 0;
+    for (size_t k = 0; k < e->rules.count; k++) e->unkept[k] = NAN;
+}
+
+bool events_near(events *e, const double *off)
 {
     const size_t all = e->problem.nx + e->problem.nv;
     if (!e->off) e->off = take(&e->allocator, all + 1, sizeof *e->off);
     for (size_t k = 0; k < all && e->off; k++) e->off[k] = MARGIN * off[k];
-    e->extrema = 0;
+    events_forget_extrema(e);
+    return e->off;
 }
+
+double events_off(const events *e, size_t k) { return e->off ? e->off[k] / MARGIN : 0; }
 
 void events_widen(events *e)
 {
-    for (size_t k = 0; e->off && k < e->problem.nx + e->problem.nv; k++) e->width[k] += e->off[k] / MARGIN;
+    for (size_t k = 0; k < e->problem.nx + e->problem.nv; k++) e->width[k] += events_off(e, k);
 }
 
 size_t events_extrema(const events *e) { return e->extrema; }
 
-size_t events_extremum(const events *e, size_t k, double *t, const double **x, const double **v)
+double events_unkept(const events *e, size_t rule) { return e->unkept[rule]; }
+
+size_t events_extremum(const events *e, size_t k, bool *level, double *t, const double **x, const double **v)
 {
-    const double *const from = e->extremum + k * (2 + e->problem.nx + e->problem.nv);
-    *t = from[1];
-    *x = from + 2;
+    const double *const from = e->extremum + k * (STATE + e->problem.nx + e->problem.nv);
+    *level = from[LEVEL] != 0;
+    *t = from[TIME];
+    *x = from + STATE;
     *v = *x + e->problem.nx;
-    return (size_t)from[0];
+    return (size_t)from[OF];
+}
+
+void events_cut_extrema(events *e, double end)
+{
+    const size_t each = STATE + e->problem.nx + e->problem.nv, all = e->extrema;
+    e->extrema = 0;
+    for (size_t k = 0; k < all; k++) {
+        double *const from = e->extremum + k * each;
+        if (e->way * (from[TIME] - end) > 0) continue;
+        memmove(e->extremum + e->extrema++ * each, from, each * sizeof *from);
+    }
 }
 
 /* Keeps the state at a time of the step, where rounded errors of the motion may hide the sign of function f. */
-static motus_status keep(events *e, stepper *s, size_t f, double h, motus_error *err)
+static motus_status keep(events *e, stepper *s, size_t f, bool level, double h, motus_error *err)
 {
-    const size_t nx = e->problem.nx, nv = e->problem.nv, each = 2 + nx + nv;
+    const size_t nx = e->problem.nx, nv = e->problem.nv, each = STATE + nx + nv;
     instant *at = &e->next;
     void *list = e->extremum;
     at->t = events_place_in(e, h);
     const motus_status status = stepper_sample(s, at->t, at->x, at->v, err);
-    if (status || e->extrema == EXTREMA_MOST) return status;
+    if (status) return status;
     e->rules.least(e->rules.ctx, at->x, at->v, e->off, e->off + nx, at->rate);
     if (at->rate[f] > 0) return status;
+    if (e->extrema >= EXTREMA_MOST) {
+        double *const since = &e->unkept[e->rule_of[f]];
+        if (!(e->way * (at->t - *since) >= 0)) *since = at->t;
+        return status;
+    }
     if (!events_grow(&e->allocator, &list, e->extrema, &e->extremum_room, 1, each * sizeof *e->extremum))
         return events_no_memory(err);
     e->extremum = list;
     double *const to = e->extremum + e->extrema++ * each;
-    to[0] = (double)f, to[1] = at->t;
-    memcpy(to + 2, at->x, nx * sizeof *to);
-    memcpy(to + 2 + nx, at->v, nv * sizeof *to);
+    to[OF] = (double)f, to[TIME] = at->t, to[LEVEL] = level;
+    memcpy(to + STATE, at->x, nx * sizeof *to);
+    memcpy(to + STATE + nx, at->v, nv * sizeof *to);
     return status;
 }
 
-/* The place of the extremum between two, by thirds. */
-static double extremum_between(const double *c, int degree, double low, double high, bool largest)
+/* The slope of a polynomial, by its coefficients; half of it, since tau is half of what they are of. */
+static void derive(const double *c, int degree, double *slope)
+{
+    slope[degree] = 0;
+    for (int k = degree; k > 0; k--) slope[k - 1] = 2 * k * c[k] + (k < degree ? slope[k + 1] : 0);
+    slope[0] /= 2;
+}
+
+/* Where the slope changes its sign between two places, at the first of which that is `sign`. */
+static double level_between(const double *slope, int degree, double low, double high, int sign)
 {
     for (int turn = 0; turn < TURNS; turn++) {
-        const double one = low + (high - low) / 3, two = high - (high - low) / 3;
-        const bool rises = events_polynomial(c, degree, one) < events_polynomial(c, degree, two);
-        *(rises == largest ? &low : &high) = rises == largest ? one : two;
+        const double middle = low + (high - low) / 2;
+        *(sign * events_polynomial(slope, degree, middle) > 0 ? &low : &high) = middle;
     }
     return low + (high - low) / 2;
 }
 
-motus_status events_note_extrema(events *e, stepper *s, size_t f, double from, double to, const double *c, int degree,
-                                 motus_error *err)
+motus_status events_note_extrema(events *e, stepper *s, size_t f, const events_piece *p, motus_error *err)
 {
     motus_status status = MOTUS_OK;
     if (!e->off || !e->rules.least || e->problem.refresh || e->rules.rule[e->rule_of[f]].internal) return status;
-    double place[PARTS + 3], value[PARTS + 3];
-    for (int k = 0; k < PARTS + 3; k++) {
-        place[k] = k == 0 ? 0 : k == 1 ? END : k == PARTS + 1 ? 1 - END : k == PARTS + 2 ? 1 : (k - 1.0) / PARTS;
-        value[k] = events_polynomial(c, degree, place[k]);
-    }
-    for (int k = 1; k < PARTS + 2 && !status; k++) {
-        const bool largest = value[k] > value[k - 1] && value[k] >= value[k + 1],
-                   least = value[k] < value[k - 1] && value[k] <= value[k + 1];
-        if (!largest && !least) continue;
-        const double tau = extremum_between(c, degree, place[k - 1], place[k + 1], largest);
-        status = keep(e, s, f, (from + tau * (to - from)) * e->span, err);
+    double slope[ROOTS_DEGREE_MOST + 1], before = 0;
+    int points = ROOTS_DEGREE_LEAST, sign = 0;
+    const double hidden = (double)p->degree * p->degree * p->noise; /* by Markov's inequality */
+    while (points < 2 * p->degree && points < ROOTS_DEGREE_MOST) points *= 2;
+    derive(p->c, p->degree, slope);
+    for (int k = 0; k <= points && !status; k++) {
+        const double tau = roots_point(k, points), way = events_polynomial(slope, p->degree, tau);
+        const int now = (way > hidden) - (way < -hidden);
+        if (now == 0) continue;
+        if (now == -sign) {
+            const double at = level_between(slope, p->degree, before, tau, sign);
+            status = keep(e, s, f, true, (p->from + at * (p->to - p->from)) * e->span, err);
+        }
+        sign = now, before = tau;
     }
     /* of methods of order 1 an extremum may lie between two steps, on a straight line in both */
-    return status || to < 1 ? status : keep(e, s, f, e->span, err);
+    return status || p->to < 1 ? status : keep(e, s, f, false, e->span, err);
 }

@@ -208,8 +208,9 @@ struct events {
     size_t *row_at;
     size_t rows, row_room, numbers, number_room;
     double *off; /* of positions, then velocities: how far they may be off (events_near.c); NULL: it is not known */
-    double *extremum; /* of each its function, time and state */
+    double *extremum; /* of each its function, its time, whether it is one, and the state */
     size_t extrema, extremum_room;
+    double *unkept; /* per rule: the time from which extrema had no room; NaN: all have been kept */
     bool keeps_jumps;
     double *jump; /* time, 1 where the rule assigns, the state before it and after it, of every action that is kept */
     size_t jumps, jump_room;
@@ -307,9 +308,17 @@ bool events_clear(const events *, size_t function);
 /* An error bound of a function at `here`, a time h after `left`, whose rates and bounds are known: from the rounding
  * since the start and, where h is not 0, from the estimated error of the true step to `here`. */
 motus_status events_error_of(events *, size_t function, double h, double *bound, motus_error *);
-/* events_near.c. Keeps the extrema near 0 of a polynomial that function f is on a part of the step. */
-motus_status events_note_extrema(events *, stepper *, size_t f, double from, double to, const double *coefficients,
-                                 int degree, motus_error *);
+/* Of a function on a part of the step, where `from` and `to` are parts of it: a polynomial, and how far it is off. */
+typedef struct events_piece {
+    double from, to, noise;
+    const double *c; /* Chebyshev coefficients */
+    int degree;
+} events_piece;
+/* events_near.c. Keeps the extrema near 0 of function f on a part of the step. */
+motus_status events_note_extrema(events *, stepper *, size_t f, const events_piece *, motus_error *);
+/* Forgets those behind a time at which an action has cut the step; and all. */
+void events_cut_extrema(events *, double end);
+void events_forget_extrema(events *);
 /* Widens the box of a step by what the motion may be off by. */
 void events_widen(events *);
 /* events_find.c. p(tau), of Chebyshev coefficients. */

@@ -562,6 +562,39 @@ static void counts_near_a_touch(void **state)
         }
 }
 
+/* A touch has no slope, however small the bars are: what is off by fewer digits than a value tells of the place of an
+ * extremum is open, too. */
+static void counts_near_a_close_touch(void **state)
+{
+    (void)state;
+    static const double places[] = {0.999999999999998, 0.9999999999999999, 1.0000000000000002},
+                        tolerances[] = {1e-6, 1e-7, 1e-8, 1e-9, 1e-10};
+    for (size_t i = 0; i < sizeof places / sizeof *places; i++)
+        for (size_t k = 0; k < sizeof tolerances / sizeof *tolerances; k++)
+            for (int late = 0; late <= 1; late++) {
+                char text[256];
+                double error;
+                const char *const method = late ? "dopri5" : "dop853";
+                snprintf(text, sizeof text, "x'' = -x; x(0) = 1; x'(0) = 0; n = 0; when x = %.17g: n = n + 1",
+                         places[i]);
+                const double value = counted(text, method, tolerances[k], 7, &error), want = places[i] < 1 ? 3 : 0;
+                if (!(error >= 1) && value != want)
+                    fail_msg("%s by %s, tolerance %g: %g", text, method, tolerances[k], value);
+            }
+}
+
+/* So many extrema near 0 between two landings that not all are looked at leave the counts open. */
+static void counts_of_many_touches(void **state)
+{
+    (void)state;
+    double error;
+    counted("x[i]'' = -x[i] for i = 1..5000; x[i](0) = cos(2) for i = 1..5000; x[i]'(0) = sin(2) for i = 1..5000\n"
+            "y'' = -y; y(0) = cos(2); y'(0) = sin(2); n = 0; m = 0\n"
+            "when x[i] = 1: m = m + 1 for i = 1..5000\nwhen y = 1: n = n + 1",
+            "verlet", 0.05, 5, &error);
+    assert_true(error >= 1);
+}
+
 /* The run ends where an event ends it, whatever has happened in that instant; what rests at 0 has come there, and what
  * a clock does is done at its time. */
 static void counts_that_are_decided(void **state)
@@ -586,11 +619,12 @@ static void counts_that_are_decided(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(counts_near_the_end),     cmocka_unit_test(counts_near_a_touch),
-        cmocka_unit_test(counts_that_are_decided), cmocka_unit_test(modes_at_the_end),
-        cmocka_unit_test(bars_of_event_times),     cmocka_unit_test(bars_between_steps),
-        cmocka_unit_test(limits_of_balls),         cmocka_unit_test(rows_of_one_instant),
-        cmocka_unit_test(clocks_stay_known),       cmocka_unit_test(a_stadium_loses_all_digits),
+        cmocka_unit_test(counts_near_the_end),       cmocka_unit_test(counts_near_a_touch),
+        cmocka_unit_test(counts_near_a_close_touch), cmocka_unit_test(counts_of_many_touches),
+        cmocka_unit_test(counts_that_are_decided),   cmocka_unit_test(modes_at_the_end),
+        cmocka_unit_test(bars_of_event_times),       cmocka_unit_test(bars_between_steps),
+        cmocka_unit_test(limits_of_balls),           cmocka_unit_test(rows_of_one_instant),
+        cmocka_unit_test(clocks_stay_known),         cmocka_unit_test(a_stadium_loses_all_digits),
         cmocka_unit_test(relays_of_many_turns)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
