@@ -6,12 +6,16 @@
  */
 #include "api/bars.h"
 
+#include "api/event_counts.h"
+
 #include <math.h>
 #include <string.h>
 
 enum { LANDED, TWIN, HEAD }; /* the time of the last landing; 1: there is a twin; then the companions */
-/* What is behind the differences where there are events: 1: there is a gap; and since when. */
+/* What is behind the differences where there are events: 1: there is a gap; and since when. The same of every rule: it
+ * is open how often it has happened. */
 enum { GAP, SINCE, TAIL };
+static size_t tail_of(const motus_run *r) { return r->events ? TAIL * (1 + r->rules->count) : 0; }
 
 static size_t kept_of_differences(const motus_run *r, bool twin)
 {
@@ -32,7 +36,7 @@ static size_t count_of_events(const motus_run *r, bool twin)
 {
     const bars *b = r->bars;
     if (!r->events) return 0;
-    return TAIL + 1 + companion_keep(&b->half, NULL) + (twin ? 1 + companion_keep(&b->twin, NULL) : 0);
+    return tail_of(r) + 1 + companion_keep(&b->half, NULL) + (twin ? 1 + companion_keep(&b->twin, NULL) : 0);
 }
 
 /* A companion that has left the finite numbers serves no more. */
@@ -70,18 +74,39 @@ motus_status bars_keep(motus_run *r, double t, double **numbers, size_t *count, 
     if (r->events) {
         at += kept_of_differences(r, twin);
         at[GAP] = b->gap, at[SINCE] = b->gap ? b->gap_since : 0;
+        for (size_t k = 0; k < r->rules->count; k++) {
+            const double since = event_counts_since(b, k);
+            at += TAIL;
+            at[GAP] = !isnan(since), at[SINCE] = isnan(since) ? 0 : since;
+        }
     }
     *numbers = out;
     *count = all;
     return MOTUS_OK;
 }
 
+/* Leads *at over the numbers of a companion. */
+static bool skip(const motus_run *r, const double **at, const double *end)
+{
+    const size_t state = r->system->problem.nx + r->system->problem.nv + (r->events != NULL);
+    if ((size_t)(end - *at) < state) return false;
+    *at += state;
+    return !r->events || companion_skip(at, end);
+}
+
+/* Whether there are as many numbers as this version keeps. */
+static bool fits(const motus_run *r, const double *numbers, size_t count)
+{
+    const double *at = numbers + HEAD, *const end = numbers + count;
+    const bool twin = numbers[TWIN] != 0;
+    return skip(r, &at, end) && (!twin || skip(r, &at, end)) &&
+           (size_t)(end - at) == kept_of_differences(r, twin) + tail_of(r);
+}
+
 bool bars_resume(motus_run *r, double *numbers, size_t count)
 {
     bars *b = r->bars;
-    if (count < HEAD || (numbers[TWIN] != 0 && numbers[TWIN] != 1)) return false;
-    const size_t plain = count_of(r, numbers[TWIN] != 0);
-    if (r->events ? count < plain : count != plain) return false;
+    if (count < HEAD || (numbers[TWIN] != 0 && numbers[TWIN] != 1) || !fits(r, numbers, count)) return false;
     for (size_t k = 0; k < count && !r->events; k++)
         if (!isfinite(numbers[k])) return false;
     bars_again(r, true);
@@ -99,7 +124,6 @@ static motus_status damaged(motus_error *err)
 static motus_status begin(motus_run *r, companion *c, const double **at, const double *end, motus_error *err)
 {
     const problem *p = &r->system->problem;
-    if ((size_t)(end - *at) < p->nx + p->nv + 1) return damaged(err);
     const double t = r->events ? *(*at)++ : r->bars->landed;
     memcpy(r->mid_x, *at, p->nx * sizeof(double));
     memcpy(r->mid_v, *at + p->nx, p->nv * sizeof(double));
@@ -111,27 +135,23 @@ static motus_status begin(motus_run *r, companion *c, const double **at, const d
     return status;
 }
 
-/* A twin that the state has and the run does not want. */
-static motus_status skip(const motus_run *r, const double **at, const double *end, motus_error *err)
-{
-    const size_t state = r->system->problem.nx + r->system->problem.nv + (r->events != NULL);
-    if ((size_t)(end - *at) < state) return damaged(err);
-    *at += state;
-    return !r->events || companion_skip(at, end) ? MOTUS_OK : damaged(err);
-}
-
 /* What follows from the companions. */
-static motus_status resume(motus_run *r, bool was_twin, const double *at, const double *end, motus_error *err)
+static motus_status resume(motus_run *r, bool was_twin, const double *at, motus_error *err)
 {
     bars *b = r->bars;
-    const size_t count = kept_of_differences(r, was_twin), tail = r->events ? TAIL : 0;
-    bool ok = (size_t)(end - at) == count + tail;
+    const size_t count = kept_of_differences(r, was_twin), tail = tail_of(r);
+    bool ok = true, memory = true;
     for (size_t k = 0; ok && k < count + tail; k++) ok = isfinite(at[k]);
     if (!ok) return damaged(err);
     differences_begin(&b->differences, r->timing.t0, r->timing.until);
     differences_resume(&b->differences, b->landed, at);
-    if (tail) b->gap = at[count + GAP] != 0, b->gap_since = at[count + SINCE];
-    return MOTUS_OK;
+    at += count;
+    if (tail) b->gap = at[GAP] != 0, b->gap_since = at[SINCE];
+    for (size_t k = 0; tail && memory && k < r->rules->count; k++) {
+        at += TAIL;
+        if (at[GAP] != 0) memory = event_counts_note(r, k, at[SINCE]);
+    }
+    return memory ? MOTUS_OK : fail(err, MOTUS_MEMORY, "no memory for bars of error");
 }
 
 motus_status bars_kept_begin(motus_run *r, const double *x, const double *v, motus_error *err)
@@ -147,16 +167,17 @@ motus_status bars_kept_begin(motus_run *r, const double *x, const double *v, mot
     const bool was_twin = kept[TWIN] != 0, twin = was_twin && b->kind == MOTUS_BARS_FULL;
     motus_status status = begin(r, &b->half, &at, end, err);
     if (status == MOTUS_OK && twin) status = begin(r, &b->twin, &at, end, err);
-    if (status == MOTUS_OK && was_twin && !twin) status = skip(r, &at, end, err);
+    if (status == MOTUS_OK && was_twin && !twin && !skip(r, &at, end)) status = damaged(err);
     if (!twin) { /* the state has none: the bars are those of one companion */
         b->kind = MOTUS_BARS_CHEAP;
         b->differences.twin = NULL;
     }
-    if (status == MOTUS_OK) status = resume(r, was_twin, at, end, err);
+    if (status == MOTUS_OK) status = resume(r, was_twin, at, err);
     give(&r->allocator, kept);
     if (status != MOTUS_OK) return status;
     memcpy(r->mid_x, x, p->nx * sizeof *x);
     memcpy(r->mid_v, v, p->nv * sizeof *v);
-    return b->ahead ? bars_see(r, r->system, t, r->mid_x, r->mid_v, 0, err)
-                    : bars_take(r, t, r->mid_x, r->mid_v, false, err);
+    status = b->ahead ? bars_see(r, r->system, t, r->mid_x, r->mid_v, 0, err)
+                      : bars_take(r, t, r->mid_x, r->mid_v, false, err);
+    return status == MOTUS_OK && b->whole ? event_counts_touched(r, t, x, v, err) : status;
 }

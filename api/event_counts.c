@@ -178,11 +178,11 @@ static bool look_at(look *l, double t, const double *x, const double *v, interva
 /* Whether a touch or another has left open how often events have happened up to t. */
 static bool open_before(const motus_run *r, double t)
 {
-    const double *const since = r->bars->open_since, way = r->timing.h < 0 ? -1 : 1;
+    const double way = r->timing.h < 0 ? -1 : 1;
     events_limit limit = {.rule = SIZE_MAX};
     events_accumulated(r->events, &limit);
-    for (size_t k = 0; since && k < r->rules->count; k++)
-        if (k != limit.rule && way * (t - since[k]) >= 0) return true;
+    for (size_t k = 0; k < r->rules->count; k++)
+        if (k != limit.rule && way * (t - event_counts_since(r->bars, k)) >= 0) return true;
     return false;
 }
 
@@ -231,7 +231,9 @@ static void widen(look *l)
     for (size_t k = 0; k < p->nv; k++) l->dv[k] = fmax(l->dv[k], events_off(l->run->events, p->nx + k));
 }
 
-static bool note_open(motus_run *r, size_t k, double t)
+double event_counts_since(const bars *b, size_t k) { return b->open_since ? b->open_since[k] : NAN; }
+
+bool event_counts_note(motus_run *r, size_t k, double t)
 {
     bars *b = r->bars;
     const double way = r->timing.h < 0 ? -1 : 1;
@@ -249,7 +251,7 @@ static bool note_unkept(motus_run *r)
     bool memory = true;
     for (size_t k = 0; memory && k < r->rules->count; k++) {
         const double since = events_unkept(r->events, k);
-        if (!isnan(since)) memory = note_open(r, k, since);
+        if (!isnan(since)) memory = event_counts_note(r, k, since);
     }
     return memory;
 }
@@ -269,7 +271,7 @@ motus_status event_counts_touched(motus_run *r, double t, const double *x, const
         const size_t f = events_extremum(r->events, k, &level, &at, &at_x, &at_v);
         if (!look_at(&l, at, at_x, at_v, box)) continue;
         widen(&l);
-        if (touches(&l, f, level)) memory = note_open(r, rule_of(r->rules, f), at);
+        if (touches(&l, f, level)) memory = event_counts_note(r, rule_of(r->rules, f), at);
     }
     if (memory && look_at(&l, t, x, v, box)) memory = events_near(r->events, l.dx);
     give(&r->allocator, room);

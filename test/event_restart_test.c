@@ -3,6 +3,8 @@
  */
 #include "test/saved.h"
 
+#include <stdbool.h>
+
 typedef struct motion {
     const char *text;
     double until;
@@ -448,6 +450,89 @@ static void bars_survive(void **state)
         }
 }
 
+/* n, and whether it is undecided. */
+static double counted(motus_run *r, const motus_system *s, bool *undecided)
+{
+    motus_error err = motus_default_error();
+    size_t column, count;
+    double value, error;
+    must(motus_column_find(s, "n", &column, &count, &err), &err, "n");
+    must(motus_run_errors(r, &column, 1, &value, &error, &err), &err, "n");
+    assert_false(isnan(error));
+    *undecided = error != 0;
+    return value;
+}
+
+/* What a touch has left open stays open, whether it was before the state was saved or comes soon after it. */
+static void open_counts_survive(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *method;
+        double off;
+    } runs[] = {{"verlet", 4e-5}, {"dopri5", 1e-6}, {"rk4", 1e-8}};
+    for (size_t i = 0; i < sizeof runs / sizeof *runs; i++)
+        for (int early = 0; early <= 1; early++) {
+            char text[128];
+            snprintf(text, sizeof text, "x'' = -x; x(0) = 1; x'(0) = 0; n = 0; when x = %.17g: n = n + 1",
+                     1 - runs[i].off);
+            motus_system *s = given_text(text);
+            motus_run *whole = made(s, runs[i].method, 8, MOTUS_BARS_CHEAP),
+                      *first = made(s, runs[i].method, early ? 6 : 6.5, MOTUS_BARS_CHEAP),
+                      *second = made(s, runs[i].method, 8, MOTUS_BARS_CHEAP);
+            motus_error err;
+            bool open, still;
+            finish(whole);
+            finish(first);
+            kept k = save(first);
+            must(restore(second, k, &err), &err, "restore");
+            finish(second);
+            counted(whole, s, &open);
+            const double value = counted(second, s, &still);
+            if (open != still) fail_msg("%s, %d: %g, undecided %d, and before %d", text, early, value, still, open);
+            free(k.text);
+            motus_run_destroy(whole);
+            motus_run_destroy(first);
+            motus_run_destroy(second);
+            motus_system_destroy(s);
+        }
+}
+
+/* A state of another version, which has fewer numbers of errors, tells no error, and is not damaged. */
+static void states_of_other_versions(void **state)
+{
+    (void)state;
+    for (int bars = MOTUS_BARS_CHEAP; bars <= MOTUS_BARS_FULL; bars++) {
+        motus_system *s = given_text(small);
+        motus_run *r = made(s, "dop853", 1, (motus_bars)bars), *q = made(s, "dop853", 1, (motus_bars)bars);
+        motus_estimate estimate = motus_default_estimate();
+        motus_error err;
+        take_steps(r, 7);
+        kept k = save(r);
+        char *copy = malloc(k.length + 1), *end;
+        assert_non_null(copy);
+        const char *const block = strstr(k.text, "\nbars "), *const numbers = block ? strchr(block + 1, '\n') : NULL;
+        assert_non_null(numbers);
+        const long count = strtol(block + 6, &end, 10);
+        const char *rest = numbers;
+        for (long i = 0; i < count; i++) rest = strchr(rest + 1, '\n');
+        const char *before = rest; /* the last number is left out */
+        while (*--before != '\n') {}
+        const int n = snprintf(copy, k.length + 1, "%.*s\nbars %ld%.*s%s", (int)(block - k.text), k.text, count - 1,
+                               (int)(before - numbers), numbers, rest);
+        seal(copy, (size_t)n);
+        must(restore(q, (kept){copy, (size_t)n}, &err), &err, "another version");
+        finish(q);
+        must(motus_run_estimate(q, &estimate, &err), &err, "estimate");
+        if (!strstr(estimate.reason, "does not tell its error")) fail_msg("%s", estimate.reason);
+        free(copy);
+        free(k.text);
+        motus_run_destroy(r);
+        motus_run_destroy(q);
+        motus_system_destroy(s);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -457,6 +542,8 @@ int main(void)
         cmocka_unit_test(backward_runs_restart_too),
         cmocka_unit_test(other_events_are_other_models),
         cmocka_unit_test(damage_is_seen),
+        cmocka_unit_test(open_counts_survive),
+        cmocka_unit_test(states_of_other_versions),
         cmocka_unit_test(forged_events_do_no_harm),
         cmocka_unit_test(bars_survive),
         cmocka_unit_test(no_trace),
