@@ -21,6 +21,9 @@ static long double turn(long double u, long double v) { return (void)v, atanl(1 
 static long double tangent(long double u, long double v) { return (void)v, tanl(4 * atanl(1) / 2 + u); }
 static long double angle(long double u, long double v) { return (void)v, acosl(fminl(1, fmaxl(-1, 1 - u))); }
 static long double smooth(long double u, long double v) { return (void)v, sinl(u) / u; }
+static long double both(long double u, long double v) { return (void)v, (u + 3e-7L) / u; }
+static long double nearly(long double u, long double v) { return (void)v, (3e-7L + u * cosl(u)) / sinl(u); }
+static long double rational(long double u, long double v) { return (void)v, 2 + u; }
 static long double shut(long double u, long double v) { return (void)v, expl(-1 / (u * u)); }
 static long double kink(long double u, long double v) { return (void)v, fabsl(u); }
 
@@ -42,6 +45,9 @@ static const struct sharp {
               {"tan(pi/2 + x - c)", tangent, false},
               {"acos(min(1, max(-1, 1 - (x - c))))", angle, true},
               {"sin(x - c)/(x - c)", smooth, true},
+              {"((x - c)^2 + 2 (x - c))/(x - c)", rational, true},
+              {"(x - c + 3e-7)/(x - c)", both, false},
+              {"(3e-7 + (x - c) cos(x - c))/sin(x - c)", nearly, false},
               {"exp(-1/(x - c)^2)", shut, true},
               {"|x - c|", kink, true}};
 enum { SHARPS = sizeof sharps / sizeof *sharps };

@@ -56,6 +56,7 @@ struct resolution {
     int64_t index[MAX_LEVELS];
     uint64_t now, changed[MAX_LEVELS + 1]; /* by home: when its loop variable changed */
     bool (*found)(operation, interval, interval);
+    interval *part; /* room for a part of a box */
     /* of the step that is looked at */
     interval t, *x, *v, *a, *out; /* a, out: of resolution_values alone */
     const double *pool;
@@ -252,7 +253,9 @@ bool resolution_create_poles(model *m, const output *outputs, size_t count, reso
 
 bool resolution_create_doubts(model *m, const output *outputs, size_t count, resolution **out)
 {
-    return create(m, outputs, count, doubtful, out);
+    if (!create(m, outputs, count, doubtful, out)) return false;
+    (*out)->part = arena_room(m->arena, (m->nx + m->nv + 1) * sizeof(interval));
+    return (*out)->part != NULL;
 }
 
 /* What an operation may do ------------------------------------------------------------------------------------- */
@@ -382,19 +385,32 @@ bool resolution_regular(operation op, interval a, interval b)
 static bool single(interval a) { return a.low == a.high; }
 static bool may_be_zero(interval a) { return a.low <= 0 && a.high >= 0; }
 
+static bool may_divide_by_zero(operation op, interval b) { return op == OP_DIV && may_be_zero(b) && !single(b); }
+
 static bool doubt_pole(operation op, interval a, interval b)
 {
     switch (op) {
-    case OP_DIV: return may_be_zero(b) && !single(b) && !may_be_zero(a);
+    case OP_DIV: return may_divide_by_zero(op, b) && !may_be_zero(a);
     case OP_POW: return b.low < 0 && may_be_zero(a) && !single(a);
     case OP_LOG: return may_be_zero(a) && !single(a);
     default: return op == OP_TAN && !single(a) && pole(op, a, b);
     }
 }
 
+/* Whether a pole shows: a dividend that is nearer to 0 than it changes by may be 0 but for its rounding. */
+static bool shows_pole(operation op, interval a, interval b)
+{
+    return may_divide_by_zero(op, b) && interval_magnitude(a).low > a.high - a.low;
+}
+
+static bool zero_by_zero(operation op, interval a, interval b)
+{
+    return may_divide_by_zero(op, b) && !shows_pole(op, a, b);
+}
+
 static bool doubt_jump(operation op, interval a, interval b)
 {
-    return op == OP_DIV ? may_be_zero(b) && !single(b) : leaps(op) && undecided(op, a, b);
+    return op == OP_DIV ? may_divide_by_zero(op, b) : leaps(op) && undecided(op, a, b);
 }
 
 static bool doubt_steep(operation op, interval a, interval b)
@@ -628,9 +644,69 @@ bool resolution_pole(resolution *r, interval t, interval *x, interval *v, const 
     return finds(r, t, x, v, pool, pole);
 }
 
+/* 0/0 is a pole where the divisor is 0 and the dividend is not: on lines through a box, of whose halves those are
+ * followed in which both may be 0, as far as doubles tell their ends apart. */
+typedef struct line {
+    interval *x, *v; /* the box */
+    uint32_t which;  /* 0: from corner to corner */
+} line;
+
+static double fraction(uint32_t *random)
+{
+    *random = *random * 1664525u + 1013904223u;
+    return (*random >> 8) * 0x1p-24;
+}
+
+/* The part of a line between `from` and `to` of its length. False: too short. */
+static bool part_of(const resolution *r, const line *l, double from, double to)
+{
+    enum { TELLS = 16 }; /* units in the last place */
+    const size_t nx = r->model->nx, n = nx + r->model->nv;
+    uint32_t random = l->which * 2654435761u;
+    bool wide = false;
+    for (size_t k = 0; k < n; k++) {
+        const interval in = k < nx ? l->x[k] : l->v[k - nx];
+        double low = in.low, wide_by = in.high - in.low;
+        if (l->which) {
+            const double first = fraction(&random) / 4, last = 1 - fraction(&random) / 4;
+            const bool back = fraction(&random) < 0.5;
+            low += wide_by * (back ? last : first);
+            wide_by *= back ? first - last : last - first;
+        }
+        r->part[k] = interval_hull(number(low + from * wide_by), number(low + to * wide_by));
+        const double size = interval_magnitude(in).high, least = TELLS * (nextafter(size, INFINITY) - size);
+        if (!(fabs(wide_by) > least)) continue;
+        if (!(r->part[k].high - r->part[k].low > least)) return false;
+        wide = true;
+    }
+    return wide;
+}
+
+static bool pole_on(resolution *r, interval t, const line *l, const double *pool, double from, double to, int *visits)
+{
+    interval *const v = r->part + r->model->nx;
+    if (--*visits < 0 || !part_of(r, l, from, to)) return false;
+    if (finds(r, t, r->part, v, pool, shows_pole)) return true;
+    if (!part_of(r, l, from, to) || !finds(r, t, r->part, v, pool, zero_by_zero)) return false;
+    const double middle = from + (to - from) / 2;
+    if (!(from < middle && middle < to)) return false;
+    return pole_on(r, t, l, pool, from, middle, visits) || pole_on(r, t, l, pool, middle, to, visits);
+}
+
+static bool hidden_pole(resolution *r, interval t, interval *x, interval *v, const double *pool)
+{
+    enum { LINES = 8, VISITS = 256 };
+    if (!finds(r, t, x, v, pool, zero_by_zero)) return false;
+    for (uint32_t k = 0; k < LINES; k++) {
+        int visits = VISITS;
+        if (pole_on(r, t, &(line){x, v, k}, pool, 0, 1, &visits)) return true;
+    }
+    return false;
+}
+
 doubt resolution_doubt(resolution *r, interval t, interval *x, interval *v, const double *pool)
 {
-    if (finds(r, t, x, v, pool, doubt_pole)) return DOUBT_POLE;
+    if (finds(r, t, x, v, pool, doubt_pole) || hidden_pole(r, t, x, v, pool)) return DOUBT_POLE;
     if (finds(r, t, x, v, pool, doubt_jump)) return DOUBT_JUMP;
     return finds(r, t, x, v, pool, doubt_steep) ? DOUBT_STEEP : DOUBT_NONE;
 }
