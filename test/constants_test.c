@@ -198,6 +198,31 @@ static void starts_of_families(void **state)
     assert_true(t.within >= 0.95 * t.counted && t.close >= 0.8 * t.counted);
 }
 
+/* What is 0/0 as decimals say it has no digit, also where doubles make 0 or a half of it. */
+static void quotients_of_nothing(void **state)
+{
+    static const char *const quotients[] = {"0/(0.1 + 0.2 - 0.3)", "(0.1*3 - (0.1 + 0.2))/(0.1 + 0.2 - 0.3)",
+                                            "(0.1*3 - 0.2 - 0.1)/(0.1 + 0.2 - 0.3)", "(sqrt(3)^2 - 3)/(sqrt(2)^2 - 2)"};
+    (void)state;
+    for (size_t k = 0; k < sizeof quotients / sizeof *quotients; k++) {
+        char text[TEXT_ROOM];
+        snprintf(text, sizeof text, "x'' = 0; x(0) = 1 + %s; x'(0) = 0; until 1", quotients[k]);
+        motus_system *const s = given_text(text);
+        motus_run_def def = motus_default_run();
+        motus_error err = motus_default_error();
+        motus_run *r = NULL;
+        def.error = MOTUS_BARS_CHEAP, def.method = "dop853", def.tolerance = 1e-13, def.machine = "interpreter";
+        must(motus_run_create(s, &def, &r, &err), &err, text);
+        must(motus_run_finish(r, &err), &err, text);
+        const size_t column = 1;
+        double value, bar;
+        must(motus_run_errors(r, &column, 1, &value, &bar, &err), &err, text);
+        if (!(bar >= 0.4)) fail_msg("%s: x is %.17g ± %g", text, value, bar);
+        motus_run_destroy(r);
+        motus_system_destroy(s);
+    }
+}
+
 static void decimals_that_cancel(void **state)
 {
     (void)state;
@@ -211,6 +236,7 @@ static void decimals_that_cancel(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(starts_of_families), cmocka_unit_test(decimals_that_cancel)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(starts_of_families), cmocka_unit_test(quotients_of_nothing),
+                                       cmocka_unit_test(decimals_that_cancel)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -53,8 +53,8 @@ static double beyond(const graph_typed *t)
 {
     const double off = (t->is.high - t->plain) + t->is.low, far = fabs(off) + t->is.error + 3 * t->spread;
     const double way = off > 0 || (off == 0 && t->read > t->plain) ? 1 : -1;
+    if (!isfinite(far)) return t->plain != 0 ? 2 * t->plain : 1; /* nothing is left of it, as of 0/0 */
     if (!(far > TWOFOLD_KNOWN * fabs(t->plain))) return t->plain;
-    if (!isfinite(far)) return 2 * t->plain; /* nothing is left of it */
     const double to = t->plain + way * far;
     return fabs(to - t->plain) < far ? nextafter(to, way * INFINITY) : to;
 }
