@@ -410,7 +410,7 @@ static motus_status begin_at(motus_run *r, bool observed, motus_error *err)
     b->landed = stepper_time(r->stepper);
     b->steps = motus_run_steps(r);
     if (status == MOTUS_OK) status = bars_take(r, b->landed, r->x, r->v, observed, err);
-    return status;
+    return status == MOTUS_OK && b->whole ? event_counts_touched(r, b->landed, r->x, r->v, err) : status;
 }
 
 /* What a companion met is no failure of the run, but for what stops both. */

@@ -210,10 +210,26 @@ static size_t rule_of(const rules *rules, size_t f)
     return k;
 }
 
-/* Whether the rule of function f may have an event, or two, where the function has an extremum: there it goes neither
- * way, whatever rounding leaves of its slope. Not level: only if its slope may be 0. */
-static bool touches(look *l, size_t f, bool level)
+/* Whether a function that is 0 where the motion rests is so wherever it rests: positions have no part in it, and what
+ * rests has a velocity of 0 exactly. */
+static bool rests(look *l, size_t f)
 {
+    const rules *rules = l->run->rules;
+    for (size_t k = 0; k < l->run->system->problem.nv; k++)
+        if (l->v[k] == 0) l->dv[k] = 0;
+    for (int turn = -1; turn <= 1; turn++) {
+        take_state(l, turn);
+        if (rules->values(rules->ctx, l->t, l->to_x, l->to_v, l->now) || l->now[f] != 0) return false;
+    }
+    return true;
+}
+
+/* Whether the rule of function f may have an event, or two, where the function has an extremum: there it goes neither
+ * way, whatever rounding leaves of its slope; at the end of a step only if its slope may be 0. */
+static bool touches(look *l, size_t f, events_near_kind kind)
+{
+    const bool level = kind == EVENTS_NEAR_EXTREMUM;
+    if (kind == EVENTS_NEAR_REST) return !rests(l, f);
     const rules *rules = l->run->rules;
     const rule *r = &rules->rule[rule_of(rules, f)];
     find_signs(l);
@@ -267,11 +283,11 @@ motus_status event_counts_touched(motus_run *r, double t, const double *x, const
     for (size_t k = 0; memory && k < events_extrema(r->events); k++) {
         const double *at_x, *at_v;
         double at;
-        bool level;
-        const size_t f = events_extremum(r->events, k, &level, &at, &at_x, &at_v);
+        events_near_kind kind;
+        const size_t f = events_extremum(r->events, k, &kind, &at, &at_x, &at_v);
         if (!look_at(&l, at, at_x, at_v, box)) continue;
         widen(&l);
-        if (touches(&l, f, level)) memory = event_counts_note(r, rule_of(r->rules, f), at);
+        if (touches(&l, f, kind)) memory = event_counts_note(r, rule_of(r->rules, f), at);
     }
     if (memory && look_at(&l, t, x, v, box)) memory = events_near(r->events, l.dx);
     give(&r->allocator, room);

@@ -121,8 +121,10 @@ bool events_near(events *, const double *off);
 /* By how much number k was told to be off last; 0: it was not told. */
 double events_off(const events *, size_t k);
 size_t events_extrema(const events *);
-/* Its function, the time and the state; not level: it is the end of a step, which may be none. */
-size_t events_extremum(const events *, size_t k, bool *level, double *t, const double **x, const double **v);
+/* The end of a step, which may be no extremum; an extremum; where the motion comes to rest, and the function to 0. */
+typedef enum events_near_kind { EVENTS_NEAR_END, EVENTS_NEAR_EXTREMUM, EVENTS_NEAR_REST } events_near_kind;
+/* Its function, its kind, the time and the state. */
+size_t events_extremum(const events *, size_t k, events_near_kind *, double *t, const double **x, const double **v);
 /* Since when they had no room, of functions of a rule; NaN: all have been kept. */
 double events_unkept(const events *, size_t rule);
 int64_t events_acted(const events *);                  /* how often a rule has assigned */

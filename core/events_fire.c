@@ -285,7 +285,8 @@ static motus_status turn(events *e, size_t k, size_t i, motus_error *err)
         if ((e->zero[f] || told) && !e->arrives[f]) e->arrives[f] = WAS_ZERO;
     }
     if (!status) status = look_again(e, k, i, err);
-    return status || !moved ? status : arrive(e, err);
+    if (!status && moved) status = arrive(e, err);
+    return status ? status : events_note_rest(e, err);
 }
 
 static motus_status act(events *e, size_t k, size_t i, motus_error *err)
@@ -675,7 +676,7 @@ static motus_status look_at(events *e, const asked *one, motus_error *err)
         status = events_value_of(e, f, &e->here, err);
         if (!status) status = events_judge_of(e, f, &e->here, err);
         e->zero[f] = is_passed(e, f);
-        e->touched[f] = 0;
+        e->touched[f] = e->arrives[f] = 0;
     }
     e->steady[e->instances[one->rule] + one->instance] = e->held[e->instances[one->rule] + one->instance];
     return status;

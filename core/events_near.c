@@ -6,7 +6,7 @@
 #include <string.h>
 
 enum { TURNS = 40, EXTREMA_MOST = 1 << 12, MARGIN = 16 };
-enum { OF, TIME, LEVEL, STATE }; /* what is kept of each; LEVEL: 1: of an extremum, 0: of the end of a step */
+enum { OF, TIME, KIND, STATE }; /* what is kept of each */
 
 void events_forget_extrema(events *e)
 {
@@ -34,10 +34,10 @@ size_t events_extrema(const events *e) { return e->extrema; }
 
 double events_unkept(const events *e, size_t rule) { return e->unkept[rule]; }
 
-size_t events_extremum(const events *e, size_t k, bool *level, double *t, const double **x, const double **v)
+size_t events_extremum(const events *e, size_t k, events_near_kind *kind, double *t, const double **x, const double **v)
 {
     const double *const from = e->extremum + k * (STATE + e->problem.nx + e->problem.nv);
-    *level = from[LEVEL] != 0;
+    *kind = (events_near_kind)from[KIND];
     *t = from[TIME];
     *x = from + STATE;
     *v = *x + e->problem.nx;
@@ -55,29 +55,53 @@ void events_cut_extrema(events *e, double end)
     }
 }
 
-/* Keeps the state at a time of the step, where rounded errors of the motion may hide the sign of function f. */
-static motus_status keep(events *e, stepper *s, size_t f, bool level, double h, motus_error *err)
+static motus_status keep(events *e, size_t f, events_near_kind kind, const instant *at, motus_error *err)
 {
     const size_t nx = e->problem.nx, nv = e->problem.nv, each = STATE + nx + nv;
-    instant *at = &e->next;
     void *list = e->extremum;
-    at->t = events_place_in(e, h);
-    const motus_status status = stepper_sample(s, at->t, at->x, at->v, err);
-    if (status) return status;
-    e->rules.least(e->rules.ctx, at->x, at->v, e->off, e->off + nx, at->rate);
-    if (at->rate[f] > 0) return status;
     if (e->extrema >= EXTREMA_MOST) {
         double *const since = &e->unkept[e->rule_of[f]];
         if (!(e->way * (at->t - *since) >= 0)) *since = at->t;
-        return status;
+        return MOTUS_OK;
     }
     if (!events_grow(&e->allocator, &list, e->extrema, &e->extremum_room, 1, each * sizeof *e->extremum))
         return events_no_memory(err);
     e->extremum = list;
     double *const to = e->extremum + e->extrema++ * each;
-    to[OF] = (double)f, to[TIME] = at->t, to[LEVEL] = level;
+    to[OF] = (double)f, to[TIME] = at->t, to[KIND] = kind;
     memcpy(to + STATE, at->x, nx * sizeof *to);
     memcpy(to + STATE + nx, at->v, nv * sizeof *to);
+    return MOTUS_OK;
+}
+
+/* Keeps the state at a time of the step, where rounded errors of the motion may hide the sign of function f. */
+static motus_status keep_at(events *e, stepper *s, size_t f, events_near_kind kind, double h, motus_error *err)
+{
+    instant *at = &e->next;
+    at->t = events_place_in(e, h);
+    const motus_status status = stepper_sample(s, at->t, at->x, at->v, err);
+    if (status) return status;
+    e->rules.least(e->rules.ctx, at->x, at->v, e->off, e->off + e->problem.nx, at->rate);
+    return at->rate[f] > 0 ? status : keep(e, f, kind, at, err);
+}
+
+static bool notes(const events *e) { return e->off && e->rules.least && !e->problem.refresh; }
+
+motus_status events_note_rest(events *e, motus_error *err)
+{
+    const instant *at = &e->here;
+    double *const least = e->next.rate;
+    motus_status status = MOTUS_OK;
+    if (!notes(e)) return status;
+    e->rules.least(e->rules.ctx, at->x, at->v, e->off, e->off + e->problem.nx, least);
+    for (size_t f = 0; f < e->rules.functions && !status; f++) {
+        if (e->rules.rule[e->rule_of[f]].internal) continue;
+        const bool rests = e->arrives[f] || (e->zero[f] && e->side[f] && at->rate[f] == 0);
+        if (rests)
+            status = keep(e, f, EVENTS_NEAR_REST, at, err);
+        else if (!e->zero[f] && at->rate[f] == 0 && !(least[f] > 0))
+            status = keep(e, f, EVENTS_NEAR_EXTREMUM, at, err);
+    }
     return status;
 }
 
@@ -102,7 +126,7 @@ static double level_between(const double *slope, int degree, double low, double 
 motus_status events_note_extrema(events *e, stepper *s, size_t f, const events_piece *p, motus_error *err)
 {
     motus_status status = MOTUS_OK;
-    if (!e->off || !e->rules.least || e->problem.refresh || e->rules.rule[e->rule_of[f]].internal) return status;
+    if (!notes(e) || e->rules.rule[e->rule_of[f]].internal) return status;
     double slope[ROOTS_DEGREE_MOST + 1], before = 0;
     int points = ROOTS_DEGREE_LEAST, sign = 0;
     const double hidden = (double)p->degree * p->degree * p->noise; /* by Markov's inequality */
@@ -114,10 +138,10 @@ motus_status events_note_extrema(events *e, stepper *s, size_t f, const events_p
         if (now == 0) continue;
         if (now == -sign) {
             const double at = level_between(slope, p->degree, before, tau, sign);
-            status = keep(e, s, f, true, (p->from + at * (p->to - p->from)) * e->span, err);
+            status = keep_at(e, s, f, EVENTS_NEAR_EXTREMUM, (p->from + at * (p->to - p->from)) * e->span, err);
         }
         sign = now, before = tau;
     }
     /* of methods of order 1 an extremum may lie between two steps, on a straight line in both */
-    return status || p->to < 1 ? status : keep(e, s, f, false, e->span, err);
+    return status || p->to < 1 ? status : keep_at(e, s, f, EVENTS_NEAR_END, e->span, err);
 }

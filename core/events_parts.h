@@ -208,7 +208,7 @@ struct events {
     size_t *row_at;
     size_t rows, row_room, numbers, number_room;
     double *off; /* of positions, then velocities: how far they may be off (events_near.c); NULL: it is not known */
-    double *extremum; /* of each its function, its time, whether it is one, and the state */
+    double *extremum; /* of each its function, time, kind and state */
     size_t extrema, extremum_room;
     double *unkept; /* per rule: the time from which extrema had no room; NaN: all have been kept */
     bool keeps_jumps;
@@ -316,6 +316,8 @@ typedef struct events_piece {
 } events_piece;
 /* events_near.c. Keeps the extrema near 0 of function f on a part of the step. */
 motus_status events_note_extrema(events *, stepper *, size_t f, const events_piece *, motus_error *);
+/* A switch has turned at `here`: keeps the functions that come to rest there, at 0 or near it. */
+motus_status events_note_rest(events *, motus_error *);
 /* Forgets those behind a time at which an action has cut the step; and all. */
 void events_cut_extrema(events *, double end);
 void events_forget_extrema(events *);

@@ -583,6 +583,29 @@ static void counts_near_a_close_touch(void **state)
             }
 }
 
+/* Where friction stops a block within rounding of a place, it has come there or not; that it has stopped is certain. */
+static void counts_where_it_stops(void **state)
+{
+    (void)state;
+    static const double off[] = {-2e-15, -4e-16, 0, 4e-16, 1.7e-15, 3e-15};
+    static const char *const methods[] = {"taylor", "dop853", "dopri5", "rk4"};
+    double error;
+    for (size_t w = 0; w < sizeof methods / sizeof *methods; w++) {
+        const double size = given_adaptive(methods[w]) ? 1e-10 : 0.01;
+        for (size_t k = 0; k < sizeof off / sizeof *off; k++) {
+            char text[256];
+            snprintf(text, sizeof text, "x'' = -0.7 sign(x'); x(0) = 0; x'(0) = 1; n = 0; when x = %.17g: n = n + 1",
+                     1 / 1.4 + off[k]);
+            const double value = counted(text, methods[w], size, 5, &error);
+            if (error == 0 && (off[k] == 0 || value != (off[k] < 0))) fail_msg("%s by %s: %g", text, methods[w], value);
+        }
+        if (!given_adaptive(methods[w])) continue; /* by whose own steps it slides to and fro */
+        const double stopped = counted("x'' = -0.7 sign(x'); x(0) = 0; x'(0) = 1; n = 0; when x' = 0: n = n + 1",
+                                       methods[w], size, 5, &error);
+        if (stopped != 1 || error != 0) fail_msg("by %s: %g ± %g stops", methods[w], stopped, error);
+    }
+}
+
 /* So many extrema near 0 between two landings that not all are looked at leave the counts open. */
 static void counts_of_many_touches(void **state)
 {
@@ -619,12 +642,12 @@ static void counts_that_are_decided(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(counts_near_the_end),       cmocka_unit_test(counts_near_a_touch),
-        cmocka_unit_test(counts_near_a_close_touch), cmocka_unit_test(counts_of_many_touches),
-        cmocka_unit_test(counts_that_are_decided),   cmocka_unit_test(modes_at_the_end),
-        cmocka_unit_test(bars_of_event_times),       cmocka_unit_test(bars_between_steps),
-        cmocka_unit_test(limits_of_balls),           cmocka_unit_test(rows_of_one_instant),
-        cmocka_unit_test(clocks_stay_known),         cmocka_unit_test(a_stadium_loses_all_digits),
-        cmocka_unit_test(relays_of_many_turns)};
+        cmocka_unit_test(counts_near_the_end),        cmocka_unit_test(counts_near_a_touch),
+        cmocka_unit_test(counts_near_a_close_touch),  cmocka_unit_test(counts_of_many_touches),
+        cmocka_unit_test(counts_where_it_stops),      cmocka_unit_test(counts_that_are_decided),
+        cmocka_unit_test(modes_at_the_end),           cmocka_unit_test(bars_of_event_times),
+        cmocka_unit_test(bars_between_steps),         cmocka_unit_test(limits_of_balls),
+        cmocka_unit_test(rows_of_one_instant),        cmocka_unit_test(clocks_stay_known),
+        cmocka_unit_test(a_stadium_loses_all_digits), cmocka_unit_test(relays_of_many_turns)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
