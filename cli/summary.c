@@ -56,6 +56,14 @@ static motus_status errors_of(const summary *s, size_t first, size_t count, doub
 
 /* ---- tables ---- */
 
+/* What leaves a value open; a whole number may count events. */
+static const char *undecided_cell(const summary *s, double value)
+{
+    if (floor(value) == value && motus_explain_events(s->model->system)[0])
+        return "undecided: an event may have happened or not, or it jumps, within the error of the state";
+    return "undecided: it jumps, or is infinite, within the error of the state";
+}
+
 /* The value of a column at the end, with its error. */
 static motus_status final_cell(const summary *s, table *t, size_t column, double value, motus_error *err)
 {
@@ -65,7 +73,7 @@ static motus_status final_cell(const summary *s, table *t, size_t column, double
     motus_statistics done = motus_default_statistics();
     motus_run_statistics(s->run, &done);
     if (s->errors && undecided)
-        table_cell(t, "undecided: it jumps, or is infinite, within the error of the state");
+        table_cell(t, undecided_cell(s, value));
     else if (s->errors &&
              !(error == 0 && done.events_unseen)) /* what an event changes may be anything where one is missed */
         table_bar(t, value, s->estimate.reason[0] ? NAN : error);

@@ -514,6 +514,9 @@ text "x'' = -x\nx(0) = 1\nx'(0) = 0\nn = 0\nseed = 1\nsmall = 1\nz = 0.3\ns = 0\
 gives "numbers that rounding changes" 0 "$motus" run "$one" --until 400 --method taylor --json
 # 127 events; the truths in integers and, of z, by 120 digits
 that "  have its error" holds '.quantities.n == 127 and .error.n == 0 and .error.sq == 0 and .error.c < 1e-12 and .quantities.c == 63.5 and .error.small == 0 and .quantities.small == 2014119113 and .error.seed > 1e9 and .error.z > 0.1 and .error.s > 3e-14 and .error.k >= 8 and .error.q > 1e-9 and .error.q < 1e-7'
+text "x'' = -x\nx(0) = cos(2)\nx'(0) = sin(2)\nn = 0\nwhen x = 1: n = n + 1\n"
+gives "a count that a touch leaves open" 0 "$motus" run "$one" --method verlet --step 0.05 --until 5
+that "  says what is open" says "undecided: an event may have happened or not, or it jumps, within the error of the state"
 
 echo "$passed passed, $failed failed"
 [ "$failed" = 0 ]
