@@ -309,6 +309,9 @@ static void times_of_jumps(void **unused)
         refuses(text, "e is no invariant", jumps[k].when, 4);
     }
     takes("x'' = -x\n" START "invariant e = x^2 + x'^2 + if(t > 10.0001, 1, 0)\nuntil 10\n");
+    refuses("x'' = -400 sin(x)\n" START "invariant e = if(t > 9.99999, 1, 0)\nuntil 10\n", "e is no invariant",
+            "it jumps from 0 to 1", 4); /* nearer to the end than the runs may be late */
+    takes("x'' = -400 sin(x)\n" START "invariant e = if(t > 10.00001, 1, 0)\nuntil 10\n");
 }
 
 /* Numbers that are set are checked as those of the text. */

@@ -422,7 +422,8 @@ static double apart(runs *r)
     return (r->most_x > 0 ? x / r->most_x : 0) + (r->most_v > 0 ? v / r->most_v : 0);
 }
 
-/* Along the whole run, in steps which are shorter where they do not resolve what they go over. */
+/* Along the whole run, in steps which are shorter where they do not resolve what they go over; and so far beyond it as
+ * a jump before its end takes to be judged. */
 static motus_status go_far(runs *r, double way, int steps)
 {
     const model *m = r->model;
@@ -431,16 +432,19 @@ static motus_status go_far(runs *r, double way, int steps)
     double h = r->h;
     int depth = 0;
     bool noted = false;
-    for (int n = 0; n < steps && status == MOTUS_OK && fabs(r->t - m->start) < fabs(way); n++) {
-        const double left = way - (r->t - m->start), now = fabs(left) < fabs(h) ? left : h;
+    for (int n = 0; n < steps && status == MOTUS_OK; n++) {
+        const double left = way - (r->t - m->start);
+        const bool ended = !(fabs(r->t - m->start) < fabs(way));
+        if (ended && (!noted || r->t == r->jumps_to)) break;
+        const double now = !ended && fabs(left) < fabs(h) ? left : h;
         step_both(r, now);
         const bool short_enough = finite_states(r) && resolved(r, now);
         if (!short_enough && depth < DEPTH) {
             step_back(r);
-            h /= 2, depth++;
+            h = now / 2, depth++;
             continue;
         }
-        if (!finite_states(r)) break;
+        if (!finite_states(r) || (!short_enough && ended)) break;
         if (!short_enough && !noted) note_before(r), noted = true, r->jumps_from = r->t;
         r->t += now;
         r->last = now;
@@ -449,7 +453,7 @@ static motus_status go_far(runs *r, double way, int steps)
         note_sizes(r);
         const bool over = depth == 0 || fabs(r->t - r->jumps_to) > r->lag;
         if (noted && short_enough && over) status = judge_jumps(r), noted = false;
-        if (status == MOTUS_OK) status = judge_all(r, false);
+        if (status == MOTUS_OK && !ended) status = judge_all(r, false);
         if (depth > 0 && short_enough) h *= 2, depth--;
         if (depth == 0) h = whole;
     }
