@@ -290,7 +290,7 @@ static double part_of_largest(const motus_run *r, double part)
 {
     const problem *const p = stepper_problem(r->stepper);
     const double most = fmax(vector_largest(r->x, p->nx), vector_largest(r->v, p->nv)),
-                 digits = most > 0 ? floor(log10(most)) : 0;
+                 digits = most > 0 && isfinite(most) ? floor(log10(most)) : 0;
     return digits < 0 ? part / pow(10, -digits) : part * pow(10, digits);
 }
 

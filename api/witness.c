@@ -43,6 +43,8 @@ enum {
     VAIN = 32,     /* steps after which that is tried again, where it has failed */
     SHORTER = 6,   /* times that a probe is shorter, before it is no matter of its steps that no way does it */
     BEHIND = 3,    /* steps that the companion is led through, the first of which lacks something */
+    FINEST = 24,   /* halvings of a step that tell what is narrow in it, */
+    RESOLVED = 3,  /*   and so many of which its own points make up for */
     MANY = 8,      /* parts of a step, of which there are more where a force has narrow peaks */
     WIDTH = 64     /* velocities of a run: of more of them ways say too little */
 };
@@ -98,7 +100,7 @@ typedef struct state { /* of the run, in the inside order */
     double t, *x, *v;
 } state;
 
-enum { FROM, TO, MIDDLE, POINT = MIDDLE + DEPTH, END, STATES };
+enum { FROM, TO, MIDDLE, POINT = MIDDLE + DEPTH, END, LAST, STATES };
 
 struct witness {
     const motus_system *typed;
@@ -167,8 +169,7 @@ struct witness {
     bool crosses;          /* a switch may stand at 0 within the step */
     bool counted, whole;   /* it has parts before that, or (whole) all parts count */
     bool first_only;       /* the look ends behind the first parts of which too much is missing, */
-    bool rests;            /*   unless some number rests: all that is missing of it is its size; */
-    bool ended;            /*   it has ended, at */
+    bool ended;            /*   as it has, at */
     double behind_first;
     double clean;      /* up to here nothing is missing */
     bool exhausted;    /* it has ended before it could tell what hides in some part */
@@ -236,6 +237,8 @@ static bool find_bends(motus_system *s)
     return b->known;
 }
 
+static void forget_peak(witness *w) { w->empty[0] = w->empty[1] = w->peak = w->peak_end = NAN; }
+
 /* Forgets what it has seen. */
 static void forget(witness *w, const stepper *s)
 {
@@ -243,7 +246,8 @@ static void forget(witness *w, const stepper *s)
     memset(w->rounded, 0, (w->nv + 1) * sizeof *w->rounded);
     memset(w->rounded_x, 0, (w->nv + 1) * sizeof *w->rounded_x);
     memset(w->felt, 0, (w->nv + 1) * sizeof *w->felt);
-    w->until = w->differs = w->unseen = w->empty[0] = w->empty[1] = w->peak = w->peak_end = NAN;
+    w->until = w->differs = w->unseen = NAN;
+    forget_peak(w);
     w->least = INFINITY;
     w->clear = (interval){1, -1};
     w->ahead = AHEAD / 16;
@@ -586,6 +590,20 @@ static bool suspects(witness *w)
     return most > SUSPICIOUS || (!w->probes && beyond_velocities(w, w->missing, BARS));
 }
 
+/* Whether something is missing of a number that rests. */
+static bool stirs(const witness *w, size_t k)
+{
+    return w->speed[k] <= NOTHING && w->missing[k] > NOTHING && isfinite(w->missing[k]);
+}
+
+/* Whether the look ends here: too much is missing. All that is missing of a number that rests is its size. */
+static bool shows_enough(witness *w)
+{
+    bool any = false;
+    for (size_t k = 0; k < w->nv && !any; k++) any = stirs(w, k);
+    return !any && suspects(w) && w->far;
+}
+
 /* A part in which no switch stands at 0; it counts where the sides of all are those of the beginning. */
 static bool hold_before(witness *w, stepper *s, const state *from, const state *to)
 {
@@ -593,7 +611,7 @@ static bool hold_before(witness *w, stepper *s, const state *from, const state *
     w->counted = true;
     if (!hold(w, s, from, to)) return false;
     if (vector_largest(w->missing, w->nv) <= ULP * vector_largest(to->v, w->nv)) w->clean = to->t;
-    w->ended = w->first_only && !w->rests && (from != &w->at[FROM] || to != &w->at[TO]) && suspects(w) && w->far;
+    w->ended = w->first_only && (from != &w->at[FROM] || to != &w->at[TO]) && shows_enough(w);
     if (w->ended) w->behind_first = to->t;
     return true;
 }
@@ -646,8 +664,6 @@ static void allow(witness *w, const problem *p)
             w->allowed[k] = fmax(lost, w->strict ? w->rounded[k] : NOTHING);
         }
     }
-    w->rests = false;
-    for (size_t k = 0; k < w->nv; k++) w->rests |= w->speed[k] <= NOTHING;
     for (size_t k = 0; k < w->nx; k++)
         w->rounded_x[k] = fmax(ROUNDING * fmax(fabs(from->x[k]), fabs(to->x[k])), w->rounded_x[k]);
 }
@@ -687,6 +703,7 @@ static bool lead(witness *w, double t, double lost, const double *x, const doubl
     const double spent = inner->spent;
     const int64_t before = w->probe ? stepper_evaluations(w->probe) : 0;
     inner->tries = 0, inner->differs = NAN, inner->held = false;
+    forget_peak(inner);
     inner->least = least;
     inner->earned = spent + fmax(SPEND_LEAST, (w->steady ? SPEND_LEAD : SPEND_PROBE) / w->operations);
     if (!status) status = stepper_jump(w->probe, t, lost, size, x, v, NULL);
@@ -754,10 +771,16 @@ static bool affords(witness *w, const stepper *s)
 {
     const double h = fabs(stepper_last_step(s));
     earn(w, s);
-    const double most = w->earned + (w->peaks || known(w, s) ? most_spared(w) : 0);
-    if (w->spent > most && (w->probes || h < LONGER * w->longest)) return false;
+    const bool spares = w->peaks && w->spared < most_spared(w);
+    if (!spares && w->spent > w->earned && (w->probes || h < LONGER * w->longest)) return false;
     w->longest = fmax(h, w->longest);
     return true;
+}
+
+/* From t on not all steps are searched for peaks. */
+static void miss(witness *w, double t)
+{
+    if (isnan(w->unseen)) w->unseen = t;
 }
 
 /* The step is to be taken again. */
@@ -786,7 +809,7 @@ static bool feels(witness *w)
 {
     bool more = false;
     for (size_t k = 0; k < w->nv; k++) {
-        if (!(w->speed[k] <= NOTHING && w->missing[k] > NOTHING && isfinite(w->missing[k]))) continue;
+        if (!stirs(w, k)) continue;
         w->felt[k] = w->missing[k];
         more = true;
     }
@@ -796,9 +819,9 @@ static bool feels(witness *w)
 /* What is missing of the whole. */
 static bool look_at_all(witness *w, stepper *s, bool whole)
 {
-    w->most_spent = w->spent + fmax(SPEND_LEAST, SPEND_STEP / w->operations);
     w->whole = whole;
     for (int time = 0; time < 2; time++) {
+        w->most_spent = w->spent + fmax(SPEND_LEAST, SPEND_STEP / w->operations);
         allow(w, stepper_problem(s));
         w->parts = 0, w->worst = 0, w->beside = w->crosses = w->counted = w->ended = w->exhausted = false;
         w->past = NAN;
@@ -898,11 +921,13 @@ static double object(witness *w, stepper *s, double whole)
     return 0;
 }
 
-/* A look finds nothing: the step stands, unless the look has ended before it saw all. */
+/* A look finds nothing: the step stands, unless the look has ended before it saw all of a force with narrow peaks. */
 static double pass(witness *w, double whole)
 {
-    w->peaks |= w->parts > MANY || w->exhausted;
-    if (w->exhausted && !w->kinked && w->tries < SHORTER) return refuse(w, whole / 4);
+    const bool many = w->parts > MANY, lost = many && w->exhausted && !w->kinked;
+    w->peaks |= many;
+    if (lost && w->tries < SHORTER) return refuse(w, whole / 4);
+    if (lost) miss(w, w->at[FROM].t);
     return w->tries = 0;
 }
 
@@ -929,6 +954,17 @@ static bool judge_first(witness *w, stepper *s, double *again)
     return true;
 }
 
+/* Of the steps that lead on from another state than that to which the last one has led, nothing is known. */
+static void go_on(witness *w)
+{
+    const state *const from = &w->at[FROM], *const to = &w->at[TO], *const last = &w->at[LAST];
+    const size_t x = w->nx * sizeof *from->x, v = w->nv * sizeof *from->v;
+    if (!isnan(w->peak) && w->tries == 0 && (memcmp(from->x, last->x, x) != 0 || memcmp(from->v, last->v, v) != 0))
+        forget_peak(w);
+    memcpy(last->x, to->x, x);
+    memcpy(last->v, to->v, v);
+}
+
 /* Whether what an earlier step has shown decides: nothing is missing before the peak, and a long step leaps it.
  * *again: as judge gives it. */
 static bool meets_peak(witness *w, double *again)
@@ -937,10 +973,36 @@ static bool meets_peak(witness *w, double *again)
                  before = sign * (w->peak - from), length = sign * (w->peak_end - w->peak),
                  first = fmax(before, length);
     *again = 0;
-    if (sign * (from - w->empty[0]) >= 0 && sign * (w->empty[1] - to) >= 0) return true;
+    if (sign * (from - w->empty[0]) >= 0 && sign * (w->empty[1] - to) >= 0) {
+        w->tries = 0;
+        return true;
+    }
     if (!(sign * (w->peak_end - from) > 0 && whole > before && first < ROOM * whole) || w->tries >= TRIES) return false;
     *again = refuse(w, sign * first);
     return true;
+}
+
+/* The shortest piece, and of these the first, into which a part is halved until no operation but a switch may hide
+ * something. False: it is not to be had, or sampling fails. */
+static bool find_shortest(witness *w, stepper *s, const state *from, const state *to, int depth, int *deepest)
+{
+    state *const middle = &w->at[MIDDLE + depth];
+    if (fits(w, w->smooth, from, to)) {
+        if (depth > *deepest) *deepest = depth, w->start = from->t, w->length = to->t - from->t;
+        return true;
+    }
+    return depth < FINEST && w->spent <= w->most_spent && see(s, from->t + (to->t - from->t) / 2, middle) &&
+           find_shortest(w, s, from, middle, depth + 1, deepest) && find_shortest(w, s, middle, to, depth + 1, deepest);
+}
+
+/* What is missing where a switch stands at 0 no integral of the force tells: whether what is held is let go is a matter
+ * of the run's own points, so they have to resolve what else the force does there. */
+static bool resolves(witness *w, stepper *s)
+{
+    int deepest = 0;
+    if (!w->crosses || !w->smooth || w->tries >= TRIES) return true;
+    w->most_spent = w->spent + fmax(SPEND_LEAST, SPEND_STEP / w->operations);
+    return !find_shortest(w, s, &w->at[FROM], &w->at[TO], 0, &deepest) || deepest <= RESOLVED;
 }
 
 /* The size by which a step is to be taken again; 0: it stands. A located run may end it at a switch, behind which there
@@ -952,11 +1014,13 @@ static double judge(witness *w, stepper *s)
     if (!see_ends(w, s) || !bound(w, s)) return 0;
     const double whole = to->t - from->t;
     const bool all = w->located || w->strict;
+    go_on(w);
     if (!w->strict && fits(w, w->bends, from, to)) return w->tries = 0;
     if (!all && (meets_peak(w, &again) || !judge_first(w, s, &again) || again != 0)) return again;
     if ((all || w->ended) && !look_at_all(w, s, !w->located || w->strict)) return 0;
     w->open = !w->whole && !isnan(w->past);
-    if (!(w->parts > 1 && suspects(w)) && !w->beside) return pass(w, whole);
+    if (!(w->parts > 1 && suspects(w)) && !w->beside)
+        return w->strict || resolves(w, s) ? pass(w, whole) : refuse(w, shorter(w, whole));
     return w->open && !see(s, w->past, &w->at[TO]) ? 0 : object(w, s, whole);
 }
 
@@ -976,7 +1040,7 @@ static stepper_verdict inspect(void *ctx, stepper *s)
     witness_objected(w);
     w->moves = w->open = w->exhausted = false;
     const bool afforded = affords(w, s);
-    if (!afforded && w->spared > most_spared(w) && isnan(w->unseen)) w->unseen = stepper_time(s) - stepper_last_step(s);
+    if (!afforded && w->peaks && w->spared >= most_spared(w)) miss(w, stepper_time(s) - stepper_last_step(s));
     const double spent = w->spent, again = afforded ? judge(w, s) : 0;
     spare(w, spent);
     if (again == 0) w->looked += afforded && !w->exhausted, w->steps++;
