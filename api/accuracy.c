@@ -294,25 +294,32 @@ static double part_of_largest(const motus_run *r, double part)
     return digits < 0 ? part / pow(10, -digits) : part * pow(10, digits);
 }
 
+#define NEARLY 10.0 /* times the accuracy: a motion that goes no farther rests */
+
 /* The trials, once more, where a number is rounding alone and has no part that can be asked for: its tolerance, and so
- * the accuracy, is that of the largest numbers. Else the first failure stays. */
-static motus_status find_absolute(trial *s, accuracy *a, double *size, motus_error *failure)
+ * the accuracy, is that of the largest numbers. Else what was found before stays. */
+static motus_status find_absolute(trial *s, accuracy *a, motus_status before, double *size, motus_error *failure)
 {
     motus_error theirs = motus_default_error();
     accuracy whole = *a;
-    whole.wanted = part_of_largest(s->run, whole.wanted);
+    double found = NAN;
+    whole.wanted = part_of_largest(a->best ? a->best : s->run, whole.wanted);
     whole.absolute = true;
     s->def.absolute = s->once = true;
     motus_run_destroy(s->run);
     s->run = NULL;
-    const motus_status status = find(s, &whole, size, &theirs);
+    const motus_status status = find(s, &whole, &found, &theirs);
     if (status == MOTUS_OK && whole.reached <= whole.wanted) {
+        accuracy_end(a);
         *a = whole;
+        *size = found;
         return MOTUS_OK;
     }
     accuracy_end(&whole);
-    if (ends_all(status)) *failure = theirs;
-    return failure->status;
+    s->def.absolute = false;
+    if (!ends_all(status)) return before;
+    *failure = theirs;
+    return status;
 }
 
 motus_status accuracy_find(motus_system *system, motus_run_def *def, run_hint *hint, accuracy *a, motus_error *err)
@@ -326,8 +333,10 @@ motus_status accuracy_find(motus_system *system, motus_run_def *def, run_hint *h
     double size = NAN;
     motus_error failure = motus_default_error();
     motus_status status = find(&s, a, &size, &failure);
-    const bool rounds = status != MOTUS_OK && failure.cause == MOTUS_CAUSE_ROUNDING && !a->absolute && s.run;
-    if (rounds) status = find_absolute(&s, a, &size, &failure);
+    const bool rounds = status != MOTUS_OK && failure.cause == MOTUS_CAUSE_ROUNDING && s.run,
+               rests = status == MOTUS_OK && a->reached > a->wanted &&
+                       differences_still(&a->best->bars->differences, NEARLY * a->wanted);
+    if (!a->absolute && (rounds || rests)) status = find_absolute(&s, a, status, &size, &failure);
     motus_run_destroy(s.run);
     if (status != MOTUS_OK) return tell_failure(a, &s, &failure, err);
     *s.size = size;

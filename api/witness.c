@@ -851,6 +851,7 @@ static bool hides(witness *w, stepper *s, double part)
 static bool lacks(witness *w, stepper *s)
 {
     if (fits(w, w->bends, &w->at[FROM], &w->at[TO]) || !look_at_all(w, s, true)) return false;
+    w->peaks |= w->parts > MANY && !w->kinked;
     if (w->crosses) return !w->events && !w->covered && !w->leaves;
     return w->parts > 1 && beyond_velocities(w, w->missing, PART_OF_BARS) && hides(w, s, SHOWN);
 }
@@ -872,7 +873,7 @@ static void compare(witness *w, stepper *s, double until)
  * the same. */
 static int64_t rest_of(const witness *w)
 {
-    const double owes = w->spent - w->earned;
+    const double owes = w->peaks && w->spared < most_spared(w) ? 0 : w->spent - w->earned;
     return owes > 0 ? (int64_t)(owes / w->each * (1 + turn((uint32_t)w->steps, 0) / 2)) : 0;
 }
 
@@ -883,9 +884,12 @@ static stepper_verdict inspect_steady(witness *w, stepper *s, double until)
     w->each = fmax(SPEND, (w->earned - before) / (double)(w->rested + 1));
     w->steps += w->rested + 1;
     if (rest_of(w) == 0) {
+        const double spent = w->spent;
         compare(w, s, until);
+        spare(w, spent);
         w->looked++;
     }
+    if (w->peaks && rest_of(w) > 0) miss(w, stepper_time(s));
     w->rested = rest_of(w);
     w->objected |= w->moves;
     return (stepper_verdict){.rest = w->rested, .halt = w->moves};

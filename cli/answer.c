@@ -76,7 +76,8 @@ void answer_print(const summary *s, FILE *out)
         fprintf(out, "; errors have grown %s times: --error full is safer", growth);
     }
     if (e->looked < 1) {
-        text_brief(100 * e->looked, 2, looked);
+        const double percent = 100 * e->looked;
+        text_brief(percent < 10 ? percent : floor(percent), 2, looked);
         fprintf(out, "; what the force does within a step was looked at in %s %% of the steps", looked);
     }
     putc('\n', out);

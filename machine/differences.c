@@ -31,9 +31,10 @@ enum { PARTS = 32, SLOTS = 6, SLOTS_KINKED = 12, FITTED = 64 };
 #define LOST 0.1
 #define LOST_SLOWLY 0.25
 #define SLOWLY 3e3
-#define LAST 0.4      /* of |run - companion| at the landing before: a bar is no smaller */
-#define STEPPED 0.5   /* units in the last place of the number before, which a step adds to */
-#define GROWN 1e3     /* a motion that is so many times as large is another one */
+#define LAST 0.4    /* of |run - companion| at the landing before: a bar is no smaller */
+#define STEPPED 0.5 /* units in the last place of the number before, which a step adds to */
+#define STILL 1e-9 /* of the largest place: velocities which move nothing by more than that in the whole run are none */
+#define GROWN 1e3  /* a motion that is so many times as large is another one */
 #define STRAIGHT 0.03 /* up to this distance the growth is fitted */
 
 /* How many landings a long run has; the steps that are well apart; how many landings a short run has at least. */
@@ -158,6 +159,17 @@ static bool has_size(differences *f, size_t group, double t)
     return fabs(t - s->grew) >= part;
 }
 
+/* Whether velocities, or a difference of them, move places in the whole run by more than that part of the largest. */
+static bool moves(const differences *f, double velocity, double part)
+{
+    return !(velocity * fabs(f->length) <= part * f->scale[0]);
+}
+
+bool differences_still(const differences *f, double part)
+{
+    return f->scale[0] > 0 && !moves(f, f->scale[1], fmax(part, STILL));
+}
+
 /* How far the companion is from the run, by groups, in units of the group's largest number. *judged: of those alone
  * that have a size. */
 static double distance_of(differences *f, double t, double *judged)
@@ -175,7 +187,8 @@ static double distance_of(differences *f, double t, double *judged)
         }
         f->most[g] = larger(far, f->most[g]);
         if (f->scale[g] > 0) most = larger(far / f->scale[g], most);
-        if (f->scale[g] > 0 && has_size(f, g, t)) *judged = larger(far / f->scale[g], *judged);
+        if (f->scale[g] > 0 && has_size(f, g, t) && (g != 1 || moves(f, far, STILL)))
+            *judged = larger(far / f->scale[g], *judged);
         from += n;
     }
     return most;

@@ -77,6 +77,8 @@ void differences_take(differences *, double t, bool observed, bool twin);
 void differences_widen(differences *);
 /* The bar of a number at the last landing; 0: it is exact; INFINITY: no digit of it is significant. */
 double differences_bar(const differences *, size_t number);
+/* Whether no velocity can have moved a place by more than that part of the largest: the motion rests. */
+bool differences_still(const differences *, double part);
 /* Whether run and companion have had the same number of late, so that nothing is known to move it. */
 bool differences_agree(const differences *, size_t number);
 /* A bound on the bars that any number of the state had so far, relative to the largest number of its group or in its

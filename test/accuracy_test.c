@@ -511,6 +511,35 @@ static int stop(void *context, double fraction)
     return 1;
 }
 
+/* Of a body that rests in balance the velocity is rounding alone: no digit of it can be asked for, and the place is
+ * known all the same. */
+static void at_rest(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *text;
+        double x;
+    } models[] = {{"x'' = -3 x + 1; x(0) = 1/3; x'(0) = 0", 1.0 / 3},
+                  {"x'' = -10 x + 9.81 - 0.1 x'; x(0) = 0.981; x'(0) = 0", 0.981},
+                  {"x'' = -sin(x); x(0) = pi; x'(0) = 0", 3.14159265358979323846}};
+    static const double accuracies[] = {1e-9, 1e-6};
+    for (size_t i = 0; i < 3 * sizeof models / sizeof *models; i++) {
+        motus_error err = motus_default_error();
+        motus_system *s = given_text(models[i / 3].text);
+        motus_run *r = NULL;
+        motus_run_def def = wanted(NULL, i % 3 < 2 ? accuracies[i % 3] : NAN, 10);
+        if (i % 3 == 2) def.method = "verlet", def.step = 0.01, def.error = MOTUS_BARS_CHEAP;
+        must(made(s, &def, &r, &err), &err, models[i / 3].text);
+        double numbers[2], bars[2];
+        const size_t columns[] = {1, 2};
+        must(motus_run_errors(r, columns, 2, numbers, bars, &err), &err, models[i / 3].text);
+        for (int k = 0; k < 2; k++) assert_true(fabs(numbers[k] - (k ? 0 : models[i / 3].x)) <= bars[k]);
+        assert_true(bars[0] < 1e-6 && bars[1] < 1e-6);
+        motus_run_destroy(r);
+        motus_system_destroy(s);
+    }
+}
+
 static void refused(void **state)
 {
     (void)state;
@@ -605,6 +634,7 @@ int main(void)
                                        cmocka_unit_test(the_place_of_an_infinite_slope),
                                        cmocka_unit_test(the_part_of_decimals),
                                        cmocka_unit_test(held_in_balance),
+                                       cmocka_unit_test(at_rest),
                                        cmocka_unit_test(refused)};
     open_cache();
     const int failed = cmocka_run_group_tests(tests, NULL, NULL);
