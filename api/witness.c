@@ -761,7 +761,6 @@ static double most_spared(const witness *w) { return w->probes ? 0 : w->most_spa
 
 static void spare(witness *w, double spent)
 {
-    if (!w->peaks) return;
     w->spared += w->spent - spent;
     if (w->spared < most_spared(w)) w->spent = spent;
 }
@@ -771,7 +770,7 @@ static bool affords(witness *w, const stepper *s)
 {
     const double h = fabs(stepper_last_step(s));
     earn(w, s);
-    const bool spares = w->peaks && w->spared < most_spared(w);
+    const bool spares = (w->peaks || w->tries > 0 || known(w, s)) && w->spared < most_spared(w);
     if (!spares && w->spent > w->earned && (w->probes || h < LONGER * w->longest)) return false;
     w->longest = fmax(h, w->longest);
     return true;
@@ -786,7 +785,8 @@ static void miss(witness *w, double t)
 /* The step is to be taken again. */
 static double refuse(witness *w, double size)
 {
-    w->tries++, w->objected = w->peaks = true;
+    w->tries++, w->objected = true;
+    w->peaks |= !w->kinked;
     return size;
 }
 
@@ -886,7 +886,7 @@ static stepper_verdict inspect_steady(witness *w, stepper *s, double until)
     if (rest_of(w) == 0) {
         const double spent = w->spent;
         compare(w, s, until);
-        spare(w, spent);
+        if (w->peaks) spare(w, spent);
         w->looked++;
     }
     if (w->peaks && rest_of(w) > 0) miss(w, stepper_time(s));
@@ -928,7 +928,7 @@ static double object(witness *w, stepper *s, double whole)
 /* A look finds nothing: the step stands, unless the look has ended before it saw all of a force with narrow peaks. */
 static double pass(witness *w, double whole)
 {
-    const bool many = w->parts > MANY, lost = many && w->exhausted && !w->kinked;
+    const bool many = w->parts > MANY && !w->kinked, lost = many && w->exhausted;
     w->peaks |= many;
     if (lost && w->tries < SHORTER) return refuse(w, whole / 4);
     if (lost) miss(w, w->at[FROM].t);
@@ -1006,7 +1006,9 @@ static bool resolves(witness *w, stepper *s)
     int deepest = 0;
     if (!w->crosses || !w->smooth || w->tries >= TRIES) return true;
     w->most_spent = w->spent + fmax(SPEND_LEAST, SPEND_STEP / w->operations);
-    return !find_shortest(w, s, &w->at[FROM], &w->at[TO], 0, &deepest) || deepest <= RESOLVED;
+    const bool narrow = find_shortest(w, s, &w->at[FROM], &w->at[TO], 0, &deepest) && deepest > RESOLVED;
+    w->peaks |= narrow;
+    return !narrow;
 }
 
 /* The size by which a step is to be taken again; 0: it stands. A located run may end it at a switch, behind which there
@@ -1046,7 +1048,7 @@ static stepper_verdict inspect(void *ctx, stepper *s)
     const bool afforded = affords(w, s);
     if (!afforded && w->peaks && w->spared >= most_spared(w)) miss(w, stepper_time(s) - stepper_last_step(s));
     const double spent = w->spent, again = afforded ? judge(w, s) : 0;
-    spare(w, spent);
+    if (w->peaks || again != 0) spare(w, spent);
     if (again == 0) w->looked += afforded && !w->exhausted, w->steps++;
     w->objected |= w->moves;
     return (stepper_verdict){.again = again};
