@@ -782,11 +782,14 @@ static void miss(witness *w, double t)
     if (isnan(w->unseen)) w->unseen = t;
 }
 
+/* Whether what a look has found may be a peak: no switch stands at 0, and other operations can hide something. */
+static bool may_be_peak(const witness *w) { return !w->crosses && (!w->kinked || w->smooth); }
+
 /* The step is to be taken again. */
 static double refuse(witness *w, double size)
 {
     w->tries++, w->objected = true;
-    w->peaks |= !w->kinked;
+    w->peaks |= may_be_peak(w);
     return size;
 }
 
@@ -851,7 +854,7 @@ static bool hides(witness *w, stepper *s, double part)
 static bool lacks(witness *w, stepper *s)
 {
     if (fits(w, w->bends, &w->at[FROM], &w->at[TO]) || !look_at_all(w, s, true)) return false;
-    w->peaks |= w->parts > MANY && !w->kinked;
+    w->peaks |= w->parts > MANY && may_be_peak(w);
     if (w->crosses) return !w->events && !w->covered && !w->leaves;
     return w->parts > 1 && beyond_velocities(w, w->missing, PART_OF_BARS) && hides(w, s, SHOWN);
 }
@@ -928,7 +931,7 @@ static double object(witness *w, stepper *s, double whole)
 /* A look finds nothing: the step stands, unless the look has ended before it saw all of a force with narrow peaks. */
 static double pass(witness *w, double whole)
 {
-    const bool many = w->parts > MANY && !w->kinked, lost = many && w->exhausted;
+    const bool many = w->parts > MANY && may_be_peak(w), lost = many && w->exhausted;
     w->peaks |= many;
     if (lost && w->tries < SHORTER) return refuse(w, whole / 4);
     if (lost) miss(w, w->at[FROM].t);
