@@ -156,48 +156,6 @@ static void trial(tally *t, int k)
     motus_system_destroy(s);
 }
 
-/* Initial values of families, of which a line for one cell or a set one takes the place of that of the family. */
-static void starts_of_families(void **state)
-{
-    enum { CELLS = 7 };
-    static const struct {
-        const char *start;
-        long double by, plus;
-    } starts[] = {{"x[i](0) = 1000.7 i - 1000.6 i for i = 1..7", 0.1L, 0},
-                  {"x[i](0) = 1e10 (sqrt(i)^2 - i) + 1 for i = 1..7", 0, 1},
-                  {"x[i](0) = exp(log(i + 0.5)) - i for i = 1..7", 0, 0.5L},
-                  {"c[i] = 1000.7 i for i = 1..7; x[i](0) = c[i] - 1000.6 i for i = 1..7", 0.1L, 0},
-                  {"x[i](0) = sum(k = 1..i: 1000.7 - 1000.6 k/k) for i = 1..7", 0.1L, 0},
-                  {"x[i](0) = 1000.7 i - 1000.6 i for i = 1..7; x[3](0) = 9", 0.1L, 0},
-                  {"x[3](0) = 9; x[4](0) = 5; x[i](0) = 1000.7 i - 1000.6 i for i = 1..7", 0.1L, 0}};
-    tally t = {0};
-    (void)state;
-    for (size_t k = 0; k < sizeof starts / sizeof *starts; k++)
-        for (int set = 0; set < 2; set++) {
-            char text[TEXT_ROOM];
-            snprintf(text, sizeof text, "x[i]'' = 0 for i = 1..7; x[i]'(0) = 0 for i = 1..7; until 1; %s",
-                     starts[k].start);
-            const char *const sets[] = {"x[4](0) = 5"};
-            motus_system *const s = given_text_with(text, sets, (size_t)set, text);
-            motus_run_def def = motus_default_run();
-            motus_error err = motus_default_error();
-            motus_run *r = NULL;
-            def.error = MOTUS_BARS_CHEAP, def.method = "dop853", def.tolerance = 1e-13, def.machine = "interpreter";
-            must(motus_run_create(s, &def, &r, &err), &err, text);
-            must(motus_run_finish(r, &err), &err, text);
-            for (int i = 1; i <= CELLS; i++) {
-                const size_t column = (size_t)i;
-                const bool nine = i == 3 && strstr(text, "x[3](0)"), five = i == 4 && (set || strstr(text, "x[4](0)"));
-                double value, bar;
-                must(motus_run_errors(r, &column, 1, &value, &bar, &err), &err, text);
-                judge(&t, text, "a cell", value, bar, nine ? 9 : five ? 5 : starts[k].by * i + starts[k].plus);
-            }
-            motus_run_destroy(r);
-            motus_system_destroy(s);
-        }
-    assert_true(t.within >= 0.95 * t.counted && t.close >= 0.8 * t.counted);
-}
-
 /* What is 0/0 as decimals say it has no digit, also where doubles make 0 or a half of it. */
 static void quotients_of_nothing(void **state)
 {
@@ -236,7 +194,6 @@ static void decimals_that_cancel(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(starts_of_families), cmocka_unit_test(quotients_of_nothing),
-                                       cmocka_unit_test(decimals_that_cancel)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(quotients_of_nothing), cmocka_unit_test(decimals_that_cancel)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

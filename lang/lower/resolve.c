@@ -94,7 +94,7 @@ static bool resolve_matrix(model *m, model_definition *d)
         place.to.at[1] = (subscript){.level = -1, .slot = -1, .modulus = -1, .literal = 1 + k % v.count};
         if (!vary_record(m, &place, v.item + k, 1, base, 2, d->first, d->last, (size_t)n, NULL, 0, &d->log_array))
             return false;
-        evaluate_held_cells(m, &place, v.item + k, 1, at, NULL, 0);
+        evaluate_held_cells(m, &place, v.item + k, 1, at);
     }
     return true;
 }
@@ -143,7 +143,7 @@ static bool place_entries(model *m, model_definition *d, const node *nodes, int 
         const output place = {.to = {.dims = 1, .at = {{.level = -1, .slot = -1, .modulus = -1, .literal = i + 1}}}};
         ok = vary_record(m, &place, nodes + (size_t)i * (size_t)parts, parts, base, 1, d->first, d->last, (size_t)n,
                          NULL, 0, &d->log_array);
-        if (ok) evaluate_held_cells(m, &place, nodes + (size_t)i * (size_t)parts, parts, at, NULL, 0);
+        if (ok) evaluate_held_cells(m, &place, nodes + (size_t)i * (size_t)parts, parts, at);
     }
     return ok;
 }
@@ -290,7 +290,7 @@ static bool family_lines(model *m, model_definition *d, int rank, const uint8_t 
             !vary_record(m, &o, v.item, parts, base, d->dims, d->first, d->last, hull, map, (uint8_t)rank,
                          &d->log_array))
             return false;
-        evaluate_held_cells(m, &o, v.item, parts, d->array, NULL, 0);
+        evaluate_held_cells(m, &o, v.item, parts, d->array);
     }
     return true;
 }
@@ -335,7 +335,7 @@ static bool resolve_family(model *m, model_definition *d)
     if (!map && (!evaluate_into_pool(m, &o, v.item, parts, base, d->first, d->last, hull) ||
                  !vary_record(m, &o, v.item, parts, base, d->dims, d->first, d->last, hull, NULL, 0, &d->log_array)))
         return false;
-    if (!map) evaluate_held_cells(m, &o, v.item, parts, d->array, NULL, 0);
+    if (!map) evaluate_held_cells(m, &o, v.item, parts, d->array);
     for (int rank = 1; map && rank <= RANK_SET; rank++)
         if (!family_lines(m, d, rank, map, hull)) return false;
     return finite_values(m, d, m->pool + base, hull * (size_t)parts);

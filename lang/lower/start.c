@@ -141,7 +141,7 @@ static bool start_line(model *m, model_state *s, statement *one)
     if (!vary_record(m, &o, v.item, v.count ? v.count : 1, m->arrays[s->start_array[one->primes]].base, s->dims,
                      s->first, s->last, s->hull, map, rank, &s->log_array[one->primes]))
         return false;
-    evaluate_held_cells(m, &o, v.item, v.count ? v.count : 1, s->start_array[one->primes], map, rank);
+    if (!o.loops) evaluate_held_cells(m, &o, v.item, v.count ? v.count : 1, s->start_array[one->primes]);
     if (s->dims > 0) return hull_mark(m, s, one, first, last, map, rank, false);
     map[0] = rank;
     return true;

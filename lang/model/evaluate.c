@@ -142,8 +142,7 @@ void evaluate_held(model *m, node value, uint32_t slot)
 }
 
 /* One cell: of level `level` on all values of the loops. */
-static void held_cells(singling *s, const output *target, const node *values, int parts, uint16_t first,
-                       const uint8_t *map, uint8_t rank)
+static void held_cells(singling *s, const output *target, const node *values, int parts, uint16_t first)
 {
     model *const m = s->model;
     graph *const g = m->graph;
@@ -152,7 +151,7 @@ static void held_cells(singling *s, const output *target, const node *values, in
         const int64_t last = graph_subscript(&over.last, s->index, m->ints);
         for (int64_t i = graph_subscript(&over.first, s->index, m->ints); i <= last && counted(s); i++) {
             s->index[s->level++] = i;
-            held_cells(s, target, values, parts, first, map, rank);
+            held_cells(s, target, values, parts, first);
             s->level--;
         }
         return;
@@ -167,17 +166,15 @@ static void held_cells(singling *s, const output *target, const node *values, in
                                   .modulus = -1,
                                   .literal = (int32_t)graph_subscript(&r.at[d], s->index, m->ints)};
         const size_t place = graph_element(m->arrays, &r, s->index, m->ints);
-        if (map && map[place - m->arrays[r.array].base] > rank) continue;
         const node value = target->loops ? single(s, values[k]) : values[k];
         if (!s->failed) held(m, value, place, crowded ? 0 : graph_load(g, &r));
     }
 }
 
-void evaluate_held_cells(model *m, const output *target, const node *values, int parts, uint16_t first,
-                         const uint8_t *map, uint8_t rank)
+void evaluate_held_cells(model *m, const output *target, const node *values, int parts, uint16_t first)
 {
     singling s = {.model = m};
-    if (m->source.nudged) held_cells(&s, target, values, parts, first, map, rank);
+    if (m->source.nudged) held_cells(&s, target, values, parts, first);
 }
 
 bool evaluate_nodes(model *m, const node *nodes, int count, double *out)

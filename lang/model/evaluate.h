@@ -15,10 +15,8 @@ bool evaluate_into_pool(model *, const output *target, const node *values, int p
 node evaluate_sum(model *, node);
 /* The same: what a scalar slot holds of a constant. */
 void evaluate_held(model *, node value, uint32_t slot);
-/* The same of components that a line has, and their arrays, from `first` on, over the pool; map: of cells, those above
- * `rank` keep what they hold, NULL: none. */
-void evaluate_held_cells(model *, const output *target, const node *values, int parts, uint16_t first,
-                         const uint8_t *map, uint8_t rank);
+/* The same of components that a line has, and their arrays, from `first` on, over the pool. */
+void evaluate_held_cells(model *, const output *target, const node *values, int parts, uint16_t first);
 bool evaluate_nodes(model *, const node *, int count, double *out); /* constants */
 /* Evaluates a constant. It complains where the node is not constant. */
 bool evaluate_constant(model *, node, const span *at, double *value);
