@@ -23,6 +23,7 @@ typedef struct look {
     double *g, *now;      /* of the functions: values, and room for as many numbers */
     int8_t *sign, *heads; /* of the values and of the rates along the run; 0: open */
     bool slopes;          /* `heads` is known */
+    interval *box;
 } look;
 
 static double bar(void *ctx, size_t column)
@@ -41,8 +42,9 @@ static void take_state(look *l, double part)
 
 /* The state within its bars; modes have none, and are as far off as the companion's. All is late by what the times of
  * events share and the end of the run is rounded by. */
-static bool find_box(look *l, interval *box)
+static bool find_box(look *l)
 {
+    interval *const box = l->box;
     const motus_run *r = l->run;
     const problem *p = &r->system->problem;
     const size_t moving = p->nx - p->modes;
@@ -153,26 +155,35 @@ static bool any_open(look *l)
     return false;
 }
 
-/* Room for a look, to be given back. */
-static double *begin(look *l, motus_run *r, double landed)
+/* Room for a look, which `finish` gives back. False: no memory. */
+static bool begin(look *l, motus_run *r, double landed)
 {
     const problem *p = &r->system->problem;
     const size_t nx = p->nx, nv = p->nv, n = r->rules->functions;
+    interval *const box = take(&r->allocator, nx + nv + 1, sizeof *box);
     double *const room = take(&r->allocator, 2 * nx + 4 * nv + 3 * n + 1, sizeof *room);
-    if (!room) return NULL;
-    *l = (look){.run = r, .landed = landed, .late = event_bars_late(r, landed), .dx = room};
+    *l = (look){.run = r, .landed = landed, .late = event_bars_late(r, landed), .dx = room, .box = box};
+    if (!room || !box) return false;
     l->dv = l->dx + nx, l->to_x = l->dv + nv, l->to_v = l->to_x + nx, l->a = l->to_v + nv, l->size = l->a + nv;
     l->g = l->size + nv, l->now = l->g + n;
     l->sign = (int8_t *)(void *)(l->now + n), l->heads = l->sign + n;
-    return room;
+    return true;
+}
+
+static motus_status finish(look *l, bool memory, motus_error *err)
+{
+    const motus_allocator *const a = &l->run->allocator;
+    give(a, l->dx);
+    give(a, l->box);
+    return memory ? MOTUS_OK : fail(err, MOTUS_MEMORY, "no memory for bars of error");
 }
 
 /* The box and the functions about a state. */
-static bool look_at(look *l, double t, const double *x, const double *v, interval *box)
+static bool look_at(look *l, double t, const double *x, const double *v)
 {
     const rules *rules = l->run->rules;
     l->t = t, l->x = x, l->v = v, l->slopes = false;
-    return find_box(l, box) && !rules->values(rules->ctx, t, l->to_x, l->to_v, l->g);
+    return find_box(l) && !rules->values(rules->ctx, t, l->to_x, l->to_v, l->g);
 }
 
 /* Whether a touch or another has left open how often events have happened up to t. */
@@ -188,26 +199,13 @@ static bool open_before(const motus_run *r, double t)
 
 motus_status event_counts_open(motus_run *r, double t, const double *x, const double *v, bool *open, motus_error *err)
 {
-    const problem *p = &r->system->problem;
     look l;
     *open = open_before(r, t);
     /* what is 0 at the start is no event there */
     if (*open || r->rules->functions == 0 || t == r->timing.t0) return MOTUS_OK;
-    double *const room = begin(&l, r, t);
-    interval *const box = take(&r->allocator, p->nx + p->nv + 1, sizeof *box);
-    const bool known = room && box;
-    if (known) *open = !look_at(&l, t, x, v, box) || any_open(&l);
-    give(&r->allocator, room);
-    give(&r->allocator, box);
-    return known ? MOTUS_OK : fail(err, MOTUS_MEMORY, "no memory for bars of error");
-}
-
-static size_t rule_of(const rules *rules, size_t f)
-{
-    size_t k = 0;
-    while (k + 1 < rules->count && rules->rule[k + 1].first <= f) k++;
-    while (k > 0 && rules->rule[k].leaves == 0) k--;
-    return k;
+    const bool memory = begin(&l, r, t);
+    if (memory) *open = !look_at(&l, t, x, v) || any_open(&l);
+    return finish(&l, memory, err);
 }
 
 /* Whether a function that is 0 where the motion rests is so wherever it rests: positions have no part in it, and what
@@ -231,7 +229,7 @@ static bool touches(look *l, size_t f, events_near_kind kind)
     const bool level = kind == EVENTS_NEAR_EXTREMUM;
     if (kind == EVENTS_NEAR_REST) return !rests(l, f);
     const rules *rules = l->run->rules;
-    const rule *r = &rules->rule[rule_of(rules, f)];
+    const rule *r = &rules->rule[events_rule_of(l->run->events, f)];
     find_signs(l);
     if (l->sign[f] != 0 || !is_open(l, f, 0)) return false;
     if (!level && !find_slopes(l)) return true;
@@ -274,23 +272,18 @@ static bool note_unkept(motus_run *r)
 
 motus_status event_counts_touched(motus_run *r, double t, const double *x, const double *v, motus_error *err)
 {
-    const problem *p = &r->system->problem;
     look l;
     if (r->rules->functions == 0) return MOTUS_OK;
-    double *const room = begin(&l, r, t);
-    interval *const box = take(&r->allocator, p->nx + p->nv + 1, sizeof *box);
-    bool memory = room && box && note_unkept(r);
+    bool memory = begin(&l, r, t) && note_unkept(r);
     for (size_t k = 0; memory && k < events_extrema(r->events); k++) {
         const double *at_x, *at_v;
         double at;
         events_near_kind kind;
         const size_t f = events_extremum(r->events, k, &kind, &at, &at_x, &at_v);
-        if (!look_at(&l, at, at_x, at_v, box)) continue;
+        if (!look_at(&l, at, at_x, at_v)) continue;
         widen(&l);
-        if (touches(&l, f, kind)) memory = event_counts_note(r, rule_of(r->rules, f), at);
+        if (touches(&l, f, kind)) memory = event_counts_note(r, events_rule_of(r->events, f), at);
     }
-    if (memory && look_at(&l, t, x, v, box)) memory = events_near(r->events, l.dx);
-    give(&r->allocator, room);
-    give(&r->allocator, box);
-    return memory ? MOTUS_OK : fail(err, MOTUS_MEMORY, "no memory for bars of error");
+    if (memory && look_at(&l, t, x, v)) memory = events_near(r->events, l.dx);
+    return finish(&l, memory, err);
 }

@@ -892,8 +892,8 @@ static stepper_verdict inspect_steady(witness *w, stepper *s, double until)
         if (w->peaks) spare(w, spent);
         w->looked++;
     }
-    if (w->peaks && rest_of(w) > 0) miss(w, stepper_time(s));
     w->rested = rest_of(w);
+    if (w->peaks && w->rested > 0) miss(w, stepper_time(s));
     w->objected |= w->moves;
     return (stepper_verdict){.rest = w->rested, .halt = w->moves};
 }

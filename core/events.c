@@ -660,4 +660,5 @@ int64_t events_turns(const events *e)
 }
 
 double events_interval(const events *e) { return e->interval; }
+size_t events_rule_of(const events *e, size_t function) { return e->rule_of[function]; }
 int64_t events_steps(const events *e) { return e->steps; }

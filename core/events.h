@@ -109,7 +109,8 @@ const double *events_limit_off(const events *);
 /* In how many steps since events_begin an event may have been missed because it is narrow beside the step: what the
  * points of dense output tell, no bound has confirmed. The rule, and the start of the first of these steps. */
 int64_t events_unseen(const events *, size_t *rule, double *t);
-int64_t events_steps(const events *);        /* since events_begin */
+int64_t events_steps(const events *); /* since events_begin */
+size_t events_rule_of(const events *, size_t function);
 double events_latest(const events *);        /* time of the latest action; NaN: there was none */
 bool events_ticks(const events *, double t); /* whether that is a time of a clock */
 /* Whether a function that is near 0 at the run's state leaves no event open: it has been 0 from the start on or has

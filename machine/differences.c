@@ -147,16 +147,22 @@ static double *row_of(differences *f, double t, double **twin)
     return f->envelope + now;
 }
 
+/* Whether less than a part of the run has passed since a time. */
+static bool shortly_after(const differences *f, double t, double since)
+{
+    return fabs(t - since) * PARTS < fabs(f->length) * (1 - 1e-9);
+}
+
 /* A motion that begins at rest, or at 0, has no size of its own at first: in its first part, and in so long a time
  * after it has grown by far, what it was before does not matter. */
 static bool has_size(differences *f, size_t group, double t)
 {
     differences_size_of *const s = &f->growing[group];
-    const double now = f->scale[group], part = fabs(f->length) * ((1 - 1e-9) / PARTS);
+    const double now = f->scale[group];
     const bool grows = now > GROWN * s->size;
     if (grows) s->grew = t;
-    if (grows || fabs(t - s->since) >= part) s->size = now, s->since = t;
-    return fabs(t - s->grew) >= part;
+    if (grows || !shortly_after(f, t, s->since)) s->size = now, s->since = t;
+    return !shortly_after(f, t, s->grew);
 }
 
 /* Whether velocities, or a difference of them, move places in the whole run by more than that part of the largest. */
@@ -209,7 +215,7 @@ static void grow(differences *f, double t, double now)
 
 static void judge(differences *f, double t)
 {
-    const bool begins = fabs(t - f->start) * PARTS < fabs(f->length) * (1 - 1e-9);
+    const bool begins = shortly_after(f, t, f->start);
     double judged;
     const double now = distance_of(f, t, &judged);
     if (begins || !f->first_known) f->first = now;

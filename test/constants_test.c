@@ -122,6 +122,22 @@ static const struct {
               {"x'' = -x\nx(0) = %s\nx'(0) = 0\nuntil 5", as_start},
               {"x'' = -x\nx(0) = 1\nx'(0) = 0\nuntil %s", as_end}};
 
+/* The first number of a system at the end of its run, and its bar. */
+static double first_of(motus_system *s, const char *text, double *bar)
+{
+    motus_run_def def = motus_default_run();
+    motus_error err = motus_default_error();
+    motus_run *r = NULL;
+    const size_t column = 1;
+    double value;
+    def.error = MOTUS_BARS_CHEAP, def.method = "dop853", def.tolerance = 1e-13, def.machine = "interpreter";
+    must(motus_run_create(s, &def, &r, &err), &err, text);
+    must(motus_run_finish(r, &err), &err, text);
+    must(motus_run_errors(r, &column, 1, &value, bar, &err), &err, text);
+    motus_run_destroy(r);
+    return value;
+}
+
 static void trial(tally *t, int k)
 {
     const form *const f = &forms[k % (int)(sizeof forms / sizeof *forms)];
@@ -142,17 +158,9 @@ static void trial(tally *t, int k)
     snprintf(text, sizeof text, "%s\n%s\n", define, model);
     const char *const sets[] = {set};
     motus_system *const s = given_text_with(text, sets, !strncmp(define, "a = 3", 5), text);
-    motus_run_def def = motus_default_run();
-    motus_error err = motus_default_error();
-    motus_run *r = NULL;
-    def.error = MOTUS_BARS_CHEAP, def.method = "dop853", def.tolerance = 1e-13, def.machine = "interpreter";
-    must(motus_run_create(s, &def, &r, &err), &err, text);
-    must(motus_run_finish(r, &err), &err, text);
-    const size_t column = 1;
-    double value, bar;
-    must(motus_run_errors(r, &column, 1, &value, &bar, &err), &err, text);
+    double bar;
+    const double value = first_of(s, text, &bar);
     judge(t, text, "x", value, bar, places[place].truth(c));
-    motus_run_destroy(r);
     motus_system_destroy(s);
 }
 
@@ -166,17 +174,9 @@ static void quotients_of_nothing(void **state)
         char text[TEXT_ROOM];
         snprintf(text, sizeof text, "x'' = 0; x(0) = 1 + %s; x'(0) = 0; until 1", quotients[k]);
         motus_system *const s = given_text(text);
-        motus_run_def def = motus_default_run();
-        motus_error err = motus_default_error();
-        motus_run *r = NULL;
-        def.error = MOTUS_BARS_CHEAP, def.method = "dop853", def.tolerance = 1e-13, def.machine = "interpreter";
-        must(motus_run_create(s, &def, &r, &err), &err, text);
-        must(motus_run_finish(r, &err), &err, text);
-        const size_t column = 1;
-        double value, bar;
-        must(motus_run_errors(r, &column, 1, &value, &bar, &err), &err, text);
+        double bar;
+        const double value = first_of(s, text, &bar);
         if (!(bar >= 0.4)) fail_msg("%s: x is %.17g ± %g", text, value, bar);
-        motus_run_destroy(r);
         motus_system_destroy(s);
     }
 }

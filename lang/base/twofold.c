@@ -34,10 +34,8 @@ static double two_product(double a, double b, double *rest)
 
 static twofold more(twofold a, double error) { return (twofold){a.high, a.low, a.error + error}; }
 static twofold negative(twofold a) { return (twofold){-a.high, -a.low, a.error}; }
-static twofold scaled(twofold a, double power)
-{
-    return (twofold){a.high * power, a.low * power, a.error * power};
-} /* of 2 */
+/* By a power of 2. */
+static twofold scaled(twofold a, double power) { return (twofold){a.high * power, a.low * power, a.error * power}; }
 
 static twofold plus(twofold a, twofold b)
 {
@@ -172,10 +170,8 @@ static twofold angle(twofold y, twofold x)
     return more(plus(twofold_of(near), times(d, series)), pow(size, 7));
 }
 
-static twofold beside(twofold x) /* sqrt(1 - x^2) */
-{
-    return root(times(minus(twofold_of(1), x), plus(twofold_of(1), x)));
-}
+/* sqrt(1 - x^2) */
+static twofold beside(twofold x) { return root(times(minus(twofold_of(1), x), plus(twofold_of(1), x))); }
 
 static twofold hyperbolic_sine(twofold x)
 {
@@ -252,10 +248,11 @@ static twofold answer(twofold sign, bool less, bool equal, bool greater)
     return twofold_of(sign.high < 0 ? less : sign.high > 0 ? greater : equal);
 }
 
-static twofold either(twofold a, twofold b) /* one of the two */ { return more(a, size_of(minus(a, b)) + b.error); }
+/* One of the two. */
+static twofold either(twofold a, twofold b) { return more(a, size_of(minus(a, b)) + b.error); }
 
-static twofold larger(twofold a, twofold b,
-                      bool wanted) /* by its error, no further than the operands are from theirs */
+/* Or (wanted false) the smaller: by its error no further off than the operands are. */
+static twofold larger(twofold a, twofold b, bool wanted)
 {
     const twofold d = minus(a, b);
     twofold r = (d.high > 0) == wanted ? a : b;
