@@ -102,6 +102,17 @@ static node single_sum(singling *s, graph_node sum)
     return total;
 }
 
+/* The cell that a reference is to at the present values of the loops. */
+static reference single_cell(const singling *s, reference r)
+{
+    for (int d = 0; d < r.dims; d++)
+        r.at[d] = (subscript){.level = -1,
+                              .slot = -1,
+                              .modulus = -1,
+                              .literal = (int32_t)graph_subscript(&r.at[d], s->index, s->model->ints)};
+    return r;
+}
+
 static node single_at(graph *g, node n, int level, void *ctx)
 {
     singling *const s = ctx;
@@ -110,12 +121,7 @@ static node single_at(graph *g, node n, int level, void *ctx)
     if (s->failed) return n;
     if (of.op == OP_INDEX) return of.level < s->level ? graph_const(g, (double)s->index[of.level]) : n;
     if (of.op == OP_SUM) return single_sum(s, of);
-    reference r = g->references[of.a];
-    for (int d = 0; d < r.dims; d++)
-        r.at[d] = (subscript){.level = -1,
-                              .slot = -1,
-                              .modulus = -1,
-                              .literal = (int32_t)graph_subscript(&r.at[d], s->index, s->model->ints)};
+    const reference r = single_cell(s, g->references[of.a]);
     return graph_load(g, &r);
 }
 
@@ -158,13 +164,8 @@ static void held_cells(singling *s, const output *target, const node *values, in
     }
     const bool crowded = g->count > GRAPH_NODES_MAX / 2; /* so many numbers have no leaves of their own */
     for (int k = 0; k < parts && !s->failed && !source_failed(&m->source); k++) {
-        reference r = target->to;
+        reference r = single_cell(s, target->to);
         r.array = (uint16_t)(first + k);
-        for (int d = 0; d < r.dims; d++)
-            r.at[d] = (subscript){.level = -1,
-                                  .slot = -1,
-                                  .modulus = -1,
-                                  .literal = (int32_t)graph_subscript(&r.at[d], s->index, m->ints)};
         const size_t place = graph_element(m->arrays, &r, s->index, m->ints);
         const node value = target->loops ? single(s, values[k]) : values[k];
         if (!s->failed) held(m, value, place, crowded ? 0 : graph_load(g, &r));
