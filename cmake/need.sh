@@ -2,10 +2,15 @@
 # Checks that the packages which a target needs are installed. Missing ones are installed by apt-get if this user may do so (root, or
 # sudo without a password); otherwise the script prints the command that installs them, and the exit status is 1.
 #
-#   cmake/need.sh [--check] build|demo|test|cross|aarch64|lab|page|bench|fuzz|format|tidy ...        --check: install nothing
+#   cmake/need.sh [--check | --where-possible] build|demo|test|archives|cluster|cross|aarch64|lab|page|bench|fuzz|format|tidy ...
+#
+# --check installs nothing. --where-possible installs what can be had here, names the rest in a line, and the exit status is 0.
 set -eu
-check_only=no
-if [ "${1-}" = --check ]; then check_only=yes; shift; fi
+check_only=no possible=no
+case "${1-}" in
+--check) check_only=yes; shift ;;
+--where-possible) possible=yes; shift ;;
+esac
 
 missing=
 add() { case " $missing " in *" $1 "*) ;; *) missing="$missing $1" ;; esac; }
@@ -32,11 +37,12 @@ for what; do
     case $what in
     build) tool cmake cmake; tool make make; tool cc build-essential; header math.h build-essential ;;
     demo)  tool gnuplot gnuplot-nox ;;
-    test)  tool mpicc.openmpi libopenmpi-dev; tool mpirun.openmpi openmpi-bin; tool mpicc.mpich libmpich-dev; tool mpirun.mpich mpich; tool parallel parallel; tool snakemake snakemake
-           tool slurmctld slurmctld; tool slurmd slurmd; tool sbatch slurm-client; tool munged munge
-           pkg-config --exists hdf5-serial 2>/dev/null || add libhdf5-dev; tool h5dump hdf5-tools; module h5py python3-h5py; module netCDF4 python3-netcdf4
-           module xarray python3-xarray; tool g++ build-essential; header cmocka.h libcmocka-dev; header mpfr.h libmpfr-dev; tool pkg-config pkg-config; tool jq jq
-           tool clang clang; tool clang-format clang-format; fuzzer_runs || add clang-runtime ;;
+    test)  header cmocka.h libcmocka-dev; header mpfr.h libmpfr-dev; tool python3 python3; tool jq jq ;;
+    archives) pkg-config --exists hdf5-serial 2>/dev/null || add libhdf5-dev; tool pkg-config pkg-config; tool h5dump hdf5-tools
+           module h5py python3-h5py; module netCDF4 python3-netcdf4; module xarray python3-xarray; tool g++ build-essential ;;
+    cluster) tool mpicc.openmpi libopenmpi-dev; tool mpirun.openmpi openmpi-bin; tool mpicc.mpich libmpich-dev; tool mpirun.mpich mpich
+           tool parallel parallel; tool snakemake snakemake
+           tool slurmctld slurmctld; tool slurmd slurmd; tool sbatch slurm-client; tool munged munge ;;
     # a cross compiler with its C library, and what runs its programs
     cross) [ "$(uname -m)" = aarch64 ] || { tool aarch64-linux-gnu-gcc gcc-aarch64-linux-gnu
            [ -e /usr/aarch64-linux-gnu/include/stdio.h ] || add libc6-dev-arm64-cross; tool qemu-aarch64 qemu-user; } ;;
@@ -57,7 +63,12 @@ for what; do
 done
 [ -n "$missing" ] || exit 0
 
+# What stays missing is no failure.
+without() { echo "motus: not here, and not to be had: $*" >&2; exit 0; }
+
 if ! command -v apt-get >/dev/null 2>&1; then
+    # shellcheck disable=SC2086
+    [ $possible = no ] || without $missing
     echo "motus needs these packages (Debian's names):$(echo "$missing" | sed 's/clang-runtime/libclang-rt-dev/; s/wasi/wasi-libc libclang-rt-dev-wasm32/'); install it, then run this again." >&2
     exit 1
 fi
@@ -82,6 +93,7 @@ as=none
 if [ "$(id -u)" = 0 ]; then as=
 elif command -v sudo >/dev/null 2>&1 && sudo -n true 2>/dev/null; then as='sudo -n'
 fi
+if [ $possible = yes ] && [ "$as" = none ]; then without "$(packages)"; fi
 if [ $check_only = yes ] || [ "$as" = none ]; then
     sudo=sudo; [ "$(id -u)" = 0 ] && sudo=
     echo "motus needs packages that are not installed. Run this, then the same command again:" >&2
@@ -92,8 +104,14 @@ echo "motus: installing what is missing ($(packages))" >&2
 log=$(mktemp)
 trap 'rm -f "$log"' EXIT
 case "$missing" in *:arm64*) $as dpkg --add-architecture arm64 ;; esac
+install() { $as env DEBIAN_FRONTEND=noninteractive apt-get install -y --no-install-recommends "$@" >>"$log" 2>&1; }
 # The package lists may be old or absent.
-$as env DEBIAN_FRONTEND=noninteractive apt-get update >"$log" 2>&1 || { cat "$log" >&2; exit 1; }
+$as env DEBIAN_FRONTEND=noninteractive apt-get update >"$log" 2>&1 || [ $possible = yes ] || { cat "$log" >&2; exit 1; }
 # shellcheck disable=SC2046
-$as env DEBIAN_FRONTEND=noninteractive apt-get install -y --no-install-recommends $(packages) >"$log" 2>&1 ||
-    { cat "$log" >&2; exit 1; }
+install $(packages) && exit 0
+[ $possible = yes ] || { cat "$log" >&2; exit 1; }
+# One that there is not keeps apt from all.
+rest=
+for package in $(packages); do install "$package" || rest="$rest $package"; done
+# shellcheck disable=SC2086
+[ -z "$rest" ] || without $rest
