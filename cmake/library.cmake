@@ -4,7 +4,7 @@
 set(kernels core/stepper_body.c core/solver_band.c lang/tape/tape_kernels.c lang/tape/tape_run.c lang/tape/tape_series_isa.c)
 
 file(GLOB library_sources CONFIGURE_DEPENDS RELATIVE ${PROJECT_SOURCE_DIR}
-  base/*.c core/*.c lang/*/*.c machine/*.c api/*.c study/*.c)
+  base/*.c core/*.c lang/*/*.c machine/*.c api/*/*.c study/*.c)
 # machine/nowhere.c replaces the compiled machine in the page's module (lab/core/CMakeLists.txt).
 list(REMOVE_ITEM library_sources ${kernels} machine/nowhere.c)
 

@@ -8,7 +8,7 @@
  * computes the acceleration, it can be observed. The stepper keeps the carried numbers every SNAPSHOT steps, on all
  * machines at the same ones. After a failure it goes back to them and takes the good steps once more, to the same bits,
  * since steps are deterministic. Of small systems it keeps the snapshot before as well, from which a failure is
- * explained (api/diagnosis.h).
+ * explained (api/why/diagnosis.h).
  */
 #include "core/stepper_parts.h"
 

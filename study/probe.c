@@ -3,7 +3,7 @@
  * Invariant: a probe never changes the system; what it cannot compute is NaN or false, not an error.
  */
 #include "probe.h"
-#include "api/rate.h"
+#include "api/system/rate.h"
 #include <math.h>
 
 #define RATE_OFFSET 1e-5 /* of the size of the motion: rounding and curvature both stay below 1e-4 */

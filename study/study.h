@@ -8,7 +8,7 @@
 #ifndef STUDY_STUDY_H
 #define STUDY_STUDY_H
 
-#include "api/check.h"
+#include "api/system/check.h"
 #include "base/error.h"
 #include "base/memory.h"
 #include "base/modes.h"

@@ -1,7 +1,7 @@
 /* `accuracy` and "auto": no accuracy is claimed that does not hold, what cannot be reached is said, and a run that was
  * found for an accuracy has the bits of one that was asked for by its method and its tolerance.
  */
-#include "api/later.h"
+#include "api/motion/later.h"
 #include "test/given.h"
 #include "test/given_cache.h"
 

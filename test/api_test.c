@@ -3,7 +3,7 @@
  *
  * Runs are in run_test.c, restart states in restart_test.c, memory in alloc_test.c.
  */
-#include "api/system.h"
+#include "api/system/system.h"
 #include "test/given.h"
 
 static const char spring[] = "k = 1\nx'' = -k x\nx(0) = 1\nx'(0) = 0\nmethod verlet\nstep 0.1\nuntil 1\n";

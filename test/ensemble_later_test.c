@@ -1,6 +1,6 @@
 /* An ensemble that begins in the interpreter while a compiler works has the interpreter's bits, before whichever
  * trajectory it goes over, to lanes or to compiled workers; and what becomes of the compiler. */
-#include "api/ensemble.h"
+#include "api/ensemble/ensemble.h"
 #include "test/ensemble_given.h"
 #include "test/later.h"
 

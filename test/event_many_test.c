@@ -1,6 +1,6 @@
 /* Many rules at once are followed as each alone: the same events, in the order of their times, though of many functions
  * only those are evaluated that may be 0 in an instant. */
-#include "api/system.h"
+#include "api/system/system.h"
 #include "given.h"
 
 enum { EVENTS = 60, PLACES = 24 }; /* more than 16 functions are evaluated one by one */

@@ -1,8 +1,8 @@
 /* Nobody waits for a compiler: runs that begin in the interpreter and go on compiled have the interpreter's bits,
  * wherever they go over; and the compiler that works beside them, when it is slow, fails, hangs, is killed, is missing
  * or is not waited for. */
-#include "api/bars.h"
-#include "api/later.h"
+#include "api/error/bars.h"
+#include "api/motion/later.h"
 #include "test/later.h"
 
 #include <pthread.h>

@@ -1,6 +1,6 @@
 /* What a model's `when` statements supply to the engine of events: core/rules.h. Functions, their rates and bounds, and
  * what actions do, are compared with their formulas at states that are set by hand. */
-#include "api/system.h"
+#include "api/system/system.h"
 #include "test/given.h"
 
 static const rules *rules_of(motus_system *s)

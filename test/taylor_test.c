@@ -1,7 +1,7 @@
 /* The Taylor method: its order, its series at the points between steps, its steps where series vanish or end, and the
  * same bits on both machines. The recurrences themselves: series_test.c.
  */
-#include "api/system.h"
+#include "api/system/system.h"
 #include "core/rows.h"
 #include "core/stepper.h"
 

@@ -1,7 +1,7 @@
 /* A number compared with a sum may differ by the rounding of its terms: 16 roundings, relative to their sizes. Slopes
  * of explicit stages and kicks must be the acceleration to the bit; those of a solved equation, to some roundings of
  * the largest. */
-#include "api/system.h"
+#include "api/system/system.h"
 #include "core/rows.h"
 
 #include "test/trace_replay.h"

@@ -3,7 +3,7 @@
  * For every model of models/, other models with every kind of force, and callbacks, by every method that they admit;
  * forward and backward, over the shorter last step; by the compiled machine too.
  */
-#include "api/system.h"
+#include "api/system/system.h"
 #include "core/rows.h"
 #include "core/stepper.h"
 #include "test/ensemble_given.h"

@@ -8,8 +8,8 @@
  *
  * WITNESS=n tries n of each; they print what they find.
  */
-#include "api/located.h"
-#include "api/system.h"
+#include "api/system/located.h"
+#include "api/system/system.h"
 #include "test/given.h"
 #include "test/sanitized.h"
 

@@ -1,5 +1,5 @@
 /* The work of large models, counted and not timed: it grows no faster than they do. */
-#include "api/system.h"
+#include "api/system/system.h"
 #include "lang/model/model.h"
 
 #include "test/given.h"

@@ -1,6 +1,6 @@
 /* What decimals say of a constant, beside what doubles make of it. See graph.h.
  *
- * The shadow of a model (api/shadow.c) has every decimal as the double on its other side. In 1000.7 - 1000.6 both may
+ * The shadow of a model has every decimal as the double on its other side. In 1000.7 - 1000.6 both may
  * move by the same amount, of which the difference shows nothing, and of sqrt(2)^2 - 2 nothing moves at all. So every
  * constant expression, of literals and of parameters that are such, is computed as it is written, to twice the bits,
  * and is in the shadow the double on the other side of that.

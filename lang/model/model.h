@@ -249,7 +249,7 @@ typedef struct model {
     size_t exact_count; /* into X and V */
     bool exact_given, exact_recognised;
     bool exact_between; /* verify.h: the exact line was checked at and between sampled times */
-    traits traits;      /* but gyroscopic and gradient, which api/symmetry.c judges when they are needed */
+    traits traits;      /* but gyroscopic and gradient, which api/system/symmetry.c judges when they are needed */
 
     double tolerance, accuracy; /* NaN: none is set */
     bool absolute;              /* that of the two which is set; they are never both */

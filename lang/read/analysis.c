@@ -1,5 +1,5 @@
 /* Traits of the equations that follow from their form: what they depend on, whether velocity enters linearly, whether
- * the exact motion is known. What needs a proof or samples (gradient, gyroscopic) is found by api/symmetry.c. */
+ * the exact motion is known. What needs a proof or samples (gradient, gyroscopic) is found by api/system/symmetry.c. */
 #include "lang/read/read_steps.h"
 
 /* Differentiates along a direction of v; da/dv is constant where the result depends on the direction alone. */

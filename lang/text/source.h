@@ -32,7 +32,7 @@ typedef struct source {
     uint32_t count;
     motus_status status; /* of the first complaint */
     bool failed;
-    /* The numbers that are no doubles are read as the double on their other side: for bars of error (api/shadow.c). */
+    /* The numbers that are no doubles are read as the double on their other side: for bars of error. */
     bool nudged;
     /* By place of the pool, where it is not 0: the place gets another number than the text gives it, of which a formula
      * knows nothing; NULL: none does. */

@@ -1,0 +1,43 @@
+/* What events that assign, which end a step, make of a symplectic or reversible method. See cuts.h.
+ *
+ * A step of given size is a symplectic map; one whose size is a function of the state is not, while one that ends at a
+ * given time still is. A method that is reversible by steps of one size stays so: the way back divides the step at the
+ * same event. Where error control chooses the steps it begins anew after an event, so the way back has other steps.
+ */
+#include "api/calls/cuts.h"
+
+#include "api/motion/run.h"
+
+bool cuts_by_state(const motus_system *s)
+{
+    const model *m = s->model;
+    for (uint32_t k = 0; m && k < m->rule_count; k++) {
+        const model_rule *r = &m->rules[k];
+        if (r->assigns && r->kind == RULE_ACCUMULATES) return true;
+        for (size_t i = 0; r->assigns && i < r->leaves; i++)
+            if (graph_deps(m->graph, r->leaf[i].value) & DEP_STATE) return true;
+    }
+    return false;
+}
+
+/* A switch of the force is a rule, but no event. */
+static bool has_assigning_event(const rules *of)
+{
+    for (size_t k = 0; of && k < of->count; k++)
+        if (of->rule[k].assigns && !of->rule[k].internal) return true;
+    return false;
+}
+
+const char *motus_run_cut(const motus_run *r)
+{
+    motus_geometry kept = MOTUS_GEOMETRY_NONE;
+    if (!r || !has_assigning_event(r->rules)) return "";
+    if (row_reversible_steps(&r->chosen))
+        return "the control of steps begins anew after an event that assigns, so the run is not reversible there, "
+               "while it is between";
+    if (!cuts_by_state(r->system) || motus_method_geometry(r->system, r->chosen.name, &kept, NULL) != MOTUS_OK ||
+        kept != MOTUS_GEOMETRY_SYMPLECTIC)
+        return "";
+    return "the state decides where an event that assigns ends a step, so that step is not symplectic, while those "
+           "between are";
+}

@@ -1,0 +1,10 @@
+/* What becomes of a method's geometry where events assign. */
+#ifndef API_CALLS_CUTS_H
+#define API_CALLS_CUTS_H
+
+#include "api/system/system.h"
+
+/* Whether an event that assigns ends steps at a time that the state decides. */
+bool cuts_by_state(const motus_system *);
+
+#endif

@@ -1,0 +1,22 @@
+/* Whether a way leads through a pole of the force, at which the force cannot be integrated. */
+#ifndef API_CALLS_POLE_H
+#define API_CALLS_POLE_H
+
+#include "api/system/system.h"
+
+/* What leads from one state to another in the time h: a straight line, whose h may be 0, or the cubics that have both
+ * velocities. */
+typedef struct pole_way {
+    motus_system *system; /* whose poles are known */
+    double t, h;
+    const double *x, *v, *end_x, *end_v;
+    bool straight;
+    interval *box; /* room for nx + nv */
+    double *room;  /* 4 nv numbers */
+} pole_way;
+
+/* A divisor (or what else has a pole: lang/model/resolution.h) passes or touches 0 on the way, and the force grows
+ * there as the inverse of the time, or faster. */
+bool pole_on(const pole_way *);
+
+#endif

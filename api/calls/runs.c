@@ -1,0 +1,190 @@
+/* The calls of runs: how one is made, goes on, and what it tells of itself. */
+#include "api/request/choice.h"
+#include "api/request/control.h"
+#include "api/search/goal.h"
+#include "api/motion/locate.h"
+#include "api/motion/run_events.h"
+#include "core/rows.h"
+#include "machine/cache.h"
+
+#include <math.h>
+
+motus_status motus_run_create(motus_system *s, const motus_run_def *given, motus_run **out, motus_error *err)
+{
+    if (!motus_error_sound(err)) return MOTUS_ARGUMENT;
+    if (!out) return fail(err, MOTUS_ARGUMENT, "motus_run_create needs a place for the run");
+    *out = NULL;
+    if (!s) return fail(err, MOTUS_ARGUMENT, "motus_run_create needs a system");
+    motus_run_def def;
+    const motus_status read = motus_struct_read(MOTUS_DEF_RUN, given, &def, err);
+    if (read != MOTUS_OK) return read;
+    const modes m = modes_enter();
+    const motus_status status = goal_run(s, &def, out, err);
+    modes_leave(m);
+    return status;
+}
+
+void motus_run_destroy(motus_run *r) { goal_end(r); }
+
+/* ---- time ---- */
+
+int motus_run_done(const motus_run *r) { return r && r->arrived; }
+double motus_run_time(const motus_run *r) { return r ? stepper_time(r->stepper) : NAN; }
+double motus_run_time_of(const motus_run *r, int64_t step)
+{
+    if (!r || step < 0 || (row_adaptive(&r->chosen) && step < INT64_MAX)) return NAN;
+    if (r->events && step < r->timing.total) return r->timing.t0 + (double)step * r->timing.h;
+    return step >= r->timing.total ? r->timing.until
+                                   : stepper_time_of(r->stepper, step - (r->locate ? locate_steps(r) : 0));
+}
+
+double motus_run_step_size(const motus_run *r) { return r && !row_adaptive(&r->chosen) ? fabs(r->timing.h) : NAN; }
+int64_t motus_run_steps(const motus_run *r) { return r ? run_steps(r) : 0; }
+int64_t motus_run_steps_total(const motus_run *r) { return r ? r->timing.total : 0; }
+double motus_run_last_step(const motus_run *r) { return r ? fabs(r->timing.last) : 0; }
+int64_t motus_run_evaluations(const motus_run *r) { return r ? stepper_evaluations(r->stepper) : 0; }
+int64_t motus_run_iterations(const motus_run *r) { return r ? stepper_iterations(r->stepper) : 0; }
+const char *motus_run_method(const motus_run *r) { return r ? r->chosen.name : ""; }
+const char *motus_run_machine(const motus_run *r) { return r ? r->machine.name : ""; }
+const char *motus_run_note(const motus_run *r) { return r ? r->note : ""; }
+const char *motus_run_not_located(const motus_run *r) { return r && r->not_located ? r->not_located : ""; }
+const char *motus_run_choice(const motus_run *r) { return r ? goal_choice(r) : ""; }
+
+/* ---- its state ---- */
+
+motus_status motus_run_state(motus_run *r, double *x, double *v, motus_error *err)
+{
+    if (!motus_error_sound(err)) return MOTUS_ARGUMENT;
+    if (!r) return fail(err, MOTUS_ARGUMENT, "motus_run_state needs a run");
+    modes m = modes_enter();
+    const motus_status status = run_state(r, x, v, err);
+    modes_leave(m);
+    return status;
+}
+
+motus_status motus_run_values(motus_run *r, const size_t *columns, size_t count, double *out, motus_error *err)
+{
+    if (!motus_error_sound(err)) return MOTUS_ARGUMENT;
+    if (!r || (count && (!columns || !out)))
+        return fail(err, MOTUS_ARGUMENT, "motus_run_values needs a run, columns and a place for the values");
+    modes m = modes_enter();
+    motus_status status = run_sync(r, false, err);
+    if (status == MOTUS_OK)
+        status = system_values(r->system, stepper_time(r->stepper), r->x, r->v, columns, count, out, err);
+    modes_leave(m);
+    return status;
+}
+
+motus_status motus_run_set_state(motus_run *r, double t, const double *x, const double *v, motus_error *err)
+{
+    if (!motus_error_sound(err)) return MOTUS_ARGUMENT;
+    if (!r) return fail(err, MOTUS_ARGUMENT, "motus_run_set_state needs a run");
+    if (r->observing) return run_refuse_move(err);
+    if (isnan(t)) t = stepper_time(r->stepper);
+    modes m = modes_enter();
+    const motus_status status = run_set_state(r, t, x, v, err);
+    modes_leave(m);
+    return status;
+}
+
+/* ---- steps ---- */
+
+motus_status motus_run_step(motus_run *r, int64_t n, motus_error *err)
+{
+    if (!motus_error_sound(err)) return MOTUS_ARGUMENT;
+    if (!r || n < 0)
+        return fail(err, MOTUS_ARGUMENT, "motus_run_step needs a run and a number of steps that is not negative");
+    modes m = modes_enter();
+    motus_status status = r->observing ? run_refuse_move(err) : MOTUS_OK;
+    if (status == MOTUS_OK && !(n > 0 && goal_arrive(r, n))) status = run_step(r, n, err);
+    if (status == MOTUS_OK) status = goal_judge(r, err);
+    modes_leave(m);
+    return status;
+}
+
+motus_status motus_run_finish(motus_run *r, motus_error *err) { return motus_run_step(r, INT64_MAX, err); }
+
+/* ---- between steps ---- */
+
+static motus_status sample(motus_run *r, const double *times, size_t n, const size_t *columns, size_t count,
+                           double *out, motus_error *err)
+{
+    motus_status status = MOTUS_OK;
+    for (size_t i = 0; i < n && status == MOTUS_OK; i++, out += count) {
+        double *x = NULL, *v = NULL;
+        status = run_between(r, times[i], &x, &v, err);
+        if (status == MOTUS_OK) status = system_values(r->system, times[i], x, v, columns, count, out, err);
+    }
+    return status;
+}
+
+motus_status motus_run_sample(motus_run *r, const double *times, size_t n, const size_t *columns, size_t count,
+                              double *out, motus_error *err)
+{
+    if (!motus_error_sound(err)) return MOTUS_ARGUMENT;
+    if (!r || (n && !times) || (count && (!columns || !out)))
+        return fail(err, MOTUS_ARGUMENT, "motus_run_sample needs a run, times, columns and a place for the values");
+    motus_status status = r->locate ? run_refuse(r, "sampled between steps", err) : MOTUS_OK;
+    if (status != MOTUS_OK) return status;
+    modes m = modes_enter();
+    status = sample(r, times, n, columns, count, out, err);
+    modes_leave(m);
+    return status;
+}
+
+/* ---- statistics ---- */
+
+motus_status motus_run_statistics(const motus_run *r, motus_statistics *out)
+{
+    if (!r || !out || motus_struct_check(MOTUS_DEF_STATISTICS, out, NULL) != MOTUS_OK) return MOTUS_ARGUMENT;
+    motus_statistics ours = motus_default_statistics();
+    ours.legs = r->legs;
+    ours.method = r->chosen.name;
+    ours.machine = r->machine.name;
+    ours.compiled_from = r->compiled_from;
+    ours.steps = r->before + run_steps(r);
+    ours.refused = stepper_refused(r->stepper);
+    ours.evaluations = stepper_evaluations(r->stepper);
+    ours.iterations = stepper_iterations(r->stepper);
+    ours.first_step = r->first_step;
+    ours.last_step = ours.steps > 0 ? fabs(stepper_last_step(r->stepper)) : NAN;
+    ours.absolute = r->chosen.absolute > 0;
+    if (row_adaptive(&r->chosen)) ours.tolerance = ours.absolute ? r->chosen.absolute : r->chosen.relative;
+    goal_statistics(r, &ours);
+    stepper_sizes(r->stepper, &ours.shortest_step, &ours.longest_step);
+    locate_statistics(r, &ours);
+    run_events_statistics(r, &ours);
+    motus_struct_write(MOTUS_DEF_STATISTICS, &ours, out);
+    return MOTUS_OK;
+}
+
+/* ---- the text of the compiled machine ---- */
+
+const char *motus_compiled_text(motus_system *s, const char *method, motus_error *err)
+{
+    motus_run_def def = motus_default_run();
+    def.method = method;
+    return motus_run_text(s, &def, err);
+}
+
+const char *motus_run_text(motus_system *s, const motus_run_def *given, motus_error *err)
+{
+    chosen c;
+    const motus_method *card;
+    motus_run_def def;
+    size_t length;
+    if (!motus_error_sound(err) || motus_struct_read(MOTUS_DEF_RUN, given, &def, err) != MOTUS_OK) return NULL;
+    if (!s || !s->model) {
+        fail(err, MOTUS_ARGUMENT, "only a model from a text is compiled");
+        return NULL;
+    }
+    const control_wish wish = control_wish_of_run(&def);
+    if (choice_method(s, def.method, &c, &card, err) != MOTUS_OK || control_choose(s, &wish, &c, err) != MOTUS_OK)
+        return NULL;
+    if (!s->compiled && compiled_create(s->model, &s->problem, &s->compiled, err) != MOTUS_OK) return NULL;
+    const char *text = compiled_text(s->compiled, &c, &length);
+    if (!text) fail(err, MOTUS_MEMORY, "no memory for the text");
+    return text;
+}
+
+int motus_cache_clear(void) { return cache_clear(); }

@@ -1,0 +1,18 @@
+/* A text that grows, of what is said of a system. */
+#ifndef API_CALLS_SENTENCES_H
+#define API_CALLS_SENTENCES_H
+
+#include "base/memory.h"
+
+#include <stdbool.h>
+
+typedef struct sentences {
+    const motus_allocator *allocator;
+    char *text; /* from the hooks, to be given back; NULL: nothing was said */
+    size_t length, room;
+    bool failed; /* there was no memory: the text is not whole */
+} sentences;
+
+void sentences_say(sentences *, const char *format, ...) __attribute__((format(printf, 2, 3)));
+
+#endif

@@ -1,0 +1,372 @@
+/* An ensemble with an accuracy: every trajectory has a tolerance of its own, the one with which its bars keep to it.
+ *
+ * The ensemble itself computes all trajectories with the first tolerance, which is the same for all. Those whose bars
+ * are too large are computed again, by the rule that searches for runs (search.h), by an ensemble for each tolerance
+ * that is tried; tolerances are rounded so that few differ.
+ *
+ * Invariant: the tolerance of a trajectory follows from its own bars alone, so its numbers depend neither on other
+ * trajectories, nor on how they are divided among calls, nor on lanes and threads.
+ */
+#include "api/request/choice.h"
+#include "api/request/control.h"
+#include "api/ensemble/ensemble.h"
+#include "api/search/goal.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#define METHOD "dop853" /* where nobody names one: it admits every force */
+
+/* The ensemble of another tolerance. */
+typedef struct other {
+    struct other *next;
+    double tolerance;
+    motus_ensemble *ensemble;
+} other;
+
+struct ensemble_goal {
+    motus_allocator allocator;
+    double wanted;
+    bool absolute, told; /* told: the caller asks for errors */
+    size_t records;      /* of the caller; behind them is what a trajectory reached */
+    motus_ensemble_def def;
+    char method[MOTUS_NAME_MAX], machine[MOTUS_NAME_MAX];
+    other *others;
+    /* of the caller: each part of the search takes half of what is left of a call */
+    int (*progress)(void *context, double fraction);
+    void *context;
+    double from, size;
+};
+
+static int tell(void *context, double fraction)
+{
+    const ensemble_goal *g = context;
+    return g->progress(g->context, g->from + fraction * g->size);
+}
+
+/* ---- the definition ---- */
+
+static motus_status refuse_fixed(const char *method, motus_error *err)
+{
+    fail(err, MOTUS_ARGUMENT, "an accuracy is asked for, and the steps of %s have one size", method);
+    hint(err, "choose an adaptive method, dop853 or taylor: every trajectory then has a tolerance of its own");
+    return MOTUS_ARGUMENT;
+}
+
+static motus_status judge(const motus_ensemble_def *d, const goal_wish *w, const char *method, motus_error *err)
+{
+    chosen row;
+    const motus_method *card = NULL;
+    const bool step = !isnan(d->step) || !isnan(w->set.step);
+    motus_status status = search_alone(!isnan(d->accuracy) && !isnan(d->tolerance), step, err);
+    if (status == MOTUS_OK) status = control_admits("an accuracy", w->accuracy, w->absolute, err);
+    if (status != MOTUS_OK || row_choose(method, &row, &card, NULL) != MOTUS_OK) return status;
+    return card->adaptive ? MOTUS_OK : refuse_fixed(card->name, err);
+}
+
+/* A copy of the definition, which children are made by, with one more record; NULL: no memory. */
+static ensemble_goal *copy(const motus_system *s, const motus_ensemble_def *d, const char *method)
+{
+    size_t text = 0;
+    for (size_t k = 0; k < d->vary_count; k++) text += d->vary[k] ? strlen(d->vary[k]) + 1 : 0;
+    const size_t names = d->vary_count * sizeof(char *), records = (d->record_count + 1) * sizeof(motus_record);
+    ensemble_goal *g = take(&s->allocator, 1, sizeof *g + names + records + text);
+    if (!g) return NULL;
+    *g = (ensemble_goal){.allocator = s->allocator, .records = d->record_count, .def = *d};
+    motus_record *list = (motus_record *)(void *)(g + 1);
+    const char **vary = (const char **)(void *)(list + d->record_count + 1);
+    char *room = (char *)(void *)(vary + d->vary_count);
+    memcpy(list, d->records, d->record_count * sizeof *list);
+    list[d->record_count] = (motus_record){MOTUS_REDUCE_ACCURACY, 0};
+    for (size_t k = 0; k < d->vary_count; k++) {
+        const size_t length = d->vary[k] ? strlen(d->vary[k]) + 1 : 0;
+        if (length) memcpy(room, d->vary[k], length);
+        vary[k] = length ? room : NULL;
+        room += length;
+    }
+    snprintf(g->method, sizeof g->method, "%s", method);
+    if (d->machine) snprintf(g->machine, sizeof g->machine, "%s", d->machine);
+    g->def.vary = vary;
+    g->def.records = list;
+    g->def.record_count++;
+    g->def.method = g->method;
+    g->def.machine = d->machine ? g->machine : NULL;
+    g->def.accuracy = NAN;
+    g->told = d->error != MOTUS_BARS_NONE;
+    if (!g->told) g->def.error = MOTUS_BARS_CHEAP;
+    return g;
+}
+
+motus_status ensemble_accuracy_begin(motus_system *s, motus_ensemble_def *d, ensemble_goal **out, motus_error *err)
+{
+    motus_run_def like = motus_default_run();
+    like.method = d->method;
+    like.step = d->step;
+    like.tolerance = d->tolerance;
+    like.accuracy = d->accuracy;
+    like.absolute = d->absolute;
+    const goal_wish w = goal_wish_of(s, &like);
+    *out = NULL;
+    if (isnan(w.accuracy)) return MOTUS_OK;
+    const char *method = d->method ? d->method : w.automatic ? METHOD : w.set.method ? w.set.method : "verlet";
+    motus_status status = judge(d, &w, method, err);
+    if (status != MOTUS_OK) return status;
+    ensemble_goal *g = copy(s, d, method);
+    *out = g;
+    if (!g) return fail(err, MOTUS_MEMORY, "no memory for the ensemble");
+    g->wanted = w.accuracy;
+    g->absolute = w.absolute;
+    g->def.absolute = w.absolute;
+    g->def.tolerance = search_by_tolerance(w.accuracy, w.absolute).size;
+    g->progress = d->progress;
+    g->context = d->context;
+    if (d->progress) {
+        g->def.progress = tell;
+        g->def.context = g;
+    }
+    *d = g->def;
+    return MOTUS_OK;
+}
+
+static void forget_others(ensemble_goal *g)
+{
+    for (other *o = g->others, *next; o; o = next) {
+        next = o->next;
+        motus_ensemble_destroy(o->ensemble);
+        give(&g->allocator, o);
+    }
+    g->others = NULL;
+}
+
+void ensemble_accuracy_end(ensemble_goal *g)
+{
+    if (!g) return;
+    const motus_allocator a = g->allocator;
+    forget_others(g);
+    give(&a, g);
+}
+
+bool ensemble_accuracy_told(const ensemble_goal *g) { return g->told; }
+
+/* ---- a call ---- */
+
+/* A trajectory whose bars are too large so far. */
+typedef struct open_one {
+    size_t number;
+    search search;
+    double best; /* of its bars */
+} open_one;
+
+typedef struct attempt {
+    motus_ensemble *e;
+    ensemble_goal *goal;
+    const double *const *values;
+    double *const *results, *const *errors, *stopped, *reached; /* of all trajectories: the best of each */
+    open_one *open;
+    size_t count; /* open */
+    size_t missed, first_missed;
+} attempt;
+
+static void miss(attempt *a, size_t number)
+{
+    if (!a->missed || number < a->first_missed) a->first_missed = number;
+    a->missed++;
+}
+
+static void list_open(attempt *a, size_t count)
+{
+    const ensemble_goal *g = a->goal;
+    search s = search_by_tolerance(g->wanted, g->absolute);
+    search_set(&s, motus_ensemble_tolerance(a->e, NULL)); /* reversible rows take a smaller one */
+    s.few = true;
+    for (size_t k = 0; k < count; k++) {
+        if (!isnan(a->stopped[k]) || a->reached[k] <= g->wanted) continue;
+        open_one o = {.number = k, .search = s, .best = a->reached[k]};
+        if (!isnan(o.best) && search_next(&o.search, o.best, 1))
+            a->open[a->count++] = o;
+        else
+            miss(a, k);
+    }
+}
+
+static motus_status find_other(attempt *a, double tolerance, motus_ensemble **out, motus_error *err)
+{
+    ensemble_goal *g = a->goal;
+    for (other *o = g->others; o; o = o->next)
+        if (o->tolerance == tolerance) return *out = o->ensemble, MOTUS_OK;
+    other *o = take(&g->allocator, 1, sizeof *o);
+    if (!o) return fail(err, MOTUS_MEMORY, "no memory for the ensemble");
+    motus_ensemble_def def = g->def;
+    def.tolerance = tolerance;
+    def.event_columns = a->e->event_columns;       /* the caller's may be gone */
+    if (a->e->awaits) def.machine = "interpreter"; /* a compiler is at work for the same text */
+    *o = (other){.next = g->others, .tolerance = tolerance};
+    motus_status status = motus_ensemble_create(a->e->system, &def, &o->ensemble, err);
+    if (status == MOTUS_OK) status = ensemble_witness_as(o->ensemble, a->e, err);
+    if (status != MOTUS_OK) {
+        motus_ensemble_destroy(o->ensemble);
+        give(&g->allocator, o);
+        return status;
+    }
+    g->others = o;
+    *out = o->ensemble;
+    return MOTUS_OK;
+}
+
+/* One tolerance: its trajectories in a row, which are `count` of those that are open. */
+typedef struct group {
+    size_t count, given, records;
+    double **at; /* `given` arrays of values, and `records` each of results and of errors, which belong to `memory` */
+    double *memory, *stopped;
+} group;
+
+static motus_status group_make(const attempt *a, group *g, size_t count, motus_error *err)
+{
+    const motus_allocator *allocator = &a->goal->allocator;
+    *g = (group){.count = count, .given = a->e->given, .records = a->goal->def.record_count};
+    const size_t arrays = g->given + 2 * g->records + 1;
+    g->at = take(allocator, arrays, sizeof *g->at);
+    g->memory = take(allocator, arrays * count, sizeof *g->memory);
+    if (!g->at || !g->memory) return fail(err, MOTUS_MEMORY, "no memory for the ensemble");
+    for (size_t k = 0; k < arrays; k++) g->at[k] = g->memory + k * count;
+    g->stopped = g->at[arrays - 1];
+    return MOTUS_OK;
+}
+
+static void group_end(const attempt *a, group *g)
+{
+    give(&a->goal->allocator, (void *)g->at);
+    give(&a->goal->allocator, g->memory);
+}
+
+/* Takes over trial i of a group where it is the best of its trajectory; returns whether it is to be tried again. */
+static bool take_over(attempt *a, const group *g, motus_ensemble *from, size_t i, open_one *o)
+{
+    const bool failed = !isnan(g->stopped[i]);
+    double *const *results = g->at + g->given, *const *errors = results + g->records;
+    const double bar = failed ? INFINITY : results[g->records - 1][i];
+    if (bar <= o->best) {
+        for (size_t r = 0; r < g->records; r++) {
+            a->results[r][o->number] = results[r][i];
+            a->errors[r][o->number] = errors[r][i];
+        }
+        a->stopped[o->number] = g->stopped[i];
+        ensemble_events_move(a->e, o->number, from, i);
+        ensemble_stopped_move(a->e, o->number, from, i);
+        ensemble_ended_move(a->e, o->number, from, i);
+        o->best = bar;
+    }
+    if (bar <= a->goal->wanted) return false;
+    if (!isnan(bar) && search_next(&o->search, bar, failed ? 0 : 1)) return true;
+    miss(a, o->number);
+    return false;
+}
+
+/* Computes all open trajectories whose next tolerance is this one. */
+static motus_status try(attempt *a, double tolerance, motus_error *err)
+{
+    size_t count = 0, kept = 0, n = 0;
+    motus_ensemble *e = NULL;
+    group g;
+    for (size_t i = 0; i < a->count; i++) count += a->open[i].search.size == tolerance;
+    motus_status status = find_other(a, tolerance, &e, err);
+    if (status != MOTUS_OK) return status;
+    status = group_make(a, &g, count, err);
+    for (size_t i = 0; i < a->count && status == MOTUS_OK; i++) {
+        if (a->open[i].search.size != tolerance) continue;
+        for (size_t k = 0; k < g.given; k++) g.at[k][n] = a->values[k][a->open[i].number];
+        n++;
+    }
+    double *const *results = g.at ? g.at + g.given : NULL;
+    if (status == MOTUS_OK)
+        status = motus_ensemble_run_errors(e, count, (const double *const *)g.at, results, results + g.records,
+                                           g.stopped, err);
+    n = 0;
+    for (size_t i = 0; i < a->count && status == MOTUS_OK; i++) {
+        const bool other_size = a->open[i].search.size != tolerance;
+        if (other_size || take_over(a, &g, e, n++, &a->open[i])) a->open[kept++] = a->open[i];
+    }
+    if (status == MOTUS_OK) a->count = kept;
+    group_end(a, &g);
+    return status;
+}
+
+static motus_status say_missed(const attempt *a, size_t count, motus_error *err)
+{
+    char wanted[DECIMAL_MAX], which[128];
+    const size_t k = a->first_missed;
+    const double best = a->reached[k];
+    decimal(a->goal->wanted, wanted);
+    if (a->missed == 1)
+        snprintf(which, sizeof which, "trajectory %zu", k);
+    else
+        snprintf(which, sizeof which, "%zu of %zu trajectories, the first of them %zu", a->missed, count, k);
+    if (isnan(best))
+        fail(err, MOTUS_ACCURACY, "no accuracy can be promised of %s: there is no companion", which);
+    else if (isinf(best))
+        fail(err, MOTUS_ACCURACY,
+             "the accuracy %s is not reached by %s: no digit of it is known to be significant at the end", wanted,
+             which);
+    else
+        fail(err, MOTUS_ACCURACY, "the accuracy %s is not reached by %s: its trials reached %.1e%s at best", wanted,
+             which, best, a->goal->absolute ? "" : " of the motion's size");
+    if (isinf(best))
+        hint(err, "errors grow with the time: end earlier, with a smaller `until` of the definition");
+    else
+        hint(err, "the numbers are there, with the errors that they have; allow a larger error");
+    return MOTUS_ACCURACY;
+}
+
+static motus_status search_all(attempt *a, size_t count, const places *p, motus_error *err)
+{
+    ensemble_goal *g = a->goal;
+    g->from = 0;
+    g->size = 0.5;
+    motus_status status = ensemble_run_all(a->e, count, a->values, *p, err);
+    if (status != MOTUS_OK || !count) return status;
+    const double began = pace_now();
+    list_open(a, count);
+    while (status == MOTUS_OK && a->count) {
+        double largest = 0;
+        for (size_t i = 0; i < a->count; i++) largest = fmax(largest, a->open[i].search.size);
+        g->from += g->size;
+        g->size = (1 - g->from) / 2;
+        status = try(a, largest, err);
+    }
+    if (a->e->awaits) forget_others(g); /* from the next call on they may be compiled */
+    a->e->seconds += pace_now() - began;
+    return status == MOTUS_OK && a->missed ? say_missed(a, count, err) : status;
+}
+
+motus_status ensemble_accuracy_run(motus_ensemble *e, size_t count, const double *const *values, const places *given,
+                                   motus_error *err)
+{
+    ensemble_goal *g = e->goal;
+    const size_t records = g->def.record_count;
+    const motus_allocator *allocator = &g->allocator;
+    if (!given->results) return fail(err, MOTUS_ARGUMENT, "motus_ensemble_run needs room for results");
+    double **at = take(allocator, 2 * records, sizeof *at), **errors = at + records;
+    double *room = take(allocator, (records + 2) * count + 1, sizeof *room);
+    open_one *open = take(allocator, count + 1, sizeof *open);
+    motus_status status = MOTUS_OK;
+    if (!at || !room || !open) {
+        status = fail(err, MOTUS_MEMORY, "no memory for the ensemble");
+    } else {
+        for (size_t r = 0; r < records; r++) {
+            const bool own = r == g->records;
+            at[r] = own ? room + records * count : given->results[r];
+            errors[r] = own || !given->errors ? room + r * count : given->errors[r];
+        }
+        attempt a = {.e = e, .goal = g, .values = values, .results = at, .errors = errors, .open = open};
+        a.reached = at[g->records];
+        a.stopped = given->stopped ? given->stopped : room + (records + 1) * count;
+        status = search_all(&a, count, &(places){.results = at, .errors = errors, .stopped = a.stopped}, err);
+    }
+    give(allocator, (void *)at);
+    give(allocator, room);
+    give(allocator, open);
+    return status;
+}
+
+double motus_ensemble_accuracy(const motus_ensemble *e) { return e && e->goal ? e->goal->wanted : NAN; }

@@ -1,0 +1,157 @@
+/* The workers of an ensemble that is not computed in lanes. See ensemble.h.
+ *
+ * Invariant: workers share no data that changes but `done` and `stop`, so the result of an item does not depend on
+ * which worker computes it.
+ */
+#include "api/system/symmetry.h"
+#include "api/ensemble/ensemble.h"
+
+#include "api/request/choice.h"
+
+#include "machine/parallel.h"
+
+/* ---- workers ---- */
+
+/* While the object is awaited: whether it is there, and after that the compiler goes first. */
+static void rest(worker *w)
+{
+    motus_ensemble *e = w->e;
+    if (!e->awaits || e->exactly) return;
+    if (w->number == 0 && ensemble_look(e)) atomic_store(&e->over, true);
+    if (!atomic_load(&e->over)) beside_rest(&w->beside);
+}
+
+/* Between two pieces of work: the caller's own thread calls the progress hook; every thread tests `stop`. */
+int ensemble_tell(void *ctx, double now)
+{
+    worker *w = ctx;
+    motus_ensemble *e = w->e;
+    (void)now;
+    const timing *t = &w->timing;
+    const double part = t->until != t->t0 ? (stepper_time(w->stepper) - t->t0) / (t->until - t->t0) : 1;
+    const double done = (double)atomic_load(&e->done) + (double)w->trajectories * part;
+    if (w->number == 0 && ensemble_report(e, done / (double)e->count)) atomic_store(&e->stop, true);
+    rest(w);
+    return atomic_load(&e->stop) || atomic_load(&e->over);
+}
+
+motus_status ensemble_worker_prepare(motus_ensemble *e, worker *w, int number, motus_error *err)
+{
+    motus_system *s = e->system;
+    if (w->e) return MOTUS_OK;
+    if (number > 0) {
+        motus_status status = motus_system_clone(e->system, &s, err);
+        if (status == MOTUS_OK && s->model)
+            status = vary_create(s->model, e->places, e->vary_count, true, true, &w->vary, err);
+        if (status == MOTUS_OK && !symmetry_gyroscopic(s))
+            status = fail(err, MOTUS_MEMORY, "no memory to examine the velocity term");
+        const char *why;
+        if (status == MOTUS_OK) w->machine = s->machine;
+        if (status == MOTUS_OK && e->machine.body)
+            status = choice_compile(s, &e->chosen, true, false, &w->machine, &why, err);
+        if (status != MOTUS_OK) {
+            motus_system_destroy(s == e->system ? NULL : s);
+            return status;
+        }
+    } else {
+        w->vary = e->vary;
+        w->machine = e->machine;
+    }
+    w->e = e;
+    w->system = s;
+    w->diagnosed = (diagnosed){s, NULL, run_leads};
+    w->number = number;
+    w->pace = (pace){.seconds = 0.005, .tell = e->progress || e->awaits ? ensemble_tell : NULL, .ctx = w};
+    return MOTUS_OK;
+}
+
+void ensemble_workers_destroy(motus_ensemble *e)
+{
+    for (int i = 0; e->workers && i < e->threads; i++) {
+        ensemble_errors_end(&e->workers[i]);
+        stepper_destroy(e->workers[i].stepper);
+        events_destroy(e->workers[i].events);
+        if (i > 0) motus_system_destroy(e->workers[i].system);
+    }
+    give(&e->allocator, e->workers);
+    e->workers = NULL;
+}
+
+/* ---- items ---- */
+
+typedef struct item_list {
+    motus_ensemble *e;
+    size_t first;
+    motus_status (*one)(worker *, size_t item, void *ctx);
+    void *ctx;
+} item_list;
+
+/* Items are taken in order, so all before the first that is left are done. */
+static void leave(motus_ensemble *e, size_t item)
+{
+    size_t left = atomic_load(&e->left);
+    while (item < left && !atomic_compare_exchange_weak(&e->left, &left, item)) continue;
+}
+
+static void take_item(void *ctx, size_t number, int thread)
+{
+    const item_list *list = ctx;
+    motus_ensemble *e = list->e;
+    worker *w = &e->workers[thread];
+    const size_t item = list->first + number;
+    if (w->status != MOTUS_OK || atomic_load(&e->stop)) return;
+    rest(w);
+    if (atomic_load(&e->over) || (e->exactly && item + 1 >= e->exactly)) {
+        leave(e, item);
+        return;
+    }
+    w->status = list->one(w, item, list->ctx);
+    w->failed_at = item;
+    if (w->status == MOTUS_CANCELLED && atomic_load(&e->over) && !atomic_load(&e->stop)) {
+        leave(e, item);
+        w->status = MOTUS_OK;
+    }
+    if (w->status != MOTUS_OK) atomic_store(&e->stop, true);
+}
+
+motus_status ensemble_each(motus_ensemble *e, size_t first, size_t items,
+                           motus_status (*one)(worker *, size_t item, void *ctx), void *ctx, motus_error *err)
+{
+    int threads = items < (size_t)e->threads ? (int)items : e->threads;
+    /* a processor for the compiler that is awaited: what it makes computes many times as fast */
+    if (e->awaits && threads > 1 && threads >= parallel_processors()) threads = parallel_processors() - 1;
+    if (threads < 1 || e->system->allocator.allocate) threads = 1; /* one thread alone calls the hooks */
+    if (!e->workers && !(e->workers = take(&e->allocator, (size_t)e->threads, sizeof *e->workers)))
+        return fail(err, MOTUS_MEMORY, "no memory for the ensemble");
+    for (int i = 0; i < threads; i++) {
+        motus_status status = ensemble_worker_prepare(e, &e->workers[i], i, err);
+        if (status != MOTUS_OK) return status;
+        e->workers[i].status = MOTUS_OK;
+        e->workers[i].why = motus_default_error();
+    }
+    atomic_store(&e->done, first);
+    atomic_store(&e->stop, false);
+    atomic_store(&e->over, false);
+    atomic_store(&e->left, SIZE_MAX);
+    item_list list = {e, first, one, ctx};
+    parallel_for(threads, items, take_item, &list);
+    const worker *failed = NULL;
+    for (int i = 0; i < threads; i++) {
+        const worker *w = &e->workers[i];
+        /* An error comes before a cancellation, which may be its consequence. */
+        if (w->status != MOTUS_OK && (!failed || (failed->status == MOTUS_CANCELLED) > (w->status == MOTUS_CANCELLED) ||
+                                      ((failed->status == MOTUS_CANCELLED) == (w->status == MOTUS_CANCELLED) &&
+                                       w->failed_at < failed->failed_at)))
+            failed = w;
+    }
+    if (!failed) return MOTUS_OK;
+    if (failed->status == MOTUS_CANCELLED)
+        return fail(err, MOTUS_CANCELLED, "cancelled after %zu of %zu trajectories", atomic_load(&e->done), e->count);
+    if (err) motus_struct_write(MOTUS_DEF_ERROR, &failed->why, err);
+    return failed->status;
+}
+
+motus_status ensemble_advance(worker *w, stepper_limit limit, stepper_stop *why, motus_error *err)
+{
+    return pace_advance(&w->pace, w->stepper, limit, why, err);
+}

@@ -1,0 +1,403 @@
+/* A motion followed by the embedded pair of orders 3 and 2 [BogackiShampine89], and its turning points counted.
+ *
+ * What is told of it happened in what was followed: times of events lie within a step by the cubic through its ends. A
+ * number swings where its velocity changes its sign again and again; one that only goes on, as a pendulum that turns
+ * over, where its acceleration does. Invariant: the same bits on every machine, and nothing about the system changes.
+ */
+#include "api/search/follow.h"
+
+#include "api/system/linear.h"
+#include "api/search/settled.h"
+#include "api/search/swings.h"
+#include "api/system/vector.h"
+
+#include <math.h>
+#include <string.h>
+
+#define TOLERANCE 1e-5      /* of a step, relative to the size of each number */
+#define LEAST 1e-3          /* of the largest of its kind: no number is taken to be smaller */
+#define CHANGE_OF_STEP 11.8 /* `change` of a harmonic motion in its steps at this tolerance */
+#define SWINGS_MOST 100     /* of the fastest number */
+#define INFINITE 1e8        /* times the size of the start */
+#define KINK 3              /* steps: a change of the force that takes fewer is a jump and no rate */
+#define STEEP 100           /* times the force of the start: no singularity has less */
+#define RESTS 1e-12         /* of the force that a displacement by the whole state may have */
+#define LATER 100           /* of the horizon: so long a fall is followed */
+#define SPEED 0.05          /* of the largest in a fall: what is slower comes to rest and does not fall */
+#define UNIT 0.2            /* of the size after 1/rate: a start that is smaller has no size to grow from */
+#define NEAR_END 1e-6       /* of the time: so shortly before the end its cause is met */
+enum { SETTLED = 8 };       /* steps, until their length no longer follows from the first, or from a kink */
+
+typedef struct follower {
+    const problem *problem;
+    double t, way, rate, h, elapsed;
+    double *x, *v, *a;         /* now */
+    double *stage_x, *stage_v; /* of a stage, and at the end of the step */
+    double *slope_x[4], *slope_v[4];
+    double *largest_x, *largest_v;
+    swings *signals;    /* of the velocity of each number of v, then of its acceleration */
+    size_t falling;     /* the position with the largest force at the start, */
+    double force, side; /*   this force, and the sign of the position before it comes to 0, */
+    double speed;       /*   and its largest speed since it falls */
+    double *first_a;    /* at the start */
+    double *largest_a;
+    double unit_x, unit_v, start_x, start_v; /* sizes of positions and of first-order variables */
+    bool begun;                              /* the units are known */
+    double undefined;                        /* the last time from which a step met no force; below 0: there is none */
+    double fast[KINK], fastest;              /* rates of the last steps, and the largest that lasted */
+    settled record;
+    double usual, shortest; /* a mean of the last steps, and the least that it was */
+    uint32_t taken;
+} follower;
+
+/* Modes are numbers of x that stand still: they are no part of the motion. */
+static bool moves(const problem *p, size_t k) { return k < linear_positions(p) || k >= p->nx; }
+
+static bool evaluate(follower *f, double t, double *x, double *v, double *a)
+{
+    const problem *p = f->problem;
+    memset(a, 0, p->nv * sizeof *a);
+    if (p->refresh) p->refresh(p->ctx, t, x, v);
+    return p->accel(p->ctx, t, x, v, a) == 0 && isfinite(vector_largest(a, p->nv));
+}
+
+/* The end of a step of length h goes to the stage; its error in units of the tolerance, NaN: it is not finite. */
+static double attempt(follower *f, double h)
+{
+    static const double row[3][3] = {{1.0 / 2}, {0, 3.0 / 4}, {2.0 / 9, 1.0 / 3, 4.0 / 9}},
+                        at[] = {1.0 / 2, 3.0 / 4, 1}, error[] = {-5.0 / 72, 1.0 / 12, 1.0 / 9, -1.0 / 8};
+    const size_t nx = f->problem->nx, nv = f->problem->nv, moving = linear_positions(f->problem);
+    if (nx) memcpy(f->slope_x[0], f->v, nx * sizeof(double));
+    memcpy(f->slope_v[0], f->a, nv * sizeof(double));
+    for (int s = 0; s < 3; s++) {
+        for (size_t k = 0; k < nx; k++) {
+            double sum = 0;
+            for (int i = 0; i <= s; i++) sum += row[s][i] * f->slope_x[i][k];
+            f->stage_x[k] = f->x[k] + h * sum;
+        }
+        for (size_t k = 0; k < nv; k++) {
+            double sum = 0;
+            for (int i = 0; i <= s; i++) sum += row[s][i] * f->slope_v[i][k];
+            f->stage_v[k] = f->v[k] + h * sum;
+        }
+        if (!evaluate(f, f->t + at[s] * h, f->stage_x, f->stage_v, f->slope_v[s + 1])) return NAN;
+        if (nx) memcpy(f->slope_x[s + 1], f->stage_v, nx * sizeof(double));
+    }
+    /* Numbers that are 0 at first get the size that the largest acceleration gives them in a time 1/rate. */
+    double worst = 0, largest_a = 0;
+    for (int s = 0; s < 4; s++) largest_a = fmax(largest_a, vector_largest(f->slope_v[s], nx));
+    const double of_x = fmax(LEAST * vector_largest(f->largest_x, moving), largest_a / (f->rate * f->rate)),
+                 of_v = fmax(LEAST * vector_largest(f->largest_v, nv), largest_a / f->rate);
+    for (size_t k = 0; k < nx + nv; k++) {
+        double *const *slope = k < nx ? f->slope_x : f->slope_v, sum = 0;
+        const size_t j = k < nx ? k : k - nx;
+        for (int i = 0; i < 4; i++) sum += error[i] * slope[i][j];
+        const double now = fabs(k < nx ? f->stage_x[j] : f->stage_v[j]);
+        const double size = fmax(now, k < nx ? fmax(f->largest_x[j], of_x) : fmax(f->largest_v[j], of_v));
+        if (sum != 0) worst = fmax(worst, fabs(h * sum) / (TOLERANCE * size));
+    }
+    return isfinite(worst) ? worst : NAN;
+}
+
+static void note_all(follower *f)
+{
+    const problem *p = f->problem;
+    for (size_t k = 0; k < p->nx; k++) f->largest_x[k] = fmax(f->largest_x[k], fabs(f->x[k]));
+    for (size_t k = 0; k < p->nv; k++) {
+        f->largest_v[k] = fmax(f->largest_v[k], fabs(f->v[k]));
+        swings_note(&f->signals[k], f->elapsed, f->taken, k < p->nx ? f->v[k] : f->a[k]);
+        if (k < p->nx) swings_note(&f->signals[p->nv + k], f->elapsed, f->taken, f->a[k]);
+    }
+}
+
+/* The cubic through both ends of a step of length h, at a part of it. */
+static double between(double y0, double d0, double y1, double d1, double h, double part)
+{
+    const double q = 1 - part;
+    return q * q * ((1 + 2 * part) * y0 + part * h * d0) + part * part * ((1 + 2 * q) * y1 - q * h * d1);
+}
+
+/* Number k of positions, then of first-order variables, within the step that was attempted. */
+static double number_between(const follower *f, size_t k, double h, double part)
+{
+    const size_t nx = f->problem->nx;
+    h *= f->way;
+    return k < nx ? between(f->x[k], f->v[k], f->stage_x[k], f->stage_v[k], h, part)
+                  : between(f->v[k], f->a[k], f->stage_v[k], f->slope_v[3][k], h, part);
+}
+
+/* How large the state is within this step, positions and first-order variables each in units of their own. */
+static double size_between(const follower *f, double h, double part)
+{
+    double most = 0;
+    for (size_t k = 0; k < f->problem->nv; k++) {
+        const double unit = k < f->problem->nx ? f->unit_x : f->unit_v;
+        if (unit > 0 && moves(f->problem, k)) most = fmax(most, fabs(number_between(f, k, h, part)) / unit);
+    }
+    return most;
+}
+
+/* The part of the step at which what `below` tells ends. */
+static double part_of(const follower *f, double h, bool (*below)(const follower *, double h, double part))
+{
+    double low = 0, high = 1;
+    for (int i = 0; i < 40; i++) {
+        const double middle = (low + high) / 2;
+        if (below(f, h, middle))
+            low = middle;
+        else
+            high = middle;
+    }
+    return high;
+}
+
+static bool is_up(const follower *f, double h, double part)
+{
+    return number_between(f, f->falling, h, part) * f->side > 0;
+}
+
+static bool is_small(const follower *f, double h, double part) { return size_between(f, h, part) < FOLLOW_GROWTH; }
+
+/* Notes where in this step the falling number comes to 0, moving as its force at the start drives it. */
+static void land(follower *f, double h, followed *out)
+{
+    if (linear_positions(f->problem) == 0 || out->landed > 0) return;
+    const size_t k = f->falling;
+    const double x = f->stage_x[k], speed = f->way * f->stage_v[k];
+    if (f->side == 0) f->side = x;
+    f->speed = speed * f->force > 0 ? fmax(f->speed, fabs(speed)) : 0;
+    if (!(x * f->side <= 0) || !(f->side * f->force < 0) || !(f->speed > 0) || !(fabs(speed) >= SPEED * f->speed))
+        return;
+    out->landed = f->elapsed + h * part_of(f, h, is_up);
+}
+
+/* Notes where in this step the state has grown; first the sizes that it grows from. */
+static void grow(follower *f, double h, followed *out)
+{
+    const size_t nx = f->problem->nx;
+    if (!f->begun && (f->elapsed + h) * f->rate > 1) {
+        double x = 0, v = 0;
+        const double unit = 1 / f->rate, part = (unit - f->elapsed) / h;
+        for (size_t k = 0; k < linear_positions(f->problem); k++) x = fmax(x, fabs(number_between(f, k, h, part)));
+        for (size_t k = nx; k < f->problem->nv; k++) v = fmax(v, fabs(number_between(f, k, h, part)));
+        const bool from_start = f->start_x >= UNIT * x && f->start_v >= UNIT * v;
+        f->begun = true;
+        f->unit_x = from_start ? f->start_x : x;
+        f->unit_v = from_start ? f->start_v : v;
+        out->since = from_start ? 0 : unit;
+    }
+    if (f->begun && out->grown == 0 && size_between(f, h, 1) >= FOLLOW_GROWTH)
+        out->grown = f->elapsed + h * part_of(f, h, is_small);
+}
+
+/* Whether this step, though it meets the tolerance, may go over a singularity: the force has grown, and takes values
+ * within the step that have nothing to do with one another. Shorter steps resolve the force, or end there. */
+static bool leaps(const follower *f)
+{
+    const double first = vector_largest(f->first_a, f->problem->nv);
+    for (size_t k = 0; k < f->problem->nv; k++) {
+        const double now = fabs(f->a[k]);
+        double low = f->a[k], high = low;
+        for (int s = 1; s < 4; s++) low = fmin(low, f->slope_v[s][k]), high = fmax(high, f->slope_v[s][k]);
+        if (now > STEEP * first && now >= f->largest_a[k] / 2 && high - low >= 0.75 * now) return true;
+    }
+    return false;
+}
+
+/* Of y, or of y - z. */
+static double length(const double *y, const double *z, size_t n)
+{
+    double sum = 0;
+    for (size_t k = 0; k < n; k++) sum = hypot(sum, z ? y[k] - z[k] : y[k]);
+    return sum;
+}
+
+/* The rate w at which the positions move as a harmonic motion would, by velocity, acceleration and its change j:
+ * w^4 v^2 + w^2 a^2 = j^2, at most the rate of that motion, and that rate where it is fastest. */
+static void note_rate(follower *f, double h)
+{
+    const size_t nx = f->problem->nx;
+    const double v = length(f->stage_v, NULL, nx), a = length(f->slope_v[3], NULL, nx),
+                 j = length(f->slope_v[3], f->a, nx) / h;
+    if (!(v > 0 && a > 0 && f->taken > SETTLED) || f->problem->traits.time) return; /* the motion's own alone */
+    const double by = a / v, root = j / v; /* w^2 = (-by^2 + sqrt(by^4 + 4 root^2))/2, without cancellation */
+    f->fast[f->taken % KINK] = sqrt(2 * root * root / (by * by + hypot(by * by, 2 * root)));
+    double least = f->fast[0];
+    for (int i = 1; i < KINK; i++) least = fmin(least, f->fast[i]);
+    f->fastest = fmax(f->fastest, least);
+}
+
+static void accept(follower *f, double h)
+{
+    const size_t nx = f->problem->nx, nv = f->problem->nv;
+    f->t += f->way * h;
+    f->elapsed += h;
+    if (nx) memcpy(f->x, f->stage_x, nx * sizeof(double));
+    memcpy(f->v, f->stage_v, nv * sizeof(double));
+    memcpy(f->a, f->slope_v[3], nv * sizeof(double));
+    f->usual = f->taken++ < SETTLED ? h : f->usual + (h - f->usual) / SETTLED;
+    if (f->taken > SETTLED) f->shortest = fmin(f->shortest, f->usual);
+    for (size_t k = 0; k < nv; k++) f->largest_a[k] = fmax(f->largest_a[k], fabs(f->a[k]));
+    note_all(f);
+    settled_note(&f->record, f->elapsed, f->x, nx, f->v + nx);
+}
+
+/* One step that meets the tolerance. False: none does, however short. */
+static bool step(follower *f, size_t *evaluations, size_t most, followed *out)
+{
+    for (;;) {
+        if (*evaluations + 3 > most) return true;
+        *evaluations += 3;
+        const double error = attempt(f, f->way * f->h), h = f->h;
+        if (isnan(error)) f->undefined = f->elapsed;
+        if (!(h > 1e-10 * f->elapsed) || !(h > 1e-290)) return false;
+        f->h *= isnan(error) ? 0.1 : fmin(4, fmax(0.2, 0.9 / sqrt(sqrt(error))));
+        if (!(error <= 1)) continue;
+        if (leaps(f)) {
+            f->h = h / 4;
+            continue;
+        }
+        land(f, h, out);
+        grow(f, h, out);
+        note_rate(f, h);
+        accept(f, h);
+        return true;
+    }
+}
+
+/* The signs that tell the swings of number k. */
+static const swings *telling(const follower *f, size_t k)
+{
+    const swings *s = &f->signals[k], *a = s + f->problem->nv;
+    return k < f->problem->nx && s->changes < 3 && a->changes > 3 ? a : s;
+}
+
+/* True: every number has swung often enough, or the fastest so often that the others do not swing. */
+static bool judge(const follower *f, followed *out)
+{
+    bool all = true;
+    size_t slowest = 0;
+    out->shortest = out->longest = 0;
+    out->irregular = false;
+    for (size_t k = 0; k < f->problem->nv; k++) {
+        if (!moves(f->problem, k)) continue;
+        const swings *signs = telling(f, k);
+        const double one = swings_length(signs);
+        all &= swings_often(signs);
+        if (one > 0 && (out->shortest == 0 || one < out->shortest)) out->shortest = one, out->fastest = k;
+        out->irregular |= one > 0 && swings_uneven(signs);
+        if (one > out->longest) out->longest = one, slowest = k;
+    }
+    out->slowest = slowest;
+    return all || (out->shortest > 0 && f->elapsed > SWINGS_MOST * out->shortest);
+}
+
+/* How the motion ends that no step can follow further. */
+static follow_end end_of(const follower *f, double size)
+{
+    const size_t nx = f->problem->nx, nv = f->problem->nv;
+    const double state = fmax(vector_largest(f->x, linear_positions(f->problem)), vector_largest(f->v + nx, nv - nx));
+    const double slope = fmax(vector_largest(f->v, nx), vector_largest(f->a + nx, nv - nx));
+    const double now = vector_largest(f->a, nv), first = vector_largest(f->first_a, nv);
+    /* What grows as an exponential ends with the range of the numbers, but needs as long as before for each factor. */
+    if (size >= INFINITE) return slope * f->elapsed > 1e4 * state ? FOLLOW_INFINITE : FOLLOW_GOES_ON;
+    if (now > STEEP * first) return FOLLOW_SINGULAR;
+    return f->undefined >= (1 - NEAR_END) * f->elapsed ? FOLLOW_UNDEFINED : FOLLOW_GOES_ON;
+}
+
+/* Whether the falling number is on its way to 0, and will be there in not much longer than it was followed. */
+static bool falls(const follower *f, double horizon, const followed *out)
+{
+    if (linear_positions(f->problem) == 0 || out->landed > 0 || f->elapsed > LATER * horizon) return false;
+    const double x = f->x[f->falling], v = f->way * f->v[f->falling];
+    return x * v < 0 && v * f->force > 0 && fabs(x / v) < LATER * horizon;
+}
+
+static void follow(follower *f, double horizon, size_t most, followed *out)
+{
+    const size_t nx = f->problem->nx;
+    static const double marks[] = {1e2, 1e4, INFINITE};
+    double times[3] = {0}, size = 0;
+    size_t evaluations = 1;
+    bool steps = true, done = false;
+    while (steps && !done && evaluations + 3 <= most && (f->elapsed < horizon || falls(f, horizon, out))) {
+        steps = step(f, &evaluations, most, out);
+        size = f->begun ? size_between(f, 0, 1) : 0;
+        for (int i = 0; i < 3; i++)
+            if (size >= marks[i] && times[i] == 0) times[i] = f->elapsed;
+        /* An exponential needs twice as long from 1e4 to 1e8 as from 1e2 to 1e4; towards a pole, less and less. */
+        const bool pole = times[2] > 0 && times[2] - times[1] < times[1] - times[0];
+        done = (size >= INFINITE && !pole) || judge(f, out);
+    }
+    judge(f, out);
+    out->change = f->taken > SETTLED ? CHANGE_OF_STEP * f->shortest : 0;
+    out->step = f->usual;
+    out->fast = f->fastest;
+    out->elapsed = f->elapsed;
+    out->cut = steps && !done && evaluations + 3 > most;
+    out->falling = f->falling;
+    if (!steps) out->end = end_of(f, size);
+    if (out->end != FOLLOW_GOES_ON) out->bound = f->elapsed;
+    if (steps && size < INFINITE) out->settled = settled_since(&f->record, f->elapsed, f->x, nx, f->v + nx);
+}
+
+/* Whether nothing moves: the force at the start is rounding. */
+static bool rests(const follower *f)
+{
+    const problem *p = f->problem;
+    const size_t nx = p->nx, ns = p->nv - nx;
+    return !p->traits.time && !p->refresh && vector_largest(f->v, nx) == 0 &&
+           vector_largest(f->a, nx) <= RESTS * f->rate * f->rate * vector_largest(f->x, linear_positions(p)) &&
+           vector_largest(f->a + nx, ns) <= RESTS * f->rate * vector_largest(f->v + nx, ns);
+}
+
+static void start(follower *f)
+{
+    const size_t nx = f->problem->nx, nv = f->problem->nv;
+    memcpy(f->first_a, f->a, nv * sizeof *f->a);
+    memcpy(f->largest_a, f->a, nv * sizeof *f->a);
+    for (size_t k = 0; k < nv; k++) f->largest_a[k] = fabs(f->a[k]);
+    f->start_x = vector_largest(f->x, linear_positions(f->problem));
+    f->start_v = vector_largest(f->v + nx, nv - nx);
+    note_all(f);
+    settled_note(&f->record, 0, f->x, nx, f->v + nx);
+    for (size_t k = 1; k < nx; k++)
+        if (fabs(f->a[k]) > fabs(f->a[f->falling])) f->falling = k;
+    f->force = f->a[f->falling];
+    f->side = nx ? f->x[f->falling] : 0;
+    for (size_t k = 0; k < 2 * nv; k++) /* at rest: a turning point */
+        if (f->signals[k].value == 0) f->signals[k].changes = 1;
+}
+
+bool follow_motion(motus_system *s, double from, double way, double rate, double horizon, followed *out)
+{
+    const problem *p = &s->problem;
+    const size_t nx = p->nx, nv = p->nv, most = s->text.draft / (nv ? nv : 1);
+    *out = (followed){0};
+    follower f = {
+        .problem = p, .t = from, .way = way, .rate = rate, .h = 0.01 / rate, .shortest = INFINITY, .undefined = -1};
+    const size_t samples = most / 3 + 1 < SETTLED_SAMPLES ? most / 3 + 1 : SETTLED_SAMPLES, state = 7 * nx + 10 * nv;
+    double *room = take(&s->allocator, state + samples * (nv + 1), sizeof *room);
+    f.signals = take(&s->allocator, 2 * nv, sizeof *f.signals);
+    if (room && f.signals) {
+        double **of_x[] = {&f.x, &f.stage_x, &f.largest_x, &f.slope_x[0], &f.slope_x[1], &f.slope_x[2], &f.slope_x[3]};
+        double **of_v[] = {&f.v,          &f.stage_v,    &f.largest_v, &f.slope_v[0], &f.slope_v[1],
+                           &f.slope_v[2], &f.slope_v[3], &f.a,         &f.first_a,    &f.largest_a};
+        memset(room, 0, state * sizeof *room);
+        f.record = (settled){room + state, room + state + samples, nv, samples, 0, 0.01 / rate};
+        memset(f.signals, 0, 2 * nv * sizeof *f.signals);
+        for (size_t i = 0; i < 7; i++) *of_x[i] = room + i * nx;
+        for (size_t i = 0; i < 10; i++) *of_v[i] = room + 7 * nx + i * nv;
+        if (nx) memcpy(f.x, s->x0, nx * sizeof *room);
+        memcpy(f.v, s->v0, nv * sizeof *room);
+        if (evaluate(&f, f.t, f.x, f.v, f.a)) {
+            start(&f);
+            out->rests = rests(&f);
+            if (!out->rests) follow(&f, horizon, most, out);
+        }
+    }
+    const bool memory = room && f.signals;
+    give(&s->allocator, f.signals);
+    give(&s->allocator, room);
+    return memory;
+}
