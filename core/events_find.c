@@ -12,21 +12,6 @@
  * not resolve a function, and at most PARTS_DEEP times */
 enum { ROOTS_ROOM = 128, PART_DEGREE = 64, PARTS_DEEP = 12 };
 
-motus_status events_no_memory(motus_error *err)
-{
-    return fail(err, MOTUS_MEMORY, "no memory for the events of a step");
-}
-
-bool events_add(events *e, candidate c)
-{
-    void *list = e->candidate;
-    if (!events_grow(&e->allocator, &list, e->candidates, &e->candidate_room, 1, sizeof c)) return false;
-    e->candidate = list;
-    e->candidate[e->candidates++] = c;
-    e->in_order = false;
-    return true;
-}
-
 /* A part of the step in which a function is a polynomial: all of it, where that can be. */
 typedef struct part {
     double from, to;
@@ -34,13 +19,6 @@ typedef struct part {
 } part;
 
 static double time_at(const events *e, double tau) { return tau >= 1 ? e->span : tau * e->span; }
-
-double events_place_in(const events *e, double h)
-{
-    const double t = e->left.t + (e->left.lost + h);
-    if (e->way * (t - e->left.t) < 0) return e->left.t;
-    return e->way * (e->right.t - t) < 0 ? e->right.t : t;
-}
 
 /* Room for the values at degree + 1 points, and behind them for the arguments. */
 static bool room_for(events *e, int degree)
@@ -99,19 +77,6 @@ static motus_status sample_part(events *e, stepper *s, size_t f, const part *p, 
         values[k] = at->g[f];
     }
     return status;
-}
-
-/* By Clenshaw's formula. */
-double events_polynomial(const double *c, int degree, double tau)
-{
-    const double z = 2 * tau - 1;
-    double one = 0, two = 0;
-    for (int k = degree; k > 0; k--) {
-        const double sum = c[k] + (2 * z * one - two);
-        two = one;
-        one = sum;
-    }
-    return c[0] + (z * one - two);
 }
 
 typedef struct search {
@@ -605,11 +570,6 @@ static motus_status find_of(events *e, stepper *s, size_t f, int *degree, motus_
     if (!status && !more) status = points;
     if (status && err) *err = theirs;
     return status;
-}
-
-double events_tick(const events *e, size_t k)
-{
-    return e->start + e->way * (double)(e->ticks[k] + 1) * e->rules.rule[k].period;
 }
 
 bool events_next_tick(const events *e, size_t k, candidate *c)

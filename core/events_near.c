@@ -105,6 +105,19 @@ motus_status events_note_rest(events *e, motus_error *err)
     return status;
 }
 
+/* By Clenshaw's formula. */
+double events_polynomial(const double *c, int degree, double tau)
+{
+    const double z = 2 * tau - 1;
+    double one = 0, two = 0;
+    for (int k = degree; k > 0; k--) {
+        const double sum = c[k] + (2 * z * one - two);
+        two = one;
+        one = sum;
+    }
+    return c[0] + (z * one - two);
+}
+
 /* The slope of a polynomial, by its coefficients; half of it, since tau is half of what they are of. */
 static void derive(const double *c, int degree, double *slope)
 {

@@ -1,11 +1,12 @@
 /* What the files of events share: the struct, and what each file does with it.
  *
- * events.c: life and steps. events_find.c: the roots of a step, by dense output. events_order.c: their order.
- * events_watch.c: steps in which nothing happens, by bounds. events_place.c: true steps, and where a root is by them.
- * events_jump.c: functions that jump or have a kink. events_errors.c: error bounds of functions and of the times of
- * events. events_fire.c: what happens in one instant. events_table.c: rows, kept numbers, accumulation. events_swarm.c:
- * switches that accumulate. events_growth.c: actions that come without end. events_narrow.c: roots that
- * dense output leaps. events_state.c: restart states.
+ * From the lowest, each uses only those above it on this list. events_at.c: functions at an instant, and true steps to
+ * it. events_table.c: rows, kept numbers, accumulation. events_candidates.c: what may happen in a step, and its order.
+ * events_errors.c: error bounds of functions and of the times of events. events_jump.c: functions that jump or have a
+ * kink. events_place.c: where a root is by true steps. events_near.c: extrema near 0. events_narrow.c: roots that dense
+ * output leaps. events_watch.c: steps in which nothing happens, by bounds. events_find.c: the roots of a step, by dense
+ * output. events_swarm.c: switches that accumulate. events_growth.c: actions that come without end. events_fire.c: what
+ * happens in one instant. events_state.c: restart states. events.c: life and steps.
  *
  * A true step is a step of the method itself from `left` to a time within the step; dense output interpolates.
  * Invariant: `left` is the state at which the present step began, and `side` are the sides of all functions there,
@@ -237,7 +238,7 @@ struct events {
     double began; /* of a restart state: where the leg of its stepper began */
 };
 
-/* events_place.c. The acceleration, rates and bounds of an instant whose state and values are known. */
+/* events_at.c. The acceleration, rates and bounds of an instant whose state and values are known. */
 motus_status events_judge(events *, instant *, motus_error *);
 /* The rates alone, and the bounds alone. */
 motus_status events_rates(events *, instant *, motus_error *);
@@ -253,107 +254,17 @@ motus_status events_bound_of(events *, size_t function, instant *, motus_error *
 motus_status events_judge_of(events *, size_t function, instant *, motus_error *); /* rate and bound */
 /* MOTUS_CALLBACK: the callback for `which` returned `answer` at time t. */
 motus_status events_refuse(const events *, const char *which, double t, int answer, motus_error *);
+/* The direction in which a function moves at an instant along the run; 0: too small to tell. */
+int events_direction(const events *, const instant *, size_t function);
+void events_copy(const events *, instant *to, const instant *from); /* time, state and functions */
+/* The time so long after `left`; what times have lost to rounding leads out of the step where it is short. */
+double events_place_in(const events *, double h);
 /* A step of size h from the state of time `from` + `lost`; the end is at *t + *rest. */
 motus_status events_probe(events *, double from, double lost, const double *x, const double *v, double h, double *t,
                           double *rest, motus_error *);
 /* The state after a step of size h from `left`; with values, or that of one function. */
 motus_status events_at(events *, double h, instant *, motus_error *);
 motus_status events_at_of(events *, size_t function, double h, instant *, motus_error *);
-/* Finds where the candidate is, and the state there, in `here`. It may be gone; a near one may become two. */
-motus_status events_locate(events *, size_t candidate, motus_error *);
-/* An extremum on the other side of 0: replaces a near candidate by the two crossings, before and after that time. */
-motus_status events_split(events *, size_t candidate, double at, motus_error *);
-/* Whether a function has stayed at 0, but for its error, since it touched 0 the last time; `here` is left elsewhere. */
-motus_status events_lingered(events *, const candidate *, bool *same, motus_error *);
-/* The direction in which a function moves at an instant along the run; 0: too small to tell. */
-int events_direction(const events *, const instant *, size_t function);
-void events_copy(const events *, instant *to, const instant *from); /* time, state and functions */
-/* The time of the next tick of a clock. */
-double events_tick(const events *, size_t rule);
-
-/* events_find.c. What may happen in the step from `left` to `right`, whose dense output the stepper has. */
-motus_status events_find(events *, stepper *, motus_error *);
-bool events_add(events *, candidate);
-motus_status events_no_memory(motus_error *);
-/* The time so long after `left`; what times have lost to rounding leads out of the step where it is short. */
-double events_place_in(const events *, double h);
-/* The next tick of a clock. False: it is not within the step. */
-bool events_next_tick(const events *, size_t rule, candidate *);
-
-/* events_watch.c. Takes steps that bounds alone tell of until they do not, or up to the limit. The last one leads from
- * `left`. */
-motus_status events_watch(events *, stepper *, stepper_limit, stepper_stop *why, motus_error *);
-/* A state of the motion, where a step begins, counts in `most`. */
-void events_extend(events *, const double *x, const double *v);
-/* The box of the present step, its middle in `next`, its half widths in `width`, and in `before` a lower bound on the
- * size of every function in it. False: no bounds are known. */
-bool events_box(events *, stepper *);
-
-/* events_order.c. Places the candidates of a step so well that their order can be told, and orders them where they are
- * many. */
-motus_status events_order(events *, stepper *, motus_error *);
-/* The candidate that comes next; those of dense output may be as far off as the ones that have been located. NULL:
- * there is none. */
-candidate *events_earliest(events *);
-/* How far a candidate that is not located may be from its time by dense output. */
-double events_margin(const events *);
-/* The candidates from *first to before *end are all whose times are no farther than `far` from this one. */
-void events_about(const events *, double at, double far, size_t *first, size_t *end);
-
-/* events_errors.c. Whether the size of a function at an instant exceeds that at both ends of the step, as beside a
- * pole: then it does not pass 0 there. */
-bool events_far(const events *, const instant *, size_t function);
-/* Whether rounding hides the sign of a function at neither end of the step; their bounds are known. */
-bool events_clear(const events *, size_t function);
-/* An error bound of a function at `here`, a time h after `left`, whose rates and bounds are known: from the rounding
- * since the start and, where h is not 0, from the estimated error of the true step to `here`. */
-motus_status events_error_of(events *, size_t function, double h, double *bound, motus_error *);
-/* Of a function on a part of the step, where `from` and `to` are parts of it: a polynomial, and how far it is off. */
-typedef struct events_piece {
-    double from, to, noise;
-    const double *c; /* Chebyshev coefficients */
-    int degree;
-} events_piece;
-/* events_near.c. Keeps the extrema near 0 of function f on a part of the step. */
-motus_status events_note_extrema(events *, stepper *, size_t f, const events_piece *, motus_error *);
-/* A switch has turned at `here`: keeps the functions that come to rest there, at 0 or near it. */
-motus_status events_note_rest(events *, motus_error *);
-/* Forgets those behind a time at which an action has cut the step; and all. */
-void events_cut_extrema(events *, double end);
-void events_forget_extrema(events *);
-/* Widens the box of a step by what the motion may be off by. */
-void events_widen(events *);
-/* events_find.c. p(tau), of Chebyshev coefficients. */
-double events_polynomial(const double *coefficients, int degree, double tau);
-/* The same of the function's rate. */
-motus_status events_slope_error_of(events *, size_t function, double h, double *bound, motus_error *);
-/* An error bound of the time of a root or touch at `here`, a time h after `left`, where the function is flat: the time
- * within which the error of the function hides its root, or that of its rate hides the touch. 0: it is not flat, and
- * the time of the companion's event alone tells the error. */
-motus_status events_doubt(events *, size_t function, double h, bool touches, double *doubt, motus_error *);
-
-/* events_narrow.c. `degree`: of the samples of the step; `failed`: the points do not tell the roots of the function.
- * Bounds tell of more roots of a function than its candidates from number `first` on, *more: they take
- * the place of these. */
-motus_status events_narrow(events *, stepper *, size_t function, size_t first, int degree, bool failed, bool *more,
-                           motus_error *);
-/* So many more steps have been taken, in which narrow events may be looked for. */
-void events_may_look(events *, int64_t steps);
-
-/* events_jump.c. Adds the candidate of a cell, from its samples. *sign is the sign of the function before the cell, 0
- * where it stands at 0, and then that at its end. *told false: the samples change their sign more than once. */
-motus_status events_sampled(events *, const events_cell *, int *sign, bool *told, motus_error *);
-/* events_locate for a sampled candidate. */
-motus_status events_locate_sampled(events *, size_t candidate, motus_error *);
-
-/* events_fire.c. All that happens at `here`, to which the candidate leads. */
-motus_status events_fire(events *, const candidate *, bool *assigned, motus_error *);
-/* Of the instant that was last fired, evaluates the functions that have not been asked for. */
-motus_status events_complete(events *, motus_error *);
-/* The sides and roots with which the motion goes on from `here`, where the step ends. */
-void events_stand(events *);
-/* The truth of conditions from the sides, without events. */
-void events_suppose(events *);
 
 /* events_table.c. Room for `more` items behind `count` of them. False: no memory. */
 bool events_grow(const motus_allocator *, void **items, size_t count, size_t *room, size_t more, size_t size);
@@ -371,6 +282,98 @@ void events_end_here(events *, size_t rule, size_t instance, double t);
 /* The state after an action, beside which the next one of the same rule is judged; and its limit, to `here`. */
 void events_after(events *, size_t rule, size_t instance);
 void events_to_limit(events *);
+motus_status events_no_memory(motus_error *);
+
+/* events_candidates.c. Adds one. False: no memory. */
+bool events_add(events *, candidate);
+/* An extremum on the other side of 0: replaces a near candidate by the two crossings, before and after that time. */
+motus_status events_split(events *, size_t candidate, double at, motus_error *);
+/* Places the candidates of a step so well that their order can be told, and orders them where they are many. */
+motus_status events_order(events *, stepper *, motus_error *);
+/* The candidate that comes next; those of dense output may be as far off as the ones that have been located. NULL:
+ * there is none. */
+candidate *events_earliest(events *);
+/* How far a candidate that is not located may be from its time by dense output. */
+double events_margin(const events *);
+/* The candidates from *first to before *end are all whose times are no farther than `far` from this one. */
+void events_about(const events *, double at, double far, size_t *first, size_t *end);
+
+/* events_errors.c. Whether the size of a function at an instant exceeds that at both ends of the step, as beside a
+ * pole: then it does not pass 0 there. */
+bool events_far(const events *, const instant *, size_t function);
+/* Whether rounding hides the sign of a function at neither end of the step; their bounds are known. */
+bool events_clear(const events *, size_t function);
+/* An error bound of a function at `here`, a time h after `left`, whose rates and bounds are known: from the rounding
+ * since the start and, where h is not 0, from the estimated error of the true step to `here`. */
+motus_status events_error_of(events *, size_t function, double h, double *bound, motus_error *);
+/* An error bound of the function's rate there. */
+motus_status events_slope_error_of(events *, size_t function, double h, double *bound, motus_error *);
+/* An error bound of the time of a root or touch at `here`, a time h after `left`, where the function is flat: the time
+ * within which the error of the function hides its root, or that of its rate hides the touch. 0: it is not flat, and
+ * the time of the companion's event alone tells the error. */
+motus_status events_doubt(events *, size_t function, double h, bool touches, double *doubt, motus_error *);
+
+/* events_jump.c. Adds the candidate of a cell, from its samples. *sign is the sign of the function before the cell, 0
+ * where it stands at 0, and then that at its end. *told false: the samples change their sign more than once. */
+motus_status events_sampled(events *, const events_cell *, int *sign, bool *told, motus_error *);
+/* events_locate for a sampled candidate. */
+motus_status events_locate_sampled(events *, size_t candidate, motus_error *);
+
+/* events_place.c. Finds where the candidate is, and the state there, in `here`. It may be gone; a near one may become
+ * two. */
+motus_status events_locate(events *, size_t candidate, motus_error *);
+/* Whether a function has stayed at 0, but for its error, since it touched 0 the last time; `here` is left elsewhere. */
+motus_status events_lingered(events *, const candidate *, bool *same, motus_error *);
+
+/* Of a function on a part of the step, where `from` and `to` are parts of it: a polynomial, and how far it is off. */
+typedef struct events_piece {
+    double from, to, noise;
+    const double *c; /* Chebyshev coefficients */
+    int degree;
+} events_piece;
+/* events_near.c. p(tau), of Chebyshev coefficients. */
+double events_polynomial(const double *coefficients, int degree, double tau);
+/* Keeps the extrema near 0 of function f on a part of the step. */
+motus_status events_note_extrema(events *, stepper *, size_t f, const events_piece *, motus_error *);
+/* A switch has turned at `here`: keeps the functions that come to rest there, at 0 or near it. */
+motus_status events_note_rest(events *, motus_error *);
+/* Forgets those behind a time at which an action has cut the step; and all. */
+void events_cut_extrema(events *, double end);
+void events_forget_extrema(events *);
+/* Widens the box of a step by what the motion may be off by. */
+void events_widen(events *);
+
+/* events_narrow.c. `degree`: of the samples of the step; `failed`: the points do not tell the roots of the function.
+ * Bounds tell of more roots of a function than its candidates from number `first` on, *more: they take
+ * the place of these. */
+motus_status events_narrow(events *, stepper *, size_t function, size_t first, int degree, bool failed, bool *more,
+                           motus_error *);
+/* So many more steps have been taken, in which narrow events may be looked for. */
+void events_may_look(events *, int64_t steps);
+
+/* events_watch.c. The time of the next tick of a clock. */
+double events_tick(const events *, size_t rule);
+/* Takes steps that bounds alone tell of until they do not, or up to the limit. The last one leads from `left`. */
+motus_status events_watch(events *, stepper *, stepper_limit, stepper_stop *why, motus_error *);
+/* A state of the motion, where a step begins, counts in `most`. */
+void events_extend(events *, const double *x, const double *v);
+/* The box of the present step, its middle in `next`, its half widths in `width`, and in `before` a lower bound on the
+ * size of every function in it. False: no bounds are known. */
+bool events_box(events *, stepper *);
+
+/* events_find.c. What may happen in the step from `left` to `right`, whose dense output the stepper has. */
+motus_status events_find(events *, stepper *, motus_error *);
+/* The next tick of a clock. False: it is not within the step. */
+bool events_next_tick(const events *, size_t rule, candidate *);
+
+/* events_fire.c. All that happens at `here`, to which the candidate leads. */
+motus_status events_fire(events *, const candidate *, bool *assigned, motus_error *);
+/* Of the instant that was last fired, evaluates the functions that have not been asked for. */
+motus_status events_complete(events *, motus_error *);
+/* The sides and roots with which the motion goes on from `here`, where the step ends. */
+void events_stand(events *);
+/* The truth of conditions from the sides, without events. */
+void events_suppose(events *);
 
 /* events_swarm.c. A switch has turned at `here`, which is moved on to where it and others accumulate, if they do. */
 motus_status events_swarm(events *, size_t function, motus_error *);

@@ -21,6 +21,11 @@ bool events_grow(const motus_allocator *a, void **items, size_t count, size_t *r
     return true;
 }
 
+motus_status events_no_memory(motus_error *err)
+{
+    return fail(err, MOTUS_MEMORY, "no memory for the events of a step");
+}
+
 static bool grow_rows(events *e)
 {
     size_t room = e->row_room, also = e->row_room;

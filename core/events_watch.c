@@ -90,6 +90,11 @@ static bool quiet(void *ctx, const stepper_shown *step)
     return !any || passes_idly(e, step);
 }
 
+double events_tick(const events *e, size_t k)
+{
+    return e->start + e->way * (double)(e->ticks[k] + 1) * e->rules.rule[k].period;
+}
+
 double events_next_time(const events *e)
 {
     double next = e->way * INFINITY;

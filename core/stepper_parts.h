@@ -1,5 +1,7 @@
-/* The stepper's struct and internal functions, shared by stepper.c (memory, steps, failures), stepper_start.c (legs)
- * and stepper_state.c (carry, observation, dense output). */
+/* The stepper's struct and internal functions. From the lowest, each of its files uses only those above it on this
+ * list: stepper_state.c (time, carry, observation, reports of failures), stepper_start.c (legs), stepper.c (life),
+ * stepper_advance.c (steps, the way back from a failure), stepper_dense.c (dense output).
+ */
 #ifndef CORE_STEPPER_PARTS_H
 #define CORE_STEPPER_PARTS_H
 
@@ -52,6 +54,8 @@ struct stepper {
     bool extended;
 };
 
+/* stepper_state.c. The name of number k of x or v. */
+const char *stepper_name(const stepper *, bool in_v, size_t k, char out[MOTUS_NAME_MAX]);
 /* The status and message for a STEP_ status at time t. */
 motus_status stepper_report(const stepper *, int bad, double t, motus_error *);
 /* Whether the force has no finite value at the present state, where no step was made; then says so in place of what the
@@ -60,10 +64,14 @@ bool stepper_undefined(stepper *, motus_error *);
 /* Copies the carried numbers into the main line; ends a shorter last step. */
 void stepper_put(stepper *, stepper_count, const double *carry);
 stepper_count stepper_get(const stepper *, double *carry);
-/* A leg's first state, without checks. */
-void stepper_begin(stepper *, double t0, double h, const double *x, const double *v);
 bool stepper_ends(stepper *); /* takes the memory for dense output; false: there is none */
-/* Takes the last step once more, with a mark before it. */
+/* Keeps the right end of the last step, once. */
+motus_status stepper_right_end(stepper *, motus_error *);
+
+/* stepper_start.c. A leg's first state, without checks. */
+void stepper_begin(stepper *, double t0, double h, const double *x, const double *v);
+
+/* stepper_advance.c. Takes the last step once more, with a mark before it. */
 motus_status stepper_again(stepper *, motus_error *);
 
 #endif

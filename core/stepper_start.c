@@ -1,89 +1,7 @@
-/* Legs: the start of a stepper, the checks of a start, and the messages of failures. See stepper.h. */
+/* Legs: the start of a stepper, and the checks of a start. See stepper.h. */
 #include "core/stepper_parts.h"
 
-#include <stdio.h>
 #include <string.h>
-
-#define STEPS_TOLD 1e5 /* decimal_time of so many steps tells the times of two steps apart */
-
-/* Errors ---------------------------------------------------------------------------------------------------------- */
-
-static const char *name_of(const stepper *s, bool in_v, size_t k, char out[MOTUS_NAME_MAX])
-{
-    out[0] = 0;
-    if (s->problem.name) s->problem.name(s->problem.ctx, in_v, k, out, MOTUS_NAME_MAX);
-    if (!out[0]) snprintf(out, MOTUS_NAME_MAX, "%s[%zu]", in_v ? "v" : "x", k);
-    return out;
-}
-
-motus_status stepper_report(const stepper *s, int bad, double t, motus_error *err)
-{
-    const work *w = &s->work;
-    char time[DECIMAL_MAX], name[MOTUS_NAME_MAX], step[DECIMAL_MAX];
-    decimal_time(t, bad == STEP_STALLED ? t : STEPS_TOLD * w->h, time);
-    decimal(w->h, step);
-    name_of(s, w->in_v, w->which, name);
-    motus_status status = MOTUS_CALLBACK;
-    if (bad == STEP_DIVERGED) {
-        status = fail(err, MOTUS_DIVERGED, "the motion left the finite numbers at t = %s: %s is no longer finite", time,
-                      name);
-        hint(err, "with %s and step %s; try a smaller step, or look for a division by zero on the way", s->method.name,
-             step);
-    } else if (bad == STEP_SOLVE) {
-        status = fail(err, MOTUS_SOLVE, "%s could not solve its implicit equation at t = %s: %s does not converge",
-                      s->method.name, time, name);
-        hint(err, "the step is %s; take a smaller one, for which the starting guess is nearer to the solution", step);
-    } else if (bad == STEP_STALLED) {
-        const bool limited = s->method.least > 0 && w->t + s->method.least != w->t;
-        decimal(s->method.least, step);
-        status = limited ? fail(err, MOTUS_DIVERGED, "at t = %s the tolerance needs a step shorter than %s", time, step)
-                         : fail(err, MOTUS_DIVERGED, "the step that error control needs is too small to change t = %s",
-                                time);
-        hint(err, limited ? "allow shorter steps, or a larger error"
-                          : "the motion may have a singularity there; otherwise allow a larger error");
-    } else if (s->problem.returned && *s->problem.returned == 0) {
-        fail(err, MOTUS_CALLBACK, "the callback reads the velocity, though its definition says that it does not");
-        hint(err, "set depends_on_velocity to 1 in the definition, or do not read v");
-    } else {
-        const bool here = s->problem.returned && *s->problem.returned > 0;
-        fail(err, MOTUS_CALLBACK,
-             here ? "by its callback, the acceleration cannot be evaluated at t = %s"
-                  : "the acceleration callback reported a failure at t = %s",
-             time);
-        if (here) hint(err, "the run is at its last good step; a smaller step may lead around the place");
-    }
-    if (!err) return status;
-    err->time = t;
-    err->returned = bad == STEP_CALLBACK && s->problem.returned ? *s->problem.returned : 0;
-    if (bad != STEP_CALLBACK && bad != STEP_STALLED) snprintf(err->variable, sizeof err->variable, "%s", name);
-    return status;
-}
-
-bool stepper_undefined(stepper *s, motus_error *err)
-{
-    work *w = &s->work;
-    const size_t nx = w->nx, nv = w->nv;
-    if (!stepper_ends(s)) return false;
-    double *x = s->ends + nx + 2 * nv, *v = x + nx, *a = v + nv;
-    s->right = false;
-    if (s->body->sync(w, x, v, a)) return false;
-    for (size_t k = 0; k < nv; k++) {
-        if (isfinite(a[k])) continue;
-        char time[DECIMAL_MAX], name[MOTUS_NAME_MAX];
-        const double ended = err ? err->time : 0;
-        name_of(s, true, k, name);
-        fail(err, MOTUS_DIVERGED, "the motion is undefined at the start, t = %s: %s has no finite rate of change there",
-             decimal_time(time_now(w), time_now(w), time), name);
-        hint(err, "begin elsewhere, or look for a division by zero in the equation");
-        if (!err) return true;
-        err->time = ended;
-        snprintf(err->variable, sizeof err->variable, "%s", name);
-        return true;
-    }
-    return false;
-}
-
-/* Starts ---------------------------------------------------------------------------------------------------------- */
 
 static motus_status check_start(stepper *s, double t0, double h, const double *x, const double *v, motus_error *err)
 {
@@ -98,11 +16,11 @@ static motus_status check_start(stepper *s, double t0, double h, const double *x
     for (size_t k = 0; k < s->problem.nx; k++)
         if (!isfinite(x[k]))
             return fail(err, MOTUS_ARGUMENT, "the initial value of %s is not a finite number",
-                        name_of(s, false, k, name));
+                        stepper_name(s, false, k, name));
     for (size_t k = 0; k < s->problem.nv; k++)
         if (!isfinite(v[k]))
             return fail(err, MOTUS_ARGUMENT, "the initial value of %s is not a finite number",
-                        name_of(s, true, k, name));
+                        stepper_name(s, true, k, name));
     return MOTUS_OK;
 }
 
@@ -132,7 +50,7 @@ static motus_status refuse_start(const stepper *s, double t0, size_t k, bool in_
     char name[MOTUS_NAME_MAX], is[DECIMAL_MAX], due[DECIMAL_MAX], t[DECIMAL_MAX];
     fail(err, MOTUS_METHOD,
          "exact does not admit this start: the exact motion has another state at t = %s: %s is %s, not %s",
-         decimal(t0, t), name_of(s, in_v, k, name), decimal(exact, is), decimal(start, due));
+         decimal(t0, t), stepper_name(s, in_v, k, name), decimal(exact, is), decimal(start, due));
     hint(err, "start on the exact motion, or choose another method");
     return MOTUS_METHOD;
 }

@@ -1,9 +1,8 @@
-/* The state of a stepper: time and counters, the carried numbers, observation, dense output. See stepper.h. */
+/* The state of a stepper: time and counters, the carried numbers, observation, reports of failures. See stepper.h. */
 #include "core/stepper_parts.h"
 
-#include "step/swing.h"
-
 #include <math.h>
+#include <stdio.h>
 #include <string.h>
 
 double stepper_time(const stepper *s) { return s->arrived ? s->until : time_now(&s->work); }
@@ -164,45 +163,83 @@ bool stepper_earlier(stepper *s, double *t, double *x, double *v)
     return status == MOTUS_OK;
 }
 
-/* The mark of dense output goes along, because it may be for the next step. */
-static void move_ends(stepper *from, stepper *to)
+/* Failures -------------------------------------------------------------------------------------------------------- */
+
+#define STEPS_TOLD 1e5 /* decimal_time of so many steps tells the times of two steps apart */
+
+const char *stepper_name(const stepper *s, bool in_v, size_t k, char out[MOTUS_NAME_MAX])
 {
-    to->ends = from->ends;
-    from->ends = NULL;
-    to->left = from->left;
-    to->right = from->right;
-    to->left_t = from->left_t;
-    to->left_lost = from->left_lost;
-    to->left_steps = from->left_steps;
+    out[0] = 0;
+    if (s->problem.name) s->problem.name(s->problem.ctx, in_v, k, out, MOTUS_NAME_MAX);
+    if (!out[0]) snprintf(out, MOTUS_NAME_MAX, "%s[%zu]", in_v ? "v" : "x", k);
+    return out;
 }
 
-motus_status stepper_move(stepper **s, const machine *m, motus_error *err)
+motus_status stepper_report(const stepper *s, int bad, double t, motus_error *err)
 {
-    stepper *from = *s, *to = NULL;
-    const size_t nx = from->work.nx, nv = from->work.nv;
-    double *x = take(&from->allocator, nx + nv + stepper_carry(from), sizeof *x), *carry = x + nx + nv;
-    if (!x) return fail(err, MOTUS_MEMORY, "out of memory for the state");
-    motus_status status = stepper_sync(from, x, x + nx, NULL, err);
-    if (!status)
-        status = stepper_create(m, &from->method, from->main_t0, from->leg_h, x, x + nx, &from->allocator, &to, err);
-    if (!status) status = stepper_load(to, stepper_save(from, carry), carry, err);
-    give(&from->allocator, x);
-    if (status) {
-        stepper_destroy(to);
-        return status;
+    const work *w = &s->work;
+    char time[DECIMAL_MAX], name[MOTUS_NAME_MAX], step[DECIMAL_MAX];
+    decimal_time(t, bad == STEP_STALLED ? t : STEPS_TOLD * w->h, time);
+    decimal(w->h, step);
+    stepper_name(s, w->in_v, w->which, name);
+    motus_status status = MOTUS_CALLBACK;
+    if (bad == STEP_DIVERGED) {
+        status = fail(err, MOTUS_DIVERGED, "the motion left the finite numbers at t = %s: %s is no longer finite", time,
+                      name);
+        hint(err, "with %s and step %s; try a smaller step, or look for a division by zero on the way", s->method.name,
+             step);
+    } else if (bad == STEP_SOLVE) {
+        status = fail(err, MOTUS_SOLVE, "%s could not solve its implicit equation at t = %s: %s does not converge",
+                      s->method.name, time, name);
+        hint(err, "the step is %s; take a smaller one, for which the starting guess is nearer to the solution", step);
+    } else if (bad == STEP_STALLED) {
+        const bool limited = s->method.least > 0 && w->t + s->method.least != w->t;
+        decimal(s->method.least, step);
+        status = limited ? fail(err, MOTUS_DIVERGED, "at t = %s the tolerance needs a step shorter than %s", time, step)
+                         : fail(err, MOTUS_DIVERGED, "the step that error control needs is too small to change t = %s",
+                                time);
+        hint(err, limited ? "allow shorter steps, or a larger error"
+                          : "the motion may have a singularity there; otherwise allow a larger error");
+    } else if (s->problem.returned && *s->problem.returned == 0) {
+        fail(err, MOTUS_CALLBACK, "the callback reads the velocity, though its definition says that it does not");
+        hint(err, "set depends_on_velocity to 1 in the definition, or do not read v");
+    } else {
+        const bool here = s->problem.returned && *s->problem.returned > 0;
+        fail(err, MOTUS_CALLBACK,
+             here ? "by its callback, the acceleration cannot be evaluated at t = %s"
+                  : "the acceleration callback reported a failure at t = %s",
+             time);
+        if (here) hint(err, "the run is at its last good step; a smaller step may lead around the place");
     }
-    move_ends(from, to);
-    to->work.h = from->work.h;
-    to->pace_n = from->pace_n, to->pace_t = from->pace_t;
-    to->judge = from->judge, to->judge_ctx = from->judge_ctx;
-    to->inspector = from->inspector, to->inspector_ctx = from->inspector_ctx, to->rest = from->rest;
-    to->at = from->at, to->earlier_at = from->earlier_at;
-    to->origin_known = stepper_origin(from, to->origin, to->origin + nx);
-    memcpy(to->snapshot, from->snapshot, stepper_carry(from) * sizeof *to->snapshot);
-    if (from->earlier) memcpy(to->earlier, from->earlier, stepper_carry(from) * sizeof *to->earlier);
-    *s = to;
-    stepper_destroy(from);
-    return MOTUS_OK;
+    if (!err) return status;
+    err->time = t;
+    err->returned = bad == STEP_CALLBACK && s->problem.returned ? *s->problem.returned : 0;
+    if (bad != STEP_CALLBACK && bad != STEP_STALLED) snprintf(err->variable, sizeof err->variable, "%s", name);
+    return status;
+}
+
+bool stepper_undefined(stepper *s, motus_error *err)
+{
+    work *w = &s->work;
+    const size_t nx = w->nx, nv = w->nv;
+    if (!stepper_ends(s)) return false;
+    double *x = s->ends + nx + 2 * nv, *v = x + nx, *a = v + nv;
+    s->right = false;
+    if (s->body->sync(w, x, v, a)) return false;
+    for (size_t k = 0; k < nv; k++) {
+        if (isfinite(a[k])) continue;
+        char time[DECIMAL_MAX], name[MOTUS_NAME_MAX];
+        const double ended = err ? err->time : 0;
+        stepper_name(s, true, k, name);
+        fail(err, MOTUS_DIVERGED, "the motion is undefined at the start, t = %s: %s has no finite rate of change there",
+             decimal_time(time_now(w), time_now(w), time), name);
+        hint(err, "begin elsewhere, or look for a division by zero in the equation");
+        if (!err) return true;
+        err->time = ended;
+        snprintf(err->variable, sizeof err->variable, "%s", name);
+        return true;
+    }
+    return false;
 }
 
 /* Observation ----------------------------------------------------------------------------------------------------- */
@@ -223,7 +260,7 @@ motus_status stepper_sync(stepper *s, double *x, double *v, double *a, motus_err
     return MOTUS_OK;
 }
 
-/* Dense output ---------------------------------------------------------------------------------------------------- */
+/* The ends of a step ---------------------------------------------------------------------------------------------- */
 
 bool stepper_ends(stepper *s)
 {
@@ -251,44 +288,7 @@ motus_status stepper_mark(stepper *s, motus_error *err)
     return status;
 }
 
-double stepper_marked(const stepper *s, double *lost, const double **x, const double **v)
-{
-    *lost = s->left_lost;
-    *x = s->ends, *v = *x + s->work.nx;
-    return s->left_t;
-}
-
-/* The room that the family's dense output needs besides the ends, with its constants. */
-static motus_status make_room(stepper *s, motus_error *err)
-{
-    const work *w = &s->work;
-    s->room = s->body->between(w, NULL);
-    const size_t arrays = (size_t)s->room.arrays * w->stride;
-    s->inside = take(&s->allocator, arrays + s->room.constants + 1, sizeof *s->inside);
-    if (!s->inside) return fail(err, MOTUS_MEMORY, "out of memory for dense output");
-    s->body->between(w, s->inside + arrays);
-    return MOTUS_OK;
-}
-
-static dense_step last_step(const stepper *s)
-{
-    const size_t nx = s->work.nx, nv = s->work.nv, apart = nx + 2 * nv;
-    const double *e = s->ends;
-    return (dense_step){
-        .end = {{s->left_t, e, e + nx, e + nx + nv}, {stepper_time(s), e + apart, e + apart + nx, e + apart + nx + nv}},
-        .more = s->inside,
-        .unit = s->inside + (size_t)s->room.arrays * s->work.stride};
-}
-
-/* Whether t lies between the mark and the present time. */
-static bool marked(const stepper *s, double t)
-{
-    const double way = s->leg_h < 0 ? -1 : 1;
-    return s->left && way * (t - s->left_t) >= 0 && way * (stepper_time(s) - t) >= 0;
-}
-
-/* The right end of the last step, once. */
-static motus_status take_right_end(stepper *s, motus_error *err)
+motus_status stepper_right_end(stepper *s, motus_error *err)
 {
     if (s->right) return MOTUS_OK;
     s->extended = false;
@@ -297,55 +297,9 @@ static motus_status take_right_end(stepper *s, motus_error *err)
     return status;
 }
 
-static bool swing_by_ends(stepper *s, double *most)
+double stepper_marked(const stepper *s, double *lost, const double **x, const double **v)
 {
-    const work *w = &s->work;
-    if (take_right_end(s, NULL)) return false;
-    const size_t nx = w->nx, nv = w->nv;
-    const double *from = s->ends, *to = from + nx + 2 * nv;
-    swing_of_ends(nx, nv, w->h, from, from + nx, from + nx + nv, to, to + nx, to + nx + nv, most);
-    return true;
-}
-
-bool stepper_swing(stepper *s, double *most)
-{
-    const work *w = &s->work;
-    if (!s->left || s->left_steps != stepper_steps(s) - 1) return false;
-    if (row_bounded_by_ends(&s->method)) return swing_by_ends(s, most);
-    for (size_t k = 0; k < w->nv; k++) most[k] = w->expands ? 0 : fabs(s->ends[w->nx + w->nv + k]);
-    return s->body->swing(w, most);
-}
-
-int64_t stepper_steps_before(const stepper *s, double t)
-{
-    const work *w = &s->work;
-    if (w->carried || s->arrived) return 0;
-    const stepper_way way = stepper_way_of(w->t0, w->h, s->until);
-    const double q = floor((t - w->t0) / w->h), sign = w->h < 0 ? -1 : 1;
-    int64_t n = q >= (double)way.whole ? way.whole : (int64_t)q;
-    if (sign * (stepper_time_of(s, n) - t) > 0) n--; /* the quotient was rounded up */
-    return n > w->n ? n - w->n : 0;
-}
-
-motus_status stepper_sample(stepper *s, double t, double *x, double *v, motus_error *err)
-{
-    motus_status status =
-        marked(s, t) || (s->left && s->left_steps == stepper_steps(s) - 1) ? MOTUS_OK : stepper_again(s, err);
-    if (status) return status;
-    if (!marked(s, t)) {
-        char a[DECIMAL_MAX], b[DECIMAL_MAX];
-        fail(err, MOTUS_ARGUMENT, "the time %s lies before the last step of the run, which is at %s", decimal(t, a),
-             decimal(stepper_time(s), b));
-        hint(err, "give times within the last step or after it");
-        return MOTUS_ARGUMENT;
-    }
-    status = take_right_end(s, err);
-    if (!status && !s->inside) status = make_room(s, err);
-    if (status) return status;
-    const dense_step step = last_step(s);
-    const int bad = s->extended ? STEP_OK : s->body->extend(&s->work, &step);
-    s->extended = !bad;
-    if (bad || (s->body->dense(&s->work, &step, t, x, v))) return stepper_report(s, STEP_CALLBACK, t, err);
-    if (s->problem.refresh) s->problem.refresh(s->problem.ctx, t, x, v);
-    return MOTUS_OK;
+    *lost = s->left_lost;
+    *x = s->ends, *v = *x + s->work.nx;
+    return s->left_t;
 }

@@ -1,4 +1,4 @@
-/* The order in which what may happen in a step comes. See events_parts.h.
+/* What may happen in a step: the list of candidates, and the order in which they come. See events_parts.h.
  *
  * Dense output tells the times of candidates; true steps locate them, one after the other, and move each by as much as
  * dense output errs. The next one is known where all others are later by more than that.
@@ -6,6 +6,29 @@
 #include "core/events_parts.h"
 
 #include <math.h>
+
+bool events_add(events *e, candidate c)
+{
+    void *list = e->candidate;
+    if (!events_grow(&e->allocator, &list, e->candidates, &e->candidate_room, 1, sizeof c)) return false;
+    e->candidate = list;
+    e->candidate[e->candidates++] = c;
+    e->in_order = false;
+    return true;
+}
+
+motus_status events_split(events *e, size_t k, double at, motus_error *err)
+{
+    candidate first = e->candidate[k];
+    first.near = first.located = false;
+    candidate second = first;
+    first.kind = (candidate_kind)-first.kind;
+    first.high = second.low = at;
+    first.at = first.low + (at - first.low) / 2;
+    second.at = at + (second.high - at) / 2;
+    e->candidate[k] = first;
+    return events_add(e, second) ? MOTUS_OK : events_no_memory(err);
+}
 
 /* Whether another candidate may come before this one where its time, which the ends of the step alone tell, is off. */
 static bool has_neighbour(const events *e, size_t k)
