@@ -1,6 +1,4 @@
 /* The calls of runs: how one is made, goes on, and what it tells of itself. */
-#include "api/request/choice.h"
-#include "api/request/control.h"
 #include "api/search/goal.h"
 #include "api/motion/locate.h"
 #include "api/motion/run_events.h"
@@ -169,8 +167,6 @@ const char *motus_compiled_text(motus_system *s, const char *method, motus_error
 
 const char *motus_run_text(motus_system *s, const motus_run_def *given, motus_error *err)
 {
-    chosen c;
-    const motus_method *card;
     motus_run_def def;
     size_t length;
     if (!motus_error_sound(err) || motus_struct_read(MOTUS_DEF_RUN, given, &def, err) != MOTUS_OK) return NULL;
@@ -178,11 +174,11 @@ const char *motus_run_text(motus_system *s, const motus_run_def *given, motus_er
         fail(err, MOTUS_ARGUMENT, "only a model from a text is compiled");
         return NULL;
     }
-    const control_wish wish = control_wish_of_run(&def);
-    if (choice_method(s, def.method, &c, &card, err) != MOTUS_OK || control_choose(s, &wish, &c, err) != MOTUS_OK)
-        return NULL;
+    request q = request_of_run(s, &def);
+    if (q.method_said == SAID_DEFAULT) q.method = "verlet";
+    if (request_choose(s, &q, err) != MOTUS_OK) return NULL;
     if (!s->compiled && compiled_create(s->model, &s->problem, &s->compiled, err) != MOTUS_OK) return NULL;
-    const char *text = compiled_text(s->compiled, &c, &length);
+    const char *text = compiled_text(s->compiled, &q.chosen, &length);
     if (!text) fail(err, MOTUS_MEMORY, "no memory for the text");
     return text;
 }

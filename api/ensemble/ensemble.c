@@ -4,7 +4,6 @@
 
 #include "api/error/bars.h"
 #include "api/request/choice.h"
-#include "api/request/control.h"
 #include "api/search/suggest.h"
 #include "machine/parallel.h"
 #include "machine/reduction.h"
@@ -289,22 +288,23 @@ motus_status ensemble_choose_single(motus_ensemble *e, const char *wanted, bool 
 static motus_status make(motus_ensemble *e, const motus_ensemble_def *d, motus_error *err)
 {
     motus_system *s = e->system;
-    motus_status status = choice_method(s, d->method, &e->chosen, &e->card, err);
+    request q = request_of_ensemble(s, d);
+    motus_status status = request_row(s, q.method, &e->chosen, &e->card, err);
     if (status == MOTUS_OK) status = system_rules(s, &e->rules, err);
     if (status == MOTUS_OK) status = ensemble_events_prepare(e, d, err);
     if (status == MOTUS_OK) status = find_places(e, d, err);
     if (status == MOTUS_OK && e->error != MOTUS_BARS_NONE) status = ensemble_errors_prepare(e, err);
-    double end = d->until;
-    const control_wish wish = {d->method != NULL, e->step,     d->tolerance, d->shortest_step,
-                               d->longest_step,   d->absolute, d->most_steps};
-    if (status == MOTUS_OK) status = control_choose(s, &wish, &e->chosen, err);
-    if (status == MOTUS_OK) status = suggest_missing(s, &e->chosen, d->method, NAN, &e->step, &end, err);
-    /* where ends vary, each trajectory gets its own timing later */
-    const double until = e->until == SIZE_MAX ? end : s->start;
-    if (status == MOTUS_OK) status = run_timing(s, &e->chosen, e->step, until, NAN, &e->timing, err);
+    if (status == MOTUS_OK) status = request_choose(s, &q, err);
+    if (status == MOTUS_OK) status = suggest_missing(s, &q, err);
+    const bool ends = e->until != SIZE_MAX; /* then each trajectory gets its own timing later */
+    e->chosen = q.chosen;
+    e->step = q.step;
+    if (status == MOTUS_OK)
+        status = run_timing(&e->chosen, e->step, ends ? s->start : q.until, s->start, &e->timing, err);
     if (status == MOTUS_OK && s->model)
-        status = vary_create(s->model, e->places, e->vary_count, !isnan(e->step), !isnan(end) || e->until != SIZE_MAX,
-                             &e->vary, err);
+        status =
+            vary_create(s->model, e->places, e->vary_count, q.step_said == SAID_CALLER || q.step_said == SAID_SUGGESTED,
+                        ends || q.until_said != SAID_MODEL, &e->vary, err);
     const char *wanted = d->machine;
     bool automatic = false, compiled = false;
     if (status == MOTUS_OK) status = choice_machine(wanted, &automatic, &compiled, err);
@@ -340,7 +340,7 @@ static motus_status locate(motus_system *s, const motus_ensemble_def *d, motus_s
     *out = NULL;
     *why = "";
     const motus_switches asked = d->switches;
-    const motus_status status = choice_method(s, d->method, &c, &card, err);
+    const motus_status status = request_row(s, request_of_ensemble(s, d).method, &c, &card, err);
     if (status != MOTUS_OK) return status;
     if (asked == MOTUS_SWITCHES_RESOLVE) return fail(err, MOTUS_UNAVAILABLE, "an ensemble does not resolve switches");
     const motus_status found = located_for(s, &c, asked, out, why, err);
@@ -422,7 +422,7 @@ motus_status ensemble_timing(const motus_ensemble *e, const places *p, size_t k,
 {
     *t = e->timing;
     if (p->until && isnan(p->until[k])) return fail(err, MOTUS_ARGUMENT, "the end is not a number");
-    return p->until ? run_timing(e->system, &e->chosen, e->step, p->until[k], NAN, t, err) : MOTUS_OK;
+    return p->until ? run_timing(&e->chosen, e->step, p->until[k], e->system->start, t, err) : MOTUS_OK;
 }
 
 /* Checks all ends before anything is computed. */

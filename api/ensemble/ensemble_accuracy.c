@@ -8,7 +8,6 @@
  * trajectories, nor on how they are divided among calls, nor on lanes and threads.
  */
 #include "api/request/choice.h"
-#include "api/request/control.h"
 #include "api/ensemble/ensemble.h"
 #include "api/search/goal.h"
 
@@ -54,13 +53,12 @@ static motus_status refuse_fixed(const char *method, motus_error *err)
     return MOTUS_ARGUMENT;
 }
 
-static motus_status judge(const motus_ensemble_def *d, const goal_wish *w, const char *method, motus_error *err)
+static motus_status judge(const motus_ensemble_def *d, const request *q, const char *method, motus_error *err)
 {
     chosen row;
     const motus_method *card = NULL;
-    const bool step = !isnan(d->step) || !isnan(w->set.step);
-    motus_status status = search_alone(!isnan(d->accuracy) && !isnan(d->tolerance), step, err);
-    if (status == MOTUS_OK) status = control_admits("an accuracy", w->accuracy, w->absolute, err);
+    motus_status status = search_alone(!isnan(d->accuracy) && !isnan(d->tolerance), request_asks(q->step_said), err);
+    if (status == MOTUS_OK) status = request_admits("an accuracy", q->accuracy, q->absolute, err);
     if (status != MOTUS_OK || row_choose(method, &row, &card, NULL) != MOTUS_OK) return status;
     return card->adaptive ? MOTUS_OK : refuse_fixed(card->name, err);
 }
@@ -100,25 +98,19 @@ static ensemble_goal *copy(const motus_system *s, const motus_ensemble_def *d, c
 
 motus_status ensemble_accuracy_begin(motus_system *s, motus_ensemble_def *d, ensemble_goal **out, motus_error *err)
 {
-    motus_run_def like = motus_default_run();
-    like.method = d->method;
-    like.step = d->step;
-    like.tolerance = d->tolerance;
-    like.accuracy = d->accuracy;
-    like.absolute = d->absolute;
-    const goal_wish w = goal_wish_of(s, &like);
+    const request q = request_of_ensemble(s, d);
     *out = NULL;
-    if (isnan(w.accuracy)) return MOTUS_OK;
-    const char *method = d->method ? d->method : w.automatic ? METHOD : w.set.method ? w.set.method : "verlet";
-    motus_status status = judge(d, &w, method, err);
+    if (isnan(q.accuracy)) return MOTUS_OK;
+    const char *const method = q.automatic && q.method_said != SAID_CALLER ? METHOD : q.method;
+    motus_status status = judge(d, &q, method, err);
     if (status != MOTUS_OK) return status;
     ensemble_goal *g = copy(s, d, method);
     *out = g;
     if (!g) return fail(err, MOTUS_MEMORY, "no memory for the ensemble");
-    g->wanted = w.accuracy;
-    g->absolute = w.absolute;
-    g->def.absolute = w.absolute;
-    g->def.tolerance = search_by_tolerance(w.accuracy, w.absolute).size;
+    g->wanted = q.accuracy;
+    g->absolute = q.absolute;
+    g->def.absolute = q.absolute;
+    g->def.tolerance = search_by_tolerance(q.accuracy, q.absolute).size;
     g->progress = d->progress;
     g->context = d->context;
     if (d->progress) {

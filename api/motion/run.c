@@ -1,6 +1,5 @@
 /* Runs: how one is made, goes on, and tells its state at its steps and between them. See run.h. */
 #include "api/request/choice.h"
-#include "api/request/control.h"
 #include "api/motion/later.h"
 #include "api/motion/locate.h"
 #include "api/system/located.h"
@@ -160,44 +159,45 @@ motus_run *run_new(motus_system *s)
     return r;
 }
 
-motus_status run_create(motus_system *s, const motus_run_def *complete, const run_hint *hint, motus_run **out,
+motus_status run_create(motus_system *s, const motus_run_def *def, const run_hint *hint, motus_run **out,
                         motus_error *err)
 {
-    motus_run_def def = *complete;
-    motus_status status;
+    request q = request_of_run(s, def);
     *out = NULL;
-    chosen method;
-    const motus_method *card;
-    motus_system *own = s;
-    const control_wish wish = control_wish_of_run(&def);
-    status = choice_method(s, def.method, &method, &card, err);
-    if (status == MOTUS_OK) status = control_choose(s, &wish, &method, err);
+    const motus_status status = request_choose(s, &q, err);
+    return status == MOTUS_OK ? run_of(s, &q, def, hint, out, err) : status;
+}
+
+motus_status run_of(motus_system *own, const request *q, const motus_run_def *def, const run_hint *hint,
+                    motus_run **out, motus_error *err)
+{
+    motus_system *s;
     const char *why = "";
-    if (status == MOTUS_OK) status = located_for(own, &method, def.switches, &s, &why, err);
+    motus_status status = located_for(own, &q->chosen, def->switches, &s, &why, err);
     if (status != MOTUS_OK) return status;
     motus_run *r = run_new(s ? s : own);
     if (!r) return fail(err, MOTUS_MEMORY, "no memory for the run");
     s = r->system;
     if (s != own) motus_system_hold(r->home = own, true);
     r->diagnosed.home = r->home;
-    r->chosen = method;
-    r->card = card;
-    r->progress = def.progress;
-    r->context = def.context;
-    r->observer = def.observer;
-    r->pace = (pace){.seconds = 0.05, .tell = def.progress ? tell : NULL, .ctx = r};
+    r->chosen = q->chosen;
+    r->card = q->card;
+    r->progress = def->progress;
+    r->context = def->context;
+    r->observer = def->observer;
+    r->pace = (pace){.seconds = 0.05, .tell = def->progress ? tell : NULL, .ctx = r};
     timing leg;
-    status = run_timing(s, &r->chosen, def.step, def.until, def.start, &leg, err);
+    status = run_timing(&r->chosen, q->step, q->until, q->start, &leg, err);
     if (status == MOTUS_OK) run_leg(r, &leg);
-    if (status == MOTUS_OK && (def.threads < 0 || def.threads > MOTUS_THREADS_MAX))
-        status = fail(err, MOTUS_ARGUMENT, "a run takes 1 to %d threads, not %d", MOTUS_THREADS_MAX, def.threads);
-    r->chosen.threads = def.threads;
-    if (status == MOTUS_OK) status = later_choose(r, def.machine, hint->steps, err);
-    if (status == MOTUS_OK) status = locate_prepare(r, def.switches, err);
+    if (status == MOTUS_OK && (def->threads < 0 || def->threads > MOTUS_THREADS_MAX))
+        status = fail(err, MOTUS_ARGUMENT, "a run takes 1 to %d threads, not %d", MOTUS_THREADS_MAX, def->threads);
+    r->chosen.threads = def->threads;
+    if (status == MOTUS_OK) status = later_choose(r, def->machine, hint->steps, err);
+    if (status == MOTUS_OK) status = locate_prepare(r, def->switches, err);
     r->not_located = hint->not_located ? hint->not_located : why;
-    if (status == MOTUS_OK && hint->accompany) status = hint->accompany(r, &def, err);
+    if (status == MOTUS_OK && hint->accompany) status = hint->accompany(r, def, err);
     if (r->locate) later_end(r), r->compiled_from = -1;
-    if (status == MOTUS_OK) status = begin(r, &def, err);
+    if (status == MOTUS_OK) status = begin(r, def, err);
     if (status != MOTUS_OK) {
         run_destroy(r);
         return status;
@@ -263,7 +263,7 @@ motus_status run_set_state(motus_run *r, double t, const double *x, const double
     timing leg;
     const int64_t steps = run_steps(r);
     const double step = row_adaptive(&r->chosen) ? NAN : fabs(r->timing.h);
-    motus_status status = run_timing(r->system, &r->chosen, step, r->timing.until, t, &leg, err);
+    motus_status status = run_timing(&r->chosen, step, r->timing.until, t, &leg, err);
     if (status == MOTUS_OK) status = compose(r, t, x, v, err);
     if (status == MOTUS_OK) status = stepper_start(r->stepper, leg.t0, leg.h, r->mid_x, r->mid_v, err);
     if (status != MOTUS_OK) return status;

@@ -8,6 +8,7 @@
 
 #include "api/why/diagnosis.h"
 #include "api/motion/pace.h"
+#include "api/request/request.h"
 #include "api/system/system.h"
 #include "machine/beside.h"
 
@@ -94,10 +95,12 @@ typedef struct run_hint {
     /* Gives the run its company, before it has a stepper; NULL: it has none. */
     motus_status (*accompany)(motus_run *, const motus_run_def *, motus_error *);
 } run_hint;
-/* A run of a complete definition: its method is none but NULL, its start, step and end are known, and it wants no
- * accuracy. */
+/* A run of a definition that wants no accuracy, nor "auto". */
 motus_status run_create(motus_system *, const motus_run_def *, const run_hint *, motus_run **, motus_error *);
 
+/* Of a request that has a row, a step where the row needs one, and an end. */
+motus_status run_of(motus_system *, const request *, const motus_run_def *, const run_hint *, motus_run **,
+                    motus_error *);
 /* A run without method, machine and stepper, which holds the system. NULL: no memory. */
 motus_run *run_new(motus_system *);
 void run_destroy(motus_run *);
@@ -107,9 +110,8 @@ motus_status run_step(motus_run *, int64_t n, motus_error *);
 motus_status run_set_state(motus_run *, double t, const double *x, const double *v, motus_error *);
 /* The state at the end of the last step, in the outside order. */
 motus_status run_state(motus_run *, double *x, double *v, motus_error *);
-/* Fills in a timing. NaN: the model's. */
-motus_status run_timing(const motus_system *, const chosen *, double step, double until, double start, timing *,
-                        motus_error *);
+/* Fills in a timing. MOTUS_ARGUMENT: there is no step (NaN), which a row of fixed steps needs, or no end. */
+motus_status run_timing(const chosen *, double step, double until, double start, timing *, motus_error *);
 /* A time for a message, with the digits that tell it from the ends of the run. Returns out. */
 char *run_time_text(const motus_run *, double t, char out[DECIMAL_MAX]);
 bool run_leads(motus_system *, const motus_run_def *, int64_t steps); /* a diagnosis_leads */

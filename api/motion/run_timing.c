@@ -8,14 +8,11 @@
 
 /* ---- creation ---- */
 
-motus_status run_timing(const motus_system *s, const chosen *chosen, double step, double until, double start,
-                        timing *out, motus_error *err)
+motus_status run_timing(const chosen *chosen, double step, double until, double start, timing *out, motus_error *err)
 {
-    motus_settings set = motus_default_settings();
-    motus_settings_of(s, &set);
     const bool adaptive = row_adaptive(chosen);
-    double h = adaptive ? 1 : isnan(step) ? set.step : step; /* adaptive: its sign is the direction */
-    *out = (timing){.until = isnan(until) ? set.until : until, .t0 = isnan(start) ? s->start : start};
+    const double h = adaptive ? 1 : step; /* adaptive: its sign is the direction */
+    *out = (timing){.until = until, .t0 = start};
     if (isnan(h)) {
         fail(err, MOTUS_ARGUMENT, "no step is given");
         hint(err, "give `step = 0.01` of the definition; motus_suggest finds one");

@@ -1,5 +1,4 @@
 /* See choice.h. */
-#include "api/system/symmetry.h"
 #include "api/request/choice.h"
 
 #include "core/stepper_body.h"
@@ -7,25 +6,6 @@
 #include <string.h>
 
 #define CALLBACK 30.0 /* operations of a callback, for each number; what it does is not known */
-
-motus_status choice_method(motus_system *s, const char *name, chosen *chosen, const motus_method **card,
-                           motus_error *err)
-{
-    motus_settings set = motus_default_settings();
-    motus_settings_of(s, &set);
-    if (!name) name = set.method ? set.method : "verlet";
-    if (system_auto(name)) {
-        fail(err, MOTUS_METHOD, "auto chooses the method of a run, by its equation, its end and its accuracy");
-        hint(err, "name a method here: dop853 suits every force, verlet conserves energy");
-        return MOTUS_METHOD;
-    }
-    motus_status status = row_choose(name, chosen, card, err);
-    if (status != MOTUS_OK) return status;
-    /* also where Boris is not chosen: it may be the method that the refusal names */
-    const bool may_need = (*card)->forces != MOTUS_FORCES_XVT || !strcmp((*card)->name, "boris");
-    if (may_need && !symmetry_gyroscopic(s)) return fail(err, MOTUS_MEMORY, "no memory to examine the velocity term");
-    return row_admits(chosen, &s->problem.traits, err);
-}
 
 motus_status choice_machine(const char *wanted, bool *automatic, bool *compiled, motus_error *err)
 {

@@ -1,12 +1,9 @@
-/* The choice of the method and of the machine, the same for runs and ensembles. */
+/* The choice of the machine, the same for runs and ensembles. */
 #ifndef API_REQUEST_CHOICE_H
 #define API_REQUEST_CHOICE_H
 
 #include "api/system/system.h"
 
-/* The method by its name (NULL: the model's, or verlet), if it admits the system. Samples the velocity term first where
- * the answer depends on it. */
-motus_status choice_method(motus_system *, const char *name, chosen *, const motus_method **card, motus_error *);
 /* Reads the name of a machine: "auto" (or NULL), "interpreter" or "compiled". */
 motus_status choice_machine(const char *wanted, bool *automatic, bool *compiled, motus_error *);
 /* Compiles the model for a method, or finds it compiled; with `kept` it only searches. *why: NULL, and *out is the

@@ -144,7 +144,7 @@ static motus_status begin(trial *s, const accuracy *a, motus_error *err)
 {
     chosen c;
     const motus_method *card;
-    motus_status status = choice_method(s->system, s->def.method, &c, &card, err);
+    motus_status status = request_row(s->system, s->def.method, &c, &card, err);
     if (status != MOTUS_OK) return status;
     if (row_adaptive(&c)) {
         s->size = &s->def.tolerance;

@@ -1,13 +1,8 @@
-/* See goal.h.
- *
- * Who says what: the caller's definition comes first, and what the model says of its own method is left aside where the
- * caller names another one, or wants an accuracy that the model does not set.
- */
+/* See goal.h. */
 #include "api/search/goal.h"
 
 #include "api/error/bars.h"
 #include "api/request/choice.h"
-#include "api/request/control.h"
 #include "api/motion/later.h"
 #include "api/search/pilot.h"
 #include "api/search/suggest.h"
@@ -18,57 +13,36 @@
 
 #define ACCURACY 1e-9 /* of a run for which nobody says how exact it is to be */
 
-/* The method, "auto" included. */
-static const char *name_of(const motus_run_def *def, const goal_wish *w)
+/* What contradicts itself. Steps and tolerances without an accuracy are judged by request_choose. */
+static motus_status check(const motus_run_def *def, const request *q, motus_error *err)
 {
-    if (def->method) return def->method;
-    if (w->set.method) return w->set.method;
-    return isnan(def->step) && isnan(w->set.step) ? SYSTEM_AUTO : "verlet";
-}
-
-goal_wish goal_wish_of(const motus_system *s, const motus_run_def *def)
-{
-    goal_wish w = {.set = motus_default_settings(), .accuracy = def->accuracy, .absolute = def->absolute};
-    motus_settings_of(s, &w.set);
-    const bool own = isnan(w.set.accuracy) && !isnan(def->accuracy); /* the accuracy is the caller's alone */
-    if (def->method || own) {
-        w.set.method = NULL;
-        w.set.step = w.set.tolerance = w.set.accuracy = NAN;
-    }
-    const bool given = !isnan(def->accuracy) || !isnan(def->tolerance) || !isnan(def->step);
-    if (!given && !isnan(w.set.accuracy)) w.accuracy = w.set.accuracy, w.absolute = w.set.absolute;
-    w.automatic = system_auto(name_of(def, &w));
-    return w;
-}
-
-/* What contradicts itself. Steps and tolerances without an accuracy are judged by control_choose. */
-static motus_status check(const motus_run_def *def, const goal_wish *w, motus_error *err)
-{
-    const bool step = !isnan(def->step) || !isnan(w->set.step);
+    const bool step = request_asks(q->step_said);
     motus_status status = search_alone(!isnan(def->accuracy) && !isnan(def->tolerance), false, err);
-    if (status == MOTUS_OK && w->automatic && step) {
+    if (status == MOTUS_OK && q->automatic && step) {
         fail(err, MOTUS_ARGUMENT, "a step is given, and auto chooses methods that choose their steps");
         hint(err, "name a method, verlet or rk4, or give `accuracy = 1e-9` of the definition in its place");
         return MOTUS_ARGUMENT;
     }
-    if (status != MOTUS_OK || isnan(w->accuracy)) return status;
+    if (status != MOTUS_OK || isnan(q->accuracy)) return status;
     status = search_alone(false, step, err);
     if (status != MOTUS_OK) return status;
     if (def->switches != MOTUS_SWITCHES_STEP && def->switches != MOTUS_SWITCHES_USUAL)
         return fail(err, MOTUS_UNAVAILABLE, "a run that locates switches cannot be given an accuracy");
-    return control_admits("an accuracy", w->accuracy, w->absolute, err);
+    return request_admits("an accuracy", q->accuracy, q->absolute, err);
 }
 
 /* The start and the end, which pilot and trial runs need. */
-static motus_status settle(motus_system *s, motus_run_def *def, const goal_wish *w, motus_error *err)
+static motus_status settle(motus_system *s, motus_run_def *def, const request *given, motus_error *err)
 {
-    chosen c;
     timing t;
-    const motus_method *card;
-    double step = w->automatic || !isnan(def->step) ? def->step : 1;
-    motus_status status = choice_method(s, w->automatic ? PILOT_FIRST : def->method, &c, &card, err);
-    if (status == MOTUS_OK) status = suggest_missing(s, &c, c.name, def->start, &step, &def->until, err);
-    if (status == MOTUS_OK) status = run_timing(s, &c, step, def->until, def->start, &t, err);
+    request q = *given;
+    if (q.automatic)
+        q.method = PILOT_FIRST;
+    else
+        q.step = 1; /* it is searched for */
+    motus_status status = request_row(s, q.method, &q.chosen, &q.card, err);
+    if (status == MOTUS_OK) status = suggest_missing(s, &q, err);
+    if (status == MOTUS_OK) status = run_timing(&q.chosen, q.step, q.until, q.start, &t, err);
     if (status == MOTUS_OK) def->until = t.until, def->start = t.t0;
     return status;
 }
@@ -123,27 +97,27 @@ static void try_others(motus_system *s, const attempt *asked, const pilot *p, at
                  best->accuracy.missed ? "comes nearest to the accuracy" : "keeps to the accuracy", first);
 }
 
-static motus_status reach(motus_system *s, motus_run_def *def, const goal_wish *w, run_hint *hint, struct goal *g,
+static motus_status reach(motus_system *s, motus_run_def *def, const request *q, run_hint *hint, struct goal *g,
                           motus_error *err)
 {
     pilot p = {.count = 0};
-    motus_status status = settle(s, def, w, err);
-    if (status == MOTUS_OK && w->automatic) {
+    motus_status status = settle(s, def, q, err);
+    if (status == MOTUS_OK && q->automatic) {
         motus_run_def first = *def;
-        if (isnan(first.tolerance)) first.tolerance = w->absolute ? w->accuracy / 10 : fmax(1e-14, w->accuracy / 10);
+        if (isnan(first.tolerance)) first.tolerance = q->absolute ? q->accuracy / 10 : fmax(1e-14, q->accuracy / 10);
         status = pilot_choose(s, &first, &p, err);
         if (status != MOTUS_OK) return status;
         memcpy(g->choice, p.why, sizeof g->choice);
         def->method = p.names[0];
         hint->steps = p.steps;
     }
-    if (status != MOTUS_OK || isnan(w->accuracy)) return status;
-    g->accuracy.wanted = w->accuracy;
-    g->accuracy.absolute = w->absolute;
+    if (status != MOTUS_OK || isnan(q->accuracy)) return status;
+    g->accuracy.wanted = q->accuracy;
+    g->accuracy.absolute = q->absolute;
     const attempt asked = {.def = *def, .hint = *hint, .accuracy = g->accuracy};
     attempt best = asked;
     attempt_find(&best, s, NULL);
-    if (w->automatic) try_others(s, &asked, &p, &best, g->choice);
+    if (q->automatic) try_others(s, &asked, &p, &best, g->choice);
     g->accuracy = best.accuracy;
     *def = best.def, *hint = best.hint;
     if (best.failure.status == MOTUS_OK)
@@ -153,24 +127,24 @@ static motus_status reach(motus_system *s, motus_run_def *def, const goal_wish *
     return best.failure.status;
 }
 
-/* Completes a definition: names its method, and finds what reaches its accuracy, by pilot and trial runs where they are
- * due. *goal: NULL, or the run's. */
+/* Names the method of a definition, and finds what reaches its accuracy, by pilot and trial runs where they are due.
+ * *goal: NULL, or the run's. */
 static motus_status reach_goal(motus_system *s, motus_run_def *def, run_hint *hint, struct goal **goal,
                                motus_error *err)
 {
-    goal_wish w = goal_wish_of(s, def);
-    if (w.automatic && isnan(w.accuracy) && isnan(def->tolerance) && isnan(w.set.tolerance)) w.accuracy = ACCURACY;
-    motus_status status = check(def, &w, err);
+    request q = request_of_run(s, def);
+    if (q.automatic && isnan(q.accuracy) && isnan(q.tolerance)) q.accuracy = ACCURACY;
+    motus_status status = check(def, &q, err);
     *goal = NULL;
-    if (status != MOTUS_OK || (!w.automatic && isnan(w.accuracy))) return status;
+    if (status != MOTUS_OK || (!q.automatic && isnan(q.accuracy))) return status;
     struct goal *g = *goal = take(&s->allocator, 1, sizeof *g);
     if (!g) return fail(err, MOTUS_MEMORY, "no memory for the run");
     *g = (struct goal){.accuracy = {.wanted = NAN, .reached = NAN, .rounding = NAN}};
-    def->method = w.automatic ? NULL : name_of(def, &w);
-    def->absolute = w.absolute;
+    def->method = q.automatic ? NULL : q.method;
+    def->absolute = q.absolute;
     def->accuracy = NAN;
-    if (isnan(def->tolerance) && isnan(w.accuracy)) def->tolerance = w.set.tolerance, def->absolute = w.set.absolute;
-    return reach(s, def, &w, hint, g, err);
+    if (isnan(q.accuracy)) def->tolerance = q.tolerance;
+    return reach(s, def, &q, hint, g, err);
 }
 
 bool goal_arrive(motus_run *r, int64_t n)
@@ -233,24 +207,15 @@ static void destroy(const motus_allocator *a, struct goal *g)
     give(a, g);
 }
 
-/* The step and the end that nobody gives. */
-static motus_status complete(motus_system *s, motus_run_def *def, motus_error *err)
-{
-    chosen c;
-    const motus_method *card;
-    const control_wish wish = control_wish_of_run(def);
-    motus_status status = choice_method(s, def->method, &c, &card, err);
-    if (status == MOTUS_OK) status = control_choose(s, &wish, &c, err);
-    return status == MOTUS_OK ? suggest_missing(s, &c, def->method, def->start, &def->step, &def->until, err) : status;
-}
-
 motus_status goal_run(motus_system *s, motus_run_def *def, motus_run **out, motus_error *err)
 {
     run_hint hint = {.accompany = bars_prepare};
     struct goal *goal = NULL;
     motus_status status = reach_goal(s, def, &hint, &goal, err);
-    if (status == MOTUS_OK) status = complete(s, def, err);
-    if (status == MOTUS_OK) status = run_create(s, def, &hint, out, err);
+    request q = request_of_run(s, def);
+    if (status == MOTUS_OK) status = request_choose(s, &q, err);
+    if (status == MOTUS_OK) status = suggest_missing(s, &q, err);
+    if (status == MOTUS_OK) status = run_of(s, &q, def, &hint, out, err);
     if (*out)
         (*out)->goal = goal;
     else

@@ -9,15 +9,6 @@ struct goal {
     char choice[256]; /* which method "auto" chose, and why; "" */
 };
 
-/* What is asked for: by the caller's definition first, then by the model. */
-typedef struct goal_wish {
-    motus_settings set; /* of the model, as far as they count */
-    bool automatic;     /* the method is to be chosen */
-    double accuracy;    /* NaN: none */
-    bool absolute;
-} goal_wish;
-goal_wish goal_wish_of(const motus_system *, const motus_run_def *);
-
 /* Makes the run of a definition, with what nobody gives: pilot runs name its method, trial runs find what reaches its
  * accuracy, and its step and its end are suggested. *out: NULL, after an error. */
 motus_status goal_run(motus_system *, motus_run_def *, motus_run **out, motus_error *);

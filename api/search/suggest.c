@@ -349,7 +349,7 @@ static motus_status suggest(motus_system *system, motus_settings *set, motus_err
     const motus_method *card;
     if (!set->method) set->method = "verlet";
     const char *const name = system_auto(set->method) ? PILOT_FIRST : set->method;
-    motus_status status = choice_method(system, name, &row, &card, err);
+    motus_status status = request_row(system, name, &row, &card, err);
     if (status != MOTUS_OK || (!isnan(set->step) && !isnan(set->until))) return status;
     const double from = isnan(set->from) ? system->start : set->from;
     const double duration = isnan(set->until) ? 0 : fabs(set->until - from);
@@ -375,7 +375,7 @@ motus_status suggest_growth(motus_system *system, const motus_settings *set, dou
     chosen row;
     const motus_method *card;
     *powers = 0;
-    motus_status status = choice_method(system, set->method, &row, &card, err);
+    motus_status status = request_row(system, set->method, &row, &card, err);
     if (status != MOTUS_OK || row_adaptive(&row)) return status;
     const double from = isnan(set->from) ? system->start : set->from, duration = fabs(set->until - from);
     scales s = {.system = system, .at = {.problem = &system->problem, .t = from}, .way = set->until < from ? -1 : 1};
@@ -401,21 +401,15 @@ motus_status motus_suggest(motus_system *s, motus_settings *set, motus_error *er
     return status;
 }
 
-motus_status suggest_missing(motus_system *s, const chosen *chosen, const char *method, double start, double *step,
-                             double *until, motus_error *err)
+motus_status suggest_missing(motus_system *s, request *q, motus_error *err)
 {
+    const bool no_step = !row_adaptive(&q->chosen) && isnan(q->step), no_end = isnan(q->until);
+    const bool sound = !isinf(q->step) && !(q->step <= 0) && !isinf(q->until) && !isinf(q->start);
+    if (!s->model || !sound || (!no_step && !no_end)) return MOTUS_OK; /* else run_timing says so */
     motus_settings set = motus_default_settings();
-    motus_settings_of(s, &set);
-    const bool no_step = !row_adaptive(chosen) && isnan(*step) && isnan(set.step),
-               no_end = isnan(*until) && isnan(set.until);
-    const bool sound = !isinf(*step) && !(*step <= 0) && !isinf(*until) && !isinf(start); /* else run_timing says so */
-    if (!s->model || !sound || (!no_step && !no_end)) return MOTUS_OK;
-    if (!isnan(*step)) set.step = *step;
-    if (!isnan(*until)) set.until = *until;
-    if (!isnan(start)) set.from = start;
-    if (method) set.method = method;
-    motus_status status = motus_suggest(s, &set, err);
-    if (no_step && status == MOTUS_OK) *step = set.step;
-    if (no_end && status == MOTUS_OK) *until = set.until;
+    set.method = q->method, set.step = q->step, set.until = q->until, set.from = q->start;
+    const motus_status status = motus_suggest(s, &set, err);
+    if (no_step && status == MOTUS_OK) q->step = set.step, q->step_said = SAID_SUGGESTED;
+    if (no_end && status == MOTUS_OK) q->until = set.until, q->until_said = SAID_SUGGESTED;
     return status;
 }

@@ -2,12 +2,10 @@
 #ifndef API_SEARCH_SUGGEST_H
 #define API_SEARCH_SUGGEST_H
 
-#include "core/methods.h"
+#include "api/request/request.h"
 
-/* Fills in *step and *until where they are NaN and the model, which is not a callback, has none. start: NaN: the
- * model's. */
-motus_status suggest_missing(motus_system *, const chosen *, const char *method, double start, double *step,
-                             double *until, motus_error *);
+/* Fills in the step, where its row needs one, and the end that a request lacks, but of a callback. */
+motus_status suggest_missing(motus_system *, request *, motus_error *);
 
 /* By how many powers of ten steps of the settings, which have all numbers, grow up to the end where the motion swings
  * or decays; of a method that adapts its steps 0. */
