@@ -78,8 +78,12 @@ typedef struct lanes_def {
      * positions and velocities. NULL: nothing is added. */
     void (*rounding)(void *context, const double *const *values, size_t trajectory, const double *state,
                      double *const *errors);
+    /* Called for each trajectory that does not come to its end. One that may crawl (core/stepper.h) is left where it
+     * is, for a stepper to judge. */
+    void (*left)(void *context, size_t trajectory, int how);
     void *context;
 } lanes_def;
+enum { LANES_STOPPED = 1, LANES_MAY_CRAWL };
 
 /* NULL, or the reason why lanes cannot compute these trajectories. */
 const char *lanes_refuse(const lanes_def *);
@@ -96,14 +100,12 @@ void lanes_destroy(lanes *);
 /* Joins these lanes with those of their companions, which have as many lanes in a block and the same sources, of which
  * none is reduced. Compared are, as `shape` says, the time, the numbers of the state and the sources. MOTUS_MEMORY. */
 motus_status lanes_join(lanes *, lanes *half, const differences_shape *, const lanes_source *state, motus_error *);
-/* How a trajectory ended. One that may crawl (core/stepper.h) is left there, for a stepper to judge. */
-enum { LANES_ARRIVED, LANES_STOPPED, LANES_MAY_CRAWL };
 /* values[k][i], until[i] (NULL: that of the definition), results[r][i], errors[r][i] (NULL: none are told; else of
- * lanes that are joined), stopped[i] (may be NULL), ends[i] for i < count.
+ * lanes that are joined), stopped[i] (may be NULL) for i < count.
  * MOTUS_METHOD, with no error: the row may not admit the parameters of some trajectory, which is decided one trajectory
  * at a time. */
 motus_status lanes_run(lanes *, size_t count, const double *const *values, const double *until, double *const *results,
-                       double *const *errors, double *stopped, unsigned char *ends, motus_error *);
+                       double *const *errors, double *stopped, motus_error *);
 int lanes_in_block(const lanes *);
 
 #endif

@@ -21,7 +21,6 @@
 enum { RUNNING, WAITING, ENDING, BLOCKS };
 
 typedef struct trajectory {     /* of one lane */
-    size_t number;              /* NO_TRAJECTORY: the lane is free */
     int64_t whole;              /* steps to its end; adaptive: unknown */
     double last;                /* size of the shorter step after them; 0: none */
     int64_t observations;       /* so far, */
@@ -31,11 +30,11 @@ typedef struct trajectory {     /* of one lane */
     bool crawls;                /* it may */
     lanes_companion *companion; /* of the trajectory in this lane; NULL: errors are not told */
 } trajectory;
-#define NO_TRAJECTORY SIZE_MAX
 
 typedef struct apart_block {
     lanes_block block, half;  /* half: of the companions */
     trajectory *trajectories; /* of its lanes */
+    size_t number[BLOCK_MAX]; /* `number` of the block */
 } apart_block;
 
 typedef struct apart {
@@ -54,13 +53,9 @@ size_t lanes_apart_size(const lanes *l) { return BLOCKS * lines(l, sizeof(trajec
 
 /* ---- one lane ---- */
 
-static double *clock_at(const lanes_block *b, size_t lane, int k)
-{
-    return &b->job.clocks[lane_at(b->l, LANES_CLOCKS, (size_t)k, lane)];
-}
-static double *clock_of(const apart_block *b, size_t lane, int k) { return clock_at(&b->block, lane, k); }
-static int64_t steps_of(const apart_block *b, size_t lane) { return (int64_t)*clock_of(b, lane, LANES_N); }
-static bool occupied(const apart_block *b, size_t lane) { return b->trajectories[lane].number != NO_TRAJECTORY; }
+static double *clock_of(const apart_block *b, size_t lane, int k) { return lanes_clock(&b->block, lane, k); }
+static int64_t steps_of(const apart_block *b, size_t lane) { return lanes_steps(&b->block, lane); }
+static bool occupied(const apart_block *b, size_t lane) { return lanes_occupied(&b->block, lane); }
 static bool stopped(const apart_block *b, size_t lane) { return !isnan(b->block.stopped[lane]); }
 
 static bool at_end(const apart *s, const apart_block *b, size_t lane)
@@ -69,29 +64,16 @@ static bool at_end(const apart *s, const apart_block *b, size_t lane)
     return steps_of(b, lane) == b->trajectories[lane].whole;
 }
 
-/* Frees a lane. It counts as stopped, because it goes on to compute numbers that belong to no trajectory. */
-static void free_lane(const apart_block *b, size_t lane)
-{
-    b->trajectories[lane].number = NO_TRAJECTORY;
-    *clock_of(b, lane, LANES_UNTIL) = *clock_of(b, lane, LANES_STOP) = NAN;
-    b->block.stopped[lane] = 0;
-}
-
-static void copy(const lanes *l, double *to, size_t at, const double *from, size_t lane, size_t elements)
-{
-    for (size_t k = 0; k < elements; k++) to[lane_at(l, elements, k, at)] = from[lane_at(l, elements, k, lane)];
-}
-
 /* Copies what a lane of a block is, but for the time at which it stopped. */
 static void copy_lane(const lanes_block *from, size_t lane, const lanes_block *to, size_t at)
 {
     const lanes *l = from->l;
     const lanes_job *source = &from->job, *target = &to->job;
-    copy(l, target->host.own, at, source->host.own, lane, source->own_size);
-    copy(l, target->host.bound, at, source->host.bound, lane, source->bound_size);
-    copy(l, target->carry, at, source->carry, lane, l->carried);
-    copy(l, target->kept, at, source->kept, lane, l->def.source_count * REDUCE_KEPT);
-    copy(l, target->clocks, at, source->clocks, lane, LANES_CLOCKS);
+    lanes_copy(l, target->host.own, at, source->host.own, lane, source->own_size);
+    lanes_copy(l, target->host.bound, at, source->host.bound, lane, source->bound_size);
+    lanes_copy(l, target->carry, at, source->carry, lane, l->carried);
+    lanes_copy(l, target->kept, at, source->kept, lane, l->def.source_count * REDUCE_KEPT);
+    lanes_copy(l, target->clocks, at, source->clocks, lane, LANES_CLOCKS);
     lanes_block_forget(to, at);
 }
 
@@ -103,18 +85,20 @@ static void move(const apart_block *from, size_t lane, const apart_block *to, si
     to->block.stopped[at] = from->block.stopped[lane];
     to->trajectories[at] = from->trajectories[lane];
     from->trajectories[lane].companion = other;
-    free_lane(from, lane);
+    to->block.number[at] = from->block.number[lane];
+    lanes_schedule_free(&from->block, lane);
 }
 
 static void finish(apart *s, const apart_block *b, size_t lane)
 {
     const trajectory *p = &b->trajectories[lane];
+    const size_t number = b->block.number[lane];
     const int64_t steps = s->adaptive ? steps_of(b, lane) : p->whole + (p->last != 0);
-    lanes_block_results(&b->block, s->item->call, lane, lane + 1, p->number, p->observations, steps);
-    if (p->crawls) s->item->call->ends[p->number] = LANES_MAY_CRAWL;
-    if (p->companion) lanes_block_errors(s->item->call, p->companion, stopped(b, lane), p->number);
+    lanes_block_results(&b->block, s->item->call, lane, lane + 1, number, p->observations, steps);
+    if (p->crawls) s->l->def.left(s->l->def.context, number, LANES_MAY_CRAWL);
+    if (p->companion) lanes_block_errors(s->item->call, p->companion, stopped(b, lane), number);
     atomic_fetch_add(&s->item->call->done, 1);
-    free_lane(b, lane);
+    lanes_schedule_free(&b->block, lane);
 }
 
 /* ---- observations ---- */
@@ -196,24 +180,17 @@ static void end_all(apart *s)
     finish_where(s, b, every_lane);
 }
 
-/* Removes the trajectories of RUNNING that stopped or took their last whole step; whether there were any. */
-static bool remove_ended(apart *s)
+/* Removes the trajectory of a lane of RUNNING where it stopped or took its last whole step. */
+static void look(void *ctx, size_t lane)
 {
+    apart *s = ctx;
     const apart_block *b = &s->blocks[RUNNING];
-    bool any = false;
-    for (size_t i = 0; i < s->lanes; i++) {
-        if (!occupied(b, i)) continue;
-        if (stopped(b, i)) {
-            finish(s, b, i);
-        } else if (at_end(s, b, i)) {
-            if (s->ending == s->lanes) end_all(s);
-            move(b, i, &s->blocks[ENDING], s->ending++);
-        } else {
-            continue;
-        }
-        any = true;
+    if (stopped(b, lane)) {
+        finish(s, b, lane);
+    } else if (at_end(s, b, lane)) {
+        if (s->ending == s->lanes) end_all(s);
+        move(b, lane, &s->blocks[ENDING], s->ending++);
     }
-    return any;
 }
 
 /* ---- the start ---- */
@@ -236,10 +213,11 @@ static void set_lane(apart *s, size_t lane, size_t k)
     };
     for (int i = 0; i < LANES_CLOCKS; i++) *clock_of(b, lane, i) = own[i];
     lanes_companion *companion = b->trajectories[lane].companion;
+    b->block.number[lane] = k;
     b->trajectories[lane] =
-        (trajectory){.number = k, .whole = way.whole, .last = way.last, .paced_t = d->t0, .companion = companion};
+        (trajectory){.whole = way.whole, .last = way.last, .paced_t = d->t0, .companion = companion};
     if (!companion) return;
-    for (int i = 0; i < LANES_CLOCKS; i++) *clock_at(&b->half, lane, i) = own[i];
+    for (int i = 0; i < LANES_CLOCKS; i++) *lanes_clock(&b->half, lane, i) = own[i];
     lanes_companion_begin(companion, d->t0, until);
 }
 
@@ -256,12 +234,12 @@ static bool alive(const apart_block *b, size_t lane)
 static void send(const apart_block *b, size_t lane, double from, double t)
 {
     const lanes_block *half = &b->half;
-    const double h = (t - from) / 2, span = *clock_at(half, lane, LANES_SPAN),
+    const double h = (t - from) / 2, span = *lanes_clock(half, lane, LANES_SPAN),
                  line = row_orders(half->l->def.chosen) ? *clock_of(b, lane, LANES_SPAN) : 0;
     const double own[LANES_CLOCKS] = {
         [LANES_T0] = from, [LANES_H] = h,      [LANES_T] = from,    [LANES_RISE] = CONTROL_RISE, [LANES_NEXT] = h,
         [LANES_UNTIL] = t, [LANES_STOP] = NAN, [LANES_SPAN] = span, [LANES_BEFORE] = line};
-    for (int i = 0; i < LANES_CLOCKS; i++) *clock_at(half, lane, i) = own[i];
+    for (int i = 0; i < LANES_CLOCKS; i++) *lanes_clock(half, lane, i) = own[i];
 }
 
 /* Goes on until every lane that is sent has made `most` candidates; a lane that cannot go on ends a call of the object,
@@ -271,9 +249,9 @@ static void make(const apart *s, const lanes_block *half, const bool *sent, int6
     for (int turn = 0; turn < 2; turn++) {
         int64_t left = 0;
         for (size_t i = 0; i < s->lanes; i++) {
-            const double made = *clock_at(half, i, LANES_N) + *clock_at(half, i, LANES_REFUSED);
+            const double made = *lanes_clock(half, i, LANES_N) + *lanes_clock(half, i, LANES_REFUSED);
             const bool lost = turn && half->job.lost[i] != 0;
-            if (lost) *clock_at(half, i, LANES_UNTIL) = *clock_at(half, i, LANES_NEXT) = NAN;
+            if (lost) *lanes_clock(half, i, LANES_UNTIL) = *lanes_clock(half, i, LANES_NEXT) = NAN;
             if (sent[i] && !lost && most - (int64_t)made > left) left = most - (int64_t)made;
         }
         if (left > 0) half->l->run(&half->job, left, 0);
@@ -287,7 +265,7 @@ static void make_apart(const apart *s, const lanes_block *half, const bool *sent
     for (size_t i = 0; i < s->lanes; i++) rest |= !sent[i];
     if (rest) lanes_block_save(half);
     for (size_t i = 0; i < s->lanes; i++)
-        if (!sent[i]) *clock_at(half, i, LANES_UNTIL) = *clock_at(half, i, LANES_NEXT) = NAN;
+        if (!sent[i]) *lanes_clock(half, i, LANES_UNTIL) = *lanes_clock(half, i, LANES_NEXT) = NAN;
     make(s, half, sent, most);
     for (size_t i = 0; rest && i < s->lanes; i++)
         if (!sent[i]) lanes_block_put_back(half, i);
@@ -303,9 +281,9 @@ static void land(const apart *s, const lanes_block *half, const bool *sent)
         make_apart(s, half, away, most);
         any = false;
         for (size_t i = 0; i < s->lanes; i++) {
-            const double until = *clock_at(half, i, LANES_UNTIL);
+            const double until = *lanes_clock(half, i, LANES_UNTIL);
             const bool lost = half->job.lost[i] != 0 || isnan(until);
-            away[i] = away[i] && !lost && *clock_at(half, i, LANES_T) != until;
+            away[i] = away[i] && !lost && *lanes_clock(half, i, LANES_T) != until;
             any |= away[i];
         }
     }
@@ -343,7 +321,7 @@ static void follow(const apart *s, const double *before)
     if (!any) return;
     land(s, half, sent);
     for (size_t i = 0; i < s->lanes; i++)
-        if (sent[i] && *clock_at(half, i, LANES_T) != b->trajectories[i].companion->landed)
+        if (sent[i] && *lanes_clock(half, i, LANES_T) != b->trajectories[i].companion->landed)
             b->trajectories[i].companion->failed = true;
     compare(s, b, sent);
 }
@@ -368,7 +346,7 @@ static void begin(apart *s)
     }
     lanes_block_begin(&b->block, item, numbers);
     if (item->half) lanes_block_begin(&b->half, item->half, numbers);
-    for (size_t i = count; i < s->lanes; i++) free_lane(b, i);
+    for (size_t i = count; i < s->lanes; i++) lanes_schedule_free(&b->block, i);
     lanes_block_stop(&b->block);
     if (item->half) compare_start(s, b);
     s->next += count;
@@ -381,24 +359,20 @@ static void begin(apart *s)
     if (s->l->on_the_way) observe(s, b, on_the_way, false);
 }
 
-/* Moves trajectories of WAITING to the free lanes of RUNNING; whether RUNNING has any trajectory. */
-static bool refill(apart *s)
+/* Moves the next trajectory of WAITING to a free lane of RUNNING, or lets the next ones begin in WAITING. */
+static bool fill(void *ctx, size_t lane)
 {
-    const apart_block *running = &s->blocks[RUNNING], *waiting = &s->blocks[WAITING];
-    bool any = false;
-    for (size_t i = 0; i < s->lanes; i++) {
-        while (!occupied(running, i)) {
-            while (s->waiting < s->lanes && !occupied(waiting, s->waiting)) s->waiting++;
-            if (s->waiting < s->lanes)
-                move(waiting, s->waiting, running, i);
-            else if (s->next < s->item->count)
-                begin(s);
-            else
-                break;
-        }
-        any |= occupied(running, i);
+    apart *s = ctx;
+    const apart_block *waiting = &s->blocks[WAITING];
+    while (s->waiting < s->lanes && !occupied(waiting, s->waiting)) s->waiting++;
+    if (s->waiting < s->lanes) {
+        move(waiting, s->waiting, &s->blocks[RUNNING], lane);
+        look(s, lane);
+        return true;
     }
-    return any;
+    if (s->next == s->item->count) return false;
+    begin(s);
+    return true;
 }
 
 /* ---- steps ---- */
@@ -447,8 +421,6 @@ static void run_fixed(apart *s)
     lanes_block_trace(&b->block, false, steps, 0, s->l->on_the_way ? examined : 0);
 }
 
-static int64_t next_pace(int64_t steps) { return (steps / STEPPER_PACE + 1) * STEPPER_PACE; }
-
 /* Stops the trajectories that may crawl. */
 static void stop_crawling(const apart *s, const apart_block *b)
 {
@@ -478,12 +450,12 @@ static void stop_at_most(const apart *s, const apart_block *b)
 static void run_adaptive(apart *s)
 {
     const apart_block *b = &s->blocks[RUNNING];
-    const int64_t every = s->l->def.every, most = s->l->def.chosen->count;
+    const int64_t every = s->l->def.every;
     for (size_t i = 0; i < s->lanes; i++)
         if (occupied(b, i)) {
-            const int64_t n = steps_of(b, i), pace = next_pace(n),
-                          due = s->l->on_the_way ? (n / every + 1) * every : pace, next = due < pace ? due : pace;
-            *clock_of(b, i, LANES_STOP) = (double)(most > 0 && most < next ? most : next);
+            const int64_t pace = lanes_schedule_pace(&b->block, i),
+                          due = s->l->on_the_way ? (steps_of(b, i) / every + 1) * every : pace;
+            *clock_of(b, i, LANES_STOP) = (double)(due < pace ? due : pace);
         }
     double before[BLOCK_MAX];
     const bool told = s->item->half != NULL;
@@ -496,6 +468,16 @@ static void run_adaptive(apart *s)
     if (told) follow(s, before);
 }
 
+static void run(void *ctx)
+{
+    apart *s = ctx;
+    if (s->adaptive)
+        run_adaptive(s);
+    else
+        run_fixed(s);
+    if (s->l->on_the_way) observe(s, &s->blocks[RUNNING], on_the_way, false);
+}
+
 void lanes_apart(lanes_item *item)
 {
     lanes *l = item->l;
@@ -504,27 +486,17 @@ void lanes_apart(lanes_item *item)
     memset(item->memory, 0, BLOCKS * item->call->block_size * sizeof(double));
     if (item->half) memset(item->half->memory, 0, BLOCKS * item->half->call->block_size * sizeof(double));
     for (size_t k = 0; k < BLOCKS; k++) {
+        apart_block *b = &s.blocks[k];
         void *trajectories = item->table + k * lines(l, sizeof(trajectory) / sizeof(double));
-        s.blocks[k] = (apart_block){.block = lanes_block_of(item, k), .trajectories = trajectories};
-        if (item->half) s.blocks[k].half = lanes_block_of(item->half, k);
-        s.blocks[k].block.job.first_observation = false;
+        b->block = lanes_block_of(item, k), b->block.number = b->number;
+        if (item->half) b->half = lanes_block_of(item->half, k);
+        b->trajectories = trajectories;
+        b->block.job.first_observation = false;
         for (size_t i = 0; i < s.lanes; i++) {
-            s.blocks[k].trajectories[i].companion = item->half ? &item->companions[k * s.lanes + i] : NULL;
-            free_lane(&s.blocks[k], i);
+            b->trajectories[i].companion = item->half ? &item->companions[k * s.lanes + i] : NULL;
+            lanes_schedule_free(&b->block, i);
         }
     }
-    for (;;) {
-        bool any;
-        do any = refill(&s);
-        while (remove_ended(&s));
-        if (!any) break;
-        if (s.adaptive)
-            run_adaptive(&s);
-        else
-            run_fixed(&s);
-        if (l->on_the_way) observe(&s, &s.blocks[RUNNING], on_the_way, false);
-        if (item->reports) lanes_item_report(item, 0);
-        if (lanes_item_over(item)) return;
-    }
-    end_all(&s);
+    lanes_schedule_run(&(lanes_schedule){item, &s.blocks[RUNNING].block, &s, fill, run, look});
+    if (!lanes_item_over(item)) end_all(&s);
 }

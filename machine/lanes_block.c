@@ -1,18 +1,12 @@
-/* Lanes: one block of trajectories, and the division of a call into items of many blocks. See lanes_parts.h.
+/* Lanes: one block of trajectories. See lanes_parts.h.
  *
- * Invariant: the results of a trajectory depend neither on its block nor on the thread that computes it. A block in
- * which a number is no longer finite takes its last steps again, one by one, to find the time.
+ * Invariant: the results of a trajectory do not depend on its block. A block in which a number is no longer finite
+ * takes its last steps again, one by one, to find the time.
  */
 #include "machine/lanes_parts.h"
 
-#include "machine/parallel.h"
-
 #include <math.h>
 #include <string.h>
-
-enum { ITEM_BYTES = 256 << 10 }; /* the blocks of an item fit the second-level cache */
-enum { REFILLS = 16 };  /* own clocks: blocks of trajectories that pass through the one running block of an item */
-#define LITTLE_WORK 1e6 /* operations: some 0.1 ms in lanes */
 
 /* ---- memory ---- */
 
@@ -118,12 +112,8 @@ void lanes_block_put_back(const lanes_block *k, size_t lane)
 {
     const lanes *l = k->l;
     lanes_block_forget(k, lane);
-    for (size_t n = 0; n < l->carried; n++)
-        k->job.carry[lane_at(l, l->carried, n, lane)] = k->saved[lane_at(l, l->carried, n, lane)];
-    for (size_t n = 0; k->job.clocks && n < LANES_CLOCKS; n++) {
-        const size_t at = lane_at(l, LANES_CLOCKS, n, lane);
-        k->job.clocks[at] = k->saved[l->carry_size + at];
-    }
+    lanes_copy(l, k->job.carry, lane, k->saved, lane, l->carried);
+    if (k->job.clocks) lanes_copy(l, k->job.clocks, lane, k->saved + l->carry_size, lane, LANES_CLOCKS);
 }
 
 /* ---- the start ---- */
@@ -176,7 +166,7 @@ static bool some_far(const lanes *l, const double *numbers, size_t elements, dou
     return l->far(numbers, elements * (size_t)l->groups, limit);
 }
 
-static bool lane_finite(const lanes *l, const double *numbers, size_t elements, size_t lane)
+bool lanes_block_finite(const lanes *l, const double *numbers, size_t elements, size_t lane)
 {
     double none = 0;
     for (size_t k = 0; k < elements; k++)
@@ -189,10 +179,9 @@ double lanes_block_time(const lanes_block *b, size_t lane)
     const lanes_job *j = &b->job;
     work w = {.carried = b->l->plan.carried, .t0 = j->t0, .h = j->h, .n = j->n};
     if (j->clocks) {
-        double own[LANES_CLOCKS];
-        for (size_t k = 0; k < LANES_CLOCKS; k++) own[k] = j->clocks[lane_at(b->l, LANES_CLOCKS, k, lane)];
-        w.t0 = own[LANES_T0], w.h = own[LANES_H], w.n = (int64_t)own[LANES_N];
-        w.t = own[LANES_T], w.lost = own[LANES_LOST];
+        w.t0 = *lanes_clock(b, lane, LANES_T0), w.h = *lanes_clock(b, lane, LANES_H);
+        w.n = lanes_steps(b, lane);
+        w.t = *lanes_clock(b, lane, LANES_T), w.lost = *lanes_clock(b, lane, LANES_LOST);
     }
     return time_now(&w);
 }
@@ -202,7 +191,7 @@ void lanes_block_stop(const lanes_block *b)
     const lanes *l = b->l;
     if (!some_far(l, b->job.carry, l->carried, INFINITY)) return;
     for (size_t i = 0; i < (size_t)l->block; i++)
-        if (isnan(b->stopped[i]) && !lane_finite(l, b->job.carry, l->carried, i))
+        if (isnan(b->stopped[i]) && !lanes_block_finite(l, b->job.carry, l->carried, i))
             b->stopped[i] = lanes_block_time(b, i);
 }
 
@@ -217,7 +206,7 @@ void lanes_block_observe(const lanes_block *b)
     if (!some_far(l, j->x, nx, INFINITY) && !some_far(l, j->v, nv, INFINITY)) return;
     for (size_t i = 0; i < (size_t)l->block; i++)
         if (isnan(b->stopped[i]) && (!j->clocks || j->where[i] != 0) &&
-            !(lane_finite(l, j->x, nx, i) && lane_finite(l, j->v, nv, i)))
+            !(lanes_block_finite(l, j->x, nx, i) && lanes_block_finite(l, j->v, nv, i)))
             b->stopped[i] = lanes_block_time(b, i);
 }
 
@@ -272,10 +261,9 @@ static tally tally_of_lane(const lanes_block *b, size_t lane, int64_t steps)
         if (steps > 0) t.shortest = t.longest = fabs(l->def.h);
         return t;
     }
-    double own[LANES_CLOCKS];
-    for (size_t k = 0; k < LANES_CLOCKS; k++) own[k] = b->job.clocks[lane_at(l, LANES_CLOCKS, k, lane)];
-    t.refused = (int64_t)own[LANES_REFUSED];
-    if (own[LANES_LONGEST] > 0) t.shortest = own[LANES_SHORTEST], t.longest = own[LANES_LONGEST];
+    t.refused = (int64_t)*lanes_clock(b, lane, LANES_REFUSED);
+    if (*lanes_clock(b, lane, LANES_LONGEST) > 0)
+        t.shortest = *lanes_clock(b, lane, LANES_SHORTEST), t.longest = *lanes_clock(b, lane, LANES_LONGEST);
     tally_evaluations(&l->plan, &t);
     return t;
 }
@@ -313,9 +301,8 @@ void lanes_block_results(const lanes_block *b, const lanes_call *c, size_t from,
         if (isnan(b->stopped[i])) continue;
         for (size_t r = 0; r < d->source_count; r++) c->results[d->sources[r].result][trajectory + i - from] = NAN;
         for (size_t k = 0; k < d->tally_count; k++) c->results[d->tallies[k].result][trajectory + i - from] = NAN;
+        d->left(d->context, trajectory + i - from, LANES_STOPPED);
     }
-    for (size_t i = from; i < to; i++)
-        c->ends[trajectory + i - from] = isnan(b->stopped[i]) ? LANES_ARRIVED : LANES_STOPPED;
     if (c->stopped) memcpy(c->stopped + trajectory, b->stopped + from, (to - from) * sizeof *c->stopped);
 }
 
@@ -337,108 +324,3 @@ void lanes_item_report(lanes_item *b, double more)
 }
 
 bool lanes_item_over(const lanes_item *b) { return atomic_load(&b->call->cancelled) || atomic_load(&b->call->refused); }
-
-/* ---- all trajectories ---- */
-
-/* Gives an item its memory, which begins here. */
-static void place_item(lanes_item *b, double *memory)
-{
-    b->memory = memory;
-    b->scratch = memory + b->call->blocks * b->call->block_size;
-    b->table = b->scratch + b->call->scratch_size;
-}
-
-/* Computes one item from start to end, in the memory of its thread. */
-static void run_item(void *ctx, size_t item, int thread)
-{
-    lanes_call *c = ctx;
-    lanes *l = c->l;
-    lanes_item b = {.l = l, .call = c, .first = item * c->most, .thread = thread}, half;
-    if (lanes_item_over(&b)) return;
-    b.count = c->count - b.first < c->most ? c->count - b.first : c->most;
-    double *memory = c->memory + (size_t)thread * c->thread_size;
-    place_item(&b, memory);
-    if (c->half) {
-        half = (lanes_item){.l = l->half, .call = c->half, .first = b.first, .count = b.count};
-        place_item(&half, b.table + c->table_size);
-        b.half = &half;
-        b.companions = lanes_companion_place(l, half.table + c->half->table_size, c->companions);
-    }
-    b.reports = thread == 0 && l->def.progress; /* only the caller's thread calls the caller's hook */
-    if (l->def.follower) {
-        lanes_watched(&b);
-    } else if (l->def.own_clock) {
-        lanes_apart(&b);
-    } else {
-        lanes_together(&b, (b.count + (size_t)l->block - 1) / (size_t)l->block);
-        atomic_fetch_add(&c->done, b.count);
-    }
-    if (b.reports) lanes_item_report(&b, 0);
-}
-
-/* The sizes of what a thread has for each block, and once. */
-static void measure(lanes_call *c)
-{
-    const lanes *l = c->l;
-    c->block_size = lanes_block_size(l);
-    c->scratch_size = lanes_scratch_size(l);
-    c->table_size = l->def.follower    ? lanes_watched_size(l)
-                    : l->def.own_clock ? lanes_apart_size(l)
-                                       : ((size_t)l->e.moments * l->e.terms * (CHUNK + 1 + 8 + 8) + 7) / 8 * 8;
-}
-
-/* Divides the trajectories into items: several for each thread, to balance the load, but none whose blocks exceed the
- * cache. */
-static void divide_work(lanes_call *c, size_t threads)
-{
-    const lanes *l = c->l;
-    const size_t block = (size_t)l->block, all = (c->count + block - 1) / block,
-                 share = (all + 4 * threads - 1) / (4 * threads);
-    lanes_call *half = c->half;
-    measure(c);
-    if (half) measure(half);
-    const size_t size = c->block_size + (half ? half->block_size + lanes_companion_size(l, block) : 0);
-    c->blocks = l->def.follower ? 1 : l->def.own_clock ? lanes_apart_blocks() : ITEM_BYTES / sizeof(double) / size;
-    size_t most = l->def.own_clock ? REFILLS : c->blocks;
-    if (most > share) most = share;
-    if (most == 0) most = 1;
-    if (!l->def.own_clock) c->blocks = most;
-    c->most = most * block;
-    c->items = (all + most - 1) / most;
-    c->thread_size = c->blocks * c->block_size + c->scratch_size + c->table_size;
-    if (!half) return;
-    half->blocks = c->blocks;
-    c->companions = c->blocks * block;
-    c->thread_size += c->blocks * half->block_size + half->scratch_size + half->table_size;
-    c->thread_size += lanes_companion_size(l, c->companions);
-}
-
-motus_status lanes_run(lanes *l, size_t count, const double *const *values, const double *until, double *const *results,
-                       double *const *errors, double *stopped, unsigned char *ends, motus_error *err)
-{
-    const lanes_def *d = &l->def;
-    /* Threads take longer to start than a little work takes. */
-    const bool little = !d->own_clock && (double)count * (double)(d->whole + 10) * d->model->graph->count < LITTLE_WORK;
-    size_t threads = little ? 1 : (size_t)d->threads;
-    lanes_call c = {.l = l,
-                    .count = count,
-                    .values = values,
-                    .until = until,
-                    .results = results,
-                    .errors = errors,
-                    .stopped = stopped,
-                    .ends = ends};
-    lanes_call half = {.l = l->half, .count = count, .values = values, .until = until};
-    if (errors) c.half = &half;
-    c.keeps = half.keeps = errors != NULL || d->follower;
-    divide_work(&c, threads);
-    if (threads > c.items) threads = c.items;
-    double *memory = take(d->allocator, threads * c.thread_size + ALIGNMENT / sizeof(double), sizeof(double));
-    if (!memory)
-        return fail(err, MOTUS_MEMORY, "no memory for %zu trajectories at once", threads * c.blocks * (size_t)l->block);
-    c.memory = memory + (ALIGNMENT - (uintptr_t)memory % ALIGNMENT) % ALIGNMENT / sizeof(double);
-    parallel_for((int)threads, c.items, run_item, &c);
-    give(d->allocator, memory);
-    if (atomic_load(&c.cancelled)) return fail(err, MOTUS_CANCELLED, "cancelled");
-    return atomic_load(&c.refused) || atomic_load(&half.refused) ? MOTUS_METHOD : MOTUS_OK;
-}

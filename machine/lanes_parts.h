@@ -1,6 +1,7 @@
 /* The structs and internal functions of lanes, shared by lanes.c (text and object), lanes_block.c (one block),
- * lanes_together.c (blocks whose trajectories share one clock), lanes_apart.c (trajectories with own clocks) and
- * lanes_companion.c (how far a trajectory is from its companion).
+ * lanes_companion.c (how far a trajectory is from its companion), lanes_together.c (blocks whose trajectories share one
+ * clock), lanes_schedule.c (own clocks: a lane that is free takes the next trajectory), lanes_apart.c and
+ * lanes_watched.c (what such lanes do, without events and with them) and lanes_run.c (a call).
  */
 #ifndef MACHINE_LANES_PARTS_H
 #define MACHINE_LANES_PARTS_H
@@ -65,6 +66,17 @@ static inline size_t lane_at(const lanes *l, size_t elements, size_t k, size_t i
     return (((i >> shift) * elements + k) << shift) + within;
 }
 
+/* Copies `count` elements of a lane, from element `first` on, into a row; elements of a lane into another lane. */
+static inline void lanes_row(const lanes *l, double *to, const double *from, size_t elements, size_t first,
+                             size_t count, size_t lane)
+{
+    for (size_t k = 0; k < count; k++) to[k] = from[lane_at(l, elements, first + k, lane)];
+}
+static inline void lanes_copy(const lanes *l, double *to, size_t at, const double *from, size_t lane, size_t elements)
+{
+    for (size_t k = 0; k < elements; k++) to[lane_at(l, elements, k, at)] = from[lane_at(l, elements, k, lane)];
+}
+
 /* A call of lanes_run: all its trajectories. */
 typedef struct lanes_call {
     lanes *l;
@@ -72,7 +84,6 @@ typedef struct lanes_call {
     const double *const *values;
     const double *until; /* of every trajectory, or NULL: the same for all */
     double *const *results, *const *errors, *stopped;
-    unsigned char *ends; /* LANES_ARRIVED … */
     double *memory; /* of every thread: its blocks, its scratch, its table, all this of the companions, differences */
     size_t blocks, block_size, scratch_size, table_size, thread_size;
     struct lanes_call *half; /* of the companions: sizes and memory alone; NULL: errors are not told */
@@ -115,7 +126,17 @@ typedef struct lanes_block {
     lanes_job job;
     double *stopped; /* the time at which each lane stopped; NaN: it has not */
     double *saved;   /* carry and clocks before the latest steps */
+    size_t *number;  /* own clocks: the trajectory of each lane, or NO_TRAJECTORY; else NULL */
 } lanes_block;
+#define NO_TRAJECTORY SIZE_MAX
+
+/* Own clocks: number k of the clock of a lane. */
+static inline double *lanes_clock(const lanes_block *b, size_t lane, int k)
+{
+    return &b->job.clocks[lane_at(b->l, LANES_CLOCKS, (size_t)k, lane)];
+}
+static inline int64_t lanes_steps(const lanes_block *b, size_t lane) { return (int64_t)*lanes_clock(b, lane, LANES_N); }
+static inline bool lanes_occupied(const lanes_block *b, size_t lane) { return b->number[lane] != NO_TRAJECTORY; }
 
 /* ---- lanes_block.c ---- */
 
@@ -133,6 +154,8 @@ void lanes_block_put_back(const lanes_block *, size_t lane);
 void lanes_block_number(const lanes_block *, const lanes_item *, const size_t *trajectories);
 /* Sets lane i of the block to the start of trajectory trajectories[i]. */
 void lanes_block_begin(const lanes_block *, const lanes_item *, const size_t *trajectories);
+/* Whether all elements of a lane are finite. */
+bool lanes_block_finite(const lanes *, const double *numbers, size_t elements, size_t lane);
 /* Whether the carry of a lane that has not stopped is infinite, NaN, or so large that what is observed may be. */
 bool lanes_block_diverged(const lanes_block *);
 /* Marks the lanes whose carry is not finite as stopped now. */
@@ -168,6 +191,26 @@ void lanes_companion_begin(lanes_companion *, double t0, double until);
  * they landed last. It changes the list. */
 void lanes_companion_compare(const lanes_block *, const lanes_block *half, lanes_companion **list,
                              const bool *observed);
+
+/* ---- lanes_schedule.c ---- */
+
+/* How trajectories with own clocks go through the lanes of one block. Hooks, of which an item that is over calls no
+ * more: `fill` gives a free lane the next trajectory, which may be over at once, or makes one ready for the next call
+ * (false: there are no more); `run` takes steps of all lanes; `look` is called after that for each lane with a
+ * trajectory, and frees the lanes of those that are over. */
+typedef struct lanes_schedule {
+    lanes_item *item;
+    const lanes_block *block;
+    void *ctx;
+    bool (*fill)(void *ctx, size_t lane);
+    void (*run)(void *ctx);
+    void (*look)(void *ctx, size_t lane);
+} lanes_schedule;
+void lanes_schedule_run(const lanes_schedule *);
+/* Frees a lane. It counts as stopped, because it goes on to compute numbers that belong to no trajectory. */
+void lanes_schedule_free(const lanes_block *, size_t lane);
+/* Where steps adapt: the number of steps after which a trajectory is looked at, whatever happens. */
+int64_t lanes_schedule_pace(const lanes_block *, size_t lane);
 
 /* ---- lanes_together.c, lanes_apart.c, lanes_watched.c ---- */
 

@@ -16,19 +16,17 @@
 #include <math.h>
 #include <string.h>
 
-#define NO_TRAJECTORY SIZE_MAX
-enum { REPORT = 64 }; /* calls of the object between two reports */
-
 typedef struct watched {
     lanes_item *item;
     const lanes *l;
     const lanes_follower *by;
     lanes_block block;
-    size_t number[BLOCK_MAX]; /* of each lane, NO_TRAJECTORY: it is free */
+    size_t number[BLOCK_MAX]; /* `number` of the block */
     int64_t since[BLOCK_MAX]; /* of each lane, the steps of the leg when its trajectory came, */
     int64_t stop[BLOCK_MAX];  /*   and after which it goes, where steps have one size */
     double *room;             /* working space of lanes_watched_size numbers */
     size_t next;              /* trajectories of the item that have begun */
+    bool begun;               /* some have since lanes were given the numbers of theirs */
 } watched;
 
 /* Room for the numbers of a state and the largest sizes, or for both ends of a step and its accelerations' bounds. */
@@ -38,21 +36,12 @@ size_t lanes_watched_size(const lanes *l)
     return ((state > step ? state : step) + 7) / 8 * 8;
 }
 
-static double *clock_of(const watched *s, size_t lane, int k)
-{
-    return &s->block.job.clocks[lane_at(s->l, LANES_CLOCKS, (size_t)k, lane)];
-}
+static double *clock_of(const watched *s, size_t lane, int k) { return lanes_clock(&s->block, lane, k); }
 
 static double until_of(const watched *s, size_t lane)
 {
     const lanes_item *item = s->item;
     return item->call->until ? item->call->until[s->number[lane]] : s->l->def.until;
-}
-
-static void free_lane(watched *s, size_t lane)
-{
-    s->number[lane] = NO_TRAJECTORY;
-    *clock_of(s, lane, LANES_UNTIL) = *clock_of(s, lane, LANES_STOP) = NAN;
 }
 
 /* The clocks of a lane in the order of stepper_save. */
@@ -70,23 +59,28 @@ static bool all_over(void *asked)
     return lanes_item_over(item);
 }
 
+/* The block, or as it was before the latest step. */
+static lanes_block block_of(const watched *s, bool before)
+{
+    lanes_block b = s->block;
+    if (before) b.job.carry = b.job.before, b.job.clocks = b.job.before_clocks;
+    return b;
+}
+
 /* The state of a lane, or that before its latest step. */
 static lanes_state state_of(const watched *s, size_t lane, bool before)
 {
     const lanes *l = s->l;
-    const lanes_job *j = &s->block.job;
-    const double *carry = before ? j->before : j->carry, *clocks = before ? j->before_clocks : j->clocks;
-    double *to = s->room;
-#define CLOCK_AT(k) clocks[lane_at(l, LANES_CLOCKS, (size_t)(k), lane)]
-    for (size_t k = 0; k < l->carried; k++) to[k] = carry[lane_at(l, l->carried, k, lane)];
-    for (size_t k = 0; k < carried_clocks(l); k++) to[l->carried + k] = CLOCK_AT(carried[k]);
-    return (lanes_state){.t0 = *clock_of(s, lane, LANES_T0),
-                         .h = *clock_of(s, lane, LANES_H),
-                         .at = {.steps = (int64_t)CLOCK_AT(LANES_N), .refused = (int64_t)CLOCK_AT(LANES_REFUSED)},
-                         .carry = to,
-                         .over = all_over,
-                         .asked = s->item};
-#undef CLOCK_AT
+    const lanes_block b = block_of(s, before);
+    lanes_row(l, s->room, b.job.carry, l->carried, 0, l->carried, lane);
+    for (size_t k = 0; k < carried_clocks(l); k++) s->room[l->carried + k] = *lanes_clock(&b, lane, carried[k]);
+    return (lanes_state){
+        .t0 = *clock_of(s, lane, LANES_T0),
+        .h = *clock_of(s, lane, LANES_H),
+        .at = {.steps = lanes_steps(&b, lane), .refused = (int64_t)*lanes_clock(&b, lane, LANES_REFUSED)},
+        .carry = s->room,
+        .over = all_over,
+        .asked = s->item};
 }
 
 /* Puts a trajectory into a lane at a state. */
@@ -115,7 +109,7 @@ static const double *largest_of(const watched *s, size_t lane)
     const lanes *l = s->l;
     const size_t sizes = l->def.model->nx + l->def.model->nv;
     double *to = s->room + l->carried + STEPPER_CLOCKS;
-    for (size_t k = 0; k < sizes; k++) to[k] = s->block.job.largest[lane_at(l, sizes, k, lane)];
+    lanes_row(l, to, s->block.job.largest, sizes, 0, sizes, lane);
     return to;
 }
 
@@ -123,7 +117,7 @@ static const double *largest_of(const watched *s, size_t lane)
 static void over(watched *s, size_t lane)
 {
     atomic_fetch_add(&s->item->call->done, 1);
-    free_lane(s, lane);
+    lanes_schedule_free(&s->block, lane);
 }
 
 /* The follower has given a trajectory back, or has done with it. */
@@ -137,49 +131,35 @@ static void go_on(watched *s, size_t lane, bool goes_on, const lanes_state *stat
 
 /* ---- the start ---- */
 
-/* Puts the next trajectories into free lanes. False: no lane has a trajectory. */
-static bool refill(watched *s)
+/* Puts the item's next trajectory into a free lane. */
+static bool fill(void *ctx, size_t lane)
 {
-    lanes_item *item = s->item;
-    bool any = false, more = false;
-    for (size_t i = 0; i < (size_t)s->l->block; i++) {
-        while (s->number[i] == NO_TRAJECTORY && s->next < item->count && !lanes_item_over(item)) {
-            lanes_state state = {.carry = s->room, .over = all_over, .asked = item};
-            s->number[i] = item->first + s->next++;
-            go_on(s, i, s->by->begin(s->by->ctx, item->thread, i, s->number[i], &state), &state);
-            more |= s->number[i] != NO_TRAJECTORY;
-        }
-        any |= s->number[i] != NO_TRAJECTORY;
-    }
-    if (!more) return any;
-    size_t numbers[BLOCK_MAX];
-    for (size_t i = 0; i < (size_t)s->l->block; i++)
-        numbers[i] = s->number[i] == NO_TRAJECTORY ? item->first : s->number[i];
-    lanes_block_number(&s->block, item, numbers);
-    return any;
+    watched *s = ctx;
+    const lanes_item *item = s->item;
+    lanes_state state = {.carry = s->room, .over = all_over, .asked = s->item};
+    if (s->next == item->count) return false;
+    s->number[lane] = item->first + s->next++;
+    go_on(s, lane, s->by->begin(s->by->ctx, item->thread, lane, s->number[lane], &state), &state);
+    s->begun |= lanes_occupied(&s->block, lane);
+    return true;
 }
 
 /* ---- steps ---- */
 
-/* Number k of the positions, or of the velocities, at an end of the latest step of a lane. */
-static double number_at(const watched *s, size_t lane, bool end, bool in_v, size_t k)
+/* Positions and velocities at an end of the latest step of a lane; returns its time. *lost: what rounding has left out
+ * of that. */
+static double end_of(const watched *s, size_t lane, bool end, double *x, double *v, double *lost)
 {
     const lanes *l = s->l;
-    const lanes_job *j = &s->block.job;
+    const lanes_block b = block_of(s, !end);
     const size_t nx = l->def.model->nx, nv = l->def.model->nv, each = nx + 2 * nv;
-    if (l->plan.carried) return (end ? j->carry : j->before)[lane_at(l, l->carried, (in_v ? nv : 0) + k, lane)];
-    return j->shown[lane_at(l, 2 * each, (end ? each : 0) + (in_v ? nx : 0) + k, lane)];
-}
-
-/* The clock of a lane at an end of its latest step: its time, and what rounding has left out of it. */
-static double time_at(const watched *s, size_t lane, bool end, double *lost)
-{
-    const double *clocks = end ? s->block.job.clocks : s->block.job.before_clocks;
-#define CLOCK_AT(k) clocks[lane_at(s->l, LANES_CLOCKS, (k), lane)]
-    const work leg = {.t0 = CLOCK_AT(LANES_T0), .h = CLOCK_AT(LANES_H)};
-    *lost = s->l->plan.carried ? CLOCK_AT(LANES_LOST) : 0;
-    return s->l->plan.carried ? CLOCK_AT(LANES_T) : TIME_FIXED(&leg, CLOCK_AT(LANES_N), 0);
-#undef CLOCK_AT
+    const bool carried = l->plan.carried;
+    const double *numbers = carried ? b.job.carry : b.job.shown;
+    const size_t elements = carried ? l->carried : 2 * each, first = carried || !end ? 0 : each;
+    lanes_row(l, x, numbers, elements, first, nx, lane);
+    lanes_row(l, v, numbers, elements, first + (carried ? nv : nx), nv, lane);
+    *lost = carried ? *lanes_clock(&b, lane, LANES_LOST) : 0;
+    return lanes_block_time(&b, lane);
 }
 
 /* Whether the follower knows that the latest step of a lane has no event, though a bound is not positive. */
@@ -188,39 +168,25 @@ static bool idle(const watched *s, size_t lane)
     const lanes *l = s->l;
     const size_t nx = l->def.model->nx, nv = l->def.model->nv;
     double *from_x = s->room, *from_v = from_x + nx, *to_x = from_v + nv, *to_v = to_x + nx, *most = to_v + nv;
-    for (size_t k = 0; k < nx; k++)
-        from_x[k] = number_at(s, lane, false, false, k), to_x[k] = number_at(s, lane, true, false, k);
-    for (size_t k = 0; k < nv; k++) {
-        from_v[k] = number_at(s, lane, false, true, k), to_v[k] = number_at(s, lane, true, true, k);
-        most[k] = s->block.job.bounds[lane_at(l, nv, k, lane)];
-    }
     watch was = {0};
-    was.t = time_at(s, lane, false, &was.lost);
-    was.to_t = time_at(s, lane, true, &was.to_lost);
+    was.t = end_of(s, lane, false, from_x, from_v, &was.lost);
+    was.to_t = end_of(s, lane, true, to_x, to_v, &was.to_lost);
+    lanes_row(l, most, s->block.job.bounds, nv, 0, nv, lane);
     const double span = l->plan.carried ? watch_span(&was) : *clock_of(s, lane, LANES_H);
     return s->by->idle(s->by->ctx, s->item->thread, lane,
                        &(stepper_shown){span, was.t, was.to_t, from_x, from_v, to_x, to_v, most});
 }
 
-static bool is_finite(const watched *s, size_t lane)
-{
-    double zero = 0;
-    for (size_t k = 0; k < s->l->carried; k++) {
-        const double number = s->block.job.carry[lane_at(s->l, s->l->carried, k, lane)];
-        zero += number - number;
-    }
-    return zero == 0;
-}
-
 /* Gives a lane to the follower after its latest step: if the step may have an event, if it led to the end or to the
  * number of steps in LANES_STOP, and if the trajectory cannot go on. */
-static void look_after(watched *s, size_t lane)
+static void look(void *ctx, size_t lane)
 {
+    watched *s = ctx;
     const lanes_job *j = &s->block.job;
     const int thread = s->item->thread;
     const bool met = j->met[lane] != 0,
                ends = s->l->plan.carried && *clock_of(s, lane, LANES_T) == *clock_of(s, lane, LANES_UNTIL);
-    if (j->lost[lane] != 0 || !is_finite(s, lane)) {
+    if (j->lost[lane] != 0 || !lanes_block_finite(s->l, j->carry, s->l->carried, lane)) {
         s->by->leave(s->by->ctx, thread, lane);
         over(s, lane);
         return;
@@ -238,13 +204,19 @@ static void look_after(watched *s, size_t lane)
     over(s, lane);
 }
 
-/* The number of steps after which a lane is looked at, whatever happens. */
-static int64_t stop_after(const watched *s, size_t lane)
+static void run(void *ctx)
 {
-    if (!s->l->plan.carried) return s->stop[lane];
-    const int64_t n = (int64_t)*clock_of(s, lane, LANES_N), most = s->l->def.chosen->count,
-                  pace = (n / STEPPER_PACE + 1) * STEPPER_PACE;
-    return most > 0 && most < pace ? most : pace;
+    watched *s = ctx;
+    size_t numbers[BLOCK_MAX] = {0};
+    for (size_t i = 0; i < (size_t)s->l->block; i++) {
+        const bool here = lanes_occupied(&s->block, i);
+        numbers[i] = here ? s->number[i] : s->item->first;
+        if (here)
+            *clock_of(s, i, LANES_STOP) = (double)(s->l->plan.carried ? lanes_schedule_pace(&s->block, i) : s->stop[i]);
+    }
+    if (s->begun) lanes_block_number(&s->block, s->item, numbers);
+    s->begun = false;
+    s->l->run(&s->block.job, CHUNK, 0);
 }
 
 void lanes_watched(lanes_item *item)
@@ -252,15 +224,7 @@ void lanes_watched(lanes_item *item)
     lanes *l = item->l;
     watched s = {.item = item, .l = l, .by = l->def.follower, .room = item->table};
     memset(item->memory, 0, item->call->block_size * sizeof(double));
-    s.block = lanes_block_of(item, 0);
-    for (size_t i = 0; i < (size_t)l->block; i++) free_lane(&s, i);
-    for (int64_t calls = 0; refill(&s); calls++) {
-        for (size_t i = 0; i < (size_t)l->block; i++)
-            if (s.number[i] != NO_TRAJECTORY) *clock_of(&s, i, LANES_STOP) = (double)stop_after(&s, i);
-        l->run(&s.block.job, CHUNK, 0);
-        for (size_t i = 0; i < (size_t)l->block; i++)
-            if (s.number[i] != NO_TRAJECTORY) look_after(&s, i);
-        if (item->reports && calls % REPORT == 0) lanes_item_report(item, 0);
-        if (lanes_item_over(item)) return;
-    }
+    s.block = lanes_block_of(item, 0), s.block.number = s.number;
+    for (size_t i = 0; i < (size_t)l->block; i++) lanes_schedule_free(&s.block, i);
+    lanes_schedule_run(&(lanes_schedule){item, &s.block, &s, fill, run, look});
 }

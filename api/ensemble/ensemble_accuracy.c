@@ -27,10 +27,10 @@ typedef struct other {
 struct ensemble_goal {
     motus_allocator allocator;
     double wanted;
-    bool absolute, told; /* told: the caller asks for errors */
-    size_t records;      /* of the caller; behind them is what a trajectory reached */
-    motus_ensemble_def def;
-    char method[MOTUS_NAME_MAX], machine[MOTUS_NAME_MAX];
+    bool absolute, told;    /* told: the caller asks for errors */
+    size_t records;         /* of the caller; behind them is what a trajectory reached */
+    motus_ensemble_def def; /* of which all that it points to may be gone */
+    const char *machine;
     other *others;
     /* of the caller: each part of the search takes half of what is left of a call */
     int (*progress)(void *context, double fraction);
@@ -63,39 +63,6 @@ static motus_status judge(const motus_ensemble_def *d, const request *q, const c
     return card->adaptive ? MOTUS_OK : refuse_fixed(card->name, err);
 }
 
-/* A copy of the definition, which children are made by, with one more record; NULL: no memory. */
-static ensemble_goal *copy(const motus_system *s, const motus_ensemble_def *d, const char *method)
-{
-    size_t text = 0;
-    for (size_t k = 0; k < d->vary_count; k++) text += d->vary[k] ? strlen(d->vary[k]) + 1 : 0;
-    const size_t names = d->vary_count * sizeof(char *), records = (d->record_count + 1) * sizeof(motus_record);
-    ensemble_goal *g = take(&s->allocator, 1, sizeof *g + names + records + text);
-    if (!g) return NULL;
-    *g = (ensemble_goal){.allocator = s->allocator, .records = d->record_count, .def = *d};
-    motus_record *list = (motus_record *)(void *)(g + 1);
-    const char **vary = (const char **)(void *)(list + d->record_count + 1);
-    char *room = (char *)(void *)(vary + d->vary_count);
-    memcpy(list, d->records, d->record_count * sizeof *list);
-    list[d->record_count] = (motus_record){MOTUS_REDUCE_ACCURACY, 0};
-    for (size_t k = 0; k < d->vary_count; k++) {
-        const size_t length = d->vary[k] ? strlen(d->vary[k]) + 1 : 0;
-        if (length) memcpy(room, d->vary[k], length);
-        vary[k] = length ? room : NULL;
-        room += length;
-    }
-    snprintf(g->method, sizeof g->method, "%s", method);
-    if (d->machine) snprintf(g->machine, sizeof g->machine, "%s", d->machine);
-    g->def.vary = vary;
-    g->def.records = list;
-    g->def.record_count++;
-    g->def.method = g->method;
-    g->def.machine = d->machine ? g->machine : NULL;
-    g->def.accuracy = NAN;
-    g->told = d->error != MOTUS_BARS_NONE;
-    if (!g->told) g->def.error = MOTUS_BARS_CHEAP;
-    return g;
-}
-
 motus_status ensemble_accuracy_begin(motus_system *s, motus_ensemble_def *d, ensemble_goal **out, motus_error *err)
 {
     const request q = request_of_ensemble(s, d);
@@ -104,20 +71,28 @@ motus_status ensemble_accuracy_begin(motus_system *s, motus_ensemble_def *d, ens
     const char *const method = q.automatic && q.method_said != SAID_CALLER ? METHOD : q.method;
     motus_status status = judge(d, &q, method, err);
     if (status != MOTUS_OK) return status;
-    ensemble_goal *g = copy(s, d, method);
-    *out = g;
+    bool automatic, compiled;
+    status = choice_machine(d->machine, &automatic, &compiled, err);
+    if (status != MOTUS_OK) return status;
+    ensemble_goal *g = *out = take(&s->allocator, 1, sizeof *g);
     if (!g) return fail(err, MOTUS_MEMORY, "no memory for the ensemble");
-    g->wanted = q.accuracy;
-    g->absolute = q.absolute;
-    g->def.absolute = q.absolute;
-    g->def.tolerance = search_by_tolerance(q.accuracy, q.absolute).size;
-    g->progress = d->progress;
-    g->context = d->context;
-    if (d->progress) {
-        g->def.progress = tell;
-        g->def.context = g;
-    }
-    *d = g->def;
+    *g = (ensemble_goal){.allocator = s->allocator,
+                         .wanted = q.accuracy,
+                         .absolute = q.absolute,
+                         .told = d->error != MOTUS_BARS_NONE,
+                         .records = d->record_count,
+                         .machine = automatic  ? "auto"
+                                    : compiled ? "compiled"
+                                               : "interpreter",
+                         .progress = d->progress,
+                         .context = d->context};
+    d->method = method;
+    d->accuracy = NAN;
+    if (!g->told) d->error = MOTUS_BARS_CHEAP;
+    d->absolute = q.absolute;
+    d->tolerance = search_by_tolerance(q.accuracy, q.absolute).size;
+    if (d->progress) d->progress = tell, d->context = g;
+    g->def = *d;
     return MOTUS_OK;
 }
 
@@ -125,7 +100,7 @@ static void forget_others(ensemble_goal *g)
 {
     for (other *o = g->others, *next; o; o = next) {
         next = o->next;
-        motus_ensemble_destroy(o->ensemble);
+        ensemble_free(o->ensemble);
         give(&g->allocator, o);
     }
     g->others = NULL;
@@ -140,6 +115,8 @@ void ensemble_accuracy_end(ensemble_goal *g)
 }
 
 bool ensemble_accuracy_told(const ensemble_goal *g) { return g->told; }
+
+double ensemble_accuracy_wanted(const ensemble_goal *g) { return g->wanted; }
 
 /* ---- a call ---- */
 
@@ -170,7 +147,7 @@ static void list_open(attempt *a, size_t count)
 {
     const ensemble_goal *g = a->goal;
     search s = search_by_tolerance(g->wanted, g->absolute);
-    search_set(&s, motus_ensemble_tolerance(a->e, NULL)); /* reversible rows take a smaller one */
+    search_set(&s, tally_tolerance(&a->e->chosen)); /* reversible rows take a smaller one */
     s.few = true;
     for (size_t k = 0; k < count; k++) {
         if (!isnan(a->stopped[k]) || a->reached[k] <= g->wanted) continue;
@@ -189,15 +166,16 @@ static motus_status find_other(attempt *a, double tolerance, motus_ensemble **ou
         if (o->tolerance == tolerance) return *out = o->ensemble, MOTUS_OK;
     other *o = take(&g->allocator, 1, sizeof *o);
     if (!o) return fail(err, MOTUS_MEMORY, "no memory for the ensemble");
+    const motus_ensemble *e = a->e;
     motus_ensemble_def def = g->def;
     def.tolerance = tolerance;
-    def.event_columns = a->e->event_columns;       /* the caller's may be gone */
-    if (a->e->awaits) def.machine = "interpreter"; /* a compiler is at work for the same text */
+    def.method = e->chosen.name;
+    def.machine = e->awaits ? "interpreter" : g->machine; /* a compiler is at work for the same text */
+    def.records = e->records, def.record_count = e->record_count;
+    def.event_columns = e->event_columns;
     *o = (other){.next = g->others, .tolerance = tolerance};
-    motus_status status = motus_ensemble_create(a->e->system, &def, &o->ensemble, err);
-    if (status == MOTUS_OK) status = ensemble_witness_as(o->ensemble, a->e, err);
+    const motus_status status = ensemble_make(e->system, &def, NULL, e, &o->ensemble, err);
     if (status != MOTUS_OK) {
-        motus_ensemble_destroy(o->ensemble);
         give(&g->allocator, o);
         return status;
     }
@@ -206,47 +184,19 @@ static motus_status find_other(attempt *a, double tolerance, motus_ensemble **ou
     return MOTUS_OK;
 }
 
-/* One tolerance: its trajectories in a row, which are `count` of those that are open. */
-typedef struct group {
-    size_t count, given, records;
-    double **at; /* `given` arrays of values, and `records` each of results and of errors, which belong to `memory` */
-    double *memory, *stopped;
-} group;
-
-static motus_status group_make(const attempt *a, group *g, size_t count, motus_error *err)
+/* Takes over trial i of those tried where it is the best of its trajectory; returns whether it is to be tried again. */
+static bool take_over(attempt *a, const places *tried, motus_ensemble *from, size_t i, open_one *o)
 {
-    const motus_allocator *allocator = &a->goal->allocator;
-    *g = (group){.count = count, .given = a->e->given, .records = a->goal->def.record_count};
-    const size_t arrays = g->given + 2 * g->records + 1;
-    g->at = take(allocator, arrays, sizeof *g->at);
-    g->memory = take(allocator, arrays * count, sizeof *g->memory);
-    if (!g->at || !g->memory) return fail(err, MOTUS_MEMORY, "no memory for the ensemble");
-    for (size_t k = 0; k < arrays; k++) g->at[k] = g->memory + k * count;
-    g->stopped = g->at[arrays - 1];
-    return MOTUS_OK;
-}
-
-static void group_end(const attempt *a, group *g)
-{
-    give(&a->goal->allocator, (void *)g->at);
-    give(&a->goal->allocator, g->memory);
-}
-
-/* Takes over trial i of a group where it is the best of its trajectory; returns whether it is to be tried again. */
-static bool take_over(attempt *a, const group *g, motus_ensemble *from, size_t i, open_one *o)
-{
-    const bool failed = !isnan(g->stopped[i]);
-    double *const *results = g->at + g->given, *const *errors = results + g->records;
-    const double bar = failed ? INFINITY : results[g->records - 1][i];
+    const bool failed = !isnan(tried->stopped[i]);
+    const size_t records = a->e->record_count;
+    const double bar = failed ? INFINITY : tried->results[records - 1][i];
     if (bar <= o->best) {
-        for (size_t r = 0; r < g->records; r++) {
-            a->results[r][o->number] = results[r][i];
-            a->errors[r][o->number] = errors[r][i];
+        for (size_t r = 0; r < records; r++) {
+            a->results[r][o->number] = tried->results[r][i];
+            a->errors[r][o->number] = tried->errors[r][i];
         }
-        a->stopped[o->number] = g->stopped[i];
-        ensemble_events_move(a->e, o->number, from, i);
-        ensemble_stopped_move(a->e, o->number, from, i);
-        ensemble_ended_move(a->e, o->number, from, i);
+        a->stopped[o->number] = tried->stopped[i];
+        ensemble_outcome_move(a->e, o->number, from, i);
         o->best = bar;
     }
     if (bar <= a->goal->wanted) return false;
@@ -255,32 +205,33 @@ static bool take_over(attempt *a, const group *g, motus_ensemble *from, size_t i
     return false;
 }
 
-/* Computes all open trajectories whose next tolerance is this one. */
+/* Computes all open trajectories whose next tolerance is this one, in a row. */
 static motus_status try(attempt *a, double tolerance, motus_error *err)
 {
+    const motus_allocator *allocator = &a->goal->allocator;
+    const size_t given = a->e->given, records = a->e->record_count, arrays = given + 2 * records + 1;
     size_t count = 0, kept = 0, n = 0;
     motus_ensemble *e = NULL;
-    group g;
     for (size_t i = 0; i < a->count; i++) count += a->open[i].search.size == tolerance;
     motus_status status = find_other(a, tolerance, &e, err);
     if (status != MOTUS_OK) return status;
-    status = group_make(a, &g, count, err);
-    for (size_t i = 0; i < a->count && status == MOTUS_OK; i++) {
+    double **at = take(allocator, arrays, sizeof *at + count * sizeof(double)); /* the arrays, and their numbers */
+    if (!at) return fail(err, MOTUS_MEMORY, "no memory for the ensemble");
+    for (size_t k = 0; k < arrays; k++) at[k] = (double *)(void *)(at + arrays) + k * count;
+    for (size_t i = 0; i < a->count; i++) {
         if (a->open[i].search.size != tolerance) continue;
-        for (size_t k = 0; k < g.given; k++) g.at[k][n] = a->values[k][a->open[i].number];
+        for (size_t k = 0; k < given; k++) at[k][n] = a->values[k][a->open[i].number];
         n++;
     }
-    double *const *results = g.at ? g.at + g.given : NULL;
-    if (status == MOTUS_OK)
-        status = motus_ensemble_run_errors(e, count, (const double *const *)g.at, results, results + g.records,
-                                           g.stopped, err);
+    const places tried = {.results = at + given, .errors = at + given + records, .stopped = at[arrays - 1]};
+    status = ensemble_run_all(e, count, (const double *const *)at, tried, err);
     n = 0;
     for (size_t i = 0; i < a->count && status == MOTUS_OK; i++) {
         const bool other_size = a->open[i].search.size != tolerance;
-        if (other_size || take_over(a, &g, e, n++, &a->open[i])) a->open[kept++] = a->open[i];
+        if (other_size || take_over(a, &tried, e, n++, &a->open[i])) a->open[kept++] = a->open[i];
     }
     if (status == MOTUS_OK) a->count = kept;
-    group_end(a, &g);
+    give(allocator, (void *)at);
     return status;
 }
 
@@ -335,7 +286,7 @@ motus_status ensemble_accuracy_run(motus_ensemble *e, size_t count, const double
                                    motus_error *err)
 {
     ensemble_goal *g = e->goal;
-    const size_t records = g->def.record_count;
+    const size_t records = e->record_count;
     const motus_allocator *allocator = &g->allocator;
     if (!given->results) return fail(err, MOTUS_ARGUMENT, "motus_ensemble_run needs room for results");
     double **at = take(allocator, 2 * records, sizeof *at), **errors = at + records;
@@ -360,5 +311,3 @@ motus_status ensemble_accuracy_run(motus_ensemble *e, size_t count, const double
     give(allocator, open);
     return status;
 }
-
-double motus_ensemble_accuracy(const motus_ensemble *e) { return e && e->goal ? e->goal->wanted : NAN; }

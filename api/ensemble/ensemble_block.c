@@ -106,7 +106,7 @@ static motus_status start(trajectory_block *b, motus_error *err)
 static motus_status advance(void *ctx, stepper_limit limit, stepper_stop *why, motus_error *err)
 {
     trajectory_block *b = ctx;
-    return ensemble_advance(b->w, limit, why, err);
+    return pace_advance(&b->w->pace, b->w->stepper, limit, why, err);
 }
 
 static motus_status run(trajectory_block *b, motus_error *err)
@@ -144,7 +144,7 @@ static void write_results(const trajectory_block *b, bool stopped, double when)
     const motus_ensemble *e = b->w->e;
     /* a callback that stops a trajectory is its cause */
     const bool open = stopped && b->w->why.returned <= 0;
-    for (size_t j = 0; j < b->count; j++) b->places->ends[b->first + j] = open ? LANES_STOPPED : LANES_ARRIVED;
+    for (size_t j = 0; open && j < b->count; j++) e->outcomes[b->first + j].left = LANES_STOPPED;
     for (size_t r = 0; r < e->record_count; r++)
         for (size_t j = 0; j < b->count; j++) b->places->results[r][b->first + j] = stopped ? NAN : result(b, r, j);
     for (size_t j = 0; b->places->stopped && j < b->count; j++) b->places->stopped[b->first + j] = stopped ? when : NAN;
@@ -153,7 +153,6 @@ static void write_results(const trajectory_block *b, bool stopped, double when)
 /* Computes a block, or its halves where a trajectory stops. `memory` suffices for the whole block. */
 static motus_status run_halving(worker *w, const places *p, size_t first, size_t count, double *memory)
 {
-    const motus_ensemble *e = w->e;
     const size_t nx = w->system->problem.nx, nv = w->system->problem.nv;
     trajectory_block b = {.w = w,
                           .places = p,
@@ -169,18 +168,14 @@ static motus_status run_halving(worker *w, const places *p, size_t first, size_t
     b.problem = callback_block(&b.calling, &w->system->problem);
     w->trajectories = count;
     motus_status status = run(&b, &w->why);
-    const bool stopped = status == MOTUS_DIVERGED || status == MOTUS_SOLVE || status == MOTUS_STEPS ||
-                         (status == MOTUS_CALLBACK && w->why.returned > 0);
+    const bool stopped = ensemble_stopped(status, &w->why);
     if (status != MOTUS_OK && !stopped) return status;
     if (stopped && count > 1) {
         status = run_halving(w, p, first, count / 2, memory);
         return status == MOTUS_OK ? run_halving(w, p, first + count / 2, count - count / 2, memory) : status;
     }
     write_results(&b, stopped, w->why.time);
-    atomic_fetch_add(&w->e->done, count);
-    if (w->number == 0 && ensemble_report(w->e, (double)atomic_load(&e->done) / (double)e->count))
-        return MOTUS_CANCELLED;
-    return MOTUS_OK;
+    return ensemble_done(w, count);
 }
 
 static motus_status one_block(worker *w, size_t item, void *ctx)

@@ -142,7 +142,7 @@ static motus_status make_run(worker *w, motus_error *err)
 motus_status ensemble_errors_worker(worker *w, motus_error *err)
 {
     const motus_status status = w->run ? MOTUS_OK : make_run(w, err);
-    if (status != MOTUS_OK) ensemble_errors_end(w);
+    if (status != MOTUS_OK) ensemble_worker_end_run(w);
     return status;
 }
 
@@ -185,16 +185,4 @@ motus_status ensemble_errors_begin(worker *w, const double *values, size_t k, mo
     bars_again(r, !half->model);
     bars_forget_events(r);
     return look(w, err);
-}
-
-void ensemble_errors_end(worker *w)
-{
-    if (!w->run) return;
-    w->run->stepper = NULL; /* they are the worker's */
-    w->run->events = NULL;
-    run_destroy(w->run);
-    w->run = NULL;
-    w->half_vary = w->home_vary = NULL;
-    motus_system_destroy(w->home);
-    w->home = NULL;
 }

@@ -5,11 +5,10 @@
  * trajectory, every step in which an event may happen, and those after it until bounds may tell of a step again.
  *
  * Invariant: a trajectory has the bits of a run with its values. One that fails or may crawl is left: a worker computes
- * it once more by itself (ensemble_stopped.c) and says why it stops.
+ * it once more by itself (ensemble_run.c) and says why it stops.
  */
-#include "api/ensemble/ensemble_single.h"
-
 #include "api/request/choice.h"
+#include "api/ensemble/ensemble.h"
 
 #include <math.h>
 
@@ -71,7 +70,7 @@ static bool numbered(const ensemble_followed *f, int thread, followed *t, bool m
 /* Leaves the trajectory to a worker by itself. False: lanes do not go on with it. */
 static bool leave_it(const ensemble_followed *f, const followed *t)
 {
-    f->places->ends[t->number] = LANES_MAY_CRAWL;
+    f->e->outcomes[t->number].left = LANES_MAY_CRAWL;
     return false;
 }
 
@@ -82,7 +81,6 @@ static bool finish(const ensemble_followed *f, int thread, followed *t)
     if (!numbered(f, thread, t, true) || ensemble_single_observe(&t->at, &w->why) != MOTUS_OK ||
         ensemble_single_results(&t->at, f->places, t->number, false, true) != MOTUS_OK)
         return leave_it(f, t);
-    f->places->ends[t->number] = LANES_ARRIVED;
     return false;
 }
 

@@ -1,11 +1,11 @@
 /* One trajectory at a time, by any method and machine. See ensemble.h.
  *
  * Invariant: a trajectory has the bits of a run with its values, unless a witness objects, and is observed at the same
- * steps as in lanes. Afterwards the system has its own numbers again.
+ * steps as in lanes.
  */
 #include "api/error/bars.h"
-#include "api/ensemble/ensemble_single.h"
-#include "api/error/event_bars.h"
+#include "api/why/diagnosis.h"
+#include "api/ensemble/ensemble.h"
 #include "api/motion/run_events.h"
 #include "api/system/symmetry.h"
 
@@ -15,9 +15,8 @@
 #include <math.h>
 #include <string.h>
 
-static motus_status observe(void *ctx, motus_error *err)
+motus_status ensemble_single_observe(trajectory *s, motus_error *err)
 {
-    trajectory *s = ctx;
     const motus_ensemble *e = s->w->e;
     const double t = stepper_time(s->w->stepper);
     motus_status status = s->errors ? bars_observe(s->w->run, err) : MOTUS_OK;
@@ -34,33 +33,6 @@ static motus_status observe(void *ctx, motus_error *err)
             reduce_next(s->kept + r * REDUCE_KEPT, (int)e->records[r].how, s->now[r], t);
     s->observations++;
     return status;
-}
-
-/* ---- the model's own numbers, which the values of trajectories replace ---- */
-
-static size_t numbers_kept(const motus_ensemble *e)
-{
-    const model *m = e->system->model;
-    return m && e->vary_count ? m->pool_count + m->nx + m->nv : 0;
-}
-
-static void keep_numbers(const motus_ensemble *e, double *room)
-{
-    const model *m = e->system->model;
-    memcpy(room, m->pool, m->pool_count * sizeof *room);
-    memcpy(room + m->pool_count, m->x0, m->nx * sizeof *room);
-    memcpy(room + m->pool_count + m->nx, m->v0, m->nv * sizeof *room);
-}
-
-/* Cannot fail, because binding for a second time takes no memory. */
-static void put_back(motus_ensemble *e, const double *room)
-{
-    model *m = e->system->model;
-    memcpy(m->pool, room, m->pool_count * sizeof *room);
-    system_rebind(e->system);
-    memcpy(m->x0, room + m->pool_count, m->nx * sizeof *room);
-    memcpy(m->v0, room + m->pool_count + m->nx, m->nv * sizeof *room);
-    e->system->judged_gyroscopic = false;
 }
 
 /* ---- a trajectory ---- */
@@ -103,6 +75,8 @@ static motus_status start(trajectory *s, const double *const *values, size_t k, 
     return MOTUS_OK;
 }
 
+static motus_status observe(void *ctx, motus_error *err) { return ensemble_single_observe(ctx, err); }
+
 static motus_status advance(void *ctx, stepper_limit limit, stepper_stop *why, motus_error *err)
 {
     const trajectory *s = ctx;
@@ -111,7 +85,7 @@ static motus_status advance(void *ctx, stepper_limit limit, stepper_stop *why, m
         *why = STOP_STEPS;
         return run_events_steps(s->w->events, s->w->stepper, &s->w->pace, limit.steps, limit.until, why, err);
     }
-    if (!s->errors) return ensemble_advance(s->w, limit, why, err);
+    if (!s->errors) return pace_advance(&s->w->pace, s->w->stepper, limit, why, err);
     r->synchronised = false;
     const motus_status status = run_step(r, limit.steps, err);
     *why = status != MOTUS_OK ? STOP_FAILED : r->arrived ? STOP_UNTIL : STOP_STEPS;
@@ -163,13 +137,6 @@ static motus_status begin_events(worker *w, double until, motus_error *err)
     return events_begin(w->events, w->stepper, until, err);
 }
 
-void ensemble_number_calls(motus_system *s, size_t k, size_t count)
-{
-    if (s->model || !s->callback.block) return;
-    s->calling.first = k;
-    s->calling.count = count;
-}
-
 motus_status ensemble_single_begin(trajectory *s, const places *p, size_t k, bool *began, motus_error *err)
 {
     worker *w = s->w;
@@ -185,7 +152,7 @@ motus_status ensemble_single_begin(trajectory *s, const places *p, size_t k, boo
                  ? stepper_start(w->stepper, t->t0, t->h, s->x, s->v, err)
                  : stepper_create(&w->machine, &e->chosen, t->t0, t->h, s->x, s->v, &e->allocator, &w->stepper, err);
     *began = status == MOTUS_OK;
-    if (status == MOTUS_OK) ensemble_stopped_judged(w);
+    if (status == MOTUS_OK) stepper_judged(w->stepper, diagnosis_crawls, &w->diagnosed);
     if (status == MOTUS_OK) status = begin_events(w, t->until, err);
     if (status == MOTUS_OK && s->errors) status = ensemble_errors_begin(w, s->values, k, err);
     return status;
@@ -215,17 +182,12 @@ void ensemble_single_close(trajectory *s)
     s->x = NULL;
 }
 
-motus_status ensemble_single_observe(trajectory *s, motus_error *err) { return observe(s, err); }
-
 motus_status ensemble_single_results(trajectory *s, const places *p, size_t k, bool stopped, bool began)
 {
     worker *w = s->w;
     const motus_ensemble *e = w->e;
     motus_error why = motus_default_error();
-    if (stopped) ensemble_stopped_take(w, k, began);
-    ensemble_ended_take(w, k, stopped);
-    /* without a beginning the events are those of another trajectory */
-    const motus_status told = began ? ensemble_events_take(w, k, s->errors, &why) : MOTUS_OK;
+    const motus_status told = ensemble_outcome_take(w, k, stopped, began, s->errors, &why);
     for (size_t r = 0; r < e->record_count; r++) p->results[r][k] = stopped ? NAN : result(s, r);
     for (size_t r = 0; p->errors && r < e->record_count; r++) p->errors[r][k] = stopped ? NAN : error(s, r);
     if (p->stopped) p->stopped[k] = stopped ? w->why.time : NAN;
@@ -252,35 +214,12 @@ motus_status ensemble_one(worker *w, size_t k, void *ctx)
                            .advance = advance,
                            .observe = observe};
     if (status == MOTUS_OK) status = course_run(&course, &w->why);
-    const bool stopped = status == MOTUS_DIVERGED || status == MOTUS_SOLVE || status == MOTUS_STEPS ||
-                         status == MOTUS_EVENTS || (status == MOTUS_CALLBACK && w->why.returned > 0);
+    const bool stopped = ensemble_stopped(status, &w->why);
     if (stopped || status == MOTUS_OK) {
         status = ensemble_single_results(&s, p, k, stopped, began);
-        atomic_fetch_add(&w->e->done, 1);
-        if (w->number == 0 && ensemble_report(w->e, (double)atomic_load(&e->done) / (double)e->count)) {
-            atomic_store(&w->e->stop, true);
-            status = MOTUS_CANCELLED;
-        }
+        if (ensemble_done(w, 1) != MOTUS_OK) status = MOTUS_CANCELLED;
     }
     ensemble_number_calls(w->system, 0, 0);
     ensemble_single_close(&s);
     return status;
-}
-
-motus_status ensemble_each_singly(motus_ensemble *e, size_t first, size_t items,
-                                  motus_status (*one)(worker *, size_t item, void *ctx), void *ctx, motus_error *err)
-{
-    const size_t kept = numbers_kept(e);
-    double *own = kept ? take(&e->allocator, kept, sizeof *own) : NULL;
-    if (kept && !own) return fail(err, MOTUS_MEMORY, "no memory for the ensemble");
-    if (kept) keep_numbers(e, own);
-    motus_status status = ensemble_each(e, first, items, one, ctx, err);
-    if (kept) put_back(e, own);
-    give(&e->allocator, own);
-    return status;
-}
-
-motus_status ensemble_singly(motus_ensemble *e, const places *p, size_t first, motus_error *err)
-{
-    return ensemble_each_singly(e, first, e->count - first, ensemble_one, (void *)p, err);
 }

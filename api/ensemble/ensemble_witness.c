@@ -8,12 +8,10 @@
  */
 #include "api/error/bars.h"
 #include "api/request/choice.h"
-#include "api/ensemble/ensemble_single.h"
+#include "api/ensemble/ensemble.h"
 #include "api/search/pilot.h"
 
 #include "core/stepper_body.h"
-
-#include <string.h>
 
 enum { PILOTS = 3, CHUNK = 16 };
 /* Operations of all pilots. Steps with their companion and the witness cost about COST times the steps alone. */
@@ -81,7 +79,7 @@ motus_status ensemble_witness_ask(motus_ensemble *e, const places *p, size_t pil
     e->awaits = AWAITS_NOTHING, e->exactly = 0;
     e->looks = true;
     if (!e->machine.problem) e->machine = e->system->machine;
-    status = ensemble_each_singly(e, 0, pilots, fly, &f, err);
+    status = ensemble_each(e, 0, pilots, fly, &f, err);
     e->awaits = awaits, e->exactly = exactly;
     ensemble_workers_destroy(e); /* their witnesses leave companions as they are, and those who await something ask */
     e->decided = status == MOTUS_OK;
@@ -93,15 +91,4 @@ motus_status ensemble_witness_first(motus_ensemble *e, const places *p, motus_er
 {
     if (!p->errors) return MOTUS_OK;
     return ensemble_witness_ask(e, p, e->count < PILOTS ? e->count : PILOTS, err);
-}
-
-motus_status ensemble_witness_as(motus_ensemble *e, const motus_ensemble *other, motus_error *err)
-{
-    e->decided = other->decided, e->looks = other->looks;
-    if (!other->home) return MOTUS_OK;
-    e->home_places = take(&e->allocator, e->vary_count + 1, sizeof *e->home_places);
-    if (!e->home_places) return fail(err, MOTUS_MEMORY, "no memory for the ensemble");
-    memcpy(e->home_places, other->home_places, e->vary_count * sizeof *e->home_places);
-    motus_system_hold(e->home = other->home, true);
-    return MOTUS_OK;
 }

@@ -3,14 +3,45 @@
  * Invariant: workers share no data that changes but `done` and `stop`, so the result of an item does not depend on
  * which worker computes it.
  */
-#include "api/system/symmetry.h"
-#include "api/ensemble/ensemble.h"
-
 #include "api/request/choice.h"
+#include "api/ensemble/ensemble.h"
+#include "api/system/symmetry.h"
 
 #include "machine/parallel.h"
 
-/* ---- workers ---- */
+#include <math.h>
+#include <string.h>
+
+/* ---- progress ---- */
+
+int ensemble_report(void *context, double fraction)
+{
+    motus_ensemble *e = context;
+    const double t = e->progress ? pace_now() : 0;
+    if (!e->progress || t - e->reported < 0.01) return 0;
+    e->reported = t;
+    if (fraction > e->fraction) e->fraction = fraction; /* trajectories that lanes leave are begun anew */
+    return e->progress(e->context, e->fraction);
+}
+
+bool ensemble_look(motus_ensemble *e)
+{
+    if (e->awaits == AWAITS_LANES) {
+        const bool there = lanes_look(e->lanes);
+        return (!e->half_lanes || lanes_look(e->half_lanes)) && there;
+    }
+    if (e->awaits == AWAITS_NOTHING || e->found.name || e->missing) return true;
+    compiled_state state;
+    motus_error ignored = motus_default_error();
+    const char *why = NULL;
+    const motus_status status = choice_look(e->system, &e->chosen, &state, &e->found, &why, &ignored);
+    if (status == MOTUS_OK && state == COMPILED_WAIT) return false;
+    if (status != MOTUS_OK || state == COMPILED_FAILED) {
+        e->missing = why ? why : "there is no memory for the compiled model";
+        e->found.name = NULL;
+    }
+    return true;
+}
 
 /* While the object is awaited: whether it is there, and after that the compiler goes first. */
 static void rest(worker *w)
@@ -34,6 +65,8 @@ int ensemble_tell(void *ctx, double now)
     rest(w);
     return atomic_load(&e->stop) || atomic_load(&e->over);
 }
+
+/* ---- workers ---- */
 
 motus_status ensemble_worker_prepare(motus_ensemble *e, worker *w, int number, motus_error *err)
 {
@@ -65,16 +98,84 @@ motus_status ensemble_worker_prepare(motus_ensemble *e, worker *w, int number, m
     return MOTUS_OK;
 }
 
+void ensemble_worker_end_run(worker *w)
+{
+    if (!w->run) return;
+    w->run->stepper = NULL; /* they are the worker's */
+    w->run->events = NULL;
+    run_destroy(w->run);
+    w->run = NULL;
+    w->half_vary = w->home_vary = NULL;
+    motus_system_destroy(w->home);
+    w->home = NULL;
+}
+
+motus_status ensemble_done(worker *w, size_t count)
+{
+    motus_ensemble *e = w->e;
+    atomic_fetch_add(&e->done, count);
+    if (w->number || !ensemble_report(e, (double)atomic_load(&e->done) / (double)e->count)) return MOTUS_OK;
+    atomic_store(&e->stop, true);
+    return MOTUS_CANCELLED;
+}
+
+bool ensemble_stopped(motus_status status, const motus_error *why)
+{
+    return status == MOTUS_DIVERGED || status == MOTUS_SOLVE || status == MOTUS_STEPS || status == MOTUS_EVENTS ||
+           (status == MOTUS_CALLBACK && why->returned > 0);
+}
+
+motus_status ensemble_timing(const motus_ensemble *e, const places *p, size_t k, timing *t, motus_error *err)
+{
+    *t = e->timing;
+    if (p->until && isnan(p->until[k])) return fail(err, MOTUS_ARGUMENT, "the end is not a number");
+    return p->until ? run_timing(&e->chosen, e->step, p->until[k], e->system->start, t, err) : MOTUS_OK;
+}
+
+void ensemble_number_calls(motus_system *s, size_t k, size_t count)
+{
+    if (s->model || !s->callback.block) return;
+    s->calling.first = k;
+    s->calling.count = count;
+}
+
 void ensemble_workers_destroy(motus_ensemble *e)
 {
     for (int i = 0; e->workers && i < e->threads; i++) {
-        ensemble_errors_end(&e->workers[i]);
+        ensemble_worker_end_run(&e->workers[i]);
         stepper_destroy(e->workers[i].stepper);
         events_destroy(e->workers[i].events);
         if (i > 0) motus_system_destroy(e->workers[i].system);
     }
     give(&e->allocator, e->workers);
     e->workers = NULL;
+}
+
+/* ---- the model's own numbers, which the values of trajectories replace ---- */
+
+static size_t numbers_kept(const motus_ensemble *e)
+{
+    const model *m = e->system->model;
+    return m && e->vary_count ? m->pool_count + m->nx + m->nv : 0;
+}
+
+static void keep_numbers(const motus_ensemble *e, double *room)
+{
+    const model *m = e->system->model;
+    memcpy(room, m->pool, m->pool_count * sizeof *room);
+    memcpy(room + m->pool_count, m->x0, m->nx * sizeof *room);
+    memcpy(room + m->pool_count + m->nx, m->v0, m->nv * sizeof *room);
+}
+
+/* Cannot fail, because binding for a second time takes no memory. */
+static void put_back(motus_ensemble *e, const double *room)
+{
+    model *m = e->system->model;
+    memcpy(m->pool, room, m->pool_count * sizeof *room);
+    system_rebind(e->system);
+    memcpy(m->x0, room + m->pool_count, m->nx * sizeof *room);
+    memcpy(m->v0, room + m->pool_count + m->nx, m->nv * sizeof *room);
+    e->system->judged_gyroscopic = false;
 }
 
 /* ---- items ---- */
@@ -114,13 +215,8 @@ static void take_item(void *ctx, size_t number, int thread)
     if (w->status != MOTUS_OK) atomic_store(&e->stop, true);
 }
 
-motus_status ensemble_each(motus_ensemble *e, size_t first, size_t items,
-                           motus_status (*one)(worker *, size_t item, void *ctx), void *ctx, motus_error *err)
+static motus_status prepare(motus_ensemble *e, int threads, motus_error *err)
 {
-    int threads = items < (size_t)e->threads ? (int)items : e->threads;
-    /* a processor for the compiler that is awaited: what it makes computes many times as fast */
-    if (e->awaits && threads > 1 && threads >= parallel_processors()) threads = parallel_processors() - 1;
-    if (threads < 1 || e->system->allocator.allocate) threads = 1; /* one thread alone calls the hooks */
     if (!e->workers && !(e->workers = take(&e->allocator, (size_t)e->threads, sizeof *e->workers)))
         return fail(err, MOTUS_MEMORY, "no memory for the ensemble");
     for (int i = 0; i < threads; i++) {
@@ -129,12 +225,12 @@ motus_status ensemble_each(motus_ensemble *e, size_t first, size_t items,
         e->workers[i].status = MOTUS_OK;
         e->workers[i].why = motus_default_error();
     }
-    atomic_store(&e->done, first);
-    atomic_store(&e->stop, false);
-    atomic_store(&e->over, false);
-    atomic_store(&e->left, SIZE_MAX);
-    item_list list = {e, first, one, ctx};
-    parallel_for(threads, items, take_item, &list);
+    return MOTUS_OK;
+}
+
+/* The status of the workers, each of which has left its items at the first that failed. */
+static motus_status judge(const motus_ensemble *e, int threads, motus_error *err)
+{
     const worker *failed = NULL;
     for (int i = 0; i < threads; i++) {
         const worker *w = &e->workers[i];
@@ -151,7 +247,27 @@ motus_status ensemble_each(motus_ensemble *e, size_t first, size_t items,
     return failed->status;
 }
 
-motus_status ensemble_advance(worker *w, stepper_limit limit, stepper_stop *why, motus_error *err)
+motus_status ensemble_each(motus_ensemble *e, size_t first, size_t items,
+                           motus_status (*one)(worker *, size_t item, void *ctx), void *ctx, motus_error *err)
 {
-    return pace_advance(&w->pace, w->stepper, limit, why, err);
+    const size_t kept = numbers_kept(e);
+    double *own = kept ? take(&e->allocator, kept, sizeof *own) : NULL;
+    if (kept && !own) return fail(err, MOTUS_MEMORY, "no memory for the ensemble");
+    if (kept) keep_numbers(e, own);
+    int threads = items < (size_t)e->threads ? (int)items : e->threads;
+    /* a processor for the compiler that is awaited: what it makes computes many times as fast */
+    if (e->awaits && threads > 1 && threads >= parallel_processors()) threads = parallel_processors() - 1;
+    if (threads < 1 || e->system->allocator.allocate) threads = 1; /* one thread alone calls the hooks */
+    atomic_store(&e->done, first);
+    atomic_store(&e->stop, false);
+    atomic_store(&e->over, false);
+    atomic_store(&e->left, SIZE_MAX);
+    motus_status status = prepare(e, threads, err);
+    if (status == MOTUS_OK) {
+        parallel_for(threads, items, take_item, &(item_list){e, first, one, ctx});
+        status = judge(e, threads, err);
+    }
+    if (kept) put_back(e, own);
+    give(&e->allocator, own);
+    return status;
 }

@@ -1,0 +1,159 @@
+/* The making of an ensemble, from a definition that is complete. See ensemble.h. */
+#include "api/error/bars.h"
+#include "api/ensemble/ensemble.h"
+#include "api/system/located.h"
+#include "api/search/suggest.h"
+#include "machine/parallel.h"
+
+#include <math.h>
+#include <string.h>
+
+static motus_status find_places(motus_ensemble *e, const motus_ensemble_def *d, motus_error *err)
+{
+    for (size_t k = 0; k < d->vary_count; k++) {
+        bool twice = false;
+        if (d->vary[k] && !strcmp(d->vary[k], "until")) {
+            twice = e->until != SIZE_MAX;
+            e->until = k;
+        } else {
+            size_t *place = &e->places[e->vary_count];
+            motus_status status = ensemble_place(e->system, d->vary[k], place, err);
+            if (status == MOTUS_OK && e->home)
+                status = ensemble_place(e->home, d->vary[k], &e->home_places[e->vary_count], err);
+            if (status != MOTUS_OK) return status;
+            for (size_t i = 0; i < e->vary_count; i++) twice |= e->places[i] == *place;
+            e->vary_count++;
+        }
+        if (twice) return fail(err, MOTUS_ARGUMENT, "%s varies twice", d->vary[k]);
+    }
+    if (e->until != SIZE_MAX && !isnan(d->until))
+        return fail(err, MOTUS_ARGUMENT, "the end is %g, and varies: only one of them can hold", d->until);
+    return MOTUS_OK;
+}
+
+/* What varies has been found for another ensemble of the system. */
+static void take_places(motus_ensemble *e, const motus_ensemble *like)
+{
+    e->until = like->until, e->vary_count = like->vary_count;
+    e->decided = like->decided, e->looks = like->looks;
+    memcpy(e->places, like->places, e->vary_count * sizeof *e->places);
+    if (e->home) memcpy(e->home_places, like->home_places, e->vary_count * sizeof *e->home_places);
+}
+
+static motus_status complete(motus_ensemble *e, const motus_ensemble_def *d, const motus_ensemble *like,
+                             motus_error *err)
+{
+    motus_system *s = e->system;
+    request q = request_of_ensemble(s, d);
+    motus_status status = request_row(s, q.method, &e->chosen, &e->card, err);
+    if (status == MOTUS_OK) status = system_rules(s, &e->rules, err);
+    if (status == MOTUS_OK) status = ensemble_outcome_prepare(e, d, err);
+    if (like) take_places(e, like);
+    if (status == MOTUS_OK && !like) status = find_places(e, d, err);
+    if (status == MOTUS_OK && e->error != MOTUS_BARS_NONE) status = ensemble_errors_prepare(e, err);
+    if (status == MOTUS_OK) status = request_choose(s, &q, err);
+    if (status == MOTUS_OK) status = suggest_missing(s, &q, err);
+    const bool ends = e->until != SIZE_MAX; /* then each trajectory gets its own timing later */
+    e->chosen = q.chosen;
+    e->step = q.step;
+    if (status == MOTUS_OK)
+        status = run_timing(&e->chosen, e->step, ends ? s->start : q.until, s->start, &e->timing, err);
+    if (status == MOTUS_OK && s->model)
+        status =
+            vary_create(s->model, e->places, e->vary_count, q.step_said == SAID_CALLER || q.step_said == SAID_SUGGESTED,
+                        ends || q.until_said != SAID_MODEL, &e->vary, err);
+    return status == MOTUS_OK ? ensemble_machine_choose(e, d, err) : status;
+}
+
+/* The system whose steps end where a switch changes its side, by the rule of runs; NULL: the caller's own, and `why`
+ * says why where switches could have been located. */
+static motus_status locate(motus_system *s, const motus_ensemble_def *d, motus_system **out, const char **why,
+                           motus_error *err)
+{
+    chosen c;
+    const motus_method *card;
+    *out = NULL;
+    *why = "";
+    const motus_switches asked = d->switches;
+    const motus_status status = request_row(s, request_of_ensemble(s, d).method, &c, &card, err);
+    if (status != MOTUS_OK) return status;
+    if (asked == MOTUS_SWITCHES_RESOLVE) return fail(err, MOTUS_UNAVAILABLE, "an ensemble does not resolve switches");
+    const motus_status found = located_for(s, &c, asked, out, why, err);
+    const bool refused = asked == MOTUS_SWITCHES_LOCATE && !*out && s->model && located_kinks(s->model);
+    if (found != MOTUS_OK || !refused || row_adaptive(&c)) return found;
+    fail(err, MOTUS_UNAVAILABLE,
+         "steps of one size in an ensemble do not locate switches beyond which the force may be "
+         "undefined, and those of %s do not adapt",
+         c.name);
+    hint(err, "choose an adaptive method, dop853 or taylor, or leave `switches` of the definition out");
+    return MOTUS_UNAVAILABLE;
+}
+
+motus_status ensemble_make(motus_system *s, const motus_ensemble_def *d, ensemble_goal *goal,
+                           const motus_ensemble *like, motus_ensemble **out, motus_error *err)
+{
+    motus_system *home = like ? like->home : NULL, *located = NULL;
+    const char *why = "";
+    motus_status status = like ? MOTUS_OK : locate(s, d, &located, &why, err);
+    if (status != MOTUS_OK) return status;
+    if (located) home = s, s = located;
+    motus_ensemble *e = take(&s->allocator, 1, sizeof *e);
+    if (!e) return fail(err, MOTUS_MEMORY, "no memory for the ensemble");
+    *e = (motus_ensemble){.system = s,
+                          .home = home,
+                          .not_located = why,
+                          .allocator = s->allocator,
+                          .every = d->every,
+                          .given = d->vary_count,
+                          .until = SIZE_MAX,
+                          .step = d->step,
+                          .record_count = d->record_count + (goal != NULL),
+                          .error = d->error,
+                          .tells_causes = d->causes != 0,
+                          .threads = d->threads ? d->threads
+                                     : s->model ? parallel_processors()
+                                                : 1,
+                          .progress = d->progress,
+                          .context = d->context};
+    motus_system_hold(s, true);
+    if (home) motus_system_hold(home, true);
+    e->places = take(&s->allocator, d->vary_count + 1, sizeof *e->places);
+    e->records = take(&s->allocator, e->record_count, sizeof *e->records);
+    e->values = take(&s->allocator, d->vary_count + 1, sizeof *e->values);
+    modes m = modes_enter();
+    if (home) e->home_places = take(&s->allocator, d->vary_count + 1, sizeof *e->home_places);
+    if (!e->places || !e->records || !e->values || (home && !e->home_places)) {
+        status = fail(err, MOTUS_MEMORY, "no memory for the ensemble");
+    } else {
+        memcpy(e->records, d->records, d->record_count * sizeof *e->records);
+        if (goal) e->records[d->record_count] = (motus_record){MOTUS_REDUCE_ACCURACY, 0};
+        status = complete(e, d, like, err);
+    }
+    modes_leave(m);
+    if (status == MOTUS_OK)
+        *out = e, e->goal = goal;
+    else
+        ensemble_free(e);
+    return status;
+}
+
+void ensemble_free(motus_ensemble *e)
+{
+    motus_allocator a = e->allocator;
+    ensemble_machine_end(e);
+    motus_system_hold(e->system, false);
+    if (e->home) motus_system_hold(e->home, false);
+    ensemble_lanes_end(e);
+    ensemble_workers_destroy(e);
+    ensemble_outcome_end(e);
+    motus_system_destroy(e->half);
+    give(&a, e->event_columns);
+    give(&a, e->places);
+    give(&a, e->home_places);
+    give(&a, e->records);
+    give(&a, (void *)e->values);
+    give(&a, e->compared_columns);
+    give(&a, e->compared_record);
+    give(&a, e->how);
+    give(&a, e);
+}
