@@ -64,12 +64,24 @@ judge "check --json has the documented keys" "$("$motus" check models/spring.mot
         jq -e "has(\"$key\")" "$place/check.json" >/dev/null 2>&1 || echo "$key"; done)"
 
 # --- links ------------------------------------------------------------------------------------------------------------------------------
-judge "links lead somewhere" "$(for file in README.md CONTRIBUTING.md HOUSE.md doc/manual.md doc/engine.md; do
+judge "links lead somewhere" "$(for file in README.md CONTRIBUTING.md HOUSE.md doc/*.md; do
     grep -oE '\]\([^)#]+\)' "$file" | sed 's/^](//; s/)$//' | while read -r link; do
         # x[i](0) is not a link
         [[ $link == http* || $link != *[./]* ]] || [ -e "$(dirname "$file")/$link" ] || echo "$file: $link"; done; done)"
-judge "anchors of the manual exist" "$(grep -oE '\]\(#[^)]+\)' doc/manual.md | sed 's/^](#//; s/)$//' | while read -r anchor; do
-    grep -E '^#+ ' doc/manual.md | sed -E 's/^#+ //' | tr 'A-Z ' 'a-z-' | tr -d '.,' | grep -qx -- "$anchor" || echo "$anchor"; done)"
+judge "anchors exist" "$(for file in doc/manual.md doc/cookbook.md; do
+    grep -oE '\]\(#[^)]+\)' $file | sed 's/^](#//; s/)$//' | while read -r anchor; do
+        grep -E '^#+ ' $file | sed -E 's/^#+ //' | tr 'A-Z ' 'a-z-' | tr -d '.,?' | grep -qx -- "$anchor" || echo "$file: $anchor"; done; done)"
+
+# --- twelve tasks -------------------------------------------------------------------------------------------------------------------
+mkdir "$place/tasks"
+MOTUS=$motus cmake/cookbook.sh "$place/tasks"
+judge "the cookbook has twelve tasks, and each ends as it says" "$(for task in $(seq 12); do
+    [ "$(cat "$place/tasks/$task.status" 2>&1)" = "$([ "$task" = 10 ] && echo 1 || echo 0)" ] || { echo "$task:"; cat "$place/tasks/$task.err"; }; done)"
+judge "a model of the cookbook has at most ten lines" "$(wc -l "$place"/tasks/*.motus | awk '$2 != "total" && $1 > 10')"
+judge "the tasks print what the cookbook shows" "$(awk '/^## / { task = $2 + 0 } /^```/ { shown = $0 == "```text"; next } shown { print task " " $0 }' doc/cookbook.md |
+    while IFS= read -r line; do grep -qxF -- "${line#* }" "$place/tasks/${line%% *}.out" || echo "$line"; done)"
+judge "... and draw the pictures that it has (make manual writes them)" "$(for picture in $(grep -oE '\(cookbook/[a-z]+\.png' doc/cookbook.md | cut -d/ -f2); do
+    head -c 8 "$place/tasks/$picture" 2>&1 | grep -qa PNG || echo "$picture"; [ -s "doc/cookbook/$picture" ] || echo "doc/cookbook/$picture"; done)"
 
 # --- printed examples ------------------------------------------------------------------------------------------------------------
 block doc/manual.md 1 "" >"$place/spring.motus"
