@@ -33,15 +33,15 @@ typedef struct lanes_tally {
  * stepper_save; a step that reaches the time `tick` is looked at; where steps have one size, lanes give the trajectory
  * back after `stop` steps of the leg. A trajectory keeps the `place` that it begins with. `idle` is asked of a step of
  * which the bounds leave something open; where it denies, or a trajectory is to be looked at for another reason, `look`
- * is led to the state before that step, `steps` after the state that it gave. `begin` and `look` give a state from
- * which lanes go on, or tell that the trajectory is over: then nothing is left to do for it. On a long way they ask
- * whether all is `over`, and nothing counts any more. `arrive` is led to the end, and `leave` is told of a trajectory
- * that lanes cannot lead on. */
+ * is led to the state before that step, or to the `end` of the trajectory, `steps` after the state that it gave.
+ * `begin` and `look` give a state from which lanes go on, or tell that the trajectory is over: then nothing is left to
+ * do for it. On a long way they ask whether all is `over`, and nothing counts any more. */
 typedef struct lanes_state {
     double t0, h, tick;
     int64_t stop;
     stepper_count at;
     double *carry;
+    bool end;
     bool (*over)(void *asked);
     void *asked;
 } lanes_state;
@@ -50,8 +50,6 @@ typedef struct lanes_follower {
     bool (*begin)(void *ctx, int thread, size_t place, size_t trajectory, lanes_state *);
     bool (*idle)(void *ctx, int thread, size_t place, const stepper_shown *);
     bool (*look)(void *ctx, int thread, size_t place, int64_t steps, const double *largest, lanes_state *);
-    void (*arrive)(void *ctx, int thread, size_t place, int64_t steps, const double *largest, const lanes_state *);
-    void (*leave)(void *ctx, int thread, size_t place);
 } lanes_follower;
 
 typedef struct lanes_def {
@@ -78,8 +76,8 @@ typedef struct lanes_def {
      * positions and velocities. NULL: nothing is added. */
     void (*rounding)(void *context, const double *const *values, size_t trajectory, const double *state,
                      double *const *errors);
-    /* Called for each trajectory that does not come to its end. One that may crawl (core/stepper.h) is left where it
-     * is, for a stepper to judge. */
+    /* Called for each trajectory that does not come to its end. One that may crawl (core/stepper.h), or stops while its
+     * events are followed, is left where it is, for a stepper to judge. */
     void (*left)(void *context, size_t trajectory, int how);
     void *context;
 } lanes_def;

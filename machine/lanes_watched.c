@@ -183,25 +183,19 @@ static void look(void *ctx, size_t lane)
 {
     watched *s = ctx;
     const lanes_job *j = &s->block.job;
-    const int thread = s->item->thread;
-    const bool met = j->met[lane] != 0,
-               ends = s->l->plan.carried && *clock_of(s, lane, LANES_T) == *clock_of(s, lane, LANES_UNTIL);
     if (j->lost[lane] != 0 || !lanes_block_finite(s->l, j->carry, s->l->carried, lane)) {
-        s->by->leave(s->by->ctx, thread, lane);
+        s->l->def.left(s->l->def.context, s->number[lane], LANES_MAY_CRAWL);
         over(s, lane);
         return;
     }
-    const bool back = met && !idle(s, lane);
+    const bool ends = s->l->plan.carried && *clock_of(s, lane, LANES_T) == *clock_of(s, lane, LANES_UNTIL),
+               back = j->met[lane] != 0 && !idle(s, lane);
     if (!back && !ends && *clock_of(s, lane, LANES_N) != *clock_of(s, lane, LANES_STOP)) return;
     lanes_state state = state_of(s, lane, back);
-    const int64_t steps = state.at.steps - s->since[lane];
-    const double *largest = largest_of(s, lane);
-    if (!ends || back) {
-        go_on(s, lane, s->by->look(s->by->ctx, thread, lane, steps, largest, &state), &state);
-        return;
-    }
-    s->by->arrive(s->by->ctx, thread, lane, steps, largest, &state);
-    over(s, lane);
+    state.end = ends && !back;
+    go_on(s, lane,
+          s->by->look(s->by->ctx, s->item->thread, lane, state.at.steps - s->since[lane], largest_of(s, lane), &state),
+          &state);
 }
 
 static void run(void *ctx)

@@ -99,7 +99,7 @@ motus_status motus_ensemble_run_errors(motus_ensemble *e, size_t count, const do
     const places p = {.results = results, .errors = errors, .stopped = stopped};
     if (!motus_error_sound(err)) return MOTUS_ARGUMENT;
     if (!errors) return fail(err, MOTUS_ARGUMENT, "motus_ensemble_run_errors needs room for errors");
-    if (e && (e->goal ? !ensemble_accuracy_told(e->goal) : e->error == MOTUS_BARS_NONE)) {
+    if (e && (e->goal ? !e->goal->told : e->error == MOTUS_BARS_NONE)) {
         fail(err, MOTUS_ARGUMENT, "the ensemble tells no errors");
         hint(err, "give `error = MOTUS_BARS_CHEAP` of the definition");
         return MOTUS_ARGUMENT;
@@ -170,11 +170,7 @@ double motus_ensemble_tolerance(const motus_ensemble *e, int *absolute)
     if (absolute) *absolute = c && c->absolute > 0;
     return c ? tally_tolerance(c) : NAN;
 }
-double motus_ensemble_accuracy(const motus_ensemble *e)
-{
-    return e && e->goal ? ensemble_accuracy_wanted(e->goal) : NAN;
-}
-
+double motus_ensemble_accuracy(const motus_ensemble *e) { return e && e->goal ? e->goal->wanted : NAN; }
 const char *motus_ensemble_machine(const motus_ensemble *e) { return e ? ensemble_machine(e) : ""; }
 const char *motus_ensemble_note(const motus_ensemble *e) { return e ? e->note : ""; }
 int motus_ensemble_lanes(const motus_ensemble *e)

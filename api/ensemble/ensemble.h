@@ -37,8 +37,21 @@ typedef struct worker {
     motus_error why;
 } worker;
 
-typedef struct ensemble_goal ensemble_goal;         /* ensemble_accuracy.c */
 typedef struct ensemble_followed ensemble_followed; /* ensemble_followed.c: trajectories with events in lanes */
+
+/* An accuracy is asked for. */
+typedef struct ensemble_goal {
+    motus_allocator allocator;
+    double wanted;
+    bool told;              /* the caller asks for errors */
+    motus_ensemble_def def; /* of which all that it points to may be gone */
+    const char *machine;
+    struct ensemble_other *others; /* the ensembles of other tolerances */
+    /* of the caller: each part of the search takes half of what is left of a call */
+    int (*progress)(void *context, double fraction);
+    void *context;
+    double from, size;
+} ensemble_goal;
 
 /* The events of a trajectory. */
 typedef struct ensemble_table {
@@ -70,7 +83,7 @@ struct motus_ensemble {
     motus_system *home;      /*   of this one; NULL: the caller's own */
     const char *not_located; /* why switches are not; "": they are, or that was not asked for */
     const rules *rules;      /* of the system, NULL: it has none */
-    ensemble_goal *goal;     /* an accuracy is asked for; NULL: none is */
+    ensemble_goal *goal;     /* NULL: no accuracy is asked for */
     chosen chosen;
     const motus_method *card;
     timing timing;
@@ -82,7 +95,7 @@ struct motus_ensemble {
     /* ---- what varies ---- */
     size_t vary_count;     /* without `until` */
     size_t *places;        /* of the numbers that vary: in the pool; of a callback: in x, then v */
-    size_t *home_places;   /*   of `home`; NULL */
+    size_t *home_places;   /*   of `home` */
     const double **values; /* of the present run, at these places */
     size_t given;          /* arrays of values that a run is given, `until` included */
     size_t until;          /* its index among them where it varies, or SIZE_MAX */
@@ -162,8 +175,7 @@ motus_status ensemble_place(const motus_system *, const char *name, size_t *plac
 
 /* ---- ensemble_outcome.c: what trajectories came to ---- */
 
-/* Whether the definition asks for tables of events; and room for the outcomes of `count` trajectories. */
-motus_status ensemble_outcome_prepare(motus_ensemble *, const motus_ensemble_def *, motus_error *);
+/* Room for the outcomes of `count` trajectories. */
 motus_status ensemble_outcome_begin(motus_ensemble *, size_t count, motus_error *);
 /* The outcome of the worker's trajectory k, which has come to its end, or stopped, by w->why. `began`: the worker's
  * stepper had begun; `errors`: those of the times of its events are told. */
@@ -298,8 +310,6 @@ void ensemble_free(motus_ensemble *); /* but for its goal */
  * tried and by bars, and makes what searches for the others. */
 motus_status ensemble_accuracy_begin(motus_system *, motus_ensemble_def *, ensemble_goal **, motus_error *);
 void ensemble_accuracy_end(ensemble_goal *);
-bool ensemble_accuracy_told(const ensemble_goal *); /* the caller's definition asks for errors */
-double ensemble_accuracy_wanted(const ensemble_goal *);
 motus_status ensemble_accuracy_run(motus_ensemble *, size_t count, const double *const *values, const places *,
                                    motus_error *);
 

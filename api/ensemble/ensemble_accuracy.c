@@ -17,26 +17,11 @@
 
 #define METHOD "dop853" /* where nobody names one: it admits every force */
 
-/* The ensemble of another tolerance. */
-typedef struct other {
-    struct other *next;
+typedef struct ensemble_other {
+    struct ensemble_other *next;
     double tolerance;
     motus_ensemble *ensemble;
 } other;
-
-struct ensemble_goal {
-    motus_allocator allocator;
-    double wanted;
-    bool absolute, told;    /* told: the caller asks for errors */
-    size_t records;         /* of the caller; behind them is what a trajectory reached */
-    motus_ensemble_def def; /* of which all that it points to may be gone */
-    const char *machine;
-    other *others;
-    /* of the caller: each part of the search takes half of what is left of a call */
-    int (*progress)(void *context, double fraction);
-    void *context;
-    double from, size;
-};
 
 static int tell(void *context, double fraction)
 {
@@ -78,9 +63,7 @@ motus_status ensemble_accuracy_begin(motus_system *s, motus_ensemble_def *d, ens
     if (!g) return fail(err, MOTUS_MEMORY, "no memory for the ensemble");
     *g = (ensemble_goal){.allocator = s->allocator,
                          .wanted = q.accuracy,
-                         .absolute = q.absolute,
                          .told = d->error != MOTUS_BARS_NONE,
-                         .records = d->record_count,
                          .machine = automatic  ? "auto"
                                     : compiled ? "compiled"
                                                : "interpreter",
@@ -114,10 +97,6 @@ void ensemble_accuracy_end(ensemble_goal *g)
     give(&a, g);
 }
 
-bool ensemble_accuracy_told(const ensemble_goal *g) { return g->told; }
-
-double ensemble_accuracy_wanted(const ensemble_goal *g) { return g->wanted; }
-
 /* ---- a call ---- */
 
 /* A trajectory whose bars are too large so far. */
@@ -146,7 +125,7 @@ static void miss(attempt *a, size_t number)
 static void list_open(attempt *a, size_t count)
 {
     const ensemble_goal *g = a->goal;
-    search s = search_by_tolerance(g->wanted, g->absolute);
+    search s = search_by_tolerance(g->wanted, g->def.absolute);
     search_set(&s, tally_tolerance(&a->e->chosen)); /* reversible rows take a smaller one */
     s.few = true;
     for (size_t k = 0; k < count; k++) {
@@ -253,7 +232,7 @@ static motus_status say_missed(const attempt *a, size_t count, motus_error *err)
              which);
     else
         fail(err, MOTUS_ACCURACY, "the accuracy %s is not reached by %s: its trials reached %.1e%s at best", wanted,
-             which, best, a->goal->absolute ? "" : " of the motion's size");
+             which, best, a->goal->def.absolute ? "" : " of the motion's size");
     if (isinf(best))
         hint(err, "errors grow with the time: end earlier, with a smaller `until` of the definition");
     else
@@ -297,12 +276,12 @@ motus_status ensemble_accuracy_run(motus_ensemble *e, size_t count, const double
         status = fail(err, MOTUS_MEMORY, "no memory for the ensemble");
     } else {
         for (size_t r = 0; r < records; r++) {
-            const bool own = r == g->records;
+            const bool own = r + 1 == records;
             at[r] = own ? room + records * count : given->results[r];
             errors[r] = own || !given->errors ? room + r * count : given->errors[r];
         }
         attempt a = {.e = e, .goal = g, .values = values, .results = at, .errors = errors, .open = open};
-        a.reached = at[g->records];
+        a.reached = at[records - 1];
         a.stopped = given->stopped ? given->stopped : room + (records + 1) * count;
         status = search_all(&a, count, &(places){.results = at, .errors = errors, .stopped = a.stopped}, err);
     }

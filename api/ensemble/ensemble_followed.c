@@ -13,11 +13,9 @@
 #include <math.h>
 
 typedef struct followed {
-    trajectory at; /* its values and results; x NULL: not made yet */
+    worker worker; /* the thread's, with a stepper and events of its own; e NULL: not made yet */
+    trajectory at; /* its values and results */
     size_t number;
-    stepper *stepper;
-    events *events;
-    timing timing;
     double leg, paced_t; /* when its leg began, and the time at which */
     int64_t paced;       /*   and the steps after which `crawls` last looked */
 } followed;
@@ -40,29 +38,13 @@ struct ensemble_followed {
 
 /* ---- a trajectory ---- */
 
-/* Lends the stepper and the events of a lane's trajectory to the worker of the thread, until put_down. */
-static followed *take_up(void *ctx, int thread, size_t place, worker **w)
-{
-    const ensemble_followed *f = ctx;
-    followed *t = &f->threads[thread].place[place];
-    *w = &f->threads[thread].worker;
-    (*w)->stepper = t->stepper, (*w)->events = t->events, (*w)->timing = t->timing;
-    return t;
-}
-
-static void put_down(followed *t, worker *w)
-{
-    t->stepper = w->stepper, t->events = w->events, t->timing = w->timing;
-    w->stepper = NULL, w->events = NULL;
-}
-
 /* Gives the worker's system the trajectory's numbers, where that matters. False: it failed. */
 static bool numbered(const ensemble_followed *f, int thread, followed *t, bool matters)
 {
     following *of = &f->threads[thread];
     if (!matters || of->numbers == t->number) return true;
     of->numbers = SIZE_MAX;
-    if (ensemble_single_numbers(&t->at, &of->worker.why) != MOTUS_OK) return false;
+    if (ensemble_single_numbers(&t->at, &t->worker.why) != MOTUS_OK) return false;
     of->numbers = t->number;
     return true;
 }
@@ -77,8 +59,7 @@ static bool leave_it(const ensemble_followed *f, const followed *t)
 /* Writes the results of a trajectory at its end. False: lanes do not go on with it. */
 static bool finish(const ensemble_followed *f, int thread, followed *t)
 {
-    worker *w = &f->threads[thread].worker;
-    if (!numbered(f, thread, t, true) || ensemble_single_observe(&t->at, &w->why) != MOTUS_OK ||
+    if (!numbered(f, thread, t, true) || ensemble_single_observe(&t->at, &t->worker.why) != MOTUS_OK ||
         ensemble_single_results(&t->at, f->places, t->number, false, true) != MOTUS_OK)
         return leave_it(f, t);
     return false;
@@ -87,7 +68,7 @@ static bool finish(const ensemble_followed *f, int thread, followed *t)
 /* Whether the trajectory may crawl: the test of the stepper, which does not see the steps that lanes take. */
 static bool crawls(followed *t)
 {
-    const stepper *s = t->at.w->stepper;
+    const stepper *s = t->worker.stepper;
     if (!row_adaptive(stepper_method(s))) return false;
     const int64_t n = stepper_steps(s);
     const double now = stepper_time(s), leg = stepper_leg(s);
@@ -96,7 +77,7 @@ static bool crawls(followed *t)
     double shortest, longest;
     stepper_sizes(s, &shortest, &longest);
     const bool may =
-        n == t->paced + STEPPER_PACE && stepper_may_crawl(n, fabs(now - t->paced_t), fabs(t->timing.until - now),
+        n == t->paced + STEPPER_PACE && stepper_may_crawl(n, fabs(now - t->paced_t), fabs(t->worker.timing.until - now),
                                                           longest, stepper_problem(s)->traits.smooth);
     t->paced = n, t->paced_t = now;
     return may;
@@ -107,21 +88,21 @@ static bool crawls(followed *t)
 static int64_t stop_of(const followed *t)
 {
     enum { LAST = 2 };
-    const stepper *s = t->at.w->stepper;
+    const stepper *s = t->worker.stepper;
     if (row_adaptive(stepper_method(s))) return INT64_MAX;
-    return stepper_steps(s) + stepper_steps_before(s, t->timing.until) - LAST;
+    return stepper_steps(s) + stepper_steps_before(s, t->worker.timing.until) - LAST;
 }
 
 /* Takes steps until bounds may tell of the next one. False: the trajectory is over. */
 static bool lead(const ensemble_followed *f, int thread, followed *t, lanes_state *state)
 {
     enum { LOOK = 1 << 10 }; /* steps between two questions whether all is over */
-    worker *w = &f->threads[thread].worker;
+    worker *w = &t->worker;
     stepper_stop why;
     int64_t steps = 0;
     do {
         if (++steps % LOOK == 0 && state->over(state->asked)) return false;
-        if (crawls(t) || events_go(w->events, w->stepper, t->timing.until, 1, &why, &w->why) != MOTUS_OK)
+        if (crawls(t) || events_go(w->events, w->stepper, t->worker.timing.until, 1, &why, &w->why) != MOTUS_OK)
             return leave_it(f, t);
         if (why != STOP_STEPS) return finish(f, thread, t);
     } while (!events_bounded(w->events, w->stepper) || stepper_steps(w->stepper) >= stop_of(t));
@@ -134,78 +115,45 @@ static bool lead(const ensemble_followed *f, int thread, followed *t, lanes_stat
     return true;
 }
 
-static bool begin_one(const ensemble_followed *f, int thread, followed *t, lanes_state *state)
+static bool begin(void *ctx, int thread, size_t place, size_t number, lanes_state *state)
 {
-    worker *w = &f->threads[thread].worker;
+    const ensemble_followed *f = ctx;
+    followed *t = &f->threads[thread].place[place];
+    worker *w = &t->worker;
     stepper_stop why;
     bool began;
+    t->number = f->first + number;
+    if (!w->e) *w = f->threads[thread].worker;
+    w->why = motus_default_error();
     if (!t->at.x && !ensemble_single_open(&t->at, w)) return leave_it(f, t);
     t->at.observations = 0;
     f->threads[thread].numbers = SIZE_MAX;
     if (ensemble_single_begin(&t->at, f->places, t->number, &began, &w->why) != MOTUS_OK) return leave_it(f, t);
     f->threads[thread].numbers = t->number;
-    t->timing = w->timing;
     t->leg = NAN;
-    if (stepper_advance(w->stepper, (stepper_limit){0, t->timing.until}, &why, &w->why) != MOTUS_OK)
+    if (stepper_advance(w->stepper, (stepper_limit){0, w->timing.until}, &why, &w->why) != MOTUS_OK)
         return leave_it(f, t);
     return why == STOP_UNTIL ? finish(f, thread, t) : lead(f, thread, t, state);
-}
-
-static bool begin(void *ctx, int thread, size_t place, size_t number, lanes_state *state)
-{
-    const ensemble_followed *f = ctx;
-    worker *w;
-    followed *t = take_up(ctx, thread, place, &w);
-    t->number = f->first + number;
-    w->why = motus_default_error();
-    const bool goes_on = begin_one(f, thread, t, state);
-    put_down(t, w);
-    return goes_on;
 }
 
 static bool idle(void *ctx, int thread, size_t place, const stepper_shown *step)
 {
     const ensemble_followed *f = ctx;
     followed *t = &f->threads[thread].place[place];
-    return numbered(f, thread, t, f->differ) && events_idle(t->events, step);
-}
-
-/* Brings the worker's stepper and events to the state that lanes have reached. */
-static bool come(const ensemble_followed *f, int thread, followed *t, int64_t steps, const double *largest,
-                 const lanes_state *state)
-{
-    worker *w = &f->threads[thread].worker;
-    return numbered(f, thread, t, f->differ) &&
-           stepper_load_leg(w->stepper, state->t0, state->h, state->at, state->carry, &w->why) == MOTUS_OK &&
-           events_led(w->events, w->stepper, steps, largest, &w->why) == MOTUS_OK;
+    return numbered(f, thread, t, f->differ) && events_idle(t->worker.events, step);
 }
 
 static bool look(void *ctx, int thread, size_t place, int64_t steps, const double *largest, lanes_state *state)
 {
     const ensemble_followed *f = ctx;
-    worker *w;
-    followed *t = take_up(ctx, thread, place, &w);
-    const bool goes_on = come(f, thread, t, steps, largest, state) ? lead(f, thread, t, state) : leave_it(f, t);
-    put_down(t, w);
-    return goes_on;
-}
-
-static void arrive(void *ctx, int thread, size_t place, int64_t steps, const double *largest, const lanes_state *state)
-{
-    const ensemble_followed *f = ctx;
-    worker *w;
-    followed *t = take_up(ctx, thread, place, &w);
-    if (come(f, thread, t, steps, largest, state))
-        (void)finish(f, thread, t);
-    else
-        (void)leave_it(f, t);
-    put_down(t, w);
-}
-
-static void leave(void *ctx, int thread, size_t place)
-{
-    const ensemble_followed *f = ctx;
-    (void)leave_it(f, &f->threads[thread].place[place]);
+    followed *t = &f->threads[thread].place[place];
+    worker *w = &t->worker;
+    /* its stepper and events come to the state that lanes have reached */
+    if (!numbered(f, thread, t, f->differ) ||
+        stepper_load_leg(w->stepper, state->t0, state->h, state->at, state->carry, &w->why) != MOTUS_OK ||
+        events_led(w->events, w->stepper, steps, largest, &w->why) != MOTUS_OK)
+        return leave_it(f, t);
+    return state->end ? finish(f, thread, t) : lead(f, thread, t, state);
 }
 
 /* ---- all ---- */
@@ -245,8 +193,7 @@ motus_status ensemble_followed_create(motus_ensemble *e, const lanes_follower **
     ensemble_followed *f = take(&e->allocator, 1, sizeof *f);
     if (!f) return fail(err, MOTUS_MEMORY, "no memory for the ensemble");
     e->followed = f;
-    *f = (ensemble_followed){
-        .e = e, .by = {.ctx = f, .begin = begin, .idle = idle, .look = look, .arrive = arrive, .leave = leave}};
+    *f = (ensemble_followed){.e = e, .by = {.ctx = f, .begin = begin, .idle = idle, .look = look}};
     *by = &f->by;
     return e->vary_count == 0 || depends(e, &f->differ) ? MOTUS_OK
                                                         : fail(err, MOTUS_MEMORY, "no memory for the ensemble");
@@ -285,8 +232,8 @@ void ensemble_followed_destroy(motus_ensemble *e)
         following *t = &f->threads[i];
         for (size_t k = 0; t->place && k < lanes; k++) {
             ensemble_single_close(&t->place[k].at);
-            stepper_destroy(t->place[k].stepper);
-            events_destroy(t->place[k].events);
+            stepper_destroy(t->place[k].worker.stepper);
+            events_destroy(t->place[k].worker.events);
         }
         give(&e->allocator, t->place);
         motus_system_destroy(t->worker.system);

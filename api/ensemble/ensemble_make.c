@@ -31,13 +31,22 @@ static motus_status find_places(motus_ensemble *e, const motus_ensemble_def *d, 
     return MOTUS_OK;
 }
 
+static motus_status check_columns(const motus_ensemble *e, motus_error *err)
+{
+    const size_t columns = e->system->column_count;
+    for (size_t k = 0; k < e->event_columns_count; k++)
+        if (e->event_columns[k] >= columns)
+            return fail(err, MOTUS_ARGUMENT, "event_columns has column %zu of %zu", e->event_columns[k], columns);
+    return MOTUS_OK;
+}
+
 /* What varies has been found for another ensemble of the system. */
 static void take_places(motus_ensemble *e, const motus_ensemble *like)
 {
     e->until = like->until, e->vary_count = like->vary_count;
     e->decided = like->decided, e->looks = like->looks;
     memcpy(e->places, like->places, e->vary_count * sizeof *e->places);
-    if (e->home) memcpy(e->home_places, like->home_places, e->vary_count * sizeof *e->home_places);
+    memcpy(e->home_places, like->home_places, e->vary_count * sizeof *e->home_places);
 }
 
 static motus_status complete(motus_ensemble *e, const motus_ensemble_def *d, const motus_ensemble *like,
@@ -47,7 +56,7 @@ static motus_status complete(motus_ensemble *e, const motus_ensemble_def *d, con
     request q = request_of_ensemble(s, d);
     motus_status status = request_row(s, q.method, &e->chosen, &e->card, err);
     if (status == MOTUS_OK) status = system_rules(s, &e->rules, err);
-    if (status == MOTUS_OK) status = ensemble_outcome_prepare(e, d, err);
+    if (status == MOTUS_OK) status = check_columns(e, err);
     if (like) take_places(e, like);
     if (status == MOTUS_OK && !like) status = find_places(e, d, err);
     if (status == MOTUS_OK && e->error != MOTUS_BARS_NONE) status = ensemble_errors_prepare(e, err);
@@ -97,7 +106,11 @@ motus_status ensemble_make(motus_system *s, const motus_ensemble_def *d, ensembl
     motus_status status = like ? MOTUS_OK : locate(s, d, &located, &why, err);
     if (status != MOTUS_OK) return status;
     if (located) home = s, s = located;
-    motus_ensemble *e = take(&s->allocator, 1, sizeof *e);
+    const size_t varied = d->vary_count + 1, records = d->record_count + 1,
+                 columns = d->events ? d->event_column_count + 1 : 0;
+    motus_ensemble *e = take(&s->allocator, 1,
+                             sizeof *e + varied * (sizeof *e->values + 2 * sizeof *e->places) +
+                                 records * sizeof *e->records + columns * sizeof *e->event_columns);
     if (!e) return fail(err, MOTUS_MEMORY, "no memory for the ensemble");
     *e = (motus_ensemble){.system = s,
                           .home = home,
@@ -107,7 +120,8 @@ motus_status ensemble_make(motus_system *s, const motus_ensemble_def *d, ensembl
                           .given = d->vary_count,
                           .until = SIZE_MAX,
                           .step = d->step,
-                          .record_count = d->record_count + (goal != NULL),
+                          .values = (const double **)(void *)(e + 1),
+                          .record_count = d->record_count,
                           .error = d->error,
                           .tells_causes = d->causes != 0,
                           .threads = d->threads ? d->threads
@@ -115,20 +129,20 @@ motus_status ensemble_make(motus_system *s, const motus_ensemble_def *d, ensembl
                                                 : 1,
                           .progress = d->progress,
                           .context = d->context};
+    e->places = (size_t *)(void *)(e->values + varied);
+    e->home_places = e->places + varied;
+    e->records = (motus_record *)(void *)(e->home_places + varied);
+    memcpy(e->records, d->records, d->record_count * sizeof *e->records);
+    if (goal) e->records[e->record_count++] = (motus_record){MOTUS_REDUCE_ACCURACY, 0};
+    if (columns) {
+        e->event_columns = (size_t *)(void *)(e->records + records);
+        e->event_columns_count = d->event_column_count;
+        if (d->event_column_count) memcpy(e->event_columns, d->event_columns, (columns - 1) * sizeof *e->event_columns);
+    }
     motus_system_hold(s, true);
     if (home) motus_system_hold(home, true);
-    e->places = take(&s->allocator, d->vary_count + 1, sizeof *e->places);
-    e->records = take(&s->allocator, e->record_count, sizeof *e->records);
-    e->values = take(&s->allocator, d->vary_count + 1, sizeof *e->values);
     modes m = modes_enter();
-    if (home) e->home_places = take(&s->allocator, d->vary_count + 1, sizeof *e->home_places);
-    if (!e->places || !e->records || !e->values || (home && !e->home_places)) {
-        status = fail(err, MOTUS_MEMORY, "no memory for the ensemble");
-    } else {
-        memcpy(e->records, d->records, d->record_count * sizeof *e->records);
-        if (goal) e->records[d->record_count] = (motus_record){MOTUS_REDUCE_ACCURACY, 0};
-        status = complete(e, d, like, err);
-    }
+    status = complete(e, d, like, err);
     modes_leave(m);
     if (status == MOTUS_OK)
         *out = e, e->goal = goal;
@@ -147,11 +161,6 @@ void ensemble_free(motus_ensemble *e)
     ensemble_workers_destroy(e);
     ensemble_outcome_end(e);
     motus_system_destroy(e->half);
-    give(&a, e->event_columns);
-    give(&a, e->places);
-    give(&a, e->home_places);
-    give(&a, e->records);
-    give(&a, (void *)e->values);
     give(&a, e->compared_columns);
     give(&a, e->compared_record);
     give(&a, e->how);

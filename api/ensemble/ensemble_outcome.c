@@ -8,22 +8,6 @@
 #include "api/error/event_bars.h"
 
 #include <math.h>
-#include <string.h>
-
-motus_status ensemble_outcome_prepare(motus_ensemble *e, const motus_ensemble_def *d, motus_error *err)
-{
-    if (!d->events) return MOTUS_OK;
-    for (size_t k = 0; k < d->event_column_count; k++)
-        if (d->event_columns[k] >= e->system->column_count)
-            return fail(err, MOTUS_ARGUMENT, "event_columns has column %zu of %zu", d->event_columns[k],
-                        e->system->column_count);
-    e->event_columns = take(&e->allocator, d->event_column_count + 1, sizeof *e->event_columns);
-    if (!e->event_columns) return fail(err, MOTUS_MEMORY, "no memory for the ensemble");
-    if (d->event_column_count)
-        memcpy(e->event_columns, d->event_columns, d->event_column_count * sizeof *e->event_columns);
-    e->event_columns_count = d->event_column_count;
-    return MOTUS_OK;
-}
 
 void ensemble_outcome_end(motus_ensemble *e)
 {

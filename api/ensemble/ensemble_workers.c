@@ -151,33 +151,6 @@ void ensemble_workers_destroy(motus_ensemble *e)
     e->workers = NULL;
 }
 
-/* ---- the model's own numbers, which the values of trajectories replace ---- */
-
-static size_t numbers_kept(const motus_ensemble *e)
-{
-    const model *m = e->system->model;
-    return m && e->vary_count ? m->pool_count + m->nx + m->nv : 0;
-}
-
-static void keep_numbers(const motus_ensemble *e, double *room)
-{
-    const model *m = e->system->model;
-    memcpy(room, m->pool, m->pool_count * sizeof *room);
-    memcpy(room + m->pool_count, m->x0, m->nx * sizeof *room);
-    memcpy(room + m->pool_count + m->nx, m->v0, m->nv * sizeof *room);
-}
-
-/* Cannot fail, because binding for a second time takes no memory. */
-static void put_back(motus_ensemble *e, const double *room)
-{
-    model *m = e->system->model;
-    memcpy(m->pool, room, m->pool_count * sizeof *room);
-    system_rebind(e->system);
-    memcpy(m->x0, room + m->pool_count, m->nx * sizeof *room);
-    memcpy(m->v0, room + m->pool_count + m->nx, m->nv * sizeof *room);
-    e->system->judged_gyroscopic = false;
-}
-
 /* ---- items ---- */
 
 typedef struct item_list {
@@ -250,10 +223,9 @@ static motus_status judge(const motus_ensemble *e, int threads, motus_error *err
 motus_status ensemble_each(motus_ensemble *e, size_t first, size_t items,
                            motus_status (*one)(worker *, size_t item, void *ctx), void *ctx, motus_error *err)
 {
-    const size_t kept = numbers_kept(e);
-    double *own = kept ? take(&e->allocator, kept, sizeof *own) : NULL;
-    if (kept && !own) return fail(err, MOTUS_MEMORY, "no memory for the ensemble");
-    if (kept) keep_numbers(e, own);
+    const bool replaces = e->system->model && e->vary_count; /* the model's own numbers, by those of trajectories */
+    double *own = replaces ? set_aside(e->system) : NULL;
+    if (replaces && !own) return fail(err, MOTUS_MEMORY, "no memory for the ensemble");
     int threads = items < (size_t)e->threads ? (int)items : e->threads;
     /* a processor for the compiler that is awaited: what it makes computes many times as fast */
     if (e->awaits && threads > 1 && threads >= parallel_processors()) threads = parallel_processors() - 1;
@@ -267,7 +239,10 @@ motus_status ensemble_each(motus_ensemble *e, size_t first, size_t items,
         parallel_for(threads, items, take_item, &(item_list){e, first, one, ctx});
         status = judge(e, threads, err);
     }
-    if (kept) put_back(e, own);
+    if (replaces) {
+        set_back(e->system, own);
+        e->system->judged_gyroscopic = false;
+    }
     give(&e->allocator, own);
     return status;
 }

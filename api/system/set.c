@@ -20,9 +20,9 @@ struct setting {
     struct setting *next;
 };
 
-/* ---- a copy of all numbers of a model, to restore them ---- */
+/* ---- all numbers of a model ---- */
 
-static double *put_aside(const motus_system *s)
+double *set_aside(const motus_system *s)
 {
     const model *m = s->model;
     double *room = take(&s->allocator, m->pool_count + m->nx + m->nv + 1, sizeof *room);
@@ -34,7 +34,7 @@ static double *put_aside(const motus_system *s)
 }
 
 /* Binding again takes no memory, so this cannot fail. */
-static void put_back(motus_system *s, const double *room)
+void set_back(motus_system *s, const double *room)
 {
     model *m = s->model;
     memcpy(m->pool, room, m->pool_count * sizeof *room);
@@ -112,7 +112,7 @@ static motus_status set_model(motus_system *s, const char *name, const parameter
     struct setting *one;
     motus_status status = setting_of(s, name, t, &one, err);
     if (status != MOTUS_OK) return status;
-    double *own = put_aside(s);
+    double *own = set_aside(s);
     if (!own || !vary_override(m, t->first, t->span, true)) {
         give(&s->allocator, own);
         return fail(err, MOTUS_MEMORY, "no memory to set %s", name);
@@ -122,7 +122,7 @@ static motus_status set_model(motus_system *s, const char *name, const parameter
     if (status == MOTUS_OK)
         s->judged_gyroscopic = s->judged_gradient = false; /* of other numbers */
     else
-        put_back(s, own);
+        set_back(s, own);
     if (status != MOTUS_OK && !before) vary_override(m, t->first, t->span, false);
     give(&s->allocator, own);
     return status;
@@ -174,13 +174,13 @@ static motus_status take_over(const motus_system *from, motus_system *to, motus_
 {
     const model *m = from->model;
     if (!m || !m->overridden) return MOTUS_OK;
-    double *numbers = put_aside(from);
+    double *numbers = set_aside(from);
     if (!numbers || !vary_override(to->model, 0, 0, true)) {
         give(&from->allocator, numbers);
         return fail(err, MOTUS_MEMORY, "no memory for a clone of the system");
     }
     memcpy(to->model->overridden, m->overridden, m->pool_count);
-    put_back(to, numbers);
+    set_back(to, numbers);
     give(&from->allocator, numbers);
     return MOTUS_OK;
 }

@@ -126,6 +126,9 @@ motus_status system_rules(motus_system *, const rules **out, motus_error *);
 /* To be called after the model's numbers have changed: its machines compute with the new ones. False: no memory, which
  * the first call alone may need. */
 bool system_rebind(motus_system *);
+/* set.c. A copy of all numbers of a model, by the hooks (NULL: no memory); and they are the system's numbers again. */
+double *set_aside(const motus_system *);
+void set_back(motus_system *, const double *numbers);
 bool system_number_columns(motus_system *);
 /* The place in x, or in v, of column 1 + outer. */
 size_t system_number(const motus_system *, size_t outer, bool of_v);
