@@ -6,7 +6,7 @@
 # make test-aarch64 every test program, compiled for aarch64 and run by qemu (make test-all does a part of it)
 # make bench        ratios to hand-written code and to other libraries, and the page's times; RESULTS=bench/results keeps them
 # make install      PREFIX=/usr/local DESTDIR=
-# make fuzz         the fuzzers for FUZZ_SECONDS (60)      make tidy   clang-tidy      make manual   doc/manual.md from the rows
+# make fuzz         the fuzzers for FUZZ_SECONDS (60)      make tidy   clang-tidy      make manual   doc/ from the rows
 # make format       the layout of the C, by .clang-format
 # make functions    the elementary functions against MPFR: 1e7 random arguments each, and the hard ones (a quarter of an hour)
 # make clean

@@ -3,10 +3,10 @@
 
 #include "base/decimal.h"
 #include "base/error.h"
+#include "cli/constant.h"
 #include "cli/run_again.h"
 #include "cli/run_archive.h"
 #include "cli/run_command.h"
-#include "cli/typed.h"
 
 #include <math.h>
 #include <motus-archive.h>
@@ -14,14 +14,15 @@
 
 motus_status archive_verify_part(const char *text, double *part, motus_error *err)
 {
-    char number[32] = "";
+    char number[256] = "";
+    motus_error none = motus_default_error();
     const size_t length = strlen(text);
     double percent = 100;
     *part = 1;
     if (strcmp(text, "all") == 0) return MOTUS_OK;
     const bool ends = length > 1 && length <= sizeof number && text[length - 1] == '%';
     if (ends) memcpy(number, text, length - 1);
-    if (!ends || !typed_number(number, &percent) || !(percent > 0) || percent > 100) {
+    if (!ends || constant_read(number, "", &percent, &none) || !(percent > 0) || percent > 100) {
         fail(err, MOTUS_ARGUMENT, "--verify %.80s: this is no part of an archive", text);
         hint(err, "--verify 1%% computes a hundredth of its blocks again, --verify all every one");
         return MOTUS_ARGUMENT;

@@ -2,28 +2,73 @@
 #include "cli/command.h"
 
 #include "base/decimal.h"
+#include "cli/complain.h"
 #include "cli/csv.h"
 
+#include <inttypes.h>
+#include <math.h>
 #include <string.h>
 
-motus_status command_option(file_out *f, const char *name, const char *value, motus_error *err)
+static motus_status put_texts(file_out *f, const option *row, const options_list *list, motus_error *err)
 {
-    motus_status status = csv_word(f, name, err);
-    return status || !value ? status : csv_word(f, value, err);
+    motus_status status = MOTUS_OK;
+    for (size_t i = 0; !status && i < list->count; i++) {
+        status = csv_word(f, row->name, err);
+        if (!status) status = csv_word(f, list->items[i], err);
+    }
+    return status;
 }
 
-motus_status command_number(file_out *f, const char *name, double value, motus_error *err)
+/* An option and its value, as the command line reads it. */
+static motus_status put(file_out *f, const options *o, const option *row, motus_error *err)
 {
-    char text[DECIMAL_MAX];
-    decimal(value, text);
-    return command_option(f, name, text, err);
+    const void *const place = (const char *)o + row->place;
+    char number[DECIMAL_MAX], text[DECIMAL_MAX + 16];
+    const char *value = text;
+    switch (row->kind) {
+    case FLAG: return csv_word(f, row->name, err);
+    case CHOICE:
+    case WORD: value = *(const char *const *)place; break;
+    case NUMBER:
+    case POSITIVE:
+    case LENGTH: decimal(*(const double *)place, text); break;
+    case TOLERANCE:
+        snprintf(text, sizeof text, "%s%s", decimal(*(const double *)place, number), o->absolute ? " absolute" : "");
+        break;
+    case COUNT:
+    case SEED: decimal_write_whole(*(const uint64_t *)place, text); break;
+    case EVERY:
+        if (((const options_period *)place)->steps > 0)
+            snprintf(text, sizeof text, "%" PRId64 " steps", ((const options_period *)place)->steps);
+        else
+            decimal(((const options_period *)place)->time, text);
+        break;
+    case NAMED:
+    case TEXTS: return put_texts(f, row, place, err);
+    case STATES:
+    case ACCURACIES:
+    case NAMES: value = o->given[row - options_row(0)]; break;
+    }
+    const motus_status status = csv_word(f, row->name, err);
+    return status ? status : csv_word(f, value, err);
 }
 
-motus_status command_whole(file_out *f, const char *name, uint64_t value, motus_error *err)
+motus_status command_text(const options *o, char **text, motus_error *err)
 {
-    char text[DECIMAL_MAX];
-    decimal_write_whole(value, text);
-    return command_option(f, name, text, err);
+    char memory[] = "memory";
+    size_t length;
+    *text = NULL;
+    file_out f = {.stream = open_memstream(text, &length), .path = memory};
+    if (!f.stream) return complain_memory(err);
+    motus_status status = file_text(&f, "motus ", err);
+    if (!status) status = file_text(&f, options_verb(o->verb), err);
+    if (!status) status = csv_word(&f, o->operand, err);
+    for (size_t k = 0; !status && k < OPTION_COUNT; k++) {
+        const option *row = options_row(k);
+        if (row->verbs & o->verb && row->setting & (OF_MOTION | OF_ROWS) && options_has(o, row))
+            status = put(&f, o, row, err);
+    }
+    return fclose(f.stream) != 0 && !status ? complain_memory(err) : status;
 }
 
 void command_mix(uint64_t *hash, const void *bytes, size_t count)
@@ -33,3 +78,30 @@ void command_mix(uint64_t *hash, const void *bytes, size_t count)
 }
 
 void command_mix_text(uint64_t *hash, const char *text) { command_mix(hash, text, strlen(text) + 1); }
+
+void command_mix_count(uint64_t *hash, uint64_t value) { command_mix(hash, &value, sizeof value); }
+
+void command_mix_option(uint64_t *hash, const options *o, const option *row)
+{
+    const void *const place = (const char *)o + row->place;
+    const options_list *const list = place;
+    const bool mixed = row->print == PRINT_ALWAYS     ? true
+                       : row->print == PRINT_ADAPTIVE ? !isnan(o->tolerance)
+                                                      : row->print != PRINT_ELSEWHERE && options_has(o, row);
+    if (!mixed) return;
+    if (row->print == PRINT_NAMED) command_mix_text(hash, row->name);
+    switch (row->kind) {
+    case FLAG: command_mix_count(hash, *(const bool *)place); break;
+    case CHOICE:
+    case WORD: command_mix_text(hash, *(const char *const *)place); break;
+    case EVERY:
+    case STATES: command_mix_count(hash, (uint64_t)((const options_period *)place)->steps); break;
+    case NAMES:
+    case NAMED:
+    case TEXTS:
+        for (size_t i = 0; i < list->count; i++) command_mix_text(hash, list->items[i]);
+        break;
+    default: command_mix(hash, place, row->size);
+    }
+    if (row->print == PRINT_ADAPTIVE && row->kind == TOLERANCE) command_mix_count(hash, o->absolute);
+}

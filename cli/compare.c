@@ -132,7 +132,7 @@ motus_status compare_verb(const options *o, motus_error *err)
 {
     static const studies_ways ways = {draw, tell, print_tables};
     if (o->share) return share_verb(o, err);
-    if (!isnan(o->coarsest)) return rank_verb(o, err);
+    if (!isnan(o->accuracies.coarsest)) return rank_verb(o, err);
     studies s;
     motus_study_def def;
     motus_comparison *c = NULL;

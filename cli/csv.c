@@ -26,9 +26,8 @@ motus_status csv_plan(csv *c, const load *model, const options *o, motus_error *
         c->count = all;
         return MOTUS_OK;
     }
-    char *copy;
     options_list names;
-    motus_status status = options_split(o->columns, "--columns", &copy, &names, err);
+    motus_status status = options_split(o->columns, "--columns", &names, err);
     if (status) return status;
     for (size_t i = 0; !status && i < names.count; i++) {
         size_t first, count;
@@ -44,8 +43,7 @@ motus_status csv_plan(csv *c, const load *model, const options *o, motus_error *
         c->columns = columns;
         for (size_t k = 0; k < count; k++) c->columns[c->count++] = first + k;
     }
-    free(names.items);
-    free(copy);
+    options_list_free(&names);
     return status;
 }
 

@@ -38,18 +38,16 @@ static motus_status add(defined *d, const char *item, const char *text, motus_er
 
 motus_status defined_find(defined *d, const char *list, const char *text, motus_error *err)
 {
-    char *copy;
     options_list items;
     *d = (defined){0};
     if (!list) return MOTUS_OK;
-    motus_status status = options_split(list, "--record", &copy, &items, err);
+    motus_status status = options_split(list, "--record", &items, err);
     if (status) return status;
     size_t length;
     for (size_t k = 0; k < items.count && !status; k++)
         if (keeps(items.items[k]) && !defined_name(d, items.items[k], &length))
             status = add(d, items.items[k], text, err);
-    free(items.items);
-    free(copy);
+    options_list_free(&items);
     return status;
 }
 

@@ -64,7 +64,7 @@ static motus_status check(const options *o, motus_error *err)
         hint(err, "add --count 100");
         return MOTUS_ARGUMENT;
     }
-    if (o->random.count == 0 && (o->count > 0 || o->seeded)) {
+    if (o->random.count == 0 && (o->count > 0 || o->given[OPTION_seed])) {
         fail(err, MOTUS_ARGUMENT, "%s needs --random", o->count > 0 ? "--count" : "--seed");
         hint(err, "add --random F=0:1; the count of a --vary is its third number, F=0:1:11");
         return MOTUS_ARGUMENT;

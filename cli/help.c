@@ -1,15 +1,16 @@
-/* The text of --help: a verb's use, its options (cli/options.c), and examples, which the tests run. */
+/* The text of --help: a verb's use, its options, and examples, which the tests run. Verbs and options are those of
+ * cli/options.def. */
 #include "cli/help.h"
 
 #include "cli/options.h"
 
 typedef struct page {
     unsigned verb;
-    const char *use, *about, *examples;
+    const char *about, *examples;
 } page;
 
 static const page pages[] = {
-    {VERB_RUN, "motus run MODEL [options]",
+    {VERB_RUN,
      "Integrates a model and prints the state at the end, each number with its error, and the drift of the "
      "invariants.\n"
      "MODEL is a file, or - for standard input.",
@@ -24,7 +25,7 @@ static const page pages[] = {
      "  motus run kepler.h5 --until 20\n"
      "  printf \"x'' = -x\\nx(0) = 1\\nx'(0) = 0\\n\" | motus run - --step 0.01 --until 10\n"
      "  motus run models/pendulum.motus --set \"theta(0)=3\" --step 1/64 --share\n"},
-    {VERB_COMPARE, "motus compare MODEL [options]",
+    {VERB_COMPARE,
      "Runs every method and prints for each: steps, evaluations, time, the largest and the final error against the\n"
      "exact motion or a reference solution, the drift of the invariants and its trend, and the reversal error: the\n"
      "distance from the start after a run to the end and back.",
@@ -32,14 +33,14 @@ static const page pages[] = {
      "  motus compare models/spring.motus --methods explicit-euler,symplectic-euler,verlet --plot spring.svg\n"
      "  motus compare models/kepler.motus --evaluations 20000\n"
      "  motus compare models/kepler.motus --accuracies 1e-3:1e-11 --methods verlet,dop853,dep12 --plot work.svg\n"},
-    {VERB_CONVERGE, "motus converge MODEL [options]",
+    {VERB_CONVERGE,
      "Measures the order of every method on this model: errors at a sequence of steps, their slope between "
      "instability\n"
      "and round-off, and the certificate. Exit status 1 if a method does not show its declared order.",
      "  motus converge models/pendulum.motus\n"
      "  motus converge models/damped-cubic.motus --methods verlet,rk4 --plot orders.svg\n"
      "  motus converge models/charged-particle.motus --json\n"},
-    {VERB_SWEEP, "motus sweep MODEL --vary P=RANGE ... [options]",
+    {VERB_SWEEP,
      "Integrates a model many times, on all processors, with different parameters, initial values or ends, and writes\n"
      "a row for each trajectory. Two --vary combine every value of one with every value of the other. --resume\n"
      "continues a sweep that was interrupted, even by kill -9.",
@@ -51,14 +52,14 @@ static const page pages[] = {
      "  motus sweep models/kepler.motus --random \"r'.y(0)=normal:2:0.01\" --count 1000 --seed 7 --until 20 -o "
      "cloud.npy\n"
      "  motus sweep models/pendulum.motus --vary \"theta(0)=@swings.csv:theta(0)\" --until 1 --record energy\n"},
-    {VERB_MERGE, "motus merge FILE ... -o FILE",
+    {VERB_MERGE,
      "Joins the files of all shards of a sweep, in any order, to the file that one sweep writes, byte for byte: rows "
      "or\n"
      "events as CSV, .npy or .h5.",
      "  motus sweep models/pendulum.motus --vary \"theta(0)=0:pi:9001\" --until 10 --shard 1/2 -o part%K.csv\n"
      "  motus sweep models/pendulum.motus --vary \"theta(0)=0:pi:9001\" --until 10 --shard 2/2 -o part%K.csv\n"
      "  motus merge part1.csv part2.csv -o swings-all.csv\n"},
-    {VERB_ARCHIVE, "motus archive FILE.h5 [-o FILE]",
+    {VERB_ARCHIVE,
      "Says what an archive has, and whether all of its blocks are there, with the hashes that were written. With -o "
      "it\n"
      "writes the rows as CSV, the model, or the state of a run.",
@@ -66,13 +67,13 @@ static const page pages[] = {
      "  motus archive swings.h5 -o swings.csv\n"
      "  motus archive swings.h5 -o pendulum.motus\n"
      "  motus archive swings.h5 --verify 10%\n"},
-    {VERB_CHECK, "motus check MODEL [options]",
+    {VERB_CHECK,
      "Prints the equations of a model as motus read them, what the acceleration depends on, and for every method "
      "whether\n"
      "the model admits it, and if not, why.",
      "  motus check models/damped-cubic.motus\n"
      "  motus check models/charged-particle.motus --json\n"},
-    {VERB_LAB, "motus lab [MODEL] [options]",
+    {VERB_LAB,
      "Writes the page of the lab with the model in it, one file that needs no network, and opens it in the browser\n"
      "($BROWSER, else the system's). The file is NAME-lab.html in the current folder, where NAME is the model's; its\n"
      "path goes to standard output.",
@@ -80,30 +81,30 @@ static const page pages[] = {
      "  motus lab models/pendulum.motus --set \"theta(0)=3\"\n"
      "  motus lab models/spring.motus --method verlet --methods explicit-euler,symplectic-euler --step 1/8\n"
      "  motus lab models/kepler.motus --no-open -o lesson.html\n"},
-    {VERB_METHODS, "motus methods [METHOD] [options]",
-     "Lists the methods, or shows the card of one: formula, properties, reference, when to use it.",
+    {VERB_METHODS, "Lists the methods, or shows the card of one: formula, properties, reference, when to use it.",
      "  motus methods\n"
      "  motus methods verlet\n"
      "  motus methods --json\n"},
-    {VERB_CACHE, "motus cache --clear",
+    {VERB_CACHE,
      "The compiled machine keeps what it compiled under $XDG_CACHE_HOME/motus (else ~/.cache/motus). This removes it;\n"
      "motus compiles it again when needed.",
      "  motus cache --clear\n"},
 };
 
+static const struct {
+    const char *name, *operands, *about;
+} verbs[] = {
+#define VERB(bit, name, ...) {#name, __VA_ARGS__},
+#include "cli/options.def"
+};
+
 void help_program(FILE *out)
 {
-    fputs("motus: type an equation of motion, get the motion\n\n"
-          "  motus run      MODEL     integrate: the state at the end, files, plots\n"
-          "  motus compare  MODEL     every method side by side\n"
-          "  motus converge MODEL     error against step, the observed order, a certificate\n"
-          "  motus sweep    MODEL     many trajectories: parameters and initial values vary\n"
-          "  motus merge    FILE ...  the shards of a sweep become one file\n"
-          "  motus check    MODEL     the equations as motus read them, which methods they admit\n"
-          "  motus methods [METHOD]   the catalogue, or the card of one method\n"
-          "  motus lab     [MODEL]    the lab: motion and methods in the browser\n"
-          "  motus cache    --clear   remove the compiled models\n\n"
-          "  motus VERB --help        options and examples;  motus --version\n\n"
+    fputs("motus: type an equation of motion, get the motion\n\n", out);
+    for (size_t k = 0; k < VERB_COUNT; k++)
+        fprintf(out, "  motus %-8s %-20s  %s\n", verbs[k].name, verbs[k].operands, verbs[k].about);
+    fputs("\n"
+          "  motus VERB --help              options and examples;  motus --version\n\n"
           "A model is a text that reads like a textbook:\n\n"
           "  x''   = -x + x^3 + 0.1 cos(t)\n"
           "  x(0)  = 0\n"
@@ -118,12 +119,49 @@ void help_program(FILE *out)
           out);
 }
 
+static void put_options(FILE *out, unsigned verb)
+{
+    char left[40], help[OPTIONS_HELP];
+    for (size_t k = 0; k < OPTION_COUNT; k++) {
+        const option *o = options_row(k);
+        if (!(o->verbs & verb)) continue;
+        snprintf(left, sizeof left, "%s%s%s%s%s", o->brief ? o->brief : "", o->brief ? ", " : "", o->name,
+                 o->argument ? " " : "", o->argument ? o->argument : "");
+        fprintf(out, "  %-20s  %s\n", left, options_plain(o->help, help));
+    }
+}
+
 void help_verb(FILE *out, unsigned verb)
 {
+    for (size_t k = 0; k < VERB_COUNT; k++)
+        if (verb == 1u << k) fprintf(out, "motus %s %s [options]\n\n", verbs[k].name, verbs[k].operands);
     for (size_t i = 0; i < sizeof pages / sizeof *pages; i++)
         if (pages[i].verb == verb) {
-            fprintf(out, "%s\n\n%s\n\noptions:\n", pages[i].use, pages[i].about);
-            options_help(out, verb);
+            fprintf(out, "%s\n\noptions:\n", pages[i].about);
+            put_options(out, verb);
             fprintf(out, "\nexamples:\n%s", pages[i].examples);
         }
+}
+
+static const char *setting(unsigned of)
+{
+    return of == OF_MOTION    ? "motion"
+           : of == OF_ROWS    ? "rows"
+           : of == OF_FILES   ? "files"
+           : of == OF_MACHINE ? "machine"
+                              : "another";
+}
+
+void help_table(FILE *out)
+{
+    for (size_t k = 0; k < VERB_COUNT; k++)
+        fprintf(out, "verb\t%s\t%s\t%s\n", verbs[k].name, verbs[k].operands, verbs[k].about);
+    for (size_t k = 0; k < OPTION_COUNT; k++) {
+        const option *o = options_row(k);
+        fprintf(out, "option\t%s\t%s\t%s\t", o->name, o->brief ? o->brief : "-", o->argument ? o->argument : "-");
+        for (size_t v = 0, some = 0; v < VERB_COUNT; v++)
+            if (o->verbs & 1u << v) fprintf(out, "%s%s", some++ ? "," : "", verbs[v].name);
+        fprintf(out, "\t%s\t%s\t%s\t%s\n", setting(o->setting), o->choices ? o->choices : "-", o->help,
+                o->more ? o->more : "");
+    }
 }

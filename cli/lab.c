@@ -32,16 +32,9 @@ typedef struct job {
 /* Refuses options that need a model when there is none. */
 static motus_status check_alone(const options *o, motus_error *err)
 {
-    const struct {
-        const char *name;
-        bool given;
-    } others[] = {
-        {"--set", o->set.count > 0}, {"--method", o->method},     {"--methods", o->methods.count > 0},
-        {"--step", o->step_typed},   {"--until", o->until_typed},
-    };
-    for (size_t i = 0; i < sizeof others / sizeof *others; i++)
-        if (others[i].given) {
-            fail(err, MOTUS_ARGUMENT, "%s needs a model, which is missing", others[i].name);
+    for (size_t k = 0; k < OPTION_COUNT; k++)
+        if (o->given[k] && options_row(k)->link) {
+            fail(err, MOTUS_ARGUMENT, "%s needs a model, which is missing", options_row(k)->name);
             hint(err, "motus lab model.motus, or - for standard input");
             return MOTUS_ARGUMENT;
         }

@@ -1,157 +1,61 @@
 /* The command line.
  *
- * Invariant: an option is one row of the table: its name, its argument, where it is stored, the verbs it belongs to,
- * its help. Numbers are checked here, so the verbs get only valid ones.
+ * Invariant: all that is known of an option is its row in cli/options.def. Values are checked here, so the verbs get
+ * only valid ones.
  */
 #include "cli/options.h"
 
 #include "base/near.h"
 #include "base/error.h"
 #include "cli/complain.h"
+#include "cli/constant.h"
 #include "cli/text.h"
 #include "cli/typed.h"
 
 #include <math.h>
-#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
 enum {
-    MODEL = VERB_RUN | VERB_COMPARE | VERB_CONVERGE | VERB_CHECK | VERB_SWEEP | VERB_LAB,
     STUDY = VERB_COMPARE | VERB_CONVERGE,
-    MOTION = VERB_RUN | STUDY | VERB_SWEEP | VERB_LAB,
-    DRAWN = VERB_RUN | VERB_SWEEP | STUDY,
     ONE = VERB_RUN | VERB_SWEEP,
-    SHARED = VERB_RUN | VERB_COMPARE,
-    ANY = MODEL | VERB_METHODS | VERB_CACHE | VERB_MERGE | VERB_ARCHIVE
+    SOLVES = ONE | STUDY | VERB_LAB,
+    MODEL = SOLVES | VERB_CHECK
 };
 
-typedef enum kind {
-    FLAG,
-    WORD,
-    STEP,
-    LENGTH,
-    TOLERANCE,
-    ACCURACIES,
-    UNTIL,
-    COUNT,
-    SEED,
-    EVERY,
-    KEEP,
-    METHOD_LIST,
-    NAMED,
-    TEXTS
-} kind;
-
-typedef struct option {
-    const char *name, *brief, *argument;
-    kind kind;
-    size_t place;
-    unsigned verbs;
-    const char *help;
-} option;
-
-#define AT(member) offsetof(options, member)
 static const option table[] = {
-    {"--method", NULL, "M", WORD, AT(method), ONE | VERB_LAB,
-     "the method, \"newmark(1/4, 1/2)\" (else the model's; run: else auto, others: else verlet)"},
-    {"--methods", NULL, "A,B,C", METHOD_LIST, AT(methods), STUDY | VERB_LAB,
-     "these methods (else every one the model admits; lab: else the model's)"},
-    {"--step", NULL, "H", STEP, AT(step), MOTION, "time step: 0.01, 1/64, pi/100"},
-    {"--accuracy", NULL, "E", TOLERANCE, AT(accuracy), VERB_RUN | VERB_SWEEP,
-     "how far the answer may be off, 1e-9 of the motion's size, or \"1e-6 absolute\"; finds method and tolerance"},
-    {"--tolerance", NULL, "E", TOLERANCE, AT(tolerance), ONE,
-     "of an adaptive method: what one step may be off, 1e-9 of the motion's size, or \"1e-6 absolute\""},
-    {"--shortest-step", NULL, "H", LENGTH, AT(shortest_step), ONE,
-     "of an adaptive method: stop where a shorter one is needed"},
-    {"--longest-step", NULL, "H", LENGTH, AT(longest_step), ONE, "of an adaptive method: take no longer one"},
-    {"--most-steps", NULL, "N", COUNT, AT(most_steps), ONE,
-     "of an adaptive method: stop after so many; sweep: each trajectory"},
-    {"--until", NULL, "T", UNTIL, AT(until), MOTION, "end time; before the start: backward"},
-    {"--set", NULL, "P=EXPR", NAMED, AT(set), MODEL,
-     "replace a parameter or initial value: F=0.2, \"x(0)=1\"; repeatable"},
-    {"--when", NULL, "EVENT", TEXTS, AT(when), ONE | VERB_CHECK,
-     "add an event to the model: \"x = 0 rising: record\", \"y < 0: stop\"; repeatable"},
-    {"--section", NULL, "WHERE", WORD, AT(section), ONE,
-     "record where this happens, \"x = 0 rising\"; --plot draws those points"},
-    {"--skip", NULL, "N", COUNT, AT(skip), ONE, "of a section: leave the first N points out of the plot"},
-    {"--points", NULL, "N", COUNT, AT(most_points), ONE, "of a section: stop after N points, those skipped apart"},
-    {"--evaluations", NULL, "N", COUNT, AT(evaluations), VERB_COMPARE,
-     "equal work: each method's step is chosen to spend N evaluations"},
-    {"--accuracies", NULL, "A:B", ACCURACIES, AT(coarsest), VERB_COMPARE,
-     "the work of each method, adaptive ones too, for accuracies from A to B: 1e-3:1e-12, \"1e-3:1e-6 absolute\""},
-    {"--output", "-o", "FILE", WORD, AT(output), ONE | VERB_LAB | VERB_MERGE | VERB_ARCHIVE,
-     "write the CSV (or .h5; sweep: or .npy; archive: or its .motus; lab: the page) to FILE; - is standard output"},
-    {"--error", NULL, "HOW", WORD, AT(error), VERB_RUN | VERB_SWEEP,
-     "the error of every final number: cheap (else; by twice the work), full (three times), none"},
-    {"--switches", NULL, "HOW", WORD, AT(switches), VERB_RUN | VERB_SWEEP,
-     "where the force jumps or has a kink: locate (steps end there; else where they adapt), step (they lead across)"},
-    {"--errors", NULL, NULL, FLAG, AT(errors), VERB_RUN | VERB_SWEEP,
-     "add the errors to the CSV: x.error for every column, and whether any digit is significant"},
-    {"--columns", NULL, "A,B,C", WORD, AT(columns), VERB_RUN,
-     "columns of the CSV, and of --events: t, r, r'.x, x[3]', energy, \"exact x\""},
-    {"--events", NULL, "FILE", WORD, AT(events), ONE,
-     "write the table of events as CSV to FILE: what happened, when, and the numbers before and after"},
-    {"--every", NULL, "T", EVERY, AT(every_time), ONE,
-     "a row (sweep: a sample for min, max and mean) every time T, or every \"10 steps\""},
-    {"--plot", NULL, "FIG", WORD, AT(plot), DRAWN, "draw with gnuplot; FIG ends in .svg, .png or .pdf"},
-    {"--plot-of", NULL, "X,Y", WORD, AT(plot_of), ONE,
-     "draw column Y against column X: \"x,x'\"; of a section its plane; sweep: X may be what varies"},
-    {"--save-state", NULL, "FILE", WORD, AT(save_state), VERB_RUN, "write an exact restart state at the end"},
-    {"--restart", NULL, "FILE", WORD, AT(restart), VERB_RUN, "continue from a restart state, to the same bits"},
-    {"--checkpoint", NULL, "WHEN", KEEP, AT(keep_seconds), VERB_RUN,
-     "how often a run into FILE.h5 keeps its state there: 10min (the default), 90s, 2h, \"1e6 steps\""},
-    {"--machine", NULL, "NAME", WORD, AT(machine), ONE | VERB_COMPARE | VERB_ARCHIVE,
-     "auto (compiles where the run is long enough), interpreter, compiled; compare: which --accuracies times"},
-    {"--threads", NULL, "N", COUNT, AT(threads), ONE | VERB_ARCHIVE,
-     "sweep: threads (else one for each processor); run: for one large system (else 1); the bits are the same"},
-    {"--emit-c", NULL, NULL, FLAG, AT(emit_c), VERB_RUN, "print the C text that the compiled machine runs, and stop"},
-    {"--share", NULL, NULL, FLAG, AT(share), SHARED,
-     "print the part of a link to the lab that holds this model and its settings, and stop"},
-    {"--no-open", NULL, NULL, FLAG, AT(no_open), VERB_LAB, "write the page and start no browser"},
-    {"--clear", NULL, NULL, FLAG, AT(clear), VERB_CACHE, "remove every entry"},
-    {"--vary", NULL, "P=RANGE", NAMED, AT(vary), VERB_SWEEP,
-     "F=0:1:11, F=log:0.1:10:5, F=1,2,5, F=@values.csv:column, until=1,2; repeatable"},
-    {"--random", NULL, "P=DIST", NAMED, AT(random), VERB_SWEEP,
-     "\"x(0)=-1:1\" (uniform), m=normal:MEAN:DEVIATION; repeatable"},
-    {"--count", NULL, "N", COUNT, AT(count), VERB_SWEEP, "draw N times (for each value of --vary, if there is one)"},
-    {"--seed", NULL, "S", SEED, AT(seed), VERB_SWEEP, "seed of --random, an integer (else 0)"},
-    {"--zip", NULL, NULL, FLAG, AT(zip), VERB_SWEEP, "pair the values of several --vary instead of combining all"},
-    {"--record", NULL, "LIST", WORD, AT(record), VERB_SWEEP,
-     "final, x, energy, min(x), max(x), mean(x), time_of_min(x), time_of_max(x)"},
-    {"--shard", NULL, "K/N", WORD, AT(shard), VERB_SWEEP,
-     "compute only the Kth of N shares, or slurm: that of the array's task; in names of files %K is its number"},
-    {"--plan", NULL, NULL, FLAG, AT(plan), VERB_SWEEP,
-     "compute a sample alone, and tell the sizes of memory and file, and the hours on 1 to 4096 ranks"},
-    {"--resume", NULL, NULL, FLAG, AT(resume), ONE,
-     "continue an interrupted sweep in FILE, or a run in FILE.h5, to the same bytes"},
-    {"--verify", NULL, "PART", WORD, AT(verify), VERB_ARCHIVE,
-     "compute this part of the blocks again, 1%, or all, and compare their bytes"},
-    {"--compress", NULL, NULL, FLAG, AT(compress), ONE | VERB_MERGE,
-     "compress FILE.h5 at the end; it is read as before, and what goes on makes a new one"},
-    {"--partial", NULL, NULL, FLAG, AT(partial), VERB_MERGE,
-     "of archives: join what is there; the sweep's command with --resume computes the rest"},
-    {"--force", NULL, NULL, FLAG, AT(force), ONE | VERB_MERGE | VERB_ARCHIVE, "replace FILE if it exists"},
-    {"--lanes", NULL, "N", COUNT, AT(lanes), VERB_SWEEP,
-     "trajectories in one vector: 1, 2, 4, ... (for tests); the bits are the same"},
-    {"--fast", NULL, NULL, FLAG, AT(fast), VERB_SWEEP,
-     "let the compiler reorder operations: the last bits may differ between machines"},
-    {"--points", NULL, NULL, FLAG, AT(points), VERB_CONVERGE, "below the table, the error at every step"},
-    {"--markdown", NULL, NULL, FLAG, AT(markdown), VERB_METHODS, "the catalogue as a Markdown table"},
-    {"--json", NULL, NULL, FLAG, AT(json), ANY, "one JSON object on standard output"},
-    {"--quiet", "-q", NULL, FLAG, AT(quiet), ANY, "print nothing but errors and --json"},
-    {"--help", "-h", NULL, FLAG, AT(help), ANY, "this text"},
+#define OPTION(type, member, ...) {.kind = type, offsetof(options, member), sizeof(TYPE_##type), __VA_ARGS__},
+#define OPTION_AGAIN(type, member, ...) {.kind = type, offsetof(options, member), sizeof(TYPE_##type), __VA_ARGS__},
+#include "cli/options.def"
 };
-enum { OPTIONS = sizeof table / sizeof *table };
 
-static const char *const verb_names[] = {"run",   "compare", "converge", "check", "methods",
-                                         "cache", "sweep",   "lab",      "merge", "archive"};
+const option *options_row(size_t k) { return &table[k]; }
+
+const char *options_plain(const char *help, char out[OPTIONS_HELP])
+{
+    size_t n = 0;
+    for (; *help && n + 1 < OPTIONS_HELP; help++)
+        if (*help != '`') out[n++] = *help;
+    out[n] = 0;
+    return out;
+}
+
+static void hint_help(const option *row, motus_error *err)
+{
+    char help[OPTIONS_HELP];
+    hint(err, "%s %s: %s", row->name, row->argument, options_plain(row->help, help));
+}
+
+static const char *const verbs[] = {
+#define VERB(bit, name, ...) #name,
+#include "cli/options.def"
+};
 
 const char *options_verb(unsigned verb)
 {
-    for (size_t i = 0; i < sizeof verb_names / sizeof *verb_names; i++)
-        if (verb == 1u << i) return verb_names[i];
-    return "motus";
+    size_t k = 0;
+    while (verb >> k > 1) k++;
+    return verbs[k];
 }
 
 static bool matches(const option *o, const char *name)
@@ -169,187 +73,174 @@ static bool alike(const char *option, const char *member, size_t length)
 
 bool options_known(const char *name, size_t length)
 {
-    for (size_t i = 0; i < OPTIONS; i++)
+    for (size_t i = 0; i < OPTION_COUNT; i++)
         if (strlen(table[i].name) == 2 + length && alike(table[i].name + 2, name, length)) return true;
     return false;
 }
 
-/* The option `name` of this verb, or an error that says why there is none. */
-static motus_status find(const char *name, unsigned verb, const option **found, motus_error *err)
+static motus_status not_here(const char *name, unsigned verb, motus_error *err)
 {
-    const option *elsewhere = NULL, *near = NULL;
+    char verbs[128] = "";
+    for (size_t i = 0; i < OPTION_COUNT; i++)
+        for (unsigned bit = 1; bit < VERB_ALL && strcmp(table[i].name, name) == 0; bit <<= 1)
+            if (table[i].verbs & bit)
+                snprintf(verbs + strlen(verbs), sizeof verbs - strlen(verbs), "%s%s", verbs[0] ? ", " : "",
+                         options_verb(bit));
+    fail(err, MOTUS_ARGUMENT, "motus %s takes no %s", options_verb(verb), name);
+    hint(err, "%s belongs to: %s", name, verbs);
+    const size_t length = strlen(name);
+    for (size_t i = 0; i < OPTION_COUNT; i++) /* --methods for --method */
+        if (table[i].verbs & verb && strncmp(table[i].name, name, length) == 0 && !strcmp(table[i].name + length, "s"))
+            hint_help(&table[i], err);
+    return MOTUS_ARGUMENT;
+}
+
+/* The row of the option `name` of this verb, or an error that says why there is none. */
+static motus_status find(const char *name, unsigned verb, size_t *found, motus_error *err)
+{
+    const char *elsewhere = NULL, *near = NULL;
     int distance = 6;
-    for (size_t i = 0; i < OPTIONS; i++) {
+    for (size_t i = 0; i < OPTION_COUNT; i++) {
         const option *o = &table[i];
         if (matches(o, name) && o->verbs & verb) {
-            *found = o;
+            *found = i;
             return MOTUS_OK;
         }
-        if (matches(o, name)) elsewhere = o;
+        if (matches(o, name)) elsewhere = o->name;
         const int d = near_distance(o->name, name, distance);
         if (o->verbs & verb && d < distance) {
-            near = o;
+            near = o->name;
             distance = d;
         }
     }
-    if (elsewhere) {
-        char verbs[64] = "";
-        for (unsigned bit = 1; bit <= VERB_ARCHIVE; bit <<= 1)
-            if (elsewhere->verbs & bit)
-                snprintf(verbs + strlen(verbs), sizeof verbs - strlen(verbs), "%s%s", verbs[0] ? ", " : "",
-                         options_verb(bit));
-        fail(err, MOTUS_ARGUMENT, "motus %s takes no %s", options_verb(verb), elsewhere->name);
-        const option *several = NULL; /* --methods for --method */
-        for (size_t i = 0; i < OPTIONS; i++)
-            if (table[i].verbs & verb && strncmp(table[i].name, elsewhere->name, strlen(elsewhere->name)) == 0 &&
-                strcmp(table[i].name + strlen(elsewhere->name), "s") == 0)
-                several = &table[i];
-        if (several)
-            hint(err, "write %s %s: %s", several->name, several->argument, several->help);
-        else
-            hint(err, "%s belongs to: %s", elsewhere->name, verbs);
-        return MOTUS_ARGUMENT;
-    }
+    if (elsewhere) return not_here(elsewhere, verb, err);
     fail(err, MOTUS_ARGUMENT, "unknown option %s", name);
     if (strcmp(name, "--from") == 0)
         hint(err, "the start is the constant c in x(c) = ..., in the model");
     else if (near)
-        hint(err, "did you mean %s?", near->name);
+        hint(err, "did you mean %s?", near);
     else
         hint(err, "motus %s --help lists the options", options_verb(verb));
     return MOTUS_ARGUMENT;
 }
 
-static motus_status bad_value(const option *o, const char *value, const char *wanted, motus_error *err)
+/* ---- values ---- */
+
+/* A constant expression of the language; `inner` says why it is none. */
+static bool read_number(const char *text, double *number, motus_error *inner)
 {
-    fail(err, MOTUS_ARGUMENT, "%s %s: this is not %s", o->name, value, wanted);
-    if (strchr(value, ',')) hint(err, "numbers are written with a point: 0.5");
-    return MOTUS_ARGUMENT;
+    return constant_read(text, "", number, inner) == MOTUS_OK;
 }
 
-static motus_status read_every(options *o, const option *row, const char *value, motus_error *err)
+static bool read_above(const char *text, double *number, motus_error *inner)
+{
+    return read_number(text, number, inner) && *number > 0;
+}
+
+/* An integer above 0; one in digits is exact. */
+static bool read_count(const char *text, int64_t *count, motus_error *inner)
 {
     const char *rest;
-    int64_t n;
-    if (typed_count(value, &n, &rest)) {
-        while (*rest == ' ') rest++;
-        if (strcmp(rest, "steps") == 0 || strcmp(rest, "step") == 0) {
-            o->every_steps = n;
-            o->every_time = 0;
-            return MOTUS_OK;
-        }
+    double number;
+    if (typed_count(text, count, &rest) && !*rest) return true;
+    if (!read_number(text, &number, inner) || number < 1 || number != trunc(number)) return false;
+    if (number >= TYPED_COUNT_MAX) {
+        hint(inner, "at most %g", TYPED_COUNT_MAX);
+        return false;
     }
-    double t;
-    if (!typed_number(value, &t) || !(t > 0))
-        return bad_value(row, value, "a time above 0, or a count as \"10 steps\"", err);
-    o->every_time = t;
-    o->every_steps = 0;
-    return MOTUS_OK;
+    *count = (int64_t)number;
+    return true;
 }
 
-/* "1e6 steps", or a time with its unit. */
-static motus_status read_keep(options *o, const option *row, const char *value, motus_error *err)
+/* The text without the word at its end and the blanks before that; false: it has no such word, or is too long. */
+enum { SHORT = 256 };
+static bool cut_word(const char *text, const char *word, char out[SHORT])
+{
+    const size_t n = strlen(word);
+    size_t length = strlen(text);
+    if (length < n || length - n >= SHORT || strcmp(text + length - n, word) != 0) return false;
+    for (length -= n; length > 0 && text[length - 1] == ' ';) length--;
+    snprintf(out, SHORT, "%.*s", (int)length, text);
+    return true;
+}
+
+static bool read_steps(const char *text, int64_t *steps, motus_error *inner)
+{
+    char number[SHORT];
+    return (cut_word(text, "steps", number) || cut_word(text, "step", number)) && read_count(number, steps, inner);
+}
+
+/* A time, or "10 steps". */
+static bool read_every(options_period *p, const char *text, motus_error *inner)
+{
+    *p = (options_period){0};
+    return read_steps(text, &p->steps, inner) || read_above(text, &p->time, inner);
+}
+
+/* A time with its unit, or "1e6 steps". */
+static bool read_states(options_period *p, const char *text, motus_error *inner)
 {
     static const struct {
         const char *word;
         double seconds;
     } units[] = {{"s", 1}, {"min", 60}, {"h", 3600}};
-    const char *rest;
-    char number[32] = "";
-    double n;
-    o->keep_steps = 0;
-    o->keep_seconds = 0;
-    const size_t digits = strspn(value, "0123456789.eE+-");
-    rest = value + digits + strspn(value + digits, " ");
-    if (digits < sizeof number) memcpy(number, value, digits);
-    if (typed_number(number, &n) && n > 0 && (!strcmp(rest, "steps") || !strcmp(rest, "step"))) {
-        if (n >= 1 && n <= 9e15 && n == floor(n)) {
-            o->keep_steps = (int64_t)n;
-            return MOTUS_OK;
+    char number[SHORT];
+    *p = (options_period){0};
+    if (read_steps(text, &p->steps, inner)) return true;
+    for (size_t k = 0; k < sizeof units / sizeof *units; k++)
+        if (cut_word(text, units[k].word, number) && read_above(number, &p->time, inner)) {
+            p->time *= units[k].seconds;
+            return true;
         }
-    } else if (typed_number(number, &n) && n > 0) {
-        for (size_t k = 0; k < sizeof units / sizeof *units; k++)
-            if (strcmp(rest, units[k].word) == 0) {
-                o->keep_seconds = n * units[k].seconds;
-                return MOTUS_OK;
-            }
-    }
-    return bad_value(row, value, "a time with its unit, 10min, 90s, 2h, or a count as \"1e6 steps\"", err);
+    return false;
 }
 
-/* The text without the word relative or absolute at its end, which goes to o->absolute. False: it is too long. */
-static bool read_unit(options *o, const char *value, char text[64])
+/* The text without the word relative or absolute, which goes to o->absolute. False: it is too long. */
+static bool read_unit(options *o, const char *text, char number[SHORT])
 {
-    static const char *const words[] = {"relative", "absolute"};
-    size_t length = strlen(value);
-    o->absolute = false;
-    for (int i = 0; i < 2; i++) {
-        const size_t n = strlen(words[i]);
-        if (length <= n + 1 || strcmp(value + length - n, words[i]) != 0 || value[length - n - 1] != ' ') continue;
-        o->absolute = i == 1;
-        length -= n;
-        while (length > 0 && value[length - 1] == ' ') length--;
-        break;
-    }
-    snprintf(text, 64, "%.*s", (int)length, value);
-    return length < 64;
-}
-
-/* "1e-9", or with the word relative or absolute. */
-static motus_status read_tolerance(options *o, const option *row, const char *value, motus_error *err)
-{
-    char number[64];
-    double *const place = (double *)((char *)o + row->place);
-    if (read_unit(o, value, number) && typed_number(number, place) && *place > 0) return MOTUS_OK;
-    return bad_value(row, value, "a number above 0, or one as \"1e-6 absolute\"", err);
+    o->absolute = cut_word(text, " absolute", number);
+    if (o->absolute || cut_word(text, " relative", number)) return true;
+    snprintf(number, SHORT, "%s", text);
+    return strlen(text) < SHORT;
 }
 
 /* "1e-3:1e-12", or one of them. */
-static motus_status read_accuracies(options *o, const option *row, const char *value, motus_error *err)
+static bool read_accuracies(options *o, options_range *r, const char *text, motus_error *inner)
 {
-    char text[64];
-    const bool fits = read_unit(o, value, text);
-    char *colon = strchr(text, ':');
+    char number[SHORT];
+    if (!read_unit(o, text, number)) return false;
+    char *colon = strchr(number, ':');
     if (colon) *colon = 0;
-    if (fits && typed_number(text, &o->coarsest) && o->coarsest > 0 &&
-        typed_number(colon ? colon + 1 : text, &o->finest) && o->finest > 0)
-        return MOTUS_OK;
-    return bad_value(row, value, "a range of numbers above 0, as 1e-3:1e-12", err);
+    return read_above(number, &r->coarsest, inner) && read_above(colon ? colon + 1 : number, &r->finest, inner);
 }
 
-motus_status options_split(const char *text, const char *option_name, char **copy, options_list *list, motus_error *err)
+void options_list_free(options_list *list)
 {
-    size_t length = strlen(text), most = 1;
-    for (const char *s = text; *s; s++) most += *s == ',';
-    char *parts = malloc(length + 1);
-    const char **items = malloc(most * sizeof *items);
-    if (!parts || !items) {
-        free(parts);
-        free(items);
-        return complain_memory(err);
-    }
-    memcpy(parts, text, length + 1);
-    size_t count = 0;
+    free(list->items);
+    free(list->text);
+    *list = (options_list){0};
+}
+
+motus_status options_split(const char *text, const char *option_name, options_list *list, motus_error *err)
+{
+    size_t most = 1;
     int depth = 0;
-    for (char *s = parts, *part = parts;; s++) {
+    for (const char *s = text; *s; s++) most += *s == ',';
+    *list = (options_list){.items = malloc(most * sizeof *list->items), .text = strdup(text)};
+    motus_status status = list->items && list->text ? MOTUS_OK : complain_memory(err);
+    for (char *s = list->text, *part = s, last = 1; !status && last; s++) {
         depth += (*s == '(' || *s == '[') - (*s == ')' || *s == ']');
         if (*s && !(*s == ',' && depth <= 0)) continue;
-        bool last = !*s;
+        last = *s;
         *s = 0;
         part += strspn(part, " ");
         for (char *tail = s; tail > part && tail[-1] == ' ';) *--tail = 0;
-        if (!*part) {
-            free(parts);
-            free(items);
-            return fail(err, MOTUS_ARGUMENT, "%s %s: a name is missing", option_name, text);
-        }
-        items[count++] = part;
-        if (last) break;
+        if (!*part) status = fail(err, MOTUS_ARGUMENT, "%s %s: a name is missing", option_name, text);
+        list->items[list->count++] = part;
         part = s + 1;
     }
-    *copy = parts;
-    *list = (options_list){items, count};
-    return MOTUS_OK;
+    if (status) options_list_free(list);
+    return status;
 }
 
 static motus_status add_text(options_list *list, const char *value, motus_error *err)
@@ -361,183 +252,212 @@ static motus_status add_text(options_list *list, const char *value, motus_error 
     return MOTUS_OK;
 }
 
-static motus_status add_named(options_list *list, const option *row, const char *value, motus_error *err)
+/* Whether a word is among the choices of a row. */
+static bool is_choice(const option *row, const char *word)
 {
-    if (!strchr(value, '=') || value[0] == '=') {
-        fail(err, MOTUS_ARGUMENT, "%s %s: this is not NAME=VALUE", row->name, value);
-        hint(err, "%s %s: %s", row->name, row->argument, row->help);
-        return MOTUS_ARGUMENT;
+    const size_t length = strlen(word);
+    for (const char *s = row->choices; *s; s += strspn(s, " ")) {
+        const size_t n = strcspn(s, " ");
+        if (n == length && strncmp(s, word, n) == 0) return true;
+        s += n;
     }
-    return add_text(list, value, err);
+    return false;
 }
 
-static motus_status store(options *o, const option *row, const char *value, motus_error *err)
+/* What the value of a kind has to be, where it is not just any text. */
+static const char *const wanted[] = {
+    [NUMBER] = "a number",
+    [POSITIVE] = "a number above 0",
+    [LENGTH] = "a number above 0",
+    [TOLERANCE] = "a number above 0, or one as \"1e-6 absolute\"",
+    [ACCURACIES] = "a range of numbers above 0, as 1e-3:1e-12",
+    [COUNT] = "an integer above 0",
+    [SEED] = "an integer",
+    [EVERY] = "a time above 0, or a count as \"10 steps\"",
+    [STATES] = "a time with its unit, 10min, 90s, 2h, or a count as \"1e6 steps\"",
+    [NAMED] = "NAME=VALUE",
+    [TEXTS] = NULL,
+};
+
+/* False: the value is not what the kind wants, or memory ran out (`inner`). */
+static bool store(options *o, const option *row, const char *value, motus_error *inner)
 {
     void *place = (char *)o + row->place;
-    const char *rest;
-    double number;
+    char number[SHORT];
     switch (row->kind) {
-    case FLAG: *(bool *)place = true; return MOTUS_OK;
-    case WORD:
-        if (!*value) return fail(err, MOTUS_ARGUMENT, "%s: its value is empty", row->name);
-        *(const char **)place = value;
-        return MOTUS_OK;
-    case STEP:
-        o->step_typed = value;
-        return typed_number(value, &o->step) && o->step > 0 ? MOTUS_OK : bad_value(row, value, "a number above 0", err);
-    case LENGTH:
-        return typed_number(value, place) && *(double *)place > 0 ? MOTUS_OK
-                                                                  : bad_value(row, value, "a number above 0", err);
-    case TOLERANCE: return read_tolerance(o, row, value, err);
-    case ACCURACIES: return read_accuracies(o, row, value, err);
-    case UNTIL:
-        o->until_typed = value;
-        return typed_number(value, &o->until) ? MOTUS_OK : bad_value(row, value, "a number", err);
-    case COUNT:
-        if (typed_count(value, place, &rest) && !*rest) return MOTUS_OK;
-        if (typed_number(value, &number) && number >= TYPED_COUNT_MAX)
-            return fail(err, MOTUS_ARGUMENT, "%s %s: at most %g", row->name, value, TYPED_COUNT_MAX);
-        return bad_value(row, value, "an integer above 0", err);
-    case EVERY: return read_every(o, row, value, err);
-    case KEEP: return read_keep(o, row, value, err);
-    case METHOD_LIST:
-        free(o->methods_text);
-        free(o->methods.items);
-        o->methods_text = NULL;
-        o->methods = (options_list){0};
-        return options_split(value, row->name, &o->methods_text, &o->methods, err);
-    case SEED: o->seeded = true; return typed_seed(value, place) ? MOTUS_OK : bad_value(row, value, "an integer", err);
-    case NAMED: return add_named(place, row, value, err);
-    case TEXTS: return add_text(place, value, err);
+    case FLAG: return *(bool *)place = true;
+    case CHOICE:
+    case WORD: *(const char **)place = value; return true;
+    case NUMBER: return read_number(value, place, inner);
+    case POSITIVE:
+    case LENGTH: return read_above(value, place, inner);
+    case TOLERANCE: return read_unit(o, value, number) && read_above(number, place, inner);
+    case ACCURACIES: return read_accuracies(o, place, value, inner);
+    case COUNT: return read_count(value, place, inner);
+    case SEED: return typed_seed(value, place) || read_count(value, place, inner);
+    case EVERY: return read_every(place, value, inner);
+    case STATES: return read_states(place, value, inner);
+    case NAMES: options_list_free(place); return !options_split(value, row->name, place, inner);
+    case NAMED: return strchr(value, '=') && value[0] != '=' && !add_text(place, value, inner);
+    case TEXTS: return !add_text(place, value, inner);
+    }
+    return false;
+}
+
+static motus_status read_value(options *o, size_t k, const char *value, motus_error *err)
+{
+    const option *row = &table[k];
+    motus_error inner = motus_default_error();
+    o->given[k] = value;
+    if (row->kind != FLAG && row->kind <= CHOICE && !*value)
+        return fail(err, MOTUS_ARGUMENT, "%s: its value is empty", row->name);
+    if (row->kind == CHOICE && !is_choice(row, value)) {
+        fail(err, MOTUS_ARGUMENT, "%s %s: this is none of its words", row->name, value);
+        hint(err, "write one of: %s", row->choices);
+        return MOTUS_ARGUMENT;
+    }
+    if (store(o, row, value, &inner)) return MOTUS_OK;
+    if (inner.status == MOTUS_MEMORY || !wanted[row->kind]) {
+        *err = inner;
+        return inner.status;
+    }
+    fail(err, MOTUS_ARGUMENT, "%s %s: this is not %s", row->name, value, wanted[row->kind]);
+    if (inner.hint[0])
+        hint(err, "%s", inner.hint);
+    else
+        hint_help(row, err);
+    return MOTUS_ARGUMENT;
+}
+
+bool options_has(const options *o, const option *row)
+{
+    const void *place = (const char *)o + row->place;
+    switch (row->kind) {
+    case FLAG: return *(const bool *)place;
+    case CHOICE:
+    case WORD: return *(const char *const *)place;
+    case NUMBER:
+    case POSITIVE:
+    case TOLERANCE:
+    case ACCURACIES: return !isnan(*(const double *)place);
+    case LENGTH: return *(const double *)place > 0;
+    case COUNT: return *(const int64_t *)place > 0;
+    case SEED: return o->given[row - table];
+    case EVERY:
+    case STATES: return ((const options_period *)place)->time > 0 || ((const options_period *)place)->steps > 0;
+    case NAMES:
+    case NAMED:
+    case TEXTS: return ((const options_list *)place)->count > 0;
+    }
+    return false;
+}
+
+static void forget(options *o, size_t k)
+{
+    const option *row = &table[k];
+    void *place = (char *)o + row->place;
+    o->given[k] = NULL;
+    if (row->kind >= NAMES) options_list_free(place);
+    memset(place, 0, row->size);
+    if (row->kind == NUMBER || row->kind == POSITIVE || row->kind == TOLERANCE || row->kind == ACCURACIES)
+        *(double *)place = NAN;
+}
+
+void options_forget(options *o, unsigned settings)
+{
+    for (size_t k = 0; k < OPTION_COUNT; k++)
+        if (table[k].setting & settings) forget(o, k);
+}
+
+void options_take(options *o, const options *from, unsigned settings)
+{
+    for (size_t k = 0; k < OPTION_COUNT; k++)
+        if (table[k].setting & settings) {
+            o->given[k] = from->given[k];
+            memcpy((char *)o + table[k].place, (const char *)from + table[k].place, table[k].size);
+        }
+}
+
+void options_free(options *o)
+{
+    options_list_free(&o->files);
+    options_forget(o, OF_MOTION);
+}
+
+motus_switches options_switches(const options *o)
+{
+    if (!o->switches) return MOTUS_SWITCHES_USUAL;
+    return strcmp(o->switches, "locate") ? MOTUS_SWITCHES_STEP : MOTUS_SWITCHES_LOCATE;
+}
+
+motus_bars options_bars(const options *o)
+{
+    if (!o->error) return MOTUS_BARS_CHEAP;
+    return !strcmp(o->error, "none") ? MOTUS_BARS_NONE : !strcmp(o->error, "full") ? MOTUS_BARS_FULL : MOTUS_BARS_CHEAP;
+}
+
+/* ---- options that do not go together ---- */
+
+/* A link has a model, its settings and methods; and --share computes nothing that could be written. */
+static motus_status check_share(const options *o, motus_error *err)
+{
+    for (size_t k = 0; k < OPTION_COUNT; k++) {
+        const option *row = &table[k];
+        if (!o->given[k] || row->link || k == OPTION_share || row->setting == OF_MACHINE || row->verbs == VERB_ALL)
+            continue;
+        fail(err, MOTUS_ARGUMENT, "--share and %s exclude each other", row->name);
+        hint(err, "--share computes nothing: it prints a link's model and settings");
+        return MOTUS_ARGUMENT;
     }
     return MOTUS_OK;
 }
 
-/* A link has a model, its settings and methods, but no number of evaluations and no restart state; and --share
- * computes nothing that could be written. */
-static motus_status check_share(const options *o, motus_error *err)
+motus_status options_judge(const options_rule *rules, size_t count, motus_error *err)
 {
-    const struct {
-        const char *name;
-        bool given;
-    } others[] = {
-        {"--output", o->output},
-        {"--events", o->events},
-        {"--plot", o->plot},
-        {"--save-state", o->save_state},
-        {"--restart", o->restart},
-        {"--evaluations", o->evaluations > 0},
-        {"--accuracies", !isnan(o->coarsest)},
-        {"--emit-c", o->emit_c},
-        {"--when", o->when.count > 0},
-        {"--section", o->section},
-    };
-    for (size_t i = 0; i < sizeof others / sizeof *others; i++)
-        if (others[i].given) {
-            fail(err, MOTUS_ARGUMENT, "--share and %s exclude each other", others[i].name);
-            hint(err, "--share computes nothing: it prints a link's model and settings");
+    for (size_t k = 0; k < count; k++)
+        if (rules[k].broken) {
+            fail(err, MOTUS_ARGUMENT, "%s", rules[k].what);
+            if (rules[k].right) hint(err, "%s", rules[k].right);
             return MOTUS_ARGUMENT;
         }
     return MOTUS_OK;
 }
 
-/* What a comparison at equal accuracy finds itself, and what it alone reads. */
-static motus_status check_accuracies(const options *o, motus_error *err)
-{
-    const bool given = !isnan(o->coarsest);
-    if (given && (o->evaluations > 0 || !isnan(o->step))) {
-        fail(err, MOTUS_ARGUMENT, "--accuracies and %s exclude each other",
-             o->evaluations > 0 ? "--evaluations" : "--step");
-        hint(err, "with --accuracies each method gets the step, or the tolerance, that it needs for them");
-        return MOTUS_ARGUMENT;
-    }
-    if (!given && o->verb == VERB_COMPARE && o->machine) {
-        fail(err, MOTUS_ARGUMENT, "--machine needs --accuracies");
-        hint(err, "add --accuracies 1e-3:1e-12");
-        return MOTUS_ARGUMENT;
-    }
-    return MOTUS_OK;
-}
-
 static motus_status check(const options *o, motus_error *err)
 {
-    const char *machine = o->machine;
-    if (machine && strcmp(machine, "auto") != 0 && strcmp(machine, "interpreter") != 0 &&
-        strcmp(machine, "compiled") != 0) {
-        fail(err, MOTUS_ARGUMENT, "--machine %s: there is no such machine", machine);
-        hint(err, "auto, interpreter or compiled");
-        return MOTUS_ARGUMENT;
-    }
-    if (o->switches && strcmp(o->switches, "locate") != 0 && strcmp(o->switches, "step") != 0) {
-        fail(err, MOTUS_ARGUMENT, "--switches %s: there is no such way to treat switches", o->switches);
-        hint(err, "the ways are locate and step");
-        return MOTUS_ARGUMENT;
-    }
-    if (o->error && strcmp(o->error, "none") != 0 && strcmp(o->error, "cheap") != 0 && strcmp(o->error, "full") != 0) {
-        fail(err, MOTUS_ARGUMENT, "--error %s: there is no such way to tell the error", o->error);
-        hint(err, "cheap, full or none");
-        return MOTUS_ARGUMENT;
-    }
-    const bool none = o->error && strcmp(o->error, "none") == 0;
-    if (o->errors && (none || (o->verb == VERB_RUN && !o->output))) {
-        fail(err, MOTUS_ARGUMENT, none ? "--errors needs errors" : "--errors needs -o, which names the CSV");
-        hint(err, none ? "leave --error none out" : "add -o traj.csv");
-        return MOTUS_ARGUMENT;
-    }
-    if (o->verb == VERB_SWEEP && o->error && !none && !o->errors) {
-        fail(err, MOTUS_ARGUMENT, "--error %s: a sweep tells errors in columns of their own", o->error);
-        hint(err, "add --errors");
-        return MOTUS_ARGUMENT;
-    }
-    if (o->threads > MOTUS_THREADS_MAX) {
-        fail(err, MOTUS_ARGUMENT, "--threads %lld: at most %d", (long long)o->threads, MOTUS_THREADS_MAX);
-        hint(err, "more threads than the computer has cores make nothing faster");
-        return MOTUS_ARGUMENT;
-    }
-    if (!o->section && (o->skip > 0 || o->most_points > 0)) {
-        fail(err, MOTUS_ARGUMENT, "%s needs --section", o->skip > 0 ? "--skip" : "--points");
-        hint(err, "add --section \"x = 0 rising\"");
-        return MOTUS_ARGUMENT;
-    }
-    if (o->plot_of && !o->plot) {
-        fail(err, MOTUS_ARGUMENT, "--plot-of needs --plot, which names the file");
-        hint(err, "add --plot fig.svg");
-        return MOTUS_ARGUMENT;
-    }
-    const bool every = o->every_time > 0 || o->every_steps > 0, columns = o->columns && !o->events;
-    if (o->verb == VERB_RUN && (columns || every) && !o->output) {
-        fail(err, MOTUS_ARGUMENT, "%s needs -o, which names the CSV", columns ? "--columns" : "--every");
-        hint(err, "add -o traj.csv");
-        return MOTUS_ARGUMENT;
-    }
-    if (o->json && o->events && strcmp(o->events, "-") == 0) {
-        fail(err, MOTUS_ARGUMENT, "--json and --events - both write to standard output");
-        hint(err, "write the events to a file: --events events.csv");
-        return MOTUS_ARGUMENT;
-    }
-    if (o->json && o->output && strcmp(o->output, "-") == 0) {
-        fail(err, MOTUS_ARGUMENT, "--json and -o - both write to standard output");
-        hint(err, "write %s to a file: -o %s", o->verb == VERB_LAB ? "the page" : "the CSV",
-             o->verb == VERB_LAB ? "lab.html" : "traj.csv");
-        return MOTUS_ARGUMENT;
-    }
-    if (o->json && o->markdown) return fail(err, MOTUS_ARGUMENT, "--json and --markdown exclude each other");
-    const motus_status status = check_accuracies(o, err);
-    if (status) return status;
-    return o->share ? check_share(o, err) : MOTUS_OK;
+    static const char each[] = "with --accuracies each method gets the step, or the tolerance, that it needs for them";
+    const bool run = o->verb == VERB_RUN, none = options_bars(o) == MOTUS_BARS_NONE, lab = o->verb == VERB_LAB;
+    const bool accuracies = o->given[OPTION_accuracies];
+    const options_rule rules[] = {
+        {accuracies && o->evaluations, "--accuracies and --evaluations exclude each other", each},
+        {accuracies && !isnan(o->step), "--accuracies and --step exclude each other", each},
+        {!accuracies && o->verb == VERB_COMPARE && o->machine, "--machine needs --accuracies",
+         "add --accuracies 1e-3:1e-12"},
+        {o->errors && none, "--errors needs errors", "leave --error none out"},
+        {o->errors && run && !o->output, "--errors needs -o, which names the CSV", "add -o traj.csv"},
+        {o->verb == VERB_SWEEP && o->error && !none && !o->errors,
+         "--error: a sweep tells errors in columns of their own", "add --errors"},
+        {o->threads > MOTUS_THREADS_MAX, "--threads: there are too many",
+         "more threads than the computer has cores make nothing faster"},
+        {!o->section && o->skip, "--skip needs --section", "add --section \"x = 0 rising\""},
+        {!o->section && o->most_points, "--points needs --section", "add --section \"x = 0 rising\""},
+        {o->plot_of && !o->plot, "--plot-of needs --plot, which names the file", "add --plot fig.svg"},
+        {run && o->columns && !o->events && !o->output, "--columns needs -o, which names the CSV", "add -o traj.csv"},
+        {run && o->given[OPTION_every] && !o->output, "--every needs -o, which names the CSV", "add -o traj.csv"},
+        {o->json && o->events && strcmp(o->events, "-") == 0, "--json and --events - both write to standard output",
+         "write the events to a file: --events events.csv"},
+        {o->json && o->output && strcmp(o->output, "-") == 0, "--json and -o - both write to standard output",
+         lab ? "write the page to a file: -o lab.html" : "write the CSV to a file: -o traj.csv"},
+        {o->json && o->markdown, "--json and --markdown exclude each other", NULL},
+    };
+    const motus_status status = options_judge(rules, sizeof rules / sizeof *rules, err);
+    return status || !o->share ? status : check_share(o, err);
 }
 
 motus_status options_read(options *o, unsigned verb, int argc, char **argv, int first, motus_error *err)
 {
-    *o = (options){.verb = verb,
-                   .step = NAN,
-                   .until = NAN,
-                   .tolerance = NAN,
-                   .accuracy = NAN,
-                   .coarsest = NAN,
-                   .finest = NAN,
-                   .argc = argc,
-                   .argv = argv};
+    *o = (options){.verb = verb, .argc = argc, .argv = argv};
+    for (size_t k = 0; k < OPTION_COUNT; k++) forget(o, k);
     bool only_operands = false;
     for (int i = first; i < argc; i++) {
         char *word = argv[i];
@@ -566,48 +486,20 @@ motus_status options_read(options *o, unsigned verb, int argc, char **argv, int 
         char *equals = word[1] == '-' ? strchr(word, '=') : NULL;
         size_t length = equals ? (size_t)(equals - word) : strlen(word);
         snprintf(name, sizeof name, "%.*s", (int)(length < sizeof name ? length : sizeof name - 1), word);
-        const option *row = NULL;
-        motus_status status = find(name, verb, &row, err);
+        size_t k = 0;
+        motus_status status = find(name, verb, &k, err);
         if (status) return status;
+        const option *row = &table[k];
         const char *value = equals ? equals + 1 : NULL;
         if (row->kind == FLAG && value) return fail(err, MOTUS_ARGUMENT, "%s takes no value", row->name);
         if (row->kind != FLAG && !value && i + 1 == argc) {
             fail(err, MOTUS_ARGUMENT, "%s: its value is missing", row->name);
-            hint(err, "%s %s: %s", row->name, row->argument, row->help);
+            hint_help(row, err);
             return MOTUS_ARGUMENT;
         }
         if (row->kind != FLAG && !value) value = argv[++i];
-        status = store(o, row, value, err);
+        status = read_value(o, k, row->kind == FLAG ? "" : value, err);
         if (status) return status;
     }
     return o->help ? MOTUS_OK : check(o, err);
-}
-
-void options_free(options *o)
-{
-    free(o->files.items);
-    free(o->set.items);
-    free(o->when.items);
-    free(o->vary.items);
-    free(o->random.items);
-    free(o->methods.items);
-    free(o->methods_text);
-}
-
-motus_switches options_switches(const options *o)
-{
-    if (!o->switches) return MOTUS_SWITCHES_USUAL;
-    return strcmp(o->switches, "locate") ? MOTUS_SWITCHES_STEP : MOTUS_SWITCHES_LOCATE;
-}
-
-void options_help(FILE *out, unsigned verb)
-{
-    for (size_t i = 0; i < OPTIONS; i++) {
-        const option *o = &table[i];
-        if (!(o->verbs & verb)) continue;
-        char left[40];
-        snprintf(left, sizeof left, "%s%s%s%s%s", o->brief ? o->brief : "", o->brief ? ", " : "", o->name,
-                 o->argument ? " " : "", o->argument ? o->argument : "");
-        fprintf(out, "  %-20s  %s\n", left, o->help);
-    }
 }

@@ -1,4 +1,4 @@
-/* The command line, read once into one struct. */
+/* The command line, read once into one struct, and the table of options that it is read by. */
 #ifndef CLI_OPTIONS_H
 #define CLI_OPTIONS_H
 
@@ -8,56 +8,118 @@
 #include <stdbool.h>
 #include <stdio.h>
 
-/* Verbs, as bits, so that an option can have several. */
+/* Verbs, as bits, so that an option can have several: VERB_RUN, VERB_SWEEP … */
 enum {
-    VERB_RUN = 1,
-    VERB_COMPARE = 2,
-    VERB_CONVERGE = 4,
-    VERB_CHECK = 8,
-    VERB_METHODS = 16,
-    VERB_CACHE = 32,
-    VERB_SWEEP = 64,
-    VERB_LAB = 128,
-    VERB_MERGE = 256,
-    VERB_ARCHIVE = 512
+#define VERB(bit, ...) VERB_NUMBER_##bit,
+#include "cli/options.def"
+    VERB_COUNT
+};
+enum {
+#define VERB(bit, ...) VERB_##bit = 1 << VERB_NUMBER_##bit,
+#include "cli/options.def"
+    VERB_ALL = (1 << VERB_COUNT) - 1
 };
 
 typedef struct options_list {
     const char **items;
     size_t count;
+    char *text; /* the memory of the items; NULL: they lie elsewhere */
 } options_list;
+
+/* What a value is, and its type in C; where none is given it is 0, and NaN where the type says so. */
+typedef enum option_kind {
+    FLAG,
+    WORD,
+    CHOICE,     /* one of option.choices */
+    NUMBER,     /* NaN */
+    POSITIVE,   /* likewise */
+    LENGTH,     /* a number above 0 */
+    TOLERANCE,  /* NaN; with options.absolute */
+    ACCURACIES, /* coarsest NaN; likewise */
+    COUNT,
+    SEED,
+    EVERY,
+    STATES,
+    NAMES, /* A,B,C */
+    NAMED, /* P=…, repeated */
+    TEXTS  /* repeated */
+} option_kind;
+#define TYPE_FLAG bool
+#define TYPE_WORD const char *
+#define TYPE_CHOICE const char *
+#define TYPE_NUMBER double
+#define TYPE_POSITIVE double
+#define TYPE_LENGTH double
+#define TYPE_TOLERANCE double
+#define TYPE_ACCURACIES options_range
+#define TYPE_COUNT int64_t
+#define TYPE_SEED uint64_t
+#define TYPE_EVERY options_period
+#define TYPE_STATES options_period
+#define TYPE_NAMES options_list
+#define TYPE_NAMED options_list
+#define TYPE_TEXTS options_list
+typedef struct options_range {
+    double coarsest, finest;
+} options_range;
+typedef struct options_period {
+    double time; /* of the motion, or seconds; 0: it is counted in steps */
+    int64_t steps;
+} options_period;
+
+/* Of what an option is a setting. An archive says those of the motion and of its rows; the others are those of the
+ * command that reads it or goes on with it. */
+enum {
+    OF_MOTION = 1,   /* the numbers of the rows change: the fingerprint does, and the command in a file says it */
+    OF_ROWS = 2,     /* which of the rows are computed: the command in a file says it */
+    OF_FILES = 4,    /* what is written or printed, and where */
+    OF_MACHINE = 8,  /* what computes: no number changes */
+    OF_ANOTHER = 16, /* something else is done than to compute the motion */
+    OF_WHATEVER = OF_FILES | OF_MACHINE | OF_ANOTHER
+};
+
+/* How a setting of the motion enters the fingerprint of a sweep; the others are part of files that exist. */
+typedef enum option_print {
+    PRINT_NAMED,    /* where it is given, with its name: so does every new one */
+    PRINT_GIVEN,    /* where it is given */
+    PRINT_ADAPTIVE, /* where the steps adapt */
+    PRINT_ALWAYS,
+    PRINT_ELSEWHERE /* with another option */
+} option_print;
+
+typedef struct option {
+    option_kind kind;
+    size_t place, size; /* in struct options */
+    const char *name, *argument;
+    unsigned verbs, setting;
+    const char *help; /* code in backquotes */
+    const char *brief;
+    const char *choices; /* words for the value, with blanks between them */
+    const char *more;    /* behind the help, in the manual alone */
+    option_print print;
+    bool late; /* in the fingerprint behind the others */
+    char link; /* its key in a link to the lab; 0: a link has it not */
+} option;
+
+/* The numbers of the rows: OPTION_method … */
+enum {
+#define OPTION(kind, member, ...) OPTION_##member,
+#define OPTION_AGAIN(kind, member, ...) OPTION_AGAIN_##member,
+#include "cli/options.def"
+    OPTION_COUNT
+};
 
 typedef struct options {
     unsigned verb;
     const char *operand; /* the model, or the method of `methods`; NULL: none */
     const char *text;    /* the model's, where it is not read from the operand; else NULL */
     options_list files;  /* the operands of `merge` */
-    const char *method, *error, *switches, *output, *columns, *events, *section, *plot, *plot_of, *save_state;
-    const char *restart, *machine, *shard, *verify;
-    double step, until;                   /* NaN: the model's */
-    double tolerance, accuracy;           /* NaN: the model's */
-    double coarsest, finest;              /* accuracies to compare at; NaN: not given */
-    bool absolute;                        /* tolerance or accuracies are in the units of the numbers */
-    double shortest_step, longest_step;   /* 0: not given */
-    int64_t most_steps;                   /* likewise */
-    const char *step_typed, *until_typed; /* as given; NULL: the model's */
-    double every_time;                    /* 0: not given */
-    int64_t every_steps;                  /* 0: not given */
-    double keep_seconds;                  /* between two states of a run; 0: not given */
-    int64_t keep_steps;                   /* likewise */
-    int64_t evaluations, threads;         /* 0: not given */
-    int64_t skip, most_points;            /* of the section; 0: not given */
-    options_list set, when, methods;
-    options_list vary, random; /* "P=…" as given */
-    const char *record;
-    int64_t count, lanes; /* 0: not given */
-    uint64_t seed;
-    bool seeded; /* a seed was given */
-    bool zip, fast, resume, force, plan, partial, compress;
-    char *methods_text; /* the items of `methods` point into it */
-    bool errors, json, quiet, help, markdown, points, emit_c, clear, share, no_open;
-    const team *team; /* NULL: the program is alone */
-    bool *answered;   /* where a verb notes that its JSON object is written: a failure after that is no second one */
+#define OPTION(kind, member, ...) TYPE_##kind member;
+#include "cli/options.def"
+    const char *given[OPTION_COUNT]; /* the text of the value; NULL: the option is not given */
+    bool absolute;                   /* tolerance or accuracies are in the units of the numbers */
+    const team *team;                /* NULL: the program is alone */
+    bool *answered; /* where a verb notes that its JSON object is written: a failure after that is no second one */
     int argc;
     char **argv; /* the command line, for the header of files */
 } options;
@@ -65,14 +127,29 @@ typedef struct options {
 /* argv from the program's name on; `first` is where the verb's own arguments begin. */
 motus_status options_read(options *, unsigned verb, int argc, char **argv, int first, motus_error *);
 void options_free(options *);
+const option *options_row(size_t k); /* k < OPTION_COUNT */
+/* The help of a row, or more, without its backquotes. Returns out. */
+enum { OPTIONS_HELP = 320 };
+const char *options_plain(const char *help, char out[OPTIONS_HELP]);
+/* Whether a row has a value, also one that was not given. */
+bool options_has(const options *, const option *);
+/* Options of these settings are as if they were not given; or they are those of others, which keep their lists. */
+void options_forget(options *, unsigned settings);
+void options_take(options *, const options *from, unsigned settings);
+/* MOTUS_ARGUMENT: a rule is broken, the first such; what is said, and what would be right, NULL: nothing. */
+typedef struct options_rule {
+    bool broken;
+    const char *what, *right;
+} options_rule;
+motus_status options_judge(const options_rule *, size_t count, motus_error *);
 const char *options_verb(unsigned verb);
 /* Whether there is an option --name, of any verb. */
 bool options_known(const char *name, size_t length);
-/* What --switches asks for. */
+/* What --switches and --error ask for. */
 motus_switches options_switches(const options *);
-/* The lines of --help for the options of a verb. */
-void options_help(FILE *, unsigned verb);
-/* Splits "x,r.x,u[1,2]" at the commas outside brackets. The items point into *copy; the caller frees both. */
-motus_status options_split(const char *text, const char *option, char **copy, options_list *, motus_error *);
+motus_bars options_bars(const options *);
+/* Splits "x,r.x,u[1,2]" at the commas outside brackets. */
+motus_status options_split(const char *text, const char *option, options_list *, motus_error *);
+void options_list_free(options_list *);
 
 #endif

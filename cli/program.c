@@ -1,6 +1,6 @@
-/* The program: the table of verbs.
+/* The program: it calls the verb.
  *
- * Invariant: a verb is one row of the table. Errors are printed once, here; the exit status follows from the error's.
+ * Invariant: errors are printed once, here; the exit status follows from the error's.
  */
 #include "base/near.h"
 #include "base/error.h"
@@ -17,28 +17,18 @@
 
 typedef struct verb {
     const char *name;
-    unsigned bit; /* 0: not available in this version */
+    unsigned bit;
     motus_status (*go)(const options *, motus_error *);
 } verb;
 
 static const verb verbs[] = {
-    {"run", VERB_RUN, run_verb},
-    {"compare", VERB_COMPARE, compare_verb},
-    {"converge", VERB_CONVERGE, converge_verb},
-    {"sweep", VERB_SWEEP, sweep_verb},
-    {"merge", VERB_MERGE, merge_verb},
-    {"archive", VERB_ARCHIVE, archive_verb},
-    {"check", VERB_CHECK, check_verb},
-    {"methods", VERB_METHODS, methods_verb},
-    {"cache", VERB_CACHE, cache_verb},
-    {"lab", VERB_LAB, lab_verb},
-    {"bench", 0, NULL},
+#define VERB(bit, name, ...) {#name, VERB_##bit, name##_verb},
+#include "cli/options.def"
 };
-enum { VERBS = sizeof verbs / sizeof *verbs };
 
 static const verb *find(const char *name)
 {
-    for (size_t i = 0; i < VERBS; i++)
+    for (size_t i = 0; i < VERB_COUNT; i++)
         if (strcmp(verbs[i].name, name) == 0) return &verbs[i];
     return NULL;
 }
@@ -48,9 +38,9 @@ static motus_status unknown(const char *name, motus_error *err)
     size_t length = strlen(name);
     int best = 6;
     const char *near = NULL;
-    for (size_t i = 0; i < VERBS; i++) {
+    for (size_t i = 0; i < VERB_COUNT; i++) {
         const int d = near_distance(verbs[i].name, name, best);
-        if (verbs[i].bit && d < best) {
+        if (d < best) {
             best = d;
             near = verbs[i].name;
         }
@@ -76,17 +66,19 @@ static void print_version(bool as_json)
     json_end(&j);
 }
 
-/* motus [--help | --version | help [VERB]] */
+/* motus [--help | --version | --options | help [VERB]] */
 static bool general(int argc, char **argv, bool as_json)
 {
     const char *word = argc > 1 ? argv[1] : "";
     const verb *v = argc > 2 ? find(argv[2]) : NULL;
     if (strcmp(word, "--version") == 0 || strcmp(word, "-V") == 0 || strcmp(word, "version") == 0)
         print_version(as_json);
-    else if (strcmp(word, "help") == 0 && v && v->bit)
+    else if (strcmp(word, "help") == 0 && v)
         help_verb(stdout, v->bit);
     else if (strcmp(word, "--help") == 0 || strcmp(word, "-h") == 0 || strcmp(word, "help") == 0)
         help_program(stdout);
+    else if (strcmp(word, "--options") == 0)
+        help_table(stdout);
     else
         return false;
     return true;
@@ -105,7 +97,6 @@ static motus_status dispatch(int argc, char **argv, bool as_json, bool *answered
     }
     const verb *v = find(argv[first]);
     if (!v) return unknown(argv[first], err);
-    if (!v->go) return fail(err, MOTUS_UNAVAILABLE, "motus %s is not available in this version", v->name);
     options o;
     motus_status status = options_read(&o, v->bit, argc, argv, first + 1, err);
     o.json = o.json || as_json;

@@ -197,8 +197,8 @@ motus_status rank_verb(const options *o, motus_error *err)
     motus_status status = studies_begin(&s, "compare", SETTLE_UNTIL, o, &def, err);
     if (!status) {
         def.step = NAN;
-        def.coarsest = o->coarsest;
-        def.finest = o->finest;
+        def.coarsest = o->accuracies.coarsest;
+        def.finest = o->accuracies.finest;
         def.absolute = o->absolute;
         def.machine = o->machine;
         status = motus_rank(s.model.system, &def, &r, err);

@@ -53,11 +53,11 @@ static bool is_archive(const options *o) { return o->output && sweep_archive_nam
 
 static motus_status check_archive(const options *o, motus_error *err)
 {
-    const char *only = o->resume                                  ? "--resume"
-                       : o->force                                 ? "--force"
-                       : o->compress                              ? "--compress"
-                       : o->keep_seconds > 0 || o->keep_steps > 0 ? "--checkpoint"
-                                                                  : NULL;
+    const char *only = o->resume                     ? "--resume"
+                       : o->force                    ? "--force"
+                       : o->compress                 ? "--compress"
+                       : o->given[OPTION_checkpoint] ? "--checkpoint"
+                                                     : NULL;
     if (only && !is_archive(o)) {
         fail(err, MOTUS_ARGUMENT, "%s is for a run into an archive", only);
         hint(err, "write it: -o run.h5");
@@ -125,8 +125,7 @@ static motus_status save(job *j, motus_error *err)
 static motus_bars bars_wanted(const options *o)
 {
     const bool seen = !o->quiet || o->json || o->errors || o->plot || o->save_state || o->events || is_archive(o);
-    if (!seen || (o->error && strcmp(o->error, "none") == 0)) return MOTUS_BARS_NONE;
-    return o->error && strcmp(o->error, "full") == 0 ? MOTUS_BARS_FULL : MOTUS_BARS_CHEAP;
+    return seen ? options_bars(o) : MOTUS_BARS_NONE;
 }
 
 static void plan_rows(job *j)

@@ -94,9 +94,7 @@ motus_status run_again_rows(const options *o, motus_archive *file, uint64_t rows
     quiet.quiet = true;
     stop_progress silent = stop_progress_begin("archive", true);
     comparison c = {.file = file, .plan = &plan, .wanted = rows, .same = true, .where = where, .progress = progress};
-    const motus_bars bars = !o->errors                                  ? MOTUS_BARS_NONE
-                            : o->error && strcmp(o->error, "full") == 0 ? MOTUS_BARS_FULL
-                                                                        : MOTUS_BARS_CHEAP;
+    const motus_bars bars = o->errors ? options_bars(o) : MOTUS_BARS_NONE;
     motus_status status = load_model(&model, &quiet, err);
     if (!status) status = run_make(&quiet, &model, &silent, bars, &def, &run, err);
     if (!status) status = csv_plan(&plan, &model, &quiet, err);

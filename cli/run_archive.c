@@ -493,8 +493,8 @@ void run_archive_observe(run_archive *a, walk_observer *rows, walk_keeper *keepe
     rows->jump = jump;
     rows->context = a;
     rows->had = a->samples;
-    *keeper = (walk_keeper){.steps = o->keep_steps,
-                            .seconds = o->keep_seconds > 0 ? o->keep_seconds : USUAL_S,
+    *keeper = (walk_keeper){.steps = o->checkpoint.steps,
+                            .seconds = o->checkpoint.time > 0 ? o->checkpoint.time : USUAL_S,
                             .keep = keep,
                             .context = a,
                             .remember = wants_last(a) ? remember : NULL,

@@ -6,7 +6,7 @@
 
 #include <motus-archive.h>
 
-/* The command with every setting written out, to be freed also after a failure: of the method and the steps those that
+/* The command with every setting written out, to be freed also after a failure: the method and the steps are those that
  * the run has found. */
 motus_status run_command_text(const options *, const motus_run *, double until, char **text, motus_error *);
 /* The hash of all that the rows depend on. Returns out. */

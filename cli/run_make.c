@@ -52,9 +52,9 @@ walk_observer run_make_rows(const options *o, const load *m, const motus_run *ru
     motus_settings settings = motus_default_settings();
     motus_settings_of(m->system, &settings);
     walk_observer w = {.errors = o->errors};
-    const bool ours = o->every_time > 0 || o->every_steps > 0;
-    const double period = ours ? o->every_time : settings.every_time > 0 ? settings.every_time : 0;
-    const int64_t steps = ours ? o->every_steps : settings.every_steps;
+    const bool ours = o->every.time > 0 || o->every.steps > 0;
+    const double period = ours ? o->every.time : settings.every_time > 0 ? settings.every_time : 0;
+    const int64_t steps = ours ? o->every.steps : settings.every_steps;
     w.stride = steps > 0 ? steps : period > 0 ? walk_steps_of_run(run, period) : 1;
     w.period = w.stride > 0 ? 0 : period;
     return w;

@@ -5,12 +5,14 @@
  */
 #include "cli/share.h"
 
-#include "base/utf8.h"
+#include "base/decimal.h"
 #include "base/error.h"
+#include "base/utf8.h"
 #include "cli/components.h"
 #include "cli/complain.h"
 #include "cli/file.h"
 #include "cli/text.h"
+#include "cli/typed.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -123,55 +125,41 @@ static char *methods_of(const options *o)
     return out;
 }
 
-/* A number of the command line as the language reads it: as typed if the language reads the same value, else its
- * digits (for .5 and 1.). */
-static void number_of(double value, const char *typed, char *out, size_t size)
+/* A number of the command line as the language reads it: as it was typed, else its digits (for .5 and 1.). */
+enum { NUMBER_ROOM = 256 };
+static void number_of(double value, const char *typed, char out[NUMBER_ROOM])
 {
-    motus_text_def def = motus_default_text();
-    motus_system *system = NULL;
-    motus_settings settings = motus_default_settings();
-    char model[256];
-    int n = snprintf(model, sizeof model, "s' = 0\ns(0) = 0\nuntil %s\n", typed);
-    def.text = model;
-    if (n > 0 && (size_t)n < sizeof model && motus_system_from_text(&def, &system, NULL) == MOTUS_OK)
-        motus_settings_of(system, &settings);
-    bool same = system && settings.until == value;
-    motus_system_destroy(system);
+    double read;
     char digits[DECIMAL_MAX];
-    decimal(value, digits);
-    snprintf(out, size, "%s", same ? typed : digits);
+    const size_t length = strlen(typed);
+    const bool foreign = length == 0 || length >= NUMBER_ROOM || typed[strspn(typed, "+-")] == '.' ||
+                         (typed[length - 1] == '.' && typed_decimal(typed, &read));
+    snprintf(out, NUMBER_ROOM, "%s", foreign ? decimal(value, digits) : typed);
 }
 
-static motus_status gather(items *all, const load *m, const options *o, const char *methods, char **fragment,
-                           motus_error *err)
+/* Items of all rows that a link has, in their order; `numbers` is room for one each. */
+static void gather(items *all, const load *m, const options *o, const char *methods, char numbers[][NUMBER_ROOM])
 {
-    char step[256], until[256], tolerance[DECIMAL_MAX], accuracy[DECIMAL_MAX];
     all->list[all->count++] = (item){'v', "1"};
     all->list[all->count++] = (item){'m', m->text};
-    for (size_t k = 0; k < o->set.count; k++) all->list[all->count++] = (item){'s', o->set.items[k]};
-    if (*methods) all->list[all->count++] = (item){'a', methods};
-    if (o->step_typed) {
-        number_of(o->step, o->step_typed, step, sizeof step);
-        all->list[all->count++] = (item){'h', step};
+    for (size_t k = 0, used = 0; k < OPTION_COUNT; k++) {
+        const option *row = options_row(k);
+        const double *const number = (const double *)((const char *)o + row->place);
+        if (k == OPTION_set)
+            for (size_t i = 0; i < o->set.count; i++) all->list[all->count++] = (item){row->link, o->set.items[i]};
+        else if (k == OPTION_method && *methods)
+            all->list[all->count++] = (item){row->link, methods};
+        else if (row->link && row->kind >= NUMBER && row->kind <= TOLERANCE && o->given[k]) {
+            number_of(*number, row->kind == TOLERANCE ? "" : o->given[k], numbers[used]);
+            all->list[all->count++] = (item){row->link, numbers[used++]};
+        }
     }
-    if (!isnan(o->tolerance)) {
-        decimal(o->tolerance, tolerance);
-        all->list[all->count++] = (item){'r', tolerance};
-    }
-    if (!isnan(o->accuracy)) {
-        decimal(o->accuracy, accuracy);
-        all->list[all->count++] = (item){'g', accuracy};
-    }
-    if (o->until_typed) {
-        number_of(o->until, o->until_typed, until, sizeof until);
-        all->list[all->count++] = (item){'T', until};
-    }
-    return write_items(all, o, fragment, err);
 }
 
 motus_status share_fragment(const load *m, const options *o, char **fragment, motus_error *err)
 {
-    enum { OTHERS = 7 }; /* v m a h r g T */
+    enum { OTHERS = 3 }; /* v m a */
+    char numbers[OPTION_COUNT][NUMBER_ROOM];
     if (o->absolute) {
         const bool accuracy = !isnan(o->accuracy);
         fail(err, MOTUS_ARGUMENT, "a link holds a relative %s, and this one is absolute",
@@ -188,12 +176,10 @@ motus_status share_fragment(const load *m, const options *o, char **fragment, mo
             hint(err, "set all components: \"r(0) = (1, 0)\"");
             return MOTUS_ARGUMENT;
         }
-    items all = {malloc((o->set.count + OTHERS) * sizeof *all.list), 0};
-    motus_status status;
-    if (methods && all.list)
-        status = gather(&all, m, o, methods, fragment, err);
-    else
-        status = complain_memory(err);
+    items all = {malloc((o->set.count + OTHERS + OPTION_COUNT) * sizeof *all.list), 0};
+    motus_status status = methods && all.list ? MOTUS_OK : complain_memory(err);
+    if (!status) gather(&all, m, o, methods, numbers);
+    if (!status) status = write_items(&all, o, fragment, err);
     free(all.list);
     free(methods);
     return status;

@@ -30,17 +30,17 @@ size_t sweep_kept(const sweep *s)
 static motus_status read_every(sweep *s, motus_error *err)
 {
     const options *o = s->options;
-    s->every = o->every_steps > 0 ? o->every_steps : 1;
-    if (o->every_time > 0 && isnan(s->step)) {
+    s->every = o->every.steps > 0 ? o->every.steps : 1;
+    if (o->every.time > 0 && isnan(s->step)) {
         fail(err, MOTUS_ARGUMENT, "--every %g: this is a time, and the steps of the method have no one size",
-             o->every_time);
+             o->every.time);
         hint(err, "a sweep samples at steps: give --every \"10 steps\"");
         return MOTUS_ARGUMENT;
     }
-    if (o->every_time > 0) {
-        s->every = walk_steps_of(o->every_time, s->step);
+    if (o->every.time > 0) {
+        s->every = walk_steps_of(o->every.time, s->step);
         if (s->every <= 0) {
-            fail(err, MOTUS_ARGUMENT, "--every %g: this is not a multiple of the step %g", o->every_time, s->step);
+            fail(err, MOTUS_ARGUMENT, "--every %g: this is not a multiple of the step %g", o->every.time, s->step);
             hint(err, "a sweep samples at steps: give a multiple of the step, or --every \"10 steps\"");
             return MOTUS_ARGUMENT;
         }
@@ -70,9 +70,7 @@ static motus_status create(sweep *s, stop_progress *progress, motus_error *err)
     def.threads = o->threads || !o->team ? (int)o->threads : o->team->threads;
     def.lanes = (int)o->lanes;
     def.fast = o->fast;
-    def.error = !s->errors                                  ? MOTUS_BARS_NONE
-                : o->error && strcmp(o->error, "full") == 0 ? MOTUS_BARS_FULL
-                                                            : MOTUS_BARS_CHEAP;
+    def.error = s->errors ? options_bars(o) : MOTUS_BARS_NONE;
     def.expected = s->grid.total / s->shard.count + 1; /* the blocks of a shard are not known yet */
     def.switches = options_switches(o);
     def.events = o->events || o->plot;

@@ -15,114 +15,70 @@
 #include <stdlib.h>
 #include <string.h>
 
-static void mix_number(uint64_t *hash, double value) { command_mix(hash, &value, sizeof value); }
-static void mix_count(uint64_t *hash, uint64_t value) { command_mix(hash, &value, sizeof value); }
-
 static void mix_axis(uint64_t *hash, const axis *a)
 {
     command_mix_text(hash, a->name);
-    mix_count(hash, a->kind);
-    mix_count(hash, a->count);
+    command_mix_count(hash, a->kind);
+    command_mix_count(hash, a->count);
     if (a->kind == AXIS_LIST) {
         command_mix(hash, a->list, a->count * sizeof *a->list);
         return;
     }
-    mix_number(hash, a->range.from);
-    mix_number(hash, a->range.to);
-    mix_count(hash, a->range.logarithmic);
+    command_mix(hash, &a->range.from, sizeof a->range.from);
+    command_mix(hash, &a->range.to, sizeof a->range.to);
+    command_mix_count(hash, a->range.logarithmic);
 }
 
-static const char *how_told(const sweep *s) { return s->options->error ? s->options->error : "cheap"; }
+static void mix_records(uint64_t *hash, const sweep *s)
+{
+    char name[SWEEP_NAME];
+    for (size_t k = 0; k < s->records.count; k++) {
+        sweep_record_name(&s->model, &s->records.items[k], name);
+        command_mix_text(hash, name);
+    }
+    if (s->records.ended) command_mix_text(hash, "ended");
+}
 
-/* Every option that changes a number is mixed in here, and nowhere else; test/sweep.sh tries all of them. */
+/* The options with every setting of the model and every default in them; their lists are those of the command. */
+static options settled(const sweep *s)
+{
+    options o = *s->options;
+    o.count = (int64_t)s->grid.draws;
+    o.most_points = o.most_points ? o.skip + o.most_points : 0;
+    o.skip = 0;
+    if (!o.record) o.record = "final";
+    o.errors = s->errors;
+    o.error = !s->errors ? NULL : o.error ? o.error : "cheap";
+    o.method = s->method;
+    o.step = s->step;
+    o.tolerance = s->tolerance;
+    o.accuracy = s->accuracy;
+    o.absolute = s->absolute;
+    o.switches = sweep_switches(s);
+    o.until = s->until;
+    o.every = (options_period){.steps = s->every};
+    return o;
+}
+
 const char *sweep_head_fingerprint(const sweep *s, const char *version, char out[SWEEP_FINGERPRINT])
 {
     uint64_t hash = COMMAND_HASH;
-    const options *o = s->options;
+    const options o = settled(s);
     command_mix_text(&hash, version);
     command_mix_text(&hash, s->model.text);
-    for (size_t i = 0; i < o->set.count; i++) command_mix_text(&hash, o->set.items[i]);
-    for (size_t i = 0; i < o->when.count; i++) command_mix_text(&hash, o->when.items[i]);
-    if (o->section) command_mix_text(&hash, o->section);
-    if (o->most_points) mix_count(&hash, (uint64_t)(o->skip + o->most_points));
-    command_mix_text(&hash, s->method);
-    mix_number(&hash, s->step);
-    if (!isnan(s->tolerance)) {
-        mix_number(&hash, s->tolerance);
-        mix_count(&hash, (uint64_t)s->absolute);
-        mix_number(&hash, o->shortest_step);
-        mix_number(&hash, o->longest_step);
-        if (o->most_steps) mix_count(&hash, (uint64_t)o->most_steps);
+    for (size_t k = 0; k < 2 * OPTION_COUNT; k++) {
+        const size_t number = k % OPTION_COUNT;
+        const option *row = options_row(number);
+        if (row->setting != OF_MOTION || !(row->verbs & VERB_SWEEP) || row->late != (k >= OPTION_COUNT)) continue;
+        if (number == OPTION_vary)
+            for (size_t i = 0; i < s->grid.count; i++) mix_axis(&hash, &s->grid.axes[i]);
+        else if (number == OPTION_record)
+            mix_records(&hash, s);
+        else
+            command_mix_option(&hash, &o, row);
     }
-    if (sweep_switches(s)) command_mix_text(&hash, sweep_switches(s));
-    mix_number(&hash, s->until);
-    mix_count(&hash, (uint64_t)s->every);
-    mix_count(&hash, o->fast);
-    for (size_t k = 0; k < s->grid.count; k++) mix_axis(&hash, &s->grid.axes[k]);
-    mix_count(&hash, s->grid.zip);
-    mix_count(&hash, s->grid.draws);
-    mix_count(&hash, s->grid.seed);
-    for (size_t k = 0; k < s->records.count; k++) {
-        char name[SWEEP_NAME];
-        sweep_record_name(&s->model, &s->records.items[k], name);
-        command_mix_text(&hash, name);
-    }
-    if (s->records.ended) command_mix_text(&hash, "ended");
-    if (s->errors) command_mix_text(&hash, how_told(s));
-    if (!isnan(s->accuracy)) mix_number(&hash, s->accuracy);
     snprintf(out, SWEEP_FINGERPRINT, "%016" PRIx64, hash);
     return out;
-}
-
-/* How long the steps are. */
-static motus_status steps(const sweep *s, file_out *f, motus_error *err)
-{
-    const options *o = s->options;
-    char text[DECIMAL_MAX + 16], number[DECIMAL_MAX];
-    const bool found = !isnan(s->accuracy);
-    const double bound = found ? s->accuracy : s->tolerance;
-    if (isnan(s->tolerance)) return command_number(f, "--step", s->step, err);
-    snprintf(text, sizeof text, "%s%s", decimal(bound, number), s->absolute ? " absolute" : "");
-    motus_status status = command_option(f, found ? "--accuracy" : "--tolerance", text, err);
-    if (!status && o->shortest_step > 0) status = command_number(f, "--shortest-step", o->shortest_step, err);
-    if (!status && o->longest_step > 0) status = command_number(f, "--longest-step", o->longest_step, err);
-    if (!status && o->most_steps > 0) status = command_number(f, "--most-steps", (double)o->most_steps, err);
-    return status;
-}
-
-/* A command that makes these rows, with every setting of the model and every default written out. */
-static motus_status command(const sweep *s, file_out *f, motus_error *err)
-{
-    const options *o = s->options;
-    motus_status status = file_text(f, "motus sweep", err);
-    if (!status) status = csv_word(f, o->operand, err);
-    for (size_t k = 0; !status && k < s->grid.count; k++)
-        status =
-            command_option(f, s->grid.axes[k].kind <= AXIS_LIST ? "--vary" : "--random", s->grid.axes[k].spec, err);
-    if (!status && s->grid.zip) status = command_option(f, "--zip", NULL, err);
-    if (!status && o->random.count > 0) {
-        status = command_whole(f, "--count", s->grid.draws, err);
-        if (!status) status = command_whole(f, "--seed", s->grid.seed, err);
-    }
-    for (size_t i = 0; !status && i < o->set.count; i++) status = command_option(f, "--set", o->set.items[i], err);
-    for (size_t i = 0; !status && i < o->when.count; i++) status = command_option(f, "--when", o->when.items[i], err);
-    if (!status && o->section) status = command_option(f, "--section", o->section, err);
-    if (!status && o->most_points) status = command_whole(f, "--points", (uint64_t)(o->skip + o->most_points), err);
-    if (!status) status = command_option(f, "--record", o->record ? o->record : "final", err);
-    if (!status && s->errors) status = command_option(f, "--errors", NULL, err);
-    if (!status && s->errors) status = command_option(f, "--error", how_told(s), err);
-    if (!status) status = command_option(f, "--method", s->method, err);
-    if (!status) status = steps(s, f, err);
-    if (!status && sweep_switches(s)) status = command_option(f, "--switches", sweep_switches(s), err);
-    if (!status && !isnan(s->until)) status = command_number(f, "--until", s->until, err);
-    if (!status && s->every > 1) {
-        char text[DECIMAL_MAX + 8];
-        snprintf(text, sizeof text, "%" PRId64 " steps", s->every);
-        status = command_option(f, "--every", text, err);
-    }
-    if (!status && o->fast) status = command_option(f, "--fast", NULL, err);
-    char part[SHARD_TEXT];
-    return status || shard_whole(&s->shard) ? status : command_option(f, "--shard", shard_text(&s->shard, part), err);
 }
 
 const char *sweep_head_name(const sweep *s, size_t k, char out[SWEEP_NAME])
@@ -148,19 +104,23 @@ const char *sweep_head_name(const sweep *s, size_t k, char out[SWEEP_NAME])
 
 motus_status sweep_head_text(const sweep *s, char **text, motus_error *err)
 {
-    char memory[] = "memory";
-    size_t length;
-    *text = NULL;
-    file_out line = {.stream = open_memstream(text, &length), .path = memory};
-    motus_status status = line.stream ? command(s, &line, err) : complain_memory(err);
-    if (line.stream && fclose(line.stream) != 0 && !status) status = complain_memory(err);
-    return status;
+    char part[SHARD_TEXT];
+    options o = settled(s);
+    if (o.random.count == 0) o.count = 0;
+    o.given[OPTION_seed] = o.random.count > 0 ? "" : NULL;
+    if (!isnan(o.accuracy)) o.tolerance = NAN; /* it was found */
+    if (s->every == 1) o.every.steps = 0;
+    o.shard = shard_whole(&s->shard) ? NULL : shard_text(&s->shard, part);
+    return command_text(&o, text, err);
 }
 
 motus_status sweep_head_command(const sweep *s, file_out *f, motus_error *err)
 {
-    motus_status status = file_text(f, "# ", err);
-    if (!status) status = command(s, f, err);
+    char *text;
+    motus_status status = sweep_head_text(s, &text, err);
+    if (!status) status = file_text(f, "# ", err);
+    if (!status) status = file_text(f, text, err);
+    free(text);
     return status ? status : file_text(f, "\n", err);
 }
 

@@ -25,12 +25,11 @@ static motus_status read_command(sweep_origin *g, const char *command, const opt
     if (g->argv.count < 2 || strcmp(words[0], "motus") != 0 || strcmp(words[1], "sweep") != 0) return no_command(err);
     status = options_read(&g->options, VERB_SWEEP, (int)g->argv.count, (char **)words, 2, err);
     options *o = &g->options;
-    o->output = o->events = o->plot = o->plot_of = NULL;
-    o->resume = o->force = o->plan = o->json = false;
+    if (!status && o->help) return no_command(err);
+    options_forget(o, OF_WHATEVER);
+    options_take(o, asked, OF_MACHINE);
     o->quiet = true;
-    o->threads = asked->threads;
-    o->machine = asked->machine;
-    return status || !o->help ? status : no_command(err);
+    return status;
 }
 
 static motus_status other_sweep(const char *version, motus_error *err)

@@ -118,13 +118,12 @@ static motus_status one(sweep_records *r, const load *m, char *item, motus_error
 motus_status sweep_records_read(sweep_records *r, const load *m, const char *list, motus_error *err)
 {
     *r = (sweep_records){0};
-    char *copy;
     options_list items;
-    motus_status status = options_split(list ? list : "final", "--record", &copy, &items, err);
+    motus_status status = options_split(list ? list : "final", "--record", &items, err);
     if (status) return status;
-    for (size_t i = 0; !status && i < items.count; i++) status = one(r, m, copy + (items.items[i] - copy), err);
-    free(items.items);
-    free(copy);
+    for (size_t i = 0; !status && i < items.count; i++)
+        status = one(r, m, items.text + (items.items[i] - items.text), err);
+    options_list_free(&items);
     /* behind them, for an accuracy */
     if (!status) status = add(r, MOTUS_REDUCE_ACCURACY, 0, 1, err);
     if (!status) status = add(r, MOTUS_REDUCE_TOLERANCE, 0, 1, err);

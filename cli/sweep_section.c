@@ -41,10 +41,9 @@ motus_status sweep_section_check(const options *o, motus_error *err)
 /* The axis of the picture that --plot-of gives a varied number: 0 or 1; 2: none. The other name is the column. */
 static motus_status varied_axis(sweep_section *p, const char *text, motus_error *err)
 {
-    char *copy;
     options_list names;
     const sweep *const s = p->sweep;
-    motus_status status = options_split(text, "--plot-of", &copy, &names, err);
+    motus_status status = options_split(text, "--plot-of", &names, err);
     if (status) return status;
     for (size_t a = 0; names.count == 2 && a < 2; a++) {
         p->axis[a] = grid_find(&s->grid, names.items[a]);
@@ -54,8 +53,7 @@ static motus_status varied_axis(sweep_section *p, const char *text, motus_error 
         status = fail(err, MOTUS_ARGUMENT, "--plot-of %s: both numbers are varied, and neither is of the motion", text);
     if (!status && (p->varied[0] || p->varied[1]))
         status = figure_column(&s->model, names.items[p->varied[0]], &p->of[p->varied[0]], err);
-    free(names.items);
-    free(copy);
+    options_list_free(&names);
     return status;
 }
 

@@ -14,38 +14,6 @@ bool typed_decimal(const char *s, double *value)
     return length > 0 && !s[length];
 }
 
-static const char *blanks(const char *s)
-{
-    while (*s == ' ') s++;
-    return s;
-}
-
-bool typed_number(const char *s, double *value)
-{
-    double result = 1, below = 1;
-    const bool negative = *s == '-';
-    s += negative || *s == '+';
-    size_t length = decimal_read(s, SIZE_MAX, &result);
-    bool some = length > 0;
-    s = blanks(s + length);
-    if (some && *s == '*') s++;
-    s = blanks(s);
-    if (s[0] == 'p' && s[1] == 'i') {
-        result *= 3.14159265358979323846;
-        some = true;
-        s += 2;
-    }
-    s = blanks(s);
-    if (*s == '/') {
-        s = blanks(s + 1);
-        length = decimal_read(s, SIZE_MAX, &below);
-        some = some && length > 0;
-        s += length;
-    }
-    *value = (negative ? -result : result) / below;
-    return some && *s == 0 && isfinite(*value);
-}
-
 bool typed_count(const char *s, int64_t *count, const char **rest)
 {
     uint64_t n;

@@ -7,8 +7,6 @@
 
 /* A decimal number with or without a sign, and nothing else; it may be infinite. */
 bool typed_decimal(const char *, double *);
-/* [number] [*] [pi] [/ number]: a step or an end. */
-bool typed_number(const char *, double *);
 /* An integer from 1 to INT64_MAX; *rest: what follows it. 1e6 is one. */
 #define TYPED_COUNT_MAX 9e18
 bool typed_count(const char *, int64_t *, const char **rest);

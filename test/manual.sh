@@ -1,5 +1,5 @@
 #!/bin/bash
-# The documents are correct: the table of methods has the rows of the program, every option is documented everywhere, links have targets,
+# The documents are correct: they have the methods, verbs and options of the program, links have targets,
 # the models and the C program in them work as printed.
 set -u
 motus=${MOTUS:+$(realpath "$MOTUS")}
@@ -22,35 +22,17 @@ block() {
         inside && mine && n == want' "$1"
 }
 
-# --- the table of methods ---------------------------------------------------------------------------------------------------------
-sed -n '/<!-- methods -->/,/<!-- \/methods -->/p' doc/manual.md | sed '1d;$d' >"$place/printed"
-"$motus" methods --markdown >"$place/rows" 2>&1
-judge "doc/manual.md has the table of methods (make manual writes it)" "$(diff "$place/printed" "$place/rows" | head -n 20)"
+# --- what the program says of itself ---------------------------------------------------------------------------------------------------------
+mkdir "$place/doc"
+MOTUS=$motus sh cmake/manual.sh "$place/doc" 2>&1
+for file in manual.md motus.1; do
+    judge "doc/$file has the methods, verbs and options of the program (make manual writes them)" "$(diff doc/$file "$place/doc/$file" 2>&1 | head -n 20)"
+done
 judge "every method's citation is in doc/references.bib" "$(
     "$motus" methods --json | jq -r '.methods[].cite | split(", ")[] | split(" ")[0]' | grep -xE '[A-Za-z]+[0-9]{2,4}[a-z]?' | sort -u |
         while read -r key; do grep -q "{$key," doc/references.bib || echo "$key"; done)"
 
-# --- options ------------------------------------------------------------------------------------------------------------------------
-for verb in run compare converge sweep merge archive check methods lab cache; do "$motus" "$verb" --help; done >"$place/help" 2>&1
-options=$(grep -oE '^ +(-[a-z], )?--[a-z-]+' "$place/help" | grep -oE -- '--[a-z-]+' | sort -u)
-judge "--help lists options" "$([ "$(wc -l <<<"$options")" -ge 10 ] || echo "only: $options")"
-judge "every option is in the manual" "$(for o in $options; do grep -qE "^\|.*\`([^\`]*, \`)?$o[ \`]|, \`$o[ \`]" doc/manual.md || echo "$o"; done)"
-judge "every option is in the manual page" "$(sed 's/\\-/-/g' doc/motus.1 >"$place/page"; for o in $options; do grep -qE -- "$o( |\"|$)" "$place/page" || echo "$o"; done)"
-judge "every option is in the completions" "$(for o in $options; do
-    for f in motus.bash _motus; do grep -qE -- "$o([^a-z-]|$)" doc/completions/$f || echo "$f: $o"; done
-    grep -qE -- "-l ${o#--}( |$)" doc/completions/motus.fish || echo "motus.fish: $o"; done)"
-judge "the manual has no option that the program has not" "$(grep -oE '^\| `[^|]*\|' doc/manual.md | grep -oE -- '--[a-z-]+' | sort -u |
-    while read -r o; do grep -qx -- "$o" <<<"$options" || echo "$o"; done)"
-judge "the manual page has no option that the program has not" "$(sed -n '/^.SH OPTIONS/,/^.SH EXIT/p' "$place/page" | grep -oE -- '^\.B.* --[a-z-]+|"--[a-z-]+' |
-    grep -oE -- '--[a-z-]+' | sort -u | while read -r o; do grep -qx -- "$o" <<<"$options" || [ "$o" = --version ] || echo "$o"; done)"
 judge "the manual page has the version" "$(grep -q "motus $(sed -n 's/^#define MOTUS_VERSION "\(.*\)"/\1/p' include/motus.h)" doc/motus.1 || echo 'another version')"
-judge "bash completes verbs and options" "$(bash -c '
-    source doc/completions/motus.bash
-    COMP_WORDS=(motus conv) COMP_CWORD=1; _motus 2>/dev/null; [ "${COMPREPLY[*]}" = converge ] || echo "conv: ${COMPREPLY[*]}"
-    COMP_WORDS=(motus run --sa) COMP_CWORD=2; _motus 2>/dev/null; [ "${COMPREPLY[*]}" = --save-state ] || echo "--sa: ${COMPREPLY[*]}"')"
-judge "bash completes methods" "$(PATH="$(dirname "$motus"):$PATH" bash -c '
-    source doc/completions/motus.bash
-    COMP_WORDS=(motus methods pef) COMP_CWORD=2; _motus 2>/dev/null; [ "${COMPREPLY[*]}" = pefrl ] || echo "pef: ${COMPREPLY[*]}"')"
 
 # --- functions, JSON keys -------------------------------------------------------------------------------------------------------------
 judge "every function of the language is in the manual" "$(grep -oE '\{"[a-z0-9]+", (OP|CALL)_' lang/text/words.c | grep -oE '"[a-z0-9]+"' | tr -d '"' |

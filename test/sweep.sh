@@ -682,7 +682,7 @@ bad "a record of an unknown name" "energi" osc.motus --vary F=1,2 --record energ
 bad "a hole in --record" "a name is missing" osc.motus --vary F=1,2 --record x,,energy
 bad "--every between steps" "not a multiple of the step" osc.motus --vary F=1,2 --record "max(x)" --every 0.013
 for threads in 0 -1 x 99999999999; do bad "--threads $threads" "--threads" osc.motus --vary F=1,2 --threads "$threads"; done
-bad "--machine abacus" "there is no such machine" osc.motus --vary F=1,2 --machine abacus
+bad "--machine abacus" "none of its words" osc.motus --vary F=1,2 --machine abacus
 bad "a method that does not fit" "pefrl" "$root/models/damped-cubic.motus" --vary "x(0)=1,2" --method pefrl
 bad "--columns" "motus sweep takes no --columns" osc.motus --vary F=1,2 --columns x
 bad "--force and --resume" "exclude each other" osc.motus --vary F=1,2 --force --resume
@@ -707,91 +707,6 @@ bad "no values" "void.csv holds no values" osc.motus --vary F=@void.csv:1
 head -c 5000 /dev/urandom >noise.csv
 bad "a file of noise" "noise.csv" osc.motus --vary F=@noise.csv:1
 that "nothing was left behind" eval "absent nothing.csv && nothing_left ."
-
-# --- the fingerprint ------------------------------------------------------------------------------------------------
-# Files of one fingerprint have one set of numbers, whatever the options: every option of a sweep is tried, beside one
-# command of fixed and one of adaptive steps, into CSV and into one of .npy and .h5.
-cat >prints.motus <<'M'
-w = 1
-x'' = -w sign(x) + 0.1 cos(t)
-x(0) = 1
-x'(0) = 0
-M
-cat >tried <<'M'
---method tsit5
---method rk4
---method verlet
---step 0.02
---tolerance 1e-7
---tolerance "1e-7 absolute"
---accuracy 1e-5
---shortest-step 0.05
---longest-step 0.01
---most-steps 9
---until 2
---set "x(0)=0.9"
---when "x = 0 falling: x' = -0.9 x'"
---when "x = 0 falling: stop"
---section "x = 0 falling"
---section "x = 0 falling" --points 1
---section "x = 0 falling" --points 1 --skip 1
---errors
---errors --error full
---switches locate
---switches step
---every "7 steps"
---vary "x'(0)=0,0.1,0.2"
---vary "x'(0)=0,0.1,0.2" --zip
---random "x'(0)=0:1" --count 3
---random "x'(0)=0:1" --count 4
---random "x'(0)=normal:0:1" --count 3
---random "x'(0)=0:1" --count 3 --seed 7
---record final
---record "max(x)"
---record ended,final
---shard 2/2
---fast
-M
-# What changes no number of the rows.
-same="--output --events --plot --plot-of --machine --threads --plan --resume --compress --force --lanes --json --quiet --help"
-options=$("$motus" sweep --help | grep -oE '^ +(-[a-z], )?--[a-z-]+' | grep -oE -- '--[a-z-]+' | sort -u)
-missing=
-for option in $options; do
-    grep -qE -- "(^| )$option( |\$)" tried || [[ " $same " == *" $option "* ]] || missing="$missing $option"
-done
-that "every option of a sweep is tried for its fingerprint$missing" [ -n "$options" -a -z "$missing" ]
-archive=npy
-sweep prints.motus --vary w=1 --method rk4 --step 0.1 --until 1 -o has.h5 -q >"$out" 2>"$err" && archive=h5
-: >prints
-while read -r line; do
-    eval "more=($line)"
-    for base in "--method rk4 --step 0.01" "--method dop853 --tolerance 1e-6"; do
-        set -- $base # what the line names is replaced
-        [[ $line == --method* ]] && shift 2
-        [[ $line == --step* && $3 == --tolerance ]] && continue
-        [[ $line == --step* ]] && set -- --method rk4
-        [[ $line == --accuracy* || $line == --tolerance* ]] && set -- --method dop853
-        [[ $line == "--method tsit5" && $1 == --step ]] && continue
-        [[ $line == "--method rk4" || $line == "--method verlet" ]] && [[ $1 == --tolerance ]] && continue
-        vary=(--vary w=1:2:3 --record "final,mean(x)" --until 3)
-        [[ $line == --record* ]] && vary=(--vary w=1:2:3 --until 3)
-        [[ $line == --until* ]] && vary=(--vary w=1:2:3 --record "final,mean(x)")
-        for ending in csv $([[ " $* " == *' --step '* ]] && echo npy || echo $archive); do
-            rm -f p.*
-            sweep prints.motus "${vary[@]}" "$@" "${more[@]}" -o p.$ending -q --machine interpreter --threads 1 >"$out" 2>"$err" || continue
-            case $ending in
-            csv) print=$(sed -n 2p p.csv | grep -oE 'fingerprint [0-9a-f]+') sum=$(sed 1,2d p.csv | md5sum) ;;
-            npy) print=$(jq -r .fingerprint p.npy.json) sum=$( (cat p.npy; jq -c .columns p.npy.json) | md5sum) ;;
-            h5) "$motus" archive p.h5 -o - >p.csv; print=$(sed -n 2p p.csv | grep -oE 'fingerprint [0-9a-f]+') sum=$(sed 1,2d p.csv | md5sum) ;;
-            esac
-            echo "$ending $print $(grep -oE -- '--shard [^ ]+' <<<"$line") $sum"
-        done
-    done
-done <tried >>prints
-that "sweeps for their fingerprints were made" [ "$(wc -l <prints)" -gt 100 ]
-# one line for each fingerprint and set of numbers
-sort -u prints | sed 's/ [0-9a-f]*  -$//' | uniq -d >twice
-that "different numbers have different fingerprints" empty twice
 
 # --- a step that nobody gives -----------------------------------------------------------------------------------------------------
 # At pi/2 the linearised pendulum does not move; on its way it has the rate sqrt(9.81), 3.13.
