@@ -3,7 +3,6 @@
  * Invariant: the CSV is, byte for byte, what the sweep would have written into a file whose name ends in .csv.
  */
 #include "base/decimal.h"
-#include "base/error.h"
 #include "cli/archive_run.h"
 #include "cli/archive_verify.h"
 #include "cli/block_room.h"
@@ -293,11 +292,7 @@ static motus_status judge(const contents *c, motus_error *err)
 
 static motus_status check(const options *o, motus_error *err)
 {
-    if (!o->operand) {
-        fail(err, MOTUS_ARGUMENT, "the archive is missing");
-        hint(err, "motus archive swings.h5");
-        return MOTUS_ARGUMENT;
-    }
+    if (!o->operand) return complain(err, MOTUS_ARGUMENT, "motus archive swings.h5", "the archive is missing");
     double part;
     motus_status status = o->verify ? archive_verify_part(o->verify, &part, err) : MOTUS_OK;
     if (status) return status;

@@ -1,7 +1,6 @@
 /* See archive_run.h. */
 #include "cli/archive_run.h"
 
-#include "base/error.h"
 #include "cli/complain.h"
 #include "cli/run_columns.h"
 #include "cli/run_command.h"

@@ -5,7 +5,6 @@
  *
  * Invariant: numbers are constant expressions of the language; each is finite, each count at least 1.
  */
-#include "base/error.h"
 #include "cli/complain.h"
 #include "cli/constant.h"
 #include "cli/grid.h"

@@ -2,7 +2,6 @@
  *
  * Invariant: every row gives one finite number, or the error names its line.
  */
-#include "base/error.h"
 #include "cli/complain.h"
 #include "cli/file.h"
 #include "cli/grid.h"
@@ -75,11 +74,10 @@ static motus_status read_line(table_file *f, size_t *length, bool *more, motus_e
         c = getc_unlocked(f->stream);
         if (c == EOF || c == '\n') break;
         if (c == 0) return bad(f, MOTUS_ARGUMENT, "the line has a byte 0: this is no text", err);
-        if (used == FILE_LINE_MAX) {
-            fail(err, MOTUS_LIMIT, "%s:%lld: the line is longer than %zu bytes", f->path, f->number, FILE_LINE_MAX);
-            hint(err, "a file of values has a value a line, or a line for the values of all columns");
-            return MOTUS_LIMIT;
-        }
+        if (used == FILE_LINE_MAX)
+            return complain(err, MOTUS_LIMIT,
+                            "a file of values has a value a line, or a line for the values of all columns",
+                            "%s:%lld: the line is longer than %zu bytes", f->path, f->number, FILE_LINE_MAX);
         f->line[used++] = (char)c;
     }
     f->line[used] = 0;

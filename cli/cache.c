@@ -1,5 +1,5 @@
 /* motus cache: the compiled models kept between runs. */
-#include "base/error.h"
+#include "cli/complain.h"
 #include "cli/text.h"
 #include "cli/verbs.h"
 
@@ -7,11 +7,9 @@
 
 motus_status cache_verb(const options *o, motus_error *err)
 {
-    if (o->operand || !o->clear) {
-        fail(err, MOTUS_ARGUMENT, o->operand ? "motus cache takes no model" : "motus cache needs --clear");
-        hint(err, "motus cache --clear removes every entry");
-        return MOTUS_ARGUMENT;
-    }
+    if (o->operand || !o->clear)
+        return complain(err, MOTUS_ARGUMENT, "motus cache --clear removes every entry",
+                        o->operand ? "motus cache takes no model" : "motus cache needs --clear");
     int count = motus_cache_clear();
     if (count < 0) return fail(err, MOTUS_FILE, "cannot read the folder of the cache");
     if (o->json) {

@@ -4,7 +4,6 @@
 
 #include "base/decimal.h"
 #include "base/disk.h"
-#include "base/error.h"
 #include "cli/command.h"
 #include "cli/complain.h"
 
@@ -117,11 +116,9 @@ motus_status checks_begin(checks *c, const char *file, uint64_t from, bool at_on
 {
     motus_status status = name_of(c, file, from, err);
     if (status) return status;
-    if (!may_replace(c->path)) {
-        fail(err, MOTUS_ARGUMENT, "%s is in the way: the checks of %s have this name", c->path, file);
-        hint(err, "give one of them another name");
-        return MOTUS_ARGUMENT;
-    }
+    if (!may_replace(c->path))
+        return complain(err, MOTUS_ARGUMENT, "give one of them another name",
+                        "%s is in the way: the checks of %s have this name", c->path, file);
     status = file_create(&c->out, c->path, err);
     if (!status) status = file_text(&c->out, first_line, err);
     if (!status && at_once) {
@@ -252,10 +249,9 @@ motus_status checks_go_on(checks *c, int descriptor, uint64_t end, motus_error *
 
 motus_status checks_refuse(const checks *c, const char *file, motus_error *err)
 {
-    fail(err, MOTUS_STATE, "%s has rows, but %s is gone, by which it is known that they are those that were written",
-         file, c->path);
-    hint(err, "put it back; or compute all of it anew: --force in place of --resume");
-    return MOTUS_STATE;
+    return complain(err, MOTUS_STATE, "put it back; or compute all of it anew: --force in place of --resume",
+                    "%s has rows, but %s is gone, by which it is known that they are those that were written", file,
+                    c->path);
 }
 
 void checks_close(checks *c)

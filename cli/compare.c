@@ -2,7 +2,6 @@
  *
  * Invariant: the numbers are the library's. A method that failed has a row, and a note that says why.
  */
-#include "base/error.h"
 #include "cli/complain.h"
 #include "cli/overlay.h"
 #include "cli/rank.h"

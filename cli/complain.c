@@ -6,7 +6,6 @@
 #define _XOPEN_SOURCE 700
 #include "cli/complain.h"
 
-#include "base/error.h"
 #include "cli/options.h"
 #include "cli/text.h"
 #include "tell/tell.h"

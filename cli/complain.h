@@ -2,11 +2,14 @@
 #ifndef CLI_COMPLAIN_H
 #define CLI_COMPLAIN_H
 
+#include "base/error.h"
 #include "motus.h"
 #include "tell/json.h"
 
 #include <stdbool.h>
 
+/* fail() with these words, and hint() with what would be right; its value is the status. */
+#define complain(err, status, right, ...) (fail(err, status, __VA_ARGS__), hint(err, "%s", right), (status))
 /* fail() with MOTUS_MEMORY. */
 motus_status complain_memory(motus_error *);
 

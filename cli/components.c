@@ -5,7 +5,6 @@
  */
 #include "cli/components.h"
 
-#include "base/error.h"
 #include "cli/complain.h"
 #include "cli/constant.h"
 
@@ -21,9 +20,8 @@ bool components_are(const char *item) { return memchr(item, '.', name_length(ite
 
 static motus_status unknown(const char *item, motus_error *err)
 {
-    fail(err, MOTUS_NAME, "--set %s: the model has no such component", item);
-    hint(err, "write \"r.x(0)=1\", \"r'.y(0)=1\" or g.x=1");
-    return MOTUS_NAME;
+    return complain(err, MOTUS_NAME, "write \"r.x(0)=1\", \"r'.y(0)=1\" or g.x=1",
+                    "--set %s: the model has no such component", item);
 }
 
 /* The numbers of a parameter or an initial value, with `value` in place `at`. */

@@ -5,7 +5,6 @@
  */
 #include "cli/constant.h"
 
-#include "base/error.h"
 #include "cli/complain.h"
 #include "cli/typed.h"
 
@@ -17,9 +16,7 @@ motus_status constant_read(const char *expression, const char *where, double *va
 {
     motus_status status = MOTUS_OK;
     motus_error inner = motus_default_error();
-    const char first = expression[*expression == '-' || *expression == '+'];
-    /* a decimal, the usual case, needs no model; the language refuses one that begins with a point */
-    if (first == '.' || !typed_decimal(expression, value)) {
+    if (!typed_decimal(expression, value)) { /* a decimal, the usual case, needs no model */
         static const char name[] = "x(0)=";
         size_t length = strlen(expression);
         char *set = malloc(sizeof name + length);

@@ -2,7 +2,6 @@
  *
  * Invariant: the table of orders comes first. The exit status is 0 unless a method has failed to show its order.
  */
-#include "base/error.h"
 #include "cli/complain.h"
 #include "cli/plot.h"
 #include "cli/studies.h"

@@ -6,7 +6,6 @@
 #include "cli/csv.h"
 
 #include "base/utf8.h"
-#include "base/error.h"
 #include "cli/complain.h"
 #include "cli/text.h"
 

@@ -4,7 +4,6 @@
  */
 #include "cli/event_file.h"
 
-#include "base/error.h"
 #include "cli/complain.h"
 #include "cli/csv.h"
 #include "cli/defined.h"

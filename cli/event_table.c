@@ -1,7 +1,6 @@
 /* The events of a run in print. See event_table.h. */
 #include "cli/event_table.h"
 
-#include "base/error.h"
 #include "cli/complain.h"
 #include "cli/text.h"
 #include "tell/bar.h"

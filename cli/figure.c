@@ -5,7 +5,6 @@
  */
 #include "cli/figure.h"
 
-#include "base/error.h"
 #include "cli/complain.h"
 #include "cli/text.h"
 

@@ -10,7 +10,6 @@
 #include "cli/file.h"
 
 #include "base/disk.h"
-#include "base/error.h"
 #include "cli/complain.h"
 #include "cli/stop.h"
 
@@ -29,9 +28,8 @@ static const char *called(const char *path, bool reading)
 
 static motus_status too_long(const char *path, size_t most, motus_error *err)
 {
-    fail(err, MOTUS_LIMIT, "%s is longer than %zu bytes", called(path, true), most);
-    hint(err, "check that this is the file you meant");
-    return MOTUS_LIMIT;
+    return complain(err, MOTUS_LIMIT, "check that this is the file you meant", "%s is longer than %zu bytes",
+                    called(path, true), most);
 }
 
 static motus_status cannot_read(const char *path, const char *why, motus_error *err)
@@ -79,10 +77,9 @@ static motus_status wait_for_writer(int fd, const char *path, int *first, motus_
     const ssize_t got = read(fd, &byte, 1);
     if (got > 0) *first = byte;
     if (got != 0) return MOTUS_OK;
-    fail(err, MOTUS_FILE, "cannot read %s: it is a pipe, and no program has opened it to write within %d s", path,
-         WAIT_MS / 1000);
-    hint(err, "start the program that writes it before");
-    return MOTUS_FILE;
+    return complain(err, MOTUS_FILE, "start the program that writes it before",
+                    "cannot read %s: it is a pipe, and no program has opened it to write within %d s", path,
+                    WAIT_MS / 1000);
 }
 
 motus_status file_open(const char *path, FILE **in, motus_error *err)

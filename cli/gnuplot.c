@@ -5,9 +5,9 @@
  * file_write() notices a full disk and gnuplot does not.
  */
 #define _XOPEN_SOURCE 700
+#include "cli/complain.h"
 #include "cli/gnuplot.h"
 
-#include "base/error.h"
 #include "cli/spawn.h"
 #include "cli/stop.h"
 
@@ -21,9 +21,8 @@
 
 static motus_status missing(motus_error *err)
 {
-    fail(err, MOTUS_TOOL, "gnuplot is not installed; motus draws plots with it");
-    hint(err, "sudo apt-get install gnuplot-nox");
-    return MOTUS_TOOL;
+    return complain(err, MOTUS_TOOL, "sudo apt-get install gnuplot-nox",
+                    "gnuplot is not installed; motus draws plots with it");
 }
 
 motus_status gnuplot_check(motus_error *err)

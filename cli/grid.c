@@ -4,7 +4,6 @@
  */
 #include "cli/grid.h"
 
-#include "base/error.h"
 #include "cli/complain.h"
 #include "cli/draw.h"
 
@@ -28,9 +27,9 @@ static motus_status check_name(const grid *g, const options *o, size_t k, motus_
 
 static motus_status too_many(motus_error *err)
 {
-    fail(err, MOTUS_LIMIT, "the sweep has more than %llu trajectories", (unsigned long long)GRID_MOST);
-    hint(err, "--zip pairs the values instead of combining all; --random with --count draws a sample");
-    return MOTUS_LIMIT;
+    return complain(err, MOTUS_LIMIT,
+                    "--zip pairs the values instead of combining all; --random with --count draws a sample",
+                    "the sweep has more than %llu trajectories", (unsigned long long)GRID_MOST);
 }
 
 static motus_status count_points(grid *g, size_t varied, motus_error *err)
@@ -39,12 +38,10 @@ static motus_status count_points(grid *g, size_t varied, motus_error *err)
     for (size_t k = 0; k < varied; k++) {
         uint64_t n = g->axes[k].count;
         if (!g->zip && points > GRID_MOST / n) return too_many(err);
-        if (g->zip && k > 0 && n != points) {
-            fail(err, MOTUS_ARGUMENT, "--zip: %s has %llu values, %s has %llu", g->axes[0].name,
-                 (unsigned long long)points, g->axes[k].name, (unsigned long long)n);
-            hint(err, "give every --vary the same number of values");
-            return MOTUS_ARGUMENT;
-        }
+        if (g->zip && k > 0 && n != points)
+            return complain(err, MOTUS_ARGUMENT, "give every --vary the same number of values",
+                            "--zip: %s has %llu values, %s has %llu", g->axes[0].name, (unsigned long long)points,
+                            g->axes[k].name, (unsigned long long)n);
         points = g->zip ? n : points * n;
     }
     if (points > GRID_MOST / g->draws) return too_many(err);
@@ -54,21 +51,15 @@ static motus_status count_points(grid *g, size_t varied, motus_error *err)
 
 static motus_status check(const options *o, motus_error *err)
 {
-    if (o->vary.count + o->random.count == 0) {
-        fail(err, MOTUS_ARGUMENT, "motus sweep needs --vary or --random: without them all trajectories are equal");
-        hint(err, "--vary F=0:1:11, --random \"x(0)=-1:1\" --count 100; motus run integrates a single one");
-        return MOTUS_ARGUMENT;
-    }
-    if (o->random.count > 0 && o->vary.count == 0 && o->count == 0) {
-        fail(err, MOTUS_ARGUMENT, "--random needs --count, the number of trajectories");
-        hint(err, "add --count 100");
-        return MOTUS_ARGUMENT;
-    }
-    if (o->random.count == 0 && (o->count > 0 || o->given[OPTION_seed])) {
-        fail(err, MOTUS_ARGUMENT, "%s needs --random", o->count > 0 ? "--count" : "--seed");
-        hint(err, "add --random F=0:1; the count of a --vary is its third number, F=0:1:11");
-        return MOTUS_ARGUMENT;
-    }
+    if (o->vary.count + o->random.count == 0)
+        return complain(err, MOTUS_ARGUMENT,
+                        "--vary F=0:1:11, --random \"x(0)=-1:1\" --count 100; motus run integrates a single one",
+                        "motus sweep needs --vary or --random: without them all trajectories are equal");
+    if (o->random.count > 0 && o->vary.count == 0 && o->count == 0)
+        return complain(err, MOTUS_ARGUMENT, "add --count 100", "--random needs --count, the number of trajectories");
+    if (o->random.count == 0 && (o->count > 0 || o->given[OPTION_seed]))
+        return complain(err, MOTUS_ARGUMENT, "add --random F=0:1; the count of a --vary is its third number, F=0:1:11",
+                        "%s needs --random", o->count > 0 ? "--count" : "--seed");
     if (o->zip && o->vary.count < 2) return fail(err, MOTUS_ARGUMENT, "--zip needs at least two --vary");
     return MOTUS_OK;
 }

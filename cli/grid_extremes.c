@@ -1,5 +1,4 @@
 /* The trajectories of a sweep that are furthest apart. See grid.h. */
-#include "base/error.h"
 #include "cli/complain.h"
 #include "cli/grid.h"
 

@@ -5,7 +5,6 @@
  */
 #define _XOPEN_SOURCE 700
 #include "cli/browser.h"
-#include "base/error.h"
 #include "cli/complain.h"
 #include "cli/file.h"
 #include "cli/lab_page.h"
@@ -33,11 +32,9 @@ typedef struct job {
 static motus_status check_alone(const options *o, motus_error *err)
 {
     for (size_t k = 0; k < OPTION_COUNT; k++)
-        if (o->given[k] && options_row(k)->link) {
-            fail(err, MOTUS_ARGUMENT, "%s needs a model, which is missing", options_row(k)->name);
-            hint(err, "motus lab model.motus, or - for standard input");
-            return MOTUS_ARGUMENT;
-        }
+        if (o->given[k] && options_row(k)->link)
+            return complain(err, MOTUS_ARGUMENT, "motus lab model.motus, or - for standard input",
+                            "%s needs a model, which is missing", options_row(k)->name);
     return MOTUS_OK;
 }
 

@@ -6,7 +6,6 @@
 #define _XOPEN_SOURCE 700
 #include "cli/lab_page.h"
 
-#include "base/error.h"
 #include "cli/complain.h"
 
 #include <stdlib.h>
@@ -52,17 +51,14 @@ static motus_status find(char **path, const char *program, motus_error *err)
         *path = strdup(candidate);
         return *path ? MOTUS_OK : complain_memory(err);
     }
-    fail(err, MOTUS_FILE, "the page of the lab is missing: there is neither %s nor %s in %s", places[0], places[1],
-         known ? folder : "the folder of the program");
-    hint(err, "make lab builds it; MOTUS_LAB_PAGE may name another place");
-    return MOTUS_FILE;
+    return complain(err, MOTUS_FILE, "make lab builds it; MOTUS_LAB_PAGE may name another place",
+                    "the page of the lab is missing: there is neither %s nor %s in %s", places[0], places[1],
+                    known ? folder : "the folder of the program");
 }
 
 static motus_status not_a_page(const lab_page *p, const char *why, motus_error *err)
 {
-    fail(err, MOTUS_FILE, "%s is not the page of the lab: %s", p->path, why);
-    hint(err, "make lab builds it anew");
-    return MOTUS_FILE;
+    return complain(err, MOTUS_FILE, "make lab builds it anew", "%s is not the page of the lab: %s", p->path, why);
 }
 
 motus_status lab_page_read(lab_page *p, const char *program, motus_error *err)

@@ -4,7 +4,6 @@
  */
 #include "cli/load.h"
 
-#include "base/error.h"
 #include "cli/complain.h"
 #include "cli/components.h"
 #include "cli/file.h"

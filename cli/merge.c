@@ -4,7 +4,6 @@
  * is complete.
  */
 #define _XOPEN_SOURCE 700
-#include "base/error.h"
 #include "cli/complain.h"
 #include "cli/part.h"
 #include "cli/stop.h"
@@ -55,11 +54,9 @@ static motus_status arrange(merge *m, motus_error *err)
     if (!m->of) return complain_memory(err);
     for (size_t k = 0; k < m->count; k++) {
         part *p = &m->parts[k], **place = &m->of[p->shard.number - 1];
-        if (*place) {
-            fail(err, MOTUS_STATE, "%s and %s are both shard %s", (*place)->path, p->path, shard_text(&p->shard, text));
-            hint(err, "give each shard once");
-            return MOTUS_STATE;
-        }
+        if (*place)
+            return complain(err, MOTUS_STATE, "give each shard once", "%s and %s are both shard %s", (*place)->path,
+                            p->path, shard_text(&p->shard, text));
         *place = p;
     }
     enum { NAMED = 8 };
@@ -79,19 +76,15 @@ static motus_status arrange(merge *m, motus_error *err)
 
 static motus_status check(const options *o, motus_error *err)
 {
-    if (!o->files.count || !o->output) {
-        fail(err, MOTUS_ARGUMENT, o->files.count ? "-o is missing: the name of the merged file" : "no file to merge");
-        hint(err, "motus merge part*.csv -o all.csv");
-        return MOTUS_ARGUMENT;
-    }
+    if (!o->files.count || !o->output)
+        return complain(err, MOTUS_ARGUMENT, "motus merge part*.csv -o all.csv",
+                        o->files.count ? "-o is missing: the name of the merged file" : "no file to merge");
     for (size_t k = 0; k < o->files.count; k++)
         if (file_same(o->files.items[k], o->output) || sweep_archive_replaces(o->output, o->files.items[k]))
             return fail(err, MOTUS_ARGUMENT, "%s is read and would be overwritten", o->output);
-    if (o->partial && o->compress) {
-        fail(err, MOTUS_ARGUMENT, "--partial and --compress exclude each other: only what is complete is compressed");
-        hint(err, "compress at the end: the sweep's command with --resume --compress");
-        return MOTUS_ARGUMENT;
-    }
+    if (o->partial && o->compress)
+        return complain(err, MOTUS_ARGUMENT, "compress at the end: the sweep's command with --resume --compress",
+                        "--partial and --compress exclude each other: only what is complete is compressed");
     return sweep_file_may_write(o, o->output, err);
 }
 
@@ -101,11 +94,9 @@ static motus_status check_name(const merge *m, motus_error *err)
     static const char *const kinds[] = {"CSV", "CSV", ".npy", "archives"}, *const ends[] = {"csv", "csv", "npy", "h5"};
     const char *name = m->options->output;
     const part_kind kind = m->parts[0].kind;
-    if (m->options->partial && kind != PART_ARCHIVE) {
-        fail(err, MOTUS_ARGUMENT, "--partial: only archives know which of their rows are missing");
-        hint(err, "compute all shards, or write archives: motus sweep ... -o part%%K.h5");
-        return MOTUS_ARGUMENT;
-    }
+    if (m->options->partial && kind != PART_ARCHIVE)
+        return complain(err, MOTUS_ARGUMENT, "compute all shards, or write archives: motus sweep ... -o part%K.h5",
+                        "--partial: only archives know which of their rows are missing");
     if (m->options->compress && kind != PART_ARCHIVE) {
         fail(err, MOTUS_ARGUMENT, "--compress is for archives");
         return MOTUS_ARGUMENT;

@@ -1,5 +1,4 @@
 /* motus methods: the catalogue, or the card of one method. */
-#include "base/error.h"
 #include "cli/complain.h"
 #include "cli/file.h"
 #include "cli/table.h"

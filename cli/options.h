@@ -131,17 +131,14 @@ const option *options_row(size_t k); /* k < OPTION_COUNT */
 /* The help of a row, or more, without its backquotes. Returns out. */
 enum { OPTIONS_HELP = 320 };
 const char *options_plain(const char *help, char out[OPTIONS_HELP]);
+void options_hint(const option *, motus_error *); /* hints at the argument and the help of a row */
+/* options_value.c: reads the value of the row k. */
+motus_status options_value(options *, size_t k, const char *value, motus_error *);
 /* Whether a row has a value, also one that was not given. */
 bool options_has(const options *, const option *);
 /* Options of these settings are as if they were not given; or they are those of others, which keep their lists. */
 void options_forget(options *, unsigned settings);
 void options_take(options *, const options *from, unsigned settings);
-/* MOTUS_ARGUMENT: a rule is broken, the first such; what is said, and what would be right, NULL: nothing. */
-typedef struct options_rule {
-    bool broken;
-    const char *what, *right;
-} options_rule;
-motus_status options_judge(const options_rule *, size_t count, motus_error *);
 const char *options_verb(unsigned verb);
 /* Whether there is an option --name, of any verb. */
 bool options_known(const char *name, size_t length);
@@ -150,6 +147,7 @@ motus_switches options_switches(const options *);
 motus_bars options_bars(const options *);
 /* Splits "x,r.x,u[1,2]" at the commas outside brackets. */
 motus_status options_split(const char *text, const char *option, options_list *, motus_error *);
+motus_status options_add(options_list *, const char *, motus_error *);
 void options_list_free(options_list *);
 
 #endif

@@ -5,7 +5,6 @@
  */
 #include "cli/overlay.h"
 
-#include "base/error.h"
 #include "cli/complain.h"
 #include "cli/figure.h"
 #include "cli/record.h"

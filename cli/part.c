@@ -9,7 +9,6 @@
 #include "cli/part.h"
 
 #include "base/decimal.h"
-#include "base/error.h"
 #include "cli/complain.h"
 #include "cli/sweep.h"
 
@@ -28,33 +27,28 @@ static motus_status cannot_read(const char *path, motus_error *err)
 
 motus_status part_no_shard(const part *p, const char *what, motus_error *err)
 {
-    fail(err, MOTUS_STATE, "%s %s", p->path, what);
-    hint(err, "motus merge joins the files that motus sweep --shard K/N writes");
-    return MOTUS_STATE;
+    return complain(err, MOTUS_STATE, "motus merge joins the files that motus sweep --shard K/N writes", "%s %s",
+                    p->path, what);
 }
 
 motus_status part_unfinished(const part *p, motus_error *err)
 {
     char text[SHARD_TEXT];
-    fail(err, MOTUS_STATE, "%s ends before its last trajectory: shard %s was interrupted", p->path,
-         shard_text(&p->shard, text));
-    hint(err, "its command with --resume completes it");
-    return MOTUS_STATE;
+    return complain(err, MOTUS_STATE, "its command with --resume completes it",
+                    "%s ends before its last trajectory: shard %s was interrupted", p->path,
+                    shard_text(&p->shard, text));
 }
 
 static motus_status damaged(const part *p, uint64_t trajectory, motus_error *err)
 {
-    fail(err, MOTUS_STATE, "%s is damaged: the row of trajectory %" PRIu64 " is not where it must be", p->path,
-         trajectory);
-    hint(err, "compute this shard again: its command with --force");
-    return MOTUS_STATE;
+    return complain(err, MOTUS_STATE, "compute this shard again: its command with --force",
+                    "%s is damaged: the row of trajectory %" PRIu64 " is not where it must be", p->path, trajectory);
 }
 
 static motus_status empty(const part *p, motus_error *err)
 {
-    fail(err, MOTUS_STATE, "%s is empty: its sweep was interrupted, or not begun", p->path);
-    hint(err, "its command with --resume completes it");
-    return MOTUS_STATE;
+    return complain(err, MOTUS_STATE, "its command with --resume completes it",
+                    "%s is empty: its sweep was interrupted, or not begun", p->path);
 }
 
 /* ---- heads ---- */
@@ -296,7 +290,6 @@ motus_status part_end(part *p, motus_error *err)
     const bool ends = got == strlen(end) && memcmp(rest, end, got) == 0;
     if (ends) return p->broken ? not_as_written(p, err) : MOTUS_OK;
     if (p->kind == PART_EVENTS && (got == 0 || rest[0] == '#')) return part_unfinished(p, err);
-    fail(err, MOTUS_STATE, "%s is damaged: there is more behind its last trajectory", p->path);
-    hint(err, "compute this shard again: its command with --force");
-    return MOTUS_STATE;
+    return complain(err, MOTUS_STATE, "compute this shard again: its command with --force",
+                    "%s is damaged: there is more behind its last trajectory", p->path);
 }

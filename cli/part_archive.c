@@ -4,7 +4,6 @@
  * the first shard without the shard, and the blocks of all.
  */
 #include "base/decimal.h"
-#include "base/error.h"
 #include "cli/block_room.h"
 #include "cli/complain.h"
 #include "cli/file.h"

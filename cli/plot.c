@@ -5,9 +5,9 @@
  * than colour: each has its own dashes and, if there are several, its own marker. Thinning keeps the smallest and the
  * largest value of every column of the picture.
  */
+#include "cli/complain.h"
 #include "cli/plot.h"
 
-#include "base/error.h"
 #include "cli/gnuplot.h"
 #include "cli/text.h"
 
@@ -463,11 +463,9 @@ static size_t format_of(const char *path)
 
 motus_status plot_check(const char *path, motus_error *err)
 {
-    if (format_of(path) == 3) {
-        fail(err, MOTUS_ARGUMENT, "--plot %s: the name's ending is not a known format", path);
-        hint(err, "end the name in .svg, .png or .pdf");
-        return MOTUS_ARGUMENT;
-    }
+    if (format_of(path) == 3)
+        return complain(err, MOTUS_ARGUMENT, "end the name in .svg, .png or .pdf",
+                        "--plot %s: the name's ending is not a known format", path);
     return gnuplot_check(err);
 }
 

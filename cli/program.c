@@ -3,7 +3,6 @@
  * Invariant: errors are printed once, here; the exit status follows from the error's.
  */
 #include "base/near.h"
-#include "base/error.h"
 #include "cli/complain.h"
 #include "cli/file.h"
 #include "cli/help.h"
@@ -90,11 +89,9 @@ static motus_status dispatch(int argc, char **argv, bool as_json, bool *answered
     while (first < argc && strcmp(argv[first], "--json") == 0) first++;
     if (!team_first(t) && (first == argc || strcmp(argv[first], options_verb(VERB_SWEEP)) != 0)) return MOTUS_OK;
     if (general(argc, argv, as_json)) return file_flush_output(err);
-    if (first == argc) {
-        fail(err, MOTUS_ARGUMENT, "a verb is missing");
-        hint(err, "motus run model.motus; motus --help lists the others");
-        return MOTUS_ARGUMENT;
-    }
+    if (first == argc)
+        return complain(err, MOTUS_ARGUMENT, "motus run model.motus; motus --help lists the others",
+                        "a verb is missing");
     const verb *v = find(argv[first]);
     if (!v) return unknown(argv[first], err);
     options o;

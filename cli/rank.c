@@ -4,7 +4,6 @@
  */
 #include "cli/rank.h"
 
-#include "base/error.h"
 #include "cli/complain.h"
 #include "cli/plot.h"
 #include "cli/studies.h"

@@ -3,7 +3,6 @@
  * Invariant: files get their names after the last call that can fail, so that a run leaves all of them or none. The
  * motion does not depend on what is observed.
  */
-#include "base/error.h"
 #include "cli/complain.h"
 #include "cli/csv.h"
 #include "cli/deviation.h"
@@ -58,17 +57,12 @@ static motus_status check_archive(const options *o, motus_error *err)
                        : o->compress                 ? "--compress"
                        : o->given[OPTION_checkpoint] ? "--checkpoint"
                                                      : NULL;
-    if (only && !is_archive(o)) {
-        fail(err, MOTUS_ARGUMENT, "%s is for a run into an archive", only);
-        hint(err, "write it: -o run.h5");
-        return MOTUS_ARGUMENT;
-    }
+    if (only && !is_archive(o))
+        return complain(err, MOTUS_ARGUMENT, "write it: -o run.h5", "%s is for a run into an archive", only);
     if (o->force && o->resume) return fail(err, MOTUS_ARGUMENT, "--force and --resume exclude each other");
-    if (o->restart && is_archive(o)) {
-        fail(err, MOTUS_ARGUMENT, "--restart: a run into an archive begins at its start");
-        hint(err, "the archive keeps its own states: motus run FILE.h5 --until T goes on");
-        return MOTUS_ARGUMENT;
-    }
+    if (o->restart && is_archive(o))
+        return complain(err, MOTUS_ARGUMENT, "the archive keeps its own states: motus run FILE.h5 --until T goes on",
+                        "--restart: a run into an archive begins at its start");
     return MOTUS_OK;
 }
 
@@ -257,14 +251,8 @@ static motus_status emit(const options *o, motus_error *err)
 {
     load model;
     motus_status status = load_model(&model, o, err);
-    motus_run_def def = motus_default_run();
-    def.method = o->method;
-    def.step = o->step;
-    def.tolerance = o->tolerance;
-    def.absolute = o->absolute;
-    def.shortest_step = o->shortest_step;
-    def.longest_step = o->longest_step;
-    def.most_steps = o->most_steps;
+    motus_run_def def = run_make_asked(o);
+    def.accuracy = NAN; /* it would be searched for */
     const char *text = status ? NULL : motus_run_text(model.system, &def, err);
     if (!status && !text) status = err->status;
     if (text) {

@@ -2,7 +2,6 @@
 #include "cli/run_again.h"
 
 #include "base/decimal.h"
-#include "base/error.h"
 #include "cli/complain.h"
 #include "cli/run_columns.h"
 #include "cli/run_make.h"

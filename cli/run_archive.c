@@ -9,7 +9,6 @@
 #include "cli/run_archive.h"
 
 #include "base/decimal.h"
-#include "base/error.h"
 #include "cli/complain.h"
 #include "cli/file.h"
 #include "cli/run_again.h"
@@ -397,9 +396,8 @@ static motus_status open_source(run_archive *a, const char *path, bool same, mot
     if (strcmp(version, motus_version()) != 0) status = compare_versions(a, path, *from, version, err);
     for (int back = 0; !status && !found && back < 2; back++) status = take_state(a, *from, back, &found, err);
     if (status || found) return status;
-    fail(err, MOTUS_STATE, "%s is damaged: it has no state with all the rows before it", path);
-    hint(err, "take a copy; or begin anew: its command with --force");
-    return MOTUS_STATE;
+    return complain(err, MOTUS_STATE, "take a copy; or begin anew: its command with --force",
+                    "%s is damaged: it has no state with all the rows before it", path);
 }
 
 /* Steps that adapt have landed on the end of the file that goes on: those before are not the steps of one run to the
@@ -420,11 +418,9 @@ static motus_status go_on(run_archive *a, motus_archive *source, bool own, motus
     bool known;
     const uint64_t capacity = expected_rows(a, &known);
     const bool stays = own && sweep_archive_says(source, "command", a->command) && !motus_archive_compressed(source);
-    if (!motus_archive_makes() && !(stays && known && capacity == motus_archive_rows(source))) {
-        fail(err, MOTUS_UNAVAILABLE, "%s: the file would have to be made anew, which needs HDF5", a->path);
-        hint(err, "install HDF5, and build motus where libhdf5-dev is installed");
-        return MOTUS_UNAVAILABLE;
-    }
+    if (!motus_archive_makes() && !(stays && known && capacity == motus_archive_rows(source)))
+        return complain(err, MOTUS_UNAVAILABLE, "install HDF5, and build motus where libhdf5-dev is installed",
+                        "%s: the file would have to be made anew, which needs HDF5", a->path);
     note_first_end(a, source);
     if (!stays) return replace(a, source, a->rows > capacity ? a->rows : capacity, a->first_slot, NULL, 0, err);
     a->capacity = motus_archive_rows(source);
@@ -447,17 +443,12 @@ static motus_status begin(run_archive *a, motus_error *err)
     a->made = about.st_size == 0;
     const char *from = a->of.from;
     const bool own = from && file_same(from, a->path);
-    if (!a->made && !own && !o->resume && !o->force) {
-        fail(err, MOTUS_ARGUMENT, "%s exists", a->path);
-        hint(err, "--resume continues it, --force replaces it");
-        return MOTUS_ARGUMENT;
-    }
-    if (!o->resume && !from && !motus_archive_makes()) {
-        fail(err, MOTUS_UNAVAILABLE, "%s: this motus cannot make archives, since it was built or runs without HDF5",
-             a->path);
-        hint(err, "write CSV; or install HDF5, and build motus where libhdf5-dev is installed");
-        return MOTUS_UNAVAILABLE;
-    }
+    if (!a->made && !own && !o->resume && !o->force)
+        return complain(err, MOTUS_ARGUMENT, "--resume continues it, --force replaces it", "%s exists", a->path);
+    if (!o->resume && !from && !motus_archive_makes())
+        return complain(err, MOTUS_UNAVAILABLE,
+                        "write CSV; or install HDF5, and build motus where libhdf5-dev is installed",
+                        "%s: this motus cannot make archives, since it was built or runs without HDF5", a->path);
     sweep_archive_tidy(a->path);
     const bool same = !a->made && o->resume;
     if (same) from = a->path; /* what was begun there goes on */

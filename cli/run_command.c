@@ -1,7 +1,6 @@
 /* See run_command.h. */
 #include "cli/run_command.h"
 
-#include "base/error.h"
 #include "cli/command.h"
 #include "cli/complain.h"
 #include "cli/words.h"
@@ -43,9 +42,8 @@ const char *run_command_fingerprint(const char *version, const char *model, cons
 
 static motus_status no_run(const char *path, motus_error *err)
 {
-    fail(err, MOTUS_STATE, "%s is not the archive of a run", path);
-    hint(err, "motus run goes on with a file that `motus run MODEL -o FILE.h5` has written");
-    return MOTUS_STATE;
+    return complain(err, MOTUS_STATE, "motus run goes on with a file that `motus run MODEL -o FILE.h5` has written",
+                    "%s is not the archive of a run", path);
 }
 
 motus_status run_command_of(run_command *c, motus_archive *a, const options *asked, motus_error *err)
@@ -100,9 +98,8 @@ motus_status run_command_read(run_command *c, const options *o, motus_error *err
     motus_archive_close(a);
     if (!status) status = take_over(c, o, err);
     if (status || o->output || !(o->force || o->resume)) return status;
-    fail(err, MOTUS_ARGUMENT, "%s: the run goes on in %s itself", o->force ? "--force" : "--resume", o->operand);
-    hint(err, "leave it out, or name another file: -o other.h5");
-    return MOTUS_ARGUMENT;
+    return complain(err, MOTUS_ARGUMENT, "leave it out, or name another file: -o other.h5",
+                    "%s: the run goes on in %s itself", o->force ? "--force" : "--resume", o->operand);
 }
 
 void run_command_free(run_command *c)

@@ -18,26 +18,33 @@ static int settled(const load *m, const options *o)
     return card->adaptive ? SETTLE_UNTIL : SETTLE_STEP | SETTLE_UNTIL;
 }
 
+motus_run_def run_make_asked(const options *o)
+{
+    motus_run_def def = motus_default_run();
+    def.method = o->method;
+    def.step = o->step;
+    def.tolerance = o->tolerance;
+    def.accuracy = o->accuracy;
+    def.absolute = o->absolute;
+    def.shortest_step = o->shortest_step;
+    def.longest_step = o->longest_step;
+    def.most_steps = o->most_steps;
+    def.switches = options_switches(o);
+    def.machine = o->machine;
+    def.threads = (int)o->threads;
+    return def;
+}
+
 motus_status run_make(const options *o, load *m, stop_progress *progress, motus_bars error, motus_run_def *def,
                       motus_run **run, motus_error *err)
 {
-    *def = motus_default_run();
+    *def = run_make_asked(o);
     motus_status status = settle_timing(m, o, settled(m, o), o->method, NULL, err);
     if (status) return status;
-    def->method = o->method;
     def->step = m->step;
-    def->tolerance = o->tolerance;
-    def->accuracy = o->accuracy;
-    def->absolute = o->absolute;
-    def->shortest_step = o->shortest_step;
-    def->longest_step = o->longest_step;
-    def->most_steps = o->most_steps;
     def->until = m->until;
-    def->machine = o->machine;
-    def->threads = (int)o->threads;
     def->progress = stop_progress_hook;
     def->context = progress;
-    def->switches = options_switches(o);
     def->error = error;
     status = motus_run_create(m->system, def, run, err);
     if (status || o->quiet) return status;

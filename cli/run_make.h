@@ -6,6 +6,8 @@
 #include "cli/stop.h"
 #include "cli/walk.h"
 
+/* The definition of a run with the settings that the options have. */
+motus_run_def run_make_asked(const options *);
 /* Settles step and end of the model, which is loaded, and creates the run; *def is its definition. Names in the notes
  * of the run are told unless the command is quiet. */
 motus_status run_make(const options *, load *, stop_progress *, motus_bars, motus_run_def *def, motus_run **,

@@ -1,7 +1,6 @@
 /* The points of --section in a plane. See section.h. */
 #include "cli/section.h"
 
-#include "base/error.h"
 #include "cli/complain.h"
 #include "cli/figure.h"
 #include "cli/plot.h"
@@ -44,11 +43,9 @@ motus_status section_plane(const load *m, const options *o, size_t columns[2], m
     if (o->plot_of) return figure_plane(m, o->plot_of, columns, err);
     const char *const name = chosen(m, o);
     char text[2 * MOTUS_NAME_MAX + 8];
-    if (!name) {
-        fail(err, MOTUS_ARGUMENT, "--section %s: the model does not say in which plane to draw it", o->section);
-        hint(err, "choose two columns: --plot-of \"y,y'\"");
-        return MOTUS_ARGUMENT;
-    }
+    if (!name)
+        return complain(err, MOTUS_ARGUMENT, "choose two columns: --plot-of \"y,y'\"",
+                        "--section %s: the model does not say in which plane to draw it", o->section);
     /* a number that the section holds fixed is no axis */
     const bool of_x = names(o->section, name, &(bool){false}), of_v = names(o->section, name, &(bool){true});
     if (of_x != of_v)
@@ -75,10 +72,8 @@ static motus_status collect(const options *o, motus_run *run, const size_t colum
         if (of_section(run, k) && seen++ >= o->skip)
             status = motus_run_event_values(run, k, 0, columns, 2, points + 2 * (*count)++, err);
     if (status || *count > 0) return status;
-    fail(err, MOTUS_ARGUMENT, "--section %s: there are %lld points, and none is left to draw", o->section,
-         (long long)seen);
-    hint(err, "give a later end, --until, or a smaller --skip");
-    return MOTUS_ARGUMENT;
+    return complain(err, MOTUS_ARGUMENT, "give a later end, --until, or a smaller --skip",
+                    "--section %s: there are %lld points, and none is left to draw", o->section, (long long)seen);
 }
 
 motus_status section_draw(const load *m, const options *o, motus_run *run, const size_t columns[2], file_out *file,

@@ -3,7 +3,6 @@
 #include "cli/segments.h"
 
 #include "base/disk.h"
-#include "base/error.h"
 #include "cli/checks.h"
 #include "cli/command.h"
 #include "cli/complain.h"
@@ -161,9 +160,8 @@ static motus_status read_head(const segments *s, const char *name, FILE *in, boo
     const bool good = !*whole || s->same(s->head, theirs);
     free(theirs);
     if (good) return MOTUS_OK;
-    fail(err, MOTUS_STATE, "%s has events of another sweep", name);
-    hint(err, "give another name to the table of events, or begin anew: --force");
-    return MOTUS_STATE;
+    return complain(err, MOTUS_STATE, "give another name to the table of events, or begin anew: --force",
+                    "%s has events of another sweep", name);
 }
 
 static motus_status read_segment(segments *s, size_t number, motus_error *err)
@@ -278,10 +276,9 @@ static motus_status look(const segments *s, motus_error *err)
     uint64_t missing = 0;
     for (uint64_t b = 0; b < s->blocks; b++) missing += !segments_have(s, b);
     if (!missing) return MOTUS_OK;
-    fail(err, MOTUS_FILE, "the events of %" PRIu64 " of %" PRIu64 " blocks were written and are not in %s", missing,
-         s->blocks, s->folder);
-    hint(err, "--resume computes them again");
-    return MOTUS_FILE;
+    return complain(err, MOTUS_FILE, "--resume computes them again",
+                    "the events of %" PRIu64 " of %" PRIu64 " blocks were written and are not in %s", missing,
+                    s->blocks, s->folder);
 }
 
 motus_status segments_join(segments *s, const char *last, stop_progress *progress, motus_error *err)

@@ -6,7 +6,6 @@
 #include "cli/share.h"
 
 #include "base/decimal.h"
-#include "base/error.h"
 #include "base/utf8.h"
 #include "cli/components.h"
 #include "cli/complain.h"
@@ -74,12 +73,9 @@ static motus_status check_item(const item *i, const options *o, size_t *total, m
         return load_complain(i->value, bad, o->operand, "this byte is not UTF-8, so it cannot be in a link", err);
     if (bad) return fail(err, MOTUS_ARGUMENT, "%s: this is not UTF-8, so it cannot be in a link", i->value);
     *total += strlen(i->value);
-    if (*total > SHARE_TEXT_MAX) {
-        fail(err, MOTUS_LIMIT, "the model and its settings are longer than %zu bytes: too long for a link",
-             SHARE_TEXT_MAX);
-        hint(err, "share the file itself, or remove comments and tables");
-        return MOTUS_LIMIT;
-    }
+    if (*total > SHARE_TEXT_MAX)
+        return complain(err, MOTUS_LIMIT, "share the file itself, or remove comments and tables",
+                        "the model and its settings are longer than %zu bytes: too long for a link", SHARE_TEXT_MAX);
     return MOTUS_OK;
 }
 

@@ -5,7 +5,6 @@
  */
 #include "cli/summary.h"
 
-#include "base/error.h"
 #include "cli/answer.h"
 #include "tell/bar.h"
 #include "cli/complain.h"

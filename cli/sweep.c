@@ -5,7 +5,6 @@
  */
 #include "cli/sweep.h"
 
-#include "base/error.h"
 #include "cli/complain.h"
 #include "cli/event_file.h"
 #include "cli/file.h"
@@ -31,19 +30,15 @@ static motus_status read_every(sweep *s, motus_error *err)
 {
     const options *o = s->options;
     s->every = o->every.steps > 0 ? o->every.steps : 1;
-    if (o->every.time > 0 && isnan(s->step)) {
-        fail(err, MOTUS_ARGUMENT, "--every %g: this is a time, and the steps of the method have no one size",
-             o->every.time);
-        hint(err, "a sweep samples at steps: give --every \"10 steps\"");
-        return MOTUS_ARGUMENT;
-    }
+    if (o->every.time > 0 && isnan(s->step))
+        return complain(err, MOTUS_ARGUMENT, "a sweep samples at steps: give --every \"10 steps\"",
+                        "--every %g: this is a time, and the steps of the method have no one size", o->every.time);
     if (o->every.time > 0) {
         s->every = walk_steps_of(o->every.time, s->step);
-        if (s->every <= 0) {
-            fail(err, MOTUS_ARGUMENT, "--every %g: this is not a multiple of the step %g", o->every.time, s->step);
-            hint(err, "a sweep samples at steps: give a multiple of the step, or --every \"10 steps\"");
-            return MOTUS_ARGUMENT;
-        }
+        if (s->every <= 0)
+            return complain(err, MOTUS_ARGUMENT,
+                            "a sweep samples at steps: give a multiple of the step, or --every \"10 steps\"",
+                            "--every %g: this is not a multiple of the step %g", o->every.time, s->step);
     }
     return MOTUS_OK;
 }
@@ -137,20 +132,15 @@ static motus_status check_options(const options *o, motus_error *err)
 static motus_status check_team(const options *o, motus_error *err)
 {
     if (team_size(o->team) == 1) return MOTUS_OK;
-    if (!o->output || !sweep_archive_name(o->output)) {
-        fail(err, MOTUS_ARGUMENT, "several processes together write rows to an archive alone");
-        hint(err, "add -o FILE.h5");
-        return MOTUS_ARGUMENT;
-    }
-    if (o->plot) {
-        fail(err, MOTUS_ARGUMENT, "several processes together draw no picture");
-        hint(err, "write the points, --events points.csv, and draw them from there");
-        return MOTUS_ARGUMENT;
-    }
+    if (!o->output || !sweep_archive_name(o->output))
+        return complain(err, MOTUS_ARGUMENT, "add -o FILE.h5",
+                        "several processes together write rows to an archive alone");
+    if (o->plot)
+        return complain(err, MOTUS_ARGUMENT, "write the points, --events points.csv, and draw them from there",
+                        "several processes together draw no picture");
     if (!o->events || sweep_events_in_segments(o)) return MOTUS_OK;
-    fail(err, MOTUS_ARGUMENT, "several processes together write events to a file alone, not to a pipe");
-    hint(err, "--events events.csv");
-    return MOTUS_ARGUMENT;
+    return complain(err, MOTUS_ARGUMENT, "--events events.csv",
+                    "several processes together write events to a file alone, not to a pipe");
 }
 
 /* The ensemble and the head of the file. */
@@ -234,9 +224,7 @@ static size_t up_to_block(uint64_t row, size_t count, uint64_t block)
 /* A batch system has said that it is about to end the program. */
 static motus_status warned(motus_error *err)
 {
-    fail(err, MOTUS_CANCELLED, "stopped by a signal");
-    hint(err, "the same command with --resume goes on");
-    return MOTUS_CANCELLED;
+    return complain(err, MOTUS_CANCELLED, "the same command with --resume goes on", "stopped by a signal");
 }
 
 static motus_status go(sweep *s, sweep_file *f, sweep_events *events, sweep_section *section, stop_progress *p,

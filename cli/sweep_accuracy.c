@@ -1,6 +1,5 @@
 /* What a sweep says of a trajectory that does not reach the accuracy. */
 #include "base/decimal.h"
-#include "base/error.h"
 #include "cli/complain.h"
 #include "cli/sweep.h"
 #include "cli/text.h"

@@ -6,7 +6,6 @@
  */
 #include "base/decimal.h"
 #include "base/disk.h"
-#include "base/error.h"
 #include "cli/block_room.h"
 #include "cli/comments.h"
 #include "cli/complain.h"
@@ -250,9 +249,8 @@ static bool same_sweep(const sweep_file *f, const description *d, const char *ve
 
 motus_status sweep_archive_other_version(const char *path, const char *version, const char *why, motus_error *err)
 {
-    fail(err, MOTUS_STATE, "%s was begun by motus %.40s, and %s", path, version, why);
-    hint(err, "finish it with that version, or begin anew with --force");
-    return MOTUS_STATE;
+    return complain(err, MOTUS_STATE, "finish it with that version, or begin anew with --force",
+                    "%s was begun by motus %.40s, and %s", path, version, why);
 }
 
 /* A file that another version has begun is continued if some of its rows have the bits that this one computes. */
@@ -336,10 +334,9 @@ static motus_status find_blocks(sweep_file *f, bool found, motus_error *err)
         status = count_stopped(f, b, err);
     }
     if (status || a->missing_count == 0 || !motus_archive_compressed(a->file)) return status;
-    fail(err, MOTUS_STATE, "%s is compressed, and %llu of its blocks are damaged, or their events are gone", f->path,
-         (unsigned long long)a->missing_count);
-    hint(err, "--force computes all of it again");
-    return MOTUS_STATE;
+    return complain(err, MOTUS_STATE, "--force computes all of it again",
+                    "%s is compressed, and %llu of its blocks are damaged, or their events are gone", f->path,
+                    (unsigned long long)a->missing_count);
 }
 
 /* ---- opening ---- */
@@ -533,9 +530,9 @@ motus_status sweep_archive_look(sweep_file *f, motus_error *err)
         lost += !status && !written;
     }
     if (status || !lost) return status;
-    fail(err, MOTUS_FILE, "%llu of %llu blocks were written and are not in %s", (unsigned long long)lost,
-         (unsigned long long)a->blocks, f->path);
-    hint(err,
-         "the file system loses what several machines write into one file: use shards; --resume computes the blocks");
-    return MOTUS_FILE;
+    return complain(
+        err, MOTUS_FILE,
+        "the file system loses what several machines write into one file: use shards; --resume computes the blocks",
+        "%llu of %llu blocks were written and are not in %s", (unsigned long long)lost, (unsigned long long)a->blocks,
+        f->path);
 }

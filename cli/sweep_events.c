@@ -13,7 +13,6 @@
 #define _XOPEN_SOURCE 700
 #include "base/decimal.h"
 #include "base/disk.h"
-#include "base/error.h"
 #include "cli/complain.h"
 #include "cli/event_file.h"
 #include "cli/file.h"
@@ -46,16 +45,12 @@ motus_status sweep_events_check(const options *o, motus_error *err)
         hint(err, "write the %s", both ? "rows to a file: -o sweep.csv" : "events to another file");
         return MOTUS_ARGUMENT;
     }
-    if (output && o->resume) {
-        fail(err, MOTUS_ARGUMENT, "--resume continues the table of events too, and needs a file");
-        hint(err, "--events events.csv");
-        return MOTUS_ARGUMENT;
-    }
-    if (sweep_events_in_segments(o) && !o->plan && !o->resume && !o->force && segments_there(o->events)) {
-        fail(err, MOTUS_ARGUMENT, "%s.segments is there: events of a sweep that was interrupted", o->events);
-        hint(err, "--resume continues it, --force replaces it");
-        return MOTUS_ARGUMENT;
-    }
+    if (output && o->resume)
+        return complain(err, MOTUS_ARGUMENT, "--events events.csv",
+                        "--resume continues the table of events too, and needs a file");
+    if (sweep_events_in_segments(o) && !o->plan && !o->resume && !o->force && segments_there(o->events))
+        return complain(err, MOTUS_ARGUMENT, "--resume continues it, --force replaces it",
+                        "%s.segments is there: events of a sweep that was interrupted", o->events);
     return sweep_file_may_write(o, o->events, err);
 }
 
@@ -167,9 +162,8 @@ static motus_status make_head(sweep_events *f, motus_error *err)
 
 static motus_status another(const sweep_events *f, motus_error *err)
 {
-    fail(err, MOTUS_STATE, "%s is not the table of events of this sweep", f->path);
-    hint(err, "give the name of its table, or begin anew: --force");
-    return MOTUS_STATE;
+    return complain(err, MOTUS_STATE, "give the name of its table, or begin anew: --force",
+                    "%s is not the table of events of this sweep", f->path);
 }
 
 /* Whether a head of another path to the same model is ours: what follows its first line decides. */
@@ -181,18 +175,16 @@ static bool same_head(const char *ours, const char *theirs)
 
 static motus_status shortened(const sweep_events *f, uint64_t rows, motus_error *err)
 {
-    fail(err, MOTUS_STATE, "%s does not have all events of the %" PRIu64 " trajectories in %s", f->path, rows,
-         f->sweep->options->output);
-    hint(err, "put back the file as the sweep left it, or compute both anew: --force in place of --resume");
-    return MOTUS_STATE;
+    return complain(
+        err, MOTUS_STATE, "put back the file as the sweep left it, or compute both anew: --force in place of --resume",
+        "%s does not have all events of the %" PRIu64 " trajectories in %s", f->path, rows, f->sweep->options->output);
 }
 
 static motus_status damaged(const sweep_events *f, motus_error *err)
 {
-    fail(err, MOTUS_STATE, "%s is damaged: what is behind its byte %" PRIu64 " is not what was written", f->path,
-         f->checks.end);
-    hint(err, "put back the file as the sweep left it, or compute both anew: --force in place of --resume");
-    return MOTUS_STATE;
+    return complain(
+        err, MOTUS_STATE, "put back the file as the sweep left it, or compute both anew: --force in place of --resume",
+        "%s is damaged: what is behind its byte %" PRIu64 " is not what was written", f->path, f->checks.end);
 }
 
 /* Behind the head: sets f->bytes behind the complete rows of the first `rows` trajectories. Whether they are all there

@@ -8,7 +8,6 @@
 #define _XOPEN_SOURCE 700
 #define _DEFAULT_SOURCE
 #include "base/disk.h"
-#include "base/error.h"
 #include "cli/complain.h"
 #include "base/decimal.h"
 #include "cli/file.h"
@@ -64,26 +63,16 @@ motus_status sweep_file_check(const options *o, motus_error *err)
 {
     const char *path = o->output ? o->output : "-";
     bool output = strcmp(path, "-") == 0;
-    if (o->force && o->resume) {
-        fail(err, MOTUS_ARGUMENT, "--force and --resume exclude each other");
-        hint(err, "--resume continues the file, --force replaces it");
-        return MOTUS_ARGUMENT;
-    }
-    if (o->compress && (output || !sweep_archive_name(path))) {
-        fail(err, MOTUS_ARGUMENT, "--compress is for archives");
-        hint(err, "-o FILE.h5");
-        return MOTUS_ARGUMENT;
-    }
-    if (output && (o->resume || o->force)) {
-        fail(err, MOTUS_ARGUMENT, "%s needs a file", o->resume ? "--resume" : "--force");
-        hint(err, "add -o FILE");
-        return MOTUS_ARGUMENT;
-    }
-    if (output && o->json) {
-        fail(err, MOTUS_ARGUMENT, "--json and the rows both go to standard output");
-        hint(err, "write the rows to a file: -o sweep.csv");
-        return MOTUS_ARGUMENT;
-    }
+    if (o->force && o->resume)
+        return complain(err, MOTUS_ARGUMENT, "--resume continues the file, --force replaces it",
+                        "--force and --resume exclude each other");
+    if (o->compress && (output || !sweep_archive_name(path)))
+        return complain(err, MOTUS_ARGUMENT, "-o FILE.h5", "--compress is for archives");
+    if (output && (o->resume || o->force))
+        return complain(err, MOTUS_ARGUMENT, "add -o FILE", "%s needs a file", o->resume ? "--resume" : "--force");
+    if (output && o->json)
+        return complain(err, MOTUS_ARGUMENT, "write the rows to a file: -o sweep.csv",
+                        "--json and the rows both go to standard output");
     return sweep_file_may_write(o, path, err);
 }
 
@@ -244,9 +233,8 @@ motus_status sweep_file_lock(const char *path, int *descriptor, bool *regular, m
         close(*descriptor);
         return sweep_file_lock(path, descriptor, regular, err);
     }
-    fail(err, MOTUS_FILE, "%s is being written by another program", path);
-    hint(err, "wait for that sweep or run, or stop it");
-    return MOTUS_FILE;
+    return complain(err, MOTUS_FILE, "wait for that sweep or run, or stop it", "%s is being written by another program",
+                    path);
 }
 
 /* An archive that is made anew takes the place of the file that was locked. */

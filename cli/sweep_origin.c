@@ -2,7 +2,6 @@
  *
  * Invariant: whatever the command of a file says, no file is written by it.
  */
-#include "base/error.h"
 #include "cli/complain.h"
 #include "cli/sweep.h"
 #include "cli/words.h"

@@ -4,7 +4,6 @@
  * much the pieces differ tells how far the mean may be off. A piece is as large as the batches of the sweep: smaller
  * ones leave more lanes idle. No file is touched.
  */
-#include "base/error.h"
 #include "cli/complain.h"
 #include "cli/stop.h"
 #include "cli/sweep.h"

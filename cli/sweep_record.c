@@ -8,7 +8,6 @@
  * `steps`, that column is meant.
  */
 #include "base/near.h"
-#include "base/error.h"
 #include "cli/complain.h"
 #include "cli/sweep.h"
 #include "cli/text.h"

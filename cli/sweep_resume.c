@@ -4,7 +4,6 @@
  * whose bytes do not have their check.
  */
 #define _XOPEN_SOURCE 700
-#include "base/error.h"
 #include "cli/complain.h"
 #include "base/decimal.h"
 #include "cli/file.h"

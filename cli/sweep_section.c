@@ -3,7 +3,6 @@
  *
  * Invariant: the points are in the order of the trajectories, and of a trajectory in the order of time.
  */
-#include "base/error.h"
 #include "cli/complain.h"
 #include "cli/figure.h"
 #include "cli/plot.h"
@@ -19,17 +18,13 @@ enum { X, Y, SHADE, NUMBERS };
 motus_status sweep_section_check(const options *o, motus_error *err)
 {
     if (!o->plot) return MOTUS_OK;
-    if (!o->section) {
-        fail(err, MOTUS_ARGUMENT, "--plot of a sweep draws the points of a section");
-        hint(err, "add --section \"x = 0 rising\"");
-        return MOTUS_ARGUMENT;
-    }
-    if (o->resume) {
-        fail(err, MOTUS_ARGUMENT,
-             "--resume and --plot exclude each other: the points of the rows that the file has are not in it");
-        hint(err, "write them too, --events points.csv, or leave out --resume");
-        return MOTUS_ARGUMENT;
-    }
+    if (!o->section)
+        return complain(err, MOTUS_ARGUMENT, "add --section \"x = 0 rising\"",
+                        "--plot of a sweep draws the points of a section");
+    if (o->resume)
+        return complain(
+            err, MOTUS_ARGUMENT, "write them too, --events points.csv, or leave out --resume",
+            "--resume and --plot exclude each other: the points of the rows that the file has are not in it");
     const char *const others[] = {o->output, o->events, o->operand};
     for (size_t k = 0; k < sizeof others / sizeof *others; k++)
         if (others[k] && file_same(others[k], o->plot))
@@ -140,11 +135,9 @@ motus_status sweep_section_draw(sweep_section *p, motus_error *err)
     plot_figure plot = {0};
     char title[PLOT_LABEL], name[2][PLOT_LABEL];
     if (!s->options->plot) return MOTUS_OK;
-    if (p->count == 0) {
-        fail(err, MOTUS_ARGUMENT, "--section %s: none of its points is left to draw", s->options->section);
-        hint(err, "give a later end, --until, or a smaller --skip");
-        return MOTUS_ARGUMENT;
-    }
+    if (p->count == 0)
+        return complain(err, MOTUS_ARGUMENT, "give a later end, --until, or a smaller --skip",
+                        "--section %s: none of its points is left to draw", s->options->section);
     motus_status status = name_of(p, 0, name[0]);
     if (!status) status = name_of(p, 1, name[1]);
     if (!status) {

@@ -5,7 +5,6 @@
  */
 #include "cli/walk.h"
 
-#include "base/error.h"
 #include "cli/complain.h"
 #include "cli/stop.h"
 

@@ -30,10 +30,12 @@ awk -F'\t' '
     }' "$place/table" | put "$out/manual.md" "$out/manual.md" '<!-- options -->' '<!-- /options -->'
 # To roff: no code quotes and links, and what roff reads otherwise is escaped.
 plain='s/\[\([^]]*\)\](#[^)]*)/\1/g; s/`//g; s/\\/\\e/g; s/-/\\-/g; s/'\''/\\(aq/g; s/…/.../g'
+sed "$plain" "$place/table" | awk -F'\t' '$1 == "verb" { print "\\fBmotus " $2 "\\fR " $3 " [options]\n.br" }' |
+    put doc/motus.1 "$out/motus.1" '" synopsis' '" /synopsis'
 cut -f 2 "$place/table" | sed -n '/^[a-z]/p' | while read -r verb; do
     printf '.TP\n.B %s\n' "$verb"
     "$motus" "$verb" --help | awk '/^options:/ { exit } NR > 2 && $0' | sed "$plain"
-done | put doc/motus.1 "$out/motus.1" '" verbs' '" /verbs'
+done | put "$out/motus.1" "$out/motus.1" '" verbs' '" /verbs'
 sed "$plain" "$place/table" | awk -F'\t' '$1 == "option" {
     gsub(/,/, ", ", $5)
     print ".TP\n" ($3 == "\\-" ? "" : "\\fB" $3 "\\fR, ") "\\fB" $2 "\\fR" ($4 == "\\-" ? "" : " \\fI" $4 "\\fR")

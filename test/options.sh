@@ -150,6 +150,7 @@ same() { # what, an option as an expression, and as a number
 }
 same "--until takes a constant expression" "--until=3*17" "--until=51" --step 0.1
 same "--step" "--step=sqrt(1/64)/4" "--step=0.03125" --until 2
+same "... a decimal with a bare point" "--step=.5" "--step=0.5" --until 2
 same "--tolerance" "--tolerance=1e-3^2" "--tolerance=1e-6" --until 2 --method dop853
 same "... an absolute one" "--tolerance=10/1e7 absolute" "--tolerance=1e-6 absolute" --until 2 --method dop853
 same "--longest-step" "--longest-step=1/2^4" "--longest-step=0.0625" --until 2 --method dop853
