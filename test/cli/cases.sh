@@ -8,7 +8,8 @@ root=$PWD
 passed=0 failed=0
 place=$(mktemp -d)
 out=$place/out err=$place/err
-trap 'umount "$place/small" 2>/dev/null; rm -rf "$place"' EXIT
+# A signal may find a new process of this shell before that has let go of this trap.
+trap '[ $BASHPID = $$ ] && { umount "$place/small" 2>/dev/null; rm -rf "$place"; }' EXIT
 unset NO_COLOR
 export LC_ALL=C.UTF-8 TERM=xterm
 
