@@ -59,28 +59,27 @@ static bool all_over(void *asked)
     return lanes_item_over(item);
 }
 
-/* The block, or as it was before the latest step. */
-static lanes_block block_of(const watched *s, bool before)
+/* Number k of the clock of a lane, or of that before its latest step. */
+static double clock_at(const watched *s, size_t lane, bool before, int k)
 {
-    lanes_block b = s->block;
-    if (before) b.job.carry = b.job.before, b.job.clocks = b.job.before_clocks;
-    return b;
+    const lanes_job *j = &s->block.job;
+    return (before ? j->before_clocks : j->clocks)[lane_at(s->l, LANES_CLOCKS, (size_t)k, lane)];
 }
 
 /* The state of a lane, or that before its latest step. */
 static lanes_state state_of(const watched *s, size_t lane, bool before)
 {
     const lanes *l = s->l;
-    const lanes_block b = block_of(s, before);
-    lanes_row(l, s->room, b.job.carry, l->carried, 0, l->carried, lane);
-    for (size_t k = 0; k < carried_clocks(l); k++) s->room[l->carried + k] = *lanes_clock(&b, lane, carried[k]);
-    return (lanes_state){
-        .t0 = *clock_of(s, lane, LANES_T0),
-        .h = *clock_of(s, lane, LANES_H),
-        .at = {.steps = lanes_steps(&b, lane), .refused = (int64_t)*lanes_clock(&b, lane, LANES_REFUSED)},
-        .carry = s->room,
-        .over = all_over,
-        .asked = s->item};
+    const lanes_job *j = &s->block.job;
+    lanes_row(l, s->room, before ? j->before : j->carry, l->carried, 0, l->carried, lane);
+    for (size_t k = 0; k < carried_clocks(l); k++) s->room[l->carried + k] = clock_at(s, lane, before, carried[k]);
+    return (lanes_state){.t0 = *clock_of(s, lane, LANES_T0),
+                         .h = *clock_of(s, lane, LANES_H),
+                         .at = {.steps = (int64_t)clock_at(s, lane, before, LANES_N),
+                                .refused = (int64_t)clock_at(s, lane, before, LANES_REFUSED)},
+                         .carry = s->room,
+                         .over = all_over,
+                         .asked = s->item};
 }
 
 /* Puts a trajectory into a lane at a state. */
@@ -151,15 +150,16 @@ static bool fill(void *ctx, size_t lane)
 static double end_of(const watched *s, size_t lane, bool end, double *x, double *v, double *lost)
 {
     const lanes *l = s->l;
-    const lanes_block b = block_of(s, !end);
+    const lanes_job *j = &s->block.job;
     const size_t nx = l->def.model->nx, nv = l->def.model->nv, each = nx + 2 * nv;
     const bool carried = l->plan.carried;
-    const double *numbers = carried ? b.job.carry : b.job.shown;
+    const double *numbers = !carried ? j->shown : end ? j->carry : j->before;
     const size_t elements = carried ? l->carried : 2 * each, first = carried || !end ? 0 : each;
     lanes_row(l, x, numbers, elements, first, nx, lane);
     lanes_row(l, v, numbers, elements, first + (carried ? nv : nx), nv, lane);
-    *lost = carried ? *lanes_clock(&b, lane, LANES_LOST) : 0;
-    return lanes_block_time(&b, lane);
+    *lost = carried ? clock_at(s, lane, !end, LANES_LOST) : 0;
+    const work leg = {.t0 = clock_at(s, lane, !end, LANES_T0), .h = clock_at(s, lane, !end, LANES_H)};
+    return carried ? clock_at(s, lane, !end, LANES_T) : TIME_FIXED(&leg, clock_at(s, lane, !end, LANES_N), 0);
 }
 
 /* Whether the follower knows that the latest step of a lane has no event, though a bound is not positive. */
@@ -198,18 +198,23 @@ static void look(void *ctx, size_t lane)
           &state);
 }
 
+/* Gives lanes the numbers of their trajectories. */
+static void number_lanes(const watched *s)
+{
+    size_t numbers[BLOCK_MAX];
+    for (size_t i = 0; i < (size_t)s->l->block; i++)
+        numbers[i] = lanes_occupied(&s->block, i) ? s->number[i] : s->item->first;
+    lanes_block_number(&s->block, s->item, numbers);
+}
+
 static void run(void *ctx)
 {
     watched *s = ctx;
-    size_t numbers[BLOCK_MAX] = {0};
-    for (size_t i = 0; i < (size_t)s->l->block; i++) {
-        const bool here = lanes_occupied(&s->block, i);
-        numbers[i] = here ? s->number[i] : s->item->first;
-        if (here)
-            *clock_of(s, i, LANES_STOP) = (double)(s->l->plan.carried ? lanes_schedule_pace(&s->block, i) : s->stop[i]);
-    }
-    if (s->begun) lanes_block_number(&s->block, s->item, numbers);
+    if (s->begun) number_lanes(s);
     s->begun = false;
+    for (size_t i = 0; i < (size_t)s->l->block; i++)
+        if (lanes_occupied(&s->block, i))
+            *clock_of(s, i, LANES_STOP) = (double)(s->l->plan.carried ? lanes_schedule_pace(&s->block, i) : s->stop[i]);
     s->l->run(&s->block.job, CHUNK, 0);
 }
 
