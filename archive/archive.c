@@ -183,7 +183,7 @@ static motus_status no_block(const motus_archive *a, uint64_t block, motus_error
 
 static motus_status find_unpack(motus_archive *a, motus_error *err)
 {
-    void *const found = a->unpack ? NULL : create_find(MAKE_UNPACK);
+    void *const found = a->unpack ? NULL : module_find(MAKE_UNPACK);
     if (!a->unpack) memcpy(&a->unpack, &found, sizeof a->unpack);
     if (a->unpack) return MOTUS_OK;
     fail(err, MOTUS_UNAVAILABLE, "%s is compressed, and this motus was built or runs without HDF5 and zlib", a->path);

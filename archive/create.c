@@ -92,16 +92,10 @@ static motus_status check(const motus_archive_def *d, motus_error *err)
     return MOTUS_OK;
 }
 
-void *create_find(const char *name)
-{
-    void *const module = dlopen(MAKE_MODULE, RTLD_LAZY | RTLD_LOCAL);
-    return module ? dlsym(module, name) : NULL;
-}
-
 static make_archive *maker(void)
 {
     make_archive *make = NULL;
-    void *const found = create_find(MAKE_FUNCTION);
+    void *const found = module_find(MAKE_FUNCTION);
     memcpy(&make, &found, sizeof make); /* POSIX lets a function be found so */
     return make;
 }

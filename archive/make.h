@@ -25,7 +25,7 @@ __attribute__((visibility("default"))) unpack_archive unpack_piece_2;
 /* archive.c: copies the hashes of the blocks, or (`slots` 1) the states, to a place of another file. */
 motus_status archive_copy(const motus_archive *, int slots, int descriptor, uint64_t place, motus_error *);
 
-/* create.c: a function of the module; NULL: there is no module, or no HDF5 for it. It stays loaded. */
-void *create_find(const char *name);
+/* module.c: a function of the module; NULL: there is no module, or no HDF5 for it. It stays loaded. */
+void *module_find(const char *name);
 
 #endif

@@ -33,14 +33,7 @@ static void add_text(emit_text *t, const char *which)
     emit_add(t, "#error \"%s is not among the embedded texts\"\n", which);
 }
 
-bool compose_sizes_are_structure(const model *m)
-{
-    for (uint32_t i = 0; i < m->state_count + m->mode_count; i++)
-        if (m->states[i].dims > 0) return false;
-    return true;
-}
-
-bool compose_small(const model *m) { return compose_sizes_are_structure(m) && m->nv <= SMALL_MAX; }
+bool compose_small(const model *m) { return !model_has_families(m) && m->nv <= SMALL_MAX; }
 
 /* ---- what is known ---- */
 
@@ -87,7 +80,7 @@ static bool find_moments(const work *w, arena *a, moments *m)
 
 bool compose_bounds_are_structure(const model *m)
 {
-    bool single = compose_sizes_are_structure(m);
+    bool single = !model_has_families(m);
     for (uint32_t i = 0; i < m->rule_count; i++) single &= m->rules[i].instances == 1;
     return single;
 }
@@ -483,7 +476,7 @@ static void add_assumed(emit *e)
 bool compose(emit *e, const composition *c)
 {
     emit_text *t = &e->text;
-    const bool structure = compose_sizes_are_structure(c->model), lanes = c->width > 0,
+    const bool structure = !model_has_families(c->model), lanes = c->width > 0,
                forced = !strcmp(c->programs[0].name, "compiled_force"),
                windowed = forced && c->locality && c->locality->divisible;
     const bool local = windowed && c->locality->local && !c->model->driven && by_number(c);

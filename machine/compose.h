@@ -35,11 +35,9 @@ typedef struct composition {
     const char *const *last; /* the texts that stand last, up to a NULL */
 } composition;
 
-/* Whether the numbers of a state are the same in every run: scalar models have them, families do not. */
-bool compose_sizes_are_structure(const model *);
-/* Whether such a state has so few numbers that they may stay in registers. */
+/* Whether a state has so few numbers, the same in every run, that they may stay in registers. */
 bool compose_small(const model *);
-/* The same of the functions of its rules. */
+/* Whether the functions of the model's rules are the same in every run. */
 bool compose_bounds_are_structure(const model *);
 /* Doubles in the widest vector that this machine has an instruction for: 1, 2, 4 or 8. */
 int compose_width(void);

@@ -13,71 +13,11 @@ enum { NESTED = 16 }; /* switches within the arguments of others, at most, that 
 
 /* ---- functions ---- */
 
-void sides_evaluate(const sides *s, tape *t, double time, double *x, double *v, double *a, double *out)
-{
-    double *base[SPACES] = {[SPACE_X] = x, [SPACE_V] = v, [SPACE_A] = a, [SPACE_OUT] = out};
-    for (size_t k = 0; k < s->switches->count; k++) out[k] = NAN; /* cells outside the ranges are written by none */
-    tape_run(t, time, base);
-}
-
-static bool compares(operation op) { return op == OP_LT || op == OP_LE || op == OP_GT || op == OP_GE; }
-
-double sides_side_of(const sides *s, size_t k, int way) { return switches_side(sides_op_of(s, k), way, 0); }
-
 /* Whether switch k stands at 0 beside one that is held, and the motion with both: its side then is a value of the sign
  * within (-1, 1), not 0, and it leaves with the other one. */
 static bool is_pinned(const sides *s, const double *side, size_t k)
 {
     return sides_op_of(s, k) == OP_SIGN && fabs(side[k]) > 0 && fabs(side[k]) < 1;
-}
-
-size_t sides_first_of(const sides *s, size_t k)
-{
-    const switches *w = s->switches;
-    if (!w->shared) return k;
-    const size_t kind = switches_kind(w, k);
-    return w->first[w->as[kind]] + (k - w->first[kind]);
-}
-parts sides_parts_of(const sides *s, size_t k)
-{
-    const switches *w = s->switches;
-    parts p = {.count = 0};
-    if (!switches_directs(sides_op_of(s, k))) return p;
-    const size_t kind = switches_kind(w, k), cell = k - w->first[kind], first = w->leader[kind];
-    for (; p.count < w->parts[kind]; p.count++) p.of[p.count] = w->first[first + (size_t)p.count] + cell;
-    return p;
-}
-
-bool sides_silent(const sides *s, size_t k)
-{
-    if (!switches_directs(sides_op_of(s, k))) return sides_follows(s, k);
-    const size_t kind = switches_kind(s->switches, k);
-    return s->switches->leader[kind] != kind;
-}
-
-void sides_put(const sides *s, double *side, size_t k, double value)
-{
-    const switches *w = s->switches;
-    const size_t kind = switches_kind(w, k), cell = k - w->first[kind];
-    side[k] = value;
-    if (!w->shared) return;
-    const bool held = sides_is_held(s, side, k);
-    const double way = compares(sides_op_of(s, k)) ? (value == sides_side_of(s, k, 1) ? 1 : -1) : value;
-    for (size_t j = kind + 1; j < w->kinds; j++) {
-        const size_t n = w->first[j] + cell;
-        if (w->as[j] != kind) continue;
-        const double own = w->turned[j] * way;
-        side[n] = held ? value : sides_op_of(s, n) == OP_SIGN ? own : switches_side(sides_op_of(s, n), own, 0);
-    }
-}
-
-bool sides_chooses(const sides *s, size_t k)
-{
-    const switches *w = s->switches;
-    const size_t kind = switches_kind(w, k);
-    bool any = false;
-    for (size_t j = kind; j < w->kinds; j++) any |= w->as[j] == kind && compares(sides_op_of(s, w->first[j]));
-    return any;
 }
 
 /* Whether any is; the tapes of what holds them are run only then. */
@@ -107,20 +47,6 @@ static double grip_rounding_of(const sides *s, size_t k)
 {
     const double p = fabs(s->p[k]);
     return (s->dr[k] + fabs(s->r[k])) * fabs((1 - p) * (1 + p)) + fabs(s->r[k]) * 2 * p * (s->dp[k] + 1);
-}
-
-void sides_measure_hold(const sides *s, double t, double *x, double *v)
-{
-    sides_evaluate(s, s->hold, t, x, v, NULL, s->p), sides_evaluate(s, s->grip, t, x, v, NULL, s->r);
-    for (size_t k = 0; k < s->switches->count; k++)
-        if (switches_directs(sides_op_of(s, k)) && isnan(s->p[k]) && s->r[k] == 0) s->p[k] = 0;
-}
-
-double sides_along(const parts *p, const double *a, const double *b)
-{
-    double sum = 0;
-    for (int i = 0; i < p->count; i++) sum += a[p->of[i]] * b[p->of[i]];
-    return sum;
 }
 
 static int values(void *ctx, double t, double *x, double *v, double *out)
@@ -266,41 +192,13 @@ static int act(void *ctx, size_t rule, size_t instance, double t, double *x, dou
 
 /* ---- sides ---- */
 
-static void print(const sides *s, size_t k, char *out, size_t size)
-{
-    switches_surface(s->model, s->switches->original[switches_kind(s->switches, k)], out, size);
-}
-
 static void name(void *ctx, size_t number, size_t instance, char *out, size_t size)
 {
     const sides *s = ctx;
     if (number < s->own.count)
         s->own.name(s->own.ctx, number, instance, out, size);
     else
-        print(s, s->switches->first[number - s->own.count] + instance, out, size);
-}
-
-motus_status sides_refuse(const sides *s, size_t k, const char *what, double t, motus_error *err)
-{
-    char text[120], at[DECIMAL_MAX];
-    print(s, k, text, sizeof text);
-    fail(err, MOTUS_SOLVE, "%s where %s, at t = %s", what, text, decimal(t, at));
-    if (switches_directs(sides_op_of(s, k)))
-        hint(err, "let the run end before; or smooth the jump, r'/sqrt(|r'|^2 + 0.001^2) for r'/|r'|");
-    else
-        hint(err, "let the run end before; or smooth the jump, tanh(x'/0.001) for sign(x')");
-    if (err) err->time = t, err->cause = MOTUS_CAUSE_DISCONTINUOUS;
-    return MOTUS_SOLVE;
-}
-
-motus_status sides_accelerate(sides *s, double t, double *x, double *v, motus_error *err)
-{
-    char at[DECIMAL_MAX];
-    memset(s->a, 0, s->problem->nv * sizeof *s->a);
-    if (!s->problem->accel(s->problem->ctx, t, x, v, s->a)) return MOTUS_OK;
-    fail(err, MOTUS_CALLBACK, "the acceleration cannot be evaluated at t = %s", decimal(t, at));
-    if (err) err->time = t;
-    return MOTUS_CALLBACK;
+        sides_print(s, s->switches->first[number - s->own.count] + instance, out, size);
 }
 
 /* ---- all switches ---- */
@@ -418,7 +316,7 @@ static motus_status gather(void *ctx, const size_t *functions, size_t number, do
         const size_t f = functions[k] - s->own.functions;
         char one[80];
         s->of[f] = true;
-        print(s, f, one, sizeof one);
+        sides_print(s, f, one, sizeof one);
         if (k < 3) used += (size_t)snprintf(text + used, sizeof text - used, k ? " and %s" : "%s", one);
     }
     const motus_status status = stand_together(s, s->of, way, t, x, v, &held, err);

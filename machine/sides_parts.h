@@ -1,6 +1,7 @@
-/* The parts of machine/sides.c, which only its files use: what the functions of switches are and how all of them change
- * is in sides.c, how one switch chooses its side in sides_choose.c, and how a direction does, r'/|r'|, in
- * sides_directions.c. `way` is 1 forward in time, -1 backward.
+/* What the files of sides share. Each uses only those above it on this list: sides_switch.c (one switch: its side, its
+ * parts, what its tapes say), sides_choose.c (how one switch chooses its side), sides_directions.c (how a direction
+ * does, r'/|r'|), sides.c (the functions of all switches, and how all of them change). `way` is 1 forward in time, -1
+ * backward.
  */
 #ifndef MACHINE_SIDES_PARTS_H
 #define MACHINE_SIDES_PARTS_H
@@ -44,7 +45,7 @@ typedef struct parts {
     int count; /* 0: switch k is no direction */
 } parts;
 
-/* ---- sides.c ---- */
+/* ---- sides_switch.c ---- */
 
 void sides_evaluate(const sides *s, tape *t, double time, double *x, double *v, double *a, double *out);
 /* The side of switch k where its argument is positive, way 1, or negative, way -1. */
@@ -64,6 +65,8 @@ bool sides_chooses(const sides *s, size_t k);
 void sides_measure_hold(const sides *s, double t, double *x, double *v);
 /* The sum of the products of two vectors' components. */
 double sides_along(const parts *p, const double *a, const double *b);
+/* Its surface, in words. */
+void sides_print(const sides *s, size_t k, char *out, size_t size);
 /* The force leads no motion on from where a switch changes its side. */
 motus_status sides_refuse(const sides *s, size_t k, const char *what, double t, motus_error *err);
 motus_status sides_accelerate(sides *s, double t, double *x, double *v, motus_error *err);

@@ -21,8 +21,8 @@ typedef struct structure {
 bool solve_text_admits(const model *m, const problem *p, const chosen *chosen)
 {
     const size_t stages = (size_t)stepper_plan(p, chosen, NULL).solves;
-    return !stages || (compose_sizes_are_structure(m) && stages * m->nv <= SOLVE_TEXT_MAX &&
-                       m->graph->count <= SOLVE_OPERATIONS_MAX);
+    return !stages ||
+           (!model_has_families(m) && stages * m->nv <= SOLVE_TEXT_MAX && m->graph->count <= SOLVE_OPERATIONS_MAX);
 }
 
 size_t solve_text_programs(model *m, const problem *p, const chosen *chosen, composed_program programs[2])

@@ -277,6 +277,13 @@ bool model_take_arrays(model *, int count, uint16_t *first);
 bool model_reserve_arrays(model *, uint32_t room);
 /* The derivative of a leaf along the motion: t moves by 1, x by v, v by a. */
 node model_seed_motion(graph *, node leaf, void *model);
+/* Whether the numbers of a state depend on the model's parameters. */
+static inline bool model_has_families(const model *m)
+{
+    bool any = false;
+    for (uint32_t i = 0; i < m->state_count + m->mode_count; i++) any |= m->states[i].dims > 0;
+    return any;
+}
 /* All numbers of a state or mode in v, and of one of second order in x. */
 static inline size_t model_numbers(const model_state *s)
 {
