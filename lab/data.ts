@@ -2,13 +2,7 @@
 import unpacked from 'virtual:data';
 import type { Lesson } from './lessons/read';
 import type { Staging } from './stage/staging';
-
-/** A button within a sentence: it goes to another example, takes a step, or sets the end. */
-export type NoteLink = { readonly label: string } & ({ readonly to: string } | { readonly step: string } | { readonly until: string });
-/** Parts of a sentence. */
-export type Linked = readonly (string | NoteLink)[];
-/** Paragraphs. */
-export type Note = readonly (string | Linked)[];
+import type { Note } from './words/note';
 
 export interface Data {
   readonly presets: readonly { readonly name: string; readonly text: string }[];
@@ -27,6 +21,9 @@ export const data: Data = { presets: [], lessons: [], cards: {}, stagings: {}, n
 /** The example that this state shows unaltered, by its name; '': it has a text of its own. */
 export const exampleOf = (state: { readonly preset: string; readonly text: string }): string =>
   (state.preset !== '' && data.presets.find((p) => p.name === state.preset)?.text === state.text ? state.preset : '');
+
+const plain: Staging = {};
+export const stagingOf = (name: string): Staging => (Object.hasOwn(data.stagings, name) ? data.stagings[name] ?? plain : plain);
 
 export async function loadData(): Promise<void> {
   Object.assign(data, await unpacked());

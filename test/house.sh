@@ -206,7 +206,7 @@ else
     done
 
     # A file stands above those that it uses, within a folder too. Files that still stand in circles:
-    circles='^(cli/|lang/(emit|graph|lower|model|read|tree)/)'
+    circles='^cli/'
     judge "no circle of files within a folder" "$(
         while read -r user symbol path; do
             find_folder "$user" && folder=$of
@@ -237,6 +237,22 @@ else
         nm -uA "$archive" | sed 's/@.*//' | grep -vE ':(compiler|build|cache)\.c\.o: +U (_exit|getenv)$' | awk '$(NF-1) == "U" { print $NF }' | sort -u |
             grep -xE '(__)?(printf|fprintf|vprintf|vfprintf|puts|fputs|putchar|fputc|fwrite|perror|exit|_exit|abort|longjmp|setjmp|_setjmp|__assert_fail|stdout|stderr|system|popen|getenv|setlocale)(_chk)?')"
 fi
+
+# The page: each file by its path without .ts or /index.ts, and those that it imports, types too.
+judge "no circle of files in lab/" "$(
+    grep -rE "(from|import) '\.[^']*'" lab --include='*.ts' --exclude-dir=node_modules | awk -F: '
+        {
+            user = $1; sub(/(\/index)?\.ts$/, "", user)
+            match($0, /(from|import) \047[^\047]*\047/)
+            count = split($1, part, "/") - 1
+            n = split(substr($0, RSTART, RLENGTH), word, "\047"); n = split(word[2], step, "/")
+            for (k = 1; k <= n; k++)
+                if (step[k] == "..") count--
+                else if (step[k] != ".") part[++count] = step[k]
+            path = part[1]
+            for (k = 2; k <= count; k++) path = path "/" part[k]
+            if (user != path) print user, path
+        }' | sort -u | tsort 2>&1 >/dev/null | sed 's/^tsort: //')"
 
 # The library's callers are C programs and the page too; the program puts its options for the members (cli/complain.c).
 judge "no text of the library names an option of the program" "$(

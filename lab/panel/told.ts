@@ -2,13 +2,12 @@
  *
  * Invariant: a sentence tells what was computed of the scene on show, and nothing that was not.
  */
-import { exampleOf } from '../data';
+import { exampleOf, stagingOf } from '../data';
 import { bodiesOf } from '../distance';
 import { nameText } from '../figure/name';
 import { brief } from '../figure/number';
 import type { Column } from '../protocol';
 import type { Scene } from '../scene';
-import { stagingOf } from '../stage/staging';
 import { words } from '../words';
 import { columnOf, positions } from './columns';
 

@@ -1,7 +1,7 @@
 /* What stands below a saved picture: the title, the equation, the step and the methods, the link. Invariant: it is said of the scene that the picture shows. */
 import type { Scene } from '../scene';
 import type { Presets } from '../share';
-import { stagingOf } from '../stage/staging';
+import { stagingOf } from '../data';
 import { words } from '../words';
 import { addressOf } from './address';
 import { whole } from './embed';

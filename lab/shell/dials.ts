@@ -2,10 +2,10 @@
  *
  * Invariant: rows are rebuilt only when the model has other parameters; what a slider does not touch keeps the text that the model has (sliders.ts).
  */
-import { exampleOf } from '../data';
+import { exampleOf, stagingOf } from '../data';
 import type { Parameter } from '../protocol';
 import { presetState } from '../share';
-import { stagingOf, type Dial } from '../stage/staging';
+import type { Dial } from '../stage/staging';
 import { saidOf } from '../scenes';
 import { outdated, type LiveStore } from '../state';
 import { el } from '../dom';

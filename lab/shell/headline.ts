@@ -3,8 +3,7 @@
  * Invariant: what is said of an example holds for its own text only; of a changed text the words are its own comment's.
  */
 import { grouped } from '../figure/number';
-import { stagingOf } from '../stage/staging';
-import { exampleOf } from '../data';
+import { exampleOf, stagingOf } from '../data';
 import type { LiveStore } from '../state';
 import { saidOf } from '../scenes';
 import { presetState, viewFor } from '../share';

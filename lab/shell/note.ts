@@ -3,14 +3,14 @@
  *
  * Invariant: what is said of an example holds for its own text only, and its numbers for its own values.
  */
-import { data, exampleOf, type Note, type NoteLink } from '../data';
+import { data, exampleOf, stagingOf } from '../data';
 import type { LiveStore } from '../state';
 import { presetState } from '../share';
-import { stagingOf } from '../stage/staging';
 import { saidOf } from '../scenes';
 import { button, el, place } from '../dom';
 import { words } from '../words';
 import { presets } from './presets';
+import type { Note, NoteLink } from '../words/note';
 
 /** To the answer of the question on the stage. */
 export function toNote(): void {

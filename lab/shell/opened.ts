@@ -3,7 +3,7 @@
  * Invariant: the step is that of the core's account of the very run that the stage shows; a column shows one step whole, never figures of two. What is drawn is what
  * the stage draws, until the reader chooses. The clock of the page rests meanwhile, and is moved only where the reader went to another step.
  */
-import { data, exampleOf } from '../data';
+import { data, exampleOf, stagingOf } from '../data';
 import { button, el, icon, place, say } from '../dom';
 import { grouped } from '../figure/number';
 import { asker, stepAt, timeOf, type Opened } from '../panel/steps/ask';
@@ -12,7 +12,6 @@ import { timeDecimals, timeText } from '../panel/steps/figures';
 import { seenBy, seenIn, type Seen } from '../panel/steps/seen';
 import { bodyCalled } from '../panel/told';
 import type { Scene } from '../scene';
-import { stagingOf } from '../stage/staging';
 import type { LiveStore } from '../state';
 import { words } from '../words';
 import { lecturing } from './lecture';

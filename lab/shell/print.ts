@@ -2,9 +2,8 @@
 import { el, place, say } from '../dom';
 import { brief } from '../figure/number';
 import type { Scene } from '../scene';
-import { exampleOf } from '../data';
+import { exampleOf, stagingOf } from '../data';
 import { errorsOf } from '../stage/motion';
-import { stagingOf } from '../stage/staging';
 import { words } from '../words';
 
 export function printed(): { show(scene: Scene): void } {

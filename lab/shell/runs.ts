@@ -3,10 +3,9 @@
  * Invariant: all rows are of one motion, to one end; where that changes, the rows of before are gone. Only the steps that the lesson asks for are written
  * down, so that a slider on its way leaves nothing.
  */
-import { exampleOf } from '../data';
+import { exampleOf, stagingOf } from '../data';
 import { brief } from '../figure/number';
 import type { Scene } from '../scene';
-import { stagingOf } from '../stage/staging';
 import { missText } from '../stage/names';
 import { el } from '../dom';
 import { words } from '../words';

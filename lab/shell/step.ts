@@ -1,9 +1,8 @@
 /* The step: a dial on a scale of powers whose stops halve (scale.ts). Invariant: a lesson's stops hold every step that it asks for. Where no method of steps of one
  * size is drawn it is not there.
  */
-import { data, exampleOf } from '../data';
+import { data, exampleOf, stagingOf } from '../data';
 import { grouped } from '../figure/number';
-import { stagingOf } from '../stage/staging';
 import { kinds, type LiveStore } from '../state';
 import { words } from '../words';
 import { compact, short } from './number';

@@ -6,11 +6,11 @@ import { drawMarks, marksOf, partOf } from '../figure/marks';
 import type { Ink, Pen } from '../figure/types';
 import { greenName, type Motion, type Rows } from './motion';
 import { drawNames, type Named } from './names';
-import type { Picture, Setting } from './picture';
 import { wideEnough } from './place';
 import { flatPlot } from './plot';
 import { isDone, isOver, placeAt, valueAt } from './rows';
 import { numbersOf } from './subject';
+import type { Picture, Setting } from './types';
 
 /** Pixels of a unit at most; between the axis and the balls. */
 const UNIT = 120, GAP = 34;

@@ -10,7 +10,6 @@ import { drawMarks } from '../figure/marks';
 import { brief } from '../figure/number';
 import { textWidth } from '../figure/shapes';
 import type { Ink, Pen } from '../figure/types';
-import type { Bands } from '../panel/band';
 import type { Look, Scene } from '../scene';
 import { words } from '../words';
 import { allOf, extentOf, join, roomy, suits, untilGround, type Bounds, type Range } from './bounds';
@@ -22,39 +21,13 @@ import { bodyOf, greenName, missAt, motionOf, type Line, type Motion, type Rows 
 import { briefly, drawNames, missText, type Named } from './names';
 import { trail } from './path';
 import { apart, wideEnough, type Box, type Place } from './place';
-import { flatPlot, inside, spacePlot, type Axis, type Camera, type Plot, type Way } from './plot';
+import { flatPlot, inside, spacePlot, type Axis, type Plot, type Way } from './plot';
 import { isDone, isOver, placeAt, valueAt } from './rows';
 import { ballsPicture } from './balls';
 import { shapePicture } from './shape';
 import type { Staging } from './staging';
 import { subjects, velocityColumn, type Subject } from './subject';
-
-export interface Setting {
-  readonly scene: Scene; readonly subject: Subject; readonly staging: Staging; readonly place: Place; readonly bounds: Bounds; readonly camera: Camera;
-  /** A run to compare with, whose curves stay until they are let go. */
-  readonly pinned: Scene | null;
-  /** The picture before, whose curves stay as ghosts. */
-  readonly before: Picture | null;
-  /** Bars of error along the runs; absent: none are drawn. */
-  readonly bars?: Bands;
-}
-/** A ring that sets the initial velocity: its pixels, and pixels of a unit of velocity. */
-export interface Handle { readonly x: number; readonly y: number; readonly fromX: number; readonly fromY: number; readonly unit: number }
-export interface Leaving { readonly name: string; readonly says: string; readonly more: string; readonly colour: string; readonly x: number; readonly y: number; readonly time: number; readonly anchor: 'start' | 'end' }
-export interface Picture {
-  /** finished: nothing is to come (`over`), so it need not be drawn. */
-  still(pen: Pen, ink: Ink, finished?: boolean): void;
-  moving(pen: Pen, ink: Ink, time: number): void;
-  ghost(pen: Pen, ink: Ink): void;
-  /** Whether all motions have come to their ends by then. */
-  over(time: number): boolean;
-  readonly handle: Handle | null;
-  /** Where the exact motion ends, in pixels. */
-  readonly end: Point | null;
-  readonly leaving: readonly Leaving[];
-  /** Sentences for those who do not see it. */
-  remarks(): string[];
-}
+import type { Handle, Leaving, Picture, Setting } from './types';
 
 const TO_COME_EXACT = 0.22, TO_COME = 0.25, STROBE = 0.16, EXACT_WIDTH = 4, WIDTH = 2;
 const LIVE_MARKS = 400, STEPS_SEEN = 40, WALL = 180;

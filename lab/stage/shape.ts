@@ -5,10 +5,10 @@
 import type { Ink, Pen } from '../figure/types';
 import { greenName, type Motion, type Rows } from './motion';
 import { drawNames, type Named } from './names';
-import type { Picture, Setting } from './picture';
 import { wideEnough } from './place';
 import { flatPlot } from './plot';
 import { isOver, placeAt, valueAt } from './rows';
+import type { Picture, Setting } from './types';
 
 /** Beads can be told apart up to so many. */
 const BEADS = 80;

@@ -3,7 +3,7 @@
  * Invariant: the frame keeps still while sliders move; it moves once, afterwards, where the exact motion has left it or become small in it. Methods never
  * move it. What keeps still is drawn once a scene, what moves once a frame; nothing is drawn while it cannot be seen.
  */
-import { exampleOf } from '../data';
+import { exampleOf, stagingOf } from '../data';
 import { firstMoving } from '../distance';
 import { button, el, milestone, say } from '../dom';
 import { captioned, csv, download, downloadText, fileName, savePicture, sheetOf } from '../figure/export';
@@ -16,16 +16,16 @@ import type { Panel, Scene, Store } from '../scene';
 import { lecturing } from '../shell/lecture';
 import { short as shortNumber } from '../shell/number';
 import { words } from '../words';
-import { boundsFor, pictureOf, sideOf, type Picture, type Side } from './picture';
+import { boundsFor, pictureOf, sideOf, type Side } from './picture';
 import { extentOf, suits, type Bounds } from './bounds';
 import { film } from './film';
 import { haste } from './haste';
 import { errorsOf, furthestOf, motionOf } from './motion';
 import { placeOf, type Place } from './place';
 import { HOME, turned } from './plot';
-import { stagingOf } from './staging';
 import { subjects, type Subject } from './subject';
 import { turnable } from './turnable';
+import type { Picture } from './types';
 
 /** Milliseconds: a ghost stays after the last change; the frame takes to move. */
 const GHOST = 1200, MOVE = 300;

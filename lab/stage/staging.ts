@@ -2,8 +2,6 @@
  *
  * Invariant: a model without an entry of stagings.ts is staged by what the core says of it; nothing here is needed to see a motion.
  */
-import { data } from '../data';
-
 /** A slider of the dock: a parameter or an initial value, `part` its component from 0; low, high: where the slider ends. */
 export interface Dial { readonly name: string; readonly part?: number; readonly unit?: string; readonly low?: number; readonly high?: number }
 export type BodyName = 'sun' | 'earth' | 'moon' | 'jupiter' | 'saturn' | 'uranus' | 'neptune' | 'pluto';
@@ -39,6 +37,3 @@ export interface Staging {
   /** Rods from (0, 0) to these places, one after the other. */
   readonly rods?: readonly (readonly [x: string, y: string])[];
 }
-
-const plain: Staging = {};
-export const stagingOf = (name: string): Staging => (Object.hasOwn(data.stagings, name) ? data.stagings[name] ?? plain : plain);

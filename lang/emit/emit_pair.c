@@ -23,8 +23,6 @@ enum {
     NODES_MAX = 1000            /* of a program */
 };
 
-#define EACH_SUM(k, r) for (uint32_t k = (r)->sums; k != NONE; k = w->plan.sums.at[w->plan.items.at[k].sum].next)
-
 static const graph_node *at(const writer *w, node n) { return &w->plan.g->nodes[n]; }
 
 /* ---- what an exchange of the indices does ---- */
@@ -87,6 +85,24 @@ static bool same_bound(const subscript *a, const subscript *b)
 {
     return a->level < 0 && b->level < 0 && a->slot == b->slot && a->literal == b->literal && a->modulus < 0 &&
            b->modulus < 0;
+}
+
+/* As in `j != i`; then a loop that takes one term at a time goes on without computing it. */
+bool emit_leaves_out(const writer *w, const plan_region *r, int level[2])
+{
+    const graph_node *nodes = w->plan.g->nodes;
+    node condition = 0;
+    EACH_SUM(k, r)
+    {
+        const node b = nodes[w->plan.items.at[k].n].b;
+        if (!b || (condition && condition != b)) return false;
+        condition = b;
+    }
+    const graph_node *c = &nodes[condition];
+    if (!condition || c->op != OP_NE || nodes[c->a].op != OP_INDEX || nodes[c->b].op != OP_INDEX) return false;
+    level[0] = nodes[c->a].level;
+    level[1] = nodes[c->b].level;
+    return level[0] != level[1];
 }
 
 /* All sums of the loop leave out j = i, and nothing in them but x[i], x[j] and such depends on the indices. */
@@ -209,8 +225,7 @@ static void exchange(writer *w, node n, node user, char out[48])
               o[0], arity > 1 ? ", " : "", o[1], arity > 2 ? ", " : "", o[2]);
 }
 
-/* Adds the exchanged terms of the sums of a loop to the partial sums of the other cells. */
-static void write_others(writer *w, uint32_t region)
+void emit_pair_others(writer *w, uint32_t region)
 {
     const plan_region *r = &w->plan.regions.at[region];
     memset(w->exchanged, 0, w->plan.g->count);
@@ -228,94 +243,4 @@ static void write_others(writer *w, uint32_t region)
                  fused ? p : total, fused ? q : p, fused ? total : "");
         emit_line(w, along ? "index_store(&t%u[m1 + k * WIDTH], %s);" : "t%u[m1] = %s;", k, next);
     }
-}
-
-static void write_one_by_one(writer *w, uint32_t region)
-{
-    emit_line(w, "for (; m1 < e1; m1++) {");
-    w->depth++;
-    emit_line(w, "const int64_t j1 = f1 + m1, k = rows > 1 ? m1 & 7 : 0;");
-    w->skips = true;
-    emit_region(w, region);
-    write_others(w, region);
-    w->skips = false;
-    w->depth--;
-    emit_line(w, "}");
-}
-
-static void write_eights(writer *w, uint32_t region)
-{
-    const plan_region *r = &w->plan.regions.at[region];
-    emit_line(w, "if (!rest && rows > 1) {");
-    w->depth++;
-    EACH_SUM(k, r)
-    {
-        emit_line(w, "reals v%u[8 / WIDTH];", k);
-        emit_line(w, "for (int k = 0; k < 8 / WIDTH; k++) v%u[k] = index_load(&s%u[k * WIDTH]);", k, k);
-    }
-    emit_line(w, "for (; m1 + 8 <= n1; m1 += 8)");
-    emit_line(w, "#pragma GCC unroll 8");
-    emit_line(w, "for (int k = 0; k < 8 / WIDTH; k++) {");
-    w->depth++;
-    emit_line(w, "const int64_t j1 = f1 + m1 + k * WIDTH;");
-    w->along = 1;
-    w->skips = true;
-    emit_region(w, region);
-    write_others(w, region);
-    w->along = -1;
-    w->skips = false;
-    w->depth--;
-    emit_line(w, "}");
-    EACH_SUM(k, r)
-    emit_line(w, "for (int k = 0; k < 8 / WIDTH; k++) index_store(&s%u[k * WIDTH], v%u[k]);", k, k);
-    w->depth--;
-    emit_line(w, "}");
-    w->e->uses_vectors = true;
-}
-
-void emit_pair_start(writer *w, uint32_t region)
-{
-    const plan_region *r = &w->plan.regions.at[region];
-    char first[PLACE_MAX], last[PLACE_MAX];
-    uint32_t sums = 0;
-    EACH_SUM(k, r) sums++;
-    emit_bound(w, &r->range.first, first);
-    emit_bound(w, &r->range.last, last);
-    emit_line(w, "const int64_t f1 = %s, n1 = %s - f1 + 1, rows = n1 > 16 ? 8 : 1, c1 = (n1 + 7) & ~(int64_t)7;", first,
-              last);
-    emit_line(w, "for (int64_t k = 0; k < %u * rows * c1; k++) own[k] = 0;", sums);
-}
-
-void emit_pair_sums(writer *w, uint32_t region)
-{
-    const plan_region *r = &w->plan.regions.at[region];
-    const uint32_t around = w->region;
-    const bool skipping = w->skips;
-    uint32_t c = 0;
-    emit_line(w, "const int64_t i1 = j0 - f1;");
-    EACH_SUM(k, r)
-    {
-        emit_line(w, "double s%u[8], *const t%u = own + (%u * rows + (rows > 1 ? i1 & 7 : 0)) * c1;", k, k, c);
-        emit_line(w, "for (int64_t k = 0; k < rows; k++) s%u[k] = own[(%u * rows + k) * c1 + i1];", k, c++);
-        w->plan.items.at[k].reg = 0; /* done */
-    }
-    emit_line(w, "{");
-    w->depth++;
-    emit_line(w, "int64_t m1 = i1 + 1;");
-    emit_line(w, "for (int rest = 0; rest <= (rows > 1); rest++) {");
-    w->depth++;
-    emit_line(w, "const int64_t up = (m1 + 7) & ~(int64_t)7, e1 = rest || rows == 1 || up > n1 ? n1 : up;");
-    write_one_by_one(w, region);
-    if (w->e->vectors) write_eights(w, region);
-    w->depth--;
-    emit_line(w, "}");
-    w->depth--;
-    emit_line(w, "}");
-    w->region = around;
-    w->skips = skipping;
-    EACH_SUM(k, r)
-    emit_line(w,
-              "const double r%u = rows > 1 ? ((s%u[0] + s%u[1]) + (s%u[2] + s%u[3])) + ((s%u[4] + s%u[5]) + (s%u[6] + "
-              "s%u[7])) : s%u[0];",
-              k, k, k, k, k, k, k, k, k, k);
 }

@@ -1,5 +1,7 @@
-/* Shared by the files that write C: emit.c (the functions), emit_loop.c (regions, loops, sums), emit_value.c (values),
- * emit_place.c (text, places). */
+/* Shared by the files that write C. From the lowest, each uses only those above it on this list: emit_place.c (text,
+ * places), emit_nature.c (how wide values are), emit_exact.c (operations that a number makes exact), emit_value.c
+ * (values), emit_pair.c (pairs of cells), emit_loop.c (regions, loops, sums), emit_series.c and emit_series_pair.c
+ * (Taylor series), emit.c (the functions). */
 #ifndef LANG_EMIT_EMIT_PARTS_H
 #define LANG_EMIT_EMIT_PARTS_H
 
@@ -48,6 +50,8 @@ typedef struct shared_value {
     uint32_t at, own, front; /* in the pair's frame; of those alone and of fronts in the term's; of fronts: which */
 } shared_value;
 
+/* Each sum of a loop. */
+#define EACH_SUM(k, r) for (uint32_t k = (r)->sums; k != NONE; k = w->plan.sums.at[w->plan.items.at[k].sum].next)
 #define SAY(w, ...) emit_add(&(w)->e->text, __VA_ARGS__)
 void emit_line(writer *, const char *format, ...) __attribute__((format(printf, 2, 3)));
 
@@ -66,28 +70,33 @@ typedef enum spread { TOGETHER, AROUND, ANYWHERE } spread;
 spread emit_spread(const writer *, const reference *);
 void emit_around(writer *, const reference *, char out[3 * PLACE_MAX]);
 
-void emit_exact(writer *, node user, unsigned *op, char operand[3][48]);
-void emit_values(writer *);
+/* emit_nature.c. The nature of every node. False: no loop over a sum of parameters is wide. */
 bool emit_natures(writer *, bool loops);
 void emit_terms(writer *);
 bool emit_wide(const writer *, node);
 const char *emit_type(const writer *, node);
 const char *emit_operation(const writer *, node, unsigned op);
+
+void emit_exact(writer *, node user, unsigned *op, char operand[3][48]);
+void emit_values(writer *);
+
 void emit_operand(writer *, node, node user, char out[48]);
 void emit_outputs(writer *, uint32_t first);
 void emit_item(writer *, uint32_t item);
 
-void emit_region(writer *, uint32_t region);
-/* Whether all sums of a loop leave out the term at which two indices are equal, and which levels these have. */
+/* emit_pair.c. Whether all sums of a loop leave out the term at which two indices are equal, and which levels these
+ * have. */
 bool emit_leaves_out(const writer *, const plan_region *, int level[2]);
-/* The loop in a family's that may take each pair once, or NONE; what stands before the family's loop; the sums. */
+/* The loop in a family's that may take each pair once, or NONE. */
 uint32_t emit_pairs(writer *, uint32_t family);
 /* The loop in a family's whose terms for (i, j) and (j, i) have parts that differ at most in their sign, or NONE; it
  * fills w->parity. Whether such a part changes its sign. */
 uint32_t emit_exchangeable(writer *, uint32_t family);
 bool emit_is_odd(const writer *, node);
-void emit_pair_start(writer *, uint32_t region);
-void emit_pair_sums(writer *, uint32_t region);
+/* Adds the exchanged terms of the sums of a loop to the partial sums of the other cells. */
+void emit_pair_others(writer *, uint32_t region);
+
+void emit_region(writer *, uint32_t region);
 
 void emit_series_pass(writer *, const char *name);
 /* emit_series_pair.c: whether the series of a family's pairs are taken once for both cells; it fills w->shared. */

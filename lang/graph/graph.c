@@ -1,4 +1,4 @@
-/* The graph's constructors. They make every node, fold it where it is constant, and share it where it exists already.
+/* The table of nodes: leaves and sums are made here, and every node is shared where it exists already.
  *
  * Invariant: operands have smaller numbers than the node, so ascending numbers are an order of evaluation; no two
  * nodes are identical; node 0 is the constant +0. After a failure (memory, GRAPH_NODES_MAX) constructors return node
@@ -6,6 +6,7 @@
  */
 #include "lang/graph/graph_walk.h"
 
+#include <math.h>
 #include <string.h>
 
 enum { FIRST_NODES = 64, MANY_NODES = 1 << 15, FIRST_REFERENCES = 16 };
@@ -159,13 +160,25 @@ static void *grow_rows(graph *g, void *rows, uint32_t count, size_t size)
     return arena_replace(g->arena, rows, count * size, (count ? 2 * (size_t)count : FIRST_REFERENCES) * size);
 }
 
+static bool same_number(double a, double b) { return a == b && signbit(a) == signbit(b); }
+
+/* Whether a constant is known to be that; NULL: it is what it is read as. */
+static bool same_typed(const graph *g, node n, const graph_typed *typed)
+{
+    if (!g->typed || g->nodes[n].op != OP_CONST) return true;
+    const graph_typed *const t = &g->typed[n];
+    if (!typed || !t->known) return !typed && !t->known;
+    return same_number(t->plain, typed->plain) && t->is.high == typed->is.high && t->is.low == typed->is.low &&
+           t->is.error == typed->is.error;
+}
+
 /* typed: of a constant, what is known of it; NULL: it is what it is read as. */
 static node share_typed(graph *g, graph_node n, const reference *ref, const range *r, const graph_typed *typed)
 {
     if (g->arena->failed || g->too_large) return 0;
     uint64_t h = hash_node(&n, ref, r);
     for (node k; (k = g->table[h & (g->table_size - 1)]) != 0; h++)
-        if (same_node(g, &n, &g->nodes[k], ref, r) && graph_same_typed(g, k, typed)) return k;
+        if (same_node(g, &n, &g->nodes[k], ref, r) && same_typed(g, k, typed)) return k;
     if (ref) {
         reference *rows = grow_rows(g, g->references, g->reference_count, sizeof *rows);
         if (!rows) return 0;
@@ -195,6 +208,8 @@ static node share(graph *g, graph_node n, const reference *ref, const range *r)
 {
     return share_typed(g, n, ref, r, NULL);
 }
+
+node graph_share(graph *g, graph_node n) { return share(g, n, NULL, NULL); }
 
 /* Leaves ---------------------------------------------------------------------------------------------------------- */
 
@@ -241,144 +256,15 @@ node graph_load(graph *g, const reference *of)
     return share(g, (graph_node){.op = OP_LOAD, .deps = (uint16_t)deps}, ref, NULL);
 }
 
-/* Operations ------------------------------------------------------------------------------------------------------ */
-
-static bool is_const(const graph *g, node n, double value)
-{
-    return g->nodes[n].op == OP_CONST && g->nodes[n].value == value;
-}
-
-/* The identities of real numbers, for derivatives only: they may change the sign of a zero or hide a NaN, so they would
- * change the bits of the user's equations. False: none applies. */
-static bool simplified(graph *g, operation op, node a, node b, node c, node *out)
-{
-    const graph_node *na = &g->nodes[a], *nb = &g->nodes[b];
-    switch (op) {
-    case OP_NEG:
-        if (na->op == OP_NEG) return *out = na->a, true;
-        if (na->op == OP_SUB) return *out = graph_op(g, OP_SUB, na->b, na->a, 0), true;
-        return false;
-    case OP_ADD:
-        if (is_const(g, a, 0)) return *out = b, true;
-        if (is_const(g, b, 0)) return *out = a, true;
-        if (nb->op == OP_NEG) return *out = graph_op(g, OP_SUB, a, nb->a, 0), true;
-        if (na->op == OP_NEG) return *out = graph_op(g, OP_SUB, b, na->a, 0), true;
-        return false;
-    case OP_SUB:
-        if (a == b) return *out = 0, true;
-        if (is_const(g, b, 0)) return *out = a, true;
-        if (is_const(g, a, 0)) return *out = graph_op(g, OP_NEG, b, 0, 0), true;
-        if (nb->op == OP_NEG) return *out = graph_op(g, OP_ADD, a, nb->a, 0), true;
-        return false;
-    case OP_MUL:
-        if (is_const(g, a, 0) || is_const(g, b, 0)) return *out = 0, true;
-        if (is_const(g, a, 1)) return *out = b, true;
-        if (is_const(g, b, 1)) return *out = a, true;
-        if (is_const(g, a, -1)) return *out = graph_op(g, OP_NEG, b, 0, 0), true;
-        if (is_const(g, b, -1)) return *out = graph_op(g, OP_NEG, a, 0, 0), true;
-        if (na->op == OP_NEG) {
-            node u = na->a;
-            return *out = graph_op(g, OP_NEG, graph_op(g, OP_MUL, u, b, 0), 0, 0), true;
-        }
-        if (nb->op == OP_NEG) {
-            node u = nb->a;
-            return *out = graph_op(g, OP_NEG, graph_op(g, OP_MUL, a, u, 0), 0, 0), true;
-        }
-        if (nb->op == OP_CONST) return *out = graph_op(g, OP_MUL, b, a, 0), true;
-        if (na->op == OP_CONST && nb->op == OP_MUL && g->nodes[nb->a].op == OP_CONST) {
-            node rest = nb->b, factor = graph_op(g, OP_MUL, a, nb->a, 0);
-            return *out = graph_op(g, OP_MUL, factor, rest, 0), true;
-        }
-        return false;
-    case OP_DIV:
-        if (is_const(g, a, 0)) return *out = 0, true;
-        if (is_const(g, b, 1)) return *out = a, true;
-        if (a == b) return *out = graph_const(g, 1), true;
-        if (na->op == OP_NEG) {
-            node u = na->a;
-            return *out = graph_op(g, OP_NEG, graph_op(g, OP_DIV, u, b, 0), 0, 0), true;
-        }
-        return false;
-    case OP_SELECT:
-        if (b == c) return *out = b, true;
-        if (na->op == OP_CONST) return *out = na->value != 0 ? b : c, true;
-        return false;
-    default: return false;
-    }
-}
-
-/* sqrt(u u), which is |u| to the last bit, but where u u is no double: so that its kink is known, which series and bars
- * of error must know of. */
-static bool of_square(const graph *g, operation op, node a, node b)
-{
-    const graph_node *const n = &g->nodes[a];
-    return (op == OP_SQRT || (op == OP_POW && is_const(g, b, 0.5))) && n->op == OP_MUL && n->a == n->b;
-}
-
-node graph_plain_op(graph *g, operation op, node a, node b, node c)
-{
-    int arity = operation_at(op)->arity;
-    node operand[3] = {a, arity > 1 ? b : 0, arity > 2 ? c : 0};
-    unsigned deps = 0;
-    bool constant = true;
-    for (int k = 0; k < arity; k++) {
-        deps |= g->nodes[operand[k]].deps;
-        constant &= g->nodes[operand[k]].op == OP_CONST;
-    }
-    a = operand[0], b = operand[1], c = operand[2];
-    if (constant) return graph_const(g, operation_value(op, g->nodes[a].value, g->nodes[b].value, g->nodes[c].value));
-    if (of_square(g, op, a, b)) return graph_op(g, OP_ABS, g->nodes[a].a, 0, 0);
-    node out;
-    if (g->tidy && !g->arena->failed && !g->too_large && graph_tidied(g, op, a, b, &out)) return out;
-    if (g->simplify && !g->arena->failed && !g->too_large && simplified(g, op, a, b, c, &out)) return out;
-    return share(g, (graph_node){.op = (uint8_t)op, .deps = (uint16_t)deps, .a = a, .b = b, .c = c}, NULL, NULL);
-}
-
-node graph_op(graph *g, operation op, node a, node b, node c)
-{
-    const node n = graph_plain_op(g, op, a, b, c);
-    return g->typed ? graph_typed_op(g, n, op, (const node[]){a, b, c}) : n;
-}
-
-node graph_power(graph *g, node base, int exponent)
-{
-    if (exponent < 0) {
-        node power = graph_power(g, base, -exponent); /* first, because C leaves the order of arguments open */
-        return graph_op(g, OP_DIV, graph_const(g, 1), power, 0);
-    }
-    if (exponent == 0) return graph_const(g, 1);
-    if (exponent == 1) return base;
-    node half = graph_power(g, base, exponent % 2 ? exponent - 1 : exponent / 2);
-    return graph_op(g, OP_MUL, half, exponent % 2 ? base : half, 0);
-}
-
 node graph_sum(graph *g, int level, const range *r, node condition, node body)
 {
     unsigned deps = g->nodes[body].deps | g->nodes[condition].deps;
-    if (g->simplify && is_const(g, body, 0)) return 0;
+    if (g->simplify && graph_is_const(g, body, 0)) return 0;
     deps &= ~(1u << level);
     deps |= subscript_deps(&r->first) | subscript_deps(&r->last);
     graph_node n = {.op = OP_SUM, .level = (uint8_t)level, .deps = (uint16_t)deps, .a = body, .b = condition};
     const range copy = *r; /* the graph's own ranges move when there are more */
     return share(g, n, NULL, &copy);
-}
-
-enum { IN_ORDER = 16, PARTIALS = 8 };
-
-node graph_total(graph *g, const node *terms, size_t count)
-{
-    if (!count) return 0;
-    if (count <= IN_ORDER) {
-        node total = terms[0];
-        for (size_t k = 1; k < count; k++) total = graph_op(g, OP_ADD, total, terms[k], 0);
-        return total;
-    }
-    node p[PARTIALS];
-    for (size_t k = 0; k < count; k++)
-        p[k % PARTIALS] = k < PARTIALS ? terms[k] : graph_op(g, OP_ADD, p[k % PARTIALS], terms[k], 0);
-    for (int width = 1; width < PARTIALS; width *= 2)
-        for (int k = 0; k < PARTIALS; k += 2 * width) p[k] = graph_op(g, OP_ADD, p[k], p[k + width], 0);
-    return p[0];
 }
 
 size_t graph_shape(arena *of, array *a, space space, size_t base, int dims, const int64_t first[], const int64_t last[])

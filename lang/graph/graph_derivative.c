@@ -73,7 +73,7 @@ node graph_derivative(graph *g, node root, graph_seed seed, void *ctx)
         if (n.op == OP_SUM)
             d[k] = dn[0] ? graph_sum(g, n.level, &g->ranges[n.c], n.b, dn[0]) : 0;
         else if (dn[0] || dn[1] || dn[2])
-            if (!g->tidy || !graph_tidy_slope(g, &n, w.nodes[k], dn[0], dn[1], &d[k]))
+            if (!g->tidy || !graph_op_slope(g, &n, w.nodes[k], dn[0], dn[1], &d[k]))
                 d[k] = graph_derivative_rule(g, &n, w.nodes[k], dn);
     }
     g->simplify = before;

@@ -23,17 +23,6 @@ static graph_typed exactly(double value)
     return (graph_typed){.known = true, .plain = value, .read = value, .is = twofold_of(value)};
 }
 
-static bool same_number(double a, double b) { return a == b && signbit(a) == signbit(b); }
-
-bool graph_same_typed(const graph *g, node n, const graph_typed *typed)
-{
-    if (!g->typed || g->nodes[n].op != OP_CONST) return true;
-    const graph_typed *const t = &g->typed[n];
-    if (!typed || !t->known) return !typed && !t->known;
-    return same_number(t->plain, typed->plain) && t->is.high == typed->is.high && t->is.low == typed->is.low &&
-           t->is.error == typed->is.error;
-}
-
 /* Of a constant without more its number is what is known. */
 static graph_typed known(const graph *g, node n)
 {
@@ -113,39 +102,40 @@ static twofold without_noise(operation op, twofold is, const graph_typed t[3])
     return fabs(is.high) + is.error <= TWOFOLD_KNOWN * size ? twofold_of(0) : is;
 }
 
-node graph_typed_op(graph *g, node n, operation op, const node operand[3])
+double graph_typed_op(graph *g, node *n, operation op, const node operand[3], graph_typed *of)
 {
     const int arity = operation_at(op)->arity;
     graph_typed t[3] = {exactly(0), exactly(0), exactly(0)};
     bool exact = true;
-    if (g->arena->failed || g->too_large) return n;
+    of->known = false;
+    if (g->arena->failed || g->too_large) return 0;
     for (int k = 0; k < arity; k++) {
-        if (n == operand[k]) return n;
+        if (*n == operand[k]) return 0;
         t[k] = known(g, operand[k]);
-        if (!t[k].known) return n;
+        if (!t[k].known) return 0;
         exact &= is_exact(&t[k]);
     }
-    const bool constant = g->nodes[n].op == OP_CONST;
+    const bool constant = g->nodes[*n].op == OP_CONST;
     graph_typed r = {.known = true,
                      .plain = operation_value(op, t[0].plain, t[1].plain, t[2].plain),
                      .read = operation_value(op, t[0].read, t[1].read, t[2].read),
                      .is = without_noise(op, twofold_value(op, t[0].is, t[1].is, t[2].is), t)};
-    if (!isfinite(r.plain)) return n;
+    if (!isfinite(r.plain)) return 0;
     if (!constant) r.spread = spread_of(g, op, operand, t, r.plain);
     if (exact && is_exact(&r)) {
-        if (!constant) g->typed[n] = r;
-        return n;
+        r.known = !constant;
+        *of = r;
+        return 0;
     }
     const double to = beyond(&r), by = to - r.read;
     if (constant) {
         r.read = to;
-        return graph_typed_const(g, to, &r);
+        *n = graph_typed_const(g, to, &r);
+        return 0;
     }
     const double short_of = fabs(to - r.plain) - fabs(r.read - r.plain), unit = twofold_unit(to);
-    if (short_of > unit || fabs(by) > CLEARLY * unit) {
-        n = graph_plain_op(g, OP_ADD, n, graph_const(g, by), 0);
-        r.read += by;
-    }
-    if (!g->arena->failed && !g->too_large) g->typed[n] = r;
-    return n;
+    const bool adds = short_of > unit || fabs(by) > CLEARLY * unit;
+    if (adds) r.read += by;
+    *of = r;
+    return adds ? by : 0;
 }

@@ -25,18 +25,20 @@ static inline bool graph_reached(const graph *g, const graph_walk *w, node n)
 /* graph_derivative.c: the derivative of an operation, from those of its operands, by its row of operations.def. */
 node graph_derivative_rule(graph *, const graph_node *, node self, const node slope[3]);
 
-/* graph_typed.c: whether a constant is known to be that; NULL: it is what it is read as. */
-bool graph_same_typed(const graph *, node, const graph_typed *);
-/* The node n of an operation, as it is to be where what decimals say of its operands is known. */
-node graph_typed_op(graph *, node n, operation, const node operand[3]);
-/* graph.c: as graph_op and graph_const, of what decimals say of a constant nothing or that. */
-node graph_plain_op(graph *, operation, node a, node b, node c);
+/* graph.c: a node with these members, which refer to no reference and no range; a constant of which that is known. */
+node graph_share(graph *, graph_node);
 node graph_typed_const(graph *, double value, const graph_typed *);
+static inline bool graph_is_const(const graph *g, node n, double value)
+{
+    return g->nodes[n].op == OP_CONST && g->nodes[n].value == value;
+}
 
-/* graph_tidy.c: the node that this operation is by like terms and powers; false: it stays what it is. */
-bool graph_tidied(graph *, operation, node a, node b, node *out);
-/* The derivative of a root, whose kink at 0 has no slope here, as it is where a force is a gradient; false: the row of
- * operations.def says it. */
-bool graph_tidy_slope(graph *, const graph_node *, node self, node da, node db, node *out);
+/* graph_typed.c: what is known of the node *n of an operation from what decimals say of its operands; not `of->known`:
+ * nothing. A constant becomes that which it is to be, another node is to be so much larger. */
+double graph_typed_op(graph *, node *n, operation, const node operand[3], graph_typed *of);
+
+/* graph_op.c: the derivative of a root, whose kink at 0 has no slope here, as it is where a force is a gradient; false:
+ * the row of operations.def says it. */
+bool graph_op_slope(graph *, const graph_node *, node self, node da, node db, node *out);
 
 #endif

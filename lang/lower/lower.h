@@ -1,9 +1,10 @@
 /* Lowering: trees to nodes. It checks shapes, splits vectors into components and resolves names.
  *
- * Lowering, parameters (resolve.h), hulls (hull.h) and initial values (start.h) call one another: an expression may
- * need a parameter's value or a state's shape, which comes from another expression. Each is computed when it is first
- * needed; model.h bounds the depth. Numbers in brackets are the rules of the language as test/language_test.c numbers
- * them.
+ * An expression holds others, and may need a parameter's value (resolve.h), a state's shape (hull.h) or an initial
+ * value (start.h), which come from other expressions. Each is computed when it is first needed; model.h bounds the
+ * depth. So lower.c, which lowers an expression that is held or needed, calls lower_tree.c by a pointer of the model,
+ * and is below all the files that lower_tree.c calls. Numbers in brackets are the rules of the language as
+ * test/language_test.c numbers them.
  */
 #ifndef LANG_LOWER_LOWER_H
 #define LANG_LOWER_LOWER_H
@@ -57,6 +58,9 @@ typedef struct lowering {
     int chain;
     bool by_variable; /* the variable of a diff is lowered */
 } lowering;
+
+/* What the model's member `lower` is. */
+value lower_tree(lowering *, const tree *);
 
 void lower_start(lowering *, model *, lower_place, const char *what);
 value lower_expression(lowering *, const tree *);

@@ -1,4 +1,4 @@
-/* Helpers that lower.c, lower_index.c and lower_name.c share. */
+/* Helpers that the files of this folder share. */
 #ifndef LANG_LOWER_LOWER_PARTS_H
 #define LANG_LOWER_LOWER_PARTS_H
 
@@ -53,6 +53,10 @@ static inline value wrong(lowering *l) { return scalar(l, 0); }
 static inline void lower_tidy(lowering *l, bool on) { l->model->graph->simplify = l->model->graph->tidy = on; }
 
 static inline node binary(lowering *l, operation op, node a, node b) { return graph_op(l->model->graph, op, a, b, 0); }
+
+/* lower.c. What may be a matrix; and whether it is none, else it complains. */
+value lower_factor(lowering *, const tree *);
+bool lower_no_matrix(lowering *, const value *, const tree *);
 
 /* lower_direction.c. sign(u), and a/b where that may be a direction u/|u|. */
 node lower_sign(lowering *, node u);

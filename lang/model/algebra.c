@@ -4,7 +4,7 @@
 #include <math.h>
 #include <string.h>
 
-enum { DEPTH_MAX = 100, EXPONENT_MAX = 64 };
+enum { EXPONENT_MAX = 64 };
 
 bool algebra_begin(algebra *A, const model *m, long work)
 {
@@ -102,8 +102,7 @@ static uint32_t product(algebra *A, uint32_t p, uint32_t q)
     return share(A, first);
 }
 
-/* The monomial without one of its atoms, whose exponent is then given another value; 0: it is left out. */
-static uint32_t with_exponent(algebra *A, uint32_t of, uint32_t atom, double exponent)
+uint32_t algebra_with_exponent(algebra *A, uint32_t of, uint32_t atom, double exponent)
 {
     const uint32_t first = A->power_count;
     const algebra_monomial m = A->monomials[of];
@@ -144,7 +143,7 @@ static void sort(poly_term *t, uint32_t count) /* Shell's sort, with Ciura's gap
 }
 
 /* The polynomial of the terms in the line from `first` on, which leave it. */
-static poly gather(algebra *A, uint32_t first, double low)
+poly algebra_gather(algebra *A, uint32_t first, double low)
 {
     if (A->lost) return algebra_lose(A);
     if (A->line_count == first) return 0;
@@ -172,7 +171,7 @@ poly algebra_number(algebra *A, double value)
 {
     const uint32_t first = A->line_count;
     if (value != 0) note(A, 0, value, fabs(value));
-    return gather(A, first, value);
+    return algebra_gather(A, first, value);
 }
 
 poly algebra_of_atom(algebra *A, uint32_t atom, double exponent, double factor, double low)
@@ -181,7 +180,7 @@ poly algebra_of_atom(algebra *A, uint32_t atom, double exponent, double factor, 
     if (A->lost) return algebra_lose(A);
     push(A, atom, exponent);
     note(A, share(A, powers), factor, fabs(factor));
-    return gather(A, first, low);
+    return algebra_gather(A, first, low);
 }
 
 poly algebra_add(algebra *A, poly p, double factor, poly q)
@@ -191,10 +190,10 @@ poly algebra_add(algebra *A, poly p, double factor, poly q)
     for (uint32_t k = 0; k < a.count; k++) note(A, a.terms[k].of, a.terms[k].factor, a.terms[k].size);
     for (uint32_t k = 0; k < b.count; k++)
         note(A, b.terms[k].of, factor * b.terms[k].factor, fabs(factor) * b.terms[k].size);
-    return gather(A, first, factor > 0 ? a.low + factor * b.low : -INFINITY);
+    return algebra_gather(A, first, factor > 0 ? a.low + factor * b.low : -INFINITY);
 }
 
-static void note_product(algebra *A, const poly_term *t, poly p)
+void algebra_note_product(algebra *A, const poly_term *t, poly p)
 {
     const algebra_poly a = A->polys[p];
     for (uint32_t k = 0; k < a.count && !A->lost; k++)
@@ -205,15 +204,15 @@ poly algebra_times(algebra *A, poly p, poly q)
 {
     const uint32_t first = A->line_count;
     const algebra_poly a = A->polys[p], b = A->polys[q];
-    for (uint32_t k = 0; k < a.count; k++) note_product(A, &a.terms[k], q);
-    return gather(A, first, a.low >= 0 && b.low >= 0 ? a.low * b.low : p == q ? 0 : -INFINITY);
+    for (uint32_t k = 0; k < a.count; k++) algebra_note_product(A, &a.terms[k], q);
+    return algebra_gather(A, first, a.low >= 0 && b.low >= 0 ? a.low * b.low : p == q ? 0 : -INFINITY);
 }
 
 poly algebra_without(algebra *A, poly p, poly_term t)
 {
     const uint32_t first = A->line_count;
     note(A, t.of, t.factor, t.size);
-    return algebra_add(A, p, -1, gather(A, first, -INFINITY));
+    return algebra_add(A, p, -1, algebra_gather(A, first, -INFINITY));
 }
 
 /* Atoms ----------------------------------------------------------------------------------------------------------- */
@@ -286,7 +285,7 @@ static bool raise_single(algebra *A, poly_term t, double e, poly *out)
         push(A, A->powers[m.first + k].atom, e * A->powers[m.first + k].exponent);
     const double factor = powered(t.factor, e);
     note(A, share(A, powers), factor, fabs(factor) * t.size / fabs(t.factor));
-    *out = gather(A, first, whole(e / 2) || !whole(e) ? 0 : -INFINITY);
+    *out = algebra_gather(A, first, whole(e / 2) || !whole(e) ? 0 : -INFINITY);
     return true;
 }
 
@@ -326,10 +325,10 @@ static poly write_out(algebra *A, poly given, uint32_t atom)
     for (uint32_t k = 0; k < p.count && !A->lost; k++) {
         const poly_term t = p.terms[k];
         const double e = exponent_of(A, t.of, atom) - least, n = floor(e + 1e-9);
-        const poly_term rest = {with_exponent(A, t.of, atom, fabs(e - n) > 1e-9 ? e - n : 0), t.factor, t.size};
-        note_product(A, &rest, n > 0 ? algebra_raise(A, A->atoms[atom].a, n) : algebra_number(A, 1));
+        const poly_term rest = {algebra_with_exponent(A, t.of, atom, fabs(e - n) > 1e-9 ? e - n : 0), t.factor, t.size};
+        algebra_note_product(A, &rest, n > 0 ? algebra_raise(A, A->atoms[atom].a, n) : algebra_number(A, 1));
     }
-    return gather(A, first, -INFINITY);
+    return algebra_gather(A, first, -INFINITY);
 }
 
 bool algebra_zero(algebra *A, poly *given)
@@ -385,74 +384,3 @@ bool algebra_differs(const algebra *A, poly p)
 }
 
 /* Derivatives ------------------------------------------------------------------------------------------------------ */
-
-static poly slope(algebra *A, poly p, uint32_t by, int depth);
-
-/* f'(a) a', of an atom that is a function. */
-static poly slope_of_atom(algebra *A, uint32_t k, uint32_t by, int depth)
-{
-    const algebra_atom f = A->atoms[k];
-    const poly one = algebra_number(A, 1);
-    if (k == by) return one;
-    if (f.op == OP_LOAD || f.op == OP_TIME) return 0;
-    if (f.sloped == by) return f.slope;
-    const poly da = slope(A, f.a, by, depth + 1), db = slope(A, f.b, by, depth + 1);
-    poly rate = 0;
-    if (da || db) {
-        const poly self = algebra_of_atom(A, k, 1, 1, -INFINITY), square = algebra_times(A, f.a, f.a);
-        switch ((operation)f.op) {
-        case OP_POW: rate = one; break; /* of the base */
-        case OP_EXP: rate = self; break;
-        case OP_SIN: rate = algebra_apply(A, OP_COS, f.a, 0); break;
-        case OP_COS: rate = algebra_add(A, 0, -1, algebra_apply(A, OP_SIN, f.a, 0)); break;
-        case OP_TAN: rate = algebra_add(A, one, 1, algebra_times(A, self, self)); break;
-        case OP_ASIN: rate = algebra_raise(A, algebra_add(A, one, -1, square), -0.5); break;
-        case OP_ATAN: rate = algebra_raise(A, algebra_add(A, one, 1, square), -1); break;
-        case OP_SINH: rate = algebra_apply(A, OP_COSH, f.a, 0); break;
-        case OP_COSH: rate = algebra_apply(A, OP_SINH, f.a, 0); break;
-        case OP_TANH: rate = algebra_add(A, one, -1, algebra_times(A, self, self)); break;
-        case OP_LOG: rate = algebra_raise(A, f.a, -1); break;
-        case OP_CBRT: rate = algebra_times(A, algebra_number(A, 1.0 / 3), algebra_raise(A, self, -2)); break;
-        case OP_ERF:
-            rate = algebra_apply(A, OP_EXP, algebra_add(A, 0, -1, square), 0);
-            rate = algebra_times(A, algebra_number(A, 1.1283791670955126), rate);
-            break;
-        case OP_ABS: rate = algebra_apply(A, OP_SIGN, f.a, 0); break;
-        case OP_GT: rate = algebra_of_atom(A, algebra_atom_of(A, OP_EQ, f.a, 0), 1, 1, 0); break;
-        case OP_FLOOR: rate = algebra_of_atom(A, algebra_atom_of(A, OP_NE, f.a, 0), 1, 1, 0); break;
-        case OP_ATAN2: {
-            const poly below = algebra_add(A, square, 1, algebra_times(A, f.b, f.b));
-            rate = algebra_add(A, algebra_times(A, f.b, da), -1, algebra_times(A, f.a, db));
-            rate = algebra_times(A, rate, algebra_raise(A, below, -1));
-            break;
-        }
-        default: rate = algebra_lose(A); break;
-        }
-        if (f.op != OP_ATAN2) rate = algebra_times(A, rate, da);
-    }
-    A->atoms[k].sloped = by;
-    A->atoms[k].slope = rate;
-    return rate;
-}
-
-static poly slope(algebra *A, poly p, uint32_t by, int depth)
-{
-    if (depth > DEPTH_MAX) return algebra_lose(A);
-    const uint32_t first = A->line_count;
-    const algebra_poly of = A->polys[p];
-    for (uint32_t k = 0; k < of.count && !A->lost; k++) {
-        const poly_term t = of.terms[k];
-        const algebra_monomial m = A->monomials[t.of];
-        for (uint32_t i = 0; i < m.count && !A->lost; i++) {
-            const algebra_power power = A->powers[m.first + i];
-            const poly of_atom = slope_of_atom(A, power.atom, by, depth);
-            if (of_atom == 0) continue;
-            const poly_term rest = {with_exponent(A, t.of, power.atom, power.exponent - 1), t.factor * power.exponent,
-                                    t.size * fabs(power.exponent)};
-            note_product(A, &rest, of_atom);
-        }
-    }
-    return gather(A, first, -INFINITY);
-}
-
-poly algebra_slope(algebra *A, poly p, uint32_t by) { return slope(A, p, by, 0); }

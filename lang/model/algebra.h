@@ -100,5 +100,10 @@ bool algebra_jump(algebra *, uint32_t of, space, const uint32_t *cell);
 uint32_t algebra_atom_of(algebra *, operation, poly a, poly b);
 poly algebra_of_atom(algebra *, uint32_t atom, double exponent, double factor, double low);
 poly algebra_lose(algebra *);
+/* The monomial without one of its atoms, whose exponent is then given another value; 0: it is left out. */
+uint32_t algebra_with_exponent(algebra *, uint32_t of, uint32_t atom, double exponent);
+/* Adds the terms of a product to the list that is being made; and the polynomial of the list from `first` on. */
+void algebra_note_product(algebra *, const poly_term *, poly);
+poly algebra_gather(algebra *, uint32_t first, double low);
 
 #endif

@@ -1,7 +1,9 @@
-/* The operations of a model on polynomials in atoms. See algebra.h. */
+/* The operations of a model on polynomials in atoms, and derivatives. See algebra.h. */
 #include "lang/model/algebra.h"
 
 #include <math.h>
+
+enum { DEPTH_MAX = 100 };
 
 static bool number(const algebra *A, poly given, double *value)
 {
@@ -124,3 +126,74 @@ poly algebra_apply(algebra *A, operation op, poly a, poly b)
     default: return algebra_lose(A);
     }
 }
+
+static poly slope(algebra *A, poly p, uint32_t by, int depth);
+
+/* f'(a) a', of an atom that is a function. */
+static poly slope_of_atom(algebra *A, uint32_t k, uint32_t by, int depth)
+{
+    const algebra_atom f = A->atoms[k];
+    const poly one = algebra_number(A, 1);
+    if (k == by) return one;
+    if (f.op == OP_LOAD || f.op == OP_TIME) return 0;
+    if (f.sloped == by) return f.slope;
+    const poly da = slope(A, f.a, by, depth + 1), db = slope(A, f.b, by, depth + 1);
+    poly rate = 0;
+    if (da || db) {
+        const poly self = algebra_of_atom(A, k, 1, 1, -INFINITY), square = algebra_times(A, f.a, f.a);
+        switch ((operation)f.op) {
+        case OP_POW: rate = one; break; /* of the base */
+        case OP_EXP: rate = self; break;
+        case OP_SIN: rate = algebra_apply(A, OP_COS, f.a, 0); break;
+        case OP_COS: rate = algebra_add(A, 0, -1, algebra_apply(A, OP_SIN, f.a, 0)); break;
+        case OP_TAN: rate = algebra_add(A, one, 1, algebra_times(A, self, self)); break;
+        case OP_ASIN: rate = algebra_raise(A, algebra_add(A, one, -1, square), -0.5); break;
+        case OP_ATAN: rate = algebra_raise(A, algebra_add(A, one, 1, square), -1); break;
+        case OP_SINH: rate = algebra_apply(A, OP_COSH, f.a, 0); break;
+        case OP_COSH: rate = algebra_apply(A, OP_SINH, f.a, 0); break;
+        case OP_TANH: rate = algebra_add(A, one, -1, algebra_times(A, self, self)); break;
+        case OP_LOG: rate = algebra_raise(A, f.a, -1); break;
+        case OP_CBRT: rate = algebra_times(A, algebra_number(A, 1.0 / 3), algebra_raise(A, self, -2)); break;
+        case OP_ERF:
+            rate = algebra_apply(A, OP_EXP, algebra_add(A, 0, -1, square), 0);
+            rate = algebra_times(A, algebra_number(A, 1.1283791670955126), rate);
+            break;
+        case OP_ABS: rate = algebra_apply(A, OP_SIGN, f.a, 0); break;
+        case OP_GT: rate = algebra_of_atom(A, algebra_atom_of(A, OP_EQ, f.a, 0), 1, 1, 0); break;
+        case OP_FLOOR: rate = algebra_of_atom(A, algebra_atom_of(A, OP_NE, f.a, 0), 1, 1, 0); break;
+        case OP_ATAN2: {
+            const poly below = algebra_add(A, square, 1, algebra_times(A, f.b, f.b));
+            rate = algebra_add(A, algebra_times(A, f.b, da), -1, algebra_times(A, f.a, db));
+            rate = algebra_times(A, rate, algebra_raise(A, below, -1));
+            break;
+        }
+        default: rate = algebra_lose(A); break;
+        }
+        if (f.op != OP_ATAN2) rate = algebra_times(A, rate, da);
+    }
+    A->atoms[k].sloped = by;
+    A->atoms[k].slope = rate;
+    return rate;
+}
+
+static poly slope(algebra *A, poly p, uint32_t by, int depth)
+{
+    if (depth > DEPTH_MAX) return algebra_lose(A);
+    const uint32_t first = A->line_count;
+    const algebra_poly of = A->polys[p];
+    for (uint32_t k = 0; k < of.count && !A->lost; k++) {
+        const poly_term t = of.terms[k];
+        const algebra_monomial m = A->monomials[t.of];
+        for (uint32_t i = 0; i < m.count && !A->lost; i++) {
+            const algebra_power power = A->powers[m.first + i];
+            const poly of_atom = slope_of_atom(A, power.atom, by, depth);
+            if (of_atom == 0) continue;
+            const poly_term rest = {algebra_with_exponent(A, t.of, power.atom, power.exponent - 1),
+                                    t.factor * power.exponent, t.size * fabs(power.exponent)};
+            algebra_note_product(A, &rest, of_atom);
+        }
+    }
+    return algebra_gather(A, first, -INFINITY);
+}
+
+poly algebra_slope(algebra *A, poly p, uint32_t by) { return slope(A, p, by, 0); }

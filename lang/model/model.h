@@ -183,6 +183,9 @@ typedef struct model_shape {
     int64_t first[MAX_DIMS], last[MAX_DIMS];
 } model_shape;
 
+struct value;
+struct lowering;
+
 typedef enum block { BLOCK_X, BLOCK_V, BLOCK_A, BLOCK_DX, BLOCK_DV } block;
 
 typedef struct model {
@@ -211,12 +214,13 @@ typedef struct model {
     uint32_t singles;      /* cells and terms that were made single, which bounds the cost of those: evaluate.h */
     uint16_t leaf_array;   /* lower_diff.c: the array of the leaves of its own, 0 none */
     int32_t leaf_count;    /* how many there are */
-    int depth;             /* present depth of expressions within expressions */
-    int start_depth;       /* present depth of initial values that use one another */
-    uint64_t lowered;      /* trees lowered so far, which bounds the cost of quantities of quantities */
-    uint64_t calls;        /* of functions by functions that were lowered, which bounds the cost of those */
-    model_cut cut;         /* lower_ghost.c: what is lowered just now must be divided */
-    bool divided;          /* something was */
+    struct value (*lower)(struct lowering *, const tree *); /* lower_tree: lang/lower/lower.h */
+    int depth;                                              /* present depth of expressions within expressions */
+    int start_depth;                                        /* present depth of initial values that use one another */
+    uint64_t lowered; /* trees lowered so far, which bounds the cost of quantities of quantities */
+    uint64_t calls;   /* of functions by functions that were lowered, which bounds the cost of those */
+    model_cut cut;    /* lower_ghost.c: what is lowered just now must be divided */
+    bool divided;     /* something was */
     /* Modes, numbers that events alone change, are positions without velocity and acceleration, behind all others of x;
      * they are states [state_count, state_count + mode_count), which most code need not know. */
     model_state *states;

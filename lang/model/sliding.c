@@ -384,7 +384,9 @@ static void hold_all_or_none(const switches *s, size_t last, node *value)
     for (size_t k = first; k < end && slides != SLIDES_HELD; k++) s->slides[k] = slides, value[k] = NO_NODE;
 }
 
-bool sliding_prepare(model *m, switches *s)
+/* Those that the force can hold may be held from now on: the equations of the switches know that side, too. False: no
+ * memory. */
+static bool prepare(model *m, switches *s)
 {
     enum { TOGETHER = 8 }; /* equations of so many grow large */
     node *value = arena_room(m->arena, 3 * s->kinds * sizeof *value), *rests = value + s->kinds;
@@ -469,4 +471,14 @@ bool sliding_prepare(model *m, switches *s)
     for (size_t k = 0; k < s->kinds; k++)
         s->rate[k].value = graph_derivative(m->graph, s->held[k].value, model_seed_motion, m);
     return !m->arena->failed && !m->graph->too_large;
+}
+
+void sliding_locate(model *m)
+{
+    switches *s = arena_room(m->arena, sizeof *s);
+    if (!s || !switches_find(m, true, s) || s->refused || s->kinds != m->side_count || !prepare(m, s)) return;
+    s->slot = m->states[m->side_first].base;
+    m->accel = s->accel;
+    m->boundary = s->boundary;
+    m->located = s;
 }

@@ -4,8 +4,8 @@
 
 #include "lang/model/switches.h"
 
-/* Of a model that has modes for the sides of its switches. Those that the force can hold may be held from now on: the
- * equations of the switches know that side, too. False: no memory. */
-bool sliding_prepare(model *, switches *);
+/* Of a model that has modes for the sides of its switches: its equations read them from now on, and those that the
+ * force can hold may be held. It leaves `located` NULL where they are not those switches. */
+void sliding_locate(model *);
 
 #endif

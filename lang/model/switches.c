@@ -2,7 +2,7 @@
 #include "lang/model/switches.h"
 
 #include "lang/graph/ratio.h"
-#include "lang/model/sliding.h"
+#include "lang/model/switches.h"
 
 #include "lang/base/operation.h"
 #include "lang/graph/graph_walk.h"
@@ -539,16 +539,6 @@ bool switches_find(model *m, bool directions, switches *s)
         memset(s->op + s->first[k], m->graph->nodes[b.kinds[k].n].op, switches_cells(s, k));
     }
     return true;
-}
-
-void switches_locate(model *m)
-{
-    switches *s = arena_room(m->arena, sizeof *s);
-    if (!s || !switches_find(m, true, s) || s->refused || s->kinds != m->side_count || !sliding_prepare(m, s)) return;
-    s->slot = m->states[m->side_first].base;
-    m->accel = s->accel;
-    m->boundary = s->boundary;
-    m->located = s;
 }
 
 void switches_surface(const model *m, node original, char *out, size_t size)

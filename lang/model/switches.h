@@ -67,9 +67,6 @@ bool switches_find(model *, bool directions, switches *);
 size_t switches_cells(const switches *, size_t kind);
 size_t switches_kind(const switches *, size_t k); /* of switch k */
 model_shape switches_shape(const model *, const switches *, size_t kind);
-/* Of a model that has modes for the sides of its switches: its equations read them from now on. It leaves `located`
- * NULL where they are not those switches. */
-void switches_locate(model *);
 
 /* Whether a node is a switch, and what it compares with 0, or takes the integer part of (switches_counts), with the
  * operands a and b. */

@@ -1,9 +1,10 @@
 /* A model from its text: the steps of read_steps.h, one after the other. */
 #include "lang/read/read.h"
 
+#include "lang/lower/lower.h"
 #include "lang/lower/resolve.h"
 #include "lang/lower/start.h"
-#include "lang/model/switches.h"
+#include "lang/model/sliding.h"
 #include "lang/read/read_steps.h"
 #include "lang/read/verify.h"
 
@@ -46,7 +47,7 @@ static void forget_trees(model *m)
 static void locate(model *m)
 {
     const bool exact = m->traits.has_exact;
-    switches_locate(m);
+    sliding_locate(m);
     analysis_traits(m);
     m->traits.has_exact = exact;
 }
@@ -57,7 +58,7 @@ static motus_status build(model *m, const motus_text_def *def, const read_how *h
                          classify_all(m) && names_all(m) && graph_reserve(m->graph, m->statements.operations + 64) &&
                          model_reserve_arrays(m, 8 * m->state_count + 64) && constants(m) && settings_all(m, method) &&
                          mode_shape_all(m) && layout_all(m) && equations_all(m) && mode_observe_all(m) && when_all(m) &&
-                         equations_start(m);
+                         keep_all(m) && effects_all(m) && equations_start(m);
     forget_trees(m);
     if (lowered) analysis_all(m);
     if (!source_failed(&m->source) && !m->graph->too_large && verify_claims(m) == MOTUS_MEMORY) m->arena->failed = true;
@@ -91,6 +92,7 @@ motus_status read_model(arena *a, const motus_text_def *def, const read_how *how
     if (!m) return fail(err, MOTUS_MEMORY, "no memory for the model");
     memset(m, 0, sizeof *m);
     m->arena = a;
+    m->lower = lower_tree;
     m->draft = def->draft > 0;
     const size_t sets = def->set_count, whens = sets + def->when_count, texts = 1 + whens + def->define_count;
     m->source = (source){.arena = a,

@@ -16,7 +16,9 @@ bool mode_shape_all(model *);                      /* the shapes of modes, and p
 bool layout_all(model *);                          /* places of the states in x and v */
 bool equations_all(model *);                       /* outputs over the graph */
 bool mode_observe_all(model *);                    /* modes as quantities */
-bool when_all(model *);                            /* events, and what they keep */
+bool when_all(model *);                            /* events */
+bool keep_all(model *);                            /* the modes in which events keep numbers, and their assignments */
+bool effects_all(model *);                         /* what events change */
 bool equations_start(model *);                     /* boundary cells at the start */
 void analysis_all(model *);                        /* traits of the equations */
 
@@ -24,6 +26,5 @@ void analysis_all(model *);                        /* traits of the equations */
 const span *mode_assigned_at(const model *, const model_definition *); /* where an event assigns it first */
 bool layout_finish(model *);                                           /* what follows from the places of states */
 bool when_add(model *, model_rule *, const model_assignment *);
-bool keep_all(model *); /* the modes in which events keep numbers, and their assignments */
 
 #endif

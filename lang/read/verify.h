@@ -1,5 +1,5 @@
-/* What a model claims of its motion is checked: its exact lines (verify_exact.c) and its invariants
- * (verify_invariant.c); what both need is in verify.c, and what is checked between sampled times in verify_between.c.
+/* What a model claims of its motion is checked: its exact lines (verify_exact.c, at the times of verify_sample.c, and
+ * between them in verify_between.c) and its invariants (verify_invariant.c); what both need is in verify_size.c.
  *
  * Numbers count as equal where their difference is below EXACT_ROUNDING times what rounding may make of them: a bound
  * from their formulas (graph_rounding), which knows about cancellation, and the size of the motion, by which a velocity
@@ -34,7 +34,7 @@ typedef struct verify {
 /* MOTUS_OK; MOTUS_ARGUMENT: complained; MOTUS_MEMORY. */
 motus_status verify_claims(model *);
 
-/* verify.c, for the two checks. NULL: no memory. */
+/* verify_size.c, for the two checks. NULL: no memory. */
 tape *verify_tape(model *, const output *, size_t count);
 bool verify_bind(const model *, tape *const tapes[], size_t count);
 output *verify_rounding(model *, const output *, size_t count, graph_seed leaf);
@@ -57,12 +57,16 @@ typedef struct verify_sample {
     double t, *x, *v, *e, *a, *of_x, *of_v, *of_a, *of_e, *room;
 } verify_sample;
 
-bool verify_exact_make(model *);
-motus_status verify_exact(model *);
+/* verify_sample.c. Binds the tapes, and takes room, from s->x on. False: no memory. */
+bool verify_sample_take(model *, verify_sample *);
 /* The exact motion at a time, into x and v of the sample. */
-void verify_exact_move(const model *, verify_sample *, double t);
+void verify_sample_move(const model *, verify_sample *, double t);
+/* The sizes of the motion there, and the roundings of its formula. */
+void verify_sample_bound(const model *, verify_sample *);
+/* The first of n numbers that differs by more than rounding; n: none does. An infinite rounding allows any number. */
+size_t verify_sample_differs(const double *is, const double *due, const double *of, const double *more, size_t n);
 /* The first number of v whose acceleration differs from the force at a time; nv: none does. */
-size_t verify_exact_at(const model *, verify_sample *, double t);
+size_t verify_sample_at(const model *, verify_sample *, double t);
 
 typedef struct verify_fault {
     size_t number; /* of v that differs, at the time of the sample; nv: none does */
@@ -77,6 +81,9 @@ bool verify_resolution(model *, const output *const lists[], const size_t counts
 bool verify_between_make(model *);
 /* Sets exact_between of the model. MOTUS_OK, or MOTUS_MEMORY. */
 motus_status verify_between(model *, verify_sample *, verify_fault *);
+
+bool verify_exact_make(model *);
+motus_status verify_exact(model *);
 bool verify_invariant_make(model *);
 motus_status verify_invariants(model *);
 

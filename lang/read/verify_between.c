@@ -134,7 +134,7 @@ static bool holds(walk *w, double t)
     for (int k = 0; k < 3; k++) {
         const double at = t + shift[k] * w->run, part = (at - m->start) / w->run;
         if (part < 0 || part > 1) continue;
-        w->wrong = verify_exact_at(m, w->sample, at);
+        w->wrong = verify_sample_at(m, w->sample, at);
         if (w->wrong == m->nv) return true;
     }
     return false;
@@ -144,7 +144,7 @@ static bool holds(walk *w, double t)
 static void intervals(walk *w, double a, double b, interval *t)
 {
     const model *m = w->model;
-    verify_exact_move(m, w->sample, a + (b - a) / 2);
+    verify_sample_move(m, w->sample, a + (b - a) / 2);
     for (size_t k = 0; k < m->nx; k++) w->x[k] = (interval){w->sample->x[k], w->sample->x[k]};
     for (size_t k = 0; k < m->nv; k++) w->v[k] = (interval){w->sample->v[k], w->sample->v[k]};
     *t = (interval){fmin(a, b), fmax(a, b)};
@@ -158,9 +158,9 @@ static bool has_pole(walk *w, double a, double b)
     if (!m->verify->between->poles) return false;
     intervals(w, a, b, &t);
     if (!resolution_pole(m->verify->between->poles, t, w->x, w->v, m->pool)) return false;
-    verify_exact_move(m, w->sample, a);
+    verify_sample_move(m, w->sample, a);
     const double at_a = greatest(m, w->sample);
-    verify_exact_move(m, w->sample, b);
+    verify_sample_move(m, w->sample, b);
     return fmin(at_a, greatest(m, w->sample)) > POLE * w->usual;
 }
 
@@ -186,7 +186,7 @@ static bool go(walk *w)
     const double work = fmax(m->terms, (double)m->nv) * (1 + (double)m->verify->nodes);
     const int most = (int)fmin(TRIES_MAX, WORK_MAX / work) / PIECES;
     for (int k = 0; k < PIECES; k++) { /* the middles: ends are sampled from both sides, and poles lie there often */
-        verify_exact_move(m, w->sample, m->start + w->run * (k + 0.5) / PIECES);
+        verify_sample_move(m, w->sample, m->start + w->run * (k + 0.5) / PIECES);
         const double size = greatest(m, w->sample);
         if (isfinite(size)) w->usual += size / PIECES;
     }

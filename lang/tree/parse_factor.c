@@ -8,13 +8,13 @@ tree *parse_inside(parser *p)
     int bars = p->bars;
     p->bars = 0;
     skip_lines(p);
-    tree *t = parse_or(p);
+    tree *t = p->expression(p);
     p->bars = bars;
     return t;
 }
 
 /* loop = name "=" inside ".." inside */
-bool parse_loop(parser *p, loop *l)
+static bool parse_loop(parser *p, loop *l)
 {
     if (p->token.kind != TOKEN_NAME) {
         unexpected(p, "the name of an index");
@@ -49,12 +49,29 @@ bool parse_loop(parser *p, loop *l)
     return !failed(p);
 }
 
-void parse_add_loop(parser *p, loop **loops, uint8_t *count, const loop *l)
+static void add_loop(parser *p, loop **loops, uint8_t *count, const loop *l)
 {
     loop *more = arena_grow(p->arena, *loops, *count * sizeof *more, (*count + 1) * sizeof *more);
     if (!more) return;
     *loops = more;
     more[(*count)++] = *l;
+}
+
+/* for = "for" loop { "," loop } */
+void parse_for(parser *p, statement *s)
+{
+    if (!word(p, "for")) return;
+    do {
+        advance(p);
+        skip_lines(p);
+        loop l = {0};
+        if (s->loop_count == MAX_DIMS) {
+            source_complain(p->source, MOTUS_LIMIT, &p->token.at, "at most %d indices", MAX_DIMS);
+            return;
+        }
+        if (!parse_loop(p, &l)) return;
+        add_loop(p, &s->loops, &s->loop_count, &l);
+    } while (is(p, ',') && !failed(p));
 }
 
 /* Whether a loop begins here: a name, then "=" (not "=="). */
@@ -85,7 +102,7 @@ static tree *parse_sum(parser *p, span name)
                 return t;
             }
             if (!parse_loop(p, &l)) return t;
-            parse_add_loop(p, &t->loops, &t->loop_count, &l);
+            add_loop(p, &t->loops, &t->loop_count, &l);
         } else {
             if (t->loop_count == 0) {
                 COMPLAIN(p, &p->token.at, "a sum begins with its index");
@@ -324,7 +341,7 @@ static tree *parse_norm(parser *p)
     advance(p);
     p->bars++;
     if (!deeper(p)) return t;
-    add_item(p, t, parse_or(p));
+    add_item(p, t, p->expression(p));
     p->depth--;
     p->bars--;
     if (failed(p)) return t;

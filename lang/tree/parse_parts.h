@@ -1,5 +1,5 @@
-/* The parser's state and helpers, shared by parse.c (operators), parse_factor.c (what they join) and parse_statement.c
- * (statements). */
+/* The parser's state and helpers. From the lowest, each file uses only those above it on this list: parse_factor.c
+ * (what operators join), parse.c (operators), parse_when.c (events), parse_statement.c (statements). */
 #ifndef LANG_TREE_PARSE_PARTS_H
 #define LANG_TREE_PARSE_PARTS_H
 
@@ -13,7 +13,8 @@
 
 enum { DEPTH_MAX = 2 * SOURCE_NESTING_MAX, ITEMS_FIRST = 2, NAMES_KNOWN = 256 };
 
-typedef struct parser {
+typedef struct parser parser;
+struct parser {
     lexer lexer;
     source *source;
     arena *arena;
@@ -25,10 +26,11 @@ typedef struct parser {
     struct {
         const char *name;
         bool counted;
-    } known[NAMES_KNOWN]; /* names read before, by their hash: a name that comes again is not copied */
-    uint32_t name;        /* the one of these that was read last */
-    uint32_t operations;  /* see statements */
-} parser;
+    } known[NAMES_KNOWN];                 /* names read before, by their hash: a name that comes again is not copied */
+    uint32_t name;                        /* the one of these that was read last */
+    uint32_t operations;                  /* see statements */
+    tree *(*expression)(struct parser *); /* parse_or: factors hold expressions, which are made of factors */
+};
 
 static inline bool failed(const parser *p) { return source_failed(p->source); }
 
@@ -172,18 +174,14 @@ static inline bool expect(parser *p, char c, const char *where)
     return false;
 }
 
-/* parse_factor.c */
+/* parse_factor.c; parse_for: the ranges behind `for`, if there are any */
 tree *parse_inside(parser *p);
-bool parse_loop(parser *p, loop *l);
-void parse_add_loop(parser *p, loop **loops, uint8_t *count, const loop *l);
+void parse_for(parser *p, statement *s);
 void parse_index(parser *p, tree *t);
 tree *parse_applied(parser *p, tree *name);
 tree *parse_factor(parser *p);
 /* parse.c */
 tree *parse_or(parser *p);
-/* parse_statement.c: the ranges behind `for`, if there are any; the end of a statement that began in this line */
-void parse_for(parser *p, statement *s);
-void parse_end(parser *p, int line);
 /* parse_when.c; whether a text that cannot stand where it does begins with the word of an action */
 void parse_when(parser *p, statement *s);
 bool parse_action(const parser *p, const span *at);

@@ -4,25 +4,8 @@
 
 #include "base/utf8.h"
 
-/* for = "for" loop { "," loop } */
-void parse_for(parser *p, statement *s)
-{
-    if (!word(p, "for")) return;
-    do {
-        advance(p);
-        skip_lines(p);
-        loop l = {0};
-        if (s->loop_count == MAX_DIMS) {
-            source_complain(p->source, MOTUS_LIMIT, &p->token.at, "at most %d indices", MAX_DIMS);
-            return;
-        }
-        if (!parse_loop(p, &l)) return;
-        parse_add_loop(p, &s->loops, &s->loop_count, &l);
-    } while (is(p, ',') && !failed(p));
-}
-
 /* `line` is where the statement begins. */
-void parse_end(parser *p, int line)
+static void parse_end(parser *p, int line)
 {
     if (failed(p) || p->token.kind == TOKEN_NEWLINE || p->token.kind == TOKEN_END) return;
     char text[80], before[80];
@@ -255,8 +238,9 @@ static void parse_left(parser *p, statement *s)
 static void parse_statement(parser *p, statement *s)
 {
     s->at = p->token.at;
-    if (p->source->texts[p->lexer.text].event) {
+    if (p->source->texts[p->lexer.text].event || word(p, "when")) {
         parse_when(p, s);
+        parse_end(p, source_line(p->source, &s->at));
         return;
     }
     static const struct {
@@ -277,10 +261,6 @@ static void parse_statement(parser *p, statement *s)
         s->name = "method";
         p->last = p->token;
         parse_method(p, s);
-        return;
-    }
-    if (word(p, "when")) {
-        parse_when(p, s);
         return;
     }
     bool exact = word(p, "exact"), invariant = word(p, "invariant");
@@ -314,7 +294,7 @@ static uint32_t statements_ahead(const struct source_text *t)
 
 bool parse_text(source *s, uint32_t text, statements *all)
 {
-    parser p = {.source = s, .arena = s->trees};
+    parser p = {.source = s, .arena = s->trees, .expression = parse_or};
     lex_start(&p.lexer, s, text);
     advance(&p);
     for (;;) {
@@ -351,7 +331,7 @@ bool parse_again(const source *s, const statement *of, arena *a, statement *out)
     silent.error = NULL;
     silent.failed = false;
     silent.arena = silent.trees = a;
-    parser p = {.source = &silent, .arena = a};
+    parser p = {.source = &silent, .arena = a, .expression = parse_or};
     lex_start(&p.lexer, &silent, of->at.text);
     p.lexer.at = of->at.from;
     advance(&p);

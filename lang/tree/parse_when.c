@@ -201,5 +201,4 @@ void parse_when(parser *p, statement *s)
     s->at.to = p->last.at.to;
     s->value_at = s->at;
     p->when = false;
-    if (!failed(p)) parse_end(p, source_line(p->source, &s->at));
 }

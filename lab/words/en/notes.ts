@@ -3,7 +3,7 @@
  *
  * Invariant: every number here is the program's, for the model as it stands in models/ (test/lab/notes.test.mjs).
  */
-import type { Note } from '../../data';
+import type { Note } from '../note';
 
 export const notes: Readonly<Record<string, Note>> = {
   'thrown-ball': [[

@@ -1,7 +1,9 @@
-/* Derivatives as one writes them: 4 x^3 and not (x + x) x^2 + x^2 (x + x), -k/x^2 and not -(k/x)/x.
+/* Operations, folded where they are constant; and identities of real numbers, of which derivatives alone make use.
  *
- * Invariant: the identities are those of real numbers, and they change bits. They apply to derivatives that the model
- * asks for, which nothing else defines; never to what the user has written, nor to the derivatives inside methods.
+ * Invariant: identities change bits, or the sign of a zero, or hide a NaN. They never apply to what the user has
+ * written. Simple ones are for all derivatives, also those inside methods. Those of terms and powers, by which they are
+ * written as one would, 4 x^3 and not (x + x) x^2 + x^2 (x + x), -k/x^2 and not -(k/x)/x, are for derivatives that the
+ * model asks for, which nothing else defines.
  */
 #include "lang/graph/graph_walk.h"
 
@@ -11,7 +13,7 @@ enum { POWER_MAX = 64, CHAIN_MAX = 12 };
 
 static bool constant(const graph *g, node n) { return g->nodes[n].op == OP_CONST; }
 
-/* An operation as it is, but for the identities of graph.c. */
+/* An operation as it is, but for simple identities. */
 static node plain(graph *g, operation op, node a, node b)
 {
     g->tidy = false;
@@ -173,7 +175,19 @@ static bool tidy_quotient(graph *g, node a, node b, node *out)
     return cancel_powers(g, a, b, out);
 }
 
-bool graph_tidy_slope(graph *g, const graph_node *n, node self, node da, node db, node *out)
+/* The node that this operation is by like terms and powers; false: it stays what it is. */
+static bool tidied(graph *g, operation op, node a, node b, node *out)
+{
+    switch (op) {
+    case OP_ADD: return like_terms(g, a, b, 1, out);
+    case OP_SUB: return like_terms(g, a, b, -1, out);
+    case OP_MUL: return tidy_product(g, a, b, out);
+    case OP_DIV: return tidy_quotient(g, a, b, out);
+    default: return false;
+    }
+}
+
+bool graph_op_slope(graph *g, const graph_node *n, node self, node da, node db, node *out)
 {
     node rate;
     switch ((operation)n->op) {
@@ -189,13 +203,129 @@ bool graph_tidy_slope(graph *g, const graph_node *n, node self, node da, node db
     return true;
 }
 
-bool graph_tidied(graph *g, operation op, node a, node b, node *out)
+/* Simple identities. False: none applies. */
+static bool simplified(graph *g, operation op, node a, node b, node c, node *out)
 {
+    const graph_node *na = &g->nodes[a], *nb = &g->nodes[b];
     switch (op) {
-    case OP_ADD: return like_terms(g, a, b, 1, out);
-    case OP_SUB: return like_terms(g, a, b, -1, out);
-    case OP_MUL: return tidy_product(g, a, b, out);
-    case OP_DIV: return tidy_quotient(g, a, b, out);
+    case OP_NEG:
+        if (na->op == OP_NEG) return *out = na->a, true;
+        if (na->op == OP_SUB) return *out = graph_op(g, OP_SUB, na->b, na->a, 0), true;
+        return false;
+    case OP_ADD:
+        if (graph_is_const(g, a, 0)) return *out = b, true;
+        if (graph_is_const(g, b, 0)) return *out = a, true;
+        if (nb->op == OP_NEG) return *out = graph_op(g, OP_SUB, a, nb->a, 0), true;
+        if (na->op == OP_NEG) return *out = graph_op(g, OP_SUB, b, na->a, 0), true;
+        return false;
+    case OP_SUB:
+        if (a == b) return *out = 0, true;
+        if (graph_is_const(g, b, 0)) return *out = a, true;
+        if (graph_is_const(g, a, 0)) return *out = graph_op(g, OP_NEG, b, 0, 0), true;
+        if (nb->op == OP_NEG) return *out = graph_op(g, OP_ADD, a, nb->a, 0), true;
+        return false;
+    case OP_MUL:
+        if (graph_is_const(g, a, 0) || graph_is_const(g, b, 0)) return *out = 0, true;
+        if (graph_is_const(g, a, 1)) return *out = b, true;
+        if (graph_is_const(g, b, 1)) return *out = a, true;
+        if (graph_is_const(g, a, -1)) return *out = graph_op(g, OP_NEG, b, 0, 0), true;
+        if (graph_is_const(g, b, -1)) return *out = graph_op(g, OP_NEG, a, 0, 0), true;
+        if (na->op == OP_NEG) {
+            node u = na->a;
+            return *out = graph_op(g, OP_NEG, graph_op(g, OP_MUL, u, b, 0), 0, 0), true;
+        }
+        if (nb->op == OP_NEG) {
+            node u = nb->a;
+            return *out = graph_op(g, OP_NEG, graph_op(g, OP_MUL, a, u, 0), 0, 0), true;
+        }
+        if (nb->op == OP_CONST) return *out = graph_op(g, OP_MUL, b, a, 0), true;
+        if (na->op == OP_CONST && nb->op == OP_MUL && g->nodes[nb->a].op == OP_CONST) {
+            node rest = nb->b, factor = graph_op(g, OP_MUL, a, nb->a, 0);
+            return *out = graph_op(g, OP_MUL, factor, rest, 0), true;
+        }
+        return false;
+    case OP_DIV:
+        if (graph_is_const(g, a, 0)) return *out = 0, true;
+        if (graph_is_const(g, b, 1)) return *out = a, true;
+        if (a == b) return *out = graph_const(g, 1), true;
+        if (na->op == OP_NEG) {
+            node u = na->a;
+            return *out = graph_op(g, OP_NEG, graph_op(g, OP_DIV, u, b, 0), 0, 0), true;
+        }
+        return false;
+    case OP_SELECT:
+        if (b == c) return *out = b, true;
+        if (na->op == OP_CONST) return *out = na->value != 0 ? b : c, true;
+        return false;
     default: return false;
     }
+}
+
+/* sqrt(u u), which is |u| to the last bit, but where u u is no double: so that its kink is known, which series and bars
+ * of error must know of. */
+static bool of_square(const graph *g, operation op, node a, node b)
+{
+    const graph_node *const n = &g->nodes[a];
+    return (op == OP_SQRT || (op == OP_POW && graph_is_const(g, b, 0.5))) && n->op == OP_MUL && n->a == n->b;
+}
+
+/* As graph_op, of what decimals say of its operands nothing. */
+static node untyped_op(graph *g, operation op, node a, node b, node c)
+{
+    int arity = operation_at(op)->arity;
+    node operand[3] = {a, arity > 1 ? b : 0, arity > 2 ? c : 0};
+    unsigned deps = 0;
+    bool constant = true;
+    for (int k = 0; k < arity; k++) {
+        deps |= g->nodes[operand[k]].deps;
+        constant &= g->nodes[operand[k]].op == OP_CONST;
+    }
+    a = operand[0], b = operand[1], c = operand[2];
+    if (constant) return graph_const(g, operation_value(op, g->nodes[a].value, g->nodes[b].value, g->nodes[c].value));
+    if (of_square(g, op, a, b)) return graph_op(g, OP_ABS, g->nodes[a].a, 0, 0);
+    node out;
+    if (g->tidy && !g->arena->failed && !g->too_large && tidied(g, op, a, b, &out)) return out;
+    if (g->simplify && !g->arena->failed && !g->too_large && simplified(g, op, a, b, c, &out)) return out;
+    return graph_share(g, (graph_node){.op = (uint8_t)op, .deps = (uint16_t)deps, .a = a, .b = b, .c = c});
+}
+
+node graph_op(graph *g, operation op, node a, node b, node c)
+{
+    node n = untyped_op(g, op, a, b, c);
+    graph_typed of;
+    if (!g->typed) return n;
+    const double by = graph_typed_op(g, &n, op, (const node[]){a, b, c}, &of);
+    if (by != 0) n = untyped_op(g, OP_ADD, n, graph_const(g, by), 0);
+    if (of.known && !g->arena->failed && !g->too_large) g->typed[n] = of;
+    return n;
+}
+
+node graph_power(graph *g, node base, int exponent)
+{
+    if (exponent < 0) {
+        node power = graph_power(g, base, -exponent); /* first, because C leaves the order of arguments open */
+        return graph_op(g, OP_DIV, graph_const(g, 1), power, 0);
+    }
+    if (exponent == 0) return graph_const(g, 1);
+    if (exponent == 1) return base;
+    node half = graph_power(g, base, exponent % 2 ? exponent - 1 : exponent / 2);
+    return graph_op(g, OP_MUL, half, exponent % 2 ? base : half, 0);
+}
+
+enum { IN_ORDER = 16, PARTIALS = 8 };
+
+node graph_total(graph *g, const node *terms, size_t count)
+{
+    if (!count) return 0;
+    if (count <= IN_ORDER) {
+        node total = terms[0];
+        for (size_t k = 1; k < count; k++) total = graph_op(g, OP_ADD, total, terms[k], 0);
+        return total;
+    }
+    node p[PARTIALS];
+    for (size_t k = 0; k < count; k++)
+        p[k % PARTIALS] = k < PARTIALS ? terms[k] : graph_op(g, OP_ADD, p[k % PARTIALS], terms[k], 0);
+    for (int width = 1; width < PARTIALS; width *= 2)
+        for (int k = 0; k < PARTIALS; k += 2 * width) p[k] = graph_op(g, OP_ADD, p[k], p[k + width], 0);
+    return p[0];
 }
