@@ -152,11 +152,13 @@ that "... keeps some of them when it is killed" eval "[ $there -ge 1 ] && [ $the
 "${dear[@]}" --machine interpreter --threads 1 --resume --quiet -o "$place/killed-dear.h5" 2>"$err" &
 one=$!
 sleep 1
+kill -STOP $one
+there=$(blocks "$place/killed-dear.h5")
 kill -TERM $one
-began=$(date +%s%N)
+kill -CONT $one
 wait $one
 status=$?
-that "SIGTERM ends it in the middle of a block, however busy the machine is within 3 s" eval "[ $(($(date +%s%N) - began)) -lt 3000000000 ] && { [ $status = 1 ] || [ $status = 143 ]; }"
+that "SIGTERM ends it in the middle of a block" eval "[ $(blocks "$place/killed-dear.h5") = $there ] && { [ $status = 1 ] || [ $status = 143 ]; }"
 gives "... it is finished by --resume" 0 "${dear[@]}" -o "$place/killed-dear.h5" --resume --json
 that "... which keeps what was there" holds ".resumed >= $((there * 8)) and .resumed < 60"
 that "... to the same bytes" cmp "$place/killed-dear.h5" "$place/dear.h5"

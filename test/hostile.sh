@@ -28,6 +28,7 @@ cat >change.py <<'P'
 import random, subprocess, sys, time, os, shutil
 program, seconds, seed = sys.argv[1], float(sys.argv[2]), int(sys.argv[3])
 random.seed(seed)
+print('SEED=%d' % seed, flush=True)
 MASK = (1 << 64) - 1
 def hashed(data):                       # archive/directory.c
     h, prime = 0x6d6f747573313031, 0x100000001B3 | 0x9E3779B900000000

@@ -17,6 +17,7 @@ cat >"$place/interrupt.py" <<'P'
 import filecmp, os, random, signal, subprocess, sys, time
 motus, place, seconds, seed = sys.argv[1], sys.argv[2], float(sys.argv[3]), int(sys.argv[4])
 random.seed(seed)
+print('SEED=%d' % seed, flush=True)
 models = sorted('models/' + m for m in os.listdir('models') if m.endswith('.motus'))
 methods = ['verlet', 'rk4', 'leapfrog', 'pefrl', 'forest-ruth', 'dopri5', 'dop853', 'taylor', 'radau15', 'gauss4', 'symplectic-euler',
            'euler', 'velocity-verlet', 'beeman', 'verner9', 'rk2', 'newmark', 'implicit-midpoint', 'yoshida8']
@@ -77,7 +78,7 @@ while time.monotonic() < end:
     if left and not failed: told('left behind ' + left[0], words); failed = True
     remove(*[place + '/' + f for f in left])
     good, bad = good + (not failed), bad + bool(failed)
-print('%d runs, interrupted %d times' % (good + bad, stops))
+print('%d runs, interrupted %d times, SEED=%d' % (good + bad, stops, seed))
 print('%d passed, %d failed' % (good, bad))
 sys.exit(bad > 0)
 P

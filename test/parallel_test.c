@@ -1,23 +1,15 @@
 /* Pieces of work: every piece is done once, in the caller's floating-point modes, and no two threads have the same
- * number at once; with new threads, with a pool of threads that spin or sleep, and without threads. A thread that
- * computes beside a compiler rests where others want its processor. */
-#include "machine/beside.h"
+ * number at once; with new threads, with a pool of threads that spin or sleep, and without threads. */
 #include "machine/parallel.h"
 
 #include <fenv.h>
-#include <sched.h>
 #include <setjmp.h>
-#include <signal.h>
 #include <stdarg.h>
 #include <stdatomic.h>
 #include <stdbool.h>
 #include <stddef.h>
 #include <stdint.h>
-#include <stdlib.h>
-#include <sys/resource.h>
-#include <sys/wait.h>
 #include <time.h>
-#include <unistd.h>
 
 #include <cmocka.h>
 
@@ -131,62 +123,10 @@ static void without_a_pool(void **state)
     assert_true(parallel_processors() >= 1);
 }
 
-#ifdef RUSAGE_THREAD
-static double seconds(clockid_t clock)
-{
-    struct timespec t;
-    clock_gettime(clock, &t);
-    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
-}
-
-/* Beside another process on one processor. */
-#define PIECE 0.001 /* seconds */
-enum { PIECES = 20 };
-static void a_crowded_thread_rests(void **state)
-{
-    (void)state;
-    cpu_set_t all, one;
-    assert_int_equal(sched_getaffinity(0, sizeof all, &all), 0);
-    int first = 0;
-    while (!CPU_ISSET(first, &all)) first++;
-    CPU_ZERO(&one);
-    CPU_SET(first, &one);
-    assert_int_equal(sched_setaffinity(0, sizeof one, &one), 0);
-    const pid_t other = fork();
-    if (other == 0) {
-        alarm(60); /* should this test fail */
-        for (;;) continue;
-    }
-    assert_true(other > 0);
-    beside b = {.looked = 0};
-    for (const double end = seconds(CLOCK_MONOTONIC) + 20; !b.crowded && seconds(CLOCK_MONOTONIC) < end;)
-        beside_rest(&b);
-    assert_true(b.crowded);
-    double rested = 0;
-    for (int k = 0; k < PIECES; k++) {
-        const double before = seconds(CLOCK_THREAD_CPUTIME_ID);
-        while (seconds(CLOCK_THREAD_CPUTIME_ID) < before + PIECE) continue;
-        const double began = seconds(CLOCK_MONOTONIC);
-        beside_rest(&b);
-        rested += seconds(CLOCK_MONOTONIC) - began;
-    }
-    kill(other, SIGKILL);
-    waitpid(other, NULL, 0);
-    sched_setaffinity(0, sizeof all, &all);
-    if (!(rested >= 0.99 * 9 * PIECES * PIECE)) fail_msg("after %g s of work it rested %g s", PIECES * PIECE, rested);
-}
-#endif
-
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(every_piece_once),
-                                       cmocka_unit_test(a_pool_is_used_again),
+    const struct CMUnitTest tests[] = {cmocka_unit_test(every_piece_once), cmocka_unit_test(a_pool_is_used_again),
                                        cmocka_unit_test(a_pool_that_serves_another_call),
-                                       cmocka_unit_test(the_callers_modes),
-                                       cmocka_unit_test(without_a_pool),
-#ifdef RUSAGE_THREAD
-                                       cmocka_unit_test(a_crowded_thread_rests)
-#endif
-    };
+                                       cmocka_unit_test(the_callers_modes), cmocka_unit_test(without_a_pool)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -27,6 +27,11 @@ if ! "$motus" run drive.motus -o run.h5 -q 2>"$err" && says "without HDF5" "$err
     exit $((failed > 0))
 fi
 run() { "$motus" run drive.motus --error none --quiet "$@"; }
+# Waits until a run that was started has its archive.
+begins() { for _ in $(seq 3000); do [ -s "$1" ] && break; sleep 0.02; done; }
+# The choices of what is drawn: SEED=n repeats them.
+RANDOM=${SEED:=$(($(date +%s) % 32768))}
+echo "SEED=$SEED"
 
 # --- what is in it --------------------------------------------------------------------------------------------------------------------
 gives "a run into an archive" 0 "$motus" run drive.motus -o run.h5 --force
@@ -219,7 +224,7 @@ that "... and leaves nothing beside it" test ! -e tiny.h5.new
 for signal in TERM INT; do
     rm -f stopped.h5
     (trap - INT EXIT; exec "$motus" run drive.motus --error none --until 1e7 --every "1000 steps" --machine interpreter -o stopped.h5) >"$out" 2>"$err" &
-    sleep 0.5
+    begins stopped.h5
     kill -$signal $!
     wait $! 2>/dev/null
     that "SIG$signal leaves a state" eval "says 'goes on' '$err'"
@@ -275,7 +280,7 @@ refuses "... nor does it" 2 "no state with all the rows before it" "$motus" run 
 : >empty.h5
 refuses "an empty file" 2 "is empty" "$motus" archive empty.h5
 (trap - INT EXIT; exec "$motus" run drive.motus --error none --until 1e7 --every "1000 steps" --machine interpreter -o usr1.h5) >"$out" 2>"$err" &
-sleep 0.5
+begins usr1.h5
 kill -USR1 $!
 wait $! 2>/dev/null
 that "SIGUSR1 leaves a state, too" eval "says 'goes on' '$err'"
@@ -296,7 +301,7 @@ chmod 600 words.h5
 gives "a file that grows" 0 "$motus" run words.h5 --until 12 -q
 that "... keeps its permissions" [ "$(stat -c %a words.h5)" = 600 ]
 "$motus" run drive.motus --until 1e8 --every 1000 -o locked.h5 -q --machine interpreter >/dev/null 2>&1 &
-sleep 0.3
+begins locked.h5
 refuses "two programs do not write one file" 1 "is being written by another program" run -o locked.h5 --resume
 kill -9 $! 2>/dev/null; wait $! 2>/dev/null
 that "... and the first keeps it" [ -s locked.h5 ]
