@@ -4,7 +4,7 @@
  * Invariant: the allocation hooks count every block of the library; after destroy there are none.
  */
 #include "test/given.h"
-#include "test/sanitized.h"
+#include "test/share.h"
 
 #include <stdbool.h>
 

@@ -3,7 +3,7 @@
  * thousandths, or of millionths, so it is exact. Nothing may be wrong by more than ten bars.
  */
 #include "test/given.h"
-#include "test/sanitized.h"
+#include "test/share.h"
 
 #include <stdbool.h>
 

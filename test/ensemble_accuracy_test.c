@@ -293,7 +293,7 @@ static void rest_before_a_force_begins(void **state)
 
 int main(void)
 {
-    open_cache();
+    open_shared_cache();
     const struct CMUnitTest tests[] = {cmocka_unit_test(no_false_claim),
                                        cmocka_unit_test(depends_on_nothing_else),
                                        cmocka_unit_test(what_cannot_be_reached),

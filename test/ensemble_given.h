@@ -5,7 +5,7 @@
 
 #include "test/given.h"
 #include "test/given_cache.h"
-#include "test/sanitized.h"
+#include "test/share.h"
 
 enum { COUNT_MAX = 64, VARY_MAX = 5, RECORDS_MAX = 400 };
 

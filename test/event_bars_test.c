@@ -5,6 +5,7 @@
  * Where motions separate, the table says from which event on no digit is left. The truths are closed forms, or of 28
  * digits. */
 #include "given.h"
+#include "test/share.h"
 
 #include <stdbool.h>
 
@@ -150,6 +151,7 @@ static void bars_of_event_times(void **state)
     (void)state;
     tally all[2] = {{0, 0, 0}, {0, 0, 0}}; /* of constant accelerations, and of others */
     bool low = false;
+    int turn = 0;
     for (size_t j = 0; j < sizeof motions / sizeof *motions; j++) {
         const bool constant = motions[j].a > 0;
         tally one = {0, 0, 0}, *sum = &all[!constant];
@@ -157,7 +159,8 @@ static void bars_of_event_times(void **state)
             if (motions[j].velocity && !by[k].velocity) continue;
             double size = by[k].from;
             const int sizes = constant && by[k].adaptive ? 1 : by[k].sizes; /* the tolerance changes no step */
-            for (int i = 0; i < sizes; i++, size *= by[k].factor) take(&motions[j], &by[k], size, &one);
+            for (int i = 0; i < sizes; i++, size *= by[k].factor)
+                if (share_takes(&turn)) take(&motions[j], &by[k], size, &one);
         }
         printf("%-12s %5d event times: %.2f %% within their bar, %.2f %% tight\n", motions[j].name, one.numbers,
                100.0 * one.covered / one.numbers, 100.0 * one.tight / one.numbers);
@@ -169,6 +172,7 @@ static void bars_of_event_times(void **state)
            100.0 * all[1].tight / all[1].numbers, 100.0 * all[0].tight / all[0].numbers);
     assert_false(low);
     assert_true(covered >= 0.99 * numbers);
+    if (share_one_in() > 1) return; /* a few cases are no statistics of tightness */
     assert_true(all[1].tight >= 0.9 * all[1].numbers);
     assert_true(all[0].tight >= 0.5 * all[0].numbers);
 }
@@ -283,8 +287,10 @@ static void limits_of_balls(void **state)
         double size;
     } ways[] = {{"verlet", 0.125}, {"rk4", 0.05},    {"pefrl", 0.0625}, {"gauss8", 0.1},
                 {"dop853", 1e-9},  {"dopri5", 1e-6}, {"taylor", 1e-12}, {"radau15", 1e-9}};
+    int turn = 0;
     for (size_t b = 0; b < sizeof balls / sizeof *balls; b++) {
         for (size_t w = 0; w < sizeof ways / sizeof *ways; w++) {
+            if (!share_takes(&turn)) continue;
             motus_error err = motus_default_error();
             char text[200];
             snprintf(text, sizeof text, "y'' = -9.81; y(0) = 2; y'(0) = 0; e = %s; when y = 0 falling as b: y' = -e y'",

@@ -5,6 +5,8 @@
  * a sweep's.
  */
 #include "motus.h"
+#include "test/given_cache.h"
+#include "test/share.h"
 
 #include <math.h>
 #include <setjmp.h>
@@ -17,8 +19,6 @@
 #include <string.h>
 
 #include <cmocka.h>
-
-static char cache[] = "/tmp/motus-large-XXXXXX";
 
 /* A chain with fixed ends. */
 static const char chain[] =
@@ -138,8 +138,10 @@ static void same(const char *text, int n, const char *method, int steps)
 
 static void rows(const char *text, const char *const methods[], const int sizes[], int steps)
 {
+    int turn = 0;
     for (; *methods; methods++)
-        for (const int *n = sizes; *n; n++) same(text, *n, *methods, steps);
+        for (const int *n = sizes; *n; n++)
+            if (share_takes(&turn)) same(text, *n, *methods, steps);
 }
 #define LIST(type, ...) ((type const[]){__VA_ARGS__, 0})
 typedef const char *text_of;
@@ -222,17 +224,13 @@ static void threads_asked_for(void **state)
 
 int main(void)
 {
-    if (!mkdtemp(cache)) return 1;
-    setenv("XDG_CACHE_HOME", cache, 1);
-    unsetenv("SUDO_UID");
+    open_shared_cache();
     const struct CMUnitTest tests[] = {cmocka_unit_test(chains),           cmocka_unit_test(families),
                                        cmocka_unit_test(lattices),         cmocka_unit_test(first_order_variables),
                                        cmocka_unit_test(untiled),          cmocka_unit_test(every_pair),
                                        cmocka_unit_test(scattered),        cmocka_unit_test(divergence),
                                        cmocka_unit_test(threads_asked_for)};
     int failed = cmocka_run_group_tests(tests, NULL, NULL);
-    motus_cache_clear();
-    char path[64];
-    snprintf(path, sizeof path, "rm -r '%s'", cache);
-    return system(path) == 0 ? failed : 1;
+    close_cache();
+    return failed;
 }

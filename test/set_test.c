@@ -529,7 +529,7 @@ int main(void)
         cmocka_unit_test(callbacks),
         cmocka_unit_test(setting_again_takes_no_memory),
     };
-    open_cache();
+    open_shared_cache();
     const int failed = cmocka_run_group_tests_name("numbers that are set", tests, NULL, NULL);
     close_cache();
     return failed;

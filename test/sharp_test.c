@@ -3,7 +3,7 @@
  * more than ten bars. Far from c every error is known.
  */
 #include "test/given.h"
-#include "test/sanitized.h"
+#include "test/share.h"
 
 #include <stdbool.h>
 

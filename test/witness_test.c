@@ -11,7 +11,7 @@
 #include "api/system/located.h"
 #include "api/system/system.h"
 #include "test/given.h"
-#include "test/sanitized.h"
+#include "test/share.h"
 
 static uint64_t seed = 1;
 static double uniform(void) /* in [0, 1): splitmix64 */
