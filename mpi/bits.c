@@ -3,7 +3,7 @@
 
 #include "cli/command.h"
 
-enum { COUNT = 64 };
+enum { TRAJECTORIES = 64 };
 
 /* A driven pendulum with the operations in which processors and libraries could differ: functions, powers, a division,
  * a root. It is chaotic: where one differs in a last bit, in the end all digits differ. */
@@ -14,7 +14,7 @@ static const char model[] =
 
 motus_status bits_compute(uint64_t *hash, motus_error *err)
 {
-    double from[COUNT], x[COUNT] = {0}, v[COUNT] = {0};
+    double from[TRAJECTORIES], x[TRAJECTORIES] = {0}, v[TRAJECTORIES] = {0};
     const char *vary[] = {"x(0)"};
     const double *values[] = {from};
     double *results[] = {x, v};
@@ -25,7 +25,7 @@ motus_status bits_compute(uint64_t *hash, motus_error *err)
     motus_system *system = NULL;
     motus_ensemble *ensemble = NULL;
     text.text = model;
-    for (int k = 0; k < COUNT; k++) from[k] = 0.01 * k;
+    for (int k = 0; k < TRAJECTORIES; k++) from[k] = 0.01 * k;
     motus_status status = motus_system_from_text(&text, &system, err);
     if (!status) status = motus_column_find(system, "x", &records[0].column, &count, err);
     if (!status) status = motus_column_find(system, "x'", &records[1].column, &count, err);
@@ -37,7 +37,7 @@ motus_status bits_compute(uint64_t *hash, motus_error *err)
     def.machine = "interpreter";
     def.threads = 1;
     if (!status) status = motus_ensemble_create(system, &def, &ensemble, err);
-    if (!status) status = motus_ensemble_run(ensemble, COUNT, values, results, NULL, err);
+    if (!status) status = motus_ensemble_run(ensemble, TRAJECTORIES, values, results, NULL, err);
     *hash = COMMAND_HASH;
     command_mix(hash, x, sizeof x);
     command_mix(hash, v, sizeof v);
