@@ -2,7 +2,6 @@
  * events_parts.h. */
 #include "core/events_parts.h"
 
-#include <float.h>
 #include <math.h>
 #include <stdint.h>
 #include <stdio.h>

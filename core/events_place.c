@@ -2,7 +2,6 @@
 #include "core/events_parts.h"
 
 #include <math.h>
-#include <string.h>
 
 enum { TURNS = 100 };
 

@@ -4,7 +4,6 @@
 #include "step/swing.h"
 
 #include <math.h>
-#include <string.h>
 
 /* The room that the family's dense output needs besides the ends, with its constants. */
 static motus_status make_room(stepper *s, motus_error *err)

@@ -9,8 +9,6 @@
 #include "core/stepper_body.h"
 #include "machine/machine.h"
 
-#include <string.h>
-
 typedef struct structure {
     sparse x, v;
     uint32_t *place;

@@ -8,7 +8,6 @@
 #include "lang/model/symbols.h"
 
 #include <math.h>
-#include <stdlib.h>
 
 /* ---- operators ---- */
 

@@ -14,7 +14,6 @@
 #include "lang/graph/graph_walk.h"
 #include "lang/graph/ratio.h"
 
-#include <math.h>
 #include <string.h>
 
 static bool same_loops(const output *a, const output *b)

@@ -11,7 +11,6 @@
 #include "lang/model/switches.h"
 
 #include <math.h>
-#include <string.h>
 
 enum {
     PIECES = 64,

@@ -3,7 +3,6 @@
 #include "lang/read/verify.h"
 
 #include <math.h>
-#include <stdio.h>
 #include <string.h>
 
 enum { SAMPLES = 64, SAMPLES_LEAST = 4 };
