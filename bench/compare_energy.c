@@ -36,6 +36,7 @@ static bool measure_energies(const char *method, double step, energies *e)
         e->until[i] = step * steps_at[i / STARTS];
     }
     text.text = words;
+    def.machine = "auto";
     def.vary = varied, def.vary_count = 2;
     def.records = &record, def.record_count = 1;
     def.method = method, def.step = step;

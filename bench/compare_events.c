@@ -40,7 +40,7 @@ static void compare_section(const char *method, const char *machine)
     side sides[] = {SIDE(by_run, &with), SIDE(by_run, &without)};
     char name[80];
     measure(sides, 2, ROUNDS);
-    snprintf(name, sizeof name, "%s, %s: without the section", method, machine ? machine : "machine by default");
+    snprintf(name, sizeof name, "%s, %s: without the section", method, machine);
     report_at_most(name, &sides[0], &sides[1], 1.6, "ms");
     report_note("%lld steps, %lld points: one true step to each point would make it %.2f times", (long long)with.steps,
                 (long long)with.events, 1 + (double)with.events / (double)with.steps);
@@ -128,7 +128,7 @@ void compare_events(void)
 {
     report_section("Events: the section of a star's motion, t = 2000, all points", "the whole run");
     for (int k = 0; k < METHODS; k++) {
-        compare_section(methods[k], NULL);
+        compare_section(methods[k], "auto");
         compare_section(methods[k], "compiled");
     }
     report_section("Events: a switch of the force that is never met", "per step");

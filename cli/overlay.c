@@ -86,6 +86,7 @@ static motus_status run_method(overlay *v, const motus_compare_row *row, stop_pr
 {
     motus_run_def def = motus_default_run();
     def.method = row->method;
+    def.machine = "auto";
     def.step = row->step;
     def.until = v->model->until;
     def.progress = stop_progress_hook;

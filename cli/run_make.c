@@ -30,7 +30,7 @@ motus_run_def run_make_asked(const options *o)
     def.longest_step = o->longest_step;
     def.most_steps = o->most_steps;
     def.switches = options_switches(o);
-    def.machine = o->machine;
+    def.machine = o->machine ? o->machine : "auto";
     def.threads = (int)o->threads;
     return def;
 }

@@ -21,6 +21,7 @@ motus_status studies_begin(studies *s, const char *what, int needed, const optio
     if (!status) status = settle_timing(&s->model, o, needed, "explicit-euler", NULL, err);
     if (status) return status;
     *def = motus_default_study();
+    def->machine = "auto";
     def->methods = o->methods.count ? o->methods.items : NULL;
     def->method_count = o->methods.count;
     def->step = s->model.step;

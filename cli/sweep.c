@@ -61,7 +61,7 @@ static motus_status create(sweep *s, stop_progress *progress, motus_error *err)
     def.step = s->model.step; /* else the model's, which a number that varies may not decide */
     def.until = s->model.until;
     def.every = s->every;
-    def.machine = o->machine;
+    def.machine = o->machine ? o->machine : "auto";
     def.threads = o->threads || !o->team ? (int)o->threads : o->team->threads;
     def.lanes = (int)o->lanes;
     def.fast = o->fast;

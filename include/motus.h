@@ -28,7 +28,7 @@
  *   - motus_allocator, which lies inside definitions, and motus_record, of which you make arrays, will not change.
  * Later versions may add values at the end of an enumeration.
  * Names. A status is MOTUS_ and one word, MOTUS_DIVERGED. Every other enumerator has the word of its enumeration in
- * between, MOTUS_EVENT_KICK, so that it cannot be taken for a status. All macros begin with MOTUS_.
+ * between, MOTUS_TRACE_KICK, so that it cannot be taken for a status. All macros begin with MOTUS_.
  * Errors. Every call that returns a status may return MOTUS_ARGUMENT, because a pointer is NULL that must not be, or
  * because a struct has no valid size (the call checks the motus_error first); and every call that takes memory may
  * return MOTUS_MEMORY. The comment of a call names every other status that it returns. A call that fails to create an
@@ -695,11 +695,12 @@ typedef struct motus_run_def {
      * not step, restore, set or destroy it. A value other than 0 stops the run after this step: MOTUS_CANCELLED. The
      * bits are the same; but a large system no longer takes several steps in one pass over memory. */
     int (*observer)(void *context, motus_run *);
-    /* "interpreter"; "compiled": the equations and the method as machine code, which the C compiler of this computer
-     * makes and the library keeps in $XDG_CACHE_HOME/motus; NULL or "auto": if the run is long enough to repay a
-     * compiler, it begins in the interpreter while the compiler works, as a process of its own, and goes on compiled
-     * at the end of a step. "compiled" waits for the compiler. A system from C calls its callback in any case. The
-     * bits are the same. */
+    /* NULL or "interpreter"; "compiled": the equations and the method as machine code, which the C compiler of this
+     * computer makes and the library keeps in $XDG_CACHE_HOME/motus; "auto": if the run is long enough to repay a
+     * compiler, it begins in the interpreter while the compiler works, as a process of its own, and goes on compiled at
+     * the end of a step. "compiled" waits for the compiler. The library starts no compiler for NULL, and none in a
+     * process whose environment has MOTUS_COMPILER=none. A system from C calls its callback in any case. The bits are
+     * the same. */
     const char *machine;
     /* The most threads that the compiled machine may use for one large system, 1 … MOTUS_THREADS_MAX; 0: one. A small
      * system uses one thread in any case. The bits are the same. */
@@ -962,37 +963,37 @@ MOTUS_API motus_status motus_run_set_state(motus_run *, double t, const double *
 /* The trace of one step: the kicks, drifts and stages of the method in their order, for figures and to see where its
  * error comes from. It is the step of motus_run_step(r, 1), to the same bits, written as the method's formula, from a
  * state (x, v) to a state (x, v). */
-typedef enum motus_event {
+typedef enum motus_trace_kind {
     /* The state at `time`, and the acceleration there. */
-    MOTUS_EVENT_START,
+    MOTUS_TRACE_START,
     /* v += coefficient step a, a = a(x, time): splitting. Where the force depends on the velocity: a at the mean of the
      * velocities before and after; the rates of first-order variables that only follow the motion, from there or a mean
      * of two. */
-    MOTUS_EVENT_KICK,
+    MOTUS_TRACE_KICK,
     /* x += coefficient step v; `time` is the time after it. */
-    MOTUS_EVENT_DRIFT,
+    MOTUS_TRACE_DRIFT,
     /* a = a(x, v, time) at the stage's own x and v, coefficient steps after the start. Runge-Kutta and implicit:
      *     v = v₀ + step Σ row[j] a[j],  x = x₀ + step Σ row[j] v[j] = x₀ + coefficient step v₀ + step² Σ row_x[j] a[j];
      *     the end:   v₀ + step Σ weight a,   x₀ + step Σ weight v = x₀ + step v₀ + step² Σ weight_x a
      * (newmark has the forms with row_x and weight_x only). */
-    MOTUS_EVENT_STAGE,
+    MOTUS_TRACE_STAGE,
     /* The following stages solve an implicit equation, in `iterations`: Newton's, or insertions. */
-    MOTUS_EVENT_SOLVE,
+    MOTUS_TRACE_SOLVE,
     /* The first step of a recurrence, from Taylor's formula: x = x₀ + step v₀ + step²/2 a, with the a of START. */
-    MOTUS_EVENT_TAYLOR,
+    MOTUS_TRACE_TAYLOR,
     /* A step of a recurrence, with the a of START: x = 2 x₀ - before_x + step² a. Of beeman: x = x₀ + step v₀ + step²/6
      * (4 a - before_a), v = v₀ + step/6 (2 a₁ + 5 a - before_a) with the a₁ of END, and before_a = a in the first
      * step. */
-    MOTUS_EVENT_STEP,
+    MOTUS_TRACE_STEP,
     /* The state after the step, that of motus_run_state, and the acceleration there. */
-    MOTUS_EVENT_END,
+    MOTUS_TRACE_END,
     /* Of an adaptive method, after START: a step of another size that was tried and refused, by its `error`; x and v:
      * where it would have led. Of more than MOTUS_REFUSED_MAX the first ones and the last. */
-    MOTUS_EVENT_REFUSED
-} motus_event;
+    MOTUS_TRACE_REFUSED
+} motus_trace_kind;
 #define MOTUS_REFUSED_MAX 8
 typedef struct motus_trace_entry {
-    motus_event kind;
+    motus_trace_kind kind;
     int stage, stages;         /* the stage, from 1, and how many there are; START, SOLVE, END: stage 0 */
     int64_t iterations;        /* of the implicit equation, in this step so far */
     double time, step;         /* step: negative in a run that goes backward; the last one may be shorter */
@@ -1194,7 +1195,7 @@ typedef struct motus_study_def {
     double tolerance;
     /* motus_rank: the accuracies from `coarsest` to `finest` in steps of a factor ten, and `finest`; in any order. */
     double coarsest, finest;
-    const char *machine; /* motus_rank: on which machine runs are timed; NULL: "interpreter" */
+    const char *machine; /* of all runs, as in motus_run_def; motus_rank: of those that are timed */
     int absolute;        /* 1: these accuracies are in the units of the numbers themselves; 0: relative */
     int repeats;         /* motus_rank: how often each run is timed, at least; 0: three times */
 } motus_study_def;

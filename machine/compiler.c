@@ -96,7 +96,11 @@ static bool search(const char *name, compiler *c)
 bool compiler_find(compiler *c, char *why, size_t size)
 {
     static const char *const names[] = {"cc", "gcc", "clang"};
-    const char *wanted = getenv("CC");
+    const char *mode = getenv("MOTUS_COMPILER"), *wanted = getenv("CC");
+    if (mode && !strcmp(mode, "none")) {
+        snprintf(why, size, "MOTUS_COMPILER=none forbids a compiler");
+        return false;
+    }
     if (wanted && *wanted) {
         if (search(wanted, c)) return true;
         snprintf(why, size, "CC is \"%s\", which is no program that can be run", wanted);

@@ -74,6 +74,6 @@ static void beeman_trace(work *w, int i)
     /* The array of the acceleration is free for the next one. */
     tell(w,
          (trace_event){
-             .kind = MOTUS_EVENT_STEP, .stage = 1, .time = time_now(w), .coefficient = 1, .x = w->x, .before_a = w->a});
+             .kind = MOTUS_TRACE_STEP, .stage = 1, .time = time_now(w), .coefficient = 1, .x = w->x, .before_a = w->a});
 }
 #endif

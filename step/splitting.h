@@ -148,7 +148,7 @@ static void splitting_trace(work *w, int i)
             EACHV(k) to->v[k] = w->delta[k] / kick_size(w, i);
             a = to->v;
         }
-        tell(w, (trace_event){.kind = MOTUS_EVENT_KICK,
+        tell(w, (trace_event){.kind = MOTUS_TRACE_KICK,
                               .stage = i + 1,
                               .time = time_in(w, w->c[i]),
                               .coefficient = kick_unit(w, i),
@@ -156,13 +156,13 @@ static void splitting_trace(work *w, int i)
                               .a = a});
     }
     if (drifts(w, i))
-        tell(w, (trace_event){.kind = MOTUS_EVENT_DRIFT,
+        tell(w, (trace_event){.kind = MOTUS_TRACE_DRIFT,
                               .stage = i + 1,
                               .time = time_in(w, i < last ? w->c[i + 1] : 1),
                               .coefficient = drift_unit(w, i),
                               .x = within ? w->xs : w->x});
     if (w->fsal && i == last - 1)
-        tell(w, (trace_event){.kind = MOTUS_EVENT_KICK,
+        tell(w, (trace_event){.kind = MOTUS_TRACE_KICK,
                               .stage = last + 1,
                               .time = time_in(w, 1),
                               .coefficient = kick_unit(w, last)});

@@ -200,7 +200,7 @@ static void tableau_sizes(work *w, int stages)
 static void tableau_tell(const work *w, int i, const real *X, const real *V, const real *A)
 {
     const coef *unit = w->unit;
-    tell(w, (trace_event){.kind = MOTUS_EVENT_STAGE,
+    tell(w, (trace_event){.kind = MOTUS_TRACE_STAGE,
                           .stage = i + 1,
                           .time = time_in(w, w->c[i]),
                           .coefficient = w->c[i],
@@ -216,7 +216,7 @@ static void tableau_tell(const work *w, int i, const real *X, const real *V, con
 /* Coupled stages, when their equation is solved. */
 static void tableau_tell_solved(work *w)
 {
-    tell(w, (trace_event){.kind = MOTUS_EVENT_SOLVE, .time = time_now(w)});
+    tell(w, (trace_event){.kind = MOTUS_TRACE_SOLVE, .time = time_now(w)});
     for (int j = 0; j < w->stages; j++) {
         tableau_place(w, j);
         tableau_speed(w, j);

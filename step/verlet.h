@@ -92,7 +92,7 @@ static trace_room verlet_room(const work *w) { return (void)w, (trace_room){.eve
 /* The step as an event: to->v has its velocity, to->x the positions of one step earlier. */
 static void verlet_tell(work *w, const tracer *to)
 {
-    tell(w, (trace_event){.kind = FIRST(w) ? MOTUS_EVENT_TAYLOR : MOTUS_EVENT_STEP,
+    tell(w, (trace_event){.kind = FIRST(w) ? MOTUS_TRACE_TAYLOR : MOTUS_TRACE_STEP,
                           .stage = 1,
                           .time = time_now(w),
                           .coefficient = 1,

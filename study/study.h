@@ -40,7 +40,7 @@ typedef struct study {
     double reached, called; /* the fraction and the clock at the last call of progress */
     bool locate;            /* runs end their steps where the force changes its formula */
     double tolerance;       /* of the runs of adaptive methods, relative */
-    const char *machine;    /* of all runs; NULL: auto */
+    const char *machine;    /* of all runs */
     bool locatable;         /* the last run could do so */
     double limit;           /* evaluations after which a walk gives up; 0: none */
     motus_run *walking;     /* the run of the present walk; NULL: none */

@@ -85,7 +85,7 @@ done
 macros() { cc -std=c17 -Iinclude -E -dM "$@" -x c - | sed -E 's/^#define ([A-Za-z_0-9]+).*/\1/' | sort -u; }
 plain=$(printf '#include <stddef.h>\n#include <stdint.h>\n' | macros)
 judge "every macro of motus.h begins with MOTUS_" "$(echo '#include "motus.h"' | macros | comm -13 <(echo "$plain") - | grep -v '^MOTUS_')"
-# Enumerations as the compiler sees them, one a line: "motus_event MOTUS_EVENT_START MOTUS_EVENT_KICK …". A status is MOTUS_ and one word.
+# Enumerations as the compiler sees them, one a line: "motus_trace_kind MOTUS_TRACE_START MOTUS_TRACE_KICK …". A status is MOTUS_ and one word.
 enumerations=$(echo '#include "motus.h"' | cc -std=c17 -Iinclude -E -P -x c - | tr '\n' ' ' | grep -oE 'typedef enum motus_[a-z_]+ \{[^}]*\}' |
     sed -E 's/typedef enum (motus_[a-z_]+) \{/\1 /; s/[},]/ /g; s/  +/ /g')
 judge "every enumeration of motus.h has a word of its own" "$(

@@ -80,7 +80,7 @@ static void is_slope(const step *s, const motus_trace_entry *e, const double *x,
     acceleration(s, e->time, x, v);
     for (size_t k = 0; k < s->nv; k++) largest = fmax(largest, fabs(s->a[k]));
     /* a quadrature's rates may be means of several */
-    const size_t count = s->system->problem.traits.quadrature && e->kind == MOTUS_EVENT_KICK ? s->nx : s->nv;
+    const size_t count = s->system->problem.traits.quadrature && e->kind == MOTUS_TRACE_KICK ? s->nx : s->nv;
     for (size_t k = 0; k < count; k++)
         if (margin ? !(fabs(s->a[k] - e->a[k]) <= margin * largest) : s->a[k] != e->a[k])
             broken(s, "slope %zu of stage %d is %.17g, and the acceleration there %.17g", k, e->stage, e->a[k],
@@ -130,7 +130,7 @@ static double fit_of(const step *s, const motus_method *m)
     sum kicks = {0}, drifts = {0};
     if (row_choose(m->name, &c, NULL, NULL) || !c.row->compensated) return 0;
     for (const motus_trace_entry *e = s->start + 1; e < s->end; e++)
-        add(e->kind == MOTUS_EVENT_KICK ? &kicks : &drifts, 1, e->coefficient);
+        add(e->kind == MOTUS_TRACE_KICK ? &kicks : &drifts, 1, e->coefficient);
     const long double most = fmaxl(fabsl(kicks.value - 1), fabsl(drifts.value - 1));
     return (double)(most + DBL_EPSILON * fmaxl(kicks.size, drifts.size));
 }
@@ -141,9 +141,9 @@ static void splitting(step *s, const motus_method *m)
     int count = 0;
     s->fit = fit_of(s, m);
     for (const motus_trace_entry *e = s->start + 1; e < s->end; e++) {
-        assert_true(e->kind == MOTUS_EVENT_KICK || e->kind == MOTUS_EVENT_DRIFT);
+        assert_true(e->kind == MOTUS_TRACE_KICK || e->kind == MOTUS_TRACE_DRIFT);
         sum time = {0};
-        if (e->kind == MOTUS_EVENT_KICK) {
+        if (e->kind == MOTUS_TRACE_KICK) {
             kick(s, e);
             add(&kicks, 1, e->coefficient);
             count++;
@@ -161,7 +161,7 @@ static void splitting(step *s, const motus_method *m)
     reaches(s, "the sum of the drifts", 0, (double)drifts.value, one, 0);
     /* The last kick uses the acceleration with which the next step begins. Where steps adapt the force is evaluated
      * twice more, and a third time where no kick has its value at the start. */
-    const bool closes = s->start[1].kind == MOTUS_EVENT_KICK && s->end[-1].kind == MOTUS_EVENT_KICK;
+    const bool closes = s->start[1].kind == MOTUS_TRACE_KICK && s->end[-1].kind == MOTUS_TRACE_KICK;
     const int others = m->evaluations - (count - closes);
     assert_true(m->adaptive ? others == 2 || others == 3 : others == 0);
     same(s, "positions at the end", s->end[-1].x, s->end->x, s->nx);
@@ -222,14 +222,14 @@ static void tableau(const step *s, const motus_method *m, bool implicit)
     const motus_trace_entry *stage = s->start + 1 + implicit;
     const int stages = m->stages;
     assert_int_equal(s->count, 2 + implicit + stages);
-    if (implicit) assert_int_equal(s->start[1].kind, MOTUS_EVENT_SOLVE);
+    if (implicit) assert_int_equal(s->start[1].kind, MOTUS_TRACE_SOLVE);
     if (implicit) assert_true(s->start[1].iterations > 0);
     double b[STAGES_MAX], bb[STAGES_MAX], products = 0;
     sum weights = {0}, weights_x = {0};
     assert_true(stages <= STAGES_MAX);
     for (int i = 0; i < stages; i++) {
         const motus_trace_entry *e = &stage[i];
-        assert_int_equal(e->kind, MOTUS_EVENT_STAGE);
+        assert_int_equal(e->kind, MOTUS_TRACE_STAGE);
         assert_int_equal(e->stages, stages);
         add(&weights, 1, b[i] = e->weight);
         add(&weights_x, 1, bb[i] = e->weight_x);
@@ -256,7 +256,7 @@ static void tableau(const step *s, const motus_method *m, bool implicit)
 
 static void stormer(const step *s, const motus_trace_entry *e, const double *before_x)
 {
-    const bool first = e->kind == MOTUS_EVENT_TAYLOR, literal = !strcmp(s->method, "verlet-literal");
+    const bool first = e->kind == MOTUS_TRACE_TAYLOR, literal = !strcmp(s->method, "verlet-literal");
     assert_int_equal(first, before_x == NULL);
     assert_int_equal(first, e->before_x == NULL);
     /* verlet-literal's velocities are differences of positions, and its first-order variables differences of
@@ -293,7 +293,7 @@ static void stormer(const step *s, const motus_trace_entry *e, const double *bef
 
 static void beeman(const step *s, const motus_trace_entry *e, const double *before_a)
 {
-    assert_int_equal(e->kind, MOTUS_EVENT_STEP);
+    assert_int_equal(e->kind, MOTUS_TRACE_STEP);
     same(s, "the acceleration of the step before", e->before_a, before_a ? before_a : e->a, s->nv);
     for (size_t k = 0; k < s->nv; k++) {
         sum x = {0}, v = {0};
@@ -334,7 +334,7 @@ void trace_replay(const motus_system *system, const motus_method *m, const motus
     assert_non_null(entry);
     size_t taken = 0; /* all but what was refused */
     for (size_t i = 0; i < count; i++)
-        if (entries[i]->kind != MOTUS_EVENT_REFUSED) entry[taken++] = *entries[i];
+        if (entries[i]->kind != MOTUS_TRACE_REFUSED) entry[taken++] = *entries[i];
     count = taken;
     step s = {.system = system,
               .what = what,
@@ -349,8 +349,8 @@ void trace_replay(const motus_system *system, const motus_method *m, const motus
               .h = entry->step};
     s.a = calloc(s.nv + 1, sizeof *s.a);
     assert_non_null(s.a);
-    assert_int_equal(s.start->kind, MOTUS_EVENT_START);
-    assert_int_equal(s.end->kind, MOTUS_EVENT_END);
+    assert_int_equal(s.start->kind, MOTUS_TRACE_START);
+    assert_int_equal(s.end->kind, MOTUS_TRACE_END);
     for (size_t i = 0; i < count; i++) {
         assert_true(entry[i].step == s.h && entry[i].x && entry[i].v);
         assert_int_equal(entry[i].stages, s.end->stages);

@@ -391,7 +391,7 @@ static void refusals(void **state)
             motus_run_statistics(r, &before);
             must(motus_run_trace(r, &e, &count, &err), &err, m->name);
             motus_run_statistics(r, &now);
-            for (; refused < count && e[refused]->kind == MOTUS_EVENT_REFUSED; refused++) {
+            for (; refused < count && e[refused]->kind == MOTUS_TRACE_REFUSED; refused++) {
                 const motus_trace_entry *it = e[refused], *next = e[refused + 1];
                 assert_false(it->error <= 1);
                 assert_true(isnan(e[0]->error) && fabs(it->step) > fabs(next->step));

@@ -76,7 +76,7 @@ static void see(void *ctx, const trace_event *e)
 {
     trace *t = ctx;
     const motus_trace_entry *start = t->entry, *last = &t->entry[t->count - 1];
-    const bool recurrence = e->kind == MOTUS_EVENT_STEP || e->kind == MOTUS_EVENT_TAYLOR;
+    const bool recurrence = e->kind == MOTUS_TRACE_STEP || e->kind == MOTUS_TRACE_TAYLOR;
     motus_trace_entry *out = &t->entry[t->count++];
     *out = (motus_trace_entry){.kind = e->kind,
                                .stage = e->stage,
@@ -90,7 +90,7 @@ static void see(void *ctx, const trace_event *e)
                                .x = last->x,
                                .v = last->v,
                                .error = NAN};
-    if (last->kind == MOTUS_EVENT_REFUSED) out->x = start->x, out->v = start->v;
+    if (last->kind == MOTUS_TRACE_REFUSED) out->x = start->x, out->v = start->v;
     if (e->row) {
         out->row = keep_row(t, e->row, e->stages);
         out->row_x = keep_row(t, e->row_x, e->stages);
@@ -98,7 +98,7 @@ static void see(void *ctx, const trace_event *e)
     if (e->x) out->x = keep_x(t, e->x);
     if (e->v)
         out->v = keep_v(t, e->v);
-    else if (recurrence || e->kind == MOTUS_EVENT_KICK)
+    else if (recurrence || e->kind == MOTUS_TRACE_KICK)
         out->v = NULL; /* `complete` fills it in */
     if (e->a)
         out->a = keep_v(t, e->a);
@@ -129,7 +129,7 @@ static void judged(void *ctx, double h, double error, const double *x, const dou
     if (t->kept > MOTUS_REFUSED_MAX) t->kept--;
     t->before = t->next;
     motus_trace_entry *out = &t->entry[t->kept++];
-    *out = (motus_trace_entry){.kind = MOTUS_EVENT_REFUSED, .time = start->time + t->step, .step = t->step};
+    *out = (motus_trace_entry){.kind = MOTUS_TRACE_REFUSED, .time = start->time + t->step, .step = t->step};
     out->error = error;
     out->x = x ? keep_x(t, x) : start->x;
     out->v = v ? keep_v(t, v) : start->v;
@@ -138,7 +138,7 @@ static void judged(void *ctx, double h, double error, const double *x, const dou
 
 /* Adds an entry with the present state. Without the acceleration where it cannot be evaluated: the method may not need
  * it here. */
-static motus_status observe(motus_run *r, motus_event kind, motus_error *err)
+static motus_status observe(motus_run *r, motus_trace_kind kind, motus_error *err)
 {
     trace *t = r->trace;
     bool with_a = run_sync(r, true, NULL) == MOTUS_OK;
@@ -175,7 +175,7 @@ static motus_status walk(motus_run *r, motus_error *err)
     /* of an adaptive method `again` tells it */
     t->step = run_steps(r) < r->timing.whole ? r->timing.h : r->timing.last;
     t->error = NAN;
-    motus_status status = observe(r, MOTUS_EVENT_START, err);
+    motus_status status = observe(r, MOTUS_TRACE_START, err);
     t->first = t->next;
     t->kept = t->count;
     if (status == MOTUS_OK)
@@ -184,7 +184,7 @@ static motus_status walk(motus_run *r, motus_error *err)
             &(tracer){.ctx = t, .see = see, .again = again, .judged = judged, .x = r->mid_x, .v = r->mid_v}, err);
     if (status != MOTUS_OK) diagnosis_add(&r->diagnosed, r->stepper, err);
     if (status == MOTUS_OK) status = run_moved(r, err);
-    if (status == MOTUS_OK) status = observe(r, MOTUS_EVENT_END, err);
+    if (status == MOTUS_OK) status = observe(r, MOTUS_TRACE_END, err);
     if (status == MOTUS_OK) complete(t);
     return status;
 }

@@ -116,7 +116,7 @@ static motus_status take_home(worker *w, motus_error *err)
     motus_status status = motus_system_clone(e->home, &w->home, err);
     if (status == MOTUS_OK && w->vary)
         status = vary_create(w->home->model, e->home_places, e->vary_count, true, true, &w->home_vary, err);
-    if (status == MOTUS_OK) motus_system_hold(w->run->home = w->home, true);
+    if (status == MOTUS_OK) motus_system_hold(w->run->home = w->run->diagnosed.home = w->home, true);
     return status;
 }
 

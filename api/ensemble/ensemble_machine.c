@@ -40,13 +40,13 @@ static motus_status choose_single(motus_ensemble *e, const char *wanted, bool la
     choose_portable(e);
     if (!s->model && s->callback.block && !e->rules)
         e->block = e->until == SIZE_MAX ? ensemble_block_size(s, &e->chosen) : 0;
-    if (!s->model || (wanted && !strcmp(wanted, "interpreter"))) return MOTUS_OK;
+    if (!s->model || !wanted || !strcmp(wanted, "interpreter")) return MOTUS_OK;
     const char *why = "";
     compiled_state state = COMPILED_FAILED;
     e->chosen.varies = e->vary_count > 0;
     motus_status status =
         later ? choice_begin(s, &e->chosen, &state, &e->machine, &why, err)
-              : choice_compile(s, &e->chosen, wanted && !strcmp(wanted, "compiled"), false, &e->machine, &why, err);
+              : choice_compile(s, &e->chosen, !strcmp(wanted, "compiled"), false, &e->machine, &why, err);
     if (status != MOTUS_OK) return status;
     if (later && state == COMPILED_WAIT) e->awaits = AWAITS_MACHINE;
     if (later ? state == COMPILED_FAILED : why != NULL) snprintf(e->note, sizeof e->note, "%s", why);

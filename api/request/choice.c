@@ -9,9 +9,9 @@
 
 motus_status choice_machine(const char *wanted, bool *automatic, bool *compiled, motus_error *err)
 {
-    *automatic = !wanted || !strcmp(wanted, "auto");
-    *compiled = *automatic || !strcmp(wanted, "compiled");
-    if (*compiled || !strcmp(wanted, "interpreter")) return MOTUS_OK;
+    *automatic = wanted && !strcmp(wanted, "auto");
+    *compiled = *automatic || (wanted && !strcmp(wanted, "compiled"));
+    if (*compiled || !wanted || !strcmp(wanted, "interpreter")) return MOTUS_OK;
     fail(err, MOTUS_ARGUMENT, "there is no machine called %s", wanted);
     hint(err, "the machines are auto, interpreter and compiled");
     return MOTUS_ARGUMENT;

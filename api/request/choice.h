@@ -4,7 +4,7 @@
 
 #include "api/system/system.h"
 
-/* Reads the name of a machine: "auto" (or NULL), "interpreter" or "compiled". */
+/* Reads the name of a machine: "auto", "interpreter" (or NULL) or "compiled". */
 motus_status choice_machine(const char *wanted, bool *automatic, bool *compiled, motus_error *);
 /* Compiles the model for a method, or finds it compiled; with `kept` it only searches. *why: NULL, and *out is the
  * machine; or the reason why there is none, which is an error where the caller asked for it by name (`must`). */

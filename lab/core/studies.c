@@ -72,9 +72,9 @@ motus_status lab_values(lab *l, const double *times, const double *x, const doub
 LAB_CALL(lab_trace) const char *lab_trace(lab *l)
 {
     static const char *const kinds[] = {
-        [MOTUS_EVENT_START] = "start", [MOTUS_EVENT_KICK] = "kick",   [MOTUS_EVENT_DRIFT] = "drift",
-        [MOTUS_EVENT_STAGE] = "stage", [MOTUS_EVENT_SOLVE] = "solve", [MOTUS_EVENT_TAYLOR] = "taylor",
-        [MOTUS_EVENT_STEP] = "step",   [MOTUS_EVENT_END] = "end",     [MOTUS_EVENT_REFUSED] = "refused",
+        [MOTUS_TRACE_START] = "start", [MOTUS_TRACE_KICK] = "kick",   [MOTUS_TRACE_DRIFT] = "drift",
+        [MOTUS_TRACE_STAGE] = "stage", [MOTUS_TRACE_SOLVE] = "solve", [MOTUS_TRACE_TAYLOR] = "taylor",
+        [MOTUS_TRACE_STEP] = "step",   [MOTUS_TRACE_END] = "end",     [MOTUS_TRACE_REFUSED] = "refused",
     };
     const motus_trace_entry *const *entries;
     size_t count;
