@@ -9,7 +9,7 @@
 #include "core/methods.h"
 
 typedef struct trace_event {
-    motus_trace_kind kind;                     /* but START and END, for which the caller observes the state */
+    motus_trace_kind kind;                /* but START and END, for which the caller observes the state */
     int stage, stages;                    /* from 1 */
     int64_t iterations;                   /* of the implicit equation, in this step so far */
     double time;                          /* of the acceleration; of a drift: after it */

@@ -156,9 +156,13 @@ static motus_status refuse_undeclared(motus_run *trial, motus_error *err)
 
 motus_status study_open(study *s, motus_system *system, const motus_study_def *def, double step, motus_error *err)
 {
-    *s = (study){
-        .system = system, .err = err, .progress = def->progress, .context = def->context, .machine = def->machine,
-        .called = -1, .span = 1};
+    *s = (study){.system = system,
+                 .err = err,
+                 .progress = def->progress,
+                 .context = def->context,
+                 .machine = def->machine,
+                 .called = -1,
+                 .span = 1};
     s->allocator = motus_system_allocator(system);
     s->nx = motus_positions(system);
     s->nv = motus_velocities(system);

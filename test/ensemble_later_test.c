@@ -128,7 +128,7 @@ static void the_compiler_is_slow(void **unused)
     compile_by("sleep 0.1\nexec cc \"$@\"");
     motus_system *s = given_text(slow.text);
     for (int i = 0; i < 2; i++) { /* the second finds the object */
-        motus_ensemble *e = create(s, &slow, NULL, &last, 1);
+        motus_ensemble *e = create(s, &slow, "auto", &last, 1);
         assert_int_equal(motus_ensemble_compiled_from(e), i ? 0 : -1);
         while (motus_ensemble_compiled_from(e) < 0) {
             outcome o = whole(e);
@@ -194,7 +194,7 @@ static void the_compiler_hangs(void **unused)
         motus_ensemble_def def = motus_default_ensemble();
         motus_error err = motus_default_error();
         def.vary = names, def.vary_count = 2, def.records = &last, def.record_count = 1;
-        def.method = "rk4", def.step = 1e-4, def.progress = cancelled ? stop : NULL;
+        def.method = "rk4", def.step = 1e-4, def.progress = cancelled ? stop : NULL, def.machine = "auto";
         motus_ensemble *e = given_ensemble(s, &def, "hangs");
         const pid_t child = its_child();
         outcome o = room_for(MANY, 1);
@@ -221,6 +221,7 @@ static void who_starts_a_compiler(void **unused)
         int fast, calls;
         const char *at_first;
     } cases[] = {{"auto", 5, 0, 0, "interpreter"},
+                 {NULL, 0, 0, 0, "interpreter"},
                  {"interpreter", 0, 0, 0, "interpreter"},
                  {"auto", 0, 1, 1, "compiled"},
                  {"compiled", 5, 0, 1, "compiled"}};

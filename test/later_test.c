@@ -183,7 +183,7 @@ static void the_compiler_is_slow(void **unused)
     (void)unused;
     compile_by("sleep 0.2\nexec cc \"$@\"");
     motus_system *s = given_text(pair);
-    motus_run *r = long_run(s, "auto"), *twin = long_run(s, NULL);
+    motus_run *r = long_run(s, "auto"), *twin = long_run(s, "auto");
     assert_string_equal(motus_run_machine(r), "interpreter");
     assert_int_equal(compiled_from(r), -1);
     go_till_compiled(r);
@@ -290,6 +290,7 @@ static void steps_that_adapt_go_on(void **unused)
     motus_run_def def = motus_default_run();
     motus_run *r = NULL;
     def.method = "dop853", def.tolerance = 1e-13, def.until = 100000, def.error = MOTUS_BARS_NONE;
+    def.machine = "auto";
     must(motus_run_create(s, &def, &r, &err), &err, "adapts");
     alarm(120); /* it would wait for the compiler, which never ends */
     must(motus_run_step(r, 300000, &err), &err, "adapts");
@@ -427,7 +428,7 @@ static void without_a_cache(void **unused)
 }
 
 /* A run that is no longer than a compiler's work starts none, nor does the interpreter. */
-static void short_runs_start_none(void **unused)
+static void these_start_none(void **unused)
 {
     (void)unused;
     compile_and_count("");
@@ -440,6 +441,15 @@ static void short_runs_start_none(void **unused)
     must(motus_run_create(s, &def, &r, &err), &err, "short");
     finish(r);
     motus_run_destroy(r);
+    r = long_run(s, NULL); /* nobody asks for one */
+    ends_alike(s, r, "nobody asks");
+    motus_run_destroy(r);
+    setenv("MOTUS_COMPILER", "none", 1);
+    r = long_run(s, "auto");
+    ends_alike(s, r, "forbidden");
+    assert_string_equal(motus_run_note(r), "MOTUS_COMPILER=none forbids a compiler");
+    motus_run_destroy(r);
+    unsetenv("MOTUS_COMPILER");
     assert_int_equal(calls(), 0);
     motus_system_destroy(s);
 }
@@ -515,7 +525,7 @@ int main(void)
         cmocka_unit_test(the_process_dies),
         cmocka_unit_test(the_thread_ends),
         cmocka_unit_test(without_a_cache),
-        cmocka_unit_test(short_runs_start_none),
+        cmocka_unit_test(these_start_none),
         cmocka_unit_test(legs_meanwhile),
         cmocka_unit_test(companions),
     };
