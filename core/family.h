@@ -5,16 +5,16 @@
         FAMILIES(CASE)        \
     }
 
-#define CASE_PLAN(NAME, name, shared) \
+#define CASE_PLAN(NAME, name, shared, facts) \
     case NAME: name##_plan(w, argument, unit, c); break;
 static inline void family_plan(work *w, const double argument[2], coef *unit, coef *c) { FAMILY_SWITCH(CASE_PLAN) }
 
 /* Families may share a function. NOLINTBEGIN(bugprone-branch-clone) */
-#define CASE_PLACE(NAME, name, shared) \
+#define CASE_PLACE(NAME, name, shared, facts) \
     case NAME: name##_place(w, p); break;
 static inline void family_place(work *w, placing *p) { FAMILY_SWITCH(CASE_PLACE) }
 
-#define CASE_STEP(NAME, name, shared) \
+#define CASE_STEP(NAME, name, shared, facts) \
     case NAME: return name##_step(w);
 static inline int family_step(work *w)
 {
@@ -22,11 +22,11 @@ static inline int family_step(work *w)
     return STEP_OK;
 }
 
-#define CASE_ACCEPT(NAME, name, shared) \
+#define CASE_ACCEPT(NAME, name, shared, facts) \
     case NAME: name##_accept(w, good); break;
 static inline void family_accept(work *w, clock_mask good) { FAMILY_SWITCH(CASE_ACCEPT) }
 
-#define CASE_OBSERVE(NAME, name, shared) \
+#define CASE_OBSERVE(NAME, name, shared, facts) \
     case NAME: return name##_observe(w);
 static inline int family_observe(work *w)
 {
@@ -34,7 +34,7 @@ static inline int family_observe(work *w)
     return STEP_OK;
 }
 
-#define CASE_SYNC(NAME, name, shared) \
+#define CASE_SYNC(NAME, name, shared, facts) \
     case NAME: return name##_sync(w, x, v);
 static inline int family_sync(work *w, real *x, real *v)
 {
@@ -42,7 +42,7 @@ static inline int family_sync(work *w, real *x, real *v)
     return STEP_OK;
 }
 
-#define CASE_CARRY(NAME, name, shared) \
+#define CASE_CARRY(NAME, name, shared, facts) \
     case NAME: return name##_carry(w, list);
 static inline int family_carry(const work *w, real *list[CARRY_MAX])
 {
@@ -50,7 +50,7 @@ static inline int family_carry(const work *w, real *list[CARRY_MAX])
     return 0;
 }
 
-#define CASE_BETWEEN(NAME, name, shared) \
+#define CASE_BETWEEN(NAME, name, shared, facts) \
     case NAME: return name##_between(w, unit);
 static inline dense_room family_between(const work *w, coef *unit)
 {
@@ -58,7 +58,7 @@ static inline dense_room family_between(const work *w, coef *unit)
     return (dense_room){0};
 }
 
-#define CASE_EXTEND(NAME, name, shared) \
+#define CASE_EXTEND(NAME, name, shared, facts) \
     case NAME: return name##_extend(w, d);
 static inline int family_extend(work *w, const dense_step *d)
 {
@@ -66,7 +66,7 @@ static inline int family_extend(work *w, const dense_step *d)
     return STEP_OK;
 }
 
-#define CASE_DENSE(NAME, name, shared) \
+#define CASE_DENSE(NAME, name, shared, facts) \
     case NAME: return name##_dense(w, d, t, x, v);
 static inline int family_dense(work *w, const dense_step *d, clock t, real *x, real *v)
 {
@@ -74,7 +74,7 @@ static inline int family_dense(work *w, const dense_step *d, clock t, real *x, r
     return STEP_OK;
 }
 
-#define CASE_SWING(NAME, name, shared) \
+#define CASE_SWING(NAME, name, shared, facts) \
     case NAME: return name##_swing(w, most);
 static inline bool family_swing(const work *w, real *most)
 {
@@ -83,7 +83,7 @@ static inline bool family_swing(const work *w, real *most)
 }
 
 #ifdef TRACING
-#define CASE_ROOM(NAME, name, shared) \
+#define CASE_ROOM(NAME, name, shared, facts) \
     case NAME: return name##_room(w);
 static inline trace_room family_room(const work *w)
 {
@@ -91,7 +91,7 @@ static inline trace_room family_room(const work *w)
     return (trace_room){0};
 }
 
-#define CASE_TRACE(NAME, name, shared) \
+#define CASE_TRACE(NAME, name, shared, facts) \
     case NAME: name##_trace(w, i); break;
 static inline void family_trace(work *w, int i) { FAMILY_SWITCH(CASE_TRACE) }
 #endif

@@ -87,7 +87,7 @@ const row methods_table[] = {
        .cite = "Beeman76",
        .formula = "xₙ₊₁ = xₙ + h vₙ + h²/6 (4 aₙ − aₙ₋₁);   vₙ₊₁ = vₙ + h/6 (2 aₙ₊₁ + 5 aₙ − aₙ₋₁);   a₋₁ = a₀",
        .use = "Verlet's positions with somewhat better velocities; known from molecular dynamics." },
-      .family = BEEMAN },
+      .family = BEEMAN, .alone = "velocity-verlet" },
 
     /* Splitting: kicks v += b h a(x, t) and drifts x += d h v in turn. */
     { .card = { CARD("symplectic-euler", "euler-cromer semi-implicit-euler", "splitting", 1, 1, 1, XT, 1, 0, 2.0),
@@ -543,7 +543,7 @@ const row methods_table[] = {
        .formula = "x₁ = x + h v + h²/2 a + h³/6 a′ + … + h²⁴/24! a⁽²²⁾, as long as its last coefficients allow;\n"
                   "at larger tolerances of lower order, down to 5",
        .use = "The most digits for the least time, where the force is smooth. It needs the equations as\n"
-              "formulas, so it does not take a callback.", .adaptive = 1 },
+              "formulas, so it does not take a callback.", .adaptive = 1, .any_order = 1, .series = 1 },
       .family = TAYLOR, .compensated = true, .adaptive = true, .sizes = true, .expands = true },
 
     /* Extrapolation: step/extrapolation.h. */
@@ -554,14 +554,14 @@ const row methods_table[] = {
        .formula = "Störmer's rule in 1, 2, 3, … parts of a step, extrapolated in the square of their length to\n"
                   "order 4 to 18, as error and work want it",
        .use = "1e-3 to round-off for forces that are free of v, by steps as long as the motion lets them be; dep12\n"
-              "needs fewer evaluations for the same error, gragg-stormer fewer steps.", .adaptive = 1 },
+              "needs fewer evaluations for the same error, gragg-stormer fewer steps.", .adaptive = 1, .any_order = 1 },
       .family = STORMER, .adaptive = true, .orders = true, .compensated = true, .lines = 6 },
     { .card = { CARD("gragg", "gbs bulirsch-stoer odex", "extrapolation", 12, 37, 37, XVT, 0, 0, 3.3793773141571255),
        .title = "Gragg–Bulirsch–Stoer",
        .cite = "HNW93 II.9",
        .formula = "the midpoint rule in 2, 4, 6, … parts of a step, extrapolated in the square of their length to\n"
                   "order 4 to 18, as error and work want it",
-       .use = "As gragg-stormer, for any force.", .adaptive = 1 },
+       .use = "As gragg-stormer, for any force.", .adaptive = 1, .any_order = 1 },
       .family = GRAGG, .adaptive = true, .orders = true, .compensated = true, .lines = 6 },
 
     { .card = { CARD("exact", "closed-form", "exact", 0, 0, 0, XVT, 1, 1, INFINITY),

@@ -35,12 +35,16 @@ motus_status row_admits(const chosen *, const traits *, motus_error *);
 motus_geometry row_geometry(const chosen *, const traits *);
 /* True: every step must have the same size, so `until` must be a whole number of steps away (verlet-literal). */
 bool row_uniform(const chosen *);
+/* True: its states are a formula of the time, so no step adds an error. */
+bool row_formula(const chosen *);
+/* True: only for velocity terms of the form v × B. */
+bool row_gyroscopic(const chosen *);
 /* True: step sizes follow from errors, so the number of steps is not known beforehand. */
 bool row_adaptive(const chosen *);
 /* Its steps adapt, and bound the accelerations within them (name_swing): it can be watched (step/watch.h). */
 bool row_watched(const chosen *);
-/* Its steps have one size and are no collocation, and dense output follows from their ends: bounds on the
- * accelerations do, too (swing_of_ends). */
+/* Its steps have one size, and dense output follows from their ends: bounds on the accelerations do, too
+ * (swing_of_ends). */
 bool row_bounded_by_ends(const chosen *);
 /* True: a step chooses its order too. */
 bool row_orders(const chosen *);

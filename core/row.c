@@ -15,20 +15,23 @@ size_t row_count(void) { return methods_count; }
 
 const motus_method *row_card(size_t k) { return k < methods_count ? &methods_table[k].card : NULL; }
 
+bool row_has(const row *r, family_fact fact)
+{
+#define FACTS_OF(NAME, name, shared, facts) [NAME] = facts,
+    static const unsigned char of[] = {FAMILIES(FACTS_OF)};
+    return (of[r->family] & fact) != 0;
+}
+
 bool row_uniform(const chosen *method) { return method->row->uniform; }
 bool row_adaptive(const chosen *method) { return method->row->adaptive; }
 
-bool row_watched(const chosen *method)
-{
-    const row *r = method->row;
-    return r->adaptive && (r->family == RUNGE_KUTTA || r->family == TAYLOR);
-}
-
+bool row_formula(const chosen *method) { return row_has(method->row, FORMULA); }
+bool row_gyroscopic(const chosen *method) { return method->row->gyroscopic; }
+bool row_watched(const chosen *method) { return method->row->adaptive && row_has(method->row, SWINGS); }
 bool row_bounded_by_ends(const chosen *method)
 {
     const row *r = method->row;
-    const bool own = r->family == EXACT || r->family == IMPLICIT || r->family == RADAU || r->tableau.dense.terms > 0;
-    return !r->adaptive && !own;
+    return !r->adaptive && row_has(r, FROM_ENDS) && r->tableau.dense.terms == 0;
 }
 bool row_orders(const chosen *method) { return method->row->orders; }
 bool row_reversible_steps(const chosen *method) { return method->row->density; }
@@ -189,7 +192,7 @@ motus_status row_choose(const char *name, chosen *out, const motus_method **card
 
 static const char *reason(const row *row, const traits *traits)
 {
-    if (row->family == EXACT)
+    if (row_has(row, FORMULA))
         return traits->has_exact || traits->constant
                    ? ""
                    : "the model has no exact line, and its exact motion is not recognised";
@@ -202,7 +205,7 @@ static const char *reason(const row *row, const traits *traits)
             return "the velocity term is not of the form v × B: its matrix is not antisymmetric, so it does work";
         return "";
     }
-    if (traits->quadrature && row->family == SPLITTING)
+    if (traits->quadrature && row_has(row, KICKS))
         return row->nystrom ? "a first-order variable depends on the velocity, and then this method loses its order"
                             : "";
     if (row->expands && !traits->series) return "the acceleration is a callback, and Taylor series need its formula";
@@ -225,7 +228,7 @@ static int unlike(const motus_method *wanted, const motus_method *other)
 static motus_geometry geometry(const row *row, const traits *t)
 {
     if (row->card.symplectic && t->gradient && !t->velocity && !t->first_order) return MOTUS_GEOMETRY_SYMPLECTIC;
-    if (row->family == SPLITTING && !row->adaptive && (!t->velocity || t->quadrature || t->gyroscopic))
+    if (row_has(row, KICKS) && !row->adaptive && (!t->velocity || t->quadrature || t->gyroscopic))
         return MOTUS_GEOMETRY_VOLUME;
     return MOTUS_GEOMETRY_NONE;
 }
@@ -239,7 +242,7 @@ motus_status row_admits(const chosen *method, const traits *traits, motus_error 
     const row *nearest = NULL;
     for (size_t k = 0; k < methods_count; k++) {
         const row *other = &methods_table[k];
-        if (other->family == EXACT || other->uniform || other->adaptive != method->row->adaptive ||
+        if (row_has(other, FORMULA) || other->uniform || other->adaptive != method->row->adaptive ||
             *reason(other, traits))
             continue;
         if (!nearest || unlike(&method->row->card, &other->card) < unlike(&method->row->card, &nearest->card))

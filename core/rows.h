@@ -22,5 +22,6 @@ extern const row methods_table[];
 extern const size_t methods_count;
 /* newmark with gamma other than 1/2: order 1, not reversible; not in the catalogue */
 extern const row methods_newmark_damped;
+bool row_has(const row *, family_fact);
 
 #endif

@@ -59,7 +59,7 @@ static motus_status refuse_start(const stepper *s, double t0, size_t k, bool in_
 static motus_status check_exact(stepper *s, double t0, double h, const double *x, const double *v, motus_error *err)
 {
     const problem *p = &s->problem;
-    if (s->method.row->family != EXACT || p->traits.constant) return MOTUS_OK;
+    if (!row_formula(&s->method) || p->traits.constant) return MOTUS_OK;
     if (!p->exact) return fail(err, MOTUS_METHOD, "exact does not admit this model: its exact motion is not known");
     const size_t nx = p->nx, all = p->nx + p->nv;
     double *there = take(&s->allocator, 3 * all, sizeof *there);

@@ -42,7 +42,7 @@ bool tally_evaluations(const work *plan, tally *t)
         t->evaluations = t->steps * (plan->expands - 1) + t->refused + (t->steps > 0);
         return true;
     }
-    if (plan->row->family != RUNGE_KUTTA || !plan->row->adaptive) return false;
+    if (!row_has(plan->row, COUNTS) || !plan->row->adaptive) return false;
     const bool last_is_first = plan->ending || plan->closing;
     const int64_t starts = last_is_first && t->steps > 0 ? 1 : t->steps;
     t->evaluations = starts + (t->steps + t->refused) * (plan->stages - 1 + plan->ending);

@@ -558,8 +558,8 @@ typedef enum motus_forces { MOTUS_FORCES_X, MOTUS_FORCES_XT, MOTUS_FORCES_XVT } 
 typedef struct motus_method {
     const char *name, *aliases; /* aliases: blank-separated, "" if none */
     const char *title;          /* for a text or a legend: "velocity Verlet" */
-    const char *family;         /* "splitting", "runge-kutta", "two-step", "implicit", "extrapolation", "exact" */
-    int order, stages;          /* of "extrapolation", whose steps choose their order: where any error is allowed */
+    const char *family; /* "splitting", "runge-kutta", "two-step", "implicit", "extrapolation", "taylor", "exact" */
+    int order, stages;  /* order: where any error is allowed, if it follows the tolerance; 0: there is no error */
     /* of the acceleration per step in a long run; 0: it depends on the iterations; of a method that chooses its order,
      * in a step of the declared one. Splitting methods need more where first-order variables read the velocity, or the
      * velocity enters nonlinearly. */
@@ -574,6 +574,8 @@ typedef struct motus_method {
      * interpolation adds an error of the power dense_order + 1 of the step, at least. Of "extrapolation" the order
      * follows that of the step, up to 14. */
     int dense_order;
+    int any_order; /* 1: the order follows the tolerance, so the error has no one power of the step */
+    int series;    /* 1: a step is a Taylor series, and an evaluation one coefficient of the acceleration's */
 } motus_method;
 MOTUS_API size_t motus_method_count(void);
 MOTUS_API const motus_method *motus_method_at(size_t k);

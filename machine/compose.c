@@ -17,7 +17,6 @@ enum {
     SERIES_APART = 7,       /* arrays of a row of Taylor series without the series: step/taylor.h */
     SMALL_MAX = 16,         /* numbers: what registers, or at least the fastest loads, may hold */
     WRITTEN_OUT_MAX = 150,  /* operations of the force in all stages of a step, up to which they are written out */
-    SOLVES_WRITTEN_MAX = 2, /* implicit kicks, with their drifts: Newton's method is long */
     FORCE_INLINE_MAX = 150, /* operations: a longer force is compiled once, and called */
     FORCE_TURNS_MAX = 40    /* the same of an implicit row: one call more is nothing beside those of the library, which
                              * solve its equations, and the row's text has the force several times */
@@ -61,12 +60,12 @@ static bool find_moments(const work *w, arena *a, moments *m)
     if (!m->moment || !m->at) return false;
     memset(m->moment, 0, room * sizeof *m->moment);
     const int stages = w->stages - w->fsal;
-    if (w->row->family == IMPLICIT) /* it begins with the acceleration there */
+    if (w->solves && w->iterates) /* it begins with the acceleration there */
         m->at[m->count++] = 0;
     /* the start of the step first, where the force is evaluated there */
     for (int start = 1; start >= 0; start--)
         for (int i = 0; i < stages; i++) {
-            if ((w->c[i] == 0) != start || (w->row->family == SPLITTING && w->unit[i] == 0)) continue;
+            if ((w->c[i] == 0) != start || (row_has(w->row, KICKS) && w->unit[i] == 0)) continue;
             int k = 0;
             while (k < m->count && m->at[k] != w->c[i]) k++;
             if (w->c[i] == 1 && m->count && m->at[0] == 0) k = -1;
@@ -116,7 +115,7 @@ static void add_family_names(emit_text *t, const char *name)
 }
 
 static const char *const family_names[] = {
-#define NAME_OF(NAME, name, shared) [NAME] = #name,
+#define NAME_OF(NAME, name, shared, facts) [NAME] = #name,
     FAMILIES(NAME_OF)};
 
 /* Which arrays the row's workspace has. */
@@ -197,7 +196,7 @@ static bool add_facts(emit *e, const composition *c, bool structure)
              "#define FACT_squares %d\n#define FACT_summed %d\n#define DRIFTS_FIRST %d\n",
              w.carried, stages, w.known, w.kept, w.iterates, w.fsal, w.ending, w.closing, w.opening, w.second, w.fused,
              w.waits, w.solves, w.solves_x, w.means, w.direct, w.order, w.linears, w.squares, w.summed,
-             r->family == SPLITTING && w.unit[0] == 0);
+             row_has(r, KICKS) && w.unit[0] == 0);
     emit_add(t, "#define LIVE(w, k) (fact_unit[k] != 0)\n#define FACT_c fact_c\nstatic const int fact_moment[] = {%d",
              m.moment[0]);
     for (int i = 1; i < stages; i++) emit_add(t, ", %d", m.moment[i]);
@@ -226,7 +225,7 @@ static bool add_facts(emit *e, const composition *c, bool structure)
                     "CHECKS(w) false\n");
         add_places(t, w);
     }
-    const bool many_solves = r->family == SPLITTING && w.solves && stages > SOLVES_WRITTEN_MAX;
+    const bool many_solves = w.solves && !solve_text_single(&w);
     /* an equation's text is longer than its force: as long as the model's derivatives make it */
     const size_t length = w.solves ? c->model->graph->count : length_of(c->programs[0].program);
     if (structure && !many_solves && (size_t)stages * length <= WRITTEN_OUT_MAX)
@@ -243,7 +242,7 @@ static void add_family(emit_text *t, const composition *c)
     static const struct {
         const char *text, *shared;
     } families[] = {
-#define TEXT_OF(NAME, name, shared) [NAME] = {"step/" #name ".h", shared},
+#define TEXT_OF(NAME, name, shared, facts) [NAME] = {"step/" #name ".h", shared},
         FAMILIES(TEXT_OF)};
     const row *r = c->chosen->row;
     if (r->adaptive) {
@@ -436,12 +435,12 @@ static void add_series(emit *e, int length)
 
 /* ---- windows ---- */
 
-/* Whether the row moves numbers one by one, so that a window of them can go ahead of the others: nothing is solved,
- * a kick needs one acceleration, and steps have one size. */
+/* Whether a window of the numbers can go ahead of the others: nothing is solved, a kick needs one acceleration, and
+ * steps have one size. */
 static bool by_number(const composition *c)
 {
     const work plan = stepper_plan(c->problem, c->chosen, NULL);
-    return c->chosen->row->family != EXACT && !c->chosen->row->adaptive && !plan.solves && !plan.iterates &&
+    return row_has(c->chosen->row, BY_NUMBER) && !c->chosen->row->adaptive && !plan.solves && !plan.iterates &&
            !plan.means;
 }
 
@@ -476,7 +475,8 @@ static void add_assumed(emit *e)
 bool compose(emit *e, const composition *c)
 {
     emit_text *t = &e->text;
-    const bool structure = !model_has_families(c->model), lanes = c->width > 0,
+    const work plan = stepper_plan(c->problem, c->chosen, NULL);
+    const bool by_turns = plan.solves && plan.iterates, structure = !model_has_families(c->model), lanes = c->width > 0,
                forced = !strcmp(c->programs[0].name, "compiled_force"),
                windowed = forced && c->locality && c->locality->divisible;
     const bool local = windowed && c->locality->local && !c->model->driven && by_number(c);
@@ -484,17 +484,17 @@ bool compose(emit *e, const composition *c)
     e->arrays = c->model->arrays;
     e->vectors = !lanes && compose_width() > 1;
     e->series_may_be_wide = !c->model->driven;
-    const size_t inlined = !lanes && c->chosen->row->family == IMPLICIT ? FORCE_TURNS_MAX : FORCE_INLINE_MAX;
+    const size_t inlined = !lanes && by_turns ? FORCE_TURNS_MAX : FORCE_INLINE_MAX;
     for (size_t i = 0; i < c->program_count; i++) {
         const bool called = (!i && forced) || (c->bounds && c->programs[i].along);
         e->separate = called && length_of(c->programs[i].program) > inlined;
         e->along = c->programs[i].along;
         e->windowed = !i && windowed;
-        e->series = c->programs[i].series ? stepper_plan(c->problem, c->chosen, NULL).expands + 1 : 0;
+        e->series = c->programs[i].series ? plan.expands + 1 : 0;
         emit_program(e, c->programs[i].program, c->programs[i].name, c->programs[i].terms);
     }
     if (lanes) e->used_lanes |= OPERATION_BIT(MIN) | OPERATION_BIT(MAX); /* what is recorded wants them */
-    e->series = stepper_plan(c->problem, c->chosen, NULL).expands;
+    e->series = plan.expands;
     if (e->series) need_for_series(e);
     const emit_text bodies = *t;
     const int own = e->uses_vectors ? compose_width() : e->terms ? 4 : 0, width = lanes ? c->width : own;
@@ -512,7 +512,7 @@ bool compose(emit *e, const composition *c)
         emit_add(t,
                  "#define OWN_CLOCK %d\n#define BOUNDED %d\n#define GROUPS %d\n#define WIDTH %d\n#define ITERATES %d\n"
                  "#define EVERY_GROUP(DO)",
-                 c->own_clock, c->model->boundary_count > 0, c->groups, c->width, c->chosen->row->family == IMPLICIT);
+                 c->own_clock, c->model->boundary_count > 0, c->groups, c->width, by_turns);
         for (int group = 0; group < c->groups; group++) emit_add(t, " DO(%d)", group);
         emit_add(t, "\n");
     }

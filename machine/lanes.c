@@ -27,9 +27,9 @@ enum { OBSERVED_MAX = 32, RECORDS_WRITTEN_MAX = 12, BLOCK_BYTES = 4 << 20 };
 static int best_groups(const lanes_def *d, const work *plan)
 {
     const graph *g = d->model->graph;
-    const bool implicit = d->chosen->row->family == IMPLICIT;
+    const bool by_turns = plan->solves && plan->iterates;
     if (plan->expands) return 1;                              /* its sums are many, and independent of one another */
-    if (plan->solves && !implicit && !plan->linear) return 1; /* a step of several iterations is long */
+    if (plan->solves && !by_turns && !plan->linear) return 1; /* a step of several iterations is long */
     size_t operations = 4 * d->model->nv;
     /* values of time alone come from the table, except with own clocks */
     const unsigned counted = d->own_clock ? DEP_STATE | DEP_TIME : DEP_STATE;
@@ -42,7 +42,7 @@ static int best_groups(const lanes_def *d, const work *plan)
     const size_t step = (size_t)(plan->stages - plan->fsal) * operations;
     size_t groups = STEPS_WRITTEN_MAX / (step + 1);
     const size_t unknowns = (size_t)plan->solves * d->model->nv;
-    if (implicit && !plan->direct && unknowns > 0) { /* an iteration also judges every unknown */
+    if (by_turns && !plan->direct && unknowns > 0) { /* an iteration also judges every unknown */
         const size_t most = UNKNOWNS_WRITTEN_MAX / unknowns;
         groups = groups < most ? groups : most;
         groups = groups < TURNS_WRITTEN_MAX ? groups : TURNS_WRITTEN_MAX;
@@ -76,7 +76,7 @@ const char *lanes_refuse(const lanes_def *d)
 {
     const char *why = d->follower ? refuse_events(d) : NULL;
     if (why) return why;
-    if (d->chosen->row->family == EXACT) return "the exact motion is computed one trajectory at a time";
+    if (row_formula(d->chosen)) return "the exact motion is computed one trajectory at a time";
     if (!solve_text_admits(d->model, d->problem, d->chosen))
         return "this method solves equations of a family, or of many unknowns, one trajectory at a time";
     const bool steps = !d->own_clock && (d->whole > 0 || d->last != 0);

@@ -158,12 +158,7 @@ static void write_turns(emit_text *t, const structure *s, bool gyroscopic)
     emit_add(t, "    return turns;\n}\n\n");
 }
 
-/* Whether all equations of a step have the same matrix, where its derivatives are constant: kicks of different sizes do
- * not. */
-static bool one_matrix(const chosen *chosen, const work *plan)
-{
-    return chosen->row->family != SPLITTING || plan->stages <= 2;
-}
+bool solve_text_single(const work *plan) { return plan->stages <= plan->solves + 1; }
 
 bool solve_text_write(emit_text *t, const composition *c)
 {
@@ -176,7 +171,7 @@ bool solve_text_write(emit_text *t, const composition *c)
         emit_add(t,
                  "#define SOLVE_N %zu\n#define SOLVE_LOWER %zu\n#define SOLVE_UPPER %zu\n#define SOLVE_STAGES "
                  "%zu\n#define SOLVE_CONSTANT %d\n",
-                 s.n, s.lower, s.upper, s.stages, stepper_fixed(p, &plan) && one_matrix(c->chosen, &plan));
+                 s.n, s.lower, s.upper, s.stages, stepper_fixed(p, &plan) && solve_text_single(&plan));
         emit_add(t,
                  "typedef struct solving { real x[%zu], v[%zu], matrix[%zu], pivot[%zu]; clock a[2 * SOLVE_STAGES * "
                  "SOLVE_STAGES]; bool lossy; } solving;\n\n",

@@ -4,9 +4,28 @@
  * `row`; step/families.def stands before it. The coefficients are lists of any length, so no row is larger than its
  * method.
  */
-#define FAMILY_NAME(NAME, name, shared) NAME,
+#define FAMILY_NAME(NAME, name, shared, facts) NAME,
 typedef enum family { FAMILIES(FAMILY_NAME) } family;
 #undef FAMILY_NAME
+
+/* What is true of all rows of a family. Every user of a fact does what is right of any family where it is not said. */
+typedef enum family_fact {
+    /* its states are a formula of the time and of the start: no step adds an error, and there are no steps to watch */
+    FORMULA = 1 << 0,
+    /* stage i is a kick by constant i of the plan and then a drift; a quadrature costs it no order, unless a row says
+     * nystrom */
+    KICKS = 1 << 1,
+    /* where steps have one size, dense output follows from the ends of a step (lift.h), unless a row has its own */
+    FROM_ENDS = 1 << 2,
+    /* where steps have one size and no equation is solved, a step may be taken for a part of the numbers and the
+     * neighbours that they read (tiled.h) */
+    BY_NUMBER = 1 << 3,
+    /* where steps adapt, name_swing tells its bounds, and what it takes stays until the next candidate: steps may be
+     * watched (watch.h) */
+    SWINGS = 1 << 4,
+    /* where steps adapt, a candidate evaluates every stage of the plan once */
+    COUNTS = 1 << 5
+} family_fact;
 
 struct row {
     ROW_CARD /* the description for users */
@@ -16,12 +35,13 @@ struct row {
     bool uniform;     /* every step must have the same size: no shorter last one */
     /* a step is a candidate that is accepted or refused, and the step size follows from its error */
     bool adaptive;
-    bool sizes;      /* adaptive: the step finds its own size */
-    bool expands;    /* its steps need the Taylor series of the equations, so these must be formulas */
-    bool orders;     /* adaptive: the step finds its own order, and the size of the next one with it */
-    bool density;    /* adaptive: steps follow the time scale of the motion, and can be taken backward (density.h) */
-    bool gyroscopic; /* the kick is implicit in v; only for a = E(x, t) + v × B(x, t) */
-    struct {         /* SPLITTING: v += kick[i] h a, then x += drift[i] h v, for i = 0 … stages-1 */
+    bool sizes;        /* adaptive: the step finds its own size */
+    bool expands;      /* its steps need the Taylor series of the equations, so these must be formulas */
+    bool orders;       /* adaptive: the step finds its own order, and the size of the next one with it */
+    bool density;      /* adaptive: steps follow the time scale of the motion, and can be taken backward (density.h) */
+    const char *alone; /* the row that takes a single step in its place, since its own first step has a lower order */
+    bool gyroscopic;   /* the kick is implicit in v; only for a = E(x, t) + v × B(x, t) */
+    struct {           /* SPLITTING: v += kick[i] h a, then x += drift[i] h v, for i = 0 … stages-1 */
         int stages;
         const coef *kick, *drift;
     } splitting;

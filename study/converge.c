@@ -386,9 +386,7 @@ static motus_status make_paced(converge *c, const motus_method *card, motus_conv
         snprintf(text, MOTUS_TEXT_MAX, "declared %d: %s", row->declared, c->why);
         return MOTUS_OK;
     }
-    /* of no one order is there a slope */
-    const bool any = strcmp(card->family, "extrapolation") == 0 || strcmp(card->family, "taylor") == 0;
-    if (any && fit.verdict != FIT_EXACT) {
+    if (card->any_order && fit.verdict != FIT_EXACT) {
         row->uncertain = 1;
         snprintf(text, MOTUS_TEXT_MAX, "its order follows the tolerance, so the error has no one power");
         return MOTUS_OK;

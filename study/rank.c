@@ -15,9 +15,8 @@
 #include <string.h>
 
 enum { ACCURACIES_MAX = 40, REPEATS = 3, REMARKS_MAX = 2048 };
-#define SERIES "taylor" /* the family */
-#define LEAST 1e-15     /* a relative accuracy */
-#define CLEAR 10        /* the reference's error is at least so many times smaller than an accuracy */
+#define LEAST 1e-15 /* a relative accuracy */
+#define CLEAR 10    /* the reference's error is at least so many times smaller than an accuracy */
 /* The bound on the work (study_work) of one run, 1.1e6 evaluations of one oscillator; and less where it is above FACTOR
  * times what the best method so far needs for the finest accuracy, but no less than WORK_LEAST. */
 #define WORK 2e7
@@ -279,7 +278,7 @@ static void say(char *text, const char *format, ...)
 static void remark(rank *r)
 {
     char *text = r->out->remarks, first[DECIMAL_MAX], why[MOTUS_TEXT_MAX / 2];
-    bool series = false;
+    const motus_method *series = NULL;
     if (r->judged < r->asked)
         say(text,
             "Accuracies from %s on are left out: the error of the reference is %.1e%s, and only what is at least ten "
@@ -288,10 +287,11 @@ static void remark(rank *r)
             r->def.absolute ? "" : " of the motion's size");
     for (size_t k = 0; k < r->count; k++) {
         const motus_method *card = NULL;
-        series = series || (motus_method_find(r->methods[k], &card, NULL) == MOTUS_OK &&
-                            strcmp(card->family, SERIES) == 0 && r->out->rows[k].status == MOTUS_OK);
+        if (motus_method_find(r->methods[k], &card, NULL) == MOTUS_OK && card->series &&
+            r->out->rows[k].status == MOTUS_OK)
+            series = card;
     }
-    if (series) say(text, SERIES ": an evaluation is one coefficient of the acceleration's series.");
+    if (series) say(text, "%s: an evaluation is one coefficient of the acceleration's series.", series->name);
     const double order = solution_allows(&r->s, &r->truth.found, why, sizeof why);
     if (order > 0)
         say(text,

@@ -70,10 +70,7 @@ static candidate untried(const motus_method *card)
 }
 
 /* Methods whose halved steps tell their error. */
-static bool suits(const motus_method *m)
-{
-    return !m->adaptive && strcmp(m->family, "exact") != 0 && m->order <= SOLUTION_ORDER_MOST;
-}
+static bool suits(const motus_method *m) { return !m->adaptive && m->order > 0 && m->order <= SOLUTION_ORDER_MOST; }
 
 static size_t candidates(study *s, candidate *out)
 {
@@ -106,7 +103,7 @@ static const char *exact_method(study *s)
     if (!motus_has_exact(s->system)) return NULL;
     for (size_t k = 0; k < motus_method_count(); k++) {
         const motus_method *m = motus_method_at(k);
-        if (strcmp(m->family, "exact") == 0 && study_admits(s, m->name)) return m->name;
+        if (m->order == 0 && study_admits(s, m->name)) return m->name;
     }
     return NULL;
 }

@@ -243,8 +243,7 @@ motus_status study_methods(study *s, const motus_study_def *def, bool adaptive, 
         if (all) {
             m = motus_method_at(k);
             /* The others are compared with the exact motion. */
-            if (strcmp(m->family, "exact") != 0 && (adaptive || !m->adaptive) && study_admits(s, m->name))
-                (*names)[(*count)++] = m->name;
+            if (m->order > 0 && (adaptive || !m->adaptive) && study_admits(s, m->name)) (*names)[(*count)++] = m->name;
             continue;
         }
         motus_status status = motus_method_find(def->methods[k], &m, s->err);

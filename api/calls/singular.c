@@ -304,7 +304,7 @@ motus_status motus_run_singular(motus_system *s, const motus_run_def *given, mot
         def.observer = NULL;
         def.switches = MOTUS_SWITCHES_STEP;
         status = goal_run(s, &def, &r, err);
-        if (status == MOTUS_OK && strcmp(r->card->family, "exact") != 0) status = look(r, err);
+        if (status == MOTUS_OK && !row_formula(&r->chosen)) status = look(r, err);
         goal_end(r);
     }
     modes_leave(m);

@@ -18,7 +18,7 @@ enum { BLOCK_MOST = 256 };
 size_t ensemble_block_size(const motus_system *s, const chosen *c)
 {
     /* A method that solves equations solves those of one trajectory, and an adaptive one chooses the steps of one. */
-    if (c->row->family == EXACT || c->row->adaptive || stepper_plan(&s->problem, c, NULL).solves) return 0;
+    if (row_formula(c) || c->row->adaptive || stepper_plan(&s->problem, c, NULL).solves) return 0;
     const size_t fits = CALLING_NUMBERS / s->problem.nv;
     return fits < 2 ? 0 : fits > BLOCK_MOST ? BLOCK_MOST : fits;
 }

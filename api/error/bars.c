@@ -367,7 +367,7 @@ static motus_status land(motus_run *r, double t, double *x, double *v, bool betw
     const bool shifts = moves && !leads && !between && !shows(&b->half, &r->system->problem, x, v, &move);
     if (status == MOTUS_OK && shifts) status = companion_shift(&b->half, r, move.x, move.v, err);
     if (moves && !between) witness_moved(b->witness);
-    if (status == MOTUS_OK && !strcmp(r->card->family, "exact")) status = companion_jog(&b->half, r, err);
+    if (status == MOTUS_OK && row_formula(&r->chosen)) status = companion_jog(&b->half, r, err);
     if (status == MOTUS_OK && b->kind == MOTUS_BARS_FULL && !between) status = companion_repeat(&b->twin, r, err);
     const double differs = witness_differs(b->witness, NULL);
     char at[DECIMAL_MAX];

@@ -79,7 +79,7 @@ chosen companion_method(const chosen *c, const motus_system *s)
         method.least = 0, method.most = INFINITY;
         return method;
     }
-    if (!strcmp(c->name, "beeman") && row_choose("velocity-verlet", &method, NULL, NULL) == MOTUS_OK) {
+    if (c->row->alone && row_choose(c->row->alone, &method, NULL, NULL) == MOTUS_OK) {
         method.varies = c->varies;
         method.threads = c->threads;
     }

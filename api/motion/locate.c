@@ -36,7 +36,7 @@ motus_status locate_prepare(motus_run *r, motus_switches switches, motus_error *
         return MOTUS_UNAVAILABLE;
     }
     r->locating = true;
-    if (!s->model || !strcmp(r->card->family, "exact")) return MOTUS_OK;
+    if (!s->model || row_formula(&r->chosen)) return MOTUS_OK;
     const motus_status status = system_switches(s, err);
     if (status != MOTUS_OK) return status;
     held *h = s->switches;

@@ -301,7 +301,7 @@ static motus_status bring_to_time(const motus_run *r, double t, double *x, doubl
     double lost;
     const double from = stepper_marked(r->stepper, &lost, &from_x, &from_v), to = stepper_time(r->stepper);
     if (!r->chosen.row->expands) lost += (t - from) / (to - from) * (stepper_lost(r->stepper) - lost);
-    if (!isfinite(lost) || lost == 0 || !run_starts_late(&r->timing) || !strcmp(r->card->family, "exact") ||
+    if (!isfinite(lost) || lost == 0 || !run_starts_late(&r->timing) || row_formula(&r->chosen) ||
         (r->events && events_sampled_exactly(r->events, t)))
         return MOTUS_OK;
     double *const a = take(&r->allocator, p->nv + 1, sizeof *a);

@@ -138,7 +138,7 @@ motus_status request_row(motus_system *s, const char *name, chosen *chosen, cons
     motus_status status = row_choose(name, chosen, card, err);
     if (status != MOTUS_OK) return status;
     /* also where Boris is not chosen: it may be the method that the refusal names */
-    const bool may_need = (*card)->forces != MOTUS_FORCES_XVT || !strcmp((*card)->name, "boris");
+    const bool may_need = (*card)->forces != MOTUS_FORCES_XVT || row_gyroscopic(chosen);
     if (may_need && !symmetry_gyroscopic(s)) return fail(err, MOTUS_MEMORY, "no memory to examine the velocity term");
     return row_admits(chosen, &s->problem.traits, err);
 }
