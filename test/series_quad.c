@@ -120,7 +120,7 @@ static quad quad_mod(quad x, quad y) { return x - y * quad_floor(x / y); }
 
 _Static_assert((int)SERIES_QUAD_ALL == (int)SERIES_ALL, "a series without end");
 
-#define OP(id, arity, spelling, degree, smooth, value, derivative, keeps, sums, recurrence)                       \
+#define OP(id, arity, spelling, degree, nature, value, derivative, keeps, sums, recurrence)                       \
     static quad next_##id(quad *r, const int length, const series a, const series b, const series c, const int n) \
     {                                                                                                             \
         const quad *const in = SERIES_NONE;                                                                       \
@@ -135,7 +135,7 @@ static const struct {
     const char *recurrence;
     quad (*next)(quad *r, int length, series a, series b, series c, int n);
 } rows[OPERATIONS] = {
-#define OP(id, arity, spelling, degree, smooth, value, derivative, keeps, sums, recurrence) \
+#define OP(id, arity, spelling, degree, nature, value, derivative, keeps, sums, recurrence) \
     [OP_##id] = {#recurrence, next_##id},
 #define LEAF(...)
 #include "lang/base/operations.def"
@@ -143,7 +143,7 @@ static const struct {
 };
 
 /* clang-format off */
-#define OP(id, arity, spelling, degree, smooth, value, derivative, keeps, sums, recurrence) case OP_##id: return value;
+#define OP(id, arity, spelling, degree, nature, value, derivative, keeps, sums, recurrence) case OP_##id: return value;
 #define LEAF(...)
 /* clang-format on */
 quad series_quad_value(operation op, quad a, quad b, quad c)

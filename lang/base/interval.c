@@ -105,9 +105,6 @@ interval interval_value(operation op, interval a, interval b, interval c, bool s
     case OP_SIN: return wave(a, half_turn / 2);
     case OP_COS: return wave(a, 0);
     case OP_TAN: return a.high - a.low >= half_turn || passes(a, half_turn / 2, half_turn) ? anything : rising(op, a);
-    case OP_ACOS: return falling(op, a);
-    case OP_COSH:
-    case OP_ABS: return even(op, a);
     case OP_LOG: return a.low > 0 ? rising(op, a) : anything;
     case OP_SQRT: return a.low >= 0 ? rising(op, a) : anything;
     case OP_POW: return power(a, b);
@@ -120,15 +117,10 @@ interval interval_value(operation op, interval a, interval b, interval c, bool s
         return floor(q.low) == floor(q.high) ? interval_value(OP_SUB, a, product(b, rising(OP_FLOOR, q)), c, false)
                                              : interval_hull((interval){0, 0}, b);
     }
-    case OP_ASIN:
-    case OP_ATAN:
-    case OP_SINH:
-    case OP_TANH:
-    case OP_EXP:
-    case OP_CBRT:
-    case OP_FLOOR:
-    case OP_SIGN:
-    case OP_ERF: return rising(op, a);
-    default: return anything;
+    default:
+        return operation_is(op, RISES)     ? rising(op, a)
+               : operation_is(op, SINKS)   ? falling(op, a)
+               : operation_is(op, IS_EVEN) ? even(op, a)
+                                           : anything;
     }
 }

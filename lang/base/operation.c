@@ -9,34 +9,20 @@
 #include "lang/base/functions.h"
 
 static const operation_row rows[OPERATIONS] = {
-#define OP(id, arity, spelling, degree, smooth, value, derivative, keeps, sums, recurrence) \
-    [OP_##id] = {spelling, arity, DEGREE_##degree, smooth, keeps, sums},
+#define OP(id, arity, spelling, degree, nature, value, derivative, keeps, sums, recurrence) \
+    [OP_##id] = {spelling, nature, arity, DEGREE_##degree, keeps, sums},
 #include "lang/base/operations.def"
 #undef OP
 };
 
 const operation_row *operation_at(operation op) { return &rows[op < OPERATIONS ? op : OP_CONST]; }
 
-bool operation_decides(operation op)
-{
-    switch (op) {
-    case OP_LT:
-    case OP_LE:
-    case OP_GT:
-    case OP_GE:
-    case OP_EQ:
-    case OP_NE:
-    case OP_AND:
-    case OP_OR:
-    case OP_NOT: return true;
-    default: return false;
-    }
-}
+bool operation_is(operation op, operation_nature of) { return (operation_at(op)->nature & of) == of; }
 
 double operation_value(operation op, double a, double b, double c)
 {
     switch (op) {
-#define OP(id, arity, spelling, degree, smooth, value, derivative, keeps, sums, recurrence) \
+#define OP(id, arity, spelling, degree, nature, value, derivative, keeps, sums, recurrence) \
     case OP_##id:                                                                           \
         return value;
 #include "lang/base/operations.def"

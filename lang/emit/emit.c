@@ -108,12 +108,12 @@ bool emit_operations(emit *e, uint64_t set, const char *type, const char *prefix
     emit_text *t = &e->text;
 #define LEAF(...)
 #define IN_SET(id) if (set & OPERATION_BIT(id))
-#define UNARY(id, spelling, degree, smooth, value, derivative, keeps, sums, recurrence) \
+#define UNARY(id, spelling, degree, nature, value, derivative, keeps, sums, recurrence) \
     IN_SET(id) emit_add(t, "static inline %s %s_%d(%s a) { return %s; }\n", type, prefix, OP_##id, type, #value);
-#define BINARY(id, spelling, degree, smooth, value, derivative, keeps, sums, recurrence) \
+#define BINARY(id, spelling, degree, nature, value, derivative, keeps, sums, recurrence) \
     IN_SET(id)                                                                           \
     emit_add(t, "static inline %s %s_%d(%s a, %s b) { return %s; }\n", type, prefix, OP_##id, type, type, #value);
-#define TERNARY(id, spelling, degree, smooth, value, derivative, keeps, sums, recurrence)                             \
+#define TERNARY(id, spelling, degree, nature, value, derivative, keeps, sums, recurrence)                             \
     IN_SET(id)                                                                                                        \
     emit_add(t, "static inline %s %s_%d(%s a, %s b, %s c) { return %s; }\n", type, prefix, OP_##id, type, type, type, \
              #value);

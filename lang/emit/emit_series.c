@@ -580,11 +580,11 @@ bool emit_series_operations(emit *e, const char *prefix)
 #define ROW(id, ...) \
     if (e->used_series & OPERATION_BIT(id)) write_recurrence(t, prefix, OP_##id, __VA_ARGS__);
 #define LEAF(...)
-#define UNARY(id, spelling, degree, smooth, value, derivative, keeps, sums, recurrence) \
+#define UNARY(id, spelling, degree, nature, value, derivative, keeps, sums, recurrence) \
     ROW(id, keeps, sums, #recurrence, "const series a", "a.at[0]")
-#define BINARY(id, spelling, degree, smooth, value, derivative, keeps, sums, recurrence) \
+#define BINARY(id, spelling, degree, nature, value, derivative, keeps, sums, recurrence) \
     ROW(id, keeps, sums, #recurrence, "const series a, const series b", "a.at[0], b.at[0]")
-#define TERNARY(id, spelling, degree, smooth, value, derivative, keeps, sums, recurrence) \
+#define TERNARY(id, spelling, degree, nature, value, derivative, keeps, sums, recurrence) \
     ROW(id, keeps, sums, #recurrence, "const series a, const series b, const series c", "a.at[0], b.at[0], c.at[0]")
 #include "lang/base/operations.def"
 #undef ROW

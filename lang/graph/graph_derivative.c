@@ -34,7 +34,7 @@ node graph_derivative_rule(graph *g, const graph_node *n, node self, const node 
 #define SIGN(x) graph_op(g, OP_SIGN, x, 0, 0)
 #define FLOOR(x) graph_op(g, OP_FLOOR, x, 0, 0)
     switch ((operation)n->op) {
-#define OP(id, arity, spelling, degree, smooth, value, derivative, keeps, sums, recurrence) \
+#define OP(id, arity, spelling, degree, nature, value, derivative, keeps, sums, recurrence) \
     case OP_##id:                                                                           \
         return derivative;
 #include "lang/base/operations.def"

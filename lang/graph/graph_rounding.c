@@ -25,7 +25,7 @@ static node passed_on(graph *g, const graph_node *n, node self, int operand, nod
     return bounded ? product : graph_op(g, OP_SELECT, graph_op(g, OP_NE, error, 0, 0), product, 0);
 }
 
-static bool jumps(operation op) { return operation_decides(op) || op == OP_SIGN || op == OP_FLOOR; }
+static bool jumps(operation op) { return operation_is(op, DECIDES) || op == OP_SIGN || op == OP_FLOOR; }
 
 /* The error of one operation, from those of its operands. */
 static node of_operation(graph *g, node self, const node error[3])

@@ -110,18 +110,9 @@ int graph_degree(graph *g, node root, unsigned deps)
 
 /* Kinks ----------------------------------------------------------------------------------------------------------- */
 
-static bool kinks(operation op) { return !operation_at(op)->smooth; }
-
-static bool jumps(operation op)
-{
-    return op == OP_ATAN2 || (kinks(op) && op != OP_ABS && op != OP_MIN && op != OP_MAX);
-}
-
-static bool sharp(operation op)
-{
-    return op == OP_DIV || op == OP_SQRT || op == OP_CBRT || op == OP_LOG || op == OP_POW || op == OP_TAN ||
-           op == OP_ASIN || op == OP_ACOS;
-}
+static bool kinks(operation op) { return operation_is(op, BENDS); }
+static bool jumps(operation op) { return operation_is(op, JUMPS); }
+static bool sharp(operation op) { return operation_at(op)->nature & (HAS_POLE | STEEP_AT_0 | STEEP_AT_ENDS); }
 
 /* What depends on parameters, modes and indices alone does not count: the value stays on one side of it. */
 static node first_moving(graph *g, node root, bool (*is)(operation))
@@ -161,7 +152,7 @@ bool graph_flat(graph *g, node root)
         result = count > 0;
         for (int j = n->op == OP_SELECT ? 1 : 0; j < count; j++)
             result &= !graph_reached(g, &w, operand[j]) || flat[g->place[operand[j]]];
-        result |= n->op == OP_FLOOR || n->op == OP_SIGN || operation_decides((operation)n->op);
+        result |= n->op == OP_FLOOR || n->op == OP_SIGN || operation_is((operation)n->op, DECIDES);
         flat[k] = result;
     }
     give(&g->arena->allocator, flat);
@@ -171,14 +162,8 @@ bool graph_flat(graph *g, node root)
 
 static bool has_domain(const graph *g, const graph_node *n)
 {
-    switch (n->op) {
-    case OP_SQRT:
-    case OP_LOG:
-    case OP_ASIN:
-    case OP_ACOS: return true;
-    case OP_POW: return g->nodes[n->b].op != OP_CONST || g->nodes[n->b].value != floor(g->nodes[n->b].value);
-    default: return false;
-    }
+    if (n->op == OP_POW) return g->nodes[n->b].op != OP_CONST || g->nodes[n->b].value != floor(g->nodes[n->b].value);
+    return operation_is(n->op, HAS_DOMAIN);
 }
 
 node graph_domain(graph *g, node root)
@@ -195,7 +180,7 @@ node graph_domain(graph *g, node root)
 static bool steep(const graph *g, const graph_node *n)
 {
     const graph_node *const power = &g->nodes[n->b];
-    return n->op == OP_SQRT || n->op == OP_CBRT || n->op == OP_LOG ||
+    return operation_is(n->op, STEEP_AT_0) ||
            (n->op == OP_POW && power->op == OP_CONST && power->value > 0 && power->value < 1);
 }
 

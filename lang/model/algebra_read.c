@@ -31,7 +31,7 @@ static poly condition(algebra *A, const graph_node *n, poly p)
 {
     const algebra_poly of = A->polys[p];
     if (of.count == 0 || (of.count == 1 && of.terms[0].of == 0)) return algebra_number(A, of.count > 0);
-    return operation_decides((operation)n->op) ? p : algebra_lose(A);
+    return operation_is((operation)n->op, DECIDES) ? p : algebra_lose(A);
 }
 
 static poly total(algebra *A, const graph_node *n, const int64_t *around)

@@ -316,8 +316,7 @@ bool field_jumps(model *m)
         for (uint32_t k = 0; k < w.count && !found; k++) {
             const graph_node *n = &g->nodes[w.nodes[k]];
             if (n->op == OP_SELECT) n = &g->nodes[n->a];
-            if (!operation_at((operation)n->op)->smooth && n->op != OP_ABS && n->op != OP_MIN && n->op != OP_MAX)
-                found = (n->deps & DEP_X) != 0;
+            if (operation_is((operation)n->op, BENDS | JUMPS)) found = (n->deps & DEP_X) != 0;
         }
         give(&g->arena->allocator, w.nodes);
     }

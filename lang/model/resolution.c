@@ -20,8 +20,8 @@
 
 /* What a value may hide. */
 enum {
-    HIDES = 1, /* something, */
-    GROWS = 2  /*   behind what grows as exp does: nothing where that is a large divisor */
+    HIDING = 1, /* something, */
+    GROWS = 2   /*   behind what grows as exp does: nothing where that is a large divisor */
 };
 
 #define NO_STEP UINT32_MAX
@@ -65,41 +65,21 @@ struct resolution {
 /* Making it -------------------------------------------------------------------------------------------------- */
 
 /* waves: sin, cos and tan count, since they may decide a switch. */
-static bool hides(operation op, bool waves)
-{
-    switch (op) {
-    case OP_SIN:
-    case OP_COS:
-    case OP_TAN: return waves;
-    case OP_EXP:
-    case OP_SINH:
-    case OP_COSH:
-    case OP_TANH:
-    case OP_ERF:
-    case OP_ATAN:
-    case OP_DIV:
-    case OP_POW: return true;
-    default: return false;
-    }
-}
+static bool hides(operation op, bool waves) { return operation_is(op, HIDES) || (waves && operation_is(op, WAVES)); }
 
 static bool hides_plain(operation op) { return hides(op, false); }
 static bool hides_waves(operation op) { return hides(op, true); }
 
 /* Whether an operation has poles. */
-static bool has_poles(operation op) { return op == OP_DIV || op == OP_POW || op == OP_LOG || op == OP_TAN; }
+static bool has_poles(operation op) { return operation_is(op, HAS_POLE); }
 
 /* Whether an operation may jump. */
-static bool leaps(operation op)
-{
-    return op == OP_FLOOR || op == OP_SIGN || op == OP_MOD || op == OP_ATAN2 || op == OP_SELECT ||
-           operation_decides(op);
-}
+static bool leaps(operation op) { return operation_is(op, JUMPS); }
 
 /* Whether an operation may leave its value open, within bounds of its arguments: see doubt. */
 static bool doubtful(operation op)
 {
-    return leaps(op) || has_poles(op) || op == OP_SQRT || op == OP_CBRT || op == OP_ASIN || op == OP_ACOS;
+    return operation_at(op)->nature & (JUMPS | HAS_POLE | STEEP_AT_0 | STEEP_AT_ENDS);
 }
 
 /* Whether an operation that counts has an argument that moves. */
@@ -301,7 +281,7 @@ static bool hidden(operation op, interval a, interval b)
     case OP_TAN: return !(a.high - a.low <= WAVE);
     case OP_DIV: return changes(b);
     case OP_POW: return (b.low < 0 && changes(a)) || steep(a, b.high) || hides_power(a, b);
-    default: return false;
+    default: return operation_is(op, HIDES) && wide;
     }
 }
 
@@ -532,7 +512,7 @@ static bool compute(resolution *r, step *s)
     } else if (s->counts &&
                (power ? r->found(OP_POW, r->steps[s->base].interval, number(s->power)) : r->found(op, a, b))) {
         if (!s->divides || r->found != hidden) return false;
-        s->taint |= grows(op) ? GROWS : HIDES;
+        s->taint |= grows(op) ? GROWS : HIDING;
     }
     s->interval = interval_value(op, a, b, c, s->arity > 1 && s->operand[0] == s->operand[1]);
     return true;

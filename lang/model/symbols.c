@@ -111,8 +111,8 @@ void symbols_suggest(model *m, const char *name, const char *const *more, uint32
 
 void symbols_suggest_call(model *m, const char *name)
 {
-    static const char *const known_functions[] = {
-        "sin",   "cos", "tan", "asin", "acos",  "atan", "atan2", "sinh", "cosh", "tanh",  "exp", "log", "sqrt", "cbrt",
-        "hypot", "abs", "min", "max",  "floor", "mod",  "sign",  "erf",  "dot",  "cross", "if",  "sum", "diff"};
-    suggest(m, name, known_functions, sizeof known_functions / sizeof *known_functions, "(…)");
+    const char *known[OPERATIONS + 8] = {"sum"};
+    uint32_t count = 1;
+    for (const char *word; (word = words_called(count - 1));) known[count++] = word;
+    suggest(m, name, known, count, "(…)");
 }

@@ -24,7 +24,7 @@ static bool keeps_whole(operation op)
     case OP_MAX:
     case OP_MOD:
     case OP_SELECT: return true;
-    default: return operation_decides(op);
+    default: return operation_is(op, DECIDES);
     }
 }
 

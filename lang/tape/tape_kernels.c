@@ -50,14 +50,14 @@
     }
 
 #define LEAF(...)
-#define UNARY(id, spelling, degree, smooth, value, derivative, keeps, sums, recurrence) KERNEL(id, 1, value)
-#define BINARY(id, spelling, degree, smooth, value, derivative, keeps, sums, recurrence) \
+#define UNARY(id, spelling, degree, nature, value, derivative, keeps, sums, recurrence) KERNEL(id, 1, value)
+#define BINARY(id, spelling, degree, nature, value, derivative, keeps, sums, recurrence) \
     KERNEL(id, 1, value) KERNEL(id, 2, value) KERNEL(id, 3, value)
-#define FUNCTION(id, arity, spelling, degree, smooth, value, derivative, keeps, sums, recurrence) \
+#define FUNCTION(id, arity, spelling, degree, nature, value, derivative, keeps, sums, recurrence) \
     FUNCTION_##arity(id, CALLED(id, value))
 #define FUNCTION_1(id, value) KERNEL(id, 1, value)
 #define FUNCTION_2(id, value) KERNEL(id, 1, value) KERNEL(id, 2, value) KERNEL(id, 3, value)
-#define TERNARY(id, spelling, degree, smooth, value, derivative, keeps, sums, recurrence) \
+#define TERNARY(id, spelling, degree, nature, value, derivative, keeps, sums, recurrence) \
     KERNEL(id, 1, value)                                                                  \
     KERNEL(id, 2, value)                                                                  \
     KERNEL(id, 3, value) KERNEL(id, 4, value) KERNEL(id, 5, value) KERNEL(id, 6, value) KERNEL(id, 7, value)

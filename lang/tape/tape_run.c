@@ -252,7 +252,7 @@ static __attribute__((noinline)) double function(const instruction *i, const dou
     const double a = R[i->a], b = R[i->b];
     switch (i->code) {
 #define OP(...)
-#define FUNCTION(id, arity, spelling, degree, smooth, value, derivative, keeps, sums, recurrence) \
+#define FUNCTION(id, arity, spelling, degree, nature, value, derivative, keeps, sums, recurrence) \
     case OP_##id:                                                                                 \
         return CALLED(id, value);
 #include "lang/base/operations.def"
@@ -284,21 +284,21 @@ static void execute(frame *f, const instruction *i)
     goto *label[i->code];
 #define LEAF(...)
 #define FUNCTION(...)
-#define UNARY(id, spelling, degree, smooth, value, derivative, keeps, sums, recurrence) \
+#define UNARY(id, spelling, degree, nature, value, derivative, keeps, sums, recurrence) \
     l_##id:                                                                             \
     {                                                                                   \
         const double a = R[i->a];                                                       \
         R[i->r] = value;                                                                \
         NEXT;                                                                           \
     }
-#define BINARY(id, spelling, degree, smooth, value, derivative, keeps, sums, recurrence) \
+#define BINARY(id, spelling, degree, nature, value, derivative, keeps, sums, recurrence) \
     l_##id:                                                                              \
     {                                                                                    \
         const double a = R[i->a], b = R[i->b];                                           \
         R[i->r] = value;                                                                 \
         NEXT;                                                                            \
     }
-#define TERNARY(id, spelling, degree, smooth, value, derivative, keeps, sums, recurrence) \
+#define TERNARY(id, spelling, degree, nature, value, derivative, keeps, sums, recurrence) \
     l_##id:                                                                               \
     {                                                                                     \
         const double a = R[i->a], b = R[i->b], c = R[i->c];                               \

@@ -58,7 +58,7 @@ static __attribute__((noinline)) double coefficient(const running *run, const se
     if (n == 0 && !task->begins) return operation_value((operation)task->op, a.at[0], b.at[0], c.at[0]);
     switch (task->op) {
 #define LEAF(...)
-#define OP(id, arity, spelling, degree, smooth, value, derivative, keeps, sums, recurrence) \
+#define OP(id, arity, spelling, degree, nature, value, derivative, keeps, sums, recurrence) \
     case OP_##id:                                                                           \
         return recurrence;
 #include "lang/base/operations.def"

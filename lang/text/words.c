@@ -10,12 +10,7 @@
 static const struct {
     const char *name;
     int operation;
-} functions[] = {{"sin", OP_SIN},    {"cos", OP_COS},     {"tan", OP_TAN},   {"asin", OP_ASIN},     {"acos", OP_ACOS},
-                 {"atan", OP_ATAN},  {"atan2", OP_ATAN2}, {"sinh", OP_SINH}, {"cosh", OP_COSH},     {"tanh", OP_TANH},
-                 {"exp", OP_EXP},    {"log", OP_LOG},     {"sqrt", OP_SQRT}, {"cbrt", OP_CBRT},     {"hypot", OP_HYPOT},
-                 {"abs", OP_ABS},    {"min", OP_MIN},     {"max", OP_MAX},   {"floor", OP_FLOOR},   {"mod", OP_MOD},
-                 {"sign", OP_SIGN},  {"erf", OP_ERF},     {"dot", CALL_DOT}, {"cross", CALL_CROSS}, {"if", CALL_IF},
-                 {"diff", CALL_DIFF}};
+} calls[] = {{"dot", CALL_DOT}, {"cross", CALL_CROSS}, {"if", CALL_IF}, {"diff", CALL_DIFF}};
 
 static const char *const statements_words[] = {"method", "step",  "tolerance", "accuracy",  "from",
                                                "until",  "every", "exact",     "invariant", "when"};
@@ -23,10 +18,19 @@ static const char *const other_words[] = {"t", "pi", "and", "or", "not", "for", 
 static const char *const event_words[] = {"rising", "falling", "as", "accumulates", "record", "stop", "after"};
 static const char *const kept_words[] = {"count", "time", "at"};
 
+const char *words_called(size_t k)
+{
+    for (int op = 0; op < OPERATIONS; op++)
+        if (operation_is(op, IS_WORD) && k-- == 0) return operation_at(op)->spelling;
+    return k < sizeof calls / sizeof *calls ? calls[k].name : NULL;
+}
+
 int words_function(const char *name)
 {
-    for (size_t i = 0; i < sizeof functions / sizeof *functions; i++)
-        if (!strcmp(functions[i].name, name)) return functions[i].operation;
+    for (int op = 0; op < OPERATIONS; op++)
+        if (operation_is(op, IS_WORD) && !strcmp(operation_at(op)->spelling, name)) return op;
+    for (size_t i = 0; i < sizeof calls / sizeof *calls; i++)
+        if (!strcmp(calls[i].name, name)) return calls[i].operation;
     return -1;
 }
 
@@ -63,8 +67,8 @@ motus_word_kind words_event_kind(const char *name)
 
 const char *words_at(size_t k)
 {
-    for (size_t i = 0; i < sizeof functions / sizeof *functions; i++)
-        if (k-- == 0) return functions[i].name;
+    for (size_t i = 0; words_called(i); i++)
+        if (k-- == 0) return words_called(i);
     const struct {
         const char *const *word;
         size_t count;

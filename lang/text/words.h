@@ -9,6 +9,8 @@
 /* Functions that the graph has no operation for; their numbers are larger than those of all operations. */
 enum { CALL_DOT = 1000, CALL_CROSS, CALL_IF, CALL_DIFF };
 
+/* Function k, in a fixed order; NULL: past the last. */
+const char *words_called(size_t k);
 int words_function(const char *name); /* operation, CALL_… or -1 */
 bool words_reserved(const char *name);
 const char *words_at(size_t k);           /* all of them; NULL: past the last */

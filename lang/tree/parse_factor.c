@@ -127,18 +127,8 @@ static tree *parse_sum(parser *p, span name)
 
 static int arity(int operation)
 {
-    switch (operation) {
-    case OP_ATAN2:
-    case OP_HYPOT:
-    case OP_MOD:
-    case CALL_DOT:
-    case CALL_CROSS:
-    case CALL_DIFF: return 2;
-    case CALL_IF: return 3;
-    case OP_MIN:
-    case OP_MAX: return -2; /* two or more */
-    default: return 1;
-    }
+    if (operation >= OPERATIONS) return operation == CALL_IF ? 3 : 2;
+    return operation_is(operation, OF_MANY) ? -2 : operation_at(operation)->arity; /* -2: two or more */
 }
 
 /* call = function "(" inside { "," inside } ")" [5] */
