@@ -6,6 +6,7 @@
  * rows.
  */
 #include "test/ensemble_given.h"
+#include "test/share.h"
 
 #include <stdbool.h>
 
@@ -393,7 +394,7 @@ static void every_model(void **state)
     static const char *const compilers[] = {"gcc", "clang"};
     static const int widths[] = {0, 1, 2, 4, 8, 16, 32};
     enum { WIDTHS = sizeof widths / sizeof *widths };
-    int pairs = 0;
+    int pairs = 0, tried = 0;
     for (size_t c = 0; c < CASES; c++) {
 #ifdef SANITIZED
         if (c % 4 && !all_rows()) /* the sanitizers check the library's part, which is the same for all */
@@ -407,6 +408,7 @@ static void every_model(void **state)
                 (!all_rows() && !wanted(t.c->methods, t.method)))
                 continue;
             pairs++;
+            if (!share_takes(&tried)) continue;
             for (int cc = 0; cc < 2; cc++) {
                 if ((!all_rows() && cc != pairs % 2) || !use_compiler(compilers[cc])) continue;
                 for (int w = 0; w < WIDTHS; w++) /* One trajectory at a time is one lane. */
@@ -435,6 +437,7 @@ static void every_width(void **state)
         const given_case *c;
         const char *method;
     } pairs[] = {{&cases[7], "verlet"}, {&everything, "rk4"}};
+    int tried = 0;
     for (int p = 0; p < 2; p++) {
         task t;
         open_task(&t, pairs[p].c);
@@ -449,6 +452,7 @@ static void every_width(void **state)
                 if (!all_rows() && (p == 1 ? lanes != (cc ? 1 : 0) && lanes != (cc ? 8 : 2)
                                            : cc && lanes != 0 && lanes != 4 && lanes != 32))
                     continue;
+                if (!share_takes(&tried)) continue;
                 for (int f = 0; f < SHAPES; f += 1 + (lanes > 2)) compare(&t, f, lanes, 1 + f / 2 % 2);
             }
         }

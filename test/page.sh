@@ -2,7 +2,8 @@
 # Builds the page as `make lab` does and tests it: the module against the program, byte for byte, and the page in a browser (test/lab/*.mjs).
 #
 # Each test prints what failed and, last, `N passed, N failed`; so does this script, for all of them. Screenshots are left in build/lab/shots/.
-# CHROMIUM and FIREFOX name the browsers, MOTUS the program (build/motus). `test/page.sh share clock` runs these two.
+# CHROMIUM and FIREFOX name the browsers, MOTUS the program (build/motus). `test/page.sh share green` runs these two, `test/page.sh browsers`
+# those beside which others may run, `test/page.sh played` those that play a motion by the clock, `test/page.sh parts` those without a browser.
 cd "$(dirname "$0")/.." || exit 1
 export MOTUS=${MOTUS:-$PWD/build/motus}
 logs=build/lab/test
@@ -45,9 +46,10 @@ together() {
     wait
 }
 names=("$@")
-browsers=(presets panels share controls people stage studies gallery opened speed accuracy away lessons sizes lecture own firefox events start bars green clock newcomer films)
-without=(parts bits)
-case "$*" in browsers) names=("${browsers[@]}") ;; parts) names=("${without[@]}") ;; '') names=("${browsers[@]}" "${without[@]}") ;; esac
+browsers=(presets panels share controls people stage studies gallery opened accuracy away lessons sizes own firefox events start bars green bits)
+without=(parts)
+by_clock=(lecture speed clock newcomer films)
+case "$*" in browsers) names=("${browsers[@]}") ;; played) names=("${by_clock[@]}") ;; parts) names=("${without[@]}") ;; '') names=("${browsers[@]}" "${by_clock[@]}" "${without[@]}") ;; esac
 rm -f $logs/*.status
 # Most of them wait as long as they compute: three at a time fill two cores. Those that play a motion by the clock run two at a time, and a film,
 # which is encoded while it runs, alone.
