@@ -8,15 +8,14 @@
  */
 #include "machine/parallel.h"
 
+#include "base/platform.h"
 #include "core/system.h"
 
 #include <fenv.h>
 #include <pthread.h>
-#include <sched.h>
 #include <signal.h>
 #include <stdatomic.h>
 #include <string.h>
-#include <unistd.h>
 
 enum { SPINS = 1 << 11 }; /* of some tens of nanoseconds, before a thread sleeps */
 
@@ -171,12 +170,6 @@ void parallel_for(int threads, size_t items, void (*body)(void *ctx, size_t item
 
 int parallel_processors(void)
 {
-#ifdef __linux__
-    cpu_set_t mine;
-    long count = sched_getaffinity(0, sizeof mine, &mine) ? sysconf(_SC_NPROCESSORS_ONLN) : CPU_COUNT(&mine);
-#else
-    long count = sysconf(_SC_NPROCESSORS_ONLN);
-#endif
-    if (count > MOTUS_THREADS_MAX) count = MOTUS_THREADS_MAX;
-    return count > 1 ? (int)count : 1;
+    const long count = platform_processors();
+    return count < MOTUS_THREADS_MAX ? (int)count : MOTUS_THREADS_MAX;
 }

@@ -44,7 +44,7 @@ static inline real dense_sum(const dense_series *of, int k, size_t i)
     return sum;
 }
 
-static void dense_integrate(const work *w, const dense_series *of, const dense_end end[2], clock t, real *x, real *v)
+static void dense_integrate(const work *w, const dense_series *of, const dense_end *end, clock t, real *x, real *v)
 {
     const int s = of->terms;
     const clock h = of->h, y = 2 * ((t - end[0].t) / (end[1].t - end[0].t)) - 1;

@@ -2,8 +2,8 @@
  * the cache of compiled objects under damage.
  *
  * A compiled row costs a compiler run, so it takes one row of each family's text (and of each kind of force), and of
- * those one in SHARE; with MOTUS_ALL_ROWS set, all. Steps are few, since different bits differ at once; the longer runs are those
- * of the golden test.
+ * those one in SHARE; with MOTUS_ALL_ROWS set, all. Steps are few, since different bits differ at once; the longer runs
+ * are those of the golden test.
  */
 #include "motus.h"
 #include "test/given_cache.h"
