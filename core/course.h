@@ -1,4 +1,4 @@
-/* The course of one trajectory or of many: an observation at the start, steps and observations in turn, and an
+/* The course of one trajectory or of several: an observation at the start, then steps and observations in turn, then an
  * observation at the end.
  *
  * Invariant: a trajectory is observed at the same states in the same order, whether it is computed by itself, in a
@@ -13,9 +13,8 @@ typedef struct course {
     void *ctx;
     double until;
     int64_t every; /* steps from one observation to the next; 0: the end alone is observed */
-    /* `advance` observes after every `every` steps itself, but not at the end */
-    bool observes;
-    /* As stepper_advance. */
+    bool observes; /* `advance` makes the observations between start and end itself */
+    /* Advances, as stepper_advance does. */
     motus_status (*advance)(void *ctx, stepper_limit, stepper_stop *why, motus_error *);
     motus_status (*observe)(void *ctx, motus_error *);
 } course;

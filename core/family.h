@@ -1,5 +1,5 @@
-/* The functions of families.def, each by a switch over the row's family. A compiled model calls its family's functions
- * directly instead. */
+/* The functions of families.def, each by a switch over the row's family. A compiled model calls the functions of its
+ * family directly instead. */
 #define FAMILY_SWITCH(CASE)   \
     switch (w->row->family) { \
         FAMILIES(CASE)        \

@@ -20,23 +20,24 @@ typedef struct roots_halving {
 } roots_halving;
 
 double roots_cell_tau(const roots_cell *, double x);
-/* Of p and dp/dx. */
+/* Returns p at x, and tells the slope dp/dx. */
 double roots_cell_value(const roots_cell *, double x, double *slope);
-/* sum |c_k| over k >= 1 */
+/* Returns the sum of |c_k| over k >= 1. */
 double roots_cell_rest(const roots_cell *);
 void roots_cell_slope(const roots_cell *, roots_cell *slope);
-/* x between x0 and x1 where p = level; without a change of sign the end that is nearer to it. p0, p1: p at x0, x1. */
+/* Returns the x between x0 and x1 where p = level, or the nearer end if p - level does not change its sign. p0, p1: p
+ * at x0, x1. */
 double roots_cell_solve(const roots_cell *, double x0, double p0, double x1, double p1, double level);
 
-/* Exact in doubles up to degree 26, wrong by 2^-50 at most beyond. */
+/* Computes the rows, exactly in doubles up to degree 26, and beyond with an error of at most 2^-50. */
 void roots_cell_halving(int degree, roots_halving *);
-/* `cell` becomes its right half. */
+/* Halves a cell: writes its left half, and makes it its right half. */
 void roots_cell_halve(const roots_halving *, roots_cell *cell, roots_cell *left);
-/* The polynomial of `degree` up to ROOTS_DEGREE_MOST on [at, at + 2 half], by interpolation in its Chebyshev points.
- * Returns the size of the last coefficients: unless it is small, the cell is too long. */
+/* Makes the cell [at, at + 2 half] of a polynomial of degree up to ROOTS_DEGREE_MOST, by interpolation in Chebyshev
+ * points. Returns the size of the last coefficients: unless it is small, the cell is too long. */
 double roots_cell_cut(const double *coefficients, int degree, double at, double half, roots_cell *);
 
-/* roots_fit's transform: overwrites values. */
+/* Transforms values at Chebyshev points into coefficients, for roots_fit. Overwrites the values. */
 void roots_transform(double *values, int degree, double *coefficients);
 
 #endif

@@ -1,7 +1,7 @@
 /* See rules.h. */
 #include "core/rules.h"
 
-/* Whether a comparison holds where its leaf has this sign; 0: it stays 0. */
+/* Tells whether a comparison holds where its leaf has this sign; 0: the leaf stays 0. */
 static bool compares(uint8_t what, int sign)
 {
     switch ((rule_comparison)what) {

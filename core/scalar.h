@@ -1,11 +1,12 @@
-/* The texts with real = double: one trajectory. The includer has <float.h>, <math.h>, <stddef.h> and <stdint.h>. */
+/* What the texts of step/ need for one trajectory, real = double. Include <float.h>, <math.h>, <stddef.h> and
+ * <stdint.h> before. */
 #define clock motus_clock /* the C library has a function of that name */
 #define real double
 typedef double clock;
 typedef int64_t whole;
 #define FMA(a, b, c) fma((a), (b), (c))
 #define ABS(x) fabs(x)
-/* an infinity or a NaN minus itself is NaN; unlike isfinite, this can be vectorised */
+/* An infinity or a NaN minus itself is NaN. Compilers vectorise this, but not isfinite. */
 #define FINITE(x) ((x) - (x) == 0)
 #define EPSILON DBL_EPSILON
 #define SQRT_EPSILON 0x1p-26

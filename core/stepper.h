@@ -2,10 +2,10 @@
  *
  * A trajectory is made of legs: a leg begins at a state and a time, and takes steps of the row from there. A new leg
  * begins when the caller sets another state, and for the shorter last step before a limit that lies between two whole
- * steps. Invariant: the stepper alone holds the time. The main line are the numbers that lead from a step to the next.
+ * steps. Invariant: the stepper alone holds the time. The main line is the numbers that lead from a step to the next.
  * Observing does not change it: `stepper_sync` computes in other arrays, so the bits of a trajectory do not depend on
- * when it was observed. Nor does the shorter step at the end of a leg, so a saved state goes on beyond the limit as if
- * there had been none.
+ * when it was observed. The shorter step at the end of a leg does not change it either, so a saved state goes on beyond
+ * the limit as if there had been none.
  */
 #ifndef CORE_STEPPER_H
 #define CORE_STEPPER_H
@@ -24,8 +24,8 @@ typedef struct machine {
     const struct compiled_host *host; /* of a compiled body: its own data */
 } machine;
 
-/* A stepper at (t0, x, v) (nx, nv numbers, copied) with step h != 0 (negative: backward). The machine's problem must
- * outlive it. */
+/* Creates a stepper at (t0, x, v) (nx, nv numbers, copied) with step h != 0 (negative: backward). The machine's problem
+ * must outlive it. */
 motus_status stepper_create(const machine *, const chosen *, double t0, double h, const double *x, const double *v,
                             const motus_allocator *, stepper **, motus_error *);
 void stepper_destroy(stepper *);
@@ -33,41 +33,43 @@ void stepper_destroy(stepper *);
  * computed. */
 motus_status stepper_start(stepper *, double t0, double h, const double *x, const double *v, motus_error *);
 
-/* The same, and where steps adapt the first candidate has size h, and the state is that of time t0 + lost. */
+/* Begins a new leg as stepper_start does; where steps adapt, the first candidate has size h, and the state belongs to
+ * time t0 + lost. */
 motus_status stepper_jump(stepper *, double t0, double lost, double h, const double *x, const double *v, motus_error *);
 
-/* The same after an action: what reversible steps that adapt know of the lengths of the motion (step/density.h) stays
- * known. */
+/* Begins a new leg after an action as stepper_jump does, and keeps what reversible adaptive steps know of the lengths
+ * of the motion (step/density.h). */
 motus_status stepper_go_on(stepper *, double t0, double lost, double h, const double *x, const double *v,
                            motus_error *);
 
-/* As stepper_jump, of a stepper of the machine and the method of `along`, which may be NULL. Where the marked last step
- * of that began at this state, what it has computed there is not computed again. */
+/* Begins a new leg as stepper_jump does. If the marked last step of `along`, a stepper with this machine and method,
+ * began at this state, what that step computed there is not computed again. along: may be NULL. */
 motus_status stepper_branch(stepper *, const stepper *along, double t0, double lost, double h, const double *x,
                             const double *v, motus_error *);
 
-/* Begins a new leg at the present state, which counts as that of time t, with step h, of adaptive rows the first. Where
- * additions are compensated the rounding errors of the state stay known. */
+/* Begins a new leg at the present state, taken as that of time t, with step h, which is the first where steps adapt.
+ * Where additions are compensated, the known rounding errors of the state are kept. */
 motus_status stepper_turn(stepper *, double t, double h, motus_error *);
-/* Of rows that choose their order, with a tolerance that allows any error: the next steps have the order of the last
- * step of `like`. */
+/* Gives the next steps the order of the last step of `like`, for rows that choose their order, with a tolerance that
+ * allows any error. */
 void stepper_follow(stepper *, const stepper *like);
 
-/* How far: so many steps, or up to a time (NaN: none), whichever comes first; and which it was. */
+/* How far to go: so many steps, or up to a time (NaN: none), whichever comes first. */
 typedef struct stepper_limit {
     int64_t steps;
     double until;
 } stepper_limit;
+/* Why an advance stopped. */
 typedef enum stepper_stop {
     STOP_STEPS,
     STOP_UNTIL,
     STOP_EVENT, /* core/events.h */
-    STOP_HALT,  /* an inspector has asked for it: fewer steps than the limit may have been taken */
+    STOP_HALT,  /* an inspector or a witness asked for it, perhaps before the limit */
     STOP_FAILED
 } stepper_stop;
 
-/* Whole steps of size h from t0 to `until`, and the size of the shorter one after them; 0: none, also where only a few
- * roundings of the quotient are left. */
+/* The number of whole steps of size h from t0 to `until`, and the size of a shorter last step; 0: there is none, as
+ * where only a few roundings of the quotient are left. */
 typedef struct stepper_way {
     int64_t whole;
     double last;
@@ -77,77 +79,73 @@ stepper_way stepper_way_of(double t0, double h, double until);
 /* Takes steps up to the limit; the last one is shorter if the limit lies between two steps. DIVERGED, SOLVE and
  * CALLBACK give the time and the variable; the stepper then stands at the last good step. why may be NULL. */
 motus_status stepper_advance(stepper *, stepper_limit, stepper_stop *why, motus_error *);
-/* Takes one step towards `until`, to the same bits, and reports its events. */
+/* Takes one step towards `until`, with the bits of stepper_advance, and reports its events. */
 motus_status stepper_trace(stepper *, double until, const tracer *, motus_error *);
-/* The state at the present time, velocities synchronised. x, v of nx, nv numbers; a (may be NULL): the acceleration
- * there. */
+/* Writes the state at the present time, with synchronised velocities: nx and nv numbers, and nv of the acceleration
+ * there. a may be NULL. */
 motus_status stepper_sync(stepper *, double *x, double *v, double *a, motus_error *);
 
-/* Goes on, on another machine of the same problem, where the stepper stands: at the end of a step that was not the
- * shorter last one. The bits and the counters are the same. After a failure it stands as before. */
+/* Goes on with another machine of the problem, without a change of bits or counters. The stepper must stand at the end
+ * of a step that was not a shorter last step. After a failure it stands as before. */
 motus_status stepper_move(stepper **, const machine *, motus_error *);
 
-/* The largest tolerance that changes the steps of the method: those of a reversible one are at most a part of the time
- * scale of the motion, whatever the tolerance. INFINITY of others. */
+/* Returns the largest tolerance that changes the method's steps: reversible adaptive steps are at most a part of the
+ * time scale of the motion, whatever the tolerance. INFINITY for other methods. */
 double stepper_tolerance_most(const chosen *);
 
-/* Of an adaptive row, every STEPPER_PACE steps: whether a run that has taken `steps` may crawl, since the last
- * STEPPER_PACE of them led so little further beside what is left to the end, and beside the longest step so far. */
 enum { STEPPER_PACE = 1 << 16 };
+/* Tells whether a run with adaptive steps may crawl after `steps` steps: the last STEPPER_PACE of them led `gone` on,
+ * too little beside the way left to the end and beside the longest step so far. */
 bool stepper_may_crawl(int64_t steps, double gone, double left, double longest, bool smooth);
-/* Asked whether a run that may crawl is to end, when its last `steps` steps have led from t - gone to t: other than
- * MOTUS_OK ends it with that status. Asked at numbers of steps that are the same on all machines. */
+/* Decides whether a run that may crawl ends, after `steps` steps from t - gone to t; a status other than MOTUS_OK ends
+ * it. The number of steps alone decides when it is asked, so all machines ask at the same steps. */
 typedef motus_status (*stepper_judge)(void *ctx, stepper *, int64_t steps, double gone, motus_error *);
-/* The status of a run that crawls, and what it says. */
+/* Returns the status of a run that crawls, with its message. */
 motus_status stepper_crawls(const stepper *, int64_t steps, double gone, motus_error *);
 void stepper_judged(stepper *, stepper_judge, void *ctx);
-/* Shown a step, marked, and what it answers: the size, with its sign, of a candidate by which the step is taken again,
- * 0: it stands; how many steps are then taken before the next one is shown; and whether the advance ends here. Only
- * where stepper_refuses a step is taken again: rows that find their steps by their errors. */
+/* What an inspector says of a marked step that it is shown. A step is repeated only where stepper_refuses. */
 typedef struct stepper_verdict {
-    double again;
-    int64_t rest;
-    bool halt;
+    double again; /* the signed size of a candidate with which the step is repeated; 0: the step stands */
+    int64_t rest; /* how many steps are taken before the next one is shown */
+    bool halt;    /* the advance ends here */
 } stepper_verdict;
 typedef stepper_verdict (*stepper_inspector)(void *ctx, stepper *);
 void stepper_inspected(stepper *, stepper_inspector, void *ctx);
+/* Tells whether the method's steps can be refused: they adapt by their errors. */
 bool stepper_refuses(const chosen *);
 const chosen *stepper_method(const stepper *);
 const problem *stepper_problem(const stepper *);
 double stepper_limit_of(const stepper *); /* the `until` of the latest advance */
-/* A state some steps before the present one, in the same leg: the oldest that is kept. False: there is none. The
- * motion stays as it is. */
+/* Writes the oldest state of the leg that is kept, some steps before the present one, without changing the motion.
+ * False: there is none. */
 bool stepper_earlier(stepper *, double *t, double *x, double *v);
 
 double stepper_time(const stepper *);
-double stepper_lost(const stepper *);               /* what the rounding of this time has left out */
+double stepper_lost(const stepper *);               /* what the rounding of stepper_time has left out */
 double stepper_time_of(const stepper *, int64_t n); /* of step n of the leg; NaN where steps adapt */
 double stepper_step(const stepper *);               /* size of the present leg's steps, with its sign */
 double stepper_last_step(const stepper *);          /* size of the latest step, with its sign */
-/* The shortest and the longest step of the leg, without one that was cut short at its end; NaN before them. */
+/* Tells the shortest and the longest step of the leg, without one that was cut short at its end; NaN: no step yet. */
 void stepper_sizes(const stepper *, double *shortest, double *longest);
 int64_t stepper_refused(const stepper *);
-/* finished since the start of the leg, a shorter last one included */
-int64_t stepper_steps(const stepper *);
+int64_t stepper_steps(const stepper *);       /* finished in this leg, with a shorter last one */
 int64_t stepper_evaluations(const stepper *); /* by the method itself; observing is not counted */
 int64_t stepper_iterations(const stepper *);
 
-/* Dense output: the state at a time within the last step. stepper_mark keeps the present state as the left end of the
- * next step; without a mark stepper_sample takes the last step once more, from the last snapshot, to the same bits. */
+/* Keeps the present state as the left end of the next step, for dense output. */
 motus_status stepper_mark(stepper *, motus_error *);
-/* The time of the mark, what its rounding has left out, and the state there. */
+/* Returns the time of the mark, and tells what its rounding has left out, and the state there. */
 double stepper_marked(const stepper *, double *lost, const double **x, const double **v);
+/* Writes the state at a time within the last step, by dense output. Without a mark it first repeats the last step, from
+ * the last snapshot, to the same bits. */
 motus_status stepper_sample(stepper *, double t, double *x, double *v, motus_error *);
-/* A bound on the size of every acceleration within the marked last step, nv numbers; of stages (step/swing.h) it holds
- * where they show the motion. False: none is known. */
+/* Bounds the size of every acceleration within the marked last step, nv numbers. Where the bound comes from stages
+ * (step/swing.h), it holds if the stages show the motion. False: none is known. */
 bool stepper_swing(stepper *, double *most);
-/* Takes steps up to the limit, until something may have happened in one: `quiet` is shown the states at its ends and
- * the bounds of stepper_swing. The last step is marked, quiet or not; in those before it nothing has happened. So that
- * all is as if these had been taken one by one, `left` tells where the last step began, one that failed too. Where
- * stepper_can_watch: of rows that can be watched (row_watched), while the leg may take steps.
- * stepper_bounded: the stepper does not watch steps of one size, but lanes may, after the first step of a leg.
- *
- * A compiled loop asks of the model's own rules first, and `quiet` only where their bounds leave something open. */
+
+/* Watching: stepper_watch takes steps until something may have happened in one. `quiet` is shown each step and says
+ * whether nothing happened in it; a compiled loop asks the bounds of the model's own rules first, and `quiet` only
+ * where these leave something open. */
 typedef struct stepper_shown {
     double span, from_t, to_t, *from_x, *from_v, *to_x, *to_v;
     const double *most;
@@ -155,28 +153,33 @@ typedef struct stepper_shown {
 typedef struct stepper_watcher {
     bool (*quiet)(void *ctx, const stepper_shown *);
     void *ctx;
-    double *largest;                /* raised to the sizes of all states at which steps begin, x and then v */
-    double *middle, *width, *least; /* room for a box, x and then v (step/box.h), and bounds of so many functions: */
+    double *largest;                /* raised to the sizes of x, then v, at the start of every step */
+    double *middle, *width, *least; /* room for a box, x and then v (step/box.h), and for a bound of each function */
     size_t functions;
 } stepper_watcher;
+/* Where the last watched step began, also one that failed. */
 typedef struct stepper_left {
-    int64_t steps; /* before it */
+    int64_t steps; /* watched steps before it, in which nothing happened */
     double t, lost;
     const double *x, *v; /* NULL: no step was begun */
-    bool shown;          /* to `quiet` */
+    bool shown;          /* the step was shown to `quiet` */
 } stepper_left;
+/* Tells whether stepper_watch can be called: the row can be watched (row_watched) and the leg may take steps. */
 bool stepper_can_watch(const stepper *);
+/* Tells whether the next steps have bounds on their accelerations: lanes watch fixed steps too, after the first step of
+ * a leg. */
 bool stepper_bounded(const stepper *);
+/* Takes steps up to the limit, or until `quiet` says no, to the state that single steps would lead to. The last step is
+ * marked. */
 motus_status stepper_watch(stepper *, stepper_limit, const stepper_watcher *, stepper_left *, stepper_stop *why,
                            motus_error *);
-/* How many steps lead to the last time that is not after t; 0 where the stepper is there, or where sizes are not
- * known beforehand. */
+/* Returns how many steps lead to the last time that is not after t; 0 where the stepper is there already, or where step
+ * sizes are not known beforehand. */
 int64_t stepper_steps_before(const stepper *, double t);
 
-/* Everything that the next step of the leg needs, as `stepper_carry` numbers, and the counters. Of an adaptive row the
- * last ones are t, its rounding error, and what error control carries. Loaded into a stepper
- * that was created in the same way, it continues to the same bits. After a shorter last step this is the state before
- * it. */
+/* A saved state is `stepper_carry` numbers and the counters: all that the next step of the leg needs, so a stepper that
+ * was created in the same way goes on from it to the same bits. Where steps adapt, the last STEPPER_CLOCKS numbers are
+ * t, its rounding error, and what error control carries. After a shorter last step, the state before it is saved. */
 enum { STEPPER_CLOCKS = 8 };
 typedef struct stepper_count {
     int64_t steps, evaluations, iterations, refused;
@@ -185,13 +188,13 @@ size_t stepper_carry(const stepper *);
 stepper_count stepper_save(const stepper *, double *carry);
 double stepper_time_saved(const stepper *, stepper_count, const double *carry); /* the time of a saved state */
 motus_status stepper_load(stepper *, stepper_count, const double *carry, motus_error *);
-/* The same, of a leg that began at t0 with step h; and the start of the present leg. */
+/* Loads a saved state of a leg that began at t0 with step h. */
 motus_status stepper_load_leg(stepper *, double t0, double h, stepper_count, const double *carry, motus_error *);
-double stepper_leg(const stepper *);
-/* The state at that start. False: it is not known. */
+double stepper_leg(const stepper *); /* the time at which the present leg began */
+/* Writes the state at which the present leg began. False: it is not known. */
 bool stepper_origin(const stepper *, double *x, double *v);
 
-/* Gives a stepper another body before its first step, for tests that all bodies give the same bits. */
+/* Gives a stepper another body before its first step, for tests that all bodies compute the same bits. */
 void stepper_use_body(stepper *, const stepper_body *);
 
 #endif

@@ -1,7 +1,5 @@
 /* The functions that the texts of step/ need from their includer, for a problem, with real = double; then the texts.
- *
- * Only files that define a stepper_body include it; such a file may define a TRACE of its own first.
- */
+ * Only files that define a stepper_body include it. They may define a TRACE first. */
 static inline int accel(work *w, clock t, real *x, real *v, real *a)
 {
     const problem *p = w->services->problem;

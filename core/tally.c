@@ -33,9 +33,9 @@ double tally_number(const tally *t, int which)
     return numbers[which];
 }
 
-/* The acceleration at the start of a step is the last one of the step before, or belongs to the step, whose refused
- * candidates have it too; the other stages belong to a candidate. Of a Taylor series every order but the last two is an
- * evaluation, once a step; a refused candidate takes the one at its end, and the size of the first step one. */
+/* A step evaluates its first stage once for all its candidates, or not at all where the step before ended with it; a
+ * candidate evaluates the other stages. A Taylor series takes an evaluation for every order but the last two once a
+ * step, one for each refused candidate, and one for the size of the first step. */
 bool tally_evaluations(const work *plan, tally *t)
 {
     if (plan->expands) {

@@ -1,4 +1,4 @@
-/* What a trajectory took: its steps and what they cost. */
+/* The tally of a trajectory: its steps, and what they cost. */
 #ifndef CORE_TALLY_H
 #define CORE_TALLY_H
 
@@ -18,21 +18,21 @@ enum {
 
 typedef struct tally {
     int64_t steps, refused, evaluations;
-    double accuracy;          /* by its companion; NaN: it has none */
-    double tolerance;         /* NaN: steps have one size */
+    double accuracy;          /* from the companion; NaN: there is no companion */
+    double tolerance;         /* NaN: steps are fixed */
     double shortest, longest; /* steps of the leg, without one that was cut short at its end; NaN: there is none */
 } tally;
 
-/* Of the stepper's present leg; `before`: its counters when the leg began. */
+/* Counts the stepper's present leg; `before`: what tally_begin returned when the leg began. */
 tally tally_of(const stepper *, stepper_count before);
-/* The counters so far, for `before`. */
+/* Returns the stepper's counters at the start of a leg, for `before` of tally_of. */
 stepper_count tally_begin(const stepper *);
 double tally_number(const tally *, int which);
-/* Of a method: NaN where steps have one size. */
+/* Returns the tolerance of a method; NaN where steps are fixed. */
 double tally_tolerance(const chosen *);
 
-/* The evaluations of a trajectory that has come to its end by so many taken and refused steps. False: they do not
- * follow from these numbers, since the row iterates, or is not adaptive. */
+/* Computes the evaluations of a trajectory from the steps that it took and refused up to its end. False: they do not
+ * follow from these numbers, because the row iterates or is not adaptive. */
 struct work; /* step/work.h */
 bool tally_evaluations(const struct work *plan, tally *);
 

@@ -1,6 +1,5 @@
-/* The texts of step/ in their order, with every family, for an includer that has defined the macros and functions that
- * work.h lists. Nothing here is an operation on the state, so all includers get the same bits.
- */
+/* The texts of step/ in their order, with every family. The includer first defines the macros and functions that work.h
+ * lists. No operation on the state is written here, so all includers compute the same bits. */
 #include "step/norm.h"
 #include "step/control.h"
 #include "step/density.h"

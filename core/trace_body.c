@@ -22,7 +22,8 @@ static inline void trace_at(work *w, int i)
         family_trace(w, i);
 }
 
-/* The state to which the candidate leads; rows that find their own sizes have none before they accept. */
+/* Reports the candidate with the state to which it leads, which rows that find their own sizes have not before they
+ * accept. */
 static void judged(const work *w)
 {
     const tracer *to = tracer_of(w);

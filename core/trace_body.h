@@ -1,4 +1,4 @@
-/* The stepper's body for traced steps: core/trace_body.c, and the data that it finds through the workspace. */
+/* The stepper's body for traced steps, and the data that it finds through the workspace. */
 #ifndef CORE_TRACE_BODY_H
 #define CORE_TRACE_BODY_H
 
@@ -7,11 +7,11 @@
 
 typedef struct tracing {
     const tracer *to;
-    int64_t iterations; /* before the step */
+    int64_t iterations; /* the counter before the step */
 } tracing;
 
 extern const stepper_body trace_body;
-/* Call it before the step: keeps numbers that the step overwrites and an event needs. */
+/* Keeps, before a step, the numbers that the step overwrites and an event needs. */
 void trace_begin(work *);
 
 #endif
