@@ -5,12 +5,11 @@
 
 #include <math.h>
 
-#define FIRST_LOOK \
-    0.02             /* a run of unknown length considers compiling when it has done this part of a compiler's work, */
-#define LEFT 1.0     /*   and compiles where as much as this is left */
-#define SECONDS 5e-4 /* from one look for the object to the next */
+#define FIRST_LOOK 0.02 /* a run of unknown length considers compiling after this part of a compiler's work */
+#define LEFT 1.0        /* part of a compiler's work that has to be left for compiling to pay */
+#define SECONDS 5e-4    /* between two looks for the object */
 
-/* Steps in all legs. */
+/* Counts steps in all legs. */
 static int64_t steps_of(const motus_run *r) { return r->before + run_steps(r); }
 
 motus_status later_choose(motus_run *r, const char *wanted, double steps, motus_error *err)
@@ -23,8 +22,7 @@ motus_status later_choose(motus_run *r, const char *wanted, double steps, motus_
     motus_status status = choice_machine(wanted, &automatic, &compiled, err);
     if (status != MOTUS_OK || !s->model || !compiled || (automatic && !compiled_anywhere())) return status;
     if (!row_adaptive(&r->chosen)) steps = (double)r->timing.total;
-    /* where it is not known how many steps there are, an object is used if it is there, until the run is known
-     * better */
+    /* A run of unknown length uses an object that is already there. */
     const double worth = steps > 0 ? choice_worth(s, &r->chosen, r->card, steps) : CHOICE_KEPT;
     if (automatic && worth < CHOICE_KEPT) return MOTUS_OK;
     compiled_state state;
@@ -63,7 +61,7 @@ void later_hurry(motus_run *r)
     r->later.look = (r->stepper ? steps_of(r) : 0) + 1;
 }
 
-/* Where the memory for it is missing, the run goes on where it is. */
+/* Moves the run to the machine m. Without memory for that the run goes on where it is. */
 static motus_status go_over(motus_run *r, const machine *m, motus_error *err)
 {
     motus_error why = motus_default_error();
@@ -91,7 +89,7 @@ static motus_status take_object(motus_run *r, compiled_state state, const machin
     return state == COMPILED_READY ? go_over(r, m, err) : MOTUS_OK;
 }
 
-/* Whether the work that is left repays a compiler. */
+/* Returns whether the work that is left repays a compiler. */
 static bool repays(const motus_run *r)
 {
     const double all = r->timing.until - r->timing.t0;
@@ -129,10 +127,10 @@ static motus_status look(motus_run *r, motus_error *err)
     return status == MOTUS_OK && r->company ? r->company->look(r, err) : status;
 }
 
-/* Whether the run or its company waits for an object. */
+/* Returns whether the run or its company waits for an object. */
 static bool waits(const motus_run *r) { return r->later.waits || (r->company && r->company->waits(r)); }
 
-/* The next look follows after steps that take about SECONDS. */
+/* Plans the next look after steps that take about SECONDS. */
 static void look_again(motus_run *r)
 {
     later *l = &r->later;

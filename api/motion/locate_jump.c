@@ -11,7 +11,7 @@
 #define ALIKE 0.05   /* powers of a jump this near to one another are the same */
 #define EDGE 0x1p-20 /* of a step: a touch nearer than this to its end is there */
 
-/* The acceleration on these sides at `from`. False: it cannot be evaluated. */
+/* Computes the acceleration on these sides at `from`. False: it cannot be evaluated. */
 static bool accelerate(const locate *l, const double *sides, double *a)
 {
     const problem *p = &l->problem;
@@ -21,7 +21,7 @@ static bool accelerate(const locate *l, const double *sides, double *a)
     return held_bind(l->held, sides, false) && p->accel(p->ctx, l->from.t, l->beyond.x, l->beyond.v, a) == 0;
 }
 
-/* The largest difference of the accelerations on the old and the new sides; 0 where one is not defined. */
+/* Returns the largest difference of the accelerations on old and new sides; 0 where one of them is not defined. */
 double locate_leap(const locate *l)
 {
     double *a = l->beyond.a, *b = l->to.a, most = 0;
@@ -36,7 +36,7 @@ typedef struct near {
     bool straight; /* the positions move evenly, so that powers of them are powers of the time */
 } near;
 
-/* The acceleration of the model itself, whose switches choose their sides. */
+/* Computes the acceleration of the model itself, whose switches choose their sides. */
 static bool force_near(void *ctx, double way, double *a)
 {
     const near *n = ctx;
@@ -69,9 +69,9 @@ void locate_note(motus_run *r, const place *at, double h)
     l->jump_time = at->t;
 }
 
-/* Touches ---------------------------------------------------------------------------------------------------------- */
+/* ---- touches ---- */
 
-/* The rate of touch k after a part of the step, whose end is `beyond`; NaN: it cannot be computed. */
+/* Returns the rate of touch k after a part of the step, whose end is then `beyond`; NaN: it cannot be computed. */
 static double touch_rate(motus_run *r, size_t k, double h, double part, motus_status *status, motus_error *err)
 {
     locate *l = r->locate;
@@ -81,8 +81,8 @@ static double touch_rate(motus_run *r, size_t k, double h, double part, motus_st
     return h * l->touch_rate[1][k];
 }
 
-/* The part of the step at which the argument of touch k is least, with the state there in `beyond`. Rates: at both
- * ends. */
+/* Finds the part of the step at which the argument of touch k is least, and leaves the state there in `beyond`. rate0,
+ * rate1: at both ends. */
 static motus_status least_of(motus_run *r, size_t k, double h, double rate0, double rate1, double *part,
                              motus_error *err)
 {
@@ -108,8 +108,8 @@ static motus_status least_of(motus_run *r, size_t k, double h, double rate0, dou
     return status;
 }
 
-/* As locate_dip, for the first touch in the step: the force is not smooth there, although no argument changes its
- * side. */
+/* Finds the first touch in the step, as locate_dip finds a dip: the force is not smooth at a touch, although no
+ * argument changes its side. */
 motus_status locate_touch(motus_run *r, double h, double *fraction, motus_error *err)
 {
     locate *l = r->locate;

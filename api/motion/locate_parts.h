@@ -1,7 +1,5 @@
-/* What the files of located steps share: the run's places, its sides, and what each file does with them.
+/* What the files of located steps share: the run's places and sides, and the functions of each file.
  *
- * locate.c: the run and its steps. locate_place.c: states and trial steps. locate_root.c: where an argument leaves its
- * side. locate_side.c: changing sides. locate_piece.c: a step in pieces. locate_jump.c: how the force jumps.
  * Invariant: `from` is a state of the trajectory, and `side` are the sides after it.
  */
 #ifndef API_MOTION_LOCATE_PARTS_H
@@ -11,7 +9,7 @@
 #include "machine/held.h"
 
 enum {
-    LOCATE_STILL_MAX = 64, /* sides changed one after the other while time hardly moves */
+    LOCATE_STILL_MAX = 64, /* sides that may change one after the other while time hardly moves */
     LOCATE_HALVINGS_MAX = 200
 };
 
@@ -25,61 +23,63 @@ struct locate {
     problem problem;
     size_t count;
     double *side, *old_side, *rate[2];
-    double *slack; /* of an argument that was left just before its root: how far it may still be on the other side */
+    double *slack; /* of each argument that was left just before its root: how far it may still be on the other side */
     double *size;
-    place from, to, beyond; /* a piece's start, its end, and a trial between */
+    place from, to, beyond; /* ends of a piece, and a trial state between */
     place start;            /* of the step */
     place twice;            /* the end of two half pieces */
-    place found;            /* where an argument is beyond in the middle of a step */
-    interval *box;          /* nx, then nv, and nv for accelerations */
+    place found;            /* a state within the step at which an argument has left its side */
+    interval *box;          /* nx positions, nv velocities, nv accelerations */
     interval *reach;        /* of the arguments, then of their rates */
     bool resolves;          /* pieces must resolve the force */
-    bool careful;           /* pieces must show that no argument leaves its side and comes back */
+    bool careful;           /* pieces must prove that no argument leaves its side and comes back */
     double next;            /* the size of the next piece to try; INFINITY: all that is left of the step */
-    size_t touches;         /* that pieces must end at; the arguments at both ends of a step, and their rates */
+    size_t touches;         /* how many touches pieces must end at */
+    /* the arguments of touches at both ends of a step, and their rates */
     double *touch[2], *touch_rate[2], *room;
     double *start_side;
     bool known;    /* `from` is the stepper's state */
     bool away;     /* the stepper was used for trials, and is not on the run's leg */
-    int64_t steps; /* of the run's leg, before the stepper's present one */
+    int64_t steps; /* of the leg, before the stepper's own count began */
     int64_t located;
-    double jump; /* the lowest power with which the force departed from a smooth one: jump.h; NaN: none */
+    double jump; /* the lowest power with which the force departed from a smooth one (jump.h); NaN: none */
     double jump_time;
-    double rounding; /* of times at which the force changes fast: what it may have changed a velocity by, added up */
+    /* the sum of what the rounding of times may have changed a velocity by, where the force changes fast */
+    double rounding;
 };
 
-/* locate_place.c */
-size_t locate_numbers(const problem *, size_t count); /* of a place, with so many switches */
+/* locate_place.c: states and trial steps */
+size_t locate_numbers(const problem *, size_t count); /* of a place with so many switches */
 void locate_copy(place *to, const place *from, const problem *, size_t count);
 void locate_swap(place *, place *);
-/* The stepper's state, and the arguments of all switches there. */
+/* Reads the stepper's state and the arguments of all switches there. */
 motus_status locate_observe(motus_run *, place *at, motus_error *);
-/* Computes the acceleration of a place, on the sides bound. False: it cannot be evaluated. */
+/* Computes the acceleration of a place, on the sides that are bound. False: it cannot. */
 bool locate_accelerate(const locate *, place *at);
-/* A step of size h from `from` to `to`. */
+/* Takes a trial step of size h from `from` to `to`. */
 motus_status locate_try(motus_run *, const place *from, double h, place *to, motus_error *);
 double locate_gap(const locate *, size_t k, const place *at);
-/* The least gap of all, each in units of `size`; below 0: an argument has left its side. */
+/* Returns the least gap of all arguments, in units of `size`; below 0: an argument has left its side. */
 double locate_least_gap(const locate *, const place *at, const double *size);
-/* The state at a distance `way` in time from `at`, by Taylor's formula. */
+/* Computes the state at the time `way` from `at`, by Taylor's formula. */
 void locate_follow(const problem *, const place *at, double way, double *x, double *v);
 
-/* locate_root.c: these say there what they do */
+/* locate_root.c: where an argument leaves its side */
 motus_status locate_dip(motus_run *, double h, double *fraction, motus_error *);
 motus_status locate_root(motus_run *, double *h, bool *failed, motus_error *);
 
-/* locate_side.c */
+/* locate_side.c: changing sides */
 motus_status locate_slides(const motus_run *, size_t k, motus_error *);
 size_t locate_change(locate *);
 size_t locate_change_ahead(locate *, double way);
 double locate_lateness(locate *, double h);
 motus_status locate_settle(motus_run *, motus_error *);
 
-/* locate_piece.c */
+/* locate_piece.c: a step in pieces */
 bool locate_sure(const locate *, const place *from, const place *to);
 motus_status locate_pieces(motus_run *, double end, motus_error *);
 
-/* locate_jump.c */
+/* locate_jump.c: how the force jumps */
 double locate_leap(const locate *);
 void locate_note(motus_run *, const place *at, double h);
 motus_status locate_touch(motus_run *, double h, double *fraction, motus_error *);

@@ -12,7 +12,7 @@ enum {
 #define NEAR 0x1p-32 /* of a step: a piece shorter than this hardly moves */
 #define FORCES 8.0   /* how many roundings of a force may differ between one piece and two halves */
 
-/* All times, positions, velocities and accelerations between two states, with a margin for the curve. */
+/* The times, positions, velocities and accelerations between two states, with a margin for the curve. */
 typedef struct way {
     interval t, *x, *v, *a;
 } way;
@@ -36,7 +36,7 @@ static way way_of(const locate *l, const place *from, const place *to)
     return w;
 }
 
-/* Whether the step from `from` to `to` resolves the force. */
+/* Returns whether the step from `from` to `to` resolves the force. */
 static bool fits(const locate *l, const place *from, const place *to)
 {
     if (!l->resolves) return true;
@@ -44,7 +44,7 @@ static bool fits(const locate *l, const place *from, const place *to)
     return held_fits(l->held, w.t, w.x, w.v);
 }
 
-/* Whether every argument either stays on its side all the way, or moves one way, so that the end tells what it did. */
+/* Returns whether the ends tell all: every argument stays on its side, or moves in one direction. */
 bool locate_sure(const locate *l, const place *from, const place *to)
 {
     if (!l->careful) return true;
@@ -68,8 +68,8 @@ static double largest(const double *y, size_t count)
     return most;
 }
 
-/* Takes the piece of size h that led to `to` once more, in two halves, to `twice`. *same: both give the same, to
- * nearly the rounding of numbers of the largest size, and that of the force. */
+/* Repeats the piece of size h that led to `to` in two halves, to `twice`. *same: both ways agree, nearly to the
+ * rounding of the numbers and of the force. */
 static motus_status halve(motus_run *r, double h, bool *same, motus_error *err)
 {
     locate *l = r->locate;
@@ -93,7 +93,7 @@ static motus_status halve(motus_run *r, double h, bool *same, motus_error *err)
     return MOTUS_OK;
 }
 
-/* By how much the acceleration changes over a piece. */
+/* Returns how much the acceleration changes over a piece. */
 static double change(const locate *l)
 {
     double most = 0;
@@ -101,8 +101,8 @@ static double change(const locate *l)
     return most;
 }
 
-/* The piece that begins at `from`, of size *h at most, which becomes shorter where the force is not resolved, or where
- * an argument may leave its side and come back; it leads to `to`. *failed: it cannot be computed. */
+/* Takes the piece from `from` to `to`, of size *h at most; *h becomes shorter where the force is not resolved, or where
+ * an argument may leave its side and come back. *failed: the piece cannot be computed. */
 static motus_status piece(motus_run *r, double *h, bool *failed, motus_error *err)
 {
     locate *l = r->locate;
@@ -135,8 +135,8 @@ static motus_status piece(motus_run *r, double *h, bool *failed, motus_error *er
     }
 }
 
-/* Moves on from `from` to `to` by Taylor's formula, over a time so short that its error is far below rounding. False:
- * the force is not defined there. */
+/* Moves from `from` to `to` by Taylor's formula, over a time so short that its error is far below rounding. False: the
+ * force is not defined there. */
 static bool nudge(locate *l, double way)
 {
     const problem *p = &l->problem;
@@ -150,7 +150,7 @@ static bool nudge(locate *l, double way)
     return true;
 }
 
-/* From `from` to the time `end`, which is ahead; the state there is then `from`. */
+/* Takes pieces from `from` to the time `end`; `from` is then the state there. */
 motus_status locate_pieces(motus_run *r, double end, motus_error *err)
 {
     locate *l = r->locate;

@@ -19,7 +19,6 @@ void locate_swap(place *p, place *q)
     *q = kept;
 }
 
-/* The stepper's state, and the arguments of all switches there. */
 motus_status locate_observe(motus_run *r, place *at, motus_error *err)
 {
     locate *l = r->locate;
@@ -31,7 +30,6 @@ motus_status locate_observe(motus_run *r, place *at, motus_error *err)
     return MOTUS_OK;
 }
 
-/* Computes the acceleration of a place, on the sides bound. False: it cannot be evaluated. */
 bool locate_accelerate(const locate *l, place *at)
 {
     const problem *p = &l->problem;
@@ -39,7 +37,6 @@ bool locate_accelerate(const locate *l, place *at)
     return p->accel(p->ctx, at->t, at->x, at->v, at->a) == 0;
 }
 
-/* A step of size h from `from` to `to`. */
 motus_status locate_try(motus_run *r, const place *from, double h, place *to, motus_error *err)
 {
     r->locate->away = true;
@@ -53,7 +50,6 @@ double locate_gap(const locate *l, size_t k, const place *at)
     return switches_gap(held_operation(l->held, k), l->side[k], at->u[k]) + l->slack[k];
 }
 
-/* The least gap of all, each in units of `size`; below 0: an argument has left its side. */
 double locate_least_gap(const locate *l, const place *at, const double *size)
 {
     double least = INFINITY;
@@ -64,7 +60,6 @@ double locate_least_gap(const locate *l, const place *at, const double *size)
     return least;
 }
 
-/* The state at a distance `way` in time from `at`, by Taylor's formula. */
 void locate_follow(const problem *p, const place *at, double way, double *x, double *v)
 {
     for (size_t k = 0; k < p->nv; k++) {

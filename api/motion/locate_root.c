@@ -4,9 +4,9 @@
 #include <math.h>
 #include <string.h>
 
-/* Fractions of a step at which a gap may be below 0, although it is not at the ends: where the tangents at both ends
- * meet, if they meet near 0 or below it (a convex gap lies above them; |r| - d lies near their meeting point), and
- * where the cubic through both ends is least. Returns how many, 0 to 2. */
+/* Finds fractions of a step at which a gap may be below 0 although it is not at the ends: where the tangents at both
+ * ends meet, if that is near 0 or below (a convex gap lies above its tangents; |r| - d lies near their meeting point),
+ * and where the cubic through both ends is least. Returns how many, 0 to 2. */
 static int dips(double g0, double s0, double g1, double s1, double at[2])
 {
     int count = 0;
@@ -20,8 +20,8 @@ static int dips(double g0, double s0, double g1, double s1, double at[2])
     return count;
 }
 
-/* The end of the first part of the step in which an argument leaves its side and comes back: a fraction of the step at
- * which it is beyond, with `found` there; 1: there is none. */
+/* Finds the first part of the step after which an argument has left its side, to which it comes back; `found` is the
+ * state there. Writes the fraction of the step; 1: no argument does so. */
 motus_status locate_dip(motus_run *r, double h, double *fraction, motus_error *err)
 {
     locate *l = r->locate;
@@ -45,9 +45,9 @@ motus_status locate_dip(motus_run *r, double h, double *fraction, motus_error *e
     return MOTUS_OK;
 }
 
-/* Shortens the step of size *h from `from` until it ends just beyond the first root, at `to`. failed: the step itself
- * failed, and `to` is not known. Illinois' method on the least gap, with a bisection now and then. At the end *failed
- * means that the first steps beyond the root fail; `to` is then the last state before it. */
+/* Shortens the step of size *h from `from` until it ends just beyond the first root, at `to`. failed: the whole step
+ * failed, and `to` is not known. Uses Illinois' method on the least gap, with bisections now and then. *failed
+ * afterwards: steps beyond the root fail; `to` is then the last state before it. */
 motus_status locate_root(motus_run *r, double *h, bool *failed, motus_error *err)
 {
     locate *l = r->locate;

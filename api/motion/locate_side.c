@@ -17,7 +17,7 @@ motus_status locate_slides(const motus_run *r, size_t k, motus_error *err)
     return MOTUS_SOLVE;
 }
 
-/* An argument just before its root is still on the other side: it may be, twice as far as now. */
+/* Gives an argument that stopped just before its root slack: it may be twice as far on the other side as it is now. */
 static void give_slack(locate *l, size_t k, const place *at)
 {
     l->slack[k] = fmax(0, -2 * switches_gap(held_operation(l->held, k), l->side[k], at->u[k]));
@@ -39,9 +39,9 @@ size_t locate_change(locate *l)
     return changed;
 }
 
-/* Where no step leads on from `to`, because the force is not defined beyond a root: changes the sides of the arguments
- * that reach their ends within the time `way`, and moves `to` beyond them by Taylor's formula. Returns one of them, or
- * `count`. */
+/* Changes the sides of the arguments that reach their ends within the time `way`, and moves `to` beyond them by
+ * Taylor's formula: where the force is not defined beyond a root, no step leads on from `to`. Returns one of these
+ * arguments, or `count`. */
 size_t locate_change_ahead(locate *l, double way)
 {
     const problem *p = &l->problem;
@@ -68,8 +68,8 @@ size_t locate_change_ahead(locate *l, double way)
     return changed;
 }
 
-/* How uncertain the time is at which the arguments that have just changed sides, at `from`, were 0: by the rounding of
- * the time, and of the arguments over their rates. */
+/* Returns how uncertain the time is at which the arguments that have just changed sides were 0: by the rounding of the
+ * time, and by that of the arguments over their rates. */
 double locate_lateness(locate *l, double h)
 {
     const place *at = &l->from;
@@ -83,7 +83,7 @@ double locate_lateness(locate *l, double h)
     return late;
 }
 
-/* A switch that has just changed its side may move the arguments of others, which then change theirs at once. */
+/* Changes sides until none is wrong: a switch that has just changed may move the arguments of others. */
 motus_status locate_settle(motus_run *r, motus_error *err)
 {
     locate *l = r->locate;

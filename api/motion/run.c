@@ -1,4 +1,4 @@
-/* Runs: how one is made, goes on, and tells its state at its steps and between them. See run.h. */
+/* Runs: how they are made, go on, and tell their states at and between steps. See run.h. */
 #include "api/request/choice.h"
 #include "api/motion/later.h"
 #include "api/motion/locate.h"
@@ -41,7 +41,7 @@ static motus_status advance_located(motus_run *r, int64_t n, stepper_stop *why, 
     return status;
 }
 
-/* Up to n steps more, without calling the observer; n = 0 finds out whether the run is at its end. */
+/* Takes up to n steps more, and calls no observer. n = 0 finds out whether the run is at its end. */
 static motus_status advance_on(motus_run *r, int64_t n, motus_error *err)
 {
     stepper_stop why = STOP_STEPS;
@@ -60,7 +60,7 @@ static motus_status advance_on(motus_run *r, int64_t n, motus_error *err)
     return fail(err, status, "cancelled at t = %s", run_time_text(r, stepper_time(r->stepper), t));
 }
 
-/* The same, until it halts, and on the way it goes over to the compiled machine. */
+/* Takes up to n steps unless the run halts, and goes over to the compiled machine on the way. */
 static motus_status advance(motus_run *r, int64_t n, motus_error *err)
 {
     motus_status status = MOTUS_OK;
@@ -84,7 +84,7 @@ static motus_status observe(motus_run *r, motus_error *err)
                   : MOTUS_OK;
 }
 
-/* The same, in pieces from one question to its company to the next. */
+/* Takes up to n steps, in pieces from one question to the company to the next. */
 static motus_status advance_beside(motus_run *r, int64_t n, motus_error *err)
 {
     motus_status status = MOTUS_OK;
@@ -105,7 +105,7 @@ motus_status run_step(motus_run *r, int64_t n, motus_error *err)
     motus_status (*const forward)(motus_run *, int64_t, motus_error *) = r->company && n > 0 ? advance_beside : advance;
     if (r->observing) return run_refuse_move(err);
     if (n == 0 || (!r->observer && !isnan(r->first_step))) return forward(r, n, err);
-    /* One step at a time where an observer is called; and the first step by itself, because its size is recorded. */
+    /* An observer is called after every step; the first step is taken by itself, because its size is recorded. */
     motus_status status = MOTUS_OK;
     for (; n > 0 && status == MOTUS_OK && !r->arrived; n--) {
         status = forward(r, 1, err);
@@ -122,7 +122,7 @@ motus_status run_moved(motus_run *r, motus_error *err)
     return run_step(r, 0, err);
 }
 
-/* The initial state, inside order. */
+/* Begins at the initial state. */
 static motus_status begin(motus_run *r, const motus_run_def *def, motus_error *err)
 {
     const motus_system *s = r->system;
@@ -278,7 +278,7 @@ motus_status run_set_state(motus_run *r, double t, const double *x, const double
 
 /* ---- between steps ---- */
 
-/* The step that leads there is marked for dense output. */
+/* Takes steps to the time t, and marks the last one for dense output. */
 static motus_status go_to(motus_run *r, double t, motus_error *err)
 {
     const double way = r->timing.h < 0 ? -1 : 1;
@@ -292,8 +292,8 @@ static motus_status go_to(motus_run *r, double t, motus_error *err)
     return status;
 }
 
-/* Dense output counts from the time at which the step begins, a series alone, others to that at which it ends; of both
- * rounding has left out up to 6e-8 s after 1e9 s, and the state is as much later. */
+/* Moves a state between steps to t itself: dense output counts from the rounded times of the step's ends (a series from
+ * the first alone), of which rounding has left out up to 6e-8 s after 1e9 s. */
 static motus_status bring_to_time(const motus_run *r, double t, double *x, double *v, motus_error *err)
 {
     const problem *p = &r->system->problem;

@@ -6,15 +6,15 @@
 
 static inline size_t columns_parts(int components) { return components ? (size_t)components : 1; }
 
-/* The range that column k is in. */
+/* Finds the range that holds column k. */
 const column_range *columns_range(const motus_system *, size_t k);
-/* The name, cells and components of a range's columns: the state, or the definition written as a state. */
+/* Returns name, cells and components of a range's columns: the state, or the definition written as a state. */
 model_state columns_shape(const motus_system *, const column_range *);
-/* The cell with these indices; false if there is no equation there. */
+/* Finds the cell with these indices. False: no equation is there. */
 bool columns_find_cell(const model_state *, const int64_t *index, size_t *cell);
 /* Enters the names of all ranges into the table by which motus_column_find finds them. False: no memory. */
 bool column_names_enter(motus_system *);
-/* MOTUS_CALLBACK: the callback for `which` returned `answer` at this time. */
+/* Reports that the callback for `which` returned `answer` at time t. Returns MOTUS_CALLBACK. */
 motus_status columns_callback_failed(const char *which, double t, int answer, motus_error *);
 
 #endif

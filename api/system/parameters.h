@@ -5,19 +5,19 @@
 #include "api/system/system.h"
 
 typedef struct parameters_target {
-    const model_definition *definition; /* of a parameter, or */
-    const model_state *state;           /*   the state of an initial value, */
-    bool velocity;                      /*   and whether it is that of its velocity */
-    size_t count;                       /* numbers in the outside order */
-    size_t first, span;                 /* of a model: its places in the pool, boundary cells included */
+    const model_definition *definition; /* of a parameter, else NULL */
+    const model_state *state;           /* of an initial value, else NULL */
+    bool velocity;                      /* it is the initial value of a velocity */
+    size_t count;                       /* how many numbers it has, in the outside order */
+    size_t first, span;                 /* the places in the pool of a model, boundary cells included */
 } parameters_target;
 
-/* MOTUS_NAME, with a hint: there is none of this name. */
+/* Finds the target of a name. MOTUS_NAME, with a hint: nothing has this name. */
 motus_status parameters_find(const motus_system *, const char *name, parameters_target *, motus_error *);
 parameters_target parameters_of(const motus_system *, const model_definition *);
-/* The place in the pool of number k, in the outside order. */
+/* Returns the place in the pool of number k, in the outside order. */
 size_t parameters_place(const parameters_target *, size_t k);
-/* "x'(0)" → "x'" and *start, the number in the bracket; false: the name has no such bracket. */
+/* Splits "x'(0)" into "x'" and *start, the number in the bracket. False: the name has no such bracket. */
 bool parameters_bracket(const char *name, char *bare, size_t size, double *start);
 
 #endif

@@ -17,8 +17,8 @@
 
 typedef struct column_range { /* the columns of one name */
     motus_column_kind kind;
-    bool prime;    /* a velocity, exact or not */
-    uint32_t item; /* number of the state or definition */
+    bool prime;    /* of a velocity */
+    uint32_t item; /* the number of its state or definition */
     size_t first, count;
 } column_range;
 
@@ -30,109 +30,110 @@ struct motus_system {
     motus_text_def text; /* the definition that it was read from, in the arena */
     motus_callback_def callback;
     calling calling;
-    const rules *rules; /* of a callback; NULL: nothing happens on the way */
+    const rules *rules; /* of a callback; NULL: it has no events */
     problem problem;
     machine machine;       /* the interpreter, or the callback */
     compiled *compiled;    /* NULL until a run asks for it */
     struct held *switches; /* NULL until a run asks for it, and where the model has none */
     bool switches_known;
-    struct ruled *ruled;               /* NULL until its rules are asked for, and where the model has none */
-    struct sides *sides;               /* of a located system: its switches as rules; NULL until they are asked for */
-    struct motus_system *located;      /* api/system/located.h; NULL until a run asks for it */
-    bool located_known;                /* or there is none */
-    const char *located_refused;       /* why it has switches and none; NULL */
-    uint64_t changes, located_changes; /* how often its numbers were set, and when `located` was made */
-    resolution *poles; /* NULL until a run is asked for a singularity, and where the force has no poles */
+    struct ruled *ruled;          /* NULL until the rules are asked for, and where the model has none */
+    struct sides *sides;          /* the switches of a located system as rules; NULL until they are asked for */
+    struct motus_system *located; /* see api/system/located.h; NULL until a run asks for it, and where there is none */
+    bool located_known;           /* `located` was asked for */
+    const char *located_refused;  /* why the switches of the model cannot be located; NULL */
+    uint64_t changes, located_changes; /* how often numbers were set: until now, and until `located` was made */
+    resolution *poles;                 /* NULL until a run asks for a singularity, and where the force has no poles */
     bool poles_known;
     struct bends {
-        bool known;               /* since a run had a witness */
-        resolution *all, *smooth; /* what in the force can hide between points, and what can where its switches keep
-                                     their sides; NULL: nothing */
-        bool sums;                /* it has switches within sums, which are not among these */
+        bool known; /* a run had a witness */
+        /* what in the force can hide between points, on all sides and on one side of its switches; NULL: nothing */
+        resolution *all, *smooth;
+        bool sums; /* `all` and `smooth` leave out switches within sums */
     } bends;
-    weight weight; /* of the equations, where `weighed` */
+    weight weight; /* of the equations; valid if `weighed` */
     bool weighed;
-    const char *switches_refused; /* why they cannot be located; NULL */
+    const char *switches_refused; /* why switches cannot be held; NULL */
     double start;
     double *x0, *v0;
     model_state *states;
-    uint32_t state_count; /* of the model, or made by stand_in.c for a callback */
+    uint32_t state_count; /* states of the model, or of a callback by stand_in.c */
     model_definition *definitions;
-    uint32_t definition_count; /* likewise */
+    uint32_t definition_count; /* definitions of the model, or of a callback by stand_in.c */
     size_t positions, velocities;
     column_range *ranges;
     size_t range_count, column_count;
-    uint32_t *range_of, range_slots; /* a hash table by name: 1 + a range, 0 free; slots: a power of two */
-    size_t named[2], named_count[2]; /* the ranges of quantities, and of invariants */
+    uint32_t *range_of, range_slots; /* a hash table by name: 1 + a range, or 0; range_slots is a power of two */
+    size_t named[2], named_count[2]; /* [0]: the ranges of quantities; [1]: of invariants */
     double *observed; /* room for one quantity or invariant; of a callback, for all quantities or all invariants */
     double *exact_x, *exact_v;
-    bool judged_gyroscopic, judged_gradient;   /* the traits are known */
-    bool sampled_gyroscopic, sampled_gradient; /* they hold as far as sampled, and are not proved */
+    bool judged_gyroscopic, judged_gradient;   /* the trait is known */
+    bool sampled_gyroscopic, sampled_gradient; /* the trait holds as far as sampled, and is not proved */
     bool energy;                               /* the potential is proved to have one value everywhere */
-    size_t held;                               /* how many runs, ensembles and references use it: set.c */
+    size_t held;                               /* how many runs, ensembles and references use the system: set.c */
     struct setting *settings;
-    const char *explanation[3][4]; /* for each answer: gyroscopic, gradient */
+    const char *explanation[3][4]; /* for each answer; gyroscopic and gradient apart */
     char *equation;
-    char *events_text; /* what motus_explain_events said last, from the hooks */
+    char *events_text; /* the last text of motus_explain_events, from the hooks */
     struct switches
         *surfaces;      /* found by motus_switch_at; NULL until it is asked, and where a located system has them */
-    char *surface_text; /* what motus_switch_at said last */
+    char *surface_text; /* the last text of motus_switch_at */
     char *mathml;       /* of the statement typeset last, from the hooks */
 };
 
-/* defaults.c. Whether the size in `made` is valid, when the versions had `sizes`, of which the last is the present. */
+/* Judges the size that `made` says (defaults.c). sizes: those of all versions, the present one last. */
 typedef enum defaults_fit { SIZE_FITS, SIZE_MISSING, SIZE_UNKNOWN, SIZE_ASKS_MORE } defaults_fit;
 defaults_fit defaults_judge(const uint32_t *sizes, size_t count, const void *made);
-/* As motus_system_from_text; how: lang/read/read.h. */
+/* Reads a system, as motus_system_from_text does; how: lang/read/read.h. */
 motus_status system_read(const motus_text_def *, const read_how *, motus_system **, motus_error *);
-/* Reads the text of a system again, with the same modes; nudged, varied: as in lang/text/source.h. */
+/* Reads the text of a system again, with its modes. nudged, varied: lang/text/source.h. */
 motus_status system_again(const motus_system *, bool nudged, const uint8_t *varied, motus_system **, motus_error *);
-/* Whether a name stands for no method, but for its choice; in any letter case. */
+/* Returns whether a name, in any letter case, asks the library to choose the method. */
 #define SYSTEM_AUTO "auto"
 bool system_auto(const char *method);
-/* Copy between the two orders. */
+/* Copy a state from the inside order to the outside one, and back. */
 void system_outside(const motus_system *, const double *x, const double *v, double *out_x, double *out_v);
 void system_inside(const motus_system *, const double *in_x, const double *in_v, double *x, double *v);
-/* Values of columns at a state in the inside order, whose driven boundary cells are refreshed. */
+/* Computes columns at a state in the inside order, and refreshes its boundary cells. */
 motus_status system_values(motus_system *, double t, double *x, double *v, const size_t *columns, size_t count,
                            double *out, motus_error *);
-/* Bounds on how far rounding carries the numbers of columns off that are computed at a state: of quantities and
- * invariants of a text, else 0. */
+/* Bounds the rounding of columns that are computed at a state: of quantities and invariants of a text, else 0. */
 motus_status system_rounding(motus_system *, double t, double *x, double *v, const size_t *columns, size_t count,
                              double *bounds, motus_error *);
-/* Quantities and invariants of a text that jump: where the bars of the state leave open on which side of a jump one is,
- * its error is the spread of what it may be; INFINITY, where a jump makes that as large as itself. One that does
- * nothing but jump, and is decided, is as exact as its formula. sharp: those, too, whose value or slope is infinite
- * somewhere: near there the error is the spread of what they may be; INFINITY, where they may have a pole. */
+/* The bar of a column's error. */
 typedef double (*system_bar)(void *ctx, size_t column);
-/* The state x and v, each number anywhere within its bar. False: of one there is none. */
+/* Makes the box of all states that lie within the bars of (x, v). False: a number has no finite bar. */
 bool system_box(const motus_system *, const double *x, const double *v, system_bar, void *ctx, interval *in_x,
                 interval *in_v);
-bool system_jumps(motus_system *, size_t column); /* whether its column is one of those */
+/* Returns whether a column is a quantity or invariant of a text whose formula jumps. */
+bool system_jumps(motus_system *, size_t column);
+/* Raises the errors of columns that jump where the bars of the state leave open on which side of a jump they are: to
+ * the spread of their values within the bars, or INFINITY where that is as large as the value. A column that does
+ * nothing but jump, and whose side is known, is as exact as its formula. sharp: also columns whose value or slope is
+ * infinite somewhere; INFINITY where they may have a pole. */
 motus_status system_leaps(motus_system *, double t, double *x, double *v, system_bar, void *ctx, bool sharp,
                           const size_t *columns, size_t count, double *errors, motus_error *);
-/* The same at a state that stays as it is; `room`, nx + nv numbers, takes a copy of it. */
+/* Computes columns as system_values does, and leaves the state as it is; `room`: nx + nv numbers. */
 motus_status system_values_of(motus_system *, double t, const double *x, const double *v, double *room,
                               const size_t *columns, size_t count, double *out, motus_error *);
-/* Moves a state at t to one that is later by little, to first order; a: room for its acceleration. Other than 0: the
- * answer of the acceleration, without which velocities stay as they are. */
+/* Moves a state from t to t + late, a little later, to first order. a: room for its acceleration. Returns the answer of
+ * the acceleration; where that is not 0, velocities stay as they are. */
 int system_later(const motus_system *, double t, double late, double *x, double *v, double *a);
-/* Finds the switches of the model, once: `switches`, or why they cannot be held. */
+/* Finds the switches of the model, once: `switches`, or in `switches_refused` why they cannot be held. */
 motus_status system_switches(motus_system *, motus_error *);
-/* Whether runs of it end their steps where a switch changes its side. See located.h. */
+/* Returns whether the system is a located one. */
 bool system_located(const motus_system *);
-/* The rules of the model, made once; *out is NULL where it has none. */
+/* Makes the rules of the model, once; *out is NULL where it has none. */
 motus_status system_rules(motus_system *, const rules **out, motus_error *);
-/* To be called after the model's numbers have changed: its machines compute with the new ones. False: no memory, which
- * the first call alone may need. */
+/* Lets the machines compute with the model's present numbers; call it after a change. False: no memory, which only the
+ * first call may need. */
 bool system_rebind(motus_system *);
-/* set.c. A copy of all numbers of a model, by the hooks (NULL: no memory); and they are the system's numbers again. */
+/* Copies all numbers of a model, by the hooks (set.c). NULL: no memory. */
 double *set_aside(const motus_system *);
 void set_back(motus_system *, const double *numbers);
 bool system_number_columns(motus_system *);
-/* The place in x, or in v, of column 1 + outer. */
+/* Returns the place in x, or in v, of column 1 + outer. */
 size_t system_number(const motus_system *, size_t outer, bool of_v);
-/* The quantity or invariant of a column, and the column's number in it, in the inside order. */
+/* Returns the quantity or invariant of a column; number: that of the column in it, in the inside order. */
 const model_definition *system_definition(const motus_system *, size_t column, size_t *number);
 size_t system_place(const model_state *, size_t cell, int component);
 

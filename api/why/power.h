@@ -5,13 +5,13 @@
 #include <stdbool.h>
 #include <stddef.h>
 
-/* y goes as (at - t)^-exponent. */
+/* A number that goes as (at - t)^-exponent. */
 typedef struct power {
     double at, at_error, exponent, exponent_error;
 } power;
 
-/* From samples at increasing times t, whose rounding is `rounding`; y > 0. False: they do not follow one power over two
- * decades of the distance. */
+/* Fits a power to samples y > 0 at increasing times t, which are rounded by `rounding`. False: the samples do not
+ * follow one power over two decades of the distance. */
 bool power_fit(const double *t, const double *y, size_t count, double rounding, power *out);
 
 #endif

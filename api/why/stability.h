@@ -2,8 +2,9 @@
 #ifndef API_WHY_STABILITY_H
 #define API_WHY_STABILITY_H
 
-/* The largest step times |rate| along the direction of a rate re + i im, up to which steps of the method do not grow;
- * 0: none. NaN: the shortest of them have no result, as where an iteration does not converge. */
+/* Returns the largest product of step and |rate| for which steps of the method do not grow, along the direction of a
+ * rate re + i im. 0: they always grow. NaN: even the shortest steps have no result, as where an iteration fails to
+ * converge. */
 double stability_bound(const char *method, double re, double im);
 
 #endif

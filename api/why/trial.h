@@ -10,26 +10,27 @@
 
 typedef struct trial {
     const problem *own;
-    problem problem; /* the same, its time counted from 0 */
-    double from;     /* the run's time at 0 */
+    problem problem; /* the equations of `own`, with time counted from 0 */
+    double from;     /* the run's time at the trial's 0 */
     stepper *stepper;
-    int64_t steps; /* that it may take */
+    int64_t steps; /* the most steps it may take */
 } trial;
 
-/* At the state (x, v) of time t; h: of steps of one size, else its sign alone counts. False: it cannot be. */
+/* Begins at time t and state (x, v). h: the size of fixed steps; for adaptive ones only its sign counts. False: a trial
+ * cannot begin there. */
 bool trial_begin(trial *, const problem *, const motus_allocator *, const chosen *, double t, double h, const double *x,
                  const double *v, int64_t steps);
 void trial_end(trial *);
-/* One step towards the time `until` of its own. OK: made; `arrived` where it has ended there. */
+/* Takes one step towards `until`, in the trial's time. `arrived`: the step ended there. */
 motus_status trial_step(trial *, double until, bool *arrived);
 
-/* Where up to so many steps lead: the time that was covered, and the largest number of x and of v on the way.
- * end: NULL, or room for the state there, x and then v. */
+/* Where at most so many steps lead. */
 typedef struct trial_course {
-    motus_status status; /* STEPS: they were too few */
+    motus_status status; /* MOTUS_STEPS: the steps were too few */
     int64_t steps;
-    double gone, largest;
+    double gone, largest; /* the time that was covered, and the largest number of x and v on the way */
 } trial_course;
+/* Runs a trial. end: NULL, or room for its last state, x and then v. */
 trial_course trial_run(const problem *, const motus_allocator *, const chosen *, double t, double h, const double *x,
                        const double *v, int64_t steps, double until, double *end);
 
