@@ -1,4 +1,4 @@
-/* See bars.h. When the companions start, and where they land. */
+/* When companions start, and where they land. See bars.h. */
 #include "api/error/bars.h"
 
 #include "api/request/choice.h"
@@ -21,7 +21,7 @@ static int tell(void *ctx, double now)
     return r->pace.tell(r, now);
 }
 
-/* A companion that cannot be compiled, or moved, goes on in the interpreter. */
+/* Moves a companion to its compiled machine; if that cannot be, it goes on in the interpreter. */
 static motus_status take_machine(companion *c, compiled_state state, const machine *m)
 {
     c->waits = state == COMPILED_WAIT;
@@ -32,14 +32,14 @@ static motus_status take_machine(companion *c, compiled_state state, const machi
     return status == MOTUS_MEMORY ? MOTUS_OK : status;
 }
 
-/* The companion's system is another than the run's; its text is usually the same, and compiled already. */
+/* Compiles the companion's system. It is not the run's, but has usually the same text, which is compiled already. */
 static motus_status compile_half(motus_run *r, motus_error *err)
 {
     companion *c = &r->bars->half;
     const char *why = NULL;
     compiled_state state;
     machine m;
-    if (!c->system) return MOTUS_OK; /* it is made later, for the run's machine */
+    if (!c->system) return MOTUS_OK; /* the system is made later, for the run's machine */
     const chosen method = companion_method(&r->chosen, r->system);
     motus_status status = choice_begin(c->system, &method, &state, &m, &why, err);
     if (status == MOTUS_OK) status = take_machine(c, state, &m);
@@ -94,13 +94,13 @@ void bars_move(motus_run *r)
 
 /* ---- the start ---- */
 
-/* Whether a callback gives the same acceleration twice; else no other run of it is the same motion. */
+/* Returns whether a callback gives the same acceleration twice; else two runs of it are two motions. */
 static bool repeats(motus_run *r, const double *x, const double *v)
 {
     const problem *p = &r->system->problem;
     if (r->system->model) return true;
     double *room = take(&r->allocator, 2 * p->nv + p->nx + p->nv, sizeof *room);
-    if (!room) return true; /* nothing is told by it */
+    if (!room) return true; /* bars_ready will report it */
     double *a = room, *again = a + p->nv, *at_x = again + p->nv, *at_v = at_x + p->nx;
     bool same = true;
     for (int i = 0; i < 2 && same; i++) {
@@ -113,7 +113,6 @@ static bool repeats(motus_run *r, const double *x, const double *v)
     return same;
 }
 
-/* Its system, with decimals rounded to their other side, and the machine of the run. */
 motus_status bars_ready(motus_run *r, const uint8_t *affected, motus_error *err)
 {
     companion *c = &r->bars->half;
@@ -131,8 +130,8 @@ motus_status bars_ready(motus_run *r, const uint8_t *affected, motus_error *err)
     return choice_compile(c->system, &method, false, r->bars->kept, &c->machine, &why, err);
 }
 
-/* The companion begins where the model says, with its own decimals, or where the run was told to. The start is rounded
- * as well: it begins as much later or earlier as was written. */
+/* Begins the half where the model says, with the model's decimals on their other side, or where the caller put the run.
+ * A start that was written is rounded as well, so the half begins as much earlier or later. */
 static motus_status begin_half(motus_run *r, double *x, double *v, motus_error *err)
 {
     bars *b = r->bars;
@@ -150,8 +149,8 @@ static motus_status begin_half(motus_run *r, double *x, double *v, motus_error *
     return status == MOTUS_OK ? companion_begin(&b->half, r, t, to_x, to_v, err) : status;
 }
 
-/* Writes how far the rounding of the places moves each acceleration; room: accelerations, places. Returns the largest
- * of these roundings; 0: it is not known. */
+/* Finds how far the rounding of places moves each acceleration; room: accelerations, then places. Returns the largest
+ * of these roundings; 0: not known. */
 static double take_steep(const problem *p, double t, double *x, double *v, double *steep, double *room)
 {
     double unit = 0, *const there = room, *const moved = there + p->nv;
@@ -214,7 +213,7 @@ static motus_status begin_at(motus_run *r, bool observed, motus_error *err)
     return status == MOTUS_OK && b->whole ? event_counts_touched(r, b->landed, r->x, r->v, err) : status;
 }
 
-/* What a companion met is no failure of the run, but for what stops both. */
+/* Turns an error of a companion into a reason for no bars. Only lack of memory and cancellation also end the run. */
 static motus_status judge(motus_run *r, motus_status status, const motus_error *theirs, motus_error *err)
 {
     if (status == MOTUS_OK) return MOTUS_OK;
@@ -252,26 +251,26 @@ static void begin_leg(motus_run *r) { bars_again(r, true); }
 
 /* ---- landings ---- */
 
-/* Whether landing makes sense: there are bars to tell. */
+/* Returns whether landing makes sense, since there are bars to tell. */
 static bool alive(const bars *b) { return !b->why[0] && isnan(b->differences.until); }
 
-/* The step at which the next landing is due. */
+/* Returns the step at which the next landing is due. */
 static int64_t due(const motus_run *r)
 {
     const int64_t before = r->bars->steps;
     return row_adaptive(&r->chosen) ? before + 1 : differences_due(r->timing.total, before);
 }
 
-/* Units in the last place of the time. Events that are not farther apart, as those that accumulate, need not come in
- * the same order in two computations of one motion. */
+/* Units in the last place of the time: closer events, as those that accumulate, need not have the same order in two
+ * computations of one motion. */
 #define CLOSE 1024
-/* Of what a steep force makes of rounding. With 0.3 1.1 % of 22 500 numbers of balls on stiff floors were beyond their
- * bars, 0.2 per mille of them far, and 81 % of the bars were tight; with 0, 1.8 %, 0.9 per mille and 84 %. */
+/* Part of what a steep force makes of rounding. With 0.3, 1.1 % of 22 500 numbers of balls on stiff floors were beyond
+ * their bars, 0.2 per mille far beyond, and 81 % of the bars were tight; with 0: 1.8 %, 0.9 per mille, 84 %. */
 #define STEEP 0.3
-/* Times as far as a companion is from the run it need not be moved. */
+/* A companion need not be moved by less than this multiple of its distance from the run. */
 #define SHOWN 2.0
 
-/* Whether a companion has had the same events as the run at t, the time of its state or one within its last step. */
+/* Returns whether a companion has had the run's events up to t: the time of its state, or one within its last step. */
 static bool along(const motus_run *r, const companion *c, double t, bool between)
 {
     if (!r->events || !c->events) return true;
@@ -309,8 +308,8 @@ static motus_status reach(motus_run *r, double t, motus_error *err)
     return status == MOTUS_OK ? reach_both(b, &to, span, err) : status;
 }
 
-/* Where run and companion remain apart for as long as half the time between events, their motions are not the same. Of
- * events that are to accumulate they may have had different numbers until then. */
+/* Notes a gap. Where run and companion differ in events for half the time between events, they are different motions;
+ * but before events accumulate they may have had different numbers of them. */
 static void notice_gap(motus_run *r, double t, bool between)
 {
     bars *b = r->bars;
@@ -322,7 +321,7 @@ static void notice_gap(motus_run *r, double t, bool between)
     if (gap && (lasts || (run_events_ended(r) && !between))) b->differences.until = b->gap_since;
 }
 
-/* Whether a companion that has come to t shows by itself how far it is to be moved from the run's state. */
+/* Returns whether the distance of a companion at t already covers how far it is to be moved. */
 static bool shows(const companion *c, const problem *p, const double *x, const double *v, const witness_move *to)
 {
     double apart[2] = {0, 0};
@@ -331,9 +330,9 @@ static bool shows(const companion *c, const problem *p, const double *x, const d
     return SHOWN * apart[0] >= vector_largest(to->x, p->nx) && SHOWN * apart[1] >= vector_largest(to->v, p->nv);
 }
 
-/* A steep force makes of the rounding of places, δ, a part of the velocity: that of a contact of rate ω about ω δ. The
- * roundings of one contact are so few that run and companion make the same of them as often as not, to a tenth or less.
- * So the companion is moved away from the run, and their distance grows as a random walk of such parts does. */
+/* Moves the companion away from the run where a force is steep. Such a force makes of the rounding δ of places a part
+ * of the velocity, about ω δ for a contact of rate ω. One contact has so few roundings that run and companion often
+ * make the same of them, to a tenth or less; moved, they part as a random walk of such parts does. */
 static motus_status spread(motus_run *r, double t, double *x, double *v, motus_error *err)
 {
     bars *b = r->bars;
@@ -347,7 +346,7 @@ static motus_status spread(motus_run *r, double t, double *x, double *v, motus_e
     for (size_t k = 0; k < p->nx - p->modes; k++) {
         const double most = fmax(before[k], now[k]), size = STEEP * fmin(h * most, sqrt(unit * most));
         const double apart = c->v[k] - v[k];
-        if (!(size > events_ulp(v[k]))) continue; /* which a companion shows */
+        if (!(size > events_ulp(v[k]))) continue; /* a companion shows it */
         dv[k] = copysign(hypot(apart, size), apart) - apart;
         moves = true;
     }
@@ -390,7 +389,7 @@ static motus_status land(motus_run *r, double t, double *x, double *v, bool betw
     return status;
 }
 
-/* A motion that the typed force does not make is no answer. */
+/* Refuses a motion that the typed force does not make. */
 static motus_status refute(const motus_run *r, motus_error *err)
 {
     size_t k;
@@ -462,7 +461,7 @@ static motus_status begin(motus_run *r, motus_error *err)
 
 static void run_failed(motus_run *r) { bars_give_up(r, "the run failed"); }
 
-/* Where companions land is due, `before` lands: not earlier, because times within the last step may be asked for. */
+/* `before` lands where that is due, and not earlier, because times within the last step may be asked for. */
 static const run_company company = {.begin = begin,
                                     .leg = begin_leg,
                                     .before = ask_room,

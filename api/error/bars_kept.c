@@ -1,8 +1,7 @@
-/* What a restart state has of a run's bars of error: where the companions stand, and what they were lately. See bars.h.
+/* What a restart state has of bars of error: where the companions stand, and how they differed lately. See bars.h.
  *
- * So the bars of a run that was restored cover its errors from the very start. The companion goes on from its state, to
- * the rounding of its numbers; a twin goes on likewise, but not after a shorter last step that a restored run does
- * not take.
+ * So the bars of a restored run cover its errors from the very start. The companion goes on from its state, to the
+ * rounding of its numbers; so does a twin, but not after a shorter last step that a restored run does not take.
  */
 #include "api/error/bars.h"
 
@@ -11,9 +10,9 @@
 #include <math.h>
 #include <string.h>
 
-enum { LANDED, TWIN, HEAD }; /* the time of the last landing; 1: there is a twin; then the companions */
-/* What is behind the differences where there are events: 1: there is a gap; and since when. The same of every rule: it
- * is open how often it has happened. */
+enum { LANDED, TWIN, HEAD }; /* the time of the last landing; 1 if there is a twin; then the companions */
+/* Behind the differences, where there are events: whether there is a gap, and since when; then, of each rule, whether
+ * the number of its events is open, and since when. */
 enum { GAP, SINCE, TAIL };
 static size_t tail_of(const motus_run *r) { return r->events ? TAIL * (1 + r->rules->count) : 0; }
 
@@ -24,14 +23,14 @@ static size_t kept_of_differences(const motus_run *r, bool twin)
     return differences_kept(&shape);
 }
 
-/* The numbers without those of events, which differ in number. */
+/* Counts the numbers but those of events. */
 static size_t count_of(const motus_run *r, bool twin)
 {
     const problem *p = &r->system->problem;
     return HEAD + (p->nx + p->nv) * (1 + (size_t)twin) + kept_of_differences(r, twin);
 }
 
-/* Those of events: with each companion its time, which may be another than that of the landing, and its events. */
+/* Counts the numbers of events: with each companion its time, which may differ from the landing's, and its events. */
 static size_t count_of_events(const motus_run *r, bool twin)
 {
     const bars *b = r->bars;
@@ -39,7 +38,7 @@ static size_t count_of_events(const motus_run *r, bool twin)
     return tail_of(r) + 1 + companion_keep(&b->half, NULL) + (twin ? 1 + companion_keep(&b->twin, NULL) : 0);
 }
 
-/* A companion that has left the finite numbers serves no more. */
+/* Writes a state. A companion that has left the finite numbers is of no more use: 0. */
 static double *put_state(double *at, const motus_run *r, const companion *c)
 {
     const problem *p = &r->system->problem;
@@ -118,7 +117,7 @@ static motus_status damaged(motus_error *err)
     return fail(err, MOTUS_STATE, "what the restart state has of the errors is damaged");
 }
 
-/* At *at, of numbers up to `end`. */
+/* Begins a companion from the numbers at *at, which end at `end`. */
 static motus_status begin(motus_run *r, companion *c, const double **at, const double *end, motus_error *err)
 {
     const problem *p = &r->system->problem;
@@ -133,7 +132,7 @@ static motus_status begin(motus_run *r, companion *c, const double **at, const d
     return status;
 }
 
-/* What follows from the companions. */
+/* Reads what stands behind the companions. */
 static motus_status resume(motus_run *r, bool was_twin, const double *at, motus_error *err)
 {
     bars *b = r->bars;
@@ -166,7 +165,7 @@ motus_status bars_kept_begin(motus_run *r, const double *x, const double *v, mot
     motus_status status = begin(r, &b->half, &at, end, err);
     if (status == MOTUS_OK && twin) status = begin(r, &b->twin, &at, end, err);
     if (status == MOTUS_OK && was_twin && !twin && !skip(r, &at, end)) status = damaged(err);
-    if (!twin) { /* the state has none: the bars are those of one companion */
+    if (!twin) { /* the state has no twin: the bars are those of one companion */
         b->kind = MOTUS_BARS_CHEAP;
         b->differences.twin = NULL;
     }

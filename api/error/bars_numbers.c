@@ -1,5 +1,4 @@
-/* The numbers of a run and of its companions at one instant, which are compared, and what both share of them: roundings
- * of times. See bars.h. */
+/* The numbers of a run and of its companions at one instant, and the roundings of times that both share. See bars.h. */
 #include "api/error/bars.h"
 
 #include "api/system/columns.h"
@@ -60,10 +59,9 @@ motus_status bars_later(motus_run *r, motus_system *s, double t, double late, co
     return move_later(s, t, late, x, v, r->bars->room, to_x, to_v, err);
 }
 
-/* How much later a time is that was written than the double which was read. What the model has computed by differences
- * of decimals the companion's system reads as it is written. A decimal of at most 13 digits is exact, also where it was
- * computed, as 1e9 + 0.3 was. Any other double that a caller gives is the time itself, and what the model has computed
- * (pi/2) lies within a unit in the last place. */
+/* Reads how a time was written. What the model computes by differences of decimals the companion's system has as it is
+ * written. A decimal of at most 13 digits is exact, also where it was computed, as 1e9 + 0.3. Any other double of a
+ * caller is the time itself; what the model computes, pi/2, lies within a unit in the last place. */
 double bars_time_rounding(double t, double of_model, double of_half)
 {
     enum { CLEARLY = 4 };
@@ -78,8 +76,8 @@ double bars_time_rounding(double t, double of_model, double of_half)
     return t == of_model ? unit : 0;
 }
 
-/* Where the force depends on the time, run and companion begin their steps at times with the same roundings, which may
- * move a number as far as it goes in so much of a unit in the last place. */
+/* Part of a unit in the last place of the time: where the force depends on the time, run and companion begin their
+ * steps at times with equal roundings. */
 #define SHARED 0.5
 
 static double shared_rounding(double t, const motus_system *s)
@@ -110,8 +108,8 @@ motus_status bars_see(motus_run *r, motus_system *s, double t, double *x, double
     return system_values(s, t, x, v, b->columns, b->count, b->differences.values[seen], err);
 }
 
-/* The state where events accumulate follows from those before, which run and companion may have in common: the numbers
- * of a state that is as far from it as it may be off. */
+/* Widens the bars where events accumulate: the limit follows from the states before, which run and companion may have
+ * in common, so the state is moved by as far as it may be off. */
 static motus_status take_limit(motus_run *r, double t, const double *x, const double *v, motus_error *err)
 {
     const problem *p = &r->system->problem;
@@ -126,8 +124,8 @@ static motus_status take_limit(motus_run *r, double t, const double *x, const do
     return status;
 }
 
-/* The numbers of a companion at t, at the instant of the run's: at the end of a step that is later by what the rounding
- * of its time has left out, up to 6e-8 s after 1e9 s, and between steps t itself. */
+/* Computes the numbers of a companion at the instant of the run's. At the end of a step that is t plus what the
+ * rounding of the run's time has left out, up to 6e-8 s after 1e9 s; between steps t itself. */
 static motus_status see_companion(motus_run *r, companion *c, double t, int seen, motus_error *err)
 {
     motus_system *const s = c->system ? c->system : r->system;
@@ -141,7 +139,7 @@ static motus_status see_companion(motus_run *r, companion *c, double t, int seen
     return status == MOTUS_OK ? bars_see(r, s, theirs, x, v, seen, err) : status;
 }
 
-/* At a time within a step by whose end the companion is to be moved: the run may have gone astray by then, or not. */
+/* Widens the bars at a time within a step by whose end the companion is to be moved: the run may be astray there. */
 static motus_status take_astray(motus_run *r, double t, motus_error *err)
 {
     companion *c = &r->bars->half;
@@ -173,7 +171,8 @@ motus_status bars_moved(motus_system *s, double t, double late, const double *x,
     return status;
 }
 
-/* What roundings of times leave unknown of each number, at the end of the run, and after a late start anywhere. */
+/* Finds what roundings of times leave unknown of each number: at the end of the run, and anywhere after a late start.
+ */
 static motus_status take_times(motus_run *r, double t, const double *x, const double *v, motus_error *err)
 {
     bars *b = r->bars;
@@ -204,7 +203,7 @@ motus_status bars_take(motus_run *r, double t, double *x, double *v, bool observ
 }
 
 #define OWN 2.5
-#define OWN_SLOW 3.75 /* of a method of order 1 */
+#define OWN_SLOW 3.75 /* for a method of order 1 */
 double bars_part(const motus_run *r) { return r->bars->differences.shape.slow ? OWN_SLOW : OWN; }
 
 double bars_of(const bars *b, double t, size_t number)

@@ -1,32 +1,31 @@
 /* See companion.h.
  *
- * Between two landings where the run takes n steps, the companion takes 2 n + 1. Its error is then about 2^-p of the
- * run's, p the order, so that their distance is nearly the run's error. With 2 n steps every second time of the
- * companion would be one of the run's, and both could fail in the same way: steps that pass a close encounter at the
- * same time before and after lead to the same wrong orbit, at every power of 2. With 2 n + 1 the two grids share the
- * landings alone.
+ * For n steps of the run between two landings the companion takes 2 n + 1. Its error is then about 2^-p of the run's, p
+ * the order, so their distance is nearly the run's error. With 2 n steps every second time would be one of the run's,
+ * and both could fail alike: steps that pass a close encounter at the same times before and after lead to the same
+ * wrong orbit, at every power of 2. With 2 n + 1 the grids share the landings alone.
  *
- * Where steps adapt it takes each accepted step of the run in two halves, with a tolerance by which no error is too
- * large, and of the same order where a step chooses that.
+ * Adaptive steps: the companion takes each accepted step of the run in two halves, by a tolerance that accepts every
+ * error, and with the order that the run's step chose.
  *
- * Where the force has kinks or jumps as well, it controls its error, with a tolerance of its own. By halves of the
- * run's steps both would pass a jump in the same step from the same state as often as not, with the same error: of
- * 6000 numbers of three such motions by Taylor series 2331 were then beyond their bars, with a tolerance of its own
- * 13. The tolerance is that of steps half as long, 2^-(p + 1) of the run's, but at least 2^-10, since an error at a
- * jump does not go with the order. Where a step does not evaluate the force at its end, no error estimate knows of a
- * jump behind the last abscissa, a fortieth of the step by Gauss-Radau; so the companion takes the last part of each
- * step apart. Where a force holds the motion at a jump (Coulomb friction) steps as short as a smaller tolerance
- * wants them may be thousands for one of the run's; the companion then gives up.
+ * Forces with kinks or jumps: the companion controls its error by a tolerance of its own. By halves of the run's steps
+ * both would often pass a jump in one step from the same state, with the same error: of 6000 numbers of three such
+ * motions by Taylor series 2331 were beyond their bars; with a tolerance of its own, 13. The tolerance, 2^-(p + 1) of
+ * the run's, makes steps half as long; it is at least 2^-10, since an error at a jump does not go with the order. Where
+ * a step does not evaluate the force at its end, no estimate sees a jump behind the last abscissa, a fortieth of the
+ * step by Gauss-Radau; the companion takes the last part of each step apart. Where a force holds the motion at a jump
+ * (Coulomb friction), a smaller tolerance may want thousands of steps for one of the run's; the companion then gives
+ * up.
  *
- * A Taylor series is refused by its companion as by the run: half a step from a state that is off by rounding is beyond
- * the circle of convergence where the run passes a singularity by steps that are as short as its distance, as at the
- * infinite slope of cbrt(x); elsewhere half a step is allowed.
+ * Taylor series: the companion's steps may be refused as the run's may. Half a step from a state that is off by
+ * rounding leaves the circle of convergence where the run's steps are as short as its distance from a singularity, as
+ * at the infinite slope of cbrt(x).
  *
- * Beeman's companion is velocity Verlet's method, which has the same positions: Beeman's velocities are not those by
- * which its positions go on, so that beginning anew at every landing would be an error of its own.
+ * Beeman's method: the companion is velocity Verlet, which has the same positions. Beeman's positions do not follow
+ * from its velocities, so beginning anew at every landing would be an error of its own.
  *
- * Why it lands, and does not interpolate: an interpolant has an error of its own, which for a method of high order is
- * larger than what is measured. A landing costs one more step, and the additions that are compensated stay so.
+ * The companion lands and does not interpolate, since the error of an interpolant of a method of high order is larger
+ * than what is measured. A landing costs one more step, and compensated additions stay compensated.
  */
 #include "api/error/companion.h"
 
@@ -39,20 +38,20 @@
 
 #define USUAL 0x1p-55
 
-enum { STRICTER_MOST = 10, STEPS_FIRST = 4096, STEPS_EACH = 8 }; /* steps: in all, and for each landing more */
+enum { STRICTER_MOST = 10, STEPS_FIRST = 4096, STEPS_EACH = 8 }; /* steps in all, and more for each step of the run */
 #define LAST_PART 0x1p-5
 
-/* Whether the companion of half the step controls its error. Steps that follow a time scale do not. */
+/* Returns whether the half controls its error. Steps that follow a time scale do not. */
 static bool controls(const chosen *c, const motus_system *s)
 {
     const bool kinks = s->model && (!s->problem.traits.smooth || system_located(s));
     return row_adaptive(c) && !row_reversible_steps(c) && kinks;
 }
 
-/* Whether every candidate is compared with the force at its end. */
+/* Returns whether every candidate for a step is compared with the force at its end. */
 static bool sees_end(const row *r) { return r->expands || r->tableau.ending || r->tableau.closing; }
 
-/* A method by which no error is too large. */
+/* Returns the method with a tolerance that accepts every error. */
 static chosen without_control(const chosen *c)
 {
     chosen method = *c;
@@ -93,9 +92,9 @@ static uint32_t hash(uint32_t z) /* Murmur3's finaliser */
     return z ^ z >> 16;
 }
 
-/* Rounding of an action moves every number by up to a unit in the last place: with fewer moves a chaotic motion of few
- * numbers, whose first errors grow most, would have no errors until the first of them. A switch computes no number, and
- * lets the motion go on by other steps: a third of a unit, in the mean square. */
+/* Moves numbers by what the rounding of an action may be. An action moves each by up to a unit in the last place: with
+ * fewer moves a chaotic motion of few numbers, whose first errors grow most, would have no error until the first of
+ * them. A switch computes no number, and the motion goes on by other steps: a third of a unit, in the mean square. */
 static void jog(double *y, size_t count, uint32_t salt, bool switched)
 {
     for (size_t k = 0; k < count; k++)
@@ -136,7 +135,7 @@ static motus_status see(companion *c, motus_error *err)
     return status;
 }
 
-/* To t, with all that happens on the way, from where a leg begins. */
+/* Goes to t with all events on the way, from where a leg begins. */
 static motus_status follow(companion *c, double t, motus_error *err)
 {
     stepper_stop why = STOP_STEPS;
@@ -172,13 +171,13 @@ motus_status companion_reach(companion *c, const companion_goal *to, double span
     return status;
 }
 
-/* To t in so many equal steps. Where steps adapt no error is too large, or these are the first to be tried; and the
- * equation of a step may have to be solved by shorter ones. */
+/* Goes to t in so many equal steps. Adaptive steps are never refused, or begin with this size; and the equation of a
+ * step may need shorter ones. */
 static motus_status go(companion *c, const motus_run *r, double t, int64_t steps, motus_error *err)
 {
     const bool adaptive = row_adaptive(&r->chosen);
     double h = (t - c->t) / (double)steps;
-    if (c->t + h == c->t) h = t - c->t, steps = 1; /* an event may lie so near before t */
+    if (c->t + h == c->t) h = t - c->t, steps = 1; /* an event may lie just before t */
     const stepper_limit limit = {c->controls ? c->room : adaptive ? INT64_MAX : steps, adaptive ? t : NAN};
     stepper_stop why;
     if (c->over || (t - c->t) * r->timing.h <= 0) return MOTUS_OK; /* an event may have led it further */
@@ -215,7 +214,7 @@ void companion_move(double *y, size_t count, const double *size, uint32_t salt)
     }
 }
 
-/* What rounding usually makes of the exact motion's formula: a quarter of the bound, which is in units of 2^-53. */
+/* Moves a state by a quarter of the bound on the rounding of the exact formula, which is in units of 2^-53. */
 motus_status companion_jog(companion *c, const motus_run *r, motus_error *err)
 {
     const problem *p = &r->system->problem;
@@ -234,7 +233,7 @@ motus_status companion_jog(companion *c, const motus_run *r, motus_error *err)
     return MOTUS_OK;
 }
 
-/* Its stepper begins where it was put. */
+/* Lets the stepper go on from the companion's state. */
 static motus_status put(companion *c, const motus_run *r, motus_error *err)
 {
     const motus_status status = stepper_start(c->stepper, c->t, r->timing.h, c->x, c->v, err);
@@ -276,7 +275,7 @@ motus_status companion_repeat(companion *c, const motus_run *r, motus_error *err
 
 /* ---- restart ---- */
 
-enum { OVER, ROOM, EVENTS, HEAD }; /* EVENTS: how many numbers they have */
+enum { OVER, ROOM, EVENTS, HEAD }; /* EVENTS: how many numbers the events have */
 
 size_t companion_keep(const companion *c, double *out)
 {

@@ -1,7 +1,7 @@
-/* A companion of a run: another computation of the same motion, from whose distance the error of the run is told.
+/* A companion of a run: another computation of the same motion, whose distance from the run tells the run's error.
  *
- * It lands where it is sent, at times of the run: from one landing to the next it takes a whole number of equal steps
- * (stepper_turn), so that it is compared without any interpolation. See companion.c for how many.
+ * It lands at times of the run: from one landing to the next it takes a whole number of equal steps (stepper_turn), so
+ * that states are compared without interpolation.
  */
 #ifndef API_ERROR_COMPANION_H
 #define API_ERROR_COMPANION_H
@@ -9,53 +9,51 @@
 #include "api/error/witness.h"
 
 typedef struct companion {
-    motus_system *system; /* its own; NULL: the run's */
+    motus_system *system; /* NULL: the run's */
     machine machine;
-    bool waits; /* a compiler is at work for its system */
+    bool waits; /* a compiler is at work for `system` */
     stepper *stepper;
-    events *events; /* of its system's rules; NULL: it has none */
+    events *events; /* of the rules of its system; NULL: there are none */
     bool over;      /* an event has ended it */
-    double *x, *v;  /* its state at the last landing, in the inside order */
-    double t;       /* of the last landing */
-    int64_t before; /* steps that the run had taken when it began */
-    bool controls;  /* it controls its error, and */
-    int64_t room;   /*   may take so many steps more */
+    double *x, *v;  /* the state at the last landing, in the inside order */
+    double t;       /* the time of the last landing */
+    int64_t before; /* steps that the run had taken when the companion began */
+    bool controls;  /* it controls its error */
+    int64_t room;   /* how many steps it may still take, if `controls` */
     pace pace;
 } companion;
 
-/* The method of the companion of about half the step: that of the run, without error control, or with less allowed
- * where the system's force is not smooth; a Taylor series keeps its tolerance, and Beeman's has another method, see
- * companion.c. */
+/* Returns the method of the half: the run's without error control, or with a smaller tolerance where the system's force
+ * is not smooth. A Taylor series keeps its tolerance; Beeman's method is replaced (companion.c). */
 chosen companion_method(const chosen *, const motus_system *);
-/* From the state x, v at t, where the run stands, with the run's method. The state is copied. */
+/* Begins at a copy of the state x, v at t, with the run's method. */
 motus_status companion_begin(companion *, const motus_run *, double t, const double *x, const double *v, motus_error *);
-/* Lands at t, where the run has taken `steps` steps since the last landing, of which the last may be in part. */
+/* Lands at t. steps: how many the run has taken since the last landing; the last one may count in part. */
 motus_status companion_land(companion *, const motus_run *, double t, int64_t steps, motus_error *);
-/* Where the run stands at an event. */
+/* An event at which the run stands. */
 typedef struct companion_goal {
-    int64_t acted; /* so often a rule has assigned */
-    bool ends;     /* the event ended the run, and is to end the companion */
-    bool enough;   /* that many actions are enough, even where the last of them does not end it */
+    int64_t acted; /* how often rules have assigned */
+    bool ends;     /* the event ended the run, and ends the companion */
+    bool enough;   /* as many actions are enough, even if the last of them ends nothing */
 } companion_goal;
-/* Goes on until it stands at such an event too, but at most `span` further. */
+/* Goes on to the companion's own event of that kind, but at most `span` further. */
 motus_status companion_reach(companion *, const companion_goal *, double span, motus_error *);
-/* Moves its state by what rounding may make of it: of exact motions, which steps do not tell apart. */
+/* Moves the state of an exact motion by what rounding may make of it, since steps do not differ there. */
 motus_status companion_jog(companion *, const motus_run *, motus_error *);
-/* Moves numbers by at least an ulp, and by `size` where it is given; up or down, by a hash of their places and
- * `salt`. */
+/* Moves numbers by at least an ulp, or by `size` if given; a hash of their places and `salt` says up or down. */
 void companion_move(double *y, size_t count, const double *size, uint32_t salt);
-/* Moves its state by these differences. */
+/* Moves the state by dx and dv. */
 motus_status companion_shift(companion *, const motus_run *, const double *dx, const double *dv, motus_error *);
-/* To t, in place of steps of its own as the witness leads it; it has no events. */
+/* Goes to t as the witness leads, in place of own steps; the companion has no events. */
 motus_status companion_led(companion *, const motus_run *, witness *, double t, motus_error *);
-/* Repeats the steps of the run, and so stands where the run stands. */
+/* Repeats the steps of the run, and so lands where the run stands. */
 motus_status companion_repeat(companion *, const motus_run *, motus_error *);
-/* What a restart state has of a companion with events, besides its state: tells how many numbers, and writes them where
- * `out` is not NULL. */
+/* Counts the numbers that a restart state has of a companion with events, besides its state; writes them unless `out`
+ * is NULL. */
 size_t companion_keep(const companion *, double *out);
-/* A companion that has begun goes on with them; *at moves behind them. MOTUS_STATE: they are not its own. */
+/* Resumes from such numbers at *at, which moves behind them. MOTUS_STATE: they are not a companion's. */
 motus_status companion_resume(companion *, const motus_run *, const double **at, const double *end, motus_error *);
-bool companion_skip(const double **at, const double *end); /* moves behind them alone; false: they are damaged */
+bool companion_skip(const double **at, const double *end); /* moves *at behind such numbers; false: they are damaged */
 void companion_end(companion *, const motus_allocator *);
 
 #endif

@@ -1,7 +1,6 @@
-/* See convex.h. The algorithm of Mitchell, Demyanov and Malozemov [MDM74]: a point of the hull is a mean of the points,
- * and that of them which has a share and lies farthest towards it gives from its share to the one that lies farthest in
- * the direction of the origin.
- */
+/* See convex.h. The algorithm of Mitchell, Demyanov and Malozemov [MDM74]: a point of the hull is a mean of the points.
+ * In each turn the point with a share that lies farthest in the direction of the mean gives from its share to the point
+ * that lies farthest in the direction of the origin. */
 #include "api/error/convex.h"
 
 #include <math.h>

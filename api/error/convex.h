@@ -4,10 +4,10 @@
 
 #include <stddef.h>
 
-/* Of two points of n numbers, each of which counts by its weight. */
+/* Returns the product of two points of n numbers, where each number counts by its weight. */
 double convex_product(const double *a, const double *b, const double *weight, size_t n);
-/* `count` points of n numbers each, one behind the other. The distance, which is not told more exactly than `enough`;
- * nearest: the point of the hull, and `share` what it has of each of the points. */
+/* Returns the distance, at most as exact as `enough`. points: `count` points of n numbers, one behind the other;
+ * nearest: the nearest point of the hull, and `share` its share of each point. */
 double convex_distance(const double *points, size_t count, size_t n, const double *weight, double enough, double *share,
                        double *nearest);
 

@@ -14,7 +14,7 @@ typedef struct at {
     double t, *x, *v;
 } at;
 
-/* Of a column of the state; 0 where run and companion have agreed. */
+/* Returns the error of a column of the state; 0 where run and companion have agreed. */
 static double state_bar(void *ctx, size_t column)
 {
     const at *a = ctx;
@@ -33,7 +33,6 @@ motus_status errors_leaps(motus_run *r, double t, double *x, double *v, bool sha
     return system_leaps(r->system, t, x, v, state_bar, &a, sharp, columns, count, errors, err);
 }
 
-/* The values are the run's own, also where there are no bars. */
 motus_status errors_tell(motus_run *r, double t, double *x, double *v, const size_t *columns, size_t count,
                          double *values, double *errors, motus_error *err)
 {

@@ -1,10 +1,10 @@
 /* See event_bars.h.
  *
- * Row k of the run is compared with the row of the companion that has the same rule, the same indices and the same
- * number. As for numbers at landings (machine/differences.c) 2.5 times their distance bounds what truncation does,
- * where it rules, and a part of the largest distance of the rows beside it covers a distance that passes 0. From
- * the first row that the companion has not, or has at a time that is farther off than a quarter of the time since the
- * event before, the two motions have events of their own, and no digit is told.
+ * Row k of the run is compared with the companion's row of the same rule, indices and number. As at landings
+ * (machine/differences.c) 2.5 times their distance bounds truncation, where that rules, and a part of the largest
+ * distance of the neighbouring rows covers a distance that passes 0. From the first row on that the companion lacks, or
+ * has at a time off by more than a quarter of the time since the event before, the two motions have different events,
+ * and no digit is told.
  */
 #include "api/error/event_bars.h"
 
@@ -20,15 +20,15 @@
 enum { BEFORE = 6, AFTER = 2, WINDOW = BEFORE + AFTER, NEARBY = 16 };
 #define OTHERS 0.375
 #define APART 0.25
-#define CLOSE 256   /* or so many units in the last place of the time, where events accumulate */
-#define CLOCK 1.5   /* units in the last place: the period is rounded, n times that, and the sum */
-#define ROUNDINGS 2 /* units in the last place of an event's time, which the companion shares with the run */
-/* In place of BARS_LASTING, at a limit: flights of a ball have left up to 8 of these parts (dop853, all of one sign),
- * of which a companion shows most where it steps otherwise, and nothing else shows them where there is none. */
+#define CLOSE 256   /* least room for that, in units in the last place of the time, where events accumulate */
+#define CLOCK 1.5   /* units in the last place: the period, its multiple and the sum are rounded */
+#define ROUNDINGS 2 /* units in the last place of an event's time that run and companion share */
+/* Replace BARS_LASTING at a limit: flights of a ball have left up to 8 of these parts (dop853, all of one sign). A
+ * companion shows most of them, since it steps otherwise. */
 #define LASTING_LIMIT 4
 #define LASTING_ALONE 8
 
-/* The companion's row for row k of the run; SIZE_MAX: it has none. */
+/* Finds the companion's row for row k of the run; SIZE_MAX: there is none. */
 static size_t partner(const events *run, const events *other, size_t k)
 {
     const event row = events_row(run, k, false, NULL, NULL);
@@ -49,7 +49,7 @@ static double distance(const motus_run *r, const companion *c, size_t k)
     return fabs(events_row(r->events, k, false, NULL, NULL).t - events_row(c->events, at, false, NULL, NULL).t);
 }
 
-/* Whether there are companions that have come as far as row k. */
+/* Returns whether companions have come as far as row k. */
 static bool known(const motus_run *r, size_t k)
 {
     const bars *b = r->bars;
@@ -58,7 +58,7 @@ static bool known(const motus_run *r, size_t k)
     return b->half.over || way * (b->half.t - t) >= 0;
 }
 
-/* The time of the instant before that of row k: rows of one instant are judged as one. */
+/* Returns the time of the instant before that of row k: rows of one instant are judged as one. */
 static double instant_before(const motus_run *r, size_t k)
 {
     const double t = events_row(r->events, k, false, NULL, NULL).t;
@@ -69,7 +69,7 @@ static double instant_before(const motus_run *r, size_t k)
     return r->timing.t0;
 }
 
-/* How many of the rows that companions have come to are significant. */
+/* Counts the significant rows that companions have come to. */
 static size_t significant(motus_run *r)
 {
     bars *b = r->bars;
@@ -88,10 +88,10 @@ static size_t significant(motus_run *r)
     return b->rows;
 }
 
-/* Whether no further row is significant; also where the motions themselves are too far apart for companions. */
+/* Returns whether no further row is significant, also since the motions themselves are too far apart. */
 static bool ended(const bars *b) { return b->rows_differ || !isnan(b->differences.until); }
 
-/* Row number i of those beside which row k is judged: itself, those before it, those after it; SIZE_MAX: none. */
+/* Returns the i-th of the rows beside which row k is judged: itself, rows before, rows after. SIZE_MAX: none. */
 static size_t row_of(size_t k, size_t i, size_t rows)
 {
     if (i < BEFORE) return i <= k ? k - i : SIZE_MAX;
@@ -106,7 +106,7 @@ static double bar_of(const motus_run *r, const double *d, size_t n)
     return bars_part(r) * d[0] + OTHERS * others;
 }
 
-/* Of a time, what a companion does not show. */
+/* Returns the error of a time that run and companion share. */
 static double shared(double t, double lasting, double part)
 {
     return ROUNDINGS * events_ulp(t) + part * 0x1p-52 * lasting;
@@ -135,7 +135,7 @@ double event_bars_time(motus_run *r, size_t k)
 #define WHOLE_MOST 0x1p53
 enum { ENDLESS = WHOLE_COUNT + 1 };
 
-/* Judges the numbers; those that count what is endless, a rule whose events accumulate, as ENDLESS. */
+/* Judges which numbers count; one that counts events of the rule `endless`, which accumulate, is ENDLESS. */
 static bool judge_whole(motus_run *r, const model_rule *endless)
 {
     const motus_system *s = r->system;
@@ -159,8 +159,8 @@ motus_status event_bars_whole(motus_run *r, motus_error *err)
     return b->whole && judge_whole(r, NULL) ? MOTUS_OK : fail(err, MOTUS_MEMORY, "no memory for bars of error");
 }
 
-/* Whether run and companion have other events up to t, or one of them may lie beyond it. Not those of the instant in
- * which one has ended the run: the run ends there, wherever that is. */
+/* Returns whether run and companion have different events up to t, or whether one of them may lie beyond t. Events of
+ * the instant that ended the run do not count: the run ends there, wherever that is. */
 static bool rows_unsure(motus_run *r, double t, bool ended)
 {
     const size_t rows = significant(r), all = events_rows(r->events);
@@ -173,7 +173,7 @@ static bool rows_unsure(motus_run *r, double t, bool ended)
     return false;
 }
 
-/* The same of the latest action, which need not have a row. */
+/* Returns whether the latest action, which need not have a row, may lie beyond t. */
 static bool action_unsure(const motus_run *r, double t, bool ended)
 {
     const companion *half = &r->bars->half;
@@ -183,7 +183,7 @@ static bool action_unsure(const motus_run *r, double t, bool ended)
     return fabs(t - latest) <= off + shared(latest, events_lasting(r->events, latest), BARS_LASTING);
 }
 
-/* Whether it is open which events have happened up to t. */
+/* Finds out whether it is open which events have happened up to t. */
 static motus_status unsure_at(motus_run *r, double t, const double *x, const double *v, bool *unsure, motus_error *err)
 {
     const bool ended = events_ended(r->events, NULL) != EVENTS_END_NONE && t == run_time(r);
@@ -191,8 +191,8 @@ static motus_status unsure_at(motus_run *r, double t, const double *x, const dou
     return *unsure ? MOTUS_OK : event_counts_open(r, t, x, v, unsure, err);
 }
 
-/* A number that only counts is exact where the companion has the same, and no digit of it is known where the companion
- * has other events, or where it counts events that have no end. *told: such is the number. */
+/* Tells the error of a number that only counts: 0 where the companion has the same number; INFINITY where it has
+ * different events, or counts events without end. *told: the number is such a one. */
 static motus_status counts(motus_run *r, double t, const double *x, const double *v, size_t number, double *error,
                            bool *told, motus_error *err)
 {
@@ -218,8 +218,8 @@ static motus_status counts(motus_run *r, double t, const double *x, const double
     return status;
 }
 
-/* The state is late or early by what the times of events share; and it cannot be better known than numbers are rounded
- * that were added on the way to it: a motion that sticks, or was led to a place, is not that of a smaller one. */
+/* Raises an error at events: the state is late or early by what the times of events share. No number is better known
+ * than the larger ones from which it was added up: a motion that sticks, or was led to a place, has their rounding. */
 motus_status event_bars_state(motus_run *r, double t, const double *x, const double *v, size_t number, double *error,
                               motus_error *err)
 {
@@ -239,13 +239,13 @@ motus_status event_bars_state(motus_run *r, double t, const double *x, const dou
     }
     if (status != MOTUS_OK) return status;
     const double moved = fabs(value[1] - value[0]);
-    const double part = events_turns(r->events) > 0 ? 1 : 0.5; /* what held it there has been added to as well */
+    const double part = events_turns(r->events) > 0 ? 1 : 0.5; /* the place that holds it was added up as well */
     *error = fmax(*error, part * events_ulp(b->differences.size[number]));
     if (isfinite(moved)) *error = fmax(*error, moved);
     return MOTUS_OK;
 }
 
-/* The limit by the companion: its own, or where it has had as many events as the run, what they lead to. */
+/* Finds the companion's limit: its own, or what its events lead to where it has had as many as the run. */
 static bool other_limit(const companion *c, const events_limit *limit, events_limit *other, double way)
 {
     if (!c->events) return false;
@@ -254,7 +254,6 @@ static bool other_limit(const companion *c, const events_limit *limit, events_li
     return c->over && isfinite(other->t);
 }
 
-/* The limit of events that have come in other numbers, and may not have been told apart, can still be the same. */
 double event_bars_limit(motus_run *r, const events_limit *limit)
 {
     events_limit other;
@@ -282,7 +281,7 @@ static motus_status values_of(motus_run *r, motus_system *s, const events *e, si
     return system_values_of(s, row.t, x, v, r->mid_x, columns, count, out, err);
 }
 
-/* |run - companion| of the columns at row k, to d; room: count numbers. */
+/* Computes |run - companion| of columns at row k, to d; room: count numbers. */
 static motus_status differ(motus_run *r, companion *c, size_t k, bool after, const size_t *columns, size_t count,
                            double *d, double *room, motus_error *err)
 {

@@ -1,8 +1,8 @@
 /* See event_counts.h.
  *
- * A function that is nowhere 0 within the bars of the state has passed 0 as often as the run's has. Where it may be 0,
- * the exact motion may be on its other side, so that an event has happened which the run has not had, or the reverse;
- * unless the function moves the other way than the event asks.
+ * A function that is nowhere 0 within the bars of the state has passed 0 as often in the exact motion as in the run.
+ * Where it may be 0, the exact motion may be on its other side, so that one of them has had an event and the other has
+ * not; unless the function moves against the direction that the event asks for.
  */
 #include "api/error/event_counts.h"
 
@@ -20,8 +20,8 @@ typedef struct look {
     double *dx, *dv, *a;  /* half the widths of the box, and the accelerations */
     double *to_x, *to_v;  /* room for a state */
     double *size;         /* of the accelerations */
-    double *g, *now;      /* of the functions: values, and room for as many numbers */
-    int8_t *sign, *heads; /* of the values and of the rates along the run; 0: open */
+    double *g, *now;      /* values of the functions, and room for as many numbers */
+    int8_t *sign, *heads; /* of the functions and of their rates along the run; 0: open */
     bool slopes;          /* `heads` is known */
     interval *box;
 } look;
@@ -40,8 +40,8 @@ static void take_state(look *l, double part)
     if (p->refresh) p->refresh(p->ctx, l->t, l->to_x, l->to_v);
 }
 
-/* The state within its bars; modes have none, and are as far off as the companion's. All is late by what the times of
- * events share and the end of the run is rounded by. */
+/* Makes the box of the state within its bars. Modes have no bars, and are as far off as the companion's. All is late by
+ * what the times of events share and by the rounding of the run's end. */
 static bool find_box(look *l)
 {
     interval *const box = l->box;
@@ -65,7 +65,8 @@ static bool find_box(look *l)
     return true;
 }
 
-/* Whether the box leaves open on which side of 0 a function is. least: a bound on its size, where it is positive. */
+/* Returns whether the box leaves open on which side of 0 function f is. least: a lower bound on its size, if above 0.
+ */
 static bool is_open(const look *l, size_t f, double least)
 {
     const rules *rules = l->run->rules;
@@ -74,7 +75,7 @@ static bool is_open(const look *l, size_t f, double least)
     return !rules->apart || !rules->apart(rules->ctx, f, false, t, l->to_x, l->to_v, l->dx, l->dv, l->size);
 }
 
-/* The signs of the functions; whether the box leaves one open. */
+/* Finds the signs of the functions. Returns whether the box leaves any open. */
 static bool find_signs(look *l)
 {
     const rules *rules = l->run->rules;
@@ -89,7 +90,7 @@ static bool find_signs(look *l)
     return any;
 }
 
-/* The ways that functions go along the run, where rates at the middle of the box and at some of its corners agree. */
+/* Finds the directions in which functions go along the run, if their rates in the middle and at corners agree. */
 static bool find_slopes(look *l)
 {
     const motus_run *r = l->run;
@@ -111,7 +112,7 @@ static bool find_slopes(look *l)
     return l->slopes = true;
 }
 
-/* Whether an event may happen where function f, of instance i of a rule, passes 0 or touches it. */
+/* Returns whether an event may happen where function f, of instance i of a rule, passes 0 or touches it. */
 static bool may_happen(look *l, const rule *r, size_t i, size_t f)
 {
     const int heads = l->heads[f];
@@ -139,7 +140,7 @@ static bool instance_open(look *l, const rule *r, size_t i)
     return open > 1 || may_happen(l, r, i, which);
 }
 
-/* Events that accumulate have no number, and leave no other open. */
+/* Returns whether any event is open. Those that accumulate have no number, and leave no other open. */
 static bool any_open(look *l)
 {
     const rules *rules = l->run->rules;
@@ -155,7 +156,7 @@ static bool any_open(look *l)
     return false;
 }
 
-/* Room for a look, which `finish` gives back. False: no memory. */
+/* Makes room for a look, which `finish` gives back. False: no memory. */
 static bool begin(look *l, motus_run *r, double landed)
 {
     const problem *p = &r->system->problem;
@@ -178,7 +179,7 @@ static motus_status finish(look *l, bool memory, motus_error *err)
     return memory ? MOTUS_OK : fail(err, MOTUS_MEMORY, "no memory for bars of error");
 }
 
-/* The box and the functions about a state. */
+/* Looks at the box and the functions around a state. */
 static bool look_at(look *l, double t, const double *x, const double *v)
 {
     const rules *rules = l->run->rules;
@@ -186,7 +187,7 @@ static bool look_at(look *l, double t, const double *x, const double *v)
     return find_box(l) && !rules->values(rules->ctx, t, l->to_x, l->to_v, l->g);
 }
 
-/* Whether a touch or another has left open how often events have happened up to t. */
+/* Returns whether a touch up to t has left open how often events have happened. */
 static bool open_before(const motus_run *r, double t)
 {
     const double way = r->timing.h < 0 ? -1 : 1;
@@ -201,15 +202,15 @@ motus_status event_counts_open(motus_run *r, double t, const double *x, const do
 {
     look l;
     *open = open_before(r, t);
-    /* what is 0 at the start is no event there */
+    /* a condition that already holds at the start is no event */
     if (*open || r->rules->functions == 0 || t == r->timing.t0) return MOTUS_OK;
     const bool memory = begin(&l, r, t);
     if (memory) *open = !look_at(&l, t, x, v) || any_open(&l);
     return finish(&l, memory, err);
 }
 
-/* Whether a function that is 0 where the motion rests is so wherever it rests: positions have no part in it, and what
- * rests has a velocity of 0 exactly. */
+/* Returns whether a function that is 0 where the motion rests is 0 wherever it rests: then positions have no part in
+ * it, since a velocity at rest is exactly 0. */
 static bool rests(look *l, size_t f)
 {
     const rules *rules = l->run->rules;
@@ -222,8 +223,9 @@ static bool rests(look *l, size_t f)
     return true;
 }
 
-/* Whether the rule of function f may have an event, or two, where the function has an extremum: there it goes neither
- * way, whatever rounding leaves of its slope; at the end of a step only if its slope may be 0. */
+/* Returns whether the rule of function f may have an event, or two, where the function has an extremum or a step ends.
+ * At an extremum its direction is open, whatever rounding leaves of its slope; at the end of a step only if its slope
+ * may be 0. */
 static bool touches(look *l, size_t f, events_near_kind kind)
 {
     const bool level = kind == EVENTS_NEAR_EXTREMUM;
@@ -237,7 +239,7 @@ static bool touches(look *l, size_t f, events_near_kind kind)
     return l->heads[f] == 0 && may_happen(l, r, (f - r->first) % r->instances, f);
 }
 
-/* Between two landings an error may be as large as at either. */
+/* Widens the box, since between two landings an error may be as large as at either. */
 static void widen(look *l)
 {
     const problem *p = &l->run->system->problem;
@@ -259,7 +261,7 @@ bool event_counts_note(motus_run *r, size_t k, double t)
     return b->open_since;
 }
 
-/* Rules with extrema that have not been kept. */
+/* Notes rules with extrema that were not kept. */
 static bool note_unkept(motus_run *r)
 {
     bool memory = true;

@@ -4,15 +4,15 @@
 
 #include "api/error/bars.h"
 
-/* *open: at t, where the run's state is x, v in the inside order, or at a touch before, a function of an event may have
- * passed 0 or not. */
+/* Finds out whether an event may have happened in the exact motion up to t that the run has not had, or the reverse: at
+ * t, with the run's state x, v in the inside order, or at a touch before. */
 motus_status event_counts_open(motus_run *, double t, const double *x, const double *v, bool *open, motus_error *);
 
-/* At a landing: finds the rules whose functions may have touched 0 or not since the last one. */
+/* Finds the rules whose functions may have touched 0 since the last landing. Call it at a landing. */
 motus_status event_counts_touched(motus_run *, double t, const double *x, const double *v, motus_error *);
-/* Since when it is open how often a rule has happened, by such touches; NaN: it is not. And notes that it is since t.
- * False: no memory. */
+/* Returns since when such touches leave open how often a rule has happened; NaN: they do not. */
 double event_counts_since(const bars *, size_t rule);
+/* Notes that the number of a rule's events is open since t. False: no memory. */
 bool event_counts_note(motus_run *, size_t rule, double t);
 
 #endif
