@@ -1,17 +1,17 @@
 /* See witness.h.
  *
- * Over a step, or a part of it, that leads from v to v', the integral of the force along the dense output has to be
- * v' - v; what is missing is the error of the velocity that the part makes. Gauss's rule takes the integral, at
- * abscissae which are not those of the method. Interval arithmetic over all states of a part says whether some
- * operation may pass through more than points can show; such a part is halved. So no peak and no window is too narrow
- * to be seen. Sizes are added up over the parts, because a force that pushes and then pulls shifts a motion and leaves
- * its velocity. Where they are too large already, the look ends, and the step is to end there as well, so that a force
- * of many peaks costs a search for each. Where not all of them can be searched for, no bar is told.
+ * Over a step that leads from v to v', or a part of one, the integral of the force along the dense output has to be v'
+ * - v; what is missing is the error that the part makes in the velocity. Gauss's rule takes the integral, at abscissae
+ * that the method does not have. Interval arithmetic over all states of a part says whether some operation may pass
+ * through more than points can show; such a part is halved, so that no peak and no window is too narrow to be seen.
+ * Sizes are added up over the parts, because a force that pushes and then pulls shifts a motion and leaves its
+ * velocity. Where the sum is too large already, the look ends, and the step is to end there as well, so that a step
+ * pays for the first of many peaks. Where not all peaks can be searched for, no bar is told.
  *
- * Where a switch of the force may stand at 0, the force has more than one value. Of a run whose switches are located
- * what has happened has to be a mean of what the force does beside the motion, a way on each side: there every switch
- * has one side, however often it is written [Filippov88]. Other runs step across, and such a part of theirs is not
- * judged, however short it becomes.
+ * Where a switch may stand at 0, the force has more than one value. In a run with located switches, what has happened
+ * has to be a mean of what the force does along ways beside the motion, where every switch has one side, however often
+ * it is written [Filippov88]. Other runs step across switches, and parts with one are not judged, however short they
+ * become.
  */
 #include "api/error/witness.h"
 
@@ -27,66 +27,65 @@
 #include <string.h>
 
 enum {
-    POINTS = 8,    /* an even number */
-    DEPTH = 40,    /* halvings of a step */
-    PARTS = 4096,  /* of one step */
-    TRIES = 64,    /* candidates that are refused one after the other */
-    PROBED = 4096, /* steps of a probe, */
-    LED = 256,     /*   and of one that leads the companion */
-    FINE = 8,      /* halvings of a step that tell where a switch may change its side, */
-    HELD = 2,      /*   those of a step, after which ways beside the motion are taken, */
-    DEEP = 4,      /*   and where other operations change there too, as u/|u|: */
-    WAYS = 32,     /*   at first so many, then one of as many others that leads nearest, */
-    MORE = 64,     /*   and at most so many such; */
-    IDLE = 4,      /*   where so many of these do not help, none does. */
-    AHEAD = 256,   /* steps, at most, ahead of which the force is looked at */
-    VAIN = 32,     /* steps after which that is tried again, where it has failed */
-    SHORTER = 6,   /* times that a probe is shorter, before it is no matter of its steps that no way does it */
-    BEHIND = 3,    /* steps that the companion is led through, the first of which lacks something */
-    FINEST = 24,   /* halvings of a step that tell what is narrow in it, */
-    RESOLVED = 3,  /*   and so many of which its own points make up for */
-    MANY = 8,      /* parts of a step, of which there are more where a force has narrow peaks */
-    WIDTH = 64     /* velocities of a run: of more of them ways say too little */
+    POINTS = 8,    /* even */
+    DEPTH = 40,    /* most halvings of a step */
+    PARTS = 4096,  /* most parts of a step */
+    TRIES = 64,    /* most refusals of one step */
+    PROBED = 4096, /* most steps of a probe */
+    LED = 256,     /* most steps of a probe that leads the companion */
+    FINE = 8,      /* halvings after which a part is left in which a switch may change its side */
+    HELD = 2,      /* halvings after which ways beside the motion are taken */
+    DEEP = 4,      /* halvings after which they are taken where other operations change too, as u/|u| */
+    WAYS = 32,     /* ways at first, and how many more are tried to find one that leads nearer */
+    MORE = 64,     /* most ways beyond the first */
+    IDLE = 4,      /* ways in succession that may not help */
+    AHEAD = 256,   /* most steps ahead of which the force is looked at */
+    VAIN = 32,     /* steps before that is tried again, where it has failed */
+    SHORTER = 6,   /* times that a step is shortened before the force is to blame, and not the step */
+    BEHIND = 3,    /* steps that the companion is led through, from the first that lacks something */
+    FINEST = 24,   /* most halvings that search for what is narrow in a step */
+    RESOLVED = 3,  /* halvings that the step's own points make up for */
+    MANY = 8,      /* parts of a step, of which a force with narrow peaks needs more */
+    WIDTH = 64     /* most velocities of a run, since for more of them ways say too little */
 };
-#define NEAR 0x1p-16 /* of the way that a part may lead: so far beside it */
-#define SLACK 0x1p-8 /* of the accelerations there: dense output is so exact */
-/* What it may spend, in evaluations of the typed force by the interpreter: at the beginning so many operations, but at
- * least so many evaluations, and then a part of the evaluations of the run. That part suits a compiled run, whose
- * evaluation costs a thirtieth: what is looked at decides steps, and the machine decides none. A series of order n
- * costs as much as n^2/4 evaluations. */
-#define SPEND_FIRST 4e6   /* operations, */
-#define SPEND_OF_MANY 1e6 /*   of a run that is one of many, and */
+#define NEAR 0x1p-16 /* of the way that a part may lead: how far a way is beside it */
+#define SLACK 0x1p-8 /* of the accelerations: the error of dense output */
+/* The unit of spending is one evaluation of the typed force by the interpreter. At first so many operations may be
+ * spent, but at least so many evaluations; then also a part of the run's evaluations. The part suits a compiled run,
+ * whose evaluation costs a thirtieth, and holds for any machine, since looks decide steps and no machine may. A series
+ * of order n counts as n^2/4 evaluations. */
+#define SPEND_FIRST 4e6   /* operations */
+#define SPEND_OF_MANY 1e6 /* operations, where the run is one of many */
 #define SPEND_LEAST 200.0
 #define SPEND 0.05
-#define BOUNDS 12.0 /* what bounds over a step cost */
-#define LONGER 1.25 /* than all before: such a step is looked at, whatever was spent */
-/* Operations, too: what looking at one step may take, what one probe may spend, and what all steps that were rightly
- * refused, and those that follow such a step up to its end, may cost besides. Looking at sides is counted by itself,
- * and may take as much. */
+#define BOUNDS 12.0 /* evaluations that bounds over a step cost */
+#define LONGER 1.25 /* a step longer than all before by this factor is looked at, whatever was spent */
+/* Operations for one look at a step; for one probe; for one probe that leads the companion; and, beside the count, for
+ * steps that were rightly refused and those that follow up to their ends. Looks at sides are counted by themselves, and
+ * may cost as much. */
 #define SPEND_STEP 2e7
 #define SPEND_PROBE 2e7
 #define SPEND_LEAD 2e6
 #define SPEND_SPARED 1e9
 #define SPARED_OF_MANY 1e8
-#define FIRST \
-    0.01 /* times what a step may lose: the first part of which so much is missing is where a step is to end */
+#define FIRST 0.01      /* times what a step may lose: at the first part that lacks so much the next step is to end */
 #define SUSPICIOUS 10.0 /* times what a step may lose */
-#define REFUSED 30.0    /* likewise, between the step and the probe */
-#define PROBE_SEES 4.0  /* times less than what is missing */
+#define REFUSED 30.0    /* times what a step may lose, between the step and the probe */
+#define PROBE_SEES 4.0  /* what a probe has to see is less than what is missing by this factor */
 #define ROUNDING 0x1p-46
 #define ULP 0x1p-52
-#define NOTHING 0x1p-500 /* is lost of what rests */
-#define ROOM 0.75        /* of a step that is refused: the next one is shorter */
-/* Times the largest error that is told so far. Where steps stand, what is missing of the next ones may cancel what was
- * missing of one, and all of it has to move the companion. */
+#define NOTHING 0x1p-500 /* least of what a number at rest may lose */
+#define ROOM 0.75        /* of a refused step: the next one is shorter */
+/* Times the largest error told so far. Where steps stand, what is missing of later ones may cancel what was missing of
+ * one, so a small part of that error moves the companion. */
 #define BARS 2.5
 #define PART_OF_BARS 0x1p-4
-/* ... and where the companion is left as it is: the error of one step is at most twice the largest that it has shown by
- * then, unless it hides. There the probe has to be better than the step by far. */
+/* Where the companion is left as it is: the error of one step is at most twice the largest that the companion has shown
+ * by then, unless it hides. There the probe has to be far better than the step. */
 #define LEFT_BARS 8.0
 #define LEFT_TOLERANCE 0x1p-10
-#define SHOWN 0x1p-16 /* of what is missing: so much may be hidden */
-#define MOSTLY 0.5    /*   in steps of located runs; less is what the companion sees, too */
+#define SHOWN 0x1p-16 /* part of what is missing that may be hidden */
+#define MOSTLY 0.5    /* such a part in steps of located runs; less is what the companion sees, too */
 #define PROBE "dop853"
 #define PROBE_TOLERANCE 1e-10
 
@@ -104,88 +103,89 @@ enum { FROM, TO, MIDDLE, POINT = MIDDLE + DEPTH, END, LAST, STATES };
 
 struct witness {
     const motus_system *typed;
-    machine machine; /* of the probe, and */
-    chosen method;   /*   its method: the run's, or PROBE where the run's steps stand as they are */
-    bool steady;     /*   which is so */
+    machine machine; /* of the probe */
+    chosen method;   /* of the probe: the run's, or PROBE if `steady` */
+    bool steady;     /* the run's steps stand as they are */
     motus_allocator allocator;
     const differences *differences;
-    size_t nx, nv;     /* of the run, */
-    size_t own, other; /*   of whose velocities the typed system has the first `own`, and those from `other` on */
+    size_t nx, nv;     /* of the run */
+    size_t own, other; /* the typed system has the run's first `own` velocities, and those from `other` on */
     resolution *bends; /* what in the force can hide between points */
     state at[STATES];
-    double *a, *v;     /* of the typed force, and velocities as it wants them */
+    double *a, *v;     /* the typed force, and velocities in the order it wants */
     double *most;      /* bounds on the accelerations of the step */
-    double *missing;   /* of every velocity, sizes added up over the parts, */
-    double *lack;      /*   and with their signs; */
-    double *speed;     /* how large a velocity is, with those of its variable, in the step, */
-    double *felt;      /*   and what was missing of it in a step where it rested */
-    double *allowed;   /* what a step may lose of it, */
-    double *rounded;   /*   and what rounding takes from it, */
-    double *rounded_x; /*   and from places: parts of the largest that they have been */
-    double *dx, *dv;   /* how far the probe is from the step */
+    double *missing;   /* of every velocity: sizes added up over the parts */
+    double *lack;      /* of every velocity: added up with signs */
+    double *speed;     /* of every velocity, with the others of its variable: the largest size in the step */
+    double *felt;      /* of every velocity: what was missing in a step where it rested */
+    double *allowed;   /* of every velocity: what a step may lose */
+    double *rounded;   /* of every velocity: what rounding takes, a part of the largest it has been */
+    double *rounded_x; /* of every place: what rounding takes, a part of the largest it has been */
+    double *dx, *dv;   /* the distance of the probe from the step */
     double share[WAYS + MORE];
-    double *ways, *room; /* of a run with located switches: what the force does beside a part, less what has happened */
-    double *scale;       /* how large accelerations are there, */
-    double *weight;      /*   and how little may be off */
-    double *other_way;   /* one more of these */
-    resolution *smooth;  /* what can hide in the force where its switches keep their sides; NULL: nothing */
+    /* of a run with located switches: what the force does along each way, less what has happened */
+    double *ways, *room;
+    double *scale;      /* of accelerations */
+    double *weight;     /* 1 over what each velocity may be off */
+    double *other_way;  /* one more way */
+    resolution *smooth; /* what can hide in the force where its switches keep their sides; NULL: nothing */
     interval *in_x, *in_v;
-    interval *clear_x, *clear_v; /* where and when the force hides nothing, in any step */
+    interval *clear_x, *clear_v; /* a box in which the force hides nothing, for any step */
     double operations;           /* of one evaluation */
-    double first;                /* evaluations that it may spend in any case, */
-    double most_spared;          /*   and where it sees what the run does not */
-    bool kinked;                 /* the typed force has switches, */
-    bool located;                /*   at which steps of the run end; */
-    bool covered;                /*   some within sums, where nothing says that they stand at 0 */
-    bool probes;                 /* it looks at a probe, and refuses at once */
-    bool events;                 /* the run has some */
-    bool leaves;                 /* the companion, too, as it is */
+    double first;                /* evaluations that may be spent in any case */
+    double most_spared;          /* evaluations that may be spent where the run hides something */
+    bool kinked;                 /* the typed force has switches */
+    bool located;                /* steps of the run end at switches */
+    bool covered;                /* some switches are within sums, where nothing says that they stand at 0 */
+    bool probes;                 /* this witness looks at a probe, and refuses at once */
+    bool events;                 /* the run has events */
+    bool leaves;                 /* it leaves the companion as it is */
     stepper *probe;
-    struct witness *inner; /* that looks at the probe */
-    /* From here on, of the present motion. */
+    struct witness *inner; /* looks at the probe */
+    /* The members from here on are of the present motion. */
     int parts, tries;
     double worst, start,
-        length;           /* the most that is missing of a part, in units of what is allowed; the first with much */
-    double sides;         /* spent on sides of switches, which is counted by itself */
-    double most_spent;    /* at the end of the step that is looked at */
-    double earned, spent; /* evaluations: what it may spend so far, and what it has spent */
-    int64_t evaluations;  /* of the run, so far */
-    double longest;       /* of the steps that it has looked at */
-    double least;         /* what matters to the bars, of a velocity; INFINITY: what a step may lose is all that does */
-    double sees;          /* likewise, of a probe */
-    bool far;             /* so much is missing that no probe has to tell */
-    double each;          /* what it earns in a step */
-    int64_t steps;        /* of the run, that stand, as far as it was shown them, */
-    int64_t looked;       /*   and at how many of them it has looked; */
-    int64_t rested, rest; /*   how many it was to leave aside after the last one, and how many of these are to come */
-    interval clear;       /* the times of clear_x, clear_v; empty: there is none */
-    double ahead;         /* steps that the force is looked at ahead, less than 2: */
-    int vain;             /*   not for so many steps */
-    double spared;        /* evaluations that are not counted, */
-    bool peaks;           /*   since the force has some that are narrow */
-    double empty[2];      /* nothing is missing there, */
-    double peak, peak_end; /*   and much between these times: so an earlier step has shown; NaN */
+        length;            /* the most that is missing of a part, in units of what is allowed; the first such part */
+    double sides;          /* spent on sides of switches */
+    double most_spent;     /* limit on `spent` for the present step */
+    double earned, spent;  /* evaluations that it may spend so far, and has spent */
+    int64_t evaluations;   /* of the run, so far */
+    double longest;        /* of the steps that it has looked at */
+    double least;          /* what matters to the bars, of a velocity; INFINITY: only what a step may lose matters */
+    double sees;           /* `least` for a probe */
+    bool far;              /* so much is missing that no probe need confirm it */
+    double each;           /* what it earns in a step */
+    int64_t steps;         /* steps of the run that stand, as far as it was shown them */
+    int64_t looked;        /* how many of `steps` it has looked at */
+    int64_t rested, rest;  /* steps to leave aside after the last look, and how many of them are to come */
+    interval clear;        /* the times of clear_x, clear_v; empty: there is no such box */
+    double ahead;          /* how many steps ahead the force is looked at */
+    int vain;              /* steps before it is looked at ahead again */
+    double spared;         /* evaluations that are not counted */
+    bool peaks;            /* the force has narrow peaks */
+    double empty[2];       /* times between which nothing is missing, as an earlier step has shown */
+    double peak, peak_end; /* times between which much is missing, as an earlier step has shown; NaN */
     bool strict;           /* sides of switches are looked at */
     bool crosses;          /* a switch may stand at 0 within the step */
-    bool counted, whole;   /* it has parts before that, or (whole) all parts count */
-    bool first_only;       /* the look ends behind the first parts of which too much is missing, */
-    bool ended;            /*   as it has, at */
+    bool counted, whole;   /* counted: parts before such a switch were held; whole: parts behind it count as well */
+    bool first_only;       /* the look ends behind the first parts of which too much is missing */
+    bool ended;            /* the look has ended so */
     double behind_first;
-    double clean;      /* up to here nothing is missing */
-    bool exhausted;    /* it has ended before it could tell what hides in some part */
-    double past;       /* the beginning of the first part behind these; NaN */
+    double clean;      /* up to this time nothing is missing */
+    bool exhausted;    /* the look could not afford to tell what hides in some part */
+    double past;       /* the beginning of the first part with a switch at 0, behind others; NaN */
     bool beside;       /* no way beside the part at `start` does what has happened */
-    int behind;        /* steps behind one that lacked something, which the companion may not have passed, to come */
-    bool open;         /* what is missing of the step from `past` on */
-    bool moves, leads; /* dx and dv are for the companion, or (leads) a probe is to take its step for it */
-    bool objected;     /* to a step of the run */
-    bool left;         /* dx and dv, where it leaves the companion as it is */
-    bool failed;       /* the last probe, by an error of its own */
+    int behind;        /* steps to come behind one that lacked something, which the companion may not have passed */
+    bool open;         /* what is missing of the step from `past` on is not known */
+    bool moves, leads; /* the companion is to be moved by dx and dv, or (leads) by a probe that takes its step */
+    bool objected;     /* it has objected to a step of the run */
+    bool left;         /* dx and dv are known, and the companion is left as it is */
+    bool failed;       /* the last probe failed by an error of its own */
     size_t number;     /* the velocity of which the most was missing where `beside` became true */
-    bool held;         /* the motion is none of the typed force, from `differs` on */
-    double until;      /* a probe has differed from the step that led there; NaN */
+    bool held;         /* from `differs` on the motion is not one of the typed force */
+    double until;      /* the end of a step from which a probe has differed; NaN */
     double differs;
-    double unseen; /* from here on it could not afford to look, shortly after it had to refuse steps; NaN */
+    double unseen; /* from this time on it could not afford to look, after steps had to be refused; NaN */
 };
 
 /* ---- life ---- */
@@ -224,7 +224,7 @@ static witness *make(const motus_run *r, const differences *seen)
 static stepper_verdict inspect(void *ctx, stepper *);
 static bool inspect_piece(void *ctx, stepper *, double until);
 
-/* They live in the system's arena, for all its runs. */
+/* Finds what can hide. It lives in the system's arena, for all runs. */
 static bool find_bends(motus_system *s)
 {
     model *const m = s->model;
@@ -239,7 +239,7 @@ static bool find_bends(motus_system *s)
 
 static void forget_peak(witness *w) { w->empty[0] = w->empty[1] = w->peak = w->peak_end = NAN; }
 
-/* Forgets what it has seen. */
+/* Forgets the motion so far. */
 static void forget(witness *w, const stepper *s)
 {
     memset((char *)w + offsetof(witness, parts), 0, sizeof *w - offsetof(witness, parts));
@@ -339,12 +339,12 @@ static bool see(stepper *s, double t, state *to)
     return stepper_sample(s, t, to->x, to->v, NULL) == MOTUS_OK;
 }
 
-/* The place among the run's velocities of velocity k of the typed system, which has no sides of switches. */
+/* Returns the place among the run's velocities of velocity k of the typed system, which has no sides of switches. */
 static size_t place(const witness *w, size_t k) { return k < w->own ? k : k - w->own + w->other; }
 
 static interval about(double middle, double half) { return (interval){middle - half, middle + half}; }
 
-/* Where the motion is, in a part of a step. */
+/* Finds the box of the motion in a part of a step. Returns its times. */
 static interval surround(witness *w, const state *from, const state *to)
 {
     const problem *const p = &w->typed->problem;
@@ -374,16 +374,15 @@ static bool inside(const interval *part, const interval *whole, size_t count)
     return true;
 }
 
-/* Where it will be in the next steps, if it goes on like that: widened on the side to which it moves, and somewhat on
- * both. */
+/* Extends an interval to the next steps, on the side to which it moves, and somewhat on both. */
 static interval extend(interval now, double way, double steps)
 {
     const double most = (now.high - now.low) * steps / 4, far = way * steps;
     return (interval){now.low + fmin(far, 0) - most, now.high + fmax(far, 0) + most};
 }
 
-/* Whether nothing hides in a whole step, whose surroundings are in_x and in_v at t. What fits over a box fits over all
- * that lies in it, so many short steps need but one look, at where they may lead. */
+/* Returns whether nothing hides in a whole step, with the box in_x, in_v and the times t. What fits over a box fits
+ * over every part of it, so many short steps need one look, at where they may lead. */
 static bool clear(witness *w, const state *from, const state *to, interval t)
 {
     const problem *const p = &w->typed->problem;
@@ -408,20 +407,20 @@ static bool fits(witness *w, resolution *bends, const state *from, const state *
     return !bends || (whole ? clear(w, from, to, t) : passes(w, bends, t, w->in_x, w->in_v));
 }
 
-/* In [-1, 1), from the number of a way and of a variable. */
+/* Returns a number in [-1, 1) from those of a way and a variable. */
 static double turn(uint32_t way, size_t k)
 {
     uint64_t state = ((uint64_t)way - 1) * 0x9e3779b97f4a7c15u + ((uint64_t)k + 1) * 0xd1b54a32d192ed03u;
     return vector_random(&state);
 }
 
-/* What a step may lose of a place. */
+/* Returns what a step may lose of a place. */
 static double lost_of_place(const witness *w, size_t k, double x, double h)
 {
     return fmax(fmax(w->method.relative, ROUNDING) * fabs(x), h * w->allowed[k]);
 }
 
-/* From a state of the motion to the way beside a part, farther than rounding and what a step may lose. */
+/* Moves a state of the motion to a way beside it, farther than rounding and than what a step may lose. */
 static void step_aside(const witness *w, double *x, double *v, double h, uint32_t way)
 {
     const problem *const p = &w->typed->problem;
@@ -435,7 +434,7 @@ static void step_aside(const witness *w, double *x, double *v, double h, uint32_
         v[k] += (NEAR * h * w->scale[k] + SUSPICIOUS * w->allowed[place(w, k)]) * turn(way, k);
 }
 
-/* Of one part: the most that is missing, in units of what is allowed. */
+/* Counts a part. most: the most that is missing of it, in units of what is allowed. */
 static void count_part(witness *w, const state *from, double h, double most)
 {
     if (most > w->worst && !(w->worst > FIRST)) w->start = from->t, w->length = h;
@@ -443,8 +442,8 @@ static void count_part(witness *w, const state *from, double h, double most)
     w->parts++;
 }
 
-/* The integral of the force over a part, and the largest accelerations in it; way 0: along the motion, and another
- * beside it, on the same side from its beginning to its end. */
+/* Integrates the force over a part, and finds the largest accelerations in it. way 0: along the motion; others lie
+ * beside it, each on one side from the beginning to the end of the part. */
 static bool integrate(witness *w, stepper *s, const state *from, double h, uint32_t way, double *sum)
 {
     const problem *const p = &w->typed->problem;
@@ -465,7 +464,7 @@ static bool integrate(witness *w, stepper *s, const state *from, double h, uint3
     return true;
 }
 
-/* By how much each velocity may be off in a part before what moves it is another force. */
+/* Finds how much each velocity may be off in a part before another force must be what moves it. */
 static void find_weights(witness *w, double h)
 {
     for (size_t k = 0; k < w->typed->problem.nv; k++) {
@@ -474,7 +473,7 @@ static void find_weights(witness *w, double h)
     }
 }
 
-/* `room` is missing of a part, and is too much. */
+/* Notes that too much, `room`, is missing of a part. */
 static void note_beside(witness *w)
 {
     double most = 0;
@@ -485,7 +484,7 @@ static void note_beside(witness *w)
     }
 }
 
-/* What the force does along a way, less what has happened. */
+/* Computes what the force does along a way, less what has happened. */
 static bool follow(witness *w, stepper *s, const state *from, const state *to, uint32_t way, double *less)
 {
     if (!integrate(w, s, from, to->t - from->t, way, less)) return false;
@@ -493,8 +492,8 @@ static bool follow(witness *w, stepper *s, const state *from, const state *to, u
     return true;
 }
 
-/* Bounds on the accelerations of a marked step that begins at[FROM]. Where the method knows none they are twice what
- * the force is at points between. */
+/* Bounds the accelerations of a marked step that begins at[FROM]. Where the method has no bounds, they are twice the
+ * force's largest values at points between. */
 static bool bound(witness *w, stepper *s)
 {
     const double h = stepper_time(s) - w->at[FROM].t;
@@ -506,7 +505,7 @@ static bool bound(witness *w, stepper *s)
     return true;
 }
 
-/* What is missing of one part. */
+/* Adds up what is missing of a part. */
 static bool hold(witness *w, stepper *s, const state *from, const state *to)
 {
     const double h = to->t - from->t;
@@ -526,7 +525,7 @@ static bool hold(witness *w, stepper *s, const state *from, const state *to)
     return true;
 }
 
-/* Of WAYS ways the one that leads farthest from `room` to the origin. */
+/* Finds, of WAYS ways, the one that leads farthest from `room` towards the origin. */
 static bool nearest(witness *w, stepper *s, const state *from, const state *to, uint32_t *way, double *best)
 {
     const size_t n = w->typed->problem.nv;
@@ -539,7 +538,7 @@ static bool nearest(witness *w, stepper *s, const state *from, const state *to, 
     return true;
 }
 
-/* ... where a switch may stand at 0. */
+/* Adds up what is missing of a part where a switch may stand at 0: what no mean of the ways beside it does. */
 static bool hold_beside(witness *w, stepper *s, const state *from, const state *to)
 {
     const size_t n = w->typed->problem.nv;
@@ -563,7 +562,7 @@ static bool hold_beside(witness *w, stepper *s, const state *from, const state *
     return true;
 }
 
-/* Whether more is missing, of n places or velocities, than so many times their errors; y: how large they are. */
+/* Returns whether more is missing of n places or velocities y than their errors. */
 static bool beyond_errors(const double *missing, const double *y, size_t n, double errors)
 {
     return vector_largest(missing, n) > fmax(errors, ROUNDING * vector_largest(y, n));
@@ -579,7 +578,7 @@ static bool beyond_places(const witness *w, const double *missing, double times)
     return beyond_errors(missing, w->at[TO].x, w->nx, times * w->differences->most[0]);
 }
 
-/* Whether too much is missing of a step; and by how much less a probe is to tell. */
+/* Returns whether too much is missing of a step, and finds `sees` and `far`. */
 static bool suspects(witness *w)
 {
     double most = 0;
@@ -590,13 +589,14 @@ static bool suspects(witness *w)
     return most > SUSPICIOUS || (!w->probes && beyond_velocities(w, w->missing, BARS));
 }
 
-/* Whether something is missing of a number that rests. */
+/* Returns whether something is missing of a number that rests. */
 static bool stirs(const witness *w, size_t k)
 {
     return w->speed[k] <= NOTHING && w->missing[k] > NOTHING && isfinite(w->missing[k]);
 }
 
-/* Whether the look ends here: too much is missing. All that is missing of a number that rests is its size. */
+/* Returns whether the look may end, since too much is missing. For a number that rests it may not: what is missing is
+ * its size. */
 static bool shows_enough(witness *w)
 {
     bool any = false;
@@ -604,7 +604,7 @@ static bool shows_enough(witness *w)
     return !any && suspects(w) && w->far;
 }
 
-/* A part in which no switch stands at 0; it counts where the sides of all are those of the beginning. */
+/* Holds a part in which no switch stands at 0. It counts if it lies before every switch, or the whole step counts. */
 static bool hold_before(witness *w, stepper *s, const state *from, const state *to)
 {
     if (!isnan(w->past) && !w->whole) return w->parts++, true;
@@ -616,7 +616,7 @@ static bool hold_before(witness *w, stepper *s, const state *from, const state *
     return true;
 }
 
-/* A switch may stand at 0 in a part that begins at t. */
+/* Notes that a switch may stand at 0 in a part that begins at t. */
 static void cross(witness *w, double t)
 {
     w->crosses = true;
@@ -628,7 +628,7 @@ static bool look(witness *w, stepper *s, const state *from, const state *to, int
     if (w->ended) return true;
     state *const middle = &w->at[MIDDLE + depth];
     const bool spent = w->parts >= PARTS || w->spent > w->most_spent, last = depth == DEPTH || spent;
-    const bool known = depth == 0 && !w->strict; /* it has not fitted */
+    const bool known = depth == 0 && !w->strict; /* the whole step did not fit before */
     if (!w->covered && !known && fits(w, w->bends, from, to)) return hold_before(w, s, from, to);
     const bool sided = (w->located || (w->steady && w->kinked)) && depth >= (w->steady || w->strict ? HELD : FINE),
                deep = w->strict && (depth >= DEEP || last);
@@ -645,7 +645,7 @@ static bool look(witness *w, stepper *s, const state *from, const state *to, int
 
 /* ---- judging ---- */
 
-/* What a step may lose of each velocity. */
+/* Finds what a step may lose of each velocity. */
 static void allow(witness *w, const problem *p)
 {
     const state *const from = &w->at[FROM], *const to = &w->at[TO];
@@ -668,7 +668,7 @@ static void allow(witness *w, const problem *p)
         w->rounded_x[k] = fmax(ROUNDING * fmax(fabs(from->x[k]), fabs(to->x[k])), w->rounded_x[k]);
 }
 
-/* How far the probe and the step are apart, in units of what is allowed. */
+/* Finds how far the probe and the step are apart, in units of what is allowed. */
 static double apart(witness *w)
 {
     const state *const from = &w->at[FROM], *const to = &w->at[TO], *const end = &w->at[END];
@@ -686,7 +686,7 @@ static double apart(witness *w)
     return most;
 }
 
-/* Leads from a state at t + lost to `until` as the force asks for; the end is at[END]. least: as in the struct. */
+/* Leads a probe from a state at t + lost to `until`; the end is at[END]. least: as in struct witness. */
 static bool lead(witness *w, double t, double lost, const double *x, const double *v, double until, double size,
                  double least)
 {
@@ -716,7 +716,7 @@ static bool lead(witness *w, double t, double lost, const double *x, const doubl
     return !status && !stepper_sync(w->probe, end->x, end->v, NULL, NULL);
 }
 
-/* Takes the step once more. */
+/* Takes the run's step once more by a probe. */
 static bool probe(witness *w, stepper *s, double size, double least)
 {
     const state *const from = &w->at[FROM];
@@ -734,13 +734,13 @@ bool witness_lead(witness *w, double t, double until, double *x, double *v)
     return true;
 }
 
-/* Whether a probe is as far from the end of the step. */
+/* Returns whether the probe is farther from the end of the step than so many times the errors. */
 static bool beyond_bars(const witness *w, double times)
 {
     return beyond_velocities(w, w->dv, times) || beyond_places(w, w->dx, times);
 }
 
-/* Whether the stepper is within a step whose end a probe did not come to. */
+/* Returns whether the stepper is within a step from whose end a probe has differed. */
 static bool known(const witness *w, const stepper *s)
 {
     return !isnan(w->until) && (w->until - (stepper_time(s) - stepper_last_step(s))) * stepper_last_step(s) > 0;
@@ -755,8 +755,8 @@ static void earn(witness *w, const stepper *s)
     w->earned += SPEND * each;
 }
 
-/* Where a force has hidden something once, it may again: from then on what is spent is not counted, within bounds, and
- * else as much as the run costs. */
+/* Returns how much need not be counted: a force that has hidden something once may do so again, so within bounds, and
+ * beyond them up to the cost of the run, spending is free from then on. */
 static double most_spared(const witness *w) { return w->probes ? 0 : w->most_spared + (w->earned - w->first) / SPEND; }
 
 static void spare(witness *w, double spent)
@@ -765,7 +765,7 @@ static void spare(witness *w, double spent)
     if (w->spared < most_spared(w)) w->spent = spent;
 }
 
-/* Whether it can afford to look at this step. */
+/* Returns whether a look at this step is affordable. */
 static bool affords(witness *w, const stepper *s)
 {
     const double h = fabs(stepper_last_step(s));
@@ -776,16 +776,16 @@ static bool affords(witness *w, const stepper *s)
     return true;
 }
 
-/* From t on not all steps are searched for peaks. */
+/* Notes that from t on not all steps are searched for peaks. */
 static void miss(witness *w, double t)
 {
     if (isnan(w->unseen)) w->unseen = t;
 }
 
-/* Whether what a look has found may be a peak: no switch stands at 0, and other operations can hide something. */
+/* Returns whether a look may have found a peak: no switch stands at 0, and other operations can hide something. */
 static bool may_be_peak(const witness *w) { return !w->crosses && (!w->kinked || w->smooth); }
 
-/* The step is to be taken again. */
+/* Refuses the step, which is to be taken again with this size. */
 static double refuse(witness *w, double size)
 {
     w->tries++, w->objected = true;
@@ -793,7 +793,7 @@ static double refuse(witness *w, double size)
     return size;
 }
 
-/* The ends of a marked step. */
+/* Reads the ends of a marked step. */
 static bool see_ends(witness *w, stepper *s)
 {
     state *const from = &w->at[FROM], *const to = &w->at[TO];
@@ -806,8 +806,8 @@ static bool see_ends(witness *w, stepper *s)
     return stepper_sync(s, to->x, to->v, NULL, NULL) == MOTUS_OK;
 }
 
-/* Whether something is missing of a number that rests. Of it a step may lose nothing, and what is missing is its size:
- * else the least of it would count as much as all. */
+/* Finds the sizes of numbers that rest and of which something is missing; they may lose nothing, so that without a size
+ * the least would count as much as all. Returns whether there are any. */
 static bool feels(witness *w)
 {
     bool more = false;
@@ -819,7 +819,7 @@ static bool feels(witness *w)
     return more;
 }
 
-/* What is missing of the whole. */
+/* Adds up what is missing of the whole step. */
 static bool look_at_all(witness *w, stepper *s, bool whole)
 {
     w->whole = whole;
@@ -837,7 +837,7 @@ static bool look_at_all(witness *w, stepper *s, bool whole)
     return true;
 }
 
-/* Whether so large a part of what is missing of a step is not what the points of Gauss's rule show of it. */
+/* Returns whether Gauss's rule over the whole step misses such a part of what is missing. */
 static bool hides(witness *w, stepper *s, double part)
 {
     double most = 0, hidden = 0;
@@ -849,8 +849,8 @@ static bool hides(witness *w, stepper *s, double part)
     return hidden > part * most;
 }
 
-/* Whether a step lacks something that it does not show, or leads across a switch, which the companion may do at the
- * same time; in runs with events both know of it. */
+/* Returns whether a step lacks something that it does not show, or leads across a switch, which the companion may do at
+ * the same time. In runs with events both know of their switches. */
 static bool lacks(witness *w, stepper *s)
 {
     if (fits(w, w->bends, &w->at[FROM], &w->at[TO]) || !look_at_all(w, s, true)) return false;
@@ -859,7 +859,7 @@ static bool lacks(witness *w, stepper *s)
     return w->parts > 1 && beyond_velocities(w, w->missing, PART_OF_BARS) && hides(w, s, SHOWN);
 }
 
-/* What a step that stands lacks moves the companion, which waits for it. */
+/* Compares a step that stands with the force; what it lacks moves the companion, which waits for it. */
 static void compare(witness *w, stepper *s, double until)
 {
     const state *const from = &w->at[FROM], *const to = &w->at[TO];
@@ -872,8 +872,8 @@ static void compare(witness *w, stepper *s, double until)
     w->moves = beyond_velocities(w, w->dv, PART_OF_BARS) || beyond_places(w, w->dx, PART_OF_BARS);
 }
 
-/* How many steps it has to leave aside before it can afford to look again: of a motion that repeats itself not always
- * the same. */
+/* Returns how many steps are to be left aside before another look is affordable. The number varies, for motions that
+ * repeat themselves. */
 static int64_t rest_of(const witness *w)
 {
     const double owes = w->peaks && w->spared < most_spared(w) ? 0 : w->spent - w->earned;
@@ -898,19 +898,21 @@ static stepper_verdict inspect_steady(witness *w, stepper *s, double until)
     return (stepper_verdict){.rest = w->rested, .halt = w->moves};
 }
 
-/* The size by which a step of which too much is missing is to be taken again: to the first of what is missing. */
+/* Returns the size of the next step, in place of one of which too much is missing: to the first part that lacks much.
+ */
 static double shorter(const witness *w, double whole)
 {
     const double before = w->start - w->at[FROM].t, first = fabs(before) > fabs(w->length) ? before : w->length;
     return !w->beside && fabs(first) < ROOM * fabs(whole) ? first : whole / 4;
 }
 
-/* The same, where a probe that leads to at[TO] says so as well; 0: the step stands. */
+/* Returns the size of the next step if a probe to at[TO] confirms that the step is wrong; 0: the step stands. */
 static double object(witness *w, stepper *s, double whole)
 {
     const state *const from = &w->at[FROM];
     const double size = shorter(w, whole);
-    if (w->tries >= (w->beside ? SHORTER : TRIES)) { /* where a switch stands at 0 at its start, every step is off */
+    /* where a switch stands at 0 at the start of a step, every step is off */
+    if (w->tries >= (w->beside ? SHORTER : TRIES)) {
         if (w->beside || !w->kinked) w->differs = from->t, w->held |= w->beside, w->objected = true;
         return 0;
     }
@@ -928,7 +930,7 @@ static double object(witness *w, stepper *s, double whole)
     return 0;
 }
 
-/* A look finds nothing: the step stands, unless the look has ended before it saw all of a force with narrow peaks. */
+/* Lets a step stand in which nothing was found, unless the look ended before it had seen all of narrow peaks. */
 static double pass(witness *w, double whole)
 {
     const bool many = w->parts > MANY && may_be_peak(w), lost = many && w->exhausted;
@@ -940,9 +942,8 @@ static double pass(witness *w, double whole)
 
 static double earlier(double a, double b, double way) { return way < 0 ? fmax(a, b) : fmin(a, b); }
 
-/* Looks for the first peak that the step does not show, by which it is to be taken again without a probe: a step pays
- * for the first of many peaks, not for all of them. *again 0: it shows them, or there is none; false: the look
- * failed. */
+/* Looks for the first peak that the step hides; for that no probe is asked, so that a step pays for the first of many
+ * peaks. *again: the size of the next step; 0: nothing is hidden. False: the look failed. */
 static bool judge_first(witness *w, stepper *s, double *again)
 {
     state *const to = &w->at[TO];
@@ -961,7 +962,7 @@ static bool judge_first(witness *w, stepper *s, double *again)
     return true;
 }
 
-/* Of the steps that lead on from another state than that to which the last one has led, nothing is known. */
+/* Forgets the peak unless the step leads on from the state where the last one ended. */
 static void go_on(witness *w)
 {
     const state *const from = &w->at[FROM], *const to = &w->at[TO], *const last = &w->at[LAST];
@@ -972,8 +973,8 @@ static void go_on(witness *w)
     memcpy(last->v, to->v, v);
 }
 
-/* Whether what an earlier step has shown decides: nothing is missing before the peak, and a long step leaps it.
- * *again: as judge gives it. */
+/* Returns whether an earlier step decides: it has shown nothing before the peak, and a long step leaps over it. *again:
+ * the size of the next step; 0: the step stands. */
 static bool meets_peak(witness *w, double *again)
 {
     const double from = w->at[FROM].t, to = w->at[TO].t, sign = to < from ? -1 : 1, whole = fabs(to - from),
@@ -989,8 +990,8 @@ static bool meets_peak(witness *w, double *again)
     return true;
 }
 
-/* The shortest piece, and of these the first, into which a part is halved until no operation but a switch may hide
- * something. False: it is not to be had, or sampling fails. */
+/* Finds the shortest piece, the first of equals, into which a part is halved until only a switch may hide something.
+ * False: too many halvings or evaluations are needed, or sampling fails. */
 static bool find_shortest(witness *w, stepper *s, const state *from, const state *to, int depth, int *deepest)
 {
     state *const middle = &w->at[MIDDLE + depth];
@@ -1002,8 +1003,8 @@ static bool find_shortest(witness *w, stepper *s, const state *from, const state
            find_shortest(w, s, from, middle, depth + 1, deepest) && find_shortest(w, s, middle, to, depth + 1, deepest);
 }
 
-/* What is missing where a switch stands at 0 no integral of the force tells: whether what is held is let go is a matter
- * of the run's own points, so they have to resolve what else the force does there. */
+/* Returns whether the run's own points resolve what the force does besides, where a switch stands at 0. There no
+ * integral tells what is missing: what lets go a state that is held is found at these points. */
 static bool resolves(witness *w, stepper *s)
 {
     int deepest = 0;
@@ -1014,8 +1015,8 @@ static bool resolves(witness *w, stepper *s)
     return !narrow;
 }
 
-/* The size by which a step is to be taken again; 0: it stands. A located run may end it at a switch, behind which there
- * is another force: then what is missing from there on is open. */
+/* Returns the size by which a step is to be taken again; 0: the step stands. A located run may end the step at a
+ * switch, behind which the force is another one: what is missing from there on is open. */
 static double judge(witness *w, stepper *s)
 {
     const state *const from = &w->at[FROM], *const to = &w->at[TO];
@@ -1033,7 +1034,6 @@ static double judge(witness *w, stepper *s)
     return w->open && !see(s, w->past, &w->at[TO]) ? 0 : object(w, s, whole);
 }
 
-/* Where the companion has come to the end of a step as well, its distance may show what the step lacks. */
 bool witness_objected(witness *w)
 {
     if (!w) return false;
@@ -1057,8 +1057,8 @@ static stepper_verdict inspect(void *ctx, stepper *s)
     return (stepper_verdict){.again = again};
 }
 
-/* A step, up to where a switch of the force changes its side: the sides that the run has are those of the typed force,
- * or a probe in shorter steps shows that they are not. */
+/* Looks at the sides of switches in a step, up to where one changes: they are those of the typed force, unless a probe
+ * in shorter steps shows that they are not. */
 static void inspect_sides(witness *w, stepper *s, double until)
 {
     state *const to = &w->at[TO];
@@ -1080,7 +1080,8 @@ static void inspect_sides(witness *w, stepper *s, double until)
     w->sides += w->spent - spent, w->spent = spent;
 }
 
-/* What was missing of a step behind the end of a piece has not happened. What is missing before moves the companion. */
+/* Judges a step up to the end of a piece, since behind it the step has not happened. What is missing before moves the
+ * companion. */
 static void judge_piece(witness *w, stepper *s, double until)
 {
     const double h = until - w->at[FROM].t;

@@ -1,7 +1,7 @@
 /* See accuracy.h.
  *
- * A trial integrates to the end with a companion beside it, and its largest bar is compared with what is wanted;
- * search.c says of which size the next one is.
+ * A trial goes to the end with a companion, and its largest bar is compared with the accuracy; search.c tells the size
+ * of the next trial.
  */
 #include "api/search/accuracy.h"
 
@@ -18,7 +18,7 @@
 
 enum { CHUNK = 256, EARLY = 1 << 12 };
 
-/* A search may have any number of trials, so each takes half of what is left of it. */
+/* What a trial tells of progress: a search may have any number of trials, so each takes half of what is left. */
 typedef struct share {
     int (*progress)(void *context, double fraction);
     void *context;
@@ -37,11 +37,11 @@ typedef struct trial {
     motus_run_def def;
     search search;
     double *size;   /* the tolerance of the definition, or its step */
-    run_hint hint;  /* of a trial */
-    motus_run *run; /* the trial in hand */
-    double bar;     /* the largest of it, INFINITY: it has none, or failed */
-    double done;    /* how far it came, as a part of the whole way */
-    bool once;      /* no other trial follows one without digits */
+    run_hint hint;  /* of the next trial */
+    motus_run *run; /* the present trial */
+    double bar;     /* the largest bar of the trial; INFINITY: there is none */
+    double done;    /* the part of the way that it came */
+    bool once;      /* no trial follows one without digits */
     motus_error failure;
 } trial;
 
@@ -55,14 +55,14 @@ static bool hopeless(const trial *s)
     return search_hopeless(&s->search, bar_of(s->run, s->def.absolute), bar_of(s->run, false));
 }
 
-/* A failure that another tolerance does not mend. */
+/* Returns whether no other tolerance mends a failure. */
 static bool ends_all(motus_status status)
 {
     return status == MOTUS_CANCELLED || status == MOTUS_MEMORY || status == MOTUS_CALLBACK ||
            motus_status_exit(status) == 2;
 }
 
-/* Whether its switches cannot be located: the force that it had then is not the typed one. */
+/* Returns whether the switches cannot be located, since the run's force was not the typed one. */
 static bool refuted(const motus_run *r)
 {
     size_t number = SIZE_MAX;
@@ -70,8 +70,8 @@ static bool refuted(const motus_run *r)
     return number != SIZE_MAX;
 }
 
-/* Takes the trial's steps. The stepper asks late whether a run crawls, so that hardly any is asked; one of which these
- * first steps lead nowhere is asked now. */
+/* Takes the trial's steps. A stepper looks late for a crawl, so that hardly any run is asked; a trial whose first steps
+ * lead nowhere is asked at once. */
 static motus_status integrate(trial *s)
 {
     motus_run *r = s->run;
@@ -91,7 +91,7 @@ static motus_status integrate(trial *s)
     return status;
 }
 
-/* One trial. MOTUS_OK also where the run itself failed: then its bar is infinite. */
+/* Takes one trial. MOTUS_OK also where the run itself failed: its bar is then INFINITY. */
 static motus_status try(trial *s, motus_error *err)
 {
     const bool absolute = s->def.absolute;
@@ -101,7 +101,7 @@ static motus_status try(trial *s, motus_error *err)
     s->done = 0;
     s->share.size = (1 - s->share.from) / 2;
     motus_status status = run_create(s->system, &s->def, &s->hint, &s->run, &s->failure);
-    /* the tolerance with which it runs */
+    /* the stepper may run with a smaller tolerance */
     if (status == MOTUS_OK && row_adaptive(&s->run->chosen) && !absolute && s->run->chosen.relative < *s->size) {
         search_set(&s->search, s->run->chosen.relative);
         *s->size = s->search.size;
@@ -117,7 +117,7 @@ static motus_status try(trial *s, motus_error *err)
                               "written";
         status = try(s, err);
         if (status != MOTUS_ACCURACY || !err) return status;
-        located.hint[0] = 0; /* that has been tried */
+        located.hint[0] = 0; /* this has been tried */
         motus_struct_write(MOTUS_DEF_ERROR, &located, err);
         return located.status;
     }
@@ -130,7 +130,7 @@ static motus_status try(trial *s, motus_error *err)
         fail(&s->failure, MOTUS_ACCURACY, "no accuracy can be promised, because %s", s->run->bars->why);
         status = MOTUS_ACCURACY;
     }
-    /* what the motion itself does no smaller tolerance avoids, nor that the first one is below rounding */
+    /* No smaller tolerance avoids what the motion does, nor a first tolerance that is below rounding. */
     const motus_cause cause = s->failure.cause;
     const bool motions = cause == MOTUS_CAUSE_SINGULAR || cause == MOTUS_CAUSE_STIFF || cause == MOTUS_CAUSE_INFINITE;
     const bool rounds = cause == MOTUS_CAUSE_ROUNDING && s->search.trials == 0;
@@ -162,7 +162,7 @@ static motus_status begin(trial *s, const accuracy *a, motus_error *err)
     return status;
 }
 
-/* Keeps the trial if it is the best. */
+/* Keeps the trial if it is the best so far. */
 static void keep(trial *s, accuracy *a, double *size)
 {
     const double bar = s->done >= 1 ? s->bar : INFINITY;
@@ -177,7 +177,7 @@ static void keep(trial *s, accuracy *a, double *size)
     s->run = NULL;
 }
 
-/* Which part of the error no tolerance lessens, where it is more than was wanted. */
+/* Finds the part of the error that no tolerance lessens, where that is more than was wanted. */
 static motus_status find_decimals(accuracy *a, trial *s, motus_error *err)
 {
     double part;
@@ -187,7 +187,7 @@ static motus_status find_decimals(accuracy *a, trial *s, motus_error *err)
     return status;
 }
 
-/* Why errors are as large as they are, where that is the force: for the end of a sentence. */
+/* Writes why the force makes errors large, for the end of a sentence. */
 static const char *because(const accuracy *a, char out[MOTUS_TEXT_MAX])
 {
     out[0] = 0;
@@ -201,7 +201,7 @@ bool accuracy_wants_another(const accuracy *a, const motus_error *failure)
     return !ends_all(failure->status) && failure->cause == MOTUS_CAUSE_NONE;
 }
 
-/* The trials have failed so. */
+/* Reports how the trials have failed. */
 static motus_status tell_failure(accuracy *a, const trial *s, motus_error *failure, motus_error *err)
 {
     char of[MOTUS_TEXT_MAX];
@@ -221,7 +221,6 @@ double accuracy_reached(const accuracy *a, const motus_run *r)
     return isfinite(a->reached) || !r->arrived || !r->bars ? a->reached : bars_worst(r->bars, a->absolute, true);
 }
 
-/* A trial that was far off was not taken to its end, so only the run itself can tell of its errors. */
 motus_status accuracy_refuse(const accuracy *a, const motus_run *r, motus_error *err)
 {
     char wanted[DECIMAL_MAX], t[DECIMAL_MAX], size[MOTUS_TEXT_MAX], part[MOTUS_TEXT_MAX] = "", why[MOTUS_TEXT_MAX];
@@ -260,7 +259,7 @@ void accuracy_end(accuracy *a)
     a->best = NULL;
 }
 
-/* The trials; the best one has the size. */
+/* Takes trials; *size: that of the best. */
 static motus_status find(trial *s, accuracy *a, double *size, motus_error *failure)
 {
     bool more = true;
@@ -279,7 +278,7 @@ static motus_status find(trial *s, accuracy *a, double *size, motus_error *failu
     return failure->status;
 }
 
-/* The part of the largest number of the state, which counts as a power of ten. */
+/* Returns `part` of the largest number of the state, rounded to a power of ten. */
 static double part_of_largest(const motus_run *r, double part)
 {
     const problem *const p = stepper_problem(r->stepper);
@@ -290,8 +289,8 @@ static double part_of_largest(const motus_run *r, double part)
 
 #define NEARLY 10.0 /* times the accuracy: a motion that goes no farther rests */
 
-/* The trials, once more, where a number is rounding alone and has no part that can be asked for: its tolerance, and so
- * the accuracy, is that of the largest numbers. Else what was found before stays. */
+/* Takes the trials once more, where a number is rounding alone and no part of it can be asked for: the accuracy is then
+ * absolute, that part of the largest numbers. If that fails, what was found before stays. */
 static motus_status find_absolute(trial *s, accuracy *a, motus_status before, double *size, motus_error *failure)
 {
     motus_error theirs = motus_default_error();

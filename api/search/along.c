@@ -1,7 +1,7 @@
 /* See along.h.
  *
- * The pilot is a run by an embedded pair of orders 5 and 4 with a rough tolerance, so that it passes events as runs do,
- * and takes its steps where the motion is fast. Invariant: the system is not changed.
+ * The pilot is a run by an embedded pair of orders 5 and 4 with a rough tolerance: it has the motion's events, and
+ * takes short steps where the motion is fast. Invariant: the system is not changed.
  */
 #include "api/search/along.h"
 
@@ -15,22 +15,22 @@
 #define PILOT "dopri5"
 #define TOLERANCE 1e-4
 #define STAGES 6
-enum { LOOKS_FEW = 16, LOOKS_EVEN = 4 }; /* LOOKS_EVEN: at one interval */
-#define LOOK 80                          /* evaluations that the rates at one state take */
-/* So many operations take less than a millisecond in the interpreter. The rates at two states are within reach of every
- * system, as those at the start are; more evaluations than the most tell little that is new. */
+enum { LOOKS_FEW = 16, LOOKS_EVEN = 4 }; /* LOOKS_EVEN: looks before their interval doubles */
+#define LOOK 80                          /* evaluations for the rates at one state */
+/* So many operations take less than a millisecond in the interpreter. Every system affords the rates at two states;
+ * more evaluations than EVALUATIONS_MOST tell little that is new. */
 #define OPERATIONS 6e5
 #define EVALUATIONS_LEAST (2 * LOOK)
 #define EVALUATIONS_MOST (2400 + ALONG_MOST * LOOK)
-#define OVERHEAD 8  /* operations of the method for each number, in each evaluation */
-#define SETTLED 3   /* steps, until their length no longer follows from the first */
-#define SHORTER 0.8 /* than the shortest step before: here the motion is faster */
+#define OVERHEAD 8  /* operations of the method for each number, per evaluation */
+#define SETTLED 3   /* steps until their length no longer follows from the first */
+#define SHORTER 0.8 /* than the shortest step before: the motion has become faster */
 #define TWO_PI 6.283185307179586
-#define DECAY 0.05 /* an eigenvalue is real if its imaginary part is less than this part of it */
-/* A motion that runs into a singularity becomes faster and faster: its places do not count. They do where it has become
- * slower again, or goes on for long. */
+#define DECAY 0.05 /* the part of an eigenvalue below which its imaginary part is 0 */
+/* A motion that runs into a singularity becomes faster and faster, and its places do not count; they do where it has
+ * become slower again, or goes on for long. */
 #define PASSED 0.7
-#define LASTING 30.0 /* towards a singularity the rate is c/(time to it); of forces that are powers c is below this */
+#define LASTING 30.0 /* c in the rate c/(time to a singularity) is below this for forces that are powers */
 
 typedef struct pilot_run {
     motus_run *run;
@@ -57,7 +57,7 @@ static void look(pilot_run *p, double time, double span)
     p->out->count++;
 }
 
-/* Evaluations that all of it may take. */
+/* Finds how many evaluations the whole may take. */
 static motus_status afford(motus_system *s, double *evaluations, motus_error *err)
 {
     const double numbers = (double)(s->problem.nx + s->problem.nv);
@@ -68,8 +68,9 @@ static motus_status afford(motus_system *s, double *evaluations, motus_error *er
     return status;
 }
 
-/* Half of the effort is for steps, half for looks: half of these where steps are shorter than before, the others at
- * intervals that double, since it is not known how many steps there will be. Of few looks none may come too early. */
+/* Follows the pilot. Half of the effort is for steps, half for looks: of these, half where steps become shorter, the
+ * others at intervals that double, since the number of steps is not known. Few looks are spread evenly, so that none
+ * comes too early. */
 static motus_status follow(pilot_run *p, double evaluations)
 {
     along *out = p->out;

@@ -1,7 +1,7 @@
 /* See decimals.h.
  *
  * The run is made once more with the shadow of its system, and once more from a start that is a rounding away. Where
- * the first moves the answer by several times what the second does, the decimals did it.
+ * the shadow moves the answer several times as far, the decimals are the cause.
  */
 #include "api/search/decimals.h"
 
@@ -11,7 +11,7 @@
 #include <math.h>
 
 enum { CHUNK = 256 };
-#define CLEARLY 3 /* so many times what a rounding of the start does */
+#define CLEARLY 3 /* times as far as a rounding of the start moves the answer */
 
 static motus_status move_start(motus_run *r, motus_error *err)
 {
@@ -41,7 +41,7 @@ static double distance(const motus_run *a, const double *of_a, const double *of_
     return most;
 }
 
-/* How far another run ends from this one; NaN: it does not come to its end. */
+/* Finds how far another run ends from this one; NaN: it does not come to its end. */
 static motus_status other_run(motus_system *s, const motus_run_def *def, motus_run *run, bool moved, bool absolute,
                               double *far, motus_error *err)
 {

@@ -4,10 +4,9 @@
 
 #include "api/motion/run.h"
 
-/* How far the answer moves where every decimal is read as the double on its other side: the largest change of a number
- * of the state at the end, relative to the largest number of its kind, or absolute. `run` is at its end, and `def` is
- * its definition, whose hook may cancel. NaN: not known, or not to be told from what the rounding of a run's own
- * numbers does. */
+/* Finds how far the answer moves where every decimal is read as the double on its other side: the largest change of a
+ * number of the state at the end, relative to the largest number of its kind, or absolute. `run` is at its end; `def`
+ * is its definition, whose hook may cancel. NaN: not known, or not clearly more than rounding. */
 motus_status decimals_part(const motus_run_def *def, motus_run *run, bool absolute, double *part, motus_error *);
 
 #endif

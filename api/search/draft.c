@@ -13,35 +13,35 @@
 
 #define TWO_PI 6.283185307179586
 #define STEPS_A_SWING 60
-#define STEPS_A_RATE 15 /* at least, in the period of the fastest rate at the start */
+#define STEPS_A_RATE 15 /* least, in the period of the fastest rate at the start */
 #define STEPS_A_FLIGHT 20
 #define STEPS_MOST 1e4
-#define HORIZON 200 /* of the scales of time at the start: so long the motion is followed */
-#define SCALES 5    /* of what decays */
+#define HORIZON 200 /* of the time scales at the start: how long the motion is followed */
+#define SCALES 5    /* of decay */
 #define SHORT_OF 0.95
-#define SEVERAL 1.15        /* the slowest swing over the fastest, where they are told apart */
-#define START "for a start" /* the reason of what follows from nothing that was followed */
+#define SEVERAL 1.15        /* the slowest swing over the fastest, from which they are told apart */
+#define START "for a start" /* the reason of a number that does not follow from the motion */
 
 typedef enum rounding { NEAR, DOWN } rounding;
 
-/* x > 0 with so many digits: the double of that decimal. */
+/* Rounds x > 0 to so many digits: to the double of that decimal. */
 static double rounded(double x, int count, rounding way)
 {
     int exponent;
     const double least = decimal_scaled(1, count - 1), unit = (frexp(x, &exponent), 0.30103 * exponent);
     if (!(x > 1e-290 && x < 1e290)) return x;
-    int power = (int)unit - count - 1; /* below, as the cast cuts towards 0 */
+    int power = (int)unit - count - 1; /* below the power, as the cast cuts towards 0 */
     while (10 * least * decimal_scaled(1, power) <= x) power++;
     const double digits = x / decimal_scaled(1, power);
     return decimal_scaled(way == DOWN ? floor(digits + 1e-9) : floor(digits + 0.5), power);
 }
 
-/* A proposal: numbers before they are rounded. */
+/* A proposal, before its numbers are rounded. */
 typedef struct proposal {
     double step, duration;
     int digits; /* of the duration */
     rounding end;
-    bool counts; /* the reason of the step is how many there are */
+    bool counts; /* the reason of the step is the number of steps */
 } proposal;
 
 static const char *word_of(const motus_system *s, size_t number)
@@ -68,7 +68,8 @@ static void of_swings(const motus_system *s, const draft_scales *d, const follow
     snprintf(set->step_why, sizeof set->step_why, "its fastest change");
 }
 
-/* Steps of equal number, which settle() counts; where the draft was too short to follow it, as short as those were. */
+/* Proposes so many equal steps, which settle() counts; shorter ones where the draft was too short to follow the motion.
+ */
 static void even_steps(const followed *m, int steps, double rate, proposal *p)
 {
     p->step = p->duration / steps;
@@ -111,7 +112,7 @@ static void of_settling(const draft_scales *d, const followed *m, proposal *p, m
              decimal(d->from + d->way * rounded(m->elapsed, 2, DOWN), to));
 }
 
-/* number: of v; of several, its name is told. */
+/* Proposes the length of a flight. number: of v; its name is told where there are several. */
 static void of_flight(const motus_system *s, double duration, bool lands, size_t number, const followed *m, double rate,
                       proposal *p, motus_settings *set)
 {
@@ -124,8 +125,7 @@ static void of_flight(const motus_system *s, double duration, bool lands, size_t
     if (lands) snprintf(set->until_why, sizeof set->until_why, "when %.40s is at 0", name);
 }
 
-/* What the motion does not tell, because it does nothing, or nothing of all that was followed: the equations at the
- * start. */
+/* Proposes by the equations at the start, where nothing moves or the motion shows nothing. */
 static void of_rates(const draft_scales *d, const followed *m, proposal *p, motus_settings *set)
 {
     p->duration = (d->turns ? 3 : SCALES) * d->period;
@@ -157,7 +157,7 @@ static double step_of(const draft_scales *d, bool ends, proposal *p)
     return rounded(fmin(p->step, within / STEPS_A_FLIGHT), 2, NEAR);
 }
 
-/* Makes both numbers plain, keeps what is given, and counts the steps of what they have become. */
+/* Rounds both numbers, keeps what is given, and counts the steps. */
 static void settle(const draft_scales *d, proposal *p, motus_settings *set)
 {
     const bool ends = !isnan(set->until), given = !isnan(set->step);
@@ -179,7 +179,7 @@ static void settle(const draft_scales *d, proposal *p, motus_settings *set)
         set->until = d->from + (d->uniform ? steps * set->step : duration);
 }
 
-/* The first of these that the motion shows decides. */
+/* Proposes by the first of these that the motion shows. */
 static void of_motion(motus_system *s, const draft_scales *d, const followed *m, bool even, proposal *p,
                       motus_settings *set)
 {

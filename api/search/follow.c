@@ -1,8 +1,8 @@
-/* A motion followed by the embedded pair of orders 3 and 2 [BogackiShampine89], and its turning points counted.
+/* A motion followed by the embedded pair of orders 3 and 2 [BogackiShampine89], with its turning points counted.
  *
- * What is told of it happened in what was followed: times of events lie within a step by the cubic through its ends. A
- * number swings where its velocity changes its sign again and again; one that only goes on, as a pendulum that turns
- * over, where its acceleration does. Invariant: the same bits on every machine, and nothing about the system changes.
+ * Times of events lie within a step, by the cubic through its ends. A number swings where its velocity changes sign
+ * again and again; one that only goes on, as a pendulum that turns over, where its acceleration does. Invariant: the
+ * bits are the same on every machine, and the system does not change.
  */
 #include "api/search/follow.h"
 
@@ -15,42 +15,42 @@
 #include <string.h>
 
 #define TOLERANCE 1e-5      /* of a step, relative to the size of each number */
-#define LEAST 1e-3          /* of the largest of its kind: no number is taken to be smaller */
-#define CHANGE_OF_STEP 11.8 /* `change` of a harmonic motion in its steps at this tolerance */
+#define LEAST 1e-3          /* of the largest of its kind: the least size of a number */
+#define CHANGE_OF_STEP 11.8 /* `change` of a harmonic motion, in its steps at this tolerance */
 #define SWINGS_MOST 100     /* of the fastest number */
 #define INFINITE 1e8        /* times the size of the start */
-#define KINK 3              /* steps: a change of the force that takes fewer is a jump and no rate */
-#define STEEP 100           /* times the force of the start: no singularity has less */
-#define RESTS 1e-12         /* of the force that a displacement by the whole state may have */
-#define LATER 100           /* of the horizon: so long a fall is followed */
-#define SPEED 0.05          /* of the largest in a fall: what is slower comes to rest and does not fall */
-#define UNIT 0.2            /* of the size after 1/rate: a start that is smaller has no size to grow from */
-#define NEAR_END 1e-6       /* of the time: so shortly before the end its cause is met */
-enum { SETTLED = 8 };       /* steps, until their length no longer follows from the first, or from a kink */
+#define KINK 3              /* steps: the force jumps if it changes within fewer */
+#define STEEP 100           /* times the force of the start, that a singularity has at least */
+#define RESTS 1e-12         /* part of the force of a displacement by the whole state, below which the start rests */
+#define LATER 100           /* times the horizon, for which a fall is followed */
+#define SPEED 0.05          /* of the largest in a fall: a slower number comes to rest and does not fall */
+#define UNIT 0.2            /* of the size after 1/rate: a smaller start is no size to grow from */
+#define NEAR_END 1e-6       /* part of the time before an end in which its cause shows */
+enum { SETTLED = 8 };       /* steps until their length no longer follows from the first, or from a kink */
 
 typedef struct follower {
     const problem *problem;
     double t, way, rate, h, elapsed;
-    double *x, *v, *a;         /* now */
-    double *stage_x, *stage_v; /* of a stage, and at the end of the step */
+    double *x, *v, *a;         /* present state */
+    double *stage_x, *stage_v; /* of a stage; after an attempt, of the end of the step */
     double *slope_x[4], *slope_v[4];
     double *largest_x, *largest_v;
-    swings *signals;    /* of the velocity of each number of v, then of its acceleration */
-    size_t falling;     /* the position with the largest force at the start, */
-    double force, side; /*   this force, and the sign of the position before it comes to 0, */
-    double speed;       /*   and its largest speed since it falls */
+    swings *signals;    /* of each number of v, then of each acceleration */
+    size_t falling;     /* the position with the largest force at the start */
+    double force, side; /* force: on it at the start; side: its sign before it comes to 0 */
+    double speed;       /* its largest speed in the present fall */
     double *first_a;    /* at the start */
     double *largest_a;
-    double unit_x, unit_v, start_x, start_v; /* sizes of positions and of first-order variables */
+    double unit_x, unit_v, start_x, start_v; /* sizes of positions (x) and of first-order variables (v) */
     bool begun;                              /* the units are known */
-    double undefined;                        /* the last time from which a step met no force; below 0: there is none */
+    double undefined;                        /* the last time at which a step met no force; below 0: never */
     double fast[KINK], fastest;              /* rates of the last steps, and the largest that lasted */
     settled record;
-    double usual, shortest; /* a mean of the last steps, and the least that it was */
+    double usual, shortest; /* a mean of the last steps, and the least it was */
     uint32_t taken;
 } follower;
 
-/* Modes are numbers of x that stand still: they are no part of the motion. */
+/* Returns whether a number takes part in the motion: modes, which are numbers of x, stand still. */
 static bool moves(const problem *p, size_t k) { return k < linear_positions(p) || k >= p->nx; }
 
 static bool evaluate(follower *f, double t, double *x, double *v, double *a)
@@ -61,7 +61,7 @@ static bool evaluate(follower *f, double t, double *x, double *v, double *a)
     return p->accel(p->ctx, t, x, v, a) == 0 && isfinite(vector_largest(a, p->nv));
 }
 
-/* The end of a step of length h goes to the stage; its error in units of the tolerance, NaN: it is not finite. */
+/* Attempts a step of length h to the stage. Returns its error in units of the tolerance; NaN: not finite. */
 static double attempt(follower *f, double h)
 {
     static const double row[3][3] = {{1.0 / 2}, {0, 3.0 / 4}, {2.0 / 9, 1.0 / 3, 4.0 / 9}},
@@ -110,14 +110,14 @@ static void note_all(follower *f)
     }
 }
 
-/* The cubic through both ends of a step of length h, at a part of it. */
+/* Evaluates the cubic through both ends of a step of length h, at a part of it. */
 static double between(double y0, double d0, double y1, double d1, double h, double part)
 {
     const double q = 1 - part;
     return q * q * ((1 + 2 * part) * y0 + part * h * d0) + part * part * ((1 + 2 * q) * y1 - q * h * d1);
 }
 
-/* Number k of positions, then of first-order variables, within the step that was attempted. */
+/* Returns number k, of positions and then of first-order variables, within the attempted step. */
 static double number_between(const follower *f, size_t k, double h, double part)
 {
     const size_t nx = f->problem->nx;
@@ -126,7 +126,7 @@ static double number_between(const follower *f, size_t k, double h, double part)
                   : between(f->v[k], f->a[k], f->stage_v[k], f->slope_v[3][k], h, part);
 }
 
-/* How large the state is within this step, positions and first-order variables each in units of their own. */
+/* Returns the size of the state within the attempted step, in units of positions and of first-order variables. */
 static double size_between(const follower *f, double h, double part)
 {
     double most = 0;
@@ -137,7 +137,7 @@ static double size_between(const follower *f, double h, double part)
     return most;
 }
 
-/* The part of the step at which what `below` tells ends. */
+/* Returns the part of the step at which `below` ceases to hold. */
 static double part_of(const follower *f, double h, bool (*below)(const follower *, double h, double part))
 {
     double low = 0, high = 1;
@@ -158,7 +158,7 @@ static bool is_up(const follower *f, double h, double part)
 
 static bool is_small(const follower *f, double h, double part) { return size_between(f, h, part) < FOLLOW_GROWTH; }
 
-/* Notes where in this step the falling number comes to 0, moving as its force at the start drives it. */
+/* Notes where in this step the falling number comes to 0, moving in the direction of its force at the start. */
 static void land(follower *f, double h, followed *out)
 {
     if (linear_positions(f->problem) == 0 || out->landed > 0) return;
@@ -171,7 +171,7 @@ static void land(follower *f, double h, followed *out)
     out->landed = f->elapsed + h * part_of(f, h, is_up);
 }
 
-/* Notes where in this step the state has grown; first the sizes that it grows from. */
+/* Notes the sizes from which the state grows, and then where in this step it has grown. */
 static void grow(follower *f, double h, followed *out)
 {
     const size_t nx = f->problem->nx;
@@ -190,8 +190,8 @@ static void grow(follower *f, double h, followed *out)
         out->grown = f->elapsed + h * part_of(f, h, is_small);
 }
 
-/* Whether this step, though it meets the tolerance, may go over a singularity: the force has grown, and takes values
- * within the step that have nothing to do with one another. Shorter steps resolve the force, or end there. */
+/* Returns whether this step may leap over a singularity although it meets the tolerance: the force has grown, and its
+ * values within the step are far apart. Shorter steps resolve the force, or end there. */
 static bool leaps(const follower *f)
 {
     const double first = vector_largest(f->first_a, f->problem->nv);
@@ -204,7 +204,7 @@ static bool leaps(const follower *f)
     return false;
 }
 
-/* Of y, or of y - z. */
+/* Returns the length of y, or of y - z unless z is NULL. */
 static double length(const double *y, const double *z, size_t n)
 {
     double sum = 0;
@@ -212,14 +212,15 @@ static double length(const double *y, const double *z, size_t n)
     return sum;
 }
 
-/* The rate w at which the positions move as a harmonic motion would, by velocity, acceleration and its change j:
- * w^4 v^2 + w^2 a^2 = j^2, at most the rate of that motion, and that rate where it is fastest. */
+/* Notes the rate w at which the positions move, as for a harmonic motion, by velocity v, acceleration a and its change
+ * j: w^4 v^2 + w^2 a^2 = j^2. It is at most the rate of a harmonic motion, and equals it where that is fastest. */
 static void note_rate(follower *f, double h)
 {
     const size_t nx = f->problem->nx;
     const double v = length(f->stage_v, NULL, nx), a = length(f->slope_v[3], NULL, nx),
                  j = length(f->slope_v[3], f->a, nx) / h;
-    if (!(v > 0 && a > 0 && f->taken > SETTLED) || f->problem->traits.time) return; /* the motion's own alone */
+    /* a rate of the motion, and not of a driving force */
+    if (!(v > 0 && a > 0 && f->taken > SETTLED) || f->problem->traits.time) return;
     const double by = a / v, root = j / v; /* w^2 = (-by^2 + sqrt(by^4 + 4 root^2))/2, without cancellation */
     f->fast[f->taken % KINK] = sqrt(2 * root * root / (by * by + hypot(by * by, 2 * root)));
     double least = f->fast[0];
@@ -242,7 +243,7 @@ static void accept(follower *f, double h)
     settled_note(&f->record, f->elapsed, f->x, nx, f->v + nx);
 }
 
-/* One step that meets the tolerance. False: none does, however short. */
+/* Takes a step that meets the tolerance. False: none does, however short. */
 static bool step(follower *f, size_t *evaluations, size_t most, followed *out)
 {
     for (;;) {
@@ -265,14 +266,14 @@ static bool step(follower *f, size_t *evaluations, size_t most, followed *out)
     }
 }
 
-/* The signs that tell the swings of number k. */
+/* Returns the changes of sign that tell the swings of number k. */
 static const swings *telling(const follower *f, size_t k)
 {
     const swings *s = &f->signals[k], *a = s + f->problem->nv;
     return k < f->problem->nx && s->changes < 3 && a->changes > 3 ? a : s;
 }
 
-/* True: every number has swung often enough, or the fastest so often that the others do not swing. */
+/* Finds the swings. True: every number has swung often enough, or the fastest so often that the others do not swing. */
 static bool judge(const follower *f, followed *out)
 {
     bool all = true;
@@ -292,20 +293,20 @@ static bool judge(const follower *f, followed *out)
     return all || (out->shortest > 0 && f->elapsed > SWINGS_MOST * out->shortest);
 }
 
-/* How the motion ends that no step can follow further. */
+/* Returns how a motion ends that no step can follow further. */
 static follow_end end_of(const follower *f, double size)
 {
     const size_t nx = f->problem->nx, nv = f->problem->nv;
     const double state = fmax(vector_largest(f->x, linear_positions(f->problem)), vector_largest(f->v + nx, nv - nx));
     const double slope = fmax(vector_largest(f->v, nx), vector_largest(f->a + nx, nv - nx));
     const double now = vector_largest(f->a, nv), first = vector_largest(f->first_a, nv);
-    /* What grows as an exponential ends with the range of the numbers, but needs as long as before for each factor. */
+    /* An exponential ends with the range of the numbers, but needs equal times for equal factors. */
     if (size >= INFINITE) return slope * f->elapsed > 1e4 * state ? FOLLOW_INFINITE : FOLLOW_GOES_ON;
     if (now > STEEP * first) return FOLLOW_SINGULAR;
     return f->undefined >= (1 - NEAR_END) * f->elapsed ? FOLLOW_UNDEFINED : FOLLOW_GOES_ON;
 }
 
-/* Whether the falling number is on its way to 0, and will be there in not much longer than it was followed. */
+/* Returns whether the falling number is on its way to 0, and near enough to be followed there. */
 static bool falls(const follower *f, double horizon, const followed *out)
 {
     if (linear_positions(f->problem) == 0 || out->landed > 0 || f->elapsed > LATER * horizon) return false;
@@ -341,7 +342,7 @@ static void follow(follower *f, double horizon, size_t most, followed *out)
     if (steps && size < INFINITE) out->settled = settled_since(&f->record, f->elapsed, f->x, nx, f->v + nx);
 }
 
-/* Whether nothing moves: the force at the start is rounding. */
+/* Returns whether nothing moves, since the force at the start is rounding. */
 static bool rests(const follower *f)
 {
     const problem *p = f->problem;

@@ -11,9 +11,9 @@
 #include <stdio.h>
 #include <string.h>
 
-#define ACCURACY 1e-9 /* of a run for which nobody says how exact it is to be */
+#define ACCURACY 1e-9 /* where nobody gives one */
 
-/* What contradicts itself. Steps and tolerances without an accuracy are judged by request_choose. */
+/* Refuses contradictions. request_choose judges steps and tolerances without an accuracy. */
 static motus_status check(const motus_run_def *def, const request *q, motus_error *err)
 {
     const bool step = request_asks(q->step_said);
@@ -31,7 +31,7 @@ static motus_status check(const motus_run_def *def, const request *q, motus_erro
     return request_admits("an accuracy", q->accuracy, q->absolute, err);
 }
 
-/* The start and the end, which pilot and trial runs need. */
+/* Settles start and end, which pilots and trials need. */
 static motus_status settle(motus_system *s, motus_run_def *def, const request *given, motus_error *err)
 {
     timing t;
@@ -39,7 +39,7 @@ static motus_status settle(motus_system *s, motus_run_def *def, const request *g
     if (q.automatic)
         q.method = PILOT_FIRST;
     else
-        q.step = 1; /* it is searched for */
+        q.step = 1; /* searched for later */
     motus_status status = request_row(s, q.method, &q.chosen, &q.card, err);
     if (status == MOTUS_OK) status = suggest_missing(s, &q, err);
     if (status == MOTUS_OK) status = run_timing(&q.chosen, q.step, q.until, q.start, &t, err);
@@ -47,7 +47,7 @@ static motus_status settle(motus_system *s, motus_run_def *def, const request *g
     return status;
 }
 
-/* With this method: what it reaches, how it may fail, and with what definition. */
+/* One method tried: with which definition, what it reaches, and how it fails. */
 typedef struct attempt {
     motus_run_def def;
     run_hint hint;
@@ -70,7 +70,7 @@ static bool better(const attempt *a, const attempt *b)
     return a->accuracy.reached < b->accuracy.reached;
 }
 
-/* Other methods that pilots have flown, where the first fails for a reason of its own. */
+/* Tries the other methods of the pilots, where the first fails for a reason of its own. */
 static void try_others(motus_system *s, const attempt *asked, const pilot *p, attempt *best, char choice[256])
 {
     const char *const first = best->def.method;
@@ -85,7 +85,7 @@ static void try_others(motus_system *s, const attempt *asked, const pilot *p, at
         accuracy_end(&worse->accuracy);
         if (worse == best) *best = t;
         best->accuracy.trials = trials;
-        /* what ends all ends this, too */
+        /* such a failure ends every attempt */
         if (t.failure.status == MOTUS_CANCELLED || t.failure.status == MOTUS_MEMORY) {
             accuracy_end(&best->accuracy);
             best->failure = t.failure;
@@ -127,8 +127,8 @@ static motus_status reach(motus_system *s, motus_run_def *def, const request *q,
     return best.failure.status;
 }
 
-/* Names the method of a definition, and finds what reaches its accuracy, by pilot and trial runs where they are due.
- * *goal: NULL, or the run's. */
+/* Names the method of a definition, and finds what reaches its accuracy, by pilots and trials where they are due.
+ * *goal: the run's; NULL: it has none. */
 static motus_status reach_goal(motus_system *s, motus_run_def *def, run_hint *hint, struct goal **goal,
                                motus_error *err)
 {

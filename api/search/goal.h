@@ -1,4 +1,4 @@
-/* What a run is to reach: from "auto" and an accuracy to a method and a tolerance, or a step. */
+/* The goal of a run: from "auto" and an accuracy to a method and its tolerance or step. */
 #ifndef API_SEARCH_GOAL_H
 #define API_SEARCH_GOAL_H
 
@@ -9,18 +9,18 @@ struct goal {
     char choice[256]; /* which method "auto" chose, and why; "" */
 };
 
-/* Makes the run of a definition, with what nobody gives: pilot runs name its method, trial runs find what reaches its
- * accuracy, and its step and its end are suggested. *out: NULL, after an error. */
+/* Makes the run of a definition, and settles what nobody gives: pilots choose its method, trials find what reaches its
+ * accuracy, and its step and end are suggested. *out: NULL after an error. */
 motus_status goal_run(motus_system *, motus_run_def *, motus_run **out, motus_error *);
-void goal_end(motus_run *); /* destroys it; NULL: nothing */
-/* Which method "auto" chose for the run, and why; "". */
+void goal_end(motus_run *); /* destroys the run; NULL: nothing */
+/* Returns which method "auto" chose for the run, and why; "". */
 const char *goal_choice(const motus_run *);
-/* Call it before the run moves by 1 to n steps. The best trial run has been at the end: a run that is to go there
- * from its start at one call takes its state over. Returns whether it did. */
+/* Lets a run that is to go from its start to its end in one call take over the state of the best trial, which is there.
+ * Call it before the run moves by up to n steps. Returns whether it did so. */
 bool goal_arrive(motus_run *, int64_t n);
-/* MOTUS_ACCURACY, where the run is at its end and its accuracy was not reached. */
+/* Judges a run at its end. MOTUS_ACCURACY: it did not reach its accuracy. */
 motus_status goal_judge(const motus_run *, motus_error *);
-/* The run goes on from a restart state, whose errors no trial had: what it reaches, its own bars tell. */
+/* Forgets what the trials reached: after a restart state only the run's own bars tell its error. */
 void goal_restored(motus_run *);
 void goal_statistics(const motus_run *, motus_statistics *);
 

@@ -1,8 +1,8 @@
 /* See pilot.h.
  *
  * The candidates integrate the first part of the motion, as far as the first of them comes in STEPS steps, with the
- * tolerance of the run. What each takes is counted in operations: evaluations times the operations of the equations,
- * and what the method itself adds. A clock would choose otherwise on every machine, and on the same one tomorrow.
+ * tolerance of the run. Their work is counted in operations: evaluations times the operations of the equations, and
+ * those of the method. A clock would choose differently on every machine, and on one machine from day to day.
  *
  * Invariant: the choice depends on the system, the initial state, the end and the tolerance alone.
  */
@@ -19,25 +19,25 @@
 #include <stdio.h>
 #include <string.h>
 
-/* FAR: a candidate that has taken so many times the work of the best stops. CHUNK: steps between two looks at it. */
+/* FAR: a candidate stops at so many times the work of the best. CHUNK: steps between two looks at that. */
 enum { STEPS = 256, FAR = 4, CHUNK = 16 };
 
-/* The first one admits every force. Those of low order are for forces that are not smooth. */
+/* The first candidate admits every force. Forces that are not smooth have candidates of low order. */
 static const char *const smooth[] = {PILOT_FIRST, "dep12", "dep6", "taylor"}, *const kinked[] = {PILOT_FIRST, "dopri5"};
 
 typedef struct fleet {
     motus_system *system;
     motus_run_def def;
     weight weight;
-    double until; /* of the part that all of them integrate; NaN: the first one finds it */
-    double best;  /* the least work so far, and */
+    double until; /* the end of the part that all candidates integrate; NaN: the first one finds it */
+    double best;  /* the least work so far */
     double work[PILOT_CANDIDATES];
-    double steps[PILOT_CANDIDATES]; /* of the part */
+    double steps[PILOT_CANDIDATES]; /* that each candidate takes for the part */
     const char *const *names;
     size_t count;
 } fleet;
 
-/* The caller may cancel; of how far these short runs have come nothing is told. */
+/* Lets the caller cancel; how far these short runs have come is not told. */
 static int tell(void *ctx, double fraction)
 {
     const motus_run_def *const def = ctx;
@@ -52,7 +52,7 @@ double pilot_work(const motus_run *r, const weight *each, int order)
     return (double)stepper_evaluations(r->stepper) * choice_evaluation(p, each, r->card);
 }
 
-/* One candidate, as far as it is worth while. */
+/* Flies one candidate, as far as that is worth while. */
 static motus_status fly(fleet *f, size_t k, motus_error *err)
 {
     motus_run *r = NULL;
@@ -73,7 +73,7 @@ static motus_status fly(fleet *f, size_t k, motus_error *err)
     return status;
 }
 
-/* A failure that is not the method's. */
+/* Returns whether a failure is not the method's. */
 static bool ends_all(motus_status status)
 {
     return status == MOTUS_CANCELLED || status == MOTUS_MEMORY || status == MOTUS_CALLBACK;
@@ -97,7 +97,7 @@ static void explain(const fleet *f, size_t chosen, pilot *out)
     }
 }
 
-/* By their work; of those that are alike in it, as they stand. */
+/* Lists the candidates by their work; equals stay in their order. */
 static void list(const fleet *f, pilot *out)
 {
     double work[PILOT_CANDIDATES];

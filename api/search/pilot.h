@@ -4,20 +4,21 @@
 
 #include "api/motion/run.h"
 
-#define PILOT_FIRST "dop853" /* it admits every force, and chooses its steps */
+#define PILOT_FIRST "dop853" /* admits every force, and adapts its steps */
 enum { PILOT_CANDIDATES = 4 };
 
 typedef struct pilot {
-    const char *names[PILOT_CANDIDATES]; /* that came through, by what they need: the first was chosen */
+    /* the methods that came through, by the operations they need: the first is chosen */
+    const char *names[PILOT_CANDIDATES];
     size_t count;
-    char why[256]; /* one sentence */
-    double steps;  /* about so many will the run take up to its end */
+    char why[256]; /* the reason, in one sentence */
+    double steps;  /* about how many the run will take up to its end */
 } pilot;
 
-/* Which method needs the fewest operations for the run of this definition, whose end and tolerance are known. Fails as
- * the first method of the list does where none of them gets through. */
+/* Finds the method that needs the fewest operations for a definition with an end and a tolerance. Where no method comes
+ * through, fails as the first of the list does. */
 motus_status pilot_choose(motus_system *, const motus_run_def *, pilot *, motus_error *);
-/* What a run has taken so far, in operations; order: of its Taylor series, 0: it is another method. */
+/* Returns what a run has taken so far, in operations. order: of its Taylor series; 0: another method. */
 double pilot_work(const motus_run *, const weight *, int order);
 
 #endif

@@ -1,12 +1,11 @@
 /* See search.h.
  *
  * The error of the answer is proportional to the tolerance, or to a power of the step, up to a factor that no formula
- * knows: it contains what the motion makes of errors, and how they cancel. So one trial tells the size of the next. A
- * trial that is far off is not taken to its end; how its bar would have gone on is then guessed, with the square of
- * the time.
+ * knows: what the motion makes of errors, and how they cancel. So one trial tells the size of the next. A trial that is
+ * far off is not taken to its end; its bar there is guessed, with the square of the time.
  *
- * Where bars no longer fall with the tolerance, rounding has the word, and no tolerance helps. One trial does not say
- * so: the bars of the trial before may have been small by chance, since errors cancel. Two do.
+ * Where bars no longer fall with the tolerance, rounding decides, and no tolerance helps. One trial does not prove
+ * that, since the bar before may have been small by chance; two do.
  */
 #include "api/search/search.h"
 
@@ -16,15 +15,15 @@
 #include <math.h>
 
 enum { TRIALS = 6, STUCK = 2 };
-#define MARGIN 0.3            /* the next trial aims at this part of what is wanted */
-#define HOPELESS 30           /* a trial whose bars are so many times what is wanted is stopped, */
-#define ROUNDED 1e-8          /*   unless they are below this, relative to the motion; */
-#define WRECKED 0.05          /*   and one with such bars tells no more than that the tolerance was far too large: */
-#define NEARER 1e-2           /*   the next is smaller by this factor */
-#define FARTHEST 1e-6         /* no trial is smaller than the one before by more */
-#define FALLS 0.7             /* bars fall where the next one is below this part of the smallest before */
-#define TOLERANCE_TRIED 5e-15 /* below this a relative tolerance is rounding */
-#define STEPS_TRIED 1e8       /* of a method with steps of one size */
+#define MARGIN 0.3            /* of the accuracy: what the next trial aims at */
+#define HOPELESS 30           /* times the accuracy: a trial with such a bar ends early */
+#define ROUNDED 1e-8          /* no trial ends early with a bar below this, relative to the motion */
+#define WRECKED 0.05          /* a trial with such a bar says no more than that the tolerance was far too large */
+#define NEARER 1e-2           /* factor of the next tolerance after a wrecked trial */
+#define FARTHEST 1e-6         /* smallest factor from one trial to the next */
+#define FALLS 0.7             /* a bar falls if it is below this part of the smallest before */
+#define TOLERANCE_TRIED 5e-15 /* a smaller relative tolerance is rounding */
+#define STEPS_TRIED 1e8       /* most steps of a fixed size */
 
 static motus_status refuse(const char *what, const char *instead, motus_error *err)
 {
@@ -44,7 +43,7 @@ motus_status search_alone(bool tolerance, bool step, motus_error *err)
     return MOTUS_OK;
 }
 
-/* Steps of one size divide the way; a tolerance has two digits, so that it can be given again. */
+/* Sets the size: fixed steps divide the way; a tolerance has two digits, so that it can be given again. */
 void search_set(search *s, double size)
 {
     int power = 0;

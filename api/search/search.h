@@ -1,6 +1,5 @@
-/* The search for the tolerance, or the step, with which the error of an answer keeps to an accuracy: what each trial
- * says of the size of the next. Runs and the trajectories of ensembles are searched for by the same rule.
- */
+/* The search for the tolerance, or the step, with which the error of an answer keeps to an accuracy: each trial tells
+ * the size of the next. Runs and trajectories of ensembles follow the same rule. */
 #ifndef API_SEARCH_SEARCH_H
 #define API_SEARCH_SEARCH_H
 
@@ -11,30 +10,30 @@
 typedef struct search {
     double wanted;
     bool absolute;
-    double size;   /* of the trial in hand: a tolerance, or a step */
+    double size;   /* of the present trial: a tolerance or a step */
     double power;  /* errors go with this power of the size */
-    double least;  /* size */
-    double length; /* of a run whose steps have one size, else 0: its steps divide it */
-    bool few;      /* tolerances are 1, 2 or 5 times a power of ten: those who have the same are computed together */
-    /* So far, of trials that came to their end: the smallest of their bars, and how many of the latest have not made it
-     * clearly smaller. */
+    double least;  /* smallest size */
+    double length; /* of the way of fixed steps, which divide it; else 0 */
+    bool few; /* tolerances are 1, 2 or 5 times a power of ten: trajectories with equal ones are computed together */
+    /* Of trials that came to their end: the smallest bar, and how many of the latest did not make it clearly smaller.
+     */
     double smallest;
     int stuck;
     int trials;
 } search;
 
-/* Whether an accuracy can be asked for: not with a tolerance or a step. MOTUS_ARGUMENT. */
+/* Checks that neither a tolerance nor a step is given beside an accuracy. MOTUS_ARGUMENT. */
 motus_status search_alone(bool tolerance, bool step, motus_error *);
 
-/* By tolerances, from a tenth of what is wanted on. By steps, from this one on, over a way of this length. */
+/* Begin a search: by tolerances, from a tenth of `wanted` on; by steps, from `step` on, over a way of this length. */
 search search_by_tolerance(double wanted, bool absolute);
 search search_by_step(double wanted, bool absolute, double step, double length, int order);
-/* A trial has this size in place of the one it was to have. */
+/* Sets the size of the present trial. */
 void search_set(search *, double size);
-/* A trial had `bar` as its largest, INFINITY: it failed, and came as far as `done`, a part of the whole way. Whether
- * there is a smaller size to try, which `size` is then. */
+/* Judges a trial by its largest bar (INFINITY: it failed) and the part of the way that it came, `done`. Returns whether
+ * a smaller size is to be tried, which `size` is then. */
 bool search_next(search *, double bar, double done);
-/* Whether a trial that goes on with such bars, in the unit of the accuracy and relative ones, need not end. */
+/* Returns whether a trial with such bars, in the unit of the accuracy and relative ones, may as well end. */
 bool search_hopeless(const search *, double bar, double relative);
 
 #endif

@@ -10,8 +10,8 @@
 
 #define APART 1.02
 #define BAND 0.01     /* of a number's range */
-#define FOLLOWED 3    /* times as long as it took to settle */
-#define ROUNDING 1e-9 /* of a number's size: a range of less is none */
+#define FOLLOWED 3    /* times as long as the motion took to settle */
+#define ROUNDING 1e-9 /* of a number's size: a smaller range counts as none */
 
 void settled_note(settled *r, double time, const double *x, size_t nx, const double *s)
 {
@@ -22,7 +22,7 @@ void settled_note(settled *r, double time, const double *x, size_t nx, const dou
     r->times[r->count++] = time;
 }
 
-/* The time since which number k is where it ends. */
+/* Returns the time since which number k is where it ends. */
 static double since(const settled *r, size_t k, double end)
 {
     double low = end, high = end;

@@ -1,7 +1,7 @@
 /* See steep.h.
  *
- * A plain run follows the motion, and after every step the operands that have an infinite slope at 0 are evaluated: one
- * has passed 0 where its sign has changed.
+ * A plain run follows the motion. After every step the operands that have an infinite slope at 0 are evaluated; one
+ * whose sign has changed has passed 0.
  */
 #include "api/search/steep.h"
 
@@ -12,14 +12,14 @@
 #include <string.h>
 
 enum { FORMULAS = 16, STEPS = 1 << 14 }; /* at most */
-#define TOLERANCE 1e-9                   /* of the run: what is asked is where its motion is */
+#define TOLERANCE 1e-9                   /* of the run, which has only to be near the motion */
 
-/* Operands, each for all the cells of its equation. */
+/* Operands with an infinite slope at 0, each for all cells of its equation. */
 typedef struct operands {
     output of[FORMULAS];
     size_t count;
     arena arena;
-    tape *tapes[FORMULAS]; /* each by itself, because the cells of an equation have one place for a number */
+    tape *tapes[FORMULAS]; /* one for each operand, because the cells of an equation have one place for a number */
 } operands;
 
 static bool find_operands(model *m, operands *o)
@@ -42,7 +42,7 @@ static bool find_operands(model *m, operands *o)
     return !m->arena->failed;
 }
 
-/* The values at the run's state, for each operand one for each velocity: 0, where its equation has none. */
+/* Evaluates the operands at the run's state: for each of them one value per velocity, 0 where its equation has none. */
 static motus_status look(motus_run *r, const operands *o, double *values, motus_error *err)
 {
     const size_t nv = r->system->problem.nv;
@@ -55,7 +55,7 @@ static motus_status look(motus_run *r, const operands *o, double *values, motus_
     return status;
 }
 
-/* Whether an operand has passed 0 from t, where they had the values `from`, to where they are `to`. */
+/* Returns whether an operand has passed 0 since the time t, from the values `from` to `to`. */
 static bool passes(const motus_run *r, const operands *o, double t, const double *from, const double *to, steep *out)
 {
     const size_t nv = r->system->problem.nv;

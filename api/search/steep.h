@@ -1,5 +1,5 @@
-/* Where a motion passes an infinite slope of its force, as that of cbrt(x) at x = 0. There no method has the errors
- * that its order says, and Taylor series end. */
+/* Where a motion passes an infinite slope of its force, as of cbrt(x) at x = 0. There no method has the errors of its
+ * order, and Taylor series end. */
 #ifndef API_SEARCH_STEEP_H
 #define API_SEARCH_STEEP_H
 
@@ -10,8 +10,7 @@ typedef struct steep {
     char text[MOTUS_TEXT_MAX]; /* "the force has an infinite slope where x - 1 is 0, first at t = 2.5"; "": nowhere */
 } steep;
 
-/* The first place on the motion of this definition, whose end is known, unless it was looked for. MOTUS_CANCELLED,
- * MOTUS_MEMORY. */
+/* Finds the first such place on the motion of a definition with an end, once. MOTUS_CANCELLED, MOTUS_MEMORY. */
 motus_status steep_find(motus_system *, const motus_run_def *, steep *, motus_error *);
 
 #endif

@@ -1,9 +1,9 @@
 /* The step and the end of a model that gives none: motus_suggest.
  *
  * Two scales of time decide: the fastest rate of the motion and the longest period at its start. They come from the
- * equations linearised along it (along.h) and there, from how fast the state changes, and from samples of the force in
- * time; where the force is constant, from the initial values. Invariant: the same system gives the same numbers on
- * every machine, and nothing about the system changes.
+ * equations linearised along the motion (along.h) and at its start, from how fast the state changes, and from samples
+ * of the force in time; where the force is constant, from the initial values. Invariant: the same system gives the same
+ * numbers on every machine, and does not change.
  */
 #include "api/search/suggest.h"
 
@@ -18,34 +18,34 @@
 #include <string.h>
 
 #define TWO_PI 6.283185307179586
-#define PERIODS 10.0        /* of the longest one, up to the end */
-#define STEPS_A_PERIOD 80.0 /* at least, in the shortest one */
-#define STEPS_LEAST 100.0   /* up to the end */
-#define STEPS_MOST 1e6      /* up to the end; of large systems fewer, */
-#define NUMBERS_MOST 1e9    /*   so that steps times numbers stay below this, */
-#define STEPS_ALWAYS 1000.0 /*   but never fewer than these */
-#define NOISE_EXACT 1e-6    /* slower than this part of the fastest rate: rounding, with exact derivatives, */
-#define NOISE_QUOTIENT 1e-4 /*   and with difference quotients */
-#define NO_RATE 1e-15       /* of a draft: no motion is so slow, it is rounding */
-#define FASTER 1.05         /* than at the start: the motion is, by more than the pilot's errors */
-#define FAR 100.0           /* faster than the start, which tells no period then */
-#define STABLE 0.5          /* of the step up to which the method does not grow: a default step stays within this, */
-#define RADIANS 2.0         /*   of what swings within this in one step, */
-#define DECAYS 1e-6         /* of a rate, and the part by which a step grows: what is smaller is rounding */
-#define SHORT 0.25          /*   and where no such step is known, within this of the rate */
+#define PERIODS 10.0        /* of the longest kind, up to the end */
+#define STEPS_A_PERIOD 80.0 /* least, in the shortest period */
+#define STEPS_LEAST 100.0   /* least, up to the end */
+#define STEPS_MOST 1e6      /* most, up to the end */
+#define NUMBERS_MOST 1e9    /* most steps times numbers */
+#define STEPS_ALWAYS 1000.0 /* steps that a large system may have all the same */
+#define NOISE_EXACT 1e-6    /* part of the fastest rate, below which a rate is rounding: with exact derivatives */
+#define NOISE_QUOTIENT 1e-4 /* such a part with difference quotients */
+#define NO_RATE 1e-15       /* in a draft a slower rate is rounding */
+#define FASTER 1.05         /* factor by which the motion is faster than its start, beyond the pilot's errors */
+#define FAR 100.0           /* factor beyond which the start tells no period */
+#define STABLE 0.5          /* of the step up to which a method does not grow: most of a default step */
+#define RADIANS 2.0         /* most radians of an oscillation in such a step */
+#define DECAYS 1e-6         /* part of a rate, and of a step's growth, below which it is rounding */
+#define SHORT 0.25          /* over the rate: most of a step where no stable one is known */
 
 typedef struct scales {
     motus_system *system;
-    linear at;                  /* the start */
+    linear at;                  /* the linearised equations at the start */
     double way;                 /* 1, or -1 where the run goes backward */
     double size_a, size_moving; /* size_moving: of the velocities of positions */
-    bool turns, lands;          /* the longest is one of an oscillation; the period is a flight's */
+    bool turns, lands;          /* turns: the longest period is of an oscillation; lands: the period is of a flight */
     size_t falling;             /* the position with the largest force */
-    double rate, period;        /* the fastest, 0: the force is constant; and the longest */
-    double longest;             /* the way to the end, where none is given */
+    double rate, period;        /* rate: the fastest, 0: the force is constant; period: the longest */
+    double longest;             /* the way to the end, where no end is given */
     linear_rates first, fast;   /* at the start, and where the motion is fastest */
-    const chosen *row;          /* whose steps of this size are judged, NULL: none are; */
-    double step, grown;         /*   by how many powers of ten they have grown in a time of 1 */
+    const chosen *row;          /* the row whose steps are judged; NULL: none */
+    double step, grown;         /* step: the size to judge; grown: powers of ten by which steps grow in a time of 1 */
 } scales;
 
 static double noise(const problem *p) { return p->jvp ? NOISE_EXACT : NOISE_QUOTIENT; }
@@ -65,7 +65,7 @@ static void linearise(scales *s, double *basis)
 
 /* ---- the force in time ---- */
 
-/* By how much a differs from that at the start, after `later`; negative: it is not finite there. */
+/* Returns how much the acceleration differs from that at the start, after `later`; below 0: it is not finite. */
 static double change(scales *s, double later)
 {
     if (!evaluate(s, s->at.t + s->way * later, false, s->at.other)) return -1;
@@ -74,7 +74,7 @@ static double change(scales *s, double later)
     return most;
 }
 
-/* The rate of what depends on t, from its first four differences at a spacing; NaN: they are rounding alone. */
+/* Returns the rate of what depends on t, from its first four differences; NaN: they are rounding alone. */
 static double rate_at(scales *s, double spacing, double *samples)
 {
     static const double differences[4][5] = {/* all about the third sample, so that phases do not differ */
@@ -98,8 +98,8 @@ static double rate_at(scales *s, double spacing, double *samples)
     return sqrt((size[2] + size[3]) / (size[0] + size[1])) / spacing;
 }
 
-/* Raises rate and period to those of the driving: where a first differs from the start by half of what it changes in
- * all is its coarse scale of time, and differences over ever shorter times find the fine one. */
+/* Raises rate and period to those of a driving force. Its coarse scale is the time after which it first differs from
+ * the start by half of its whole change; differences over ever shorter times find the fine scale. */
 static void drive(scales *s, double horizon, double *samples)
 {
     enum { OCTAVES = 60, FINER = 30 };
@@ -128,7 +128,7 @@ static void drive(scales *s, double horizon, double *samples)
 
 /* ---- the motion ---- */
 
-/* By how many powers of ten a step grows at rates of the motion that swing or decay. */
+/* Returns by how many powers of ten a step grows at rates that swing or decay. */
 static double grows(const scales *s, const linear_rates *r)
 {
     double re[RATE_MOTION_MAX], im[RATE_MOTION_MAX], radius[RATE_MOTION_MAX], most = 0;
@@ -155,8 +155,8 @@ static void judge(scales *s, const along *a)
     s->grown = time > 0 ? sum / time : 0;
 }
 
-/* Raises the rate to that of the motion, and shortens a period that is the start's alone, as at an inflection of the
- * potential. Afterwards the state is one of the motion. */
+/* Follows the motion: raises the rate to the motion's, and shortens a period that only the start has, as at an
+ * inflection of the potential. Afterwards `at` is a state of the motion. */
 static motus_status follow(scales *s, double horizon, double *work, motus_error *err)
 {
     const problem *p = s->at.problem;
@@ -177,7 +177,8 @@ static motus_status follow(scales *s, double horizon, double *work, motus_error 
     return status;
 }
 
-/* What depends on t by a factor that is 0 at the start shows in a state of the motion. */
+/* Raises the rate once more, at a state of the motion: a driving force with a factor that is 0 at the start shows
+ * there. */
 static void drive_again(scales *s, double horizon, double *work)
 {
     const double rate = s->rate, period = s->period;
@@ -186,8 +187,8 @@ static void drive_again(scales *s, double horizon, double *work)
     s->period = period;
 }
 
-/* The longest step that serves for a rate. What swings is followed besides. The shortest steps of explicit Euler grow
- * too, and those of an iteration that does not converge have no result. */
+/* Returns the longest step that serves for a rate. An oscillation is also to be followed. Where the method has no bound
+ * (the shortest steps of explicit Euler grow, too, and an iteration may not converge), SHORT is the bound. */
 static double stable_for(const chosen *row, const motus_method *card, double re, double im)
 {
     double bound = re == 0 ? card->stability_limit : stability_bound(row->name, re, im);
@@ -196,7 +197,7 @@ static double stable_for(const chosen *row, const motus_method *card, double re,
     return STABLE * bound / hypot(re, im);
 }
 
-/* The longest step that the method can take where the motion is fastest, with room to spare. */
+/* Returns the longest step that the method can take where the motion is fastest, with room to spare. */
 static double stable_step(const scales *s, const chosen *row, const motus_method *card)
 {
     const linear_rates *r = &s->fast;
@@ -212,7 +213,8 @@ static double stable_step(const scales *s, const chosen *row, const motus_method
 
 /* ---- the start ---- */
 
-/* A ball falls until it has moved by a few times its height; what moves evenly, by ten times its distance. */
+/* Returns a time from the initial values: until a fall is a few times its height, or an even motion ten times its
+ * distance. */
 static double time_of_values(const scales *s)
 {
     const size_t moving = linear_positions(s->at.problem);
@@ -227,7 +229,7 @@ static double time_of_values(const scales *s)
     return PERIODS;
 }
 
-/* How long the number with the largest force takes to be back at 0: x + v t + a t²/2 = 0. Else time_of_values. */
+/* Returns when the number with the largest force is back at 0: x + v t + a t²/2 = 0. Else time_of_values. */
 static double time_of_flight(scales *s)
 {
     const size_t moving = linear_positions(s->at.problem);
@@ -293,7 +295,7 @@ static motus_status measure(scales *s, double duration, motus_error *err)
 
 /* ---- round numbers ---- */
 
-/* The largest of 1, 2 and 5 times a power of ten that is not above x. */
+/* Returns the largest of 1, 2 and 5 times a power of ten that is not above x. */
 static double round_down(double x)
 {
     static const int digits[] = {5, 2, 1};
@@ -405,7 +407,7 @@ motus_status suggest_missing(motus_system *s, request *q, motus_error *err)
 {
     const bool no_step = !row_adaptive(&q->chosen) && isnan(q->step), no_end = isnan(q->until);
     const bool sound = !isinf(q->step) && !(q->step <= 0) && !isinf(q->until) && !isinf(q->start);
-    if (!s->model || !sound || (!no_step && !no_end)) return MOTUS_OK; /* else run_timing says so */
+    if (!s->model || !sound || (!no_step && !no_end)) return MOTUS_OK; /* run_timing refuses the rest */
     motus_settings set = motus_default_settings();
     set.method = q->method, set.step = q->step, set.until = q->until, set.from = q->start;
     const motus_status status = motus_suggest(s, &set, err);

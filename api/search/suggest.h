@@ -1,14 +1,14 @@
-/* The step and the end of a model that gives none. See motus_suggest. */
+/* The step and the end of a model that gives none, for motus_suggest and for runs. */
 #ifndef API_SEARCH_SUGGEST_H
 #define API_SEARCH_SUGGEST_H
 
 #include "api/request/request.h"
 
-/* Fills in the step, where its row needs one, and the end that a request lacks, but of a callback. */
+/* Fills in the end that a request lacks, and the step if its row needs one; of a callback neither. */
 motus_status suggest_missing(motus_system *, request *, motus_error *);
 
-/* By how many powers of ten steps of the settings, which have all numbers, grow up to the end where the motion swings
- * or decays; of a method that adapts its steps 0. */
+/* Finds by how many powers of ten steps of the settings grow up to the end, where the motion swings or decays; 0 for a
+ * method that adapts its steps. */
 motus_status suggest_growth(motus_system *, const motus_settings *, double *powers, motus_error *);
 
 #endif

@@ -5,10 +5,10 @@
 
 #include <math.h>
 
-#define NEGLIGIBLE 1e-3 /* of the largest so far: a sign of less is none */
-#define SWINGS 3        /* are waited for */
-#define CHATTER 5       /* steps from one change of sign to the next: fewer are no swing */
-#define IRREGULAR 1.2   /* the longest swing over the shortest */
+#define NEGLIGIBLE 1e-3 /* part of the largest value so far, below which a value has no sign */
+#define SWINGS 3        /* how many are waited for */
+#define CHATTER 5       /* steps between changes of sign: with fewer there is no swing */
+#define IRREGULAR 1.2   /* least ratio of the longest swing to the shortest */
 
 void swings_note(swings *s, double time, uint32_t taken, double value)
 {
@@ -19,7 +19,7 @@ void swings_note(swings *s, double time, uint32_t taken, double value)
         const double crossed = s->time + (time - s->time) * (s->value / (s->value - value));
         if (s->changes == 0) s->first = crossed, s->since = taken;
         s->steps = taken - s->since;
-        if (s->changes > 1) { /* not from the start, which need not be a turning point */
+        if (s->changes > 1) { /* the start need not be a turning point */
             const double one = crossed - s->before;
             s->shortest = s->changes == 2 ? one : fmin(s->shortest, one);
             s->longest = fmax(s->longest, one);
