@@ -1,11 +1,11 @@
-/* An ensemble with an accuracy: every trajectory has a tolerance of its own, the one with which its bars keep to it.
+/* An ensemble with an accuracy: every trajectory has its own tolerance, with which its bars keep to the accuracy.
  *
- * The ensemble itself computes all trajectories with the first tolerance, which is the same for all. Those whose bars
- * are too large are computed again, by the rule that searches for runs (search.h), by an ensemble for each tolerance
- * that is tried; tolerances are rounded so that few differ.
+ * The ensemble itself computes all trajectories with one first tolerance. Those whose bars are too large are computed
+ * again, by the rule that runs follow (search.h), by one ensemble for each tolerance that is tried; tolerances are
+ * rounded so that there are few.
  *
  * Invariant: the tolerance of a trajectory follows from its own bars alone, so its numbers depend neither on other
- * trajectories, nor on how they are divided among calls, nor on lanes and threads.
+ * trajectories, nor on calls, lanes and threads.
  */
 #include "api/request/choice.h"
 #include "api/ensemble/ensemble.h"
@@ -15,7 +15,7 @@
 #include <stdio.h>
 #include <string.h>
 
-#define METHOD "dop853" /* where nobody names one: it admits every force */
+#define METHOD "dop853" /* the default; it admits every force */
 
 typedef struct ensemble_other {
     struct ensemble_other *next;
@@ -99,20 +99,20 @@ void ensemble_accuracy_end(ensemble_goal *g)
 
 /* ---- a call ---- */
 
-/* A trajectory whose bars are too large so far. */
+/* A trajectory whose bars are still too large. */
 typedef struct open_one {
     size_t number;
     search search;
-    double best; /* of its bars */
+    double best; /* its smallest bar */
 } open_one;
 
 typedef struct attempt {
     motus_ensemble *e;
     ensemble_goal *goal;
     const double *const *values;
-    double *const *results, *const *errors, *stopped, *reached; /* of all trajectories: the best of each */
+    double *const *results, *const *errors, *stopped, *reached; /* the best of every trajectory */
     open_one *open;
-    size_t count; /* open */
+    size_t count; /* open trajectories */
     size_t missed, first_missed;
 } attempt;
 
@@ -149,7 +149,7 @@ static motus_status find_other(attempt *a, double tolerance, motus_ensemble **ou
     motus_ensemble_def def = g->def;
     def.tolerance = tolerance;
     def.method = e->chosen.name;
-    def.machine = e->awaits ? "interpreter" : g->machine; /* a compiler is at work for the same text */
+    def.machine = e->awaits ? "interpreter" : g->machine; /* a compiler is already at work for the text */
     def.records = e->records, def.record_count = e->record_count;
     def.event_columns = e->event_columns;
     *o = (other){.next = g->others, .tolerance = tolerance};
@@ -163,7 +163,7 @@ static motus_status find_other(attempt *a, double tolerance, motus_ensemble **ou
     return MOTUS_OK;
 }
 
-/* Takes over trial i of those tried where it is the best of its trajectory; returns whether it is to be tried again. */
+/* Takes over trial i if it is the best of its trajectory. Returns whether the trajectory is to be tried again. */
 static bool take_over(attempt *a, const places *tried, motus_ensemble *from, size_t i, open_one *o)
 {
     const bool failed = !isnan(tried->stopped[i]);
@@ -184,7 +184,7 @@ static bool take_over(attempt *a, const places *tried, motus_ensemble *from, siz
     return false;
 }
 
-/* Computes all open trajectories whose next tolerance is this one, in a row. */
+/* Computes the open trajectories whose next tolerance is this one, side by side. */
 static motus_status try(attempt *a, double tolerance, motus_error *err)
 {
     const motus_allocator *allocator = &a->goal->allocator;
@@ -256,7 +256,7 @@ static motus_status search_all(attempt *a, size_t count, const places *p, motus_
         g->size = (1 - g->from) / 2;
         status = try(a, largest, err);
     }
-    if (a->e->awaits) forget_others(g); /* from the next call on they may be compiled */
+    if (a->e->awaits) forget_others(g); /* in the next call they may be compiled */
     a->e->seconds += pace_now() - began;
     return status == MOTUS_OK && a->missed ? say_missed(a, count, err) : status;
 }

@@ -1,7 +1,7 @@
 /* Blocks of a callback: several trajectories side by side, as one problem of the library's stepper. See ensemble.h.
  *
- * Invariant: an explicit method applies the same operations to every number, so a trajectory has the bits that it has
- * alone. Where a trajectory of a block stops, the block is computed again in halves, down to that trajectory.
+ * Invariant: an explicit method applies equal operations to every number, so a trajectory has the bits that it has
+ * alone. A block in which a trajectory stops is computed again in halves, down to that trajectory.
  */
 #include "api/ensemble/ensemble.h"
 
@@ -11,13 +11,13 @@
 #include <math.h>
 #include <string.h>
 
-/* Trajectories in a block. Its arrays have CALLING_NUMBERS at most, so that all of a method fit the first-level
+/* Most trajectories in a block. An array has at most CALLING_NUMBERS numbers, so that a method's fit the first-level
  * cache. */
 enum { BLOCK_MOST = 256 };
 
 size_t ensemble_block_size(const motus_system *s, const chosen *c)
 {
-    /* A method that solves equations solves those of one trajectory, and an adaptive one chooses the steps of one. */
+    /* A method that solves equations, or adapts its steps, does so for one trajectory. */
     if (row_formula(c) || c->row->adaptive || stepper_plan(&s->problem, c, NULL).solves) return 0;
     const size_t fits = CALLING_NUMBERS / s->problem.nv;
     return fits < 2 ? 0 : fits > BLOCK_MOST ? BLOCK_MOST : fits;
@@ -31,12 +31,12 @@ typedef struct trajectory_block {
     size_t first, count;
     double *x, *v, *kept, *one_x, *one_v; /* one_x, one_v: the observed state of one trajectory */
     int64_t observations;
-    tally taken; /* by each of its trajectories */
+    tally taken; /* by each trajectory */
 } trajectory_block;
 
 /* ---- observations ---- */
 
-/* The numbers of a column in every trajectory: a row of the state, or NULL where they must be computed. */
+/* Returns a column's numbers in every trajectory: a row of the state, or NULL where they must be computed. */
 static const double *row_of(const trajectory_block *b, size_t column)
 {
     const motus_system *s = b->w->system;
@@ -115,7 +115,7 @@ static motus_status run(trajectory_block *b, motus_error *err)
     timing *t = &b->w->timing; /* where ends vary, a block has one trajectory */
     const machine m = {.name = b->w->machine.name, .problem = &b->problem};
     motus_status status = start(b, err);
-    stepper_destroy(b->w->stepper); /* of trajectories that went one at a time, with their errors */
+    stepper_destroy(b->w->stepper); /* made by trajectories that went one at a time */
     b->w->stepper = NULL;
     if (status == MOTUS_OK) status = ensemble_timing(e, b->places, b->first, t, err);
     if (status == MOTUS_OK)
@@ -142,7 +142,7 @@ static double result(const trajectory_block *b, size_t r, size_t j)
 static void write_results(const trajectory_block *b, bool stopped, double when)
 {
     const motus_ensemble *e = b->w->e;
-    /* a callback that stops a trajectory is its cause */
+    /* A callback that stops a trajectory is itself the cause. */
     const bool open = stopped && b->w->why.returned <= 0;
     for (size_t j = 0; open && j < b->count; j++) e->outcomes[b->first + j].left = LANES_STOPPED;
     for (size_t r = 0; r < e->record_count; r++)
@@ -150,7 +150,7 @@ static void write_results(const trajectory_block *b, bool stopped, double when)
     for (size_t j = 0; b->places->stopped && j < b->count; j++) b->places->stopped[b->first + j] = stopped ? when : NAN;
 }
 
-/* Computes a block, or its halves where a trajectory stops. `memory` suffices for the whole block. */
+/* Computes a block, or its halves where a trajectory stops; `memory` is enough for the whole block. */
 static motus_status run_halving(worker *w, const places *p, size_t first, size_t count, double *memory)
 {
     const size_t nx = w->system->problem.nx, nv = w->system->problem.nv;

@@ -1,8 +1,8 @@
 /* Errors of an ensemble's trajectories: what is compared, and a trajectory as a run with a companion. See ensemble.h.
  *
- * Invariant: the bits of a trajectory are the same with and without, unless its witness objects to a step. The
- * companion's system is the shadow of the ensemble's, in which the same numbers vary; the values that a caller gives
- * are doubles, and the same in both.
+ * Invariant: errors change no bit of a trajectory, unless its witness objects to a step. The companion's system is the
+ * shadow of the ensemble's, in which the same numbers vary; the values that a caller gives are doubles, so both have
+ * them.
  */
 #include "api/error/bars.h"
 #include "api/ensemble/ensemble.h"
@@ -70,7 +70,8 @@ motus_status ensemble_errors_half(motus_ensemble *e, motus_error *err)
     return vary_create(e->half->model, e->places, e->vary_count, true, true, &e->half_vary, err);
 }
 
-/* Which side of a decimal the companion's numbers are on changes by nothing that counts how far they are moved. */
+/* Adds roundings to errors at the end. It may use the companion's numbers: on which side of a decimal they are hardly
+ * changes how far a state moves. */
 static void add_rounding(motus_ensemble *e, size_t trajectory, const double *state, double *const *errors)
 {
     motus_system *const s = e->half;
@@ -109,7 +110,7 @@ static int tell(void *ctx, double now)
     return ensemble_tell(r->context, now);
 }
 
-/* What the witness judges by. */
+/* Makes the typed system, by which the witness judges. */
 static motus_status take_home(worker *w, motus_error *err)
 {
     const motus_ensemble *e = w->e;
@@ -129,7 +130,7 @@ static motus_status make_run(worker *w, motus_error *err)
     r->card = e->card;
     r->machine = w->machine;
     r->context = w;
-    r->first_step = 0; /* which nobody asks for */
+    r->first_step = 0; /* nobody asks for it */
     r->pace = (pace){.seconds = w->pace.seconds, .tell = w->pace.tell ? tell : NULL, .ctx = r};
     motus_status status = e->home ? take_home(w, err) : MOTUS_OK;
     if (status == MOTUS_OK) status = bars_make(r, e->error, e->compared_columns, e->how, e->compared, err);
@@ -146,7 +147,7 @@ motus_status ensemble_errors_worker(worker *w, motus_error *err)
     return status;
 }
 
-/* The trajectory has a witness, where trajectories have any. */
+/* Gives the trajectory a witness, where trajectories have one. */
 static motus_status look(worker *w, motus_error *err)
 {
     motus_run *const r = w->run;

@@ -1,11 +1,11 @@
 /* Trajectories with events: lanes take the steps in which bounds exclude every event (machine/lanes_watched.c), and the
  * follower here takes the others. See ensemble.h.
  *
- * Every thread of the lanes has a worker, and for each lane a stepper and events. These take the first step of a
- * trajectory, every step in which an event may happen, and those after it until bounds may tell of a step again.
+ * Every thread has a worker, and for each lane a stepper and events. They take the first step of a trajectory, every
+ * step in which an event may happen, and the following ones until bounds may tell of a step again.
  *
- * Invariant: a trajectory has the bits of a run with its values. One that fails or may crawl is left: a worker computes
- * it once more by itself (ensemble_run.c) and says why it stops.
+ * Invariant: a trajectory has the bits of a run with its values. One that fails or may crawl is left to a worker
+ * (ensemble_run.c), which says why it stops.
  */
 #include "api/request/choice.h"
 #include "api/ensemble/ensemble.h"
@@ -13,17 +13,17 @@
 #include <math.h>
 
 typedef struct followed {
-    worker worker; /* the thread's, with a stepper and events of its own; e NULL: not made yet */
-    trajectory at; /* its values and results */
+    worker worker; /* the thread's, with a stepper and events of its own; e NULL: not yet made */
+    trajectory at; /* values and results */
     size_t number;
-    double leg, paced_t; /* when its leg began, and the time at which */
-    int64_t paced;       /*   and the steps after which `crawls` last looked */
+    double leg, paced_t; /* leg: the start of the leg; paced_t: the time at the last look of `crawls` */
+    int64_t paced;       /* the steps at the last look of `crawls` */
 } followed;
 
 typedef struct following { /* of a thread */
     worker worker;
-    followed *place; /* of each lane */
-    size_t numbers;  /* the trajectory whose numbers the system has, SIZE_MAX: of none */
+    followed *place; /* one for each lane */
+    size_t numbers;  /* the trajectory whose numbers the system has; SIZE_MAX: none */
 } following;
 
 struct ensemble_followed {
@@ -32,13 +32,13 @@ struct ensemble_followed {
     following *threads;
     int count;
     const places *places;
-    size_t first; /* trajectory that lanes call number 0 */
+    size_t first; /* the trajectory that lanes call number 0 */
     bool differ;  /* the motion, its events or their actions read numbers that vary */
 };
 
 /* ---- a trajectory ---- */
 
-/* Gives the worker's system the trajectory's numbers, where that matters. False: it failed. */
+/* Gives the worker's system the trajectory's numbers, if that matters. False: it failed. */
 static bool numbered(const ensemble_followed *f, int thread, followed *t, bool matters)
 {
     following *of = &f->threads[thread];
@@ -49,14 +49,14 @@ static bool numbered(const ensemble_followed *f, int thread, followed *t, bool m
     return true;
 }
 
-/* Leaves the trajectory to a worker by itself. False: lanes do not go on with it. */
+/* Leaves the trajectory to a worker. Returns false: lanes do not go on with it. */
 static bool leave_it(const ensemble_followed *f, const followed *t)
 {
     f->e->outcomes[t->number].left = LANES_MAY_CRAWL;
     return false;
 }
 
-/* Writes the results of a trajectory at its end. False: lanes do not go on with it. */
+/* Writes the results of a trajectory at its end. Returns false: lanes do not go on with it. */
 static bool finish(const ensemble_followed *f, int thread, followed *t)
 {
     if (!numbered(f, thread, t, true) || ensemble_single_observe(&t->at, &t->worker.why) != MOTUS_OK ||
@@ -65,7 +65,7 @@ static bool finish(const ensemble_followed *f, int thread, followed *t)
     return false;
 }
 
-/* Whether the trajectory may crawl: the test of the stepper, which does not see the steps that lanes take. */
+/* Returns whether the trajectory may crawl, by the stepper's test, since the stepper does not see steps of lanes. */
 static bool crawls(followed *t)
 {
     const stepper *s = t->worker.stepper;
@@ -83,8 +83,8 @@ static bool crawls(followed *t)
     return may;
 }
 
-/* After how many steps of the leg lanes give the trajectory back: where steps have one size, the last ones, and a
- * shorter one, are the stepper's. */
+/* Returns after how many steps of the leg lanes give the trajectory back: the stepper takes the last fixed steps and
+ * the shorter one. */
 static int64_t stop_of(const followed *t)
 {
     enum { LAST = 2 };
@@ -148,7 +148,7 @@ static bool look(void *ctx, int thread, size_t place, int64_t steps, const doubl
     const ensemble_followed *f = ctx;
     followed *t = &f->threads[thread].place[place];
     worker *w = &t->worker;
-    /* its stepper and events come to the state that lanes have reached */
+    /* Stepper and events take the state that lanes have reached. */
     if (!numbered(f, thread, t, f->differ) ||
         stepper_load_leg(w->stepper, state->t0, state->h, state->at, state->carry, &w->why) != MOTUS_OK ||
         events_led(w->events, w->stepper, steps, largest, &w->why) != MOTUS_OK)
@@ -158,8 +158,8 @@ static bool look(void *ctx, int thread, size_t place, int64_t steps, const doubl
 
 /* ---- all ---- */
 
-/* *out: whether the force, the functions of events or their actions read a number that varies, or one that follows from
- * it; where initial values alone vary they mostly do not. False: no memory. */
+/* Finds whether the force, the functions of events or their actions read a number that varies or follows from one that
+ * does. Where only initial values vary they mostly do not. False: no memory. */
 static bool depends(const motus_ensemble *e, bool *out)
 {
     model *m = e->system->model;
@@ -199,7 +199,7 @@ motus_status ensemble_followed_create(motus_ensemble *e, const lanes_follower **
                                                         : fail(err, MOTUS_MEMORY, "no memory for the ensemble");
 }
 
-/* Workers of their own: lanes read the ensemble's system meanwhile. */
+/* Makes workers besides the ensemble's, since lanes read the ensemble's system meanwhile. */
 motus_status ensemble_followed_begin(motus_ensemble *e, const places *p, size_t first, motus_error *err)
 {
     ensemble_followed *f = e->followed;
@@ -214,7 +214,8 @@ motus_status ensemble_followed_begin(motus_ensemble *e, const places *p, size_t 
         f->threads = take(&e->allocator, (size_t)e->threads, sizeof *f->threads);
         f->count = f->threads ? e->threads : 0;
     }
-    for (int i = 0; i < f->count && status == MOTUS_OK; i++) { /* where a call before has failed, those that are left */
+    /* after a failed call: the workers that it left unmade */
+    for (int i = 0; i < f->count && status == MOTUS_OK; i++) {
         following *t = &f->threads[i];
         t->numbers = SIZE_MAX;
         status = ensemble_worker_prepare(e, &t->worker, 1 + i, err);

@@ -8,7 +8,7 @@
 _Static_assert((int)REDUCE_MEAN == (int)MOTUS_REDUCE_MEAN && (int)REDUCE_TIME_OF_MAX == (int)MOTUS_REDUCE_TIME_OF_MAX,
                "the reductions are the same list");
 
-/* A recorded column as a source of lanes; false: lanes cannot record it. */
+/* Makes a recorded column a source of lanes. False: lanes cannot record it. */
 static bool source_of(const motus_system *s, const motus_record *r, lanes_source *out)
 {
     motus_column c = motus_default_column();
@@ -34,7 +34,7 @@ static bool source_of(const motus_system *s, const motus_record *r, lanes_source
     }
 }
 
-/* What is recorded, as lanes see it: sources first, then what is told of steps. False: lanes cannot record it. */
+/* Lists what is recorded: sources, and tallies of steps. False: lanes cannot record it. */
 static bool list_sources(const motus_ensemble *e, const motus_system *s, lanes_source *sources, lanes_tally *tallies,
                          lanes_def *def)
 {
@@ -52,7 +52,7 @@ static bool list_sources(const motus_ensemble *e, const motus_system *s, lanes_s
     return true;
 }
 
-/* Makes lanes for a system of the ensemble where they can compute it; else *out stays NULL and e->note says why. */
+/* Makes lanes for a system of the ensemble if they can compute it; else *out stays NULL, and e->note says why. */
 static motus_status make_lanes(motus_ensemble *e, motus_system *s, const lanes_def *common, lanes **out,
                                motus_error *err)
 {
@@ -76,7 +76,7 @@ static motus_status make_lanes(motus_ensemble *e, motus_system *s, const lanes_d
     return status == MOTUS_TOOL ? MOTUS_OK : status;
 }
 
-/* The lanes of the companions, where errors are told. */
+/* Makes the lanes of companions. */
 static motus_status join_half(motus_ensemble *e, const lanes_def *common, motus_error *err)
 {
     const motus_system *s = e->system;
@@ -104,7 +104,7 @@ void ensemble_lanes_end(motus_ensemble *e)
     e->lanes = e->half_lanes = NULL;
 }
 
-/* Lanes compute the trajectories that workers have left. */
+/* Reports progress of the trajectories that workers have left to lanes. */
 static int report_lanes(void *context, double fraction)
 {
     const motus_ensemble *e = context;
@@ -118,7 +118,8 @@ static void note_left(void *context, size_t trajectory, int how)
     e->outcomes[e->before + trajectory].left = (unsigned char)how;
 }
 
-/* Whether what is recorded at the end has roundings of its own: of the end, or of the formula of a quantity. */
+/* Returns whether a number that is recorded at the end has roundings of its own: of the end, or of a quantity's
+ * formula. */
 static bool rounds(const motus_ensemble *e)
 {
     lanes_source source;
@@ -130,8 +131,8 @@ static bool rounds(const motus_ensemble *e)
     return false;
 }
 
-/* Why errors are told one trajectory at a time, also where lanes compute what has none; NULL: lanes tell them. Of ends
- * that vary it is not known here how far from the start they are. */
+/* Returns why errors are told one trajectory at a time although lanes could compute the trajectories; NULL: lanes tell
+ * them. How far from the start ends lie that vary is not known here. */
 static const char *told_singly(const motus_ensemble *e)
 {
     const bool ends = e->until != SIZE_MAX;

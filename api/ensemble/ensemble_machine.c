@@ -1,10 +1,10 @@
 /* What computes the trajectories of an ensemble: lanes, blocks of a callback, or workers. See ensemble.h.
  *
- * Where a compiler is at work, workers begin in the interpreter. When the object is there they leave those trajectories
- * that they have not finished, and all from the first of these on are computed by lanes, or by compiled workers.
+ * While a compiler is at work, workers begin in the interpreter. When its object is there they leave the trajectories
+ * that they have not finished; lanes or compiled workers compute all from the first of these on.
  *
- * Invariant: the bits do not depend on when that happens, because a trajectory has the same on every machine, and none
- * changes its machine on the way.
+ * Invariant: the bits do not depend on when that happens: a trajectory has equal bits on all machines, and none changes
+ * its machine on the way.
  */
 #include "api/request/choice.h"
 #include "api/ensemble/ensemble.h"
@@ -17,14 +17,13 @@ const char *ensemble_machine(const motus_ensemble *e)
     return e->lanes && e->awaits != AWAITS_LANES ? "compiled" : e->machine.name;
 }
 
-/* Chooses one trajectory at a time, by the interpreter. */
+/* Chooses workers with the interpreter. */
 static void choose_portable(motus_ensemble *e)
 {
     e->machine = e->system->machine;
-    if (e->system->allocator.allocate) e->threads = 1; /* only one thread at a time may call its hooks */
+    if (e->system->allocator.allocate) e->threads = 1; /* only one thread at a time may call the hooks */
 }
 
-/* What lanes have refused they would refuse again. */
 void ensemble_machine_refused(motus_ensemble *e)
 {
     ensemble_lanes_end(e);
@@ -33,7 +32,7 @@ void ensemble_machine_refused(motus_ensemble *e)
     snprintf(e->note, sizeof e->note, "whether the method admits a trajectory is examined one trajectory at a time");
 }
 
-/* Chooses one trajectory at a time, compiled where that is wanted and possible. */
+/* Chooses workers or blocks, compiled where that is wanted and possible. */
 static motus_status choose_single(motus_ensemble *e, const char *wanted, bool later, motus_error *err)
 {
     motus_system *s = e->system;
@@ -53,7 +52,7 @@ static motus_status choose_single(motus_ensemble *e, const char *wanted, bool la
     return MOTUS_OK;
 }
 
-/* Lanes where they can compute the ensemble, else workers; without a compiler where so few steps are not worth one. */
+/* Chooses lanes where they can compute the ensemble, else workers; and no compiler for few steps. */
 static motus_status choose(motus_ensemble *e, const motus_ensemble_def *d, motus_error *err)
 {
     motus_system *s = e->system;
@@ -75,7 +74,7 @@ static motus_status choose(motus_ensemble *e, const motus_ensemble_def *d, motus
     return MOTUS_OK;
 }
 
-/* What is compiled now computes all trajectories from this one on. */
+/* Notes that all trajectories from this one on are computed by what is compiled now, if anything is. */
 static void note_compiled(motus_ensemble *e, size_t trajectory)
 {
     e->compiled_from = !e->awaits && !strcmp(ensemble_machine(e), "compiled") ? (int64_t)trajectory : -1;
@@ -104,7 +103,7 @@ motus_status ensemble_machine_witnessed(motus_ensemble *e, motus_error *err)
 
 /* ---- what is awaited ---- */
 
-/* The lanes that were awaited; where there are none after all, a machine for workers. */
+/* Takes the lanes that were awaited; if there are none after all, a machine for workers. */
 static motus_status take_lanes(motus_ensemble *e, motus_error *err)
 {
     motus_status status = MOTUS_OK;
@@ -154,7 +153,7 @@ void ensemble_later_at(motus_ensemble *e, size_t count)
     e->exactly = 1 + count;
     e->compiled_from = -1;
     if (e->awaits) return;
-    e->awaits = e->lanes ? AWAITS_LANES : AWAITS_MACHINE; /* it is there already */
+    e->awaits = e->lanes ? AWAITS_LANES : AWAITS_MACHINE; /* it is already there */
     e->found = e->machine;
     e->machine = e->system->machine;
 }

@@ -40,7 +40,7 @@ static motus_status check_columns(const motus_ensemble *e, motus_error *err)
     return MOTUS_OK;
 }
 
-/* What varies has been found for another ensemble of the system. */
+/* Takes over what varies from another ensemble of the system. */
 static void take_places(motus_ensemble *e, const motus_ensemble *like)
 {
     e->until = like->until, e->vary_count = like->vary_count;
@@ -62,7 +62,7 @@ static motus_status complete(motus_ensemble *e, const motus_ensemble_def *d, con
     if (status == MOTUS_OK && e->error != MOTUS_BARS_NONE) status = ensemble_errors_prepare(e, err);
     if (status == MOTUS_OK) status = request_choose(s, &q, err);
     if (status == MOTUS_OK) status = suggest_missing(s, &q, err);
-    const bool ends = e->until != SIZE_MAX; /* then each trajectory gets its own timing later */
+    const bool ends = e->until != SIZE_MAX; /* each trajectory then gets its own timing later */
     e->chosen = q.chosen;
     e->step = q.step;
     if (status == MOTUS_OK)
@@ -74,8 +74,8 @@ static motus_status complete(motus_ensemble *e, const motus_ensemble_def *d, con
     return status == MOTUS_OK ? ensemble_machine_choose(e, d, err) : status;
 }
 
-/* The system whose steps end where a switch changes its side, by the rule of runs; NULL: the caller's own, and `why`
- * says why where switches could have been located. */
+/* Finds the located system, by the rule of runs; NULL: the caller's own serves, and `why` says why switches that could
+ * have been located are not. */
 static motus_status locate(motus_system *s, const motus_ensemble_def *d, motus_system **out, const char **why,
                            motus_error *err)
 {

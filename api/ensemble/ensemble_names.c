@@ -68,7 +68,7 @@ static motus_status initial_value(const motus_system *s, const char *name, const
     return unknown(s, name, err);
 }
 
-/* "g", "g.x", "g[2]" */
+/* Finds a parameter's number: "g", "g.x", "g[2]". */
 static motus_status parameter(const motus_system *s, const char *name, size_t *place, motus_error *err)
 {
     const size_t length = strcspn(name, ".[(");

@@ -1,4 +1,4 @@
-/* What the trajectories of an ensemble came to, beside their numbers. See ensemble.h.
+/* What the trajectories of an ensemble came to, besides their numbers. See ensemble.h.
  *
  * Invariant: a trajectory is ended by what ends a run with its values, and its table has that run's rows. The worker
  * that computed it notes both, while its system has the trajectory's parameters; no two workers touch one outcome.
@@ -26,7 +26,7 @@ motus_status ensemble_outcome_begin(motus_ensemble *e, size_t count, motus_error
     return MOTUS_OK;
 }
 
-/* The columns of row i, on arrival or after it. */
+/* Computes the columns of row i, before or after its event. */
 static motus_status values_of(const worker *w, size_t i, bool after, double *out, double *room, motus_error *err)
 {
     const motus_ensemble *e = w->e;
@@ -56,7 +56,7 @@ static motus_status take_table(worker *w, ensemble_outcome *o, bool errors, motu
     const problem *p = &w->system->problem;
     const size_t rows = events_rows(w->events),
                  each = sizeof *o->table->row + 2 * e->event_columns_count * sizeof(double);
-    if (errors && w->run->bars) bars_land(w->run, NULL); /* its companion comes as far as the trajectory */
+    if (errors && w->run->bars) bars_land(w->run, NULL); /* the companion comes as far as the trajectory */
     if (!rows) return MOTUS_OK;
     o->table = take(&e->allocator, 1, sizeof *o->table + rows * each);
     double *room = take(&e->allocator, p->nx + p->nv + 1, sizeof *room);
@@ -80,7 +80,7 @@ motus_status ensemble_outcome_take(worker *w, size_t k, bool stopped, bool began
         diagnosis_add(&w->diagnosed, w->stepper, &w->why);
         o->cause = (unsigned char)w->why.cause;
     }
-    /* without a beginning the events are those of another trajectory */
+    /* A trajectory without a beginning would show the events of another. */
     if (!began || !w->events) return MOTUS_OK;
     if (!stopped && events_ended(w->events, &rule) != EVENTS_END_NONE) o->ended = (uint32_t)rule + 1;
     return e->event_columns ? take_table(w, o, errors, err) : MOTUS_OK;

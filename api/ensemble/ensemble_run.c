@@ -1,7 +1,7 @@
 /* One call of an ensemble: all its trajectories, with the tolerance of the ensemble. See ensemble.h.
  *
- * Invariant: a trajectory that stops is followed by a stepper that is judged as that of a run with its values. So it
- * ends at the same step with the same cause, however the others were computed.
+ * Invariant: a trajectory that stops is computed by a stepper that is judged as a run's. So it ends at the step and
+ * with the cause of a run with its values, however other trajectories were computed.
  */
 #include "api/ensemble/ensemble.h"
 
@@ -40,7 +40,7 @@ static motus_status singly(motus_ensemble *e, const places *p, size_t first, mot
     return ensemble_each(e, first, e->count - first, ensemble_one, (void *)p, err);
 }
 
-/* Computes trajectories by the workers while what is faster is awaited; *first: those that are left to it. */
+/* Computes trajectories by workers while what is faster is awaited; *first: the first one left to that. */
 static motus_status meanwhile(motus_ensemble *e, const places *p, size_t *first, motus_error *err)
 {
     motus_status status = MOTUS_OK;
@@ -73,7 +73,7 @@ static bool is_left(const motus_ensemble *e, size_t k)
     return e->outcomes[k].left == LANES_MAY_CRAWL || (e->tells_causes && e->outcomes[k].left == LANES_STOPPED);
 }
 
-/* Those that lanes or blocks have left, and whose ends are not final, or not explained, once more by workers. */
+/* Computes trajectories by workers that lanes or blocks have left without a final or explained end. */
 static motus_status again(motus_ensemble *e, const places *p, size_t first, motus_error *err)
 {
     size_t count = 0;

@@ -1,7 +1,7 @@
 /* One trajectory at a time, by any method and machine. See ensemble.h.
  *
- * Invariant: a trajectory has the bits of a run with its values, unless a witness objects, and is observed at the same
- * steps as in lanes.
+ * Invariant: a trajectory has the bits of a run with its values, unless a witness objects, and is observed at the steps
+ * at which lanes observe.
  */
 #include "api/error/bars.h"
 #include "api/why/diagnosis.h"
@@ -46,7 +46,7 @@ motus_status ensemble_single_numbers(trajectory *s, motus_error *err)
                : fail(err, MOTUS_MEMORY, "no memory for a trajectory");
 }
 
-/* Sets the values of trajectory k and computes its initial state. */
+/* Sets the values of trajectory k, and computes its initial state. */
 static motus_status start(trajectory *s, const double *const *values, size_t k, motus_error *err)
 {
     motus_ensemble *e = s->w->e;
@@ -55,7 +55,7 @@ static motus_status start(trajectory *s, const double *const *values, size_t k, 
     if (y->model && e->vary_count) {
         const motus_status set = ensemble_single_numbers(s, err);
         if (set != MOTUS_OK) return set;
-        /* whether the velocity term does no work is judged for these parameters */
+        /* Whether the velocity term does no work depends on the parameters. */
         if (e->chosen.row->gyroscopic) {
             y->judged_gyroscopic = false;
             if (!symmetry_gyroscopic(y)) return fail(err, MOTUS_MEMORY, "no memory to examine the velocity term");
@@ -115,11 +115,11 @@ static double error(const trajectory *s, size_t r)
     double bar = bars_of(run->bars, t, number);
     const bool last = e->records[r].how == MOTUS_REDUCE_FINAL;
     if (last && run_sync(run, false, NULL) == MOTUS_OK) {
-        double own = NAN; /* without memory for it the error is not known */
+        double own = NAN; /* stays NaN without memory */
         const size_t *column = &run->bars->columns[number];
         if (system_rounding(run->system, t, run->x, run->v, column, 1, &own, NULL) != MOTUS_OK) return NAN;
         errors_of(run, t, run->x, run->v, number, &own, NULL);
-        /* lanes know nothing of poles, and errors do not depend on who tells them */
+        /* Lanes know nothing of poles, and errors must not depend on who tells them. */
         if (errors_leaps(run, t, run->x, run->v, false, column, 1, &own, NULL) != MOTUS_OK) return NAN;
         bar = own;
     }
@@ -142,7 +142,7 @@ motus_status ensemble_single_begin(trajectory *s, const places *p, size_t k, boo
     worker *w = s->w;
     const motus_ensemble *e = w->e;
     timing *t = &w->timing;
-    if (w->events) events_forget(w->events); /* it may not begin, and has no events then */
+    if (w->events) events_forget(w->events); /* it may not begin, and then has no events */
     if (!s->errors) ensemble_errors_blind(w);
     motus_status status = start(s, p->values, k, err);
     if (status == MOTUS_OK) status = ensemble_timing(e, p, k, t, err);

@@ -1,10 +1,10 @@
 /* Whether the trajectories of an ensemble need a witness each. See ensemble.h and witness.h.
  *
- * Where errors are told, and the force may do more within a step than steps show, some trajectories, the pilots, are
- * led one at a time, each with a witness, as far as a budget leads. Where the witness of one objects to a step, all
- * trajectories of the ensemble are computed one at a time, with a witness each.
+ * Where errors are told, and the force may do more within a step than steps show, some trajectories, the pilots, go one
+ * at a time with a witness, as far as a budget leads. Where a pilot's witness objects to a step, all trajectories go
+ * one at a time with a witness.
  *
- * Invariant: that is decided once, from the definition and the pilots, not by machine, threads or calls.
+ * Invariant: that is decided once, by the definition and the pilots, not by machine, threads or calls.
  */
 #include "api/error/bars.h"
 #include "api/request/choice.h"
@@ -21,7 +21,7 @@ enum { PILOTS = 3, CHUNK = 16 };
 typedef struct flight {
     const places *places;
     weight weight;
-    double most; /* operations of a pilot */
+    double most; /* operations of one pilot */
     size_t count, pilots;
     atomic_bool objected;
 } flight;
@@ -38,7 +38,7 @@ static motus_status lead(trajectory *s, flight *f, size_t k, motus_error *err)
     motus_status status = ensemble_errors_worker(s->w, err);
     if (status == MOTUS_OK) status = ensemble_single_begin(s, f->places, k, &began, err);
     motus_run *const r = s->w->run;
-    if (status != MOTUS_OK || !r->bars->witness) return status; /* without one there is nothing to find */
+    if (status != MOTUS_OK || !r->bars->witness) return status; /* without a witness nothing is found */
     witness_leave(r->bars->witness);
     const double most = work_of(s->w, f) + f->most;
     while (status == MOTUS_OK && !r->arrived && work_of(s->w, f) < most && !atomic_load(&f->objected)) {
@@ -49,8 +49,8 @@ static motus_status lead(trajectory *s, flight *f, size_t k, motus_error *err)
     return status;
 }
 
-/* Pilots are spread over the trajectories, from the first to the last. One that fails is none of ours: it fails again
- * as a trajectory. */
+/* Leads one pilot; pilots are spread from the first trajectory to the last. Its failure is no error here: it fails
+ * again as a trajectory. */
 static motus_status fly(worker *w, size_t pilot, void *ctx)
 {
     flight *const f = ctx;
@@ -73,7 +73,7 @@ motus_status ensemble_witness_ask(motus_ensemble *e, const places *p, size_t pil
     if (e->decided || e->error == MOTUS_BARS_NONE || !e->system->model || !pilots) return MOTUS_OK;
     motus_status status = choice_weigh(e->system, &f.weight, err);
     if (status != MOTUS_OK) return status;
-    /* They are led to their ends, whatever comes meanwhile. */
+    /* Pilots are led to their ends, whatever is awaited meanwhile. */
     const int awaits = (int)e->awaits;
     const size_t exactly = e->exactly;
     e->awaits = AWAITS_NOTHING, e->exactly = 0;
@@ -81,7 +81,7 @@ motus_status ensemble_witness_ask(motus_ensemble *e, const places *p, size_t pil
     if (!e->machine.problem) e->machine = e->system->machine;
     status = ensemble_each(e, 0, pilots, fly, &f, err);
     e->awaits = awaits, e->exactly = exactly;
-    ensemble_workers_destroy(e); /* their witnesses leave companions as they are, and those who await something ask */
+    ensemble_workers_destroy(e); /* their witnesses leave companions as they are */
     e->decided = status == MOTUS_OK;
     e->looks = e->decided && atomic_load(&f.objected);
     return status;

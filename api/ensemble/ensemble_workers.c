@@ -1,7 +1,7 @@
-/* The workers of an ensemble that is not computed in lanes. See ensemble.h.
+/* The workers of an ensemble that lanes do not compute. See ensemble.h.
  *
- * Invariant: workers share no data that changes but `done` and `stop`, so the result of an item does not depend on
- * which worker computes it.
+ * Invariant: workers share no data that changes but atomic flags and counts, so the result of an item does not depend
+ * on which worker computes it.
  */
 #include "api/request/choice.h"
 #include "api/ensemble/ensemble.h"
@@ -20,7 +20,7 @@ int ensemble_report(void *context, double fraction)
     const double t = e->progress ? pace_now() : 0;
     if (!e->progress || t - e->reported < 0.01) return 0;
     e->reported = t;
-    if (fraction > e->fraction) e->fraction = fraction; /* trajectories that lanes leave are begun anew */
+    if (fraction > e->fraction) e->fraction = fraction; /* trajectories that lanes leave begin anew */
     return e->progress(e->context, e->fraction);
 }
 
@@ -43,7 +43,7 @@ bool ensemble_look(motus_ensemble *e)
     return true;
 }
 
-/* While the object is awaited: whether it is there, and after that the compiler goes first. */
+/* Lets a compiler go first while its object is awaited, and looks whether the object is there. */
 static void rest(worker *w)
 {
     motus_ensemble *e = w->e;
@@ -52,7 +52,7 @@ static void rest(worker *w)
     if (!atomic_load(&e->over)) beside_rest(&w->beside);
 }
 
-/* Between two pieces of work: the caller's own thread calls the progress hook; every thread tests `stop`. */
+/* Calls the progress hook from the caller's own thread, and tests `stop` in every thread. */
 int ensemble_tell(void *ctx, double now)
 {
     worker *w = ctx;
@@ -101,7 +101,7 @@ motus_status ensemble_worker_prepare(motus_ensemble *e, worker *w, int number, m
 void ensemble_worker_end_run(worker *w)
 {
     if (!w->run) return;
-    w->run->stepper = NULL; /* they are the worker's */
+    w->run->stepper = NULL; /* stepper and events are the worker's */
     w->run->events = NULL;
     run_destroy(w->run);
     w->run = NULL;
@@ -160,7 +160,7 @@ typedef struct item_list {
     void *ctx;
 } item_list;
 
-/* Items are taken in order, so all before the first that is left are done. */
+/* Notes the first item that is left. Items are taken in order, so all before it are done. */
 static void leave(motus_ensemble *e, size_t item)
 {
     size_t left = atomic_load(&e->left);
@@ -201,13 +201,13 @@ static motus_status prepare(motus_ensemble *e, int threads, motus_error *err)
     return MOTUS_OK;
 }
 
-/* The status of the workers, each of which has left its items at the first that failed. */
+/* Returns the status of the workers, each of which has stopped at its first item that failed. */
 static motus_status judge(const motus_ensemble *e, int threads, motus_error *err)
 {
     const worker *failed = NULL;
     for (int i = 0; i < threads; i++) {
         const worker *w = &e->workers[i];
-        /* An error comes before a cancellation, which may be its consequence. */
+        /* An error goes before a cancellation, which may follow from it. */
         if (w->status != MOTUS_OK && (!failed || (failed->status == MOTUS_CANCELLED) > (w->status == MOTUS_CANCELLED) ||
                                       ((failed->status == MOTUS_CANCELLED) == (w->status == MOTUS_CANCELLED) &&
                                        w->failed_at < failed->failed_at)))
@@ -227,7 +227,7 @@ motus_status ensemble_each(motus_ensemble *e, size_t first, size_t items,
     double *own = replaces ? set_aside(e->system) : NULL;
     if (replaces && !own) return fail(err, MOTUS_MEMORY, "no memory for the ensemble");
     int threads = items < (size_t)e->threads ? (int)items : e->threads;
-    /* a processor for the compiler that is awaited: what it makes computes many times as fast */
+    /* One processor is for the compiler that is awaited, since its object computes many times as fast. */
     if (e->awaits && threads > 1 && threads >= parallel_processors()) threads = parallel_processors() - 1;
     if (threads < 1 || e->system->allocator.allocate) threads = 1; /* one thread alone calls the hooks */
     atomic_store(&e->done, first);
