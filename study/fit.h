@@ -4,7 +4,7 @@
 
 #include "motus.h"
 
-/* y = intercept + slope x by least squares; slope_error is the slope's standard error (0 for two points). */
+/* Fits y = intercept + slope x by least squares; slope_error is the standard error of the slope (0 for two points). */
 typedef struct fit_result {
     double slope, intercept, slope_error;
 } fit_result;
@@ -23,19 +23,19 @@ typedef struct fit_order_result {
     fit_verdict verdict;
     double observed, standard_error; /* NaN unless FIT_SLOPE */
     size_t above;                    /* points between instability and round-off */
-    double floor;                    /* the round-off found, in the errors' units */
-    double fall;                     /* the slope from the first of these to the last; NaN: there is one at most */
+    double floor;                    /* the round-off found, in units of the errors */
+    double fall;                     /* the slope from the first point above to the last; NaN: fewer than two */
     double slope_change;             /* difference of the two finest local slopes in use */
     double octaves;                  /* of steps, from the first point of the fit to the last */
-    int settled;                     /* the plateau of round-off has been reached: finer steps add nothing */
+    int settled;                     /* the plateau of round-off is reached: finer steps add nothing */
 } fit_order_result;
 
-/* points: coarse to fine, runs over `duration`, errors relative to the size of the motion, NaN where a run failed;
- * sets their `used`. noise: the rounding of one number, in the same units; reference_error: the error of the
+/* Fits the order to points from coarse to fine, and sets their `used`. Their errors are relative to the size of the
+ * motion, NaN where a run failed; duration: of the runs; noise: the rounding of one number; reference_error: of the
  * reference solution. */
 fit_order_result fit_order(motus_point *points, size_t count, double duration, double noise, double reference_error);
 
-/* Whether an observed order meets the declared one. */
+/* Returns whether an observed order meets the declared one. */
 int fit_passes(double observed, double standard_error, int declared);
 
 #endif

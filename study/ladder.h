@@ -18,23 +18,23 @@ typedef struct ladder {
     const char *method;
     const motus_method *card;
     bool absolute;
-    double *y;                        /* a state */
-    double most;                      /* evaluations of one run */
-    int repeats;                      /* so often is a run timed, where it is not long */
+    double *y;                        /* for a state */
+    double most;                      /* most evaluations of one run */
+    int repeats;                      /* how often a short run is timed */
     ladder_point points[LADDER_MOST]; /* from coarse to fine */
     size_t count;
-    bool ended; /* nothing finer is worth a run, because of `why`: a sentence without capital and stop */
+    bool ended; /* no finer point is worth a run, because of `why`: a sentence without capital and stop */
     char why[MOTUS_TEXT_MAX];
     motus_status failed; /* of the last run that failed */
     char failure[MOTUS_TEXT_MAX];
 } ladder;
 
 /* Finds the point that meets an accuracy, reference error included, with nearly the fewest evaluations: its error is
- * above 2/3 of the accuracy, or it has few steps. NULL: there is none, and `why` says the reason. */
+ * above 2/3 of the accuracy, or it has few steps. NULL: there is none, and `why` gives the reason. */
 motus_status ladder_reach(ladder *, double accuracy, const ladder_point **);
-/* The time of a point's run, the smallest of several. */
+/* Measures the time of a point's run: the shortest of several. */
 motus_status ladder_time(ladder *, const ladder_point *, double *seconds);
 bool ladder_failed(const ladder *);                       /* no run came to its end near the motion */
-double ladder_step(const ladder *, const ladder_point *); /* of a method with steps of one size */
+double ladder_step(const ladder *, const ladder_point *); /* of a method with fixed steps */
 
 #endif

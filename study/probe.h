@@ -5,12 +5,12 @@
 
 #include "study.h"
 
-/* a (nv numbers) at (t, y). False where it cannot be computed. */
+/* Computes a (nv numbers) at (t, y). False: it cannot be computed. */
 bool probe_acceleration(study *, double t, const double *y, double *a);
-/* The largest |eigenvalue| of the Jacobian of (x', v') at (t, y), by power iteration: ω of the fastest oscillation,
- * or the fastest decay or growth. 0 if it is negligible, NaN where it cannot be computed. Uses the study's scale. */
+/* Returns the largest |eigenvalue| of the Jacobian of (x', v') at (t, y), by power iteration, in the study's scale: ω of
+ * the fastest oscillation, or the fastest decay or growth. 0: negligible; NaN: it cannot be computed. */
 double probe_rate(study *, double t, const double *y);
-/* How fast the state changes at (t, y), in units of its size per time: at most ω/2 for an oscillation. NaN where it
+/* Returns how fast the state changes at (t, y), in units of its size per time: at most ω/2 for an oscillation. NaN: it
  * cannot be computed. */
 double probe_speed(study *, double t, const double *y);
 /* Raises scale[c] to at least the change of column c when every number of the state at (t, y) changes by its own

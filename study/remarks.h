@@ -4,14 +4,14 @@
 
 #include "solution.h"
 
-/* What the remarks need of a row besides its published numbers. */
+/* What remarks need of a row besides its published numbers. */
 typedef struct remarks_fact {
     const motus_method *card;
     motus_geometry geometry; /* of the method on this system */
     double last_step;
-    double miss;            /* constant acceleration: numerical minus exact final position, along `axis` */
-    double expected;        /* ½ a Σ h² along `axis`: the miss of explicit and symplectic Euler */
-    const double *roundoff; /* per invariant: the largest deviation that rounding may explain */
+    double miss;            /* under constant acceleration: numerical minus exact final position, along `axis` */
+    double expected;        /* the `miss` of explicit and symplectic Euler: ½ a Σ h² along `axis` */
+    const double *roundoff; /* of each invariant: the largest deviation that rounding may explain */
 } remarks_fact;
 
 typedef struct remarks_view {
@@ -22,11 +22,11 @@ typedef struct remarks_view {
     const remarks_fact *facts;
     size_t count;
     size_t axis;         /* the position along which a constant acceleration is largest */
-    double acceleration; /* along `axis`; NaN unless it is constant */
-    double rate;         /* the fastest rate of the linearised motion; NaN if unknown */
+    double acceleration; /* along `axis`; NaN: it is not constant */
+    double rate;         /* the fastest rate of the linearised motion; NaN: unknown */
 } remarks_view;
 
-/* One sentence a line. Each states only what these numbers and the methods' rows confirm. */
+/* Writes one sentence a line. Each states only what these numbers and the methods' rows confirm. */
 void remarks_write(const remarks_view *, char *out, size_t size);
 
 #endif

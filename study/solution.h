@@ -9,42 +9,42 @@
 typedef struct solution {
     bool known, exact;
     bool located;     /* its runs end their steps where the force changes its formula */
-    bool uneven;      /* the force is not smooth, and steps cannot end where it changes its formula */
-    int64_t jump;     /* the lowest derivative of the force that jumps along the motion, as in motus_statistics; */
-    double jump_time; /*   at this time first, and with this power */
+    bool uneven;      /* the force is not smooth, and steps cannot end where its formula changes */
+    int64_t jump;     /* the lowest derivative of the force that jumps along the motion, as in motus_statistics */
+    double jump_time; /* of the first jump */
+    /* the power of that jump */
     double jump_power;
-    char method[MOTUS_NAME_MAX]; /* the method of its run; "" if nothing is known */
+    char method[MOTUS_NAME_MAX]; /* of its run; "": nothing is known */
     int order;
-    double step;                  /* of the reference run; 0 for the exact motion */
-    double tolerance;             /* of the reference run in place of a step, where its method is adaptive; else 0 */
-    double error;                 /* its estimated error, largest component; 0 for the exact motion */
-    double scaled;                /* the same in units of the motion's size */
-    double *rows;                 /* (points + 1) × numbers: the start, then the grid's points; owned */
-    char text[SOLUTION_TEXT_MAX]; /* "exact", "kahan-li8 at step 0.05" or why there is none */
+    double step;                  /* of its run; 0 for the exact motion */
+    double tolerance;             /* of its run in place of a step, if the method is adaptive; else 0 */
+    double error;                 /* the estimated error, largest component; 0 for the exact motion */
+    double scaled;                /* the estimated error in units of the motion's size */
+    double *rows;                 /* (points + 1) × numbers: the start, then the grid's points */
+    char text[SOLUTION_TEXT_MAX]; /* "exact", "kahan-li8 at step 0.05", or why nothing is known */
 } solution;
 
-/* The times at which methods are compared with the solution: steps of size `step`, or (NaN) STUDY_SAMPLES equal
+/* Returns the times at which methods are compared with the solution: steps of size `step`, or (NaN) STUDY_SAMPLES equal
  * intervals. */
 study_grid solution_grid(const study *, double step);
-/* If no method finds the solution, the status is OK and `known` is false. steps: how many steps the methods under
- * study take (for the bound on the work). enough: an error, in units of the motion's size, that need not be improved;
- * 0 for the best. Sets the study's scale. Call solution_free in any case. */
+/* Finds the solution; if no method does, the status is OK and `known` is false. steps: of the methods under study, for
+ * the bound on the work. enough: an error, in units of the motion's size, that need not be improved; 0: the best. Sets
+ * the study's scale. Call solution_free in any case. */
 motus_status solution_find(study *, const study_grid *, int64_t steps, double enough, solution *);
-/* The solution on another grid of the same motion (grid->points rows), at steps no larger than solution->step. */
+/* Computes the solution on another grid of its motion (grid->points rows), at steps no larger than solution->step. */
 motus_status solution_on(study *, const solution *, const study_grid *, double *rows);
 /* Takes a state of the solution, or one near it, from one time to another by the solution's method, at steps no larger
  * than its own. */
 motus_status solution_go(study *, const solution *, double from, double t, double *y, motus_error *);
-bool solution_same_time(double, double); /* but for rounding */
-/* The time of a row of the solution's table, and the last row that is not after t. */
+bool solution_same_time(double, double); /* up to rounding */
+/* Return the time of a row of the table, and the last row that is not after t. */
 double solution_time(const study_grid *, size_t row);
 size_t solution_row(const study_grid *, double t);
-/* The solution at any time, from the row of the table that is nearest to it. */
+/* Computes the solution at any time, from the nearest row of the table. */
 motus_status solution_near(study *, const solution *, const study_grid *, double t, double *y, motus_error *err);
 const char *solution_lacks(const solution *); /* why nothing is known */
-/* The highest order that a method of fixed step can have on this motion, since the force is not smooth along it,
- * which need not be a whole number; 0: any. `why` becomes a sentence without capital and stop: "the force jumps at t
- * = 2.5". */
+/* Returns the highest order that fixed steps can have on this motion, where the force is not smooth; it need not be a
+ * whole number. 0: any. `why` becomes a sentence without capital and stop: "the force jumps at t = 2.5". */
 double solution_allows(const study *, const solution *, char *why, size_t size);
 void solution_free(study *, solution *);
 

@@ -3,7 +3,7 @@
  *
  * A state here is one row of numbers, y = (x, v): the positions, then the velocities and first-order variables.
  * Invariant: all memory comes from the system's hooks, and every run ends in CANCELLED soon after the user's progress
- * hook asked for that.
+ * hook asks for that.
  */
 #ifndef STUDY_STUDY_H
 #define STUDY_STUDY_H
@@ -17,7 +17,7 @@
 #include <stdint.h>
 #define STUDY_SAMPLES 100 /* the usual number of times at which trajectories are compared; fewer for long states */
 #define STUDY_NUMBERS_MAX ((size_t)1 << 22) /* in one table of samples: 32 MiB */
-#define STUDY_SIMPLEST "explicit-euler"     /* admits every force and needs no solve: used for trial runs and probes */
+#define STUDY_SIMPLEST "explicit-euler"     /* admits every force and solves nothing: for trial runs and probes */
 
 typedef struct study {
     motus_system *system;
@@ -26,32 +26,32 @@ typedef struct study {
     size_t nx, nv, numbers; /* numbers = nx + nv */
     double from, until;
     int64_t total;    /* steps of the trial run up to `until` */
-    double last_step; /* the size of its shorter last step, 0 if it has none */
+    double last_step; /* the size of the trial run's shorter last step; 0: none */
     double *start;    /* the state at `from` */
     size_t *group;    /* of each number; a variable's positions are one group, its velocities another */
     double *scale;    /* of each number: how far its group moves; set by study_scale */
     size_t groups;
-    double noise;     /* the rounding of a group's largest value in units of its scale, at most over the groups */
+    double noise;     /* the rounding of a group's largest value over its scale, the largest of all groups */
     double magnitude; /* the largest value */
-    double *work;     /* 2 numbers + 2 groups: working space of study_scale */
+    double *work;     /* room for study_scale: 2 numbers + 2 groups */
     int (*progress)(void *context, double fraction);
     void *context;
-    double base, span;      /* where the present part of the study begins, and its length, as fractions of it */
-    double reached, called; /* the fraction and the clock at the last call of progress */
+    double base, span;      /* beginning and length of the present part, as fractions of the study */
+    double reached, called; /* the fraction, and the clock, when progress was last called */
     bool locate;            /* runs end their steps where the force changes its formula */
     double tolerance;       /* of the runs of adaptive methods, relative */
     const char *machine;    /* of all runs */
-    bool locatable;         /* the last run could do so */
-    double limit;           /* evaluations after which a walk gives up; 0: none */
+    bool locatable;         /* the last run could end its steps there */
+    double limit;           /* evaluations after which a walk gives up; 0: no limit */
     motus_run *walking;     /* the run of the present walk; NULL: none */
     bool cancelled;
-    bool out_of_memory; /* in a call that could only answer "unknown" */
+    bool out_of_memory; /* in a call that can only answer "unknown" */
 } study;
 
-/* Times at which trajectories are compared: from + k interval, k = 1 … intervals, and `until` if that is not among
- * them. */
+/* Times at which trajectories are compared: from + k interval, k = 1 … intervals, and `until` if it is none of these.
+ */
 typedef struct study_grid {
-    double from, until, interval; /* interval > 0; the direction is that of until - from */
+    double from, until, interval; /* interval > 0; until - from tells the direction */
     size_t intervals, points;     /* points = intervals, or intervals + 1 */
 } study_grid;
 
@@ -64,66 +64,67 @@ typedef struct study_cost {
     double jump_time, jump_rounding, jump_power;
 } study_cost;
 
-/* The definition in this version's layout, checked. */
+/* Reads and checks the definition, into the layout of this version. */
 motus_status study_read(const motus_study_def *given, motus_study_def *def, motus_error *err);
-/* Finds the start, the end and the groups; `step` is the trial run's if it is above 0. Call study_close in any case. */
+/* Finds the start, the end and the groups. step: of the trial run, if above 0. Call study_close in any case. */
 motus_status study_open(study *, motus_system *, const motus_study_def *, double step, motus_error *err);
 void study_close(study *);
-/* Step, start and end of the definition, else of the model, else, of a model, suggested. NaN: a callback has none. */
+/* Finds step, start and end: of the definition, else of the model, else suggested. NaN: a callback has none. */
 motus_status study_settings(motus_system *, const motus_study_def *, motus_settings *, motus_error *);
 
 bool study_admits(study *, const char *method);
-/* The methods to be studied: those named, or every admitted one but the exact motion; adaptive: with those that choose
+/* Lists the methods to study: those named, or every admitted one but the exact motion; adaptive: with those that adapt
  * their steps. */
 motus_status study_methods(study *, const motus_study_def *, bool adaptive, const char ***names, size_t *count);
 bool study_adapts(const char *method);
 
-/* What follows takes progress from `base` to `base` + `span`. */
+/* Begins a part, which takes progress from `base` to `base` + `span`. */
 void study_part(study *, double base, double span);
-/* Remembers if a call that returns no status ran out of memory. */
+/* Notes the status of a call that returns none itself. */
 void study_note(study *, motus_status);
-/* The status of all calls so far: OK unless memory ran out or the user cancelled. */
+/* Returns the status of all calls so far: OK unless memory ran out or the user cancelled. */
 motus_status study_broken(const study *);
-/* True for what ends the study and not only the row: memory and cancellation. */
+/* Returns whether a status ends the study and not only the row: memory and cancellation. */
 bool study_fatal(motus_status);
 
-/* A run that reports progress through the study. y NULL: from the model's start. Adaptive methods take no step, but
- * study.tolerance. */
+/* Makes a run that reports progress through the study. y NULL: from the model's start. Adaptive methods take
+ * study.tolerance in place of the step. */
 motus_status study_run(study *, const char *method, double step, double start, double until, const double *y,
                        motus_run **, motus_error *err);
-/* The grid of a run of `total` steps, of which the last is shorter if last_step > 0; *per: steps in an interval, a
- * power of 2, so that the times of coarser and finer runs are equal to the bit. */
+/* Returns the grid of a run of `total` steps, the last of which is shorter if last_step > 0; *per: steps in an
+ * interval, a power of 2, so that the times of coarser and finer runs are equal to the bit. */
 study_grid study_grid_of(const study *, double step, int64_t total, double last_step, int64_t *per);
-/* The run's state as one row. */
+/* Reads the run's state as one row. */
 motus_status study_state(study *, motus_run *, double *y, motus_error *err);
 /* Runs a method along a grid with `per` steps in each interval, from a state (NULL: the model's start). out: points ×
- * numbers, NaN from a failure on. A failure ends the study only if study_fatal. */
+ * numbers, NaN from a failure on. A failure ends the study only if study_fatal says so. */
 motus_status study_walk(study *, const char *method, const study_grid *, int64_t per, const double *from, double *out,
                         study_cost *, motus_error *err);
-/* Takes y from one time to another; counts the evaluations, of which study.limit is a bound (MOTUS_SOLVE). */
+/* Takes y from one time to another, and adds the evaluations to *spent. MOTUS_SOLVE: they exceed study.limit. */
 motus_status study_leg(study *, const char *method, double step, double from, double until, double *y, int64_t *spent,
                        motus_error *err);
-/* An estimate of the cost of so many steps and evaluations, the same on every machine; its unit is one number of one
- * evaluation. evaluations < 0: not known yet. */
+/* Estimates the cost of steps and evaluations, in numbers of one evaluation; equal on every machine. evaluations < 0:
+ * not known yet. */
 double study_work(const study *, const motus_method *, double steps, double evaluations);
-double study_evaluations(const motus_method *, double steps); /* as far as they are known beforehand */
+double study_evaluations(const motus_method *, double steps); /* as far as known beforehand */
 double study_seconds(void);                                   /* a monotonic clock */
-double study_processor_seconds(void);                         /* of this thread: other programs do not count */
+double study_processor_seconds(void);                         /* of this thread, so that other programs do not count */
 
-/* Sets scale to how far each number's group moves over the start and the rows; for a group at rest, to the size of its
- * values, or 1. Sets noise and magnitude. */
+/* Sets scale to how far each number's group moves over the start and the rows; for a group at rest, to its largest
+ * value, or 1. Sets noise and magnitude. */
 void study_scale(study *, const double *rows, size_t count);
-/* The largest |p - q| of two states among positions, among velocities, and of all in units of scale; NaN if any is. */
+/* The largest |p - q| of two states: among positions, among velocities, and of all in units of scale; NaN if any is.
+ */
 typedef struct study_distance {
     double x, v, scaled;
 } study_distance;
 study_distance study_measure(const study *, const double *p, const double *q);
-/* The largest |p - q| among positions, velocities and first-order variables; NaN where there are none, or if any is. */
+/* The largest |p - q| among positions, velocities and first-order variables; NaN if there are none, or any is. */
 typedef struct study_errors {
     double x, v, s;
 } study_errors;
 study_errors study_errors_of(const study *, const double *p, const double *q);
-/* The larger; NaN if either is, so that an unknown error never counts as small. */
+/* Returns the larger; NaN if either is, so that an unknown error never counts as small. */
 double study_larger(double, double);
 
 #endif

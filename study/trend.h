@@ -5,10 +5,10 @@
 #include <stddef.h>
 
 typedef struct trend_result {
-    double trend; /* slope of the line through the deviation, times the length of the run */
+    double trend; /* the slope of the line through the deviation, times the length of the run */
     int trending;
 } trend_result;
-/* roundoff: the largest trend that rounding alone may explain. */
+/* Finds the trend. roundoff: the largest trend that rounding alone may explain. */
 trend_result trend_find(const double *t, const double *deviation, size_t count, double roundoff);
 
 #endif
