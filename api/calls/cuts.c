@@ -1,8 +1,8 @@
-/* What events that assign, which end a step, make of a symplectic or reversible method. See cuts.h.
+/* What events that assign, and so end a step, make of a symplectic or reversible method. See cuts.h.
  *
- * A step of given size is a symplectic map; one whose size is a function of the state is not, while one that ends at a
- * given time still is. A method that is reversible by steps of one size stays so: the way back divides the step at the
- * same event. Where error control chooses the steps it begins anew after an event, so the way back has other steps.
+ * A step of a given size, or to a given time, is a symplectic map; one whose size depends on the state is not. Fixed
+ * steps of a reversible method stay reversible: the way back divides the step at the event, too. Where error control
+ * chooses the steps it begins anew after an event, so the way back has other steps.
  */
 #include "api/calls/cuts.h"
 
@@ -20,7 +20,7 @@ bool cuts_by_state(const motus_system *s)
     return false;
 }
 
-/* A switch of the force is a rule, but no event. */
+/* Returns whether a rule that assigns is an event, and not a switch of the force. */
 static bool has_assigning_event(const rules *of)
 {
     for (size_t k = 0; of && k < of->count; k++)

@@ -4,7 +4,7 @@
 
 #include "api/system/system.h"
 
-/* Whether an event that assigns ends steps at a time that the state decides. */
+/* Returns whether an event that assigns ends steps at a time that the state decides. */
 bool cuts_by_state(const motus_system *);
 
 #endif

@@ -1,5 +1,5 @@
-/* The events of a system in words: what each waits for and does, the modes that they assign, and what holds at the
- * start, which is no event. */
+/* The events of a system in words: what each waits for and does, the modes that events assign, and the conditions that
+ * already hold at the start, which are no events. */
 #include "api/calls/cuts.h"
 #include "api/calls/sentences.h"
 #include "api/system/symmetry.h"
@@ -10,7 +10,8 @@
 
 enum { TARGETS_SHOWN = 8, HOLDING_SHOWN = 8, OCCASION = 200 };
 
-/* "; it is a family of events; it assigns x[i]', n; it keeps 3 numbers; it is recorded; the run stops at number 10" */
+/* Says what a rule does: "; it is a family of events; it assigns x[i]', n; it keeps 3 numbers; it is recorded; the run
+ * stops at number 10". */
 static void say_deeds(sentences *w, const model *m, const model_rule *r)
 {
     size_t kept = 0, shown = 0;
@@ -33,7 +34,7 @@ static void say_deeds(sentences *w, const model *m, const model_rule *r)
     sentences_say(w, "\n");
 }
 
-/* period: of a clock, by the numbers of the system */
+/* Says what a rule is. period: of a clock, by the numbers of the system. */
 static void say_rule(sentences *w, const model *m, const model_rule *r, double period)
 {
     char occasion[OCCASION];
@@ -65,7 +66,7 @@ static void say_modes(sentences *w, const motus_system *s)
     }
 }
 
-/* Signs of the functions at the start: 0 where rounding may hide the sign. */
+/* Finds the signs of the functions at the start: 0 where rounding may hide the sign. */
 static bool signs_at_start(const motus_system *s, const rules *r, int8_t *sign)
 {
     const size_t nx = s->problem.nx, nv = s->problem.nv;

@@ -1,7 +1,7 @@
 /* The Jacobian matrices at the state of a run: motus_run_jacobian.
  *
- * One column at a time: the exact derivative in the direction of one number, or the difference quotient that the
- * solver of implicit methods takes. Invariant: neither the run nor its counts change.
+ * Columns come one at a time: the exact derivative in the direction of one number, or the difference quotient that the
+ * solver of implicit methods takes. Invariant: the run and its counts do not change.
  */
 #include "api/system/linear.h"
 #include "api/motion/run.h"
@@ -15,9 +15,9 @@ typedef struct jacobian {
     motus_run *run;
     const problem *problem;
     double t;
-    double *x, *v;                              /* the run's synchronised state, inside order */
+    double *x, *v;                              /* the run's synchronised state, in the inside order */
     double *direction, *image, *base, *shifted; /* problem->nv numbers each */
-    size_t *row;                                /* the place in v of each row */
+    size_t *row;                                /* the place in v that each row has */
 } jacobian;
 
 static motus_status failed(const jacobian *j, motus_error *err)
@@ -27,7 +27,7 @@ static motus_status failed(const jacobian *j, motus_error *err)
                 decimal_time(j->t, j->t, t));
 }
 
-/* image = the derivative with respect to number `at` of v (in_v) or of x. */
+/* Computes image, the derivative with respect to number `at` of v (in_v) or of x. */
 static motus_status column(const jacobian *j, bool in_v, size_t at, double size, motus_error *err)
 {
     const problem *p = j->problem;

@@ -1,26 +1,26 @@
 /* See pole.h.
  *
- * Interval arithmetic gives up the parts of the way without a pole, by halvings. What is left is so short that a
- * divisor is 0 in it. The force need not be infinite there, as sin(x)/x is not, and may have an integral, as
- * 1/sqrt(|x|) has; so its power of the time is read off its changes near the place. Invariant: a pole is found
- * whatever its strength, as far as the rounding of times and states lets the force change by more than its own.
+ * Interval arithmetic excludes poles from parts of the way, by halvings. What is left is so short that a divisor is 0
+ * in it. The force need not be infinite there, as sin(x)/x is not, and may have an integral, as 1/sqrt(|x|) has; so
+ * its power of the time is read off its changes near the place. Invariant: a pole is found whatever its strength, as
+ * far as the rounding of times and states lets the force change by more than its own rounding.
  */
 #include "api/calls/pole.h"
 
 #include <math.h>
 
 enum { DEPTH = 44, LOOKS = 5000, PLACES = 64, SHORTEST = -34, LONGEST = -12, SCALES = 10, SAME = 3, BETWEEN = 5 };
-#define CLEAR 1e3    /* times its rounding, a change of the force is none */
-#define FAR 0x1p9    /* roundings of a time or a state that distances are at least */
-#define ALIKE 0.02   /* powers this near to one another are the same */
-#define INVERSE 0.95 /* a power of the time from which on the force has no integral */
+#define CLEAR 1e3    /* times the rounding of the force, below which it has not changed */
+#define FAR 0x1p9    /* least distance, in roundings of a time or a state */
+#define ALIKE 0.02   /* powers this near to one another are equal */
+#define INVERSE 0.95 /* the power of the time from which on a force has no integral */
 
 typedef struct search {
     const pole_way *way;
-    int looks, places; /* left */
+    int looks, places; /* that may still be taken */
 } search;
 
-/* The way in number k of x, as a polynomial of the fraction z of the time: x + first z + second z² + third z³. */
+/* Number k of x on the way, as a polynomial of the fraction z of the time: x + first z + second z² + third z³. */
 typedef struct cubic {
     double first, second, third;
 } cubic;
@@ -46,7 +46,7 @@ static void point(const pole_way *w, double z, double *x, double *v)
 
 static interval between(double a, double b, double bend) { return (interval){fmin(a, b) - bend, fmax(a, b) + bend}; }
 
-/* Whether interval arithmetic excludes a pole between two fractions of the way. */
+/* Returns whether interval arithmetic excludes a pole between two fractions of the way. */
 static bool excluded(const pole_way *w, double low, double high)
 {
     motus_system *s = w->system;
@@ -65,7 +65,7 @@ static bool excluded(const pole_way *w, double low, double high)
     return !resolution_pole(s->poles, t, box_x, box_v, s->model->pool);
 }
 
-/* The force at a fraction of the way. False: there is none. */
+/* Computes the force at a fraction of the way. False: there is none. */
 static bool force(const pole_way *w, double z, double *a)
 {
     const problem *p = &w->system->problem;
@@ -75,7 +75,7 @@ static bool force(const pole_way *w, double z, double *a)
     return p->accel(p->ctx, w->t + z * w->h, x, v, a) == 0;
 }
 
-/* By how much the force changes between the fractions z + d and z + 2 d; NaN: there is none, or it is rounding. */
+/* Returns how much the force changes between the fractions z + d and z + 2 d. NaN: there is none, or only rounding. */
 static double change(const pole_way *w, double z, double d)
 {
     const problem *p = &w->system->problem;
@@ -89,7 +89,7 @@ static double change(const pole_way *w, double z, double d)
     return most > CLEAR * 0x1p-52 * size ? most : NAN;
 }
 
-/* The shortest distance from a place at which rounding does not move it, as a power of 2 of the way. */
+/* Returns the shortest distance from a place that rounding does not change, as a power of 2 of the way. */
 static int shortest(const pole_way *w, double z)
 {
     const problem *p = &w->system->problem;
@@ -102,7 +102,7 @@ static int shortest(const pole_way *w, double z)
     return (int)fmax(SHORTEST, fmin(LONGEST, ceil(log2(FAR * 0x1p-52 * rounding))));
 }
 
-/* Whether the change follows the power between the distances d and 2 d, too, as rounding does not. */
+/* Returns whether the change follows the power between d and 2 d as well; rounding does not. */
 static bool follows(const pole_way *w, double z, double d, double power)
 {
     const double at = change(w, z, d);
@@ -113,8 +113,8 @@ static bool follows(const pole_way *w, double z, double d, double power)
     return true;
 }
 
-/* Whether the force grows towards a place from one side as 1/time, or faster: the same power at the shortest distances
- * at which it changes by more than rounding. */
+/* Returns whether the force grows towards a place from one side as 1/time, or faster, by the power at the shortest
+ * distances at which it changes by more than rounding. */
 static bool grows(const pole_way *w, double z, double side)
 {
     double before = NAN, power = NAN;
@@ -134,7 +134,7 @@ static bool found(search *s, double low, double high, int depth)
 {
     if (s->looks-- <= 0 || s->places <= 0 || excluded(s->way, low, high)) return false;
     const double middle = low + (high - low) / 2;
-    if (depth == 0) s->places--; /* a divisor that stays at 0 leaves all places of the way */
+    if (depth == 0) s->places--; /* a divisor that stays at 0 would make every part of the way a place */
     if (depth == 0) return grows(s->way, middle, 1) || grows(s->way, middle, -1);
     return found(s, low, middle, depth - 1) || found(s, middle, high, depth - 1);
 }

@@ -4,10 +4,10 @@
 
 #include "api/system/system.h"
 
-/* What leads from one state to another in the time h: a straight line, whose h may be 0, or the cubics that have both
- * velocities. */
+/* A way from one state to another in the time h: the cubics that have both velocities, or a straight line, whose h may
+ * be 0. */
 typedef struct pole_way {
-    motus_system *system; /* whose poles are known */
+    motus_system *system; /* with known poles */
     double t, h;
     const double *x, *v, *end_x, *end_v;
     bool straight;
@@ -15,8 +15,8 @@ typedef struct pole_way {
     double *room;  /* 4 nv numbers */
 } pole_way;
 
-/* A divisor (or what else has a pole: lang/model/resolution.h) passes or touches 0 on the way, and the force grows
- * there as the inverse of the time, or faster. */
+/* Returns whether a divisor (or another operation with a pole: lang/model/resolution.h) passes or touches 0 on the way,
+ * and the force grows there as the inverse of the time, or faster. */
 bool pole_on(const pole_way *);
 
 #endif

@@ -1,4 +1,4 @@
-/* The calls for the errors of a run's numbers, and for its table of events. */
+/* The public calls for the errors of a run's numbers, and for its table of events. */
 #include "api/error/event_bars.h"
 #include "api/motion/run_events.h"
 

@@ -1,4 +1,4 @@
-/* The calls of runs: how one is made, goes on, and what it tells of itself. */
+/* The public calls of runs: making one, going on, asking. */
 #include "api/search/goal.h"
 #include "api/motion/locate.h"
 #include "api/motion/run_events.h"

@@ -1,4 +1,4 @@
-/* A text that grows, of what is said of a system. */
+/* A growing text of sentences about a system. */
 #ifndef API_CALLS_SENTENCES_H
 #define API_CALLS_SENTENCES_H
 
@@ -8,9 +8,9 @@
 
 typedef struct sentences {
     const motus_allocator *allocator;
-    char *text; /* from the hooks, to be given back; NULL: nothing was said */
+    char *text; /* from the hooks; NULL: no sentence yet */
     size_t length, room;
-    bool failed; /* there was no memory: the text is not whole */
+    bool failed; /* memory ran out: the text is not whole */
 } sentences;
 
 void sentences_say(sentences *, const char *format, ...) __attribute__((format(printf, 2, 3)));

@@ -1,10 +1,10 @@
 /* Whether a run passes a singularity of the force: motus_run_singular.
  *
  * Interval arithmetic over the states of a step tells where a divisor may be 0 (lang/model/resolution.h). Such a step
- * is then taken once more from its start, by steps that error control chooses. Either they come to a halt, at a
- * singularity; or they pass a pole, too weak for their error to show it; or they lead to another state than the run's
- * step: then the run alone has passed a pole, or its step only does not resolve the force. Invariant: a step that
- * agrees with the controlled ones, which pass no pole, is not accused, however near to one it leads.
+ * is taken once more from its start, by controlled steps. Either they halt, at a singularity; or they pass a pole, too
+ * weak for their error to show it; or they lead to another state than the run's step: then the run alone has passed a
+ * pole, or its step does not resolve the force. Invariant: a step that agrees with controlled ones, which pass no pole,
+ * is not accused, however near to a pole it leads.
  */
 #include "api/request/choice.h"
 #include "api/why/diagnosis.h"
@@ -19,25 +19,25 @@
 #include <stdio.h>
 #include <string.h>
 
-enum { PIECES_MAX = 50000, STAGES = 4 }; /* controlled steps in all */
+enum { PIECES_MAX = 50000, STAGES = 4 }; /* PIECES_MAX: controlled steps in all */
 #define TOLERANCE 1e-6                   /* of the motion's size, for a controlled step */
-#define LEAST 0x1p-44 /* of the run's step: a controlled step that must be shorter stands before a singularity */
-#define APART 0.5     /* of the velocity, or of the way: another end than that of the controlled steps */
+#define LEAST 0x1p-44 /* of the run's step: a controlled step that must be shorter is at a singularity */
+#define APART 0.5     /* of the velocity, or of the way: two ends farther apart are different */
 
 typedef struct end {
     double t, *x, *v, *a;
 } end;
 
-typedef enum course { ARRIVES, HALTS, PASSES, LASTS } course; /* LASTS: it is long, but on its way */
+typedef enum course { ARRIVES, HALTS, PASSES, LASTS } course; /* LASTS: takes long, and is on its way */
 
 typedef struct judge {
     motus_run *run;
     const problem *problem;
     end from, to, now, whole, half;
-    double *stage_x, *stage_v, *sum_x, *sum_v; /* of nv numbers each, one after the other */
+    double *stage_x, *stage_v, *sum_x, *sum_v; /* of nv numbers each, one behind the other */
     interval *box;                             /* nx, then nv */
     int pieces;                                /* controlled steps so far */
-    double of_x, of_v;                         /* the sizes to which errors of controlled steps relate */
+    double of_x, of_v;                         /* sizes to which errors of controlled steps relate */
 } judge;
 
 static void copy(const judge *j, end *to, const end *from)
@@ -50,7 +50,7 @@ static void copy(const judge *j, end *to, const end *from)
 static double least(double a, double b, double c, double d) { return fmin(fmin(a, b), fmin(c, d)); }
 static double most(double a, double b, double c, double d) { return fmax(fmax(a, b), fmax(c, d)); }
 
-/* What a number may be within a step of size h: between its ends and those of the tangents there. */
+/* Bounds a number within a step of size h: by its ends, and by those of the tangents there. */
 static interval reach(double from, double rate, double to, double end_rate, double h)
 {
     const double ahead = from + h * rate, back = to - h * end_rate;
@@ -71,7 +71,7 @@ static bool may_meet_pole(const judge *j)
 
 /* Controlled steps ------------------------------------------------------------------------------------------------ */
 
-/* A step of the classical Runge-Kutta method. */
+/* Takes a step of the classical Runge-Kutta method. */
 static void step(const judge *j, const end *from, double h, end *to)
 {
     static const double node_of[STAGES] = {0, 0.5, 0.5, 1}, weight[STAGES] = {1.0 / 6, 1.0 / 3, 1.0 / 3, 1.0 / 6};
@@ -96,7 +96,7 @@ static void step(const judge *j, const end *from, double h, end *to)
     to->t = from->t + h;
 }
 
-/* The error of a controlled step in units of the tolerance, by two half steps, which lead to `half`. */
+/* Returns the error of a controlled step in units of the tolerance, by two half steps, which lead to `half`. */
 static double error_of(judge *j, double h)
 {
     const problem *p = j->problem;
@@ -110,16 +110,16 @@ static double error_of(judge *j, double h)
     return fmax(x > 0 ? x / j->of_x : 0, v > 0 ? v / j->of_v : 0) / TOLERANCE;
 }
 
-/* By what the next step may be longer than one with this error. */
+/* Returns the factor of the next step after one with this error. */
 static double rate(double error) { return 0.9 * exp(-0.2 * log(error)); }
 
-/* Whether the way to a state after the time h passes a pole. */
+/* Returns whether the way to a state after the time h passes a pole. */
 static bool pole_between(const judge *j, const end *from, double h, const double *x, const double *v, bool straight)
 {
     return pole_on(&(pole_way){j->run->system, from->t, h, from->x, from->v, x, v, straight, j->box, j->stage_x});
 }
 
-/* Controlled steps from `from` to the time t; the state there is `now`. */
+/* Takes controlled steps from `from` to the time t; `now` is then the state there. */
 static course follow(judge *j, double t)
 {
     const double whole = t - j->from.t, short_of = fmax(LEAST * fabs(whole), 8 * DBL_EPSILON * fabs(t));
@@ -147,8 +147,8 @@ static course follow(judge *j, double t)
     return LASTS;
 }
 
-/* Whether the run's step from `from` is another motion than that of the controlled steps, which lead to `now`. `to` is
- * lost. Where an event has acted at its end the run's state is not the one to which its step has led. */
+/* Judges whether the run's step from `from` is another motion than the controlled steps, which lead to `now`; `to` is
+ * lost. acted: an event at the end of the step has changed the run's state. */
 static motus_status judged(judge *j, bool acted)
 {
     const problem *p = j->problem;
@@ -180,7 +180,7 @@ static motus_status observe(judge *j, end *at, motus_error *err)
     return MOTUS_OK;
 }
 
-/* Says so where the force has no finite value at the start itself. */
+/* Reports a force that has no finite value at the start itself. */
 static bool undefined_start(const judge *j, double from, motus_error *err)
 {
     const problem *p = j->problem;
@@ -239,7 +239,7 @@ static motus_status walk(judge *j, motus_error *err)
     weight weight;
     motus_status status = choice_weigh(r->system, &weight, err);
     if (status != MOTUS_OK) return status;
-    /* where there are loops an evaluation takes more operations than the graph has */
+    /* In loops an evaluation takes more operations than the graph has. */
     const double operations = fmax(weight.values, m->graph->count) + 4.0 * (double)m->nv;
     int64_t left = (int64_t)(MOTUS_SINGULAR_WORK / ((evaluations + 2) * operations));
     status = observe(j, &j->from, NULL);
@@ -258,7 +258,7 @@ static motus_status walk(judge *j, motus_error *err)
         j->from = j->to;
         j->to = kept;
     }
-    return MOTUS_OK; /* where the run fails, it says so itself */
+    return MOTUS_OK; /* a run that fails reports it itself */
 }
 
 static motus_status look(motus_run *r, motus_error *err)

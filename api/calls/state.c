@@ -48,10 +48,10 @@ static uint64_t mix_subscript(uint64_t h, const subscript *s)
 
 static uint64_t mix_range(uint64_t h, const range *r) { return mix_subscript(mix_subscript(h, &r->first), &r->last); }
 
-/* Where a number lies: a reference, and the array it refers to. */
+/* Hashes where a number lies: a reference, and its array. */
 static uint64_t mix_reference(uint64_t h, const model *m, const reference *r)
 {
-    static const extent none = {{0}, {0}, {0}}; /* leaves of derivatives lie nowhere */
+    static const extent none = {{0}, {0}, {0}}; /* leaves of derivatives have no place */
     const array *a = &m->arrays[r->array];
     const extent *over = a->over ? a->over : &none;
     h = mix_number(mix_number(h, a->space), (int64_t)a->base);
@@ -91,7 +91,7 @@ static uint64_t mix_nodes(uint64_t h, const model *m, node from, node last)
     return h;
 }
 
-/* What is the same of the rules of models and of callbacks. */
+/* Hashes what rules of models and of callbacks have in common. */
 static uint64_t mix_rules(uint64_t h, const rules *r)
 {
     h = mix_number(h, (int64_t)r->count);
@@ -108,7 +108,7 @@ static uint64_t mix_rules(uint64_t h, const rules *r)
     return h;
 }
 
-/* The formulas of a model's rules; `from`: nodes before it are mixed already. */
+/* Hashes the formulas of a model's rules; nodes before `from` are already hashed. */
 static uint64_t mix_events(uint64_t h, const model *m, node from)
 {
     node last = 0;
@@ -128,11 +128,11 @@ static uint64_t mix_events(uint64_t h, const model *m, node from)
     return h;
 }
 
-/* The same text and settings give the same graph, so node numbers serve as the equations' names. */
+/* Hashes a system. Equal texts and settings give equal graphs, so node numbers serve as the equations' names. */
 static uint64_t fingerprint(const motus_system *s, const rules *r)
 {
     uint64_t h = MIX_START;
-    /* As 64 bits: in WebAssembly size_t is narrower, and the hash must be the same. */
+    /* Sizes count as 64 bits, since in WebAssembly size_t has fewer. */
     h = mix_number(mix_number(h, (int64_t)s->problem.nx), (int64_t)s->problem.nv);
     const model *m = s->model;
     if (r) h = mix_rules(h, r);
@@ -146,7 +146,7 @@ static uint64_t fingerprint(const motus_system *s, const rules *r)
     return mix(h, m->pool, m->pool_count * sizeof *m->pool);
 }
 
-/* Exact, with a decimal point in every locale, which printf's %a has not. */
+/* Writes a number exactly, with a decimal point in every locale, which printf's %a has not. */
 static int write_hex(char *out, size_t size, double v)
 {
     uint64_t bits;
@@ -160,7 +160,7 @@ static int write_hex(char *out, size_t size, double v)
                     exponent ? exponent - 1023 : -1022);
 }
 
-/* False: it is no number that write_hex wrote. */
+/* Reads a number that write_hex wrote. False: it is none. */
 static bool read_hex(const char **at, const char *end, double *v)
 {
     const char *p = *at;
@@ -223,8 +223,8 @@ static size_t write_block(motus_run *r, size_t at, size_t room, const char *name
     return write_numbers(r, at, room, numbers, n);
 }
 
-/* The text, of the stepper's carry, of events, and what is known of the errors; it is in r->saved. `carry` has room for
- * the numbers of the events too. */
+/* Writes the text to r->saved: the stepper's carry, events, and the bars. `carry` has room for the numbers of events as
+ * well. */
 static motus_status write_state(motus_run *r, double *carry, size_t n, size_t events, size_t *length, motus_error *err)
 {
     const stepper_count now =
@@ -314,7 +314,7 @@ static bool integer(reader *r, int64_t *v)
     return true;
 }
 
-/* Whether the text ends in the hash of what comes before it; takes this last line off. */
+/* Checks that the text ends in the hash of what comes before, and takes this last line off. */
 static bool undamaged(reader *r)
 {
     enum { CLOSING = 4 + 16 + 1 };
@@ -339,7 +339,7 @@ static bool read_numbers(reader *in, double *out, int64_t n)
     return ok;
 }
 
-/* The numbers behind a name; NULL: the text goes on with something else. False: it is damaged, or there is no
+/* Reads the numbers behind a name; NULL: the text goes on with another name. False: it is damaged, or there is no
  * memory. */
 static bool read_block(motus_run *r, reader *in, const char *name, double **numbers, int64_t *count)
 {
@@ -351,7 +351,7 @@ static bool read_block(motus_run *r, reader *in, const char *name, double **numb
     return *numbers && read_numbers(in, *numbers, *count);
 }
 
-/* The run has been restored, and with it its errors, where the state has them. Takes the numbers over. */
+/* Gives the bars of a restored run what the state has of them, and takes over the numbers. */
 static void resume_bars(motus_run *r, double *numbers, int64_t count)
 {
     if (numbers && r->bars && bars_resume(r, numbers, (size_t)count)) return;
@@ -359,13 +359,13 @@ static void resume_bars(motus_run *r, double *numbers, int64_t count)
     bars_give_up(r, "the run was restored from a state that does not tell its error up to there");
 }
 
-/* What a restart state says. */
+/* The contents of a restart state. */
 typedef struct found {
     char system[40], method[MOTUS_NAME_MAX + 8];
     double start, h;
     stepper_count then;
-    int64_t carried;               /* numbers of the stepper */
-    double *carry, *events, *bars; /* the last two NULL: it has none; the caller's */
+    int64_t carried;               /* how many numbers of the stepper */
+    double *carry, *events, *bars; /* from the hooks; events, bars: NULL if the state has none */
     int64_t events_count, bars_count;
 } found;
 
@@ -378,7 +378,7 @@ static bool read_head(reader *in, found *f)
            integer(in, &f->then.iterations) && word(in, "\ncarry ") && integer(in, &f->carried) && word(in, "\n");
 }
 
-/* Whether the state is one of this run. */
+/* Checks that the state is one of this run. */
 static motus_status fits(const motus_run *r, const found *f, motus_error *err)
 {
     char expected[40];
@@ -397,7 +397,7 @@ static motus_status fits(const motus_run *r, const found *f, motus_error *err)
     return (size_t)f->carried == stepper_carry(r->stepper) ? MOTUS_OK : unreadable(err);
 }
 
-/* The numbers of the state. */
+/* Reads the numbers of the state. */
 static motus_status read_found(motus_run *r, reader *in, found *f, motus_error *err)
 {
     f->carry = take(&r->allocator, (size_t)f->carried + 1, sizeof *f->carry);
@@ -408,7 +408,7 @@ static motus_status read_found(motus_run *r, reader *in, found *f, motus_error *
     return ok && !f->events == !r->events ? MOTUS_OK : unreadable(err);
 }
 
-/* The stepper takes the state, or all stays as it was. */
+/* Gives the stepper the state. After a failure all is as before. */
 static motus_status load(motus_run *r, const found *f, motus_error *err)
 {
     if (r->events) return run_events_load(r, f->then, f->carry, f->events, (size_t)f->events_count, err);
@@ -444,7 +444,7 @@ motus_status motus_run_restore(motus_run *r, const char *text, size_t length, mo
     if (!r || !text) return fail(err, MOTUS_ARGUMENT, "motus_run_restore needs a run and a text");
     if (r->observing) return run_refuse_move(err);
     if (run_refuse(r, "restored", err) != MOTUS_OK) return MOTUS_UNAVAILABLE;
-    modes m = modes_enter(); /* before the numbers are read, so that no subnormal is flushed */
+    modes m = modes_enter(); /* so that no subnormal number is flushed when it is read */
     motus_status status = restore(r, text, length, err);
     modes_leave(m);
     if (status == MOTUS_OK) goal_restored(r);

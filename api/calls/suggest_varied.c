@@ -11,13 +11,13 @@
 
 typedef struct varied {
     motus_system *system; /* the clone */
-    vary *vary;           /* of its model */
+    vary *vary;           /* of the clone's model */
     size_t count, *places;
-    size_t *given; /* the array of the call that has the numbers of a place: `until` has none */
+    size_t *given; /* the array of the call that has the numbers of each place; `until` has no place */
     double *values;
 } varied;
 
-/* The end of a run is no number of the system. */
+/* Returns whether a name is that of the end, which is no number of the system. */
 static bool is_end(const char *name) { return name && !strcmp(name, "until"); }
 
 static motus_status begin(varied *y, motus_system *s, const char *const *names, size_t count, motus_error *err)
@@ -59,7 +59,7 @@ static bool become(varied *y, const double *const *values, size_t i)
     return !s->model || (vary_apply(y->vary, y->values) && system_rebind(s));
 }
 
-/* The shortest of the steps goes to `set`, with the rate that it is for. What has no step stops as a trajectory. */
+/* Finds the shortest of the steps, with its rate. A trajectory for which no step is found is left out: it stops. */
 static motus_status shortest(varied *y, size_t trajectories, const double *const *values, motus_settings *set,
                              motus_error *err)
 {

@@ -1,7 +1,7 @@
 /* The words of a text for an editor, and those of the language. See motus_text_words.
  *
- * The lexer of lang/text/ reads the text; where it stops at an error, it goes on behind it. Invariant: words are in the
- * order of the text, do not overlap, and every name in them has been compared with every definition among them.
+ * The lexer of lang/text/ reads the text, and goes on behind every error. Invariant: words are in the order of the
+ * text, do not overlap, and every name in them has been compared with every definition among them.
  */
 #include "lang/text/lex.h"
 #include "lang/text/words.h"
@@ -12,7 +12,7 @@ typedef struct reading {
     const char *text;
     motus_word *words;
     size_t count, room;
-    size_t statement; /* the word that begins the present one */
+    size_t statement; /* the word that begins the present statement */
     bool events;      /* the text has a `when` */
 } reading;
 
@@ -27,7 +27,7 @@ static void add(reading *r, motus_word_kind kind, size_t from, size_t to)
     if (r->count < r->room) r->words[r->count++] = (motus_word){from, to - from, kind, 0};
 }
 
-/* Between two tokens are blanks, line ends and comments. */
+/* Adds the comments between two tokens, where only blanks and line ends can be besides. */
 static void add_comments(reading *r, size_t from, size_t to)
 {
     for (; from < to; from++) {
@@ -91,7 +91,7 @@ static void define(reading *r)
     r->statement = r->count;
 }
 
-/* What events keep, count(bounce), time(bounce, last). */
+/* Returns whether word i names a number that events keep: count(bounce), time(bounce, last). */
 static bool keeps(const reading *r, size_t i)
 {
     char name[8] = "";
@@ -130,7 +130,7 @@ static void read_words(reading *r, source *s)
         const token t = lex_next(&l);
         add_comments(r, done, t.at.from);
         done = t.at.to;
-        if (s->failed) { /* a number is not finished yet, or this is a wrong character */
+        if (s->failed) { /* the number is not finished, or the character is wrong */
             const size_t from = t.at.from, size = s->texts[0].length;
             if (from >= size) break;
             const bool number = r->text[from] && strchr("0123456789", r->text[from]);

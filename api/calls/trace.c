@@ -14,16 +14,16 @@ typedef struct trace {
     double step;
     size_t count;
     motus_trace_entry *entry;
-    const motus_trace_entry **list; /* to each of them: what the caller gets */
+    const motus_trace_entry **list; /* pointers to the entries, for the caller */
     double *next;                   /* the unused room for numbers */
-    /* of an adaptive method: entries that stay when another candidate begins, the unused room after them and before
-     * the last of them, and the error of the candidate */
+    /* Of an adaptive method: entries that stay when another candidate begins, the unused room after them and before the
+     * last of them, and the error of the candidate. */
     size_t kept;
     double *first, *before;
     double error;
 } trace;
 
-/* START and END, which hold the state; the closing kick and the step of a recurrence take numbers from them. */
+/* START and END hold the state; the closing kick and the step of a recurrence take numbers from them. */
 enum { TRACE_ENDS = 2 };
 
 static trace *make(motus_run *r)
@@ -108,7 +108,7 @@ static void see(void *ctx, const trace_event *e)
     if (e->before_a) out->before_a = keep_v(t, e->before_a);
 }
 
-/* Forgets the events of a candidate that was refused. */
+/* Forgets the entries of a candidate that was refused. */
 static void again(void *ctx, double h)
 {
     trace *t = ctx;
@@ -117,7 +117,7 @@ static void again(void *ctx, double h)
     t->step = t->entry->step = h;
 }
 
-/* A refused candidate stays as one entry. */
+/* Keeps a refused candidate as one entry. */
 static void judged(void *ctx, double h, double error, const double *x, const double *v)
 {
     trace *t = ctx;
@@ -136,8 +136,8 @@ static void judged(void *ctx, double h, double error, const double *x, const dou
     t->first = t->next;
 }
 
-/* Adds an entry with the present state. Without the acceleration where it cannot be evaluated: the method may not need
- * it here. */
+/* Adds an entry with the present state; without the acceleration if it cannot be evaluated, since the method may not
+ * need it here. */
 static motus_status observe(motus_run *r, motus_trace_kind kind, motus_error *err)
 {
     trace *t = r->trace;
@@ -172,7 +172,7 @@ static motus_status walk(motus_run *r, motus_error *err)
 {
     trace *t = make(r);
     if (!t) return fail(err, MOTUS_MEMORY, "no memory for the trace of the step");
-    /* of an adaptive method `again` tells it */
+    /* `again` tells the size of an adaptive step */
     t->step = run_steps(r) < r->timing.whole ? r->timing.h : r->timing.last;
     t->error = NAN;
     motus_status status = observe(r, MOTUS_TRACE_START, err);
