@@ -298,7 +298,7 @@ static motus_status check(const options *o, motus_error *err)
     if (status) return status;
     if (o->json && o->output && strcmp(o->output, "-") == 0)
         return fail(err, MOTUS_ARGUMENT, "--json and the rows both go to standard output");
-    return o->output ? sweep_file_may_write(o, o->output, err) : MOTUS_OK;
+    return o->output ? target_check(o, o->output, err) : MOTUS_OK;
 }
 
 motus_status archive_verb(const options *o, motus_error *err)

@@ -3,7 +3,7 @@
 #include "cli/archive_verify.h"
 
 #include "base/decimal.h"
-#include "cli/constant.h"
+#include "cli/typed.h"
 #include "cli/run_again.h"
 #include "cli/run_archive.h"
 #include "cli/run_command.h"
@@ -22,7 +22,7 @@ motus_status archive_verify_part(const char *text, double *part, motus_error *er
     if (strcmp(text, "all") == 0) return MOTUS_OK;
     const bool ends = length > 1 && length <= sizeof number && text[length - 1] == '%';
     if (ends) memcpy(number, text, length - 1);
-    if (!ends || constant_read(number, "", &percent, &none) || !(percent > 0) || percent > 100)
+    if (!ends || typed_constant(number, "", &percent, &none) || !(percent > 0) || percent > 100)
         return complain(err, MOTUS_ARGUMENT,
                         "--verify 1% computes a hundredth of its blocks again, --verify all every one",
                         "--verify %.80s: this is no part of an archive", text);

@@ -6,7 +6,6 @@
  * Invariant: numbers are constant expressions of the language; each is finite, each count at least 1.
  */
 #include "cli/complain.h"
-#include "cli/constant.h"
 #include "cli/grid.h"
 #include "cli/typed.h"
 
@@ -59,7 +58,7 @@ static size_t cut(char *s, char mark, char **parts, size_t most)
 
 static motus_status number(const reading *r, const char *text, double *value)
 {
-    return constant_read(text, r->where, value, r->err);
+    return typed_constant(text, r->where, value, r->err);
 }
 
 static motus_status read_range(const reading *r, char **parts, bool logarithmic, axis *a)

@@ -6,7 +6,7 @@
 #include "cli/components.h"
 
 #include "cli/complain.h"
-#include "cli/constant.h"
+#include "cli/typed.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -100,7 +100,7 @@ motus_status components_set(motus_system *s, const options_list *set, motus_erro
             char where[NAME];
             double value;
             snprintf(where, sizeof where, "--set %.*s", (int)(equals - item), item);
-            motus_status status = constant_read(equals + 1 + strspn(equals + 1, " "), where, &value, err);
+            motus_status status = typed_constant(equals + 1 + strspn(equals + 1, " "), where, &value, err);
             if (!status) status = (initial ? set_initial : set_parameter)(s, item, value, err);
             if (status) return status;
         }

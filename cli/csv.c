@@ -8,6 +8,7 @@
 #include "base/utf8.h"
 #include "cli/complain.h"
 #include "cli/text.h"
+#include "cli/words.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -26,7 +27,7 @@ motus_status csv_plan(csv *c, const load *model, const options *o, motus_error *
         return MOTUS_OK;
     }
     options_list names;
-    motus_status status = options_split(o->columns, "--columns", &names, err);
+    motus_status status = words_part(o->columns, "--columns", &names, err);
     if (status) return status;
     for (size_t i = 0; !status && i < names.count; i++) {
         size_t first, count;
@@ -42,7 +43,7 @@ motus_status csv_plan(csv *c, const load *model, const options *o, motus_error *
         c->columns = columns;
         for (size_t k = 0; k < count; k++) c->columns[c->count++] = first + k;
     }
-    options_list_free(&names);
+    words_free(&names);
     return status;
 }
 

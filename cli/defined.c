@@ -3,6 +3,7 @@
 
 #include "cli/complain.h"
 #include "cli/options.h"
+#include "cli/words.h"
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -41,13 +42,13 @@ motus_status defined_find(defined *d, const char *list, const char *text, motus_
     options_list items;
     *d = (defined){0};
     if (!list) return MOTUS_OK;
-    motus_status status = options_split(list, "--record", &items, err);
+    motus_status status = words_part(list, "--record", &items, err);
     if (status) return status;
     size_t length;
     for (size_t k = 0; k < items.count && !status; k++)
         if (keeps(items.items[k]) && !defined_name(d, items.items[k], &length))
             status = add(d, items.items[k], text, err);
-    options_list_free(&items);
+    words_free(&items);
     return status;
 }
 

@@ -7,6 +7,7 @@
 
 #include "cli/complain.h"
 #include "cli/text.h"
+#include "cli/words.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -295,14 +296,14 @@ motus_status figure_column(const load *m, const char *name, size_t *column, motu
 motus_status figure_plane(const load *m, const char *text, size_t columns[2], motus_error *err)
 {
     options_list names;
-    motus_status status = options_split(text, "--plot-of", &names, err);
+    motus_status status = words_part(text, "--plot-of", &names, err);
     if (status) return status;
     if (names.count != 2) {
         status = fail(err, MOTUS_ARGUMENT, "--plot-of %s: two columns are needed", text);
         hint(err, "--plot-of \"x,x'\" draws x' against x");
     }
     for (int a = 0; !status && a < 2; a++) status = figure_column(m, names.items[a], &columns[a], err);
-    options_list_free(&names);
+    words_free(&names);
     return status;
 }
 

@@ -80,12 +80,12 @@ static motus_status check(const options *o, motus_error *err)
         return complain(err, MOTUS_ARGUMENT, "motus merge part*.csv -o all.csv",
                         o->files.count ? "-o is missing: the name of the merged file" : "no file to merge");
     for (size_t k = 0; k < o->files.count; k++)
-        if (file_same(o->files.items[k], o->output) || sweep_archive_replaces(o->output, o->files.items[k]))
+        if (file_same(o->files.items[k], o->output) || target_replaces(o->output, o->files.items[k]))
             return fail(err, MOTUS_ARGUMENT, "%s is read and would be overwritten", o->output);
     if (o->partial && o->compress)
         return complain(err, MOTUS_ARGUMENT, "compress at the end: the sweep's command with --resume --compress",
                         "--partial and --compress exclude each other: only what is complete is compressed");
-    return sweep_file_may_write(o, o->output, err);
+    return target_check(o, o->output, err);
 }
 
 /* A .npy and an archive are known by their names. */
@@ -101,8 +101,7 @@ static motus_status check_name(const merge *m, motus_error *err)
         fail(err, MOTUS_ARGUMENT, "--compress is for archives");
         return MOTUS_ARGUMENT;
     }
-    if (sweep_npy_name(name) == (kind == PART_NPY) && sweep_archive_name(name) == (kind == PART_ARCHIVE))
-        return MOTUS_OK;
+    if (target_npy(name) == (kind == PART_NPY) && target_archive(name) == (kind == PART_ARCHIVE)) return MOTUS_OK;
     fail(err, MOTUS_ARGUMENT, "-o %s: the shards are %s", name, kinds[kind]);
     hint(err, "give the merged file a name as all.%s", ends[kind]);
     return MOTUS_ARGUMENT;
@@ -167,7 +166,7 @@ static motus_status write_all(merge *m, stop_progress *progress, motus_error *er
         return part_archive_join(m->of, output, m->options->partial ? &m->missing : NULL, m->options->compress,
                                  progress, err);
     const bool npy = m->of[0]->kind == PART_NPY;
-    char *beside = sweep_npy_beside(output);
+    char *beside = target_beside(output);
     if (!beside) return complain_memory(err);
     file_out rows = {0}, about = {0};
     checks c = {.descriptor = -1};

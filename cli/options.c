@@ -1,76 +1,17 @@
-/* The command line.
- *
- * Invariant: all that is known of an option is its row in cli/options.def.
- */
+/* The command line, read by the table of options. */
 #include "cli/options.h"
 
 #include "base/near.h"
 #include "cli/complain.h"
+#include "cli/words.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-enum {
-    STUDY = VERB_COMPARE | VERB_CONVERGE,
-    ONE = VERB_RUN | VERB_SWEEP,
-    SOLVES = ONE | STUDY | VERB_LAB,
-    MODEL = SOLVES | VERB_CHECK
-};
-
-static const option table[] = {
-#define OPTION(type, member, ...) {.kind = type, offsetof(options, member), sizeof(TYPE_##type), __VA_ARGS__},
-#define OPTION_AGAIN(type, member, ...) {.kind = type, offsetof(options, member), sizeof(TYPE_##type), __VA_ARGS__},
-#include "cli/options.def"
-};
-
-const option *options_row(size_t k) { return &table[k]; }
-
-const char *options_plain(const char *help, char out[OPTIONS_HELP])
-{
-    size_t n = 0;
-    for (; *help && n + 1 < OPTIONS_HELP; help++)
-        if (*help != '`') out[n++] = *help;
-    out[n] = 0;
-    return out;
-}
-
-void options_hint(const option *row, motus_error *err)
-{
-    char help[OPTIONS_HELP];
-    hint(err, "%s %s: %s", row->name, row->argument, options_plain(row->help, help));
-}
-
-static const char *const verbs[] = {
-#define VERB(bit, name, ...) #name,
-#include "cli/options.def"
-};
-
-const char *options_verb(unsigned verb)
-{
-    size_t k = 0;
-    while (verb >> k > 1) k++;
-    return verbs[k];
-}
-
 static bool matches(const option *o, const char *name)
 {
     return strcmp(o->name, name) == 0 || (o->brief && strcmp(o->brief, name) == 0);
-}
-
-/* Members of a definition have '_' where options have '-'. */
-static bool alike(const char *option, const char *member, size_t length)
-{
-    for (size_t i = 0; i < length; i++)
-        if (option[i] != (member[i] == '_' ? '-' : member[i])) return false;
-    return true;
-}
-
-bool options_known(const char *name, size_t length)
-{
-    for (size_t i = 0; i < OPTION_COUNT; i++)
-        if (strlen(table[i].name) == 2 + length && alike(table[i].name + 2, name, length)) return true;
-    return false;
 }
 
 /* Another verb has the option. */
@@ -78,15 +19,16 @@ static motus_status not_here(const char *name, unsigned verb, motus_error *err)
 {
     char its[128] = "";
     for (size_t i = 0; i < OPTION_COUNT; i++)
-        for (unsigned bit = 1; bit < VERB_ALL && strcmp(table[i].name, name) == 0; bit <<= 1)
-            if (table[i].verbs & bit)
+        for (unsigned bit = 1; bit < VERB_ALL && strcmp(options_row(i)->name, name) == 0; bit <<= 1)
+            if (options_row(i)->verbs & bit)
                 snprintf(its + strlen(its), sizeof its - strlen(its), "%s%s", its[0] ? ", " : "", options_verb(bit));
     fail(err, MOTUS_ARGUMENT, "motus %s takes no %s", options_verb(verb), name);
     hint(err, "%s belongs to: %s", name, its);
     const size_t length = strlen(name);
     for (size_t i = 0; i < OPTION_COUNT; i++) /* --methods for --method */
-        if (table[i].verbs & verb && strncmp(table[i].name, name, length) == 0 && !strcmp(table[i].name + length, "s"))
-            options_hint(&table[i], err);
+        if (options_row(i)->verbs & verb && strncmp(options_row(i)->name, name, length) == 0 &&
+            !strcmp(options_row(i)->name + length, "s"))
+            options_hint(options_row(i), err);
     return MOTUS_ARGUMENT;
 }
 
@@ -96,7 +38,7 @@ static motus_status find(const char *name, unsigned verb, size_t *found, motus_e
     const char *elsewhere = NULL, *near = NULL;
     int distance = 6;
     for (size_t i = 0; i < OPTION_COUNT; i++) {
-        const option *o = &table[i];
+        const option *o = options_row(i);
         if (matches(o, name) && o->verbs & verb) {
             *found = i;
             return MOTUS_OK;
@@ -119,73 +61,12 @@ static motus_status find(const char *name, unsigned verb, size_t *found, motus_e
     return MOTUS_ARGUMENT;
 }
 
-void options_list_free(options_list *list)
-{
-    free(list->items);
-    free(list->text);
-    *list = (options_list){0};
-}
-
-motus_status options_split(const char *text, const char *option_name, options_list *list, motus_error *err)
-{
-    size_t most = 1;
-    int depth = 0;
-    for (const char *s = text; *s; s++) most += *s == ',';
-    *list = (options_list){.items = malloc(most * sizeof *list->items), .text = strdup(text)};
-    motus_status status = list->items && list->text ? MOTUS_OK : complain_memory(err);
-    for (char *s = list->text, *part = s, last = 1; !status && last; s++) {
-        depth += (*s == '(' || *s == '[') - (*s == ')' || *s == ']');
-        if (*s && !(*s == ',' && depth <= 0)) continue;
-        last = *s;
-        *s = 0;
-        part += strspn(part, " ");
-        for (char *tail = s; tail > part && tail[-1] == ' ';) *--tail = 0;
-        if (!*part) status = fail(err, MOTUS_ARGUMENT, "%s %s: a name is missing", option_name, text);
-        list->items[list->count++] = part;
-        part = s + 1;
-    }
-    if (status) options_list_free(list);
-    return status;
-}
-
-motus_status options_add(options_list *list, const char *value, motus_error *err)
-{
-    const char **items = realloc(list->items, (list->count + 1) * sizeof *items);
-    if (!items) return complain_memory(err);
-    list->items = items;
-    list->items[list->count++] = value;
-    return MOTUS_OK;
-}
-
-bool options_has(const options *o, const option *row)
-{
-    const void *place = (const char *)o + row->place;
-    switch (row->kind) {
-    case FLAG: return *(const bool *)place;
-    case CHOICE:
-    case WORD: return *(const char *const *)place;
-    case NUMBER:
-    case POSITIVE:
-    case TOLERANCE:
-    case ACCURACIES: return !isnan(*(const double *)place);
-    case LENGTH: return *(const double *)place > 0;
-    case COUNT: return *(const int64_t *)place > 0;
-    case SEED: return o->given[row - table];
-    case EVERY:
-    case STATES: return ((const options_period *)place)->time > 0 || ((const options_period *)place)->steps > 0;
-    case NAMES:
-    case NAMED:
-    case TEXTS: return ((const options_list *)place)->count > 0;
-    }
-    return false;
-}
-
 static void forget(options *o, size_t k)
 {
-    const option *row = &table[k];
+    const option *row = options_row(k);
     void *place = (char *)o + row->place;
     o->given[k] = NULL;
-    if (row->kind >= NAMES) options_list_free(place);
+    if (row->kind >= NAMES) words_free(place);
     memset(place, 0, row->size);
     if (row->kind == NUMBER || row->kind == POSITIVE || row->kind == TOLERANCE || row->kind == ACCURACIES)
         *(double *)place = NAN;
@@ -194,21 +75,21 @@ static void forget(options *o, size_t k)
 void options_forget(options *o, unsigned settings)
 {
     for (size_t k = 0; k < OPTION_COUNT; k++)
-        if (table[k].setting & settings) forget(o, k);
+        if (options_row(k)->setting & settings) forget(o, k);
 }
 
 void options_take(options *o, const options *from, unsigned settings)
 {
     for (size_t k = 0; k < OPTION_COUNT; k++)
-        if (table[k].setting & settings) {
+        if (options_row(k)->setting & settings) {
             o->given[k] = from->given[k];
-            memcpy((char *)o + table[k].place, (const char *)from + table[k].place, table[k].size);
+            memcpy((char *)o + options_row(k)->place, (const char *)from + options_row(k)->place, options_row(k)->size);
         }
 }
 
 void options_free(options *o)
 {
-    options_list_free(&o->files);
+    words_free(&o->files);
     options_forget(o, OF_MOTION);
 }
 
@@ -230,7 +111,7 @@ motus_bars options_bars(const options *o)
 static motus_status check_share(const options *o, motus_error *err)
 {
     for (size_t k = 0; k < OPTION_COUNT; k++) {
-        const option *row = &table[k];
+        const option *row = options_row(k);
         if (!o->given[k] || row->link || k == OPTION_share || row->setting == OF_MACHINE || row->verbs == VERB_ALL)
             continue;
         fail(err, MOTUS_ARGUMENT, "--share and %s exclude each other", row->name);
@@ -291,7 +172,7 @@ motus_status options_read(options *o, unsigned verb, int argc, char **argv, int 
         }
         if (only_operands || word[0] != '-' || !word[1]) {
             if (verb == VERB_MERGE) {
-                const motus_status status = options_add(&o->files, word, err);
+                const motus_status status = words_add(&o->files, word, err);
                 if (status) return status;
                 continue;
             }
@@ -311,7 +192,7 @@ motus_status options_read(options *o, unsigned verb, int argc, char **argv, int 
         size_t k = 0;
         motus_status status = find(name, verb, &k, err);
         if (status) return status;
-        const option *row = &table[k];
+        const option *row = options_row(k);
         const char *value = equals ? equals + 1 : NULL;
         if (row->kind == FLAG && value) return fail(err, MOTUS_ARGUMENT, "%s takes no value", row->name);
         if (row->kind != FLAG && !value && i + 1 == argc) {

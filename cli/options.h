@@ -145,9 +145,5 @@ bool options_known(const char *name, size_t length);
 /* What --switches and --error ask for. */
 motus_switches options_switches(const options *);
 motus_bars options_bars(const options *);
-/* Splits "x,r.x,u[1,2]" at the commas outside brackets. */
-motus_status options_split(const char *text, const char *option, options_list *, motus_error *);
-motus_status options_add(options_list *, const char *, motus_error *);
-void options_list_free(options_list *);
 
 #endif

@@ -4,9 +4,9 @@
  * ones.
  */
 #include "cli/complain.h"
-#include "cli/constant.h"
 #include "cli/options.h"
 #include "cli/typed.h"
+#include "cli/words.h"
 
 #include <math.h>
 #include <string.h>
@@ -14,7 +14,7 @@
 /* A constant expression of the language; `inner` says why it is none. */
 static bool read_number(const char *text, double *number, motus_error *inner)
 {
-    return constant_read(text, "", number, inner) == MOTUS_OK;
+    return typed_constant(text, "", number, inner) == MOTUS_OK;
 }
 
 static bool read_above(const char *text, double *number, motus_error *inner)
@@ -144,9 +144,9 @@ static bool store(options *o, const option *row, const char *value, motus_error 
     case SEED: return typed_seed(value, place) || read_count(value, place, inner);
     case EVERY: return read_every(place, value, inner);
     case STATES: return read_states(place, value, inner);
-    case NAMES: options_list_free(place); return !options_split(value, row->name, place, inner);
-    case NAMED: return strchr(value, '=') && value[0] != '=' && !options_add(place, value, inner);
-    case TEXTS: return !options_add(place, value, inner);
+    case NAMES: words_free(place); return !words_part(value, row->name, place, inner);
+    case NAMED: return strchr(value, '=') && value[0] != '=' && !words_add(place, value, inner);
+    case TEXTS: return !words_add(place, value, inner);
     }
     return false;
 }

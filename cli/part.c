@@ -14,6 +14,8 @@
 
 #include <errno.h>
 #include <inttypes.h>
+#include <motus-archive.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/file.h>
@@ -25,7 +27,7 @@ static motus_status cannot_read(const char *path, motus_error *err)
     return fail(err, MOTUS_FILE, "cannot read %s: %s", path, strerror(errno ? errno : EIO));
 }
 
-motus_status part_no_shard(const part *p, const char *what, motus_error *err)
+static motus_status no_shard(const part *p, const char *what, motus_error *err)
 {
     return complain(err, MOTUS_STATE, "motus merge joins the files that motus sweep --shard K/N writes", "%s %s",
                     p->path, what);
@@ -108,13 +110,13 @@ static motus_status csv_head(part *p, FILE *in, motus_error *err)
     if (ferror(in)) return cannot_read(p->path, err);
     static const char first[] = "# motus sweep ";
     if (!p->head || strncmp(p->head, first, sizeof first - 1) != 0)
-        return part_no_shard(p, "is not the table of a sweep", err);
+        return no_shard(p, "is not the table of a sweep", err);
     if (!ends[2]) return part_unfinished(p, err);
     p->at = used;
     const char *its = p->head + ends[0], *events = strstr(its, ", events of trajectories ");
     p->kind = events && events < p->head + ends[1] ? PART_EVENTS : PART_ROWS;
     return take_shard(p, its, "trajectories ", ", shard ", "") ? MOTUS_OK
-                                                               : part_no_shard(p, "is a whole sweep, not a shard", err);
+                                                               : no_shard(p, "is a whole sweep, not a shard", err);
 }
 
 static motus_status npy_head(part *p, FILE *in, motus_error *err)
@@ -128,12 +130,12 @@ static motus_status npy_head(part *p, FILE *in, motus_error *err)
         decimal_read_whole(shape + 1, strlen(shape + 1), &rows);
         decimal_read_whole(comma + 2, strlen(comma + 2), &columns);
     }
-    if (columns == 0 || columns > SIZE_MAX / sizeof(double)) return part_no_shard(p, "is not the .npy of a sweep", err);
+    if (columns == 0 || columns > SIZE_MAX / sizeof(double)) return no_shard(p, "is not the .npy of a sweep", err);
     sweep_npy_head(rows, (size_t)columns, ours);
-    if (memcmp(ours, theirs, sizeof ours) != 0) return part_no_shard(p, "is not the .npy of a sweep", err);
+    if (memcmp(ours, theirs, sizeof ours) != 0) return no_shard(p, "is not the .npy of a sweep", err);
     p->width = (size_t)columns * sizeof(double);
     p->at = SWEEP_NPY_HEAD;
-    char *beside = sweep_npy_beside(p->path);
+    char *beside = target_beside(p->path);
     if (!beside) return complain_memory(err);
     size_t length;
     motus_status status = file_read(beside, FILE_MODEL_MAX, &p->head, &length, err);
@@ -144,8 +146,49 @@ static motus_status npy_head(part *p, FILE *in, motus_error *err)
     }
     const char *its = strstr(p->head, "\", \"trajectories\": ");
     if (strlen(p->head) != length || !its || !take_shard(p, its, "\"trajectories\": ", "\"shard\": \"", "\", "))
-        return part_no_shard(p, "is not a shard, by the .json beside it", err);
+        return no_shard(p, "is not a shard, by the .json beside it", err);
     return rows == shard_rows(&p->shard, p->total) ? MOTUS_OK : part_unfinished(p, err);
+}
+
+/* The fingerprint and the columns, by which the shards of a sweep are known. */
+static char *common(const motus_archive *a)
+{
+    char *text = NULL;
+    size_t length;
+    FILE *out = open_memstream(&text, &length);
+    motus_archive_column c;
+    if (!out) return NULL;
+    fprintf(out, "%s\n", motus_archive_note_of(a, "fingerprint"));
+    for (size_t k = 0; motus_archive_column_at(a, k, &c); k++) fprintf(out, "%d %s\n", (int)c.kind, c.name);
+    return fclose(out) == 0 ? text : NULL;
+}
+
+/* Whether its blocks are those of the shard that it says it is. */
+static bool fits(const motus_archive *a, const part *p)
+{
+    return sweep_archive_is(a) && motus_archive_rows(a) == shard_rows(&p->shard, p->total);
+}
+
+static motus_status archive_head(part *p, motus_error *err)
+{
+    motus_archive *a;
+    p->kind = PART_ARCHIVE;
+    motus_status status = motus_archive_open(p->path, 0, &a, err);
+    if (status) return status;
+    const char *total = motus_archive_note_of(a, "trajectories"), *share = motus_archive_note_of(a, "shard");
+    if (!share)
+        status = no_shard(p, "is a whole sweep, not a shard", err);
+    else if (!total || !motus_archive_note_of(a, "fingerprint") || !motus_archive_note_of(a, "command") ||
+             !decimal_read_whole(total, strlen(total), &p->total) || p->total == 0 || p->total > GRID_MOST ||
+             shard_parse(&p->shard, share) != strlen(share) ||
+             (p->shard.block = motus_archive_block_rows(a)) > SHARD_BLOCK || p->shard.count < 2 ||
+             p->shard.count > SHARD_MOST || !fits(a, p))
+        status = no_shard(p, "is not a shard of a sweep, by what its head says", err);
+    p->head = status ? NULL : common(a);
+    if (!status && !p->head) status = complain_memory(err);
+    p->its = p->head;
+    motus_archive_close(a);
+    return status;
 }
 
 static FILE *open_at(const part *p)
@@ -175,20 +218,20 @@ motus_status part_open(part *p, const char *path, motus_error *err)
 {
     *p = (part){.path = path};
     struct stat about; /* it is read in pieces, and opened again for each */
-    if (stat(path, &about) == 0 && !S_ISREG(about.st_mode)) return part_no_shard(p, "is no regular file", err);
+    if (stat(path, &about) == 0 && !S_ISREG(about.st_mode)) return no_shard(p, "is no regular file", err);
     FILE *in = open_at(p);
     if (!in) return cannot_read(path, err);
     motus_status status = MOTUS_OK;
-    if (sweep_file_busy(path, fileno(in))) {
+    if (target_busy(path, fileno(in))) {
         status = fail(err, MOTUS_STATE, "%s is being written by another program", path);
         hint(err, "wait until its sweep has ended");
     }
     const int magic = status ? EOF : getc(in);
     if (magic != EOF) ungetc(magic, in);
     if (!status && magic == EOF) status = empty(p, err);
-    if (!status && magic == 0) status = part_no_shard(p, "is not a shard of a sweep", err);
+    if (!status && magic == 0) status = no_shard(p, "is not a shard of a sweep", err);
     if (!status)
-        status = magic == 0x93 ? npy_head(p, in, err) : magic == 'm' ? part_archive_head(p, err) : csv_head(p, in, err);
+        status = magic == 0x93 ? npy_head(p, in, err) : magic == 'm' ? archive_head(p, err) : csv_head(p, in, err);
     if (!status && p->kind != PART_ARCHIVE) status = find_checks(p, in, err);
     fclose(in);
     return status;

@@ -32,13 +32,10 @@ motus_status part_copy(part *, uint64_t block, file_out *, motus_error *);
 motus_status part_end(part *, motus_error *);
 void part_close(part *);
 
-/* The errors: it is no shard, by what is said; its last trajectories are missing. */
-motus_status part_no_shard(const part *, const char *what, motus_error *);
+/* The error: its last trajectories are missing. */
 motus_status part_unfinished(const part *, motus_error *);
 
-/* part_archive.c: the head of a shard that is an archive; and makes the archive of the whole sweep, where of[k] is
- * shard k + 1. *missing is how many blocks no part has; NULL: that is an error, and no part is NULL. */
-motus_status part_archive_head(part *, motus_error *);
+/* part_archive.c: makes the archive of the whole sweep, where of[k] is shard k + 1. *missing is how many blocks no part has; NULL: that is an error, and no part is NULL. */
 motus_status part_archive_join(part *const *of, const char *output, uint64_t *missing, bool compress, stop_progress *,
                                motus_error *);
 

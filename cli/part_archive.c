@@ -3,7 +3,6 @@
  * Invariant: the joined archive is, byte for byte, what one command without --shard makes: it has the description of
  * the first shard without the shard, and the blocks of all.
  */
-#include "base/decimal.h"
 #include "cli/block_room.h"
 #include "cli/complain.h"
 #include "cli/file.h"
@@ -16,49 +15,6 @@
 #include <string.h>
 #include <sys/stat.h>
 #include <unistd.h>
-
-/* The fingerprint and the columns, by which the shards of a sweep are known. */
-static char *common(const motus_archive *a)
-{
-    char *text = NULL;
-    size_t length;
-    FILE *out = open_memstream(&text, &length);
-    motus_archive_column c;
-    if (!out) return NULL;
-    fprintf(out, "%s\n", motus_archive_note_of(a, "fingerprint"));
-    for (size_t k = 0; motus_archive_column_at(a, k, &c); k++) fprintf(out, "%d %s\n", (int)c.kind, c.name);
-    return fclose(out) == 0 ? text : NULL;
-}
-
-/* Whether its blocks are those of the shard that it says it is. */
-static bool fits(const motus_archive *a, const part *p)
-{
-    return sweep_archive_is(a) && motus_archive_rows(a) == shard_rows(&p->shard, p->total);
-}
-
-motus_status part_archive_head(part *p, motus_error *err)
-{
-    motus_archive *a;
-    p->kind = PART_ARCHIVE;
-    motus_status status = motus_archive_open(p->path, 0, &a, err);
-    if (status) return status;
-    const char *total = motus_archive_note_of(a, "trajectories"), *share = motus_archive_note_of(a, "shard");
-    if (!share)
-        status = part_no_shard(p, "is a whole sweep, not a shard", err);
-    else if (!total || !motus_archive_note_of(a, "fingerprint") || !motus_archive_note_of(a, "command") ||
-             !decimal_read_whole(total, strlen(total), &p->total) || p->total == 0 || p->total > GRID_MOST ||
-             shard_parse(&p->shard, share) != strlen(share) ||
-             (p->shard.block = motus_archive_block_rows(a)) > SHARD_BLOCK || p->shard.count < 2 ||
-             p->shard.count > SHARD_MOST || !fits(a, p))
-        status = part_no_shard(p, "is not a shard of a sweep, by what its head says", err);
-    p->head = status ? NULL : common(a);
-    if (!status && !p->head) status = complain_memory(err);
-    p->its = p->head;
-    motus_archive_close(a);
-    return status;
-}
-
-/* ---- joining ---- */
 
 /* The command without the option --shard. */
 static char *whole_command(const char *command, const part *p)
@@ -159,7 +115,7 @@ motus_status part_archive_join(part *const *of, const char *output, uint64_t *mi
     const bool there = beside.name && stat(beside.name, &about) == 0;
     int lock = -1; /* of the file that is replaced, which is made empty where there is none */
     bool regular = true;
-    if (!status) status = sweep_file_lock(beside.name, &lock, &regular, err);
+    if (!status) status = target_lock(beside.name, &lock, &regular, err);
     const bool locked = !status;
     if (!status) status = make(of[some], beside.descriptor < 0 ? beside.path : output, beside.descriptor, NULL, err);
     if (!status) status = motus_archive_open(beside.path, 1, &j.to, err);

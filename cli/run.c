@@ -48,7 +48,7 @@ typedef struct job {
     file_out files[FILES];
 } job;
 
-static bool is_archive(const options *o) { return o->output && sweep_archive_name(o->output); }
+static bool is_archive(const options *o) { return o->output && target_archive(o->output); }
 
 static motus_status check_archive(const options *o, motus_error *err)
 {
@@ -78,7 +78,7 @@ static motus_status check_names(const options *o, const char *from, motus_error 
         for (size_t k = 0; out[i] && k < 2; k++)
             /* --save-state may replace the file of --restart; - is both standard input and standard output */
             if (in[k] && strcmp(out[i], "-") != 0 && !(i == STATE && k == 1) && !(i == CSV && from) &&
-                (file_same(out[i], in[k]) || (i == CSV && is_archive(o) && sweep_archive_replaces(out[i], in[k]))))
+                (file_same(out[i], in[k]) || (i == CSV && is_archive(o) && target_replaces(out[i], in[k]))))
                 return fail(err, MOTUS_ARGUMENT, "%s is read and would be overwritten", in[k]);
         for (size_t k = i + 1; out[i] && k < FILES; k++)
             if (out[k] && file_same(out[i], out[k]))
@@ -310,7 +310,7 @@ static motus_status go_on(const options *o, motus_error *err)
 
 motus_status run_verb(const options *o, motus_error *err)
 {
-    if (o->operand && sweep_archive_name(o->operand)) return go_on(o, err);
+    if (o->operand && target_archive(o->operand)) return go_on(o, err);
     if (o->emit_c) return emit(o, err);
     if (o->share) return share_verb(o, err);
     return run(o, NULL, err);

@@ -103,7 +103,7 @@ static motus_status create(const run_archive *a, const char *path, int descripto
 static motus_status lock(const char *path, int *descriptor, motus_error *err)
 {
     bool regular = true;
-    const motus_status status = sweep_file_lock(path, descriptor, &regular, err);
+    const motus_status status = target_lock(path, descriptor, &regular, err);
     if (status || regular) return status;
     return fail(err, MOTUS_ARGUMENT, "%s is not a regular file, which an archive must be", path);
 }
@@ -141,7 +141,7 @@ static motus_status lock_beside(const run_archive *a, const file_beside *f, int 
     if (f->descriptor < 0) return lock(f->path, descriptor, err);
     *descriptor = fcntl(f->descriptor, F_DUPFD_CLOEXEC, 0);
     if (*descriptor < 0) return fail(err, MOTUS_FILE, "cannot write %s: %s", a->path, strerror(errno));
-    (void)sweep_file_take(a->path, *descriptor); /* nobody else has it */
+    (void)target_take(a->path, *descriptor); /* nobody else has it */
     return MOTUS_OK;
 }
 
@@ -449,7 +449,7 @@ static motus_status begin(run_archive *a, motus_error *err)
         return complain(err, MOTUS_UNAVAILABLE,
                         "write CSV; or install HDF5, and build motus where libhdf5-dev is installed",
                         "%s: this motus cannot make archives, since it was built or runs without HDF5", a->path);
-    sweep_archive_tidy(a->path);
+    target_tidy(a->path);
     const bool same = !a->made && o->resume;
     if (same) from = a->path; /* what was begun there goes on */
     status = write_state(a, 0, true, &bytes, &length, &a->first_slot, err);

@@ -20,12 +20,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-size_t sweep_kept(const sweep *s)
-{
-    const bool behind = !isnan(s->accuracy) || s->records.count == 0; /* an ensemble has at least one */
-    return s->records.count + (behind ? SWEEP_JUDGED : 0);
-}
-
 static motus_status read_every(sweep *s, motus_error *err)
 {
     const options *o = s->options;
@@ -132,7 +126,7 @@ static motus_status check_options(const options *o, motus_error *err)
 static motus_status check_team(const options *o, motus_error *err)
 {
     if (team_size(o->team) == 1) return MOTUS_OK;
-    if (!o->output || !sweep_archive_name(o->output))
+    if (!o->output || !target_archive(o->output))
         return complain(err, MOTUS_ARGUMENT, "add -o FILE.h5",
                         "several processes together write rows to an archive alone");
     if (o->plot)
@@ -159,7 +153,7 @@ static motus_status make(sweep *s, stop_progress *progress, motus_error *err)
     status = sweep_block_choose(s, &s->shard.block, err);
     if (status) return status;
     s->rows = shard_rows(&s->shard, s->grid.total);
-    return sweep_head_make(s, o->output && sweep_npy_name(o->output), err);
+    return sweep_head_make(s, o->output && target_npy(o->output), err);
 }
 
 motus_status sweep_begin(sweep *s, sweep_section *section, stop_progress *progress, motus_error *err)
@@ -171,7 +165,7 @@ motus_status sweep_begin(sweep *s, sweep_section *section, stop_progress *progre
     if (!status) status = grid_read(&s->grid, o, err);
     for (size_t k = 0; !status && o->output && k < s->grid.count; k++)
         if (s->grid.axes[k].path &&
-            (file_same(s->grid.axes[k].path, o->output) || sweep_archive_replaces(o->output, s->grid.axes[k].path)))
+            (file_same(s->grid.axes[k].path, o->output) || target_replaces(o->output, s->grid.axes[k].path)))
             status = fail(err, MOTUS_ARGUMENT, "%s is read and would be overwritten", s->grid.axes[k].path);
     for (size_t k = 0; !status && o->events && k < s->grid.count; k++)
         if (s->grid.axes[k].path && file_same(s->grid.axes[k].path, o->events))
@@ -260,14 +254,6 @@ static motus_status go(sweep *s, sweep_file *f, sweep_events *events, sweep_sect
     if (status) sweep_archive_give_up(f);
     sweep_batch_free(&b);
     return status;
-}
-
-const char *sweep_switches(const sweep *s)
-{
-    const motus_switches how = motus_ensemble_switches(s->ensemble);
-    const bool fixed = isnan(s->tolerance); /* such steps lead across unless told otherwise */
-    if (how == MOTUS_SWITCHES_USUAL || (fixed && how == MOTUS_SWITCHES_STEP)) return NULL;
-    return how == MOTUS_SWITCHES_LOCATE ? "locate" : "step";
 }
 
 static void put_ranks(json *j, const team *t, const sweep_share *all)

@@ -8,6 +8,7 @@
 #include "cli/load.h"
 #include "cli/shard.h"
 #include "cli/stop.h"
+#include "cli/target.h"
 
 #include <inttypes.h>
 
@@ -57,12 +58,25 @@ typedef struct sweep_section sweep_section;
  * results. Call sweep_free() in any case. */
 motus_status sweep_begin(sweep *, sweep_section *, stop_progress *, motus_error *);
 void sweep_free(sweep *);
-/* How many records the ensemble keeps: those that accuracies are judged by too, and where nothing else is recorded. */
-size_t sweep_kept(const sweep *);
 /* Where `ended` is in a row; SIZE_MAX: it is not recorded. */
 static inline size_t sweep_ended(const sweep *s) { return s->records.ended ? s->columns - 3 : SIZE_MAX; }
+/* sweep_record.c: how many records the ensemble keeps: those that accuracies are judged by too, and where nothing else
+ * is recorded. */
+size_t sweep_kept(const sweep *);
 /* The number in a .npy of the event that ended a trajectory, 0: none; -1: the model has no event of this name. */
 int sweep_event_number(const sweep *, const char *name);
+/* Rows: values[axis][i], results[record][i], errors[record][i] (NULL: not told), stopped[i]. */
+typedef struct sweep_rows {
+    double *const *values, *const *results, *const *errors;
+    const double *stopped;
+} sweep_rows;
+/* The numbers of `count` of them, behind the number of the trajectory: NaN in all that one which stopped has not. The
+ * next number of a row is `next_column` behind one, that of the next row `next_row`. */
+void sweep_row_numbers(const sweep *, const sweep_rows *, size_t from, size_t count, double *out, size_t next_row,
+                       size_t next_column);
+/* Whether a number of trajectory i has no significant digit. */
+bool sweep_row_lost(const sweep *, const sweep_rows *, size_t i);
+
 /* What the steps do at the switches of the force, a word of --switches; NULL: there are none, or steps of one size lead
  * across them, as they do unless told otherwise. */
 const char *sweep_switches(const sweep *);
@@ -82,6 +96,9 @@ enum { SWEEP_FINGERPRINT = 17 };
 const char *sweep_head_fingerprint(const sweep *, const char *version, char out[SWEEP_FINGERPRINT]);
 /* Makes the head: it depends on the request alone, not on machine or threads, so that files can be compared. */
 motus_status sweep_head_make(sweep *, bool npy, motus_error *);
+/* The 128 bytes at the beginning of a .npy. */
+enum { SWEEP_NPY_HEAD = 128 };
+void sweep_npy_head(uint64_t rows, size_t columns, char out[SWEEP_NPY_HEAD]);
 
 /* sweep_block.c: how many trajectories a block has, a power of two up to SHARD_BLOCK. */
 motus_status sweep_block_choose(const sweep *, uint64_t *block, motus_error *);
@@ -120,30 +137,8 @@ typedef struct sweep_file {
 motus_status sweep_accuracy_refuse(const sweep *, uint64_t first, size_t count, double *const *judged,
                                    const double *stopped, motus_error *);
 
-/* Whether a file of this name is a .npy; and the name of the .json beside it, to be freed, NULL: no memory. */
-bool sweep_npy_name(const char *path);
-char *sweep_npy_beside(const char *path);
-
 motus_status sweep_file_check(const options *, motus_error *);
-/* The same of one file, "-": standard output. */
-motus_status sweep_file_may_write(const options *, const char *path, motus_error *);
-/* Opens a regular file that no other program writes; *regular false: another one, for writing alone. */
-/* Asks for the lock of the file of this name, by a descriptor of it; false: another program has it. */
-bool sweep_file_take(const char *path, int descriptor);
-motus_status sweep_file_lock(const char *path, int *descriptor, bool *regular, motus_error *);
-/* Whether another program writes the file. */
-bool sweep_file_busy(const char *path, int descriptor);
-int sweep_file_bytes(int descriptor, const char *, size_t count, size_t *written); /* an errno, or 0 */
 motus_status sweep_file_open(sweep_file *, const sweep *, motus_error *);
-/* Rows: values[axis][i], results[record][i], errors[record][i] (NULL: not told), stopped[i]. */
-typedef struct sweep_rows {
-    double *const *values, *const *results, *const *errors;
-    const double *stopped;
-} sweep_rows;
-/* The numbers of `count` of them, behind the number of the trajectory: NaN in all that one which stopped has not. The
- * next number of a row is `next_column` behind one, that of the next row `next_row`. */
-void sweep_file_numbers(const sweep *, const sweep_rows *, size_t from, size_t count, double *out, size_t next_row,
-                        size_t next_column);
 /* Adds `count` rows. After a failure the file keeps its complete rows. */
 motus_status sweep_file_rows(sweep_file *, size_t count, const sweep_rows *, motus_error *);
 /* How many rows from f->rows on are missing, up to the next that is there, or to the end. */
@@ -157,22 +152,12 @@ void sweep_file_close(sweep_file *);
 
 /* sweep_archive.c: the file of rows as an archive, whose blocks may be written in any order. */
 typedef struct motus_archive motus_archive;
-bool sweep_archive_name(const char *path);
 /* The rows of a block of the archive that is continued; 0: there is none. */
 uint64_t sweep_archive_block(const options *);
-/* Whether an input has the name of a file that is made on the way to this archive. */
-bool sweep_archive_replaces(const char *archive, const char *input);
 /* Whether a note of the archive is this text; NULL: whether it has no such note. */
 bool sweep_archive_says(const motus_archive *, const char *name, const char *text);
 /* Complains of an archive of another sweep or run (`what`), and says which command made it. */
 motus_status sweep_archive_another(motus_archive *, const char *path, const char *what, motus_error *);
-/* Removes what a killed program left beside an archive, which this program has locked. */
-void sweep_archive_tidy(const char *archive);
-/* The endings of such files: the rows of shards that are being joined, those of a run that needs more room. The latter
- * ends as the names of archives do, since it is locked before it replaces one. Making one of these, and compressing an
- * archive, goes by way of ".new". */
-#define ARCHIVE_JOINED ".joined"
-#define ARCHIVE_GROWN ".grown.h5"
 /* MOTUS_STATE: the numbers of a block's rows are not those of its trajectories, or of a run's rows. */
 motus_status sweep_archive_numbers(motus_archive *, const char *path, uint64_t block, motus_error *);
 /* Whether the archive is that of a sweep, by its columns: one number or word in a row, at last when and why a
@@ -226,10 +211,6 @@ motus_status sweep_plan(const sweep *, stop_progress *, motus_error *);
 /* Finds the rows of an interrupted sweep that have their checks: sets rows, bytes, stopped, stopped_by. `end`: the
  * file's length. */
 motus_status sweep_resume(sweep_file *, uint64_t end, motus_error *);
-/* The 128 bytes at the beginning of a .npy. */
-enum { SWEEP_NPY_HEAD = 128 };
-void sweep_npy_head(uint64_t rows, size_t columns, char out[SWEEP_NPY_HEAD]);
-
 /* sweep_events.c: the table of the events of all trajectories, with their numbers. Beside an archive, whose blocks are
  * computed in any order, a file is joined from segments at the end (segments.h).
  *

@@ -73,7 +73,7 @@ motus_status sweep_again_rows(sweep_again *g, motus_archive *a, uint64_t row, si
         const size_t some = count - done < g->batch.most ? count - done : g->batch.most;
         status = sweep_batch_compute(&g->batch, s, row + done, some, NULL, err);
         const sweep_rows rows = sweep_batch_rows(&g->batch);
-        if (!status) sweep_file_numbers(s, &rows, 0, some, g->rows, s->columns - 1, 1);
+        if (!status) sweep_row_numbers(s, &rows, 0, some, g->rows, s->columns - 1, 1);
         for (size_t k = 0; !status && *same && k < s->columns - 1; k++)
             status = compare(g, a, k, row + done, some, same, where, err);
         done += some;

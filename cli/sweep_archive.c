@@ -30,51 +30,15 @@ enum { AT_A_TIME = 256 };
 /* Added to the counter by a process that fails or is warned; far more than there are blocks. */
 #define GIVEN_UP (UINT64_C(1) << 50)
 
-bool sweep_archive_name(const char *path)
-{
-    const size_t length = strlen(path);
-    return (length > 3 && strcmp(path + length - 3, ".h5") == 0) ||
-           (length > 5 && strcmp(path + length - 5, ".hdf5") == 0);
-}
-
-/* Of the files by way of which an archive is made: first those of sweeps and runs, then those of merges. */
-static const char *const endings[] = {".new", ARCHIVE_GROWN, ARCHIVE_GROWN ".new", ARCHIVE_JOINED,
-                                      ARCHIVE_JOINED ".new"};
-enum { OF_MERGES = 3, ENDINGS = 5 };
-
 uint64_t sweep_archive_block(const options *o)
 {
     motus_archive *a;
-    if (!o->resume || !o->output || !sweep_archive_name(o->output) ||
+    if (!o->resume || !o->output || !target_archive(o->output) ||
         motus_archive_open(o->output, 0, &a, NULL) != MOTUS_OK)
         return 0;
     const uint64_t rows = motus_archive_block_rows(a);
     motus_archive_close(a);
     return rows <= SHARD_BLOCK ? rows : 0;
-}
-
-bool sweep_archive_replaces(const char *archive, const char *input)
-{
-    bool same = false;
-    char *name = disk_real(archive);
-    for (size_t k = 0; name && !same && k < ENDINGS; k++) {
-        char *beside = disk_beside(name, endings[k]);
-        same = beside && file_same(beside, input);
-        free(beside);
-    }
-    free(name);
-    return same;
-}
-
-void sweep_archive_tidy(const char *archive)
-{
-    char *name = disk_real(archive);
-    for (size_t k = 0; name && k < OF_MERGES; k++) {
-        char *beside = disk_beside(name, endings[k]);
-        if (beside) remove(beside);
-        free(beside);
-    }
-    free(name);
 }
 
 motus_status sweep_archive_numbers(motus_archive *a, const char *path, uint64_t block, motus_error *err)
@@ -392,7 +356,7 @@ motus_status sweep_archive_open(sweep_file *f, bool found, motus_error *err)
     sweep_archive *a = f->archive = calloc(1, sizeof *a);
     if (!a) return complain_memory(err);
     motus_status status = describe(&d, f->sweep, err);
-    if (!status && found && team_first(t)) sweep_archive_tidy(f->path);
+    if (!status && found && team_first(t)) target_tidy(f->path);
     if (!status && !found && team_first(t)) status = motus_archive_create(f->path, &d.def, err);
     if (!status) status = motus_archive_open(f->path, 1, &a->file, err);
     if (!status) status = compare(f, &d, err);
@@ -482,7 +446,7 @@ motus_status sweep_archive_rows(sweep_file *f, size_t count, const sweep_rows *g
         const size_t at = (size_t)(f->rows % block_of(f)), left = (size_t)block_of(f) - at;
         some = count - done < left ? count - done : left;
         if (some > AT_A_TIME) some = AT_A_TIME;
-        sweep_file_numbers(f->sweep, given, done, some, a->numbers, 1, AT_A_TIME);
+        sweep_row_numbers(f->sweep, given, done, some, a->numbers, 1, AT_A_TIME);
         for (size_t k = 0; k < a->room.count; k++) {
             const double *numbers = a->numbers + k * AT_A_TIME;
             unsigned char *words = (unsigned char *)a->room.columns[k] + at;

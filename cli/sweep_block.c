@@ -112,7 +112,7 @@ static motus_status work_of(const sweep *s, double *work, motus_error *err)
 
 motus_status sweep_block_choose(const sweep *s, uint64_t *block, motus_error *err)
 {
-    const bool cut = !shard_whole(&s->shard) || (s->options->output && sweep_archive_name(s->options->output));
+    const bool cut = !shard_whole(&s->shard) || (s->options->output && target_archive(s->options->output));
     double work;
     *block = s->block ? s->block : SHARD_BLOCK;
     if (s->block || !cut) return MOTUS_OK;

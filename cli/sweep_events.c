@@ -30,7 +30,7 @@
 bool sweep_events_in_segments(const options *o)
 {
     struct stat about;
-    return o->events && o->output && sweep_archive_name(o->output) && strcmp(o->events, "-") != 0 &&
+    return o->events && o->output && target_archive(o->output) && strcmp(o->events, "-") != 0 &&
            (stat(o->events, &about) != 0 || S_ISREG(about.st_mode));
 }
 
@@ -51,7 +51,7 @@ motus_status sweep_events_check(const options *o, motus_error *err)
     if (sweep_events_in_segments(o) && !o->plan && !o->resume && !o->force && segments_there(o->events))
         return complain(err, MOTUS_ARGUMENT, "--resume continues it, --force replaces it",
                         "%s.segments is there: events of a sweep that was interrupted", o->events);
-    return sweep_file_may_write(o, o->events, err);
+    return target_check(o, o->events, err);
 }
 
 static motus_status cannot_write(const sweep_events *f, int code, motus_error *err)
@@ -71,7 +71,7 @@ static int write_at(const sweep_events *f, uint64_t place, const char *text, siz
 {
     size_t written;
     return lseek(f->descriptor, (off_t)place, SEEK_SET) < 0 ? errno
-                                                            : sweep_file_bytes(f->descriptor, text, length, &written);
+                                                            : target_bytes(f->descriptor, text, length, &written);
 }
 
 /* Writes events and the line behind them, `length` bytes in all, over the line that ends the file; the first byte,
@@ -81,7 +81,7 @@ static motus_status put(sweep_events *f, const char *text, size_t length, size_t
     size_t written;
     int code = 0;
     if (!f->regular) {
-        code = sweep_file_bytes(f->descriptor, text, events, &written);
+        code = target_bytes(f->descriptor, text, events, &written);
     } else {
         code = write_at(f, f->bytes + 1, text + 1, length - 1);
         if (!code) code = synchronise(f);
@@ -111,8 +111,8 @@ static motus_status put_head(sweep_events *f, motus_error *err)
     const motus_status status = f->regular ? checks_begin(&f->checks, f->path, 0, false, err) : MOTUS_OK;
     if (status) return status;
     int code = f->regular && (ftruncate(f->descriptor, 0) != 0 || lseek(f->descriptor, 0, SEEK_SET) < 0) ? errno : 0;
-    if (!code) code = sweep_file_bytes(f->descriptor, f->head, f->head_length, &written);
-    if (!code && f->regular) code = sweep_file_bytes(f->descriptor, line, last, &written);
+    if (!code) code = target_bytes(f->descriptor, f->head, f->head_length, &written);
+    if (!code && f->regular) code = target_bytes(f->descriptor, line, last, &written);
     if (code) return cannot_write(f, code, err);
     f->bytes = f->head_length;
     checks_add(&f->checks, f->head, f->head_length);
@@ -277,7 +277,7 @@ static motus_status begin_segments(sweep_events *f, motus_error *err)
 static motus_status lock_table(sweep_events *f, motus_error *err)
 {
     const options *o = f->sweep->options;
-    const motus_status status = sweep_file_lock(f->path, &f->descriptor, &f->regular, err);
+    const motus_status status = target_lock(f->path, &f->descriptor, &f->regular, err);
     if (status || !file_same(o->output, f->path)) return status;
     return fail(err, MOTUS_ARGUMENT, "%s is named for two outputs", f->path);
 }
@@ -332,8 +332,8 @@ motus_status sweep_events_open(sweep_events *f, uint64_t rows, motus_error *err)
     if (strcmp(f->path, "-") == 0)
         f->descriptor = STDOUT_FILENO;
     else
-        status = sweep_file_lock(f->path, &f->descriptor, &f->regular, err);
-    if (!status) status = sweep_file_may_write(s->options, f->path, err);
+        status = target_lock(f->path, &f->descriptor, &f->regular, err);
+    if (!status) status = target_check(s->options, f->path, err);
     if (status) return status;
     return s->options->resume && f->regular ? go_on(f, rows, err) : put_head(f, err);
 }

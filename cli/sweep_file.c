@@ -25,39 +25,6 @@
 
 enum { BUFFER = 1 << 20 };
 
-bool sweep_npy_name(const char *path)
-{
-    const size_t length = strlen(path);
-    return length > 4 && strcmp(path + length - 4, ".npy") == 0;
-}
-
-char *sweep_npy_beside(const char *path) { return disk_beside(path, ".json"); }
-
-motus_status sweep_file_may_write(const options *o, const char *path, motus_error *err)
-{
-    const bool output = strcmp(path, "-") == 0;
-    if (!*path) return fail(err, MOTUS_ARGUMENT, "the name of an output file is empty");
-    if (o->operand && !output && file_same(path, o->operand))
-        return fail(err, MOTUS_ARGUMENT, "%s is read and would be overwritten", o->operand);
-    if (o->operand && sweep_archive_name(path) && sweep_archive_replaces(path, o->operand))
-        return fail(err, MOTUS_ARGUMENT, "%s is read and would be overwritten: %s is made by way of it", o->operand,
-                    path);
-    struct stat about;
-    if (output || o->plan || stat(path, &about) != 0) return MOTUS_OK; /* a plan writes no file */
-    if (S_ISDIR(about.st_mode)) return fail(err, MOTUS_FILE, "cannot write %s: it is a folder", path);
-    if (!S_ISREG(about.st_mode) && (o->resume || sweep_npy_name(path) || sweep_archive_name(path)))
-        return fail(err, MOTUS_ARGUMENT, "%s is not a regular file: %s", path,
-                    o->resume              ? "there is nothing to continue"
-                    : sweep_npy_name(path) ? "a .npy needs one"
-                                           : "an archive needs one");
-    if (S_ISREG(about.st_mode) && about.st_size > 0 && !o->resume && !o->force) {
-        fail(err, MOTUS_ARGUMENT, "%s exists", path);
-        hint(err, "%s--force replaces it", o->verb == VERB_SWEEP ? "--resume continues it, " : "");
-        return MOTUS_ARGUMENT;
-    }
-    return MOTUS_OK;
-}
-
 /* Checks the name before anything is computed. */
 motus_status sweep_file_check(const options *o, motus_error *err)
 {
@@ -66,14 +33,14 @@ motus_status sweep_file_check(const options *o, motus_error *err)
     if (o->force && o->resume)
         return complain(err, MOTUS_ARGUMENT, "--resume continues the file, --force replaces it",
                         "--force and --resume exclude each other");
-    if (o->compress && (output || !sweep_archive_name(path)))
+    if (o->compress && (output || !target_archive(path)))
         return complain(err, MOTUS_ARGUMENT, "-o FILE.h5", "--compress is for archives");
     if (output && (o->resume || o->force))
         return complain(err, MOTUS_ARGUMENT, "add -o FILE", "%s needs a file", o->resume ? "--resume" : "--force");
     if (output && o->json)
         return complain(err, MOTUS_ARGUMENT, "write the rows to a file: -o sweep.csv",
                         "--json and the rows both go to standard output");
-    return sweep_file_may_write(o, path, err);
+    return target_check(o, path, err);
 }
 
 static motus_status cannot_write(const sweep_file *f, int code, motus_error *err)
@@ -81,16 +48,6 @@ static motus_status cannot_write(const sweep_file *f, int code, motus_error *err
     bool output = strcmp(f->path, "-") == 0;
     if (code == EPIPE && output) stop_reader_gone();
     return fail(err, MOTUS_FILE, "cannot write %s: %s", output ? "standard output" : f->path, strerror(code));
-}
-
-int sweep_file_bytes(int descriptor, const char *bytes, size_t count, size_t *written)
-{
-    for (*written = 0; *written < count;) {
-        ssize_t more = write(descriptor, bytes + *written, count - *written);
-        if (more < 0 && errno != EINTR) return errno;
-        if (more > 0) *written += (size_t)more;
-    }
-    return 0;
 }
 
 /* The number of complete rows in `count` bytes; *end: where the last of them ends. */
@@ -110,25 +67,10 @@ static uint64_t complete_rows(const sweep_file *f, const char *bytes, size_t cou
 static motus_status put_head_bytes(sweep_file *f, const char *bytes, size_t count, motus_error *err)
 {
     size_t written;
-    int code = sweep_file_bytes(f->descriptor, bytes, count, &written);
+    int code = target_bytes(f->descriptor, bytes, count, &written);
     if (code && f->regular && ftruncate(f->descriptor, 0) != 0) code = errno;
     f->bytes = code ? 0 : count;
     return code ? cannot_write(f, code, err) : MOTUS_OK;
-}
-
-void sweep_npy_head(uint64_t rows, size_t columns, char out[SWEEP_NPY_HEAD])
-{
-    static const char magic[] = "\x93NUMPY\x01\x00";
-    bool little = *(const char *)&(int){1} == 1;
-    memset(out, ' ', SWEEP_NPY_HEAD);
-    memcpy(out, magic, sizeof magic - 1);
-    out[8] = SWEEP_NPY_HEAD - 10; /* the length of what follows, two bytes */
-    out[9] = 0;
-    char text[SWEEP_NPY_HEAD];
-    int length = snprintf(text, sizeof text, "{'descr': '%cf8', 'fortran_order': False, 'shape': (%llu, %zu), }",
-                          little ? '<' : '>', (unsigned long long)rows, columns);
-    memcpy(out + 10, text, (size_t)length);
-    out[SWEEP_NPY_HEAD - 1] = '\n';
 }
 
 static motus_status put_npy_head(sweep_file *f, motus_error *err)
@@ -142,7 +84,7 @@ static motus_status put_npy_head(sweep_file *f, motus_error *err)
 /* Writes the head of a .npy to the .json beside it, before the first row. */
 static motus_status put_beside(const sweep_file *f, motus_error *err)
 {
-    char *path = sweep_npy_beside(f->path);
+    char *path = target_beside(f->path);
     if (!path) return complain_memory(err);
     file_out out = {0};
     motus_status status = file_create(&out, path, err);
@@ -190,53 +132,6 @@ static motus_status go_on(sweep_file *f, uint64_t end, motus_error *err)
     return f->npy ? put_npy_head(f, err) : MOTUS_OK;
 }
 
-/* The lock of an archive is on a byte far behind its end, so that HDF5, which asks for a shared lock of the file, reads
- * it meanwhile. */
-static struct flock lock_behind(void)
-{
-    return (struct flock){.l_type = F_WRLCK, .l_whence = SEEK_SET, .l_start = (off_t)1 << 62, .l_len = 1};
-}
-
-bool sweep_file_busy(const char *path, int descriptor)
-{
-    struct flock behind = lock_behind();
-    if (sweep_archive_name(path)) return fcntl(descriptor, F_OFD_GETLK, &behind) == 0 && behind.l_type != F_UNLCK;
-    return flock(descriptor, LOCK_SH | LOCK_NB) != 0 && errno == EWOULDBLOCK;
-}
-
-/* Asks for the lock by which one program writes; where the file system has none, it is done without. */
-static bool locked_by_another(const char *path, int descriptor)
-{
-    struct flock behind = lock_behind();
-    const bool archive = sweep_archive_name(path);
-    const int failed = archive ? fcntl(descriptor, F_OFD_SETLK, &behind) : flock(descriptor, LOCK_EX | LOCK_NB);
-    return failed && (errno == EWOULDBLOCK || (archive && errno == EACCES));
-}
-
-bool sweep_file_take(const char *path, int descriptor) { return !locked_by_another(path, descriptor); }
-
-motus_status sweep_file_lock(const char *path, int *descriptor, bool *regular, motus_error *err)
-{
-    struct stat about;
-    *descriptor = open(path, O_RDWR | O_CREAT | O_CLOEXEC, 0666);
-    const int code = errno;
-    if (*descriptor < 0 && access(path, F_OK) == 0) /* a pipe or a device may not be readable */
-        *descriptor = open(path, O_WRONLY | O_CLOEXEC);
-    if (*descriptor < 0) errno = code;
-    if (*descriptor < 0 || fstat(*descriptor, &about) != 0)
-        return fail(err, MOTUS_FILE, "cannot write %s: %s", path, strerror(errno));
-    *regular = S_ISREG(about.st_mode);
-    if (!*regular) return MOTUS_OK;
-    if (sweep_file_take(path, *descriptor)) {
-        struct stat named; /* another program may have put a new archive in its place before the lock was there */
-        if (stat(path, &named) != 0 || (named.st_dev == about.st_dev && named.st_ino == about.st_ino)) return MOTUS_OK;
-        close(*descriptor);
-        return sweep_file_lock(path, descriptor, regular, err);
-    }
-    return complain(err, MOTUS_FILE, "wait for that sweep or run, or stop it", "%s is being written by another program",
-                    path);
-}
-
 /* An archive that is made anew takes the place of the file that was locked. */
 static motus_status open_archive(sweep_file *f, bool found, bool made, motus_error *err)
 {
@@ -244,14 +139,14 @@ static motus_status open_archive(sweep_file *f, bool found, bool made, motus_err
     if (status && made && !found) unlink(f->path); /* the lock has made it */
     if (status || found) return status;
     close(f->descriptor);
-    return sweep_file_lock(f->path, &f->descriptor, &f->regular, err);
+    return target_lock(f->path, &f->descriptor, &f->regular, err);
 }
 
 motus_status sweep_file_open(sweep_file *f, const sweep *s, motus_error *err)
 {
     const options *o = s->options;
     *f = (sweep_file){.sweep = s, .path = o->output ? o->output : "-", .descriptor = -1, .events = f->events};
-    f->npy = sweep_npy_name(f->path);
+    f->npy = target_npy(f->path);
     f->room = s->columns < SIZE_MAX / 64 - BUFFER ? BUFFER + s->columns * DECIMAL_MAX + MOTUS_NAME_MAX : 0;
     f->buffer = f->room ? malloc(f->room) : NULL;
     f->numbers = malloc(s->columns * sizeof *f->numbers);
@@ -262,12 +157,12 @@ motus_status sweep_file_open(sweep_file *f, const sweep *s, motus_error *err)
         return put_head(f, err);
     }
     const bool made = access(f->path, F_OK) != 0;
-    motus_status status = sweep_file_lock(f->path, &f->descriptor, &f->regular, err);
+    motus_status status = target_lock(f->path, &f->descriptor, &f->regular, err);
     if (status || !f->regular) return status ? status : put_head(f, err);
     struct stat about; /* checked again under the lock */
     status = fstat(f->descriptor, &about) == 0 ? sweep_file_check(o, err) : cannot_write(f, errno, err);
     if (status) return status;
-    if (sweep_archive_name(f->path)) return open_archive(f, o->resume && about.st_size > 0, made, err);
+    if (target_archive(f->path)) return open_archive(f, o->resume && about.st_size > 0, made, err);
     return o->resume && about.st_size > 0 ? go_on(f, (uint64_t)about.st_size, err) : put_head(f, err);
 }
 
@@ -275,7 +170,7 @@ motus_status sweep_file_open(sweep_file *f, const sweep *s, motus_error *err)
 static motus_status flush(sweep_file *f, uint64_t *rows, motus_error *err)
 {
     size_t written, end;
-    int code = sweep_file_bytes(f->descriptor, f->buffer, f->used, &written);
+    int code = target_bytes(f->descriptor, f->buffer, f->used, &written);
     f->used = 0;
     if (!code) {
         *rows = f->rows;
@@ -291,52 +186,6 @@ static motus_status flush(sweep_file *f, uint64_t *rows, motus_error *err)
     return cannot_write(f, code, err);
 }
 
-int sweep_event_number(const sweep *s, const char *name)
-{
-    const char *its;
-    if (!name[0]) return 0;
-    for (int k = 0; (its = motus_ensemble_kind(s->ensemble, (size_t)k)) != NULL; k++)
-        if (strcmp(its, name) == 0) return k + 1;
-    return -1;
-}
-
-/* Whether a number of trajectory i has no significant digit. */
-static bool is_lost(const sweep *s, const sweep_rows *rows, size_t i)
-{
-    for (size_t r = 0; r < s->records.count; r++)
-        if (sweep_record_errs(&s->records.items[r]) && isinf(rows->errors[r][i])) return true;
-    return false;
-}
-
-void sweep_file_numbers(const sweep *s, const sweep_rows *rows, size_t from, size_t count, double *out, size_t next_row,
-                        size_t next_column)
-{
-    const double *stopped = rows->stopped + from;
-    for (size_t k = 0; k < s->grid.count; k++, out += next_column)
-        for (size_t i = 0; i < count; i++) out[i * next_row] = rows->values[k][from + i];
-    for (size_t r = 0; r < s->records.count; r++, out += next_column)
-        for (size_t i = 0; i < count; i++) out[i * next_row] = isnan(stopped[i]) ? rows->results[r][from + i] : NAN;
-    for (size_t r = 0; s->errors && r < s->records.count; r++) {
-        if (!sweep_record_errs(&s->records.items[r])) continue;
-        for (size_t i = 0; i < count; i++) out[i * next_row] = isnan(stopped[i]) ? rows->errors[r][from + i] : NAN;
-        out += next_column;
-    }
-    if (s->errors) {
-        for (size_t i = 0; i < count; i++) {
-            out[i * next_row] = isnan(stopped[i]) ? !is_lost(s, rows, from + i) : NAN;
-        }
-        out += next_column;
-    }
-    if (s->records.ended) {
-        for (size_t i = 0; i < count; i++)
-            out[i * next_row] = sweep_event_number(s, motus_ensemble_ended(s->ensemble, from + i));
-        out += next_column;
-    }
-    for (size_t i = 0; i < count; i++) out[i * next_row] = stopped[i];
-    out += next_column;
-    for (size_t i = 0; i < count; i++) out[i * next_row] = motus_ensemble_stopped_by(s->ensemble, from + i);
-}
-
 static char *put_word(char *out, const char *word)
 {
     while (*word) *out++ = *word++;
@@ -348,7 +197,7 @@ static void csv_row(sweep_file *f, size_t i, const sweep_rows *rows)
     const sweep *s = f->sweep;
     const bool stopped = !isnan(rows->stopped[i]);
     const size_t count = s->columns - 2; /* behind the number of the row; stopped_by is a word */
-    sweep_file_numbers(s, rows, i, 1, f->numbers, 0, 1);
+    sweep_row_numbers(s, rows, i, 1, f->numbers, 0, 1);
     char *out = f->buffer + f->used;
     out += decimal_write_whole(shard_trajectory(&s->shard, f->rows), out);
     for (size_t k = 0; k < count; k++) {
@@ -369,7 +218,7 @@ static void npy_row(sweep_file *f, size_t i, const sweep_rows *rows)
 {
     const size_t size = f->sweep->columns * sizeof *f->numbers;
     f->numbers[0] = (double)shard_trajectory(&f->sweep->shard, f->rows);
-    sweep_file_numbers(f->sweep, rows, i, 1, f->numbers + 1, 0, 1);
+    sweep_row_numbers(f->sweep, rows, i, 1, f->numbers + 1, 0, 1);
     memcpy(f->buffer + f->used, f->numbers, size);
     f->used += size;
 }
@@ -384,7 +233,7 @@ motus_status sweep_file_rows(sweep_file *f, size_t count, const sweep_rows *give
     uint64_t rows = f->rows; /* in the file; f->rows counts those in the buffer too */
     for (size_t i = 0; i < count; i++) {
         f->stopped += !isnan(given->stopped[i]);
-        f->lost += f->sweep->errors && isnan(given->stopped[i]) && is_lost(f->sweep, given, i);
+        f->lost += f->sweep->errors && isnan(given->stopped[i]) && sweep_row_lost(f->sweep, given, i);
         f->stopped_by[motus_ensemble_stopped_by(f->sweep->ensemble, i)]++;
     }
     if (f->archive) return sweep_archive_rows(f, count, given, err);

@@ -39,6 +39,14 @@ static void mix_records(uint64_t *hash, const sweep *s)
     if (s->records.ended) command_mix_text(hash, "ended");
 }
 
+const char *sweep_switches(const sweep *s)
+{
+    const motus_switches how = motus_ensemble_switches(s->ensemble);
+    const bool fixed = isnan(s->tolerance); /* such steps lead across unless told otherwise */
+    if (how == MOTUS_SWITCHES_USUAL || (fixed && how == MOTUS_SWITCHES_STEP)) return NULL;
+    return how == MOTUS_SWITCHES_LOCATE ? "locate" : "step";
+}
+
 /* The options with every setting of the model and every default in them; their lists are those of the command. */
 static options settled(const sweep *s)
 {
@@ -189,4 +197,19 @@ motus_status sweep_head_make(sweep *s, bool npy, motus_error *err)
     bool failed = ferror(f.stream) != 0;
     if ((fclose(f.stream) != 0 || failed) && !status) status = complain_memory(err);
     return status;
+}
+
+void sweep_npy_head(uint64_t rows, size_t columns, char out[SWEEP_NPY_HEAD])
+{
+    static const char magic[] = "\x93NUMPY\x01\x00";
+    bool little = *(const char *)&(int){1} == 1;
+    memset(out, ' ', SWEEP_NPY_HEAD);
+    memcpy(out, magic, sizeof magic - 1);
+    out[8] = SWEEP_NPY_HEAD - 10; /* the length of what follows, two bytes */
+    out[9] = 0;
+    char text[SWEEP_NPY_HEAD];
+    int length = snprintf(text, sizeof text, "{'descr': '%cf8', 'fortran_order': False, 'shape': (%llu, %zu), }",
+                          little ? '<' : '>', (unsigned long long)rows, columns);
+    memcpy(out + 10, text, (size_t)length);
+    out[SWEEP_NPY_HEAD - 1] = '\n';
 }

@@ -133,7 +133,7 @@ static double pages(double bytes) { return ceil(bytes / 4096) * 4096; }
 static double bytes_of_file(const sweep *s)
 {
     const double rows = (double)s->rows, numbers = (double)s->columns;
-    if (!sweep_archive_name(s->options->output)) return SWEEP_NPY_HEAD + rows * numbers * sizeof(double);
+    if (!target_archive(s->options->output)) return SWEEP_NPY_HEAD + rows * numbers * sizeof(double);
     double columns = 0;
     for (size_t k = 0; k < s->columns; k++) /* the number of a trajectory is one of them */
         columns += pages(rows * (k == s->columns - 1 || k == sweep_ended(s) ? 1 : sizeof(double)));
@@ -146,7 +146,7 @@ static double memory_of(const plan *p)
     enum { FILL = 2 << 20 }; /* what making an archive takes */
     struct rusage usage;
     const sweep *s = p->sweep;
-    const bool archive = s->options->output && sweep_archive_name(s->options->output);
+    const bool archive = s->options->output && target_archive(s->options->output);
     const double blocks = (double)blocks_of(s), room = (double)(s->columns * s->shard.block * sizeof(double));
     if (archive) (void)motus_archive_makes(); /* now its libraries are loaded */
     getrusage(RUSAGE_SELF, &usage);
@@ -277,7 +277,7 @@ static void report(const plan *p)
 static motus_status open_text(plan *p, sweep *of, options *o, motus_error *err)
 {
     const char *path = p->sweep->options->output;
-    if (path && (sweep_npy_name(path) || sweep_archive_name(path))) return MOTUS_OK;
+    if (path && (target_npy(path) || target_archive(path))) return MOTUS_OK;
     *o = *p->sweep->options, *of = *p->sweep;
     o->output = "/dev/null", o->resume = false, o->team = NULL;
     of->options = o;

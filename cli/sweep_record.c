@@ -11,7 +11,9 @@
 #include "cli/complain.h"
 #include "cli/sweep.h"
 #include "cli/text.h"
+#include "cli/words.h"
 
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -118,11 +120,11 @@ motus_status sweep_records_read(sweep_records *r, const load *m, const char *lis
 {
     *r = (sweep_records){0};
     options_list items;
-    motus_status status = options_split(list ? list : "final", "--record", &items, err);
+    motus_status status = words_part(list ? list : "final", "--record", &items, err);
     if (status) return status;
     for (size_t i = 0; !status && i < items.count; i++)
         status = one(r, m, items.text + (items.items[i] - items.text), err);
-    options_list_free(&items);
+    words_free(&items);
     /* behind them, for an accuracy */
     if (!status) status = add(r, MOTUS_REDUCE_ACCURACY, 0, 1, err);
     if (!status) status = add(r, MOTUS_REDUCE_TOLERANCE, 0, 1, err);
@@ -149,3 +151,56 @@ void sweep_record_name(const load *m, const motus_record *r, char out[SWEEP_NAME
 }
 
 bool sweep_record_errs(const motus_record *r) { return r->how < MOTUS_REDUCE_STEPS && r->column > 0; }
+
+/* ---- rows ---- */
+
+size_t sweep_kept(const sweep *s)
+{
+    const bool behind = !isnan(s->accuracy) || s->records.count == 0; /* an ensemble has at least one */
+    return s->records.count + (behind ? SWEEP_JUDGED : 0);
+}
+
+int sweep_event_number(const sweep *s, const char *name)
+{
+    const char *its;
+    if (!name[0]) return 0;
+    for (int k = 0; (its = motus_ensemble_kind(s->ensemble, (size_t)k)) != NULL; k++)
+        if (strcmp(its, name) == 0) return k + 1;
+    return -1;
+}
+
+bool sweep_row_lost(const sweep *s, const sweep_rows *rows, size_t i)
+{
+    for (size_t r = 0; r < s->records.count; r++)
+        if (sweep_record_errs(&s->records.items[r]) && isinf(rows->errors[r][i])) return true;
+    return false;
+}
+
+void sweep_row_numbers(const sweep *s, const sweep_rows *rows, size_t from, size_t count, double *out, size_t next_row,
+                       size_t next_column)
+{
+    const double *stopped = rows->stopped + from;
+    for (size_t k = 0; k < s->grid.count; k++, out += next_column)
+        for (size_t i = 0; i < count; i++) out[i * next_row] = rows->values[k][from + i];
+    for (size_t r = 0; r < s->records.count; r++, out += next_column)
+        for (size_t i = 0; i < count; i++) out[i * next_row] = isnan(stopped[i]) ? rows->results[r][from + i] : NAN;
+    for (size_t r = 0; s->errors && r < s->records.count; r++) {
+        if (!sweep_record_errs(&s->records.items[r])) continue;
+        for (size_t i = 0; i < count; i++) out[i * next_row] = isnan(stopped[i]) ? rows->errors[r][from + i] : NAN;
+        out += next_column;
+    }
+    if (s->errors) {
+        for (size_t i = 0; i < count; i++) {
+            out[i * next_row] = isnan(stopped[i]) ? !sweep_row_lost(s, rows, from + i) : NAN;
+        }
+        out += next_column;
+    }
+    if (s->records.ended) {
+        for (size_t i = 0; i < count; i++)
+            out[i * next_row] = sweep_event_number(s, motus_ensemble_ended(s->ensemble, from + i));
+        out += next_column;
+    }
+    for (size_t i = 0; i < count; i++) out[i * next_row] = stopped[i];
+    out += next_column;
+    for (size_t i = 0; i < count; i++) out[i * next_row] = motus_ensemble_stopped_by(s->ensemble, from + i);
+}

@@ -171,7 +171,7 @@ static motus_status csv_rows(sweep_file *f, uint64_t end, motus_error *err)
 /* Checks the fingerprint in the .json beside it. */
 static motus_status npy_beside(const sweep_file *f, motus_error *err)
 {
-    char *path = sweep_npy_beside(f->path), *text = NULL, key[128], part[SHARD_TITLE];
+    char *path = target_beside(f->path), *text = NULL, key[128], part[SHARD_TITLE];
     if (!path) return complain_memory(err);
     size_t length;
     motus_status status = file_read(path, FILE_STATE_MAX, &text, &length, err);

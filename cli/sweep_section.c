@@ -8,6 +8,7 @@
 #include "cli/plot.h"
 #include "cli/section.h"
 #include "cli/sweep.h"
+#include "cli/words.h"
 
 #include <inttypes.h>
 #include <stdlib.h>
@@ -38,7 +39,7 @@ static motus_status varied_axis(sweep_section *p, const char *text, motus_error 
 {
     options_list names;
     const sweep *const s = p->sweep;
-    motus_status status = options_split(text, "--plot-of", &names, err);
+    motus_status status = words_part(text, "--plot-of", &names, err);
     if (status) return status;
     for (size_t a = 0; names.count == 2 && a < 2; a++) {
         p->axis[a] = grid_find(&s->grid, names.items[a]);
@@ -48,7 +49,7 @@ static motus_status varied_axis(sweep_section *p, const char *text, motus_error 
         status = fail(err, MOTUS_ARGUMENT, "--plot-of %s: both numbers are varied, and neither is of the motion", text);
     if (!status && (p->varied[0] || p->varied[1]))
         status = figure_column(&s->model, names.items[p->varied[0]], &p->of[p->varied[0]], err);
-    options_list_free(&names);
+    words_free(&names);
     return status;
 }
 

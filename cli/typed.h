@@ -2,6 +2,8 @@
 #ifndef CLI_TYPED_H
 #define CLI_TYPED_H
 
+#include "motus.h"
+
 #include <stdbool.h>
 #include <stdint.h>
 
@@ -12,5 +14,8 @@ bool typed_decimal(const char *, double *);
 bool typed_count(const char *, int64_t *, const char **rest);
 /* 0 … 2^64 - 1. */
 bool typed_seed(const char *, uint64_t *);
+/* A constant expression of the language, "2 pi/3". The error's message begins with `where`; its hint says what is wrong
+ * with the expression. */
+motus_status typed_constant(const char *expression, const char *where, double *, motus_error *);
 
 #endif

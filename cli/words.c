@@ -1,4 +1,4 @@
-/* See words.h. */
+/* Lists of words. */
 #include "cli/words.h"
 
 #include "cli/complain.h"
@@ -41,5 +41,43 @@ motus_status words_split(const char *text, char **memory, options_list *list, mo
         list->items[list->count++] = to;
         to = copy(to, &at);
     }
+    return MOTUS_OK;
+}
+
+void words_free(options_list *list)
+{
+    free(list->items);
+    free(list->text);
+    *list = (options_list){0};
+}
+
+motus_status words_part(const char *text, const char *option_name, options_list *list, motus_error *err)
+{
+    size_t most = 1;
+    int depth = 0;
+    for (const char *s = text; *s; s++) most += *s == ',';
+    *list = (options_list){.items = malloc(most * sizeof *list->items), .text = strdup(text)};
+    motus_status status = list->items && list->text ? MOTUS_OK : complain_memory(err);
+    for (char *s = list->text, *part = s, last = 1; !status && last; s++) {
+        depth += (*s == '(' || *s == '[') - (*s == ')' || *s == ']');
+        if (*s && !(*s == ',' && depth <= 0)) continue;
+        last = *s;
+        *s = 0;
+        part += strspn(part, " ");
+        for (char *tail = s; tail > part && tail[-1] == ' ';) *--tail = 0;
+        if (!*part) status = fail(err, MOTUS_ARGUMENT, "%s %s: a name is missing", option_name, text);
+        list->items[list->count++] = part;
+        part = s + 1;
+    }
+    if (status) words_free(list);
+    return status;
+}
+
+motus_status words_add(options_list *list, const char *value, motus_error *err)
+{
+    const char **items = realloc(list->items, (list->count + 1) * sizeof *items);
+    if (!items) return complain_memory(err);
+    list->items = items;
+    list->items[list->count++] = value;
     return MOTUS_OK;
 }

@@ -143,7 +143,7 @@ else
     # file, symbol, D (defines) or U (uses); of the program's objects those whose source is still there.
     {
         nm -A "$archive" "$build/libmotus-archive.a" 2>/dev/null | sed 's/^[^:]*://; /^$/d'
-        for file in cli/*.c tell/*.c lab/core/*.c; do
+        for file in $(find cli -name '*.c') tell/*.c lab/core/*.c; do
             object=$scratch/$file.o
             [[ $file == lab/* ]] || object=$program/$file.o
             [ $file != cli/main.c ] || object=$build/CMakeFiles/motus_program.dir/$file.o
@@ -172,12 +172,15 @@ else
             [ $good = yes ] || echo "$path defines $symbol, which should start with ${prefix}_"
         done <"$scratch/symbols")"
 
-    # Uses: user, symbol, file of the library that defines it. Symbols that a program defines itself are not the library's.
-    awk '$3 == "D" { if ($1 ~ /^(cli|lab)\//) own[substr($1, 1, 3) $2]; else from[$2] = $1 }
+    # Uses: user, symbol, file that defines it. A program's own symbol comes before one of the library.
+    awk '$3 == "D" { if ($1 ~ /^(cli|lab)\//) own[substr($1, 1, 3) $2] = $1; else from[$2] = $1 }
         $3 == "U" { use[++n] = $1; symbol[n] = $2 }
         END {
-            for (; n > 0; n--)
-                if (symbol[n] in from && !((substr(use[n], 1, 3) symbol[n]) in own)) print use[n], symbol[n], from[symbol[n]]
+            for (; n > 0; n--) {
+                mine = substr(use[n], 1, 3) symbol[n]
+                if (mine in own) print use[n], symbol[n], own[mine]
+                else if (symbol[n] in from) print use[n], symbol[n], from[symbol[n]]
+            }
         }' \
         "$scratch/symbols" | sort >"$scratch/uses"
     # A grant of a folder covers all its symbols; of a header, those that it declares. Both are defined above.
@@ -205,13 +208,12 @@ else
         judge "$folder/ uses only the symbols that HOUSE.md grants it" "${complaint[$folder]%$'\n'}"
     done
 
-    # A file stands above those that it uses, within a folder too. Files that still stand in circles:
-    circles='^cli/'
+    # A file stands above those that it uses, within a folder too.
     judge "no circle of files within a folder" "$(
         while read -r user symbol path; do
             find_folder "$user" && folder=$of
             find_folder "$path"
-            [ "$of" = "$folder" ] && [ "$user" != "$path" ] && [[ ! $user =~ $circles ]] && echo "$user $path"
+            [ "$of" = "$folder" ] && [ "$user" != "$path" ] && echo "$user $path"
         done <"$scratch/uses" | sort -u | tsort 2>&1 >/dev/null | sed 's/^tsort: //')"
 
     # Constants and functions only: threads would share a writable global. .data.rel.ro is constant once loaded.
