@@ -60,8 +60,8 @@ endif()
 
 # Parts of the program that have tests of their own.
 if(MOTUS_TESTS)
-  target_sources(draw_test PRIVATE cli/draw.c)
-  target_sources(range_test PRIVATE cli/range.c)
+  target_sources(draw_test PRIVATE cli/model/draw.c)
+  target_sources(range_test PRIVATE cli/model/range.c)
   target_sources(bar_test PRIVATE tell/bar.c)
 endif()
 

@@ -1,7 +1,7 @@
 /* See bits.h. */
 #include "mpi/bits.h"
 
-#include "cli/command.h"
+#include "cli/files/command.h"
 
 enum { TRAJECTORIES = 64 };
 

@@ -3,10 +3,10 @@
  * There is no master: every process, a rank, computes, and takes its work from a counter in the memory of rank 0, which
  * the others add to without its help (MPI_Fetch_and_op). Rank 0 prints. Without mpirun there is one rank.
  *
- * Invariants: a failure of one rank ends all by a common decision (cli/team.h), with one message and its exit status,
- * and never by MPI_Abort; what MPI itself refuses ends the job as MPI does.
+ * Invariants: a failure of one rank ends all by a common decision (cli/words/team.h), with one message and its exit
+ * status, and never by MPI_Abort; what MPI itself refuses ends the job as MPI does.
  */
-#include "cli/program.h"
+#include "cli/verbs/program.h"
 #include "mpi/bits.h"
 
 #include <inttypes.h>

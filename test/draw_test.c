@@ -1,5 +1,5 @@
 /* The random numbers: the published words, the distributions, independent streams. */
-#include "cli/draw.h"
+#include "cli/model/draw.h"
 
 #include <math.h>
 #include <setjmp.h>

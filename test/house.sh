@@ -127,7 +127,7 @@ else
     # The build writes texts.c, which machine/texts.h declares.
     sources=$(
         for folder in "${folders[@]}"; do
-            [[ $folder == cli || $folder == mpi || $folder == lab/core ]] || ls "$folder"/*.c 2>/dev/null
+            [[ $folder == cli* || $folder == mpi || $folder == lab/core ]] || ls "$folder"/*.c 2>/dev/null
         done
         echo machine/texts.c)
     # nm prints the member (graph.c.o); the folder follows from the file's name, so these names must be unique.
@@ -143,10 +143,10 @@ else
     # file, symbol, D (defines) or U (uses); of the program's objects those whose source is still there.
     {
         nm -A "$archive" "$build/libmotus-archive.a" 2>/dev/null | sed 's/^[^:]*://; /^$/d'
-        for file in $(find cli -name '*.c') tell/*.c lab/core/*.c; do
+        for file in cli/*/*.c tell/*.c lab/core/*.c; do
             object=$scratch/$file.o
             [[ $file == lab/* ]] || object=$program/$file.o
-            [ $file != cli/main.c ] || object=$build/CMakeFiles/motus_program.dir/$file.o
+            [ $file != cli/verbs/main.c ] || object=$build/CMakeFiles/motus_program.dir/$file.o
             [ -f "$object" ] && nm -A "$object" | sed "s:^[^ ]*\.o:$file.o:"
         done
     } | awk -v sources="$sources" '
@@ -256,7 +256,7 @@ judge "no circle of files in lab/" "$(
             if (user != path) print user, path
         }' | sort -u | tsort 2>&1 >/dev/null | sed 's/^tsort: //')"
 
-# The library's callers are C programs and the page too; the program puts its options for the members (cli/complain.c).
+# The library's callers are C programs and the page too; the program puts its options for the members (cli/words/complain.c).
 judge "no text of the library names an option of the program" "$(
     grep -nE '"([^"]*[ `(])?--[a-z]' -r base core lang machine api study tell --include='*.[ch]' | grep -v -e '-Wl,')"
 

@@ -1,6 +1,6 @@
 /* The table of limits in the manual has the numbers of the code, all of them, and no row besides. */
-#include "cli/file.h"
-#include "cli/share.h"
+#include "cli/files/file.h"
+#include "cli/model/share.h"
 #include "core/solver.h"
 #include "lang/model/model.h"
 #include "lang/model/switches.h"

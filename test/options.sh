@@ -1,5 +1,5 @@
 #!/bin/bash
-# The table of options (cli/options.def): a setting of the motion changes the fingerprint of every file of rows, all others change none; whatever
+# The table of options (cli/words/options.def): a setting of the motion changes the fingerprint of every file of rows, all others change none; whatever
 # the options, files of one fingerprint have the same numbers; the completions of every shell have every option.
 set -u
 motus=$(realpath "${MOTUS:-build/motus}")

@@ -1,5 +1,5 @@
 /* Ranges: exact ends, values equal to typed ones, exact powers of ten. */
-#include "cli/range.h"
+#include "cli/model/range.h"
 
 #include <math.h>
 #include <setjmp.h>

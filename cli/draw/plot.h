@@ -1,0 +1,63 @@
+/* Figures: panels of curves or heat maps, drawn by gnuplot. */
+#ifndef CLI_DRAW_PLOT_H
+#define CLI_DRAW_PLOT_H
+
+#include "cli/files/file.h"
+
+#include <stddef.h>
+
+enum { PLOT_LABEL = MOTUS_NAME_MAX + 128 };
+
+typedef enum plot_role {
+    PLOT_LINE,   /* one of several: its own colour, dashes and marker */
+    PLOT_POINTS, /* points that no line joins, each of them drawn */
+    PLOT_EXACT   /* the exact motion: green, thick, behind the others */
+} plot_role;
+
+/* A curve through the points (x[i * stride], y[i * stride]); the caller owns the numbers. */
+typedef struct plot_curve {
+    char label[PLOT_LABEL];
+    plot_role role;
+    const double *x, *y, *z; /* z: NULL in the plane */
+    const double *shade;     /* of points: NULL, or the number that gives each its colour */
+    size_t count, stride;
+    bool change;   /* draws y minus its first value */
+    bool timelike; /* x grows along the curve, so thinning can go by columns of the picture */
+    size_t known;  /* of a line: of so many points a digit is known; the rest of the line is thin and dotted */
+    size_t drawn;  /* points left after thinning; set by plot_draw() */
+    /* NULL, or a band between middle - error and middle + error at the times `at`; of a curve against t */
+    const double *at, *middle, *error;
+    size_t band_count;
+} plot_curve;
+
+typedef struct plot_panel {
+    char title[PLOT_LABEL], x_label[PLOT_LABEL], y_label[PLOT_LABEL], z_label[PLOT_LABEL], shade_label[PLOT_LABEL];
+    double unknown_from; /* of a heat map against time: where no digit is known any more, a line; NaN: nowhere */
+    bool spatial;        /* both axes are positions: one scale if the shape allows it */
+    bool logarithmic;    /* both axes; every point is marked */
+    plot_curve *curves;
+    size_t curve_count;
+    /* A heat map instead of curves: heat[row * heat_columns + column], row upwards; owned by the panel. */
+    double *heat;
+    size_t heat_rows, heat_columns;
+    double x_first, x_step, y_first, y_step;
+} plot_panel;
+
+typedef struct plot_figure {
+    char title[PLOT_LABEL];
+    plot_panel *panels;
+    size_t count;
+} plot_figure;
+
+/* NULL: out of memory. A new panel makes earlier panel pointers invalid, a new curve earlier curve pointers. */
+plot_panel *plot_panel_add(plot_figure *, const char *title, const char *x_label, const char *y_label);
+plot_curve *plot_curve_add(plot_panel *, const char *label, const double *x, const double *y, size_t count,
+                           size_t stride);
+void plot_free(plot_figure *);
+
+/* Checks before long work that the name ends in a known format and that gnuplot is installed. */
+motus_status plot_check(const char *path, motus_error *);
+/* Draws into the file (finished by the caller), in the format that `path` ends in. */
+motus_status plot_draw(plot_figure *, const char *path, file_out *, motus_error *);
+
+#endif

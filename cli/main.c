@@ -1,8 +1,0 @@
-/* motus, the program, alone on its machine. */
-#include "cli/program.h"
-
-int main(int argc, char **argv)
-{
-    program_begin();
-    return program_main(argc, argv, NULL);
-}

@@ -1,0 +1,145 @@
+/* The values that --vary and --random give to each trajectory.
+ *
+ * Invariant: the values of a trajectory are a function of its number alone.
+ */
+#include "cli/model/grid.h"
+
+#include "cli/words/complain.h"
+#include "cli/model/draw.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+/* Refuses a name that is varied twice, or set as well. */
+static motus_status check_name(const grid *g, const options *o, size_t k, motus_error *err)
+{
+    const char *name = g->axes[k].name;
+    for (size_t i = 0; i < k; i++)
+        if (strcmp(g->axes[i].name, name) == 0) return fail(err, MOTUS_ARGUMENT, "%s is varied twice", name);
+    for (size_t i = 0; i < o->set.count; i++) {
+        size_t length = strcspn(o->set.items[i], "=");
+        while (length > 0 && o->set.items[i][length - 1] == ' ') length--;
+        if (length == strlen(name) && strncmp(o->set.items[i], name, length) == 0)
+            return fail(err, MOTUS_ARGUMENT, "%s is both set and varied", name);
+    }
+    return MOTUS_OK;
+}
+
+static motus_status too_many(motus_error *err)
+{
+    return complain(err, MOTUS_LIMIT,
+                    "--zip pairs the values instead of combining all; --random with --count draws a sample",
+                    "the sweep has more than %llu trajectories", (unsigned long long)GRID_MOST);
+}
+
+static motus_status count_points(grid *g, size_t varied, motus_error *err)
+{
+    uint64_t points = 1;
+    for (size_t k = 0; k < varied; k++) {
+        uint64_t n = g->axes[k].count;
+        if (!g->zip && points > GRID_MOST / n) return too_many(err);
+        if (g->zip && k > 0 && n != points)
+            return complain(err, MOTUS_ARGUMENT, "give every --vary the same number of values",
+                            "--zip: %s has %llu values, %s has %llu", g->axes[0].name, (unsigned long long)points,
+                            g->axes[k].name, (unsigned long long)n);
+        points = g->zip ? n : points * n;
+    }
+    if (points > GRID_MOST / g->draws) return too_many(err);
+    g->total = points * g->draws;
+    return MOTUS_OK;
+}
+
+static motus_status check(const options *o, motus_error *err)
+{
+    if (o->vary.count + o->random.count == 0)
+        return complain(err, MOTUS_ARGUMENT,
+                        "--vary F=0:1:11, --random \"x(0)=-1:1\" --count 100; motus run integrates a single one",
+                        "motus sweep needs --vary or --random: without them all trajectories are equal");
+    if (o->random.count > 0 && o->vary.count == 0 && o->count == 0)
+        return complain(err, MOTUS_ARGUMENT, "add --count 100", "--random needs --count, the number of trajectories");
+    if (o->random.count == 0 && (o->count > 0 || o->given[OPTION_seed]))
+        return complain(err, MOTUS_ARGUMENT, "add --random F=0:1; the count of a --vary is its third number, F=0:1:11",
+                        "%s needs --random", o->count > 0 ? "--count" : "--seed");
+    if (o->zip && o->vary.count < 2) return fail(err, MOTUS_ARGUMENT, "--zip needs at least two --vary");
+    return MOTUS_OK;
+}
+
+motus_status grid_read(grid *g, const options *o, motus_error *err)
+{
+    *g = (grid){.zip = o->zip, .seed = o->seed, .draws = o->count > 0 ? (uint64_t)o->count : 1};
+    motus_status status = check(o, err);
+    if (status) return status;
+    size_t count = o->vary.count + o->random.count;
+    g->axes = calloc(count, sizeof *g->axes);
+    g->names = calloc(count, sizeof *g->names);
+    if (!g->axes || !g->names) return complain_memory(err);
+    for (size_t k = 0; !status && k < count; k++) {
+        bool drawn = k >= o->vary.count;
+        g->count++;
+        status = axis_read(&g->axes[k], drawn ? "--random" : "--vary",
+                           drawn ? o->random.items[k - o->vary.count] : o->vary.items[k], err);
+        g->names[k] = g->axes[k].name;
+        if (!status) status = check_name(g, o, k, err);
+    }
+    return status ? status : count_points(g, o->vary.count, err);
+}
+
+static double value(const grid *g, size_t k, uint32_t stream, uint64_t place, uint64_t trajectory)
+{
+    const axis *a = &g->axes[k];
+    switch (a->kind) {
+    case AXIS_RANGE: return range_value(&a->range, place);
+    case AXIS_LIST: return a->list[place];
+    case AXIS_UNIFORM: return a->range.from + draw_uniform(g->seed, stream, trajectory) * (a->range.to - a->range.from);
+    case AXIS_NORMAL: return a->range.from + draw_normal(g->seed, stream, trajectory) * a->range.to;
+    }
+    return 0;
+}
+
+void grid_values(const grid *g, uint64_t first, size_t count, double *const *values)
+{
+    size_t varied = 0;
+    while (varied < g->count && g->axes[varied].kind <= AXIS_LIST) varied++;
+    for (size_t k = varied; k < g->count; k++)
+        for (size_t i = 0; i < count; i++) values[k][i] = value(g, k, (uint32_t)(k - varied), 0, first + i);
+    uint64_t repeat = g->draws; /* how many successive trajectories have the same value */
+    for (size_t k = varied; k-- > 0;) {
+        uint64_t n = g->axes[k].count, place = first / repeat % n, left = repeat - first % repeat;
+        double v = value(g, k, 0, place, 0);
+        for (size_t i = 0; i < count; i++) {
+            if (left-- == 0) {
+                left = repeat - 1;
+                place = place + 1 == n ? 0 : place + 1;
+                v = value(g, k, 0, place, 0);
+            }
+            values[k][i] = v;
+        }
+        if (!g->zip) repeat *= n;
+    }
+}
+
+size_t grid_find(const grid *g, const char *name)
+{
+    size_t k = 0;
+    while (k < g->count && strcmp(g->names[k], name)) k++;
+    return k;
+}
+
+size_t grid_axis_values(const grid *g, size_t axis, uint64_t first, size_t count, double *values)
+{
+    const bool drawn = g->axes[axis].kind > AXIS_LIST;
+    const uint64_t all = drawn ? g->total : g->axes[axis].count;
+    uint32_t stream = 0; /* of draws: those before it */
+    for (size_t k = 0; k < axis; k++) stream += drawn && g->axes[k].kind > AXIS_LIST;
+    size_t n = 0;
+    for (; n < count && first + n < all; n++) values[n] = value(g, axis, stream, first + n, first + n);
+    return n;
+}
+
+void grid_free(grid *g)
+{
+    for (size_t k = 0; k < g->count; k++) axis_free(&g->axes[k]);
+    free(g->axes);
+    free(g->names);
+    *g = (grid){0};
+}

@@ -1,0 +1,112 @@
+/* See run_command.h. */
+#include "cli/run/run_command.h"
+
+#include "cli/files/command.h"
+#include "cli/words/complain.h"
+#include "cli/words/words.h"
+
+#include <inttypes.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+motus_status run_command_text(const options *asked, const motus_run *run, double until, char **text, motus_error *err)
+{
+    options o = *asked;
+    motus_statistics now = motus_default_statistics();
+    motus_run_statistics(run, &now);
+    o.most_points = o.most_points ? o.skip + o.most_points : 0;
+    o.skip = 0;
+    o.method = motus_run_method(run);
+    o.step = isnan(now.tolerance) ? motus_run_step_size(run) : NAN;
+    o.tolerance = now.tolerance;
+    o.accuracy = NAN; /* the tolerance that it found stands for it */
+    o.absolute = now.absolute;
+    o.until = until;
+    if (!o.error) o.error = "cheap";
+    return command_text(&o, text, err);
+}
+
+const char *run_command_fingerprint(const char *version, const char *model, const char *command,
+                                    char out[RUN_FINGERPRINT])
+{
+    uint64_t hash = COMMAND_HASH;
+    command_mix_text(&hash, version);
+    command_mix_text(&hash, model);
+    command_mix_text(&hash, command);
+    snprintf(out, RUN_FINGERPRINT, "%016" PRIx64, hash);
+    return out;
+}
+
+/* ---- a run that goes on ---- */
+
+static motus_status no_run(const char *path, motus_error *err)
+{
+    return complain(err, MOTUS_STATE, "motus run goes on with a file that `motus run MODEL -o FILE.h5` has written",
+                    "%s is not the archive of a run", path);
+}
+
+motus_status run_command_of(run_command *c, motus_archive *a, const options *asked, motus_error *err)
+{
+    *c = (run_command){0};
+    const char *command = motus_archive_note_of(a, "command"), *model = motus_archive_note_of(a, "model");
+    if (!command || !model) return no_run(asked->operand, err);
+    if (!(c->model = strdup(model))) return complain_memory(err);
+    motus_status status = words_split(command, &c->words, &c->argv, err);
+    if (status) return status;
+    const char **words = c->argv.items;
+    if (c->argv.count < 2 || strcmp(words[0], "motus") != 0 || strcmp(words[1], "run") != 0)
+        return no_run(asked->operand, err);
+    words[c->argv.count++] = "-o"; /* there is room for two more; some options need it */
+    words[c->argv.count++] = "archive.h5";
+    status = options_read(&c->options, VERB_RUN, (int)c->argv.count, (char **)words, 2, err);
+    if (!status && (c->options.help || !c->options.operand)) return no_run(asked->operand, err);
+    options *own = &c->options;
+    own->text = c->model;
+    own->restart = NULL;
+    options_forget(own, OF_WHATEVER);
+    options_take(own, asked, OF_MACHINE);
+    return status;
+}
+
+/* The archive says all settings of the motion but its end, and goes on; what is not the motion is that of the command
+ * now. */
+static motus_status take_over(run_command *c, const options *o, motus_error *err)
+{
+    options *own = &c->options;
+    for (size_t k = 0; k < OPTION_COUNT; k++) {
+        const option *row = options_row(k);
+        if (!o->given[k] || k == OPTION_until || !(row->setting & (OF_MOTION | OF_ANOTHER))) continue;
+        fail(err, MOTUS_ARGUMENT, "%s: %s decides it", row->name, o->operand);
+        hint(err, "take its model, motus archive %.80s -o model.motus, for a run of its own", o->operand);
+        return MOTUS_ARGUMENT;
+    }
+    options_take(own, o, OF_FILES);
+    if (!own->output) own->output = o->operand;
+    if (!isnan(o->until)) own->until = o->until;
+    own->answered = o->answered, own->team = o->team;
+    own->argc = o->argc, own->argv = o->argv;
+    return MOTUS_OK;
+}
+
+motus_status run_command_read(run_command *c, const options *o, motus_error *err)
+{
+    motus_archive *a;
+    *c = (run_command){0};
+    motus_status status = motus_archive_open(o->operand, 0, &a, err);
+    if (!status) status = run_command_of(c, a, o, err);
+    motus_archive_close(a);
+    if (!status) status = take_over(c, o, err);
+    if (status || o->output || !(o->force || o->resume)) return status;
+    return complain(err, MOTUS_ARGUMENT, "leave it out, or name another file: -o other.h5",
+                    "%s: the run goes on in %s itself", o->force ? "--force" : "--resume", o->operand);
+}
+
+void run_command_free(run_command *c)
+{
+    options_free(&c->options);
+    free(c->argv.items);
+    free(c->words);
+    free(c->model);
+    *c = (run_command){0};
+}

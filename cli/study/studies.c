@@ -1,0 +1,78 @@
+/* What the studies share.
+ *
+ * Invariant: a picture that cannot be drawn, or would overwrite the model, is refused before anything is computed.
+ */
+#include "cli/study/studies.h"
+
+#include "cli/words/complain.h"
+#include "cli/draw/plot.h"
+#include "cli/words/text.h"
+#include <math.h>
+
+motus_status studies_begin(studies *s, const char *what, int needed, const options *o, motus_study_def *def,
+                           motus_error *err)
+{
+    *s = (studies){.options = o};
+    motus_status status = o->plot ? plot_check(o->plot, err) : MOTUS_OK;
+    if (!status && o->plot && o->operand && file_same(o->plot, o->operand))
+        status = fail(err, MOTUS_ARGUMENT, "%s is read and would be overwritten", o->operand);
+    if (!status) status = load_model(&s->model, o, err);
+    /* By a method that takes all steps and forces: the model's own need not be among those that are studied. */
+    if (!status) status = settle_timing(&s->model, o, needed, "explicit-euler", NULL, err);
+    if (status) return status;
+    *def = motus_default_study();
+    def->machine = "auto";
+    def->methods = o->methods.count ? o->methods.items : NULL;
+    def->method_count = o->methods.count;
+    def->step = s->model.step;
+    def->until = s->model.until;
+    def->evaluations = o->evaluations;
+    def->progress = stop_progress_hook;
+    def->context = &s->progress;
+    s->progress = stop_progress_begin(what, o->quiet);
+    return MOTUS_OK;
+}
+
+void studies_title(const studies *s, const char *reference, double error)
+{
+    const bool colours = complain_colours(1);
+    printf("%s%s%s, ", colours ? "\033[1m" : "", s->model.title, colours ? "\033[0m" : "");
+    if (reference && !isnan(error)) {
+        printf("errors against ");
+        text_put(stdout, reference);
+        if (error > 0) printf(" (error %.1g)", error);
+    } else {
+        printf("without errors: there is no reference solution");
+    }
+    putchar('\n');
+}
+
+static void print_json(const studies *s, const studies_ways *ways, const void *result)
+{
+    json j = text_json(stdout);
+    json_string(&j, "model", s->options->operand);
+    settle_json(&j, &s->model);
+    ways->tell(&j, result);
+    json_end(&j);
+    *s->options->answered = true;
+}
+
+motus_status studies_show(studies *s, const studies_ways *ways, const void *result, motus_error *err)
+{
+    const options *o = s->options;
+    motus_status status = MOTUS_OK;
+    file_out picture = {0};
+    if (o->plot) {
+        status = file_create(&picture, o->plot, err);
+        if (!status) status = ways->draw(s, result, &picture, err);
+        if (!status) status = file_finish(&picture, err);
+    }
+    if (!status && o->json)
+        print_json(s, ways, result);
+    else if (!status && !o->quiet)
+        status = ways->tables(s, result, err);
+    if (!status) status = file_flush_output(err);
+    if (!status) status = file_keep(&picture, err);
+    file_drop(&picture);
+    return status;
+}

@@ -1,0 +1,32 @@
+/* What the studies share: load a model, study it, show the result. */
+#ifndef CLI_STUDY_STUDIES_H
+#define CLI_STUDY_STUDIES_H
+
+#include "cli/files/file.h"
+#include "cli/model/settle.h"
+#include "cli/files/stop.h"
+
+typedef struct studies {
+    const options *options;
+    load model;
+    stop_progress progress;
+} studies;
+
+/* Loads the model and fills the definition; needed: as of settle_timing. Progress is shown under the name
+ * `what` until stop_progress_end(). */
+motus_status studies_begin(studies *, const char *what, int needed, const options *, motus_study_def *, motus_error *);
+
+/* Prints the first line of the tables: the model and the reference. */
+void studies_title(const studies *, const char *reference, double error);
+
+typedef struct studies_ways {
+    motus_status (*draw)(studies *, const void *result, file_out *, motus_error *);
+    void (*tell)(json *, const void *result); /* the keys of the result, after those of the model */
+    motus_status (*tables)(const studies *, const void *result, motus_error *);
+} studies_ways;
+
+/* Draws the picture, then prints JSON or tables, so that nothing is printed if the picture fails; the picture gets its
+ * name last. */
+motus_status studies_show(studies *, const studies_ways *, const void *result, motus_error *);
+
+#endif

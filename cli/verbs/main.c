@@ -1,0 +1,8 @@
+/* motus, the program, alone on its machine. */
+#include "cli/verbs/program.h"
+
+int main(int argc, char **argv)
+{
+    program_begin();
+    return program_main(argc, argv, NULL);
+}

@@ -1,0 +1,133 @@
+/* The program: it calls the verb.
+ *
+ * Invariant: errors are printed once, here; the exit status follows from the error's.
+ */
+#include "base/near.h"
+#include "cli/words/complain.h"
+#include "cli/files/file.h"
+#include "cli/words/help.h"
+#include "cli/words/options.h"
+#include "cli/verbs/program.h"
+#include "cli/files/stop.h"
+#include "cli/words/text.h"
+
+#include <string.h>
+
+typedef struct verb {
+    const char *name;
+    unsigned bit;
+    motus_status (*go)(const options *, motus_error *);
+} verb;
+
+static const verb verbs[] = {
+#define VERB(bit, name, ...) {#name, VERB_##bit, name##_verb},
+#include "cli/words/options.def"
+};
+
+static const verb *find(const char *name)
+{
+    for (size_t i = 0; i < VERB_COUNT; i++)
+        if (strcmp(verbs[i].name, name) == 0) return &verbs[i];
+    return NULL;
+}
+
+static motus_status unknown(const char *name, motus_error *err)
+{
+    size_t length = strlen(name);
+    int best = 6;
+    const char *near = NULL;
+    for (size_t i = 0; i < VERB_COUNT; i++) {
+        const int d = near_distance(verbs[i].name, name, best);
+        if (d < best) {
+            best = d;
+            near = verbs[i].name;
+        }
+    }
+    fail(err, MOTUS_ARGUMENT, "unknown %s %s", name[0] == '-' ? "option" : "verb", name);
+    if (length > 6 && strcmp(name + length - 6, ".motus") == 0)
+        hint(err, "to integrate it: motus run %s", name);
+    else if (near)
+        hint(err, "did you mean motus %s?", near);
+    else
+        hint(err, "motus --help lists the verbs");
+    return MOTUS_ARGUMENT;
+}
+
+static void print_version(bool as_json)
+{
+    if (!as_json) {
+        printf("motus %s\n", motus_version());
+        return;
+    }
+    json j = text_json(stdout);
+    json_string(&j, "version", motus_version());
+    json_end(&j);
+}
+
+/* motus [--help | --version | --options | help [VERB]] */
+static bool general(int argc, char **argv, bool as_json)
+{
+    const char *word = argc > 1 ? argv[1] : "";
+    const verb *v = argc > 2 ? find(argv[2]) : NULL;
+    if (strcmp(word, "--version") == 0 || strcmp(word, "-V") == 0 || strcmp(word, "version") == 0)
+        print_version(as_json);
+    else if (strcmp(word, "help") == 0 && v)
+        help_verb(stdout, v->bit);
+    else if (strcmp(word, "--help") == 0 || strcmp(word, "-h") == 0 || strcmp(word, "help") == 0)
+        help_program(stdout);
+    else if (strcmp(word, "--options") == 0)
+        help_table(stdout);
+    else
+        return false;
+    return true;
+}
+
+static motus_status dispatch(int argc, char **argv, bool as_json, bool *answered, const team *t, motus_error *err)
+{
+    int first = 1;
+    while (first < argc && strcmp(argv[first], "--json") == 0) first++;
+    if (!team_first(t) && (first == argc || strcmp(argv[first], options_verb(VERB_SWEEP)) != 0)) return MOTUS_OK;
+    if (general(argc, argv, as_json)) return file_flush_output(err);
+    if (first == argc)
+        return complain(err, MOTUS_ARGUMENT, "motus run model.motus; motus --help lists the others",
+                        "a verb is missing");
+    const verb *v = find(argv[first]);
+    if (!v) return unknown(argv[first], err);
+    options o;
+    motus_status status = options_read(&o, v->bit, argc, argv, first + 1, err);
+    o.json = o.json || as_json;
+    o.answered = answered;
+    o.team = t;
+    /* without standard output nobody asks for a report beside a file */
+    const bool file = o.output || o.plot || o.events || o.save_state;
+    o.quiet = o.quiet || !team_first(t) || (file && file_output_closed());
+    if (!status && o.help) {
+        if (team_first(t)) help_verb(stdout, v->bit);
+        status = file_flush_output(err);
+    } else if (!status) {
+        status = v->go(&o, err);
+    }
+    options_free(&o);
+    return status;
+}
+
+void program_begin(void)
+{
+    file_open_standard();
+    stop_file_limit();
+}
+
+int program_main(int argc, char **argv, const team *t)
+{
+    bool as_json = false, answered = false;
+    for (int i = 1; i < argc && strcmp(argv[i], "--") != 0; i++) as_json = as_json || strcmp(argv[i], "--json") == 0;
+    motus_error err = motus_default_error();
+    motus_status status = dispatch(argc, argv, as_json, &answered, t, &err);
+    err.status = status;
+    if (status && !err.message[0] && !t) fail(&err, status, "%s", motus_status_text(status));
+    const bool tells = team_tells(t, status, &err);
+    if (!t) stop_obey();
+    int exit = status ? motus_status_exit(status) : 0;
+    if (tells) exit = complain_show(&err, as_json && !answered);
+    return t ? t->largest(t->context, exit) : exit;
+}
