@@ -21,7 +21,7 @@
 #define WORK_CLOSE 0.02     /* relative: near enough to the wanted evaluations */
 #define PROBES 5            /* states along the motion at which properties of the equations are measured */
 #define REFERENCE_SHARE 0.1 /* of the progress */
-#define ROUNDING 8.0        /* ulps by which an evaluation may round the state: a random walk over the run */
+#define ROUNDING 8.0 /* ulps by which an evaluation may round the state; over the run they add up as a random walk */
 
 typedef struct row_text {
     char method[MOTUS_NAME_MAX], note[MOTUS_TEXT_MAX];
@@ -31,12 +31,12 @@ typedef struct invariant_name {
 } invariant_name;
 
 typedef struct result {
-    motus_comparison seen; /* first: the handle the user holds */
+    motus_comparison seen; /* first, since it is the handle the user holds */
     motus_allocator allocator;
     char reference[SOLUTION_TEXT_MAX], remarks[REMARKS_MAX];
     motus_compare_row *rows;
     motus_drift *drifts;                /* rows × invariants */
-    const motus_compare_row **row_list; /* to each of them: what the user reads */
+    const motus_compare_row **row_list; /* pointers to the rows, for the user */
     const motus_drift **drift_list;
     row_text *texts;
     invariant_name *names;
@@ -46,12 +46,12 @@ typedef struct compare {
     study s;
     motus_study_def def;
     solution reference;
-    double step; /* equal step */
+    double step; /* of equal steps */
     size_t invariants, columns;
-    size_t *first; /* invariants + 1: where in `column` each one begins */
+    size_t *first; /* invariants + 1: where each invariant begins in `column` */
     size_t *column;
     double *column_scale;
-    double *t, *deviation; /* samples_max: times; the change of one number since the start */
+    double *t, *deviation; /* t: times; deviation: the change of one number since the start; samples_max of each */
     double *series;        /* samples_max × columns */
     size_t samples, samples_max;
     double *y, *a, *own_reference;
@@ -163,7 +163,7 @@ static motus_status observe_invariants(compare *c, motus_run *run, motus_error *
     return status;
 }
 
-/* Of invariant k, the number that deviates most. */
+/* Finds the number of invariant k that deviates most. */
 static motus_drift deviation_of(compare *c, size_t k, int64_t evaluations, double *roundoff)
 {
     motus_drift d = {c->out->names[k].text, NAN, NAN, NAN, NAN, 0};
@@ -208,7 +208,7 @@ static motus_status row_failed(compare *c, size_t k, motus_status status, const 
     return MOTUS_OK;
 }
 
-/* The step with which the method spends about def.evaluations. */
+/* Finds the step with which the method spends about def.evaluations. */
 static motus_status equal_work_step(compare *c, size_t k, const char *method, double *step)
 {
     study *s = &c->s;
@@ -224,7 +224,7 @@ static motus_status equal_work_step(compare *c, size_t k, const char *method, do
         double spent = run ? (double)motus_run_evaluations(run) : 0;
         motus_run_destroy(run);
         if (study_fatal(status)) return row_failed(c, k, status, &e);
-        /* If the run failed, the row's own run will fail too and report it. */
+        /* If this run failed, the row's own run will fail too and report it. */
         if (status != MOTUS_OK || spent <= 0 || fabs(spent - wanted) <= WORK_CLOSE * wanted) return MOTUS_OK;
         int64_t next = (int64_t)fmax(1, floor((double)n * wanted / spent));
         if (next == n) return MOTUS_OK;
@@ -234,7 +234,7 @@ static motus_status equal_work_step(compare *c, size_t k, const char *method, do
     return MOTUS_OK;
 }
 
-/* Advances by one interval of the grid (or to the end) and takes `samples` samples of the invariants. */
+/* Advances by one interval of the grid, or to the end, and takes `samples` samples of the invariants. */
 static motus_status advance(compare *c, motus_run *run, int64_t per, int64_t samples, bool last, double *seconds,
                             motus_error *e)
 {
@@ -282,7 +282,7 @@ static motus_status forward(compare *c, size_t k, motus_run *run, const study_gr
     return status;
 }
 
-/* Runs from c->y at `until` back to the start with the same steps in reverse order: a shorter last step comes first. */
+/* Runs from c->y at `until` back to the start with the steps in reverse order: a shorter last step comes first. */
 static motus_status backward(compare *c, size_t k, const char *method, int64_t total, double last_step, motus_error *e)
 {
     study *s = &c->s;
@@ -374,7 +374,7 @@ static motus_status make_row(compare *c, size_t k)
 
 /* The comparison ------------------------------------------------------------------------------------------------- */
 
-/* Measures at states along the motion by how much rounding changes the invariants, the fastest rate, and the constant
+/* Measures, at states along the motion, how much rounding changes the invariants, the fastest rate, and a constant
  * acceleration if there is one. */
 static motus_status probe_motion(compare *c, const study_grid *g)
 {

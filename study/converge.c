@@ -22,15 +22,15 @@
 
 #define INTERVALS 8 /* a power of 2 */
 #define POINTS_MAX 80
-#define POINTS_LEAST 7 /* measured before the fit may end the row */
-#define STEPS_LEAST 32 /* per interval: runs with no more than these ignore the bound on the work */
-#define FINE_ORDER 4   /* from this order on four steps an octave */
+#define POINTS_LEAST 7 /* points measured before the fit may end the row */
+#define STEPS_LEAST 32 /* per interval: the bound on the work does not hold for runs with fewer */
+#define FINE_ORDER 4   /* from this order on four points an octave */
 /* The bound on the work (study_work) of a method is first that of 2^18 evaluations of one oscillator. A method that
  * has reached neither round-off nor a steady slope by then gets EXTENSION times as much. */
 #define WORK 4.7e6
 #define EXTENSION 8
 #define STEADY 0.03        /* the largest slope_change of a steady slope */
-#define COARSE_ENOUGH 1e-4 /* a row whose coarsest error is larger than this needs no coarser steps */
+#define COARSE_ENOUGH 1e-4 /* a row needs no coarser steps if its coarsest error is larger */
 /* The bounds on the length of the motion, in radians. Of the motion itself: above PHASE_MOST it is cut to about
  * PHASE_GOOD. At the fastest rate of the linearised motion, excited or not: beyond STIFF_MOST explicit methods would
  * have no stable step. At the largest speed of the motion, where low orders need very short steps: PEAK_MOST. */
@@ -41,14 +41,14 @@
 #define INCOMMENSURATE 0.95225424859373685603 /* 1 - (3 - √5)/16: badly approximated by fractions */
 #define SURVEY 64                             /* intervals of the survey: a rough solution of the full motion */
 #define SURVEY_PROBES 8                       /* states of the survey at which the fastest rate is computed */
-#define SURVEY_TRUST 0.1 /* of the motion's size: of a survey with a larger error only the start is used */
+#define SURVEY_TRUST 0.1 /* of the motion's size: with a larger error of the survey only its start is used */
 #define REFERENCE_MAX (SOLUTION_TEXT_MAX + 320)
-#define SHOWN_ORDER 8     /* a double has the digits to show orders up to this one */
-#define OVERALL_LARGE 0.1 /* errors above this, or below OVERALL_CLEAR times round-off, tell no order */
+#define SHOWN_ORDER 8     /* the highest order for which a double has enough digits */
+#define OVERALL_LARGE 0.1 /* larger errors tell no order, nor errors below OVERALL_CLEAR times round-off */
 #define OVERALL_CLEAR 30.0
 #define OVERALL_OCTAVES 6.0
-#define LOST 0.5        /* an order, of the power by which errors fall over LOST_OCTAVES: it refutes a row, */
-#define LOST_PART 0.125 /* or a part of a high one */
+#define LOST 0.5        /* of an order: how far below it the fall of errors over LOST_OCTAVES refutes a row */
+#define LOST_PART 0.125 /* of a high order: such a distance */
 #define LOST_OCTAVES 1.999
 #define REFERENCE_SHARE 0.1 /* of the progress */
 
@@ -57,12 +57,12 @@ typedef struct row_text {
 } row_text;
 
 typedef struct result {
-    motus_convergence seen; /* first: the handle the user holds */
+    motus_convergence seen; /* first, since it is the handle the user holds */
     motus_allocator allocator;
     char reference[REFERENCE_MAX];
     motus_converge_row *rows;
     motus_point *points;                 /* rows × POINTS_MAX */
-    const motus_converge_row **row_list; /* to each of them: what the user reads */
+    const motus_converge_row **row_list; /* pointers to the rows, for the user */
     const motus_point **point_list;
     row_text *texts;
 } result;
@@ -73,8 +73,8 @@ typedef struct converge {
     solution reference;
     study_grid grid;
     double uncut;   /* the end that was asked for */
-    bool cut;       /* the motion was cut far before it */
-    double share;   /* of the motion, which steps of one size divide; the last step of all is shorter unless it is 1 */
+    bool cut;       /* the motion ends far before `uncut` */
+    double share;   /* of the motion, that fixed steps divide; the last step of all is shorter unless it is 1 */
     double allowed; /* the highest order that the smoothness of the force allows; 0: any */
     char why[MOTUS_TEXT_MAX / 2];
     double *table;   /* (INTERVALS + 1) × numbers */
@@ -127,7 +127,7 @@ static motus_status make_result(converge *c)
 
 /* The motion ----------------------------------------------------------------------------------------------------- */
 
-/* So many intervals over the part `share` of the motion, and a shorter one over what is left of it. */
+/* Makes a grid of so many intervals over the part `share` of the motion, and a shorter one over the rest. */
 static study_grid grid_of(const study *s, double until, size_t intervals, double share)
 {
     return (study_grid){.from = s->from,
@@ -137,7 +137,7 @@ static study_grid grid_of(const study *s, double until, size_t intervals, double
                         .points = share < 1 ? intervals + 1 : intervals};
 }
 
-/* Down to 1, 2 or 5 times a power of ten. */
+/* Rounds down to 1, 2 or 5 times a power of ten. */
 static double round_down(double duration)
 {
     double above = 1, below = 1;
@@ -160,7 +160,7 @@ static motus_status bound_length(converge *c, bool smooth, double *until)
         double t = s->from + direction * (double)r * g.interval;
         const double *y = survey.rows + r * s->numbers;
         double speed = 2 * probe_speed(s, t, y);
-        peak = fmax(peak, speed); /* a NaN does not count */
+        peak = fmax(peak, speed); /* NaN does not count */
         phase_rate += isnan(speed) ? 0 : speed / (trusted ? SURVEY + 1 : 1);
         if (r % (SURVEY / SURVEY_PROBES) == 0) stiff = fmax(stiff, probe_rate(s, t, y));
     }
@@ -179,9 +179,9 @@ static motus_status bound_length(converge *c, bool smooth, double *until)
     return MOTUS_OK;
 }
 
-/* A force that is not smooth often jumps at a simple fraction of the run, such as half of it, and steps that end there
- * by chance would show an order that no other step has. So the steps divide a part of such a motion that is none of
- * these, and the last step of all is a shorter one. */
+/* Chooses the end. A force that is not smooth often jumps at a simple fraction of the run, as at half of it, and steps
+ * that end there by chance would show an order that no other step has. So the steps divide an irrational part of such a
+ * motion, and the last step of all is shorter. */
 static motus_status choose_end(converge *c, double *until)
 {
     study *s = &c->s;
@@ -195,7 +195,7 @@ static motus_status choose_end(converge *c, double *until)
 
 /* One method ----------------------------------------------------------------------------------------------------- */
 
-/* Steps per interval at point i: 1, 2, 4, …, or for high orders 1 to 8, 10, 12, 14, 16, 20, … */
+/* Returns the steps per interval at point i: 1, 2, 4, …, or for high orders 1 to 8, 10, 12, 14, 16, 20, … */
 static int64_t steps_per_interval(int64_t i, int order)
 {
     int64_t octave = order < FINE_ORDER ? 1 : 4;
@@ -231,7 +231,7 @@ static motus_status measure(converge *c, const motus_method *card, const char *m
     return MOTUS_OK;
 }
 
-/* The points of a row, the coarsest with `intervals` steps, and their fit. */
+/* Measures the points of a row, the coarsest with `intervals` steps, and fits its order. */
 static motus_status measure_all(converge *c, const motus_method *card, const char *method, size_t intervals,
                                 motus_converge_row *row, motus_point *points, fit_order_result *fit, motus_error *e,
                                 motus_status *failed)
@@ -251,7 +251,8 @@ static motus_status measure_all(converge *c, const motus_method *card, const cha
         }
         study_part(s, base + span * fmin(1, work / bound), span * fmin(1, next / bound));
         motus_status status = measure(c, card, method, &g, per, &points[i], &spent, e, failed);
-        if (status == MOTUS_OK && *failed == MOTUS_METHOD && g.points > g.intervals) { /* it takes equal steps only */
+        /* the method takes equal steps only */
+        if (status == MOTUS_OK && *failed == MOTUS_METHOD && g.points > g.intervals) {
             *failed = MOTUS_OK;
             g.points = g.intervals;
             g.until = g.from + c->share * (g.until - g.from);
@@ -266,7 +267,7 @@ static motus_status measure_all(converge *c, const motus_method *card, const cha
     return MOTUS_OK;
 }
 
-/* The order by which the errors fall from the first to the last step that shows one; NaN: over too few octaves. */
+/* Returns the order by which errors fall from the first to the last step that shows one; NaN: over too few octaves. */
 static double overall(const converge *c, const motus_converge_row *row, double floor)
 {
     const motus_point *first = NULL, *last = NULL;
@@ -280,16 +281,16 @@ static double overall(const converge *c, const motus_converge_row *row, double f
     return octaves >= OVERALL_OCTAVES ? log(first->error / last->error) / log(2) / octaves : NAN;
 }
 
-/* Whether a row of so high an order reaches round-off before its slope settles, and falls there as fast as the highest
- * order that a double shows. */
+/* Returns whether a row of high order reaches round-off before its slope settles, and falls there as fast as the
+ * highest order that a double shows. */
 static bool falls(const converge *c, const motus_converge_row *row, const fit_order_result *fit)
 {
     return row->declared > SHOWN_ORDER && c->allowed == 0 && fit->settled && fit->fall >= SHOWN_ORDER;
 }
 
-/* Whether steady slopes over some octaves are clearly below the order. Else round-off came before they had settled, or
- * they have not settled yet, and the row neither passes nor fails. Of orders that a double cannot show the highest one
- * that it can is due. */
+/* Returns whether steady slopes over some octaves are clearly below the order. Otherwise round-off came before they
+ * settled, or they have not settled yet, and the row neither passes nor fails. Of an order that a double cannot show,
+ * the highest one that it can is due. */
 static bool refutes(const fit_order_result *fit, int declared)
 {
     const double due = declared < SHOWN_ORDER ? declared : SHOWN_ORDER;
@@ -303,8 +304,8 @@ static void certify(const converge *c, motus_converge_row *row, const fit_order_
     row->standard_error = fit->standard_error;
     row->exact_here = fit->verdict == FIT_EXACT;
     const bool allowed = c->allowed == 0 || row->declared <= c->allowed;
-    /* Where the force allows just this order, the errors at the jump are of it too, and depend on where in a step it
-     * lies: neighbours in the table differ, and only the fall over many octaves tells the order. */
+    /* Where the force allows just this order, errors at the jump are of that order as well, and depend on where in a
+     * step the jump lies: neighbours in the table differ, and only the fall over many octaves tells the order. */
     if (c->allowed > 0 && allowed && row->declared + 1 > c->allowed && fit->verdict == FIT_SLOPE &&
         !fit_passes(fit->observed, fit->standard_error, row->declared)) {
         const double order = overall(c, row, fit->floor);
@@ -344,7 +345,7 @@ static void certify(const converge *c, motus_converge_row *row, const fit_order_
     }
 }
 
-/* Whether every run failed: then the message is that of the last. */
+/* Returns whether every run failed; the row then has the message of the last. */
 static bool all_failed(motus_converge_row *row, const motus_point *points, motus_status failed, const motus_error *e,
                        char *text)
 {
@@ -357,7 +358,7 @@ static bool all_failed(motus_converge_row *row, const motus_point *points, motus
     return true;
 }
 
-/* The points of a row that chooses its steps, and its certificates. */
+/* Measures the points of an adaptive row, and writes its certificates. */
 static motus_status make_paced(converge *c, const motus_method *card, motus_converge_row *row, motus_point *points,
                                char *text, motus_error *e, motus_status *failed)
 {

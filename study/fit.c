@@ -33,7 +33,7 @@
 #define FIT_ROUGHNESS 0.5
 #define OCTAVE 1.999 /* 2, less the rounding of steps */
 #define EXACT_STEPS 8.0
-#define FIT_MARGIN 0.15 /* the certificate's */
+#define FIT_MARGIN 0.15 /* of the certificate */
 #define FIT_POINTS_MAX 128
 
 fit_result fit_line(const double *x, const double *y, size_t count)
@@ -69,10 +69,10 @@ static double local_slope(const motus_point *p, const motus_point *q)
     return log(p->error / q->error) / log(p->step / q->step);
 }
 
-/* A point whose run ended with an error that is small and not zero. */
+/* Returns whether a point's run ended with an error that is small and not zero. */
 static bool counts(const motus_point *p) { return p->error > 0 && p->error < FIT_CEILING; /* false for NaN */ }
 
-/* The index where the plateau of round-off begins, or count. */
+/* Returns the index where the plateau of round-off begins, or count. */
 static size_t plateau(const motus_point *points, size_t count, double duration, double noise)
 {
     for (size_t i = 0; i + 1 < count; i++) {
@@ -83,14 +83,14 @@ static size_t plateau(const motus_point *points, size_t count, double duration, 
             continue;
         if (local_slope(&points[i], &points[i + 1]) >= FIT_FLAT) continue;
         /* The error before a flat stretch may be small because terms cancel there; if the point after the next is no
-         * better either, this is round-off. */
+         * better, the stretch is round-off. */
         if (i + 2 == count || !counts(&points[i + 2]) || local_slope(&points[i], &points[i + 2]) < FIT_FLAT) return i;
     }
     return count;
 }
 
-/* Whether rounding explains the error at every step: each step rounds once or twice, a recursion of second order sums
- * its sums, and the reference solution has its own error. */
+/* Returns whether rounding explains the error at every step: each step rounds once or twice, a recursion of second
+ * order sums its sums, and the reference solution has its own error. */
 static bool exact_everywhere(const motus_point *points, size_t count, double duration, double noise,
                              double reference_error)
 {
@@ -104,12 +104,12 @@ static bool exact_everywhere(const motus_point *points, size_t count, double dur
     return finite >= FIT_POINTS_MIN;
 }
 
-/* The points that count and lie clear of round-off, coarse to fine; sets r->floor to the round-off found. */
+/* Finds the points that count and lie clear of round-off, coarse to fine; sets r->floor to the round-off found. */
 static size_t find_clear(motus_point *points, size_t count, double duration, double noise, fit_order_result *r,
                          motus_point **clear)
 {
     size_t flat = plateau(points, count, duration, noise), n = 0;
-    /* A flat stretch of the last two points may still be such a cancellation. */
+    /* A flat stretch of the last two points may still be a cancellation. */
     r->settled = flat + 2 < count;
     if (flat < count) {
         double level = 0;

@@ -18,29 +18,29 @@
 #define TOLERANCE_LEAST 1e-15
 #define TOLERANCE_MOST 0.1
 #define CLOSE 0.66   /* of the accuracy: a larger error is near enough to it */
-#define AIM 0.82     /* of the accuracy, between the two */
+#define AIM 0.82     /* of the accuracy: the error that a point between two others aims at */
 #define NARROW 0.01  /* a bracket in which the work differs by less than this part needs no more points */
-#define TRIES 6      /* between two points */
+#define TRIES 6      /* most points between two others */
 #define GARBAGE 0.05 /* relative: a larger error tells no order */
-#define LEFT 10.0    /* relative: a run that is so far away has left the motion */
-#define ROUNDED 1e-7 /* relative: an error below this that no longer falls is rounding, where the force is smooth */
+#define LEFT 10.0    /* relative: a run with a larger error has left the motion */
+#define ROUNDED 1e-7 /* relative: a smaller error that no longer falls is rounding, where the force is smooth */
 #define PLATEAU_TOLERANCES 100.0
 #define PLATEAU_STEPS 2.0
 #define FALLS 0.7
-#define TIMES_MOST 10    /* a short run is timed more often, until all take */
-#define TIMES_LEAST 1e-3 /*   so many seconds, */
-#define TIMES_LONG 0.05  /* and a long one no more than twice where both take so many */
+#define TIMES_MOST 10    /* most runs that time a short one */
+#define TIMES_LEAST 1e-3 /* seconds that all timed runs take at least */
+#define TIMES_LONG 0.05  /* seconds of two runs, above which a run is timed no more than twice */
 
 double ladder_step(const ladder *l, const ladder_point *p) { return fabs(l->s->until - l->s->from) / p->setting; }
 
 static bool adaptive(const ladder *l) { return l->card->adaptive; }
 
-/* How much finer q is than p, as a factor of steps or of tolerances. */
+/* Returns how much finer q is than p, as a factor of steps or of tolerances. */
 static double finer(const ladder *l, double p, double q) { return adaptive(l) ? p / q : q / p; }
 
 static double raised(double base, double power) { return exp(power * log(base)); }
 
-/* Two digits, so that it can be given again. */
+/* Rounds a tolerance to two digits, so that it can be given again. */
 static double rounded(double tolerance)
 {
     const int power = (int)floor(log(tolerance) / log(10)) - 1;
@@ -52,7 +52,7 @@ static bool meets(const ladder *l, const ladder_point *p, double accuracy)
     return p->error + (l->absolute ? l->t->absolute : l->t->relative) <= accuracy;
 }
 
-/* What a run costs, in evaluations: implicit equations need a Jacobian, one evaluation a column. */
+/* Returns the cost of a run in evaluations; implicit equations need a Jacobian, which is one evaluation a column. */
 static double cost(const ladder *l, double steps, double evaluations)
 {
     return evaluations + (l->card->evaluations > 0 ? 0 : steps * (double)l->s->numbers);
@@ -83,7 +83,7 @@ static motus_status go(const ladder *l, motus_run *run, int part, double setting
     return status;
 }
 
-/* The largest error along a run. A run that leaves the motion is given up. */
+/* Finds the largest error along a run; a run that leaves the motion is given up. */
 static motus_status follow(ladder *l, motus_run *run, ladder_point *p, motus_error *e)
 {
     truth_distance worst = {0, 0}, d;
@@ -141,8 +141,8 @@ static motus_status add(ladder *l, double setting)
 
 /* From coarse to fine ---------------------------------------------------------------------------------------------- */
 
-/* Whether errors no longer fall, by rounding or by kinks of the force: no point within a factor PLATEAU of the finest
- * is better than the best before. */
+/* Returns whether errors no longer fall, by rounding or by kinks of the force: no point within a factor PLATEAU of the
+ * finest is better than the best before. */
 static bool stalled(const ladder *l)
 {
     const double unit = l->absolute ? l->t->absolute / l->t->relative : 1; /* of relative errors */
@@ -155,7 +155,7 @@ static bool stalled(const ladder *l)
     return before < ROUNDED * unit && after > FALLS * before;
 }
 
-/* The least error so far. */
+/* Returns the least error so far. */
 static double least(const ladder *l)
 {
     double best = INFINITY;
@@ -190,14 +190,14 @@ static double ended(ladder *l, double accuracy, double evaluations)
     return 0;
 }
 
-/* The setting that is to follow the finest; 0: none is. */
+/* Returns the setting that is to follow the finest; 0: none is. */
 static double next(ladder *l, double accuracy)
 {
     const ladder_point *p = &l->points[l->count - 1];
     const double order = l->card->order;
     if (stalled(l) || l->count == LADDER_MOST) return ended(l, accuracy, 0);
     const bool known = isfinite(p->error) && p->error > 0;
-    const double fall = known ? 0.6 * accuracy / p->error : 1; /* by which the error is to fall */
+    const double fall = known ? 0.6 * accuracy / p->error : 1; /* the factor by which the error is to fall */
     const double each =
         cost(l, 1, p->evaluations > 0 ? (double)p->evaluations / (double)p->steps : study_evaluations(l->card, 1));
     if (adaptive(l)) {
@@ -212,7 +212,8 @@ static double next(ladder *l, double accuracy)
     return n;
 }
 
-/* Between the points of index k - 1, which does not meet the accuracy, and k, which does; 0: they are near enough. */
+/* Returns a setting between the points k - 1, which does not meet the accuracy, and k, which does; 0: they are near
+ * enough. */
 static double between(const ladder *l, size_t k, double accuracy)
 {
     const ladder_point *p = &l->points[k - 1], *q = &l->points[k];

@@ -20,12 +20,12 @@
 #include <string.h>
 
 #define TOLERANCE_FIRST 0.01
-#define TOLERANCE_LAST 1e-12 /* below it rounding enters the estimates, and so the steps */
+#define TOLERANCE_LAST 1e-12 /* a smaller one brings rounding into the estimates, and so into the steps */
 #define FINE_ORDER 4         /* from this order on four points an octave of steps, below it one */
 #define PART 0.4             /* of a step */
 #define MARGIN 0.25
-#define LOST 1.0       /* an order, */
-#define LOST_PART 0.25 /* or a part of a high one, which shows later */
+#define LOST 1.0       /* of an order: how far below its due a slope refutes */
+#define LOST_PART 0.25 /* of a high order: such a distance, which shows later */
 #define CEILING 0.01   /* of the motion's size; errors above it, or below CLEARANCE times round-off, tell no order */
 #define CLEARANCE 30.0
 #define SUMMED 10.0
@@ -40,7 +40,7 @@ double paced_tolerance(const motus_method *card, size_t i)
     return tolerance >= TOLERANCE_LAST ? tolerance : 0;
 }
 
-/* The errors at the end of the last step, and within it. */
+/* Measures the errors at the end of the last step, and within it. */
 static motus_status judge(paced *p, motus_run *run, double before, motus_point *point, motus_error *e)
 {
     study *s = p->s;
@@ -101,8 +101,8 @@ typedef struct slopes {
     fit_result by_step, by_tolerance; /* slope NaN: too few points */
 } slopes;
 
-/* Round-off is what the fit has found; where it is the same in every step, of a sum that is not compensated, it is one
- * rounding of every step, of which a tenth of the error is left. */
+/* Returns whether an error is clear of round-off: of what the fit has found; and, where a sum is not compensated and
+ * round-off is equal in every step, of one rounding per step, of which a tenth of the error is left. */
 static bool clear(const paced_noise *noise, const motus_point *p, double error)
 {
     if (!(p->step > 0)) return false;
@@ -110,7 +110,7 @@ static bool clear(const paced_noise *noise, const motus_point *p, double error)
     return error < CEILING && error >= fmax(CLEARANCE * noise->floor, SUMMED * steps * noise->number);
 }
 
-/* The slopes over the finest octaves, of the errors at the ends of steps (whose points become `used`) or between. */
+/* Fits slopes over the finest octaves, of errors at the ends of steps, whose points become `used`, or between. */
 static slopes slopes_of(const paced_noise *noise, motus_point *points, size_t count, bool between)
 {
     double step[POINTS_MOST], tolerance[POINTS_MOST], error[POINTS_MOST], finest = 0, coarsest = 0;

@@ -1,4 +1,5 @@
-/* One step of explicit Euler from (x, v) with step 1 ends at the velocity v + a: so the public calls give a.
+/* Properties of the equations, by the public calls: a step of explicit Euler of size 1 from (x, v) ends at the velocity
+ * v + a.
  *
  * Invariant: a probe never changes the system; what it cannot compute is NaN or false, not an error.
  */
@@ -34,7 +35,7 @@ typedef struct linearised {
     double *moved, *plus, *minus;
 } linearised;
 
-/* out = J u, both in units of scale; false where it cannot be computed. */
+/* Computes out = J u, both in units of scale. False: it cannot be computed. */
 static bool product(void *ctx, const double *u, double *out)
 {
     const linearised *j = ctx;
@@ -83,7 +84,7 @@ motus_status probe_columns(study *s, double t, const double *y, const size_t *co
     if (!room) return fail(s->err, MOTUS_MEMORY, "out of memory for a state of %zu numbers", s->numbers);
     double *moved = room, *before = moved + s->numbers, *after = before + column_count;
     for (int pattern = -1; pattern < PATTERNS; pattern++) {
-        /* The signs differ from pattern to pattern, so that opposite contributions do not always cancel. */
+        /* Signs differ from pattern to pattern, so that opposite contributions do not always cancel. */
         for (size_t k = 0; k < s->numbers; k++) {
             double sign = pattern < 0 ? 0 : rate_scatter((size_t)(pattern + 1) * (k + 1)) > 0 ? 1 : -1;
             moved[k] = y[k] * (1 + sign * PATTERN_OFFSET);

@@ -7,8 +7,8 @@
 
 /* Computes a (nv numbers) at (t, y). False: it cannot be computed. */
 bool probe_acceleration(study *, double t, const double *y, double *a);
-/* Returns the largest |eigenvalue| of the Jacobian of (x', v') at (t, y), by power iteration, in the study's scale: ω of
- * the fastest oscillation, or the fastest decay or growth. 0: negligible; NaN: it cannot be computed. */
+/* Returns the largest |eigenvalue| of the Jacobian of (x', v') at (t, y), by power iteration, in the study's scale: ω
+ * of the fastest oscillation, or the fastest decay or growth. 0: negligible; NaN: it cannot be computed. */
 double probe_rate(study *, double t, const double *y);
 /* Returns how fast the state changes at (t, y), in units of its size per time: at most ω/2 for an oscillation. NaN: it
  * cannot be computed. */

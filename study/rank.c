@@ -15,10 +15,10 @@
 #include <string.h>
 
 enum { ACCURACIES_MAX = 40, REPEATS = 3, REMARKS_MAX = 2048 };
-#define LEAST 1e-15 /* a relative accuracy */
-#define CLEAR 10    /* the reference's error is at least so many times smaller than an accuracy */
-/* The bound on the work (study_work) of one run, 1.1e6 evaluations of one oscillator; and less where it is above FACTOR
- * times what the best method so far needs for the finest accuracy, but no less than WORK_LEAST. */
+#define LEAST 1e-15 /* of relative accuracies */
+#define CLEAR 10    /* least factor from the reference's error to an accuracy that is judged */
+/* The bound on the work (study_work) of one run: 1.1e6 evaluations of one oscillator; less if that is above FACTOR
+ * times what the best method so far needs for the finest accuracy, but at least WORK_LEAST. */
 #define WORK 2e7
 #define WORK_LEAST 3.6e6
 #define FACTOR 100.0
@@ -29,7 +29,7 @@ typedef struct row_text {
 } row_text;
 
 typedef struct result {
-    motus_ranking seen; /* first: the handle the user holds */
+    motus_ranking seen; /* first, since it is the handle the user holds */
     motus_allocator allocator;
     char reference[SOLUTION_TEXT_MAX], remarks[REMARKS_MAX], machine[MOTUS_NAME_MAX];
     double accuracies[ACCURACIES_MAX];
@@ -49,11 +49,11 @@ typedef struct rank {
     size_t asked, judged;
     const char **methods;
     size_t count;
-    size_t *turn; /* in which the methods are taken */
+    size_t *turn; /* the order in which methods are taken */
     double *y;
     ladder *ladder;
-    double most;   /* evaluations of a run */
-    double fewest; /* by which a method so far has reached the finest accuracy; INFINITY: none has */
+    double most;   /* most evaluations of a run */
+    double fewest; /* the fewest with which a method so far has reached the finest accuracy; INFINITY: none has */
     result *out;
 } rank;
 
@@ -67,7 +67,7 @@ static motus_status refuse_accuracy(double a, motus_error *err)
     return MOTUS_ARGUMENT;
 }
 
-/* A tenth of it, as one writes it. */
+/* Divides an accuracy by ten so many times, as one writes it. */
 static double tenth(double a, int times)
 {
     int power = 0;
@@ -178,7 +178,7 @@ static motus_status row_failed(rank *r, size_t k, motus_status status, const mot
     return MOTUS_OK;
 }
 
-/* The time of a point; that of an equal one before it is taken over. */
+/* Finds the time of a point; an equal point before it supplies its own. */
 static motus_status time_point(rank *r, const ladder_point *p, motus_rank_point *points, size_t i)
 {
     for (size_t k = 0; k < i; k++)
@@ -299,7 +299,7 @@ static void remark(rank *r)
             order);
 }
 
-/* Those of high order first, since they tell what an accuracy need not cost. */
+/* Takes methods of high order first, since they tell what an accuracy need not cost. */
 static void take_turns(rank *r)
 {
     for (size_t k = 0; k < r->count; k++) {
@@ -343,7 +343,7 @@ static motus_status find_truth(rank *r)
     return MOTUS_OK;
 }
 
-/* Refuses a machine that there is not before anything is computed. */
+/* Refuses an unknown machine before anything is computed. */
 static motus_status find_machine(rank *r)
 {
     study *s = &r->s;

@@ -1,9 +1,9 @@
 /* The reference solution at any time, as a handle: motus_reference.
  *
- * The solution is computed once, as compare computes it, and its rows at the points of the grid are kept. A state at
- * any other time is computed by the same method, with steps no larger than the solution's, from the last kept row
- * before that time (or from the last answer, if that is nearer). Invariant: the errors of answers do not accumulate:
- * each is less than one interval of the grid away from a kept row.
+ * The solution is computed once, as for compare, and its rows at the points of the grid are kept. A state at another
+ * time is computed by the solution's method, with steps no larger than its own, from the last kept row before that
+ * time, or from the last answer if that is nearer. Invariant: errors of answers do not accumulate, since each is less
+ * than one interval of the grid away from a kept row.
  */
 #include "solution.h"
 #include "base/decimal.h"

@@ -12,15 +12,15 @@
 
 #define LINE_MAX_BYTES 900
 #define NAMES_SHOWN 6
-#define CLOSE 1e-6    /* relative: a measured amount nearer than this to the predicted one confirms it */
-#define FAR 100.0     /* times the rounding: an amount above this is not rounding */
-#define RETURNED 1e-7 /* of the motion's size: a run back that ends nearer than this to the start has returned */
+#define CLOSE 1e-6    /* relative: a measured amount that is nearer to the predicted one confirms it */
+#define FAR 100.0     /* times the rounding: a larger amount is not rounding */
+#define RETURNED 1e-7 /* of the motion's size: a run back has returned if it ends nearer to the start */
 
 typedef struct sheet {
     char *text;
     size_t size, length;
 } sheet;
-/* Whether a sentence applies to row k. */
+/* Returns whether a sentence applies to row k. */
 typedef bool member(const remarks_view *, size_t k, size_t invariant);
 
 static void say(sheet *s, const char *format, ...) __attribute__((format(printf, 2, 3)));
@@ -56,13 +56,13 @@ static size_t names(const remarks_view *v, member *is, size_t invariant, char *o
 
 static bool ran(const remarks_view *v, size_t k) { return v->rows[k].status == MOTUS_OK; }
 
-/* The largest error among positions, velocities and first-order variables, of those that there are. */
+/* Returns the largest error among the positions, velocities and first-order variables that there are. */
 static double largest_error(const motus_compare_row *r)
 {
     return fmax(fmax(r->error_max_x, r->error_max_v), r->error_max_s);
 }
 
-/* How much rounding may change a position or velocity of row k over the run. */
+/* Returns how much rounding may change a position or velocity of row k over the run. */
 static double rounding(const remarks_view *v, size_t k)
 {
     return 4 * DBL_EPSILON * v->s->magnitude * (8 + sqrt((double)v->rows[k].evaluations)) + 4 * v->reference->error;
@@ -183,7 +183,7 @@ static void invariant(const remarks_view *v, size_t i, sheet *out)
             name, list, n == 1 ? "" : v->rows[worst].method, n == 1 ? "" : " ", drift(v, worst, i)->initial,
             drift(v, worst, i)->final, n == 1 ? "its" : "their");
     n = names(v, stays, i, list, sizeof list);
-    /* There is a modified energy only where there is an energy. */
+    /* Only an energy has a modified energy. */
     if (n && !v->analysis.time_dependent)
         say(out,
             "%.80s: with %s it oscillates by at most %.3g and shows no trend, since a symplectic method nearly "

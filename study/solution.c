@@ -18,21 +18,20 @@
 
 #define NONE "none: " /* begins the text where nothing is known */
 #define SOLUTION_CANDIDATES 3
-/* Halved steps of a higher order reach rounding at once, so that their differences tell nothing of their error. */
+/* Halved steps of a higher order reach rounding at once, so that their differences do not tell their error. */
 #define SOLUTION_ORDER_MOST 8
-#define SOLUTION_ORDERS_BELOW 2 /* candidates are at most this far below the highest admitted order */
+#define SOLUTION_ORDERS_BELOW 2 /* how far candidates may be below the highest admitted order */
 #define SOLUTION_LEVELS 24      /* halvings of an interval */
-/* a difference that stops falling is round-off if it is below this, else the motion is not yet resolved */
+/* a difference that stops falling is round-off if it is smaller, else the motion is not yet resolved */
 #define SOLUTION_SMALL 1e-6
 #define SOLUTION_FALL 1.5 /* the smallest factor per halving that counts as a fall */
-#define SOLUTION_GOOD 64  /* times the rounding of the motion's size: dearer methods are not tried then */
-#define SOLUTION_LOST 0.1 /* of the motion's size: an estimate beyond this says that nothing is known */
-#define SOLUTION_FAR \
-    100 /* times the estimate of halvings: a second method that is further away says that they agree by luck */
-#define SOLUTION_ROUNDS 3                    /* so often does the first method take shorter steps then */
+#define SOLUTION_GOOD 64  /* times the rounding of the motion's size: with such an error dearer methods are not tried */
+#define SOLUTION_LOST 0.1 /* of the motion's size: with a larger estimate nothing is known */
+#define SOLUTION_FAR 100  /* times the estimate of halvings: if a second method is farther away, they agree by luck */
+#define SOLUTION_ROUNDS 3 /* how often the first method then takes shorter steps */
 #define SOLUTION_SHAKE 0x1p-53               /* of the largest values of the motion */
 #define SOLUTION_SAME_TIME (8 * DBL_EPSILON) /* relative */
-#define SOLUTION_UNEVEN 4 /* by how much an estimate is widened where steps cross jumps of the force */
+#define SOLUTION_UNEVEN 4 /* the factor that widens an estimate where steps cross jumps of the force */
 /* The bound on the work (study_work): about a fifth of a second of a small model, or SOLUTION_PASSES evaluations for
  * each step of the methods under study, if that is more. */
 #define SOLUTION_WORK 3e7
@@ -41,20 +40,20 @@
 typedef struct candidate {
     const motus_method *card;
     double step;
-    double x, v, scaled; /* the estimated error; scaled is NaN where there is none */
+    double x, v, scaled; /* the estimated error; scaled: NaN if there is none */
     int64_t jump;        /* as in motus_statistics, of the finest run */
     double jump_time, jump_rounding, jump_power;
     bool over;                   /* a run was given up, since it took too long */
     double work;                 /* of all its runs */
-    double more;                 /* what its last run cost, in units of what its steps alone would have cost */
-    char failed[MOTUS_TEXT_MAX]; /* why its last run failed; "" if it did not */
+    double more;                 /* what its last run cost, over the cost of the steps alone */
+    char failed[MOTUS_TEXT_MAX]; /* why its last run failed; "" */
 } candidate;
 
-/* The work of the runs of one method: study_work. */
+/* The work of the runs of one method, in units of study_work. */
 typedef struct work {
     double done, most; /* most: the bound */
     double next;       /* what a run of half the step will cost */
-    double more;       /* as in candidate, of the last run */
+    double more;       /* `more` of the last run, as in candidate */
 } work;
 
 study_grid solution_grid(const study *s, double step)
@@ -69,7 +68,7 @@ static candidate untried(const motus_method *card)
     return (candidate){.card = card, .scaled = NAN, .jump = -1, .jump_time = NAN, .jump_power = NAN};
 }
 
-/* Methods whose halved steps tell their error. */
+/* Returns whether halved steps of a method tell its error. */
 static bool suits(const motus_method *m) { return !m->adaptive && m->order > 0 && m->order <= SOLUTION_ORDER_MOST; }
 
 static size_t candidates(study *s, candidate *out)
@@ -115,7 +114,7 @@ static bool finite_rows(const study *s, const double *rows, size_t count)
     return true;
 }
 
-/* The largest differences of two tables; NaN where either holds NaN. */
+/* Returns the largest differences of two tables; NaN where either holds NaN. */
 static study_distance apart(const study *s, const double *p, const double *q, size_t rows)
 {
     study_distance most = {0, 0, 0};
@@ -143,8 +142,8 @@ static motus_status tell(study *s, motus_status status, const motus_error *e)
     return status;
 }
 
-/* A walk of a reference run, which is given up where it costs more than `limit`. Its own failure is no failure of the
- * study: it leaves NaN in the table. */
+/* Walks a reference run, which is given up if it costs more than `limit`. Its failure is none of the study: it leaves
+ * NaN in the table. */
 static motus_status walk(study *s, const motus_method *card, const study_grid *g, int64_t per, double limit,
                          const double *from, double *table, study_cost *spent, work *w, char failed[MOTUS_TEXT_MAX])
 {
@@ -156,8 +155,8 @@ static motus_status walk(study *s, const motus_method *card, const study_grid *g
     s->limit = 0;
     if (study_fatal(status)) return tell(s, status, &ignored);
     snprintf(failed, MOTUS_TEXT_MAX, "%s", status == MOTUS_OK ? "" : ignored.message);
-    /* A run that failed early cost little; the next one may cost its full price. Half the step costs twice as much,
-     * but for what it costs to locate switches. */
+    /* A run that failed early cost little; the next one may cost its full price. Half the step costs twice as much, but
+     * for what it costs to locate switches. */
     const double cost = fmax(each * (double)spent->evaluations, plain);
     w->done += cost;
     w->next = cost + plain;
@@ -173,8 +172,8 @@ static void swap(double **p, double **q)
 }
 
 /* Halves the step, from 2^-level of an interval on, until only round-off is left, or the error is below `enough`, or
- * the work is spent; the first two runs, without which nothing is known, may take `total` each. *now and *before are
- * tables with room for the points (without the start); at the end *now holds the best run. */
+ * the work is spent. The first two runs, without which nothing is known, may take `total` each. *now and *before are
+ * tables with room for the points without the start; at the end *now holds the best run. */
 static motus_status refine(study *s, const study_grid *g, double budget, double total, double enough, int level,
                            candidate *c, double **now, double **before)
 {
@@ -231,8 +230,8 @@ static motus_status refine(study *s, const study_grid *g, double budget, double 
     return MOTUS_OK;
 }
 
-/* The rounding that halving the step does not show: values are rounded when they are stored, and the method's
- * coefficients are rounded too, so their sums are off by an ulp or so at every step size; that error grows with the
+/* Adds the rounding that halving the step does not show. Values are rounded when they are stored, and the method's
+ * coefficients are rounded, so their sums are off by an ulp or so at every step size; that error grows with the
  * distance which a number moves. The times of switches are rounded alike in all runs. */
 static void own_rounding(const study *s, const study_grid *g, const candidate *c, solution *r)
 {
@@ -250,14 +249,14 @@ static void own_rounding(const study *s, const study_grid *g, const candidate *c
 
 /* Judging by another method ---------------------------------------------------------------------------------------- */
 
-/* Whether a run of so many steps costs more than `most`, without the cost of switches. */
+/* Returns whether a run of so many steps costs more than `most`, switches not counted. */
 static bool too_dear(const study *s, const motus_method *m, double steps, double most)
 {
     return study_work(s, m, steps, -1) > most;
 }
 
-/* The method that judges `best`: of another family if one has nearly its order, else another row, else itself; one that
- * can take so many steps. */
+/* Returns the method that judges `best`, and can take so many steps: of another family if one has nearly its order,
+ * else another row, else itself. */
 static const motus_method *judge_of(study *s, const motus_method *best, double steps, double most)
 {
     const motus_method *judge = best;
@@ -301,8 +300,8 @@ static motus_status judge(study *s, const study_grid *g, double budget, candidat
     return MOTUS_OK;
 }
 
-/* Where the force jumps and no step ends there, the error of a run depends on where its steps happen to lie, and falls
- * unevenly: factors from experience. */
+/* Widens an error where the force jumps and no step ends there, by factors from experience: it depends on where steps
+ * happen to lie, and falls unevenly. */
 static void widen(solution *r)
 {
     r->error *= SOLUTION_UNEVEN;
@@ -326,7 +325,7 @@ static const char *why_unknown(const candidate *list, size_t count)
     return "no method of high order applies";
 }
 
-/* The solution is the run of `best` in `table`, with the error that its halvings tell. */
+/* Takes the run of `best` in `table` as the solution, with the error that its halvings tell. */
 static void adopt(study *s, const study_grid *g, const candidate *best, const double *table, solution *r)
 {
     r->known = true;
@@ -345,8 +344,8 @@ static void adopt(study *s, const study_grid *g, const candidate *best, const do
     own_rounding(s, g, best, r);
 }
 
-/* All runs begin at the same rounded numbers, and near a place where the motion rests they round alike for long: that
- * error does not show between them. So one run begins a rounding away, and its distance at the end counts too. */
+/* Adds the distance of a run that begins a rounding away. All other runs begin at equal rounded numbers, and near a
+ * place where the motion rests they round alike for long: their distances do not show that error. */
 static motus_status shake(study *s, const study_grid *g, double budget, candidate *best, solution *r, double *room)
 {
     double *from = s->work;
@@ -368,8 +367,8 @@ static motus_status shake(study *s, const study_grid *g, double budget, candidat
     return MOTUS_OK;
 }
 
-/* Judges the solution by a second method. Halvings of the first one may agree because all of them miss the same; while
- * the judge is far from what they tell, the first one takes shorter steps than these. */
+/* Judges the solution by a second method. Halvings of the first one may agree because all of them miss something; while
+ * the second one is far from what they tell, the first one takes shorter steps. */
 static motus_status agree(study *s, const study_grid *g, double budget, double enough, candidate *best, solution *r,
                           double *now, double *before)
 {
@@ -431,7 +430,7 @@ static motus_status find_reference(study *s, const study_grid *g, int64_t steps,
     return MOTUS_OK;
 }
 
-/* With steps that end at switches, and that resolve the force. */
+/* Finds the solution with steps that end at switches, and that resolve the force. */
 static motus_status find_located(study *s, const study_grid *g, int64_t steps, double enough, solution *r, double *room)
 {
     const size_t table = g->points * s->numbers;
@@ -447,7 +446,7 @@ static motus_status find_located(study *s, const study_grid *g, int64_t steps, d
     return status;
 }
 
-/* Where an exact motion is known, a run is still needed to find where the force is not smooth along it. */
+/* Finds where the force is not smooth along an exact motion, by a run. */
 static motus_status find_jump(study *s, const study_grid *g, solution *r)
 {
     motus_analysis analysis = motus_default_analysis();

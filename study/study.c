@@ -13,8 +13,8 @@
 
 #define PROGRESS_SECONDS 0.01    /* between two calls of the progress hook */
 #define EVALUATION_OVERHEAD 16.0 /* of an evaluation, in numbers */
-#define SOLVE_PASSES 4.0         /* evaluations for each stage of a solve */
-#define SOLVE_FLOPS 3e4          /* of elimination that take as long as an evaluation */
+#define SOLVE_PASSES 4.0         /* evaluations for each stage that is solved */
+#define SOLVE_FLOPS 3e4          /* operations of elimination that take as long as an evaluation */
 #define AT_REST 1e-10            /* a group that moves less than this part of its size is at rest */
 
 double study_seconds(void)
@@ -42,7 +42,7 @@ double study_work(const study *s, const motus_method *m, double steps, double ev
 {
     double numbers = (double)s->numbers, unknowns = numbers * m->stages;
     if (evaluations < 0) evaluations = study_evaluations(m, steps);
-    /* A solve needs a Jacobian, one evaluation a column, and its elimination. */
+    /* A solve needs a Jacobian, which is one evaluation a column, and its elimination. */
     if (m->evaluations == 0) evaluations += steps * (numbers + unknowns * unknowns * unknowns / SOLVE_FLOPS);
     return evaluations * (numbers + EVALUATION_OVERHEAD);
 }
@@ -80,7 +80,7 @@ static motus_status tick(study *s, double fraction)
     return fail(s->err, MOTUS_CANCELLED, "%s", motus_status_text(MOTUS_CANCELLED));
 }
 
-/* Whether the present walk has cost more than its limit. */
+/* Returns whether the present walk has cost more than its limit. */
 static bool over(const study *s)
 {
     return s->limit > 0 && s->walking && (double)motus_run_evaluations(s->walking) > s->limit;
@@ -145,7 +145,7 @@ static void find_groups(study *s)
     }
 }
 
-/* A callback that reads the velocity though its definition says that it does not: every run would fail. */
+/* Refuses a callback that reads the velocity though its definition denies it: every run would fail. */
 static motus_status refuse_undeclared(motus_run *trial, motus_error *err)
 {
     motus_error e = motus_default_error();
@@ -187,7 +187,7 @@ motus_status study_open(study *s, motus_system *system, const motus_study_def *d
         return fail(err, MOTUS_MEMORY, "out of memory for a state of %zu numbers", s->numbers);
     find_groups(s);
 
-    /* A trial run says where the start is, so that the model's rules about it are in one place. */
+    /* A trial run tells the start, so that the model's rules about it are in one place. */
     motus_run *run = NULL;
     double trial = step > 0 ? step : fabs(s->until - s->from) / 64;
     if (!(trial > 0)) trial = 1;
@@ -242,7 +242,7 @@ motus_status study_methods(study *s, const motus_study_def *def, bool adaptive, 
         const motus_method *m = NULL;
         if (all) {
             m = motus_method_at(k);
-            /* The others are compared with the exact motion. */
+            /* The other methods are compared with the exact motion. */
             if (m->order > 0 && (adaptive || !m->adaptive) && study_admits(s, m->name)) (*names)[(*count)++] = m->name;
             continue;
         }
@@ -327,7 +327,7 @@ motus_status study_walk(study *s, const char *method, const study_grid *g, int64
         if (status == MOTUS_OK && over(s)) status = MOTUS_CANCELLED;
         if (status != MOTUS_OK) break;
     }
-    cost->over = over(s); /* the same on every machine, whenever the hook was called */
+    cost->over = over(s); /* so that the result is equal on every machine, whenever the hook was called */
     s->walking = NULL;
     if (cost->over && !s->cancelled) status = MOTUS_SOLVE;
     for (size_t k = done * s->numbers; k < g->points * s->numbers; k++) out[k] = NAN;

@@ -20,8 +20,8 @@
 #define TREND_AGREEMENT 0.9
 #define TREND_SAMPLES_MIN 8
 
-/* How often the residual goes from more than half its mean size above the line to as much below it, or back. The
- * threshold makes short high peaks count as well as even swings. */
+/* Counts how often the residual goes from more than half its mean size above the line to as much below it, or back.
+ * With this threshold short high peaks count as even swings do. */
 static size_t swings(const double *t, const double *deviation, size_t count, fit_result line)
 {
     double mean = 0, before = 0;

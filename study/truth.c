@@ -18,17 +18,17 @@
 #include <stdio.h>
 #include <string.h>
 
-#define TOLERANCE 1e-15 /* the smallest that rounding leaves a meaning */
+#define TOLERANCE 1e-15 /* below it rounding leaves no meaning */
 #define ORDER_LEAST 8
 #define CANDIDATES 4
-/* The bound on the work (study_work) of one run: as that of a reference of fixed step. */
+/* The bound on the work (study_work) of one run, as for a reference of fixed step. */
 #define WORK 3e7
 #define SHAKE 0x1p-53 /* of the largest values of the motion */
 #define LOST 0.1      /* of the motion's size: an error beyond this says that nothing is known */
 
 static size_t kind_of(const study *s, size_t number) { return number < s->nx ? 0 : number < 2 * s->nx ? 1 : 2; }
 
-/* The largest number of each kind of one state. */
+/* Finds the largest number of each kind in one state. */
 static void sizes_of(const study *s, const double *y, double size[TRUTH_KINDS])
 {
     for (size_t k = 0; k < s->numbers; k++) size[kind_of(s, k)] = fmax(size[kind_of(s, k)], fabs(y[k]));
@@ -40,7 +40,7 @@ static truth_distance distance(const study *s, const double *p, const double *q,
     for (size_t k = 0; k < s->numbers; k++) {
         const double e = fabs(p[k] - q[k]), unit = size[kind_of(s, k)];
         d.absolute = study_larger(d.absolute, e);
-        if (e != 0) d.relative = study_larger(d.relative, e / unit); /* NaN: of a number that is not finite */
+        if (e != 0) d.relative = study_larger(d.relative, e / unit); /* NaN stays */
     }
     return d;
 }
@@ -62,7 +62,7 @@ static void find_sizes(const study *s, truth *t, const double *rows)
     }
 }
 
-/* The largest distance of two tables, the start left out. */
+/* Returns the largest distance of two tables, without the start. */
 static truth_distance apart(const study *s, const truth *t, const double *p, const double *q)
 {
     truth_distance most = {0, 0};
@@ -73,8 +73,8 @@ static truth_distance apart(const study *s, const truth *t, const double *p, con
 
 /* The reference of fixed step -------------------------------------------------------------------------------------- */
 
-/* Its error, which is one number for all numbers and times, in the units of every row; and what rounding of the times
- * and of the values does to a formula. */
+/* Returns the error of the reference of fixed step in the units of every row: one number serves for all numbers and
+ * times; and adds what rounding of times and values does to a formula. */
 static truth_distance error_of(const study *s, const truth *t)
 {
     truth_distance most = {0, 0};
@@ -96,16 +96,16 @@ static truth_distance error_of(const study *s, const truth *t)
 
 typedef struct candidate {
     const motus_method *card;
-    double *rows; /* as those of the solution; NULL: the run failed */
+    double *rows; /* as the rows of a solution; NULL: the run failed */
 } candidate;
 
-/* The adaptive methods of highest order that the motion admits. */
+/* Lists the adaptive methods of highest order that the motion admits. */
 static size_t candidates(study *s, candidate *out)
 {
     size_t count = 0;
     for (size_t k = 0; k < motus_method_count(); k++) {
         const motus_method *m = motus_method_at(k);
-        /* those of reversible steps control no error */
+        /* reversible steps control no error */
         if (!m->adaptive || m->reversible || m->order < ORDER_LEAST || !study_admits(s, m->name)) continue;
         size_t at = count;
         while (at > 0 && out[at - 1].card->order < m->order) at--;
@@ -117,7 +117,7 @@ static size_t candidates(study *s, candidate *out)
     return count;
 }
 
-/* Its rows from the state in the first one on. *bad: the run failed, or cost too much. */
+/* Computes the rows from the state in the first one. *bad: the run failed, or cost too much. */
 static motus_status integrate(study *s, const truth *t, const motus_method *m, double *rows, bool *bad)
 {
     const double most = WORK / study_work(s, m, 0, 1), base = s->base, span = s->span;
@@ -140,7 +140,7 @@ static motus_status integrate(study *s, const truth *t, const motus_method *m, d
     return study_fatal(status) ? status : MOTUS_OK;
 }
 
-/* A run of `best` from a start that is a rounding away. */
+/* Runs `best` from a start that is a rounding away. */
 static motus_status shake(study *s, const truth *t, const candidate *best, double *room, truth_distance *d)
 {
     bool bad;
@@ -154,7 +154,7 @@ static motus_status shake(study *s, const truth *t, const candidate *best, doubl
     return status;
 }
 
-/* Takes the pair that is nearest to each other as the solution, if its error is smaller. */
+/* Takes the two rows nearest to each other as the solution, if their error is smaller. */
 static motus_status judge(study *s, truth *t, const candidate *list, size_t count, double *room)
 {
     const candidate *best = NULL, *other = NULL;
