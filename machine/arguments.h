@@ -1,7 +1,6 @@
-/* The arguments of the operations in the functions of rules that are no polynomials. Where each of these operations is
- * regular over all values that its arguments take in a step, no feature of the function is narrow beside points that
- * resolve the arguments (core/rules.h).
- */
+/* The arguments of the operations, in functions of rules, that are not polynomials. Where each operation is regular
+ * over all values that its arguments take in a step, no feature of the function is narrow beside points that resolve
+ * the arguments (core/rules.h). */
 #ifndef MACHINE_ARGUMENTS_H
 #define MACHINE_ARGUMENTS_H
 
@@ -10,14 +9,14 @@
 
 typedef struct arguments arguments;
 
-/* Of all leaves of the model's rules, numbered in their order. Lives in the model's arena. False: no memory. */
+/* Finds the arguments of all leaves of the model's rules, in the model's arena. False: no memory. */
 bool arguments_create(model *, arguments **);
-bool arguments_bind(arguments *, const binding *); /* as tape_bind */
-/* How many a function has, at most RULE_ARGUMENTS_MOST. */
+bool arguments_bind(arguments *, const binding *); /* binds its tapes, as tape_bind does */
+/* Returns the largest number of arguments of a function, at most RULE_ARGUMENTS_MOST. */
 size_t arguments_most(const arguments *);
-/* Argument k of function f at a state is out[k * functions + f]. */
+/* Writes argument k of function f at a state to out[k * functions + f]. */
 void arguments_run(const arguments *, size_t functions, double t, double *x, double *v, double *out);
-/* Whether all operations of a leaf are regular while its arguments go from low[k] to high[k]. */
+/* Tells whether all operations of a leaf are regular while argument k goes from low[k] to high[k]. */
 bool arguments_regular(const arguments *, size_t leaf, const double *low, const double *high);
 
 #endif

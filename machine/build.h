@@ -12,26 +12,28 @@ typedef struct build {
     compiler compiler;
     compiler_work work;
     enum { BUILD_COMPILES, BUILD_LINKS_ALONE, BUILD_LINKS } stage;
-    bool again;       /* its compiler was lost, and began again */
-    const char *text; /* stays where it is */
+    bool again;       /* the compiler was lost once, and the build began again */
+    const char *text; /* the caller's, for as long as the build lives */
     size_t length;
-    int how;                       /* as of compiler_compile */
-    char parent[BUILD_PARENT_MAX]; /* of the folder; "": that for temporary files */
+    int how;                       /* `how` of compiler_compile */
+    char parent[BUILD_PARENT_MAX]; /* the parent of `folder`; "": the folder for temporary files */
     char folder[BUILD_FOLDER_MAX];
 } build;
 
-/* Starts it, with compiler, text, how and parent given. False: `why` gives the reason, and nothing is left. */
+/* Starts the compiler; compiler, text, length, how and parent are given. False: `why` gives the reason, and no file is
+ * left. */
 bool build_begin(build *, char *why, size_t size);
-/* DONE: the library is at build_library. FAILED: `why` gives the reason. Both: build_end is to follow. */
 typedef enum { BUILD_WAIT, BUILD_DONE, BUILD_FAILED } build_state;
+/* Looks how far the build is. DONE: the library is at build_library. FAILED: `why` gives the reason. After both call
+ * build_end. */
 build_state build_look(build *, char *why, size_t size);
 const char *build_library(const build *, char out[BUILD_FILE_MAX]);
-/* The library could not be loaded: links it in the other way, if there is one. */
+/* Links in the other way a library that could not be loaded. False: there is no other way, or it failed. */
 bool build_relink(build *, char *why, size_t size);
-/* Kills what is at work, and removes the folder. */
+/* Kills the compiler or linker that is at work, and removes the folder. */
 void build_end(build *);
 
-/* Whether the process has the rights of another user, whose files it must not leave. */
+/* Tells whether the process has the rights of another user, whose files it must not leave. */
 bool build_privileged(void);
 
 #endif

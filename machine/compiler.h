@@ -12,35 +12,34 @@ typedef struct compiler {
     char identity[COMPILER_PATH_MAX + 96]; /* path, size and time of the file, for the cache key */
 } compiler;
 
-/* The one that CC names (one program or path, without options); where CC is not set, the first that exists of cc, gcc,
- * clang. False: `why` gives the reason. */
+/* Finds the compiler that CC names (one program or path, without options); where CC is not set, the first that exists
+ * of cc, gcc, clang. False: `why` gives the reason. */
 bool compiler_find(compiler *, char *why, size_t size);
-/* FAST: with the options of --fast; LOOPS: the text has long loops over arrays. */
+/* FAST: with the options of --fast. LOOPS: the text has long loops over arrays. */
 enum { COMPILER_FAST = 1, COMPILER_LOOPS = 2 };
 /* A compiler, or linker, at work. */
 typedef struct compiler_work {
-    int child;    /* its process; 0: it is gone */
+    int child;    /* its process; 0: it has ended */
     int owner;    /* the process that started it */
-    int log;      /* what it writes */
-    int tie;      /* while this is open it lives; -1: the system has no such thing */
+    int log;      /* a file with what it writes */
+    int tie;      /* a pipe: the compiler ends when it is closed; -1: the system has no such means */
     double began; /* in seconds, monotonic */
 } compiler_work;
-/* Starts compiling `source` to `object`. False: it could not be started, and `why` says why. */
+/* Starts compiling `source` to `object`. False: it could not be started; `why` gives the reason. */
 bool compiler_compile(const compiler *, const char *source, const char *object, int how, compiler_work *, char *why,
                       size_t size);
-/* Starts linking `object` to the shared library `library`; alone: by the linker itself and without any library, which
- * may fail, and may leave functions that this process does not have; else by the compiler. */
+/* Starts linking `object` to the shared library `library`, by the compiler; alone: by the linker itself and without any
+ * library, which may fail, or leave functions undefined that this process does not have. */
 bool compiler_link(const compiler *, const char *object, const char *library, bool alone, compiler_work *, char *why,
                    size_t size);
-/* Whether it has written `out`. Never waits. FAILED: `why` holds the first line of its messages. LOST: it was
- * killed, or it belongs to the process of which this one is a copy.
- * After any answer but AT_WORK it is gone. */
 typedef enum { COMPILER_AT_WORK, COMPILER_DONE, COMPILER_FAILED, COMPILER_LOST } compiler_state;
+/* Tells, without waiting, whether the compiler has written `out`. FAILED: `why` holds the first line of its messages.
+ * LOST: it was killed, or it belongs to the process of which this one is a copy. It has ended unless AT_WORK. */
 compiler_state compiler_look(compiler_work *, const char *out, char *why, size_t size);
-/* Kills it, with all that it has started, if it is at work for this process. */
+/* Kills the compiler, with all processes that it has started, if it is at work for this process. */
 void compiler_stop(compiler_work *);
-bool compiler_owned(const compiler_work *); /* by this process */
-/* A text that names the options, for the cache key. */
+bool compiler_owned(const compiler_work *); /* whether this process started it */
+/* Returns a text that names the options, for the cache key. */
 const char *compiler_options(int how);
 
 #endif

@@ -1,5 +1,4 @@
-/* The C text of a compiled model: what it is made of, in order. Both compiled machines, for one trajectory and for
- * lanes, are made here. */
+/* The C text of a compiled model: what it is made of, in order, for one trajectory and for lanes. */
 #ifndef MACHINE_COMPOSE_H
 #define MACHINE_COMPOSE_H
 
@@ -8,7 +7,7 @@
 #include "lang/model/model.h"
 #include "core/methods.h"
 
-/* of a graph, in one text: compilers take more than linear time, and minutes beyond this */
+/* Most operations of a graph in one text: compilers take more than linear time, and minutes beyond this. */
 enum { OPERATIONS_MAX = 20000 };
 
 typedef struct composed_program {
@@ -25,23 +24,22 @@ typedef struct composition {
     const chosen *chosen;
     const composed_program *programs; /* "compiled_force" first, where the text has one */
     size_t program_count;
-    const locality *locality; /* of the force, where it may be taken window by window; NULL */
-    bool bounds;              /* "compiled_least" is among them: bounds of the functions of the model's rules */
+    const locality *locality; /* of the force, if it may be computed window by window; else NULL */
+    bool bounds;              /* a program is "compiled_least": bounds of the functions of the model's rules */
     bool solves;              /* lanes: the row solves equations, by solve_text.h */
-    bool own_clock;           /* lanes: each has a time and a step of its own */
-    /* lanes: trajectories in one vector, vectors side by side; width 0: one trajectory */
-    int width, groups;
-    const char *glue;        /* C text between the programs and the texts of step/, or NULL */
-    const char *const *last; /* the texts that stand last, up to a NULL */
+    bool own_clock;           /* lanes: each trajectory has a time and a step of its own */
+    int width, groups;        /* lanes: trajectories in one vector, vectors side by side; width 0: one trajectory */
+    const char *glue;         /* C text between the programs and the texts of step/, or NULL */
+    const char *const *last;  /* the texts that stand last, up to a NULL */
 } composition;
 
-/* Whether a state has so few numbers, the same in every run, that they may stay in registers. */
+/* Tells whether a state has few numbers, and as many in every run, so that they may stay in registers. */
 bool compose_small(const model *);
-/* Whether the functions of the model's rules are the same in every run. */
+/* Tells whether the functions of the model's rules are the same in every run. */
 bool compose_bounds_are_structure(const model *);
-/* Doubles in the widest vector that this machine has an instruction for: 1, 2, 4 or 8. */
+/* Returns the number of doubles in the widest vector of this processor: 1, 2, 4 or 8. */
 int compose_width(void);
-/* Writes into e->text, and e->moments; e->lanes and e->varied must be set. False: the arena failed. */
+/* Writes the text into e->text and e->moments; e->lanes and e->varied must be set. False: no memory. */
 bool compose(emit *e, const composition *);
 
 #endif

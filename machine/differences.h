@@ -1,6 +1,4 @@
-/* The differences between a run and its companions in every number that is told, what they were lately, and the bars
- * that follow.
- */
+/* The differences between a run and its companions in every number that is told, and the bars that follow from them. */
 #ifndef MACHINE_DIFFERENCES_H
 #define MACHINE_DIFFERENCES_H
 
@@ -9,21 +7,21 @@
 /* Sums for straight lines through the points (t, y) and (ln t, y). */
 typedef struct differences_growth {
     double n, t, tt, l, ll, y, yy, ty, ly;
-    double next; /* time after the start from which on there may be another point */
+    double next; /* the time after the start from which another point may be added */
 } differences_growth;
 
 enum { DIFFERENCES_GROUPS = 3 };   /* positions, velocities, first-order variables */
 enum { DIFFERENCES_SEEN_MAX = 3 }; /* the run, its companion, a twin of the run */
 
-/* How large a group of numbers was at a time shortly before, and when it had last grown by far. */
+/* How large a group of numbers was at the time `since`, shortly before, and when it last grew by a large factor. */
 typedef struct differences_size_of {
     double size, since, grew;
 } differences_size_of;
 
 /* Which numbers are compared: the time, the state, and others. */
 typedef struct differences_shape {
-    size_t count, positions, velocities; /* numbers; of the state: positions, velocities and first-order variables */
-    /* of each number its reduction over the observations, REDUCE_ of machine/text/reduce.h; NULL: its last value */
+    size_t count, positions, velocities; /* all numbers; of the state; velocities and first-order variables */
+    /* the reduction of each number over the observations, REDUCE_ of machine/text/reduce.h; NULL: the last values */
     const int *how;
     bool full, kinked, slow; /* there is a twin; the force is not smooth; the method is of order 1 */
 } differences_shape;
@@ -31,23 +29,22 @@ typedef struct differences_shape {
 typedef struct differences {
     differences_shape shape;
     double start, length;
-    /* What was seen last, of which the caller writes the numbers: of the run, of its companion, of the twin (NULL). The
-     * bars belong to values[0], which of numbers that are reduced is their reduction. */
+    /* What the caller saw last of the run, its companion and its twin (NULL: there is none), and writes here. The bars
+     * belong to values[0]; a number that is reduced is replaced by its reduction. */
     double *values[DIFFERENCES_SEEN_MAX];
-    double *kept[DIFFERENCES_SEEN_MAX]; /* REDUCE_KEPT of each number; NULL: none is reduced */
+    double *kept[DIFFERENCES_SEEN_MAX]; /* REDUCE_KEPT numbers for each; NULL: none is reduced */
     int64_t observations;
-    /* |run - companion| at the last landing and its largest in each part of the run: `slots` rows, of which the part
-     * `part` uses row part % slots; and the same of the twin, NULL: there is none */
+    /* d: |run - companion| at the last landing. envelope and twin (NULL: no twin): the largest |run - companion| and
+     * |run - twin| in each of the last `slots` parts of the run, where part `part` has row part % slots. */
     double *d, *envelope, *twin;
     int slots;
     int64_t part;
-    double *size;         /* the largest that the run or its companion has had at a landing */
-    double *now, *before; /* the same at the last landing alone, and at the one before */
+    double *size;         /* the largest size of each number, of run or companion, at any landing */
+    double *now, *before; /* the largest size at the last landing, and at the landing before */
     double *last;         /* |run - companion| at the landing before, or within the last step */
-    /* Of each number what neither run nor companion knows of its error: 0 until the caller writes it. */
-    double *apart;
-    double taken; /* the time of the last landing */
-    bool between; /* the next one is within a step that the run has taken, which the caller writes */
+    double *apart;        /* an error of each number that run and companion share, which the caller writes; first 0 */
+    double taken;         /* the time of the last landing */
+    bool between;         /* the next landing lies within a step that the run has taken; the caller says so */
     double scale[DIFFERENCES_GROUPS]; /* the largest number of each group so far */
     double most[DIFFERENCES_GROUPS];  /* the largest |run - companion| of each group so far */
     differences_size_of growing[DIFFERENCES_GROUPS];
@@ -58,39 +55,41 @@ typedef struct differences {
     differences_growth growth;
 } differences;
 
-/* Where a companion lands in a run of so many steps of one size, after it has landed at step `landed`; which may be
- * past the end. Where steps adapt it lands after every step. */
+/* Returns the step at which a companion lands after step `landed`, in a run of `total` fixed steps; it may be past the
+ * end. With adaptive steps a companion lands after every step. */
 int64_t differences_due(int64_t total, int64_t landed);
-/* How many steps of one size it takes while the run takes n; of adaptive steps it takes the two halves of each. */
+/* Returns how many fixed steps the half takes while the run takes n. Of an adaptive step it takes the two halves. */
 static inline int64_t differences_steps(int64_t n) { return 2 * n + 1; }
 #define DIFFERENCES_ANY_ERROR 1e300 /* an absolute tolerance by which error control accepts every step */
 
-/* How many doubles of memory they need; they are used where they lie. */
+/* Returns how many doubles of memory the arrays need. */
 size_t differences_size(const differences_shape *);
+/* Makes the struct, with its arrays in `memory`. */
 void differences_place(differences *, const differences_shape *, double *memory);
-/* A leg begins that goes from start to until. */
+/* Begins a leg from `start` to `until`. */
 void differences_begin(differences *, double start, double until);
-/* Compares what the caller has written to values[0] and [1], at t, and [2] where the twin is there. observed: this is
- * an observation, so it enters what is reduced. */
+/* Compares, at time t, the numbers that the caller has written to values[0], values[1] and, with `twin`, values[2].
+ * observed: this is an observation, which enters the reductions. */
 void differences_take(differences *, double t, bool observed, bool twin);
-/* What was seen last of the companion in values[1] was replaced by what the run may be as well. */
+/* Widens the differences, after the caller has replaced values[1] by other numbers that the run might have had. */
 void differences_widen(differences *);
-/* The bar of a number at the last landing; 0: it is exact; INFINITY: no digit of it is significant. */
+/* Returns the bar of a number at the last landing; 0: it is exact; INFINITY: no digit is significant. */
 double differences_bar(const differences *, size_t number);
-/* Whether no velocity can have moved a place by more than that part of the largest: the motion rests. */
+/* Tells whether the motion rests: no velocity can have moved a position by more than this part of the largest one. */
 bool differences_still(const differences *, double part);
-/* Whether run and companion have had the same number of late, so that nothing is known to move it. */
+/* Tells whether run and companion have lately had equal values of a number, so nothing is known to move it. */
 bool differences_agree(const differences *, size_t number);
-/* A bound on the bars that any number of the state had so far, relative to the largest number of its group or in its
- * own units. INFINITY: of some no digit was significant. unknown: what neither run nor companion knows counts. */
+/* Bounds the bars of all numbers of the state so far: absolute, or relative to the largest number of the group.
+ * INFINITY: a number had no significant digit. unknown: counts `apart` too. */
 double differences_worst(const differences *, bool absolute, bool unknown);
-/* How many numbers tell what was seen so far; writes them, all finite, or returns false: it cannot be told. And goes on
- * from them at t, after differences_begin; the bars are those that it had. */
+/* Returns how many numbers keep what was seen so far. */
 size_t differences_kept(const differences_shape *);
+/* Writes these numbers, all finite. False: one is not. */
 bool differences_keep(const differences *, double *out);
+/* Goes on at time t from these numbers, after differences_begin, with the bars that were kept. */
 void differences_resume(differences *, double t, const double *kept);
-double differences_ratio(const differences *); /* by how much the distance has grown */
-/* The rate at which the distance grows, where it grows as an exponential; else NaN. */
+double differences_ratio(const differences *); /* the factor by which the distance has grown */
+/* Returns the rate at which the distance grows, if it grows as an exponential; else NaN. */
 double differences_rate(const differences *);
 
 #endif

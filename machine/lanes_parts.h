@@ -26,9 +26,9 @@ struct lanes {
     int width, groups, block; /* trajectories in a vector; vectors in a block; trajectories in a block */
     emit e;
     void *handle;
-    cache_job *job; /* a compiler is at work; NULL */
+    cache_job *job; /* the compiler that is at work; NULL: none */
     bool awaited;   /* the object is not taken yet */
-    char why[256];  /* there is none, after a compiler has ended */
+    char why[256];  /* why there is no object, after a compiler has ended */
     void (*bind)(const double *, const int64_t *, double *);
     void (*table)(const lanes_job *, double *, whole);
     void (*begin)(const lanes_job *);
@@ -37,28 +37,27 @@ struct lanes {
     void (*observe)(const lanes_job *);
     void (*run)(const lanes_job *, whole, whole);
     int (*far)(const double *, size_t count, double limit);
-    /* the places of the pool that lanes read in their own: those that vary, and the others of their arrays */
+    /* the places of the pool of which each lane has its own copy: those that vary, and the others of their arrays */
     size_t *read, reads;
     double *u;
     int64_t *q, *places, *from_x, *from_v;
-    size_t outs;     /* numbers of the definitions that are observed */
-    bool needs_a;    /* some of them contain x'' */
+    size_t outs;     /* how many numbers of definitions are observed */
+    bool needs_a;    /* a definition that is observed contains x'' */
     bool on_the_way; /* some record needs observations before the end */
     size_t solving;  /* bytes of the linear systems of a group */
     size_t carried;  /* elements of a group's carry */
-    /* The lanes of the companions, and where the compared numbers are found in both; NULL: errors are not told. */
-    lanes *half;
+    lanes *half;     /* the lanes of the companions; NULL: errors are not told */
     differences_shape shape;
-    lanes_record *compared;
-    /* sizes for one block, in doubles, whole cache lines */
+    lanes_record *compared; /* where the compared numbers are, in both lanes */
+    /* sizes for one block, in doubles, rounded up to whole cache lines */
     size_t own_size, bound_size, carry_size, kept_size, clock_size, known_size, work_size, observed_size, solve_size,
         watch_size;
 };
 
-/* Doubles for `elements` elements of every lane of a block, in whole cache lines. */
+/* Returns how many doubles hold `elements` elements of every lane of a block, in whole cache lines. */
 static inline size_t lines(const lanes *l, size_t elements) { return (elements * (size_t)l->block + 7) / 8 * 8; }
 
-/* The index of element k of lane i of a block, where a group has `elements` elements. */
+/* Returns the index of element k of lane i of a block, where a group has `elements` elements. */
 static inline size_t lane_at(const lanes *l, size_t elements, size_t k, size_t i)
 {
     const int shift = __builtin_ctz((unsigned)l->width); /* a division would take longer than all the rest */
@@ -66,7 +65,8 @@ static inline size_t lane_at(const lanes *l, size_t elements, size_t k, size_t i
     return (((i >> shift) * elements + k) << shift) + within;
 }
 
-/* Copies `count` elements of a lane, from element `first` on, into a row; elements of a lane into another lane. */
+/* Copy `count` elements of a lane, from element `first` on, into a row (lanes_row), or a lane into another lane
+ * (lanes_copy). */
 static inline void lanes_row(const lanes *l, double *to, const double *from, size_t elements, size_t first,
                              size_t count, size_t lane)
 {
@@ -82,15 +82,15 @@ typedef struct lanes_call {
     lanes *l;
     size_t count;
     const double *const *values;
-    const double *until; /* of every trajectory, or NULL: the same for all */
+    const double *until; /* the end of every trajectory; NULL: that of the definition */
     double *const *results, *const *errors, *stopped;
-    double *memory; /* of every thread: its blocks, its scratch, its table, all this of the companions, differences */
+    double *memory; /* of every thread: blocks, scratch and table, these three for companions, and differences */
     size_t blocks, block_size, scratch_size, table_size, thread_size;
     struct lanes_call *half; /* of the companions: sizes and memory alone; NULL: errors are not told */
-    bool keeps;              /* accelerations from one call of the object to the next, since the calls are short */
-    size_t companions, companions_size; /* that a thread has at once, and doubles for them */
-    size_t items, most;                 /* items of work, and trajectories in one */
-    atomic_size_t done;                 /* trajectories */
+    bool keeps;              /* calls of the object are short, so accelerations are kept from one call to the next */
+    size_t companions, companions_size; /* how many companions a thread has at once, and doubles for them */
+    size_t items, most;                 /* how many items of work, and trajectories in one */
+    atomic_size_t done;                 /* how many trajectories are done */
     atomic_bool cancelled;
     atomic_bool refused; /* the row does not admit the parameters of some lane */
 } lanes_call;
@@ -102,15 +102,15 @@ typedef struct lanes_item {
     size_t first, count;
     bool reports;                     /* calls the progress hook */
     double *memory, *scratch, *table; /* of all blocks; of the present block; of values of time alone */
-    double t0, h;                     /* the leg that all share, */
-    int64_t n, first_row;             /*   the steps taken in it, and the first row of the table */
+    double t0, h;                     /* the leg of trajectories that share a clock */
+    int64_t n, first_row;             /* the steps taken in the leg, and the first row of the table */
     int64_t observations;             /* recorded so far */
     bool ends;                        /* the next observation is the one at the end */
     int thread;
-    struct lanes_item *half;            /* the companions, NULL: there are none; */
-    struct lanes_companion *companions; /* how far they are; */
-    double landed;                      /* of those that share a clock: when they landed last, */
-    int64_t landed_steps, due;          /*   after how many steps, and after how many they land again */
+    struct lanes_item *half;            /* the companions; NULL: there are none */
+    struct lanes_companion *companions; /* how far they are from their trajectories */
+    double landed;                      /* with a shared clock: when companions landed last */
+    int64_t landed_steps, due;          /* after how many steps that was, and after how many they land again */
 } lanes_item;
 
 /* How far a trajectory is from its companion. */
@@ -126,11 +126,11 @@ typedef struct lanes_block {
     lanes_job job;
     double *stopped; /* the time at which each lane stopped; NaN: it has not */
     double *saved;   /* carry and clocks before the latest steps */
-    size_t *number;  /* own clocks: the trajectory of each lane, or NO_TRAJECTORY; else NULL */
+    size_t *number;  /* with own clocks: the trajectory of each lane, or NO_TRAJECTORY; else NULL */
 } lanes_block;
 #define NO_TRAJECTORY SIZE_MAX
 
-/* Own clocks: number k of the clock of a lane. */
+/* Returns the place of number k of a lane's own clock. */
 static inline double *lanes_clock(const lanes_block *b, size_t lane, int k)
 {
     return &b->job.clocks[lane_at(b->l, LANES_CLOCKS, (size_t)k, lane)];
@@ -143,73 +143,76 @@ static inline bool lanes_occupied(const lanes_block *b, size_t lane) { return b-
 size_t lanes_block_size(const lanes *);
 size_t lanes_scratch_size(const lanes *);
 lanes_block lanes_block_of(const lanes_item *, size_t block);
-/* Turns a block of an item into another one of it. */
+/* Turns a block of an item into block number `block` of the item. */
 void lanes_block_place(lanes_block *, const lanes_item *, size_t block);
 void lanes_block_save(const lanes_block *);
-/* Of the lane's group the accelerations are no longer known. */
+/* Forgets the accelerations of the lane's group. */
 void lanes_block_forget(const lanes_block *, size_t lane);
-/* The carry of a lane is what it was when it was saved. */
+/* Restores the carry and the clock of a lane as lanes_block_save saved them. */
 void lanes_block_put_back(const lanes_block *, size_t lane);
 /* Gives lane i of the block the numbers of trajectory trajectories[i], where lanes have numbers of their own. */
 void lanes_block_number(const lanes_block *, const lanes_item *, const size_t *trajectories);
 /* Sets lane i of the block to the start of trajectory trajectories[i]. */
 void lanes_block_begin(const lanes_block *, const lanes_item *, const size_t *trajectories);
-/* Whether all elements of a lane are finite. */
+/* Tells whether all elements of a lane are finite. */
 bool lanes_block_finite(const lanes *, const double *numbers, size_t elements, size_t lane);
-/* Whether the carry of a lane that has not stopped is infinite, NaN, or so large that what is observed may be. */
+/* Tells whether the carry of a lane that has not stopped is NaN, infinite, or so large that an observed number may
+ * overflow. */
 bool lanes_block_diverged(const lanes_block *);
 /* Marks the lanes whose carry is not finite as stopped now. */
 void lanes_block_stop(const lanes_block *);
-/* Takes the steps since lanes_block_save again, one by one, to find the time at which each lane stopped. Observes after
+/* Repeats the steps since lanes_block_save, one by one, to find the time at which each lane stopped. Observes after
  * every `every` steps, counted from step n; 0: never. */
 void lanes_block_trace(const lanes_block *, bool first, int64_t steps, int64_t n, int64_t every);
 /* Observes a block (with own clocks, the lanes in job.where) and marks the lanes whose observed state is not finite as
  * stopped. */
 void lanes_block_observe(const lanes_block *);
 double lanes_block_time(const lanes_block *, size_t lane);
-/* Writes the results of the lanes from … to - 1, after so many observations and steps, as those of the trajectories
- * from this one on. */
+/* Writes the results of lanes `from` to `to` - 1, after so many observations and steps, for the trajectories from
+ * `trajectory` on. */
 void lanes_block_results(const lanes_block *, const lanes_call *, size_t from, size_t to, size_t trajectory,
                          int64_t observations, int64_t steps);
 /* Writes the errors of a trajectory, which may have stopped. */
 void lanes_block_errors(const lanes_call *, const lanes_companion *, bool stopped, size_t trajectory);
-/* Computes the state of a block as it is observed, and records nothing. ends: as of time `t`; else at the present time.
+/* Computes the state of a block as it is observed, at the present time or, with `ends`, as of time t. Records nothing.
  */
 void lanes_block_see(const lanes_block *, bool ends, double t);
-/* Calls the progress hook with the fraction done, `more` trajectories of this item included. */
+/* Calls the progress hook with the fraction done, with `more` trajectories of this item. */
 void lanes_item_report(lanes_item *, double more);
-/* Whether the call is cancelled, or refused: then no more is computed. */
+/* Tells whether the call is cancelled or refused, so that no more need be computed. */
 bool lanes_item_over(const lanes_item *);
 
 /* ---- lanes_companion.c ---- */
 
-/* Doubles for so many, and the making of them. */
+/* Returns how many doubles `count` companions need. */
 size_t lanes_companion_size(const lanes *, size_t count);
+/* Makes `count` companions in this memory. */
 lanes_companion *lanes_companion_place(const lanes *, double *memory, size_t count);
 void lanes_companion_begin(lanes_companion *, double t0, double until);
-/* Compares lanes of both blocks, which have been seen: those whose companions are in `list`, NULL: not this lane, where
- * they landed last. It changes the list. */
+/* Compares lanes of both blocks where they landed last, after lanes_block_see: list[i] is the companion of lane i, or
+ * NULL where it is not compared. Changes the list. */
 void lanes_companion_compare(const lanes_block *, const lanes_block *half, lanes_companion **list,
                              const bool *observed);
 
 /* ---- lanes_schedule.c ---- */
 
-/* How trajectories with own clocks go through the lanes of one block. Hooks, of which an item that is over calls no
- * more: `fill` gives a free lane the next trajectory, which may be over at once, or makes one ready for the next call
- * (false: there are no more); `run` takes steps of all lanes; `look` is called after that for each lane with a
- * trajectory, and frees the lanes of those that are over. */
+/* How trajectories with own clocks go through the lanes of one block, until the item is over. */
 typedef struct lanes_schedule {
     lanes_item *item;
     const lanes_block *block;
     void *ctx;
+    /* Gives a free lane the next trajectory, which may be over at once, or prepares some for the next call of `fill`.
+     * False: there are no more. */
     bool (*fill)(void *ctx, size_t lane);
+    /* Takes steps of all lanes. */
     void (*run)(void *ctx);
+    /* Looks at a lane with a trajectory after `run`, and frees it if the trajectory is over. */
     void (*look)(void *ctx, size_t lane);
 } lanes_schedule;
 void lanes_schedule_run(const lanes_schedule *);
 /* Frees a lane. It counts as stopped, because it goes on to compute numbers that belong to no trajectory. */
 void lanes_schedule_free(const lanes_block *, size_t lane);
-/* Where steps adapt: the number of steps after which a trajectory is looked at, whatever happens. */
+/* Returns, where steps adapt, the step number at which a trajectory is looked at, whatever happens. */
 int64_t lanes_schedule_pace(const lanes_block *, size_t lane);
 
 /* ---- lanes_together.c, lanes_apart.c, lanes_watched.c ---- */
@@ -217,9 +220,8 @@ int64_t lanes_schedule_pace(const lanes_block *, size_t lane);
 void lanes_together(lanes_item *, size_t blocks);
 void lanes_apart(lanes_item *);
 void lanes_watched(lanes_item *);
-size_t lanes_watched_size(const lanes *); /* doubles that it needs in the table */
+size_t lanes_watched_size(const lanes *); /* doubles that lanes_watched needs in the table */
 size_t lanes_apart_blocks(void);
-/* Doubles that lanes_apart needs in the table. */
-size_t lanes_apart_size(const lanes *);
+size_t lanes_apart_size(const lanes *); /* doubles that lanes_apart needs in the table */
 
 #endif

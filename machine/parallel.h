@@ -21,8 +21,8 @@ void parallel_for(int threads, size_t items, void (*body)(void *ctx, size_t item
 typedef struct parallel_pool parallel_pool;
 parallel_pool *parallel_pool_create(int threads, const motus_allocator *);
 void parallel_pool_destroy(parallel_pool *);
-/* As parallel_for, by the caller and the pool's threads. Where the pool is NULL, or serves another call, the caller
- * does all items. */
+/* Does what parallel_for does, with the caller and the pool's threads. Where the pool is NULL, or serves another call,
+ * the caller does all items. */
 void parallel_pool_for(parallel_pool *, int threads, size_t items, void (*body)(void *ctx, size_t item, int thread),
                        void *ctx);
 

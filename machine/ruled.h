@@ -1,5 +1,4 @@
-/* What supplies rules (core/rules.h) for a model: tapes of the functions that its events watch, and of what each does.
- */
+/* The rules of a model (core/rules.h): tapes of the functions that its events watch, and of their actions. */
 #ifndef MACHINE_RULED_H
 #define MACHINE_RULED_H
 
@@ -8,10 +7,10 @@
 
 typedef struct ruled ruled;
 
-/* In the model's arena, for a model that has rules. */
+/* Creates the rules of a model that has some, in its arena. */
 motus_status ruled_create(model *, ruled **, motus_error *);
 const rules *ruled_rules(const ruled *);
-/* To be called after the model's numbers have changed. False: no memory. */
+/* Takes over the model's numbers after they have changed. False: no memory. */
 bool ruled_rebind(ruled *);
 
 #endif

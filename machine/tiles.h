@@ -14,7 +14,7 @@
 typedef int64_t whole;
 #include "machine/text/tiling.h"
 
-/* In the model's arena; NULL: no memory. Every state must have an index. */
+/* Makes the tiling of a model, in its arena; every state of the model must have an index. NULL: no memory. */
 const tiling *tiles_create(const model *, const locality *);
 
 #endif
