@@ -1,4 +1,4 @@
-/* Life and steps of events. See events.h. */
+/* The life and the steps of events. See events.h. */
 #include "core/events_parts.h"
 
 #include <math.h>
@@ -14,7 +14,7 @@ static double *place(instant *i, const events *e, double *at)
     return i->bound + f;
 }
 
-/* Where the arrays lie in one block of memory; block NULL: they are only counted. */
+/* A block of memory in which arrays lie one behind the other; block NULL: their bytes are only counted. */
 typedef struct layout {
     char *block;
     size_t at;
@@ -170,7 +170,7 @@ static motus_status check_clocks(const events *e, motus_error *err)
     return MOTUS_OK;
 }
 
-/* The sides of switches at the start, which the stepper's state has from now on. */
+/* Sets the sides of switches at the start, and puts them into the stepper's state. */
 static motus_status settle(events *e, stepper *s, motus_error *err)
 {
     instant *at = &e->left;
@@ -178,7 +178,7 @@ static motus_status settle(events *e, stepper *s, motus_error *err)
     return status ? status : stepper_jump(s, at->t, at->lost, stepper_step(s), at->x, at->v, err);
 }
 
-/* The sides of all functions at `left`. */
+/* Takes the sides of all functions from their values at `left`. */
 static motus_status take_sides(events *e, motus_error *err)
 {
     motus_status status = events_values(e, &e->left, err);
@@ -230,7 +230,7 @@ motus_status events_begin(events *e, stepper *s, double until, motus_error *err)
 
 /* Steps ----------------------------------------------------------------------------------------------------------- */
 
-/* Whether a candidate was part of what has happened already. */
+/* Tells whether a candidate belongs to an event that has happened already. */
 static bool told(const events *e, const candidate *c)
 {
     const double t = e->left.t + c->at, near = 4 * events_ulp(t);
@@ -238,7 +238,7 @@ static bool told(const events *e, const candidate *c)
     return fabs(e->fired[c->of] - t) <= near;
 }
 
-/* The step that led here may have been as short as the rounding of its time, and one to take has to be longer. */
+/* Goes on from an instant with step h, or with a unit of the time where the step is too short to change it. */
 static motus_status jump(const events *e, stepper *s, const instant *to, double h, motus_error *err)
 {
     if (to->t + h == to->t) h = e->way * events_ulp(to->t);
@@ -249,7 +249,7 @@ static motus_status restart(events *e, stepper *s, double h, motus_error *err) {
 
 enum { PAST_HEAD = 3 };
 
-/* Before the motion goes on from an action at time `end`: where the piece that led to it began, for dense output. */
+/* Keeps where the piece that led to an action at time `end` began, for dense output. False: no memory. */
 static bool keep_past(events *e, double end)
 {
     const size_t nx = e->problem.nx, nv = e->problem.nv, each = PAST_HEAD + nx + nv;
@@ -265,8 +265,8 @@ static bool keep_past(events *e, double end)
     return true;
 }
 
-/* Whether a function that has just passed 0 has done so for good: it is beyond at the end of the step, and nothing else
- * is known that would lead it there. */
+/* Tells whether a function that has just passed 0 stays there: it is beyond 0 at the end of the step, and has no other
+ * candidate that might lead it there. */
 static bool stays_beyond(const events *e, const candidate *c)
 {
     for (size_t k = 0; k < e->candidates; k++) {
@@ -276,9 +276,9 @@ static bool stays_beyond(const events *e, const candidate *c)
     return e->right.g[c->of] * c->kind > 0;
 }
 
-/* Whether a function passes 0 where an action has answered its passage in this very instant: its slope is 0, or so
- * small that it comes back before the next time that can be told from this one. However often the rule acted, it would
- * pass again: its events accumulate here. */
+/* Tells whether a function passes 0 again in the instant in which an action has answered its passage: its slope is 0,
+ * or so small that it comes back within the rounding of the time. It would pass again however often the rule acted, so
+ * its events accumulate here. */
 static bool comes_back(events *e, const candidate *c)
 {
     const bool passes = c->kind == CANDIDATE_FALLS || c->kind == CANDIDATE_RISES;
@@ -298,12 +298,12 @@ static bool comes_back(events *e, const candidate *c)
 
 static bool ask(events *e)
 {
-    enum { LOOK = 16 }; /* events, or places, between two questions */
+    enum { LOOK = 16 }; /* one in so many chances is taken to ask */
     if (e->asks && ++e->asked % LOOK == 0) e->cancelled = e->asks(e->asks_ctx) != 0;
     return e->cancelled;
 }
 
-/* Where the caller cancels among many events of one step, it ends at `here`; the next step finds what comes after. */
+/* Ends the step at `here` where the caller cancels among its events; the next step finds the later events. */
 static motus_status cancelled(events *e, bool *is, motus_error *err)
 {
     *is = ask(e);
@@ -312,15 +312,15 @@ static motus_status cancelled(events *e, bool *is, motus_error *err)
     return status;
 }
 
-/* Where the caller cancels while the places of many events are sought and nothing has happened yet, the step ends where
- * it began. */
+/* Ends the step where it began if the caller cancels before an event of the step has happened. */
 static bool cancelled_before(events *e)
 {
     if (ask(e)) events_copy(e, &e->here, &e->left);
     return e->cancelled;
 }
 
-/* A function jumps, or comes to 0 and stays: that is no root. False: there is a condition that it may change. */
+/* Takes over the side to which a function jumps, or that it stays at 0: neither is a root. False: it belongs to a
+ * condition, which this may change. */
 static bool changes_side(events *e, const candidate *c)
 {
     e->side[c->of] = (int8_t)c->kind;
@@ -328,7 +328,7 @@ static bool changes_side(events *e, const candidate *c)
     return e->rules.rule[e->rule_of[c->of]].kind == RULE_ROOT;
 }
 
-/* A candidate of the present step that has been located. */
+/* Does what happens at a located candidate of the present step. */
 static motus_status follow(events *e, stepper *s, candidate *c, bool *assigned, stepper_stop *why, motus_error *err)
 {
     const candidate at = *c;
@@ -355,7 +355,7 @@ static motus_status follow(events *e, stepper *s, candidate *c, bool *assigned, 
     if (happens && !status) status = events_fire(e, &at, assigned, err);
     if (at.kind == CANDIDATE_TIME) /* a clock may tick again in this step */
         c->gone = !events_next_tick(e, at.of, c) || !(e->way * (c->at - at.at) > 0);
-    if (!happens) { /* its function goes on to that side */
+    if (!happens) { /* the function goes on to the side of the candidate */
         if (e->rules.settle && (at.kind == CANDIDATE_RISES || at.kind == CANDIDATE_FALLS))
             e->side[at.of] = (int8_t)at.kind;
         return MOTUS_OK;
@@ -399,7 +399,8 @@ static motus_status go_through(events *e, stepper *s, bool *assigned, stepper_st
     return status;
 }
 
-/* A step, marked; where bounds alone tell of it, more, up to the limit, and then `left` is where the last one began. */
+/* Takes a step, with a mark; or steps up to the limit while bounds prove that nothing happens, and then `left` is where
+ * the last one began. */
 static motus_status go_on(events *e, stepper *s, stepper_limit limit, stepper_stop *why, motus_error *err)
 {
     e->boxed = e->right.valued = false;
@@ -409,8 +410,8 @@ static motus_status go_on(events *e, stepper *s, stepper_limit limit, stepper_st
     return status ? status : stepper_advance(s, (stepper_limit){1, limit.until}, why, err);
 }
 
-/* A step towards `until`, or to an action before its end; where bounds tell that nothing happens, up to `most` steps.
- * Where it is too long to tell how a function leaves 0 at its start, a shorter one. */
+/* Takes a step towards `until`, or to an action before its end; or up to `most` steps while bounds prove that nothing
+ * happens. A step that is too long to show how a function leaves 0 at its start is repeated, shorter. */
 static motus_status piece(events *e, stepper *s, double until, int64_t most, bool *assigned, stepper_stop *why,
                           motus_error *err)
 {
@@ -432,16 +433,16 @@ static motus_status piece(events *e, stepper *s, double until, int64_t most, boo
         if (status || !e->hidden) break;
         if (whole == 0) whole = e->span;
         double h = e->span / PART;
-        if (fabs(h) < 4 * events_ulp(e->left.t)) { /* nothing tells it: what the step itself says counts */
+        if (fabs(h) < 4 * events_ulp(e->left.t)) { /* no step shows it: the dense output of the whole step counts */
             memset(e->heads, 0, e->rules.functions);
-            if (e->span == whole) { /* it is the first that was taken, and may be too short to be taken anew */
+            if (e->span == whole) { /* the whole step is the present one, and may be too short to be repeated */
                 status = events_find(e, s, err);
                 break;
             }
             h = whole;
         }
         *why = STOP_STEPS;
-        /* reversible steps find their sizes themselves, and only an end makes one shorter */
+        /* reversible steps find their sizes themselves, so only an earlier end makes one shorter */
         end = row_reversible_steps(&e->method) && h != whole ? e->left.t + h : until;
         status = jump(e, s, &e->left, h, err);
     }
@@ -456,8 +457,8 @@ static motus_status piece(events *e, stepper *s, double until, int64_t most, boo
     return status;
 }
 
-/* The piece that led to an action and that t lies in; where the last of them ended the stepper's own steps begin:
- * NULL. */
+/* Returns the piece, of those that led to actions, in which t lies; NULL: t lies behind them, in the stepper's own
+ * step. */
 static const double *past_at(const events *e, double t)
 {
     const size_t each = PAST_HEAD + e->problem.nx + e->problem.nv;
@@ -502,14 +503,14 @@ static motus_status adaptive_step(events *e, stepper *s, double until, int64_t m
     bool assigned = false;
     motus_status status = piece(e, s, until, most, &assigned, why, err);
     if (status || *why == STOP_EVENT) return status;
-    /* the sizes of a reversible row follow from one another, and a step that was shortened for the events' sake would
-     * shorten all that come */
+    /* the sizes of reversible steps follow from one another, so a step shortened for events would shorten all later
+     * steps */
     const bool shortened = row_reversible_steps(&e->method) && e->whole != 0;
     if (assigned || (shortened && *why != STOP_UNTIL)) {
         const instant *now = assigned ? &e->here : &e->right;
         double h = shortened ? e->whole : e->span;
         if (now->t + h == now->t) h = e->way * 4 * events_ulp(now->t); /* it was cut short by `until` */
-        /* the step says how fast the motion changes, but for a last one to a switch that hardly changes t */
+        /* the size tells how fast the motion changes, except that of a last step to a switch that hardly changes t */
         if (e->rules.settle && fabs(h) <= 64 * events_ulp(now->t)) h = e->grid_step;
         if (assigned && e->rules.settle && fabs(h) > e->pace) h = e->way * e->pace;
         if (!keep_past(e, now->t)) return events_no_memory(err);
@@ -520,14 +521,14 @@ static motus_status adaptive_step(events *e, stepper *s, double until, int64_t m
     return status;
 }
 
-/* Of rows of fixed step: to the next time of the grid, by the short steps that lead to actions, and from them on.
- * Cancelled within such a step, it is `broken`. */
+/* Takes a fixed step to the next time of the grid, in short steps that end on actions and begin there. A step that is
+ * cancelled on its way is `broken`. */
 static motus_status grid_step(events *e, stepper *s, double until, stepper_stop *why, motus_error *err)
 {
     const double number = (double)(e->steps + 1), grid = e->grid_start + number * e->grid_step;
     const bool last = e->way * (until - grid) <= 8 * events_ulp(until);
     const double end = last ? until : grid;
-    /* a run to a later end takes another step here, or what happens at the end of this one is told by the next */
+    /* a run to a later end would take another step here, or find only in its next step what happens at this end */
     if (last && e->may_save && !e->broken && !events_save_here(e, s)) return events_no_memory(err);
     for (;;) {
         bool assigned = false;

@@ -1,4 +1,5 @@
-/* The functions of events, their rates and bounds at an instant; and true steps to one. See events_parts.h. */
+/* The functions of events with their rates and bounds at an instant, and true steps to an instant. See events_parts.h.
+ */
 #include "core/events_parts.h"
 
 #include <math.h>
@@ -34,8 +35,8 @@ motus_status events_value_ends(events *e, motus_error *err)
     return status;
 }
 
-/* Evaluates the functions a time h after an instant whose acceleration is known, at the state of Taylor's formula,
- * into another instant. */
+/* Evaluates the functions a time h after an instant whose acceleration is known, at the state that Taylor's formula
+ * gives. */
 static motus_status values_after(events *e, const instant *at, double h, instant *to, motus_error *err)
 {
     const problem *p = &e->problem;
@@ -47,8 +48,8 @@ static motus_status values_after(events *e, const instant *at, double h, instant
     return events_values(e, to, err);
 }
 
-/* Of the functions whose bound is not finite, since no formula is known or its slope is infinite: by what they change
- * when every number does by its rounding. */
+/* Estimates the bounds that are not finite, because no formula is known or its slope is infinite: by the change of the
+ * function when every number changes by its rounding. */
 static motus_status estimate_bounds(events *e, instant *at, motus_error *err)
 {
     instant *to = &e->next;
@@ -81,7 +82,7 @@ motus_status events_bounds(events *e, instant *at, motus_error *err)
     return estimate_bounds(e, at, err);
 }
 
-/* The accelerations, where rates read them. */
+/* Evaluates the accelerations, if rates read them. */
 static motus_status accelerate(const events *e, instant *at, motus_error *err)
 {
     const problem *p = &e->problem;
@@ -101,7 +102,7 @@ motus_status events_rates(events *e, instant *at, motus_error *err)
         const int answer = e->rules.rates(e->rules.ctx, at->t, at->x, at->v, at->a, at->rate);
         return answer ? events_refuse(e, "event_functions", at->t, answer, err) : MOTUS_OK;
     }
-    /* central differences; `crossing` alone needs `best`, and asks for the rates at `here` */
+    /* central differences; `best` is free, since `crossing`, which alone needs it, asks for the rates at `here` */
     const double h = e->way * fmax(0x1p-16 * fabs(e->span), 64 * events_ulp(at->t));
     instant *to = at == &e->next ? &e->best : &e->next;
     status = values_after(e, at, -h, to, err);
@@ -174,7 +175,7 @@ enum { PARTS = 2, PARTS_ULPS = 1 << 12 };
 motus_status events_probe(events *e, double from, double lost, const double *x, const double *v, double h, double *t,
                           double *rest, motus_error *err)
 {
-    const double end = from + (lost + h), over = (end - from) - h; /* its rounding, and what was lost */
+    const double end = from + (lost + h), over = (end - from) - h; /* over: the rounding of `end`, and `lost` */
     const bool adaptive = row_adaptive(&e->method);
     /* a companion that took the one step of the run to an event would have its error */
     const int parts = e->jog && !adaptive && fabs(h) > PARTS_ULPS * events_ulp(end) ? PARTS : 1;
@@ -185,18 +186,18 @@ motus_status events_probe(events *e, double from, double lost, const double *x, 
     *rest = lost - over;
     if (!e->probe) {
         chosen method = e->method;
-        if (row_reversible_steps(&method)) method.relative = HUGE_VAL; /* one step leads there, whatever its size */
+        if (row_reversible_steps(&method)) method.relative = HUGE_VAL; /* one step leads to `end`, whatever its size */
         status = stepper_create(&e->machine, &method, from, step, x, v, &e->allocator, &e->probe, err);
     }
     if (!status) status = stepper_branch(e->probe, e->along, from, over, step, x, v, err);
     return status ? status : stepper_advance(e->probe, limit, NULL, err);
 }
 
-/* *ends: the state is that of an end of the step, whose values are known. */
+/* Writes the state a time h after `left`, by a true step. *ends: it is an end of the step, whose values are known. */
 static motus_status state_at(events *e, double h, instant *to, bool *ends, motus_error *err)
 {
     const instant *from = &e->left;
-    /* too short for a step; near t = 0 times are far shorter than what a step can tell */
+    /* h is too short for a step; near t = 0 times can be far shorter than any that a step shows */
     const bool still = from->t + h == from->t || (from->t == 0 && fabs(h) < 0x1p-100 * fabs(e->span));
     *ends = still || h == e->span;
     if (*ends) {

@@ -1,7 +1,7 @@
 /* What may happen in a step: the list of candidates, and the order in which they come. See events_parts.h.
  *
- * Dense output tells the times of candidates; true steps locate them, one after the other, and move each by as much as
- * dense output errs. The next one is known where all others are later by more than that.
+ * Dense output tells the times of candidates; true steps locate them, one after the other, and move each by the error
+ * of dense output. The next candidate is known where all others are later by more than that error.
  */
 #include "core/events_parts.h"
 
@@ -30,7 +30,7 @@ motus_status events_split(events *e, size_t k, double at, motus_error *err)
     return events_add(e, second) ? MOTUS_OK : events_no_memory(err);
 }
 
-/* Whether another candidate may come before this one where its time, which the ends of the step alone tell, is off. */
+/* Tells whether another candidate is so near to candidate k that a guessed time may put them in the wrong order. */
 static bool has_neighbour(const events *e, size_t k)
 {
     for (size_t j = 0; j < e->candidates; j++) {
@@ -42,7 +42,7 @@ static bool has_neighbour(const events *e, size_t k)
     return false;
 }
 
-/* Where dense output says that the function of a guessed candidate is 0, by false position with halved weights
+/* Places a guessed candidate where its function is 0 by dense output, by false position with halved weights
  * [DowellJarratt71]. */
 static motus_status place_guessed(events *e, stepper *s, candidate *c, motus_error *err)
 {
@@ -68,7 +68,7 @@ static motus_status place_guessed(events *e, stepper *s, candidate *c, motus_err
     return status;
 }
 
-/* Whether a candidate has no other time than its own, nor a near one. */
+/* Tells whether a candidate is one certain crossing, so that locating it moves it by no more than dense output errs. */
 static bool is_settled(const candidate *c)
 {
     return c->kind != CANDIDATE_TIME && c->sure && !c->near && !c->sampled && !c->jumps;
@@ -79,7 +79,7 @@ static bool is_before(const events *e, const candidate *a, const candidate *b)
     return a->at == b->at ? a->of < b->of : e->way * (b->at - a->at) > 0;
 }
 
-/* Puts many candidates in the order of their times, where these are told; by Shell's sort. */
+/* Sorts the candidates by their times if they are many and all settled, by Shell's sort. */
 static void put_in_order(events *e)
 {
     enum { MANY = 16 };

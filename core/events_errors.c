@@ -1,4 +1,4 @@
-/* Error bounds of functions, which follow from those of the state, and of the times at which they pass or touch 0. See
+/* Error bounds of functions, from those of the state, and of the times at which functions pass or touch 0. See
  * events_parts.h. */
 #include "core/events_parts.h"
 
@@ -15,14 +15,14 @@ bool events_clear(const events *e, size_t f)
     return fabs(e->left.g[f]) > 2 * e->left.bound[f] && fabs(e->right.g[f]) > 2 * e->right.bound[f];
 }
 
-/* Writes an error bound of every number of the state at `here`, a time h after `left`, into e->width. It has two terms:
- * - rounding: the errors of all steps so far add up as a random walk. Where the function has been 0 the error counts
- *   from there, so a number counts with its largest size since then.
+/* Writes into e->width an error bound of every number of the state at `here`, a time h after `left`, of two terms:
+ * - rounding: the errors of all steps so far add up as a random walk. The error counts from the latest root of the
+ *   function on, so a number counts with its largest size since then.
  * - the error of the step that leads here, where steps adapt: twice the difference from two half steps. */
 static void bound_state(events *e, size_t f, double h)
 {
     const size_t nx = e->problem.nx, nv = e->problem.nv, moving = nx - e->problem.modes;
-    const double jogged = e->jog ? 3 : 1; /* a companion's numbers have been moved by a unit besides */
+    const double jogged = e->jog ? 3 : 1; /* the numbers of a companion were also moved by a unit */
     const double units = 8 * jogged * (1 + sqrt((double)e->taken)) * 0x1p-53;
     const double since = e->stands[f] ? fabs(h) : fabs((e->left.t - e->fired[f]) + h); /* NaN: it has not been 0 */
     const instant *here = &e->here, *from = &e->left;
@@ -34,7 +34,7 @@ static void bound_state(events *e, size_t f, double h)
         if (!failed) failed = stepper_sync(e->probe, to->x, to->v, NULL, NULL);
         if (!failed) failed = events_probe(e, t, lost, to->x, to->v, h / 2, &to->t, &to->lost, NULL);
         if (!failed) failed = stepper_sync(e->probe, to->x, to->v, NULL, NULL);
-        if (failed) events_copy(e, to, here); /* of steps too short for error control this error is not known */
+        if (failed) events_copy(e, to, here); /* steps too short for error control do not tell this error */
     }
     for (size_t k = 0; k < nx; k++) {
         const double fast = k < moving ? fmax(fabs(from->v[k]), fabs(here->v[k])) : 0;
@@ -48,9 +48,9 @@ static void bound_state(events *e, size_t f, double h)
     }
 }
 
-/* Raises *most to the change of a function at `here`, or of its rate, when the numbers of the state change by their
- * error bounds, and by their opposites. bit < 0: number `one` alone changes. bit 0: all do, with one sign; bit > 0: all
- * do, number k with the sign that bit number bit - 1 of k tells. */
+/* Raises *most to the change of a function at `here`, or of its rate, when numbers of the state change by their error
+ * bounds, up and down. bit < 0: number `one` alone changes. bit = 0: all change, with one sign. bit > 0: all change,
+ * number k with the sign in bit bit - 1 of k. */
 static motus_status raise_by_change(events *e, size_t f, bool rate, int bit, size_t one, double *most, motus_error *err)
 {
     const size_t nx = e->problem.nx, all = nx + e->problem.nv;
@@ -67,8 +67,8 @@ static motus_status raise_by_change(events *e, size_t f, bool rate, int bit, siz
     return MOTUS_OK;
 }
 
-/* The error of a function, or of its rate, from those of the state. Of few numbers the sum of the changes by each; of
- * many, where that would take too long, twice the largest change by some patterns of signs. */
+/* Bounds the error of a function, or of its rate, by those of the state: by the sum of the changes by each number or,
+ * where numbers are too many for that, by twice the largest change by some patterns of signs. */
 static motus_status error_by_state(events *e, size_t f, bool rate, double h, double *bound, motus_error *err)
 {
     enum { FEW = 32 };
@@ -103,7 +103,7 @@ motus_status events_slope_error_of(events *e, size_t f, double h, double *bound,
     return status;
 }
 
-/* The function or its rate after a true step of size h, in `next`. */
+/* Evaluates the function or its rate after a true step of size h, in `next`. */
 static motus_status look(events *e, size_t f, bool rate, double h, double *value, motus_error *err)
 {
     motus_status status = events_at_of(e, f, h, &e->next, err);
@@ -112,9 +112,9 @@ static motus_status look(events *e, size_t f, bool rate, double h, double *value
     return status;
 }
 
-/* The distance from time h, found by doubling, at which the function or its rate exceeds a bound on both sides; a side
- * on which the step ends before counts only where the bound hides the whole step. A true step within it that fails, as
- * one too short for error control, counts as within the bound. */
+/* Returns the distance from time h, found by doubling, at which the function or its rate exceeds a bound on both sides.
+ * A side on which the step ends earlier counts only if the bound hides the whole step. A true step that fails, as one
+ * too short for error control does, counts as within the bound. */
 static double reach(events *e, size_t f, bool rate, double h, double bound)
 {
     enum { STEPS_MOST = 1024 };
@@ -135,8 +135,8 @@ static double reach(events *e, size_t f, bool rate, double h, double bound)
     return d;
 }
 
-/* Whether a root is simple: over the times within which the error bound of the function hides the root, its slope stays
- * about the same. */
+/* Tells whether a root is simple: the slope hardly changes over the times at which the error bound of the function
+ * hides the root. */
 static bool is_simple(events *e, size_t f, double h, double bound)
 {
     const double rate = e->here.rate[f], far = 4 * (bound / fabs(rate) + events_ulp(e->here.t));
@@ -150,8 +150,8 @@ static bool is_simple(events *e, size_t f, double h, double bound)
     return true;
 }
 
-/* Whether a function may be flat at its root: its slope is far below that at an end of the step, or in steps of one
- * size, which may be short beside the flat part, it changes within the step. */
+/* Tells whether a function may be flat at its root: its slope there is far below that at an end of the step, or with
+ * fixed steps, which may be short beside the flat part, changes within the step. */
 static bool may_be_flat(const events *e, size_t f)
 {
     enum { FAR_BELOW = 32, CHANGES = 64 };
@@ -161,8 +161,8 @@ static bool may_be_flat(const events *e, size_t f)
            (!row_adaptive(&e->method) && fabs(rate) < CHANGES * change);
 }
 
-/* The slope of a function jumps at a kink when the state changes by its error, which says nothing of where the kink is:
- * the function touches 0 no farther off than its own error bound hides it. */
+/* Limits *doubt for a touch at a kink. There the slope jumps when the state changes by its error, which does not tell
+ * where the kink is; but the touch is no farther off than the function's own error bound hides it. */
 static motus_status doubt_at_kink(events *e, size_t f, double h, double *doubt, motus_error *err)
 {
     double bound;
@@ -187,12 +187,12 @@ motus_status events_doubt(events *e, size_t f, double h, bool touches, double *d
     const motus_status status =
         touches ? events_slope_error_of(e, f, h, &bound, err) : events_error_of(e, f, h, &bound, err);
     if (status) return status;
-    /* a function that jumps beside the root changes by the jump when the state does, which is no error of the root */
+    /* a jump beside the root changes the function when the state changes; this is not an error of the root */
     if (e->rules.rule[e->rule_of[f]].jump) {
         const double steepest = fmax(fabs(e->left.rate[f]), fabs(e->right.rate[f]));
         bound = fmin(bound, 4 * fmax(e->left.bound[f], e->right.bound[f]) + 0x1p-44 * steepest * fabs(e->span));
     }
-    if (!touches) bound += 2 * fabs(e->here.g[f]); /* where it has been located it is not quite 0 */
+    if (!touches) bound += 2 * fabs(e->here.g[f]); /* it is not quite 0 at the located time */
     const bool simple = !touches && is_simple(e, f, h, bound);
     *doubt = simple ? bound / fabs(e->here.rate[f]) : reach(e, f, touches, h, bound);
     return touches && !e->rules.rule[e->rule_of[f]].smooth ? doubt_at_kink(e, f, h, doubt, err) : MOTUS_OK;

@@ -1,10 +1,10 @@
-/* Actions that follow one another ever faster because the motion grows, or because each lets the next come sooner by a
- * power of their number. See events_parts.h.
+/* Actions that follow one another ever faster because the motion grows, or whose intervals shrink with a power of their
+ * number. See events_parts.h.
  *
- * After 2, 4, 8, … actions a mark keeps the time and how large every number had become. Actions whose intervals shrink
- * by a constant factor reach their limit within the rounding of the time after a few hundred (events_table.c); the
+ * After 2, 4, 8, … actions a mark keeps the time and the largest size of every number. Actions whose intervals shrink
+ * by a constant factor reach their limit, within the rounding of the time, after a few hundred (events_table.c). The
  * marks then tell whether a number has grown by a constant factor too: it has no limit, and the motion ends there.
- * Intervals that shrink with a power of the number of actions are never so short. The times of the marks then are a
+ * Intervals that shrink with a power of the number of actions never become so short. The times of the marks are then a
  * sequence whose differences fall by a nearly constant factor, and Aitken's formula, applied twice, tells its limit.
  */
 #include "core/events_parts.h"
@@ -22,7 +22,7 @@ static double *most_at(const events *e, int mark)
 
 static double time_at(const events *e, int mark) { return e->growth_t[mark % GROWTH_MARKS]; }
 
-/* A mode that neither the force nor a rule reads has no part in what happens. */
+/* Tells whether number k is a mode that neither the force nor a rule reads; it has no part in what happens. */
 static bool is_kept(const events *e, size_t k)
 {
     for (size_t j = 0; j < e->rules.kept_count; j++)
@@ -45,8 +45,8 @@ static void name_of_rule(const events *e, size_t rule, size_t instance, char out
     if (!out[0]) snprintf(out, MOTUS_NAME_MAX, "%s", e->rules.rule[rule].name);
 }
 
-/* `number`: that which grows; SIZE_MAX: none does. The limit is that of the run's own motion: the tolerance and the
- * rounding of every action let it be off. */
+/* Returns the status and the message of actions without end. number: the number that grows; SIZE_MAX: none does. The
+ * limit belongs to the run's own motion, so the tolerance and the rounding of every action count as its error. */
 static motus_status without_end(const events *e, const events_limit *at, size_t number, motus_error *err)
 {
     const bool adapts = row_adaptive(&e->method);
@@ -82,7 +82,7 @@ static motus_status without_end(const events *e, const events_limit *at, size_t 
     return status;
 }
 
-/* The rate at which the logarithm of a number's size grows, from one mark to another state of the motion. */
+/* Returns the rate, per action, at which the logarithm of a number's size grows. */
 static double rate_of(double before, double after, double actions) { return log(after / before) / actions; }
 
 motus_status events_unbounded(const events *e, motus_error *err)
@@ -100,22 +100,21 @@ motus_status events_unbounded(const events *e, motus_error *err)
     for (size_t k = 0; k < all; k++) {
         if (!(one[k] > 0) || (k < nx && is_kept(e, k))) continue;
         const double before = rate_of(one[k], two[k], between), now = rate_of(two[k], e->most[k], since);
-        /* a power of the number of actions, as a count of them, grows by half as much and less */
+        /* a power of the number of actions, such as a counter, grows at most at half the rate before */
         if (!(now >= 0.75 * before) || !(now * since >= shrunk / 16)) continue;
         if (now > fastest) fastest = now, which = k;
     }
     return which == SIZE_MAX ? MOTUS_OK : without_end(e, &e->limit, which, err);
 }
 
-/* The limit of a sequence, from its latest three numbers; one that no longer changes is there. */
+/* Returns the limit of a sequence by its latest three numbers; NaN where its differences do not fall. */
 static double aitken(double a, double b, double c)
 {
     const double one = c - b, two = b - a;
     return fabs(one) < fabs(two) ? c + one * one / (two - one) : NAN;
 }
 
-/* The times at the marks are a sequence: its limit, how far that may be off, and the factor by which differences fall,
- * or NaN. */
+/* Returns the limit of the times at the marks, or NaN; tells its error, and the factor by which differences fall. */
 static double limit_of_marks(const events *e, double *error, double *factor)
 {
     double once[GROWTH_MARKS], t[GROWTH_MARKS], ratio[GROWTH_MARKS];
@@ -131,8 +130,8 @@ static double limit_of_marks(const events *e, double *error, double *factor)
     return twice;
 }
 
-/* Which number has grown by the largest factor since the mark before, by no smaller one in the two before that. A
- * logarithm of the number of actions grows by less. */
+/* Returns the number that has grown by the largest factor since the mark before, if it grew by at least 1.1 from mark
+ * to mark, three times; SIZE_MAX: none. A logarithm of the number of actions grows by less. */
 static size_t grown(const events *e)
 {
     enum { LAST = 3 };
@@ -152,8 +151,8 @@ static size_t grown(const events *e)
     return which;
 }
 
-/* The marks hold what is left of the time only to the rounding of times; and a limit with a finite state is reached by
- * the actions themselves where they are not too many (events_table.c). */
+/* Judges the marks. Rounding of times must leave enough of the time that is left; and where no number grows, the
+ * actions themselves reach the limit unless they are too many (events_table.c). */
 static motus_status judge(const events *e, size_t rule, size_t instance, motus_error *err)
 {
     enum { ULPS = 1 << 16, ACTIONS = 1 << 24 };

@@ -1,12 +1,12 @@
-/* Extrema near 0 of functions, which the exact motion may lead beyond 0 where the run does not, or the reverse. They
- * are kept for those who know the errors of the motion. See events_parts.h. */
+/* Extrema of functions near 0: they may lie beyond 0 for the exact motion and not for the run, or the reverse. They are
+ * kept for the files that know the errors of the motion. See events_parts.h. */
 #include "core/events_parts.h"
 
 #include <math.h>
 #include <string.h>
 
 enum { TURNS = 40, EXTREMA_MOST = 1 << 12, MARGIN = 16 };
-enum { OF, TIME, KIND, STATE }; /* what is kept of each */
+enum { OF, TIME, KIND, STATE }; /* the numbers of an extremum: function, time, kind, and from STATE on x and v */
 
 void events_forget_extrema(events *e)
 {
@@ -74,7 +74,7 @@ static motus_status keep(events *e, size_t f, events_near_kind kind, const insta
     return MOTUS_OK;
 }
 
-/* Keeps the state at a time of the step, where rounded errors of the motion may hide the sign of function f. */
+/* Keeps the state at time h of the step if the errors of the motion may hide the sign of function f there. */
 static motus_status keep_at(events *e, stepper *s, size_t f, events_near_kind kind, double h, motus_error *err)
 {
     instant *at = &e->next;
@@ -105,7 +105,7 @@ motus_status events_note_rest(events *e, motus_error *err)
     return status;
 }
 
-/* By Clenshaw's formula. */
+/* Clenshaw's formula. */
 double events_polynomial(const double *c, int degree, double tau)
 {
     const double z = 2 * tau - 1;
@@ -118,7 +118,7 @@ double events_polynomial(const double *c, int degree, double tau)
     return c[0] + (z * one - two);
 }
 
-/* The slope of a polynomial, by its coefficients; half of it, since tau is half of what they are of. */
+/* Writes the coefficients of half the slope d/dtau of a polynomial: coefficients belong to 2 tau - 1. */
 static void derive(const double *c, int degree, double *slope)
 {
     slope[degree] = 0;
@@ -126,7 +126,7 @@ static void derive(const double *c, int degree, double *slope)
     slope[0] /= 2;
 }
 
-/* Where the slope changes its sign between two places, at the first of which that is `sign`. */
+/* Returns where the slope changes its sign between `low`, where it has the sign `sign`, and `high`. */
 static double level_between(const double *slope, int degree, double low, double high, int sign)
 {
     for (int turn = 0; turn < TURNS; turn++) {
@@ -155,6 +155,6 @@ motus_status events_note_extrema(events *e, stepper *s, size_t f, const events_p
         }
         sign = now, before = tau;
     }
-    /* of methods of order 1 an extremum may lie between two steps, on a straight line in both */
+    /* with methods of order 1 an extremum may lie between two steps, each of which is a straight line */
     return status || p->to < 1 ? status : keep_at(e, s, f, EVENTS_NEAR_END, e->span, err);
 }

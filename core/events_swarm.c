@@ -1,11 +1,11 @@
-/* Switches of the force that follow one another ever faster. See events_parts.h.
+/* Switches of the force that turn ever faster. See events_parts.h.
  *
- * A cycle is what lies between two turns of a switch to the same side. Where a motion comes to rest by ever shorter
- * swings, as under -2 sign(x) - sign(x'), cycles become shorter by a constant factor, or nearly: their lengths fall to
- * 0 on a straight line over the time, whatever the factor is, and tell the time at which they do. Lengths that fall
- * ever more slowly, as under -sign(x) - x'/2, never come to 0, but there is no end of their number either.
+ * A cycle is the time between two turns of a switch to one side. Where a motion comes to rest by ever shorter swings,
+ * as under -2 sign(x) - sign(x'), cycles shorten by a nearly constant factor. Whatever the factor, their lengths then
+ * lie on a straight line over the time, and this line tells when they reach 0. Lengths that fall ever more slowly, as
+ * under -sign(x) - x'/2, never reach 0, but there is no end of their number either.
  *
- * Few switches are watched, those that turned last; what becomes ever shorter is always among them.
+ * Only the SWARMS switches that turned last are kept; those that turn ever faster are always among them.
  */
 #include "core/events_parts.h"
 
@@ -13,8 +13,9 @@
 #include <stdio.h>
 #include <string.h>
 
-/* The cycle is short when what is left is below this part of the longest one, since what accumulates there is then
- * below the rounding of the motion: places fall with the square of times. Or it is so near to the rounding of times. */
+/* Switches accumulate when the time left to the limit is below SHORT_PART of the longest cycle: the motion left is then
+ * below its rounding, since positions fall with the square of times. Or when the time left is below SHORT_ULPS units in
+ * the last place of the time. */
 #define SHORT_PART 0x1p-26
 enum { SHORT_ULPS = 512, LOST_ULPS = 16, TRUSTED = 4, MANY = 1000 };
 
@@ -28,7 +29,7 @@ static double *state_of(const events *e, const swarm *s, int parity)
     return e->swarm_state + (size_t)(2 * (s - e->swarm) + parity) * (e->problem.nx + e->problem.nv);
 }
 
-/* That of a function, or else of the one that has not turned for the longest time. */
+/* Returns the slot of a function's switch; a new one takes the slot that is free or has not turned for longest. */
 static swarm *swarm_of(events *e, size_t f)
 {
     swarm *oldest = e->swarm;
@@ -40,7 +41,7 @@ static swarm *swarm_of(events *e, size_t f)
     return oldest;
 }
 
-/* How fast the lengths fell between two marks, or one and now. */
+/* Returns how fast the lengths of cycles fell between two marks. */
 static double fall(const swarm_mark *from, const swarm_mark *to)
 {
     return (from->cycle - to->cycle) / fabs(to->t - from->t);
@@ -61,7 +62,7 @@ static motus_status endless(const events *e, const swarm *s, const char *how, mo
     return MOTUS_EVENTS;
 }
 
-/* Those that are as fast as this one go to where they all accumulate, a time `left` later. */
+/* Moves the motion by a time `left`, to where this switch and those that turn as fast accumulate. */
 static motus_status gather(events *e, swarm *s, double left, motus_error *err)
 {
     const size_t nx = e->problem.nx, nv = e->problem.nv, moving = nx - e->problem.modes;
@@ -80,7 +81,7 @@ static motus_status gather(events *e, swarm *s, double left, motus_error *err)
     return e->rules.gather(e->rules.ctx, functions, count, e->way, e->here.t, e->here.x, e->here.v, err);
 }
 
-/* The lengths have halved since the last mark: whether they end, and where. */
+/* Decides, when the lengths have halved since the last mark, whether they reach 0 shortly, and gathers the switches. */
 static motus_status judge(events *e, swarm *s, motus_error *err)
 {
     const double ulp = events_ulp(e->here.t);
@@ -100,7 +101,7 @@ static void set_mark(swarm *s, double t)
     s->mark[s->marks++] = (swarm_mark){t, s->cycle};
 }
 
-/* Cycles that fall by ever less, of which more are left than can be taken. */
+/* Tells whether cycles shorten ever more slowly, and more are left before the end than can be taken. */
 static bool multiplies(const events *e, const swarm *s)
 {
     const double more = fabs(e->until - e->here.t) / s->cycle;

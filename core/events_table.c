@@ -38,7 +38,7 @@ static bool grow_rows(events *e)
     return true;
 }
 
-/* A state behind those of the rows. */
+/* Adds a state behind those of the rows. False: no memory. */
 static bool add_state(events *e, const instant *at)
 {
     const size_t nx = e->problem.nx, nv = e->problem.nv;
@@ -51,8 +51,8 @@ static bool add_state(events *e, const instant *at)
     return true;
 }
 
-/* A flight between two switches leaves about twice what one between two actions does. What few of them leave the
- * distance of a companion covers. */
+/* A flight between two switches leaves about twice the error of one between two actions. The distance of a companion
+ * covers the error of few flights. */
 double events_lasting(const events *e, double t)
 {
     const double gone = t - e->start;
@@ -176,18 +176,17 @@ void events_kept_forget(events *e)
 
 /* Accumulation ----------------------------------------------------------------------------------------------------- */
 
-/* What is left of the time after an event until the limit of those that follow, how far it may be off, and the ratio of
- * the intervals from one event to the next. */
+/* The time from an event to the limit of the events that follow, its error, and the ratio of successive intervals. */
 typedef struct tail {
     double left, error, ratio;
 } tail;
 
-/* By Aitken's formula from every `stride`-th event, 2^level: with a = r/(1 - r), r the ratio of the latest two
- * intervals, a part a of the last one is left. Every time may be off by `noise`, which enters by 1/(1 - r)^2, twice
- * r/(1 - r)^2 and (r/(1 - r))^2. Where the ratio changes, the limit does from one triple of times to the next; what is
- * left of such changes shrinks at least as the intervals do. And every action, and what it is computed from, is
- * rounded, in each event by a part in 2^49 of the interval: dop853 leaves 14 * 2^-53 of
- * the velocity of each flight of a ball, pefrl and rk4 up to 25 * 2^-53. */
+/* Extrapolates the limit by Aitken's formula from every 2^level-th event: if r is the ratio of the latest two
+ * intervals, r/(1 - r) of the last one is left. Its error has three parts. Every time may be off by `noise`, which
+ * enters by 1/(1 - r)^2, twice r/(1 - r)^2 and (r/(1 - r))^2. Where the ratio changes, the limit changes from one
+ * triple of times to the next; what is left of such changes shrinks at least as the intervals do. Every event is
+ * rounded by a part in 2^49 of the interval: dop853 leaves 14 * 2^-53 of the velocity of each flight of a ball, pefrl
+ * and rk4 up to 25 * 2^-53. */
 static bool extrapolate(const recent *r, int level, double noise, tail *out)
 {
     const double *const t = r->t + RECENT * level;
@@ -205,7 +204,7 @@ static bool extrapolate(const recent *r, int level, double noise, tail *out)
     return true;
 }
 
-/* The least uncertain of these; one of a longer stride must agree with the latest interval, unless that is `lost`. */
+/* Finds the level with the least error. A level above 0 must agree with the latest interval, unless that is `lost`. */
 static bool best_tail(const recent *r, int levels, double noise, bool lost, tail *best)
 {
     const double one = recent_count(r, 0) > 1 ? fabs(r->t[0] - r->t[1]) : 0;
@@ -228,7 +227,7 @@ static void set_limit(events *e, size_t rule, size_t instance, double t, const t
     e->limit = (events_limit){rule, instance, t + e->way * k->left, k->error + 2 * events_ulp(t), events_lasting(e, t)};
 }
 
-/* How far a time may be from that of the root of its function: by its own rounding, and that of the function. */
+/* Returns how far the time of an event may be off by its own rounding and by that of the function. */
 static double noise_of(const events *e, size_t rule, size_t instance, double t)
 {
     const struct rule *of = &e->rules.rule[rule];
@@ -237,9 +236,9 @@ static double noise_of(const events *e, size_t rule, size_t instance, double t)
     return events_ulp(t) + hidden;
 }
 
-/* Whether events whose intervals shrink by a nearly constant ratio accumulate. It is due when all that is left before
- * the limit is below 512 units in the last place of the time, or the next interval below 64, or the function goes no
- * farther than 512 times its rounding: rounding soon hides in which order such events would come. */
+/* Tells whether events whose intervals shrink by a nearly constant ratio accumulate now: the time left before the limit
+ * is below 512 units in its last place, or the next interval below 64, or rounding will soon hide the function between
+ * two events. Rounding soon hides in which order such events would come. */
 bool events_accumulate(events *e, size_t rule, size_t instance, double t)
 {
     enum { ULPS = 512, ULPS_EACH = 64, HIDDEN = 1 << 18 };
@@ -253,17 +252,17 @@ bool events_accumulate(events *e, size_t rule, size_t instance, double t)
         memmove(to + 1, to, (RECENT - 1) * sizeof *to);
         to[0] = t;
     }
-    e->tail /= 2; /* roundings may spoil the intervals of an event or two */
+    e->tail /= 2; /* not 0 at once, because rounding may spoil the intervals of an event or two */
     const bool same = e->limit.rule == rule && e->limit.instance == instance;
     if (e->tail < events_ulp(t)) e->tail = 0;
     if (r->number < RECENT || (e->has_limit && (same || !e->limit_told))) return false;
     const double one = fabs(r->t[0] - r->t[1]), ulp = events_ulp(t), noise = noise_of(e, rule, instance, t);
     if (!best_tail(r, levels, noise, false, &k)) return false;
-    /* two events of one instant, as of a ball that meets two others at once, are no shorter interval of a sequence */
+    /* two events in one instant, as of a ball that meets two others at once, do not continue a sequence */
     if (one + 2 * noise < fabs(r->t[1] - r->t[2]) * k.ratio / 4) return false;
     if (k.error < k.left / 4) e->tail = k.left;
     if (k.left > ULPS * ulp && one * k.ratio > ULPS_EACH * ulp) {
-        /* a function may be hidden by its own rounding long before */
+        /* a function's own rounding may hide it long before */
         const size_t f = of->first + instance;
         const double top = fabs(e->here.rate[f]) * one * k.ratio / 4; /* on a parabola */
         if (of->kind != RULE_ROOT || !(top <= HIDDEN * e->here.bound[f])) return false;
@@ -282,7 +281,7 @@ void events_end_here(events *e, size_t rule, size_t instance, double t)
     tail k = {0};
     const double all = noise_of(e, rule, instance, t), noise = isfinite(all) ? all : events_ulp(t);
     if (r->number >= RECENT && !best_tail(r, recent_levels(of), noise, false, &k)) {
-        /* the latest intervals are no more than roundings: what is left is as uncertain as it is long */
+        /* the latest intervals are mere rounding: the time left is as uncertain as it is long */
         const double one = fabs(r->t[0] - r->t[1]), two = fabs(r->t[1] - r->t[2]), ratio = one / two;
         if (!best_tail(r, recent_levels(of), noise, true, &k)) k.left = ratio < 1 ? one * ratio / (1 - ratio) : one;
         k.error = fmax(k.left + two, isfinite(k.error) ? k.error : 0);
@@ -301,8 +300,8 @@ void events_after(events *e, size_t rule, size_t instance)
     e->after_instance = instance;
 }
 
-/* y + (y - y') r/(1 - r), y' the number after the event before: where a sequence with differences of the ratio r
- * ends. */
+/* Extrapolates numbers to the limit of a sequence whose differences have the ratio r: y + (y - y') r/(1 - r), where y'
+ * is the number after the event before. */
 static void to_limit(const events *e, double *y, const double *before, double *off, size_t count)
 {
     for (size_t k = 0; k < count; k++) {
@@ -316,7 +315,7 @@ void events_to_limit(events *e)
 {
     const size_t nx = e->problem.nx, nv = e->problem.nv, moving = nx - e->problem.modes;
     const bool known = e->after_rule == e->limit.rule && e->after_instance == e->limit.instance;
-    e->here.t = e->way * (e->limit.t - e->until) > 0 ? e->until : e->limit.t; /* both are a few roundings away */
+    e->here.t = e->way * (e->limit.t - e->until) > 0 ? e->until : e->limit.t; /* either is a few roundings away */
     e->here.lost = 0;
     memset(e->limit_off, 0, (nx + nv) * sizeof *e->limit_off);
     if (!known) return;
