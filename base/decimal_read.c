@@ -14,7 +14,7 @@
 enum { DIGITS_MAX = 800, EXPONENT_MAX = 100000000, SMALLEST = -330, LARGEST = 310, WORDS = 96 };
 
 typedef struct number {
-    uint32_t word[WORDS]; /* the lowest first, `count` of them, the highest not 0 */
+    uint32_t word[WORDS]; /* the lowest word first, the highest of `count` not 0 */
     int count;
     bool more; /* the number is a little larger */
 } number;
@@ -42,7 +42,7 @@ static void over(number *n, uint32_t divisor)
     n->more = n->more || rest != 0;
 }
 
-/* 5^p in as few steps as 32 bits allow. */
+/* Applies 5^p in as few steps as 32 bits allow. */
 static void by_fives(number *n, int p, void (*step)(number *, uint32_t))
 {
     while (p > 0) {
@@ -56,13 +56,13 @@ static void times(number *n, uint32_t factor) { times_plus(n, factor, 0); }
 
 static uint64_t bit(const number *n, int k) { return k >= 0 && k < 32 * n->count ? n->word[k / 32] >> k % 32 & 1 : 0; }
 
-/* n × 2^exponent as a double, the double on its other side, and what rounding has left out. */
+/* Returns n × 2^exponent as a double, with the double on its other side, and what rounding has left out. */
 static double rounded(const number *n, int exponent, double *other, double *rest)
 {
     enum { BITS = 53 };
     int top = 32 * n->count - 1;
     while (!bit(n, top)) top--;
-    int last = top - 52; /* the last bit that a double keeps: not below 2^-1074 */
+    int last = top - 52; /* the last bit that a double keeps, at least 2^-1074 */
     if (last + exponent < -1074) last = -1074 - exponent;
     uint64_t mantissa = 0;
     for (int k = top; k >= last; k--) mantissa = mantissa << 1 | bit(n, k);
@@ -73,20 +73,20 @@ static double rounded(const number *n, int exponent, double *other, double *rest
     uint64_t left = 0;
     for (int k = last - 1; k >= last - BITS; k--) left = left << 1 | bit(n, k);
     *rest = ldexp((double)left - (up ? (double)(UINT64_C(1) << BITS) : 0), last + exponent - BITS);
-    /* above a power of two the neighbour below is nearer than the last bit says */
+    /* Above a power of two the neighbour below is nearer than the last bit says. */
     const double value = ldexp((double)mantissa, last + exponent);
     *other = !half && !more ? value : nextafter(value, up ? 0 : INFINITY);
     return value;
 }
 
-/* n × 10^exponent as a double, the double on its other side, and what rounding has left out. */
+/* Returns n × 10^exponent as a double, with the double on its other side, and what rounding has left out. */
 static double scaled(number *n, int exponent, double *other, double *rest)
 {
     int words = 0;
     if (exponent >= 0) {
         by_fives(n, exponent, times);
     } else {
-        /* zeros behind it, so that the quotient has more bits than two doubles: log2 of 5 is below 7/3 */
+        /* Zeros behind the number let the quotient have more bits than two doubles: log2 of 5 is below 7/3. */
         words = -exponent * 7 / 3 / 32 + 6 - n->count;
         words = words > 0 ? words : 0;
         memmove(n->word + words, n->word, (size_t)n->count * sizeof *n->word);
@@ -99,7 +99,7 @@ static double scaled(number *n, int exponent, double *other, double *rest)
 
 static bool digit(const char *s, size_t length, size_t at) { return at < length && s[at] >= '0' && s[at] <= '9'; }
 
-/* e[+-]digits at s[at], or nothing; where it ends. */
+/* Reads e[+-]digits at s[at], if it is there. Returns where it ends. */
 static size_t read_exponent(const char *s, size_t length, size_t at, int64_t *exponent)
 {
     if (at >= length || (s[at] != 'e' && s[at] != 'E')) return at;

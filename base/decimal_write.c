@@ -46,12 +46,12 @@ size_t decimal_write_plain(double value, char out[DECIMAL_MAX])
     }
 }
 
-/* The digits of n from the left; how many. */
+/* Writes the digits of n from the left, and returns how many. */
 static int spell(uint64_t n, char *out)
 {
     char reversed[20];
     int count = 0;
-    /* two at a time: half the divisions */
+    /* Two digits at a time take half the divisions. */
     while (n >= 10) {
         unsigned pair = (unsigned)(n % 100);
         n /= 100;
@@ -73,8 +73,8 @@ size_t decimal_write_whole(uint64_t n, char out[DECIMAL_MAX])
 #ifdef __SIZEOF_INT128__
 __extension__ typedef unsigned __int128 wide;
 
-/* 5^(27 a), a = -11 … 12, as 128 leading bits, cut off; and 5^r, r = 0 … 26, whole. Their products are the powers of
- * five that are needed. */
+/* The powers of five are products of these: 5^(27 a), a = -11 … 12, as 128 leading bits, cut off; and 5^r, r = 0 … 26,
+ * whole. */
 enum { STRIDE = 27, FIRST = -11 };
 static const struct {
     uint64_t high, low;
@@ -128,7 +128,7 @@ typedef struct scaled {
     int exponent;
 } scaled;
 
-/* 192 bits of a × b as their upper 128 and, for rounding and shifting, the lower 64. */
+/* Multiplies a and b to 192 bits: the upper 128, and, for rounding and shifting, the lower 64. */
 static wide multiply(wide a, uint64_t b, uint64_t *low)
 {
     wide bottom = (wide)(uint64_t)a * b, top = (wide)(uint64_t)(a >> 64) * b;
@@ -136,7 +136,7 @@ static wide multiply(wide a, uint64_t b, uint64_t *low)
     return top + (bottom >> 64);
 }
 
-/* 10^p, cut off: too small by less than 2^-125 of itself. */
+/* Returns 10^p, cut off: too small by less than 2^-125 of itself. */
 static scaled power_of_ten(int p)
 {
     int a = (p >= 0 ? p : p - (STRIDE - 1)) / STRIDE, r = p - STRIDE * a, shift = __builtin_clzll(fine[r]);
@@ -169,7 +169,7 @@ static fixed scale(uint64_t mantissa, int exponent, int shift, int p)
 enum { DOUBT = 8 }; /* last bits; four times what may be wrong */
 #define UNSURE(a, b) ((a) < (b) + DOUBT && (b) < (a) + DOUBT)
 
-/* Value rounded to a multiple of `unit`: 1 good: it reads back; 0 not; -1 unsure. */
+/* Rounds the value to a multiple of `unit`. 1: it reads back; 0: it does not; -1: unsure. */
 static inline int round_to(fixed f, bool at_power, uint64_t unit, uint64_t *digits)
 {
     uint64_t whole = (uint64_t)(f.value >> 64);
@@ -183,7 +183,7 @@ static inline int round_to(fixed f, bool at_power, uint64_t unit, uint64_t *digi
     return UNSURE(away, most) ? -1 : away < most;
 }
 
-/* As %.*g does: `count` digits, the first of which stands for 10^place; zeros at the end are left out. */
+/* Writes `count` digits as %.*g does; the first stands for 10^place, and zeros at the end are left out. */
 static size_t arrange(uint64_t digits, int count, int place, bool negative, char *out)
 {
     char text[20], *s = out;
@@ -218,7 +218,7 @@ static size_t arrange(uint64_t digits, int count, int place, bool negative, char
     return (size_t)(s - out);
 }
 
-/* 0: unsure. */
+/* Writes a value fast, and returns the length. 0: unsure. */
 static size_t print(double value, char *out)
 {
     static const uint64_t ten17 = 100000000000000000;
@@ -239,7 +239,7 @@ static size_t print(double value, char *out)
     int place = ((exponent + 63) * 78913) >> 18;
     fixed f = scale(mantissa, exponent, shift, 16 - place);
     if ((uint64_t)(f.value >> 64) >= ten17) f = scale(mantissa, exponent, shift, 16 - ++place);
-    /* the units are constants, so that no division is one */
+    /* Units are constants, so that the compiler replaces divisions by them. */
     uint64_t digits, one_more = ten17 / 100;
     int count = 15, good = round_to(f, at_power, 100, &digits);
     if (good == 0) {

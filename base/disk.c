@@ -11,7 +11,7 @@
 #include <string.h>
 #include <unistd.h>
 
-/* The size of a file is synchronised with its data, its times need not be. */
+/* The size of a file is synchronised with its data; its times need not be. */
 bool disk_sync(int descriptor)
 {
     return fdatasync(descriptor) == 0 || errno == EINVAL || errno == ENOTSUP || errno == EINTR;
@@ -73,7 +73,7 @@ int disk_nameless(const char *name, int mode)
     return -1;
 }
 
-/* A name that is free, in the folder of `name`; the caller frees it. NULL: errno says why. */
+/* Returns a free name in the folder of `name`; the caller frees it. NULL: errno says why. */
 static char *free_name(const char *name)
 {
     static const char beside[] = ".motus-XXXXXX";

@@ -14,7 +14,7 @@
 #include <stdio.h>
 #include <string.h>
 
-/* In place; the text never grows. */
+/* Makes a text safe in its place; it never grows. */
 static void make_safe(char *text)
 {
     char *in = text, *out = text;
@@ -31,12 +31,12 @@ static void make_safe(char *text)
     *out = 0;
 }
 
-/* A text too long for its place ends in "..." and is cut between characters. */
+/* Writes a text; one that is too long ends in "..." and is cut between characters. */
 static void compose(char out[MOTUS_TEXT_MAX], const char *format, va_list arguments)
 {
     locale_t point = newlocale(LC_ALL_MASK, "C", (locale_t)0), host = point ? uselocale(point) : (locale_t)0;
     int wanted = vsnprintf(out, MOTUS_TEXT_MAX, format, arguments);
-    if (point) { /* numbers have a decimal point in every locale */
+    if (point) { /* so that numbers have a decimal point in every locale */
         uselocale(host);
         freelocale(point);
     }

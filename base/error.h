@@ -11,9 +11,9 @@
 /* Fills the error and returns its status. */
 motus_status fail(motus_error *, motus_status, const char *format, ...) __attribute__((format(printf, 3, 4)));
 void hint(motus_error *, const char *format, ...) __attribute__((format(printf, 2, 3)));
-/* A text with decimal points, as the messages have. */
+/* Writes a text with decimal points in every locale, as in messages. */
 void error_text(char out[MOTUS_TEXT_MAX], const char *format, ...) __attribute__((format(printf, 2, 3)));
-/* The wrong word, and what to write instead: motus_error. */
+/* Notes the wrong word, and what to write instead: motus_error. */
 void error_repair(motus_error *, const char *word, const char *format, ...) __attribute__((format(printf, 3, 4)));
 
 #endif

@@ -13,7 +13,7 @@ void *take(const motus_allocator *allocator, size_t count, size_t bytes)
     if (bytes && count > SIZE_MAX / bytes) return NULL;
     size_t all = count * bytes;
     if (!all) all = 1;
-    /* calloc: fresh pages come zeroed without being touched */
+    /* Fresh pages of calloc come zeroed without being touched. */
     if (!allocator || !allocator->allocate) return calloc(1, all);
     void *block = allocator->allocate(allocator->context, all);
     if (block) memset(block, 0, all);

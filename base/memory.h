@@ -9,10 +9,10 @@
 
 #include "motus.h"
 
-/* count × bytes, zeroed; NULL when there is none or the product is too large. */
+/* Takes count × bytes, zeroed. NULL: there is no memory, or the product is too large. */
 void *take(const motus_allocator *, size_t count, size_t bytes);
-/* A larger block for a list of `used` elements, which are copied; the old one is given back. NULL when there is
- * none: the old one stands. */
+/* Takes a larger block for a list of `used` elements, copies them, and gives the old block back. NULL: there is no
+ * memory; the old block stays. */
 void *take_more(const motus_allocator *, void *old, size_t used, size_t count, size_t bytes);
 void give(const motus_allocator *, void *);
 

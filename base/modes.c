@@ -1,4 +1,4 @@
-/* The floating-point modes a caller may have changed: saved, set to IEEE defaults, restored. */
+/* The floating-point modes that a caller may have changed: saved, set to IEEE defaults, restored. */
 #include "base/modes.h"
 
 #include <fenv.h>

@@ -1,5 +1,5 @@
-/* The floating-point modes that a caller may have changed: rounding to nearest with subnormals while the library
- * computes, the caller's own after it. */
+/* The floating-point modes that a caller may have changed: while the library computes, rounding to nearest with
+ * subnormals; afterwards the caller's own. */
 #ifndef BASE_MODES_H
 #define BASE_MODES_H
 

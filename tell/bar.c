@@ -10,9 +10,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { TINIEST = -300 }; /* below this power of ten there are not all digits */
+enum { TINIEST = -300 }; /* of smaller powers of ten not all digits exist */
 
-/* The power of ten of the first digit. */
+/* Returns the power of ten of the first digit. */
 static int power_of(double number)
 {
     char text[DECIMAL_MAX];
@@ -22,7 +22,7 @@ static int power_of(double number)
     return number < decimal_scaled(1, rounded) ? rounded - 1 : rounded;
 }
 
-/* digits × 10^power: "1.5e-6", "0.03", "200". */
+/* Writes digits × 10^power: "1.5e-6", "0.03", "200". */
 static void error_text(int digits, int power, char out[DECIMAL_MAX])
 {
     const int first = power + (digits >= 10);
@@ -34,14 +34,14 @@ static void error_text(int digits, int power, char out[DECIMAL_MAX])
         snprintf(out, DECIMAL_MAX, "%de%d", digits, first);
 }
 
-/* Without the plus and the zeros of an exponent: 1.5e+07 as 1.5e7. */
+/* Takes the plus and the zeros out of an exponent: 1.5e+07 becomes 1.5e7. */
 static void tidy(char *number)
 {
     char *e = strchr(number, 'e');
     if (e) snprintf(e + 1, DECIMAL_MAX - (size_t)(e + 1 - number), "%d", atoi(e + 1));
 }
 
-/* The value to the decimal 10^power. */
+/* Writes the value to the decimal 10^power. */
 static void value_text(double value, int power, char out[DECIMAL_MAX])
 {
     const int first = power_of(fabs(value)), digits = first > power ? first - power : 0;
@@ -60,13 +60,13 @@ static void value_text(double value, int power, char out[DECIMAL_MAX])
     snprintf(out, DECIMAL_MAX, "%.0f", value < 0 ? -whole : whole);
 }
 
-/* How many 10^power are at least `error`, and what rounding the value to one of them takes. */
+/* Returns how many 10^power are at least `error` and what rounding the value to one of them takes. */
 static int units(double error, int power, double rounding)
 {
     return (int)ceil(error / decimal_scaled(1, power) * (1 + 0x1p-50) + rounding);
 }
 
-/* The power of ten to which an error is rounded, and how many of them it takes. */
+/* Finds the power of ten to which an error is rounded up, and returns how many of them it takes. */
 static int round_up(double error, double rounding, int *power)
 {
     *power = power_of(error);

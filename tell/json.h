@@ -7,9 +7,9 @@
 #include <stdint.h>
 
 typedef struct json {
-    void (*write)(void *to, const char *bytes, size_t count); /* keeps its failures itself */
+    void (*write)(void *to, const char *bytes, size_t count); /* notes its own failures */
     void *to;
-    bool comma; /* a value precedes in the same brackets */
+    bool comma; /* another value stands before it in the brackets */
 } json;
 
 /* key: NULL in a list, and for the outermost value. */

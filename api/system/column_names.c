@@ -5,7 +5,7 @@
 
 #include <string.h>
 
-typedef struct column_name { /* a name taken apart: [exact] base [indices] primes component */
+typedef struct column_name { /* the parts of a name: [exact] base [indices] primes component */
     bool exact;
     char base[MOTUS_NAME_MAX];
     int dims;
@@ -14,7 +14,7 @@ typedef struct column_name { /* a name taken apart: [exact] base [indices] prime
     int component; /* 1-based, 0: none */
 } column_name;
 
-/* An index above INT32_MAX becomes one that no cell has. */
+/* Reads an index; one above INT32_MAX becomes one that no cell has. */
 static const char *read_index(const char *p, int64_t *value)
 {
     const bool minus = *p == '-';
@@ -105,7 +105,7 @@ static motus_status no_column(const motus_system *s, const char *name, const cha
     return MOTUS_NAME;
 }
 
-/* The columns of a range that the name stands for; false: there are none. */
+/* Finds the columns of a range that the name stands for. False: there are none. */
 static bool select_columns(const motus_system *s, const column_range *g, column_name n, size_t *first, size_t *count)
 {
     *first = g->first;

@@ -13,7 +13,7 @@ size_t system_place(const model_state *s, size_t cell, int component)
     return s->base + (size_t)component * s->hull + offset;
 }
 
-#define TWICE 2.0 /* a spread that is as much larger than an error is that of a jump */
+#define TWICE 2.0 /* a spread that is larger than an error by this factor is that of a jump */
 
 static const model_definition *definition(const motus_system *s, const column_range *g)
 {
@@ -43,7 +43,7 @@ static void add_states(motus_system *s, motus_column_kind kind, bool exact, bool
 
 bool system_number_columns(motus_system *s)
 {
-    size_t named = 0; /* parameters are no columns, and there may be one in every line */
+    size_t named = 0; /* parameters are no columns, and every line may have one */
     for (uint32_t i = 0; i < s->definition_count; i++)
         named += s->definitions[i].kind != DEFINED_PARAMETER || s->definitions[i].mode;
     for (uint32_t i = 0; i < s->state_count; i++)
@@ -95,7 +95,7 @@ const column_range *columns_range(const motus_system *s, size_t k)
 
 /* ---- values ---- */
 
-/* Calls `move` for every number of the outside order, in this order; outer_x, outer_v may be NULL. */
+/* Calls `move` for every number in the outside order; outer_x, outer_v may be NULL. */
 static void each_number(const motus_system *s, double *x, double *v, double *outer_x, double *outer_v,
                         void (*move)(double *inner, double *outer))
 {
@@ -188,15 +188,15 @@ static motus_status evaluate(motus_system *s, const column_range *g, double t, d
     }
 }
 
-/* Of a state nothing is evaluated. The exact columns come from one evaluation, and so do all quantities, or invariants,
- * of a callback. */
+/* Returns whether a range's columns are already evaluated: those of the state always are, all exact columns come from
+ * one evaluation, and so do all quantities, or invariants, of a callback. */
 static bool evaluated(const motus_system *s, const column_range *g, const column_range *done)
 {
     return g == done || (of_state(g->kind) && g->kind != MOTUS_COLUMN_EXACT) ||
            (done && done->kind == g->kind && (g->kind == MOTUS_COLUMN_EXACT || (!s->model && !of_state(g->kind))));
 }
 
-/* Where the number of a column is among those of its definition. */
+/* Returns the place of a column's number among those of its definition. */
 static size_t observed_place(const motus_system *s, const column_range *g, size_t column)
 {
     const size_t parts = columns_parts(definition(s, g)->components), hull = g->count / parts, k = column - g->first;
@@ -287,8 +287,8 @@ bool system_box(const motus_system *s, const double *x, const double *v, system_
     return true;
 }
 
-/* The hull of what a quantity is at states of a box: its corners, some at random, and the middles of its faces. Bounds
- * do not see that one condition holds where another one does not, as in a table of pieces that join. */
+/* Finds the hull of a quantity's values at states of a box: its corners, some at random, and the middles of its faces.
+ * Bounds do not see that one condition holds where another does not, as in a table of pieces that join. */
 static motus_status spread(motus_system *s, const column_range *g, double t, const interval *x, double *room,
                            interval *out, motus_error *err)
 {
@@ -329,7 +329,7 @@ bool system_jumps(motus_system *s, size_t column)
     return jumps(s, columns_range(s, column), &flat);
 }
 
-/* The error of a value that lies within bounds, beside the one that run and companion tell. */
+/* Returns the error of a value that lies within bounds. error: the one that run and companion tell. */
 static double doubted(doubt open, bool flat, double value, interval bounds, double error)
 {
     const double off = fmax(bounds.high - value, value - bounds.low);
@@ -407,7 +407,6 @@ model_state columns_shape(const motus_system *s, const column_range *g)
     return shape;
 }
 
-/* The cell of a family with these indices; false if there is no equation there. */
 bool columns_find_cell(const model_state *s, const int64_t *index, size_t *cell)
 {
     size_t offset = 0;
@@ -431,7 +430,7 @@ bool columns_find_cell(const model_state *s, const int64_t *index, size_t *cell)
     return s->cells.count > 0 && s->cells.offset[low] == offset;
 }
 
-/* The inverse: the indices of a place in the hull. */
+/* Finds the indices of a place in the hull. */
 static void indices_of(const model_state *s, size_t offset, int64_t *index)
 {
     for (int d = s->dims - 1; d >= 0; d--) {
@@ -441,7 +440,7 @@ static void indices_of(const model_state *s, size_t offset, int64_t *index)
     }
 }
 
-/* The number of the range's quantity or invariant, from 0: the ranges of a kind are neighbours. */
+/* Returns the number, from 0, of the range's quantity or invariant; the ranges of a kind are neighbours. */
 static size_t rank_of(const motus_system *s, const column_range *g)
 {
     return (size_t)(g - s->ranges) - s->named[g->kind == MOTUS_COLUMN_INVARIANT];
@@ -478,7 +477,7 @@ motus_status motus_column_at(const motus_system *s, size_t k, motus_column *out)
     return MOTUS_OK;
 }
 
-/* The range that a column's description belongs to; NULL: none. */
+/* Finds the range of a column's description; NULL: none. */
 static const column_range *range_of(const motus_system *s, const motus_column *c)
 {
     size_t rank = 0;

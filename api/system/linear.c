@@ -74,9 +74,9 @@ void linear_rates_of(linear *l, double *basis, linear_rates *out)
     const rate_map map = {n, linear_product, l};
     const double rate = rate_fastest(&map, basis, basis + n);
     double most = isfinite(rate) ? rate : 0;
-    /* Position and velocity of the fastest oscillation get the same size, so that no root is lost beside the others. */
+    /* Position and velocity of the fastest oscillation get equal sizes, so that no root is lost beside the others. */
     if (most > 0 && p->nx) l->size_v = most * l->size_x;
-    /* The motion's own direction, (v, a); at rest, all directions. */
+    /* The space is that of the motion's direction, (v, a); at rest, of a scattered one. */
     for (size_t k = 0; k < p->nx; k++) basis[k] = l->v[k] / l->size_x;
     const bool moves =
         linear_evaluate(l, l->t, false, l->a) && (vector_largest(l->a, p->nv) > 0 || vector_largest(basis, p->nx) > 0);

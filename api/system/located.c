@@ -36,7 +36,7 @@ static motus_status make(motus_system *s, motus_error *err)
     return status;
 }
 
-/* Whether the force may be undefined beyond a switch. */
+/* Returns whether the force may be undefined beyond a switch. */
 static bool has_domain(const model *m)
 {
     bool domain = false;
@@ -46,7 +46,7 @@ static bool has_domain(const model *m)
     return domain;
 }
 
-/* Why a run does not locate switches by itself. */
+/* Returns why a run does not locate switches unless asked; "": it does. */
 static const char *unsuited(const model *m)
 {
     if (m->located->count > LOCATED_MOST) return "switches are not located unless asked for, since there are many";
@@ -78,7 +78,7 @@ motus_status located_of(motus_system *s, motus_switches asked, motus_system **ou
     return MOTUS_OK;
 }
 
-/* Where friction along a direction stops a motion that turns, no series of its reaches so far. */
+/* Refuses Taylor series where friction along a direction stops a motion that turns: they do not lead there yet. */
 static motus_status check_series(motus_system *located, motus_error *err)
 {
     const rules *rules;

@@ -36,7 +36,7 @@ static size_t cells_of(const model_definition *d)
     return cells;
 }
 
-/* The place of its first number in the pool; the others follow, component by component. */
+/* Returns the place in the pool of a parameter's first number; the others follow, component by component. */
 static size_t place_of(const motus_system *s, const model_definition *d)
 {
     return d->list ? s->model->arrays[d->array].base : d->slot;

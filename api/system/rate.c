@@ -5,11 +5,11 @@
 #include <string.h>
 
 #define ITERATIONS 32     /* even: the square of an oscillator's Jacobian is -ω² */
-#define FORGET 8          /* iterations that are not averaged: the fastest direction does not dominate yet */
+#define FORGET 8          /* first iterations, which are not averaged: the fastest direction does not yet dominate */
 #define NUMBERS_MAX 20000 /* larger states take fewer iterations, since each costs too much */
 #define LEAST 1e-9
-#define CLOSED 1e-10 /* a direction that is new by less than this part of a product is rounding */
-#define ROUNDS 500   /* of the iteration for all roots together; some 20 suffice where roots are simple */
+#define CLOSED 1e-10 /* part of a product, below which a new direction is rounding */
+#define ROUNDS 500   /* most iterations for all roots together; some 20 suffice where roots are simple */
 
 double rate_scatter(size_t k)
 {
@@ -53,7 +53,7 @@ static double normalise(double *u, size_t n)
     return norm;
 }
 
-/* J on the space of u, J u, …, in an orthonormal basis of it. Returns its dimension, or 0. */
+/* Projects J on the space of u, J u, …, in an orthonormal basis. Returns its dimension, or 0. */
 static int project(const rate_map *j, double *basis, hessenberg h)
 {
     const size_t n = j->n;
@@ -63,7 +63,7 @@ static int project(const rate_map *j, double *basis, hessenberg h)
         if (!j->product(j->ctx, basis + (size_t)m * n, next)) return 0;
         for (size_t k = 0; k < n; k++) size = fmax(size, fabs(next[k]));
         if (!isfinite(size)) return 0;
-        for (int twice = 0; twice < 2; twice++) /* once leaves rounding of the size of what is taken off */
+        for (int twice = 0; twice < 2; twice++) /* one pass leaves rounding of the size of what it takes off */
             for (int i = 0; i <= m; i++) {
                 const double *b = basis + (size_t)i * n;
                 double part = 0;
@@ -77,7 +77,7 @@ static int project(const rate_map *j, double *basis, hessenberg h)
     return RATE_MOTION_MAX;
 }
 
-/* The characteristic polynomial, row by row [the recurrence of Hyman's method]. */
+/* Finds the characteristic polynomial, row by row [the recurrence of Hyman's method]. */
 static void characteristic(hessenberg h, int m, double scale, polynomial out)
 {
     polynomial p[RATE_MOTION_MAX + 1] = {{1}};
@@ -109,7 +109,8 @@ static complex_number over(complex_number a, complex_number b)
 
 static double size(complex_number a) { return sqrt(a.re * a.re + a.im * a.im); }
 
-/* All roots at once: each moves by p(z) over the product of its distances to the others [Weierstrass's iteration]. */
+/* Finds all roots at once: each moves by p(z) over the product of its distances to the others [Weierstrass's
+ * iteration]. */
 static void roots(const double *p, int m, complex_number *z)
 {
     z[0] = (complex_number){0.4, 0.9};
@@ -146,7 +147,7 @@ int rate_motion(const rate_map *j, double noise, double *basis, double re[RATE_M
     polynomial p;
     complex_number z[RATE_MOTION_MAX];
     characteristic(h, m, scale, p);
-    int zeros = 0; /* taken out exactly, since roots that coincide are found with a part of the digits alone */
+    int zeros = 0; /* taken out exactly, since of roots that coincide only a part of the digits is found */
     while (zeros < m && fabs(p[zeros]) <= noise) zeros++;
     roots(p + zeros, m - zeros, z);
     for (int k = 0; k < m - zeros; k++) {

@@ -1,7 +1,7 @@
 /* motus_system_set, which sets numbers of a system without reading its text again, and motus_system_clone.
  *
  * Invariant: a system whose numbers were set has, to the bit, the numbers of a system that was read with them in `set`;
- * a refusal changes nothing. lang/model/vary.h computes the numbers that depend on them, as it does for ensembles.
+ * a refusal changes nothing. lang/model/vary.h computes the numbers that depend on them.
  */
 #include "api/system/located.h"
 #include "api/system/parameters.h"
@@ -12,10 +12,10 @@
 #include <math.h>
 #include <string.h>
 
-/* What a change of one parameter or initial value computes again. Made when it is set first, and kept, so that setting
- * it again takes no more memory of the arena. */
+/* What is computed again when one parameter or initial value changes. It is made at the first change, and kept, so that
+ * setting the number again takes no more memory of the arena. */
 struct setting {
-    size_t first; /* the first of its places in the pool, which identifies it */
+    size_t first; /* its first place in the pool, which identifies it */
     vary *vary;
     struct setting *next;
 };
@@ -33,7 +33,7 @@ double *set_aside(const motus_system *s)
     return room;
 }
 
-/* Binding again takes no memory, so this cannot fail. */
+/* Binding again takes no memory, so this function cannot fail. */
 void set_back(motus_system *s, const double *room)
 {
     model *m = s->model;
@@ -47,7 +47,7 @@ void set_back(motus_system *s, const double *room)
 
 static motus_status refuse_decision(const char *name, const char *what, motus_error *err)
 {
-    const char *quote = strchr(what, ' ') ? "" : "`"; /* a setting, by its word */
+    const char *quote = strchr(what, ' ') ? "" : "`"; /* what is a setting goes in quotes */
     fail(err, MOTUS_ARGUMENT, "%s decides %s%s%s, which is fixed when the text is read", name, quote, what, quote);
     hint(err, "read the text again, with the value in `set` of motus_text_def");
     return MOTUS_ARGUMENT;
@@ -79,8 +79,8 @@ static motus_status setting_of(motus_system *s, const char *name, const paramete
     return MOTUS_OK;
 }
 
-/* Refuses what a text is refused for: numbers that depend on the change and are not finite, an exact line that no
- * longer obeys the equation, and an invariant that is none any more. */
+/* Refuses what a text is refused for: dependent numbers that are not finite, an exact line that no longer obeys its
+ * equation, and an invariant that is no longer one. */
 static motus_status check(motus_system *s, const char *name, motus_error *err)
 {
     const model *m = s->model;
@@ -120,7 +120,7 @@ static motus_status set_model(motus_system *s, const char *name, const parameter
     status = vary_apply(one->vary, values) && system_rebind(s) ? check(s, name, err)
                                                                : fail(err, MOTUS_MEMORY, "no memory to set %s", name);
     if (status == MOTUS_OK)
-        s->judged_gyroscopic = s->judged_gradient = false; /* of other numbers */
+        s->judged_gyroscopic = s->judged_gradient = false; /* they were of other numbers */
     else
         set_back(s, own);
     if (status != MOTUS_OK && !before) vary_override(m, t->first, t->span, false);
@@ -169,7 +169,7 @@ void motus_system_hold(motus_system *s, bool on) { s->held += on ? 1 : (size_t)-
 
 /* ---- clones ---- */
 
-/* Copies the numbers that were set into a system read from the same text. */
+/* Copies the numbers that were set into a system that was read from that text. */
 static motus_status take_over(const motus_system *from, motus_system *to, motus_error *err)
 {
     const model *m = from->model;
@@ -193,7 +193,7 @@ motus_status motus_system_clone(const motus_system *s, motus_system **out, motus
     if (!s) return fail(err, MOTUS_ARGUMENT, "motus_system_clone needs a system");
     motus_system *made = NULL;
     motus_callback_def def = s->callback;
-    def.x = s->x0; /* the copies: the caller's arrays may be gone */
+    def.x = s->x0; /* copies, since the caller's arrays may be gone */
     def.v = s->v0;
     motus_status status =
         s->model ? system_again(s, false, NULL, &made, err) : motus_system_from_callback(&def, &made, err);

@@ -1,6 +1,6 @@
 /* The shadow of a system. See shadow.h.
  *
- * Invariant: the shadow has the same columns and the same places in x and v.
+ * Invariant: system and shadow have equal columns and equal places in x and v.
  */
 #include "api/system/shadow.h"
 
@@ -38,11 +38,11 @@ motus_status shadow_numbers(const motus_system *from, motus_system *to, motus_er
     return status;
 }
 
-/* Parameters that were rounded when they were computed, and of which the shadow has the same number, as of a long
- * sum, are moved to the next double. Not those that decimals or moved ones enter: which way the rounding went is
- * not known, and the two must not cancel. */
+/* Parameters that were rounded when they were computed, as a long sum, may have equal numbers in system and shadow;
+ * these move to the next double. Parameters that decimals or moved ones enter stay: which way the rounding went is not
+ * known, and the two must not cancel. */
 
-enum { PARAMETERS_MAX = 256 }; /* of a model with more none is moved, since each looks at all others */
+enum { PARAMETERS_MAX = 256 }; /* in a model with more none is moved, since each looks at all others */
 
 static bool in_name(char c)
 {
@@ -59,14 +59,14 @@ static bool mentions(const motus_parameter *p, const char *name)
     return false;
 }
 
-/* A number: its value, and that of the shadow. */
+/* Reads a number: value[0] in the system, value[1] in the shadow. */
 static motus_status value_of(const motus_system *s, const motus_system *shadow, size_t k, double value[2])
 {
     motus_status status = motus_parameter_values(s, k, &value[0]);
     return status == MOTUS_OK ? motus_parameter_values(shadow, k, &value[1]) : status;
 }
 
-/* Whether a number is computed from whole numbers and the like alone. */
+/* Returns whether a number is computed from whole numbers and the like alone. */
 static bool stands_alone(const motus_system *s, const motus_system *shadow, const motus_parameter *p)
 {
     motus_parameter other = motus_default_parameter();
@@ -79,7 +79,8 @@ static bool stands_alone(const motus_system *s, const motus_system *shadow, cons
     return true;
 }
 
-/* Uses all of its bits. (Of the rounded numbers one in 4096 ends in so many zeros, and is taken for an exact one.) */
+/* Returns whether a number uses all of its bits. One in 4096 rounded numbers ends in so many zeros, and is taken for
+ * exact. */
 static bool is_full(double number)
 {
     enum { ZEROS = 12 };
@@ -88,7 +89,7 @@ static bool is_full(double number)
     return bits & ((1u << ZEROS) - 1);
 }
 
-/* Whether its number follows from what a caller changes. */
+/* Returns whether a number follows from what a caller changes. */
 static bool changes(const motus_system *s, const uint8_t *affected, const char *name)
 {
     parameters_target t;
@@ -130,7 +131,7 @@ motus_status shadow_create(const motus_system *s, const uint8_t *affected, motus
     if (status == MOTUS_OK && alike(s, *out)) status = move_rounded(s, affected, *out, &ours);
     if (status == MOTUS_OK && alike(s, *out)) status = shadow_numbers(s, *out, &ours);
     if (status == MOTUS_OK && alike(s, *out)) {
-        (*out)->problem.traits = s->problem.traits; /* so that it admits the same methods */
+        (*out)->problem.traits = s->problem.traits; /* so that it admits the methods of the system */
         return MOTUS_OK;
     }
     motus_system_destroy(*out);

@@ -1,7 +1,6 @@
 /* The variables, quantities and invariants of a callback, in the form that a model has, without expressions.
  *
- * Invariant: names are copied, are names of the language and are all different, so that a column can be found by its
- * name.
+ * Invariant: names are copied, are names of the language and are all different, so that a name finds its column.
  */
 #include "api/system/stand_in.h"
 
@@ -47,7 +46,7 @@ static motus_status copy_names(motus_system *s, const char *const **names, size_
     return s->arena.failed ? fail(err, MOTUS_MEMORY, "no memory for the names") : MOTUS_OK;
 }
 
-/* Several numbers of one name become a family with indices from 1. */
+/* Adds a variable; several numbers of one name become a family with indices from 1. */
 static void add_state(motus_system *s, const char *name, int order, size_t count, size_t base)
 {
     model_state *st = &s->states[s->state_count++];

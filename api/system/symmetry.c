@@ -1,8 +1,8 @@
 /* Symmetries of the derivatives: whether the velocity term is gyroscopic, and whether the force is a gradient.
  *
  * They are proved from the formulas where that succeeds (lang/model/field.h), else sampled: at states of widely
- * different sizes, and on any sides of the switches. Invariant: a sample that fails disproves the symmetry, and an
- * answer that samples alone support says so (sampled_gyroscopic, sampled_gradient).
+ * different sizes, and on any sides of the switches. Invariant: a sample that fails disproves a symmetry, and an answer
+ * that only samples support says so (sampled_gyroscopic, sampled_gradient).
  */
 #include "api/system/symmetry.h"
 
@@ -13,11 +13,11 @@
 #include <math.h>
 #include <string.h>
 
-enum { MASSES_MAX = 96 }; /* numbers up to which masses are found, from as many derivatives */
+enum { MASSES_MAX = 96 }; /* most numbers for which masses are found, from as many derivatives */
 
 static double power_of_ten(double e) { return exp(2.302585092994046 * e); }
 
-/* 1 for the numbers that have an equation, which alone are varied. */
+/* Marks the numbers that have an equation by 1; they alone are varied. */
 static void mark(const motus_system *s, double *mask)
 {
     for (uint32_t i = 0; i < s->state_count; i++)
@@ -26,7 +26,7 @@ static void mark(const motus_system *s, double *mask)
                 mask[system_place(&s->states[i], c, k)] = 1;
 }
 
-/* The problem to be sampled: of a model with switches that on which they are held. NULL: there is none. */
+/* Returns the problem to sample; of a model with switches, the one with held sides. NULL: there is none. */
 static const problem *sampled_problem(motus_system *s, held **switches)
 {
     *switches = NULL;
@@ -51,8 +51,8 @@ typedef struct sample {
     double t, *x, *v, *u, *w, *ju, *jw, *mask, *sides;
 } sample;
 
-/* A state and two directions. The sizes of the directions' components differ widely, so that a small derivative is
- * not hidden behind the rounding of a large one. */
+/* Draws a state and two directions, with components of widely different sizes, so that a small derivative is not hidden
+ * behind the rounding of a large one. */
 static void draw(const motus_system *s, int round, const sample *at, uint64_t *random)
 {
     const problem *p = &s->problem;
@@ -69,7 +69,7 @@ static void draw(const motus_system *s, int round, const sample *at, uint64_t *r
     }
 }
 
-/* How many states are worth their time. */
+/* Returns how many states are worth their time. */
 static int rounds(const motus_system *s)
 {
     const double most = 3e6 / (s->model->terms + (double)s->problem.nv);
@@ -77,8 +77,8 @@ static int rounds(const motus_system *s)
 }
 
 /* Tests w·(M J u) = sign · u·(M J w), to rounding, at random states, times, directions and sides: whether M J is
- * symmetric (sign 1) or antisymmetric (-1), M the diagonal matrix of `masses`, or 1 where that is NULL. False: there
- * was no memory. */
+ * symmetric (sign 1) or antisymmetric (-1). M is the diagonal matrix of `masses`, or 1 if that is NULL. False: there is
+ * no memory. */
 static bool sample_symmetric(motus_system *s, bool in_v, double sign, const double *masses, bool *answer)
 {
     held *h;
@@ -134,9 +134,9 @@ bool symmetry_gyroscopic(motus_system *s)
     return known;
 }
 
-/* The masses for which the derivative at one state may be symmetric, m[i] J[i][j] = m[j] J[j][i], by going from
- * number to number; 1 where no other number is coupled to it. column: J, column after column. False: some mass would
- * be negative. */
+/* Finds the masses for which the derivative at one state may be symmetric, m[i] J[i][j] = m[j] J[j][i], by going from
+ * number to number; 1 where no other number is coupled. column: J, column after column. False: some mass would be
+ * negative. */
 static bool find_masses(size_t n, const double *column, double *masses, size_t *reached)
 {
     for (size_t k = 0; k < n; k++) masses[k] = 0;
@@ -159,7 +159,7 @@ static bool find_masses(size_t n, const double *column, double *masses, size_t *
     return true;
 }
 
-/* Masses that may make the derivative symmetric, from one state. masses: nv numbers. False in *found: there are
+/* Finds masses that may make the derivative symmetric, from one state. masses: nv numbers. *found false: there are
  * none. */
 static bool masses_of(motus_system *s, double *masses, bool *found)
 {
@@ -192,7 +192,7 @@ static bool masses_of(motus_system *s, double *masses, bool *found)
     return ok;
 }
 
-/* A proof, then samples; into the traits. masses NULL: 1. */
+/* Proves or samples whether the force is a gradient with these masses (NULL: 1), and notes it in the traits. */
 static bool judge_with(motus_system *s, const double *masses)
 {
     traits *t = &s->problem.traits;
@@ -206,7 +206,7 @@ static bool judge_with(motus_system *s, const double *masses)
     return known;
 }
 
-/* Without masses, then with those that one state suggests. */
+/* Judges without masses, then with those that one state suggests. */
 static bool judge_gradient(motus_system *s)
 {
     traits *t = &s->problem.traits;

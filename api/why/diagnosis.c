@@ -1,7 +1,7 @@
 /* See diagnosis.h.
  *
- * Controlled steps from a state before the failure are the arbiter: where they pass the failure, the run's own steps
- * are to blame, and where they do not, the motion is.
+ * Controlled steps from a state before the failure decide: where they pass the failure, the run's own steps are to
+ * blame, and where they do not, the motion is.
  */
 #include "api/why/diagnosis.h"
 
@@ -24,27 +24,28 @@ enum {
     FEW_NUMBERS = 16,
     ROUNDINGS = 4
 };
-#define BEFORE 0.99 /* of the way to a singularity, at which a run may end */
+#define BEFORE 0.99 /* of the way to a singularity: where a run may end */
 #define STIFF_METHOD "gauss4"
 #define TRIED_METHOD "dop853"
 #define TRIED_TOLERANCE 1e-9
-#define NEAR_BOUND 4.0  /* steps that stability bounds are so near to the bound, in both directions */
+#define NEAR_BOUND 4.0  /* factor by which steps that stability bounds are near to the bound, both ways */
 #define UNBOUNDED 500.0 /* step times rate: no bound of stability is as large */
-#define LONGER 10.0     /* times as long are the steps of an implicit method at least, where the model is stiff */
-#define AGREES 1e-2     /* with half its step, relative to the largest number, a step that serves */
-#define NO_LARGER 10.0  /* times the motion's size: a trial that grows more has not succeeded */
-#define TELLABLE 0.5    /* of an exponent: with a larger error it tells nothing */
-#define LOGARITHM 1e-3  /* a power that is 0 but for so small an error */
+/* times the run's steps: the steps that an implicit method takes at least where the model is stiff */
+#define LONGER 10.0
+#define AGREES 1e-2    /* relative to the largest number: a step that serves agrees so well with half of it */
+#define NO_LARGER 10.0 /* times the motion's size: a trial that grows more has not succeeded */
+#define TELLABLE 0.5   /* of an exponent: with a larger error it tells nothing */
+#define LOGARITHM 1e-3 /* a power this near to 0 is 0 */
 
 typedef struct judge {
     evidence e;
     motus_error *err;
-    motus_system *home; /* as it was written; NULL: it is that of the evidence */
+    motus_system *home; /* the system as it was written; NULL: that of the evidence */
     diagnosis_leads *leads;
     evidence_ahead ahead;
     bool looked;
     trial_course whole; /* the way to `whole_to` by TRIED_METHOD */
-    double whole_to;    /* NaN: it was not tried */
+    double whole_to;    /* NaN: not tried */
     char cause[MOTUS_TEXT_MAX];
 } judge;
 
@@ -58,13 +59,13 @@ static const char *name_of(const judge *j, bool in_v, size_t k, char out[MOTUS_N
     return out;
 }
 
-/* The number whose acceleration, or rate, number k of the force is. */
+/* Returns the number whose acceleration, or rate, is number k of the force. */
 static const char *name_of_force(const judge *j, size_t k, char out[MOTUS_NAME_MAX])
 {
     return name_of(j, k >= j->e.problem->nx, k, out);
 }
 
-/* "0.66667 ± 3e-06", with the digits that the error leaves. */
+/* Writes "0.66667 ± 3e-06", with the digits that the error leaves. */
 static const char *with_error(double value, double error, char out[MOTUS_TEXT_MAX])
 {
     const double places = error > 0 ? ceil(-log10(error)) + 0.0 : 15;
@@ -80,7 +81,7 @@ static double read_number(const char *text)
     return negative ? -value : value;
 }
 
-/* Adds a sentence to what the error says, with the cause and the number that it is about. */
+/* Adds a sentence to the message, with the cause and the number that it is about. */
 static void say(judge *j, motus_cause cause, const char *variable)
 {
     motus_error *err = j->err, kept = *err;
@@ -98,7 +99,7 @@ static void attempt(judge *j, bool verified, const char *member, const char *val
     j->err->verified = verified;
 }
 
-/* An end of few digits shortly before an instant; returns it. */
+/* Writes an end of few digits shortly before an instant, and returns it. */
 static double end_before(judge *j, double instant)
 {
     char text[DECIMAL_MAX];
@@ -111,11 +112,11 @@ static double end_before(judge *j, double instant)
 
 /* ---- what is tried before it is named ---- */
 
-/* Trials begin where the run did, for what is named has to lead the whole way. */
+/* Returns where trials begin: at the run's start, since what is named has to lead the whole way. */
 static evidence_place from_of(const judge *j) { return j->e.origin ? EVIDENCE_FROM_START : EVIDENCE_FROM_EARLY; }
 static double way_to(const judge *j, double end) { return fabs(end - (j->e.origin ? j->e.begin : j->e.early_t)); }
 
-/* The way to there by a method that adapts its steps, whose largest number says which trials have left the motion. */
+/* Returns the way to `end` by an adaptive method; its largest number says which trials have left the motion. */
 static const trial_course *whole(judge *j, double end)
 {
     const evidence_trial trial = {.method = TRIED_METHOD, .tolerance = TRIED_TOLERANCE, .from = from_of(j)};
@@ -124,7 +125,7 @@ static const trial_course *whole(judge *j, double end)
     return &j->whole;
 }
 
-/* Whether trial steps have led as far as asked, without growing beyond the motion. */
+/* Returns whether a trial has led as far as asked, without growing beyond the motion. */
 static bool succeeds(judge *j, const trial_course *c, double end)
 {
     if (c->status != MOTUS_OK) return false;
@@ -133,7 +134,8 @@ static bool succeeds(judge *j, const trial_course *c, double end)
     return c->largest <= NO_LARGER * fmax(size, 1e-300);
 }
 
-/* The largest step of one digit among halvings of the run's that leads to there. False: none does in a bounded time. */
+/* Finds the largest step of one digit, among halvings of the run's, that leads to `end`. False: none does in a bounded
+ * time. */
 static bool shorter_step(judge *j, double end, char text[MOTUS_TEXT_MAX])
 {
     for (int k = 1; k <= HALVINGS; k++) {
@@ -146,7 +148,7 @@ static bool shorter_step(judge *j, double end, char text[MOTUS_TEXT_MAX])
     return false;
 }
 
-/* Names such a step to the end of the run, else a method that adapts its steps. */
+/* Proposes a shorter step to the end of the run, else an adaptive method. */
 static bool propose_steps(judge *j)
 {
     char text[MOTUS_TEXT_MAX], tolerance[DECIMAL_MAX];
@@ -164,7 +166,7 @@ static bool propose_steps(judge *j)
     return true;
 }
 
-/* The run with switches located, once, to its end. */
+/* Returns whether the run with switches located comes to its end. */
 static bool locating_leads(const judge *j)
 {
     const evidence *e = &j->e;
@@ -195,7 +197,7 @@ static const evidence_ahead *look(judge *j)
     return &j->ahead;
 }
 
-/* Says so where the way ahead ends at a singularity. */
+/* Reports a singularity at which the way ahead ends. Returns whether there is one. */
 static bool tell_singular(judge *j)
 {
     const evidence_ahead *a = look(j);
@@ -204,7 +206,7 @@ static bool tell_singular(judge *j)
     name_of_force(j, a->which, name);
     with_error(a->t, a->t_error, t);
     const bool told = a->exponent_error<TELLABLE, sign_told = fabs(a->exponent)> a->exponent_error;
-    /* a rate as the power -1, and an acceleration as the power -2, of the time left */
+    /* For example, a rate grows as the power -1 of the time left, and an acceleration as the power -2. */
     if (told && !sign_told && a->exponent_error < LOGARITHM)
         error_text(j->cause, "%s is singular at t = %s, where it grows as the logarithm of the time left", name, t);
     else if (told)
@@ -215,7 +217,7 @@ static bool tell_singular(judge *j)
                    with_error(a->exponent, a->exponent_error, p));
     else
         error_text(j->cause, "%s is singular at t = %s", name, t);
-    /* errors of steps of one size have no tolerance that bounds them */
+    /* No tolerance bounds the errors of fixed steps. */
     if (!a->from_start && !j->e.adaptive && j->e.early_t != j->e.begin) {
         char text[MOTUS_TEXT_MAX];
         snprintf(text, sizeof text, "%s", j->cause);
@@ -230,7 +232,7 @@ static bool tell_singular(judge *j)
     return true;
 }
 
-/* Where the run has failed long before the motion does, its steps are to blame as well. */
+/* Judges a singularity. Where the run failed long before the motion does, its steps are to blame as well. */
 static bool singular(judge *j)
 {
     char step[MOTUS_TEXT_MAX], text[MOTUS_TEXT_MAX];
@@ -261,7 +263,7 @@ static bool infinite(judge *j)
     return true;
 }
 
-/* The force has no value at the start itself: says which term has none, and what may be written in its place. */
+/* Reports a force that has no value at the start itself: which term has none, and what may be written in its place. */
 static bool undefined_start(judge *j)
 {
     const evidence *e = &j->e;
@@ -302,7 +304,7 @@ static bool undefined(judge *j)
     return true;
 }
 
-/* Whether steps of this row can end where the force jumps, and do not yet. */
+/* Returns whether steps of this row can end where the force jumps, and do not yet. */
 static bool can_locate(const judge *j)
 {
     motus_system *const s = j->e.system, *to = NULL;
@@ -311,7 +313,7 @@ static bool can_locate(const judge *j)
     return located_for(s, j->e.row, MOTUS_SWITCHES_LOCATE, &to, &why, NULL) == MOTUS_OK && to;
 }
 
-/* False: such steps do not lead to the end. */
+/* Proposes to locate switches. False: such steps do not lead to the end. */
 static bool propose_locating(judge *j)
 {
     if (!can_locate(j) || !locating_leads(j)) return false;
@@ -330,7 +332,7 @@ static bool discontinuous(judge *j)
     char from[MOTUS_TEXT_MAX], to[MOTUS_TEXT_MAX];
     error_text(from, "%.3g", before);
     error_text(to, "%.3g", after);
-    if (!strcmp(from, to)) return false; /* so little is no jump, but a force that is steep */
+    if (!strcmp(from, to)) return false; /* so small a change is no jump, but a steep force */
     name_of(j, true, which, name);
     error_text(
         j->cause,
@@ -386,7 +388,7 @@ static bool noise(judge *j)
     return true;
 }
 
-/* The same steps, whose time begins at 0, are possible. */
+/* Finds whether the run's steps, with time counted from 0, are possible. */
 static bool time_rounding(judge *j)
 {
     const evidence *e = &j->e;
@@ -402,8 +404,8 @@ static bool time_rounding(judge *j)
     return true;
 }
 
-/* The largest step, of one digit, with which a method that no stability bounds leads on, agrees with half of it, and
- * leads the whole way; or, where that is too far to be tried, as far as it was. 0: none above `least`. */
+/* Finds the largest step, of one digit, with which a method that no stability bounds leads on, agrees with half of it,
+ * and leads the whole way, or as far as could be tried. 0: none above `least`. */
 static double implicit_step(judge *j, evidence_place from, double least, char text[MOTUS_TEXT_MAX], bool *tried)
 {
     evidence *e = &j->e;
@@ -432,8 +434,8 @@ static double implicit_step(judge *j, evidence_place from, double least, char te
     return isnan(found) ? 0 : found;
 }
 
-/* Whether a method that no stability bounds takes steps much longer than those of the run, which are near the bound of
- * its stability. */
+/* Returns whether a method that no stability bounds takes steps much longer than the run's, which are near their bound.
+ */
 static bool stiff(judge *j, double mean)
 {
     evidence *e = &j->e;
@@ -446,7 +448,7 @@ static bool stiff(judge *j, double mean)
     if (!evidence_rate(e, early, &re, &im, &which) || !(re < 0) || fabs(im) > -re) return false;
     const double rate = hypot(re, im), bound = stability_bound(e->row->name, re, im),
                  h = e->adaptive ? mean : fabs(e->h);
-    /* a row whose steps solve equations, by Newton's method or by iteration, stays where that converges, near 1/rate */
+    /* A row whose steps solve equations by iteration stays where that converges, near 1/rate. */
     const double limit = !(bound < UNBOUNDED) && e->adaptive ? 1 : bound;
     if (!(limit > 0) || (e->adaptive && (h * rate > NEAR_BOUND * limit || h * rate < limit / NEAR_BOUND))) return false;
     if (!e->adaptive && h * rate <= limit) return false;
@@ -468,7 +470,7 @@ static void nothing_leads(judge *j)
     hint(j->err, "take a smaller step, or another method: none that could be tried in a short time leads to the end");
 }
 
-/* Steps have left the motion, which goes on: those of one size, or errors within a tolerance. */
+/* Judges steps that have left a motion which goes on: fixed steps, or errors within a tolerance. */
 static bool left_motion(judge *j)
 {
     const evidence *const e = &j->e;

@@ -15,16 +15,16 @@ enum { STEPS_LEAST = 200, STEPS_MOST = 20000, DEEPER = 8, AHEAD = 2, BISECTIONS 
 #define LOOSER_TOLERANCE 1e-10
 #define WORK 4e8            /* operations of one trial */
 #define CALLBACK_WORK 100.0 /* operations of a callback, for each number */
-#define STAGES 12.0         /* evaluations of one of its steps */
-#define HALTED 1e-5         /* of the way: so near to the instant it has come to a halt */
-#define LARGEST 1e290       /* from here on a product leaves the finite numbers */
-#define DEEP 1e-9           /* of the way: beyond it an encounter is passed */
-#define EARLIER 1e-2        /* of the way so far, from which on a force is sampled */
-#define FAR_BACK 1e3        /* roundings of a time, that a halt is off its cause at most */
-#define HUGE_STATE 1e100    /* of which products may leave the finite numbers */
-#define JUMP 1e-3           /* of the force, that a jump has at least */
-#define LASTS 0.5           /* of the first change, that is left of a jump however near both sides are */
-#define NOISY 0.1           /* of what is allowed, that rounding has at least */
+#define STAGES 12.0         /* evaluations of one trial step */
+#define HALTED 1e-5         /* of the way: this near to the instant a trial has come to a halt */
+#define LARGEST 1e290       /* beyond it a product leaves the finite numbers */
+#define DEEP 1e-9           /* of the way: this far beyond the instant an encounter is passed */
+#define EARLIER 1e-2        /* of the way so far: where samples of a force begin */
+#define FAR_BACK 1e3        /* roundings of the time, by which a halt is off its cause at most */
+#define HUGE_STATE 1e100    /* products of larger numbers may leave the finite numbers */
+#define JUMP 1e-3           /* least jump, as a part of the force */
+#define LASTS 0.5           /* part of the first change that is left of a jump, however near both sides are */
+#define NOISY 0.1           /* least part of the allowed error that noise is */
 
 /* ---- the scene ---- */
 
@@ -116,7 +116,7 @@ static size_t largest_at(const double *y, size_t count)
     return at;
 }
 
-/* The force after each step, until the steps end. Returns what ended them. */
+/* Collects the force after each step, until the steps end. Returns what ended them. */
 static motus_status collect(evidence *e, trial *p, double until, samples *out)
 {
     motus_status status = MOTUS_OK;
@@ -169,9 +169,9 @@ static void judge_ahead(evidence *e, const samples *s, motus_status status, doub
     }
 }
 
-/* Whether steps whose time begins anew at the last state before a singularity, and again where they come to a halt,
- * pass it: it is an encounter then, too short for the rounding of the time. Two bodies that fall on each other come
- * ever nearer. */
+/* Returns whether steps pass a singularity if their time begins anew at the last state before it, and again where they
+ * come to a halt. It is then an encounter, too short for the rounding of the time; two bodies that fall on each other
+ * come ever nearer. */
 static bool passes(evidence *e, const chosen *look, double left)
 {
     const problem *p = e->problem;
@@ -196,8 +196,8 @@ static bool passes(evidence *e, const chosen *look, double left)
     return arrived;
 }
 
-/* Whether the force at the last good state, which depends on the time, is singular in the time there: where steps
- * have come to a halt, samples at ever earlier times tell its power. */
+/* Finds whether the force at the last good state is singular in the time: where steps have come to a halt, samples at
+ * ever earlier times tell its power. */
 static bool look_back(evidence *e, samples *s, evidence_ahead *out)
 {
     enum { SAMPLES = 80 };
@@ -228,8 +228,8 @@ static bool look_back(evidence *e, samples *s, evidence_ahead *out)
     return true;
 }
 
-/* Controlled steps from a state over a time `span`, of which at most so many are taken; where these come as far as
- * `past`, the motion goes on. UNKNOWN with a time: it is an encounter. */
+/* Looks ahead from a state by at most so many controlled steps over a time `span`; where they come as far as `past`,
+ * the motion goes on. UNKNOWN with a time: an encounter. */
 static evidence_ahead look_from(evidence *e, double t, const double *x, const double *v, double span, double past,
                                 double tolerance, int64_t steps, samples *s)
 {
@@ -248,7 +248,7 @@ static evidence_ahead look_from(evidence *e, double t, const double *x, const do
     return out;
 }
 
-/* The same from the start. What two tolerances find differs by what the errors of the looser one make of it, a hundred
+/* Looks ahead from the start. The results of two tolerances differ by the errors of the looser one, which are a hundred
  * times those of the other. */
 static evidence_ahead look_from_start(evidence *e, samples *s)
 {
@@ -290,7 +290,7 @@ evidence_ahead evidence_look(evidence *e)
 
 /* ---- the force near the last good state ---- */
 
-/* The state after a time dt, by the first terms of its series; in other_x, other_v. */
+/* Moves the state by a time dt, by the first terms of its series, to other_x and other_v. */
 static void move(evidence *e, double dt)
 {
     const problem *p = e->problem;
@@ -300,7 +300,7 @@ static void move(evidence *e, double dt)
     }
 }
 
-/* The force at a fraction of the straight way from the last good state to the one after dt. */
+/* Computes the force at a fraction of the straight way from the last good state to the one after dt. */
 static bool force_on(evidence *e, double dt, double part, double *a)
 {
     const problem *p = e->problem;
@@ -312,7 +312,7 @@ static bool force_on(evidence *e, double dt, double part, double *a)
     return force(e, e->t + part * dt, e->other_x, e->other_v, a) && isfinite(vector_largest(a, p->nv));
 }
 
-/* The change of number k of the force that stays however near to one another its two sides are; 0: none. */
+/* Returns the change of number k of the force that stays however near its two sides are; 0: none. */
 static double lasting(evidence *e, double dt, size_t k, double *before, double *after)
 {
     double low = 0, high = 1;
@@ -333,7 +333,7 @@ static double lasting(evidence *e, double dt, size_t k, double *before, double *
     return left >= LASTS * first ? left : 0;
 }
 
-/* Between which bounds the force lies at states that differ by a few roundings. */
+/* Bounds the force at states that differ by a few roundings. */
 static void scatter(evidence *e, double *least, double *most)
 {
     const problem *p = e->problem;

@@ -2,18 +2,18 @@
  *
  * Three samples determine the instant and the power. Each is about SPREAD times nearer than the one before, so that the
  * logarithms differ. Triples nearer to the instant are freer of what else moves y, and less free of rounding; the one
- * whose neighbours agree with it best is taken. What still changes from one to the next decays as a geometric series,
- * whose sum is the error: slowly, where a logarithm stands beside the power.
+ * whose neighbours agree with it best is taken. What still changes from one triple to the next decays as a geometric
+ * series, whose sum is the error; slowly, where a logarithm stands beside the power.
  */
 #include "api/why/power.h"
 
 #include <math.h>
 
 #define SPREAD 4.0
-#define CLEAR 1e4       /* roundings of the time that a distance has at least */
+#define CLEAR 1e4       /* least distance, in roundings of the time */
 #define AGREE 0.05      /* of neighbouring powers, relative to 1 + the power */
-#define LEAST 0.05      /* of a power: what grows more slowly is no singularity that can be told */
-#define FALL_MOST 0.995 /* of the ratio of two changes: more cannot be told from no change */
+#define LEAST 0.05      /* least power: slower growth cannot be told from none */
+#define FALL_MOST 0.995 /* of the ratio of two changes: a larger one cannot be told from 1 */
 
 enum { HALVINGS = 64, TRIPLES = 3 /* neighbours, SPREAD apart, that agree */ };
 
@@ -22,7 +22,7 @@ typedef struct fit {
     double end; /* a first guess of the instant */
 } fit;
 
-/* The last sample at least SPREAD times as far from the end as sample i; SIZE_MAX: there is none. */
+/* Finds the last sample that is at least SPREAD times as far from the end as sample i; SIZE_MAX: none is. */
 static size_t farther(const fit *f, size_t i)
 {
     const double least = SPREAD * (f->end - f->t[i]);
@@ -31,7 +31,7 @@ static size_t farther(const fit *f, size_t i)
     return (size_t)-1;
 }
 
-/* The instant and the power by the samples i, j, k, from near to far. False: y does not grow faster and faster. */
+/* Finds instant and power by the samples i, j, k, from near to far. False: y does not grow faster and faster. */
 static bool solve(const fit *f, size_t i, size_t j, size_t k, power *out)
 {
     const double near = log(f->y[i] / f->y[j]), far = log(f->y[j] / f->y[k]), first = f->t[j] - f->t[k],
@@ -49,7 +49,7 @@ static bool solve(const fit *f, size_t i, size_t j, size_t k, power *out)
     return isfinite(out->at) && isfinite(out->exponent);
 }
 
-/* Sample i's triple, and those of samples ever farther. Returns how many agree with it. */
+/* Solves sample i's triple, and those of samples ever farther away. Returns how many agree with it. */
 static int agreement(const fit *f, size_t i, power *out)
 {
     power at[TRIPLES + 1];

@@ -1,25 +1,27 @@
 /* The spectral radius of one step: motus_stability.
  *
- * It is measured with the rows themselves, by steps of size 1 on x'' = 2 s x' - (s² + w²) x. The results from the two
+ * It is measured with the rows themselves, by steps of size 1 on x'' = 2 s x' - (s² + w²) x. The results from the
  * starts (1, 0) and (0, 1) are the columns of the step's matrix over (x, v). One state holds several points, as
- * uncoupled equations. Two-step methods carry more than (x, v) from step to step. Verlet's d is a combination of x and
- * v, so that its step is a map of (x, v) all the same. Beeman's old acceleration is not; but after one step it is a
- * linear map of the start, as (x, v) are, so that the matrix can be taken from step 1 to step 2. A trial tells the two
- * cases apart: in the first, two steps are the square of one.
+ * uncoupled equations.
  *
- * Invariant: no memory is taken but the stack's; a point without a result does not affect the others.
+ * Two-step methods carry more than (x, v) from step to step. Verlet's d is a combination of x and v, so its step is
+ * still a map of (x, v). Beeman's old acceleration is not; but after one step it is a linear map of the start, as (x,
+ * v) are, so the matrix can be taken from step 1 to step 2. A trial tells these cases apart: in the first, two steps
+ * are the square of one.
+ *
+ * Invariant: all memory is on the stack; a point without a result does not affect the others.
  */
 #include "api/why/stability.h"
 #include "api/system/system.h"
 
 #include <math.h>
 
-/* room for a stepper of POINTS points: gauss8, the largest, takes 16 KiB */
+/* Room for a stepper of POINTS points; gauss8, the largest, takes 16 KiB. */
 enum { POINTS = 8, PLACES = 2 * POINTS, ROOM = 24 << 10 };
-/* two steps and the square of one differ by less, by rounding; by more than 1e-3 where a method carries more */
+/* By rounding, two steps and the square of one differ by less; where a method carries more, by more than 1e-3. */
 #define FORGETFUL 1e-6
-#define GROWS 1e-9     /* of the spectral radius over 1: more is growth */
-#define BOUND_MOST 1e3 /* of step times rate, up to which a bound is searched, at so many points: */
+#define GROWS 1e-9     /* a spectral radius above 1 by more is growth */
+#define BOUND_MOST 1e3 /* step times rate, up to which a bound is searched at BOUNDS points */
 enum { BOUNDS = 64 };
 
 typedef struct matrix {
@@ -28,10 +30,10 @@ typedef struct matrix {
 
 typedef struct plane {
     chosen chosen;
-    bool remembers;                            /* the method carries more than (x, v), as Beeman does */
+    bool remembers;                            /* the method carries more than (x, v), as Beeman's does */
     size_t count;                              /* points in the state */
     double damping[PLACES], stiffness[PLACES]; /* the coefficients of v and x in equation k */
-    motus_allocator allocator;                 /* hands out `room` and releases nothing */
+    motus_allocator allocator;                 /* hands out `room`, and releases nothing */
     size_t used;
     _Alignas(64) char room[ROOM];
 } plane;
@@ -66,7 +68,7 @@ static int jvp(void *ctx, double t, double *x, double *v, const double *dx, cons
     return 0;
 }
 
-/* Taylor series: those of x and v, `length` numbers each, give coefficient n of a. */
+/* Makes room for Taylor series of x and v, `length` numbers each, which give coefficient n of a. */
 static size_t series_numbers(void *ctx, int length) { return (void)ctx, (size_t)length; }
 
 static void series(void *ctx, int length, int n, double t, double *x, double *v, double *a, double *kept)
@@ -94,8 +96,8 @@ static void place(plane *p, size_t k, double re, double im)
     }
 }
 
-/* On the imaginary axis the force does not depend on the velocity, so every method that takes steps admits it; one that
- * needs a gyroscopic term v × B gets a term that is 0. */
+/* Returns whether the method admits the equation. On the imaginary axis the force does not depend on the velocity, so
+ * every method that takes steps does; one that needs a gyroscopic term v × B gets a term that is 0. */
 static bool admitted(const plane *p, bool on_axis, traits *out)
 {
     *out = (traits){.velocity = !on_axis,
@@ -112,7 +114,7 @@ static bool admitted(const plane *p, bool on_axis, traits *out)
 
 /* ---- steps ---- */
 
-/* The matrices of one step, and of two where `next` is not NULL. */
+/* Finds the matrices of one step, and of two unless `next` is NULL. */
 static motus_status walk(plane *p, const traits *traits, matrix *first, matrix *next, motus_error *err)
 {
     const size_t n = 2 * p->count;
@@ -152,14 +154,14 @@ static matrix product(matrix a, matrix b)
                     a.vx * b.xv + a.vv * b.vv};
 }
 
-/* The matrix M with M first = next. */
+/* Returns the matrix M with M first = next. */
 static matrix quotient(matrix next, matrix first)
 {
     const double d = determinant(first);
     return product(next, (matrix){first.vv / d, -first.xv / d, -first.vx / d, first.xx / d});
 }
 
-/* The larger absolute value of the two eigenvalues, half of whose difference is the square root of `square`. */
+/* Returns the larger |eigenvalue|; `square` is the square of half their difference. */
 static double radius_of(matrix m)
 {
     const double half = (m.xx + m.vv) / 2, apart = (m.xx - m.vv) / 2, square = apart * apart + m.xv * m.vx;
@@ -167,7 +169,7 @@ static double radius_of(matrix m)
     return isfinite(r) ? r : INFINITY;
 }
 
-/* Finds out whether the method remembers, at z = i/2, where its step differs clearly from a step without a force. */
+/* Finds out whether the method remembers, at z = i/2, where its step differs clearly from one without a force. */
 static motus_status remember(plane *p, motus_error *err)
 {
     traits traits;
@@ -188,7 +190,7 @@ static motus_status remember(plane *p, motus_error *err)
     return MOTUS_OK;
 }
 
-/* The points at[0 … count). If one of several fails, each is computed by itself. */
+/* Computes the points at[0 … count); if one fails, each by itself. */
 static motus_status ask(plane *p, const traits *traits, const size_t *at, size_t count, const double *re,
                         const double *im, double *radius, motus_error *err)
 {
@@ -250,7 +252,7 @@ motus_status motus_stability(const char *method, size_t count, const double *re,
     p.allocator = (motus_allocator){allocate, release, &p};
     modes m = modes_enter();
     motus_status status = row_choose(method, &p.chosen, NULL, err);
-    p.chosen.relative = HUGE_VAL; /* of an adaptive method: no error is too large, and every step is 1, or none is */
+    p.chosen.relative = HUGE_VAL; /* an adaptive method accepts every error, so each step is 1 */
     p.chosen.first = p.chosen.least = p.chosen.most = 1;
     if (status == MOTUS_OK) status = check(count, re, im, err);
     if (status == MOTUS_OK) status = remember(&p, err);

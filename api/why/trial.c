@@ -82,7 +82,7 @@ motus_status trial_step(trial *p, double until, bool *arrived)
     return status;
 }
 
-/* NaN: a state between two steps cannot be observed. */
+/* Returns the largest number of the state. NaN: it cannot be observed between two steps. */
 static double size_of(trial *p, double *x, double *v)
 {
     if (stepper_sync(p->stepper, x, v, NULL, NULL) != MOTUS_OK) return NAN;
