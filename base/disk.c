@@ -11,7 +11,7 @@
 #include <string.h>
 #include <unistd.h>
 
-/* The size of a file is synchronised with its data; its times need not be. */
+/* Synchronises the size of a file with its data; its times need not be. */
 bool disk_sync(int descriptor)
 {
     return fdatasync(descriptor) == 0 || errno == EINVAL || errno == ENOTSUP || errno == EINTR;

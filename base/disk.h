@@ -11,8 +11,7 @@ bool disk_sync(int descriptor);
  * left alone. */
 void disk_sync_name(const char *path);
 
-/* Returns where a link leads, or the path itself where there is no such file yet. The caller frees it; NULL: no memory.
- */
+/* Returns where a link leads, or the path if no such file exists yet. The caller frees it; NULL: no memory. */
 char *disk_real(const char *path);
 /* Returns the name with an ending, for a file in its folder. The caller frees it; NULL: no memory. */
 char *disk_beside(const char *name, const char *ending);

@@ -9,7 +9,7 @@
 #include <unistd.h>
 
 #ifdef __linux__
-/* Whether the file below `root` can be read, and the one or two numbers in it. "max", which is none, is -1. */
+/* Reads the one or two numbers of a file below `root`; "max" becomes -1. Returns how many, below 1: none. */
 static int read_numbers(const char *root, const char *group, const char *name, double *number)
 {
     char path[PATH_MAX], text[64] = "";
@@ -22,7 +22,7 @@ static int read_numbers(const char *root, const char *group, const char *name, d
     return there ? sscanf(text, "%lf %lf", &number[0], &number[1]) : 0;
 }
 
-/* A group has at most what those around it have. */
+/* Finds the least quota of a group and those around it, which bound it. */
 static double least_quota(const char *root, char *group, int version)
 {
     double least = INFINITY;

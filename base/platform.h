@@ -2,12 +2,11 @@
 #ifndef BASE_PLATFORM_H
 #define BASE_PLATFORM_H
 
-/* How many processors this process may use: those it may run on, and no more than the quota of its container. 1 where
- * that is not known. */
+/* Returns how many processors this process may use, within the quota of its container; 1: that is not known. */
 long platform_processors(void);
 
-/* How many processors the quotas of a process's control groups leave it, rounded up; 0: all. `groups` names its groups
- * as /proc/self/cgroup does; the files with their quotas, of version 1 or 2, lie below `root`, /sys/fs/cgroup. */
+/* Returns how many processors the quotas of a process's control groups leave it, rounded up; 0: all. groups: a file as
+ * /proc/self/cgroup, which names them; root: /sys/fs/cgroup, below which their files lie, of version 1 or 2. */
 long platform_quota(const char *groups, const char *root);
 
 #endif

@@ -11,8 +11,7 @@
 size_t utf8_read(const char *s, size_t length, uint32_t *character);
 /* Writes a character, and returns its number of bytes. */
 size_t utf8_write(uint32_t character, char out[4]);
-/* Returns whether a character may reach a terminal: no control character, and none that turns the direction of writing.
- */
+/* Returns whether a character may reach a terminal: it neither controls it nor turns the direction of writing. */
 bool utf8_visible(uint32_t character);
 
 #endif

@@ -273,10 +273,10 @@ static const motus_method *judge_of(study *s, const motus_method *best, double s
     return judge;
 }
 
-/* The difference from a run of another method is a lower bound of the error: where both methods are far more accurate
- * than the difference of two halvings says, nothing changes. The other method's steps have no time in common with the
- * first one's within an interval, so that what falls between the steps of one falls into the steps of the other. It
- * takes more steps as long as that brings it nearer. NaN in *found: no run of it reached the end. */
+/* Judges a run by its difference from one of another method, a lower bound of the error: nothing changes where both
+ * methods are far more accurate than the difference of two halvings says. The steps of the two have no time in common
+ * within an interval, so that what falls between the steps of one falls into the steps of the other. The other method
+ * takes more steps as long as that brings it nearer. *found NaN: no run of it reached the end. */
 static motus_status judge(study *s, const study_grid *g, double budget, candidate *c, const solution *r, double *room,
                           study_distance *found)
 {

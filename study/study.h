@@ -48,8 +48,7 @@ typedef struct study {
     bool out_of_memory; /* in a call that can only answer "unknown" */
 } study;
 
-/* Times at which trajectories are compared: from + k interval, k = 1 … intervals, and `until` if it is none of these.
- */
+/* Times at which trajectories are compared: from + k interval, k = 1 … intervals, and `until` besides. */
 typedef struct study_grid {
     double from, until, interval; /* interval > 0; until - from tells the direction */
     size_t intervals, points;     /* points = intervals, or intervals + 1 */
@@ -113,8 +112,7 @@ double study_processor_seconds(void);                         /* of this thread,
 /* Sets scale to how far each number's group moves over the start and the rows; for a group at rest, to its largest
  * value, or 1. Sets noise and magnitude. */
 void study_scale(study *, const double *rows, size_t count);
-/* The largest |p - q| of two states: among positions, among velocities, and of all in units of scale; NaN if any is.
- */
+/* The largest |p - q| of two states, among positions, velocities, and all in units of scale; NaN if any is. */
 typedef struct study_distance {
     double x, v, scaled;
 } study_distance;

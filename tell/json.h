@@ -12,7 +12,7 @@ typedef struct json {
     bool comma; /* another value stands before it in the brackets */
 } json;
 
-/* key: NULL in a list, and for the outermost value. */
+/* Write values; key: NULL in a list, and for the outermost value. */
 void json_open(json *, const char *key, char bracket);   /* '{' or '[' */
 void json_close(json *, char bracket);                   /* '}' or ']' */
 void json_end(json *);                                   /* '}' of the outermost object, and a newline */

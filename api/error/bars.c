@@ -286,7 +286,7 @@ static motus_status reach_both(bars *b, const companion_goal *to, double span, m
     return status == MOTUS_OK && b->twin.events ? companion_reach(&b->twin, to, span, err) : status;
 }
 
-/* Where the run stands at an event, its companions go on to theirs, which may come later. */
+/* Leads companions to their own event, which may come later, where the run stands at one. */
 static motus_status reach(motus_run *r, double t, motus_error *err)
 {
     bars *b = r->bars;

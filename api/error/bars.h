@@ -89,8 +89,7 @@ void bars_give_up(motus_run *, const char *format, ...) __attribute__((format(pr
 /* Collects the numbers of a restart state for the bars (bars_kept.c): `count` numbers to give back; 0: there are no
  * bars. t: where the run stands, or before its shorter last step to the end. */
 motus_status bars_keep(motus_run *, double t, double **numbers, size_t *count, motus_error *);
-/* Takes the numbers of a restart state, from which the companion will go on. False: they are not those of these bars.
- */
+/* Takes the numbers of a restart state, from which the companion goes on. False: they are not of these bars. */
 bool bars_resume(motus_run *, double *numbers, size_t count);
 motus_status bars_kept_begin(motus_run *, const double *x, const double *v, motus_error *);
 /* Compares the run at t, with the state x, v in the inside order, with the companions, which stand there. */
@@ -100,7 +99,7 @@ motus_status bars_see(motus_run *, motus_system *, double t, double *x, double *
 /* Moves the state x, v at t to one `late` later, in the bars' room, which the next call uses again. */
 motus_status bars_later(motus_run *, motus_system *, double t, double late, const double *x, const double *v,
                         double **to_x, double **to_v, motus_error *);
-/* The room that bars_moved takes, for so many columns. */
+/* Returns the room that bars_moved takes for so many columns. */
 static inline size_t bars_moved_room(const motus_system *s, size_t count)
 {
     return s->problem.nx + 2 * s->problem.nv + 3 + count;

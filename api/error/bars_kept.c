@@ -91,7 +91,7 @@ static bool skip(const motus_run *r, const double **at, const double *end)
     return !r->events || companion_skip(at, end);
 }
 
-/* Whether there are as many numbers as this version keeps. */
+/* Returns whether there are as many numbers as this version keeps. */
 static bool fits(const motus_run *r, const double *numbers, size_t count)
 {
     const double *at = numbers + HEAD, *const end = numbers + count;

@@ -171,8 +171,7 @@ motus_status bars_moved(motus_system *s, double t, double late, const double *x,
     return status;
 }
 
-/* Finds what roundings of times leave unknown of each number: at the end of the run, and anywhere after a late start.
- */
+/* Finds what roundings of times leave unknown of numbers: at the end, and anywhere after a late start. */
 static motus_status take_times(motus_run *r, double t, const double *x, const double *v, motus_error *err)
 {
     bars *b = r->bars;

@@ -65,8 +65,7 @@ static bool find_box(look *l)
     return true;
 }
 
-/* Returns whether the box leaves open on which side of 0 function f is. least: a lower bound on its size, if above 0.
- */
+/* Returns whether the box leaves the sign of function f open. least: a lower bound on its size, if above 0. */
 static bool is_open(const look *l, size_t f, double least)
 {
     const rules *rules = l->run->rules;

@@ -898,8 +898,7 @@ static stepper_verdict inspect_steady(witness *w, stepper *s, double until)
     return (stepper_verdict){.rest = w->rested, .halt = w->moves};
 }
 
-/* Returns the size of the next step, in place of one of which too much is missing: to the first part that lacks much.
- */
+/* Returns the size of the next step, up to the first part that lacks much, where a step lacks too much. */
 static double shorter(const witness *w, double whole)
 {
     const double before = w->start - w->at[FROM].t, first = fabs(before) > fabs(w->length) ? before : w->length;

@@ -37,7 +37,7 @@ typedef struct place {
     double rounding, *room;
 } place;
 
-/* NaN: the force cannot be evaluated. Below 0: no more than rounding, of the force or of the time. */
+/* Returns the difference of the force. NaN: it cannot be evaluated. Below 0: only rounding, of force or time. */
 static double difference(const place *p, const weights *by, double w)
 {
     double *sum = p->room, *a = sum + p->n, *last = a + p->n, size = 0, rise = 0, most = 0;
@@ -56,13 +56,13 @@ static double difference(const place *p, const weights *by, double w)
     return most > by->sum * (CLEAR * 0x1p-52 * size + OFF * p->rounding / w * rise) ? most : -1;
 }
 
-/* The power between distances w and far w; NaN where a difference is none. */
+/* Returns the power between distances w and far w. NaN: a difference is only rounding. */
 static double power_of(double at, double further, double far)
 {
     return at > 0 && further > 0 ? log(further / at) / log(far) : NAN;
 }
 
-/* Whether the difference follows the power between w and 2 w, too. */
+/* Returns whether the difference follows the power between w and 2 w, too. */
 static bool follows(const place *p, const weights *by, double w, double power)
 {
     const double at = difference(p, by, w);
@@ -73,7 +73,7 @@ static bool follows(const place *p, const weights *by, double w, double power)
     return true;
 }
 
-/* The power of a difference; NaN: there is none, or the force is smooth. */
+/* Returns the power of a difference. NaN: there is none, or the force is smooth. */
 static double read_power(const place *p, const weights *by, double h)
 {
     double before = -1, power = NAN;

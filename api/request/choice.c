@@ -76,14 +76,14 @@ motus_status choice_weigh(motus_system *s, weight *out, motus_error *err)
     return s->weighed ? MOTUS_OK : fail(err, MOTUS_MEMORY, "no memory to count the operations of the equations");
 }
 
-/* A stage sums about half of those before it. */
+/* Counts half of the stages before a stage, since a stage sums about so many. */
 double choice_evaluation(const problem *p, const weight *w, const motus_method *card)
 {
     return w->values + (1 + card->stages / 2.0) * (double)(p->traits.velocity ? p->nx + p->nv : p->nv);
 }
 
-/* Of a Taylor series to order n: a recurrence of a product has n (n + 1)/2 terms in all. They count half, because the
- * terms of a sum do not wait for each other as the stages of a Runge-Kutta step do. */
+/* Counts half of the terms of a Taylor series, n (n + 1)/2 for each product to order n, because the terms of a sum do
+ * not wait for each other as the stages of a Runge-Kutta step do. */
 double choice_expansion(const problem *p, const weight *w, double order)
 {
     const double numbers = (double)(p->nx + p->nv);

@@ -100,7 +100,7 @@ motus_status request_admits(const char *what, double value, bool absolute, motus
     return MOTUS_ARGUMENT;
 }
 
-/* Of steps that follow the time scale of the motion the tolerance is a part of it. */
+/* Refuses an absolute tolerance where steps follow the time scale of the motion, of which the tolerance is a part. */
 static motus_status refuse_absolute(const chosen *c, motus_error *err)
 {
     fail(err, MOTUS_ARGUMENT, "the tolerance of %s is relative: its steps follow the time scale of the motion",

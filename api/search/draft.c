@@ -68,8 +68,7 @@ static void of_swings(const motus_system *s, const draft_scales *d, const follow
     snprintf(set->step_why, sizeof set->step_why, "its fastest change");
 }
 
-/* Proposes so many equal steps, which settle() counts; shorter ones where the draft was too short to follow the motion.
- */
+/* Proposes so many equal steps, which settle() counts; shorter ones where the draft was cut short. */
 static void even_steps(const followed *m, int steps, double rate, proposal *p)
 {
     p->step = p->duration / steps;

@@ -15,8 +15,7 @@ typedef struct search {
     double least;  /* smallest size */
     double length; /* of the way of fixed steps, which divide it; else 0 */
     bool few; /* tolerances are 1, 2 or 5 times a power of ten: trajectories with equal ones are computed together */
-    /* Of trials that came to their end: the smallest bar, and how many of the latest did not make it clearly smaller.
-     */
+    /* of trials that came to their end: the smallest bar, and how many of the latest are not clearly below it */
     double smallest;
     int stuck;
     int trials;

@@ -9,8 +9,7 @@
 
 /* Counts a user of the system in or out (set.c): runs, ensembles and references, while which numbers cannot be set. */
 void motus_system_hold(motus_system *, bool on);
-/* Checks the size. MOTUS_ARGUMENT, with a hint: no version had it, or a member that this library does not know is set.
- */
+/* Checks the size. MOTUS_ARGUMENT, with a hint: no version had it, or it sets a member that is unknown here. */
 motus_status motus_struct_check(motus_def_kind, const void *made, motus_error *);
 /* Copies what is given (NULL: nothing) over the defaults, into the layout of this library. MOTUS_ARGUMENT also where a
  * count is above 0 and its array is NULL, or a text in an array. */

@@ -161,7 +161,7 @@ motus_status motus_struct_check(motus_def_kind kind, const void *made, motus_err
     return fit == SIZE_FITS ? MOTUS_OK : refuse(l, fit, size_said(made), err);
 }
 
-/* Whatever its size, it has the members of the first version, so the refusal can be written to it. */
+/* Writes a refusal to the error itself, which has the members of the first version whatever its size is. */
 bool motus_error_sound(motus_error *err) { return !err || motus_struct_check(MOTUS_DEF_ERROR, err, err) == MOTUS_OK; }
 
 static void copy(motus_def_kind kind, void *to, const void *from, uint32_t size)
@@ -170,7 +170,7 @@ static void copy(motus_def_kind kind, void *to, const void *from, uint32_t size)
     memcpy((char *)to + sizeof size, (const char *)from + sizeof size, most - sizeof size);
 }
 
-/* Whether a definition has the array that its count promises. */
+/* Checks that a definition has the array that its count promises. */
 static motus_status check_list(const list *l, const void *ours, motus_error *err)
 {
     const void *array;

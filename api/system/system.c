@@ -150,7 +150,7 @@ static motus_status take_start(motus_system *s, const motus_callback_def *def, m
     return MOTUS_OK;
 }
 
-/* What a callback gets that does not read the velocity. */
+/* Makes the velocities, all NaN, that a callback gets which does not read velocities. */
 static void keep_unread(motus_system *s)
 {
     const size_t count = s->problem.nv > CALLING_NUMBERS ? s->problem.nv : CALLING_NUMBERS;

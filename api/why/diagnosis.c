@@ -434,8 +434,7 @@ static double implicit_step(judge *j, evidence_place from, double least, char te
     return isnan(found) ? 0 : found;
 }
 
-/* Returns whether a method that no stability bounds takes steps much longer than the run's, which are near their bound.
- */
+/* Returns whether a method that no stability bounds takes much longer steps, and the run is near its own bound. */
 static bool stiff(judge *j, double mean)
 {
     evidence *e = &j->e;

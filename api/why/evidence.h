@@ -60,8 +60,7 @@ bool evidence_jump(evidence *, size_t *which, double *before, double *after);
 bool evidence_undefined(evidence *, size_t *which);
 /* Returns whether number `which` of the force has no finite value at the last good state. */
 bool evidence_undefined_here(evidence *, size_t *which);
-/* Returns whether the rounding of the force's number `which` alone makes steps of the present size fail the tolerance.
- */
+/* Returns whether the rounding of number `which` of the force alone makes the present steps fail the tolerance. */
 bool evidence_noise(evidence *, size_t *which);
 /* Finds the largest eigenvalue of the equations linearised at a state, and the number of v that takes part in it most.
  * False: it cannot be computed. */
