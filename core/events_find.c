@@ -7,11 +7,11 @@
 #include <stdio.h>
 #include <string.h>
 
-/* ROOTS_ROOM: of one function in one part of a step; a step is divided where a polynomial of degree PART_DEGREE does
- * not resolve a function, and at most PARTS_DEEP times */
+/* ROOTS_ROOM: most roots of one function in one part of a step. Where a polynomial of degree PART_DEGREE does not
+ * resolve a function, the part is halved, at most PARTS_DEEP times. */
 enum { ROOTS_ROOM = 128, PART_DEGREE = 64, PARTS_DEEP = 12 };
 
-/* A part of the step in which a function is a polynomial: all of it, where that can be. */
+/* A part of the step, or all of it, in which a polynomial is to fit a function. */
 typedef struct part {
     double from, to;
     int depth;
@@ -19,7 +19,7 @@ typedef struct part {
 
 static double time_at(const events *e, double tau) { return tau >= 1 ? e->span : tau * e->span; }
 
-/* Room for the values at degree + 1 points, and behind them for the arguments. */
+/* Makes room for the values at degree + 1 points, and behind them for the arguments. False: no memory. */
 static bool room_for(events *e, int degree)
 {
     if (degree + 1 <= e->samples_room) return true;
@@ -59,7 +59,7 @@ static motus_status sample(events *e, stepper *s, int degree, motus_error *err)
     return status;
 }
 
-/* The values of one function at degree + 1 points of a part of the step. */
+/* Evaluates one function at the points of a part of the step. */
 static motus_status sample_part(events *e, stepper *s, size_t f, const part *p, double *values, motus_error *err)
 {
     instant *at = &e->next;
@@ -90,7 +90,7 @@ static double place_of(const events *e, const search *of, double tau)
     return time_at(e, of->part->from + tau * (of->part->to - of->part->from));
 }
 
-/* The largest size of the polynomial between two roots, and where. */
+/* Returns the largest size of the polynomial between two roots, and tells where it is. */
 static double depth_between(const search *of, const roots_root *a, const roots_root *b, double *at)
 {
     enum { POINTS = 16 };
@@ -104,8 +104,8 @@ static double depth_between(const search *of, const roots_root *a, const roots_r
     return most;
 }
 
-/* The root that makes a pair with root k, if they are so near to one another that true steps are to tell whether there
- * are two, one, or none: its number, else k. *at: the extremum between them. */
+/* Returns the number of the root that makes a pair with root k: they are so near that true steps must decide whether
+ * there are two, one or none. Returns k if there is no such root. *at: the extremum between them. */
 static size_t pair_of(const search *of, const roots_root *root, size_t count, size_t k, double *at)
 {
     const roots_root *a = &root[k];
@@ -115,8 +115,8 @@ static size_t pair_of(const search *of, const roots_root *root, size_t count, si
     return depth_between(of, a, &root[j], at) <= of->slack ? j : k;
 }
 
-/* Whether the step ends so near to 0, and so slowly, that only the next one tells whether the function touches 0: on
- * either side, by no more than its error so far. */
+/* Tells whether the function ends the step within its error of 0, on either side, and so slowly that only the next step
+ * decides whether it touches 0. */
 static motus_status lingers(events *e, size_t f, const search *of, const roots_root *last, bool *does, motus_error *err)
 {
     const roots_root end = {.tau = 1};
@@ -132,8 +132,8 @@ static motus_status lingers(events *e, size_t f, const search *of, const roots_r
     return status;
 }
 
-/* A function lingers near 0 at the end of the step: the next step tells; at the end of the run, and of a leg of it, it
- * touches 0 there if its slope is 0 but for its error. */
+/* Leaves a function that lingers near 0 at the end of the step to the next step. At the end of the leg there is none:
+ * the function touches 0 there if its slope is 0 but for its error. */
 static motus_status leave_open(events *e, size_t f, motus_error *err)
 {
     double slope;
@@ -162,7 +162,7 @@ static candidate candidate_of(const events *e, size_t f, const search *of, const
                                                           : (candidate_kind)r->side};
 }
 
-/* The candidates of one function, from its roots. */
+/* Adds the candidates of one function, from its roots. */
 static motus_status add_roots(events *e, size_t f, const search *of, const roots_root *root, const roots_found *found,
                               motus_error *err)
 {
@@ -179,7 +179,7 @@ static motus_status add_roots(events *e, size_t f, const search *of, const roots
         candidate c = candidate_of(e, f, of, &one, low, high);
         bool open = false;
         if (one.open && (of->part->to < 1 || e->right.t != e->until)) {
-            /* the next part or step tells it again, and which way it goes on; unless the step ends beyond it */
+            /* the next part or step finds it again, and tells which way it goes on, unless this step ends beyond it */
             const double end = of->part->to < 1 ? 0 : e->right.g[f];
             const int sign = (end > 0) - (end < 0);
             const bool away = fabs(end) > e->right.bound[f] && e->way * e->right.rate[f] * end > 0;
@@ -198,7 +198,7 @@ static motus_status add_roots(events *e, size_t f, const search *of, const roots
         if (open) continue;
         c.sure = !c.near && (one.from <= 0 || fabs(events_polynomial(of->coefficients, of->degree, low)) > of->slack) &&
                  (one.to >= 1 || fabs(events_polynomial(of->coefficients, of->degree, high)) > of->slack);
-        /* that it passes the other way is no event, and needs no true steps */
+        /* passing in the direction that the rule does not ask for is not an event, and needs no true steps */
         c.idle = c.sure && rule->kind == RULE_ROOT && rule->direction == -c.kind;
         if (!events_add(e, c)) return events_no_memory(err);
     }
@@ -207,8 +207,8 @@ static motus_status add_roots(events *e, size_t f, const search *of, const roots
     return status || !open ? status : leave_open(e, f, err);
 }
 
-/* A function leaves 0 with a slope of 0, and dense output says that it comes back within the step: that may be nothing
- * but its error. Where a true step has the other sign between, it leaves to the other side. */
+/* Corrects a function that leaves 0 with a slope of 0 and comes back within the step by dense output, which may be mere
+ * error: if a true step in between has the other sign, it leaves to the other side. */
 static motus_status judge_return(events *e, size_t f, const search *of, roots_root *root, roots_found *found,
                                  motus_error *err)
 {
@@ -224,7 +224,8 @@ static motus_status judge_return(events *e, size_t f, const search *of, roots_ro
     return MOTUS_OK;
 }
 
-/* A function that stood at 0 at the start of the step has left it: whether that is an event. */
+/* Adds a candidate if a function that stood at 0 at the start of the step has left it to the other side. False: no
+ * memory. */
 static bool leave(events *e, size_t f, const search *of, const roots_found *found)
 {
     const double start = place_of(e, of, 0);
@@ -239,9 +240,9 @@ static bool leave(events *e, size_t f, const search *of, const roots_found *foun
     if (side) return true;
     const rule *r = &e->rules.rule[e->rule_of[f]];
     const bool internal = r->internal;
-    /* what is smooth on the step leaves 0 at once, or never */
+    /* a function that is smooth on the step leaves 0 at once or never */
     const bool at_once = found->leaves < 0x1p-20 || (e->rules.settle && r->smooth && of->part->from <= 0);
-    if (e->first && of->part->from <= 0 && found->leaves < 1 && !internal) { /* the start is no event */
+    if (e->first && of->part->from <= 0 && found->leaves < 1 && !internal) { /* the start is not an event */
         e->side[f] = (int8_t)after;
         return true;
     }
@@ -250,8 +251,8 @@ static bool leave(events *e, size_t f, const search *of, const roots_found *foun
         e, (candidate){.of = f, .at = t, .low = t, .high = t, .kind = (candidate_kind)after, .located = true});
 }
 
-/* The largest of a function's values at the points, and its largest slope between two of them; where it stands at 0,
- * which its first value is but for rounding, from that value on. */
+/* Returns a function's largest size at the points, and tells its largest slope between two of them. Where the function
+ * stands at 0, sizes count from its first value, which is 0 but for rounding. */
 static double size_of(const double *value, size_t stride, int degree, bool stands, double *steepest)
 {
     const double first = stands ? value[0] : 0;
@@ -265,7 +266,7 @@ static double size_of(const double *value, size_t stride, int degree, bool stand
     return largest;
 }
 
-/* The bounds at both ends of the step, once. */
+/* Evaluates rates and bounds at both ends of the step, unless that has been done. */
 static motus_status judge_ends(events *e, motus_error *err)
 {
     if (e->marked) return MOTUS_OK;
@@ -275,8 +276,8 @@ static motus_status judge_ends(events *e, motus_error *err)
     return status;
 }
 
-/* How far rounding may carry a function in the step: the larger bound of both ends. Near a pole that is larger than all
- * values elsewhere, and says nothing of them. */
+/* Returns a bound on the rounding of a function in the step: the larger bound of both ends. Near a pole that bound
+ * would exceed all values elsewhere, so there the smaller one counts. */
 static double bound_of_ends(const events *e, size_t f, double largest)
 {
     const double left = e->left.bound[f], right = e->right.bound[f], most = fmax(left, right),
@@ -289,7 +290,7 @@ static double bound_of_ends(const events *e, size_t f, double largest)
  * times: rounding of either counts with a weight of at most DENSE_WEIGHT / 2 (the largest of all methods is 2.2). */
 enum { DENSE_WEIGHT = 8 };
 
-/* How far rounding may carry function f on dense output. */
+/* Bounds the rounding of function f on dense output. */
 static motus_status judge_dense(events *e, size_t f, double largest, double *bound, motus_error *err)
 {
     const size_t nx = e->problem.nx;
@@ -308,7 +309,7 @@ static motus_status judge_dense(events *e, size_t f, double largest, double *bou
     return status;
 }
 
-/* Whose function it is, and when. */
+/* Returns MOTUS_EVENTS, with the name of the function's rule and the time in the error. */
 static motus_status of_function(const events *e, size_t f, double at, motus_error *err)
 {
     if (!err) return MOTUS_EVENTS;
@@ -331,8 +332,8 @@ static motus_status too_fast(const events *e, size_t f, double from, motus_error
     return of_function(e, f, at, err);
 }
 
-/* Whether a function changes within the rounding of the time by as much as in the step, which is far longer, so that
- * its values tell nothing of what it does between: at two of three times, since a pole may be near one of them. */
+/* Tells whether a function changes as much within the rounding of the time as in the whole step, so that its values do
+ * not show what it does in between. It must do so at two of three times, since a pole may be near one of them. */
 static motus_status hides_itself(events *e, stepper *s, size_t f, double largest, double bound, bool *hides,
                                  motus_error *err)
 {
@@ -353,7 +354,7 @@ static motus_status hides_itself(events *e, stepper *s, size_t f, double largest
     return status;
 }
 
-/* Where a part begins far from 0 on the other side, the function has jumped: adds that candidate. False: no memory. */
+/* Adds a candidate for the jump of a function that begins a part far beyond 0, on the other side. False: no memory. */
 static bool begins_beyond(events *e, size_t f, double value, double from, int *sign)
 {
     const int now = value > 0 ? 1 : -1;
@@ -374,8 +375,8 @@ static motus_status widen_noise(events *e, size_t f, double *noise, motus_error 
     return status;
 }
 
-/* A function was near 0 where the part begins, and went back: adds a candidate, of which true steps tell whether it
- * touches 0. False: no memory. */
+/* Adds a near candidate for a function that was near 0 where the part begins and went back; true steps decide whether
+ * it touches 0. False: no memory. */
 static bool went_back(events *e, size_t f, const search *of, int side)
 {
     const double before = of->part->from - (of->part->to - of->part->from);
@@ -388,16 +389,17 @@ static bool went_back(events *e, size_t f, const search *of, int side)
     return events_add(e, c);
 }
 
-/* Whether a function that stands at 0 cannot be seen to leave it in a part of the step: its values are nothing but
- * rounding, and it moves by no more than that. */
+/* Tells whether a function that stands at 0 stays there in a part of the step, as far as rounding shows: its values and
+ * its movement by its slope are within `hidden`. */
 static bool stays(const events *e, size_t f, const part *p, double largest, double hidden)
 {
     const double way = fabs(e->left.rate[f] * e->span * (p->to - p->from));
     return largest <= hidden && (!e->heads[f] || way <= hidden);
 }
 
-/* Adds the candidates of a part of the step, from the values of a function at its points. *sign: that of the function
- * before the part, 0: it stands at 0; then that at its end. *rough: no polynomial fits the values. */
+/* Adds the candidates of a part of the step, from the values of a function at its points. *sign is first the function's
+ * sign before the part, 0 where it stands at 0, and afterwards its sign at the end. *rough: no polynomial fits the
+ * values. */
 static motus_status search_part(events *e, stepper *s, size_t f, const part *p, const double *value, size_t stride,
                                 int degree, int *sign, bool *rough, motus_error *err)
 {
@@ -407,14 +409,14 @@ static motus_status search_part(events *e, stepper *s, size_t f, const part *p, 
     const bool stands = *sign == 0;
     *rough = false;
     const double largest = size_of(value, stride, degree, stands, &steepest);
-    if (!stands && largest == 0) { /* it is 0 all the time: it has come to 0 */
+    if (!stands && largest == 0) { /* it has come to 0, since all values are 0 */
         const double start = time_at(e, p->from);
         *sign = e->side[f] = 0, e->stands[f] = 1, e->open[f] = 0;
         const candidate c = {.of = f, .at = start, .kind = CANDIDATE_TOUCHES, .located = true, .jumps = true};
         return events_add(e, c) ? MOTUS_OK : events_no_memory(err);
     }
-    /* The bounds on rounding are computed only where an event was near; most steps need none. The times of the points
-     * are rounded, too, which counts in steps that are short beside the time. */
+    /* Bounds on rounding are computed only where an event may be near; most steps need none. The times of the points
+     * are rounded too, which matters in steps that are short beside the time. */
     const double moved = steepest * events_ulp(e->right.t) / fabs(e->span * (p->to - p->from));
     double rounding = largest * 0x1p-44 + moved, hidden = 0;
     if (stands) {
@@ -426,7 +428,7 @@ static motus_status search_part(events *e, stepper *s, size_t f, const part *p, 
     roots_fit_status fit;
     for (bool judged = false;; judged = true) {
         fit = roots_fit(value, stride, degree, rounding, coefficients, &fitted);
-        if (fit == ROOTS_FIT_NOT_FINITE) { /* where it is not defined there is no root, and parts tell of the rest */
+        if (fit == ROOTS_FIT_NOT_FINITE) { /* there is no root where it is undefined; shorter parts show the rest */
             for (int k = 0; k <= degree; k++) *rough |= isfinite(value[(size_t)k * stride]);
             return MOTUS_OK;
         }
@@ -440,7 +442,7 @@ static motus_status search_part(events *e, stepper *s, size_t f, const part *p, 
             roots_none(coefficients, fitted.degree, EVENTS_SLACK * largest + fitted.noise + beyond))
             return begins_beyond(e, f, value[0], p->from, sign) ? MOTUS_OK : events_no_memory(err);
         if (fit != ROOTS_FIT_ROUGH || judged) break;
-        /* it may be a small difference of large numbers, whose rounding it has */
+        /* the function may be a small difference of large numbers, and have their rounding */
         const motus_status status = stands ? MOTUS_OK : judge_dense(e, f, largest, &hidden, err);
         if (status) return status;
         rounding += hidden;
@@ -507,10 +509,10 @@ static motus_status search_cell(events *e, size_t f, const part *p, const double
     return !status && !told && whole ? too_fast(e, f, p->from, err) : status;
 }
 
-/* The parts of the step one after the other, halved as long as a function is not resolved. */
+/* Searches the parts of the step in order, and halves a part while it does not resolve the function. */
 static motus_status find_in_parts(events *e, stepper *s, size_t f, int *sign, motus_error *err)
 {
-    const size_t before = e->candidates; /* of other functions */
+    const size_t before = e->candidates; /* those of other functions */
     part waiting[PARTS_DEEP + 2] = {{0.5, 1, 1}, {0, 0.5, 1}};
     double value[PART_DEGREE + 1];
     motus_status status = MOTUS_OK;
@@ -546,7 +548,7 @@ static motus_status find_by_points(events *e, stepper *s, size_t f, int *degree,
         status = sample(e, s, *degree, err);
         if (!status) status = search_part(e, s, f, &all, e->samples + f, n, *degree, &sign, &rough, err);
     }
-    if (!status && rough && e->rules.rule[e->rule_of[f]].internal && e->shorter > 0) { /* a switch is not passed */
+    if (!status && rough && e->rules.rule[e->rule_of[f]].internal && e->shorter > 0) { /* repeat the step, shorter */
         e->shorter--;
         e->hidden = true;
         return MOTUS_OK;
@@ -557,7 +559,7 @@ static motus_status find_by_points(events *e, stepper *s, size_t f, int *degree,
     return status;
 }
 
-/* What the points of dense output tell, and what bounds tell besides. */
+/* Finds the candidates of a function by the points of dense output, and by bounds those that the points miss. */
 static motus_status find_of(events *e, stepper *s, size_t f, int *degree, motus_error *err)
 {
     const size_t first = e->candidates;
@@ -587,7 +589,7 @@ static bool add_ticks(events *e)
     return true;
 }
 
-/* Where the cubic with these values and slopes at the ends of [0, h], which has other signs there, is 0. */
+/* Returns the root in [0, h] of the cubic with these values, of opposite signs, and slopes at the ends. */
 static double cubic_root(double h, double g0, double r0, double g1, double r1)
 {
     const double p = h * r0, q = h * r1, d = g1 - g0, c2 = 3 * d - 2 * p - q, c3 = p + q - 2 * d;
@@ -604,8 +606,8 @@ static double cubic_root(double h, double g0, double r0, double g1, double r1)
     return u * h;
 }
 
-/* A function that is monotone on the step has at most one root there, of which its signs at the ends tell. False: they
- * do not. */
+/* Adds the root of a function that is monotone on the step, if its signs at the ends differ. False: the signs do not
+ * tell whether there is one. */
 static bool monotone(events *e, size_t f, motus_status *status, motus_error *err)
 {
     const double from = e->left.g[f], to = e->right.g[f];
@@ -616,7 +618,7 @@ static bool monotone(events *e, size_t f, motus_status *status, motus_error *err
     if (sign == after) return true;
     *status = judge_ends(e, err);
     if (*status || !events_clear(e, f)) return false;
-    /* of one that is idle nothing depends on the time but its order among others */
+    /* the time of an idle candidate matters only for its order among others */
     const candidate c = {.of = f,
                          .at = idle ? e->span * (from / (from - to))
                                     : cubic_root(e->span, from, e->left.rate[f], to, e->right.rate[f]),
@@ -630,7 +632,7 @@ static bool monotone(events *e, size_t f, motus_status *status, motus_error *err
     return true;
 }
 
-/* Marks the functions of which dense output must tell; most steps need none. */
+/* Marks the functions for which dense output must be searched; most steps need none. */
 static motus_status choose(events *e, stepper *s, bool *any, motus_error *err)
 {
     const size_t n = e->rules.functions;

@@ -1,9 +1,9 @@
-/* What happens in one instant: rules act in the order of the text, each seeing what the former left, until none asks
- * any more. See events_parts.h.
+/* What happens in one instant: rules act in the order of the text, each on the state that the one before left, until no
+ * rule has anything left to do. See events_parts.h.
  *
  * A rule whose function passes 0 acts once for that passage. A function that still moves in the event's direction after
- * the action has left 0 to that side, however fast it moves; one that the action turns back has not, and a further
- * action of another rule may let it pass in this same instant.
+ * the action has left 0 to that side, however fast it moves. A function that the action turns back has not, and an
+ * action of another rule may let it pass in the same instant.
  */
 #include "core/events_parts.h"
 
@@ -13,8 +13,8 @@
 
 static int sign_of(double x) { return (x > 0) - (x < 0); }
 
-/* A bound on the rounding error of a function at `here`. Beside a jump the bound there has the size of the jump, so the
- * bounds at the ends of the step limit it. */
+/* Returns a bound on the rounding error of a function at `here`. Beside a jump that bound is as large as the jump, so
+ * the bounds at the ends of the step limit it. */
 static double bound_of(const events *e, size_t f)
 {
     const double here = e->here.bound[f];
@@ -23,8 +23,9 @@ static double bound_of(const events *e, size_t f)
     return fmin(here, 4 * fmax(e->left.bound[f], e->right.bound[f]) + 0x1p-44 * ends);
 }
 
-/* Whether a function is 0 at `here`, but for its rounding error and that of the time. The bound takes every number of
- * the state as rounded by half a unit in the last place; a companion's has been moved by a whole one besides. */
+/* Tells whether a function is 0 at `here`, but for its rounding error and that of the time. The bound takes every
+ * number of the state as rounded by half a unit in the last place; those of a companion were also moved by a whole
+ * unit. */
 static bool is_zero(const events *e, size_t f)
 {
     const instant *at = &e->here;
@@ -33,9 +34,9 @@ static bool is_zero(const events *e, size_t f)
            fabs(at->g[f]) <= units * bound_of(e, f) + fabs(at->rate[f]) * events_ulp(at->t);
 }
 
-/* Whether a function is on the other side of 0 at `here` because it has jumped: its value exceeds what it changes
- * within the rounding of the time. Its own candidate, a rounding later, changes its side; until then it has that before
- * the jump. */
+/* Tells whether a function is beyond 0 at `here` because it has jumped: its value exceeds its change within the
+ * rounding of the time. Its own candidate, a rounding later, changes its side; until then it has the side before the
+ * jump. */
 static bool jumps_here(const events *e, size_t f)
 {
     const instant *at = &e->here;
@@ -85,8 +86,8 @@ static motus_status not_finite(const events *e, size_t k, bool in_v, size_t whic
     return MOTUS_DIVERGED;
 }
 
-/* Of a companion: moves the modes that have been assigned in this step by a unit in the last place, always the same
- * way, since the rounding of a sum of equal numbers has one sign for long. */
+/* Moves, for a companion, the modes that were assigned in this step by a unit in the last place, always in one
+ * direction, since the rounding of a sum of equal numbers keeps its sign for long. */
 static void jog_modes(events *e)
 {
     for (size_t k = 0; e->jog && k < e->rules.rounded_count; k++) {
@@ -95,7 +96,7 @@ static void jog_modes(events *e)
     }
 }
 
-/* The action of an event, on the state at `here`. */
+/* Does the action of an event to the state at `here`. */
 static motus_status change(events *e, size_t k, size_t i, motus_error *err)
 {
     instant *at = &e->here;
@@ -110,8 +111,8 @@ static motus_status change(events *e, size_t k, size_t i, motus_error *err)
                              : not_finite(e, k, in_v, which, err);
 }
 
-/* After an action a condition that is false with the new state may become true again: later, if it is false as the
- * motion goes on, and in this same instant, if it is false at the instant itself. */
+/* Lets conditions that an action has made false become true again: in this instant, if they are false at the instant
+ * itself, or later, if they are false as the motion goes on. */
 static void release(events *e)
 {
     for (int now = 0; now < 2; now++) {
@@ -135,7 +136,8 @@ static void release(events *e)
     }
 }
 
-/* The state at `here`, moved along the motion by a few roundings of the time, and every number by its own rounding. */
+/* Writes the state at `here`, moved along the motion by a few roundings of the time, and every number by its own
+ * rounding. */
 static void move_by_rounding(const events *e, int turn, instant *to)
 {
     enum { ULPS = 8 };
@@ -149,8 +151,8 @@ static void move_by_rounding(const events *e, int turn, instant *to)
     for (size_t k = 0; k < e->problem.nv; k++) to->v[k] += h * at->a[k] + (k % 2 ? other : side) * events_ulp(at->v[k]);
 }
 
-/* Marks the functions at 0 whose rate under the new force is 0, but for rounding: where what has held them lets go,
- * they leave 0 with a slope of 0. */
+/* Marks the functions at 0 whose rate under the new force is 0 but for rounding: when the force that holds them lets
+ * go, they leave 0 with a slope of 0. */
 static motus_status find_level(events *e, motus_error *err)
 {
     enum { MARGIN = 4, TURNS = 4 };
@@ -171,16 +173,17 @@ static motus_status find_level(events *e, motus_error *err)
     return status;
 }
 
-/* Whether a function at 0 may leave it with a slope of 0: it has had none, or an action has taken nearly all of it. */
+/* Tells whether a function at 0 may leave it with a slope of 0: it had none, or an action has taken nearly all of it.
+ * */
 static bool may_be_level(const events *e, size_t f, double before)
 {
     const double rate = fabs(e->here.rate[f]);
     return e->zero[f] && rate > 0 && (before == 0 || rate <= 0x1p-20 * fabs(before));
 }
 
-/* Evaluates the functions after an action of instance i of rule k; e->before and the rates at `here` are those before
- * the action. What has happened in this instant may happen again where another rule has changed the rate of its
- * function: a ball between two others meets both at once, and one of them again. */
+/* Evaluates the functions after an action of instance i of rule k; e->before and the rates at `here` are first those
+ * before the action. An event of this instant may happen again if another rule has changed the rate of its function: a
+ * ball between two others meets both at once, and one of them again. */
 static motus_status look_again(events *e, size_t k, size_t i, motus_error *err)
 {
     instant *at = &e->here;
@@ -193,7 +196,7 @@ static motus_status look_again(events *e, size_t k, size_t i, motus_error *err)
     for (size_t f = 0; f < e->rules.functions && !status; f++) {
         const bool own = f >= r->first && f < r->first + r->leaves * r->instances && (f - r->first) % r->instances == i;
         if (!own && fabs(at->rate[f] - rate[f]) > 0x1p-40 * fabs(rate[f])) e->fired[f] = NAN;
-        /* what was 0 and has not changed stays 0, whatever its rate is now; so does what a switch has moved to 0 */
+        /* a function that was 0 and has not changed stays 0, whatever its rate is now; so does one moved by a switch */
         const double moved = e->rules.settle ? fabs(at->g[f]) - fabs(e->before[f]) : fabs(at->g[f] - e->before[f]);
         const bool still = e->zero[f] && moved <= at->bound[f];
         e->zero[f] = still || is_zero(e, f);
@@ -213,8 +216,8 @@ static void jog(events *e, int64_t number, bool switched)
     e->jog(e->here.v, e->problem.nv, salt + (uint32_t)nx, switched);
 }
 
-/* Rounding of the state hides where a function passes 0: a companion acts as much earlier or later, and moves on by the
- * velocities and accelerations that it has after the action. */
+/* Lets a companion act as much earlier or later as rounding of the state hides where a function passes 0: moves its
+ * state by the velocities and accelerations after the action. */
 static void lag(events *e, int64_t number)
 {
     const problem *p = &e->problem;
@@ -227,8 +230,8 @@ static void lag(events *e, int64_t number)
     for (size_t k = 0; k < p->nv; k++) at->v[k] += isfinite(at->a[k]) ? late * at->a[k] : 0;
 }
 
-/* Whether the step that leads here ends a flight between two switches under a constant force: it is the only one, and
- * the mean of the velocities leads along it. The steps, and their roundings, are then those of the next flight. */
+/* Tells whether the step that leads here is a whole flight between two switches under a constant force: it is the only
+ * step since the latest turn, and moves by the mean of the velocities. The next flight then repeats its roundings. */
 static bool ends_flight(const events *e)
 {
     const size_t moving = e->problem.nx - e->problem.modes;
@@ -242,11 +245,11 @@ static bool ends_flight(const events *e)
     return constant;
 }
 
-enum { WAS_ZERO = UINT8_MAX }; /* or has been told to be */
+enum { WAS_ZERO = UINT8_MAX }; /* of `arrives`: the function was 0, or its event has been told */
 
-/* A turn leads on to where the motion comes to rest, within a time that no step resolves, and functions that were not 0
- * come to 0 with it. One that has the other sign where the motion would go on from there passes 0, else it touches 0.
- * `best` is the state before the turn. */
+/* Sets `arrives` after a turn has led on to where the motion comes to rest, within a time that no step resolves, and
+ * functions have come to 0 with it. A function that would have the other sign if the motion went on passes 0; else it
+ * touches 0. `best` is the state before the turn. */
 static motus_status arrive(events *e, motus_error *err)
 {
     instant *at = &e->here, *beyond = &e->best;
@@ -255,16 +258,16 @@ static motus_status arrive(events *e, motus_error *err)
     beyond->t = at->t;
     const motus_status status = events_values(e, beyond, err);
     for (size_t f = 0; f < e->rules.functions; f++) {
-        const bool rests = at->t != e->until || at->g[f] == 0; /* else the end has cut it short */
+        const bool rests = at->t != e->until || at->g[f] == 0; /* else the end of the run has cut the way short */
         const bool comes = !e->arrives[f] && e->zero[f] && e->side[f] && rests;
-        if (e->arrives[f] && e->arrives[f] != WAS_ZERO) continue; /* by another turn of this instant */
+        if (e->arrives[f] && e->arrives[f] != WAS_ZERO) continue; /* another turn of this instant has set it */
         const int kind = sign_of(beyond->g[f]) == -e->side[f] ? -e->side[f] : CANDIDATE_TOUCHES;
         e->arrives[f] = (uint8_t)(comes && !e->rules.rule[e->rule_of[f]].internal ? kind + 2 : 0);
     }
     return status;
 }
 
-/* A switch changes its side. All switches may turn in one instant, but not one and the same again and again. */
+/* Turns a switch to its new side. All switches may turn in one instant, but none again and again. */
 static motus_status turn(events *e, size_t k, size_t i, motus_error *err)
 {
     instant *at = &e->here;
@@ -300,7 +303,7 @@ static motus_status act(events *e, size_t k, size_t i, motus_error *err)
     }
     e->acted++;
     e->acted_sum += at->t - e->start;
-    events_swarm_forget(e); /* switches that accumulate with events are theirs */
+    events_swarm_forget(e); /* where switches accumulate together with events, the events tell the limit */
     if (++e->actions > EVENTS_AT_ONCE) return too_many(e, k, i, err);
     const size_t n = e->rules.functions;
     if (n) memcpy(e->before, at->g, n * sizeof *at->g);
@@ -326,7 +329,7 @@ static motus_status table_full(const events *e, size_t k, motus_error *err)
     return MOTUS_LIMIT;
 }
 
-/* An event of a rule. */
+/* Lets an event of a rule happen: counts it, adds its row, does its action. */
 static motus_status happen(events *e, size_t k, size_t i, bool touched, bool *assigned, motus_error *err)
 {
     const rule *r = &e->rules.rule[k];
@@ -353,29 +356,30 @@ static motus_status happen(events *e, size_t k, size_t i, bool touched, bool *as
 
 /* Asking ---------------------------------------------------------------------------------------------------------- */
 
-/* Whether the rate of a function at `here` exceeds the rounding error of its rates at the ends of the step. */
+/* Tells whether the rate of a function at `here` exceeds the rounding error of its rates at the ends of the step. */
 static bool moves(const events *e, size_t f)
 {
     const double most = e->marked ? fmax(fabs(e->left.rate[f]), fabs(e->right.rate[f])) : 0;
     return fabs(e->here.rate[f]) > 0x1p-44 * most;
 }
 
-/* The direction in which a function at 0 leaves it after an action; 0: rounding hides it. */
+/* Returns the direction in which a function at 0 leaves it after an action; 0: rounding hides it. */
 static int heads(const events *e, size_t f) { return moves(e, f) ? events_direction(e, &e->here, f) : 0; }
 
-/* Whether a candidate is in this instant, or has not been located and may be. */
+/* Tells whether a candidate is in this instant or, where it has not been located, may be. */
 static bool is_here(const events *e, const candidate *c)
 {
     if (c->located) return fabs(c->at - e->here_at) <= 4 * events_ulp(e->here.t);
     return e->way * (e->here_at - c->low) >= 0 && e->way * (c->high - e->here_at) >= 0;
 }
 
-/* The candidate of function f in this instant, of another event or its own; `touches`: of a touch. NULL: none. */
+/* Returns a candidate of function f in this instant that is not gone; `touches`: one that may be a touch. NULL: none.
+ * */
 static candidate *about(const events *e, size_t f, bool touches)
 {
     for (size_t k = 0; k < e->candidates; k++) {
         candidate *c = &e->candidate[k];
-        const bool stays = c->sampled && !c->located && !c->near; /* of kind 0: it comes to 0 */
+        const bool stays = c->sampled && !c->located && !c->near; /* with CANDIDATE_TOUCHES: it comes to 0 and stays */
         const bool touch = (c->near || (c->kind == CANDIDATE_TOUCHES && !stays)) && !c->jumps;
         if (c->gone || c->kind == CANDIDATE_TIME || c->of != f || (touches && !touch)) continue;
         if (is_here(e, c)) return c;
@@ -383,8 +387,8 @@ static candidate *about(const events *e, size_t f, bool touches)
     return NULL;
 }
 
-/* Whether a located crossing or jump of function f is in this instant, followed or not, and to which side it leads; 0:
- * from there on it stays 0. */
+/* Tells whether a located crossing or jump of function f is in this instant, followed or not, and the side to which it
+ * leads; 0: the function stays 0 from there on. */
 static bool is_led(const events *e, size_t f, int *side)
 {
     for (size_t k = 0; k < e->candidates; k++) {
@@ -399,7 +403,7 @@ static bool is_led(const events *e, size_t f, int *side)
     return false;
 }
 
-/* The direction in which function f leaves 0 here: by its slope, or as its candidate says while nothing has acted. */
+/* Returns the direction in which function f leaves 0 here: by its candidate or, after an action, by its slope. */
 static int leaves(const events *e, size_t f, const candidate *c, bool acted)
 {
     int side;
@@ -409,7 +413,7 @@ static int leaves(const events *e, size_t f, const candidate *c, bool acted)
 
 static candidate *touching(const events *e, size_t f) { return about(e, f, true); }
 
-/* The side on which function f goes on, 0: it stays at 0. */
+/* Returns the side on which function f goes on; 0: it stays at 0. */
 static int goes_on(const events *e, size_t f, const candidate *c, bool acted)
 {
     const bool own = !acted && c->kind != CANDIDATE_TIME && c->of == f;
@@ -418,7 +422,7 @@ static int goes_on(const events *e, size_t f, const candidate *c, bool acted)
     return own || touched || touching(e, f) ? e->side[f] : leaves(e, f, c, acted);
 }
 
-/* An event has acted: where its events accumulate, and the state there. */
+/* Moves on to the limit of a rule's events if they accumulate, after an event has acted. */
 static motus_status approach(events *e, size_t k, size_t i, motus_error *err)
 {
     motus_status status = MOTUS_OK;
@@ -430,7 +434,7 @@ static motus_status approach(events *e, size_t k, size_t i, motus_error *err)
     return status;
 }
 
-/* A turn has led function f of instance i to 0. */
+/* Lets a rule answer to a turn that has led its function f, of instance i, to 0. */
 static motus_status ask_arrived(events *e, size_t k, size_t i, size_t f, bool *acted, bool *again, motus_error *err)
 {
     const rule *r = &e->rules.rule[k];
@@ -464,7 +468,7 @@ static motus_status ask_root(events *e, size_t k, size_t i, const candidate *c, 
         *again |= r->assigns;
         return happen(e, k, i, true, acted, err);
     }
-    /* what has been 0 since the start leaves 0 in this instant only by an action */
+    /* a function that has been 0 since the start leaves 0 in this instant only by an action */
     if (to == 0 || (e->side[f] ? to == e->side[f] : !here && !*acted)) return MOTUS_OK;
     if (r->direction && r->direction != to) {
         e->side[f] = (int8_t)to;
@@ -486,7 +490,7 @@ static motus_status ask_root(events *e, size_t k, size_t i, const candidate *c, 
     return r->internal ? status : approach(e, k, i, err);
 }
 
-/* Whether a switch of the force has yet to turn in this instant: how functions go on is known only after that. */
+/* Tells whether a switch of the force has yet to turn in this instant; how functions go on is known only after that. */
 static bool awaits_switch(const events *e, const candidate *c)
 {
     if (!e->rules.settle) return false;
@@ -525,12 +529,12 @@ static motus_status ask_condition(events *e, size_t k, size_t i, const candidate
     }
     double *happened = &e->happened[e->instances[k] + i];
     const bool before = fabs(*happened - e->here.t) <= 4 * events_ulp(e->here.t);
-    /* it becomes true in this instant or right after it, also where it is false in the instant alone */
+    /* the condition becomes true in this instant or right after it, also if it is false in the instant alone */
     const bool after = any ? rules_hold(r, i, sign) : now;
     uint8_t *steady = &e->steady[e->instances[k] + i];
     const bool happens = *held ? *steady && passes && !now && after && !before : (now && !before) || after;
     if (happens) *steady = 0;
-    if (*held && now) *happened = e->here.t; /* it was true before, and is so in this instant */
+    if (*held && now) *happened = e->here.t; /* it was true before, and is true in this instant */
     *held = after;
     if (!happens) return MOTUS_OK;
     bool assigned = false;
@@ -563,7 +567,7 @@ static motus_status ask(events *e, size_t k, const candidate *c, bool *acted, bo
     return status;
 }
 
-/* A function that an action has moved over 0 changes its side without an event. */
+/* Takes the sides from the values at `here`: a function that an action has moved over 0 has no event. */
 void events_stand(events *e)
 {
     for (size_t f = 0; f < e->rules.functions; f++) {
@@ -574,18 +578,18 @@ void events_stand(events *e)
         e->heads[f] = (int8_t)(e->zero[f] ? heads(e, f) : 0);
         if (!e->zero[f]) e->side[f] = (int8_t)sign_of(e->here.g[f]);
         if ((condition || lets_go) && e->zero[f] && !e->heads[f])
-            e->side[f] = 0; /* it changes where the function leaves 0 */
+            e->side[f] = 0; /* it is known when the function leaves 0 */
         if (e->rules.rule[e->rule_of[f]].internal) e->side[f] = 1;
     }
 }
 
-/* Whether the rule to which a candidate leads may end the step here. */
+/* Tells whether the rule of a candidate may end the step here. */
 static bool ends_step(const events *e, const candidate *c)
 {
     return e->rules.rule[c->kind == CANDIDATE_TIME ? c->of : e->rule_of[c->of]].assigns;
 }
 
-/* Marks the functions that touch 0 about here as 0 in this instant, where their error bounds allow it. */
+/* Marks as 0 the functions that have a touch in this instant, if their error bounds allow it. */
 static motus_status touch_too(events *e, motus_error *err)
 {
     motus_status status = MOTUS_OK;
@@ -599,7 +603,7 @@ static motus_status touch_too(events *e, motus_error *err)
     return status;
 }
 
-/* Whether a function is 0 at `here`, or beyond it: then it has passed 0 in this very instant, and its own candidate
+/* Tells whether a function is 0 at `here` or beyond 0: then it has passed 0 in this instant, and its own candidate
  * comes a rounding later. */
 static bool is_passed(const events *e, size_t f)
 {
@@ -608,13 +612,13 @@ static bool is_passed(const events *e, size_t f)
 
 /* ---- few of many rules ---- */
 
-/* An instance of a rule, one of whose functions may be 0 in this instant. */
+/* An instance of a rule with a function that may be 0 in this instant. */
 typedef struct asked {
     size_t rule, instance;
 } asked;
 enum { ASKED_MOST = 64 };
 
-/* Whether a root of the step may be in this instant, as far as dense output tells. */
+/* Tells whether, by dense output, a candidate may be in this instant. */
 static bool may_be_here(const events *e, const candidate *c)
 {
     const double margin = events_margin(e);
@@ -631,7 +635,7 @@ static bool any_ticks(const events *e)
     return false;
 }
 
-/* Into a list in the order of the text. False: it is full. */
+/* Inserts an instance into a list, which is in the order of the text. False: the list is full. */
 static bool insert(asked *list, size_t *count, asked one)
 {
     size_t k = *count;
@@ -646,8 +650,8 @@ static bool insert(asked *list, size_t *count, asked one)
     return true;
 }
 
-/* Lists the instances of rules of which something may be in this instant, where these do nothing but record and keep:
- * all others go on as they are. False: they are not known, or every rule has to be asked. */
+/* Lists the instances of rules that may happen in this instant, if they only record and keep: then no other rule need
+ * be asked. False: every rule must be asked. */
 static bool asks_few(const events *e, const candidate *c, asked *list, size_t *count)
 {
     size_t first, end;
@@ -682,7 +686,7 @@ static motus_status look_at(events *e, const asked *one, motus_error *err)
     return status;
 }
 
-/* All at `here`. */
+/* Evaluates all functions at `here`. */
 static motus_status look_at_all(events *e, motus_error *err)
 {
     motus_status status = MOTUS_OK;
@@ -694,7 +698,7 @@ static motus_status look_at_all(events *e, motus_error *err)
     return status;
 }
 
-/* Marks the functions of this candidate, and of those that have been located here, as 0. */
+/* Marks as 0 the functions of this candidate and of all candidates that have been located here. */
 static void mark_located(events *e, const candidate *c)
 {
     size_t first, end;
@@ -759,7 +763,7 @@ motus_status events_fire(events *e, const candidate *c, bool *assigned, motus_er
         again = false;
         e->awaits = waits && awaits_switch(e, c);
         for (size_t k = 0; k < e->rules.count && !status; k++) status = ask(e, k, c, assigned, &again, err);
-        if (e->awaits && !again) waits = false, again = true; /* it does not turn */
+        if (e->awaits && !again) waits = false, again = true; /* the switch does not turn */
     }
     if (*assigned && !status) events_stand(e);
     memset(e->level, 0, e->rules.functions);

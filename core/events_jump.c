@@ -1,8 +1,8 @@
 /* Functions that jump or have a kink, in the smallest parts of a step: their samples bracket each change of sign, and
  * bisection by true steps tells whether it is a root. See events_parts.h.
  *
- * A function that jumps over 0 has no root there: it changes its side. One that comes to 0 and stays there has no root
- * until it leaves 0. Invariant: two samples bracket the place of a `sampled` candidate.
+ * A function that jumps over 0 has no root there: it changes its side. A function that comes to 0 and stays there has
+ * no root until it leaves 0. Invariant: two samples bracket the place of a `sampled` candidate.
  */
 #include "core/events_parts.h"
 
@@ -22,7 +22,7 @@ static bool next_change(const events_cell *c, int sign, int from, int *before, i
         if (s == sign) continue;
         int end = k;
         while (!s && end < c->count && !sign_of(c->value[end], c->bound)) end++;
-        if (!s && end == c->count && c->count - k == 1) return false; /* the next part tells */
+        if (!s && end == c->count && c->count - k == 1) return false; /* the next part decides */
         const bool stays = !s && (end == c->count || end - k > 1);
         *before = k ? k - 1 : 0;
         *at = s || stays ? k : end;
@@ -33,14 +33,14 @@ static bool next_change(const events_cell *c, int sign, int from, int *before, i
     return false;
 }
 
-/* How far the function goes from sample k to the next one. */
+/* Returns how far the function goes from sample k to the next one. */
 static double change_after(const events_cell *c, int k)
 {
     return k >= 0 && k + 1 < c->count ? fabs(c->value[k + 1] - c->value[k]) : 0;
 }
 
-/* Whether a function that keeps its sign may touch 0 between samples: its smallest value, sample *at, is no more than
- * twice the change to a neighbour. */
+/* Tells whether a function that keeps its sign may touch 0 between samples: its smallest value, sample *at, is at most
+ * twice its change to a neighbour. */
 static bool may_touch(const events_cell *c, int *at)
 {
     *at = 0;
@@ -49,7 +49,7 @@ static bool may_touch(const events_cell *c, int *at)
     return fabs(c->value[*at]) <= 2 * fmax(change_after(c, *at - 1), change_after(c, *at));
 }
 
-/* A candidate between two samples, or where they are one, between the beginning of the cell and that sample. */
+/* Makes a candidate between two samples or, where both are one, between the beginning of the cell and that sample. */
 static candidate between(const events_cell *c, int low, int high)
 {
     const double from = low < high ? c->time[low] : c->from, to = c->time[high];
@@ -63,7 +63,7 @@ motus_status events_sampled(events *e, const events_cell *c, int *sign, bool *to
     *told = true;
     if (!changes) {
         if (*sign == 0 || !may_touch(c, &k)) return MOTUS_OK;
-        if (!c->last && k + 1 == c->count && c->value[k] == 0) { /* the next part tells */
+        if (!c->last && k + 1 == c->count && c->value[k] == 0) { /* the next part decides */
             e->open[c->of] = 1;
             return MOTUS_OK;
         }
@@ -94,7 +94,7 @@ typedef struct end {
     bool zero;    /* it is 0 but for rounding */
 } end;
 
-/* The function after a true step of size h, in `here`. */
+/* Evaluates the function after a true step of size h, in `here`. */
 static motus_status look(events *e, size_t f, double h, end *to, motus_error *err)
 {
     motus_status status = events_at(e, h, &e->here, err);
@@ -106,7 +106,7 @@ static motus_status look(events *e, size_t f, double h, end *to, motus_error *er
     return status;
 }
 
-/* Whether the function has already changed at this end; where it is undefined it has not. */
+/* Tells whether the function has changed at this end already; where it is undefined it has not. */
 static bool changed(const candidate *c, const end *at)
 {
     if (c->leaves) return !at->zero;
@@ -114,8 +114,8 @@ static bool changed(const candidate *c, const end *at)
     return c->kind > 0 ? at->g > 0 : at->g < 0;
 }
 
-/* Samples have the error of dense output: widens the interval until by true steps the function changes in it, at most
- * to the ends of the step. *found false: it does not. */
+/* Widens the interval, since samples have the error of dense output, until the function changes in it by true steps, at
+ * most to the ends of the step. *found false: it does not change. */
 static motus_status enclose(events *e, const candidate *c, end *low, end *high, bool *found, motus_error *err)
 {
     enum { TIMES = 24 };
@@ -144,7 +144,7 @@ static motus_status halve(events *e, const candidate *c, end *low, end *high, mo
     return status;
 }
 
-/* Whether bisection has at least halved the value at an end, as it does at a root, but not at a jump or a pole. */
+/* Tells whether bisection has at least halved the value at an end, as at a root, but not at a jump or a pole. */
 static bool nearer(const end *before, const end *now) { return fabs(now->g) <= fabs(before->g) / 2 || now->g == 0; }
 
 /* Locates a change of sign, and tells whether it is a root or a jump. */

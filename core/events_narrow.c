@@ -1,11 +1,11 @@
-/* Events that are narrow beside the step, which the points of dense output leap. See events_parts.h.
+/* Events that are narrow beside the step, so that the points of dense output may miss them. See events_parts.h.
  *
- * The step is halved until bounds on boxes say of every piece that a function is nowhere 0 in it, or that it is
- * monotone there: then its signs at the ends of the pieces tell all its roots. Where that takes too many pieces the
- * step is counted as unseen. Near roots that the points have found, where a function is small beside its size in the
- * step, the points tell, since no bound decides where a function is flat.
+ * The step is halved until bounds on boxes prove for every piece that the function is nowhere 0 in it or monotone: then
+ * its signs at the ends of the pieces tell all its roots. Where that takes too many pieces the step is counted as
+ * unseen. Near roots that the points have found, where the function is small, the points are trusted, since no bound
+ * decides where a function is flat.
  *
- * Invariant: `here` is the state at the end of the pieces that are told, `next` that at the end of the present one.
+ * Invariant: `here` is the state at the end of the pieces that are decided, `next` that at the end of the present one.
  */
 #include "core/events_parts.h"
 
@@ -15,33 +15,33 @@
 #include "core/scalar.h"
 #include "step/box.h"
 
-#define SHORTEST 0x1p-32 /* of the step: a shorter piece is not halved */
-#define NEAR 0.125       /* of the step: what is nearer to a root is left to the points */
-#define BETWEEN 0.125    /* of the range of a polynomial at the points: so far it goes between them */
-#define ROUNDED 0x1p-44  /* of a value */
+#define SHORTEST 0x1p-32 /* as a part of the step: a shorter piece is not halved */
+#define NEAR 0.125       /* as a part of the step: nearer to a root the points are trusted */
+#define BETWEEN 0.125    /* a polynomial leaves its range at the points, between them, by at most this part of it */
+#define ROUNDED 0x1p-44  /* the rounding error of a value, as a part of it */
 enum { DEEP = 33, PIECES_MOST = 1024, PASSES_MOST = 64 };
 
-/* Pieces that a run may take: so many at once and so many more in a step, and a piece costs more the more functions
- * there are. */
+/* A run may examine PIECES_AT_ONCE pieces at first and PIECES_IN_STEP more for each step; a piece costs one more for
+ * every FUNCTIONS_IN_PIECE functions. */
 enum { PIECES_AT_ONCE = 4096, PIECES_IN_STEP = 16, FUNCTIONS_IN_PIECE = 8 };
 
-/* A function passes 0 between two times, as parts of the step. */
+/* An interval, in parts of the step, in which a function passes 0. */
 typedef struct pass {
     double from, to;
-    int sign; /* at its end */
+    int sign; /* of the function at `to` */
 } pass;
 
 typedef struct narrow {
     events *e;
     stepper *s;
     size_t f;
-    double *most; /* of the accelerations in the step */
-    double noise; /* a value of this size has no sign */
-    double slack; /* near to what the points have found neither has one of this size */
-    size_t first; /* of the candidates that they have found, */
-    bool starts;  /*   and whether the function is near 0 at the start of the step, */
-    bool ends;    /*   and at its end */
-    int sign;     /* the latest that was certain, at `since` */
+    double *most; /* bounds on the accelerations in the step */
+    double noise; /* a value up to this size has no certain sign */
+    double slack; /* near a root that the points have found, a value up to this size has none either */
+    size_t first; /* the first candidate that the points have found */
+    bool starts;  /* the function is near 0 at the start of the step */
+    bool ends;    /* the function is near 0 at the end of the step */
+    int sign;     /* the latest certain sign, and where it was found */
     double since;
     pass pass[PASSES_MOST];
     size_t passes;
@@ -65,7 +65,7 @@ static void count_unseen(events *e, size_t f)
     if (!e->unseen++) e->unseen_at = e->left.t, e->unseen_function = f;
 }
 
-/* Whether a part of the step is near to a root that the points have found. */
+/* Tells whether a place in the step is near a root that the points have found. */
 static bool is_near(const narrow *n, double tau)
 {
     const events *e = n->e;
@@ -81,7 +81,7 @@ static int sign_of(const narrow *n, double tau, double g)
     return hidden ? 0 : g > 0 ? 1 : -1;
 }
 
-/* The state a part tau of the step after its start, and the functions there. */
+/* Writes the state a part tau of the step after its start, and evaluates the function there. */
 static motus_status state_at(const narrow *n, double tau, instant *to, motus_error *err)
 {
     events *e = n->e;
@@ -94,7 +94,8 @@ static motus_status state_at(const narrow *n, double tau, instant *to, motus_err
     return status ? status : events_value_of(e, n->f, to, err);
 }
 
-/* Whether the function is told in a box around `here` and `next`, at the ends of this part of the step. */
+/* Tells whether the part of the step from `here` to `next` is decided: on a box around it the function, or its rate, is
+ * nowhere 0, or the points are trusted there. */
 static bool is_told(const narrow *n, double first, double last)
 {
     events *e = n->e;
@@ -108,7 +109,7 @@ static bool is_told(const narrow *n, double first, double last)
     return false;
 }
 
-/* The present piece is told, up to tau. False: there is no room for more. */
+/* Takes over the present piece, up to tau. False: there is no room for another pass. */
 static bool accept(narrow *n, double tau)
 {
     events *e = n->e;
@@ -151,7 +152,8 @@ static motus_status look(narrow *n, bool *all, motus_error *err)
     return MOTUS_OK;
 }
 
-/* Where the function passes 0 in a piece, by dense output; so candidates of several functions come in their order. */
+/* Finds where the function passes 0 in a piece, by dense output, so that candidates of several functions come in their
+ * order. */
 static motus_status root_of(const narrow *n, const pass *p, double *tau, motus_error *err)
 {
     enum { HALVINGS = 48 };
@@ -166,7 +168,7 @@ static motus_status root_of(const narrow *n, const pass *p, double *tau, motus_e
     return status;
 }
 
-/* How many roots the candidates from number `first` on stand for, at most. */
+/* Returns how many roots the candidates from number `first` on stand for, at most. */
 static size_t known(const events *e, size_t first)
 {
     size_t count = 0;
@@ -174,7 +176,7 @@ static size_t known(const events *e, size_t first)
     return count;
 }
 
-/* The largest size of the function at the ends of the step and at the points between. */
+/* Returns the largest size of the function at the ends of the step and at the points between. */
 static double size_of(const events *e, size_t f, int degree)
 {
     double most = fmax(fabs(e->left.g[f]), fabs(e->right.g[f]));
@@ -185,7 +187,7 @@ static double size_of(const events *e, size_t f, int degree)
     return most;
 }
 
-/* Puts candidates of the passes in the place of those that the points have found, but for what is before them. */
+/* Replaces the candidates that the points have found, from the first pass on, by candidates of the passes. */
 static motus_status replace(const narrow *n, motus_error *err)
 {
     events *e = n->e;
@@ -217,8 +219,8 @@ static motus_status replace(const narrow *n, motus_error *err)
     return status;
 }
 
-/* Bounds on the accelerations within the step; of a row whose stages tell none, twice the largest that the velocities
- * of dense output show between points. */
+/* Bounds the accelerations within the step; if the row has no such bound, by twice the largest that the velocities of
+ * dense output show between points. */
 static motus_status bound_accelerations(const narrow *n, motus_error *err)
 {
     enum { POINTS = 16 };
@@ -236,9 +238,8 @@ static motus_status bound_accelerations(const narrow *n, motus_error *err)
     return status;
 }
 
-/* Whether the points of the step tell all roots of a function that they resolve, since its operations are regular over
- * all that their arguments are in the step: what these are at the points, and between by as much as the points do not
- * resolve. */
+/* Tells whether the points of the step show all roots of a function that they resolve: its operations are regular over
+ * the ranges of their arguments at the points, widened by what the points do not resolve. */
 static bool is_regular(const events *e, size_t f, int degree)
 {
     const size_t all = e->rules.functions, each = e->rules.arguments * all;

@@ -1,19 +1,19 @@
-/* Where a root is, by true steps that end on it. See events_parts.h. */
+/* Places roots by true steps that end on them. See events_parts.h. */
 #include "core/events_parts.h"
 
 #include <math.h>
 
 enum { TURNS = 100 };
 
-/* The instant `here` and the best one so far change places. */
+/* Exchanges the instant `here` and the best one so far. */
 static void exchange_best(events *e)
 {
     const instant here = e->here;
     e->here = e->best, e->best = here;
 }
 
-/* The time of a crossing, by Newton's method between `low` and `high`, on either side of it, until rounding hides on
- * which side of 0 the function is; `here` is the state there. */
+/* Finds the time of a crossing, by Newton's method between `low` and `high`, until rounding hides on which side of 0
+ * the function is; `here` is the state there. */
 static motus_status crossing(events *e, candidate *c, motus_error *err)
 {
     const size_t f = c->of;
@@ -34,18 +34,18 @@ static motus_status crossing(events *e, candidate *c, motus_error *err)
         else
             low = h;
         double next = h - g / rate;
-        /* a slope that vanishes leads nowhere, and after some turns halving is faster */
+        /* a vanishing slope leads out of the interval, and after some turns halving is faster */
         if (!(e->way * (next - low) > 0 && e->way * (high - next) > 0) || turn > 12) next = low + (high - low) / 2;
         if (next == h || next == low || next == high) break;
         h = next;
     }
     c->at = found;
     c->located = true;
-    exchange_best(e); /* it comes back */
+    exchange_best(e); /* `here` is the best instant again */
     return events_bound_of(e, f, at, err);
 }
 
-/* The sign of a function at the ends of the times that a candidate has for itself; there it is not 0. */
+/* Finds the sign of a function a time h after `left`, by a true step. */
 static motus_status sign_at(events *e, double h, size_t f, int *sign, motus_error *err)
 {
     const motus_status status = events_at_of(e, f, h, &e->here, err);
@@ -54,8 +54,8 @@ static motus_status sign_at(events *e, double h, size_t f, int *sign, motus_erro
     return status;
 }
 
-/* The time between low and high where the rate is 0, by the secant method kept between them. *beyond: the step ends
- * before it. */
+/* Finds the time between low and high where the rate is 0, by the secant method kept between them. *beyond: the step
+ * ends before that time. */
 static motus_status extremum(events *e, candidate *c, bool *beyond, motus_error *err)
 {
     const size_t f = c->of;
@@ -69,7 +69,7 @@ static motus_status extremum(events *e, candidate *c, bool *beyond, motus_error 
         if (status) return status;
         const double rate = at->rate[f];
         if (rate == 0) break;
-        /* a minimum of a function on the side above, or a maximum of one below */
+        /* the extremum is a minimum above 0 or a maximum below it */
         const bool before = (rate * e->way > 0) != (c->kind > 0);
         if (before)
             low = h, at_low = rate;
@@ -87,20 +87,20 @@ static motus_status extremum(events *e, candidate *c, bool *beyond, motus_error 
     return MOTUS_OK;
 }
 
-/* How far rounding may have carried a function at `here`: the state near 0 carries that of the larger ones that led
- * there. */
+/* Returns a bound on the rounding of a function at `here`: the state there has the rounding of the larger numbers at
+ * the ends of the step too. */
 static double carried(const events *e, size_t f)
 {
     return fmax(e->here.bound[f], fmax(e->left.bound[f], e->right.bound[f]));
 }
 
-/* Whether a function is 0 at `here`, but for rounding and that of the time. */
+/* Tells whether a function is 0 at `here`, but for its rounding and that of the time. */
 static bool vanishes(const events *e, size_t f)
 {
     return fabs(e->here.g[f]) <= 4 * (carried(e, f) + fabs(e->here.rate[f]) * events_ulp(e->here.t));
 }
 
-/* The sign of a function at one end of the step; 0: it is hidden by rounding there. */
+/* Finds the sign of a function at one end of the step; 0: rounding hides it there. */
 static motus_status sign_at_end(events *e, instant *end, size_t f, int *sign, motus_error *err)
 {
     const motus_status status = events_judge(e, end, err);
@@ -109,10 +109,9 @@ static motus_status sign_at_end(events *e, instant *end, size_t f, int *sign, mo
     return status;
 }
 
-/* Dense output of a method of low order may err by as much as a root is far from the places where it says that the
- * function is on either side; by true steps the function is on one side at both of them, that of c->kind. Where it
- * is on the other side at the end of the step before the first of its roots, or after the last, it passes 0
- * between. */
+/* Corrects candidate k where true steps find the function on the side c->kind at both `low` and `high`, since dense
+ * output of low order may err by the distance of a root. If the function is on the other side at the start of the step,
+ * before its first root, or at the end, after its last one, it passes 0 in between. */
 static motus_status widen(events *e, size_t k, motus_error *err)
 {
     candidate *c = &e->candidate[k];
@@ -172,14 +171,14 @@ motus_status events_locate(events *e, size_t k, motus_error *err)
         status = sign_at(e, c->low, f, &low, err);
         if (!status) status = sign_at(e, c->high, f, &high, err);
         if (status) return status;
-        /* by the step's own values it crosses, or its extremum decides; where the step begins it may be beyond 0 by its
-         * error so far, which the step before has left to this one */
+        /* The true values show a crossing, or the extremum decides. A function that the step before has left open may
+         * be beyond 0 at the start of this step by its error so far. */
         const bool lingers = c->near && c->low == 0 && low == -(int)c->kind;
         if (low && low == -high && !lingers) {
             c->near = false;
             c->kind = (candidate_kind)high;
         } else if (low && low == high && c->low == 0 && e->side[f] == -low) {
-            /* by its error it was beyond 0 when the step before ended, which has left the crossing to this one */
+            /* the step before has left to this one a crossing from which the function was, by its error, beyond 0 */
             c->near = false;
             c->kind = (candidate_kind)low;
             c->at = 0;
@@ -200,11 +199,11 @@ motus_status events_locate(events *e, size_t k, motus_error *err)
         double bound;
         status = events_error_of(e, f, at, &bound, err);
         if (status) return status;
-        double slope = 0; /* how far that at the end of the step may be off */
+        double slope = 0; /* an error bound of the slope at the end of the step */
         if (fabs(g) <= bound && beyond) status = events_slope_error_of(e, f, at, &slope, err);
         if (status) return status;
         if (fabs(g) <= bound && beyond && fabs(e->here.rate[f]) > slope) {
-            c->gone = true; /* the next step tells */
+            c->gone = true; /* the next step decides */
         } else if (fabs(g) <= bound) {
             c->near = false;
             c->kind = CANDIDATE_TOUCHES;
@@ -218,7 +217,7 @@ motus_status events_locate(events *e, size_t k, motus_error *err)
         }
     }
     if (!c->located && !c->gone) status = crossing(e, c, err);
-    /* where dense output erred by more than was thought, signs of true steps tell */
+    /* dense output erred by more than EVENTS_SLACK allows: true steps decide */
     if (!status && c->sure && !vanishes(e, f)) {
         c->sure = c->located = e->in_order = false;
         c->at = guess;

@@ -1,10 +1,11 @@
-/* What a restart state has of events: all that decides how they go on, and the table so far. See events_parts.h.
+/* The part of a restart state that belongs to events: all that decides how they go on, and the table so far. See
+ * events_parts.h.
  *
  * One function goes through these numbers, and counts, writes or reads them. The state at `left` is among them, because
  * the numbers of a stepper need not give it back to the bit; the functions there follow from it.
  *
- * A run of fixed steps that has come to its end is saved as it was before its last step: the end has cut that step, or
- * made its time, and what happened in it was found by steps that a run to a later end does not take.
+ * A run with fixed steps that has come to its end is saved as it was before its last step: the end has shortened that
+ * step, or set its time, and its events were found by steps that a run to a later end does not take.
  */
 #include "core/events_parts.h"
 
@@ -17,12 +18,12 @@ typedef struct pass {
     passage way;
     double *out;      /* PASS_WRITE */
     const double *in; /* PASS_READ */
-    size_t at, count; /* count: numbers that there are to read */
-    bool bad;         /* a number is missing, or is none that could have been written; */
-    bool full;        /*   or there is no memory */
+    size_t at, count; /* count: how many numbers can be read */
+    bool bad;         /* a number is missing, or could not have been written, or there is no memory */
+    bool full;        /* there is no memory */
 } pass;
 
-/* The next number: the one that is read, or this one. */
+/* Passes a number, which may be NaN or infinite: returns the one that is read or, where none is read, `value`. */
 static double any(pass *p, double value)
 {
     const size_t at = p->at++;
@@ -39,7 +40,7 @@ static double number(pass *p, double value)
     return p->bad ? 0 : read;
 }
 
-/* A whole number from `least` to `most`, which doubles represent. */
+/* Passes a whole number from `least` to `most`, which doubles represent. */
 static int64_t whole(pass *p, int64_t value, int64_t least, int64_t most)
 {
     const double read = any(p, (double)value);
@@ -118,7 +119,7 @@ static void pass_rules(pass *p, events *e)
     }
 }
 
-/* The instance of a rule, of which the first number says whether there is one. */
+/* Passes the instance of a rule, behind a number that says whether there is one. */
 static bool pass_instance(pass *p, const events *e, bool there, size_t *rule, size_t *instance)
 {
     if (!flag(p, there)) return false;
@@ -146,7 +147,7 @@ static void pass_accumulation(pass *p, events *e)
     e->limit.lasting = number(p, e->limit.lasting);
 }
 
-/* Unless the forces have no switches. */
+/* Passes the swarms, if the force has switches. */
 static void pass_swarms(pass *p, events *e)
 {
     const size_t all = e->problem.nx + e->problem.nv;
@@ -190,7 +191,7 @@ static void pass_all(pass *p, events *e)
     pass_swarms(p, e);
 }
 
-/* The newest kept numbers. */
+/* Passes the newest kept numbers. */
 static void pass_kept(pass *p, events *e)
 {
     const size_t n = e->rules.kept_count, last = e->kept_states - 1;
@@ -229,7 +230,7 @@ static void read_row(pass *p, events *e)
         numbers(p, to->x, e->problem.nx);
         numbers(p, to->v, e->problem.nv);
         if (p->bad) return;
-        e->count[rule] = count; /* of the row that is noted */
+        e->count[rule] = count; /* events_note takes it into the row */
         p->bad = p->full = !(after ? events_note_after(e, to) : events_note(e, rule, instance, touched, to));
         e->count[rule] = now;
         if (!p->bad) e->row[e->rows - 1].lasting = lasting, e->row[e->rows - 1].doubt = doubt;
@@ -298,7 +299,8 @@ size_t events_save(events *e, const stepper *s, double *out)
 
 /* ---- reading ---- */
 
-/* Whether the stepper will stand at `left`. Of fixed steps its time is a product, which may differ by its rounding. */
+/* Tells whether the stepper will stand at `left`. With fixed steps its time is a product, which may differ by rounding.
+ * */
 static bool stands(const events *e, const stepper *s, const events_leg *leg)
 {
     const double there = row_adaptive(&e->method) ? stepper_time_saved(s, leg->then, leg->carry)

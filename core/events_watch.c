@@ -1,5 +1,5 @@
-/* Steps of which bounds on a box around the motion tell that nothing happens in them, so that they are taken many at a
- * time. See events_parts.h. */
+/* Steps that are taken many at a time, because bounds on a box around the motion prove that nothing happens in them.
+ * See events_parts.h. */
 #include "core/events_parts.h"
 
 #include <math.h>
@@ -8,7 +8,7 @@
 #include "core/scalar.h"
 #include "step/box.h"
 
-/* A comparison, which costs less than a call of fmax: this is asked of every step. */
+/* Raises `most` to the sizes of numbers, in every step: by a comparison, which costs less than a call of fmax. */
 static void raise_to(double *most, const double *numbers, size_t count)
 {
     for (size_t k = 0; k < count; k++)
@@ -21,15 +21,14 @@ void events_extend(events *e, const double *x, const double *v)
     raise_to(e->most + e->problem.nx, v, e->problem.nv);
 }
 
-/* Computes the box of a step and what the motion may be off by, its middle in `next`, and in `before` a lower bound on
- * the size of every function in it.
- */
+/* Computes the box of a step, widened by the error of the motion, with its middle in `next`, and in `before` a lower
+ * bound on the size of every function in it. */
 static void look_at_box(events *e, const stepper_shown *step)
 {
     const size_t nx = e->problem.nx, nv = e->problem.nv;
     const box to = {e->next.x, e->next.v, e->width, e->width + nx};
     box_of(&to, nx, nv, step->span, step->from_x, step->from_v, step->to_x, step->to_v, step->most);
-    events_widen(e); /* an extremum that the exact motion may lead beyond 0 is to be found */
+    events_widen(e); /* so that extrema which the exact motion may lead beyond 0 are found */
     e->rules.least(e->rules.ctx, to.x, to.v, to.dx, to.dv, e->before);
 }
 
@@ -43,7 +42,7 @@ bool events_box(events *e, stepper *s)
     return true;
 }
 
-/* Whether a function passes 0 in the other direction than its rule asks for; which the values at the ends say. */
+/* Tells whether a function, by its values at the ends, passes 0 in the direction that its rule does not ask for. */
 static bool turns_away(const events *e, size_t f)
 {
     const rule *r = &e->rules.rule[e->rule_of[f]];
@@ -51,9 +50,9 @@ static bool turns_away(const events *e, size_t f)
     return r->kind == RULE_ROOT && !r->internal && before > 0 && after < 0;
 }
 
-/* Whether nothing happens in a step of which the box leaves the marked functions open, because each passes 0 once, and
- * in the direction in which that is no event. Its side follows when the watch ends: the same step may be shown again.
- */
+/* Tells whether nothing happens in a step although its box does not exclude roots of the marked functions: each passes
+ * 0 once, in the direction that its rule does not ask for. Sides change when the watch ends, since a step may be shown
+ * twice. */
 static bool passes_idly(events *e, const stepper_shown *step)
 {
     const size_t n = e->rules.functions, nx = e->problem.nx, nv = e->problem.nv;
@@ -111,7 +110,7 @@ bool events_idle(events *e, const stepper_shown *step)
     return left > 8 * events_ulp(step->to_t) && quiet(e, step);
 }
 
-/* Whether bounds may tell of the next step that nothing happens in it, but for the ticks of clocks. */
+/* Tells whether bounds may prove of the next step that nothing but ticks of clocks happens in it. */
 static bool boundable(const events *e)
 {
     if (e->first || e->broken || !e->rules.least) return false;
@@ -126,7 +125,7 @@ bool events_watchable(const events *e, const stepper *s)
 }
 bool events_bounded(const events *e, const stepper *s) { return stepper_bounded(s) && boundable(e); }
 
-/* The sides of functions that have passed 0 in watched steps, before the last one. */
+/* Sets the sides of functions that have passed 0 in watched steps, before the last one. */
 static motus_status turn_sides(events *e, motus_error *err)
 {
     motus_status status = MOTUS_OK;
@@ -183,7 +182,7 @@ motus_status events_watch(events *e, stepper *s, stepper_limit limit, stepper_st
     e->taken += left.steps;
     events_may_look(e, left.steps);
     events_extend(e, left.x, left.v); /* a step that is not shown may have begun there */
-    /* where bounds tell nothing, as of functions of the time, they are asked less and less often */
+    /* where bounds prove nothing, as for functions of the time, they are asked less and less often */
     e->last_pause = left.steps > 0 ? 0 : e->last_pause < PAUSE_MOST ? 2 * e->last_pause + 1 : PAUSE_MOST;
     e->pause = e->last_pause;
     e->boxed &= left.shown;

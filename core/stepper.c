@@ -1,13 +1,14 @@
-/* The life of a trajectory: its plan, its memory, the choice of instruction set, another machine. See stepper.h.
+/* The life of a stepper: its plan, its memory, the choice of instruction set, the change of machine. See stepper.h.
  *
- * core/stepper_body.c, compiled once per instruction set, does the arithmetic (its first lines say with which flags);
- * here the fastest one that this processor has is chosen when a stepper is made. It cannot change the bits.
+ * core/stepper_body.c, compiled once per instruction set, does the arithmetic. The fastest body that this processor can
+ * run is chosen when a stepper is made, which changes no bit.
  */
 #include "core/stepper_parts.h"
 
 #include <string.h>
 
-/* LINE: bytes of a cache line, to which arrays are aligned */
+/* CHECK_ALWAYS: a state of at most so many numbers is checked after every step. LINE: bytes of a cache line, to which
+ * arrays are aligned. */
 enum { CHECK_ALWAYS = 4096, LINE = 64 };
 enum { SERIES_MOST = 1 << 27 }; /* numbers of a model's Taylor series: a gigabyte */
 
@@ -77,7 +78,7 @@ double stepper_tolerance_most(const chosen *c)
     const work sizes = stepper_plan(&one, c, NULL);
     if (work_plan_size(&sizes) > ROOM) return INFINITY;
     const work plan = stepper_plan(&one, c, memory);
-    double most = 1.05; /* the control's powers are rough, and this tolerance is to give the longest steps */
+    double most = 1.05; /* more than 1, because the control computes powers roughly, for the longest steps */
     for (int i = 0; i <= plan.order; i++) most *= DENSITY_MOST / DENSITY_REACH(&plan);
     return most;
 }
@@ -110,7 +111,7 @@ motus_status stepper_create(const machine *m, const chosen *method, double t0, d
     }
     const size_t arrays = stepper_arrays(sizes), carried = stepper_carried(sizes) * p->nv + STEPPER_CLOCKS;
     const size_t head = (sizeof(stepper) + LINE - 1) / LINE * LINE, plan = work_plan_size(&sizes);
-    const size_t twice = p->nx + p->nv <= CHECK_ALWAYS ? 2 : 1; /* snapshots */
+    const size_t twice = p->nx + p->nv <= CHECK_ALWAYS ? 2 : 1; /* how many snapshots are kept */
     if (sizes.stride > (SIZE_MAX - head - LINE) / sizeof(double) / (arrays + 2 * CARRY_MAX + 3) - plan)
         return fail(err, MOTUS_MEMORY, "out of memory for the state");
     char *block = take(
@@ -159,7 +160,7 @@ void stepper_destroy(stepper *s)
     give(&allocator, s);
 }
 
-/* The mark of dense output goes along, because it may be for the next step. */
+/* Moves the mark of dense output, because it may be that of the next step. */
 static void move_ends(stepper *from, stepper *to)
 {
     to->ends = from->ends;

@@ -1,10 +1,9 @@
-/* The way of a trajectory to a limit, and the way back from a failure. See stepper.h.
+/* The way of a stepper to a limit, and the way back from a failure. See stepper.h.
  *
- * Invariant: after a failure the stepper stands at its last good step: the state there is finite, and where a callback
- * computes the acceleration, it can be observed. The stepper keeps the carried numbers every SNAPSHOT steps, on all
- * machines at the same ones. After a failure it goes back to them and takes the good steps once more, to the same bits,
- * since steps are deterministic. Of small systems it keeps the snapshot before as well, from which a failure is
- * explained (api/why/diagnosis.h).
+ * Invariant: after a failure the stepper stands at its last good step: the state there is finite and, where a callback
+ * computes the acceleration, can be observed. The stepper keeps the carried numbers every SNAPSHOT steps, at equal step
+ * numbers on all machines. After a failure it goes back to them and repeats the good steps, to the same bits. For small
+ * systems it keeps the snapshot before as well, from which a failure is explained (api/why/diagnosis.h).
  */
 #include "core/stepper_parts.h"
 
@@ -16,7 +15,7 @@ enum { SNAPSHOT = 256 };
 
 static int64_t next_snapshot(int64_t n) { return n - n % SNAPSHOT + SNAPSHOT; }
 
-/* The snapshot becomes the one before. */
+/* Makes the snapshot the earlier one. */
 static void keep_earlier(stepper *s)
 {
     if (!s->earlier) return;
@@ -25,7 +24,7 @@ static void keep_earlier(stepper *s)
     s->earlier_at = s->at;
 }
 
-/* After a failure the next step begins with a snapshot. */
+/* Forgets the snapshot after a failure, so that the next step begins with one. */
 static void forget_snapshot(stepper *s)
 {
     if (s->at.steps >= 0 && s->earlier_at.steps < 0) keep_earlier(s);
@@ -34,17 +33,17 @@ static void forget_snapshot(stepper *s)
 
 static void go_back(stepper *s) { stepper_put(s, s->at, s->snapshot); }
 
-/* A callback may be undefined at the end of a step, where some methods evaluate it only in the next step. So a step
- * of a callback counts once the state after it can be observed. The next step reuses this evaluation. */
+/* Evaluates a callback at the end of a step, where it may be undefined and some methods evaluate it only in the next
+ * step: a step counts once the state after it can be observed. The next step reuses this evaluation. */
 static int settle(stepper *s) { return s->problem.returned && s->work.waits ? s->body->observe(&s->work) : STEP_OK; }
 
-/* Number of finished steps that led to a finite state: all, or all but the last one. */
+/* Returns the number of finished steps that led to a finite state: all, or all but the last one. */
 static int64_t good_steps(stepper *s, int bad)
 {
     return s->work.n - (bad == STEP_DIVERGED && s->body->check(&s->work));
 }
 
-/* From the snapshot to the end of the last good step; a step that is good may be one after which no other is. */
+/* Repeats the steps from the snapshot to the last good one, which may itself end with STEP_STALLED. */
 static void repeat(stepper *s, int64_t good)
 {
     const int bad = s->body->run(&s->work, good - s->work.n);
@@ -57,7 +56,7 @@ static motus_status recover(stepper *s, int bad, motus_error *err)
     work *w = &s->work;
     double t = time_now(w);
     int64_t good = good_steps(s, bad);
-    if (!w->check) { /* an infinity may be some steps old, and may have made the last step fail */
+    if (!w->check) { /* an infinity may be some steps old, and the cause of this failure */
         const size_t which = w->which;
         const bool in_v = w->in_v;
         const int64_t end = w->n;
@@ -76,7 +75,7 @@ static motus_status recover(stepper *s, int bad, motus_error *err)
     const motus_status status = stepper_report(s, bad, t, err);
     go_back(s);
     repeat(s, good);
-    if (settle(s) && w->n > s->at.steps) { /* the step before began with the evaluation that its state needs */
+    if (settle(s) && w->n > s->at.steps) { /* the last state cannot be observed; that before it has been evaluated */
         good = w->n - 1;
         go_back(s);
         repeat(s, good);
@@ -86,7 +85,7 @@ static motus_status recover(stepper *s, int bad, motus_error *err)
     return status;
 }
 
-/* How many steps may follow before the next snapshot. Takes the snapshot first where one is due. */
+/* Returns how many steps may follow before the next snapshot, after taking one that is due. */
 static int64_t room_of(stepper *s)
 {
     const work *w = &s->work;
@@ -99,7 +98,7 @@ static int64_t room_of(stepper *s)
 
 /* Motion ---------------------------------------------------------------------------------------------------------- */
 
-/* STEP_OK, or what stopped these steps, before any recovery. */
+/* Takes steps, and returns STEP_OK or what stopped them, before any recovery. */
 static int take_steps(stepper *s, const stepper_body *body, int64_t steps)
 {
     work *w = &s->work;
@@ -108,17 +107,16 @@ static int take_steps(stepper *s, const stepper_body *body, int64_t steps)
     w->watch = s->watching ? &s->watch : NULL;
     int bad = body->run(w, steps);
     w->watch = NULL;
-    /* a recovery takes these steps once more, and must not trace them again */
+    /* a recovery repeats these steps, and must not trace them again */
     s->library.tracing = NULL;
     return !bad && !w->check && !w->finite ? body->check(w) : bad;
 }
 
-/* A run may crawl when the last STEPPER_PACE steps lead so little further that 2^24 more would not lead to the end,
- * and steps were 10^4 times as long before; or when 2^30 would not. Of a force that jumps steps can shrink for
- * good: where it pushes back from both sides of the jump, as dry friction does that sticks, no step follows it; so
- * it does crawl. Of another force such a run may be long and on its way: it ends where the judge finds a cause. The
- * judge is asked after 2, 4, 8 … times STEPPER_PACE steps. The number of steps alone decides where this is asked,
- * so the answer is the same on all machines. */
+/* A run may crawl when the last STEPPER_PACE steps led so little further that 2^24 more would not lead to the end, and
+ * steps were 10^4 times as long before; or when 2^30 more would not. With a force that jumps it does crawl: where the
+ * force pushes back from both sides of the jump, as dry friction that sticks does, no step can follow. With a smooth
+ * force such a run may only be long, and ends where the judge finds a cause; the judge is asked after 2, 4, 8 … times
+ * STEPPER_PACE steps. The number of steps alone decides when it is asked, so all machines give the same answer. */
 enum { PACE_LEFT = 1 << 8, PACE_LEFT_ALWAYS = 1 << 14 };
 static const double PACE_FALL = 1e4;
 
@@ -219,7 +217,7 @@ int64_t stepper_steps_before(const stepper *s, double t)
     return n > w->n ? n - w->n : 0;
 }
 
-/* How many steps the leg may still take. */
+/* Returns how many steps the leg may still take. */
 static int64_t room_in_leg(const stepper *s)
 {
     const int64_t most = s->work.carried && s->method.count > 0 ? s->method.count : INT64_MAX;
@@ -260,8 +258,8 @@ static motus_status go(stepper *s, const stepper_limit *limit, const stepper_bod
     return !status && !s->arrived && limit->steps > room ? too_many(s, err) : status;
 }
 
-/* The last step is refused like one whose error is too large: it has changed nothing but the size of the next one. A
- * recovery begins after it, since it would take the step again. */
+/* Refuses the last step, like one whose error is too large: nothing remains of it but the size of the next candidate.
+ * Takes a snapshot, so that a recovery does not repeat the step. */
 static motus_status take_back(stepper *s, double h, motus_error *err)
 {
     work *w = &s->work;
@@ -284,7 +282,7 @@ void stepper_inspected(stepper *s, stepper_inspector inspector, void *ctx)
 
 bool stepper_refuses(const chosen *c) { return row_adaptive(c) && !row_reversible_steps(c); }
 
-/* A step that is shown. */
+/* Takes a step and shows it to the inspector, until the step stands. */
 static motus_status inspected_step(stepper *s, double until, bool *halt, motus_error *err)
 {
     const stepper_limit one = {1, until};
@@ -329,7 +327,7 @@ static bool show(watch *w)
                                                                w->to_x, w->to_v, w->most});
 }
 
-/* Memory for the ends of watched steps. */
+/* Takes the memory for the ends of watched steps. False: there is none. */
 static bool watch_room(stepper *s, const stepper_watcher *by)
 {
     const size_t nx = s->work.nx, nv = s->work.nv;
@@ -346,7 +344,7 @@ static bool watch_room(stepper *s, const stepper_watcher *by)
     return true;
 }
 
-/* The state before the last watched step becomes the mark of dense output. */
+/* Makes the state before the last watched step the mark of dense output. */
 static motus_status mark_watched(stepper *s, motus_error *err)
 {
     work *w = &s->work;
@@ -383,7 +381,7 @@ motus_status stepper_watch(stepper *s, stepper_limit limit, const stepper_watche
     const int64_t before = stepper_steps(s), room = room_in_leg(s);
     *left = (stepper_left){0};
     if (!stepper_ends(s) || !watch_room(s, by)) return fail(err, MOTUS_MEMORY, "out of memory for dense output");
-    if (limit.steps > room) limit.steps = room; /* that there is no more room, the next step says */
+    if (limit.steps > room) limit.steps = room; /* the next step reports that there is no more room */
     s->watcher = by;
     w->met = false, w->n = -1;
     s->watching = true;

@@ -5,7 +5,7 @@
 
 #include <math.h>
 
-/* The room that the family's dense output needs besides the ends, with its constants. */
+/* Takes the room that the family's dense output needs besides the ends, and computes its constants. */
 static motus_status make_room(stepper *s, motus_error *err)
 {
     const work *w = &s->work;
@@ -27,7 +27,7 @@ static dense_step last_step(const stepper *s)
         .unit = s->inside + (size_t)s->room.arrays * s->work.stride};
 }
 
-/* Whether t lies between the mark and the present time. */
+/* Tells whether t lies between the mark and the present time. */
 static bool marked(const stepper *s, double t)
 {
     const double way = s->leg_h < 0 ? -1 : 1;

@@ -24,8 +24,8 @@ static motus_status check_start(stepper *s, double t0, double h, const double *x
     return MOTUS_OK;
 }
 
-/* The rounding of the exact motion at t0 in units of EXACT_ROUNDING; of a callback, of which no formula is known, the
- * size that the motion has in its first steps. False: no memory. */
+/* Writes the rounding of the exact motion at t0, in units of EXACT_ROUNDING; for a callback, whose formula is unknown,
+ * the size of the motion in its first steps. False: no memory. */
 static bool exact_size(const problem *p, double t0, double h, const double *start, double *size, size_t nx)
 {
     enum { STEPS = 8 };
@@ -55,7 +55,7 @@ static motus_status refuse_start(const stepper *s, double t0, size_t k, bool in_
     return MOTUS_METHOD;
 }
 
-/* The exact line describes one motion only, so a run by it must start on this motion. */
+/* Checks that a run by "exact" starts on the exact motion, which is the only one that it can follow. */
 static motus_status check_exact(stepper *s, double t0, double h, const double *x, const double *v, motus_error *err)
 {
     const problem *p = &s->problem;
@@ -78,8 +78,9 @@ static motus_status check_exact(stepper *s, double t0, double h, const double *x
     return status;
 }
 
-/* cleared: so many numbers of the arrays. Entries without an equation are written by no step: what a failed step left
- * there must not stay. goes_on: the lengths of a density stay, which are the motion's and no step's. */
+/* Begins a leg. cleared: how many numbers of the arrays are set to 0, since no step writes entries without an equation,
+ * where a failed step may have left something. goes_on: the lengths of a density are kept, which belong to the motion.
+ * */
 static void begin(stepper *s, double t0, double h, const double *x, const double *v, size_t cleared, bool goes_on)
 {
     work *w = &s->work;
@@ -111,7 +112,7 @@ motus_status stepper_turn(stepper *s, double t, double h, motus_error *err)
 {
     work *w = &s->work;
     const size_t nx = w->nx, nv = w->nv;
-    if (w->carried && w->kept && t == w->t) { /* the stages of the last step lead to the next one */
+    if (w->carried && w->kept && t == w->t) { /* the next step starts from stages of the last one, which are kept */
         w->next = s->leg_h = h;
         w->before = 0, w->rise = CONTROL_RISE;
         s->arrived = s->left = s->right = false;
@@ -182,7 +183,7 @@ motus_status stepper_go_on(stepper *s, double t0, double lost, double h, const d
     return status;
 }
 
-/* Whether the last step of s is marked, and began at this state. */
+/* Tells whether the last step of s is marked and began at this state. */
 static bool began_at(const stepper *s, double t, const double *x, const double *v)
 {
     const size_t nx = s->work.nx, nv = s->work.nv;
@@ -196,7 +197,7 @@ motus_status stepper_branch(stepper *s, const stepper *along, double t0, double 
     work *w = &s->work;
     const bool known = along && row_watched(&s->method) && began_at(along, t0, x, v);
     if (!known) return stepper_jump(s, t0, lost, h, x, v, err);
-    /* the series come last, and all of them that a step reads is taken over, or computed anew */
+    /* the series come last in the arrays, and need not be cleared: a step reads only what is taken over or computed */
     const size_t cleared = w->expands ? (size_t)(w->xs - s->arrays) : s->array_count;
     const motus_status status = start(s, t0, h, x, v, cleared, false, err);
     if (status) return status;

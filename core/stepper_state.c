@@ -71,7 +71,7 @@ void stepper_put(stepper *s, stepper_count at, const double *carry)
         if (s->library.solver) solver_forget(s->library.solver);
         s->shortened = false;
     }
-    w->n = at.steps; /* first: what is carried depends on it */
+    w->n = at.steps; /* set first, because the list of carried numbers depends on it */
     w->evaluations = at.evaluations;
     w->iterations = at.iterations;
     w->refused = at.refused;
@@ -165,7 +165,7 @@ bool stepper_earlier(stepper *s, double *t, double *x, double *v)
 
 /* Failures -------------------------------------------------------------------------------------------------------- */
 
-#define STEPS_TOLD 1e5 /* decimal_time of so many steps tells the times of two steps apart */
+#define STEPS_TOLD 1e5 /* decimal_time with a span of so many steps has enough digits to tell two steps apart */
 
 const char *stepper_name(const stepper *s, bool in_v, size_t k, char out[MOTUS_NAME_MAX])
 {
@@ -273,7 +273,7 @@ static motus_status keep_end(stepper *s, int which, motus_error *err)
     if (!stepper_ends(s)) return fail(err, MOTUS_MEMORY, "out of memory for dense output");
     const size_t nx = s->work.nx, nv = s->work.nv;
     double *x = s->ends + (size_t)which * (nx + 2 * nv);
-    /* series have the acceleration among their terms, and nobody asks for it */
+    /* series contain the acceleration, so it is not needed */
     return stepper_sync(s, x, x + nx, s->work.expands ? NULL : x + nx + nv, err);
 }
 
