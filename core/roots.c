@@ -16,7 +16,7 @@ enum { DEPTH = 72 };
 #define CUT 0x1p-51      /* last coefficients of a cell that is long enough, relative to sum |c_k| */
 
 typedef struct finder {
-    const double *c; /* scaled to 1, and with the root that one stands on divided out */
+    const double *c; /* scaled, and with the root at 0 divided out where g stands there */
     int degree;
     double size; /* sum |c_k| */
     bool stands;
@@ -27,9 +27,9 @@ typedef struct finder {
     int depth;
 } finder;
 
-/* A bound on the error of values of cells. Term j of a coefficient of a half meets j + 1 roundings, the matrices
- * enlarge them, and all levels together add to 12, 18, 29 times sum (j + 1) |c_j| for degrees 8, 16, 32: the sum over
- * levels of the largest norm of products of the matrices. The values of a cell add one level. */
+/* Bounds the error of values of cells. Term j of a coefficient of a half meets j + 1 roundings, which the matrices
+ * enlarge. All levels together add up to 12, 18, 29 times sum (j + 1) |c_j| for degrees 8, 16, 32: the sum over levels
+ * of the largest norm of products of the matrices. The values of a cell add one level. */
 static double rounding(const double *c, int degree)
 {
     const int local = degree < ROOTS_CELL_DEGREE ? degree : ROOTS_CELL_DEGREE;
@@ -40,7 +40,7 @@ static double rounding(const double *c, int degree)
     return 0x1p-53 * (2 * fabs(c[0]) + growth * sum) + cut;
 }
 
-/* p at x = 1 or -1 */
+/* Returns p at x = 1 or -1. */
 static double end_sum(const double *c, int degree, int end)
 {
     double even = 0, odd = 0;
@@ -51,7 +51,7 @@ static double end_sum(const double *c, int degree, int end)
 
 static double end_value(const roots_cell *cell, int end) { return end_sum(cell->c, cell->degree, end); }
 
-/* dp/dtau there: T_k' is k^2 at 1 */
+/* Returns dp/dtau at x = 1 or -1; T_k' is k^2 at 1. */
 static double end_slope(const double *c, int degree, int end)
 {
     double sum = 0;
@@ -59,14 +59,14 @@ static double end_slope(const double *c, int degree, int end)
     return sum;
 }
 
-/* p(0) = 0 holds in the first cell of a step that stands, with the relative precision of the other coefficients. */
+/* Makes p(0) = 0 in the first cell of a step that stands, with the relative precision of the other coefficients. */
 static void stand(roots_cell *cell)
 {
     cell->c[0] = 0;
     cell->c[0] = -end_value(cell, -1);
 }
 
-/* The first cell of a step that stands: p leaves 0 monotonically, or is noise, or the cell is to be halved. */
+/* Scans the first cell of a step that stands if p leaves 0 monotonically in it or is noise. False: halve the cell. */
 static bool told_first(finder *f, const roots_cell *cell, bool *room)
 {
     roots_cell slope;
@@ -87,7 +87,7 @@ static bool told_first(finder *f, const roots_cell *cell, bool *room)
     return true;
 }
 
-/* p' has one sign, or p'' has and p' changes its sign once. */
+/* Scans a cell in which p' has one sign, or p'' has and p' changes its sign at most once. False: neither is certain. */
 static bool told_by_slope(finder *f, const roots_cell *cell, bool *room)
 {
     roots_cell slope, bend;
@@ -124,7 +124,8 @@ static bool told(finder *f, const roots_cell *cell, bool *room)
     return true;
 }
 
-/* The cell on the stack's top is to be of local degree: of a high degree it is known by its place alone at first. */
+/* Gives the cell on the stack's top coefficients of local degree, if it has only its place, as with a high degree.
+ * False: the cell is too long for that. */
 static bool expanded(finder *f, roots_cell *cell)
 {
     if (cell->degree >= 0) return true;
@@ -166,7 +167,7 @@ static bool scan_all(finder *f)
     return true;
 }
 
-/* Coefficients whose sums or products could leave the numbers are scaled by a power of two, 2^-exponent. */
+/* Scales coefficients whose sums or products could overflow or underflow by a power of two, 2^-exponent. */
 static int scale(const double *coefficients, int degree, double *c)
 {
     int exponent = 0;
@@ -177,7 +178,8 @@ static int scale(const double *coefficients, int degree, double *c)
     return exponent;
 }
 
-/* c is scaled. The root that one stands on is divided out. noise: of c, without its own rounding. */
+/* Prepares the search from scaled coefficients: divides out the root at 0 where g stands there. noise: of c, without
+ * the rounding of the search. */
 static void prepare(finder *f, double *c, int degree, int before, double noise, double *start)
 {
     while (degree > 0 && c[degree] == 0) degree--;

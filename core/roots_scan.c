@@ -18,7 +18,8 @@ static int certain(const roots_scan *s, double tau, double p)
 
 static int certain_slope(const roots_scan *s, double slope) { return fabs(slope) > s->doubt ? sign(slope) : 0; }
 
-/* Places become known where they end, extrema later still, so they are put in by tau. */
+/* Inserts a root by its tau, since places become known where they end, and extrema later still. False: there is no
+ * room. */
 static bool put(roots_scan *s, roots_root root)
 {
     roots_found *found = s->found;
@@ -45,7 +46,7 @@ static bool put_place(roots_scan *s, double tau, double value, double to, roots_
     return put(s, root);
 }
 
-/* Extrema: p must go back by more than the noise, since rounding turns often where p is flat. */
+/* Adds an extremum when p has gone back by more than the noise; where p is flat, rounding turns it often. */
 static bool turn(roots_scan *s, double tau, double p)
 {
     const double back = (p - s->top) * (s->way ? -s->way : 1), noise = roots_scan_noise(s, s->top_tau);
@@ -64,7 +65,7 @@ static void look_lower(roots_scan *s, double tau, double p, bool turns)
     s->low = s->side * p, s->low_tau = tau, s->low_turns = turns;
 }
 
-/* The place that is open ends at `to`, where g has the sign `side`; p: the end of this piece. */
+/* Ends the open place at `to`, where g has the sign `side`. p: the value at the end of this piece. */
 static bool leave(roots_scan *s, double to, double p, int side)
 {
     bool room = true;

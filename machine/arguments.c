@@ -1,5 +1,5 @@
-/* See arguments.h. An argument within a sum has as many values as the sum has terms: a function that has such a one is
- * not told by its arguments. */
+/* See arguments.h. An argument within a sum has as many values as the sum has terms, so a function with such an
+ * argument is not told by its arguments. */
 #include "machine/arguments.h"
 
 #include "core/rules.h"
@@ -28,13 +28,13 @@ struct arguments {
     size_t most;
 };
 
-/* Room for the leaf of the moment. */
+/* The search for the arguments of one leaf. */
 typedef struct finding {
     graph *g;
     const graph_walk *walk;
-    double *degree; /* in what moves, of the nodes of the walk; what is regular counts as a variable of its own */
+    double *degree; /* of each node of the walk, in what moves; an operation that is noted counts as a variable */
     leaf *leaf;
-    unsigned within; /* the levels of sums */
+    unsigned within; /* the levels of sums, as dependences */
 } finding;
 
 static double degree_of(const finding *f, node n)
@@ -42,7 +42,8 @@ static double degree_of(const finding *f, node n)
     return graph_reached(f->g, f->walk, n) ? f->degree[f->g->place[n]] : 0;
 }
 
-/* The number of an argument; RULE_ARGUMENTS_MOST: it has none. */
+/* Returns the number of an argument, which it adds if it is new; RULE_ARGUMENTS_MOST: there is no room, or it is within
+ * a sum. */
 static int number_of(finding *f, node n)
 {
     leaf *l = f->leaf;
@@ -63,7 +64,7 @@ static void note(finding *f, const graph_node *n, const node *operand)
     if (l->told) l->use[l->uses++] = (use){n->op, {(uint8_t)a, (uint8_t)b}};
 }
 
-/* The degree of a node whose operands' are known; notes it where it is no polynomial of them. */
+/* Returns the degree of a node from those of its operands; notes an operation that is not a polynomial of them. */
 static double visit(finding *f, node self)
 {
     const graph_node n = f->g->nodes[self];
@@ -107,7 +108,7 @@ static bool find(model *m, const output *o, leaf *l)
     return degree != NULL;
 }
 
-/* The tape of the k-th arguments. */
+/* Makes the tape of argument k of all functions. */
 static tape *tape_for(model *m, const output *leaves, const leaf *l, size_t count, int k, output *room)
 {
     size_t n = 0;

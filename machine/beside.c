@@ -1,8 +1,8 @@
 /* See beside.h.
  *
- * The system says how often a thread lost its processor although it could go on. On a processor of its own that happens
- * a few times a second; where others compute, every few milliseconds. Once that is so the thread stays careful: what it
- * would compute until the object is there is little, and resting takes no longer than waiting for the compiler would.
+ * The system tells how often a thread lost its processor although it could go on: a few times a second on a processor
+ * of its own, every few milliseconds where others compute. Once others do, the thread rests until the end: it would
+ * compute little before the object is there, and resting takes no longer than waiting for the compiler.
  */
 #include "machine/beside.h"
 
@@ -13,9 +13,9 @@
 #ifdef RUSAGE_THREAD
 
 #define PIECE 1e-3      /* seconds from one look to the next, and of computing between two rests */
-#define RESTS 9.0       /* for each second of computing, in a crowd */
+#define RESTS 9.0       /* seconds of rest for each second of computing, where it is crowded */
 #define WINDOW 0.02     /* seconds of processor time over which displacements are counted */
-enum { DISPLACED = 2 }; /* within that: a crowd */
+enum { DISPLACED = 2 }; /* so many displacements within WINDOW mean that it is crowded */
 
 static double seconds_of(struct timeval t) { return (double)t.tv_sec + 1e-6 * (double)t.tv_usec; }
 

@@ -21,8 +21,8 @@ bool build_privileged(void) { return geteuid() != getuid() || getegid() != getgi
 
 enum { ABANDONED_SECONDS = 10 * COMPILER_SECONDS_MAX };
 
-/* Removes the folder if it is old enough and holds nothing but files of a compilation. 0 seconds are not compared: the
- * clock of time() may be behind that of the files. */
+/* Removes a folder that is older than so many seconds and holds only files of a compilation. 0 means any age: the clock
+ * of time() may be behind that of the files. */
 static void remove_folder(int parent, const char *name, time_t seconds)
 {
     struct stat s;
@@ -40,8 +40,8 @@ static void remove_folder(int parent, const char *name, time_t seconds)
     if (d) (void)unlinkat(parent, name, AT_REMOVEDIR);
 }
 
-/* A compiler writes files by name, so a process that is killed meanwhile leaves its folder; the next that compiles
- * removes it. `pattern`: the name that mkdtemp was given. */
+/* Removes folders that killed processes have left, since a compiler writes files by name. pattern: the name that
+ * mkdtemp is given. */
 static void remove_abandoned(const char *pattern)
 {
     char parent[PATH_MAX + 80];

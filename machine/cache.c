@@ -36,8 +36,8 @@ typedef struct seal {
 } seal;
 static const char magic[8] = "motus so";
 
-/* Two multiplicative hashes with different constants. They detect damage and tell texts apart; against an attacker the
- * owner and the mode of the file protect. */
+/* Adds bytes to two multiplicative hashes with different constants. They detect damage and tell texts apart; owner and
+ * mode of the file protect against an attacker. */
 static hash hash_bytes(hash h, const void *bytes, size_t n)
 {
     const unsigned char *p = bytes;
@@ -51,7 +51,7 @@ static hash hash_bytes(hash h, const void *bytes, size_t n)
 static hash hash_text(hash h, const char *text) { return hash_bytes(h, text, strlen(text) + 1); }
 static const hash hash_start = {0xCBF29CE484222325u, 0x6A09E667F3BCC908u};
 
-/* What -march=native depends on. */
+/* Adds the features of the processor, on which -march=native depends. */
 static hash hash_processor(hash h)
 {
     char line[4096];
@@ -75,7 +75,7 @@ static bool private_directory(int fd)
     return !fstat(fd, &s) && S_ISDIR(s.st_mode) && s.st_uid == geteuid() && !(s.st_mode & 022);
 }
 
-/* The directory; "" where there is none: under sudo or setuid, or without a home. */
+/* Writes and returns the directory; "": there is none, as under sudo or setuid, or without a home. */
 static const char *directory_of(char *out, size_t size)
 {
     const char *base = getenv("XDG_CACHE_HOME"), *home = getenv("HOME");
@@ -89,7 +89,7 @@ static const char *directory_of(char *out, size_t size)
     return out;
 }
 
-/* Opens the directory, which it makes where it is missing; -1: it cannot be made, or is not private. */
+/* Opens the directory, and makes it if it is missing; -1: it cannot be made, or is not private. */
 static int open_directory(const char *path)
 {
     char up[PATH_MAX];
@@ -131,8 +131,8 @@ static void *load_sound(int directory, const char *name, const char *path)
 {
     int fd = openat(directory, name, O_RDONLY | O_NOFOLLOW | O_CLOEXEC);
     if (fd < 0) return NULL;
-    /* By its path, because the loader tells objects apart by name and /proc/self/fd/N would name several. Only the user
-     * may write the directory, so the path still names the file that was checked. */
+    /* Load by the path, because the loader tells objects apart by name, and /proc/self/fd/N would name several. Only
+     * the user may write the directory, so the path still names the file that was checked. */
     void *handle = sound(fd) ? dlopen(path, RTLD_NOW | RTLD_LOCAL) : NULL;
     close(fd);
     return handle;
@@ -176,12 +176,12 @@ static bool put_seal(const char *path)
 
 struct cache_job {
     build build;
-    char target[BUILD_PARENT_MAX]; /* where it will be; "": there is no cache */
+    char target[BUILD_PARENT_MAX]; /* the path of the entry; "": there is no cache */
     motus_allocator allocator;
 };
 
-/* Seals and loads what was linked and, where there is a cache, renames it. The seal is not synchronised: after a power
- * cut a damaged entry is found by it, and compiled again. */
+/* Seals and loads the linked library and, where there is a cache, renames it. The file is not synchronised: after a
+ * power cut the seal shows a damaged entry, which is compiled again. */
 static void *load_linked(const cache_job *j, char *why, size_t size)
 {
     char library[BUILD_FILE_MAX];
@@ -195,7 +195,7 @@ static void *load_linked(const cache_job *j, char *why, size_t size)
     return handle;
 }
 
-/* After any answer but WAIT nothing of it is left but the entry. */
+/* Looks how far a job is. After any answer but WAIT the entry alone is left of it. */
 static cache_state go_on(cache_job *j, void **handle, char *why, size_t size)
 {
     const build_state state = build_look(&j->build, why, size);
@@ -267,7 +267,7 @@ void cache_stop(cache_job *j)
     give(&allocator, j);
 }
 
-enum { LOOKS = 5000 }; /* in a second, whether the compiler has ended */
+enum { LOOKS = 5000 }; /* how often a second it looks whether the compiler has ended */
 
 void *cache_load(const char *text, size_t length, int how, char *why, size_t size)
 {
@@ -279,7 +279,7 @@ void *cache_load(const char *text, size_t length, int how, char *why, size_t siz
         nanosleep(&nap, NULL);
         state = go_on(&j, &handle, why, size);
     }
-    if (handle) *why = 0; /* what failed on the way does not matter */
+    if (handle) *why = 0; /* a failure on the way does not matter */
     return handle;
 }
 

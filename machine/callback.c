@@ -55,7 +55,7 @@ static int exact(void *ctx, double t, double *x, double *v)
     return keep_returned(c, c->def->exact(c->def->context, t, x, v));
 }
 
-/* The user's name, or x or s, with a number from 1 where there are several. */
+/* Writes the user's name, or x or s, with a number from 1 where there are several. */
 static void name(void *ctx, bool in_v, size_t k, char *out, size_t size)
 {
     const motus_callback_def *def = ((const calling *)ctx)->def;

@@ -32,10 +32,10 @@ typedef struct purpose {
     bool varies;
 } purpose;
 
-/* Each has numbers of its own: how many a text reads, and in which order, depends on its programs. */
+/* A compiled text that is loaded. It has its own numbers, since their count and order depend on its programs. */
 typedef struct object {
     purpose purpose;
-    compiled_host host; /* what it reads */
+    compiled_host host; /* the data that the text reads */
     double *u;
     int64_t *q;
     void (*bind)(const double *, const int64_t *, double *); /* computes u from the pool */
@@ -50,13 +50,13 @@ typedef struct making {
     purpose purpose;
     emit e;
     cache_job *job;
-    size_t waiting; /* how many; 0: the place is free */
+    size_t waiting; /* how many wait for it; 0: the place is free */
 } making;
 
 struct compiled {
     model *model;
     const problem *interpreted; /* the interpreter's problem */
-    problem problem;            /* the same with the compiled acceleration */
+    problem problem;            /* that problem with the compiled acceleration */
     object objects[OBJECTS_MAX];
     int count;
     making makings[MAKINGS_MAX];

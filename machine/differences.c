@@ -1,17 +1,16 @@
 /* See differences.h.
  *
- * The rules were measured, on 137 518 numbers of 21 problems by 7 methods: 99.3 % of the errors are within their bar,
- * and 92 % of the bars are at most 10 times the error, or 4 ulp.
- *   - Where truncation rules, d = |run - companion| is e (1 - r), r = 2^-p: 4/3 of it is due at order 2, and 2.5 leaves
- *     room for a companion whose error is not 2^-p of the run's; at order 1, 3.75 leaves as much. The envelope, the
- *     largest d of the last 3/16 of the run, covers times at which d passes zero. Never an envelope over other columns:
- *     bodies differ in scale. A step may be longer than that: the landing before the last one counts as well.
- *   - Where round-off rules, one sample of a random number has to bound another: 3 d + 1/4 of the envelope.
- *   - Where the force has kinks the companion's error is not small beside the run's: 3 d + 1/2 of a longer envelope.
- *   - A number cannot be better known than the numbers were rounded that were added to it: where it passes 0 it is
- *     known to half a unit in the last place of what it was a step before.
- *   - With a twin, which begins an ulp away, its envelope is another sample of what the motion makes of round-off.
- * Invariant: every number is judged by its own differences; bars are never propagated through a formula.
+ * The rules were measured on 137 518 numbers of 21 problems by 7 methods: 99.3 % of the errors are within their bar,
+ * and 92 % of the bars are at most 10 times the error, or 4 ulp. - Where truncation dominates, d = |run - companion| is
+ * e (1 - r), r = 2^-p: order 2 needs 4/3 d, and 2.5 d leaves room for a companion whose error is not 2^-p of the run's;
+ * at order 1, 3.75 d leaves as much room. The envelope, the largest d of the last 3/16 of the run, covers times at
+ * which d passes 0. It is taken for each column alone, since bodies differ in scale. A step may be longer than 3/16:
+ * the landing before the last one counts as well. - Where rounding dominates, one sample of a random number has to
+ * bound another: 3 d + 1/4 of the envelope. - Where the force has kinks, the companion's error is not small beside the
+ * run's: 3 d + 1/2 of a longer envelope. - A number has the rounding of the numbers that were added to it: where it
+ * passes 0 it is known to half a unit in the last place of its value a step before. - A twin begins an ulp away, so its
+ * envelope is another sample of what the motion makes of rounding. Invariant: every number is judged by its own
+ * differences; bars are never propagated through a formula.
  */
 #include "machine/differences.h"
 
@@ -21,28 +20,29 @@
 #include <math.h>
 #include <string.h>
 
-/* PARTS: of the run; SLOTS: 3/16 of it, KINKED: 3/8; FITTED: how many points at most the growth is fitted to */
+/* PARTS: parts of the run. SLOTS: parts in an envelope, 3/16 of the run; SLOTS_KINKED: 3/8, where the force has kinks.
+ * FITTED: the most points to which the growth is fitted. */
 enum { PARTS = 32, SLOTS = 6, SLOTS_KINKED = 12, FITTED = 64 };
-#define ROUND_OFF 1e-12 /* the distance after the first part, below which round-off rules */
-/* No digit is significant: from this distance on. Where errors grow no faster than the square of the time does from
- * 1/32 of the run to its end, and not as an exponential, they still tell each other at twice that: of 11673 numbers of
- * the example models by 19 methods 99.6 % were covered with the first bound alone, of 12060 with both 99.5 %; with 0.5
+#define ROUND_OFF 1e-12 /* rounding dominates where the distance after the first part is below this */
+/* From the distance LOST on no digit is significant; from LOST_SLOWLY on, where errors do not grow exponentially, and
+ * by a factor below SLOWLY since 1/32 of the run: then run and companion still tell each other's error. Of 11673
+ * numbers of the example models by 19 methods 99.6 % were covered with LOST alone, of 12060 with both 99.5 %; with 0.5
  * in place of 0.25, 99.3 % of 12642. */
 #define LOST 0.1
 #define LOST_SLOWLY 0.25
 #define SLOWLY 3e3
-#define LAST 0.4    /* of |run - companion| at the landing before: a bar is no smaller */
-#define STEPPED 0.5 /* units in the last place of the number before, which a step adds to */
-#define STILL 1e-9 /* of the largest place: velocities which move nothing by more than that in the whole run are none */
-#define GROWN 1e3  /* a motion that is so many times as large is another one */
-#define STRAIGHT 0.03 /* up to this distance the growth is fitted */
+#define LAST 0.4    /* a bar is at least this part of |run - companion| at the landing before */
+#define STEPPED 0.5 /* a bar is at least so many units in the last place of the number a step before */
+#define STILL 1e-9  /* velocities that in the whole run move nothing by this part of the largest position count as 0 */
+#define GROWN 1e3   /* a group that has grown by this factor has a new size */
+#define STRAIGHT 0.03 /* the growth is fitted up to this distance */
 
-/* How many landings a long run has; the steps that are well apart; how many landings a short run has at least. */
+/* How many landings a long run has; after how many steps landings are well apart; the fewest landings of a short run.
+ * */
 enum { LANDINGS = 256, APART = 16, LANDINGS_LEAST = 32 };
 
-/* Landings are equally far apart; what is left over comes first. They are apart so many steps of the run that they add
- * little to the work, at most one step in 16 of a run of 512 steps and more, and are enough to find the time from which
- * no digit is significant. */
+/* Landings are equally far apart, but for the first. They are far enough apart to add little to the work, at most one
+ * step in 16 in runs of 512 steps and more, and near enough to find the time from which no digit is significant. */
 int64_t differences_due(int64_t total, int64_t landed)
 {
     const int64_t most = total / LANDINGS_LEAST, far = total / LANDINGS, near = most < APART ? most : APART;
@@ -50,7 +50,7 @@ int64_t differences_due(int64_t total, int64_t landed)
     return landed == 0 && first ? first : landed + size;
 }
 
-/* fmax where b is a number, in one instruction */
+/* Returns fmax(a, b) in one instruction, if b is not NaN. */
 static inline double larger(double a, double b) { return a > b ? a : b; }
 
 /* ---- memory ---- */
@@ -113,7 +113,7 @@ void differences_begin(differences *f, double start, double until)
 
 /* ---- taking ---- */
 
-/* Puts the reductions in the place of what was seen. */
+/* Replaces the numbers that were seen by their reductions. */
 static void reduce(differences *f, int seen, bool observed)
 {
     const int *how = f->shape.how;
@@ -132,7 +132,7 @@ static int64_t part_of(const differences *f, double t)
     return done < 1 ? (int64_t)(done * PARTS) : PARTS - 1;
 }
 
-/* Makes the row of the part of the run that t lies in. */
+/* Returns the envelope's row for the part of the run in which t lies, and clears the rows that it passes. */
 static double *row_of(differences *f, double t, double **twin)
 {
     const size_t n = f->shape.count;
@@ -147,14 +147,14 @@ static double *row_of(differences *f, double t, double **twin)
     return f->envelope + now;
 }
 
-/* Whether less than a part of the run has passed since a time. */
+/* Tells whether less than a part of the run has passed since a time. */
 static bool shortly_after(const differences *f, double t, double since)
 {
     return fabs(t - since) * PARTS < fabs(f->length) * (1 - 1e-9);
 }
 
-/* A motion that begins at rest, or at 0, has no size of its own at first: in its first part, and in so long a time
- * after it has grown by far, what it was before does not matter. */
+/* Tells whether a group has a size of its own. A motion that begins at rest or at 0 has none: its earlier size does not
+ * matter in the first part of the run, nor for as long after the group has grown by GROWN. */
 static bool has_size(differences *f, size_t group, double t)
 {
     differences_size_of *const s = &f->growing[group];
@@ -165,7 +165,7 @@ static bool has_size(differences *f, size_t group, double t)
     return !shortly_after(f, t, s->grew);
 }
 
-/* Whether velocities, or a difference of them, move places in the whole run by more than that part of the largest. */
+/* Tells whether a velocity moves a position in the whole run by more than this part of the largest one. */
 static bool moves(const differences *f, double velocity, double part)
 {
     return !(velocity * fabs(f->length) <= part * f->scale[0]);
@@ -176,8 +176,8 @@ bool differences_still(const differences *f, double part)
     return f->scale[0] > 0 && !moves(f, f->scale[1], fmax(part, STILL));
 }
 
-/* How far the companion is from the run, by groups, in units of the group's largest number. *judged: of those alone
- * that have a size. */
+/* Returns the largest distance from run to companion in any group, in units of the group's largest number. *judged: of
+ * the groups alone that have a size of their own. */
 static double distance_of(differences *f, double t, double *judged)
 {
     const differences_shape *s = &f->shape;
@@ -200,7 +200,7 @@ static double distance_of(differences *f, double t, double *judged)
     return most;
 }
 
-/* The distance so far, for the fit of its growth; its points are apart, since they take logarithms. */
+/* Adds the distance to the fit of its growth. Points are apart, since each takes logarithms. */
 static void grow(differences *f, double t, double now)
 {
     const double gone = fabs(t - f->start);
@@ -228,7 +228,8 @@ static void judge(differences *f, double t)
     if (f->distance >= (slowly ? LOST_SLOWLY : LOST)) f->until = t;
 }
 
-/* A landing within a step, or at the time of the last one, shows no other sizes to begin with. */
+/* Begins a landing: keeps the differences of the landing before and, unless this one lies within a step or at the time
+ * of that, its sizes. */
 static void begin_step(differences *f, double t)
 {
     if (t != f->taken) memcpy(f->last, f->d, f->shape.count * sizeof *f->last);
@@ -265,7 +266,8 @@ void differences_widen(differences *f)
 
 /* ---- what is kept ---- */
 
-/* The numbers of a differences_growth, which is nothing else. */
+/* GROWTH: how many doubles a differences_growth consists of. HEAD: the numbers that are kept before those of columns.
+ * */
 enum { GROWTH = sizeof(differences_growth) / sizeof(double), HEAD = 5 * DIFFERENCES_GROUPS + 5 + GROWTH };
 
 size_t differences_kept(const differences_shape *s) { return HEAD + s->count * (4 + s->full); }
@@ -327,7 +329,7 @@ void differences_resume(differences *f, double t, const double *kept)
 
 /* ---- bars ---- */
 
-/* A bar is d times the difference, and e times its envelope. */
+/* A bar is d times the difference plus e times its envelope. */
 typedef struct rule {
     double d, e;
 } rule;
@@ -353,7 +355,7 @@ double differences_bar(const differences *f, size_t number)
     if (!f->shape.kinked) bar = fmax(bar, LAST * f->last[number]);
     if (f->twin) bar += 0.5 * largest(f, f->twin, number);
     if (f->shape.kinked) bar = fmax(bar, with_kinks.d * d + with_kinks.e * e);
-    if (value == 0 && bar == 0) { /* the terms that made it 0 may have been as large as it has been */
+    if (value == 0 && bar == 0) { /* the terms that cancel to 0 may be as large as the number has been */
         return 4 * ulp_of(f->size[number]) + f->apart[number];
     }
     const double least = fmax(4 * ulp_of(value), STEPPED * ulp_of(larger(f->now[number], f->before[number])));
@@ -365,7 +367,7 @@ bool differences_agree(const differences *f, size_t number)
     return f->d[number] == 0 && f->apart[number] == 0 && largest(f, f->envelope, number) == 0;
 }
 
-/* The largest of a group that neither run nor companion knows. */
+/* Returns the largest `apart` of a group. */
 static double apart_of(const differences *f, size_t group)
 {
     const size_t count[] = {f->shape.positions, f->shape.positions, f->shape.velocities - f->shape.positions};
@@ -380,7 +382,7 @@ double differences_worst(const differences *f, bool absolute, bool unknown)
 {
     const rule now = f->shape.kinked ? with_kinks : rule_of(f);
     double worst = 0;
-    if (!f->first_known) return 0; /* as long as the motion has no size of its own */
+    if (!f->first_known) return 0; /* the motion has no size of its own yet */
     for (size_t g = 0; g < DIFFERENCES_GROUPS; g++) {
         const double scale = f->scale[g];
         const double bar = fmax(4 * ulp_of(scale), (now.d + now.e) * f->most[g]) + (unknown ? apart_of(f, g) : 0);
@@ -391,7 +393,7 @@ double differences_worst(const differences *f, bool absolute, bool unknown)
 
 double differences_ratio(const differences *f) { return f->distance / fmax(f->first, 1e-16); }
 
-/* The residual of the line through the points, and its slope. */
+/* Returns the residual of the straight line through the points, and tells its slope. */
 static double line(double n, double x, double xx, double y, double yy, double xy, double *slope)
 {
     const double sxx = xx - x * x / n, sxy = xy - x * y / n, syy = yy - y * y / n;
@@ -399,8 +401,8 @@ static double line(double n, double x, double xx, double y, double yy, double xy
     return sxx > 0 ? syy - sxy * sxy / sxx : INFINITY;
 }
 
-/* An exponential: as a power of the time it would be a steep one (slopes of 4.4 to 10 were found where the motion is
- * chaotic, of at most 1.5 where it is regular), and the power does not fit much better (by 1.9 at most, there). */
+/* The growth is exponential if a power of the time would be steep (exponents of 4.4 to 10 were found for chaotic
+ * motions, of at most 1.5 for regular ones) and does not fit much better (by at most 1.9 for chaotic motions). */
 double differences_rate(const differences *f)
 {
     const differences_growth *g = &f->growth;

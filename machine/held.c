@@ -19,7 +19,7 @@ struct held {
     resolution *resolution;                            /* NULL: nothing to resolve */
     resolution *reach, *reach_rate; /* of the arguments as they are on the sides, and of their rates */
     tape *rounding, *force_rounding;
-    double *sides; /* that are bound: the last numbers of view.pool */
+    double *sides; /* the bound sides: the last numbers of view.pool */
     bool bound;
 };
 
@@ -49,7 +49,7 @@ static bool make_view(held *h, model *m)
     return true;
 }
 
-/* What tells how near a switch is, and how well its time is known. */
+/* Makes the tapes that tell how near a switch is, and how well its time is known. */
 static bool make_reach(held *h, model *m)
 {
     const switches *s = &h->switches;
@@ -125,7 +125,7 @@ bool held_bind(held *h, const double *sides, bool fresh)
     return h->bound;
 }
 
-/* Cells outside the loops are written by none. */
+/* Runs a tape. NaN stays in cells outside its loops. */
 static void run(const held *h, tape *t, size_t count, double time, double *x, double *v, double *a, double *out)
 {
     double *base[SPACES] = {[SPACE_X] = x, [SPACE_V] = v, [SPACE_A] = a, [SPACE_OUT] = out};

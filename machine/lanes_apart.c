@@ -21,27 +21,27 @@
 enum { RUNNING, WAITING, ENDING, BLOCKS };
 
 typedef struct trajectory {     /* of one lane */
-    int64_t whole;              /* steps to its end; adaptive: unknown */
+    int64_t whole;              /* whole steps to its end; unknown where steps adapt */
     double last;                /* size of the shorter step after them; 0: none */
-    int64_t observations;       /* so far, */
-    int64_t observed;           /*   and the number of steps at the last one */
-    int64_t paced;              /* adaptive: steps when it was last asked whether it may crawl, */
-    double paced_t;             /*   and the time then */
-    bool crawls;                /* it may */
+    int64_t observations;       /* observations so far */
+    int64_t observed;           /* the number of steps at the last observation */
+    int64_t paced;              /* where steps adapt: the steps when it was last asked whether it may crawl */
+    double paced_t;             /* the time at `paced` */
+    bool crawls;                /* it may crawl */
     lanes_companion *companion; /* of the trajectory in this lane; NULL: errors are not told */
 } trajectory;
 
 typedef struct apart_block {
     lanes_block block, half;  /* half: of the companions */
     trajectory *trajectories; /* of its lanes */
-    size_t number[BLOCK_MAX]; /* `number` of the block */
+    size_t number[BLOCK_MAX]; /* the array to which block.number points */
 } apart_block;
 
 typedef struct apart {
     lanes_item *item;
     const lanes *l;
     apart_block blocks[BLOCKS];
-    size_t lanes;   /* in a block */
+    size_t lanes;   /* how many lanes a block has */
     size_t next;    /* trajectories of the item that have begun */
     size_t waiting; /* the first lane of WAITING that may be occupied */
     size_t ending;  /* how many lanes of ENDING are occupied */
@@ -64,7 +64,7 @@ static bool at_end(const apart *s, const apart_block *b, size_t lane)
     return steps_of(b, lane) == b->trajectories[lane].whole;
 }
 
-/* Copies what a lane of a block is, but for the time at which it stopped. */
+/* Copies a lane of a block, except the time at which it stopped. */
 static void copy_lane(const lanes_block *from, size_t lane, const lanes_block *to, size_t at)
 {
     const lanes *l = from->l;
@@ -119,8 +119,8 @@ static bool without_last(const apart *s, const apart_block *b, size_t lane)
 }
 static bool every_lane(const apart *s, const apart_block *b, size_t lane) { return (void)s, (void)b, (void)lane, true; }
 
-/* Observes the lanes for which `due` holds. They are alike: all at the first step of a leg, or none; all observed
- * before, or none. */
+/* Observes the lanes for which `due` holds. Of these either all or none are at the first step of a leg, and either all
+ * or none have been observed before. */
 static void observe(apart *s, const apart_block *b, due_now *due, bool ends)
 {
     lanes_block block = b->block;
@@ -147,7 +147,7 @@ static void finish_where(apart *s, const apart_block *b, due_now *done)
         if (occupied(b, i) && (stopped(b, i) || done(s, b, i))) finish(s, b, i);
 }
 
-/* One step of all lanes by the formula of the first step of a leg. */
+/* Takes one step of all lanes by the formula of the first step of a leg. */
 static void first_step(const apart_block *b)
 {
     lanes_block_save(&b->block);
@@ -155,7 +155,8 @@ static void first_step(const apart_block *b)
     if (lanes_block_diverged(&b->block)) lanes_block_trace(&b->block, true, 1, 0, 0);
 }
 
-/* Takes the trajectories of ENDING to their ends, by a shorter last step, a leg of its own, where there is one. */
+/* Takes the trajectories of ENDING to their ends, by a shorter last step, which is a leg of its own, if there is one.
+ * */
 static void end_all(apart *s)
 {
     const apart_block *b = &s->blocks[ENDING];
@@ -229,8 +230,9 @@ static bool alive(const apart_block *b, size_t lane)
     return occupied(b, lane) && !stopped(b, lane) && !c->failed && isnan(c->differences.until);
 }
 
-/* Where the companion of a lane goes: in two steps to t, of the order of the step that led there where a step chooses
- * its order. */
+/* Sends the companion of a lane to t in two steps; where steps choose their order, with that of the step that led
+ * there.
+ */
 static void send(const apart_block *b, size_t lane, double from, double t)
 {
     const lanes_block *half = &b->half;
@@ -242,8 +244,8 @@ static void send(const apart_block *b, size_t lane, double from, double t)
     for (int i = 0; i < LANES_CLOCKS; i++) *lanes_clock(half, lane, i) = own[i];
 }
 
-/* Goes on until every lane that is sent has made `most` candidates; a lane that cannot go on ends a call of the object,
- * and not the others. */
+/* Takes steps until every lane that is sent has made `most` candidates. A lane that cannot go on ends a call of the
+ * object, so the others go on in a second call. */
 static void make(const apart *s, const lanes_block *half, const bool *sent, int64_t most)
 {
     for (int turn = 0; turn < 2; turn++) {
@@ -258,7 +260,7 @@ static void make(const apart *s, const lanes_block *half, const bool *sent, int6
     }
 }
 
-/* The same, and all other lanes stay as they are. */
+/* Does what `make` does, and leaves all lanes that are not sent as they are. */
 static void make_apart(const apart *s, const lanes_block *half, const bool *sent, int64_t most)
 {
     bool rest = false;
@@ -271,8 +273,8 @@ static void make_apart(const apart *s, const lanes_block *half, const bool *sent
         if (!sent[i]) lanes_block_put_back(half, i);
 }
 
-/* Takes the lanes that are sent to where they land, by two candidates, or by more where the equation of one could not
- * be solved; it is then taken again, shorter. A lane that cannot go on stays where it is. */
+/* Takes the lanes that are sent to where they land, by two candidates, or by more where the equation of a candidate
+ * could not be solved and a shorter one follows. A lane that cannot go on stays where it is. */
 static void land(const apart *s, const lanes_block *half, const bool *sent)
 {
     bool away[BLOCK_MAX], any = true;
@@ -289,7 +291,7 @@ static void land(const apart *s, const lanes_block *half, const bool *sent)
     }
 }
 
-/* Compares those lanes of a block whose companions have landed: `now`. */
+/* Compares the lanes of a block whose companions have landed, which are marked in `now`. */
 static void compare(const apart *s, const apart_block *b, const bool *now)
 {
     lanes_companion *list[BLOCK_MAX];
@@ -333,7 +335,7 @@ static void compare_start(const apart *s, const apart_block *b)
     compare(s, b, now);
 }
 
-/* Begins the next trajectories in WAITING; of fixed steps, takes the first one. */
+/* Begins the next trajectories in WAITING; with fixed steps, takes their first step. */
 static void begin(apart *s)
 {
     lanes_item *item = s->item;
@@ -377,8 +379,8 @@ static bool fill(void *ctx, size_t lane)
 
 /* ---- steps ---- */
 
-/* How many steps all lanes can take before one reaches its end or an observation. Where all lanes are observed at the
- * same steps, the object makes the observations, after every *every steps. */
+/* Returns how many steps all lanes can take before one reaches its end or an observation. Where all lanes are observed
+ * at equal steps, the object makes the observations, after every *every steps. */
 static int64_t steps_to_take(const apart *s, const apart_block *b, int64_t *every)
 {
     const int64_t period = s->l->def.every;

@@ -10,7 +10,8 @@
 
 /* ---- memory ---- */
 
-/* Own parameters, numbers that depend on them, carry, records, clocks, times at which lanes stopped. */
+/* A block has own parameters, numbers that depend on them, carry, records, clocks, and the times at which lanes
+ * stopped. */
 size_t lanes_block_size(const lanes *l)
 {
     return l->own_size + l->bound_size + l->carry_size + l->kept_size + l->clock_size + l->known_size + l->watch_size +
@@ -23,7 +24,7 @@ static size_t saved_size(const lanes *l)
     return saved > values ? saved : values;
 }
 
-/* Workspaces, the observed state, linear systems, the saved carry, two numbers a lane. */
+/* The scratch has workspaces, the observed state, linear systems, the saved carry, and two numbers for each lane. */
 size_t lanes_scratch_size(const lanes *l)
 {
     return l->work_size + l->observed_size + l->solve_size + saved_size(l) + 2 * lines(l, 1);
@@ -118,7 +119,7 @@ void lanes_block_put_back(const lanes_block *k, size_t lane)
 
 /* ---- the start ---- */
 
-/* The values that vary, and the pool in every lane that has one of its own. */
+/* Writes the values that vary, and the pool of every lane that has its own. */
 static inline void begin_values(const lanes_block *block, const lanes_item *b, const size_t *trajectories, size_t width)
 {
     const lanes *l = block->l;
@@ -141,7 +142,7 @@ void lanes_block_number(const lanes_block *block, const lanes_item *b, const siz
     const lanes *l = block->l;
     lanes_job j = block->job;
     double *values = block->saved;
-    switch (l->width) { /* with its number known, a lane takes an instruction or less */
+    switch (l->width) { /* with a constant width a lane takes an instruction or less */
     case 8: begin_values(block, b, trajectories, 8); break;
     case 4: begin_values(block, b, trajectories, 4); break;
     case 2: begin_values(block, b, trajectories, 2); break;
@@ -160,7 +161,7 @@ void lanes_block_begin(const lanes_block *block, const lanes_item *b, const size
 
 /* ---- lanes that are no longer finite ---- */
 
-/* Whether a number of a block, in which every lane has so many elements, is NaN or as large as the limit. */
+/* Tells whether a number of a block, with so many elements for each lane, is NaN or as large as the limit. */
 static bool some_far(const lanes *l, const double *numbers, size_t elements, double limit)
 {
     return l->far(numbers, elements * (size_t)l->groups, limit);
@@ -210,7 +211,7 @@ void lanes_block_observe(const lanes_block *b)
             b->stopped[i] = lanes_block_time(b, i);
 }
 
-/* What is observed may overflow before what the steps carry does: Verlet's velocity is d/h. */
+/* Observed numbers may overflow before the carry does: Verlet's velocity is d/h. */
 #define NEAR_OVERFLOW 1e200
 
 bool lanes_block_diverged(const lanes_block *b)
@@ -251,7 +252,7 @@ void lanes_block_trace(const lanes_block *block, bool first, int64_t steps, int6
 
 /* ---- the end ---- */
 
-/* Of a trajectory that has come to its end by so many steps. */
+/* Returns the tally of a trajectory that has come to its end by so many steps. */
 static tally tally_of_lane(const lanes_block *b, size_t lane, int64_t steps)
 {
     const lanes *l = b->l;
@@ -268,7 +269,7 @@ static tally tally_of_lane(const lanes_block *b, size_t lane, int64_t steps)
     return t;
 }
 
-/* The numbers of one record. A group's lanes lie side by side. */
+/* Writes the numbers of one record. A group's lanes lie side by side. */
 static void write_record(const lanes_block *b, size_t r, size_t from, size_t to, double *results, int64_t observations)
 {
     const lanes *l = b->l;

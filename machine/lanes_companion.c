@@ -1,6 +1,6 @@
 /* Lanes with companions: the differences of every trajectory. See lanes_parts.h and machine/differences.h.
  *
- * Invariant: what is compared are numbers of one lane, so a trajectory's bars depend on no other.
+ * Invariant: the compared numbers belong to one lane, so a trajectory's bars depend on no other trajectory.
  */
 #include "machine/lanes_parts.h"
 
@@ -30,7 +30,8 @@ void lanes_companion_begin(lanes_companion *c, double t0, double until)
     c->failed = false;
 }
 
-/* Where number k lies in what was seen of a block; NULL: it is the time. *elements: as in lane_at. */
+/* Returns where compared number k lies in the seen numbers of a block; NULL: it is the time. *elements: as in lane_at.
+ * */
 static const double *seen_of(const lanes *l, const lanes_block *b, size_t k, size_t *elements)
 {
     const lanes_job *j = &b->job;
@@ -43,7 +44,7 @@ static const double *seen_of(const lanes *l, const lanes_block *b, size_t k, siz
     }
 }
 
-/* Copies the compared numbers of the lanes in `list` (of the others it has NULL), of the run or of its companion. */
+/* Copies the compared numbers, of the run or of its companion, of the lanes whose entry in `list` is not NULL. */
 static void see(const lanes_block *b, const lanes *l, lanes_companion *const *list, int which)
 {
     const size_t width = (size_t)l->width;

@@ -22,7 +22,7 @@ int64_t lanes_schedule_pace(const lanes_block *b, size_t lane)
     return most > 0 && most < pace ? most : pace;
 }
 
-/* Whether some lane has a trajectory, after free lanes have taken those that are left. */
+/* Fills free lanes with the trajectories that are left. True: some lane has a trajectory. */
 static bool refill(const lanes_schedule *s)
 {
     bool any = false;

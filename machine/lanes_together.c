@@ -73,8 +73,8 @@ static void begin_last_leg(const together *s, const lanes_block *block, size_t n
     block->l->set(&job);
 }
 
-/* Begins a leg of the companions from the state where they stand. What is known of its rounding errors stays known, as
- * in stepper_turn. */
+/* Begins a leg of the companions at their present state. Known rounding errors of the state are kept, as in
+ * stepper_turn. */
 static void turn_block(const together *s, const lanes_block *block, size_t number)
 {
     (void)number;
@@ -156,7 +156,7 @@ static void new_leg(lanes_item *b, double t0, double h)
     b->n = 0;
 }
 
-/* So many steps of a leg that begins. */
+/* Takes so many steps of a leg that begins. */
 static void leg(together *s, int64_t steps)
 {
     lanes_item *b = s->item;
@@ -172,7 +172,7 @@ static void leg(together *s, int64_t steps)
 
 /* ---- the companions ---- */
 
-/* They land when the next landing is due, and at every observation. */
+/* Lets the companions land when the next landing is due, and at every observation. */
 static void next_landing(lanes_item *b, int64_t landed)
 {
     const lanes_def *d = &b->l->def;
@@ -182,7 +182,7 @@ static void next_landing(lanes_item *b, int64_t landed)
     if (b->due > total_of(d)) b->due = total_of(d);
 }
 
-/* They land at t, where the trajectories stand after so many steps in all, and are compared. */
+/* Lands the companions at t, where the trajectories stand after so many steps in all, and compares them. */
 static void land(together *s, int64_t steps, double t)
 {
     lanes_item *b = s->item, *h = b->half;
@@ -228,7 +228,7 @@ static motus_status observe(void *ctx, motus_error *err)
     return MOTUS_OK;
 }
 
-/* Of the trajectories, after whole steps. */
+/* Observes the trajectories after whole steps. */
 static double time_of(const lanes_item *b)
 {
     const lanes_def *d = &b->l->def;

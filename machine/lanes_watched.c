@@ -21,12 +21,12 @@ typedef struct watched {
     const lanes *l;
     const lanes_follower *by;
     lanes_block block;
-    size_t number[BLOCK_MAX]; /* `number` of the block */
-    int64_t since[BLOCK_MAX]; /* of each lane, the steps of the leg when its trajectory came, */
-    int64_t stop[BLOCK_MAX];  /*   and after which it goes, where steps have one size */
+    size_t number[BLOCK_MAX]; /* the array to which block.number points */
+    int64_t since[BLOCK_MAX]; /* for each lane: the steps of the leg when its trajectory came */
+    int64_t stop[BLOCK_MAX];  /* for each lane: with fixed steps, the steps of the leg after which it goes */
     double *room;             /* working space of lanes_watched_size numbers */
     size_t next;              /* trajectories of the item that have begun */
-    bool begun;               /* some have since lanes were given the numbers of theirs */
+    bool begun;               /* some have begun since lanes last got the numbers of their trajectories */
 } watched;
 
 /* Room for the numbers of a state and the largest sizes, or for both ends of a step and its accelerations' bounds. */
@@ -48,7 +48,7 @@ static double until_of(const watched *s, size_t lane)
 static const int carried[STEPPER_CLOCKS] = {LANES_T,    LANES_LOST,     LANES_NEXT,    LANES_BEFORE,
                                             LANES_RISE, LANES_SHORTEST, LANES_LONGEST, LANES_SPAN};
 
-/* How many of them lead from a step to the next: where steps have one size, none. */
+/* Returns how many clocks lead from a step to the next; with fixed steps none. */
 static size_t carried_clocks(const lanes *l) { return l->plan.carried ? STEPPER_CLOCKS : 0; }
 
 /* A follower that takes many steps without lanes asks whether the call is over. */
@@ -59,14 +59,14 @@ static bool all_over(void *asked)
     return lanes_item_over(item);
 }
 
-/* Number k of the clock of a lane, or of that before its latest step. */
+/* Returns number k of the clock of a lane, now or before its latest step. */
 static double clock_at(const watched *s, size_t lane, bool before, int k)
 {
     const lanes_job *j = &s->block.job;
     return (before ? j->before_clocks : j->clocks)[lane_at(s->l, LANES_CLOCKS, (size_t)k, lane)];
 }
 
-/* The state of a lane, or that before its latest step. */
+/* Writes the state of a lane, now or before its latest step. */
 static lanes_state state_of(const watched *s, size_t lane, bool before)
 {
     const lanes *l = s->l;
@@ -102,7 +102,7 @@ static void put(watched *s, size_t lane, const lanes_state *from)
     lanes_block_forget(&s->block, lane);
 }
 
-/* The largest sizes of a lane's numbers since its trajectory came. */
+/* Returns the largest sizes of a lane's numbers since its trajectory came. */
 static const double *largest_of(const watched *s, size_t lane)
 {
     const lanes *l = s->l;
@@ -112,14 +112,14 @@ static const double *largest_of(const watched *s, size_t lane)
     return to;
 }
 
-/* The trajectory of a lane is done. */
+/* Ends the trajectory of a lane. */
 static void over(watched *s, size_t lane)
 {
     atomic_fetch_add(&s->item->call->done, 1);
     lanes_schedule_free(&s->block, lane);
 }
 
-/* The follower has given a trajectory back, or has done with it. */
+/* Goes on with a trajectory that the follower has given back, or ends one that is over. */
 static void go_on(watched *s, size_t lane, bool goes_on, const lanes_state *state)
 {
     if (goes_on)
@@ -145,8 +145,8 @@ static bool fill(void *ctx, size_t lane)
 
 /* ---- steps ---- */
 
-/* Positions and velocities at an end of the latest step of a lane; returns its time. *lost: what rounding has left out
- * of that. */
+/* Writes positions and velocities at an end of the latest step of a lane, and returns the time there. *lost: what the
+ * rounding of the time has left out. */
 static double end_of(const watched *s, size_t lane, bool end, double *x, double *v, double *lost)
 {
     const lanes *l = s->l;
@@ -162,7 +162,7 @@ static double end_of(const watched *s, size_t lane, bool end, double *x, double 
     return carried ? clock_at(s, lane, !end, LANES_T) : TIME_FIXED(&leg, clock_at(s, lane, !end, LANES_N), 0);
 }
 
-/* Whether the follower knows that the latest step of a lane has no event, though a bound is not positive. */
+/* Tells whether the follower knows that the latest step of a lane has no event, although a bound is not positive. */
 static bool idle(const watched *s, size_t lane)
 {
     const lanes *l = s->l;

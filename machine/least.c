@@ -5,7 +5,7 @@
 
 #include <math.h>
 
-/* How far a leaf may be from its value at the centre. */
+/* Returns how far a leaf may be from its value at the centre. */
 static node half_width(graph *g, node leaf, void *of)
 {
     const model *m = of;
@@ -13,7 +13,7 @@ static node half_width(graph *g, node leaf, void *of)
     return graph_seed_direction(g, leaf, &shift);
 }
 
-/* A tenth of a percent more than computed, for what rounding leaves of it. */
+/* The factor 1.001 leaves room for rounding. */
 node least_radius(model *m, node value)
 {
     graph *g = m->graph;

@@ -1,7 +1,7 @@
 /* See rounding.h. */
 #include "machine/rounding.h"
 
-/* What rounding leaves of a leaf: half an ulp of the time and of a state. */
+/* Returns the bound of a leaf: half an ulp for the time and numbers of the state; 0 for the pool's. */
 static node of_leaf(graph *g, node leaf, void *ctx)
 {
     (void)ctx;

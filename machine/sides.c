@@ -9,18 +9,18 @@
 #include <stdio.h>
 #include <string.h>
 
-enum { NESTED = 16 }; /* switches within the arguments of others, at most, that change at once */
+enum { NESTED = 16 }; /* the most switches, each within the argument of the next, that change at once */
 
 /* ---- functions ---- */
 
-/* Whether switch k stands at 0 beside one that is held, and the motion with both: its side then is a value of the sign
- * within (-1, 1), not 0, and it leaves with the other one. */
+/* Tells whether switch k stands at 0 beside a switch that is held, with which it leaves: its side is then a value of
+ * the sign within (-1, 1) other than 0. */
 static bool is_pinned(const sides *s, const double *side, size_t k)
 {
     return sides_op_of(s, k) == OP_SIGN && fabs(side[k]) > 0 && fabs(side[k]) < 1;
 }
 
-/* Whether any is; the tapes of what holds them are run only then. */
+/* Tells whether any switch is held; the tapes of holding values are run only then. */
 static bool any_held(const sides *s, const double *side)
 {
     bool any = false;
@@ -28,8 +28,8 @@ static bool any_held(const sides *s, const double *side)
     return any;
 }
 
-/* While a switch is held its function is positive: the value that holds it is within (-1, 1), and drives the argument
- * back to 0 from both sides. Where it falls to 0 the force does one of them no longer. */
+/* Evaluates the function of a held switch. It is positive while the value that holds the switch is within (-1, 1) and
+ * drives the argument back to 0 from both sides, and falls to 0 where one of these ends. */
 static double grip_of(const sides *s, const double *side, size_t k)
 {
     const double back = side[k] == SWITCHES_HELD ? -1 : 1;
@@ -42,7 +42,7 @@ static double grip_rate_of(const sides *s, const double *side, size_t k)
     return back * (s->dr[k] * (1 - s->p[k]) * (1 + s->p[k]) - 2 * s->r[k] * s->p[k] * s->dp[k]);
 }
 
-/* With bounds on rounding in place of the rates, in units of 2^-53. */
+/* Bounds the rounding of grip_of, in units of 2^-53; dp and dr hold bounds in place of rates. */
 static double grip_rounding_of(const sides *s, size_t k)
 {
     const double p = fabs(s->p[k]);
@@ -73,8 +73,9 @@ static int values(void *ctx, double t, double *x, double *v, double *out)
     return 0;
 }
 
-/* The arguments to u, and what `of` computes of them to out; where a switch is held, what holds it to p, and what
- * `of_hold` computes of that to dp; its grip to r, and what `of_grip` computes of that to dr. True: one is. */
+/* Evaluates the arguments to u and, by the tape `of`, their rates or rounding to `out`. If a switch is held: the values
+ * that hold switches to p, by `of_hold` their rates or rounding to dp; the grips to r, by `of_grip` theirs to dr. True:
+ * a switch is held. */
 static bool measure(const sides *s, tape *of, tape *of_hold, tape *of_grip, double t, double *x, double *v, double *a,
                     double *out)
 {
@@ -124,7 +125,8 @@ static void rounding(void *ctx, double t, double *x, double *v, double *out)
     }
 }
 
-/* While an argument is 0 it is not known to move; and the value that holds one, and a direction, have no bound. */
+/* Tells whether the function of switch k has no lower bound: its argument may stay at 0, or the switch is held or is a
+ * direction. */
 static bool unknown(const sides *s, const double *side, size_t k)
 {
     return switches_directs(sides_op_of(s, k)) || sides_is_held(s, side, k) ||
@@ -169,7 +171,7 @@ static bool apart(void *ctx, size_t f, bool rate, const double t[2], const doubl
     return f < s->own.functions && s->own.apart && s->own.apart(s->own.ctx, f, rate, t, x, v, dx, dv, most);
 }
 
-/* Behind the own functions there is room for arguments of the switches, which need none. */
+/* Writes the arguments of the text's own functions; the switches behind them need none. */
 static void arguments_at(void *ctx, double t, double *x, double *v, double *out)
 {
     const sides *s = ctx;
@@ -203,7 +205,7 @@ static void name(void *ctx, size_t number, size_t instance, char *out, size_t si
 
 /* ---- all switches ---- */
 
-/* The side that belongs to the argument of switch k as it is in `u`; rounding may have carried it by `bound`. */
+/* Sets the side of switch k by its argument u, whose rounding is at most `bound`. */
 static motus_status place(sides *s, size_t k, double u, double bound, double way, double t, double *x, double *v,
                           motus_error *err)
 {
@@ -220,7 +222,7 @@ static motus_status place(sides *s, size_t k, double u, double bound, double way
                                : sides_choose(s, k, false, way, t, x, v, err);
 }
 
-/* Where another switch has turned, what is held may be no longer. */
+/* Lets switches go that, after another switch has turned, the force no longer holds. */
 static motus_status check_held(sides *s, double way, double t, double *x, double *v, motus_error *err)
 {
     const double *side = x + s->switches->slot;
@@ -241,7 +243,7 @@ static motus_status check_held(sides *s, double way, double t, double *x, double
     return status;
 }
 
-/* A switch within the argument of another one may let that jump: mod(floor(t), 2). */
+/* Turns a switch, and then those whose arguments jump with it, as in mod(floor(t), 2). */
 static motus_status turn(void *ctx, size_t number, size_t instance, double way, double until, double *at, double *x,
                          double *v, motus_error *err)
 {
@@ -261,7 +263,7 @@ static motus_status turn(void *ctx, size_t number, size_t instance, double way, 
         for (size_t k = 0; k < count && status == MOTUS_OK; k++) {
             const double bound = 0x1p-53 * s->bound[k];
             if (sides_is_held(s, side, k) || is_pinned(s, side, k) || switches_directs(sides_op_of(s, k)))
-                continue; /* what holds it moved it to 0 */
+                continue; /* its argument has been moved to 0 */
             if (!(fabs(s->now[k] - s->kept[k]) > bound + fabs(s->kept[k]) * 0x1p-40)) continue;
             jumped = true;
             status = place(s, k, s->now[k], bound, way, t, x, v, err);
@@ -272,7 +274,7 @@ static motus_status turn(void *ctx, size_t number, size_t instance, double way, 
     return status != MOTUS_OK ? status : check_held(s, way, t, x, v, err);
 }
 
-/* Holds those of the marked switches that can be, with those beside them; *held: that is all of the marked ones. */
+/* Holds the marked switches that can be held, with those beside them. *held: these are all marked switches. */
 static motus_status stand_together(sides *s, const bool *of, double way, double t, double *x, double *v, bool *held,
                                    motus_error *err)
 {
@@ -328,9 +330,9 @@ static motus_status gather(void *ctx, const size_t *functions, size_t number, do
     return MOTUS_EVENTS;
 }
 
-/* Sides of a state that did not come by motion. They decide the acceleration, which decides where an argument moves
- * that is 0; and they may stand within one another. Where they find no end, as at rest at 0 under -2 sign(x) -
- * sign(x'), those that change are held together. */
+/* Sets the sides at a state that did not come by motion, in several passes: sides decide the acceleration, which
+ * decides where an argument that is 0 moves, and switches may stand within one another. Switches that still change in
+ * the last passes, as at rest at 0 under -2 sign(x) - sign(x'), are held together. */
 static motus_status settle(void *ctx, double way, double t, double *x, double *v, motus_error *err)
 {
     sides *s = ctx;
@@ -356,7 +358,7 @@ static motus_status settle(void *ctx, double way, double t, double *x, double *v
 
 /* ---- making ---- */
 
-/* The distance of a whole part from leaving its side is (u - p) (p + 1 - u), of which both factors are bounded. */
+/* Bounds the distance of an integer part p from leaving its side, (u - p) (p + 1 - u), by bounds of both factors. */
 static node least_count(model *m, node u, node side)
 {
     graph *g = m->graph;

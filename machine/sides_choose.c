@@ -9,7 +9,7 @@ enum { AHEAD = 12 }; /* the order of the series that tell how an argument leaves
 
 static const char not_unique[] = "the motion is not unique: the force drives it away to both sides";
 
-/* The rate of argument k along the run, with its switch on a side. */
+/* Evaluates the rate of argument k along the run, with its switch on a side. */
 static motus_status rate_on(sides *s, size_t k, double side, double way, double t, double *x, double *v, double *rate,
                             motus_error *err)
 {
@@ -23,7 +23,7 @@ static motus_status rate_on(sides *s, size_t k, double side, double way, double 
     return status;
 }
 
-/* The Taylor series of the motion from a state, to order AHEAD, in s->xs and s->vs. */
+/* Computes the Taylor series of the motion from a state, to order AHEAD, in s->xs and s->vs. */
 static motus_status expand(sides *s, double t, double *x, double *v, motus_error *err)
 {
     enum { LENGTH = AHEAD + 1 };
@@ -46,7 +46,7 @@ static motus_status expand(sides *s, double t, double *x, double *v, motus_error
     return MOTUS_OK;
 }
 
-/* The series at a distance h. False: so far its last terms count, or it is not finite. */
+/* Evaluates series at a distance h. False: h is so far that the last terms matter, or a sum is not finite. */
 static bool reaches(const double *series, size_t count, double h, double *out)
 {
     enum { LENGTH = AHEAD + 1 };
@@ -66,9 +66,9 @@ static bool reaches(const double *series, size_t count, double h, double *out)
     return true;
 }
 
-/* The way in which an argument leaves 0 whose rate is 0, with its switch on a side: its sign at the least distance at
- * which it exceeds its rounding and that of the force, since a derivative that vanishes does so but for that. 0: it
- * stays 0 as far as the series of the motion tell. */
+/* Finds the way in which an argument with the rate 0 leaves 0, with its switch on a side: its sign at the least
+ * distance at which it exceeds its rounding and that of the force, without which derivatives would vanish. *leaves = 0:
+ * it stays 0 as far as the series of the motion reach. */
 static motus_status look_ahead(sides *s, size_t k, double side, double origin, double way, double t, double *x,
                                double *v, int *leaves, motus_error *err)
 {
@@ -124,7 +124,7 @@ static motus_status hold(sides *s, size_t k, double above, double below, double 
         return sides_refuse(s, k, why, t, err);
     }
     motus_status status = MOTUS_OK;
-    if (!sides_chooses(s, k)) { /* a comparison chooses, and its parts are affine */
+    if (!sides_chooses(s, k)) { /* a comparison chooses between two values, between which the force is affine */
         status = rate_on(s, k, 0, 1, t, x, v, &middle, err);
         if (status != MOTUS_OK) return status;
         if (fabs(middle - (above + below) / 2) > 0x1p-30 * (fabs(above) + fabs(below))) {
@@ -132,7 +132,7 @@ static motus_status hold(sides *s, size_t k, double above, double below, double 
             return sides_refuse(s, k, why, t, err);
         }
     }
-    /* The force on both sides; what moves another argument that is held, or what that moves, is not known apart. */
+    /* the force on both sides; refused where it moves another held argument, or the other's force moves this one */
     status = rate_on(s, k, sides_side_of(s, k, 1), 1, t, x, v, &middle, err);
     memcpy(s->b, s->a, nv * sizeof *s->b);
     memcpy(s->later, s->du, count * sizeof *s->du);
@@ -172,8 +172,8 @@ static motus_status hold(sides *s, size_t k, double above, double below, double 
     return status;
 }
 
-/* How far rounding may carry the rates `on` both sides of a switch that can be held. Where friction breaks loose, what
- * holds the switch has just reached 1, so that one of the rates is 0 but for rounding of that value and of the time. */
+/* Bounds the rounding of the rates `on` both sides of a switch that can be held. Where friction breaks loose, the value
+ * that holds the switch has just reached 1, so one rate is 0 but for the rounding of that value and of the time. */
 static double unsure(sides *s, size_t k, const double on[2], double t, double *x, double *v)
 {
     if (!s->hold || s->switches->slides[switches_kind(s->switches, k)] != SLIDES_HELD) return 0;
@@ -188,8 +188,9 @@ static double unsure(sides *s, size_t k, const double on[2], double t, double *x
  * motion back from either side of both: where k and those beside it, which leave with it, are all on one side, and
  * where all are on the other. */
 
-/* The way of n's argument when k's becomes positive; 0: that does not move it. s->a and s->b: the accelerations with k
- * on both sides, whose rates differ by `push`. *rate: how fast s->b - s->a, as a velocity, moves it. */
+/* Returns the way in which the argument of n moves when that of k becomes positive; 0: it does not move. s->a and s->b:
+ * the accelerations with k on both sides; push: the difference of the rates of k's argument with them. *rate: how fast
+ * s->b - s->a, as a velocity, moves the argument of n. */
 static int moves_with(sides *s, size_t n, double push, double way, double t, double *x, double *v, double *rate)
 {
     const size_t nv = s->problem->nv;
@@ -202,7 +203,7 @@ static int moves_with(sides *s, size_t n, double push, double way, double t, dou
     return (along > 0) - (along < 0);
 }
 
-/* The rate of argument k with its switch and those beside it on one side, 1 or -1. */
+/* Evaluates the rate of argument k with its switch and those beside it on one side, 1 or -1. */
 static motus_status rate_at_corner(sides *s, size_t k, int to, double way, double t, double *x, double *v, double *rate,
                                    motus_error *err)
 {
@@ -258,7 +259,7 @@ motus_status sides_move_to_zero(sides *s, size_t k, size_t n, double t, double *
     return MOTUS_OK;
 }
 
-/* Gives those in s->beside the value c, and returns the one with which k is held then. */
+/* Gives the switches in s->beside the value c, and returns the value that then holds k. */
 static double pin(sides *s, size_t k, double c, double t, double *x, double *v)
 {
     const double tiny = 0x1p-60;
@@ -331,7 +332,7 @@ motus_status sides_choose(sides *s, size_t k, bool left, double way, double t, d
         } else if (switches_jumps(op)) {
             status = look_ahead(s, k, side, 0, way, t, x, v, &there, err);
             side = switches_side(op, 0, there);
-        } else { /* while it is 0 its formulas agree */
+        } else { /* both formulas agree while the argument is 0 */
             side = above;
         }
     } else {
@@ -364,8 +365,8 @@ motus_status sides_choose_count(sides *s, size_t k, bool left, double at, double
     return status;
 }
 
-/* Whether switch k, which was held, is held no longer since its value drives the argument no longer back to 0, but for
- * rounding; that value to p. */
+/* Tells whether a held switch k is let go because its value, but for rounding, no longer drives the argument back to 0.
+ * Writes the value to p. */
 static bool lost_grip(sides *s, size_t k, double t, double *x, double *v)
 {
     if (sides_accelerate(s, t, x, v, NULL) != MOTUS_OK) return false;

@@ -5,7 +5,8 @@
 #include <math.h>
 #include <string.h>
 
-/* A part of the length within which a vector stays along its unit vector, about 75 degrees. */
+/* A direction turns where the vector's component along its old unit vector falls to this part of its length: about 75
+ * degrees. */
 #define TURNS 0.25
 
 static void put_held(double *side, const parts *p, double way)
@@ -13,7 +14,7 @@ static void put_held(double *side, const parts *p, double way)
     for (int i = 0; i < p->count; i++) side[p->of[i]] = way > 0 ? SWITCHES_HELD : SWITCHES_HELD_BACKWARD;
 }
 
-#define SHORT 0x1p-24 /* whose square is a way below the rounding of places */
+#define SHORT 0x1p-24 /* its square, as a part of positions, is a way below their rounding */
 double sides_short_of(const sides *s, const parts *p, double t, double *x, double *v)
 {
     double *side = x + s->switches->slot, was[GRAPH_COMPONENTS], far = 0, back = -INFINITY;
@@ -56,7 +57,7 @@ static void put_direction(double *side, const parts *p, const double *d, double 
     for (int i = 0; i < p->count; i++) side[p->of[i]] = d[p->of[i]] / length;
 }
 
-/* The accelerations to `a`, the rates of all arguments to `du`. */
+/* Evaluates the accelerations to `a` and the rates of all arguments to `du`. */
 static motus_status push_of(sides *s, double t, double *x, double *v, double *a, double *du, motus_error *err)
 {
     const motus_status status = sides_accelerate(s, t, x, v, err);
@@ -70,14 +71,14 @@ static const char no_disc[] =
     "the force along a direction drives its vector not straight back, and nothing is known to "
     "hold it,";
 
-/* Moves the state to where the vector is 0, along the push of the force against it: the accelerations with the vector's
- * own direction and with the opposite one differ by twice that. Only a push that drives the vector straight back, by
- * the same rate in every direction, is one of friction that can hold it. */
+/* Moves the state to where the vector is 0, along the push of the force against it: half the difference of the
+ * accelerations with the vector's own direction and the opposite one. Only friction whose push drives the vector
+ * straight back, at one rate in every direction, can hold it. */
 static motus_status move_to_rest(sides *s, const parts *p, double way, double t, double *x, double *v, double *first,
                                  double *drives, motus_error *err)
 {
     enum { PASSES = 32 };            /* as in `hold` */
-    const double nothing = 0x1p-480; /* whose square is still a number */
+    const double nothing = 0x1p-480; /* the square of this does not underflow */
     double *side = x + s->switches->slot, least = INFINITY;
     motus_status status = MOTUS_OK;
     for (int pass = 0; pass < PASSES && status == MOTUS_OK; pass++) {
