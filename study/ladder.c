@@ -18,7 +18,7 @@
 #define TOLERANCE_LEAST 1e-15
 #define TOLERANCE_MOST 0.1
 #define CLOSE 0.66   /* of the accuracy: a larger error is near enough to it */
-#define AIM 0.82     /* of the accuracy: the error that a point between two others aims at */
+#define AIM 0.82     /* of the accuracy: the error at which a point between two others aims */
 #define NARROW 0.01  /* a bracket in which the work differs by less than this part needs no more points */
 #define TRIES 6      /* most points between two others */
 #define GARBAGE 0.05 /* relative: a larger error tells no order */
@@ -28,8 +28,8 @@
 #define PLATEAU_STEPS 2.0
 #define FALLS 0.7
 #define TIMES_MOST 10    /* most runs that time a short one */
-#define TIMES_LEAST 1e-3 /* seconds that all timed runs take at least */
-#define TIMES_LONG 0.05  /* seconds of two runs, above which a run is timed no more than twice */
+#define TIMES_LEAST 1e-3 /* seconds that all runs of a short one take at least */
+#define TIMES_LONG 0.05  /* seconds of all runs, above which a run is timed no more than twice */
 
 double ladder_step(const ladder *l, const ladder_point *p) { return fabs(l->s->until - l->s->from) / p->setting; }
 

@@ -79,7 +79,7 @@ bool study_adapts(const char *method);
 
 /* Begins a part, which takes progress from `base` to `base` + `span`. */
 void study_part(study *, double base, double span);
-/* Notes the status of a call that returns none itself. */
+/* Notes that memory ran out in a call that itself returns no status. */
 void study_note(study *, motus_status);
 /* Returns the status of all calls so far: OK unless memory ran out or the user cancelled. */
 motus_status study_broken(const study *);

@@ -17,7 +17,7 @@ enum { DEPTH = 44, LOOKS = 5000, PLACES = 64, SHORTEST = -34, LONGEST = -12, SCA
 
 typedef struct search {
     const pole_way *way;
-    int looks, places; /* that may still be taken */
+    int looks, places; /* how many are left */
 } search;
 
 /* Number k of x on the way, as a polynomial of the fraction z of the time: x + first z + second z² + third z³. */

@@ -125,8 +125,7 @@ struct motus_ensemble {
     ensemble_followed *followed; /* NULL: lanes have no events */
     int lane_threads;            /* how many threads lanes would take */
     machine machine;             /* of the first worker */
-                                 /* `threads` workers; all bytes of one are 0 before it is prepared */
-    worker *workers;
+    worker *workers;             /* `threads` of them; all bytes of one are 0 before it is prepared */
     int threads;
     size_t block; /* trajectories in a block of a callback; 0: no blocks */
     char note[MOTUS_TEXT_MAX];

@@ -20,7 +20,7 @@
 enum { BEFORE = 6, AFTER = 2, WINDOW = BEFORE + AFTER, NEARBY = 16 };
 #define OTHERS 0.375
 #define APART 0.25
-#define CLOSE 256   /* least room for that, in units in the last place of the time, where events accumulate */
+#define CLOSE 256   /* units in the last place of the time: least room for a distance, where events accumulate */
 #define CLOCK 1.5   /* units in the last place: the period, its multiple and the sum are rounded */
 #define ROUNDINGS 2 /* units in the last place of an event's time that run and companion share */
 /* Replace BARS_LASTING at a limit: flights of a ball have left up to 8 of these parts (dop853, all of one sign). A

@@ -114,8 +114,8 @@ struct witness {
     state at[STATES];
     double *a, *v;     /* the typed force, and velocities in the order it wants */
     double *most;      /* bounds on the accelerations of the step */
-    double *missing;   /* of every velocity: sizes added up over the parts */
-    double *lack;      /* of every velocity: added up with signs */
+    double *missing;   /* of every velocity: what is missing, sizes added up over the parts */
+    double *lack;      /* of every velocity: what is missing, added up with signs */
     double *speed;     /* of every velocity, with the others of its variable: the largest size in the step */
     double *felt;      /* of every velocity: what was missing in a step where it rested */
     double *allowed;   /* of every velocity: what a step may lose */
@@ -125,7 +125,7 @@ struct witness {
     double share[WAYS + MORE];
     /* of a run with located switches: what the force does along each way, less what has happened */
     double *ways, *room;
-    double *scale;      /* of accelerations */
+    double *scale;      /* the largest accelerations */
     double *weight;     /* 1 over what each velocity may be off */
     double *other_way;  /* one more way */
     resolution *smooth; /* what can hide in the force where its switches keep their sides; NULL: nothing */
@@ -152,7 +152,7 @@ struct witness {
     int64_t evaluations;   /* of the run, so far */
     double longest;        /* of the steps that it has looked at */
     double least;          /* what matters to the bars, of a velocity; INFINITY: only what a step may lose matters */
-    double sees;           /* `least` for a probe */
+    double sees;           /* `least` of the probe's own witness */
     bool far;              /* so much is missing that no probe need confirm it */
     double each;           /* what it earns in a step */
     int64_t steps;         /* steps of the run that stand, as far as it was shown them */

@@ -23,7 +23,7 @@ enum { SHORTEST = -24, AT_LEAST = -3, LONGEST = 5, BETWEEN = 5 }; /* of distance
 
 typedef struct weights {
     int points;
-    double sum; /* of their sizes */
+    double sum; /* of the sizes in `of` */
     double of[10];
 } weights;
 

@@ -21,19 +21,16 @@ typedef struct timing {
 
 typedef struct bars bars; /* api/error/bars.h */
 
-/* What goes along with a run, as its bars of error, and is called before and after its steps. The run knows no more of
- * it. */
+/* What goes along with a run, as its bars of error do, called before and after its steps. The run knows no more of it. */
 typedef struct run_company {
     motus_status (*begin)(motus_run *, motus_error *); /* called at the start of the run */
     void (*leg)(motus_run *);                          /* called where a leg begins, at a state that was set */
-    /* Says how many steps may follow before the next call. */
+    /* says how many steps may follow before the next call */
     motus_status (*before)(motus_run *, int64_t *steps, motus_error *);
-    void (*failed)(motus_run *); /* called when the run has failed */
-    /* Called when the run has gone on compiled; whether the company waits for an object of its own; and a look for
-     * that. */
-    motus_status (*compile)(motus_run *, motus_error *);
-    bool (*waits)(const motus_run *);
-    motus_status (*look)(motus_run *, motus_error *);
+    void (*failed)(motus_run *);                         /* called when the run has failed */
+    motus_status (*compile)(motus_run *, motus_error *); /* called when the run has gone on compiled */
+    bool (*waits)(const motus_run *);                    /* whether the company waits for an object of its own */
+    motus_status (*look)(motus_run *, motus_error *);    /* looks for that object */
     void (*end)(motus_run *);
 } run_company;
 

@@ -126,7 +126,7 @@ motus_status along_motion(motus_system *s, double way, double duration, linear *
 const along_place *along_fastest(const along *a)
 {
     const along_place *fastest = NULL;
-    double least = INFINITY; /* of the places behind */
+    double least = INFINITY; /* least rate of the later places */
     for (size_t k = a->count; k-- > 0;) {
         const along_place *p = &a->places[k];
         const double rate = p->rates.fastest;

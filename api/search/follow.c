@@ -35,10 +35,10 @@ typedef struct follower {
     double *stage_x, *stage_v; /* of a stage; after an attempt, of the end of the step */
     double *slope_x[4], *slope_v[4];
     double *largest_x, *largest_v;
-    swings *signals;    /* of each number of v, then of each acceleration */
+    swings *signals;    /* of every number of v, then of every acceleration */
     size_t falling;     /* the position with the largest force at the start */
     double force, side; /* force: on it at the start; side: its sign before it comes to 0 */
-    double speed;       /* its largest speed in the present fall */
+    double speed;       /* the largest speed of `falling` in the present fall */
     double *first_a;    /* at the start */
     double *largest_a;
     double unit_x, unit_v, start_x, start_v; /* sizes of positions (x) and of first-order variables (v) */
