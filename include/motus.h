@@ -54,9 +54,9 @@
 #include <stdint.h>
 
 #define MOTUS_VERSION_MAJOR 0
-#define MOTUS_VERSION_MINOR 1
+#define MOTUS_VERSION_MINOR 2
 #define MOTUS_VERSION_PATCH 0
-#define MOTUS_VERSION "0.1.0"
+#define MOTUS_VERSION "0.2.0"
 
 #ifdef MOTUS_BUILDING
 #define MOTUS_API __attribute__((visibility("default")))
