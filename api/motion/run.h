@@ -21,7 +21,7 @@ typedef struct timing {
 
 typedef struct bars bars; /* api/error/bars.h */
 
-/* What goes along with a run, as its bars of error do, called before and after its steps. The run knows no more of it. */
+/* What goes along with a run, as its bars of error do, called around its steps. The run knows no more of it. */
 typedef struct run_company {
     motus_status (*begin)(motus_run *, motus_error *); /* called at the start of the run */
     void (*leg)(motus_run *);                          /* called where a leg begins, at a state that was set */
