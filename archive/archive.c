@@ -22,12 +22,12 @@ struct motus_archive {
     directory directory;
     char *path;
     int descriptor;
-    unsigned char *room; /* for a column of a block */
-    uint64_t turn;       /* of the latest state, as far as it was asked for; 0: not yet, or there is none */
-    bool named;          /* its name is on the disk, too */
+    unsigned char *room; /* room for a column of a block */
+    uint64_t turn;       /* the turn of the latest state; 0: not asked for yet, or there is none */
+    bool named;          /* the name of the file is on the disk, too */
     unpack_archive *unpack;
-    unsigned char *piece, *unpacked;  /* of compressed rows: room for what the file has of a block, and the last one */
-    uint64_t piece_room, unpacked_of; /* of which it is, 1 + the number of its piece in the table; 0: of none */
+    unsigned char *piece, *unpacked;  /* of compressed rows: room for a block's piece, and the block unpacked last */
+    uint64_t piece_room, unpacked_of; /* the bytes of `piece`; 1 + the number of the unpacked piece, 0: of none */
 };
 
 motus_archive_def motus_archive_default(void)
@@ -57,7 +57,7 @@ static motus_status put(const motus_archive *a, const void *bytes, size_t count,
 
 /* ---- opening ---- */
 
-/* The directory, in a second go where it is larger than most. */
+/* Reads the directory, in a second go if it is larger than most are. */
 static motus_status read_directory(motus_archive *a, motus_error *err)
 {
     struct stat about;
@@ -197,7 +197,7 @@ static motus_status damaged(const motus_archive *a, uint64_t block, motus_error 
                 (unsigned long long)block + 1);
 }
 
-/* Makes a->unpacked the rows of a block. */
+/* Unpacks the rows of a block into a->unpacked, unless they are there already. */
 static motus_status unpack(motus_archive *a, size_t column, uint64_t block, uint64_t width, motus_error *err)
 {
     const directory *d = &a->directory;
@@ -224,7 +224,7 @@ static motus_status unpack(motus_archive *a, size_t column, uint64_t block, uint
     return MOTUS_OK;
 }
 
-/* Rows of a column, or of NUMBERS. */
+/* Reads rows of a column, or of NUMBERS. */
 static motus_status get_rows(motus_archive *a, size_t column, uint64_t row, size_t count, void *out, motus_error *err)
 {
     const directory *d = &a->directory;
@@ -244,7 +244,7 @@ static motus_status get_rows(motus_archive *a, size_t column, uint64_t row, size
 
 /* ---- blocks ---- */
 
-/* A hash is never 0, which says that a block is missing. */
+/* Returns the hash of a block, never 0, since 0 means that the block is missing. */
 static uint64_t some(uint64_t hash) { return hash ? hash : 1; }
 static uint64_t hash_begin(uint64_t block) { return directory_hash(DIRECTORY_HASH, &block, sizeof block); }
 
@@ -358,7 +358,7 @@ static uint64_t slot_hash(uint64_t turn, const void *bytes, uint64_t length)
     return directory_hash(directory_hash(DIRECTORY_HASH, numbers, sizeof numbers), bytes, (size_t)length);
 }
 
-/* The state in slot 0 or 1; *bytes NULL: it is not whole. */
+/* Reads the state in slot 0 or 1; *bytes NULL: it is not whole. */
 static motus_status read_slot(motus_archive *a, int which, slot_head *head, char **bytes, motus_error *err)
 {
     const uint64_t place = slot_place(a, (uint64_t)which);
@@ -414,7 +414,7 @@ static motus_status put_zeros(motus_archive *a, uint64_t place, uint64_t count, 
     return status;
 }
 
-/* `last`: the bytes behind the state become 0. */
+/* Writes a state into a slot. last: sets the bytes behind the state to 0. */
 static motus_status write_slot(motus_archive *a, uint64_t turn, const void *bytes, size_t length, bool last,
                                motus_error *err)
 {
@@ -439,13 +439,13 @@ static motus_status has_room(const motus_archive *a, size_t length, motus_error 
                 a->path);
 }
 
-/* The turn of the latest state; 0: there is none. */
+/* Finds the turn of the latest state; 0: there is none. */
 static motus_status latest_turn(motus_archive *a, uint64_t *turn, motus_error *err)
 {
     slot_head heads[2];
     char *found[2];
     *turn = a->turn;
-    if (*turn) return MOTUS_OK; /* it is this process that writes them */
+    if (*turn) return MOTUS_OK; /* it is known, since no other process writes states */
     const motus_status status = read_slots(a, heads, found, err);
     *turn = heads[0].turn > heads[1].turn ? heads[0].turn : heads[1].turn;
     free(found[0]);
@@ -461,7 +461,7 @@ motus_status motus_archive_save(motus_archive *a, const void *bytes, size_t leng
     return status ? status : write_slot(a, turn + 1, bytes, length, false, err);
 }
 
-/* At last both slots have the state, with the turns 1 and 2. On the way one of them is whole at any time. */
+/* Writes the state into both slots, with the turns 1 and 2. At any time one of them is whole. */
 motus_status motus_archive_settle(motus_archive *a, const void *bytes, size_t length, motus_error *err)
 {
     uint64_t turn;

@@ -10,7 +10,7 @@
 
 static bool one_line(const char *text) { return text && *text && !strchr(text, '\n') && strcmp(text, ".") != 0; }
 
-/* Whether the archive that is to be compressed has these blocks and columns. */
+/* Tells whether the archive that is to be compressed has these blocks and columns. */
 static bool same_shape(const motus_archive_def *d)
 {
     uint64_t first;

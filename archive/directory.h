@@ -44,8 +44,8 @@ typedef struct directory_column {
     uint64_t width; /* bytes of a row in the file */
 } directory_column;
 
-/* Where the bytes of a compressed block of a column are, and which filters of HDF5 were left out: bits 0 and 1, of
- * shuffling and of deflating. */
+/* Where the bytes of a compressed block of a column are, and which filters of HDF5 were left out: bit 0 for shuffling,
+ * bit 1 for deflating. */
 typedef struct directory_piece {
     uint64_t place, size, left_out;
 } directory_piece;
@@ -65,12 +65,12 @@ typedef struct directory {
 enum {
     DIRECTORY_LEAST = 4096, /* bytes; a multiple of what the columns are aligned to */
     DIRECTORY_MOST = 1 << 28,
-    DIRECTORY_HEAD = 80, /* at most: the first two lines */
+    DIRECTORY_HEAD = 80, /* most bytes of the first two lines */
     DIRECTORY_SLOT = 32  /* bytes before the state in a slot */
 };
-extern const char *const directory_kinds[]; /* their words */
+extern const char *const directory_kinds[]; /* the words of motus_archive_kind */
 
-/* The bytes of a number of this kind in the file. */
+/* Returns the bytes that a number of this kind takes in the file. */
 static inline size_t directory_width(motus_archive_kind kind)
 {
     return kind == MOTUS_ARCHIVE_WORD ? 1 : sizeof(double);
@@ -78,18 +78,17 @@ static inline size_t directory_width(motus_archive_kind kind)
 
 static inline uint64_t directory_blocks(uint64_t rows, uint64_t block) { return rows / block + (rows % block > 0); }
 
-/* The text for a definition, to be freed; *size: of the directory, a power of 2. places: of the rows' numbers, of
- * /blocks/done, of each column, of the slots and of the pieces, 0 where there are none; NULL: not yet known. NULL: no
- * memory. */
+/* Writes the text for a definition, which the caller frees; *size: of the directory, a power of 2. places: those of the
+ * rows' numbers, of /blocks/done, of each column, of the slots and of the pieces, 0 where there are none; NULL: not yet
+ * known. Returns NULL where there is no memory. */
 char *directory_write(const motus_archive_def *, const uint64_t *places, size_t *size);
-/* Reads a directory. `bytes` are the first of the file, `count` of them, which is at least as many as the directory has
- * or the whole file. On MOTUS_LIMIT it has *size bytes, more than `count`: read them and call again. Call
- * directory_free() in any case. */
+/* Reads a directory from the first `count` bytes of the file. MOTUS_LIMIT: the directory has *size bytes, more than
+ * `count`; read them and call again. Call directory_free() in any case. */
 motus_status directory_read(directory *, const char *bytes, size_t count, uint64_t file_size, const char *path,
                             size_t *size, motus_error *);
 void directory_free(directory *);
 
-/* A hash of 64 bits, which detects damage, not attacks. */
+/* Computes a hash of 64 bits, which detects damage, not attacks. */
 uint64_t directory_hash(uint64_t before, const void *bytes, size_t count);
 #define DIRECTORY_HASH UINT64_C(0x6d6f747573313031)
 

@@ -27,7 +27,7 @@ static motus_status damaged(const reader *r, const char *what)
     return MOTUS_STATE;
 }
 
-/* The next line without its newline; NULL: there is none. */
+/* Returns the next line without its newline; NULL: there is none. */
 static char *line(reader *r)
 {
     char *const begin = r->at, *const end = begin < r->end ? memchr(begin, '\n', (size_t)(r->end - begin)) : NULL;
@@ -37,7 +37,7 @@ static char *line(reader *r)
     return begin;
 }
 
-/* Whether the line begins with the word and a space; *text moves behind them. */
+/* Tells whether the line begins with the word and a space, and moves *text behind them. */
 static bool begins(char **text, const char *word)
 {
     const size_t length = strlen(word);
@@ -61,13 +61,13 @@ static bool number(char **text, uint64_t *value)
     return true;
 }
 
-/* Whether `count` numbers of `width` bytes from `place` on lie in the file, behind the directory. */
+/* Tells whether `count` numbers of `width` bytes from `place` on lie in the file, behind the directory. */
 static bool inside(const reader *r, uint64_t place, uint64_t count, uint64_t width)
 {
     return count == 0 || (place >= r->d->size && place <= r->file_size && count <= (r->file_size - place) / width);
 }
 
-/* "[3]" or "[100x3]" behind the kind of a column, and the space behind it. */
+/* Reads "[3]" or "[100x3]" behind the kind of a column, and the space behind it. */
 static bool shape(char **text, size_t out[2])
 {
     uint64_t n[2] = {0, 0};
@@ -148,7 +148,7 @@ static bool note(reader *r, char *text)
     return strlen(d->notes[d->note_count - 1].text) == length;
 }
 
-/* What comes before the columns, in its order. */
+/* Reads the lines before the columns, in their order. */
 static bool measures(reader *r)
 {
     directory *d = r->d;
@@ -173,7 +173,7 @@ static bool measures(reader *r)
 /* A compressed block is at most this many times as large as its bytes in the file (zlib's limit is 1032). */
 enum { SHRINKS = 1100 };
 
-/* Whether the pieces lie in the file, and a block of each column is not larger than they can hold. */
+/* Tells whether the pieces lie in the file, and are long enough for a block of their column. */
 static bool pieces(const reader *r)
 {
     const directory *d = r->d;
@@ -186,7 +186,7 @@ static bool pieces(const reader *r)
            inside(r, d->packed_place, blocks, (d->column_count + 1) * sizeof(directory_piece));
 }
 
-/* Room for as many columns, words and notes as there are lines. */
+/* Takes room for as many columns, words and notes as there are lines. */
 static bool make_room(reader *r)
 {
     size_t lines = 1;

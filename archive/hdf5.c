@@ -32,7 +32,7 @@ enum {
     ATTRIBUTE_MOST = 60000,    /* bytes: HDF5 has no room for more in an object's head */
     FILL = 1 << 20
 };
-static const char MISSING[] = "\xff"; /* of words */
+static const char MISSING[] = "\xff"; /* the value of a word that is missing */
 
 enum { TAKEN = 1 << 26, SYNCED = 1 << 25 }; /* bytes between two looks whether to stop */
 
@@ -60,7 +60,7 @@ static motus_status no_room(const maker *m, int code)
 
 /* ---- what HDF5 writes ---- */
 
-/* A text of fixed length. */
+/* Makes the type of a text of fixed length. */
 static hid_t text_type(const char *text)
 {
     const hid_t type = H5Tcopy(H5T_C_S1);
@@ -334,7 +334,7 @@ static hid_t make_group(hid_t file, const char *name)
     return group;
 }
 
-/* `aligned`: what is large begins at a page. */
+/* Creates the file. aligned: large data begin at a page. */
 static hid_t make_file(const char *path, size_t directory, bool aligned)
 {
     const hid_t made = H5Pcreate(H5P_FILE_CREATE), access = H5Pcreate(H5P_FILE_ACCESS);
@@ -506,7 +506,7 @@ static motus_status take_room(const maker *m, int descriptor)
     return code == ENOSPC || code == EDQUOT || code == EFBIG ? no_room(m, code) : status;
 }
 
-/* Everything of an archive without a block. */
+/* Writes an archive without a block. */
 static motus_status put_missing(const maker *m, int descriptor)
 {
     motus_status status = take_room(m, descriptor);

@@ -140,7 +140,7 @@ typedef struct checker {
     size_t room;                             /* of packed */
 } checker;
 
-/* Whether the piece has the rows of a block. */
+/* Tells whether the piece has the rows of a block. */
 static motus_status same(checker *c, size_t column, uint64_t block, directory_piece p, bool *yes, motus_error *err)
 {
     const motus_archive_def *d = c->d;

@@ -8,14 +8,14 @@
 #include <hdf5.h>
 #include <stdbool.h>
 
-/* Makes `list`, of H5Dcreate2, that of compressed rows. */
+/* Sets the property list of a data set, for H5Dcreate2, to compressed rows. */
 bool pack_layout(hid_t list, int dimensions, const hsize_t *chunk);
-/* Writes all blocks of a column, 1 + its number, or of the rows' numbers, 0, of d->from; and where each is.
- * MOTUS_STATE: one is missing. */
+/* Writes all blocks of d->from of column number `column` - 1, or of the rows' numbers if it is 0, and tells where each
+ * block is. MOTUS_STATE: a block is missing. */
 motus_status pack_rows(hid_t set, const motus_archive_def *d, size_t column, directory_piece *, const char *path,
                        motus_error *);
-/* Reads the pieces of all blocks back, and compares the blocks with those of d->from. HDF5 may count places from behind
- * the `before` first bytes of the file: then they are set right. */
+/* Reads the pieces of all blocks back, and compares the blocks with those of d->from. Corrects places that HDF5 counts
+ * from behind the first `before` bytes of the file. */
 motus_status pack_check(const motus_archive_def *, directory_piece *, int descriptor, uint64_t before, const char *path,
                         motus_error *);
 

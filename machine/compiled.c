@@ -268,7 +268,7 @@ static object *find(compiled *c, const purpose *p)
     return NULL;
 }
 
-/* The text, or NULL and c->note. */
+/* Writes the text; NULL: it failed, and c->note says why. */
 static const char *text_of(compiled *c, const chosen *chosen, emit *e)
 {
     *e = (emit){.text = {.arena = c->model->arena}, .pool = chosen->varies ? NULL : c->model->pool};
@@ -292,7 +292,7 @@ static int loops_of(const compiled *c, const purpose *p)
     return !compose_small(c->model) && !p->row->expands ? COMPILER_LOOPS : 0;
 }
 
-/* Takes an object that was loaded; NULL and c->note: it is not sound. */
+/* Takes an object that was loaded; NULL: it is not sound, and c->note says why. */
 static object *adopt(compiled *c, const purpose *p, const emit *e, void *handle)
 {
     object *o = &c->objects[c->count];

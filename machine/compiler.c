@@ -138,7 +138,7 @@ static void open_tie(int tie[2])
     if (pipe2(tie, O_CLOEXEC)) tie[GROUP] = tie[PROCESS] = -1;
 }
 
-/* In the child. */
+/* Ties the child's process group to this process's end of the pipe; called in the child. */
 static void tie_group(int end)
 {
     if (end < 0) return;

@@ -50,7 +50,7 @@ static int best_groups(const lanes_def *d, const work *plan)
     return groups < 1 ? 1 : groups > GROUPS_MAX ? GROUPS_MAX : (int)groups;
 }
 
-/* Why lanes cannot take the steps between events. */
+/* Returns why lanes cannot take the steps between events, or NULL. */
 static const char *refuse_events(const lanes_def *d)
 {
     const model *m = d->model;
@@ -122,7 +122,7 @@ static size_t list_observed(const lanes_def *d, observed list[OBSERVED_MAX], siz
     return count;
 }
 
-/* Where a source is found. */
+/* Tells where a source is found. */
 static lanes_record place_of(const lanes_source *s, const observed *quantities, size_t observed_count)
 {
     static const int from[] = {

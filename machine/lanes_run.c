@@ -10,7 +10,7 @@ enum { ITEM_BYTES = 256 << 10 }; /* the blocks of an item fit the second-level c
 enum { REFILLS = 16 };  /* own clocks: blocks of trajectories that pass through the one running block of an item */
 #define LITTLE_WORK 1e6 /* operations: some 0.1 ms in lanes */
 
-/* Gives an item its memory, which begins here. */
+/* Gives an item its part of the memory of a thread. */
 static void place_item(lanes_item *b, double *memory)
 {
     b->memory = memory;

@@ -6,8 +6,8 @@
 
 #include <stdint.h>
 
-/* A hash of the last positions and velocities of 64 chaotic trajectories, in the widest lanes that the processor has:
- * processors of different hashes must not compute one sweep together. */
+/* Computes a hash of the last positions and velocities of 64 chaotic trajectories, in the widest lanes of the
+ * processor. Processors with different hashes must not compute one sweep together. */
 motus_status bits_compute(uint64_t *hash, motus_error *);
 
 #endif

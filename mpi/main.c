@@ -19,7 +19,7 @@
 
 typedef struct counter {
     MPI_Win window;
-    uint64_t *value; /* of rank 0 */
+    uint64_t *value; /* the counter, which rank 0 has */
     int rank;
 } counter;
 
@@ -72,7 +72,7 @@ static void share(void *context, void *bytes, size_t count)
     }
 }
 
-/* Some transports answer the others only while the process that has the counter is inside MPI. */
+/* Calls MPI in the process that has the counter, since some transports answer the others only inside such calls. */
 static void answer(void *context)
 {
     int flag;
@@ -124,7 +124,7 @@ static const char *instructions(void)
 #endif
 }
 
-/* What rank k says of itself, which all call in the same order. Returns out. */
+/* Writes and returns what rank k says of itself; all ranks call it, in one order. */
 static const char *said_by(int k, const char *mine, char out[SAID])
 {
     snprintf(out, SAID, "%s", mine);
@@ -132,7 +132,7 @@ static const char *said_by(int k, const char *mine, char out[SAID])
     return out;
 }
 
-/* Ranks of several versions would compute different bits. Returns 0, or the exit status. */
+/* Checks that all ranks have one version, since several would compute different bits. Returns 0, or the exit status. */
 static int versions_differ(int rank, int size)
 {
     char first[SAID], other[SAID];
@@ -149,7 +149,7 @@ static int versions_differ(int rank, int size)
     return differs ? 2 : 0;
 }
 
-/* What each rank is and computes. Returns the exit status. */
+/* Prints what each rank is and computes. Returns the exit status. */
 static int check(int rank, int size)
 {
     char own[SAID], first[SAID] = "", other[SAID], name[MPI_MAX_PROCESSOR_NAME] = "", bits[24];

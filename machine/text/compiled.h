@@ -22,14 +22,14 @@ static void pass_force(work *, clock t, const clock *T, real *x, real *v, real *
 #endif
 
 #if TERMS
-/* Compiled once, for all but the loop over steps. */
+/* Is compiled once, for all callers but the loop over steps. */
 __attribute__((noinline)) static void compiled_terms_apart(const compiled_host *host, const reals *t, reals *many)
 {
     compiled_force_terms(host->pool, host->q, host->u, *t, many);
 }
 #endif
 
-/* The values that depend on time alone, at t; T is room for them. */
+/* Returns the values that depend on time alone, at t; T is room for them. */
 static inline const clock *compiled_terms(const compiled_host *host, clock t, clock *T)
 {
 #if TERMS
@@ -43,7 +43,7 @@ static inline const clock *compiled_terms(const compiled_host *host, clock t, cl
     return T;
 }
 
-/* Accelerations of modes are 0, but no formula says so: `a` would keep what the steps before have left there. */
+/* Sets the accelerations of modes to 0, since no formula does: `a` would keep what earlier steps have left there. */
 static inline void modes_rest(const work *w, real *a)
 {
     for (size_t k = FACT(w, nx) - MODES; k < FACT(w, nx); k++) a[k] = (real){0};

@@ -6,7 +6,7 @@
  * loop does, to the same bits, because that text would take the compiler as long as all the rest: the first step of a
  * leg, the steps that fill no vector of times, and the steps in which something fails, from the workspace as it was.
  */
-/* Whether the steps end here, because something may have happened in the last one. */
+/* Tells whether the steps end here, because something may have happened in the last one. */
 static inline bool compiled_met(const work *w) { return WATCHES(w) && w->watch->met; }
 
 #if TERMS
@@ -136,7 +136,7 @@ int motus_run(work *given, whole steps)
 void motus_accel(const compiled_host *host, clock t, real *x, real *v, real *a) { compiled_evaluate(host, t, x, v, a); }
 #endif
 
-/* Whether the numbers that stand in this text are the model's: else the library's own loop takes the steps. */
+/* Tells whether the numbers in this text are those of the model; if not, the library's own loop takes the steps. */
 int motus_fits(const double *u) { return (void)u, FITS(u); }
 
 void motus_bind(const double *pool, const int64_t *q, double *u)

@@ -17,7 +17,7 @@ typedef reals reals_anywhere __attribute__((aligned(8))); /* GCC and clang let a
 #define INDEX_KEEP(x) ((void)0)
 #endif
 
-/* In the loop over the remaining values, so that the compiler does not vectorise it: it is too short. */
+/* Keeps the compiler from vectorising the loop over the remaining values, which is too short. */
 #define INDEX_REST __asm__ volatile("")
 
 static inline reals index_load(const double *p)
@@ -29,7 +29,7 @@ static inline reals index_load(const double *p)
 
 static inline void index_store(double *p, reals r) { *(reals_anywhere *)p = r; }
 
-/* j, j + 1, … as numbers. */
+/* Returns j, j + 1, … as numbers. */
 static inline reals index_count(int64_t j)
 {
 #if WIDTH == 8
@@ -59,7 +59,7 @@ static inline reals index_count(int64_t j)
 #endif
 
 #ifdef WRAPS
-/* The numbers from index k on of a ring of n numbers. */
+/* Returns the numbers from index k on of a ring of n numbers. */
 static inline reals index_around(const double *ring, int64_t k, int64_t n)
 {
     k = wrapped(k, n);

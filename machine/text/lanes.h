@@ -13,7 +13,7 @@
  */
 void motus_lanes_bind(const double *pool, const int64_t *q, double *u) { lanes_bind(pool, q, u); }
 
-/* The numbers that all lanes share, `count` steps from job->n on; room for LANES_OF_TIME more. */
+/* Tabulates the numbers that all lanes share, for `count` steps from job->n on; room for LANES_OF_TIME more. */
 void motus_lanes_table(const lanes_job *job, double *table, whole count)
 {
 #if TERMS
@@ -37,7 +37,7 @@ static inline compiled_host lanes_host(const lanes_job *job, size_t group, bool 
     return host;
 }
 
-/* Its clock: time, steps taken, and the row's constants for the present step; `scaled` is room for them. */
+/* The clock of a group: time, steps taken, and the row's constants for the present step; `scaled` is room for them. */
 static inline void lanes_clock(work *w, const lanes_job *job, size_t group, clock *scaled)
 {
     w->scaled = scaled;
@@ -113,7 +113,7 @@ static inline void lanes_store(work *w, real *carry)
     lanes_place(w, host, room_group);   \
     lanes_load(w, job->carry + group * CARRIED * FACT(w, nv))
 
-/* Whether some of the numbers is NaN, or as large as `limit`, which may be infinite. */
+/* Tells whether a number is NaN or as large as `limit`, which may be infinite. */
 int motus_lanes_far(const real *numbers, size_t count, double limit)
 {
     mask far = NEVER;
@@ -124,7 +124,7 @@ int motus_lanes_far(const real *numbers, size_t count, double limit)
 
 /* ---- a leg begins ---- */
 
-/* From the values that vary to the state at the start. */
+/* Computes the state at the start from the values that vary. */
 void motus_lanes_begin(const lanes_job *job)
 {
     LANES_SIZES(w);
@@ -143,7 +143,7 @@ void motus_lanes_begin(const lanes_job *job)
     }
 }
 
-/* From the state that was observed to what the steps carry. */
+/* Computes what the steps carry from the state that was observed. */
 void motus_lanes_set(const lanes_job *job)
 {
     LANES_SIZES(w);
@@ -158,7 +158,7 @@ void motus_lanes_set(const lanes_job *job)
 
 /* ---- observations ---- */
 
-/* What is recorded of a state: `all` of it, or what has to be observed on the way. */
+/* Records a state: `all` of it, or only the records that need observations on the way. */
 static inline void lanes_keep(const lanes_job *job, const real *x, const real *v, const real *out, clock t, bool first,
                               bool all, size_t group)
 {
@@ -184,7 +184,7 @@ static inline void lanes_keep(const lanes_job *job, const real *x, const real *v
     }
 }
 
-/* The time of an observation from outside: the end is `until`, whatever t0 + n h comes to. */
+/* Returns the time of an observation from outside the loop: at the end it is `until`, whatever t0 + n h is. */
 static inline clock lanes_time(const lanes_job *job, const work *w, size_t group)
 {
 #if OWN_CLOCK
@@ -196,7 +196,7 @@ static inline clock lanes_time(const lanes_job *job, const work *w, size_t group
 #endif
 }
 
-/* The state of a group as it is observed, and the quantities that are recorded. */
+/* Computes the state of a group as it is observed, and the quantities that are recorded. */
 static inline void lanes_see(const lanes_job *job, work *w, const compiled_host *host, clock t, size_t group)
 {
     real *x = job->x + group * FACT(w, nx), *v = job->v + group * FACT(w, nv), *out = job->out + group * job->out_size;
@@ -211,7 +211,7 @@ static inline void lanes_see(const lanes_job *job, work *w, const compiled_host 
     lanes_quantities(host, t, x, v, a, out);
 }
 
-/* An observation from outside the loop; records nothing where record_count is 0. */
+/* Observes from outside the loop; records nothing where record_count is 0. */
 void motus_lanes_observe(const lanes_job *job)
 {
     for (size_t group = 0; group < GROUPS; group++) {
@@ -225,7 +225,7 @@ void motus_lanes_observe(const lanes_job *job)
     }
 }
 
-/* An observation from within: positions are where they are, all else is computed. */
+/* Observes from within the loop: takes positions from the workspace, and computes all else. */
 static inline void lanes_observe_within(const lanes_job *job, work *w, const compiled_host *host, size_t group)
 {
     const clock t = time_now(w);
@@ -278,7 +278,7 @@ void motus_lanes_first(const lanes_job *job) { lanes_step_once(job, true, true);
     compiled_host host_##g = lanes_host(job, g, SOLVE_CONSTANT); \
     SOLVE_NEAR(host_##g, solving_##g, lost_##g)
 #if OWN_CLOCK
-/* Every group has a workspace. */
+/* Prepares a workspace for every group. */
 #define LANES_PREPARE(g)                                           \
     LANES_NEW(work_##g);                                           \
     clock scaled_##g[CONSTANTS + 1];                               \
@@ -290,7 +290,7 @@ void motus_lanes_first(const lanes_job *job) { lanes_step_once(job, true, true);
 #define LANES_SELECT(g) work *const w = &work_##g;
 #define LANES_TICK ((void)0)
 #else
-/* All groups share one, whose arrays change. */
+/* Prepares the one workspace of all groups, whose arrays change from group to group. */
 #define LANES_PREPARE(g)                 \
     lanes_place(w, &host_##g, room_##g); \
     lanes_load(w, job->carry + g * CARRIED * FACT(w, nv));
@@ -342,7 +342,7 @@ static inline mask lanes_open(const lanes_job *job, const work *w, const compile
     return open;
 }
 
-/* What the lanes of a group are before a step. */
+/* Keeps the lanes of a group as they are before a step. */
 static inline void lanes_keep_before(const lanes_job *job, work *w, size_t group)
 {
     lanes_store(w, job->before + group * CARRIED * FACT(w, nv));

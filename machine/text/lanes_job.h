@@ -37,24 +37,24 @@ typedef struct lanes_job {
     compiled_host host;                     /* `own` and `bound` of the first group */
     size_t own_size, bound_size;            /* elements of each group: 0 where there are none */
     size_t nx, nv, stride;                  /* of a workspace, as in work.h */
-    real *clocks;                           /* LANES_CLOCKS of each group, where every lane has its own; */
-    double relative, absolute, least, most; /* of error control, */
+    real *clocks;                           /* LANES_CLOCKS of each group, where every lane has its own clock */
+    double relative, absolute, least, most; /* of error control */
     int variables;
-    const size_t *variable; /* and the variables, as in work.h */
+    const size_t *variable; /* of error control: the variables, as in work.h */
     /* Adaptive: the accelerations at the present states, nv of each group, and of each group whether they are known;
      * motus_lanes_run reads and writes them. NULL: none are. */
     real *known;
     bool *fresh;
-    double t0, h;        /*   else the time that all share, */
-    whole n;             /*   and the steps taken since t0 */
+    double t0, h;        /* with a shared clock: the leg */
+    whole n;             /* with a shared clock: the steps taken since t0 */
     const double *table; /* of the values that depend on time alone, from step `first_row` on */
     whole first_row;
 
-    const real *values;  /* that vary: value_count of each group */
+    const real *values;  /* the values that vary: value_count of each group */
     const whole *places; /* where the values go in the pool */
     whole value_count;
     const whole *from_x, *from_v; /* places of the pool where x and v start */
-    const double *x0, *v0;        /* and their values where all lanes share them: from_x[k] < 0 */
+    const double *x0, *v0;        /* the values at the start that all lanes share: where from_x[k] < 0 */
 
     real *carry;   /* what a trajectory carries from step to step: CARRIED arrays of each group */
     real *room;    /* ARRAYS arrays of each group, where they are not local */

@@ -69,7 +69,7 @@ PASS_MOVE(pass_move, false, false)
 PASS_MOVE(pass_move_twice, true, ROW(w, compensated))
 PASS_MOVE(pass_move_end, false, true)
 
-/* Stage i, with the positions `from`; the new ones go to `to`. */
+/* Takes stage i from the positions `from`; the new positions go to `to`. */
 static inline void pass_sweep(work *w, int i, real *from, real *to, const window_put *move)
 {
     const clock t = time_in(w, FACT(w, c)[i]);

@@ -30,7 +30,7 @@ static inline void reduce_next(real *kept, int how, real value, real t)
     }
 }
 
-/* The result after `count` observations. */
+/* Returns the result after `count` observations. */
 static inline real reduce_last(const real *kept, int how, clock count)
 {
     return how == REDUCE_MEAN                                       ? kept[0] / count

@@ -67,7 +67,7 @@ static inline void solve_lu_back(const real *restrict m, const real *restrict pi
     for (int k = 0; k < SOLVE_N; k++) b[k] /= m[k];
 }
 #else
-/* Rows j and the one that each lane has picked change places. */
+/* Exchanges row j and the row that each lane has picked. */
 static inline void solve_swap(real *restrict m, real best, int j)
 {
     for (int i = 1; i <= SOLVE_LAST(j, SOLVE_LOWER) - j; i++) {
@@ -81,7 +81,7 @@ static inline void solve_swap(real *restrict m, real best, int j)
     }
 }
 
-/* Where it is regular. */
+/* Tells in which lanes the matrix is regular. */
 static inline mask solve_lu(real *restrict m, real *restrict pivot)
 {
     mask regular = ALWAYS;

@@ -1,6 +1,6 @@
 /* After every step the watched loop tests whether the lower bounds on |g| of all functions g of the model's rules are
- * positive on the box of the step; only where one is not does it leave for `quiet` of core/events_find.c.
- * `compiled_least` gives the interpreter's bits, so that `quiet` would give the same answer.
+ * positive on the box of the step; only where one is not does it call `quiet` of core/events_watch.c. `compiled_least`
+ * gives the interpreter's bits, so that `quiet` would give the same answer.
  */
 static inline bool compiled_idle(const work *w)
 {
