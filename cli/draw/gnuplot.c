@@ -5,15 +5,14 @@
  * file_write() notices a full disk and gnuplot does not.
  */
 #define _XOPEN_SOURCE 700
+#include "cli/draw/plot.h"
 #include "cli/words/complain.h"
-#include "cli/draw/gnuplot.h"
 
 #include "cli/files/spawn.h"
 #include "cli/files/stop.h"
 
 #include <errno.h>
 #include <fcntl.h>
-#include <stdlib.h>
 #include <string.h>
 #include <sys/types.h>
 #include <sys/wait.h>

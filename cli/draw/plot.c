@@ -5,10 +5,9 @@
  * than colour: each has its own dashes and, if there are several, its own marker. Thinning keeps the smallest and the
  * largest value of every column of the picture.
  */
-#include "cli/words/complain.h"
 #include "cli/draw/plot.h"
+#include "cli/words/complain.h"
 
-#include "cli/draw/gnuplot.h"
 #include "cli/words/text.h"
 
 #include <math.h>

@@ -60,4 +60,17 @@ motus_status plot_check(const char *path, motus_error *);
 /* Draws into the file (finished by the caller), in the format that `path` ends in. */
 motus_status plot_draw(plot_figure *, const char *path, file_out *, motus_error *);
 
+/* gnuplot as a child process: it reads a script, and its picture is written to a file. */
+typedef struct gnuplot {
+    FILE *script;     /* write the script here */
+    FILE *complaints; /* gnuplot's standard error */
+} gnuplot;
+
+/* TOOL, with the command that installs it, if there is no gnuplot. */
+motus_status gnuplot_check(motus_error *);
+motus_status gnuplot_open(gnuplot *, motus_error *);
+/* Runs the script; the picture goes to the file. TOOL, with gnuplot's first message, if it failed. */
+motus_status gnuplot_draw(gnuplot *, file_out *picture, motus_error *);
+void gnuplot_close(gnuplot *);
+
 #endif

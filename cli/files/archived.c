@@ -36,10 +36,9 @@ motus_status archived_numbers(motus_archive *a, const char *path, uint64_t block
         for (size_t i = 0; !status && i < some; i++) {
             const uint64_t number = archived_sweep(a) ? shard_trajectory(&of, row + i) : row + i;
             if (its[i] == (int64_t)number) continue;
-            fail(err, MOTUS_STATE, "%s is damaged: row %" PRIu64 " has the number %" PRId64 " in place of %" PRIu64,
-                 path, row + i, its[i], number);
-            hint(err, "take a copy, or compute it anew: --force");
-            status = MOTUS_STATE;
+            status = complain(err, MOTUS_STATE, "take a copy, or compute it anew: --force",
+                              "%s is damaged: row %" PRIu64 " has the number %" PRId64 " in place of %" PRIu64, path,
+                              row + i, its[i], number);
         }
     }
     return status;

@@ -10,8 +10,8 @@
 #include "cli/files/file.h"
 
 #include "base/disk.h"
-#include "cli/words/complain.h"
 #include "cli/files/stop.h"
+#include "cli/words/complain.h"
 
 #include <errno.h>
 #include <fcntl.h>

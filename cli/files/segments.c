@@ -5,8 +5,8 @@
 #include "base/disk.h"
 #include "cli/files/checks.h"
 #include "cli/files/command.h"
-#include "cli/words/complain.h"
 #include "cli/files/file.h"
+#include "cli/words/complain.h"
 
 #include <dirent.h>
 #include <errno.h>

@@ -2,7 +2,7 @@
 #include "cli/files/shard.h"
 
 #include "base/decimal.h"
-#include "base/error.h"
+#include "cli/words/complain.h"
 
 #include <inttypes.h>
 #include <stdio.h>
@@ -23,9 +23,8 @@ static motus_status of_slurm(shard *s, motus_error *err)
     uint64_t value[4];
     for (size_t k = 0; k < 4; k++) {
         if (whole_number(getenv(names[k]), &value[k])) continue;
-        fail(err, MOTUS_ARGUMENT, "--shard slurm: %s is not a number in the environment", names[k]);
-        hint(err, "submit an array, sbatch --array=1-100, or name the shard: --shard 3/100");
-        return MOTUS_ARGUMENT;
+        return complain(err, MOTUS_ARGUMENT, "submit an array, sbatch --array=1-100, or name the shard: --shard 3/100",
+                        "--shard slurm: %s is not a number in the environment", names[k]);
     }
     *s = (shard){value[0], value[1], SHARD_BLOCK};
     if (value[2] == 1 && value[3] == value[1] && s->number >= 1 && s->number <= s->count) return MOTUS_OK;
@@ -61,9 +60,8 @@ motus_status shard_read(shard *s, const char *text, motus_error *err)
     } else {
         const size_t length = shard_parse(s, text);
         if (length == 0 || text[length] || s->block != SHARD_BLOCK) {
-            fail(err, MOTUS_ARGUMENT, "--shard %s: this is no shard", text);
-            hint(err, "--shard 3/100 is the third of a hundred: from 1/100 to 100/100");
-            status = MOTUS_ARGUMENT;
+            status = complain(err, MOTUS_ARGUMENT, "--shard 3/100 is the third of a hundred: from 1/100 to 100/100",
+                              "--shard %s: this is no shard", text);
         }
     }
     if (!status && s->count > SHARD_MOST) {

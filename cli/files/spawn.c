@@ -6,8 +6,12 @@
 #include "cli/files/spawn.h"
 
 #include <errno.h>
+#include <fcntl.h>
 #include <signal.h>
 #include <spawn.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
 
 extern char **environ;
 
@@ -33,4 +37,39 @@ int spawn_program(pid_t *process, char *const arguments[], const int streams[3],
     posix_spawn_file_actions_destroy(&actions);
     posix_spawnattr_destroy(&attributes);
     return code;
+}
+
+/* ---- the browser: the address is one argument that begins with its scheme, so that a file's name is never taken for
+ * an option or a command ---- */
+
+#ifdef __APPLE__
+#define OPENER "open"
+#else
+#define OPENER "xdg-open"
+#endif
+
+static bool start(const char *program, const char *url)
+{
+    char *const arguments[] = {(char *)program, (char *)url, NULL};
+    const int nothing = open("/dev/null", O_RDWR | O_CLOEXEC);
+    pid_t process;
+    const bool good = nothing >= 0 && spawn_program(&process, arguments, (int[]){nothing, nothing, nothing}, true) == 0;
+    if (nothing >= 0) close(nothing);
+    return good;
+}
+
+bool browser_open(const char *url)
+{
+    const char *wanted = getenv("BROWSER");
+    char *list = strdup(wanted ? wanted : "");
+    bool good = false;
+    /* $BROWSER is a list of programs in order of preference. An entry with arguments, "firefox -P work %s", fails to
+     * start here; the system's opener reads $BROWSER too and can run it. */
+    for (char *name = list, *end; name && *name && !good; name = end) {
+        end = name + strcspn(name, ":");
+        if (*end) *end++ = 0;
+        good = *name && start(name, url);
+    }
+    free(list);
+    return good || start(OPENER, url);
 }

@@ -10,4 +10,8 @@
  * so that Ctrl-C does not reach it. Returns 0 or an errno. */
 int spawn_program(pid_t *, char *const arguments[], const int streams[3], bool apart);
 
+/* Starts $BROWSER, else the system's program for opening addresses, without waiting for it or showing its output.
+ * False: none could be started. */
+bool browser_open(const char *url);
+
 #endif

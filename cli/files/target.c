@@ -7,8 +7,8 @@
 #include "cli/files/target.h"
 
 #include "base/disk.h"
-#include "cli/words/complain.h"
 #include "cli/files/file.h"
+#include "cli/words/complain.h"
 
 #include <errno.h>
 #include <fcntl.h>

@@ -5,9 +5,9 @@
  *
  * Invariant: numbers are constant expressions of the language; each is finite, each count at least 1.
  */
-#include "cli/words/complain.h"
 #include "cli/model/grid.h"
-#include "cli/words/typed.h"
+#include "cli/words/complain.h"
+#include "cli/words/words.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -2,10 +2,10 @@
  *
  * Invariant: every row gives one finite number, or the error names its line.
  */
-#include "cli/words/complain.h"
 #include "cli/files/file.h"
 #include "cli/model/grid.h"
-#include "cli/words/typed.h"
+#include "cli/words/complain.h"
+#include "cli/words/words.h"
 
 #include <errno.h>
 #include <math.h>

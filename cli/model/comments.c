@@ -1,5 +1,5 @@
-/* See comments.h. */
-#include "cli/model/comments.h"
+/* What the comments of a model say of its numbers. See load.h. */
+#include "cli/model/load.h"
 
 #include "base/utf8.h"
 

@@ -1,12 +1,12 @@
-/* See components.h.
+/* --set of one component of a vector or family. See load.h.
  *
  * Invariant: components of parameters are set before those of initial values, so that an initial value which was set
  * stays as it was set.
  */
-#include "cli/model/components.h"
+#include "cli/model/load.h"
 
 #include "cli/words/complain.h"
-#include "cli/words/typed.h"
+#include "cli/words/words.h"
 
 #include <stdlib.h>
 #include <string.h>

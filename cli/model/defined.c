@@ -1,5 +1,5 @@
-/* See defined.h. */
-#include "cli/model/defined.h"
+/* Quantities that --record adds to a model. See load.h. */
+#include "cli/model/load.h"
 
 #include "cli/words/complain.h"
 #include "cli/words/options.h"

@@ -2,8 +2,8 @@
 #ifndef CLI_MODEL_GRID_H
 #define CLI_MODEL_GRID_H
 
-#include "cli/words/options.h"
 #include "cli/model/range.h"
+#include "cli/words/options.h"
 
 typedef enum axis_kind { AXIS_RANGE, AXIS_LIST, AXIS_UNIFORM, AXIS_NORMAL } axis_kind;
 
@@ -36,7 +36,7 @@ size_t grid_find(const grid *, const char *name);
 size_t grid_axis_values(const grid *, size_t axis, uint64_t first, size_t count, double *values);
 void grid_free(grid *);
 
-/* grid_extremes.c: values[axis][row], at the ends of the axes: every trajectory of a few, else the corners, or of many
+/* values[axis][row], at the ends of the axes: every trajectory of a few, else the corners, or of many
  * axes one end after the other. They are those of the whole sweep, whatever part of it is computed. */
 motus_status grid_extremes(const grid *, double ***values, size_t *rows, motus_error *);
 void grid_extremes_free(double **values);

@@ -4,10 +4,9 @@
  */
 #include "cli/model/load.h"
 
-#include "cli/words/complain.h"
-#include "cli/model/components.h"
 #include "cli/files/file.h"
 #include "cli/files/stop.h"
+#include "cli/words/complain.h"
 #include "cli/words/text.h"
 
 #include <math.h>

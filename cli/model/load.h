@@ -2,8 +2,23 @@
 #ifndef CLI_MODEL_LOAD_H
 #define CLI_MODEL_LOAD_H
 
-#include "cli/model/defined.h"
+#include "base/error.h"
 #include "cli/words/options.h"
+
+/* Quantities that --record adds to a model: what its events keep, count(bounce), time(bounce, last), at(bounce, 3, x').
+ * Each has a name that the model's text does not contain, and is told by what was asked for. */
+typedef struct defined {
+    char **line; /* "recorded1 = count(bounce)" */
+    size_t count;
+} defined;
+
+/* Those of a list of --record, NULL: none. Call defined_free() also after a failure. */
+motus_status defined_find(defined *, const char *list, const char *text, motus_error *);
+void defined_free(defined *);
+/* The name of the quantity for an item, of `length` bytes in *length; NULL: it is none. */
+const char *defined_name(const defined *, const char *item, size_t *length);
+/* What was asked for, where `column` is such a quantity or a component of it; *rest: what follows the name in it. */
+const char *defined_label(const defined *, const char *column, const char **rest);
 
 #define LOAD_SECTION "section" /* the name of the event of --section */
 
@@ -32,5 +47,17 @@ size_t load_quantity_column(const load *);
 size_t load_invariant_column(const load *);
 /* The end, once it is settled. NaN: none. */
 double load_until(const load *);
+
+/* components.c: whether an item of --set names a component, "r.x(0)=5", "r'.y(0)=1", "r[3].x(0)=2", "g.x=9.81". The
+ * text of a model gives a vector as a whole, so the library's `set` does not take one. */
+bool components_are(const char *item);
+/* Sets those items that name one, in a system that was read with the others. */
+motus_status components_set(motus_system *, const options_list *set, motus_error *);
+
+/* comments.c: what the comments of a model say of its numbers, their units for one: "k = 2   # N/m". The comment
+ * behind the line of the model's text that gives a column its value: of a parameter or a quantity its own, of a state
+ * that of its initial value; to be freed. The column as archives name it: "k", "x'", "r.x(0)", "max(energy)",
+ * "x[3].error". NULL: there is none, or no memory. */
+char *comments_find(const char *model, const char *column);
 
 #endif

@@ -7,11 +7,11 @@
 
 #include "base/decimal.h"
 #include "base/utf8.h"
-#include "cli/model/components.h"
-#include "cli/words/complain.h"
 #include "cli/files/file.h"
+#include "cli/model/load.h"
+#include "cli/words/complain.h"
 #include "cli/words/text.h"
-#include "cli/words/typed.h"
+#include "cli/words/words.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -168,9 +168,8 @@ motus_status share_fragment(const load *m, const options *o, char **fragment, mo
     for (size_t k = 0; k < o->set.count; k++)
         if (components_are(o->set.items[k])) {
             free(methods);
-            fail(err, MOTUS_ARGUMENT, "--set %s: a link holds vectors as a whole", o->set.items[k]);
-            hint(err, "set all components: \"r(0) = (1, 0)\"");
-            return MOTUS_ARGUMENT;
+            return complain(err, MOTUS_ARGUMENT, "set all components: \"r(0) = (1, 0)\"",
+                            "--set %s: a link holds vectors as a whole", o->set.items[k]);
         }
     items all = {malloc((o->set.count + OTHERS + OPTION_COUNT) * sizeof *all.list), 0};
     motus_status status = methods && all.list ? MOTUS_OK : complain_memory(err);

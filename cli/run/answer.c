@@ -1,5 +1,5 @@
-/* See answer.h. */
-#include "cli/run/answer.h"
+/* What the errors of a finished run rest on, in words. */
+#include "cli/run/summary.h"
 
 #include "cli/words/text.h"
 

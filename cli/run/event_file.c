@@ -1,16 +1,14 @@
-/* The table of events as CSV. See event_file.h.
+/* The table of events as CSV.
  *
  * Invariant: a row is as long as the head; the values after an event that changed nothing are those on arrival.
  */
-#include "cli/run/event_file.h"
-
-#include "cli/words/complain.h"
 #include "cli/run/csv.h"
-#include "cli/model/defined.h"
+
+#include "cli/model/load.h"
+#include "cli/words/complain.h"
 
 #include <math.h>
 #include <stdlib.h>
-#include <string.h>
 
 typedef struct job {
     file_out *file;

@@ -1,5 +1,5 @@
-/* The events of a run in print. See event_table.h. */
-#include "cli/run/event_table.h"
+/* The events of a run in print. */
+#include "cli/run/summary.h"
 
 #include "cli/words/complain.h"
 #include "cli/words/text.h"

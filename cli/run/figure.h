@@ -2,11 +2,34 @@
 #ifndef CLI_RUN_FIGURE_H
 #define CLI_RUN_FIGURE_H
 
-#include "cli/model/load.h"
 #include "cli/draw/plot.h"
-#include "cli/run/record.h"
+#include "cli/files/file.h"
+#include "cli/model/load.h"
+#include "cli/run/walk.h"
 
 enum { FIGURE_OBSERVERS = 4, FIGURE_PANELS = 10 };
+
+/* Columns of a run in memory, one array each, at a bounded number of steps. */
+typedef struct record {
+    size_t *columns;
+    double **values; /* values[k][row] of columns[k] */
+    size_t count;
+    size_t rows, room; /* a record with room for one row keeps the last */
+    int64_t stride;
+    double period;   /* where steps adapt: of time, in place of a stride of steps */
+    double **errors; /* errors[k][row] of columns[k]; NULL: they are not recorded */
+    bool with_errors;
+    int jumps; /* for how many there is room; 0: they are not recorded */
+} record;
+
+/* For at most `samples` samples of a run of `steps` steps over the time `way`; 0: steps adapt. 1: at the end only. */
+record record_for(int64_t steps, double way, int64_t samples);
+/* The same with both sides of jumps, and a row of NaN between them; without errors. Call before record_add(). */
+record record_with_jumps(record);
+/* Adds a column and returns its array, which is never moved. NULL: out of memory. */
+double *record_add(record *, size_t column);
+walk_observer record_observer(record *);
+void record_free(record *);
 
 typedef struct figure_heat {
     size_t panel, first;  /* first: of its columns in the record */
@@ -45,5 +68,13 @@ typedef struct figure_place {
 } figure_place;
 /* prefix: "" or "exact "; suffix: "" or "'". False: there are no such columns. */
 bool figure_find(const load *, const motus_variable *, const char *prefix, const char *suffix, figure_place *);
+
+/* section.c: the points of --section in a plane. */
+/* Chooses the plane before the run: that of --plot-of; else, of a model of one number its motion, of two numbers that
+ * of the one that the section does not name, each against its velocity. */
+motus_status section_plane(const load *, const options *, size_t columns[2], motus_error *);
+/* Draws the points of a run at its end. Fails where there are none. */
+motus_status section_draw(const load *, const options *, motus_run *, const size_t columns[2], file_out *,
+                          motus_error *);
 
 #endif

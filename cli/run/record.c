@@ -3,7 +3,7 @@
  * Invariant: the arrays have their full length from the start, so pointers into them are valid for the record's life.
  * Jumps never take the room of samples: of more than JUMPS the others are recorded as samples alone.
  */
-#include "cli/run/record.h"
+#include "cli/run/figure.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -3,26 +3,22 @@
  * Invariant: files get their names after the last call that can fail, so that a run leaves all of them or none. The
  * motion does not depend on what is observed.
  */
-#include "cli/words/complain.h"
+#include "cli/files/file.h"
+#include "cli/files/stop.h"
+#include "cli/files/target.h"
+#include "cli/model/load.h"
+#include "cli/model/share.h"
 #include "cli/run/csv.h"
 #include "cli/run/deviation.h"
-#include "cli/run/event_file.h"
 #include "cli/run/figure.h"
-#include "cli/files/file.h"
-#include "cli/model/load.h"
-#include "cli/run/run_archive.h"
-#include "cli/run/run_command.h"
-#include "cli/run/run_make.h"
-#include "cli/run/section.h"
-#include "cli/model/share.h"
-#include "cli/files/stop.h"
+#include "cli/run/run.h"
 #include "cli/run/summary.h"
-#include "cli/files/target.h"
-#include "cli/words/options.h"
 #include "cli/run/walk.h"
+#include "cli/words/complain.h"
+#include "cli/words/options.h"
 
-#include <stdlib.h>
 #include <math.h>
+#include <stdlib.h>
 #include <string.h>
 
 enum { CSV, PLOT, STATE, EVENTS, FILES };

@@ -1,14 +1,10 @@
-/* See run_again.h. */
-#include "cli/run/run_again.h"
+/* Computes the first rows of the archive of a run once more. */
+#include "cli/run/run.h"
 
 #include "base/decimal.h"
 #include "cli/words/complain.h"
-#include "cli/run/run_columns.h"
-#include "cli/run/run_make.h"
 
 #include <inttypes.h>
-#include <math.h>
-#include <stdlib.h>
 #include <string.h>
 
 #define ENOUGH MOTUS_CANCELLED /* how an observer ends the walk */

@@ -1,4 +1,4 @@
-/* See run_archive.h.
+/* The archive of a run, FILE.h5: its rows, and the states from which it goes on.
  *
  * The rows lie in blocks, which are written when they are complete. A state has the rows of the block that is not, so
  * that a run goes on from it even if that block was being written when the process was killed.
@@ -6,18 +6,14 @@
  * Invariants: the file opens at any time and tells which blocks are there. It grows by another file, which takes its
  * name when it has all that the old one had. At the end its bytes depend on the run alone: how many rows it has room
  * for and how large the slots of states are follow from the rows and from the first and the last state. */
-#include "cli/run/run_archive.h"
+#include "cli/run/run.h"
 
 #include "base/decimal.h"
-#include "cli/words/complain.h"
-#include "cli/files/file.h"
-#include "cli/run/run_again.h"
-#include "cli/run/run_columns.h"
-#include "cli/run/run_command.h"
-#include "cli/run/run_state.h"
-#include "cli/files/stop.h"
 #include "cli/files/archived.h"
+#include "cli/files/file.h"
+#include "cli/files/stop.h"
 #include "cli/files/target.h"
+#include "cli/words/complain.h"
 
 #include <errno.h>
 #include <fcntl.h>

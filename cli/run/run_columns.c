@@ -1,7 +1,7 @@
-/* See run_columns.h. */
-#include "cli/run/run_columns.h"
+/* The columns of a run in an archive. See run.h. */
+#include "cli/run/run.h"
 
-#include "cli/model/comments.h"
+#include "cli/model/load.h"
 #include "cli/words/complain.h"
 
 #include <stdio.h>

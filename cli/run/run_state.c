@@ -1,4 +1,4 @@
-/* See run_state.h.
+/* A state in the archive of a run. See run.h.
  *
  * A head of HEAD bytes, filled up by zeros, comes first:
  *
@@ -8,7 +8,7 @@
  *     due 0
  *     state 1563
  */
-#include "cli/run/run_state.h"
+#include "cli/run/run.h"
 
 #include "base/decimal.h"
 

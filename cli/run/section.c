@@ -1,9 +1,8 @@
-/* The points of --section in a plane. See section.h. */
-#include "cli/run/section.h"
-
-#include "cli/words/complain.h"
+/* The points of --section in a plane. */
 #include "cli/run/figure.h"
+
 #include "cli/draw/plot.h"
+#include "cli/words/complain.h"
 
 #include <stdlib.h>
 #include <string.h>

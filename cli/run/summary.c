@@ -5,14 +5,11 @@
  */
 #include "cli/run/summary.h"
 
-#include "cli/run/answer.h"
-#include "tell/bar.h"
-#include "cli/words/complain.h"
-#include "cli/run/event_table.h"
-#include "cli/run/figure.h"
 #include "cli/model/settle.h"
-#include "cli/words/table.h"
+#include "cli/run/figure.h"
+#include "cli/words/complain.h"
 #include "cli/words/text.h"
+#include "tell/bar.h"
 #include "tell/tell.h"
 
 #include <math.h>

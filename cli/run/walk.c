@@ -5,8 +5,8 @@
  */
 #include "cli/run/walk.h"
 
-#include "cli/words/complain.h"
 #include "cli/files/stop.h"
+#include "cli/words/complain.h"
 
 #include <math.h>
 #include <stdlib.h>

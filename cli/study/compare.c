@@ -2,14 +2,11 @@
  *
  * Invariant: the numbers are the library's. A method that failed has a row, and a note that says why.
  */
-#include "cli/words/complain.h"
-#include "cli/study/overlay.h"
-#include "cli/study/rank.h"
 #include "cli/model/share.h"
 #include "cli/study/studies.h"
-#include "cli/words/table.h"
-#include "cli/words/text.h"
+#include "cli/words/complain.h"
 #include "cli/words/options.h"
+#include "cli/words/text.h"
 #include "tell/tell.h"
 
 #include <math.h>

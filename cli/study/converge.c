@@ -2,12 +2,11 @@
  *
  * Invariant: the table of orders comes first. The exit status is 0 unless a method has failed to show its order.
  */
-#include "cli/words/complain.h"
 #include "cli/draw/plot.h"
 #include "cli/study/studies.h"
-#include "cli/words/table.h"
-#include "cli/words/text.h"
+#include "cli/words/complain.h"
 #include "cli/words/options.h"
+#include "cli/words/text.h"
 #include "tell/tell.h"
 
 #include <stdlib.h>

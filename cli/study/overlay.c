@@ -3,13 +3,10 @@
  * Invariant: a method has the same colour, dashes and marker in every panel. A panel draws the first cell of a
  * variable; the last one draws the change of the first invariant.
  */
-#include "cli/study/overlay.h"
+#include "cli/study/studies.h"
 
-#include "cli/words/complain.h"
 #include "cli/run/figure.h"
-#include "cli/run/record.h"
-
-#include <stdlib.h>
+#include "cli/words/complain.h"
 
 enum { METHODS = 8, PANELS = 5, SAMPLES = 50000 };
 

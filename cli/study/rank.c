@@ -2,14 +2,12 @@
  *
  * Invariant: the numbers are the library's. A method that does not reach an accuracy has a line that says why.
  */
-#include "cli/study/rank.h"
-
-#include "cli/words/complain.h"
-#include "cli/draw/plot.h"
 #include "cli/study/studies.h"
-#include "cli/words/table.h"
+
+#include "cli/draw/plot.h"
+#include "cli/words/complain.h"
 #include "cli/words/text.h"
-#include "cli/words/typed.h"
+#include "cli/words/words.h"
 #include "tell/tell.h"
 
 #include <math.h>

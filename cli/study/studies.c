@@ -4,8 +4,8 @@
  */
 #include "cli/study/studies.h"
 
-#include "cli/words/complain.h"
 #include "cli/draw/plot.h"
+#include "cli/words/complain.h"
 #include "cli/words/text.h"
 #include <math.h>
 

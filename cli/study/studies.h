@@ -2,9 +2,12 @@
 #ifndef CLI_STUDY_STUDIES_H
 #define CLI_STUDY_STUDIES_H
 
+#include "cli/draw/plot.h"
 #include "cli/files/file.h"
-#include "cli/model/settle.h"
 #include "cli/files/stop.h"
+#include "cli/model/load.h"
+#include "cli/model/settle.h"
+#include "cli/words/options.h"
 
 typedef struct studies {
     const options *options;
@@ -28,5 +31,12 @@ typedef struct studies_ways {
 /* Draws the picture, then prints JSON or tables, so that nothing is printed if the picture fails; the picture gets its
  * name last. */
 motus_status studies_show(studies *, const studies_ways *, const void *result, motus_error *);
+
+/* overlay.c: the figure of a comparison: the motion by each method, over the exact one. */
+motus_status overlay_draw(const load *, const motus_comparison *, const options *, file_out *, stop_progress *,
+                          motus_error *);
+
+/* motus compare --accuracies. */
+motus_status rank_verb(const options *, motus_error *);
 
 #endif

@@ -9,8 +9,8 @@
 #include "cli/sweep/part.h"
 
 #include "base/decimal.h"
-#include "cli/words/complain.h"
 #include "cli/sweep/sweep.h"
+#include "cli/words/complain.h"
 
 #include <errno.h>
 #include <inttypes.h>
@@ -18,7 +18,6 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/file.h>
 #include <sys/stat.h>
 #include <sys/types.h>
 

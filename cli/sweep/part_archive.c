@@ -4,10 +4,10 @@
  * the first shard without the shard, and the blocks of all.
  */
 #include "cli/files/archived.h"
-#include "cli/words/complain.h"
 #include "cli/files/file.h"
+#include "cli/files/target.h"
 #include "cli/sweep/part.h"
-#include "cli/sweep/sweep.h"
+#include "cli/words/complain.h"
 
 #include <motus-archive.h>
 #include <stdio.h>

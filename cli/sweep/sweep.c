@@ -5,15 +5,13 @@
  */
 #include "cli/sweep/sweep.h"
 
-#include "cli/words/complain.h"
-#include "cli/run/event_file.h"
 #include "cli/files/file.h"
-#include "cli/model/settle.h"
 #include "cli/files/stop.h"
-#include "cli/sweep/sweep_batch.h"
-#include "cli/words/text.h"
-#include "cli/words/options.h"
+#include "cli/model/settle.h"
+#include "cli/run/csv.h"
 #include "cli/run/walk.h"
+#include "cli/words/complain.h"
+#include "cli/words/options.h"
 
 #include <limits.h>
 #include <math.h>
@@ -256,106 +254,6 @@ static motus_status go(sweep *s, sweep_file *f, sweep_events *events, sweep_sect
     return status;
 }
 
-static void put_ranks(json *j, const team *t, const sweep_share *all)
-{
-    json_open(j, "ranks", '[');
-    for (int k = 0; all && k < t->size; k++) {
-        json_open(j, NULL, '{');
-        json_integer(j, "blocks", (int64_t)all[k].blocks);
-        json_integer(j, "trajectories", (int64_t)all[k].rows);
-        json_number(j, "computing", all[k].computing);
-        json_number(j, "waiting", all[k].waiting);
-        json_number(j, "writing", all[k].writing);
-        json_close(j, '}');
-    }
-    json_close(j, ']');
-}
-
-static void report_json(const sweep *s, const sweep_file *f, double wall, const sweep_share *all)
-{
-    const motus_ensemble *e = s->ensemble;
-    char note[2 * MOTUS_TEXT_MAX], shard[SHARD_TEXT];
-    complain_named(motus_ensemble_note(e), note, sizeof note);
-    json j = text_json(stdout);
-    json_string(&j, "model", s->options->operand);
-    json_string(&j, "method", s->method);
-    if (isnan(s->tolerance)) {
-        json_number(&j, "step", s->step);
-    } else {
-        const bool exact = !isnan(s->accuracy);
-        json_number(&j, exact ? "accuracy" : "tolerance", exact ? s->accuracy : s->tolerance);
-        json_bool(&j, "absolute", s->absolute);
-    }
-    settle_json(&j, &s->model);
-    json_integer(&j, "trajectories", (int64_t)s->rows);
-    json_string(&j, "shard", shard_whole(&s->shard) ? NULL : shard_text(&s->shard, shard));
-    json_integer(&j, "resumed", (int64_t)f->found);
-    json_integer(&j, "steps", motus_ensemble_steps(e));
-    const int64_t from = motus_ensemble_compiled_from(e);
-    json_string(&j, "machine", motus_ensemble_machine(e));
-    json_number(&j, "compiled_from", from < 0 ? NAN : (double)from);
-    json_integer(&j, "lanes", motus_ensemble_lanes(e));
-    json_integer(&j, "threads", motus_ensemble_threads(e));
-    json_string(&j, "note", note[0] ? note : NULL);
-    json_string(&j, "switches", sweep_switches(s));
-    json_bool(&j, "fast", s->options->fast);
-    json_number(&j, "seconds", motus_ensemble_seconds(e));
-    json_number(&j, "wall", wall);
-    json_integer(&j, "lost", (int64_t)f->lost);
-    json_integer(&j, "stopped", (int64_t)f->stopped);
-    json_open(&j, "stopped_by", '{');
-    for (int k = MOTUS_CAUSE_NONE + 1; k < MOTUS_CAUSE_COUNT; k++)
-        if (f->stopped_by[k]) json_integer(&j, motus_cause_word((motus_cause)k), (int64_t)f->stopped_by[k]);
-    json_close(&j, '}');
-    json_string(&j, "output", f->path);
-    if (s->options->team) put_ranks(&j, s->options->team, all);
-    json_end(&j);
-}
-
-static void report(const sweep *s, const sweep_file *f, double wall)
-{
-    const motus_ensemble *e = s->ensemble;
-    bool output = strcmp(f->path, "-") == 0; /* then the report is a message */
-    FILE *out = output ? stderr : stdout;
-    char step[DECIMAL_MAX], until[DECIMAL_MAX], inside[DECIMAL_MAX], all[DECIMAL_MAX], shard[SHARD_TEXT];
-    double seconds = motus_ensemble_seconds(e), work = (double)(s->rows - f->found) * (double)motus_ensemble_steps(e);
-    const bool exact = !isnan(s->accuracy), fixed = isnan(s->tolerance);
-    decimal(exact ? s->accuracy : fixed ? s->step : s->tolerance, step);
-    decimal(s->until, until);
-    text_seconds(seconds, inside);
-    text_seconds(wall, all);
-    fprintf(out, "%s: %s, %s %s%s, ", s->model.title, s->method,
-            exact   ? "accuracy"
-            : fixed ? "step"
-                    : "tolerance",
-            step, s->absolute ? " absolute" : "");
-    if (motus_ensemble_steps(e) > 0) fprintf(out, "%lld steps ", (long long)motus_ensemble_steps(e));
-    fprintf(out, "to t = %s, ", isnan(s->until) ? "its own end" : until);
-    const int64_t from = motus_ensemble_compiled_from(e);
-    const bool elsewhere = f->archive && (f->found > 0 || s->options->team); /* its trajectories lie among others */
-    if (from > 0 && elsewhere)
-        fputs("interpreter, then compiled", out);
-    else if (from > 0)
-        fprintf(out, "interpreter, then compiled from trajectory %llu",
-                (unsigned long long)(f->found + (uint64_t)from + 1));
-    else
-        fprintf(out, "%s", motus_ensemble_machine(e));
-    fprintf(out, "%s, %d lane%s, %d thread%s\n", s->options->fast ? " (fast)" : "", motus_ensemble_lanes(e),
-            motus_ensemble_lanes(e) == 1 ? "" : "s", motus_ensemble_threads(e),
-            motus_ensemble_threads(e) == 1 ? "" : "s");
-    fprintf(out, "%llu trajectories", (unsigned long long)s->rows);
-    if (!shard_whole(&s->shard))
-        fprintf(out, " of %llu, shard %s", (unsigned long long)s->grid.total, shard_text(&s->shard, shard));
-    if (f->found > 0) fprintf(out, ", %llu of them found in the file", (unsigned long long)f->found);
-    fprintf(out, ": %s, integration %s", all, inside);
-    if (work > 0 && seconds > 0) fprintf(out, ", %.3g ns per trajectory and step", seconds / work * 1e9);
-    putc('\n', out);
-    if (!output) {
-        text_put(out, f->path);
-        fprintf(out, ": %zu columns\n", s->columns);
-    }
-}
-
 /* After a failure of any: how far the file is. Waits for all. */
 static void note_unfinished(const sweep *s, const sweep_file *f, motus_status status)
 {
@@ -390,15 +288,12 @@ static motus_status finish(const sweep *s, sweep_file *f, sweep_events *events, 
     double wall = stop_clock() - began;
     status = team_agree(o->team, status, err);
     if (!status) add_up(o->team, f);
-    sweep_share *all = status || !o->team || !o->json ? NULL : sweep_ranks_gather(o->team, &f->share);
+    sweep_share *all = status || !o->team || !o->json ? NULL : sweep_report_gather(o->team, &f->share);
     if (status || !team_first(o->team)) {
         free(all);
         return status;
     }
-    if (o->json)
-        report_json(s, f, wall, all);
-    else if (!o->quiet)
-        report(s, f, wall);
+    sweep_report(s, f, wall, all);
     free(all);
     status = file_flush_output(err);
     if (!status && f->stopped > 0 && !o->quiet)

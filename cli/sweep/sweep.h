@@ -5,11 +5,11 @@
 #include "cli/files/archived.h"
 #include "cli/files/checks.h"
 #include "cli/files/file.h"
-#include "cli/model/grid.h"
-#include "cli/model/load.h"
 #include "cli/files/shard.h"
 #include "cli/files/stop.h"
 #include "cli/files/target.h"
+#include "cli/model/grid.h"
+#include "cli/model/load.h"
 
 #include <inttypes.h>
 
@@ -104,13 +104,35 @@ void sweep_npy_head(uint64_t rows, size_t columns, char out[SWEEP_NPY_HEAD]);
 /* sweep_block.c: how many trajectories a block has, a power of two up to SHARD_BLOCK. */
 motus_status sweep_block_choose(const sweep *, uint64_t *block, motus_error *);
 
-/* sweep_ranks.c: how the work of a team was shared, for --json. */
+/* sweep_batch.c: trajectories of a sweep that are computed by one call, and the memory for them. */
+typedef struct sweep_batch {
+    size_t most, count,
+        lanes; /* room for how many trajectories; how many take BATCH_MS; lanes of all threads together */
+    double **values, **results, **errors, *stopped, *room; /* errors: NULL where none are told */
+    double **shifted;                                      /* values, from some trajectory of the batch on */
+} sweep_batch;
+
+/* Lanes of all threads together: as many trajectories as advance at once. They may grow, when a compiler has ended. */
+size_t sweep_batch_lanes(const sweep *);
+/* Call sweep_batch_free() in any case. */
+motus_status sweep_batch_make(sweep_batch *, const sweep *, motus_error *);
+void sweep_batch_free(sweep_batch *);
+/* Computes the `count` trajectories of the rows from `row` on, count <= most. `computing`: seconds of the integration
+ * are added to it; NULL: they are not. MOTUS_ACCURACY: one does not reach its accuracy. */
+motus_status sweep_batch_compute(sweep_batch *, const sweep *, uint64_t row, size_t count, double *computing,
+                                 motus_error *);
+/* What the last ones were. */
+sweep_rows sweep_batch_rows(const sweep_batch *);
+/* After a batch that took `seconds`: changes the count, a multiple of the lanes, towards BATCH_MS for a batch. */
+void sweep_batch_adapt(sweep_batch *, const sweep *, double seconds);
+/* The bytes of its memory. */
+size_t sweep_batch_bytes(const sweep_batch *, const sweep *);
+
+/* How the work of a team was shared, for --json. */
 typedef struct sweep_share {
     uint64_t blocks, rows;
     double computing, waiting, writing; /* seconds */
 } sweep_share;
-/* What every process has done, by their ranks; waits for all. To be freed; NULL: no memory. */
-sweep_share *sweep_ranks_gather(const team *, const sweep_share *mine);
 
 /* The file of rows. */
 typedef struct sweep_archive sweep_archive;
@@ -132,11 +154,6 @@ typedef struct sweep_file {
     double *numbers; /* room for those of a row */
     size_t used, room;
 } sweep_file;
-
-/* sweep_accuracy.c: MOTUS_ACCURACY, with the first of `count` trajectories, from row `first` on, that did not reach
- * it; `judged` is what was recorded to judge them by. */
-motus_status sweep_accuracy_refuse(const sweep *, uint64_t first, size_t count, double *const *judged,
-                                   const double *stopped, motus_error *);
 
 motus_status sweep_file_check(const options *, motus_error *);
 motus_status sweep_file_open(sweep_file *, const sweep *, motus_error *);
@@ -172,17 +189,10 @@ motus_status sweep_archive_finish(sweep_file *, motus_error *);
 motus_status sweep_archive_compress(sweep_file *, motus_error *);
 void sweep_archive_close(sweep_file *);
 
-/* sweep_origin.c: the sweep that made an archive, by the command and the model that it has. */
-typedef struct sweep_origin {
-    sweep sweep;
-    options options; /* of its command, but with threads and machine of the one that asks; of no file of results */
-    char *words;     /* of the command */
-    options_list argv;
-    stop_progress progress; /* shows nothing, and hears of signals */
-} sweep_origin;
-/* Call sweep_origin_close() in any case. MOTUS_STATE: the command does not make what the archive says that it is. */
-motus_status sweep_origin_open(sweep_origin *, motus_archive *, const options *, motus_error *);
-void sweep_origin_close(sweep_origin *);
+/* sweep_report.c: what every process has done, by their ranks; waits for all. To be freed; NULL: no memory. */
+sweep_share *sweep_report_gather(const team *, const sweep_share *mine);
+/* Prints what was computed, in a time of `wall` seconds, as the options ask for it; `all`: of a team, else NULL. */
+void sweep_report(const sweep *, const sweep_file *, double wall, const sweep_share *all);
 
 /* sweep_again.c: computes rows of an archive once more. */
 typedef struct sweep_again sweep_again;

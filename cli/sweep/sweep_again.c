@@ -1,8 +1,7 @@
 /* Computes rows of an archive once more, and compares their bytes. See sweep.h. */
 #include "base/decimal.h"
-#include "cli/words/complain.h"
 #include "cli/sweep/sweep.h"
-#include "cli/sweep/sweep_batch.h"
+#include "cli/words/complain.h"
 
 #include <motus-archive.h>
 #include <stdlib.h>

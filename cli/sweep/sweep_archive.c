@@ -5,13 +5,11 @@
  * computed of it. A block is written when its last row is there.
  */
 #include "base/decimal.h"
-#include "base/disk.h"
 #include "cli/files/archived.h"
-#include "cli/model/comments.h"
-#include "cli/words/complain.h"
 #include "cli/files/stop.h"
+#include "cli/model/load.h"
 #include "cli/sweep/sweep.h"
-#include "cli/sweep/sweep_batch.h"
+#include "cli/words/complain.h"
 
 #include <math.h>
 #include <motus-archive.h>

@@ -7,8 +7,8 @@
  *
  * Invariant: the size follows from what the numbers follow from alone.
  */
-#include "cli/words/complain.h"
 #include "cli/sweep/sweep.h"
+#include "cli/words/complain.h"
 
 #include <math.h>
 #include <stdlib.h>

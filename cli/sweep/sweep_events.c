@@ -13,12 +13,12 @@
 #define _XOPEN_SOURCE 700
 #include "base/decimal.h"
 #include "base/disk.h"
-#include "cli/words/complain.h"
-#include "cli/run/event_file.h"
 #include "cli/files/file.h"
 #include "cli/files/segments.h"
 #include "cli/files/stop.h"
+#include "cli/run/csv.h"
 #include "cli/sweep/sweep.h"
+#include "cli/words/complain.h"
 
 #include <errno.h>
 #include <inttypes.h>

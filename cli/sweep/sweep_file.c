@@ -7,19 +7,18 @@
  */
 #define _XOPEN_SOURCE 700
 #define _DEFAULT_SOURCE
-#include "base/disk.h"
-#include "cli/words/complain.h"
 #include "base/decimal.h"
+#include "base/disk.h"
 #include "cli/files/file.h"
 #include "cli/files/stop.h"
 #include "cli/sweep/sweep.h"
+#include "cli/words/complain.h"
 
 #include <errno.h>
 #include <fcntl.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/file.h>
 #include <sys/stat.h>
 #include <unistd.h>
 

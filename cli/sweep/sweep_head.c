@@ -5,9 +5,9 @@
  */
 #define _XOPEN_SOURCE 700
 #include "cli/files/command.h"
-#include "cli/words/complain.h"
 #include "cli/run/csv.h"
 #include "cli/sweep/sweep.h"
+#include "cli/words/complain.h"
 #include "cli/words/text.h"
 
 #include <inttypes.h>

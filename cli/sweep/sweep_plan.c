@@ -4,10 +4,9 @@
  * much the pieces differ tells how far the mean may be off. A piece is as large as the batches of the sweep: smaller
  * ones leave more lanes idle. No file is touched.
  */
-#include "cli/words/complain.h"
 #include "cli/files/stop.h"
 #include "cli/sweep/sweep.h"
-#include "cli/sweep/sweep_batch.h"
+#include "cli/words/complain.h"
 #include "cli/words/text.h"
 
 #include <math.h>

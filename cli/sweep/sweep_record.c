@@ -1,16 +1,15 @@
 /* The items of --record:
  *
  *     final   NAME   final(NAME)   min(NAME)   max(NAME)   mean(NAME)   time_of_min(NAME)   time_of_max(NAME)
- *     count(EVENT)   time(EVENT)   at(EVENT, EXPRESSION)   and so on: what events keep, defined.h
+ *     count(EVENT)   time(EVENT)   at(EVENT, EXPRESSION)   and so on: what events keep, load.h
  *     steps   rejected   h_min   h_max   evaluations   reached   tolerance   ended
  *
  * Invariant: a name stands for all its numbers, as in --columns of motus run. Where the model has a column of the name
  * `steps`, that column is meant.
  */
 #include "base/near.h"
-#include "cli/words/complain.h"
 #include "cli/sweep/sweep.h"
-#include "cli/words/text.h"
+#include "cli/words/complain.h"
 #include "cli/words/words.h"
 
 #include <math.h>

@@ -4,10 +4,10 @@
  * whose bytes do not have their check.
  */
 #define _XOPEN_SOURCE 700
-#include "cli/words/complain.h"
 #include "base/decimal.h"
 #include "cli/files/file.h"
 #include "cli/sweep/sweep.h"
+#include "cli/words/complain.h"
 
 #include <errno.h>
 #include <math.h>

@@ -3,11 +3,10 @@
  *
  * Invariant: the points are in the order of the trajectories, and of a trajectory in the order of time.
  */
-#include "cli/words/complain.h"
-#include "cli/run/figure.h"
 #include "cli/draw/plot.h"
-#include "cli/run/section.h"
+#include "cli/run/figure.h"
 #include "cli/sweep/sweep.h"
+#include "cli/words/complain.h"
 #include "cli/words/words.h"
 
 #include <inttypes.h>

@@ -3,15 +3,14 @@
  * Invariant: the CSV is, byte for byte, what the sweep would have written into a file whose name ends in .csv.
  */
 #include "base/decimal.h"
-#include "cli/verbs/archive_run.h"
-#include "cli/verbs/archive_verify.h"
 #include "cli/files/archived.h"
-#include "cli/words/complain.h"
-#include "cli/run/csv.h"
 #include "cli/files/stop.h"
+#include "cli/run/csv.h"
 #include "cli/sweep/sweep.h"
-#include "cli/words/text.h"
+#include "cli/verbs/archive.h"
+#include "cli/words/complain.h"
 #include "cli/words/options.h"
+#include "cli/words/text.h"
 
 #include <inttypes.h>
 #include <math.h>

@@ -1,10 +1,8 @@
-/* See archive_run.h. */
-#include "cli/verbs/archive_run.h"
+/* motus archive of the archive of a run. */
+#include "cli/verbs/archive.h"
 
+#include "cli/run/run.h"
 #include "cli/words/complain.h"
-#include "cli/run/run_columns.h"
-#include "cli/run/run_command.h"
-#include "cli/run/run_state.h"
 
 #include <stdlib.h>
 #include <string.h>

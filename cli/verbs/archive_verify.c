@@ -1,16 +1,91 @@
-/* See archive_verify.h. */
-#include "cli/words/complain.h"
-#include "cli/verbs/archive_verify.h"
+/* motus archive --verify: blocks of an archive are computed again.
+ *
+ * Invariant: whatever the command of a file says, no file is written by it.
+ */
+#include "cli/verbs/archive.h"
 
 #include "base/decimal.h"
-#include "cli/words/typed.h"
-#include "cli/run/run_again.h"
-#include "cli/run/run_archive.h"
-#include "cli/run/run_command.h"
+#include "cli/run/run.h"
+#include "cli/sweep/sweep.h"
+#include "cli/words/complain.h"
+#include "cli/words/words.h"
 
 #include <math.h>
 #include <motus-archive.h>
+#include <stdlib.h>
 #include <string.h>
+
+/* The sweep that made an archive, by the command and the model that it has. */
+typedef struct origin {
+    sweep sweep;
+    options options; /* of its command, but with threads and machine of the one that asks; of no file of results */
+    char *words;     /* of the command */
+    options_list argv;
+    stop_progress progress; /* shows nothing, and hears of signals */
+} origin;
+
+static motus_status no_command(motus_error *err)
+{
+    return fail(err, MOTUS_STATE, "the archive does not say which sweep made it");
+}
+
+/* The options of its command, without those that name files of results. */
+static motus_status read_command(origin *g, const char *command, const options *asked, motus_error *err)
+{
+    motus_status status = words_split(command, &g->words, &g->argv, err);
+    if (status) return status;
+    const char **words = g->argv.items;
+    if (g->argv.count < 2 || strcmp(words[0], "motus") != 0 || strcmp(words[1], "sweep") != 0) return no_command(err);
+    status = options_read(&g->options, VERB_SWEEP, (int)g->argv.count, (char **)words, 2, err);
+    options *o = &g->options;
+    if (!status && o->help) return no_command(err);
+    options_forget(o, OF_WHATEVER);
+    options_take(o, asked, OF_MACHINE);
+    o->quiet = true;
+    return status;
+}
+
+static motus_status other_sweep(const char *version, motus_error *err)
+{
+    fail(err, MOTUS_STATE, "the command in the archive does not make its fingerprint");
+    hint(err,
+         "a file of values (--vary F=@FILE) may have changed, or the archive was changed by hand; motus %.40s "
+         "made it",
+         version);
+    return MOTUS_STATE;
+}
+
+/* Call origin_close() in any case. MOTUS_STATE: the command does not make what the archive says that it is. */
+static motus_status origin_open(origin *g, motus_archive *a, const options *asked, motus_error *err)
+{
+    *g = (origin){0};
+    const char *command = motus_archive_note_of(a, "command"), *model = motus_archive_note_of(a, "model"),
+               *version = motus_archive_note_of(a, "motus"), *print = motus_archive_note_of(a, "fingerprint");
+    char own[SWEEP_FINGERPRINT];
+    sweep_section none = {0};
+    if (!command || !model || !version || !print) return no_command(err);
+    motus_status status = read_command(g, command, asked, err);
+    g->options.text = model;
+    g->progress = stop_progress_begin("sweep", true);
+    g->sweep.options = &g->options;
+    g->sweep.block = motus_archive_block_rows(a);
+    if (!status) status = shard_read(&g->sweep.shard, g->options.shard, err);
+    if (!status) status = sweep_begin(&g->sweep, &none, &g->progress, err);
+    if (status) return status;
+    if (strcmp(sweep_head_fingerprint(&g->sweep, version, own), print) != 0 || motus_archive_rows(a) != g->sweep.rows ||
+        motus_archive_column_count(a) != g->sweep.columns - 1)
+        return other_sweep(version, err);
+    return MOTUS_OK;
+}
+
+static void origin_close(origin *g)
+{
+    sweep_free(&g->sweep);
+    options_free(&g->options);
+    free(g->argv.items);
+    free(g->words);
+    *g = (origin){0};
+}
 
 motus_status archive_verify_part(const char *text, double *part, motus_error *err)
 {
@@ -40,10 +115,10 @@ motus_status archive_verify(motus_archive *a, const options *o, const uint64_t *
     *v = (archive_verified){0};
     motus_status status = archive_verify_part(o->verify, &part, err);
     if (status || count == 0) return status;
-    sweep_origin origin;
+    origin origin;
     sweep_again *again = NULL;
     const double some = fmin(ceil(part * (double)count), (double)count), offset = somewhere();
-    status = sweep_origin_open(&origin, a, o, err);
+    status = origin_open(&origin, a, o, err);
     if (!status) status = sweep_again_make(&again, &origin.sweep, err);
     for (; !status && (double)v->computed < some; v->computed++) {
         const uint64_t k = (uint64_t)(((double)v->computed + offset) / some * (double)count);
@@ -58,7 +133,7 @@ motus_status archive_verify(motus_archive *a, const options *o, const uint64_t *
             status = fail(err, MOTUS_CANCELLED, "cancelled");
     }
     sweep_again_free(again);
-    sweep_origin_close(&origin);
+    origin_close(&origin);
     return status;
 }
 

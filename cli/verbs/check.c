@@ -3,16 +3,14 @@
  *
  * Invariant: the reasons are the library's, the same that a run would give.
  */
-#include "cli/words/complain.h"
 #include "cli/files/file.h"
 #include "cli/model/load.h"
-#include "cli/words/table.h"
-#include "cli/words/text.h"
+#include "cli/words/complain.h"
 #include "cli/words/options.h"
+#include "cli/words/text.h"
 #include "tell/tell.h"
 
 #include <stdio.h>
-#include <string.h>
 
 #define TOLERANCE 1e-10 /* the first that is tried for the accuracy 1e-9, which a run has where nobody gives one */
 

@@ -1,22 +1,122 @@
 /* motus lab: the page of the lab with a model in it, written and opened.
  *
  * Invariant: the model and the options are checked before anything is written; the page is then written completely or
- * not at all.
+ * not at all. It is as it was built, except for the start in its one empty meta element; the only character of the
+ * start with a meaning in HTML is &, which is written &amp;.
  */
 #define _XOPEN_SOURCE 700
-#include "cli/files/browser.h"
-#include "cli/words/complain.h"
 #include "cli/files/file.h"
-#include "cli/verbs/lab_page.h"
+#include "cli/files/spawn.h"
+#include "cli/files/stop.h"
 #include "cli/model/load.h"
 #include "cli/model/share.h"
-#include "cli/files/stop.h"
-#include "cli/words/text.h"
+#include "cli/words/complain.h"
 #include "cli/words/options.h"
+#include "cli/words/text.h"
 
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
+
+/* ---- the page, as `make lab` builds it, and the place in it for the model that it opens with ---- */
+
+typedef struct lab_page {
+    char *path, *text;
+    size_t length, place; /* bytes; the start is inserted before byte `place` */
+} lab_page;
+
+#define PAGE_MAX ((size_t)16 << 20) /* bytes of a page */
+enum { PATH_ROOM = 4096 };
+
+/* The folder of the program, from the system, else from the name it was called with. */
+static bool program_folder(const char *called, char out[PATH_ROOM])
+{
+    char found[PATH_ROOM];
+    ssize_t length = readlink("/proc/self/exe", out, PATH_ROOM);
+    if (length > 0 && length < PATH_ROOM) {
+        out[length] = 0;
+    } else {
+        const char *name = strchr(called, '/') ? called : file_program(called, found, sizeof found) ? found : NULL;
+        char *real = name ? realpath(name, NULL) : NULL;
+        bool fits = real && strlen(real) < PATH_ROOM;
+        if (fits) strcpy(out, real);
+        free(real);
+        if (!fits) return false;
+    }
+    char *slash = strrchr(out, '/');
+    if (slash) *slash = 0;
+    return slash != NULL;
+}
+
+static motus_status find(char **path, const char *program, motus_error *err)
+{
+    static const char *const places[] = {"lab/motus-lab.html", MOTUS_LAB_INSTALLED};
+    const char *named = getenv("MOTUS_LAB_PAGE");
+    char folder[PATH_ROOM], candidate[PATH_ROOM + 256];
+    if (named && *named) {
+        *path = strdup(named);
+        return *path ? MOTUS_OK : complain_memory(err);
+    }
+    bool known = program_folder(program, folder);
+    for (size_t i = 0; known && i < sizeof places / sizeof *places; i++) {
+        int n = snprintf(candidate, sizeof candidate, "%s/%s", folder, places[i]);
+        if (n < 0 || (size_t)n >= sizeof candidate || access(candidate, F_OK) != 0) continue;
+        *path = strdup(candidate);
+        return *path ? MOTUS_OK : complain_memory(err);
+    }
+    return complain(err, MOTUS_FILE, "make lab builds it; MOTUS_LAB_PAGE may name another place",
+                    "the page of the lab is missing: there is neither %s nor %s in %s", places[0], places[1],
+                    known ? folder : "the folder of the program");
+}
+
+static motus_status not_a_page(const lab_page *p, const char *why, motus_error *err)
+{
+    return complain(err, MOTUS_FILE, "make lab builds it anew", "%s is not the page of the lab: %s", p->path, why);
+}
+
+/* Reads the page named by $MOTUS_LAB_PAGE, else that beside the program, else the installed one. `program` is argv[0].
+ * Call page_free() also after a failure. */
+static motus_status page_read(lab_page *p, const char *program, motus_error *err)
+{
+    static const char meta[] = "<meta name=\"motus-start\"", empty[] = " content=\"\">";
+    *p = (lab_page){0};
+    motus_status status = find(&p->path, program, err);
+    if (!status) status = file_read(p->path, PAGE_MAX, &p->text, &p->length, err);
+    if (status) return status;
+    if (memchr(p->text, 0, p->length)) return not_a_page(p, "it has a byte 0", err);
+    const char *found = strstr(p->text, meta);
+    if (!found) return not_a_page(p, "it has no <meta name=\"motus-start\">", err);
+    const char *rest = found + sizeof meta - 1;
+    if (strstr(rest, meta)) return not_a_page(p, "it has two <meta name=\"motus-start\">", err);
+    if (strncmp(rest, empty, sizeof empty - 1) != 0) return not_a_page(p, "its motus-start is not empty", err);
+    p->place = (size_t)(rest - p->text) + strlen(" content=\"");
+    return MOTUS_OK;
+}
+
+static void page_free(lab_page *p)
+{
+    free(p->path);
+    free(p->text);
+    *p = (lab_page){0};
+}
+
+/* Writes the page with a start: a fragment (cli/model/share.h) without its #, or "". */
+static motus_status page_write(const lab_page *p, const char *start, file_out *f, motus_error *err)
+{
+    motus_status status = file_write(f, p->text, p->place, err);
+    while (!status && *start) {
+        size_t plain = strcspn(start, "&");
+        status = file_write(f, start, plain, err);
+        start += plain;
+        if (!status && *start) {
+            status = file_text(f, "&amp;", err);
+            start++;
+        }
+    }
+    return status ? status : file_write(f, p->text + p->place, p->length - p->place, err);
+}
+
+/* ---- the verb ---- */
 
 typedef struct job {
     const options *options;
@@ -91,7 +191,7 @@ static motus_status write_page(job *j, motus_error *err)
 {
     stop_catch_signals();
     motus_status status = file_create(&j->file, j->output, err);
-    if (!status) status = lab_page_write(&j->page, j->fragment ? j->fragment + 1 : "", &j->file, err);
+    if (!status) status = page_write(&j->page, j->fragment ? j->fragment + 1 : "", &j->file, err);
     if (!status) status = file_finish(&j->file, err);
     if (!status && stop_requested()) status = fail(err, MOTUS_CANCELLED, "cancelled");
     if (!status) status = print_path(j, err);
@@ -105,11 +205,11 @@ motus_status lab_verb(const options *o, motus_error *err)
 {
     job j = {.options = o};
     motus_status status = o->operand ? read_model(&j, err) : check_alone(o, err);
-    if (!status) status = lab_page_read(&j.page, o->argv[0], err);
+    if (!status) status = page_read(&j.page, o->argv[0], err);
     if (!status) status = name_output(&j, err);
     if (!status) status = write_page(&j, err);
     file_drop(&j.file);
-    lab_page_free(&j.page);
+    page_free(&j.page);
     free(j.fragment);
     load_free(&j.model);
     return status;

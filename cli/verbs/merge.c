@@ -4,12 +4,12 @@
  * is complete.
  */
 #define _XOPEN_SOURCE 700
-#include "cli/words/complain.h"
-#include "cli/sweep/part.h"
 #include "cli/files/stop.h"
+#include "cli/sweep/part.h"
 #include "cli/sweep/sweep.h"
-#include "cli/words/text.h"
+#include "cli/words/complain.h"
 #include "cli/words/options.h"
+#include "cli/words/text.h"
 
 #include <inttypes.h>
 #include <stdlib.h>

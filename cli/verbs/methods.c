@@ -1,9 +1,8 @@
 /* motus methods: the catalogue, or the card of one method. */
-#include "cli/words/complain.h"
 #include "cli/files/file.h"
-#include "cli/words/table.h"
-#include "cli/words/text.h"
+#include "cli/words/complain.h"
 #include "cli/words/options.h"
+#include "cli/words/text.h"
 #include "tell/tell.h"
 
 #include <math.h>

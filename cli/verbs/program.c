@@ -3,14 +3,14 @@
  * Invariant: errors are printed once, here; the exit status follows from the error's.
  */
 #include "base/near.h"
-#include "cli/words/complain.h"
 #include "cli/files/file.h"
-#include "cli/words/help.h"
-#include "cli/words/options.h"
-#include "cli/verbs/program.h"
 #include "cli/files/stop.h"
+#include "cli/verbs/program.h"
+#include "cli/words/complain.h"
+#include "cli/words/options.h"
 #include "cli/words/text.h"
 
+#include <stdio.h>
 #include <string.h>
 
 typedef struct verb {
@@ -130,4 +130,22 @@ int program_main(int argc, char **argv, const team *t)
     int exit = status ? motus_status_exit(status) : 0;
     if (tells) exit = complain_show(&err, as_json && !answered);
     return t ? t->largest(t->context, exit) : exit;
+}
+
+/* motus cache: the compiled models kept between runs. */
+motus_status cache_verb(const options *o, motus_error *err)
+{
+    if (o->operand || !o->clear)
+        return complain(err, MOTUS_ARGUMENT, "motus cache --clear removes every entry",
+                        o->operand ? "motus cache takes no model" : "motus cache needs --clear");
+    int count = motus_cache_clear();
+    if (count < 0) return fail(err, MOTUS_FILE, "cannot read the folder of the cache");
+    if (o->json) {
+        json j = text_json(stdout);
+        json_integer(&j, "removed", count);
+        json_end(&j);
+    } else if (!o->quiet) {
+        printf("%d compiled model%s removed\n", count, count == 1 ? "" : "s");
+    }
+    return MOTUS_OK;
 }

@@ -1,7 +1,5 @@
 /* The text of --help: a verb's use, its options, and examples, which the tests run. Verbs and options are those of
  * cli/words/options.def. */
-#include "cli/words/help.h"
-
 #include "cli/words/options.h"
 
 typedef struct page {

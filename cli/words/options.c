@@ -6,7 +6,6 @@
 #include "cli/words/words.h"
 
 #include <math.h>
-#include <stdlib.h>
 #include <string.h>
 
 static bool matches(const option *o, const char *name)
@@ -114,9 +113,8 @@ static motus_status check_share(const options *o, motus_error *err)
         const option *row = options_row(k);
         if (!o->given[k] || row->link || k == OPTION_share || row->setting == OF_MACHINE || row->verbs == VERB_ALL)
             continue;
-        fail(err, MOTUS_ARGUMENT, "--share and %s exclude each other", row->name);
-        hint(err, "--share computes nothing: it prints a link's model and settings");
-        return MOTUS_ARGUMENT;
+        return complain(err, MOTUS_ARGUMENT, "--share computes nothing: it prints a link's model and settings",
+                        "--share and %s exclude each other", row->name);
     }
     return MOTUS_OK;
 }

@@ -146,6 +146,14 @@ bool options_known(const char *name, size_t length);
 motus_switches options_switches(const options *);
 motus_bars options_bars(const options *);
 
+/* The text of --help. */
+void help_program(FILE *);
+void help_verb(FILE *, unsigned verb);
+/* The table of verbs and options, for programs, a row a line, with tabs between:
+ *     verb, name, operands, what it does
+ *     option, --name, -n, argument, verbs, of what it is a setting, words for its value, help, more; - for nothing */
+void help_table(FILE *);
+
 /* The verbs: run_verb, sweep_verb … */
 #define VERB(bit, name, ...) motus_status name##_verb(const options *, motus_error *);
 #include "cli/words/options.def"

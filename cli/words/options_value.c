@@ -5,7 +5,6 @@
  */
 #include "cli/words/complain.h"
 #include "cli/words/options.h"
-#include "cli/words/typed.h"
 #include "cli/words/words.h"
 
 #include <math.h>

@@ -3,10 +3,9 @@
  * Invariant: cells are kept as text_safe() makes them, in one row-major list; a table that ran out of memory prints
  * nothing.
  */
-#include "cli/words/table.h"
+#include "cli/words/text.h"
 
 #include "tell/bar.h"
-#include "cli/words/text.h"
 
 #include <stdlib.h>
 #include <string.h>

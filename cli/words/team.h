@@ -6,6 +6,7 @@
 #ifndef CLI_WORDS_TEAM_H
 #define CLI_WORDS_TEAM_H
 
+#include "base/error.h"
 #include "motus.h"
 
 #include <stdbool.h>
@@ -26,7 +27,8 @@ typedef struct team {
 
 static inline bool team_first(const team *t) { return !t || t->rank == 0; }
 static inline int team_size(const team *t) { return t ? t->size : 1; }
-motus_status team_failed(motus_error *); /* MOTUS_CANCELLED, without a message: another one failed */
+/* MOTUS_CANCELLED, without a message: another one failed. */
+static inline motus_status team_failed(motus_error *err) { return fail(err, MOTUS_CANCELLED, "%s", ""); }
 /* A failure of one is a failure of all. */
 static inline motus_status team_agree(const team *t, motus_status status, motus_error *err)
 {
@@ -39,6 +41,11 @@ static inline bool team_any(const team *t, bool mine)
     return t && t->size > 1 ? t->largest(t->context, mine) != 0 : mine;
 }
 /* Whether this process is the one that tells of the failure. */
-bool team_tells(const team *, motus_status, const motus_error *);
+static inline bool team_tells(const team *t, motus_status status, const motus_error *err)
+{
+    if (!t) return status != MOTUS_OK;
+    const bool speaks = status && err->message[0];
+    return t->largest(t->context, speaks ? t->size - t->rank : 0) == t->size - t->rank && speaks;
+}
 
 #endif

@@ -8,7 +8,6 @@
 #include "base/utf8.h"
 
 #include <math.h>
-#include <stdlib.h>
 #include <string.h>
 
 enum { REPLACEMENT = 0xFFFD };
