@@ -575,8 +575,8 @@ static void without_a_compiler(void **state)
     motus_run_def def = motus_default_run();
     motus_error err = motus_default_error();
     motus_run *r = NULL;
-    def.method = "verlet";
-    /* auto: the interpreter runs, and the note says why */
+    def.method = "verlet", def.machine = "auto";
+    /* the interpreter runs, and the note says why */
     assert_int_equal(motus_run_create(s, &def, &r, &err), MOTUS_OK);
     assert_string_equal(motus_run_machine(r), "interpreter");
     assert_non_null(strstr(motus_run_note(r), "no C compiler"));
