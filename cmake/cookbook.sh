@@ -7,7 +7,7 @@ set -u
 text=$(realpath "$(dirname "$0")/../doc/cookbook.md")
 motus=$(realpath "${MOTUS:-build/motus}")
 cd "$1" || exit 2
-awk '/^```/ { inside = !inside && $0 == "```" ? 1 : 0; closed = !closed; if (!closed) inside = 0; name = ""; next }
+awk '/^```/ { open = !open; inside = open && $0 == "```"; name = ""; next }
      inside && name == "" { name = $2; sub(/:$/, "", name) }
      inside { print >name }' "$text"
 while read -r task command; do
