@@ -581,7 +581,7 @@ static void without_a_compiler(void **state)
     unsetenv("CC");
     motus_system *s = given_text("k = 1\nx'' = -k x + 1\nx(0) = 1\nx'(0) = 0\n");
     static const char *const vary[] = {"k"};
-    motus_ensemble_def def = define(vary, 1, "leapfrog", 0.1, 1, NULL);
+    motus_ensemble_def def = define(vary, 1, "leapfrog", 0.1, 1, "auto");
     motus_ensemble *e = given_ensemble(s, &def, "no compiler");
     assert_string_equal(motus_ensemble_machine(e), "interpreter");
     assert_non_null(strstr(motus_ensemble_note(e), "no C compiler"));
