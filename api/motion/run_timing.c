@@ -6,8 +6,6 @@
 
 #define STEPS_MAX 1e15 /* from the start to `until`: eleven days at a nanosecond a step */
 
-/* ---- creation ---- */
-
 motus_status run_timing(const chosen *chosen, double step, double until, double start, timing *out, motus_error *err)
 {
     const bool adaptive = row_adaptive(chosen);
