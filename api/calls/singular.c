@@ -19,8 +19,9 @@
 #include <stdio.h>
 #include <string.h>
 
-enum { PIECES_MAX = 50000, STAGES = 4 }; /* PIECES_MAX: controlled steps in all */
-#define TOLERANCE 1e-6                   /* of the motion's size, for a controlled step */
+enum { PIECES_MAX = 50000 }; /* controlled steps in all */
+#define CONTROLLED "rk4" /* the method of controlled steps */
+#define TOLERANCE 1e-6   /* of the motion's size, for a controlled step */
 #define LEAST 0x1p-44 /* of the run's step: a controlled step that must be shorter is at a singularity */
 #define APART 0.5     /* of the velocity, or of the way: two ends farther apart are different */
 
@@ -34,10 +35,11 @@ typedef struct judge {
     motus_run *run;
     const problem *problem;
     end from, to, now, whole, half;
-    double *stage_x, *stage_v, *sum_x, *sum_v; /* of nv numbers each, one behind the other */
-    interval *box;                             /* nx, then nv */
-    int pieces;                                /* controlled steps so far */
-    double of_x, of_v;                         /* sizes to which errors of controlled steps relate */
+    stepper *stepper;  /* of controlled steps */
+    double *room;      /* 4 nv numbers */
+    interval *box;     /* nx, then nv */
+    int pieces;        /* controlled steps so far */
+    double of_x, of_v; /* sizes to which errors of controlled steps relate */
 } judge;
 
 static void copy(const judge *j, end *to, const end *from)
@@ -71,42 +73,22 @@ static bool may_meet_pole(const judge *j)
 
 /* Controlled steps ------------------------------------------------------------------------------------------------ */
 
-/* Takes a step of the classical Runge-Kutta method. */
-static void step(const judge *j, const end *from, double h, end *to)
+/* Takes steps of size h, which lead to `to`. False: they cannot be taken, or lead to no finite state. */
+static bool step(const judge *j, const end *from, double h, int64_t steps, end *to)
 {
-    static const double node_of[STAGES] = {0, 0.5, 0.5, 1}, weight[STAGES] = {1.0 / 6, 1.0 / 3, 1.0 / 3, 1.0 / 6};
-    const problem *p = j->problem;
-    memcpy(j->stage_x, from->x, p->nx * sizeof(double));
-    memcpy(j->stage_v, from->v, p->nv * sizeof(double));
-    for (size_t k = 0; k < p->nv; k++) j->sum_x[k] = j->sum_v[k] = 0;
-    for (int s = 0; s < STAGES; s++) {
-        p->accel(p->ctx, from->t + node_of[s] * h, j->stage_x, j->stage_v, to->a);
-        const double next = s + 1 < STAGES ? node_of[s + 1] * h : 0;
-        for (size_t k = 0; k < p->nv; k++) {
-            const double velocity = j->stage_v[k];
-            j->sum_v[k] += weight[s] * to->a[k];
-            j->stage_v[k] = from->v[k] + next * to->a[k];
-            if (k >= p->nx) continue;
-            j->sum_x[k] += weight[s] * velocity;
-            j->stage_x[k] = from->x[k] + next * velocity;
-        }
-    }
-    for (size_t k = 0; k < p->nx; k++) to->x[k] = from->x[k] + h * j->sum_x[k];
-    for (size_t k = 0; k < p->nv; k++) to->v[k] = from->v[k] + h * j->sum_v[k];
-    to->t = from->t + h;
+    const stepper_limit limit = {steps, NAN};
+    to->t = from->t + (double)steps * h;
+    return stepper_start(j->stepper, from->t, h, from->x, from->v, NULL) == MOTUS_OK &&
+           stepper_advance(j->stepper, limit, NULL, NULL) == MOTUS_OK &&
+           stepper_sync(j->stepper, to->x, to->v, NULL, NULL) == MOTUS_OK;
 }
 
 /* Returns the error of a controlled step in units of the tolerance, by two half steps, which lead to `half`. */
 static double error_of(judge *j, double h)
 {
     const problem *p = j->problem;
-    step(j, &j->now, h, &j->whole);
-    step(j, &j->now, h / 2, &j->half);
-    copy(j, &j->to, &j->half);
-    step(j, &j->to, h / 2, &j->half);
-    j->half.t = j->now.t + h;
+    if (!step(j, &j->now, h, 1, &j->whole) || !step(j, &j->now, h / 2, 2, &j->half)) return NAN;
     const double x = vector_apart(j->half.x, j->whole.x, p->nx), v = vector_apart(j->half.v, j->whole.v, p->nv);
-    if (isnan(x) || isnan(v)) return NAN;
     return fmax(x > 0 ? x / j->of_x : 0, v > 0 ? v / j->of_v : 0) / TOLERANCE;
 }
 
@@ -116,7 +98,7 @@ static double rate(double error) { return 0.9 * exp(-0.2 * log(error)); }
 /* Returns whether the way to a state after the time h passes a pole. */
 static bool pole_between(const judge *j, const end *from, double h, const double *x, const double *v, bool straight)
 {
-    return pole_on(&(pole_way){j->run->system, from->t, h, from->x, from->v, x, v, straight, j->box, j->stage_x});
+    return pole_on(&(pole_way){j->run->system, from->t, h, from->x, from->v, x, v, straight, j->box, j->room});
 }
 
 /* Takes controlled steps from `from` to the time t; `now` is then the state there. */
@@ -147,8 +129,8 @@ static course follow(judge *j, double t)
     return LASTS;
 }
 
-/* Judges whether the run's step from `from` is another motion than the controlled steps, which lead to `now`; `to` is
- * lost. acted: an event at the end of the step has changed the run's state. */
+/* Judges whether the run's step from `from` is another motion than the controlled steps, which lead to `now`. acted: an
+ * event at the end of the step has changed the run's state. */
 static motus_status judged(judge *j, bool acted)
 {
     const problem *p = j->problem;
@@ -252,7 +234,6 @@ static motus_status walk(judge *j, motus_error *err)
             const double from = j->from.t;
             const motus_status what = judged(j, run_events_acted(r) != acted);
             if (what != MOTUS_OK) return accuse(j, what, from, err);
-            observe(j, &j->to, NULL);
         }
         const end kept = j->from;
         j->from = j->to;
@@ -272,9 +253,15 @@ static motus_status look(motus_run *r, motus_error *err)
     end *const ends[] = {&j.from, &j.to, &j.now, &j.whole, &j.half};
     for (size_t k = 0; k < sizeof ends / sizeof *ends; k++, at += nx + 2 * nv)
         *ends[k] = (end){0, at, at + nx, at + nx + nv};
-    j.stage_x = at, j.stage_v = at + nv, j.sum_x = at + 2 * nv, j.sum_v = at + 3 * nv;
+    j.room = at;
     j.box = (interval *)(void *)(at + 4 * nv);
-    const motus_status status = walk(&j, err);
+    chosen row;
+    motus_status status = row_choose(CONTROLLED, &row, NULL, err);
+    if (status == MOTUS_OK)
+        status = stepper_create(&r->system->machine, &row, r->timing.t0, r->timing.h, r->system->x0, r->system->v0,
+                                &r->allocator, &j.stepper, err);
+    if (status == MOTUS_OK) status = walk(&j, err);
+    stepper_destroy(j.stepper);
     give(&r->allocator, room);
     return status;
 }
