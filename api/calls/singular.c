@@ -20,10 +20,10 @@
 #include <string.h>
 
 enum { PIECES_MAX = 50000 }; /* controlled steps in all */
-#define CONTROLLED "rk4" /* the method of controlled steps */
-#define TOLERANCE 1e-6   /* of the motion's size, for a controlled step */
-#define LEAST 0x1p-44 /* of the run's step: a controlled step that must be shorter is at a singularity */
-#define APART 0.5     /* of the velocity, or of the way: two ends farther apart are different */
+#define CONTROLLED "rk4"     /* the method of controlled steps */
+#define TOLERANCE 1e-6       /* of the motion's size, for a controlled step */
+#define LEAST 0x1p-44        /* of the run's step: a controlled step that must be shorter is at a singularity */
+#define APART 0.5            /* of the velocity, or of the way: two ends farther apart are different */
 
 typedef struct end {
     double t, *x, *v, *a;

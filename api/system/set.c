@@ -3,6 +3,7 @@
  * Invariant: a system whose numbers were set has, to the bit, the numbers of a system that was read with them in `set`;
  * a refusal changes nothing. lang/model/vary.h computes the numbers that depend on them.
  */
+#include "api/system/invariants.h"
 #include "api/system/located.h"
 #include "api/system/parameters.h"
 
@@ -101,7 +102,8 @@ static motus_status check(motus_system *s, const char *name, motus_error *err)
                                 "an initial value of %s depends on %s, and would not be a finite number",
                                 s->states[i].name, name);
             }
-    return verify_again(s->model, err);
+    const motus_status status = verify_again(s->model, err);
+    return status == MOTUS_OK ? invariants_check(s, err) : status;
 }
 
 static motus_status set_model(motus_system *s, const char *name, const parameters_target *t, const double *values,

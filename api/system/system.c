@@ -1,5 +1,6 @@
 /* Systems: made from a text or from a callback, described, and destroyed. */
 #include "api/system/columns.h"
+#include "api/system/invariants.h"
 #include "api/system/stand_in.h"
 #include "lang/read/read.h"
 #include "machine/held.h"
@@ -99,6 +100,7 @@ motus_status system_read(const motus_text_def *given, const read_how *how, motus
         if (!system_number_columns(s) || !column_names_enter(s))
             status = fail(err, MOTUS_MEMORY, "no memory for the model");
     }
+    if (status == MOTUS_OK) status = invariants_check(s, err);
     modes_leave(m);
     if (status != MOTUS_OK) {
         motus_system_destroy(s);

@@ -1,5 +1,6 @@
 /* What a model claims of its motion is checked: its exact lines (verify_exact.c, at the times of verify_sample.c, and
- * between them in verify_between.c) and its invariants (verify_invariant.c); what both need is in verify_size.c.
+ * between them in verify_between.c) and its invariants, whose formulas verify_invariant.c makes and which
+ * api/system/invariants.c follows along a motion; what both need is in verify_size.c.
  *
  * Numbers count as equal where their difference is below EXACT_ROUNDING times what rounding may make of them: a bound
  * from their formulas (graph_rounding), which knows about cancellation, and the size of the motion, by which a velocity
@@ -85,6 +86,7 @@ motus_status verify_between(model *, verify_sample *, verify_fault *);
 bool verify_exact_make(model *);
 motus_status verify_exact(model *);
 bool verify_invariant_make(model *);
-motus_status verify_invariants(model *);
+/* Tells whether the formula of an invariant has kinks. */
+bool verify_kinked(const model *, const model_definition *);
 
 #endif
