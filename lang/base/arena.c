@@ -9,15 +9,15 @@
 typedef struct arena_block {
     struct arena_block *next;
     size_t used, size; /* bytes after this header */
-    bool alone;        /* one piece has it to itself */
+    bool alone;        /* it holds a single piece */
 } arena_block;
 
 enum {
     FIRST_BLOCK = 16 << 10,
     LARGEST_BLOCK = 1 << 20,
-    SMALLEST_ALONE = 16 << 10, /* bytes of a piece with a block of its own */
+    SMALLEST_ALONE = 16 << 10, /* bytes from which a piece gets a block of its own */
     LINE = 64,                 /* bytes of a cache line */
-    ARRAY = 512                /* bytes from which on a piece begins at a line: objects are smaller, and lie closely */
+    ARRAY = 512                /* bytes from which a piece begins at a cache line; objects are smaller, and packed */
 };
 
 void arena_init(arena *a, const motus_allocator *allocator)
@@ -96,7 +96,7 @@ void *arena_grow(arena *a, void *old, size_t old_bytes, size_t new_bytes)
     return p;
 }
 
-/* Where the memory of a piece that has a block to itself is, as a link that leads to it; else NULL. */
+/* Returns the link to the block that a piece has to itself; NULL: the piece shares its block. */
 static arena_block **alone(arena *a, const void *piece)
 {
     for (arena_block **link = &a->blocks; *link; link = &(*link)->next) {

@@ -1,7 +1,7 @@
-/* Memory of one model: taken in pieces, released at once.
+/* The memory of one model: taken in pieces, released at once.
  *
- * arena_take: a small object; arena_room: an array; arena_grow: a larger copy of one; arena_replace: a larger
- * copy in its place; arena_text: a copy of a text.
+ * arena_take is for a small object, arena_room for an array, arena_grow for a larger copy of an array, arena_replace
+ * for a larger copy in its place, and arena_text for a copy of a text.
  *
  * Invariant: arena_take of up to ARENA_SPARE bytes never returns NULL. When memory has run out it sets `failed` and
  * returns the spare block, so callers may write before they check; code that loops or recurses checks `failed` first.
@@ -23,14 +23,14 @@ typedef struct arena {
 } arena;
 
 void arena_init(arena *, const motus_allocator *);
-/* zeroed; 64-byte aligned for requests of 512 bytes and more */
+/* Returns zeroed memory; requests of 512 bytes and more are 64-byte aligned. */
 void *arena_take(arena *, size_t bytes);
-void *arena_room(arena *, size_t bytes); /* the same; NULL when there is no memory, also for small requests */
-void *arena_grow(arena *, void *old, size_t old_bytes, size_t new_bytes); /* a copy in larger room */
-/* The same; the memory of the old piece goes back to the hooks where it is large enough to have had a block of its own:
- * nothing may point into it any more. */
+void *arena_room(arena *, size_t bytes); /* zeroed; NULL when there is no memory, however small the request */
+void *arena_grow(arena *, void *old, size_t old_bytes, size_t new_bytes); /* a copy in a larger piece */
+/* Copies a piece into a larger one, and gives the old memory back to the hooks if it had a block of its own: nothing
+ * may point into it any more. */
 void *arena_replace(arena *, void *old, size_t old_bytes, size_t new_bytes);
-void arena_drop(arena *, const void *piece, size_t bytes);  /* gives its memory back, if it is as large as that */
+void arena_drop(arena *, const void *piece, size_t bytes);  /* likewise gives the memory back */
 char *arena_text(arena *, const char *text, size_t length); /* a copy that ends with 0 */
 void arena_release(arena *);
 

@@ -1,5 +1,4 @@
-/* The elementary functions over one kind of number (step/functions/core.h says how it is named); included once for each
- * kind. */
+/* The elementary functions over one kind of number, included once for each kind; step/functions/core.h names them. */
 #include "step/functions/core.h"
 #include "step/functions/plain.h"
 #include "step/functions/exponential.h"

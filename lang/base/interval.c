@@ -34,7 +34,7 @@ static interval even(operation op, interval a)
     return (interval){operation_value(op, m.low, 0, 0), operation_value(op, m.high, 0, 0)};
 }
 
-/* Whether a contains at + k period for an integer k. */
+/* Returns whether a contains at + k period for an integer k. */
 static bool passes(interval a, double at, double period)
 {
     return floor((a.high - at) / period) > floor((a.low - at) / period) || a.low == at;
@@ -75,7 +75,7 @@ static interval corners(operation op, interval a, interval b)
     return r;
 }
 
-/* A base that is 0 or below has a power where the exponent is positive, or an integer. */
+/* Bounds a power. A base that is 0 or negative has one where the exponent is positive or an integer. */
 static interval power(interval a, interval b)
 {
     const bool whole = single(b) && b.low == floor(b.low), even = whole && b.low == 2 * floor(b.low / 2);

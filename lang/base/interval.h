@@ -1,5 +1,5 @@
 /* Interval arithmetic: bounds on the values of an operation whose operands are anywhere in intervals. The bounds are
- * not rounded outward, and they are wider than the values where one number is in both operands.
+ * not rounded outward, and they are too wide where both operands contain one number.
  */
 #ifndef LANG_BASE_INTERVAL_H
 #define LANG_BASE_INTERVAL_H
@@ -14,8 +14,8 @@ typedef struct interval {
 
 interval interval_hull(interval, interval);
 interval interval_magnitude(interval);
-/* The interval of one operation; same: both operands are the same number. What is not defined everywhere in the
- * operands is anything. */
+/* Returns bounds on one operation; same: both operands are the same number. An operation that is undefined for some of
+ * the operands has no bounds. */
 interval interval_value(operation, interval a, interval b, interval c, bool same);
 
 #endif

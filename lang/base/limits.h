@@ -1,4 +1,4 @@
-/* Limits on indices: the parser refuses more, and the graph has room for this many. */
+/* Limits on indices: the parser refuses more, and the graph has room for as many. */
 #ifndef LANG_BASE_LIMITS_H
 #define LANG_BASE_LIMITS_H
 

@@ -1,8 +1,8 @@
 /* See twofold.h.
  *
- * Sums and products keep what their rounding leaves, exactly or as a bound, [Dekker71, Knuth69] so every formula that
- * is made of them bounds its own error; series add what they leave out. Functions begin with the double's value, and
- * take what is missing from a short series of the small rest.
+ * Sums and products keep what rounding takes from them, exactly or as a bound [Dekker71, Knuth69], so every formula
+ * that is made of them bounds its own error; a series adds the bound of its remainder. A function starts from its value
+ * in doubles, and adds a short series of the small rest.
  */
 #include "lang/base/twofold.h"
 
@@ -15,9 +15,9 @@ static const twofold log_2 = {0x1.62e42fefa39efp-1, 0x1.abc9e3b39803fp-56, 0x1p-
 
 static twofold nothing(double value) { return (twofold){value, 0, INFINITY}; }
 
-static double size_of(twofold a) { return fabs(a.high) + fabs(a.low) + a.error; } /* no number of a is larger */
+static double size_of(twofold a) { return fabs(a.high) + fabs(a.low) + a.error; } /* no number in a is larger */
 
-/* a + b, and what its rounding leaves. */
+/* Returns a + b in double, and in *rest what rounding takes from it. */
 static double two_sum(double a, double b, double *rest)
 {
     const double s = a + b, of_b = s - a;
@@ -34,7 +34,7 @@ static double two_product(double a, double b, double *rest)
 
 static twofold more(twofold a, double error) { return (twofold){a.high, a.low, a.error + error}; }
 static twofold negative(twofold a) { return (twofold){-a.high, -a.low, a.error}; }
-/* By a power of 2. */
+/* Multiplies by a power of 2. */
 static twofold scaled(twofold a, double power) { return (twofold){a.high * power, a.low * power, a.error * power}; }
 
 static twofold plus(twofold a, twofold b)
@@ -56,7 +56,7 @@ static twofold times(twofold a, twofold b)
     const double high = two_product(a.high, b.high, &rest);
     const double low_a = two_product(a.low, b.high, &rest_a), low_b = two_product(a.high, b.low, &rest_b);
     const double low = two_sum(low_a, low_b, &left_low), both = two_sum(rest, low, &left);
-    const bool tiny = a.high != 0 && b.high != 0 && !(fabs(high) > 0x1p-900); /* what is left may be no double */
+    const bool tiny = a.high != 0 && b.high != 0 && !(fabs(high) > 0x1p-900); /* the rest may underflow */
     twofold p = {.error = size_of(a) * b.error + (fabs(b.high) + fabs(b.low)) * a.error + fabs(a.low * b.low) +
                           fabs(rest_a) + fabs(rest_b) + fabs(left_low) + fabs(left) + (tiny ? 0x1p-1060 : 0)};
     p.high = two_sum(high, both, &p.low);
@@ -65,7 +65,7 @@ static twofold times(twofold a, twofold b)
 
 static twofold square(twofold a) { return times(a, a); }
 
-/* From a quotient q of doubles: q + (a - q b)/b, twice. */
+/* Divides: from the quotient q of doubles, q + (a - q b)/b, twice. */
 static twofold over(twofold a, twofold b)
 {
     const double least = fabs(b.high) - fabs(b.low) - b.error;
@@ -84,7 +84,7 @@ static twofold root(twofold a)
 {
     const double least = a.high - fabs(a.low) - a.error;
     if (a.high == 0 && a.low == 0 && a.error == 0) return a;
-    if (!(least > 0)) { /* 0 is among its numbers, or near them */
+    if (!(least > 0)) { /* 0 is within a, or near it */
         const double most = sqrt(size_of(a));
         return a.high + a.error >= 0 && isfinite(most) ? (twofold){most / 2, 0, most / 2 + twofold_unit(most)}
                                                        : nothing(NAN);
@@ -98,7 +98,7 @@ static twofold root(twofold a)
     return r;
 }
 
-/* d - d^2/2 + d^3/3 …, of a small d; what is left out is below its fourth power. */
+/* Returns log(1 + d) = d - d^2/2 + d^3/3 … of a small d; the remainder is below d^4. */
 static twofold log_near_1(twofold d)
 {
     const double size = size_of(d);
@@ -107,7 +107,7 @@ static twofold log_near_1(twofold d)
     return more(plus(minus(d, scaled(d2, 0.5)), over(d3, twofold_of(3))), size * size * size * size);
 }
 
-/* e^x = 2^k e^r, and e^r - 1 by the series of a small part of r, which is doubled PARTS times. */
+/* Returns e^x = 2^k e^r, where e^r - 1 is a series of r/2^PARTS, doubled PARTS times. */
 static twofold exponential(twofold x)
 {
     enum { PARTS = 8, TERMS = 13 };
@@ -117,7 +117,7 @@ static twofold exponential(twofold x)
     twofold part = twofold_of(0);
     for (int n = TERMS; n > 0; n--) part = times(over(r, twofold_of(n)), plus(twofold_of(1), part));
     const double size = size_of(r);
-    part = more(part, pow(size, TERMS + 1)); /* over (TERMS + 1)!, of which the rest of the series needs little */
+    part = more(part, pow(size, TERMS + 1)); /* the remainder is far less, by (TERMS + 1)! */
     for (int n = 0; n < PARTS; n++) part = plus(scaled(part, 2), square(part));
     return scaled(plus(twofold_of(1), part), ldexp(1, (int)k));
 }
@@ -130,7 +130,7 @@ static twofold logarithm(twofold x)
     return plus(near, log_near_1(minus(times(x, exponential(negative(near))), twofold_of(1))));
 }
 
-/* The series of sin (from = 1) or cos (from = 0) of |x| <= 0.8. */
+/* Returns the series of sin (from = 1) or cos (from = 0) of |x| <= 0.8. */
 static twofold wave(twofold x, int from)
 {
     enum { LAST = 28 };
@@ -142,7 +142,7 @@ static twofold wave(twofold x, int from)
     return from ? times(x, sum) : sum;
 }
 
-/* sin (quarter 0) or cos (quarter 1) */
+/* Returns sin (quarter 0) or cos (quarter 1). */
 static twofold turned(twofold x, int quarter)
 {
     if (!(size_of(x) < 0x1p40)) return nothing(NAN);
@@ -150,12 +150,12 @@ static twofold turned(twofold x, int quarter)
     const double n = nearbyint(x.high / (half_turn.high / 2));
     const twofold r = minus(x, times(twofold_of(n), scaled(half_turn, 0.5)));
     const int at = (int)((int64_t)n & 3) + quarter;
-    if (!(size_of(r) < 0.9)) return (twofold){0, 0, 1}; /* its error is as large */
+    if (!(size_of(r) < 0.9)) return (twofold){0, 0, 1}; /* the error of x is as large as that */
     const twofold w = wave(r, !(at & 1));
     return at & 2 ? negative(w) : w;
 }
 
-/* The angle of (x, y), from that of doubles and the small angle that is missing. */
+/* Returns the angle of (x, y): that of doubles, and the small angle that is missing. */
 static twofold angle(twofold y, twofold x)
 {
     const double near = operation_value(OP_ATAN2, y.high, x.high, 0);
@@ -170,7 +170,7 @@ static twofold angle(twofold y, twofold x)
     return more(plus(twofold_of(near), times(d, series)), pow(size, 7));
 }
 
-/* sqrt(1 - x^2) */
+/* Returns sqrt(1 - x^2). */
 static twofold beside(twofold x) { return root(times(minus(twofold_of(1), x), plus(twofold_of(1), x))); }
 
 static twofold hyperbolic_sine(twofold x)
@@ -198,7 +198,7 @@ static twofold hyperbolic_tangent(twofold x)
     return over(hyperbolic_sine(x), hyperbolic_cosine(x));
 }
 
-/* y (1 + d)^(1/3), where y is the double's root and 1 + d what the number is in units of its cube. */
+/* Returns y (1 + d)^(1/3), where y is the root in doubles and 1 + d = x/y^3. */
 static twofold cube_root(twofold x)
 {
     const double y = operation_value(OP_CBRT, x.high, 0, 0);
@@ -222,7 +222,7 @@ static twofold power(twofold x, twofold y)
     return y.high < 0 ? over(twofold_of(1), p) : p;
 }
 
-/* What is nearer to a whole number than decimals can be, and not it, is that number. */
+/* Returns floor(x); a number nearer to a whole number than decimals can be is that number. */
 static twofold whole(twofold x)
 {
     const double near = nearbyint(x.high) + nearbyint(x.low), off = fabs((x.high - near) + x.low) + x.error;
@@ -232,7 +232,7 @@ static twofold whole(twofold x)
     return plus(twofold_of(near), (twofold){low == high ? low : (low + high) / 2, 0, (high - low) / 2});
 }
 
-/* -1, 0 or 1 as a is less than b, equal to it or greater. */
+/* Returns -1, 0 or 1 as a is less than b, equal to it or greater. */
 static twofold compared(twofold a, twofold b)
 {
     const twofold d = minus(a, b);
@@ -241,17 +241,17 @@ static twofold compared(twofold a, twofold b)
     return (twofold){0, 0, 1};
 }
 
-/* What one of the signs -1, 0 and 1 answers. */
+/* Returns what a comparison answers, from the sign of a difference. */
 static twofold answer(twofold sign, bool less, bool equal, bool greater)
 {
     if (sign.error > 0) return less && equal && greater ? twofold_of(1) : (twofold){0.5, 0, 0.5};
     return twofold_of(sign.high < 0 ? less : sign.high > 0 ? greater : equal);
 }
 
-/* One of the two. */
+/* Returns a, with an error that covers b. */
 static twofold either(twofold a, twofold b) { return more(a, size_of(minus(a, b)) + b.error); }
 
-/* Or (wanted false) the smaller: by its error no further off than the operands are. */
+/* Returns the larger, or (wanted false) the smaller one; its error is no larger than those of the operands. */
 static twofold larger(twofold a, twofold b, bool wanted)
 {
     const twofold d = minus(a, b);
@@ -311,7 +311,7 @@ static interval around(twofold a)
     return (interval){a.high - far, a.high + far};
 }
 
-/* Beyond the range of the formulas the bounds of the interval are what is known. */
+/* Where the formulas have no finite value, interval arithmetic gives the bounds. */
 twofold twofold_value(operation op, twofold a, twofold b, twofold c)
 {
     enum { ROUNDED = 2 }; /* units in the last place: no function of ours is further off */

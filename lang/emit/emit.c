@@ -1,12 +1,12 @@
-/* Writes a plan as C. See emit.h. The operations and their order are the interpreter's, and so are the bits.
+/* Writes a plan as C. The operations and their order are the interpreter's, and so are the bits.
  *
  * Invariant: a value is one `const` of the C block in which the plan computes it; sums follow lang/graph/program.c
- * exactly. A value is `wide`, one number for each lane, or a plain double that all lanes share; where an operation has
- * both, MANY spreads the plain one.
+ * exactly. A value is `wide`, one number for each lane, or a plain double that all lanes share; MANY spreads a plain
+ * one for an operation with a wide one.
  */
 #include "lang/emit/emit_parts.h"
 
-/* Constants stand in the text where they are used. */
+/* Writes constants where they are used. */
 static void write_constants(writer *w)
 {
     const plan_region *bind = &w->plan.regions.at[AT_BIND];
@@ -98,7 +98,7 @@ bool emit_program(emit *e, const program *p, const char *name, bool terms)
     return !e->text.arena->failed;
 }
 
-/* OF, FUSE and WHEN are written as they are: the C text defines them for doubles and for lanes. */
+/* OF, FUSE and WHEN stay: the C text defines them for doubles and for lanes. */
 #define OF(f) OF(f)
 #define FUSE(a, b, c) FUSE(a, b, c)
 #define WHEN(condition, a, b) WHEN(condition, a, b)

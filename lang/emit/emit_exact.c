@@ -1,7 +1,7 @@
-/* Operations that a number makes exact: a product with 1 or -1, a quotient by a power of two. See emit_parts.h.
+/* Operations that a number makes exact: a product with 1 or -1, a quotient by a power of two.
  *
  * Invariant: the bits are those of the operation. Such a number stands in the text as a constant, so that the compiler
- * leaves the product out, or multiplies where a division was; e->assumed says for which numbers the text is right.
+ * omits the product, or multiplies in place of a division; e->assumed lists the numbers for which the text is right.
  */
 #include "lang/emit/emit_parts.h"
 
@@ -20,7 +20,7 @@ static double value_of(const writer *w, node n)
     return item == NONE ? NAN : w->value[item];
 }
 
-/* What is computed when parameters are bound, outside of loops, for the present parameters. */
+/* Computes what is bound with the parameters, outside loops, for the present parameters. */
 void emit_values(writer *w)
 {
     const plan_region *bind = &w->plan.regions.at[AT_BIND];
@@ -57,14 +57,14 @@ static void assume(emit *e, uint32_t place, double value)
 
 static bool is_one(double x) { return fabs(x) == 1; }
 
-/* Its reciprocal is a number too. */
+/* Returns whether x is a power of two whose reciprocal is a double, too. */
 static bool is_power_of_two(double x)
 {
     int exponent;
     return fabs(frexp(x, &exponent)) == 0.5 && exponent > -1000 && exponent < 1000;
 }
 
-/* Whether an operand of the running function is known to have such a value; notes that the text relies on it. */
+/* Returns whether an operand of the running function has a wanted value, and notes that the text relies on it. */
 static bool relies(writer *w, node n, bool (*wanted)(double), double *value)
 {
     const uint32_t item = bound_item(w, n);
@@ -81,7 +81,7 @@ static void write_number(writer *w, node user, double value, char out[48])
     snprintf(out, 48, emit_wide(w, user) ? "MANY(%s)" : "%s", number);
 }
 
-/* Operand `factor` of a fused operation is 1 or -1: what is left is a sum or a difference with the third. */
+/* Writes a fused operation whose operand `factor` is 1 or -1 as a sum or a difference. */
 static void write_sum_of(unsigned *op, int factor, double value, char operand[3][48])
 {
     char product[48], third[48];

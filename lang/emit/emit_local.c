@@ -23,8 +23,8 @@ static void see(void *ctx, const reference *r, const range *sums, int first_leve
     if (far > LOCAL_REACH_MAX) s->l->local = false;
 }
 
-/* A sum over the state that does not depend on a family index is computed once for all cells; with windows it would be
- * computed once for every window. */
+/* Returns whether a sum over the state depends on no family index: it is computed once for all cells, but with windows
+ * once for every window. */
 static bool sums_of_all(const program *p)
 {
     for (uint32_t n = 0; n < p->graph->count; n++) {

@@ -1,7 +1,7 @@
-/* How far the equations of a program reach: whether a family's cells can be advanced window by window.
+/* How far the equations of a program reach, and so whether a family's cells can be advanced window by window.
  *
- * "Outer index" is a family's first index. A program is divisible where every cell belongs to one outer index; it is
- * local where, besides, the acceleration at outer index i reads the state at i - reach … i + reach alone.
+ * The outer index of a family is its first one. A program is divisible where every cell belongs to one outer index; it
+ * is local where, besides, the acceleration at outer index i reads only the state at i - reach … i + reach.
  */
 #ifndef LANG_EMIT_EMIT_LOCAL_H
 #define LANG_EMIT_EMIT_LOCAL_H

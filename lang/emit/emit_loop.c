@@ -1,4 +1,4 @@
-/* Regions, loops, sums. See emit_parts.h.
+/* Writes regions, loops and sums.
  *
  * Invariant: sums follow lang/graph/program.c exactly: up to 16 terms in order; more terms in turn to eight partial
  * sums, which a fixed tree adds. A loop that contains no other takes WIDTH values of its index at once, one in each
@@ -8,7 +8,7 @@
 
 #include <stdio.h>
 
-/* Adds a term to a partial sum of the name `partial`: "s7[k]". */
+/* Writes the addition of a term to a partial sum, as "s7[k]". */
 static void write_update(writer *w, const plan_item *update, const char *partial)
 {
     node whole = w->plan.items.at[plan_updates(&w->plan, update)].n;
@@ -32,7 +32,8 @@ static void write_update(writer *w, const plan_item *update, const char *partial
     }
 }
 
-/* Of more than 16 terms, eight at a time: to the partial sums s or, in lanes, to v, which is then copied to s. */
+/* Writes a loop over more than 16 terms, eight at a time: to the partial sums s or, in lanes, to v, which is then
+ * copied to s. */
 static void write_eights(writer *w, uint32_t region)
 {
     const plan_region *r = &w->plan.regions.at[region];
@@ -67,7 +68,8 @@ void emit_total(writer *w, uint32_t k, const char *type, const char *first, cons
               type, k, last, first, k, k, k, k, k, k, k, k, k);
 }
 
-/* Sums over pairs: emit_pair.c says how -------------------------------------------------------------------------- */
+/* Sums over pairs: see emit_pair.c
+ * ---------------------------------------------------------------------------------- */
 
 static void write_pairs_one_by_one(writer *w, uint32_t region)
 {
@@ -136,7 +138,7 @@ static void write_pair_sums(writer *w, uint32_t region)
     {
         emit_line(w, "double s%u[8], *const t%u = own + (%u * rows + (rows > 1 ? i1 & 7 : 0)) * c1;", k, k, c);
         emit_line(w, "for (int64_t k = 0; k < rows; k++) s%u[k] = own[(%u * rows + k) * c1 + i1];", k, c++);
-        w->plan.items.at[k].reg = 0; /* done */
+        w->plan.items.at[k].reg = 0; /* it has been written */
     }
     emit_line(w, "{");
     w->depth++;
@@ -177,13 +179,13 @@ static void write_sum(writer *w, uint32_t region)
     EACH_SUM(k, r)
     {
         emit_line(w, emit_wide(w, w->plan.items.at[k].n) ? "reals s%u[8] = {{0}};" : "double s%u[8] = {0};", k);
-        w->plan.items.at[k].reg = 0; /* done */
+        w->plan.items.at[k].reg = 0; /* it has been written */
     }
     emit_line(w, "{");
     w->depth++;
     emit_line(w, "const int64_t f%d = %s, n%d = %s - f%d + 1;", level, first, level, last, level);
     emit_line(w, "int64_t m%d = 0;", level);
-    if (!r->holds_sums) /* a body without sums of its own is cheap to write twice */
+    if (!r->holds_sums) /* a body without sums is cheap to write twice */
         write_eights(w, region);
     emit_line(w, "for (; m%d < n%d; m%d++) {", level, level, level);
     w->depth++;
@@ -207,8 +209,8 @@ static bool lies_in(const writer *w, uint32_t inner, uint32_t region)
     return inner == region;
 }
 
-/* The same loop over a family's index twice: all pairs once, where the loop is over all cells and has room for their
- * sums, and every cell by itself. */
+/* Writes a loop over a family's index twice: over all pairs once, where the loop is over all cells and has room for
+ * their sums, and over every cell by itself. */
 static void write_pairs(writer *w, uint32_t region, uint32_t pairs, const char *first, const char *last)
 {
     emit_line(w, "if (own && j0 == %s && e0 == %s) {", first, last);
@@ -223,7 +225,7 @@ static void write_pairs(writer *w, uint32_t region, uint32_t pairs, const char *
     emit_line(w, "}");
     w->depth--;
     emit_line(w, "}");
-    /* the sums are to be written once more */
+    /* the sums are written once more */
     for (uint32_t k = 0; k < w->plan.items.count; k++)
         if (plan_inside(&w->plan, &w->plan.items.at[k]) != NONE && lies_in(w, w->plan.items.at[k].region, region))
             w->plan.items.at[k].reg = NONE;
@@ -272,7 +274,7 @@ static void write_loop(writer *w, uint32_t region)
     w->region = around;
 }
 
-/* Whether the function that is being written computes an item of its region itself. */
+/* Returns whether the function that is being written computes an item of its region. */
 static bool belongs(const writer *w, const plan_item *i, uint32_t region)
 {
     if (w->part == TERMS) return (w->nature[i->n] & PLAIN_TIME) || w->plan.g->nodes[i->n].op == OP_TIME;

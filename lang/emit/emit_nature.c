@@ -1,7 +1,7 @@
-/* The nature of values: which are wide, and which of time alone. See emit_parts.h. */
+/* The nature of values: which are wide, and which depend on time alone. */
 #include "lang/emit/emit_parts.h"
 
-/* The nature of every node. Sums of parameters that share a loop with a wide one are made wide as well: `loops` says
+/* Finds the nature of every node. Sums of parameters that share a loop with a wide one become wide, too: `loops` says
  * that there is one. */
 bool emit_natures(writer *w, bool loops)
 {
@@ -36,7 +36,7 @@ bool emit_natures(writer *w, bool loops)
     return wide_loops;
 }
 
-/* The values of time alone that others need get places in T. */
+/* Gives places in T to values of time alone that others need. */
 void emit_terms(writer *w)
 {
     const graph *g = w->plan.g;
@@ -61,7 +61,8 @@ void emit_terms(writer *w)
     }
 }
 
-/* In the function that computes the terms a lane is a time; in a loop with lanes it is a value of the index. */
+/* Returns whether a value is wide. In the function that computes terms a lane is a time; in a loop with lanes it is a
+ * value of the index. */
 bool emit_wide(const writer *w, node n)
 {
     const graph_node *m = &w->plan.g->nodes[n];
@@ -72,7 +73,7 @@ bool emit_wide(const writer *w, node n)
 
 const char *emit_type(const writer *w, node n) { return emit_wide(w, n) ? "reals" : "double"; }
 
-/* The name of an operation's function, which is then used. */
+/* Returns the name of an operation's function, and notes its use. */
 const char *emit_operation(const writer *w, node n, unsigned op)
 {
     bool lanes = emit_wide(w, n);

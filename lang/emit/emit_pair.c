@@ -1,15 +1,15 @@
-/* Sums over pairs, each pair once: x[i]'' = Σ over j != i of a term whose long part is the same for (i, j) and (j, i).
+/* Sums that take each pair once: x[i]'' = Σ over j != i of a term whose costly part is equal for (i, j) and (j, i).
  *
- * Cell i takes the terms of all j > i and adds, for each, the term with the indices exchanged to the sum of cell j.
- * The partial sums of all cells wait in memory: sum c of cell j has partial p at own[(c rows + p) cells + j]; rows is
- * 8, or 1 where a sum has 16 terms at most; `own` and every row begin a line of the cache. When cell i is reached,
- * all smaller cells have added theirs, in their order, and its own loop adds the others, in theirs: every partial sum
- * takes its terms in the order that defines the bits.
+ * Cell i takes the terms of all j > i and adds, for each, the term with the indices exchanged to the sum of cell j. The
+ * partial sums of all cells wait in memory: sum c of cell j has partial p at own[(c rows + p) cells + j]; rows is 8, or
+ * 1 where a sum has at most 16 terms; `own` and every row begin a cache line. When cell i is reached, all smaller cells
+ * have added theirs, in their order, and its own loop adds the others, in theirs: so every partial sum takes its terms
+ * in the order that defines the bits.
  *
- * A node is `even` where exchanging i and j leaves its bits as they are, and `odd` where it changes no more than the
- * sign, or leaves both zero: x[j] - x[i]. Of the exchanged term even nodes are shared; all others are computed again.
+ * A node is `even` if exchanging i and j leaves its bits as they are, and `odd` if that changes only the sign, or
+ * leaves both zero: x[j] - x[i]. The exchanged term shares even nodes, and computes all others again.
  *
- * Invariant: even is never said of a node that could differ in a bit, not even in the sign of a zero.
+ * Invariant: no node that could differ in a bit, even in the sign of a zero, is called even.
  */
 #include "lang/emit/emit_parts.h"
 
@@ -19,13 +19,13 @@
 enum { EVEN = 1, ODD = 2 };
 enum {
     DEP_PAIR = 1 << 0 | 1 << 1, /* the levels of i and of j */
-    DEPTH_MAX = 6,              /* of two expressions that are compared; deeper ones count as different */
-    NODES_MAX = 1000            /* of a program */
+    DEPTH_MAX = 6,              /* of two compared expressions; deeper ones count as different */
+    NODES_MAX = 1000            /* nodes of a program */
 };
 
 static const graph_node *at(const writer *w, node n) { return &w->plan.g->nodes[n]; }
 
-/* ---- what an exchange of the indices does ---- */
+/* Effects of exchanging the indices -------------------------------------------------------------------------------- */
 
 static int exchanged_level(int level) { return level == 0 ? 1 : level == 1 ? 0 : level; }
 
@@ -36,7 +36,7 @@ static reference exchanged_reference(const reference *r)
     return other;
 }
 
-/* Whether m is n with the indices exchanged. */
+/* Returns whether m is n with the indices exchanged. */
 static bool is_exchanged(const writer *w, node n, node m, int depth)
 {
     const graph_node *a = at(w, n), *b = at(w, m);
@@ -77,7 +77,7 @@ static uint8_t parity_of(const writer *w, const uint8_t *parity, const graph_nod
     }
 }
 
-/* ---- whether ---- */
+/* Where pairs are worth it ----------------------------------------------------------------------------------------- */
 
 static bool takes_long(unsigned op) { return op == OP_DIV || op == OP_SQRT || op == OP_POW || op > OP_POW; }
 
@@ -87,7 +87,8 @@ static bool same_bound(const subscript *a, const subscript *b)
            b->modulus < 0;
 }
 
-/* As in `j != i`; then a loop that takes one term at a time goes on without computing it. */
+/* Returns whether all sums of a loop leave out a term by `j != i`: then a loop that takes one term at a time skips
+ * it. */
 bool emit_leaves_out(const writer *w, const plan_region *r, int level[2])
 {
     const graph_node *nodes = w->plan.g->nodes;
@@ -105,7 +106,8 @@ bool emit_leaves_out(const writer *w, const plan_region *r, int level[2])
     return level[0] != level[1];
 }
 
-/* All sums of the loop leave out j = i, and nothing in them but x[i], x[j] and such depends on the indices. */
+/* Returns whether all sums of a loop leave out j = i, and only places like x[i] and x[j] in them depend on the
+ * indices. */
 static bool exchangeable(writer *w, const plan_region *r)
 {
     int equal[2];
@@ -119,7 +121,8 @@ static bool exchangeable(writer *w, const plan_region *r)
     return true;
 }
 
-/* There is one room for partial sums, so families whose pairs are taken once have the same cells. */
+/* Returns whether a family has the cells of those before whose pairs are taken once: they share the room for partial
+ * sums. */
 static bool same_cells(const emit *e, const range *r)
 {
     return !e->pair_sums || (same_bound(&e->pair_range.first, &r->first) && same_bound(&e->pair_range.last, &r->last));
@@ -166,7 +169,7 @@ uint32_t emit_pairs(writer *w, uint32_t family)
     return found;
 }
 
-/* ---- the term with the indices exchanged ---- */
+/* The term with the indices exchanged ------------------------------------------------------------------------------ */
 
 static void write_leaf(writer *w, node n, node user)
 {
@@ -192,7 +195,7 @@ static void write_leaf(writer *w, node n, node user)
         emit_line(w, "const reals o%u = MANY(%s);", n, place);
 }
 
-/* Where a leaf with its indices exchanged is another leaf, that one has been read. */
+/* Returns the leaf that another leaf is with its indices exchanged, if it has been read, or 0. */
 static node other_leaf(const writer *w, node n)
 {
     for (node m = 0; m < w->plan.g->count; m++)

@@ -1,7 +1,6 @@
-/* C text, and the places of numbers in memory as C text. See emit_parts.h.
+/* C text, and the places of numbers in memory as C text.
  *
- * Invariant: what depends on a size, a bound or a stride is a number of `q`; places with the same value share one
- * number.
+ * Invariant: what depends on a size, a bound or a stride is a number of `q`; places of equal value share a number.
  */
 #include "lang/emit/emit_parts.h"
 
@@ -10,7 +9,7 @@
 #include <stdio.h>
 #include <string.h>
 
-/* Text ------------------------------------------------------------------------------------------------------------ */
+/* Text ------------------------------------------------------------------------------------------------------------- */
 
 void emit_add(emit_text *t, const char *format, ...)
 {
@@ -60,7 +59,7 @@ const char *emit_number(double v, char out[EMIT_NUMBER])
     return out;
 }
 
-/* Run-time integers ----------------------------------------------------------------------------------------------- */
+/* Run-time integers ------------------------------------------------------------------------------------------------ */
 
 static bool same_int(const emit_int *a, const emit_int *b)
 {
@@ -117,7 +116,7 @@ static const char *space_name(space s)
 
 bool emit_varies(const writer *w, const array *a) { return w->e->varied && graph_marked(a, w->e->varied); }
 
-/* Places ---------------------------------------------------------------------------------------------------------- */
+/* Places ----------------------------------------------------------------------------------------------------------- */
 
 static const char *variable(const writer *w, const subscript *s, char out[16])
 {
@@ -134,7 +133,7 @@ void emit_bound(writer *w, const subscript *s, char out[PLACE_MAX])
     snprintf(out + n, PLACE_MAX - n, "%d", s->literal);
 }
 
-/* The last dimension has stride 1: it is left out, so that the compiler knows it. */
+/* The last dimension has stride 1, which is left out so that the compiler knows it. */
 void emit_element(writer *w, const reference *r, int dims, char out[PLACE_MAX])
 {
     const emit_int offset = {.kind = EMIT_OFFSET, .ref = *r};

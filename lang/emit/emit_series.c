@@ -1,10 +1,10 @@
 /* Writes a program in Taylor series: a function that computes coefficient n of every value, by the recurrences of
- * step/series.h. See emit.h.
+ * step/series.h.
  *
  * Invariant: every value is a real, in the memory that lang/graph/expansion.h gives it, and every region walks through
- * that memory as the interpreter does. Where all values lie in loops over a family's index, a real is a vector of WIDTH
+ * that memory as the interpreter does. If all values lie in loops over a family's index, a real is a vector of WIDTH
  * values of that index (`series_wide`), and the states have copies there. The text grows with the graph, not with the
- * order. A region begins with the inner sums of all its recurrences, in one loop: each coefficient is then fetched once
+ * order. A region begins with the inner sums of all its recurrences, in one loop, so each coefficient is fetched once
  * for all of them.
  */
 #include "lang/emit/emit_parts.h"
@@ -14,7 +14,7 @@
 
 enum { OPERAND_MAX = 64 };
 
-/* Operands ---------------------------------------------------------------------------------------------------------*/
+/* Operands --------------------------------------------------------------------------------------------------------- */
 
 static void operand(const writer *w, node n, char out[OPERAND_MAX])
 {
@@ -28,7 +28,7 @@ static void operand(const writer *w, node n, char out[OPERAND_MAX])
         snprintf(out, OPERAND_MAX, "SERIES(z%u, SERIES_ALL)", item);
 }
 
-/* What depends on parameters alone, as reals. */
+/* Writes what depends on parameters alone, as reals. */
 static void write_bound(writer *w)
 {
     const plan_region *bind = &w->plan.regions.at[AT_BIND];
@@ -47,7 +47,7 @@ static void write_bound(writer *w)
 
 static bool in_lanes(const writer *w) { return w->e->lanes || w->e->series_wide; }
 
-/* Inner sums -------------------------------------------------------------------------------------------------------*/
+/* Inner sums ------------------------------------------------------------------------------------------------------- */
 
 static const char *sums_of(unsigned op) { return operation_at((operation)op)->sums; }
 
@@ -57,7 +57,7 @@ static bool never_ends(const writer *w, node n)
     return home != AT_BIND && w->expansion.values[plan_find(&w->plan, n, home)].last == EXPANSION_ALL;
 }
 
-/* The operation whose recurrence an item has: that of a sum's update is the product that it adds. */
+/* Returns the operation whose recurrence an item has; for the update of a sum it is the product that it adds. */
 static const graph_node *recurrence_of(const writer *w, uint32_t item)
 {
     const graph *g = w->plan.g;
@@ -66,7 +66,7 @@ static const graph_node *recurrence_of(const writer *w, uint32_t item)
     return &g->nodes[whole == NONE ? i->n : g->nodes[w->plan.items.at[whole].n].a];
 }
 
-/* Whether the inner sums of an item's recurrence are taken before: none of the series that they are of ends. */
+/* Returns whether the inner sums of an item's recurrence are taken in advance: none of their series ends. */
 static bool has_inner(const writer *w, uint32_t item)
 {
     const graph_node *n = recurrence_of(w, item);
@@ -79,7 +79,7 @@ static bool has_inner(const writer *w, uint32_t item)
     return true;
 }
 
-/* One of the series of an inner sum, as operations.def names it. */
+/* Writes one of the series of an inner sum, as operations.def names it. */
 static void write_factor(const writer *w, uint32_t item, char which, char out[OPERAND_MAX])
 {
     const graph_node *n = recurrence_of(w, item);
@@ -96,7 +96,7 @@ static void write_factor(const writer *w, uint32_t item, char which, char out[OP
 
 typedef struct inner_sum {
     uint32_t item;
-    int k; /* of the item's */
+    int k; /* the number of the sum in its item */
     bool square;
     char f[OPERAND_MAX], g[OPERAND_MAX];
 } inner_sum;
@@ -127,7 +127,7 @@ static void write_inner(writer *w, const inner_sum *sums, int count)
     emit_line(w, "}");
 }
 
-/* The inner sums of a region, as many in one loop as have room in registers. */
+/* Writes the inner sums of a region, as many in one loop as registers hold. */
 static void write_inner_sums(writer *w, const plan_region *r)
 {
     enum { TOGETHER = 8 };
@@ -153,16 +153,17 @@ static void write_inner_sums(writer *w, const plan_region *r)
     if (count) write_inner(w, sums, count);
 }
 
-/* Values -----------------------------------------------------------------------------------------------------------*/
+/* Values ----------------------------------------------------------------------------------------------------------- */
 
 static const char *prefix(const writer *w) { return in_lanes(w) ? "ops" : "op"; }
 
 static void use(writer *w, operation op) { *(in_lanes(w) ? &w->e->used_lanes : &w->e->used) |= (uint64_t)1 << op; }
 
-/* Whether a value differs from lane to lane of an index; its text then stands for lane l, within LANES_OF_INDEX. */
+/* Returns whether a value differs from lane to lane of an index; its text then stands for lane l, within
+ * LANES_OF_INDEX. */
 static bool along(const writer *w, node n) { return w->along >= 0 && w->plan.g->nodes[n].deps >> w->along & 1; }
 
-/* A number of every lane as a real. */
+/* Writes a number of every lane as a real. */
 static void write_number(writer *w, uint32_t item, const char *at, const char *number)
 {
     const char *spread = along(w, w->plan.items.at[item].n) ? "LANES_OF_INDEX" : "SERIES_NUMBER";
@@ -208,7 +209,7 @@ static void write_operation(writer *w, uint32_t item, const graph_node *n)
 
 static void write_outputs(writer *w, uint32_t first)
 {
-    enum { STORES_TOGETHER = 64 }; /* as emit_value.c divides them */
+    enum { STORES_TOGETHER = 64 }; /* as emit_value.c divides stores */
     char value[OPERAND_MAX], place[PLACE_MAX];
     for (uint32_t k = first; k != NONE; k = w->plan.next_output[k]) {
         const output *o = &w->plan.program->outputs[k];
@@ -227,7 +228,7 @@ static void write_outputs(writer *w, uint32_t first)
     }
 }
 
-/* Where the series of a value begins; of a value that passes, such that coefficient n is always in the same place. */
+/* Writes where the series of a value begins; if the value passes, such that coefficient n is always in one place. */
 static void write_place(writer *w, uint32_t item)
 {
     const plan_item *i = &w->plan.items.at[item];
@@ -252,7 +253,7 @@ static void write_place(writer *w, uint32_t item)
     }
 }
 
-/* Coefficient n of a state, in every lane. */
+/* Writes the copy of coefficient n of a state, in every lane. */
 static void write_copy(writer *w, uint32_t item, const graph_node *n)
 {
     const reference *r = &w->plan.g->references[n->a];
@@ -287,7 +288,7 @@ static void write_item(writer *w, uint32_t item)
     write_outputs(w, i->outputs);
 }
 
-/* Loops ------------------------------------------------------------------------------------------------------------*/
+/* Loops ------------------------------------------------------------------------------------------------------------ */
 
 static void write_region(writer *w, uint32_t region);
 
@@ -319,7 +320,7 @@ static void write_update(writer *w, uint32_t item)
     }
 }
 
-/* Coefficient n of the positions or velocities that pairs read, next to one another. */
+/* Writes coefficient n of the positions or velocities that pairs read, side by side. */
 static void write_cells(writer *w, const plan_region *r)
 {
     char place[PLACE_MAX];
@@ -337,7 +338,7 @@ static void write_cells(writer *w, const plan_region *r)
     }
 }
 
-/* Those of the pairs' first or second cells. */
+/* Writes the positions and velocities of the first or second cells of pairs. */
 static void write_ends(writer *w, const plan_region *r)
 {
     for (uint32_t k = 0; k < r->item_count; k++) {
@@ -348,7 +349,7 @@ static void write_ends(writer *w, const plan_region *r)
     }
 }
 
-/* Which cells the pairs have, WIDTH pairs in a frame; found with order 0. */
+/* Writes which cells the pairs have, WIDTH pairs in a frame; order 0 finds them. */
 static void write_which(writer *w)
 {
     emit_line(w, "int64_t *const a0 = (int64_t *)p, *const a1 = a0 + WIDTH;");
@@ -360,7 +361,7 @@ static void write_which(writer *w)
     emit_line(w, "}");
 }
 
-/* The values of every pair, WIDTH pairs at a time, and the matrix of their fronts. */
+/* Writes the values of every pair, WIDTH pairs at a time, and the matrix of their fronts. */
 static void write_pairs(writer *w, uint32_t family, const char *first, const char *last)
 {
     const plan_region *f = &w->plan.regions.at[family], *r = &w->plan.regions.at[w->sharing];
@@ -408,8 +409,8 @@ static void write_pairs(writer *w, uint32_t family, const char *first, const cha
     emit_line(w, "}");
 }
 
-/* A loop over a family's index, WIDTH values at a time; `lanes` of them are in the family, and the others repeat the
- * last of these. */
+/* Writes a loop over a family's index, WIDTH values at a time; `lanes` of them are in the family, and the others repeat
+ * the last of these. */
 static void write_wide_loop(writer *w, uint32_t region)
 {
     const plan_region *r = &w->plan.regions.at[region];
@@ -456,7 +457,7 @@ static void write_loop(writer *w, uint32_t region)
     EACH_SUM(k, r)
     {
         emit_line(w, in_lanes(w) ? "real s%u[8] = {{0}};" : "real s%u[8] = {0};", k);
-        w->plan.items.at[k].reg = 0; /* done */
+        w->plan.items.at[k].reg = 0; /* it has been written */
     }
     emit_line(w, "{");
     w->depth++;
@@ -502,9 +503,9 @@ static void write_region(writer *w, uint32_t region)
         }
 }
 
-/* The function ------------------------------------------------------------------------------------------------------*/
+/* The function ----------------------------------------------------------------------------------------------------- */
 
-/* Whether all values lie in loops over the first index of families, whose bounds are the same for every value of it. */
+/* Returns whether all values lie in loops over the first index of families, with bounds that do not depend on it. */
 static bool can_be_wide(const writer *w)
 {
     bool any = false;
@@ -525,7 +526,7 @@ static bool can_be_wide(const writer *w)
     return any;
 }
 
-/* A copy for order 0 would be compiled as long as the other. */
+/* Writes the head of the function. noclone: a copy for order 0 would be compiled as long as the function. */
 static void write_head(writer *w, const char *name)
 {
     const char *real = w->e->series_wide ? "double" : "real";
@@ -539,12 +540,12 @@ static void write_body(writer *w)
 {
     SAY(w, "{\n    (void)pool, (void)q, (void)u, (void)w, (void)own, (void)t, (void)x, (void)v, (void)a;\n");
     write_bound(w);
-    if (w->e->series_wide) { /* they begin at a multiple of their size */
+    if (w->e->series_wide) { /* vectors begin at a multiple of their size */
         emit_line(w, "double *const memory = p;");
         emit_line(w, "{");
         emit_line(w, "real *p = (real *)(((uintptr_t)memory + sizeof(real) - 1) & ~(uintptr_t)(sizeof(real) - 1));");
     }
-    emit_line(w, "p += %d;", w->expansion.length); /* before it begins what passes */
+    emit_line(w, "p += %d;", w->expansion.length); /* values that pass begin before that */
     write_region(w, AT_RUN);
     if (w->e->series_wide) emit_line(w, "}");
     emit_line(w, "return p;");
@@ -563,7 +564,7 @@ void emit_series_pass(writer *w, const char *name)
     if (w->e->series_wide) SAY(w, "#pragma pop_macro(\"real\")\n");
 }
 
-/* The recurrences ---------------------------------------------------------------------------------------------------*/
+/* The recurrences -------------------------------------------------------------------------------------------------- */
 
 static void write_recurrence(emit_text *t, const char *prefix, int op, int keeps, const char *sums,
                              const char *recurrence, const char *operands, const char *values)

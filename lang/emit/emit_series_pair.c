@@ -1,9 +1,9 @@
 /* Which series of a sum over pairs are taken once for both cells: those of values that an exchange of the indices
- * leaves as they are, or gives the other sign (emit_pair.c). Their loop is over all pairs i < j; coefficient n of each
- * value that terms use, a front, goes to a matrix from which the cells' loops take it, with its sign.
+ * leaves as they are, or gives the opposite sign (emit_pair.c). Their loop is over all pairs i < j; coefficient n of
+ * each value that terms use, a front, goes to a matrix, from which the loops of the cells take it with its sign.
  *
- * Memory: pairs are half of all terms at most, with what fills the vectors, so their frames and the matrix have room in
- * that of the terms, whose frames are smaller by them.
+ * Memory: pairs are at most half of all terms, with what fills the vectors, so their frames and the matrix fit in the
+ * room of the terms, whose frames are smaller by them.
  */
 #include "lang/emit/emit_parts.h"
 #include "lang/graph/graph_walk.h"
@@ -16,7 +16,8 @@ static bool is_cell(const writer *w, uint32_t item)
     return w->expansion.values[item].state && w->expansion.values[item].passing;
 }
 
-/* Whether an operand of a value of the pair is one too, a position or velocity of a cell, or a number. */
+/* Returns whether an operand of a value of the pair is a value of the pair, too, or a position or velocity of a cell,
+ * or a number. */
 static bool serves(writer *w, node n, uint32_t family)
 {
     const uint32_t home = plan_home(&w->plan, at(w, n)->deps, w->sharing), item = plan_find(&w->plan, n, home);
@@ -30,19 +31,19 @@ static bool is_update(const writer *w, uint32_t item)
     return plan_updates(&w->plan, &w->plan.items.at[item]) != NONE;
 }
 
-/* The operands of an item; of an update those of the sum's rule. */
+/* Returns the operands of an item; those of an update are in the rule of its sum. */
 static int operands_of(const writer *w, uint32_t item, node out[3])
 {
     const uint32_t whole = is_update(w, item) ? plan_updates(&w->plan, &w->plan.items.at[item]) : NONE;
     if (whole == NONE) return graph_operands(at(w, w->plan.items.at[item].n), out);
     const graph_node *how = at(w, at(w, w->plan.items.at[whole].n)->a);
-    out[0] = how->op == OP_ADD ? how->b : how->a; /* a sum's rule is TOTAL + b, or a b + TOTAL */
+    out[0] = how->op == OP_ADD ? how->b : how->a; /* the rule of a sum is TOTAL + b, or a b + TOTAL */
     out[1] = how->b;
     return how->op == OP_ADD ? 1 : 2;
 }
 
-/* Whether the series of both operands of an update's product go on, so that it reads more than coefficient n of
- * them. */
+/* Returns whether the series of both factors of an update's product go on, so that it reads more of them than
+ * coefficient n. */
 static bool both_go_on(const writer *w, const node operand[2])
 {
     for (int k = 0; k < 2; k++) {
@@ -52,7 +53,7 @@ static bool both_go_on(const writer *w, const node operand[2])
     return true;
 }
 
-/* False: the item's term is more than its fronts and numbers. */
+/* Finds the role of an item. False: its term needs more than fronts and numbers. */
 static bool judge(writer *w, uint32_t item, uint32_t family)
 {
     node operand[3] = {0, 0, 0};
@@ -76,7 +77,7 @@ static bool judge(writer *w, uint32_t item, uint32_t family)
     return true;
 }
 
-/* A series' size in the frame, from where the next one begins. */
+/* Returns the size of a series in the frame, from where the next one begins. */
 static uint32_t size_of(const writer *w, const plan_region *r, uint32_t k)
 {
     const uint32_t item = w->plan.order[r->items + k];

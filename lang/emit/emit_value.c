@@ -1,16 +1,15 @@
-/* Values: their names, and the C text that computes them. See emit_parts.h. */
+/* Values: their names, and the C text that computes them. */
 #include "lang/emit/emit_parts.h"
 
 #include <stdio.h>
-/* The name of a value where it is needed, as wide as `user`: what was computed once, when parameters were bound,
- * stands in u. */
+/* Writes the name of a value where it is needed, as wide as `user`; what was bound with the parameters is in u. */
 void emit_operand(writer *w, node n, node user, char out[48])
 {
     uint32_t home = plan_home(&w->plan, w->plan.g->nodes[n].deps, w->region);
     uint32_t item = plan_find(&w->plan, n, home);
     bool spread = emit_wide(w, user) && !emit_wide(w, n);
     const char *open = spread ? "MANY(" : "", *close = spread ? ")" : "";
-    /* computed in this function */
+    /* it is computed in this function */
     bool mine = w->part == BINDING || (w->part == BINDING_LANES && emit_wide(w, n));
     if (home != AT_BIND || mine || w->plan.g->nodes[n].op == OP_CONST)
         snprintf(out, 48, "%sr%u%s", open, item, close);
@@ -20,7 +19,8 @@ void emit_operand(writer *w, node n, node user, char out[48])
         snprintf(out, 48, "%su[%u]%s", open, w->fixed[item], close);
 }
 
-/* The window stores an acceleration, by PUT. A cell with an equation of its own may be outside the window. */
+/* Writes the store of an acceleration by the window, as PUT. A cell with an equation of its own may be outside the
+ * window. */
 static void write_put(writer *w, const output *o, const char *value)
 {
     char index[PLACE_MAX], place[PLACE_MAX];
@@ -32,8 +32,8 @@ static void write_put(writer *w, const output *o, const char *value)
     emit_line(w, "%s%s(%s, %s);", o->loops ? "" : "    ", w->along < 0 ? "PUT" : "PUTS", place, value);
 }
 
-/* A compiler compares every store with the ones before it, which takes a time that is quadratic in their number, and
- * memory: 4000 variables took 14 s and 480 MB. It does not look beyond a place at which memory may have changed. */
+/* Divides stores. A compiler compares every store with those before it, in quadratic time and memory: 4000 variables
+ * took 14 s and 480 MB. It does not look past a place where memory may have changed. */
 static void divide_stores(writer *w)
 {
     enum { STORES_TOGETHER = 64 };
@@ -113,7 +113,7 @@ void emit_item(writer *w, uint32_t k)
                       k, n->level);
             break;
         case OP_LOAD: write_load(w, k, &w->plan.g->references[n->a], emit_wide(w, item->n)); break;
-        case OP_SUM: break; /* its loop has made it */
+        case OP_SUM: break; /* its loop has written it */
         default: {
             unsigned op = n->op;
             int arity = operation_at(op)->arity;

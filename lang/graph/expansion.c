@@ -10,13 +10,13 @@
 #include <math.h>
 #include <stdlib.h>
 
-/* The equations ----------------------------------------------------------------------------------------------------*/
+/* The equations ---------------------------------------------------------------------------------------------------- */
 
 typedef struct joining {
     graph *from, *to;
     graph_walk w;
     node *image; /* by place */
-    node *base;  /* by place: the value is base^(halves/2), where halves is not 0 */
+    node *base;  /* by place: the value is base^(halves/2), unless halves is 0 */
     int32_t *halves;
 } joining;
 
@@ -34,7 +34,7 @@ static node power(graph *g, node base, int halves)
     return halves % 2 ? graph_op(g, OP_MUL, whole, graph_op(g, OP_SQRT, base, 0, 0), 0) : whole;
 }
 
-/* How often the operand has the base as a factor, in halves; 0: it is no power of it. */
+/* Returns how often an operand has the base as a factor, in halves; 0: it is no power of the base. */
 static int halves_of(const joining *j, node n, node base)
 {
     if (j->halves[at(j, n)] && j->base[at(j, n)] == base) return j->halves[at(j, n)];
@@ -48,7 +48,8 @@ static node joined(joining *j, uint32_t k, node base, int halves)
     return power(j->to, base, halves);
 }
 
-/* A product or a quotient of powers of one base, or a quotient by an odd power of a root. False: neither. */
+/* Joins a product or a quotient of powers of one base, or a quotient by an odd power of a root. False: it is
+ * neither. */
 static bool join(joining *j, uint32_t k, const graph_node *n, node *out)
 {
     const int sign = n->op == OP_MUL ? 1 : -1;
@@ -73,8 +74,8 @@ static bool join(joining *j, uint32_t k, const graph_node *n, node *out)
 
 static bool moves(const graph *g, node n) { return (graph_at(g, n)->deps & (DEP_STATE | DEP_TIME)) != 0; }
 
-/* p q with its factor that stays the same, if there is one, apart: *p becomes that factor, and *q the rest. So the
- * series of a product of two that move is summed up, and its multiple needs no sum and no memory of its own. */
+/* Takes a constant factor out of the product p q, if there is one: *p becomes that factor, and *q the rest. So the
+ * inner sum is that of two factors that move, and the multiple needs neither sum nor memory. */
 static void set_apart(graph *g, node *p, node *q)
 {
     if (!moves(g, *p) || !moves(g, *q)) return;
@@ -168,7 +169,7 @@ program *expansion_program(arena *a, graph *g, const output *outputs, size_t cou
     return p;
 }
 
-/* Lengths ----------------------------------------------------------------------------------------------------------*/
+/* Lengths ---------------------------------------------------------------------------------------------------------- */
 
 static int larger(int a, int b) { return a > b ? a : b; }
 static int both(int a, int b) { return a >= EXPANSION_ALL || b >= EXPANSION_ALL ? EXPANSION_ALL : a + b; }
@@ -201,7 +202,7 @@ static int last_of(const graph *g, const graph_node *n, const int *last)
     }
 }
 
-/* Places -----------------------------------------------------------------------------------------------------------*/
+/* Places ----------------------------------------------------------------------------------------------------------- */
 
 bool expansion_begins(const expansion *e, const plan *p, uint32_t item)
 {
@@ -231,7 +232,7 @@ static operation twin_of(operation op)
     }
 }
 
-/* Whether a recurrence reads of its operand i no coefficient but the one of the order that it computes. */
+/* Returns whether a recurrence reads of operand i only the coefficient of the order that it computes. */
 static bool passes(const graph_node *n, int i, const int *last)
 {
     const node other = i ? n->a : n->b;
@@ -247,7 +248,7 @@ static bool passes(const graph_node *n, int i, const int *last)
     }
 }
 
-/* Of every node whether something reads its earlier coefficients; its own recurrence, too. */
+/* Marks the nodes of which a recurrence, their own included, reads earlier coefficients. */
 static void find_kept(const graph *g, const int *last, uint8_t *kept)
 {
     for (node k = 0; k < g->count; k++) {
@@ -255,14 +256,14 @@ static void find_kept(const graph *g, const int *last, uint8_t *kept)
         node operand[3] = {0, 0, 0};
         if (operation_at(n->op)->keeps > 0) kept[k] = 1;
         for (int i = graph_operands(n, operand); i-- > 0;) {
-            const bool term = n->op == OP_SUM && i == 0; /* its operands are those of the total's update */
+            const bool term = n->op == OP_SUM && i == 0; /* the update of the total reads this operand */
             if (!term && !passes(n, i, last)) kept[operand[i]] = 1;
         }
     }
 }
 
-/* The earlier item of the same region whose first helper is this one's value; `seen`, by operand: the first of each
- * kind. */
+/* Returns the earlier item of the region whose first helper is this item's value; `seen`, by operand: the first item of
+ * each kind. */
 static uint32_t find_twin(const plan *p, uint32_t item, uint32_t *seen)
 {
     const plan_item *i = &p->items.at[item];
@@ -277,7 +278,7 @@ static uint32_t find_twin(const plan *p, uint32_t item, uint32_t *seen)
     return NONE;
 }
 
-/* Everything in the arena is scratch but the two lists. */
+/* Leaves only the two lists in the arena. */
 bool expansion_place(expansion *e, arena *a, const plan *p, int length, bool compact)
 {
     const uint32_t items = p->items.count, nodes = p->g->count;

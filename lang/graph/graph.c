@@ -1,9 +1,4 @@
-/* The table of nodes: leaves and sums are made here, and every node is shared where it exists already.
- *
- * Invariant: operands have smaller numbers than the node, so ascending numbers are an order of evaluation; no two
- * nodes are identical; node 0 is the constant +0. After a failure (memory, GRAPH_NODES_MAX) constructors return node
- * 0 and the caller sees arena->failed or too_large.
- */
+/* The table of nodes: makes leaves and sums, and shares every node that exists already. */
 #include "lang/graph/graph_walk.h"
 
 #include <math.h>
@@ -32,7 +27,7 @@ const graph_node *graph_at(const graph *g, node n) { return &g->nodes[n]; }
 
 unsigned graph_deps(const graph *g, node n) { return g->nodes[n].deps; }
 
-/* Sharing --------------------------------------------------------------------------------------------------------- */
+/* Sharing ---------------------------------------------------------------------------------------------------------- */
 
 static uint64_t mix(uint64_t h, uint64_t x)
 {
@@ -70,7 +65,7 @@ bool graph_same_reference(const reference *a, const reference *b)
     return same;
 }
 
-/* LOAD and SUM hold the number of a reference or range; nodes are equal where the references or ranges are. */
+/* Hashes a node. LOAD and SUM hold the number of a reference or range, and are equal where these are. */
 static uint64_t hash_node(const graph_node *n, const reference *ref, const range *r)
 {
     uint64_t h = mix(n->op, n->level);
@@ -146,14 +141,14 @@ void graph_complete(graph *g)
     g->table_size = 0;
 }
 
-/* By an eighth where it is large, because the old copy and the new one are there together. */
+/* Grows a large graph only by an eighth, because the old copy and the new one exist together. */
 static bool grow_nodes(graph *g)
 {
     if (g->count >= GRAPH_NODES_MAX) return g->too_large = true, false;
     return graph_reserve(g, g->capacity + g->capacity / (g->capacity < MANY_NODES ? 2 : 8));
 }
 
-/* Growing tables of references and ranges: capacities are the powers of two, so the count tells when to grow. */
+/* Grows a table of references or ranges. Its capacity is a power of two, so the count tells when to grow. */
 static void *grow_rows(graph *g, void *rows, uint32_t count, size_t size)
 {
     if (count && (count < FIRST_REFERENCES || (count & (count - 1)))) return rows;
@@ -162,7 +157,7 @@ static void *grow_rows(graph *g, void *rows, uint32_t count, size_t size)
 
 static bool same_number(double a, double b) { return a == b && signbit(a) == signbit(b); }
 
-/* Whether a constant is known to be that; NULL: it is what it is read as. */
+/* Returns whether what is known of a constant equals `typed`; NULL: nothing but its number. */
 static bool same_typed(const graph *g, node n, const graph_typed *typed)
 {
     if (!g->typed || g->nodes[n].op != OP_CONST) return true;
@@ -172,7 +167,7 @@ static bool same_typed(const graph *g, node n, const graph_typed *typed)
            t->is.error == typed->is.error;
 }
 
-/* typed: of a constant, what is known of it; NULL: it is what it is read as. */
+/* Returns the node with these members. typed: what is known of a constant; NULL: nothing but its number. */
 static node share_typed(graph *g, graph_node n, const reference *ref, const range *r, const graph_typed *typed)
 {
     if (g->arena->failed || g->too_large) return 0;
@@ -211,7 +206,7 @@ static node share(graph *g, graph_node n, const reference *ref, const range *r)
 
 node graph_share(graph *g, graph_node n) { return share(g, n, NULL, NULL); }
 
-/* Leaves ---------------------------------------------------------------------------------------------------------- */
+/* Leaves ----------------------------------------------------------------------------------------------------------- */
 
 node graph_const(graph *g, double value)
 {
@@ -247,7 +242,7 @@ static unsigned subscript_deps(const subscript *s)
 
 node graph_load(graph *g, const reference *of)
 {
-    const reference copy = *of, *ref = &copy; /* the graph's own references move when there are more */
+    const reference copy = *of, *ref = &copy; /* the references of the graph may move */
     static const uint16_t of_space[SPACES] = {
         [SPACE_X] = DEP_X,  [SPACE_V] = DEP_V,        [SPACE_A] = DEP_A,  [SPACE_DX] = DEP_D,
         [SPACE_DV] = DEP_D, [SPACE_POOL] = DEP_PARAM, [SPACE_OUT] = DEP_A};
@@ -263,7 +258,7 @@ node graph_sum(graph *g, int level, const range *r, node condition, node body)
     deps &= ~(1u << level);
     deps |= subscript_deps(&r->first) | subscript_deps(&r->last);
     graph_node n = {.op = OP_SUM, .level = (uint8_t)level, .deps = (uint16_t)deps, .a = body, .b = condition};
-    const range copy = *r; /* the graph's own ranges move when there are more */
+    const range copy = *r; /* the ranges of the graph may move */
     return share(g, n, NULL, &copy);
 }
 

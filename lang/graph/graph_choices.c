@@ -1,12 +1,12 @@
 /* Choices among the sides of one surface, written as choices between its two sides.
  *
- * Where u > w, u < w and u = w have a value each, the last one is that of an instant, or of a motion which is held at
- * u = w; and what holds it there lies between the values of both sides, whatever is written for it [Filippov88].
+ * Where u > w, u < w and u = w have a value each, the last one is that of an instant, or of a motion that is held at u
+ * = w; what holds the motion there lies between the values of both sides, whatever the model says [Filippov88].
  */
 #include "lang/base/operation.h"
 #include "lang/graph/graph_walk.h"
 
-/* A comparison is true above, where one operand is larger than the other. */
+/* A surface where two operands are equal; a comparison is true where `above` is the larger one. */
 typedef struct surface {
     node above, below;
 } surface;
@@ -24,7 +24,7 @@ static bool is_on(const surface *s, node a, node b)
     return (s->above == a && s->below == b) || (s->above == b && s->below == a);
 }
 
-/* Whether u = w is the surface of this sign. */
+/* Returns whether u = w is the surface of a sign. */
 static bool is_sign_of(const graph *g, const graph_node *n, node u, node w)
 {
     const graph_node *const a = &g->nodes[n->a], *const to = &g->nodes[w];
@@ -32,7 +32,7 @@ static bool is_sign_of(const graph *g, const graph_node *n, node u, node w)
     return n->op == OP_SIGN && ((nothing && n->a == u) || (a->op == OP_SUB && is_on(&(surface){a->a, a->b}, u, w)));
 }
 
-/* Whether a value has a factor that the side of this surface, u = w, chooses. */
+/* Returns whether a value has a factor that the side of the surface u = w chooses. */
 static bool chosen_by(const graph *g, node value, node u, node w)
 {
     const graph_node *const n = &g->nodes[value];

@@ -83,7 +83,7 @@ node graph_derivative(graph *g, node root, graph_seed seed, void *ctx)
     return g->arena->failed || g->too_large ? 0 : result;
 }
 
-/* Seeds ----------------------------------------------------------------------------------------------------------- */
+/* Seeds ------------------------------------------------------------------------------------------------------------ */
 
 node graph_seed_direction(graph *g, node leaf, void *graph_shift_ctx)
 {

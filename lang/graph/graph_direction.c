@@ -1,5 +1,5 @@
-/* Directions of vectors that move, u/|u|: a force along one jumps where all components of u are 0, as dry friction in a
- * plane does where the motion stops. See graph.h. */
+/* Directions u/|u| of vectors that move. A force along one jumps where all components of u are 0, as dry friction in a
+ * plane does where the motion stops. */
 #include "lang/graph/ratio.h"
 
 enum { DEEP = 32, MOVES = DEP_TIME | (DEP_STATE & ~DEP_MODE) };
@@ -21,7 +21,8 @@ static bool add_squares(const graph *g, node n, int depth, node *of, int *count)
     return add_squares(g, m->a, depth + 1, of, count) && add_squares(g, m->b, depth + 1, of, count);
 }
 
-/* The components of a vector of which n is the length: two or three that move, and not with the time alone. */
+/* Finds the components of a vector whose length is n: two or three that move, and not with the time alone. Returns how
+ * many, or 0. */
 static int length_of(const graph *g, node n, node *of)
 {
     const graph_node *m = graph_at(g, n);
@@ -38,7 +39,7 @@ static int length_of(const graph *g, node n, node *of)
     return count >= 2 ? count : 0;
 }
 
-/* The vector whose length is a factor of a divisor, beside others that do not move. */
+/* Finds the vector whose length is a factor of a divisor, beside factors that do not move. */
 static int length_in(const graph *g, node n, int depth, graph_directed *d)
 {
     const graph_node *m = graph_at(g, n);
@@ -47,7 +48,7 @@ static int length_in(const graph *g, node n, int depth, graph_directed *d)
     return first == second ? 0 : length_in(g, first ? m->a : m->b, depth + 1, d);
 }
 
-/* Whether n is a sum of components with factors. */
+/* Returns whether n is a sum of components with factors. */
 static bool along(const graph *g, node n, const graph_directed *d, int depth)
 {
     const graph_node *m = graph_at(g, n);

@@ -1,9 +1,9 @@
-/* Operations, folded where they are constant; and identities of real numbers, of which derivatives alone make use.
+/* Operations: constants are folded, and derivatives use identities of real numbers.
  *
- * Invariant: identities change bits, or the sign of a zero, or hide a NaN. They never apply to what the user has
- * written. Simple ones are for all derivatives, also those inside methods. Those of terms and powers, by which they are
- * written as one would, 4 x^3 and not (x + x) x^2 + x^2 (x + x), -k/x^2 and not -(k/x)/x, are for derivatives that the
- * model asks for, which nothing else defines.
+ * Invariant: identities may change bits or the sign of a zero, or hide a NaN, so what a user has written is never
+ * changed. Simple identities are for all derivatives, those inside methods included. Those of terms and powers are for
+ * derivatives that a model writes, and that nothing else defines: they give 4 x^3 in place of (x + x) x^2 + x^2 (x +
+ * x), and -k/x^2 in place of -(k/x)/x.
  */
 #include "lang/graph/graph_walk.h"
 
@@ -13,7 +13,7 @@ enum { POWER_MAX = 64, CHAIN_MAX = 12 };
 
 static bool constant(const graph *g, node n) { return g->nodes[n].op == OP_CONST; }
 
-/* An operation as it is, but for simple identities. */
+/* Makes an operation with simple identities alone. */
 static node plain(graph *g, operation op, node a, node b)
 {
     g->tidy = false;
@@ -22,14 +22,14 @@ static node plain(graph *g, operation op, node a, node b)
     return n;
 }
 
-/* The power that a chain of products is: as graph_power makes it, or by factors of the same base. */
+/* Returns the exponent of a chain of products, made by graph_power or of factors with one base; 1: it is no power. */
 static int power_of(const graph *g, node n, int depth, node *base)
 {
     int exponent = 1;
     for (; g->nodes[n].op == OP_MUL && g->nodes[n].a == g->nodes[n].b && exponent < POWER_MAX; n = g->nodes[n].a)
         exponent *= 2;
     const graph_node *m = &g->nodes[n];
-    if (m->op == OP_MUL && depth < CHAIN_MAX) { /* an odd power: its even half by the base */
+    if (m->op == OP_MUL && depth < CHAIN_MAX) { /* an odd power: an even one times the base */
         const int even = power_of(g, m->a, depth + 1, base);
         if (even > 1 && *base == m->b) return exponent * (even + 1);
     }
@@ -37,7 +37,7 @@ static int power_of(const graph *g, node n, int depth, node *base)
     return exponent;
 }
 
-/* factor * rest; the number that a product or a quotient begins with */
+/* A term factor * rest, where the factor is the number that a product or a quotient begins with. */
 typedef struct term {
     double factor;
     node rest;
@@ -57,7 +57,7 @@ static term term_of(graph *g, node n, int depth)
     return t.factor == 1 ? (term){1, n} : (term){t.factor, plain(g, (operation)m.op, t.rest, m.b)};
 }
 
-/* 5 (x y) is written 5 x y: the number goes to the first factor. */
+/* Returns factor times n; the number goes to the first factor: 5 (x y) becomes 5 x y. */
 static node times(graph *g, double factor, node n, int depth)
 {
     node base;
@@ -69,7 +69,7 @@ static node times(graph *g, double factor, node n, int depth)
     return plain(g, OP_MUL, graph_const(g, factor), n);
 }
 
-/* a b and b a */
+/* Returns whether two nodes are one product, as a b and b a are. */
 static bool same_product(const graph *g, node a, node b)
 {
     const graph_node *m = &g->nodes[a], *n = &g->nodes[b];
@@ -91,7 +91,7 @@ static bool join_powers(graph *g, node a, node b, node *out)
     node base, other;
     const int exponent = power_of(g, a, 0, &base), more = power_of(g, b, 0, &other);
     if (base != other || constant(g, base) || exponent + more > POWER_MAX) return false;
-    g->tidy = false; /* graph_power multiplies, too */
+    g->tidy = false; /* graph_power uses graph_op */
     *out = graph_power(g, base, exponent + more);
     g->tidy = true;
     return true;
@@ -104,7 +104,7 @@ static bool same_base(const graph *g, node a, node b)
     return x == y && !constant(g, x);
 }
 
-/* u x times x^2 is u x^3, on whichever side the power stands. */
+/* Joins u x times x^2 as u x^3, on whichever side the power stands. */
 static bool join_factor(graph *g, node a, node b, node *out)
 {
     const graph_node m = g->nodes[a], n = g->nodes[b];
@@ -120,7 +120,7 @@ static bool join_factor(graph *g, node a, node b, node *out)
     return false;
 }
 
-/* Numbers come first, divisors last. */
+/* Orders a product: numbers come first, divisors last. */
 static bool tidy_product(graph *g, node a, node b, node *out)
 {
     const term x = term_of(g, a, 0), y = term_of(g, b, 0);
@@ -139,7 +139,7 @@ static bool tidy_product(graph *g, node a, node b, node *out)
     return join_factor(g, a, b, out);
 }
 
-/* u x^m/x^n is u/x^(n-m) or u x^(m-n). */
+/* Writes u x^m/x^n as u/x^(n-m) or u x^(m-n). */
 static bool cancel_powers(graph *g, node a, node b, node *out)
 {
     node base, other;
@@ -150,7 +150,7 @@ static bool cancel_powers(graph *g, node a, node b, node *out)
     if (other != base || constant(g, base)) return false;
     const node rest = part ? m.a : graph_const(g, 1);
     const int left = above > below ? above - below : below - above;
-    g->tidy = false; /* graph_power multiplies, too */
+    g->tidy = false; /* graph_power uses graph_op */
     const node power = graph_power(g, base, left);
     g->tidy = true;
     *out = above < below ? plain(g, OP_DIV, rest, power) : plain(g, OP_MUL, rest, power);
@@ -175,7 +175,7 @@ static bool tidy_quotient(graph *g, node a, node b, node *out)
     return cancel_powers(g, a, b, out);
 }
 
-/* The node that this operation is by like terms and powers; false: it stays what it is. */
+/* Makes an operation by like terms and powers. False: they leave it as it is. */
 static bool tidied(graph *g, operation op, node a, node b, node *out)
 {
     switch (op) {
@@ -203,7 +203,7 @@ bool graph_op_slope(graph *g, const graph_node *n, node self, node da, node db, 
     return true;
 }
 
-/* Simple identities. False: none applies. */
+/* Makes an operation by a simple identity. False: none applies. */
 static bool simplified(graph *g, operation op, node a, node b, node c, node *out)
 {
     const graph_node *na = &g->nodes[a], *nb = &g->nodes[b];
@@ -261,15 +261,15 @@ static bool simplified(graph *g, operation op, node a, node b, node c, node *out
     }
 }
 
-/* sqrt(u u), which is |u| to the last bit, but where u u is no double: so that its kink is known, which series and bars
- * of error must know of. */
+/* Returns whether an operation is sqrt(u u). It is |u| to the last bit unless u u leaves the range of doubles, and as
+ * |u| it has a kink that series and bars see. */
 static bool of_square(const graph *g, operation op, node a, node b)
 {
     const graph_node *const n = &g->nodes[a];
     return (op == OP_SQRT || (op == OP_POW && graph_is_const(g, b, 0.5))) && n->op == OP_MUL && n->a == n->b;
 }
 
-/* As graph_op, of what decimals say of its operands nothing. */
+/* Makes an operation as graph_op does, without the exact values of constants. */
 static node untyped_op(graph *g, operation op, node a, node b, node c)
 {
     int arity = operation_at(op)->arity;
@@ -303,7 +303,7 @@ node graph_op(graph *g, operation op, node a, node b, node c)
 node graph_power(graph *g, node base, int exponent)
 {
     if (exponent < 0) {
-        node power = graph_power(g, base, -exponent); /* first, because C leaves the order of arguments open */
+        node power = graph_power(g, base, -exponent); /* first, since C leaves the order of arguments open */
         return graph_op(g, OP_DIV, graph_const(g, 1), power, 0);
     }
     if (exponent == 0) return graph_const(g, 1);

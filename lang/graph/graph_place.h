@@ -1,4 +1,4 @@
-/* The value of a subscript, and the place in its space that a reference means, once the loop variables have values. */
+/* The value of a subscript, and the place of a reference in its space, for given loop variables. */
 #ifndef LANG_GRAPH_GRAPH_PLACE_H
 #define LANG_GRAPH_GRAPH_PLACE_H
 

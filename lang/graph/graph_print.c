@@ -1,9 +1,9 @@
-/* A node as text in the language, with as few brackets as the grammar allows, but for a quotient before a factor.
+/* A node as text in the language, with as few brackets as the grammar allows; a quotient before a factor has one more.
  *
  * Invariant: the text reads back as a node of the same value, bit for bit, except that shared nodes are written at
- * every use (and so may be fused otherwise). Signs may move, x + (-2 y) is written x - 2 y, and chains of
- * multiplications are powers again. Nodes to be written wait on a list, not on the C stack. The text ends at
- * GRAPH_TEXT_MAX, because a shared graph written as a tree may be exponentially long.
+ * every use, and so may be fused otherwise. Signs may move: x + (-2 y) is written x - 2 y. Chains of multiplications
+ * become powers. Nodes to be written wait on a list, not on the C stack. The text ends at GRAPH_TEXT_MAX, because a
+ * shared graph written as a tree may be exponentially long.
  */
 #include "lang/graph/graph_walk.h"
 #include "lang/base/operation.h"
@@ -15,16 +15,16 @@
 /* From loosest to tightest. */
 typedef enum tightness { T_OR, T_AND, T_NOT, T_COMPARISON, T_SUM, T_MINUS, T_PRODUCT, T_POWER, T_FACTOR } tightness;
 
-/* What stands last in the text: decides whether a product can be written by juxtaposition. */
+/* What stands last in the text, on which it depends whether a product is written by juxtaposition. */
 typedef enum tail { TAIL_NONE, TAIL_NUMBER, TAIL_LATE_NUMBER, TAIL_NAME, TAIL_STATE, TAIL_POWER, TAIL_CLOSE } tail;
 
 typedef enum task_kind { TASK_NODE, TASK_TEXT, TASK_NUMBER, TASK_LEVEL, TASK_BOUND, TASK_TIMES } task_kind;
 typedef struct task {
     uint8_t kind, tightness, tail;
     bool bare; /* NODE: without its minus sign */
-    node n;    /* NODE; TIMES: the right factor; LEVEL: which; BOUND: the range's number */
+    node n;    /* NODE; TIMES: the right factor; LEVEL: the level; BOUND: the number of the range */
     const char *text;
-    int number; /* NUMBER; BOUND: 0 first, 1 last */
+    int number; /* NUMBER; BOUND: 0 for the first bound, 1 for the last */
 } task;
 
 typedef struct printer {
@@ -34,7 +34,7 @@ typedef struct printer {
     char *out;
     size_t size, wanted;
     tail tail;
-    char last; /* character written */
+    char last; /* the last character written */
     task *tasks;
     uint32_t count, capacity;
     bool failed;
@@ -63,7 +63,7 @@ static void push(printer *p, task t)
     p->tasks[p->count++] = t;
 }
 
-/* Pushed in reverse: what is pushed last is written first. */
+/* These push in reverse: the last task pushed is written first. */
 static void say(printer *p, const char *s, tail t)
 {
     push(p, (task){.kind = TASK_TEXT, .text = s, .tail = (uint8_t)t});
@@ -77,21 +77,21 @@ static void bare(printer *p, node n)
     push(p, (task){.kind = TASK_NODE, .n = n, .tightness = T_PRODUCT, .bare = true});
 }
 
-/* Shapes ---------------------------------------------------------------------------------------------------------- */
+/* Shapes ----------------------------------------------------------------------------------------------------------- */
 
 static bool minus_number(const graph *g, node n)
 {
     return g->nodes[n].op == OP_CONST && signbit(g->nodes[n].value) && !isnan(g->nodes[n].value);
 }
 
-/* Written with a minus in front: -x, -2, -2 x. */
+/* Returns whether a node is written with a minus in front: -x, -2, -2 x. */
 static bool negative(const graph *g, node n)
 {
     const graph_node *m = &g->nodes[n];
     return m->op == OP_NEG || minus_number(g, n) || ((m->op == OP_MUL || m->op == OP_DIV) && minus_number(g, m->a));
 }
 
-/* The power that the product a*b is: x*x, or a step of graph_power's chain. exponent 0: none. */
+/* The power that a product a*b is: x*x, or a step of graph_power's chain; exponent 0: it is none. */
 enum { POWER_MAX = 64, CHAIN_MAX = 12 };
 typedef struct power {
     node base;
@@ -116,7 +116,7 @@ static power power_at(const graph *g, node n)
     return m->op == OP_MUL ? power_of(g, m->a, m->b, 0) : (power){0, 0};
 }
 
-/* A factor whose minus can stand before the whole product. */
+/* Returns whether the minus of a factor can stand before the whole product. */
 static bool minus_factor(const graph *g, node n)
 {
     return minus_number(g, n) || (g->nodes[n].op == OP_NEG && g->nodes[g->nodes[n].a].op != OP_DIV);
@@ -149,7 +149,7 @@ static tightness tightness_of(const graph *g, node n)
     }
 }
 
-/* The right factor of a product starts with a digit, or with a bracket. */
+/* Returns whether the right factor of a product starts with a digit, or with a bracket. */
 static void right_factor(const graph *g, node n, bool *digit, bool *bracket)
 {
     *digit = *bracket = false;
@@ -166,7 +166,7 @@ static void right_factor(const graph *g, node n, bool *digit, bool *bracket)
     *digit = !*bracket && m->op == OP_CONST;
 }
 
-/* Leaves ---------------------------------------------------------------------------------------------------------- */
+/* Leaves ----------------------------------------------------------------------------------------------------------- */
 
 static void ask(printer *p, const graph_node *n, const char *otherwise)
 {
@@ -243,7 +243,7 @@ static void leaf(printer *p, const graph_node *n)
     p->tail = TAIL_NAME;
 }
 
-/* Nodes ----------------------------------------------------------------------------------------------------------- */
+/* Nodes ------------------------------------------------------------------------------------------------------------ */
 
 static void infix(printer *p, node a, tightness left, const char *sign, node b, tightness right)
 {
@@ -252,7 +252,7 @@ static void infix(printer *p, node a, tightness left, const char *sign, node b, 
     then(p, a, left);
 }
 
-/* a + b or a - b; a minus at the head of b turns the sign */
+/* Writes a + b or a - b; a minus at the head of b turns the sign. */
 static void sum(printer *p, node a, bool minus, node b)
 {
     if (negative(p->g, b)) {
@@ -272,7 +272,7 @@ static void raise(printer *p, power w)
     then(p, w.base, T_FACTOR);
 }
 
-/* A quotient on the left gets brackets, which the grammar does not need: they show what is divided by what. */
+/* Writes a product. A quotient on the left gets brackets that the grammar does not need, to show what is divided. */
 static void product(printer *p, node a, node b, bool without_minus)
 {
     power whole = power_of(p->g, a, b, 0);
@@ -288,7 +288,7 @@ static void product(printer *p, node a, node b, bool without_minus)
         then(p, a, p->g->nodes[a].op == OP_DIV ? T_POWER : T_PRODUCT);
 }
 
-/* c + a b, c - a b */
+/* Writes c + a b or c - a b. */
 static void fused(printer *p, const graph_node *m, bool minus)
 {
     bool turn = minus_factor(p->g, m->a);
@@ -406,8 +406,8 @@ static void times(printer *p, node right)
 {
     bool digit, bracket;
     right_factor(p->g, right, &digit, &bracket);
-    /* `x (…)` would be an initial value, `x 2` and `i (…)` are errors, `x^2 (…)` reads badly; in `x*2 y` the 2 is not
-     * first. */
+    /* `x (…)` would be an initial value, `x 2` and `i (…)` are errors, `x^2 (…)` reads badly, and in `x*2 y` the 2 is
+     * not first */
     bool star = digit || p->tail == TAIL_LATE_NUMBER || (bracket && (p->tail == TAIL_STATE || p->tail == TAIL_POWER));
     text(p, star ? "*" : " ");
 }

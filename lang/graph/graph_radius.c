@@ -1,9 +1,10 @@
-/* How far the value of a node may be from what it is at a point, for all points of a box around it, as a node: interval
- * arithmetic by centre and radius [Rump99].
+/* A node for how far a value may be from its value at a point, at all points of a box around it: interval arithmetic by
+ * centre and radius [Rump99].
  *
- * An operation passes on the radii of its operands by a bound on its slope over the box, not at the point alone.
- * Invariant: a radius is at least 2^-50 of the value at the centre, so it covers the rounding of the value, too. What
- * has no bound here, as a branch, is infinite or no number.
+ * An operation multiplies the radii of its operands by a bound on its slope over the whole box.
+ *
+ * Invariant: a radius is at least 2^-50 of the value at the centre, so it covers the rounding of the value. Where there
+ * is no bound, as for a branch, it is infinite or NaN.
  */
 #include "lang/graph/graph_walk.h"
 
@@ -15,13 +16,13 @@ static node multiply(graph *g, node a, node b) { return graph_op(g, OP_MUL, a, b
 static node divide(graph *g, node a, node b) { return graph_op(g, OP_DIV, a, b, 0); }
 static node size_of(graph *g, node n) { return graph_op(g, OP_ABS, n, 0, 0); }
 
-/* What rounding may leave of a value: 2^-`bits` of it, more than any operation loses. */
+/* Returns 2^-`bits` of a value: more than any operation loses by rounding. */
 static node rounding(graph *g, node value, int bits)
 {
     return multiply(g, graph_const(g, ldexp(1, -bits)), size_of(g, value));
 }
 
-/* `value` where `positive` is, else infinite. */
+/* Returns `value` where `positive` is positive, else infinity. */
 static node bounded(graph *g, node positive, node value)
 {
     return graph_op(g, OP_SELECT, graph_op(g, OP_GT, positive, 0, 0), value, graph_const(g, INFINITY));
@@ -34,7 +35,7 @@ static node of_quotient(graph *g, node self, node b, const node r[3])
     return bounded(g, least, divide(g, add(g, r[0], multiply(g, size_of(g, self), r[1])), least));
 }
 
-/* A function whose slope is at most 1. */
+/* Returns the radius of a function whose slope is at most 1. */
 static node of_gentle(graph *g, node self, node r) { return add(g, r, rounding(g, self, 48)); }
 
 static node of_operation(graph *g, node self, const node r[3])

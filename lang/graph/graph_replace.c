@@ -1,7 +1,6 @@
-/* Other nodes in place of loads, indices and sums within a node.
+/* Puts other nodes in place of loads, indices and sums within a node.
  *
- * Invariant: what holds none of these stays the node that it is. Only nested sums recurse, at most MAX_LEVELS
- * deep.
+ * Invariant: a node that contains none of these stays what it is. Only nested sums recurse, at most MAX_LEVELS deep.
  */
 #include "lang/graph/graph_walk.h"
 #include "lang/base/operation.h"
@@ -14,7 +13,7 @@ typedef struct replacing {
 
 static node replaced(graph *g, node root, int level, const replacing *how);
 
-/* A sum whose condition has become false is empty. */
+/* Replaces within a sum, which is empty where its condition has become false. */
 static node replaced_sum(graph *g, graph_node n, const replacing *how)
 {
     const node body = replaced(g, n.a, n.level + 1, how), condition = n.b ? replaced(g, n.b, n.level + 1, how) : 0;
@@ -30,7 +29,7 @@ static node replaced(graph *g, node root, int level, const replacing *how)
     if (!graph_order(g, &root, 1, how->deps, false, &w)) return 0;
     node *as = take(&g->arena->allocator, w.count, sizeof *as);
     if (!as) g->arena->failed = true;
-    /* These first: what is asked may walk the graph itself, which overwrites `place`. */
+    /* Leaves first: `with` may walk the graph itself, which overwrites `place`. */
     for (uint32_t k = 0; as && k < w.count; k++) {
         const graph_node n = g->nodes[w.nodes[k]];
         const bool asked = n.op == OP_LOAD || n.op == OP_INDEX || n.op == OP_SUM;

@@ -1,8 +1,9 @@
-/* How far rounding carries the value of a node, as a node: the running error analysis of Wilkinson.
+/* A node for what rounding adds to a value: the running error analysis of Wilkinson.
  *
- * Every operation is within a rounding of its exact result, or two (a function), and passes on the errors of its
- * operands, each times the slope in it: E = |R| + sum |dR/dk| Ek. The slopes are those of graph_derivative.c.
- * Invariant: an error of 0 is passed on as 0, also where the slope is infinite; jumps, which have no slope, pass on
+ * Every operation is within one rounding of its exact result, a function within two, and passes on the errors of its
+ * operands by its slopes (graph_derivative.c): E = |R| + sum |dR/dk| Ek.
+ *
+ * Invariant: an error of 0 is passed on as 0, also where the slope is infinite. Jumps, which have no slope, pass on
  * nothing.
  */
 #include "lang/graph/graph_walk.h"
@@ -11,7 +12,7 @@
 
 static node size_of(graph *g, node n) { return graph_op(g, OP_ABS, n, 0, 0); }
 
-/* A constant that is no whole number was rounded when it was read. */
+/* Returns the error of a constant: unless it is a whole number, it was rounded when it was read. */
 static node of_constant(graph *g, double c) { return floor(c) == c ? 0 : graph_const(g, fabs(c)); }
 
 static node passed_on(graph *g, const graph_node *n, node self, int operand, node error)
@@ -27,7 +28,7 @@ static node passed_on(graph *g, const graph_node *n, node self, int operand, nod
 
 static bool jumps(operation op) { return operation_is(op, DECIDES) || op == OP_SIGN || op == OP_FLOOR; }
 
-/* The error of one operation, from those of its operands. */
+/* Returns the error of one operation, from those of its operands. */
 static node of_operation(graph *g, node self, const node error[3])
 {
     const graph_node n = g->nodes[self];

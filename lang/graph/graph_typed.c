@@ -1,15 +1,15 @@
-/* What decimals say of a constant, beside what doubles make of it. See graph.h.
+/* The exact value of a constant, by its decimals, beside its value in doubles.
  *
- * The shadow of a model has every decimal as the double on its other side. In 1000.7 - 1000.6 both may
- * move by the same amount, of which the difference shows nothing, and of sqrt(2)^2 - 2 nothing moves at all. So every
- * constant expression, of literals and of parameters that are such, is computed as it is written, to twice the bits,
- * and is in the shadow the double on the other side of that.
+ * In the shadow of a model every decimal is the double on its other side. In 1000.7 - 1000.6 both may move by one
+ * amount, so the difference does not move, and in sqrt(2)^2 - 2 nothing moves. So every constant expression, of
+ * literals and of parameters that are constant expressions, is computed to twice the bits, and the shadow has the
+ * double on the other side of that value.
  */
 #include "lang/graph/graph_walk.h"
 
 #include <math.h>
 
-enum { CLEARLY = 4 }; /* units in the last place: a formula whose terms move its result by so much too much stays */
+enum { CLEARLY = 4 }; /* in units in the last place; a smaller error of the shadow's formula is not corrected */
 
 bool graph_keep_typed(graph *g)
 {
@@ -23,7 +23,7 @@ static graph_typed exactly(double value)
     return (graph_typed){.known = true, .plain = value, .read = value, .is = twofold_of(value)};
 }
 
-/* Of a constant without more its number is what is known. */
+/* Returns what is known of a constant: at least that it is exactly its number. */
 static graph_typed known(const graph *g, node n)
 {
     const graph_node *const of = &g->nodes[n];
@@ -36,13 +36,13 @@ node graph_decimal(graph *g, double read, double plain, twofold is)
     return graph_typed_const(g, read, &(graph_typed){.known = true, .plain = plain, .read = read, .is = is});
 }
 
-/* What a constant is to be here: the number on the other side of what is written, as seen from the plain one. Thrice
- * the spread: both texts have theirs, and what is written is further from the run's number by it. */
+/* Returns the shadow's value of a constant: beyond the exact value, as seen from the plain one. The spread counts three
+ * times: that of the run, that of the shadow, and the distance of the exact value. */
 static double beyond(const graph_typed *t)
 {
     const double off = (t->is.high - t->plain) + t->is.low, far = fabs(off) + t->is.error + 3 * t->spread;
     const double way = off > 0 || (off == 0 && t->read > t->plain) ? 1 : -1;
-    if (!isfinite(far)) return t->plain != 0 ? 2 * t->plain : 1; /* nothing is left of it, as of 0/0 */
+    if (!isfinite(far)) return t->plain != 0 ? 2 * t->plain : 1; /* the exact value is not known, as of 0/0 */
     if (!(far > TWOFOLD_KNOWN * fabs(t->plain))) return t->plain;
     const double to = t->plain + way * far;
     return fabs(to - t->plain) < far ? nextafter(to, way * INFINITY) : to;
@@ -71,7 +71,7 @@ static bool is_exact(const graph_typed *t)
     return t->is.high == t->plain && t->is.low == 0 && t->is.error == 0 && t->spread == 0;
 }
 
-/* Half of the last place of a product, which a run may leave out where it adds the product to something. */
+/* Returns half a unit in the last place of a product: a run that fuses it with a sum leaves out its rounding. */
 static double of_product(const graph *g, node n, const graph_typed *t)
 {
     const graph_node *const of = &g->nodes[n];
@@ -94,7 +94,7 @@ static double spread_of(const graph *g, operation op, const node *operand, const
     return r.error + fabs((r.high - plain) + r.low) + twofold_unit(plain);
 }
 
-/* A sum that is smaller than decimals can be beside its terms is 0. */
+/* Returns 0 for a sum that is smaller, beside its terms, than decimals can be. */
 static twofold without_noise(operation op, twofold is, const graph_typed t[3])
 {
     if (op != OP_ADD && op != OP_SUB) return is;

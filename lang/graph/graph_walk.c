@@ -1,7 +1,7 @@
-/* Reading a graph: what a node reaches, its degree in the state, its kinks, the places it loads.
+/* Reads a graph: what a node reaches, its degree in the state, its kinks, the places that it loads.
  *
- * Invariant: only nested sums recurse, at most MAX_LEVELS deep, so that an expression of any length and shape needs no
- * more C stack than a short one. Nothing here makes nodes.
+ * Invariant: only nested sums recurse, at most MAX_LEVELS deep, so no expression needs much C stack. Nothing here makes
+ * nodes.
  */
 #include "lang/graph/graph_walk.h"
 #include "lang/base/operation.h"
@@ -16,7 +16,6 @@ int graph_operands(const graph_node *n, node out[3])
     return operation_at(n->op)->arity;
 }
 
-/* A list that grows by the hooks alone. */
 static bool push(graph *g, graph_walk *w, node n)
 {
     if (w->count == w->capacity) {
@@ -32,8 +31,8 @@ static bool push(graph *g, graph_walk *w, node n)
 
 bool graph_order(graph *g, const node *roots, size_t count, unsigned deps, bool into_sums, graph_walk *w)
 {
-    /* `place` needs no clearing: a node is reached if the list holds it at its place. A node is expanded once, so the
-     * stack stays below three entries a node. */
+    /* `place` needs no clearing: a node is reached if the list has it at its place. A node is expanded once, so the
+     * stack has fewer than three entries a node. */
     graph_walk stack = {0};
     *w = (graph_walk){0};
     bool ok = true;
@@ -71,7 +70,7 @@ void graph_order_again(graph *g, const graph_walk *w)
     for (uint32_t k = 0; k < w->count; k++) g->place[w->nodes[k]] = k;
 }
 
-/* Degree ---------------------------------------------------------------------------------------------------------- */
+/* Degree ----------------------------------------------------------------------------------------------------------- */
 
 static int at_most_2(int degree) { return degree > 2 ? 2 : degree; }
 
@@ -108,13 +107,14 @@ int graph_degree(graph *g, node root, unsigned deps)
     return result;
 }
 
-/* Kinks ----------------------------------------------------------------------------------------------------------- */
+/* Kinks ------------------------------------------------------------------------------------------------------------ */
 
 static bool kinks(operation op) { return operation_is(op, BENDS); }
 static bool jumps(operation op) { return operation_is(op, JUMPS); }
 static bool sharp(operation op) { return operation_at(op)->nature & (HAS_POLE | STEEP_AT_0 | STEEP_AT_ENDS); }
 
-/* What depends on parameters, modes and indices alone does not count: the value stays on one side of it. */
+/* Finds the first moving node of a kind. A node of parameters, modes and indices alone does not count, since its value
+ * stays on one side. */
 static node first_moving(graph *g, node root, bool (*is)(operation))
 {
     const unsigned moving = DEP_TIME | (DEP_STATE & ~DEP_MODE) | DEP_D;
@@ -203,7 +203,7 @@ size_t graph_steep(graph *g, node root, size_t most, node *of)
     return count;
 }
 
-/* Loads ----------------------------------------------------------------------------------------------------------- */
+/* Loads ------------------------------------------------------------------------------------------------------------ */
 
 typedef struct visit_loads {
     graph *g;
@@ -229,7 +229,7 @@ static void loads_below(const visit_loads *v, const node *roots, size_t count, c
             reference ref = g->references[n->a];
             v->visit(v->ctx, &ref, around->range, around->first, around->inside);
         } else if (n->op == OP_SUM && n->deps & v->deps) {
-            /* The body of a sum at level l cannot use levels above l other than its own. */
+            /* the body of a sum at level l cannot use levels above l other than its own */
             nest inner = *around;
             if (!inner.inside || n->level < inner.first) {
                 inner.first = n->level;

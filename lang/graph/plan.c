@@ -1,7 +1,7 @@
-/* The plan of a program: see plan.h.
+/* See plan.h.
  *
- * Invariant: in the order of rank, then key, each item of a region comes after the items that it needs. Sums over the
- * same range and of the same rank share one loop, because neither can need the other.
+ * Invariant: in the order of rank, then key, each item of a region comes after the items that it needs. Sums over one
+ * range and of one rank share a loop, because neither can need the other.
  */
 #include "lang/graph/plan.h"
 #include "lang/graph/graph_walk.h"
@@ -12,7 +12,7 @@ void *plan_room(plan *p, void *at, uint32_t count, uint32_t *capacity, size_t si
 {
     if (count < *capacity || p->failed) return at;
     const uint32_t more =
-        *capacity < MANY ? *capacity : *capacity / 4; /* the old list and the new are there together */
+        *capacity < MANY ? *capacity : *capacity / 4; /* the old list and the new one exist together */
     const uint32_t wanted = *capacity ? *capacity + more : 32;
     void *grown = wanted > *capacity ? take_more(p->hooks, at, count, wanted, size) : NULL;
     if (!grown) {
@@ -52,7 +52,7 @@ void plan_release(plan *p)
     DROP(p, p->next_output);
 }
 
-/* Regions --------------------------------------------------------------------------------------------------------- */
+/* Regions ---------------------------------------------------------------------------------------------------------- */
 
 uint32_t plan_home(const plan *p, unsigned deps, uint32_t region)
 {
@@ -84,7 +84,7 @@ static uint32_t new_region(plan *p, uint32_t parent, int level)
     return k;
 }
 
-/* The innermost region of the family loops that an output runs over; outputs with the same loops share them. */
+/* Returns the innermost region of the family loops of an output; outputs with equal loops share them. */
 static uint32_t nest_of(plan *p, const output *o)
 {
     uint32_t parent = AT_RUN;
@@ -105,7 +105,7 @@ static uint32_t nest_of(plan *p, const output *o)
     return parent;
 }
 
-/* The loop that totals a sum which is computed in region `home`. */
+/* Returns the loop that totals a sum computed in region `home`. */
 static uint32_t loop_of(plan *p, const graph_node *n, uint32_t rank, uint32_t home)
 {
     range r = p->g->ranges[n->c];
@@ -120,14 +120,14 @@ static uint32_t loop_of(plan *p, const graph_node *n, uint32_t rank, uint32_t ho
     p->regions.at[k].rank = rank;
     p->regions.at[k].sum = true;
     p->regions.at[home].holds_sums = true;
-    /* The bounds would differ between lanes of the index that they depend on: its loop takes one value at a time. */
+    /* A loop whose index is in the bounds takes one value at a time, since the bounds would differ between lanes. */
     for (uint32_t up = home; p->regions.at[up].level >= 0; up = p->regions.at[up].parent)
         if (p->regions.at[up].level == r.first.level || p->regions.at[up].level == r.last.level)
             p->regions.at[up].serial = true;
     return k;
 }
 
-/* Items ----------------------------------------------------------------------------------------------------------- */
+/* Items ------------------------------------------------------------------------------------------------------------ */
 
 static uint32_t slot_of(const plan *p, node n, uint32_t region)
 {
@@ -168,7 +168,7 @@ static uint32_t new_item(plan *p, node n, uint32_t region)
     return k;
 }
 
-/* A SUM, or the update of the total of the SUM `updates`. */
+/* Appends the record of a SUM, or of the update of the total of the SUM `updates`. */
 static plan_sum *new_sum(plan *p, uint32_t item, uint32_t updates)
 {
     if (!ROOM(p, p->sums)) return NULL;
@@ -187,7 +187,7 @@ static void need(plan *p, node n, uint32_t region)
     }
 }
 
-/* A SUM needs, inside its loop, the term, the condition, and the item that adds the term to the total. */
+/* Enters what a SUM needs inside its loop: the term, the condition, and the item that adds the term to the total. */
 static void enter_sum(plan *p, uint32_t item)
 {
     graph_node n = p->g->nodes[p->items.at[item].n];
@@ -249,7 +249,7 @@ static bool place_output(plan *p, uint32_t k)
     return true;
 }
 
-/* Order ----------------------------------------------------------------------------------------------------------- */
+/* Order ------------------------------------------------------------------------------------------------------------ */
 
 static bool before(const plan *p, uint32_t i, uint32_t j)
 {
@@ -278,7 +278,7 @@ static void sift(const plan *p, uint32_t *v, uint32_t root, uint32_t count)
     }
 }
 
-/* A heap sort, because the C library's qsort may take memory without the hooks. */
+/* Sorts items by a heap sort, because the C library's qsort may take memory without the hooks. */
 static bool sort_items(plan *p)
 {
     uint32_t count = p->items.count, *v = p->order = take(p->hooks, count, sizeof *v);
@@ -311,7 +311,7 @@ static bool rank_nodes(plan *p)
     return p->rank != NULL;
 }
 
-/* Lanes run along the innermost family index or, where nothing else does, along the innermost sum. */
+/* Chooses where lanes run: along the innermost family index or, where none does, along the innermost sum. */
 static void choose_lanes(plan *p)
 {
     for (uint32_t k = AT_RUN + 1; k < p->regions.count; k++) {

@@ -26,7 +26,7 @@ typedef struct forming {
     graph_walk w;
     uint32_t *uses;
     node *image;    /* by place */
-    bool *absorbed; /* used only inside a fused operation */
+    bool *absorbed; /* it is used only inside a fused operation */
 } forming;
 
 static uint32_t at(const forming *f, node n) { return f->from->place[n]; }
@@ -64,7 +64,7 @@ static void choose(forming *f)
 
 static node image(const forming *f, node n) { return f->image[at(f, n)]; }
 
-/* c + p q or c - p q */
+/* Returns c + p q or c - p q, fused. */
 static node fused(forming *f, product m, bool subtract, node c)
 {
     return graph_op(f->to, m.negated != subtract ? OP_FNMA : OP_FMA, image(f, m.p), image(f, m.q), c);
@@ -132,7 +132,7 @@ static bool run(forming *f, const node *roots, output *outputs, size_t count)
         choose(f);
         uint32_t formed = 1;
         for (uint32_t k = 0; k < f->w.count; k++) formed += !f->absorbed[k];
-        (void)graph_reserve(f->to, formed + formed / 8); /* sums and negated factors take more */
+        (void)graph_reserve(f->to, formed + formed / 8); /* sums and negated factors need more nodes */
         for (uint32_t k = 0; k < f->w.count; k++)
             if (!f->absorbed[k]) f->image[k] = form(f, f->w.nodes[k]);
         for (size_t r = 0; r < count; r++) outputs[r].value = image(f, roots[r]);

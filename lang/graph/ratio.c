@@ -1,6 +1,6 @@
-/* The ratio of two numbers that move, where it does not: each is a sum of terms, and a term is a number times powers of
- * what does not move times one node that does. k (a - b) and b - a have the ratio -1/k, whatever moves a and b. See
- * ratio.h. */
+/* The ratio of two numbers that move, where the ratio does not. Each number is a sum of terms, and a term is a number
+ * times powers of nodes that do not move, times one node that does. k (a - b) and b - a have the ratio -1/k, however a
+ * and b move. */
 #include "lang/graph/ratio.h"
 
 #include <math.h>
@@ -12,7 +12,7 @@ static const node NOTHING = UINT32_MAX; /* in place of the node that moves */
 typedef struct terms {
     node of[TERMS_MOST];
     ratio by[TERMS_MOST];
-    int count; /* TERMS_MOST + 1: there are more, or factors of one are too many */
+    int count; /* TERMS_MOST + 1: there are more terms, or one has too many factors */
 } terms;
 
 static bool add_factor(ratio *to, node n, int power)
@@ -32,7 +32,7 @@ static bool add_factor(ratio *to, node n, int power)
     return true;
 }
 
-/* Of what does not move. */
+/* Multiplies a ratio by a power of n, which does not move. */
 static bool add_factors(const graph *g, node n, int power, int depth, ratio *to)
 {
     const graph_node *at = graph_at(g, n);
@@ -54,7 +54,7 @@ static bool same_factors(const ratio *a, const ratio *b)
     return same;
 }
 
-/* Whether two nodes are one, or products of the same two. */
+/* Returns whether two nodes are one, or products of two equal factors. */
 static bool same_node(const graph *g, node p, node q)
 {
     if (p == q || p == NOTHING || q == NOTHING) return p == q;
@@ -125,7 +125,7 @@ bool ratio_same(const ratio *a, const ratio *b)
     return fabs(a->number - b->number) <= 0x1p-50 * fabs(b->number) && same_factors(a, b);
 }
 
-/* Whether every term of a, times r, is one of b. */
+/* Returns whether every term of a, times r, is a term of b. */
 static bool leads_to(const graph *g, const terms *a, const ratio *r, const terms *b)
 {
     for (int i = 0; i < a->count; i++) {

@@ -1,4 +1,4 @@
-/* What one number is of another one, seen by their terms: ratio.c. */
+/* The ratio of two numbers, by their terms. */
 #ifndef LANG_GRAPH_RATIO_H
 #define LANG_GRAPH_RATIO_H
 
@@ -7,16 +7,16 @@
 enum { RATIO_FACTORS = 8 };
 /* A number times powers of nodes that do not move, in the order of the nodes. */
 typedef struct ratio {
-    double number; /* 0: there is no ratio, or it is not seen */
+    double number; /* 0: there is no ratio, or none was found */
     int count;
     node of[RATIO_FACTORS];
     int power[RATIO_FACTORS];
 } ratio;
 
-/* w over u. */
+/* Returns w over u. */
 ratio ratio_of(const graph *, node u, node w);
 bool ratio_same(const ratio *, const ratio *);
-/* n times the ratio; and n times its sign, which is not a number where a factor is 0. */
+/* Return n times a ratio, and n times its sign, which is NaN where a factor is 0. */
 node ratio_times(graph *, const ratio *, node n);
 node ratio_way_times(graph *, const ratio *, node n);
 

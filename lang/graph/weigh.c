@@ -1,7 +1,7 @@
 /* See weigh.h.
  *
- * A division or a root takes a core about as long as DIVISION additions of the same vector width, an elementary
- * function as FUNCTION. Of a loop whose bounds depend on an outer index the middle run counts for all.
+ * A division or a root takes about as long as DIVISION additions, an elementary function as FUNCTION_CALL. Where the
+ * bounds of a loop depend on an outer index, the run in the middle counts for all.
  */
 #include "lang/graph/weigh.h"
 
@@ -32,7 +32,7 @@ static double value_of(operation op)
     }
 }
 
-/* The series that a recurrence of this operation runs over, beyond its operands at order n: 0: it is linear. */
+/* Returns how many products of series the recurrence of an operation sums; 0: it is linear. */
 static double products_of(const graph *g, const graph_node *n)
 {
     const unsigned moving = DEP_STATE | DEP_TIME;
@@ -46,7 +46,7 @@ static double products_of(const graph *g, const graph_node *n)
     }
 }
 
-/* How often the region runs in an evaluation; `index` gets the middle run of every loop around it. */
+/* Returns how often a region runs in an evaluation; `index` gets the middle of every loop around it. */
 static double runs_of(const plan *p, uint32_t region, const int64_t *ints, int64_t *index)
 {
     const plan_region *r = &p->regions.at[region];

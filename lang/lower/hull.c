@@ -1,4 +1,4 @@
-/* The hull of a state's indices, and its cells with an equation or a boundary line. See hull.h. */
+/* The hull of a state's indices, and its cells that have an equation or a boundary line. */
 #include "lang/lower/hull.h"
 
 #include "lang/lower/lower_ghost.h"

@@ -1,4 +1,4 @@
-/* Lowering an expression that another one holds, in one of the places that there are for it. See lower.h. */
+/* Lowers an expression that another one contains, in each kind of place for it. */
 #include "lang/lower/lower_parts.h"
 
 void lower_start(lowering *l, model *m, lower_place place, const char *what)
@@ -49,7 +49,7 @@ node lower_scalar(lowering *l, const tree *t, const char *what)
     return failed(l) ? 0 : v.item[0];
 }
 
-/* [[2, -1], [-1, 2]]: rows of numbers [18]. */
+/* Lowers a matrix [[2, -1], [-1, 2]]: rows of numbers [18]. */
 value lower_matrix(lowering *l, const tree *t)
 {
     const uint32_t columns = t->item[0]->count;

@@ -1,12 +1,12 @@
-/* Derivatives by one cell of a family: of x[j] by x[i] it is 1 where j is i, else 0.
+/* Derivatives by a cell of a family: that of x[j] by x[i] is 1 where j is i, else 0.
  *
- * While the derivative is made, each such number is a leaf of its own, in which the derivative is linear. Then a sum
- * over j becomes the terms in which its leaves are 1, where it is known that the sum has these terms for every i: a
- * chain's force has two terms, and not N. Other leaves become conditions.
+ * While a derivative is made, each such number is a leaf of its own, in which the derivative is linear. Then a sum over
+ * j becomes the terms whose leaf is 1, if the sum is known to have these terms for every i: the force of a chain has
+ * two terms, not N. Other leaves become conditions.
  */
 #include "lang/lower/lower_diff.h"
 
-enum { SHORTENED_MAX = 64 }; /* cells, each of which takes a walk through every sum */
+enum { SHORTENED_MAX = 64 }; /* in cells, each of which takes a walk through every sum */
 
 static bool never_equal(const subscript *a, const subscript *b)
 {
@@ -15,12 +15,12 @@ static bool never_equal(const subscript *a, const subscript *b)
 
 typedef enum within { WITHIN_NEVER, WITHIN_SOME, WITHIN_ALL } within;
 
-/* Whether the values of a subscript lie in [first, last]. In a model that is divided where families read ghost cells
- * (lower_ghost.c), the index is divided here as well, so that none does for some values alone. */
+/* Returns whether the values of a subscript lie in [first, last]. In a model that is divided where families read ghost
+ * cells (lower_ghost.c), the index is divided here, too, so that SOME does not remain. */
 static within values_within(lowering *l, const subscript *s, int64_t first, int64_t last)
 {
     const model *m = l->model;
-    if (s->level >= l->levels) return WITHIN_SOME; /* of a sum inside the expression */
+    if (s->level >= l->levels) return WITHIN_SOME; /* it is that of a sum inside the expression */
     const int64_t shift = s->literal + (s->slot >= 0 ? m->ints[s->slot] : 0);
     const int64_t low = shift + (s->level >= 0 ? l->low[s->level] : 0);
     const int64_t high = shift + (s->level >= 0 ? l->high[s->level] : 0);
@@ -31,7 +31,7 @@ static within values_within(lowering *l, const subscript *s, int64_t first, int6
     return WITHIN_SOME;
 }
 
-/* Whether one subscript is a number that the other is not, or that all of its values are. */
+/* Returns whether one subscript is a number that the other never, always or sometimes has. */
 static within constant_within(lowering *l, const subscript *a, const subscript *b)
 {
     const subscript *number = a->level < 0 ? a : b, *other = a->level < 0 ? b : a;
@@ -40,7 +40,7 @@ static within constant_within(lowering *l, const subscript *a, const subscript *
     return values_within(l, other, is, is);
 }
 
-/* Of one cell of an array by another: whether all indices are the same. */
+/* Returns the derivative of a cell of an array by another one: 1 if all indices are equal, else 0. */
 static node same_cell(lowering *l, const reference *a, const reference *b)
 {
     graph *g = l->model->graph;
@@ -60,7 +60,6 @@ static node same_cell(lowering *l, const reference *a, const reference *b)
     return any ? graph_op(g, OP_SELECT, same, graph_const(g, 1), graph_const(g, 0)) : graph_const(g, 1);
 }
 
-/* A leaf that nothing else has. */
 node lower_own_leaf(lowering *l)
 {
     model *m = l->model;
@@ -94,7 +93,7 @@ node lower_cell(differential *d, const reference *of)
     return d->cells[d->cell_count++].leaf;
 }
 
-/* In a sum over j the derivative of x[j + c] by x[i] counts for j = i - c alone, so the sum is one term: *at is i - c.
+/* Finds the only term that counts in a sum over j: that of x[j + c] by x[i] has j = i - c, which *at becomes.
  * WITHIN_SOME: it is not known that the sum has that term for every i, or for none. */
 static within one_term(const differential *d, const graph_node *sum, const reference *of, subscript *at)
 {
@@ -120,7 +119,7 @@ static within one_term(const differential *d, const graph_node *sum, const refer
     return values_within(d->l, at, first, last);
 }
 
-/* The cell that a node is the leaf of; NULL: none. */
+/* Returns the cell whose leaf a node is, or NULL. */
 static const cell *cell_of(const differential *d, node n)
 {
     const graph *g = d->l->model->graph;
@@ -155,7 +154,7 @@ typedef struct moved_index {
     bool failed;
 } moved_index;
 
-/* At one place of an index, which is another index and a constant. */
+/* Puts a place, another index plus a constant, for an index. */
 static node moved(graph *g, node n, int level, void *moved_ctx)
 {
     moved_index *to = moved_ctx;
@@ -175,7 +174,7 @@ static node moved(graph *g, node n, int level, void *moved_ctx)
     return graph_load(g, &r);
 }
 
-/* The term of a sum that one cell counts in; false: the sum must stay. */
+/* Returns in *out the term of a sum for one cell. False: the sum must stay. */
 static bool term_of_cell(differential *d, const graph_node *sum, node body, const cell *c, node *out)
 {
     graph *g = d->l->model->graph;
@@ -193,7 +192,7 @@ static bool term_of_cell(differential *d, const graph_node *sum, node body, cons
     return !to.failed;
 }
 
-/* What becomes of the leaves: terms of the sums around them, else conditions. */
+/* Replaces the leaves: by terms of the sums around them, else by conditions. */
 static node of_cells(graph *g, node n, int level, void *differential_ctx)
 {
     differential *d = differential_ctx;

@@ -1,8 +1,8 @@
 /* diff(expression, variable) [17]: the partial derivative, as nodes of the graph.
  *
- * The variable is a leaf of the graph: a state, a velocity, t, a parameter, one component of them. Of a family it is
- * one cell (lower_cells.c). An argument of a function may be any expression,
- * so the function is differentiated by a leaf of its own, which the argument then replaces.
+ * The variable is a leaf of the graph: a state, a velocity, t, a parameter, or a component of these; of a family it is
+ * one cell (lower_cells.c). An argument of a function may be any expression, so the function is differentiated by a
+ * leaf of its own, which the argument then replaces.
  */
 #include "lang/lower/lower_diff.h"
 
@@ -11,7 +11,7 @@
 
 #include <string.h>
 
-/* ---- seeds ---- */
+/* Seeds ------------------------------------------------------------------------------------------------------------ */
 
 static const array *array_of(const graph *g, node load)
 {
@@ -26,7 +26,7 @@ static bool in_pool(const graph *g, node n)
 
 static node seed(graph *g, node leaf, void *differential_ctx);
 
-/* Of a parameter that was computed from others, by its own expression. */
+/* Returns the derivative of a parameter that was computed from others, by its own expression. */
 static node of_parameter(differential *d, uint32_t slot)
 {
     model *m = d->l->model;
@@ -52,7 +52,8 @@ static node of_parameter(differential *d, uint32_t slot)
     return d->of_slot[slot] - 1;
 }
 
-/* Lists, families of parameters and initial values are not followed back to what they were computed from. */
+/* Returns the derivative of numbers in lists, families of parameters and initial values, which are not followed back:
+ * 0, or a complaint. */
 static node of_numbers(differential *d, const array *numbers)
 {
     model *m = d->l->model;
@@ -84,7 +85,7 @@ static node seed(graph *g, node leaf, void *differential_ctx)
     return n->op == OP_PARAM ? of_parameter(d, n->a) : of_numbers(d, array_of(g, leaf));
 }
 
-/* ---- derivatives ---- */
+/* Derivatives ------------------------------------------------------------------------------------------------------ */
 
 static value derivative(lowering *l, const tree *call, value of, value by)
 {
@@ -131,7 +132,7 @@ static node argument_for(graph *g, node load, int level, void *replacement_ctx)
     return load;
 }
 
-/* By an argument of the function that is being expanded. */
+/* Differentiates by an argument of the function that is being expanded. */
 static value by_argument(lowering *l, const tree *call, argument *a)
 {
     const value now = lower_argument(l, a);

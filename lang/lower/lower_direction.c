@@ -1,11 +1,11 @@
-/* Directions of numbers that move, sign(u) and u/|u|: as few surfaces as the text has, on which a motion may slide.
- * Factors that do not move stand outside, sign(k u) is sign(k) sign(u), so that two ways to write one surface meet in
- * the same nodes (lang/model/sliding.h). See lower_parts.h. */
+/* Directions of numbers that move, sign(u) and u/|u|, written with as few surfaces as possible, since a motion may
+ * slide on each. Factors that do not move stand outside, so sign(k u) is sign(k) sign(u): different texts of one
+ * surface become equal nodes (lang/model/sliding.h). */
 #include "lang/lower/lower_parts.h"
 
 enum { MOVES = DEP_TIME | DEP_STATE, DEEP = 64 };
 
-/* A number as a product: a factor that does not move, and the rest. */
+/* A number as a product of a factor that does not move and the rest. */
 typedef struct split {
     node factor, rest;
 } split;
@@ -45,7 +45,7 @@ node lower_sign(lowering *l, node u)
     return graph_op(g, OP_MUL, graph_op(g, OP_SIGN, s.factor, 0, 0), way, 0);
 }
 
-/* The product without one factor u. False: it has none. */
+/* Returns in *rest a product without one factor u. False: it has none. */
 static bool without_factor(graph *g, node product, node u, int depth, node *rest)
 {
     const graph_node n = *graph_at(g, product);
@@ -58,7 +58,7 @@ static bool without_factor(graph *g, node product, node u, int depth, node *rest
     return *rest = graph_op(g, OP_MUL, n.a, inner, 0), true;
 }
 
-/* A factor |u|: u, or UINT32_MAX. */
+/* Returns the u of a factor |u| in a product, or UINT32_MAX. */
 static node size_in(graph *g, node product, int depth)
 {
     const graph_node n = *graph_at(g, product);
@@ -68,12 +68,13 @@ static node size_in(graph *g, node product, int depth)
     return u == UINT32_MAX ? size_in(g, n.a, depth + 1) : u;
 }
 
-/* a/b as above sign(u)/below. */
+/* A quotient a/b as above sign(u)/below. */
 typedef struct direction {
     node u, above, below;
 } direction;
 
-/* Whether a/b is of the form u/|k u|, or with `inverse` |k u|/u, of a number that moves and a factor that does not. */
+/* Returns whether a/b has the form u/|k u|, or with `inverse` |k u|/u, of a number that moves and a factor that does
+ * not. */
 static bool find_direction(graph *g, node a, node b, bool inverse, direction *d)
 {
     node again;
@@ -95,7 +96,7 @@ static bool find_direction(graph *g, node a, node b, bool inverse, direction *d)
     return false;
 }
 
-/* a/b, where u/|u| and |u|/u of a number that moves are its direction, sign(u): it jumps at 0, and has no pole. */
+/* Returns a/b, with sign(u) for u/|u| and |u|/u of a number that moves: it jumps at 0, and has no pole. */
 node lower_ratio(lowering *l, node a, node b)
 {
     graph *g = l->model->graph;

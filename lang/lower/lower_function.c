@@ -1,4 +1,4 @@
-/* Functions of one's own [16]: a call is the function's expression with the arguments in place of their names.
+/* Functions of the model [16]: a call is the function's expression with the arguments in place of their names.
  *
  * A body uses its arguments, which hide all other names, and the names of the model, but no index of its caller.
  * Functions do not call themselves (classify.c), so the expansion ends.
@@ -30,9 +30,9 @@ value lower_argument(lowering *l, argument *a)
     return v;
 }
 
-/* The calls of a function that were lowered. The same call again gives the same nodes, so that functions of functions,
- * g(q) + g(q/2) + g(q) within the like, take no time that doubles with every function. What a call depends on are its
- * words: the place, the levels around it with the indices by which subscripts are checked, and the nodes of its
+/* The calls of a function that were lowered. A repeated call has the nodes of the first, so the time for nested
+ * functions, as g(q) + g(q/2) + g(q), does not double with every function. The words of a call are everything that it
+ * depends on: the place, the levels around it with the ranges that subscripts are checked by, and the nodes of its
  * arguments. */
 typedef struct expansion {
     uint64_t *words;
@@ -42,9 +42,9 @@ typedef struct expansion {
 } expansion;
 struct expansions {
     expansion *slots;
-    uint32_t used, room; /* a power of two, more than twice `used` */
+    uint32_t used, room; /* room: a power of two, more than twice `used` */
 };
-enum { EXPANSIONS_MOST = 1 << 12 }; /* of one function; what is not kept is lowered again */
+enum { EXPANSIONS_MOST = 1 << 12 }; /* calls kept of one function; others are lowered again */
 
 static size_t words_of(const lowering *l, const argument *arguments, uint32_t count)
 {
@@ -56,7 +56,7 @@ static size_t words_of(const lowering *l, const argument *arguments, uint32_t co
     return words;
 }
 
-/* What the call depends on; to be given back. False: no memory. */
+/* Fills in the words of a call, which the caller gives back. False: no memory. */
 static bool describe(const lowering *l, const argument *arguments, uint32_t count, expansion *out)
 {
     *out = (expansion){.count = words_of(l, arguments, count)};
@@ -78,7 +78,7 @@ static bool describe(const lowering *l, const argument *arguments, uint32_t coun
     return true;
 }
 
-/* The place of the call in the table, or where it would be. */
+/* Returns the place of a call in the table, or where it would be. */
 static expansion *place_of(const struct expansions *t, const expansion *call)
 {
     for (uint64_t k = call->hash;; k++) {
@@ -140,7 +140,7 @@ value lower_function(lowering *l, const tree *call, model_function *f)
     inner.argument_count = s->applied->count - 1;
     for (uint32_t i = 0; i < inner.argument_count; i++) {
         arguments[i] = (argument){.name = s->applied->item[i + 1]->name, .tree = call->item[i + 1], .caller = l};
-        lower_argument(l, &arguments[i]); /* what is wrong with it is wrong whether the function uses it or not */
+        lower_argument(l, &arguments[i]); /* so that an argument is checked even if the function does not use it */
     }
     if (failed(l)) return wrong(l);
     expansion now;

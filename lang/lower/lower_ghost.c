@@ -1,10 +1,10 @@
 /* Ghost cells: boundary cells whose line depends on a state, u[0] = u[1] [11].
  *
- * A ghost cell has no number of its own in the state. Where it is read stands what its line says, so derivatives,
- * structures of matrices and machines know nothing of it, and its value belongs to the same state as all others.
- * A family reads ghost cells for some of its indices alone, so it is divided: u[i-1] for i = 1..N reads u[0] for i = 1.
- * Whoever reads across the border asks for a cut (lower_cut), and the equation, quantity or sum whose index it is
- * lowers its parts again, one by one.
+ * A ghost cell has no number in the state. Where it is read, the right side of its line stands instead, so derivatives,
+ * structures of matrices and machines know nothing of it, and its value always fits the state. A family that reads
+ * ghost cells for only some of its indices is divided: u[i-1] for i = 1..N reads u[0] for i = 1. Reading across the
+ * border asks for a cut (lower_cut), and the equation, quantity or sum with that index then lowers its parts one by
+ * one.
  */
 #include "lang/lower/lower_ghost.h"
 
@@ -14,14 +14,14 @@
 
 #include <string.h>
 
-/* ---- which lines ---- */
+/* Which lines ------------------------------------------------------------------------------------------------------ */
 
 static bool reads_state(model *m, const tree *t, const tree *applied);
 
 static bool once(model *m, uint8_t *reads, const tree *t, const tree *applied)
 {
     if (*reads == 0) {
-        *reads = 1; /* a circle, which classify.c has refused, would end here */
+        *reads = 1; /* a circle would end here; classify.c has refused it */
         *reads = reads_state(m, t, applied) ? 2 : 1;
     }
     return *reads == 2;
@@ -38,7 +38,8 @@ static bool name_reads(model *m, const tree *t, const tree *applied)
     return once(m, &s.definition->reads, s.definition->statement->value, NULL);
 }
 
-/* Chains of operators lean left and may be long, so a loop follows the left side. */
+/* Returns whether a tree reads a state. Chains of operators lean left and may be long, so a loop follows the left
+ * side. */
 static bool reads_state(model *m, const tree *t, const tree *applied)
 {
     for (;;) {
@@ -83,7 +84,7 @@ bool lower_fits(model *m, const statement *s, const model_state *state, value v,
     return false;
 }
 
-/* ---- cuts ---- */
+/* Cuts ------------------------------------------------------------------------------------------------------------- */
 
 bool lower_cut(model *m, int first, int count, model_cut *out)
 {
@@ -94,7 +95,7 @@ bool lower_cut(model *m, int first, int count, model_cut *out)
     return true;
 }
 
-/* A level of one index is none: its name is a number, and the levels above move down. */
+/* Drops a level of one index: its name becomes a number, and the levels above move down. */
 static void drop(lowering *l, output *o, int level, int64_t index)
 {
     graph *g = l->model->graph;
@@ -140,14 +141,14 @@ void lower_narrow(lowering *l, output *o, int level, int64_t low, int64_t high)
     if (low == high) drop(l, o, level, low);
 }
 
-/* ---- reading ---- */
+/* Reading ---------------------------------------------------------------------------------------------------------- */
 
 typedef struct motion {
     const model *model;
-    bool unknown; /* a velocity would be needed whose rate is not known here */
+    bool unknown; /* the rate of a velocity would be needed, which is not known here */
 } motion;
 
-/* The rate of a leaf along the motion. */
+/* Returns the rate of a leaf along the motion. */
 static node along(graph *g, node leaf, void *motion_ctx)
 {
     motion *c = motion_ctx;
@@ -175,7 +176,7 @@ static value velocity(lowering *l, const tree *t, value of)
     return wrong(l);
 }
 
-/* What the line says, with the subscripts in place of its indices. */
+/* Lowers the right side of a boundary line, with the subscripts in place of its indices. */
 static value expand(lowering *l, const tree *t, const model_state *s, model_ghost *g, const reference *r,
                     const int64_t low[], const int64_t high[])
 {
@@ -219,7 +220,7 @@ static value expand(lowering *l, const tree *t, const model_state *s, model_ghos
     return t->primes == 1 && s->order == 2 ? velocity(l, t, v) : v;
 }
 
-/* Asks for a cut at the first border of the cells that the range crosses. */
+/* Asks for a cut at the first border of the cells that a range crosses. */
 static void ask(lowering *l, const tree *t, const model_state *s, const model_ghost *g, const reference *r,
                 const int64_t low[], const int64_t high[])
 {

@@ -1,4 +1,4 @@
-/* Indices [11]: names of indices, subscripts i + c and mod(i + c, N) + 1, ranges, and left sides. See lower.h. */
+/* Indices [11]: names of indices, subscripts i + c and mod(i + c, N) + 1, ranges, and left sides. */
 #include "lang/lower/lower_parts.h"
 
 #include "lang/model/evaluate.h"
@@ -15,11 +15,11 @@ const index_name *lower_find_index(const lowering *l, const char *name)
     return NULL;
 }
 
-typedef struct affine { /* an index expression in its parts */
+typedef struct affine { /* the parts of an index expression */
     const index_name *name;
     int64_t literal;
     node constant;
-    bool wrapped; /* mod(inner, modulus) + literal */
+    bool wrapped; /* it is mod(inner, modulus) + literal */
     subscript inner;
     int64_t modulus;
 } affine;
@@ -46,7 +46,7 @@ static void take_mod(lowering *l, const tree *t, int sign, affine *a)
         COMPLAIN(l, &t->item[1]->at, "an index wraps around at least 1 place, not %lld", (long long)a->modulus);
         return;
     }
-    /* Only equal moduli can be joined: mod(mod(b, N) + 1 + c, N) is mod(b + 1 + c, N). */
+    /* only equal moduli can be joined: mod(mod(b, N) + 1 + c, N) is mod(b + 1 + c, N) */
     if (a->inner.modulus >= 0) {
         if (a->inner.modulus != slot) {
             not_affine(l, t);
@@ -97,7 +97,7 @@ static void take_apart(lowering *l, const tree *t, int sign, affine *a)
 {
     while (!failed(l)) {
         const argument *hides = t->kind == TREE_NAME ? lower_find_argument(l, t->name) : NULL;
-        if (hides && hides->tree && !t->index_count && !t->primes) { /* an index may be handed over */
+        if (hides && hides->tree && !t->index_count && !t->primes) { /* an argument may be an index */
             l = hides->caller;
             t = hides->tree;
             continue;
@@ -161,7 +161,7 @@ bool lower_subscript(lowering *l, const tree *t, subscript *out, int64_t *first,
         if (slot < 0) return false;
         out->slot = (int16_t)slot;
         shift += value;
-        if (a.name && a.name->constant) { /* first and last contain it already */
+        if (a.name && a.name->constant) { /* `first` and `last` contain it already */
             int64_t before;
             if (evaluate_int(l->model, a.name->constant, &t->at, &before) < 0) return false;
             shift -= before;
@@ -221,7 +221,7 @@ bool lower_add_index(lowering *l, const loop *loop, int level, int64_t first, in
     return true;
 }
 
-/* The range of a loop; [*low, *high] contains every value of its index, for all values of outer indices. */
+/* Reads the range of a loop; [*low, *high] contains every value of its index, for all values of outer indices. */
 bool lower_range(lowering *l, const loop *loop, range *out, int64_t *low, int64_t *high)
 {
     int64_t first_high, last_low;

@@ -1,5 +1,5 @@
-/* What events keep (lang/model/kept.h). A call becomes a load of a mode that the event assigns, chosen by the counter
- * of its events: before the event it is not a number. The same call again is the same mode. */
+/* What events keep (lang/model/kept.h). A call becomes a load of a mode that the event assigns; the counter of events
+ * chooses NaN before the event. Equal calls share a mode. */
 #include "lang/lower/lower_parts.h"
 
 #include "lang/lower/resolve.h"
@@ -14,7 +14,7 @@ static node load(lowering *l, const model_keep *k, int component)
     return graph_load(l->model->graph, &r);
 }
 
-/* The mode that keeps these nodes, found or made; NULL: complained, or no memory. */
+/* Finds or makes the mode that keeps these nodes. NULL: there was a complaint, or no memory. */
 static const model_keep *keep(lowering *l, const tree *t, uint32_t rule, int64_t which, const value *v)
 {
     model *m = l->model;
@@ -45,7 +45,7 @@ static const model_keep *keep(lowering *l, const tree *t, uint32_t rule, int64_t
     return k;
 }
 
-/* The number of the event that is asked for. */
+/* Reads the number of the event that a call is about. */
 static bool find_which(lowering *l, const tree *t, int64_t *which)
 {
     const tree *written = kept_which(l->model, t);
@@ -65,7 +65,7 @@ static bool find_which(lowering *l, const tree *t, int64_t *which)
     return true;
 }
 
-/* What the event keeps: the time, or an expression of the state on its arrival. */
+/* Returns what an event keeps: the time, or an expression of the state on its arrival. */
 static value kept_value(lowering *l, const tree *t, const model_rule *rule)
 {
     const tree *of = kept_expression(l->model, t);
@@ -73,7 +73,7 @@ static value kept_value(lowering *l, const tree *t, const model_rule *rule)
     lowering inner = *l;
     inner.place = PLACE_EVENT;
     inner.what = "what an event keeps";
-    inner.levels = rule->statement->loop_count; /* sums open levels behind the event's own indices */
+    inner.levels = rule->statement->loop_count; /* sums open levels behind the indices of the event */
     inner.chain++;
     value v = lower_expression(&inner, of);
     if (!want_number(l, &v, of)) return wrong(l);

@@ -1,5 +1,4 @@
-/* Names [4, 10]: states, parameters, lists and initial values become loads, quantities their expressions. See lower.h.
- * */
+/* Names [4, 10]: states, parameters, lists and initial values become loads; quantities become their expressions. */
 #include "lang/lower/lower_parts.h"
 
 #include "lang/lower/hull.h"
@@ -14,7 +13,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* One load for each component; their arrays are numbered from `first` on. */
+/* Loads each component; their arrays are numbered from `first` on. */
 static value load(lowering *l, uint16_t first, int components, const reference *at)
 {
     value v = vector(l, components);
@@ -34,8 +33,8 @@ static bool subscripts(lowering *l, const tree *t, int dims, reference *r, int64
     return true;
 }
 
-/* Complains where a state is read at an index without an equation or a boundary line, or its highest derivative without
- * an equation. */
+/* Complains if a state is read at an index without an equation or a boundary line, or its highest derivative at one
+ * without an equation. */
 static bool covered(lowering *l, const model_state *s, const tree *t, const int64_t low[], const int64_t high[])
 {
     bool derivative = t->primes == s->order;
@@ -147,19 +146,19 @@ static value lower_state(lowering *l, const tree *t, model_state *s)
         return wrong(l);
     value ghost;
     if (!select && s->ghosts && lower_ghost(l, t, s, &r, low, high, &ghost)) return ghost;
-    /* A first-order variable and its rate are in V and A; a position, its velocity and acceleration in X, V and A. */
+    /* a first-order variable and its rate are in V and A; a position, its velocity and acceleration in X, V and A */
     int block = t->primes + (s->order == 1 ? BLOCK_V : BLOCK_X);
     value v = load(l, (uint16_t)(l->model->block[block] + s->array), s->components, &r);
     return select ? lower_component(l, v, t->item[0], t) : v;
 }
 
-/* The first array of a list, or of the mode that it is. */
+/* Returns the first array of a list, or of its mode. */
 static uint16_t numbers_of(const lowering *l, const model_definition *d, bool start)
 {
     return d->mode && !start ? (uint16_t)(l->model->block[BLOCK_X] + l->model->states[d->mode - 1].array) : d->array;
 }
 
-/* All entries of a matrix that was written as one. */
+/* Loads all entries of a matrix. */
 static value whole_matrix(lowering *l, const model_definition *d, uint16_t array)
 {
     const int rows = (int)d->last[0], columns = (int)d->last[1];
@@ -198,7 +197,8 @@ static value lower_list(lowering *l, const tree *t, model_definition *d, bool st
     return load(l, first, d->components, &r);
 }
 
-/* Whether a mode has its start here, as the parameter that it is written as; it complains where that is not meant. */
+/* Returns whether a mode stands for its start here, as a parameter; complains if only its present value could be
+ * meant. */
 static bool mode_starts(lowering *l, const tree *t, const model_definition *d)
 {
     if (!d->mode || (l->place != PLACE_CONSTANT && l->place != PLACE_EXACT)) return false;
@@ -209,7 +209,7 @@ static bool mode_starts(lowering *l, const tree *t, const model_definition *d)
     return false;
 }
 
-/* A quantity with indices is its expression with the subscripts in place of its own indices. */
+/* Lowers a quantity with indices: its expression, with the subscripts in place of its indices. */
 static value lower_quantity_family(lowering *l, const tree *t, model_definition *d)
 {
     const statement *s = d->statement;
@@ -273,7 +273,7 @@ static value lower_definition(lowering *l, const tree *t, model_definition *d)
         if (!resolve_definition(l->model, d)) return wrong(l);
         return lower_quantity_family(l, t, d);
     }
-    /* A quantity is lowered where it is used, because the place of its use decides what it may depend on. */
+    /* a quantity is lowered where it is used, because that place decides what it may depend on */
     if (d->kind != DEFINED_PARAMETER) {
         lowering inner = *l;
         inner.name_count = 0;
@@ -331,7 +331,7 @@ static value lower_use(lowering *l, const tree *t, argument *a)
     return t->index_count == 1 && !failed(l) ? lower_component(l, v, t->item[0], t) : v;
 }
 
-/* Every name is defined: names.c has seen to that. */
+/* Lowers a name. names.c has checked that every name is defined. */
 value lower_name(lowering *l, const tree *t)
 {
     argument *hides = lower_find_argument(l, t->name);
@@ -357,7 +357,7 @@ value lower_name(lowering *l, const tree *t)
     return wrong(l);
 }
 
-/* x(0), r'(0), x[i](0) [4] */
+/* Lowers an initial value: x(0), r'(0), x[i](0) [4]. */
 value lower_initial(lowering *l, const tree *t)
 {
     const tree *name = t->item[0], *bracket = t->item[1];

@@ -1,4 +1,4 @@
-/* Numbers as the text has them. See lower_parts.h. */
+/* Numbers in the text, and pi. */
 #include "lang/lower/lower_parts.h"
 
 #include "base/decimal.h"
@@ -17,7 +17,7 @@ value lower_number(lowering *l, const tree *t)
     return scalar(l, graph_decimal(g, other, number, (twofold){number, rest, twofold_unit(number) * 0x1p-53}));
 }
 
-/* pi, 3.14159265358979323846…, lies between this double and the next one. */
+/* pi, 3.14159265358979323846…, lies between the double and the next one. */
 value lower_pi(lowering *l)
 {
     static const twofold is = {0x1.921fb54442d18p1, 0x1.1a62633145c07p-53, 0x1p-106};

@@ -9,7 +9,7 @@
 #define COMPLAIN(l, at, ...) (source_complain(&(l)->model->source, MOTUS_SHAPE, (at), __VA_ARGS__))
 #define HINT(l, ...) (source_hint(&(l)->model->source, __VA_ARGS__))
 
-/* Also where what is lowered must be divided first: lower_ghost.c. */
+/* Returns whether lowering has failed, or must be done again in parts (lower_ghost.c). */
 static inline bool failed(const lowering *l)
 {
     const model *m = l->model;
@@ -49,16 +49,16 @@ static inline value vector(lowering *l, int count)
 
 static inline value wrong(lowering *l) { return scalar(l, 0); }
 
-/* What is made of a derivative may be simplified as the derivative is. */
+/* Switches simplification on or off, as derivatives have it. */
 static inline void lower_tidy(lowering *l, bool on) { l->model->graph->simplify = l->model->graph->tidy = on; }
 
 static inline node binary(lowering *l, operation op, node a, node b) { return graph_op(l->model->graph, op, a, b, 0); }
 
-/* lower.c. What may be a matrix; and whether it is none, else it complains. */
+/* lower.c. lower_factor lowers what may be a matrix; lower_no_matrix complains if a value is one. */
 value lower_factor(lowering *, const tree *);
 bool lower_no_matrix(lowering *, const value *, const tree *);
 
-/* lower_direction.c. sign(u), and a/b where that may be a direction u/|u|. */
+/* lower_direction.c: return sign(u), and a/b, which may be a direction u/|u|. */
 node lower_sign(lowering *, node u);
 node lower_ratio(lowering *, node a, node b);
 
@@ -87,10 +87,10 @@ const index_name *lower_find_index(const lowering *, const char *name);
 bool lower_add_index(lowering *, const loop *, int level, int64_t first, int64_t last);
 bool lower_range(lowering *, const loop *, range *, int64_t *low, int64_t *high);
 
-/* The value of a subscript as a node. */
+/* Returns the value of a subscript as a node. */
 node lower_subscript_number(lowering *, const subscript *);
 
-/* lower_function.c: functions of one's own, expanded where they are called */
+/* lower_function.c: functions of the model, expanded where they are called */
 argument *lower_find_argument(const lowering *, const char *name);
 value lower_argument(lowering *, argument *);
 value lower_function(lowering *, const tree *call, model_function *);

@@ -1,5 +1,5 @@
-/* Expressions: operators, calls and sums to nodes. See lower.h. Chains of operators may be long and lean left, so a
- * loop walks them; the rest recurses, as deep as the parser has allowed. */
+/* Expressions: operators, calls and sums. Chains of operators may be long and lean left, so a loop walks them; the rest
+ * recurses, as deep as the parser allows. */
 #include "lang/lower/lower_ghost.h"
 #include "lang/lower/lower_parts.h"
 
@@ -8,8 +8,6 @@
 #include "lang/model/symbols.h"
 
 #include <math.h>
-
-/* ---- operators ---- */
 
 static bool equal_shapes(lowering *l, const tree *t, const tree *a, const value *va, const tree *b, const value *vb,
                          const char *sign)
@@ -35,10 +33,10 @@ static value lower_sum_of_two(lowering *l, const tree *t, const tree *a, value v
     return v;
 }
 
-/* [18] A matrix times a matrix, a vector (a column) or a number; a number times a matrix. */
+/* Multiplies a matrix by a matrix, a vector (a column) or a number, or a number by a matrix [18]. */
 static value lower_matrix_product(lowering *l, const tree *t, value a, value b)
 {
-    if (b.count == 0 || (a.count == 0 && !a.rows)) { /* of a number and a matrix */
+    if (b.count == 0 || (a.count == 0 && !a.rows)) { /* a number and a matrix */
         const value *number = b.count == 0 ? &b : &a, *matrix = b.count == 0 ? &a : &b;
         value v = vector(l, matrix->rows * matrix->count);
         for (int k = 0; k < v.count; k++) v.item[k] = binary(l, OP_MUL, number->item[0], matrix->item[k]);
@@ -123,7 +121,7 @@ static node dot(lowering *l, value a, value b)
     return graph_total(l->model->graph, products.item, (size_t)products.count);
 }
 
-/* Whether an exponent is a literal whole number with |n| <= 64, which becomes products. */
+/* Returns whether an exponent is a literal whole number with |n| <= 64; the power then becomes products. */
 static bool literal_exponent(const tree *t, int *n)
 {
     int sign = 1;
@@ -136,7 +134,7 @@ static bool literal_exponent(const tree *t, int *n)
     return true;
 }
 
-/* |v|^n from d = dot(v, v): d^(n/2), times sqrt(d) where n is odd */
+/* Returns |v|^n from d = dot(v, v): d^(n/2), times sqrt(d) if n is odd. */
 static node norm_power(lowering *l, value of, int n)
 {
     graph *g = l->model->graph;
@@ -151,8 +149,7 @@ static node norm_power(lowering *l, value of, int n)
     return n < 0 ? binary(l, OP_DIV, graph_const(g, 1), p) : p;
 }
 
-/* a[i] b[j] - a[j] b[i]. The products are made in two statements, because C leaves the order of arguments to the
- * compiler. */
+/* Returns a[i] b[j] - a[j] b[i]. Two statements make the products, since C leaves the order of arguments open. */
 static node area(lowering *l, const node *a, const node *b, int i, int j)
 {
     node minus = binary(l, OP_MUL, a[j], b[i]), plus = binary(l, OP_MUL, a[i], b[j]);
@@ -238,22 +235,22 @@ static value lower_call(lowering *l, const tree *t)
     return scalar(l, graph_op(l->model->graph, (operation)t->operation, v[0].item[0], n > 1 ? v[1].item[0] : 0, 0));
 }
 
-/* Restricts indices of a sum to a part of their ranges. */
+/* The parts of their ranges to which indices of a sum are restricted. */
 typedef struct sum_part {
     bool cut[MAX_DIMS];
     int64_t low[MAX_DIMS], high[MAX_DIMS];
 } sum_part;
 
-/* A sum whose indices are known to `inner`: its levels, from `first` on. */
+/* The levels of a sum whose indices are known to `inner`, from `first` on. */
 typedef struct sum_levels {
     int first, count;
     range ranges[MAX_DIMS];
-    uint32_t index[MAX_DIMS]; /* which of the sum's indices the level is: one that has a single value is no level */
+    uint32_t index[MAX_DIMS]; /* by level: which index of the sum it is; an index with a single value has no level */
 } sum_levels;
 
 static value lower_sum_part(lowering *l, const tree *t, const sum_part *part);
 
-/* A sum over ghost cells and others: the sum of the parts before and after a cut. */
+/* Lowers a sum over ghost cells and others: the sum of the parts before and after a cut. */
 static value lower_sum_cut(const lowering *inner, const tree *t, const sum_part *whole, const sum_levels *s,
                            const model_cut *cut, lowering *l)
 {
@@ -321,7 +318,7 @@ static bool open_sum(lowering *l, const tree *t, const sum_part *part, lowering 
     return true;
 }
 
-/* The sum of a body, whose indices have been opened, over its levels. */
+/* Returns the sum of a body over its levels, which have been opened. */
 static node lower_sum_over(lowering *l, const sum_levels *s, bool masked, node mask, node n)
 {
     graph *g = l->model->graph;
@@ -331,7 +328,8 @@ static node lower_sum_over(lowering *l, const sum_levels *s, bool masked, node m
     return evaluate_sum(l->model, n);
 }
 
-/* sum(j = a..b, condition, …: body) [12]: each index is a loop; the innermost contains the conditions and the body. */
+/* Lowers sum(j = a..b, condition, …: body) [12]: each index is a loop; the innermost contains the conditions and the
+ * body. */
 static value lower_sum(lowering *l, const tree *t) { return lower_sum_part(l, t, &(sum_part){{false}, {0}, {0}}); }
 
 static value lower_sum_part(lowering *l, const tree *t, const sum_part *part)
@@ -386,7 +384,7 @@ static value lower_vector(lowering *l, const tree *t)
     return v;
 }
 
-/* One operator whose left operand is lowered already. */
+/* Lowers an operator, whose left operand has been lowered. */
 static value lower_right(lowering *l, const tree *t, value left)
 {
     const tree *a = t->item[0], *b = t->item[1];
@@ -416,7 +414,7 @@ static bool operator_kind(tree_kind kind)
            kind == TREE_AND || kind == TREE_OR;
 }
 
-/* a op b op c …: collects the operators down the left side, then lowers them from the innermost outward. */
+/* Lowers a op b op c …: collects the operators down the left side, then lowers them from the innermost outward. */
 static value lower_chain(lowering *l, const tree *t)
 {
     size_t depth = 0;

@@ -23,10 +23,10 @@ static bool finite_values(model *m, const model_definition *d, const double *v, 
     return true;
 }
 
-/* Evaluates numbers into the pool from `first` on, where they must be finite. */
+/* Evaluates numbers into the pool from `first` on; they must be finite. */
 static bool evaluate_numbers(model *m, const model_definition *d, const node *nodes, int n, size_t first)
 {
-    double *out = take(&m->arena->allocator, (size_t)n, sizeof *out); /* the pool may move meanwhile */
+    double *out = take(&m->arena->allocator, (size_t)n, sizeof *out); /* since the pool may move meanwhile */
     if (!out) return m->arena->failed = true, false;
     const bool ok = evaluate_nodes(m, nodes, n, out) && finite_values(m, d, out, (size_t)n);
     if (ok) memcpy(m->pool + first, out, (size_t)n * sizeof *out);
@@ -67,7 +67,7 @@ static void own_arrays(model *m, model_definition *d, uint16_t first, int parts)
     for (int k = 0; k < parts; k++) m->array_owner[first + k] = 2 * (uint32_t)(d - m->definitions) + 1;
 }
 
-/* K = [[2, -1], [-1, 2]]: places [row, column], each from 1 */
+/* Resolves K = [[2, -1], [-1, 2]], with the places [row, column] from 1 on. */
 static bool resolve_matrix(model *m, model_definition *d)
 {
     lowering l;
@@ -99,7 +99,7 @@ static bool resolve_matrix(model *m, model_definition *d)
     return true;
 }
 
-/* The nodes of a list's entries, entry by entry, to be given back; NULL: complained, or no memory. */
+/* Lowers the entries of a list; the caller gives the nodes back. NULL: there was a complaint, or no memory. */
 static node *lower_entries(model *m, const tree *list, int *components)
 {
     node *nodes = NULL;
@@ -123,7 +123,7 @@ static node *lower_entries(model *m, const tree *list, int *components)
     return nodes;
 }
 
-/* The entries' numbers go to the pool component by component. */
+/* Evaluates the entries of a list into the pool, component by component. */
 static bool place_entries(model *m, model_definition *d, const node *nodes, int n, int parts)
 {
     size_t base;
@@ -148,7 +148,7 @@ static bool place_entries(model *m, model_definition *d, const node *nodes, int 
     return ok;
 }
 
-/* m = [1, 2, 3] or [(1, 0), (0, 1)]: places 1 … n */
+/* Resolves m = [1, 2, 3] or [(1, 0), (0, 1)], with the places 1 … n. */
 static bool resolve_list(model *m, model_definition *d)
 {
     const tree *list = d->statement->value;
@@ -168,7 +168,8 @@ static bool resolve_list(model *m, model_definition *d)
     return ok;
 }
 
-/* The lines of a family. Of lines about the same place that with fewer indices holds; what is set holds before all. */
+/* The ranks of the lines of a family. Of lines about one place, the one with fewer indices holds; a line of --set holds
+ * before all. */
 enum { RANK_CELL = MAX_DIMS + 1, RANK_SET };
 #define EACH_LINE(m, d, one) \
     for (const statement *one = (d)->statement; one; one = one->next ? &(m)->statements.item[one->next - 1] : NULL)
@@ -185,7 +186,7 @@ static bool open_line(model *m, const model_definition *d, const statement *line
     return lower_target(l, line, o);
 }
 
-/* The places of all lines. */
+/* Finds the range of the places of all lines. */
 static bool family_extent(model *m, model_definition *d)
 {
     if (!model_take_extent(m, d)) return false;
@@ -225,7 +226,7 @@ static bool name_place(model *m, const model_definition *d, span where, size_t p
     return false;
 }
 
-/* Marks the places of a line in the map, which holds the highest rank. */
+/* Marks the places of a line in the map, which has the highest rank of each. */
 static bool mark_line(model *m, const model_definition *d, const statement *line, uint8_t *map)
 {
     lowering l;
@@ -262,7 +263,7 @@ static bool family_map(model *m, const model_definition *d, size_t hull, uint8_t
     return true;
 }
 
-/* Lines of one rank, into the places of the family. */
+/* Evaluates the lines of one rank into the places of a family. */
 static bool family_lines(model *m, model_definition *d, int rank, const uint8_t *map, size_t hull)
 {
     EACH_LINE(m, d, line)
@@ -366,7 +367,7 @@ bool resolve_definition(model *m, model_definition *d)
     return ok && !failed(m);
 }
 
-/* ---- the start ---- */
+/* The start -------------------------------------------------------------------------------------------------------- */
 
 bool resolve_varying(model *m, const tree *t, const char *what, node *n, double *out)
 {
@@ -400,7 +401,7 @@ bool resolve_start_time(model *m)
         if (!from && s->kind != STATEMENT_START) continue;
         double at;
         const tree *t = from ? s->value : s->applied->item[1];
-        m->start_known = true; /* an initial value in this expression is then compared with NaN */
+        m->start_known = true; /* so that an initial value in this expression is compared with NaN */
         if (!any) m->start = NAN;
         if (!resolve_constant(m, t, "the start", &at)) return false;
         if (any && at != m->start) {

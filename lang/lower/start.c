@@ -1,8 +1,8 @@
-/* Initial values: x(0), x'(0), x[i](0), from lines that may use one another in any order. See start.h.
+/* Initial values x(0), x'(0), x[i](0), from lines that may use one another in any order.
  *
  * Invariant: each line is computed once, when it is first needed. A cell keeps the value of the line with the highest
- * rank, in whichever order they are computed: lines of --set rank above lines for a single cell, and these above lines
- * for a family.
+ * rank, in any order of computing: lines of --set rank above lines for a single cell, and these above lines for a
+ * family.
  */
 #include "lang/lower/start.h"
 
@@ -20,7 +20,7 @@ static bool failed(const model *m) { return source_failed(&m->source); }
 
 enum { START_OF_FAMILY = 1, START_OF_CELL, START_OF_SET };
 
-/* The first line that is computed decides the state's components; room in the pool follows. */
+/* Gives a state its components, which the first computed line decides, and room in the pool. */
 static bool give_shape(model *m, model_state *s, const statement *one, int components)
 {
     int parts = components ? components : 1;
@@ -44,7 +44,7 @@ static bool give_shape(model *m, model_state *s, const statement *one, int compo
     return true;
 }
 
-/* Evaluates a line into the pool; constants are copied. */
+/* Evaluates a line into the pool; copies constants. */
 static bool run_line(model *m, model_state *s, const statement *one, const output *o, value v)
 {
     size_t base = m->arrays[s->start_array[one->primes]].base, cell = 0;
@@ -61,7 +61,7 @@ static bool run_line(model *m, model_state *s, const statement *one, const outpu
     return true;
 }
 
-/* Lowers a line, which computes the initial values that it uses, and checks its shape. */
+/* Lowers a line, with the initial values that it uses, and checks its shape. */
 static bool line_value(model *m, model_state *s, const statement *one, lowering *l, output *o, value *v)
 {
     lower_start(l, m, PLACE_CONSTANT, "an initial value");
@@ -95,7 +95,7 @@ static bool run_start(model *m, model_state *s, const statement *one, const outp
     return true;
 }
 
-/* Computes one line, x(0) = …, x'(0) = … or x[i](0) = … for …, once. */
+/* Computes a line x(0) = …, x'(0) = … or x[i](0) = … for …, once. */
 static bool start_line(model *m, model_state *s, statement *one)
 {
     if (one->progress == 2) return true;
@@ -159,7 +159,7 @@ static bool start_maps(model *m, model_state *s)
     return true;
 }
 
-/* Computes the lines for families and then, with `cells`, those for single cells. */
+/* Computes the lines for families and then, with `cells`, the lines for single cells. */
 static bool start_lines(model *m, model_state *s, int primes, bool cells)
 {
     for (int pass = 0; pass <= (int)cells; pass++)
@@ -184,7 +184,7 @@ static bool start_missing(model *m, const model_state *s, int primes, size_t cel
     return false;
 }
 
-/* Fills in start_own, once: otherwise every use of a cell would search all lines. */
+/* Fills in start_own, once, so that a use of a cell need not search all lines. */
 static bool own_lines(model *m, model_state *s, int primes)
 {
     if (s->start_own[primes]) return true;
@@ -213,7 +213,7 @@ static bool own_lines(model *m, model_state *s, int primes)
     return true;
 }
 
-/* In a draft what has no line x'(0) = … starts at rest, with the shape of x(0). The pool holds zeros. */
+/* Lets a state of a draft start at rest, with the shape of x(0), if it has no line x'(0) = …; the pool has zeros. */
 static bool suppose_rest(model *m, model_state *s)
 {
     if (!m->draft || s->order == 1 || s->supposed) return true;
@@ -238,7 +238,7 @@ bool start_cells(model *m, model_state *s, int primes, const int64_t low[], cons
     }
     if (!single) return start_lines(m, s, primes, true) && (s->shaped || start_missing(m, s, primes, 0));
     for (uint32_t i = m->source.count > 1 ? s->line : 0; i; i = m->statements.item[i - 1].next) {
-        statement *one = &m->statements.item[i - 1]; /* families of --set, but not one that is being computed */
+        statement *one = &m->statements.item[i - 1]; /* families of --set, but none that is being computed */
         if (one->kind == STATEMENT_START && one->primes == primes && one->at.text > 0 && one->loop_count > 0 &&
             one->progress == 0 && !start_line(m, s, one))
             return false;
@@ -250,7 +250,7 @@ bool start_cells(model *m, model_state *s, int primes, const int64_t low[], cons
     return s->start_map[primes][cell] != 0 || start_missing(m, s, primes, cell);
 }
 
-/* The first line of the kind that a cell has its value from; without one, the equation. */
+/* Returns the place of the first line of the kind that gave a cell its value, or of the equation. */
 static const span *start_span(const model *m, const model_state *s, int primes, bool own)
 {
     for (uint32_t i = s->line; i; i = m->statements.item[i - 1].next) {

@@ -1,4 +1,4 @@
-/* Sums, products and normal form of polynomials in atoms. See algebra.h. */
+/* Sums, products and the normal form of polynomials in atoms. */
 #include "lang/model/algebra.h"
 
 #include <math.h>
@@ -24,7 +24,7 @@ poly algebra_lose(algebra *A)
     return 0;
 }
 
-/* Room for one more element of a list that doubles; false: no memory, or no work is left. */
+/* Makes room for one more element of a list, which doubles. False: no memory, or no work is left. */
 static bool grow(algebra *A, void *list, uint32_t count, uint32_t *room, size_t size)
 {
     if (A->lost || --A->work < 0) return A->lost = true, false;
@@ -45,7 +45,7 @@ static uint32_t mixed(uint32_t h, uint32_t x)
     return h ^ h >> 15;
 }
 
-/* Monomials ------------------------------------------------------------------------------------------------------- */
+/* Monomials -------------------------------------------------------------------------------------------------------- */
 
 static bool same_powers(const algebra_power *p, const algebra_power *q, uint32_t count)
 {
@@ -54,7 +54,7 @@ static bool same_powers(const algebra_power *p, const algebra_power *q, uint32_t
     return true;
 }
 
-/* The monomial of the powers that stand behind the last one in the list, from `first` on. */
+/* Returns the monomial of the powers in the list from `first` on, which leave the list if the monomial exists. */
 static uint32_t share(algebra *A, uint32_t first)
 {
     const uint32_t count = A->power_count - first;
@@ -121,7 +121,7 @@ static double exponent_of(const algebra *A, uint32_t of, uint32_t atom)
     return 0;
 }
 
-/* Lists of terms -------------------------------------------------------------------------------------------------- */
+/* Lists of terms --------------------------------------------------------------------------------------------------- */
 
 static void note(algebra *A, uint32_t of, double factor, double size)
 {
@@ -142,7 +142,6 @@ static void sort(poly_term *t, uint32_t count) /* Shell's sort, with Ciura's gap
         }
 }
 
-/* The polynomial of the terms in the line from `first` on, which leave it. */
 poly algebra_gather(algebra *A, uint32_t first, double low)
 {
     if (A->lost) return algebra_lose(A);
@@ -215,7 +214,7 @@ poly algebra_without(algebra *A, poly p, poly_term t)
     return algebra_add(A, p, -1, algebra_gather(A, first, -INFINITY));
 }
 
-/* Atoms ----------------------------------------------------------------------------------------------------------- */
+/* Atoms ------------------------------------------------------------------------------------------------------------ */
 
 static bool same_poly(const algebra *A, poly p, poly q)
 {
@@ -262,14 +261,14 @@ uint32_t algebra_atom_of(algebra *A, operation op, poly a, poly b)
     return A->lost ? 0 : intern(A, (algebra_atom){.op = (uint8_t)op, .a = a, .b = b});
 }
 
-/* Powers ---------------------------------------------------------------------------------------------------------- */
+/* Powers ----------------------------------------------------------------------------------------------------------- */
 
 static double powered(double a, double e) { return operation_value(OP_POW, a, e, 0); }
 
 static bool whole(double e) { return e == floor(e); }
 
-/* A power of a product is the product of powers: for whole exponents, and for the powers of what is positive. False:
- * that does not hold. */
+/* Raises a single term: a power of a product is the product of powers, for whole exponents and for positive factors.
+ * False: neither holds. */
 static bool raise_single(algebra *A, poly_term t, double e, poly *out)
 {
     const algebra_monomial m = A->monomials[t.of];
@@ -309,8 +308,7 @@ poly algebra_raise(algebra *A, poly base, double e)
     return algebra_of_atom(A, algebra_atom_of(A, OP_POW, one, 0), e, powered(c, e), low);
 }
 
-/* Writes out the powers of one base: by the smallest of them, which no term lacks then, the polynomial may be divided,
- * since only its zero matters. */
+/* Writes out the powers of one base, divided by the smallest of them: only the zero of the polynomial matters. */
 static poly write_out(algebra *A, poly given, uint32_t atom)
 {
     const algebra_poly p = A->polys[given];
@@ -334,7 +332,7 @@ static poly write_out(algebra *A, poly given, uint32_t atom)
 bool algebra_zero(algebra *A, poly *given)
 {
     poly p = *given;
-    /* A base is made of atoms with smaller numbers. */
+    /* a base contains only atoms with smaller numbers */
     for (uint32_t atom = A->atom_count; p && !A->lost;) {
         uint32_t next = 0;
         for (uint32_t k = 0; k < A->polys[p].count; k++) {

@@ -1,4 +1,4 @@
-/* The operations of a model on polynomials in atoms, and derivatives. See algebra.h. */
+/* The operations of a model, applied to polynomials in atoms, and derivatives. */
 #include "lang/model/algebra.h"
 
 #include <math.h>
@@ -13,15 +13,15 @@ static bool number(const algebra *A, poly given, double *value)
     return true;
 }
 
-/* The first factor; 0 of zero. */
+/* Returns the first factor of a polynomial, or 0. */
 static double first(const algebra *A, poly p) { return p ? A->polys[p].terms[0].factor : 0; }
 
 static poly negative(algebra *A, poly p) { return algebra_add(A, 0, -1, p); }
 
-/* p/c */
+/* Returns p/c. */
 static poly scaled(algebra *A, poly p, double c) { return algebra_add(A, 0, 1 / c, p); }
 
-/* A function that is odd (sign -1), even (1), or neither (0). */
+/* Applies a function that is odd (parity -1), even (1), or neither (0). */
 static poly function(algebra *A, operation op, poly a, int parity, double low)
 {
     const double c = first(A, a);
@@ -33,7 +33,7 @@ static poly function(algebra *A, operation op, poly a, int parity, double low)
     return algebra_of_atom(A, algebra_atom_of(A, op, a, 0), 1, 1, low);
 }
 
-/* 1 where p > 0, else 0. */
+/* Returns 1 where p > 0, else 0. */
 static poly step(algebra *A, poly p)
 {
     double value;
@@ -45,7 +45,7 @@ static poly step(algebra *A, poly p)
     return c > 0 ? up : algebra_add(A, algebra_number(A, 1), -1, up);
 }
 
-/* a == b: almost nowhere, unless they are the same. */
+/* Returns whether a == b: almost nowhere, unless a and b are one polynomial. */
 static poly equal(algebra *A, poly a, poly b)
 {
     poly apart = algebra_add(A, a, -1, b);
@@ -129,7 +129,7 @@ poly algebra_apply(algebra *A, operation op, poly a, poly b)
 
 static poly slope(algebra *A, poly p, uint32_t by, int depth);
 
-/* f'(a) a', of an atom that is a function. */
+/* Returns f'(a) a', the derivative of an atom that is a function f of a. */
 static poly slope_of_atom(algebra *A, uint32_t k, uint32_t by, int depth)
 {
     const algebra_atom f = A->atoms[k];
@@ -142,7 +142,7 @@ static poly slope_of_atom(algebra *A, uint32_t k, uint32_t by, int depth)
     if (da || db) {
         const poly self = algebra_of_atom(A, k, 1, 1, -INFINITY), square = algebra_times(A, f.a, f.a);
         switch ((operation)f.op) {
-        case OP_POW: rate = one; break; /* of the base */
+        case OP_POW: rate = one; break; /* that of the base */
         case OP_EXP: rate = self; break;
         case OP_SIN: rate = algebra_apply(A, OP_COS, f.a, 0); break;
         case OP_COS: rate = algebra_add(A, 0, -1, algebra_apply(A, OP_SIN, f.a, 0)); break;

@@ -1,10 +1,11 @@
-/* Whether a term may jump where its formula shows no step: y/|y| and tanh(1/y) do at y = 0, atan2 on its cut.
+/* Whether a term may jump where its formula shows no step, as y/|y| and tanh(1/y) do at y = 0, and atan2 on its cut.
  *
- * A quotient of analytic functions has a pole where its divisor is 0, or a limit there, and never a jump. A formula
- * that is continuous but not analytic, as |y| is, has none either. The two together may have one; so may a function of
- * what has a pole. Not so where the divisor is 0 at points, lines or other places of codimension 2 at least, as |r| is:
- * the force is continuous on all ways round them. Invariant: a term of which no jump is reported has none across a
- * hypersurface but those of its steps.
+ * Where the divisor of a quotient of analytic functions is 0, the quotient has a pole or a limit, but no jump. A
+ * formula that is continuous but not analytic, as |y|, has no jump either. A product of both may have one; so may a
+ * function of a formula with a pole. There is no jump where the divisor is 0 only at points, lines or other places of
+ * codimension 2 or more, as |r| is: the force is continuous on all ways round them.
+ *
+ * Invariant: a term of which no jump is reported jumps across no hypersurface but those of its steps.
  */
 #include "lang/model/algebra.h"
 
@@ -14,19 +15,19 @@ enum { DEPTH_MAX = 100, PLACES_MAX = 16 };
 
 typedef struct reader {
     algebra *algebra;
-    const uint32_t *cell; /* by place: 0: it has no equation */
+    const uint32_t *cell; /* by place; 0: it has no equation */
     space space;
 } reader;
 
 typedef struct form {
     bool moves; /* it reads a place that moves */
     bool pole;  /* it may grow without bound at a hypersurface */
-    bool rough; /* it may be not analytic at one */
+    bool rough; /* it may not be analytic at a hypersurface */
 } form;
 
 static form form_of(const reader *r, poly p, int depth);
 
-/* The first places of those that a polynomial reads by itself. */
+/* Finds the places that a polynomial reads outside functions, at most PLACES_MAX. */
 static int places_of(const reader *r, poly p, uint32_t places[PLACES_MAX])
 {
     const algebra *A = r->algebra;
@@ -46,7 +47,7 @@ static int places_of(const reader *r, poly p, uint32_t places[PLACES_MAX])
     return count;
 }
 
-/* Whether the second derivatives by two places form a matrix that is positive definite everywhere. */
+/* Returns whether the second derivatives by two places form a matrix that is positive definite everywhere. */
 static bool convex(algebra *A, poly by_a, poly by_b, uint32_t a, uint32_t b)
 {
     const poly aa = algebra_slope(A, by_a, a), bb = algebra_slope(A, by_b, b), ab = algebra_slope(A, by_a, b);
@@ -55,8 +56,8 @@ static bool convex(algebra *A, poly by_a, poly by_b, uint32_t a, uint32_t b)
     return A->polys[ab ? algebra_add(A, direct, -1, algebra_times(A, ab, ab)) : direct].low > 0;
 }
 
-/* Whether a polynomial is zero nowhere, or at places of codimension 2 at least: one that is never negative and is
- * strictly convex in two places has one zero at most for all values of the others. */
+/* Returns whether a polynomial has no zero but at places of codimension 2 or more. One that is never negative and
+ * strictly convex in two places has at most one zero for all values of the others. */
 static bool apart(const reader *r, poly p)
 {
     algebra *A = r->algebra;
@@ -81,7 +82,7 @@ static bool apart_base(const reader *r, uint32_t atom)
     return A->atoms[atom].apart == 1;
 }
 
-/* Of the function that an atom is, apart from its power. */
+/* Returns the form of the function that an atom is, apart from its power. */
 static form form_of_function(const reader *r, const algebra_atom *a, int depth)
 {
     form f = form_of(r, a->a, depth + 1);

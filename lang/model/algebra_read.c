@@ -1,4 +1,4 @@
-/* The nodes of a model as polynomials in atoms. See algebra.h. */
+/* Reads the nodes of a model as polynomials in atoms. */
 #include "lang/model/algebra.h"
 
 #include "lang/graph/graph_place.h"
@@ -26,7 +26,7 @@ static poly leaf(algebra *A, const graph_node *n, const int64_t *index)
     return algebra_of_atom(A, algebra_place(A, s, at), 1, 1, -INFINITY);
 }
 
-/* The condition as 0 or 1. */
+/* Returns a condition as a polynomial that is 0 or 1. */
 static poly condition(algebra *A, const graph_node *n, poly p)
 {
     const algebra_poly of = A->polys[p];
@@ -47,7 +47,7 @@ static poly total(algebra *A, const graph_node *n, const int64_t *around)
         poly p = 0;
         if (n->b) {
             p = condition(A, &m->graph->nodes[n->b], algebra_read(A, n->b, index));
-            if (p == 0) continue; /* what the term would be need not be defined */
+            if (p == 0) continue; /* the term need not be defined here */
         }
         const poly body = algebra_read(A, n->a, index);
         sum = algebra_add(A, sum, 1, n->b ? algebra_times(A, p, body) : body);

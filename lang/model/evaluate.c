@@ -1,5 +1,4 @@
-/* Evaluation while a model is read. The tape computes constants, so a parameter has the value that every machine would
- * compute. */
+/* See evaluate.h. The tape computes constants, so a parameter has the value that every machine would compute. */
 #include "lang/model/evaluate.h"
 
 #include "lang/graph/graph_place.h"
@@ -11,7 +10,7 @@
 bool evaluate_outputs(model *m, const output *outputs, size_t count, double t, double *const base[SPACES])
 {
     if (source_failed(&m->source)) return false;
-    arena once; /* a program for every constant would stay as long as the model */
+    arena once; /* so that the program does not stay as long as the model */
     arena_init(&once, &m->arena->allocator);
     program *p = program_create_in(&once, m->graph, outputs, count);
     tape *tp = source_failed(&m->source) || !p ? NULL : tape_create(&once, p);
@@ -23,7 +22,7 @@ bool evaluate_outputs(model *m, const output *outputs, size_t count, double t, d
     return bound;
 }
 
-/* Room for outputs, to be given back, and an array for each. */
+/* Takes room for outputs, which the caller gives back, and an array for each. */
 static output *outputs_for(model *m, int count, uint16_t *first)
 {
     if (!model_take_arrays(m, count, first)) return NULL;
@@ -47,16 +46,16 @@ bool evaluate_into_pool(model *m, const output *target, const node *values, int 
     }
     double *spaces[SPACES] = {[SPACE_OUT] = m->pool};
     bool ok = evaluate_outputs(m, o, (size_t)parts, 0, spaces);
-    m->array_count = arrays; /* only this call needs them */
+    m->array_count = arrays; /* only this call needs the arrays */
     give(&m->arena->allocator, o);
     return ok;
 }
 
-/* ---- what decimals say of sums and families ---- */
+/* what decimals say of sums and families --------------------------------------------------------------------------- */
 
-enum { SINGLES_MOST = 1 << 12 }; /* of a model: more are left to what rounding makes of their terms */
+enum { SINGLES_MOST = 1 << 12 }; /* cells and terms of a model that get values of their own */
 
-/* Values of loop variables, of the levels below `level`. */
+/* The values of loop variables, at the levels below `level`. */
 typedef struct singling {
     model *model;
     int64_t index[MAX_LEVELS];
@@ -71,7 +70,7 @@ static node single(singling *s, node n)
     return graph_replace(s->model->graph, n, DEP_LEVELS | DEP_PARAM, s->level, single_at, s);
 }
 
-/* One more cell or term. */
+/* Counts one more cell or term. False: it is one too many, or the model has failed. */
 static bool counted(singling *s)
 {
     const graph *const g = s->model->graph;
@@ -102,7 +101,7 @@ static node single_sum(singling *s, graph_node sum)
     return total;
 }
 
-/* The cell that a reference is to at the present values of the loops. */
+/* Returns a reference to a cell, at the present values of the loops. */
 static reference single_cell(const singling *s, reference r)
 {
     for (int d = 0; d < r.dims; d++)
@@ -133,7 +132,7 @@ node evaluate_sum(model *m, node n)
     return s.failed || source_failed(&m->source) ? n : graph_written_out(m->graph, n, written);
 }
 
-/* leaf: what is read from the place; 0: nothing is. */
+/* Puts into a place of the pool what the shadow's constant `value` is; leaf: a node that loads the place, or 0. */
 static void held(model *m, node value, size_t place, node leaf)
 {
     const source *const s = &m->source;
@@ -147,7 +146,7 @@ void evaluate_held(model *m, node value, uint32_t slot)
     if (m->source.nudged) held(m, value, slot, graph_param(m->graph, slot));
 }
 
-/* One cell: of level `level` on all values of the loops. */
+/* Puts the components of all cells into their places; loops from `level` on are still to be run. */
 static void held_cells(singling *s, const output *target, const node *values, int parts, uint16_t first)
 {
     model *const m = s->model;
@@ -162,7 +161,7 @@ static void held_cells(singling *s, const output *target, const node *values, in
         }
         return;
     }
-    const bool crowded = g->count > GRAPH_NODES_MAX / 2; /* so many numbers have no leaves of their own */
+    const bool crowded = g->count > GRAPH_NODES_MAX / 2; /* so many numbers get no leaves of their own */
     for (int k = 0; k < parts && !s->failed && !source_failed(&m->source); k++) {
         reference r = single_cell(s, target->to);
         r.array = (uint16_t)(first + k);
@@ -196,7 +195,7 @@ bool evaluate_nodes(model *m, const node *nodes, int count, double *out)
     }
     double *base[SPACES] = {[SPACE_OUT] = out};
     bool ok = evaluate_outputs(m, o, (size_t)count, 0, base);
-    m->array_count = arrays; /* only this call needs them */
+    m->array_count = arrays; /* only this call needs the arrays */
     give(&m->arena->allocator, o);
     return ok;
 }

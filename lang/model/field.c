@@ -1,4 +1,4 @@
-/* See field.h. The force is read cell by cell, as polynomials whose derivatives are compared: algebra.h. */
+/* See field.h. The force is read cell by cell as polynomials, and their derivatives are compared (algebra.h). */
 #include "lang/model/field.h"
 
 #include "lang/graph/graph_place.h"
@@ -16,16 +16,16 @@ typedef struct field {
     double sign;
     const double *masses;
     uint32_t cells, room;
-    size_t *place;      /* cells */
-    poly *force, *part; /* cells: all of it; a part of it */
-    uint32_t *cell;     /* nv: 1 + number of the cell at a place; 0: none */
-    uint32_t *atom;     /* cells */
-    uint32_t *seen;     /* of each atom of the force: the cell for which it was seen */
+    size_t *place;      /* by cell */
+    poly *force, *part; /* by cell: the whole force, and a part of it */
+    uint32_t *cell;     /* by place: 1 + number of its cell; 0: it has none */
+    uint32_t *atom;     /* by cell */
+    uint32_t *seen;     /* by atom of the force: 1 + the cell for which it was seen last */
     uint32_t atoms;
     bool refuted; /* the last two derivatives that were compared differ */
 } field;
 
-/* Reading --------------------------------------------------------------------------------------------------------- */
+/* Reading ---------------------------------------------------------------------------------------------------------- */
 
 static bool add_cell(field *f, const output *o, const int64_t *index)
 {
@@ -56,7 +56,7 @@ static bool add_cells(field *f, const output *o, int level, int64_t *index)
     return true;
 }
 
-/* False: no memory, or lost. */
+/* Reads the force of every cell. False: no memory, or the algebra is lost. */
 static bool read_force(field *f, const model *m)
 {
     algebra *A = &f->algebra;
@@ -81,13 +81,13 @@ static bool read_force(field *f, const model *m)
 
 static double mass(const field *f, uint32_t cell) { return f->masses ? f->masses[f->place[cell]] : 1; }
 
-/* Whether m[i] J[i][k] = sign m[k] J[k][i]. */
+/* Returns whether m[i] J[i][k] = sign m[k] J[k][i]. */
 static bool same(field *f, const poly *force, uint32_t i, uint32_t k)
 {
     algebra *A = &f->algebra;
     if (i == k && f->sign > 0) return true;
     const poly back = algebra_slope(A, force[k], f->atom[i]);
-    if (k < i && back) return true; /* cell k was first */
+    if (k < i && back) return true; /* cell k has compared them */
     const poly there = algebra_slope(A, force[i], f->atom[k]);
     const poly weighed = algebra_add(A, 0, mass(f, i), there);
     poly apart = algebra_add(A, weighed, -f->sign * mass(f, k), back);
@@ -96,7 +96,7 @@ static bool same(field *f, const poly *force, uint32_t i, uint32_t k)
     return false;
 }
 
-/* So for all numbers that cell i reads. */
+/* Compares the derivatives for all cells that cell i reads in a polynomial. */
 static bool same_below(field *f, const poly *force, uint32_t i, poly p, int depth)
 {
     algebra *A = &f->algebra;
@@ -128,8 +128,8 @@ static bool symmetric(field *f, const poly *force)
 
 /* The potential ---------------------------------------------------------------------------------------------------- */
 
-/* What an expression is under x → c x with c > 0: c^degree times itself; NaN: no power of c. And whether it may be
- * without value somewhere. */
+/* How an expression scales under x → c x with c > 0: by c^degree, or by no power (NaN). pole: it may have no value
+ * somewhere. */
 typedef struct scaling {
     double degree;
     bool pole;
@@ -192,7 +192,7 @@ static scaling scaling_of(field *f, poly p, int depth)
     return s;
 }
 
-/* Whether a term reads no other place than this one. */
+/* Returns whether a term reads no place other than this one. */
 static bool own(const field *f, uint32_t of, uint32_t atom, int depth)
 {
     const algebra *A = &f->algebra;
@@ -209,9 +209,10 @@ static bool own(const field *f, uint32_t of, uint32_t atom, int depth)
     return only;
 }
 
-/* Where a force has poles, ways round them can lead back with another energy. Not so where a part of the force takes in
- * all poles, is a gradient, and scales as |x|^n with n other than -1: its potential is -x·F/(n + 1). The rest, a
- * gradient too, has no poles. What depends on its own place alone has a potential anyway. */
+/* Returns whether the potential has one value. Ways round a pole of the force may lead back with another energy, but
+ * not if a part of the force has all the poles, is a gradient, and scales as |x|^n with n other than -1: its potential
+ * is -x·F/(n + 1), and the rest is a gradient without poles. A force that depends on its own place alone has a
+ * potential anyway. */
 static bool single(field *f)
 {
     algebra *A = &f->algebra;
@@ -231,8 +232,8 @@ static bool single(field *f)
     return !any || !rest || symmetric(f, f->part);
 }
 
-/* Whether a part of the force that reads other places than its own may jump without a step in its formula: the
- * derivatives lack that. */
+/* Returns whether a part of the force that reads other places than its own may jump without a step in its formula,
+ * which its derivatives do not show. */
 static bool jumps(field *f)
 {
     algebra *A = &f->algebra;
@@ -262,7 +263,7 @@ bool field_prove(model *m, bool in_v, const double *masses, field_proof *out)
 
 /* What is conserved ------------------------------------------------------------------------------------------------ */
 
-/* Whether dp/dt = ∂p/∂t + v ∂p/∂x + a ∂p/∂v is zero, and p does not jump. */
+/* Returns whether dp/dt = ∂p/∂t + v ∂p/∂x + a ∂p/∂v is zero and p does not jump. */
 static bool conserved(field *f, poly p)
 {
     algebra *A = &f->algebra;

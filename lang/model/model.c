@@ -1,9 +1,9 @@
-/* The names of a model's numbers, and nodes of its graph as text with these names. */
+/* The names of a model's numbers, and its nodes as text with these names. */
 #include "lang/model/model.h"
 
 #include <stdio.h>
 
-/* "r[3,4]'.y"; component -1: the whole vector, without ".y" */
+/* Writes "r[3,4]'.y"; component -1: the name of the whole vector, without ".y". */
 void model_state_name(const model_state *s, size_t cell, int component, bool prime, char *out, size_t size)
 {
     size_t n = (size_t)snprintf(out, size, "%s", s->name);
@@ -45,7 +45,8 @@ node model_seed_motion(graph *g, node leaf, void *of)
     return graph_seed_direction(g, leaf, &shift);
 }
 
-/* ---- text of nodes ---- */
+/* Text of nodes
+ * ----------------------------------------------------------------------------------------------------- */
 
 static size_t name_index(const model *m, const subscript *s, char *out, size_t size)
 {

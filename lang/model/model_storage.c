@@ -1,5 +1,5 @@
-/* Room for a model's numbers and arrays. Pool and arrays move when they grow, so code that reads a model keeps no
- * pointer into them. */
+/* Room for a model's numbers and arrays. Both move when they grow, so code that reads a model keeps no pointer into
+ * them. */
 #include "lang/model/model.h"
 
 #include <string.h>

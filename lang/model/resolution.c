@@ -1,5 +1,5 @@
-/* See resolution.h. The nodes of a graph are evaluated in interval arithmetic, each when another one asks for it, so
- * that a branch which is not taken and a term which is left out hide nothing.
+/* See resolution.h. Nodes are evaluated in interval arithmetic, each only when another one needs it, so a branch that
+ * is not taken and a term that is left out hide nothing.
  */
 #include "lang/model/resolution.h"
 
@@ -8,37 +8,35 @@
 
 #include <math.h>
 
-/* Scales, in units of the argument. */
-#define WIDE 1.0   /* of exp, sinh, cosh, tanh, erf, atan */
-#define WAVE 1.5   /* of sin, cos, tan: a quarter of a turn */
-#define FLAT -50.0 /* exp is nothing below this */
-#define EDGE 8.0   /* tanh, erf and atan hardly change beyond this */
-#define RATIO 2.0  /* by which a divisor, or the base of a power, may change */
-#define STEEP 8.0  /* powers above this are narrow where they change by more than e to this */
-#define FAR 8.0    /* by which an argument may change that a pole or a branch point at 0 is far from */
-#define POLE 1e-3  /* a divisor that may become this part of itself, may become 0 */
+/* Scales on which operations change, in units of their arguments. */
+#define WIDE 1.0   /* the scale of exp, sinh, cosh, tanh, erf, atan */
+#define WAVE 1.5   /* the scale of sin, cos, tan: a quarter of a turn */
+#define FLAT -50.0 /* below this, exp counts as 0 */
+#define EDGE 8.0   /* beyond this, tanh, erf and atan hardly change */
+#define RATIO 2.0  /* by what factor a divisor, or the base of a power, may change */
+#define STEEP 8.0  /* an exponent above this makes a peak where the power changes by more than e to this */
+#define FAR 8.0    /* by what factor an argument may change that is far from a pole or branch point at 0 */
+#define POLE 1e-3  /* a divisor that may shrink to this part of itself may become 0 */
 
-/* What a value may hide. */
-enum {
-    HIDING = 1, /* something, */
-    GROWS = 2   /*   behind what grows as exp does: nothing where that is a large divisor */
-};
+/* What an operation within a value may hide. HIDING: something. GROWS: something that grows as exp does, which counts
+ * for nothing if it is a large divisor. */
+enum { HIDING = 1, GROWS = 2 };
 
 #define NO_STEP UINT32_MAX
 
-/* A node. It is known while no loop variable that it depends on has changed since; the innermost of these changes
+/* A node. Its interval is known while no loop variable that it depends on has changed; the innermost of these changes
  * whenever one further out does. */
 typedef struct step {
     graph_node node;
     uint32_t operand[3]; /* earlier steps */
-    uint8_t arity;       /* a sum has none: it asks for its operands itself */
-    bool counts;         /* it may be what is looked for */
-    bool bends;          /* it is no polynomial of low degree of the time and the state */
+    uint8_t arity;       /* 0 for a sum, which evaluates its operands itself */
+    bool counts;         /* it is an operation that is looked for */
+    bool bends;          /* it is no polynomial of low degree in time and state */
     bool divides;        /* it is part of a divisor, or of the base of a power */
     uint8_t taint;       /* what it may hide, in the intervals */
-    uint32_t base;       /* a product is base^power, where its factors are powers of the same step; else power is 1 */
+    uint32_t base;       /* a product of powers of one step is base^power; else power is 1 */
     double power;
-    int home;       /* 1 + the innermost level that it depends on, 0: none */
+    int home;       /* 1 + the innermost level that it depends on; 0: none */
     uint64_t known; /* when the interval was computed */
     interval interval;
 } step;
@@ -49,40 +47,38 @@ struct resolution {
     size_t count;
     step *steps;
     uint32_t step_count;
-    bool straight;   /* every step is evaluated once, in their order: there are no loops, sums or branches */
+    bool straight;   /* every step is evaluated once, in order: there are no loops, sums or branches */
     uint32_t *root;  /* by output */
-    uint32_t *stack; /* of steps that wait for their operands */
+    uint32_t *stack; /* the steps that wait for their operands */
     uint32_t top;
     int64_t index[MAX_LEVELS];
-    uint64_t now, changed[MAX_LEVELS + 1]; /* by home: when its loop variable changed */
+    uint64_t now, changed[MAX_LEVELS + 1]; /* by home: when the loop variable changed */
     bool (*found)(operation, interval, interval);
     interval *part; /* room for a part of a box */
-    /* of the step that is looked at */
-    interval t, *x, *v, *a, *out; /* a, out: of resolution_values alone */
+    /* the box that is looked at */
+    interval t, *x, *v, *a, *out; /* a, out: for resolution_values alone */
     const double *pool;
 };
 
-/* Making it -------------------------------------------------------------------------------------------------- */
+/* Creating --------------------------------------------------------------------------------------------------------- */
 
-/* waves: sin, cos and tan count, since they may decide a switch. */
+/* waves: sin, cos and tan count, too, since they may decide a switch. */
 static bool hides(operation op, bool waves) { return operation_is(op, HIDES) || (waves && operation_is(op, WAVES)); }
 
 static bool hides_plain(operation op) { return hides(op, false); }
 static bool hides_waves(operation op) { return hides(op, true); }
 
-/* Whether an operation has poles. */
 static bool has_poles(operation op) { return operation_is(op, HAS_POLE); }
 
-/* Whether an operation may jump. */
 static bool leaps(operation op) { return operation_is(op, JUMPS); }
 
-/* Whether an operation may leave its value open, within bounds of its arguments: see doubt. */
+/* Returns whether an operation may leave its value open, for an argument in an interval (see doubt). */
 static bool doubtful(operation op)
 {
     return operation_at(op)->nature & (JUMPS | HAS_POLE | STEEP_AT_0 | STEEP_AT_ENDS);
 }
 
-/* Whether an operation that counts has an argument that moves. */
+/* Returns whether an operation that counts has an argument that moves. */
 static bool any_counts(const resolution *r, uint32_t count)
 {
     for (uint32_t k = 0; k < count; k++) {
@@ -94,7 +90,7 @@ static bool any_counts(const resolution *r, uint32_t count)
     return false;
 }
 
-/* Recognises the products that raise a number to a whole power. */
+/* Recognises products that raise a number to a whole power. */
 static void find_power(resolution *r, uint32_t k)
 {
     step *s = &r->steps[k];
@@ -114,7 +110,7 @@ static int home_of(const graph_node *n)
     return home;
 }
 
-/* Whether a step is no polynomial; its operands are known. */
+/* Returns whether a step is no polynomial of low degree; its operands are known. */
 static bool bends(const resolution *r, const step *s, int operands)
 {
     const unsigned moves = DEP_TIME | DEP_STATE;
@@ -138,7 +134,7 @@ static bool is_straight(const resolution *r)
     return is;
 }
 
-/* Marks what is part of a divisor or of a base. */
+/* Marks the steps within a divisor or a base. */
 static void find_divisors(resolution *r)
 {
     for (uint32_t k = r->step_count; k-- > 0;) {
@@ -171,7 +167,7 @@ static void fill(resolution *r, graph *g, const graph_walk *w, bool (*counts)(op
     r->straight = is_straight(r);
 }
 
-/* A direction jumps where its vector is 0, and has no pole there. */
+/* Lets directions not count as poles: where its vector is 0, a direction jumps but has no pole. */
 static void spare_directions(resolution *r, const graph *g, const graph_walk *w)
 {
     for (uint32_t k = 0; k < w->count; k++) {
@@ -186,7 +182,7 @@ static void spare_directions(resolution *r, const graph *g, const graph_walk *w)
     }
 }
 
-/* counts NULL: nothing is looked for, but values are asked for. */
+/* counts NULL: nothing is looked for, and values are computed. */
 static bool create(model *m, const output *outputs, size_t count, bool (*counts)(operation), resolution **out)
 {
     graph *g = m->graph;
@@ -238,7 +234,7 @@ bool resolution_create_doubts(model *m, const output *outputs, size_t count, res
     return (*out)->part != NULL;
 }
 
-/* What an operation may do ------------------------------------------------------------------------------------- */
+/* What an operation may do ----------------------------------------------------------------------------------------- */
 
 static bool changes(interval a)
 {
@@ -246,14 +242,14 @@ static bool changes(interval a)
     return !(m.low > 0 && m.high <= RATIO * m.low);
 }
 
-/* Whether a high power of a hides a peak; nothing is where it is as small as exp is below FLAT. */
+/* Returns whether a high power of a hides a peak, unless the power counts as 0, like exp below FLAT. */
 static bool steep(interval a, double power)
 {
     const interval m = interval_magnitude(a);
     return power > STEEP && power * log(m.high) > FLAT && !(power * log(m.high / m.low) <= STEEP);
 }
 
-/* Whether a^b, whose exponent varies, may hide a peak, as exp(b log a) does. */
+/* Returns whether a^b, whose exponent varies, may hide a peak, as exp(b log a) does. */
 static bool hides_power(interval a, interval b)
 {
     const interval m = interval_magnitude(a);
@@ -265,7 +261,7 @@ static bool hides_power(interval a, interval b)
     return !(most - least <= WIDE) && most > FLAT;
 }
 
-/* Whether an operation with these arguments may hide something. */
+/* Returns whether an operation with these arguments may hide something. */
 static bool hidden(operation op, interval a, interval b)
 {
     const bool wide = !(a.high - a.low <= WIDE);
@@ -287,8 +283,8 @@ static bool hidden(operation op, interval a, interval b)
 
 static bool grows(operation op) { return op == OP_EXP || op == OP_SINH || op == OP_COSH || op == OP_POW; }
 
-/* Whether the divisor or base of a step, which may hide something that grows, is so large that nothing is left, as
- * exp is nothing below FLAT. */
+/* Returns whether the divisor or base of a step, which may hide something that grows, is so large that the step counts
+ * as 0, like exp below FLAT. */
 static bool vanishes(operation op, uint8_t taint, interval a, interval b)
 {
     if (!(taint & GROWS)) return false;
@@ -296,21 +292,21 @@ static bool vanishes(operation op, uint8_t taint, interval a, interval b)
     return op == OP_POW && b.high < 0 && -b.high * log(interval_magnitude(a).low) >= -FLAT;
 }
 
-/* Whether a is nowhere small beside its largest values, so that a pole or a branch point at 0 is far. */
+/* Returns whether a is nowhere small beside its largest values, so that a pole or a branch point at 0 is far. */
 static bool far_from_zero(interval a)
 {
     const interval m = interval_magnitude(a);
     return m.low > 0 && m.high <= FAR * m.low;
 }
 
-/* Whether a may be 0, or so near to it as it is small beside its largest values. */
+/* Returns whether a may be 0, or small beside its largest values. */
 static bool near_zero(interval a)
 {
     const interval m = interval_magnitude(a);
     return !(m.low > POLE * m.high);
 }
 
-/* Whether an operation with these arguments may be at a pole. */
+/* Returns whether an operation with these arguments may be at a pole. */
 static bool pole(operation op, interval a, interval b)
 {
     switch (op) {
@@ -322,7 +318,7 @@ static bool pole(operation op, interval a, interval b)
     }
 }
 
-/* Whether an operation with these arguments may lie on either side of a jump. */
+/* Returns whether an operation with these arguments may lie on either side of a jump. */
 static bool undecided(operation op, interval a, interval b)
 {
     const bool zero = a.low <= 0 && a.high >= 0;
@@ -336,7 +332,7 @@ static bool undecided(operation op, interval a, interval b)
     }
 }
 
-/* An angle over a leg that is far from 0 turns by little where the other leg changes by no more than that. */
+/* Returns whether an angle turns by little: one leg is far from 0, and the other changes by no more than that leg. */
 static bool turns_little(interval far, interval other)
 {
     return far_from_zero(far) && other.high - other.low <= interval_magnitude(far).low;
@@ -377,7 +373,7 @@ static bool doubt_pole(operation op, interval a, interval b)
     }
 }
 
-/* Whether a pole shows: a dividend that is nearer to 0 than it changes by may be 0 but for its rounding. */
+/* Returns whether a pole shows. A dividend that is nearer to 0 than it changes may be 0 but for its rounding. */
 static bool shows_pole(operation op, interval a, interval b)
 {
     return may_divide_by_zero(op, b) && interval_magnitude(a).low > a.high - a.low;
@@ -400,7 +396,7 @@ static bool doubt_steep(operation op, interval a, interval b)
     return !resolution_regular(op, a, b);
 }
 
-/* Evaluating --------------------------------------------------------------------------------------------------- */
+/* Evaluating ------------------------------------------------------------------------------------------------------- */
 
 static bool is_zero(interval a) { return a.low == 0 && a.high == 0; }
 
@@ -412,7 +408,7 @@ static void set_index(resolution *r, int level, int64_t value)
     r->changed[level + 1] = ++r->now;
 }
 
-/* The operand that a step must have next; NO_STEP: it has all that it takes. */
+/* Returns the operand that a step needs next; NO_STEP: it has all. */
 static uint32_t lacks(const resolution *r, const step *s)
 {
     const operation op = (operation)s->node.op;
@@ -446,7 +442,7 @@ static interval load(const resolution *r, const graph_node *n)
 
 static bool evaluate(resolution *, uint32_t root);
 
-/* The operands of a sum are its body and, if it has one, the condition on its terms. */
+/* Evaluates a sum; its operands are its body and, if it has one, the condition on its terms. */
 static bool sum(resolution *r, step *s)
 {
     const graph_node *n = &s->node;
@@ -474,7 +470,7 @@ static bool sum(resolution *r, step *s)
     return true;
 }
 
-/* What the operands of a step may hide; a branch that is not taken hides nothing. */
+/* Returns what the operands of a step may hide; a branch that is not taken hides nothing. */
 static uint8_t taint_of(const resolution *r, const step *s)
 {
     uint8_t taint = 0;
@@ -486,8 +482,8 @@ static uint8_t taint_of(const resolution *r, const step *s)
     return taint;
 }
 
-/* Computes a step whose operands are known. False: what is looked for was found; or, of what may be hidden by a step
- * that is part of a divisor, `taint` says so. */
+/* Computes a step whose operands are known. False: what is looked for was found. A step within a divisor that may hide
+ * something has a `taint` instead. */
 static bool compute(resolution *r, step *s)
 {
     const graph_node *n = &s->node;
@@ -518,7 +514,7 @@ static bool compute(resolution *r, step *s)
     return true;
 }
 
-/* Makes a step known, and all that it needs. False: what is looked for was found. The stack has room for every path
+/* Makes a step known, with all that it needs. False: what is looked for was found. The stack has room for every path
  * through the graph. */
 static bool evaluate(resolution *r, uint32_t root)
 {
@@ -539,7 +535,8 @@ static bool evaluate(resolution *r, uint32_t root)
     return true;
 }
 
-/* The cells of a boundary that is driven may go further within the step than its ends show. */
+/* Puts the value of an output into its place. A driven boundary cell may go further within a step than its ends
+ * show. */
 static void put(const resolution *r, const output *o, interval value)
 {
     const array *arrays = r->model->arrays;
@@ -550,7 +547,7 @@ static void put(const resolution *r, const output *o, interval value)
     if (space == SPACE_OUT && r->out) r->out[at] = value;
 }
 
-/* All cells of an output, from loop `level` on. */
+/* Evaluates all cells of an output, from loop `level` on. False: what is looked for was found. */
 static bool cells(resolution *r, size_t k, int level)
 {
     const output *o = &r->outputs[k];
@@ -580,7 +577,7 @@ static void begin(resolution *r, interval t, interval *x, interval *v, const dou
     r->changed[0] = ++r->now;
 }
 
-/* Whether an operation is found with arguments in the intervals. */
+/* Returns whether an operation is found with arguments in the intervals. */
 static bool finds(resolution *r, interval t, interval *x, interval *v, const double *pool,
                   bool (*found)(operation, interval, interval))
 {
@@ -624,11 +621,11 @@ bool resolution_pole(resolution *r, interval t, interval *x, interval *v, const 
     return finds(r, t, x, v, pool, pole);
 }
 
-/* 0/0 is a pole where the divisor is 0 and the dividend is not: on lines through a box, of whose halves those are
- * followed in which both may be 0, as far as doubles tell their ends apart. */
+/* A line through a box, on which a pole is sought: 0/0 is a pole where the divisor is 0 and the dividend is not. Parts
+ * of the line in which both may be 0 are halved while doubles tell their ends apart. */
 typedef struct line {
     interval *x, *v; /* the box */
-    uint32_t which;  /* 0: from corner to corner */
+    uint32_t which;  /* 0: it goes from corner to corner */
 } line;
 
 static double fraction(uint32_t *random)
@@ -637,10 +634,10 @@ static double fraction(uint32_t *random)
     return (*random >> 8) * 0x1p-24;
 }
 
-/* The part of a line between `from` and `to` of its length. False: too short. */
+/* Takes the part of a line between `from` and `to` of its length. False: it is too short. */
 static bool part_of(const resolution *r, const line *l, double from, double to)
 {
-    enum { TELLS = 16 }; /* units in the last place */
+    enum { TELLS = 16 }; /* in units in the last place */
     const size_t nx = r->model->nx, n = nx + r->model->nv;
     uint32_t random = l->which * 2654435761u;
     bool wide = false;

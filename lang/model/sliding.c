@@ -1,12 +1,12 @@
-/* Switches whose force may hold the motion where they jump: dry friction that sticks, relays. See sliding.h.
+/* See sliding.h.
  *
  * Where sign(s) drives s to 0 from both sides, s stays 0, and the sign takes the value p in [-1, 1] with which the rate
- * of s is 0 (Filippov). The rate is the derivative of s along the motion with the equations in place of the
+ * of s is 0 [Filippov88]. The rate is the derivative of s along the motion, with the equations in place of the
  * accelerations; where it is r0 + r1 p, p = -r0/r1.
  *
- * The accelerations with that p keep s at 0 but for rounding. Where s has the velocity of a variable with a factor that
- * does not change, x' - V, the variable's acceleration is the one with which the rate is 0 exactly: a body that sticks
- * then rests, bit by bit, and rounding shortens no step.
+ * The accelerations with that p keep s at 0 but for rounding. Where s contains the velocity of a variable times a
+ * factor that does not change, as x' - V, the variable gets the acceleration with which the rate is exactly 0: a body
+ * that sticks rests, bit by bit, and rounding shortens no step.
  */
 #include "lang/model/sliding.h"
 
@@ -28,13 +28,13 @@ typedef struct inserting {
     size_t accel_count;
     const output *rate;
     int level;
-    node without;      /* this acceleration becomes 0 instead */
-    const bool *taken; /* accelerations that are not to be found, unless there is no other; NULL: none */
-    size_t found;      /* the number of an acceleration that there is */
-    bool failed;       /* an acceleration is that of another index, or of another range */
+    node without;      /* an acceleration that becomes 0 instead */
+    const bool *taken; /* accelerations that are found only if there is no other, or NULL */
+    size_t found;      /* the number of the acceleration that was found */
+    bool failed;       /* an acceleration has another index or another range */
 } inserting;
 
-/* The equation of an acceleration, over the same indices. */
+/* Returns the equation of an acceleration, over its indices. */
 static node equation_of(graph *g, node leaf, int level, void *ctx)
 {
     inserting *in = ctx;
@@ -62,11 +62,11 @@ static node zero_at(graph *g, node leaf, int level, void *side)
     return leaf == *(const node *)side ? graph_const(g, 0) : leaf;
 }
 
-static const node NO_NODE = UINT32_MAX; /* no node */
+static const node NO_NODE = UINT32_MAX;
 
 static bool compares(operation op) { return op == OP_LT || op == OP_LE || op == OP_GT || op == OP_GE; }
 
-/* The value of a comparison that is held, within [0, 1], from one within [-1, 1] that is 1 where its argument is
+/* Returns the value in [0, 1] at which a comparison is held, from a value in [-1, 1] that is 1 where its argument is
  * positive. */
 static node part_of(graph *g, operation op, node value)
 {
@@ -74,17 +74,17 @@ static node part_of(graph *g, operation op, node value)
     return graph_op(g, OP_ADD, graph_const(g, 0.5), graph_op(g, OP_MUL, graph_const(g, half), value, 0), 0);
 }
 
-/* `a` where the part is 1, `b` where it is 0. */
+/* Returns `a` where the part is 1, `b` where it is 0, and between them a mix. */
 static node blend(graph *g, node part, node a, node b)
 {
     return graph_op(g, OP_ADD, b, graph_op(g, OP_MUL, part, graph_op(g, OP_SUB, a, b, 0), 0), 0);
 }
 
-/* What stands in place of a load, and of a choice by one, outside of sums. A sum goes to `leaf` as a whole. */
+/* What replaces a load, and a choice by a load, outside sums. A sum goes to `leaf` as a whole. */
 typedef struct replacement {
     graph_substitute leaf;
     node (*choice)(graph *, node load, node a, node b, void *ctx);
-    /* a load is an operand of what is no choice by it; NULL: nothing is to be told */
+    /* is called where a load is an operand of anything but a choice by it; or NULL */
     void (*otherwise)(const graph_node *, node load, void *ctx);
     void *ctx;
 } replacement;
@@ -127,18 +127,18 @@ static node with_sides(graph *g, node root, int level, const replacement *how)
     return g->arena->failed || g->too_large ? 0 : result;
 }
 
-/* The equations as functions of the part that a comparison is held at, in place of its side. */
+/* How the equations depend on the part at which a comparison is held, in place of its side. */
 typedef struct parts {
     node side;
     int level;
-    bool failed; /* something depends on it in another way */
+    bool failed; /* something does not depend on it linearly */
 } parts;
 
 static node as_it_is(graph *g, node n, int level, void *ctx)
 {
     parts *p = ctx;
     (void)g;
-    p->failed |= n == p->side && level > p->level; /* in a sum */
+    p->failed |= n == p->side && level > p->level; /* it is in a sum */
     return n;
 }
 
@@ -158,10 +158,10 @@ static void not_by_part(const graph_node *n, node load, void *ctx)
 
 typedef struct held_sides {
     const switches *s;
-    const node *value; /* kinds: what holds each; NO_NODE: nothing does */
+    const node *value; /* by kind: what holds it; NO_NODE: nothing does */
 } held_sides;
 
-/* The kind whose side a load is, if it can be held; else the number of kinds. */
+/* Returns the kind whose side a load is, if it can be held; else the number of kinds. */
 static size_t kind_at(const held_sides *h, node leaf)
 {
     size_t k = 0;
@@ -169,7 +169,7 @@ static size_t kind_at(const held_sides *h, node leaf)
     return k;
 }
 
-/* The value with which a kind is held, in place of its side. */
+/* Returns the value at which a kind is held, in place of its side. */
 static node value_at(graph *g, const held_sides *h, size_t k)
 {
     const operation op = (operation)h->s->op[h->s->first[k]];
@@ -178,10 +178,10 @@ static node value_at(graph *g, const held_sides *h, size_t k)
 
 static node is_held(graph *g, node side) { return graph_op(g, OP_GT, side, graph_const(g, 1.5), 0); }
 
-/* What a side that is not held stands for. */
+/* Returns what a side that is not held stands for. */
 static node side_itself(const switches *s, size_t k, node side) { return s->parts[k] ? s->sliding[k] : side; }
 
-/* The side, or where it is SWITCHES_HELD the value that holds. */
+/* Returns a side or, where it is SWITCHES_HELD, the value that holds it. */
 static node side_or_value(graph *g, node leaf, int level, void *ctx)
 {
     const held_sides *h = ctx;
@@ -191,7 +191,7 @@ static node side_or_value(graph *g, node leaf, int level, void *ctx)
     return graph_op(g, OP_SELECT, is_held(g, leaf), value_at(g, h, k), side_itself(h->s, k, leaf));
 }
 
-/* Directions that are never held, in place of their sides. */
+/* Returns a direction that is never held in place of its side. */
 static node side_that_slides(graph *g, node leaf, int level, void *ctx)
 {
     const held_sides *h = ctx;
@@ -201,7 +201,7 @@ static node side_that_slides(graph *g, node leaf, int level, void *ctx)
     return leaf;
 }
 
-/* A choice by a side, or where that is held both in parts. */
+/* Returns a choice by a side or, where that is held, a mix of both. */
 static node side_or_parts(graph *g, node side, node a, node b, void *ctx)
 {
     const held_sides *h = ctx;
@@ -211,8 +211,8 @@ static node side_or_parts(graph *g, node side, node a, node b, void *ctx)
                     graph_op(g, OP_SELECT, side, a, b));
 }
 
-/* The values that hold kinds from `first` to before `last` in place of their sides, in loops as deep: what several
- * switches are held by is the solution of linear equations, which are eliminated one by one. */
+/* Puts the values that hold kinds from `first` to before `last` in place of their sides, in loops of equal depth. The
+ * values of several switches solve linear equations, which are eliminated one by one. */
 static node with_value(const model *m, const held_sides *h, size_t first, size_t last, int loops, node n)
 {
     node *only = take(&m->arena->allocator, h->s->kinds, sizeof *only);
@@ -225,9 +225,9 @@ static node with_value(const model *m, const held_sides *h, size_t first, size_t
     return result;
 }
 
-/* Surfaces ------------------------------------------------------------------------------------------------------- */
+/* Surfaces --------------------------------------------------------------------------------------------------------- */
 
-/* 1 or -1 where two arguments are 0 at the same places; 0: they are not, or it is not seen. */
+/* Returns 1 or -1 if two arguments are 0 at equal places; 0: they are not, or it is not seen. */
 static int same_surface(graph *g, node u, node w)
 {
     const ratio r = ratio_of(g, u, w);
@@ -236,7 +236,7 @@ static int same_surface(graph *g, node u, node w)
 
 static bool links(operation op) { return op == OP_SIGN || compares(op); }
 
-/* Links every kind to the first one of the same surface. */
+/* Links every kind to the first kind of its surface. */
 static bool find_surfaces(model *m, switches *s)
 {
     s->as = arena_room(m->arena, s->kinds * sizeof *s->as);
@@ -256,7 +256,7 @@ static bool find_surfaces(model *m, switches *s)
     return true;
 }
 
-/* The value within [-1, 1] that is 1 where the argument is positive, from that of the surface. */
+/* Returns the value in [-1, 1] that is 1 where the argument of a kind is positive, from the value of its surface. */
 static node turned_value(graph *g, const switches *s, size_t kind, node value)
 {
     return s->turned[kind] < 0 ? graph_op(g, OP_NEG, value, 0, 0) : value;
@@ -273,7 +273,7 @@ static node placed_at(graph *g, node leaf, int level, void *ctx)
     return leaf == p->side ? p->as : leaf;
 }
 
-/* An equation in which those of the same surface have what belongs to the side of `kind`. 0: it is no such function. */
+/* Returns an equation in which all kinds of one surface follow the side of `kind`. 0: that is impossible. */
 static node by_surface(graph *g, const switches *s, size_t kind, int loops, node n)
 {
     const operation op = (operation)s->op[s->first[kind]];
@@ -295,8 +295,8 @@ static node by_surface(graph *g, const switches *s, size_t kind, int loops, node
     return n;
 }
 
-/* Whether a motion may slide along a kind, and the value that holds its argument at 0, NO_NODE: there is none. grip:
- * how much the rate of the argument grows with the value. */
+/* Finds whether a motion may slide along a kind, and the value that holds its argument at 0; NO_NODE: there is none.
+ * grip: how much the rate of the argument grows with the value. */
 static switches_sliding holding(const model *m, const switches *s, size_t kind, const held_sides *h, node *value,
                                 node *grip)
 {
@@ -324,7 +324,7 @@ static switches_sliding holding(const model *m, const switches *s, size_t kind, 
     const node rest = graph_replace(g, force, DEP_MODE, rate->loops, zero_at, &side);
     const node slope = graph_derivative(g, force, one_at, &side);
     if (!slope) return SLIDES_REFUSED;
-    /* where all are signs that is tested when the motion comes there */
+    /* where all kinds are signs, that is tested when the motion comes there */
     bool chooses = compares(op);
     for (size_t j = kind; j < s->kinds; j++) chooses |= s->as[j] == kind && compares((operation)s->op[s->first[j]]);
     if (chooses && graph_replace(g, slope, DEP_MODE, rate->loops, zero_at, &side) != slope) return SLIDES_REFUSED;
@@ -339,8 +339,8 @@ static switches_sliding holding(const model *m, const switches *s, size_t kind, 
     return SLIDES_HELD;
 }
 
-/* The acceleration of one variable with which the rate of a kind is 0: output *number. NO_NODE: there is none.
- * literal: its factor has to be a number, as of a parameter that may be 0 nothing follows. */
+/* Returns the acceleration of one variable, output *number, with which the rate of a kind is 0. NO_NODE: there is none.
+ * literal: its factor must be a number, since a parameter may be 0. */
 static node resting(const model *m, const switches *s, const output *rate, const bool *taken, bool literal,
                     size_t *number)
 {
@@ -358,21 +358,21 @@ static node resting(const model *m, const switches *s, const output *rate, const
     return graph_op(g, OP_SUB, graph_const(g, 0), graph_op(g, OP_DIV, rest, factor, 0), 0);
 }
 
-/* Those of the same surface have the value of kind k. */
+/* Gives the value of kind k to the others of its surface. */
 static void share_value(graph *g, const switches *s, size_t k, node *value)
 {
     for (size_t j = k + 1; j < s->kinds; j++)
         if (s->as[j] == k && value[k] != NO_NODE) value[j] = turned_value(g, s, j, value[k]);
 }
 
-/* Those of a surface on which nothing can slide are switches by themselves. */
+/* Makes the kinds of a surface on which nothing can slide switches of their own. */
 static void part_surface(const switches *s, size_t k)
 {
     for (size_t j = k + 1; j < s->kinds; j++)
         if (s->as[j] == k) s->as[j] = (uint32_t)j, s->turned[j] = 1;
 }
 
-/* Where one component of a direction cannot be held none of them is. */
+/* Makes no component of a direction held if one of them cannot be. */
 static void hold_all_or_none(const switches *s, size_t last, node *value)
 {
     const size_t first = s->leader[last], end = first + s->parts[last];
@@ -383,11 +383,10 @@ static void hold_all_or_none(const switches *s, size_t last, node *value)
     for (size_t k = first; k < end && slides != SLIDES_HELD; k++) s->slides[k] = slides, value[k] = NO_NODE;
 }
 
-/* Those that the force can hold may be held from now on: the equations of the switches know that side, too. False: no
- * memory. */
+/* Lets the force hold the switches that it can; the equations of the switches know that side, too. False: no memory. */
 static bool prepare(model *m, switches *s)
 {
-    enum { TOGETHER = 8 }; /* equations of so many grow large */
+    enum { TOGETHER = 8 }; /* equations of more held kinds grow large */
     node *value = arena_room(m->arena, 3 * s->kinds * sizeof *value), *rests = value + s->kinds;
     node *grips = rests + s->kinds;
     s->hold = arena_room(m->arena, 4 * s->kinds * sizeof *s->hold);
@@ -399,7 +398,7 @@ static bool prepare(model *m, switches *s)
     s->shared = false;
     held_sides h = {s, value};
     const replacement with_values = {side_or_value, side_or_parts, NULL, &h};
-    size_t alone = 0; /* held kinds that are no families */
+    size_t alone = 0; /* how many held kinds are no families */
     for (size_t k = 0; k < s->kinds; k++) value[k] = rests[k] = NO_NODE;
     for (size_t k = 0; k < s->kinds; k++) {
         const held_sides none = {s, rests};
@@ -414,7 +413,7 @@ static bool prepare(model *m, switches *s)
         if (s->slides[k] == SLIDES_NEVER) part_surface(s, k);
         share_value(m->graph, s, k, value);
     }
-    for (size_t k = s->kinds; k-- > 0;) { /* those after it, too, in that of each */
+    for (size_t k = s->kinds; k-- > 0;) { /* the values of later kinds, in the value of each */
         const bool all = alone <= TOGETHER && s->rate[k].loops == 0;
         const size_t end = all ? s->kinds : s->leader[k] + s->parts[k];
         if (value[k] == NO_NODE || s->as[k] != k || k + 1 >= end) continue;
@@ -455,7 +454,7 @@ static bool prepare(model *m, switches *s)
         output rate = s->rate[k];
         size_t at = 0;
         if (value[k] == NO_NODE || s->as[k] != k) continue;
-        /* what the others are held by is in it, and those that rest do */
+        /* it contains what holds the others, and what rests */
         rate.value = with_sides(g, rate.value, rate.loops, &with_values);
         memcpy(tried, taken, m->accel_count * sizeof *tried);
         node is = resting(m, s, &rate, tried, s->parts[k], &at);

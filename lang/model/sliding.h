@@ -1,11 +1,11 @@
-/* Switches that may be held at their jump: sliding.c. */
+/* Switches where the force may hold the motion at the jump: dry friction that sticks, relays. */
 #ifndef LANG_MODEL_SLIDING_H
 #define LANG_MODEL_SLIDING_H
 
 #include "lang/model/switches.h"
 
-/* Of a model that has modes for the sides of its switches: its equations read them from now on, and those that the
- * force can hold may be held. It leaves `located` NULL where they are not those switches. */
+/* Makes the equations read the sides of switches from the modes of the model, and lets the force hold the switches that
+ * it can. It leaves `located` NULL if the modes do not fit the switches. */
 void sliding_locate(model *);
 
 #endif

@@ -20,12 +20,12 @@ typedef struct nest {
 } nest;
 
 typedef struct kind {
-    node n; /* the operation in the model's graph */
+    node n; /* the operation, in the model's graph */
     nest around;
     node side;
-    uint32_t before; /* 1 + the number of another kind of the same operation, 0: none */
-    uint32_t first;  /* the kind of the first component of a direction, otherwise this one */
-    uint8_t parts;   /* components of the direction, 0: it is none */
+    uint32_t before; /* 1 + the number of another kind of this operation; 0: none */
+    uint32_t first;  /* the kind of the first component of a direction; else this kind */
+    uint8_t parts;   /* how many components the direction has; 0: it is none */
     node sliding;
 } kind;
 
@@ -34,13 +34,13 @@ typedef struct builder {
     switches *s;
     kind *kinds, *touches;
     uint32_t room, touch_room;
-    uint32_t *last, *last_touch; /* by node of the model: 1 + the number of the last kind of this operation, 0: none */
-    bool directions;             /* they are switches, too */
+    uint32_t *last, *last_touch; /* by node of the model: 1 + the number of the last kind of this operation; 0: none */
+    bool directions;             /* directions are switches, too */
 } builder;
 
 static bool broken(const builder *b) { return b->m->arena->failed || b->m->graph->too_large; }
 
-/* The values of the loops' indices ----------------------------------------------------------------------------- */
+/* The values of the loops' indices --------------------------------------------------------------------------------- */
 
 static int64_t value_of(const model *m, const subscript *s, const int64_t *index)
 {
@@ -52,7 +52,8 @@ typedef struct spread {
     int64_t tried;
 } spread;
 
-/* The smallest and the largest value of every index; inner bounds may depend on outer indices. */
+/* Finds the smallest and the largest value of every index; inner bounds may depend on outer indices. False: there are
+ * too many to try. */
 static bool spread_over(const model *m, const nest *n, int level, spread *out)
 {
     if (level == n->count) return ++out->tried <= CELLS_TRIED;
@@ -68,7 +69,8 @@ static bool spread_over(const model *m, const nest *n, int level, spread *out)
     return true;
 }
 
-/* The place of the values of a new kind, of at most `most` cells with those that there are. */
+/* Makes the place of the values of a new kind; with it there may be at most `most` cells. Returns why it is impossible,
+ * or NULL. */
 static const char *place(builder *b, const nest *around, unsigned deps, size_t *count, size_t most, reference *value)
 {
     spread over;
@@ -115,7 +117,7 @@ model_shape switches_shape(const model *m, const switches *s, size_t kind)
     return shape;
 }
 
-/* The mode that holds the sides of the next kind of switch. False: its shape is another. */
+/* Finds the mode with the sides of the next kind. False: it has another shape. */
 static bool mode_of(builder *b, reference *side)
 {
     const model *m = b->m;
@@ -129,7 +131,7 @@ static bool mode_of(builder *b, reference *side)
     return fits;
 }
 
-/* The sides of a kind of switch: in the pool, or modes. */
+/* Returns the place of the sides of a kind: a mode, or in the pool. */
 static reference place_sides(builder *b, const reference *value)
 {
     reference side = *value;
@@ -142,7 +144,7 @@ static reference place_sides(builder *b, const reference *value)
     return side;
 }
 
-/* Operations --------------------------------------------------------------------------------------------------- */
+/* Operations ------------------------------------------------------------------------------------------------------- */
 
 bool switches_is(const graph *g, const graph_node *n)
 {
@@ -165,7 +167,7 @@ bool switches_is(const graph *g, const graph_node *n)
     }
 }
 
-/* Whether the operation compares two operands: its argument is their difference, its side 1 or 0. */
+/* Returns whether an operation compares two operands: its argument is their difference, its side 1 or 0. */
 static bool compares(operation op)
 {
     switch (op) {
@@ -212,7 +214,7 @@ static output output_to(const reference *value, unsigned levels, const nest *aro
     return o;
 }
 
-/* A new kind of switch; UINT32_MAX: refused, or no memory. */
+/* Adds a kind of switch. UINT32_MAX: it is refused, or no memory. */
 static uint32_t add_kind(builder *b, node n, unsigned levels, node argument, node held, const nest *around)
 {
     graph *g = b->m->graph;
@@ -249,7 +251,7 @@ static uint32_t add_kind(builder *b, node n, unsigned levels, node argument, nod
     return k;
 }
 
-/* The number of the kind of switch, found or added; UINT32_MAX: refused, or no memory. */
+/* Finds or adds a kind of switch. UINT32_MAX: it is refused, or no memory. */
 static uint32_t kind_of(builder *b, node n, node a, node c, const nest *around)
 {
     graph *g = b->m->graph;
@@ -265,18 +267,18 @@ static uint32_t kind_of(builder *b, node n, node a, node c, const nest *around)
     return k;
 }
 
-/* Directions ------------------------------------------------------------------------------------------------------ */
+/* Directions ------------------------------------------------------------------------------------------------------- */
 
 static node product(graph *g, node a, node b) { return graph_op(g, OP_MUL, a, b, 0); }
 static node difference(graph *g, node a, node b) { return graph_op(g, OP_SUB, a, b, 0); }
 
-/* The components of u over |u| along a unit vector d, from which u is less than a right angle away: with q = d u, |u|
- * is q sqrt(1 + |d x u|^2/q^2), which is smooth where the motion stops without a turn, and negative beyond. What holds
- * other vectors may have u/|u| in place of some components of d, which then is no unit vector: hence over |d|. */
+/* Finds u/|u| by components while u is less than a right angle away from a unit vector d: with q = d u, |u| is q sqrt(1
+ * + |d x u|^2/q^2), which is smooth where the motion stops without a turn, and negative beyond. Equations that hold
+ * other vectors may have u/|u| in place of some components of d, which then is no unit vector: hence the factor |d|. */
 static void find_sliding(builder *b, uint32_t first, const graph_directed *d)
 {
     graph *g = b->m->graph;
-    node q = graph_const(g, 1e-300), across[GRAPH_COMPONENTS]; /* at u = 0 the quotients are 0, not 0/0 */
+    node q = graph_const(g, 1e-300), across[GRAPH_COMPONENTS]; /* so that at u = 0 the quotients are 0, not 0/0 */
     const int count = d->count, areas = count == 2 ? 1 : 3;
     node *const side = b->s->side + first;
     for (int k = 0; k < count; k++) q = graph_op(g, OP_ADD, q, product(g, side[k], d->component[k]), 0);
@@ -293,8 +295,9 @@ static void find_sliding(builder *b, uint32_t first, const graph_directed *d)
         b->kinds[first + (uint32_t)k].sliding = product(g, unit, graph_op(g, OP_DIV, d->component[k], length, 0));
 }
 
-/* Whether a vector has the components of that of the kinds from `first` on, in any order, all with one factor that does
- * not move: both have one direction, or with a negative factor opposite ones. Their places to `at`. */
+/* Returns whether a vector has the components of the direction whose kinds begin with `first`, in any order, times one
+ * factor that does not move: its direction is that one or, with a negative factor, the opposite one. The order goes to
+ * `at`. */
 static bool same_direction(const builder *b, uint32_t first, const graph_directed *d, int *at, ratio *factor)
 {
     bool taken[GRAPH_COMPONENTS] = {false};
@@ -310,7 +313,8 @@ static bool same_direction(const builder *b, uint32_t first, const graph_directe
     return true;
 }
 
-/* The sides of a direction in the order of its components, turned where it is the opposite one. */
+/* Finds or adds the sides of a direction, in the order of its components, turned if it is opposite. False: it is
+ * refused, or no memory. */
 static bool direction_of(builder *b, const graph_directed *d, const nest *around, node *sides)
 {
     graph *g = b->m->graph;
@@ -339,8 +343,8 @@ static bool direction_of(builder *b, const graph_directed *d, const nest *around
     return true;
 }
 
-/* A quotient along a direction, with the sides of its components in place of these over the length; `to`: its operands,
- * rewritten. UINT32_MAX: it is none. */
+/* Returns a quotient along a direction, with the sides of the components in place of components over the length; `to`:
+ * its operands, rewritten. UINT32_MAX: it is none. */
 static node along_direction(builder *b, node n, const node to[3], const nest *around)
 {
     graph *g = b->m->graph;
@@ -352,7 +356,7 @@ static node along_direction(builder *b, node n, const node to[3], const nest *ar
     const bool second = at.op == OP_MUL && at.b == d.above;
     const graph_node quotient = g->nodes[to[second ? 0 : 1]];
     if (at.op == OP_MUL && (quotient.op != OP_DIV || quotient.b != d.divisor)) return UINT32_MAX;
-    const node above = to[second ? 1 : 0]; /* where an inner direction of that length has gone from it, there is none */
+    const node above = to[second ? 1 : 0]; /* if an inner direction of that length has been replaced, none is left */
     if (!graph_is_along(g, above, &d)) return UINT32_MAX;
     node sides[GRAPH_COMPONENTS];
     if (!direction_of(b, &d, around, sides)) return n;
@@ -362,13 +366,13 @@ static node along_direction(builder *b, node n, const node to[3], const nest *ar
 
 /* Touches ---------------------------------------------------------------------------------------------------------- */
 
-/* What is 0 where the operation has no derivative, and positive elsewhere; 0: there is no such place. */
+/* Returns a node that is 0 where an operation has no derivative, and positive elsewhere; 0: there is no such place. */
 static node touch_argument(graph *g, const graph_node *n, node a, node b)
 {
     const graph_node *e = &g->nodes[n->b];
     switch ((operation)n->op) {
     case OP_SQRT: return a;
-    case OP_CBRT: return graph_op(g, OP_ABS, a, 0, 0); /* which also touches 0 from below */
+    case OP_CBRT: return graph_op(g, OP_ABS, a, 0, 0); /* it also touches 0 from below */
     case OP_POW: return e->op == OP_CONST && e->value == floor(e->value) ? 0 : a;
     case OP_ASIN:
     case OP_ACOS: return graph_op(g, OP_SUB, graph_const(g, 1), graph_op(g, OP_MUL, a, a, 0), 0);
@@ -408,9 +412,9 @@ static void note_touch(builder *b, node n, node x, node y, const nest *around)
     s->touch_rate[k].value = graph_derivative(g, argument, model_seed_motion, b->m);
 }
 
-/* Equations ---------------------------------------------------------------------------------------------------- */
+/* Equations -------------------------------------------------------------------------------------------------------- */
 
-/* The places of each node's operands in a walk, which other walks overwrite in the graph: 1 + the place, 0: none. */
+/* The places of a node's operands in a walk, since other walks overwrite them in the graph: 1 + the place; 0: none. */
 typedef struct operands {
     uint32_t at[3];
 } operands;
@@ -442,8 +446,8 @@ static node rewrite_sum(builder *b, node sum, const nest *around)
     return graph_sum(g, n.level, &inner.at[n.level], condition, body);
 }
 
-/* `with` in place of an operand that is nowhere negative, as |u| and max(u, 0) are, of a root or a power: rounding
- * leads a little beyond its side, and the operation is defined there, too. */
+/* Returns `with` in place of an operand of a root or a power. If the operand is nowhere negative, as |u| and max(u, 0),
+ * then |with| keeps the operation defined where rounding leads a little beyond the side. */
 static node defined_beyond(graph *g, operation op, node operand, node with)
 {
     const graph_node n = *graph_at(g, operand), *a = graph_at(g, n.a);
@@ -453,7 +457,7 @@ static node defined_beyond(graph *g, operation op, node operand, node with)
     return roots && (above || n.op == OP_ABS) ? graph_op(g, OP_ABS, with, 0, 0) : with;
 }
 
-/* The node with sides in place of switches. */
+/* Returns a node with sides in place of switches. */
 static node rewrite(builder *b, node root, const nest *around)
 {
     graph *g = b->m->graph;
@@ -556,13 +560,13 @@ void switches_surface(const model *m, node original, char *out, size_t size)
     if (compares(op) && used + 3 < size) model_print(m, turned ? n.a : n.b, out + used + 3, size - used - 3);
 }
 
-/* Sides -------------------------------------------------------------------------------------------------------- */
+/* Sides ------------------------------------------------------------------------------------------------------------ */
 
 bool switches_directs(operation op) { return op == OP_DIV; }
 
 bool switches_counts(operation op) { return op == OP_FLOOR || op == OP_MOD; }
 
-/* 1 where the argument is positive on this side, -1 where it is negative. */
+/* Returns 1 where the argument is positive on a side, -1 where it is negative. */
 static double direction(operation op, double side)
 {
     switch (op) {

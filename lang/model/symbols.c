@@ -24,7 +24,7 @@ static const char *name_of(const model *m, uint32_t entry)
                                          : m->functions[k].name;
 }
 
-/* The entry's place in the table; entries are 3 k + kind + 1, 0 is empty. */
+/* Returns the place of a name in the table; entries are KINDS k + kind + 1, and 0 is empty. */
 static uint32_t *place(const model *m, const char *name)
 {
     uint32_t i = hash(name) & (m->symbol_size - 1);
@@ -59,7 +59,7 @@ static bool known(const model *m, const char *name, const char *const *more, uin
     return s.state || s.definition || s.function || !strcmp(name, "t") || !strcmp(name, "pi");
 }
 
-/* mg where m and g are names: the product needs a blank [1]. */
+/* Hints that mg, where m and g are names, is no product without a blank [1]. */
 static bool product_of_two(model *m, const char *name, const char *const *more, uint32_t more_count)
 {
     char left[MOTUS_NAME_MAX];

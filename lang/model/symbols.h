@@ -1,10 +1,10 @@
-/* The symbol table: the state, definition or function of a name, and hints for an unknown name. */
+/* The symbol table: the state, definition or function that a name means, and hints for an unknown name. */
 #ifndef LANG_MODEL_SYMBOLS_H
 #define LANG_MODEL_SYMBOLS_H
 
 #include "lang/model/model.h"
 
-/* One of them; neither where the name is unknown. */
+/* One of them is set, or none if the name is unknown. */
 typedef struct symbol {
     model_state *state;
     model_definition *definition;
@@ -14,9 +14,9 @@ typedef struct symbol {
 symbol symbols_find(const model *, const char *name);
 /* Adds a name that is not in the table yet. */
 void symbols_enter(model *, const char *name, symbol);
-/* Adds the hint to the complaint that a name is not defined; more: other names that may stand there. */
+/* Adds a hint to the complaint that a name is not defined; more: other names that may stand there. */
 void symbols_suggest(model *, const char *name, const char *const *more, uint32_t more_count);
-/* The same for a name with a bracket behind it. */
+/* Adds the hint for a name with a bracket behind it. */
 void symbols_suggest_call(model *, const char *name);
 
 #endif

@@ -1,7 +1,7 @@
-/* See undefined.h. All nodes of a formula are evaluated: at the state as a run does, and beside it with twice the bits.
+/* See undefined.h. All nodes of a formula are evaluated: at the state as in a run, and beside it with twice the bits.
  *
- * What a term goes to is looked for on straight and bent ways that lead to the state, from both sides of it. Only where
- * all of them agree in every digit of a double is there a value to be told.
+ * The limit of a term is sought on straight and bent ways that lead to the state from both sides. It is told only if
+ * all of them agree in every digit of a double.
  */
 #include "lang/model/undefined.h"
 
@@ -16,10 +16,10 @@
 enum {
     NODES_MOST = 4096,
     WAYS = 8,
-    POINTS = 4,  /* on either side of a way, each half as far as the one before */
-    NEARER = -8, /* of the farthest point, a power of 2: where the ways disagree, it is so much nearer */
+    POINTS = 4,  /* on either side of a way, each half as far as the last */
+    NEARER = -8, /* a power of 2: where the ways disagree, the farthest point comes so much nearer */
     NEAREST = -40,
-    ROUNDED = 4 /* units in the last place by which numbers may differ that are the same to all digits */
+    ROUNDED = 4 /* in units in the last place: how far equal numbers may differ */
 };
 
 typedef struct place {
@@ -29,7 +29,8 @@ typedef struct place {
     const double *x, *v;
 } place;
 
-/* A way to the state, from so far. The numbers go at rates of their own, of a bent one some as the square. */
+/* A way to the state, from the distance `by`. Numbers approach at rates of their own; on a bent way some go as the
+ * square. */
 typedef struct way {
     int which;
     bool bent;
@@ -61,7 +62,7 @@ static twofold leaf(const place *p, const graph_node *n, const way *w)
     }
 }
 
-/* The values of all nodes up to this one. */
+/* Computes the values of all nodes up to this one, and returns the last. */
 static twofold values(const place *p, size_t up_to, const way *w, twofold *out)
 {
     const graph *g = p->model->graph;
@@ -81,8 +82,8 @@ static twofold values(const place *p, size_t up_to, const way *w, twofold *out)
     return out[up_to];
 }
 
-/* Marks the nodes that a node takes; value: of all nodes, at a state in which `if` takes one side alone. Returns how
- * many of them move. */
+/* Marks the nodes that a node reads, and returns how many of them move. value: that of all nodes, at a state in which
+ * `if` reads only one side. */
 static size_t mark(const place *p, size_t root, const twofold *value, bool *taken)
 {
     const graph *g = p->model->graph;
@@ -103,7 +104,7 @@ static size_t mark(const place *p, size_t root, const twofold *value, bool *take
     return moving;
 }
 
-/* The first node that is no number, although its operands are, among those that are taken. */
+/* Returns the first taken node that is no number although its operands are. */
 static size_t first_undefined(const place *p, const twofold *value, const bool *taken)
 {
     const graph *g = p->model->graph;
@@ -118,15 +119,15 @@ static size_t first_undefined(const place *p, const twofold *value, const bool *
     return SIZE_MAX;
 }
 
-/* What numbers go to that come nearer by a factor, as those do that change as a power. */
+/* Returns the limit of numbers whose distance from it shrinks by a constant factor, as that of a power does. */
 static double limit_of(const double f[3])
 {
     const double first = f[1] - f[0], second = f[2] - f[1];
     return second == 0 || second == first ? f[2] : f[2] - second * (second / (second - first));
 }
 
-/* On a way: what the quotient goes to, how far rounding moves that, and by how much it and the divisor differ on both
- * sides. */
+/* What a way shows: the limit of the quotient, how far rounding moves that, and by how much quotient and divisor differ
+ * between both sides. */
 typedef struct approach {
     double limit, rounded, slope, divisor;
 } approach;
@@ -151,22 +152,22 @@ static bool come_near(const place *p, size_t at, way w, twofold *room, approach 
     return fabs(out->limit - limit_of(middle)) <= out->rounded;
 }
 
-/* Where two ways show the slope of the quotient, it must be that of the divisor: otherwise it has another value
- * elsewhere where the divisor is 0. */
+/* Returns whether two ways agree: in the limit and, where they show the slope of the quotient, in its ratio to that of
+ * the divisor. Otherwise the quotient has another value elsewhere where the divisor is 0. */
 static bool agree(const approach *a, const approach *b, double by)
 {
     const double ab = a->slope * b->divisor, ba = b->slope * a->divisor;
     return fabs(a->limit - b->limit) <= fmax(a->rounded, b->rounded) && fabs(ab - ba) <= by * (fabs(ab) + fabs(ba));
 }
 
-/* The number with the fewest digits that is so near. */
+/* Returns the number with the fewest digits that is so near. */
 static double short_number(double number, double off)
 {
     char text[DECIMAL_MAX];
     return fabs(number) <= off ? 0 : decimal_near(number, off, text);
 }
 
-/* moving: how many numbers of the state the quotient is of. */
+/* Finds the limit of a quotient that depends on `moving` numbers of the state. False: the ways do not agree. */
 static bool find_limit(const place *p, size_t at, size_t moving, twofold *room, double *limit)
 {
     for (int power = 2 * NEARER; power >= NEAREST; power += NEARER) {
@@ -184,8 +185,8 @@ static bool find_limit(const place *p, size_t at, size_t moving, twofold *room, 
     return false;
 }
 
-/* A value is told of a quotient that depends on no number which the divisor does not depend on: of others it may have
- * one for each value of these. */
+/* Describes an undefined term. A limit is given of a quotient only if it depends on no number that its divisor does not
+ * depend on: otherwise there may be one for each value of that number. */
 static void describe(model *m, const place *p, size_t at, twofold *value, bool *taken, undefined_term *out)
 {
     const graph *g = m->graph;
@@ -200,7 +201,7 @@ static void describe(model *m, const place *p, size_t at, twofold *value, bool *
     if (divides) model_print(m, n.b, out->divisor, sizeof out->divisor);
 }
 
-/* Whether all nodes can be evaluated by themselves. */
+/* Returns whether all nodes can be evaluated singly. */
 static bool single(const graph *g, const graph_walk *w)
 {
     bool all = w->count <= NODES_MOST;

@@ -1,4 +1,4 @@
-/* Where a force is undefined at a state: the first operation that makes no number of numbers. */
+/* Where a force is undefined at a state: the first operation whose operands are numbers and whose value is none. */
 #ifndef LANG_MODEL_UNDEFINED_H
 #define LANG_MODEL_UNDEFINED_H
 
@@ -7,14 +7,14 @@
 enum { UNDEFINED_TEXT = 160 };
 
 typedef struct undefined_term {
-    char term[UNDEFINED_TEXT], divisor[UNDEFINED_TEXT]; /* of a quotient by 0; else the second is empty */
-    bool infinite, both;                                /* both: 0/0 */
-    bool has_limit; /* on all ways to the state the term goes to this value, to all digits of a double: */
+    char term[UNDEFINED_TEXT], divisor[UNDEFINED_TEXT]; /* `divisor` is that of a quotient by 0, or empty */
+    bool infinite, both;                                /* both: the term is 0/0 */
+    bool has_limit; /* on all ways to the state the term goes to `limit`, in all digits of a double */
     double limit;
 } undefined_term;
 
-/* In the acceleration of number `which` of v, at a state that stays as it is. False: there is none in a formula of a
- * single cell, or no memory. */
+/* Finds the term in the acceleration of number `which` of v, at a state. False: no formula of a single cell has one, or
+ * no memory. */
 bool undefined_find(model *, size_t which, double t, const double *x, const double *v, undefined_term *);
 
 #endif

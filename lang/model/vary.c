@@ -1,4 +1,4 @@
-/* Which log entries follow from a change, and running them again. See vary.h. */
+/* Finds which log entries follow from a change, and runs them again. See vary.h. */
 #include "lang/model/vary.h"
 
 #include "lang/tape/tape.h"
@@ -11,12 +11,12 @@ struct vary {
     uint8_t *affected;
     vary_active *active;
     uint32_t active_count;
-    double *kept; /* copies of cells that an entry overwrites, but that other lines set */
+    double *kept; /* copies of cells that an entry overwrites but other lines set */
 };
 
-/* ---- what is affected ---- */
+/* What is affected ------------------------------------------------------------------------------------------------- */
 
-/* Marks those of the nodes [from, to) whose value changes, in one pass, because operands come before the nodes that use
+/* Marks the nodes in [from, to) whose value changes, in one pass, because operands come before the nodes that use
  * them. */
 static void mark_nodes(const vary *v, uint8_t *changed, node from, node to)
 {
@@ -35,7 +35,7 @@ static void mark_nodes(const vary *v, uint8_t *changed, node from, node to)
     }
 }
 
-/* NULL: a number in a scalar slot. */
+/* Returns the entry of a line; NULL: it is a number in a scalar slot. */
 static const vary_entry *entry_of(const model *m, const struct vary_line *line)
 {
     return line->value == VARY_ENTRY ? &m->log.entries[line->slot] : NULL;
@@ -50,7 +50,7 @@ static bool line_changes(const model *m, const struct vary_line *line, const uin
     return false;
 }
 
-/* Where component k of an entry is written: the beginning of its hull where it runs over an index, else its cell. */
+/* Returns the place of component k of an entry: the beginning of its hull if it runs over an index, else its cell. */
 static size_t place_of(const model *m, const vary_entry *e, int k)
 {
     const output *o = &e->outputs[k];
@@ -70,7 +70,8 @@ static void mark_places(vary *v, const struct vary_line *line)
         memset(v->affected + place_of(v->model, e, k), 1, e->outputs[k].loops ? e->hull : 1);
 }
 
-/* All numbers of a parameter or an initial value are overridden together, so the first one tells. */
+/* Returns whether an entry is overridden. The first number tells, since a parameter or initial value is overridden as a
+ * whole. */
 static bool overridden(const model *m, const vary_entry *e)
 {
     return m->overridden && m->overridden[place_of(m, e, 0)];
@@ -90,7 +91,7 @@ bool vary_override(model *m, size_t first, size_t count, bool yes)
     return true;
 }
 
-/* The largest node that a line computes. */
+/* Returns the largest node that a line computes. */
 static node last_node(const model *m, const struct vary_line *line)
 {
     const vary_entry *e = entry_of(m, line);
@@ -100,7 +101,7 @@ static node last_node(const model *m, const struct vary_line *line)
     return last;
 }
 
-/* Whether one of the places of an entry's array is marked: then those of its loads are that exist. */
+/* Returns whether each array of an entry has a marked place: then the loads of its cells are marked already. */
 static bool array_marked(const vary *v, const vary_entry *e)
 {
     bool all = true;
@@ -109,8 +110,8 @@ static bool array_marked(const vary *v, const vary_entry *e)
 }
 
 /* Extends `affected` to all places that depend on those marked so far, and collects the entries that compute them in
- * `active`, if it is not NULL. A parameter's node is younger than the line that computes it, so nodes are marked once,
- * as far as each line needs them; but loads of an array's cells may be older than the line of another cell. */
+ * `active`, if it is not NULL. The node of a parameter is younger than the line that computes it, so nodes are marked
+ * once, as far as each line needs them. But a load of an array's cell may be older than the line of another cell. */
 static void follow(vary *v, uint8_t *changed)
 {
     const model *m = v->model;
@@ -232,7 +233,7 @@ motus_status vary_create(model *m, const size_t *places, size_t count, bool own_
     return MOTUS_OK;
 }
 
-/* ---- computing again ---- */
+/* Computing again -------------------------------------------------------------------------------------------------- */
 
 static void put_values(const vary *v, const double *values)
 {

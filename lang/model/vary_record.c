@@ -1,4 +1,4 @@
-/* Entries of a model's log. See vary_record.h. */
+/* Writes and reads the log of a model. */
 #include "lang/model/vary_record.h"
 
 static bool add_line(model *m, node value, uint32_t slot)

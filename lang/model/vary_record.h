@@ -5,25 +5,25 @@
 
 #include "lang/model/model.h"
 
-/* Outputs that were evaluated into the pool, as SPACE_OUT arrays over it. A number in a scalar slot has none in the
+/* Outputs that were evaluated into the pool, as SPACE_OUT arrays over it. A number in a scalar slot has no entry in the
  * log, because every line of the text may be one: see vary_line. */
 typedef struct vary_entry {
     output *outputs;
     int parts;
-    size_t base, hull; /* the places: parts × hull of them from base on */
+    size_t base, hull; /* its places: parts × hull of them, from `base` on */
     const uint8_t *map;
-    uint8_t rank; /* cells with map > rank keep their value; NULL: none */
+    uint8_t rank; /* cells with map > rank keep their value; map NULL: none does */
 } vary_entry;
 
-/* Logs an evaluation, if it depends on parameters. target: subscripts and loops; `array` keeps 1 + the number of the
- * first SPACE_OUT array of this shape. False: no memory. */
+/* Logs an evaluation, if it depends on parameters. target: its subscripts and loops; `array` keeps 1 + the number of
+ * the first SPACE_OUT array of this shape. False: no memory. */
 bool vary_record(model *, const output *target, const node *values, int parts, size_t base, int dims,
                  const int64_t first[], const int64_t last[], size_t hull, const uint8_t *map, uint8_t rank,
                  uint16_t *array);
 bool vary_record_scalar(model *, node, uint32_t slot);
-/* The entry of a line: its own, or made in the model's arena. NULL: no memory. */
+/* Returns the entry of a line, made in the model's arena if it has none. NULL: no memory. */
 const vary_entry *vary_record_entry(model *, const struct vary_line *);
-/* Logs that a node decides `what`: see evaluate_number. */
+/* Logs that a node decides `what` (see evaluate_number). */
 void vary_freeze(model *, node, const char *what);
 
 #endif

@@ -1,4 +1,4 @@
-/* See whole.h. All modes are taken to count, until one has an assignment that does not. */
+/* See whole.h. All modes are taken to count, until one has an assignment that is no count. */
 #include "lang/model/whole.h"
 
 #include "base/memory.h"
@@ -8,7 +8,7 @@
 #include <math.h>
 #include <string.h>
 
-/* Whether an operation makes whole numbers of whole numbers. */
+/* Returns whether an operation on whole numbers has a whole value. */
 static bool keeps_whole(operation op)
 {
     switch (op) {
@@ -28,13 +28,13 @@ static bool keeps_whole(operation op)
     }
 }
 
-/* Doubles hold whole numbers up to this one. */
+/* up to this, every whole number is a double */
 static const double EXACT = 0x1p53;
-/* How large a mode, a place of a list, an index or the number of summands is taken to be; and how much one assignment
- * may add to a mode. A mode that grows faster is no counter. */
+/* LARGE: a bound that is assumed on a mode, a place of a list, an index or the number of summands. ADDED: how much one
+ * assignment may add to a mode; a mode that grows faster is no counter. */
 static const double LARGE = 0x1p26, ADDED = 0x1p20;
 
-/* A bound on the size of what an operation makes of numbers below these. */
+/* Returns a bound on the value of an operation, from bounds on its operands. */
 static double bound_of(operation op, const double *of)
 {
     switch (op) {
@@ -60,7 +60,7 @@ static bool is_factor(const graph *g, node n)
     return graph_at(g, n)->op == OP_CONST && is_whole(graph_at(g, n)->value);
 }
 
-/* Whether a node is, where its operands are known, and w->most of it. They come before it. */
+/* Returns whether a node only counts, and bounds it in w->most; the operands come first. */
 static bool counts(const whole *w, const model *m, node n)
 {
     const graph *g = m->graph;
@@ -85,12 +85,13 @@ static bool counts(const whole *w, const model *m, node n)
         bound[j] = is ? w->most[of[j]] : 0;
     }
     *most = bound_of((operation)k->op, bound);
-    /* products have the places of both factors */
+    /* a product has the places of both factors */
     if (k->op == OP_MUL && w->places && is) is = is_factor(g, k->a) || is_factor(g, k->b);
     return is && *most <= exact;
 }
 
-/* Takes back the modes whose assignments do not count, and widens the bounds of remainders; whether there were any. */
+/* Drops the modes whose assignments do not count, and widens the bounds of remainders. Returns whether anything
+ * changed. */
 static bool take_back(const whole *w, const model *m, const model_rule *endless)
 {
     bool any = false;
@@ -103,7 +104,7 @@ static bool take_back(const whole *w, const model *m, const model_rule *endless)
             const double most = w->most[a->value.value];
             if (!*to || (w->node[a->value.value] && most <= *large + ADDED && !goes_on)) continue;
             if (w->node[a->value.value] && !goes_on && graph_at(m->graph, a->value.value)->op == OP_MOD)
-                *large = most; /* it stays below its modulus */
+                *large = most; /* a remainder stays below its modulus */
             else
                 *to = 0;
             any = true;
@@ -120,7 +121,7 @@ bool whole_find(whole *w, const model *m, int places, const model_rule *endless,
     if (!w->node || !w->array || !w->most || !w->large) return false;
     for (uint32_t k = 0; k < m->array_count; k++) w->large[k] = LARGE;
     for (uint32_t k = 0; k < m->array_count; k++) w->array[k] = m->arrays[k].mode || m->arrays[k].space == SPACE_POOL;
-    for (uint32_t k = 0; k < m->side_count; k++) { /* a side is where the motion is */
+    for (uint32_t k = 0; k < m->side_count; k++) { /* a side tells where the motion is, so it is no count */
         const model_state *s = &m->states[m->side_first + k];
         for (int c = 0; c < (s->components ? s->components : 1); c++) w->array[m->block[BLOCK_X] + s->array + c] = 0;
     }

@@ -1,8 +1,8 @@
-/* Traits of the equations that follow from their form: what they depend on, whether velocity enters linearly, whether
- * the exact motion is known. What needs a proof or samples (gradient, gyroscopic) is found by api/system/symmetry.c. */
+/* The traits that follow from the form of the equations: what they depend on, whether velocity enters linearly, whether
+ * the exact motion is known. api/system/symmetry.c finds those that need a proof or samples (gradient, gyroscopic). */
 #include "lang/read/read_steps.h"
 
-/* Differentiates along a direction of v; da/dv is constant where the result depends on the direction alone. */
+/* Seeds the derivative along a direction of v; da/dv is constant if the result depends on the direction alone. */
 static node seed_velocity(graph *g, node leaf, void *shift)
 {
     const graph_node *n = graph_at(g, leaf);
@@ -23,7 +23,7 @@ static void see_load(void *ctx, const reference *ref, const range *sums, int fir
     r->first_order |= !s || s->order == 1;
 }
 
-/* Whether v enters the right sides of first-order variables alone, and nothing reads these. */
+/* Returns whether v enters only the right sides of first-order variables, and nothing reads these. */
 static bool only_follow(model *m)
 {
     reading r = {.model = m};
@@ -67,8 +67,8 @@ void analysis_traits(model *m)
     t->quadrature = t->velocity && t->first_order && only_follow(m);
 }
 
-/* Under a constant acceleration a the exact motion is x = x(0) + x'(0) τ + a τ²/2 with τ = t - start, so no exact line
- * is needed. */
+/* Recognises a constant acceleration a: the exact motion is x = x(0) + x'(0) τ + a τ²/2 with τ = t - start, so no exact
+ * line is needed. */
 static bool recognise_constant(model *m)
 {
     graph *g = m->graph;
@@ -97,7 +97,7 @@ static bool recognise_constant(model *m)
     return !source_failed(&m->source);
 }
 
-/* Whether the motion ends where an event assigns. */
+/* Returns whether an event assigns, so that the exact motion ends there. */
 static bool interrupted(const model *m)
 {
     for (uint32_t i = 0; i < m->rule_count; i++)

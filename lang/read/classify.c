@@ -1,5 +1,5 @@
-/* Divides definitions into parameters and quantities, which depend on a state or on time, and finds circles of
- * definitions and of functions; then checks that lines about states have one. */
+/* Divides definitions into parameters and quantities, which depend on a state or on time; finds circles of definitions
+ * and of functions; checks that lines about states belong to an equation. */
 #include "lang/read/read_steps.h"
 
 #include "base/near.h"
@@ -9,18 +9,18 @@
 #include <stdio.h>
 #include <string.h>
 
-/* Whose right side is read, and who needed it. */
+/* The definition or function whose right side is being read, and the reader that needed it. */
 typedef struct reader {
     const char *name;
-    const tree *applied; /* of a function: its arguments, which hide other names */
+    const tree *applied; /* the arguments of a function, which hide other names */
     const struct reader *up;
     int chain;
-    bool start; /* it is the line of a mode, which says its start: other modes have their starts there */
+    bool start; /* it is the line of a mode, which gives its start, so other modes stand for their starts */
 } reader;
 
 static bool moves(model *m, const tree *t, const reader *by, bool *yes);
 
-/* a → b → a */
+/* Writes a → b → a. */
 static void name_circle(char *out, size_t size, const reader *by, const char *name)
 {
     const reader *steps[8];
@@ -38,7 +38,7 @@ static bool within_chain(model *m, span at, const reader *by)
     return false;
 }
 
-/* What an event assigns is a parameter, whose line gives its start. */
+/* Complains that an event assigns a quantity. It may assign a parameter, whose line gives the start. */
 static bool no_start(model *m, const model_definition *d)
 {
     source_complain(&m->source, MOTUS_SHAPE, mode_assigned_at(m, d),
@@ -117,7 +117,8 @@ static bool name_moves(model *m, const tree *t, const reader *by, bool *yes)
     return !s.definition || definition_moves(m, s.definition, t->at, by, yes);
 }
 
-/* Chains of operators lean left and may be long, so a loop follows the left side. */
+/* Finds whether a tree depends on a state or on time. Chains of operators lean left and may be long, so a loop follows
+ * the left side. */
 static bool moves_inside(model *m, const tree *t, const reader *by, bool *yes)
 {
     for (;;) {

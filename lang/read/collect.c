@@ -1,5 +1,5 @@
-/* Collects the statements of the text, puts those of --set in their places, and enters states, definitions and
- * functions in the symbol table. */
+/* Collects the statements of the text and of --set, and enters states, definitions and functions in the symbol
+ * table. */
 #include "lang/read/read_steps.h"
 
 #include "base/near.h"
@@ -14,7 +14,7 @@ static void twice(model *m, const statement *s, span earlier)
     source_hint(&m->source, "remove one of them, or give it another name");
 }
 
-/* Room for twice as many states, due where their number is a power of two. */
+/* Makes room for twice as many states, as is due where their number is a power of two. */
 static bool more_states(model *m)
 {
     const size_t count = m->state_count, room = count ? 2 * count : 1;
@@ -81,7 +81,7 @@ static bool add_definition(model *m, const statement *s)
     return true;
 }
 
-/* V(q), F(t): a bracket of plain names, where V is no state. */
+/* Returns whether a bracket contains only plain names, as in V(q), F(t). */
 static bool names_arguments(const tree *applied)
 {
     const tree *name = applied->item[0];
@@ -115,7 +115,7 @@ static bool check_arguments(model *m, const statement *s)
     return false;
 }
 
-/* What looks like an initial value of something that is no state is the definition of a function. */
+/* Enters a function: what looks like an initial value of something that is no state. */
 static bool add_function(model *m, statement *s)
 {
     symbol known = symbols_find(m, s->name);
@@ -143,7 +143,7 @@ static bool add_function(model *m, statement *s)
     return check_arguments(m, s);
 }
 
-/* Refuses method, step and until, which are no parameters; true: it did. */
+/* Refuses method, step and until, which are no parameters. Returns whether it did. */
 static bool refuse_setting(model *m, uint32_t text)
 {
     static const char *const words[] = {"method", "step", "until"};
@@ -165,7 +165,7 @@ static bool refuse_setting(model *m, uint32_t text)
     return false;
 }
 
-/* name=expression of `set`: a statement in a text of its own, which replaces the model's. */
+/* Replaces statements of the model by name=expression of `set`, a statement in a text of its own. */
 static bool replace(model *m, uint32_t text)
 {
     statements set = {0};
@@ -203,7 +203,7 @@ static bool replace(model *m, uint32_t text)
             same = same && old->index_count == one->index_count;
         families += same && cell;
         same = same && !cell;
-        if (same && found++) continue; /* it replaces the first and removes the others */
+        if (same && found++) continue; /* the first is replaced, the others are removed */
         if (same) {
             replaced *own = arena_take(m->arena, sizeof *own);
             *own = old->replaced ? *old->replaced : (replaced){old->value, old->at};
@@ -244,7 +244,7 @@ static bool replace(model *m, uint32_t text)
     return false;
 }
 
-/* Reads a statement that is added to those of the text: an event, or a quantity. */
+/* Reads a statement that is added to the text: an event or a quantity. */
 static bool add_line(model *m, uint32_t text, bool event)
 {
     const uint32_t before = m->statements.count;

@@ -1,5 +1,5 @@
-/* What events change: places of their values; which modes are kept, since observers alone read them; events that would
- * never happen. */
+/* What events change: the places of their values, which modes are kept because only observers read them, and events
+ * that would never happen. */
 #include "lang/read/read_steps.h"
 
 #define COMPLAIN(m, at, ...) (source_complain(&(m)->source, MOTUS_SHAPE, (at), __VA_ARGS__))
@@ -10,8 +10,8 @@ static const char *quote(const model *m, const span *at, char out[80])
     return source_excerpt(&m->source, at, out, 80);
 }
 
-/* Places for the values of assignments, which one event writes for the indices that number no instances; what the
- * event keeps (keep.c) has none of these. */
+/* Makes places for the values of assignments. An event writes one for each value of the indices that number no
+ * instances; what the event keeps (keep.c) has none of these indices. */
 static bool place_values(model *m, model_rule *r)
 {
     for (size_t k = 0; k < r->assignments; k++) {
@@ -49,11 +49,11 @@ static void read_by(model *m, const output *o, size_t count)
         if (graph_deps(m->graph, o[k].value) & DEP_MODE) graph_loads(m->graph, o[k].value, SPACE_X, note_mode, m);
 }
 
-/* Whether an assignment changes the motion, or what rules watch. */
+/* Returns whether an assignment changes the motion, or what rules watch. */
 static bool matters(const model *m, const model_assignment *a) { return !model_state_of(m, a->to.array)->kept; }
 
-/* Modes that only observers read are kept: all but those from which forces, functions of events, or what is assigned
- * to states and to such modes follow. */
+/* Finds the modes that only observers read: all but those that affect forces, functions of events, or what is assigned
+ * to states and to such modes. */
 static void find_kept(model *m)
 {
     for (uint32_t i = 0; i < m->mode_count; i++) m->states[m->state_count + i].kept = true;
@@ -87,7 +87,7 @@ static bool judge_assignments(model *m, model_rule *r)
     return true;
 }
 
-/* A function that jumps and is constant between never passes 0: such an event would never happen. */
+/* Complains about a function that jumps and is constant between: it never passes 0, so its event would never happen. */
 static bool flat(model *m, const model_rule *r, node leaf)
 {
     char text[80];
@@ -98,7 +98,8 @@ static bool flat(model *m, const model_rule *r, node leaf)
     return true;
 }
 
-/* A function of modes alone changes at events alone, and so never passes 0: such an event would never happen. */
+/* Complains about a function of modes alone: it changes only at events and never passes 0, so its event would never
+ * happen. */
 static bool judge_functions(model *m, const model_rule *r)
 {
     for (size_t k = 0; r->kind == RULE_ROOT && k < r->leaves; k++) {

@@ -11,7 +11,7 @@
 
 typedef struct outputs {
     output **item;
-    size_t *count, room, least; /* least: what there is room for at first */
+    size_t *count, room, least; /* least: the room at first */
 } outputs;
 
 static bool add(model *m, outputs *o, const output *one)
@@ -30,8 +30,8 @@ static bool add(model *m, outputs *o, const output *one)
 static bool divide(model *m, const statement *s, const model_state *state, const lowering *of, const output *o,
                    const model_cut *cut, outputs *into);
 
-/* The part of an equation, or of a boundary line that depends on a state, that the ranges of its indices leave. into:
- * NULL: it is only checked. */
+/* Lowers the part of an equation, or of a boundary line that depends on a state, that the ranges of its indices leave.
+ * into NULL: only checks it. */
 static bool part(model *m, const statement *s, const model_state *state, const lowering *of, output o, outputs *into)
 {
     lowering l = *of;
@@ -57,7 +57,7 @@ static bool part(model *m, const statement *s, const model_state *state, const l
     return true;
 }
 
-/* Some of its cells read cells whose boundary line depends on a state: the parts before and after the cut. */
+/* Lowers the parts before and after a cut, since some cells read cells whose boundary line depends on a state. */
 static bool divide(model *m, const statement *s, const model_state *state, const lowering *of, const output *o,
                    const model_cut *cut, outputs *into)
 {
@@ -80,7 +80,7 @@ static bool equation(model *m, const statement *s, outputs *into)
     return lower_target(&l, s, &o) && part(m, s, state, &l, o, into);
 }
 
-/* A motion that is given as a function of time: its value goes into x (of a first-order variable into v), its
+/* Lowers a motion that is given as a function of time: its value goes into x (of a first-order variable into v), its
  * derivative into v. */
 static bool given_motion(model *m, const statement *s, lower_place place, const char *what, outputs *into, bool *timed)
 {
@@ -105,7 +105,8 @@ static bool given_motion(model *m, const statement *s, lower_place place, const 
     return true;
 }
 
-/* The values of a quantity, one output for each component of each part; their arrays follow when the shape is known. */
+/* Lowers the values of a quantity: an output for each component of each part. Their arrays follow when the shape is
+ * known. */
 static bool values(model *m, const model_definition *d, const lowering *of, output o, outputs *into, int *components)
 {
     const statement *s = d->statement;
@@ -148,7 +149,7 @@ static bool looked_at(model *m, model_definition *d)
         return false;
     }
     outputs into = {&d->outputs, &d->output_count, 0, 1};
-    d->progress = 1; /* needed now, it depends on itself */
+    d->progress = 1; /* if it is needed now, it depends on itself */
     if (!values(m, d, &l, o, &into, &d->components)) return false;
     d->progress = 2;
     const int parts = d->components ? d->components : 1;
@@ -175,7 +176,7 @@ static bool looked_at(model *m, model_definition *d)
     return true;
 }
 
-/* Complains where some cells have an exact line and others have none. */
+/* Complains if some cells have an exact line and others have none. */
 static bool exact_complete(model *m)
 {
     for (uint32_t i = 0; i < m->state_count; i++) {

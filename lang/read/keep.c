@@ -1,5 +1,5 @@
-/* What events keep (lang/model/kept.h), when all calls are known: each number is a mode, behind all others, and an
- * assignment of its event. */
+/* What events keep (lang/model/kept.h), after all calls are known: each number becomes a mode, behind all others, and
+ * an assignment of its event. */
 #include "lang/read/read_steps.h"
 
 #include <stdio.h>
@@ -7,7 +7,7 @@
 
 static int parts_of(const model_keep *k) { return k->components ? k->components : 1; }
 
-/* The mode that counts the events of a rule, which there is where it keeps anything. */
+/* Returns the mode that counts the events of a rule; a rule that keeps anything has one. */
 static const model_keep *counter_of(const model *m, uint32_t rule)
 {
     const model_keep *k = m->keeps;
@@ -35,7 +35,7 @@ static bool assign(model *m, const model_keep *k)
     return true;
 }
 
-/* "count(bounce)", "at(bounce, last, x')" */
+/* Returns "count(bounce)", "at(bounce, last, x')". */
 static const char *name_of(model *m, const model_keep *k)
 {
     char call[80], name[MOTUS_NAME_MAX + 16];
@@ -46,7 +46,7 @@ static const char *name_of(model *m, const model_keep *k)
     return arena_text(m->arena, name, strlen(name));
 }
 
-/* A mode whose start is 0. */
+/* Makes a mode whose start is 0. */
 static bool make_state(model *m, const model_keep *k, uint32_t number, size_t base)
 {
     model_state *s = &m->states[number];
@@ -75,7 +75,7 @@ static bool make_state(model *m, const model_keep *k, uint32_t number, size_t ba
     return !m->arena->failed;
 }
 
-/* First-order variables lie behind all positions, modes included. */
+/* Moves first-order variables behind all positions, modes included. */
 static void move_first_order(model *m, size_t by)
 {
     for (uint32_t i = 0; i < m->state_count; i++) {

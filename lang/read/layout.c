@@ -3,7 +3,7 @@
 
 #include <string.h>
 
-/* The list of variables in the order of x and v, and the start. */
+/* Makes the list of variables in the order of x and v, and the start. */
 bool layout_finish(model *m)
 {
     const uint32_t states = m->state_count + m->mode_count;

@@ -1,4 +1,4 @@
-/* Modes: parameters that events assign (model.h). A mode is a position behind all others; its line gives its start, by
+/* Modes: parameters that events assign (model.h). A mode is a position behind all others; its line gives its start, in
  * the numbers of the pool that it has as a parameter. */
 #include "lang/read/read_steps.h"
 
@@ -66,7 +66,8 @@ bool mode_add_sides(model *m, const read_how *how)
     return true;
 }
 
-/* Arrays over the numbers of a parameter, which are its start, and over zeros; d NULL: a side, which starts at 0. */
+/* Makes arrays over the numbers of a parameter, the start of its mode, and over zeros; d NULL: a side, which starts at
+ * 0. */
 static bool place_starts(model *m, model_state *s, const model_definition *d)
 {
     const int parts = s->components ? s->components : 1;
@@ -109,7 +110,7 @@ bool mode_shape_all(model *m)
     return true;
 }
 
-/* The quantity that a mode is to whoever observes the motion. */
+/* Makes of every mode a quantity, for those who observe the motion. */
 bool mode_observe_all(model *m)
 {
     for (uint32_t i = 0; i < m->definition_count; i++) {

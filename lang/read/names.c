@@ -1,8 +1,8 @@
-/* Names: every name of the text is defined, before anything is computed, so that a slip of the pen is not reported as a
- * missing initial value. A statement's first unknown name is complained about.
+/* Checks that every name of the text is defined, before anything is computed, so that a typing error is not reported as
+ * a missing initial value. Complains about the first unknown name of a statement.
  *
  * Chains of operators lean left and may be long, so a loop follows the left side; the rest recurses, as deep as the
- * parser has allowed.
+ * parser allows.
  */
 #include "lang/read/read_steps.h"
 
@@ -12,7 +12,7 @@
 
 #include <string.h>
 
-/* A name that is known in a part of the statement only: an index or an argument. */
+/* A name that is known only in a part of the statement: an index or an argument. */
 typedef struct scope {
     const char *name;
     const struct scope *up;
@@ -22,8 +22,8 @@ enum { LOCAL_MAX = MODEL_ARGUMENTS_MAX + MAX_LEVELS };
 
 typedef struct finding {
     model *model;
-    const tree *first;            /* the first tree with a wrong name so far; NULL: none */
-    const char *local[LOCAL_MAX]; /* the names known in part there */
+    const tree *first;            /* the first tree with a wrong name so far, or NULL */
+    const char *local[LOCAL_MAX]; /* the names in scope there */
     uint32_t local_count;
 } finding;
 
@@ -40,7 +40,7 @@ static bool known(const finding *f, const scope *s, const char *name)
     return found.state || found.definition || in_scope(s, name) || !strcmp(name, "t") || !strcmp(name, "pi");
 }
 
-/* x(0) of a state, V(a, b) of a function with as many arguments */
+/* Returns whether a bracket fits its name: x(0) of a state, V(a, b) of a function with as many arguments. */
 static bool applies(const finding *f, const tree *t, const scope *s)
 {
     const tree *name = t->item[0];
@@ -62,7 +62,7 @@ static void note(finding *f, const tree *t, const scope *s)
 
 static void find(finding *f, const tree *t, const scope *s);
 
-/* The indices of a sum, each known behind its own bounds, then what is summed. */
+/* Checks the indices of a sum, each known behind its own bounds, then what is summed. */
 static void find_in_sum(finding *f, const tree *t, uint32_t k, const scope *s)
 {
     if (k == t->loop_count) {
@@ -74,7 +74,7 @@ static void find_in_sum(finding *f, const tree *t, uint32_t k, const scope *s)
     find_in_sum(f, t, k + 1, &(scope){t->loops[k].name, s});
 }
 
-/* The name of an event is no name otherwise. */
+/* Checks a call for what an event keeps, without the name of the event. */
 static void find_in_kept(finding *f, const tree *t, const scope *s)
 {
     const tree *which = kept_which(f->model, t), *of = kept_expression(f->model, t);
@@ -104,9 +104,9 @@ static void find(finding *f, const tree *t, const scope *s)
     }
 }
 
-/* ---- complaints ---- */
+/* Complaints ------------------------------------------------------------------------------------------------------- */
 
-/* Functions of other languages, as they are written here. */
+/* Returns how a function of other languages is written here, or NULL. */
 static const char *written_here(const char *name)
 {
     static const char *const others[][2] = {{"round", "floor(x + 1/2)"},
@@ -136,7 +136,7 @@ static const char *written_here(const char *name)
     return NULL;
 }
 
-/* "V(q)", as it is defined */
+/* Returns "V(q)", as a function is defined. */
 static const char *as_defined(const finding *f, const model_function *of, char out[80])
 {
     return source_excerpt(&f->model->source, &of->statement->applied->at, out, 80);
@@ -167,7 +167,7 @@ static bool complain_name(finding *f, const tree *t)
     return false;
 }
 
-/* f(x), where f is defined but is no function: the blank of a product is missing. */
+/* Hints at f(x), where f is defined but is no function, so the blank of a product is missing. */
 static void hint_product(source *s, const tree *t, const char *name)
 {
     char b[80];
@@ -182,7 +182,7 @@ static void hint_product(source *s, const tree *t, const char *name)
         source_hint(s, "write %s*(%s) or %s (%s)", name, b, name, b);
 }
 
-/* V(a, b) with the wrong number of arguments, V'(q), V[i](q); x(0, 1) of a state */
+/* Complains about V(a, b) with the wrong number of arguments, V'(q), V[i](q), or x(0, 1) of a state. */
 static bool complain_arguments(finding *f, const tree *t, symbol found)
 {
     source *s = &f->model->source;
@@ -208,7 +208,7 @@ static bool complain_arguments(finding *f, const tree *t, symbol found)
     return false;
 }
 
-/* count(bouncy), time(), at(bounce) */
+/* Complains about count(bouncy), time(), at(bounce). */
 static bool complain_kept(finding *f, const tree *t)
 {
     source *s = &f->model->source;
@@ -262,9 +262,9 @@ static bool complain_call(finding *f, const tree *t)
     return false;
 }
 
-/* ---- statements ---- */
+/* Statements ------------------------------------------------------------------------------------------------------- */
 
-/* An index that stands alone on the left side and has no range. */
+/* Complains about an index that stands alone on the left side and has no range. */
 static bool check_left(model *m, const statement *s)
 {
     for (uint32_t d = 0; d < s->index_count; d++) {
@@ -281,7 +281,7 @@ static bool check_left(model *m, const statement *s)
     return true;
 }
 
-/* The parts of an event, in whose ranges an index may use those before it. */
+/* Checks the parts of an event. */
 static void find_in_when(finding *f, const when *w, const scope *all)
 {
     if (w->left) find(f, w->left, all);

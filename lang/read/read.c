@@ -1,4 +1,4 @@
-/* A model from its text: the steps of read_steps.h, one after the other. */
+/* Reads a model from its text, by the steps of read_steps.h. */
 #include "lang/read/read.h"
 
 #include "lang/lower/lower.h"
@@ -12,8 +12,8 @@
 
 static bool constants(model *m)
 {
-    /* Parameters get their slots before their shapes are known: one for each name, and two for each comma, which may
-     * stand in a vector. */
+    /* parameters get their slots before their shapes are known: one for each name, and two for each comma, which may
+     * stand in a vector */
     m->scalar_slots = m->definition_count + 8;
     for (uint32_t t = 0; t < m->source.count; t++)
         for (uint32_t i = 0; i < m->source.texts[t].length; i++)
@@ -28,7 +28,7 @@ static bool constants(model *m)
     return true;
 }
 
-/* Nothing is lowered any more: what the trees took is more than all else that was read. */
+/* Gives back the trees, which took more memory than the rest: nothing is lowered any more. */
 static void forget_trees(model *m)
 {
     m->arena->failed |= m->source.trees->failed;
@@ -43,7 +43,7 @@ static void forget_trees(model *m)
     }
 }
 
-/* The equations read the sides of their switches from now on. */
+/* Makes the equations read the sides of their switches. */
 static void locate(model *m)
 {
     const bool exact = m->traits.has_exact;
@@ -71,7 +71,7 @@ static motus_status build(model *m, const motus_text_def *def, const read_how *h
     return MOTUS_OK;
 }
 
-/* What is added to the text of a model. */
+/* What can be added to the text of a model. */
 typedef struct added {
     const char *what, *file;
     bool event;
@@ -119,7 +119,7 @@ motus_status read_model(arena *a, const motus_text_def *def, const read_how *how
     m->source.trees = &trees;
     motus_status status = build(m, def, how, method);
     if (status != MOTUS_OK) return status == MOTUS_MEMORY ? fail(err, MOTUS_MEMORY, "no memory for the model") : status;
-    m->source.error = NULL; /* it is the caller's and does not outlive this call */
+    m->source.error = NULL; /* the error is the caller's, and does not outlive this call */
     *out = m;
     return MOTUS_OK;
 }

@@ -4,13 +4,12 @@
 
 #include "lang/model/model.h"
 
-/* Whether there is a method of this name, with its arguments; else the error says so. lang/ does not know the methods.
- */
+/* Judges the name of a method with its arguments, since lang/ does not know the methods. */
 typedef motus_status (*read_method)(const char *name, motus_error *);
 
-/* How a text is read. nudged, varied: as in source.h; a nudged text's claims are not judged. sides: the shapes of its
- * switches, in the order of switches_find; their sides are modes then, which the equations read in place of the
- * switches. NULL: no. */
+/* How a text is read. nudged, varied: as in source.h; the claims of a nudged text are not judged. sides: the shapes of
+ * its switches, in the order of switches_find; modes then hold their sides, which the equations read in place of the
+ * switches. NULL: they read the switches. */
 typedef struct read_how {
     bool nudged;
     const uint8_t *varied;
@@ -19,16 +18,16 @@ typedef struct read_how {
     uint32_t side_count;
 } read_how;
 
-/* On failure the error says what and where, and *out is NULL; the arena keeps what was taken. */
+/* Reads a model. On failure the error says what and where, and *out is NULL; the arena keeps what was taken. */
 motus_status read_model(arena *, const motus_text_def *, const read_how *, read_method, model **out, motus_error *);
 
 /* Checks exact lines and invariants again after numbers have changed. */
 motus_status verify_again(model *, motus_error *);
-/* How far rounding may carry the exact motion at time t off, in units of EXACT_ROUNDING, written to x and v. False: no
+/* Writes to x and v how far rounding may carry the exact motion at time t off, in units of EXACT_ROUNDING. False: no
  * memory. */
 bool verify_exact_rounding(model *, double t, double *x, double *v);
 
-/* Finds the traits of the model's equations that follow from their form, but for has_exact. */
+/* Finds the traits that follow from the form of the equations, but for has_exact. */
 void analysis_traits(model *);
 
 #endif

@@ -1,30 +1,30 @@
 /* The steps in which a model is read, in their order; each is a file of its name. They return false after a complaint
- * or without memory. After the fifth, read.c has parameters and initial values computed (lang/lower/). */
+ * or without memory. After names_all, read.c computes parameters and initial values (lang/lower/). */
 #ifndef LANG_READ_READ_STEPS_H
 #define LANG_READ_READ_STEPS_H
 
 #include "lang/read/read.h"
 
-bool collect_all(model *, const motus_text_def *); /* statements, with those of --set; the symbol table */
+bool collect_all(model *, const motus_text_def *); /* statements, with those of --set, and the symbol table */
 bool rule_names_all(model *);                      /* names of events */
 bool mode_find_all(model *);                       /* parameters that events assign */
 bool mode_add_sides(model *, const read_how *);    /* sides of switches */
-bool classify_all(model *);                        /* parameters or quantities; lines without a state are refused */
-bool names_all(model *);                           /* complains about names that are not defined */
-bool settings_all(model *, read_method);           /* method, step, until … */
-bool mode_shape_all(model *);                      /* the shapes of modes, and places of their starts */
-bool layout_all(model *);                          /* places of the states in x and v */
-bool equations_all(model *);                       /* outputs over the graph */
-bool mode_observe_all(model *);                    /* modes as quantities */
-bool when_all(model *);                            /* events */
-bool keep_all(model *);                            /* the modes in which events keep numbers, and their assignments */
-bool effects_all(model *);                         /* what events change */
-bool equations_start(model *);                     /* boundary cells at the start */
-void analysis_all(model *);                        /* traits of the equations */
+bool classify_all(model *);              /* what is a parameter, and what a quantity; refuses lines without a state */
+bool names_all(model *);                 /* complaints about names that are not defined */
+bool settings_all(model *, read_method); /* method, step, until … */
+bool mode_shape_all(model *);            /* the shapes of modes, and places of their starts */
+bool layout_all(model *);                /* places of the states in x and v */
+bool equations_all(model *);             /* outputs over the graph */
+bool mode_observe_all(model *);          /* modes as quantities */
+bool when_all(model *);                  /* events */
+bool keep_all(model *);                  /* the modes in which events keep numbers, and their assignments */
+bool effects_all(model *);               /* what events change */
+bool equations_start(model *);           /* boundary cells at the start */
+void analysis_all(model *);              /* traits of the equations */
 
 /* Parts of the steps. */
-const span *mode_assigned_at(const model *, const model_definition *); /* where an event assigns it first */
-bool layout_finish(model *);                                           /* what follows from the places of states */
+const span *mode_assigned_at(const model *, const model_definition *); /* where an event first assigns it */
+bool layout_finish(model *);                                           /* what follows from the places of the states */
 bool when_add(model *, model_rule *, const model_assignment *);
 
 #endif

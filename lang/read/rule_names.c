@@ -1,4 +1,4 @@
-/* The names of events: those that the text gives, event1, event2 … for the others. */
+/* The names of events: from the text, or event1, event2 … */
 #include "lang/read/read_steps.h"
 
 #include "base/near.h"
@@ -14,7 +14,7 @@ static const char *own_name(model *m, uint32_t number)
     return arena_text(m->arena, name, (size_t)length);
 }
 
-/* The rule of a name; NULL: there is none. Names are few, or are looked for rarely. */
+/* Returns the rule of a name, or NULL. Names are few, or rarely sought. */
 static const model_rule *find(const model *m, const char *name)
 {
     for (uint32_t i = 0; i < m->rule_count; i++)
@@ -44,7 +44,7 @@ static bool free_name(model *m, const statement *s, const char *name)
     return false;
 }
 
-/* `when NAME accumulates` */
+/* Finds the rule of `when NAME accumulates`. */
 static bool find_accumulating(model *m, model_rule *r)
 {
     const when *w = r->statement->when;

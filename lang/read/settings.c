@@ -5,7 +5,7 @@
 
 #include <math.h>
 
-/* A method that there is not is refused here, where its line is known. */
+/* Sets the method. An unknown method is an error on its line. */
 static bool set_method(model *m, const statement *s, read_method known)
 {
     motus_error why = {.size = sizeof why};

@@ -1,9 +1,9 @@
-/* The checks of what a model claims, when it is read and when its numbers change. See verify.h. */
+/* Checks what a model claims, when it is read and when its numbers change. See verify.h. */
 #include "lang/read/verify.h"
 
 #include "lang/graph/graph_walk.h"
 
-/* How many nodes the formulas have. */
+/* Returns how many nodes the formulas have. */
 static uint32_t size_of(model *m, const output *outputs, size_t count)
 {
     uint32_t nodes = 0;
@@ -32,7 +32,7 @@ static bool make_tapes(model *m)
     return verify_invariant_make(m) && !source_failed(&m->source);
 }
 
-/* Other code counts the operations of a model, so the graph keeps none of the formulas of the checks. */
+/* Makes the checks. The graph keeps none of their formulas, since other code counts the operations of a model. */
 static bool make(model *m)
 {
     const uint32_t nodes = m->graph->count;
@@ -55,7 +55,7 @@ motus_status verify_claims(model *m)
     const verify *c = m->verify;
     tape *const tapes[] = {c->boundary, c->force, c->force_rounding};
     if (!verify_bind(m, tapes, sizeof tapes / sizeof *tapes)) return MOTUS_MEMORY;
-    if (m->source.nudged) return MOTUS_OK; /* its claims are those of the text that was not nudged */
+    if (m->source.nudged) return MOTUS_OK; /* its claims are those of the text as written */
     return m->exact_given ? verify_exact(m) : MOTUS_OK;
 }
 

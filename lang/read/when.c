@@ -1,7 +1,8 @@
 /* Lowers events: the functions that they watch, and what they do. core/rules.h says what an event is.
  *
- * The indices of a family of events are the levels of its formulas. Those up to the last one that a function reads
- * number the instances of the rule; over the others, as over all indices of a clock, each event does what it does.
+ * The indices of a family of events are the levels of its formulas. The indices up to the last one that a function
+ * reads number the instances of the rule. Each event acts for all values of the others, which for a clock are all
+ * indices.
  */
 #include "lang/read/read_steps.h"
 
@@ -22,7 +23,7 @@ static const char *quote(const model *m, const span *at, char out[80])
 
 static bool failed(model *m) { return source_failed(&m->source) || m->graph->too_large; }
 
-/* ---- indices ---- */
+/* Indices ---------------------------------------------------------------------------------------------------------- */
 
 static bool open_indices(model *m, model_rule *r, lowering *l)
 {
@@ -36,7 +37,7 @@ static bool open_indices(model *m, model_rule *r, lowering *l)
     return !failed(m);
 }
 
-/* Complains where what was lowered would have to be divided (lower_ghost.c). */
+/* Complains if what was lowered would have to be divided (lower_ghost.c). */
 static bool whole(model *m, const model_rule *r)
 {
     model_cut cut;
@@ -47,9 +48,9 @@ static bool whole(model *m, const model_rule *r)
     return false;
 }
 
-/* ---- functions ---- */
+/* Functions -------------------------------------------------------------------------------------------------------- */
 
-/* Adds a function and returns its number, or that of the same one. */
+/* Adds a function, unless the rule has it, and returns its number. */
 static size_t add_leaf(model *m, model_rule *r, node n, rule_comparison compare)
 {
     for (size_t k = 0; k < r->leaves; k++)
@@ -69,7 +70,7 @@ static size_t add_leaf(model *m, model_rule *r, node n, rule_comparison compare)
     return k;
 }
 
-/* a - b; of a constant 0 nothing is subtracted. */
+/* Returns a - b, or a if b is the constant 0. */
 static node difference(graph *g, node a, node b) { return b == 0 ? a : graph_op(g, OP_SUB, a, b, 0); }
 
 static bool too_long(model *m, const model_rule *r)
@@ -87,7 +88,7 @@ static bool add_word(model *m, model_rule *r, int word)
     return true;
 }
 
-/* A condition in postfix order, with a function for each comparison. within: operators around it. */
+/* Adds a condition in postfix order, with a function for each comparison. within: how many operators are around it. */
 static bool add_condition(model *m, model_rule *r, node n, int within)
 {
     if (within == RULE_FORMULA_MOST) return too_long(m, r);
@@ -139,7 +140,7 @@ static bool lower_equation(model *m, model_rule *r, lowering *l)
     return true;
 }
 
-/* Places for the functions, when it is known which indices they read. */
+/* Makes places for the functions, once it is known which indices they read. */
 static bool place_leaves(model *m, model_rule *r)
 {
     unsigned deps = 0;
@@ -176,9 +177,9 @@ static bool place_leaves(model *m, model_rule *r)
     return true;
 }
 
-/* ---- actions ---- */
+/* Actions ---------------------------------------------------------------------------------------------------------- */
 
-/* Complains where one of the cells that an assignment may reach has no equation. */
+/* Complains if an assignment may reach a cell that has no equation. */
 static bool moving_cells(model *m, lowering *l, const tree *t, const model_state *s)
 {
     int64_t low[MAX_DIMS], high[MAX_DIMS], at[MAX_DIMS];
@@ -187,7 +188,7 @@ static bool moving_cells(model *m, lowering *l, const tree *t, const model_state
     for (int d = 0; d < s->dims; d++) {
         subscript ignored;
         if (!lower_subscript(l, t->item[d], &ignored, &low[d], &high[d])) return false;
-        if (low[d] > high[d] || low[d] < s->first[d] || high[d] > s->last[d]) return true; /* likewise */
+        if (low[d] > high[d] || low[d] < s->first[d] || high[d] > s->last[d]) return true; /* lower_name.c complains */
         at[d] = low[d];
     }
     for (;;) {
@@ -210,14 +211,14 @@ static bool moving_cells(model *m, lowering *l, const tree *t, const model_state
     }
 }
 
-/* The name on the left of an assignment; NULL: it is no name, or a component of one. */
+/* Returns the name on the left of an assignment; NULL: there is none. */
 static const tree *target_name(const tree *t)
 {
     while (t->kind == TREE_COMPONENT) t = t->item[0];
     return t->kind == TREE_NAME ? t : NULL;
 }
 
-/* Complains where something other than a state is assigned. */
+/* Complains if an assignment is neither to a state nor to a parameter. */
 static bool may_assign(model *m, lowering *l, const tree *t)
 {
     const tree *name = target_name(t);
@@ -330,7 +331,7 @@ static bool lower_action(model *m, model_rule *r, lowering *l, const action *a)
     return r->records = true;
 }
 
-/* Whether what is assigned has index k of the rule in it. */
+/* Returns whether index k of the rule is in what is assigned. */
 static bool runs_over(const reference *to, int k)
 {
     for (int d = 0; d < to->dims; d++)
@@ -338,7 +339,7 @@ static bool runs_over(const reference *to, int k)
     return false;
 }
 
-/* Complains about an index without which nothing would be different. */
+/* Complains about an index on which nothing depends. */
 static bool indices_used(model *m, const model_rule *r)
 {
     for (int k = r->own; k < r->loops; k++) {
@@ -356,7 +357,7 @@ static bool indices_used(model *m, const model_rule *r)
     return true;
 }
 
-/* ---- rules ---- */
+/* Rules ------------------------------------------------------------------------------------------------------------ */
 
 static bool lower_period(model *m, model_rule *r)
 {
@@ -373,7 +374,7 @@ static bool lower_period(model *m, model_rule *r)
     return false;
 }
 
-/* The accumulation of a family's events has the same instances, or none. */
+/* Gives the accumulation of a family's events the instances of that family, if it has indices. */
 static bool like_accumulating(model *m, model_rule *r)
 {
     const model_rule *of = &m->rules[r->of];
@@ -422,7 +423,7 @@ static bool lower_rule(model *m, model_rule *r)
 
 bool when_all(model *m)
 {
-    /* Accumulations have the indices of other events. */
+    /* accumulations have the indices of other events */
     for (int pass = 0; pass < 2; pass++)
         for (uint32_t i = 0; i < m->rule_count; i++)
             if ((m->rules[i].statement->when->kind == WHEN_ACCUMULATES) == pass && !lower_rule(m, &m->rules[i]))

@@ -1,4 +1,4 @@
-/* See lone.h. The normal form of the program of all outputs defines the bits, so its nodes are evaluated here too. */
+/* See lone.h. The program of all outputs defines the bits, so its normal form is evaluated here, too. */
 #include "lang/tape/lone.h"
 
 #include "lang/graph/graph_place.h"
@@ -7,7 +7,7 @@
 #include <math.h>
 #include <string.h>
 
-/* A node, and the places of its operands among those of its output. */
+/* A node, and the places of its operands among the items of its output. */
 typedef struct item {
     graph_node node;
     uint32_t operand[3];
@@ -16,8 +16,8 @@ typedef struct item {
 struct lone {
     const program *program;
     item *items;
-    size_t *first; /* of every output, and behind the last one */
-    double *value; /* of the items of an output */
+    size_t *first; /* by output: its first item; then the end */
+    double *value; /* by item of an output */
 };
 
 static bool has_sums(const graph *g)
@@ -69,7 +69,7 @@ bool lone_create(arena *a, graph *g, const output *outputs, size_t count, lone *
     return l->value != NULL;
 }
 
-/* Whether an output has a cell at these indices. */
+/* Returns whether an output has a cell at these indices. */
 static bool has_cell(const output *o, const int64_t *index, const int64_t *ints)
 {
     bool has = true;

@@ -1,5 +1,4 @@
-/* One output of a program, in one of its cells, evaluated alone: with the bits that the tape of all outputs computes,
- * and in the time that this one takes. */
+/* One output of a program, in one of its cells, evaluated alone: with the bits that a tape of all outputs computes. */
 #ifndef LANG_TAPE_LONE_H
 #define LANG_TAPE_LONE_H
 
@@ -7,9 +6,9 @@
 
 typedef struct lone lone;
 
-/* *out NULL: an output has sums, which a tape alone computes. False: the arena failed. */
+/* Makes the evaluator; *out NULL: an output has sums, which only a tape computes. False: the arena failed. */
 bool lone_create(arena *, graph *, const output *, size_t count, lone **out);
-/* At these indices of its loops; no number where it has no cell there. */
+/* Evaluates an output at these indices of its loops; NaN: it has no cell there. */
 double lone_run(lone *, size_t output, const int64_t *index, const binding *, double t, double *const base[SPACES]);
 
 #endif

@@ -1,18 +1,17 @@
-/* The interpreter: a program's code, bound to memory and run.
+/* The interpreter: binds the code of a program to memory and runs it.
  *
- * Invariant: the bits of a run depend on the program and the numbers alone, not on the width of a block, nor on the
- * instruction set, nor on whether blocks are used at all; so all of these are chosen freely, by size and by what the
- * processor has.
+ * Invariant: the bits of a run depend on the program and the numbers alone, not on the width of a block, the
+ * instruction set, or the use of blocks, so these are free to be chosen by size and processor.
  */
 #include "lang/tape/tape_isa.h"
 
 enum {
-    /* of all blocks together: most of a 32 KiB L1 cache, which also holds parts of the state */
+    /* all blocks together take most of a 32 KiB L1 cache, which also holds parts of the state */
     BLOCK_BYTES = 24 << 10,
     WIDEST = 1024,
-    /* doubles between blocks: blocks a power of two apart would map to the same cache sets */
+    /* doubles between blocks: those a power of two apart would map to the same cache sets */
     PAD = 8,
-    FEW_LANES = 1 /* up to this many lanes a call of a kernel costs more than it saves */
+    FEW_LANES = 1 /* with at most so many lanes, a call of a kernel costs more than it saves */
 };
 
 struct tape {
@@ -20,13 +19,13 @@ struct tape {
     const program *program;
     tape_choice choice;
     const tape_machine *machine;
-    code *with_blocks, *scalar; /* the latter only once it is wanted */
-    code *memory_for;           /* the code for which the registers' memory was taken */
+    code *with_blocks, *scalar; /* `scalar` is made when it is first needed */
+    code *memory_for;           /* the code for which memory of registers was taken */
     binding binding;
     frame frame;
 };
 
-/* Machines -------------------------------------------------------------------------------------------------------- */
+/* Machines --------------------------------------------------------------------------------------------------------- */
 
 #if defined(__x86_64__)
 static bool runs_avx512(void)
@@ -59,7 +58,7 @@ static const tape_machine *machine_named(const char *name)
     return tape_machine_at(0);
 }
 
-/* Creating -------------------------------------------------------------------------------------------------------- */
+/* Creating --------------------------------------------------------------------------------------------------------- */
 
 tape *tape_create_as(arena *a, const program *program, const tape_choice *choice)
 {
@@ -81,13 +80,13 @@ tape *tape_of(arena *a, graph *g, const output *outputs, size_t count)
     const code *c = t ? t->with_blocks : NULL;
     if (t)
         t->program =
-            c->blocks + c->pointers ? program_create_in(a, g, outputs, count) : NULL; /* tape_bind may write it */
+            c->blocks + c->pointers ? program_create_in(a, g, outputs, count) : NULL; /* tape_bind may need it */
     if (once.failed) a->failed = true;
     arena_release(&once);
     return t && !a->failed ? t : NULL;
 }
 
-/* Binding --------------------------------------------------------------------------------------------------------- */
+/* Binding ---------------------------------------------------------------------------------------------------------- */
 
 static void bind_site(site *s, const binding *b)
 {
@@ -114,7 +113,7 @@ static void bind_site(site *s, const binding *b)
     }
 }
 
-/* Lanes that the widest loop will have, as far as the bounds are known before running. */
+/* Returns the lanes of the widest loop, as far as bounds are known before a run. */
 static int64_t most_lanes(const code *c, const binding *b)
 {
     int64_t most = 0;

@@ -1,7 +1,7 @@
-/* Writes the plan as instructions.
+/* Writes a plan as instructions.
  *
- * Invariant: instructions are written in the order they run, loops nested by position; until the end registers are
- * virtual, each made by one instruction, and afterwards they are the numbers that tape_registers.c chose.
+ * Invariant: instructions stand in the order in which they run, and loops are nested by position. Registers are
+ * virtual, each made by one instruction, until tape_registers.c numbers them at the end.
  */
 #include "lang/tape/tape_code.h"
 
@@ -19,11 +19,11 @@ typedef struct writer {
     LIST(loop) loops;
     LIST(total) totals;
     LIST(double) constants;
-    uint32_t region; /* being written */
+    uint32_t region; /* the region being written */
     uint32_t bind_count;
 } writer;
 
-/* Registers ------------------------------------------------------------------------------------------------------- */
+/* Registers -------------------------------------------------------------------------------------------------------- */
 
 static uint32_t fresh(writer *w, register_kind kind)
 {
@@ -36,8 +36,8 @@ static uint32_t fresh(writer *w, register_kind kind)
     return w->registers.count++;
 }
 
-/* Notes that the next instruction reads the register. A register that was written before a loop and is read inside it
- * lives until the end of the loop. */
+/* Notes that the next instruction reads a register. If it was written before a loop and is read inside, it lives until
+ * the end of the loop. */
 static void reads(writer *w, uint32_t reg)
 {
     if (w->plan.failed) return;
@@ -64,7 +64,7 @@ static void put(writer *w, uint16_t code, uint16_t kernel, instruction fields, i
     w->text.at[w->text.count++] = fields;
 }
 
-/* r = op(a, b, c), in lanes if an operand has lanes. */
+/* Writes r = op(a, b, c), in lanes if an operand has lanes. */
 static void operate(writer *w, operation op, uint32_t r, const uint32_t operand[3])
 {
     int arity = operation_at(op)->arity, mask = 0;
@@ -81,7 +81,7 @@ static uint32_t operand(writer *w, node n)
     return w->plan.items.at[plan_find(&w->plan, n, home)].reg;
 }
 
-/* A scalar in every lane, where an instruction wants lanes. */
+/* Returns a register with a scalar in every lane, for an instruction that reads lanes. */
 static uint32_t in_lanes(writer *w, uint32_t reg)
 {
     if (is_block(w, reg)) return reg;
@@ -90,7 +90,7 @@ static uint32_t in_lanes(writer *w, uint32_t reg)
     return r;
 }
 
-/* Memory ---------------------------------------------------------------------------------------------------------- */
+/* Memory ----------------------------------------------------------------------------------------------------------- */
 
 static uint32_t site_at(writer *w, const reference *ref, bool lanes)
 {
@@ -102,7 +102,7 @@ static uint32_t site_at(writer *w, const reference *ref, bool lanes)
     return w->sites.count++;
 }
 
-/* The lanes are contiguous for all sizes, because they run along the last index alone. */
+/* Returns whether lanes are contiguous for all sizes: they run along the last index alone. */
 static bool contiguous(const reference *ref, int level)
 {
     for (int d = 0; d < ref->dims - 1; d++)
@@ -110,7 +110,7 @@ static bool contiguous(const reference *ref, int level)
     return ref->dims && ref->at[ref->dims - 1].level == level && ref->at[ref->dims - 1].modulus < 0;
 }
 
-/* The place depends on no index and no modulus. */
+/* Returns whether a place depends on no index and no modulus. */
 static bool fixed(const reference *ref)
 {
     for (int d = 0; d < ref->dims; d++)
@@ -157,7 +157,7 @@ static void write_outputs(writer *w, uint32_t first, uint32_t (*value)(writer *,
     }
 }
 
-/* Values ---------------------------------------------------------------------------------------------------------- */
+/* Values ----------------------------------------------------------------------------------------------------------- */
 
 static uint32_t constant(writer *w, double value)
 {
@@ -207,9 +207,9 @@ static void write_item(writer *w, uint32_t k)
     write_outputs(w, outputs, operand);
 }
 
-/* Sums ------------------------------------------------------------------------------------------------------------ */
+/* Sums ------------------------------------------------------------------------------------------------------------- */
 
-/* Adds the term of this pass, or the lanes of terms, to the total. */
+/* Writes the update of a total by the term of a pass, or by lanes of terms. */
 static void write_update(writer *w, const plan_item *update)
 {
     const plan_item *item = &w->plan.items.at[plan_updates(&w->plan, update)];
@@ -244,7 +244,7 @@ static void new_total(writer *w, plan_item *item, bool terms)
     total t = {.block = block, .current = NONE};
     item->reg = t.part[0] = fresh(w, kind);
     uint32_t made[PARTS + 1] = {t.part[0]}, count = 1;
-    w->region = inside; /* the partials belong to the loop */
+    w->region = inside; /* the partial sums belong to the loop */
     for (int k = 1; k < PARTS; k++) made[count++] = t.part[k] = fresh(w, kind);
     if (!terms) made[count++] = t.current = fresh(w, block ? POINTER_REGISTER : SCALAR_REGISTER);
     w->region = item->region;
@@ -280,7 +280,7 @@ static void write_loop(writer *w, uint32_t region)
     w->loops.at[number] = l;
 }
 
-/* Depth: family levels and sums, at most MAX_LEVELS. */
+/* Writes a region and the loops in it, at most MAX_LEVELS deep. */
 static void write_region(writer *w, uint32_t region)
 {
     const plan_region *r = &w->plan.regions.at[region];
@@ -300,7 +300,7 @@ static void write_region(writer *w, uint32_t region)
         if (!w->plan.regions.at[k].sum && region != AT_BIND) write_loop(w, k);
 }
 
-/* The end --------------------------------------------------------------------------------------------------------- */
+/* The end ---------------------------------------------------------------------------------------------------------- */
 
 static uint32_t numbered(const writer *w, const uint32_t counts[REGISTER_KINDS], uint32_t reg)
 {
@@ -334,14 +334,14 @@ static bool assign(writer *w, uint32_t counts[REGISTER_KINDS])
     for (uint32_t k = 0; k < w->registers.count; k++) {
         virtual_register *v = &w->registers.at[k];
         if (v->made.until == AT_RUN)
-            v->last = w->text.count + 1; /* written at bind, read at every evaluation: it lives to the end */
+            v->last = w->text.count + 1; /* written at bind and read by every evaluation */
         else if (v->made.until != NONE && w->plan.regions.at[v->made.until].end > v->last)
             v->last = w->plan.regions.at[v->made.until].end;
     }
     return tape_registers_assign(w->plan.hooks, w->registers.at, w->registers.count, w->text.count, counts);
 }
 
-/* A copy of a list in the arena; the list is given back. */
+/* Copies a list to the arena, and gives the list back. */
 #define KEPT(w, a, list) kept(w, a, (list).at, (list).count, sizeof *(list).at)
 static void *kept(writer *w, arena *a, void *rows, size_t count, size_t size)
 {
@@ -393,7 +393,6 @@ static code *finish(writer *w, arena *a)
     return a->failed ? NULL : c;
 }
 
-/* How many items are of an operation. */
 static size_t items_of(const plan *p, operation op)
 {
     size_t count = 0;

@@ -1,13 +1,14 @@
-/* Files that are compiled once for each instruction set; ISA is its name. On x86-64 all three are linked and one is
- * chosen at start; elsewhere `base` alone is built, and may be built for whatever the machine has.
+/* Declarations for files that are compiled once for each instruction set; ISA is its name. On x86-64 all three are
+ * linked and one is chosen at the start; elsewhere only `base` is built, for whatever the machine has.
  *
- *     -DISA=base                            nothing assumed; fma is the C library's
+ *     -DISA=base                            nothing is assumed; fma is the C library's
  *     -DISA=avx2     -mavx2 -mfma
  *     -DISA=avx512   -mavx512f -mavx512dq -mavx512vl -mavx2 -mfma -mprefer-vector-width=512
  *
- * and for all: -O3 -ffp-contract=off -fno-math-errno -fno-trapping-math. The last two let loops become vector code
- * and leave every value as it is. What is static here stays inside its object, so no instruction set leaks into
- * another.
+ * and for all: -O3 -ffp-contract=off -fno-math-errno -fno-trapping-math. The last two allow vector code and change no
+ * value.
+ *
+ * What is static here stays inside its object, so no instruction set leaks into another.
  */
 #ifndef LANG_TAPE_TAPE_ISA_H
 #define LANG_TAPE_TAPE_ISA_H
@@ -27,8 +28,8 @@
 #define TEXT(a) TEXT_(a)
 #define OF_ISA(name) JOIN(name, ISA)
 
-/* The value of a row that is a call of a function: the call itself, or, where size counts more (-DONE_COPY), the copy
- * of them all that operation.c has. The bits are the same. */
+/* The value of a row that is a call: the call itself or, where size counts more (-DONE_COPY), the one copy of all
+ * functions in operation.c. The bits are equal. */
 #ifdef ONE_COPY
 #define CALLED(id, value) operation_value(OP_##id, a, b, 0)
 #else

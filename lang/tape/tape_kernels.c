@@ -1,14 +1,14 @@
-/* One loop over lanes for every operation and every mix of block and scalar operands; compiled for several
- * instruction sets, see tape_isa.h.
+/* A loop over lanes for every operation and every mix of block and scalar operands, compiled for several instruction
+ * sets (tape_isa.h).
  *
- * Invariant: lane k of the result depends on lane k of the operands alone, by the row's value; so the bits do not
- * depend on the number of lanes, nor on the instruction set, and the result may lie where an operand lies.
+ * Invariant: lane k of the result depends on lane k of the operands alone, by the row's value. So the bits depend
+ * neither on the number of lanes nor on the instruction set, and the result may lie where an operand lies.
  */
 #include "lang/tape/tape_isa.h"
 
 #include <string.h>
 
-/* The elementary functions in registers, where the instruction set has more than one lane for them. */
+/* The elementary functions in vector registers, where the instruction set has them. */
 #if defined(__AVX512F__) && defined(__AVX512DQ__)
 #define WIDTH 8
 #define LANES 8
@@ -23,7 +23,7 @@
 
 #if defined(__clang__)
 #define INDEPENDENT _Pragma("clang loop vectorize(assume_safety)")
-#pragma clang diagnostic ignored "-Wpass-failed" /* functions without lanes stay scalar: that is known */
+#pragma clang diagnostic ignored "-Wpass-failed" /* functions without lanes stay scalar */
 #elif defined(__GNUC__)
 #define INDEPENDENT _Pragma("GCC ivdep")
 #else
@@ -31,12 +31,12 @@
 #endif
 
 #ifdef __GNUC__
-#define UNUSED __attribute__((unused)) /* where the version in lanes is used instead */
+#define UNUSED __attribute__((unused)) /* where the version in lanes is used */
 #else
 #define UNUSED
 #endif
 
-/* A scalar operand is read once: the compiler cannot know that the result does not lie there. */
+/* A scalar operand is read before the loop: the compiler cannot know that the result does not lie there. */
 #define KERNEL(id, mask, value)                                                                               \
     UNUSED static void id##_##mask(double *r, const double *pa, const double *pb, const double *pc, size_t n) \
     {                                                                                                         \
@@ -64,7 +64,7 @@
 #include "lang/base/operations.def"
 
 #ifdef WIDTH
-/* The same by registers; what is left over is done one by one, by the same text. */
+/* The kernels in vector registers; lanes that fill no vector are computed one by one. */
 #define VECTOR_(n) motus_reals_x##n
 #define VECTOR(n) VECTOR_(n)
 typedef VECTOR(WIDTH) vector;
@@ -119,7 +119,7 @@ LANED_2(ATAN2, atan2)
 LANED_2(HYPOT, hypot)
 LANED_2(POW, pow)
 
-/* A row's kernel: the one in lanes where HAS_… makes a second argument of it. */
+/* The kernel of a row: the one in lanes where HAS_… makes a second argument of it. */
 #define HAS_SIN_1 ~, SIN_lanes_1
 #define HAS_COS_1 ~, COS_lanes_1
 #define HAS_TAN_1 ~, TAN_lanes_1

@@ -1,8 +1,8 @@
-/* Runs a tape: one loop over instructions. Scalars are computed in place, blocks by kernels; compiled for several
- * instruction sets, see tape_isa.h, so that a scalar fma is hardware too.
+/* Runs a tape: one loop over instructions. Scalars are computed in place, blocks by kernels. Compiled for several
+ * instruction sets (tape_isa.h), so that a scalar fma is an instruction, too.
  *
- * Invariant: the pointers of block registers never change, but for the current total of a sum, which its loop sets.
- * The instruction that makes a view or a target sets its pointer.
+ * Invariant: the pointers of block registers never change, but for the current total of a sum, which its loop sets. The
+ * instruction that makes a view or a target sets its pointer.
  */
 #include "lang/tape/tape_isa.h"
 
@@ -12,7 +12,7 @@
 
 static const double *operand_at(const frame *f, uint32_t x) { return x & BLOCK_BIT ? REGISTER(f, x) : f->scalars + x; }
 
-/* Memory ---------------------------------------------------------------------------------------------------------- */
+/* Memory ----------------------------------------------------------------------------------------------------------- */
 
 static int64_t wrapped(int64_t v, int64_t m)
 {
@@ -28,11 +28,11 @@ static double *place_of(const frame *f, const site *s)
         int64_t v = s->wrap[k].add + (s->wrap[k].level >= 0 ? f->index[s->wrap[k].level] : 0);
         at += wrapped(v, s->wrap[k].modulus) * s->wrap[k].step;
     }
-    /* The pool is never written: no output goes there. */
+    /* no output goes to the pool, so it is never written */
     return (s->space == SPACE_POOL ? (double *)(uintptr_t)f->binding->pool : f->base[s->space]) + at;
 }
 
-/* Lanes from the present one on, at most `limit`, until a modular subscript wraps. */
+/* Returns how many lanes from the present one on, at most `limit`, come before a modular subscript wraps. */
 static size_t stretch(const frame *f, const site *s, size_t limit)
 {
     for (int k = 0; k < s->wraps; k++)
@@ -75,7 +75,7 @@ static void scatter(frame *f, const site *s, const double *from, bool block)
     f->index[s->lanes] = first;
 }
 
-/* Sums ------------------------------------------------------------------------------------------------------------ */
+/* Sums ------------------------------------------------------------------------------------------------------------- */
 
 #define TERMS(value)                                                \
     do {                                                            \
@@ -96,7 +96,8 @@ static void scatter(frame *f, const site *s, const double *from, bool block)
         }                                                           \
     } while (0)
 
-/* Every block but the last has a multiple of PARTS lanes: lane k belongs to part k mod PARTS. */
+/* Adds the lanes of a block to the partial sums. Every block but the last has a multiple of PARTS lanes, so lane k
+ * belongs to part k mod PARTS. */
 static void add_terms(double part[PARTS], int op, const double *p, const double *q, const double *mask, size_t n,
                       bool single)
 {
@@ -134,7 +135,7 @@ static void clear(frame *f, const total *t, int parts)
     }
 }
 
-/* ((p0+p1)+(p2+p3))+((p4+p5)+(p6+p7)) */
+/* Adds up partial sums: ((p0+p1)+(p2+p3))+((p4+p5)+(p6+p7)). */
 static void combine(frame *f, const total *t)
 {
     for (int width = 1; width < PARTS; width *= 2)
@@ -148,7 +149,7 @@ static void combine(frame *f, const total *t)
         }
 }
 
-/* Loops ----------------------------------------------------------------------------------------------------------- */
+/* Loops ------------------------------------------------------------------------------------------------------------ */
 
 static const instruction *enter(frame *f, const loop *l)
 {
@@ -170,7 +171,7 @@ static const instruction *enter(frame *f, const loop *l)
     return text + l->body;
 }
 
-/* Stores the total of the pass that ends in its partial sum, and loads that of the next pass. */
+/* Stores the total of a pass in its partial sum, and loads that of the next pass. */
 static void next_partial(frame *f, const loop *l, const total *t)
 {
     int64_t m = f->term[l->level];
@@ -205,10 +206,10 @@ static const instruction *again(frame *f, const loop *l)
     return text + l->end + 1;
 }
 
-/* Instructions ---------------------------------------------------------------------------------------------------- */
+/* Instructions ----------------------------------------------------------------------------------------------------- */
 
-/* Everything that is not a scalar operation; returns the next instruction. Not inlined, because the loop below is fast
- * as long as its variables fit the processor's registers. */
+/* Executes what is no scalar operation, and returns the next instruction. It is not inlined, because the loop below is
+ * fast only while its variables fit the processor's registers. */
 static __attribute__((noinline)) const instruction *other(frame *f, const instruction *i)
 {
     double *const R = f->scalars;
@@ -261,8 +262,8 @@ static __attribute__((noinline)) double function(const instruction *i, const dou
     }
 }
 
-/* Each instruction jumps to the next one's label itself (labels as values, a GNU extension that gcc and clang share):
- * a switch would send all of them through one jump, which costs a third of the time. */
+/* Each instruction jumps to the label of the next (labels as values, a GNU extension that gcc and clang share). A
+ * switch would send all of them through one jump, which costs a third of the time. */
 #pragma GCC diagnostic ignored "-Wpedantic"
 #define NEXT goto *label[(++i)->code]
 

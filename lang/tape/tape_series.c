@@ -1,4 +1,4 @@
-/* Writes a plan as the tasks of tape_series_code.h, and finds how much memory its series take. */
+/* Writes a plan as the tasks of tape_series_code.h, and counts the memory of its series. */
 #include "lang/tape/tape_series_code.h"
 
 #include <string.h>
@@ -88,7 +88,7 @@ static void put_update(writer *w, const plan_item *update)
                          .at = (uint32_t)w->plan.regions.at[w->region].level});
 }
 
-/* The sums of a loop have totals next to one another. */
+/* Writes a loop; the totals of its sums lie side by side. */
 static void put_loop(writer *w, uint32_t region)
 {
     const plan_region *r = &w->plan.regions.at[region];
@@ -96,13 +96,13 @@ static void put_loop(writer *w, uint32_t region)
     to->first_total = w->totals;
     for (uint32_t k = r->sums; k != NONE; k = w->plan.sums.at[w->plan.items.at[k].sum].next) {
         w->plan.sums.at[w->plan.items.at[k].sum].total = w->totals++;
-        w->plan.items.at[k].reg = 0; /* its loop is written */
+        w->plan.items.at[k].reg = 0; /* its loop has been written */
     }
     to->total_count = w->totals - to->first_total;
     put(w, (series_task){.what = SERIES_LOOP, .a = region});
 }
 
-/* The tasks of one region; the regions inside are written by themselves, later. */
+/* Writes the tasks of one region; the regions inside follow later. */
 static void put_region(writer *w, uint32_t region)
 {
     const plan_region *r = &w->plan.regions.at[region];
@@ -131,7 +131,7 @@ static void put_region(writer *w, uint32_t region)
     to->count = w->tasks.count - to->first;
 }
 
-/* A copy of a list in the arena; the list is given back. */
+/* Copies a list to the arena, and gives the list back. */
 static void *kept(writer *w, arena *a, void *rows, size_t count, size_t size)
 {
     void *copy = arena_room(a, (count + !count) * size);
@@ -152,7 +152,7 @@ static bool write(writer *w, arena *a, int length)
     memset(s->regions, 0, regions * sizeof *s->regions);
     for (uint32_t k = 0; k < items; k++) s->last[k] = w->expansion.values[k].last;
     for (uint32_t r = 0; r < regions; r++)
-        put_region(w, r); /* a loop's region has a higher number than the one around */
+        put_region(w, r); /* the region of a loop has a higher number than the one around it */
     s->totals = arena_room(a, (w->totals + 1) * sizeof *s->totals);
     s->region_count = regions;
     return s->totals && !w->plan.failed;
@@ -172,14 +172,14 @@ tape_series *tape_series_create(arena *a, const program *program, int length)
     return a->failed ? NULL : s;
 }
 
-/* Memory -----------------------------------------------------------------------------------------------------------*/
+/* Memory ----------------------------------------------------------------------------------------------------------- */
 
 typedef struct counting {
     const tape_series *s;
     int64_t index[MAX_LEVELS];
 } counting;
 
-/* Whether a bound of a loop inside depends on the index of a level. */
+/* Returns whether a bound of a loop inside a region depends on the index of a level. */
 static bool depends(const tape_series *s, uint32_t region, int level)
 {
     const series_region *r = &s->regions[region];
@@ -222,7 +222,7 @@ void tape_series_bind(tape_series *s, const binding *b)
     counting c = {.s = s};
     s->binding = *b;
     s->bound = numbers_of(&c, AT_BIND);
-    /* vectors begin at a multiple of their size, behind one series that nothing uses: emit_series.c */
+    /* vectors begin at a multiple of their size, behind one series that nothing uses (emit_series.c) */
     s->numbers = s->bound + numbers_of(&c, AT_RUN) + EXPANSION_LANES * (size_t)(s->length + 1);
 }
 

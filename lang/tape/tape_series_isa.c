@@ -1,8 +1,8 @@
-/* Runs the tasks of tape_series_code.h, one pass for each order; compiled for several instruction sets, see tape_isa.h,
- * so that a fused operation is one instruction.
+/* Runs the tasks of tape_series_code.h, one pass for each order. Compiled for several instruction sets (tape_isa.h), so
+ * that a fused operation is one instruction.
  *
- * Invariant: a pass walks through memory in the same way for every order, so the pointers that it sets are those of the
- * pass before. What depends on parameters alone is computed with order 0.
+ * Invariant: every pass walks through memory in one way, so it sets its pointers to what they were in the pass before.
+ * What depends on parameters alone is computed with order 0.
  */
 #include "lang/tape/tape_isa.h"
 #include "lang/tape/tape_series_code.h"
@@ -12,7 +12,7 @@
 #define FMA(a, b, c) fma(a, b, c)
 #define PICK(where, a, b) ((where) ? (a) : (b))
 #define SOME(where) (where)
-#ifdef ONE_COPY /* where size counts more: the copy of the functions that operation.c has */
+#ifdef ONE_COPY /* where size counts more: the one copy of the functions, in operation.c */
 #define SERIES_OF(f) copy_##f
 #define copy_sqrt(x) operation_value(OP_SQRT, x, 0, 0)
 #define copy_pow(x, y) operation_value(OP_POW, x, y, 0)
@@ -42,9 +42,9 @@
 typedef struct running {
     tape_series *s;
     const series_pass *pass;
-    double *next; /* of memory */
+    double *next; /* the next free number of the memory */
     int64_t index[MAX_LEVELS];
-    int part[MAX_LEVELS]; /* the partial sum of the present term */
+    int part[MAX_LEVELS]; /* the partial sum that gets the present term */
 } running;
 
 static series operand_of(const tape_series *s, uint32_t item) { return (series){s->at[item], s->last[item]}; }
@@ -120,7 +120,7 @@ static double leaf(const running *run, const series_task *task)
     }
 }
 
-/* The value of a sum over so many terms, from its partial sums. */
+/* Returns the value of a sum from its partial sums. */
 static double total_of(const double *p, bool in_order)
 {
     return in_order ? p[0] : ((p[0] + p[1]) + (p[2] + p[3])) + ((p[4] + p[5]) + (p[6] + p[7]));
@@ -148,7 +148,7 @@ static void run_loop(running *run, uint32_t region)
     }
 }
 
-/* Depth: family levels and sums, at most MAX_LEVELS. */
+/* Runs a region and the loops in it, at most MAX_LEVELS deep. */
 static void run_region(running *run, uint32_t region)
 {
     tape_series *s = run->s;

@@ -13,7 +13,7 @@ void lex_start(lexer *l, source *s, uint32_t text)
     if (t->length >= 3 && memcmp(t->bytes, "\xEF\xBB\xBF", 3) == 0) l->at = 3; /* a byte order mark */
 }
 
-/* The character at `at`; 0 bytes long where the bytes are not UTF-8. */
+/* Returns the character at `at`; its size is 0 where the bytes are not UTF-8. */
 static uint32_t decode(const char *bytes, uint32_t length, uint32_t at, uint32_t *size)
 {
     uint32_t c = 0;
@@ -21,7 +21,8 @@ static uint32_t decode(const char *bytes, uint32_t length, uint32_t at, uint32_t
     return c;
 }
 
-/* Letters outside ASCII: everything that is not a sign, a blank, punctuation, a private or a control character. */
+/* Returns whether c is a letter. Outside ASCII all is one but signs, blanks, punctuation, private and control
+ * characters. */
 static bool letter(uint32_t c)
 {
     static const uint32_t not_letters[][2] = {
@@ -36,7 +37,8 @@ static bool letter(uint32_t c)
     return true;
 }
 
-/* What may follow the first letter: letters, digits, subscripts (x₁) and combining marks (ẋ as x + dot). */
+/* Returns whether c may follow the first letter: letters, digits, subscripts (x₁) and combining marks (ẋ as x +
+ * dot). */
 static bool name_part(uint32_t c)
 {
     return letter(c) || (c >= '0' && c <= '9') || (c >= 0x2080 && c <= 0x209C) || (c >= 0x300 && c <= 0x36F);
@@ -130,7 +132,7 @@ static token lex_primes(lexer *l, bool blank)
     return t;
 }
 
-/* The lexer matches brackets because line ends inside them are blanks. */
+/* Matches brackets, since line ends inside them are blanks. */
 static bool bracket(lexer *l, char c, uint32_t from)
 {
     span at = {l->text, from, from + 1};
@@ -240,7 +242,7 @@ token lex_next(lexer *l)
             t.character = ';';
             return t;
         } else if (l->at + 1 < n && (unsigned char)c == 0xC2 && (unsigned char)b[l->at + 1] == 0xA0) {
-            l->at += 2; /* a no-break space, as word processors leave it */
+            l->at += 2; /* a no-break space, from a word processor */
         } else {
             break;
         }
@@ -265,7 +267,7 @@ token lex_next(lexer *l)
         l->at += size;
         return make(l, relation, from, blank);
     }
-    if (c == 0x2212) /* the signs of print: −, and · × between factors */
+    if (c == 0x2212) /* printed signs: −, and · × between factors */
         c = '-';
     if (c == 0xB7 || c == 0xD7 || c == 0x22C5 || c == 0x2217) c = '*';
     if (c == '.' && digit(b, n, from + 1) &&

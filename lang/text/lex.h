@@ -1,4 +1,4 @@
-/* The lexer: characters to tokens. It applies the rules for maximal names, exact numbers, primes and line ends. */
+/* The lexer turns characters into tokens: maximal names, exact numbers, primes and line ends. */
 #ifndef LANG_TEXT_LEX_H
 #define LANG_TEXT_LEX_H
 
@@ -6,16 +6,16 @@
 
 typedef enum token_kind {
     TOKEN_END,
-    TOKEN_NEWLINE, /* of a semicolon `character` is ';': a statement does not go on behind it */
+    TOKEN_NEWLINE, /* `character` is ';' for a semicolon, behind which a statement does not go on */
     TOKEN_NUMBER,
     TOKEN_NAME,
     TOKEN_PRIMES,
-    TOKEN_DOTS, /* .. */
+    TOKEN_DOTS,
     TOKEN_LE,
     TOKEN_GE,
     TOKEN_EQ,
-    TOKEN_NE,       /* <= >= == != */
-    TOKEN_CHARACTER /* + - * / ^ ( ) [ ] | , . = < > : by `character` */
+    TOKEN_NE,
+    TOKEN_CHARACTER /* `character` is one of + - * / ^ ( ) [ ] | , . = < > : */
 } token_kind;
 
 typedef struct token {
@@ -30,7 +30,7 @@ typedef struct token {
 typedef struct lexer {
     source *source;
     uint32_t text, at;
-    int depth; /* of ( and [: line ends inside do not count */
+    int depth; /* how many ( and [ are open: line ends inside them do not count */
     uint32_t opened[SOURCE_NESTING_MAX];
     char closer[SOURCE_NESTING_MAX];
 } lexer;

@@ -22,8 +22,7 @@ int source_line(source *s, const span *at)
     return s->known.line;
 }
 
-/* Copies characters [from, to) of a line so that a terminal can show them: control characters become '?', tabs
- * blanks. */
+/* Copies characters [from, to) of a line for a terminal: control characters become '?', and tabs blanks. */
 static size_t show(char *out, size_t size, const char *bytes, uint32_t from, uint32_t to)
 {
     size_t n = 0;
@@ -41,7 +40,7 @@ static size_t show(char *out, size_t size, const char *bytes, uint32_t from, uin
     return n;
 }
 
-/* The part of the line around the place that fits the error's fields, and a caret line of the same width under it. */
+/* Fills in the part of the line around the place that fits the error's fields, and a caret line of the same width. */
 static void point(source *s, const span *at, motus_error *e)
 {
     const struct source_text *text = &s->texts[at->text];
@@ -78,7 +77,7 @@ static void point(source *s, const span *at, motus_error *e)
 
 void source_complain(source *s, motus_status status, const span *at, const char *format, ...)
 {
-    if (source_failed(s)) /* a failure for lack of memory is no error of the text */
+    if (source_failed(s)) /* running out of memory is no error of the text */
         return;
     s->failed = true;
     s->status = status;

@@ -1,4 +1,4 @@
-/* Expressions: operators, loosest last, each function headed by its grammar rule; parse_factor.c has what they join.
+/* Expressions: operators, loosest last; parse_factor.c has their operands. Each function is headed by its grammar rule.
  * Numbers in brackets are the rules of the language as test/language_test.c numbers them. The lexer bounds brackets and
  * `deeper` bounds the rest, so no text exhausts the C stack. */
 #include "lang/tree/parse_parts.h"
@@ -30,7 +30,7 @@ static tree *parse_power(parser *p)
     return two(p, TREE_POWER, base, exponent);
 }
 
-/* A word of events, behind which no factor stands. */
+/* Returns whether the token is a word of events, before which no factor ends in a product. */
 static bool event_word(const parser *p)
 {
     char name[MOTUS_NAME_MAX];
@@ -41,7 +41,7 @@ static bool event_word(const parser *p)
     return words_event_kind(name) == MOTUS_WORD_OPERATOR;
 }
 
-/* A factor may follow without a sign: a name, a call, a bracket, a norm [2, 7]. */
+/* Returns whether a factor follows without a sign: a name, a call, a bracket, a norm [2, 7]. */
 static bool juxtaposes(const parser *p)
 {
     if (p->token.kind == TOKEN_NAME) {
@@ -57,7 +57,7 @@ static bool juxtaposes(const parser *p)
 
 static bool quotient(const tree *t) { return t->kind == TREE_DIVIDE && !t->bracketed; }
 
-/* What the next factor would stand behind: the last factor of a product, or the divisor of a quotient. */
+/* Returns what the next factor would follow: the last factor of a product, or the divisor of a quotient. */
 static const tree *last_factor(const tree *t)
 {
     return (t->kind == TREE_MULTIPLY || t->kind == TREE_DIVIDE) && !t->bracketed ? t->item[1] : t;
@@ -97,8 +97,8 @@ static bool wrong_juxtaposition(parser *p, const tree *product)
     return false;
 }
 
-/* A factor behind a blank multiplies the quotient, as in print: g/L sin(θ) is (g/L) sin(θ). In 1/2x it is nearer to the
- * divisor than the fraction is long, which most read as 1/(2 x) and a program as (1/2) x: so it is refused [3]. */
+/* Refuses a factor that touches a divisor [3]: most read 1/2x as 1/(2 x), and a program reads (1/2) x. Behind a blank a
+ * factor multiplies the quotient, as in print: g/L sin(θ) is (g/L) sin(θ). */
 static bool glued_to_divisor(parser *p, const tree *product, const tree *right)
 {
     char a[80], b[80], c[80];
@@ -110,7 +110,7 @@ static bool glued_to_divisor(parser *p, const tree *product, const tree *right)
     return false;
 }
 
-/* t times a factor without a sign between them */
+/* Multiplies t by a factor without a sign between them. */
 static tree *parse_beside(parser *p, tree *t)
 {
     if (wrong_juxtaposition(p, t)) return t;
@@ -123,7 +123,7 @@ static tree *parse_beside(parser *p, tree *t)
     return t;
 }
 
-/* t times or over a factor */
+/* Multiplies or divides t by a factor, at its sign. */
 static tree *parse_signed(parser *p, tree *t)
 {
     const bool times = is(p, '*');
@@ -208,7 +208,7 @@ static int relation(const parser *p)
     }
 }
 
-/* 0 < x < 1: the first two operands and the sign between them have been read. */
+/* Refuses 0 < x < 1, of which the first two operands and the sign between them have been read. */
 static void refuse_chain(parser *p, const tree *left, const span *sign, const tree *middle)
 {
     const span second = p->token.at;

@@ -1,8 +1,8 @@
-/* Factors: numbers, names, calls, brackets, lists and norms, each function headed by its grammar rule. Numbers in
+/* Factors: numbers, names, calls, brackets, lists and norms. Each function is headed by its grammar rule; numbers in
  * brackets are the rules of the language as test/language_test.c numbers them. */
 #include "lang/tree/parse_parts.h"
 
-/* An expression inside brackets; bars | outside do not pair with bars inside [7]. */
+/* Parses an expression inside brackets; bars | outside do not pair with bars inside [7]. */
 tree *parse_inside(parser *p)
 {
     int bars = p->bars;
@@ -74,7 +74,7 @@ void parse_for(parser *p, statement *s)
     } while (is(p, ',') && !failed(p));
 }
 
-/* Whether a loop begins here: a name, then "=" (not "=="). */
+/* Returns whether a loop begins here: a name, then "=" (not "=="). */
 static bool at_loop(parser *p)
 {
     if (p->token.kind != TOKEN_NAME) return false;
@@ -128,7 +128,7 @@ static tree *parse_sum(parser *p, span name)
 static int arity(int operation)
 {
     if (operation >= OPERATIONS) return operation == CALL_IF ? 3 : 2;
-    return operation_is(operation, OF_MANY) ? -2 : operation_at(operation)->arity; /* -2: two or more */
+    return operation_is(operation, OF_MANY) ? -2 : operation_at(operation)->arity; /* -2: at least two */
 }
 
 /* call = function "(" inside { "," inside } ")" [5] */
@@ -233,7 +233,7 @@ static tree *parse_components(parser *p, tree *t)
     return t;
 }
 
-/* inside { "," inside } and the closing bracket, after the opening one, which is the present token */
+/* items = inside { "," inside } and the closing bracket; the opening one is the present token */
 static tree *parse_items(parser *p, tree *t, char close, const char *where)
 {
     do {

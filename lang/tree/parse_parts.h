@@ -1,5 +1,5 @@
-/* The parser's state and helpers. From the lowest, each file uses only those above it on this list: parse_factor.c
- * (what operators join), parse.c (operators), parse_when.c (events), parse_statement.c (statements). */
+/* The parser's state and helpers. Each file uses only those before it on this list: parse_factor.c (operands), parse.c
+ * (operators), parse_when.c (events), parse_statement.c (statements). */
 #ifndef LANG_TREE_PARSE_PARTS_H
 #define LANG_TREE_PARSE_PARTS_H
 
@@ -18,18 +18,18 @@ struct parser {
     lexer lexer;
     source *source;
     arena *arena;
-    token token, last; /* the one to be read, and the one before it */
-    int bars;          /* | opened in the present bracket and not yet closed [7] */
+    token token, last; /* the token to be read, and the one before it */
+    int bars;          /* how many | are open in the present bracket [7] */
     int depth;
-    bool error; /* it reads a tolerance or an accuracy: `absolute` and `relative` are words */
-    bool when;  /* it reads a `when`: `rising`, `falling`, `as`, `record` … are words */
+    bool error; /* a tolerance or an accuracy is read: `absolute` and `relative` are words */
+    bool when;  /* a `when` is read: `rising`, `falling`, `as`, `record` … are words */
     struct {
         const char *name;
         bool counted;
-    } known[NAMES_KNOWN];                 /* names read before, by their hash: a name that comes again is not copied */
-    uint32_t name;                        /* the one of these that was read last */
-    uint32_t operations;                  /* see statements */
-    tree *(*expression)(struct parser *); /* parse_or: factors hold expressions, which are made of factors */
+    } known[NAMES_KNOWN];                 /* names read before, by their hash, so that no name is copied twice */
+    uint32_t name;                        /* the index in `known` of the name that was read last */
+    uint32_t operations;                  /* see struct statements */
+    tree *(*expression)(struct parser *); /* parse_or: factors hold expressions, which hold factors */
 };
 
 static inline bool failed(const parser *p) { return source_failed(p->source); }
@@ -55,7 +55,7 @@ static inline bool spelled(const parser *p, const token *t, const char *word)
 
 static inline bool word(const parser *p, const char *text) { return spelled(p, &p->token, text); }
 
-/* π is pi. */
+/* Copies a name, unless a copy is known; π is pi. */
 static inline const char *copy_name(parser *p, const span *at)
 {
     const char *bytes = p->source->texts[at->text].bytes + at->from;
@@ -100,7 +100,7 @@ static inline tree *two(parser *p, tree_kind kind, tree *a, tree *b)
     struct pair {
         tree tree;
         tree *item[2];
-    } *both = arena_take(p->arena, sizeof *both); /* in one piece: most trees have two items */
+    } *both = arena_take(p->arena, sizeof *both); /* in one piece, since most trees have two items */
     tree *t = &both->tree;
     p->operations++;
     t->kind = (uint8_t)kind;
@@ -131,7 +131,7 @@ static inline bool deeper(parser *p)
     return false;
 }
 
-/* Complains that the present token is not what was expected. */
+/* Complains that the present token is not the expected one. */
 static inline void unexpected(parser *p, const char *wanted)
 {
     char text[80];
@@ -141,8 +141,8 @@ static inline void unexpected(parser *p, const char *wanted)
         COMPLAIN(p, &p->token.at, "%s expected, but here is %s", wanted, quote(p, &p->token.at, text));
 }
 
-/* Line ends inside a bracket do not count [8], so an open bracket swallows the next statement: complains at that
- * bracket, if there is one. */
+/* Complains at a bracket that is open since an earlier line, if there is one. Line ends inside it do not count [8], so
+ * it swallows the next statement. */
 static inline bool left_open(parser *p)
 {
     if (p->lexer.depth == 0 || failed(p)) return false;
@@ -174,7 +174,7 @@ static inline bool expect(parser *p, char c, const char *where)
     return false;
 }
 
-/* parse_factor.c; parse_for: the ranges behind `for`, if there are any */
+/* parse_factor.c; parse_for reads the ranges behind `for`, if there are any */
 tree *parse_inside(parser *p);
 void parse_for(parser *p, statement *s);
 void parse_index(parser *p, tree *t);
@@ -182,7 +182,7 @@ tree *parse_applied(parser *p, tree *name);
 tree *parse_factor(parser *p);
 /* parse.c */
 tree *parse_or(parser *p);
-/* parse_when.c; whether a text that cannot stand where it does begins with the word of an action */
+/* parse_when.c; parse_action says whether a misplaced text begins with the word of an action */
 void parse_when(parser *p, statement *s);
 bool parse_action(const parser *p, const span *at);
 #define PARSE_COMMAS "a comma joins what an event does: when y = 0: y' = -y', record"

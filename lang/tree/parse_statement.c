@@ -1,10 +1,10 @@
-/* Statements: tokens to trees; a statement ends with its line, or at a semicolon. Each function is headed by its
- * grammar rule; parse.c has the expressions. */
+/* Statements: a statement ends with its line, or at a semicolon. Each function is headed by its grammar rule; parse.c
+ * has the expressions. */
 #include "lang/tree/parse_parts.h"
 
 #include "base/utf8.h"
 
-/* `line` is where the statement begins. */
+/* Parses the end of a statement, which began in `line`. */
 static void parse_end(parser *p, int line)
 {
     if (failed(p) || p->token.kind == TOKEN_NEWLINE || p->token.kind == TOKEN_END) return;
@@ -48,7 +48,7 @@ static void parse_value(parser *p, statement *s)
     parse_end(p, source_line(p->source, &s->at));
 }
 
-/* Whether a terminal can show it: no control characters, nothing that is not UTF-8. */
+/* Returns whether a terminal can show a text: it is UTF-8 without control characters. */
 static bool plain_text(const char *bytes, uint32_t length)
 {
     uint32_t c = 0;
@@ -59,7 +59,7 @@ static bool plain_text(const char *bytes, uint32_t length)
     return true;
 }
 
-/* "method" text: up to the end of the line or a semicolon; names have dashes, and arguments in brackets */
+/* method = "method" text, up to the end of the line or a semicolon: names have dashes, and arguments in brackets */
 static void parse_method(parser *p, statement *s)
 {
     const struct source_text *text = &p->source->texts[p->lexer.text];
@@ -110,7 +110,7 @@ static void parse_setting(parser *p, statement *s)
     parse_end(p, source_line(p->source, &s->at));
 }
 
-/* Hints for usual ways to write a derivative that the language does not have. */
+/* Complains about other ways to write a derivative: dx/dt, d2x/dt2 … */
 static bool parse_leibniz(parser *p, const statement *s)
 {
     if (s->name[0] != 'd' || !(is(p, '/') || is(p, '^'))) return false;
@@ -279,7 +279,7 @@ static void parse_statement(parser *p, statement *s)
     parse_value(p, s);
 }
 
-/* How many statements there will be, more or less: one for each = that stands alone. */
+/* Estimates the number of statements: one for each = that stands alone. */
 static uint32_t statements_ahead(const struct source_text *t)
 {
     uint32_t count = 1;
@@ -327,7 +327,7 @@ bool parse_text(source *s, uint32_t text, statements *all)
 
 bool parse_again(const source *s, const statement *of, arena *a, statement *out)
 {
-    source silent = *s; /* the text has no error */
+    source silent = *s; /* the text has been read without an error */
     silent.error = NULL;
     silent.failed = false;
     silent.arena = silent.trees = a;

@@ -1,7 +1,8 @@
 /* Events: what is to happen when. Each function is headed by its grammar rule.
  *
- * `rising`, `falling`, `as`, `accumulates`, `record`, `stop` and `after` are words here alone, where they cannot be
- * factors, so models may use them as names. */
+ * `rising`, `falling`, `as`, `accumulates`, `record`, `stop` and `after` are words only here, where they cannot be
+ * factors, so models may use them as names.
+ */
 #include "lang/tree/parse_parts.h"
 
 static bool ahead_is(const parser *p, const char *text)
@@ -19,13 +20,13 @@ bool parse_action(const parser *p, const span *at)
     return spelled(p, &first, "record") || spelled(p, &first, "stop");
 }
 
-/* A condition as the parser sees it: it may be a name or a call of a function as well. */
+/* Returns whether a tree is certainly a condition; a name or a call may be one, too. */
 static bool decides(const tree *t)
 {
     return t->kind == TREE_COMPARE || t->kind == TREE_AND || t->kind == TREE_OR || t->kind == TREE_NOT;
 }
 
-/* `x = 0 and y > 0`, `x > 0 and y = 0` */
+/* Refuses `x = 0 and y > 0`, `x > 0 and y = 0`. */
 static void refuse_equals(parser *p, const span *at)
 {
     COMPLAIN(p, at, "one = in an event stands between two numbers, not in a condition");
@@ -118,7 +119,7 @@ static void parse_assignment(parser *p, action *a)
     a->value = parse_or(p);
 }
 
-/* Whether a word of an action stands here, not an assignment to something of this name. */
+/* Returns whether a word of an action stands here, not an assignment to a variable of this name. */
 static bool at_word(const parser *p, const char *text)
 {
     if (!word(p, text)) return false;
@@ -180,7 +181,7 @@ void parse_when(parser *p, statement *s)
     s->when = w;
     s->name_at = p->token.at;
     p->when = true;
-    if (word(p, "when")) advance(p); /* of an event beside the text the word may be left out */
+    if (word(p, "when")) advance(p); /* an event that is added to the text may omit the word */
     skip_lines(p);
     if (word(p, "every")) {
         w->kind = WHEN_EVERY;

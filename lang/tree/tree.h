@@ -1,6 +1,5 @@
-/* The tree of a model's text, as the parser makes it; names are not resolved yet. It takes more memory than all else
- * that is read, so trees live while the model is read: afterwards a statement keeps its names and places alone, and its
- * trees can be parsed again. */
+/* The trees of a model's text, with names that are not resolved yet. They take more memory than everything else, so
+ * they live while the model is read; afterwards a statement keeps its names and places, and can be parsed again. */
 #ifndef LANG_TREE_TREE_H
 #define LANG_TREE_TREE_H
 
@@ -8,26 +7,26 @@
 #include "lang/text/words.h"
 
 typedef enum tree_kind {
-    TREE_NUMBER, /* number */
-    TREE_NAME,   /* name, item[0 … index_count) its indices, primes */
-    /* x(0), r'(0), x[i](0), V(a, b): a TREE_NAME glued to a bracket: item[0] the name, then what the bracket holds */
+    TREE_NUMBER, /* .number */
+    TREE_NAME,   /* .name, .primes; item[0 … index_count) are its indices */
+    /* x(0), r'(0), x[i](0), V(a, b): item[0] is the TREE_NAME, then come the items in the bracket */
     TREE_APPLY,
-    TREE_CALL, /* operation, or one of the calls below; items are the arguments */
+    TREE_CALL, /* .operation is an operation or CALL_…; items are the arguments */
     TREE_NEGATE,
     TREE_ADD,
     TREE_SUBTRACT,
     TREE_MULTIPLY,
     TREE_DIVIDE,
     TREE_POWER,
-    TREE_COMPARE, /* operation: OP_LT … OP_NE */
+    TREE_COMPARE, /* .operation: OP_LT … OP_NE */
     TREE_AND,
     TREE_OR,
     TREE_NOT,
     TREE_VECTOR,
     TREE_LIST,
-    TREE_COMPONENT, /* item[0] the vector, item[1] the number of the component, from 1 (x, y, z are numbers already) */
+    TREE_COMPONENT, /* item[0] is the vector, item[1] the number of the component, from 1, also for x, y, z */
     TREE_NORM,      /* |item[0]| */
-    TREE_SUM        /* loops, items: conditions, then the body last */
+    TREE_SUM        /* .loops; items are the conditions, then the body */
 } tree_kind;
 
 typedef struct loop {
@@ -36,12 +35,12 @@ typedef struct loop {
     span at;
 } loop;
 
-/* There is one for every number, name and operator of the text, so it is kept small. */
+/* Every number, name and operator of the text has one, so it is small. */
 typedef struct tree {
     uint8_t kind;           /* tree_kind */
-    bool bracketed : 1;     /* stood in ( ) of its own */
-    bool blank_product : 1; /* MULTIPLY: a name and a bracket with a blank between, f (x) */
-    bool divisor : 1;       /* APPLY: something is divided by it, a/f(x) */
+    bool bracketed : 1;     /* it stood in ( ) of its own */
+    bool blank_product : 1; /* MULTIPLY: a name, a blank and a bracket: f (x) */
+    bool divisor : 1;       /* APPLY: it is a divisor: a/f(x) */
     uint8_t primes, loop_count;
     int16_t operation;
     uint16_t index_count;
@@ -56,13 +55,13 @@ typedef struct tree {
 } tree;
 
 typedef enum statement_kind {
-    STATEMENT_DEFINITION, /* name[indices] = value: parameter, quantity, boundary line */
+    STATEMENT_DEFINITION, /* name[indices] = value: a parameter, quantity or boundary cell */
     STATEMENT_EQUATION,   /* name[indices]' or '' = value */
     STATEMENT_START,      /* name[indices]'(at) = value */
-    STATEMENT_FUNCTION,   /* name(argument, …) = value; the parser leaves it to the names whether it is a START */
+    STATEMENT_FUNCTION, /* name(argument, …) = value; the parser makes a START, and lang/read/ decides which it is */
     STATEMENT_EXACT,
     STATEMENT_INVARIANT,
-    STATEMENT_WHEN,   /* when */
+    STATEMENT_WHEN,
     STATEMENT_METHOD, /* text */
     STATEMENT_STEP,
     STATEMENT_TOLERANCE,
@@ -91,44 +90,44 @@ typedef struct when {
     action *actions;
 } when;
 
-/* What --set has put another expression in the place of: the model's own, and the place of that statement. */
+/* The value of a statement that --set replaced, and the place of that statement. */
 typedef struct replaced {
     tree *value;
     span at;
 } replaced;
 
-/* There is one for every line, so it is kept small. */
+/* Every line has one, so it is small. */
 typedef struct statement {
     uint8_t kind; /* statement_kind */
     uint8_t primes, loop_count;
-    uint8_t progress; /* START: 0 not computed, 1 being computed (needed now, it depends on itself), 2 done */
-    bool steps;       /* EVERY: every n steps */
-    bool absolute;    /* TOLERANCE, ACCURACY: in the units of the numbers */
+    uint8_t progress; /* START: 0 not computed, 1 being computed (if it is needed now, it depends on itself), 2 done */
+    bool steps;       /* EVERY: it counts steps */
+    bool absolute;    /* TOLERANCE, ACCURACY: it is in the units of the numbers */
     uint16_t index_count;
     span at, name_at, value_at; /* value_at: the right side, without the indices' ranges */
-    uint32_t next;              /* 1 + number of the next line about the same state or family; 0: none */
+    uint32_t next;              /* 1 + number of the next statement about the same variable; 0: there is none */
     const char *name;
     union {
         tree **index;
         const char *text; /* METHOD */
-        when *when;       /* WHEN, whose name is that of the event, or NULL */
+        when *when;       /* WHEN; .name is the event's, or NULL */
     };
     tree *applied; /* START, FUNCTION: the left side as an APPLY, x(c) or V(a, b) */
     tree *value;   /* the right side, or the setting's expression */
     loop *loops;
-    replaced *replaced; /* NULL: it is the model's own */
+    replaced *replaced; /* NULL: the value is the model's own */
 } statement;
 
 typedef struct statements {
-    statement *item; /* it moves when there are more */
+    statement *item; /* it moves when statements are added */
     uint32_t count, capacity;
-    uint32_t operations; /* numbers, operators and different names in the trees, more or less */
+    uint32_t operations; /* an estimate: the numbers, operators and different names in all trees */
 } statements;
 
-/* Parses text number `text` and appends its statements. False: complained or no memory. */
+/* Parses text number `text` and appends its statements. False: there was a complaint, or no memory. */
 bool parse_text(source *, uint32_t text, statements *);
-/* A statement of a model that has been read, with its trees, in an arena that the caller releases; not of a METHOD,
- * which has none. False: no memory. */
+/* Parses a statement of a model that has been read, into an arena that the caller releases; a METHOD has no trees.
+ * False: no memory. */
 bool parse_again(const source *, const statement *, arena *, statement *);
 
 #endif

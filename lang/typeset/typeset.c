@@ -1,7 +1,7 @@
-/* Statements, and the loop that carries out the tasks. See typeset.h. */
+/* Statements, and the loop that carries out tasks. See typeset.h. */
 #include "lang/typeset/typeset_parts.h"
 
-/* Tasks are pushed in reading order and taken from the end, so new tasks are reversed. */
+/* Reverses new tasks: they are pushed in reading order, and taken from the end. */
 static void reverse(task *tasks, uint32_t count)
 {
     for (uint32_t i = 0; i < count / 2; i++) {
@@ -37,7 +37,7 @@ static void do_all(typesetter *p)
     }
 }
 
-/* for i = 1, …, N and j = 1, 2 */
+/* Writes the ranges: for i = 1, …, N and j = 1, 2. */
 static void ranges(typesetter *p, const statement *s)
 {
     for (uint32_t i = 0; i < s->loop_count; i++) {
@@ -65,8 +65,8 @@ static void setting(typesetter *p, const statement *s)
 
 static char *write_statement(typesetter *p, const statement *s)
 {
-    /* The left side is an expression as well: a name, its value at a time, which of an exact motion is t, or a
-     * function of its arguments. */
+    /* the left side is an expression, too: a name, its value at a time, which is t for an exact motion, or a function
+     * of its arguments */
     tree name = {.kind = TREE_NAME,
                  .name = s->name,
                  .primes = s->primes,

@@ -1,7 +1,7 @@
-/* Brackets, bars and braces of a typeset statement. See typeset_parts.h. */
+/* Brackets, bars and braces of a typeset statement. */
 #include "lang/typeset/typeset_parts.h"
 
-/* Whether an expression is higher than a line. One with more than `budget` nodes counts as high. */
+/* Returns whether an expression is higher than a line. One with more than `budget` nodes counts as high. */
 static bool tall(const tree *t, int *budget)
 {
     for (;; t = t->item[0]) {
@@ -15,7 +15,7 @@ static bool tall(const tree *t, int *budget)
     }
 }
 
-/* Fences stretch only around high expressions, because fonts draw stretchy fences with more space around them. */
+/* Fences stretch only around high expressions, because fonts draw more space around stretchy ones. */
 static const char *const open_fence[][2] = {
     {"<mrow><mo stretchy=\"false\">(</mo>", "<mrow><mo>(</mo>"},
     {"<mrow><mo stretchy=\"false\">[</mo>", "<mrow><mo>[</mo>"},
@@ -27,7 +27,7 @@ static const char *const close_fence[][2] = {
     {"<mo form=\"postfix\" stretchy=\"false\">|</mo></mrow>", "<mo form=\"postfix\">|</mo></mrow>"},
     {"<mo stretchy=\"false\">⌋</mo></mrow>", "<mo>⌋</mo></mrow>"}};
 
-/* The items of a tree, or one that is no item of it. */
+/* Fences the items of a tree, or a tree itself. */
 static void fenced(typesetter *p, fence f, tree *const *item, uint32_t count, const tree *itself, place at)
 {
     int budget = 256;
@@ -53,7 +53,7 @@ void typeset_arguments(typesetter *p, const tree *t, place at)
 }
 void typeset_itself(typesetter *p, fence f, const tree *t, place at) { fenced(p, f, NULL, 1, t, at); }
 
-/* if(c, a, if(d, b, e)) is one brace of three rows. */
+/* Writes if(c, a, if(d, b, e)) as one brace with three rows. */
 void typeset_cases(typesetter *p, const tree *t, place at)
 {
     typeset_tag(p, "<mrow><mo form=\"prefix\">{</mo><mtable class=\"cases\" columnalign=\"left\">");

@@ -1,8 +1,8 @@
 /* The typesetter's state, shared by typeset.c (statements), typeset_tree.c, typeset_script.c and typeset_fence.c
  * (expressions), typeset_text.c (characters) and typeset_task.c (tasks).
  *
- * What is still to be written waits as tasks on a stack of its own, so that deep expressions do not exhaust the C
- * stack. A task writes, or it replaces itself by other tasks, which `typeset_then` and the like push in reading order.
+ * Text still to be written waits as tasks on a stack, so that deep expressions do not exhaust the C stack. A task
+ * writes, or replaces itself by other tasks, which typeset_then and the like push in reading order.
  */
 #ifndef LANG_TYPESET_TYPESET_PARTS_H
 #define LANG_TYPESET_TYPESET_PARTS_H
@@ -55,7 +55,7 @@ static inline place place_inside(place at) { return ((at & PLACE_SMALL) | (at & 
 /* One element of its own: a numerator, a base … */
 static inline place place_element(place at) { return place_inside(at) | PLACE_ELEMENT; }
 static inline place place_script(place at) { return place_inside(at) | PLACE_ELEMENT | PLACE_SMALL; }
-/* In the same row, with something to its right; to the right of the last one stands what follows the row. */
+/* In the present row: place_left with something to the right; place_last with what follows the row. */
 static inline place place_left(place at, tight t, uint32_t follow) { return place_inside(at) | t | follow; }
 static inline place place_last(place at, tight t) { return place_inside(at) | t | (at & PLACE_FOLLOW); }
 
@@ -64,7 +64,7 @@ typedef enum task_kind {
     TASK_NAME, /* a name without its subscript; TASK_TAIL: its subscript, without the name */
     TASK_TAIL,
     TASK_PLAIN, /* a name as it is typed, upright */
-    TASK_TAG,   /* text that opens and closes elements: written whatever has been cut */
+    TASK_TAG,   /* text that opens and closes elements, written whatever has been cut */
     TASK_SIGN   /* text that is left out together with the expressions around it */
 } task_kind;
 
@@ -87,39 +87,40 @@ typedef struct typesetter {
     bool full, failed;
 } typesetter;
 
-/* typeset_text.c: writes at once */
+/* typeset_text.c writes at once */
 void typeset_put(typesetter *, const char *text);
 void typeset_name(typesetter *, const char *name);
 void typeset_tail(typesetter *, const char *name);
 bool typeset_has_tail(const char *name);
-bool typeset_is_word(const char *name); /* set upright, so that it needs space in a product */
+bool typeset_is_word(const char *name); /* it is set upright, so it needs space in a product */
 void typeset_number(typesetter *, const tree *);
 bool typeset_has_exponent(const source *, const tree *);
-void typeset_plain(typesetter *, const char *text); /* of the model: escaped */
+void typeset_plain(typesetter *, const char *text); /* text of the model, which is escaped */
 
-/* typeset_task.c: pushes a task */
+/* typeset_task.c pushes a task */
 void typeset_tag(typesetter *, const char *);
 void typeset_sign(typesetter *, const char *);
 void typeset_then(typesetter *, const tree *, place);
 void typeset_word(typesetter *, task_kind, const char *name);
 /* typeset_tree.c */
 void typeset_tree(typesetter *, const tree *, place);
-/* typeset_fence.c: in brackets that are as high as they must be: a tree's items, with commas, or itself */
+/* typeset_fence.c writes brackets, as high as necessary, around the items of a tree, with commas, or around a tree
+ * itself */
 typedef enum fence { FENCE_ROUND, FENCE_SQUARE, FENCE_BARS, FENCE_FLOOR } fence;
 void typeset_items(typesetter *, fence, const tree *, place);
 void typeset_arguments(typesetter *, const tree *applied, place);
 void typeset_itself(typesetter *, fence, const tree *, place);
 void typeset_cases(typesetter *, const tree *, place);
-/* typeset_when.c: an event, without the ranges of its indices */
+/* typeset_when.c writes an event, without the ranges of its indices */
 void typeset_when(typesetter *, const statement *);
-/* typeset_script.c: what is written as a name with signs about it: x, x_i, x_max″, r_y, x(0), V(a, b) */
+/* typeset_script.c writes a name with signs about it: x, x_i, x_max″, r_y, x(0), V(a, b) */
 typedef struct head {
     const tree *name, *component, *applied;
 } head;
 bool typeset_head(const tree *, head *);
 void typeset_scripted(typesetter *, const head *, const tree *power, place);
 void typeset_component(typesetter *, const tree *, place);
-void typeset_range(typesetter *, const loop *, const char *between, place); /* between NULL: without the last */
+void typeset_range(typesetter *, const loop *, const char *between, place); /* between NULL: without the last value */
 
 #define TYPESET_APPLY "<mo>&#x2061;</mo>"
 

@@ -1,5 +1,4 @@
-/* Names of a typeset statement with what belongs to them: subscripts, primes, the time of a value; and indices that
- * run. See typeset_parts.h. */
+/* Names of a typeset statement, with subscripts, primes and the time of a value; and indices that run. */
 #include "lang/typeset/typeset_parts.h"
 
 bool typeset_head(const tree *t, head *h)
@@ -17,7 +16,7 @@ bool typeset_head(const tree *t, head *h)
     return t->kind == TREE_NAME;
 }
 
-/* .x .y .z are numbers in the tree, and letters in the text. */
+/* Returns the letter of a component .x .y .z, which is a number in the tree, or NULL. */
 static const char *component_letter(const source *s, const tree *number)
 {
     static const char *const letters[] = {"x", "y", "z"};
@@ -25,7 +24,7 @@ static const char *component_letter(const source *s, const tree *number)
     return number->kind == TREE_NUMBER && c >= 'x' && c <= 'z' ? letters[c - 'x'] : NULL;
 }
 
-/* x_{max,i,y}: one part is an element by itself, several are a row. */
+/* Writes the subscripts of x_{max,i,y}: one part is an element, several are a row. */
 static void subscripts(typesetter *p, const head *h, uint32_t parts, place at)
 {
     place in = parts == 1 ? place_script(at) : place_inside(at) | PLACE_SMALL;
@@ -59,7 +58,8 @@ static void superscripts(typesetter *p, int primes, const tree *power, place at)
     if (both) typeset_tag(p, "</mrow>");
 }
 
-/* Primes and an exponent share the superscript, x′²; a value at a time is raised with its bracket, x(0)². */
+/* Writes a name with its scripts. Primes and an exponent share the superscript, x′²; a value at a time is raised with
+ * its bracket, x(0)². */
 void typeset_scripted(typesetter *p, const head *h, const tree *power, place at)
 {
     uint32_t parts = (uint32_t)typeset_has_tail(h->name->name) + h->name->index_count + (h->component != NULL);

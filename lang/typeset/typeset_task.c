@@ -1,4 +1,4 @@
-/* The stack of tasks. See typeset_parts.h. */
+/* The stack of tasks. */
 #include "lang/typeset/typeset_parts.h"
 
 static void push(typesetter *p, task t)

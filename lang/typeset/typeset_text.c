@@ -1,6 +1,6 @@
-/* Characters, names and numbers of a typeset statement. See typeset_parts.h.
+/* Characters, names and numbers of a typeset statement.
  *
- * Invariant: nothing of the model's text is written but by `escaped`, so no text can end an element or begin one.
+ * Invariant: only `escaped` writes text of the model, so no such text can begin or end an element.
  */
 #include "lang/typeset/typeset_parts.h"
 
@@ -26,7 +26,7 @@ static void put(typesetter *p, const char *text, size_t length)
 
 void typeset_put(typesetter *p, const char *text) { put(p, text, strlen(text)); }
 
-/* The bytes of one character that XML allows; 0: it does not, or the bytes are not UTF-8. */
+/* Returns the bytes of a character that XML allows; 0: it does not, or the bytes are not UTF-8. */
 static size_t character(const char *text, size_t length)
 {
     uint32_t c = 0;
@@ -56,7 +56,7 @@ void typeset_plain(typesetter *p, const char *text) { escaped(p, text, strlen(te
 
 static bool digit(char c) { return c >= '0' && c <= '9'; }
 
-/* U+2080 … U+209C, the subscripts a name may hold: what they stand for, or 0. */
+/* Returns what a subscript that a name may contain (U+2080 … U+209C) stands for, or 0. */
 static char lowered(const char *at)
 {
     static const char means[] = "0123456789+-=()\0aeox\0hklmnpst";
@@ -64,7 +64,8 @@ static char lowered(const char *at)
     return last >= 0x80 && last < 0x80 + sizeof means - 1 ? means[last - 0x80] : 0;
 }
 
-/* x_max, omega0, m1_max, x₁: the bytes before the subscript, and where that begins; *tail at the end: it has none. */
+/* Returns the bytes before the subscript of x_max, omega0, m1_max, x₁; *tail is the subscript, empty if there is
+ * none. */
 static size_t split(const char *name, const char **tail)
 {
     size_t length = strlen(name), line = strcspn(name, "_"), n = line;
@@ -89,7 +90,7 @@ static const char *const greek[] = {
     "alpha", "beta",    "gamma", "delta", "epsilon", "zeta",  "eta", "theta",   "iota", "kappa", "lambda", "mu",   "nu",
     "xi",    "omicron", "pi",    "rho",   "",        "sigma", "tau", "upsilon", "phi",  "chi",   "psi",    "omega"};
 
-/* The letter that is spelled out: U+03B1 + its number, or the capital 32 before it; 0: none is. */
+/* Returns the Greek letter that is spelled out: U+03B1 + its number, or the capital 32 before it; 0: none is. */
 static unsigned letter(const char *name, size_t length)
 {
     for (unsigned i = 0; i < sizeof greek / sizeof *greek; i++)
@@ -131,7 +132,7 @@ bool typeset_is_word(const char *name)
     return letters > 1 && !letter(name, length);
 }
 
-/* "max", "0", "1,max" */
+/* Writes a subscript: "max", "0", "1,max". */
 void typeset_tail(typesetter *p, const char *name)
 {
     char plain[MOTUS_NAME_MAX];
@@ -154,7 +155,7 @@ void typeset_tail(typesetter *p, const char *name)
 
 /* Numbers ---------------------------------------------------------------------------------------------------------- */
 
-/* The number as it is spelled: its span may be that of brackets around it, with line ends and comments. */
+/* Finds a number as it is spelled: its span may be that of brackets around it, with line ends and comments. */
 static const char *spelling(const source *s, const tree *t, size_t *length)
 {
     const char *at = s->texts[t->at.text].bytes + t->at.from, *end = s->texts[t->at.text].bytes + t->at.to;

@@ -1,6 +1,6 @@
-/* Expressions of a typeset statement. See typeset_parts.h.
+/* Expressions of a typeset statement.
  *
- * Brackets are written where the meaning needs them, whether the text has them or not: a fraction, a root, bars and
+ * Brackets are written where the meaning needs them, whether or not the text has them: a fraction, a root, bars and
  * raised exponents need none.
  */
 #include "lang/typeset/typeset_parts.h"
@@ -9,7 +9,7 @@
 
 /* Shapes ----------------------------------------------------------------------------------------------------------- */
 
-/* Functions that are written by their name; the others have a notation of their own. */
+/* Returns the name of a function that is written by its name; NULL: it has a notation of its own. */
 static const char *function_name(const tree *t)
 {
     if (t->kind != TREE_CALL) return NULL;
@@ -32,7 +32,7 @@ static const char *function_name(const tree *t)
     }
 }
 
-/* sin²(x), but not sin⁻¹(x), which would be read as the inverse */
+/* Returns whether a power is written sin²(x); sin⁻¹(x) would be read as the inverse. */
 static bool raised_function(const tree *power)
 {
     const tree *exponent = power->item[1];
@@ -40,7 +40,7 @@ static bool raised_function(const tree *power)
            exponent->number >= 2 && exponent->number < 100 && exponent->number == (int)exponent->number;
 }
 
-/* ∂V/∂x, but (∂/∂x) (a + b) */
+/* Returns whether a derivative is written ∂V/∂x, not (∂/∂x) (a + b). */
 static bool names_slope(const tree *diff)
 {
     head h;
@@ -73,7 +73,7 @@ static tight tight_of(const typesetter *p, const tree *t, bool small)
     }
 }
 
-/* Written as one element, where it is not bracketed. */
+/* Returns whether an expression without brackets is one element. */
 static bool single(const tree *t, bool small)
 {
     switch (t->kind) {
@@ -103,8 +103,9 @@ static bool digit_first(const tree *t)
 
 static bool barred(const tree *t) { return t->kind == TREE_NORM || typeset_calls(t, OP_ABS); }
 
-/* A number after a factor needs a dot; so does a fraction of numbers after a number, which would be read as 2½, and a
- * bracket after a state, which would be read as its value at that time. Words and bars need some space. */
+/* Writes the sign of a product. A number after a factor needs a dot; so does a fraction of numbers after a number,
+ * which would be read as 2½, and a bracket after a state, which would be read as its value at that time. Words and bars
+ * need some space. */
 static void times(typesetter *p, const tree *a, const tree *b, place at)
 {
     head h;
@@ -121,7 +122,8 @@ static void times(typesetter *p, const tree *a, const tree *b, place at)
     typeset_sign(p, dot ? "<mo>⋅</mo>" : word ? "<mo>&#x2062;</mo><mspace width=\"0.17em\"/>" : "<mo>&#x2062;</mo>");
 }
 
-/* Chains of one operator: trees lean left, and may be as long as the text is. -------------------------------------- */
+/* Chains of one operator, which lean left and may be as long as the text
+ * -------------------------------------------- */
 
 static int chain_of(tree_kind kind)
 {
@@ -135,7 +137,7 @@ static int chain_of(tree_kind kind)
     }
 }
 
-/* Of a chain that is too long, writes the beginning and an ellipsis. */
+/* Writes the beginning of a chain that is too long, and an ellipsis. False: it is not too long. */
 static bool shortened(typesetter *p, const tree *t, place at)
 {
     static const char *const rest[] = {"", "<mo>+</mo><mi>⋯</mi>", "<mi>⋯</mi>",
@@ -164,7 +166,7 @@ static void infix(typesetter *p, const tree *t, place at, tight a, uint32_t foll
     typeset_then(p, t->item[1], place_last(at, b));
 }
 
-/* Sums, calls, powers, quotients -------------------------------------------------------------------------------- */
+/* Sums, calls, powers, quotients ----------------------------------------------------------------------------------- */
 
 static void sum(typesetter *p, const tree *t, place at)
 {
@@ -196,8 +198,8 @@ static void function(typesetter *p, const tree *t, const tree *power, place at)
     typeset_items(p, FENCE_ROUND, t, at);
 }
 
-/* A derivative: of something with a name as a fraction, else by an operator before the bracket; in small print in a
- * line. */
+/* Writes a derivative: of something with a name as a fraction, else by an operator before the bracket; in small print
+ * in a line. */
 static void slope(typesetter *p, const tree *t, place at)
 {
     const bool small = at & PLACE_SMALL, named = names_slope(t);
