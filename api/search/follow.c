@@ -1,4 +1,4 @@
-/* A motion followed by the embedded pair of orders 3 and 2 [BogackiShampine89], with its turning points counted.
+/* A motion followed by the row bs32, with its turning points counted.
  *
  * Times of events lie within a step, by the cubic through its ends. A number swings where its velocity changes sign
  * again and again; one that only goes on, as a pendulum that turns over, where its acceleration does. Invariant: the
@@ -10,12 +10,14 @@
 #include "api/search/settled.h"
 #include "api/search/swings.h"
 #include "api/system/vector.h"
+#include "api/why/trial.h"
 
 #include <math.h>
 #include <string.h>
 
-#define TOLERANCE 1e-5      /* of a step, relative to the size of each number */
-#define LEAST 1e-3          /* of the largest of its kind: the least size of a number */
+#define METHOD "bs32"
+#define TOLERANCE 1e-5      /* of it */
+#define LEAST 1e-4          /* of the size of the start: the least size of a number */
 #define CHANGE_OF_STEP 11.8 /* `change` of a harmonic motion, in its steps at this tolerance */
 #define SWINGS_MOST 100     /* of the fastest number */
 #define INFINITE 1e8        /* times the size of the start */
@@ -30,23 +32,23 @@ enum { SETTLED = 8 };       /* steps until their length no longer follows from t
 
 typedef struct follower {
     const problem *problem;
-    double t, way, rate, h, elapsed;
-    double *x, *v, *a;         /* present state */
-    double *stage_x, *stage_v; /* of a stage; after an attempt, of the end of the step */
-    double *slope_x[4], *slope_v[4];
-    double *largest_x, *largest_v;
-    swings *signals;    /* of every number of v, then of every acceleration */
-    size_t falling;     /* the position with the largest force at the start */
-    double force, side; /* force: on it at the start; side: its sign before it comes to 0 */
-    double speed;       /* the largest speed of `falling` in the present fall */
-    double *first_a;    /* at the start */
+    trial trial;
+    double from, way, rate, elapsed;
+    double *x, *v, *a;             /* present state */
+    double *end_x, *end_v, *end_a; /* after the next step */
+    double *mid_x, *mid_v, *mid_a; /* within it */
+    swings *signals;               /* of every number of v, then of every acceleration */
+    size_t falling;                /* the position with the largest force at the start */
+    double force, side;            /* force: on it at the start; side: its sign before it comes to 0 */
+    double speed;                  /* the largest speed of `falling` in the present fall */
+    double *first_a;               /* at the start */
     double *largest_a;
     double unit_x, unit_v, start_x, start_v; /* sizes of positions (x) and of first-order variables (v) */
     bool begun;                              /* the units are known */
-    double undefined;                        /* the last time at which a step met no force; below 0: never */
     double fast[KINK], fastest;              /* rates of the last steps, and the largest that lasted */
     settled record;
-    double usual, shortest; /* a mean of the last steps, and the least it was */
+    double usual, shortest; /* a mean of the last steps, and the least it was since steps ceased to grow */
+    bool slows;             /* they ceased to grow: from a start at 0 they grow long */
     uint32_t taken;
 } follower;
 
@@ -61,50 +63,10 @@ static bool evaluate(follower *f, double t, double *x, double *v, double *a)
     return p->accel(p->ctx, t, x, v, a) == 0 && isfinite(vector_largest(a, p->nv));
 }
 
-/* Attempts a step of length h to the stage. Returns its error in units of the tolerance; NaN: not finite. */
-static double attempt(follower *f, double h)
-{
-    static const double row[3][3] = {{1.0 / 2}, {0, 3.0 / 4}, {2.0 / 9, 1.0 / 3, 4.0 / 9}},
-                        at[] = {1.0 / 2, 3.0 / 4, 1}, error[] = {-5.0 / 72, 1.0 / 12, 1.0 / 9, -1.0 / 8};
-    const size_t nx = f->problem->nx, nv = f->problem->nv, moving = linear_positions(f->problem);
-    if (nx) memcpy(f->slope_x[0], f->v, nx * sizeof(double));
-    memcpy(f->slope_v[0], f->a, nv * sizeof(double));
-    for (int s = 0; s < 3; s++) {
-        for (size_t k = 0; k < nx; k++) {
-            double sum = 0;
-            for (int i = 0; i <= s; i++) sum += row[s][i] * f->slope_x[i][k];
-            f->stage_x[k] = f->x[k] + h * sum;
-        }
-        for (size_t k = 0; k < nv; k++) {
-            double sum = 0;
-            for (int i = 0; i <= s; i++) sum += row[s][i] * f->slope_v[i][k];
-            f->stage_v[k] = f->v[k] + h * sum;
-        }
-        if (!evaluate(f, f->t + at[s] * h, f->stage_x, f->stage_v, f->slope_v[s + 1])) return NAN;
-        if (nx) memcpy(f->slope_x[s + 1], f->stage_v, nx * sizeof(double));
-    }
-    /* Numbers that are 0 at first get the size that the largest acceleration gives them in a time 1/rate. */
-    double worst = 0, largest_a = 0;
-    for (int s = 0; s < 4; s++) largest_a = fmax(largest_a, vector_largest(f->slope_v[s], nx));
-    const double of_x = fmax(LEAST * vector_largest(f->largest_x, moving), largest_a / (f->rate * f->rate)),
-                 of_v = fmax(LEAST * vector_largest(f->largest_v, nv), largest_a / f->rate);
-    for (size_t k = 0; k < nx + nv; k++) {
-        double *const *slope = k < nx ? f->slope_x : f->slope_v, sum = 0;
-        const size_t j = k < nx ? k : k - nx;
-        for (int i = 0; i < 4; i++) sum += error[i] * slope[i][j];
-        const double now = fabs(k < nx ? f->stage_x[j] : f->stage_v[j]);
-        const double size = fmax(now, k < nx ? fmax(f->largest_x[j], of_x) : fmax(f->largest_v[j], of_v));
-        if (sum != 0) worst = fmax(worst, fabs(h * sum) / (TOLERANCE * size));
-    }
-    return isfinite(worst) ? worst : NAN;
-}
-
 static void note_all(follower *f)
 {
     const problem *p = f->problem;
-    for (size_t k = 0; k < p->nx; k++) f->largest_x[k] = fmax(f->largest_x[k], fabs(f->x[k]));
     for (size_t k = 0; k < p->nv; k++) {
-        f->largest_v[k] = fmax(f->largest_v[k], fabs(f->v[k]));
         swings_note(&f->signals[k], f->elapsed, f->taken, k < p->nx ? f->v[k] : f->a[k]);
         if (k < p->nx) swings_note(&f->signals[p->nv + k], f->elapsed, f->taken, f->a[k]);
     }
@@ -122,8 +84,8 @@ static double number_between(const follower *f, size_t k, double h, double part)
 {
     const size_t nx = f->problem->nx;
     h *= f->way;
-    return k < nx ? between(f->x[k], f->v[k], f->stage_x[k], f->stage_v[k], h, part)
-                  : between(f->v[k], f->a[k], f->stage_v[k], f->slope_v[3][k], h, part);
+    return k < nx ? between(f->x[k], f->v[k], f->end_x[k], f->end_v[k], h, part)
+                  : between(f->v[k], f->a[k], f->end_v[k], f->end_a[k], h, part);
 }
 
 /* Returns the size of the state within the attempted step, in units of positions and of first-order variables. */
@@ -163,7 +125,7 @@ static void land(follower *f, double h, followed *out)
 {
     if (linear_positions(f->problem) == 0 || out->landed > 0) return;
     const size_t k = f->falling;
-    const double x = f->stage_x[k], speed = f->way * f->stage_v[k];
+    const double x = f->end_x[k], speed = f->way * f->end_v[k];
     if (f->side == 0) f->side = x;
     f->speed = speed * f->force > 0 ? fmax(f->speed, fabs(speed)) : 0;
     if (!(x * f->side <= 0) || !(f->side * f->force < 0) || !(f->speed > 0) || !(fabs(speed) >= SPEED * f->speed))
@@ -190,18 +152,24 @@ static void grow(follower *f, double h, followed *out)
         out->grown = f->elapsed + h * part_of(f, h, is_small);
 }
 
-/* Returns whether this step may leap over a singularity although it meets the tolerance: the force has grown, and its
- * values within the step are far apart. Shorter steps resolve the force, or end there. */
-static bool leaps(const follower *f)
+/* Returns whether the step of length h may leap over a singularity although it meets the tolerance: the force has
+ * grown, and its values at the ends and in the middle are far apart. Shorter steps resolve the force, or end there. */
+static bool leaps(follower *f, double h)
 {
-    const double first = vector_largest(f->first_a, f->problem->nv);
-    for (size_t k = 0; k < f->problem->nv; k++) {
-        const double now = fabs(f->a[k]);
-        double low = f->a[k], high = low;
-        for (int s = 1; s < 4; s++) low = fmin(low, f->slope_v[s][k]), high = fmax(high, f->slope_v[s][k]);
-        if (now > STEEP * first && now >= f->largest_a[k] / 2 && high - low >= 0.75 * now) return true;
+    const size_t nx = f->problem->nx, nv = f->problem->nv;
+    const double least = STEEP * vector_largest(f->first_a, nv);
+    if (!(vector_largest(f->a, nv) > least)) return false;
+    for (size_t k = 0; k < nv; k++) {
+        if (k < nx) f->mid_x[k] = number_between(f, k, h, 0.5);
+        f->mid_v[k] = between(f->v[k], f->a[k], f->end_v[k], f->end_a[k], f->way * h, 0.5);
     }
-    return false;
+    bool far = !evaluate(f, f->from + f->way * (f->elapsed + h / 2), f->mid_x, f->mid_v, f->mid_a);
+    for (size_t k = 0; k < nv && !far; k++) {
+        const double a = f->a[k], low = fmin(a, fmin(f->mid_a[k], f->end_a[k])),
+                     high = fmax(a, fmax(f->mid_a[k], f->end_a[k]));
+        far = fabs(a) > least && fabs(a) >= f->largest_a[k] / 2 && high - low >= 0.75 * fabs(a);
+    }
+    return far;
 }
 
 /* Returns the length of y, or of y - z unless z is NULL. */
@@ -217,8 +185,7 @@ static double length(const double *y, const double *z, size_t n)
 static void note_rate(follower *f, double h)
 {
     const size_t nx = f->problem->nx;
-    const double v = length(f->stage_v, NULL, nx), a = length(f->slope_v[3], NULL, nx),
-                 j = length(f->slope_v[3], f->a, nx) / h;
+    const double v = length(f->end_v, NULL, nx), a = length(f->end_a, NULL, nx), j = length(f->end_a, f->a, nx) / h;
     /* a rate of the motion, and not of a driving force */
     if (!(v > 0 && a > 0 && f->taken > SETTLED) || f->problem->traits.time) return;
     const double by = a / v, root = j / v; /* w^2 = (-by^2 + sqrt(by^4 + 4 root^2))/2, without cancellation */
@@ -231,31 +198,31 @@ static void note_rate(follower *f, double h)
 static void accept(follower *f, double h)
 {
     const size_t nx = f->problem->nx, nv = f->problem->nv;
-    f->t += f->way * h;
-    f->elapsed += h;
-    if (nx) memcpy(f->x, f->stage_x, nx * sizeof(double));
-    memcpy(f->v, f->stage_v, nv * sizeof(double));
-    memcpy(f->a, f->slope_v[3], nv * sizeof(double));
+    f->elapsed = fabs(stepper_time(f->trial.stepper));
+    if (nx) memcpy(f->x, f->end_x, nx * sizeof(double));
+    memcpy(f->v, f->end_v, nv * sizeof(double));
+    memcpy(f->a, f->end_a, nv * sizeof(double));
+    f->slows |= f->taken > SETTLED && h < f->usual;
     f->usual = f->taken++ < SETTLED ? h : f->usual + (h - f->usual) / SETTLED;
-    if (f->taken > SETTLED) f->shortest = fmin(f->shortest, f->usual);
+    if (f->slows) f->shortest = fmin(f->shortest, f->usual);
     for (size_t k = 0; k < nv; k++) f->largest_a[k] = fmax(f->largest_a[k], fabs(f->a[k]));
     note_all(f);
     settled_note(&f->record, f->elapsed, f->x, nx, f->v + nx);
 }
 
 /* Takes a step that meets the tolerance. False: none does, however short. */
-static bool step(follower *f, size_t *evaluations, size_t most, followed *out)
+static bool step(follower *f, followed *out)
 {
+    stepper *s = f->trial.stepper;
     for (;;) {
-        if (*evaluations + 3 > most) return true;
-        *evaluations += 3;
-        const double error = attempt(f, f->way * f->h), h = f->h;
-        if (isnan(error)) f->undefined = f->elapsed;
-        if (!(h > 1e-10 * f->elapsed) || !(h > 1e-290)) return false;
-        f->h *= isnan(error) ? 0.1 : fmin(4, fmax(0.2, 0.9 / sqrt(sqrt(error))));
-        if (!(error <= 1)) continue;
-        if (leaps(f)) {
-            f->h = h / 4;
+        bool arrived;
+        if (trial_step(&f->trial, NAN, &arrived) != MOTUS_OK ||
+            stepper_sync(s, f->end_x, f->end_v, f->end_a, NULL) != MOTUS_OK)
+            return false;
+        const double h = fabs(stepper_last_step(s)), start = f->way * f->elapsed;
+        if (!(h > 1e-10 * f->elapsed)) return false;
+        if (leaps(f, h)) {
+            if (stepper_jump(s, start, 0, f->way * h / 4, f->x, f->v, NULL) != MOTUS_OK) return false;
             continue;
         }
         land(f, h, out);
@@ -293,8 +260,22 @@ static bool judge(const follower *f, followed *out)
     return all || (out->shortest > 0 && f->elapsed > SWINGS_MOST * out->shortest);
 }
 
+/* Returns whether the force has no value a little further along the motion. */
+static bool undefined_ahead(follower *f)
+{
+    const size_t nx = f->problem->nx, nv = f->problem->nv;
+    for (double late = NEAR_END * fmax(f->elapsed, 1 / f->rate); late > NEAR_END * NEAR_END * f->elapsed; late /= 16) {
+        for (size_t k = 0; k < nv; k++) {
+            if (k < nx) f->mid_x[k] = f->x[k] + f->way * late * f->v[k];
+            f->mid_v[k] = f->v[k] + f->way * late * f->a[k];
+        }
+        if (!evaluate(f, f->from + f->way * (f->elapsed + late), f->mid_x, f->mid_v, f->mid_a)) return true;
+    }
+    return false;
+}
+
 /* Returns how a motion ends that no step can follow further. */
-static follow_end end_of(const follower *f, double size)
+static follow_end end_of(follower *f, double size)
 {
     const size_t nx = f->problem->nx, nv = f->problem->nv;
     const double state = fmax(vector_largest(f->x, linear_positions(f->problem)), vector_largest(f->v + nx, nv - nx));
@@ -303,7 +284,7 @@ static follow_end end_of(const follower *f, double size)
     /* An exponential ends with the range of the numbers, but needs equal times for equal factors. */
     if (size >= INFINITE) return slope * f->elapsed > 1e4 * state ? FOLLOW_INFINITE : FOLLOW_GOES_ON;
     if (now > STEEP * first) return FOLLOW_SINGULAR;
-    return f->undefined >= (1 - NEAR_END) * f->elapsed ? FOLLOW_UNDEFINED : FOLLOW_GOES_ON;
+    return undefined_ahead(f) ? FOLLOW_UNDEFINED : FOLLOW_GOES_ON;
 }
 
 /* Returns whether the falling number is on its way to 0, and near enough to be followed there. */
@@ -319,10 +300,11 @@ static void follow(follower *f, double horizon, size_t most, followed *out)
     const size_t nx = f->problem->nx;
     static const double marks[] = {1e2, 1e4, INFINITE};
     double times[3] = {0}, size = 0;
-    size_t evaluations = 1;
+    const int64_t room = (int64_t)most - 4; /* evaluations of the start and of a step */
     bool steps = true, done = false;
-    while (steps && !done && evaluations + 3 <= most && (f->elapsed < horizon || falls(f, horizon, out))) {
-        steps = step(f, &evaluations, most, out);
+    while (steps && !done && stepper_evaluations(f->trial.stepper) <= room &&
+           (f->elapsed < horizon || falls(f, horizon, out))) {
+        steps = step(f, out);
         size = f->begun ? size_between(f, 0, 1) : 0;
         for (int i = 0; i < 3; i++)
             if (size >= marks[i] && times[i] == 0) times[i] = f->elapsed;
@@ -331,11 +313,11 @@ static void follow(follower *f, double horizon, size_t most, followed *out)
         done = (size >= INFINITE && !pole) || judge(f, out);
     }
     judge(f, out);
-    out->change = f->taken > SETTLED ? CHANGE_OF_STEP * f->shortest : 0;
+    out->change = isfinite(f->shortest) ? CHANGE_OF_STEP * f->shortest : 0;
     out->step = f->usual;
     out->fast = f->fastest;
     out->elapsed = f->elapsed;
-    out->cut = steps && !done && evaluations + 3 > most;
+    out->cut = steps && !done && stepper_evaluations(f->trial.stepper) > room;
     out->falling = f->falling;
     if (!steps) out->end = end_of(f, size);
     if (out->end != FOLLOW_GOES_ON) out->bound = f->elapsed;
@@ -370,31 +352,43 @@ static void start(follower *f)
         if (f->signals[k].value == 0) f->signals[k].changes = 1;
 }
 
+/* Returns the least size that a kind of number has at the start: positions, velocities, first-order variables. */
+static double size_of_start(const follower *f)
+{
+    const double x = fmax(f->start_x, vector_largest(f->v, f->problem->nx) / f->rate), v = x * f->rate, s = f->start_v;
+    const double of_x = x > 0 ? fmin(x, v) : s;
+    return s > 0 ? fmin(of_x, s) : of_x;
+}
+
 bool follow_motion(motus_system *s, double from, double way, double rate, double horizon, followed *out)
 {
     const problem *p = &s->problem;
     const size_t nx = p->nx, nv = p->nv, most = s->text.draft / (nv ? nv : 1);
     *out = (followed){0};
-    follower f = {
-        .problem = p, .t = from, .way = way, .rate = rate, .h = 0.01 / rate, .shortest = INFINITY, .undefined = -1};
-    const size_t samples = most / 3 + 1 < SETTLED_SAMPLES ? most / 3 + 1 : SETTLED_SAMPLES, state = 7 * nx + 10 * nv;
+    follower f = {.problem = p, .from = from, .way = way, .rate = rate, .shortest = INFINITY};
+    const size_t samples = most / 3 + 1 < SETTLED_SAMPLES ? most / 3 + 1 : SETTLED_SAMPLES, state = 3 * nx + 8 * nv;
     double *room = take(&s->allocator, state + samples * (nv + 1), sizeof *room);
     f.signals = take(&s->allocator, 2 * nv, sizeof *f.signals);
     if (room && f.signals) {
-        double **of_x[] = {&f.x, &f.stage_x, &f.largest_x, &f.slope_x[0], &f.slope_x[1], &f.slope_x[2], &f.slope_x[3]};
-        double **of_v[] = {&f.v,          &f.stage_v,    &f.largest_v, &f.slope_v[0], &f.slope_v[1],
-                           &f.slope_v[2], &f.slope_v[3], &f.a,         &f.first_a,    &f.largest_a};
+        double **of_x[] = {&f.x, &f.end_x, &f.mid_x};
+        double **of_v[] = {&f.v, &f.end_v, &f.mid_v, &f.a, &f.end_a, &f.mid_a, &f.first_a, &f.largest_a};
         memset(room, 0, state * sizeof *room);
         f.record = (settled){room + state, room + state + samples, nv, samples, 0, 0.01 / rate};
         memset(f.signals, 0, 2 * nv * sizeof *f.signals);
-        for (size_t i = 0; i < 7; i++) *of_x[i] = room + i * nx;
-        for (size_t i = 0; i < 10; i++) *of_v[i] = room + 7 * nx + i * nv;
+        for (size_t i = 0; i < 3; i++) *of_x[i] = room + i * nx;
+        for (size_t i = 0; i < 8; i++) *of_v[i] = room + 3 * nx + i * nv;
         if (nx) memcpy(f.x, s->x0, nx * sizeof *room);
         memcpy(f.v, s->v0, nv * sizeof *room);
-        if (evaluate(&f, f.t, f.x, f.v, f.a)) {
+        chosen row;
+        if (evaluate(&f, from, f.x, f.v, f.a) && row_choose(METHOD, &row, NULL, NULL) == MOTUS_OK) {
             start(&f);
             out->rests = rests(&f);
-            if (!out->rests) follow(&f, horizon, most, out);
+            row.relative = TOLERANCE;
+            row.absolute = TOLERANCE * LEAST * size_of_start(&f);
+            row.first = 0.01 / rate;
+            if (!out->rests && trial_begin(&f.trial, p, &s->allocator, &row, from, way, f.x, f.v, INT64_MAX))
+                follow(&f, horizon, most, out);
+            trial_end(&f.trial);
         }
     }
     const bool memory = room && f.signals;
