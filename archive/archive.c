@@ -273,7 +273,8 @@ motus_status motus_archive_write(motus_archive *a, uint64_t block, const void *c
 
 motus_status motus_archive_sync(motus_archive *a, motus_error *err)
 {
-    /* When it is made its name is not waited for, since a disk would first write all that fills the columns. */
+    /* Only now is the name brought to the disk: when the archive was made, the disk would first have written all that
+     * fills the columns. */
     if (!a->named) disk_sync_name(a->path);
     a->named = true;
     return disk_sync(a->descriptor) ? MOTUS_OK : cannot("write", a->path, err);
@@ -470,7 +471,7 @@ motus_status motus_archive_settle(motus_archive *a, const void *bytes, size_t le
     if (!status) status = write_slot(a, turn + 1, bytes, length, true, err);
     for (uint64_t k = 0; !status && k < 2; k++)
         status = write_slot(a, (turn + k) % 2 ? 1 : 2, bytes, length, true, err);
-    a->turn = 0; /* the latest need not be the last that was written */
+    a->turn = 0; /* the latest state need not be the one that was written last */
     return status;
 }
 

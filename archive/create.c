@@ -102,7 +102,7 @@ static make_archive *maker(void)
 
 int motus_archive_makes(void) { return maker() != NULL; }
 
-/* What is said of the file stays, also what another version of motus said. */
+/* Compresses an archive, with all notes that it has, those of other versions of motus too. */
 static motus_status make_from(make_archive *make, const char *path, const motus_archive_def *d, motus_error *err)
 {
     motus_archive_def own = *d;

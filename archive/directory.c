@@ -17,7 +17,8 @@ size_t motus_archive_width(const motus_archive_column *c)
     return (c->shape[0] ? c->shape[0] : 1) * (c->shape[1] ? c->shape[1] : 1);
 }
 
-/* As FNV-1a, over words of 64 bits; the high half is folded into the low one, so that its bits count in what follows.
+/* Hashes as FNV-1a does, over words of 64 bits; the high half is folded into the low one, so that its bits count in
+ * what follows.
  */
 uint64_t directory_hash(uint64_t h, const void *bytes, size_t count)
 {

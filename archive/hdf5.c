@@ -88,7 +88,7 @@ static bool put_text(hid_t object, const char *name, const char *text)
     return good;
 }
 
-/* The same text, `count` times. */
+/* Writes a text `count` times. */
 static bool put_texts(hid_t object, const char *name, const char *text, hid_t space, size_t count)
 {
     const hid_t type = text_type(text);
@@ -122,7 +122,7 @@ static bool put_model(hid_t file, const char *text)
     return good;
 }
 
-/* The words of a column, as the CF conventions have them: values, and their meanings separated by spaces. */
+/* Writes the words of a column as the CF conventions have them: values, and their meanings separated by spaces. */
 static bool put_words(hid_t set, const motus_archive_column *c)
 {
     unsigned char values[255];
@@ -150,7 +150,7 @@ static bool put_words(hid_t set, const motus_archive_column *c)
     return good;
 }
 
-/* A name that HDF5 takes for one: its slashes would be folders. */
+/* Returns the name without slashes, which HDF5 would take for folders. */
 static char *link_name(const char *name)
 {
     static const char slash[] = "\u2215";
@@ -165,8 +165,8 @@ static char *link_name(const char *name)
     return out;
 }
 
-/* `count` rows at their place, which HDF5 does not fill; `shape` of the numbers in a row, NULL: one. `chunk` above 0:
- * they are to be compressed, so many rows at a time, and have no place yet. The caller closes it. */
+/* Makes a data set of `count` rows at their place, which HDF5 does not fill. shape: of the numbers in a row; NULL: one.
+ * chunk above 0: so many rows at a time will be compressed, and have no place yet. The caller closes the set. */
 static hid_t make_set(hid_t group, const char *name, hid_t type, uint64_t count, const size_t *shape,
                       const void *missing, uint64_t chunk, uint64_t *place)
 {
@@ -196,7 +196,7 @@ static hid_t make_set(hid_t group, const char *name, hid_t type, uint64_t count,
     return H5I_INVALID_HID;
 }
 
-/* How many rows are compressed together; 0: they are not compressed. */
+/* Returns how many rows are compressed together; 0: they are not compressed. */
 static uint64_t chunk_of(const maker *m)
 {
     const motus_archive_def *d = m->def;
@@ -236,7 +236,7 @@ static motus_status put_sets(maker *m)
 
 static hid_t make_group(hid_t file, const char *name);
 
-/* /checkpoint/slots, where states are written in turn. */
+/* Makes /checkpoint/slots, where states are written in turn. */
 static motus_status put_slots(maker *m)
 {
     if (!m->def->slot) return MOTUS_OK;
@@ -251,7 +251,8 @@ static motus_status put_slots(maker *m)
 
 /* ---- other conventions ---- */
 
-/* The group of a path, with those on the way made one by one: what HDF5 makes by itself has the time in it. */
+/* Returns the group of a path, and makes the groups on the way one by one: what HDF5 makes by itself has the time in
+ * it. */
 static hid_t group_at(hid_t file, const char *path)
 {
     hid_t group = H5Gopen2(file, "/", H5P_DEFAULT);
@@ -349,7 +350,7 @@ static hid_t make_file(const char *path, size_t directory, bool aligned)
     return file;
 }
 
-/* The rows of the archive that is compressed, and where HDF5 puts them, /blocks/packed. */
+/* Writes the rows of the archive that is compressed, and where HDF5 puts them, /blocks/packed. */
 static motus_status put_packed(maker *m)
 {
     const motus_archive_def *d = m->def;
@@ -453,7 +454,7 @@ static motus_status put_numbers(const maker *m, int descriptor, int64_t *room)
     return status;
 }
 
-/* What is not written again: the numbers of the rows, and that no block is there. */
+/* Writes what is written only once: the numbers of the rows, and that no block is there. */
 static motus_status put_rest(const maker *m, int descriptor)
 {
     const motus_archive_def *d = m->def;
@@ -517,7 +518,7 @@ static motus_status put_missing(const maker *m, int descriptor)
     return status ? status : fill(m, descriptor);
 }
 
-/* Of a compressed archive: the hashes of its blocks, its states, and where its pieces are. */
+/* Writes the hashes of the blocks of a compressed archive, its states, and where its pieces are. */
 static motus_status put_hashes(const maker *m, int descriptor, size_t size)
 {
     const motus_archive_def *d = m->def;

@@ -27,7 +27,7 @@ bool pack_layout(hid_t list, int dimensions, const hsize_t *chunk)
     return H5Pset_chunk(list, dimensions, chunk) >= 0 && H5Pset_shuffle(list) >= 0 && H5Pset_deflate(list, LEVEL) >= 0;
 }
 
-/* What a column is: 0, the numbers of the rows. */
+/* The kind of the numbers of a column, or of the rows' numbers (column 0). */
 typedef struct kind {
     hid_t type;
     size_t unit, width;
@@ -111,7 +111,7 @@ motus_status pack_rows(hid_t set, const motus_archive_def *d, size_t column, dir
 
 /* ---- reading, without HDF5 ---- */
 
-/* Bytes of all numbers, the first of each before the second of each. */
+/* Undoes the shuffle: `in` has the first bytes of all numbers, then the second ones. */
 static void unshuffle(const unsigned char *in, size_t width, unsigned char *out, size_t count)
 {
     const size_t numbers = count / width;
@@ -136,8 +136,8 @@ int unpack_piece_2(const void *bytes, size_t size, uint64_t left_out, size_t wid
 typedef struct checker {
     const motus_archive_def *d;
     int descriptor;
-    unsigned char *packed, *unpacked, *rows; /* room for those of a block */
-    size_t room;                             /* of packed */
+    unsigned char *packed, *unpacked, *rows; /* room for the bytes of a block */
+    size_t room;                             /* of `packed` */
 } checker;
 
 /* Tells whether the piece has the rows of a block. */

@@ -121,7 +121,7 @@ bool events_settled(const events *, size_t function);
 /* Takes over how far the numbers of the state, x and then v, may be off from now on: extrema that this may lead beyond
  * 0 are kept. Forgets the extrema before. False: no memory. */
 bool events_near(events *, const double *off);
-/* Returns the error of number k that events_near was told last; 0: it was told none. */
+/* Returns the error of number k that events_near got last; 0: it got none. */
 double events_off(const events *, size_t k);
 size_t events_extrema(const events *);
 /* The end of a step, which need not be an extremum; an extremum; a function that comes to 0 as the motion comes to

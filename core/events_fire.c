@@ -245,7 +245,7 @@ static bool ends_flight(const events *e)
     return constant;
 }
 
-enum { WAS_ZERO = UINT8_MAX }; /* of `arrives`: the function was 0, or its event has been told */
+enum { WAS_ZERO = UINT8_MAX }; /* of `arrives`: the function was 0, or its event has happened */
 
 /* Sets `arrives` after a turn has led on to where the motion comes to rest, within a time that no step resolves, and
  * functions have come to 0 with it. A function that would have the other sign if the motion went on passes 0; else it

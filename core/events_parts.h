@@ -143,7 +143,7 @@ struct events {
     double blurred;  /* the time within which rounding of the state hides the root of a function that is not flat */
     bool awaits;     /* a switch of the force is to turn in this instant */
     /* an entry for each function: */
-    uint8_t *touched; /* that it touches 0 has been told in this instant */
+    uint8_t *touched; /* its touch of 0 has happened in this instant */
     uint8_t *arrives; /* a turn has led it to 0 in this instant, where the motion rests: candidate_kind + 2; else 0 */
     uint8_t *look;    /* the bounds do not exclude a root, so dense output is searched for roots */
     uint8_t *passed;  /* it has passed 0 in watched steps without an event; `side` does not know of it yet */
@@ -282,7 +282,7 @@ bool events_keep_now(events *, double t, const double *x);
 void events_kept_forget(events *);
 /* Counts an event of a rule that assigns. True: its events accumulate, at events.limit. */
 bool events_accumulate(events *, size_t rule, size_t instance, double t);
-/* Sets the limit of a rule whose events at t follow one another too fast to be told apart: t, or as long after t as
+/* Sets the limit of a rule whose events at t follow one another too fast to be distinguished: t, or as long after t as
  * the latest intervals let more events come. */
 void events_end_here(events *, size_t rule, size_t instance, double t);
 /* Keeps the state at `here` after an action, with which the next action of the rule is compared. */

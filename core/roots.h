@@ -29,7 +29,7 @@
  * `last` is the `before` of a next step that starts where this one ends. An interval that reaches tau = 1 is an `open`
  * place, whose kind is a guess by the slope at 1: hold the event back until the next step. That step reports the place
  * first, with an interval that begins at 0, and its kind; if it does not, the place was a touch. (After an action at an
- * open place pass before = 0.) So every root is told once, on whichever side of the ends rounding puts it.
+ * open place pass before = 0.) So every root is reported once, on whichever side of the ends rounding puts it.
  *
  * Bounds: 32 kB of stack, no allocation, at most ROOTS_CELLS_MOST cells; equal bits on every machine.
  */
@@ -91,8 +91,8 @@ typedef struct roots_root {
 
 typedef enum roots_status {
     ROOTS_COMPLETE,
-    ROOTS_CUT,       /* roots up to `reach` are told; then `out` was full, or the cells were used up */
-    ROOTS_NOT_FINITE /* a coefficient is not finite, or noise or slack is NaN: no root is told */
+    ROOTS_CUT,       /* roots up to `reach` are reported; then `out` was full, or the cells were used up */
+    ROOTS_NOT_FINITE /* a coefficient is not finite, or noise or slack is NaN: no root is reported */
 } roots_status;
 
 typedef struct roots_found {

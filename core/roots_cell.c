@@ -38,7 +38,7 @@ void roots_cell_slope(const roots_cell *cell, roots_cell *slope)
     slope->c[0] /= 2;
 }
 
-/* Newton's method within a bracket, which is halved where Newton's step leaves it or does not halve |p - level|. */
+/* Solves by Newton's method within a bracket, which is halved where a step leaves it or does not halve |p - level|. */
 double roots_cell_solve(const roots_cell *cell, double x0, double p0, double x1, double p1, double level)
 {
     double f0 = p0 - level, f1 = p1 - level;
@@ -85,15 +85,15 @@ void roots_cell_halving(int degree, roots_halving *h)
         }
 }
 
-/* Coefficients that no slope can tell from 0 are dropped. */
+/* Drops the last coefficients, those that no slope can tell from 0. */
 static void trim(roots_cell *cell)
 {
     const double least = 0x1p-64 * fabs(cell->c[1]);
     while (cell->degree > 1 && fabs(cell->c[cell->degree]) <= least) cell->degree--;
 }
 
-/* T_j((x - 1) / 2) = (-1)^j T_j((1 - x) / 2): of each coefficient the terms with even j - k are those of the right
- * half, the others have the other sign. */
+/* T_j((x - 1) / 2) = (-1)^j T_j((1 - x) / 2), so coefficient k of the left half has the terms of the right half, with
+ * the other sign where j - k is odd. */
 void roots_cell_halve(const roots_halving *h, roots_cell *cell, roots_cell *left)
 {
     const int degree = cell->degree;
@@ -123,7 +123,8 @@ static wide wide_sum(double a, double b)
     return (wide){s, (a - (s - t)) + (b - t)};
 }
 
-/* Clenshaw's recurrence loses n^2 of its digits near the ends, so it is done in pairs of doubles. x = 2 tau - 1. */
+/* Evaluates by Clenshaw's recurrence in pairs of doubles, since its rounding grows with n^2 near the ends. x = 2 tau -
+ * 1. */
 static double wide_value(const double *c, int degree, wide x)
 {
     wide b1 = {0, 0}, b2 = {0, 0};

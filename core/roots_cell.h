@@ -20,7 +20,7 @@ typedef struct roots_halving {
 } roots_halving;
 
 double roots_cell_tau(const roots_cell *, double x);
-/* Returns p at x, and tells the slope dp/dx. */
+/* Returns p at x; *slope becomes dp/dx. */
 double roots_cell_value(const roots_cell *, double x, double *slope);
 /* Returns the sum of |c_k| over k >= 1. */
 double roots_cell_rest(const roots_cell *);

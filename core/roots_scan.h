@@ -1,4 +1,4 @@
-/* From monotone pieces of p, told from tau = 0 to tau = 1, to the places where the sign of g changes or is uncertain.
+/* From monotone pieces of p, taken from tau = 0 to tau = 1, to the places where the sign of g changes or is uncertain.
  *
  * Invariant: between two ends of pieces p is monotone, up to what the noise hides; all places up to `tau` are in `out`,
  * except one that is still open at `tau`.

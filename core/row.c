@@ -40,7 +40,7 @@ bool row_reversible_steps(const chosen *method) { return method->row->density; }
 
 static char lower(char c) { return c >= 'A' && c <= 'Z' ? (char)(c - 'A' + 'a') : c; }
 
-/* Whether two names are equal in any letter case, with '_' for '-'. */
+/* Tells whether two names are equal in any letter case, with '_' for '-'. */
 static bool same(const char *a, size_t length, const char *b, size_t b_length)
 {
     if (length != b_length) return false;
@@ -61,7 +61,7 @@ static bool also_called(const motus_method *card, const char *name, size_t lengt
     return false;
 }
 
-/* Names before aliases, because a study looks up names alone and often. */
+/* Looks at names before aliases, because a study looks up names alone and often. */
 static const row *find(const char *name, size_t length)
 {
     for (size_t k = 0; k < methods_count; k++)
@@ -108,7 +108,7 @@ static const char *blanks(const char *s)
     return s;
 }
 
-/* A number or a quotient of two. */
+/* Reads a number or a quotient of two. */
 static const char *read_argument(const char *s, double *value)
 {
     s = blanks(s);
@@ -217,7 +217,7 @@ static const char *reason(const row *row, const traits *traits)
     return "";
 }
 
-/* How far `other` is from the row `wanted`: by order first, then by the properties that its card states. */
+/* Returns how far `other` is from the row `wanted`: by order first, then by the properties that its card states. */
 static int unlike(const motus_method *wanted, const motus_method *other)
 {
     int order = wanted->order == 0 ? 2 : wanted->order; /* exact has no order: offer order 2 */

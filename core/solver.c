@@ -1,7 +1,7 @@
 /* Linear systems of implicit methods: derivatives by colours, the band matrix of all stages, and its solution.
  *
- * Invariant: a matrix that is known to be constant is computed once; a factorisation is reused only where the matrix
- * is the same.
+ * Invariant: a matrix that is known to be constant is computed once; a factorisation is reused only for the matrix of
+ * which it was made.
  */
 #include "core/solver.h"
 
@@ -75,7 +75,8 @@ static motus_status no_memory(motus_error *err)
     return fail(err, MOTUS_MEMORY, "out of memory for the matrix of the implicit equations");
 }
 
-/* Patterns, order and bandwidth; refuses before it takes memory of the matrix's size. */
+/* Finds the patterns, the order of the unknowns and the bandwidths. Refuses a matrix that is too large before it takes
+ * memory for it. */
 static motus_status structure(solver *s, motus_error *err)
 {
     const problem *p = s->problem;
@@ -145,7 +146,8 @@ motus_status solver_create(const problem *p, int stages, bool use_x, bool use_v,
 
 /* Derivatives ------------------------------------------------------------------------------------------------------ */
 
-/* image = J direction for the columns of one colour, whose directions do not meet: by the problem's own derivative. */
+/* Computes the columns of one colour by the problem's own derivative: they share no row, so one product with J has them
+ * all. */
 static int direct(solver *s, bool in_v, const sparse *m, size_t colour, double t, double *x, double *v)
 {
     const problem *p = s->problem;
@@ -167,7 +169,7 @@ double solver_shift(double y, double size, bool linear)
     return (linear ? 1 : sqrt(DBL_EPSILON)) * ldexp(1, ilogb(fabs(y) + size));
 }
 
-/* The same by a difference quotient. */
+/* Computes the columns of one colour by a difference quotient. */
 static int quotient(solver *s, bool in_v, const sparse *m, size_t colour, double t, double *x, double *v, double size)
 {
     const problem *p = s->problem;

@@ -1,8 +1,8 @@
 /* Band matrices: LU with partial pivoting, column by column.
  *
- * Invariant: pivoting moves rows by at most `lower` places, so U needs `lower` diagonals more than the matrix;
- * callers leave them zero. The file is compiled once for each instruction set, as core/stepper_body.c is, to the same
- * bits.
+ * Invariant: pivoting moves rows by at most `lower` places, so U needs `lower` diagonals more than the matrix; callers
+ * leave them zero. The file is compiled once for each instruction set, as core/stepper_body.c is; all of them give
+ * equal bits.
  */
 #include "core/solver.h"
 

@@ -27,7 +27,7 @@ typedef struct gather {
     bool filling, broken, inconsistent;
 } gather;
 
-/* First counts the entries of each column in start[c + 1], then fills them in, start[c] running ahead. A problem that
+/* Counts the entries of each column in start[c + 1]; when `filling`, writes them and moves start[c] on. A problem that
  * runs out of memory may report fewer entries the first time than the second: then the pattern is inconsistent. */
 static void gather_entry(void *arg, size_t row, size_t column)
 {
@@ -74,7 +74,7 @@ bool solver_pattern(const problem *p, bool in_v, sparse *m, const motus_allocato
     g.room = entries;
     gather_all(p, in_v, &g);
     size_t kept = 0, first = 0;
-    /* start[c] now is the end of column c: sort, drop doubles, close up */
+    /* start[c] now is the end of column c: sort, drop duplicates, close the gaps */
     for (size_t c = 0; c < m->columns; c++) {
         const size_t end = m->start[c];
         if (g.inconsistent || end < first) return false;
@@ -131,8 +131,8 @@ static bool net_build(net *g, size_t n, const sparse *x, const sparse *v, const 
 
 static size_t degree(const net *g, size_t k) { return g->start[k + 1] - g->start[k]; }
 
-/* Breadth first from `root` over what is not marked yet; neighbours by degree. Marks with `mark`; returns how many
- * were reached. */
+/* Walks breadth-first from `root` over the unknowns that have the mark `unmarked`, neighbours of low degree first, and
+ * gives them `mark`. Returns how many they are. */
 static size_t sweep(const net *g, uint32_t root, uint32_t *queue, uint32_t *marks, uint32_t mark, uint32_t unmarked)
 {
     size_t head = 0, tail = 0;
@@ -155,7 +155,8 @@ static size_t sweep(const net *g, uint32_t root, uint32_t *queue, uint32_t *mark
     return tail;
 }
 
-/* Reverse Cuthill-McKee, each component from the far end of a sweep from its first member. */
+/* Orders the unknowns by reverse Cuthill-McKee. Each component begins at the far end of a sweep from its first
+ * member. */
 static bool cuthill_mckee(const net *g, uint32_t *place, const motus_allocator *allocator)
 {
     uint32_t *queue = take(allocator, g->n, sizeof *queue), *marks = take(allocator, g->n, sizeof *marks);
@@ -212,8 +213,9 @@ bool solver_order(size_t n, const sparse *x, const sparse *v, uint32_t *place, s
 
 /* Colours ---------------------------------------------------------------------------------------------------------- */
 
-/* Columns that share no row get the same colour, greedily: one directional derivative serves them all [CPR74]. */
-static bool paint(size_t rows, sparse *m, size_t *by_row, uint32_t *columns, uint32_t *colour, uint32_t *taken)
+/* Gives one colour to columns that share no row, greedily, so that one directional derivative serves them all
+ * [CPR74]. */
+static void paint(size_t rows, sparse *m, size_t *by_row, uint32_t *columns, uint32_t *colour, uint32_t *taken)
 {
     for (size_t i = 0; i < m->start[m->columns]; i++) by_row[m->row[i] + 1]++;
     for (size_t r = 0; r < rows; r++) by_row[r + 1] += by_row[r];
@@ -232,7 +234,6 @@ static bool paint(size_t rows, sparse *m, size_t *by_row, uint32_t *columns, uin
         colour[c] = pick;
         if (pick > m->colours) m->colours = pick;
     }
-    return true;
 }
 
 bool solver_colour(size_t rows, sparse *m, const motus_allocator *allocator)
@@ -241,8 +242,9 @@ bool solver_colour(size_t rows, sparse *m, const motus_allocator *allocator)
     uint32_t *columns = take(allocator, m->start[m->columns], sizeof *columns);
     uint32_t *colour = take(allocator, m->columns, sizeof *colour),
              *taken = take(allocator, m->columns + 2, sizeof *taken);
-    bool ok = by_row && columns && colour && taken && paint(rows, m, by_row, columns, colour, taken);
+    bool ok = by_row && columns && colour && taken;
     if (ok) {
+        paint(rows, m, by_row, columns, colour, taken);
         m->colour_start = take(allocator, m->colours + 2, sizeof *m->colour_start);
         m->colour_column = take(allocator, m->columns, sizeof *m->colour_column);
         ok = m->colour_start && m->colour_column;

@@ -5,8 +5,8 @@
  *     -DISA=avx2    -mavx2 -mfma                    x86-64
  *     -DISA=avx512  -mavx512f -mavx512vl -mavx512dq -mavx2 -mfma -mprefer-vector-width=512        x86-64
  *
- * Invariant: all of them give the same bits, because every operation is written out, fma included; they differ in
- * speed alone. core/stepper.c chooses one.
+ * Invariant: all of them give the same bits, because every operation is written out, fma included; they differ only in
+ * speed. core/stepper.c chooses one.
  */
 #include "core/stepper_body.h"
 

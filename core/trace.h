@@ -24,10 +24,10 @@ typedef struct trace_event {
 typedef struct tracer {
     void *ctx;
     void (*see)(void *ctx, const trace_event *);
-    /* Is told that a candidate of step h begins, and the events of an earlier candidate no longer count. */
+    /* Is called when a candidate of step h begins; the events of an earlier candidate no longer count. */
     void (*again)(void *ctx, double h);
-    /* Is told the size of a candidate, which the step itself may have found, its error in units of what is allowed,
-     * and the state to which it leads; x, v NULL: not known. */
+    /* Takes the size of a candidate, which the step itself may have found, its error in units of what is allowed, and
+     * the state to which it leads; x, v NULL: not known. */
     void (*judged)(void *ctx, double h, double error, const double *x, const double *v);
     double *x, *v; /* room for nx and nv numbers */
 } tracer;

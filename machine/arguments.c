@@ -1,5 +1,5 @@
 /* See arguments.h. An argument within a sum has as many values as the sum has terms, so a function with such an
- * argument is not told by its arguments. */
+ * argument is not determined by its arguments. */
 #include "machine/arguments.h"
 
 #include "core/rules.h"

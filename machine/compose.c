@@ -1,8 +1,7 @@
 /* Composing the C text of a compiled model. See compose.h.
  *
- * Invariant: only what the model, the row and the problem's traits use is in the text, since a compiler's time is
- * what a first run waits for; no system header is read, and what is known when the text is written stands there as a
- * constant, so that nothing else is translated.
+ * Invariant: the text has only what the model, the row and the problem's traits use, because a first run waits for the
+ * compiler. It includes no system header, and what is known when it is written is a constant in it.
  */
 #include "machine/compose.h"
 
@@ -14,12 +13,12 @@
 #include <string.h>
 
 enum {
-    SERIES_APART = 7,       /* arrays of a row of Taylor series without the series: step/taylor.h */
-    SMALL_MAX = 16,         /* numbers: what registers, or at least the fastest loads, may hold */
+    SERIES_APART = 7,       /* arrays of a row of Taylor series besides the series: step/taylor.h */
+    SMALL_MAX = 16,         /* numbers of a state that may stay in registers */
     WRITTEN_OUT_MAX = 150,  /* operations of the force in all stages of a step, up to which they are written out */
     FORCE_INLINE_MAX = 150, /* operations: a longer force is compiled once, and called */
-    FORCE_TURNS_MAX = 40    /* the same of an implicit row: one call more is nothing beside those of the library, which
-                             * solve its equations, and the row's text has the force several times */
+    FORCE_TURNS_MAX = 40    /* operations, for an implicit row: its text has the force several times, and one call more
+                             * is nothing beside the calls that solve its equations */
 };
 
 static void add_text(emit_text *t, const char *which)
@@ -44,9 +43,9 @@ static void add_numbers(emit_text *t, const char *name, const double *numbers, i
     emit_add(t, count ? "};\n" : "0};\n");
 }
 
-/* The times at which a step evaluates the force, each once: at[m] in steps; stage i is at moment[i], which may be
- * `count`: the first moment of the next step, which is the end of this one. Tables of what depends on time alone have
- * a place for each. */
+/* The times at which a step evaluates the force, each once: at[m], as a fraction of the step. Stage i is at moment[i];
+ * `count` is the end of the step, the first moment of the next one. A table of what depends on time alone has a place
+ * for each moment. */
 typedef struct moments {
     int count, *moment;
     double *at;
@@ -60,9 +59,9 @@ static bool find_moments(const work *w, arena *a, moments *m)
     if (!m->moment || !m->at) return false;
     memset(m->moment, 0, room * sizeof *m->moment);
     const int stages = w->stages - w->fsal;
-    if (w->solves && w->iterates) /* it begins with the acceleration there */
+    if (w->solves && w->iterates) /* the iteration begins with the acceleration at the start */
         m->at[m->count++] = 0;
-    /* the start of the step first, where the force is evaluated there */
+    /* the start of the step comes first, if the force is evaluated there */
     for (int start = 1; start >= 0; start--)
         for (int i = 0; i < stages; i++) {
             if ((w->c[i] == 0) != start || (row_has(w->row, KICKS) && w->unit[i] == 0)) continue;
@@ -84,7 +83,7 @@ bool compose_bounds_are_structure(const model *m)
     return single;
 }
 
-/* Where rules may be followed, what asks after every step whether something has happened in it. */
+/* Adds the text that asks after every step whether an event may have happened in it, if rules may be followed. */
 static void add_watch(emit_text *t, const composition *c)
 {
     const model *m = c->model;
@@ -106,7 +105,7 @@ static void add_watch(emit_text *t, const composition *c)
     add_text(t, "step/watch.h");
 }
 
-/* The functions of families.def that a compiled model calls. */
+/* Names the functions of families.def that a compiled model calls. */
 static void add_family_names(emit_text *t, const char *name)
 {
     static const char *const functions[] = {"place", "step", "accept", "observe", "sync", "carry", "swing"};
@@ -118,7 +117,7 @@ static const char *const family_names[] = {
 #define NAME_OF(NAME, name, shared, facts) [NAME] = #name,
     FAMILIES(NAME_OF)};
 
-/* Which arrays the row's workspace has. */
+/* Says which arrays the row's workspace has. */
 static void add_places(emit_text *t, work w)
 {
     double any;
@@ -131,7 +130,7 @@ static void add_places(emit_text *t, work w)
              w.ex != NULL, w.ev != NULL, w.old != NULL, w.next_x != NULL, w.delta != NULL, w.vs != NULL, w.ks != NULL);
 }
 
-/* The numbers of each variable, for error control. */
+/* Adds the numbers of each variable, for error control. */
 static void add_variables(emit_text *t, const work *w, bool structure)
 {
     if (!structure || !w->variable) {
@@ -145,21 +144,21 @@ static void add_variables(emit_text *t, const work *w, bool structure)
     emit_add(t, "};\n");
 }
 
-/* The operations of a program; a call of one of the elementary functions counts for those of its text. */
+#define ANY_OF(a, b, c, d) (OPERATION_BIT(a) | OPERATION_BIT(b) | OPERATION_BIT(c) | OPERATION_BIT(d))
+
+/* Counts the operations of a program; a call of an elementary function counts for those of its text. */
 static size_t length_of(const program *p)
 {
-#define ALL_OF(a, b, c, d) (OPERATION_BIT(a) | OPERATION_BIT(b) | OPERATION_BIT(c) | OPERATION_BIT(d))
     enum { FUNCTION_LENGTH = 16 };
-    static const uint64_t functions = ALL_OF(SIN, COS, TAN, POW) | ALL_OF(ASIN, ACOS, ATAN, ATAN2) |
-                                      ALL_OF(SINH, COSH, TANH, EXP) | ALL_OF(LOG, CBRT, HYPOT, ERF);
+    static const uint64_t functions = ANY_OF(SIN, COS, TAN, POW) | ANY_OF(ASIN, ACOS, ATAN, ATAN2) |
+                                      ANY_OF(SINH, COSH, TANH, EXP) | ANY_OF(LOG, CBRT, HYPOT, ERF);
     size_t length = 0;
     for (uint32_t i = 0; i < p->graph->count; i++)
         length += functions >> p->graph->nodes[i].op & 1 ? FUNCTION_LENGTH : 1;
     return length;
-#undef ALL_OF
 }
 
-/* The constants that ROW and FACT lead to: the same that the plan finds. */
+/* Adds the constants that ROW and FACT name, as the plan computes them. */
 static bool add_facts(emit *e, const composition *c, bool structure)
 {
     emit_text *t = &e->text;
@@ -171,32 +170,20 @@ static bool add_facts(emit *e, const composition *c, bool structure)
     moments m;
     if (!find_moments(&w, t->arena, &m)) return false;
     const int stages = w.stages ? w.stages : 1, constants = (int)work_constants(&w);
-    emit_add(t,
-             "#define ROW(w, member) ROW_##member\n#define ROW_compensated %d\n#define ROW_adaptive %d\n#define "
-             "ROW_sizes %d\n#define ROW_orders %d\n#define ROW_density %d\n",
-             r->compensated, r->adaptive, r->sizes, r->orders, r->density);
-    emit_add(t,
-             "#define FACT(w, member) FACT_##member\n#define FACT_velocity %d\n#define FACT_linear %d\n#define "
-             "FACT_constant %d\n#define FACT_affine %d\n",
-             w.velocity, w.linear, w.constant, w.affine);
+#define ROW_IS(member) emit_add(t, "#define ROW_" #member " %d\n", r->member)
+#define FACT_IS(member) emit_add(t, "#define FACT_" #member " %d\n", w.member)
+    emit_add(
+        t, "#define ROW(w, member) ROW_##member\n#define FACT(w, member) FACT_##member\n#define FACT_unit fact_unit\n");
+    ROW_IS(compensated), ROW_IS(adaptive), ROW_IS(sizes), ROW_IS(orders), ROW_IS(density);
+    FACT_IS(velocity), FACT_IS(linear), FACT_IS(constant), FACT_IS(affine), FACT_IS(carried), FACT_IS(known),
+        FACT_IS(kept), FACT_IS(iterates), FACT_IS(fsal), FACT_IS(ending), FACT_IS(closing), FACT_IS(opening),
+        FACT_IS(second), FACT_IS(fused), FACT_IS(waits), FACT_IS(solves), FACT_IS(solves_x), FACT_IS(means),
+        FACT_IS(direct), FACT_IS(order), FACT_IS(linears), FACT_IS(squares), FACT_IS(summed), FACT_IS(expands);
+    emit_add(t, "#define FACT_stages %d\n#define DRIFTS_FIRST %d\n", stages, row_has(r, KICKS) && w.unit[0] == 0);
     if (structure)
         emit_add(t, "#define FACT_nx %zu\n#define FACT_nv %zu\n", w.nx, w.nv);
     else
         emit_add(t, "#define FACT_nx w->nx\n#define FACT_nv w->nv\n");
-    emit_add(t,
-             "#define FACT_carried %d\n#define FACT_stages %d\n#define FACT_known %d\n#define FACT_kept %d\n#define "
-             "FACT_iterates %d\n#define "
-             "FACT_fsal %d\n#define "
-             "FACT_ending %d\n#define FACT_closing %d\n#define FACT_opening %d\n#define FACT_second %d\n#define "
-             "FACT_unit fact_unit\n#define "
-             "FACT_fused %d\n#define "
-             "FACT_waits %d\n#define FACT_solves %d\n"
-             "#define FACT_solves_x %d\n#define FACT_means %d\n#define FACT_direct %d\n#define FACT_order %d\n#define "
-             "FACT_linears %d\n"
-             "#define FACT_squares %d\n#define FACT_summed %d\n#define DRIFTS_FIRST %d\n",
-             w.carried, stages, w.known, w.kept, w.iterates, w.fsal, w.ending, w.closing, w.opening, w.second, w.fused,
-             w.waits, w.solves, w.solves_x, w.means, w.direct, w.order, w.linears, w.squares, w.summed,
-             row_has(r, KICKS) && w.unit[0] == 0);
     emit_add(t, "#define LIVE(w, k) (fact_unit[k] != 0)\n#define FACT_c fact_c\nstatic const int fact_moment[] = {%d",
              m.moment[0]);
     for (int i = 1; i < stages; i++) emit_add(t, ", %d", m.moment[i]);
@@ -205,7 +192,6 @@ static bool add_facts(emit *e, const composition *c, bool structure)
     add_numbers(t, "fact_c", w.c, w.stages);
     add_numbers(t, "fact_at", m.at, m.count);
     e->moments = m.count;
-    emit_add(t, "#define FACT_expands %d\n", w.expands);
     if (w.expands && (structure || c->width))
         emit_add(t, "#define FACT_series %zu\n", w.series);
     else if (w.expands)
@@ -226,7 +212,7 @@ static bool add_facts(emit *e, const composition *c, bool structure)
         add_places(t, w);
     }
     const bool many_solves = w.solves && !solve_text_single(&w);
-    /* an equation's text is longer than its force: as long as the model's derivatives make it */
+    /* the text of an equation also has the derivatives of the force */
     const size_t length = w.solves ? c->model->graph->count : length_of(c->programs[0].program);
     if (structure && !many_solves && (size_t)stages * length <= WRITTEN_OUT_MAX)
         emit_add(t, "#define EACH_STAGE(i, count) WRITTEN_OUT for (int i = 0; i < (count); i++)\n");
@@ -236,7 +222,7 @@ static bool add_facts(emit *e, const composition *c, bool structure)
 
 /* ---- the family ---- */
 
-/* The row's family, the text that it shares with others, and Newton's method where an equation is solved. */
+/* Adds the row's family, the text that it shares with others, and Newton's method where an equation is solved. */
 static void add_family(emit_text *t, const composition *c)
 {
     static const struct {
@@ -293,7 +279,6 @@ int compose_width(void)
 #endif
 }
 
-#define ANY_OF(a, b, c, d) (OPERATION_BIT(a) | OPERATION_BIT(b) | OPERATION_BIT(c) | OPERATION_BIT(d))
 #define ALL_OPERATIONS (~(uint64_t)0)
 #define HYPERBOLIC ANY_OF(SINH, SINH, COSH, TANH)
 #define CIRCULAR ANY_OF(SIN, SIN, COS, TAN)
@@ -305,7 +290,7 @@ int compose_width(void)
 #define EXPONENTIAL (OPERATION_BIT(EXP) | POWER | HYPERBOLIC | ERROR)
 #define PLAIN (ANY_OF(SQRT, ABS, FLOOR, MOD) | ANY_OF(MIN, MIN, MAX, SIGN))
 
-/* The texts of the functions that a set of operations needs. */
+/* Adds the texts of the functions that a set of operations needs. */
 static void add_functions(emit_text *t, uint64_t used)
 {
     static const struct {
@@ -326,7 +311,7 @@ static void add_functions(emit_text *t, uint64_t used)
         if (used & texts[i].needed_by) add_text(t, texts[i].text);
 }
 
-/* Operations over doubles, op_7, and over vectors of them, ops_7, which are called reals. */
+/* Adds the operations over doubles, such as op_7, and over vectors of doubles (`reals`), such as ops_7. */
 static void add_operations(emit *e, int width)
 {
     emit_text *t = &e->text;
@@ -344,7 +329,7 @@ static void add_operations(emit *e, int width)
         emit_add(t, "#define LANES %d\n", width);
         add_text(t, "step/functions/lanes.h");
         add_functions(t, e->used_lanes);
-        if (!e->used_lanes) add_text(t, "step/functions/end.h"); /* for the names of lanes.h, as where nothing pushes */
+        if (!e->used_lanes) add_text(t, "step/functions/end.h"); /* undefines the names of lanes.h */
         emit_add(
             t,
             "typedef motus_reals_x%d reals;\n#define MANY(x) ((x) - (reals){0})\n#define LANE_OF(x, l) (x)[l]\n"
@@ -360,7 +345,7 @@ static void add_operations(emit *e, int width)
 
 /* ---- Taylor series ---- */
 
-/* The functions that recurrences call besides their operations' own. */
+/* Notes the functions that recurrences call besides those of their own operations. */
 static void need_for_series(emit *e)
 {
     const uint64_t roots = OPERATION_BIT(POW) | OPERATION_BIT(ASIN) | OPERATION_BIT(ACOS);
@@ -368,14 +353,14 @@ static void need_for_series(emit *e)
     if (e->used_series & roots) *used |= OPERATION_BIT(SQRT);
 }
 
-/* The functions that the recurrences name. Those whose text no operation of the model needs are not there, and what
- * names them is not called. */
+/* Defines the names by which recurrences call functions. A function whose text no operation of the model needs becomes
+ * 0, since no recurrence that calls it is used. */
 static void add_named(emit *e)
 {
     static const struct {
         const char *name;
         uint64_t supplied_by;
-        int apart; /* compiled once, and called; with so many operands */
+        int apart; /* if not 0, the function is compiled once, with so many operands */
     } functions[] = {{"sqrt", PLAIN, 0},    {"floor", PLAIN, 0},     {"pow", POWER, 2},       {"exp", EXPONENTIAL, 1},
                      {"log", LOGARITHM, 1}, {"sinh", HYPERBOLIC, 0}, {"cosh", HYPERBOLIC, 0}, {"tanh", HYPERBOLIC, 1},
                      {"sin", CIRCULAR, 0},  {"cos", CIRCULAR, 0},    {"tan", CIRCULAR, 1},    {"asin", INVERSE, 1},
@@ -396,7 +381,8 @@ static void add_named(emit *e)
     }
 }
 
-/* Along an index real, FMA, PICK and SOME are those of vectors here, and of doubles in all other texts. */
+/* Lets real, FMA, PICK and SOME be those of vectors, for series along an index; all other texts have those of
+ * doubles. */
 static void add_vector_names(emit_text *t)
 {
     static const char *const names[][2] = {{"real", "real reals"},
@@ -421,7 +407,7 @@ static void add_series(emit *e, int length)
              "#define SERIES_OF(f) series_of_##f\n#define SERIES_FMA(a, b, c) %s(a, b, c)\n#define SERIES_PICK(where, "
              "a, b) %s(where, a, b)\n",
              e->series_wide ? "MANY_FUSED" : "FMA", e->series_wide ? "CHOOSE" : "PICK");
-    if (e->series_wide) /* a call has no vectors in registers */
+    if (e->series_wide) /* a call would not keep vectors in registers */
         emit_add(t, "#define SERIES_FUNCTION static inline __attribute__((always_inline))\n");
     else if (!e->lanes)
         emit_add(t, "#define SERIES_SELDOM __attribute__((noinline)) static\n");
@@ -435,8 +421,8 @@ static void add_series(emit *e, int length)
 
 /* ---- windows ---- */
 
-/* Whether a window of the numbers can go ahead of the others: nothing is solved, a kick needs one acceleration, and
- * steps have one size. */
+/* Tells whether a window of the numbers can go ahead of the others: nothing is solved, a kick needs one acceleration,
+ * and steps have one size. */
 static bool by_number(const composition *c)
 {
     const work plan = stepper_plan(c->problem, c->chosen, NULL);
@@ -460,7 +446,7 @@ static void add_windows(emit *e)
     emit_add(t, "#undef FMA\n#define FMA(a, b, c) fma(a, b, c)\n");
 }
 
-/* Whether the text is right for the numbers u. */
+/* Adds FITS(u), which tells whether the text is right for the numbers u. */
 static void add_assumed(emit *e)
 {
     char number[EMIT_NUMBER];
@@ -493,7 +479,7 @@ bool compose(emit *e, const composition *c)
         e->series = c->programs[i].series ? plan.expands + 1 : 0;
         emit_program(e, c->programs[i].program, c->programs[i].name, c->programs[i].terms);
     }
-    if (lanes) e->used_lanes |= OPERATION_BIT(MIN) | OPERATION_BIT(MAX); /* what is recorded wants them */
+    if (lanes) e->used_lanes |= OPERATION_BIT(MIN) | OPERATION_BIT(MAX); /* reductions use them */
     e->series = plan.expands;
     if (e->series) need_for_series(e);
     const emit_text bodies = *t;

@@ -1,4 +1,5 @@
-/* The differences between a run and its companions in every number that is told, and the bars that follow from them. */
+/* The differences between a run and its companions in every number that is reported, and the bars that follow from
+ * them. */
 #ifndef MACHINE_DIFFERENCES_H
 #define MACHINE_DIFFERENCES_H
 

@@ -12,17 +12,17 @@
 
 #include <string.h>
 
-enum { LENGTHS = SERIES_ORDER_MOST + 2 }; /* series have a number more than their order */
+enum { LENGTHS = SERIES_ORDER_MOST + 2 }; /* a series has one number more than its order */
 struct interpreter {
     model *model;
     tape *accel, *boundary, *exact;
     tape *jvp[4];        /* along dx (1), dv (2), or both (3) */
     tape **observed;     /* one per definition, made when it is first observed, and kept while there is room */
-    tape **roundings;    /* bounds on the rounding of definitions, likewise; of long ones none */
-    resolution **leaps;  /* of definitions that may jump, likewise */
+    tape **roundings;    /* bounds on the rounding of definitions, made when first needed; NULL for long ones */
+    resolution **leaps;  /* of definitions that may jump, made when first needed */
     uint8_t *leaping;    /* per definition: 0 not known, else 1 + LEAPS + FLAT + SHARP */
-    uint64_t operations; /* of the observed ones that are kept */
-    struct expanded {    /* in Taylor series of so many numbers each, once they are wanted */
+    uint64_t operations; /* of the tapes in `observed` */
+    struct expanded {    /* by the length of Taylor series, made when first needed */
         tape_series *equations, *boundary;
         bool known;
     } expanded[LENGTHS];
@@ -132,7 +132,7 @@ static output *derivatives(model *m, int along)
     return o;
 }
 
-/* Derived when a method first needs it: most methods do not. */
+/* Returns the tape of a derivative, made when a method first needs it: most methods do not. */
 static tape *derive(interpreter *in, int along)
 {
     if (in->jvp[along]) return in->jvp[along];
@@ -229,10 +229,6 @@ motus_status interpreter_create(model *m, interpreter **out, problem *p, motus_e
     in->leaping = arena_room(m->arena, m->definition_count + 1);
     if (m->arena->failed || !in->accel || !in->observed || !in->roundings || !in->leaps || !in->leaping)
         return fail(err, MOTUS_MEMORY, "no memory for the model");
-    memset(in->observed, 0, (m->definition_count + 1) * sizeof *in->observed);
-    memset(in->roundings, 0, (m->definition_count + 1) * sizeof *in->roundings);
-    memset(in->leaps, 0, (m->definition_count + 1) * sizeof *in->leaps);
-    memset(in->leaping, 0, m->definition_count + 1);
     *p = (problem){.ctx = in,
                    .nx = m->nx,
                    .nv = m->nv,
@@ -266,8 +262,8 @@ static uint64_t operations_of(const model *m, const model_definition *d)
     return count;
 }
 
-/* The tape of a definition, in the model's arena or, where those that are kept are large already, in `once`: quantities
- * each of which uses the one before have together as many operations as the square of their number. */
+/* Returns the tape of a definition, in the model's arena, or in `once` where the kept tapes are large already: n
+ * quantities, each of which uses the one before, have about n^2 operations together. */
 static tape *observed(interpreter *in, const model_definition *d, arena *once)
 {
     enum { OPERATIONS_KEPT = 1 << 25 }; /* a gigabyte */

@@ -76,7 +76,7 @@ typedef struct lanes_def {
      * NULL: nothing is added. */
     void (*rounding)(void *context, const double *const *values, size_t trajectory, const double *state,
                      double *const *errors);
-    /* Is told each trajectory that does not come to its end: it may crawl (core/stepper.h), or has stopped while its
+    /* Takes each trajectory that does not come to its end: it may crawl (core/stepper.h), or has stopped while its
      * events were followed. A stepper then judges it. */
     void (*left)(void *context, size_t trajectory, int how);
     void *context;
@@ -101,8 +101,9 @@ void lanes_destroy(lanes *);
  * them reduced. Compared are the time, the numbers of the state and the sources, as `shape` says. */
 motus_status lanes_join(lanes *, lanes *half, const differences_shape *, const lanes_source *state, motus_error *);
 /* Computes trajectories i < count from values[k][i] to until[i] (NULL: that of the definition). Writes results[r][i],
- * errors[r][i] (NULL: none are told; only joined lanes tell them) and stopped[i] (may be NULL). MOTUS_METHOD, without
- * an error: the row may not admit the parameters of some trajectory, which is decided one trajectory at a time. */
+ * errors[r][i] (NULL: none are computed; only joined lanes compute them) and stopped[i] (may be NULL). MOTUS_METHOD,
+ * without an error: the row may not admit the parameters of some trajectory, which is decided one trajectory at a
+ * time. */
 motus_status lanes_run(lanes *, size_t count, const double *const *values, const double *until, double *const *results,
                        double *const *errors, double *stopped, motus_error *);
 int lanes_in_block(const lanes *);

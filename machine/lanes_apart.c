@@ -28,7 +28,7 @@ typedef struct trajectory {     /* of one lane */
     int64_t paced;              /* where steps adapt: the steps when it was last asked whether it may crawl */
     double paced_t;             /* the time at `paced` */
     bool crawls;                /* it may crawl */
-    lanes_companion *companion; /* of the trajectory in this lane; NULL: errors are not told */
+    lanes_companion *companion; /* of the trajectory in this lane; NULL: errors are not computed */
 } trajectory;
 
 typedef struct apart_block {

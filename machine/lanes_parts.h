@@ -46,7 +46,7 @@ struct lanes {
     bool on_the_way; /* some record needs observations before the end */
     size_t solving;  /* bytes of the linear systems of a group */
     size_t carried;  /* elements of a group's carry */
-    lanes *half;     /* the lanes of the companions; NULL: errors are not told */
+    lanes *half;     /* the lanes of the companions; NULL: errors are not computed */
     differences_shape shape;
     lanes_record *compared; /* where the compared numbers are, in both lanes */
     /* sizes for one block, in doubles, rounded up to whole cache lines */
@@ -86,7 +86,7 @@ typedef struct lanes_call {
     double *const *results, *const *errors, *stopped;
     double *memory; /* of every thread: blocks, scratch and table, these three for companions, and differences */
     size_t blocks, block_size, scratch_size, table_size, thread_size;
-    struct lanes_call *half; /* of the companions: sizes and memory alone; NULL: errors are not told */
+    struct lanes_call *half; /* of the companions: sizes and memory alone; NULL: errors are not computed */
     bool keeps;              /* calls of the object are short, so accelerations are kept from one call to the next */
     size_t companions, companions_size; /* how many companions a thread has at once, and doubles for them */
     size_t items, most;                 /* how many items of work, and trajectories in one */

@@ -20,10 +20,10 @@
 enum { SPINS = 1 << 11 }; /* of some tens of nanoseconds, before a thread sleeps */
 
 struct parallel_pool {
-    pthread_mutex_t lock; /* of all members below that are not atomic */
+    pthread_mutex_t lock; /* guards all members below that are not atomic */
     pthread_cond_t work, end;
     atomic_uint call;   /* the number of the present call */
-    atomic_size_t next; /* item */
+    atomic_size_t next; /* the next item */
     atomic_int busy;    /* threads besides the caller's that may hold an item */
     atomic_flag taken;  /* a call uses the pool */
     bool open;          /* threads may still join the present call */
@@ -79,7 +79,8 @@ static void *run_thread(void *ctx)
     }
 }
 
-/* All bytes of `p` are 0. The threads block all signals, so that handlers run in the user's own threads. */
+/* Starts the threads of a pool whose bytes are all 0. They block all signals, so that handlers run in the user's own
+ * threads. */
 static void open_pool(parallel_pool *p, int threads)
 {
     sigset_t all, before;

@@ -26,7 +26,7 @@ void parallel_pool_destroy(parallel_pool *);
 void parallel_pool_for(parallel_pool *, int threads, size_t items, void (*body)(void *ctx, size_t item, int thread),
                        void *ctx);
 
-/* How many processors this process may use, up to MOTUS_THREADS_MAX; 1 where that is not known. */
+/* Returns how many processors this process may use, up to MOTUS_THREADS_MAX; 1 where that is not known. */
 int parallel_processors(void);
 
 #endif

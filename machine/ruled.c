@@ -1,7 +1,7 @@
 /* See ruled.h.
  *
- * All functions are one tape. Every rule that assigns has a tape of its own, in which the indices that number its
- * instances run from an int slot to the same slot, so one event costs one instance.
+ * All functions are one tape. Every rule that assigns has a tape of its own, whose loops over instances begin and end
+ * at an int slot, so one event costs one instance.
  */
 #include "machine/ruled.h"
 
@@ -18,12 +18,12 @@
 #include <stdio.h>
 #include <string.h>
 
-enum { FEW = 16 }; /* functions, which take no longer together than one alone */
+enum { FEW = 16 }; /* functions: so few take no longer together than one alone */
 
 typedef struct leaf {
     const rule *rule;
-    size_t first; /* function */
-    bool bends;   /* it is no polynomial */
+    size_t first; /* its first function */
+    bool bends;   /* a function of it is no polynomial */
 } leaf;
 
 struct ruled {
@@ -32,21 +32,22 @@ struct ruled {
     rule *rule;
     tape *values, *rates, *rounding, *least, *least_rates; /* NULL: there are no functions */
     resolution *within, *rates_within;                     /* the functions and their rates as intervals */
-    interval *in_x, *in_v, *in_a, *is;                     /* room for those of the state and of all functions */
+    interval *in_x, *in_v, *in_a, *is;                     /* room for the intervals of the state and of all
+                                                            * functions */
     leaf *leaf;                                            /* of all rules, in the order of their functions */
     size_t leaves;
     arguments *arguments;
-    lone *alone[RULE_NUMBERS]; /* of every leaf; NULL: there are few functions, or sums in them */
+    lone *alone[RULE_NUMBERS]; /* single functions of every leaf; NULL: there are few, or they contain sums */
     tape *periods;             /* of the clocks, by the numbers of their rules; NULL: there are none */
     double *period;
-    tape **act;      /* of each rule, NULL: it assigns nothing */
-    int64_t *ints;   /* those of the model, then the present values of MAX_DIMS indices */
-    double *becomes; /* what is assigned, for the rule that has most of it */
+    tape **act;      /* of each rule; NULL: it assigns nothing */
+    int64_t *ints;   /* the numbers of the model, then the present values of MAX_DIMS indices */
+    double *becomes; /* room for the assigned values of one rule */
 };
 
 /* ---- functions ---- */
 
-/* A cell outside the ranges is written by none, and keeps `else_`. */
+/* Computes all functions. A cell outside the ranges has none and becomes `else_`. */
 static void run(const ruled *r, tape *t, double time, double else_, double *base[SPACES])
 {
     for (size_t k = 0; k < r->supplied.functions; k++) base[SPACE_OUT][k] = else_;
@@ -88,7 +89,7 @@ static void least_rates(void *ctx, double *x, double *v, double *dx, double *dv,
         (double *[SPACES]){[SPACE_X] = x, [SPACE_V] = v, [SPACE_DX] = dx, [SPACE_DV] = dv, [SPACE_OUT] = out});
 }
 
-/* The number of the leaf that a function is one of. */
+/* Returns the number of the leaf to which function f belongs. */
 static size_t leaf_of(const ruled *r, size_t f)
 {
     size_t low = 0, high = r->leaves;
@@ -105,7 +106,7 @@ static bool may_be_narrow(void *ctx, size_t f)
     return r->leaf[leaf_of(r, f)].bends;
 }
 
-/* The indices of an instance. */
+/* Finds the indices of an instance. */
 static void indices_of(const model_rule *rule, size_t instance, int64_t *index)
 {
     for (int k = rule->own - 1; k >= 0; k--) {
@@ -150,7 +151,7 @@ static bool apart(void *ctx, size_t f, bool rate, const double t[2], const doubl
 {
     const ruled *r = ctx;
     const model *m = r->model;
-    if (rate && r->leaf[leaf_of(r, f)].rule->jump) return false; /* the rate does not tell how it jumps */
+    if (rate && r->leaf[leaf_of(r, f)].rule->jump) return false; /* the rate says nothing of its jumps */
     enclose(r->in_x, x, dx, m->nx);
     enclose(r->in_v, v, dv, m->nv);
     for (size_t k = 0; k < m->nv; k++) r->in_a[k] = (interval){-most[k], most[k]};
@@ -173,8 +174,8 @@ typedef struct assigning {
     size_t *which;
 } assigning;
 
-/* Copies the values of an assignment to their places, for all indices from `level` on. False: one is not finite, and
- * x and v are as they were, if `check`. */
+/* Copies the values of an assignment to their places, for all indices from `level` on. With `check` it copies nothing,
+ * and returns false where a value is not finite. */
 static bool copy(assigning *s, int level, bool check)
 {
     const ruled *r = s->ruled;
@@ -231,7 +232,7 @@ static void name(void *ctx, size_t number, size_t instance, char *out, size_t si
 
 /* ---- making ---- */
 
-/* The functions, their rates and the bounds on their rounding one by one. */
+/* Makes what computes single functions, rates, and bounds on rounding. */
 static bool make_alone(ruled *r, model *m, const output *leaves, const output *rates, size_t count)
 {
     if (r->supplied.functions < FEW) return true;
@@ -306,13 +307,12 @@ static tape *make_act(model *m, const model_rule *rule)
     return o ? tape_of(m->arena, m->graph, o, rule->assignments) : NULL;
 }
 
-/* The places in x of modes that a rule which keeps changes. */
+/* Finds the places in x of the modes that rules with `keeps` change. */
 static bool find_kept(ruled *r, const model *m)
 {
     uint8_t *changed = arena_room(m->arena, m->mode_count + 1);
     size_t count = 0;
     if (!changed) return false;
-    memset(changed, 0, m->mode_count + 1);
     for (uint32_t i = 0; i < m->rule_count; i++)
         for (size_t k = 0; m->rules[i].keeps && k < m->rules[i].assignments; k++) {
             const model_state *s = model_state_of(m, m->rules[i].assignment[k].to.array);
@@ -330,7 +330,8 @@ static bool find_kept(ruled *r, const model *m)
     return true;
 }
 
-/* The places in x of modes that rules assign and rounding can change: that are not sums of few binary places. */
+/* Finds the places in x of the modes that rules assign and rounding can change: those with more than PLACES binary
+ * places. */
 static bool find_rounded(ruled *r, const model *m)
 {
     enum { PLACES = 4 };
@@ -340,7 +341,6 @@ static bool find_rounded(ruled *r, const model *m)
     size_t *places = arena_room(m->arena, room * sizeof *places);
     uint8_t *listed = arena_room(m->arena, m->mode_count + 1);
     const bool found = whole_find(&w, m, PLACES, NULL, &m->arena->allocator) && places && listed;
-    if (found) memset(listed, 0, m->mode_count + 1);
     for (uint32_t i = 0; found && i < m->rule_count; i++)
         for (size_t k = 0; k < m->rules[i].assignments; k++) {
             const model_assignment *a = &m->rules[i].assignment[k];
@@ -355,7 +355,7 @@ static bool find_rounded(ruled *r, const model *m)
     return found;
 }
 
-/* The first operation of a rule's functions that may jump, as text in the model's arena, or NULL. */
+/* Returns the first operation in a rule's functions that may jump, as a text in the model's arena, or NULL. */
 static const char *jump_of(model *m, const model_rule *r)
 {
     char text[64];
@@ -403,7 +403,6 @@ static bool make(ruled *r, model *m)
     r->ints = arena_room(m->arena, (m->int_count + MAX_DIMS) * sizeof *r->ints);
     if (!r->rule || !r->act || !r->ints) return false;
     if (m->int_count) memcpy(r->ints, m->ints, m->int_count * sizeof *r->ints);
-    memset(r->ints + m->int_count, 0, MAX_DIMS * sizeof *r->ints);
     for (uint32_t i = 0; i < m->rule_count; i++) {
         const model_rule *rule = &m->rules[i];
         describe(rule, &r->rule[i]);

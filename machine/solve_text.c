@@ -1,7 +1,7 @@
 /* See solve_text.h.
  *
- * Invariant: order of the unknowns, bandwidths, colours of columns and the order of all operations are
- * core/solver.c's, so the bits are.
+ * Invariant: the order of the unknowns, the bandwidths, the colours of columns and the order of all operations are
+ * those of core/solver.c, and so are the bits.
  */
 #include "machine/solve_text.h"
 
@@ -44,7 +44,7 @@ static void release(structure *s, const motus_allocator *a)
     give(a, s->place);
 }
 
-/* As solver_create. */
+/* Finds the structure as solver_create does. */
 static bool find(structure *s, const problem *p, const work *plan, const motus_allocator *a)
 {
     bool broken = false;
@@ -64,7 +64,7 @@ static bool find(structure *s, const problem *p, const work *plan, const motus_a
 
 /* ---- the text ---- */
 
-/* The entries of one derivative: each colour's columns together, by one evaluation. */
+/* Writes what computes the entries of one derivative, by one evaluation for the columns of a colour. */
 static void write_derivative(emit_text *t, const sparse *m, const char *name)
 {
     for (size_t colour = 0; colour < m->colours; colour++) {
@@ -83,7 +83,7 @@ static void write_derivative(emit_text *t, const sparse *m, const char *name)
     }
 }
 
-/* matrix -= a ⊗ derivative, column after column. */
+/* Writes matrix -= a ⊗ derivative, column after column. */
 static void write_entries(emit_text *t, const structure *s, const sparse *m, const char *name)
 {
     const bool diagonal = s->lower + s->upper == 0;
@@ -109,7 +109,7 @@ static void write_matrix(emit_text *t, const structure *s)
     emit_add(t, "}\n\n");
 }
 
-/* Between the stages' arrays and the order of the unknowns. */
+/* Writes what moves numbers between the arrays of the stages and the order of the unknowns. */
 static void write_moves(emit_text *t, const structure *s, size_t nv)
 {
     emit_add(t, "static inline void solve_take(const real *restrict r, size_t stride, real *restrict b)\n{\n    "
@@ -125,7 +125,7 @@ static void write_moves(emit_text *t, const structure *s, size_t nv)
     emit_add(t, "}\n\n");
 }
 
-/* As solver_apply: the diagonal first. */
+/* Writes what solver_apply does: the diagonal first. */
 static void write_apply(emit_text *t, const structure *s, size_t nv)
 {
     emit_add(t, "static inline void solve_multiply(const solving *z, clock c, const real *restrict y, real *restrict "
@@ -141,7 +141,7 @@ static void write_apply(emit_text *t, const structure *s, size_t nv)
     emit_add(t, "}\n\n");
 }
 
-/* Whether da/dv does no work, as a gyroscopic row wants: exactly antisymmetric, entry by entry. */
+/* Writes what tells whether da/dv does no work, as a gyroscopic row needs: it is antisymmetric to the bit. */
 static void write_turns(emit_text *t, const structure *s, bool gyroscopic)
 {
     emit_add(t, "static inline mask solve_turns(const solving *z)\n{\n    mask turns = ALWAYS;\n    (void)z;\n");

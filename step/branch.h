@@ -1,5 +1,5 @@
 /* A BRANCH: a step that begins where a step of another workspace has begun, and takes over what that has computed
- * there, to the bits of its own evaluation. Only of rows that can be watched.
+ * there, to the bits of its own evaluation. Only for rows that can be watched.
  */
 /* from: the other workspace, whose last step has begun at the present state, with this acceleration. */
 static inline void advance_branch(work *w, const work *from, const real *a)

@@ -13,8 +13,8 @@
  * Invariant: no step passes w->until, and the one that reaches it ends there exactly; where two steps would reach it,
  * both are halves of the way, so that no tiny step is left over.
  */
-/* 0: a compiled model, to whom the library leaves neither a first step nor a Runge-Kutta step whose first evaluation is
- * not known from the step before; it then gives up. The force would stand in its text twice more. */
+/* 0: a compiled model, which takes neither a first step nor a Runge-Kutta step whose first evaluation is not known from
+ * the step before, but gives up there; else its text would have the force twice more. */
 #ifndef BEGINS
 #define BEGINS 1
 #endif
@@ -35,7 +35,7 @@ static inline clock control_exp2(clock y)
     return CLOCK_OF((PATTERN_OF(shifted) + 1023) << 52) * (1 + r * (0.693147 + r * (0.240227 + r * 0.0555)));
 }
 
-/* Whether a step ends with the evaluation with which the next one begins. */
+/* Tells whether a step ends with the evaluation with which the next one begins. */
 static inline bool control_last_is_first(const work *w) { return FACT(w, ending) || FACT(w, closing); }
 
 /* The acceleration at the start of the step, in w->a. Where it was the last stage of the step before, it has been
@@ -130,7 +130,7 @@ static inline clock control_factor(const work *w, clock_mask good, clock level)
     return control_exp2(power);
 }
 
-/* Notes the shortest and the longest step; that to the end tells nothing of either. */
+/* Notes the shortest and the longest step; the step to the end does not count. */
 static inline void control_count(work *w, clock_mask good)
 {
     const clock size = ABS(w->h);
@@ -147,10 +147,10 @@ static inline void control_settle(work *w, clock_mask good)
     w->refused = CHOOSE_WHERE(good, w->refused, w->refused + 1);
 }
 
-/* Whether the candidate is accepted. The clock has no time between the start of a step of a few roundings and its end,
- * so the force at its stages is off by what it changes in one rounding of the time; where the motion comes from rest at
- * 0, that is a large part of its size. The last such step before an end, which no shorter ones replace, may err by as
- * many parts of the size as one rounding of the time is of the step. */
+/* Tells whether the candidate is accepted. The clock has no time between the start of a step of a few roundings and its
+ * end, so the force at its stages is off by what it changes in one rounding of the time; where the motion comes from
+ * rest at 0, that is a large part of its size. The last such step before an end, which no shorter ones replace, may err
+ * by as many parts of the size as one rounding of the time is of the step. */
 static inline clock_mask control_good(const work *w)
 {
     const clock h = ABS(w->h), t = ABS(w->t);

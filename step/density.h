@@ -30,7 +30,7 @@
  */
 #define DENSITY_FAR 4
 
-/* Whether any error is allowed. */
+/* Tells whether any error is allowed. */
 static inline clock_mask density_free(const work *w) { return w->relative + w->absolute > 1e200; }
 
 /* q^(-1/4): Newton's method doubles the digits of the rough logarithm. */

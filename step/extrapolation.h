@@ -120,8 +120,8 @@ static inline clock extrapolation_error(extrapolation *e, int j, clock estimate)
     return 8 * estimate * (j > 2 ? LARGER(slower * next, one) : next);
 }
 
-/* Whether no line up to that after the aim can be expected to end the step, by the error of line j: errors fall from
- * line to line j by (n[j]/n[1])² [HNW93, II.9], and do not grow. */
+/* Tells whether no line up to that after the aim can be expected to end the step, by the error of line j: errors fall
+ * from line to line j by (n[j]/n[1])² [HNW93, II.9], and do not grow. */
 static inline clock_mask extrapolation_hopeless(const extrapolation *e, int j, clock estimate, clock error)
 {
     const clock none = {0}, next = none + (j + 1) * (j + 1), both = next * ((j + 2) * (j + 2)),

@@ -82,8 +82,8 @@ static int lift_widest(const int *nodes, int count, int from)
 /* In `more`: a state, how far the ends are apart, and the accelerations of two rounds. */
 enum { LIFT_STATE = 0, LIFT_APART = 2, LIFT_FIRST = 4 };
 
-/* Whether the polynomial is more than Hermite's formula: of adaptive rows it always takes what the ends are apart from
- * `more`, where the step's stages may tell it with less rounding than the ends do. */
+/* Tells whether the polynomial is more than Hermite's formula: of adaptive rows it always takes what the ends are apart
+ * from `more`, where the step's stages may tell it with less rounding than the ends do. */
 static bool lift_needed(const work *w, int count) { return (void)w, count > 0 || ROW(w, adaptive); }
 
 static real *lift_array(const work *w, const dense_step *d, int i) { return d->more + (size_t)i * w->stride; }

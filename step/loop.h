@@ -2,7 +2,7 @@
  *
  * Invariant: n counts the finished steps.
  */
-/* Whether the main line is finite; in as few operations as possible where the system is small. */
+/* Tells whether the main line is finite; in as few operations as possible where the system is small. */
 static inline bool advance_finite(const work *w)
 {
     const real *restrict x = w->x, *restrict v = w->v;
@@ -38,7 +38,7 @@ static inline int advance_check(work *w)
     return STEP_DIVERGED;
 }
 
-/* Whether every step is tested. */
+/* Tells whether every step is tested. */
 #ifndef CHECKS
 #define CHECKS(w) ((w)->check)
 #endif

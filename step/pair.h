@@ -17,7 +17,7 @@ static inline pair pair_exact_sum(coef a, coef b)
     return (pair){s, (a - (s - t)) + (b - t)};
 }
 
-/* The same where a is 0 or not smaller than b. */
+/* a + b, exactly, where a is 0 or not smaller than b. */
 static inline pair pair_tidy(coef a, coef b)
 {
     const coef s = a + b;

@@ -195,7 +195,7 @@ static void radau_plan(work *w, const double argument[2], coef *unit, coef *c)
     w->kept = w->stages;
     w->iterates = true;
     w->order = 2 * w->stages - 1;
-    w->plains = (3 * w->stages + 3) * w->stages; /* the same, and tableau_spread */
+    w->plains = (3 * w->stages + 3) * w->stages; /* as in implicit.h, and tableau_spread */
     if (!unit) return;
     collocation nodes;
     collocation_make(&nodes, w->stages, true);

@@ -29,8 +29,8 @@ static inline int tableau_rest(const work *w, bool x)
 static inline int tableau_low_c(const work *w) { return tableau_rest(w, false) + 2 * FACT(w, stages); }
 /* what a change of stage i does to the others, where they are kept on a polynomial; without a factor h */
 static inline int tableau_spread(const work *w, int i) { return tableau_low_c(w) + (1 + i) * FACT(w, stages); }
-/* Whether the stages take c in both parts, and multiply the sums by h, not the constants: 14 and more orders reach
- * rounding at usual steps, and a stage that is off by the same part of h v in every step would make the energy
+/* Tells whether the stages take c in both parts, and multiply the sums by h, not the constants: 14 and more orders
+ * reach rounding at usual steps, and a stage that is off by the same part of h v in every step would make the energy
  * drift. */
 static inline bool tableau_exact(const work *w) { return FACT(w, stages) > 6 && FACT(w, kept) > 0; }
 
@@ -42,8 +42,9 @@ static inline real tableau_sum(const work *w, int from, const real *restrict y, 
     return sum;
 }
 
-/* The same of the constants themselves, without those that are 0 in the row, added to `sum` where there is one. The
- * step multiplies the whole sum: h/6 would be rounded alike in every step, and the motion run too fast or too slow. */
+/* Σ c[j] y[j][k], c the constants themselves without those that are 0 in the row, added to `sum` where there is one.
+ * The step multiplies the whole sum: h/6 would be rounded alike in every step, and the motion run too fast or too
+ * slow. */
 static inline real tableau_weigh(const work *w, int from, const real *restrict y, size_t k, int count, bool more,
                                  real sum)
 {
@@ -57,7 +58,7 @@ static inline real tableau_weigh(const work *w, int from, const real *restrict y
     return sum;
 }
 
-/* Whether some of `count` constants is not 0. */
+/* Tells whether some of `count` constants is not 0. */
 static inline bool tableau_any(const work *w, int from, int count)
 {
     bool any = false;
@@ -140,9 +141,10 @@ static inline void tableau_extrapolate(work *w, int first)
     }
 }
 
-/* The same where steps differ: the polynomial of the stages that the row carries, moved so that it passes through the
- * acceleration of the state; or that acceleration alone, where there is none yet, or a step TABLEAU_REACH times as long
- * would leave it far behind. w->span: of the step of those stages, or of a refused one with its sign changed. */
+/* Extrapolates where steps differ: by the polynomial of the stages that the row carries, moved so that it passes
+ * through the acceleration of the state; or by that acceleration alone, where there is no polynomial yet, or a step
+ * TABLEAU_REACH times as long would leave it far behind. w->span: of the step of those stages, or of a refused one with
+ * its sign changed. */
 enum { TABLEAU_REACH = 8 };
 static inline void tableau_predict(work *w, int first)
 {

@@ -95,7 +95,7 @@ static inline real taylor_sum(const real *c, const int from, const int last, con
 
 /* The step ---------------------------------------------------------------------------------------------------------*/
 
-/* The larger of `size` and how far the first three terms of a series lead in so long a time. */
+/* Returns `size`, or how far the first three terms of a series lead in so long a time, if that is larger. */
 static inline real taylor_reach(const real *c, real size, const clock time)
 {
     size = LARGER(ABS(c[0]), size);

@@ -1,10 +1,10 @@
 /* A WATCH over steps: it is shown the ends of each and bounds on the accelerations within it, and ends the steps where
- * something may have happened. Only of rows that adapt their steps, and whose state is complete after each (WATCHES).
+ * something may have happened. Only for rows that adapt their steps, and whose state is complete after each (WATCHES).
  */
 #ifndef WATCHES
 #define WATCHES(w) ((w)->watch != NULL)
 #endif
-/* Whether the includer itself knows of the last step that nothing has happened in it; else `quiet` is asked. */
+/* Tells whether the includer itself knows of the last step that nothing has happened in it; else `quiet` is asked. */
 #ifndef WATCH_IDLE
 #define WATCH_IDLE(w) false
 #endif
@@ -14,7 +14,7 @@ static inline void watch_begin(work *w)
     watch *to = w->watch;
     EACH(k) to->from_x[k] = w->x[k];
     EACHV(k) to->from_v[k] = w->v[k];
-    /* its first stage makes room for the next one's */
+    /* the last stage takes the place of the first */
     const bool first = !FACT(w, expands) && control_last_is_first(w);
     EACHV(k) to->most[k] = first ? ABS(w->a[k]) : (real){0};
     to->known = !first || w->fresh;
@@ -22,7 +22,7 @@ static inline void watch_begin(work *w)
     to->t = w->t, to->lost = w->lost, to->n = w->n;
 }
 
-/* Whether the steps end here. */
+/* Tells whether the steps end here. */
 static inline bool watch_ends(work *w)
 {
     watch *to = w->watch;

@@ -110,16 +110,17 @@ typedef struct dense_step {
     const coef *unit;
 } dense_step;
 
-/* Asked after every step whether anything may have happened in it; where it may have, the steps end (loop.h). The
- * arrays are its own, so that those of a compiled model can stay in registers. */
+/* A watch is asked after every step whether anything may have happened in it; where it may have, the steps end
+ * (loop.h). It has arrays of its own, so that those of a compiled model can stay in registers. */
 typedef struct watch watch;
 struct watch {
     bool (*quiet)(watch *); /* nothing has happened in the step */
     void *ctx;
     real *from_x, *from_v, *to_x, *to_v; /* the states at its ends */
     real *most;                          /* bounds on the accelerations within it */
-    real *largest_x, *largest_v;         /* raised to the sizes of the states at which steps begin */
-    real *middle, *width, *least;        /* room for a box (box.h), x and then v, and for so many bounds on it: */
+    real *largest_x, *largest_v;         /* become the largest sizes of the states at which steps begin */
+    real *middle, *width, *least;        /* room for a box (box.h), x and then v, and for bounds on so many
+                                          * functions: */
     size_t functions;
     clock t, lost, to_t, to_lost; /* where it began, and where it ended */
     ticks n;                      /* steps before it */
@@ -185,7 +186,7 @@ typedef struct work {
     bool direct;   /* it is linear in the unknowns, so that one solve is exact */
     /* first same as last: the closing kick of a step waits for the opening kick of the next */
     bool fsal;
-    bool closing; /* its last stage is that; else, after the last stage, */
+    bool closing; /* the last stage is at the state to which the step leads */
     bool opening; /* of a density: a step begins with the acceleration of the state */
     bool ending;  /* an adaptive step evaluates the force at the candidate, which is the next step's first stage */
     bool second;  /* it has a second estimate of the error */
@@ -194,12 +195,12 @@ typedef struct work {
     bool waits;   /* the state between two steps needs one more evaluation before it can be observed */
 
     bool fresh; /* the acceleration of the present state is known already, because it was observed */
-    whole owed_evaluations, owed_iterations; /* its cost: counted when a step uses it */
+    whole owed_evaluations, owed_iterations; /* the cost of that acceleration, counted when a step uses it */
     int moved;                               /* drifts that a machine's PASS has already made together with a kick */
     clock after;   /* adaptive, of rows that find their own sizes or orders: `next` once the candidate is judged */
     int expands;   /* the order of the Taylor series that the row needs; 0: none */
-    size_t series; /*   numbers that they keep, as the problem says */
-    int expanded;  /*   how much of them is known at the present state: taylor.h */
+    size_t series; /*   numbers that the series keep, as the problem says */
+    int expanded;  /*   how much of the series is known at the present state: taylor.h */
 
     real *x, *v, *ex, *ev;  /* v: verlet keeps the increment d = x[n] - x[n-1] here once n > 0 */
     real *a, *old, *next_x; /* old: of a density the lengths of variables */
@@ -221,8 +222,8 @@ typedef struct work {
     watch *watch; /* NULL: nobody watches the steps */
     size_t which; /* the number that failed: entry of v, or of x where !in_v */
     bool in_v;
-    struct stepper_host *services;    /* the includer's: what the library's own bodies work with, */
-    const struct compiled_host *host; /* and a compiled model's */
+    struct stepper_host *services;    /* the includer's: for the library's own bodies */
+    const struct compiled_host *host; /* the includer's: for a compiled model */
     window window;
 } work;
 
@@ -246,7 +247,7 @@ typedef struct work {
 #define EACH_STAGE(i, count) for (int i = 0; i < (count); i++)
 #endif
 
-/* Whether this is the first step since t0, for which some methods have another formula. */
+/* Tells whether this is the first step since t0, for which some methods have another formula. */
 #ifndef FIRST
 #define FIRST(w) (!ROW(w, adaptive) && (w)->n == 0)
 #endif
@@ -337,8 +338,9 @@ static inline void time_tick(work *w, clock_mask good)
 #define accel_now(w, x, v, a) accel(w, time_now(w), x, v, a)
 #endif
 
-/* Whether the acceleration at the start of the step is known from an observation; counts it as used. KNOWN: a compiled
- * model may evaluate it again, to the same bits and at the same cost, so that its loop has one kind of step. */
+/* Tells whether the acceleration at the start of the step is known from an observation; counts it as used. KNOWN: a
+ * compiled model may evaluate it again, to the same bits and at the same cost, so that its loop has one kind of
+ * step. */
 #ifndef KNOWN
 #define KNOWN(w) ((w)->fresh)
 #endif
@@ -440,7 +442,7 @@ static inline real *work_array(placing *p, int count)
     return array;
 }
 
-/* Whether the row's workspace has this array; a compiled model knows. */
+/* Tells whether the row's workspace has this array; a compiled model knows. */
 #ifndef PLACED
 #define PLACED(w, name) ((w)->name)
 #endif

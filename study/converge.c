@@ -5,7 +5,8 @@
  * how far its variable moves. Where T/8 is so fine for a high order that too few points lie above round-off, the row
  * begins at T/4, T/2 or T, and is compared at that many times. Orders from 4 on also run with steps between these,
  * because few halvings lie between instability and round-off there. Steps are shortened until round-off is reached or
- * the work is spent; the slope does not decide when to stop. fit.c says which points the slope is fitted to.
+ * the work is spent; where the slope is not steady by then, there is more work. fit.c says which points the slope is
+ * fitted to.
  *
  * If the motion has so many oscillations that low orders would need too many steps, only its beginning is taken, and
  * the result says so. Invariant: the result is one allocation, and the same on every machine: no decision depends on
@@ -48,7 +49,7 @@
 #define OVERALL_CLEAR 30.0
 #define OVERALL_OCTAVES 6.0
 #define LOST 0.5        /* of an order: how far below it the fall of errors over LOST_OCTAVES refutes a row */
-#define LOST_PART 0.125 /* of a high order: such a distance */
+#define LOST_PART 0.125 /* the same distance as a part of a high order */
 #define LOST_OCTAVES 1.999
 #define REFERENCE_SHARE 0.1 /* of the progress */
 
@@ -127,7 +128,7 @@ static motus_status make_result(converge *c)
 
 /* The motion ----------------------------------------------------------------------------------------------------- */
 
-/* Makes a grid of so many intervals over the part `share` of the motion, and a shorter one over the rest. */
+/* Makes a grid with equal intervals over the part `share` of the motion, and a shorter one over the rest. */
 static study_grid grid_of(const study *s, double until, size_t intervals, double share)
 {
     return (study_grid){.from = s->from,

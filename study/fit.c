@@ -3,19 +3,18 @@
  * The rule that chooses the points of the fit (points run coarse to fine; the declared order has no part in it):
  *
  * 1. A point counts if its run ended with an error below FIT_CEILING of the motion's size, and if its step is at most
- *    half of the shortest at which that failed: close to its stability limit a method does not show its order.
- * 2. Round-off is at least the error of the reference solution. The rest is measured: the plateau begins where the
- *    slope to the next point and to the one after it falls below FIT_FLAT, half of what order 1 would show, while the
- *    error is below FIT_PLATEAU (or below n² roundings, the worst for a sum of sums); its first errors are the
- *    round-off. Where no plateau was reached, round-off is taken for a random walk of n roundings, FIT_WALK sqrt(n)
- *    of one. Points below FIT_CLEARANCE times it, or on the plateau, do not count: the remaining share of round-off,
- *    1/30, bends a local slope by less than the certificate's margin.
- * 3. The order is a limit of small steps, so the finest FIT_POINTS_MIN of these points are taken, and as many more as
- *    span an octave; then coarser ones as long as the local slope stays within FIT_STEADY (FIT_STEADY_PART of a high
- *    order) of the slope across these. This leaves out coarse points that are better than the order (superconvergent)
- *    and those that are worse (not yet asymptotic).
- * 4. With at least FIT_POINTS_MIN points, the order is the least-squares slope of log error against log step. If its
- *    standard error is above FIT_ROUGHNESS, the errors follow no power of the step and there is no slope.
+ * half of the shortest step of a run that failed or had a larger error: close to its stability limit a method does not
+ * show its order. 2. Round-off is at least the error of the reference solution. The rest is measured: the plateau
+ * begins where the slope to the next point and to the one after it falls below FIT_FLAT, half of what order 1 would
+ * show, while the error is below FIT_PLATEAU (or below n² roundings, the worst for a sum of sums); its first errors are
+ * the round-off. Where no plateau was reached, round-off is taken for a random walk of n roundings, FIT_WALK sqrt(n) of
+ * one. Points below FIT_CLEARANCE times it, or on the plateau, do not count: the remaining share of round-off, 1/30,
+ * bends a local slope by less than the certificate's margin. 3. The order is a limit of small steps, so the finest
+ * FIT_POINTS_MIN of these points are taken, and as many more as span an octave; then coarser ones as long as the local
+ * slope stays within FIT_STEADY (FIT_STEADY_PART of a high order) of the slope across these. This leaves out coarse
+ * points that are better than the order (superconvergent) and those that are worse (not yet asymptotic). 4. With at
+ * least FIT_POINTS_MIN points, the order is the least-squares slope of log error against log step. If its standard
+ * error is above FIT_ROUGHNESS, the errors follow no power of the step and there is no slope.
  *
  * A method is exact here if every error, at coarse and fine steps, is within what rounding n steps can explain.
  */
@@ -82,8 +81,8 @@ static size_t plateau(const motus_point *points, size_t count, double duration, 
             points[i].error > fmax(FIT_PLATEAU, noise * steps * steps))
             continue;
         if (local_slope(&points[i], &points[i + 1]) >= FIT_FLAT) continue;
-        /* The error before a flat stretch may be small because terms cancel there; if the point after the next is no
-         * better, the stretch is round-off. */
+        /* The error at the first point may be small because terms cancel; if the point after the next is no better
+         * either, the flat stretch is round-off. */
         if (i + 2 == count || !counts(&points[i + 2]) || local_slope(&points[i], &points[i + 2]) < FIT_FLAT) return i;
     }
     return count;

@@ -2,8 +2,8 @@
  *
  * A ladder begins with STEPS_FIRST steps, or with a tolerance as large as the coarsest accuracy, and becomes finer as
  * the last error and the order of the method suggest, until its error is below the accuracy. Between the last point
- * above it and the first below it the work is found by interpolation, in logarithms, and by a run: what is told was
- * measured.
+ * above it and the first below it more settings are tried, chosen by interpolation in logarithms; every number of the
+ * result was measured.
  *
  * Errors are taken at the ends of steps, the first at or after each of TRUTH_TIMES times, so nothing is interpolated.
  * Invariant: points are sorted from coarse to fine, no two have the same setting, and no clock decides anything.
@@ -17,18 +17,17 @@
 #define STEPS_FIRST 4
 #define TOLERANCE_LEAST 1e-15
 #define TOLERANCE_MOST 0.1
-#define CLOSE 0.66   /* of the accuracy: a larger error is near enough to it */
+#define CLOSE 0.66   /* of the accuracy: an error above this part is near enough to it */
 #define AIM 0.82     /* of the accuracy: the error at which a point between two others aims */
 #define NARROW 0.01  /* a bracket in which the work differs by less than this part needs no more points */
 #define TRIES 6      /* most points between two others */
-#define GARBAGE 0.05 /* relative: a larger error tells no order */
 #define LEFT 10.0    /* relative: a run with a larger error has left the motion */
 #define ROUNDED 1e-7 /* relative: a smaller error that no longer falls is rounding, where the force is smooth */
 #define PLATEAU_TOLERANCES 100.0
 #define PLATEAU_STEPS 2.0
 #define FALLS 0.7
 #define TIMES_MOST 10    /* most runs that time a short one */
-#define TIMES_LEAST 1e-3 /* seconds that all runs of a short one take at least */
+#define TIMES_LEAST 1e-3 /* seconds: short runs are repeated until all of them took so long */
 #define TIMES_LONG 0.05  /* seconds of all runs, above which a run is timed no more than twice */
 
 double ladder_step(const ladder *l, const ladder_point *p) { return fabs(l->s->until - l->s->from) / p->setting; }

@@ -2,11 +2,11 @@
  *
  * Three statements are certified. (1) The error goes with the power p of the mean step, p the order: where tolerances
  * are small the sizes of the steps become a fixed function of the time, times one number, and the error is that of a
- * method of fixed step along a stretched time. (2) The error goes with the tolerance at least proportionally, since
- * the estimate of a step's error, of a lower order, is kept at the tolerance, and the result is of the higher order.
- * Of rows with reversible steps, whose tolerance is what a step errs on a circle, with the power p/(p + 1). (3)
- * Between the ends of steps, at the part PART of a step, the error goes with the power of the mean step that is due to
- * dense output, p or one more than dense_order, whichever is less.
+ * method of fixed step along a stretched time. (2) The error goes with the tolerance at least proportionally, since the
+ * estimate of a step's error, of a lower order, is kept at the tolerance, and the result is of the higher order. For
+ * rows with reversible steps, whose tolerance is the error of a step on a circle, the power is p/(p + 1). (3) Between
+ * the ends of steps, at the part PART of a step, the error goes with the power of the mean step that is due to dense
+ * output, p or one more than dense_order, whichever is less.
  *
  * Every statement is the slope of a straight line through logarithms, with twice its standard error, over the finest
  * two octaves of steps whose errors are clear of round-off: the pattern of the steps changes a little with every
@@ -25,7 +25,7 @@
 #define PART 0.4             /* of a step */
 #define MARGIN 0.25
 #define LOST 1.0       /* of an order: how far below its due a slope refutes */
-#define LOST_PART 0.25 /* of a high order: such a distance, which shows later */
+#define LOST_PART 0.25 /* the distance as a part of a high order, which shows later */
 #define CEILING 0.01   /* of the motion's size; errors above it, or below CLEARANCE times round-off, tell no order */
 #define CLEARANCE 30.0
 #define SUMMED 10.0

@@ -16,7 +16,7 @@ typedef struct paced {
 
 /* Returns the tolerance of point i; 0: there is no such point. */
 double paced_tolerance(const motus_method *, size_t i);
-/* Measures one point by a run. A failure leaves errors NaN and goes to *failed. */
+/* Measures one point by a run. If the run fails, the errors are NaN, and *failed is its status. */
 motus_status paced_measure(paced *, const char *method, motus_point *, int64_t *steps, motus_error *,
                            motus_status *failed);
 /* Round-off in units of the motion's size: floor: of the errors, as fit_order finds it; number: of one number. */

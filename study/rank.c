@@ -2,7 +2,7 @@
  *
  * Each method gets a ladder of runs (ladder.h), whose errors are measured against one reference (truth.h). An accuracy
  * is judged only if the reference's error is below a tenth of it, and a run meets it if its error and the reference's
- * together do not exceed it; so what is said of a run holds as far as the reference's error is told rightly.
+ * together do not exceed it; so a statement about a run is as sure as the error of the reference.
  *
  * Invariants: the result is one allocation. Evaluations, steps and tolerances are the same on every machine; seconds
  * alone are not, and decide nothing but which method is the fastest.
@@ -62,12 +62,12 @@ typedef struct rank {
 static motus_status refuse_accuracy(double a, motus_error *err)
 {
     char text[DECIMAL_MAX];
-    fail(err, MOTUS_ARGUMENT, "the accuracy %s cannot be compared at", decimal(a, text));
+    fail(err, MOTUS_ARGUMENT, "methods cannot be compared at the accuracy %s", decimal(a, text));
     hint(err, "an accuracy is a positive number; a relative one is at least 1e-15 and below 1");
     return MOTUS_ARGUMENT;
 }
 
-/* Divides an accuracy by ten so many times, as one writes it. */
+/* Divides an accuracy by ten so many times, to the number that one would write. */
 static double tenth(double a, int times)
 {
     int power = 0;
@@ -116,7 +116,7 @@ static motus_status read_def(rank *r, const motus_study_def *given, motus_error 
     }
     if (r->def.repeats < 0) {
         fail(err, MOTUS_ARGUMENT, "a run cannot be timed %d times", r->def.repeats);
-        hint(err, "0 takes the smallest of three times, a positive number that of so many");
+        hint(err, "0 times a run three times, a positive number so many times; the shortest time counts");
         return MOTUS_ARGUMENT;
     }
     return read_accuracies(r, err);
@@ -178,7 +178,7 @@ static motus_status row_failed(rank *r, size_t k, motus_status status, const mot
     return MOTUS_OK;
 }
 
-/* Finds the time of a point; an equal point before it supplies its own. */
+/* Finds the time of a point, or takes that of an equal point before it. */
 static motus_status time_point(rank *r, const ladder_point *p, motus_rank_point *points, size_t i)
 {
     for (size_t k = 0; k < i; k++)
@@ -299,7 +299,7 @@ static void remark(rank *r)
             order);
 }
 
-/* Takes methods of high order first, since they tell what an accuracy need not cost. */
+/* Puts methods of high order first, since the work that they need bounds the work that others may spend. */
 static void take_turns(rank *r)
 {
     for (size_t k = 0; k < r->count; k++) {

@@ -1,5 +1,5 @@
-/* The reference solution: the exact motion where it is known, else a run of the most accurate method of high order,
- * its step halved until the change is round-off; and the error of it, by that change and by a second method.
+/* The reference solution: the exact motion where it is known, else a run of the most accurate method of high order, its
+ * step halved until the change is round-off. Its error is estimated by that change and by a second method.
  *
  * Two runs of order p at steps h and h/2 differ by d; the error of the finer one is then about d/(r-1), where r is
  * the factor by which d fell at the last halving (2^p in theory, less where the force is not smooth enough for the
@@ -20,14 +20,18 @@
 #define SOLUTION_CANDIDATES 3
 /* Halved steps of a higher order reach rounding at once, so that their differences do not tell their error. */
 #define SOLUTION_ORDER_MOST 8
-#define SOLUTION_ORDERS_BELOW 2 /* how far candidates may be below the highest admitted order */
+#define SOLUTION_ORDERS_BELOW 2 /* candidates may be this far below the highest admitted order */
 #define SOLUTION_LEVELS 24      /* halvings of an interval */
 /* a difference that stops falling is round-off if it is smaller, else the motion is not yet resolved */
 #define SOLUTION_SMALL 1e-6
 #define SOLUTION_FALL 1.5 /* the smallest factor per halving that counts as a fall */
-#define SOLUTION_GOOD 64  /* times the rounding of the motion's size: with such an error dearer methods are not tried */
+#define SOLUTION_GOOD \
+    64                    /* times the rounding of the motion's size: below such an error dearer methods are not
+                           * tried */
 #define SOLUTION_LOST 0.1 /* of the motion's size: with a larger estimate nothing is known */
-#define SOLUTION_FAR 100  /* times the estimate of halvings: if a second method is farther away, they agree by luck */
+#define SOLUTION_FAR \
+    100                   /* times the estimate of halvings: if a second method is farther away, the halvings agree by
+                           * luck */
 #define SOLUTION_ROUNDS 3 /* how often the first method then takes shorter steps */
 #define SOLUTION_SHAKE 0x1p-53               /* of the largest values of the motion */
 #define SOLUTION_SAME_TIME (8 * DBL_EPSILON) /* relative */
@@ -45,8 +49,8 @@ typedef struct candidate {
     double jump_time, jump_rounding, jump_power;
     bool over;                   /* a run was given up, since it took too long */
     double work;                 /* of all its runs */
-    double more;                 /* what its last run cost, over the cost of the steps alone */
-    char failed[MOTUS_TEXT_MAX]; /* why its last run failed; "" */
+    double more;                 /* the cost of its last run, as a multiple of the cost of its steps */
+    char failed[MOTUS_TEXT_MAX]; /* why its last run failed, or "" */
 } candidate;
 
 /* The work of the runs of one method, in units of study_work. */
@@ -135,15 +139,15 @@ static void estimate(candidate *c, study_distance d, double divisor, double step
     c->scaled = d.scaled / divisor;
 }
 
-/* Makes the error of a walk that of the study. */
+/* Copies the error of a walk to that of the study. */
 static motus_status tell(study *s, motus_status status, const motus_error *e)
 {
     if (s->err && !s->cancelled) motus_struct_write(MOTUS_DEF_ERROR, e, s->err);
     return status;
 }
 
-/* Walks a reference run, which is given up if it costs more than `limit`. Its failure is none of the study: it leaves
- * NaN in the table. */
+/* Walks a reference run, which is given up if it costs more than `limit`. If it fails, the study goes on, and the table
+ * has NaN. */
 static motus_status walk(study *s, const motus_method *card, const study_grid *g, int64_t per, double limit,
                          const double *from, double *table, study_cost *spent, work *w, char failed[MOTUS_TEXT_MAX])
 {
@@ -155,8 +159,8 @@ static motus_status walk(study *s, const motus_method *card, const study_grid *g
     s->limit = 0;
     if (study_fatal(status)) return tell(s, status, &ignored);
     snprintf(failed, MOTUS_TEXT_MAX, "%s", status == MOTUS_OK ? "" : ignored.message);
-    /* A run that failed early cost little; the next one may cost its full price. Half the step costs twice as much, but
-     * for what it costs to locate switches. */
+    /* A run that failed early cost little; the next one may cost its full price. Half the step costs twice as much,
+     * apart from what it costs to locate switches. */
     const double cost = fmax(each * (double)spent->evaluations, plain);
     w->done += cost;
     w->next = cost + plain;
@@ -210,7 +214,7 @@ static motus_status refine(study *s, const study_grid *g, double budget, double 
             }
             if (have) {
                 double theory = ldexp(1, c->card->order);
-                /* a fall far below the method's own is uneven, and may be any at the next halving */
+                /* a fall far below the order of the method is uneven, and the next halving may have any fall */
                 const double most = fall < theory / 4 ? 2 : theory;
                 estimate(c, d, isnan(fall) ? 1 : fmin(fmax(fall, SOLUTION_FALL), most) - 1, step);
                 if (d.scaled <= fmax(2 * s->noise, enough)) {
@@ -300,8 +304,8 @@ static motus_status judge(study *s, const study_grid *g, double budget, candidat
     return MOTUS_OK;
 }
 
-/* Widens an error where the force jumps and no step ends there, by factors from experience: it depends on where steps
- * happen to lie, and falls unevenly. */
+/* Widens an error where the force jumps and no step ends there, by a factor from experience: such an error depends on
+ * where steps happen to lie, and falls unevenly. */
 static void widen(solution *r)
 {
     r->error *= SOLUTION_UNEVEN;

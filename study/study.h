@@ -41,11 +41,11 @@ typedef struct study {
     bool locate;            /* runs end their steps where the force changes its formula */
     double tolerance;       /* of the runs of adaptive methods, relative */
     const char *machine;    /* of all runs */
-    bool locatable;         /* the last run could end its steps there */
+    bool locatable;         /* the last run could end its steps where the force changes its formula */
     double limit;           /* evaluations after which a walk gives up; 0: no limit */
     motus_run *walking;     /* the run of the present walk; NULL: none */
     bool cancelled;
-    bool out_of_memory; /* in a call that can only answer "unknown" */
+    bool out_of_memory; /* memory ran out in a call that can only answer "unknown" */
 } study;
 
 /* Times at which trajectories are compared: from + k interval, k = 1 … intervals, and `until` besides. */

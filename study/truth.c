@@ -1,10 +1,10 @@
 /* See truth.h.
  *
  * Two kinds of references are found. One is that of solution.h, whose steps have one size: exact, or found by halving.
- * The other is of adaptive methods, at the smallest tolerance: the two that are nearest to each other, of up to four
- * of high order and different families; the distance of the two, how far a start that is a rounding away leads, and
- * how far both are from the first reference beyond its own error, are its error. The one with the smaller error is
- * taken.
+ * The other is of adaptive methods, at the smallest tolerance: the two that are nearest to each other, of up to four of
+ * high order; its error is the largest of three: the distance of the two, the distance of a run
+ * from a start that is a rounding away, and the distance from the first reference, if their errors do not explain it.
+ * The one with the smaller error is taken.
  *
  * Steps of one size spend most work where a close passage needs short steps, and rounding grows with their number; so
  * the adaptive methods know more digits of most motions. Where the force is not smooth they have no order, and the
@@ -18,13 +18,13 @@
 #include <stdio.h>
 #include <string.h>
 
-#define TOLERANCE 1e-15 /* below it rounding leaves no meaning */
+#define TOLERANCE 1e-15 /* a smaller one is below rounding */
 #define ORDER_LEAST 8
 #define CANDIDATES 4
 /* The bound on the work (study_work) of one run, as for a reference of fixed step. */
 #define WORK 3e7
 #define SHAKE 0x1p-53 /* of the largest values of the motion */
-#define LOST 0.1      /* of the motion's size: an error beyond this says that nothing is known */
+#define LOST 0.1      /* of the motion's size: with a larger error nothing is known */
 
 static size_t kind_of(const study *s, size_t number) { return number < s->nx ? 0 : number < 2 * s->nx ? 1 : 2; }
 

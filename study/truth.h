@@ -1,6 +1,6 @@
 /* The error of a state as `accuracy` means it: of every number, relative to the largest number so far of its kind
- * (positions, velocities, first-order variables), or absolute. And the reference against which it is measured, whose
- * own error is known in these units. */
+ * (positions, velocities, first-order variables), or absolute. The reference against which it is measured has an error
+ * that is known in these units. */
 #ifndef STUDY_TRUTH_H
 #define STUDY_TRUTH_H
 

@@ -346,7 +346,7 @@ void tell_diagnosis(json *j, const motus_error *err)
     json_string(j, "cause", motus_cause_word(err->cause));
     json_string(j, "variable", err->variable);
     json_number(j, "time", err->time);
-    json_number(j, "singular", err->singular); /* null: it is not, or when is not known */
+    json_number(j, "singular", err->singular); /* null: the force is not singular, or the time is not known */
     json_number(j, "singular_error", err->singular_error);
     json_number(j, "exponent", err->exponent);
     json_number(j, "exponent_error", err->exponent_error);

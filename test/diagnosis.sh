@@ -195,7 +195,7 @@ if(x == 0, 1, sin(x)/x) + 1/y|1/y is a division by 0 there, since y is 0
 if(x != 0, sin(x)/x, 1) + 1/y|1/y is a division by 0 there, since y is 0
 exp(1000 + x)|exp(1000 + x) is infinite there
 log(x)|log(x) is infinite there
-sqrt(x - 1)|sqrt(x - 1) is no number there
+sqrt(x - 1)|sqrt(x - 1) is not a number there
 CASES
 model undefined "x'' = 1/x" "x(0) = 0" "x'(0) = 0"
 gives "a division by 0 at the start" 1 "$motus" run "$place/undefined.motus" --until 2

@@ -1,8 +1,8 @@
 /* What events that assign, and so end a step, make of a symplectic or reversible method. See cuts.h.
  *
  * A step of a given size, or to a given time, is a symplectic map; one whose size depends on the state is not. Fixed
- * steps of a reversible method stay reversible: the way back divides the step at the event, too. Where error control
- * chooses the steps it begins anew after an event, so the way back has other steps.
+ * steps of a reversible method stay reversible: the way back divides the step at the event, too. Error control begins
+ * anew after an event, so with adaptive steps the way back has other steps.
  */
 #include "api/calls/cuts.h"
 
@@ -33,8 +33,8 @@ const char *motus_run_cut(const motus_run *r)
     motus_geometry kept = MOTUS_GEOMETRY_NONE;
     if (!r || !has_assigning_event(r->rules)) return "";
     if (row_reversible_steps(&r->chosen))
-        return "the control of steps begins anew after an event that assigns, so the run is not reversible there, "
-               "while it is between";
+        return "the control of steps begins anew after an event that assigns, so the run is "
+               "reversible only between such events";
     if (!cuts_by_state(r->system) || motus_method_geometry(r->system, r->chosen.name, &kept, NULL) != MOTUS_OK ||
         kept != MOTUS_GEOMETRY_SYMPLECTIC)
         return "";

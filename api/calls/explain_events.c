@@ -66,7 +66,7 @@ static void say_modes(sentences *w, const motus_system *s)
     }
 }
 
-/* Finds the signs of the functions at the start: 0 where rounding may hide the sign. */
+/* Finds the signs of the functions at the start: 0 where rounding may hide the sign, 2 where there is no number. */
 static bool signs_at_start(const motus_system *s, const rules *r, int8_t *sign)
 {
     const size_t nx = s->problem.nx, nv = s->problem.nv;

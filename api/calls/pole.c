@@ -1,16 +1,16 @@
 /* See pole.h.
  *
  * Interval arithmetic excludes poles from parts of the way, by halvings. What is left is so short that a divisor is 0
- * in it. The force need not be infinite there, as sin(x)/x is not, and may have an integral, as 1/sqrt(|x|) has; so
- * its power of the time is read off its changes near the place. Invariant: a pole is found whatever its strength, as
- * far as the rounding of times and states lets the force change by more than its own rounding.
+ * in it. There the force need not be infinite (sin(x)/x), and may have an integral (1/sqrt(|x|)); so its power of the
+ * time is found from its changes near the place. Invariant: a pole is found whatever its strength, as far as the
+ * rounding of times and states lets the force change by more than its own rounding.
  */
 #include "api/calls/pole.h"
 
 #include <math.h>
 
 enum { DEPTH = 44, LOOKS = 5000, PLACES = 64, SHORTEST = -34, LONGEST = -12, SCALES = 10, SAME = 3, BETWEEN = 5 };
-#define CLEAR 1e3    /* times the rounding of the force, below which it has not changed */
+#define CLEAR 1e3    /* times the rounding of the force: a smaller change is none */
 #define FAR 0x1p9    /* least distance, in roundings of a time or a state */
 #define ALIKE 0.02   /* powers this near to one another are equal */
 #define INVERSE 0.95 /* the power of the time from which on a force has no integral */
@@ -89,7 +89,7 @@ static double change(const pole_way *w, double z, double d)
     return most > CLEAR * 0x1p-52 * size ? most : NAN;
 }
 
-/* Returns the shortest distance from a place that rounding does not change, as a power of 2 of the way. */
+/* Returns the shortest distance from a place that is clear of rounding, as a power of 2, in units of the way. */
 static int shortest(const pole_way *w, double z)
 {
     const problem *p = &w->system->problem;
@@ -102,7 +102,7 @@ static int shortest(const pole_way *w, double z)
     return (int)fmax(SHORTEST, fmin(LONGEST, ceil(log2(FAR * 0x1p-52 * rounding))));
 }
 
-/* Returns whether the change follows the power between d and 2 d as well; rounding does not. */
+/* Returns whether the change follows the power between d and 2 d as well. Changes by rounding do not. */
 static bool follows(const pole_way *w, double z, double d, double power)
 {
     const double at = change(w, z, d);

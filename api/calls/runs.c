@@ -1,4 +1,4 @@
-/* The public calls of runs: making one, going on, asking. */
+/* The public calls that make a run, take its steps, and ask for its state and statistics. */
 #include "api/search/goal.h"
 #include "api/motion/locate.h"
 #include "api/motion/run_events.h"

@@ -351,12 +351,12 @@ static bool read_block(motus_run *r, reader *in, const char *name, double **numb
     return *numbers && read_numbers(in, *numbers, *count);
 }
 
-/* Gives the bars of a restored run what the state has of them, and takes over the numbers. */
+/* Restores the bars of a run from the numbers of the state, and owns the numbers from then on. */
 static void resume_bars(motus_run *r, double *numbers, int64_t count)
 {
     if (numbers && r->bars && bars_resume(r, numbers, (size_t)count)) return;
     give(&r->allocator, numbers);
-    bars_give_up(r, "the run was restored from a state that does not tell its error up to there");
+    bars_give_up(r, "the run was restored from a state without its error");
 }
 
 /* The contents of a restart state. */
@@ -408,7 +408,7 @@ static motus_status read_found(motus_run *r, reader *in, found *f, motus_error *
     return ok && !f->events == !r->events ? MOTUS_OK : unreadable(err);
 }
 
-/* Gives the stepper the state. After a failure all is as before. */
+/* Gives the stepper the state. A failure changes nothing. */
 static motus_status load(motus_run *r, const found *f, motus_error *err)
 {
     if (r->events) return run_events_load(r, f->then, f->carry, f->events, (size_t)f->events_count, err);

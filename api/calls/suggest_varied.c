@@ -1,4 +1,4 @@
-/* The step of many trajectories: motus_suggest_varied.
+/* The step of many trajectories: motus_suggest_varied and motus_step_growth.
  *
  * Invariant: the caller's system is not changed; a clone of it takes the numbers of one trajectory after the other.
  */
@@ -13,7 +13,7 @@ typedef struct varied {
     motus_system *system; /* the clone */
     vary *vary;           /* of the clone's model */
     size_t count, *places;
-    size_t *given; /* the array of the call that has the numbers of each place; `until` has no place */
+    size_t *given; /* for each place, the array of the call with its numbers; `until` has no place */
     double *values;
 } varied;
 
@@ -59,7 +59,8 @@ static bool become(varied *y, const double *const *values, size_t i)
     return !s->model || (vary_apply(y->vary, y->values) && system_rebind(s));
 }
 
-/* Finds the shortest of the steps, with its rate. A trajectory for which no step is found is left out: it stops. */
+/* Finds the shortest of the steps, with its rate. A trajectory for which no step is found is left out, since it will
+ * stop. */
 static motus_status shortest(varied *y, size_t trajectories, const double *const *values, motus_settings *set,
                              motus_error *err)
 {

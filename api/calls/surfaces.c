@@ -6,7 +6,7 @@
 
 enum { ROOM = 4096 }; /* of a text; a longer one is cut */
 
-/* Finds switches where there is no located system, or none can be made. NULL: no memory. */
+/* Finds the switches of a system that has no located one. NULL: no memory. */
 static const switches *found_in(motus_system *s)
 {
     switches *found = s->surfaces ? s->surfaces : arena_take(&s->arena, sizeof *found);

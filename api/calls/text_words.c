@@ -27,7 +27,7 @@ static void add(reading *r, motus_word_kind kind, size_t from, size_t to)
     if (r->count < r->room) r->words[r->count++] = (motus_word){from, to - from, kind, 0};
 }
 
-/* Adds the comments between two tokens, where only blanks and line ends can be besides. */
+/* Adds the comments between two tokens, where there are only blanks and line ends besides. */
 static void add_comments(reading *r, size_t from, size_t to)
 {
     for (; from < to; from++) {
@@ -130,7 +130,7 @@ static void read_words(reading *r, source *s)
         const token t = lex_next(&l);
         add_comments(r, done, t.at.from);
         done = t.at.to;
-        if (s->failed) { /* the number is not finished, or the character is wrong */
+        if (s->failed) { /* the number has no end, or the character is wrong */
             const size_t from = t.at.from, size = s->texts[0].length;
             if (from >= size) break;
             const bool number = r->text[from] && strchr("0123456789", r->text[from]);

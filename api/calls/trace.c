@@ -23,7 +23,7 @@ typedef struct trace {
     double error;
 } trace;
 
-/* START and END hold the state; the closing kick and the step of a recurrence take numbers from them. */
+/* The entries START and END; the closing kick and the step of a recurrence share their numbers. */
 enum { TRACE_ENDS = 2 };
 
 static trace *make(motus_run *r)
@@ -172,7 +172,7 @@ static motus_status walk(motus_run *r, motus_error *err)
 {
     trace *t = make(r);
     if (!t) return fail(err, MOTUS_MEMORY, "no memory for the trace of the step");
-    /* `again` tells the size of an adaptive step */
+    /* for an adaptive step `again` sets the size */
     t->step = run_steps(r) < r->timing.whole ? r->timing.h : r->timing.last;
     t->error = NAN;
     motus_status status = observe(r, MOTUS_TRACE_START, err);

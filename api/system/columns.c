@@ -13,7 +13,7 @@ size_t system_place(const model_state *s, size_t cell, int component)
     return s->base + (size_t)component * s->hull + offset;
 }
 
-#define TWICE 2.0 /* a spread that is larger than an error by this factor is that of a jump */
+#define TWICE 2.0 /* a spread that is larger than an error by this factor comes from a jump */
 
 static const model_definition *definition(const motus_system *s, const column_range *g)
 {
@@ -207,7 +207,7 @@ motus_status system_values(motus_system *s, double t, double *x, double *v, cons
                            double *out, motus_error *err)
 {
     const column_range *done = NULL;
-    if (s->problem.refresh) /* at `until` itself, which may differ from t0 + n h by rounding */
+    if (s->problem.refresh) /* at t itself: at the end it is `until`, which may differ from t0 + n h by rounding */
         s->problem.refresh(s->problem.ctx, t, x, v);
     for (size_t i = 0; i < count; i++) {
         if (columns[i] >= s->column_count)
@@ -329,7 +329,7 @@ bool system_jumps(motus_system *s, size_t column)
     return jumps(s, columns_range(s, column), &flat);
 }
 
-/* Returns the error of a value that lies within bounds. error: the one that run and companion tell. */
+/* Returns the error of a value that lies within bounds. error: the difference of run and companion. */
 static double doubted(doubt open, bool flat, double value, interval bounds, double error)
 {
     const double off = fmax(bounds.high - value, value - bounds.low);

@@ -1,5 +1,5 @@
-/* Structs that pass between the caller and the library: their defaults, and their size in each version. And the words
- * of statuses.
+/* Structs that pass between the caller and the library: their defaults, and their size in each version. The words of
+ * statuses and causes, too.
  *
  * Invariants: the layout of a version begins with the layout of the version before, padding included; what it adds
  * has no padding (which an assignment by the caller need not copy) and means "as before" where it is zero. So a

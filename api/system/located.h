@@ -8,7 +8,7 @@
 
 #include "api/system/system.h"
 
-/* In a system with more switches they are not located unless asked for, since each costs time in every step. */
+/* The switches of a system with more of them are not located unless asked for, since each costs time in every step. */
 enum { LOCATED_MOST = 64 };
 /* Returns whether the force, or what moves a boundary cell, is not smooth. */
 bool located_kinks(const model *);

@@ -38,11 +38,14 @@ motus_status shadow_numbers(const motus_system *from, motus_system *to, motus_er
     return status;
 }
 
-/* Parameters that were rounded when they were computed, as a long sum, may have equal numbers in system and shadow;
- * these move to the next double. Parameters that decimals or moved ones enter stay: which way the rounding went is not
- * known, and the two must not cancel. */
+/* A parameter that was rounded when it was computed, such as a long sum, may have the same number in system and shadow;
+ * its number in the shadow moves to the next double. A parameter that depends on decimals or on moved parameters stays:
+ * the direction of its rounding is not known, and the two changes must not cancel. */
 
-enum { PARAMETERS_MAX = 256 }; /* in a model with more none is moved, since each looks at all others */
+enum {
+    PARAMETERS_MAX = 256
+}; /* in a model with more parameters none is moved, since each is compared with all
+                                * others */
 
 static bool in_name(char c)
 {
@@ -66,7 +69,8 @@ static motus_status value_of(const motus_system *s, const motus_system *shadow, 
     return status == MOTUS_OK ? motus_parameter_values(shadow, k, &value[1]) : status;
 }
 
-/* Returns whether a number is computed from whole numbers and the like alone. */
+/* Returns whether the text of a parameter has no decimals, no pi, and only parameters with one number in system and
+ * shadow. */
 static bool stands_alone(const motus_system *s, const motus_system *shadow, const motus_parameter *p)
 {
     motus_parameter other = motus_default_parameter();
@@ -79,7 +83,7 @@ static bool stands_alone(const motus_system *s, const motus_system *shadow, cons
     return true;
 }
 
-/* Returns whether a number uses all of its bits. One in 4096 rounded numbers ends in so many zeros, and is taken for
+/* Returns whether a number uses all of its bits. One in 4096 rounded numbers ends in ZEROS zeros and is taken for
  * exact. */
 static bool is_full(double number)
 {

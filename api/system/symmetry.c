@@ -69,7 +69,7 @@ static void draw(const motus_system *s, int round, const sample *at, uint64_t *r
     }
 }
 
-/* Returns how many states are worth their time. */
+/* Returns how many states to sample, so that the time is bounded. */
 static int rounds(const motus_system *s)
 {
     const double most = 3e6 / (s->model->terms + (double)s->problem.nv);

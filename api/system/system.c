@@ -32,7 +32,7 @@ void motus_system_destroy(motus_system *s)
     give(&a, s);
 }
 
-/* Copies of `count` texts; NULL: no memory. */
+/* Copies `count` texts. NULL: no memory. */
 static const char *const *keep_list(arena *a, const char *const *texts, size_t count)
 {
     const char **copies = arena_room(a, (count + 1) * sizeof *copies);
@@ -152,7 +152,7 @@ static motus_status take_start(motus_system *s, const motus_callback_def *def, m
     return MOTUS_OK;
 }
 
-/* Makes the velocities, all NaN, that a callback gets which does not read velocities. */
+/* Makes the velocities, all NaN, for a callback that does not read them. */
 static void keep_unread(motus_system *s)
 {
     const size_t count = s->problem.nv > CALLING_NUMBERS ? s->problem.nv : CALLING_NUMBERS;

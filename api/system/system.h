@@ -40,7 +40,7 @@ struct motus_system {
     struct sides *sides;          /* the switches of a located system as rules; NULL until they are asked for */
     struct motus_system *located; /* see api/system/located.h; NULL until a run asks for it, and where there is none */
     bool located_known;           /* `located` was asked for */
-    const char *located_refused;  /* why the switches of the model cannot be located; NULL */
+    const char *located_refused;  /* why the switches of the model cannot be located, or NULL */
     uint64_t changes, located_changes; /* how often numbers were set: until now, and until `located` was made */
     resolution *poles;                 /* NULL until a run asks for a singularity, and where the force has no poles */
     bool poles_known;
@@ -52,7 +52,7 @@ struct motus_system {
     } bends;
     weight weight; /* of the equations; valid if `weighed` */
     bool weighed;
-    const char *switches_refused; /* why switches cannot be held; NULL */
+    const char *switches_refused; /* why switches cannot be held, or NULL */
     double start;
     double *x0, *v0;
     model_state *states;

@@ -1,4 +1,4 @@
-/* Sizes and distances of states, by their largest number. A number that is NaN makes them NaN. And random numbers. */
+/* Sizes and distances of states, by their largest number; a number that is NaN makes them NaN. Random numbers. */
 #ifndef API_SYSTEM_VECTOR_H
 #define API_SYSTEM_VECTOR_H
 

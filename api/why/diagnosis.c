@@ -28,14 +28,18 @@ enum {
 #define STIFF_METHOD "gauss4"
 #define TRIED_METHOD "dop853"
 #define TRIED_TOLERANCE 1e-9
-#define NEAR_BOUND 4.0  /* factor by which steps that stability bounds are near to the bound, both ways */
+#define NEAR_BOUND 4.0  /* steps within this factor of the stability limit, both ways, are bounded by it */
 #define UNBOUNDED 500.0 /* step times rate: no bound of stability is as large */
-/* times the run's steps: the steps that an implicit method takes at least where the model is stiff */
+/* the model is stiff if an implicit method can take steps of at least so many times the stability limit */
 #define LONGER 10.0
-#define AGREES 1e-2    /* relative to the largest number: a step that serves agrees so well with half of it */
+#define AGREES \
+    1e-2               /* largest difference between steps that serve and half of them, relative to the largest
+                        * number */
 #define NO_LARGER 10.0 /* times the motion's size: a trial that grows more has not succeeded */
-#define TELLABLE 0.5   /* of an exponent: with a larger error it tells nothing */
-#define LOGARITHM 1e-3 /* a power this near to 0 is 0 */
+#define TELLABLE 0.5   /* largest error of an exponent that tells something */
+#define LOGARITHM \
+    1e-3 /* the power is 0 if the error of the exponent is below this, and the exponent is within its
+                        * error */
 
 typedef struct judge {
     evidence e;
@@ -44,7 +48,7 @@ typedef struct judge {
     diagnosis_leads *leads;
     evidence_ahead ahead;
     bool looked;
-    trial_course whole; /* the way to `whole_to` by TRIED_METHOD */
+    trial_course whole; /* what TRIED_METHOD met on the way to `whole_to` */
     double whole_to;    /* NaN: not tried */
     char cause[MOTUS_TEXT_MAX];
 } judge;
@@ -222,7 +226,7 @@ static bool tell_singular(judge *j)
         char text[MOTUS_TEXT_MAX];
         snprintf(text, sizeof text, "%s", j->cause);
         error_text(j->cause,
-                   "from where the run stands, %s; whether the motion from the start comes there is not known", text);
+                   "from where the run stands, %s; it is not known whether the motion from the start gets there", text);
     }
     say(j, MOTUS_CAUSE_SINGULAR, name);
     j->err->singular = a->t;
@@ -263,7 +267,7 @@ static bool infinite(judge *j)
     return true;
 }
 
-/* Reports a force that has no value at the start itself: which term has none, and what may be written in its place. */
+/* Reports a force that has no value at the start: which term has none, and what may be written in its place. */
 static bool undefined_start(judge *j)
 {
     const evidence *e = &j->e;
@@ -275,9 +279,9 @@ static bool undefined_start(judge *j)
     name_of(j, true, which, name);
     const bool found = !system_located(s) && undefined_find(s->model, which, e->t, e->x, e->v, &u);
     if (!found) {
-        error_text(j->cause, "its equation has no number there");
+        error_text(j->cause, "its equation has no value there");
     } else if (!u.divisor[0]) {
-        error_text(j->cause, "%s is %s there", u.term, u.infinite ? "infinite" : "no number");
+        error_text(j->cause, "%s is %s there", u.term, u.infinite ? "infinite" : "not a number");
     } else {
         error_text(j->cause, "%s is %s there, since %s is 0", u.term, u.both ? "0/0" : "a division by 0", u.divisor);
     }
@@ -358,7 +362,7 @@ static bool noise(judge *j)
     name_of(j, true, which, name);
     error_text(
         j->cause,
-        "the tolerance %.2g is below rounding: the rate of change of %s is rounding by more than the tolerance allows",
+        "the tolerance %.2g is below rounding: the rate of change of %s is rounded by more than the tolerance allows",
         j->e.row->absolute > 0 ? j->e.row->absolute : j->e.row->relative, name);
     say(j, MOTUS_CAUSE_ROUNDING, name);
     const double until = fabs(j->e.until - j->e.t), far = fmin(until, 1e6 * fabs(j->e.h) + 1e-3 * until);
@@ -388,7 +392,7 @@ static bool noise(judge *j)
     return true;
 }
 
-/* Finds whether the run's steps, with time counted from 0, are possible. */
+/* Judges whether only the rounding of the time stops the run: with time counted from 0 its steps are possible. */
 static bool time_rounding(judge *j)
 {
     const evidence *e = &j->e;
@@ -454,12 +458,13 @@ static bool stiff(judge *j, double mean)
     if (implicit_step(j, from, LONGER * limit / rate, text, &tried) == 0) return false;
     error_text(j->cause, "the model is stiff: %s returns to the motion with the rate %.2g, and steps of %s %s %.2g",
                name_of(j, true, which, name), rate, e->row->name,
-               limit == bound ? "would grow above" : "do not converge much above", limit / rate);
+               limit == bound ? "are unstable above" : "do not converge much above", limit / rate);
     say(j, MOTUS_CAUSE_STIFF, name);
     snprintf(j->err->attempt, sizeof j->err->attempt, "method = %s, step = %.24s", STIFF_METHOD, text);
     j->err->verified = tried;
     hint(j->err,
-         "take a method that no stability bounds, `method = %s` of the definition with `step = %s` of the definition%s",
+         "take a method that is stable at every step, `method = %s` of the definition with `step = %s` of the "
+         "definition%s",
          STIFF_METHOD, text, tried ? "" : "; or smaller ones: these were tried for a part of the way");
     return true;
 }

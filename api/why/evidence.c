@@ -16,15 +16,15 @@ enum { STEPS_LEAST = 200, STEPS_MOST = 20000, DEEPER = 8, AHEAD = 2, BISECTIONS 
 #define WORK 4e8            /* operations of one trial */
 #define CALLBACK_WORK 100.0 /* operations of a callback, for each number */
 #define STAGES 12.0         /* evaluations of one trial step */
-#define HALTED 1e-5         /* of the way: this near to the instant a trial has come to a halt */
+#define HALTED 1e-5         /* of the way: a trial that ends this near to the instant has come to a halt */
 #define LARGEST 1e290       /* beyond it a product leaves the finite numbers */
-#define DEEP 1e-9           /* of the way: this far beyond the instant an encounter is passed */
+#define DEEP 1e-9           /* of the way: steps that lead this far beyond the instant have passed an encounter */
 #define EARLIER 1e-2        /* of the way so far: where samples of a force begin */
-#define FAR_BACK 1e3        /* roundings of the time, by which a halt is off its cause at most */
+#define FAR_BACK 1e3        /* largest distance of a halt from its cause, in roundings of the time */
 #define HUGE_STATE 1e100    /* products of larger numbers may leave the finite numbers */
 #define JUMP 1e-3           /* least jump, as a part of the force */
-#define LASTS 0.5           /* part of the first change that is left of a jump, however near both sides are */
-#define NOISY 0.1           /* least part of the allowed error that noise is */
+#define LASTS 0.5           /* a jump keeps at least this part of the first change, however near its sides are */
+#define NOISY 0.1           /* least part of the allowed error that counts as noise */
 
 /* ---- the scene ---- */
 

@@ -54,13 +54,15 @@ typedef struct evidence_ahead {
 } evidence_ahead;
 evidence_ahead evidence_look(evidence *);
 
-/* Returns whether the force jumps within the next steps: its number `which`, from `before` to `after`. */
+/* Returns whether the force jumps near the last good state: its number `which`, from `before` to `after` in the run's
+ * direction. */
 bool evidence_jump(evidence *, size_t *which, double *before, double *after);
 /* Returns whether number `which` of the force has no finite value just after the last good state. */
 bool evidence_undefined(evidence *, size_t *which);
 /* Returns whether number `which` of the force has no finite value at the last good state. */
 bool evidence_undefined_here(evidence *, size_t *which);
-/* Returns whether the rounding of number `which` of the force alone makes the present steps fail the tolerance. */
+/* Returns whether the rounding of the force takes a tenth or more of the error that the present steps may have, and the
+ * number `which` of the force that takes most. */
 bool evidence_noise(evidence *, size_t *which);
 /* Finds the largest eigenvalue of the equations linearised at a state, and the number of v that takes part in it most.
  * False: it cannot be computed. */

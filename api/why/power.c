@@ -2,8 +2,8 @@
  *
  * Three samples determine the instant and the power. Each is about SPREAD times nearer than the one before, so that the
  * logarithms differ. Triples nearer to the instant are freer of what else moves y, and less free of rounding; the one
- * whose neighbours agree with it best is taken. What still changes from one triple to the next decays as a geometric
- * series, whose sum is the error; slowly, where a logarithm stands beside the power.
+ * whose neighbours agree with it best is taken. The changes from one triple to the next decay as a geometric series,
+ * whose sum is the error; they decay slowly where a logarithm stands beside the power.
  */
 #include "api/why/power.h"
 
@@ -11,9 +11,9 @@
 
 #define SPREAD 4.0
 #define CLEAR 1e4       /* least distance, in roundings of the time */
-#define AGREE 0.05      /* of neighbouring powers, relative to 1 + the power */
+#define AGREE 0.05      /* largest difference of neighbouring powers, relative to 1 + the power */
 #define LEAST 0.05      /* least power: slower growth cannot be told from none */
-#define FALL_MOST 0.995 /* of the ratio of two changes: a larger one cannot be told from 1 */
+#define FALL_MOST 0.995 /* largest ratio of two changes; a larger one cannot be told from 1 */
 
 enum { HALVINGS = 64, TRIPLES = 3 /* neighbours, SPREAD apart, that agree */ };
 

@@ -21,7 +21,7 @@ enum { POINTS = 8, PLACES = 2 * POINTS, ROOM = 24 << 10 };
 /* By rounding, two steps and the square of one differ by less; where a method carries more, by more than 1e-3. */
 #define FORGETFUL 1e-6
 #define GROWS 1e-9     /* a spectral radius above 1 by more is growth */
-#define BOUND_MOST 1e3 /* step times rate, up to which a bound is searched at BOUNDS points */
+#define BOUND_MOST 1e3 /* largest step times rate of the BOUNDS points at which a bound is sought */
 enum { BOUNDS = 64 };
 
 typedef struct matrix {
@@ -190,7 +190,7 @@ static motus_status remember(plane *p, motus_error *err)
     return MOTUS_OK;
 }
 
-/* Computes the points at[0 … count); if one fails, each by itself. */
+/* Computes the points at[0 … count); if that fails, each of them by itself. */
 static motus_status ask(plane *p, const traits *traits, const size_t *at, size_t count, const double *re,
                         const double *im, double *radius, motus_error *err)
 {

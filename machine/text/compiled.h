@@ -75,7 +75,7 @@ static inline int accel(work *w, clock t, real *x, real *v, real *a)
     clock T[TERMS + 1];
     return accel_with(w, t, compiled_terms(w->host, t, T), x, v, a);
 }
-#else /* Taylor series need the force for the size of the first step alone, and the library has it */
+#else /* Taylor series need the force only for the size of the first step, and the library has it */
 static inline int accel(work *w, clock t, real *x, real *v, real *a) { return w->host->accel(w, t, x, v, a); }
 #endif
 
@@ -97,8 +97,8 @@ static inline int compiled_accel_now(work *w, real *x, real *v, real *a)
     return accel_with(w, time_now(w), compiled_table(w, 0), x, v, a);
 }
 
-/* The table of LANES_OF_TIME steps from step n on. It takes t0 and h instead of a workspace, so that the workspace can
- * stay in registers. */
+/* Fills the table of LANES_OF_TIME steps from step n on. It takes t0 and h instead of a workspace, so that the
+ * workspace can stay in registers. */
 static inline void compiled_fill_some(const compiled_host *host, clock t0, clock h, clock *restrict table, whole n,
                                       bool apart)
 {
@@ -118,7 +118,7 @@ static inline void compiled_fill_some(const compiled_host *host, clock t0, clock
     }
 }
 
-/* The table of `count` steps, rounded up to whole vectors. */
+/* Fills the table of `count` steps, rounded up to whole vectors. */
 __attribute__((noinline)) static void compiled_fill(const compiled_host *host, clock t0, clock h, clock *restrict table,
                                                     whole n, whole count)
 {
@@ -131,7 +131,7 @@ __attribute__((noinline)) static void compiled_fill(const compiled_host *host, c
 #ifndef GROUPS
 #if SMALL
 #define TAYLOR_APART __attribute__((noinline, flatten)) static
-/* Of the workspace what the orders use, so that the workspace itself can stay in registers. */
+/* Copies what the orders use of the workspace, so that the workspace itself can stay in registers. */
 #define TAYLOR_PART(w)                                                                                    \
     work part_of_it, *const part = &part_of_it;                                                           \
     part->host = (w)->host, part->xs = (w)->xs, part->vs = (w)->vs, part->r = (w)->r, part->ks = (w)->ks, \

@@ -2,9 +2,9 @@
  *
  * Invariant: motus_run copies the library's workspace, advances the copy and copies it back. Where the system is SMALL
  * it copies the arrays too, so that the compiler can keep them in registers, and tests at the end whether the copy is
- * finite, since a number that is not finite stays so. What needs text of its own in a small system, the library's own
- * loop does, to the same bits, because that text would take the compiler as long as all the rest: the first step of a
- * leg, the steps that fill no vector of times, and the steps in which something fails, from the workspace as it was.
+ * finite, since a number that is not finite stays so. In a small system the library's own loop takes, to equal bits,
+ * the steps whose text would take the compiler as long as all the rest: the first step of a leg, the steps that fill no
+ * vector of times, and the steps in which something fails, from the workspace as it was.
  */
 /* Tells whether the steps end here, because something may have happened in the last one. */
 static inline bool compiled_met(const work *w) { return WATCHES(w) && w->watch->met; }
@@ -35,8 +35,8 @@ static inline int compiled_steps(work *w, whole steps)
 #define compiled_steps advance_run
 #endif
 
-/* What is known of the series at the present state: all, or nothing, since what the library's loop keeps of order 0
- * lies elsewhere. */
+/* Returns what is known of the series at the present state: all or nothing, since the library's loop keeps order 0
+ * elsewhere. */
 static inline int compiled_expanded(const work *w)
 {
 #if FACT_expands
@@ -47,8 +47,8 @@ static inline int compiled_expanded(const work *w)
 }
 
 #if SMALL
-/* Flat, so that the workspace can stay in registers and the plan's numbers are constants. False: something failed, and
- * nothing has changed. */
+/* Takes steps with a copy of the workspace. It is flat, so that the copy can stay in registers and the plan's numbers
+ * are constants. False: something failed, and nothing has changed. */
 __attribute__((flatten)) static bool compiled_small(work *given, whole steps)
 {
     enum { STRIDE = (NUMBERS + 7) / 8 * 8 }; /* as the library's solver expects it */
@@ -83,8 +83,8 @@ __attribute__((flatten)) static bool compiled_small(work *given, whole steps)
     return true;
 }
 
-/* Whether the library takes the next step: where steps adapt, the first of a leg, and those that begin with the last
- * evaluation of the step before (BEGINS) while that is not known. */
+/* Tells whether the library takes the next step: the first of a leg and, where steps adapt, one that begins with the
+ * last evaluation of the step before while that is not known. */
 static inline bool compiled_begins(const work *w)
 {
     if (!ROW_adaptive) return w->n == 0;

@@ -42,7 +42,7 @@ static inline reals index_count(int64_t j)
     return lanes + MANY((double)j);
 }
 
-/* A number of lane l in every lane; of the lanes from number `lanes` on that of the last one before. */
+/* Puts the number of lane l into every lane; the lanes from number `lanes` on get that of the last lane before them. */
 #define LANE_OF_INDEX(k, number)                     \
     __extension__({                                  \
         const int l = (k) < lanes ? (k) : lanes - 1; \

@@ -255,7 +255,7 @@ static inline void lanes_put_clock(const work *w, real *own)
 #define lanes_store_clock(w, job, group) ((void)0)
 #endif
 
-/* One step, from which constant matrices are factored; `keeps`: its end becomes the state. */
+/* Takes one step, which factors constant matrices. keeps: its end becomes the state. */
 __attribute__((noinline)) static void lanes_step_once(const lanes_job *job, bool begins, bool keeps)
 {
     for (size_t group = 0; group < GROUPS; group++) {
@@ -271,7 +271,7 @@ __attribute__((noinline)) static void lanes_step_once(const lanes_job *job, bool
     }
 }
 
-/* The first step of all, for which some methods have a formula of its own. */
+/* Takes the first step of all, for which some methods have a formula of its own. */
 void motus_lanes_first(const lanes_job *job) { lanes_step_once(job, true, true); }
 
 #define LANES_HOST(g)                                            \
@@ -297,7 +297,7 @@ void motus_lanes_first(const lanes_job *job) { lanes_step_once(job, true, true);
 #define LANES_SELECT(g) lanes_place(w, &host_##g, room_##g);
 #define LANES_TICK time_tick(w, EVERY)
 #endif
-/* Adaptive: the accelerations that the call before has left, and those for the next one. */
+/* Take the accelerations that the call before has left, and leave those for the next one, if steps adapt. */
 static inline void lanes_recall(work *w, const lanes_job *job, size_t group)
 {
     if (!ROW_adaptive || !job->known || !job->fresh[group]) return;
@@ -320,8 +320,8 @@ typedef struct lanes_ends {
     const real *from_x, *from_v, *to_x, *to_v;
 } lanes_ends;
 
-/* Those of the lanes that are `good` in whose latest step something may have happened: job->bounds has bounds on the
- * accelerations within it. */
+/* Returns the `good` lanes in whose latest step something may have happened. job->bounds: bounds on the accelerations
+ * within it. */
 static inline mask lanes_open(const lanes_job *job, const work *w, const compiled_host *host, const lanes_ends *of,
                               mask good, size_t group)
 {
@@ -350,8 +350,8 @@ static inline void lanes_keep_before(const lanes_job *job, work *w, size_t group
 }
 
 #if ROW_adaptive
-/* Of a watched lane what step/watch.h does for one trajectory. A step whose first stage makes room for the next one's
- * has that before it begins. */
+/* Does for lanes what step/watch.h does for one trajectory. The first stage is read before the step begins, where the
+ * last stage takes its place. */
 static inline void lanes_watch_begin(const lanes_job *job, work *w, size_t group)
 {
     real *most = job->bounds + group * FACT(w, nv);
@@ -364,7 +364,7 @@ static inline void lanes_watch_begin(const lanes_job *job, work *w, size_t group
     EACHV(k) most[k] = first ? ABS(w->a[k]) : MANY(0.0);
 }
 
-/* The lanes whose candidate was accepted, and something may have happened in the step. */
+/* Returns the lanes whose candidate was accepted and in whose step something may have happened. */
 static inline mask lanes_watch_ends(const lanes_job *job, work *w, const compiled_host *host, size_t group)
 {
     const real *from = job->before + group * CARRIED * FACT(w, nv), *clocks = job->before_clocks + group * LANES_CLOCKS;
@@ -375,8 +375,8 @@ static inline mask lanes_watch_ends(const lanes_job *job, work *w, const compile
 }
 #define LANES_WATCH(g) lanes_watch_begin(job, w, g)
 #else
-/* Steps of one size: the states at both ends are observed, each once in a call; `known`: the start is the end of the
- * step before. */
+/* With fixed steps the states at both ends are observed, each once in a call. known: the start is the end of the step
+ * before. */
 static inline void lanes_watch_begin(const lanes_job *job, work *w, size_t group, bool known)
 {
     const size_t nx = FACT(w, nx), nv = FACT(w, nv), numbers = nx + 2 * nv;
@@ -425,8 +425,8 @@ static inline mask lanes_watch_ends(const lanes_job *job, work *w, const compile
         LANES_ADVANCE(w); \
         LANES_WATCHED(g); \
     }
-/* Of a row that iterates: the turns of all groups side by side, until all equations of all are solved. A group that is
- * done waits for the others; its lanes keep their values. */
+/* Where a row iterates, all groups take their turns side by side until all equations are solved. A group that is done
+ * waits for the others; its lanes keep their values. */
 #define LANES_ITERATION(g) implicit_iteration iteration_##g;
 #define LANES_BEGIN(g)                     \
     {                                      \
@@ -461,8 +461,8 @@ static inline mask lanes_watch_ends(const lanes_job *job, work *w, const compile
     }                                                           \
     SOLVE_FAR(job, g, lost_##g)
 
-/* Adaptive or watched: whether some lane has to be looked after: it has taken the steps that it should, is at its end,
- * cannot go on, or something may have happened in its step. */
+/* Adaptive or watched: adds to `due` the lanes that have taken their steps, are at their end, cannot go on, or in whose
+ * step something may have happened. */
 #define LANES_DUE(g)                                                                                              \
     {                                                                                                             \
         const real *own = job->clocks + g * LANES_CLOCKS;                                                         \
@@ -471,8 +471,8 @@ static inline mask lanes_watch_ends(const lanes_job *job, work *w, const compile
         due = due | (here & ((work_##g.n == own[LANES_STOP]) | ends | (*host_##g.lost != 0) | LANES_OPEN_TO(g))); \
     }
 
-/* `steps` more, not the first one, and an observation after every `every` of them; every = 0: none. Adaptive: up to so
- * many candidates. */
+/* Takes `steps` more steps, not the first one, and observes after every `every` of them; every = 0: never. Adaptive:
+ * takes up to `steps` candidates. */
 __attribute__((flatten)) void motus_lanes_run(const lanes_job *job, whole steps, whole every)
 {
     bool fresh = false; /* the accelerations of all groups are known, from an observation */
@@ -490,7 +490,7 @@ __attribute__((flatten)) void motus_lanes_run(const lanes_job *job, whole steps,
     EVERY_GROUP(LANES_PREPARE)
     EVERY_GROUP(LANES_MET)
 #if WATCHED
-    bool watched = false; /* a step before has been, in this call */
+    bool watched = false; /* this call has taken a step */
 #endif
     while (steps > 0) {
         const whole some = every && every < steps ? every : steps;
@@ -501,7 +501,7 @@ __attribute__((flatten)) void motus_lanes_run(const lanes_job *job, whole steps,
 #if ITERATES
             EVERY_GROUP(LANES_ITERATION)
             EVERY_GROUP(LANES_BEGIN)
-            EVERY_GROUP(LANES_TURN) /* by itself: in the first turn all are open, and nothing is compared */
+            EVERY_GROUP(LANES_TURN) /* apart from the loop: in the first turn all are open, and nothing is compared */
             while (implicit_more(&iteration_0, NEVER EVERY_GROUP(LANES_OPEN))) { EVERY_GROUP(LANES_TURN) }
             EVERY_GROUP(LANES_END)
 #else

@@ -14,7 +14,8 @@ __attribute__((noinline, flatten)) static void pass_keep(const compiled_host *ho
     PASS_WINDOW(.pass = false);
 }
 
-/* A pass may have used the array for its other copy of x, so the accelerations of fixed cells are written too. */
+/* Computes all accelerations, those of fixed cells too, since a pass may have used the array for its other copy of
+ * x. */
 static void pass_all(const compiled_host *host, clock t, const clock *T, real *x, real *v, real *a)
 {
     const tiling *in = host->tiling;
@@ -24,11 +25,11 @@ static void pass_all(const compiled_host *host, clock t, const clock *T, real *x
 }
 
 #if LOCAL
-/* The fixed cells in the window: their acceleration is 0. */
+/* Puts the acceleration of the fixed cells in the window, which is 0. */
 __attribute__((noinline)) static void pass_fixed(const work *w, real *x, real *v, real *a, const window_put *move)
 {
     const tiling *in = w->host->tiling;
-    if (w->window.from <= in->first && w->window.to > in->last) { /* nothing is to be searched for */
+    if (w->window.from <= in->first && w->window.to > in->last) { /* the window has all of them */
         for (size_t i = 0; i < in->fixed_count; i++)
             for (size_t k = in->fixed[2 * i]; k < in->fixed[2 * i + 1]; k++) PUT(k, 0);
         return;
@@ -105,8 +106,8 @@ __attribute__((noinline)) static void pass_run(work *w, int i, clock b, clock c)
     w->a = x;
 }
 
-/* The same of a compensated row, from the positions `at`; and the end of the step. The row has two passes in a step at
- * least, so x, which neighbours read in the first, may change in the last. */
+/* Takes stage i of a compensated row, from the positions `at`, and the end of the step. The row has at least two passes
+ * in a step, so x, which neighbours read in the first, may change in the last. */
 #define PASS_APART(w, i, b, c, at, way, way_low, opens, ends) pass_apart(w, i, b, c, at, way, way_low, opens, ends)
 __attribute__((noinline)) static void pass_apart(work *w, int i, clock b, clock c, real *at, clock way, clock way_low,
                                                  bool opens, bool ends)

@@ -1,13 +1,13 @@
-/* Linear systems of lanes: every lane its own matrix, factored and solved by the operations of core/solver.c and
- * solver_band.c, in their order.
+/* Linear systems of lanes. Every lane has its own matrix, which is factored and solved by the operations of
+ * core/solver.c and solver_band.c, in their order.
  *
  * Before it stand, written for the model and the row: SOLVE_N unknowns, SOLVE_LOWER and SOLVE_UPPER diagonals,
- * SOLVE_CONSTANT; the type `solving`; solve_derive (the entries of the derivatives), solve_fill (the matrix, column
- * by column; its diagonal alone where it has no more), solve_take and solve_give (from the stages' order to that of
- * the unknowns, and back), solve_multiply, solve_turns.
- * Invariant: a lane picks its own pivots, and skips what is skipped for it alone, by choosing; entries outside the
- * band are 0 and stay so. Where a matrix is singular its lane is marked in host->lost by a NaN; where a gyroscopic
- * row meets a velocity term that does work, by an infinity. What is constant is factored once in a call.
+ * SOLVE_CONSTANT; the type `solving`; solve_derive (the entries of the derivatives), solve_fill (the matrix, column by
+ * column; or its diagonal, if it has no other entries), solve_take and solve_give (from the stages' order to that of
+ * the unknowns, and back), solve_multiply, solve_turns. Invariant: a lane picks its own pivots and skips its own
+ * operations, by choosing among results; entries outside the band are 0 and stay so. Where a matrix is singular its
+ * lane is marked in host->lost by a NaN; where a gyroscopic row meets a velocity term that does work, by an infinity.
+ * What is constant is factored once in a call.
  */
 #define SOLVE_DIAGONAL (SOLVE_LOWER + SOLVE_UPPER == 0)
 #define SOLVE_MATRIX (SOLVE_DIAGONAL ? SOLVE_N : SOLVE_N * SOLVE_N)
@@ -37,7 +37,7 @@ static inline void solve_begin(compiled_host *host, const lanes_job *job, size_t
 #endif
 static inline clock *solve_coefficients(const compiled_host *host) { return host->solving->a; }
 
-/* Marks lanes; mostly there are none. */
+/* Marks the lanes `where`; mostly there are none. */
 static inline void solve_lose(const compiled_host *host, mask where)
 {
     if (!SOME(where)) return;
@@ -135,7 +135,7 @@ static inline void solve_lu_back(const real *restrict m, const real *restrict pi
 }
 #endif
 
-/* Factors for the lanes `where`, which lose those that are singular: NaN in their matrix makes NaN of what they
+/* Factors for the lanes `where`, and takes the singular ones out of `where`: NaN in their matrix makes NaN of what they
  * solve. */
 static inline void solve_renew(const compiled_host *host, solving *z, mask *where, const clock *ax, const clock *av,
                                clock t, real *x, real *v)

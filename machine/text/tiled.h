@@ -26,7 +26,7 @@ typedef struct tiled_job {
     work end;
     whole steps, strip, block;
     int blocks;
-    bool last, diverged; /* last: sweep; diverged: a number is not finite at its end */
+    bool last, diverged; /* last: this is the last sweep; diverged: a number is not finite at its end */
 } tiled_job;
 
 __attribute__((noinline)) static void tiled_steps(tiled_job *job, work *w)

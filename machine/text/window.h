@@ -54,8 +54,8 @@ static inline void window_open(work *w)
 
 /* What PUT does: stores the acceleration or, in a pass, kicks and drifts at once. Neighbours still need the old
  * position, so a pass writes the new one to another copy of the positions, in the array of the accelerations. `twice`:
- * the opening drift `next` of the next step follows. Of a compensated row x are the positions at the start of the step,
- * and the pass has its first kick (`opens`) or its end; way: all drifts of the step up to this one. */
+ * the opening drift `next` of the next step follows. With a compensated row, x has the positions at the start of the
+ * step, and the pass has its first kick (`opens`) or its end; way: all drifts of the step up to this one. */
 typedef struct window_put {
     bool pass, twice, ends, opens;
     clock b, c, next, way, way_low;
