@@ -16,7 +16,7 @@ typedef struct reader {
     const char *path;
     char *at, *end;
     uint64_t file_size;
-    size_t words, words_room;
+    size_t words;
     motus_error *err;
 } reader;
 

@@ -571,11 +571,6 @@ motus_status events_go(events *e, stepper *s, double until, int64_t most, steppe
     return status;
 }
 
-motus_status events_step(events *e, stepper *s, double until, stepper_stop *why, motus_error *err)
-{
-    return events_go(e, s, until, 1, why, err);
-}
-
 events_end events_ended(const events *e, size_t *rule)
 {
     if (rule) *rule = e->end_rule;

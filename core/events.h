@@ -59,11 +59,9 @@ motus_status events_again(const events *, events **, motus_error *);
 motus_status events_begin(events *, stepper *, double until, motus_error *);
 /* Forgets what has happened; events_begin must follow. */
 void events_forget(events *);
-/* Takes one step with all that happens in it; with fixed steps, to the next time of their grid. *why is STOP_EVENT
- * where a rule ended the run or events accumulated. */
-motus_status events_step(events *, stepper *, double until, stepper_stop *why, motus_error *);
-/* Takes one step as events_step does, or up to `most` steps while bounds prove that nothing happens in them;
- * events_steps tells how many. */
+/* Takes one step with all that happens in it; with fixed steps, to the next time of their grid. Takes up to `most`
+ * steps while bounds prove that nothing happens in them; events_steps tells how many. *why is STOP_EVENT where a rule
+ * ended the run or events accumulated. */
 motus_status events_go(events *, stepper *, double until, int64_t most, stepper_stop *why, motus_error *);
 
 /* Tell whether bounds may prove of the next steps that nothing happens in them: where the stepper itself watches them

@@ -88,9 +88,9 @@ typedef struct lanes_call {
     size_t blocks, block_size, scratch_size, table_size, thread_size;
     struct lanes_call *half; /* of the companions: sizes and memory alone; NULL: errors are not computed */
     bool keeps;              /* calls of the object are short, so accelerations are kept from one call to the next */
-    size_t companions, companions_size; /* how many companions a thread has at once, and doubles for them */
-    size_t items, most;                 /* how many items of work, and trajectories in one */
-    atomic_size_t done;                 /* how many trajectories are done */
+    size_t companions;       /* how many companions a thread has at once */
+    size_t items, most;      /* how many items of work, and trajectories in one */
+    atomic_size_t done;      /* how many trajectories are done */
     atomic_bool cancelled;
     atomic_bool refused; /* the row does not admit the parameters of some lane */
 } lanes_call;

@@ -46,7 +46,7 @@
 /* TRACE of an adaptive row: before a candidate, and after it, when its error is known. */
 enum { TRACE_CANDIDATE = -2, TRACE_JUDGED = -3 };
 
-enum { STEP_OK, STEP_CALLBACK, STEP_SOLVE, STEP_DIVERGED, STEP_STALLED, STEP_MEMORY };
+enum { STEP_OK, STEP_CALLBACK, STEP_SOLVE, STEP_DIVERGED, STEP_STALLED };
 
 /* A clock_mask says for which clocks of the workspace something holds; ticks are the steps that each has counted. There
  * are as many of both as there are clocks. */

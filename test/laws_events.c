@@ -149,7 +149,7 @@ static bool follow(motus_system *s, bool alone, int start, const chosen *c, doub
     if (!status && !alone) status = events_begin(e, st, until, NULL);
     while (!status && why == STOP_STEPS) {
         status =
-            alone ? stepper_advance(st, (stepper_limit){1, until}, &why, NULL) : events_step(e, st, until, &why, NULL);
+            alone ? stepper_advance(st, (stepper_limit){1, until}, &why, NULL) : events_go(e, st, until, 1, &why, NULL);
         const double grid = (double)++out->steps * h, off = fabs(stepper_time(st) - grid) / events_ulp(grid);
         if (!row_adaptive(c) && why == STOP_STEPS) out->off_grid = fmax(out->off_grid, off);
     }
@@ -396,7 +396,7 @@ static void loses_none(motus_system *s, size_t m, double h)
     if (!status) status = events_create(r, &s->machine, &c, NULL, &e, NULL);
     if (!status) status = events_begin(e, st, until, NULL);
     while (!status && why == STOP_STEPS) {
-        status = events_step(e, st, until, &why, NULL);
+        status = events_go(e, st, until, 1, &why, NULL);
         if (!status) status = stepper_sync(st, &x, &v, NULL, NULL);
         if (status || !(fabs(x) < far && fabs(v) < far)) break; /* it leaves the well, as Euler's does */
         const double g[CROSSED] = {x - 0.25, v - 0.1, x - v};

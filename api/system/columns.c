@@ -125,11 +125,17 @@ void system_inside(const motus_system *s, const double *in_x, const double *in_v
     each_number(s, x, v, (double *)in_x, (double *)in_v, inward);
 }
 
+/* Returns the place of a column's number among those of its definition. */
+static size_t observed_place(const motus_system *s, const column_range *g, size_t column)
+{
+    const size_t parts = columns_parts(definition(s, g)->components), hull = g->count / parts, k = column - g->first;
+    return k % parts * hull + k / parts;
+}
+
 const model_definition *system_definition(const motus_system *s, size_t column, size_t *number)
 {
     const column_range *g = columns_range(s, column);
-    const size_t k = column - g->first, parts = columns_parts(definition(s, g)->components);
-    *number = k % parts * (g->count / parts) + k / parts;
+    *number = observed_place(s, g, column);
     return definition(s, g);
 }
 
@@ -194,13 +200,6 @@ static bool evaluated(const motus_system *s, const column_range *g, const column
 {
     return g == done || (of_state(g->kind) && g->kind != MOTUS_COLUMN_EXACT) ||
            (done && done->kind == g->kind && (g->kind == MOTUS_COLUMN_EXACT || (!s->model && !of_state(g->kind))));
-}
-
-/* Returns the place of a column's number among those of its definition. */
-static size_t observed_place(const motus_system *s, const column_range *g, size_t column)
-{
-    const size_t parts = columns_parts(definition(s, g)->components), hull = g->count / parts, k = column - g->first;
-    return k % parts * hull + k / parts;
 }
 
 motus_status system_values(motus_system *s, double t, double *x, double *v, const size_t *columns, size_t count,

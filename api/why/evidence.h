@@ -23,8 +23,7 @@ typedef struct evidence {
     double *origin_x, *origin_v;        /* the state at `begin`, which has no error yet */
     double t, *x, *v, *a;               /* the last good state, and the force there */
     double *other_x, *other_v, *b, *c;  /* room */
-    double *rate_room;
-    int64_t steps; /* the most steps of one trial */
+    int64_t steps;                      /* the most steps of one trial */
 } evidence;
 
 /* Collects what trials need. home: where the system is located, the system as it was written, whose positions come
