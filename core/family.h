@@ -4,6 +4,7 @@
     switch (w->row->family) { \
         FAMILIES(CASE)        \
     }
+#define FAMILY_RETURN(CASE, otherwise) FAMILY_SWITCH(CASE) return otherwise;
 
 #define CASE_PLAN(NAME, name, shared, facts) \
     case NAME: name##_plan(w, argument, unit, c); break;
@@ -16,11 +17,7 @@ static inline void family_place(work *w, placing *p) { FAMILY_SWITCH(CASE_PLACE)
 
 #define CASE_STEP(NAME, name, shared, facts) \
     case NAME: return name##_step(w);
-static inline int family_step(work *w)
-{
-    FAMILY_SWITCH(CASE_STEP)
-    return STEP_OK;
-}
+static inline int family_step(work *w) { FAMILY_RETURN(CASE_STEP, STEP_OK) }
 
 #define CASE_ACCEPT(NAME, name, shared, facts) \
     case NAME: name##_accept(w, good); break;
@@ -28,68 +25,39 @@ static inline void family_accept(work *w, clock_mask good) { FAMILY_SWITCH(CASE_
 
 #define CASE_OBSERVE(NAME, name, shared, facts) \
     case NAME: return name##_observe(w);
-static inline int family_observe(work *w)
-{
-    FAMILY_SWITCH(CASE_OBSERVE)
-    return STEP_OK;
-}
+static inline int family_observe(work *w) { FAMILY_RETURN(CASE_OBSERVE, STEP_OK) }
 
 #define CASE_SYNC(NAME, name, shared, facts) \
     case NAME: return name##_sync(w, x, v);
-static inline int family_sync(work *w, real *x, real *v)
-{
-    FAMILY_SWITCH(CASE_SYNC)
-    return STEP_OK;
-}
+static inline int family_sync(work *w, real *x, real *v) { FAMILY_RETURN(CASE_SYNC, STEP_OK) }
 
 #define CASE_CARRY(NAME, name, shared, facts) \
     case NAME: return name##_carry(w, list);
-static inline int family_carry(const work *w, real *list[CARRY_MAX])
-{
-    FAMILY_SWITCH(CASE_CARRY)
-    return 0;
-}
+static inline int family_carry(const work *w, real *list[CARRY_MAX]) { FAMILY_RETURN(CASE_CARRY, 0) }
 
 #define CASE_BETWEEN(NAME, name, shared, facts) \
     case NAME: return name##_between(w, unit);
-static inline dense_room family_between(const work *w, coef *unit)
-{
-    FAMILY_SWITCH(CASE_BETWEEN)
-    return (dense_room){0};
-}
+static inline dense_room family_between(const work *w, coef *unit) { FAMILY_RETURN(CASE_BETWEEN, (dense_room){0}) }
 
 #define CASE_EXTEND(NAME, name, shared, facts) \
     case NAME: return name##_extend(w, d);
-static inline int family_extend(work *w, const dense_step *d)
-{
-    FAMILY_SWITCH(CASE_EXTEND)
-    return STEP_OK;
-}
+static inline int family_extend(work *w, const dense_step *d) { FAMILY_RETURN(CASE_EXTEND, STEP_OK) }
 
 #define CASE_DENSE(NAME, name, shared, facts) \
     case NAME: return name##_dense(w, d, t, x, v);
 static inline int family_dense(work *w, const dense_step *d, clock t, real *x, real *v)
 {
-    FAMILY_SWITCH(CASE_DENSE)
-    return STEP_OK;
+    FAMILY_RETURN(CASE_DENSE, STEP_OK)
 }
 
 #define CASE_SWING(NAME, name, shared, facts) \
     case NAME: return name##_swing(w, most);
-static inline bool family_swing(const work *w, real *most)
-{
-    FAMILY_SWITCH(CASE_SWING)
-    return false;
-}
+static inline bool family_swing(const work *w, real *most) { FAMILY_RETURN(CASE_SWING, false) }
 
 #ifdef TRACING
 #define CASE_ROOM(NAME, name, shared, facts) \
     case NAME: return name##_room(w);
-static inline trace_room family_room(const work *w)
-{
-    FAMILY_SWITCH(CASE_ROOM)
-    return (trace_room){0};
-}
+static inline trace_room family_room(const work *w) { FAMILY_RETURN(CASE_ROOM, (trace_room){0}) }
 
 #define CASE_TRACE(NAME, name, shared, facts) \
     case NAME: name##_trace(w, i); break;
