@@ -39,7 +39,7 @@ typedef struct object {
     double *u;
     int64_t *q;
     void (*bind)(const double *, const int64_t *, double *); /* computes u from the pool */
-    int (*fits)(const double *u);                            /* whether it was compiled for such numbers */
+    int (*fits)(const double *u);                            /* tells whether it was compiled for such numbers */
     void (*accel)(const compiled_host *, double t, double *x, double *v, double *a); /* NULL: Taylor series alone */
     void *handle;
     stepper_body body;
@@ -205,7 +205,7 @@ const char *compiled_text(compiled *c, const chosen *chosen, size_t *length)
 
 enum { PAIR_CELLS_MAX = 1 << 16, LINE = 64 }; /* LINE: bytes of a line of the cache */
 
-/* Room for the partial sums of all cells of a family whose pairs are taken once; NULL: they are taken twice. */
+/* Takes room for the partial sums of all cells of a family whose pairs are taken once; NULL: they are taken twice. */
 static double *pair_room(compiled *c, const emit *e)
 {
     const model *m = c->model;
@@ -221,7 +221,7 @@ static double *pair_room(compiled *c, const emit *e)
     return c->pairs;
 }
 
-/* The numbers that the text reads: bounds, strides, and values of parameters alone. */
+/* Binds the numbers that the text reads: bounds, strides, and values of parameters alone. */
 static bool bind_numbers(compiled *c, object *o, const emit *e)
 {
     model *m = c->model;
@@ -286,7 +286,7 @@ static const char *text_of(compiled *c, const chosen *chosen, emit *e)
     return write_text(c, chosen, e) ? e->text.bytes : NULL;
 }
 
-/* The loops of Taylor series are short, and their sums run in order. */
+/* Returns how loops are compiled: those of Taylor series are short, and their sums run in order. */
 static int loops_of(const compiled *c, const purpose *p)
 {
     return !compose_small(c->model) && !p->row->expands ? COMPILER_LOOPS : 0;

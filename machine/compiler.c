@@ -36,7 +36,7 @@ static const char *const fast_options[] = {"-ffp-contract=fast", "-freciprocal-m
     "-fno-trapping-math", NULL};
 /* The linker alone takes a tenth of the time in which a compiler would find its own and call it. */
 static const char *const linker_options[] = {"-shared", NULL};
-/* By the compiler: without start files and with few libraries, since the object needs at most fmod and, on processors
+/* When the compiler links: no start files and few libraries, since the object needs at most fmod and, on processors
  * without the instruction, fma; memcpy and memset come from the C library of the process. */
 #ifdef __ELF__
 static const char *const link_options[] = {"-shared", "-w", "-nostdlib", NULL};
@@ -115,8 +115,8 @@ bool compiler_find(compiler *c, char *why, size_t size)
 extern char **environ;
 enum { VARIABLES_MAX = 1024 };
 
-/* The environment with the object's folder for temporary files, which then go with the folder; as it is where it has
- * too many variables. */
+/* Returns the environment with the object's folder for temporary files, which then go with the folder; unchanged if it
+ * has too many variables. */
 static char **with_folder(char *folder, char *own[VARIABLES_MAX])
 {
     int n = 0;
@@ -142,7 +142,7 @@ static void open_tie(int tie[2])
 static void tie_group(int end)
 {
     if (end < 0) return;
-    fcntl(end, F_SETFD, 0); /* all that the compiler starts hold it */
+    fcntl(end, F_SETFD, 0); /* every process that the compiler starts holds it */
     fcntl(end, F_SETOWN, -getpid());
     fcntl(end, F_SETSIG, SIGKILL);
     fcntl(end, F_SETFL, O_ASYNC);
@@ -157,7 +157,7 @@ static void shut(int file)
     if (file >= 0) close(file);
 }
 
-/* In the child: only calls that are safe after fork. */
+/* Becomes the program, in the child: makes only calls that are safe after fork. */
 static void become(char *const *arguments, const char *path, char *const *environment, int log, int end, pid_t parent)
 {
     setpgid(0, 0);
@@ -228,8 +228,8 @@ static bool start(const char *path, char *const *arguments, const char *out, com
     return false;
 }
 
-/* Whether it has ended. A program that waits for all of its children may have taken the compiler's status; then what
- * the compiler wrote tells how it ended. */
+/* Tells whether the compiler has ended. A program that waits for all of its children may have taken the compiler's
+ * status; then what the compiler wrote tells how it ended. */
 static compiler_state ended(const compiler_work *w, const char *out)
 {
     int status;
@@ -244,7 +244,7 @@ static compiler_state ended(const compiler_work *w, const char *out)
 
 bool compiler_owned(const compiler_work *w) { return w->owner == getpid(); }
 
-/* Kills it only while its number is certainly its own: nobody has waited for it. */
+/* Kills the compiler only while its number is certainly its own, because nobody has waited for it. */
 static void end(compiler_work *w)
 {
     if (!compiler_owned(w) || waitpid(w->child, NULL, WNOHANG) != 0) return;

@@ -10,8 +10,8 @@
 
 /* ---- memory ---- */
 
-/* A block has own parameters, numbers that depend on them, carry, records, clocks, and the times at which lanes
- * stopped. */
+/* Counts what a block has: parameters of its own, numbers that depend on them, carry, records, clocks, and the times at
+ * which lanes stopped. */
 size_t lanes_block_size(const lanes *l)
 {
     return l->own_size + l->bound_size + l->carry_size + l->kept_size + l->clock_size + l->known_size + l->watch_size +
@@ -24,7 +24,8 @@ static size_t saved_size(const lanes *l)
     return saved > values ? saved : values;
 }
 
-/* The scratch has workspaces, the observed state, linear systems, the saved carry, and two numbers for each lane. */
+/* Counts what the scratch has: workspaces, the observed state, linear systems, the saved carry, and two numbers for
+ * each lane. */
 size_t lanes_scratch_size(const lanes *l)
 {
     return l->work_size + l->observed_size + l->solve_size + saved_size(l) + 2 * lines(l, 1);

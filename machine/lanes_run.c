@@ -46,7 +46,7 @@ static void run_item(void *ctx, size_t item, int thread)
     if (b.reports) lanes_item_report(&b, 0);
 }
 
-/* The sizes of what a thread has for each block, and once. */
+/* Measures what a thread has for each block, and what it has once. */
 static void measure(lanes_call *c)
 {
     const lanes *l = c->l;

@@ -29,7 +29,8 @@ typedef struct watched {
     bool begun;               /* some have begun since lanes last got the numbers of their trajectories */
 } watched;
 
-/* Room for the numbers of a state and the largest sizes, or for both ends of a step and its accelerations' bounds. */
+/* Counts the room for the numbers of a state and the largest sizes, or for both ends of a step and bounds on its
+ * accelerations. */
 size_t lanes_watched_size(const lanes *l)
 {
     const size_t state = l->carried + STEPPER_CLOCKS + l->def.model->nx + l->def.model->nv, step = 5 * l->def.model->nv;
@@ -51,7 +52,7 @@ static const int carried[STEPPER_CLOCKS] = {LANES_T,    LANES_LOST,     LANES_NE
 /* Returns how many clocks lead from a step to the next; with fixed steps none. */
 static size_t carried_clocks(const lanes *l) { return l->plan.carried ? STEPPER_CLOCKS : 0; }
 
-/* A follower that takes many steps without lanes asks whether the call is over. */
+/* Tells whether the call is over, which a follower asks that takes many steps without lanes. */
 static bool all_over(void *asked)
 {
     lanes_item *item = asked;

@@ -150,8 +150,8 @@ motus_status sides_leave(sides *s, const parts *p, double way, double t, double 
     return MOTUS_OK;
 }
 
-/* Whether the vector is driven back along each component, as much as by that alone: of two that are held by one force,
- * the second has no rate of its own. */
+/* Tells whether the vector is driven back along each component, as much as by that component alone: of two vectors that
+ * one force holds, the second has no rate of its own. */
 static bool drives_back(sides *s, const parts *p, double way, double t, double *x, double *v)
 {
     double *side = x + s->switches->slot;
@@ -169,7 +169,8 @@ static bool drives_back(sides *s, const parts *p, double way, double t, double *
 
 static const char two_forms[] = "the force has one direction in two forms, which nothing shows to be one,";
 
-/* How much the force along a direction drives its vector alone, to `alone`, and with another one held as well, to r. */
+/* Measures how much the force along a direction drives its vector: alone, to `alone`, and with another vector held as
+ * well, to r. */
 static void measure_both(sides *s, const parts *p, const parts *other, double way, double t, double *x, double *v,
                          double *alone)
 {
@@ -181,8 +182,9 @@ static void measure_both(sides *s, const parts *p, const parts *other, double wa
     sides_evaluate(s, s->grip, t, x, v, NULL, s->r);
 }
 
-/* Whether another vector may be this one in another form, which nothing has shown: with one of them held the force no
- * longer drives the other one. short: only one that is 0, too, of which the force drives a part no longer. */
+/* Tells whether another vector may be this one in another form, which nothing has shown: with one of them held the
+ * force no longer drives the other. is_short: looks only at vectors that are 0 too, of which the force no longer drives
+ * a part. */
 static bool is_twice(sides *s, const parts *p, bool is_short, double way, double t, double *x, double *v)
 {
     double *side = x + s->switches->slot;
@@ -211,7 +213,7 @@ static bool is_twice(sides *s, const parts *p, bool is_short, double way, double
     return twice;
 }
 
-/* Whether what holds `of` depends on the sides of `by`, which then are not solved for. */
+/* Tells whether what holds `of` depends on the sides of `by`, for which is then not solved. */
 static bool depends(sides *s, const parts *of, const parts *by, double t, double *x, double *v)
 {
     double *side = x + s->switches->slot, was[GRAPH_COMPONENTS];
@@ -228,7 +230,8 @@ static bool depends(sides *s, const parts *of, const parts *by, double t, double
     return differs;
 }
 
-/* Whether what holds this vector, or another one that is held, depends on a side that is not known while both are. */
+/* Tells whether what holds this vector, or another one that is held, depends on a side that is not known while both are
+ * held. */
 static bool is_coupled(sides *s, const parts *p, double t, double *x, double *v)
 {
     const double *side = x + s->switches->slot;
@@ -271,10 +274,10 @@ motus_status sides_stand(sides *s, const parts *p, double way, double t, double 
     return sides_along(p, s->p, s->p) <= 1 ? MOTUS_OK : sides_leave(s, p, way, t, x, v, err);
 }
 
-/* The way on to rest of a short vector u, and the time that it takes; not *rests: it rests after `until`. With the
- * force constant, F without friction and -c u/|u| by it, c|u| + F u falls by c^2 - F^2 in a time, and so do quadratic
- * forms in u whose rates are linear in u: where the motion stops, how far it goes and when are known in closed form,
- * though no power of the time leads there. */
+/* Moves a short vector u on to rest, and the time with it; not *rests: it would rest after `until`. With the force
+ * constant, F without friction and -c u/|u| by it, c|u| + F u falls by c^2 - F^2 per unit of time, as do quadratic
+ * forms in u whose rates are linear in u: where the motion stops, how far it goes and when are known in closed form, though
+ * no power of the time leads there. */
 static motus_status come_to_rest(sides *s, const parts *p, double way, double until, double *t, double *x, double *v,
                                  bool *rests, motus_error *err)
 {
