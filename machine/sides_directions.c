@@ -276,8 +276,8 @@ motus_status sides_stand(sides *s, const parts *p, double way, double t, double 
 
 /* Moves a short vector u on to rest, and the time with it; not *rests: it would rest after `until`. With the force
  * constant, F without friction and -c u/|u| by it, c|u| + F u falls by c^2 - F^2 per unit of time, as do quadratic
- * forms in u whose rates are linear in u: where the motion stops, how far it goes and when are known in closed form, though
- * no power of the time leads there. */
+ * forms in u whose rates are linear in u: where the motion stops, how far it goes and when are known in closed form,
+ * though no power of the time leads there. */
 static motus_status come_to_rest(sides *s, const parts *p, double way, double until, double *t, double *x, double *v,
                                  bool *rests, motus_error *err)
 {
