@@ -72,15 +72,14 @@ static motus_status no_memory(compare *c, const char *what)
     return fail(c->s.err, MOTUS_MEMORY, "out of memory for %s", what);
 }
 
-static size_t aligned(size_t bytes) { return (bytes + 15) & ~(size_t)15; }
-
 static motus_status make_result(compare *c)
 {
-    size_t rows = aligned(c->count * sizeof(motus_compare_row)), texts = aligned(c->count * sizeof(row_text));
-    size_t drifts = aligned(c->count * c->invariants * sizeof(motus_drift));
-    size_t head = aligned(sizeof(result)), names = aligned(c->invariants * sizeof(invariant_name));
-    size_t row_list = aligned(c->count * sizeof(void *));
-    size_t drift_list = aligned(c->count * c->invariants * sizeof(void *));
+    size_t rows = study_aligned(c->count * sizeof(motus_compare_row)),
+           texts = study_aligned(c->count * sizeof(row_text));
+    size_t drifts = study_aligned(c->count * c->invariants * sizeof(motus_drift));
+    size_t head = study_aligned(sizeof(result)), names = study_aligned(c->invariants * sizeof(invariant_name));
+    size_t row_list = study_aligned(c->count * sizeof(void *));
+    size_t drift_list = study_aligned(c->count * c->invariants * sizeof(void *));
     char *block = take(c->s.allocator, head + rows + drifts + texts + names + row_list + drift_list, 1);
     if (!block) return no_memory(c, "the comparison");
     result *r = c->out = (result *)(void *)block;
@@ -196,10 +195,7 @@ static motus_drift deviation_of(compare *c, size_t k, int64_t evaluations, doubl
 
 static motus_status row_failed(compare *c, size_t k, motus_status status, const motus_error *e)
 {
-    if (study_fatal(status)) {
-        if (c->s.err && !c->s.cancelled) *c->s.err = *e;
-        return c->s.cancelled ? MOTUS_CANCELLED : status;
-    }
+    if (study_fatal(status)) return study_tell(&c->s, status, e);
     c->out->rows[k].status = status;
     if (e->hint[0])
         snprintf(c->out->texts[k].note, sizeof c->out->texts[k].note, "%.300s: %.200s", e->message, e->hint);
@@ -486,10 +482,7 @@ motus_status motus_compare(motus_system *system, const motus_study_def *given, m
     return status;
 }
 
-void motus_comparison_destroy(motus_comparison *comparison)
+void motus_comparison_destroy(motus_comparison *c)
 {
-    if (!comparison) return;
-    result *r = (result *)(void *)comparison;
-    motus_allocator allocator = r->allocator;
-    give(&allocator, r);
+    if (c) study_drop(c, ((result *)(void *)c)->allocator);
 }

@@ -85,13 +85,12 @@ typedef struct converge {
     result *out;
 } converge;
 
-static size_t aligned(size_t bytes) { return (bytes + 15) & ~(size_t)15; }
-
 static motus_status make_result(converge *c)
 {
-    size_t head = aligned(sizeof(result)), rows = aligned(c->count * sizeof(motus_converge_row));
-    size_t points = aligned(c->count * POINTS_MAX * sizeof(motus_point)), texts = aligned(c->count * sizeof(row_text));
-    size_t row_list = aligned(c->count * sizeof(void *)), point_list = c->count * POINTS_MAX * sizeof(void *);
+    size_t head = study_aligned(sizeof(result)), rows = study_aligned(c->count * sizeof(motus_converge_row));
+    size_t points = study_aligned(c->count * POINTS_MAX * sizeof(motus_point)),
+           texts = study_aligned(c->count * sizeof(row_text));
+    size_t row_list = study_aligned(c->count * sizeof(void *)), point_list = c->count * POINTS_MAX * sizeof(void *);
     char *block = take(c->s.allocator, head + rows + points + texts + row_list + point_list, 1);
     c->table = take(c->s.allocator, (INTERVALS + 1) * c->s.numbers, sizeof(double));
     c->columns = take(c->s.allocator, c->s.numbers, sizeof *c->columns);
@@ -214,10 +213,7 @@ static motus_status measure(converge *c, const motus_method *card, const char *m
     motus_status status = study_walk(s, method, g, per, NULL, c->table, &cost, e);
     point->evaluations = cost.evaluations;
     *spent = study_work(s, card, (double)cost.steps, (double)cost.evaluations);
-    if (study_fatal(status)) {
-        if (s->err && !s->cancelled) motus_struct_write(MOTUS_DEF_ERROR, e, s->err);
-        return status;
-    }
+    if (study_fatal(status)) return study_tell(s, status, e);
     if (status != MOTUS_OK) {
         *failed = status;
         return MOTUS_OK;
@@ -412,10 +408,7 @@ static motus_status make_row(converge *c, size_t k)
         row->declared = card->order;
         status = motus_method_admits(s->system, method, &e);
     }
-    if (study_fatal(status)) {
-        if (s->err && !s->cancelled) motus_struct_write(MOTUS_DEF_ERROR, &e, s->err);
-        return status;
-    }
+    if (study_fatal(status)) return study_tell(s, status, &e);
     if (status != MOTUS_OK) {
         row->status = status;
         snprintf(text, MOTUS_TEXT_MAX, "%s", e.message);
@@ -466,13 +459,7 @@ static motus_status converge_all(converge *c)
     c->grid = grid_of(s, until, INTERVALS, c->share);
     study_part(s, REFERENCE_SHARE / 2, REFERENCE_SHARE / 2);
     if ((status = solution_find(s, &c->grid, INTERVALS, 0, &c->reference)) != MOTUS_OK) return status;
-    if (!c->reference.known) {
-        char uncut[DECIMAL_MAX];
-        fail(s->err, MOTUS_DIVERGED, "there is no reference solution until %s to measure errors against: %s",
-             decimal_time(c->uncut, c->uncut - s->from, uncut), solution_lacks(&c->reference));
-        hint(s->err, "let the motion end earlier, or give its exact line");
-        return MOTUS_DIVERGED;
-    }
+    if (!c->reference.known) return solution_missing(s, &c->reference, c->uncut);
     c->allowed = solution_allows(&c->s, &c->reference, c->why, sizeof c->why);
     bool passed = true;
     for (size_t k = 0; k < c->count; k++) {
@@ -515,10 +502,7 @@ motus_status motus_converge(motus_system *system, const motus_study_def *given, 
     return status;
 }
 
-void motus_convergence_destroy(motus_convergence *convergence)
+void motus_convergence_destroy(motus_convergence *c)
 {
-    if (!convergence) return;
-    result *r = (result *)(void *)convergence;
-    motus_allocator allocator = r->allocator;
-    give(&allocator, r);
+    if (c) study_drop(c, ((result *)(void *)c)->allocator);
 }

@@ -120,11 +120,7 @@ static motus_status add(ladder *l, double setting)
     if (status == MOTUS_OK) status = follow(l, run, &p, &e);
     s->limit = 0;
     motus_run_destroy(run);
-    if (s->cancelled) return MOTUS_CANCELLED;
-    if (status == MOTUS_MEMORY) {
-        if (s->err) motus_struct_write(MOTUS_DEF_ERROR, &e, s->err);
-        return status;
-    }
+    if (s->cancelled || status == MOTUS_MEMORY) return study_tell(s, status, &e);
     if (status != MOTUS_OK) {
         l->failed = status == MOTUS_CANCELLED ? MOTUS_SOLVE : status; /* by its limit */
         snprintf(l->failure, sizeof l->failure, "%.480s",
@@ -274,11 +270,7 @@ motus_status ladder_time(ladder *l, const ladder_point *p, double *seconds)
         if (status == MOTUS_OK) status = motus_run_finish(run, &e);
         const double took = study_processor_seconds() - began;
         motus_run_destroy(run);
-        if (l->s->cancelled) return MOTUS_CANCELLED;
-        if (status != MOTUS_OK) {
-            if (l->s->err) motus_struct_write(MOTUS_DEF_ERROR, &e, l->s->err);
-            return status;
-        }
+        if (l->s->cancelled || status != MOTUS_OK) return study_tell(l->s, status, &e);
         *seconds = fmin(*seconds, took);
         all += took;
     }

@@ -82,11 +82,7 @@ motus_status paced_measure(paced *p, const char *method, motus_point *point, int
     point->evaluations = run ? motus_run_evaluations(run) : 0;
     point->step = *steps > 0 ? fabs(g->until - g->from) / (double)*steps : NAN;
     motus_run_destroy(run);
-    if (s->cancelled) return MOTUS_CANCELLED;
-    if (study_fatal(status)) {
-        if (s->err) motus_struct_write(MOTUS_DEF_ERROR, e, s->err);
-        return status;
-    }
+    if (s->cancelled || study_fatal(status)) return study_tell(s, status, e);
     if (status != MOTUS_OK) *failed = status;
     if (status != MOTUS_OK || !isfinite(point->error)) point->error = NAN;
     if (status != MOTUS_OK || !isfinite(point->error_between)) point->error_between = NAN;

@@ -124,13 +124,13 @@ static motus_status read_def(rank *r, const motus_study_def *given, motus_error 
 
 /* The result ------------------------------------------------------------------------------------------------------- */
 
-static size_t aligned(size_t bytes) { return (bytes + 15) & ~(size_t)15; }
-
 static motus_status make_result(rank *r)
 {
-    const size_t all = r->count * r->asked, head = aligned(sizeof(result));
-    const size_t rows = aligned(r->count * sizeof(motus_rank_row)), texts = aligned(r->count * sizeof(row_text));
-    const size_t points = aligned(all * sizeof(motus_rank_point)), row_list = aligned(r->count * sizeof(void *));
+    const size_t all = r->count * r->asked, head = study_aligned(sizeof(result));
+    const size_t rows = study_aligned(r->count * sizeof(motus_rank_row)),
+                 texts = study_aligned(r->count * sizeof(row_text));
+    const size_t points = study_aligned(all * sizeof(motus_rank_point)),
+                 row_list = study_aligned(r->count * sizeof(void *));
     char *block = take(r->s.allocator, head + rows + points + texts + row_list + all * sizeof(void *), 1);
     if (!block) return fail(r->s.err, MOTUS_MEMORY, "out of memory for the ranking of %zu methods", r->count);
     result *o = r->out = (result *)(void *)block;
@@ -169,10 +169,7 @@ static motus_status make_result(rank *r)
 
 static motus_status row_failed(rank *r, size_t k, motus_status status, const motus_error *e)
 {
-    if (study_fatal(status)) {
-        if (r->s.err && !r->s.cancelled) motus_struct_write(MOTUS_DEF_ERROR, e, r->s.err);
-        return status;
-    }
+    if (study_fatal(status)) return study_tell(&r->s, status, e);
     r->out->rows[k].status = status;
     snprintf(r->out->texts[k].note, MOTUS_TEXT_MAX, "%s", e->message);
     return MOTUS_OK;
@@ -321,15 +318,8 @@ static motus_status find_truth(rank *r)
     study_part(s, 0, TRUTH_SHARE);
     motus_status status = truth_find(s, &r->truth);
     if (status != MOTUS_OK) return status;
-    const char *lacks = r->truth.found.known ? "" : solution_lacks(&r->truth.found);
     const double error = r->def.absolute ? r->truth.absolute : r->truth.relative;
-    if (!r->truth.found.known) {
-        char until[DECIMAL_MAX];
-        fail(s->err, MOTUS_DIVERGED, "there is no reference solution until %s to measure errors against: %s",
-             decimal_time(s->until, s->until - s->from, until), lacks);
-        hint(s->err, "let the motion end earlier, or give its exact line");
-        return MOTUS_DIVERGED;
-    }
+    if (!r->truth.found.known) return solution_missing(s, &r->truth.found, s->until);
     while (r->judged < r->asked && error * CLEAR <= r->accuracies[r->judged]) r->judged++;
     if (r->judged == 0) {
         fail(s->err, MOTUS_ACCURACY, "no accuracy can be judged: the error of the reference is %.1e%s", error,
@@ -413,10 +403,7 @@ motus_status motus_rank(motus_system *system, const motus_study_def *given, motu
     return status;
 }
 
-void motus_ranking_destroy(motus_ranking *ranking)
+void motus_ranking_destroy(motus_ranking *r)
 {
-    if (!ranking) return;
-    result *r = (result *)(void *)ranking;
-    motus_allocator allocator = r->allocator;
-    give(&allocator, r);
+    if (r) study_drop(r, ((result *)(void *)r)->allocator);
 }

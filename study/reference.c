@@ -85,13 +85,7 @@ static motus_status prepare(motus_reference *r, motus_system *system, const motu
     r->grid = solution_grid(s, step);
     const int64_t steps = isnan(step) ? STUDY_SAMPLES : s->total;
     if ((status = solution_find(s, &r->grid, steps, def.tolerance, &r->solution)) != MOTUS_OK) return status;
-    if (!r->solution.known) {
-        char until[DECIMAL_MAX];
-        fail(err, MOTUS_DIVERGED, "there is no reference solution until %s: %s",
-             decimal_time(s->until, s->until - s->from, until), solution_lacks(&r->solution));
-        hint(err, "let the motion end earlier, or give its exact line");
-        return MOTUS_DIVERGED;
-    }
+    if (!r->solution.known) return solution_missing(s, &r->solution, s->until);
     /* The caller's error and hook are valid during this call only. */
     s->err = NULL;
     s->progress = NULL;

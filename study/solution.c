@@ -139,13 +139,6 @@ static void estimate(candidate *c, study_distance d, double divisor, double step
     c->scaled = d.scaled / divisor;
 }
 
-/* Copies the error of a walk to that of the study. */
-static motus_status tell(study *s, motus_status status, const motus_error *e)
-{
-    if (s->err && !s->cancelled) motus_struct_write(MOTUS_DEF_ERROR, e, s->err);
-    return status;
-}
-
 /* Walks a reference run, which is given up if it costs more than `limit`. If it fails, the study goes on, and the table
  * has NaN. */
 static motus_status walk(study *s, const motus_method *card, const study_grid *g, int64_t per, double limit,
@@ -157,7 +150,7 @@ static motus_status walk(study *s, const motus_method *card, const study_grid *g
     s->limit = fmax(1, limit / each);
     const motus_status status = study_walk(s, card->name, g, per, from, table, spent, &ignored);
     s->limit = 0;
-    if (study_fatal(status)) return tell(s, status, &ignored);
+    if (study_fatal(status)) return study_tell(s, status, &ignored);
     snprintf(failed, MOTUS_TEXT_MAX, "%s", status == MOTUS_OK ? "" : ignored.message);
     /* A run that failed early cost little; the next one may cost its full price. Half the step costs twice as much,
      * apart from what it costs to locate switches. */
@@ -468,7 +461,7 @@ static motus_status find_jump(study *s, const study_grid *g, solution *r)
     motus_status status = study_walk(s, list[0].card->name, g, 1, NULL, room, &cost, &ignored);
     s->locate = false;
     give(s->allocator, room);
-    if (study_fatal(status)) return tell(s, status, &ignored);
+    if (study_fatal(status)) return study_tell(s, status, &ignored);
     r->uneven = !analysis.smooth && (status != MOTUS_OK || !s->locatable);
     r->jump = cost.jump;
     r->jump_time = cost.jump_time;
@@ -489,7 +482,7 @@ motus_status solution_find(study *s, const study_grid *g, int64_t steps, double 
         study_cost cost;
         motus_error ignored = motus_default_error();
         motus_status status = study_walk(s, exact, g, 1, NULL, r->rows + s->numbers, &cost, &ignored);
-        if (study_fatal(status)) return tell(s, status, &ignored);
+        if (study_fatal(status)) return study_tell(s, status, &ignored);
         if (status == MOTUS_OK && finite_rows(s, r->rows, g->points + 1)) {
             study_scale(s, r->rows + s->numbers, g->points);
             r->known = r->exact = true;
@@ -531,6 +524,15 @@ double solution_allows(const study *s, const solution *r, char *why, size_t size
 
 const char *solution_lacks(const solution *r) { return r->text + strlen(NONE); }
 
+motus_status solution_missing(study *s, const solution *r, double until)
+{
+    char text[DECIMAL_MAX];
+    fail(s->err, MOTUS_DIVERGED, "there is no reference solution until %s: %s",
+         decimal_time(until, until - s->from, text), solution_lacks(r));
+    hint(s->err, "let the motion end earlier, or give its exact line");
+    return MOTUS_DIVERGED;
+}
+
 motus_status solution_on(study *s, const solution *r, const study_grid *g, double *rows)
 {
     s->locate = true;
@@ -542,7 +544,7 @@ motus_status solution_on(study *s, const solution *r, const study_grid *g, doubl
     motus_status status = study_walk(s, r->method, g, per, NULL, rows, &cost, &ignored);
     s->locate = false;
     if (!study_fatal(status)) return MOTUS_OK; /* the rows are NaN from the failure on */
-    return tell(s, status, &ignored);
+    return study_tell(s, status, &ignored);
 }
 
 bool solution_same_time(double a, double b) { return fabs(a - b) <= SOLUTION_SAME_TIME * (fabs(a) + fabs(b)); }

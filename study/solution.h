@@ -43,6 +43,8 @@ size_t solution_row(const study_grid *, double t);
 /* Computes the solution at any time, from the nearest row of the table. */
 motus_status solution_near(study *, const solution *, const study_grid *, double t, double *y, motus_error *err);
 const char *solution_lacks(const solution *); /* why nothing is known */
+/* Reports that nothing is known of the motion until that time. Returns MOTUS_DIVERGED. */
+motus_status solution_missing(study *, const solution *, double until);
 /* Returns the highest order that fixed steps can have on this motion, where the force is not smooth; it need not be a
  * whole number. 0: any. `why` becomes a sentence without capital and stop: "the force jumps at t = 2.5". */
 double solution_allows(const study *, const solution *, char *why, size_t size);

@@ -59,6 +59,14 @@ motus_status study_broken(const study *s)
     return s->out_of_memory ? fail(s->err, MOTUS_MEMORY, "%s", motus_status_text(MOTUS_MEMORY)) : MOTUS_OK;
 }
 
+motus_status study_tell(study *s, motus_status status, const motus_error *e)
+{
+    if (s->err && !s->cancelled) motus_struct_write(MOTUS_DEF_ERROR, e, s->err);
+    return s->cancelled ? MOTUS_CANCELLED : status;
+}
+
+void study_drop(void *result, motus_allocator allocator) { give(&allocator, result); }
+
 /* Progress ------------------------------------------------------------------------------------------------------- */
 
 void study_part(study *s, double base, double span)

@@ -86,6 +86,13 @@ motus_status study_broken(const study *);
 /* Returns whether a status ends the study and not only the row: memory and cancellation. */
 bool study_fatal(motus_status);
 
+/* Copies the error of a call to that of the study, unless the user cancelled. Returns the status for the study. */
+motus_status study_tell(study *, motus_status, const motus_error *);
+/* Releases the one block of a result. */
+void study_drop(void *result, motus_allocator);
+/* Rounds up, so that another array may begin behind so many bytes of a result. */
+static inline size_t study_aligned(size_t bytes) { return (bytes + 15) & ~(size_t)15; }
+
 /* Makes a run that reports progress through the study. y NULL: from the model's start. Adaptive methods take
  * study.tolerance in place of the step. */
 motus_status study_run(study *, const char *method, double step, double start, double until, const double *y,

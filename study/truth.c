@@ -136,8 +136,7 @@ static motus_status integrate(study *s, const truth *t, const motus_method *m, d
     s->limit = 0;
     study_part(s, base, span);
     *bad = status != MOTUS_OK;
-    if (study_fatal(status) && s->err && !s->cancelled) motus_struct_write(MOTUS_DEF_ERROR, &ignored, s->err);
-    return study_fatal(status) ? status : MOTUS_OK;
+    return study_fatal(status) ? study_tell(s, status, &ignored) : MOTUS_OK;
 }
 
 /* Runs `best` from a start that is a rounding away. */
