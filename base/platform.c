@@ -38,8 +38,8 @@ static double least_quota(const char *root, char *group, int version)
     }
 }
 
-/* A line of the file of groups is number:controllers:group; version 2 has no controllers. In a container the group may
- * be one that cannot be seen there; its files are then those of the root. */
+/* Reads the file of groups, whose lines are number:controllers:group; version 2 has no controllers. In a container the
+ * group may be one that cannot be seen there; its files are then those of the root. */
 long platform_quota(const char *groups, const char *root)
 {
     double least = INFINITY;

@@ -105,7 +105,7 @@ motus_status events_note_rest(events *e, motus_error *err)
     return status;
 }
 
-/* Clenshaw's formula. */
+/* Evaluates by Clenshaw's formula. */
 double events_polynomial(const double *c, int degree, double tau)
 {
     const double z = 2 * tau - 1;

@@ -71,7 +71,7 @@ static const double quarter[QUARTER + 1] = {
 };
 // clang-format on
 
-/* cos(pi i / 512), 0 <= i < 1024. */
+/* Returns cos(pi i / 512), 0 <= i < 1024. */
 static double circle(unsigned i)
 {
     unsigned half = i > 2 * QUARTER ? 4 * QUARTER - i : i;
@@ -86,7 +86,7 @@ double roots_point(int k, int degree)
     return sine * sine;
 }
 
-/* sum d_k cos(pi j k / size) over k < count, in blocks, since rounding grows with the length of a sum. */
+/* Returns sum d_k cos(pi j k / size) over k < count, in blocks, since rounding grows with the length of a sum. */
 static double wave(const double *d, unsigned count, unsigned j, unsigned size)
 {
     const unsigned step = j * (2 * QUARTER / size) % (4 * QUARTER);
@@ -148,7 +148,8 @@ static double rounding(const double *c, int degree, int levels, double largest)
     return 0x1p-53 * length * largest + POINTS * sum;
 }
 
-/* Lebesgue's constant of the points: 1 + 2/pi log(n + 1) at most [Trefethen13, theorem 15.2]; n = 2^levels >= 8. */
+/* Bounds Lebesgue's constant of the points: 1 + 2/pi log(n + 1) at most [Trefethen13, theorem 15.2]; n = 2^levels >=
+ * 8. */
 static double lebesgue(int levels) { return 1.08 + 0.4413 * levels; }
 
 static double largest_of(const double *c, int from, int to)

@@ -51,7 +51,7 @@ typedef struct moments {
     double *at;
 } moments;
 
-/* False: no memory. */
+/* Finds the moments of a step. False: no memory. */
 static bool find_moments(const work *w, arena *a, moments *m)
 {
     const size_t room = (size_t)w->stages + 2;

@@ -22,7 +22,7 @@ enum { OBSERVED_MAX = 32, RECORDS_WRITTEN_MAX = 12, BLOCK_BYTES = 4 << 20 };
 
 /* ---- the shape ---- */
 
-/* How many groups a block has. Several short chains of operations hide each other's latency; a long step has
+/* Returns how many groups a block has. Several short chains of operations hide each other's latency; a long step has
  * independent operations of its own, and several of them would take the compiler too long. */
 static int best_groups(const lanes_def *d, const work *plan)
 {

@@ -87,7 +87,8 @@ static int overlap(const cpu_set_t *a, const cpu_set_t *b)
     return CPU_COUNT(&both) > 0;
 }
 
-/* As many threads as this rank has processors: those that it may run on, shared with the ranks that may run there too.
+/* Returns as many threads as this rank has processors: those on which it may run, shared with the ranks that may run
+ * there too.
  */
 static int threads_of_rank(void)
 {

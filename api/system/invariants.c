@@ -18,30 +18,30 @@
 #include <string.h>
 
 enum {
-    STEPS = 24,       /* at most, of the run with whole steps, and in the length of the run at least */
-    FAR_STEPS = 4000, /* beyond them, of what the algebra does not prove */
-    FINER = 3, /* halvings of all steps beyond the first ones, where that takes no more than a SPAREth of FAR_STEPS */
+    STEPS = 24,       /* most first steps of the run with whole steps; the whole way has at least as many */
+    FAR_STEPS = 4000, /* most further steps, for what the algebra does not prove */
+    FINER = 3,        /* halvings of all further steps, while these take at most 1/SPARE of FAR_STEPS */
     SPARE = 8,
-    DEPTH = 20,      /* halvings of a step that resolves too little */
-    KINKED_LEAST = 3 /* of a formula with kinks, as many rates must differ: a state may lie on one */
+    DEPTH = 20,      /* most halvings of a step that resolves too little */
+    KINKED_LEAST = 3 /* so many rates of a formula with kinks must not be 0: one state may lie on a kink */
 };
 #define METHOD "rk4"
-#define STEP 0.1     /* of the reciprocal of the fastest rate */
-#define APART 16     /* times the difference of the runs, the rate may be off */
-#define FADE 0.25    /* by each step: near a kink the runs differ for a while, since each meets it at its time */
-#define JUMP 1e-4    /* of the sizes of an invariant's terms: so much changes over no two steps */
+#define STEP 0.1     /* as a part of the reciprocal of the fastest rate */
+#define APART 16     /* the rate may be off by so many times the difference of the runs */
+#define FADE 0.25    /* of the known difference after each step: near a kink each run meets it at its own time */
+#define JUMP 1e-4    /* of the sizes of an invariant's terms: a larger change over a few steps is a jump */
 #define WORK_MAX 4e6 /* operations */
 
 typedef struct runs {
     model *model;
-    stepper *stepper; /* of both runs, in turn */
+    stepper *stepper; /* takes the steps of both runs, in turn */
     double t, h;
     double last;                 /* the last step */
-    double scale;                /* of the time in which the motion changes */
-    double lag;                  /* beyond the first steps: how late the runs may be at a kink */
+    double scale;                /* the time in which the motion changes */
+    double lag;                  /* in the further steps: how late the runs may be at a kink */
     double jumps_from, jumps_to; /* steps between these times cannot be resolved */
     double most_x, most_v;
-    bool far;                    /* beyond the first steps: what is proved is judged no more */
+    bool far;                    /* in the further steps: what is proved is judged no more */
     double *x[2], *v[2];         /* with whole steps, with half steps */
     double *a[2], *of_a;         /* the accelerations, and the rounding of the second */
     double *room;                /* 3 nv numbers */
@@ -49,7 +49,8 @@ typedef struct runs {
     interval *in_x, *in_v;       /* where the last step of the second run went */
     double *rate[2], *of_rate;   /* of one invariant */
     double *before;              /* of all invariants: their values */
-    double *off_time; /* definition_count: for how long; beyond the first steps, since the last rate that was zero */
+    double *off_time; /* definition_count: for how long rates were not zero; in the further steps, since the last rate
+                       * that was zero */
     double *size;     /* definition_count: the largest of the sizes of their terms so far */
     double *apart;    /* definition_count: the largest difference of the runs' rates so far */
     uint32_t *off;    /* definition_count: how many rates were not zero */
@@ -72,7 +73,7 @@ static bool step(const runs *r, double h, int64_t steps, double *x, double *v)
            stepper_sync(r->stepper, x, v, NULL, NULL) == MOTUS_OK;
 }
 
-/* The accelerations at both runs' states, and the rounding of the second. */
+/* Computes the accelerations at both runs' states, and the rounding of the second. */
 static void accelerate_both(const runs *r)
 {
     const model *m = r->model;
@@ -84,7 +85,7 @@ static void accelerate_both(const runs *r)
     tape_run(m->verify->force_rounding, r->t, base);
 }
 
-/* The rates of an invariant at both runs' states, and the rounding of the second. */
+/* Computes the rates of an invariant at both runs' states, and the rounding of the second. */
 static void rates(const runs *r, uint32_t i)
 {
     const verify *c = r->model->verify;
@@ -115,7 +116,7 @@ static motus_status refuse(model *m, const model_definition *d, size_t k, double
 
 enum { WHEN_MAX = 2 * DECIMAL_MAX + 32 };
 
-/* When something happens that lies between two times: the digits that are the same in both, else both. */
+/* Writes when something happens that lies between two times: the digits that both share, else both. */
 static char *between_times(double from, double to, char out[WHEN_MAX])
 {
     enum { MOST = 6, LEAST = 3 };
@@ -174,7 +175,7 @@ static motus_status judge_all(runs *r, bool at_start)
     return status;
 }
 
-/* False: a run has no finite state. */
+/* Takes a step of size h with both runs. False: a run has no finite state. */
 static bool step_both(const runs *r, double h)
 {
     const model *m = r->model;
@@ -193,14 +194,14 @@ static void step_back(const runs *r)
     }
 }
 
-/* Between two numbers, and a quarter as far beyond. */
+/* Returns the interval between two numbers, widened by a quarter of its length on both sides. */
 static interval between(double a, double b)
 {
     const double more = 0.25 * fabs(a - b);
     return (interval){fmin(a, b) - more, fmax(a, b) + more};
 }
 
-/* Whether the last step, which began at r->t, resolves the force and the invariants. */
+/* Tells whether the last step, which began at r->t, resolves the force and the invariants. */
 static bool resolved(const runs *r, double h)
 {
     const model *m = r->model;
@@ -211,9 +212,9 @@ static bool resolved(const runs *r, double h)
     return resolution_fits(m->verify->along, t, r->in_x, r->in_v, m->pool);
 }
 
-/* An invariant that has changed by a part of its terms over steps in which the motion cannot change it jumps. That it
- * jumps and comes back as soon as the runs may be late shows nothing: of this motion alone two terms may jump at once,
- * and here do so one by one. */
+/* Refuses an invariant that jumps: it has changed by a part of its terms over steps in which the motion cannot change
+ * it. A jump that goes back within the time by which the runs may be late shows nothing: two terms that jump at once in
+ * the exact motion may do so one after the other in a run. */
 static motus_status judge_jump(runs *r, uint32_t i, const double *before)
 {
     model *m = r->model;
@@ -252,7 +253,7 @@ static void note_sizes(const runs *r)
     }
 }
 
-/* The invariants before the last step, which began at r->t. */
+/* Notes the invariants before the last step, which began at r->t. */
 static void note_before(const runs *r)
 {
     const model *m = r->model;
@@ -264,7 +265,7 @@ static void note_before(const runs *r)
     }
 }
 
-/* How far the runs are apart, as a part of the largest motion so far. */
+/* Returns how far the runs are apart, as a part of the largest motion so far. */
 static double apart(runs *r)
 {
     const model *m = r->model;
@@ -280,8 +281,8 @@ static double apart(runs *r)
     return (r->most_x > 0 ? x / r->most_x : 0) + (r->most_v > 0 ? v / r->most_v : 0);
 }
 
-/* Along the whole run, in steps which are shorter where they do not resolve what they go over; and so far beyond it as
- * a jump before its end takes to be judged. */
+/* Judges along the whole run, with shorter steps where others do not resolve force and invariants, and so far beyond it
+ * as it takes to judge a jump before its end. */
 static motus_status go_far(runs *r, double way, int steps)
 {
     const model *m = r->model;
@@ -356,7 +357,7 @@ static motus_status go(runs *r)
     return go_far(r, way, far);
 }
 
-/* By the algebra: what is proved is judged along the first steps alone, in which the rate counts to rounding. */
+/* Notes what the algebra proves; that is judged only along the first steps, in which the rate is exact to rounding. */
 static bool prove(model *m)
 {
     for (uint32_t i = 0; i < m->definition_count; i++)

@@ -4,7 +4,7 @@
 
 #include "api/system/system.h"
 
-/* MOTUS_ARGUMENT: the error says where and how fast an invariant changes. */
+/* Checks the invariants of a model. MOTUS_ARGUMENT: the error says where and how fast one changes. */
 motus_status invariants_check(motus_system *, motus_error *);
 
 #endif

@@ -37,7 +37,8 @@ static inline compiled_host lanes_host(const lanes_job *job, size_t group, bool 
     return host;
 }
 
-/* The clock of a group: time, steps taken, and the row's constants for the present step; `scaled` is room for them. */
+/* Sets the clock of a group: time, steps taken, and the row's constants for the present step; `scaled` is room for
+ * them. */
 static inline void lanes_clock(work *w, const lanes_job *job, size_t group, clock *scaled)
 {
     w->scaled = scaled;
