@@ -10,6 +10,7 @@
 #include "machine/solve_text.h"
 #include "machine/texts.h"
 
+#include <stdio.h>
 #include <string.h>
 
 enum {
@@ -279,36 +280,45 @@ int compose_width(void)
 #endif
 }
 
-#define ALL_OPERATIONS (~(uint64_t)0)
-#define HYPERBOLIC ANY_OF(SINH, SINH, COSH, TANH)
-#define CIRCULAR ANY_OF(SIN, SIN, COS, TAN)
-#define INVERSE ANY_OF(ASIN, ACOS, ATAN, ATAN2)
-#define ROOT ANY_OF(CBRT, CBRT, HYPOT, HYPOT)
-#define POWER OPERATION_BIT(POW)
-#define ERROR OPERATION_BIT(ERF)
-#define LOGARITHM (OPERATION_BIT(LOG) | POWER)
-#define EXPONENTIAL (OPERATION_BIT(EXP) | POWER | HYPERBOLIC | ERROR)
-#define PLAIN (ANY_OF(SQRT, ABS, FLOOR, MOD) | ANY_OF(MIN, MIN, MAX, SIGN))
+/* The functions whose values are calls. */
+static const struct {
+    operation op;
+    int operands;
+    const char *name, *texts;
+} functions[] = {
+#define OP(...)
+#define FUNCTION(id, arity, name, texts, value) {OP_##id, arity, #name, texts},
+#include "lang/base/operations.def"
+#undef OP
+};
+enum { FUNCTIONS = sizeof functions / sizeof *functions };
+
+/* Returns whether one of the first `count` functions is used and needs the text of this name. */
+static bool needs(uint64_t used, size_t count, const char *text, size_t length)
+{
+    for (size_t i = 0; i < count; i++) {
+        const char *at = used >> functions[i].op & 1 ? functions[i].texts : "";
+        for (size_t word; *at; at += word + (at[word] == ' '))
+            if ((word = strcspn(at, " ")) == length && memcmp(at, text, length) == 0) return true;
+    }
+    return false;
+}
 
 /* Adds the texts of the functions that a set of operations needs. */
 static void add_functions(emit_text *t, uint64_t used)
 {
-    static const struct {
-        uint64_t needed_by;
-        const char *text;
-    } texts[] = {{ALL_OPERATIONS, "step/functions/core.h"},
-                 {PLAIN, "step/functions/plain.h"},
-                 {EXPONENTIAL, "step/functions/exponential.h"},
-                 {LOGARITHM, "step/functions/logarithm.h"},
-                 {POWER, "step/functions/power.h"},
-                 {HYPERBOLIC, "step/functions/hyperbolic.h"},
-                 {CIRCULAR, "step/functions/circular.h"},
-                 {INVERSE, "step/functions/inverse.h"},
-                 {ROOT, "step/functions/root.h"},
-                 {ERROR, "step/functions/error.h"},
-                 {ALL_OPERATIONS, "step/functions/end.h"}};
-    for (size_t i = 0; i < sizeof texts / sizeof *texts; i++)
-        if (used & texts[i].needed_by) add_text(t, texts[i].text);
+    char name[64];
+    add_text(t, "step/functions/core.h");
+    add_text(t, "step/functions/plain.h");
+    for (size_t i = 0; i < FUNCTIONS; i++) {
+        const char *at = used >> functions[i].op & 1 ? functions[i].texts : "";
+        for (size_t word; *at; at += word + (at[word] == ' ')) {
+            word = strcspn(at, " ");
+            snprintf(name, sizeof name, "step/functions/%.*s.h", (int)word, at);
+            if (!needs(used, i, at, word)) add_text(t, name);
+        }
+    }
+    add_text(t, "step/functions/end.h");
 }
 
 /* Adds the operations over doubles, such as op_7, and over vectors of doubles (`reals`), such as ops_7. */
@@ -329,7 +339,6 @@ static void add_operations(emit *e, int width)
         emit_add(t, "#define LANES %d\n", width);
         add_text(t, "step/functions/lanes.h");
         add_functions(t, e->used_lanes);
-        if (!e->used_lanes) add_text(t, "step/functions/end.h"); /* undefines the names of lanes.h */
         emit_add(
             t,
             "typedef motus_reals_x%d reals;\n#define MANY(x) ((x) - (reals){0})\n#define LANE_OF(x, l) (x)[l]\n"
@@ -345,39 +354,24 @@ static void add_operations(emit *e, int width)
 
 /* ---- Taylor series ---- */
 
-/* Notes the functions that recurrences call besides those of their own operations. */
-static void need_for_series(emit *e)
-{
-    const uint64_t roots = OPERATION_BIT(POW) | OPERATION_BIT(ASIN) | OPERATION_BIT(ACOS);
-    uint64_t *used = e->lanes || e->series_wide ? &e->used_lanes : &e->used;
-    if (e->used_series & roots) *used |= OPERATION_BIT(SQRT);
-}
-
 /* Defines the names by which recurrences call functions. A function whose text no operation of the model needs becomes
  * 0, since no recurrence that calls it is used. */
 static void add_named(emit *e)
 {
-    static const struct {
-        const char *name;
-        uint64_t supplied_by;
-        int apart; /* if not 0, the function is compiled once, with so many operands */
-    } functions[] = {{"sqrt", PLAIN, 0},    {"floor", PLAIN, 0},     {"pow", POWER, 2},       {"exp", EXPONENTIAL, 1},
-                     {"log", LOGARITHM, 1}, {"sinh", HYPERBOLIC, 0}, {"cosh", HYPERBOLIC, 0}, {"tanh", HYPERBOLIC, 1},
-                     {"sin", CIRCULAR, 0},  {"cos", CIRCULAR, 0},    {"tan", CIRCULAR, 1},    {"asin", INVERSE, 1},
-                     {"acos", INVERSE, 1},  {"atan", INVERSE, 1},    {"atan2", INVERSE, 2},   {"cbrt", ROOT, 1},
-                     {"hypot", ROOT, 2},    {"erf", ERROR, 1}};
-    for (size_t i = 0; i < sizeof functions / sizeof *functions; i++) {
-        const char *name = functions[i].name;
-        const bool lanes = e->lanes || e->series_wide;
-        if (!((lanes ? e->used_lanes : e->used) & functions[i].supplied_by))
+    const bool lanes = e->lanes || e->series_wide;
+    const char *direct = lanes ? "#define series_of_%s OF_LANES(%s)\n" : "#define series_of_%s motus_%s\n";
+    emit_add(&e->text, direct, "sqrt", "sqrt");
+    for (size_t i = 0; i < FUNCTIONS; i++) {
+        const char *name = functions[i].name, *texts = functions[i].texts, *last = strrchr(texts, ' ');
+        last = last ? last + 1 : texts;
+        if (*texts && !needs(lanes ? e->used_lanes : e->used, FUNCTIONS, last, strlen(last)))
             emit_add(&e->text, "#define series_of_%s(...) SERIES_NUMBER(0.0)\n", name);
-        else if (lanes || !functions[i].apart)
-            emit_add(&e->text, lanes ? "#define series_of_%s OF_LANES(%s)\n" : "#define series_of_%s motus_%s\n", name,
-                     name);
-        else
+        else if (lanes || !*texts || operation_is(functions[i].op, IN_PAIRS))
+            emit_add(&e->text, direct, name, name);
+        else /* compiled once, and called */
             emit_add(&e->text,
                      "__attribute__((noinline)) static double series_of_%s(double a%s) { return motus_%s(a%s); }\n",
-                     name, functions[i].apart > 1 ? ", double b" : "", name, functions[i].apart > 1 ? ", b" : "");
+                     name, functions[i].operands > 1 ? ", double b" : "", name, functions[i].operands > 1 ? ", b" : "");
     }
 }
 
@@ -481,7 +475,6 @@ bool compose(emit *e, const composition *c)
     }
     if (lanes) e->used_lanes |= OPERATION_BIT(MIN) | OPERATION_BIT(MAX); /* reductions use them */
     e->series = plan.expands;
-    if (e->series) need_for_series(e);
     const emit_text bodies = *t;
     const int own = e->uses_vectors ? compose_width() : e->terms ? 4 : 0, width = lanes ? c->width : own;
     *t = (emit_text){.arena = bodies.arena};

@@ -38,10 +38,11 @@ typedef enum operation_nature {
     STEEP_AT_ENDS = 1 << 7,           /* its slope is infinite at the ends of its domain */
     HAS_DOMAIN = 1 << 8,              /* it has no value for whole ranges of its operand */
     WAVES = 1 << 9,                   /* it rises and falls while its operand moves by a few units */
-    HIDES = 1 << 10,  /* it may change within a small part of its operand's way, which a step may pass over */
-    RISES = 1 << 11,  /* it increases with its only operand */
-    SINKS = 1 << 12,  /* it decreases with its only operand */
-    IS_EVEN = 1 << 13 /* it increases with the size of its only operand */
+    HIDES = 1 << 10,   /* it may change within a small part of its operand's way, which a step may pass over */
+    RISES = 1 << 11,   /* it increases with its only operand */
+    SINKS = 1 << 12,   /* it decreases with its only operand */
+    IS_EVEN = 1 << 13, /* it increases with the size of its only operand */
+    IN_PAIRS = 1 << 14 /* its series has another function beside it, which shares the evaluation */
 } operation_nature;
 
 typedef struct operation_row {

@@ -30,31 +30,24 @@
 #define INDEPENDENT
 #endif
 
-#ifdef __GNUC__
-#define UNUSED __attribute__((unused)) /* where the version in lanes is used */
-#else
-#define UNUSED
-#endif
-
 /* A scalar operand is read before the loop: the compiler cannot know that the result does not lie there. */
-#define KERNEL(id, mask, value)                                                                               \
-    UNUSED static void id##_##mask(double *r, const double *pa, const double *pb, const double *pc, size_t n) \
-    {                                                                                                         \
-        const double sa = *pa, sb = *pb, sc = *pc;                                                            \
-        INDEPENDENT                                                                                           \
-        for (size_t k = 0; k < n; k++) {                                                                      \
-            const double a = (mask)&1 ? pa[k] : sa, b = (mask)&2 ? pb[k] : sb, c = (mask)&4 ? pc[k] : sc;     \
-            (void)a, (void)b, (void)c;                                                                        \
-            r[k] = value;                                                                                     \
-        }                                                                                                     \
+#define KERNEL(id, mask, value)                                                                           \
+    static void id##_##mask(double *r, const double *pa, const double *pb, const double *pc, size_t n)    \
+    {                                                                                                     \
+        const double sa = *pa, sb = *pb, sc = *pc;                                                        \
+        INDEPENDENT                                                                                       \
+        for (size_t k = 0; k < n; k++) {                                                                  \
+            const double a = (mask)&1 ? pa[k] : sa, b = (mask)&2 ? pb[k] : sb, c = (mask)&4 ? pc[k] : sc; \
+            (void)a, (void)b, (void)c;                                                                    \
+            r[k] = value;                                                                                 \
+        }                                                                                                 \
     }
 
 #define LEAF(...)
 #define UNARY(id, spelling, degree, nature, value, derivative, keeps, sums, recurrence) KERNEL(id, 1, value)
 #define BINARY(id, spelling, degree, nature, value, derivative, keeps, sums, recurrence) \
     KERNEL(id, 1, value) KERNEL(id, 2, value) KERNEL(id, 3, value)
-#define FUNCTION(id, arity, spelling, degree, nature, value, derivative, keeps, sums, recurrence) \
-    FUNCTION_##arity(id, CALLED(id, value))
+#define FUNCTION(id, arity, name, texts, value) FUNCTION_##arity(id, CALLED(id, value))
 #define FUNCTION_1(id, value) KERNEL(id, 1, value)
 #define FUNCTION_2(id, value) KERNEL(id, 1, value) KERNEL(id, 2, value) KERNEL(id, 3, value)
 #define TERNARY(id, spelling, degree, nature, value, derivative, keeps, sums, recurrence) \
@@ -64,7 +57,7 @@
 #include "lang/base/operations.def"
 
 #ifdef WIDTH
-/* The kernels in vector registers; lanes that fill no vector are computed one by one. */
+/* The functions whose values are calls, in vector registers; lanes that fill no vector are computed one by one. */
 #define VECTOR_(n) motus_reals_x##n
 #define VECTOR(n) VECTOR_(n)
 typedef VECTOR(WIDTH) vector;
@@ -79,78 +72,36 @@ static inline vector vector_at(const double *p, int lanes)
 }
 #define LANED_(f, n) motus_##f##_x##n
 #define LANED(f, n) LANED_(f, n)
-#define LANED_KERNEL(id, mask, many, one)                                                                              \
+#define LANED_KERNEL(id, mask, value)                                                                                  \
     static void id##_lanes_##mask(double *r, const double *pa, const double *pb, const double *pc, size_t n)           \
     {                                                                                                                  \
         const double sa = *pa, sb = *pb;                                                                               \
         size_t k = 0;                                                                                                  \
-        (void)pc, (void)sa, (void)sb;                                                                                  \
         for (; k + WIDTH <= n; k += WIDTH) {                                                                           \
             vector a = vector_at((mask)&1 ? pa + k : &sa, (mask)&1), b = vector_at((mask)&2 ? pb + k : &sb, (mask)&2); \
             (void)b;                                                                                                   \
-            vector v = many;                                                                                           \
+            const vector v = value;                                                                                    \
             memcpy(r + k, &v, sizeof v);                                                                               \
         }                                                                                                              \
-        for (; k < n; k++) {                                                                                           \
-            const double a = (mask)&1 ? pa[k] : sa, b = (mask)&2 ? pb[k] : sb;                                         \
-            (void)b;                                                                                                   \
-            r[k] = one;                                                                                                \
-        }                                                                                                              \
+        if (k < n) id##_##mask(r + k, (mask)&1 ? pa + k : &sa, (mask)&2 ? pb + k : &sb, pc, n - k);                    \
     }
-#define LANED_1(id, f) LANED_KERNEL(id, 1, LANED(f, WIDTH)(a), motus_##f(a))
-#define LANED_2(id, f)                                          \
-    LANED_KERNEL(id, 1, LANED(f, WIDTH)(a, b), motus_##f(a, b)) \
-    LANED_KERNEL(id, 2, LANED(f, WIDTH)(a, b), motus_##f(a, b)) \
-    LANED_KERNEL(id, 3, LANED(f, WIDTH)(a, b), motus_##f(a, b))
-LANED_1(SIN, sin)
-LANED_1(COS, cos)
-LANED_1(TAN, tan)
-LANED_1(ASIN, asin)
-LANED_1(ACOS, acos)
-LANED_1(ATAN, atan)
-LANED_1(SINH, sinh)
-LANED_1(COSH, cosh)
-LANED_1(TANH, tanh)
-LANED_1(EXP, exp)
-LANED_1(LOG, log)
-LANED_1(CBRT, cbrt)
-LANED_1(ERF, erf)
-LANED_2(ATAN2, atan2)
-LANED_2(HYPOT, hypot)
-LANED_2(POW, pow)
-
-/* The kernel of a row: the one in lanes where HAS_… makes a second argument of it. */
-#define HAS_SIN_1 ~, SIN_lanes_1
-#define HAS_COS_1 ~, COS_lanes_1
-#define HAS_TAN_1 ~, TAN_lanes_1
-#define HAS_ASIN_1 ~, ASIN_lanes_1
-#define HAS_ACOS_1 ~, ACOS_lanes_1
-#define HAS_ATAN_1 ~, ATAN_lanes_1
-#define HAS_SINH_1 ~, SINH_lanes_1
-#define HAS_COSH_1 ~, COSH_lanes_1
-#define HAS_TANH_1 ~, TANH_lanes_1
-#define HAS_EXP_1 ~, EXP_lanes_1
-#define HAS_LOG_1 ~, LOG_lanes_1
-#define HAS_CBRT_1 ~, CBRT_lanes_1
-#define HAS_ERF_1 ~, ERF_lanes_1
-#define HAS_ATAN2_1 ~, ATAN2_lanes_1
-#define HAS_ATAN2_2 ~, ATAN2_lanes_2
-#define HAS_ATAN2_3 ~, ATAN2_lanes_3
-#define HAS_HYPOT_1 ~, HYPOT_lanes_1
-#define HAS_HYPOT_2 ~, HYPOT_lanes_2
-#define HAS_HYPOT_3 ~, HYPOT_lanes_3
-#define HAS_POW_1 ~, POW_lanes_1
-#define HAS_POW_2 ~, POW_lanes_2
-#define HAS_POW_3 ~, POW_lanes_3
+#define OF(f) LANED(f, WIDTH)
+#define OP(...)
+#define FUNCTION(id, arity, name, texts, value) LANED_##arity(id, value)
+#define LANED_1(id, value) LANED_KERNEL(id, 1, value)
+#define LANED_2(id, value) LANED_KERNEL(id, 1, value) LANED_KERNEL(id, 2, value) LANED_KERNEL(id, 3, value)
+#include "lang/base/operations.def"
+#undef OP
+#define FUNCTION(id, arity, ...) KERNELS_##arity(id, id##_lanes)
+#else
+#define FUNCTION(id, arity, ...) KERNELS_##arity(id, id)
 #endif
-#define SECOND(a, b, ...) b
-#define BEST_(...) SECOND(__VA_ARGS__, ~)
-#define BEST(id, mask) BEST_(HAS_##id##_##mask, id##_##mask)
 
+#define KERNELS_1(id, name) [OP_##id * 8 + 1] = name##_1,
+#define KERNELS_2(id, name) [OP_##id * 8 + 1] = name##_1, [OP_##id * 8 + 2] = name##_2, [OP_##id * 8 + 3] = name##_3,
 #define LEAF(...)
-#define UNARY(id, ...) [OP_##id * 8 + 1] = BEST(id, 1),
-#define BINARY(id, ...) \
-    [OP_##id * 8 + 1] = BEST(id, 1), [OP_##id * 8 + 2] = BEST(id, 2), [OP_##id * 8 + 3] = BEST(id, 3),
+#define UNARY(id, ...) KERNELS_1(id, id)
+#define BINARY(id, ...) KERNELS_2(id, id)
 #define TERNARY(id, ...)                                                                                            \
     [OP_##id * 8 + 1] = id##_1, [OP_##id * 8 + 2] = id##_2, [OP_##id * 8 + 3] = id##_3, [OP_##id * 8 + 4] = id##_4, \
                    [OP_##id * 8 + 5] = id##_5, [OP_##id * 8 + 6] = id##_6, [OP_##id * 8 + 7] = id##_7,

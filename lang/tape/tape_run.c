@@ -253,8 +253,8 @@ static __attribute__((noinline)) double function(const instruction *i, const dou
     const double a = R[i->a], b = R[i->b];
     switch (i->code) {
 #define OP(...)
-#define FUNCTION(id, arity, spelling, degree, nature, value, derivative, keeps, sums, recurrence) \
-    case OP_##id:                                                                                 \
+#define FUNCTION(id, arity, name, texts, value) \
+    case OP_##id:                               \
         return CALLED(id, value);
 #include "lang/base/operations.def"
 #undef OP

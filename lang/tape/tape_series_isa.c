@@ -14,24 +14,15 @@
 #define SOME(where) (where)
 #ifdef ONE_COPY /* where size counts more: the one copy of the functions, in operation.c */
 #define SERIES_OF(f) copy_##f
+#define COPY(id, name, operands, ...) \
+    __attribute__((unused)) static double copy_##name operands { return operation_value(OP_##id, __VA_ARGS__, 0); }
+#define COPY_1(id, name) COPY(id, name, (double x), x, 0)
+#define COPY_2(id, name) COPY(id, name, (double x, double y), x, y)
+#define OP(...)
+#define FUNCTION(id, arity, name, texts, value) COPY_##arity(id, name)
+#include "lang/base/operations.def"
+#undef OP
 #define copy_sqrt(x) operation_value(OP_SQRT, x, 0, 0)
-#define copy_pow(x, y) operation_value(OP_POW, x, y, 0)
-#define copy_sin(x) operation_value(OP_SIN, x, 0, 0)
-#define copy_cos(x) operation_value(OP_COS, x, 0, 0)
-#define copy_tan(x) operation_value(OP_TAN, x, 0, 0)
-#define copy_asin(x) operation_value(OP_ASIN, x, 0, 0)
-#define copy_acos(x) operation_value(OP_ACOS, x, 0, 0)
-#define copy_atan(x) operation_value(OP_ATAN, x, 0, 0)
-#define copy_sinh(x) operation_value(OP_SINH, x, 0, 0)
-#define copy_cosh(x) operation_value(OP_COSH, x, 0, 0)
-#define copy_tanh(x) operation_value(OP_TANH, x, 0, 0)
-#define copy_exp(x) operation_value(OP_EXP, x, 0, 0)
-#define copy_log(x) operation_value(OP_LOG, x, 0, 0)
-#define copy_cbrt(x) operation_value(OP_CBRT, x, 0, 0)
-#define copy_floor(x) operation_value(OP_FLOOR, x, 0, 0)
-#define copy_erf(x) operation_value(OP_ERF, x, 0, 0)
-#define copy_atan2(x, y) operation_value(OP_ATAN2, x, y, 0)
-#define copy_hypot(x, y) operation_value(OP_HYPOT, x, y, 0)
 #else
 #define SERIES_OF(f) motus_##f
 #endif
