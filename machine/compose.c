@@ -145,17 +145,28 @@ static void add_variables(emit_text *t, const work *w, bool structure)
     emit_add(t, "};\n");
 }
 
-#define ANY_OF(a, b, c, d) (OPERATION_BIT(a) | OPERATION_BIT(b) | OPERATION_BIT(c) | OPERATION_BIT(d))
+/* The functions whose values are calls. */
+static const struct {
+    operation op;
+    int operands;
+    const char *name, *texts;
+} functions[] = {
+#define OP(...)
+#define FUNCTION(id, arity, name, texts, value) {OP_##id, arity, #name, texts},
+#include "lang/base/operations.def"
+#undef OP
+};
+enum { FUNCTIONS = sizeof functions / sizeof *functions };
 
 /* Counts the operations of a program; a call of an elementary function counts for those of its text. */
 static size_t length_of(const program *p)
 {
     enum { FUNCTION_LENGTH = 16 };
-    static const uint64_t functions = ANY_OF(SIN, COS, TAN, POW) | ANY_OF(ASIN, ACOS, ATAN, ATAN2) |
-                                      ANY_OF(SINH, COSH, TANH, EXP) | ANY_OF(LOG, CBRT, HYPOT, ERF);
+    uint64_t long_ones = 0;
     size_t length = 0;
+    for (size_t i = 0; i < FUNCTIONS; i++) long_ones |= (uint64_t)(*functions[i].texts != 0) << functions[i].op;
     for (uint32_t i = 0; i < p->graph->count; i++)
-        length += functions >> p->graph->nodes[i].op & 1 ? FUNCTION_LENGTH : 1;
+        length += long_ones >> p->graph->nodes[i].op & 1 ? FUNCTION_LENGTH : 1;
     return length;
 }
 
@@ -279,19 +290,6 @@ int compose_width(void)
     return 1;
 #endif
 }
-
-/* The functions whose values are calls. */
-static const struct {
-    operation op;
-    int operands;
-    const char *name, *texts;
-} functions[] = {
-#define OP(...)
-#define FUNCTION(id, arity, name, texts, value) {OP_##id, arity, #name, texts},
-#include "lang/base/operations.def"
-#undef OP
-};
-enum { FUNCTIONS = sizeof functions / sizeof *functions };
 
 /* Returns whether one of the first `count` functions is used and needs the text of this name. */
 static bool needs(uint64_t used, size_t count, const char *text, size_t length)
