@@ -47,7 +47,7 @@ double ours_watched(watched *w)
         const double start = thread_seconds();
         if (!motus_run_finish(run, &error)) took = thread_seconds() - start;
         w->steps = motus_run_steps(run);
-        w->evaluations = motus_run_evaluations(run);
+        w->evaluations = motus_run_now(run).evaluations;
         w->events = motus_run_events(run);
         if (!last_event(run, system, w, &error)) took = NAN;
     }

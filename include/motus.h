@@ -9,7 +9,6 @@
  *     5. runs                   one integration: create, step, observe, save, destroy
  *     6. ensembles              one model, many trajectories: parameters or initial values vary, numbers are recorded
  *     7. studies                every method side by side; observed order and its certificate; the reference solution
- *     8. defaults               the functions that make every struct with a size
  *
  *     motus_text_def def = motus_default_text();
  *     def.text = "x'' = -x   x(0) = 1 ...";
@@ -130,6 +129,39 @@ typedef enum motus_cause { MOTUS_CAUSE_MAP(MOTUS_CAUSE_ENUMERATOR) MOTUS_CAUSE_C
 
 MOTUS_API const char *motus_cause_word(motus_cause); /* "singular"; static */
 
+/* Structs with a size: see Sizes above. MOTUS_DEFAULT_FUNCTION behind a struct declares what makes it,
+ * motus_default_run() for motus_run_def. */
+typedef enum motus_def_kind {
+    MOTUS_DEF_ERROR,
+    MOTUS_DEF_TEXT,
+    MOTUS_DEF_CALLBACK,
+    MOTUS_DEF_RUN,
+    MOTUS_DEF_STUDY,
+    MOTUS_DEF_ENSEMBLE,
+    MOTUS_DEF_VARIABLE,
+    MOTUS_DEF_COLUMN,
+    MOTUS_DEF_PARAMETER,
+    MOTUS_DEF_INITIAL,
+    MOTUS_DEF_SETTINGS,
+    MOTUS_DEF_ANALYSIS,
+    MOTUS_DEF_STATEMENT,
+    MOTUS_DEF_RUN_STATISTICS,
+    MOTUS_DEF_ESTIMATE,
+    MOTUS_DEF_EVENT_ROW,
+    MOTUS_DEF_SWITCH,
+    MOTUS_DEF_ENSEMBLE_STATISTICS
+} motus_def_kind;
+/* Fills in the first `size` bytes of a struct with its defaults. Bytes beyond the library's own size become zero, and
+ * so does a struct that the library does not know. */
+MOTUS_API void motus_default(motus_def_kind, void *made, uint32_t size);
+
+#define MOTUS_DEFAULT_FUNCTION(name, KIND, type)                       \
+    static inline type motus_default_##name(void)                      \
+    {                                                                  \
+        type made;                                                     \
+        motus_default(MOTUS_DEF_##KIND, &made, (uint32_t)sizeof made); \
+        return made;                                                   \
+    }
 /* What went wrong, where, and what to do. A call fills it only when it returns other than MOTUS_OK. Every call accepts
  * NULL in its place. */
 typedef struct motus_error {
@@ -161,6 +193,7 @@ typedef struct motus_error {
     motus_cause cause;
     int verified; /* 1: trial steps from shortly before the failure, with this value, have led beyond it */
 } motus_error;
+MOTUS_DEFAULT_FUNCTION(error, ERROR, motus_error)
 
 /* Memory. Without an `allocate` the library uses malloc and free. `allocate` returns at least `bytes` bytes, aligned
  * for any type, or NULL when there is no memory. `release` gets what `allocate` returned, and never NULL; where it is
@@ -195,6 +228,7 @@ typedef struct motus_text_def {
     const char *const *define;
     size_t define_count;
 } motus_text_def;
+MOTUS_DEFAULT_FUNCTION(text, TEXT, motus_text_def)
 
 /* An event of a callback: something that is to happen where a function of the time and the state passes 0, or at equal
  * times. */
@@ -267,6 +301,7 @@ typedef struct motus_callback_def {
     int (*event_functions)(void *context, double t, const double *x, const double *v, double *values);
     int (*event_action)(void *context, size_t event, double t, double *x, double *v);
 } motus_callback_def;
+MOTUS_DEFAULT_FUNCTION(callback, CALLBACK, motus_callback_def)
 
 /* Reads the whole text. MOTUS_SYNTAX, MOTUS_NAME, MOTUS_SHAPE, MOTUS_LIMIT, MOTUS_ARGUMENT (a value out of its range,
  * an exact line that does not obey the equation, or an invariant that changes along the motion) and MOTUS_UNAVAILABLE,
@@ -310,6 +345,7 @@ typedef struct motus_variable {
     int64_t first[4], last[4]; /* the smallest index ranges that hold all equations */
     size_t count;              /* numbers in all: cells × components */
 } motus_variable;
+MOTUS_DEFAULT_FUNCTION(variable, VARIABLE, motus_variable)
 MOTUS_API size_t motus_variable_count(const motus_system *);
 /* Variable k, in the order of the model. MOTUS_ARGUMENT: k is past the last; so with all calls …_at. */
 MOTUS_API motus_status motus_variable_at(const motus_system *, size_t k, motus_variable *);
@@ -336,6 +372,7 @@ typedef struct motus_column {
     int64_t cell[4]; /*   and these, as the language counts them */
     char name[MOTUS_NAME_MAX + 64];
 } motus_column;
+MOTUS_DEFAULT_FUNCTION(column, COLUMN, motus_column)
 MOTUS_API size_t motus_column_count(const motus_system *);
 MOTUS_API motus_status motus_column_at(const motus_system *, size_t k, motus_column *);
 /* The inverse: the column *k that has this kind, variable, component and cell (and, of exact columns, is_velocity);
@@ -371,6 +408,7 @@ typedef struct motus_parameter {
      * out. */
     const char *decides;
 } motus_parameter;
+MOTUS_DEFAULT_FUNCTION(parameter, PARAMETER, motus_parameter)
 MOTUS_API size_t motus_parameter_count(const motus_system *);
 MOTUS_API motus_status motus_parameter_at(const motus_system *, size_t k, motus_parameter *);
 /* Its present numbers, motus_parameter.count of them, cell by cell, component by component. MOTUS_ARGUMENT: k is past
@@ -385,6 +423,7 @@ typedef struct motus_initial {
     size_t count;                   /* numbers in all */
     char name[MOTUS_NAME_MAX + 64]; /* "x(0)", "r'(0)", as `set` and motus_system_set take it */
 } motus_initial;
+MOTUS_DEFAULT_FUNCTION(initial, INITIAL, motus_initial)
 MOTUS_API size_t motus_initial_count(const motus_system *);
 MOTUS_API motus_status motus_initial_at(const motus_system *, size_t k, motus_initial *);
 /* Its present numbers, motus_initial.count of them, cell by cell, component by component. MOTUS_ARGUMENT: k is past
@@ -409,6 +448,7 @@ typedef struct motus_settings {
     int absolute; /* 1: the tolerance or the accuracy is absolute */
     int unused;
 } motus_settings;
+MOTUS_DEFAULT_FUNCTION(settings, SETTINGS, motus_settings)
 MOTUS_API motus_status motus_settings_of(const motus_system *, motus_settings *);
 /* Fills in step, until and method where they are NaN or NULL, for this method, step, start and end where they are
  * given. What creates runs, ensembles and studies of a model does so itself where neither its definition nor the model
@@ -464,6 +504,7 @@ typedef struct motus_analysis {
     int sampled_gyroscopic, sampled_gradient;
     int energy; /* an energy is proved to exist: a gradient without time, whose potential has one value everywhere */
 } motus_analysis;
+MOTUS_DEFAULT_FUNCTION(analysis, ANALYSIS, motus_analysis)
 MOTUS_API motus_status motus_analysis_of(const motus_system *, motus_analysis *);
 /* The same in words, one sentence a line, with the coefficients of the velocity. Owned by the system. "": there was no
  * memory. */
@@ -489,6 +530,7 @@ typedef struct motus_switch {
     const char *not_located; /* why they do not: a sentence without full stop; "": they do */
     motus_sliding sliding;   /* of runs that locate it */
 } motus_switch;
+MOTUS_DEFAULT_FUNCTION(switch, SWITCH, motus_switch)
 /* Switch k, in the order in which the equations are evaluated. MOTUS_ARGUMENT: k is past the last; a callback has none.
  * MOTUS_MEMORY: there was no memory. Of a model with more switches than can be located, the last is the one with which
  * there are too many. */
@@ -518,6 +560,7 @@ typedef struct motus_statement {
     int line;         /* the line of the model's text where it begins, from 1; 0: `set` added it */
     int is_set;       /* `set` gave its value */
 } motus_statement;
+MOTUS_DEFAULT_FUNCTION(statement, STATEMENT, motus_statement)
 MOTUS_API size_t motus_statement_count(const motus_system *);
 MOTUS_API motus_status motus_statement_at(const motus_system *, size_t k, motus_statement *);
 /* Statement k as the parser read it, typeset: one presentation MathML element, <math xmlns="…"
@@ -640,7 +683,7 @@ typedef enum motus_switches {
     MOTUS_SWITCHES_RESOLVE,
     /* The default: LOCATE by a method that adapts its steps, else STEP. STEP as well where there are more than 64
      * switches, which cost time in every step; where the force may be undefined beyond one, as max(0, x)^1.5 is; and
-     * where they cannot be located. motus_run_not_located says so. Ensembles do the same. */
+     * where they cannot be located; `not_located` of motus_run_statistics says so. Ensembles do the same. */
     MOTUS_SWITCHES_USUAL
 } motus_switches;
 
@@ -663,7 +706,7 @@ typedef struct motus_run_def {
     /* NULL: the model's; where neither names one "verlet" if a step is given, else "auto". "auto": the run chooses,
      * among methods that suit the force, the one that needs the fewest operations for the accuracy or the tolerance. It
      * counts them in pilot runs over the first part of the motion, and never looks at a clock, so it chooses the same
-     * on every machine. motus_run_choice says why. */
+     * on every machine. `choice` of motus_run_statistics says why. */
     const char *method;
     /* Of a method with steps of one size: > 0; NaN: the model's, or motus_suggest's. Its direction follows from
      * `until`. Of an adaptive method, and with an accuracy: NaN. */
@@ -716,6 +759,7 @@ typedef struct motus_run_def {
      * accuracy has this one, and where it does not come to its end it does not serve. */
     int64_t most_steps;
 } motus_run_def;
+MOTUS_DEFAULT_FUNCTION(run, RUN, motus_run_def)
 #define MOTUS_THREADS_MAX 1024
 
 /* The definition may be NULL: then everything is the model's. MOTUS_METHOD: there is no such method, it does not admit
@@ -742,24 +786,30 @@ MOTUS_API motus_status motus_run_finish(motus_run *, motus_error *);
 MOTUS_API int motus_run_done(const motus_run *); /* 1: the run is at `until`, or an event has ended it */
 
 MOTUS_API double motus_run_time(const motus_run *);
-MOTUS_API double motus_run_step_size(const motus_run *); /* > 0; NaN: the step size adapts */
-MOTUS_API int64_t motus_run_steps(const motus_run *);    /* taken so far */
-/* from the start to `until`, the shorter last one included; 0: not known, because the step size adapts */
-MOTUS_API int64_t motus_run_steps_total(const motus_run *);
-/* the time after `step` steps; `until` from the last one on; NaN: the step size adapts */
+MOTUS_API int64_t motus_run_steps(const motus_run *); /* taken so far, in the present leg */
+/* the time after `step` steps of the leg; `until` from the last one on; NaN: the step size adapts */
 MOTUS_API double motus_run_time_of(const motus_run *, int64_t step);
-MOTUS_API double motus_run_last_step(const motus_run *);    /* size of the shorter last step; 0: there is none */
-MOTUS_API int64_t motus_run_evaluations(const motus_run *); /* of the acceleration by steps; observing counts none */
-MOTUS_API int64_t motus_run_iterations(const motus_run *);  /* in which implicit equations are solved, in all steps */
-MOTUS_API const char *motus_run_method(const motus_run *);
-MOTUS_API const char *motus_run_machine(const motus_run *); /* "interpreter", "compiled", "callback" */
-/* All that a run has done so far. */
-typedef struct motus_statistics {
-    uint32_t size;                /* by motus_default_statistics() */
-    int legs;                     /* 1, and one more for every motus_run_set_state */
-    const char *method, *machine; /* as motus_run_method and motus_run_machine return them */
+
+/* What a run is, and all that it has done so far. The strings live as long as the run. */
+typedef struct motus_run_statistics {
+    uint32_t size; /* by motus_default_run_statistics() */
+    int legs;      /* 1, and one more for every motus_run_set_state */
+    const char *method;
+    const char *machine; /* "interpreter", "compiled", "callback" */
+    const char *choice;  /* why the method was chosen, one sentence, where it was "auto"; else "" */
+    const char *note;    /* why "auto" uses the interpreter although the run is long enough to compile, or "" */
+    /* Why steps that adapt do not end at the switches of the force (motus_switches); "": they do, there are none, or
+     * they are not to. */
+    const char *not_located;
+    /* Where an event that assigns breaks a step of the method, one sentence: a step of a symplectic method that ends
+     * where the state decides is not symplectic, and a run by reversible steps that adapt is not reversible across
+     * such an event. "": no event does. */
+    const char *cut;
+    double step;                  /* of a method with steps of one size, > 0; NaN: steps adapt */
+    double shorter_last;          /* the size of the shorter last step of the present leg; 0: there is none */
+    int64_t steps_total;          /* of the present leg up to `until`, the shorter last one included; 0: steps adapt */
     int64_t steps;                /* taken in all legs, shorter last ones included */
-    int64_t refused;              /* steps that error control refused; 0 where the step size is fixed */
+    int64_t refused;              /* steps that error control refused; 0: steps have one size */
     int64_t evaluations;          /* of the acceleration by taken and refused steps; observing counts none */
     int64_t iterations;           /* in which implicit equations are solved, by both */
     double first_step, last_step; /* sizes of the first and of the latest step taken, > 0; NaN before the first */
@@ -789,8 +839,17 @@ typedef struct motus_statistics {
     int64_t events_unseen;
     double events_unseen_from;
     const char *events_unseen_of;
-} motus_statistics;
-MOTUS_API motus_status motus_run_statistics(const motus_run *, motus_statistics *);
+} motus_run_statistics;
+MOTUS_DEFAULT_FUNCTION(run_statistics, RUN_STATISTICS, motus_run_statistics)
+MOTUS_API motus_status motus_run_statistics_of(const motus_run *, motus_run_statistics *);
+/* Returns them, to ask for one: motus_run_now(run).evaluations. */
+static inline motus_run_statistics motus_run_now(const motus_run *run)
+{
+    motus_run_statistics now = motus_default_run_statistics();
+    motus_run_statistics_of(run, &now);
+    return now;
+}
+
 /* Whether such a run passes a singularity of the force, which its step does not resolve: the state after it is a finite
  * number, but not the motion. MOTUS_SINGULAR: it does, in a step that begins at err->time. MOTUS_UNRESOLVED: such a
  * step comes near to one, or to a narrow peak of the force, and leads elsewhere than smaller ones. The call takes the
@@ -814,6 +873,7 @@ typedef struct motus_event_row {
     int64_t changed;               /* 1: an action changed the state */
     char instance[MOTUS_NAME_MAX]; /* with its indices, "contact[1,2]" */
 } motus_event_row;
+MOTUS_DEFAULT_FUNCTION(event_row, EVENT_ROW, motus_event_row)
 /* Row k, from 0. MOTUS_ARGUMENT: there is none. */
 MOTUS_API motus_status motus_run_event(motus_run *, int64_t k, motus_event_row *);
 /* Values of columns at row k: on arrival, or with `after` as the action left them. */
@@ -843,17 +903,6 @@ MOTUS_API motus_status motus_run_jump(motus_run *, int64_t k, int after, const s
 MOTUS_API const char *motus_run_ended(motus_run *, int *accumulated, double *time, double *error);
 /* The name of the kind whose events accumulate, whether or not that ended the run; "": none do. */
 MOTUS_API const char *motus_run_accumulates(const motus_run *);
-/* Why the run's method was chosen, one sentence, where the method is "auto"; else "". Owned by the run. */
-MOTUS_API const char *motus_run_choice(const motus_run *);
-/* Why "auto" uses the interpreter although the run is long enough to compile, or "". */
-MOTUS_API const char *motus_run_note(const motus_run *);
-/* Why a run by steps that adapt does not locate the switches of its force (motus_switches); "": it does, or there are
- * none, or they are not to be. */
-MOTUS_API const char *motus_run_not_located(const motus_run *);
-/* Where an event that assigns breaks a step of the run's method, one sentence: of a symplectic method a step that ends
- * where the state decides is not symplectic, and a run by reversible steps that adapt is not reversible across one; ""
- * where no event does. */
-MOTUS_API const char *motus_run_cut(const motus_run *);
 /* The C text that the compiled machine compiles for a run of this model, of whose definition (NULL: everything is the
  * model's) it uses the method and the tolerance, from which the order of Taylor series follows; owned by the system.
  * NULL, and the error says why: MOTUS_ARGUMENT: the system is from a callback, or the method does not take this step or
@@ -934,6 +983,7 @@ typedef struct motus_estimate {
      * method evaluates it; 1: in all, or it can do nothing there. NaN: nobody looked, as with a callback. */
     double looked;
 } motus_estimate;
+MOTUS_DEFAULT_FUNCTION(estimate, ESTIMATE, motus_estimate)
 /* What the bars at the present state rest on. Fails as motus_run_errors does. */
 MOTUS_API motus_status motus_run_estimate(motus_run *, motus_estimate *, motus_error *);
 
@@ -954,12 +1004,11 @@ MOTUS_API motus_status motus_run_restore(motus_run *, const char *text, size_t l
 
 /* Begins a new leg at another state: the run continues like a run created at time t (NaN: the present time) with x, nx
  * finite numbers, and v, nv finite numbers (copied; NULL: as they are now), and with the same method, step, end and
- * machine. motus_run_steps, motus_run_steps_total and motus_run_last_step count in this leg; its times are t + n step,
- * in the direction of `until` from t. motus_statistics counts over all legs. A restart state saved from now on belongs
- * to a run that starts at t. After a failure the run is unchanged. MOTUS_ARGUMENT: a number is not finite, a step is
- * too small to change t, or an observer called it. MOTUS_METHOD: the last step would be shorter, and the method takes
- * equal steps only; or the method does not admit the start. MOTUS_LIMIT: too many steps. Fails besides as
- * motus_run_state does, since the call reads the present state. */
+ * machine. motus_run_steps counts in this leg; its times are t + n step, in the direction of `until` from t. A restart
+ * state saved from now on belongs to a run that starts at t. After a failure the run is unchanged. MOTUS_ARGUMENT: a
+ * number is not finite, a step is too small to change t, or an observer called it. MOTUS_METHOD: the last step would be
+ * shorter, and the method takes equal steps only; or the method does not admit the start. MOTUS_LIMIT: too many steps.
+ * Fails besides as motus_run_state does, since the call reads the present state. */
 MOTUS_API motus_status motus_run_set_state(motus_run *, double t, const double *x, const double *v, motus_error *);
 
 /* The trace of one step: the kicks, drifts and stages of the method in their order, for figures and to see where its
@@ -1035,8 +1084,8 @@ typedef enum motus_reduction {
     /* The time of the first observation with that value. */
     MOTUS_REDUCE_TIME_OF_MIN,
     MOTUS_REDUCE_TIME_OF_MAX,
-    /* Of the trajectory itself, as in motus_statistics; the column is 0: steps taken and refused, the shortest and the
-     * longest step, evaluations of the acceleration. */
+    /* Of the trajectory itself, as in motus_run_statistics; the column is 0: steps taken and refused, the shortest and
+     * the longest step, evaluations of the acceleration. */
     MOTUS_REDUCE_STEPS,
     MOTUS_REDUCE_REFUSED,
     MOTUS_REDUCE_SHORTEST_STEP,
@@ -1046,7 +1095,7 @@ typedef enum motus_reduction {
      * motus_run_def bounds: relative to the motion's size, or absolute where the tolerance is. INFINITY: of some no
      * digit was significant. NaN: there are no bars, or motus_ensemble_run tells none. */
     MOTUS_REDUCE_ACCURACY,
-    MOTUS_REDUCE_TOLERANCE /* as in motus_statistics; with an accuracy every trajectory has its own */
+    MOTUS_REDUCE_TOLERANCE /* as in motus_run_statistics; with an accuracy every trajectory has its own */
 } motus_reduction;
 /* column: from motus_column_find or motus_column_of */
 typedef struct motus_record {
@@ -1098,6 +1147,7 @@ typedef struct motus_ensemble_def {
      * trial steps, which is some milliseconds. */
     int causes;
 } motus_ensemble_def;
+MOTUS_DEFAULT_FUNCTION(ensemble, ENSEMBLE, motus_ensemble_def)
 
 /* MOTUS_NAME: a name in `vary` is neither a parameter nor an initial value. MOTUS_SHAPE: it stands for several numbers.
  * MOTUS_ARGUMENT: it decides what must be the same for all trajectories, or a member of the definition is out of its
@@ -1157,30 +1207,40 @@ MOTUS_API motus_status motus_ensemble_pilots(motus_ensemble *, size_t count, con
                                              motus_error *);
 MOTUS_API void motus_ensemble_destroy(motus_ensemble *);
 
-MOTUS_API int64_t motus_ensemble_steps(const motus_ensemble *); /* of each trajectory; 0 where they differ */
 /* The operations of a step, of the equations and of the method, in units of a multiplication: counted, not timed, and
  * so the same on every machine. NaN: there is no memory to count them. */
 MOTUS_API double motus_ensemble_step_work(motus_ensemble *);
-MOTUS_API const char *motus_ensemble_method(const motus_ensemble *);
-/* Of an adaptive method; NaN: steps have one size. With an accuracy: the first one. *absolute (may be NULL): 1 where it
- * is absolute. */
-MOTUS_API double motus_ensemble_tolerance(const motus_ensemble *, int *absolute);
-/* What every trajectory is to keep to, absolute as the tolerance is; NaN: no accuracy is asked for. */
-MOTUS_API double motus_ensemble_accuracy(const motus_ensemble *);
-MOTUS_API const char *motus_ensemble_machine(const motus_ensemble *);
-MOTUS_API const char *motus_ensemble_note(const motus_ensemble *); /* why it uses no faster machine, or "" */
-/* MOTUS_SWITCHES_LOCATE: steps end where a switch of the force changes its side. MOTUS_SWITCHES_STEP: they lead across;
- * motus_ensemble_not_located says why where the definition leaves it to the library, else it is "".
- * MOTUS_SWITCHES_USUAL: the force has no switches, or none that the library can see, since it comes from C. */
-MOTUS_API motus_switches motus_ensemble_switches(const motus_ensemble *);
-MOTUS_API const char *motus_ensemble_not_located(const motus_ensemble *);
-/* How many trajectories of all calls of motus_ensemble_run so far the interpreter computed before the ensemble went on
- * compiled; 0: none; -1: all of them. Machine, lanes and threads are those of the next trajectories. */
-MOTUS_API int64_t motus_ensemble_compiled_from(const motus_ensemble *);
-MOTUS_API int motus_ensemble_lanes(const motus_ensemble *);
-MOTUS_API int motus_ensemble_threads(const motus_ensemble *);
-/* Elapsed in the integration by all calls of motus_ensemble_run so far, without reading models and compiling. */
-MOTUS_API double motus_ensemble_seconds(const motus_ensemble *);
+/* What an ensemble is, and what its trajectories so far have taken. Machine, lanes and threads are those of the next
+ * trajectories. `method` and `not_located` live as long as the ensemble, `note` until its next call. */
+typedef struct motus_ensemble_statistics {
+    uint32_t size; /* by motus_default_ensemble_statistics() */
+    int absolute;  /* 1: tolerance and accuracy are absolute */
+    const char *method;
+    const char *machine;
+    const char *note;        /* why it uses no faster machine, or "" */
+    const char *not_located; /* why steps lead across switches where the definition leaves it to the library, or "" */
+    int64_t steps;           /* of each trajectory; 0 where they differ */
+    double tolerance;        /* of an adaptive method, with an accuracy the first one; NaN: steps have one size */
+    double accuracy;         /* what every trajectory is to keep to; NaN: none is asked for */
+    /* How many trajectories of all calls of motus_ensemble_run so far the interpreter computed before the ensemble
+     * went on compiled; 0: none; -1: all of them. */
+    int64_t compiled_from;
+    double seconds; /* elapsed in the integration by all these calls, without reading models and compiling */
+    int lanes, threads;
+    /* LOCATE: steps end where a switch of the force changes its side. STEP: they lead across. USUAL: the force has no
+     * switches, or none that the library can see, since it comes from C. */
+    motus_switches switches;
+    int unused;
+} motus_ensemble_statistics;
+MOTUS_DEFAULT_FUNCTION(ensemble_statistics, ENSEMBLE_STATISTICS, motus_ensemble_statistics)
+MOTUS_API motus_status motus_ensemble_statistics_of(const motus_ensemble *, motus_ensemble_statistics *);
+/* Returns them, to ask for one: motus_ensemble_now(ensemble).lanes. */
+static inline motus_ensemble_statistics motus_ensemble_now(const motus_ensemble *ensemble)
+{
+    motus_ensemble_statistics now = motus_default_ensemble_statistics();
+    motus_ensemble_statistics_of(ensemble, &now);
+    return now;
+}
 
 /* 7. Studies ----------------------------------------------------------------------------------------------------- */
 
@@ -1201,6 +1261,7 @@ typedef struct motus_study_def {
     int absolute;        /* 1: these accuracies are in the units of the numbers themselves; 0: relative */
     int repeats;         /* motus_rank: how often each run is timed, at least; 0: three times */
 } motus_study_def;
+MOTUS_DEFAULT_FUNCTION(study, STUDY, motus_study_def)
 
 typedef struct motus_drift { /* the error of one invariant along a run (of its numbers the largest) */
     const char *name;
@@ -1340,55 +1401,6 @@ MOTUS_API double motus_reference_error(const motus_reference *);
 MOTUS_API const char *motus_reference_name(const motus_reference *); /* "exact", or "gauss6 at step 0.00125" */
 MOTUS_API void motus_reference_destroy(motus_reference *);
 
-/* 8. Defaults ---------------------------------------------------------------------------------------------------- */
-
-typedef enum motus_def_kind {
-    MOTUS_DEF_ERROR,
-    MOTUS_DEF_TEXT,
-    MOTUS_DEF_CALLBACK,
-    MOTUS_DEF_RUN,
-    MOTUS_DEF_STUDY,
-    MOTUS_DEF_ENSEMBLE,
-    MOTUS_DEF_VARIABLE,
-    MOTUS_DEF_COLUMN,
-    MOTUS_DEF_PARAMETER,
-    MOTUS_DEF_INITIAL,
-    MOTUS_DEF_SETTINGS,
-    MOTUS_DEF_ANALYSIS,
-    MOTUS_DEF_STATEMENT,
-    MOTUS_DEF_STATISTICS,
-    MOTUS_DEF_ESTIMATE,
-    MOTUS_DEF_EVENT_ROW,
-    MOTUS_DEF_SWITCH
-} motus_def_kind;
-/* Fills in the first `size` bytes of a struct with its defaults; the functions below pass the size of this header.
- * Bytes beyond the library's own size become zero, and so does a struct that it does not know. */
-MOTUS_API void motus_default(motus_def_kind, void *made, uint32_t size);
-
-#define MOTUS_DEFAULT_FUNCTION(name, KIND, type)                       \
-    static inline type motus_default_##name(void)                      \
-    {                                                                  \
-        type made;                                                     \
-        motus_default(MOTUS_DEF_##KIND, &made, (uint32_t)sizeof made); \
-        return made;                                                   \
-    }
-MOTUS_DEFAULT_FUNCTION(error, ERROR, motus_error)
-MOTUS_DEFAULT_FUNCTION(text, TEXT, motus_text_def)
-MOTUS_DEFAULT_FUNCTION(callback, CALLBACK, motus_callback_def)
-MOTUS_DEFAULT_FUNCTION(run, RUN, motus_run_def)
-MOTUS_DEFAULT_FUNCTION(study, STUDY, motus_study_def)
-MOTUS_DEFAULT_FUNCTION(ensemble, ENSEMBLE, motus_ensemble_def)
-MOTUS_DEFAULT_FUNCTION(variable, VARIABLE, motus_variable)
-MOTUS_DEFAULT_FUNCTION(column, COLUMN, motus_column)
-MOTUS_DEFAULT_FUNCTION(parameter, PARAMETER, motus_parameter)
-MOTUS_DEFAULT_FUNCTION(initial, INITIAL, motus_initial)
-MOTUS_DEFAULT_FUNCTION(settings, SETTINGS, motus_settings)
-MOTUS_DEFAULT_FUNCTION(analysis, ANALYSIS, motus_analysis)
-MOTUS_DEFAULT_FUNCTION(statement, STATEMENT, motus_statement)
-MOTUS_DEFAULT_FUNCTION(statistics, STATISTICS, motus_statistics)
-MOTUS_DEFAULT_FUNCTION(estimate, ESTIMATE, motus_estimate)
-MOTUS_DEFAULT_FUNCTION(event_row, EVENT_ROW, motus_event_row)
-MOTUS_DEFAULT_FUNCTION(switch, SWITCH, motus_switch)
 #undef MOTUS_DEFAULT_FUNCTION
 
 #ifdef __cplusplus

@@ -57,7 +57,7 @@ export interface Progress {
   readonly time: number; readonly steps: number; readonly last: number; readonly evaluations: number; readonly done: boolean; readonly refused: number;
   /** Where steps adapt 0 and NaN; elsewhere the tolerance is NaN. */
   readonly total: number; readonly step: number; readonly tolerance: number;
-  /** motus_statistics. */
+  /** motus_run_statistics. */
   readonly accuracy: number; readonly reached: number; readonly trials: number;
 }
 export interface Rows { readonly values: Float64Array; readonly rows: number; readonly problem: Problem | null }

@@ -217,7 +217,7 @@ static motus_status equal_work_step(compare *c, size_t k, const char *method, do
         *step = span / (double)n;
         motus_status status = study_run(s, method, *step, NAN, s->until, NULL, &run, &e);
         if (status == MOTUS_OK) status = motus_run_finish(run, &e);
-        double spent = run ? (double)motus_run_evaluations(run) : 0;
+        double spent = run ? (double)motus_run_now(run).evaluations : 0;
         motus_run_destroy(run);
         if (study_fatal(status)) return row_failed(c, k, status, &e);
         /* If this run failed, the row's own run will fail too and report it. */
@@ -326,9 +326,10 @@ static motus_status make_row(compare *c, size_t k)
     motus_run *run = NULL;
     if ((status = study_run(s, method, row->step, NAN, s->until, NULL, &run, &e)) != MOTUS_OK)
         return row_failed(c, k, status, &e);
-    snprintf(c->out->texts[k].method, sizeof c->out->texts[k].method, "%s", motus_run_method(run));
-    int64_t per, total = motus_run_steps_total(run);
-    double last_step = fabs(motus_run_last_step(run));
+    const motus_run_statistics made = motus_run_now(run);
+    snprintf(c->out->texts[k].method, sizeof c->out->texts[k].method, "%s", made.method);
+    int64_t per, total = made.steps_total;
+    double last_step = made.shorter_last;
     c->facts[k].last_step = last_step;
     double full_steps = (double)(total - (last_step > 0));
     c->facts[k].expected = 0.5 * c->acceleration * (full_steps * row->step * row->step + last_step * last_step);
@@ -347,7 +348,7 @@ static motus_status make_row(compare *c, size_t k)
     }
     status = forward(c, k, run, &g, per, reference_rows, &e);
     row->steps = motus_run_steps(run);
-    row->evaluations = motus_run_evaluations(run);
+    row->evaluations = motus_run_now(run).evaluations;
     motus_run_destroy(run);
     if (status != MOTUS_OK) return row_failed(c, k, status, &e);
     motus_drift *drifts = c->out->drifts + k * c->invariants;

@@ -93,7 +93,7 @@ static motus_status follow(ladder *l, motus_run *run, ladder_point *p, motus_err
         status = go(l, run, part, p->setting, e);
         l->s->walking = NULL;
         if (status != MOTUS_OK || motus_run_steps(run) == before) continue;
-        if (cost(l, (double)motus_run_steps(run), (double)motus_run_evaluations(run)) > l->most)
+        if (cost(l, (double)motus_run_steps(run), (double)motus_run_now(run).evaluations) > l->most)
             return fail(e, MOTUS_SOLVE, "it takes too much work");
         status = study_state(l->s, run, l->y, e);
         if (status == MOTUS_OK) status = truth_measure(l->s, l->t, motus_run_time(run), l->y, &d, e);
@@ -103,7 +103,7 @@ static motus_status follow(ladder *l, motus_run *run, ladder_point *p, motus_err
         if (!(worst.relative < LEFT)) return MOTUS_OK; /* the error stays INFINITY */
     }
     p->steps = motus_run_steps(run);
-    p->evaluations = motus_run_evaluations(run);
+    p->evaluations = motus_run_now(run).evaluations;
     if (status == MOTUS_OK) p->error = l->absolute ? worst.absolute : worst.relative;
     return status;
 }

@@ -79,7 +79,7 @@ motus_status paced_measure(paced *p, const char *method, motus_point *point, int
         if (status == MOTUS_OK && before != motus_run_time(run)) status = judge(p, run, before, point, e);
     }
     *steps = run ? motus_run_steps(run) : 0;
-    point->evaluations = run ? motus_run_evaluations(run) : 0;
+    point->evaluations = run ? motus_run_now(run).evaluations : 0;
     point->step = *steps > 0 ? fabs(g->until - g->from) / (double)*steps : NAN;
     motus_run_destroy(run);
     if (s->cancelled || study_fatal(status)) return study_tell(s, status, e);

@@ -341,7 +341,7 @@ static motus_status find_machine(rank *r)
     s->machine = r->def.machine ? r->def.machine : "interpreter";
     const motus_status status =
         study_run(s, STUDY_SIMPLEST, fabs(s->until - s->from) / TRUTH_TIMES, NAN, s->until, NULL, &run, s->err);
-    if (status == MOTUS_OK) snprintf(r->out->machine, sizeof r->out->machine, "%s", motus_run_machine(run));
+    if (status == MOTUS_OK) snprintf(r->out->machine, sizeof r->out->machine, "%s", motus_run_now(run).machine);
     motus_run_destroy(run);
     return status;
 }

@@ -45,7 +45,7 @@ typedef struct candidate {
     const motus_method *card;
     double step;
     double x, v, scaled; /* the estimated error; scaled: NaN if there is none */
-    int64_t jump;        /* as in motus_statistics, of the finest run */
+    int64_t jump;        /* as in motus_run_statistics, of the finest run */
     double jump_time, jump_rounding, jump_power;
     bool over;                   /* a run was given up, since it took too long */
     double work;                 /* of all its runs */

@@ -91,7 +91,7 @@ static motus_status tick(study *s, double fraction)
 /* Returns whether the present walk has cost more than its limit. */
 static bool over(const study *s)
 {
-    return s->limit > 0 && s->walking && (double)motus_run_evaluations(s->walking) > s->limit;
+    return s->limit > 0 && s->walking && (double)motus_run_now(s->walking).evaluations > s->limit;
 }
 
 static int hook(void *context, double fraction)
@@ -203,8 +203,8 @@ motus_status study_open(study *s, motus_system *system, const motus_study_def *d
     if (status == MOTUS_OK) status = study_state(s, run, s->start, err);
     if (status == MOTUS_OK) {
         s->from = motus_run_time(run);
-        s->total = motus_run_steps_total(run);
-        s->last_step = fabs(motus_run_last_step(run));
+        s->total = motus_run_now(run).steps_total;
+        s->last_step = motus_run_now(run).shorter_last;
     }
     if (status == MOTUS_OK) status = refuse_undeclared(run, err);
     motus_run_destroy(run);
@@ -341,9 +341,8 @@ motus_status study_walk(study *s, const char *method, const study_grid *g, int64
     for (size_t k = done * s->numbers; k < g->points * s->numbers; k++) out[k] = NAN;
     if (run) {
         cost->steps = motus_run_steps(run);
-        cost->evaluations = motus_run_evaluations(run);
-        motus_statistics did = motus_default_statistics();
-        motus_run_statistics(run, &did);
+        const motus_run_statistics did = motus_run_now(run);
+        cost->evaluations = did.evaluations;
         cost->jump = did.jump;
         cost->jump_time = did.jump_time;
         cost->jump_rounding = did.jump_rounding;
@@ -362,7 +361,7 @@ motus_status study_leg(study *s, const char *method, double step, double from, d
     s->walking = run;
     if (status == MOTUS_OK) status = motus_run_finish(run, err);
     if (status == MOTUS_OK) status = study_state(s, run, y, err);
-    if (run) *spent += motus_run_evaluations(run);
+    if (run) *spent += motus_run_now(run).evaluations;
     if (over(s) && !s->cancelled) status = MOTUS_SOLVE;
     s->walking = NULL;
     motus_run_destroy(run);

@@ -59,7 +59,7 @@ typedef struct study_cost {
     int64_t steps, evaluations;
     double seconds;
     bool over;    /* the walk gave up at study.limit */
-    int64_t jump; /* as in motus_statistics */
+    int64_t jump; /* as in motus_run_statistics */
     double jump_time, jump_rounding, jump_power;
 } study_cost;
 

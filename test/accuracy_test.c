@@ -58,13 +58,6 @@ static motus_run_def wanted(const char *method, double accuracy, double until)
     return def;
 }
 
-static motus_statistics done(const motus_run *r)
-{
-    motus_statistics d = motus_default_statistics();
-    assert_int_equal(motus_run_statistics(r, &d), MOTUS_OK);
-    return d;
-}
-
 /* ---- claims ---- */
 
 /* The largest position, and the largest velocity, up to now. */
@@ -126,12 +119,12 @@ static void no_false_claim(void **state)
                 motus_run *r = NULL;
                 const motus_status status = made(s, &def, &r, &err);
                 if (status != MOTUS_ACCURACY) must(status, &err, m->name);
-                const motus_statistics d = done(r);
+                const motus_run_statistics d = motus_run_now(r);
                 const bool claimed = status == MOTUS_OK;
                 assert_true(motus_run_done(r) && d.accuracy == accuracies[a] && d.trials >= 1);
                 assert_true(claimed == (d.reached <= d.accuracy));
                 if (!keeps(m, s, r, &size, claimed ? d.accuracy : d.reached))
-                    fail_msg("%s by %s to %g: %s, but the truth is farther away", m->name, motus_run_method(r),
+                    fail_msg("%s by %s to %g: %s, but the truth is farther away", m->name, motus_run_now(r).method,
                              accuracies[a], claimed ? "claimed" : "not reached");
                 met += claimed, missed += !claimed, tries += d.trials;
                 /* the method that chooses itself gets there */
@@ -162,9 +155,10 @@ static void tolerances_beyond_the_longest_steps(void **state)
             def.method = methods[k], def.tolerance = i < 2 ? told : told / 2, def.machine = "interpreter";
             must(motus_run_create(s, &def, &runs[i], &err), &err, methods[k]);
             finish(runs[i]);
-            if (i == 0) told = done(runs[0]).tolerance;
+            if (i == 0) told = motus_run_now(runs[0]).tolerance;
         }
-        assert_true(told < 0.5 && done(runs[1]).tolerance == told && done(runs[2]).tolerance == told / 2);
+        assert_true(told < 0.5 && motus_run_now(runs[1]).tolerance == told &&
+                    motus_run_now(runs[2]).tolerance == told / 2);
         same_state(s, runs[0], runs[1], "the longest steps");
         assert_true(motus_run_steps(runs[2]) > motus_run_steps(runs[1]));
         for (int i = 0; i < 3; i++) motus_run_destroy(runs[i]);
@@ -172,7 +166,7 @@ static void tolerances_beyond_the_longest_steps(void **state)
         motus_run_def def = wanted(methods[k], 1e-5, NAN);
         motus_run *r = NULL;
         must(made(s, &def, &r, &err), &err, methods[k]);
-        assert_true(done(r).reached <= 1e-5 && done(r).tolerance <= told);
+        assert_true(motus_run_now(r).reached <= 1e-5 && motus_run_now(r).tolerance <= told);
         motus_run_destroy(r);
     }
     motus_system_destroy(s);
@@ -189,7 +183,7 @@ static void absolute_accuracy(void **state)
     def.absolute = 1;
     must(made(s, &def, &r, &err), &err, "absolute");
     const sizes one = {1, 1};
-    assert_true(done(r).absolute == 1 && done(r).reached <= 1e-6);
+    assert_true(motus_run_now(r).absolute == 1 && motus_run_now(r).reached <= 1e-6);
     assert_true(keeps(m, s, r, &one, 1e-6));
     motus_run_destroy(r);
     motus_system_destroy(s);
@@ -210,24 +204,24 @@ static void nothing_but_the_equation(void **state)
     double at, bar;
     must(motus_run_errors(r, &x, 1, &at, &bar, &err), &err, "error");
     assert_true(fabs(at - motions[0].truth[0]) <= bar && bar <= 1e-9);
-    assert_true(done(r).accuracy == 1e-9 && !done(r).absolute);
-    assert_non_null(strstr(motus_run_choice(r), motus_run_method(r)));
+    assert_true(motus_run_now(r).accuracy == 1e-9 && !motus_run_now(r).absolute);
+    assert_non_null(strstr(motus_run_now(r).choice, motus_run_now(r).method));
     motus_run_destroy(r);
     /* a step that is given makes it verlet, as ever */
     def.step = 0.01;
     must(made(s, &def, &r, &err), &err, "step");
-    assert_string_equal(motus_run_method(r), "verlet");
-    assert_true(isnan(done(r).accuracy) && !*motus_run_choice(r));
+    assert_string_equal(motus_run_now(r).method, "verlet");
+    assert_true(isnan(motus_run_now(r).accuracy) && !*motus_run_now(r).choice);
     motus_run_destroy(r);
     /* so does a model with a method and a step, unless the caller wants an accuracy */
     motus_system *other = given_model("driven-oscillator.motus", NULL, 0);
     def.step = NAN;
     must(made(other, &def, &r, &err), &err, "model");
-    assert_string_equal(motus_run_method(r), "verlet");
+    assert_string_equal(motus_run_now(r).method, "verlet");
     motus_run_destroy(r);
     def.accuracy = 1e-8;
     must(made(other, &def, &r, &err), &err, "accuracy");
-    assert_true(*motus_run_choice(r) && done(r).reached <= 1e-8);
+    assert_true(*motus_run_now(r).choice && motus_run_now(r).reached <= 1e-8);
     motus_run_destroy(r);
     motus_system_destroy(other);
     motus_system_destroy(s);
@@ -245,18 +239,20 @@ static void settings_of_a_model(void **state)
     motus_settings_of(s, &set);
     assert_true(set.accuracy == 1e-5 && set.absolute && isnan(set.tolerance));
     must(made(s, &def, &r, &err), &err, "accuracy of a model");
-    assert_true(!strcmp(motus_run_method(r), "dopri5") && done(r).absolute && done(r).reached <= 1e-5);
+    assert_true(!strcmp(motus_run_now(r).method, "dopri5") && motus_run_now(r).absolute &&
+                motus_run_now(r).reached <= 1e-5);
     assert_true(fabs(value(s, r, "x") - cos(10)) <= 1e-5);
     motus_run_destroy(r);
     def.accuracy = 1e-9; /* another number, the model's method */
     must(made(s, &def, &r, &err), &err, "another accuracy");
-    assert_true(!strcmp(motus_run_method(r), "dopri5") && !done(r).absolute && done(r).accuracy == 1e-9);
+    assert_true(!strcmp(motus_run_now(r).method, "dopri5") && !motus_run_now(r).absolute &&
+                motus_run_now(r).accuracy == 1e-9);
     motus_run_destroy(r);
     motus_system_destroy(s);
     s = given_text("x'' = -x; x(0) = 1; x'(0) = 0; until 10; method auto; tolerance 1e-7");
     def.accuracy = NAN;
     must(made(s, &def, &r, &err), &err, "auto by a tolerance");
-    assert_true(*motus_run_choice(r) && done(r).tolerance == 1e-7 && isnan(done(r).accuracy));
+    assert_true(*motus_run_now(r).choice && motus_run_now(r).tolerance == 1e-7 && isnan(motus_run_now(r).accuracy));
     motus_run_destroy(r);
     motus_system_destroy(s);
 }
@@ -275,8 +271,8 @@ static void the_bits_of_its_method(void **state)
             motus_run_def def = wanted("auto", 1e-8, motions[i].until);
             if (observed) def.observer = widen, def.context = &unused; /* the trial's end is not taken over */
             must(made(s, &def, &found, &err), &err, motions[i].name);
-            motus_run_def same = wanted(motus_run_method(found), NAN, motions[i].until);
-            same.tolerance = done(found).tolerance;
+            motus_run_def same = wanted(motus_run_now(found).method, NAN, motions[i].until);
+            same.tolerance = motus_run_now(found).tolerance;
             must(made(s, &same, &named, &err), &err, motions[i].name);
             double a[2][8], e[2][8];
             size_t columns[8], n = 0;
@@ -286,7 +282,7 @@ static void the_bits_of_its_method(void **state)
             assert_memory_equal(a[0], a[1], n * sizeof **a);
             assert_memory_equal(e[0], e[1], n * sizeof **e);
             assert_true(motus_run_steps(found) == motus_run_steps(named));
-            assert_true(done(found).shortest_step == done(named).shortest_step);
+            assert_true(motus_run_now(found).shortest_step == motus_run_now(named).shortest_step);
             motus_run_destroy(found);
             motus_run_destroy(named);
             motus_system_destroy(s);
@@ -301,7 +297,7 @@ static void goes_on_compiled(void **state)
     motus_system *s = given_text(motions[4].text);
     enum { TIMES = 2000, NUMBERS = 2 };
     static double times[TIMES], a[2][TIMES][NUMBERS], e[2][TIMES][NUMBERS];
-    motus_statistics d[2];
+    motus_run_statistics d[2];
     motus_error err = motus_default_error();
     const size_t columns[NUMBERS] = {column(s, "x"), column(s, "y'")};
     for (int k = 0; k < TIMES; k++) times[k] = 10 * (k + 1);
@@ -311,13 +307,13 @@ static void goes_on_compiled(void **state)
         def.tolerance = 1e-13;
         def.machine = compiled ? "auto" : "interpreter";
         must(motus_run_create(s, &def, &r, &err), &err, "run");
-        assert_string_equal(motus_run_machine(r), "interpreter");
+        assert_string_equal(motus_run_now(r).machine, "interpreter");
         if (compiled) must(later_at(r, 300, &err), &err, "later");
         must(motus_run_sample_errors(r, times, TIMES, columns, NUMBERS, a[compiled][0], e[compiled][0], &err), &err,
              "sample");
         must(motus_run_finish(r, &err), &err, "finish");
-        d[compiled] = done(r);
-        if (compiled && !*motus_run_note(r)) assert_string_equal(motus_run_machine(r), "compiled");
+        d[compiled] = motus_run_now(r);
+        if (compiled && !*motus_run_now(r).note) assert_string_equal(motus_run_now(r).machine, "compiled");
         motus_run_destroy(r);
     }
     assert_memory_equal(a[0], a[1], sizeof a[0]);
@@ -345,9 +341,9 @@ static void suits_the_force(void **state)
             motus_run *r = NULL;
             def.machine = compiled ? "auto" : "interpreter";
             must(motus_run_create(s, &def, &r, &err), &err, forces[i].text);
-            assert_non_null(strstr(forces[i].methods, motus_run_method(r)));
-            if (compiled) assert_string_equal(first, motus_run_method(r));
-            snprintf(first, sizeof first, "%s", motus_run_method(r));
+            assert_non_null(strstr(forces[i].methods, motus_run_now(r).method));
+            if (compiled) assert_string_equal(first, motus_run_now(r).method);
+            snprintf(first, sizeof first, "%s", motus_run_now(r).method);
             motus_run_destroy(r);
             motus_system_destroy(s);
         }
@@ -374,7 +370,7 @@ static void callbacks(void **state)
     motus_run_def def = wanted(NULL, NAN, 100);
     motus_run *r = NULL;
     must(made(s, &def, &r, &err), &err, "callback");
-    assert_true(done(r).accuracy == 1e-9 && strcmp(motus_run_method(r), "taylor") != 0);
+    assert_true(motus_run_now(r).accuracy == 1e-9 && strcmp(motus_run_now(r).method, "taylor") != 0);
     double x;
     must(motus_run_state(r, &x, NULL, &err), &err, "state");
     assert_true(fabs(x - motions[0].truth[0]) <= 1e-9);
@@ -392,7 +388,7 @@ static void out_of_reach(void **state)
     motus_system *s = given_text(motions[0].text);
     motus_run_def def = wanted(NULL, 1e-15, 100);
     assert_int_equal(made(s, &def, &r, &err), MOTUS_ACCURACY);
-    assert_true(motus_run_done(r) && done(r).reached > 1e-15 && done(r).reached < 1e-12);
+    assert_true(motus_run_done(r) && motus_run_now(r).reached > 1e-15 && motus_run_now(r).reached < 1e-12);
     assert_non_null(strstr(err.message, "the accuracy 1e-15 is not reached: the trials reached"));
     assert_int_equal(motus_run_step(r, 1, &err), MOTUS_ACCURACY); /* and whenever the run is at its end */
     assert_true(fabs(value(s, r, "x") - motions[0].truth[0]) < 1e-12);
@@ -402,7 +398,7 @@ static void out_of_reach(void **state)
     def = wanted(NULL, 1e-6, 400);
     assert_int_equal(made(s, &def, &r, &err), MOTUS_ACCURACY);
     assert_non_null(strstr(err.message, "no digit of the answer is known to be significant after t = "));
-    assert_true(motus_run_done(r) && isinf(done(r).reached));
+    assert_true(motus_run_done(r) && isinf(motus_run_now(r).reached));
     motus_run_destroy(r);
     motus_system_destroy(s);
     s = given_text("x'' = 1/x^2; x(0) = 1; x'(0) = -3"); /* turns at 1/5.5, without harm */
@@ -442,8 +438,9 @@ static void infinite_slopes(void **state)
         must(made(s, &def, &r, &err), &err, text);
         assert_true(fabs(value(s, r, "x") + size) <= 1.01 * promise * size);
         assert_true(fabs(value(s, r, "x'")) <= 1.01 * promise * sqrt(1.5) * cbrt(size * size));
-        if (i >= 6 && strcmp(motus_run_method(r), "taylor") != 0 && !strstr(motus_run_choice(r), "needs the fewest"))
-            assert_non_null(strstr(motus_run_choice(r), "keeps to the accuracy, and taylor"));
+        if (i >= 6 && strcmp(motus_run_now(r).method, "taylor") != 0 &&
+            !strstr(motus_run_now(r).choice, "needs the fewest"))
+            assert_non_null(strstr(motus_run_now(r).choice, "keeps to the accuracy, and taylor"));
         motus_run_destroy(r);
         motus_system_destroy(s);
     }
@@ -488,12 +485,12 @@ static void the_part_of_decimals(void **state)
     if (!at || !strstr(err.message, "comes from the rounding of the model's decimals")) fail_msg("%s", err.message);
     const double told = strtod(at + strlen(words), NULL);
     motus_run_def like = wanted("taylor", NAN, 80);
-    like.tolerance = done(r).tolerance, like.observer = widen, like.context = &size;
+    like.tolerance = motus_run_now(r).tolerance, like.observer = widen, like.context = &size;
     must(made(beside, &like, &other, &err), &err, "beside");
     const double x = fabs(value(s, r, "x") - value(beside, other, "x")) / size.x,
                  v = fabs(value(s, r, "x'") - value(beside, other, "x'")) / size.v, most = fmax(x, v);
-    if (!(fabs(told - most) <= 0.06 * most && told > 1e-14 && told <= done(r).reached))
-        fail_msg("%g is told, and it is %g of %g", told, most, done(r).reached);
+    if (!(fabs(told - most) <= 0.06 * most && told > 1e-14 && told <= motus_run_now(r).reached))
+        fail_msg("%g is told, and it is %g of %g", told, most, motus_run_now(r).reached);
     motus_run_destroy(r);
     motus_run_destroy(other);
     motus_system_destroy(s);
@@ -612,8 +609,7 @@ static void held_in_balance(void **state)
     motus_run_destroy(r);
     def = wanted("dop853", 1e-9, 0.4);
     must(made(s, &def, &r, &err), &err, "an accuracy");
-    motus_statistics done = motus_default_statistics();
-    must(motus_run_statistics(r, &done), &err, "the accuracy");
+    const motus_run_statistics done = motus_run_now(r);
     assert_true(done.absolute && done.accuracy == 1e-9 && done.reached <= 1e-9);
     assert_true(motus_run_steps(r) < 100);
     motus_run_destroy(r);

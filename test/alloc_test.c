@@ -543,7 +543,7 @@ static motus_status suggested(motus_system *s, const char *method, uint64_t *res
     def.method = method;
     const motus_status status = motus_run_create(s, &def, &r, err);
     if (status != MOTUS_OK) assert_null(r);
-    const double numbers[] = {motus_run_step_size(r), (double)motus_run_steps_total(r)};
+    const double numbers[] = {motus_run_now(r).step, (double)motus_run_now(r).steps_total};
     *result = mix(1, numbers, status == MOTUS_OK ? sizeof numbers : 0);
     motus_run_destroy(r);
     return status;

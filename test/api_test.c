@@ -210,13 +210,23 @@ static void definitions_of_every_size(void **state)
 static void filled_structs_of_every_size(void **state)
 {
     (void)state;
+    static const uint32_t known[] = {[MOTUS_DEF_VARIABLE] = sizeof(motus_variable),
+                                     [MOTUS_DEF_COLUMN] = sizeof(motus_column),
+                                     [MOTUS_DEF_PARAMETER] = sizeof(motus_parameter),
+                                     [MOTUS_DEF_INITIAL] = sizeof(motus_initial),
+                                     [MOTUS_DEF_SETTINGS] = sizeof(motus_settings),
+                                     [MOTUS_DEF_ANALYSIS] = sizeof(motus_analysis),
+                                     [MOTUS_DEF_STATEMENT] = sizeof(motus_statement),
+                                     [MOTUS_DEF_RUN_STATISTICS] = sizeof(motus_run_statistics),
+                                     [MOTUS_DEF_ENSEMBLE_STATISTICS] = sizeof(motus_ensemble_statistics)};
     motus_system *s = given_text(spring);
-    for (int kind = MOTUS_DEF_VARIABLE; kind <= MOTUS_DEF_STATEMENT; kind++) {
-        static const uint32_t known[] = {
-            [MOTUS_DEF_VARIABLE] = sizeof(motus_variable),   [MOTUS_DEF_COLUMN] = sizeof(motus_column),
-            [MOTUS_DEF_PARAMETER] = sizeof(motus_parameter), [MOTUS_DEF_INITIAL] = sizeof(motus_initial),
-            [MOTUS_DEF_SETTINGS] = sizeof(motus_settings),   [MOTUS_DEF_ANALYSIS] = sizeof(motus_analysis),
-            [MOTUS_DEF_STATEMENT] = sizeof(motus_statement)};
+    motus_run *run = given_run(s, "verlet", 0.1, 1);
+    motus_ensemble_def def = motus_default_ensemble();
+    motus_ensemble *ensemble = NULL;
+    def.record_count = 1, def.records = &(motus_record){MOTUS_REDUCE_FINAL, 1}, def.step = 0.1, def.until = 1;
+    assert_int_equal(motus_ensemble_create(s, &def, &ensemble, NULL), MOTUS_OK);
+    for (size_t kind = 0; kind < sizeof known / sizeof *known; kind++) {
+        if (!known[kind]) continue;
         const uint32_t now = known[kind], sizes[] = {0, 8, now - 4, now, now + 32};
         for (size_t i = 0; i < sizeof sizes / sizeof *sizes; i++) {
             union {
@@ -227,6 +237,8 @@ static void filled_structs_of_every_size(void **state)
                 motus_settings s;
                 motus_analysis a;
                 motus_statement t;
+                motus_run_statistics r;
+                motus_ensemble_statistics e;
                 unsigned char bytes[1024];
             } u;
             memset(&u, 0xA5, sizeof u);
@@ -240,7 +252,10 @@ static void filled_structs_of_every_size(void **state)
                                         : kind == MOTUS_DEF_INITIAL   ? motus_initial_at(s, 0, &u.i)
                                         : kind == MOTUS_DEF_SETTINGS  ? motus_settings_of(s, &u.s)
                                         : kind == MOTUS_DEF_ANALYSIS  ? motus_analysis_of(s, &u.a)
-                                                                      : motus_statement_at(s, 0, &u.t);
+                                        : kind == MOTUS_DEF_STATEMENT ? motus_statement_at(s, 0, &u.t)
+                                        : kind == MOTUS_DEF_RUN_STATISTICS
+                                            ? motus_run_statistics_of(run, &u.r)
+                                            : motus_ensemble_statistics_of(ensemble, &u.e);
             assert_int_equal(status, sizes[i] >= now ? MOTUS_OK : MOTUS_ARGUMENT);
             if (status != MOTUS_OK)
                 assert_memory_equal(&u, before, sizeof u);
@@ -252,6 +267,11 @@ static void filled_structs_of_every_size(void **state)
     }
     assert_int_equal(motus_settings_of(s, NULL), MOTUS_ARGUMENT);
     assert_int_equal(motus_analysis_of(s, NULL), MOTUS_ARGUMENT);
+    assert_int_equal(motus_run_statistics_of(run, NULL), MOTUS_ARGUMENT);
+    assert_int_equal(motus_ensemble_statistics_of(ensemble, NULL), MOTUS_ARGUMENT);
+    assert_string_equal(motus_run_now(NULL).method, "");
+    motus_ensemble_destroy(ensemble);
+    motus_run_destroy(run);
     motus_system_destroy(s);
 }
 

@@ -89,9 +89,9 @@ static void text_and_callback_give_the_same_bits(void **state)
         assert_int_equal(n, 2);
         if (memcmp(y, z, sizeof(double[2])))
             fail_msg("%s: %a, %a from the text, %a, %a from the callback", method, y[0], y[1], z[0], z[1]);
-        assert_int_equal(motus_run_evaluations(p), motus_run_evaluations(q));
-        assert_string_equal(motus_run_machine(p), "interpreter");
-        assert_string_equal(motus_run_machine(q), "callback");
+        assert_int_equal(motus_run_now(p).evaluations, motus_run_now(q).evaluations);
+        assert_string_equal(motus_run_now(p).machine, "interpreter");
+        assert_string_equal(motus_run_now(q).machine, "callback");
         free(y);
         free(z);
         motus_run_destroy(p);
@@ -117,15 +117,14 @@ static void calls_are_counted(void **state)
         if (motus_method_admits(c, m->name, NULL) == MOTUS_OK) {
             motus_run *r = given_run(c, m->name, 0.01, 0.01 * STEPS);
             take_steps(r, STEPS);
-            const int64_t calls = o.calls, used = motus_run_evaluations(r);
+            const int64_t calls = o.calls, used = motus_run_now(r).evaluations;
             double x[2], v[2];
             assert_true(calls == used || calls == used + 1);
             assert_int_equal(motus_run_state(r, x, v, NULL), MOTUS_OK);
             assert_int_equal(o.calls, calls);
             /* the count of an extrapolation is that of its declared order, and the laws test it line by line */
             if (m->evaluations && strcmp(m->family, "extrapolation") != 0) {
-                motus_statistics done = motus_default_statistics();
-                motus_run_statistics(r, &done);
+                const motus_run_statistics done = motus_run_now(r);
                 /* a refused step of an adaptive method evaluates all stages but the first again */
                 int64_t more = used - (int64_t)m->evaluations * STEPS - (int64_t)m->evaluations * done.refused;
                 /* reversible steps begin with a look at the time scale, before and after the start */
@@ -164,7 +163,7 @@ static void difference_quotients_stand_in_for_a_derivative(void **state)
         near(value(q, quotient, "x"), value(s, given, "x"), bound, methods[i]);
         near(value(q, quotient, "x'"), value(s, given, "x'"), bound, methods[i]);
         /* With an inexact derivative Newton's method takes few more iterations. */
-        assert_true(motus_run_iterations(quotient) <= 2 * motus_run_iterations(derived));
+        assert_true(motus_run_now(quotient).iterations <= 2 * motus_run_now(derived).iterations);
         motus_run_destroy(given);
         motus_run_destroy(derived);
         motus_run_destroy(quotient);
@@ -247,7 +246,7 @@ static void nonlinear_velocity_terms_and_first_order_variables(void **state)
         finish(derived);
         finish(quotient);
         /* before anything is observed; the verlets have evaluated the acceleration of the last state already */
-        if (strncmp(methods[i], "verlet", 6)) assert_int_equal(motus_run_evaluations(quotient), without.calls);
+        if (strncmp(methods[i], "verlet", 6)) assert_int_equal(motus_run_now(quotient).evaluations, without.calls);
         static const char *const names[][2] = {{"x", "x[1]"},   {"y", "x[2]"}, {"x'", "x[1]'"},
                                                {"y'", "x[2]'"}, {"s", "s"},    {"e", "invariant"}};
         /* 500 steps; the literal recurrence rounds full positions, not increments, and divides by h^2 at the end of
@@ -309,7 +308,7 @@ static void linear_velocity_terms_take_one_step(void **state)
         motus_run *p = given_run(c, "verlet", 0.01, 10), *q = given_run(s, "verlet", 0.01, 10);
         finish(p);
         finish(q);
-        assert_int_equal(motus_run_iterations(p), 0);
+        assert_int_equal(motus_run_now(p).iterations, 0);
         near(value(c, p, "x"), value(s, q, "x"), 1000 * 4 * ROUNDING, "x");
         near(value(c, p, "x'"), value(s, q, "x'"), 1000 * 4 * ROUNDING, "x'");
         motus_run_destroy(p);

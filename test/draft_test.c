@@ -115,7 +115,7 @@ static void proposed(void **state)
             wrong++, print_error("%s: step %.17g (%s), until %.17g (%s)\n", proposals[k].text, set.step, set.step_why,
                                  set.until, set.until_why);
         motus_run *r = given_run(s, "verlet", NAN, NAN); /* runs take the same */
-        assert_true(motus_run_step_size(r) == fabs(set.step) || set.until < 0 || motus_run_steps_total(r) == 0);
+        assert_true(motus_run_now(r).step == fabs(set.step) || set.until < 0 || motus_run_now(r).steps_total == 0);
         motus_run_destroy(r);
         motus_system *copy = NULL;
         must(motus_system_clone(s, &copy, NULL), NULL, "clone");

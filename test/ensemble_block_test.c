@@ -127,8 +127,8 @@ static void blocks_are_trajectories(void **state)
             motus_ensemble *blocks = given_ensemble(s, &def, method);
             def.threads = 0;
             motus_ensemble *singles = given_ensemble(one, &def, method);
-            assert_int_equal(motus_ensemble_threads(singles), 1);
-            assert_string_equal(motus_ensemble_machine(blocks), "callback");
+            assert_int_equal(motus_ensemble_now(singles).threads, 1);
+            assert_string_equal(motus_ensemble_now(blocks).machine, "callback");
             const size_t some = f ? 37 : COUNT;
             outcome a = go(blocks, some, count, list, method), b = go(singles, some, count, list, method);
             same_outcome(&a, &b, method);
@@ -305,8 +305,8 @@ static void threads_of_models(void **state)
             def.vary_count = 2;
             def.machine = machines[m];
             motus_ensemble *e = given_ensemble(s, &def, "threads");
-            assert_int_equal(motus_ensemble_threads(e), threads);
-            assert_string_equal(motus_ensemble_machine(e), machines[m]);
+            assert_int_equal(motus_ensemble_now(e).threads, threads);
+            assert_string_equal(motus_ensemble_now(e).machine, machines[m]);
             for (int round = 0; round < 2; round++) {
                 outcome o = go(e, round ? 1 : SOME, 3, values, "threads");
                 if (threads == 1 && round == 0) {

@@ -56,7 +56,7 @@ static told compute(const task *t)
     const motus_ensemble_def def = definition(t);
     fill(t, values);
     motus_ensemble *e = given_ensemble(s, &def, t->method);
-    if (t->lanes && motus_ensemble_lanes(e) != t->lanes) fail_msg("%s: %s", t->method, motus_ensemble_note(e));
+    if (t->lanes && motus_ensemble_now(e).lanes != t->lanes) fail_msg("%s: %s", t->method, motus_ensemble_now(e).note);
     told o = {room_for(COUNT, t->count), room_for(COUNT, t->count)};
     must(motus_ensemble_run_errors(e, COUNT, list, o.values.at, o.errors.at, o.values.stopped, &err), &err, t->method);
     outcome plain = go(e, COUNT, t->count, list, t->method);

@@ -106,8 +106,8 @@ static outcome *compute(const subject *u, const char *method, const char *machin
     def.causes = 1;
     def.most_steps = u->most_steps;
     must(motus_ensemble_create(s, &def, &e, &err), &err, u->text);
-    if (lanes && motus_ensemble_lanes(e) != lanes)
-        fail_msg("%s: %d lanes, not %d: %s", method, motus_ensemble_lanes(e), lanes, motus_ensemble_note(e));
+    if (lanes && motus_ensemble_now(e).lanes != lanes)
+        fail_msg("%s: %d lanes, not %d: %s", method, motus_ensemble_now(e).lanes, lanes, motus_ensemble_now(e).note);
     double values[VARIED][COUNT];
     for (size_t i = 0; i < VARIED; i++)
         for (size_t k = 0; k < COUNT; k++) {
@@ -204,8 +204,9 @@ static void others(void **state)
         def.records = &record, def.record_count = 1;
         def.method = all[k].method, def.machine = "compiled", def.until = 3;
         must(motus_ensemble_create(s, &def, &e, &err), &err, all[k].text);
-        assert_int_equal(motus_ensemble_lanes(e), 1);
-        if (!strstr(motus_ensemble_note(e), all[k].why)) fail_msg("%s: %s", all[k].text, motus_ensemble_note(e));
+        assert_int_equal(motus_ensemble_now(e).lanes, 1);
+        if (!strstr(motus_ensemble_now(e).note, all[k].why))
+            fail_msg("%s: %s", all[k].text, motus_ensemble_now(e).note);
         motus_ensemble_destroy(e);
         motus_system_destroy(s);
     }

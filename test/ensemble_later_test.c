@@ -57,14 +57,14 @@ static told go_over(const task *t, int before)
     double *numbers[RECORDS], *errors[RECORDS];
     for (int r = 0; r < RECORDS; r++) numbers[r] = o.numbers[r], errors[r] = o.errors[r];
     if (before >= 0) ensemble_later_at(e, (size_t)before);
-    if (before >= 0) assert_string_equal(motus_ensemble_machine(e), "interpreter");
+    if (before >= 0) assert_string_equal(motus_ensemble_now(e).machine, "interpreter");
     memset(&o, 0, sizeof o);
     must(t->errors ? motus_ensemble_run_errors(e, COUNT, values, numbers, errors, o.stopped, &err)
                    : motus_ensemble_run(e, COUNT, values, numbers, o.stopped, &err),
          &err, t->method);
-    if (motus_ensemble_compiled_from(e) != (before < COUNT ? before : -1))
-        fail_msg("%s: compiled from %d, not %d", t->method, (int)motus_ensemble_compiled_from(e), before);
-    assert_string_equal(motus_ensemble_machine(e), before < 0 || before >= COUNT ? "interpreter" : "compiled");
+    if (motus_ensemble_now(e).compiled_from != (before < COUNT ? before : -1))
+        fail_msg("%s: compiled from %d, not %d", t->method, (int)motus_ensemble_now(e).compiled_from, before);
+    assert_string_equal(motus_ensemble_now(e).machine, before < 0 || before >= COUNT ? "interpreter" : "compiled");
     motus_ensemble_destroy(e);
     motus_system_destroy(s);
     return o;
@@ -129,14 +129,14 @@ static void the_compiler_is_slow(void **unused)
     motus_system *s = given_text(slow.text);
     for (int i = 0; i < 2; i++) { /* the second finds the object */
         motus_ensemble *e = create(s, &slow, "auto", &last, 1);
-        assert_int_equal(motus_ensemble_compiled_from(e), i ? 0 : -1);
-        while (motus_ensemble_compiled_from(e) < 0) {
+        assert_int_equal(motus_ensemble_now(e).compiled_from, i ? 0 : -1);
+        while (motus_ensemble_now(e).compiled_from < 0) {
             outcome o = whole(e);
             same_outcome(&o, known(), "slow");
             forget(&o);
         }
-        assert_true(motus_ensemble_lanes(e) > 1);
-        if (!i) assert_true(motus_ensemble_compiled_from(e) > 0);
+        assert_true(motus_ensemble_now(e).lanes > 1);
+        if (!i) assert_true(motus_ensemble_now(e).compiled_from > 0);
         outcome o = whole(e);
         same_outcome(&o, known(), "slow");
         forget(&o);
@@ -150,7 +150,7 @@ static void ends_in_the_interpreter(const char *note)
 {
     motus_system *s = given_text(slow.text);
     motus_ensemble *e = create(s, &slow, "auto", &last, 1);
-    while (!*motus_ensemble_note(e)) {
+    while (!*motus_ensemble_now(e).note) {
         outcome o = whole(e);
         same_outcome(&o, known(), note);
         forget(&o);
@@ -158,9 +158,9 @@ static void ends_in_the_interpreter(const char *note)
     outcome o = whole(e);
     same_outcome(&o, known(), note);
     forget(&o);
-    assert_string_equal(motus_ensemble_machine(e), "interpreter");
-    assert_int_equal(motus_ensemble_compiled_from(e), -1);
-    if (!strstr(motus_ensemble_note(e), note)) fail_msg("%s: the note is \"%s\"", note, motus_ensemble_note(e));
+    assert_string_equal(motus_ensemble_now(e).machine, "interpreter");
+    assert_int_equal(motus_ensemble_now(e).compiled_from, -1);
+    if (!strstr(motus_ensemble_now(e).note, note)) fail_msg("%s: the note is \"%s\"", note, motus_ensemble_now(e).note);
     motus_ensemble_destroy(e);
     motus_system_destroy(s);
     nothing_is_left(note);
@@ -232,10 +232,10 @@ static void who_starts_a_compiler(void **unused)
         def.vary = names, def.vary_count = 2, def.records = &last, def.record_count = 1, def.method = "rk4";
         def.step = 0.01, def.machine = cases[i].machine, def.expected = cases[i].expected, def.fast = cases[i].fast;
         motus_ensemble *e = given_ensemble(s, &def, "who");
-        assert_string_equal(motus_ensemble_machine(e), cases[i].at_first);
+        assert_string_equal(motus_ensemble_now(e).machine, cases[i].at_first);
         outcome o = go(e, COUNT, 1, values, "who");
         forget(&o);
-        assert_string_equal(motus_ensemble_machine(e), cases[i].at_first);
+        assert_string_equal(motus_ensemble_now(e).machine, cases[i].at_first);
         assert_int_equal(calls(), cases[i].calls);
         motus_ensemble_destroy(e);
         motus_system_destroy(s);

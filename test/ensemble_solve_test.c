@@ -52,7 +52,7 @@ static void ask(const question *q, size_t k, double steps, int64_t every)
     motus_ensemble *fast = given_ensemble(s, &def, q->method);
     snprintf(what, sizeof what, "%s, %g steps, every %lld, %d lanes: %s", q->method, steps, (long long)every, lanes,
              q->text);
-    if (motus_ensemble_note(fast)[0]) fail_msg("%s: %s", what, motus_ensemble_note(fast));
+    if (motus_ensemble_now(fast).note[0]) fail_msg("%s: %s", what, motus_ensemble_now(fast).note);
     outcome a = go(alone, COUNT, RECORDS, list, what), b = go(fast, COUNT, RECORDS, list, what);
     same_outcome(&a, &b, what);
     int stops = 0, times = 0;
@@ -191,7 +191,7 @@ static void turns_or_brakes(void **state)
     motus_ensemble *alone = given_ensemble(s, &def, "boris");
     def.machine = "compiled";
     motus_ensemble *fast = given_ensemble(s, &def, "boris");
-    assert_true(motus_ensemble_lanes(fast) > 1);
+    assert_true(motus_ensemble_now(fast).lanes > 1);
     for (int again = 0; again < 2; again++) {
         outcome a = go(alone, 3, 2, turns, "turns"), b = go(fast, 3, 2, turns, "turns");
         same_outcome(&a, &b, "turns");

@@ -57,7 +57,7 @@ static outcome by_ensemble(const task *t, const char *machine, int lanes, int th
     def.lanes = lanes;
     def.threads = threads;
     motus_ensemble *e = given_ensemble(s, &def, t->method);
-    if (lanes > 1 && motus_ensemble_lanes(e) != lanes) fail_msg("%s: %s", t->method, motus_ensemble_note(e));
+    if (lanes > 1 && motus_ensemble_now(e).lanes != lanes) fail_msg("%s: %s", t->method, motus_ensemble_now(e).note);
     outcome o = go(e, COUNT, t->recorded, values, t->method);
     motus_ensemble_destroy(e);
     motus_system_destroy(s);
@@ -81,7 +81,6 @@ static void as_runs(const task *t, const outcome *o)
         motus_run_def def = motus_default_run();
         motus_run *r = NULL;
         motus_error err = motus_default_error();
-        motus_statistics told = motus_default_statistics();
         must(motus_system_set(s, "F", &t->force[i], 1, &err), &err, "F");
         def.method = t->method;
         def.step = t->step;
@@ -96,7 +95,7 @@ static void as_runs(const task *t, const outcome *o)
             continue;
         }
         finish(r);
-        assert_int_equal(motus_run_statistics(r, &told), MOTUS_OK);
+        const motus_run_statistics told = motus_run_now(r);
         const double expected[RECORDS] = {
             [LONGEST] = told.longest_step,           [FINAL] = value(s, r, "x"),      [STEPS] = (double)told.steps,
             [REFUSED] = (double)told.refused,        [SHORTEST] = told.shortest_step, [MOST] = o->at[MOST][i],

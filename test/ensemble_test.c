@@ -335,8 +335,8 @@ static const outcome *one_by_one(task *t, int k, const char *what)
     t->plain_by = t->method;
     if (t->known[k]) return t->plain[k];
     motus_ensemble *plain = make(t, "interpreter", 0, 1);
-    assert_int_equal(motus_ensemble_steps(plain), t->steps);
-    assert_string_equal(motus_ensemble_machine(plain), "interpreter");
+    assert_int_equal(motus_ensemble_now(plain).steps, t->steps);
+    assert_string_equal(motus_ensemble_now(plain).machine, "interpreter");
     for (int c = 0; c < COUNTS; c++) t->plain[k][c] = go(plain, counts[c], t->record_count, t->value_list, what);
     for (size_t i = 0; i < counts[0]; i += 18) as_a_run(t, &t->plain[k][0], i);
     motus_ensemble_destroy(plain);
@@ -353,10 +353,10 @@ static void compare(task *t, int k, int lanes, int threads)
              threads, getenv("CC") ? getenv("CC") : "cc");
     const outcome *plain = one_by_one(t, k, what);
     motus_ensemble *fast = make(t, "compiled", lanes, threads);
-    assert_string_equal(motus_ensemble_machine(fast), "compiled");
-    const bool alone = motus_ensemble_note(fast)[0] != 0;
-    if (alone != goes_alone(t)) fail_msg("%s: %s", what, motus_ensemble_note(fast));
-    if (lanes && !alone) assert_int_equal(motus_ensemble_lanes(fast), lanes);
+    assert_string_equal(motus_ensemble_now(fast).machine, "compiled");
+    const bool alone = motus_ensemble_now(fast).note[0] != 0;
+    if (alone != goes_alone(t)) fail_msg("%s: %s", what, motus_ensemble_now(fast).note);
+    if (lanes && !alone) assert_int_equal(motus_ensemble_now(fast).lanes, lanes);
     for (int c = 0; c < COUNTS; c++) {
         outcome b = go(fast, counts[c], t->record_count, t->value_list, what);
         same_outcome(&plain[c], &b, what);

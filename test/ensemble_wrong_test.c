@@ -342,7 +342,7 @@ static void ends_that_differ(motus_system *s, double *const *at)
             const double ends[] = {0.5, cases[k].end}, *values[] = {ends};
             def = define(end, 1, cases[k].method, 0.01, NAN, m ? "interpreter" : "compiled");
             must(motus_ensemble_create(s, &def, &e, &err), &err, "ends");
-            assert_int_equal(motus_ensemble_steps(e), 0);
+            assert_int_equal(motus_ensemble_now(e).steps, 0);
             at[0][0] = 77;
             assert_int_equal(motus_ensemble_check(e, 1, values, &err), MOTUS_OK);
             assert_int_equal(motus_ensemble_check(e, 2, values, &err), cases[k].status);
@@ -414,9 +414,9 @@ static void definitions(void **state)
     motus_ensemble_destroy(e);
     ends_that_differ(s, at);
     motus_ensemble_destroy(NULL);
-    assert_true(motus_ensemble_steps(NULL) == 0 && motus_ensemble_lanes(NULL) == 1 &&
-                motus_ensemble_threads(NULL) == 1);
-    assert_string_equal(motus_ensemble_note(NULL), "");
+    const motus_ensemble_statistics none = motus_ensemble_now(NULL);
+    assert_true(none.steps == 0 && none.lanes == 1 && none.threads == 1);
+    assert_string_equal(none.note, "");
     motus_system_destroy(s);
 }
 
@@ -583,8 +583,8 @@ static void without_a_compiler(void **state)
     static const char *const vary[] = {"k"};
     motus_ensemble_def def = define(vary, 1, "leapfrog", 0.1, 1, "auto");
     motus_ensemble *e = given_ensemble(s, &def, "no compiler");
-    assert_string_equal(motus_ensemble_machine(e), "interpreter");
-    assert_non_null(strstr(motus_ensemble_note(e), "no C compiler"));
+    assert_string_equal(motus_ensemble_now(e).machine, "interpreter");
+    assert_non_null(strstr(motus_ensemble_now(e).note, "no C compiler"));
     motus_ensemble_destroy(e);
     def.machine = "compiled";
     refused(s, &def, MOTUS_TOOL, "no C compiler");

@@ -50,8 +50,8 @@ static void floors(void **state)
             motus_run *r = finished(s, methods[k]);
             assert_string_equal(motus_run_ended(r, &accumulated, &time, &error), "hit");
             if (!accumulated || !(fabsl(time - limit) <= error) || !(error <= 1e-9))
-                fail_msg("a floor at %g by %s: %.17g ± %g, not %.17Lg", heights[i], motus_run_method(r), time, error,
-                         limit);
+                fail_msg("a floor at %g by %s: %.17g ± %g, not %.17Lg", heights[i], motus_run_now(r).method, time,
+                         error, limit);
             motus_run_destroy(r);
             motus_system_destroy(s);
         }
@@ -103,7 +103,7 @@ static void lifts_off(void **state)
                     motus_system *s = given_text(text);
                     motus_run *r = finished(s, methods[k]);
                     if (motus_run_events(r) != (j == 2 ? 2 : 1))
-                        fail_msg("%s by %s: %d events", text, motus_run_method(r), (int)motus_run_events(r));
+                        fail_msg("%s by %s: %d events", text, motus_run_now(r).method, (int)motus_run_events(r));
                     motus_run_destroy(r);
                     motus_system_destroy(s);
                 }

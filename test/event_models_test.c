@@ -92,7 +92,8 @@ static void stays_above(motus_system *s, const char *method, double size)
         for (int k = 1; k <= POINTS; k++) {
             const double t = k == POINTS ? to : from + (to - from) * k / POINTS;
             must(motus_run_sample(r, &t, 1, &y, 1, &height, &err), &err, "sample");
-            if (!(height >= least)) fail_msg("%s: at t = %.17g the ball is at %.3g", motus_run_method(r), t, height);
+            if (!(height >= least))
+                fail_msg("%s: at t = %.17g the ball is at %.3g", motus_run_now(r).method, t, height);
         }
         from = to;
     }
@@ -106,7 +107,7 @@ static void the_ball(void **state)
     for (size_t k = 0; k < sizeof ways / sizeof *ways; k++) {
         motus_system *s = given_model("bouncing-ball.motus", NULL, 0);
         motus_run *r = finished(s, ways[k].method, ways[k].size, NAN);
-        const char *const method = motus_run_method(r);
+        const char *const method = motus_run_now(r).method;
         double error, worst = 0, bar = 0;
         const int64_t known = motus_run_events_significant(r);
         const double limit = limit_of(r, "bounce", &error);
@@ -192,7 +193,7 @@ static void the_billiard(void **state)
         /* every chord has the length 2 sqrt(1 - L^2), L = 0.4 */
         const long double first = 0.616515138991168001317609439L, chord = 2 * sqrtl(0.84L);
         for (int n = 0; n < 1000; n++) worst = fmax(worst, (double)fabsl(row_of(r, n).time - (first + n * chord)));
-        printf("%s: 1000 hits, worst %.1e\n", motus_run_method(r), worst);
+        printf("%s: 1000 hits, worst %.1e\n", motus_run_now(r).method, worst);
         assert_true(worst <= 1e-11);
         motus_run_destroy(r);
         motus_system_destroy(s);

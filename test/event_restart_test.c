@@ -77,13 +77,13 @@ static void same_table(const motus_system *s, motus_run *a, motus_run *b, int64_
 {
     char one[4096], two[4096];
     if (motus_run_events(b) < rows || motus_run_events(a) < rows)
-        fail_msg("%s, %s: %lld and %lld events", what, motus_run_method(a), (long long)motus_run_events(a),
+        fail_msg("%s, %s: %lld and %lld events", what, motus_run_now(a).method, (long long)motus_run_events(a),
                  (long long)motus_run_events(b));
     for (int64_t k = 0; k < rows; k++) {
         row_text(a, s, k, one, sizeof one);
         row_text(b, s, k, two, sizeof two);
         if (strcmp(one, two))
-            fail_msg("%s, %s, event %lld:\n%s\n%s", what, motus_run_method(a), (long long)k, one, two);
+            fail_msg("%s, %s, event %lld:\n%s\n%s", what, motus_run_now(a).method, (long long)k, one, two);
     }
 }
 

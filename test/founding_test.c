@@ -23,8 +23,8 @@ static void page(const char *method, double above)
 {
     motus_system *s = given_model("projectile.motus", NULL, 0);
     motus_run *r = given_run(s, method, NAN, NAN);
-    assert_true(motus_run_step_size(r) == PAGE_H);
-    assert_int_equal(motus_run_steps_total(r), PAGE_STEPS);
+    assert_true(motus_run_now(r).step == PAGE_H);
+    assert_int_equal(motus_run_now(r).steps_total, PAGE_STEPS);
     finish(r);
     assert_true(motus_run_time(r) == PAGE_T);
     near(value(s, r, "exact r.y"), PAGE_Y, page_rounding(), "the parabola");
@@ -89,7 +89,7 @@ static void recurrence(const char *model, const char *method, const entry *table
     motus_run *r = given_run(s, method, 0.001, 0.001 * (double)table[ENTRIES - 1].n);
     for (int i = 0; i < ENTRIES; i++) {
         char what[80];
-        snprintf(what, sizeof what, "%s: x at step %lld", motus_run_method(r), (long long)table[i].n);
+        snprintf(what, sizeof what, "%s: x at step %lld", motus_run_now(r).method, (long long)table[i].n);
         take_steps(r, table[i].n - motus_run_steps(r));
         near(value(s, r, "x"), literal ? table[i].loop : table[i].recursion, bound, what);
         if (literal) near(value(s, r, "x"), table[i].other, bound, what);
@@ -161,9 +161,9 @@ static void damped_cubic_needs_no_iteration(void **state)
     motus_system *s = given_model("damped-cubic.motus", NULL, 0);
     motus_run *r = given_run(s, NULL, NAN, NAN);
     finish(r);
-    assert_int_equal(motus_run_iterations(r), 0);
+    assert_int_equal(motus_run_now(r).iterations, 0);
     assert_int_equal(motus_run_steps(r), 3000);
-    assert_int_equal(motus_run_evaluations(r), 3000);
+    assert_int_equal(motus_run_now(r).evaluations, 3000);
     motus_analysis a = motus_default_analysis();
     motus_analysis_of(s, &a);
     assert_true(a.velocity_dependent && a.linear_in_velocity && !a.time_dependent && !a.affine);

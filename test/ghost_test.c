@@ -67,7 +67,7 @@ static bool travel(motus_system *s, const char *method, const char *machine, dou
     must(motus_run_create(s, &def, &r, &err), &err, method);
     finish(r);
     must(motus_run_state(r, y, y + motus_positions(s), &err), &err, method);
-    assert_string_equal(motus_run_machine(r), machine);
+    assert_string_equal(motus_run_now(r).machine, machine);
     motus_run_destroy(r);
     return true;
 }

@@ -122,14 +122,14 @@ UNUSED static motus_run *given_run(motus_system *s, const char *method, double s
 UNUSED static void finish(motus_run *r)
 {
     motus_error err = motus_default_error();
-    must(motus_run_finish(r, &err), &err, motus_run_method(r));
+    must(motus_run_finish(r, &err), &err, motus_run_now(r).method);
     assert_true(motus_run_done(r));
 }
 
 UNUSED static void take_steps(motus_run *r, int64_t n)
 {
     motus_error err = motus_default_error();
-    must(motus_run_step(r, n, &err), &err, motus_run_method(r));
+    must(motus_run_step(r, n, &err), &err, motus_run_now(r).method);
 }
 
 UNUSED static size_t column(const motus_system *s, const char *name)
@@ -167,7 +167,8 @@ UNUSED static void same_state(const motus_system *s, motus_run *a, motus_run *b,
     double *p = whole_state(s, a, &n), *q = whole_state(s, b, NULL);
     for (size_t k = 0; k < n; k++)
         if (memcmp(&p[k], &q[k], sizeof *p))
-            fail_msg("%s, %s: number %zu is %a in one and %a in the other", what, motus_run_method(a), k, p[k], q[k]);
+            fail_msg("%s, %s: number %zu is %a in one and %a in the other", what, motus_run_now(a).method, k, p[k],
+                     q[k]);
     free(p);
     free(q);
 }

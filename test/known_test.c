@@ -89,7 +89,7 @@ static void compute(const block *b, const char *const *names, size_t count, doub
 {
     motus_system *s = open_block(b);
     motus_run *r = nudge == 0 ? given_run(s, b->method, b->step / parts, until) : nudged(s, b, until, nudge);
-    take_steps(r, motus_run_steps_total(r) - 1);
+    take_steps(r, motus_run_now(r).steps_total - 1);
     double before = motus_run_time(r);
     for (size_t i = 0; rate && i < count; i++) rate[i] = value(s, r, names[i]);
     finish(r);

@@ -108,7 +108,7 @@ static end go(motus_system *s, const char *machine, int threads, const char *met
     if (!e.status) e.status = motus_run_finish(r, &e.error);
     motus_status looked = motus_run_state(r, e.state, e.state + nx, NULL);
     assert_true(looked == MOTUS_OK || e.status != MOTUS_OK);
-    e.evaluations = motus_run_evaluations(r);
+    e.evaluations = motus_run_now(r).evaluations;
     e.steps = motus_run_steps(r);
     motus_run_destroy(r);
     return e;

@@ -25,7 +25,7 @@ enum { STEPS = 17, ROOM = 100 };
 typedef struct end {
     double state[ROOM], between[ROOM], errors[ROOM];
     size_t count;
-    motus_statistics done;
+    motus_run_statistics done;
 } end;
 
 /* In portions, sampled within a step, with a shorter last step. at: where it goes over; 0: interpreted. */
@@ -34,9 +34,8 @@ static end go(motus_system *s, const char *method, int64_t at)
     motus_error err = motus_default_error();
     motus_run_def def = motus_default_run();
     motus_run *r = NULL;
-    end e = {.done = motus_default_statistics()};
+    end e = {.count = motus_positions(s) + motus_velocities(s)};
     size_t columns[ROOM];
-    e.count = motus_positions(s) + motus_velocities(s);
     for (size_t k = 0; k < e.count; k++) columns[k] = k + 1;
     def.method = method, def.machine = at ? "compiled" : "interpreter", def.until = 0.05 * (STEPS - 0.4);
     def.error = MOTUS_BARS_CHEAP;
@@ -50,7 +49,7 @@ static end go(motus_system *s, const char *method, int64_t at)
     finish(r);
     must(motus_run_errors(r, columns, e.count, e.state, e.errors, &err), &err, method);
     must(motus_run_state(r, e.state, e.state + motus_positions(s), &err), &err, method);
-    motus_run_statistics(r, &e.done);
+    e.done = motus_run_now(r);
     assert_string_equal(e.done.machine, at ? "compiled" : "interpreter");
     motus_run_destroy(r);
     return e;
@@ -146,13 +145,12 @@ static void ends_alike(motus_system *s, motus_run *r, const char *what)
     }
     finish(r);
     same_state(s, r, known, what);
-    assert_int_equal(motus_run_evaluations(r), motus_run_evaluations(known));
+    assert_int_equal(motus_run_now(r).evaluations, motus_run_now(known).evaluations);
 }
 
 static int64_t compiled_from(const motus_run *r)
 {
-    motus_statistics done = motus_default_statistics();
-    motus_run_statistics(r, &done);
+    const motus_run_statistics done = motus_run_now(r);
     return done.compiled_from;
 }
 
@@ -164,8 +162,8 @@ static void go_till_compiled(motus_run *r)
         nanosleep(&(struct timespec){.tv_nsec = 200000}, NULL);
     }
     assert_true(compiled_from(r) > 0);
-    assert_string_equal(motus_run_machine(r), "compiled");
-    assert_string_equal(motus_run_note(r), "");
+    assert_string_equal(motus_run_now(r).machine, "compiled");
+    assert_string_equal(motus_run_now(r).note, "");
 }
 
 /* Goes on compiled, ends as a run that did not, and leaves nothing. */
@@ -184,7 +182,7 @@ static void the_compiler_is_slow(void **unused)
     compile_by("sleep 0.2\nexec cc \"$@\"");
     motus_system *s = given_text(pair);
     motus_run *r = long_run(s, "auto"), *twin = long_run(s, "auto");
-    assert_string_equal(motus_run_machine(r), "interpreter");
+    assert_string_equal(motus_run_now(r).machine, "interpreter");
     assert_int_equal(compiled_from(r), -1);
     go_till_compiled(r);
     go_till_compiled(twin);
@@ -230,9 +228,9 @@ static void fails(const char *script, const char *note)
     motus_system *s = given_text(pair);
     motus_run *r = long_run(s, "auto");
     ends_alike(s, r, script);
-    assert_string_equal(motus_run_machine(r), "interpreter");
+    assert_string_equal(motus_run_now(r).machine, "interpreter");
     assert_int_equal(compiled_from(r), -1);
-    if (!strstr(motus_run_note(r), note)) fail_msg("%s: the note is \"%s\"", script, motus_run_note(r));
+    if (!strstr(motus_run_now(r).note, note)) fail_msg("%s: the note is \"%s\"", script, motus_run_now(r).note);
     motus_run_destroy(r);
     nothing_is_left(script);
     motus_error err = motus_default_error();
@@ -256,7 +254,7 @@ static void the_compiler_fails(void **unused)
     setenv("CC", "/nosuch", 1);
     motus_system *s = given_text(pair);
     motus_run *r = long_run(s, "auto");
-    assert_non_null(strstr(motus_run_note(r), "CC is \"/nosuch\""));
+    assert_non_null(strstr(motus_run_now(r).note, "CC is \"/nosuch\""));
     ends_alike(s, r, "missing");
     motus_run_destroy(r);
     motus_system_destroy(s);
@@ -272,7 +270,7 @@ static void the_compiler_hangs(void **unused)
         motus_run *r = long_run(s, "auto");
         const pid_t child = its_child();
         if (ends) ends_alike(s, r, "hangs");
-        assert_string_equal(motus_run_machine(r), "interpreter");
+        assert_string_equal(motus_run_now(r).machine, "interpreter");
         motus_run_destroy(r);
         assert_true(dead(child));
         nothing_is_left("hangs");
@@ -297,7 +295,7 @@ static void steps_that_adapt_go_on(void **unused)
     const pid_t child = its_child();
     finish(r);
     alarm(0);
-    assert_string_equal(motus_run_machine(r), "interpreter");
+    assert_string_equal(motus_run_now(r).machine, "interpreter");
     motus_run_destroy(r);
     assert_true(dead(child));
     nothing_is_left("adapts");
@@ -388,7 +386,7 @@ static void the_process_dies(void **unused)
         const pid_t program = fork();
         if (program == 0) {
             motus_run *r = long_run(given_text(pair), "auto");
-            while (motus_run_machine(r)) pause();
+            while (motus_run_now(r).machine) pause();
         }
         const pid_t child = its_child();
         kill(program, signals[k]);
@@ -447,7 +445,7 @@ static void these_start_none(void **unused)
     setenv("MOTUS_COMPILER", "none", 1);
     r = long_run(s, "auto");
     ends_alike(s, r, "forbidden");
-    assert_string_equal(motus_run_note(r), "MOTUS_COMPILER=none forbids a compiler");
+    assert_string_equal(motus_run_now(r).note, "MOTUS_COMPILER=none forbids a compiler");
     motus_run_destroy(r);
     unsetenv("MOTUS_COMPILER");
     assert_int_equal(calls(), 0);
@@ -469,7 +467,7 @@ static void companions(void **unused)
         must(motus_run_create(s, &def, &r, &err), &err, rows[i]);
         must(later_at(r, 5, &err), &err, rows[i]);
         finish(r);
-        assert_string_equal(motus_run_machine(r), "compiled");
+        assert_string_equal(motus_run_now(r).machine, "compiled");
         assert_string_equal(r->bars->half.machine.name, "compiled");
         motus_run_destroy(r);
         motus_system_destroy(s);
@@ -503,7 +501,7 @@ static void legs_meanwhile(void **unused)
         finish(r[i]);
     }
     same_state(s, r[0], r[1], "legs");
-    assert_int_equal(motus_run_evaluations(r[0]), motus_run_evaluations(r[1]));
+    assert_int_equal(motus_run_now(r[0]).evaluations, motus_run_now(r[1]).evaluations);
     motus_run_destroy(r[0]);
     motus_run_destroy(r[1]);
     motus_system_destroy(s);

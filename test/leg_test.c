@@ -76,11 +76,11 @@ static void legs(void **state)
         motus_run_state(r, &a[0], &a[1], &err);
         motus_run_state(alone, &b[0], &b[1], &err);
         assert_memory_equal(a, b, sizeof a);
-        motus_statistics all = motus_default_statistics();
-        assert_int_equal(motus_run_statistics(r, &all), MOTUS_OK);
+        const motus_run_statistics all = motus_run_now(r);
         assert_true(all.legs == 2 && all.steps == 5 + (literal ? 8 : 9) && all.refused == 0 && all.first_step == 0.125);
         assert_true(literal ? all.last_step == 0.125 : fabs(all.last_step - 0.03) < 1e-12);
-        assert_true(all.evaluations == motus_run_evaluations(r) && all.evaluations > motus_run_evaluations(alone));
+        assert_true(all.evaluations == motus_run_now(r).evaluations &&
+                    all.evaluations > motus_run_now(alone).evaluations);
         motus_run_destroy(alone);
         motus_run_destroy(r);
     }
@@ -178,7 +178,7 @@ static void back(void **state)
         assert_true(seen == expected && motus_run_done(r));
         motus_run_state(r, &a[0], &a[1], &err), motus_run_state(forward, &b[0], &b[1], &err);
         assert_memory_equal(a, b, sizeof a);
-        assert_true(motus_run_evaluations(r) == motus_run_evaluations(forward));
+        assert_true(motus_run_now(r).evaluations == motus_run_now(forward).evaluations);
         motus_run_destroy(r), motus_run_destroy(forward);
     }
     motus_system_destroy(s);
@@ -222,8 +222,8 @@ static void sampling_changes_nothing(void **state)
             motus_run_state(back, c, c + motus_positions(s), &err);
             assert_memory_equal(a, b, count * sizeof *a);
             assert_memory_equal(a, c, count * sizeof *a);
-            assert_int_equal(motus_run_evaluations(plain), motus_run_evaluations(sampled));
-            assert_int_equal(motus_run_evaluations(plain), motus_run_evaluations(back));
+            assert_int_equal(motus_run_now(plain).evaluations, motus_run_now(sampled).evaluations);
+            assert_int_equal(motus_run_now(plain).evaluations, motus_run_now(back).evaluations);
             motus_run_destroy(plain), motus_run_destroy(sampled), motus_run_destroy(back);
             tried++;
         }

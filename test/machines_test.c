@@ -87,7 +87,7 @@ static end run_on(motus_system *s, const char *machine, const char *method)
     motus_run *r = NULL;
     end e = {.count = motus_positions(s) + motus_velocities(s)};
     if (motus_run_create(s, &def, &r, &err)) fail_msg("%s by %s: %s", machine, method, err.message);
-    assert_string_equal(motus_run_machine(r), machine);
+    assert_string_equal(motus_run_now(r).machine, machine);
     e.state = calloc(e.count + 1, sizeof *e.state);
     e.between = calloc(2 * e.count + 1, sizeof *e.between);
     /* Observes on the way too, since that is another function of the object. */
@@ -96,8 +96,8 @@ static end run_on(motus_system *s, const char *machine, const char *method)
     if (!e.status) e.status = sample_within(r, set.step, &e, &err);
     if (!e.status) e.status = motus_run_finish(r, &err);
     if (!e.status) e.status = motus_run_state(r, e.state, e.state + motus_positions(s), &err);
-    e.evaluations = motus_run_evaluations(r);
-    e.iterations = motus_run_iterations(r);
+    e.evaluations = motus_run_now(r).evaluations;
+    e.iterations = motus_run_now(r).iterations;
     motus_run_destroy(r);
     return e;
 }
@@ -578,8 +578,8 @@ static void without_a_compiler(void **state)
     def.method = "verlet", def.machine = "auto";
     /* the interpreter runs, and the note says why */
     assert_int_equal(motus_run_create(s, &def, &r, &err), MOTUS_OK);
-    assert_string_equal(motus_run_machine(r), "interpreter");
-    assert_non_null(strstr(motus_run_note(r), "no C compiler"));
+    assert_string_equal(motus_run_now(r).machine, "interpreter");
+    assert_non_null(strstr(motus_run_now(r).note, "no C compiler"));
     motus_run_destroy(r);
     def.machine = "compiled";
     assert_int_equal(motus_run_create(s, &def, &r, &err), MOTUS_TOOL);
@@ -622,7 +622,7 @@ static void taylor_end(motus_system *s, const char *machine, bool between, doubl
     }
     assert_int_equal(motus_run_finish(r, &err), MOTUS_OK);
     assert_int_equal(motus_run_state(r, end, end + 1, &err), MOTUS_OK);
-    assert_string_equal(motus_run_machine(r), machine);
+    assert_string_equal(motus_run_now(r).machine, machine);
     motus_run_destroy(beside);
     motus_run_destroy(r);
 }

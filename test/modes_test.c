@@ -137,7 +137,7 @@ static void a_decimal_comma_changes_nothing(void **state)
     motus_run *r = given_run(s, NULL, 0.125, 1);
     char equation[64], method[64], message[MOTUS_TEXT_MAX];
     snprintf(equation, sizeof equation, "%s", motus_equation_text(s, 0));
-    snprintf(method, sizeof method, "%s", motus_run_method(r));
+    snprintf(method, sizeof method, "%s", motus_run_now(r).method);
     double far = 2.5, out, x = value(s, r, "x");
     size_t k = 1;
     motus_error err = motus_default_error();

@@ -66,7 +66,7 @@ static void points_are_runs(void **state)
                 most = fmax(most, last);
             }
             assert_int_equal(motus_run_steps(run), p->steps);
-            assert_int_equal(motus_run_evaluations(run), p->evaluations);
+            assert_int_equal(motus_run_now(run).evaluations, p->evaluations);
             /* the largest numbers so far are 1, or a little less as long as the velocity has not come to 1 */
             assert_true(last <= p->error * 1.0001 + 1e-15);
             assert_true(p->error <= most * 1.7);

@@ -321,8 +321,7 @@ static void limit_of_steps(void **state)
     must(motus_run_set_state(second, NAN, &x, &v, &err), &err, "set");
     assert_int_equal(motus_run_finish(second, &err), MOTUS_STEPS);
     assert_int_equal(motus_run_steps(second), 30);
-    motus_statistics all = motus_default_statistics();
-    assert_int_equal(motus_run_statistics(second, &all), MOTUS_OK);
+    const motus_run_statistics all = motus_run_now(second);
     assert_int_equal(all.steps, 60);
     def.most_steps = -1, def.until = 21;
     motus_run *none = NULL;

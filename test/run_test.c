@@ -56,11 +56,11 @@ static void stepwise(motus_system *s, const char *method)
     same_state(s, at_once, by_steps, "at once and by steps");
     same_state(s, at_once, looking, "unseen and looked at");
     assert_int_equal(motus_run_steps(at_once), motus_run_steps(by_steps));
-    assert_int_equal(motus_run_evaluations(at_once), motus_run_evaluations(by_steps));
+    assert_int_equal(motus_run_now(at_once).evaluations, motus_run_now(by_steps).evaluations);
     /* observations are not counted */
-    assert_int_equal(motus_run_evaluations(at_once), motus_run_evaluations(looking));
-    assert_int_equal(motus_run_iterations(at_once), motus_run_iterations(by_steps));
-    assert_int_equal(given_adaptive(method) ? 0 : motus_run_steps(at_once), motus_run_steps_total(at_once));
+    assert_int_equal(motus_run_now(at_once).evaluations, motus_run_now(looking).evaluations);
+    assert_int_equal(motus_run_now(at_once).iterations, motus_run_now(by_steps).iterations);
+    assert_int_equal(given_adaptive(method) ? 0 : motus_run_steps(at_once), motus_run_now(at_once).steps_total);
     assert_true(motus_run_time(at_once) == until && motus_run_time(looking) == until);
     motus_run_destroy(at_once);
     motus_run_destroy(by_steps);
@@ -274,7 +274,7 @@ static void backward(void **state)
         def.x = y;
         def.v = y + 1;
         must(motus_run_create(s, &def, &back, &err), &err, "back");
-        assert_true(motus_run_step_size(back) == 0.01);
+        assert_true(motus_run_now(back).step == 0.01);
         take_steps(back, 30);
         near(motus_run_time(back), 0.7, 4 * ROUNDING, "time on the way back");
         size_t k = column(s, "x");
@@ -310,13 +310,13 @@ static void short_end(motus_system *s, const char *method)
         return;
     }
     must(status, &err, method);
-    assert_int_equal(motus_run_steps_total(r), 11);
-    near(motus_run_last_step(r), 0.0037, 4 * ROUNDING * 0.1, "the last step");
+    assert_int_equal(motus_run_now(r).steps_total, 11);
+    near(motus_run_now(r).shorter_last, 0.0037, 4 * ROUNDING * 0.1, "the last step");
     take_steps(r, 10);
     assert_false(motus_run_done(r));
     whole = given_run(s, method, 0.01, 0.1);
     finish(whole);
-    assert_true(motus_run_last_step(whole) == 0);
+    assert_true(motus_run_now(whole).shorter_last == 0);
     same_state(s, r, whole, "ten whole steps");
     finish(r);
     assert_true(motus_run_time(r) == 0.1037);
@@ -395,8 +395,8 @@ static void slivers_are_no_steps(void **state)
     motus_system *s = given_text("x'' = -x\nx(0) = 1\nx'(0) = 0\n");
     for (int n = 1; n <= 3000; n++) {
         motus_run *r = given_run(s, "leapfrog", 0.001, n * 0.001), *q = given_run(s, "leapfrog", 1.0 / n, 1);
-        assert_true(motus_run_steps_total(r) == n && motus_run_last_step(r) == 0);
-        assert_true(motus_run_steps_total(q) == n && motus_run_last_step(q) == 0);
+        assert_true(motus_run_now(r).steps_total == n && motus_run_now(r).shorter_last == 0);
+        assert_true(motus_run_now(q).steps_total == n && motus_run_now(q).shorter_last == 0);
         motus_run_destroy(r);
         motus_run_destroy(q);
     }

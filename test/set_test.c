@@ -367,7 +367,7 @@ static void ensembles(void **state)
         def.vary = vary, def.vary_count = 1, def.records = records, def.record_count = 4;
         def.method = "rk4", def.step = 0.01, def.until = 1, def.threads = 3, def.machine = machines[m];
         motus_ensemble *e = given_ensemble(s, &def, machines[m]);
-        assert_string_equal(motus_ensemble_machine(e), machines[m]);
+        assert_string_equal(motus_ensemble_now(e).machine, machines[m]);
         outcome o = go(e, COUNT, 4, values, machines[m]);
         for (int k = 0; k < COUNT; k++) {
             char setting[64];

@@ -6,7 +6,7 @@
 
 typedef struct outcome {
     double x[16], v[16];
-    motus_statistics did;
+    motus_run_statistics did;
     motus_status status;
     motus_cause cause;
     double time; /* of the failure */
@@ -21,7 +21,7 @@ static outcome done(const char *text, const motus_run_def *def, double errors[2]
     motus_system *s = given_text(text);
     motus_error err = motus_default_error();
     motus_run *r = NULL;
-    outcome out = {.did = motus_default_statistics()};
+    outcome out = {.did = motus_run_now(NULL)};
     out.status = motus_run_create(s, def, &r, &err);
     if (out.status == MOTUS_OK) out.status = motus_run_finish(r, &err);
     if (out.status) {
@@ -31,9 +31,9 @@ static outcome done(const char *text, const motus_run_def *def, double errors[2]
     }
     if (r) {
         must(motus_run_state(r, out.x, out.v, &err), &err, text);
-        assert_int_equal(motus_run_statistics(r, &out.did), MOTUS_OK);
+        out.did = motus_run_now(r);
         if (errors) must(motus_run_errors(r, columns, 2, values, errors, &err), &err, text);
-        if (why) snprintf(why, size, "%s", motus_run_not_located(r));
+        if (why) snprintf(why, size, "%s", out.did.not_located);
     }
     motus_run_destroy(r);
     motus_system_destroy(s);
@@ -565,15 +565,15 @@ static void ensemble_says(const char *text, const char *method, motus_switches a
         if (!strstr(err.message, reason)) fail_msg("%s: %s", text, err.message);
     } else {
         must(status, &err, text);
-        if (motus_ensemble_switches(e) != does)
-            fail_msg("%s by %s: it does %d at switches", text, method, (int)motus_ensemble_switches(e));
-        const char *said = motus_ensemble_not_located(e);
+        if (motus_ensemble_now(e).switches != does)
+            fail_msg("%s by %s: it does %d at switches", text, method, (int)motus_ensemble_now(e).switches);
+        const char *said = motus_ensemble_now(e).not_located;
         if (!*reason != !*said || !strstr(said, reason)) fail_msg("%s: not located, since \"%s\"", text, said);
         motus_run_def run = motus_default_run();
         motus_run *r = NULL;
         run.method = method, run.until = 1, run.machine = "interpreter", run.step = def.step, run.switches = asked;
         must(motus_run_create(s, &run, &r, &err), &err, text);
-        assert_string_equal(motus_run_not_located(r), said);
+        assert_string_equal(motus_run_now(r).not_located, said);
         motus_run_destroy(r);
     }
     motus_ensemble_destroy(e);

@@ -116,7 +116,7 @@ static void given_numbers_stay(void **state)
     motus_system_destroy(s);
     s = given_text("x'' = -x; x(0) = 1; x'(0) = 0; method verlet-literal; until 20 pi"); /* equal steps */
     motus_run *r = given_run(s, NULL, NAN, NAN);
-    assert_true(motus_run_last_step(r) == 0 && motus_run_step_size(r) < 0.0785);
+    assert_true(motus_run_now(r).shorter_last == 0 && motus_run_now(r).step < 0.0785);
     motus_run_destroy(r);
     motus_system_destroy(s);
 }
@@ -244,7 +244,7 @@ static void everywhere(void **state)
     motus_error err = motus_default_error();
     motus_system *s = given_text("k = 1; x'' = -k x; x(0) = 1; x'(0) = 0");
     motus_run *r = given_run(s, "verlet", NAN, NAN);
-    assert_true(motus_run_step_size(r) == 0.05 && motus_run_steps_total(r) == 1000);
+    assert_true(motus_run_now(r).step == 0.05 && motus_run_now(r).steps_total == 1000);
     motus_run_destroy(r);
     const char *vary[] = {"k"};
     const double values[] = {1, 100}, *given[] = {values};
@@ -255,7 +255,7 @@ static void everywhere(void **state)
     motus_ensemble *e = NULL;
     must(motus_ensemble_create(s, &def, &e, &err), &err, "ensemble");
     must(motus_ensemble_run(e, 2, given, results, NULL, &err), &err, "ensemble");
-    assert_true(motus_ensemble_steps(e) == 1000 && ends[0] == 50 && ends[1] == 50);
+    assert_true(motus_ensemble_now(e).steps == 1000 && ends[0] == 50 && ends[1] == 50);
     motus_ensemble_destroy(e);
     motus_study_def study = motus_default_study();
     const char *methods[] = {"verlet"};

@@ -86,7 +86,7 @@ static void both_machines(motus_system *s, double until, const char *what)
     double *x = whole_state(s, a, &count), *y = whole_state(s, b, NULL);
     if (memcmp(x, y, count * sizeof *x)) fail_msg("the machines differ: %s", what);
     assert_int_equal(motus_run_steps(a), motus_run_steps(b));
-    assert_int_equal(motus_run_evaluations(a), motus_run_evaluations(b));
+    assert_int_equal(motus_run_now(a).evaluations, motus_run_now(b).evaluations);
     free(x);
     free(y);
     motus_run_destroy(a);
@@ -248,9 +248,8 @@ static void evaluations_are_orders(void **unused)
     (void)unused;
     motus_system *s = given_model("kepler.motus", NULL, 0);
     motus_run *r = run_on(s, "interpreter", 20);
-    motus_statistics st = motus_default_statistics();
     finish(r);
-    assert_int_equal(motus_run_statistics(r, &st), MOTUS_OK);
+    const motus_run_statistics st = motus_run_now(r);
     assert_int_equal(st.evaluations, 25 * st.steps + st.refused + 1); /* order 26 */
     motus_run_destroy(r);
     motus_system_destroy(s);
@@ -267,13 +266,12 @@ static void smooth_motions_refuse_no_step(void **unused)
     for (size_t k = 0; k < sizeof smooth / sizeof *smooth; k++) {
         motus_system *s = given_text(smooth[k]);
         motus_run_def def = motus_default_run();
-        motus_statistics st = motus_default_statistics();
         motus_error err = motus_default_error();
         motus_run *r = NULL;
         def.method = "taylor", def.machine = "interpreter", def.tolerance = 1e-15, def.until = 20;
         must(motus_run_create(s, &def, &r, &err), &err, smooth[k]);
         finish(r);
-        assert_int_equal(motus_run_statistics(r, &st), MOTUS_OK);
+        const motus_run_statistics st = motus_run_now(r);
         if (st.refused) fail_msg("%d steps of %d refused: %s", (int)st.refused, (int)st.steps, smooth[k]);
         motus_run_destroy(r);
         motus_system_destroy(s);

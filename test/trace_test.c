@@ -37,7 +37,7 @@ static void same_saved(motus_run *a, motus_run *b, const char *what)
     must(motus_run_save(a, &p, &n, &err), &err, what);
     must(motus_run_save(b, &q, &m, &err), &err, what);
     if (n != m || memcmp(p, q, n))
-        fail_msg("%s, %s: what is carried differs:\n%s\n%s", what, motus_run_method(a), p, q);
+        fail_msg("%s, %s: what is carried differs:\n%s\n%s", what, motus_run_now(a).method, p, q);
 }
 
 static void same_numbers(const double *p, const double *q, size_t n, const char *what, const char *method)
@@ -58,7 +58,7 @@ static void one(motus_system *s, const char *name, double h, double until, const
               *mixed = create(s, name, h, until, machine);
     double *kept = calloc(2 * (nx + 2 * nv) + 1, sizeof *kept), *now = kept + nx + nv, *before = now + nx;
     assert_non_null(kept);
-    int64_t total = motus_run_steps_total(traced);
+    int64_t total = motus_run_now(traced).steps_total;
     if (m->adaptive) {
         motus_run *whole = create(s, name, h, until, "interpreter");
         finish(whole);
@@ -68,16 +68,16 @@ static void one(motus_system *s, const char *name, double h, double until, const
     for (int64_t n = 0; n < total; n++) {
         const motus_trace_entry *const *e;
         size_t count;
-        const int64_t iterations = motus_run_iterations(traced);
+        const int64_t iterations = motus_run_now(traced).iterations;
         const double start = motus_run_time(traced);
         must(motus_run_trace(traced, &e, &count, &err), &err, name);
         assert_true(count >= 2);
         const motus_trace_entry *first = e[0], *end = e[count - 1];
         assert_true(first->time == start && end->time == motus_run_time(traced));
         assert_int_equal(motus_run_steps(traced), n + 1);
-        assert_int_equal(end->iterations, motus_run_iterations(traced) - iterations);
+        assert_int_equal(end->iterations, motus_run_now(traced).iterations - iterations);
         /* the shorter step is a new leg */
-        const bool again = n > 0 && !(n == total - 1 && motus_run_last_step(traced) != 0);
+        const bool again = n > 0 && !(n == total - 1 && motus_run_now(traced).shorter_last != 0);
         trace_replay(s, m, e, count, again ? now : NULL, again ? before : NULL, what);
         memcpy(now, first->x, nx * sizeof *now);
         if (first->a) memcpy(before, first->a, nv * sizeof *before);
@@ -98,8 +98,8 @@ static void one(motus_system *s, const char *name, double h, double until, const
         assert_true(motus_run_done(r));
         same_state(s, plain, r, what);
         same_saved(plain, r, what);
-        assert_int_equal(motus_run_evaluations(r), motus_run_evaluations(plain));
-        assert_int_equal(motus_run_iterations(r), motus_run_iterations(plain));
+        assert_int_equal(motus_run_now(r).evaluations, motus_run_now(plain).evaluations);
+        assert_int_equal(motus_run_now(r).iterations, motus_run_now(plain).iterations);
         assert_int_equal(motus_run_steps(r), total);
     }
     const motus_trace_entry *const *e = (const motus_trace_entry *const *)kept;
@@ -316,7 +316,7 @@ static void same_failure(motus_system *s, const char *method, double h, motus_st
         one.time != two.time)
         fail_msg("%s, %s: \"%s\" and \"%s\"", what, method, one.message, two.message);
     assert_int_equal(motus_run_steps(plain), motus_run_steps(traced));
-    assert_int_equal(motus_run_evaluations(plain), motus_run_evaluations(traced));
+    assert_int_equal(motus_run_now(plain).evaluations, motus_run_now(traced).evaluations);
     same_saved(plain, traced, what);
     motus_run_destroy(plain);
     motus_run_destroy(traced);
@@ -384,13 +384,12 @@ static void refusals(void **state)
         chosen method;
         must(row_choose(m->name, &method, NULL, &err), &err, m->name);
         motus_run *r = create(s, m->name, 3, 40, "interpreter");
-        motus_statistics before = motus_default_statistics(), now = motus_default_statistics();
         while (!motus_run_done(r)) {
             const motus_trace_entry *const *e;
             size_t count, refused = 1;
-            motus_run_statistics(r, &before);
+            const motus_run_statistics before = motus_run_now(r);
             must(motus_run_trace(r, &e, &count, &err), &err, m->name);
-            motus_run_statistics(r, &now);
+            const motus_run_statistics now = motus_run_now(r);
             for (; refused < count && e[refused]->kind == MOTUS_TRACE_REFUSED; refused++) {
                 const motus_trace_entry *it = e[refused], *next = e[refused + 1];
                 assert_false(it->error <= 1);

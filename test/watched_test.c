@@ -23,7 +23,7 @@ static void look(motus_run *r, outcome *out)
     must(motus_run_state(r, out->x, out->v, &err), &err, "state");
     out->t = motus_run_time(r);
     out->steps = motus_run_steps(r);
-    out->evaluations = motus_run_evaluations(r);
+    out->evaluations = motus_run_now(r).evaluations;
     out->rows = motus_run_events(r);
     for (int64_t k = 0; k < out->rows && k < ROWS_MOST; k++) {
         motus_event_row row = motus_default_event_row();

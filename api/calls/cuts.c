@@ -28,10 +28,10 @@ static bool has_assigning_event(const rules *of)
     return false;
 }
 
-const char *motus_run_cut(const motus_run *r)
+const char *cuts_sentence(const motus_run *r)
 {
     motus_geometry kept = MOTUS_GEOMETRY_NONE;
-    if (!r || !has_assigning_event(r->rules)) return "";
+    if (!has_assigning_event(r->rules)) return "";
     if (row_reversible_steps(&r->chosen))
         return "the control of steps begins anew after an event that assigns, so the run is "
                "reversible only between such events";

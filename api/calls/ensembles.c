@@ -156,36 +156,37 @@ motus_status motus_ensemble_event(const motus_ensemble *e, size_t trajectory, in
 
 /* ---- what was chosen ---- */
 
-int64_t motus_ensemble_steps(const motus_ensemble *e) { return !e || ensemble_steps_differ(e) ? 0 : e->timing.total; }
 double motus_ensemble_step_work(motus_ensemble *e)
 {
     weight w;
     if (!e || choice_weigh(e->system, &w, NULL) != MOTUS_OK) return NAN;
     return choice_step(&e->system->problem, &w, &e->chosen, e->card);
 }
-const char *motus_ensemble_method(const motus_ensemble *e) { return e ? e->chosen.name : ""; }
-double motus_ensemble_tolerance(const motus_ensemble *e, int *absolute)
+
+static motus_switches switches_of(const motus_system *s)
 {
-    const chosen *c = e ? &e->chosen : NULL;
-    if (absolute) *absolute = c && c->absolute > 0;
-    return c ? tally_tolerance(c) : NAN;
-}
-double motus_ensemble_accuracy(const motus_ensemble *e) { return e && e->goal ? e->goal->wanted : NAN; }
-const char *motus_ensemble_machine(const motus_ensemble *e) { return e ? ensemble_machine(e) : ""; }
-const char *motus_ensemble_note(const motus_ensemble *e) { return e ? e->note : ""; }
-int motus_ensemble_lanes(const motus_ensemble *e)
-{
-    return e && e->lanes && e->awaits != AWAITS_LANES ? lanes_in_block(e->lanes) : 1;
-}
-motus_switches motus_ensemble_switches(const motus_ensemble *e)
-{
-    if (!e || !e->system->model) return MOTUS_SWITCHES_USUAL;
-    if (system_located(e->system)) return MOTUS_SWITCHES_LOCATE;
-    return located_kinks(e->system->model) ? MOTUS_SWITCHES_STEP : MOTUS_SWITCHES_USUAL;
+    if (!s->model) return MOTUS_SWITCHES_USUAL;
+    if (system_located(s)) return MOTUS_SWITCHES_LOCATE;
+    return located_kinks(s->model) ? MOTUS_SWITCHES_STEP : MOTUS_SWITCHES_USUAL;
 }
 
-const char *motus_ensemble_not_located(const motus_ensemble *e) { return e ? e->not_located : ""; }
-
-int64_t motus_ensemble_compiled_from(const motus_ensemble *e) { return e ? e->compiled_from : -1; }
-int motus_ensemble_threads(const motus_ensemble *e) { return e ? e->threads : 1; }
-double motus_ensemble_seconds(const motus_ensemble *e) { return e ? e->seconds : 0; }
+motus_status motus_ensemble_statistics_of(const motus_ensemble *e, motus_ensemble_statistics *out)
+{
+    if (!e || !out || motus_struct_check(MOTUS_DEF_ENSEMBLE_STATISTICS, out, NULL) != MOTUS_OK) return MOTUS_ARGUMENT;
+    const motus_ensemble_statistics ours = {.absolute = e->chosen.absolute > 0,
+                                            .method = e->chosen.name,
+                                            .machine = ensemble_machine(e),
+                                            .note = e->note,
+                                            .not_located = e->not_located,
+                                            .steps = ensemble_steps_differ(e) ? 0 : e->timing.total,
+                                            .tolerance = tally_tolerance(&e->chosen),
+                                            .accuracy = e->goal ? e->goal->wanted : NAN,
+                                            .compiled_from = e->compiled_from,
+                                            .seconds = e->seconds,
+                                            .lanes =
+                                                e->lanes && e->awaits != AWAITS_LANES ? lanes_in_block(e->lanes) : 1,
+                                            .threads = e->threads,
+                                            .switches = switches_of(e->system)};
+    motus_struct_write(MOTUS_DEF_ENSEMBLE_STATISTICS, &ours, out);
+    return MOTUS_OK;
+}

@@ -1,4 +1,5 @@
 /* The public calls that make a run, take its steps, and ask for its state and statistics. */
+#include "api/calls/cuts.h"
 #include "api/search/goal.h"
 #include "api/motion/locate.h"
 #include "api/motion/run_events.h"
@@ -18,6 +19,7 @@ motus_status motus_run_create(motus_system *s, const motus_run_def *given, motus
     if (read != MOTUS_OK) return read;
     const modes m = modes_enter();
     const motus_status status = goal_run(s, &def, out, err);
+    if (status == MOTUS_OK) (*out)->cut = cuts_sentence(*out);
     modes_leave(m);
     return status;
 }
@@ -36,17 +38,7 @@ double motus_run_time_of(const motus_run *r, int64_t step)
                                    : stepper_time_of(r->stepper, step - (r->locate ? locate_steps(r) : 0));
 }
 
-double motus_run_step_size(const motus_run *r) { return r && !row_adaptive(&r->chosen) ? fabs(r->timing.h) : NAN; }
 int64_t motus_run_steps(const motus_run *r) { return r ? run_steps(r) : 0; }
-int64_t motus_run_steps_total(const motus_run *r) { return r ? r->timing.total : 0; }
-double motus_run_last_step(const motus_run *r) { return r ? fabs(r->timing.last) : 0; }
-int64_t motus_run_evaluations(const motus_run *r) { return r ? stepper_evaluations(r->stepper) : 0; }
-int64_t motus_run_iterations(const motus_run *r) { return r ? stepper_iterations(r->stepper) : 0; }
-const char *motus_run_method(const motus_run *r) { return r ? r->chosen.name : ""; }
-const char *motus_run_machine(const motus_run *r) { return r ? r->machine.name : ""; }
-const char *motus_run_note(const motus_run *r) { return r ? r->note : ""; }
-const char *motus_run_not_located(const motus_run *r) { return r && r->not_located ? r->not_located : ""; }
-const char *motus_run_choice(const motus_run *r) { return r ? goal_choice(r) : ""; }
 
 /* ---- its state ---- */
 
@@ -132,14 +124,20 @@ motus_status motus_run_sample(motus_run *r, const double *times, size_t n, const
 
 /* ---- statistics ---- */
 
-motus_status motus_run_statistics(const motus_run *r, motus_statistics *out)
+motus_status motus_run_statistics_of(const motus_run *r, motus_run_statistics *out)
 {
-    if (!r || !out || motus_struct_check(MOTUS_DEF_STATISTICS, out, NULL) != MOTUS_OK) return MOTUS_ARGUMENT;
-    motus_statistics ours = motus_default_statistics();
+    if (!r || !out || motus_struct_check(MOTUS_DEF_RUN_STATISTICS, out, NULL) != MOTUS_OK) return MOTUS_ARGUMENT;
+    motus_run_statistics ours = motus_default_run_statistics();
     ours.legs = r->legs;
     ours.method = r->chosen.name;
     ours.machine = r->machine.name;
+    ours.note = r->note;
+    ours.not_located = r->not_located;
+    ours.cut = r->cut;
     ours.compiled_from = r->compiled_from;
+    if (!row_adaptive(&r->chosen)) ours.step = fabs(r->timing.h);
+    ours.shorter_last = fabs(r->timing.last);
+    ours.steps_total = r->timing.total;
     ours.steps = r->before + run_steps(r);
     ours.refused = stepper_refused(r->stepper);
     ours.evaluations = stepper_evaluations(r->stepper);
@@ -152,7 +150,7 @@ motus_status motus_run_statistics(const motus_run *r, motus_statistics *out)
     stepper_sizes(r->stepper, &ours.shortest_step, &ours.longest_step);
     locate_statistics(r, &ours);
     run_events_statistics(r, &ours);
-    motus_struct_write(MOTUS_DEF_STATISTICS, &ours, out);
+    motus_struct_write(MOTUS_DEF_RUN_STATISTICS, &ours, out);
     return MOTUS_OK;
 }
 

@@ -90,7 +90,7 @@ void locate_destroy(motus_run *r)
     r->locate = NULL;
 }
 
-void locate_statistics(const motus_run *r, motus_statistics *out)
+void locate_statistics(const motus_run *r, motus_run_statistics *out)
 {
     const locate *l = r->locate;
     const motus_system *s = r->system;

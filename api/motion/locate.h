@@ -18,7 +18,7 @@ motus_status locate_step(motus_run *, stepper_stop *why, motus_error *);
 int64_t locate_steps(const motus_run *); /* of the leg, before the stepper's own count began */
 /* Binds the run's sides, since another run of the system may have bound its own. False: no memory. */
 bool locate_bind(motus_run *);
-void locate_statistics(const motus_run *, motus_statistics *);
+void locate_statistics(const motus_run *, motus_run_statistics *);
 void locate_destroy(motus_run *);
 
 #endif

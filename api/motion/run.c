@@ -154,6 +154,7 @@ motus_run *run_new(motus_system *s)
     r->a = r->v + nv;
     r->mid_x = r->a + nv;
     r->mid_v = r->mid_x + nx;
+    r->note = r->not_located = r->cut = "";
     r->first_step = NAN;
     r->compiled_from = -1;
     return r;

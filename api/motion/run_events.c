@@ -50,7 +50,7 @@ motus_status run_events_advance(motus_run *r, int64_t n, stepper_stop *why, motu
 
 int64_t run_events_turns(const motus_run *r) { return r->events ? events_turns(r->events) : 0; }
 
-void run_events_statistics(const motus_run *r, motus_statistics *out)
+void run_events_statistics(const motus_run *r, motus_run_statistics *out)
 {
     size_t rule;
     if (!r->events) return;

@@ -13,8 +13,8 @@ motus_status run_events_steps(events *, stepper *, const pace *, int64_t n, doub
                               motus_error *);
 /* Fills in a row of the table of events, for the caller. */
 void run_events_row(const rules *, const event *, double error, motus_event_row *);
-int64_t run_events_turns(const motus_run *);                       /* how often switches have changed sides */
-void run_events_statistics(const motus_run *, motus_statistics *); /* events that may have been missed */
+int64_t run_events_turns(const motus_run *);                           /* how often switches have changed sides */
+void run_events_statistics(const motus_run *, motus_run_statistics *); /* events that may have been missed */
 int64_t run_events_acted(const motus_run *); /* how often events and switches have changed the motion */
 bool run_events_ended(const motus_run *);
 /* Computes the state at a time within the last step. */

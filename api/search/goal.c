@@ -187,17 +187,16 @@ void goal_restored(motus_run *r)
     if (r->goal) r->goal->accuracy.reached = NAN;
 }
 
-void goal_statistics(const motus_run *r, motus_statistics *out)
+void goal_statistics(const motus_run *r, motus_run_statistics *out)
 {
     if (!r->goal) return;
     const accuracy *a = &r->goal->accuracy;
+    out->choice = r->goal->choice;
     out->accuracy = a->wanted;
     out->reached = accuracy_reached(a, r);
     out->trials = a->trials;
     if (!isnan(a->wanted)) out->absolute = a->absolute;
 }
-
-const char *goal_choice(const motus_run *r) { return r->goal ? r->goal->choice : ""; }
 
 /* ---- runs ---- */
 

@@ -13,8 +13,6 @@ struct goal {
  * accuracy, and its step and end are suggested. *out: NULL after an error. */
 motus_status goal_run(motus_system *, motus_run_def *, motus_run **out, motus_error *);
 void goal_end(motus_run *); /* destroys the run; NULL: nothing */
-/* Returns which method "auto" chose for the run, and why; "". */
-const char *goal_choice(const motus_run *);
 /* Lets a run that is to go from its start to its end in one call take over the state of the best trial, which is there.
  * Call it before the run moves by up to n steps. Returns whether it did so. */
 bool goal_arrive(motus_run *, int64_t n);
@@ -22,6 +20,6 @@ bool goal_arrive(motus_run *, int64_t n);
 motus_status goal_judge(const motus_run *, motus_error *);
 /* Forgets what the trials reached: after a restart state only the run's own bars tell its error. */
 void goal_restored(motus_run *);
-void goal_statistics(const motus_run *, motus_statistics *);
+void goal_statistics(const motus_run *, motus_run_statistics *);
 
 #endif

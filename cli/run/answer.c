@@ -24,7 +24,7 @@ static void print_end(const summary *s, FILE *out)
 }
 
 /* What was asked of the answer, and whether it holds. */
-static void print_accuracy(const motus_statistics *run, FILE *out)
+static void print_accuracy(const motus_run_statistics *run, FILE *out)
 {
     char wanted[DECIMAL_MAX], reached[DECIMAL_MAX];
     const char *const unit = run->absolute ? "" : " of the motion's size";
@@ -38,7 +38,7 @@ static void print_accuracy(const motus_statistics *run, FILE *out)
 
 void answer_choice(const summary *s, FILE *out)
 {
-    const char *why = motus_run_choice(s->run);
+    const char *why = motus_run_now(s->run).choice;
     if (!why[0]) return;
     fputs("auto: ", out);
     text_put(out, why);
@@ -56,10 +56,9 @@ void answer_print(const summary *s, FILE *out)
         putc('\n', out);
         return;
     }
-    motus_statistics run = motus_default_statistics();
-    motus_run_statistics(s->run, &run);
-    const bool adaptive = isnan(motus_run_step_size(s->run));
-    text_brief(adaptive ? run.tolerance : motus_run_step_size(s->run), 6, step);
+    const motus_run_statistics run = motus_run_now(s->run);
+    const bool adaptive = isnan(run.step);
+    text_brief(adaptive ? run.tolerance : run.step, 6, step);
     text_brief(e->work, 2, work);
     print_accuracy(&run, out);
     if (!isnan(e->significant_until))

@@ -57,15 +57,13 @@ void csv_free(csv *c)
 motus_status csv_comment(file_out *f, const options *o, const motus_run *run, motus_error *err)
 {
     char line[256], step[DECIMAL_MAX];
-    motus_statistics done = motus_default_statistics();
-    motus_run_statistics(run, &done);
+    const motus_run_statistics done = motus_run_now(run);
     motus_status status = file_text(f, "# motus", err);
     for (int i = 1; !status && i < o->argc; i++) status = command_word(f, o->argv[i], err);
     const bool adapts = !isnan(done.tolerance);
-    decimal(adapts ? done.tolerance : motus_run_step_size(run), step);
-    snprintf(line, sizeof line, "\n# motus %s, method %s, %s %s%s, machine %s\n", motus_version(),
-             motus_run_method(run), adapts ? "tolerance" : "step", step, done.absolute ? " absolute" : "",
-             o->machine ? o->machine : "auto");
+    decimal(adapts ? done.tolerance : done.step, step);
+    snprintf(line, sizeof line, "\n# motus %s, method %s, %s %s%s, machine %s\n", motus_version(), done.method,
+             adapts ? "tolerance" : "step", step, done.absolute ? " absolute" : "", o->machine ? o->machine : "auto");
     return status ? status : file_text(f, line, err);
 }
 

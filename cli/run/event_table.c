@@ -121,8 +121,8 @@ void event_table_note(const summary *s, FILE *out)
 void event_table_unseen(const summary *s, FILE *out)
 {
     char from[DECIMAL_MAX];
-    motus_statistics done = motus_default_statistics();
-    if (motus_run_statistics(s->run, &done) != MOTUS_OK || !done.events_unseen) return;
+    const motus_run_statistics done = motus_run_now(s->run);
+    if (!done.events_unseen) return;
     text_brief(done.events_unseen_from, 6, from);
     fprintf(out,
             "\nevents of %s that are far shorter than a step may have been missed in %lld step%s, from t = %s on: "

@@ -342,18 +342,18 @@ motus_status figure_begin(figure *f, const load *model, const options *o, motus_
                           motus_error *err)
 {
     char step[DECIMAL_MAX];
-    const int64_t steps = motus_run_steps_total(run);
+    const motus_run_statistics now = motus_run_now(run);
+    const int64_t steps = now.steps_total;
     const double way = until - motus_run_time(run);
     *f = (figure){.model = model};
     f->fine = record_with_jumps(record_for(steps, way, FINE_SAMPLES));
     f->coarse = record_for(steps, way, COARSE_SAMPLES);
     f->last = record_for(steps, way, 1);
-    text_brief(fabs(motus_run_step_size(run)), 6, step);
-    if (isnan(motus_run_step_size(run)))
-        snprintf(f->plot.title, sizeof f->plot.title, "%.60s: %.40s", model->title, motus_run_method(run));
+    text_brief(now.step, 6, step);
+    if (isnan(now.step))
+        snprintf(f->plot.title, sizeof f->plot.title, "%.60s: %.40s", model->title, now.method);
     else
-        snprintf(f->plot.title, sizeof f->plot.title, "%.60s: %.40s, step %s", model->title, motus_run_method(run),
-                 step);
+        snprintf(f->plot.title, sizeof f->plot.title, "%.60s: %.40s, step %s", model->title, now.method, step);
     f->t = record_add(&f->fine, 0);
     f->coarse_t = record_add(&f->coarse, 0);
     f->bars = record_for(steps, way, BAR_SAMPLES);

@@ -152,8 +152,7 @@ static motus_status begin(job *j, motus_error *err)
     j->began = stop_clock();
     status = run_make(o, &j->model, &j->progress, bars_wanted(o), &j->def, &j->run, err);
     if (status) return status;
-    motus_statistics made = motus_default_statistics();
-    if (motus_run_statistics(j->run, &made) == MOTUS_OK && isnan(made.accuracy)) j->began = NAN;
+    if (isnan(motus_run_now(j->run).accuracy)) j->began = NAN;
     j->start = motus_run_time(j->run);
     j->until = load_until(&j->model);
     status = deviation_begin(&j->deviation, &j->model, j->run, err);
@@ -175,7 +174,7 @@ static motus_status go(job *j, motus_error *err)
     walk_observer observers[3 + FIGURE_OBSERVERS];
     walk_keeper keeper = {0};
     size_t count = 0;
-    int64_t steps = motus_run_steps_total(j->run);
+    int64_t steps = motus_run_now(j->run).steps_total;
     if (j->archive) run_archive_observe(j->archive, &j->rows, &keeper);
     if (j->options->output) observers[count++] = j->rows;
     if (j->deviation.count > 0 && j->options->output && j->rows.stride > 0)
@@ -230,13 +229,12 @@ static motus_status finish(job *j, double seconds, motus_error *err)
 static motus_status look_for_poles(job *j)
 {
     motus_run_def def = j->def;
-    motus_statistics done = motus_default_statistics();
-    motus_run_statistics(j->run, &done);
+    const motus_run_statistics done = motus_run_now(j->run);
     def.error = MOTUS_BARS_NONE;
-    if (!isnan(done.accuracy) || motus_run_choice(j->run)[0]) {
-        def.method = motus_run_method(j->run);
+    if (!isnan(done.accuracy) || done.choice[0]) {
+        def.method = done.method;
         def.accuracy = NAN;
-        def.step = motus_run_step_size(j->run);
+        def.step = done.step;
         def.tolerance = done.tolerance;
         def.absolute = done.absolute;
     }

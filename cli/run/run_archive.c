@@ -60,7 +60,7 @@ static size_t rest_most(const run_archive *a) { return a->block * a->columns.wid
 static uint64_t expected_rows(const run_archive *a, bool *known)
 {
     const walk_observer *rows = a->of.rows;
-    const int64_t total = motus_run_steps_total(a->of.run);
+    const int64_t total = motus_run_now(a->of.run).steps_total;
     *known = true;
     if (rows->stride > 0 && total > 0) return (uint64_t)(total / rows->stride + 1 + (total % rows->stride != 0));
     if (rows->period > 0) {
@@ -80,7 +80,7 @@ static motus_status create(const run_archive *a, const char *path, int descripto
 {
     enum { NOTES = 6 };
     const motus_archive_note notes[NOTES] = {
-        {"motus", motus_version()},      {"command", a->command},      {"method", motus_run_method(a->of.run)},
+        {"motus", motus_version()},      {"command", a->command},      {"method", motus_run_now(a->of.run).method},
         {"fingerprint", a->fingerprint}, {"model", a->of.model->text}, {RUN_FIRST_END, a->first_end}};
     motus_archive_def d = motus_archive_default();
     d.group = "run", d.scale = "row";
@@ -283,15 +283,15 @@ static bool has_events(const char *state) { return strstr(state, "\nevents ") !=
 /* The time of so many steps of one size from the start, as a run to a later end has it. */
 static double time_of(const run_archive *a, int64_t steps)
 {
-    const double h = motus_run_step_size(a->of.run);
+    const double h = motus_run_now(a->of.run).step;
     return a->of.start + (a->of.until < a->of.start ? -h : h) * (double)steps;
 }
 
 /* Whether the last step, of steps of one size, is a shorter one. */
 static bool shorter_last(const run_archive *a)
 {
-    const int64_t total = motus_run_steps_total(a->of.run);
-    return total > 0 && fabs(time_of(a, total) - a->of.until) > 1e-6 * motus_run_step_size(a->of.run);
+    const int64_t total = motus_run_now(a->of.run).steps_total;
+    return total > 0 && fabs(time_of(a, total) - a->of.until) > 1e-6 * motus_run_now(a->of.run).step;
 }
 
 /* Likewise where the end is a whole number of steps only up to rounding: it is no time of a longer run, nor are the
@@ -301,7 +301,7 @@ static bool wants_last(const run_archive *a)
     const char *text;
     size_t length;
     motus_error ignored = motus_default_error();
-    const int64_t total = motus_run_steps_total(a->of.run);
+    const int64_t total = motus_run_now(a->of.run).steps_total;
     if (total == 0 || motus_run_save(a->of.run, &text, &length, &ignored) != MOTUS_OK) return false;
     return has_events(text) || (!shorter_last(a) && time_of(a, total) != a->of.until);
 }
@@ -404,7 +404,7 @@ static void note_first_end(run_archive *a, motus_archive *source)
     const char *its = motus_archive_note_of(source, RUN_FIRST_END);
     if (its && strlen(its) < sizeof a->first_end)
         strcpy(a->first_end, its);
-    else if (motus_run_steps_total(a->of.run) == 0 && !archived_says(source, "command", a->command))
+    else if (motus_run_now(a->of.run).steps_total == 0 && !archived_says(source, "command", a->command))
         snprintf(a->first_end, sizeof a->first_end, "%s %" PRIu64, decimal(motus_run_time(a->of.run), time), a->rows);
 }
 
@@ -512,7 +512,7 @@ static motus_status rows_to_keep(run_archive *a, uint64_t *rows, bool *due, motu
     const walk_observer *o = a->of.rows;
     const motus_status status = motus_run_save(a->of.run, &text, &length, err);
     if (status) return status;
-    const int64_t taken = motus_run_steps(a->of.run), total = motus_run_steps_total(a->of.run);
+    const int64_t taken = motus_run_steps(a->of.run), total = motus_run_now(a->of.run).steps_total;
     const bool before = total > 0 && taken == total && (has_events(text) || shorter_last(a));
     const bool regular = o->stride > 0 && taken % o->stride == 0 && !before;
     uint64_t more = a->end_row && !regular;

@@ -15,12 +15,11 @@
 motus_status run_command_text(const options *asked, const motus_run *run, double until, char **text, motus_error *err)
 {
     options o = *asked;
-    motus_statistics now = motus_default_statistics();
-    motus_run_statistics(run, &now);
+    const motus_run_statistics now = motus_run_now(run);
     o.most_points = o.most_points ? o.skip + o.most_points : 0;
     o.skip = 0;
-    o.method = motus_run_method(run);
-    o.step = isnan(now.tolerance) ? motus_run_step_size(run) : NAN;
+    o.method = now.method;
+    o.step = now.step;
     o.tolerance = now.tolerance;
     o.accuracy = NAN; /* the tolerance that it found stands for it */
     o.absolute = now.absolute;
@@ -157,9 +156,10 @@ motus_status run_make(const options *o, load *m, stop_progress *progress, motus_
     def->error = error;
     status = motus_run_create(m->system, def, run, err);
     if (status || o->quiet) return status;
-    if (motus_run_note(*run)[0]) complain_note("the interpreter runs this: %s", motus_run_note(*run));
-    if (motus_run_not_located(*run)[0]) complain_note("%s", motus_run_not_located(*run));
-    if (motus_run_cut(*run)[0]) complain_note("%s", motus_run_cut(*run));
+    const motus_run_statistics now = motus_run_now(*run);
+    if (now.note[0]) complain_note("the interpreter runs this: %s", now.note);
+    if (now.not_located[0]) complain_note("%s", now.not_located);
+    if (now.cut[0]) complain_note("%s", now.cut);
     return MOTUS_OK;
 }
 

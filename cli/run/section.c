@@ -86,7 +86,7 @@ motus_status section_draw(const load *m, const options *o, motus_run *run, const
     motus_status status = points ? collect(o, run, columns, points, &count, err) : complain_memory(err);
     for (int a = 0; !status && a < 2; a++) status = motus_column_at(m->system, columns[a], &axis[a]);
     if (!status) {
-        snprintf(plot.title, sizeof plot.title, "%.60s: %.40s", m->title, motus_run_method(run));
+        snprintf(plot.title, sizeof plot.title, "%.60s: %.40s", m->title, motus_run_now(run).method);
         snprintf(title, sizeof title, "where %.100s: %zu points", o->section, count);
         plot_panel *p = plot_panel_add(&plot, title, axis[0].name, axis[1].name);
         plot_curve *c = p ? plot_curve_add(p, title, points, points + 1, count, 2) : NULL;

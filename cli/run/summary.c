@@ -66,8 +66,7 @@ static motus_status final_cell(const summary *s, table *t, size_t column, double
     double error = NAN;
     motus_status status = s->errors ? motus_run_errors(s->run, &column, 1, NULL, &error, err) : MOTUS_OK;
     const bool undecided = isinf(error) && isnan(s->estimate.significant_until) && !motus_run_accumulates(s->run)[0];
-    motus_statistics done = motus_default_statistics();
-    motus_run_statistics(s->run, &done);
+    const motus_run_statistics done = motus_run_now(s->run);
     if (s->errors && undecided)
         table_cell(t, undecided_cell(s, value));
     else if (s->errors &&
@@ -203,10 +202,9 @@ static table *invariant_table(const summary *s, motus_error *err, motus_status *
 static void how_steps(const summary *s, char *out, size_t size)
 {
     char a[DECIMAL_MAX], b[DECIMAL_MAX], c[DECIMAL_MAX];
-    motus_statistics done = motus_default_statistics();
-    motus_run_statistics(s->run, &done);
+    const motus_run_statistics done = motus_run_now(s->run);
     if (isnan(done.tolerance)) {
-        decimal(motus_run_step_size(s->run), a);
+        decimal(done.step, a);
         snprintf(out, size, "step %s", a);
         return;
     }
@@ -220,26 +218,24 @@ static void how_steps(const summary *s, char *out, size_t size)
 static void head(const summary *s, FILE *out, bool colours)
 {
     char from[DECIMAL_MAX], to[DECIMAL_MAX], last[DECIMAL_MAX], spent[DECIMAL_MAX], how[3 * DECIMAL_MAX];
+    const motus_run_statistics done = motus_run_now(s->run);
     how_steps(s, how, sizeof how);
     decimal(s->start, from);
     decimal(motus_run_time(s->run), to);
-    text_brief(fabs(motus_run_last_step(s->run)), 6, last);
+    text_brief(done.shorter_last, 6, last);
     text_seconds(s->seconds, spent);
-    motus_statistics done = motus_default_statistics();
-    motus_run_statistics(s->run, &done);
-    const int64_t refused = done.refused;
-    fprintf(out, "%s%s%s: %s, %s, ", colours ? "\033[1m" : "", s->model->title, colours ? "\033[0m" : "",
-            motus_run_method(s->run), how);
+    fprintf(out, "%s%s%s: %s, %s, ", colours ? "\033[1m" : "", s->model->title, colours ? "\033[0m" : "", done.method,
+            how);
     if (done.compiled_from > 0)
         fprintf(out, "interpreter, then compiled from step %lld\n", (long long)done.compiled_from + 1);
     else
         fprintf(out, "%s\n", done.machine);
     fprintf(out, "t = %s to %s in %lld steps", from, to, (long long)motus_run_steps(s->run));
     const bool ended = motus_run_ended(s->run, NULL, NULL, NULL)[0]; /* then no step was shortened to end at `until` */
-    if (motus_run_last_step(s->run) != 0 && !ended) fprintf(out, " (the last one %s)", last);
-    if (refused > 0) fprintf(out, " and %lld refused", (long long)refused);
-    fprintf(out, ", %lld evaluations", (long long)motus_run_evaluations(s->run));
-    if (motus_run_iterations(s->run) > 0) fprintf(out, ", %lld iterations", (long long)motus_run_iterations(s->run));
+    if (done.shorter_last != 0 && !ended) fprintf(out, " (the last one %s)", last);
+    if (done.refused > 0) fprintf(out, " and %lld refused", (long long)done.refused);
+    fprintf(out, ", %lld evaluations", (long long)done.evaluations);
+    if (done.iterations > 0) fprintf(out, ", %lld iterations", (long long)done.iterations);
     fprintf(out, ", %s%s\n", spent, done.trials ? ", trial runs included" : "");
     event_table_end(s, out);
 }
@@ -406,10 +402,8 @@ static void events_json(json *j, const summary *s, const double *values, int64_t
     if (rows < motus_run_events(s->run)) json_bool(j, "events_cut", true);
     json_integer(j, "events_significant", motus_run_events_significant(s->run));
     tell_ended(j, s->run);
-    const char *const cut = motus_run_cut(s->run);
-    json_string(j, "events_note", cut[0] ? cut : NULL);
-    motus_statistics done = motus_default_statistics();
-    motus_run_statistics(s->run, &done);
+    const motus_run_statistics done = motus_run_now(s->run);
+    json_string(j, "events_note", done.cut[0] ? done.cut : NULL);
     json_integer(j, "events_unseen", done.events_unseen);
     json_number(j, "events_unseen_from", done.events_unseen_from);
 }
@@ -431,35 +425,26 @@ static motus_status event_values(const summary *s, int64_t *rows, double **out, 
 }
 
 /* A step, or what an adaptive method has made of its tolerance. */
-static void steps_json(json *j, const summary *s)
+static void steps_json(json *j, const motus_run_statistics *done)
 {
-    motus_statistics done = motus_default_statistics();
-    motus_run_statistics(s->run, &done);
-    if (!isnan(done.accuracy)) {
-        json_number(j, "accuracy", done.accuracy);
-        json_number(j, "reached", done.reached);
+    if (!isnan(done->accuracy)) {
+        json_number(j, "accuracy", done->accuracy);
+        json_number(j, "reached", done->reached);
     }
-    if (isnan(done.tolerance)) {
-        json_number(j, "step", motus_run_step_size(s->run));
+    if (isnan(done->tolerance)) {
+        json_number(j, "step", done->step);
         return;
     }
-    json_number(j, "tolerance", done.tolerance);
-    json_bool(j, "absolute", done.absolute);
-    json_integer(j, "rejected", done.refused);
-    json_number(j, "h_min", done.shortest_step);
-    json_number(j, "h_max", done.longest_step);
-}
-
-static void machine_json(json *j, const summary *s)
-{
-    motus_statistics done = motus_default_statistics();
-    motus_run_statistics(s->run, &done);
-    json_string(j, "machine", done.machine);
-    json_number(j, "compiled_from", done.compiled_from < 0 ? NAN : (double)done.compiled_from);
+    json_number(j, "tolerance", done->tolerance);
+    json_bool(j, "absolute", done->absolute);
+    json_integer(j, "rejected", done->refused);
+    json_number(j, "h_min", done->shortest_step);
+    json_number(j, "h_max", done->longest_step);
 }
 
 motus_status summary_json(const summary *s, motus_error *err)
 {
+    const motus_run_statistics done = motus_run_now(s->run);
     double *state = NULL, *quantities = NULL, *events = NULL;
     int64_t rows = 0;
     motus_status status = values_of(s, 1, s->model->positions + s->model->velocities, &state, err);
@@ -468,14 +453,15 @@ motus_status summary_json(const summary *s, motus_error *err)
     if (!status) {
         json j = text_json(stdout);
         json_string(&j, "model", s->options->operand);
-        json_string(&j, "method", motus_run_method(s->run));
-        machine_json(&j, s);
-        if (motus_run_choice(s->run)[0]) json_string(&j, "choice", motus_run_choice(s->run));
-        steps_json(&j, s);
+        json_string(&j, "method", done.method);
+        json_string(&j, "machine", done.machine);
+        json_number(&j, "compiled_from", done.compiled_from < 0 ? NAN : (double)done.compiled_from);
+        if (done.choice[0]) json_string(&j, "choice", done.choice);
+        steps_json(&j, &done);
         settle_json(&j, s->model);
         json_integer(&j, "steps", motus_run_steps(s->run));
-        json_integer(&j, "evaluations", motus_run_evaluations(s->run));
-        json_integer(&j, "iterations", motus_run_iterations(s->run));
+        json_integer(&j, "evaluations", done.evaluations);
+        json_integer(&j, "iterations", done.iterations);
         json_number(&j, "time", motus_run_time(s->run));
         json_open(&j, "state", '{');
         const bool cut = states_json(&j, s, state);
@@ -488,9 +474,7 @@ motus_status summary_json(const summary *s, motus_error *err)
         events_json(&j, s, events, rows);
         json_number(&j, "seconds", s->seconds);
         json_number(&j, "singularity", s->singularity);
-        motus_statistics done = motus_default_statistics();
-        const bool located = motus_run_statistics(s->run, &done) == MOTUS_OK && done.switches >= 0;
-        json_number(&j, "switches", located ? (double)done.switches : NAN); /* null: steps do not end at them */
+        json_number(&j, "switches", done.switches < 0 ? NAN : (double)done.switches); /* null: not located */
         tell_diagnosis(&j, s->singular->cause ? s->singular : s->missed);
         if (s->missed->status) complain_json(&j, "missed", s->missed);
         if (s->errors) status = errors_json(&j, s, err);

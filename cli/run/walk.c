@@ -45,7 +45,7 @@ int64_t walk_steps_of(double period, double step)
 
 int64_t walk_steps_of_run(const motus_run *run, double period)
 {
-    return isnan(motus_run_time_of(run, 0)) ? 0 : walk_steps_of(period, motus_run_step_size(run));
+    return isnan(motus_run_time_of(run, 0)) ? 0 : walk_steps_of(period, motus_run_now(run).step);
 }
 
 /* Between a step and what observers have of it no signal stops a run that is kept. */
@@ -207,7 +207,7 @@ static motus_status keep(walker *w, motus_error *err)
 /* The first of the last steps; INT64_MAX: nobody remembers them. */
 static int64_t last_steps(const walker *w)
 {
-    const int64_t total = motus_run_steps_total(w->run);
+    const int64_t total = motus_run_now(w->run).steps_total;
     return w->keeper.remember && total > 0 ? total - LAST : INT64_MAX;
 }
 
@@ -370,7 +370,7 @@ static motus_status prepare(walker *w, motus_error *err)
 motus_status walk(motus_run *run, double start, double until, const walk_observer *observers, size_t count,
                   const walk_keeper *keeper, motus_error *err)
 {
-    double size = motus_run_step_size(run);
+    double size = motus_run_now(run).step;
     const bool adapts = isnan(size);
     if (adapts) size = 1e-6 * fabs(until - start); /* steps adapt: of it only the sign, and a slack, are used */
     walker w = {.run = run,

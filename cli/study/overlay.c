@@ -93,7 +93,7 @@ static motus_status run_method(overlay *v, const motus_compare_row *row, stop_pr
     if (status) return status;
     bool first = v->record_count == 0;
     record *r = &v->records[v->record_count++];
-    *r = record_for(motus_run_steps_total(run), v->model->until - motus_run_time(run), SAMPLES);
+    *r = record_for(motus_run_now(run).steps_total, v->model->until - motus_run_time(run), SAMPLES);
     bool room = true;
     for (size_t i = 0; room && i < v->slot_count; i++) {
         const slot *s = &v->slots[i];

@@ -83,12 +83,11 @@ static motus_status lead_pilots(const sweep *s, motus_error *err)
 /* Why no faster machine runs the sweep, as soon as that is known, once. */
 static void note_machine(sweep *s)
 {
-    const motus_ensemble *e = s->ensemble;
-    if (s->noted || s->options->quiet || !motus_ensemble_note(e)[0]) return;
+    const motus_ensemble_statistics now = motus_ensemble_now(s->ensemble);
+    if (s->noted || s->options->quiet || !now.note[0]) return;
     s->noted = true;
-    complain_note("the %s runs this: %s",
-                  strcmp(motus_ensemble_machine(e), "interpreter") == 0 ? "interpreter" : "compiled machine",
-                  motus_ensemble_note(e));
+    complain_note("the %s runs this: %s", strcmp(now.machine, "interpreter") == 0 ? "interpreter" : "compiled machine",
+                  now.note);
 }
 
 /* All ends that vary are right, before a file is touched. */
@@ -141,13 +140,14 @@ static motus_status make(sweep *s, stop_progress *progress, motus_error *err)
     const options *o = s->options;
     motus_status status = create(s, progress, err);
     if (!status) note_machine(s);
-    if (!status && !o->quiet && motus_ensemble_not_located(s->ensemble)[0])
-        complain_note("%s", motus_ensemble_not_located(s->ensemble));
+    const motus_ensemble_statistics now = motus_ensemble_now(s->ensemble);
+    if (!status && !o->quiet && now.not_located[0]) complain_note("%s", now.not_located);
     if (!status) status = check_ends(s, err);
     if (!status) status = lead_pilots(s, err);
     if (status) return status;
-    s->method = motus_ensemble_method(s->ensemble);
-    s->tolerance = motus_ensemble_tolerance(s->ensemble, &s->absolute);
+    s->method = now.method;
+    s->tolerance = now.tolerance;
+    s->absolute = now.absolute;
     status = sweep_block_choose(s, &s->shard.block, err);
     if (status) return status;
     s->rows = shard_rows(&s->shard, s->grid.total);

@@ -15,8 +15,8 @@ enum { BATCH_MOST = 1 << 16, BATCH_BYTES = 1 << 25, BATCH_MS = 500 };
 
 size_t sweep_batch_lanes(const sweep *s)
 {
-    const int lanes = motus_ensemble_lanes(s->ensemble), threads = motus_ensemble_threads(s->ensemble);
-    return (size_t)(lanes > 0 ? lanes : 1) * (size_t)(threads > 0 ? threads : 1);
+    const motus_ensemble_statistics now = motus_ensemble_now(s->ensemble);
+    return (size_t)(now.lanes > 0 ? now.lanes : 1) * (size_t)(now.threads > 0 ? now.threads : 1);
 }
 
 /* The numbers that are kept of a trajectory: values, results, errors, stopped. */

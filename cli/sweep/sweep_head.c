@@ -41,7 +41,7 @@ static void mix_records(uint64_t *hash, const sweep *s)
 
 const char *sweep_switches(const sweep *s)
 {
-    const motus_switches how = motus_ensemble_switches(s->ensemble);
+    const motus_switches how = motus_ensemble_now(s->ensemble).switches;
     const bool fixed = isnan(s->tolerance); /* such steps lead across unless told otherwise */
     if (how == MOTUS_SWITCHES_USUAL || (fixed && how == MOTUS_SWITCHES_STEP)) return NULL;
     return how == MOTUS_SWITCHES_LOCATE ? "locate" : "step";

@@ -33,7 +33,8 @@ typedef struct plan {
 
 static bool waits_for_compiler(const sweep *s)
 {
-    return motus_ensemble_compiled_from(s->ensemble) == -1 && !motus_ensemble_note(s->ensemble)[0] &&
+    const motus_ensemble_statistics now = motus_ensemble_now(s->ensemble);
+    return now.compiled_from == -1 && !now.note[0] &&
            (!s->options->machine || strcmp(s->options->machine, "auto") == 0);
 }
 
@@ -175,6 +176,7 @@ static void report_json(const plan *p)
 {
     const sweep *s = p->sweep;
     char shard[SHARD_TEXT];
+    const motus_ensemble_statistics now = motus_ensemble_now(s->ensemble);
     json j = text_json(stdout);
     json_string(&j, "model", s->options->operand);
     json_string(&j, "method", s->method);
@@ -182,10 +184,10 @@ static void report_json(const plan *p)
     json_string(&j, "shard", shard_whole(&s->shard) ? NULL : shard_text(&s->shard, shard));
     json_integer(&j, "blocks", (int64_t)blocks_of(s));
     json_integer(&j, "block", (int64_t)s->shard.block);
-    json_integer(&j, "steps", motus_ensemble_steps(s->ensemble));
-    json_string(&j, "machine", motus_ensemble_machine(s->ensemble));
-    json_integer(&j, "lanes", motus_ensemble_lanes(s->ensemble));
-    json_integer(&j, "threads", motus_ensemble_threads(s->ensemble));
+    json_integer(&j, "steps", now.steps);
+    json_string(&j, "machine", now.machine);
+    json_integer(&j, "lanes", now.lanes);
+    json_integer(&j, "threads", now.threads);
     json_integer(&j, "columns", (int64_t)s->columns);
     json_number(&j, "bytes", p->bytes);
     json_number(&j, "memory", p->memory);
@@ -250,12 +252,11 @@ static void report(const plan *p)
 {
     const sweep *s = p->sweep;
     char text[DECIMAL_MAX], spent[DECIMAL_MAX];
-    const int threads = motus_ensemble_threads(s->ensemble), lanes = motus_ensemble_lanes(s->ensemble);
-    const int64_t steps = motus_ensemble_steps(s->ensemble);
+    const motus_ensemble_statistics now = motus_ensemble_now(s->ensemble);
     printf("%s: %s, ", s->model.title, s->method);
-    if (steps > 0) printf("%lld step%s, ", (long long)steps, steps == 1 ? "" : "s");
-    printf("%s, %d lane%s, %d thread%s\n", motus_ensemble_machine(s->ensemble), lanes, lanes == 1 ? "" : "s", threads,
-           threads == 1 ? "" : "s");
+    if (now.steps > 0) printf("%lld step%s, ", (long long)now.steps, now.steps == 1 ? "" : "s");
+    printf("%s, %d lane%s, %d thread%s\n", now.machine, now.lanes, now.lanes == 1 ? "" : "s", now.threads,
+           now.threads == 1 ? "" : "s");
     printf("%llu trajectories, in %llu block%s of %llu\n\n", (unsigned long long)s->rows,
            (unsigned long long)blocks_of(s), blocks_of(s) == 1 ? "" : "s", (unsigned long long)s->shard.block);
     put_file(p);
@@ -268,8 +269,8 @@ static void report(const plan *p)
     putchar('\n');
     if (p->ended > 0) printf("           %.3g %% of them stop before their end\n", 100 * p->ended);
     put_ranks(p);
-    printf("\na rank has %d thread%s here; what the disk takes is not in these times\n", threads,
-           threads == 1 ? "" : "s");
+    printf("\na rank has %d thread%s here; what the disk takes is not in these times\n", now.threads,
+           now.threads == 1 ? "" : "s");
 }
 
 /* The rows of a CSV go to a file that keeps nothing. */

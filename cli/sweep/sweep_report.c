@@ -49,9 +49,9 @@ static void put_ranks(json *j, const team *t, const sweep_share *all)
 
 static void report_json(const sweep *s, const sweep_file *f, double wall, const sweep_share *all)
 {
-    const motus_ensemble *e = s->ensemble;
+    const motus_ensemble_statistics now = motus_ensemble_now(s->ensemble);
     char note[2 * MOTUS_TEXT_MAX], shard[SHARD_TEXT];
-    complain_named(motus_ensemble_note(e), note, sizeof note);
+    complain_named(now.note, note, sizeof note);
     json j = text_json(stdout);
     json_string(&j, "model", s->options->operand);
     json_string(&j, "method", s->method);
@@ -66,16 +66,15 @@ static void report_json(const sweep *s, const sweep_file *f, double wall, const 
     json_integer(&j, "trajectories", (int64_t)s->rows);
     json_string(&j, "shard", shard_whole(&s->shard) ? NULL : shard_text(&s->shard, shard));
     json_integer(&j, "resumed", (int64_t)f->found);
-    json_integer(&j, "steps", motus_ensemble_steps(e));
-    const int64_t from = motus_ensemble_compiled_from(e);
-    json_string(&j, "machine", motus_ensemble_machine(e));
-    json_number(&j, "compiled_from", from < 0 ? NAN : (double)from);
-    json_integer(&j, "lanes", motus_ensemble_lanes(e));
-    json_integer(&j, "threads", motus_ensemble_threads(e));
+    json_integer(&j, "steps", now.steps);
+    json_string(&j, "machine", now.machine);
+    json_number(&j, "compiled_from", now.compiled_from < 0 ? NAN : (double)now.compiled_from);
+    json_integer(&j, "lanes", now.lanes);
+    json_integer(&j, "threads", now.threads);
     json_string(&j, "note", note[0] ? note : NULL);
     json_string(&j, "switches", sweep_switches(s));
     json_bool(&j, "fast", s->options->fast);
-    json_number(&j, "seconds", motus_ensemble_seconds(e));
+    json_number(&j, "seconds", now.seconds);
     json_number(&j, "wall", wall);
     json_integer(&j, "lost", (int64_t)f->lost);
     json_integer(&j, "stopped", (int64_t)f->stopped);
@@ -90,41 +89,39 @@ static void report_json(const sweep *s, const sweep_file *f, double wall, const 
 
 static void report(const sweep *s, const sweep_file *f, double wall)
 {
-    const motus_ensemble *e = s->ensemble;
+    const motus_ensemble_statistics now = motus_ensemble_now(s->ensemble);
     bool output = strcmp(f->path, "-") == 0; /* then the report is a message */
     FILE *out = output ? stderr : stdout;
     char step[DECIMAL_MAX], until[DECIMAL_MAX], inside[DECIMAL_MAX], all[DECIMAL_MAX], shard[SHARD_TEXT];
-    double seconds = motus_ensemble_seconds(e), work = (double)(s->rows - f->found) * (double)motus_ensemble_steps(e);
+    const double work = (double)(s->rows - f->found) * (double)now.steps;
     const bool exact = !isnan(s->accuracy), fixed = isnan(s->tolerance);
     decimal(exact ? s->accuracy : fixed ? s->step : s->tolerance, step);
     decimal(s->until, until);
-    text_seconds(seconds, inside);
+    text_seconds(now.seconds, inside);
     text_seconds(wall, all);
     fprintf(out, "%s: %s, %s %s%s, ", s->model.title, s->method,
             exact   ? "accuracy"
             : fixed ? "step"
                     : "tolerance",
             step, s->absolute ? " absolute" : "");
-    if (motus_ensemble_steps(e) > 0) fprintf(out, "%lld steps ", (long long)motus_ensemble_steps(e));
+    if (now.steps > 0) fprintf(out, "%lld steps ", (long long)now.steps);
     fprintf(out, "to t = %s, ", isnan(s->until) ? "its own end" : until);
-    const int64_t from = motus_ensemble_compiled_from(e);
     const bool elsewhere = f->archive && (f->found > 0 || s->options->team); /* its trajectories lie among others */
-    if (from > 0 && elsewhere)
+    if (now.compiled_from > 0 && elsewhere)
         fputs("interpreter, then compiled", out);
-    else if (from > 0)
+    else if (now.compiled_from > 0)
         fprintf(out, "interpreter, then compiled from trajectory %llu",
-                (unsigned long long)(f->found + (uint64_t)from + 1));
+                (unsigned long long)(f->found + (uint64_t)now.compiled_from + 1));
     else
-        fprintf(out, "%s", motus_ensemble_machine(e));
-    fprintf(out, "%s, %d lane%s, %d thread%s\n", s->options->fast ? " (fast)" : "", motus_ensemble_lanes(e),
-            motus_ensemble_lanes(e) == 1 ? "" : "s", motus_ensemble_threads(e),
-            motus_ensemble_threads(e) == 1 ? "" : "s");
+        fprintf(out, "%s", now.machine);
+    fprintf(out, "%s, %d lane%s, %d thread%s\n", s->options->fast ? " (fast)" : "", now.lanes,
+            now.lanes == 1 ? "" : "s", now.threads, now.threads == 1 ? "" : "s");
     fprintf(out, "%llu trajectories", (unsigned long long)s->rows);
     if (!shard_whole(&s->shard))
         fprintf(out, " of %llu, shard %s", (unsigned long long)s->grid.total, shard_text(&s->shard, shard));
     if (f->found > 0) fprintf(out, ", %llu of them found in the file", (unsigned long long)f->found);
     fprintf(out, ": %s, integration %s", all, inside);
-    if (work > 0 && seconds > 0) fprintf(out, ", %.3g ns per trajectory and step", seconds / work * 1e9);
+    if (work > 0 && now.seconds > 0) fprintf(out, ", %.3g ns per trajectory and step", now.seconds / work * 1e9);
     putc('\n', out);
     if (!output) {
         text_put(out, f->path);

@@ -31,8 +31,8 @@ static void auto_json(json *j, const load *m)
     motus_error why = motus_default_error();
     motus_run *run = auto_run(m, &why);
     json_open(j, "auto", '{');
-    json_string(j, "method", run ? motus_run_method(run) : NULL);
-    json_string(j, "why", run ? motus_run_choice(run) : why.message);
+    json_string(j, "method", run ? motus_run_now(run).method : NULL);
+    json_string(j, "why", run ? motus_run_now(run).choice : why.message);
     json_close(j, '}');
     motus_run_destroy(run);
 }
@@ -43,7 +43,7 @@ static void print_auto(const load *m, const char *strong, const char *plain)
     motus_error why = motus_default_error();
     motus_run *run = auto_run(m, &why);
     if (run)
-        snprintf(line, sizeof line, "%s (at tolerance %g)", motus_run_choice(run), TOLERANCE);
+        snprintf(line, sizeof line, "%s (at tolerance %g)", motus_run_now(run).choice, TOLERANCE);
     else
         snprintf(line, sizeof line, "none: %s", why.message);
     printf("\n%sauto%s\n", strong, plain);

@@ -185,18 +185,17 @@ LAB_CALL(lab_estimate) const char *lab_estimate(lab *l)
 }
 
 /* out: time, steps, steps in all, step, last step, evaluations, done, refused steps, tolerance; accuracy and what was
- * reached of it (motus_statistics), runs that were tried for it. Where steps adapt steps in all are 0, and the step is
- * NaN; elsewhere the tolerance. */
+ * reached of it (motus_run_statistics), runs that were tried for it. Where steps adapt steps in all are 0, and the step
+ * is NaN; elsewhere the tolerance. */
 LAB_CALL(lab_progress) void lab_progress(const lab *l, double *out)
 {
-    motus_statistics all = motus_default_statistics();
-    motus_run_statistics(l->run, &all);
+    const motus_run_statistics all = motus_run_now(l->run);
     out[0] = motus_run_time(l->run);
     out[1] = (double)motus_run_steps(l->run);
-    out[2] = (double)motus_run_steps_total(l->run);
-    out[3] = motus_run_step_size(l->run);
-    out[4] = motus_run_last_step(l->run);
-    out[5] = (double)motus_run_evaluations(l->run);
+    out[2] = (double)all.steps_total;
+    out[3] = all.step;
+    out[4] = all.shorter_last;
+    out[5] = (double)all.evaluations;
     out[6] = motus_run_done(l->run);
     out[7] = (double)all.refused;
     out[8] = all.tolerance;
@@ -210,9 +209,9 @@ LAB_CALL(lab_advance) motus_status lab_advance(lab *l, double steps)
     return motus_run_step(l->run, (int64_t)steps, &l->error);
 }
 
-LAB_CALL(lab_method) const char *lab_method(const lab *l) { return motus_run_method(l->run); }
+LAB_CALL(lab_method) const char *lab_method(const lab *l) { return motus_run_now(l->run).method; }
 /* Why "auto" chose it. */
-LAB_CALL(lab_choice) const char *lab_choice(const lab *l) { return motus_run_choice(l->run); }
+LAB_CALL(lab_choice) const char *lab_choice(const lab *l) { return motus_run_now(l->run).choice; }
 
 /* The restart state: the whole state in hexadecimal numbers. NULL: lab_problem. */
 LAB_CALL(lab_save) const char *lab_save(lab *l)
