@@ -4,11 +4,12 @@
  *
  *     1. status and errors      every fallible call returns a motus_status; a motus_error adds sentence and place
  *     2. systems                the equations: from a text (a model), or from a C callback
- *     3. what a system holds    variables, columns, settings, analysis
- *     4. methods                the catalogue, from the rows the code runs
- *     5. runs                   one integration: create, step, observe, save, destroy
+ *     3. what a system holds    variables, columns, numbers that may be set, settings, analysis
+ *     4. methods                the catalogue, from the rows that the code runs
+ *     5. runs                   one integration: create, step, observe, errors, events, save, trace
  *     6. ensembles              one model, many trajectories: parameters or initial values vary, numbers are recorded
  *     7. studies                every method side by side; observed order and its certificate; the reference solution
+ *     8. texts for an editor    the statements of a model, typeset; the words of a text
  *
  *     motus_text_def def = motus_default_text();
  *     def.text = "x'' = -x   x(0) = 1 ...";
@@ -38,8 +39,9 @@
  * Units. The equations' own, the same for times, steps and values; angles are in radians. `seconds` are elapsed
  * seconds of computing.
  * Lifetimes. A handle lives from …_create / …_from… to …_destroy (destroying NULL does nothing). Runs, ensembles and
- * references use their system: destroy them before it. Strings and structs returned by pointer belong to the handle
- * they came from, or are static.
+ * references use their system: destroy them before it. Strings and structs returned by pointer, and the strings in
+ * structs that a call fills, belong to the handle that they came from and live as long as it, unless the comment says
+ * how long; or they are static. What you give to a call is copied, callbacks and their context excepted.
  * Threads. There are no globals. Different threads may use different handles at once; only one thread may use a handle
  * at a time. A run, an ensemble and a reference use their system's handle too, so each thread needs a system of its
  * own: motus_system_clone.
@@ -67,7 +69,7 @@
 extern "C" {
 #endif
 
-/* The version of the library that is loaded (MOTUS_VERSION is the header's). */
+/* Returns the version of the library that is loaded (MOTUS_VERSION is the header's). */
 MOTUS_API const char *motus_version(void);
 
 /* 1. Status and errors ------------------------------------------------------------------------------------------- */
@@ -104,9 +106,10 @@ typedef enum motus_status {
 } motus_status;
 #undef MOTUS_STATUS_ENUMERATOR
 
-MOTUS_API const char *motus_status_word(motus_status); /* "diverged"; static */
-MOTUS_API const char *motus_status_text(motus_status); /* the sentence; static */
-MOTUS_API int motus_status_exit(motus_status);         /* 0, 1 or 2 */
+/* Return the word of a status, "diverged"; its sentence; and the exit status of the program, 0, 1 or 2. */
+MOTUS_API const char *motus_status_word(motus_status);
+MOTUS_API const char *motus_status_text(motus_status);
+MOTUS_API int motus_status_exit(motus_status);
 
 /* The sizes of texts and of names in structs, in bytes, the final 0 included. */
 #define MOTUS_TEXT_MAX 512
@@ -127,7 +130,7 @@ MOTUS_API int motus_status_exit(motus_status);         /* 0, 1 or 2 */
 typedef enum motus_cause { MOTUS_CAUSE_MAP(MOTUS_CAUSE_ENUMERATOR) MOTUS_CAUSE_COUNT } motus_cause;
 #undef MOTUS_CAUSE_ENUMERATOR
 
-MOTUS_API const char *motus_cause_word(motus_cause); /* "singular"; static */
+MOTUS_API const char *motus_cause_word(motus_cause); /* returns "singular" */
 
 /* Structs with a size: see Sizes above. MOTUS_DEFAULT_FUNCTION behind a struct declares what makes it,
  * motus_default_run() for motus_run_def. */
@@ -168,30 +171,29 @@ typedef struct motus_error {
     uint32_t size; /* by motus_default_error() */
     motus_status status;
     int line, column; /* of an error in a text: its place, both from 1, column in characters; else 0 */
-    /* CALLBACK: what the callback returned; 0: it reads the velocity, though its definition says that it does not. Else
-     * 0. */
+    /* CALLBACK: what the callback returned, or 0 if it reads the velocity although its definition says that it does
+     * not. Every other status: 0. */
     int returned;
     /* DIVERGED, SOLVE, CALLBACK, STEPS, EVENTS, SINGULAR, UNRESOLVED: the time of the failure; else NaN */
     double time;
-    /* DIVERGED, SOLVE, and of every cause: the number that failed, "r[3].y"; EVENTS: the event; else "" */
+    /* DIVERGED, SOLVE, and wherever `cause` is known: the number that failed, "r[3].y"; EVENTS: the event; else "" */
     char variable[MOTUS_NAME_MAX];
     char message[MOTUS_TEXT_MAX]; /* one sentence, UTF-8, without a newline, safe to print on a terminal */
     char hint[MOTUS_TEXT_MAX];    /* what to do, or "" */
     char source[MOTUS_TEXT_MAX];  /* the line of the text, control characters replaced, or "" */
     char caret[MOTUS_TEXT_MAX];   /* blanks and carets to print under `source`, or "" */
     char file[MOTUS_TEXT_MAX];    /* `file` of the definition, or "" */
-    /* For an editor, of an error in a text: the wrong word, which stands at line and column, or ""; and what to write
+    /* For an editor, where a text is wrong: the wrong word, which stands at line and column, or ""; and what to write
      * in its place, or "". Without a word, `instead` is a line to add. */
     char word[MOTUS_NAME_MAX], instead[MOTUS_TEXT_MAX];
-    /* Of a run that failed: why, as far as the evidence suffices. `time` and `variable` belong to it. SINGULAR: the
-     * time at which the motion is singular, and the power p of its distance with which `variable` goes there, as
-     * |t - singular|^p, below 0 where it grows beyond all bounds; both with their errors. Of the run's own motion: what
-     * it was off before is not in the error where steps have one size. NaN: not known. */
+    /* MOTUS_CAUSE_SINGULAR: the time at which the motion is singular, and the power p with which `variable` goes there,
+     * as |t - singular|^p; p is below 0 where it grows beyond all bounds. Both have errors. They are those of the run's
+     * own motion: with steps of one size, the errors do not contain how far the run was off before. NaN: not known. */
     double singular, singular_error, exponent, exponent_error;
-    /* A member of the definition to change, and its value, "until = 0.99", "method = radau15", or "". */
+    /* a member of the definition to change, and its value, "until = 0.99", "method = radau15"; or "" */
     char attempt[MOTUS_NAME_MAX];
-    motus_cause cause;
-    int verified; /* 1: trial steps from shortly before the failure, with this value, have led beyond it */
+    motus_cause cause; /* why a run failed, as far as the evidence suffices */
+    int verified;      /* 1: trial steps from shortly before the failure, with this value, have led beyond it */
 } motus_error;
 MOTUS_DEFAULT_FUNCTION(error, ERROR, motus_error)
 
@@ -208,7 +210,7 @@ typedef struct motus_allocator {
 
 typedef struct motus_system motus_system;
 
-/* A system from the text of a model. The library copies everything. */
+/* Defines a system by the text of a model. */
 typedef struct motus_text_def {
     uint32_t size;          /* by motus_default_text() */
     const char *text;       /* UTF-8; need not end with 0 if length is given */
@@ -241,8 +243,9 @@ typedef struct motus_event_def {
     int64_t stop;     /* the run ends at event number `stop` of this kind; 0: it goes on */
 } motus_event_def;
 
-/* A system from C. The state is x, `positions` numbers, and v, `positions + first_order` numbers: the velocities of
- * all positions, then the first-order variables s. The callback writes a, as long as v: x'' first, then s'.
+/* Defines a system by C functions. The state is x, `positions` numbers, and v, `positions + first_order` numbers: the
+ * velocities of all positions, then the first-order variables s. The callback writes a, as long as v: x'' first, then
+ * s'.
  *
  * A callback returns 0 on success. Any other value stops the call that needed it with MOTUS_CALLBACK, and the
  * motus_error holds the value and the time:
@@ -303,31 +306,20 @@ typedef struct motus_callback_def {
 } motus_callback_def;
 MOTUS_DEFAULT_FUNCTION(callback, CALLBACK, motus_callback_def)
 
-/* Reads the whole text. MOTUS_SYNTAX, MOTUS_NAME, MOTUS_SHAPE, MOTUS_LIMIT, MOTUS_ARGUMENT (a value out of its range,
- * an exact line that does not obey the equation, or an invariant that changes along the motion) and MOTUS_UNAVAILABLE,
- * each with its place in the text. */
+/* Creates a system from a text. MOTUS_SYNTAX, MOTUS_NAME, MOTUS_SHAPE, MOTUS_LIMIT, MOTUS_ARGUMENT (a value out of its
+ * range, an exact line that does not obey the equation, or an invariant that changes along the motion) and
+ * MOTUS_UNAVAILABLE, each with its place in the text. */
 MOTUS_API motus_status motus_system_from_text(const motus_text_def *, motus_system **, motus_error *);
-/* MOTUS_ARGUMENT: there is no acceleration, neither positions nor first-order variables, or an initial value is
- * missing or not finite. MOTUS_NAME: a name is not a name of the language, or is used twice. MOTUS_LIMIT: too many
- * numbers. The call calls no callback. */
+/* Creates a system from C functions. MOTUS_ARGUMENT: there is no acceleration, neither positions nor first-order
+ * variables, or an initial value is missing or not finite. MOTUS_NAME: a name is not a name of the language, or is used
+ * twice. MOTUS_LIMIT: too many numbers. It calls no callback. */
 MOTUS_API motus_status motus_system_from_callback(const motus_callback_def *, motus_system **, motus_error *);
 MOTUS_API void motus_system_destroy(motus_system *);
-/* The hooks that the system was created with. All that computes with the system takes its memory through them. */
+/* Returns the hooks that the system was created with. All that computes with the system takes its memory by them. */
 MOTUS_API const motus_allocator *motus_system_allocator(const motus_system *);
 
-/* Sets numbers of a system without reading its text again, for sliders and searches: those of a parameter, "F", or of
- * an initial value by its name in motus_initial, "x'(0)" (of a callback, initial values alone). values: all of its
- * `count` numbers, in the order of motus_parameter_values or motus_initial_values. The call computes again what
- * depends on them, except what was set itself. Runs created afterwards have the bits of a system that was read with
- * these numbers in `set` of its motus_text_def. After a failure all numbers are unchanged. MOTUS_NAME: no such
- * parameter or initial value. MOTUS_SHAPE: `count` is not the number of its numbers. MOTUS_ARGUMENT: a number is not
- * finite, or a number that depends on it would not be; an exact line would no longer obey the equation, or an invariant
- * would change along the motion; the parameter decides a size, the step or the like (motus_parameter.decides); or a
- * run, an ensemble or a reference still uses the system. */
-MOTUS_API motus_status motus_system_set(motus_system *, const char *name, const double *values, size_t count,
-                                        motus_error *);
-/* A copy of the system for another thread, numbers that were set included. The two share only the callbacks, their
- * context and the allocator, which must be safe to call from both threads. Only MOTUS_MEMORY can stop it. */
+/* Copies a system for another thread, numbers that were set included. The two share only the callbacks, their context
+ * and the allocator, which must be safe to call from both threads. It fails with MOTUS_MEMORY alone. */
 MOTUS_API motus_status motus_system_clone(const motus_system *, motus_system **, motus_error *);
 
 /* 3. What a system holds ----------------------------------------------------------------------------------------- */
@@ -347,7 +339,7 @@ typedef struct motus_variable {
 } motus_variable;
 MOTUS_DEFAULT_FUNCTION(variable, VARIABLE, motus_variable)
 MOTUS_API size_t motus_variable_count(const motus_system *);
-/* Variable k, in the order of the model. MOTUS_ARGUMENT: k is past the last; so with all calls …_at. */
+/* Fills in variable k, in the order of the model. MOTUS_ARGUMENT: k is past the last; so with all calls …_at. */
 MOTUS_API motus_status motus_variable_at(const motus_system *, size_t k, motus_variable *);
 
 /* Columns: every number that can be observed along a run, in one numbering: t; positions; velocities; first-order
@@ -375,16 +367,16 @@ typedef struct motus_column {
 MOTUS_DEFAULT_FUNCTION(column, COLUMN, motus_column)
 MOTUS_API size_t motus_column_count(const motus_system *);
 MOTUS_API motus_status motus_column_at(const motus_system *, size_t k, motus_column *);
-/* The inverse: the column *k that has this kind, variable, component and cell (and, of exact columns, is_velocity);
- * the call reads no other member. MOTUS_NAME: there is no such column. */
+/* Finds the number *k of the column with this kind, variable, component and cell (and, of exact columns, is_velocity);
+ * it reads no other member. MOTUS_NAME: there is no such column. */
 MOTUS_API motus_status motus_column_of(const motus_system *, const motus_column *, size_t *k, motus_error *);
-/* The columns that a name stands for, *count from *first on: "x" of a vector or family is all of its numbers.
+/* Finds the columns that a name stands for, *count from *first on: "x" of a vector or family is all of its numbers.
  * MOTUS_NAME: no column has the name; the hint names the nearest one. */
 MOTUS_API motus_status motus_column_find(const motus_system *, const char *name, size_t *first, size_t *count,
                                          motus_error *);
 
-/* Quantities and invariants in the order of the model, or of the definition. *numbers (may be NULL): how many
- * numbers, that is columns, it has. Returns NULL past the last. */
+/* Return the names of quantities and invariants, in the order of the model or of the definition; NULL past the last.
+ * *numbers (may be NULL): how many numbers, that is columns, it has. */
 MOTUS_API size_t motus_quantity_count(const motus_system *);
 MOTUS_API const char *motus_quantity_name(const motus_system *, size_t k, size_t *numbers);
 MOTUS_API size_t motus_invariant_count(const motus_system *);
@@ -403,16 +395,15 @@ typedef struct motus_parameter {
     int dimensions;            /* of a list: number of indices, 1 … 4, */
     int64_t first[4], last[4]; /*   and their ranges */
     size_t count;              /* numbers in all: cells × components */
-    /* NULL: only numbers depend on it. "a size or an index", "step", "until", "the start" …: it decides this (and
-     * maybe more), so neither motus_system_set nor an ensemble can change it. "unknown": there was no memory to find
-     * out. */
+    /* What the parameter decides besides numbers, "a size or an index", "step", "until", "the start" …; then neither
+     * motus_system_set nor an ensemble can change it. NULL: nothing. "unknown": there was no memory to find out. */
     const char *decides;
 } motus_parameter;
 MOTUS_DEFAULT_FUNCTION(parameter, PARAMETER, motus_parameter)
 MOTUS_API size_t motus_parameter_count(const motus_system *);
 MOTUS_API motus_status motus_parameter_at(const motus_system *, size_t k, motus_parameter *);
-/* Its present numbers, motus_parameter.count of them, cell by cell, component by component. MOTUS_ARGUMENT: k is past
- * the last. */
+/* Writes the present numbers of parameter k to out, `count` of them, cell by cell, component by component.
+ * MOTUS_ARGUMENT: k is past the last. */
 MOTUS_API motus_status motus_parameter_values(const motus_system *, size_t k, double *out);
 
 typedef struct motus_initial {
@@ -426,71 +417,72 @@ typedef struct motus_initial {
 MOTUS_DEFAULT_FUNCTION(initial, INITIAL, motus_initial)
 MOTUS_API size_t motus_initial_count(const motus_system *);
 MOTUS_API motus_status motus_initial_at(const motus_system *, size_t k, motus_initial *);
-/* Its present numbers, motus_initial.count of them, cell by cell, component by component. MOTUS_ARGUMENT: k is past
- * the last. */
+/* Writes the present numbers of initial value k to out, `count` of them, cell by cell, component by component.
+ * MOTUS_ARGUMENT: k is past the last. */
 MOTUS_API motus_status motus_initial_values(const motus_system *, size_t k, double *out);
+
+/* Sets numbers of a system without reading its text again, for sliders and searches: those of a parameter, "F", or of
+ * an initial value by its name in motus_initial, "x'(0)" (of a callback, initial values alone). values: all of its
+ * `count` numbers, in the order of motus_parameter_values or motus_initial_values. The call computes again what depends
+ * on them, except what was set itself. Runs created afterwards have the bits of a system that was read with these
+ * numbers in `set` of its motus_text_def. After a failure all numbers are unchanged. MOTUS_NAME: there is no such
+ * parameter or initial value. MOTUS_SHAPE: `count` is not the number of its numbers. MOTUS_ARGUMENT: a number is not
+ * finite, or a number that depends on it would not be; an exact line would no longer obey the equation, or an invariant
+ * would change along the motion; the parameter decides a size, the step or the like (motus_parameter.decides); or a
+ * run, an ensemble or a reference still uses the system. */
+MOTUS_API motus_status motus_system_set(motus_system *, const char *name, const double *values, size_t count,
+                                        motus_error *);
 
 /* The settings of the model. NaN, 0 or NULL: the model does not set it. */
 typedef struct motus_settings {
     uint32_t size;      /* by motus_default_settings() */
     const char *method; /* "verlet", "newmark(0.25, 0.5)", "auto" */
     double step, from, until;
-    double tolerance;    /* of an adaptive method; NaN: none is set */
-    double accuracy;     /* of the answer; NaN: none is set */
-    double every_time;   /* every T */
-    int64_t every_steps; /* every n steps */
-    /* Of motus_suggest alone, where it had to find a number: the fastest rate of the motion, in radians per time, 0:
-     * the force is constant; and the longest period, or the scale of time where nothing oscillates. Else 0. */
+    double tolerance;    /* of an adaptive method */
+    double accuracy;     /* of the answer */
+    double every_time;   /* `every` of the model, as a time, */
+    int64_t every_steps; /*   or as a number of steps */
+    /* motus_suggest fills these in where it had to find a number: the fastest rate of the motion, in radians per time,
+     * 0 if the force is constant; and the longest period, or the scale of time where nothing oscillates. Else 0. */
     double rate, period;
-    /* Of motus_suggest, of a system with `draft`: why it chose this step and this end, "60 to a swing", "three swings".
-     * Else "". */
+    /* motus_suggest fills these in for a system with `draft`: why it chose this step and this end, "60 to a swing",
+     * "three swings". Else "". */
     char step_why[MOTUS_NAME_MAX], until_why[MOTUS_NAME_MAX];
     int absolute; /* 1: the tolerance or the accuracy is absolute */
     int unused;
 } motus_settings;
 MOTUS_DEFAULT_FUNCTION(settings, SETTINGS, motus_settings)
 MOTUS_API motus_status motus_settings_of(const motus_system *, motus_settings *);
-/* Fills in step, until and method where they are NaN or NULL, for this method, step, start and end where they are
- * given. What creates runs, ensembles and studies of a model does so itself where neither its definition nor the model
- * gives a number; of a callback only this call does, since it evaluates the acceleration.
+/* Suggests step, until and method: fills in those that are NaN or NULL, and takes the others, and `from`, as they are.
+ * Calls that create runs, ensembles and studies of a model do so themselves where neither the definition nor the model
+ * gives a number. For a callback only this call does, since it evaluates the acceleration. MOTUS_METHOD: as from
+ * motus_method_admits. MOTUS_CALLBACK: a callback returned other than 0 at the start.
  *
- * The rates of a motion are the sizes of the eigenvalues of the equations linearised along it, which a short run with
- * steps that adapt follows, and at the start also the rate at which the force changes with t, and how fast the state
- * changes, min(|x'|/|x|, |x''|/|x'|). The step is at most 1/80 of the period of the fastest rate, 2 pi/rate, and at
- * most 1/100 of the way to the end. The end comes after 10 of the longest periods that the equations have at the start
- * (where these say nothing, as at an inflection of the potential, along the motion); of what does not oscillate, after
- * 10 times its scale of time, 1/rate. Where the force is constant the scale of time follows from the initial values: 2
- * max(|x'|/|x''|, sqrt(|x|/|x''|)), after which the run ends; without a force after 10 |x|/|x'|, or at 10. Both
- * numbers are rounded to 1, 2 or 5 times a power of ten. There are at most 1e6 steps, of large systems fewer, and the
- * end comes earlier to keep to that, or if it is given the step grows: to half of the method's stability limit, and
- * then there are more. The method is verlet. MOTUS_METHOD: as motus_method_admits. MOTUS_CALLBACK: a callback returned
- * other than 0 at the start.
+ * The method is verlet. The step is at most 1/80 of the period of the fastest rate, 2 pi/rate, and at most 1/100 of the
+ * way to the end. Rates are the sizes of the eigenvalues of the equations linearised along the motion, which a short
+ * run with steps that adapt follows; and at the start also the rate at which the force changes with t, and how fast the
+ * state changes, min(|x'|/|x|, |x''|/|x'|). The end comes after 10 of the longest periods that the equations have at
+ * the start (where these say nothing, as at an inflection of the potential, along the motion), or, where nothing
+ * oscillates, after 10 times the scale of time, 1/rate. Under a constant force it comes after
+ * 2 max(|x'|/|x''|, sqrt(|x|/|x''|)), without a force after 10 |x|/|x'|, or at 10. Both numbers are rounded to 1, 2 or
+ * 5 times a power of ten. There are at most 1e6 steps, fewer in large systems, so the end may come earlier. Where the
+ * end is given, the step grows instead, up to half of the method's stability limit; beyond that there are more steps.
  *
- * Of a system with `draft` it follows the motion itself, by an embedded pair of orders 3 and 2, and says of it what
- * happened in what was followed. Of what swings, the step is 1/60 of the shortest swing, from a turning point to the
- * next but one, and less where the motion changes faster in between; the end comes after three of the longest swings,
- * means of those that differ. What falls ends where the number with the largest force is at 0. What becomes infinite
- * or singular, or has no force any more, ends before. What settles ends when every number is within a hundredth of its
- * range of where it stays, as long as it was followed. What runs away ends when it has grown 20 times. Where none of
- * this shows, the rates at the start choose: 60 steps in the period of the fastest, and 3 of the longest periods, or 5
- * scales of time of what does not oscillate, "for a start". The numbers have two digits, the end of a fall three, and
- * there are at most 10000 steps. */
+ * For a system with `draft` the call follows the motion itself, by an embedded pair of orders 3 and 2, and chooses by
+ * what happens as long as it follows. The numbers have two digits, the end of a fall three; there are at most 10000
+ * steps. What a motion does decides:
+ *     It swings:    The step is 1/60 of the shortest swing, from a turning point to the next but one, and less where
+ *                   the motion changes faster in between. The end comes after three of the longest swings, means of
+ *                   those that differ.
+ *     It falls:     The end is where the number with the largest force is at 0.
+ *     It becomes infinite or singular, or has no force any more: The end is before.
+ *     It settles:   The end is when every number is within a hundredth of its range of where it stays.
+ *     It runs away: The end is when it has grown 20 times.
+ *     Else the rates at the start choose, "for a start": 60 steps in the period of the fastest; the end after 3 of the
+ *                   longest periods, or 5 scales of time where nothing oscillates. */
 MOTUS_API motus_status motus_suggest(motus_system *, motus_settings *, motus_error *);
 
-/* motus_suggest for an ensemble: the step is the shortest that one of `trajectories` trajectories needs, those at the
- * ends of what varies, say. names and values: as `vary` of motus_ensemble_def and the values of motus_ensemble_run,
- * `until` is passed over; trajectories that have no step, as they stop at once, count for nothing. The end is that of
- * the system as it is. MOTUS_NAME: as motus_ensemble_create. */
-MOTUS_API motus_status motus_suggest_varied(motus_system *, size_t count, const char *const *names, size_t trajectories,
-                                            const double *const *values, motus_settings *, motus_error *);
-/* By how many powers of ten the steps of these settings, which give step and end, grow up to the end where the motion
- * of one of the trajectories swings or decays: from the spectral radius of the steps (motus_stability) at the rates
- * along it. More than 1: what such a run prints is not the motion. 0: not known, or the method adapts its steps. */
-MOTUS_API motus_status motus_step_growth(motus_system *, size_t count, const char *const *names, size_t trajectories,
-                                         const double *const *values, const motus_settings *, double *powers,
-                                         motus_error *);
-
-/* What the library knows of the equations: read off a model, given by the definition of a callback. 1: yes; 0: no, or
+/* What the library knows of the equations, from the text of a model or the definition of a callback. 1: yes; 0: no, or
  * not known. */
 typedef struct motus_analysis {
     uint32_t size; /* by motus_default_analysis() */
@@ -499,22 +491,21 @@ typedef struct motus_analysis {
     int gradient;         /* the force is the gradient of a potential, near every state */
     int smooth;           /* 1: no abs, min, max, floor, mod, sign, if */
     int exact_recognised; /* the exact motion is known without an exact line */
-    /* The formulas did not prove it: `gyroscopic`, `gradient` hold as far as sampled, at random states of many sizes.
-     */
+    /* 1: `gyroscopic` or `gradient` is not proved by the formulas, but held at random states of many sizes */
     int sampled_gyroscopic, sampled_gradient;
     int energy; /* an energy is proved to exist: a gradient without time, whose potential has one value everywhere */
 } motus_analysis;
 MOTUS_DEFAULT_FUNCTION(analysis, ANALYSIS, motus_analysis)
 MOTUS_API motus_status motus_analysis_of(const motus_system *, motus_analysis *);
-/* The same in words, one sentence a line, with the coefficients of the velocity. Owned by the system. "": there was no
- * memory. */
+/* Says in words what motus_analysis tells, one sentence a line, with the coefficients of the velocity. Owned by the
+ * system. "": there was no memory. */
 MOTUS_API const char *motus_explain(motus_system *);
-/* The events of a model in words, one sentence a line: what each waits for and does, the parameters that they assign,
- * and what holds at the start, which is no event. Owned by the system, until the next call of this function. "": there
- * are none, or there was no memory. */
+/* Says in words what the events of a model are, one sentence a line: what each waits for and does, the parameters that
+ * they assign, and which conditions already hold at the start, where they are no events. Owned by the system, until the
+ * next call of this function. "": there are none, or there was no memory. */
 MOTUS_API const char *motus_explain_events(motus_system *);
-/* Where the force changes its formula: each abs, sign, min, max, floor, mod, cbrt and comparison of time or state in
- * the equations of motion, with the surface on which it does. */
+/* A place where the force changes its formula: each abs, sign, min, max, floor, mod, cbrt and comparison of time or
+ * state in the equations of motion, with the surface on which it does. */
 typedef enum motus_sliding {
     MOTUS_SLIDING_UNKNOWN, /* the surface cannot be located */
     MOTUS_SLIDING_NEVER,   /* motions pass: the operation does not jump, or does not move what it depends on */
@@ -523,7 +514,7 @@ typedef enum motus_sliding {
 } motus_sliding;
 typedef struct motus_switch {
     uint32_t size;           /* by motus_default_switch() */
-    const char *operation;   /* "sign(V - x')"; this and what follows is owned by the system, until the next call */
+    const char *operation;   /* "sign(V - x')"; all three texts are the system's, until the next call */
     const char *surface;     /* "V - x' = 0", "t/2 = a whole number" */
     size_t count;            /* switches: 1, of a family the cells of its indices' ranges; 0: not known */
     int located;             /* 1: adaptive methods end their steps on it, unless they are told otherwise */
@@ -531,69 +522,13 @@ typedef struct motus_switch {
     motus_sliding sliding;   /* of runs that locate it */
 } motus_switch;
 MOTUS_DEFAULT_FUNCTION(switch, SWITCH, motus_switch)
-/* Switch k, in the order in which the equations are evaluated. MOTUS_ARGUMENT: k is past the last; a callback has none.
- * MOTUS_MEMORY: there was no memory. Of a model with more switches than can be located, the last is the one with which
- * there are too many. */
+/* Fills in switch k, in the order in which the equations are evaluated. MOTUS_ARGUMENT: k is past the last; a callback
+ * has none. MOTUS_MEMORY: there was no memory. Where a model has more switches than can be located, the last one is the
+ * first that is too many. */
 MOTUS_API motus_status motus_switch_at(motus_system *, size_t k, motus_switch *);
-/* Equation k in normal form, as text in the language: "x'' = x^3 - x + F cos(t)". Owned by the system, until the next
- * call of this function. NULL: k is past the last, the system is from a callback, or there was no memory. */
+/* Writes equation k in normal form, as text in the language: "x'' = x^3 - x + F cos(t)". Owned by the system, until the
+ * next call of this function. NULL: k is past the last, the system is from a callback, or there was no memory. */
 MOTUS_API const char *motus_equation_text(motus_system *, size_t k);
-
-/* The statements of the model, in the order of its text. A callback has none. */
-typedef enum motus_statement_kind {
-    MOTUS_STATEMENT_MOTION,      /* x'' = … */
-    MOTUS_STATEMENT_FIRST_ORDER, /* s' = … */
-    MOTUS_STATEMENT_PARAMETER,
-    MOTUS_STATEMENT_QUANTITY,
-    MOTUS_STATEMENT_START,    /* x(0) = …, x'(0) = … */
-    MOTUS_STATEMENT_BOUNDARY, /* x[0] = … */
-    MOTUS_STATEMENT_EXACT,
-    MOTUS_STATEMENT_INVARIANT,
-    MOTUS_STATEMENT_SETTING,  /* method, step, from, until, every */
-    MOTUS_STATEMENT_FUNCTION, /* V(q) = … */
-    MOTUS_STATEMENT_EVENT     /* when … */
-} motus_statement_kind;
-typedef struct motus_statement {
-    uint32_t size; /* by motus_default_statement() */
-    motus_statement_kind kind;
-    const char *name; /* the name that it defines: "x", "energy"; of a setting its word: "step" */
-    int line;         /* the line of the model's text where it begins, from 1; 0: `set` added it */
-    int is_set;       /* `set` gave its value */
-} motus_statement;
-MOTUS_DEFAULT_FUNCTION(statement, STATEMENT, motus_statement)
-MOTUS_API size_t motus_statement_count(const motus_system *);
-MOTUS_API motus_status motus_statement_at(const motus_system *, size_t k, motus_statement *);
-/* Statement k as the parser read it, typeset: one presentation MathML element, <math xmlns="…"
- * display="block">…</math>, in UTF-8. Whatever the text of the model, the element is well-formed XML and safe in a
- * page; where a statement is too long for a page, an ellipsis stands for the rest. Two elements have a class for a
- * style sheet: "cases", a table whose cells are left-aligned, and "for", the indices of a family behind its equation.
- * Owned by the system, until the next call of this function. NULL: k is past the last, or there was no memory. */
-MOTUS_API const char *motus_statement_mathml(motus_system *, size_t k);
-
-/* The words of a text, for an editor that colours them: those of the lexer that reads models, also where the text is no
- * model. A name is known where it is a word of the language, or where the text defines it: on the left of = or before
- * primes, as an index or an argument. */
-typedef enum motus_word_kind {
-    MOTUS_WORD_KNOWN,
-    MOTUS_WORD_UNKNOWN,
-    MOTUS_WORD_NUMBER,
-    MOTUS_WORD_COMMENT,
-    MOTUS_WORD_SETTING,  /* method, step … and what follows `method` */
-    MOTUS_WORD_FUNCTION, /* of the language: sin */
-    MOTUS_WORD_OPERATOR, /* signs, brackets, primes; for, and, or, not */
-    MOTUS_WORD_WRONG     /* what is no word of any kind */
-} motus_word_kind;
-typedef struct motus_word {
-    size_t from, length; /* bytes of the text */
-    motus_word_kind kind;
-    int defines; /* 1: the text defines this name here */
-} motus_word;
-/* Writes the first `room` words of `length` bytes of text, and returns how many it wrote. It takes no memory, and its
- * time grows as the number of names times that of definitions. */
-MOTUS_API size_t motus_text_words(const char *text, size_t length, motus_word *words, size_t room);
-/* Word k of the language, in a fixed order, and its kind: SETTING begins a statement, FUNCTION has a bracket,
- * KNOWN is t or pi, OPERATOR a word like for. NULL: k is past the last. */
-MOTUS_API const char *motus_language_word(size_t k, motus_word_kind *);
 
 /* 4. Methods ----------------------------------------------------------------------------------------------------- */
 
@@ -602,10 +537,12 @@ typedef struct motus_method {
     const char *name, *aliases; /* aliases: blank-separated, "" if none */
     const char *title;          /* for a text or a legend: "velocity Verlet" */
     const char *family; /* "splitting", "runge-kutta", "two-step", "implicit", "extrapolation", "taylor", "exact" */
-    int order, stages;  /* order: where any error is allowed, if it follows the tolerance; 0: there is no error */
-    /* of the acceleration per step in a long run; 0: it depends on the iterations; of a method that chooses its order,
-     * in a step of the declared one. Splitting methods need more where first-order variables read the velocity, or the
-     * velocity enters nonlinearly. */
+    /* order: 0: the method is exact. Where any_order is 1, the order follows the tolerance, and this is the order at
+     * coarse tolerances. */
+    int order, stages;
+    /* Evaluations of the acceleration per step in a long run; 0: they depend on the iterations. Of a method that
+     * chooses its order, those in a step of this order. Splitting methods need more where first-order variables read
+     * the velocity, or the velocity enters nonlinearly. */
     int evaluations;
     motus_forces forces;        /* what the force may depend on */
     int symplectic, reversible; /* symplectic: where the force is a gradient; motus_method_geometry tells of a system */
@@ -621,17 +558,17 @@ typedef struct motus_method {
     int series;    /* 1: a step is a Taylor series, and an evaluation one coefficient of the acceleration's */
 } motus_method;
 MOTUS_API size_t motus_method_count(void);
-MOTUS_API const motus_method *motus_method_at(size_t k);
+MOTUS_API const motus_method *motus_method_at(size_t k); /* NULL: k is past the last */
 /* Finds a method by name or alias, in any letter case, with its arguments if it has any: "newmark(1/6, 1/2)". `found`
  * may be NULL. MOTUS_METHOD: there is no such method, and the hint names the nearest one; or the arguments are
  * wrong. */
 MOTUS_API motus_status motus_method_find(const char *name, const motus_method **found, motus_error *);
-/* MOTUS_OK: the method can integrate the system. MOTUS_METHOD: it cannot, for the reason in `message`, and `hint` names
- * the nearest method that can; or there is no such method. */
+/* Returns MOTUS_OK if the method can integrate the system. MOTUS_METHOD: it cannot, for the reason in `message`, and
+ * `hint` names the nearest method that can; or there is no such method. */
 MOTUS_API motus_status motus_method_admits(const motus_system *, const char *method, motus_error *);
 
-/* What every step of a method preserves of this system's motion; the card speaks of the forces that suit the method
- * best. Reversibility, which the card states, holds for every force that the method admits. */
+/* What every step of a method preserves of a system's motion. motus_method speaks of the forces that suit the method
+ * best; `reversible` there holds for every force that the method admits. */
 typedef enum motus_geometry {
     MOTUS_GEOMETRY_NONE,   /* or not known: a callback's force may be a gradient */
     MOTUS_GEOMETRY_VOLUME, /* the volume of phase space: a splitting method, and a force without friction */
@@ -639,17 +576,17 @@ typedef enum motus_geometry {
      * energy exists, and its error stays bounded for very long times. */
     MOTUS_GEOMETRY_SYMPLECTIC
 } motus_geometry;
-/* MOTUS_METHOD: as motus_method_admits. */
+/* Finds what a method preserves of this system's motion. MOTUS_METHOD: as from motus_method_admits. */
 MOTUS_API motus_status motus_method_geometry(const motus_system *, const char *method, motus_geometry *, motus_error *);
 
-/* The stability region. radius[k], for each of `count` points z = h λ = re[k] + i im[k], is the spectral radius of one
- * step, the factor by which a step multiplies a motion in the long run, on the equation with the eigenvalues λ and its
- * conjugate, x'' = 2 Re λ x' - |λ|² x: the imaginary axis is an oscillator without friction, the left half plane one
- * with friction. The method is stable where the radius is at most 1, up to rounding: some 1e-15 (1 + |z|) to the power
- * of the stages, and the square root of that where the two eigenvalues coincide. For Runge-Kutta it is |R(z)|. NaN off
- * the imaginary axis for a method that does not admit forces of the velocity. INFINITY where a step has no finite or no
- * unique result. MOTUS_METHOD: there is no such method, or it takes no steps. MOTUS_ARGUMENT: |z| is above
- * MOTUS_STABILITY_FAR, or NaN. */
+/* Computes the stability region. radius[k], for each of `count` points z = h λ = re[k] + i im[k], is the spectral
+ * radius of one step, the factor by which a step multiplies a motion in the long run, on the equation with the
+ * eigenvalues λ and its conjugate, x'' = 2 Re λ x' - |λ|² x: the imaginary axis is an oscillator without friction, the
+ * left half plane one with friction. The method is stable where the radius is at most 1, up to rounding: some 1e-15 (1
+ * + |z|) to the power of the stages, and the square root of that where the two eigenvalues coincide. For Runge-Kutta it
+ * is |R(z)|. NaN off the imaginary axis for a method that does not admit forces of the velocity. INFINITY where a step
+ * has no finite or no unique result. MOTUS_METHOD: there is no such method, or it takes no steps. MOTUS_ARGUMENT: |z|
+ * is above MOTUS_STABILITY_FAR, or NaN. */
 #define MOTUS_STABILITY_FAR 1e6
 MOTUS_API motus_status motus_stability(const char *method, size_t count, const double *re, const double *im,
                                        double *radius, motus_error *);
@@ -661,43 +598,45 @@ typedef struct motus_run motus_run;
 /* What a run does where the force changes its formula: where the argument of an abs, sign, min, max, floor, mod, cbrt
  * or of a comparison passes the value that decides. */
 typedef enum motus_switches {
-    MOTUS_SWITCHES_STEP, /* nothing: it steps across, and loses the order of its method there */
-    /* Every step ends where a switch changes its side, located to the rounding of the time; a method whose steps
-     * have one size goes on to the time at which the step would have ended, so the times after steps are those of
-     * other runs but for their rounding. The order of the method remains. Such a run cannot be traced. Where a
-     * sign(s) drives s back to 0 from both sides, as dry friction does that sticks, s stays 0, and the sign has the
-     * value in [-1, 1] that keeps it, until that leaves the interval. Where swings become ever shorter and come to an
-     * end, as under -2 sign(x) - sign(x'), both stay 0. A comparison that drives its own operands back is held between
-     * its branches likewise, where the force is affine in it. MOTUS_SOLVE: another switch would have to be held so, or
-     * two of families, or more than 8, that depend on one another; or the force drives the motion away to both sides,
-     * so that it is not unique. MOTUS_EVENTS: switches follow one another ever faster, and nothing holds the motion
-     * there. In steps of one size, where the force may be undefined beyond a switch, as max(0, x)^1.5 is: the
-     * interpreter takes the step in pieces that come near it; such a run tells no errors, holds nothing at 0
-     * (MOTUS_SOLVE), and cannot be sampled, saved or restored; an ensemble refuses it. */
+    MOTUS_SWITCHES_STEP, /* it steps across, and loses the order of its method there */
+    /* Every step ends where a switch changes its side, located to the rounding of the time, and the method keeps its
+     * order. A method whose steps have one size then goes on to the time at which the step would have ended, so the
+     * times after steps are those of other runs but for their rounding. Such a run cannot be traced.
+     *
+     * Where a sign(s) drives s back to 0 from both sides, as dry friction does that sticks, s stays 0, and the sign has
+     * the value in [-1, 1] that keeps it, until that leaves the interval. Where swings become ever shorter and come to
+     * an end, as under -2 sign(x) - sign(x'), both stay 0. A comparison that drives its own operands back is held
+     * between its branches, where the force is affine in it. MOTUS_SOLVE: another switch would have to be held, or two
+     * of families, or more than 8, that depend on one another; or the force drives the motion away to both sides, so
+     * that it is not unique. MOTUS_EVENTS: switches follow one another ever faster, and nothing holds the motion there.
+     *
+     * With steps of one size, where the force may be undefined beyond a switch, as max(0, x)^1.5 is, the interpreter
+     * takes the step in pieces that come near it. Such a run tells no errors, holds nothing at 0 (MOTUS_SOLVE), and
+     * cannot be sampled, saved or restored; an ensemble refuses it. */
     MOTUS_SWITCHES_LOCATE,
-    /* As MOTUS_SWITCHES_LOCATE; pieces are also short enough that no switch changes its side and changes back within
-     * one, however narrow its window; and where the force has an operation that may change from one regime to another
-     * and back, as exp(-z²) does at its peak, they are halved until it cannot, and until two halves give the same as
-     * one. MOTUS_SOLVE: that is not reached, since the force changes too fast. Reference solutions are runs of this
-     * kind. */
+    /* As MOTUS_SWITCHES_LOCATE, with steps so short that no switch changes its side and changes back within one,
+     * however narrow its window. Where the force has an operation that may change from one regime to another and back,
+     * as exp(-z²) does at its peak, steps are halved until it cannot, and until two halves give the same as one.
+     * MOTUS_SOLVE: the force changes too fast for that. Reference solutions are runs of this kind. */
     MOTUS_SWITCHES_RESOLVE,
     /* The default: LOCATE by a method that adapts its steps, else STEP. STEP as well where there are more than 64
      * switches, which cost time in every step; where the force may be undefined beyond one, as max(0, x)^1.5 is; and
-     * where they cannot be located; `not_located` of motus_run_statistics says so. Ensembles do the same. */
+     * where they cannot be located: `not_located` of motus_run_statistics says why. Ensembles choose likewise. */
     MOTUS_SWITCHES_USUAL
 } motus_switches;
 
-/* Whether a run tells how far its numbers are from the exact motion, that of the equations and the numbers as they are
- * written: bars of error. Its own bits are the same, but where its steps adapt and one of them leads over a change of
- * the force that it does not show: with bars it is taken again, by shorter ones. What it costs: see
- * motus_run_errors. */
+/* Whether a run has bars of error, which tell how far its numbers are from the exact motion, that of the equations and
+ * the numbers as they are written. The bits of the run do not depend on it, with one exception: where its steps adapt,
+ * and a step leads over a change of the force that the step does not show, the run with bars takes shorter steps in its
+ * place. motus_run_errors says what bars cost. */
 typedef enum motus_bars {
     MOTUS_BARS_NONE,
-    /* By a companion, a run of about half the step, or of two halves of every step that adapts, with every decimal
+    /* Bars by a companion: a run of about half the step, or of two halves of every step that adapts, with every decimal
      * rounded to the other side. Where steps adapt and the force is not smooth, the companion takes steps of its own,
      * by a smaller tolerance. */
     MOTUS_BARS_CHEAP,
-    /* By a second companion too, of the same steps, that begins an ulp away: for motions that pass close encounters. */
+    /* Bars by a second companion too, which takes the run's steps and begins an ulp away: for motions that pass close
+     * encounters. */
     MOTUS_BARS_FULL
 } motus_bars;
 
@@ -705,8 +644,8 @@ typedef struct motus_run_def {
     uint32_t size; /* by motus_default_run() */
     /* NULL: the model's; where neither names one "verlet" if a step is given, else "auto". "auto": the run chooses,
      * among methods that suit the force, the one that needs the fewest operations for the accuracy or the tolerance. It
-     * counts them in pilot runs over the first part of the motion, and never looks at a clock, so it chooses the same
-     * on every machine. `choice` of motus_run_statistics says why. */
+     * counts them in pilot runs over the first part of the motion, and never looks at a clock, so it chooses alike on
+     * every machine. `choice` of motus_run_statistics says why. */
     const char *method;
     /* Of a method with steps of one size: > 0; NaN: the model's, or motus_suggest's. Its direction follows from
      * `until`. Of an adaptive method, and with an accuracy: NaN. */
@@ -727,9 +666,9 @@ typedef struct motus_run_def {
      * the sum of these errors, as the motion has carried them on. */
     double tolerance;
     double shortest_step, longest_step; /* of an adaptive method: the limits of its steps, 0: none */
-    double until;                       /* the end; NaN: likewise. Before the start: the run goes backward */
-    double start;                       /* NaN: the model's */
-    const double *x, *v;                /* the initial state: nx and nv finite numbers, copied; NULL: the model's */
+    double until;        /* the end; NaN: the model's, or motus_suggest's. Before the start: the run goes backward */
+    double start;        /* NaN: the model's */
+    const double *x, *v; /* the initial state: nx and nv finite numbers, copied; NULL: the model's */
     /* NULL, or called from time to time, at most about every 10 ms, with the fraction of the run that is done, 0 … 1.
      * A value other than 0 cancels the call that steps: MOTUS_CANCELLED. The call that creates a run with an accuracy
      * counts its search by itself, from 0 to less than 1. */
@@ -762,13 +701,13 @@ typedef struct motus_run_def {
 MOTUS_DEFAULT_FUNCTION(run, RUN, motus_run_def)
 #define MOTUS_THREADS_MAX 1024
 
-/* The definition may be NULL: then everything is the model's. MOTUS_METHOD: there is no such method, it does not admit
- * the force or the start, or it cannot take the shorter last step. MOTUS_ARGUMENT: a callback has no step or no end, a
- * number is not finite or out of its range, or there is no such machine. MOTUS_LIMIT: more than 1e15 steps, more than
- * 2^26 events by a clock, or implicit equations too large to solve. MOTUS_TOOL: "compiled" is asked for and not
- * available. MOTUS_CALLBACK: the callback `exact` returned other than 0, where the method is exact; or one returned
- * other than 0 in a pilot or trial run. With an accuracy or "auto" the call integrates, may fail as motus_run_finish
- * does, and calls `progress`; else it does not evaluate the acceleration of a callback. */
+/* Creates a run. The definition may be NULL: then everything is the model's. MOTUS_METHOD: there is no such method, it
+ * does not admit the force or the start, or it cannot take the shorter last step. MOTUS_ARGUMENT: a callback has no
+ * step or no end, a number is not finite or out of its range, or there is no such machine. MOTUS_LIMIT: more than 1e15
+ * steps, more than 2^26 events by a clock, or implicit equations too large to solve. MOTUS_TOOL: "compiled" is asked
+ * for and not available. MOTUS_CALLBACK: the callback `exact` returned other than 0, where the method is exact; or one
+ * returned other than 0 in a pilot or trial run. With an accuracy or "auto" the call integrates, may fail as
+ * motus_run_finish does, and calls `progress`; else it does not evaluate the acceleration of a callback. */
 MOTUS_API motus_status motus_run_create(motus_system *, const motus_run_def *, motus_run **, motus_error *);
 MOTUS_API void motus_run_destroy(motus_run *);
 
@@ -784,13 +723,142 @@ MOTUS_API motus_status motus_run_step(motus_run *, int64_t n, motus_error *);
 /* Takes all steps up to `until`. Fails as motus_run_step does. */
 MOTUS_API motus_status motus_run_finish(motus_run *, motus_error *);
 MOTUS_API int motus_run_done(const motus_run *); /* 1: the run is at `until`, or an event has ended it */
-
 MOTUS_API double motus_run_time(const motus_run *);
-MOTUS_API int64_t motus_run_steps(const motus_run *); /* taken so far, in the present leg */
-/* the time after `step` steps of the leg; `until` from the last one on; NaN: the step size adapts */
+MOTUS_API int64_t motus_run_steps(const motus_run *); /* how many it has taken, in the present leg */
+/* Returns the time after `step` steps of the leg, `until` from the last one on. NaN: steps adapt. */
 MOTUS_API double motus_run_time_of(const motus_run *, int64_t step);
 
-/* What a run is, and all that it has done so far. The strings live as long as the run. */
+/* ---- the state ---- */
+
+/* Writes the present state: nx numbers to x, nv to v, at the same time; either may be NULL. Observing changes neither
+ * the run nor its counts. MOTUS_SOLVE, MOTUS_DIVERGED, MOTUS_CALLBACK: the method needs one more evaluation for the
+ * state, and it failed. */
+MOTUS_API motus_status motus_run_state(motus_run *, double *x, double *v, motus_error *);
+/* Writes the values of `count` columns (numbers from motus_column_find) at the present state to out. MOTUS_ARGUMENT:
+ * there is no such column. MOTUS_CALLBACK: the callback for quantities, invariants or the exact motion returned other
+ * than 0. Fails besides as motus_run_state does. */
+MOTUS_API motus_status motus_run_values(motus_run *, const size_t *columns, size_t count, double *out, motus_error *);
+/* Writes columns at given times, which follow the direction of the run and end at or before `until`. It takes steps as
+ * needed; between steps it evaluates the method's dense output, of the order motus_method.dense_order. That is a
+ * polynomial of the stages (bs32, dopri5, tsit5, verner6 to verner9, dop853, dep6; gauss10 to gauss16, radau15), the
+ * exact motion, or the polynomial through the ends of the step: Hermite's quintic (cubic of first-order variables),
+ * which is of order 3, 4 without first-order variables, and for methods of higher order is corrected by accelerations
+ * within the step. The accelerations that it needs are evaluated once for all times within a step: none for most
+ * methods, at most 9 for the pairs, 18 for methods of order 8, 28 for dep12, 30 for gragg-stormer, 60 for gragg; no
+ * count has them, and the run does not change. out: time_count rows of `count` numbers. MOTUS_ARGUMENT: a time lies
+ * beyond the end, or before the run's last step. MOTUS_CALLBACK: an acceleration within the step cannot be evaluated.
+ * Fails besides as motus_run_step and motus_run_values do. */
+MOTUS_API motus_status motus_run_sample(motus_run *, const double *times, size_t time_count, const size_t *columns,
+                                        size_t count, double *out, motus_error *);
+
+/* Writes the Jacobian matrices at the present state. Row i belongs to the acceleration or rate of number i of nv; da_dx
+ * has nv rows of nx derivatives with respect to the positions, da_dv nv rows of nv with respect to the velocities and
+ * first-order variables; either may be NULL. Exact where the system has derivatives; otherwise difference quotients,
+ * with half of the digits, or nearly all where the dependence is linear. MOTUS_LIMIT: nv is above MOTUS_JACOBIAN_MAX.
+ * MOTUS_CALLBACK: a callback returned other than 0. Fails besides as motus_run_state does. */
+#define MOTUS_JACOBIAN_MAX 256
+MOTUS_API motus_status motus_run_jacobian(motus_run *, double *da_dx, double *da_dv, motus_error *);
+
+/* ---- errors ---- */
+
+/* Writes the values of `count` columns at the present state, as motus_run_values does (values may be NULL), and the bar
+ * of each: |value - exact motion| is below it in about 99 of 100 numbers, and at least a tenth of it in more than 90. A
+ * bar covers truncation, round-off, the rounding of decimals in a model's text, and what the motion makes of all that.
+ * It does not cover numbers that are not well known, an equation that is not the true one, or numbers that were rounded
+ * before they came here: those of a callback, of `x` and `v` in the definition, of motus_system_set.
+ *
+ * Every column has a bar by its own difference between the run and its companion. 0: the number is exactly 0, and the
+ * companion's was too, at all times that were compared. INFINITY: no digit is known to be significant, since the two
+ * have been further apart than a tenth of the motion's size, or a quarter where errors grow slowly
+ * (motus_estimate.significant_until). NaN: there is no bar, as motus_estimate.reason says; the value is there.
+ *
+ * The companion goes on when the run does. It costs twice the run's evaluations, and one step more for every time at
+ * which it is compared: about 256 times; of a run of less than 4096 steps every 16 steps, of less than 512 steps 32
+ * times; and the times of these calls. The bars depend a little on these times. The second companion of MOTUS_BARS_FULL
+ * costs as much as the run.
+ *
+ * MOTUS_ARGUMENT: the definition of the run asks for no bars, or there is no such column. Fails besides as
+ * motus_run_values does, and with MOTUS_CANCELLED. What fails in a companion is no failure, but a reason. */
+MOTUS_API motus_status motus_run_errors(motus_run *, const size_t *columns, size_t count, double *values,
+                                        double *errors, motus_error *);
+/* Writes columns at given times, as motus_run_sample does, with bars, which cover the error of the interpolation too.
+ * Both tables have time_count rows of `count` numbers. Fails as motus_run_sample and motus_run_errors do. */
+MOTUS_API motus_status motus_run_sample_errors(motus_run *, const double *times, size_t time_count,
+                                               const size_t *columns, size_t count, double *values, double *errors,
+                                               motus_error *);
+/* What the bars of a run rest on. */
+typedef struct motus_estimate {
+    uint32_t size; /* by motus_default_estimate() */
+    int kinked;    /* 1: steps lead across kinks of the force; bars are rough */
+    /* The largest distance so far of the run from its companion, in units of the largest number of its kind: positions,
+     * velocities, first-order variables; and by how much it has grown since the first 1/32 of the run. */
+    double distance, growth;
+    /* From this time on no digit is known to be significant, of any number, since all are judged together; NaN: up to
+     * the present time digits are. */
+    double significant_until;
+    double rate;        /* the distance grows like e^(rate t); NaN: not as an exponential, or not known */
+    double work;        /* evaluations by companions, in units of the run's; NaN: there are none yet */
+    double seconds;     /* elapsed in companions, reading and compiling included */
+    const char *reason; /* why there is no bar, one sentence; "": there is */
+    /* The part of the steps that a witness examined, to see whether the force does more between the times at which the
+     * method evaluates it than the step shows. 1: all steps, or the force can do nothing there. NaN: none was examined,
+     * as with a callback. */
+    double looked;
+} motus_estimate;
+MOTUS_DEFAULT_FUNCTION(estimate, ESTIMATE, motus_estimate)
+/* Fills in what the bars at the present state rest on. Fails as motus_run_errors does. */
+MOTUS_API motus_status motus_run_estimate(motus_run *, motus_estimate *, motus_error *);
+
+/* ---- events ---- */
+
+/* A row of the table of events, what a model's `when` statements, or the events of a callback, have found and done so
+ * far: one for every event of a kind that records. Every root of every event function is found, in order; a root where
+ * the run starts is no event. Time and state of an event are those of a step of the method that ends on it. A run with
+ * more than 100 actions in one instant fails with MOTUS_EVENTS. */
+typedef struct motus_event_row {
+    uint32_t size;                 /* by motus_default_event_row() */
+    int touched;                   /* 1: the function touched 0 and went back */
+    const char *name;              /* "bounce"; owned by the system */
+    int64_t count;                 /* events of this kind so far, this one included */
+    double time, error;            /* error: how far the time may be off; NaN: not known */
+    int64_t changed;               /* 1: an action changed the state */
+    char instance[MOTUS_NAME_MAX]; /* with its indices, "contact[1,2]" */
+} motus_event_row;
+MOTUS_DEFAULT_FUNCTION(event_row, EVENT_ROW, motus_event_row)
+MOTUS_API int64_t motus_run_events(const motus_run *); /* how many rows the table has */
+/* Fills in row k, from 0. MOTUS_ARGUMENT: there is none. */
+MOTUS_API motus_status motus_run_event(motus_run *, int64_t k, motus_event_row *);
+/* Writes the values of `count` columns at row k: on arrival, or with `after` = 1 as the action left them.
+ * MOTUS_ARGUMENT: there is no such row or column. Fails besides as motus_run_values does. */
+MOTUS_API motus_status motus_run_event_values(motus_run *, int64_t k, int after, const size_t *columns, size_t count,
+                                              double *out, motus_error *);
+/* Writes these values, and how far each may be from that at the event of the exact motion, which is at another time.
+ * NaN: not known. INFINITY: no digit is significant. Fails besides as motus_run_errors does. */
+MOTUS_API motus_status motus_run_event_errors(motus_run *, int64_t k, int after, const size_t *columns, size_t count,
+                                              double *values, double *errors, motus_error *);
+/* Returns how many rows have a significant digit. In the next one, run and companion have different events, or times
+ * that are farther apart than a quarter of the time from the event before. A run without bars returns all rows. */
+MOTUS_API int64_t motus_run_events_significant(motus_run *);
+/* Keeps from now on, with keep = 1, what every action of an event changes, also of events without a row; with 0 it
+ * keeps nothing. Each call forgets the actions that were kept before. */
+MOTUS_API void motus_run_keep_jumps(motus_run *, int keep);
+MOTUS_API int64_t motus_run_jumps(const motus_run *); /* how many actions are kept */
+/* Writes the time of action k, from 0, and values of columns before it or, with `after` = 1, as it left them. *moves
+ * (may be NULL): 1: the motion or an event depends on what it changed, so that it ended a step. MOTUS_ARGUMENT: there
+ * is no such action or column. Fails besides as motus_run_values does. */
+MOTUS_API motus_status motus_run_jump(motus_run *, int64_t k, int after, const size_t *columns, size_t count,
+                                      double *time, int *moves, double *out, motus_error *);
+/* Returns the name of the kind of event that ended the run before `until`; "" where none did. *accumulated (may be
+ * NULL): 1 where events accumulate; then *time is the limit of their times, which is known to *error. *error is NaN
+ * where no companion has told it, and INFINITY where no digit is significant; of a run without bars it says how far
+ * rounding lets the limit of its own events be known. */
+MOTUS_API const char *motus_run_ended(motus_run *, int *accumulated, double *time, double *error);
+/* Returns the name of the kind whose events accumulate, whether or not that ended the run; "": none do. */
+MOTUS_API const char *motus_run_accumulates(const motus_run *);
+
+/* ---- statistics ---- */
+
+/* What a run is, and all that it has done so far. */
 typedef struct motus_run_statistics {
     uint32_t size; /* by motus_default_run_statistics() */
     int legs;      /* 1, and one more for every motus_run_set_state */
@@ -814,35 +882,36 @@ typedef struct motus_run_statistics {
     int64_t iterations;           /* in which implicit equations are solved, by both */
     double first_step, last_step; /* sizes of the first and of the latest step taken, > 0; NaN before the first */
     double tolerance;             /* of an adaptive method; NaN: steps have one size */
-    /* What was asked of the answer, NaN: nothing; and what the trial run with the run's tolerance or step reached, in
-     * the same unit: the largest bar of its numbers. Of a trial that was far off and not taken to its end: that of the
-     * run at its end, before that INFINITY. */
+    /* The accuracy that was asked for, NaN: none; and what the trial run with the run's tolerance or step reached, in
+     * the unit of the accuracy: the largest bar of its numbers. Where that trial was far off and not taken to its end,
+     * `reached` is the largest bar of the run at its end, and INFINITY before. */
     double accuracy, reached;
     /* The smallest and the largest step of the present leg, without the one that ended at `until`; NaN before them. */
     double shortest_step, longest_step;
-    /* Of a run that locates switches: how many it has passed; -1: it cannot locate them, or was not asked to. Of a
-     * run that resolves them: the lowest derivative of the acceleration along the motion that jumped at one of
-     * them, or became infinite: 0 the acceleration itself; -1: none. The time of the first such jump; NaN: there
-     * was none. By how much velocities may be off because times are rounded: the sum of the jumps, and of fast
-     * changes that were resolved, times the rounding of their times. The power of the time with which the
-     * acceleration departs there from a smooth one: the number of the derivative that jumps; where one is infinite
-     * less, as 1/3 of cbrt; NaN: there was none. */
-    int64_t switches, jump;
-    double jump_time, jump_rounding, jump_power;
-    int absolute; /* 1: the tolerance and the accuracy are absolute */
-    int trials;   /* runs to the end that found the tolerance or the step for the accuracy */
-    /* How many steps the interpreter took before the run went on compiled; 0: none; -1: all of them. */
-    int64_t compiled_from;
-    /* In how many steps of the run an event may have been missed because it is shorter than what the points of dense
-     * output tell: no bound could exclude it there, as of functions that a callback computes. 0: in none. When the
-     * first of them began, NaN: there is none, and the rule whose event that is, "". */
+    int64_t switches; /* how many the run has passed; -1: it cannot locate them, or was not asked to */
+    /* Of a run that resolves switches: the lowest derivative of the acceleration along the motion that jumped at one of
+     * them, or became infinite; 0: the acceleration itself; -1: none. */
+    int64_t jump;
+    double jump_time; /* of the first such jump; NaN: there was none */
+    /* By how much velocities may be off because times are rounded: the sum of the jumps, and of fast changes that were
+     * resolved, times the rounding of their times. */
+    double jump_rounding;
+    /* The power of the time with which the acceleration departs there from a smooth one: the number of the derivative
+     * that jumps, or less where one is infinite, as 1/3 of cbrt; NaN: there was none. */
+    double jump_power;
+    int absolute;          /* 1: the tolerance and the accuracy are absolute */
+    int trials;            /* runs to the end that found the tolerance or the step for the accuracy */
+    int64_t compiled_from; /* steps that the interpreter took before the run went on compiled; 0: none; -1: all */
+    /* Steps in which an event may have been missed that is shorter than what the points of dense output tell: no bound
+     * could exclude it there, as of functions that a callback computes. */
     int64_t events_unseen;
-    double events_unseen_from;
-    const char *events_unseen_of;
+    double events_unseen_from;    /* when the first of these steps began; NaN: there is none */
+    const char *events_unseen_of; /* the kind of event that may have been missed there; "" */
 } motus_run_statistics;
 MOTUS_DEFAULT_FUNCTION(run_statistics, RUN_STATISTICS, motus_run_statistics)
+/* Fills them in. MOTUS_ARGUMENT: the run is NULL, or the struct has no valid size. */
 MOTUS_API motus_status motus_run_statistics_of(const motus_run *, motus_run_statistics *);
-/* Returns them, to ask for one: motus_run_now(run).evaluations. */
+/* Returns them, to ask for one: motus_run_now(run).evaluations. Of NULL they are the defaults. */
 static inline motus_run_statistics motus_run_now(const motus_run *run)
 {
     motus_run_statistics now = motus_default_run_statistics();
@@ -850,170 +919,47 @@ static inline motus_run_statistics motus_run_now(const motus_run *run)
     return now;
 }
 
-/* Whether such a run passes a singularity of the force, which its step does not resolve: the state after it is a finite
- * number, but not the motion. MOTUS_SINGULAR: it does, in a step that begins at err->time. MOTUS_UNRESOLVED: such a
- * step comes near to one, or to a narrow peak of the force, and leads elsewhere than smaller ones. The call takes the
- * run's steps once more, by the interpreter, so that runs cost no more; it stops after MOTUS_SINGULAR_WORK operations,
- * which count all cells and all terms of sums, and where a step fails. MOTUS_OK besides: also for a callback, whose
- * poles are not known. The definition's hooks are not called. Fails besides as motus_run_create does. */
-#define MOTUS_SINGULAR_WORK 2e7
-MOTUS_API motus_status motus_run_singular(motus_system *, const motus_run_def *, motus_error *);
-/* Events: what a model's `when` statements, or the events of a callback, have found and done so far. Every root of
- * every event function is found, in order; a root where the run starts is no event. Time and state of an event are
- * those of a step of the method that ends on it. MOTUS_EVENTS: more than 100 actions in one instant.
- *
- * How many rows the table has: one for every event of a kind that records. */
-MOTUS_API int64_t motus_run_events(const motus_run *);
-typedef struct motus_event_row {
-    uint32_t size;                 /* by motus_default_event_row() */
-    int touched;                   /* 1: the function touched 0 and went back */
-    const char *name;              /* "bounce"; owned by the system */
-    int64_t count;                 /* events of this kind so far, this one included */
-    double time, error;            /* error: how far the time may be off; NaN: not known */
-    int64_t changed;               /* 1: an action changed the state */
-    char instance[MOTUS_NAME_MAX]; /* with its indices, "contact[1,2]" */
-} motus_event_row;
-MOTUS_DEFAULT_FUNCTION(event_row, EVENT_ROW, motus_event_row)
-/* Row k, from 0. MOTUS_ARGUMENT: there is none. */
-MOTUS_API motus_status motus_run_event(motus_run *, int64_t k, motus_event_row *);
-/* Values of columns at row k: on arrival, or with `after` as the action left them. */
-MOTUS_API motus_status motus_run_event_values(motus_run *, int64_t k, int after, const size_t *columns, size_t count,
-                                              double *out, motus_error *);
-/* The same with how far these values may be from those at the event of the exact motion, which is at another time: as
- * motus_run_errors tells them; NaN: not known, INFINITY: no digit is significant. */
-MOTUS_API motus_status motus_run_event_errors(motus_run *, int64_t k, int after, const size_t *columns, size_t count,
-                                              double *values, double *errors, motus_error *);
-/* How many rows have a significant digit: from the next one on, run and companion have other events, or the same ones
- * at times that are farther apart than a quarter of the time from the event before. All of them where no errors are
- * told. */
-MOTUS_API int64_t motus_run_events_significant(motus_run *);
-/* What events change, of every kind, also of those without a row: with keep = 1 from now on every action is kept until
- * the next call; each call forgets those kept before. */
-MOTUS_API void motus_run_keep_jumps(motus_run *, int keep);
-MOTUS_API int64_t motus_run_jumps(const motus_run *);
-/* Action k, from 0, in order: its time, and values of columns before it or, with `after`, as it left them. *moves (may
- * be NULL): 1: the motion or an event depends on what it changed, so that it ended a step. MOTUS_ARGUMENT: there is
- * none. */
-MOTUS_API motus_status motus_run_jump(motus_run *, int64_t k, int after, const size_t *columns, size_t count,
-                                      double *time, int *moves, double *out, motus_error *);
-/* What ended the run before `until`: the name of a kind of event; "" where nothing did. accumulated (may be NULL): 1,
- * and *time is the limit of its events' times, which is known to *error: NaN where no companion has told it,
- * INFINITY where no digit is significant; of a run without bars how far rounding lets the limit of its own events be
- * known. */
-MOTUS_API const char *motus_run_ended(motus_run *, int *accumulated, double *time, double *error);
-/* The name of the kind whose events accumulate, whether or not that ended the run; "": none do. */
-MOTUS_API const char *motus_run_accumulates(const motus_run *);
-/* The C text that the compiled machine compiles for a run of this model, of whose definition (NULL: everything is the
- * model's) it uses the method and the tolerance, from which the order of Taylor series follows; owned by the system.
- * NULL, and the error says why: MOTUS_ARGUMENT: the system is from a callback, or the method does not take this step or
- * tolerance. MOTUS_METHOD: there is no such method, or it does not admit the model. MOTUS_MEMORY. */
-MOTUS_API const char *motus_run_text(motus_system *, const motus_run_def *, motus_error *);
-/* The same of a definition with this method alone (NULL: the model's). */
-MOTUS_API const char *motus_compiled_text(motus_system *, const char *method, motus_error *);
-/* Removes the compiled objects that the library keeps on disk; returns how many, or -1: it cannot read the folder. */
-MOTUS_API int motus_cache_clear(void);
+/* ---- restart states and legs ---- */
 
-/* The present state: x gets nx numbers, v nv, at the same time; either may be NULL. Observing changes neither the run
- * nor its counts. MOTUS_SOLVE, MOTUS_DIVERGED, MOTUS_CALLBACK: the method needs one more evaluation for the state, and
- * it failed. */
-MOTUS_API motus_status motus_run_state(motus_run *, double *x, double *v, motus_error *);
-/* Writes the values of `count` columns (numbers from motus_column_find) at the present state to out. MOTUS_ARGUMENT:
- * there is no such column. MOTUS_CALLBACK: the callback for quantities, invariants or the exact motion returned other
- * than 0. Fails besides as motus_run_state does. */
-MOTUS_API motus_status motus_run_values(motus_run *, const size_t *columns, size_t count, double *out, motus_error *);
-/* The Jacobian matrices at the present state. Row i belongs to the acceleration or rate of number i of nv; da_dx has nv
- * rows of nx derivatives with respect to the positions, da_dv nv rows of nv with respect to the velocities and
- * first-order variables; either may be NULL. Exact where the system has derivatives; otherwise difference quotients,
- * with half of the digits, or nearly all where the dependence is linear. MOTUS_LIMIT: nv is above MOTUS_JACOBIAN_MAX.
- * MOTUS_CALLBACK: a callback returned other than 0. Fails besides as motus_run_state does. */
-#define MOTUS_JACOBIAN_MAX 256
-MOTUS_API motus_status motus_run_jacobian(motus_run *, double *da_dx, double *da_dv, motus_error *);
-/* Columns at given times, which follow the direction of the run and end at or before `until`. The call takes steps as
- * needed; between steps it evaluates the method's dense output, of the order motus_method.dense_order. That is a
- * polynomial of the stages (bs32, dopri5, tsit5, verner6 to verner9, dop853, dep6; gauss10 to gauss16, radau15), the
- * exact motion, or the polynomial through the ends of the step: Hermite's quintic (cubic of first-order variables),
- * which is of order 3, 4 without first-order variables, and for methods of higher order is corrected by accelerations
- * within the step. The accelerations that it needs are evaluated once for all times within a step: none for most
- * methods, at most 9 for the pairs, 18 for methods of order 8, 28 for dep12, 30 for gragg-stormer, 60 for gragg; no
- * count has them, and the run does not change. out: time_count rows of `count` numbers. MOTUS_ARGUMENT: a time lies
- * beyond the end, or before the run's last step. MOTUS_CALLBACK: an acceleration within the step cannot be evaluated.
- * Fails besides as motus_run_step and motus_run_values do. */
-MOTUS_API motus_status motus_run_sample(motus_run *, const double *times, size_t time_count, const size_t *columns,
-                                        size_t count, double *out, motus_error *);
-
-/* The values of `count` columns at the present state, as motus_run_values gives them (values may be NULL), and the bar
- * of each: |value - exact motion| is below it in about 99 of 100 numbers, and at least a tenth of it in more than 90.
- * It covers truncation, round-off, the rounding of decimals in a model's text, and what the motion makes of all that.
- * It does not cover numbers that are not well known, an equation that is not the true one, or numbers that were rounded
- * before they came here: those of a callback, of `x` and `v` in the definition, of motus_system_set.
- *
- * Every column has a bar by its own difference between the run and its companion. 0: the number is exactly 0, and the
- * companion's was too, at all times that were compared. INFINITY: no digit is known to be significant, since
- * the two have been further apart than a tenth of the motion's size, or a quarter where errors grow slowly
- * (motus_estimate.significant_until). NaN: there is no bar, as motus_estimate.reason says; the value is there.
- *
- * The companion goes on when the run does. It costs twice the run's evaluations, and one step more for every time at
- * which it is compared: about 256 times; of a run of less than 4096 steps every 16 steps, of less than 512 steps 32
- * times; and the times of these calls. The bars depend a little on these times. The second companion of MOTUS_BARS_FULL
- * costs as much as the run.
- *
- * MOTUS_ARGUMENT: the definition of the run asks for no bars, or there is no such column. Fails besides as
- * motus_run_values does, and with MOTUS_CANCELLED. What fails in a companion is no failure, but a reason. */
-MOTUS_API motus_status motus_run_errors(motus_run *, const size_t *columns, size_t count, double *values,
-                                        double *errors, motus_error *);
-/* The same at given times: motus_run_sample with bars, which cover the error of the interpolation. Both tables have
- * time_count rows of `count` numbers. */
-MOTUS_API motus_status motus_run_sample_errors(motus_run *, const double *times, size_t time_count,
-                                               const size_t *columns, size_t count, double *values, double *errors,
-                                               motus_error *);
-typedef struct motus_estimate {
-    uint32_t size; /* by motus_default_estimate() */
-    int kinked;    /* 1: steps lead across kinks of the force; bars are rough */
-    /* The largest distance so far of the run from its companion, in units of the largest number of its kind: positions,
-     * velocities, first-order variables; and by how much it has grown since the first 1/32 of the run. */
-    double distance, growth;
-    /* From this time on no digit is known to be significant, of any number, since all are judged together; NaN: up to
-     * the present time digits are. */
-    double significant_until;
-    double rate;        /* the distance grows like e^(rate t); NaN: not as an exponential, or not known */
-    double work;        /* evaluations by companions, in units of the run's; NaN: there are none yet */
-    double seconds;     /* elapsed in companions, reading and compiling included */
-    const char *reason; /* why there is no bar, one sentence; "": there is. Owned by the run */
-    /* The part of the steps in which it was looked whether the force does something between the times at which the
-     * method evaluates it; 1: in all, or it can do nothing there. NaN: nobody looked, as with a callback. */
-    double looked;
-} motus_estimate;
-MOTUS_DEFAULT_FUNCTION(estimate, ESTIMATE, motus_estimate)
-/* What the bars at the present state rest on. Fails as motus_run_errors does. */
-MOTUS_API motus_status motus_run_estimate(motus_run *, motus_estimate *, motus_error *);
-
-/* An exact restart state: a text of `length` bytes with hexadecimal numbers, owned by the run until it is saved again.
- * Create a run from the same system (the same numbers set in the same way) with the same method, step and start, and
- * restore it from the text: it continues to the same bits as a run never interrupted, up to an `until` of its own. An
- * adaptive method sizes the last steps before `until` to land there, so a run that was saved at an earlier end
- * continues from that end, by other steps than one run to the later end. Of a system with events the text has the
- * table so far, and of fixed steps at the end of the run the state before the last step. Where both runs tell errors,
- * the text has those up to it, for which the companion is compared once more, and the bars of the second run cover the
- * errors from the very start; a second companion (MOTUS_BARS_FULL) goes on where steps adapt or the run has not ended
- * in a shorter step. Saving fails as motus_run_errors does. MOTUS_UNAVAILABLE: the run was cancelled within a step of
- * fixed size, among its events; one step more leads to its end. MOTUS_STATE: the text is damaged, belongs to another
- * system, method, step or start, or is beyond the end. MOTUS_ARGUMENT: an observer called motus_run_restore. After a
- * failure the run is unchanged. */
+/* Save and restore an exact restart state: a text of `length` bytes with hexadecimal numbers, which the run owns until
+ * it is saved again. Create a run from the same system (the same numbers set in the same way) with the same method,
+ * step and start, and restore it from the text: it continues to the bits of a run that was never interrupted, up to an
+ * `until` of its own. An adaptive method sizes the last steps before `until` to land there, so a run that was saved at
+ * an earlier end continues from that end by other steps than one run to the later end. The text contains the table of
+ * events so far, and with fixed steps at the end of the run the state before the last step. Where both runs have bars
+ * of error, the text contains the errors so far, for which the companion is compared once more, and the bars of the
+ * second run cover the errors from the very start; a second companion (MOTUS_BARS_FULL) goes on where steps adapt, or
+ * the run has not ended in a shorter step. Saving fails as motus_run_errors does. MOTUS_UNAVAILABLE: the run was
+ * cancelled within a step of fixed size, among its events; one step more leads to its end. MOTUS_STATE: the text is
+ * damaged, belongs to another system, method, step or start, or is beyond the end. MOTUS_ARGUMENT: an observer called
+ * motus_run_restore. After a failure the run is unchanged. */
 MOTUS_API motus_status motus_run_save(motus_run *, const char **text, size_t *length, motus_error *);
 MOTUS_API motus_status motus_run_restore(motus_run *, const char *text, size_t length, motus_error *);
 
 /* Begins a new leg at another state: the run continues like a run created at time t (NaN: the present time) with x, nx
- * finite numbers, and v, nv finite numbers (copied; NULL: as they are now), and with the same method, step, end and
- * machine. motus_run_steps counts in this leg; its times are t + n step, in the direction of `until` from t. A restart
- * state saved from now on belongs to a run that starts at t. After a failure the run is unchanged. MOTUS_ARGUMENT: a
- * number is not finite, a step is too small to change t, or an observer called it. MOTUS_METHOD: the last step would be
+ * finite numbers, and v, nv finite numbers (copied; NULL: as they are now). It keeps its method, step, end and machine.
+ * motus_run_steps counts in this leg; its times are t + n step, in the direction of `until` from t. A restart state
+ * saved from now on belongs to a run that starts at t. After a failure the run is unchanged. MOTUS_ARGUMENT: a number
+ * is not finite, a step is too small to change t, or an observer called it. MOTUS_METHOD: the last step would be
  * shorter, and the method takes equal steps only; or the method does not admit the start. MOTUS_LIMIT: too many steps.
  * Fails besides as motus_run_state does, since the call reads the present state. */
 MOTUS_API motus_status motus_run_set_state(motus_run *, double t, const double *x, const double *v, motus_error *);
 
-/* The trace of one step: the kicks, drifts and stages of the method in their order, for figures and to see where its
- * error comes from. It is the step of motus_run_step(r, 1), to the same bits, written as the method's formula, from a
- * state (x, v) to a state (x, v). */
+/* ---- singularities, and the trace of a step ---- */
+
+/* Finds out whether a run of this definition passes a singularity of the force that its step does not resolve: the
+ * state after it is finite, but not the motion. MOTUS_SINGULAR: it does, in a step that begins at err->time.
+ * MOTUS_UNRESOLVED: a step comes near to one, or to a narrow peak of the force, and leads elsewhere than smaller ones.
+ * MOTUS_OK: neither was found; also for a callback, whose poles are not known. The call takes the run's steps by the
+ * interpreter, so that runs themselves cost no more. It ends after MOTUS_SINGULAR_WORK operations, which count all
+ * cells and all terms of sums, and where a step fails. It calls no hook of the definition. Fails besides as
+ * motus_run_create does. */
+#define MOTUS_SINGULAR_WORK 2e7
+MOTUS_API motus_status motus_run_singular(motus_system *, const motus_run_def *, motus_error *);
+
+/* An entry of the trace of one step: the kicks, drifts and stages of the method in their order, for figures and to see
+ * where its error comes from. The step has the bits of motus_run_step(r, 1), and is written as the method's formula,
+ * from a state (x, v) to a state (x, v). */
 typedef enum motus_trace_kind {
     /* The state at `time`, and the acceleration there. */
     MOTUS_TRACE_START,
@@ -1048,23 +994,35 @@ typedef struct motus_trace_entry {
     int stage, stages;         /* the stage, from 1, and how many there are; START, SOLVE, END: stage 0 */
     int64_t iterations;        /* of the implicit equation, in this step so far */
     double time, step;         /* step: negative in a run that goes backward; the last one may be shorter */
-    double coefficient;        /* of a kick or a drift; of a stage its abscissa: in units of the step */
+    double coefficient;        /* of a kick or a drift, in units of the step; of a stage its abscissa */
     double weight, weight_x;   /* of a stage */
     const double *row, *row_x; /* of a stage: `stages` numbers each; else NULL */
-    /* nx and nv numbers after the event, as in motus_run_state; of a stage those of the stage. TAYLOR and STEP of
+    /* nx and nv numbers after the entry, as in motus_run_state; of a stage those of the stage. TAYLOR and STEP of
      * verlet and verlet-literal: v is (x - x₀)/step, which lacks half a kick by the acceleration at the end. */
     const double *x, *v;
-    const double *a; /* nv numbers. NULL: the event has none, or at START and END it cannot be evaluated */
+    const double *a; /* nv numbers. NULL: the entry has none, or at START and END it cannot be evaluated */
     const double *before_x, *before_a; /* of a recurrence: x and a one step before START; else NULL */
     /* Of REFUSED, and of END where steps adapt: the estimated error of the step in units of what the tolerance allows,
      * at most 1 where the step is accepted; infinite or NaN: it has no finite result. Else NaN. */
     double error;
 } motus_trace_entry;
 /* Takes one step and sets *entries to *count pointers, which the run owns until it is traced again or destroyed. At the
- * end of the run there is no step to take, and *count is 0. Fails as motus_run_step and motus_run_state do. Does not
- * call `progress` or `observer`. MOTUS_UNAVAILABLE: the system has events. */
+ * end of the run there is no step to take, and *count is 0. It does not call `progress` or `observer`.
+ * MOTUS_UNAVAILABLE: the system has events. Fails besides as motus_run_step and motus_run_state do. */
 MOTUS_API motus_status motus_run_trace(motus_run *, const motus_trace_entry *const **entries, size_t *count,
                                        motus_error *);
+
+/* ---- the compiled machine ---- */
+
+/* Returns the C text that the compiled machine compiles for a run of this definition (NULL: everything is the model's),
+ * of which it reads the method and the tolerance, from which the order of Taylor series follows. Owned by the system.
+ * NULL: an error. MOTUS_ARGUMENT: the system is from a callback, or the method does not take this step or tolerance.
+ * MOTUS_METHOD: there is no such method, or it does not admit the model. MOTUS_MEMORY. */
+MOTUS_API const char *motus_run_text(motus_system *, const motus_run_def *, motus_error *);
+/* Returns motus_run_text of a definition with this method alone (NULL: the model's). */
+MOTUS_API const char *motus_compiled_text(motus_system *, const char *method, motus_error *);
+/* Removes the compiled objects that the library keeps on disk. Returns how many, or -1: it cannot read the folder. */
+MOTUS_API int motus_cache_clear(void);
 
 /* 6. Ensembles --------------------------------------------------------------------------------------------------- */
 
@@ -1081,7 +1039,7 @@ typedef enum motus_reduction {
     MOTUS_REDUCE_MIN,
     MOTUS_REDUCE_MAX,
     MOTUS_REDUCE_MEAN,
-    /* The time of the first observation with that value. */
+    /* The time of the first observation with the minimum, or the maximum. */
     MOTUS_REDUCE_TIME_OF_MIN,
     MOTUS_REDUCE_TIME_OF_MAX,
     /* Of the trajectory itself, as in motus_run_statistics; the column is 0: steps taken and refused, the shortest and
@@ -1097,10 +1055,10 @@ typedef enum motus_reduction {
     MOTUS_REDUCE_ACCURACY,
     MOTUS_REDUCE_TOLERANCE /* as in motus_run_statistics; with an accuracy every trajectory has its own */
 } motus_reduction;
-/* column: from motus_column_find or motus_column_of */
+/* A number that is recorded of every trajectory. */
 typedef struct motus_record {
     motus_reduction how;
-    size_t column;
+    size_t column; /* from motus_column_find or motus_column_of */
 } motus_record;
 
 typedef struct motus_ensemble_def {
@@ -1121,8 +1079,8 @@ typedef struct motus_ensemble_def {
     double accuracy;
     double tolerance, shortest_step, longest_step; /* as in motus_run_def; every trajectory has its own steps */
     int64_t every; /* steps between two observations, for all records but MOTUS_REDUCE_FINAL; 1 by default */
-    /* As in motus_run_def: with "auto" trajectories are computed by the interpreter while the compiler works, all from
-     * then on by what it makes. With `fast` it is waited for, because the bits depend on it. */
+    /* As in motus_run_def. With "auto" the interpreter computes trajectories while the compiler works, and the compiled
+     * machine all that follow. With `fast` the ensemble waits for the compiler, because the bits depend on it. */
     const char *machine;
     /* How many threads; 0: as many as there are processors, and one for a system from C. With more threads its
      * callbacks must be safe to call from several threads at once. A system with an allocator of its own uses one
@@ -1143,75 +1101,74 @@ typedef struct motus_ensemble_def {
     /* As in motus_run_def; lanes compute trajectories that lead across switches, while those whose switches are located
      * are computed one at a time. */
     motus_switches switches;
-    /* 1: motus_ensemble_stopped_by tells why trajectories stop. Each that does takes a run of its own, with samples and
-     * trial steps, which is some milliseconds. */
+    /* 1: motus_ensemble_stopped_by tells why trajectories stop. Each that does costs a run of its own, with samples and
+     * trial steps, which takes some milliseconds. */
     int causes;
 } motus_ensemble_def;
 MOTUS_DEFAULT_FUNCTION(ensemble, ENSEMBLE, motus_ensemble_def)
 
-/* MOTUS_NAME: a name in `vary` is neither a parameter nor an initial value. MOTUS_SHAPE: it stands for several numbers.
- * MOTUS_ARGUMENT: it decides what must be the same for all trajectories, or a member of the definition is out of its
- * range. MOTUS_UNAVAILABLE: switches are to be resolved, or, in steps of one size, to be located where the force may be
- * undefined beyond one. MOTUS_METHOD, MOTUS_LIMIT,
- * MOTUS_TOOL: as from motus_run_create. */
+/* Creates an ensemble. MOTUS_NAME: a name in `vary` is neither a parameter nor an initial value. MOTUS_SHAPE: it stands
+ * for several numbers. MOTUS_ARGUMENT: it decides what must be equal for all trajectories, or a member of the
+ * definition is out of its range. MOTUS_UNAVAILABLE: switches are to be resolved, or, with steps of one size, to be
+ * located where the force may be undefined beyond one. MOTUS_METHOD, MOTUS_LIMIT, MOTUS_TOOL: as from
+ * motus_run_create. */
 MOTUS_API motus_status motus_ensemble_create(motus_system *, const motus_ensemble_def *, motus_ensemble **,
                                              motus_error *);
+MOTUS_API void motus_ensemble_destroy(motus_ensemble *);
+/* Returns whether motus_ensemble_run would take these values: MOTUS_OK, or what that returns before it computes. */
+MOTUS_API motus_status motus_ensemble_check(motus_ensemble *, size_t count, const double *const *values, motus_error *);
+/* Decides, where errors are told, whether the force does more within the steps of the trajectories than steps show: it
+ * leads these `count` trajectories, those at the ends of what varies, say, with a witness, mostly in some milliseconds.
+ * Where the witness objects, all trajectories are computed one at a time, with a witness each: slower, and their errors
+ * hold. Without this call the first call of motus_ensemble_run_errors decides, by its first, middle and last
+ * trajectories. If you compute one ensemble in several pieces, call it first, with equal values for each piece.
+ * MOTUS_ARGUMENT, MOTUS_CANCELLED, MOTUS_MEMORY: as from motus_ensemble_run. */
+MOTUS_API motus_status motus_ensemble_pilots(motus_ensemble *, size_t count, const double *const *values,
+                                             motus_error *);
+
 /* Computes `count` trajectories. values[k]: `count` values of vary[k]; NULL only where vary_count is 0. results[k]:
  * room for `count` numbers of records[k]. stopped: NULL, or room for `count` numbers: NaN, or the time at which a
  * trajectory left the finite numbers, could not solve its implicit equation, got a value above 0 from its callback, had
  * taken `most_steps` steps, had events without end, or crawled, as a run with its values does; its results are then
- * NaN, and the other trajectories go on. MOTUS_CALLBACK: a callback
- * returned a value below 0. MOTUS_CANCELLED: `progress` returned other than 0. MOTUS_METHOD: with the values of a
- * trajectory the method does not admit the model, or does not reach the end in equal steps. MOTUS_ARGUMENT,
- * MOTUS_LIMIT: an end is not finite, or too many steps away. MOTUS_ACCURACY: all are computed, and some do not reach
- * the accuracy; their results are the best that was found, MOTUS_REDUCE_ACCURACY tells which and how far off they are,
- * and err->message names the first. A trajectory that stops with the first tolerance has nothing to reach. */
+ * NaN, and the other trajectories go on. MOTUS_CALLBACK: a callback returned a value below 0. MOTUS_CANCELLED:
+ * `progress` returned other than 0. MOTUS_METHOD: with the values of a trajectory the method does not admit the model,
+ * or does not reach the end in equal steps. MOTUS_ARGUMENT, MOTUS_LIMIT: an end is not finite, or too many steps away.
+ * MOTUS_ACCURACY: all are computed, and some do not reach the accuracy; their results are the best that was found,
+ * MOTUS_REDUCE_ACCURACY tells which and how far off they are, and err->message names the first. A trajectory that stops
+ * with the first tolerance has nothing to reach. */
 MOTUS_API motus_status motus_ensemble_run(motus_ensemble *, size_t count, const double *const *values,
                                           double *const *results, double *stopped, motus_error *);
-/* The same with the errors: errors[k], room for `count` numbers, has the bars of results[k], as motus_run_errors has
- * those of a run; NaN where a trajectory stopped. Every trajectory has a companion of its own, and its bars are those
- * of a run with its values (given by motus_system_set) that is asked at its end and at the observations. The bar of a
- * minimum, a maximum or a mean is that of the exact motion's over the same times, and follows from its own difference
- * between trajectory and companion; where such a record is, the companion is compared at every observation: with one
- * after every step it takes three times the evaluations of the trajectory instead of twice. Numbers of steps have the
- * bar 0. The results are those of motus_ensemble_run, unless a witness objects (motus_ensemble_pilots). MOTUS_ARGUMENT:
- * the definition asks for no errors. */
+/* Computes as motus_ensemble_run does, with errors: errors[k], room for `count` numbers, gets the bars of results[k],
+ * as motus_run_errors tells them of a run; NaN where a trajectory stopped. Every trajectory has a companion of its own,
+ * and its bars are those of a run with its values (given by motus_system_set) that is asked at its end and at the
+ * observations. The bar of a minimum, a maximum or a mean is that of the exact motion's over the same times, and
+ * follows from its own difference between trajectory and companion; where such a record is, the companion is compared
+ * at every observation: with one after every step it takes three times the evaluations of the trajectory instead of
+ * twice. Numbers of steps have the bar 0. The results are those of motus_ensemble_run, unless a witness objects
+ * (motus_ensemble_pilots). MOTUS_ARGUMENT: the definition asks for no errors. */
 MOTUS_API motus_status motus_ensemble_run_errors(motus_ensemble *, size_t count, const double *const *values,
                                                  double *const *results, double *const *errors, double *stopped,
                                                  motus_error *);
-/* The table of events of a trajectory, from 0, of the last motus_ensemble_run that ended well, where the definition
- * asks for it: how many rows it has, those up to the time where the trajectory stopped; and row k of it, with the
- * values of `event_columns` on arrival and as the action left them (each may be NULL). The rows are those of a run
- * with the values of the trajectory; `error` is known where motus_ensemble_run_errors was called. */
+/* Returns why a trajectory, from 0, of the last motus_ensemble_run stopped before its end, where the definition asks
+ * for `causes`: the `cause` of a run with its values. MOTUS_CAUSE_NONE: it did not stop, or the cause is not known. */
+MOTUS_API motus_cause motus_ensemble_stopped_by(const motus_ensemble *, size_t trajectory);
+/* Returns the name of the kind of event that ended a trajectory of the last motus_ensemble_run before its end, or whose
+ * events accumulate, as motus_run_ended tells it of a run with its values. "": no event did, the trajectory stopped, or
+ * there is no such trajectory. */
+MOTUS_API const char *motus_ensemble_ended(const motus_ensemble *, size_t trajectory);
+/* Returns the name of kind k, from 0, of the system's events, in their order. NULL: k is past the last. */
+MOTUS_API const char *motus_ensemble_kind(const motus_ensemble *, size_t k);
+/* Returns how many rows the table of events of a trajectory has, of the last motus_ensemble_run that ended well, where
+ * the definition asks for `events`: those up to its end, or up to the time where it stopped. */
 MOTUS_API int64_t motus_ensemble_events(const motus_ensemble *, size_t trajectory);
+/* Fills in row k of that table, which is that of a run with the values of the trajectory; `error` is known where
+ * motus_ensemble_run_errors was called. `values` and `after` (each may be NULL) get those of `event_columns` on
+ * arrival, and as the action left them. MOTUS_ARGUMENT: there is no such row. */
 MOTUS_API motus_status motus_ensemble_event(const motus_ensemble *, size_t trajectory, int64_t k, motus_event_row *,
                                             double *values, double *after);
-/* Why a trajectory of the last motus_ensemble_run stopped before its end, where the definition asks for it: the `cause`
- * of a run with its values. MOTUS_CAUSE_NONE: it did not stop, or the cause is not known. */
-MOTUS_API motus_cause motus_ensemble_stopped_by(const motus_ensemble *, size_t trajectory);
-/* What ended a trajectory, from 0, of the last motus_ensemble_run before its end, as motus_run_ended tells it of a run
- * with its values: the name of the kind of event that stopped it or whose events accumulate, owned by the ensemble.
- * "": no event did, the trajectory stopped, or there is no such trajectory. */
-MOTUS_API const char *motus_ensemble_ended(const motus_ensemble *, size_t trajectory);
-/* The name of kind k of the system's events, from 0, in their order; owned by the ensemble. NULL: there are no more. */
-MOTUS_API const char *motus_ensemble_kind(const motus_ensemble *, size_t k);
-/* Whether motus_ensemble_run would take these values: MOTUS_OK, or what it would return before it computes anything. */
-MOTUS_API motus_status motus_ensemble_check(motus_ensemble *, size_t count, const double *const *values, motus_error *);
-/* Where errors are told, decides whether the force does more within the steps of the trajectories than steps show:
- * these `count` trajectories, those at the ends of what varies, say, are led with a witness, mostly in some
- * milliseconds. Where it objects, all trajectories are computed one at a time, with a witness each: slower, and
- * their errors hold. Without this call the first of motus_ensemble_run_errors decides, by its first, middle and last
- * trajectories; so whoever computes one ensemble in several pieces calls it first, with the same values for each.
- * MOTUS_ARGUMENT, MOTUS_CANCELLED, MOTUS_MEMORY: as motus_ensemble_run. */
-MOTUS_API motus_status motus_ensemble_pilots(motus_ensemble *, size_t count, const double *const *values,
-                                             motus_error *);
-MOTUS_API void motus_ensemble_destroy(motus_ensemble *);
 
-/* The operations of a step, of the equations and of the method, in units of a multiplication: counted, not timed, and
- * so the same on every machine. NaN: there is no memory to count them. */
-MOTUS_API double motus_ensemble_step_work(motus_ensemble *);
 /* What an ensemble is, and what its trajectories so far have taken. Machine, lanes and threads are those of the next
- * trajectories. `method` and `not_located` live as long as the ensemble, `note` until its next call. */
+ * trajectories. `note` lives until the ensemble's next call. */
 typedef struct motus_ensemble_statistics {
     uint32_t size; /* by motus_default_ensemble_statistics() */
     int absolute;  /* 1: tolerance and accuracy are absolute */
@@ -1233,8 +1190,9 @@ typedef struct motus_ensemble_statistics {
     int unused;
 } motus_ensemble_statistics;
 MOTUS_DEFAULT_FUNCTION(ensemble_statistics, ENSEMBLE_STATISTICS, motus_ensemble_statistics)
+/* Fills them in. MOTUS_ARGUMENT: the ensemble is NULL, or the struct has no valid size. */
 MOTUS_API motus_status motus_ensemble_statistics_of(const motus_ensemble *, motus_ensemble_statistics *);
-/* Returns them, to ask for one: motus_ensemble_now(ensemble).lanes. */
+/* Returns them, to ask for one: motus_ensemble_now(ensemble).lanes. Of NULL they are the defaults. */
 static inline motus_ensemble_statistics motus_ensemble_now(const motus_ensemble *ensemble)
 {
     motus_ensemble_statistics now = motus_default_ensemble_statistics();
@@ -1242,8 +1200,26 @@ static inline motus_ensemble_statistics motus_ensemble_now(const motus_ensemble 
     return now;
 }
 
+/* Counts the operations of a step, of the equations and of the method, in units of a multiplication: they are not
+ * timed, and so equal on every machine. NaN: there is no memory to count them. */
+MOTUS_API double motus_ensemble_step_work(motus_ensemble *);
+/* Suggests settings for an ensemble, as motus_suggest does: the step is the shortest that one of `trajectories`
+ * trajectories needs, those at the ends of what varies, say. `count` names and values: as `vary` of motus_ensemble_def
+ * and the values of motus_ensemble_run; `until` among them is not read. Trajectories that have no step, since they stop
+ * at once, do not count. The end is that of the system as it is. Fails as motus_suggest does, and with MOTUS_NAME as
+ * motus_ensemble_create. */
+MOTUS_API motus_status motus_suggest_varied(motus_system *, size_t count, const char *const *names, size_t trajectories,
+                                            const double *const *values, motus_settings *, motus_error *);
+/* Finds by how many powers of ten an error grows up to the end because steps are too long, where the motion of one of
+ * the trajectories swings or decays: from the spectral radius of the steps (motus_stability) at the rates along it. The
+ * settings give method, step and end. More than 1: such a run is not the motion. 0: not known, or steps adapt. */
+MOTUS_API motus_status motus_step_growth(motus_system *, size_t count, const char *const *names, size_t trajectories,
+                                         const double *const *values, const motus_settings *, double *powers,
+                                         motus_error *);
+
 /* 7. Studies ----------------------------------------------------------------------------------------------------- */
 
+/* What a study compares, for all calls below; each says which members it reads. */
 typedef struct motus_study_def {
     uint32_t size;              /* by motus_default_study() */
     const char *const *methods; /* method_count names; NULL: every admitted method */
@@ -1277,8 +1253,9 @@ typedef struct motus_compare_row {
     double step;
     int64_t steps, evaluations;
     double seconds;
-    double error_max_x, error_max_v, error_final_x,
-        error_final_v; /* largest of positions, velocities; NaN: none, or unknown */
+    /* the largest error of positions and of velocities, along the run and at its end; NaN: there are none, or
+     * unknown */
+    double error_max_x, error_max_v, error_final_x, error_final_v;
     size_t invariant_count;
     const motus_drift *const *invariants; /* invariant_count, in the order of motus_invariant_name */
     double reversal;                      /* distance from the start after a run to the end and back */
@@ -1311,8 +1288,8 @@ typedef struct motus_rank_point {
 typedef struct motus_rank_row {
     const char *method;
     int order, adaptive;
-    motus_status
-        status; /* MOTUS_ACCURACY: no accuracy was reached; else of a method that the model does not admit, or fails */
+    /* ACCURACY: no accuracy was reached; else of a method that does not admit the model, or that fails */
+    motus_status status;
     const motus_rank_point *const *points; /* one for each accuracy */
     const char *note;                      /* why an accuracy was not reached, or "" */
 } motus_rank_row;
@@ -1324,18 +1301,19 @@ typedef struct motus_ranking {
     int absolute;
     size_t row_count;
     const motus_rank_row *const *rows; /* row_count, in the order of the methods */
-    const size_t *fewest,
-        *fastest;                  /* for each accuracy: the row with the fewest evaluations, and with the least time */
-    const char *reference;         /* "exact", or "dep12 with tolerance 1e-15, judged by radau15" */
-    double reference_error;        /* in the unit of the accuracies */
-    const char *machine, *remarks; /* on which runs were timed; one sentence a line, or "" */
+    /* For each accuracy: the row with the fewest evaluations, and that with the least time; row_count: no method
+     * reached it. */
+    const size_t *fewest, *fastest;
+    const char *reference;  /* "exact", or "dep12 with tolerance 1e-15, judged by radau15" */
+    double reference_error; /* in the unit of the accuracies */
+    const char *machine;    /* on which runs were timed */
+    const char *remarks;    /* explanations of the numbers, one sentence a line, or "" */
 } motus_ranking;
-/* Work against precision: what each method, adaptive ones included, needs for each accuracy of the definition. The
- * error of a run is what `accuracy` of motus_run_def bounds: of every number, relative to the largest number so far of
- * its kind or absolute; measured against a reference at the ends of up to 32 steps spread over the run, with the error
- * of the reference added. Tolerances and steps are searched until an error is at most the accuracy, and near it.
- * Evaluations are the same on every machine; those of a Taylor series are coefficients. In `fewest` and `fastest`
- * stands row_count where no method reached the accuracy.
+/* Ranks methods by work against precision: what each, adaptive ones included, needs for each accuracy of the
+ * definition. The error of a run is what `accuracy` of motus_run_def bounds: of every number, relative to the largest
+ * number so far of its kind or absolute; measured against a reference at the ends of up to 32 steps spread over the
+ * run, with the error of the reference added. Tolerances and steps are searched until an error is at most the accuracy,
+ * and near it. Evaluations are equal on every machine; those of a Taylor series are coefficients.
  *
  * Fails as motus_compare does. MOTUS_ARGUMENT: an accuracy is not positive, or beyond the limits of motus_run_def, or
  * the definition has a step or evaluations. MOTUS_DIVERGED: there is no reference solution. MOTUS_ACCURACY: the
@@ -1383,23 +1361,81 @@ typedef struct motus_convergence {
 MOTUS_API motus_status motus_converge(motus_system *, const motus_study_def *, motus_convergence **, motus_error *);
 MOTUS_API void motus_convergence_destroy(motus_convergence *);
 
-/* The reference solution alone, from which motus_compare and motus_converge take errors, at any times: to draw the
- * error of several methods. The call reads `until`, `step`, `tolerance`, `progress` and `context` of the definition.
- * With a `step` and no tolerance it is the reference of a motus_compare at this step; NaN: the model's step, or without
- * one the call chooses. It calls `progress` only until it returns. Fails as motus_compare does; and with
- * MOTUS_DIVERGED: no method of high order reached the end. */
+/* A reference solution, from which motus_compare and motus_converge take errors, at any times: to draw the error of
+ * several methods. The call reads `until`, `step`, `tolerance`, `progress` and `context` of the definition. With a
+ * `step` and no tolerance it is the reference of a motus_compare at this step; NaN: the model's step, or without one
+ * the call chooses. It calls `progress` only until it returns. Fails as motus_compare does; and with MOTUS_DIVERGED: no
+ * method of high order reached the end. */
 typedef struct motus_reference motus_reference;
 MOTUS_API motus_status motus_reference_create(motus_system *, const motus_study_def *, motus_reference **,
                                               motus_error *);
-/* The reference solution at `count` times between the start and `until`, in any order; in the direction of the motion
- * it is fastest. x gets `count` rows of nx numbers, v `count` rows of nv; either may be NULL. MOTUS_ARGUMENT: a time is
- * outside. MOTUS_DIVERGED, MOTUS_SOLVE, MOTUS_CALLBACK: as from motus_run_step. */
+/* Writes the reference solution at `count` times between the start and `until`, in any order; it is fastest in the
+ * direction of the motion. x gets `count` rows of nx numbers, v `count` rows of nv; either may be NULL. MOTUS_ARGUMENT:
+ * a time is outside. MOTUS_DIVERGED, MOTUS_SOLVE, MOTUS_CALLBACK: as from motus_run_step. */
 MOTUS_API motus_status motus_reference_at(motus_reference *, const double *times, size_t count, double *x, double *v,
                                           motus_error *);
-/* The estimated error of its largest component; 0 for the exact motion. */
+/* Returns the estimated error of its largest component; 0 for the exact motion. */
 MOTUS_API double motus_reference_error(const motus_reference *);
 MOTUS_API const char *motus_reference_name(const motus_reference *); /* "exact", or "gauss6 at step 0.00125" */
 MOTUS_API void motus_reference_destroy(motus_reference *);
+
+/* 8. Texts for an editor ------------------------------------------------------------------------------------------- */
+
+/* A statement of a model, in the order of its text. A callback has none. */
+typedef enum motus_statement_kind {
+    MOTUS_STATEMENT_MOTION,      /* x'' = … */
+    MOTUS_STATEMENT_FIRST_ORDER, /* s' = … */
+    MOTUS_STATEMENT_PARAMETER,
+    MOTUS_STATEMENT_QUANTITY,
+    MOTUS_STATEMENT_START,    /* x(0) = …, x'(0) = … */
+    MOTUS_STATEMENT_BOUNDARY, /* x[0] = … */
+    MOTUS_STATEMENT_EXACT,
+    MOTUS_STATEMENT_INVARIANT,
+    MOTUS_STATEMENT_SETTING,  /* method, step, from, until, every */
+    MOTUS_STATEMENT_FUNCTION, /* V(q) = … */
+    MOTUS_STATEMENT_EVENT     /* when … */
+} motus_statement_kind;
+typedef struct motus_statement {
+    uint32_t size; /* by motus_default_statement() */
+    motus_statement_kind kind;
+    const char *name; /* the name that it defines: "x", "energy"; of a setting its word: "step" */
+    int line;         /* the line of the model's text where it begins, from 1; 0: `set` added it */
+    int is_set;       /* `set` gave its value */
+} motus_statement;
+MOTUS_DEFAULT_FUNCTION(statement, STATEMENT, motus_statement)
+MOTUS_API size_t motus_statement_count(const motus_system *);
+MOTUS_API motus_status motus_statement_at(const motus_system *, size_t k, motus_statement *);
+/* Typesets statement k as the parser read it: one presentation MathML element, <math xmlns="…"
+ * display="block">…</math>, in UTF-8. Whatever the text of the model, the element is well-formed XML and safe in a
+ * page; where a statement is too long for a page, an ellipsis stands for the rest. Two elements have a class for a
+ * style sheet: "cases", a table whose cells are left-aligned, and "for", the indices of a family behind its equation.
+ * Owned by the system, until the next call of this function. NULL: k is past the last, or there was no memory. */
+MOTUS_API const char *motus_statement_mathml(motus_system *, size_t k);
+
+/* A word of a text, for an editor that colours it: as the lexer that reads models finds it, also where the text is no
+ * model. A name is known where it is a word of the language, or where the text defines it: on the left of = or before
+ * primes, as an index or an argument. */
+typedef enum motus_word_kind {
+    MOTUS_WORD_KNOWN,
+    MOTUS_WORD_UNKNOWN,
+    MOTUS_WORD_NUMBER,
+    MOTUS_WORD_COMMENT,
+    MOTUS_WORD_SETTING,  /* method, step … and what follows `method` */
+    MOTUS_WORD_FUNCTION, /* of the language: sin */
+    MOTUS_WORD_OPERATOR, /* signs, brackets, primes; for, and, or, not */
+    MOTUS_WORD_WRONG     /* what is no word of any kind */
+} motus_word_kind;
+typedef struct motus_word {
+    size_t from, length; /* bytes of the text */
+    motus_word_kind kind;
+    int defines; /* 1: the text defines this name here */
+} motus_word;
+/* Writes the first `room` words of `length` bytes of text, and returns how many it wrote. It takes no memory, and its
+ * time grows as the number of names times that of definitions. */
+MOTUS_API size_t motus_text_words(const char *text, size_t length, motus_word *words, size_t room);
+/* Returns word k of the language, in a fixed order, and its kind: SETTING begins a statement, FUNCTION has a bracket,
+ * KNOWN is t or pi, OPERATOR a word like for. NULL: k is past the last. */
+MOTUS_API const char *motus_language_word(size_t k, motus_word_kind *);
 
 #undef MOTUS_DEFAULT_FUNCTION
 
