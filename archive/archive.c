@@ -3,7 +3,6 @@
  * Invariants: nothing but blocks and states, and the hashes that tell they are there, is ever written; a hash is
  * written after the bytes of its block or state. So however many processes write different blocks, and whenever they
  * are killed, every block whose hash fits is whole. */
-#define _XOPEN_SOURCE 700
 #include "archive/bytes.h"
 #include "archive/directory.h"
 #include "archive/make.h"

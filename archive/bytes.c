@@ -1,5 +1,4 @@
 /* See bytes.h. */
-#define _XOPEN_SOURCE 700
 #include "archive/bytes.h"
 
 #include <errno.h>

@@ -1,5 +1,4 @@
 /* Makes an archive, by the module that knows HDF5. See make.h. */
-#define _XOPEN_SOURCE 700
 #include "archive/make.h"
 #include "base/error.h"
 

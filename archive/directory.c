@@ -1,5 +1,4 @@
 /* Writes the directory of an archive. See directory.h. */
-#define _XOPEN_SOURCE 700
 #include "archive/directory.h"
 
 #include <inttypes.h>

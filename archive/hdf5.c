@@ -5,15 +5,13 @@
  * times into it, in one version of its format, and everything has its place before any block is written. Those of a
  * compressed one depend on its numbers and on the versions of HDF5 and zlib, too.
  */
-#ifndef _GNU_SOURCE
-#define _GNU_SOURCE /* SEEK_DATA */
-#endif
 #include "archive/bytes.h"
 #include "archive/directory.h"
 #include "archive/make.h"
 #include "archive/pack.h"
 #include "base/disk.h"
 #include "base/error.h"
+#include "base/platform.h"
 
 #include <errno.h>
 #include <fcntl.h>
@@ -563,8 +561,7 @@ static motus_status take_over(const maker *m, const char *from, int to)
         status = no_room(m, errno);
     for (off_t at = 0, end = 0; !status && at < about.st_size;) {
         if (at == end) {
-            at = lseek(descriptor, at, SEEK_DATA);
-            end = at < 0 ? at : lseek(descriptor, at, SEEK_HOLE);
+            at = platform_written(descriptor, at, &end);
             if (at < 0 && errno == ENXIO) break; /* a hole up to the end */
         }
         if (at < 0 || end <= at) {
@@ -592,11 +589,11 @@ motus_status make_hdf5_3(const char *path, const motus_archive_def *d, motus_err
                .err = err,
                .file = H5I_INVALID_HID,
                .places = calloc(4 + d->column_count, sizeof *m.places)};
-    char *name = disk_real(path), *beside = name ? disk_beside(name, ".new") : NULL, place[DISK_PLACE];
+    char *name = disk_real(path), *beside = name ? disk_beside(name, ".new") : NULL, place[PLATFORM_PLACE];
     char *text = directory_write(d, NULL, &size);
     const int nameless = d->descriptor || d->from || !name ? -1 : disk_nameless(name, 0666);
     const int own = d->descriptor ? d->descriptor - 1 : nameless;
-    const char *at = own >= 0 ? disk_place(own, place) : beside;
+    const char *at = own >= 0 ? platform_place(own, place) : beside;
     if (!m.places || !text || !beside) {
         status = fail(err, MOTUS_MEMORY, "no memory to make %s", path);
     } else {

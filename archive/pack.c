@@ -2,7 +2,6 @@
  *
  * Invariant: a file whose pieces do not unpack to the bytes of the archive they were made from is not kept.
  */
-#define _XOPEN_SOURCE 700
 #include "archive/pack.h"
 
 #include "archive/bytes.h"

@@ -1,8 +1,7 @@
 /* See disk.h. */
-#ifndef _GNU_SOURCE
-#define _GNU_SOURCE /* O_TMPFILE */
-#endif
 #include "base/disk.h"
+
+#include "base/platform.h"
 
 #include <errno.h>
 #include <fcntl.h>
@@ -50,27 +49,15 @@ bool disk_replace(const char *from, const char *name)
     return true;
 }
 
-const char *disk_place(int descriptor, char out[DISK_PLACE])
-{
-    snprintf(out, DISK_PLACE, "/proc/self/fd/%d", descriptor);
-    return out;
-}
-
 int disk_nameless(const char *name, int mode)
 {
-#ifdef O_TMPFILE
-    char *folder = strdup(name), place[DISK_PLACE];
+    char *folder = strdup(name);
     if (!folder) return -1;
     char *slash = strrchr(folder, '/');
     if (slash) slash[1] = 0;
-    const int descriptor = open(slash ? folder : ".", O_TMPFILE | O_RDWR | O_CLOEXEC, mode);
+    const int descriptor = platform_nameless(slash ? folder : ".", mode);
     free(folder);
-    if (descriptor < 0 || access(disk_place(descriptor, place), F_OK) == 0) return descriptor;
-    close(descriptor);
-#else
-    (void)name, (void)mode;
-#endif
-    return -1;
+    return descriptor;
 }
 
 /* Returns a free name in the folder of `name`; the caller frees it. NULL: errno says why. */
@@ -95,8 +82,8 @@ static char *free_name(const char *name)
 
 bool disk_name(int descriptor, const char *name)
 {
-    char place[DISK_PLACE], *between = NULL;
-    disk_place(descriptor, place);
+    char place[PLATFORM_PLACE], *between = NULL;
+    platform_place(descriptor, place);
     bool named = linkat(AT_FDCWD, place, AT_FDCWD, name, AT_SYMLINK_FOLLOW) == 0;
     if (named) disk_sync_name(name);
     for (int tries = 0; !named && errno == EEXIST && tries < 100; tries++) {

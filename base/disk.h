@@ -18,12 +18,8 @@ char *disk_beside(const char *name, const char *ending);
 /* Puts a complete file in the place of another, atomically and for good. False: errno says why not. */
 bool disk_replace(const char *from, const char *name);
 
-/* Opens a file without a name in the folder of `name`; it is gone with its last descriptor, however the program ends.
- * -1: the system has no such files, or could not name them later. */
+/* Opens a file without a name in the folder of `name`: see platform_nameless. */
 int disk_nameless(const char *name, int mode);
-enum { DISK_PLACE = 40 };
-/* Writes the name by which such a file can be opened while the descriptor is open. Returns out. */
-const char *disk_place(int descriptor, char out[DISK_PLACE]);
 /* Gives such a file its name, in place of a file that has it, atomically and for good. False: errno says why not. */
 bool disk_name(int descriptor, const char *name);
 

@@ -22,10 +22,9 @@ if(MOTUS_HDF5 AND NOT CMAKE_CROSSCOMPILING)
 endif()
 if(hdf5_FOUND AND hdf5_high AND ZLIB_FOUND)
   add_library(motus_hdf5 MODULE archive/hdf5.c archive/pack.c ${archive_sources} base/disk.c base/error.c
-    base/utf8.c)
+    base/platform.c base/utf8.c)
   set_target_properties(motus_hdf5 PROPERTIES PREFIX "" OUTPUT_NAME motus-hdf5 C_VISIBILITY_PRESET hidden
     LIBRARY_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR})
-  target_compile_definitions(motus_hdf5 PRIVATE _GNU_SOURCE)
   target_include_directories(motus_hdf5 PRIVATE ${PROJECT_SOURCE_DIR} ${PROJECT_SOURCE_DIR}/include)
   target_include_directories(motus_hdf5 SYSTEM PRIVATE ${hdf5_INCLUDE_DIRS})
   target_link_directories(motus_hdf5 PRIVATE ${hdf5_LIBRARY_DIRS})

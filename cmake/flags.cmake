@@ -5,6 +5,8 @@
 add_library(motus_flags INTERFACE)
 target_compile_options(motus_flags INTERFACE
   -std=c17 -ffp-contract=off -fno-math-errno -Wall -Wextra -Wpedantic)
+# POSIX, and nothing that Linux alone declares: base/platform.c asks for that.
+target_compile_definitions(motus_flags INTERFACE _XOPEN_SOURCE=700)
 if(CMAKE_C_COMPILER_ID MATCHES "Clang")
   # A loop that clang cannot vectorise as asked is no error.
   target_compile_options(motus_flags INTERFACE -Wno-pass-failed)

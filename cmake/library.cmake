@@ -20,7 +20,7 @@ add_custom_command(OUTPUT ${texts} DEPENDS ${step_texts} ${PROJECT_SOURCE_DIR}/c
 function(motus_objects target)
   add_library(${target} OBJECT ${ARGN})
   target_include_directories(${target} PRIVATE ${PROJECT_SOURCE_DIR} ${PROJECT_SOURCE_DIR}/include)
-  target_compile_definitions(${target} PRIVATE MOTUS_BUILDING _GNU_SOURCE)
+  target_compile_definitions(${target} PRIVATE MOTUS_BUILDING)
   set_target_properties(${target} PROPERTIES
     POSITION_INDEPENDENT_CODE ON C_VISIBILITY_PRESET hidden VISIBILITY_INLINES_HIDDEN ON)
   target_link_libraries(${target} PRIVATE motus_flags)

@@ -6,18 +6,15 @@
  */
 #include "machine/beside.h"
 
-#include <math.h>
-#include <sys/resource.h>
-#include <time.h>
+#include "base/platform.h"
 
-#ifdef RUSAGE_THREAD
+#include <math.h>
+#include <time.h>
 
 #define PIECE 1e-3      /* seconds from one look to the next, and of computing between two rests */
 #define RESTS 9.0       /* seconds of rest for each second of computing, where it is crowded */
 #define WINDOW 0.02     /* seconds of processor time over which displacements are counted */
 enum { DISPLACED = 2 }; /* so many displacements within WINDOW mean that it is crowded */
-
-static double seconds_of(struct timeval t) { return (double)t.tv_sec + 1e-6 * (double)t.tv_usec; }
 
 static double now(void)
 {
@@ -42,19 +39,13 @@ static void count(beside *b, double computed, int64_t displaced)
 void beside_rest(beside *b)
 {
     if (now() - b->looked < PIECE) return;
-    struct rusage used;
-    if (getrusage(RUSAGE_THREAD, &used)) return;
-    const double computed = seconds_of(used.ru_utime) + seconds_of(used.ru_stime);
-    if (b->looked == 0) count(b, computed, used.ru_nivcsw);
-    b->crowded = b->crowded || used.ru_nivcsw - b->displaced >= DISPLACED;
+    double computed;
+    int64_t displaced;
+    if (!platform_thread(&computed, &displaced)) return;
+    if (b->looked == 0) count(b, computed, displaced);
+    b->crowded = b->crowded || displaced - b->displaced >= DISPLACED;
     if (b->crowded && b->looked > 0 && b->rested < BESIDE_REST_ALL) sleep_for(b, RESTS * (computed - b->computed));
-    if (computed - b->began > WINDOW) count(b, computed, used.ru_nivcsw);
+    if (computed - b->began > WINDOW) count(b, computed, displaced);
     b->computed = computed;
     b->looked = now();
 }
-
-#else
-
-void beside_rest(beside *b) { (void)b; }
-
-#endif

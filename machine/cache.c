@@ -10,6 +10,7 @@
  */
 #include "machine/cache.h"
 
+#include "base/platform.h"
 #include "machine/build.h"
 
 #include <dirent.h>
@@ -51,21 +52,7 @@ static hash hash_bytes(hash h, const void *bytes, size_t n)
 static hash hash_text(hash h, const char *text) { return hash_bytes(h, text, strlen(text) + 1); }
 static const hash hash_start = {0xCBF29CE484222325u, 0x6A09E667F3BCC908u};
 
-/* Adds the features of the processor, on which -march=native depends. */
-static hash hash_processor(hash h)
-{
-    char line[4096];
-    FILE *f = fopen("/proc/cpuinfo", "re");
-    while (f && fgets(line, sizeof line, f)) {
-        bool wanted = !strncmp(line, "flags", 5) || !strncmp(line, "model", 5) || !strncmp(line, "cpu family", 10) ||
-                      !strncmp(line, "vendor_id", 9) || !strncmp(line, "stepping", 8) ||
-                      !strncmp(line, "Features", 8) || !strncmp(line, "CPU ", 4);
-        if (wanted) h = hash_text(h, line);
-        if (line[0] == '\n') break; /* all cores are alike */
-    }
-    if (f) fclose(f);
-    return h;
-}
+static void add_line(void *h, const char *line) { *(hash *)h = hash_text(*(hash *)h, line); }
 
 /* ---- the directory ---- */
 
@@ -215,8 +202,9 @@ static cache_state begin(cache_job *j, void **handle, char *why, size_t size)
     if (!compiler_find(&b->compiler, why, size)) return CACHE_FAILED;
     directory_of(directory, sizeof directory);
     int fd = directory[0] ? open_directory(directory) : -1;
-    hash key = hash_processor(hash_text(hash_text(hash_bytes(hash_start, b->text, b->length), compiler_options(b->how)),
-                                        b->compiler.identity));
+    hash key = hash_text(hash_bytes(hash_start, b->text, b->length), compiler_options(b->how));
+    key = hash_text(key, b->compiler.identity);
+    platform_features(add_line, &key); /* on which -march=native depends */
     snprintf(name, sizeof name, "%016" PRIx64 "%016" PRIx64 ".so", key.a, key.b);
     snprintf(path, sizeof path, "%s/%s", directory, name);
     if (fd >= 0) *handle = load_sound(fd, name, path);

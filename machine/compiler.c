@@ -6,6 +6,8 @@
  */
 #include "machine/compiler.h"
 
+#include "base/platform.h"
+
 #include <errno.h>
 #include <fcntl.h>
 #include <limits.h>
@@ -13,7 +15,6 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/resource.h>
 #include <sys/stat.h>
 #include <sys/wait.h>
 #include <time.h>
@@ -47,14 +48,6 @@ static const char *const libraries[] = {"-lm", NULL};
 #endif
 /* clang-format on */
 enum { ARGUMENTS_MAX = 40 };
-
-/* vfork copies no page tables, and a model may hold gigabytes. The child runs on the memory of this process until it
- * executes the compiler, so `become` changes no variable. */
-#ifdef __linux__
-#define FORK vfork
-#else
-#define FORK fork
-#endif
 
 const char *compiler_options(int how)
 {
@@ -129,53 +122,6 @@ static char **with_folder(char *folder, char *own[VARIABLES_MAX])
     return own;
 }
 
-/* A pipe that this process holds open at one end and the group at the other. When the process ends, however it does,
- * the system closes its end, and kills the group. */
-enum { GROUP, PROCESS };
-#ifdef __linux__
-static void open_tie(int tie[2])
-{
-    if (pipe2(tie, O_CLOEXEC)) tie[GROUP] = tie[PROCESS] = -1;
-}
-
-/* Ties the child's process group to this process's end of the pipe; called in the child. */
-static void tie_group(int end)
-{
-    if (end < 0) return;
-    fcntl(end, F_SETFD, 0); /* every process that the compiler starts holds it */
-    fcntl(end, F_SETOWN, -getpid());
-    fcntl(end, F_SETSIG, SIGKILL);
-    fcntl(end, F_SETFL, O_ASYNC);
-}
-#else
-static void open_tie(int tie[2]) { tie[GROUP] = tie[PROCESS] = -1; }
-static void tie_group(int end) { (void)end; }
-#endif
-
-static void shut(int file)
-{
-    if (file >= 0) close(file);
-}
-
-/* Becomes the program, in the child: makes only calls that are safe after fork. */
-static void become(char *const *arguments, const char *path, char *const *environment, int log, int end, pid_t parent)
-{
-    setpgid(0, 0);
-    tie_group(end);
-    if (getppid() != parent) _exit(127); /* it ended before */
-    struct rlimit time = {COMPILER_SECONDS_MAX, COMPILER_SECONDS_MAX},
-                  memory = {COMPILER_MEMORY_MAX, COMPILER_MEMORY_MAX}, core = {0, 0};
-    setrlimit(RLIMIT_CPU, &time);
-    setrlimit(RLIMIT_AS, &memory);
-    setrlimit(RLIMIT_CORE, &core);
-    int none = open("/dev/null", O_RDWR);
-    if (none >= 0) dup2(none, 0);
-    dup2(log, 1);
-    dup2(log, 2);
-    execve(path, arguments, environment);
-    _exit(127);
-}
-
 static double now(void)
 {
     struct timespec t;
@@ -196,7 +142,7 @@ static void first_line(int log, char *why, size_t size)
 static void leave(compiler_work *w)
 {
     close(w->log);
-    shut(w->tie);
+    if (w->tie >= 0) close(w->tie);
     w->child = 0;
 }
 
@@ -215,15 +161,10 @@ static bool start(const char *path, char *const *arguments, const char *out, com
     const char *slash = strrchr(out, '/');
     snprintf(folder, sizeof folder, "TMPDIR=%.*s", (int)(slash ? slash - out : 1), slash ? out : ".");
     char **environment = with_folder(folder, own);
-    int tie[2];
-    open_tie(tie);
-    const pid_t parent = getpid(), child = FORK();
-    if (child == 0) become(arguments, path, environment, log, tie[GROUP], parent);
-    const int error = errno;
-    shut(tie[GROUP]);
-    *w = (compiler_work){.child = child, .owner = parent, .log = log, .tie = tie[PROCESS], .began = now()};
-    if (child > 0) return true;
-    snprintf(why, size, "%s", strerror(error));
+    *w = (compiler_work){.owner = getpid(), .log = log, .began = now()};
+    w->child = platform_start(path, arguments, environment, log, COMPILER_SECONDS_MAX, COMPILER_MEMORY_MAX, &w->tie);
+    if (w->child > 0) return true;
+    snprintf(why, size, "%s", strerror(errno));
     leave(w);
     return false;
 }

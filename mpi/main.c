@@ -6,12 +6,12 @@
  * Invariants: a failure of one rank ends all by a common decision (cli/words/team.h), with one message and its exit
  * status, and never by MPI_Abort; what MPI itself refuses ends the job as MPI does.
  */
+#include "base/platform.h"
 #include "cli/verbs/program.h"
 #include "mpi/bits.h"
 
 #include <inttypes.h>
 #include <mpi.h>
-#include <sched.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -80,34 +80,27 @@ static void answer(void *context)
     MPI_Iprobe(MPI_ANY_SOURCE, MPI_ANY_TAG, MPI_COMM_WORLD, &flag, MPI_STATUS_IGNORE);
 }
 
-static int overlap(const cpu_set_t *a, const cpu_set_t *b)
-{
-    cpu_set_t both;
-    CPU_AND(&both, a, b);
-    return CPU_COUNT(&both) > 0;
-}
-
 /* Returns as many threads as this rank has processors: those on which it may run, shared with the ranks that may run
- * there too.
- */
+ * there too. */
 static int threads_of_rank(void)
 {
     MPI_Comm machine;
-    cpu_set_t mine, other;
-    int here, me, sharers = 0;
-    CPU_ZERO(&mine);
-    if (sched_getaffinity(0, sizeof mine, &mine) != 0) CPU_SET(0, &mine);
+    uint64_t mine[PLATFORM_SET], other[PLATFORM_SET];
+    int here, me, sharers = 0, count = 0;
+    platform_set(mine);
     MPI_Comm_split_type(MPI_COMM_WORLD, MPI_COMM_TYPE_SHARED, 0, MPI_INFO_NULL, &machine);
     MPI_Comm_size(machine, &here);
     MPI_Comm_rank(machine, &me);
     for (int k = 0; k < here; k++) {
-        other = mine;
-        MPI_Bcast(&other, sizeof other, MPI_BYTE, k, machine);
-        sharers += overlap(&mine, &other);
+        bool shared = false;
+        memcpy(other, mine, sizeof other);
+        MPI_Bcast(other, PLATFORM_SET, MPI_UINT64_T, k, machine);
+        for (int i = 0; i < PLATFORM_SET; i++) shared = shared || mine[i] & other[i];
+        sharers += shared;
     }
     MPI_Comm_free(&machine);
-    const int threads = CPU_COUNT(&mine) / sharers;
-    return threads > 1 ? threads : 1;
+    for (int i = 0; i < PLATFORM_SET; i++) count += __builtin_popcountll(mine[i]);
+    return count > sharers ? count / sharers : 1;
 }
 
 /* ---- versions ---- */

@@ -2,9 +2,6 @@
  *
  * Invariant: a study owns no run between calls; each walk creates its run and destroys it.
  */
-#ifndef _POSIX_C_SOURCE
-#define _POSIX_C_SOURCE 200809L /* clock_gettime */
-#endif
 #include "study.h"
 #include <float.h>
 #include <math.h>

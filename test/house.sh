@@ -235,8 +235,8 @@ else
     judge "what is there, motus.h declares" "$(comm -23 <(echo "$shown") <(echo "$declared"))"
     # The library prints nothing and never exits.
     judge "the library calls nothing that prints, exits or jumps" "$(
-        # the child process of the compiler calls _exit; the environment names the compiler and the cache
-        nm -uA "$archive" | sed 's/@.*//' | grep -vE ':(compiler|build|cache)\.c\.o: +U (_exit|getenv)$' | awk '$(NF-1) == "U" { print $NF }' | sort -u |
+        # a child process that cannot become the compiler calls _exit; the environment names the compiler and the cache
+        nm -uA "$archive" | sed 's/@.*//' | grep -vE ':(platform\.c\.o: +U _exit|(compiler|build|cache)\.c\.o: +U getenv)$' | awk '$(NF-1) == "U" { print $NF }' | sort -u |
             grep -xE '(__)?(printf|fprintf|vprintf|vfprintf|puts|fputs|putchar|fputc|fwrite|perror|exit|_exit|abort|longjmp|setjmp|_setjmp|__assert_fail|stdout|stderr|system|popen|getenv|setlocale)(_chk)?')"
 fi
 
@@ -275,6 +275,15 @@ judge "every file opens with a comment that says what it is" "$(
 judge "no flag lets the compiler change results" "$(
     grep -nE -- '-(ffast-math|fassociative-math|funsafe-math-optimizations|freciprocal-math|ffinite-math-only|Ofast)|ffp-contract=(on|fast)' \
         CMakeLists.txt CMakePresets.json cmake/*.cmake Makefile)"
+# A port to another system is another base/platform.c. _XOPEN_SOURCE=700 of cmake/flags.cmake lets the compiler refuse in all other files what POSIX
+# does not declare; here are the ways round it.
+judge "only base/platform.c knows Linux" "$(
+    grep -q '_XOPEN_SOURCE=700' cmake/flags.cmake || echo "cmake/flags.cmake does not ask for POSIX alone"
+    grep -nE '_(GNU|DEFAULT|BSD|XOPEN|POSIX_C)_SOURCE' CMakeLists.txt cmake/library.cmake cmake/archive.cmake cmake/mpi.cmake
+    grep -rnE '_(GNU|DEFAULT|BSD|XOPEN|POSIX_C)_SOURCE|__(gnu_)?(linux|GLIBC|MUSL|APPLE|FreeBSD)__|"/(proc|sys)/|<(linux/|sched\.h|sys/(syscall|sendfile|prctl|file|epoll|eventfd|inotify|sysinfo|auxv|personality|random)\.h)|\<syscall *\(' \
+        --include='*.[ch]' base core step lang machine api study archive tell cli mpi | grep -v '^base/platform\.c:')"
+judge "base/platform.c is complete with POSIX alone" "$(
+    cc -std=c17 -Wall -Wextra -Wpedantic -Werror -U__linux__ -D_XOPEN_SOURCE=700 -I. -fsyntax-only base/platform.c 2>&1)"
 judge "no pragma lets the compiler change results" "$(
     grep -nE '^[[:space:]]*#[[:space:]]*pragma.*(FP_CONTRACT +ON|GCC optimize|float_control|clang fp)' $(ours))"
 

@@ -146,7 +146,7 @@ dies_and_goes_on USR1 mpirun 2 0
 build=$(dirname "$motus")
 if command -v mpicc.mpich >/dev/null && command -v mpirun.mpich >/dev/null && [ -e "$build/libmotus-cli.a" ]; then
     ours=$mpi system=("${launch[@]}") mpi=$place/motus-mpich launch=(mpirun.mpich)
-    gives "it compiles with MPICH" 0 mpicc.mpich -std=c17 -D_GNU_SOURCE -Wall -Wextra -Wpedantic -Werror -I. -Iinclude mpi/*.c \
+    gives "it compiles with MPICH" 0 mpicc.mpich -std=c17 -D_XOPEN_SOURCE=700 -Wall -Wextra -Wpedantic -Werror -I. -Iinclude mpi/*.c \
         "$build/libmotus-cli.a" "$build/libmotus-archive.a" "$build/libmotus.a" -lm -ldl -lpthread "-Wl,-rpath,$build" -o "$mpi"
     gives "... --mpi-check" 0 ranks 2 --mpi-check
     that "... by MPICH" says "2 ranks, MPICH"

@@ -4,7 +4,6 @@
  * files, so that neither process can wait for the other for ever. The picture comes through a pipe, because
  * file_write() notices a full disk and gnuplot does not.
  */
-#define _XOPEN_SOURCE 700
 #include "cli/draw/plot.h"
 #include "cli/words/complain.h"
 

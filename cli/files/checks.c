@@ -1,5 +1,4 @@
 /* See checks.h. */
-#define _XOPEN_SOURCE 700
 #include "cli/files/checks.h"
 
 #include "base/decimal.h"

@@ -4,12 +4,10 @@
  * in the same folder, because a rename is atomic only within a file system. On Linux it has no name until it is
  * complete: a file that is killed with the program is gone.
  */
-#ifndef _GNU_SOURCE
-#define _GNU_SOURCE /* O_TMPFILE */
-#endif
 #include "cli/files/file.h"
 
 #include "base/disk.h"
+#include "base/platform.h"
 #include "cli/files/stop.h"
 #include "cli/words/complain.h"
 
@@ -152,7 +150,7 @@ static motus_status cannot_write(file_out *f, motus_error *err)
     return fail(err, MOTUS_FILE, "cannot write %s: %s", called(f->path, false), strerror(f->code));
 }
 
-/* A file without a name beside f->path; -1: see disk_nameless(). */
+/* A file without a name beside f->path; -1: see platform_nameless(). */
 static int open_nameless(file_out *f)
 {
     const int fd = disk_nameless(f->path, 0600);
@@ -286,11 +284,11 @@ void file_drop(file_out *f)
 
 motus_status file_beside_make(file_beside *f, const char *name, const char *ending, motus_error *err)
 {
-    char place[DISK_PLACE];
+    char place[PLATFORM_PLACE];
     *f = (file_beside)FILE_BESIDE;
     f->name = disk_real(name);
     f->descriptor = f->name ? disk_nameless(f->name, 0666) : -1;
-    f->path = f->descriptor >= 0 ? strdup(disk_place(f->descriptor, place))
+    f->path = f->descriptor >= 0 ? strdup(platform_place(f->descriptor, place))
               : f->name          ? disk_beside(f->name, ending)
                                  : NULL;
     return f->path ? MOTUS_OK : complain_memory(err);

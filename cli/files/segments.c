@@ -1,5 +1,4 @@
 /* See segments.h. */
-#define _XOPEN_SOURCE 700
 #include "cli/files/segments.h"
 
 #include "base/disk.h"

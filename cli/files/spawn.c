@@ -2,8 +2,9 @@
  *
  * Invariant: there is no shell, so each argument arrives unchanged.
  */
-#define _XOPEN_SOURCE 700
 #include "cli/files/spawn.h"
+
+#include "base/platform.h"
 
 #include <errno.h>
 #include <fcntl.h>
@@ -42,12 +43,6 @@ int spawn_program(pid_t *process, char *const arguments[], const int streams[3],
 /* ---- the browser: the address is one argument that begins with its scheme, so that a file's name is never taken for
  * an option or a command ---- */
 
-#ifdef __APPLE__
-#define OPENER "open"
-#else
-#define OPENER "xdg-open"
-#endif
-
 static bool start(const char *program, const char *url)
 {
     char *const arguments[] = {(char *)program, (char *)url, NULL};
@@ -71,5 +66,5 @@ bool browser_open(const char *url)
         good = *name && start(name, url);
     }
     free(list);
-    return good || start(OPENER, url);
+    return good || start(PLATFORM_OPENER, url);
 }

@@ -5,7 +5,6 @@
  * nobody has asked when the time is over, in a library call or a loop without end, the clock raises the signal: what is
  * left is what kill -9 leaves, which --resume takes up. A second signal kills at once.
  */
-#define _XOPEN_SOURCE 700
 #include "cli/files/stop.h"
 
 #include <signal.h>

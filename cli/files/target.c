@@ -2,11 +2,10 @@
  *
  * Invariant: one program at a time writes a file of rows, where the file system has locks.
  */
-#define _XOPEN_SOURCE 700
-#define _DEFAULT_SOURCE
 #include "cli/files/target.h"
 
 #include "base/disk.h"
+#include "base/platform.h"
 #include "cli/files/file.h"
 #include "cli/words/complain.h"
 
@@ -14,7 +13,6 @@
 #include <fcntl.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/file.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -82,27 +80,9 @@ motus_status target_check(const options *o, const char *path, motus_error *err)
     return MOTUS_OK;
 }
 
-/* The lock of an archive is on a byte far behind its end, so that HDF5, which asks for a shared lock of the file, reads
- * it meanwhile. */
-static struct flock lock_behind(void)
-{
-    return (struct flock){.l_type = F_WRLCK, .l_whence = SEEK_SET, .l_start = (off_t)1 << 62, .l_len = 1};
-}
-
-bool target_busy(const char *path, int descriptor)
-{
-    struct flock behind = lock_behind();
-    if (target_archive(path)) return fcntl(descriptor, F_OFD_GETLK, &behind) == 0 && behind.l_type != F_UNLCK;
-    return flock(descriptor, LOCK_SH | LOCK_NB) != 0 && errno == EWOULDBLOCK;
-}
-
-bool target_take(const char *path, int descriptor)
-{
-    struct flock behind = lock_behind();
-    const bool archive = target_archive(path);
-    const int failed = archive ? fcntl(descriptor, F_OFD_SETLK, &behind) : flock(descriptor, LOCK_EX | LOCK_NB);
-    return !failed || !(errno == EWOULDBLOCK || (archive && errno == EACCES));
-}
+/* HDF5 asks for a shared lock of the file, so that of an archive is behind its end: it can be read meanwhile. */
+bool target_busy(const char *path, int descriptor) { return platform_locked(descriptor, target_archive(path)); }
+bool target_take(const char *path, int descriptor) { return platform_lock(descriptor, target_archive(path)); }
 
 motus_status target_lock(const char *path, int *descriptor, bool *regular, motus_error *err)
 {

@@ -4,8 +4,6 @@
  * of the merged one are those of the trajectories in their order; and where the checks of its rows are there, only if
  * they fit. A file is open only while a block of it is copied: there may be more shards than a process may have files.
  */
-#define _XOPEN_SOURCE 700
-#define _DEFAULT_SOURCE
 #include "cli/sweep/part.h"
 
 #include "base/decimal.h"

@@ -10,7 +10,6 @@
  * (segments.h); until then it is empty. Segments are written before the rows, but reach the disk when the sweep ends:
  * after a power cut their hashes tell what is there.
  */
-#define _XOPEN_SOURCE 700
 #include "base/decimal.h"
 #include "base/disk.h"
 #include "cli/files/file.h"

@@ -5,8 +5,6 @@
  * head of a .npy has the number of rows; it is written after them. A row has its check (checks.h) after it is written;
  * before the first one the file of checks is there.
  */
-#define _XOPEN_SOURCE 700
-#define _DEFAULT_SOURCE
 #include "base/decimal.h"
 #include "base/disk.h"
 #include "cli/files/file.h"

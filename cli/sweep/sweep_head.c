@@ -3,7 +3,6 @@
  * Invariant: the head depends only on what the numbers depend on: not on the machine, the threads, the name of the
  * file or interruptions. So two files of the same sweep are equal, and different fingerprints mean different numbers.
  */
-#define _XOPEN_SOURCE 700
 #include "cli/files/command.h"
 #include "cli/run/csv.h"
 #include "cli/sweep/sweep.h"

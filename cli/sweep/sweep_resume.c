@@ -3,7 +3,6 @@
  * Invariant: a file with another fingerprint, or that is not a sweep's, is refused and not changed. No row is taken
  * whose bytes do not have their check.
  */
-#define _XOPEN_SOURCE 700
 #include "base/decimal.h"
 #include "cli/files/file.h"
 #include "cli/sweep/sweep.h"

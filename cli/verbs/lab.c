@@ -4,7 +4,7 @@
  * not at all. It is as it was built, except for the start in its one empty meta element; the only character of the
  * start with a meaning in HTML is &, which is written &amp;.
  */
-#define _XOPEN_SOURCE 700
+#include "base/platform.h"
 #include "cli/files/file.h"
 #include "cli/files/spawn.h"
 #include "cli/files/stop.h"
@@ -32,10 +32,7 @@ enum { PATH_ROOM = 4096 };
 static bool program_folder(const char *called, char out[PATH_ROOM])
 {
     char found[PATH_ROOM];
-    ssize_t length = readlink("/proc/self/exe", out, PATH_ROOM);
-    if (length > 0 && length < PATH_ROOM) {
-        out[length] = 0;
-    } else {
+    if (!platform_program(out, PATH_ROOM)) {
         const char *name = strchr(called, '/') ? called : file_program(called, found, sizeof found) ? found : NULL;
         char *real = name ? realpath(name, NULL) : NULL;
         bool fits = real && strlen(real) < PATH_ROOM;

@@ -3,7 +3,6 @@
  * Invariant: the merged file is, byte for byte, what one command without --shard writes. It gets its name only when it
  * is complete.
  */
-#define _XOPEN_SOURCE 700
 #include "cli/files/stop.h"
 #include "cli/sweep/part.h"
 #include "cli/sweep/sweep.h"

@@ -3,7 +3,6 @@
  * Invariant: an error is printed once, with its place as file:line:column, the line, a caret and the hint; all text
  * passes text_put(), since it may come from a model or a file name.
  */
-#define _XOPEN_SOURCE 700
 #include "cli/words/complain.h"
 
 #include "cli/words/options.h"
