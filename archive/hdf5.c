@@ -86,7 +86,6 @@ static bool put_text(hid_t object, const char *name, const char *text)
     return good;
 }
 
-/* Writes a text `count` times. */
 static bool put_texts(hid_t object, const char *name, const char *text, hid_t space, size_t count)
 {
     const hid_t type = text_type(text);

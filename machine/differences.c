@@ -367,7 +367,6 @@ bool differences_agree(const differences *f, size_t number)
     return f->d[number] == 0 && f->apart[number] == 0 && largest(f, f->envelope, number) == 0;
 }
 
-/* Returns the largest `apart` of a group. */
 static double apart_of(const differences *f, size_t group)
 {
     const size_t count[] = {f->shape.positions, f->shape.positions, f->shape.velocities - f->shape.positions};

@@ -67,7 +67,6 @@ static inline int64_t differences_steps(int64_t n) { return 2 * n + 1; }
 size_t differences_size(const differences_shape *);
 /* Makes the struct, with its arrays in `memory`. */
 void differences_place(differences *, const differences_shape *, double *memory);
-/* Begins a leg from `start` to `until`. */
 void differences_begin(differences *, double start, double until);
 /* Compares, at time t, the numbers that the caller has written to values[0], values[1] and, with `twin`, values[2].
  * observed: this is an observation, which enters the reductions. */

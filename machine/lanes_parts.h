@@ -154,7 +154,6 @@ void lanes_block_put_back(const lanes_block *, size_t lane);
 void lanes_block_number(const lanes_block *, const lanes_item *, const size_t *trajectories);
 /* Sets lane i of the block to the start of trajectory trajectories[i]. */
 void lanes_block_begin(const lanes_block *, const lanes_item *, const size_t *trajectories);
-/* Tells whether all elements of a lane are finite. */
 bool lanes_block_finite(const lanes *, const double *numbers, size_t elements, size_t lane);
 /* Tells whether the carry of a lane that has not stopped is NaN, infinite, or so large that an observed number may
  * overflow. */

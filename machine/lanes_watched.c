@@ -83,7 +83,6 @@ static lanes_state state_of(const watched *s, size_t lane, bool before)
                          .asked = s->item};
 }
 
-/* Puts a trajectory into a lane at a state. */
 static void put(watched *s, size_t lane, const lanes_state *from)
 {
     const lanes *l = s->l;

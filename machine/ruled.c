@@ -106,7 +106,6 @@ static bool may_be_narrow(void *ctx, size_t f)
     return r->leaf[leaf_of(r, f)].bends;
 }
 
-/* Finds the indices of an instance. */
 static void indices_of(const model_rule *rule, size_t instance, int64_t *index)
 {
     for (int k = rule->own - 1; k >= 0; k--) {

@@ -6,7 +6,6 @@
 
 static inline size_t columns_parts(int components) { return components ? (size_t)components : 1; }
 
-/* Finds the range that holds column k. */
 const column_range *columns_range(const motus_system *, size_t k);
 /* Returns name, cells and components of a range's columns: the state, or the definition written as a state. */
 model_state columns_shape(const motus_system *, const column_range *);

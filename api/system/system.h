@@ -120,7 +120,6 @@ motus_status system_values_of(motus_system *, double t, const double *x, const d
 int system_later(const motus_system *, double t, double late, double *x, double *v, double *a);
 /* Finds the switches of the model, once: `switches`, or in `switches_refused` why they cannot be held. */
 motus_status system_switches(motus_system *, motus_error *);
-/* Returns whether the system is a located one. */
 bool system_located(const motus_system *);
 /* Makes the rules of the model, once; *out is NULL where it has none. */
 motus_status system_rules(motus_system *, const rules **out, motus_error *);

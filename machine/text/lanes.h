@@ -343,7 +343,6 @@ static inline mask lanes_open(const lanes_job *job, const work *w, const compile
     return open;
 }
 
-/* Keeps the lanes of a group as they are before a step. */
 static inline void lanes_keep_before(const lanes_job *job, work *w, size_t group)
 {
     lanes_store(w, job->before + group * CARRIED * FACT(w, nv));
