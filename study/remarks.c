@@ -210,7 +210,8 @@ static bool strays(const remarks_view *v, size_t k, size_t unused)
 {
     (void)unused;
     return ran(v, k) && v->facts[k].card->reversible && v->rows[k].reversal > RETURNED &&
-           isfinite(v->rows[k].reversal) && v->reference->known && !v->reference->uneven && v->reference->jump < 0;
+           isfinite(v->rows[k].reversal) && v->reference->known && !v->reference->uneven &&
+           v->reference->jump.order < 0;
 }
 
 static bool loses_the_way(const remarks_view *v, size_t k, size_t unused)

@@ -44,9 +44,8 @@
 typedef struct candidate {
     const motus_method *card;
     double step;
-    double x, v, scaled; /* the estimated error; scaled: NaN if there is none */
-    int64_t jump;        /* as in motus_run_statistics, of the finest run */
-    double jump_time, jump_rounding, jump_power;
+    double x, v, scaled;         /* the estimated error; scaled: NaN if there is none */
+    study_jump jump;             /* of the finest run */
     bool over;                   /* a run was given up, since it took too long */
     double work;                 /* of all its runs */
     double more;                 /* the cost of its last run, as a multiple of the cost of its steps */
@@ -69,7 +68,7 @@ study_grid solution_grid(const study *s, double step)
 
 static candidate untried(const motus_method *card)
 {
-    return (candidate){.card = card, .scaled = NAN, .jump = -1, .jump_time = NAN, .jump_power = NAN};
+    return (candidate){.card = card, .scaled = NAN, .jump = STUDY_NO_JUMP};
 }
 
 /* Returns whether halved steps of a method tell its error. */
@@ -194,9 +193,6 @@ static motus_status refine(study *s, const study_grid *g, double budget, double 
         if (finite_rows(s, *now, g->points)) {
             study_scale(s, *now, g->points);
             c->jump = spent.jump;
-            c->jump_time = spent.jump_time;
-            c->jump_rounding = spent.jump_rounding;
-            c->jump_power = spent.jump_power;
             const study_distance last = d;
             d = have ? apart(s, *now, *before, g->points) : (study_distance){NAN, NAN, NAN};
             double fall = last.scaled / d.scaled, step = g->interval / (double)per;
@@ -239,8 +235,8 @@ static void own_rounding(const study *s, const study_grid *g, const candidate *c
         r->error = fmax(r->error, DBL_EPSILON * (way + s->magnitude));
         r->scaled = fmax(r->scaled, fmax(DBL_EPSILON * way / s->scale[k], s->noise));
         if (k < s->nx) continue;
-        r->error = fmax(r->error, c->jump_rounding);
-        r->scaled = fmax(r->scaled, c->jump_rounding / s->scale[k]);
+        r->error = fmax(r->error, c->jump.rounding);
+        r->scaled = fmax(r->scaled, c->jump.rounding / s->scale[k]);
     }
 }
 
@@ -329,11 +325,9 @@ static void adopt(study *s, const study_grid *g, const candidate *best, const do
     r->order = best->card->order;
     r->step = best->step;
     r->jump = best->jump;
-    r->jump_time = best->jump_time;
-    r->jump_power = best->jump_power;
     snprintf(r->method, sizeof r->method, "%s", best->card->name);
     snprintf(r->text, sizeof r->text, "%s at step %.6g%s", best->card->name, best->step,
-             best->jump >= 0 ? ", with steps that end where the force is not smooth" : "");
+             best->jump.order >= 0 ? ", with steps that end where the force is not smooth" : "");
     memcpy(r->rows + s->numbers, table, g->points * s->numbers * sizeof(double));
     study_scale(s, r->rows + s->numbers, g->points);
     r->error = fmax(best->x, best->v);
@@ -435,8 +429,6 @@ static motus_status find_located(study *s, const study_grid *g, int64_t steps, d
     study_note(s, motus_analysis_of(s->system, &analysis));
     if (study_broken(s) != MOTUS_OK) return study_broken(s);
     r->uneven = !analysis.smooth;
-    r->jump = -1;
-    r->jump_time = NAN;
     s->locate = true;
     const motus_status status = find_reference(s, g, steps, enough, r, room, room + table, room + 2 * table);
     s->locate = false;
@@ -450,8 +442,6 @@ static motus_status find_jump(study *s, const study_grid *g, solution *r)
     candidate list[SOLUTION_CANDIDATES + 1];
     study_note(s, motus_analysis_of(s->system, &analysis));
     if (study_broken(s) != MOTUS_OK) return study_broken(s);
-    r->jump = -1;
-    r->jump_time = NAN;
     if (!candidates(s, list)) return study_broken(s);
     double *room = take(s->allocator, g->points * s->numbers, sizeof(double));
     if (!room) return fail(s->err, MOTUS_MEMORY, "out of memory for %zu states of %zu numbers", g->points, s->numbers);
@@ -464,14 +454,12 @@ static motus_status find_jump(study *s, const study_grid *g, solution *r)
     if (study_fatal(status)) return study_tell(s, status, &ignored);
     r->uneven = !analysis.smooth && (status != MOTUS_OK || !s->locatable);
     r->jump = cost.jump;
-    r->jump_time = cost.jump_time;
-    r->jump_power = cost.jump_power;
     return MOTUS_OK;
 }
 
 motus_status solution_find(study *s, const study_grid *g, int64_t steps, double enough, solution *r)
 {
-    *r = (solution){.error = NAN, .scaled = NAN};
+    *r = (solution){.error = NAN, .scaled = NAN, .jump = STUDY_NO_JUMP};
     r->rows = take(s->allocator, (g->points + 1) * s->numbers, sizeof(double));
     if (!r->rows)
         return fail(s->err, MOTUS_MEMORY, "out of memory for %zu states of %zu numbers", g->points, s->numbers);
@@ -509,17 +497,17 @@ double solution_allows(const study *s, const solution *r, char *why, size_t size
         snprintf(why, size, "the force is not smooth, and where it jumps could not be found");
         return 1;
     }
-    if (r->jump < 0) return 0;
-    const bool infinite = r->jump_power != (double)r->jump;
-    decimal_time(r->jump_time, s->until - s->from, t);
-    if (r->jump == 0)
+    if (r->jump.order < 0) return 0;
+    const bool infinite = r->jump.power != (double)r->jump.order;
+    decimal_time(r->jump.time, s->until - s->from, t);
+    if (r->jump.order == 0)
         snprintf(why, size, "the force %s at t = %s", infinite ? "is infinite" : "jumps", t);
-    else if (r->jump == 1)
+    else if (r->jump.order == 1)
         snprintf(why, size, "the slope of the force %s at t = %s", infinite ? "is infinite" : "jumps", t);
     else
-        snprintf(why, size, "derivative %d of the force %s at t = %s", (int)r->jump, infinite ? "is infinite" : "jumps",
-                 t);
-    return fmax(r->jump_power + 1, 0.01);
+        snprintf(why, size, "derivative %d of the force %s at t = %s", (int)r->jump.order,
+                 infinite ? "is infinite" : "jumps", t);
+    return fmax(r->jump.power + 1, 0.01);
 }
 
 const char *solution_lacks(const solution *r) { return r->text + strlen(NONE); }

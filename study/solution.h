@@ -8,12 +8,9 @@
 
 typedef struct solution {
     bool known, exact;
-    bool located;     /* its runs end their steps where the force changes its formula */
-    bool uneven;      /* the force is not smooth, and steps cannot end where its formula changes */
-    int64_t jump;     /* the lowest derivative of the force that jumps along the motion, as in motus_run_statistics */
-    double jump_time; /* of the first jump */
-    /* the power of that jump */
-    double jump_power;
+    bool located;                /* its runs end their steps where the force changes its formula */
+    bool uneven;                 /* the force is not smooth, and steps cannot end where its formula changes */
+    study_jump jump;             /* along the motion */
     char method[MOTUS_NAME_MAX]; /* of its run; "": nothing is known */
     int order;
     double step;                  /* of its run; 0 for the exact motion */

@@ -318,7 +318,7 @@ motus_status study_walk(study *s, const char *method, const study_grid *g, int64
 {
     motus_run *run = NULL;
     size_t done = 0;
-    *cost = (study_cost){.jump = -1, .jump_time = NAN, .jump_power = NAN};
+    *cost = (study_cost){.jump = STUDY_NO_JUMP};
     motus_status status = tick(s, 0);
     if (status == MOTUS_OK)
         status = study_run(s, method, g->interval / (double)per, from ? g->from : NAN, g->until, from, &run, err);
@@ -340,10 +340,7 @@ motus_status study_walk(study *s, const char *method, const study_grid *g, int64
         cost->steps = motus_run_steps(run);
         const motus_run_statistics did = motus_run_now(run);
         cost->evaluations = did.evaluations;
-        cost->jump = did.jump;
-        cost->jump_time = did.jump_time;
-        cost->jump_rounding = did.jump_rounding;
-        cost->jump_power = did.jump_power;
+        cost->jump = (study_jump){did.jump, did.jump_time, did.jump_rounding, did.jump_power};
         s->locatable = did.switches >= 0;
     }
     motus_run_destroy(run);

@@ -54,13 +54,19 @@ typedef struct study_grid {
     size_t intervals, points;     /* points = intervals, or intervals + 1 */
 } study_grid;
 
+/* The lowest derivative of the force that jumps along a run, and where it first does: see motus_run_statistics. */
+typedef struct study_jump {
+    int64_t order; /* -1: none jumps */
+    double time, rounding, power;
+} study_jump;
+#define STUDY_NO_JUMP ((study_jump){.order = -1, .time = NAN, .power = NAN})
+
 /* The cost of a walk along a grid. */
 typedef struct study_cost {
     int64_t steps, evaluations;
     double seconds;
-    bool over;    /* the walk gave up at study.limit */
-    int64_t jump; /* as in motus_run_statistics */
-    double jump_time, jump_rounding, jump_power;
+    bool over; /* the walk gave up at study.limit */
+    study_jump jump;
 } study_cost;
 
 /* Reads and checks the definition, into the layout of this version. */
