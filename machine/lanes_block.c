@@ -197,8 +197,8 @@ void lanes_block_stop(const lanes_block *b)
             b->stopped[i] = lanes_block_time(b, i);
 }
 
-/* The observed state may stop being finite one step before the carry does. In lanes that are not observed now it holds
- * no valid numbers. */
+/* Observes the lanes. The observed state may stop being finite one step before the carry does; in lanes that are not
+ * observed now it has no valid numbers. */
 void lanes_block_observe(const lanes_block *b)
 {
     const lanes *l = b->l;

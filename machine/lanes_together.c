@@ -236,7 +236,7 @@ static double time_of(const lanes_item *b)
     return b->n == d->whole && d->last == 0 ? d->until : lanes_block_time(&block, 0);
 }
 
-/* The object makes the observations within a chunk, this function those between two chunks. */
+/* Takes the whole steps. The object makes the observations within a chunk, this function those between two chunks. */
 static motus_status whole_steps(together *s)
 {
     lanes_item *b = s->item;

@@ -13,7 +13,7 @@ static node half_width(graph *g, node leaf, void *of)
     return graph_seed_direction(g, leaf, &shift);
 }
 
-/* The factor 1.001 leaves room for rounding. */
+/* Bounds the distance of a value from that at the centre; the factor 1.001 leaves room for rounding. */
 node least_radius(model *m, node value)
 {
     graph *g = m->graph;

@@ -34,7 +34,7 @@ double *set_aside(const motus_system *s)
     return room;
 }
 
-/* Binding again takes no memory, so this function cannot fail. */
+/* Cannot fail, since binding again takes no memory. */
 void set_back(motus_system *s, const double *room)
 {
     model *m = s->model;

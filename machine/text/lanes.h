@@ -375,8 +375,7 @@ static inline mask lanes_watch_ends(const lanes_job *job, work *w, const compile
 }
 #define LANES_WATCH(g) lanes_watch_begin(job, w, g)
 #else
-/* With fixed steps the states at both ends are observed, each once in a call. known: the start is the end of the step
- * before. */
+/* Observes the state at the start of a fixed step, unless it is `known` as the end of the step before. */
 static inline void lanes_watch_begin(const lanes_job *job, work *w, size_t group, bool known)
 {
     const size_t nx = FACT(w, nx), nv = FACT(w, nv), numbers = nx + 2 * nv;
