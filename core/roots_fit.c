@@ -9,7 +9,6 @@
 #include "core/roots_cell.h"
 
 #include <math.h>
-#include <string.h>
 
 enum { QUARTER = 256, BLOCK = 8 };
 

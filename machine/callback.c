@@ -6,7 +6,6 @@
  */
 #include "machine/machine.h"
 
-#include <math.h>
 #include <stdio.h>
 
 static int keep_returned(calling *c, int returned)

@@ -3,7 +3,6 @@
 #ifndef MACHINE_HELD_H
 #define MACHINE_HELD_H
 
-#include "lang/model/resolution.h"
 #include "lang/model/switches.h"
 #include "machine/machine.h"
 

@@ -13,7 +13,6 @@
 
 #include "core/stepper.h"
 
-#include <math.h>
 #include <string.h>
 
 typedef struct watched {

@@ -1,8 +1,6 @@
 /* See least.h. */
 #include "machine/least.h"
 
-#include "lang/graph/graph_place.h"
-
 #include <math.h>
 
 /* Returns how far a leaf may be from its value at the centre. */

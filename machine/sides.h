@@ -10,7 +10,6 @@
 
 #include "core/rules.h"
 #include "lang/model/model.h"
-#include "machine/machine.h"
 
 typedef struct sides sides;
 

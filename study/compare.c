@@ -12,7 +12,6 @@
 #include <float.h>
 #include <math.h>
 #include <stdio.h>
-#include <string.h>
 
 #define SAMPLES_MAX 2048 /* of the invariants along one run */
 #define REMARKS_MAX 4096

@@ -19,7 +19,6 @@
 #include "base/decimal.h"
 #include <math.h>
 #include <stdio.h>
-#include <string.h>
 
 #define INTERVALS 8 /* a power of 2 */
 #define POINTS_MAX 80

@@ -1,5 +1,5 @@
 /* The calls for bars of error: what they promise besides the bars themselves, which bars_test.c judges. */
-#include "api/system/shadow.h"
+#include "api/system/system.h"
 #include "test/given.h"
 
 #include <stdbool.h>

@@ -11,7 +11,6 @@
  * slope is only to tell the order from what dense output or a start of low order would leave of it; that no order is
  * lost there is the law of parts, which is exact.
  */
-#include "api/system/located.h"
 #include "api/system/system.h"
 #include "core/rows.h"
 #include "test/fit.h"
@@ -29,7 +28,7 @@ enum { STARTS = 8, NUMBERS = 2, POINTS = 64, SERIES = 12, RECORDS = 32 };
 
 typedef struct motion {
     const char *name, *text;
-    bool switches; /* no event acts: the force itself jumps, and steps end there (api/system/located.h) */
+    bool switches; /* no event acts: the force itself jumps, and steps end there (api/system/system.h) */
 } motion;
 
 /* A velocity jumps; a mode changes the force alone, so that an acceleration from before the event is wrong after it;

@@ -8,7 +8,6 @@
  *
  * WITNESS=n tries n of each; they print what they find.
  */
-#include "api/system/located.h"
 #include "api/system/system.h"
 #include "test/given.h"
 #include "test/share.h"

@@ -1,5 +1,4 @@
 /* The catalogue of methods, from the rows. */
-#include "api/system/symmetry.h"
 #include "api/system/system.h"
 
 size_t motus_method_count(void) { return row_count(); }

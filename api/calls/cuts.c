@@ -1,10 +1,10 @@
-/* What events that assign, and so end a step, make of a symplectic or reversible method. See cuts.h.
+/* What events that assign, and so end a step, make of a symplectic or reversible method. See explain.h.
  *
  * A step of a given size, or to a given time, is a symplectic map; one whose size depends on the state is not. Fixed
  * steps of a reversible method stay reversible: the way back divides the step at the event, too. Error control begins
  * anew after an event, so with adaptive steps the way back has other steps.
  */
-#include "api/calls/cuts.h"
+#include "api/calls/explain.h"
 
 #include "api/motion/run.h"
 

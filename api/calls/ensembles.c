@@ -1,7 +1,7 @@
 /* Ensembles: the public calls. See api/ensemble/ensemble.h. */
 #include "api/request/choice.h"
 #include "api/ensemble/ensemble.h"
-#include "api/system/located.h"
+#include "api/system/system.h"
 #include "api/motion/run_events.h"
 
 #include <math.h>

@@ -1,10 +1,7 @@
 /* The analysis of a model in words. */
-#include "api/calls/sentences.h"
-#include "api/system/symmetry.h"
+#include "api/calls/explain.h"
 #include "api/system/system.h"
 
-#include <math.h>
-#include <stdio.h>
 #include <string.h>
 
 motus_status motus_analysis_of(const motus_system *given, motus_analysis *out)

@@ -1,12 +1,9 @@
 /* The events of a system in words: what each waits for and does, the modes that events assign, and the conditions that
  * already hold at the start, which are no events. */
-#include "api/calls/cuts.h"
-#include "api/calls/sentences.h"
-#include "api/system/symmetry.h"
+#include "api/calls/explain.h"
 #include "api/system/system.h"
 
 #include <math.h>
-#include <stdio.h>
 
 enum { TARGETS_SHOWN = 8, HOLDING_SHOWN = 8, OCCASION = 200 };
 

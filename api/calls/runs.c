@@ -1,9 +1,8 @@
 /* The public calls that make a run, take its steps, and ask for its state and statistics. */
-#include "api/calls/cuts.h"
+#include "api/calls/explain.h"
 #include "api/search/goal.h"
 #include "api/motion/locate.h"
 #include "api/motion/run_events.h"
-#include "core/rows.h"
 #include "machine/cache.h"
 
 #include <math.h>

@@ -1,5 +1,5 @@
-/* See sentences.h. */
-#include "api/calls/sentences.h"
+/* See explain.h. */
+#include "api/calls/explain.h"
 
 #include <stdarg.h>
 #include <stdio.h>

@@ -16,7 +16,6 @@
 
 #include <float.h>
 #include <math.h>
-#include <stdio.h>
 #include <string.h>
 
 enum { PIECES_MAX = 50000 }; /* controlled steps in all */

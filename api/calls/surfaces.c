@@ -1,8 +1,6 @@
 /* The switching surfaces of a system: where its force changes its formula. */
-#include "api/system/located.h"
+#include "api/system/system.h"
 #include "lang/model/switches.h"
-
-#include <string.h>
 
 enum { ROOM = 4096 }; /* of a text; a longer one is cut */
 

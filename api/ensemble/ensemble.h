@@ -78,7 +78,7 @@ struct motus_ensemble {
     double seconds;
 
     /* ---- what is computed ---- */
-    motus_system *system;    /* a located one (api/system/located.h) where switches are located */
+    motus_system *system;    /* a located one (api/system/system.h) where switches are located */
     motus_system *home;      /* the caller's system where `system` is a located one; else NULL */
     const char *not_located; /* why switches are not located; "": they are, or nobody asked */
     const rules *rules;      /* of the system; NULL: it has none */

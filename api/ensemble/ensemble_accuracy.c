@@ -13,7 +13,6 @@
 
 #include <math.h>
 #include <stdio.h>
-#include <string.h>
 
 #define METHOD "dop853" /* the default; it admits every force */
 

@@ -6,10 +6,9 @@
  */
 #include "api/error/bars.h"
 #include "api/ensemble/ensemble.h"
-#include "api/system/shadow.h"
+#include "api/system/system.h"
 
 #include <math.h>
-#include <string.h>
 
 /* ---- what is compared ---- */
 

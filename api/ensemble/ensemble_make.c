@@ -1,7 +1,6 @@
 /* The making of an ensemble, from a definition that is complete. See ensemble.h. */
-#include "api/error/bars.h"
 #include "api/ensemble/ensemble.h"
-#include "api/system/located.h"
+#include "api/system/system.h"
 #include "api/search/suggest.h"
 #include "machine/parallel.h"
 

@@ -4,7 +4,6 @@
 
 #include "base/near.h"
 
-#include <math.h>
 #include <stdio.h>
 #include <string.h>
 

@@ -7,7 +7,7 @@
 #include "api/why/diagnosis.h"
 #include "api/ensemble/ensemble.h"
 #include "api/motion/run_events.h"
-#include "api/system/symmetry.h"
+#include "api/system/system.h"
 
 #include "core/course.h"
 #include "machine/reduction.h"

@@ -5,12 +5,11 @@
  */
 #include "api/request/choice.h"
 #include "api/ensemble/ensemble.h"
-#include "api/system/symmetry.h"
+#include "api/system/system.h"
 
 #include "machine/parallel.h"
 
 #include <math.h>
-#include <string.h>
 
 /* ---- progress ---- */
 

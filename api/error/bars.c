@@ -2,17 +2,13 @@
 #include "api/error/bars.h"
 
 #include "api/request/choice.h"
-#include "api/system/columns.h"
 #include "api/error/event_bars.h"
-#include "api/error/event_counts.h"
 #include "api/motion/later.h"
 #include "api/motion/run_events.h"
-#include "api/system/shadow.h"
+#include "api/system/system.h"
 #include "api/system/vector.h"
 
 #include <math.h>
-#include <stdarg.h>
-#include <stdio.h>
 #include <string.h>
 
 static int tell(void *ctx, double now)

@@ -49,7 +49,7 @@ motus_status bars_prepare(motus_run *, const motus_run_def *, motus_error *);
 /* Gives a run bars of these columns, the time and the state first. how: as in machine/differences.h. */
 motus_status bars_make(motus_run *, motus_bars, const size_t *columns, const int *how, size_t count, motus_error *);
 differences_shape bars_shape(const motus_system *, const motus_method *card, motus_bars, const int *how, size_t count);
-/* Makes the system of the companion before it is needed. affected: as in api/system/shadow.h. */
+/* Makes the system of the companion before it is needed. affected: as in api/system/system.h. */
 motus_status bars_ready(motus_run *, const uint8_t *affected, motus_error *);
 /* Begins another motion of the run: from the state of the system, or from one that the caller gave. */
 void bars_again(motus_run *, bool given);

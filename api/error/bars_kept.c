@@ -5,7 +5,7 @@
  */
 #include "api/error/bars.h"
 
-#include "api/error/event_counts.h"
+#include "api/error/event_bars.h"
 
 #include <math.h>
 #include <string.h>

@@ -34,7 +34,6 @@
 #include "machine/differences.h"
 
 #include <math.h>
-#include <string.h>
 
 #define USUAL 0x1p-55
 

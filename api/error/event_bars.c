@@ -9,13 +9,10 @@
 #include "api/error/event_bars.h"
 
 #include "api/system/columns.h"
-#include "api/error/event_counts.h"
-#include "api/motion/run_events.h"
 
 #include "lang/model/whole.h"
 
 #include <math.h>
-#include <string.h>
 
 enum { BEFORE = 6, AFTER = 2, WINDOW = BEFORE + AFTER, NEARBY = 16 };
 #define OTHERS 0.375

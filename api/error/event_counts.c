@@ -1,12 +1,11 @@
-/* See event_counts.h.
+/* See event_bars.h.
  *
  * A function that is nowhere 0 within the bars of the state has passed 0 as often in the exact motion as in the run.
  * Where it may be 0, the exact motion may be on its other side, so that one of them has had an event and the other has
  * not; unless the function moves against the direction that the event asks for.
  */
-#include "api/error/event_counts.h"
+#include "api/error/event_bars.h"
 
-#include "api/system/columns.h"
 #include "api/error/bars.h"
 
 #include <math.h>

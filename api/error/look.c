@@ -17,7 +17,6 @@
 
 #include "api/error/convex.h"
 #include "api/system/vector.h"
-#include "lang/read/verify.h"
 
 #include <math.h>
 #include <string.h>

@@ -28,7 +28,7 @@ motus_status locate_prepare(motus_run *r, motus_switches switches, motus_error *
     if (switches == MOTUS_SWITCHES_STEP || switches == MOTUS_SWITCHES_USUAL) return MOTUS_OK;
     if (switches != MOTUS_SWITCHES_LOCATE && switches != MOTUS_SWITCHES_RESOLVE)
         return fail(err, MOTUS_ARGUMENT, "there is no way to treat switches of number %d", (int)switches);
-    const bool by_events = row_adaptive(&r->chosen) || system_located(s); /* api/system/located.h */
+    const bool by_events = row_adaptive(&r->chosen) || system_located(s); /* api/system/system.h */
     if (by_events && switches == MOTUS_SWITCHES_LOCATE) return MOTUS_OK;
     if (row_adaptive(&r->chosen)) {
         fail(err, MOTUS_UNAVAILABLE, "steps of one size resolve switches, and %s adapts its steps", r->chosen.name);

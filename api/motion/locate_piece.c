@@ -2,7 +2,6 @@
 #include "api/motion/locate_parts.h"
 
 #include <math.h>
-#include <string.h>
 
 enum {
     /* in one step: more are friction that sticks, or a motion that comes to rest by ever shorter bounces */

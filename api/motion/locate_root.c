@@ -2,7 +2,6 @@
 #include "api/motion/locate_parts.h"
 
 #include <math.h>
-#include <string.h>
 
 /* Finds fractions of a step at which a gap may be below 0 although it is not at the ends: where the tangents at both
  * ends meet, if that is near 0 or below (a convex gap lies above its tangents; |r| - d lies near their meeting point),

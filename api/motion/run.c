@@ -1,8 +1,7 @@
 /* Runs: how they are made, go on, and tell their states at and between steps. See run.h. */
-#include "api/request/choice.h"
 #include "api/motion/later.h"
 #include "api/motion/locate.h"
-#include "api/system/located.h"
+#include "api/system/system.h"
 #include "api/motion/run_events.h"
 #include "core/rows.h"
 

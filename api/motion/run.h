@@ -47,7 +47,7 @@ typedef struct later {
 } later;
 
 struct motus_run {
-    motus_system *system; /* a located one (api/system/located.h) where switches are located */
+    motus_system *system; /* a located one (api/system/system.h) where switches are located */
     motus_system *home;   /* the caller's system where `system` is a located one; else NULL */
     diagnosed diagnosed;
     machine machine;

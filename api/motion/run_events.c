@@ -1,8 +1,6 @@
 /* Events of a run. See run_events.h. */
 #include "api/motion/run_events.h"
 
-#include <string.h>
-
 motus_status run_events_begin(motus_run *r, motus_error *err)
 {
     motus_status status = system_rules(r->system, &r->rules, err);

@@ -1,6 +1,5 @@
 /* From when to when a run goes and in which steps, and what messages say of its times. See run.h. */
 #include "api/motion/run.h"
-#include "core/rows.h"
 
 #include <math.h>
 

@@ -6,7 +6,7 @@
  */
 #include "api/request/request.h"
 
-#include "api/system/symmetry.h"
+#include "api/system/system.h"
 #include "core/stepper.h"
 
 #include <math.h>

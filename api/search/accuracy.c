@@ -6,15 +6,10 @@
 #include "api/search/accuracy.h"
 
 #include "api/error/bars.h"
-#include "api/request/choice.h"
-#include "api/search/decimals.h"
-#include "api/search/suggest.h"
 #include "api/system/vector.h"
 #include "api/error/witness.h"
 
 #include <math.h>
-#include <stdio.h>
-#include <string.h>
 
 enum { CHUNK = 256, EARLY = 1 << 12 };
 

@@ -1,12 +1,12 @@
-/* See decimals.h.
+/* See accuracy.h.
  *
  * The run is made once more with the shadow of its system, and once more from a start that is a rounding away. Where
  * the shadow moves the answer several times as far, the decimals are the cause.
  */
-#include "api/search/decimals.h"
+#include "api/search/accuracy.h"
 
 #include "api/error/bars.h"
-#include "api/system/shadow.h"
+#include "api/system/system.h"
 
 #include <math.h>
 

@@ -5,7 +5,6 @@
  */
 #include "api/search/draft.h"
 
-#include "api/search/follow.h"
 #include "base/decimal.h"
 
 #include <math.h>

@@ -4,13 +4,11 @@
  * again and again; one that only goes on, as a pendulum that turns over, where its acceleration does. Invariant: the
  * bits are the same on every machine, and the system does not change.
  */
-#include "api/search/follow.h"
+#include "api/search/draft.h"
 
 #include "api/system/linear.h"
-#include "api/search/settled.h"
-#include "api/search/swings.h"
 #include "api/system/vector.h"
-#include "api/why/trial.h"
+#include "api/why/evidence.h"
 
 #include <math.h>
 #include <string.h>

@@ -2,7 +2,6 @@
 #include "api/search/goal.h"
 
 #include "api/error/bars.h"
-#include "api/request/choice.h"
 #include "api/motion/later.h"
 #include "api/search/pilot.h"
 #include "api/search/suggest.h"

@@ -13,11 +13,10 @@
 
 #include "core/stepper_body.h"
 
-#include "api/system/located.h"
+#include "api/system/system.h"
 
 #include <math.h>
 #include <stdio.h>
-#include <string.h>
 
 /* FAR: a candidate stops at so many times the work of the best. CHUNK: steps between two looks at that. */
 enum { STEPS = 256, FAR = 4, CHUNK = 16 };

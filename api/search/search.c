@@ -1,4 +1,4 @@
-/* See search.h.
+/* See accuracy.h.
  *
  * The error of the answer is proportional to the tolerance, or to a power of the step, up to a factor that no formula
  * knows: what the motion makes of errors, and how they cancel. So one trial tells the size of the next. A trial that is
@@ -7,7 +7,7 @@
  * Where bars no longer fall with the tolerance, rounding decides, and no tolerance helps. One trial does not prove
  * that, since the bar before may have been small by chance; two do.
  */
-#include "api/search/search.h"
+#include "api/search/accuracy.h"
 
 #include "base/decimal.h"
 #include "lang/base/operation.h"

@@ -1,9 +1,9 @@
-/* From when on a followed motion is where it ends. See settled.h.
+/* From when on a followed motion is where it ends. See draft.h.
  *
  * Invariant: neighbouring samples are at least a fiftieth of their time apart, so a thousand of them span eight powers
  * of ten.
  */
-#include "api/search/settled.h"
+#include "api/search/draft.h"
 
 #include <math.h>
 #include <string.h>

@@ -1,9 +1,9 @@
-/* See steep.h.
+/* See accuracy.h.
  *
  * A plain run follows the motion. After every step the operands that have an infinite slope at 0 are evaluated; one
  * whose sign has changed has passed 0.
  */
-#include "api/search/steep.h"
+#include "api/search/accuracy.h"
 
 #include "api/search/pilot.h"
 #include "lang/tape/tape.h"

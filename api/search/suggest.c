@@ -8,10 +8,9 @@
 #include "api/search/suggest.h"
 
 #include "api/search/along.h"
-#include "api/request/choice.h"
 #include "api/search/draft.h"
 #include "api/search/pilot.h"
-#include "api/why/stability.h"
+#include "api/why/evidence.h"
 #include "api/system/vector.h"
 
 #include <math.h>

@@ -1,7 +1,7 @@
 /* The swings of one number, from its changes of sign. A change lies on the straight line between the two values
  * about it, and what is negligible beside the largest value so far has no sign.
  */
-#include "api/search/swings.h"
+#include "api/search/draft.h"
 
 #include <math.h>
 

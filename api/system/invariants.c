@@ -1,4 +1,4 @@
-/* See invariants.h.
+/* See system.h.
  *
  * The rate of an invariant along the motion (lang/read/verify_invariant.c) is evaluated at the start and at states of
  * two short runs, one with half the step of the other. An invariant of this one motion need not be conserved by its
@@ -7,7 +7,7 @@
  * pulse or a switch (verify_resolution). Invariant: only a rate or a jump that neither rounding nor the error of the
  * runs explains is refused.
  */
-#include "api/system/invariants.h"
+#include "api/system/system.h"
 
 #include "core/stepper.h"
 #include "lang/model/field.h"

@@ -1,12 +1,9 @@
-/* See located.h. */
-#include "api/system/located.h"
+/* See system.h. */
+#include "api/system/system.h"
 
-#include "api/system/shadow.h"
 #include "core/rows.h"
 #include "lang/model/switches.h"
 #include "machine/sides.h"
-
-#include <string.h>
 
 bool located_kinks(const model *m)
 {

@@ -3,8 +3,7 @@
  * Invariant: a system whose numbers were set has, to the bit, the numbers of a system that was read with them in `set`;
  * a refusal changes nothing. lang/model/vary.h computes the numbers that depend on them.
  */
-#include "api/system/invariants.h"
-#include "api/system/located.h"
+#include "api/system/system.h"
 #include "api/system/parameters.h"
 
 #include "lang/model/vary.h"

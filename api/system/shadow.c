@@ -1,10 +1,9 @@
-/* The shadow of a system. See shadow.h.
+/* The shadow of a system. See system.h.
  *
  * Invariant: system and shadow have equal columns and equal places in x and v.
  */
-#include "api/system/shadow.h"
+#include "api/system/system.h"
 
-#include "api/system/located.h"
 #include "api/system/parameters.h"
 #include "lang/model/vary.h"
 

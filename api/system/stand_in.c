@@ -2,7 +2,7 @@
  *
  * Invariant: names are copied, are names of the language and are all different, so that a name finds its column.
  */
-#include "api/system/stand_in.h"
+#include "api/system/system.h"
 
 #include "lang/text/lex.h"
 

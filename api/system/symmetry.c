@@ -4,7 +4,7 @@
  * different sizes, and on any sides of the switches. Invariant: a sample that fails disproves a symmetry, and an answer
  * that only samples support says so (sampled_gyroscopic, sampled_gradient).
  */
-#include "api/system/symmetry.h"
+#include "api/system/system.h"
 
 #include "api/system/vector.h"
 #include "lang/model/field.h"

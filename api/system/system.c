@@ -1,7 +1,6 @@
 /* Systems: made from a text or from a callback, described, and destroyed. */
 #include "api/system/columns.h"
-#include "api/system/invariants.h"
-#include "api/system/stand_in.h"
+#include "api/system/system.h"
 #include "lang/read/read.h"
 #include "machine/held.h"
 #include "machine/ruled.h"

@@ -36,11 +36,11 @@ struct motus_system {
     compiled *compiled;    /* NULL until a run asks for it */
     struct held *switches; /* NULL until a run asks for it, and where the model has none */
     bool switches_known;
-    struct ruled *ruled;          /* NULL until the rules are asked for, and where the model has none */
-    struct sides *sides;          /* the switches of a located system as rules; NULL until they are asked for */
-    struct motus_system *located; /* see api/system/located.h; NULL until a run asks for it, and where there is none */
-    bool located_known;           /* `located` was asked for */
-    const char *located_refused;  /* why the switches of the model cannot be located, or NULL */
+    struct ruled *ruled;               /* NULL until the rules are asked for, and where the model has none */
+    struct sides *sides;               /* the switches of a located system as rules; NULL until they are asked for */
+    struct motus_system *located;      /* see located.c; NULL until a run asks for it, and where there is none */
+    bool located_known;                /* `located` was asked for */
+    const char *located_refused;       /* why the switches of the model cannot be located, or NULL */
     uint64_t changes, located_changes; /* how often numbers were set: until now, and until `located` was made */
     resolution *poles;                 /* NULL until a run asks for a singularity, and where the force has no poles */
     bool poles_known;
@@ -135,5 +135,57 @@ size_t system_number(const motus_system *, size_t outer, bool of_v);
 /* Returns the quantity or invariant of a column; number: that of the column in it, in the inside order. */
 const model_definition *system_definition(const motus_system *, size_t column, size_t *number);
 size_t system_place(const model_state *, size_t cell, int component);
+
+/* ---- invariants.c: whether the invariants of a model hold along its motion ---- */
+
+/* Checks the invariants of a model. MOTUS_ARGUMENT: the error says where and how fast one changes. */
+motus_status invariants_check(motus_system *, motus_error *);
+
+/* ---- stand_in.c: the variables, quantities and invariants of a callback ---- */
+
+/* Makes states and definitions from the callback definition, and copies the names. */
+motus_status stand_in_make(motus_system *, motus_error *);
+
+/* ---- symmetry.c: traits that are proved or sampled when a caller first needs them ---- */
+
+enum { SYMMETRY_STATES = 32, SYMMETRY_LEAST = 6 }; /* states at which a symmetry is sampled; of large systems fewer */
+
+/* Find out whether the velocity term does no work, and whether the force is a gradient (with constant masses), and note
+ * it in the traits. False: there is no memory for the test. */
+bool symmetry_gyroscopic(motus_system *);
+bool symmetry_gradient(motus_system *);
+
+/* ---- shadow.c: a copy of a system whose decimals are rounded to the other side, for bars of error ---- */
+
+/* Makes the shadow of a system. A decimal of a text, 0.1, is read as the double next to it; the shadow has the next
+ * double on the decimal's other side, and likewise for pi, so that what was written lies between the two systems. A
+ * constant that was computed, 1/3 or 1000.7^2 - 1000.6^2, becomes the double on the other side of what its decimals
+ * say. Numbers that motus_system_set gave are doubles and stay. The shadow is a clone of a callback, and where a moved
+ * number would decide a size. affected: a byte for each place of the pool, not 0 where a caller changes the number,
+ * which then stays; NULL: all 0. */
+motus_status shadow_create(const motus_system *, const uint8_t *affected, motus_system **, motus_error *);
+
+/* Sets in `to` every number that was set in `from`, a system of the same text; `to` computes what depends on them. */
+motus_status shadow_numbers(const motus_system *from, motus_system *to, motus_error *);
+
+/* ---- located.c: systems whose runs end a step wherever a switch of the force changes its side ----
+ *
+ * A located system is read from the text of another, with modes for the sides of its switches. It has the motion, the
+ * columns and their order of that system; x has the sides behind the positions, and its rules change them. */
+
+/* The switches of a system with more of them are not located unless asked for, since each costs time in every step. */
+enum { LOCATED_MOST = 64 };
+/* Returns whether the force, or what moves a boundary cell, is not smooth. */
+bool located_kinks(const model *);
+/* Finds the located system of a system, with its numbers, or makes it; the system owns it. NULL: it has no switches, or
+ * `why`, else "", says why they are not located. asked: MOTUS_SWITCHES_LOCATE wherever that is possible;
+ * MOTUS_SWITCHES_USUAL where the force is defined beyond every switch and there are at most LOCATED_MOST of them;
+ * another choice: NULL. Use it only until the system's numbers are set again. */
+motus_status located_of(motus_system *, motus_switches asked, motus_system **, const char **why, motus_error *);
+/* Finds the located system for runs of a method, as located_of does. A row of fixed steps gets one only for
+ * MOTUS_SWITCHES_LOCATE, and only where the force is defined beyond every switch, since its steps cannot become
+ * shorter. */
+motus_status located_for(motus_system *, const chosen *, motus_switches asked, motus_system **, const char **why,
+                         motus_error *);
 
 #endif

@@ -6,8 +6,7 @@
 #include "api/why/diagnosis.h"
 
 #include "api/why/evidence.h"
-#include "api/system/located.h"
-#include "api/why/stability.h"
+#include "api/system/system.h"
 #include "base/decimal.h"
 #include "lang/model/undefined.h"
 

@@ -6,9 +6,62 @@
 #ifndef API_WHY_EVIDENCE_H
 #define API_WHY_EVIDENCE_H
 
-#include "api/why/power.h"
-#include "api/why/trial.h"
+#include "core/stepper.h"
 #include "api/system/system.h"
+
+#include <stdbool.h>
+#include <stddef.h>
+
+/* ---- power.c: the power of the time with which a number grows towards an instant, from samples before it ---- */
+
+/* A number that goes as (at - t)^-exponent. */
+typedef struct power {
+    double at, at_error, exponent, exponent_error;
+} power;
+
+/* Fits a power to samples y > 0 at increasing times t, which are rounded by `rounding`. False: the samples do not
+ * follow one power over two decades of the distance. */
+bool power_fit(const double *t, const double *y, size_t count, double rounding, power *out);
+
+/* ---- stability.c: how long the steps of a method may be for a rate of the motion ---- */
+
+/* Returns the largest product of step and |rate| for which steps of the method do not grow, along the direction of a
+ * rate re + i im. 0: they always grow. NaN: even the shortest steps have no result, as where an iteration fails to
+ * converge. */
+double stability_bound(const char *method, double re, double im);
+
+/* ---- trial.c: trial steps from a state, apart from the run: how far another method, step or tolerance leads ----
+ *
+ * A trial evaluates the equations of the run and counts its own time from 0 on, so that steps near the rounding of the
+ * run's time remain possible. Invariant: the run is not touched; a trial is the same on all machines. */
+
+typedef struct trial {
+    const problem *own;
+    problem problem; /* the equations of `own`, with time counted from 0 */
+    double from;     /* the run's time at the trial's 0 */
+    stepper *stepper;
+    int64_t steps; /* the most steps it may take */
+} trial;
+
+/* Begins at time t and state (x, v). h: the size of fixed steps; for adaptive ones only its sign counts. False: a trial
+ * cannot begin there. */
+bool trial_begin(trial *, const problem *, const motus_allocator *, const chosen *, double t, double h, const double *x,
+                 const double *v, int64_t steps);
+void trial_end(trial *);
+/* Takes one step towards `until`, in the trial's time. `arrived`: the step ended there. */
+motus_status trial_step(trial *, double until, bool *arrived);
+
+/* Where at most so many steps lead. */
+typedef struct trial_course {
+    motus_status status; /* MOTUS_STEPS: the steps were too few */
+    int64_t steps;
+    double gone, largest; /* the time that was covered, and the largest number of x and v on the way */
+} trial_course;
+/* Runs a trial. end: NULL, or room for its last state, x and then v. */
+trial_course trial_run(const problem *, const motus_allocator *, const chosen *, double t, double h, const double *x,
+                       const double *v, int64_t steps, double until, double *end);
+
+/* ---- evidence.c ---- */
 
 typedef struct evidence {
     motus_system *system;

@@ -1,11 +1,11 @@
-/* See power.h.
+/* See evidence.h.
  *
  * Three samples determine the instant and the power. Each is about SPREAD times nearer than the one before, so that the
  * logarithms differ. Triples nearer to the instant are freer of what else moves y, and less free of rounding; the one
  * whose neighbours agree with it best is taken. The changes from one triple to the next decay as a geometric series,
  * whose sum is the error; they decay slowly where a logarithm stands beside the power.
  */
-#include "api/why/power.h"
+#include "api/why/evidence.h"
 
 #include <math.h>
 

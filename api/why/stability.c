@@ -11,8 +11,7 @@
  *
  * Invariant: all memory is on the stack; a point without a result does not affect the others.
  */
-#include "api/why/stability.h"
-#include "api/system/system.h"
+#include "api/why/evidence.h"
 
 #include <math.h>
 

@@ -1,5 +1,5 @@
-/* See trial.h. */
-#include "api/why/trial.h"
+/* See evidence.h. */
+#include "api/why/evidence.h"
 
 #include "api/system/vector.h"
 

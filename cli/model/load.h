@@ -2,7 +2,6 @@
 #ifndef CLI_MODEL_LOAD_H
 #define CLI_MODEL_LOAD_H
 
-#include "base/error.h"
 #include "cli/words/options.h"
 
 /* Quantities that --record adds to a model: what its events keep, count(bounce), time(bounce, last), at(bounce, 3, x').

@@ -2,7 +2,6 @@
 #ifndef CLI_STUDY_STUDIES_H
 #define CLI_STUDY_STUDIES_H
 
-#include "cli/draw/plot.h"
 #include "cli/files/file.h"
 #include "cli/files/stop.h"
 #include "cli/model/load.h"

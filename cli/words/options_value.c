@@ -3,7 +3,6 @@
  * Invariant: a number is a constant expression of the language. Values are checked here, so the verbs get only valid
  * ones.
  */
-#include "cli/words/complain.h"
 #include "cli/words/options.h"
 #include "cli/words/words.h"
 

@@ -6,7 +6,6 @@
 #define LANG_EMIT_EMIT_PARTS_H
 
 #include "lang/emit/emit.h"
-#include "lang/base/operation.h"
 #include "lang/graph/expansion.h"
 #include "lang/graph/plan.h"
 

@@ -7,7 +7,6 @@
 #include "lang/base/operation.h"
 
 #include <math.h>
-#include <string.h>
 
 int graph_operands(const graph_node *n, node out[3])
 {

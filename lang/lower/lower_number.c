@@ -3,8 +3,6 @@
 
 #include "base/decimal.h"
 
-#include <math.h>
-
 value lower_number(lowering *l, const tree *t)
 {
     const source *const s = &l->model->source;

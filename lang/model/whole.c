@@ -6,7 +6,6 @@
 #include "lang/graph/graph_walk.h"
 
 #include <math.h>
-#include <string.h>
 
 /* Returns whether an operation on whole numbers has a whole value. */
 static bool keeps_whole(operation op)

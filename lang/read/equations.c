@@ -6,9 +6,6 @@
 #include "lang/model/evaluate.h"
 #include "lang/model/symbols.h"
 
-#include <stdio.h>
-#include <string.h>
-
 typedef struct outputs {
     output **item;
     size_t *count, room, least; /* least: the room at first */

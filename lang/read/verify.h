@@ -10,7 +10,6 @@
 #define LANG_READ_VERIFY_H
 
 #include "lang/model/resolution.h"
-#include "lang/read/read.h"
 #include "lang/tape/tape.h"
 
 enum {

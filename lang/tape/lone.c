@@ -5,7 +5,6 @@
 #include "lang/graph/graph_walk.h"
 
 #include <math.h>
-#include <string.h>
 
 /* A node, and the places of its operands among the items of its output. */
 typedef struct item {

@@ -3,7 +3,6 @@
 
 #include <stdarg.h>
 #include <stdio.h>
-#include <string.h>
 
 bool source_failed(const source *s) { return s->failed || s->arena->failed || (s->trees && s->trees->failed); }
 
