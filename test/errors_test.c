@@ -490,7 +490,7 @@ static void a_state_without_errors_has_a_reason(void **state)
     r = restored(s, NULL, NAN, NAN, MOTUS_BARS_CHEAP, kept, length);
     finish(r);
     assert_true(isnan(bar_of(s, r, "x")) && isfinite(value(s, r, "x")));
-    assert_non_null(strstr(estimate_of(r).reason, "does not tell its error"));
+    assert_non_null(strstr(estimate_of(r).reason, "restored from a state without its error"));
     /* a new leg begins without an error */
     const double x = 1, v = 0;
     must(motus_run_set_state(r, 0, &x, &v, &err), &err, "leg");

@@ -524,7 +524,7 @@ static void states_of_other_versions(void **state)
         must(restore(q, (kept){copy, (size_t)n}, &err), &err, "another version");
         finish(q);
         must(motus_run_estimate(q, &estimate, &err), &err, "estimate");
-        if (!strstr(estimate.reason, "does not tell its error")) fail_msg("%s", estimate.reason);
+        if (!strstr(estimate.reason, "restored from a state without its error")) fail_msg("%s", estimate.reason);
         free(copy);
         free(k.text);
         motus_run_destroy(r);
